@@ -1,0 +1,35 @@
+/* writer.h - the one interface of all file formats we write.
+ *
+ * To add a format: one file writer_NAME.c with one struct writer, and its
+ * line in the table of writers.c.  A writer sees a drawing in millimetres and
+ * a stream whose status is sticky; it asks nothing else of the house. */
+#ifndef BACKENDS_WRITER_H
+#define BACKENDS_WRITER_H
+
+#include "base/stream.h"
+#include "ink/drawing.h"
+
+struct writer_options {
+  int precision;             /* decimals of a millimetre in text formats */
+  bool polyline;             /* SVG: <polyline> instead of <path> */
+  recto_warning_fn warning;  /* NULL: silent */
+  void *user;
+};
+
+struct writer {
+  const char *name;       /* "svg" */
+  const char *extensions; /* "svg", space-separated */
+  recto_status (*write)(const struct drawing *drawing,
+                        const struct writer_options *options,
+                        struct stream *stream, recto_error *error);
+};
+
+extern const struct writer writer_svg;
+
+/* The writer of that name, or NULL; by the path's extension, or NULL. */
+const struct writer *writer_by_name(const char *name);
+const struct writer *writer_by_path(const char *path);
+/* The writers, ended by NULL. */
+const struct writer *const *writers(void);
+
+#endif

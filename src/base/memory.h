@@ -1,0 +1,74 @@
+/* memory.h - checked allocation, growing arrays, and an arena. */
+#ifndef BASE_MEMORY_H
+#define BASE_MEMORY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/status.h"
+
+/* ---- Checked allocation -------------------------------------------------
+ * count * size is checked for overflow.  All return NULL on failure; a zero
+ * count gives a valid pointer. */
+void *mem_alloc(size_t count, size_t size);
+void *mem_calloc(size_t count, size_t size);
+/* On failure the old block stays valid. */
+void *mem_resize(void *block, size_t count, size_t size);
+void mem_free(void *block);
+
+/* For tests: the n-th allocation from now (1-based) fails, once; 0 switches
+ * this off.  Not thread safe. */
+void mem_fail_after(unsigned long n);
+
+/* How many bytes the process has held at most (the system's own figure for
+ * the resident set, bytes; 0 where it is not known). */
+size_t mem_peak_bytes(void);
+
+/* ---- Growing arrays -----------------------------------------------------
+ * struct { T *item; size_t count, capacity; }: ARRAY(T) declares one,
+ * zero-initialised is empty. */
+#define ARRAY(T)                                                               \
+  struct {                                                                     \
+    T *item;                                                                   \
+    size_t count, capacity;                                                    \
+  }
+
+/* Makes room for `extra` more items.  False when memory ran out: the array is
+ * as it was. */
+#define ARRAY_RESERVE(array, extra)                                            \
+  ((extra) <= (array)->capacity - (array)->count                               \
+       ? true                                                                  \
+       : array_grow((void **)&(array)->item, &(array)->capacity,               \
+                    (array)->count, (extra), sizeof *(array)->item))
+
+/* Appends a value: false when memory ran out. */
+#define ARRAY_PUSH(array, value)                                               \
+  (ARRAY_RESERVE(array, 1)                                                     \
+       ? ((array)->item[(array)->count++] = (value), true)                     \
+       : false)
+
+#define ARRAY_FREE(array)                                                      \
+  do {                                                                         \
+    mem_free((array)->item);                                                   \
+    (array)->item = NULL;                                                      \
+    (array)->count = (array)->capacity = 0;                                    \
+  } while (0)
+
+USE_RESULT bool array_grow(void **item, size_t *capacity, size_t count,
+                           size_t extra, size_t size);
+
+/* ---- Arena: many small blocks, freed at once ---------------------------- */
+struct arena {
+  struct arena_block *block; /* newest first */
+  size_t used;               /* bytes of the newest block */
+};
+
+/* Zero-initialised is empty.  Blocks are aligned for any type; NULL when
+ * memory ran out. */
+void *arena_alloc(struct arena *arena, size_t count, size_t size);
+/* Keeps the memory's largest block, forgets what was in it. */
+void arena_reset(struct arena *arena);
+void arena_fini(struct arena *arena);
+
+#endif

@@ -1,0 +1,44 @@
+/* report.h - counts, times and choices gathered for --stats, as JSON. */
+#ifndef BASE_REPORT_H
+#define BASE_REPORT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/status.h"
+
+/* Entries in order of first mention; a later one of the same name replaces
+ * the value (report_add: adds to it).  Names are string literals, "section"
+ * and "name": the JSON is { "section": { "name": value, ... }, ... }.
+ * All functions accept a NULL report and then do nothing.  Running out of
+ * memory loses entries, never the drawing. */
+struct report;
+
+struct report *report_create(void);
+void report_destroy(struct report *report);
+
+void report_int(struct report *report, const char *section, const char *name,
+                int64_t value);
+void report_add(struct report *report, const char *section, const char *name,
+                int64_t value);
+void report_double(struct report *report, const char *section,
+                   const char *name, double value);
+void report_doubles(struct report *report, const char *section,
+                    const char *name, const double *value, size_t count);
+void report_text(struct report *report, const char *section, const char *name,
+                 const char *value);
+
+/* Looks an integer up; `otherwise` where it is not there. */
+int64_t report_get(const struct report *report, const char *section,
+                   const char *name, int64_t otherwise);
+
+/* The report as JSON, two-space indented, ending in a newline.  Lends until
+ * the report changes; NULL when memory ran out. */
+const char *report_json(struct report *report);
+
+/* Seconds of CPU time of this process / of wall time, from an arbitrary
+ * start. */
+double clock_cpu(void);
+double clock_wall(void);
+
+#endif

@@ -1,0 +1,47 @@
+/* stream.h - buffered output that appears whole or not at all.
+ *
+ * A stream writes to a temporary file beside its path and renames it when it
+ * is finished without a fault; or to standard output, where bytes are held
+ * back until then; or to memory.  Its status is sticky: after the first fault
+ * every write is ignored and stream_finish tells. */
+#ifndef BASE_STREAM_H
+#define BASE_STREAM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/status.h"
+
+struct stream;
+
+/* Opens a stream to `path`; "-" is standard output. */
+USE_RESULT recto_status stream_open(struct stream **stream, const char *path,
+                                    recto_error *error);
+/* Opens a stream to memory: see stream_memory. */
+USE_RESULT recto_status stream_open_memory(struct stream **stream,
+                                           recto_error *error);
+
+void stream_write(struct stream *stream, const void *bytes, size_t count);
+void stream_text(struct stream *stream, const char *text);
+/* See number_format. */
+void stream_number(struct stream *stream, double value, int decimals);
+void stream_int(struct stream *stream, int64_t value);
+
+/* RECTO_OK while all went well so far. */
+recto_status stream_status(const struct stream *stream);
+
+/* The bytes written so far to a memory stream, NUL-terminated (the NUL is not
+ * counted).  Lends. */
+const char *stream_memory(const struct stream *stream, size_t *count);
+
+/* Flushes, closes and renames; on a fault removes what was written.  Frees
+ * the stream in either case. */
+USE_RESULT recto_status stream_finish(struct stream *stream,
+                                      recto_error *error);
+/* Closes and removes what was written; frees the stream.  Accepts NULL. */
+void stream_discard(struct stream *stream);
+
+/* For tests: the n-th physical write from now (1-based) fails; 0: off. */
+void stream_fail_after(unsigned long n);
+
+#endif

@@ -1,0 +1,33 @@
+/* ratio.h - exact rational parameters along an edge. */
+#ifndef GEOM_RATIO_H
+#define GEOM_RATIO_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+__extension__ typedef __int128 int128;
+__extension__ typedef unsigned __int128 uint128;
+
+/* num / den with den > 0; not reduced.  |num|, den < 2^126. */
+struct ratio {
+  int128 num, den;
+};
+
+/* The sign of a - b.  Exact: products are formed in 256 bits; doubles decide
+ * where they can. */
+int ratio_compare(struct ratio a, struct ratio b);
+
+/* The nearest double (to within two units in the last place), for output that
+ * asks no further question. */
+double ratio_to_double(struct ratio a);
+
+/* p0 + t (p1 - p0) rounded to the nearest integer, halves up; depends only on
+ * the ratio's value, not on how it is written.
+ * t in [0, 1]; |p0|, |p1| < 2^42 */
+int64_t ratio_lerp(struct ratio t, int64_t p0, int64_t p1);
+
+static inline struct ratio ratio_of(int64_t num, int64_t den) {
+  return (struct ratio){num, den};
+}
+
+#endif

@@ -1,0 +1,284 @@
+/* recto.h - exact visible lines and faces of 3D meshes, on paper.
+ *
+ * Units    Scene coordinates are the model's own unit, taken as millimetres
+ *          where a true scale is asked for.  Page coordinates are
+ *          millimetres, x right and y up from the lower left corner.
+ *          Angles are degrees.
+ * Errors   Every fallible call returns a recto_status and, when given one,
+ *          fills a recto_error with the code, the file and line at fault and
+ *          a sentence.  A failed call leaves its outputs NULL.
+ * Owner    The library copies what it is given.  You own what a _create,
+ *          _read or _render returns and free it with the matching _destroy,
+ *          which accepts NULL.  Getters lend until the object is changed or
+ *          destroyed.
+ * Threads  No global state: different objects may be used from different
+ *          threads at once; one object from one thread at a time.
+ * Stability  Options are initialised by recto_options_init; new fields are
+ *          added at the end.  Enumerators keep their values.
+ */
+#ifndef RECTO_H
+#define RECTO_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined __GNUC__
+#define RECTO_USE_RESULT __attribute__((warn_unused_result))
+#else
+#define RECTO_USE_RESULT
+#endif
+
+/* ---- Status and errors ------------------------------------------------ */
+
+typedef enum recto_status {
+  RECTO_OK = 0,
+  RECTO_ERROR_ARGUMENT,    /* an option or argument makes no sense */
+  RECTO_ERROR_MEMORY,      /* an allocation failed */
+  RECTO_ERROR_IO,          /* a file could not be read or written */
+  RECTO_ERROR_FORMAT,      /* a model file is broken or truncated */
+  RECTO_ERROR_UNSUPPORTED, /* not built in, or not meant for this */
+  RECTO_ERROR_EMPTY,       /* nothing to draw */
+  RECTO_ERROR_LIMIT,       /* too large: a stated limit was passed */
+  RECTO_ERROR_CANCELLED,   /* the caller's progress function said stop */
+  RECTO_STATUS_COUNT       /* not a status: how many there are */
+} recto_status;
+
+typedef struct recto_error {
+  recto_status code;
+  char file[256];     /* "" where no file is at fault */
+  unsigned long line; /* 1-based; 0 where no line is at fault */
+  char text[256];     /* one sentence, no file name, no newline */
+} recto_error;
+
+/* A short name for a status, for logs.  Never NULL, also for bad values. */
+const char *recto_status_name(recto_status status);
+
+/* The library's version, "MAJOR.MINOR.PATCH". */
+const char *recto_version(void);
+
+/* ---- Vocabulary -------------------------------------------------------- */
+
+typedef enum recto_method {
+  RECTO_METHOD_AUTO = 0,
+  RECTO_METHOD_NEWELL,
+  RECTO_METHOD_WATKINS,
+  RECTO_METHOD_WARNOCK,
+  RECTO_METHOD_TILES,
+  RECTO_METHOD_ZBUFFER,
+  RECTO_METHOD_SCANLINE_ZBUFFER,
+  RECTO_METHOD_PAINTER,          /* depth sort by centroid */
+  RECTO_METHOD_PAINTER_GIVEN,    /* the file's own order, first is rearmost */
+  RECTO_METHOD_BRUTE,
+  RECTO_METHOD_COUNT
+} recto_method;
+
+/* Edge classes, as bits of a mask.  An edge has exactly one. */
+typedef enum recto_edge_class {
+  RECTO_EDGE_SILHOUETTE = 1 << 0,   /* both faces on one side of it */
+  RECTO_EDGE_BORDER = 1 << 1,       /* one face, or more than two */
+  RECTO_EDGE_CREASE = 1 << 2,       /* dihedral beyond the crease angle */
+  RECTO_EDGE_GROUP = 1 << 3,        /* two groups meet */
+  RECTO_EDGE_INTERSECTION = 1 << 4, /* two faces pierce each other */
+  RECTO_EDGE_WIRE = 1 << 5,         /* the user's own polyline */
+  RECTO_EDGE_SMOOTH = 1 << 6        /* the rest */
+} recto_edge_class;
+
+#define RECTO_EDGES_NONE 0u
+#define RECTO_EDGES_DEFAULT 0x3fu
+#define RECTO_EDGES_ALL 0x7fu
+#define RECTO_EDGE_CLASS_COUNT 7
+
+typedef enum recto_hidden {
+  RECTO_HIDDEN_NONE = 0, /* hidden parts are dropped */
+  RECTO_HIDDEN_DASHED,   /* drawn as dashes, real geometry */
+  RECTO_HIDDEN_LAYER     /* drawn whole on a layer of their own */
+} recto_hidden;
+
+typedef enum recto_fill {
+  RECTO_FILL_NONE = 0,
+  RECTO_FILL_PAINT, /* visible fragments in their group's colour */
+  RECTO_FILL_SHADE, /* visible fragments in flat grey by the light */
+  RECTO_FILL_HATCH  /* visible fragments as pen strokes */
+} recto_fill;
+
+typedef enum recto_order {
+  RECTO_ORDER_NONE = 0, /* by layer, then as the edges come */
+  RECTO_ORDER_NEAR      /* short pen-up travel */
+} recto_order;
+
+typedef enum recto_fit {
+  RECTO_FIT_PAGE = 0, /* the drawing fills the page inside the margins */
+  RECTO_FIT_NONE,     /* --fov spans the printable height, centred */
+  RECTO_FIT_SCALE     /* true scale: `scale` page mm for a scene unit */
+} recto_fit;
+
+typedef enum recto_camera {
+  RECTO_CAMERA_DIRECTION = 0, /* from azimuth and elevation, orthographic */
+  RECTO_CAMERA_EYE            /* from eye to target */
+} recto_camera;
+
+/* ---- Options ------------------------------------------------------------ */
+
+/* Called now and then with the share of the work done, 0 to 1, and the name
+ * of the stage.  Returns false to cancel: the call then ends with
+ * RECTO_ERROR_CANCELLED and no output. */
+typedef bool (*recto_progress_fn)(void *user, double share, const char *stage);
+
+/* Called with a warning: a bad element that was skipped, a clipped stroke.
+ * `file` may be "", `line` 0. */
+typedef void (*recto_warning_fn)(void *user, const char *file,
+                                 unsigned long line, const char *text);
+
+typedef struct recto_options {
+  /* Method. */
+  recto_method method;
+  int threads;        /* 0: as many as the machine offers */
+  double contact;     /* scene units; negative: a millionth of the size */
+  double pitch_mm;    /* watkins: between scan lines; 0: exact sweep */
+  int resolution;     /* raster methods: lines over the page height */
+
+  /* Camera. */
+  recto_camera camera;
+  double azimuth_deg, elevation_deg; /* 0,0 is the front; azimuth turns the
+                                        eye to the right, elevation up */
+  double eye[3], target[3];          /* scene units */
+  bool has_target;                   /* false: the middle of the scene */
+  double up[3];                      /* 0,0,0: what the format means */
+  double fov_deg;                    /* vertical; 0: orthographic */
+  recto_fit fit;
+  double scale;                      /* with RECTO_FIT_SCALE */
+  double near_distance;              /* scene units; 0: chosen */
+  bool has_section;
+  double section;                    /* scene units in front of the eye, or
+                                        behind the scene's nearest point for
+                                        a direction: what is nearer is cut */
+
+  /* Page. */
+  double page_width_mm, page_height_mm, margin_mm;
+
+  /* Ink. */
+  unsigned edges;      /* mask of recto_edge_class */
+  double crease_deg;
+  recto_hidden hidden;
+  recto_fill fill;
+  double hatch_pitch_mm, hatch_angle_deg;
+  double light[3];     /* direction towards the light; 0,0,0: the viewer's
+                          upper left */
+  double pen_mm;
+  int pens;            /* pens to deal the groups to; 1: all on one */
+  recto_order order;
+  double simplify_mm;  /* no point of a line moves by more */
+  double min_stroke_mm;/* shorter strokes are dropped; negative: half a pen */
+  bool ids;            /* keep source ids on every stroke */
+
+  /* Output. */
+  int precision;       /* decimals of a millimetre in text formats */
+
+  /* Conversation. */
+  recto_progress_fn progress;
+  recto_warning_fn warning;
+  void *user;
+} recto_options;
+
+/* Fills `options` with the defaults: auto, isometric, A4 portrait with a
+ * 10 mm margin, a 0.3 mm pen, every class of edge but the smooth ones. */
+void recto_options_init(recto_options *options);
+
+/* ---- Ring 1: one call for the whole job --------------------------------- */
+
+/* Reads `model`, draws it and writes `output`.
+ * model   path; its format by extension, or "-" for standard input
+ * from    format name such as "obj"; NULL: by extension
+ * output  path, or "-" for standard output
+ * to      format name such as "svg"; NULL: by extension */
+RECTO_USE_RESULT recto_status recto_draw_file(const char *model,
+                                              const char *from,
+                                              const char *output,
+                                              const char *to,
+                                              const recto_options *options,
+                                              recto_error *error);
+
+/* ---- Ring 2: scene, drawing --------------------------------------------- */
+
+typedef struct recto_scene recto_scene;
+typedef struct recto_drawing recto_drawing;
+
+RECTO_USE_RESULT recto_status recto_scene_create(recto_scene **scene,
+                                                 recto_error *error);
+void recto_scene_destroy(recto_scene *scene);
+
+/* Reads a model file and adds it to `scene`.  Warnings go to the options'
+ * warning function; `options` may be NULL. */
+RECTO_USE_RESULT recto_status recto_scene_read(recto_scene *scene,
+                                               const char *path,
+                                               const char *format,
+                                               const recto_options *options,
+                                               recto_error *error);
+
+/* Adds a point, x y z in scene units, finite; its index goes to *index. */
+RECTO_USE_RESULT recto_status recto_scene_add_point(recto_scene *scene,
+                                                    const double xyz[3],
+                                                    uint32_t *index,
+                                                    recto_error *error);
+
+/* Starts a group; faces and polylines added later belong to it. */
+RECTO_USE_RESULT recto_status recto_scene_add_group(recto_scene *scene,
+                                                    const char *name,
+                                                    recto_error *error);
+
+/* Adds a planar face of `count` >= 3 corners, indices of points. */
+RECTO_USE_RESULT recto_status recto_scene_add_face(recto_scene *scene,
+                                                   const uint32_t *corner,
+                                                   size_t count,
+                                                   recto_error *error);
+
+/* Adds a polyline of `count` >= 2 points, drawn with class wire. */
+RECTO_USE_RESULT recto_status recto_scene_add_polyline(recto_scene *scene,
+                                                       const uint32_t *corner,
+                                                       size_t count,
+                                                       recto_error *error);
+
+/* Draws the scene as the options say. */
+RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
+                                                 const recto_options *options,
+                                                 recto_drawing **drawing,
+                                                 recto_error *error);
+void recto_drawing_destroy(recto_drawing *drawing);
+
+/* Writes the drawing; whole or not at all.  Path "-" is standard output. */
+RECTO_USE_RESULT recto_status recto_drawing_write(const recto_drawing *drawing,
+                                                  const char *path,
+                                                  const char *format,
+                                                  const recto_options *options,
+                                                  recto_error *error);
+
+/* Counts, times and choices as one JSON object.  Lends. */
+const char *recto_drawing_stats(const recto_drawing *drawing);
+
+/* ---- Ring 3: custom writers ---------------------------------------------- */
+
+typedef struct recto_stroke {
+  const double *points; /* count pairs x, y in page mm */
+  size_t count;
+  bool closed;          /* the last point joins the first, not repeated */
+  size_t layer;         /* index of its layer */
+  recto_edge_class edge_class;
+  uint32_t face, edge, group; /* source ids, UINT32_MAX where none */
+} recto_stroke;
+
+/* How many strokes the drawing has, in drawing order. */
+size_t recto_drawing_stroke_count(const recto_drawing *drawing);
+
+/* The stroke at `index` < recto_drawing_stroke_count.  Lends. */
+recto_stroke recto_drawing_stroke(const recto_drawing *drawing, size_t index);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,131 @@
+/* scene.h - what the user gave us: points, planar faces, polylines, groups.
+ *
+ * Invariants (scene_add_* keep them, everything after relies on them)
+ *   points are finite; corner indices are in range; a face has at least three
+ *   corners, no two neighbouring ones equal in position; a polyline has at
+ *   least two points. */
+#ifndef SCENE_SCENE_H
+#define SCENE_SCENE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/memory.h"
+#include "base/status.h"
+
+#define SCENE_NONE UINT32_MAX
+
+struct scene_point {
+  double x, y, z; /* scene units */
+};
+
+struct scene_group {
+  char *name;      /* owned, UTF-8 as it was in the file */
+  uint32_t colour; /* 0xRRGGBB */
+  bool has_colour;
+};
+
+struct scene {
+  ARRAY(struct scene_point) point;
+  /* Face f has corners corner[face_start[f] .. face_start[f + 1]), indices
+   * of points, in the file's order; face_start has one more item than there
+   * are faces, or none where there are no faces. */
+  ARRAY(uint32_t) face_start;
+  ARRAY(uint32_t) corner;
+  ARRAY(uint32_t) face_group; /* one a face */
+  /* Polyline w likewise. */
+  ARRAY(uint32_t) wire_start;
+  ARRAY(uint32_t) wire_corner;
+  ARRAY(uint32_t) wire_group;
+  ARRAY(struct scene_group) group; /* group 0 is there once anything is */
+  uint32_t current_group;          /* what scene_add_* add to */
+  double up[3];                    /* what the format means by up */
+};
+
+void scene_init(struct scene *scene);
+void scene_fini(struct scene *scene);
+
+static inline uint32_t scene_face_count(const struct scene *scene) {
+  return (uint32_t)scene->face_group.count;
+}
+static inline uint32_t scene_wire_count(const struct scene *scene) {
+  return (uint32_t)scene->wire_group.count;
+}
+
+/* Makes the group of that name the current one, adding it where it is new.
+ * name  of `length` bytes, need not be NUL-terminated */
+USE_RESULT recto_status scene_use_group(struct scene *scene, const char *name,
+                                        size_t length, recto_error *error);
+
+/* ---- Reading -------------------------------------------------------------
+ * Warnings: a bad element is skipped, reported and counted, never fatal. */
+enum scene_fault {
+  SCENE_FAULT_NOT_FINITE,     /* NaN or infinite coordinate */
+  SCENE_FAULT_INDEX,          /* index out of range */
+  SCENE_FAULT_FEW_CORNERS,    /* fewer than three distinct corners */
+  SCENE_FAULT_ZERO_AREA,      /* corners on one line */
+  SCENE_FAULT_BOW_TIE,        /* sides of a polygon cross (kept, warned) */
+  SCENE_FAULT_WARPED,         /* not planar (kept, counted, not warned) */
+  SCENE_FAULT_SYNTAX,         /* an element that cannot be parsed */
+  SCENE_FAULT_COUNT
+};
+
+struct diagnostics {
+  const char *file;           /* as the user wrote it, "-" for stdin */
+  recto_warning_fn warning;   /* NULL: silent */
+  void *user;
+  unsigned long count[SCENE_FAULT_COUNT];
+};
+
+/* Counts the fault; the first three of each kind are passed on. */
+void diagnostics_fault(struct diagnostics *diagnostics, enum scene_fault fault,
+                       unsigned long line, const char *format, ...)
+    PRINTF_LIKE(4, 5);
+/* Passes on "... and N more" for kinds that had more than three. */
+void diagnostics_finish(struct diagnostics *diagnostics);
+
+/* Adds a face after the checks above (everything but planarity).
+ * corner  indices of points already in the scene, `count` of them
+ * Returns RECTO_OK also for a skipped face; fails only on memory. */
+USE_RESULT recto_status scene_add_face(struct scene *scene,
+                                       const uint32_t *corner, size_t count,
+                                       unsigned long line,
+                                       struct diagnostics *diagnostics,
+                                       recto_error *error);
+USE_RESULT recto_status scene_add_wire(struct scene *scene,
+                                       const uint32_t *corner, size_t count,
+                                       unsigned long line,
+                                       struct diagnostics *diagnostics,
+                                       recto_error *error);
+
+/* One reader per format, each a file reader_*.c.  The whole input is handed
+ * over in memory (mapped, or read from a pipe), NUL-terminated past its end. */
+struct reader {
+  const char *name;       /* "obj" */
+  const char *extensions; /* "obj", space-separated */
+  double up[3];           /* what the format means by up */
+  recto_status (*read)(struct scene *scene, const char *bytes, size_t count,
+                       const char *path, struct diagnostics *diagnostics,
+                       recto_error *error);
+};
+
+extern const struct reader reader_obj;
+extern const struct reader reader_stl;
+extern const struct reader reader_assimp; /* only where built with it */
+
+/* Reads `path` ("-": standard input) and adds it to the scene.
+ * format  a reader's name, or NULL: by extension
+ * Errors  RECTO_ERROR_IO, _FORMAT (broken or truncated), _UNSUPPORTED (no
+ *         reader), _LIMIT (2^31 points, corners or faces passed), _MEMORY;
+ *         the scene is then as it was. */
+USE_RESULT recto_status scene_read(struct scene *scene, const char *path,
+                                   const char *format,
+                                   struct diagnostics *diagnostics,
+                                   recto_error *error);
+
+/* Writes the scene as OBJ: v, g, f, l statements, numbers that read back the
+ * same.  For generators and tests. */
+struct stream;
+void scene_write_obj(const struct scene *scene, struct stream *stream);
+
+#endif

@@ -1,0 +1,41 @@
+/* topology.h - which faces meet at which edge, and which edges are features.
+ *
+ * An edge is an unordered pair of points.  Points of border edges that lie at
+ * exactly the same position count as one (files with seams are stitched;
+ * closed shells that only touch stay apart).
+ */
+#ifndef SCENE_TOPOLOGY_H
+#define SCENE_TOPOLOGY_H
+
+#include "scene/scene.h"
+
+struct topology_edge {
+  uint32_t point[2]; /* scene points, welded, point[0] < point[1] */
+  uint32_t face[2];  /* the first two faces in file order; SCENE_NONE */
+  uint8_t uses;      /* how many faces, capped at 3 */
+};
+
+struct topology {
+  ARRAY(struct topology_edge) edge; /* in order of first use by a face */
+  uint32_t *corner_edge; /* for corner c of a face, the edge from it to the
+                            face's next corner; one per scene corner */
+  uint32_t *weld;        /* point -> the point that stands for it; NULL where
+                            nothing was welded */
+};
+
+/* Builds the edges of the scene.  Cost: linear in the corners. */
+USE_RESULT recto_status topology_init(struct topology *topology,
+                                      const struct scene *scene,
+                                      recto_error *error);
+void topology_fini(struct topology *topology);
+
+/* The natures of an edge that do not depend on the camera, a mask of
+ * RECTO_EDGE_BORDER (one face or more than two), RECTO_EDGE_CREASE (angle
+ * between the two faces' normals beyond crease_deg; where the winding of the
+ * two disagrees one is turned) and RECTO_EDGE_GROUP (two groups meet);
+ * RECTO_EDGE_SMOOTH alone where it has none of them. */
+unsigned topology_natures(const struct topology *topology,
+                          const struct scene *scene, uint32_t edge,
+                          double crease_deg);
+
+#endif

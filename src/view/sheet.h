@@ -1,0 +1,96 @@
+/* sheet.h - the scene as seen through the camera, on the page's grid.
+ *
+ * x and y are integers on a grid of 2^-20 mm whose origin is the middle of
+ * the page, x right and y up.  z is an integer that grows towards the viewer:
+ *   orthographic  z = z_scale * (d_max - d)
+ *   perspective   z = z_scale * (1 / d - 1 / d_max)
+ * so planes stay planes.  After the sheet is built no decision is rounded.
+ *
+ * Invariants
+ *   |x|, |y| <= SHEET_XY_MAX;  0 <= z <= SHEET_Z_MAX.
+ *   A triangle runs counter-clockwise on the page or has no area there.
+ *   Triangles stand in the order of their faces in the scene.
+ *   An edge's end points are the very points its triangles use.
+ *   Where clipping cuts a shared edge, both faces get the same new point.
+ */
+#ifndef VIEW_SHEET_H
+#define VIEW_SHEET_H
+
+#include "scene/topology.h"
+#include "view/camera.h"
+
+#define SHEET_UNITS_PER_MM 1048576.0 /* 2^20 */
+#define SHEET_XY_MAX ((1 << 30) - 1)
+#define SHEET_Z_BITS 40
+#define SHEET_Z_MAX ((INT64_C(1) << SHEET_Z_BITS) - 1)
+#define SHEET_NONE UINT32_MAX
+
+struct sheet_point {
+  int32_t x, y; /* grid units from the middle of the page */
+  int64_t z;    /* depth units, towards the viewer */
+};
+
+/* A side k of a triangle runs from point[k] to point[(k + 1) % 3]. */
+struct sheet_triangle {
+  uint32_t point[3];
+  uint32_t side[3]; /* sheet edge of that side; SHEET_NONE: a diagonal or a
+                       cut, never drawn */
+  uint32_t face;    /* scene face */
+};
+
+enum {
+  SHEET_FLAT = 1,    /* no area on the page: seen edge-on, hides nothing */
+  SHEET_FLIPPED = 2, /* the face's own winding is clockwise on the page */
+};
+
+struct sheet_edge {
+  uint32_t point[2];    /* in the scene edge's direction */
+  uint32_t triangle[2]; /* its first two; SHEET_NONE.  Intersections: the two
+                           that pierce each other, the lower first */
+  uint32_t source;      /* topology edge; wires: the wire's index; SHEET_NONE
+                           for intersections */
+  uint32_t group;       /* of its first face, or of the wire */
+  uint16_t edge_class;  /* one recto_edge_class: of its natures that were
+                           asked for, the first in that enumeration */
+  uint16_t part;        /* wires: segment's index, low bits */
+};
+
+struct sheet {
+  ARRAY(struct sheet_point) point;
+  ARRAY(struct sheet_triangle) triangle;
+  uint8_t *triangle_flags; /* one a triangle */
+  /* Edges of the asked-for classes first to last: mesh edges in topology
+   * order, then wires, then intersections once they were found. */
+  ARRAY(struct sheet_edge) edge;
+  uint32_t edge_count_drawn; /* edges before this index are drawable; edges
+                                after it are there only as outlines */
+  struct camera camera;
+  double z_scale;          /* see above */
+  double units_per_view;   /* grid units of x for one of X/d (perspective) or
+                              X (orthographic) */
+  uint64_t clipped_near, clipped_page, warped; /* faces */
+};
+
+/* Projects the scene: classes, clipping to the near plane and the page,
+ * triangulation, snapping.  An edge may have several natures (a crease
+ * may be a silhouette); it is kept where one of them is in options->edges,
+ * and every edge is where `outlines` is set (those not asked for then stand
+ * after the drawn ones, wires never among them).
+ * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_LIMIT (2^31 points). */
+USE_RESULT recto_status sheet_init(struct sheet *sheet,
+                                   const struct scene *scene,
+                                   const struct topology *topology,
+                                   const struct camera *camera,
+                                   const recto_options *options, bool outlines,
+                                   recto_error *error);
+void sheet_fini(struct sheet *sheet);
+
+/* Grid units from the middle of the page to mm from its lower left corner. */
+static inline double sheet_x_mm(const struct sheet *sheet, double x) {
+  return sheet->camera.page_mm[0] / 2 + x / SHEET_UNITS_PER_MM;
+}
+static inline double sheet_y_mm(const struct sheet *sheet, double y) {
+  return sheet->camera.page_mm[1] / 2 + y / SHEET_UNITS_PER_MM;
+}
+
+#endif
