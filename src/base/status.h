@@ -7,9 +7,9 @@
 #define USE_RESULT RECTO_USE_RESULT
 
 #if defined __GNUC__
-#define PRINTF_LIKE(format, first) __attribute__((format(printf, format, first)))
+#define PRINTF_LIKE(text, first) __attribute__((format(printf, text, first)))
 #else
-#define PRINTF_LIKE(format, first)
+#define PRINTF_LIKE(text, first)
 #endif
 
 /* Fills `error`, where it is not NULL, and returns `code`, so that a failing

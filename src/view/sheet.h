@@ -16,6 +16,7 @@
 #ifndef VIEW_SHEET_H
 #define VIEW_SHEET_H
 
+#include "geom/predicate.h"
 #include "scene/topology.h"
 #include "view/camera.h"
 
@@ -25,10 +26,8 @@
 #define SHEET_Z_MAX ((INT64_C(1) << SHEET_Z_BITS) - 1)
 #define SHEET_NONE UINT32_MAX
 
-struct sheet_point {
-  int32_t x, y; /* grid units from the middle of the page */
-  int64_t z;    /* depth units, towards the viewer */
-};
+/* x, y in grid units from the middle of the page, z in depth units. */
+#define sheet_point geom_point
 
 /* A side k of a triangle runs from point[k] to point[(k + 1) % 3]. */
 struct sheet_triangle {

@@ -1,0 +1,175 @@
+/* convex.c - convex pieces of the page, cut by exact lines. */
+#include "geom/convex.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Corners' doubles are within 1/4 of the truth (line.c). */
+#define BOX_MARGIN 0.25
+
+/* At most this many lines bound a region that is subtracted: three sides and
+ * where two planes cross. */
+enum { MAX_REGION = 4 };
+
+static bool allocate(struct geom_convex *piece, uint32_t count,
+                     struct arena *arena) {
+  piece->count = 0;
+  piece->corner = arena_alloc(arena, count, sizeof *piece->corner);
+  piece->side = arena_alloc(arena, count, sizeof *piece->side);
+  return piece->corner != NULL && piece->side != NULL;
+}
+
+static void append(struct geom_convex *piece, struct geom_corner corner,
+                   const struct geom_line *side) {
+  piece->corner[piece->count] = corner;
+  piece->side[piece->count++] = side;
+}
+
+static void set_box(struct geom_convex *piece) {
+  piece->x0 = piece->y0 = INFINITY;
+  piece->x1 = piece->y1 = -INFINITY;
+  for (uint32_t k = 0; k < piece->count; k++) {
+    const struct geom_corner *c = &piece->corner[k];
+    if (c->x < piece->x0) piece->x0 = c->x;
+    if (c->x > piece->x1) piece->x1 = c->x;
+    if (c->y < piece->y0) piece->y0 = c->y;
+    if (c->y > piece->y1) piece->y1 = c->y;
+  }
+  piece->x0 -= BOX_MARGIN;
+  piece->y0 -= BOX_MARGIN;
+  piece->x1 += BOX_MARGIN;
+  piece->y1 += BOX_MARGIN;
+}
+
+bool geom_convex_triangle(struct geom_convex *piece,
+                          const struct geom_point p[3],
+                          const struct geom_line line[3],
+                          struct arena *arena) {
+  if (!allocate(piece, 3, arena)) return false;
+  for (int k = 0; k < 3; k++) append(piece, geom_corner_at(p[k]), &line[k]);
+  set_box(piece);
+  return true;
+}
+
+/* Builds the part of `piece` whose corners have sign `keep` or lie on the
+ * line; `cut` is the line with that part on its left. */
+static bool take_part(const struct geom_convex *piece, const signed char *sign,
+                      int keep, const struct geom_line *cut,
+                      struct geom_convex *part, struct arena *arena) {
+  uint32_t n = piece->count;
+  if (!allocate(part, n + 1, arena)) return false;
+  for (uint32_t k = 0; k < n; k++) {
+    uint32_t next = k + 1 == n ? 0 : k + 1;
+    int s = sign[k] * keep, t = sign[next] * keep;
+    if (s > 0) {
+      append(part, piece->corner[k], piece->side[k]);
+      if (t < 0) append(part, geom_corner_of(piece->side[k], cut), cut);
+    } else if (s == 0) {
+      /* On the line: the boundary either enters, leaves or touches here. */
+      if (t > 0)
+        append(part, piece->corner[k], piece->side[k]);
+      else if (sign[k == 0 ? n - 1 : k - 1] * keep > 0)
+        append(part, piece->corner[k], cut);
+    } else if (t > 0) {
+      append(part, geom_corner_of(piece->side[k], cut), piece->side[k]);
+    }
+  }
+  set_box(part);
+  return true;
+}
+
+bool geom_convex_split(const struct geom_convex *piece,
+                       const struct geom_line *line,
+                       const struct geom_line *back,
+                       struct geom_convex *inside, struct geom_convex *outside,
+                       struct arena *arena) {
+  static const struct geom_convex none;
+  signed char few[32], *sign = few;
+  bool left = false, right = false;
+  if (piece->count > sizeof few) {
+    sign = arena_alloc(arena, piece->count, 1);
+    if (sign == NULL) return false;
+  }
+  for (uint32_t k = 0; k < piece->count; k++) {
+    sign[k] = (signed char)geom_line_side(line, &piece->corner[k]);
+    left |= sign[k] > 0;
+    right |= sign[k] < 0;
+  }
+  if (inside != NULL) *inside = left ? *piece : none;
+  if (outside != NULL) *outside = left ? none : *piece;
+  if (!left || !right) return true;
+  if (inside != NULL && !take_part(piece, sign, 1, line, inside, arena))
+    return false;
+  return outside == NULL || take_part(piece, sign, -1, back, outside, arena);
+}
+
+bool geom_convex_subtract(const struct geom_convex *piece,
+                          const struct geom_line *line,
+                          const struct geom_line *back, int count,
+                          geom_pieces *rest, struct geom_convex *inside,
+                          struct arena *arena) {
+  struct geom_convex part = *piece, cut[MAX_REGION];
+  for (int k = 0; k < count; k++) {
+    struct geom_convex left;
+    if (!geom_convex_split(&part, &line[k], &back[k], &left, &cut[k], arena))
+      return false;
+    part = left;
+    if (part.count == 0) break;
+  }
+  if (inside != NULL) *inside = part;
+  if (part.count == 0) return ARRAY_PUSH(rest, *piece);
+  for (int k = 0; k < count; k++)
+    if (cut[k].count > 0 && !ARRAY_PUSH(rest, cut[k])) return false;
+  return true;
+}
+
+/* ---- Copying -------------------------------------------------------------- */
+
+/* Where a line's copy is: lines of one piece are few. */
+struct line_map {
+  const struct geom_line **from;
+  struct geom_line *to;
+  uint32_t count;
+};
+
+static const struct geom_line *map_line(struct line_map *map,
+                                        const struct geom_line *line) {
+  for (uint32_t k = 0; k < map->count; k++)
+    if (map->from[k] == line) return &map->to[k];
+  map->from[map->count] = line;
+  map->to[map->count] = *line;
+  return &map->to[map->count++];
+}
+
+/* An upper bound for how many lines a piece names. */
+static uint32_t line_bound(const struct geom_convex *piece) {
+  uint32_t bound = piece->count;
+  for (uint32_t k = 0; k < piece->count; k++)
+    if (piece->corner[k].l1 != NULL) bound += 2;
+  return bound;
+}
+
+bool geom_convex_copy(struct geom_convex *to, const struct geom_convex *from,
+                      struct arena *arena) {
+  uint32_t n = from->count, bound = line_bound(from);
+  struct line_map map = {mem_alloc(bound, sizeof *map.from),
+                         arena_alloc(arena, bound, sizeof *map.to), 0};
+  bool done = false;
+  if (map.from == NULL || map.to == NULL || !allocate(to, n, arena)) goto end;
+  for (uint32_t k = 0; k < n; k++) {
+    struct geom_corner corner = from->corner[k];
+    if (corner.l1 != NULL) {
+      corner.l1 = map_line(&map, corner.l1);
+      corner.l2 = map_line(&map, corner.l2);
+    }
+    append(to, corner, map_line(&map, from->side[k]));
+  }
+  to->x0 = from->x0;
+  to->y0 = from->y0;
+  to->x1 = from->x1;
+  to->y1 = from->y1;
+  done = true;
+end:
+  mem_free(map.from);
+  return done;
+}

@@ -1,0 +1,341 @@
+/* line.c - exact lines of the page and the corners where they meet.
+ *
+ * With direction (b, -a) a line a x + b y + c has its positive side on the
+ * left.  Two lines meet at the homogeneous point
+ *   (b1 c2 - b2 c1,  c1 a2 - c2 a1,  a1 b2 - a2 b1)
+ * so the value of a third line there has the sign of det(l1, l2, l3) times
+ * the sign of the last component.
+ *
+ * Filter: the nine inputs are within 2^-53 of the true coefficients; each of
+ * the six triple products gathers at most 3 such errors and 5 roundings in all, so
+ * the sum is off by less than 16 * 2^-53 times the sum of magnitudes.
+ */
+#include "geom/line.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "geom/wide.h"
+
+#define FILTER (16 * 0x1p-53)
+
+void geom_line_through(struct geom_line *line, struct geom_point p,
+                       struct geom_point q) {
+  int64_t a = (int64_t)p.y - q.y, b = (int64_t)q.x - p.x;
+  memset(line, 0, sizeof *line);
+  line->narrow = true;
+  line->x0 = p.x;
+  line->y0 = p.y;
+  line->x1 = q.x;
+  line->y1 = q.y;
+  line->a = (double)a;
+  line->b = (double)b;
+  line->c = (double)-(a * p.x + b * p.y);
+}
+
+static void store(struct geom_line *line, int k, const mpz_t value,
+                  double *nearest) {
+  size_t count = mpz_size(value);
+  line->sign[k] = (int8_t)mpz_sgn(value);
+  for (size_t i = 0; i < GEOM_LINE_LIMBS; i++)
+    line->limb[k][i] = i < count ? mpz_getlimbn(value, (mp_size_t)i) : 0;
+  *nearest = mpz_get_d(value);
+}
+
+/* plane: nx x + ny y + nz z = K. */
+static void load_plane(mpz_t n[3], mpz_t k, const struct geom_plane *plane) {
+  wide_set_int128(n[0], plane->nx);
+  wide_set_int128(n[1], plane->ny);
+  mpz_set_si(n[2], plane->nz);
+  mpz_mul_si(k, n[0], plane->a.x);
+  if (plane->a.y >= 0)
+    mpz_addmul_ui(k, n[1], (unsigned long)plane->a.y);
+  else
+    mpz_submul_ui(k, n[1], (unsigned long)-(int64_t)plane->a.y);
+  mpz_addmul_ui(k, n[2], (unsigned long)plane->a.z);
+}
+
+/* to = p q - r s */
+static void cross(mpz_t to, const mpz_t p, const mpz_t q, const mpz_t r,
+                  const mpz_t s) {
+  mpz_mul(to, p, q);
+  mpz_submul(to, r, s);
+}
+
+int geom_line_between(struct geom_line *line, const struct geom_plane *front,
+                      const struct geom_plane *back) {
+  mpz_t g[3], f[3], kg, kf, value;
+  int parallel = 0;
+  mpz_inits(g[0], g[1], g[2], f[0], f[1], f[2], kg, kf, value, NULL);
+  load_plane(g, kg, front);
+  load_plane(f, kf, back);
+  memset(line, 0, sizeof *line);
+  /* z = (K - nx x - ny y) / nz for both; their difference times both nz. */
+  cross(value, f[0], g[2], g[0], f[2]);
+  store(line, 0, value, &line->a);
+  cross(value, f[1], g[2], g[1], f[2]);
+  store(line, 1, value, &line->b);
+  cross(value, kg, f[2], kf, g[2]);
+  store(line, 2, value, &line->c);
+  if (line->sign[0] == 0 && line->sign[1] == 0)
+    parallel = line->sign[2] == 0 ? GEOM_SAME_PLANE : line->sign[2];
+  mpz_clears(g[0], g[1], g[2], f[0], f[1], f[2], kg, kf, value, NULL);
+  return parallel;
+}
+
+void geom_line_reverse(struct geom_line *line) {
+  int32_t x = line->x0, y = line->y0;
+  line->x0 = line->x1;
+  line->y0 = line->y1;
+  line->x1 = x;
+  line->y1 = y;
+  line->a = -line->a;
+  line->b = -line->b;
+  line->c = -line->c;
+  for (int k = 0; k < 3; k++) line->sign[k] = (int8_t)-line->sign[k];
+}
+
+/* ---- Exact coefficients -------------------------------------------------- */
+
+struct exact_line {
+  mpz_t c[3];
+};
+
+static void exact_init(struct exact_line *exact, const struct geom_line *line) {
+  mpz_inits(exact->c[0], exact->c[1], exact->c[2], NULL);
+  if (line->narrow) {
+    int64_t a = (int64_t)line->y0 - line->y1, b = (int64_t)line->x1 - line->x0;
+    mpz_set_si(exact->c[0], a);
+    mpz_set_si(exact->c[1], b);
+    mpz_set_si(exact->c[2], -(a * line->x0 + b * line->y0));
+    return;
+  }
+  for (int k = 0; k < 3; k++) {
+    mpz_import(exact->c[k], GEOM_LINE_LIMBS, -1, sizeof(mp_limb_t), 0, 0,
+               line->limb[k]);
+    if (line->sign[k] < 0) mpz_neg(exact->c[k], exact->c[k]);
+  }
+}
+
+static void exact_fini(struct exact_line *exact) {
+  mpz_clears(exact->c[0], exact->c[1], exact->c[2], NULL);
+}
+
+/* h = the homogeneous crossing of two lines. */
+static void exact_meet(mpz_t h[3], const struct geom_line *l1,
+                       const struct geom_line *l2) {
+  struct exact_line p, q;
+  exact_init(&p, l1);
+  exact_init(&q, l2);
+  cross(h[0], p.c[1], q.c[2], q.c[1], p.c[2]);
+  cross(h[1], p.c[2], q.c[0], q.c[2], p.c[0]);
+  cross(h[2], p.c[0], q.c[1], q.c[0], p.c[1]);
+  exact_fini(&p);
+  exact_fini(&q);
+}
+
+/* The corner as homogeneous integers, the last one positive. */
+static void exact_corner(mpz_t h[3], const struct geom_corner *corner) {
+  if (corner->l1 == NULL) {
+    mpz_set_si(h[0], corner->ix);
+    mpz_set_si(h[1], corner->iy);
+    mpz_set_si(h[2], 1);
+    return;
+  }
+  exact_meet(h, corner->l1, corner->l2);
+  if (mpz_sgn(h[2]) < 0)
+    for (int k = 0; k < 3; k++) mpz_neg(h[k], h[k]);
+}
+
+/* ---- Questions ------------------------------------------------------------ */
+
+static int side_exact(const struct geom_line *line,
+                      const struct geom_corner *corner) {
+  struct exact_line l;
+  mpz_t h[3], value;
+  int sign;
+  mpz_inits(h[0], h[1], h[2], value, NULL);
+  exact_init(&l, line);
+  exact_corner(h, corner);
+  mpz_mul(value, l.c[0], h[0]);
+  mpz_addmul(value, l.c[1], h[1]);
+  mpz_addmul(value, l.c[2], h[2]);
+  sign = mpz_sgn(value);
+  exact_fini(&l);
+  mpz_clears(h[0], h[1], h[2], value, NULL);
+  return sign;
+}
+
+static bool same_line(const struct geom_line *l, const struct geom_line *m) {
+  if (l == m) return true;
+  if (!l->narrow || !m->narrow) return false;
+  return (l->x0 == m->x0 && l->y0 == m->y0 && l->x1 == m->x1 &&
+          l->y1 == m->y1) ||
+         (l->x0 == m->x1 && l->y0 == m->y1 && l->x1 == m->x0 && l->y1 == m->y0);
+}
+
+static int side_of_point(const struct geom_line *line,
+                         const struct geom_corner *corner) {
+  double value, size;
+  if (line->narrow) {
+    int64_t dx = (int64_t)line->x1 - line->x0, dy = (int64_t)line->y1 - line->y0;
+    int64_t ex = (int64_t)corner->ix - line->x0,
+            ey = (int64_t)corner->iy - line->y0;
+    return geom_sign64(dx * ey - dy * ex);
+  }
+  value = line->a * corner->ix + line->b * corner->iy + line->c;
+  size = fabs(line->a * corner->ix) + fabs(line->b * corner->iy) +
+         fabs(line->c);
+  if (value > FILTER * size) return 1;
+  if (value < -FILTER * size) return -1;
+  return side_exact(line, corner);
+}
+
+int geom_line_side(const struct geom_line *line,
+                   const struct geom_corner *corner) {
+  const struct geom_line *p = corner->l1, *q = corner->l2;
+  double x1, x2, y1, y2, w1, w2, w, det, size;
+  if (p == NULL) return side_of_point(line, corner);
+  if (same_line(line, p) || same_line(line, q)) return 0;
+  x1 = p->b * q->c, x2 = q->b * p->c;
+  y1 = p->c * q->a, y2 = q->c * p->a;
+  w1 = p->a * q->b, w2 = q->a * p->b;
+  w = w1 - w2;
+  det = line->a * (x1 - x2) + line->b * (y1 - y2) + line->c * w;
+  size = fabs(line->a) * (fabs(x1) + fabs(x2)) +
+         fabs(line->b) * (fabs(y1) + fabs(y2)) +
+         fabs(line->c) * (fabs(w1) + fabs(w2));
+  if (fabs(det) > FILTER * size && fabs(w) > FILTER * (fabs(w1) + fabs(w2)))
+    return (det > 0) == (w > 0) ? 1 : -1;
+  return side_exact(line, corner);
+}
+
+/* The sign of a1 b2 - a2 b1, of which the directions' cross product is the
+ * same, or of a1 a2 + b1 b2. */
+static int product_exact(const struct geom_line *l1,
+                         const struct geom_line *l2, bool dot) {
+  struct exact_line p, q;
+  mpz_t value;
+  int sign;
+  mpz_init(value);
+  exact_init(&p, l1);
+  exact_init(&q, l2);
+  if (dot) {
+    mpz_mul(value, p.c[0], q.c[0]);
+    mpz_addmul(value, p.c[1], q.c[1]);
+  } else {
+    cross(value, p.c[0], q.c[1], q.c[0], p.c[1]);
+  }
+  sign = mpz_sgn(value);
+  exact_fini(&p);
+  exact_fini(&q);
+  mpz_clear(value);
+  return sign;
+}
+
+int geom_line_turn(const struct geom_line *l1, const struct geom_line *l2) {
+  double w1 = l1->a * l2->b, w2 = l2->a * l1->b, w = w1 - w2;
+  if (fabs(w) > FILTER * (fabs(w1) + fabs(w2))) return w > 0 ? 1 : -1;
+  if (same_line(l1, l2)) return 0;
+  return product_exact(l1, l2, false);
+}
+
+int geom_line_along(const struct geom_line *l1, const struct geom_line *l2) {
+  double w1 = l1->a * l2->a, w2 = l1->b * l2->b, w = w1 + w2;
+  if (fabs(w) > FILTER * (fabs(w1) + fabs(w2))) return w > 0 ? 1 : -1;
+  return product_exact(l1, l2, true);
+}
+
+/* ---- Corners -------------------------------------------------------------- */
+
+struct geom_corner geom_corner_at(struct geom_point p) {
+  return (struct geom_corner){(double)p.x, (double)p.y, NULL, NULL, p.x, p.y};
+}
+
+struct geom_corner geom_corner_of(const struct geom_line *l1,
+                                  const struct geom_line *l2) {
+  double w = l1->a * l2->b - l2->a * l1->b;
+  struct geom_corner corner = {(l1->b * l2->c - l2->b * l1->c) / w,
+                               (l1->c * l2->a - l2->c * l1->a) / w,
+                               l1,
+                               l2,
+                               0,
+                               0};
+  if (!isfinite(corner.x) || !isfinite(corner.y) ||
+      fabs(w) <= 0x1p-16 * (fabs(l1->a * l2->b) + fabs(l2->a * l1->b))) {
+    int64_t x, y; /* nearly parallel: the doubles would be far off */
+    geom_corner_round(&corner, 8, &x, &y);
+    corner.x = (double)x * 0x1p-8;
+    corner.y = (double)y * 0x1p-8;
+  }
+  return corner;
+}
+
+static int compare_exact(const struct geom_corner *p,
+                         const struct geom_corner *q) {
+  mpz_t g[3], h[3], value;
+  int order = 0;
+  mpz_inits(g[0], g[1], g[2], h[0], h[1], h[2], value, NULL);
+  exact_corner(g, p);
+  exact_corner(h, q);
+  for (int k = 0; k < 2 && order == 0; k++) {
+    cross(value, g[k], h[2], h[k], g[2]);
+    order = mpz_sgn(value);
+  }
+  mpz_clears(g[0], g[1], g[2], h[0], h[1], h[2], value, NULL);
+  return order;
+}
+
+/* How far a corner's doubles may be from the truth: the crossing of lines
+ * that differ in direction by more than 2^-20 keeps 2^-53 * 2^20 * a few of
+ * its largest coordinate, 2^30; the rest are rounded to 2^-9. */
+#define CORNER_ERROR 0x1p-2
+
+int geom_corner_compare(const struct geom_corner *p,
+                        const struct geom_corner *q) {
+  if (p->l1 == NULL && q->l1 == NULL) {
+    if (p->ix != q->ix) return p->ix < q->ix ? -1 : 1;
+    return (p->iy > q->iy) - (p->iy < q->iy);
+  }
+  if (fabs(p->x - q->x) > 2 * CORNER_ERROR) return p->x < q->x ? -1 : 1;
+  if (p->l1 != NULL && p->l1 == q->l1 && p->l2 == q->l2) return 0;
+  return compare_exact(p, q);
+}
+
+void geom_corner_exact(const struct geom_corner *corner, mpq_t x, mpq_t y) {
+  mpz_t h[3];
+  mpz_inits(h[0], h[1], h[2], NULL);
+  exact_corner(h, corner);
+  mpq_set_num(x, h[0]);
+  mpq_set_den(x, h[2]);
+  mpq_set_num(y, h[1]);
+  mpq_set_den(y, h[2]);
+  mpq_canonicalize(x);
+  mpq_canonicalize(y);
+  mpz_clears(h[0], h[1], h[2], NULL);
+}
+
+/* floor(2^bits num / den + 1/2) */
+static int64_t round_quotient(mpz_t num, const mpz_t den, int bits,
+                              mpz_t scratch) {
+  mpz_mul_2exp(num, num, (mp_bitcnt_t)bits + 1);
+  mpz_add(num, num, den);
+  mpz_mul_2exp(scratch, den, 1);
+  mpz_fdiv_q(num, num, scratch);
+  return mpz_get_si(num);
+}
+
+void geom_corner_round(const struct geom_corner *corner, int bits, int64_t *x,
+                       int64_t *y) {
+  mpz_t h[3], scratch;
+  if (corner->l1 == NULL) {
+    *x = (int64_t)corner->ix * (INT64_C(1) << bits);
+    *y = (int64_t)corner->iy * (INT64_C(1) << bits);
+    return;
+  }
+  mpz_inits(h[0], h[1], h[2], scratch, NULL);
+  exact_corner(h, corner);
+  *x = round_quotient(h[0], h[2], bits, scratch);
+  *y = round_quotient(h[1], h[2], bits, scratch);
+  mpz_clears(h[0], h[1], h[2], scratch, NULL);
+}

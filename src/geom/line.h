@@ -1,0 +1,88 @@
+/* line.h - exact lines of the page and the corners where they meet.
+ *
+ * A line is the oriented half plane a x + b y + c > 0, its left side.  It is
+ * either narrow, through two integer points (a mesh edge, a window's border),
+ * or wide, the place where two planes are equally deep.
+ *
+ * A corner is either an integer point or the crossing of two lines; it is
+ * never rounded before its last question was asked.
+ *
+ * Ranges: narrow |a|, |b| < 2^31, |c| < 2^62; wide |a|, |b| < 2^137,
+ * |c| < 2^170: with normals below 2^72 and 2^63 and plane constants below
+ * 2^105 (predicate.h), a = nFx nGz - nGx nFz and c = KG nFz - KF nGz.
+ *
+ * Robustness: signs of 3 x 3 determinants, doubles first, GMP where they
+ * cannot tell.  Cost of the wide path is about a microsecond.
+ */
+#ifndef GEOM_LINE_H
+#define GEOM_LINE_H
+
+#include <gmp.h>
+
+#include "base/memory.h"
+#include "geom/predicate.h"
+
+#define GEOM_LINE_LIMBS 3
+
+struct geom_line {
+  double a, b, c; /* the nearest doubles */
+  bool narrow;
+  int32_t x0, y0, x1, y1; /* narrow: from, to; the left side is positive */
+  int8_t sign[3];         /* wide: of a, b, c */
+  mp_limb_t limb[3][GEOM_LINE_LIMBS];
+  /* What the line is, for whoever made it; copied along. */
+  uint8_t kind;
+  uint32_t id;
+};
+
+/* The line from p to q, p != q on the page. */
+void geom_line_through(struct geom_line *line, struct geom_point p,
+                       struct geom_point q);
+
+/* The line where two planes are equally deep; positive where `front` is the
+ * nearer (deeper z) one.  Both nz > 0.
+ * Returns 0, or where the planes are parallel the sign of front - back (2:
+ * they are the same plane): the line is then not set. */
+int geom_line_between(struct geom_line *line, const struct geom_plane *front,
+                      const struct geom_plane *back);
+#define GEOM_SAME_PLANE 2
+
+/* Turns the line round. */
+void geom_line_reverse(struct geom_line *line);
+
+struct geom_corner {
+  double x, y; /* grid units, nearest or so: for boxes and filters */
+  const struct geom_line *l1, *l2; /* NULL: the integer point ix, iy */
+  int32_t ix, iy;
+};
+
+struct geom_corner geom_corner_at(struct geom_point p);
+
+/* Where two lines that are not parallel meet. */
+struct geom_corner geom_corner_of(const struct geom_line *l1,
+                                  const struct geom_line *l2);
+
+/* +1 where the corner lies left of the line, 0 on it, -1 right.  Exact. */
+int geom_line_side(const struct geom_line *line,
+                   const struct geom_corner *corner);
+
+/* The sign of the cross product of the two lines' directions: +1 where l2
+ * turns left from l1.  Exact. */
+int geom_line_turn(const struct geom_line *l1, const struct geom_line *l2);
+
+/* The sign of the dot product of the two lines' directions.  Exact. */
+int geom_line_along(const struct geom_line *l1, const struct geom_line *l2);
+
+/* Orders corners by x, then y: <0, 0, >0.  Exact. */
+int geom_corner_compare(const struct geom_corner *p,
+                        const struct geom_corner *q);
+
+/* The corner's coordinates as rationals (canonical mpq). */
+void geom_corner_exact(const struct geom_corner *corner, mpq_t x, mpq_t y);
+
+/* The coordinates times 2^bits rounded to the nearest integer, halves up;
+ * depends only on the corner's place. */
+void geom_corner_round(const struct geom_corner *corner, int bits, int64_t *x,
+                       int64_t *y);
+
+#endif

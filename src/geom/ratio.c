@@ -1,0 +1,86 @@
+/* ratio.c - comparing and applying exact rational parameters.
+ *
+ * Bit widths: num and den stay below 2^126 (hide.h derives the widest, 2^125),
+ * so a cross product needs 252 bits: four 64-bit limbs.
+ */
+#include "geom/ratio.h"
+
+#include <gmp.h>
+
+#include "geom/wide.h"
+
+/* An unsigned 256-bit product, most significant half first. */
+struct product {
+  uint128 high, low;
+};
+
+static struct product multiply(uint128 a, uint128 b) {
+  uint64_t a0 = (uint64_t)a, a1 = (uint64_t)(a >> 64);
+  uint64_t b0 = (uint64_t)b, b1 = (uint64_t)(b >> 64);
+  uint128 p00 = (uint128)a0 * b0, p01 = (uint128)a0 * b1;
+  uint128 p10 = (uint128)a1 * b0, p11 = (uint128)a1 * b1;
+  uint128 middle = (p00 >> 64) + (uint64_t)p01 + (uint64_t)p10;
+  struct product p;
+  p.low = (middle << 64) | (uint64_t)p00;
+  p.high = p11 + (p01 >> 64) + (p10 >> 64) + (middle >> 64);
+  return p;
+}
+
+static int compare_products(struct product a, struct product b) {
+  if (a.high != b.high) return a.high < b.high ? -1 : 1;
+  if (a.low != b.low) return a.low < b.low ? -1 : 1;
+  return 0;
+}
+
+static uint128 magnitude(int128 a) { return a < 0 ? -(uint128)a : (uint128)a; }
+
+static int sign_of(int128 a) { return (a > 0) - (a < 0); }
+
+static bool fits_63_bits(int128 a) {
+  return a == (int128)(int64_t)a && a != (int128)INT64_MIN;
+}
+
+int ratio_compare(struct ratio a, struct ratio b) {
+  int sa = sign_of(a.num), sb = sign_of(b.num), order;
+  if (sa != sb) return sa < sb ? -1 : 1;
+  if (sa == 0) return 0;
+  if (fits_63_bits(a.num) && fits_63_bits(a.den) && fits_63_bits(b.num) &&
+      fits_63_bits(b.den)) {
+    int128 left = a.num * b.den, right = b.num * a.den;
+    return (left > right) - (left < right);
+  }
+  order = compare_products(multiply(magnitude(a.num), (uint128)b.den),
+                           multiply(magnitude(b.num), (uint128)a.den));
+  return sa > 0 ? order : -order;
+}
+
+double ratio_to_double(struct ratio a) { return (double)a.num / (double)a.den; }
+
+/* floor((2 num d + den) / (2 den)), the products in GMP. */
+static int64_t round_wide(struct ratio t, int64_t d) {
+  mpz_t num, den;
+  int64_t rounded;
+  mpz_inits(num, den, NULL);
+  wide_set_int128(num, t.num);
+  wide_set_int128(den, t.den);
+  mpz_mul_si(num, num, d);
+  mpz_mul_2exp(num, num, 1);
+  mpz_add(num, num, den);
+  mpz_mul_2exp(den, den, 1);
+  mpz_fdiv_q(num, num, den);
+  rounded = mpz_get_si(num);
+  mpz_clears(num, den, NULL);
+  return rounded;
+}
+
+int64_t ratio_lerp(struct ratio t, int64_t p0, int64_t p1) {
+  int64_t d = p1 - p0; /* at most 2^43 */
+  const int128 narrow = (int128)1 << 81;
+  if (-narrow < t.num && t.num < narrow && t.den < narrow) {
+    int128 num = 2 * t.num * d + t.den, den = 2 * t.den;
+    int128 q = num / den;
+    if (num % den < 0) q--;
+    return p0 + (int64_t)q;
+  }
+  return p0 + round_wide(t, d);
+}
