@@ -27,6 +27,11 @@
 extern "C" {
 #endif
 
+/* The library is built with hidden symbols; these are what it shows. */
+#if defined __GNUC__
+#pragma GCC visibility push(default)
+#endif
+
 #if defined __GNUC__
 #define RECTO_USE_RESULT __attribute__((warn_unused_result))
 #else
@@ -276,6 +281,10 @@ size_t recto_drawing_stroke_count(const recto_drawing *drawing);
 
 /* The stroke at `index` < recto_drawing_stroke_count.  Lends. */
 recto_stroke recto_drawing_stroke(const recto_drawing *drawing, size_t index);
+
+#if defined __GNUC__
+#pragma GCC visibility pop
+#endif
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,1 @@
+# backends/local.mk - one writer per format.

@@ -1,0 +1,1 @@
+# examples/local.mk - example models and what makes them.

@@ -1,0 +1,2 @@
+# src/api/local.mk - the facade behind recto.h.
+librecto_core_la_SOURCES += src/recto.h %D%/status.c

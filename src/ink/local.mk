@@ -1,0 +1,1 @@
+# src/ink/local.mk - the sources of this layer.

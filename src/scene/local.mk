@@ -1,0 +1,1 @@
+# src/scene/local.mk - the sources of this layer.

@@ -1,0 +1,1 @@
+# src/view/local.mk - the sources of this layer.

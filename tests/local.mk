@@ -1,0 +1,15 @@
+# tests/local.mk - one program or script per noun.
+#
+# A unit test, linked with the core library and cmocka:
+#   unit_tests += %D%/test_noun
+#   %C%_test_noun_SOURCES = %D%/test_noun.c
+# A shell test, run by bash, which prints TAP itself:
+#   dist_check_SCRIPTS += %D%/test_noun.sh
+unit_tests =
+
+# Without cmocka the scripts alone are run.
+if HAVE_CMOCKA
+check_PROGRAMS += $(unit_tests)
+TESTS += $(unit_tests)
+endif
+TESTS += $(dist_check_SCRIPTS)
