@@ -1,0 +1,9 @@
+# src/base/local.mk - the sources of this layer.
+librecto_core_la_SOURCES += \
+  %D%/decimal.c %D%/decimal.h \
+  %D%/memory.c %D%/memory.h \
+  %D%/number.c %D%/number.h %D%/number_format.c \
+  %D%/report.c %D%/report.h \
+  %D%/sort.c %D%/sort.h \
+  %D%/status.c %D%/status.h \
+  %D%/stream.c %D%/stream.h

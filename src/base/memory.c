@@ -1,0 +1,142 @@
+/* memory.c - checked allocation, growing arrays, and an arena. */
+#include "base/memory.h"
+
+#include <stdalign.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+
+/* For tests alone: see mem_fail_after. */
+static unsigned long allocations_to_failure;
+
+/* Whether this allocation is the one that a test wants to fail. */
+static bool is_made_to_fail(void) {
+  return allocations_to_failure && --allocations_to_failure == 0;
+}
+
+void mem_fail_after(unsigned long n) { allocations_to_failure = n; }
+
+/* The size of a block; false where it does not fit.  Never zero, so that an
+ * empty array has an address of its own. */
+static bool multiply(size_t count, size_t size, size_t *bytes) {
+  if (size && count > PTRDIFF_MAX / size)
+    return false;
+  *bytes = count * size;
+  if (*bytes == 0)
+    *bytes = 1;
+  return true;
+}
+
+void *mem_alloc(size_t count, size_t size) {
+  size_t bytes;
+  if (is_made_to_fail() || !multiply(count, size, &bytes))
+    return NULL;
+  return malloc(bytes);
+}
+
+void *mem_calloc(size_t count, size_t size) {
+  size_t bytes;
+  if (is_made_to_fail() || !multiply(count, size, &bytes))
+    return NULL;
+  return calloc(bytes, 1);
+}
+
+void *mem_resize(void *block, size_t count, size_t size) {
+  size_t bytes;
+  if (is_made_to_fail() || !multiply(count, size, &bytes))
+    return NULL;
+  return realloc(block, bytes);
+}
+
+void mem_free(void *block) { free(block); }
+
+size_t mem_peak_bytes(void) {
+  struct rusage usage;
+  if (getrusage(RUSAGE_SELF, &usage) != 0 || usage.ru_maxrss < 0)
+    return 0;
+#ifdef __APPLE__
+  return (size_t)usage.ru_maxrss;
+#else
+  return (size_t)usage.ru_maxrss * 1024;
+#endif
+}
+
+/* ---- Growing arrays ------------------------------------------------------ */
+
+/* Doubling keeps appending linear; the pages not yet written to cost no
+ * memory, and the system moves large blocks without copying them. */
+bool array_grow(void **item, size_t *capacity, size_t count, size_t extra,
+                size_t size) {
+  enum { SMALLEST = 16 };
+  if (extra > SIZE_MAX - count)
+    return false;
+  size_t wanted = count + extra;
+  size_t doubled = *capacity <= SIZE_MAX / 2 ? 2 * *capacity : wanted;
+  if (wanted < doubled)
+    wanted = doubled;
+  if (wanted < SMALLEST)
+    wanted = SMALLEST;
+  void *grown = mem_resize(*item, wanted, size);
+  if (!grown)
+    return false;
+  *item = grown;
+  *capacity = wanted;
+  return true;
+}
+
+/* ---- Arena --------------------------------------------------------------- */
+
+struct arena_block {
+  struct arena_block *next; /* older */
+  size_t size;              /* bytes that follow */
+  alignas(max_align_t) unsigned char bytes[];
+};
+
+enum { ARENA_BLOCK_SIZE = 1 << 16 };
+
+static size_t round_up(size_t bytes) {
+  return (bytes + alignof(max_align_t) - 1) & ~(alignof(max_align_t) - 1);
+}
+
+void *arena_alloc(struct arena *arena, size_t count, size_t size) {
+  size_t bytes;
+  if (!multiply(count, size, &bytes) || bytes > PTRDIFF_MAX / 2)
+    return NULL;
+  bytes = round_up(bytes);
+  struct arena_block *block = arena->block;
+  if (!block || bytes > block->size - arena->used) {
+    size_t room = block ? 2 * block->size : ARENA_BLOCK_SIZE;
+    if (room < bytes)
+      room = bytes;
+    block = mem_alloc(sizeof *block + room, 1);
+    if (!block)
+      return NULL;
+    block->next = arena->block;
+    block->size = room;
+    arena->block = block;
+    arena->used = 0;
+  }
+  void *start = block->bytes + arena->used;
+  arena->used += bytes;
+  return start;
+}
+
+void arena_reset(struct arena *arena) {
+  /* Blocks only ever grow, so the newest is the largest. */
+  struct arena_block *newest = arena->block;
+  if (newest) {
+    struct arena_block *older = newest->next;
+    while (older) {
+      struct arena_block *next = older->next;
+      mem_free(older);
+      older = next;
+    }
+    newest->next = NULL;
+  }
+  arena->used = 0;
+}
+
+void arena_fini(struct arena *arena) {
+  arena_reset(arena);
+  mem_free(arena->block);
+  arena->block = NULL;
+}

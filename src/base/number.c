@@ -1,0 +1,250 @@
+/* number.c - numbers from text, correctly rounded, the same in every locale.
+ *
+ * Phases
+ *   1. The digits are gathered into one 64-bit integer w, eight at a time,
+ *      the point only counted: the number is w * 10^e.
+ *   2. w < 2^53 and |e| <= 22: both w and 10^|e| are doubles, so one division
+ *      or product rounds once [Clinger].
+ *   3. |e| <= 27: 5^|e| fits in 64 bits, and the product, or the quotient
+ *      with its remainder, is exact in 128 bits.
+ *   4. The rest goes to decimal.c.
+ * Source: [Clinger] How to read floating point numbers accurately, 1990.
+ */
+#include "base/number.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/decimal.h"
+
+__extension__ typedef unsigned __int128 uint128;
+
+enum {
+  DIGITS_SAFE = 19, /* so many digits always fit in 64 bits */
+  POWER_OF_TEN_MAX = 22,
+  POWER_OF_FIVE_MAX = 27
+};
+
+static const double power_of_ten[POWER_OF_TEN_MAX + 1] = {
+    1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+static uint64_t power_of_five(int power) {
+  uint64_t result = 1;
+  for (; power >= 5; power -= 5)
+    result *= 3125;
+  for (; power > 0; power--)
+    result *= 5;
+  return result;
+}
+
+/* How many zero bits stand above the highest one of x > 0. */
+static int leading_zeros(uint64_t x) { return __builtin_clzll(x); }
+
+static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/* ---- Digits -------------------------------------------------------------- */
+
+/* Appends the digits at `text` to *w (which wraps where they are too many) and
+ * returns where they end. */
+static const char *gather_digits_singly(const char *text, const char *end,
+                                        uint64_t *w) {
+  for (; text < end && is_digit(*text); text++)
+    *w = *w * 10 + (uint64_t)(*text - '0');
+  return text;
+}
+
+#if defined __BYTE_ORDER__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+/* The same, eight characters at a time.  A byte b of the window is a digit
+ * where b ^ '0' <= 9; adding 0x76 then carries into its top bit if it is not.
+ * The digits are shifted to the window's end, zeros before them, and added up
+ * in pairs, then fours, then all eight. */
+static const char *gather_digits(const char *text, const char *end,
+                                 uint64_t *w) {
+  static const uint64_t scale[9] = {1,      10,      100,      1000,     10000,
+                                    100000, 1000000, 10000000, 100000000};
+  while (end - text >= 8) {
+    uint64_t window;
+    memcpy(&window, text, 8);
+    window ^= UINT64_C(0x3030303030303030);
+    uint64_t other = ((window & UINT64_C(0x7f7f7f7f7f7f7f7f)) +
+                      UINT64_C(0x7676767676767676)) |
+                     window;
+    other &= UINT64_C(0x8080808080808080);
+    int count = other ? __builtin_ctzll(other) / 8 : 8;
+    if (count == 0)
+      return text;
+    window <<= 64 - 8 * count;
+    window = window * 10 + (window >> 8);
+    uint64_t first = window & UINT64_C(0x000000ff000000ff);
+    uint64_t second = (window >> 16) & UINT64_C(0x000000ff000000ff);
+    window = first * (UINT64_C(1000000) << 32 | 100) +
+             second * (UINT64_C(10000) << 32 | 1);
+    *w = *w * scale[count] + (window >> 32);
+    text += count;
+    if (count < 8)
+      return text;
+  }
+  return gather_digits_singly(text, end, w);
+}
+#else
+static const char *gather_digits(const char *text, const char *end,
+                                 uint64_t *w) {
+  return gather_digits_singly(text, end, w);
+}
+#endif
+
+/* Reads e[+-]digits at `text`, where it stands, and returns its end; a huge
+ * exponent is capped where no amount of digits makes up for it. */
+static const char *parse_exponent(const char *text, const char *end,
+                                  int64_t *exponent) {
+  static const int64_t cap = INT64_C(1000000000000000);
+  const char *p = text + 1;
+  bool negative = p < end && *p == '-';
+  if (p < end && (*p == '-' || *p == '+'))
+    p++;
+  if (p == end || !is_digit(*p))
+    return text;
+  int64_t sum = 0;
+  for (; p < end && is_digit(*p); p++)
+    if (sum < cap)
+      sum = sum * 10 + (*p - '0');
+  *exponent += negative ? -sum : sum;
+  return p;
+}
+
+/* ---- Rounding ------------------------------------------------------------ */
+
+/* w * 10^e for w > 0, |e| <= POWER_OF_FIVE_MAX: rounds once. */
+static double scale_exactly(uint64_t w, int e) {
+  int shift = leading_zeros(w);
+  if (e >= 0) {
+    uint128 product = (uint128)w * power_of_five(e);
+    uint64_t high = (uint64_t)(product >> 64), low = (uint64_t)product;
+    if (high == 0)
+      return decimal_round(low << leading_zeros(low), false,
+                           e - leading_zeros(low));
+    int up = leading_zeros(high);
+    product <<= up;
+    return decimal_round((uint64_t)(product >> 64), (uint64_t)product != 0,
+                         e + 64 - up);
+  }
+  /* Both are shifted to have their top bits set, and w half a bit less, so
+   * that the quotient has 63 or 64 bits.  A bit that it lacks at its end is
+   * made up for by the remainder: rounding looks at 54 bits and whether
+   * anything follows. */
+  uint64_t five = power_of_five(-e);
+  int five_shift = leading_zeros(five);
+  uint64_t divisor = five << five_shift;
+  uint128 dividend = (uint128)(w << shift) << 63;
+  uint64_t quotient = (uint64_t)(dividend / divisor);
+  bool rest = dividend != (uint128)quotient * divisor;
+  int up = leading_zeros(quotient);
+  return decimal_round(quotient << up, rest, five_shift - shift - 63 + e - up);
+}
+
+/* ---- Parsing ------------------------------------------------------------- */
+
+/* Whether the letters of `word` stand at `text`, in any case. */
+static bool starts_with(const char *text, const char *end, const char *word) {
+  for (; *word; word++, text++)
+    if (text >= end || (*text | 0x20) != *word)
+      return false;
+  return true;
+}
+
+static const char *parse_special(const char *text, const char *end,
+                                 double *value) {
+  if (starts_with(text, end, "inf")) {
+    *value = INFINITY;
+    return text + (starts_with(text, end, "infinity") ? 8 : 3);
+  }
+  if (starts_with(text, end, "nan")) {
+    *value = NAN;
+    return text + 3;
+  }
+  return NULL;
+}
+
+/* How many digits of [text, end) follow the leading zeros. */
+static ptrdiff_t count_significant(const char *text, const char *end) {
+  ptrdiff_t count = 0;
+  for (; text < end; text++)
+    if (is_digit(*text) && (count > 0 || *text != '0'))
+      count++;
+  return count;
+}
+
+const char *number_parse_double(const char *text, const char *end,
+                                double *value) {
+  const char *p = text;
+  bool negative = p < end && *p == '-';
+  if (p < end && (*p == '-' || *p == '+'))
+    p++;
+  const char *first = p;
+  uint64_t w = 0;
+  int64_t exponent = 0;
+  p = gather_digits_singly(p, end, &w);
+  ptrdiff_t digits = p - first;
+  if (p < end && *p == '.') {
+    const char *fraction = p + 1;
+    p = gather_digits(fraction, end, &w);
+    exponent = fraction - p;
+    digits += p - fraction;
+  }
+  const char *last = p;
+  double magnitude;
+  if (digits == 0) {
+    p = parse_special(first, end, &magnitude);
+    if (p)
+      *value = negative ? -magnitude : magnitude;
+    return p;
+  }
+  if (p < end && (*p | 0x20) == 'e')
+    p = parse_exponent(p, end, &exponent);
+
+  if (digits > DIGITS_SAFE && count_significant(first, last) > DIGITS_SAFE)
+    magnitude = decimal_to_double(first, last, exponent);
+  else if (w == 0)
+    magnitude = 0;
+  else if (FLT_EVAL_METHOD == 0 && w <= UINT64_C(1) << 53 &&
+           exponent >= -POWER_OF_TEN_MAX && exponent <= POWER_OF_TEN_MAX)
+    magnitude = exponent < 0 ? (double)w / power_of_ten[-exponent]
+                             : (double)w * power_of_ten[exponent];
+  else if (exponent >= -POWER_OF_FIVE_MAX && exponent <= POWER_OF_FIVE_MAX)
+    magnitude = scale_exactly(w, (int)exponent);
+  else
+    magnitude = decimal_to_double(first, last, exponent);
+  *value = negative ? -magnitude : magnitude;
+  return p;
+}
+
+const char *number_parse_int(const char *text, const char *end,
+                             int64_t *value) {
+  const char *p = text;
+  bool negative = p < end && *p == '-';
+  if (p < end && (*p == '-' || *p == '+'))
+    p++;
+  if (p == end || !is_digit(*p))
+    return NULL;
+  /* Summed below zero, where there is room for INT64_MIN. */
+  int64_t sum = 0;
+  for (; p < end && is_digit(*p); p++)
+    if (__builtin_mul_overflow(sum, 10, &sum) ||
+        __builtin_sub_overflow(sum, *p - '0', &sum))
+      return NULL;
+  if (!negative && __builtin_sub_overflow(0, sum, &sum))
+    return NULL;
+  *value = sum;
+  return p;
+}
+
+bool number_from_string(const char *text, double *value) {
+  const char *end = text + strlen(text);
+  double parsed;
+  if (end == text || number_parse_double(text, end, &parsed) != end)
+    return false;
+  *value = parsed;
+  return true;
+}

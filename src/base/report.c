@@ -1,0 +1,246 @@
+/* report.c - counts, times and choices gathered for --stats, as JSON. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "base/report.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/memory.h"
+#include "base/number.h"
+#include "base/stream.h"
+
+enum kind { KIND_INT, KIND_DOUBLE, KIND_DOUBLES, KIND_TEXT };
+
+struct entry {
+  const char *section, *name; /* literals */
+  enum kind kind;
+  int64_t integer;
+  double number;
+  char *text;      /* KIND_TEXT: owned */
+  double *numbers; /* KIND_DOUBLES: owned */
+  size_t count;
+};
+
+struct report {
+  ARRAY(struct entry) entry;
+  struct stream *json; /* NULL until it is asked for */
+};
+
+struct report *report_create(void) {
+  return mem_calloc(1, sizeof(struct report));
+}
+
+static void forget_value(struct entry *entry) {
+  mem_free(entry->text);
+  mem_free(entry->numbers);
+  entry->text = NULL;
+  entry->numbers = NULL;
+  entry->count = 0;
+}
+
+void report_destroy(struct report *report) {
+  if (!report)
+    return;
+  for (size_t i = 0; i < report->entry.count; i++)
+    forget_value(&report->entry.item[i]);
+  ARRAY_FREE(&report->entry);
+  stream_discard(report->json);
+  mem_free(report);
+}
+
+/* ---- Gathering ----------------------------------------------------------- */
+
+static struct entry *look_up(const struct report *report, const char *section,
+                             const char *name) {
+  for (size_t i = 0; i < report->entry.count; i++) {
+    struct entry *entry = &report->entry.item[i];
+    if (strcmp(entry->section, section) == 0 && strcmp(entry->name, name) == 0)
+      return entry;
+  }
+  return NULL;
+}
+
+/* The entry of that name without a value, added where it is new; NULL without
+ * a report or memory. */
+static struct entry *make_entry(struct report *report, const char *section,
+                                const char *name, enum kind kind) {
+  if (!report)
+    return NULL;
+  struct entry *entry = look_up(report, section, name);
+  if (!entry) {
+    struct entry fresh = {.section = section, .name = name};
+    if (!ARRAY_PUSH(&report->entry, fresh))
+      return NULL;
+    entry = &report->entry.item[report->entry.count - 1];
+  }
+  forget_value(entry);
+  entry->kind = kind;
+  return entry;
+}
+
+void report_int(struct report *report, const char *section, const char *name,
+                int64_t value) {
+  struct entry *entry = make_entry(report, section, name, KIND_INT);
+  if (entry)
+    entry->integer = value;
+}
+
+void report_add(struct report *report, const char *section, const char *name,
+                int64_t value) {
+  report_int(report, section, name,
+             report_get(report, section, name, 0) + value);
+}
+
+void report_double(struct report *report, const char *section, const char *name,
+                   double value) {
+  struct entry *entry = make_entry(report, section, name, KIND_DOUBLE);
+  if (entry)
+    entry->number = value;
+}
+
+void report_doubles(struct report *report, const char *section,
+                    const char *name, const double *value, size_t count) {
+  struct entry *entry = make_entry(report, section, name, KIND_DOUBLES);
+  if (!entry)
+    return;
+  entry->numbers = mem_alloc(count, sizeof *value);
+  if (!entry->numbers)
+    return;
+  if (count)
+    memcpy(entry->numbers, value, count * sizeof *value);
+  entry->count = count;
+}
+
+void report_text(struct report *report, const char *section, const char *name,
+                 const char *value) {
+  struct entry *entry = make_entry(report, section, name, KIND_TEXT);
+  if (!entry)
+    return;
+  size_t size = strlen(value) + 1;
+  entry->text = mem_alloc(size, 1);
+  if (entry->text)
+    memcpy(entry->text, value, size);
+}
+
+int64_t report_get(const struct report *report, const char *section,
+                   const char *name, int64_t otherwise) {
+  const struct entry *entry = report ? look_up(report, section, name) : NULL;
+  return entry && entry->kind == KIND_INT ? entry->integer : otherwise;
+}
+
+/* ---- JSON ---------------------------------------------------------------- */
+
+/* Whatever bytes a file name holds, the quotes close again. */
+static void put_text(struct stream *stream, const char *text) {
+  static const char hex[] = "0123456789abcdef";
+  stream_text(stream, "\"");
+  for (; *text; text++) {
+    unsigned char c = (unsigned char)*text;
+    if (c == '"' || c == '\\')
+      stream_text(stream, "\\");
+    if (c >= 0x20 && c != 0x7f) {
+      stream_write(stream, text, 1);
+      continue;
+    }
+    char escape[6] = {'\\', 'u', '0', '0', hex[c >> 4], hex[c & 15]};
+    stream_write(stream, escape, sizeof escape);
+  }
+  stream_text(stream, "\"");
+}
+
+/* JSON has no word for what is not finite. */
+static void put_double(struct stream *stream, double value) {
+  char text[NUMBER_TEXT_SIZE] = "null";
+  if (isfinite(value))
+    number_format_exact(text, value);
+  stream_text(stream, text);
+}
+
+static void put_doubles(struct stream *stream, const double *value,
+                        size_t count) {
+  stream_text(stream, "[");
+  for (size_t i = 0; i < count; i++) {
+    stream_text(stream, i ? ", " : "");
+    put_double(stream, value[i]);
+  }
+  stream_text(stream, "]");
+}
+
+static void put_entry(struct stream *stream, const struct entry *entry) {
+  put_text(stream, entry->name);
+  stream_text(stream, ": ");
+  switch (entry->kind) {
+  case KIND_INT:
+    stream_int(stream, entry->integer);
+    break;
+  case KIND_DOUBLE:
+    put_double(stream, entry->number);
+    break;
+  case KIND_DOUBLES:
+    put_doubles(stream, entry->numbers, entry->count);
+    break;
+  case KIND_TEXT:
+    put_text(stream, entry->text ? entry->text : "");
+    break;
+  }
+}
+
+/* The section that starts at entry `first`, with the entries of the same name
+ * that follow anywhere. */
+static void put_section(struct stream *stream, const struct report *report,
+                        size_t first) {
+  const char *section = report->entry.item[first].section;
+  stream_text(stream, "  ");
+  put_text(stream, section);
+  stream_text(stream, ": {\n");
+  for (size_t i = first; i < report->entry.count; i++) {
+    const struct entry *entry = &report->entry.item[i];
+    if (strcmp(entry->section, section) != 0)
+      continue;
+    stream_text(stream, i > first ? ",\n    " : "    ");
+    put_entry(stream, entry);
+  }
+  stream_text(stream, "\n  }");
+}
+
+static bool is_first_of_section(const struct report *report, size_t index) {
+  for (size_t i = 0; i < index; i++)
+    if (strcmp(report->entry.item[i].section,
+               report->entry.item[index].section) == 0)
+      return false;
+  return true;
+}
+
+const char *report_json(struct report *report) {
+  if (!report)
+    return NULL;
+  stream_discard(report->json);
+  if (stream_open_memory(&report->json, NULL) != RECTO_OK)
+    return NULL;
+  stream_text(report->json, "{");
+  for (size_t i = 0; i < report->entry.count; i++) {
+    if (!is_first_of_section(report, i))
+      continue;
+    stream_text(report->json, i ? ",\n" : "\n");
+    put_section(report->json, report, i);
+  }
+  stream_text(report->json, report->entry.count ? "\n}\n" : "}\n");
+  size_t count;
+  const char *text = stream_memory(report->json, &count);
+  return stream_status(report->json) == RECTO_OK ? text : NULL;
+}
+
+/* ---- Clocks -------------------------------------------------------------- */
+
+static double read_clock(clockid_t id) {
+  struct timespec now;
+  if (clock_gettime(id, &now) != 0)
+    return 0;
+  return (double)now.tv_sec + (double)now.tv_nsec / 1e9;
+}
+
+double clock_cpu(void) { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
+
+double clock_wall(void) { return read_clock(CLOCK_MONOTONIC); }
