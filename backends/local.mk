@@ -1,1 +1,11 @@
 # backends/local.mk - one writer per format.
+librecto_core_la_SOURCES += \
+  %D%/device.c %D%/device.h \
+  %D%/writer.h \
+  %D%/writer_hpgl.c \
+  %D%/writer_svg.c \
+  %D%/writers.c
+if HAVE_CAIRO
+librecto_core_la_SOURCES += %D%/writer_cairo.c
+endif
+EXTRA_DIST += %D%/README.md

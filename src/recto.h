@@ -82,6 +82,10 @@ typedef enum recto_method {
   RECTO_METHOD_COUNT
 } recto_method;
 
+/* The word for a method, such as "newell", as --method takes it.  Never NULL,
+ * also for bad values. */
+const char *recto_method_name(recto_method method);
+
 /* Edge classes, as bits of a mask.  An edge has exactly one. */
 typedef enum recto_edge_class {
   RECTO_EDGE_SILHOUETTE = 1 << 0,   /* both faces on one side of it */
@@ -97,6 +101,10 @@ typedef enum recto_edge_class {
 #define RECTO_EDGES_DEFAULT 0x3fu
 #define RECTO_EDGES_ALL 0x7fu
 #define RECTO_EDGE_CLASS_COUNT 7
+
+/* The word for one class, such as "crease", as --edges takes it.  Never NULL,
+ * also for masks and bad values. */
+const char *recto_edge_class_name(recto_edge_class edge_class);
 
 typedef enum recto_hidden {
   RECTO_HIDDEN_NONE = 0, /* hidden parts are dropped */

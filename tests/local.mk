@@ -13,3 +13,6 @@ check_PROGRAMS += $(unit_tests)
 TESTS += $(unit_tests)
 endif
 TESTS += $(dist_check_SCRIPTS)
+
+unit_tests += %D%/test_svg
+%C%_test_svg_SOURCES = %D%/test_svg.c

@@ -1,2 +1,4 @@
 # src/api/local.mk - the facade behind recto.h.
-librecto_core_la_SOURCES += src/recto.h %D%/status.c
+librecto_core_la_SOURCES += \
+  src/recto.h \
+  %D%/version.c

@@ -6,4 +6,5 @@ librecto_core_la_SOURCES += \
   %D%/report.c %D%/report.h \
   %D%/sort.c %D%/sort.h \
   %D%/status.c %D%/status.h \
-  %D%/stream.c %D%/stream.h
+  %D%/stream.c %D%/stream.h \
+  %D%/vocabulary.c

@@ -1,0 +1,307 @@
+/* writer_svg.c - SVG in true millimetres: a top-level layer per pen, one path
+ * a line, nothing that a plotter's driver skips.
+ *
+ * The same drawing gives the same bytes: no date, no version, no path, fixed
+ * order of attributes, numbers rounded to the asked-for decimals once and
+ * written without exponent or trailing zeros.  y runs down in SVG: the page's
+ * is turned over in the numbers, not by a transform. */
+#include <math.h>
+#include <string.h>
+
+#include "backends/writer.h"
+
+/* A point rounded to the last decimal that is written, y down. */
+struct svg_point {
+  int64_t x, y;
+};
+
+struct svg {
+  const struct drawing *drawing;
+  const struct writer_options *options;
+  struct stream *out;
+  double scale;                  /* 10 to the power of the decimals */
+  ARRAY(struct svg_point) point; /* of the stroke or loop at hand */
+};
+
+/* ---- Text -----------------------------------------------------------------
+ */
+
+/* The length of the well-formed UTF-8 sequence at `text` if it is a character
+ * that XML 1.0 allows, else 0. */
+static size_t measure_character(const unsigned char *text) {
+  static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  size_t length = text[0] < 0x80             ? 1
+                  : (text[0] & 0xe0) == 0xc0 ? 2
+                  : (text[0] & 0xf0) == 0xe0 ? 3
+                  : (text[0] & 0xf8) == 0xf0 ? 4
+                                             : 0;
+  if (length == 0)
+    return 0;
+  uint32_t code = length == 1 ? text[0] : text[0] & (0x7fu >> length);
+  for (size_t i = 1; i < length; i++) {
+    if ((text[i] & 0xc0) != 0x80)
+      return 0;
+    code = code << 6 | (text[i] & 0x3fu);
+  }
+  bool allowed = code == '\t' || code == '\n' || code == '\r' ||
+                 (code >= 0x20 && code < 0xd800) ||
+                 (code >= 0xe000 && code < 0xfffe) ||
+                 (code >= 0x10000 && code < 0x110000);
+  return allowed && code >= least[length] ? length : 0;
+}
+
+/* Writes `text` as the inside of an attribute.  Bytes that are no character
+ * of XML, as in a name that is not UTF-8, become U+FFFD. */
+static void write_escaped(struct stream *out, const char *text) {
+  const unsigned char *at = (const unsigned char *)text;
+  while (*at != '\0') {
+    size_t length = measure_character(at);
+    switch (*at) {
+    case '&':
+      stream_text(out, "&amp;");
+      break;
+    case '<':
+      stream_text(out, "&lt;");
+      break;
+    case '>':
+      stream_text(out, "&gt;");
+      break;
+    case '"':
+      stream_text(out, "&quot;");
+      break;
+    case '\t':
+      stream_text(out, "&#9;");
+      break;
+    case '\n':
+      stream_text(out, "&#10;");
+      break;
+    case '\r':
+      stream_text(out, "&#13;");
+      break;
+    default:
+      if (length > 0)
+        stream_write(out, at, length);
+      else
+        stream_text(out, "\xef\xbf\xbd");
+    }
+    at += length > 0 ? length : 1;
+  }
+}
+
+static void write_colour(struct stream *out, uint32_t colour) {
+  static const char digit[] = "0123456789abcdef";
+  char text[8] = "#";
+  for (int i = 0; i < 6; i++)
+    text[1 + i] = digit[colour >> (20 - 4 * i) & 0xf];
+  stream_write(out, text, 7);
+}
+
+/* Lengths that are not coordinates keep micrometres however few decimals were
+ * asked for: a pen of 0.3 mm must not become 0. */
+static void write_length(const struct svg *svg, double mm) {
+  int decimals = svg->options->precision;
+  stream_number(svg->out, mm, decimals > 3 ? decimals : 3);
+}
+
+/* ---- Geometry -------------------------------------------------------------
+ */
+
+/* Rounds points to svg->point, dropping those that repeat; where closed, also
+ * at the end those that repeat the first.  False when memory ran out. */
+static bool round_points(struct svg *svg, uint32_t first, uint32_t count,
+                         bool closed) {
+  const struct drawing_point *from = svg->drawing->point.item + first;
+  svg->point.count = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    struct svg_point p = {
+        llround(from[i].x * svg->scale),
+        llround((svg->drawing->height_mm - from[i].y) * svg->scale)};
+    const struct svg_point *last = svg->point.item + svg->point.count;
+    if (svg->point.count > 0 && last[-1].x == p.x && last[-1].y == p.y)
+      continue;
+    if (!ARRAY_PUSH(&svg->point, p))
+      return false;
+  }
+  while (closed && svg->point.count > 1 &&
+         svg->point.item[svg->point.count - 1].x == svg->point.item[0].x &&
+         svg->point.item[svg->point.count - 1].y == svg->point.item[0].y)
+    svg->point.count--;
+  return true;
+}
+
+static void write_point(const struct svg *svg, struct svg_point p,
+                        char between) {
+  stream_number(svg->out, (double)p.x / svg->scale, svg->options->precision);
+  stream_write(svg->out, &between, 1);
+  stream_number(svg->out, (double)p.y / svg->scale, svg->options->precision);
+}
+
+/* Writes svg->point as path data. */
+static void write_path_data(const struct svg *svg, bool closed) {
+  for (size_t i = 0; i < svg->point.count; i++) {
+    stream_text(svg->out, i == 0 ? "M" : "L");
+    write_point(svg, svg->point.item[i], ' ');
+  }
+  if (closed)
+    stream_text(svg->out, "Z");
+}
+
+/* Writes svg->point as the points of a polyline or polygon. */
+static void write_point_list(const struct svg *svg) {
+  for (size_t i = 0; i < svg->point.count; i++) {
+    if (i > 0)
+      stream_text(svg->out, " ");
+    write_point(svg, svg->point.item[i], ',');
+  }
+}
+
+/* ---- Elements -------------------------------------------------------------
+ */
+
+static void write_id(const struct svg *svg, const char *name, uint32_t id) {
+  if (id == DRAWING_NONE)
+    return;
+  stream_text(svg->out, name);
+  stream_int(svg->out, id);
+  stream_text(svg->out, "\"");
+}
+
+static void write_group_name(const struct svg *svg, uint32_t group) {
+  if (group >= svg->drawing->group_name.count ||
+      svg->drawing->group_name.item[group] == NULL)
+    return;
+  stream_text(svg->out, " data-group=\"");
+  write_escaped(svg->out, svg->drawing->group_name.item[group]);
+  stream_text(svg->out, "\"");
+}
+
+static void write_stroke_ids(const struct svg *svg,
+                             const struct drawing_stroke *stroke) {
+  write_id(svg, " data-face=\"", stroke->face);
+  write_id(svg, " data-edge=\"", stroke->edge);
+  write_group_name(svg, stroke->group);
+  stream_text(svg->out, " data-class=\"");
+  stream_text(svg->out, stroke->edge_class == 0
+                            ? "hatch"
+                            : recto_edge_class_name(
+                                  (recto_edge_class)stroke->edge_class));
+  stream_text(svg->out, "\"");
+}
+
+/* A stroke that rounding leaves no length is not written. */
+static bool write_stroke(struct svg *svg, const struct drawing_stroke *stroke) {
+  if (!round_points(svg, stroke->point, stroke->count, stroke->closed))
+    return false;
+  if (svg->point.count < 2)
+    return true;
+  /* There and back again along one line is one line. */
+  bool closed = stroke->closed && svg->point.count > 2;
+  bool polyline = svg->options->polyline;
+  stream_text(svg->out, !polyline ? "<path"
+                        : closed  ? "<polygon"
+                                  : "<polyline");
+  if (svg->drawing->ids)
+    write_stroke_ids(svg, stroke);
+  if (polyline) {
+    stream_text(svg->out, " points=\"");
+    write_point_list(svg);
+  } else {
+    stream_text(svg->out, " d=\"");
+    write_path_data(svg, closed);
+  }
+  stream_text(svg->out, "\"/>\n");
+  return true;
+}
+
+static bool write_fill(struct svg *svg, const struct drawing_fill *fill) {
+  struct stream *out = svg->out;
+  bool open = false;
+  for (uint32_t i = 0; i < fill->loops; i++) {
+    const struct drawing_loop *loop = &svg->drawing->loop.item[fill->loop + i];
+    if (!round_points(svg, loop->point, loop->count, true))
+      return false;
+    if (svg->point.count < 3)
+      continue;
+    if (!open) {
+      stream_text(out, "<path");
+      if (svg->drawing->ids) {
+        write_id(svg, " data-face=\"", fill->face);
+        write_group_name(svg, fill->group);
+      }
+      stream_text(out, " fill=\"");
+      write_colour(out, fill->colour);
+      stream_text(out, "\" fill-rule=\"evenodd\" stroke=\"");
+      if (svg->drawing->seam_mm > 0) {
+        write_colour(out, fill->colour);
+        stream_text(out, "\" stroke-width=\"");
+        write_length(svg, svg->drawing->seam_mm);
+      } else {
+        stream_text(out, "none");
+      }
+      stream_text(out, "\" d=\"");
+      open = true;
+    }
+    write_path_data(svg, true);
+  }
+  if (open)
+    stream_text(out, "\"/>\n");
+  return true;
+}
+
+static bool write_layer(struct svg *svg, uint32_t index) {
+  const struct drawing *drawing = svg->drawing;
+  const struct drawing_layer *layer = &drawing->layer.item[index];
+  struct stream *out = svg->out;
+  stream_text(out, "<g id=\"layer");
+  stream_int(out, (int64_t)index + 1);
+  stream_text(out, "\" inkscape:groupmode=\"layer\" inkscape:label=\"");
+  write_escaped(out, layer->label);
+  stream_text(out, "\" fill=\"none\" stroke=\"");
+  write_colour(out, layer->colour);
+  stream_text(out, "\" stroke-width=\"");
+  write_length(svg, layer->width_mm);
+  stream_text(out, "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
+  for (size_t i = 0; i < drawing->fill.count; i++)
+    if (drawing->fill.item[i].layer == index &&
+        !write_fill(svg, &drawing->fill.item[i]))
+      return false;
+  for (size_t i = 0; i < drawing->stroke.count; i++)
+    if (drawing->stroke.item[i].layer == index &&
+        !write_stroke(svg, &drawing->stroke.item[i]))
+      return false;
+  stream_text(out, "</g>\n");
+  return true;
+}
+
+static void write_head(const struct svg *svg) {
+  struct stream *out = svg->out;
+  stream_text(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                   "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+                   "xmlns:inkscape=\"http://www.inkscape.org/namespaces/"
+                   "inkscape\" width=\"");
+  write_length(svg, svg->drawing->width_mm);
+  stream_text(out, "mm\" height=\"");
+  write_length(svg, svg->drawing->height_mm);
+  stream_text(out, "mm\" viewBox=\"0 0 ");
+  write_length(svg, svg->drawing->width_mm);
+  stream_text(out, " ");
+  write_length(svg, svg->drawing->height_mm);
+  stream_text(out, "\">\n");
+}
+
+static recto_status write_svg(const struct drawing *drawing,
+                              const struct writer_options *options,
+                              struct stream *stream, recto_error *error) {
+  struct svg svg = {drawing, options, stream, 1, {0}};
+  for (int i = 0; i < options->precision; i++)
+    svg.scale *= 10;
+  bool done = true;
+  write_head(&svg);
+  for (uint32_t i = 0; i < drawing->layer.count && done; i++)
+    done = write_layer(&svg, i);
+  stream_text(stream, "</svg>\n");
+  ARRAY_FREE(&svg.point);
+  return done ? RECTO_OK : error_memory(error);
+}
+
+const struct writer writer_svg = {"svg", "svg", write_svg};
