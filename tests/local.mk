@@ -16,3 +16,8 @@ TESTS += $(dist_check_SCRIPTS)
 
 unit_tests += %D%/test_svg
 %C%_test_svg_SOURCES = %D%/test_svg.c
+
+dist_check_SCRIPTS += %D%/test_models.sh
+
+unit_tests += %D%/test_scanfill
+%C%_test_scanfill_SOURCES = %D%/test_scanfill.c

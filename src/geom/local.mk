@@ -2,5 +2,7 @@ librecto_core_la_SOURCES += \
   %D%/convex.c %D%/convex.h \
   %D%/line.c %D%/line.h \
   %D%/predicate.h \
+  %D%/region.c %D%/region.h \
   %D%/ratio.c %D%/ratio.h \
+  %D%/scanfill.c %D%/scanfill.h \
   %D%/wide.h
