@@ -27,4 +27,56 @@
  *             than 20 nm: shorter files, no visible change. */
 #define TOLERANCE_COLLINEAR_UNITS 2.0
 
+/* Two faces bend only if the cosine between their normals is below that of the
+ * crease angle by more than this.
+ * Unit        1 (a cosine)
+ * Derivation  each unit normal is off by about 2 units in the last place and
+ *             their product by as many again: 8 * 2^-53, so that a flat or a
+ *             square joint is not a crease by rounding.
+ * Users       scene/nature.c
+ * Ten times   joints within 5e-8 rad of the crease angle count as within. */
+#define TOLERANCE_CREASE_COSINE (8 * 0x1p-53)
+
+/* The up direction and the view direction are one if the sine between them is
+ * not above this.
+ * Unit        1 (a sine)
+ * Derivation  below it, half of the digits of the camera's right would be
+ *             rounding noise.
+ * Users       view/frame.c
+ * Ten times   views within 1.5e-7 rad of up are refused. */
+#define TOLERANCE_UP_SINE 0x1p-26
+
+/* Nearest that a perspective view comes to the eye where no near distance is
+ * given and the scene is not safely in front of it.
+ * Unit        share of the scene's diagonal
+ * Derivation  depths on the page go as 1 / d in 40 bits: at this share of it
+ *             the far end of the scene is still resolved to 1e-8 of its size.
+ * Users       view/camera.c
+ * Ten times   the near plane cuts more of a room's wall seen from within. */
+#define TOLERANCE_NEAR_SHARE 1e-4
+
+/* Contact, where the user does not say.
+ * Unit        share of the scene's diagonal
+ * Derivation  single precision and six digits round a point by 1e-7 of its
+ *             size; sums of a few of those stay below.
+ * Users       view/camera.c
+ * Ten times   things hover visibly before they hide one another. */
+#define TOLERANCE_CONTACT_SHARE 1e-6
+
+/* Extents of the drawing and of its depth below this are rounding noise: a
+ * wire seen end-on, a plate seen square-on.
+ * Unit        share of the scene's diagonal
+ * Derivation  view coordinates are sums of three products, off by about
+ *             2^-51 of the diagonal, more for a model far from its origin.
+ * Users       view/camera.c, view/project.c
+ * Ten times   a plate turned by 1e-11 rad still counts as square-on. */
+#define TOLERANCE_EXTENT_SHARE 0x1p-40
+
+/* A face is counted as warped where a corner is off its plane by more.
+ * Unit        share of the face's own extent
+ * Derivation  as TOLERANCE_CONTACT_SHARE: rounding of the input.
+ * Users       view/triangulate.c (for a count alone: nothing is decided)
+ * Ten times   fewer faces are counted as warped. */
+#define TOLERANCE_WARP_SHARE 1e-6
+
 #endif

@@ -13,6 +13,8 @@ struct topology_edge {
   uint32_t point[2]; /* scene points, welded, point[0] < point[1] */
   uint32_t face[2];  /* the first two faces in file order; SCENE_NONE */
   uint8_t uses;      /* how many faces, capped at 3 */
+  bool same_way;     /* of two faces: both run along it in one direction, so
+                        their windings disagree */
 };
 
 struct topology {
@@ -37,5 +39,12 @@ void topology_fini(struct topology *topology);
 unsigned topology_natures(const struct topology *topology,
                           const struct scene *scene, uint32_t edge,
                           double crease_deg);
+
+/* The same for every edge at once.
+ * natures  one an edge
+ * Returns false when memory ran out. */
+USE_RESULT bool topology_natures_all(const struct topology *topology,
+                                     const struct scene *scene,
+                                     double crease_deg, uint8_t *natures);
 
 #endif

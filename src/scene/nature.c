@@ -1,0 +1,180 @@
+/* nature.c - which edges are features whatever the camera: borders, creases,
+ * and where groups meet.
+ *
+ * Robustness  Normals are summed from differences to the face's first corner,
+ * so that a model far from the origin keeps its digits, and a face too small
+ * or too large for its squares is scaled by a power of two first.  Angles are
+ * compared by their cosines; a face without a normal makes no crease. */
+#include <float.h>
+#include <math.h>
+
+#include "base/tolerance.h"
+#include "scene/angle.h"
+#include "scene/topology.h"
+
+struct normal {
+  double x, y, z; /* of any length; 0, 0, 0: a face of no area */
+  double square;  /* of its length */
+};
+
+static inline struct normal difference(const struct scene_point *from,
+                                       const struct scene_point *to,
+                                       double scale) {
+  return (struct normal){.x = to->x * scale - from->x * scale,
+                         .y = to->y * scale - from->y * scale,
+                         .z = to->z * scale - from->z * scale};
+}
+
+static inline void add_product(struct normal *sum, const struct normal *a,
+                               const struct normal *b) {
+  sum->x += a->y * b->z - a->z * b->y;
+  sum->y += a->z * b->x - a->x * b->z;
+  sum->z += a->x * b->y - a->y * b->x;
+}
+
+/* Twice the area vector of a face whose coordinates are scaled; inline, so
+ * that a scale of 1 costs nothing. */
+static inline struct normal sum_area(const struct scene *scene, uint32_t face,
+                                     double scale) {
+  const struct scene_point *point = scene->point.item;
+  const uint32_t *corner = scene->corner.item + scene->face_start.item[face];
+  uint32_t count =
+      scene->face_start.item[face + 1] - scene->face_start.item[face];
+  struct normal sum = {0, 0, 0, 0};
+  struct normal a = difference(&point[corner[0]], &point[corner[1]], scale);
+  for (uint32_t c = 2; c < count; c++) {
+    struct normal b = difference(&point[corner[0]], &point[corner[c]], scale);
+    add_product(&sum, &a, &b);
+    a = b;
+  }
+  sum.square = sum.x * sum.x + sum.y * sum.y + sum.z * sum.z;
+  return sum;
+}
+
+/* The power of two that brings a face's extent to about 1. */
+static double scale_of_face(const struct scene *scene, uint32_t face) {
+  const struct scene_point *point = scene->point.item;
+  const uint32_t *corner = scene->corner.item;
+  uint32_t first = scene->face_start.item[face];
+  double extent = 0;
+  for (uint32_t c = first; c < scene->face_start.item[face + 1]; c++) {
+    struct normal d = difference(&point[corner[first]], &point[corner[c]], 1);
+    extent = fmax(extent, fmax(fabs(d.x), fmax(fabs(d.y), fabs(d.z))));
+  }
+  if (!(extent > 0 && extent <= DBL_MAX))
+    return extent > 0 ? DBL_MIN : 1;
+  int exponent;
+  frexp(extent, &exponent);
+  return ldexp(1, exponent > DBL_MIN_EXP ? -exponent : DBL_MAX_EXP - 1);
+}
+
+/* Products of two squares must neither overflow nor lose digits. */
+static bool is_in_range(double square) {
+  return square >= 0x1p-400 && square <= 0x1p+400;
+}
+
+static struct normal normal_of_odd_face(const struct scene *scene,
+                                        uint32_t face) {
+  struct normal n = sum_area(scene, face, scale_of_face(scene, face));
+  return is_in_range(n.square) ? n : (struct normal){0, 0, 0, 0};
+}
+
+static inline struct normal normal_of_face(const struct scene *scene,
+                                           uint32_t face) {
+  struct normal n = sum_area(scene, face, 1);
+  return is_in_range(n.square) ? n : normal_of_odd_face(scene, face);
+}
+
+/* Two normals bend by more than the crease angle where their cosine is below
+ * this; an angle of 180 degrees or more is never passed. */
+static double crease_cosine_of(double crease_deg) {
+  if (crease_deg >= 180)
+    return -2;
+  return angle_of_degrees(crease_deg).cosine - TOLERANCE_CREASE_COSINE;
+}
+
+static bool is_crease(struct normal a, struct normal b, bool same_way,
+                      double crease_cosine) {
+  double dot = a.x * b.x + a.y * b.y + a.z * b.z;
+  double lengths = sqrt(a.square * b.square);
+  return (same_way ? -dot : dot) < crease_cosine * lengths && lengths > 0;
+}
+
+/* What needs no normals: BORDER alone, or GROUP or nothing. */
+static unsigned plain_natures(const struct topology_edge *edge,
+                              const struct scene *scene) {
+  if (edge->uses != 2)
+    return RECTO_EDGE_BORDER;
+  const uint32_t *group = scene->face_group.item;
+  return group[edge->face[0]] != group[edge->face[1]] ? RECTO_EDGE_GROUP : 0;
+}
+
+unsigned topology_natures(const struct topology *topology,
+                          const struct scene *scene, uint32_t edge,
+                          double crease_deg) {
+  const struct topology_edge *e = &topology->edge.item[edge];
+  unsigned natures = plain_natures(e, scene);
+  if (e->uses == 2 && is_crease(normal_of_face(scene, e->face[0]),
+                                normal_of_face(scene, e->face[1]), e->same_way,
+                                crease_cosine_of(crease_deg)))
+    natures |= RECTO_EDGE_CREASE;
+  return natures ? natures : RECTO_EDGE_SMOOTH;
+}
+
+/* Unit normals in single precision: a filter that takes half the memory, and
+ * so nearly half the time. */
+struct direction {
+  float x, y, z;
+};
+
+static bool find_directions(const struct scene *scene,
+                            struct direction **direction) {
+  uint32_t faces = scene_face_count(scene);
+  struct direction *d = mem_alloc(faces, sizeof *d);
+  *direction = d;
+  if (!d)
+    return false;
+  for (uint32_t f = 0; f < faces; f++) {
+    struct normal n = normal_of_face(scene, f);
+    double inverse = n.square > 0 ? 1 / sqrt(n.square) : 0;
+    d[f] = (struct direction){(float)(n.x * inverse), (float)(n.y * inverse),
+                              (float)(n.z * inverse)};
+  }
+  return true;
+}
+
+/* The cosine of the filter is off by less than this.  A coordinate, at most 1,
+ * is rounded by 2^-25, so a product of two by 2^-24, and in forming it by
+ * 2^-25 more; three such and two sums: below 7 * 2^-24. */
+static const float filter_error = 0x1p-21F;
+
+static bool bends(const struct topology_edge *edge, const struct scene *scene,
+                  const struct direction *direction, double crease_cosine) {
+  struct direction a = direction[edge->face[0]];
+  struct direction b = direction[edge->face[1]];
+  float dot = a.x * b.x + a.y * b.y + a.z * b.z;
+  double cosine = edge->same_way ? -dot : dot;
+  if (cosine > crease_cosine + filter_error)
+    return false;
+  return is_crease(normal_of_face(scene, edge->face[0]),
+                   normal_of_face(scene, edge->face[1]), edge->same_way,
+                   crease_cosine);
+}
+
+bool topology_natures_all(const struct topology *topology,
+                          const struct scene *scene, double crease_deg,
+                          uint8_t *natures) {
+  double crease_cosine = crease_cosine_of(crease_deg);
+  struct direction *direction;
+  if (!find_directions(scene, &direction))
+    return false;
+  for (size_t e = 0; e < topology->edge.count; e++) {
+    const struct topology_edge *edge = &topology->edge.item[e];
+    unsigned mask = plain_natures(edge, scene);
+    if (edge->uses == 2 && bends(edge, scene, direction, crease_cosine))
+      mask |= RECTO_EDGE_CREASE;
+    natures[e] = (uint8_t)(mask ? mask : RECTO_EDGE_SMOOTH);
+  }
+  mem_free(direction);
+  return true;
+}

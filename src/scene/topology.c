@@ -1,0 +1,260 @@
+/* topology.c - finds the edges of a scene and the faces that meet there.
+ *
+ * Phases
+ *   count    the sides of all faces are counted at the lower of their points.
+ *   name     where a point has many sides (a fan of a hundred thousand
+ *            triangles), these are told apart through a table by upper point:
+ *            each is named by the first side in the file between its points.
+ *   number   the sides are walked in file order.  A side looks for its edge
+ *            among the few of its lower point, or by its name; one that finds
+ *            none makes it.
+ *   weld     where points of border edges coincide (weld.h), all is done again
+ *            with those points made one.
+ * Invariants  Edges stand in the order in which the file first uses them.
+ * Memory      beside the result, 4 bytes a point and 4 an edge: sorting all
+ *             sides took 8 a side more, and most of its time to touch them.
+ */
+#include "scene/topology.h"
+
+#include <string.h>
+
+#include "scene/weld.h"
+
+/* A point with more sides than this above it is a hub. */
+enum { FEW_SIDES = 24 };
+
+/* ---- The sides of all faces, in file order --------------------------------
+ */
+
+struct walk {
+  const struct scene *scene;
+  const uint32_t *weld;       /* NULL: points as they are */
+  uint32_t face, corner, end; /* the side leaves `corner` of `face` */
+  uint32_t from, to;          /* welded points */
+};
+
+static struct walk walk_sides(const struct scene *scene, const uint32_t *weld) {
+  return (struct walk){.scene = scene, .weld = weld, .face = SCENE_NONE};
+}
+
+static inline uint32_t point_of(const struct walk *walk, uint32_t corner) {
+  uint32_t point = walk->scene->corner.item[corner];
+  return walk->weld ? walk->weld[point] : point;
+}
+
+static inline bool next_side(struct walk *walk) {
+  if (walk->corner + 1 >= walk->end) {
+    uint32_t face = walk->face + 1; /* SCENE_NONE + 1 is 0 */
+    if (face == scene_face_count(walk->scene))
+      return false;
+    walk->face = face;
+    walk->corner = walk->scene->face_start.item[face];
+    walk->end = walk->scene->face_start.item[face + 1];
+    walk->from = point_of(walk, walk->corner);
+  } else {
+    walk->corner++;
+    walk->from = walk->to;
+  }
+  uint32_t next = walk->corner + 1 < walk->end
+                      ? walk->corner + 1
+                      : walk->scene->face_start.item[walk->face];
+  walk->to = point_of(walk, next);
+  return true;
+}
+
+static inline uint32_t lower(const struct walk *walk) {
+  return walk->from < walk->to ? walk->from : walk->to;
+}
+static inline uint32_t upper(const struct walk *walk) {
+  return walk->from < walk->to ? walk->to : walk->from;
+}
+
+/* ---- Hubs ------------------------------------------------------------------
+ */
+
+/* A side of a hub. */
+struct side {
+  uint32_t upper;
+  uint32_t corner; /* where it starts */
+};
+
+/* Deals the sides of hubs to their hubs, in file order.
+ * end  one a point: the sides it has; then where its own end */
+static void deal_sides(const struct scene *scene, const uint32_t *weld,
+                       const uint32_t *count, uint32_t *end,
+                       struct side *side) {
+  uint32_t sum = 0;
+  for (size_t p = 0; p < scene->point.count; p++) {
+    end[p] = sum;
+    sum += count[p] > FEW_SIDES ? count[p] : 0;
+  }
+  for (struct walk walk = walk_sides(scene, weld); next_side(&walk);)
+    if (count[lower(&walk)] > FEW_SIDES)
+      side[end[lower(&walk)]++] = (struct side){upper(&walk), walk.corner};
+}
+
+/* Names the sides of one hub: named[corner] is the first corner whose side has
+ * the same two points.
+ * first  by upper point; SCENE_NONE before and after */
+static void name_sides(const struct side *side, uint32_t count, uint32_t *first,
+                       uint32_t *named) {
+  for (uint32_t i = 0; i < count; i++) {
+    if (first[side[i].upper] == SCENE_NONE)
+      first[side[i].upper] = side[i].corner;
+    named[side[i].corner] = first[side[i].upper];
+  }
+  for (uint32_t i = 0; i < count; i++)
+    first[side[i].upper] = SCENE_NONE;
+}
+
+static bool name_hubs(const struct scene *scene, const uint32_t *weld,
+                      const uint32_t *count, size_t sides, uint32_t *named) {
+  size_t points = scene->point.count;
+  uint32_t *end = mem_alloc(points, sizeof *end);
+  uint32_t *first = mem_alloc(points, sizeof *first);
+  struct side *side = mem_alloc(sides, sizeof *side);
+  bool done = end && first && side;
+  if (done) {
+    memset(first, 0xff, points * sizeof *first);
+    deal_sides(scene, weld, count, end, side);
+    for (size_t p = 0; p < points; p++)
+      if (count[p] > FEW_SIDES)
+        name_sides(side + end[p] - count[p], count[p], first, named);
+  }
+  mem_free(end);
+  mem_free(first);
+  mem_free(side);
+  return done;
+}
+
+/* ---- Edges ------------------------------------------------------------------
+ */
+
+/* The edges of a point that is no hub hang on it as a list. */
+struct lists {
+  uint32_t *head; /* one a point: an edge, SCENE_NONE, or HUB */
+  uint32_t *next; /* one an edge */
+};
+
+#define HUB (SCENE_NONE - 1)
+
+static bool is_new(const struct topology *topology, const struct walk *walk,
+                   const struct lists *lists, uint32_t *found) {
+  uint32_t e = lists->head[lower(walk)];
+  if (e == HUB) {
+    /* A name is a corner no later than the side's own: if it is not its own,
+     * it holds its edge's number by now. */
+    uint32_t name = topology->corner_edge[walk->corner];
+    *found = name == walk->corner ? SCENE_NONE : topology->corner_edge[name];
+    return name == walk->corner;
+  }
+  while (e != SCENE_NONE && topology->edge.item[e].point[1] != upper(walk))
+    e = lists->next[e];
+  *found = e;
+  return e == SCENE_NONE;
+}
+
+static bool add_edge(struct topology *topology, const struct walk *walk,
+                     struct lists *lists) {
+  struct topology_edge edge = {
+      .point = {lower(walk), upper(walk)},
+      .face = {walk->face, SCENE_NONE},
+      .uses = 1,
+      .same_way = walk->from < walk->to, /* the first face's way, until */
+  };                                     /* a second one comes */
+  uint32_t e = (uint32_t)topology->edge.count;
+  if (!ARRAY_PUSH(&topology->edge, edge))
+    return false;
+  uint32_t *head = &lists->head[edge.point[0]];
+  if (*head != HUB) {
+    lists->next[e] = *head;
+    *head = e;
+  }
+  topology->corner_edge[walk->corner] = e;
+  return true;
+}
+
+static void use_edge(struct topology_edge *edge, const struct walk *walk) {
+  if (edge->uses == 1) {
+    edge->face[1] = walk->face;
+    edge->same_way = edge->same_way == (walk->from < walk->to);
+  }
+  if (edge->uses < 3)
+    edge->uses++;
+}
+
+static bool number_edges(struct topology *topology, const struct scene *scene,
+                         struct lists *lists) {
+  for (struct walk walk = walk_sides(scene, topology->weld);
+       next_side(&walk);) {
+    uint32_t e;
+    if (is_new(topology, &walk, lists, &e)) {
+      if (!add_edge(topology, &walk, lists))
+        return false;
+    } else {
+      topology->corner_edge[walk.corner] = e;
+      use_edge(&topology->edge.item[e], &walk);
+    }
+  }
+  return true;
+}
+
+/* Counts the sides at their lower points; returns how many are at hubs. */
+static size_t count_sides(const struct scene *scene, const uint32_t *weld,
+                          uint32_t *count) {
+  size_t at_hubs = 0;
+  for (struct walk walk = walk_sides(scene, weld); next_side(&walk);)
+    count[lower(&walk)]++;
+  for (size_t p = 0; p < scene->point.count; p++)
+    at_hubs += count[p] > FEW_SIDES ? count[p] : 0;
+  return at_hubs;
+}
+
+/* Builds corner_edge and the edges with the points as they are welded. */
+static bool build_edges(struct topology *topology, const struct scene *scene) {
+  size_t points = scene->point.count, corners = scene->corner.count;
+  struct lists lists = {0};
+  bool done = false;
+  topology->edge.count = 0;
+  /* Head is made of the counts; of next no more is ever touched than there
+   * are edges: half of the corners in a closed mesh. */
+  lists.head = mem_calloc(points, sizeof *lists.head);
+  lists.next = mem_alloc(corners, sizeof *lists.next);
+  if (!lists.head || !lists.next ||
+      !ARRAY_RESERVE(&topology->edge, corners / 2 + corners / 8))
+    goto end;
+  size_t at_hubs = count_sides(scene, topology->weld, lists.head);
+  if (at_hubs > 0 && !name_hubs(scene, topology->weld, lists.head, at_hubs,
+                                topology->corner_edge))
+    goto end;
+  for (size_t p = 0; p < points; p++)
+    lists.head[p] = lists.head[p] > FEW_SIDES ? HUB : SCENE_NONE;
+  done = number_edges(topology, scene, &lists);
+end:
+  mem_free(lists.head);
+  mem_free(lists.next);
+  return done;
+}
+
+recto_status topology_init(struct topology *topology, const struct scene *scene,
+                           recto_error *error) {
+  memset(topology, 0, sizeof *topology);
+  topology->corner_edge =
+      mem_alloc(scene->corner.count, sizeof *topology->corner_edge);
+  if (!topology->corner_edge || !build_edges(topology, scene) ||
+      !weld_borders(topology, scene, &topology->weld))
+    goto fail;
+  if (topology->weld && !build_edges(topology, scene))
+    goto fail;
+  return RECTO_OK;
+fail:
+  topology_fini(topology);
+  return error_memory(error);
+}
+
+void topology_fini(struct topology *topology) {
+  ARRAY_FREE(&topology->edge);
+  mem_free(topology->corner_edge);
+  mem_free(topology->weld);
+  memset(topology, 0, sizeof *topology);
+}

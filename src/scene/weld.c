@@ -1,0 +1,115 @@
+/* weld.c - which points of border edges lie at exactly the same position.
+ *
+ * Points are sorted by a fingerprint of their position and compared within
+ * runs of equal ones.  The sort is stable and the lowest point of a position
+ * stands for all, so the fingerprint leaves no trace in the result. */
+#include "scene/weld.h"
+
+#include <string.h>
+
+#include "base/sort.h"
+
+static uint64_t bits_of(double value) {
+  value += 0.0; /* -0 becomes 0 */
+  uint64_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+/* Three rounds of multiply and fold, with odd constants taken from the digits
+ * of the golden ratio.  33 bits are three passes of the sort. */
+static uint64_t fingerprint(const struct scene_point *point) {
+  const uint64_t golden = UINT64_C(0x9e3779b97f4a7c15);
+  uint64_t mixed = bits_of(point->x) * golden;
+  mixed = ((mixed ^ mixed >> 32) + bits_of(point->y)) * golden;
+  mixed = ((mixed ^ mixed >> 32) + bits_of(point->z)) * golden;
+  return mixed >> 31;
+}
+
+static bool coincide(const struct scene_point *a, const struct scene_point *b) {
+  return a->x == b->x && a->y == b->y && a->z == b->z;
+}
+
+/* Marks the points of border edges; returns how many there are. */
+static size_t mark_border(const struct topology *topology, uint8_t *marked) {
+  size_t count = 0;
+  for (size_t e = 0; e < topology->edge.count; e++) {
+    const struct topology_edge *edge = &topology->edge.item[e];
+    if (edge->uses != 1)
+      continue;
+    for (int k = 0; k < 2; k++) {
+      count += !marked[edge->point[k]];
+      marked[edge->point[k]] = 1;
+    }
+  }
+  return count;
+}
+
+/* Welds within one run of equal fingerprints, ascending points.  A point is
+ * compared with those alone that stand for themselves.
+ * Returns how many were welded to another. */
+static size_t weld_run(const struct scene_point *point,
+                       const struct sort_key *run, size_t count,
+                       uint32_t *weld) {
+  size_t welded = 0;
+  for (size_t i = 1; i < count; i++)
+    for (size_t j = 0; j < i; j++) {
+      if (weld[run[j].value] != run[j].value ||
+          !coincide(&point[run[j].value], &point[run[i].value]))
+        continue;
+      weld[run[i].value] = run[j].value;
+      welded++;
+      break;
+    }
+  return welded;
+}
+
+static size_t weld_runs(const struct scene_point *point,
+                        const struct sort_key *key, size_t count,
+                        uint32_t *weld) {
+  size_t welded = 0;
+  for (size_t i = 0, end; i < count; i = end) {
+    for (end = i + 1; end < count && key[end].key == key[i].key;)
+      end++;
+    welded += weld_run(point, key + i, end - i, weld);
+  }
+  return welded;
+}
+
+bool weld_borders(const struct topology *topology, const struct scene *scene,
+                  uint32_t **weld) {
+  size_t points = scene->point.count, count = 0;
+  uint8_t *marked = mem_calloc(points, sizeof *marked);
+  uint32_t *map = NULL;
+  struct sort_key *key = NULL;
+  bool done = false;
+  *weld = NULL;
+  if (!marked)
+    goto end;
+  size_t border = mark_border(topology, marked);
+  if (border == 0) {
+    done = true;
+    goto end;
+  }
+  key = mem_alloc(2 * border, sizeof *key);
+  map = mem_alloc(points, sizeof *map);
+  if (!key || !map)
+    goto end;
+  for (size_t p = 0; p < points; p++) {
+    map[p] = (uint32_t)p;
+    if (marked[p])
+      key[count++] =
+          (struct sort_key){fingerprint(&scene->point.item[p]), (uint32_t)p};
+  }
+  sort_keys(key, key + border, count);
+  if (weld_runs(scene->point.item, key, count, map) > 0) {
+    *weld = map;
+    map = NULL;
+  }
+  done = true;
+end:
+  mem_free(marked);
+  mem_free(key);
+  mem_free(map);
+  return done;
+}

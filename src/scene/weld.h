@@ -1,0 +1,17 @@
+/* weld.h - which points of border edges lie at exactly the same position. */
+#ifndef SCENE_WELD_H
+#define SCENE_WELD_H
+
+#include "scene/topology.h"
+
+/* Compares the points of the topology's border edges (those of one face).
+ * weld  set to a new array, point -> the lowest point at its position, or to
+ *       NULL where no two of them coincide; owned by the caller
+ * Returns false when memory ran out.
+ * Exact: coordinates are compared as they are; -0 and 0 are the same.
+ * Cost: linear in the points, save where made to be slow: points that share a
+ * fingerprint of 33 bits without coinciding are compared in pairs. */
+USE_RESULT bool weld_borders(const struct topology *topology,
+                             const struct scene *scene, uint32_t **weld);
+
+#endif
