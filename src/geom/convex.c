@@ -7,10 +7,6 @@
 /* Corners' doubles are within 1/4 of the truth (line.c). */
 #define BOX_MARGIN 0.25
 
-/* At most this many lines bound a region that is subtracted: three sides and
- * where two planes cross. */
-enum { MAX_REGION = 4 };
-
 static bool allocate(struct geom_convex *piece, uint32_t count,
                      struct arena *arena) {
   piece->count = 0;
@@ -108,7 +104,11 @@ bool geom_convex_subtract(const struct geom_convex *piece,
                           const struct geom_line *back, int count,
                           geom_pieces *rest, struct geom_convex *inside,
                           struct arena *arena) {
-  struct geom_convex part = *piece, cut[MAX_REGION];
+  struct geom_convex part = *piece, few[4], *cut = few;
+  if (count > (int)(sizeof few / sizeof *few)) {
+    cut = arena_alloc(arena, (size_t)count, sizeof *cut);
+    if (cut == NULL) return false;
+  }
   for (int k = 0; k < count; k++) {
     struct geom_convex left;
     if (!geom_convex_split(&part, &line[k], &back[k], &left, &cut[k], arena))

@@ -30,9 +30,6 @@ struct geom_line {
   int32_t x0, y0, x1, y1; /* narrow: from, to; the left side is positive */
   int8_t sign[3];         /* wide: of a, b, c */
   mp_limb_t limb[3][GEOM_LINE_LIMBS];
-  /* What the line is, for whoever made it; copied along. */
-  uint8_t kind;
-  uint32_t id;
 };
 
 /* The line from p to q, p != q on the page. */

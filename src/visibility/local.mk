@@ -1,0 +1,16 @@
+librecto_core_la_SOURCES += \
+  %D%/brute.c \
+  %D%/contact.c %D%/contact.h \
+  %D%/cover.c %D%/cover.h \
+  %D%/fragments.c %D%/fragments.h \
+  %D%/hide.c %D%/hide.h \
+  %D%/map.c %D%/map.h \
+  %D%/newell.c \
+  %D%/newell_order.c %D%/newell_order.h \
+  %D%/newell_tests.c %D%/newell_tests.h \
+  %D%/pagegrid.c %D%/pagegrid.h \
+  %D%/painter.c \
+  %D%/pierce.c %D%/pierce.h \
+  %D%/sidelabel.c %D%/sidelabel.h \
+  %D%/solver.c %D%/solver.h \
+  %D%/strokes.c %D%/strokes.h

@@ -3,6 +3,8 @@
 #ifndef VISIBILITY_MAP_H
 #define VISIBILITY_MAP_H
 
+#include <gmp.h>
+
 #include "base/memory.h"
 #include "geom/ratio.h"
 #include "view/sheet.h"
@@ -41,8 +43,8 @@ struct map_corner {
   double x, y;       /* grid units from the middle of the page, rounded from
                         the exact corner to the nearest 1/256 unit */
   uint8_t side;      /* enum map_side */
-  uint32_t id;       /* EDGE, OUTLINE: scene face whose edge it is;
-                        INTERSECTION: the other scene face */
+  uint32_t id;       /* EDGE, OUTLINE: the sheet's edge, the lowest where
+                        several coincide; INTERSECTION: the other scene face */
 };
 
 /* Loops run with the fragment on their left: counter-clockwise outside,
@@ -67,7 +69,8 @@ struct map {
   ARRAY(struct map_fragment) fragment;
   ARRAY(struct map_loop) loop;
   ARRAY(struct map_corner) corner;
-  /* The exact areas, twice over, for tests: see fragments.h. */
+  /* Twice the exact area of each fragment, where it was asked for. */
+  ARRAY(mpq_ptr) area2;
 };
 
 void map_init(struct map *map);

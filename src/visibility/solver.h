@@ -9,6 +9,7 @@
 struct solver_request {
   bool strokes;       /* intervals of the sheet's drawable edges */
   bool fragments;     /* visible fragments of its faces */
+  bool areas;         /* with fragments: their exact areas, for tests */
   bool intersections; /* edges where faces pierce each other are drawable */
   int threads;        /* at least 1 */
   double pitch_mm;    /* watkins */

@@ -1,0 +1,63 @@
+/* contact.c - which of two triangles is nearer, and which only touch. */
+#include "visibility/contact.h"
+
+struct triangle_plane triangle_plane_of(const struct sheet *sheet,
+                                        uint32_t triangle) {
+  struct triangle_plane t;
+  for (int k = 0; k < 3; k++)
+    t.p[k] =
+        sheet->point.item[sheet->triangle.item[triangle].point[k]];
+  t.plane = geom_plane_of(t.p[0], t.p[1], t.p[2]);
+  return t;
+}
+
+void triangle_lines(const struct sheet *sheet, uint32_t triangle,
+                    struct geom_line line[3], struct geom_line back[3]) {
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  for (int k = 0; k < 3; k++) {
+    geom_line_through(&line[k], sheet->point.item[p[k]],
+                      sheet->point.item[p[k == 2 ? 0 : k + 1]]);
+    back[k] = line[k];
+    geom_line_reverse(&back[k]);
+  }
+}
+
+int plane_sides(const struct geom_plane *plane, const struct geom_point p[3]) {
+  int sides = 0;
+  for (int k = 0; k < 3; k++) {
+    int sign = geom_sign128(geom_plane_value(plane, p[k]));
+    if (sign != 0) sides |= sign < 0 ? PLANE_BEHIND : PLANE_BEFORE;
+  }
+  return sides;
+}
+
+enum nearness triangle_nearness(const struct triangle_plane *f, uint32_t f_id,
+                                const struct triangle_plane *g, uint32_t g_id,
+                                struct geom_line *line,
+                                struct geom_line *back) {
+  int sides = plane_sides(&f->plane, g->p);
+  if (sides == 0) return g_id < f_id ? NEARER_ALWAYS : NEARER_NEVER;
+  if (sides == PLANE_BEHIND) return NEARER_NEVER;
+  if (sides == PLANE_BEFORE) return NEARER_ALWAYS;
+  sides = plane_sides(&g->plane, f->p);
+  if (sides == PLANE_BEHIND) return NEARER_ALWAYS;
+  if (sides == PLANE_BEFORE) return NEARER_NEVER;
+  /* Each is on both sides of the other's plane: the planes cross. */
+  (void)geom_line_between(line, &g->plane, &f->plane);
+  *back = *line;
+  geom_line_reverse(back);
+  return NEARER_BEYOND;
+}
+
+static bool touches(const struct hider *plane, const struct geom_point p[3]) {
+  for (int k = 0; k < 3; k++)
+    if (hider_side(plane, p[k]) != 0) return false;
+  return true;
+}
+
+bool triangles_touch(const struct sheet *sheet, uint32_t f, uint32_t g) {
+  struct hider hf, hg;
+  hider_init(&hf, sheet, f);
+  hider_init(&hg, sheet, g);
+  return touches(&hf, hg.p) || touches(&hg, hf.p);
+}

@@ -1,0 +1,261 @@
+/* fragments.c - from the pieces a solver finds visible to the map's fragments. */
+#include "visibility/fragments.h"
+
+#include <string.h>
+
+#include "base/sort.h"
+#include "geom/region.h"
+#include "visibility/contact.h"
+#include "visibility/sidelabel.h"
+
+/* Corners leave the house rounded to this many bits below the grid's unit. */
+enum { CORNER_BITS = 8 };
+
+bool fragments_init(struct fragments *fragments, const struct sheet *sheet,
+                    const struct pagegrid *grid, bool contact) {
+  memset(fragments, 0, sizeof *fragments);
+  fragments->sheet = sheet;
+  fragments->grid = grid;
+  fragments->contact = contact;
+  return pagegrid_query_init(&fragments->query, grid);
+}
+
+void fragments_fini(struct fragments *fragments) {
+  pagegrid_query_fini(&fragments->query);
+  arena_fini(&fragments->arena);
+  arena_fini(&fragments->scratch);
+  ARRAY_FREE(&fragments->piece);
+}
+
+/* ---- Contact: passing pieces on to earlier faces ----------------------------- */
+
+static int compare_ids(const void *a, const void *b, void *user) {
+  uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
+  (void)user;
+  return (p > q) - (p < q);
+}
+
+/* Leaves in query.found the earlier triangles that touch this one, in order. */
+static bool find_touching(struct fragments *f, uint32_t triangle) {
+  const struct sheet *sheet = f->sheet;
+  struct page_box box = page_box_of_triangle(sheet, triangle);
+  size_t kept = 0;
+  f->query.found.count = 0;
+  if (!f->contact) return true;
+  if (!pagegrid_find(f->grid, box, &f->query)) return false;
+  for (size_t i = 0; i < f->query.found.count; i++) {
+    uint32_t g = f->query.found.item[i];
+    if (g < triangle && !(sheet->triangle_flags[g] & SHEET_FLAT) &&
+        sheet->triangle.item[g].face != sheet->triangle.item[triangle].face &&
+        !page_boxes_apart(box, page_box_of_triangle(sheet, g)) &&
+        triangles_touch(sheet, triangle, g))
+      f->query.found.item[kept++] = g;
+  }
+  f->query.found.count = kept;
+  return sort_stable(f->query.found.item, kept, sizeof *f->query.found.item,
+                     compare_ids, NULL);
+}
+
+static bool keep_piece(struct fragments *f, uint32_t triangle,
+                       const struct geom_convex *piece) {
+  struct fragment_piece kept = {f->sheet->triangle.item[triangle].face,
+                                triangle, NULL};
+  if (piece != NULL) {
+    kept.piece = arena_alloc(&f->arena, 1, sizeof *kept.piece);
+    if (kept.piece == NULL ||
+        !geom_convex_copy(kept.piece, piece, &f->arena))
+      return false;
+  }
+  return ARRAY_PUSH(&f->piece, kept);
+}
+
+/* Gives every touching triangle, in order, what it covers of the pieces, and
+ * `triangle` the rest. */
+static bool deal_pieces(struct fragments *f, uint32_t triangle,
+                        const struct geom_convex *piece, size_t count) {
+  geom_pieces now = {0}, rest = {0}, swap;
+  bool done = false;
+  for (size_t i = 0; i < count; i++)
+    if (!ARRAY_PUSH(&now, piece[i])) goto end;
+  for (size_t i = 0; i < f->query.found.count; i++) {
+    uint32_t g = f->query.found.item[i];
+    struct geom_line *line = arena_alloc(&f->scratch, 6, sizeof *line);
+    if (line == NULL) goto end;
+    triangle_lines(f->sheet, g, line, line + 3);
+    rest.count = 0;
+    for (size_t k = 0; k < now.count; k++) {
+      struct geom_convex inside;
+      if (!geom_convex_subtract(&now.item[k], line, line + 3, 3, &rest, &inside,
+                                &f->scratch) ||
+          (inside.count > 0 && !keep_piece(f, g, &inside)))
+        goto end;
+    }
+    swap = now;
+    now = rest;
+    rest = swap;
+  }
+  for (size_t k = 0; k < now.count; k++)
+    if (!keep_piece(f, triangle, &now.item[k])) goto end;
+  done = true;
+end:
+  ARRAY_FREE(&now);
+  ARRAY_FREE(&rest);
+  arena_reset(&f->scratch);
+  return done;
+}
+
+static bool triangle_piece(struct fragments *f, uint32_t triangle,
+                           struct geom_convex *piece, struct arena *arena) {
+  struct geom_line *line = arena_alloc(arena, 6, sizeof *line);
+  struct geom_point p[3];
+  if (line == NULL) return false;
+  for (int k = 0; k < 3; k++)
+    p[k] = f->sheet->point.item[f->sheet->triangle.item[triangle].point[k]];
+  triangle_lines(f->sheet, triangle, line, line + 3);
+  return geom_convex_triangle(piece, p, line, arena);
+}
+
+bool fragments_add_whole(struct fragments *f, uint32_t triangle) {
+  struct geom_convex piece;
+  if (!find_touching(f, triangle)) return false;
+  if (f->query.found.count == 0) return keep_piece(f, triangle, NULL);
+  return triangle_piece(f, triangle, &piece, &f->scratch) &&
+         deal_pieces(f, triangle, &piece, 1);
+}
+
+bool fragments_add(struct fragments *f, uint32_t triangle,
+                   const struct geom_convex *piece, size_t count) {
+  return count == 0 ||
+         (find_touching(f, triangle) && deal_pieces(f, triangle, piece, count));
+}
+
+/* ---- Uniting what belongs to a face -------------------------------------------- */
+
+/* What is at hand while the pieces of one face become its fragments. */
+struct face_work {
+  struct fragments *fragments;
+  struct map *map;
+  bool areas;
+  uint32_t face;
+  ARRAY(uint32_t) own; /* the face's triangles that have area */
+  geom_pieces piece;
+  struct geom_region region;
+};
+
+/* The face's triangles stand next to each other in the sheet. */
+static bool find_own(struct face_work *work, uint32_t triangle) {
+  const struct sheet *sheet = work->fragments->sheet;
+  uint32_t first = triangle;
+  work->own.count = 0;
+  while (first > 0 && sheet->triangle.item[first - 1].face == work->face)
+    first--;
+  for (uint32_t t = first; t < sheet->triangle.count &&
+                           sheet->triangle.item[t].face == work->face;
+       t++)
+    if (!(sheet->triangle_flags[t] & SHEET_FLAT) &&
+        !ARRAY_PUSH(&work->own, t))
+      return false;
+  return true;
+}
+
+static bool file_area(struct map *map, const struct geom_region *region,
+                      const struct map_fragment *fragment, size_t first) {
+  mpq_t term;
+  mpq_ptr sum = mem_alloc(1, sizeof *sum);
+  bool done = sum != NULL && ARRAY_PUSH(&map->area2, sum);
+  if (!done) {
+    mem_free(sum);
+    return false;
+  }
+  mpq_init(sum);
+  mpq_init(term);
+  for (size_t l = first; l < first + fragment->loops; l++) {
+    geom_region_area2(region, l, term);
+    mpq_add(sum, sum, term);
+  }
+  mpq_clear(term);
+  return true;
+}
+
+static bool file_loop(struct face_work *work,
+                      const struct geom_region_loop *loop) {
+  struct fragments *f = work->fragments;
+  const struct geom_region_side *side = work->region.side.item + loop->side;
+  struct map_loop filed = {(uint32_t)work->map->corner.count, loop->count};
+  for (uint32_t k = 0; k < loop->count; k++) {
+    struct map_corner corner;
+    int64_t x, y;
+    geom_corner_round(&side[k].corner, CORNER_BITS, &x, &y);
+    corner.x = (double)x / (1 << CORNER_BITS);
+    corner.y = (double)y / (1 << CORNER_BITS);
+    if (!side_label(f->sheet, f->grid, &f->query, work->own.item,
+                    work->own.count, side[k].line, &side[k].corner,
+                    &side[(k + 1) % loop->count].corner, &corner.side,
+                    &corner.id) ||
+        !ARRAY_PUSH(&work->map->corner, corner))
+      return false;
+  }
+  return ARRAY_PUSH(&work->map->loop, filed);
+}
+
+static bool file_region(struct face_work *work) {
+  struct map *map = work->map;
+  for (size_t l = 0; l < work->region.loop.count;) {
+    struct map_fragment fragment = {work->face, (uint32_t)map->loop.count, 0};
+    size_t first = l;
+    do {
+      if (!file_loop(work, &work->region.loop.item[l++])) return false;
+      fragment.loops++;
+    } while (l < work->region.loop.count && work->region.loop.item[l].hole);
+    if (!ARRAY_PUSH(&map->fragment, fragment) ||
+        (work->areas &&
+         !file_area(map, &work->region, &fragment, first)))
+      return false;
+  }
+  return true;
+}
+
+static bool file_face(struct face_work *work, const struct fragment_piece *piece,
+                      size_t count) {
+  struct fragments *f = work->fragments;
+  work->face = piece->face;
+  work->piece.count = 0;
+  if (!find_own(work, piece->triangle)) return false;
+  for (size_t i = 0; i < count; i++) {
+    struct geom_convex whole;
+    if (piece[i].piece == NULL &&
+        !triangle_piece(f, piece[i].triangle, &whole, &f->scratch))
+      return false;
+    if (!ARRAY_PUSH(&work->piece,
+                    piece[i].piece != NULL ? *piece[i].piece : whole))
+      return false;
+  }
+  if (!geom_region_unite(&work->region, work->piece.item, count) ||
+      !file_region(work))
+    return false;
+  arena_reset(&f->scratch);
+  return true;
+}
+
+static int compare_faces(const void *a, const void *b, void *user) {
+  const struct fragment_piece *p = a, *q = b;
+  (void)user;
+  return (p->face > q->face) - (p->face < q->face);
+}
+
+bool fragments_finish(struct fragments *fragments, bool areas,
+                      struct map *map) {
+  struct face_work work = {.fragments = fragments, .map = map, .areas = areas};
+  const struct fragment_piece *piece = fragments->piece.item;
+  size_t n = fragments->piece.count;
+  bool done = sort_stable(fragments->piece.item, n, sizeof *piece,
+                          compare_faces, NULL);
+  for (size_t i = 0, j; done && i < n; i = j) {
+    for (j = i + 1; j < n && piece[j].face == piece[i].face;) j++;
+    done = file_face(&work, &piece[i], j - i);
+  }
+  ARRAY_FREE(&work.own);
+  ARRAY_FREE(&work.piece);
+  geom_region_fini(&work.region);
+  return done;
+}

@@ -1,0 +1,55 @@
+/* fragments.h - from the pieces a solver finds visible to the map's fragments.
+ *
+ * The face seen at a point of the page is the nearest one there (exactly, the
+ * earlier in the file where depths are equal); where an earlier face is in
+ * contact with it at that point, that earlier face.  Two triangles are in
+ * contact where all corners of one touch the plane of the other (hide.h).
+ * Every point is given to just one face, so fragments tile the page.
+ *
+ * A solver hands in, for each triangle, the pieces where it is the nearest;
+ * they may be cut up in any way.  This module passes pieces on to earlier
+ * faces in contact, unites what belongs to one face, and says of each side
+ * what it is.  All of that depends on the sheet and the pieces' union alone,
+ * so solvers agree to the byte.
+ */
+#ifndef VISIBILITY_FRAGMENTS_H
+#define VISIBILITY_FRAGMENTS_H
+
+#include "geom/convex.h"
+#include "visibility/map.h"
+#include "visibility/pagegrid.h"
+
+struct fragment_piece {
+  uint32_t face, triangle; /* whose it is: scene face, its triangle */
+  struct geom_convex *piece; /* NULL: the whole triangle */
+};
+
+struct fragments {
+  const struct sheet *sheet;
+  const struct pagegrid *grid;
+  struct pagegrid_query query;
+  bool contact;
+  struct arena arena, scratch;
+  ARRAY(struct fragment_piece) piece;
+};
+
+/* contact  pass pieces on to earlier faces in contact */
+USE_RESULT bool fragments_init(struct fragments *fragments,
+                               const struct sheet *sheet,
+                               const struct pagegrid *grid, bool contact);
+void fragments_fini(struct fragments *fragments);
+
+/* The triangle is the nearest over all of its outline. */
+USE_RESULT bool fragments_add_whole(struct fragments *fragments,
+                                    uint32_t triangle);
+
+/* The triangle is the nearest over these disjoint pieces; they are copied. */
+USE_RESULT bool fragments_add(struct fragments *fragments, uint32_t triangle,
+                              const struct geom_convex *piece, size_t count);
+
+/* Writes all fragments to the map, ordered by face.
+ * areas  the exact areas too */
+USE_RESULT bool fragments_finish(struct fragments *fragments, bool areas,
+                                 struct map *map);
+
+#endif

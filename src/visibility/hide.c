@@ -1,0 +1,170 @@
+/* hide.c - the one predicate of hiding: what a triangle hides of an edge. */
+#include "visibility/hide.h"
+
+#include <math.h>
+
+#define FIXED_ONE 65536 /* 2^16: T has 16 bits below the value's unit */
+#define T_CAP 0x1p121
+
+/* Doubles decide a sign when it exceeds this share of the terms' magnitudes:
+ * each term carries at most 4 roundings, the sum 4 more. */
+#define FILTER (16 * 0x1p-53)
+
+static int128 round_up(double value) {
+  return (int128)ceil(value < T_CAP ? value : T_CAP);
+}
+
+static int128 absolute(int128 a) { return a < 0 ? -a : a; }
+
+void hider_init(struct hider *hider, const struct sheet *sheet,
+                uint32_t triangle) {
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  const struct camera *camera = &sheet->camera;
+  double s = sheet->units_per_view, third, length;
+  for (int k = 0; k < 3; k++) hider->p[k] = sheet->point.item[p[k]];
+  hider->plane = geom_plane_of(hider->p[0], hider->p[1], hider->p[2]);
+  hider->nx = (double)hider->plane.nx;
+  hider->ny = (double)hider->plane.ny;
+  hider->nz = (double)hider->plane.nz;
+  if (camera->perspective) {
+    double ax = (camera->middle_mm[0] - camera->page_mm[0] / 2) *
+                SHEET_UNITS_PER_MM,
+           ay = (camera->middle_mm[1] - camera->page_mm[1] / 2) *
+                SHEET_UNITS_PER_MM;
+    third = hider->nz * (sheet->z_scale / camera->d_max) -
+            (hider->nx * (ax - hider->p[0].x) +
+             hider->ny * (ay - hider->p[0].y) -
+             hider->nz * (double)hider->p[0].z);
+  } else {
+    third = sheet->z_scale * hider->nz;
+  }
+  length = sqrt(s * hider->nx * (s * hider->nx) +
+                s * hider->ny * (s * hider->ny) + third * third) *
+           camera->contact * FIXED_ONE;
+  hider->t0 = (absolute(hider->plane.nx) + absolute(hider->plane.ny) +
+               hider->plane.nz) *
+              FIXED_ONE;
+  hider->t1 = 0;
+  if (camera->perspective) {
+    hider->t0 += round_up(length / camera->d_max);
+    hider->t1 = round_up(length / sheet->z_scale);
+    if (hider->t1 > (int128)1 << 81) hider->t1 = (int128)1 << 81;
+  } else {
+    hider->t0 += round_up(length);
+  }
+  hider->t0_near = (double)hider->t0;
+  hider->t1_near = (double)hider->t1;
+  hider->z_max = hider->p[0].z;
+  for (int k = 1; k < 3; k++)
+    if (hider->p[k].z > hider->z_max) hider->z_max = hider->p[k].z;
+  hider->box = page_box_of_triangle(sheet, triangle);
+}
+
+int128 hider_depth(const struct hider *hider, struct geom_point p) {
+  return geom_plane_value(&hider->plane, p) * FIXED_ONE + hider->t0 +
+         hider->t1 * p.z;
+}
+
+/* The sign of hider_depth where doubles can tell, else 0. */
+static int depth_filter(const struct hider *hider, struct geom_point p) {
+  double x = hider->nx * (double)((int64_t)p.x - hider->p[0].x),
+         y = hider->ny * (double)((int64_t)p.y - hider->p[0].y),
+         z = hider->nz * (double)(p.z - hider->p[0].z),
+         t = hider->t0_near + hider->t1_near * (double)p.z;
+  double value = (x + y + z) * FIXED_ONE + t;
+  double bound = FILTER * ((fabs(x) + fabs(y) + fabs(z)) * FIXED_ONE + t);
+  return (value > bound) - (value < -bound);
+}
+
+int hider_side(const struct hider *hider, struct geom_point p) {
+  int128 tolerance, value;
+  if (depth_filter(hider, p) < 0) return -1;
+  tolerance = hider->t0 + hider->t1 * p.z;
+  value = geom_plane_value(&hider->plane, p) * FIXED_ONE;
+  return (value > tolerance) - (value < -tolerance);
+}
+
+static void raise_from(struct hidden_part *part, struct ratio t) {
+  if (ratio_compare(part->from, t) < 0) part->from = t;
+}
+
+static void lower_to(struct hidden_part *part, struct ratio t) {
+  if (ratio_compare(t, part->to) < 0) part->to = t;
+}
+
+/* Cuts the part to where the triangle's outline contains the edge. */
+static bool cut_to_outline(const struct hider *hider, struct geom_point p,
+                           struct geom_point q, struct hidden_part *part) {
+  for (int k = 0; k < 3; k++) {
+    struct geom_point a = hider->p[k], b = hider->p[k == 2 ? 0 : k + 1];
+    int64_t s = geom_orient2d(a, b, p), t = geom_orient2d(a, b, q);
+    if (s <= 0 && t <= 0) {
+      if (s < 0 || t < 0) return false;
+      /* Along the side: the triangle lies left of the side. */
+      part->sides =
+          ((int64_t)q.x - p.x) * ((int64_t)b.x - a.x) +
+                      ((int64_t)q.y - p.y) * ((int64_t)b.y - a.y) >
+                  0
+              ? HIDE_LEFT
+              : HIDE_RIGHT;
+    } else if (s < 0) {
+      raise_from(part, ratio_of(-s, t - s));
+    } else if (t < 0) {
+      lower_to(part, ratio_of(s, s - t));
+    }
+  }
+  return ratio_compare(part->from, part->to) < 0;
+}
+
+/* Cuts the part to where the edge is behind the plane, contact allowed. */
+static bool cut_to_depth(const struct hider *hider, struct geom_point p,
+                         struct geom_point q, struct hidden_part *part,
+                         struct hide_counts *counts) {
+  int sp = depth_filter(hider, p), sq = depth_filter(hider, q);
+  bool p_shared = false, q_shared = false;
+  int128 gp, gq;
+  if (sp < 0 && sq < 0) return true;
+  for (int k = 0; k < 3; k++) {
+    p_shared |= geom_same_point(hider->p[k], p);
+    q_shared |= geom_same_point(hider->p[k], q);
+  }
+  if (sp > 0 && sq > 0) return false;
+  counts->exact++;
+  gp = hider_depth(hider, p);
+  gq = hider_depth(hider, q);
+  if (p_shared != q_shared) return p_shared ? gq < 0 : gp < 0;
+  if (gp >= 0 && gq >= 0) return false;
+  if (gp < 0 && gq < 0) return true;
+  counts->crossings++;
+  if (gp >= 0)
+    raise_from(part, (struct ratio){gp, gp - gq});
+  else
+    lower_to(part, (struct ratio){-gp, gq - gp});
+  return ratio_compare(part->from, part->to) < 0;
+}
+
+bool hide_by_outline(const struct hider *hider, struct geom_point p,
+                     struct geom_point q, struct hidden_part *part) {
+  part->from = ratio_of(0, 1);
+  part->to = ratio_of(1, 1);
+  part->sides = HIDE_BOTH;
+  return cut_to_outline(hider, p, q, part);
+}
+
+bool hide_edge(const struct hider *hider, struct geom_point p,
+               struct geom_point q, struct hidden_part *part,
+               struct hide_counts *counts) {
+  if (p.z > hider->z_max && q.z > hider->z_max) return false;
+  if (page_boxes_apart(hider->box, page_box_of_segment(p, q))) return false;
+  counts->pairs++;
+  if (!hide_by_outline(hider, p, q, part)) return false;
+  counts->depth++;
+  return cut_to_depth(hider, p, q, part, counts);
+}
+
+void hide_report(const struct hide_counts *counts, struct report *report) {
+  report_add(report, "hide", "pairs", (int64_t)counts->pairs);
+  report_add(report, "hide", "outline_met", (int64_t)counts->depth);
+  report_add(report, "hide", "filter_failures", (int64_t)counts->exact);
+  report_add(report, "hide", "depth_crossings", (int64_t)counts->crossings);
+}

@@ -1,0 +1,90 @@
+/* hide.h - the one predicate of hiding: what a triangle hides of an edge.
+ *
+ * A triangle hides a point of the page at some depth where
+ *   - the point lies strictly inside the triangle's outline, and
+ *   - the triangle is in front of it by more than the contact tolerance:
+ *         (value(p) << 16) + T(p) < 0,   T(p) = t0 + t1 * z(p)
+ *     where value is that of the triangle's plane (predicate.h).
+ *
+ * T gathers what rounding can explain and what the user calls contact:
+ *   - the grid's: one unit in each of x, y and z, |nx| + |ny| + |nz|;
+ *   - the scene's: the plane moved back by `contact` scene units.  In view
+ *     space that turns N.X + D into N.X + D + contact (N of unit length); the
+ *     sheet's value is (N.X + D) / d times a factor L, so T is L contact / d,
+ *     which is linear in z because z is in 1 / d.  Orthographic: L contact.
+ *     L follows from the integer normal: with S grid units per unit of X / d
+ *     (X) and Z depth units per unit of 1 / d (d),
+ *         L^2 = (S nx)^2 + (S ny)^2 + (third)^2,
+ *     third = Z nz, orthographic; in perspective nz Z / d_max - value at the
+ *     foot of the view axis.
+ *   T is computed in doubles, rounded up, when the triangle is prepared; from
+ *   then on it is an integer and part of the definition.
+ *
+ * Corners shared.  An edge that starts on a corner of the triangle has value
+ * 0 there; whether it is hidden is asked once, at its other end, so that it
+ * is hidden from its very start or not at all.
+ *
+ * An edge along a side of the triangle is covered on one side of itself only;
+ * it is hidden where both of its sides are covered (strokes.h).
+ *
+ * Bits: value < 2^105, shifted 2^121; T is capped at 2^122; their sum and the
+ * difference of two such sums stay below 2^125: what ratio.h asks for.
+ */
+#ifndef VISIBILITY_HIDE_H
+#define VISIBILITY_HIDE_H
+
+#include "base/report.h"
+#include "view/sheet.h"
+#include "visibility/pagegrid.h"
+
+struct hider {
+  struct geom_point p[3]; /* counter-clockwise */
+  struct geom_plane plane;
+  int128 t0, t1;
+  double nx, ny, nz, t0_near, t1_near; /* nearest doubles, for the filter */
+  int64_t z_max; /* its nearest corner's */
+  struct page_box box;
+};
+
+/* Prepares a triangle that is not SHEET_FLAT. */
+void hider_init(struct hider *hider, const struct sheet *sheet,
+                uint32_t triangle);
+
+enum { HIDE_LEFT = 1, HIDE_RIGHT = 2, HIDE_BOTH = 3 };
+
+/* The open interval of an edge that a triangle covers. */
+struct hidden_part {
+  struct ratio from, to; /* in [0, 1], from < to */
+  int sides;             /* which sides of the edge are covered there */
+};
+
+/* Counts for --stats, each of them monotone. */
+struct hide_counts {
+  uint64_t pairs;     /* edge and triangle whose boxes meet */
+  uint64_t depth;     /* of these, depth had to be asked */
+  uint64_t exact;     /* of these, the doubles could not tell */
+  uint64_t crossings; /* of these, the edge goes through the tolerance */
+};
+
+void hide_report(const struct hide_counts *counts, struct report *report);
+
+/* What the triangle hides of the edge from p to q (different places on the
+ * page); false: nothing. */
+bool hide_edge(const struct hider *hider, struct geom_point p,
+               struct geom_point q, struct hidden_part *part,
+               struct hide_counts *counts);
+
+/* The part of the edge that lies within the triangle's outline, whatever the
+ * depths. */
+bool hide_by_outline(const struct hider *hider, struct geom_point p,
+                     struct geom_point q, struct hidden_part *part);
+
+/* (value << 16) + T of a point: negative where it is behind the plane by more
+ * than contact explains.  Exact. */
+int128 hider_depth(const struct hider *hider, struct geom_point p);
+
+/* Where a point is: -1 behind the plane by more than contact explains, +1 in
+ * front of it by more, 0 touching it.  Exact. */
+int hider_side(const struct hider *hider, struct geom_point p);
+
+#endif

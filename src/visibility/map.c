@@ -1,0 +1,21 @@
+/* map.c - the visible map's memory. */
+#include "visibility/map.h"
+
+#include <string.h>
+
+void map_init(struct map *map) { memset(map, 0, sizeof *map); }
+
+void map_fini(struct map *map) {
+  mem_free(map->edge_state);
+  ARRAY_FREE(&map->mixed);
+  ARRAY_FREE(&map->interval);
+  ARRAY_FREE(&map->fragment);
+  ARRAY_FREE(&map->loop);
+  ARRAY_FREE(&map->corner);
+  for (size_t i = 0; i < map->area2.count; i++) {
+    mpq_clear(map->area2.item[i]);
+    mem_free(map->area2.item[i]);
+  }
+  ARRAY_FREE(&map->area2);
+  map_init(map);
+}

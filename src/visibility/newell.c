@@ -1,0 +1,193 @@
+/* newell.c - the full painter's algorithm, for pens: faces are put in painting
+ * order (newell_order.c), and then nothing is overpainted: each keeps what no
+ * later one covers.
+ *
+ * Strokes: of two faces that overlap, the one painted first hides nothing of
+ * the other.  So an edge is asked only about faces painted after its own; but
+ * one that runs along the side of a face does not overlap it, and is always
+ * asked.
+ *
+ * Source  [Newell1972].
+ */
+#include "visibility/cover.h"
+#include "visibility/newell_order.h"
+#include "visibility/pierce.h"
+#include "visibility/solver.h"
+#include "visibility/strokes.h"
+
+/* ---- Strokes ------------------------------------------------------------------ */
+
+struct stroke_work {
+  const struct sheet *sheet;
+  const struct newell_order *order;
+  struct pagegrid_query query;
+  struct strokes strokes;
+  struct hide_counts counts;
+  uint64_t by_order; /* pairs the order settled */
+};
+
+/* The rank of the edge's own face where it is one whole piece, else 0. */
+static uint32_t rank_of_edge(const struct stroke_work *work,
+                             const struct sheet_edge *edge) {
+  uint32_t t = edge->triangle[0];
+  if (t == SHEET_NONE || work->order->piece.item[t].state != NEWELL_PAINTED)
+    return 0;
+  return work->order->piece.item[t].rank;
+}
+
+static bool runs_along(const struct sheet *sheet, uint32_t triangle,
+                       struct geom_point p, struct geom_point q) {
+  const uint32_t *point = sheet->triangle.item[triangle].point;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point a = sheet->point.item[point[k]],
+                      b = sheet->point.item[point[k == 2 ? 0 : k + 1]];
+    if (geom_orient2d(a, b, p) == 0 && geom_orient2d(a, b, q) == 0)
+      return true;
+  }
+  return false;
+}
+
+static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
+                       struct geom_point p, struct geom_point q) {
+  const struct sheet *sheet = work->sheet;
+  const struct newell_piece *piece = work->order->piece.item;
+  uint32_t rank = rank_of_edge(work, edge);
+  struct page_box box = page_box_of_segment(p, q);
+  strokes_start(&work->strokes);
+  if (!pagegrid_find_along(work->order->grid, p, q, &work->query))
+    return false;
+  for (size_t i = 0; i < work->query.found.count && !work->strokes.whole;
+       i++) {
+    uint32_t t = work->query.found.item[i];
+    struct hidden_part part;
+    struct hider hider;
+    if (t == edge->triangle[0] || t == edge->triangle[1] ||
+        (sheet->triangle_flags[t] & SHEET_FLAT) ||
+        (piece[t].z_high < p.z && piece[t].z_high < q.z) ||
+        page_boxes_apart(box, piece[t].box))
+      continue;
+    if (piece[t].state == NEWELL_PAINTED && piece[t].rank < rank &&
+        !runs_along(sheet, t, p, q)) {
+      work->by_order++;
+      continue;
+    }
+    hider_init(&hider, sheet, t);
+    if (hide_edge(&hider, p, q, &part, &work->counts) &&
+        !strokes_hide(&work->strokes, part))
+      return false;
+  }
+  return true;
+}
+
+static bool solve_strokes(const struct sheet *sheet,
+                          const struct newell_order *order, struct map *map,
+                          struct report *report) {
+  struct stroke_work work = {.sheet = sheet, .order = order};
+  bool done = pagegrid_query_init(&work.query, order->grid) &&
+              strokes_open_map(map, sheet->edge.count);
+  for (size_t e = 0; done && e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    struct geom_point p = sheet->point.item[edge->point[0]],
+                      q = sheet->point.item[edge->point[1]];
+    if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y)) continue;
+    done = solve_edge(&work, edge, p, q) &&
+           strokes_file(&work.strokes, (uint32_t)e, map);
+  }
+  hide_report(&work.counts, report);
+  report_int(report, "newell", "pairs_settled_by_order",
+             (int64_t)work.by_order);
+  strokes_fini(&work.strokes);
+  pagegrid_query_fini(&work.query);
+  return done;
+}
+
+/* ---- Fragments ---------------------------------------------------------------- */
+
+/* Takes from the cover of piece p all that is painted after it. */
+static bool take_later(const struct newell_order *order, uint32_t p,
+                       struct pagegrid_query *query, struct cover *cover) {
+  const struct newell_piece *piece = &order->piece.item[p];
+  if (!pagegrid_find(order->grid, piece->box, query)) return false;
+  for (size_t i = 0; i < query->found.count && !cover_is_empty(cover); i++) {
+    uint32_t q = query->found.item[i];
+    if (q == piece->triangle) continue;
+    for (; q != NEWELL_NONE; q = order->piece.item[q].next) {
+      const struct newell_piece *other = &order->piece.item[q];
+      struct geom_line *line;
+      int count;
+      if (other->state != NEWELL_PAINTED || other->rank < piece->rank ||
+          page_boxes_apart(piece->box, other->box))
+        continue;
+      line = newell_piece_lines(order, q, &count, &cover->arena);
+      if (line == NULL || !cover_take(cover, line, line + count, count))
+        return false;
+    }
+  }
+  return true;
+}
+
+static bool solve_fragments(const struct newell_order *order, bool areas,
+                            struct map *map) {
+  struct fragments fragments;
+  struct pagegrid_query query = {0};
+  struct cover cover;
+  bool done;
+  cover_init(&cover, order->sheet);
+  done = fragments_init(&fragments, order->sheet, order->grid, true) &&
+         pagegrid_query_init(&query, order->grid);
+  for (size_t i = order->painted.count; done && i-- > 0;) {
+    uint32_t p = order->painted.item[i];
+    const struct newell_piece *piece = &order->piece.item[p];
+    done = cover_start(&cover, piece->triangle, piece->shape) &&
+           take_later(order, p, &query, &cover) &&
+           cover_file(&cover, &fragments);
+  }
+  done = done && fragments_finish(&fragments, areas, map);
+  cover_fini(&cover);
+  pagegrid_query_fini(&query);
+  fragments_fini(&fragments);
+  return done;
+}
+
+/* ---- The solver ---------------------------------------------------------------- */
+
+static void report_order(const struct newell_order *order,
+                         struct report *report) {
+  const struct newell_counts *c = &order->counts;
+  report_int(report, "newell", "settled_by_depth", (int64_t)c->depth);
+  report_int(report, "newell", "settled_by_test_a", (int64_t)c->minimax);
+  report_int(report, "newell", "settled_by_test_b", (int64_t)c->behind);
+  report_int(report, "newell", "settled_by_test_c", (int64_t)c->before);
+  report_int(report, "newell", "asked_test_d", (int64_t)c->full);
+  report_int(report, "newell", "moved", (int64_t)c->moved);
+  report_int(report, "newell", "cycles", (int64_t)c->cycles);
+  report_int(report, "newell", "splits_by_cycle", (int64_t)c->split_cycle);
+  report_int(report, "newell", "splits_by_piercing", (int64_t)c->split_pierce);
+  report_int(report, "newell", "pieces", (int64_t)order->painted.count);
+}
+
+static recto_status solve(struct sheet *sheet,
+                          const struct solver_request *request,
+                          struct map *map, struct report *report,
+                          recto_error *error) {
+  struct newell_order order;
+  struct pagegrid grid;
+  recto_status status;
+  if (!pagegrid_init(&grid, sheet)) return error_memory(error);
+  status = newell_order_init(&order, sheet, &grid, request, error);
+  if (status == RECTO_OK && request->intersections)
+    status = pierce_all(sheet, &grid, report, error);
+  if (status == RECTO_OK && request->strokes &&
+      !solve_strokes(sheet, &order, map, report))
+    status = error_memory(error);
+  if (status == RECTO_OK && request->fragments &&
+      !solve_fragments(&order, request->areas, map))
+    status = error_memory(error);
+  report_order(&order, report);
+  newell_order_fini(&order);
+  pagegrid_fini(&grid);
+  return status;
+}
+
+const struct solver solver_newell = {RECTO_METHOD_NEWELL, "newell", true,
+                                     solve};

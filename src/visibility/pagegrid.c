@@ -1,0 +1,203 @@
+/* pagegrid.c - which triangles may lie where on the page: a flat grid. */
+#include "visibility/pagegrid.h"
+
+#include <string.h>
+
+/* A triangle may stand in this many cells on average, not more. */
+enum { CELLS_PER_TRIANGLE = 8, MAX_SHIFT = 31 };
+
+static int32_t least(int32_t a, int32_t b) { return a < b ? a : b; }
+static int32_t most(int32_t a, int32_t b) { return a > b ? a : b; }
+
+struct page_box page_box_of_segment(struct geom_point p, struct geom_point q) {
+  return (struct page_box){least(p.x, q.x), least(p.y, q.y), most(p.x, q.x),
+                           most(p.y, q.y)};
+}
+
+struct page_box page_box_of_triangle(const struct sheet *sheet,
+                                     uint32_t triangle) {
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  const struct geom_point *a = &sheet->point.item[p[0]],
+                          *b = &sheet->point.item[p[1]],
+                          *c = &sheet->point.item[p[2]];
+  return (struct page_box){least(a->x, least(b->x, c->x)),
+                           least(a->y, least(b->y, c->y)),
+                           most(a->x, most(b->x, c->x)),
+                           most(a->y, most(b->y, c->y))};
+}
+
+static int cell_of(int32_t v, int32_t v0, int shift, int count) {
+  int64_t cell = ((int64_t)v - v0) >> shift;
+  return cell < 0 ? 0 : cell >= count ? count - 1 : (int)cell;
+}
+
+static struct page_box box_of_sheet(const struct sheet *sheet) {
+  struct page_box all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+  for (size_t t = 0; t < sheet->triangle.count; t++) {
+    struct page_box box = page_box_of_triangle(sheet, (uint32_t)t);
+    all.x0 = least(all.x0, box.x0);
+    all.y0 = least(all.y0, box.y0);
+    all.x1 = most(all.x1, box.x1);
+    all.y1 = most(all.y1, box.y1);
+  }
+  return sheet->triangle.count > 0 ? all : (struct page_box){0, 0, 0, 0};
+}
+
+/* How many cells of 2^shift all boxes meet, roughly; stops past `limit`. */
+static uint64_t count_cells(const struct sheet *sheet, int shift,
+                            uint64_t limit) {
+  uint64_t cells = 0;
+  for (size_t t = 0; t < sheet->triangle.count && cells <= limit; t++) {
+    struct page_box b = page_box_of_triangle(sheet, (uint32_t)t);
+    cells += ((uint64_t)(((int64_t)b.x1 - b.x0) >> shift) + 1) *
+             ((uint64_t)(((int64_t)b.y1 - b.y0) >> shift) + 1);
+  }
+  return cells;
+}
+
+/* The finest cells that keep the lists short and the grid no larger than the
+ * sheet asks for. */
+static void choose_cells(struct pagegrid *grid, const struct sheet *sheet,
+                         struct page_box all) {
+  uint64_t n = sheet->triangle.count, width, height;
+  grid->x0 = all.x0;
+  grid->y0 = all.y0;
+  width = (uint64_t)((int64_t)all.x1 - all.x0) + 1;
+  height = (uint64_t)((int64_t)all.y1 - all.y0) + 1;
+  for (grid->shift = 0; grid->shift < MAX_SHIFT; grid->shift++) {
+    uint64_t cells =
+        ((width >> grid->shift) + 1) * ((height >> grid->shift) + 1);
+    if (cells > 2 * n + 16) continue;
+    if (count_cells(sheet, grid->shift, CELLS_PER_TRIANGLE * n + 64) <=
+        CELLS_PER_TRIANGLE * n + 64)
+      break;
+  }
+  grid->columns = (int)(width >> grid->shift) + 1;
+  grid->rows = (int)(height >> grid->shift) + 1;
+}
+
+struct cell_range {
+  int x0, y0, x1, y1;
+};
+
+static struct cell_range cells_of(const struct pagegrid *grid,
+                                  struct page_box box) {
+  return (struct cell_range){
+      cell_of(box.x0, grid->x0, grid->shift, grid->columns),
+      cell_of(box.y0, grid->y0, grid->shift, grid->rows),
+      cell_of(box.x1, grid->x0, grid->shift, grid->columns),
+      cell_of(box.y1, grid->y0, grid->shift, grid->rows)};
+}
+
+/* First pass: counts; second: places.  start[] ends as the lists' starts. */
+static void fill_cells(struct pagegrid *grid, const struct sheet *sheet,
+                       bool place) {
+  for (size_t t = sheet->triangle.count; t-- > 0;) {
+    struct cell_range r =
+        cells_of(grid, page_box_of_triangle(sheet, (uint32_t)t));
+    for (int y = r.y0; y <= r.y1; y++)
+      for (int x = r.x0; x <= r.x1; x++) {
+        uint32_t *end = &grid->start[y * grid->columns + x];
+        if (place)
+          grid->item[--*end] = (uint32_t)t;
+        else
+          ++*end;
+      }
+  }
+}
+
+bool pagegrid_init(struct pagegrid *grid, const struct sheet *sheet) {
+  size_t cells;
+  memset(grid, 0, sizeof *grid);
+  grid->triangle_count = sheet->triangle.count;
+  choose_cells(grid, sheet, box_of_sheet(sheet));
+  cells = (size_t)grid->columns * (size_t)grid->rows;
+  grid->start = mem_calloc(cells + 1, sizeof *grid->start);
+  if (grid->start == NULL) return false;
+  fill_cells(grid, sheet, false);
+  for (size_t c = 0; c < cells; c++) grid->start[c + 1] += grid->start[c];
+  grid->item = mem_alloc(grid->start[cells], sizeof *grid->item);
+  if (grid->item == NULL) {
+    pagegrid_fini(grid);
+    return false;
+  }
+  fill_cells(grid, sheet, true);
+  return true;
+}
+
+void pagegrid_fini(struct pagegrid *grid) {
+  mem_free(grid->start);
+  mem_free(grid->item);
+  grid->start = grid->item = NULL;
+}
+
+bool pagegrid_query_init(struct pagegrid_query *query,
+                         const struct pagegrid *grid) {
+  memset(query, 0, sizeof *query);
+  query->stamp = mem_calloc(grid->triangle_count + 1, sizeof *query->stamp);
+  return query->stamp != NULL;
+}
+
+void pagegrid_query_fini(struct pagegrid_query *query) {
+  mem_free(query->stamp);
+  query->stamp = NULL;
+  ARRAY_FREE(&query->found);
+}
+
+static void start_query(const struct pagegrid *grid,
+                        struct pagegrid_query *query) {
+  query->found.count = 0;
+  if (++query->now == 0) {
+    memset(query->stamp, 0, grid->triangle_count * sizeof *query->stamp);
+    query->now = 1;
+  }
+}
+
+static bool visit_cell(const struct pagegrid *grid, int x, int y,
+                       struct pagegrid_query *query) {
+  size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+  for (uint32_t i = grid->start[cell]; i < grid->start[cell + 1]; i++) {
+    uint32_t t = grid->item[i];
+    if (query->stamp[t] == query->now) continue;
+    query->stamp[t] = query->now;
+    if (!ARRAY_PUSH(&query->found, t)) return false;
+  }
+  return true;
+}
+
+bool pagegrid_find(const struct pagegrid *grid, struct page_box box,
+                   struct pagegrid_query *query) {
+  struct cell_range r = cells_of(grid, box);
+  start_query(grid, query);
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++)
+      if (!visit_cell(grid, x, y, query)) return false;
+  return true;
+}
+
+bool pagegrid_find_along(const struct pagegrid *grid, struct geom_point p,
+                         struct geom_point q, struct pagegrid_query *query) {
+  int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y;
+  struct cell_range r = cells_of(grid, page_box_of_segment(p, q));
+  start_query(grid, query);
+  for (int y = r.y0; y <= r.y1; y++) {
+    /* The part of the segment inside this row, in x, rounded outwards. */
+    int x0 = r.x0, x1 = r.x1;
+    if (dy != 0 && r.y0 != r.y1) {
+      int64_t low = grid->y0 + ((int64_t)y << grid->shift) - p.y;
+      int64_t high = low + (INT64_C(1) << grid->shift);
+      double a = (double)p.x + (double)dx * ((double)low / (double)dy);
+      double b = (double)p.x + (double)dx * ((double)high / (double)dy);
+      double from = (a < b ? a : b) - 1, to = (a < b ? b : a) + 1;
+      int32_t least_x = from < -0x1p30 ? INT32_MIN / 2 : (int32_t)from;
+      int32_t most_x = to > 0x1p30 ? INT32_MAX / 2 : (int32_t)to;
+      x0 = cell_of(least_x - 1, grid->x0, grid->shift, grid->columns);
+      x1 = cell_of(most_x + 1, grid->x0, grid->shift, grid->columns);
+      if (x0 < r.x0) x0 = r.x0;
+      if (x1 > r.x1) x1 = r.x1;
+    }
+    for (int x = x0; x <= x1; x++)
+      if (!visit_cell(grid, x, y, query)) return false;
+  }
+  return true;
+}

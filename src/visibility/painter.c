@@ -1,0 +1,178 @@
+/* painter.c - the painter's algorithms that need no tests, to be measured:
+ * faces are painted whole in an order that asks nothing of how they overlap,
+ * in the file's own or by the depth of their centroids.
+ *
+ * A face keeps what no later one paints over, its edges likewise; both are
+ * wrong where the order is.
+ *
+ * Source  [Newell1972] names the family; [FoleyVanDam1990] 15.5.
+ */
+#include "base/sort.h"
+#include "visibility/cover.h"
+#include "visibility/pierce.h"
+#include "visibility/solver.h"
+#include "visibility/strokes.h"
+
+struct painting {
+  const struct sheet *sheet;
+  const struct pagegrid *grid;
+  struct pagegrid_query query;
+  uint32_t *rank; /* of each triangle; 0 is painted first */
+};
+
+/* The mean depth of each triangle's face, times three. */
+static void centroid_keys(const struct sheet *sheet, struct sort_key *key) {
+  size_t n = sheet->triangle.count;
+  for (size_t first = 0, end; first < n; first = end) {
+    int128 sum = 0;
+    for (end = first; end < n && sheet->triangle.item[end].face ==
+                                     sheet->triangle.item[first].face;
+         end++)
+      for (int k = 0; k < 3; k++)
+        sum += sheet->point.item[sheet->triangle.item[end].point[k]].z;
+    for (size_t t = first; t < end; t++)
+      key[t] = (struct sort_key){
+          sort_key_of_int64((int64_t)(sum / (int128)(end - first))), (uint32_t)t};
+  }
+}
+
+static bool rank_by_centroid(struct painting *painting) {
+  size_t n = painting->sheet->triangle.count;
+  struct sort_key *key = mem_alloc(2 * n, sizeof *key);
+  if (key == NULL) return false;
+  centroid_keys(painting->sheet, key);
+  sort_keys(key, key + n, n);
+  for (size_t i = 0; i < n; i++) painting->rank[key[i].value] = (uint32_t)i;
+  mem_free(key);
+  return true;
+}
+
+static void rank_as_given(struct painting *painting) {
+  for (size_t t = 0; t < painting->sheet->triangle.count; t++)
+    painting->rank[t] = (uint32_t)t;
+}
+
+/* An edge is painted with the later of its faces; a wire before all. */
+static bool solve_edge(struct painting *painting,
+                       const struct sheet_edge *edge, struct strokes *strokes) {
+  const struct sheet *sheet = painting->sheet;
+  struct geom_point p = sheet->point.item[edge->point[0]],
+                    q = sheet->point.item[edge->point[1]];
+  bool own = edge->triangle[0] != SHEET_NONE;
+  uint32_t rank = own ? painting->rank[edge->triangle[0]] : 0;
+  if (edge->triangle[1] != SHEET_NONE &&
+      painting->rank[edge->triangle[1]] > rank)
+    rank = painting->rank[edge->triangle[1]];
+  strokes_start(strokes);
+  if (!pagegrid_find_along(painting->grid, p, q, &painting->query))
+    return false;
+  for (size_t i = 0; i < painting->query.found.count; i++) {
+    uint32_t t = painting->query.found.item[i];
+    struct hidden_part part;
+    struct hider hider;
+    if ((own && painting->rank[t] <= rank) ||
+        (sheet->triangle_flags[t] & SHEET_FLAT))
+      continue;
+    hider_init(&hider, sheet, t);
+    if (hide_by_outline(&hider, p, q, &part) && !strokes_hide(strokes, part))
+      return false;
+  }
+  return true;
+}
+
+static bool solve_strokes(struct painting *painting, struct map *map) {
+  const struct sheet *sheet = painting->sheet;
+  struct strokes strokes = {0};
+  bool done = strokes_open_map(map, sheet->edge.count);
+  for (size_t e = 0; done && e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    const struct geom_point *p = &sheet->point.item[edge->point[0]],
+                            *q = &sheet->point.item[edge->point[1]];
+    if (edge->edge_class == 0 || (p->x == q->x && p->y == q->y)) continue;
+    done = solve_edge(painting, edge, &strokes) &&
+           strokes_file(&strokes, (uint32_t)e, map);
+  }
+  strokes_fini(&strokes);
+  return done;
+}
+
+static bool take_later(struct painting *painting, uint32_t f,
+                       struct cover *cover) {
+  struct geom_line line[3], back[3];
+  if (!pagegrid_find(painting->grid, cover->box, &painting->query))
+    return false;
+  for (size_t i = 0;
+       i < painting->query.found.count && !cover_is_empty(cover); i++) {
+    uint32_t g = painting->query.found.item[i];
+    if (painting->rank[g] <= painting->rank[f] ||
+        (painting->sheet->triangle_flags[g] & SHEET_FLAT) ||
+        page_boxes_apart(cover->box,
+                         page_box_of_triangle(painting->sheet, g)))
+      continue;
+    triangle_lines(painting->sheet, g, line, back);
+    if (!cover_take(cover, line, back, 3)) return false;
+  }
+  return true;
+}
+
+static bool solve_fragments(struct painting *painting, bool areas,
+                            struct map *map) {
+  struct fragments fragments;
+  struct cover cover;
+  bool done =
+      fragments_init(&fragments, painting->sheet, painting->grid, false);
+  cover_init(&cover, painting->sheet);
+  for (size_t f = 0; done && f < painting->sheet->triangle.count; f++)
+    if (!(painting->sheet->triangle_flags[f] & SHEET_FLAT))
+      done = cover_start(&cover, (uint32_t)f, NULL) &&
+             take_later(painting, (uint32_t)f, &cover) &&
+             cover_file(&cover, &fragments);
+  done = done && fragments_finish(&fragments, areas, map);
+  cover_fini(&cover);
+  fragments_fini(&fragments);
+  return done;
+}
+
+static recto_status paint(struct sheet *sheet,
+                          const struct solver_request *request, bool given,
+                          struct map *map, recto_error *error) {
+  struct pagegrid grid;
+  struct painting painting = {.sheet = sheet, .grid = &grid};
+  bool done;
+  if (!pagegrid_init(&grid, sheet)) return error_memory(error);
+  painting.rank = mem_alloc(sheet->triangle.count, sizeof *painting.rank);
+  done = painting.rank != NULL && pagegrid_query_init(&painting.query, &grid);
+  if (done && given)
+    rank_as_given(&painting);
+  else if (done)
+    done = rank_by_centroid(&painting);
+  done = done && (!request->strokes || solve_strokes(&painting, map)) &&
+         (!request->fragments ||
+          solve_fragments(&painting, request->areas, map));
+  mem_free(painting.rank);
+  pagegrid_query_fini(&painting.query);
+  pagegrid_fini(&grid);
+  return done ? RECTO_OK : error_memory(error);
+}
+
+static recto_status solve_by_centroid(struct sheet *sheet,
+                                      const struct solver_request *request,
+                                      struct map *map, struct report *report,
+                                      recto_error *error) {
+  (void)report;
+  return paint(sheet, request, false, map, error);
+}
+
+static recto_status solve_as_given(struct sheet *sheet,
+                                   const struct solver_request *request,
+                                   struct map *map, struct report *report,
+                                   recto_error *error) {
+  (void)report;
+  return paint(sheet, request, true, map, error);
+}
+
+const struct solver solver_painter = {RECTO_METHOD_PAINTER, "painter", false,
+                                      solve_by_centroid};
+const struct solver solver_painter_given = {RECTO_METHOD_PAINTER_GIVEN,
+                                            "painter-given", false,
+                                            solve_as_given};

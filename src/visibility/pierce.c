@@ -1,0 +1,246 @@
+/* pierce.c - where two triangles pierce each other. */
+#include "visibility/pierce.h"
+
+#include "base/sort.h"
+
+/* Are corners on both sides of the plane, beyond contact? */
+static bool straddles(const struct hider *plane, const struct geom_point p[3]) {
+  bool behind = false, before = false;
+  for (int k = 0; k < 3; k++) {
+    int side = hider_side(plane, p[k]);
+    behind |= side < 0;
+    before |= side > 0;
+  }
+  return behind && before;
+}
+
+/* The sign of the volume of a, b, c, d. */
+static int volume_sign(struct geom_point a, struct geom_point b,
+                       struct geom_point c, struct geom_point d) {
+  struct geom_plane plane = geom_plane_of(a, b, c);
+  return geom_sign128(geom_plane_value(&plane, d));
+}
+
+static bool line_meets(struct geom_point a, struct geom_point b,
+                       const struct geom_point p[3]) {
+  bool left = false, right = false;
+  for (int k = 0; k < 3; k++) {
+    int side = volume_sign(a, b, p[k], p[k == 2 ? 0 : k + 1]);
+    left |= side > 0;
+    right |= side < 0;
+  }
+  return !(left && right);
+}
+
+static int compare_points(struct geom_point a, struct geom_point b) {
+  if (a.x != b.x) return a.x < b.x ? -1 : 1;
+  if (a.y != b.y) return a.y < b.y ? -1 : 1;
+  return (a.z > b.z) - (a.z < b.z);
+}
+
+/* The ends found so far along the common line, the least and the greatest. */
+struct ends {
+  int count;
+  struct geom_point low, high;
+};
+
+static void add_end(struct ends *ends, struct geom_point p) {
+  if (ends->count == 0 || compare_points(p, ends->low) < 0) ends->low = p;
+  if (ends->count == 0 || compare_points(p, ends->high) > 0) ends->high = p;
+  ends->count++;
+}
+
+/* Where edges of triangle f go through triangle g. */
+static void find_ends(const struct sheet *sheet, uint32_t f,
+                      const struct hider *hg, struct ends *ends) {
+  const uint32_t *point = sheet->triangle.item[f].point;
+  for (int k = 0; k < 3; k++) {
+    uint32_t i = point[k], j = point[k == 2 ? 0 : k + 1];
+    struct geom_point a, b;
+    int128 va, vb;
+    struct ratio t;
+    if (i > j) { /* one direction, whichever triangle asks */
+      uint32_t swap = i;
+      i = j;
+      j = swap;
+    }
+    a = sheet->point.item[i];
+    b = sheet->point.item[j];
+    va = geom_plane_value(&hg->plane, a);
+    vb = geom_plane_value(&hg->plane, b);
+    if ((va > 0 && vb > 0) || (va < 0 && vb < 0) || va == vb) continue;
+    if (!line_meets(a, b, hg->p)) continue;
+    t = va > vb ? (struct ratio){va, va - vb} : (struct ratio){-va, vb - va};
+    add_end(ends,
+            (struct geom_point){(int32_t)ratio_lerp(t, a.x, b.x),
+                                (int32_t)ratio_lerp(t, a.y, b.y),
+                                ratio_lerp(t, a.z, b.z)});
+  }
+}
+
+static int shared_corners(const struct geom_point f[3],
+                          const struct geom_point g[3]) {
+  int shared = 0;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) shared += geom_same_point(f[i], g[j]);
+  return shared;
+}
+
+bool pierce_pair(const struct sheet *sheet, const struct hider *hf, uint32_t f,
+                 uint32_t g, struct pierce_segment *segment,
+                 struct pierce_counts *counts) {
+  struct ends ends = {0};
+  struct geom_point p[3];
+  struct hider hg;
+  if (sheet->triangle.item[f].face == sheet->triangle.item[g].face)
+    return false;
+  counts->pairs++;
+  for (int k = 0; k < 3; k++)
+    p[k] = sheet->point.item[sheet->triangle.item[g].point[k]];
+  if (!straddles(hf, p)) return false;
+  hider_init(&hg, sheet, g);
+  if (!straddles(&hg, hf->p) || shared_corners(hf->p, p) > 1) return false;
+  counts->straddle++;
+  find_ends(sheet, f, &hg, &ends);
+  find_ends(sheet, g, hf, &ends);
+  if (ends.count < 2 ||
+      (ends.low.x == ends.high.x && ends.low.y == ends.high.y))
+    return false;
+  counts->segments++;
+  *segment = (struct pierce_segment){{f < g ? f : g, f < g ? g : f},
+                                     {ends.low, ends.high}};
+  return true;
+}
+
+/* ---- Edges of the sheet ---------------------------------------------------- */
+
+static int compare_segments(const void *a, const void *b, void *user) {
+  const struct pierce_segment *s = a, *t = b;
+  (void)user;
+  for (int k = 0; k < 2; k++)
+    if (s->triangle[k] != t->triangle[k])
+      return s->triangle[k] < t->triangle[k] ? -1 : 1;
+  return 0;
+}
+
+struct loose_end {
+  struct geom_point point;
+  uint32_t segment, end;
+};
+
+static int compare_ends(const void *a, const void *b, void *user) {
+  (void)user;
+  return compare_points(((const struct loose_end *)a)->point,
+                        ((const struct loose_end *)b)->point);
+}
+
+/* Gives each end its point in the sheet, the same one for the same place. */
+static bool add_points(struct sheet *sheet, const pierce_segments *segments,
+                       struct sheet_edge *edge) {
+  size_t n = 2 * segments->count;
+  struct loose_end *end = mem_alloc(n, sizeof *end);
+  bool done = false;
+  if (end == NULL) return false;
+  for (size_t i = 0; i < n; i++)
+    end[i] = (struct loose_end){segments->item[i / 2].end[i % 2],
+                                (uint32_t)(i / 2), (uint32_t)(i % 2)};
+  if (!sort_stable(end, n, sizeof *end, compare_ends, NULL)) goto end;
+  for (size_t i = 0; i < n; i++) {
+    if ((i == 0 || compare_ends(&end[i - 1], &end[i], NULL) != 0) &&
+        !ARRAY_PUSH(&sheet->point, end[i].point))
+      goto end;
+    edge[end[i].segment].point[end[i].end] =
+        (uint32_t)(sheet->point.count - 1);
+  }
+  done = true;
+end:
+  mem_free(end);
+  return done;
+}
+
+bool pierce_add_edges(struct sheet *sheet, pierce_segments *segments) {
+  size_t n = segments->count;
+  struct sheet_edge *edge;
+  if (n == 0) return true;
+  if (!sort_stable(segments->item, n, sizeof *segments->item, compare_segments,
+                   NULL) ||
+      !ARRAY_RESERVE(&sheet->edge, n))
+    return false;
+  edge = sheet->edge.item + sheet->edge.count;
+  for (size_t i = 0; i < n; i++) {
+    const struct pierce_segment *s = &segments->item[i];
+    edge[i] = (struct sheet_edge){
+        .triangle = {s->triangle[0], s->triangle[1]},
+        .source = SHEET_NONE,
+        .group = sheet->face_group[
+            sheet->triangle.item[s->triangle[0]].face],
+        .edge_class = RECTO_EDGE_INTERSECTION};
+  }
+  if (!add_points(sheet, segments, edge)) return false;
+  sheet->edge.count += n;
+  return true;
+}
+
+/* ---- All pairs -------------------------------------------------------------- */
+
+struct depths {
+  int64_t low, high;
+};
+
+static struct depths depths_of(const struct sheet *sheet, uint32_t triangle) {
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  struct depths d = {sheet->point.item[p[0]].z, sheet->point.item[p[0]].z};
+  for (int k = 1; k < 3; k++) {
+    int64_t z = sheet->point.item[p[k]].z;
+    if (z < d.low) d.low = z;
+    if (z > d.high) d.high = z;
+  }
+  return d;
+}
+
+/* The pairs of triangle f with the later ones that the query found. */
+static bool pierce_found(const struct sheet *sheet, uint32_t f,
+                         const struct pagegrid_query *query,
+                         pierce_segments *segments,
+                         struct pierce_counts *counts) {
+  struct page_box box = page_box_of_triangle(sheet, f);
+  struct depths depths = depths_of(sheet, f);
+  struct hider hf;
+  hider_init(&hf, sheet, f);
+  for (size_t i = 0; i < query->found.count; i++) {
+    uint32_t g = query->found.item[i];
+    struct pierce_segment segment;
+    struct depths other;
+    if (g <= f || page_boxes_apart(box, page_box_of_triangle(sheet, g)))
+      continue;
+    other = depths_of(sheet, g);
+    if (other.high < depths.low || depths.high < other.low) continue;
+    if (pierce_pair(sheet, &hf, f, g, &segment, counts) &&
+        !ARRAY_PUSH(segments, segment))
+      return false;
+  }
+  return true;
+}
+
+recto_status pierce_all(struct sheet *sheet, const struct pagegrid *grid,
+                        struct report *report, recto_error *error) {
+  struct pagegrid_query query;
+  pierce_segments segments = {0};
+  struct pierce_counts counts = {0};
+  recto_status status = RECTO_ERROR_MEMORY;
+  if (!pagegrid_query_init(&query, grid)) return error_memory(error);
+  for (size_t f = 0; f < sheet->triangle.count; f++)
+    if (!pagegrid_find(grid, page_box_of_triangle(sheet, (uint32_t)f),
+                       &query) ||
+        !pierce_found(sheet, (uint32_t)f, &query, &segments, &counts))
+      goto end;
+  if (!pierce_add_edges(sheet, &segments)) goto end;
+  report_int(report, "pierce", "pairs", (int64_t)counts.pairs);
+  report_int(report, "pierce", "straddling", (int64_t)counts.straddle);
+  report_int(report, "pierce", "segments", (int64_t)counts.segments);
+  status = RECTO_OK;
+end:
+  ARRAY_FREE(&segments);
+  pagegrid_query_fini(&query);
+  return status == RECTO_OK ? RECTO_OK : error_memory(error);
+}
