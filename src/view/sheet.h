@@ -50,7 +50,7 @@ struct sheet_edge {
                            for intersections */
   uint32_t group;       /* of its first face, or of the wire */
   uint16_t edge_class;  /* one recto_edge_class: of its natures that were
-                           asked for, the first in that enumeration */
+                           asked for, the first in that enumeration; 0: an outline */
   uint16_t part;        /* wires: segment's index, low bits */
 };
 
@@ -58,11 +58,10 @@ struct sheet {
   ARRAY(struct sheet_point) point;
   ARRAY(struct sheet_triangle) triangle;
   uint8_t *triangle_flags; /* one a triangle */
-  /* Edges of the asked-for classes first to last: mesh edges in topology
-   * order, then wires, then intersections once they were found. */
+  const uint32_t *face_group; /* the scene's, lent */
+  /* Mesh edges in topology order, then wires, then intersections once they
+   * were found.  Edges of class 0 are there as outlines, not to be drawn. */
   ARRAY(struct sheet_edge) edge;
-  uint32_t edge_count_drawn; /* edges before this index are drawable; edges
-                                after it are there only as outlines */
   struct camera camera;
   double z_scale;          /* see above */
   double units_per_view;   /* grid units of x for one of X/d (perspective) or
@@ -73,8 +72,8 @@ struct sheet {
 /* Projects the scene: classes, clipping to the near plane and the page,
  * triangulation, snapping.  An edge may have several natures (a crease
  * may be a silhouette); it is kept where one of them is in options->edges,
- * and every edge is where `outlines` is set (those not asked for then stand
- * after the drawn ones, wires never among them).
+ * and every edge of a face is where `outlines` is set (of class 0 where it is
+ * not asked for).
  * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_LIMIT (2^31 points). */
 USE_RESULT recto_status sheet_init(struct sheet *sheet,
                                    const struct scene *scene,
