@@ -1,1 +1,17 @@
 # examples/local.mk - example models and what makes them.
+noinst_PROGRAMS += %D%/generate
+%C%_generate_SOURCES = %D%/generate.c %D%/models.h \
+  %D%/castle.c %D%/gears.c %D%/knot.c %D%/shape.c %D%/shape.h
+%C%_generate_LDADD = -lm
+
+example_models = %D%/models/castle.obj %D%/models/gears.obj \
+  %D%/models/knot.obj
+EXTRA_DIST += $(example_models)
+
+# Makes the committed models anew.
+models: examples/generate$(EXEEXT)
+	for model in $(example_models); do \
+	  name=$$(basename $$model .obj); \
+	  examples/generate$(EXEEXT) $$name >$(srcdir)/$$model || exit 1; \
+	done
+.PHONY: models

@@ -1,0 +1,32 @@
+/* generate.c - writes the example models: generate NAME > NAME.obj */
+#include <stdio.h>
+#include <string.h>
+
+#include "examples/models.h"
+
+static const struct {
+  const char *name, *title;
+  void (*make)(struct shape *shape);
+} models[] = {
+    {"castle", "castle: towers, walls, a gate and a keep", models_castle},
+    {"gears", "gears: five spur gears on four shafts", models_gears},
+    {"knot", "knot: a tube along the trefoil knot", models_knot},
+};
+
+int main(int argc, char **argv) {
+  for (size_t i = 0; argc == 2 && i < sizeof models / sizeof *models; i++) {
+    if (strcmp(argv[1], models[i].name) != 0)
+      continue;
+    struct shape shape = {0};
+    models[i].make(&shape);
+    bool good = shape_write(&shape, models[i].title, stdout);
+    shape_free(&shape);
+    if (fflush(stdout) != 0 || !good) {
+      fputs("generate: cannot write\n", stderr);
+      return 1;
+    }
+    return 0;
+  }
+  fputs("usage: generate castle|gears|knot > NAME.obj\n", stderr);
+  return 2;
+}

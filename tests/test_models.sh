@@ -1,0 +1,42 @@
+#!/bin/bash
+# test_models.sh - the committed example models are what the generator makes.
+# Prints TAP; run in the build folder, srcdir is set by make.
+srcdir=${srcdir:-.}
+models=$srcdir/examples/models
+count=0 failed=0
+
+# report RESULT CLAIM - one line of TAP; RESULT is 0 where the claim holds.
+report() {
+  count=$((count + 1))
+  if test "$1" = 0; then
+    echo "ok $count - $2"
+  else
+    echo "not ok $count - $2"
+    failed=1
+  fi
+}
+
+for name in castle gears knot; do
+  examples/generate "$name" | cmp -s - "$models/$name.obj"
+  report $? "$name.obj is what generate makes"
+  test "$(wc -c <"$models/$name.obj")" -lt 1000000
+  report $? "$name.obj is below a megabyte"
+  test "$(grep -c '^f ' "$models/$name.obj")" -lt 10000
+  report $? "$name.obj has fewer than ten thousand faces"
+  # Every side of a face is met by exactly one that runs the other way.
+  awk '/^f / {
+         for (i = 2; i <= NF; i++)
+           side[$i " " (i < NF ? $(i + 1) : $2)]++
+       }
+       END {
+         for (s in side) {
+           split(s, end, " ")
+           if (side[s] != 1 || side[end[2] " " end[1]] != 1) exit 1
+         }
+       }' "$models/$name.obj"
+  report $? "$name.obj is closed, all faces turned outward alike"
+done
+! examples/generate nothing 2>/dev/null
+report $? "an unknown name is refused"
+echo "1..$count"
+exit $failed
