@@ -190,7 +190,8 @@ typedef struct recto_options {
   bool ids;            /* keep source ids on every stroke */
 
   /* Output. */
-  int precision;       /* decimals of a millimetre in text formats */
+  int precision;       /* decimals of a millimetre in text formats, 0 to 9 */
+  bool polyline;       /* SVG: <polyline> elements instead of <path> */
 
   /* Conversation. */
   recto_progress_fn progress;
@@ -244,7 +245,8 @@ RECTO_USE_RESULT recto_status recto_scene_add_group(recto_scene *scene,
                                                     const char *name,
                                                     recto_error *error);
 
-/* Adds a planar face of `count` >= 3 corners, indices of points. */
+/* Adds a planar face of `count` >= 3 corners, indices of points.  One without
+ * area is skipped and counted in the stats, as in a file. */
 RECTO_USE_RESULT recto_status recto_scene_add_face(recto_scene *scene,
                                                    const uint32_t *corner,
                                                    size_t count,

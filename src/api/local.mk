@@ -1,4 +1,9 @@
 # src/api/local.mk - the facade behind recto.h.
 librecto_core_la_SOURCES += \
   src/recto.h \
+  %D%/handle.h \
+  %D%/model.c \
+  %D%/options.c \
+  %D%/output.c \
+  %D%/render.c \
   %D%/version.c

@@ -1,0 +1,22 @@
+/* handle.h - what stands behind the opaque handles of recto.h. */
+#ifndef API_HANDLE_H
+#define API_HANDLE_H
+
+#include "ink/drawing.h"
+#include "scene/scene.h"
+
+struct recto_scene {
+  struct scene scene;
+  unsigned long fault[SCENE_FAULT_COUNT]; /* of everything added so far */
+  double read_cpu, read_wall;             /* seconds spent on reading files */
+};
+
+struct recto_drawing {
+  struct drawing drawing;
+};
+
+/* Checks what can be checked of the options alone: finite, in range. */
+USE_RESULT recto_status options_check(const recto_options *options,
+                                      recto_error *error);
+
+#endif

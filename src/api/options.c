@@ -1,0 +1,93 @@
+/* options.c - the options' defaults, and whether they make sense. */
+#include <float.h>
+
+#include "api/handle.h"
+
+void recto_options_init(recto_options *options) {
+  *options = (recto_options){
+      .method = RECTO_METHOD_AUTO,
+      .contact = -1,
+      .camera = RECTO_CAMERA_DIRECTION,
+      .azimuth_deg = 45,
+      .elevation_deg = 35.264389682754654, /* atan(1 / sqrt(2)): isometric */
+      .fit = RECTO_FIT_PAGE,
+      .scale = 1,
+      .page_width_mm = 210,
+      .page_height_mm = 297,
+      .margin_mm = 10,
+      .edges = RECTO_EDGES_DEFAULT,
+      .crease_deg = 30,
+      .hidden = RECTO_HIDDEN_NONE,
+      .fill = RECTO_FILL_NONE,
+      .hatch_pitch_mm = 1,
+      .hatch_angle_deg = 45,
+      .pen_mm = 0.3,
+      .pens = 1,
+      .order = RECTO_ORDER_NONE,
+      .min_stroke_mm = -1,
+      .precision = 3,
+  };
+}
+
+/* A number of the options and where it may lie. */
+struct range {
+  const char *name;
+  double value;
+  double least, most;
+};
+
+static recto_status check_ranges(const struct range *range, size_t count,
+                                 recto_error *error) {
+  for (size_t i = 0; i < count; i++)
+    if (!(range[i].value >= range[i].least && range[i].value <= range[i].most))
+      return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                       "%s is out of range", range[i].name);
+  return RECTO_OK;
+}
+
+recto_status options_check(const recto_options *o, recto_error *error) {
+  const double huge = DBL_MAX, small = DBL_MIN;
+  const struct range range[] = {
+      {"the method", o->method, 0, RECTO_METHOD_COUNT - 1},
+      {"the number of threads", o->threads, 0, 1024},
+      {"the contact length", o->contact, -huge, huge},
+      {"the pitch", o->pitch_mm, 0, huge},
+      {"the resolution", o->resolution, 0, 1 << 20},
+      {"the kind of camera", o->camera, 0, RECTO_CAMERA_EYE},
+      {"the azimuth", o->azimuth_deg, -huge, huge},
+      {"the elevation", o->elevation_deg, -huge, huge},
+      {"the eye", o->eye[0], -huge, huge},
+      {"the eye", o->eye[1], -huge, huge},
+      {"the eye", o->eye[2], -huge, huge},
+      {"the target", o->target[0], -huge, huge},
+      {"the target", o->target[1], -huge, huge},
+      {"the target", o->target[2], -huge, huge},
+      {"the up direction", o->up[0], -huge, huge},
+      {"the up direction", o->up[1], -huge, huge},
+      {"the up direction", o->up[2], -huge, huge},
+      {"the field of view", o->fov_deg, 0, 179},
+      {"the way to fit", o->fit, 0, RECTO_FIT_SCALE},
+      {"the scale", o->scale, small, huge},
+      {"the near distance", o->near_distance, 0, huge},
+      {"the section", o->section, -huge, huge},
+      {"the page width", o->page_width_mm, small, huge},
+      {"the page height", o->page_height_mm, small, huge},
+      {"the margin", o->margin_mm, 0, huge},
+      {"the mask of edges", o->edges, 0, RECTO_EDGES_ALL},
+      {"the crease angle", o->crease_deg, 0, 180},
+      {"the way with hidden lines", o->hidden, 0, RECTO_HIDDEN_LAYER},
+      {"the kind of fill", o->fill, 0, RECTO_FILL_HATCH},
+      {"the hatch pitch", o->hatch_pitch_mm, small, huge},
+      {"the hatch angle", o->hatch_angle_deg, -huge, huge},
+      {"the light", o->light[0], -huge, huge},
+      {"the light", o->light[1], -huge, huge},
+      {"the light", o->light[2], -huge, huge},
+      {"the pen width", o->pen_mm, small, 100},
+      {"the number of pens", o->pens, 1, 1000},
+      {"the order", o->order, 0, RECTO_ORDER_NEAR},
+      {"the simplification", o->simplify_mm, 0, huge},
+      {"the shortest stroke", o->min_stroke_mm, -huge, huge},
+      {"the precision", o->precision, 0, 9},
+  };
+  return check_ranges(range, sizeof range / sizeof range[0], error);
+}

@@ -1,0 +1,123 @@
+/* output.c - the drawing's handle: writing it and looking into it; and the
+ * whole job in one call. */
+#include <assert.h>
+#include <string.h>
+
+#include "api/handle.h"
+#include "backends/writer.h"
+
+void recto_drawing_destroy(recto_drawing *drawing) {
+  if (drawing == NULL)
+    return;
+  drawing_fini(&drawing->drawing);
+  mem_free(drawing);
+}
+
+const char *recto_drawing_stats(const recto_drawing *drawing) {
+  const char *json = drawing->drawing.report != NULL
+                         ? report_json(drawing->drawing.report)
+                         : NULL;
+  return json != NULL ? json : "{}\n";
+}
+
+size_t recto_drawing_stroke_count(const recto_drawing *drawing) {
+  return drawing->drawing.stroke.count;
+}
+
+recto_stroke recto_drawing_stroke(const recto_drawing *drawing, size_t index) {
+  assert(index < drawing->drawing.stroke.count);
+  const struct drawing_stroke *stroke = &drawing->drawing.stroke.item[index];
+  /* A drawing's point is exactly a pair of doubles. */
+  static_assert(sizeof(struct drawing_point) == 2 * sizeof(double), "pairs");
+  return (recto_stroke){
+      .points = &drawing->drawing.point.item[stroke->point].x,
+      .count = stroke->count,
+      .closed = stroke->closed,
+      .layer = stroke->layer,
+      .edge_class = (recto_edge_class)stroke->edge_class,
+      .face = stroke->face,
+      .edge = stroke->edge,
+      .group = stroke->group,
+  };
+}
+
+/* ---- Writing --------------------------------------------------------------
+ */
+
+static recto_status find_writer(const char *path, const char *format,
+                                const struct writer **writer,
+                                recto_error *error) {
+  if (format != NULL) {
+    *writer = writer_by_name(format);
+    if (*writer == NULL)
+      return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                       "there is no output format \"%s\"", format);
+    return RECTO_OK;
+  }
+  *writer = writer_by_path(path);
+  if (*writer != NULL)
+    return RECTO_OK;
+  if (strcmp(path, "-") == 0)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "standard output needs a format");
+  return error_set(error, RECTO_ERROR_UNSUPPORTED, path, 0,
+                   "there is no output format of that extension");
+}
+
+recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
+                                 const char *format,
+                                 const recto_options *options,
+                                 recto_error *error) {
+  recto_options defaults;
+  if (options == NULL) {
+    recto_options_init(&defaults);
+    options = &defaults;
+  }
+  const struct writer *writer;
+  recto_status status = options_check(options, error);
+  if (status == RECTO_OK)
+    status = find_writer(path, format, &writer, error);
+  if (status != RECTO_OK)
+    return status;
+  double cpu = clock_cpu(), wall = clock_wall();
+  struct stream *stream;
+  status = stream_open(&stream, path, error);
+  if (status != RECTO_OK)
+    return status;
+  struct writer_options how = {.precision = options->precision,
+                               .polyline = options->polyline,
+                               .warning = options->warning,
+                               .user = options->user};
+  status = writer->write(&drawing->drawing, &how, stream, error);
+  if (status != RECTO_OK) {
+    stream_discard(stream);
+    return status;
+  }
+  status = stream_finish(stream, error);
+  report_double(drawing->drawing.report, "time", "write_cpu_s",
+                clock_cpu() - cpu);
+  report_double(drawing->drawing.report, "time", "write_wall_s",
+                clock_wall() - wall);
+  return status;
+}
+
+recto_status recto_draw_file(const char *model, const char *from,
+                             const char *output, const char *to,
+                             const recto_options *options, recto_error *error) {
+  recto_scene *scene = NULL;
+  recto_drawing *drawing = NULL;
+  /* Known before the work: a format that is not there. */
+  const struct writer *writer;
+  recto_status status = find_writer(output, to, &writer, error);
+  if (status == RECTO_OK)
+    status = recto_scene_create(&scene, error);
+  if (status == RECTO_OK)
+    status = recto_scene_read(scene, model, from, options, error);
+  if (status == RECTO_OK)
+    status = recto_scene_render(scene, options, &drawing, error);
+  if (status == RECTO_OK)
+    status = recto_drawing_write(drawing, output, to, options, error);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+  return status;
+}

@@ -1,0 +1,265 @@
+/* render.c - from scene to drawing: one stage after the other, each timed.
+ *
+ * Phases: check the options, choose the method, find the edges, aim the
+ * camera, build the sheet, solve it, ink it. */
+#include <unistd.h>
+
+#include "api/handle.h"
+#include "ink/ink.h"
+#include "scene/topology.h"
+#include "view/camera.h"
+#include "view/sheet.h"
+#include "visibility/solver.h"
+
+/* Everything a render makes on its way; zeroed is empty. */
+struct render {
+  const recto_scene *model;
+  const recto_options *options;
+  const struct solver *solver;
+  struct topology topology;
+  struct camera camera;
+  struct sheet sheet;
+  struct map map;
+  struct drawing *drawing;
+  struct report *report;
+  double share; /* of all the work, done when the stage at hand began */
+};
+
+/* ---- Options that nothing in this build serves ----------------------------
+ */
+
+static recto_status check_supported(const recto_options *options,
+                                    recto_error *error) {
+  const char *what = options->fill != RECTO_FILL_NONE     ? "fills are"
+                     : options->order != RECTO_ORDER_NONE ? "ordering is"
+                                                          : NULL;
+  if (what != NULL)
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "%s not available in this build", what);
+  return RECTO_OK;
+}
+
+/* ---- The method -----------------------------------------------------------
+ */
+
+static const struct solver *choose_solver(const recto_options *options,
+                                          const char **why) {
+  if (options->method != RECTO_METHOD_AUTO) {
+    *why = "asked for";
+    return solver_by_method(options->method);
+  }
+  *why = "exact on every scene";
+  return solver_by_method(RECTO_METHOD_NEWELL);
+}
+
+static recto_status choose_method(struct render *render, recto_error *error) {
+  const char *why;
+  const char *name = recto_method_name(render->options->method);
+  render->solver = choose_solver(render->options, &why);
+  if (render->solver == NULL)
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "method %s is not available in this build", name);
+  report_text(render->report, "method", "asked", name);
+  report_text(render->report, "method", "chosen", render->solver->name);
+  report_text(render->report, "method", "why", why);
+  return RECTO_OK;
+}
+
+static int count_threads(const recto_options *options) {
+#ifdef _OPENMP
+  if (options->threads > 0)
+    return options->threads;
+  long there = sysconf(_SC_NPROCESSORS_ONLN);
+  return there > 0 && there < 1024 ? (int)there : 1;
+#else
+  (void)options;
+  return 1;
+#endif
+}
+
+/* ---- Stages ----------------------------------------------------------------
+ */
+
+static recto_status find_edges(struct render *render, recto_error *error) {
+  return topology_init(&render->topology, &render->model->scene, error);
+}
+
+static recto_status aim(struct render *render, recto_error *error) {
+  recto_status status = camera_aim(&render->camera, &render->model->scene,
+                                   render->options, error);
+  if (status != RECTO_OK)
+    return status;
+  double matrix[12];
+  camera_matrix(&render->camera, matrix);
+  report_doubles(render->report, "camera", "model_to_page_mm", matrix, 12);
+  report_double(render->report, "camera", "contact", render->camera.contact);
+  return RECTO_OK;
+}
+
+static recto_status project(struct render *render, recto_error *error) {
+  bool outlines = render->options->fill != RECTO_FILL_NONE;
+  return sheet_init(&render->sheet, &render->model->scene, &render->topology,
+                    &render->camera, render->options, outlines, error);
+}
+
+/* Hands the share of the stage on as a share of the whole. */
+static bool pass_progress(void *user, double share, const char *stage) {
+  const struct render *render = user;
+  const double most = 0.9;
+  return render->options->progress(
+      render->options->user, render->share + share * (most - render->share),
+      stage);
+}
+
+static recto_status solve(struct render *render, recto_error *error) {
+  const recto_options *options = render->options;
+  struct solver_request request = {
+      .strokes = options->edges != RECTO_EDGES_NONE,
+      .fragments = options->fill != RECTO_FILL_NONE,
+      .intersections = (options->edges & RECTO_EDGE_INTERSECTION) != 0,
+      .threads = count_threads(options),
+      .pitch_mm = options->pitch_mm,
+      .resolution = options->resolution,
+      .progress = options->progress != NULL ? pass_progress : NULL,
+      .user = render,
+  };
+  report_int(render->report, "method", "threads", request.threads);
+  return render->solver->solve(&render->sheet, &request, &render->map,
+                               render->report, error);
+}
+
+static recto_status ink(struct render *render, recto_error *error) {
+  return ink_draw(render->drawing, &render->sheet, &render->model->scene,
+                  &render->map, render->options, error);
+}
+
+static const struct stage {
+  const char *name;
+  const char *cpu, *wall; /* names in the report */
+  double share;           /* of all the work, done before it, as a guess */
+  recto_status (*run)(struct render *render, recto_error *error);
+} stages[] = {
+    {"topology", "topology_cpu_s", "topology_wall_s", 0.05, find_edges},
+    {"camera", "camera_cpu_s", "camera_wall_s", 0.1, aim},
+    {"sheet", "sheet_cpu_s", "sheet_wall_s", 0.1, project},
+    {"solve", "solve_cpu_s", "solve_wall_s", 0.2, solve},
+    {"ink", "ink_cpu_s", "ink_wall_s", 0.9, ink},
+};
+
+static recto_status run_stages(struct render *render, recto_error *error) {
+  const recto_options *options = render->options;
+  for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++) {
+    const struct stage *stage = &stages[i];
+    render->share = stage->share;
+    if (options->progress != NULL &&
+        !options->progress(options->user, stage->share, stage->name))
+      return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+    double cpu = clock_cpu(), wall = clock_wall();
+    recto_status status = stage->run(render, error);
+    report_double(render->report, "time", stage->cpu, clock_cpu() - cpu);
+    report_double(render->report, "time", stage->wall, clock_wall() - wall);
+    if (status != RECTO_OK)
+      return status;
+  }
+  return RECTO_OK;
+}
+
+/* ---- The report ------------------------------------------------------------
+ */
+
+static void report_scene(struct report *report, const recto_scene *model) {
+  const struct scene *scene = &model->scene;
+  report_int(report, "scene", "points", (int64_t)scene->point.count);
+  report_int(report, "scene", "faces", scene_face_count(scene));
+  report_int(report, "scene", "polylines", scene_wire_count(scene));
+  report_int(report, "scene", "groups", (int64_t)scene->group.count);
+  static const char *const name[SCENE_FAULT_COUNT] = {
+      [SCENE_FAULT_NOT_FINITE] = "not_finite",
+      [SCENE_FAULT_INDEX] = "index_out_of_range",
+      [SCENE_FAULT_FEW_CORNERS] = "few_corners",
+      [SCENE_FAULT_ZERO_AREA] = "zero_area",
+      [SCENE_FAULT_BOW_TIE] = "bow_tie",
+      [SCENE_FAULT_WARPED] = "warped",
+      [SCENE_FAULT_SYNTAX] = "syntax",
+  };
+  for (int i = 0; i < SCENE_FAULT_COUNT; i++)
+    report_int(report, "faults", name[i], (int64_t)model->fault[i]);
+}
+
+static void report_sheet(struct report *report, const struct render *render) {
+  const struct sheet *sheet = &render->sheet;
+  report_int(report, "scene", "edges", (int64_t)render->topology.edge.count);
+  report_add(report, "faults", "warped", (int64_t)sheet->warped);
+  report_int(report, "sheet", "points", (int64_t)sheet->point.count);
+  report_int(report, "sheet", "triangles", (int64_t)sheet->triangle.count);
+  report_int(report, "sheet", "edges", (int64_t)sheet->edge.count);
+  report_int(report, "sheet", "faces_clipped_near",
+             (int64_t)sheet->clipped_near);
+  report_int(report, "sheet", "faces_clipped_page",
+             (int64_t)sheet->clipped_page);
+}
+
+static void report_drawing(struct report *report,
+                           const struct drawing *drawing) {
+  report_int(report, "drawing", "layers", (int64_t)drawing->layer.count);
+  report_int(report, "drawing", "strokes", (int64_t)drawing->stroke.count);
+  report_int(report, "drawing", "fills", (int64_t)drawing->fill.count);
+  report_int(report, "drawing", "points", (int64_t)drawing->point.count);
+  report_double(report, "drawing", "length_mm", drawing_length_mm(drawing));
+  report_double(report, "drawing", "travel_mm", drawing_travel_mm(drawing));
+}
+
+/* ---- All of it -------------------------------------------------------------
+ */
+
+static recto_status run(struct render *render, recto_error *error) {
+  recto_status status = choose_method(render, error);
+  if (status != RECTO_OK)
+    return status;
+  report_scene(render->report, render->model);
+  double cpu = clock_cpu(), wall = clock_wall();
+  report_double(render->report, "time", "read_cpu_s", render->model->read_cpu);
+  report_double(render->report, "time", "read_wall_s",
+                render->model->read_wall);
+  map_init(&render->map);
+  status = run_stages(render, error);
+  if (status == RECTO_OK) {
+    report_double(render->report, "time", "render_cpu_s", clock_cpu() - cpu);
+    report_double(render->report, "time", "render_wall_s", clock_wall() - wall);
+    report_sheet(render->report, render);
+    report_drawing(render->report, render->drawing);
+    report_int(render->report, "memory", "peak_bytes",
+               (int64_t)mem_peak_bytes());
+  }
+  map_fini(&render->map);
+  sheet_fini(&render->sheet);
+  topology_fini(&render->topology);
+  return status;
+}
+
+recto_status recto_scene_render(const recto_scene *scene,
+                                const recto_options *options,
+                                recto_drawing **drawing, recto_error *error) {
+  *drawing = NULL;
+  recto_status status = options_check(options, error);
+  if (status == RECTO_OK)
+    status = check_supported(options, error);
+  if (status != RECTO_OK)
+    return status;
+  recto_drawing *made = mem_calloc(1, sizeof *made);
+  if (made == NULL)
+    return error_memory(error);
+  drawing_init(&made->drawing);
+  made->drawing.report = report_create();
+  struct render render = {.model = scene,
+                          .options = options,
+                          .drawing = &made->drawing,
+                          .report = made->drawing.report};
+  status = run(&render, error);
+  if (status != RECTO_OK) {
+    recto_drawing_destroy(made);
+    return status;
+  }
+  *drawing = made;
+  return RECTO_OK;
+}
