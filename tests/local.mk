@@ -21,3 +21,8 @@ dist_check_SCRIPTS += %D%/test_models.sh
 
 unit_tests += %D%/test_scanfill
 %C%_test_scanfill_SOURCES = %D%/test_scanfill.c
+
+unit_tests += %D%/test_exact_map
+%C%_test_exact_map_SOURCES = %D%/test_exact_map.c \
+  %D%/hand/sheet.c %D%/hand/sheet.h
+%C%_test_exact_map_CPPFLAGS = $(AM_CPPFLAGS) -I$(srcdir)/%D%

@@ -1,0 +1,182 @@
+/* sheet.c - sheets built by hand from integers. */
+#include "hand/sheet.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+void hand_sheet_init(struct sheet *sheet) {
+  memset(sheet, 0, sizeof *sheet);
+  sheet->camera.page_mm[0] = sheet->camera.page_mm[1] = 2000;
+  sheet->camera.middle_mm[0] = sheet->camera.middle_mm[1] = 1000;
+  sheet->z_scale = 1;
+  sheet->units_per_view = 1;
+}
+
+void hand_sheet_fini(struct sheet *sheet) {
+  ARRAY_FREE(&sheet->point);
+  ARRAY_FREE(&sheet->triangle);
+  ARRAY_FREE(&sheet->edge);
+  mem_free(sheet->triangle_flags);
+  mem_free((void *)sheet->face_group);
+}
+
+static uint32_t add_point(struct sheet *sheet, struct geom_point p) {
+  for (size_t i = 0; i < sheet->point.count; i++)
+    if (geom_same_point(sheet->point.item[i], p)) return (uint32_t)i;
+  assert_true(ARRAY_PUSH(&sheet->point, p));
+  return (uint32_t)sheet->point.count - 1;
+}
+
+static uint32_t add_edge(struct sheet *sheet, uint32_t a, uint32_t b,
+                         uint32_t triangle) {
+  struct sheet_edge edge = {.point = {a, b},
+                            .triangle = {triangle, SHEET_NONE},
+                            .edge_class = RECTO_EDGE_BORDER};
+  for (size_t i = 0; i < sheet->edge.count; i++) {
+    struct sheet_edge *e = &sheet->edge.item[i];
+    if ((e->point[0] == a && e->point[1] == b) ||
+        (e->point[0] == b && e->point[1] == a)) {
+      if (e->triangle[1] == SHEET_NONE) e->triangle[1] = triangle;
+      e->edge_class = RECTO_EDGE_SMOOTH;
+      return (uint32_t)i;
+    }
+  }
+  edge.source = (uint32_t)sheet->edge.count;
+  assert_true(ARRAY_PUSH(&sheet->edge, edge));
+  return (uint32_t)sheet->edge.count - 1;
+}
+
+static void add_triangle(struct sheet *sheet, const uint32_t p[3],
+                         const bool own[3], uint32_t face) {
+  struct sheet_triangle t = {.face = face};
+  uint32_t id = (uint32_t)sheet->triangle.count;
+  const struct geom_point *q = sheet->point.item;
+  int64_t area = geom_orient2d(q[p[0]], q[p[1]], q[p[2]]);
+  for (int k = 0; k < 3; k++) {
+    int from = area < 0 ? (3 - k) % 3 : k, side = area < 0 ? 2 - k : k;
+    t.point[k] = p[from];
+    t.side[k] = own[side]
+                    ? add_edge(sheet, p[side], p[(side + 1) % 3], id)
+                    : SHEET_NONE;
+  }
+  assert_true(ARRAY_PUSH(&sheet->triangle, t));
+  sheet->triangle_flags =
+      mem_resize(sheet->triangle_flags, sheet->triangle.count, 1);
+  sheet->triangle_flags[id] =
+      (uint8_t)(area == 0 ? SHEET_FLAT : area < 0 ? SHEET_FLIPPED : 0);
+}
+
+void hand_add_face(struct sheet *sheet, const int corner[][3], int count,
+                   int scale) {
+  uint32_t face = sheet->triangle.count == 0
+                      ? 0
+                      : sheet->triangle.item[sheet->triangle.count - 1].face + 1;
+  uint32_t point[16], *group;
+  assert_true(count <= 16);
+  for (int k = 0; k < count; k++)
+    point[k] = add_point(
+        sheet, (struct geom_point){corner[k][0] * scale, corner[k][1] * scale,
+                                   (int64_t)corner[k][2] * scale});
+  for (int k = 1; k + 1 < count; k++) {
+    const uint32_t p[3] = {point[0], point[k], point[k + 1]};
+    const bool own[3] = {k == 1, true, k + 2 == count};
+    add_triangle(sheet, p, own, face);
+  }
+  group = mem_resize((void *)sheet->face_group, face + 1, sizeof *group);
+  group[face] = 0;
+  sheet->face_group = group;
+}
+
+void hand_solve(const struct solver *solver, struct sheet *sheet,
+                struct map *map, struct report *report) {
+  const struct solver_request request = {.strokes = true,
+                                         .fragments = true,
+                                         .areas = true,
+                                         .intersections = true,
+                                         .threads = 1,
+                                         .pitch_mm = 1,
+                                         .resolution = 256};
+  recto_error error;
+  map_init(map);
+  assert_int_equal(solver->solve(sheet, &request, map, report, &error),
+                   RECTO_OK);
+}
+
+#define ASSERT_SAME(a, b, what)                                                \
+  do {                                                                         \
+    if ((a) != (b)) fail_msg("%s: %s differ", what, #a);                       \
+  } while (0)
+
+static void assert_same_strokes(const struct map *a, const struct map *b,
+                                const char *what) {
+  ASSERT_SAME(a->edge_count, b->edge_count, what);
+  for (size_t e = 0; e < a->edge_count; e++)
+    if (a->edge_state[e] != b->edge_state[e])
+      fail_msg("%s: edge %zu is %d and %d", what, e, a->edge_state[e],
+               b->edge_state[e]);
+  ASSERT_SAME(a->mixed.count, b->mixed.count, what);
+  ASSERT_SAME(a->interval.count, b->interval.count, what);
+  for (size_t m = 0; m < a->mixed.count; m++)
+    ASSERT_SAME(memcmp(&a->mixed.item[m], &b->mixed.item[m],
+                       sizeof a->mixed.item[m]),
+                0, what);
+  for (size_t i = 0; i < a->interval.count; i++) {
+    const struct map_interval *p = &a->interval.item[i],
+                              *q = &b->interval.item[i];
+    ASSERT_SAME(ratio_compare(p->t0, q->t0), 0, what);
+    ASSERT_SAME(ratio_compare(p->t1, q->t1), 0, what);
+  }
+}
+
+void hand_assert_same_map(const struct map *a, const struct map *b,
+                          const char *what) {
+  assert_same_strokes(a, b, what);
+  ASSERT_SAME(a->fragment.count, b->fragment.count, what);
+  ASSERT_SAME(a->loop.count, b->loop.count, what);
+  ASSERT_SAME(a->corner.count, b->corner.count, what);
+  for (size_t f = 0; f < a->fragment.count; f++) {
+    ASSERT_SAME(a->fragment.item[f].face, b->fragment.item[f].face, what);
+    ASSERT_SAME(a->fragment.item[f].loops, b->fragment.item[f].loops, what);
+    ASSERT_SAME(mpq_equal(a->area2.item[f], b->area2.item[f]), 1, what);
+  }
+  for (size_t l = 0; l < a->loop.count; l++)
+    ASSERT_SAME(a->loop.item[l].count, b->loop.item[l].count, what);
+  for (size_t c = 0; c < a->corner.count; c++) {
+    const struct map_corner *p = &a->corner.item[c], *q = &b->corner.item[c];
+    if (p->x != q->x || p->y != q->y || p->side != q->side || p->id != q->id)
+      fail_msg("%s: corner %zu: %g %g %d %u and %g %g %d %u", what, c, p->x,
+               p->y, p->side, p->id, q->x, q->y, q->side, q->id);
+  }
+}
+
+void hand_assert_area(const struct map *map, uint32_t face, int scale,
+                      long num, unsigned long den) {
+  mpq_t sum, want;
+  mpq_inits(sum, want, NULL);
+  for (size_t f = 0; f < map->fragment.count; f++)
+    if (map->fragment.item[f].face == face)
+      mpq_add(sum, sum, map->area2.item[f]);
+  mpq_set_si(want, 2 * num, den);
+  mpz_mul_si(mpq_numref(want), mpq_numref(want), scale);
+  mpz_mul_si(mpq_numref(want), mpq_numref(want), scale);
+  mpq_canonicalize(want);
+  if (!mpq_equal(sum, want))
+    fail_msg("face %u: area %g, not %ld/%lu", face,
+             mpq_get_d(sum) / 2 / scale / scale, num, den);
+  mpq_clears(sum, want, NULL);
+}
+
+uint64_t hand_random(uint64_t *state) {
+  uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
+  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+  return z ^ (z >> 31);
+}
+
+int hand_below(uint64_t *state, int bound) {
+  return (int)(hand_random(state) % (uint64_t)bound);
+}

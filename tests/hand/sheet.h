@@ -1,0 +1,35 @@
+/* sheet.h - sheets built by hand from integers, for tests of what comes after
+ * the view. */
+#ifndef TESTS_HAND_SHEET_H
+#define TESTS_HAND_SHEET_H
+
+#include "visibility/solver.h"
+
+/* An empty orthographic sheet whose only contact is the grid's. */
+void hand_sheet_init(struct sheet *sheet);
+void hand_sheet_fini(struct sheet *sheet);
+
+/* Adds a convex planar face: `count` corners x, y, z, either way round, each
+ * times `scale`.  Its sides become borders, or silhouettes, creases ... of
+ * class RECTO_EDGE_SMOOTH where another face has the same side. */
+void hand_add_face(struct sheet *sheet, const int corner[][3], int count,
+                   int scale);
+
+/* Solves with everything asked for; asserts that it went well. */
+void hand_solve(const struct solver *solver, struct sheet *sheet,
+                struct map *map, struct report *report);
+
+/* Asserts that two maps are the same to the last bit of every number. */
+void hand_assert_same_map(const struct map *a, const struct map *b,
+                          const char *what);
+
+/* The area of all fragments of a face over scale^2, as a fraction in lowest
+ * terms: asserts that it is num / den. */
+void hand_assert_area(const struct map *map, uint32_t face, int scale,
+                      long num, unsigned long den);
+
+/* A reproducible sequence (splitmix64). */
+uint64_t hand_random(uint64_t *state);
+int hand_below(uint64_t *state, int bound);
+
+#endif

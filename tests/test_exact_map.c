@@ -1,0 +1,210 @@
+/* test_exact_map.c - the exact solvers on scenes whose answer is known, and
+ * against each other on random ones. */
+#include "hand/sheet.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* Scenes of small integers are blown up so that the grid's own contact, a
+ * unit, is small beside them. */
+enum { SCALE = 1024 };
+
+static const struct solver *const exact[] = {&solver_brute, &solver_newell};
+enum { EXACT_COUNT = sizeof exact / sizeof *exact };
+
+static void pierced_rectangle(struct sheet *sheet) {
+  static const int one[][3] = {
+      {10, 5, 10}, {10, 25, 10}, {25, 25, 10}, {25, 5, 10}};
+  static const int two[][3] = {{15, 15, 15}, {25, 25, 5}, {30, 10, 5}};
+  hand_sheet_init(sheet);
+  hand_add_face(sheet, one, 4, SCALE);
+  hand_add_face(sheet, two, 3, SCALE);
+}
+
+static void pierced_rectangle_has_its_exact_areas(void **state) {
+  (void)state;
+  for (int s = 0; s < EXACT_COUNT; s++) {
+    struct sheet sheet;
+    struct map map;
+    pierced_rectangle(&sheet);
+    hand_solve(exact[s], &sheet, &map, NULL);
+    hand_assert_area(&map, 0, SCALE, 275, 1);
+    hand_assert_area(&map, 1, SCALE, 175, 3);
+    assert_int_equal(map.fragment.count, 3);
+    map_fini(&map);
+    hand_sheet_fini(&sheet);
+  }
+}
+
+static void pierced_rectangle_has_its_corners_and_sides(void **state) {
+  /* The triangle's first fragment: (15,15) (22.5,12.5) (20,20). */
+  static const double corner[3][2] = {{15, 15}, {22.5, 12.5}, {20, 20}};
+  static const int side[3] = {MAP_SIDE_EDGE, MAP_SIDE_INTERSECTION,
+                              MAP_SIDE_EDGE};
+  (void)state;
+  for (int s = 0; s < EXACT_COUNT; s++) {
+    struct sheet sheet;
+    struct map map;
+    const struct map_fragment *fragment;
+    const struct map_loop *loop;
+    pierced_rectangle(&sheet);
+    hand_solve(exact[s], &sheet, &map, NULL);
+    fragment = &map.fragment.item[1];
+    assert_int_equal(fragment->face, 1);
+    assert_int_equal(fragment->loops, 1);
+    loop = &map.loop.item[fragment->loop];
+    assert_int_equal(loop->count, 3);
+    for (int k = 0; k < 3; k++) {
+      const struct map_corner *c = &map.corner.item[loop->corner + (unsigned)k];
+      assert_true(c->x == corner[k][0] * SCALE && c->y == corner[k][1] * SCALE);
+      assert_int_equal(c->side, side[k]);
+    }
+    map_fini(&map);
+    hand_sheet_fini(&sheet);
+  }
+}
+
+static void two_rectangles_and_triangle_have_their_exact_areas(void **state) {
+  static const int one[][3] = {
+      {10, 3, 20}, {10, 28, 20}, {22, 28, 20}, {22, 3, 20}};
+  static const int two[][3] = {
+      {5, 12, 10}, {5, 20, 10}, {27, 20, 10}, {27, 12, 10}};
+  static const int three[][3] = {{15, 15, 25}, {25, 25, 5}, {30, 10, 5}};
+  (void)state;
+  for (int s = 0; s < EXACT_COUNT; s++) {
+    struct sheet sheet;
+    struct map map;
+    hand_sheet_init(&sheet);
+    hand_add_face(&sheet, one, 4, SCALE);
+    hand_add_face(&sheet, two, 4, SCALE);
+    hand_add_face(&sheet, three, 3, SCALE);
+    hand_solve(exact[s], &sheet, &map, NULL);
+    hand_assert_area(&map, 0, SCALE, 1175, 4);
+    hand_assert_area(&map, 1, SCALE, 178, 3);
+    hand_assert_area(&map, 2, SCALE, 661, 12);
+    map_fini(&map);
+    hand_sheet_fini(&sheet);
+  }
+}
+
+/* Three bars, each over the next: (x, y) boxes with tilted depth. */
+static void add_cycle(struct sheet *sheet, int x, int y) {
+  const int a[][3] = {{x + 0, y + 0, 10}, {x + 2, y + 0, 10},
+                      {x + 12, y + 20, 30}, {x + 10, y + 20, 30}};
+  const int b[][3] = {{x + 8, y + 20, 10}, {x + 10, y + 22, 10},
+                      {x + 22, y + 2, 30}, {x + 20, y + 0, 30}};
+  const int c[][3] = {{x + 24, y + 4, 10}, {x + 24, y + 6, 10},
+                      {x - 2, y + 6, 30}, {x - 2, y + 4, 30}};
+  hand_add_face(sheet, a, 4, SCALE);
+  hand_add_face(sheet, b, 4, SCALE);
+  hand_add_face(sheet, c, 4, SCALE);
+}
+
+/* Visible areas of all faces, twice over, summed. */
+static void sum_areas(const struct map *map, mpq_t sum) {
+  mpq_set_ui(sum, 0, 1);
+  for (size_t f = 0; f < map->fragment.count; f++)
+    mpq_add(sum, sum, map->area2.item[f]);
+}
+
+static void a_field_of_cycles_is_right(void **state) {
+  struct sheet sheet;
+  struct map one[EXACT_COUNT], field[EXACT_COUNT];
+  mpq_t area_one, area_field;
+  (void)state;
+  mpq_inits(area_one, area_field, NULL);
+  for (int s = 0; s < EXACT_COUNT; s++) {
+    struct report *report = report_create();
+    hand_sheet_init(&sheet);
+    add_cycle(&sheet, 0, 0);
+    hand_solve(exact[s], &sheet, &one[s], report);
+    if (exact[s] == &solver_newell)
+      assert_true(report_get(report, "newell", "splits_by_cycle", 0) > 0);
+    report_destroy(report);
+    hand_sheet_fini(&sheet);
+    hand_sheet_init(&sheet);
+    for (int y = 0; y < 10; y++)
+      for (int x = 0; x < 10; x++) add_cycle(&sheet, 30 * x, 30 * y);
+    hand_solve(exact[s], &sheet, &field[s], NULL);
+    hand_sheet_fini(&sheet);
+    sum_areas(&one[s], area_one);
+    sum_areas(&field[s], area_field);
+    mpz_mul_ui(mpq_numref(area_one), mpq_numref(area_one), 100);
+    mpq_canonicalize(area_one);
+    assert_true(mpq_equal(area_one, area_field));
+  }
+  hand_assert_same_map(&one[0], &one[1], "a cycle");
+  hand_assert_same_map(&field[0], &field[1], "a field of cycles");
+  for (int s = 0; s < EXACT_COUNT; s++) {
+    map_fini(&one[s]);
+    map_fini(&field[s]);
+  }
+  mpq_clears(area_one, area_field, NULL);
+}
+
+/* A random scene on a small lattice, so that touching, coplanar, edge-on and
+ * coinciding parts are common. */
+static void random_scene(struct sheet *sheet, uint64_t seed) {
+  uint64_t r = seed;
+  int faces = 2 + hand_below(&r, 9), lattice = 2 + hand_below(&r, 8);
+  int scale = 1 << (4 + hand_below(&r, 10));
+  hand_sheet_init(sheet);
+  if (hand_below(&r, 3) == 0) sheet->camera.contact = scale / 4;
+  for (int f = 0; f < faces; f++) {
+    int corner[4][3], count = 3;
+    for (int k = 0; k < 3; k++)
+      for (int i = 0; i < 3; i++) corner[k][i] = hand_below(&r, lattice);
+    if (hand_below(&r, 3) == 0) { /* a parallelogram */
+      count = 4;
+      for (int i = 0; i < 3; i++) {
+        corner[3][i] = corner[2][i];
+        corner[2][i] += corner[1][i] - corner[0][i];
+        if (i == 2 && (corner[2][i] < 0)) count = 3;
+      }
+      if (count == 3)
+        for (int i = 0; i < 3; i++) corner[2][i] = corner[3][i];
+    }
+    if (memcmp(corner[0], corner[1], sizeof corner[0]) != 0 &&
+        memcmp(corner[1], corner[2], sizeof corner[0]) != 0 &&
+        memcmp(corner[0], corner[2], sizeof corner[0]) != 0)
+      hand_add_face(sheet, (const int(*)[3])corner, count, scale);
+  }
+}
+
+static void solvers_agree_on_random_scenes(void **state) {
+  (void)state;
+  for (uint64_t seed = 1; seed <= 3000; seed++) {
+    struct sheet first, other;
+    struct map map, again;
+    char what[64];
+    random_scene(&first, seed);
+    hand_solve(exact[0], &first, &map, NULL);
+    for (int s = 1; s < EXACT_COUNT; s++) {
+      random_scene(&other, seed);
+      snprintf(what, sizeof what, "seed %u, %s", (unsigned)seed,
+               exact[s]->name);
+      hand_solve(exact[s], &other, &again, NULL);
+      hand_assert_same_map(&map, &again, what);
+      map_fini(&again);
+      hand_sheet_fini(&other);
+    }
+    map_fini(&map);
+    hand_sheet_fini(&first);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(pierced_rectangle_has_its_exact_areas),
+      cmocka_unit_test(pierced_rectangle_has_its_corners_and_sides),
+      cmocka_unit_test(two_rectangles_and_triangle_have_their_exact_areas),
+      cmocka_unit_test(a_field_of_cycles_is_right),
+      cmocka_unit_test(solvers_agree_on_random_scenes),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
