@@ -1,0 +1,19 @@
+# tests/scenes/local.mk - the scenes that tests, bench and fuzzer share.
+check_LTLIBRARIES += %D%/libscenes.la
+%C%_libscenes_la_SOURCES = \
+  %D%/build.c %D%/build.h \
+  %D%/camera.c \
+  %D%/cycles.c \
+  %D%/faulty.c \
+  %D%/flaws.c \
+  %D%/layers.c \
+  %D%/list.c \
+  %D%/mass.c \
+  %D%/meshes.c \
+  %D%/paper.c \
+  %D%/piercing.c \
+  %D%/random.h \
+  %D%/scenes.h \
+  %D%/small.c \
+  %D%/solids.c \
+  %D%/surfaces.c

@@ -1,0 +1,224 @@
+/* scenes.h - the scenes that tests, bench and fuzzer share: one or more for
+ * every row of the list of known failures.
+ *
+ * Every generator adds to an initialised, empty scene and sets the camera,
+ * page and ink options that show the failure; all else in `options` is left
+ * as recto_options_init made it.  The same arguments give the same scene on
+ * every machine (up to the last bits of sin, cos and sqrt). */
+#ifndef SCENES_SCENES_H
+#define SCENES_SCENES_H
+
+#include "tests/scenes/build.h"
+
+/* One entry of the stability list. */
+struct scenes_entry {
+  const char *name;
+  unsigned row; /* of the list of failures; 0: contact, which has no row */
+  void (*fill)(struct scene *scene, recto_options *options);
+};
+
+/* The stability list: small enough that every solver, the slowest included,
+ * does each in a moment.  Ended by an entry whose name is NULL. */
+extern const struct scenes_entry scene_list[];
+
+/* The entry of that name, which must exist. */
+const struct scenes_entry *scenes_find(const char *name);
+
+/* ---- Cameras ------------------------------------------------------------- */
+
+/* A 100 x 100 mm page with a 5 mm margin, seen from a direction. */
+void scenes_view_direction(recto_options *options, double azimuth_deg,
+                           double elevation_deg);
+/* The same, in perspective from `eye` towards `target`, up +Z. */
+void scenes_view_eye(recto_options *options, struct vector eye,
+                     struct vector target, double fov_deg);
+/* The same page, looking along -z with up +y, orthographic. */
+void scenes_view_above(recto_options *options);
+/* True scale, looking along -z with up +y: the page's lower left corner is
+ * the scene's (0, 0) and one scene unit is one millimetre. */
+void scenes_view_page(recto_options *options, double width_mm,
+                      double height_mm);
+
+/* ---- Solids and contact (rows 1, 3 and contact) ---------------------------
+ */
+
+/* The unit cube, turned about z by `radians`; seen from a generic corner. */
+void scenes_cube(struct scene *scene, recto_options *options, double radians);
+void scenes_icosahedron(struct scene *scene, recto_options *options);
+
+enum scenes_contact {
+  SCENES_CONTACT_EXACT, /* shared planes agree to the last bit */
+  SCENES_CONTACT_FLOAT  /* turned, then rounded to float32 */
+};
+
+/* A box standing on a table top, all turned about a generic axis. */
+void scenes_box_on_table(struct scene *scene, recto_options *options,
+                         enum scenes_contact contact, double radians);
+/* n cubes of falling size on top of each other. */
+void scenes_cube_stack(struct scene *scene, recto_options *options, unsigned n,
+                       double radians);
+/* Two boxes that share a part of a wall. */
+void scenes_touching_boxes(struct scene *scene, recto_options *options,
+                           double radians);
+
+/* ---- Eyes in odd places (row 2) -------------------------------------------
+ */
+
+enum scenes_eye {
+  SCENES_EYE_INSIDE,   /* in the middle of the room */
+  SCENES_EYE_ON_PLANE, /* on the plane of a face, beside it */
+  SCENES_EYE_ON_FACE,  /* within a face */
+  SCENES_EYE_ON_VERTEX,
+  SCENES_EYE_ON_EDGE, /* within an edge */
+  SCENES_EYE_ON_LINE  /* on the line of an edge, beyond its end */
+};
+
+/* A room with a table and a column, seen from such a place. */
+void scenes_room(struct scene *scene, recto_options *options,
+                 enum scenes_eye eye);
+
+/* ---- Degenerate faces (row 4, 30) ------------------------------------------
+ */
+
+enum scenes_flaw {
+  SCENES_FLAW_EDGE_ON,
+  SCENES_FLAW_NEEDLE,
+  SCENES_FLAW_ZERO_AREA,
+  SCENES_FLAW_COLLINEAR,
+  SCENES_FLAW_REPEATED,
+  SCENES_FLAW_COUNT
+};
+
+/* A cube and, before and in it, faces with that flaw (COUNT: with all). */
+void scenes_flaw(struct scene *scene, recto_options *options,
+                 enum scenes_flaw flaw);
+/* n bars, each thinner than the one before by a third. */
+void scenes_thin_bars(struct scene *scene, recto_options *options, unsigned n);
+
+/* ---- Piercing (row 5) -------------------------------------------------------
+ */
+
+void scenes_crossed_boxes(struct scene *scene, recto_options *options);
+void scenes_three_sheets(struct scene *scene, recto_options *options);
+/* An edge that runs exactly through another mesh's vertex. */
+void scenes_edge_through_vertex(struct scene *scene, recto_options *options);
+/* A closed tube bent so that it runs through itself. */
+void scenes_self_intersecting(struct scene *scene, recto_options *options);
+
+/* ---- Cycles (row 6)
+ * ---------------------------------------------------------- */
+
+/* n >= 3 flat bars that overlap in a ring, none of them rearmost. */
+void scenes_cycle(struct scene *scene, recto_options *options, unsigned n);
+/* `depth` rings of three bars, each within the opening of the one before. */
+void scenes_nested_cycles(struct scene *scene, recto_options *options,
+                          unsigned depth);
+/* n x n rings of three bars; bars of a ring never touch another ring. */
+void scenes_cycle_field(struct scene *scene, recto_options *options,
+                        unsigned n);
+/* n flat sticks at random; some of them pierce each other. */
+void scenes_sticks(struct scene *scene, recto_options *options, unsigned n,
+                   uint64_t seed);
+
+/* ---- Large under small, coplanar, doubled (rows 7, 8)
+ * ------------------------- */
+
+void scenes_large_table(struct scene *scene, recto_options *options);
+/* Overlapping faces in one plane, in three groups. */
+void scenes_coplanar(struct scene *scene, recto_options *options);
+/* The same mesh twice, point for point. */
+void scenes_doubled(struct scene *scene, recto_options *options);
+/* One plane in two colours that meet along a line, as a checked board. */
+void scenes_two_colours(struct scene *scene, recto_options *options);
+
+/* ---- Meshes as they come (rows 9, 10, 12, 13, 15)
+ * ------------------------------ */
+
+/* n x n quads beside one row of quads half as wide: hanging vertices. */
+void scenes_t_junctions(struct scene *scene, recto_options *options,
+                        unsigned n);
+/* A closed shell whose every triangle has points of its own. */
+void scenes_unwelded(struct scene *scene, recto_options *options);
+/* Faces that cut each other to pieces; none of the cuts may be drawn. */
+void scenes_split_faces(struct scene *scene, recto_options *options);
+/* A globe of `rings` x 2 `rings` quads and triangles: one closed outline. */
+void scenes_globe(struct scene *scene, recto_options *options, unsigned rings);
+/* A box seen square-on: all that shows is one rectangle. */
+void scenes_box_square_on(struct scene *scene, recto_options *options);
+/* A box whose every edge has `n` points within it. */
+void scenes_collinear_edges(struct scene *scene, recto_options *options,
+                            unsigned n);
+
+/* ---- Size (rows 16, 17, 18, 29)
+ * ------------------------------------------------- */
+
+/* A plate with n x n hexagonal holes. */
+void scenes_honeycomb(struct scene *scene, recto_options *options, unsigned n);
+/* A Menger sponge of that level, outer faces only (level <= 4). */
+void scenes_menger(struct scene *scene, recto_options *options, unsigned level);
+/* n bars over n bars: n^2 crossings. */
+void scenes_lattice(struct scene *scene, recto_options *options, unsigned n);
+/* A pipe of n sides and `rings` sections, seen along its axis. */
+void scenes_pipe(struct scene *scene, recto_options *options, unsigned n,
+                 unsigned rings);
+/* A fan of n triangles about one vertex, up and down like a bellows. */
+void scenes_fan(struct scene *scene, recto_options *options, unsigned n);
+/* n triangles at random that pierce each other. */
+void scenes_soup(struct scene *scene, recto_options *options, unsigned n,
+                 uint64_t seed);
+
+/* ---- Surfaces and nearness (rows 20, 21, 27, 28)
+ * ---------------------------------- */
+
+/* z = x^2 + y^2 over n x n cells. */
+void scenes_paraboloid(struct scene *scene, recto_options *options, unsigned n);
+/* z = sin(r) / r over n x n cells. */
+void scenes_sinc(struct scene *scene, recto_options *options, unsigned n);
+/* Two sheets `gap` apart, as a share of the scene's depth. */
+void scenes_near_sheets(struct scene *scene, recto_options *options,
+                        double gap);
+/* Two plates a slit of `width_mm` apart before a long edge; true scale. */
+void scenes_slit(struct scene *scene, recto_options *options, double width_mm);
+
+/* ---- True scale (rows 11, 24)
+ * ------------------------------------------------------ */
+
+/* A square of 100 mm as a wire, on A4. */
+void scenes_calibration_square(struct scene *scene, recto_options *options);
+/* 10 mm squares as wires, 150 x 200 mm, on A4. */
+void scenes_calibration_grid(struct scene *scene, recto_options *options);
+/* A white square in n x n pieces. */
+void scenes_white_square(struct scene *scene, recto_options *options,
+                         unsigned n);
+
+/* ---- Worked examples
+ * ------------------------------------------------------------------ */
+
+/* Each on a page of 32 x 32 mm, page mm = scene x and y, depth = scene z.
+ * Faces in order: the rectangle, the triangle. */
+void scenes_pierced_rectangle(struct scene *scene, recto_options *options);
+/* Faces in order: 1, 2 (rectangles), 3 (triangle). */
+void scenes_two_rectangles(struct scene *scene, recto_options *options);
+
+/* ---- Random small scenes
+ * ----------------------------------------------------------------- */
+
+/* 2 to 12 faces on small whole coordinates: touching, coplanar, piercing,
+ * cyclic and edge-on, from an axis or a generic camera. */
+void scenes_small(struct scene *scene, recto_options *options, uint64_t seed);
+
+/* ---- Faulty files (row 19)
+ * ------------------------------------------------------------------ */
+
+struct scenes_faulty {
+  const char *name;
+  const char *text;       /* an OBJ file */
+  enum scene_fault fault; /* the fault it has, SCENE_FAULT_COUNT: none */
+  unsigned long line;     /* where, 1-based */
+  unsigned faces;         /* how many faces are left to draw */
+};
+
+/* Ended by an entry whose name is NULL. */
+extern const struct scenes_faulty scenes_faulty_list[];
+
+#endif
