@@ -10,10 +10,14 @@
 #include "ink/drawing.h"
 
 struct writer_options {
-  int precision;             /* decimals of a millimetre in text formats */
-  bool polyline;             /* SVG: <polyline> instead of <path> */
-  recto_warning_fn warning;  /* NULL: silent */
+  int precision;            /* decimals of a millimetre in text formats */
+  bool polyline;            /* SVG: <polyline> instead of <path> */
+  recto_warning_fn warning; /* NULL: silent */
   void *user;
+  double dpi;         /* PNG: pixels per inch; 0: 150 */
+  bool tight;         /* PDF, EPS, PS, PNG: the page is the ink's box */
+  const char *device; /* HPGL: a name of device.h; NULL: "generic" */
+  double velocity;    /* HPGL: pen speed, cm/s; 0: the plotter's own */
 };
 
 struct writer {
@@ -24,7 +28,10 @@ struct writer {
                         struct stream *stream, recto_error *error);
 };
 
-extern const struct writer writer_svg;
+extern const struct writer writer_svg, writer_hpgl;
+#ifdef HAVE_CAIRO
+extern const struct writer writer_pdf, writer_eps, writer_ps, writer_png;
+#endif
 
 /* The writer of that name, or NULL; by the path's extension, or NULL. */
 const struct writer *writer_by_name(const char *name);

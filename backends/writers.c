@@ -4,7 +4,10 @@
 #include <string.h>
 
 static const struct writer *const table[] = {
-    &writer_svg,
+    &writer_svg, &writer_hpgl,
+#ifdef HAVE_CAIRO
+    &writer_pdf, &writer_eps,  &writer_ps, &writer_png,
+#endif
     NULL,
 };
 

@@ -1,0 +1,114 @@
+/* device.c - the table of pen plotters, and laying a page on one.
+ *
+ * Areas and units are the makers' own.  HP's manual of the 7475A says that its
+ * default scaling frame P1 P2 is centred on the paper: the centres below are
+ * the middles of those frames.  Of the 7550A we take the middle of its area.
+ * On the DXY the area is the whole sheet. */
+#include "backends/device.h"
+
+#include <math.h>
+#include <string.h>
+
+/* How much larger than the paper a page may be and still be meant for it, so
+ * that 8.5in, which no binary number is, fits on letter paper. */
+#define PAPER_SLACK_MM 0.5
+
+static const struct device_paper hp7475a[] = {
+    {279.4, 215.9, 0, 0, 10365, 7962, 5250, 4196},  /* A */
+    {297, 210, 0, 0, 11040, 7721, 5603, 4121},      /* A4 */
+    {431.8, 279.4, 0, 0, 16640, 10365, 8122, 5259}, /* B */
+    {420, 297, 0, 0, 16158, 11040, 7770, 5602},     /* A3 */
+};
+
+static const struct device_paper hp7550a[] = {
+    {297, 210, 0, 0, 10870, 7600, 5435, 3800},  /* A4 */
+    {420, 297, 0, 0, 15970, 10870, 7985, 5435}, /* A3 */
+};
+
+static const struct device_paper dxy[] = {
+    {297, 210, 0, 0, 11880, 8400, 5940, 4200},  /* A4 */
+    {420, 297, 0, 0, 16800, 11880, 8400, 5940}, /* A3 */
+};
+
+#define PAPERS(table) table, sizeof(table) / sizeof *(table)
+
+static const struct device devices[] = {
+    {"generic", 0.025, 0, false, NULL, 0},
+    {"drum", 0.025, 8, true, NULL, 0},
+    {"hp7475a", 0.02488, 6, false, PAPERS(hp7475a)},
+    {"hp7550a", 0.02488, 8, false, PAPERS(hp7550a)},
+    {"dxy", 0.025, 8, false, PAPERS(dxy)},
+};
+
+const struct device *device_by_name(const char *name) {
+  for (size_t i = 0; i < sizeof devices / sizeof *devices; i++)
+    if (strcmp(devices[i].name, name) == 0)
+      return &devices[i];
+  return NULL;
+}
+
+const char *device_name(size_t index) {
+  return index < sizeof devices / sizeof *devices ? devices[index].name : NULL;
+}
+
+static double area_of(const struct device_paper *paper) {
+  return paper->width_mm * paper->height_mm;
+}
+
+/* The smallest paper that holds a page of these sides, or the largest. */
+static const struct device_paper *
+choose_paper(const struct device *device, double long_mm, double short_mm) {
+  const struct device_paper *best = NULL, *largest = device->paper;
+  for (size_t i = 0; i < device->papers; i++) {
+    const struct device_paper *paper = &device->paper[i];
+    if (area_of(paper) > area_of(largest))
+      largest = paper;
+    if (paper->width_mm + PAPER_SLACK_MM >= long_mm &&
+        paper->height_mm + PAPER_SLACK_MM >= short_mm &&
+        (!best || area_of(paper) < area_of(best)))
+      best = paper;
+  }
+  return best ? best : largest;
+}
+
+/* The page itself is the area. */
+static void place_freely(const struct device *device, double width_mm,
+                         double height_mm, struct device_placement *placement) {
+  double width = width_mm / device->unit_mm;
+  double height = height_mm / device->unit_mm;
+  placement->turned = false;
+  placement->origin_x = device->centred ? -width / 2 : 0;
+  placement->origin_y = device->centred ? -height / 2 : 0;
+  placement->x0 = (int32_t)lround(placement->origin_x);
+  placement->y0 = (int32_t)lround(placement->origin_y);
+  placement->x1 = (int32_t)lround(placement->origin_x + width);
+  placement->y1 = (int32_t)lround(placement->origin_y + height);
+}
+
+void device_place(const struct device *device, double width_mm,
+                  double height_mm, struct device_placement *placement) {
+  placement->unit_mm = device->unit_mm;
+  placement->height_mm = height_mm;
+  if (!device->paper) {
+    place_freely(device, width_mm, height_mm, placement);
+    return;
+  }
+  const struct device_paper *paper = choose_paper(
+      device, fmax(width_mm, height_mm), fmin(width_mm, height_mm));
+  placement->turned = height_mm > width_mm;
+  placement->origin_x = paper->centre_x - paper->width_mm / 2 / device->unit_mm;
+  placement->origin_y =
+      paper->centre_y - paper->height_mm / 2 / device->unit_mm;
+  placement->x0 = paper->x0;
+  placement->y0 = paper->y0;
+  placement->x1 = paper->x1;
+  placement->y1 = paper->y1;
+}
+
+void device_point(const struct device_placement *placement, double x_mm,
+                  double y_mm, double *x, double *y) {
+  double along = placement->turned ? placement->height_mm - y_mm : x_mm;
+  double across = placement->turned ? x_mm : y_mm;
+  *x = placement->origin_x + along / placement->unit_mm;
+  *y = placement->origin_y + across / placement->unit_mm;
+}

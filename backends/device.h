@@ -1,0 +1,55 @@
+/* device.h - pen plotters: their unit, pens, papers and reach, and how a page
+ * lies on them. */
+#ifndef BACKENDS_DEVICE_H
+#define BACKENDS_DEVICE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* A sheet as it lies on the device, its long side along x. */
+struct device_paper {
+  double width_mm, height_mm;
+  int32_t x0, y0, x1, y1;    /* hard-clip area in units, ends included */
+  double centre_x, centre_y; /* the sheet's centre, in units */
+};
+
+struct device {
+  const char *name;
+  double unit_mm;
+  unsigned pens; /* in the carousel; 0: any number */
+  bool centred;  /* without papers: the origin is the page's centre, else its
+                    lower left corner */
+  const struct device_paper *paper; /* NULL: takes every page as it is */
+  size_t papers;
+};
+
+/* A page on a device.  A point x, y of the page, in mm, is at
+ * origin + (x, y) / unit, or, where the page is turned,
+ * origin + (page height - y, x) / unit. */
+struct device_placement {
+  double unit_mm;
+  double origin_x, origin_y; /* units */
+  double height_mm;          /* the page's */
+  bool turned;
+  int32_t x0, y0, x1, y1; /* never to be left; units, ends included */
+};
+
+/* The device of that name, or NULL. */
+const struct device *device_by_name(const char *name);
+
+/* The name at `index`, or NULL past the last. */
+const char *device_name(size_t index);
+
+/* Lays a page on the device: on the smallest paper that holds it, or the
+ * largest there is, its lower left corner (once turned) on the paper's; a page
+ * higher than wide is turned by a quarter, left side down, since papers lie
+ * with their long side along x. */
+void device_place(const struct device *device, double width_mm,
+                  double height_mm, struct device_placement *placement);
+
+/* Where a page point, in mm, is on the device, in units, not rounded. */
+void device_point(const struct device_placement *placement, double x_mm,
+                  double y_mm, double *x, double *y);
+
+#endif

@@ -1,0 +1,382 @@
+/* writer_cairo.c - PDF, EPS, PS and PNG through cairo, at true scale.
+ *
+ * cairo draws in points or pixels, y down; one matrix takes the page's
+ * millimetres, y up, to them.  Strokes stay paths, never pictures.  cairo
+ * hands its bytes to a stream through a sink, which also makes good what cairo
+ * does not offer: PS without the time of day, EPS with the page's box, PNG that
+ * knows its resolution.  cairo keeps path points to 1/256 of a point (1.4 um).
+ */
+#include <math.h>
+#include <string.h>
+
+#include <cairo-pdf.h>
+#include <cairo-ps.h>
+#include <cairo.h>
+
+#include "backends/writer.h"
+
+#define MM_PER_INCH 25.4
+#define POINTS_PER_INCH 72.0
+#define DEFAULT_DPI 150.0
+/* The largest picture: a side is cairo's limit, the area a gigabyte of it. */
+#define MAX_PIXELS_A_SIDE 32767.0
+#define MAX_PIXELS 268435456.0
+/* Files must not change with the day they are made on. */
+#define FIXED_DATE "2000-01-01T00:00:00Z"
+
+/* ---- From cairo to the stream -------------------------------------------- */
+
+struct sink {
+  struct stream *stream;
+  bool in_header, is_eps; /* PS: before the end of the head's comments */
+  double width_pt, height_pt, foot_pt; /* page; its foot below the top */
+  char line[256];     /* PS: of the head, as far as it has come */
+  size_t length;      /* of it */
+  uint64_t offset;    /* PNG: bytes taken so far */
+  uint32_t per_metre; /* PNG: pixels */
+};
+
+static cairo_status_t tell_cairo(const struct sink *sink) {
+  return stream_status(sink->stream) == RECTO_OK ? CAIRO_STATUS_SUCCESS
+                                                 : CAIRO_STATUS_WRITE_ERROR;
+}
+
+static cairo_status_t pass_bytes(void *closure, const unsigned char *bytes,
+                                 unsigned count) {
+  struct sink *sink = closure;
+  stream_write(sink->stream, bytes, count);
+  return tell_cairo(sink);
+}
+
+static bool starts_with(const struct sink *sink, const char *word) {
+  size_t length = strlen(word);
+  return sink->length >= length && memcmp(sink->line, word, length) == 0;
+}
+
+/* The page's box, for cairo would say the ink's: whole points that hold it,
+ * then the exact one. */
+static void write_box(const struct sink *sink) {
+  struct stream *stream = sink->stream;
+  stream_text(stream, "%%BoundingBox: 0 0 ");
+  stream_int(stream, (int64_t)ceil(sink->width_pt));
+  stream_text(stream, " ");
+  stream_int(stream, (int64_t)ceil(sink->height_pt));
+  stream_text(stream, "\n%%HiResBoundingBox: 0 0 ");
+  stream_number(stream, sink->width_pt, 3);
+  stream_text(stream, " ");
+  stream_number(stream, sink->height_pt, 3);
+  stream_text(stream, "\n");
+}
+
+/* Takes one line of a PS file's head, or the beginning of a long one. */
+static void pass_line(struct sink *sink) {
+  if (starts_with(sink, "%%EndComments"))
+    sink->in_header = false;
+  if (sink->is_eps && starts_with(sink, "%%BoundingBox:"))
+    write_box(sink);
+  else if (!(sink->is_eps && starts_with(sink, "%%HiResBoundingBox:")) &&
+           !starts_with(sink, "%%CreationDate:"))
+    stream_write(sink->stream, sink->line, sink->length);
+  sink->length = 0;
+}
+
+static cairo_status_t pass_ps(void *closure, const unsigned char *bytes,
+                              unsigned count) {
+  struct sink *sink = closure;
+  unsigned i = 0;
+  while (i < count && sink->in_header) {
+    sink->line[sink->length++] = (char)bytes[i];
+    if (bytes[i++] == '\n' || sink->length == sizeof sink->line)
+      pass_line(sink);
+  }
+  return pass_bytes(sink, bytes + i, count - i);
+}
+
+static void put_be32(unsigned char *bytes, uint32_t value) {
+  for (int i = 0; i < 4; i++)
+    bytes[i] = (unsigned char)(value >> (24 - 8 * i));
+}
+
+/* The CRC-32 of PNG (that of ISO 3309), bit by bit: it is for 13 bytes. */
+static uint32_t checksum(const unsigned char *bytes, size_t count) {
+  uint32_t crc = UINT32_MAX;
+  for (size_t i = 0; i < count; i++) {
+    crc ^= bytes[i];
+    for (int bit = 0; bit < 8; bit++)
+      crc = crc >> 1 ^ (crc & 1 ? UINT32_C(0xedb88320) : 0);
+  }
+  return ~crc;
+}
+
+/* The chunk that says how many pixels make a metre: length, type, x and y
+ * density, unit, checksum of all but the length. */
+static void write_resolution(const struct sink *sink) {
+  unsigned char chunk[21] = {0, 0, 0, 9, 'p', 'H', 'Y', 's'};
+  put_be32(chunk + 8, sink->per_metre);
+  put_be32(chunk + 12, sink->per_metre);
+  chunk[16] = 1;
+  put_be32(chunk + 17, checksum(chunk + 4, 13));
+  stream_write(sink->stream, chunk, sizeof chunk);
+}
+
+/* The chunk belongs after the first, which ends at byte 33 of every PNG. */
+static cairo_status_t pass_png(void *closure, const unsigned char *bytes,
+                               unsigned count) {
+  enum { HEADER = 33 };
+  struct sink *sink = closure;
+  unsigned before = count;
+  if (sink->offset < HEADER && sink->offset + count >= HEADER)
+    before = HEADER - (unsigned)sink->offset;
+  stream_write(sink->stream, bytes, before);
+  if (sink->offset < HEADER && sink->offset + before == HEADER)
+    write_resolution(sink);
+  stream_write(sink->stream, bytes + before, count - before);
+  sink->offset += count;
+  return tell_cairo(sink);
+}
+
+/* ---- What of the page is shown ------------------------------------------- */
+
+struct window {
+  double x0, y0, x1, y1; /* page mm */
+};
+
+static void include_points(struct window *window,
+                           const struct drawing_point *point, uint32_t count,
+                           double reach) {
+  for (uint32_t i = 0; i < count; i++) {
+    window->x0 = fmin(window->x0, point[i].x - reach);
+    window->y0 = fmin(window->y0, point[i].y - reach);
+    window->x1 = fmax(window->x1, point[i].x + reach);
+    window->y1 = fmax(window->y1, point[i].y + reach);
+  }
+}
+
+/* The box of the ink: with round caps and joins, half a pen around the points
+ * is exact. */
+static struct window find_window(const struct drawing *drawing, bool tight) {
+  struct window page = {0, 0, drawing->width_mm, drawing->height_mm};
+  struct window ink = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+  for (size_t i = 0; i < drawing->stroke.count; i++) {
+    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    include_points(&ink, drawing->point.item + stroke->point, stroke->count,
+                   drawing->layer.item[stroke->layer].width_mm / 2);
+  }
+  for (size_t i = 0; i < drawing->fill.count; i++) {
+    const struct drawing_fill *fill = &drawing->fill.item[i];
+    for (uint32_t j = 0; j < fill->loops; j++) {
+      const struct drawing_loop *loop = &drawing->loop.item[fill->loop + j];
+      include_points(&ink, drawing->point.item + loop->point, loop->count,
+                     drawing->seam_mm / 2);
+    }
+  }
+  return tight && ink.x0 < ink.x1 && ink.y0 < ink.y1 ? ink : page;
+}
+
+/* ---- Drawing ------------------------------------------------------------- */
+
+static void set_colour(cairo_t *cr, uint32_t colour) {
+  cairo_set_source_rgb(cr, (colour >> 16 & 0xff) / 255.0,
+                       (colour >> 8 & 0xff) / 255.0, (colour & 0xff) / 255.0);
+}
+
+static void trace(cairo_t *cr, const struct drawing_point *point,
+                  uint32_t count, bool closed) {
+  for (uint32_t i = 0; i < count; i++)
+    cairo_line_to(cr, point[i].x, point[i].y);
+  if (closed)
+    cairo_close_path(cr);
+  cairo_new_sub_path(cr);
+}
+
+static void draw_fill(cairo_t *cr, const struct drawing *drawing,
+                      const struct drawing_fill *fill) {
+  set_colour(cr, fill->colour);
+  for (uint32_t i = 0; i < fill->loops; i++) {
+    const struct drawing_loop *loop = &drawing->loop.item[fill->loop + i];
+    trace(cr, drawing->point.item + loop->point, loop->count, true);
+  }
+  if (drawing->seam_mm > 0) {
+    cairo_fill_preserve(cr);
+    cairo_set_line_width(cr, drawing->seam_mm);
+    cairo_stroke(cr);
+  } else {
+    cairo_fill(cr);
+  }
+}
+
+static void draw_layer(cairo_t *cr, const struct drawing *drawing,
+                       uint32_t index) {
+  const struct drawing_layer *layer = &drawing->layer.item[index];
+  for (size_t i = 0; i < drawing->fill.count; i++)
+    if (drawing->fill.item[i].layer == index)
+      draw_fill(cr, drawing, &drawing->fill.item[i]);
+  set_colour(cr, layer->colour);
+  cairo_set_line_width(cr, layer->width_mm);
+  for (size_t i = 0; i < drawing->stroke.count; i++) {
+    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    if (stroke->layer != index)
+      continue;
+    trace(cr, drawing->point.item + stroke->point, stroke->count,
+          stroke->closed);
+    cairo_stroke(cr);
+  }
+}
+
+/* Draws the window on the surface at `scale` surface units a millimetre, its
+ * lower left corner at 0, `foot`. */
+static cairo_status_t draw(cairo_surface_t *surface,
+                           const struct drawing *drawing,
+                           const struct window *window, double scale,
+                           double foot, bool on_white) {
+  cairo_t *cr = cairo_create(surface);
+  cairo_matrix_t matrix;
+  cairo_status_t status;
+  if (on_white) {
+    set_colour(cr, 0xffffff);
+    cairo_paint(cr);
+  }
+  cairo_matrix_init(&matrix, scale, 0, 0, -scale, -window->x0 * scale,
+                    foot + window->y0 * scale);
+  cairo_set_matrix(cr, &matrix);
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
+  for (uint32_t i = 0; i < drawing->layer.count; i++)
+    draw_layer(cr, drawing, i);
+  cairo_show_page(cr);
+  status = cairo_status(cr);
+  cairo_destroy(cr);
+  return status;
+}
+
+/* A failed write is not told here: stream_finish does, which knows the path
+ * and the reason. */
+static recto_status judge(cairo_status_t status, const struct stream *stream,
+                          recto_error *error) {
+  if (stream_status(stream) != RECTO_OK)
+    return RECTO_OK;
+  if (status == CAIRO_STATUS_SUCCESS)
+    return RECTO_OK;
+  if (status == CAIRO_STATUS_NO_MEMORY)
+    return error_memory(error);
+  return error_set(error, RECTO_ERROR_LIMIT, NULL, 0, "cairo says: %s",
+                   cairo_status_to_string(status));
+}
+
+/* ---- PDF, PS, EPS -------------------------------------------------------- */
+
+typedef cairo_surface_t *open_surface(struct sink *sink);
+
+static recto_status write_vector(const struct drawing *drawing,
+                                 const struct writer_options *options,
+                                 struct stream *stream, recto_error *error,
+                                 open_surface *open) {
+  const double scale = POINTS_PER_INCH / MM_PER_INCH;
+  struct window window = find_window(drawing, options->tight);
+  struct sink sink = {.stream = stream,
+                      .in_header = true,
+                      .width_pt = (window.x1 - window.x0) * scale,
+                      .height_pt = (window.y1 - window.y0) * scale};
+  sink.foot_pt = sink.height_pt;
+  cairo_surface_t *surface = open(&sink);
+  cairo_status_t status =
+      draw(surface, drawing, &window, scale, sink.foot_pt, false);
+  cairo_surface_finish(surface);
+  if (status == CAIRO_STATUS_SUCCESS)
+    status = cairo_surface_status(surface);
+  cairo_surface_destroy(surface);
+  return judge(status, stream, error);
+}
+
+/* Version 1.5 is what LaTeX takes without a word. */
+static cairo_surface_t *open_pdf(struct sink *sink) {
+  cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(
+      pass_bytes, sink, sink->width_pt, sink->height_pt);
+  cairo_pdf_surface_restrict_to_version(surface, CAIRO_PDF_VERSION_1_5);
+  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE,
+                                 FIXED_DATE);
+  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, "recto");
+  return surface;
+}
+
+/* cairo measures from a page's top that it takes to be at whole points above
+ * the foot, where PS has its origin. */
+static cairo_surface_t *open_ps(struct sink *sink) {
+  sink->foot_pt = ceil(sink->height_pt);
+  return cairo_ps_surface_create_for_stream(pass_ps, sink, ceil(sink->width_pt),
+                                            sink->foot_pt);
+}
+
+static cairo_surface_t *open_eps(struct sink *sink) {
+  cairo_surface_t *surface = open_ps(sink);
+  cairo_ps_surface_set_eps(surface, 1);
+  sink->is_eps = true;
+  return surface;
+}
+
+static recto_status write_pdf(const struct drawing *drawing,
+                              const struct writer_options *options,
+                              struct stream *stream, recto_error *error) {
+  return write_vector(drawing, options, stream, error, open_pdf);
+}
+
+static recto_status write_ps(const struct drawing *drawing,
+                             const struct writer_options *options,
+                             struct stream *stream, recto_error *error) {
+  return write_vector(drawing, options, stream, error, open_ps);
+}
+
+static recto_status write_eps(const struct drawing *drawing,
+                              const struct writer_options *options,
+                              struct stream *stream, recto_error *error) {
+  return write_vector(drawing, options, stream, error, open_eps);
+}
+
+/* ---- PNG ----------------------------------------------------------------- */
+
+/* A page is rounded to whole pixels, as others do; a tight window is never cut
+ * into. */
+static double pixels(double length_mm, double dpi, bool tight) {
+  double exact = length_mm * dpi / MM_PER_INCH;
+  return fmax(1, tight ? ceil(exact) : round(exact));
+}
+
+static recto_status write_png(const struct drawing *drawing,
+                              const struct writer_options *options,
+                              struct stream *stream, recto_error *error) {
+  double dpi = options->dpi == 0 ? DEFAULT_DPI : options->dpi;
+  if (!(dpi > 0 && dpi < INFINITY))
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "a resolution is more than 0 dots per inch");
+  struct window window = find_window(drawing, options->tight);
+  double width = pixels(window.x1 - window.x0, dpi, options->tight);
+  double height = pixels(window.y1 - window.y0, dpi, options->tight);
+  if (width > MAX_PIXELS_A_SIDE || height > MAX_PIXELS_A_SIDE ||
+      width * height > MAX_PIXELS)
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "%.0f x %.0f pixels are more than the %.0f a side and "
+                     "%.0f in all that we draw",
+                     width, height, MAX_PIXELS_A_SIDE, MAX_PIXELS);
+
+  struct sink sink = {.stream = stream,
+                      .per_metre = (uint32_t)lround(dpi / MM_PER_INCH * 1000)};
+  cairo_surface_t *surface =
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
+  cairo_status_t status =
+      draw(surface, drawing, &window, dpi / MM_PER_INCH,
+           (window.y1 - window.y0) * dpi / MM_PER_INCH, true);
+  if (status == CAIRO_STATUS_SUCCESS)
+    status = cairo_surface_write_to_png_stream(surface, pass_png, &sink);
+  cairo_surface_destroy(surface);
+  return judge(status, stream, error);
+}
+
+const struct writer writer_pdf = {
+    .name = "pdf", .extensions = "pdf", .write = write_pdf};
+const struct writer writer_eps = {
+    .name = "eps", .extensions = "eps", .write = write_eps};
+const struct writer writer_ps = {
+    .name = "ps", .extensions = "ps", .write = write_ps};
+const struct writer writer_png = {
+    .name = "png", .extensions = "png", .write = write_png};
