@@ -39,6 +39,8 @@ struct scene {
   ARRAY(uint32_t) wire_group;
   ARRAY(struct scene_group) group; /* group 0 is there once anything is */
   uint32_t current_group;          /* what scene_add_* add to */
+  uint32_t *group_slot;            /* finds groups by name: see scene.c */
+  size_t group_slot_count;
   double up[3];                    /* what the format means by up */
 };
 
@@ -53,7 +55,7 @@ static inline uint32_t scene_wire_count(const struct scene *scene) {
 }
 
 /* Makes the group of that name the current one, adding it where it is new.
- * name  of `length` bytes, need not be NUL-terminated */
+ * name  of `length` bytes, need not be NUL-terminated; none: "default" */
 USE_RESULT recto_status scene_use_group(struct scene *scene, const char *name,
                                         size_t length, recto_error *error);
 
@@ -75,23 +77,30 @@ struct diagnostics {
   recto_warning_fn warning;   /* NULL: silent */
   void *user;
   unsigned long count[SCENE_FAULT_COUNT];
+  unsigned long settled[SCENE_FAULT_COUNT]; /* count at the last _finish */
 };
 
-/* Counts the fault; the first three of each kind are passed on. */
+/* Counts the fault; the first three of each kind are passed on.
+ * diagnostics  NULL: nobody wants to know
+ * line         0 where there is none; in a binary file the element's number */
 void diagnostics_fault(struct diagnostics *diagnostics, enum scene_fault fault,
                        unsigned long line, const char *format, ...)
     PRINTF_LIKE(4, 5);
-/* Passes on "... and N more" for kinds that had more than three. */
+/* Passes on "... and N more" for kinds that had more than three since it was
+ * last called.  scene_read does this at the end of each file. */
 void diagnostics_finish(struct diagnostics *diagnostics);
 
-/* Adds a face after the checks above (everything but planarity).
+/* Adds a face after the checks above (everything but planarity).  Corners at
+ * the position of the one before them are left out.
  * corner  indices of points already in the scene, `count` of them
- * Returns RECTO_OK also for a skipped face; fails only on memory. */
+ * Returns RECTO_OK also for a skipped face; fails only on memory, or with
+ *         RECTO_ERROR_LIMIT. */
 USE_RESULT recto_status scene_add_face(struct scene *scene,
                                        const uint32_t *corner, size_t count,
                                        unsigned long line,
                                        struct diagnostics *diagnostics,
                                        recto_error *error);
+/* Adds a polyline in the same way; it needs two points that differ. */
 USE_RESULT recto_status scene_add_wire(struct scene *scene,
                                        const uint32_t *corner, size_t count,
                                        unsigned long line,
@@ -99,21 +108,24 @@ USE_RESULT recto_status scene_add_wire(struct scene *scene,
                                        recto_error *error);
 
 /* One reader per format, each a file reader_*.c.  The whole input is handed
- * over in memory (mapped, or read from a pipe), NUL-terminated past its end. */
+ * over in memory (mapped, or read from a pipe), NUL-terminated past its end.
+ * path    as the user wrote it, for messages
+ * format  the reader's name, or the extension it was chosen by */
 struct reader {
   const char *name;       /* "obj" */
   const char *extensions; /* "obj", space-separated */
   double up[3];           /* what the format means by up */
   recto_status (*read)(struct scene *scene, const char *bytes, size_t count,
-                       const char *path, struct diagnostics *diagnostics,
-                       recto_error *error);
+                       const char *path, const char *format,
+                       struct diagnostics *diagnostics, recto_error *error);
 };
 
 extern const struct reader reader_obj;
 extern const struct reader reader_stl;
 extern const struct reader reader_assimp; /* only where built with it */
 
-/* Reads `path` ("-": standard input) and adds it to the scene.
+/* Reads `path` ("-": standard input) and adds it to the scene; the first file
+ * of a scene says what up means.
  * format  a reader's name, or NULL: by extension
  * Errors  RECTO_ERROR_IO, _FORMAT (broken or truncated), _UNSUPPORTED (no
  *         reader), _LIMIT (2^31 points, corners or faces passed), _MEMORY;

@@ -1,0 +1,63 @@
+/* diagnostics.c - counts bad elements and passes on the first few of each
+ * kind. */
+#include "scene/scene.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+enum { TOLD = 3 };
+
+static const char *describe(enum scene_fault fault) {
+  switch (fault) {
+  case SCENE_FAULT_NOT_FINITE:
+    return "coordinates that are not finite";
+  case SCENE_FAULT_INDEX:
+    return "indices out of range";
+  case SCENE_FAULT_FEW_CORNERS:
+    return "too few distinct corners";
+  case SCENE_FAULT_ZERO_AREA:
+    return "corners all on one line";
+  case SCENE_FAULT_BOW_TIE:
+    return "sides that cross";
+  case SCENE_FAULT_WARPED:
+    return "corners not in one plane";
+  case SCENE_FAULT_SYNTAX:
+    return "statements that cannot be parsed";
+  case SCENE_FAULT_COUNT:
+    break;
+  }
+  return "faults";
+}
+
+void diagnostics_fault(struct diagnostics *diagnostics, enum scene_fault fault,
+                       unsigned long line, const char *format, ...) {
+  if (!diagnostics)
+    return;
+  unsigned long before =
+      diagnostics->count[fault]++ - diagnostics->settled[fault];
+  if (before >= TOLD || !diagnostics->warning || fault == SCENE_FAULT_WARPED)
+    return;
+  char text[256];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  diagnostics->warning(diagnostics->user,
+                       diagnostics->file ? diagnostics->file : "", line, text);
+}
+
+void diagnostics_finish(struct diagnostics *diagnostics) {
+  if (!diagnostics)
+    return;
+  for (int i = 0; i < SCENE_FAULT_COUNT; i++) {
+    unsigned long count = diagnostics->count[i] - diagnostics->settled[i];
+    diagnostics->settled[i] = diagnostics->count[i];
+    if (count <= TOLD || !diagnostics->warning || i == SCENE_FAULT_WARPED)
+      continue;
+    char text[128];
+    snprintf(text, sizeof text, "... and %lu more with %s", count - TOLD,
+             describe((enum scene_fault)i));
+    diagnostics->warning(diagnostics->user,
+                         diagnostics->file ? diagnostics->file : "", 0, text);
+  }
+}

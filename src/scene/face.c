@@ -1,0 +1,195 @@
+/* face.c - adds faces and polylines that keep the scene's invariants.
+ *
+ * Nearly every face is a triangle or a convex quadrangle without fault, and
+ * one look at its area settles that: three corners that are not on one line
+ * are distinct.  All others are examined step by step.
+ */
+#include "scene/scene.h"
+
+#include <string.h>
+
+#include "scene/bowtie.h"
+#include "scene/exact.h"
+#include "scene/limit.h"
+
+static bool same_position(const struct scene *scene, uint32_t a, uint32_t b) {
+  const struct scene_point *p = &scene->point.item[a];
+  const struct scene_point *q = &scene->point.item[b];
+  return p->x == q->x && p->y == q->y && p->z == q->z;
+}
+
+static bool on_one_line(const struct scene *scene, uint32_t a, uint32_t b,
+                        uint32_t c) {
+  const struct scene_point *point = scene->point.item;
+  return exact_on_one_line(&point[a], &point[b], &point[c]);
+}
+
+/* ---- Checks -------------------------------------------------------------- */
+
+/* Whether triangles a, b, c and a, c, d turn the same way, so that b and d lie
+ * on either side of the diagonal and the sides cannot cross.  Rounding may
+ * give a false no, which costs a closer look, or, where the two are all but
+ * square to each other, a yes that a closer look would have given too. */
+static bool halves_agree(const struct scene_point *a,
+                         const struct scene_point *b,
+                         const struct scene_point *c,
+                         const struct scene_point *d) {
+  double bx = b->x - a->x, by = b->y - a->y, bz = b->z - a->z;
+  double cx = c->x - a->x, cy = c->y - a->y, cz = c->z - a->z;
+  double dx = d->x - a->x, dy = d->y - a->y, dz = d->z - a->z;
+  double x = (by * cz - bz * cy) * (cy * dz - cz * dy);
+  double y = (bz * cx - bx * cz) * (cz * dx - cx * dz);
+  double z = (bx * cy - by * cx) * (cx * dy - cy * dx);
+  return x + y + z > 0;
+}
+
+/* Whether the face is without fault, told cheaply; false: look closer. */
+static bool is_plain(const struct scene *scene, const uint32_t *corner,
+                     size_t count) {
+  const struct scene_point *point = scene->point.item;
+  if (count == 3)
+    return !on_one_line(scene, corner[0], corner[1], corner[2]);
+  return count == 4 && !on_one_line(scene, corner[0], corner[1], corner[2]) &&
+         !on_one_line(scene, corner[0], corner[2], corner[3]) &&
+         halves_agree(&point[corner[0]], &point[corner[1]], &point[corner[2]],
+                      &point[corner[3]]);
+}
+
+/* Copies the corners but for those at the position of the one before them.
+ * closed  whether the last one stands before the first
+ * Returns how many there are then. */
+static size_t copy_distinct(const struct scene *scene, const uint32_t *corner,
+                            size_t count, bool closed, uint32_t *to) {
+  size_t kept = 0;
+  for (size_t i = 0; i < count; i++)
+    if (kept == 0 || !same_position(scene, corner[i], to[kept - 1]))
+      to[kept++] = corner[i];
+  while (closed && kept > 1 && same_position(scene, to[0], to[kept - 1]))
+    kept--;
+  return kept;
+}
+
+/* Whether there are three corners at three positions; no two neighbours are
+ * at one. */
+static bool has_three_positions(const struct scene *scene,
+                                const uint32_t *corner, size_t count) {
+  for (size_t i = 2; i < count; i++)
+    if (!same_position(scene, corner[i], corner[0]) &&
+        !same_position(scene, corner[i], corner[1]))
+      return true;
+  return false;
+}
+
+static bool all_on_one_line(const struct scene *scene, const uint32_t *corner,
+                            size_t count) {
+  for (size_t i = 2; i < count; i++)
+    if (!on_one_line(scene, corner[0], corner[1], corner[i]))
+      return false;
+  return true;
+}
+
+/* Tells the fault of a face, if it has one.  Returns whether it is kept. */
+static bool examine_face(const struct scene *scene, const uint32_t *corner,
+                         size_t count, unsigned long line,
+                         struct diagnostics *diagnostics) {
+  if (!has_three_positions(scene, corner, count)) {
+    diagnostics_fault(diagnostics, SCENE_FAULT_FEW_CORNERS, line,
+                      "face with fewer than three distinct corners, skipped");
+    return false;
+  }
+  if (all_on_one_line(scene, corner, count)) {
+    diagnostics_fault(diagnostics, SCENE_FAULT_ZERO_AREA, line,
+                      "face without area, its corners are on one line, "
+                      "skipped");
+    return false;
+  }
+  if (count > 3 && bowtie_has_crossing(scene, corner, count))
+    diagnostics_fault(diagnostics, SCENE_FAULT_BOW_TIE, line,
+                      "face whose sides cross each other");
+  return true;
+}
+
+/* Whether every index is that of a point. */
+static bool has_its_points(const struct scene *scene, const uint32_t *corner,
+                           size_t count, unsigned long line, const char *what,
+                           struct diagnostics *diagnostics) {
+  for (size_t i = 0; i < count; i++)
+    if (corner[i] >= scene->point.count) {
+      diagnostics_fault(diagnostics, SCENE_FAULT_INDEX, line,
+                        "%s with an index out of range, skipped", what);
+      return false;
+    }
+  return true;
+}
+
+/* ---- Adding -------------------------------------------------------------- */
+
+/* Whether `more` items fit beside `count`, and there is a group for them. */
+static recto_status prepare(struct scene *scene, size_t count, size_t more,
+                            recto_error *error) {
+  if (more > SCENE_LIMIT - count)
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "the scene has more than 2^31 corners");
+  if (scene->group.count == 0)
+    return scene_use_group(scene, NULL, 0, error);
+  return RECTO_OK;
+}
+
+recto_status scene_add_face(struct scene *scene, const uint32_t *corner,
+                            size_t count, unsigned long line,
+                            struct diagnostics *diagnostics,
+                            recto_error *error) {
+  if (!has_its_points(scene, corner, count, line, "face", diagnostics))
+    return RECTO_OK;
+  recto_status status = prepare(scene, scene->corner.count, count, error);
+  if (status != RECTO_OK)
+    return status;
+  if (!ARRAY_RESERVE(&scene->corner, count) ||
+      !ARRAY_RESERVE(&scene->face_start, 2) ||
+      !ARRAY_RESERVE(&scene->face_group, 1))
+    return error_memory(error);
+  uint32_t *to = scene->corner.item + scene->corner.count;
+  if (is_plain(scene, corner, count)) {
+    memcpy(to, corner, count * sizeof *to);
+  } else {
+    count = copy_distinct(scene, corner, count, true, to);
+    if (!examine_face(scene, to, count, line, diagnostics))
+      return RECTO_OK;
+  }
+  if (scene->face_start.count == 0)
+    scene->face_start.item[scene->face_start.count++] = 0;
+  scene->corner.count += count;
+  scene->face_start.item[scene->face_start.count++] =
+      (uint32_t)scene->corner.count;
+  scene->face_group.item[scene->face_group.count++] = scene->current_group;
+  return RECTO_OK;
+}
+
+recto_status scene_add_wire(struct scene *scene, const uint32_t *corner,
+                            size_t count, unsigned long line,
+                            struct diagnostics *diagnostics,
+                            recto_error *error) {
+  if (!has_its_points(scene, corner, count, line, "polyline", diagnostics))
+    return RECTO_OK;
+  recto_status status = prepare(scene, scene->wire_corner.count, count, error);
+  if (status != RECTO_OK)
+    return status;
+  if (!ARRAY_RESERVE(&scene->wire_corner, count) ||
+      !ARRAY_RESERVE(&scene->wire_start, 2) ||
+      !ARRAY_RESERVE(&scene->wire_group, 1))
+    return error_memory(error);
+  uint32_t *to = scene->wire_corner.item + scene->wire_corner.count;
+  count = copy_distinct(scene, corner, count, false, to);
+  if (count < 2) {
+    diagnostics_fault(diagnostics, SCENE_FAULT_FEW_CORNERS, line,
+                      "polyline with fewer than two distinct points, skipped");
+    return RECTO_OK;
+  }
+  if (scene->wire_start.count == 0)
+    scene->wire_start.item[scene->wire_start.count++] = 0;
+  scene->wire_corner.count += count;
+  scene->wire_start.item[scene->wire_start.count++] =
+      (uint32_t)scene->wire_corner.count;
+  scene->wire_group.item[scene->wire_group.count++] = scene->current_group;
+  return RECTO_OK;
+}

@@ -1,0 +1,18 @@
+/* mark.h - a state of the scene to go back to when a file turns out broken. */
+#ifndef SCENE_MARK_H
+#define SCENE_MARK_H
+
+#include "scene/scene.h"
+
+struct scene_mark {
+  size_t points, faces, corners, wires, wire_corners, groups;
+  uint32_t current_group;
+};
+
+/* Remembers how much there is. */
+void scene_mark(const struct scene *scene, struct scene_mark *mark);
+
+/* Forgets what was added since. */
+void scene_return(struct scene *scene, const struct scene_mark *mark);
+
+#endif

@@ -1,0 +1,110 @@
+/* positions.c - a table of points by position, open addressing, at most half
+ * full.
+ *
+ * A point's place comes from the high bits of its hash; the low bits are kept
+ * as a tag, which spares nearly every look at a point that is another one.
+ */
+#include "scene/positions.h"
+
+#include <string.h>
+
+#include "scene/limit.h"
+
+enum { FEWEST_BITS = 6 };
+
+void positions_init(struct positions *positions, const struct scene *scene) {
+  *positions = (struct positions){NULL, 0, scene->point.count};
+}
+
+void positions_fini(struct positions *positions) {
+  mem_free(positions->slot);
+  positions->slot = NULL;
+  positions->bits = 0;
+}
+
+static uint64_t bits_of(double value) {
+  uint64_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+/* Coordinates that were single numbers end in zeros: the product spreads
+ * their bits upwards, the shift brings them down again. */
+static uint64_t mix(uint64_t hash, uint64_t bits) {
+  hash = (hash ^ bits) * UINT64_C(0x9e3779b97f4a7c15);
+  return hash ^ hash >> 32;
+}
+
+uint64_t positions_hash(const struct scene_point *point) {
+  uint64_t hash = mix(0, bits_of(point->x));
+  hash = mix(hash, bits_of(point->y));
+  hash = mix(hash, bits_of(point->z));
+  return hash * UINT64_C(0x9e3779b97f4a7c15);
+}
+
+static size_t place_of(const struct positions *positions, uint64_t hash) {
+  return (size_t)(hash >> (64 - positions->bits));
+}
+
+static size_t next_place(const struct positions *positions, size_t place) {
+  return (place + 1) & (((size_t)1 << positions->bits) - 1);
+}
+
+void positions_prefetch(const struct positions *positions, uint64_t hash) {
+  __builtin_prefetch(&positions->slot[place_of(positions, hash)]);
+}
+
+/* Enters all points anew; they are all different. */
+static void enter_points(struct positions *positions,
+                         const struct scene *scene) {
+  for (size_t i = positions->first; i < scene->point.count; i++) {
+    uint64_t hash = positions_hash(&scene->point.item[i]);
+    size_t place = place_of(positions, hash);
+    while (positions->slot[place].point)
+      place = next_place(positions, place);
+    positions->slot[place].tag = (uint32_t)hash;
+    positions->slot[place].point = (uint32_t)i + 1;
+  }
+}
+
+recto_status positions_reserve(struct positions *positions, struct scene *scene,
+                               size_t more, recto_error *error) {
+  if (more > SCENE_LIMIT - scene->point.count)
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "the scene has more than 2^31 points");
+  if (!ARRAY_RESERVE(&scene->point, more))
+    return error_memory(error);
+  size_t wanted = scene->point.count - positions->first + more;
+  int bits = positions->bits > FEWEST_BITS ? positions->bits : FEWEST_BITS;
+  while (wanted > (size_t)1 << (bits - 1))
+    bits++;
+  if (bits == positions->bits)
+    return RECTO_OK;
+  struct position_slot *grown = mem_calloc((size_t)1 << bits, sizeof *grown);
+  if (!grown)
+    return error_memory(error);
+  mem_free(positions->slot);
+  positions->slot = grown;
+  positions->bits = bits;
+  enter_points(positions, scene);
+  return RECTO_OK;
+}
+
+uint32_t positions_find(struct positions *positions, struct scene *scene,
+                        const struct scene_point *point, uint64_t hash) {
+  uint32_t tag = (uint32_t)hash;
+  size_t place = place_of(positions, hash);
+  for (; positions->slot[place].point; place = next_place(positions, place)) {
+    if (positions->slot[place].tag != tag)
+      continue;
+    uint32_t index = positions->slot[place].point - 1;
+    const struct scene_point *other = &scene->point.item[index];
+    if (other->x == point->x && other->y == point->y && other->z == point->z)
+      return index;
+  }
+  uint32_t index = (uint32_t)scene->point.count;
+  scene->point.item[scene->point.count++] = *point;
+  positions->slot[place].tag = tag;
+  positions->slot[place].point = index + 1;
+  return index;
+}

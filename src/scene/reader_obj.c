@@ -1,0 +1,473 @@
+/* reader_obj.c - Wavefront OBJ: points, faces, polylines and names.
+ *
+ * One pass over the bytes, statement by statement; numbers and indices go
+ * straight to the scene's arrays.
+ *
+ * Invariants
+ *   Each v statement makes one point, also where it cannot be used, so that
+ *   the indices of those after it stay right; `bad` lists those points.
+ *   A face may name a point that comes after it.  At the first one that does,
+ *   all points to come are read ahead; their statements are then only counted.
+ *
+ * Robustness: a statement that makes no sense is skipped with a warning, but
+ * bytes that no text holds, and a last line that stops in the middle of a
+ * statement, mean that the file itself is broken.
+ */
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "scene/limit.h"
+
+enum name_kind { NAME_OBJECT, NAME_GROUP, NAME_MATERIAL, NAME_COUNT };
+
+struct name {
+  const char *start; /* in the file's bytes */
+  size_t length;
+};
+
+struct parser {
+  struct scene *scene;
+  const char *at, *end; /* *end is NUL */
+  unsigned long line;   /* of `at` */
+  const char *path;
+  struct diagnostics *diagnostics;
+  recto_error *error;
+  size_t first;          /* scene point of the file's first */
+  size_t seen;           /* v statements so far */
+  bool ahead;            /* the points to come are in the scene already */
+  bool known;            /* a statement was understood */
+  unsigned long strange; /* line of the first that was not; 0 */
+  ARRAY(uint32_t) bad;   /* points that cannot be used, ascending */
+  ARRAY(uint32_t) corner;
+  struct name name[NAME_COUNT];
+  bool renamed; /* since the current group was chosen */
+  ARRAY(char) group;
+};
+
+/* ---- Characters ---------------------------------------------------------- */
+
+static inline bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+/* Whether a word may end before this character. */
+static inline bool ends_word(char c) {
+  return (unsigned char)c <= ' ' || c == '\\';
+}
+
+/* Passes over a backslash at the end of a line. */
+static bool pass_continuation(struct parser *p, const char **at) {
+  const char *q = *at + 1;
+  if (*q == '\r')
+    q++;
+  if (*q != '\n')
+    return false;
+  p->line++;
+  *at = q + 1;
+  return true;
+}
+
+static inline void skip_blanks(struct parser *p) {
+  const char *at = p->at;
+  do {
+    while (is_blank(*at))
+      at++;
+  } while (*at == '\\' && pass_continuation(p, &at));
+  p->at = at;
+}
+
+/* To the start of the next line, or of the one after it where the line is
+ * continued. */
+static void skip_line(struct parser *p, bool may_continue) {
+  for (;;) {
+    const char *start = p->at;
+    const char *stop = memchr(start, '\n', (size_t)(p->end - start));
+    if (!stop) {
+      p->at = p->end;
+      return;
+    }
+    p->line++;
+    p->at = stop + 1;
+    if (stop > start && stop[-1] == '\r')
+      stop--;
+    if (!may_continue || stop == start || stop[-1] != '\\')
+      return;
+  }
+}
+
+static bool is_at_end_of_line(const struct parser *p) {
+  return *p->at == '\n' || p->at == p->end || *p->at == '#';
+}
+
+static void finish_statement(struct parser *p) {
+  if (*p->at == '\n') {
+    p->at++;
+    p->line++;
+  } else {
+    skip_line(p, *p->at != '#');
+  }
+}
+
+/* ---- What is broken ------------------------------------------------------ */
+
+/* Fails where the line that starts at `start` holds a byte that no text
+ * does. */
+static recto_status check_text(struct parser *p, const char *start,
+                               unsigned long line) {
+  for (; start < p->end && *start != '\n'; start++)
+    if ((unsigned char)*start < ' ' && !is_blank(*start))
+      return error_set(p->error, RECTO_ERROR_FORMAT, p->path, line,
+                       "not text: a byte 0x%02x", (unsigned char)*start);
+  return RECTO_OK;
+}
+
+/* Fails where the file stops in the line of `start`, and where it is not
+ * text; else the statement is just skipped. */
+static recto_status skip_broken(struct parser *p, const char *start,
+                                unsigned long line, const char *what) {
+  if (!memchr(start, '\n', (size_t)(p->end - start)))
+    return error_set(p->error, RECTO_ERROR_FORMAT, p->path, line,
+                     "the file ends in the middle of a %s", what);
+  recto_status status = check_text(p, start, line);
+  if (status != RECTO_OK)
+    return status;
+  diagnostics_fault(p->diagnostics, SCENE_FAULT_SYNTAX, line,
+                    "%s that cannot be parsed, skipped", what);
+  skip_line(p, true);
+  return RECTO_OK;
+}
+
+/* ---- Points -------------------------------------------------------------- */
+
+static recto_status add_point(struct parser *p, const double xyz[3],
+                              bool usable) {
+  struct scene *scene = p->scene;
+  struct scene_point point = {0, 0, 0};
+  if (usable)
+    point = (struct scene_point){xyz[0], xyz[1], xyz[2]};
+  else if (!ARRAY_PUSH(&p->bad, (uint32_t)scene->point.count))
+    return error_memory(p->error);
+  if (scene->point.count >= SCENE_LIMIT)
+    return error_set(p->error, RECTO_ERROR_LIMIT, p->path, p->line,
+                     "the scene has more than 2^31 points");
+  if (!ARRAY_PUSH(&scene->point, point))
+    return error_memory(p->error);
+  p->seen++;
+  return RECTO_OK;
+}
+
+/* v x y z, then whatever: a weight and colours are nothing to us. */
+static recto_status read_point(struct parser *p) {
+  const char *start = p->at;
+  unsigned long line = p->line;
+  double xyz[3] = {0, 0, 0};
+  p->at++;
+  for (int k = 0; k < 3; k++) {
+    skip_blanks(p);
+    const char *stop = number_parse_double(p->at, p->end, &xyz[k]);
+    if (!stop || !ends_word(*stop)) {
+      recto_status status = skip_broken(p, start, line, "point");
+      return status == RECTO_OK ? add_point(p, xyz, false) : status;
+    }
+    p->at = stop;
+  }
+  bool finite = isfinite(xyz[0]) && isfinite(xyz[1]) && isfinite(xyz[2]);
+  if (!finite)
+    diagnostics_fault(p->diagnostics, SCENE_FAULT_NOT_FINITE, line,
+                      "point that is not finite; its faces are skipped");
+  finish_statement(p);
+  return add_point(p, xyz, finite);
+}
+
+static recto_status read_statements(struct parser *p, bool points_only);
+
+/* Reads the points of all lines after this one. */
+static recto_status read_points_ahead(struct parser *p) {
+  const char *at = p->at;
+  unsigned long line = p->line;
+  size_t seen = p->seen;
+  skip_line(p, true);
+  recto_status status = read_statements(p, true);
+  p->at = at;
+  p->line = line;
+  p->seen = seen;
+  p->ahead = true;
+  return status;
+}
+
+/* Points that cannot be used still have a position: that of another point of
+ * the file, so that the scene grows no larger by them. */
+static void place_bad_points(struct parser *p) {
+  struct scene *scene = p->scene;
+  size_t good = p->first, i = 0;
+  for (; i < p->bad.count && p->bad.item[i] == good; i++)
+    good++;
+  if (good == scene->point.count)
+    good = 0;
+  for (i = 0; i < p->bad.count; i++)
+    scene->point.item[p->bad.item[i]] = scene->point.item[good];
+}
+
+static bool is_bad(const struct parser *p, uint32_t point) {
+  size_t low = 0, high = p->bad.count;
+  while (low < high) {
+    size_t middle = low + (high - low) / 2;
+    if (p->bad.item[middle] < point)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < p->bad.count && p->bad.item[low] == point;
+}
+
+/* ---- Names --------------------------------------------------------------- */
+
+/* o, g or usemtl: the rest of the line. */
+static recto_status read_name(struct parser *p, enum name_kind kind,
+                              size_t keyword) {
+  p->at += keyword;
+  skip_blanks(p);
+  struct name *name = &p->name[kind];
+  name->start = p->at;
+  const char *stop = memchr(p->at, '\n', (size_t)(p->end - p->at));
+  if (!stop)
+    stop = p->end;
+  while (stop > p->at && is_blank(stop[-1]))
+    stop--;
+  name->length = (size_t)(stop - p->at);
+  p->renamed = true;
+  recto_status status = check_text(p, p->at, p->line);
+  skip_line(p, true);
+  return status;
+}
+
+/* The current group is named by those of object, group and material that
+ * there are, with strokes between them: each combination is a group. */
+static recto_status use_group(struct parser *p) {
+  p->group.count = 0;
+  for (int i = 0; i < NAME_COUNT; i++) {
+    const struct name *name = &p->name[i];
+    if (name->length == 0)
+      continue;
+    if (!ARRAY_RESERVE(&p->group, name->length + 1))
+      return error_memory(p->error);
+    if (p->group.count)
+      p->group.item[p->group.count++] = '/';
+    memcpy(p->group.item + p->group.count, name->start, name->length);
+    p->group.count += name->length;
+  }
+  p->renamed = false;
+  return scene_use_group(p->scene, p->group.item, p->group.count, p->error);
+}
+
+/* ---- Faces and polylines ------------------------------------------------- */
+
+/* Reads [+-]digits; NULL where there are none.  Numbers too large for any
+ * file are cut where they stay out of range. */
+static inline const char *parse_index(const char *at, int64_t *index) {
+  static const int64_t beyond = INT64_C(1) << 40;
+  bool negative = *at == '-';
+  if (*at == '-' || *at == '+')
+    at++;
+  const char *start = at;
+  int64_t sum = 0;
+  for (; *at >= '0' && *at <= '9'; at++)
+    if (sum < beyond)
+      sum = sum * 10 + (*at - '0');
+  *index = negative ? -sum : sum;
+  return at > start ? at : NULL;
+}
+
+/* Passes over the texture and normal indices, /n or //n or /n/n. */
+static inline const char *skip_other_indices(const char *at) {
+  for (int slash = 0; slash < 2 && *at == '/'; slash++) {
+    int64_t ignored;
+    const char *stop = parse_index(at + 1, &ignored);
+    at = stop ? stop : at + 1;
+  }
+  return at;
+}
+
+/* The scene point of an index that is not one of a point seen so far counted
+ * from the first; SCENE_NONE where there is no such point. */
+static recto_status resolve_rare_index(struct parser *p, int64_t index,
+                                       uint32_t *point) {
+  *point = SCENE_NONE;
+  if (index > 0 && !p->ahead) {
+    recto_status status = read_points_ahead(p);
+    if (status != RECTO_OK)
+      return status;
+  }
+  if (index < 0)
+    index += (int64_t)p->seen + 1;
+  int64_t count = (int64_t)(p->scene->point.count - p->first);
+  if (index > 0 && index <= count)
+    *point = (uint32_t)(p->first + (size_t)index - 1);
+  return RECTO_OK;
+}
+
+/* The corners of the statement into p->corner; *broken where they cannot be
+ * parsed.  *missing is the first index without a point, 0 where all have
+ * one. */
+static recto_status read_corners(struct parser *p, bool *broken,
+                                 int64_t *missing) {
+  *broken = false;
+  *missing = 0;
+  p->corner.count = 0;
+  for (skip_blanks(p); !is_at_end_of_line(p); skip_blanks(p)) {
+    int64_t index;
+    const char *stop = parse_index(p->at, &index);
+    if (stop && *stop == '/')
+      stop = skip_other_indices(stop);
+    *broken = !stop || !ends_word(*stop);
+    if (*broken)
+      break;
+    uint32_t point = (uint32_t)(p->first + (size_t)index - 1);
+    if (index <= 0 || (size_t)index > p->seen) {
+      recto_status status = resolve_rare_index(p, index, &point);
+      if (status != RECTO_OK)
+        return status;
+      if (point == SCENE_NONE && *missing == 0)
+        *missing = index ? index : -INT64_MAX;
+    }
+    p->at = stop;
+    if (!ARRAY_PUSH(&p->corner, point))
+      return error_memory(p->error);
+  }
+  return RECTO_OK;
+}
+
+/* Tells why the element in p->corner is not to be added, if it is not. */
+static bool is_usable(struct parser *p, unsigned long line, const char *what,
+                      int64_t missing) {
+  if (missing) {
+    diagnostics_fault(p->diagnostics, SCENE_FAULT_INDEX, line,
+                      "%s with index %lld where there are %zu points, skipped",
+                      what, missing == -INT64_MAX ? 0LL : (long long)missing,
+                      p->ahead ? p->scene->point.count - p->first : p->seen);
+    return false;
+  }
+  for (size_t i = 0; p->bad.count && i < p->corner.count; i++)
+    if (is_bad(p, p->corner.item[i])) {
+      diagnostics_fault(p->diagnostics, SCENE_FAULT_NOT_FINITE, line,
+                        "%s with a point that cannot be used, skipped", what);
+      return false;
+    }
+  return true;
+}
+
+/* f or l. */
+static recto_status read_element(struct parser *p, bool is_face) {
+  const char *start = p->at;
+  unsigned long line = p->line;
+  const char *what = is_face ? "face" : "polyline";
+  bool broken;
+  int64_t missing;
+  p->at++;
+  recto_status status = read_corners(p, &broken, &missing);
+  if (status != RECTO_OK)
+    return status;
+  bool cut_off = p->at == p->end && p->corner.count < (is_face ? 3 : 2);
+  if (broken || cut_off)
+    return skip_broken(p, start, line, what);
+  finish_statement(p);
+  if (!is_usable(p, line, what, missing))
+    return RECTO_OK;
+  if (p->renamed && (status = use_group(p)) != RECTO_OK)
+    return status;
+  return is_face ? scene_add_face(p->scene, p->corner.item, p->corner.count,
+                                  line, p->diagnostics, p->error)
+                 : scene_add_wire(p->scene, p->corner.item, p->corner.count,
+                                  line, p->diagnostics, p->error);
+}
+
+/* ---- Statements ---------------------------------------------------------- */
+
+static recto_status read_unknown(struct parser *p) {
+  static const char material[] = "usemtl";
+  static const size_t length = sizeof material - 1;
+  if (strncmp(p->at, material, length) == 0 && ends_word(p->at[length])) {
+    p->known = true;
+    return read_name(p, NAME_MATERIAL, length);
+  }
+  if (!p->strange)
+    p->strange = p->line;
+  recto_status status = check_text(p, p->at, p->line);
+  skip_line(p, true);
+  return status;
+}
+
+static recto_status read_known(struct parser *p, char keyword) {
+  p->known = true;
+  switch (keyword) {
+  case 'v':
+    if (!p->ahead)
+      return read_point(p);
+    p->seen++;
+    skip_line(p, true);
+    return RECTO_OK;
+  case 'f':
+    return read_element(p, true);
+  case 'l':
+    return read_element(p, false);
+  case 'g':
+    return read_name(p, NAME_GROUP, 1);
+  default:
+    return read_name(p, NAME_OBJECT, 1);
+  }
+}
+
+static recto_status read_statements(struct parser *p, bool points_only) {
+  recto_status status = RECTO_OK;
+  while (status == RECTO_OK) {
+    skip_blanks(p);
+    if (p->at == p->end)
+      break;
+    char keyword = *p->at, next = p->at[1];
+    if (keyword == '\n' || keyword == '#')
+      finish_statement(p);
+    else if (keyword == 'v' && (next == 't' || next == 'n' || next == 'p'))
+      skip_line(p, true);
+    else if (points_only && !(keyword == 'v' && ends_word(next)))
+      skip_line(p, true);
+    else if (strchr("vflgo", keyword) && keyword && ends_word(next))
+      status = read_known(p, keyword);
+    else
+      status = read_unknown(p);
+  }
+  return status;
+}
+
+static recto_status read_obj(struct scene *scene, const char *bytes,
+                             size_t count, const char *path, const char *format,
+                             struct diagnostics *diagnostics,
+                             recto_error *error) {
+  static const char byte_order_mark[] = "\xef\xbb\xbf";
+  (void)format;
+  struct parser p = {.scene = scene,
+                     .at = bytes,
+                     .end = bytes + count,
+                     .line = 1,
+                     .path = path,
+                     .diagnostics = diagnostics,
+                     .error = error,
+                     .first = scene->point.count,
+                     .renamed = true};
+  if (strncmp(bytes, byte_order_mark, 3) == 0)
+    p.at += 3;
+  recto_status status = read_statements(&p, false);
+  if (status == RECTO_OK && !p.known && p.strange)
+    status = error_set(error, RECTO_ERROR_FORMAT, path, p.strange,
+                       "no statement of an OBJ file");
+  if (status == RECTO_OK)
+    place_bad_points(&p);
+  ARRAY_FREE(&p.bad);
+  ARRAY_FREE(&p.corner);
+  ARRAY_FREE(&p.group);
+  return status;
+}
+
+const struct reader reader_obj = {"obj", "obj", {0, 1, 0}, read_obj};

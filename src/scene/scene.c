@@ -1,0 +1,144 @@
+/* scene.c - the scene's life, and its groups, found by name.
+ *
+ * Groups are found through a table of group numbers + 1, 0 where a slot is
+ * free, open addressing by a hash of the name.  Groups are numbered as they
+ * come, so nothing of the table's order is ever seen.
+ */
+#include "scene/scene.h"
+
+#include <string.h>
+
+#include "scene/mark.h"
+#include "scene/name.h"
+
+void scene_init(struct scene *scene) {
+  memset(scene, 0, sizeof *scene);
+  scene->up[1] = 1;
+}
+
+/* Forgets the groups from `count` on. */
+static void drop_groups(struct scene *scene, size_t count) {
+  while (scene->group.count > count)
+    mem_free(scene->group.item[--scene->group.count].name);
+}
+
+void scene_fini(struct scene *scene) {
+  drop_groups(scene, 0);
+  ARRAY_FREE(&scene->point);
+  ARRAY_FREE(&scene->face_start);
+  ARRAY_FREE(&scene->corner);
+  ARRAY_FREE(&scene->face_group);
+  ARRAY_FREE(&scene->wire_start);
+  ARRAY_FREE(&scene->wire_corner);
+  ARRAY_FREE(&scene->wire_group);
+  ARRAY_FREE(&scene->group);
+  mem_free(scene->group_slot);
+  scene->group_slot = NULL;
+  scene->group_slot_count = 0;
+}
+
+/* ---- Groups -------------------------------------------------------------- */
+
+/* FNV-1a. */
+static uint64_t hash_name(const char *name, size_t length) {
+  uint64_t hash = UINT64_C(0xcbf29ce484222325);
+  for (size_t i = 0; i < length; i++)
+    hash = (hash ^ (unsigned char)name[i]) * UINT64_C(0x100000001b3);
+  return hash ^ hash >> 32;
+}
+
+/* The slot of that name, or the free one where it belongs. */
+static uint32_t *find_slot(const struct scene *scene, const char *name,
+                           size_t length) {
+  size_t mask = scene->group_slot_count - 1;
+  size_t i = (size_t)hash_name(name, length) & mask;
+  for (; scene->group_slot[i]; i = (i + 1) & mask) {
+    const char *other = scene->group.item[scene->group_slot[i] - 1].name;
+    if (strlen(other) == length && memcmp(other, name, length) == 0)
+      break;
+  }
+  return &scene->group_slot[i];
+}
+
+/* Fills the table anew from the groups there are. */
+static void fill_slots(struct scene *scene) {
+  memset(scene->group_slot, 0,
+         scene->group_slot_count * sizeof *scene->group_slot);
+  for (size_t i = 0; i < scene->group.count; i++) {
+    const char *name = scene->group.item[i].name;
+    *find_slot(scene, name, strlen(name)) = (uint32_t)i + 1;
+  }
+}
+
+/* Keeps the table at most half full with one group more. */
+static bool grow_slots(struct scene *scene) {
+  size_t count = scene->group_slot_count;
+  if (2 * (scene->group.count + 1) <= count)
+    return true;
+  count = count ? 2 * count : 16;
+  uint32_t *grown = mem_resize(scene->group_slot, count, sizeof *grown);
+  if (!grown)
+    return false;
+  scene->group_slot = grown;
+  scene->group_slot_count = count;
+  fill_slots(scene);
+  return true;
+}
+
+/* Adds a group of that name at its free slot; takes the name over. */
+static bool add_group(struct scene *scene, char *name, uint32_t *slot) {
+  struct scene_group group = {.name = name};
+  if (!ARRAY_PUSH(&scene->group, group))
+    return false;
+  *slot = (uint32_t)scene->group.count;
+  return true;
+}
+
+recto_status scene_use_group(struct scene *scene, const char *name,
+                             size_t length, recto_error *error) {
+  if (length == 0) {
+    name = "default";
+    length = strlen(name);
+  }
+  if (length > PTRDIFF_MAX / 2 - 1 || !grow_slots(scene))
+    return error_memory(error);
+  char *clean = mem_alloc(2 * length + 1, 1);
+  if (!clean)
+    return error_memory(error);
+  length = name_clean(name, length, clean);
+  clean[length] = '\0';
+  uint32_t *slot = find_slot(scene, clean, length);
+  bool added = !*slot && add_group(scene, clean, slot);
+  if (!added)
+    mem_free(clean);
+  if (!*slot)
+    return error_memory(error);
+  scene->current_group = *slot - 1;
+  return RECTO_OK;
+}
+
+/* ---- Going back ---------------------------------------------------------- */
+
+void scene_mark(const struct scene *scene, struct scene_mark *mark) {
+  mark->points = scene->point.count;
+  mark->faces = scene->face_group.count;
+  mark->corners = scene->corner.count;
+  mark->wires = scene->wire_group.count;
+  mark->wire_corners = scene->wire_corner.count;
+  mark->groups = scene->group.count;
+  mark->current_group = scene->current_group;
+}
+
+void scene_return(struct scene *scene, const struct scene_mark *mark) {
+  scene->point.count = mark->points;
+  scene->face_group.count = mark->faces;
+  scene->face_start.count = mark->faces ? mark->faces + 1 : 0;
+  scene->corner.count = mark->corners;
+  scene->wire_group.count = mark->wires;
+  scene->wire_start.count = mark->wires ? mark->wires + 1 : 0;
+  scene->wire_corner.count = mark->wire_corners;
+  drop_groups(scene, mark->groups);
+  scene->current_group = mark->current_group;
+  if (scene->group_slot)
+    fill_slots(scene);
+}
