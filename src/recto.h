@@ -86,6 +86,9 @@ typedef enum recto_method {
  * also for bad values. */
 const char *recto_method_name(recto_method method);
 
+/* Whether this build has the method. */
+bool recto_method_is_available(recto_method method);
+
 /* Edge classes, as bits of a mask.  An edge has exactly one. */
 typedef enum recto_edge_class {
   RECTO_EDGE_SILHOUETTE = 1 << 0,   /* both faces on one side of it */
@@ -209,7 +212,8 @@ void recto_options_init(recto_options *options);
  * model   path; its format by extension, or "-" for standard input
  * from    format name such as "obj"; NULL: by extension
  * output  path, or "-" for standard output
- * to      format name such as "svg"; NULL: by extension */
+ * to      format name such as "svg"; NULL: by extension
+ * options NULL: the defaults */
 RECTO_USE_RESULT recto_status recto_draw_file(const char *model,
                                               const char *from,
                                               const char *output,
@@ -258,19 +262,27 @@ RECTO_USE_RESULT recto_status recto_scene_add_polyline(recto_scene *scene,
                                                        size_t count,
                                                        recto_error *error);
 
-/* Draws the scene as the options say. */
+/* Draws the scene as the options say; NULL: the defaults. */
 RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
                                                  const recto_options *options,
                                                  recto_drawing **drawing,
                                                  recto_error *error);
 void recto_drawing_destroy(recto_drawing *drawing);
 
-/* Writes the drawing; whole or not at all.  Path "-" is standard output. */
+/* Writes the drawing; whole or not at all.  Path "-" is standard output;
+ * format NULL: by the path's extension; options NULL: the defaults. */
 RECTO_USE_RESULT recto_status recto_drawing_write(const recto_drawing *drawing,
                                                   const char *path,
                                                   const char *format,
                                                   const recto_options *options,
                                                   recto_error *error);
+
+/* The name of the output format that recto_drawing_write would take for this
+ * path and format, which may be NULL; NULL where there is none. */
+const char *recto_output_format(const char *path, const char *format);
+
+/* The output format at `index`, such as "svg"; NULL past the last. */
+const char *recto_output_format_name(size_t index);
 
 /* Counts, times and choices as one JSON object.  Lends. */
 const char *recto_drawing_stats(const recto_drawing *drawing);

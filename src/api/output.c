@@ -44,19 +44,29 @@ recto_stroke recto_drawing_stroke(const recto_drawing *drawing, size_t index) {
 /* ---- Writing --------------------------------------------------------------
  */
 
-static recto_status find_writer(const char *path, const char *format,
-                                const struct writer **writer,
-                                recto_error *error) {
-  if (format != NULL) {
-    *writer = writer_by_name(format);
-    if (*writer == NULL)
-      return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                       "there is no output format \"%s\"", format);
-    return RECTO_OK;
-  }
-  *writer = writer_by_path(path);
-  if (*writer != NULL)
-    return RECTO_OK;
+static const struct writer *find_writer(const char *path, const char *format) {
+  return format != NULL ? writer_by_name(format) : writer_by_path(path);
+}
+
+const char *recto_output_format(const char *path, const char *format) {
+  const struct writer *writer = find_writer(path, format);
+  return writer != NULL ? writer->name : NULL;
+}
+
+const char *recto_output_format_name(size_t index) {
+  const struct writer *const *writer = writers();
+  for (size_t i = 0; writer[i] != NULL; i++)
+    if (i == index)
+      return writer[i]->name;
+  return NULL;
+}
+
+/* Says why find_writer found none. */
+static recto_status refuse(const char *path, const char *format,
+                           recto_error *error) {
+  if (format != NULL)
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "there is no output format \"%s\"", format);
   if (strcmp(path, "-") == 0)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "standard output needs a format");
@@ -73,12 +83,12 @@ recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
     recto_options_init(&defaults);
     options = &defaults;
   }
-  const struct writer *writer;
   recto_status status = options_check(options, error);
-  if (status == RECTO_OK)
-    status = find_writer(path, format, &writer, error);
   if (status != RECTO_OK)
     return status;
+  const struct writer *writer = find_writer(path, format);
+  if (writer == NULL)
+    return refuse(path, format, error);
   double cpu = clock_cpu(), wall = clock_wall();
   struct stream *stream;
   status = stream_open(&stream, path, error);
@@ -107,10 +117,9 @@ recto_status recto_draw_file(const char *model, const char *from,
   recto_scene *scene = NULL;
   recto_drawing *drawing = NULL;
   /* Known before the work: a format that is not there. */
-  const struct writer *writer;
-  recto_status status = find_writer(output, to, &writer, error);
-  if (status == RECTO_OK)
-    status = recto_scene_create(&scene, error);
+  if (find_writer(output, to) == NULL)
+    return refuse(output, to, error);
+  recto_status status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)
     status = recto_scene_read(scene, model, from, options, error);
   if (status == RECTO_OK)

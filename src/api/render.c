@@ -42,6 +42,10 @@ static recto_status check_supported(const recto_options *options,
 /* ---- The method -----------------------------------------------------------
  */
 
+bool recto_method_is_available(recto_method method) {
+  return method == RECTO_METHOD_AUTO || solver_by_method(method) != NULL;
+}
+
 static const struct solver *choose_solver(const recto_options *options,
                                           const char **why) {
   if (options->method != RECTO_METHOD_AUTO) {
@@ -240,6 +244,11 @@ static recto_status run(struct render *render, recto_error *error) {
 recto_status recto_scene_render(const recto_scene *scene,
                                 const recto_options *options,
                                 recto_drawing **drawing, recto_error *error) {
+  recto_options defaults;
+  if (options == NULL) {
+    recto_options_init(&defaults);
+    options = &defaults;
+  }
   *drawing = NULL;
   recto_status status = options_check(options, error);
   if (status == RECTO_OK)

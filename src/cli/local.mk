@@ -1,2 +1,8 @@
 # src/cli/local.mk - the program: sees recto.h and base, nothing else.
-recto_SOURCES += %D%/main.c
+recto_SOURCES += \
+  %D%/arguments.c %D%/arguments.h \
+  %D%/help.c \
+  %D%/job.c %D%/job.h \
+  %D%/main.c \
+  %D%/options.c \
+  %D%/value.c %D%/value.h

@@ -1,14 +1,24 @@
 /* main.c - the program: exit 0 done, 1 failed, 2 wrong usage. */
 #include <stdio.h>
-#include <string.h>
 
-#include "recto.h"
+#include "cli/job.h"
 
 int main(int argc, char **argv) {
-  if (argc == 2 && strcmp(argv[1], "--version") == 0) {
-    printf("recto %s\n", recto_version());
-    return 0;
+  struct arguments arguments;
+  char message[MESSAGE_SIZE];
+  if (!arguments_parse(&arguments, argc, argv, message)) {
+    job_complain("", 0, message);
+    return EXIT_USAGE;
   }
-  fprintf(stderr, "recto: expected --version\n");
-  return 2;
+  if (!arguments.help && !arguments.version)
+    return job_run(&arguments);
+  if (arguments.help)
+    help_print();
+  else
+    printf("recto %s\n", recto_version());
+  if (fflush(stdout) != 0) {
+    job_complain("", 0, "cannot write to standard output");
+    return EXIT_FAILED;
+  }
+  return EXIT_DONE;
 }

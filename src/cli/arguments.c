@@ -1,0 +1,213 @@
+/* arguments.c - reads the command line by the table of options. */
+#include "cli/arguments.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/value.h"
+
+enum { FIRST_LONG = 256, MAX_OPTIONS = 80 };
+
+/* ---- The table, as getopt_long wants it ------------------------------------
+ */
+
+static bool is_end(const struct option_entry *entry) {
+  return entry->name == NULL && entry->help == NULL;
+}
+
+static int has_argument(const struct option_entry *entry) {
+  return entry->argument == NULL     ? no_argument
+         : entry->argument[0] == '[' ? optional_argument
+                                     : required_argument;
+}
+
+/* Fills what getopt_long asks for.  Starts `letters` with ':' so that a
+ * missing value is told from an unknown option. */
+static void fill_getopt(struct option longs[MAX_OPTIONS],
+                        char letters[3 * MAX_OPTIONS]) {
+  size_t count = 0, length = 0;
+  letters[length++] = ':';
+  for (int i = 0; !is_end(&option_table[i]); i++) {
+    const struct option_entry *entry = &option_table[i];
+    if (entry->kind == OPTION_HEADING)
+      continue;
+    longs[count++] =
+        (struct option){entry->name, has_argument(entry), NULL, FIRST_LONG + i};
+    if (entry->letter != 0) {
+      letters[length++] = entry->letter;
+      if (entry->argument != NULL)
+        letters[length++] = ':';
+    }
+  }
+  longs[count] = (struct option){0};
+  letters[length] = '\0';
+}
+
+/* The entry that getopt_long's `code` stands for, or NULL. */
+static const struct option_entry *find_entry(int code) {
+  if (code >= FIRST_LONG)
+    return &option_table[code - FIRST_LONG];
+  for (const struct option_entry *entry = option_table; !is_end(entry); entry++)
+    if (entry->letter == code && code != 0)
+      return entry;
+  return NULL;
+}
+
+/* ---- One option ------------------------------------------------------------
+ */
+
+static bool in_range(const struct option_entry *entry, double value) {
+  return value >= entry->least && value <= entry->most;
+}
+
+/* Puts the option's value where it belongs; false where it is not what the
+ * option expects. */
+static bool store(struct arguments *arguments, const struct option_entry *entry,
+                  const char *text) {
+  void *to = (char *)arguments + entry->offset;
+  double number;
+  int integer;
+  switch (entry->kind) {
+  case OPTION_FLAG:
+    *(bool *)to = true;
+    return true;
+  case OPTION_TEXT:
+    *(const char **)to = text;
+    return text == NULL || *text != '\0';
+  case OPTION_NUMBER:
+  case OPTION_LENGTH:
+    if (!(entry->kind == OPTION_LENGTH ? value_length : value_number)(text,
+                                                                      &number))
+      return false;
+    *(double *)to = number;
+    return in_range(entry, number);
+  case OPTION_INT:
+    if (!value_int(text, &integer))
+      return false;
+    *(int *)to = integer;
+    return in_range(entry, integer);
+  case OPTION_VECTOR:
+    return value_vector(text, to);
+  case OPTION_WORD:
+    if (!value_word(text, entry->words, &integer))
+      return false;
+    *(unsigned *)to = (unsigned)integer; /* as an enumeration is */
+    return true;
+  case OPTION_TAKE:
+    return entry->take(arguments, text);
+  case OPTION_HEADING:
+  case OPTION_ABSENT:
+    break;
+  }
+  return false;
+}
+
+static bool take_option(struct arguments *arguments,
+                        const struct option_entry *entry, const char *text,
+                        char message[MESSAGE_SIZE]) {
+  if (entry->kind == OPTION_ABSENT) {
+    snprintf(message, MESSAGE_SIZE, "--%s is not available in this build",
+             entry->name);
+    return false;
+  }
+  if (!store(arguments, entry, text)) {
+    snprintf(message, MESSAGE_SIZE, "--%s: expected %s, not \"%.60s\"",
+             entry->name, entry->expected, text);
+    return false;
+  }
+  if (entry->given != 0)
+    *((bool *)((char *)arguments + entry->given)) = true;
+  return true;
+}
+
+/* Says what getopt_long did not like. */
+static void explain(int code, char **argv, char message[MESSAGE_SIZE]) {
+  const struct option_entry *entry = find_entry(optopt);
+  if (code == ':')
+    snprintf(message, MESSAGE_SIZE, "--%s: expected %s", entry->name,
+             entry->expected != NULL ? entry->expected : "a value");
+  else if (entry != NULL)
+    snprintf(message, MESSAGE_SIZE, "--%s takes no value", entry->name);
+  else if (optopt != 0)
+    snprintf(message, MESSAGE_SIZE, "unknown option -%c: see recto --help",
+             optopt);
+  else
+    snprintf(message, MESSAGE_SIZE, "unknown option %.60s: see recto --help",
+             argv[optind - 1]);
+}
+
+/* ---- What depends on several -----------------------------------------------
+ */
+
+static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
+  const char *wrong = NULL;
+  if (a->eye_given && (a->view_given || a->direction_given))
+    wrong = "--camera and --view, --azimuth or --elevation exclude each other";
+  else if (a->ortho && a->fov_given)
+    wrong = "--ortho and --fov exclude each other";
+  if (wrong != NULL) {
+    snprintf(message, MESSAGE_SIZE, "%s", wrong);
+    return false;
+  }
+  if (a->eye_given) {
+    a->options.camera = RECTO_CAMERA_EYE;
+    if (!a->ortho && !a->fov_given)
+      a->options.fov_deg = 30;
+  }
+  return true;
+}
+
+static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
+  message[0] = '\0';
+  if (a->model_count == 0)
+    snprintf(message, MESSAGE_SIZE, "no model: see recto --help");
+  else if (a->output == NULL)
+    snprintf(message, MESSAGE_SIZE, "no output: say -o FILE");
+  for (int i = 0; i < a->model_count && a->from == NULL; i++)
+    if (strcmp(a->model[i], "-") == 0)
+      snprintf(message, MESSAGE_SIZE, "standard input needs --from FORMAT");
+  if (message[0] != '\0')
+    return false;
+  if (a->format == NULL && strcmp(a->output, "-") == 0)
+    a->format = "svg";
+  if (recto_output_format(a->output, a->format) == NULL) {
+    snprintf(message, MESSAGE_SIZE, "there is no output format for \"%.100s\"",
+             a->format != NULL ? a->format : a->output);
+    return false;
+  }
+  return true;
+}
+
+static void settle_page(struct arguments *a) {
+  double width = a->options.page_width_mm;
+  if (a->landscape && width < a->options.page_height_mm) {
+    a->options.page_width_mm = a->options.page_height_mm;
+    a->options.page_height_mm = width;
+  }
+}
+
+bool arguments_parse(struct arguments *arguments, int argc, char **argv,
+                     char message[MESSAGE_SIZE]) {
+  struct option longs[MAX_OPTIONS];
+  char letters[3 * MAX_OPTIONS];
+  fill_getopt(longs, letters);
+  *arguments = (struct arguments){0};
+  recto_options_init(&arguments->options);
+  opterr = 0;
+  int code;
+  while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
+    if (code == '?' || code == ':') {
+      explain(code, argv, message);
+      return false;
+    }
+    if (!take_option(arguments, find_entry(code), optarg, message))
+      return false;
+  }
+  arguments->model = argv + optind;
+  arguments->model_count = argc - optind;
+  if (arguments->help || arguments->version)
+    return true;
+  settle_page(arguments);
+  return settle_camera(arguments, message) && settle_files(arguments, message);
+}

@@ -1,0 +1,71 @@
+/* arguments.h - the command line: what it says, and what may be said. */
+#ifndef CLI_ARGUMENTS_H
+#define CLI_ARGUMENTS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "recto.h"
+
+struct arguments {
+  recto_options options;
+  char **model; /* part of argv */
+  int model_count;
+  const char *from;       /* model format; NULL: by extension */
+  const char *output;     /* never NULL where a drawing is to be made */
+  const char *format;     /* output format; NULL: by extension */
+  const char *stats_file; /* NULL: standard output, or where the drawing goes
+                             there, standard error */
+  bool stats, progress, quiet, help, version;
+
+  /* What was said, for what depends on other options. */
+  bool view_given, direction_given, eye_given, fov_given;
+  bool ortho, landscape;
+};
+
+enum { MESSAGE_SIZE = 256 };
+
+/* Reads the command line.
+ * argv     is permuted: models last
+ * message  says what is wrong where false is returned, without a newline */
+bool arguments_parse(struct arguments *arguments, int argc, char **argv,
+                     char message[MESSAGE_SIZE]);
+
+/* ---- The table of options --------------------------------------------------
+ */
+
+enum option_kind {
+  OPTION_HEADING, /* no option: a line of --help */
+  OPTION_FLAG,    /* a bool that becomes true */
+  OPTION_TEXT,    /* a const char * */
+  OPTION_NUMBER,  /* a double in [least, most] */
+  OPTION_LENGTH,  /* a double in [least, most], in mm */
+  OPTION_INT,     /* an int in [least, most] */
+  OPTION_VECTOR,  /* a double[3] */
+  OPTION_WORD,    /* an enumerator, by its place in `words` */
+  OPTION_TAKE,    /* what `take` makes of it */
+  OPTION_ABSENT   /* known, but not available in this build */
+};
+
+struct option_entry {
+  enum option_kind kind;
+  const char *name;     /* long, without dashes */
+  char letter;          /* short; 0: none */
+  const char *argument; /* its word in --help; NULL: takes none; "[=...]":
+                           may be left out */
+  const char *expected; /* what its value must be, for messages */
+  const char *help;
+  size_t offset; /* of its value in struct arguments */
+  size_t given;  /* of a bool that becomes true when it is seen; 0: none */
+  double least, most;
+  const char *words;
+  bool (*take)(struct arguments *arguments, const char *text);
+};
+
+/* The table, ended by an entry without help and name. */
+extern const struct option_entry option_table[];
+
+/* Prints --help to standard output. */
+void help_print(void);
+
+#endif

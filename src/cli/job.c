@@ -1,0 +1,131 @@
+/* job.c - the work of one run: read, draw, write, report.
+ *
+ * An interrupt (^C, SIGTERM) cancels through the progress function, so that
+ * nothing half-written is left; a second one ends the process at once. */
+#include "cli/job.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/stream.h"
+
+static volatile sig_atomic_t interrupted;
+
+static void note_interrupt(int signal_number) { interrupted = signal_number; }
+
+static void catch_interrupts(void) {
+  struct sigaction action = {.sa_handler = note_interrupt,
+                             .sa_flags = (int)SA_RESETHAND};
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+}
+
+/* ---- Conversation ----------------------------------------------------------
+ */
+
+void job_complain(const char *file, unsigned long line, const char *text) {
+  fprintf(stderr, "recto: ");
+  if (file[0] != '\0')
+    fprintf(stderr, "%s:", file);
+  if (line != 0)
+    fprintf(stderr, "%lu:", line);
+  fprintf(stderr, "%s%s\n", file[0] != '\0' || line != 0 ? " " : "", text);
+}
+
+static void pass_warning(void *user, const char *file, unsigned long line,
+                         const char *text) {
+  (void)user;
+  job_complain(file, line, text);
+}
+
+struct talk {
+  bool progress;
+  int percent; /* last told */
+  const char *stage;
+};
+
+static bool pass_progress(void *user, double share, const char *stage) {
+  struct talk *talk = user;
+  int percent = (int)(share * 100);
+  if (talk->progress &&
+      (talk->stage == NULL || strcmp(stage, talk->stage) != 0 ||
+       percent >= talk->percent + 5)) {
+    fprintf(stderr, "recto: %3d%% %s\n", percent, stage);
+    talk->stage = stage;
+    talk->percent = percent;
+  }
+  return interrupted == 0;
+}
+
+/* ---- The work --------------------------------------------------------------
+ */
+
+static recto_status write_stats(const struct arguments *arguments,
+                                const recto_drawing *drawing,
+                                recto_error *error) {
+  const char *json = recto_drawing_stats(drawing);
+  if (arguments->stats_file == NULL && strcmp(arguments->output, "-") == 0) {
+    fputs(json, stderr);
+    return RECTO_OK;
+  }
+  const char *path =
+      arguments->stats_file != NULL ? arguments->stats_file : "-";
+  struct stream *stream;
+  recto_status status = stream_open(&stream, path, error);
+  if (status != RECTO_OK)
+    return status;
+  stream_text(stream, json);
+  return stream_finish(stream, error);
+}
+
+static recto_status read_models(const struct arguments *arguments,
+                                recto_scene *scene, recto_error *error) {
+  recto_status status = RECTO_OK;
+  for (int i = 0; i < arguments->model_count && status == RECTO_OK; i++)
+    status = recto_scene_read(scene, arguments->model[i], arguments->from,
+                              &arguments->options, error);
+  return status;
+}
+
+static recto_status work(const struct arguments *arguments,
+                         recto_error *error) {
+  recto_scene *scene = NULL;
+  recto_drawing *drawing = NULL;
+  const recto_options *options = &arguments->options;
+  recto_status status = recto_scene_create(&scene, error);
+  if (status == RECTO_OK)
+    status = read_models(arguments, scene, error);
+  if (status == RECTO_OK)
+    status = recto_scene_render(scene, options, &drawing, error);
+  if (status == RECTO_OK)
+    status = recto_drawing_write(drawing, arguments->output, arguments->format,
+                                 options, error);
+  if (status == RECTO_OK && arguments->stats)
+    status = write_stats(arguments, drawing, error);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+  return status;
+}
+
+int job_run(struct arguments *arguments) {
+  struct talk talk = {.progress = arguments->progress};
+  recto_error error = {0};
+  catch_interrupts();
+  arguments->options.user = &talk;
+  arguments->options.progress = pass_progress;
+  if (!arguments->quiet)
+    arguments->options.warning = pass_warning;
+  switch (work(arguments, &error)) {
+  case RECTO_OK:
+    return EXIT_DONE;
+  case RECTO_ERROR_ARGUMENT:
+  case RECTO_ERROR_UNSUPPORTED:
+    job_complain(error.file, error.line, error.text);
+    return EXIT_USAGE;
+  default:
+    job_complain(error.file, error.line, error.text);
+    return EXIT_FAILED;
+  }
+}

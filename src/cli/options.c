@@ -1,0 +1,202 @@
+/* options.c - the table of options: what each takes, where it goes, and the
+ * words that --help has for it.
+ *
+ * An option whose engine this build does not have is in the table as absent:
+ * it is refused by name rather than called unknown. */
+#include <float.h>
+#include <string.h>
+
+#include "cli/arguments.h"
+#include "cli/value.h"
+
+#define AT(member) offsetof(struct arguments, member)
+
+/* ---- Options with a way of their own ---------------------------------------
+ */
+
+static bool take_method(struct arguments *arguments, const char *text) {
+  for (int i = 0; i < RECTO_METHOD_COUNT; i++)
+    if (strcmp(text, recto_method_name((recto_method)i)) == 0 &&
+        recto_method_is_available((recto_method)i)) {
+      arguments->options.method = (recto_method)i;
+      return true;
+    }
+  return false;
+}
+
+/* Dimetric: the axes to the right and up are drawn at one scale, the third at
+ * half of it, so that sin^2 elevation = 1/9 and sin^2 azimuth = 1/8. */
+static bool take_view(struct arguments *arguments, const char *text) {
+  static const struct {
+    const char *name;
+    double azimuth_deg, elevation_deg;
+  } view[] = {
+      {"iso", 45, 35.264389682754654}, /* tan = 1 / sqrt(2) */
+      {"front", 0, 0},
+      {"back", 180, 0},
+      {"left", -90, 0},
+      {"right", 90, 0},
+      {"top", 0, 90},
+      {"bottom", 0, -90},
+      {"dimetric", 20.704811054635428, 19.471220634490691},
+      {"trimetric", 30, 25},
+  };
+  for (size_t i = 0; i < sizeof view / sizeof view[0]; i++)
+    if (strcmp(text, view[i].name) == 0) {
+      arguments->options.azimuth_deg = view[i].azimuth_deg;
+      arguments->options.elevation_deg = view[i].elevation_deg;
+      return true;
+    }
+  return false;
+}
+
+static bool take_fit(struct arguments *arguments, const char *text) {
+  (void)text;
+  arguments->options.fit = RECTO_FIT_PAGE;
+  return true;
+}
+
+static bool take_no_fit(struct arguments *arguments, const char *text) {
+  (void)text;
+  arguments->options.fit = RECTO_FIT_NONE;
+  return true;
+}
+
+static bool take_scale(struct arguments *arguments, const char *text) {
+  arguments->options.fit = RECTO_FIT_SCALE;
+  return value_scale(text, &arguments->options.scale);
+}
+
+static bool take_page(struct arguments *arguments, const char *text) {
+  return value_page(text, &arguments->options.page_width_mm,
+                    &arguments->options.page_height_mm);
+}
+
+static bool take_edges(struct arguments *arguments, const char *text) {
+  return value_edges(text, &arguments->options.edges);
+}
+
+/* ---- The table --------------------------------------------------------------
+ */
+
+#define HEADING(text)                                                          \
+  { .kind = OPTION_HEADING, .help = text }
+#define ABSENT(text, word)                                                     \
+  { .kind = OPTION_ABSENT, .name = text, .argument = word }
+
+const struct option_entry option_table[] = {
+    {OPTION_TEXT, "output", 'o', "FILE", "a file", "- for standard output",
+     .offset = AT(output)},
+    {OPTION_TEXT, "format", 0, "NAME", "a format",
+     "output format; else by extension, svg for -", .offset = AT(format)},
+    {OPTION_TEXT, "from", 0, "NAME", "a format",
+     "model format; else by extension", .offset = AT(from)},
+    {OPTION_TAKE, "method", 'm', "NAME", "a method that this build has",
+     "how visibility is found (auto)", .take = take_method},
+    {OPTION_NUMBER, "contact", 0, "LENGTH", "a number, 0 or more",
+     "what lies closer in depth touches, in model units",
+     .offset = AT(options.contact), .least = 0, .most = DBL_MAX},
+    ABSENT("pitch", "LENGTH"),
+    ABSENT("resolution", "N"),
+
+    HEADING("Camera"),
+    {OPTION_TAKE, "view", 0, "NAME",
+     "iso, front, back, left, right, top, bottom, dimetric or trimetric",
+     "iso (default) front back left right top bottom", .given = AT(view_given),
+     .take = take_view},
+    {OPTION_NUMBER, "azimuth", 0, "DEG", "an angle in degrees",
+     "turn the eye to the right, from the front",
+     .offset = AT(options.azimuth_deg), .given = AT(direction_given),
+     .least = -DBL_MAX, .most = DBL_MAX},
+    {OPTION_NUMBER, "elevation", 0, "DEG", "an angle from -90 to 90",
+     "raise the eye", .offset = AT(options.elevation_deg),
+     .given = AT(direction_given), .least = -90, .most = 90},
+    {OPTION_VECTOR, "camera", 'c', "X,Y,Z", "three numbers such as 1,2,3",
+     "the eye's place, in model units", .offset = AT(options.eye),
+     .given = AT(eye_given)},
+    {OPTION_VECTOR, "lookat", 'l', "X,Y,Z", "three numbers such as 1,2,3",
+     "what the eye looks at (the middle)", .offset = AT(options.target),
+     .given = AT(options.has_target)},
+    {OPTION_VECTOR, "up", 'u', "X,Y,Z", "three numbers such as 0,0,1",
+     "up (+Y in .obj, +Z in .stl)", .offset = AT(options.up)},
+    {OPTION_NUMBER, "fov", 'F', "DEG", "an angle above 0, below 179",
+     "perspective; vertical angle (30 with --camera)",
+     .offset = AT(options.fov_deg), .given = AT(fov_given), .least = DBL_MIN,
+     .most = 179},
+    {OPTION_FLAG, "ortho", 0, NULL, NULL,
+     "no perspective (default with --view)", .offset = AT(ortho)},
+    {OPTION_TAKE, "fit", 0, NULL, NULL,
+     "fill the page inside the margins (default)", .take = take_fit},
+    {OPTION_TAKE, "no-fit", 0, NULL, NULL,
+     "--fov spans the height inside the margins", .take = take_no_fit},
+    {OPTION_TAKE, "scale", 0, "A:B", "a scale such as 1:2",
+     "A mm of page for B model units", .take = take_scale},
+    {OPTION_NUMBER, "near", 0, "D", "a distance above 0",
+     "draw nothing nearer than this, in model units",
+     .offset = AT(options.near_distance), .least = DBL_MIN, .most = DBL_MAX},
+    {OPTION_NUMBER, "section", 0, "Z", "a depth in model units",
+     "cut at this depth, draw what is behind", .offset = AT(options.section),
+     .given = AT(options.has_section), .least = -DBL_MAX, .most = DBL_MAX},
+
+    HEADING("Page (lengths take mm, cm, in, pt; mm where nothing is said)"),
+    {OPTION_TAKE, "page", 'p', "SIZE",
+     "A0 to A6, letter, legal or a size such as 200x100mm",
+     "A0 to A6, letter, legal, WxH (A4)", .take = take_page},
+    {OPTION_FLAG, "landscape", 0, NULL, NULL, "the page's long side lies",
+     .offset = AT(landscape)},
+    {OPTION_LENGTH, "margin", 0, "LENGTH", "a length, 0 or more",
+     "left free on every side (10mm)", .offset = AT(options.margin_mm),
+     .least = 0, .most = DBL_MAX},
+
+    HEADING("Ink"),
+    {OPTION_TAKE, "edges", 'e', "LIST",
+     "all, none, or a list of silhouette, border, crease, group, "
+     "intersection, wire and smooth",
+     "classes to draw (see below)", .take = take_edges},
+    {OPTION_NUMBER, "crease", 0, "DEG", "an angle from 0 to 180",
+     "faces that meet at more make a crease (30)",
+     .offset = AT(options.crease_deg), .least = 0, .most = 180},
+    {OPTION_WORD, "hidden", 0, "HOW", "none, dashed or layer",
+     "hidden lines: none (default) dashed layer", .offset = AT(options.hidden),
+     .words = "none dashed layer"},
+    ABSENT("fill", "HOW"),
+    ABSENT("hatch-pitch", "LENGTH"),
+    ABSENT("hatch-angle", "DEG"),
+    ABSENT("light", "X,Y,Z"),
+    {OPTION_LENGTH, "pen", 0, "LENGTH", "a length above 0, at most 100 mm",
+     "the pen's width (0.3mm)", .offset = AT(options.pen_mm), .least = DBL_MIN,
+     .most = 100},
+    {OPTION_INT, "pens", 0, "N", "a number from 1 to 1000",
+     "deal the groups to so many pens (1)", .offset = AT(options.pens),
+     .least = 1, .most = 1000},
+    ABSENT("order", "HOW"),
+    {OPTION_LENGTH, "simplify", 0, "LENGTH", "a length, 0 or more",
+     "move no point of a line by more (0)", .offset = AT(options.simplify_mm),
+     .least = 0, .most = DBL_MAX},
+    {OPTION_LENGTH, "min-stroke", 0, "LENGTH", "a length, 0 or more",
+     "drop strokes that are shorter (half the pen)",
+     .offset = AT(options.min_stroke_mm), .least = 0, .most = DBL_MAX},
+    {OPTION_INT, "precision", 0, "DIGITS", "a number from 0 to 9",
+     "decimals of a millimetre (3)", .offset = AT(options.precision),
+     .least = 0, .most = 9},
+    {OPTION_FLAG, "polyline", 0, NULL, NULL,
+     "SVG: polyline elements instead of paths", .offset = AT(options.polyline)},
+    {OPTION_FLAG, "ids", 0, NULL, NULL,
+     "SVG: note face, edge, group, class of every line",
+     .offset = AT(options.ids)},
+
+    HEADING("Reports"),
+    {OPTION_TEXT, "stats", 0, "[=FILE]", "a file",
+     "counts, times and choices as JSON", .offset = AT(stats_file),
+     .given = AT(stats)},
+    ABSENT("verify", "[=N]"),
+    ABSENT("check", "FILE"),
+    ABSENT("threads", "N"),
+    {OPTION_FLAG, "progress", 0, NULL, NULL, "say how far it is, on stderr",
+     .offset = AT(progress)},
+    {OPTION_FLAG, "quiet", 'q', NULL, NULL, "no warnings", .offset = AT(quiet)},
+    {OPTION_FLAG, "version", 0, NULL, NULL, "say which version this is",
+     .offset = AT(version)},
+    {OPTION_FLAG, "help", 0, NULL, NULL, "say all this", .offset = AT(help)},
+    {.name = NULL},
+};

@@ -1,0 +1,36 @@
+/* value.h - the values of options, from text: the same in every locale. */
+#ifndef CLI_VALUE_H
+#define CLI_VALUE_H
+
+#include <stdbool.h>
+
+/* All return false, and leave the result alone, where `text` as a whole is
+ * not what they read or a number is not finite. */
+
+/* A plain number. */
+bool value_number(const char *text, double *number);
+
+/* A whole number. */
+bool value_int(const char *text, int *number);
+
+/* A length on paper: a number and mm (also where it is left out), cm, in or
+ * pt. */
+bool value_length(const char *text, double *mm);
+
+/* X,Y,Z: three plain numbers. */
+bool value_vector(const char *text, double vector[3]);
+
+/* A page: A0 to A6, letter or legal, upright, in any case; or WxH, two
+ * lengths above 0, where a unit of the second serves the first too. */
+bool value_page(const char *text, double *width_mm, double *height_mm);
+
+/* A scale above 0: page to scene, such as 1:2, or its quotient. */
+bool value_scale(const char *text, double *scale);
+
+/* A comma-separated list of edge classes, all, or none, as a mask. */
+bool value_edges(const char *text, unsigned *edges);
+
+/* One of the space-separated words, its index. */
+bool value_word(const char *text, const char *words, int *index);
+
+#endif
