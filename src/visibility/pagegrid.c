@@ -3,8 +3,11 @@
 
 #include <string.h>
 
-/* A triangle may stand in this many cells on average, not more. */
-enum { CELLS_PER_TRIANGLE = 8, MAX_SHIFT = 31 };
+enum {
+  SPREAD = 8, /* cells a triangle, on average, for lists of pairs */
+  MAX_SHIFT = 31,
+  SAMPLE = 1 << 16 /* triangles that are looked at to choose the cells */
+};
 
 static int32_t least(int32_t a, int32_t b) { return a < b ? a : b; }
 static int32_t most(int32_t a, int32_t b) { return a > b ? a : b; }
@@ -43,23 +46,25 @@ static struct page_box box_of_sheet(const struct sheet *sheet) {
   return sheet->triangle.count > 0 ? all : (struct page_box){0, 0, 0, 0};
 }
 
-/* How many cells of 2^shift all boxes meet, roughly; stops past `limit`. */
-static uint64_t count_cells(const struct sheet *sheet, int shift,
-                            uint64_t limit) {
-  uint64_t cells = 0;
-  for (size_t t = 0; t < sheet->triangle.count && cells <= limit; t++) {
+/* Are the boxes in at most `spread` cells of 2^shift on average?  Every
+ * stride-th one is asked. */
+static bool is_spread(const struct sheet *sheet, int shift, unsigned spread) {
+  size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
+  uint64_t cells = 0, limit = (uint64_t)spread * (n / stride) + 64;
+  for (size_t t = 0; t < n && cells <= limit; t += stride) {
     struct page_box b = page_box_of_triangle(sheet, (uint32_t)t);
     cells += ((uint64_t)(((int64_t)b.x1 - b.x0) >> shift) + 1) *
              ((uint64_t)(((int64_t)b.y1 - b.y0) >> shift) + 1);
   }
-  return cells;
+  return cells <= limit;
 }
 
-/* The finest cells that keep the lists short and the grid no larger than the
- * sheet asks for. */
-static void choose_cells(struct pagegrid *grid, const struct sheet *sheet,
-                         struct page_box all) {
+void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
+                    unsigned spread) {
+  struct page_box all = box_of_sheet(sheet);
   uint64_t n = sheet->triangle.count, width, height;
+  memset(grid, 0, sizeof *grid);
+  grid->triangle_count = n;
   grid->x0 = all.x0;
   grid->y0 = all.y0;
   width = (uint64_t)((int64_t)all.x1 - all.x0) + 1;
@@ -67,21 +72,14 @@ static void choose_cells(struct pagegrid *grid, const struct sheet *sheet,
   for (grid->shift = 0; grid->shift < MAX_SHIFT; grid->shift++) {
     uint64_t cells =
         ((width >> grid->shift) + 1) * ((height >> grid->shift) + 1);
-    if (cells > 2 * n + 16) continue;
-    if (count_cells(sheet, grid->shift, CELLS_PER_TRIANGLE * n + 64) <=
-        CELLS_PER_TRIANGLE * n + 64)
-      break;
+    if (cells <= 2 * n + 16 && is_spread(sheet, grid->shift, spread)) break;
   }
   grid->columns = (int)(width >> grid->shift) + 1;
   grid->rows = (int)(height >> grid->shift) + 1;
 }
 
-struct cell_range {
-  int x0, y0, x1, y1;
-};
-
-static struct cell_range cells_of(const struct pagegrid *grid,
-                                  struct page_box box) {
+struct cell_range pagegrid_cells(const struct pagegrid *grid,
+                                 struct page_box box) {
   return (struct cell_range){
       cell_of(box.x0, grid->x0, grid->shift, grid->columns),
       cell_of(box.y0, grid->y0, grid->shift, grid->rows),
@@ -91,13 +89,15 @@ static struct cell_range cells_of(const struct pagegrid *grid,
 
 /* First pass: counts; second: places.  start[] ends as the lists' starts. */
 static void fill_cells(struct pagegrid *grid, const struct sheet *sheet,
-                       bool place) {
+                       const uint8_t *wanted, bool place) {
   for (size_t t = sheet->triangle.count; t-- > 0;) {
     struct cell_range r =
-        cells_of(grid, page_box_of_triangle(sheet, (uint32_t)t));
+        pagegrid_cells(grid, page_box_of_triangle(sheet, (uint32_t)t));
     for (int y = r.y0; y <= r.y1; y++)
       for (int x = r.x0; x <= r.x1; x++) {
-        uint32_t *end = &grid->start[y * grid->columns + x];
+        size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+        uint32_t *end = &grid->start[cell];
+        if (wanted != NULL && !wanted[cell]) continue;
         if (place)
           grid->item[--*end] = (uint32_t)t;
         else
@@ -106,23 +106,25 @@ static void fill_cells(struct pagegrid *grid, const struct sheet *sheet,
   }
 }
 
-bool pagegrid_init(struct pagegrid *grid, const struct sheet *sheet) {
-  size_t cells;
-  memset(grid, 0, sizeof *grid);
-  grid->triangle_count = sheet->triangle.count;
-  choose_cells(grid, sheet, box_of_sheet(sheet));
-  cells = (size_t)grid->columns * (size_t)grid->rows;
+bool pagegrid_fill(struct pagegrid *grid, const struct sheet *sheet,
+                   const uint8_t *wanted) {
+  size_t cells = pagegrid_cell_count(grid);
   grid->start = mem_calloc(cells + 1, sizeof *grid->start);
   if (grid->start == NULL) return false;
-  fill_cells(grid, sheet, false);
+  fill_cells(grid, sheet, wanted, false);
   for (size_t c = 0; c < cells; c++) grid->start[c + 1] += grid->start[c];
   grid->item = mem_alloc(grid->start[cells], sizeof *grid->item);
   if (grid->item == NULL) {
     pagegrid_fini(grid);
     return false;
   }
-  fill_cells(grid, sheet, true);
+  fill_cells(grid, sheet, wanted, true);
   return true;
+}
+
+bool pagegrid_init(struct pagegrid *grid, const struct sheet *sheet) {
+  pagegrid_shape(grid, sheet, SPREAD);
+  return pagegrid_fill(grid, sheet, NULL);
 }
 
 void pagegrid_fini(struct pagegrid *grid) {
@@ -167,7 +169,7 @@ static bool visit_cell(const struct pagegrid *grid, int x, int y,
 
 bool pagegrid_find(const struct pagegrid *grid, struct page_box box,
                    struct pagegrid_query *query) {
-  struct cell_range r = cells_of(grid, box);
+  struct cell_range r = pagegrid_cells(grid, box);
   start_query(grid, query);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++)
@@ -175,27 +177,38 @@ bool pagegrid_find(const struct pagegrid *grid, struct page_box box,
   return true;
 }
 
+void pagegrid_row(const struct pagegrid *grid, struct geom_point p,
+                  struct geom_point q, struct cell_range range, int y, int *x0,
+                  int *x1) {
+  int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y, low, high;
+  double a, b, from, to;
+  *x0 = range.x0;
+  *x1 = range.x1;
+  if (range.y0 == range.y1 || range.x0 == range.x1) return;
+  /* Where the segment enters and leaves the row, rounded outwards. */
+  low = grid->y0 + ((int64_t)y << grid->shift) - p.y;
+  high = low + (INT64_C(1) << grid->shift);
+  a = (double)p.x + (double)dx * ((double)low / (double)dy);
+  b = (double)p.x + (double)dx * ((double)high / (double)dy);
+  from = (a < b ? a : b) - 1;
+  to = (a < b ? b : a) + 1;
+  if (from > -0x1p30) {
+    int x = cell_of((int32_t)from - 1, grid->x0, grid->shift, grid->columns);
+    if (x > *x0) *x0 = x;
+  }
+  if (to < 0x1p30) {
+    int x = cell_of((int32_t)to + 1, grid->x0, grid->shift, grid->columns);
+    if (x < *x1) *x1 = x;
+  }
+}
+
 bool pagegrid_find_along(const struct pagegrid *grid, struct geom_point p,
                          struct geom_point q, struct pagegrid_query *query) {
-  int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y;
-  struct cell_range r = cells_of(grid, page_box_of_segment(p, q));
+  struct cell_range r = pagegrid_cells(grid, page_box_of_segment(p, q));
   start_query(grid, query);
   for (int y = r.y0; y <= r.y1; y++) {
-    /* The part of the segment inside this row, in x, rounded outwards. */
-    int x0 = r.x0, x1 = r.x1;
-    if (dy != 0 && r.y0 != r.y1) {
-      int64_t low = grid->y0 + ((int64_t)y << grid->shift) - p.y;
-      int64_t high = low + (INT64_C(1) << grid->shift);
-      double a = (double)p.x + (double)dx * ((double)low / (double)dy);
-      double b = (double)p.x + (double)dx * ((double)high / (double)dy);
-      double from = (a < b ? a : b) - 1, to = (a < b ? b : a) + 1;
-      int32_t least_x = from < -0x1p30 ? INT32_MIN / 2 : (int32_t)from;
-      int32_t most_x = to > 0x1p30 ? INT32_MAX / 2 : (int32_t)to;
-      x0 = cell_of(least_x - 1, grid->x0, grid->shift, grid->columns);
-      x1 = cell_of(most_x + 1, grid->x0, grid->shift, grid->columns);
-      if (x0 < r.x0) x0 = r.x0;
-      if (x1 > r.x1) x1 = r.x1;
-    }
+    int x0, x1;
+    pagegrid_row(grid, p, q, r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
       if (!visit_cell(grid, x, y, query)) return false;
   }

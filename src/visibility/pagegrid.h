@@ -17,11 +17,35 @@ struct pagegrid {
   size_t triangle_count;
 };
 
-/* Indexes the boxes of all triangles of the sheet.  Cells are made large
- * enough that a triangle stands in a few of them on average, so that memory
- * is linear in the triangles whatever their shape. */
+/* Indexes the boxes of all triangles of the sheet. */
 USE_RESULT bool pagegrid_init(struct pagegrid *grid, const struct sheet *sheet);
 void pagegrid_fini(struct pagegrid *grid);
+
+/* The same in two steps.  The first chooses the cells: as small as they may
+ * be with a triangle in `spread` of them on average, so that memory is linear
+ * in the triangles whatever their shape.  The second makes the lists of the
+ * cells that are `wanted` (NULL: all); the others' stay empty. */
+void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
+                    unsigned spread);
+USE_RESULT bool pagegrid_fill(struct pagegrid *grid, const struct sheet *sheet,
+                              const uint8_t *wanted);
+
+static inline size_t pagegrid_cell_count(const struct pagegrid *grid) {
+  return (size_t)grid->columns * (size_t)grid->rows;
+}
+
+/* Ranges of cells, closed. */
+struct cell_range {
+  int x0, y0, x1, y1;
+};
+
+struct cell_range pagegrid_cells(const struct pagegrid *grid,
+                                 struct page_box box);
+
+/* Of row y, within `range`, the cells that the segment p-q meets. */
+void pagegrid_row(const struct pagegrid *grid, struct geom_point p,
+                  struct geom_point q, struct cell_range range, int y, int *x0,
+                  int *x1);
 
 /* A place for answers, one a thread. */
 struct pagegrid_query {

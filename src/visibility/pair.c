@@ -1,0 +1,137 @@
+/* pair.c - an active polygon of the z-buffers. */
+#include "visibility/pair.h"
+
+#include <math.h>
+
+/* The depth on the left edge, from the corner that this edge leads to. */
+static double depth_on_left(const struct pair *pair,
+                            const struct raster *raster) {
+  const struct scan_grid *grid = &raster->grid;
+  const struct scan_edge *left = &pair->edges.left;
+  uint32_t k = pair->edges.left_at;
+  const struct scan_point *corner = &pair->point[k];
+  int64_t y = grid->y_first + left->line * grid->y_step + grid->y_step / 2;
+  double up = (double)(y - corner->y * grid->den) / (double)grid->y_step;
+  return (double)raster->sheet->point.item[pair->corner[k]].z -
+         pair->dz_x * (left->x - corner->column) - pair->dz_y * up;
+}
+
+bool pair_start(struct pair *pair, const struct raster *raster,
+                const struct facets *facets, uint32_t facet) {
+  const struct sheet *sheet = raster->sheet;
+  const struct scan_grid *grid = &raster->grid;
+  const uint32_t *side;
+  double per_column, per_line;
+  uint32_t count = facet_outline(facets, sheet, facet, &pair->corner, &side);
+  for (uint32_t k = 0; k < count; k++)
+    pair->point[k] = raster->point[pair->corner[k]];
+  if (!scan_convex_start(&pair->edges, grid, pair->point, count))
+    return false;
+  pair->facet = facet;
+  pair->z_low = INFINITY;
+  pair->z_high = -INFINITY;
+  for (uint32_t k = 0; k < count; k++) {
+    double z = (double)sheet->point.item[pair->corner[k]].z;
+    if (z < pair->z_low)
+      pair->z_low = z;
+    if (z > pair->z_high)
+      pair->z_high = z;
+  }
+  raster_slopes(sheet, grid, facet, &per_column, &per_line);
+  pair->dz_x = -per_column;
+  pair->dz_y = -per_line;
+  pair->gentle =
+      fabs(per_column) * grid->columns + fabs(per_line) * grid->lines <=
+      RASTER_GENTLE;
+  pair->z_left = depth_on_left(pair, raster);
+  return true;
+}
+
+bool pair_next(struct pair *pair, const struct raster *raster) {
+  double dx_left = pair->edges.left.dx;
+  if (!scan_convex_next(&pair->edges, &raster->grid, pair->point))
+    return false;
+  if (pair->edges.left_new)
+    pair->z_left = depth_on_left(pair, raster);
+  else
+    pair->z_left += pair->dz_y - pair->dz_x * dx_left;
+  return true;
+}
+
+/* Is the facet nearer, or as near and earlier, at the pixel's centre? */
+static bool is_nearer(const struct raster *raster, uint32_t facet,
+                      uint32_t there, int32_t column, int32_t line) {
+  int order;
+  if (there == SHEET_NONE)
+    return true;
+  order = raster_compare(raster, facet, there, column, line);
+  return order > 0 || (order == 0 && facet < there);
+}
+
+static void draw_depths(const struct pair *pair, struct raster *raster,
+                        int32_t first, int32_t past) {
+  int32_t line = pair->edges.left.line;
+  size_t row = raster_row(raster, line);
+  double *depth = raster->depth + row, doubt = raster->doubt;
+  uint32_t *seen = raster->facet + row;
+  double z = pair->z_left - pair->dz_x * (first + 0.5 - pair->edges.left.x);
+  for (int32_t c = first; c < past; c++, z -= pair->dz_x) {
+    if (z <= depth[c] - doubt)
+      continue;
+    if (z < depth[c] + doubt &&
+        !is_nearer(raster, pair->facet, seen[c], c, line))
+      continue;
+    depth[c] = z;
+    seen[c] = pair->facet;
+  }
+}
+
+/* The same for a facet too steep for steps of doubles. */
+static void draw_steep(const struct pair *pair, struct raster *raster,
+                       int32_t first, int32_t past) {
+  int32_t line = pair->edges.left.line;
+  size_t row = raster_row(raster, line);
+  for (int32_t c = first; c < past; c++) {
+    double *depth = &raster->depth[row + (size_t)c];
+    uint32_t *seen = &raster->facet[row + (size_t)c];
+    double z = raster_depth(raster, pair->facet, c, line);
+    if (z <= *depth - raster->doubt)
+      continue;
+    if (z < *depth + raster->doubt &&
+        !is_nearer(raster, pair->facet, *seen, c, line))
+      continue;
+    *depth = z;
+    *seen = pair->facet;
+  }
+}
+
+/* Steep facets are kept within their own depths. */
+static void draw_levels(const struct pair *pair, struct raster *raster,
+                        int32_t first, int32_t past) {
+  size_t row = raster_row(raster, pair->edges.left.line);
+  uint32_t *level = raster->level + row, *seen = raster->facet + row;
+  double scale = raster->level_scale, low = pair->z_low, high = pair->z_high;
+  double z = pair->z_left - pair->dz_x * (first + 0.5 - pair->edges.left.x);
+  for (int32_t c = first; c < past; c++, z -= pair->dz_x) {
+    double within = z < low ? low : z > high ? high : z;
+    uint32_t here = (uint32_t)(within * scale) + 1;
+    if (here <= level[c])
+      continue;
+    level[c] = here;
+    seen[c] = pair->facet;
+  }
+}
+
+size_t pair_draw(const struct pair *pair, struct raster *raster) {
+  int32_t first = scan_edge_column(&pair->edges.left, &raster->grid);
+  int32_t past = scan_edge_column(&pair->edges.right, &raster->grid);
+  if (first >= past)
+    return 0;
+  if (raster->depth_bits > 0)
+    draw_levels(pair, raster, first, past);
+  else if (pair->gentle)
+    draw_depths(pair, raster, first, past);
+  else
+    draw_steep(pair, raster, first, past);
+  return (size_t)(past - first);
+}

@@ -1,0 +1,151 @@
+/* raster.c - the pixel frame.
+ *
+ * The grid.  With the page H units high and N lines, a pixel is H / N units.
+ * In units of 1 / (2 N) that is 2 H, and the page's lower border, -H / 2, is
+ * -H N: all whole.  |coordinate| < 2^30 and N <= 2^16 keep well inside the
+ * ranges of scanfill.h.
+ *
+ * Exact depth.  With D = den <= 2^17 and the centre (X, Y) in units of 1 / D,
+ * a plane nx (x - ax) + ny (y - ay) + nz (z - az) = 0 is there at
+ *     z = (az nz D - nx (X - ax D) - ny (Y - ay D)) / (nz D).
+ * Inside a triangle the offsets are below 2^31 D = 2^48, so with nx, ny <
+ * 2^72 the products are below 2^120, their sum below 2^122; the denominator
+ * below 2^80: what ratio.h asks for.
+ *
+ * Doubt.  Let a gentle facet's depth change by G = RASTER_GENTLE over the
+ * frame and u = 2^-53.  The x of its left edge is off by at most
+ * 2 u columns (lines + 12) (scanfill.c), which moves its depth by 2 u G
+ * (lines + 12); the slopes, each within 3 u of themselves, and the steps,
+ * each rounded to u of at most 2^40, add less than 20 u G.  Two such depths
+ * differ by less than 4 u G (lines + 22) from the truth.
+ */
+#include "visibility/raster.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static int64_t page_units(double mm) {
+  return llround(mm * SHEET_UNITS_PER_MM);
+}
+
+struct scan_grid raster_grid(const struct sheet *sheet, int32_t lines) {
+  int64_t width = page_units(sheet->camera.page_mm[0]);
+  int64_t height = page_units(sheet->camera.page_mm[1]);
+  struct scan_grid grid;
+  int64_t columns = (width * lines + height - 1) / height;
+  grid.den = 2 * (int64_t)lines;
+  grid.x_first = -width * lines;
+  grid.y_first = -height * lines;
+  grid.x_step = grid.y_step = 2 * height;
+  grid.columns = columns > INT32_MAX ? INT32_MAX : (int32_t)columns;
+  grid.lines = lines;
+  grid.down = true;
+  return grid;
+}
+
+static bool allocate(struct raster *raster) {
+  size_t pixels = (size_t)raster->grid.columns * (size_t)raster->kept;
+  size_t points = raster->sheet->point.count;
+  raster->point = mem_alloc(points, sizeof *raster->point);
+  raster->facet = mem_alloc(pixels, sizeof *raster->facet);
+  if (raster->depth_bits > 0)
+    raster->level = mem_alloc(pixels, sizeof *raster->level);
+  else
+    raster->depth = mem_alloc(pixels, sizeof *raster->depth);
+  return raster->point != NULL && raster->facet != NULL &&
+         (raster->level != NULL || raster->depth != NULL);
+}
+
+recto_status raster_init(struct raster *raster, const struct sheet *sheet,
+                         int lines, int depth_bits, bool whole,
+                         recto_error *error) {
+  memset(raster, 0, sizeof *raster);
+  if (lines < 1 || lines > RASTER_LINES_MAX)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "a resolution of %d lines is not within 1 to %d", lines,
+                     RASTER_LINES_MAX);
+  if (depth_bits < 0 || depth_bits > RASTER_DEPTH_BITS_MAX)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "a depth of %d bits is not within 1 to %d", depth_bits,
+                     RASTER_DEPTH_BITS_MAX);
+  raster->sheet = sheet;
+  raster->grid = raster_grid(sheet, lines);
+  if (raster->grid.columns > RASTER_COLUMNS_MAX)
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "%d lines make more than %d columns on this page", lines,
+                     RASTER_COLUMNS_MAX);
+  raster->depth_bits = depth_bits;
+  raster->level_scale = (ldexp(1, depth_bits) - 1) / ldexp(1, SHEET_Z_BITS);
+  raster->doubt = 2 * DBL_EPSILON * RASTER_GENTLE *
+                  (raster->grid.lines + raster->grid.columns + 64);
+  raster->kept = whole ? lines : 1;
+  if (!allocate(raster)) {
+    raster_fini(raster);
+    return error_memory(error);
+  }
+  for (size_t i = 0; i < sheet->point.count; i++)
+    raster->point[i] = scan_point_of(&raster->grid, sheet->point.item[i].x,
+                                     sheet->point.item[i].y);
+  for (int32_t line = 0; line < raster->kept; line++)
+    raster_clear_line(raster, line);
+  return RECTO_OK;
+}
+
+void raster_fini(struct raster *raster) {
+  mem_free(raster->point);
+  mem_free(raster->facet);
+  mem_free(raster->depth);
+  mem_free(raster->level);
+  memset(raster, 0, sizeof *raster);
+}
+
+void raster_clear_line(struct raster *raster, int32_t line) {
+  size_t row = raster_row(raster, line);
+  size_t columns = (size_t)raster->grid.columns;
+  memset(raster->facet + row, 0xff, columns * sizeof *raster->facet);
+  if (raster->level != NULL)
+    memset(raster->level + row, 0, columns * sizeof *raster->level);
+  else
+    for (size_t i = 0; i < columns; i++)
+      raster->depth[row + i] = -INFINITY;
+}
+
+static struct geom_plane facet_plane(const struct sheet *sheet,
+                                     uint32_t facet) {
+  const uint32_t *p = sheet->triangle.item[facet].point;
+  return geom_plane_of(sheet->point.item[p[0]], sheet->point.item[p[1]],
+                       sheet->point.item[p[2]]);
+}
+
+static struct ratio exact_depth(const struct raster *raster, uint32_t facet,
+                                int32_t column, int32_t line) {
+  const struct scan_grid *grid = &raster->grid;
+  struct geom_plane plane = facet_plane(raster->sheet, facet);
+  int64_t x = grid->x_first + column * grid->x_step + grid->x_step / 2;
+  int64_t y = grid->y_first + line * grid->y_step + grid->y_step / 2;
+  int128 den = (int128)plane.nz * grid->den;
+  return (struct ratio){plane.a.z * den -
+                            plane.nx * (x - plane.a.x * grid->den) -
+                            plane.ny * (y - plane.a.y * grid->den),
+                        den};
+}
+
+int raster_compare(const struct raster *raster, uint32_t a, uint32_t b,
+                   int32_t column, int32_t line) {
+  return ratio_compare(exact_depth(raster, a, column, line),
+                       exact_depth(raster, b, column, line));
+}
+
+double raster_depth(const struct raster *raster, uint32_t facet, int32_t column,
+                    int32_t line) {
+  return ratio_to_double(exact_depth(raster, facet, column, line));
+}
+
+void raster_slopes(const struct sheet *sheet, const struct scan_grid *grid,
+                   uint32_t facet, double *per_column, double *per_line) {
+  struct geom_plane plane = facet_plane(sheet, facet);
+  double scale = (double)plane.nz * (double)grid->den;
+  *per_column = -((double)plane.nx * (double)grid->x_step) / scale;
+  *per_line = -((double)plane.ny * (double)grid->y_step) / scale;
+}

@@ -1,0 +1,58 @@
+/* spans.h - visible spans, line by line from the top, as the map's fragments.
+ *
+ * A span stands for the band of its line, half a line up and half a line down.
+ * Spans of neighbouring lines over the same face, with the same left and the
+ * same right edge, are joined to one trapezoid.  Upper and lower sides are the
+ * scan's own cuts.
+ */
+#ifndef VISIBILITY_SPANS_H
+#define VISIBILITY_SPANS_H
+
+#include "geom/scanfill.h"
+#include "visibility/map.h"
+
+#define SPAN_ALONE UINT32_MAX
+
+struct span_side {
+  double upper, lower; /* x at the upper and lower border of the band, plane
+                          units */
+  uint32_t key;        /* what it runs along: equal for the same edge on the
+                          next line; SPAN_ALONE: never the same */
+  uint32_t id;         /* as in struct map_corner */
+  uint8_t side;        /* enum map_side */
+};
+
+struct span {
+  uint32_t face; /* scene face */
+  struct span_side left, right;
+};
+
+/* Spans that were joined, from the upper border of the first line to the lower
+ * border of the last. */
+struct trapezoid {
+  struct span span;
+  int32_t first, last;
+};
+
+struct spans {
+  struct scan_grid grid;
+  double x_low, x_high, y_low, y_high; /* the page, plane units */
+  ARRAY(struct trapezoid) trapezoid;
+  uint32_t *at; /* for each key of a left side, the last trapezoid on it */
+  size_t keys;
+  int64_t count; /* spans taken */
+};
+
+/* keys  of left sides, below it */
+USE_RESULT bool spans_init(struct spans *spans, const struct sheet *sheet,
+                           const struct scan_grid *grid, size_t keys);
+void spans_fini(struct spans *spans);
+
+/* Adds a span of a line; lines come in falling order. */
+USE_RESULT bool spans_add(struct spans *spans, int32_t line,
+                          const struct span *span);
+
+/* Writes all trapezoids to the map, ordered by face, then from the top. */
+USE_RESULT bool spans_finish(struct spans *spans, struct map *map);
+
+#endif

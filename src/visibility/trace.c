@@ -1,0 +1,264 @@
+/* trace.c - the sheet's edges followed through what a scan has seen. */
+#include "visibility/trace.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/sort.h"
+#include "visibility/raster.h"
+#include "visibility/strokes.h"
+
+#define TRACE_HIDDEN UINT32_MAX /* no visible run is open */
+
+/* ---- Setting out -------------------------------------------------------- */
+
+static double frame_of(int64_t at, int64_t den, int64_t first, int64_t step) {
+  return (double)(at * den - first) / (double)step;
+}
+
+static double frame_x(const struct scan_grid *grid, int64_t x) {
+  return frame_of(x, grid->den, grid->x_first, grid->x_step);
+}
+
+static double frame_y(const struct scan_grid *grid, int64_t y) {
+  return frame_of(y, grid->den, grid->y_first, grid->y_step);
+}
+
+static int cell_bits(const struct scan_grid *grid, double dx, double dy) {
+  double wide = fabs(dx) * (double)grid->x_step / (double)grid->y_step;
+  double cells = 2 * (wide > fabs(dy) ? wide : fabs(dy));
+  int bits = 0;
+  while (bits < TRACE_BITS_MAX && ldexp(1, bits) < cells)
+    bits++;
+  return bits;
+}
+
+/* The place of the middle of a cell counted from the top, 0 to 1. */
+static double middle_of(const struct trace_edge *edge, uint32_t cell) {
+  double t = (cell + 0.5) / ldexp(1, edge->bits);
+  return edge->turned ? 1 - t : t;
+}
+
+/* The line whose pixels the middle of a cell is in. */
+static int32_t line_of(const struct trace *trace, const struct trace_edge *edge,
+                       uint32_t cell) {
+  double y = floor(edge->y0 + middle_of(edge, cell) * edge->dy);
+  int32_t lines = trace->grid.lines;
+  return y < 0 ? 0 : y >= lines ? lines - 1 : (int32_t)y;
+}
+
+static void set_edge(struct trace *trace, const struct facets *facets,
+                     uint32_t e, struct trace_edge *to) {
+  const struct sheet *sheet = trace->sheet;
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  struct geom_point p = sheet->point.item[edge->point[0]];
+  struct geom_point q = sheet->point.item[edge->point[1]];
+  to->edge = e;
+  to->x0 = frame_x(&trace->grid, p.x);
+  to->y0 = frame_y(&trace->grid, p.y);
+  to->dx = frame_x(&trace->grid, q.x) - to->x0;
+  to->dy = frame_y(&trace->grid, q.y) - to->y0;
+  to->z0 = (double)p.z;
+  to->dz = (double)(q.z - p.z);
+  for (int k = 0; k < 2; k++)
+    to->own[k] = edge->triangle[k] == SHEET_NONE
+                     ? SHEET_NONE
+                     : facet_of(facets, edge->triangle[k]);
+  to->bits = cell_bits(&trace->grid, to->dx, to->dy);
+  to->turned = to->dy > 0;
+  to->cell = 0;
+  to->start = TRACE_HIDDEN;
+}
+
+static bool is_traced(const struct sheet *sheet, size_t e,
+                      const uint8_t *skip) {
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  struct geom_point p = sheet->point.item[edge->point[0]];
+  struct geom_point q = sheet->point.item[edge->point[1]];
+  return edge->edge_class != 0 && (p.x != q.x || p.y != q.y) &&
+         (skip == NULL || !skip[e]);
+}
+
+/* Puts the edges in the order of their topmost lines. */
+static bool sort_edges(struct trace *trace, struct trace_edge *edge) {
+  struct sort_key *key = mem_alloc(2 * trace->count, sizeof *key);
+  if (key == NULL)
+    return false;
+  for (size_t i = 0; i < trace->count; i++)
+    key[i] = (struct sort_key){
+        (uint64_t)(trace->grid.lines - line_of(trace, &edge[i], 0)),
+        (uint32_t)i};
+  sort_keys(key, key + trace->count, trace->count);
+  for (size_t i = 0; i < trace->count; i++)
+    trace->edge[i] = edge[key[i].value];
+  mem_free(key);
+  return true;
+}
+
+bool trace_init(struct trace *trace, const struct sheet *sheet,
+                const struct facets *facets, const struct scan_grid *grid,
+                double reach_x, double step, const uint8_t *skip) {
+  struct trace_edge *edge;
+  bool good = false;
+  memset(trace, 0, sizeof *trace);
+  trace->sheet = sheet;
+  trace->grid = *grid;
+  trace->reach_x = reach_x;
+  trace->step = step;
+  for (size_t e = 0; e < sheet->edge.count; e++)
+    trace->count += is_traced(sheet, e, skip);
+  edge = mem_alloc(trace->count, sizeof *edge);
+  trace->edge = mem_alloc(trace->count, sizeof *trace->edge);
+  trace->active = mem_alloc(trace->count, sizeof *trace->active);
+  trace->bits = mem_calloc(sheet->edge.count, 1);
+  if (edge != NULL && trace->edge != NULL && trace->active != NULL &&
+      trace->bits != NULL) {
+    size_t i = 0;
+    for (size_t e = 0; e < sheet->edge.count; e++)
+      if (is_traced(sheet, e, skip)) {
+        set_edge(trace, facets, (uint32_t)e, &edge[i]);
+        trace->bits[e] = (uint8_t)edge[i++].bits;
+      }
+    good = sort_edges(trace, edge);
+  }
+  mem_free(edge);
+  if (!good)
+    trace_fini(trace);
+  return good;
+}
+
+void trace_fini(struct trace *trace) {
+  mem_free(trace->edge);
+  mem_free(trace->active);
+  mem_free(trace->bits);
+  ARRAY_FREE(&trace->run);
+  memset(trace, 0, sizeof *trace);
+}
+
+/* ---- Following ---------------------------------------------------------- */
+
+/* The least depth a facet's plane has where the scan's answer, given at
+ * (x, line + 1/2), stands. */
+static double deepest(const struct trace *trace, uint32_t facet, double x,
+                      int32_t line) {
+  const struct sheet *sheet = trace->sheet;
+  struct geom_point corner =
+      sheet->point.item[sheet->triangle.item[facet].point[0]];
+  double per_column, per_line;
+  raster_slopes(sheet, &trace->grid, facet, &per_column, &per_line);
+  return (double)corner.z + per_column * (x - frame_x(&trace->grid, corner.x)) +
+         per_line * (line + 0.5 - frame_y(&trace->grid, corner.y)) -
+         fabs(per_column) * trace->reach_x - fabs(per_line) * 0.5;
+}
+
+static bool is_visible(const struct trace *trace, const struct trace_edge *edge,
+                       int32_t line, trace_seen_fn seen, const void *user) {
+  double t = middle_of(edge, edge->cell), x = edge->x0 + t * edge->dx;
+  uint32_t facet = seen(user, x);
+  if (facet == SHEET_NONE || facet == edge->own[0] || facet == edge->own[1])
+    return true;
+  if (trace->reach_x > 0)
+    x = floor(x) + 0.5;
+  return edge->z0 + t * edge->dz >=
+         deepest(trace, facet, x, line) - trace->step;
+}
+
+static bool end_run(struct trace *trace, struct trace_edge *edge) {
+  uint32_t cells = (uint32_t)1 << edge->bits;
+  struct trace_run run = {edge->edge, edge->start, edge->cell};
+  if (edge->start == TRACE_HIDDEN)
+    return true;
+  if (edge->turned) {
+    run.first = cells - edge->cell;
+    run.past = cells - edge->start;
+  }
+  edge->start = TRACE_HIDDEN;
+  return ARRAY_PUSH(&trace->run, run);
+}
+
+/* Follows an edge through the cells that lie on the line. */
+static bool follow(struct trace *trace, struct trace_edge *edge, int32_t line,
+                   trace_seen_fn seen, const void *user) {
+  uint32_t cells = (uint32_t)1 << edge->bits;
+  for (; edge->cell < cells && line_of(trace, edge, edge->cell) >= line;
+       edge->cell++) {
+    if (is_visible(trace, edge, line, seen, user)) {
+      if (edge->start == TRACE_HIDDEN)
+        edge->start = edge->cell;
+    } else if (!end_run(trace, edge)) {
+      return false;
+    }
+  }
+  return edge->cell < cells || end_run(trace, edge);
+}
+
+bool trace_line(struct trace *trace, int32_t line, trace_seen_fn seen,
+                const void *user) {
+  size_t kept = 0;
+  while (trace->entered < trace->count &&
+         line_of(trace, &trace->edge[trace->entered], 0) >= line)
+    trace->active[trace->active_count++] = (uint32_t)trace->entered++;
+  for (size_t i = 0; i < trace->active_count; i++) {
+    struct trace_edge *edge = &trace->edge[trace->active[i]];
+    if (!follow(trace, edge, line, seen, user))
+      return false;
+    if (edge->cell < (uint32_t)1 << edge->bits)
+      trace->active[kept++] = trace->active[i];
+  }
+  trace->active_count = kept;
+  return true;
+}
+
+/* ---- Filing ------------------------------------------------------------- */
+
+bool trace_add(struct trace *trace, struct trace_run run, int bits) {
+  trace->bits[run.edge] = (uint8_t)bits;
+  return ARRAY_PUSH(&trace->run, run);
+}
+
+/* Files the runs of one edge, in order. */
+static bool file_runs(const struct trace *trace, const struct sort_key *key,
+                      size_t count, struct map *map) {
+  uint32_t edge = trace->run.item[key->value].edge;
+  int64_t cells = INT64_C(1) << trace->bits[edge];
+  struct map_mixed mixed = {edge, (uint32_t)map->interval.count,
+                            (uint32_t)count};
+  if (count == 1) {
+    const struct trace_run *run = &trace->run.item[key->value];
+    if (run->first == 0 && run->past == cells) {
+      map->edge_state[edge] = MAP_VISIBLE;
+      return true;
+    }
+  }
+  map->edge_state[edge] = MAP_MIXED;
+  for (size_t i = 0; i < count; i++) {
+    const struct trace_run *run = &trace->run.item[key[i].value];
+    struct map_interval interval = {ratio_of(run->first, cells),
+                                    ratio_of(run->past, cells)};
+    if (!ARRAY_PUSH(&map->interval, interval))
+      return false;
+  }
+  return ARRAY_PUSH(&map->mixed, mixed);
+}
+
+bool trace_finish(struct trace *trace, struct map *map) {
+  size_t count = trace->run.count;
+  struct sort_key *key = mem_alloc(2 * count, sizeof *key);
+  bool good = key != NULL && strokes_open_map(map, trace->sheet->edge.count);
+  for (size_t i = 0; good && i < count; i++) {
+    const struct trace_run *run = &trace->run.item[i];
+    key[i] = (struct sort_key){((uint64_t)run->edge << 32) | run->first,
+                               (uint32_t)i};
+  }
+  if (good)
+    sort_keys(key, key + count, count);
+  for (size_t i = 0, past; good && i < count; i = past) {
+    uint32_t edge = trace->run.item[key[i].value].edge;
+    past = i + 1;
+    while (past < count && trace->run.item[key[past].value].edge == edge)
+      past++;
+    good = file_runs(trace, key + i, past - i, map);
+  }
+  mem_free(key);
+  return good;
+}

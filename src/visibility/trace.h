@@ -1,0 +1,82 @@
+/* trace.h - the sheet's edges followed through what a scan has seen.
+ *
+ * A scan hands over its lines from the top, each with a function that says
+ * which facet is seen at an x.  An edge is cut into 2^m cells, the fewest that
+ * are no longer than half a line's height in x and y; a cell is visible if its
+ * middle is.  So intervals start and end at multiples of 2^-m.
+ *
+ * Bias.  The middle of a cell is visible where nothing is seen, where a facet
+ * of the edge itself is, or where the edge lies no deeper than
+ *     z - |change of z over `reach_x` columns| - |over half a line| - `step`,
+ * z the depth of the facet seen at the point the scan looked at: the deepest
+ * that the facet's plane is in the part of the page for which the scan's
+ * answer stands (reach_x 1/2: a pixel; 0: the scan's x is exact), less one step
+ * of the depth buffer.  A larger bias draws lines through thin steep faces, a
+ * smaller one leaves gaps in edges that lie on faces.
+ *
+ * What ends within a pixel of the true place, or passes behind a facet by less
+ * than the bias, is drawn wrong: the error falls with the lines' distance.
+ */
+#ifndef VISIBILITY_TRACE_H
+#define VISIBILITY_TRACE_H
+
+#include "geom/scanfill.h"
+#include "visibility/facet.h"
+#include "visibility/map.h"
+
+#define TRACE_BITS_MAX 24 /* 2^24 cells of an edge at most */
+
+/* The facet seen on a line at frame x; SHEET_NONE. */
+typedef uint32_t (*trace_seen_fn)(const void *line, double x);
+
+struct trace_edge {
+  uint32_t edge;
+  double x0, y0, dx, dy; /* frame units; from point[0] */
+  double z0, dz;
+  uint32_t own[2]; /* its facets; SHEET_NONE */
+  int bits;        /* 2^bits cells */
+  bool turned;     /* point[1] is the higher end: walked backwards */
+  uint32_t cell;   /* the next, counted from the top */
+  uint32_t start;  /* of the visible run at hand; TRACE_HIDDEN */
+};
+
+/* A visible run of cells [first, past), counted from point[0]. */
+struct trace_run {
+  uint32_t edge, first, past;
+};
+
+struct trace {
+  const struct sheet *sheet;
+  struct scan_grid grid;
+  double reach_x, step;
+  struct trace_edge *edge; /* by their topmost line */
+  size_t count, entered;
+  uint32_t *active;
+  size_t active_count;
+  uint8_t *bits; /* of each edge of the sheet */
+  ARRAY(struct trace_run) run;
+};
+
+/* Takes the edges that are to be drawn and for which `skip` (one a sheet edge;
+ * NULL: none) is not set.
+ * grid  walked from the top
+ * step  depth units */
+USE_RESULT bool trace_init(struct trace *trace, const struct sheet *sheet,
+                           const struct facets *facets,
+                           const struct scan_grid *grid, double reach_x,
+                           double step, const uint8_t *skip);
+void trace_fini(struct trace *trace);
+
+/* Follows the edges through a line.  All lines of the grid come, from the
+ * last to the first. */
+USE_RESULT bool trace_line(struct trace *trace, int32_t line,
+                           trace_seen_fn seen, const void *user);
+
+/* Adds a visible run of an edge that was skipped, in cells of 2^-bits; of one
+ * edge in either order, apart, always with the same bits. */
+USE_RESULT bool trace_add(struct trace *trace, struct trace_run run, int bits);
+
+/* Writes states and intervals to the map. */
+USE_RESULT bool trace_finish(struct trace *trace, struct map *map);
+
+#endif
