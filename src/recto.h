@@ -195,6 +195,10 @@ typedef struct recto_options {
   /* Output. */
   int precision;       /* decimals of a millimetre in text formats, 0 to 9 */
   bool polyline;       /* SVG: <polyline> elements instead of <path> */
+  bool tight;          /* PDF, EPS, PS, PNG: the page is the ink's box */
+  double dpi;          /* PNG: pixels per inch; 0: 150 */
+  const char *device;  /* HPGL: the plotter's name; NULL: "generic" */
+  double velocity_cm_s;/* HPGL: pen speed; 0: the plotter's own */
 
   /* Conversation. */
   recto_progress_fn progress;

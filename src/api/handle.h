@@ -2,6 +2,8 @@
 #ifndef API_HANDLE_H
 #define API_HANDLE_H
 
+#include <math.h>
+
 #include "ink/drawing.h"
 #include "scene/scene.h"
 
@@ -18,5 +20,11 @@ struct recto_drawing {
 /* Checks what can be checked of the options alone: finite, in range. */
 USE_RESULT recto_status options_check(const recto_options *options,
                                       recto_error *error);
+
+/* Reports a time, to the microsecond, in the section "time". */
+static inline void report_seconds(struct report *report, const char *name,
+                                  double seconds) {
+  report_double(report, "time", name, round(seconds * 1e6) / 1e6);
+}
 
 #endif

@@ -88,6 +88,8 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the simplification", o->simplify_mm, 0, huge},
       {"the shortest stroke", o->min_stroke_mm, -huge, huge},
       {"the precision", o->precision, 0, 9},
+      {"the resolution of PNG", o->dpi, 0, 10000},
+      {"the pen speed", o->velocity_cm_s, 0, 1000},
   };
   return check_ranges(range, sizeof range / sizeof range[0], error);
 }

@@ -96,6 +96,10 @@ recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
     return status;
   struct writer_options how = {.precision = options->precision,
                                .polyline = options->polyline,
+                               .tight = options->tight,
+                               .dpi = options->dpi,
+                               .device = options->device,
+                               .velocity = options->velocity_cm_s,
                                .warning = options->warning,
                                .user = options->user};
   status = writer->write(&drawing->drawing, &how, stream, error);
@@ -104,10 +108,8 @@ recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
     return status;
   }
   status = stream_finish(stream, error);
-  report_double(drawing->drawing.report, "time", "write_cpu_s",
-                clock_cpu() - cpu);
-  report_double(drawing->drawing.report, "time", "write_wall_s",
-                clock_wall() - wall);
+  report_seconds(drawing->drawing.report, "write_cpu_s", clock_cpu() - cpu);
+  report_seconds(drawing->drawing.report, "write_wall_s", clock_wall() - wall);
   return status;
 }
 

@@ -160,8 +160,8 @@ static recto_status run_stages(struct render *render, recto_error *error) {
       return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
     double cpu = clock_cpu(), wall = clock_wall();
     recto_status status = stage->run(render, error);
-    report_double(render->report, "time", stage->cpu, clock_cpu() - cpu);
-    report_double(render->report, "time", stage->wall, clock_wall() - wall);
+    report_seconds(render->report, stage->cpu, clock_cpu() - cpu);
+    report_seconds(render->report, stage->wall, clock_wall() - wall);
     if (status != RECTO_OK)
       return status;
   }
@@ -222,14 +222,13 @@ static recto_status run(struct render *render, recto_error *error) {
     return status;
   report_scene(render->report, render->model);
   double cpu = clock_cpu(), wall = clock_wall();
-  report_double(render->report, "time", "read_cpu_s", render->model->read_cpu);
-  report_double(render->report, "time", "read_wall_s",
-                render->model->read_wall);
+  report_seconds(render->report, "read_cpu_s", render->model->read_cpu);
+  report_seconds(render->report, "read_wall_s", render->model->read_wall);
   map_init(&render->map);
   status = run_stages(render, error);
   if (status == RECTO_OK) {
-    report_double(render->report, "time", "render_cpu_s", clock_cpu() - cpu);
-    report_double(render->report, "time", "render_wall_s", clock_wall() - wall);
+    report_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
+    report_seconds(render->report, "render_wall_s", clock_wall() - wall);
     report_sheet(render->report, render);
     report_drawing(render->report, render->drawing);
     report_int(render->report, "memory", "peak_bytes",

@@ -16,8 +16,7 @@
 
 static bool take_method(struct arguments *arguments, const char *text) {
   for (int i = 0; i < RECTO_METHOD_COUNT; i++)
-    if (strcmp(text, recto_method_name((recto_method)i)) == 0 &&
-        recto_method_is_available((recto_method)i)) {
+    if (strcmp(text, recto_method_name((recto_method)i)) == 0) {
       arguments->options.method = (recto_method)i;
       return true;
     }
@@ -91,7 +90,7 @@ const struct option_entry option_table[] = {
      "output format; else by extension, svg for -", .offset = AT(format)},
     {OPTION_TEXT, "from", 0, "NAME", "a format",
      "model format; else by extension", .offset = AT(from)},
-    {OPTION_TAKE, "method", 'm', "NAME", "a method that this build has",
+    {OPTION_TAKE, "method", 'm', "NAME", "a method: see recto --help",
      "how visibility is found (auto)", .take = take_method},
     {OPTION_NUMBER, "contact", 0, "LENGTH", "a number, 0 or more",
      "what lies closer in depth touches, in model units",
@@ -176,14 +175,33 @@ const struct option_entry option_table[] = {
     {OPTION_LENGTH, "min-stroke", 0, "LENGTH", "a length, 0 or more",
      "drop strokes that are shorter (half the pen)",
      .offset = AT(options.min_stroke_mm), .least = 0, .most = DBL_MAX},
-    {OPTION_INT, "precision", 0, "DIGITS", "a number from 0 to 9",
-     "decimals of a millimetre (3)", .offset = AT(options.precision),
-     .least = 0, .most = 9},
-    {OPTION_FLAG, "polyline", 0, NULL, NULL,
-     "SVG: polyline elements instead of paths", .offset = AT(options.polyline)},
     {OPTION_FLAG, "ids", 0, NULL, NULL,
      "SVG: note face, edge, group, class of every line",
      .offset = AT(options.ids)},
+
+    HEADING("File"),
+    {OPTION_INT, "precision", 0, "DIGITS", "a number from 0 to 9",
+     "SVG: decimals of a millimetre (3)", .offset = AT(options.precision),
+     .least = 0, .most = 9},
+    {OPTION_FLAG, "polyline", 0, NULL, NULL,
+     "SVG: polyline elements instead of paths", .offset = AT(options.polyline)},
+    {OPTION_TEXT, "device", 0, "NAME", "a plotter",
+     "HPGL: generic (default) drum hp7475a hp7550a dxy",
+     .offset = AT(options.device)},
+    {OPTION_NUMBER, "velocity", 0, "SPEED", "a speed in cm/s, at least 1",
+     "HPGL: pen speed in cm/s", .offset = AT(options.velocity_cm_s), .least = 1,
+     .most = 1000},
+#ifdef HAVE_CAIRO
+    {OPTION_FLAG, "tight", 0, NULL, NULL,
+     "PDF, EPS, PS, PNG: crop the page to the ink",
+     .offset = AT(options.tight)},
+    {OPTION_NUMBER, "dpi", 0, "N", "a number from 1 to 10000",
+     "PNG: pixels per inch (150)", .offset = AT(options.dpi), .least = 1,
+     .most = 10000},
+#else
+    ABSENT("tight", NULL),
+    ABSENT("dpi", "N"),
+#endif
 
     HEADING("Reports"),
     {OPTION_TEXT, "stats", 0, "[=FILE]", "a file",
