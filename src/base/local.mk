@@ -1,6 +1,7 @@
 # src/base/local.mk - the sources of this layer.
 librecto_core_la_SOURCES += \
   %D%/decimal.c %D%/decimal.h \
+  %D%/digits.h \
   %D%/memory.c %D%/memory.h \
   %D%/number.c %D%/number.h %D%/number_format.c \
   %D%/report.c %D%/report.h \

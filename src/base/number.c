@@ -17,6 +17,7 @@
 #include <string.h>
 
 #include "base/decimal.h"
+#include "base/digits.h"
 
 __extension__ typedef unsigned __int128 uint128;
 
@@ -42,59 +43,6 @@ static uint64_t power_of_five(int power) {
 /* How many zero bits stand above the highest one of x > 0. */
 static int leading_zeros(uint64_t x) { return __builtin_clzll(x); }
 
-static bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/* ---- Digits -------------------------------------------------------------- */
-
-/* Appends the digits at `text` to *w (which wraps where they are too many) and
- * returns where they end. */
-static const char *gather_digits_singly(const char *text, const char *end,
-                                        uint64_t *w) {
-  for (; text < end && is_digit(*text); text++)
-    *w = *w * 10 + (uint64_t)(*text - '0');
-  return text;
-}
-
-#if defined __BYTE_ORDER__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-/* The same, eight characters at a time.  A byte b of the window is a digit
- * where b ^ '0' <= 9; adding 0x76 then carries into its top bit if it is not.
- * The digits are shifted to the window's end, zeros before them, and added up
- * in pairs, then fours, then all eight. */
-static const char *gather_digits(const char *text, const char *end,
-                                 uint64_t *w) {
-  static const uint64_t scale[9] = {1,      10,      100,      1000,     10000,
-                                    100000, 1000000, 10000000, 100000000};
-  while (end - text >= 8) {
-    uint64_t window;
-    memcpy(&window, text, 8);
-    window ^= UINT64_C(0x3030303030303030);
-    uint64_t other = ((window & UINT64_C(0x7f7f7f7f7f7f7f7f)) +
-                      UINT64_C(0x7676767676767676)) |
-                     window;
-    other &= UINT64_C(0x8080808080808080);
-    int count = other ? __builtin_ctzll(other) / 8 : 8;
-    if (count == 0)
-      return text;
-    window <<= 64 - 8 * count;
-    window = window * 10 + (window >> 8);
-    uint64_t first = window & UINT64_C(0x000000ff000000ff);
-    uint64_t second = (window >> 16) & UINT64_C(0x000000ff000000ff);
-    window = first * (UINT64_C(1000000) << 32 | 100) +
-             second * (UINT64_C(10000) << 32 | 1);
-    *w = *w * scale[count] + (window >> 32);
-    text += count;
-    if (count < 8)
-      return text;
-  }
-  return gather_digits_singly(text, end, w);
-}
-#else
-static const char *gather_digits(const char *text, const char *end,
-                                 uint64_t *w) {
-  return gather_digits_singly(text, end, w);
-}
-#endif
-
 /* Reads e[+-]digits at `text`, where it stands, and returns its end; a huge
  * exponent is capped where no amount of digits makes up for it. */
 static const char *parse_exponent(const char *text, const char *end,
@@ -104,10 +52,10 @@ static const char *parse_exponent(const char *text, const char *end,
   bool negative = p < end && *p == '-';
   if (p < end && (*p == '-' || *p == '+'))
     p++;
-  if (p == end || !is_digit(*p))
+  if (p == end || !digits_is_one(*p))
     return text;
   int64_t sum = 0;
-  for (; p < end && is_digit(*p); p++)
+  for (; p < end && digits_is_one(*p); p++)
     if (sum < cap)
       sum = sum * 10 + (*p - '0');
   *exponent += negative ? -sum : sum;
@@ -171,7 +119,7 @@ static const char *parse_special(const char *text, const char *end,
 static ptrdiff_t count_significant(const char *text, const char *end) {
   ptrdiff_t count = 0;
   for (; text < end; text++)
-    if (is_digit(*text) && (count > 0 || *text != '0'))
+    if (digits_is_one(*text) && (count > 0 || *text != '0'))
       count++;
   return count;
 }
@@ -185,11 +133,11 @@ const char *number_parse_double(const char *text, const char *end,
   const char *first = p;
   uint64_t w = 0;
   int64_t exponent = 0;
-  p = gather_digits_singly(p, end, &w);
+  p = digits_gather_singly(p, end, &w);
   ptrdiff_t digits = p - first;
   if (p < end && *p == '.') {
     const char *fraction = p + 1;
-    p = gather_digits(fraction, end, &w);
+    p = digits_gather(fraction, end, &w);
     exponent = fraction - p;
     digits += p - fraction;
   }
@@ -226,11 +174,11 @@ const char *number_parse_int(const char *text, const char *end,
   bool negative = p < end && *p == '-';
   if (p < end && (*p == '-' || *p == '+'))
     p++;
-  if (p == end || !is_digit(*p))
+  if (p == end || !digits_is_one(*p))
     return NULL;
   /* Summed below zero, where there is room for INT64_MIN. */
   int64_t sum = 0;
-  for (; p < end && is_digit(*p); p++)
+  for (; p < end && digits_is_one(*p); p++)
     if (__builtin_mul_overflow(sum, 10, &sum) ||
         __builtin_sub_overflow(sum, *p - '0', &sum))
       return NULL;

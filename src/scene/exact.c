@@ -93,8 +93,8 @@ static int turn_widely(double ax, double ay, double bx, double by, double cx,
 /* What is known of the sign without wide numbers. */
 enum { UNKNOWN = 2 };
 
-static int turn_quickly(double ax, double ay, double bx, double by, double cx,
-                        double cy) {
+static inline int turn_quickly(double ax, double ay, double bx, double by,
+                               double cx, double cy) {
   double left = (bx - ax) * (cy - ay);
   double right = (by - ay) * (cx - ax);
   double determinant = left - right;

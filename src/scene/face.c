@@ -6,8 +6,6 @@
  */
 #include "scene/scene.h"
 
-#include <string.h>
-
 #include "scene/bowtie.h"
 #include "scene/exact.h"
 #include "scene/limit.h"
@@ -150,7 +148,8 @@ recto_status scene_add_face(struct scene *scene, const uint32_t *corner,
     return error_memory(error);
   uint32_t *to = scene->corner.item + scene->corner.count;
   if (is_plain(scene, corner, count)) {
-    memcpy(to, corner, count * sizeof *to);
+    for (size_t i = 0; i < count; i++)
+      to[i] = corner[i];
   } else {
     count = copy_distinct(scene, corner, count, true, to);
     if (!examine_face(scene, to, count, line, diagnostics))

@@ -18,3 +18,7 @@ librecto_core_la_SOURCES += \
   %D%/topology.c %D%/topology.h \
   %D%/weld.c %D%/weld.h \
   %D%/write_obj.c
+
+if HAVE_ASSIMP
+librecto_core_la_SOURCES += %D%/reader_assimp.c
+endif

@@ -18,6 +18,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/digits.h"
 #include "base/number.h"
 #include "scene/limit.h"
 
@@ -228,6 +229,7 @@ static bool is_bad(const struct parser *p, uint32_t point) {
 /* o, g or usemtl: the rest of the line. */
 static recto_status read_name(struct parser *p, enum name_kind kind,
                               size_t keyword) {
+  p->known = true;
   p->at += keyword;
   skip_blanks(p);
   struct name *name = &p->name[kind];
@@ -265,28 +267,30 @@ static recto_status use_group(struct parser *p) {
 
 /* ---- Faces and polylines ------------------------------------------------- */
 
-/* Reads [+-]digits; NULL where there are none.  Numbers too large for any
- * file are cut where they stay out of range. */
-static inline const char *parse_index(const char *at, int64_t *index) {
+/* Reads [+-]digits; NULL where there are none.  Numbers too long for any file
+ * stay out of range: the sum of so many digits may have gone round. */
+static inline const char *parse_index(const char *at, const char *end,
+                                      int64_t *index) {
+  enum { DIGITS_MAX = 12 };
   static const int64_t beyond = INT64_C(1) << 40;
   bool negative = *at == '-';
   if (*at == '-' || *at == '+')
     at++;
-  const char *start = at;
-  int64_t sum = 0;
-  for (; *at >= '0' && *at <= '9'; at++)
-    if (sum < beyond)
-      sum = sum * 10 + (*at - '0');
-  *index = negative ? -sum : sum;
-  return at > start ? at : NULL;
+  uint64_t sum = 0;
+  const char *stop = digits_gather(at, end, &sum);
+  int64_t magnitude = stop - at > DIGITS_MAX ? beyond : (int64_t)sum;
+  *index = negative ? -magnitude : magnitude;
+  return stop > at ? stop : NULL;
 }
 
 /* Passes over the texture and normal indices, /n or //n or /n/n. */
 static inline const char *skip_other_indices(const char *at) {
   for (int slash = 0; slash < 2 && *at == '/'; slash++) {
-    int64_t ignored;
-    const char *stop = parse_index(at + 1, &ignored);
-    at = stop ? stop : at + 1;
+    at++;
+    if (*at == '-' || *at == '+')
+      at++;
+    while (digits_is_one(*at))
+      at++;
   }
   return at;
 }
@@ -310,16 +314,16 @@ static recto_status resolve_rare_index(struct parser *p, int64_t index,
 }
 
 /* The corners of the statement into p->corner; *broken where they cannot be
- * parsed.  *missing is the first index without a point, 0 where all have
- * one. */
-static recto_status read_corners(struct parser *p, bool *broken,
-                                 int64_t *missing) {
+ * parsed, *missing where a point is not there: *first_missing is then its
+ * index. */
+static recto_status read_corners(struct parser *p, bool *broken, bool *missing,
+                                 int64_t *first_missing) {
   *broken = false;
-  *missing = 0;
+  *missing = false;
   p->corner.count = 0;
   for (skip_blanks(p); !is_at_end_of_line(p); skip_blanks(p)) {
     int64_t index;
-    const char *stop = parse_index(p->at, &index);
+    const char *stop = parse_index(p->at, p->end, &index);
     if (stop && *stop == '/')
       stop = skip_other_indices(stop);
     *broken = !stop || !ends_word(*stop);
@@ -330,8 +334,10 @@ static recto_status read_corners(struct parser *p, bool *broken,
       recto_status status = resolve_rare_index(p, index, &point);
       if (status != RECTO_OK)
         return status;
-      if (point == SCENE_NONE && *missing == 0)
-        *missing = index ? index : -INT64_MAX;
+      if (point == SCENE_NONE && !*missing) {
+        *missing = true;
+        *first_missing = index;
+      }
     }
     p->at = stop;
     if (!ARRAY_PUSH(&p->corner, point))
@@ -340,16 +346,9 @@ static recto_status read_corners(struct parser *p, bool *broken,
   return RECTO_OK;
 }
 
-/* Tells why the element in p->corner is not to be added, if it is not. */
-static bool is_usable(struct parser *p, unsigned long line, const char *what,
-                      int64_t missing) {
-  if (missing) {
-    diagnostics_fault(p->diagnostics, SCENE_FAULT_INDEX, line,
-                      "%s with index %lld where there are %zu points, skipped",
-                      what, missing == -INT64_MAX ? 0LL : (long long)missing,
-                      p->ahead ? p->scene->point.count - p->first : p->seen);
-    return false;
-  }
+/* Whether all points of the statement can be used; tells where not. */
+static bool has_good_points(struct parser *p, unsigned long line,
+                            const char *what) {
   for (size_t i = 0; p->bad.count && i < p->corner.count; i++)
     if (is_bad(p, p->corner.item[i])) {
       diagnostics_fault(p->diagnostics, SCENE_FAULT_NOT_FINITE, line,
@@ -359,22 +358,33 @@ static bool is_usable(struct parser *p, unsigned long line, const char *what,
   return true;
 }
 
+static void tell_missing(struct parser *p, unsigned long line, const char *what,
+                         int64_t index) {
+  size_t points = p->ahead ? p->scene->point.count - p->first : p->seen;
+  diagnostics_fault(p->diagnostics, SCENE_FAULT_INDEX, line,
+                    "%s with index %lld where there are %zu points, skipped",
+                    what, (long long)index, points);
+}
+
 /* f or l. */
 static recto_status read_element(struct parser *p, bool is_face) {
   const char *start = p->at;
   unsigned long line = p->line;
   const char *what = is_face ? "face" : "polyline";
-  bool broken;
-  int64_t missing;
+  p->known = true;
+  bool broken, missing;
+  int64_t index = 0;
   p->at++;
-  recto_status status = read_corners(p, &broken, &missing);
+  recto_status status = read_corners(p, &broken, &missing, &index);
   if (status != RECTO_OK)
     return status;
   bool cut_off = p->at == p->end && p->corner.count < (is_face ? 3 : 2);
   if (broken || cut_off)
     return skip_broken(p, start, line, what);
   finish_statement(p);
-  if (!is_usable(p, line, what, missing))
+  if (missing)
+    tell_missing(p, line, what, index);
+  if (missing || !has_good_points(p, line, what))
     return RECTO_OK;
   if (p->renamed && (status = use_group(p)) != RECTO_OK)
     return status;
@@ -389,10 +399,8 @@ static recto_status read_element(struct parser *p, bool is_face) {
 static recto_status read_unknown(struct parser *p) {
   static const char material[] = "usemtl";
   static const size_t length = sizeof material - 1;
-  if (strncmp(p->at, material, length) == 0 && ends_word(p->at[length])) {
-    p->known = true;
+  if (strncmp(p->at, material, length) == 0 && ends_word(p->at[length]))
     return read_name(p, NAME_MATERIAL, length);
-  }
   if (!p->strange)
     p->strange = p->line;
   recto_status status = check_text(p, p->at, p->line);
@@ -400,23 +408,30 @@ static recto_status read_unknown(struct parser *p) {
   return status;
 }
 
-static recto_status read_known(struct parser *p, char keyword) {
+static recto_status read_v(struct parser *p) {
   p->known = true;
+  if (!p->ahead)
+    return read_point(p);
+  p->seen++;
+  skip_line(p, true);
+  return RECTO_OK;
+}
+
+/* A statement by its first letter, where the keyword is no longer. */
+static recto_status read_statement(struct parser *p, char keyword) {
   switch (keyword) {
   case 'v':
-    if (!p->ahead)
-      return read_point(p);
-    p->seen++;
-    skip_line(p, true);
-    return RECTO_OK;
+    return read_v(p);
   case 'f':
     return read_element(p, true);
   case 'l':
     return read_element(p, false);
   case 'g':
     return read_name(p, NAME_GROUP, 1);
-  default:
+  case 'o':
     return read_name(p, NAME_OBJECT, 1);
+  default:
+    return read_unknown(p);
   }
 }
 
@@ -433,8 +448,8 @@ static recto_status read_statements(struct parser *p, bool points_only) {
       skip_line(p, true);
     else if (points_only && !(keyword == 'v' && ends_word(next)))
       skip_line(p, true);
-    else if (strchr("vflgo", keyword) && keyword && ends_word(next))
-      status = read_known(p, keyword);
+    else if (ends_word(next))
+      status = read_statement(p, keyword);
     else
       status = read_unknown(p);
   }
