@@ -394,7 +394,7 @@ static void fill_convex(const struct scan_grid *grid, const int64_t *xy,
     assert_int_equal(walk.left.line, walk.right.line);
     for (int32_t c = scan_edge_column(&walk.left, grid); c < past; c++)
       pixel[walk.left.line][c]++;
-  } while (scan_convex_next(&walk, grid));
+  } while (scan_convex_next(&walk, grid, point));
 }
 
 static void assert_convex_is_judged(const int64_t *xy, uint32_t count) {

@@ -141,14 +141,14 @@ static uint32_t corner_before(const struct scan_convex *walk, uint32_t corner) {
 /* Takes up the next edge of one chain that covers a line.  Counter-clockwise
  * corners lead down on the left and up on the right. */
 static bool take_edge(struct scan_convex *walk, const struct scan_grid *grid,
-                      bool left) {
+                      const struct scan_point *point, bool left) {
   uint32_t *at = left ? &walk->left_at : &walk->right_at;
   struct scan_edge *edge = left ? &walk->left : &walk->right;
   while (*at != walk->end) {
     uint32_t from = *at;
     *at = left == grid->down ? corner_after(walk, from)
                              : corner_before(walk, from);
-    if (scan_edge_init(edge, grid, &walk->point[from], &walk->point[*at]))
+    if (scan_edge_init(edge, grid, &point[from], &point[*at]))
       return true;
   }
   return false;
@@ -165,19 +165,20 @@ bool scan_convex_start(struct scan_convex *walk, const struct scan_grid *grid,
   }
   if (point[low].line == point[high].line)
     return false;
-  walk->point = point;
   walk->count = count;
   walk->left_at = walk->right_at = grid->down ? high : low;
   walk->end = grid->down ? low : high;
   walk->left_new = walk->right_new = true;
-  return take_edge(walk, grid, true) && take_edge(walk, grid, false);
+  return take_edge(walk, grid, point, true) &&
+         take_edge(walk, grid, point, false);
 }
 
-bool scan_convex_next(struct scan_convex *walk, const struct scan_grid *grid) {
+bool scan_convex_next(struct scan_convex *walk, const struct scan_grid *grid,
+                      const struct scan_point *point) {
   walk->left_new = walk->left.dy == 0;
   walk->right_new = walk->right.dy == 0;
   if (walk->left_new) {
-    if (!take_edge(walk, grid, true))
+    if (!take_edge(walk, grid, point, true))
       return false;
   } else {
     scan_edge_step(&walk->left, grid->down);
@@ -186,7 +187,7 @@ bool scan_convex_next(struct scan_convex *walk, const struct scan_grid *grid) {
     scan_edge_step(&walk->right, grid->down);
     return true;
   }
-  return take_edge(walk, grid, false);
+  return take_edge(walk, grid, point, false);
 }
 
 /* ---- Any polygons ------------------------------------------------------- */

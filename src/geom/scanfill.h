@@ -105,7 +105,6 @@ int scan_edge_compare(const struct scan_edge *a, const struct scan_edge *b,
  * right.  Where an edge ends the next corner's takes over; for a triangle
  * this is the split at the middle vertex into two with a horizontal side. */
 struct scan_convex {
-  const struct scan_point *point; /* lent: counter-clockwise corners */
   uint32_t count;
   uint32_t left_at, right_at; /* the corner where the edge on it ends */
   uint32_t end;               /* the last corner in walking order */
@@ -119,8 +118,10 @@ struct scan_convex {
 bool scan_convex_start(struct scan_convex *walk, const struct scan_grid *grid,
                        const struct scan_point *point, uint32_t count);
 
-/* Goes to the next line; false past the last. */
-bool scan_convex_next(struct scan_convex *walk, const struct scan_grid *grid);
+/* Goes to the next line; false past the last.
+ * point  the same corners as at the start */
+bool scan_convex_next(struct scan_convex *walk, const struct scan_grid *grid,
+                      const struct scan_point *point);
 
 /* ---- Any polygons ------------------------------------------------------- */
 
