@@ -54,6 +54,10 @@ struct sheet_edge {
   uint16_t part;        /* wires: segment's index, low bits */
 };
 
+struct sheet_contour {
+  uint32_t point[2];
+};
+
 struct sheet {
   ARRAY(struct sheet_point) point;
   ARRAY(struct sheet_triangle) triangle;
@@ -62,6 +66,10 @@ struct sheet {
   /* Mesh edges in topology order, then wires, then intersections once they
    * were found.  Edges of class 0 are there as outlines, not to be drawn. */
   ARRAY(struct sheet_edge) edge;
+  /* The contours, whether drawn or not: edges of one face or more than two,
+   * silhouettes, and edges of a triangle that is SHEET_FLAT.  Away from them
+   * the projected faces neither fold nor end. */
+  ARRAY(struct sheet_contour) contour;
   struct camera camera;
   double z_scale;          /* see above */
   double units_per_view;   /* grid units of x for one of X/d (perspective) or
@@ -89,6 +97,17 @@ static inline double sheet_x_mm(const struct sheet *sheet, double x) {
 }
 static inline double sheet_y_mm(const struct sheet *sheet, double y) {
   return sheet->camera.page_mm[1] / 2 + y / SHEET_UNITS_PER_MM;
+}
+
+/* Where the view axis meets the page, in grid units. */
+struct sheet_axis {
+  double x, y;
+};
+static inline struct sheet_axis sheet_view_axis(const struct sheet *sheet) {
+  const struct camera *c = &sheet->camera;
+  return (struct sheet_axis){
+      (c->middle_mm[0] - c->page_mm[0] / 2) * SHEET_UNITS_PER_MM,
+      (c->middle_mm[1] - c->page_mm[1] / 2) * SHEET_UNITS_PER_MM};
 }
 
 #endif

@@ -123,6 +123,10 @@ bool fragments_add_whole(struct fragments *f, uint32_t triangle) {
          deal_pieces(f, triangle, &piece, 1);
 }
 
+bool fragments_add_alone(struct fragments *f, uint32_t triangle) {
+  return keep_piece(f, triangle, NULL);
+}
+
 bool fragments_add(struct fragments *f, uint32_t triangle,
                    const struct geom_convex *piece, size_t count) {
   return count == 0 ||
@@ -215,12 +219,91 @@ static bool file_region(struct face_work *work) {
   return true;
 }
 
+/* ---- Faces that are wholly visible ---------------------------------------------- */
+
+/* A side of a face's outline: from its point, along its edge. */
+struct outline_side {
+  uint32_t point, edge;
+};
+
+/* Appends the sides of a triangle but `skip`, from the one after it. */
+static int append_sides(const struct sheet_triangle *t, int skip,
+                        struct outline_side *side) {
+  for (int k = 1; k < 3; k++)
+    side[k - 1] = (struct outline_side){t->point[(skip + k) % 3],
+                                        t->side[(skip + k) % 3]};
+  return 2;
+}
+
+/* The outline of a face of one triangle, or of two on both sides of a
+ * diagonal; 0 sides where it is neither. */
+static int find_outline(const struct face_work *work,
+                        struct outline_side side[4]) {
+  const struct sheet_triangle *all = work->fragments->sheet->triangle.item,
+                              *a = &all[work->own.item[0]], *b;
+  if (work->own.count == 1) {
+    side[0] = (struct outline_side){a->point[0], a->side[0]};
+    return 1 + append_sides(a, 0, side + 1);
+  }
+  if (work->own.count != 2) return 0;
+  b = &all[work->own.item[1]];
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      if (a->side[i] == SHEET_NONE && b->side[j] == SHEET_NONE &&
+          a->point[i] == b->point[(j + 1) % 3] &&
+          a->point[(i + 1) % 3] == b->point[j])
+        return append_sides(a, i, side) + append_sides(b, j, side + 2);
+  return 0;
+}
+
+/* Files such a face as it stands, without arithmetic on regions: `filed`
+ * tells whether its outline was plain enough. */
+static bool file_outline(struct face_work *work, bool *filed) {
+  const struct sheet *sheet = work->fragments->sheet;
+  struct map *map = work->map;
+  struct outline_side side[4];
+  struct geom_point p[4];
+  struct map_fragment fragment = {work->face, (uint32_t)map->loop.count, 1};
+  struct map_loop loop = {(uint32_t)map->corner.count, 0};
+  int n = find_outline(work, side), first = 0;
+  *filed = false;
+  for (int k = 0; k < n; k++) {
+    if (side[k].edge == SHEET_NONE) return true;
+    p[k] = sheet->point.item[side[k].point];
+    if (p[k].x < p[first].x || (p[k].x == p[first].x && p[k].y < p[first].y))
+      first = k;
+  }
+  for (int k = 0; k < n; k++)
+    if (geom_orient2d(p[k], p[(k + 1) % n], p[(k + 2) % n]) == 0) return true;
+  if (n == 0 || work->areas) return true;
+  for (int k = 0; k < n; k++) {
+    int i = (first + k) % n;
+    struct map_corner corner = {p[i].x, p[i].y, MAP_SIDE_EDGE, side[i].edge};
+    if (!ARRAY_PUSH(&map->corner, corner)) return false;
+    loop.count++;
+  }
+  *filed = true;
+  return ARRAY_PUSH(&map->loop, loop) && ARRAY_PUSH(&map->fragment, fragment);
+}
+
+static bool is_whole(const struct face_work *work,
+                     const struct fragment_piece *piece, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    if (piece[i].piece != NULL) return false;
+  return count == work->own.count;
+}
+
 static bool file_face(struct face_work *work, const struct fragment_piece *piece,
                       size_t count) {
   struct fragments *f = work->fragments;
   work->face = piece->face;
   work->piece.count = 0;
   if (!find_own(work, piece->triangle)) return false;
+  if (is_whole(work, piece, count)) {
+    bool filed;
+    if (!file_outline(work, &filed)) return false;
+    if (filed) return true;
+  }
   for (size_t i = 0; i < count; i++) {
     struct geom_convex whole;
     if (piece[i].piece == NULL &&

@@ -43,6 +43,10 @@ void fragments_fini(struct fragments *fragments);
 USE_RESULT bool fragments_add_whole(struct fragments *fragments,
                                     uint32_t triangle);
 
+/* The same for a triangle that touches no other over its outline. */
+USE_RESULT bool fragments_add_alone(struct fragments *fragments,
+                                    uint32_t triangle);
+
 /* The triangle is the nearest over these disjoint pieces; they are copied. */
 USE_RESULT bool fragments_add(struct fragments *fragments, uint32_t triangle,
                               const struct geom_convex *piece, size_t count);

@@ -27,13 +27,10 @@ void hider_init(struct hider *hider, const struct sheet *sheet,
   hider->ny = (double)hider->plane.ny;
   hider->nz = (double)hider->plane.nz;
   if (camera->perspective) {
-    double ax = (camera->middle_mm[0] - camera->page_mm[0] / 2) *
-                SHEET_UNITS_PER_MM,
-           ay = (camera->middle_mm[1] - camera->page_mm[1] / 2) *
-                SHEET_UNITS_PER_MM;
+    struct sheet_axis axis = sheet_view_axis(sheet);
     third = hider->nz * (sheet->z_scale / camera->d_max) -
-            (hider->nx * (ax - hider->p[0].x) +
-             hider->ny * (ay - hider->p[0].y) -
+            (hider->nx * (axis.x - hider->p[0].x) +
+             hider->ny * (axis.y - hider->p[0].y) -
              hider->nz * (double)hider->p[0].z);
   } else {
     third = sheet->z_scale * hider->nz;
@@ -160,6 +157,13 @@ bool hide_edge(const struct hider *hider, struct geom_point p,
   if (!hide_by_outline(hider, p, q, part)) return false;
   counts->depth++;
   return cut_to_depth(hider, p, q, part, counts);
+}
+
+void hide_counts_add(struct hide_counts *sum, const struct hide_counts *more) {
+  sum->pairs += more->pairs;
+  sum->depth += more->depth;
+  sum->exact += more->exact;
+  sum->crossings += more->crossings;
 }
 
 void hide_report(const struct hide_counts *counts, struct report *report) {

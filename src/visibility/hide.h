@@ -50,6 +50,21 @@ struct hider {
 void hider_init(struct hider *hider, const struct sheet *sheet,
                 uint32_t triangle);
 
+/* A cheap no: may the triangle hide anything of the edge, by its flags and by
+ * the boxes of the two on the page and in depth? */
+static inline bool hide_may(const struct sheet *sheet, uint32_t triangle,
+                            struct geom_point p, struct geom_point q,
+                            struct page_box box) {
+  const uint32_t *point = sheet->triangle.item[triangle].point;
+  int64_t low = p.z < q.z ? p.z : q.z;
+  if (sheet->triangle_flags[triangle] & SHEET_FLAT) return false;
+  if (sheet->point.item[point[0]].z < low &&
+      sheet->point.item[point[1]].z < low &&
+      sheet->point.item[point[2]].z < low)
+    return false;
+  return !page_boxes_apart(box, page_box_of_triangle(sheet, triangle));
+}
+
 enum { HIDE_LEFT = 1, HIDE_RIGHT = 2, HIDE_BOTH = 3 };
 
 /* The open interval of an edge that a triangle covers. */
@@ -66,6 +81,7 @@ struct hide_counts {
   uint64_t crossings; /* of these, the edge goes through the tolerance */
 };
 
+void hide_counts_add(struct hide_counts *sum, const struct hide_counts *more);
 void hide_report(const struct hide_counts *counts, struct report *report);
 
 /* What the triangle hides of the edge from p to q (different places on the

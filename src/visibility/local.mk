@@ -13,4 +13,6 @@ librecto_core_la_SOURCES += \
   %D%/pierce.c %D%/pierce.h \
   %D%/sidelabel.c %D%/sidelabel.h \
   %D%/solver.c %D%/solver.h \
-  %D%/strokes.c %D%/strokes.h
+  %D%/strokes.c %D%/strokes.h \
+  %D%/tilemap.c %D%/tilemap.h \
+  %D%/tiles.c

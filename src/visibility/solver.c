@@ -4,7 +4,7 @@
 #include <string.h>
 
 static const struct solver *const table[] = {
-    &solver_newell, &solver_painter, &solver_painter_given, &solver_brute,
+    &solver_newell, &solver_tiles, &solver_painter, &solver_painter_given, &solver_brute,
     NULL};
 
 const struct solver *const *solvers(void) { return table; }

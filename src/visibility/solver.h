@@ -10,12 +10,16 @@ struct solver_request {
   bool strokes;       /* intervals of the sheet's drawable edges */
   bool fragments;     /* visible fragments of its faces */
   bool areas;         /* with fragments: their exact areas, for tests */
+  bool hidden;        /* hidden parts of intersections will be drawn too */
   bool intersections; /* edges where faces pierce each other are drawable */
   int threads;        /* at least 1 */
   double pitch_mm;    /* watkins */
   int resolution;     /* raster methods */
   recto_progress_fn progress; /* NULL: none */
   void *user;
+  int depth_bits;     /* z-buffers: 1 to 32; 0: float64, ties exact */
+  bool remove_backs;  /* z-buffers: faces that run clockwise are left out */
+  bool no_coherence;  /* watkins: depth orders are not kept line to line */
 };
 
 struct solver {
@@ -33,8 +37,12 @@ struct solver {
 
 extern const struct solver solver_brute;
 extern const struct solver solver_newell;
+extern const struct solver solver_tiles;
 extern const struct solver solver_painter;       /* by centroid */
 extern const struct solver solver_painter_given; /* the file's order */
+extern const struct solver solver_zbuffer;
+extern const struct solver solver_scanline_zbuffer;
+extern const struct solver solver_watkins;       /* at a pitch */
 
 /* The solver of a method, or of its name; NULL where there is none. */
 const struct solver *solver_by_method(recto_method method);

@@ -18,7 +18,8 @@ bool spans_init(struct spans *spans, const struct sheet *sheet,
   spans->y_low = -spans->y_high;
   spans->keys = keys;
   spans->at = mem_alloc(keys, sizeof *spans->at);
-  if (spans->at == NULL) return false;
+  if (spans->at == NULL)
+    return false;
   memset(spans->at, 0xff, keys * sizeof *spans->at);
   return true;
 }
@@ -32,10 +33,11 @@ void spans_fini(struct spans *spans) {
 /* The trapezoid of the line above that the span makes longer, or NULL. */
 static struct trapezoid *find_above(const struct spans *spans, int32_t line,
                                     const struct span *span) {
-  uint32_t at = span->left.key == SPAN_ALONE ? SPAN_ALONE
-                                             : spans->at[span->left.key];
+  uint32_t at =
+      span->left.key == SPAN_ALONE ? SPAN_ALONE : spans->at[span->left.key];
   struct trapezoid *above;
-  if (at == SPAN_ALONE || span->right.key == SPAN_ALONE) return NULL;
+  if (at == SPAN_ALONE || span->right.key == SPAN_ALONE)
+    return NULL;
   above = &spans->trapezoid.item[at];
   return above->last == line + 1 && above->span.face == span->face &&
                  above->span.right.key == span->right.key
@@ -58,7 +60,7 @@ bool spans_add(struct spans *spans, int32_t line, const struct span *span) {
   return ARRAY_PUSH(&spans->trapezoid, next);
 }
 
-/* ---- Filing --------------------------------------------------------------- */
+/* ---- Filing ------------------------------------------------------------- */
 
 static double clamp(double value, double low, double high) {
   return value < low ? low : value > high ? high : value;
@@ -78,13 +80,15 @@ static void make_corners(const struct spans *spans,
   double x[4] = {left->lower, right->lower, right->upper, left->upper};
   double low = scan_plane_y(&spans->grid, trapezoid->last);
   double high = scan_plane_y(&spans->grid, trapezoid->first + 1);
-  if (x[0] > x[1]) x[0] = x[1] = (x[0] + x[1]) / 2;
-  if (x[3] > x[2]) x[3] = x[2] = (x[3] + x[2]) / 2;
+  if (x[0] > x[1])
+    x[0] = x[1] = (x[0] + x[1]) / 2;
+  if (x[3] > x[2])
+    x[3] = x[2] = (x[3] + x[2]) / 2;
   for (int k = 0; k < 4; k++) {
     corner[k] = (struct map_corner){.side = MAP_SIDE_CUT, .id = SHEET_NONE};
     corner[k].x = round_corner(clamp(x[k], spans->x_low, spans->x_high));
-    corner[k].y = round_corner(
-        clamp(k < 2 ? low : high, spans->y_low, spans->y_high));
+    corner[k].y =
+        round_corner(clamp(k < 2 ? low : high, spans->y_low, spans->y_high));
   }
   corner[1].side = right->side;
   corner[1].id = right->id;
@@ -102,7 +106,8 @@ static bool file_loop(const struct map_corner corner[4], uint32_t face,
     if (corner[k].x != next->x || corner[k].y != next->y)
       kept[count++] = corner[k];
   }
-  if (count < 3) return true;
+  if (count < 3)
+    return true;
   for (uint32_t k = 1; k < count; k++)
     if (kept[k].x < kept[first].x ||
         (kept[k].x == kept[first].x && kept[k].y < kept[first].y))
@@ -110,7 +115,8 @@ static bool file_loop(const struct map_corner corner[4], uint32_t face,
   struct map_loop loop = {(uint32_t)map->corner.count, count};
   struct map_fragment fragment = {face, (uint32_t)map->loop.count, 1};
   for (uint32_t k = 0; k < count; k++)
-    if (!ARRAY_PUSH(&map->corner, kept[(first + k) % count])) return false;
+    if (!ARRAY_PUSH(&map->corner, kept[(first + k) % count]))
+      return false;
   return ARRAY_PUSH(&map->loop, loop) && ARRAY_PUSH(&map->fragment, fragment);
 }
 
@@ -119,9 +125,9 @@ bool spans_finish(struct spans *spans, struct map *map) {
   struct sort_key *key = mem_alloc(2 * count, sizeof *key);
   bool good = key != NULL;
   for (size_t i = 0; good && i < count; i++)
-    key[i] = (struct sort_key){spans->trapezoid.item[i].span.face,
-                               (uint32_t)i};
-  if (good) sort_keys(key, key + count, count);
+    key[i] = (struct sort_key){spans->trapezoid.item[i].span.face, (uint32_t)i};
+  if (good)
+    sort_keys(key, key + count, count);
   for (size_t i = 0; good && i < count; i++) {
     const struct trapezoid *trapezoid = &spans->trapezoid.item[key[i].value];
     struct map_corner corner[4];

@@ -5,10 +5,26 @@
 #include <string.h>
 
 #include "base/sort.h"
+#include "visibility/pierce.h"
 #include "visibility/raster.h"
 #include "visibility/strokes.h"
 
 #define TRACE_HIDDEN UINT32_MAX /* no visible run is open */
+
+recto_status trace_find_intersections(struct sheet *sheet,
+                                      const struct solver_request *request,
+                                      struct report *report,
+                                      recto_error *error) {
+  struct pagegrid grid;
+  recto_status status;
+  if (!request->intersections)
+    return RECTO_OK;
+  if (!pagegrid_init(&grid, sheet))
+    return error_memory(error);
+  status = pierce_all(sheet, &grid, report, error);
+  pagegrid_fini(&grid);
+  return status;
+}
 
 /* ---- Setting out -------------------------------------------------------- */
 

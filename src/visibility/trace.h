@@ -22,7 +22,7 @@
 
 #include "geom/scanfill.h"
 #include "visibility/facet.h"
-#include "visibility/map.h"
+#include "visibility/solver.h"
 
 #define TRACE_BITS_MAX 24 /* 2^24 cells of an edge at most */
 
@@ -56,6 +56,12 @@ struct trace {
   uint8_t *bits; /* of each edge of the sheet */
   ARRAY(struct trace_run) run;
 };
+
+/* Adds the edges where faces pierce each other to the sheet, where they are
+ * asked for. */
+USE_RESULT recto_status trace_find_intersections(
+    struct sheet *sheet, const struct solver_request *request,
+    struct report *report, recto_error *error);
 
 /* Takes the edges that are to be drawn and for which `skip` (one a sheet edge;
  * NULL: none) is not set.

@@ -20,6 +20,7 @@ void hand_sheet_fini(struct sheet *sheet) {
   ARRAY_FREE(&sheet->point);
   ARRAY_FREE(&sheet->triangle);
   ARRAY_FREE(&sheet->edge);
+  ARRAY_FREE(&sheet->contour);
   mem_free(sheet->triangle_flags);
   mem_free((void *)sheet->face_group);
 }
@@ -42,6 +43,7 @@ static uint32_t add_edge(struct sheet *sheet, uint32_t a, uint32_t b,
         (e->point[0] == b && e->point[1] == a)) {
       if (e->triangle[1] == SHEET_NONE) e->triangle[1] = triangle;
       e->edge_class = RECTO_EDGE_SMOOTH;
+      e->part++; /* how many more faces use it */
       return (uint32_t)i;
     }
   }
@@ -91,6 +93,30 @@ void hand_add_face(struct sheet *sheet, const int corner[][3], int count,
   sheet->face_group = group;
 }
 
+static int64_t third_side(const struct sheet *sheet, const uint32_t edge[2],
+                          uint32_t triangle) {
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  const struct geom_point *q = sheet->point.item;
+  for (int k = 0; k < 3; k++)
+    if (p[k] != edge[0] && p[k] != edge[1])
+      return geom_orient2d(q[edge[0]], q[edge[1]], q[p[k]]);
+  return 0;
+}
+
+static void find_contours(struct sheet *sheet) {
+  sheet->contour.count = 0;
+  for (size_t i = 0; i < sheet->edge.count; i++) {
+    const struct sheet_edge *e = &sheet->edge.item[i];
+    struct sheet_contour contour = {{e->point[0], e->point[1]}};
+    if (e->part == 1) {
+      int64_t a = third_side(sheet, e->point, e->triangle[0]),
+              b = third_side(sheet, e->point, e->triangle[1]);
+      if ((a < 0 && b > 0) || (a > 0 && b < 0)) continue;
+    }
+    assert_true(ARRAY_PUSH(&sheet->contour, contour));
+  }
+}
+
 void hand_solve(const struct solver *solver, struct sheet *sheet,
                 struct map *map, struct report *report) {
   const struct solver_request request = {.strokes = true,
@@ -102,6 +128,7 @@ void hand_solve(const struct solver *solver, struct sheet *sheet,
                                          .resolution = 256};
   recto_error error;
   map_init(map);
+  find_contours(sheet);
   assert_int_equal(solver->solve(sheet, &request, map, report, &error),
                    RECTO_OK);
 }

@@ -1,0 +1,101 @@
+/* pixels.c - from a frame's lines to the visible map.
+ *
+ * Fragments: neighbouring pixels of one scene face are a span; its sides are
+ * borders of pixels, cuts of the method's own. */
+#include "visibility/pixels.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ASK_EVERY 64 /* lines between two questions whether to go on */
+
+recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
+                         const struct facets *facets,
+                         const struct solver_request *request,
+                         recto_error *error) {
+  const struct sheet *sheet = raster->sheet;
+  double step = raster->depth_bits > 0 ? 1 / raster->level_scale : 1;
+  memset(pixels, 0, sizeof *pixels);
+  pixels->raster = raster;
+  pixels->request = request;
+  if ((request->strokes && !trace_init(&pixels->trace, sheet, facets,
+                                       &raster->grid, 0.5, step, NULL)) ||
+      (request->fragments && !spans_init(&pixels->spans, sheet, &raster->grid,
+                                         (size_t)raster->grid.columns))) {
+    pixels_fini(pixels);
+    return error_memory(error);
+  }
+  return RECTO_OK;
+}
+
+void pixels_fini(struct pixels *pixels) {
+  trace_fini(&pixels->trace);
+  spans_fini(&pixels->spans);
+}
+
+struct row {
+  const uint32_t *facet;
+  int32_t columns;
+};
+
+static uint32_t seen_at(const void *user, double x) {
+  const struct row *row = user;
+  double column = floor(x);
+  if (column < 0)
+    column = 0;
+  if (column > row->columns - 1)
+    column = row->columns - 1;
+  return row->facet[(int32_t)column];
+}
+
+static struct span_side side_at(const struct scan_grid *grid, int32_t column) {
+  double x = scan_plane_x(grid, column);
+  return (struct span_side){x, x, (uint32_t)column, SHEET_NONE, MAP_SIDE_CUT};
+}
+
+static bool add_spans(struct pixels *pixels, int32_t line,
+                      const struct row *row) {
+  const struct scan_grid *grid = &pixels->raster->grid;
+  const struct sheet_triangle *triangle = pixels->raster->sheet->triangle.item;
+  for (int32_t c = 0, past; c < row->columns; c = past) {
+    struct span span;
+    past = c + 1;
+    if (row->facet[c] == SHEET_NONE)
+      continue;
+    span.face = triangle[row->facet[c]].face;
+    while (past < row->columns && row->facet[past] != SHEET_NONE &&
+           triangle[row->facet[past]].face == span.face)
+      past++;
+    span.left = side_at(grid, c);
+    span.right = side_at(grid, past);
+    if (!spans_add(&pixels->spans, line, &span))
+      return false;
+  }
+  return true;
+}
+
+recto_status pixels_line(struct pixels *pixels, int32_t line,
+                         recto_error *error) {
+  const struct raster *raster = pixels->raster;
+  const struct solver_request *request = pixels->request;
+  int32_t done = raster->grid.lines - line;
+  struct row row = {raster->facet + raster_row(raster, line),
+                    raster->grid.columns};
+  if (request->strokes && !trace_line(&pixels->trace, line, seen_at, &row))
+    return error_memory(error);
+  if (request->fragments && !add_spans(pixels, line, &row))
+    return error_memory(error);
+  if (request->progress != NULL && done % ASK_EVERY == 0 &&
+      !request->progress(request->user, (double)done / raster->grid.lines,
+                         "visibility"))
+    return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+  return RECTO_OK;
+}
+
+recto_status pixels_finish(struct pixels *pixels, struct map *map,
+                           recto_error *error) {
+  if ((pixels->request->strokes && !trace_finish(&pixels->trace, map)) ||
+      (pixels->request->fragments && !spans_finish(&pixels->spans, map)))
+    return error_memory(error);
+  return RECTO_OK;
+}

@@ -1,0 +1,40 @@
+/* scanline_zbuffer.h - the lists of the scan-line z-buffer, for its tests. */
+#ifndef VISIBILITY_SCANLINE_ZBUFFER_H
+#define VISIBILITY_SCANLINE_ZBUFFER_H
+
+#include "base/sort.h"
+#include "visibility/pair.h"
+
+typedef ARRAY(uint32_t) scanline_list;
+
+struct scanline {
+  struct raster *raster; /* holds one line */
+  const struct facets *facets;
+  struct sort_key *bucket; /* facets by first line from the top, then order */
+  size_t bucket_count, entered;
+  ARRAY(struct pair) pair; /* room for the active facets */
+  scanline_list free;      /* pairs that are not in use */
+  scanline_list active;    /* pairs in use, ascending by facet */
+  scanline_list scratch;
+  size_t most_active;
+  int64_t covered;
+};
+
+/* Sorts the facets that are drawn into their buckets.
+ * draws  for each triangle whether it is drawn */
+USE_RESULT bool scanline_init(struct scanline *scanline, struct raster *raster,
+                              const struct facets *facets,
+                              bool (*draws)(const void *user, uint32_t facet),
+                              const void *user);
+void scanline_fini(struct scanline *scanline);
+
+/* Takes the facets that start on the line into the active list. */
+USE_RESULT bool scanline_enter(struct scanline *scanline, int32_t line);
+
+/* Draws the active facets into the one line of the frame. */
+void scanline_draw(struct scanline *scanline);
+
+/* Moves the active pairs to the next line; those that end leave. */
+USE_RESULT bool scanline_step(struct scanline *scanline);
+
+#endif

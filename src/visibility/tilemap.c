@@ -1,0 +1,195 @@
+/* tilemap.c - page tiles over which a layer of many small faces hides all that
+ * is behind it.
+ *
+ * Phases: gather depths by streaming the faces; find each tile's front layer;
+ * refuse tiles with contours in the layer; stream the faces once more to count
+ * who covers the samples, refusing steep ones.
+ */
+#include "visibility/tilemap.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Cells a triangle stands in, on average: a tile about an edge wide. */
+enum { SPREAD = 4, MANY = 2 };
+
+struct triangle_view {
+  struct geom_point p[3];
+  struct cell_range cells;
+  int low, high; /* buckets */
+};
+
+static struct triangle_view view_triangle(const struct sheet *sheet,
+                                          const struct pagegrid *grid,
+                                          size_t t) {
+  const uint32_t *point = sheet->triangle.item[t].point;
+  struct triangle_view view;
+  int64_t low, high;
+  for (int k = 0; k < 3; k++) view.p[k] = sheet->point.item[point[k]];
+  low = high = view.p[0].z;
+  for (int k = 1; k < 3; k++) {
+    if (view.p[k].z < low) low = view.p[k].z;
+    if (view.p[k].z > high) high = view.p[k].z;
+  }
+  view.low = tile_bucket(low);
+  view.high = tile_bucket(high);
+  view.cells = pagegrid_cells(grid, page_box_of_triangle(sheet, (uint32_t)t));
+  return view;
+}
+
+static uint64_t bucket_mask(int low, int high) {
+  return (~UINT64_C(0) >> (TILE_BUCKETS - 1 - high)) & (~UINT64_C(0) << low);
+}
+
+static struct tile *tile_at(const struct tilemap *map, int x, int y) {
+  return &map->tile[(size_t)y * (size_t)map->grid.columns + (size_t)x];
+}
+
+static void gather_depths(struct tilemap *map, const struct sheet *sheet) {
+  for (size_t t = 0; t < sheet->triangle.count; t++) {
+    struct triangle_view view = view_triangle(sheet, &map->grid, t);
+    uint64_t mask = bucket_mask(view.low, view.high);
+    for (int y = view.cells.y0; y <= view.cells.y1; y++)
+      for (int x = view.cells.x0; x <= view.cells.x1; x++)
+        tile_at(map, x, y)->depths |= mask;
+  }
+}
+
+/* The lowest bit of the topmost run of ones; depths != 0. */
+static int bottom_of_front(uint64_t depths) {
+  int bottom = TILE_BUCKETS - 1;
+  while (!(depths >> bottom & 1)) bottom--;
+  while (bottom > 0 && (depths >> (bottom - 1) & 1)) bottom--;
+  return bottom;
+}
+
+static void find_fronts(struct tilemap *map) {
+  size_t n = pagegrid_cell_count(&map->grid);
+  for (size_t i = 0; i < n; i++) {
+    struct tile *tile = &map->tile[i];
+    if (tile->depths == 0) continue;
+    tile->front = (uint8_t)bottom_of_front(tile->depths);
+    tile->state = TILE_SIMPLE;
+  }
+}
+
+static void refuse_contours(struct tilemap *map, const struct sheet *sheet) {
+  for (size_t i = 0; i < sheet->contour.count; i++) {
+    struct geom_point p = sheet->point.item[sheet->contour.item[i].point[0]],
+                      q = sheet->point.item[sheet->contour.item[i].point[1]];
+    struct cell_range r =
+        pagegrid_cells(&map->grid, page_box_of_segment(p, q));
+    int high = tile_bucket(p.z > q.z ? p.z : q.z);
+    for (int y = r.y0; y <= r.y1; y++) {
+      int x0, x1;
+      pagegrid_row(&map->grid, p, q, r, y, &x0, &x1);
+      for (int x = x0; x <= x1; x++) {
+        struct tile *tile = tile_at(map, x, y);
+        if (high >= tile->front) tile->state = TILE_MIXED;
+      }
+    }
+  }
+}
+
+/* Where a tile is sampled: off the middle, so that regular meshes whose edges
+ * run along the grid are not met on an edge again and again. */
+static struct geom_point sample_of(const struct pagegrid *grid, int x, int y) {
+  int64_t side = INT64_C(1) << grid->shift;
+  int64_t px = grid->x0 + x * side + side * 37 / 64,
+          py = grid->y0 + y * side + side * 29 / 64;
+  struct geom_point p = {(int32_t)(px > SHEET_XY_MAX ? SHEET_XY_MAX : px),
+                         (int32_t)(py > SHEET_XY_MAX ? SHEET_XY_MAX : py), 0};
+  return p;
+}
+
+/* Counts the triangle where it covers the tile's sample. */
+static void count_sample(struct tile *tile, const struct triangle_view *view,
+                         struct geom_point sample) {
+  int inside = 0;
+  for (int k = 0; k < 3; k++) {
+    int64_t o = geom_orient2d(view->p[k], view->p[k == 2 ? 0 : k + 1], sample);
+    if (o < 0) return;
+    inside += o > 0;
+  }
+  if (inside < 3)
+    tile->state = TILE_MIXED; /* met on an edge: not to be told */
+  else if (tile->covered < MANY)
+    tile->covered++;
+}
+
+/* May the triangle hide, or touch, across an empty bucket?  Its contact
+ * tolerance (hide.h), bounded from above, against a bucket's depth: there is
+ * another bucket's worth of room for the roundings. */
+static bool is_steep(const struct sheet *sheet,
+                     const struct triangle_view *view) {
+  const struct camera *camera = &sheet->camera;
+  const struct geom_point *p = view->p;
+  double ux = (double)p[1].x - p[0].x, uy = (double)p[1].y - p[0].y,
+         uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
+         vy = (double)p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
+  double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz,
+         nz = ux * vy - uy * vx;
+  double third = sheet->z_scale * nz, nearest = 1, length;
+  if (camera->perspective) {
+    struct sheet_axis axis = sheet_view_axis(sheet);
+    third = nz * (sheet->z_scale / camera->d_max) -
+            (nx * (axis.x - p[0].x) + ny * (axis.y - p[0].y) -
+             nz * (double)p[0].z);
+    nearest = 1 / camera->d_min;
+  }
+  length = sheet->units_per_view * (fabs(nx) + fabs(ny)) + fabs(third);
+  return !(fabs(nx) + fabs(ny) + nz + length * camera->contact * nearest <
+           nz * (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1)));
+}
+
+static void count_samples(struct tilemap *map, const struct sheet *sheet,
+                          bool steep_all) {
+  for (size_t t = 0; t < sheet->triangle.count; t++) {
+    struct triangle_view view;
+    bool steep;
+    if (sheet->triangle_flags[t] & SHEET_FLAT) continue;
+    view = view_triangle(sheet, &map->grid, t);
+    steep = is_steep(sheet, &view);
+    for (int y = view.cells.y0; y <= view.cells.y1; y++)
+      for (int x = view.cells.x0; x <= view.cells.x1; x++) {
+        struct tile *tile = tile_at(map, x, y);
+        if (tile->state != TILE_SIMPLE) continue;
+        if (view.low < tile->front) {
+          if (steep && steep_all) tile->state = TILE_MIXED;
+        } else if (steep) {
+          tile->state = TILE_MIXED;
+        } else {
+          count_sample(tile, &view, sample_of(&map->grid, x, y));
+        }
+      }
+  }
+}
+
+bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
+                  bool steep_all) {
+  size_t n;
+  memset(map, 0, sizeof *map);
+  pagegrid_shape(&map->grid, sheet, SPREAD);
+  n = pagegrid_cell_count(&map->grid);
+  map->tile = mem_calloc(n, sizeof *map->tile);
+  if (map->tile == NULL) return false;
+  gather_depths(map, sheet);
+  find_fronts(map);
+  refuse_contours(map, sheet);
+  count_samples(map, sheet, steep_all);
+  for (size_t i = 0; i < n; i++) {
+    struct tile *tile = &map->tile[i];
+    if (tile->state == TILE_SIMPLE && tile->covered != 1)
+      tile->state = TILE_MIXED;
+    map->simple += tile->state == TILE_SIMPLE;
+    map->mixed += tile->state == TILE_MIXED;
+    map->empty += tile->state == TILE_EMPTY;
+  }
+  return true;
+}
+
+void tilemap_fini(struct tilemap *map) {
+  pagegrid_fini(&map->grid);
+  mem_free(map->tile);
+  map->tile = NULL;
+}

@@ -1,0 +1,56 @@
+/* tilemap.h - page tiles over which a layer of many small faces hides all that
+ * is behind it.
+ *
+ * On a dense mesh no face surrounds a window, but a layer of faces does.  Per
+ * tile the depths of its faces are gathered in 64 buckets; the topmost run of
+ * buckets without a gap is the front layer.  Where no contour (sheet.h) that
+ * reaches the layer's depths comes into the tile, the layer neither folds nor
+ * ends there, so all of the tile's points are covered by equally many of its
+ * faces; where a sample point is covered by just one, all are.  Then
+ *   - what belongs to the layer is visible, exactly: nothing is in front of
+ *     it, and it does not overlap itself;
+ *   - what is behind it is hidden, exactly: a bucket is empty between them,
+ *     which is more than contact can explain (faces seen so steeply that it
+ *     might are refused).
+ * Such a tile is simple.  All of this is decided by integers; a tile that is
+ * refused for caution costs time, never truth.
+ *
+ * Source  Warnock's surrounder [Warnock1969], with a layer for the face.
+ */
+#ifndef VISIBILITY_TILEMAP_H
+#define VISIBILITY_TILEMAP_H
+
+#include "visibility/pagegrid.h"
+
+enum tile_state {
+  TILE_EMPTY,  /* no face */
+  TILE_MIXED,  /* must be solved by pairs */
+  TILE_SIMPLE  /* covered by one layer in front */
+};
+
+enum { TILE_BUCKETS = 64, TILE_BUCKET_SHIFT = SHEET_Z_BITS - 6 };
+
+struct tile {
+  uint64_t depths;  /* bit b: some face is in bucket b */
+  uint8_t front;    /* the front layer's lowest bucket */
+  uint8_t covered;  /* faces of the layer over the sample point, capped */
+  uint8_t state;    /* enum tile_state */
+};
+
+struct tilemap {
+  struct pagegrid grid; /* its shape; lists only where they were filled */
+  struct tile *tile;
+  uint64_t simple, mixed, empty;
+};
+
+/* Classifies the tiles of the sheet.
+ * steep_all  refuse tiles with steep faces in any layer, not just the front */
+USE_RESULT bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
+                             bool steep_all);
+void tilemap_fini(struct tilemap *map);
+
+static inline int tile_bucket(int64_t z) {
+  return (int)(z >> TILE_BUCKET_SHIFT);
+}
+
+#endif

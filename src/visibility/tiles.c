@@ -1,0 +1,341 @@
+/* tiles.c - exact visibility of dense meshes: most of it is decided by page
+ * tiles (tilemap.h) without asking any pair, the rest by pairs.
+ *
+ * Phases
+ *   1 classify the tiles
+ *   2 find piercing pairs, in mixed tiles alone
+ *   3 classify edges, and faces where fragments are asked for: visible or
+ *     hidden where all the tiles they meet say so; else they are left over
+ *   4 list the faces of the tiles that left-over edges and faces meet
+ *   5 solve the left-over ones by pairs, as the other exact solvers do
+ *
+ * Invariant: a decision in phase 3 is the one that pairs would have made.
+ */
+#include <string.h>
+
+#include "visibility/cover.h"
+#include "visibility/pierce.h"
+#include "visibility/solver.h"
+#include "visibility/strokes.h"
+#include "visibility/tilemap.h"
+
+struct tiles_work {
+  struct sheet *sheet;
+  const struct solver_request *request;
+  struct tilemap tiles;
+  uint8_t *wanted;         /* tiles whose faces are to be listed */
+  ARRAY(uint32_t) edge;    /* left over, ascending */
+  ARRAY(uint32_t) face;    /* triangles left over, ascending */
+  uint8_t *face_state;     /* one a triangle: enum map_state; MAP_MIXED is
+                              left over */
+  struct hide_counts hide;
+};
+
+/* ---- 2. Piercing --------------------------------------------------------------- */
+
+static bool find_piercing(struct tiles_work *work, struct report *report,
+                          recto_status *status, recto_error *error) {
+  size_t n = pagegrid_cell_count(&work->tiles.grid);
+  for (size_t i = 0; i < n; i++)
+    work->wanted[i] = work->request->hidden ||
+                      work->tiles.tile[i].state == TILE_MIXED;
+  if (!pagegrid_fill(&work->tiles.grid, work->sheet, work->wanted))
+    return false;
+  *status = pierce_all(work->sheet, &work->tiles.grid, report, error);
+  pagegrid_fini(&work->tiles.grid);
+  memset(work->wanted, 0, n);
+  return *status == RECTO_OK;
+}
+
+/* ---- 3. Classifying -------------------------------------------------------------- */
+
+/* What a tile says of something with depths in these buckets: MAP_MIXED where
+ * it does not say.  Of a wire it is not known that it lies in a layer. */
+static enum map_state ask_tile(const struct tile *tile, int low, int high,
+                               bool wire) {
+  if (tile->state == TILE_MIXED) return MAP_MIXED;
+  if (tile->state == TILE_EMPTY) return MAP_VISIBLE;
+  if (wire) return high < tile->front - 1 ? MAP_HIDDEN : MAP_MIXED;
+  return low >= tile->front ? MAP_VISIBLE : MAP_HIDDEN;
+}
+
+static int least_bucket(int64_t a, int64_t b) {
+  return tile_bucket(a < b ? a : b);
+}
+
+static int most_bucket(int64_t a, int64_t b) {
+  return tile_bucket(a > b ? a : b);
+}
+
+/* Calls for the tiles that the segment meets: the state all of them agree on,
+ * or MAP_MIXED; with `mark`, marks them as wanted. */
+static enum map_state ask_along(struct tiles_work *work, struct geom_point p,
+                                struct geom_point q, bool wire, bool mark) {
+  const struct pagegrid *grid = &work->tiles.grid;
+  struct cell_range r = pagegrid_cells(grid, page_box_of_segment(p, q));
+  int low = least_bucket(p.z, q.z), high = most_bucket(p.z, q.z);
+  int state = -1;
+  for (int y = r.y0; y <= r.y1; y++) {
+    int x0, x1;
+    pagegrid_row(grid, p, q, r, y, &x0, &x1);
+    for (int x = x0; x <= x1; x++) {
+      size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
+      int now = (int)ask_tile(&work->tiles.tile[i], low, high, wire);
+      if (mark) {
+        work->wanted[i] = 1;
+      } else {
+        if (now == MAP_MIXED || (state >= 0 && state != now)) return MAP_MIXED;
+        state = now;
+      }
+    }
+  }
+  return state < 0 ? MAP_MIXED : (enum map_state)state;
+}
+
+static bool classify_edges(struct tiles_work *work, struct map *map) {
+  const struct sheet *sheet = work->sheet;
+  if (!strokes_open_map(map, sheet->edge.count)) return false;
+  for (size_t e = 0; e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    struct geom_point p = sheet->point.item[edge->point[0]],
+                      q = sheet->point.item[edge->point[1]];
+    bool wire = edge->triangle[0] == SHEET_NONE ||
+                edge->edge_class == RECTO_EDGE_INTERSECTION;
+    if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y)) continue;
+    map->edge_state[e] = (uint8_t)ask_along(work, p, q, wire, false);
+    if (map->edge_state[e] != MAP_MIXED) continue;
+    if (!ARRAY_PUSH(&work->edge, (uint32_t)e)) return false;
+    (void)ask_along(work, p, q, wire, true);
+  }
+  return true;
+}
+
+static enum map_state ask_face(const struct tiles_work *work, uint32_t t) {
+  const struct sheet *sheet = work->sheet;
+  const struct pagegrid *grid = &work->tiles.grid;
+  const uint32_t *point = sheet->triangle.item[t].point;
+  struct cell_range r = pagegrid_cells(grid, page_box_of_triangle(sheet, t));
+  int low = TILE_BUCKETS, high = -1, state = -1;
+  for (int k = 0; k < 3; k++) {
+    int bucket = tile_bucket(sheet->point.item[point[k]].z);
+    if (bucket < low) low = bucket;
+    if (bucket > high) high = bucket;
+  }
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++) {
+      size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
+      int now = (int)ask_tile(&work->tiles.tile[i], low, high, false);
+      if (now == MAP_MIXED || (state >= 0 && state != now)) return MAP_MIXED;
+      state = now;
+    }
+  return (enum map_state)state;
+}
+
+static void want_face(struct tiles_work *work, uint32_t t) {
+  const struct pagegrid *grid = &work->tiles.grid;
+  struct cell_range r =
+      pagegrid_cells(grid, page_box_of_triangle(work->sheet, t));
+  for (int y = r.y0; y <= r.y1; y++)
+    memset(work->wanted + (size_t)y * (size_t)grid->columns + r.x0, 1,
+           (size_t)(r.x1 - r.x0) + 1);
+}
+
+static bool classify_faces(struct tiles_work *work) {
+  size_t n = work->sheet->triangle.count;
+  work->face_state = mem_alloc(n, 1);
+  if (work->face_state == NULL) return false;
+  for (size_t t = 0; t < n; t++) {
+    work->face_state[t] = MAP_HIDDEN;
+    if (work->sheet->triangle_flags[t] & SHEET_FLAT) continue;
+    work->face_state[t] = (uint8_t)ask_face(work, (uint32_t)t);
+    if (work->face_state[t] != MAP_MIXED) continue;
+    if (!ARRAY_PUSH(&work->face, (uint32_t)t)) return false;
+    want_face(work, (uint32_t)t);
+  }
+  return true;
+}
+
+/* ---- 5. Pairs ------------------------------------------------------------------- */
+
+/* A run of left-over edges, solved by one thread. */
+struct edge_run {
+  struct map map; /* its edge_state is the common one */
+  struct hide_counts counts;
+  bool done;
+};
+
+static bool solve_edge(const struct tiles_work *work, uint32_t e,
+                       struct pagegrid_query *query, struct strokes *strokes,
+                       struct hide_counts *counts) {
+  const struct sheet *sheet = work->sheet;
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  struct geom_point p = sheet->point.item[edge->point[0]],
+                    q = sheet->point.item[edge->point[1]];
+  struct page_box box = page_box_of_segment(p, q);
+  strokes_start(strokes);
+  if (!pagegrid_find_along(&work->tiles.grid, p, q, query)) return false;
+  for (size_t i = 0; i < query->found.count && !strokes->whole; i++) {
+    uint32_t t = query->found.item[i];
+    struct hidden_part part;
+    struct hider hider;
+    if (t == edge->triangle[0] || t == edge->triangle[1] ||
+        !hide_may(sheet, t, p, q, box))
+      continue;
+    hider_init(&hider, sheet, t);
+    if (hide_edge(&hider, p, q, &part, counts) &&
+        !strokes_hide(strokes, part))
+      return false;
+  }
+  return true;
+}
+
+enum { RUN = 1024 };
+
+static void solve_run(const struct tiles_work *work, size_t from,
+                      struct pagegrid_query *query, struct strokes *strokes,
+                      struct edge_run *run) {
+  size_t to = work->edge.count - from < RUN ? work->edge.count : from + RUN;
+  run->done = true;
+  for (size_t i = from; run->done && i < to; i++)
+    run->done = solve_edge(work, work->edge.item[i], query, strokes,
+                           &run->counts) &&
+                strokes_file(strokes, work->edge.item[i], &run->map);
+}
+
+static void solve_runs(const struct tiles_work *work, struct edge_run *run,
+                       size_t runs) {
+#ifdef _OPENMP
+#pragma omp parallel num_threads(work->request->threads) if (runs > 1)
+#endif
+  {
+    struct pagegrid_query query;
+    struct strokes strokes = {0};
+    bool ready = pagegrid_query_init(&query, &work->tiles.grid);
+#ifdef _OPENMP
+#pragma omp for schedule(dynamic)
+#endif
+    for (size_t i = 0; i < runs; i++)
+      if (ready) solve_run(work, i * RUN, &query, &strokes, &run[i]);
+    strokes_fini(&strokes);
+    pagegrid_query_fini(&query);
+  }
+}
+
+/* Appends a run's intervals to the map's; runs come in the edges' order. */
+static bool join_run(struct map *map, const struct edge_run *run) {
+  uint32_t base = (uint32_t)map->interval.count;
+  if (!ARRAY_RESERVE(&map->mixed, run->map.mixed.count) ||
+      !ARRAY_RESERVE(&map->interval, run->map.interval.count))
+    return false;
+  for (size_t i = 0; i < run->map.mixed.count; i++) {
+    struct map_mixed mixed = run->map.mixed.item[i];
+    mixed.interval += base;
+    map->mixed.item[map->mixed.count++] = mixed;
+  }
+  for (size_t i = 0; i < run->map.interval.count; i++)
+    map->interval.item[map->interval.count++] = run->map.interval.item[i];
+  return true;
+}
+
+static bool solve_edges(struct tiles_work *work, struct map *map) {
+  size_t n = work->edge.count, runs = (n + RUN - 1) / RUN;
+  struct edge_run *run = mem_calloc(runs, sizeof *run);
+  bool done = run != NULL;
+  if (!done) return false;
+  for (size_t i = 0; i < runs; i++) run[i].map.edge_state = map->edge_state;
+  solve_runs(work, run, runs);
+  for (size_t i = 0; i < runs; i++) {
+    done = done && run[i].done && join_run(map, &run[i]);
+    hide_counts_add(&work->hide, &run[i].counts);
+    run[i].map.edge_state = NULL;
+    map_fini(&run[i].map);
+  }
+  mem_free(run);
+  return done;
+}
+
+/* Takes from the triangle at hand what nearer ones cover of it. */
+static bool cover_face(const struct tiles_work *work, uint32_t t,
+                       struct pagegrid_query *query, struct cover *cover) {
+  if (!cover_start(cover, t, NULL) ||
+      !pagegrid_find(&work->tiles.grid, cover->box, query))
+    return false;
+  for (size_t i = 0; i < query->found.count && !cover_is_empty(cover); i++) {
+    uint32_t g = query->found.item[i];
+    if (g != t && !(work->sheet->triangle_flags[g] & SHEET_FLAT) &&
+        !cover_take_nearer(cover, g))
+      return false;
+  }
+  return true;
+}
+
+static bool solve_faces(struct tiles_work *work, struct map *map) {
+  struct fragments fragments;
+  struct pagegrid_query query = {0};
+  struct cover cover;
+  size_t n = work->sheet->triangle.count;
+  bool done = fragments_init(&fragments, work->sheet, &work->tiles.grid, true);
+  cover_init(&cover, work->sheet);
+  done = done && pagegrid_query_init(&query, &work->tiles.grid);
+  for (size_t t = 0; done && t < n; t++) {
+    if (work->face_state[t] == MAP_VISIBLE)
+      done = fragments_add_alone(&fragments, (uint32_t)t);
+    else if (work->face_state[t] == MAP_MIXED)
+      done = cover_face(work, (uint32_t)t, &query, &cover) &&
+             cover_file(&cover, &fragments);
+  }
+  done = done && fragments_finish(&fragments, work->request->areas, map);
+  cover_fini(&cover);
+  pagegrid_query_fini(&query);
+  fragments_fini(&fragments);
+  return done;
+}
+
+/* ---- The solver ------------------------------------------------------------------ */
+
+static void report_tiles(const struct tiles_work *work, struct report *report) {
+  report_int(report, "tiles", "simple", (int64_t)work->tiles.simple);
+  report_int(report, "tiles", "mixed", (int64_t)work->tiles.mixed);
+  report_int(report, "tiles", "empty", (int64_t)work->tiles.empty);
+  report_int(report, "tiles", "edges_left_over", (int64_t)work->edge.count);
+  report_int(report, "tiles", "triangles_left_over",
+             (int64_t)work->face.count);
+  hide_report(&work->hide, report);
+}
+
+static bool solve_all(struct tiles_work *work, struct map *map,
+                      struct report *report, recto_status *status,
+                      recto_error *error) {
+  const struct solver_request *request = work->request;
+  if (!tilemap_init(&work->tiles, work->sheet, request->fragments))
+    return false;
+  work->wanted = mem_calloc(pagegrid_cell_count(&work->tiles.grid), 1);
+  if (work->wanted == NULL) return false;
+  if (request->intersections && !find_piercing(work, report, status, error))
+    return false;
+  if (request->strokes && !classify_edges(work, map)) return false;
+  if (request->fragments && !classify_faces(work)) return false;
+  if (!pagegrid_fill(&work->tiles.grid, work->sheet, work->wanted))
+    return false;
+  if (request->strokes && !solve_edges(work, map)) return false;
+  return !request->fragments || solve_faces(work, map);
+}
+
+static recto_status solve(struct sheet *sheet,
+                          const struct solver_request *request,
+                          struct map *map, struct report *report,
+                          recto_error *error) {
+  struct tiles_work work = {.sheet = sheet, .request = request};
+  recto_status status = RECTO_OK;
+  if (!solve_all(&work, map, report, &status, error) && status == RECTO_OK)
+    status = error_memory(error);
+  report_tiles(&work, report);
+  tilemap_fini(&work.tiles);
+  mem_free(work.wanted);
+  mem_free(work.face_state);
+  ARRAY_FREE(&work.edge);
+  ARRAY_FREE(&work.face);
+  return status;
+}
+
+const struct solver solver_tiles = {RECTO_METHOD_TILES, "tiles", true, solve};

@@ -1,0 +1,81 @@
+/* zbuffer.c - the depth buffer: every facet is put into the whole frame in
+ * turn, each pixel keeps the nearest.
+ *
+ * Phases   facets in the order of the file are walked from their top line
+ *          down, a pair of edges and the depth stepped along (pair.h); then
+ *          the frame's lines become strokes and fragments (pixels.h).
+ * Cost     linear in the pixels covered and the facets; memory a frame.
+ * Source   Catmull 1974; Foley, van Dam, Feiner & Hughes 15.4.
+ */
+#include "visibility/zbuffer.h"
+
+#include "visibility/pair.h"
+#include "visibility/pixels.h"
+
+#define ASK_EVERY 8192 /* facets between two questions whether to go on */
+
+recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
+                          const struct solver_request *request,
+                          int64_t *covered, recto_error *error) {
+  const struct sheet *sheet = raster->sheet;
+  uint32_t count = (uint32_t)sheet->triangle.count;
+  struct pair pair;
+  for (uint32_t t = 0; t < count; t++) {
+    if (request->progress != NULL && t % ASK_EVERY == 0 &&
+        !request->progress(request->user, (double)t / count, "depth buffer"))
+      return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+    if (!pixels_draws(sheet, request, t) || facet_of(facets, t) != t ||
+        !pair_start(&pair, raster, facets, t))
+      continue;
+    do
+      *covered += (int64_t)pair_draw(&pair, raster);
+    while (pair_next(&pair, raster));
+  }
+  return RECTO_OK;
+}
+
+static recto_status file_lines(const struct raster *raster,
+                               const struct facets *facets,
+                               const struct solver_request *request,
+                               struct map *map, recto_error *error) {
+  struct pixels pixels;
+  recto_status status = pixels_init(&pixels, raster, facets, request, error);
+  if (status != RECTO_OK)
+    return status;
+  for (int32_t line = raster->grid.lines; line-- > 0 && status == RECTO_OK;)
+    status = pixels_line(&pixels, line, error);
+  if (status == RECTO_OK)
+    status = pixels_finish(&pixels, map, error);
+  pixels_fini(&pixels);
+  return status;
+}
+
+static recto_status solve(struct sheet *sheet,
+                          const struct solver_request *request, struct map *map,
+                          struct report *report, recto_error *error) {
+  struct raster raster = {0};
+  struct facets facets = {0};
+  int64_t covered = 0;
+  recto_status status = trace_find_intersections(sheet, request, report, error);
+  if (status == RECTO_OK)
+    status = raster_init(&raster, sheet, request->resolution,
+                         request->depth_bits, true, error);
+  if (status == RECTO_OK && !facets_init(&facets, sheet))
+    status = error_memory(error);
+  if (status == RECTO_OK)
+    status = zbuffer_draw(&raster, &facets, request, &covered, error);
+  if (status == RECTO_OK)
+    status = file_lines(&raster, &facets, request, map, error);
+  if (status == RECTO_OK) {
+    report_int(report, "zbuffer", "lines", raster.grid.lines);
+    report_int(report, "zbuffer", "columns", raster.grid.columns);
+    report_int(report, "zbuffer", "depth_bits", request->depth_bits);
+    report_int(report, "zbuffer", "pixels_covered", covered);
+  }
+  raster_fini(&raster);
+  facets_fini(&facets);
+  return status;
+}
+
+const struct solver solver_zbuffer = {RECTO_METHOD_ZBUFFER, "zbuffer", false,
+                                      solve};
