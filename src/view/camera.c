@@ -1,0 +1,391 @@
+/* camera.c - aims the camera at a scene and fits the drawing to the page.
+ *
+ * Phases
+ *   aim     the axes; the eye, as far away as the field of view asks.
+ *   reach   the nearest and farthest depths, and the near plane between them.
+ *   fit     the scale, and where the view axis meets the page.
+ * Robustness  Coordinates are taken from the eye before anything else is done
+ * with them, and an orthographic eye stands right before the scene wherever
+ * the scene lies, so that no digits are lost to a far origin.  Every length
+ * is judged against the scene's own, so that scaling the scene by a power of
+ * two changes no bit of the drawing.
+ */
+#include "view/camera.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/tolerance.h"
+#include "scene/angle.h"
+#include "view/frame.h"
+#include "view/project.h"
+#include "view/used.h"
+#include "view/vector.h"
+
+/* Paper beyond this has no room on the sheet's grid. */
+static const double page_limit_mm = 2000;
+
+/* What is worked out on the way. */
+struct aim {
+  struct camera *camera;
+  const struct scene *scene;
+  const recto_options *options;
+  recto_error *error;
+  uint8_t *used;        /* one a point */
+  double centre[3];     /* of the scene's bounding box */
+  double target[3];     /* what is looked at */
+  double target_d;      /* its depth */
+  double d_low, d_high; /* depths of the scene, nothing cut */
+};
+
+static recto_status refuse(const struct aim *aim, const char *words) {
+  return error_set(aim->error, RECTO_ERROR_ARGUMENT, NULL, 0, "%s", words);
+}
+
+/* ---- Options ----------------------------------------------------------------
+ */
+
+static recto_status check_page(const struct aim *aim) {
+  const recto_options *o = aim->options;
+  if (!(o->page_width_mm > 0 && o->page_height_mm > 0))
+    return refuse(aim, "the page has no size");
+  if (!(o->page_width_mm <= page_limit_mm &&
+        o->page_height_mm <= page_limit_mm))
+    return refuse(aim, "the page is larger than 2 m");
+  if (!(o->margin_mm >= 0))
+    return refuse(aim, "the margin is negative");
+  if (!(2 * o->margin_mm < o->page_width_mm &&
+        2 * o->margin_mm < o->page_height_mm))
+    return refuse(aim, "the margins leave no room on the page");
+  return RECTO_OK;
+}
+
+static recto_status check_view(const struct aim *aim) {
+  const recto_options *o = aim->options;
+  if (!(o->fov_deg >= 0 && o->fov_deg < 180))
+    return refuse(aim, "the field of view must be from 0 to below 180 degrees");
+  if (!isfinite(o->azimuth_deg) || !isfinite(o->elevation_deg))
+    return refuse(aim, "azimuth and elevation must be finite");
+  if (!vector_is_finite(o->eye) || !vector_is_finite(o->target) ||
+      !vector_is_finite(o->up))
+    return refuse(aim, "eye, target and up must be finite");
+  if (o->fit == RECTO_FIT_SCALE && !(o->scale > 0 && isfinite(o->scale)))
+    return refuse(aim, "the scale must be above 0");
+  if (!(o->near_distance >= 0 && isfinite(o->near_distance)))
+    return refuse(aim, "the near distance must not be negative");
+  if (o->has_section && !isfinite(o->section))
+    return refuse(aim, "the section must be finite");
+  if (!isfinite(o->contact))
+    return refuse(aim, "the contact length must be finite");
+  return RECTO_OK;
+}
+
+/* ---- Aim
+ * ---------------------------------------------------------------------- */
+
+static void grow_box(double low[3], double high[3],
+                     const struct scene_point *point) {
+  const double p[3] = {point->x, point->y, point->z};
+  for (int k = 0; k < 3; k++) {
+    low[k] = fmin(low[k], p[k]);
+    high[k] = fmax(high[k], p[k]);
+  }
+}
+
+/* The bounding box of all that is drawn: its centre and diagonal. */
+static recto_status measure_scene(struct aim *aim) {
+  double low[3] = {INFINITY, INFINITY, INFINITY};
+  double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  for (size_t p = 0; p < aim->scene->point.count; p++)
+    if (aim->used[p])
+      grow_box(low, high, &aim->scene->point.item[p]);
+  if (low[0] > high[0])
+    return error_set(aim->error, RECTO_ERROR_EMPTY, NULL, 0,
+                     "there is nothing to draw");
+  double extent[3];
+  for (int k = 0; k < 3; k++) {
+    aim->centre[k] = low[k] / 2 + high[k] / 2;
+    extent[k] = high[k] - low[k];
+  }
+  aim->camera->size = vector_length(extent);
+  return RECTO_OK;
+}
+
+/* The farthest that anything drawn is from the target. */
+static double radius_of_scene(const struct aim *aim) {
+  double radius = 0;
+  for (size_t p = 0; p < aim->scene->point.count; p++) {
+    if (!aim->used[p])
+      continue;
+    const struct scene_point *point = &aim->scene->point.item[p];
+    const double from[3] = {point->x - aim->target[0],
+                            point->y - aim->target[1],
+                            point->z - aim->target[2]};
+    radius = fmax(radius, vector_length(from));
+  }
+  return radius;
+}
+
+/* How far a perspective eye must be for its field of view to take in the
+ * sphere about the target which holds the scene. */
+static double distance_for_fov(const struct aim *aim) {
+  double radius = radius_of_scene(aim);
+  if (radius == 0)
+    radius = 1;
+  return radius / angle_of_degrees(aim->options->fov_deg / 2).sine;
+}
+
+static recto_status set_axes(struct aim *aim) {
+  const recto_options *o = aim->options;
+  double up[3] = {0, 1, 0};
+  if (o->up[0] != 0 || o->up[1] != 0 || o->up[2] != 0)
+    memcpy(up, o->up, sizeof up);
+  else if (aim->scene->up[0] != 0 || aim->scene->up[1] != 0 ||
+           aim->scene->up[2] != 0)
+    memcpy(up, aim->scene->up, sizeof up);
+  struct frame frame;
+  if (o->camera == RECTO_CAMERA_EYE) {
+    switch (frame_from_eye(&frame, o->eye, aim->target, up)) {
+    case FRAME_NO_DIRECTION:
+      return refuse(aim, "the eye is where it looks");
+    case FRAME_UP_ALONG_VIEW:
+      return refuse(aim, "up points along the view");
+    case FRAME_OK:
+      break;
+    }
+  } else {
+    frame = frame_from_direction(up, o->azimuth_deg, o->elevation_deg);
+  }
+  memcpy(aim->camera->right, frame.right, sizeof frame.right);
+  memcpy(aim->camera->up, frame.up, sizeof frame.up);
+  memcpy(aim->camera->back, frame.back, sizeof frame.back);
+  return RECTO_OK;
+}
+
+static void set_eye(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  if (camera->perspective && aim->options->camera == RECTO_CAMERA_EYE) {
+    memcpy(camera->eye, aim->options->eye, sizeof camera->eye);
+    return;
+  }
+  const double *from = camera->perspective ? aim->target : aim->centre;
+  double distance = camera->perspective ? distance_for_fov(aim) : camera->size;
+  for (int k = 0; k < 3; k++)
+    camera->eye[k] = from[k] + camera->back[k] * distance;
+}
+
+static struct view_point view_of(const struct aim *aim, const double p[3]) {
+  return camera_view(aim->camera, p[0], p[1], p[2]);
+}
+
+static struct view_point view_of_point(const struct aim *aim, size_t p) {
+  const struct scene_point *point = &aim->scene->point.item[p];
+  return camera_view(aim->camera, point->x, point->y, point->z);
+}
+
+/* ---- Reach
+ * -------------------------------------------------------------------- */
+
+static void measure_depth(struct aim *aim) {
+  aim->d_low = INFINITY;
+  aim->d_high = -INFINITY;
+  for (size_t p = 0; p < aim->scene->point.count; p++) {
+    if (!aim->used[p])
+      continue;
+    double d = view_of_point(aim, p).d;
+    aim->d_low = fmin(aim->d_low, d);
+    aim->d_high = fmax(aim->d_high, d);
+  }
+}
+
+/* The near plane where the user does not say. */
+static double choose_near(const struct aim *aim) {
+  double least = aim->camera->size * TOLERANCE_NEAR_SHARE;
+  if (!aim->camera->perspective || (aim->d_low >= least && aim->d_low > 0))
+    return aim->d_low;
+  return least;
+}
+
+/* The depth that the user's distances count from: his eye, or for a direction
+ * the nearest point of the scene.  A perspective eye set by a direction is
+ * an eye for the near distance all the same. */
+static double depth_of_eye(const struct aim *aim, bool section) {
+  if (aim->options->camera == RECTO_CAMERA_EYE)
+    return view_of(aim, aim->options->eye).d;
+  return aim->camera->perspective && !section ? 0 : aim->d_low;
+}
+
+static recto_status set_reach(struct aim *aim) {
+  const recto_options *o = aim->options;
+  struct camera *camera = aim->camera;
+  measure_depth(aim);
+  camera->near_d = o->near_distance > 0
+                       ? depth_of_eye(aim, false) + o->near_distance
+                       : choose_near(aim);
+  if (o->has_section)
+    camera->near_d = fmax(camera->near_d, depth_of_eye(aim, true) + o->section);
+  if (!(aim->d_high >= camera->near_d))
+    return error_set(aim->error, RECTO_ERROR_EMPTY, NULL, 0,
+                     "all of the scene is behind the viewer or cut away");
+  camera->d_min = fmax(camera->near_d, aim->d_low);
+  camera->d_max = aim->d_high;
+  return RECTO_OK;
+}
+
+/* ---- Fit
+ * ---------------------------------------------------------------------- */
+
+/* The rectangle of the drawing in x / d, y / d, or x, y. */
+struct extent {
+  double low[2], high[2];
+};
+
+static struct extent measure_drawing(const struct aim *aim) {
+  struct extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  for (size_t p = 0; p < aim->scene->point.count; p++) {
+    if (!aim->used[p])
+      continue;
+    struct view_point v = view_of_point(aim, p);
+    if (!(v.d >= aim->camera->near_d))
+      continue;
+    double scale = aim->camera->perspective ? 1 / v.d : 1;
+    const double xy[2] = {v.x * scale, v.y * scale};
+    for (int k = 0; k < 2; k++) {
+      e.low[k] = fmin(e.low[k], xy[k]);
+      e.high[k] = fmax(e.high[k], xy[k]);
+    }
+  }
+  return e;
+}
+
+/* The drawing fills the page inside the margins.  An extent that is only
+ * rounding noise does not count; where both are, the scene's size stands in
+ * for them. */
+static void fit_page(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  struct extent e = measure_drawing(aim);
+  double size =
+      camera->perspective ? camera->size / camera->d_max : camera->size;
+  camera->s = INFINITY;
+  double least_room = INFINITY;
+  for (int k = 0; k < 2; k++) {
+    double room = camera->page_mm[k] - 2 * aim->options->margin_mm;
+    double extent = e.high[k] - e.low[k];
+    least_room = fmin(least_room, room);
+    if (extent > size * TOLERANCE_EXTENT_SHARE)
+      camera->s = fmin(camera->s, room / extent);
+  }
+  if (camera->s == INFINITY)
+    camera->s = least_room / (size > 0 ? size : 1);
+  for (int k = 0; k < 2; k++)
+    camera->middle_mm[k] =
+        camera->page_mm[k] / 2 - camera->s * (e.low[k] / 2 + e.high[k] / 2);
+}
+
+/* The target, which is on a perspective view axis, falls on the page's
+ * middle. */
+static void centre_target(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  struct view_point target = view_of(aim, aim->target);
+  double aside[2] = {target.x, target.y};
+  for (int k = 0; k < 2; k++)
+    camera->middle_mm[k] = camera->page_mm[k] / 2 -
+                           (camera->perspective ? 0 : camera->s * aside[k]);
+}
+
+static void set_scale(struct aim *aim) {
+  const recto_options *o = aim->options;
+  struct camera *camera = aim->camera;
+  if (o->fit == RECTO_FIT_PAGE) {
+    fit_page(aim);
+    return;
+  }
+  if (o->fit == RECTO_FIT_SCALE) {
+    camera->s = o->scale;
+    if (camera->perspective)
+      camera->s *= view_of(aim, aim->target).d;
+  } else if (camera->perspective) {
+    struct angle half = angle_of_degrees(o->fov_deg / 2);
+    camera->s = (o->page_height_mm - 2 * o->margin_mm) /
+                (2 * (half.sine / half.cosine));
+  } else {
+    camera->s = 1;
+  }
+  centre_target(aim);
+}
+
+/* Coordinates beyond the range of doubles on the way make a camera that is
+ * of no use. */
+static bool is_usable(const struct camera *camera) {
+  return vector_is_finite(camera->eye) && isfinite(camera->size) &&
+         isfinite(camera->d_min) && isfinite(camera->d_max) && camera->s > 0 &&
+         isfinite(camera->s) && isfinite(camera->middle_mm[0]) &&
+         isfinite(camera->middle_mm[1]) &&
+         (!camera->perspective || camera->near_d > 0);
+}
+
+/* ----------------------------------------------------------------------------
+ */
+
+static recto_status aim_and_fit(struct aim *aim) {
+  const recto_options *o = aim->options;
+  struct camera *camera = aim->camera;
+  recto_status status = measure_scene(aim);
+  if (status != RECTO_OK)
+    return status;
+  camera->perspective = o->fov_deg > 0;
+  camera->page_mm[0] = o->page_width_mm;
+  camera->page_mm[1] = o->page_height_mm;
+  camera->contact =
+      o->contact >= 0 ? o->contact : camera->size * TOLERANCE_CONTACT_SHARE;
+  memcpy(aim->target, o->has_target ? o->target : aim->centre,
+         sizeof aim->target);
+  status = set_axes(aim);
+  if (status != RECTO_OK)
+    return status;
+  set_eye(aim);
+  status = set_reach(aim);
+  if (status != RECTO_OK)
+    return status;
+  set_scale(aim);
+  if (!is_usable(camera))
+    return error_set(aim->error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "the scene is too large, too small or too far away");
+  return RECTO_OK;
+}
+
+recto_status camera_aim(struct camera *camera, const struct scene *scene,
+                        const recto_options *options, recto_error *error) {
+  struct aim aim = {
+      .camera = camera, .scene = scene, .options = options, .error = error};
+  memset(camera, 0, sizeof *camera);
+  recto_status status = check_page(&aim);
+  if (status == RECTO_OK)
+    status = check_view(&aim);
+  if (status != RECTO_OK)
+    return status;
+  aim.used = used_points(scene, NULL);
+  if (!aim.used)
+    return error_memory(error);
+  status = aim_and_fit(&aim);
+  mem_free(aim.used);
+  return status;
+}
+
+void camera_matrix(const struct camera *camera, double matrix[12]) {
+  const double *axis[2] = {camera->right, camera->up};
+  double depth[4] = {0, 0, 0, 1};
+  if (camera->perspective) {
+    for (int k = 0; k < 3; k++)
+      depth[k] = -camera->back[k] + 0.0;
+    depth[3] = vector_dot(camera->back, camera->eye);
+  }
+  for (int row = 0; row < 2; row++) {
+    double *to = matrix + 4 * row;
+    for (int k = 0; k < 3; k++)
+      to[k] = camera->s * axis[row][k] + camera->middle_mm[row] * depth[k];
+    to[3] = -camera->s * vector_dot(axis[row], camera->eye) +
+            camera->middle_mm[row] * depth[3];
+  }
+  memcpy(matrix + 8, depth, sizeof depth);
+}

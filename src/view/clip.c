@@ -1,0 +1,104 @@
+/* clip.c - the part of a segment or a triangle that is on the paper and not
+ * before the near plane.
+ *
+ * Invariants  At each plane, the piece of a side that a triangle still has is
+ *   the piece that clip_segment has, end for end and bit for bit: both go
+ *   through the planes in one order, and both cut by cut_between with the
+ *   ends in the canonical order.  A point on a plane is inside, and a segment
+ *   from it to the outside is gone.
+ * Source      [Sutherland & Hodgman 1974].
+ */
+#include "view/clip.h"
+
+/* Where a segment meets a plane that only one of its ends is inside of.
+ * a_distance, b_distance  of its ends, of opposite signs */
+static struct view_point cut_between(const struct projection *projection,
+                                     int plane, struct view_point a,
+                                     struct view_point b, double a_distance,
+                                     double b_distance) {
+  double t = a_distance / (a_distance - b_distance);
+  struct view_point cut = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y),
+                           a.d + t * (b.d - a.d)};
+  if (plane == CLIP_NEAR)
+    cut.d = projection->near_d;
+  return cut;
+}
+
+bool clip_segment(const struct projection *projection, struct view_point end[2],
+                  bool moved[2]) {
+  moved[0] = moved[1] = false;
+  for (int plane = 0; plane < CLIP_PLANE_COUNT; plane++) {
+    double a = clip_distance(projection, end[0], plane);
+    double b = clip_distance(projection, end[1], plane);
+    if (a >= 0 && b >= 0)
+      continue;
+    if (!(a > 0 || b > 0))
+      return false;
+    int outside = a > 0;
+    end[outside] = cut_between(projection, plane, end[0], end[1], a, b);
+    moved[outside] = true;
+  }
+  return true;
+}
+
+static void put(struct clip_polygon *polygon, struct view_point at, int origin,
+                int side) {
+  polygon->corner[polygon->count++] =
+      (struct clip_corner){at, (uint8_t)origin, (uint8_t)side};
+}
+
+/* Puts what one plane leaves of the side from a to b: its start where that is
+ * inside, and where it crosses the plane.  A crossing from inside begins the
+ * cut; one from outside begins the rest of the side. */
+static void put_side(const struct projection *projection, int plane,
+                     const struct clip_corner *a, const struct clip_corner *b,
+                     double a_distance, double b_distance, bool forward,
+                     struct clip_polygon *to) {
+  bool a_inside = a_distance >= 0, b_inside = b_distance >= 0;
+  bool touches = a_inside ? a_distance == 0 : b_distance == 0;
+  if (a_inside)
+    put(to, a->at, a->origin, !b_inside && touches ? CLIP_CUT : a->side);
+  if (a_inside == b_inside || touches)
+    return;
+  struct view_point cut = forward ? cut_between(projection, plane, a->at, b->at,
+                                                a_distance, b_distance)
+                                  : cut_between(projection, plane, b->at, a->at,
+                                                b_distance, a_distance);
+  put(to, cut, CLIP_CUT, a_inside ? CLIP_CUT : a->side);
+}
+
+static void clip_polygon(const struct projection *projection, int plane,
+                         const bool forward[3], const struct clip_polygon *from,
+                         struct clip_polygon *to) {
+  double distance[CLIP_MOST];
+  for (int i = 0; i < from->count; i++)
+    distance[i] = clip_distance(projection, from->corner[i].at, plane);
+  to->count = 0;
+  for (int i = 0; i < from->count; i++) {
+    int j = i + 1 < from->count ? i + 1 : 0;
+    const struct clip_corner *a = &from->corner[i];
+    put_side(projection, plane, a, &from->corner[j], distance[i], distance[j],
+             a->side == CLIP_CUT || forward[a->side], to);
+  }
+}
+
+bool clip_triangle(const struct projection *projection,
+                   const struct view_point corner[3], const bool forward[3],
+                   struct clip_polygon *polygon) {
+  struct clip_polygon other;
+  struct clip_polygon *from = polygon, *to = &other;
+  from->count = 0;
+  for (int k = 0; k < 3; k++)
+    put(from, corner[k], k, k);
+  for (int plane = 0; plane < CLIP_PLANE_COUNT && from->count >= 3; plane++) {
+    clip_polygon(projection, plane, forward, from, to);
+    struct clip_polygon *swap = from;
+    from = to;
+    to = swap;
+  }
+  if (from->count < 3)
+    return false;
+  if (from != polygon)
+    *polygon = *from;
+  return true;
+}

@@ -1,0 +1,63 @@
+/* frame.c - which way the camera's axes point in the scene. */
+#include "view/frame.h"
+
+#include <string.h>
+
+#include "base/tolerance.h"
+#include "scene/angle.h"
+#include "view/vector.h"
+
+/* The right of the front view: +X less its part along `up`, and where nothing
+ * is left of that, -Y or +Y, whichever turns +Y onto `up` the short way.  No
+ * choice can be continuous everywhere; this one is but at +X and -X. */
+static void find_right(const double up[3], double right[3]) {
+  if (up[1] == 0 && up[2] == 0) {
+    right[0] = right[2] = 0;
+    right[1] = up[0] > 0 ? -1 : 1;
+    return;
+  }
+  /* X - up (up . X), written so that nothing cancels: up is a unit vector. */
+  right[0] = up[1] * up[1] + up[2] * up[2];
+  right[1] = -up[0] * up[1];
+  right[2] = -up[0] * up[2];
+  vector_normalise(right);
+}
+
+struct frame frame_from_direction(const double up[3], double azimuth_deg,
+                                  double elevation_deg) {
+  double u[3], r[3], f[3]; /* up, right and front of the scene */
+  memcpy(u, up, sizeof u);
+  vector_normalise(u);
+  find_right(u, r);
+  vector_cross(r, u, f);
+  struct angle azimuth = angle_of_degrees(azimuth_deg);
+  struct angle elevation = angle_of_degrees(elevation_deg);
+  struct frame frame;
+  for (int k = 0; k < 3; k++) {
+    double level = azimuth.cosine * f[k] + azimuth.sine * r[k];
+    frame.back[k] = elevation.cosine * level + elevation.sine * u[k] + 0.0;
+    frame.right[k] = azimuth.cosine * r[k] - azimuth.sine * f[k] + 0.0;
+    frame.up[k] = elevation.cosine * u[k] - elevation.sine * level + 0.0;
+  }
+  return frame;
+}
+
+enum frame_fault frame_from_eye(struct frame *frame, const double eye[3],
+                                const double target[3], const double up[3]) {
+  double u[3];
+  for (int k = 0; k < 3; k++) {
+    frame->back[k] = eye[k] - target[k];
+    u[k] = up[k];
+  }
+  if (!vector_normalise(frame->back))
+    return FRAME_NO_DIRECTION;
+  if (!vector_normalise(u))
+    return FRAME_UP_ALONG_VIEW;
+  vector_cross(u, frame->back, frame->right);
+  if (!(vector_length(frame->right) > TOLERANCE_UP_SINE))
+    return FRAME_UP_ALONG_VIEW;
+  vector_normalise(frame->right);
+  vector_cross(frame->back, frame->right, frame->up);
+  vector_normalise(frame->up);
+  return FRAME_OK;
+}

@@ -1,0 +1,38 @@
+/* project.c - the constants of the way from view coordinates to the grid. */
+#include "view/project.h"
+
+#include <math.h>
+
+#include "base/tolerance.h"
+
+/* Half of the paper, up to a whole grid unit, so that what touches the
+ * paper's border is on the paper. */
+static double half_of_page(double mm) {
+  return ceil(mm / 2 * SHEET_UNITS_PER_MM);
+}
+
+struct projection projection_of(const struct camera *camera) {
+  struct projection projection = {
+      .perspective = camera->perspective,
+      .units = camera->s * SHEET_UNITS_PER_MM,
+      .near_d = camera->near_d,
+      .d_max = camera->d_max,
+  };
+  for (int k = 0; k < 2; k++) {
+    projection.half[k] = half_of_page(camera->page_mm[k]);
+    projection.offset[k] =
+        (camera->middle_mm[k] - camera->page_mm[k] / 2) * SHEET_UNITS_PER_MM;
+  }
+  double range = fmax(camera->d_max - camera->d_min,
+                      camera->size * TOLERANCE_EXTENT_SHARE);
+  if (range == 0)
+    range = 1;
+  if (camera->perspective) {
+    projection.z_factor = (double)SHEET_Z_MAX * (camera->d_min / range);
+    projection.z_scale = projection.z_factor * camera->d_max;
+  } else {
+    projection.z_factor = (double)SHEET_Z_MAX / range;
+    projection.z_scale = projection.z_factor;
+  }
+  return projection;
+}

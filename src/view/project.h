@@ -1,0 +1,68 @@
+/* project.h - from scene units to view coordinates to the page's grid. */
+#ifndef VIEW_PROJECT_H
+#define VIEW_PROJECT_H
+
+#include "view/sheet.h"
+
+/* x right, y up, d the depth in front of the eye. */
+struct view_point {
+  double x, y, d;
+};
+
+/* One order of operations for everybody: the camera's depth range and the
+ * sheet's clipping must see the same depth of a point. */
+static inline struct view_point camera_view(const struct camera *camera,
+                                            double x, double y, double z) {
+  double p[3] = {x - camera->eye[0], y - camera->eye[1], z - camera->eye[2]};
+  const double *r = camera->right, *u = camera->up, *b = camera->back;
+  return (struct view_point){r[0] * p[0] + r[1] * p[1] + r[2] * p[2],
+                             u[0] * p[0] + u[1] * p[1] + u[2] * p[2],
+                             -(b[0] * p[0] + b[1] * p[1] + b[2] * p[2])};
+}
+
+/* The second half of the way, and the limits of the page. */
+struct projection {
+  bool perspective;
+  double units;     /* grid units for one of x / d, or of x */
+  double offset[2]; /* grid units from the page's middle to the view axis */
+  double half[2];   /* the paper ends at +-half, whole grid units */
+  double near_d, d_max;
+  double z_factor; /* orthographic z = z_factor (d_max - d); perspective
+                      z = z_factor (d_max - d) / d */
+  double z_scale;  /* of the sheet */
+};
+
+struct projection projection_of(const struct camera *camera);
+
+/* The nearest whole number, halves up.  |value| < 2^62. */
+static inline int64_t snap(double value) {
+  double moved = value + 0.5;
+  int64_t whole = (int64_t)moved;
+  return whole - ((double)whole > moved);
+}
+
+/* What is not a number counts as least. */
+static inline double clamp(double value, double least, double most) {
+  return value >= least ? (value <= most ? value : most) : least;
+}
+
+/* The grid point of a view point on the paper and not before the near plane:
+ * what rounding takes past a limit is set to the limit. */
+static inline struct sheet_point
+project_point(const struct projection *projection, struct view_point p) {
+  double per_unit = projection->units, z = projection->d_max - p.d;
+  if (projection->perspective) {
+    double inverse = 1 / p.d;
+    per_unit *= inverse;
+    z *= inverse;
+  }
+  const double *half = projection->half;
+  return (struct sheet_point){
+      (int32_t)snap(
+          clamp(p.x * per_unit + projection->offset[0], -half[0], half[0])),
+      (int32_t)snap(
+          clamp(p.y * per_unit + projection->offset[1], -half[1], half[1])),
+      snap(clamp(z * projection->z_factor, 0, (double)SHEET_Z_MAX))};
+}
+
+#endif

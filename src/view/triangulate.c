@@ -1,0 +1,377 @@
+/* triangulate.c - cuts a polygon into triangles without adding points.
+ *
+ * Phases
+ *   flatten  two of the three coordinates are kept, those in which the polygon
+ *            has the most area, in the order in which it is counter-clockwise.
+ *   cut      a quadrilateral by the shorter of the diagonals that are inside;
+ *            a convex polygon as a fan; all others ear by ear.
+ * Invariants  An ear is a corner that turns left, with no other corner in its
+ *   closed triangle (corners at the places of its own three do not count:
+ *   bridges to holes visit places twice).  If any corner is inside, the one
+ *   farthest from the diagonal is not convex, so only the others are looked
+ *   at.  A corner on the diagonal blocks the ear: so a point in the middle of
+ *   a side is never left over as a triangle without area.
+ * Robustness  All turns are exact_turn.  Where no ear is left the polygon is
+ *   not simple: then a corner without area goes first, then a convex one,
+ *   then any, so that the loop always ends with count - 2 triangles.
+ * Source      ear clipping: [Meisters 1975], the two-ears theorem.
+ */
+#include "view/triangulate.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/tolerance.h"
+#include "scene/exact.h"
+#include "view/vector.h"
+
+void triangulation_fini(struct triangulation *triangulation) {
+  ARRAY_FREE(&triangulation->triangle);
+  ARRAY_FREE(&triangulation->corner);
+}
+
+/* A polygon of the scene. */
+struct polygon {
+  const struct scene_point *point;
+  const uint32_t *corner;
+  uint32_t count;
+};
+
+static void coordinates(const struct polygon *polygon, uint32_t c,
+                        double to[3]) {
+  const struct scene_point *p = &polygon->point[polygon->corner[c]];
+  to[0] = p->x;
+  to[1] = p->y;
+  to[2] = p->z;
+}
+
+static void offset(const struct polygon *polygon, uint32_t c,
+                   const double origin[3], double to[3]) {
+  coordinates(polygon, c, to);
+  for (int k = 0; k < 3; k++)
+    to[k] -= origin[k];
+}
+
+/* ---- Flatten ----------------------------------------------------------------
+ */
+
+/* Twice the area seen along each axis. */
+struct areas {
+  double value[3];
+  double bound[3]; /* no more than this of it is rounding */
+  double extent;   /* the largest difference to the first corner */
+};
+
+static void add_triangle(struct areas *areas, const double a[3],
+                         const double b[3]) {
+  for (int k = 0; k < 3; k++) {
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    double left = a[i] * b[j], right = a[j] * b[i];
+    areas->value[k] += left - right;
+    areas->bound[k] += fabs(left) + fabs(right);
+    areas->extent = fmax(areas->extent, fmax(fabs(a[k]), fabs(b[k])));
+  }
+}
+
+static struct areas measure_areas(const struct polygon *polygon) {
+  struct areas areas = {{0, 0, 0}, {0, 0, 0}, 0};
+  double origin[3], a[3], b[3];
+  coordinates(polygon, 0, origin);
+  offset(polygon, 1, origin, a);
+  for (uint32_t c = 2; c < polygon->count; c++) {
+    offset(polygon, c, origin, b);
+    add_triangle(&areas, a, b);
+    for (int k = 0; k < 3; k++)
+      a[k] = b[k];
+  }
+  /* With u = 2^-53, each difference is off by u of itself, so a product by
+   * less than 4u, and each of the sums by u of all that was added. */
+  for (int k = 0; k < 3; k++)
+    areas.bound[k] =
+        areas.bound[k] * ((polygon->count + 4) * DBL_EPSILON) + DBL_MIN;
+  return areas;
+}
+
+/* The axis along which to look: it shows the most area, or where none shows
+ * any, it is the one along which the polygon is thinnest. */
+static int choose_axis(const struct polygon *polygon,
+                       const struct areas *areas) {
+  const double *value = areas->value;
+  if (value[0] != 0 || value[1] != 0 || value[2] != 0) {
+    int axis = fabs(value[0]) > fabs(value[2]) ? 0 : 2;
+    return fabs(value[1]) > fabs(value[axis]) ? 1 : axis;
+  }
+  double low[3], high[3], at[3];
+  coordinates(polygon, 0, low);
+  coordinates(polygon, 0, high);
+  for (uint32_t c = 1; c < polygon->count; c++) {
+    coordinates(polygon, c, at);
+    for (int k = 0; k < 3; k++) {
+      low[k] = fmin(low[k], at[k]);
+      high[k] = fmax(high[k], at[k]);
+    }
+  }
+  int axis = high[0] - low[0] < high[2] - low[2] ? 0 : 2;
+  return high[1] - low[1] < high[axis] - low[axis] ? 1 : axis;
+}
+
+static int turn_at(const struct triangulation_corner *corner, uint32_t a,
+                   uint32_t b, uint32_t c) {
+  return exact_turn(corner[a].at, corner[b].at, corner[c].at);
+}
+
+static bool is_before(const double a[2], const double b[2]) {
+  return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
+}
+
+static bool is_at(const double a[2], const double b[2]) {
+  return a[0] == b[0] && a[1] == b[1];
+}
+
+/* Whether a simple polygon runs clockwise: its lowest corner is convex. */
+static bool is_clockwise(const struct triangulation_corner *corner,
+                         uint32_t count) {
+  uint32_t low = 0;
+  for (uint32_t c = 1; c < count; c++)
+    if (is_before(corner[c].at, corner[low].at))
+      low = c;
+  return turn_at(corner, (low + count - 1) % count, low, (low + 1) % count) < 0;
+}
+
+static void flatten(const struct polygon *polygon, const struct areas *areas,
+                    struct triangulation_corner *corner) {
+  int axis = choose_axis(polygon, areas);
+  double at[3];
+  for (uint32_t c = 0; c < polygon->count; c++) {
+    coordinates(polygon, c, at);
+    corner[c].at[0] = at[(axis + 1) % 3];
+    corner[c].at[1] = at[(axis + 2) % 3];
+  }
+  bool flip = areas->value[axis] < 0;
+  if (!(fabs(areas->value[axis]) > areas->bound[axis]))
+    flip = is_clockwise(corner, polygon->count);
+  for (uint32_t c = 0; flip && c < polygon->count; c++) {
+    double swap = corner[c].at[0];
+    corner[c].at[0] = corner[c].at[1];
+    corner[c].at[1] = swap;
+  }
+}
+
+/* Whether a corner lies off the plane through the first one, for a count. */
+static bool is_warped(const struct polygon *polygon,
+                      const struct areas *areas) {
+  double length = vector_length(areas->value), origin[3], to[3];
+  double most = length * areas->extent * TOLERANCE_WARP_SHARE;
+  coordinates(polygon, 0, origin);
+  for (uint32_t c = 1; polygon->count > 3 && c < polygon->count; c++) {
+    offset(polygon, c, origin, to);
+    if (fabs(vector_dot(areas->value, to)) > most)
+      return true;
+  }
+  return false;
+}
+
+/* ---- Cut --------------------------------------------------------------------
+ */
+
+static void add(struct triangulation *triangulation, uint32_t a, uint32_t b,
+                uint32_t c, uint32_t ab, uint32_t bc, uint32_t ca) {
+  triangulation->triangle.item[triangulation->triangle.count++] =
+      (struct triangulation_triangle){{a, b, c}, {ab, bc, ca}};
+}
+
+static double square_distance(const struct polygon *polygon, uint32_t a,
+                              uint32_t b) {
+  double origin[3], to[3];
+  coordinates(polygon, a, origin);
+  offset(polygon, b, origin, to);
+  return vector_dot(to, to);
+}
+
+/* Cuts a quadrilateral by a diagonal that leaves area on both its sides; false
+ * where there is none. */
+static bool cut_quadrilateral(struct triangulation *triangulation,
+                              const struct polygon *polygon) {
+  const struct triangulation_corner *corner = triangulation->corner.item;
+  bool from_0 = turn_at(corner, 0, 1, 2) > 0 && turn_at(corner, 2, 3, 0) > 0;
+  bool from_1 = turn_at(corner, 3, 0, 1) > 0 && turn_at(corner, 1, 2, 3) > 0;
+  if (!from_0 && !from_1)
+    return false;
+  if (from_0 && from_1)
+    from_0 = square_distance(polygon, 0, 2) <= square_distance(polygon, 1, 3);
+  if (from_0) {
+    add(triangulation, 0, 1, 2, 0, 1, 4);
+    add(triangulation, 0, 2, 3, 4, 2, 3);
+  } else {
+    add(triangulation, 0, 1, 3, 0, 4, 3);
+    add(triangulation, 1, 2, 3, 1, 2, 4);
+  }
+  return true;
+}
+
+/* Whether all corners turn left and the polygon goes around but once: it then
+ * runs up, in the order of is_before, once and down once. */
+static bool is_convex(const struct triangulation_corner *corner,
+                      uint32_t count) {
+  uint32_t reversals = 0;
+  for (uint32_t c = 0; c < count; c++) {
+    uint32_t prev = (c + count - 1) % count, next = (c + 1) % count;
+    if (turn_at(corner, prev, c, next) <= 0)
+      return false;
+    reversals += is_before(corner[prev].at, corner[c].at) !=
+                 is_before(corner[c].at, corner[next].at);
+  }
+  return reversals == 2;
+}
+
+static void cut_fan(struct triangulation *triangulation, uint32_t count) {
+  for (uint32_t c = 1; c + 1 < count; c++)
+    add(triangulation, 0, c, c + 1, c == 1 ? 0 : count + c - 2, c,
+        c + 2 == count ? count - 1 : count + c - 1);
+}
+
+/* ---- Ears
+ * -------------------------------------------------------------------- */
+
+/* The corners that are not convex form a ring through a head at [count]. */
+static void add_bent(struct triangulation_corner *corner, uint32_t c,
+                     uint32_t head) {
+  corner[c].prev_bent = head;
+  corner[c].next_bent = corner[head].next_bent;
+  corner[corner[head].next_bent].prev_bent = c;
+  corner[head].next_bent = c;
+}
+
+static void remove_bent(struct triangulation_corner *corner, uint32_t c) {
+  corner[corner[c].prev_bent].next_bent = corner[c].next_bent;
+  corner[corner[c].next_bent].prev_bent = corner[c].prev_bent;
+}
+
+static void link_corners(struct triangulation_corner *corner, uint32_t count) {
+  corner[count].next_bent = corner[count].prev_bent = count;
+  for (uint32_t c = 0; c < count; c++) {
+    corner[c].prev = (c + count - 1) % count;
+    corner[c].next = (c + 1) % count;
+    corner[c].side = c;
+    corner[c].turn = (int8_t)turn_at(corner, corner[c].prev, c, corner[c].next);
+    if (corner[c].turn <= 0)
+      add_bent(corner, c, count);
+  }
+}
+
+static void turn_again(struct triangulation_corner *corner, uint32_t c,
+                       uint32_t head) {
+  int turn = turn_at(corner, corner[c].prev, c, corner[c].next);
+  if (corner[c].turn <= 0 && turn > 0)
+    remove_bent(corner, c);
+  else if (corner[c].turn > 0 && turn <= 0)
+    add_bent(corner, c, head);
+  corner[c].turn = (int8_t)turn;
+}
+
+/* Whether p is in the closed triangle a, b, c and at none of its corners. */
+static bool blocks(const struct triangulation_corner *corner, uint32_t a,
+                   uint32_t b, uint32_t c, uint32_t p) {
+  const double *at = corner[p].at;
+  if (is_at(at, corner[a].at) || is_at(at, corner[b].at) ||
+      is_at(at, corner[c].at))
+    return false;
+  return turn_at(corner, c, a, p) >= 0 && turn_at(corner, a, b, p) >= 0 &&
+         turn_at(corner, b, c, p) >= 0;
+}
+
+static bool is_ear(const struct triangulation_corner *corner, uint32_t b,
+                   uint32_t head) {
+  if (corner[b].turn <= 0)
+    return false;
+  uint32_t a = corner[b].prev, c = corner[b].next;
+  for (uint32_t p = corner[head].next_bent; p != head; p = corner[p].next_bent)
+    if (p != a && p != c && blocks(corner, a, b, c, p))
+      return false;
+  return true;
+}
+
+/* The corner to cut off where there is no ear: one without area, or a convex
+ * one, or whichever comes next. */
+static uint32_t choose_corner(const struct triangulation_corner *corner,
+                              uint32_t start) {
+  uint32_t convex = start;
+  uint32_t c = start;
+  do {
+    if (corner[c].turn == 0)
+      return c;
+    if (corner[convex].turn < 0)
+      convex = c;
+    c = corner[c].next;
+  } while (c != start);
+  return convex;
+}
+
+/* Cuts off corner b by diagonal `side`; returns the corner before it. */
+static uint32_t cut_corner(struct triangulation *triangulation, uint32_t b,
+                           uint32_t side, uint32_t head) {
+  struct triangulation_corner *corner = triangulation->corner.item;
+  uint32_t a = corner[b].prev, c = corner[b].next;
+  add(triangulation, a, b, c, corner[a].side, corner[b].side, side);
+  if (corner[b].turn <= 0)
+    remove_bent(corner, b);
+  corner[a].next = c;
+  corner[c].prev = a;
+  corner[a].side = side;
+  turn_again(corner, a, head);
+  turn_again(corner, c, head);
+  return a;
+}
+
+static void cut_ears(struct triangulation *triangulation, uint32_t count) {
+  struct triangulation_corner *corner = triangulation->corner.item;
+  link_corners(corner, count);
+  uint32_t b = 0, tried = 0;
+  for (uint32_t left = count; left > 3;) {
+    if (tried == left)
+      b = choose_corner(corner, b);
+    else if (!is_ear(corner, b, count)) {
+      b = corner[b].next;
+      tried++;
+      continue;
+    }
+    uint32_t side = count + (count - left);
+    uint32_t a = cut_corner(triangulation, b, side, count);
+    /* One corner further on, so that ears are taken all around instead of as
+     * a fan of needles. */
+    b = corner[corner[a].next].next;
+    tried = 0;
+    left--;
+  }
+  uint32_t a = corner[b].prev, c = corner[b].next;
+  add(triangulation, a, b, c, corner[a].side, corner[b].side, corner[c].side);
+}
+
+/* ------------------------------------------------------------------------------
+ */
+
+bool triangulate(struct triangulation *triangulation,
+                 const struct scene_point *point, const uint32_t *corner,
+                 size_t count) {
+  struct polygon polygon = {point, corner, (uint32_t)count};
+  triangulation->triangle.count = 0;
+  triangulation->corner.count = 0;
+  triangulation->warped = false;
+  if (!ARRAY_RESERVE(&triangulation->triangle, count - 2) ||
+      !ARRAY_RESERVE(&triangulation->corner, count + 1))
+    return false;
+  if (count == 3) {
+    add(triangulation, 0, 1, 2, 0, 1, 2);
+    return true;
+  }
+  struct areas areas = measure_areas(&polygon);
+  triangulation->warped = is_warped(&polygon, &areas);
+  flatten(&polygon, &areas, triangulation->corner.item);
+  if (count == 4 && cut_quadrilateral(triangulation, &polygon))
+    return true;
+  if (count > 4 && is_convex(triangulation->corner.item, polygon.count))
+    cut_fan(triangulation, polygon.count);
+  else
+    cut_ears(triangulation, polygon.count);
+  return true;
+}

@@ -1,0 +1,49 @@
+/* triangulate.h - cuts a polygon into triangles without adding points. */
+#ifndef VIEW_TRIANGULATE_H
+#define VIEW_TRIANGULATE_H
+
+#include "scene/scene.h"
+
+/* Corners are counted from 0 within the polygon.  Side k runs from corner[k]
+ * to corner[(k + 1) % 3]; below the polygon's number of corners it is the
+ * polygon's side that leaves that corner, else that number plus the diagonal's
+ * own, from 0. */
+struct triangulation_triangle {
+  uint32_t corner[3];
+  uint32_t side[3];
+};
+
+/* A corner on its way through the ear clipping. */
+struct triangulation_corner {
+  double at[2];        /* in the plane that shows most of the polygon, which
+                          runs counter-clockwise there */
+  uint32_t next, prev; /* of the corners that are left */
+  uint32_t side;       /* what leaves it: see above */
+  uint32_t next_bent, prev_bent; /* the corners that may block an ear */
+  int8_t turn; /* 1 convex, 0 straight on or back, -1 reflex */
+};
+
+struct triangulation {
+  ARRAY(struct triangulation_triangle) triangle;
+  bool warped; /* a corner is off the polygon's plane */
+  ARRAY(struct triangulation_corner) corner; /* kept from call to call */
+};
+
+/* Zero-initialised is empty; one object serves any number of polygons. */
+void triangulation_fini(struct triangulation *triangulation);
+
+/* Sets the triangles of a polygon: two fewer than it has corners.
+ * corner  indices of points, `count` >= 3
+ * Returns false when memory ran out.
+ * Guarantees: triangles run as the polygon does, and each of its sides belongs
+ *   to one of them.  A simple polygon, corners on straight sides and holes on
+ *   double bridges included, is covered exactly once by triangles that have an
+ *   area; of others something is made that ends and is always the same.
+ * Exact: decided on the coordinates themselves, in a plane along two axes.
+ * Cost: linear up to four corners and for convex polygons, else corners times
+ *   reflex corners. */
+USE_RESULT bool triangulate(struct triangulation *triangulation,
+                            const struct scene_point *point,
+                            const uint32_t *corner, size_t count);
+
+#endif

@@ -1,0 +1,48 @@
+/* vector.h - triples of doubles, added up in one fixed order. */
+#ifndef VIEW_VECTOR_H
+#define VIEW_VECTOR_H
+
+#include <math.h>
+#include <stdbool.h>
+
+static inline double vector_dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void vector_cross(const double a[3], const double b[3],
+                                double c[3]) {
+  c[0] = a[1] * b[2] - a[2] * b[1];
+  c[1] = a[2] * b[0] - a[0] * b[2];
+  c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static inline bool vector_is_finite(const double a[3]) {
+  return isfinite(a[0]) && isfinite(a[1]) && isfinite(a[2]);
+}
+
+/* The length, without overflow or underflow on the way: coordinates are first
+ * divided by a power of two near the largest.  A vector along an axis gives
+ * exactly its one coordinate. */
+static inline double vector_length(const double a[3]) {
+  double largest = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
+  if (largest == 0 || !isfinite(largest))
+    return largest;
+  int exponent;
+  frexp(largest, &exponent);
+  double b[3];
+  for (int k = 0; k < 3; k++)
+    b[k] = ldexp(a[k], -exponent);
+  return ldexp(sqrt(vector_dot(b, b)), exponent);
+}
+
+/* Makes a vector one unit long, with no -0; false where it has no length. */
+static inline bool vector_normalise(double a[3]) {
+  double length = vector_length(a);
+  if (!(length > 0) || !isfinite(length))
+    return false;
+  for (int k = 0; k < 3; k++)
+    a[k] = a[k] / length + 0.0;
+  return true;
+}
+
+#endif
