@@ -103,12 +103,17 @@ static bool store(struct arguments *arguments, const struct option_entry *entry,
   return false;
 }
 
+static void say_absent(const struct option_entry *entry,
+                       char message[MESSAGE_SIZE]) {
+  snprintf(message, MESSAGE_SIZE, "--%s is not available in this build",
+           entry->name);
+}
+
 static bool take_option(struct arguments *arguments,
                         const struct option_entry *entry, const char *text,
                         char message[MESSAGE_SIZE]) {
   if (entry->kind == OPTION_ABSENT) {
-    snprintf(message, MESSAGE_SIZE, "--%s is not available in this build",
-             entry->name);
+    say_absent(entry, message);
     return false;
   }
   if (!store(arguments, entry, text)) {
@@ -124,7 +129,9 @@ static bool take_option(struct arguments *arguments,
 /* Says what getopt_long did not like. */
 static void explain(int code, char **argv, char message[MESSAGE_SIZE]) {
   const struct option_entry *entry = find_entry(optopt);
-  if (code == ':')
+  if (entry != NULL && entry->kind == OPTION_ABSENT)
+    say_absent(entry, message);
+  else if (code == ':')
     snprintf(message, MESSAGE_SIZE, "--%s: expected %s", entry->name,
              entry->expected != NULL ? entry->expected : "a value");
   else if (entry != NULL)

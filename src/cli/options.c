@@ -118,7 +118,7 @@ const struct option_entry option_table[] = {
      .given = AT(options.has_target)},
     {OPTION_VECTOR, "up", 'u', "X,Y,Z", "three numbers such as 0,0,1",
      "up (+Y in .obj, +Z in .stl)", .offset = AT(options.up)},
-    {OPTION_NUMBER, "fov", 'F', "DEG", "an angle above 0, below 179",
+    {OPTION_NUMBER, "fov", 'F', "DEG", "an angle above 0, at most 179",
      "perspective; vertical angle (30 with --camera)",
      .offset = AT(options.fov_deg), .given = AT(fov_given), .least = DBL_MIN,
      .most = 179},

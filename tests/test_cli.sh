@@ -1,0 +1,357 @@
+#!/bin/bash
+# test_cli.sh - what the program promises to a user and to scripts: exit
+# codes, messages, streams, and files that appear whole or not at all.
+. "$(dirname "$0")/tap.sh"
+cd "$scratch" || exit 1
+
+cat >cube.obj <<'END'
+v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+END
+
+# run STATUS ARGUMENT... - whether the program exits so; what it says is kept
+# in the files out and err.
+run() {
+  local expected=$1 status
+  shift
+  "$recto" "$@" >out 2>err </dev/null
+  status=$?
+  test "$status" -eq "$expected" && return 0
+  say "recto $*: exit $status, not $expected: $(head -n 3 err)"
+  return 1
+}
+
+# says PATTERN - whether the last run's messages have a line like that.
+says() {
+  grep -qE -- "$1" err && return 0
+  say "no line like $1 in: $(head -n 5 err)"
+  return 1
+}
+
+silent() { test ! -s err || { say "said: $(head -n 3 err)" && false; }; }
+
+# refuses PATTERN ARGUMENT... - wrong usage, said in one line, nothing drawn.
+refuses() {
+  local pattern=$1
+  shift
+  rm -f no.svg
+  run 2 "$@" && says "^recto: .*$pattern" && test "$(wc -l <err)" -eq 1 &&
+    test ! -s out && test ! -e no.svg
+}
+
+# only FILE... - whether the folder has no other hidden or new file.
+none_left() { test -z "$(find . -name '.*' -type f)"; }
+
+# ---- Help and version -----------------------------------------------------
+
+prints_version() {
+  run 0 --version && silent && grep -qE '^recto [0-9]+\.[0-9]+\.[0-9]+$' out
+}
+claim "--version goes to standard output" prints_version
+
+prints_help() { run 0 --help && silent && grep -q '^Usage: recto' out; }
+claim "--help goes to standard output" prints_help
+claim "--help fits 80 columns" awk 'length > 80 { exit 1 }' out
+cp out help.txt
+
+help_fails_on_a_full_disk() {
+  "$recto" --help >/dev/full 2>err
+  test $? -eq 1 && says '^recto: '
+}
+claim "--help fails where it cannot be written" help_fails_on_a_full_disk
+
+# ---- Wrong usage ----------------------------------------------------------
+
+claim "no model is wrong usage" refuses 'no model'
+claim "no output is wrong usage" refuses 'no output' cube.obj
+claim "an unknown option is wrong usage" \
+  refuses 'unknown option --colour' --colour cube.obj -o no.svg
+claim "an unknown letter is wrong usage" refuses 'unknown option -z' \
+  -z cube.obj -o no.svg
+claim "a missing value is wrong usage" refuses '--page: expected' \
+  cube.obj -o no.svg --page
+claim "a value too many is wrong usage" refuses '--ids takes no value' \
+  cube.obj -o no.svg --ids=yes
+claim "an unknown output format is wrong usage" refuses 'no output format' \
+  cube.obj -o no.xyz
+claim "an unknown format name is wrong usage" refuses 'no output format' \
+  cube.obj -o no.svg --format xyz
+claim "standard input needs its format" refuses 'needs --from' - -o no.svg
+claim "an unknown model format is wrong usage" \
+  refuses '.' cube.obj -o no.svg --from nonsense
+claim "eye and view exclude each other" refuses 'exclude' \
+  cube.obj -o no.svg --camera 1,2,3 --view top
+claim "--ortho and --fov exclude each other" refuses 'exclude' \
+  cube.obj -o no.svg --ortho --fov 30
+
+while read -r option values; do
+  for value in $values; do
+    claim "--$option=$value is refused" refuses "--$option: expected" \
+      cube.obj -o no.svg "--$option=$value"
+  done
+done <<'END'
+method nonsense NEWELL
+contact -1 nan inf x 1mm
+view north
+azimuth nan 1e999 30deg
+elevation 91 -91 x
+camera 1,2 1,2,3,4 1,2,x 1,,3 nan,0,0 1;2;3
+lookat 1,2
+up 0
+fov 0 -1 180 x
+scale 0 1: :1 1:0 -1:2 1:2:3 x
+near 0 -1 x
+section x
+page A7 200 200x x200 200x-100 0x100 200x100m nanx100 200x100mmx
+margin -1 x 1,5 nan 1e999mm 10furlongs
+edges x silhouette, ,crease silhouette,,crease
+crease -1 181 x
+hidden x
+pen 0 -1 101 x
+pens 0 1001 1.5 x
+simplify -1
+min-stroke -1
+precision -1 10 x 3.0
+END
+
+# What is planned is either there or refused by name, never unknown.
+offered_or_refused() {
+  grep -qE -- "--$1( |\$|\[)" help.txt && return 0
+  refuses "--$1 is not available in this build" cube.obj -o no.svg "--$1"
+}
+for option in output format from method pitch resolution contact view azimuth \
+  elevation camera lookat up fov ortho fit no-fit scale near section page \
+  landscape margin edges crease hidden fill hatch-pitch hatch-angle light pen \
+  pens order simplify precision ids stats verify check threads progress quiet \
+  version help; do
+  claim "--$option is there, or refused by name" offered_or_refused "$option"
+done
+for method in auto newell watkins warnock tiles zbuffer scanline-zbuffer \
+  painter painter-given brute; do
+  if sed -n 's/^Methods: //p' help.txt | tr ' ' '\n' | grep -qx "$method"; then
+    claim "method $method draws" run 0 cube.obj -o out.svg --method "$method"
+  else
+    claim "method $method is refused by name" \
+      refuses "--method $method is not available in this build" \
+      cube.obj -o no.svg --method "$method"
+  fi
+done
+
+# ---- Drawing --------------------------------------------------------------
+
+draws_in_silence() {
+  run 0 cube.obj -o cube.svg && silent && test ! -s out && test -s cube.svg
+}
+claim "a drawing is made in silence" draws_in_silence
+
+# A convex solid seen from a corner: nine lines; the outline is one of them.
+claim "the cube is drawn" grep -q '<path d="M' cube.svg
+
+same_again() { run 0 cube.obj -o again.svg && cmp -s cube.svg again.svg; }
+claim "the same call gives the same bytes" same_again
+
+streams_agree() {
+  "$recto" --from obj - -o - <cube.obj >piped.svg && cmp -s cube.svg piped.svg
+}
+claim "standard streams give the same bytes" streams_agree
+
+forms_agree() {
+  run 0 --page=A5 --margin=5mm -o a.svg cube.obj &&
+    run 0 cube.obj -p A5 --margin .5cm --output b.svg && cmp -s a.svg b.svg
+}
+claim "options may come first, last, with = and without" forms_agree
+
+format_wins() {
+  run 0 cube.obj -o odd.plt --format svg && cmp -s cube.svg odd.plt
+}
+claim "--format wins over the extension" format_wins
+
+views_agree() {
+  run 0 cube.obj -o a.svg --view right &&
+    run 0 cube.obj -o b.svg --azimuth 90 --elevation 0 && cmp -s a.svg b.svg
+}
+claim "--view right is azimuth 90, elevation 0" views_agree
+
+views_differ() {
+  local view
+  for view in front top iso dimetric trimetric; do
+    run 0 cube.obj -o "view-$view.svg" --view "$view" || return 1
+  done
+  test "$(cat view-iso.svg view-dimetric.svg view-trimetric.svg |
+    sort | uniq -d | grep -c '<path')" -eq 0
+}
+claim "the slanting views differ" views_differ
+
+two_models() {
+  sed 's/^v \([^ ]*\)/v 5/' cube.obj >flat.obj
+  run 0 cube.obj flat.obj -o two.svg && ! cmp -s cube.svg two.svg
+}
+claim "several models make one scene" two_models
+
+# ---- Pages ----------------------------------------------------------------
+
+while IFS='|' read -r page box; do
+  page_is() {
+    # shellcheck disable=SC2086 # an option may follow the page
+    run 0 cube.obj -o page.svg --page $page &&
+      grep -qF "width=\"${box% *}mm\" height=\"${box#* }mm\" \
+viewBox=\"0 0 $box\"" page.svg
+  }
+  claim "--page $page is $box mm" page_is
+done <<'END'
+A4|210 297
+a3|297 420
+A0|841 1189
+A6|105 148
+letter|215.9 279.4
+Legal|215.9 355.6
+200x100|200 100
+200mmx10cm|200 100
+8x10in|203.2 254
+72ptx144pt|25.4 50.8
+A4 --landscape|297 210
+300x200 --landscape|300 200
+END
+
+# ---- Reports --------------------------------------------------------------
+
+stats_on_output() {
+  run 0 cube.obj -o cube.svg --stats && silent &&
+    grep -q '"faces": 6' out && grep -q '"model_to_page_mm": \[' out
+}
+claim "--stats goes to standard output" stats_on_output
+stats_parse() {
+  "$recto" cube.obj -o cube.svg --stats | python3 -m json.tool >/dev/null
+}
+if command -v python3 >/dev/null; then
+  claim "--stats is JSON" stats_parse
+else
+  skip "--stats is JSON" "no python3"
+fi
+stats_aside() {
+  run 0 cube.obj -o - --stats && cmp -s out cube.svg && grep -q '"faces": 6' err
+}
+claim "--stats stands aside when the drawing has standard output" stats_aside
+stats_file() {
+  run 0 cube.obj -o cube.svg --stats=stats.json && test ! -s out && silent &&
+    grep -q '"chosen"' stats.json
+}
+claim "--stats=FILE goes to the file" stats_file
+tells_progress() {
+  run 0 cube.obj -o cube.svg --progress && test ! -s out &&
+    says '^recto: +[0-9]+% '
+}
+claim "--progress goes to standard error" tells_progress
+
+# ---- Bad models -----------------------------------------------------------
+
+{
+  cat cube.obj
+  echo 'f 1 2 99'
+  echo 'v nan 0 0'
+  echo 'f 1 1 2'
+} >bad.obj
+warns_by_line() {
+  run 0 bad.obj -o bad.svg && says '^recto: bad.obj:15: ' &&
+    says '^recto: bad.obj:16: ' && says '^recto: bad.obj:17: '
+}
+claim "bad elements are warned about with file and line" warns_by_line
+claim "and the rest is drawn" cmp -s bad.svg cube.svg
+quiet() { run 0 bad.obj -o bad.svg --quiet && silent; }
+claim "--quiet says nothing of them" quiet
+
+fails_whole() {
+  echo "as it was" >kept.svg
+  run 1 "$@" -o kept.svg && says '^recto: ' && test ! -s out &&
+    test "$(cat kept.svg)" = "as it was" && none_left
+}
+claim "a missing file fails and writes nothing" fails_whole none.obj
+claim "a message names the file" says '^recto: none.obj: '
+claim "a folder fails and writes nothing" fails_whole --from obj .
+head -c 200 /dev/zero >short.stl
+printf '\100\0\0\0' | dd of=short.stl bs=1 seek=80 conv=notrunc 2>/dev/null
+claim "a truncated file fails and writes nothing" fails_whole short.stl
+: >empty.obj
+claim "an empty file fails and writes nothing" fails_whole empty.obj
+claim "all that is needed must be there: one bad file spoils the drawing" \
+  fails_whole cube.obj none.obj
+
+# ---- Bad outputs ----------------------------------------------------------
+
+claim "a folder that is not there fails" run 1 cube.obj -o none/cube.svg
+claim "with a message that names it" says '^recto: none/cube.svg: '
+claim "a full disk fails" run 1 cube.obj -o /dev/full --format svg
+claim "with a message" says '^recto: /dev/full: '
+full_output() {
+  "$recto" cube.obj -o - >/dev/full 2>err
+  test $? -eq 1 && says '^recto: '
+}
+claim "a full standard output fails" full_output
+claim "a full disk for --stats fails" run 1 cube.obj -o cube.svg \
+  --stats=/dev/full
+claim "nothing half-written is left" none_left
+
+# An eye on its target is wrong usage that only the scene tells.
+claim "an eye on its target is refused" refuses '.' cube.obj -o no.svg \
+  --camera 1,2,3 --lookat 1,2,3
+
+# ---- Interrupts -----------------------------------------------------------
+
+# A sheet of 20,000 squares, which brute force needs long for.
+awk 'BEGIN {
+  n = 141
+  for (i = 0; i < n; i++) for (k = 0; k < n; k++)
+    printf "v %d %d %d\n", i, k, (i * k) % 7
+  for (i = 1; i < n; i++) for (k = 1; k < n; k++) {
+    a = (i - 1) * n + k
+    printf "f %d %d %d %d\n", a, a + 1, a + n + 1, a + n
+  }
+}' >sheet.obj
+interrupt_cleans_up() {
+  echo "as it was" >kept.svg
+  timeout --preserve-status -s INT 0.5 \
+    "$recto" sheet.obj -m brute -e all -o kept.svg 2>err
+  test $? -ne 0 && test "$(cat kept.svg)" = "as it was" && none_left
+}
+claim "an interrupt leaves nothing behind" interrupt_cleans_up
+
+# ---- Locale ---------------------------------------------------------------
+
+comma_locale() {
+  localedef -i de_DE -f UTF-8 "$PWD/de_DE.UTF-8" 2>/dev/null ||
+    test -d de_DE.UTF-8
+}
+in_comma_locale() { LOCPATH=$PWD LC_ALL=de_DE.UTF-8 "$@"; }
+unit_in_comma_locale() {
+  in_comma_locale "$builddir/tests/$1" >unit.log 2>&1 ||
+    { say "$(tail -n 5 unit.log)" && false; }
+}
+commas_change_nothing() {
+  in_comma_locale "$recto" cube.obj -o comma.svg --margin 7.5 &&
+    "$recto" cube.obj -o point.svg --margin 7.5 && cmp -s comma.svg point.svg
+}
+if comma_locale; then
+  claim "a locale with decimal commas changes nothing" commas_change_nothing
+  # The library too, in a program that has set its locale.
+  for unit in test_svg test_number; do
+    if test -x "$builddir/tests/$unit"; then
+      claim "$unit passes in a locale with decimal commas" \
+        unit_in_comma_locale "$unit"
+    fi
+  done
+else
+  skip "a locale with decimal commas changes nothing" "no localedef"
+fi
+finish

@@ -1,0 +1,196 @@
+#!/bin/bash
+# test_structure.sh - the house's order: who may include whom, where
+# tolerances live, what the library shows.  Each check is shown to fail on a
+# violation planted in a copy.
+. "$(dirname "$0")/tap.sh"
+
+# ---- The checks: each prints what is wrong in the tree at $1 --------------
+
+sources() {
+  (cd "$1" && find src backends -name '*.[ch]' | LC_ALL=C sort)
+}
+
+# A file includes its own layer or a lower one; writers see base and the
+# drawing alone, the program base and recto.h.  Solvers, writers and readers
+# never include each other: what belongs to one of them bears its name.
+check_includes() {
+  (cd "$1" && sources . | xargs grep -n '^ *# *include *"' /dev/null) |
+    awk -F: '
+      BEGIN {
+        split("base geom scene view visibility ink backends api cli", name, " ")
+        for (i in name)
+          layer[name[i]] = i - 1
+      }
+      # "src/view/sheet.c" -> "view", "backends/writer.c" -> "backends"
+      function folder(path) {
+        sub(/^src\//, "", path)
+        sub(/\/[^\/]*$/, "", path)
+        return path
+      }
+      function noun(path) {
+        sub(/.*\//, "", path)
+        sub(/\.[ch]$/, "", path)
+        return path
+      }
+      # The member of a family that a file belongs to: "newell" of
+      # "visibility/newell_order"; "" for what all members share.
+      function member(path, at, word) {
+        at = folder(path)
+        word = noun(path)
+        if (at == "backends" && word ~ /^writer_/)
+          return word
+        if (at == "scene" && word ~ /^reader_/)
+          return word
+        if (at == "visibility" &&
+            match(word, /^(brute|newell|painter|tiles|warnock|watkins|scanline|zbuffer)/))
+          return substr(word, RSTART, RLENGTH)
+        return ""
+      }
+      function wrong(why) {
+        print file ": " why ": " included
+      }
+      {
+        file = $1
+        included = $0
+        sub(/^[^"]*"/, "", included)
+        sub(/".*/, "", included)
+        from = folder(file)
+        to = folder(included)
+        if (file == "src/recto.h")
+          wrong("the public header includes only standard ones")
+        else if (included == "recto.h")
+          next
+        else if (!(to in layer))
+          wrong("not from a folder of the house")
+        else if (layer[to] > layer[from])
+          wrong("a higher layer")
+        else if (from == "backends" && to != "backends" && to != "base" &&
+                 included != "ink/drawing.h")
+          wrong("a writer sees base and the drawing alone")
+        else if (from == "cli" && to != "cli" && to != "base")
+          wrong("the program sees base and recto.h alone")
+        else if (member(included) != "" && member(included) != member(file))
+          wrong("members of a family do not know each other")
+      }'
+}
+
+# Tolerances stand in one header, each with its reason.
+check_tolerances() {
+  local file
+  for file in $(sources "$1" | grep -v '^src/base/tolerance\.h$'); do
+    # Comments may speak of small numbers.  CC may be several words.
+    # shellcheck disable=SC2086
+    ${CC:-cc} -fpreprocessed -dD -E -P "$1/$file" 2>/dev/null |
+      grep -E '(^|[^A-Za-z0-9_])[0-9]*\.?[0-9]*[eE]-[0-9]' |
+      sed "s|^|$file: a tolerance: |"
+  done
+}
+
+# Every file opens with its name and its job.
+check_openings() {
+  local file
+  for file in $(sources "$1"); do
+    head -n 1 "$1/$file" | grep -qF "/* ${file##*/} - " ||
+      echo "$file: does not open with its job"
+  done
+}
+
+# Whatever is compiled is listed, and goes into a release.
+check_listed() {
+  local file
+  for file in $(sources "$1"); do
+    grep -qF -e "%D%/${file##*/}" -e "src/${file##*/}" \
+      "$1/$(dirname "$file")/local.mk" "$1/src/api/local.mk" 2>/dev/null ||
+      echo "$file: not in local.mk"
+  done
+}
+
+# ---- The tree as it is ----------------------------------------------------
+
+holds() {
+  local found
+  found=$("$1" "$2")
+  test -z "$found" || { say "$found" && false; }
+}
+claim "there are sources to check" test "$(sources "$srcdir" | wc -l)" -gt 50
+for check in includes tolerances openings listed; do
+  claim "check_$check finds nothing" holds check_$check "$srcdir"
+done
+
+# ---- Planted violations ---------------------------------------------------
+
+copy=$scratch/copy
+mkdir "$copy"
+(cd "$srcdir" && tar cf - src backends) | (cd "$copy" && tar xf -)
+chmod -R u+w "$copy"
+
+# finds CHECK FILE LINE - whether the check names the file once the line is
+# added to it, and is content again without.
+finds() {
+  local check=$1 file=$2 line=$3 found
+  cp "$copy/$file" "$scratch/saved" 2>/dev/null || : >"$scratch/saved"
+  echo "$line" >>"$copy/$file"
+  found=$($check "$copy")
+  cp "$scratch/saved" "$copy/$file"
+  test -s "$copy/$file" || rm "$copy/$file"
+  grep -q "^$file: " <<<"$found" && holds "$check" "$copy"
+}
+
+while IFS='|' read -r file line; do
+  claim "$file may not have $line" finds check_includes "$file" "$line"
+done <<'END'
+src/base/memory.c|#include "geom/ratio.h"
+src/scene/scene.c|#include "view/sheet.h"
+src/visibility/map.c|  #  include "ink/ink.h"
+src/visibility/newell.c|#include "visibility/painter.h"
+src/visibility/brute.c|#include "visibility/newell_order.h"
+src/visibility/pierce.c|#include "visibility/newell_order.h"
+src/scene/reader_obj.c|#include "scene/reader_stl.h"
+backends/writer_svg.c|#include "scene/scene.h"
+backends/writer_svg.c|#include "ink/ink.h"
+backends/writer_svg.c|#include "backends/writer_hpgl.h"
+backends/writers.c|#include "api/handle.h"
+src/cli/main.c|#include "scene/scene.h"
+src/cli/main.c|#include "backends/writer.h"
+src/api/render.c|#include "cli/job.h"
+src/recto.h|#include "base/status.h"
+src/view/camera.c|#include "camera.h"
+src/view/camera.c|#include "../scene/scene.h"
+END
+for literal in 1e-9 1.5e-12 1E-6f 0.e-3; do
+  claim "a tolerance of $literal may not stand in a source" finds \
+    check_tolerances src/geom/ratio.c "double a = $literal;"
+done
+claim "a source may not open without its job" finds check_openings \
+  src/geom/new.c "int x;"
+claim "a source may not be left out of the build" finds check_listed \
+  src/geom/new.c "/* new.c - nothing. */"
+
+# ---- The library ----------------------------------------------------------
+
+library=$builddir/.libs/librecto.so
+shows_recto_alone() {
+  local names
+  names=$(nm -D --defined-only "$library" | awk '{ print $3 }')
+  grep -q '^recto_scene_render$' <<<"$names" &&
+    ! grep -v '^recto_' <<<"$names"
+}
+declares_what_it_shows() {
+  nm -D --defined-only "$library" | awk '{ print $3 }' | LC_ALL=C sort \
+    >"$scratch/shown"
+  # shellcheck disable=SC2086
+  ${CC:-cc} -fpreprocessed -dD -E -P "$srcdir/src/recto.h" 2>/dev/null |
+    grep -oE '\brecto_[a-z_]+\(' | tr -d '(' | LC_ALL=C sort -u \
+    >"$scratch/declared"
+  # A declared function that is missing, or a shown one that is not declared.
+  ! comm -3 "$scratch/shown" "$scratch/declared" | grep .
+}
+if test -e "$library" && command -v nm >/dev/null; then
+  claim "the shared library shows recto_* alone" shows_recto_alone
+  claim "it has just what recto.h declares" declares_what_it_shows
+else
+  skip "the shared library shows recto_* alone" "not built shared"
+fi
+claim "the program is no wrapper script" \
+  test "$(head -c 4 "$recto" | tail -c 3)" = ELF
+finish
