@@ -26,3 +26,20 @@ unit_tests += %D%/test_exact_map
 %C%_test_exact_map_SOURCES = %D%/test_exact_map.c \
   %D%/hand/sheet.c %D%/hand/sheet.h
 %C%_test_exact_map_CPPFLAGS = $(AM_CPPFLAGS) -I$(srcdir)/%D%
+
+check_LTLIBRARIES =
+include tests/scenes/local.mk
+include tests/judge/local.mk
+
+unit_tests += %D%/test_scenes
+%C%_test_scenes_SOURCES = %D%/test_scenes.c
+%C%_test_scenes_LDADD = %D%/scenes/libscenes.la $(LDADD)
+
+unit_tests += %D%/test_judge
+%C%_test_judge_SOURCES = %D%/test_judge.c
+%C%_test_judge_LDADD = %D%/judge/libjudge.la %D%/scenes/libscenes.la $(LDADD)
+
+EXTRA_DIST += %D%/tap.sh
+dist_check_SCRIPTS += \
+  %D%/test_cli.sh \
+  %D%/test_structure.sh

@@ -1,0 +1,98 @@
+/* camera.c - the judge's own projection. */
+#include <string.h>
+
+#include "tests/judge/edges.h"
+
+/* Fills one row of the matrix: (direction, offset). */
+static void set_row(double row[4], struct judge_spot direction, double offset) {
+  row[0] = direction.x;
+  row[1] = direction.y;
+  row[2] = direction.z;
+  row[3] = offset;
+}
+
+void judge_camera_look(struct judge_camera *camera, struct judge_spot eye,
+                       struct judge_spot target, struct judge_spot up,
+                       double fov_deg, double width_mm, double height_mm,
+                       double margin_mm) {
+  memset(camera, 0, sizeof *camera);
+  struct judge_spot zero = {0, 0, 0};
+  struct judge_spot ahead = spot_unit(spot_sub(target, eye));
+  struct judge_spot right = spot_unit(spot_cross(ahead, up));
+  struct judge_spot above = spot_cross(right, ahead);
+  double half_fov = fov_deg / 360 * acos(-1);
+  double s = (height_mm - 2 * margin_mm) / (2 * tan(half_fov));
+  /* page = middle + s (x, y) / d: row = middle d-row + s x-row. */
+  struct judge_spot x =
+      spot_along(spot_along(zero, s, right), width_mm / 2, ahead);
+  struct judge_spot y =
+      spot_along(spot_along(zero, s, above), height_mm / 2, ahead);
+  set_row(camera->matrix, x, -spot_dot(x, eye));
+  set_row(camera->matrix + 4, y, -spot_dot(y, eye));
+  set_row(camera->matrix + 8, ahead, -spot_dot(ahead, eye));
+  camera->perspective = true;
+  camera->eye = eye;
+  camera->width_mm = width_mm;
+  camera->height_mm = height_mm;
+}
+
+/* The spot that the matrix maps to nothing: where its three planes meet. */
+static struct judge_spot common_spot(const double m[12]) {
+  struct judge_spot a = {m[0], m[1], m[2]}, b = {m[4], m[5], m[6]};
+  struct judge_spot c = {m[8], m[9], m[10]}, zero = {0, 0, 0};
+  double volume = spot_dot(a, spot_cross(b, c));
+  struct judge_spot spot = spot_along(zero, -m[3] / volume, spot_cross(b, c));
+  spot = spot_along(spot, -m[7] / volume, spot_cross(c, a));
+  return spot_along(spot, -m[11] / volume, spot_cross(a, b));
+}
+
+void judge_camera_matrix(struct judge_camera *camera, const double matrix[12],
+                         double width_mm, double height_mm) {
+  struct judge_spot third = {matrix[8], matrix[9], matrix[10]};
+  memset(camera, 0, sizeof *camera);
+  camera->perspective = spot_length(third) > 0;
+  /* A depth in scene units, or the plain 1 of an orthographic view. */
+  double scale = camera->perspective ? 1 / spot_length(third) : 1 / matrix[11];
+  for (int i = 0; i < 12; i++)
+    camera->matrix[i] = matrix[i] * scale;
+  if (camera->perspective) {
+    camera->eye = common_spot(camera->matrix);
+  } else {
+    struct judge_spot x = {matrix[0], matrix[1], matrix[2]};
+    struct judge_spot y = {matrix[4], matrix[5], matrix[6]};
+    camera->back = spot_unit(spot_cross(x, y));
+  }
+  camera->width_mm = width_mm;
+  camera->height_mm = height_mm;
+}
+
+static double apply_row(const double row[4], struct judge_spot p) {
+  return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
+}
+
+double judge_depth(const struct judge_camera *camera, struct judge_spot p) {
+  return apply_row(camera->matrix + 8, p);
+}
+
+struct judge_place judge_project(const struct judge_camera *camera,
+                                 struct judge_spot p) {
+  double depth = judge_depth(camera, p);
+  return (struct judge_place){apply_row(camera->matrix, p) / depth,
+                              apply_row(camera->matrix + 4, p) / depth};
+}
+
+/* With P's image at m(P) / d(P), a step v that keeps the depth moves it by
+ * (row_x . v, row_y . v) / d.  Of all such v the one wanted is a combination
+ * of the rows' parts across the view direction. */
+struct judge_spot judge_shift(const struct judge_camera *camera,
+                              struct judge_spot p, double dx, double dy) {
+  const double *m = camera->matrix;
+  struct judge_spot x = {m[0], m[1], m[2]}, y = {m[4], m[5], m[6]};
+  struct judge_spot ahead =
+      camera->perspective ? judge_spot_of(m[8], m[9], m[10]) : camera->back;
+  x = spot_along(x, -spot_dot(x, ahead), ahead);
+  y = spot_along(y, -spot_dot(y, ahead), ahead);
+  double depth = judge_depth(camera, p);
+  p = spot_along(p, dx * depth / spot_dot(x, x), x);
+  return spot_along(p, dy * depth / spot_dot(y, y), y);
+}

@@ -1,0 +1,34 @@
+/* grid.h - segments on the page, found by place. */
+#ifndef JUDGE_GRID_H
+#define JUDGE_GRID_H
+
+#include "tests/judge/triangles.h"
+
+struct judge_segment {
+  struct judge_place a, b;
+};
+
+struct judge_grid {
+  const struct judge_segment *segment; /* lent */
+  double cell_mm, reach_mm;
+  uint32_t columns, rows;
+  uint32_t *start, *item; /* cell -> numbers of segments */
+};
+
+/* Sorts segments into the cells of a page that are within reach of them.
+ * What lies beyond the page is left out. */
+void judge_grid_init(struct judge_grid *grid,
+                     const struct judge_segment *segment, uint32_t count,
+                     double width_mm, double height_mm, double cell_mm,
+                     double reach_mm);
+void judge_grid_fini(struct judge_grid *grid);
+
+/* The segments that may be within reach of a place; *count of them. */
+const uint32_t *judge_grid_near(const struct judge_grid *grid,
+                                struct judge_place at, uint32_t *count);
+
+/* The distance from a place to a segment; where along it, 0 to 1, in *t. */
+double judge_distance(const struct judge_segment *segment,
+                      struct judge_place at, double *t);
+
+#endif

@@ -1,0 +1,273 @@
+/* triangles.c - see triangles.h.
+ *
+ * The tree is built from the top: a node's triangles are parted at the middle
+ * of their centroids' longest extent, which suits meshes of even density. */
+#include "tests/judge/triangles.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/judge/ears.h"
+
+enum { leaf_size = 4, depth_max = 128 };
+
+void judge_require(bool good) {
+  if (good)
+    return;
+  fputs("judge: out of memory\n", stderr);
+  abort();
+}
+
+static struct judge_spot spot_at(const struct scene *scene, uint32_t point) {
+  const struct scene_point *p = &scene->point.item[point];
+  return judge_spot_of(p->x, p->y, p->z);
+}
+
+/* ---- Boxes -----------------------------------------------------------------
+ */
+
+static struct judge_box empty_box(void) {
+  struct judge_box box;
+  for (int k = 0; k < 3; k++) {
+    box.low[k] = INFINITY;
+    box.high[k] = -INFINITY;
+  }
+  return box;
+}
+
+static void grow_box(struct judge_box *box, struct judge_spot p) {
+  const double at[3] = {p.x, p.y, p.z};
+  for (int k = 0; k < 3; k++) {
+    box->low[k] = fmin(box->low[k], at[k]);
+    box->high[k] = fmax(box->high[k], at[k]);
+  }
+}
+
+struct judge_box judge_triangle_box(const struct judge_triangle *triangle) {
+  struct judge_box box = empty_box();
+  for (int k = 0; k < 3; k++)
+    grow_box(&box, triangle->p[k]);
+  return box;
+}
+
+static double centroid_3(const struct judge_triangle *t, int axis) {
+  if (axis == 0)
+    return t->p[0].x + t->p[1].x + t->p[2].x;
+  if (axis == 1)
+    return t->p[0].y + t->p[1].y + t->p[2].y;
+  return t->p[0].z + t->p[1].z + t->p[2].z;
+}
+
+/* ---- The tree
+ * ---------------------------------------------------------------- */
+
+/* Parts triangles [first, first + count) by the middle of their longest
+ * extent; returns how many come first, 0 where they cannot be parted. */
+static uint32_t part_triangles(struct judge_triangle *t, uint32_t count) {
+  struct judge_box box = empty_box();
+  for (uint32_t i = 0; i < count; i++)
+    grow_box(&box, judge_spot_of(centroid_3(&t[i], 0), centroid_3(&t[i], 1),
+                                 centroid_3(&t[i], 2)));
+  int axis = 0;
+  for (int k = 1; k < 3; k++)
+    if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis])
+      axis = k;
+  double middle = (box.low[axis] + box.high[axis]) / 2;
+  uint32_t low = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    if (centroid_3(&t[i], axis) >= middle)
+      continue;
+    struct judge_triangle swap = t[i];
+    t[i] = t[low];
+    t[low++] = swap;
+  }
+  return low == count ? 0 : low;
+}
+
+static void build_tree(struct judge_triangles *all) {
+  uint32_t total = (uint32_t)all->triangle.count;
+  all->node = mem_alloc(2 * (size_t)total + 1, sizeof *all->node);
+  judge_require(all->node != NULL);
+  all->nodes = 1;
+  all->node[0] = (struct judge_node){.first = 0, .count = total};
+  /* Children come after their parent: one pass serves as the stack. */
+  for (size_t i = 0; i < all->nodes; i++) {
+    struct judge_node *node = &all->node[i];
+    struct judge_triangle *t = all->triangle.item + node->first;
+    node->box = empty_box();
+    for (uint32_t k = 0; k < node->count; k++)
+      for (int j = 0; j < 3; j++)
+        grow_box(&node->box, t[k].p[j]);
+    uint32_t low = node->count > leaf_size ? part_triangles(t, node->count) : 0;
+    if (low == 0)
+      continue;
+    struct judge_node left = {.first = node->first, .count = low};
+    struct judge_node right = {.first = node->first + low,
+                               .count = node->count - low};
+    node->first = (uint32_t)all->nodes;
+    node->count = 0;
+    all->node[all->nodes++] = left;
+    all->node[all->nodes++] = right;
+  }
+}
+
+/* ---- Triangles
+ * ----------------------------------------------------------------- */
+
+static void add_triangle(struct judge_triangles *all, const struct scene *scene,
+                         const uint32_t *corner, const uint32_t ear[3],
+                         uint32_t face) {
+  struct judge_triangle t = {.face = face};
+  for (int k = 0; k < 3; k++) {
+    t.point[k] = corner[ear[k]];
+    t.p[k] = spot_at(scene, t.point[k]);
+  }
+  struct judge_spot normal =
+      spot_cross(spot_sub(t.p[1], t.p[0]), spot_sub(t.p[2], t.p[0]));
+  if (spot_length(normal) > 0)
+    t.normal = spot_unit(normal);
+  judge_require(ARRAY_PUSH(&all->triangle, t));
+}
+
+void judge_triangles_init(struct judge_triangles *all,
+                          const struct scene *scene) {
+  struct judge_box box = empty_box();
+  memset(all, 0, sizeof *all);
+  for (uint32_t i = 0; i < scene_face_count(scene); i++) {
+    uint32_t start = scene->face_start.item[i];
+    uint32_t count = scene->face_start.item[i + 1] - start;
+    const uint32_t *corner = scene->corner.item + start;
+    uint32_t(*ear)[3] = mem_alloc(count, sizeof *ear);
+    judge_require(ear != NULL);
+    uint32_t ears = judge_cut_ears(scene, corner, count, ear);
+    for (uint32_t k = 0; k < ears; k++)
+      add_triangle(all, scene, corner, ear[k], i);
+    mem_free(ear);
+  }
+  for (size_t i = 0; i < scene->point.count; i++)
+    grow_box(&box, spot_at(scene, (uint32_t)i));
+  all->size = spot_length(judge_spot_of(box.high[0] - box.low[0],
+                                        box.high[1] - box.low[1],
+                                        box.high[2] - box.low[2]));
+  build_tree(all);
+}
+
+void judge_triangles_fini(struct judge_triangles *all) {
+  ARRAY_FREE(&all->triangle);
+  mem_free(all->node);
+}
+
+/* ---- Rays
+ * ------------------------------------------------------------------------ */
+
+struct ray {
+  double from[3], inverse[3]; /* 1 / direction, infinite for 0 */
+  struct judge_spot origin, towards;
+  double reach;
+};
+
+static bool ray_meets_box(const struct ray *ray, const struct judge_box *box) {
+  double t0 = 0, t1 = ray->reach;
+  for (int k = 0; k < 3; k++) {
+    if (isinf(ray->inverse[k])) {
+      if (ray->from[k] < box->low[k] || ray->from[k] > box->high[k])
+        return false;
+      continue;
+    }
+    double a = (box->low[k] - ray->from[k]) * ray->inverse[k];
+    double b = (box->high[k] - ray->from[k]) * ray->inverse[k];
+    t0 = fmax(t0, a < b ? a : b);
+    t1 = fmin(t1, a < b ? b : a);
+  }
+  return t0 <= t1;
+}
+
+/* Whether the ray meets the triangle: it has all three sides on one hand
+ * (signed volumes with the ray's direction).  A ray along a side meets it, so
+ * that none slips through between two triangles. */
+static bool ray_meets_triangle(const struct ray *ray,
+                               const struct judge_triangle *t) {
+  struct judge_spot a = spot_sub(t->p[0], ray->origin);
+  struct judge_spot b = spot_sub(t->p[1], ray->origin);
+  struct judge_spot c = spot_sub(t->p[2], ray->origin);
+  double u = spot_dot(ray->towards, spot_cross(a, b));
+  double v = spot_dot(ray->towards, spot_cross(b, c));
+  double w = spot_dot(ray->towards, spot_cross(c, a));
+  if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)))
+    return false;
+  double along = spot_dot(t->normal, ray->towards);
+  double at = spot_dot(t->normal, a) / along;
+  return at > 0 && at < ray->reach;
+}
+
+static enum judge_sight look_at(const struct ray *ray,
+                                const struct judge_triangle *t, double touch,
+                                double beyond) {
+  double away = fabs(spot_dot(t->normal, spot_sub(t->p[0], ray->origin)));
+  if (away <= touch || !ray_meets_triangle(ray, t))
+    return JUDGE_CLEAR;
+  return away > beyond ? JUDGE_BLOCKED : JUDGE_UNSURE;
+}
+
+enum judge_sight judge_look(const struct judge_triangles *all,
+                            struct judge_spot from, struct judge_spot towards,
+                            double reach, double touch, double beyond) {
+  struct ray ray = {{from.x, from.y, from.z},
+                    {1 / towards.x, 1 / towards.y, 1 / towards.z},
+                    from,
+                    towards,
+                    reach};
+  uint32_t stack[depth_max];
+  unsigned depth = 0;
+  enum judge_sight sight = JUDGE_CLEAR;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const struct judge_node *node = &all->node[stack[--depth]];
+    if (!ray_meets_box(&ray, &node->box))
+      continue;
+    if (node->count == 0) {
+      judge_require(depth + 2 <= depth_max);
+      stack[depth++] = node->first;
+      stack[depth++] = node->first + 1;
+      continue;
+    }
+    for (uint32_t i = 0; i < node->count; i++) {
+      enum judge_sight seen =
+          look_at(&ray, &all->triangle.item[node->first + i], touch, beyond);
+      if (seen == JUDGE_BLOCKED)
+        return seen;
+      sight = seen == JUDGE_UNSURE ? seen : sight;
+    }
+  }
+  return sight;
+}
+
+static bool boxes_meet(const struct judge_box *a, const struct judge_box *b) {
+  for (int k = 0; k < 3; k++)
+    if (a->high[k] < b->low[k] || b->high[k] < a->low[k])
+      return false;
+  return true;
+}
+
+void judge_triangles_near(const struct judge_triangles *all,
+                          const struct judge_box *box,
+                          void (*found)(void *user, uint32_t triangle),
+                          void *user) {
+  uint32_t stack[depth_max];
+  unsigned depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const struct judge_node *node = &all->node[stack[--depth]];
+    if (!boxes_meet(&node->box, box))
+      continue;
+    if (node->count == 0) {
+      judge_require(depth + 2 <= depth_max);
+      stack[depth++] = node->first;
+      stack[depth++] = node->first + 1;
+      continue;
+    }
+    for (uint32_t i = 0; i < node->count; i++)
+      found(user, node->first + i);
+  }
+}

@@ -1,0 +1,92 @@
+/* triangles.h - the judge's triangles, their bounding volumes and rays. */
+#ifndef JUDGE_TRIANGLES_H
+#define JUDGE_TRIANGLES_H
+
+#include <math.h>
+
+#include "scene/scene.h"
+
+struct judge_place {
+  double x, y; /* page mm */
+};
+
+struct judge_spot {
+  double x, y, z; /* scene units */
+};
+
+static inline struct judge_spot judge_spot_of(double x, double y, double z) {
+  return (struct judge_spot){x, y, z};
+}
+static inline struct judge_spot spot_sub(struct judge_spot a,
+                                         struct judge_spot b) {
+  return judge_spot_of(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+/* a + t b */
+static inline struct judge_spot spot_along(struct judge_spot a, double t,
+                                           struct judge_spot b) {
+  return judge_spot_of(a.x + t * b.x, a.y + t * b.y, a.z + t * b.z);
+}
+static inline struct judge_spot spot_cross(struct judge_spot a,
+                                           struct judge_spot b) {
+  return judge_spot_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
+                       a.x * b.y - a.y * b.x);
+}
+static inline double spot_dot(struct judge_spot a, struct judge_spot b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static inline double spot_length(struct judge_spot a) {
+  return sqrt(spot_dot(a, a));
+}
+static inline struct judge_spot spot_unit(struct judge_spot a) {
+  return spot_along(judge_spot_of(0, 0, 0), 1 / spot_length(a), a);
+}
+
+struct judge_triangle {
+  struct judge_spot p[3];
+  struct judge_spot normal; /* unit; 0 where the triangle has no area */
+  uint32_t point[3];        /* scene points */
+  uint32_t face;            /* scene face */
+};
+
+struct judge_box {
+  double low[3], high[3];
+};
+
+/* A tree of boxes over triangles, which it holds in its own order. */
+struct judge_triangles {
+  ARRAY(struct judge_triangle) triangle;
+  struct judge_node {
+    struct judge_box box;
+    uint32_t first; /* of its triangles, or its left child; right follows */
+    uint32_t count; /* of its triangles; 0: a node with two children */
+  } * node;
+  size_t nodes;
+  double size; /* diagonal of the box of all points that faces use */
+};
+
+/* Cuts faces into triangles and builds the tree.  Cost: n log n. */
+void judge_triangles_init(struct judge_triangles *all,
+                          const struct scene *scene);
+void judge_triangles_fini(struct judge_triangles *all);
+
+enum judge_sight { JUDGE_CLEAR, JUDGE_UNSURE, JUDGE_BLOCKED };
+
+/* What a point sees along a direction, for 0 < t < reach.
+ * touch   planes no farther than this from the point block nothing
+ * beyond  planes farther than this from it do */
+enum judge_sight judge_look(const struct judge_triangles *all,
+                            struct judge_spot from, struct judge_spot towards,
+                            double reach, double touch, double beyond);
+
+/* Calls found(user, i) for the triangles whose boxes meet `box`. */
+void judge_triangles_near(const struct judge_triangles *all,
+                          const struct judge_box *box,
+                          void (*found)(void *user, uint32_t triangle),
+                          void *user);
+
+struct judge_box judge_triangle_box(const struct judge_triangle *triangle);
+
+/* Ends the program unless `good`. */
+void judge_require(bool good);
+
+#endif

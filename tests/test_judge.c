@@ -1,0 +1,414 @@
+/* test_judge.c - the judge accepts right drawings and rejects wrong ones.
+ *
+ * The drawings are made here by hand: what shows of a convex solid is known
+ * without any solver. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/judge/judge.h"
+#include "tests/scenes/scenes.h"
+
+/* An SVG file that is being written. */
+struct page {
+  char text[60000];
+  size_t length;
+  struct judge_camera camera;
+};
+
+static void write_text(struct page *page, const char *text) {
+  size_t length = strlen(text);
+  assert_true(page->length + length < sizeof page->text);
+  memcpy(page->text + page->length, text, length + 1);
+  page->length += length;
+}
+
+static void open_page(struct page *page) {
+  page->length = 0;
+  write_text(page, "<?xml version=\"1.0\"?>\n"
+                   "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100mm\""
+                   " height=\"100mm\" viewBox=\"0 0 100 100\">\n"
+                   "<g inkscape:label=\"1 visible\" fill=\"none\">\n");
+}
+
+/* Draws a straight line between two spots, in the design's own words: a point
+ * at camera coordinates (x, y, -d) falls on W/2 + s x/d, H/2 + s y/d. */
+static void draw_line(struct page *page, struct vector a, struct vector b) {
+  struct judge_place at[2];
+  const double *m = page->camera.matrix;
+  const struct vector end[2] = {a, b};
+  for (int i = 0; i < 2; i++) {
+    struct vector p = end[i];
+    double d = m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11];
+    at[i].x = (m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]) / d;
+    at[i].y = (m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7]) / d;
+  }
+  char line[120];
+  snprintf(line, sizeof line, "<path d=\"M%.3f %.3fL%.3f %.3f\"/>\n", at[0].x,
+           100 - at[0].y, at[1].x, 100 - at[1].y);
+  write_text(page, line);
+}
+
+static struct judge_verdict
+judge_page(struct page *page, const struct scene *scene, unsigned edges) {
+  struct judge_drawing drawing;
+  struct judge_verdict verdict;
+  struct judge_options options;
+  judge_options_init(&options);
+  options.edges = edges;
+  write_text(page, "</g>\n</svg>\n");
+  assert_null(judge_read_svg(&drawing, page->text, page->length));
+  judge_drawing(&verdict, &drawing, scene, &page->camera, &options);
+  judge_drawing_fini(&drawing);
+  return verdict;
+}
+
+static void look_from(struct page *page, double x, double y, double z) {
+  judge_camera_look(&page->camera, judge_spot_of(x, y, z),
+                    judge_spot_of(0, 0, 0), judge_spot_of(0, 0, 1), 30, 100,
+                    100, 0);
+}
+
+/* ---- A cube ----------------------------------------------------------------
+ */
+
+static struct vector corner_of(unsigned i) {
+  return vector_of(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+}
+
+/* Whether an edge of the cube is seen from (x, y, z), all beyond 1: it is
+ * unless it lies on the far side in both of its fixed coordinates. */
+static bool is_seen(unsigned a, unsigned b) { return (a & b) != 0; }
+
+/* Draws the cube's edges for which wanted(number, seen) holds. */
+static void draw_cube(struct page *page, bool (*wanted)(unsigned, bool)) {
+  unsigned number = 0;
+  for (unsigned a = 0; a < 8; a++)
+    for (unsigned axis = 1; axis <= 4; axis *= 2)
+      if (!(a & axis)) {
+        if (wanted(number, is_seen(a, a | axis)))
+          draw_line(page, corner_of(a), corner_of(a | axis));
+        number++;
+      }
+}
+
+static bool want_seen(unsigned number, bool seen) {
+  (void)number;
+  return seen;
+}
+static bool want_all(unsigned number, bool seen) {
+  (void)number;
+  (void)seen;
+  return true;
+}
+static unsigned left_out;
+static bool want_all_but_one(unsigned number, bool seen) {
+  return seen && number != left_out;
+}
+static unsigned put_in;
+static bool want_one_more(unsigned number, bool seen) {
+  return seen || number == put_in;
+}
+
+static void fill_cube(struct scene *scene) {
+  scene_init(scene);
+  build_box(scene, vector_of(-1, -1, -1), vector_of(1, 1, 1));
+}
+
+static struct judge_verdict judge_cube(bool (*wanted)(unsigned, bool)) {
+  struct page page;
+  struct scene scene;
+  fill_cube(&scene);
+  open_page(&page);
+  look_from(&page, 5, 6, 4);
+  draw_cube(&page, wanted);
+  struct judge_verdict verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+  scene_fini(&scene);
+  return verdict;
+}
+
+static void a_right_drawing_of_a_cube_is_accepted(void **state) {
+  (void)state;
+  struct judge_verdict verdict = judge_cube(want_seen);
+  assert_true(verdict.drawn > 1000);
+  assert_true(verdict.visible > 1000);
+  assert_int_equal(verdict.false_ink, 0);
+  assert_int_equal(verdict.missing, 0);
+}
+
+static void any_hidden_edge_drawn_is_false_ink(void **state) {
+  (void)state;
+  unsigned hidden = 0;
+  for (put_in = 0; put_in < 12; put_in++) {
+    struct judge_verdict verdict = judge_cube(want_one_more);
+    hidden += verdict.false_ink > 0;
+    assert_int_equal(verdict.missing, 0);
+  }
+  assert_int_equal(hidden, 3);
+  struct judge_verdict verdict = judge_cube(want_all);
+  assert_true(verdict.false_ink > 500);
+}
+
+static void any_visible_edge_left_out_is_missing_ink(void **state) {
+  (void)state;
+  unsigned seen = 0;
+  for (left_out = 0; left_out < 12; left_out++) {
+    struct judge_verdict verdict = judge_cube(want_all_but_one);
+    seen += verdict.missing > 0;
+    assert_int_equal(verdict.false_ink, 0);
+  }
+  assert_int_equal(seen, 9);
+}
+
+static void ink_where_no_edge_is_is_false(void **state) {
+  (void)state;
+  struct page page;
+  struct scene scene;
+  fill_cube(&scene);
+  open_page(&page);
+  look_from(&page, 5, 6, 4);
+  draw_cube(&page, want_seen);
+  draw_line(&page, vector_of(1, -0.5, -0.5), vector_of(1, 0.5, 0.5));
+  struct judge_verdict verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+  assert_true(verdict.false_ink > 100);
+  assert_int_equal(verdict.missing, 0);
+  scene_fini(&scene);
+}
+
+static void half_an_edge_is_half_missing(void **state) {
+  (void)state;
+  struct page page;
+  struct scene scene;
+  fill_cube(&scene);
+  open_page(&page);
+  look_from(&page, 5, 6, 4);
+  left_out = 11; /* from corner 6 to corner 7 */
+  draw_cube(&page, want_all_but_one);
+  draw_line(&page, corner_of(6), vector_of(0, 1, 1));
+  struct judge_verdict verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+  /* The half that is missing, by the judge's own sampling. */
+  const double *m = page.camera.matrix;
+  double x[2], y[2];
+  for (int i = 0; i < 2; i++) {
+    double d = m[8] * i + m[9] + m[10] + m[11];
+    x[i] = (m[0] * i + m[1] + m[2] + m[3]) / d;
+    y[i] = (m[4] * i + m[5] + m[6] + m[7]) / d;
+  }
+  double missing_mm = 0.02 * (double)verdict.missing;
+  assert_int_equal(verdict.false_ink, 0);
+  assert_true(fabs(missing_mm - hypot(x[1] - x[0], y[1] - y[0])) < 0.1);
+  scene_fini(&scene);
+}
+
+static void a_matrix_says_the_same_as_a_camera(void **state) {
+  (void)state;
+  struct page page;
+  struct judge_camera again;
+  double matrix[12];
+  look_from(&page, 5, 6, 4);
+  for (int i = 0; i < 12; i++)
+    matrix[i] = 3 * page.camera.matrix[i];
+  judge_camera_matrix(&again, matrix, 100, 100);
+  assert_true(again.perspective);
+  assert_true(fabs(again.eye.x - 5) < 1e-9);
+  assert_true(fabs(again.eye.y - 6) < 1e-9);
+  assert_true(fabs(again.eye.z - 4) < 1e-9);
+}
+
+/* ---- Other scenes
+ * ------------------------------------------------------------ */
+
+static void look_square_on(struct page *page) {
+  /* Page mm = 50 + 10 x, 50 + 10 y, seen along -z. */
+  static const double matrix[12] = {10, 0, 0, 50, 0, 10, 0, 50, 0, 0, 0, 1};
+  judge_camera_matrix(&page->camera, matrix, 100, 100);
+  assert_false(page->camera.perspective);
+  assert_true(page->camera.back.z == 1);
+}
+
+static void draw_loop(struct page *page, const double *xyz, unsigned count) {
+  for (unsigned i = 0; i < count; i++) {
+    const double *a = xyz + 3 * i, *b = xyz + 3 * ((i + 1) % count);
+    draw_line(page, vector_of(a[0], a[1], a[2]), vector_of(b[0], b[1], b[2]));
+  }
+}
+
+static const double notched[8 * 3] = {-3, -3, 1, 3,  -3, 1, 3,  3, 1, 1,  3, 1,
+                                      1,  -1, 1, -1, -1, 1, -1, 3, 1, -3, 3, 1};
+
+static void what_lies_in_a_notch_is_seen(void **state) {
+  (void)state;
+  struct page page;
+  struct scene scene;
+  scene_init(&scene);
+  build_polygon(&scene, notched, 8);
+  build_segment(&scene, build_point(&scene, -0.5, 1, 0),
+                build_point(&scene, 0.5, 1, 0));
+  build_segment(&scene, build_point(&scene, -2, -2, 0),
+                build_point(&scene, 2, -2, 0));
+  for (unsigned hidden_too = 0; hidden_too < 2; hidden_too++) {
+    open_page(&page);
+    look_square_on(&page);
+    draw_loop(&page, notched, 8);
+    draw_line(&page, vector_of(-0.5, 1, 0), vector_of(0.5, 1, 0));
+    if (hidden_too)
+      draw_line(&page, vector_of(-2, -2, 0), vector_of(2, -2, 0));
+    struct judge_verdict verdict =
+        judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+    assert_int_equal(verdict.missing, 0);
+    assert_int_equal(verdict.false_ink > 0, hidden_too);
+  }
+  scene_fini(&scene);
+}
+
+static void lines_where_faces_pierce_are_asked_for(void **state) {
+  (void)state;
+  struct page page;
+  struct scene scene;
+  scene_init(&scene);
+  static const double flat[12] = {-3, -3, 0, 3, -3, 0, 3, 3, 0, -3, 3, 0};
+  build_polygon(&scene, flat, 4);
+  /* Through it along x = 0, from y = -2 to 2; its right half is behind. */
+  static const double tilted[12] = {-1, -2, 1, 1, -2, -1, 1, 2, -1, -1, 2, 1};
+  build_polygon(&scene, tilted, 4);
+  for (unsigned with_line = 0; with_line < 2; with_line++) {
+    open_page(&page);
+    look_square_on(&page);
+    draw_loop(&page, flat, 4);
+    draw_line(&page, vector_of(-1, 2, 1), vector_of(-1, -2, 1));
+    draw_line(&page, vector_of(-1, 2, 1), vector_of(0, 2, 0));
+    draw_line(&page, vector_of(-1, -2, 1), vector_of(0, -2, 0));
+    if (with_line)
+      draw_line(&page, vector_of(0, -2, 0), vector_of(0, 2, 0));
+    struct judge_verdict verdict =
+        judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+    assert_int_equal(verdict.false_ink, 0);
+    assert_int_equal(verdict.missing == 0, with_line);
+  }
+  scene_fini(&scene);
+}
+
+static void contact_does_not_hide(void **state) {
+  (void)state;
+  struct page page;
+  struct scene scene;
+  scene_init(&scene);
+  /* A wire below a plate by a third of the contact tolerance, and a wire
+   * below it by a hundred times as much. */
+  static const double plate[12] = {-3, -3, 0, 3, -3, 0, 3, 3, 0, -3, 3, 0};
+  build_polygon(&scene, plate, 4);
+  double touching = -8.5e-6 / 3;
+  build_segment(&scene, build_point(&scene, -2, -1, touching),
+                build_point(&scene, 2, -1, touching));
+  build_segment(&scene, build_point(&scene, -2, 1, -1e-3),
+                build_point(&scene, 2, 1, -1e-3));
+  open_page(&page);
+  look_square_on(&page);
+  draw_loop(&page, plate, 4);
+  struct judge_verdict verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+  assert_int_equal(verdict.false_ink, 0);
+  assert_in_range(verdict.missing, 1900, 2100);
+  assert_true(fabs(verdict.missing_at.y - 40) < 0.01);
+  scene_fini(&scene);
+}
+
+static void smooth_edges_are_asked_for_by_all_alone(void **state) {
+  (void)state;
+  struct page page;
+  struct scene scene;
+  scene_init(&scene);
+  uint32_t first = build_point(&scene, -3, -3, 0);
+  build_point(&scene, 3, -3, 0);
+  build_point(&scene, 3, 3, 0);
+  build_point(&scene, -3, 3, 0);
+  build_triangle(&scene, first, first + 1, first + 2);
+  build_triangle(&scene, first, first + 2, first + 3);
+  static const double square[12] = {-3, -3, 0, 3, -3, 0, 3, 3, 0, -3, 3, 0};
+  for (unsigned all = 0; all < 2; all++) {
+    open_page(&page);
+    look_square_on(&page);
+    draw_loop(&page, square, 4);
+    struct judge_verdict verdict =
+        judge_page(&page, &scene, all ? RECTO_EDGES_ALL : RECTO_EDGES_DEFAULT);
+    assert_int_equal(verdict.missing > 0, all);
+    assert_int_equal(verdict.false_ink, 0);
+  }
+  scene_fini(&scene);
+}
+
+/* ---- The reader
+ * ----------------------------------------------------------------- */
+
+static const char *read_text(struct judge_drawing *drawing, const char *text) {
+  return judge_read_svg(drawing, text, strlen(text));
+}
+
+#define ROOT "<svg width=\"20mm\" height=\"10mm\" viewBox=\"0 0 20 10\">"
+
+static void paths_and_polylines_are_read(void **state) {
+  (void)state;
+  struct judge_drawing drawing;
+  assert_null(read_text(
+      &drawing,
+      ROOT "<g inkscape:label=\"1 visible\"><path d=\"M1 2L3 4.5L-.5 0Z\"/>"
+           "<path d=\"M1 1L2 2M3 3L4 4\"/></g>"
+           "<g inkscape:label=\"2 hidden\"><polyline points=\"0,0 5,5\"/></g>"
+           "<path fill=\"#808080\" d=\"M0 0L1 0L1 1Z\"/></svg>"));
+  assert_true(drawing.width_mm == 20 && drawing.height_mm == 10);
+  assert_int_equal(drawing.stroke.count, 4);
+  assert_int_equal(drawing.stroke.item[0].count, 4);
+  assert_int_equal(drawing.stroke.item[1].count, 2);
+  assert_false(drawing.stroke.item[2].hidden);
+  assert_true(drawing.stroke.item[3].hidden);
+  assert_true(drawing.point.item[1].x == 3);
+  assert_true(drawing.point.item[1].y == 5.5);
+  assert_true(drawing.point.item[2].x == -0.5);
+  assert_true(drawing.point.item[3].x == 1);
+  judge_drawing_fini(&drawing);
+}
+
+static void what_is_not_such_a_file_is_refused(void **state) {
+  (void)state;
+  static const char *const wrong[] = {
+      "",
+      "no tags",
+      "<svg width=\"20\" height=\"10\" viewBox=\"0 0 20 10\"></svg>",
+      "<svg width=\"20mm\" height=\"10mm\"></svg>",
+      "<svg width=\"20mm\" height=\"10mm\" viewBox=\"0 0 40 20\"></svg>",
+      "<path d=\"M0 0\"/>" ROOT,
+      ROOT "<path d=\"M0 0C1 1 2 2 3 3\"/></svg>",
+      ROOT "<path d=\"L1 1\"/></svg>",
+      ROOT "<path d=\"M1\"/></svg>",
+      ROOT "<path d=\"M1 x\"/></svg>",
+      ROOT "<path/></svg>",
+      ROOT "<polyline points=\"1,\"/></svg>",
+  };
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+    struct judge_drawing drawing;
+    assert_non_null(read_text(&drawing, wrong[i]));
+    judge_drawing_fini(&drawing);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_right_drawing_of_a_cube_is_accepted),
+      cmocka_unit_test(any_hidden_edge_drawn_is_false_ink),
+      cmocka_unit_test(any_visible_edge_left_out_is_missing_ink),
+      cmocka_unit_test(ink_where_no_edge_is_is_false),
+      cmocka_unit_test(half_an_edge_is_half_missing),
+      cmocka_unit_test(a_matrix_says_the_same_as_a_camera),
+      cmocka_unit_test(what_lies_in_a_notch_is_seen),
+      cmocka_unit_test(lines_where_faces_pierce_are_asked_for),
+      cmocka_unit_test(contact_does_not_hide),
+      cmocka_unit_test(smooth_edges_are_asked_for_by_all_alone),
+      cmocka_unit_test(paths_and_polylines_are_read),
+      cmocka_unit_test(what_is_not_such_a_file_is_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
