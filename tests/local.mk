@@ -35,6 +35,10 @@ unit_tests += %D%/test_scenes
 %C%_test_scenes_SOURCES = %D%/test_scenes.c
 %C%_test_scenes_LDADD = %D%/scenes/libscenes.la $(LDADD)
 
+unit_tests += %D%/test_subdivide
+%C%_test_subdivide_SOURCES = %D%/test_subdivide.c
+%C%_test_subdivide_LDADD = %D%/scenes/libscenes.la $(LDADD)
+
 unit_tests += %D%/test_judge
 %C%_test_judge_SOURCES = %D%/test_judge.c
 %C%_test_judge_LDADD = %D%/judge/libjudge.la %D%/scenes/libscenes.la $(LDADD)
@@ -43,3 +47,15 @@ EXTRA_DIST += %D%/tap.sh
 dist_check_SCRIPTS += \
   %D%/test_cli.sh \
   %D%/test_structure.sh
+
+# Drawings made by hand, for the writers.
+unit_tests += %D%/test_hpgl
+%C%_test_hpgl_SOURCES = %D%/test_hpgl.c \
+  %D%/hpgl_reader.c %D%/hpgl_reader.h %D%/maker.c %D%/maker.h
+if HAVE_CAIRO
+unit_tests += %D%/test_cairo
+endif
+%C%_test_cairo_SOURCES = %D%/test_cairo.c %D%/maker.c %D%/maker.h
+check_PROGRAMS += %D%/paper_tool
+%C%_paper_tool_SOURCES = %D%/paper_tool.c %D%/maker.c %D%/maker.h
+dist_check_SCRIPTS += %D%/test_paper.sh %D%/test_same_picture.sh

@@ -16,4 +16,5 @@ check_LTLIBRARIES += %D%/libscenes.la
   %D%/scenes.h \
   %D%/small.c \
   %D%/solids.c \
+  %D%/subdivide.c %D%/subdivide.h \
   %D%/surfaces.c
