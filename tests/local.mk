@@ -59,3 +59,18 @@ endif
 check_PROGRAMS += %D%/paper_tool
 %C%_paper_tool_SOURCES = %D%/paper_tool.c %D%/maker.c %D%/maker.h
 dist_check_SCRIPTS += %D%/test_paper.sh %D%/test_same_picture.sh
+
+# Layer 0.
+unit_tests += %D%/test_memory
+%C%_test_memory_SOURCES = %D%/test_memory.c
+unit_tests += %D%/test_number
+%C%_test_number_SOURCES = %D%/test_number.c %D%/comma.c %D%/comma.h
+unit_tests += %D%/test_report
+%C%_test_report_SOURCES = %D%/test_report.c %D%/comma.c %D%/comma.h
+unit_tests += %D%/test_sort
+%C%_test_sort_SOURCES = %D%/test_sort.c
+unit_tests += %D%/test_status
+%C%_test_status_SOURCES = %D%/test_status.c
+unit_tests += %D%/test_stream
+%C%_test_stream_SOURCES = %D%/test_stream.c \
+  %D%/temporary.c %D%/temporary.h

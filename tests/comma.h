@@ -1,0 +1,14 @@
+/* comma.h - a locale whose decimal point is a comma. */
+#ifndef TESTS_COMMA_H
+#define TESTS_COMMA_H
+
+#include <stdbool.h>
+
+/* Switches to such a locale: one that is installed or, where none is, one made
+ * for the purpose.  False where neither can be had. */
+bool comma_on(void);
+
+/* Back to the C locale. */
+void comma_off(void);
+
+#endif

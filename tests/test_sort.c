@@ -1,0 +1,162 @@
+/* test_sort.c - sorting is right and stable. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "base/sort.h"
+#include "tests/scenes/random.h"
+
+/* ---- Keys -----------------------------------------------------------------
+ */
+
+/* Each value is the item's place before sorting. */
+static void assert_sorted_stably(const struct sort_key *item, size_t count) {
+  for (size_t i = 1; i < count; i++) {
+    assert_true(item[i - 1].key <= item[i].key);
+    if (item[i - 1].key == item[i].key)
+      assert_true(item[i - 1].value < item[i].value);
+  }
+}
+
+/* Sorts `count` random keys under a mask, and checks that they are the same
+ * ones afterwards. */
+static void sort_random_keys(struct random *random, size_t count,
+                             uint64_t mask) {
+  struct sort_key *item = calloc(count + 1, sizeof *item);
+  struct sort_key *scratch = calloc(count + 1, sizeof *scratch);
+  uint64_t *key = calloc(count + 1, sizeof *key);
+  assert_true(item && scratch && key);
+  for (size_t i = 0; i < count; i++) {
+    key[i] = random_next(random) & mask;
+    item[i] = (struct sort_key){key[i], (uint32_t)i};
+  }
+  scratch[count].value = item[count].value = 12345; /* not ours to touch */
+  sort_keys(item, scratch, count);
+  assert_int_equal(item[count].value, 12345);
+  assert_int_equal(scratch[count].value, 12345);
+  assert_sorted_stably(item, count);
+  for (size_t i = 0; i < count; i++) {
+    assert_true(item[i].value < count);
+    assert_true(item[i].key == key[item[i].value]);
+  }
+  free(item);
+  free(scratch);
+  free(key);
+}
+
+static void keys_are_sorted_stably_at_every_size(void **state) {
+  (void)state;
+  static const uint64_t masks[] = {UINT64_MAX,
+                                   0,
+                                   1,
+                                   7,
+                                   0x7ff,
+                                   0x800,
+                                   0xffffffff,
+                                   UINT64_C(1) << 63,
+                                   UINT64_C(0xfff0000000000000),
+                                   UINT64_C(0x8000000000000001)};
+  struct random random = {1};
+  for (size_t count = 0; count < 140; count++)
+    sort_random_keys(&random, count, masks[count % 10]);
+  for (size_t i = 0; i < 10; i++) {
+    sort_random_keys(&random, 3000, masks[i]);
+    sort_random_keys(&random, 20001, masks[i]);
+  }
+}
+
+static void sorted_and_reversed_keys_are_sorted(void **state) {
+  (void)state;
+  enum { COUNT = 5000 };
+  static struct sort_key item[COUNT], scratch[COUNT];
+  for (uint32_t i = 0; i < COUNT; i++)
+    item[i] = (struct sort_key){COUNT - i, i};
+  sort_keys(item, scratch, COUNT);
+  for (uint32_t i = 0; i < COUNT; i++)
+    assert_int_equal(item[i].value, COUNT - 1 - i);
+  sort_keys(item, scratch, COUNT);
+  for (uint32_t i = 0; i < COUNT; i++)
+    assert_int_equal(item[i].value, COUNT - 1 - i);
+}
+
+static void keys_of_signed_numbers_keep_their_order(void **state) {
+  (void)state;
+  static const int64_t number[] = {INT64_MIN, INT64_MIN + 1, -5, -1, 0, 1,
+                                   5,         INT64_MAX};
+  for (size_t i = 1; i < sizeof number / sizeof *number; i++)
+    assert_true(sort_key_of_int64(number[i - 1]) <
+                sort_key_of_int64(number[i]));
+}
+
+/* ---- Merging --------------------------------------------------------------
+ */
+
+struct record {
+  int key;
+  uint32_t place;
+  char rest[12];
+};
+
+/* Compares keys in the direction that `user` points to. */
+static int compare_records(const void *a, const void *b, void *user) {
+  const struct record *left = a, *right = b;
+  int direction = *(const int *)user;
+  return direction * ((left->key > right->key) - (left->key < right->key));
+}
+
+static void sort_random_records(struct random *random, uint32_t count, int keys,
+                                int direction) {
+  struct record *item = calloc(count + 1, sizeof *item);
+  assert_non_null(item);
+  for (uint32_t i = 0; i < count; i++)
+    item[i] = (struct record){random_int(random, 0, keys), i, "rest"};
+  assert_true(
+      sort_stable(item, count, sizeof *item, compare_records, &direction));
+  for (uint32_t i = 0; i < count; i++) {
+    assert_string_equal(item[i].rest, "rest");
+    if (i == 0)
+      continue;
+    int order = compare_records(&item[i - 1], &item[i], &direction);
+    assert_true(order < 0 || (order == 0 && item[i - 1].place < item[i].place));
+  }
+  free(item);
+}
+
+static void records_are_sorted_stably_at_every_size(void **state) {
+  (void)state;
+  struct random random = {2};
+  for (uint32_t count = 0; count < 200; count++)
+    sort_random_records(&random, count, 5 + (int)count / 2, count % 2 ? 1 : -1);
+  sort_random_records(&random, 20000, 100, 1);
+  sort_random_records(&random, 16384, 1000000, -1);
+}
+
+static void without_memory_nothing_is_sorted(void **state) {
+  (void)state;
+  struct record item[3] = {{3, 0, ""}, {1, 1, ""}, {2, 2, ""}};
+  struct record before[3];
+  int direction = 1;
+  memcpy(before, item, sizeof item);
+  mem_fail_after(1);
+  assert_false(sort_stable(item, 3, sizeof *item, compare_records, &direction));
+  mem_fail_after(0);
+  assert_memory_equal(item, before, sizeof item);
+  assert_true(sort_stable(item, 0, sizeof *item, compare_records, &direction));
+  assert_true(sort_stable(NULL, 0, sizeof *item, compare_records, &direction));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(keys_are_sorted_stably_at_every_size),
+      cmocka_unit_test(sorted_and_reversed_keys_are_sorted),
+      cmocka_unit_test(keys_of_signed_numbers_keep_their_order),
+      cmocka_unit_test(records_are_sorted_stably_at_every_size),
+      cmocka_unit_test(without_memory_nothing_is_sorted),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,325 @@
+/* test_stream.c - output appears whole or not at all. */
+#include <errno.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "base/stream.h"
+#include "tests/temporary.h"
+
+static struct stream *open_stream(const char *path) {
+  struct stream *stream;
+  recto_error error;
+  if (stream_open(&stream, path, &error) != RECTO_OK)
+    fail_msg("%s: %s", error.file, error.text);
+  return stream;
+}
+
+static void assert_file(const char *path, const char *text) {
+  size_t count = 0;
+  char *bytes = temporary_read(path, &count);
+  assert_non_null(bytes);
+  assert_int_equal(count, strlen(text));
+  assert_string_equal(bytes, text);
+  free(bytes);
+}
+
+static bool exists(const char *path) {
+  struct stat about;
+  return stat(path, &about) == 0;
+}
+
+/* ---- Files ----------------------------------------------------------------
+ */
+
+static void a_file_appears_when_it_is_finished(void **state) {
+  const char *path = temporary_path(state, "out.txt");
+  struct stream *stream = open_stream(path);
+  stream_text(stream, "one ");
+  stream_write(stream, "two\0", 4);
+  stream_number(stream, -1.25, 1);
+  stream_text(stream, " ");
+  stream_int(stream, -42);
+  assert_false(exists(path));
+  assert_int_equal(stream_status(stream), RECTO_OK);
+  recto_error error;
+  assert_int_equal(stream_finish(stream, &error), RECTO_OK);
+  size_t count;
+  char *bytes = temporary_read(path, &count);
+  assert_non_null(bytes);
+  assert_int_equal(count, 16);
+  assert_memory_equal(bytes, "one two\0-1.3 -42", 16);
+  free(bytes);
+  assert_int_equal(temporary_count(state), 1);
+}
+
+static void a_file_larger_than_the_buffer_is_whole(void **state) {
+  const char *path = temporary_path(state, "out.txt");
+  enum { LINES = 60000, BLOCK = 300000 };
+  char *block = malloc(BLOCK);
+  assert_non_null(block);
+  memset(block, 'b', BLOCK);
+  struct stream *stream = open_stream(path);
+  for (int i = 0; i < LINES; i++)
+    stream_text(stream, "0123456789\n");
+  stream_write(stream, block, BLOCK);
+  stream_write(stream, NULL, 0);
+  stream_text(stream, "end");
+  assert_int_equal(stream_finish(stream, NULL), RECTO_OK);
+  size_t count;
+  char *bytes = temporary_read(path, &count);
+  assert_non_null(bytes);
+  assert_int_equal(count, 11 * LINES + BLOCK + 3);
+  assert_memory_equal(bytes + 11 * (LINES - 1), "0123456789\n", 11);
+  assert_memory_equal(bytes + 11 * LINES, block, BLOCK);
+  assert_string_equal(bytes + 11 * LINES + BLOCK, "end");
+  free(bytes);
+  free(block);
+}
+
+static void a_discarded_file_was_never_there(void **state) {
+  const char *path = temporary_path(state, "out.txt");
+  struct stream *stream = open_stream(path);
+  for (int i = 0; i < 100000; i++)
+    stream_text(stream, "much text");
+  stream_discard(stream);
+  assert_int_equal(temporary_count(state), 0);
+  temporary_file(state, "out.txt", "old", 3);
+  stream = open_stream(path);
+  stream_text(stream, "new");
+  stream_discard(stream);
+  assert_file(path, "old");
+  assert_int_equal(temporary_count(state), 1);
+  stream_discard(NULL);
+}
+
+/* Writes `blocks` of 64 KiB; the n-th physical write fails. */
+static recto_status write_failing(const char *path, int blocks, unsigned long n,
+                                  recto_error *error) {
+  static char block[1 << 16];
+  memset(block, 'x', sizeof block);
+  struct stream *stream = open_stream(path);
+  stream_fail_after(n);
+  for (int i = 0; i < blocks; i++)
+    stream_write(stream, block, sizeof block - 1);
+  recto_status sticky = stream_status(stream);
+  recto_status status = stream_finish(stream, error);
+  stream_fail_after(0);
+  if (sticky != RECTO_OK)
+    assert_int_equal(status, sticky);
+  return status;
+}
+
+static void a_write_that_fails_leaves_the_old_file(void **state) {
+  const char *path = temporary_file(state, "out.txt", "old", 3);
+  for (unsigned long n = 1; n <= 5; n++) {
+    recto_error error;
+    assert_int_equal(write_failing(path, 5, n, &error), RECTO_ERROR_IO);
+    assert_int_equal(error.code, RECTO_ERROR_IO);
+    assert_string_equal(error.file, path);
+    assert_string_equal(error.text, "cannot write: No space left on device");
+    assert_file(path, "old");
+    assert_int_equal(temporary_count(state), 1);
+  }
+  assert_int_equal(write_failing(path, 5, 6, NULL), RECTO_OK);
+  struct stat about;
+  assert_int_equal(stat(path, &about), 0);
+  assert_int_equal(about.st_size, 5 * ((1 << 16) - 1));
+}
+
+static void a_full_device_is_an_error(void **state) {
+  (void)state;
+  if (!exists("/dev/full"))
+    skip();
+  struct stream *stream = open_stream("/dev/full");
+  stream_text(stream, "text");
+  assert_int_equal(stream_status(stream), RECTO_OK); /* held back */
+  recto_error error;
+  assert_int_equal(stream_finish(stream, &error), RECTO_ERROR_IO);
+  assert_string_equal(error.file, "/dev/full");
+}
+
+static void a_replaced_file_keeps_its_mode(void **state) {
+  const char *path = temporary_file(state, "out.txt", "old", 3);
+  assert_int_equal(chmod(path, 0640), 0);
+  struct stream *stream = open_stream(path);
+  stream_text(stream, "new");
+  assert_int_equal(stream_finish(stream, NULL), RECTO_OK);
+  struct stat about;
+  assert_int_equal(stat(path, &about), 0);
+  assert_int_equal(about.st_mode & 07777, 0640);
+  assert_file(path, "new");
+}
+
+static void a_new_file_has_the_mode_that_umask_leaves(void **state) {
+  const char *path = temporary_path(state, "out.txt");
+  mode_t old = umask(027);
+  struct stream *stream = open_stream(path);
+  assert_int_equal(stream_finish(stream, NULL), RECTO_OK);
+  umask(old);
+  struct stat about;
+  assert_int_equal(stat(path, &about), 0);
+  assert_int_equal(about.st_mode & 07777, 0640);
+  assert_int_equal(about.st_size, 0);
+}
+
+static void a_link_stays_and_its_file_is_replaced(void **state) {
+  const char *path = temporary_file(state, "real.txt", "old", 3);
+  const char *link = temporary_path(state, "link.txt");
+  assert_int_equal(symlink("real.txt", link), 0);
+  struct stream *stream = open_stream(link);
+  stream_text(stream, "new");
+  assert_int_equal(stream_finish(stream, NULL), RECTO_OK);
+  struct stat about;
+  assert_int_equal(lstat(link, &about), 0);
+  assert_true(S_ISLNK(about.st_mode));
+  assert_file(path, "new");
+}
+
+static void two_streams_in_one_folder_do_not_mix(void **state) {
+  const char *a = temporary_path(state, "a"), *b = temporary_path(state, "b");
+  struct stream *first = open_stream(a), *second = open_stream(b);
+  stream_text(first, "first");
+  stream_text(second, "second");
+  assert_int_equal(stream_finish(first, NULL), RECTO_OK);
+  assert_int_equal(stream_finish(second, NULL), RECTO_OK);
+  assert_file(a, "first");
+  assert_file(b, "second");
+}
+
+static void places_that_cannot_be_written_are_told(void **state) {
+  struct stream *stream;
+  recto_error error;
+  const char *missing = temporary_path(state, "no/such/folder");
+  assert_int_equal(stream_open(&stream, missing, &error), RECTO_ERROR_IO);
+  assert_null(stream);
+  assert_string_equal(error.file, missing);
+  assert_string_equal(error.text, "cannot create: No such file or directory");
+  assert_int_equal(stream_open(&stream, *state, &error), RECTO_ERROR_IO);
+  assert_null(stream);
+  assert_string_equal(error.text, "is a directory");
+  assert_int_equal(stream_open(&stream, missing, NULL), RECTO_ERROR_IO);
+  if (geteuid() == 0)
+    return; /* root may write everywhere */
+  const char *path = temporary_file(state, "kept.txt", "old", 3);
+  assert_int_equal(chmod(path, 0444), 0);
+  assert_int_equal(stream_open(&stream, path, &error), RECTO_ERROR_IO);
+}
+
+/* ---- Standard output ------------------------------------------------------
+ */
+
+static void standard_output_is_held_back_until_the_end(void **state) {
+  const char *path = temporary_file(state, "stdout.txt", "", 0);
+  fflush(stdout);
+  int old = dup(STDOUT_FILENO);
+  assert_true(old >= 0);
+  assert_non_null(freopen(path, "w", stdout));
+  struct stat about;
+  struct stream *stream = open_stream("-");
+  for (int i = 0; i < 100000; i++)
+    stream_text(stream, "text\n");
+  int held = fstat(STDOUT_FILENO, &about) == 0 && about.st_size == 0;
+  recto_status status = stream_finish(stream, NULL);
+  struct stream *dropped = open_stream("-");
+  stream_text(dropped, "dropped");
+  stream_discard(dropped);
+  int size = fstat(STDOUT_FILENO, &about) == 0 ? (int)about.st_size : -1;
+  fflush(stdout);
+  dup2(old, STDOUT_FILENO);
+  close(old);
+  clearerr(stdout);
+  assert_true(held);
+  assert_int_equal(status, RECTO_OK);
+  assert_int_equal(size, 500000);
+}
+
+/* ---- Memory ---------------------------------------------------------------
+ */
+
+static void a_memory_stream_lends_what_was_written(void **state) {
+  (void)state;
+  struct stream *stream;
+  size_t count;
+  assert_int_equal(stream_open_memory(&stream, NULL), RECTO_OK);
+  assert_string_equal(stream_memory(stream, &count), "");
+  assert_int_equal(count, 0);
+  for (int i = 0; i < 100000; i++)
+    stream_text(stream, "12345678");
+  const char *bytes = stream_memory(stream, &count);
+  assert_int_equal(count, 800000);
+  assert_int_equal(strlen(bytes), 800000);
+  assert_int_equal(stream_finish(stream, NULL), RECTO_OK);
+}
+
+static void the_first_fault_sticks(void **state) {
+  (void)state;
+  struct stream *stream;
+  size_t count;
+  recto_error error;
+  char large[1000] = {0};
+  assert_int_equal(stream_open_memory(&stream, NULL), RECTO_OK);
+  stream_text(stream, "before");
+  mem_fail_after(1);
+  for (int i = 0; i < 100; i++)
+    stream_write(stream, large, sizeof large);
+  mem_fail_after(0);
+  assert_int_equal(stream_status(stream), RECTO_ERROR_MEMORY);
+  stream_memory(stream, &count);
+  size_t at_fault = count;
+  stream_text(stream, "after");
+  stream_memory(stream, &count);
+  assert_int_equal(count, at_fault);
+  assert_int_equal(stream_finish(stream, &error), RECTO_ERROR_MEMORY);
+  assert_int_equal(error.code, RECTO_ERROR_MEMORY);
+}
+
+static void running_out_of_memory_leaves_no_file(void **state) {
+  const char *path = temporary_path(state, "out.txt");
+  recto_status status = RECTO_ERROR_MEMORY;
+  unsigned long n = 0;
+  while (status == RECTO_ERROR_MEMORY) {
+    assert_int_equal(temporary_count(state), 0);
+    struct stream *stream;
+    mem_fail_after(++n);
+    status = stream_open(&stream, path, NULL);
+    if (status == RECTO_OK) {
+      stream_text(stream, "text");
+      status = stream_finish(stream, NULL);
+    }
+    mem_fail_after(0);
+  }
+  assert_int_equal(status, RECTO_OK);
+  assert_true(n > 3);
+  assert_file(path, "text");
+}
+
+int main(void) {
+#define T(name)                                                                \
+  cmocka_unit_test_setup_teardown(name, temporary_set_up, temporary_tear_down)
+  const struct CMUnitTest tests[] = {
+      T(a_file_appears_when_it_is_finished),
+      T(a_file_larger_than_the_buffer_is_whole),
+      T(a_discarded_file_was_never_there),
+      T(a_write_that_fails_leaves_the_old_file),
+      T(a_full_device_is_an_error),
+      T(a_replaced_file_keeps_its_mode),
+      T(a_new_file_has_the_mode_that_umask_leaves),
+      T(a_link_stays_and_its_file_is_replaced),
+      T(two_streams_in_one_folder_do_not_mix),
+      T(places_that_cannot_be_written_are_told),
+      T(standard_output_is_held_back_until_the_end),
+      T(a_memory_stream_lends_what_was_written),
+      T(the_first_fault_sticks),
+      T(running_out_of_memory_leaves_no_file),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
