@@ -1,9 +1,10 @@
 # src/view/local.mk - the sources of this layer.
 librecto_core_la_SOURCES += \
-  %D%/build.h %D%/build_edges.c %D%/build_points.c %D%/build_triangles.c \
   %D%/camera.c %D%/camera.h \
   %D%/clip.c %D%/clip.h \
   %D%/frame.c %D%/frame.h \
+  %D%/layout.h \
+  %D%/layout_edges.c %D%/layout_points.c %D%/layout_triangles.c \
   %D%/project.c %D%/project.h \
   %D%/sheet.c %D%/sheet.h \
   %D%/triangulate.c %D%/triangulate.h \

@@ -1,20 +1,20 @@
 /* sheet.c - builds the scene's image on the page grid, phase by phase: see
- * build.h. */
+ * layout.h. */
 #include "view/sheet.h"
 
 #include <string.h>
 
-#include "view/build.h"
+#include "view/layout.h"
 
-static void free_build(struct build *build) {
-  mem_free(build->point_map);
-  mem_free(build->outcode);
-  mem_free(build->sides);
-  mem_free(build->edge_cut);
-  ARRAY_FREE(&build->cut);
-  ARRAY_FREE(&build->flags);
-  ARRAY_FREE(&build->diagonal);
-  triangulation_fini(&build->triangulation);
+static void free_layout(struct layout *layout) {
+  mem_free(layout->point_map);
+  mem_free(layout->outcode);
+  mem_free(layout->sides);
+  mem_free(layout->edge_cut);
+  ARRAY_FREE(&layout->cut);
+  ARRAY_FREE(&layout->flags);
+  ARRAY_FREE(&layout->diagonal);
+  triangulation_fini(&layout->triangulation);
 }
 
 recto_status sheet_init(struct sheet *sheet, const struct scene *scene,
@@ -25,7 +25,7 @@ recto_status sheet_init(struct sheet *sheet, const struct scene *scene,
   memset(sheet, 0, sizeof *sheet);
   sheet->camera = *camera;
   sheet->face_group = scene->face_group.item;
-  struct build build = {
+  struct layout layout = {
       .sheet = sheet,
       .scene = scene,
       .topology = topology,
@@ -34,22 +34,22 @@ recto_status sheet_init(struct sheet *sheet, const struct scene *scene,
       .projection = projection_of(camera),
       .error = error,
   };
-  sheet->z_scale = build.projection.z_scale;
-  sheet->units_per_view = build.projection.units;
-  recto_status status = build_points(&build);
+  sheet->z_scale = layout.projection.z_scale;
+  sheet->units_per_view = layout.projection.units;
+  recto_status status = layout_points(&layout);
   if (status == RECTO_OK)
-    status = build_triangles(&build);
+    status = layout_triangles(&layout);
   if (status == RECTO_OK)
-    status = build_edges(&build);
+    status = layout_edges(&layout);
   if (status == RECTO_OK)
-    status = build_wires(&build);
+    status = layout_wires(&layout);
   if (status == RECTO_OK) {
-    sheet->triangle_flags = build.flags.item;
-    build.flags.item = NULL;
+    sheet->triangle_flags = layout.flags.item;
+    layout.flags.item = NULL;
   } else {
     sheet_fini(sheet);
   }
-  free_build(&build);
+  free_layout(&layout);
   return status;
 }
 

@@ -1,8 +1,9 @@
-/* build_triangles.c - the sheet's triangles: faces triangulated, clipped, and
+/* layout_triangles.c - the sheet's triangles: faces triangulated, clipped, and
  * turned counter-clockwise on the page.
  *
- * Until build_edges is done, the sides of the triangles name topology edges. */
-#include "view/build.h"
+ * Until layout_edges is done, the sides of the triangles name topology edges.
+ */
+#include "view/layout.h"
 
 #include <stdlib.h>
 
@@ -18,24 +19,24 @@ struct facet {
 };
 
 /* The side of a facet that is a diagonal, or an edge, learns where it lies. */
-static inline void learn_side(struct build *build, const struct facet *facet,
+static inline void learn_side(struct layout *layout, const struct facet *facet,
                               int k, int sign) {
   uint8_t *sides = facet->side[k] != SHEET_NONE
-                       ? &build->sides[facet->side[k]]
-                       : &build->diagonal.item[facet->diagonal[k]].sides;
-  build_learn(sides, facet->forward[k], sign);
+                       ? &layout->sides[facet->side[k]]
+                       : &layout->diagonal.item[facet->diagonal[k]].sides;
+  layout_learn(sides, facet->forward[k], sign);
 }
 
 /* Adds a triangle of three sheet points; there is room for it.
  * Returns twice its signed area on the page, as the face winds. */
-static inline int64_t add_triangle(struct build *build, uint32_t face,
+static inline int64_t add_triangle(struct layout *layout, uint32_t face,
                                    const uint32_t point[3],
                                    const uint32_t side[3]) {
-  struct sheet *sheet = build->sheet;
+  struct sheet *sheet = layout->sheet;
   const struct sheet_point *at = sheet->point.item;
   int64_t area = geom_orient2d(at[point[0]], at[point[1]], at[point[2]]);
   struct sheet_triangle *t = &sheet->triangle.item[sheet->triangle.count++];
-  uint8_t *flags = &build->flags.item[build->flags.count++];
+  uint8_t *flags = &layout->flags.item[layout->flags.count++];
   if (area >= 0) {
     *t = (struct sheet_triangle){
         {point[0], point[1], point[2]}, {side[0], side[1], side[2]}, face};
@@ -48,73 +49,76 @@ static inline int64_t add_triangle(struct build *build, uint32_t face,
   return area;
 }
 
-static bool reserve(struct build *build, size_t extra) {
-  return ARRAY_RESERVE(&build->sheet->triangle, extra) &&
-         ARRAY_RESERVE(&build->flags, extra);
+static bool reserve(struct layout *layout, size_t extra) {
+  return ARRAY_RESERVE(&layout->sheet->triangle, extra) &&
+         ARRAY_RESERVE(&layout->flags, extra);
 }
 
 /* ---- Whole triangles
  * --------------------------------------------------------- */
 
-static inline void add_facet(struct build *build, const struct facet *facet) {
-  const uint32_t *map = build->point_map;
+static inline void add_facet(struct layout *layout, const struct facet *facet) {
+  const uint32_t *map = layout->point_map;
   const uint32_t point[3] = {map[facet->point[0]], map[facet->point[1]],
                              map[facet->point[2]]};
-  int sign = geom_sign64(add_triangle(build, facet->face, point, facet->side));
+  int sign = geom_sign64(add_triangle(layout, facet->face, point, facet->side));
   for (int k = 0; k < 3; k++)
-    learn_side(build, facet, k, sign);
+    learn_side(layout, facet, k, sign);
 }
 
 /* ---- Cut triangles
  * ------------------------------------------------------------ */
 
 /* The cut of a diagonal of the face at hand. */
-static recto_status cut_diagonal(struct build *build,
-                                 struct build_diagonal *diagonal,
-                                 struct build_cut *cut) {
+static recto_status cut_diagonal(struct layout *layout,
+                                 struct layout_diagonal *diagonal,
+                                 struct layout_cut *cut) {
   if (diagonal->cut != SHEET_NONE) {
-    *cut = build->cut.item[diagonal->cut];
+    *cut = layout->cut.item[diagonal->cut];
     return RECTO_OK;
   }
-  recto_status status = build_segment(build, diagonal->from, diagonal->to, cut);
+  recto_status status =
+      layout_segment(layout, diagonal->from, diagonal->to, cut);
   if (status != RECTO_OK)
     return status;
-  diagonal->cut = (uint32_t)build->cut.count;
-  return ARRAY_PUSH(&build->cut, *cut) ? RECTO_OK : error_memory(build->error);
+  diagonal->cut = (uint32_t)layout->cut.count;
+  return ARRAY_PUSH(&layout->cut, *cut) ? RECTO_OK
+                                        : error_memory(layout->error);
 }
 
 /* The cut of a side of a facet, in the side's canonical direction. */
-static recto_status cut_side(struct build *build, const struct facet *facet,
-                             int k, struct build_cut *cut) {
+static recto_status cut_side(struct layout *layout, const struct facet *facet,
+                             int k, struct layout_cut *cut) {
   if (facet->side[k] != SHEET_NONE)
-    return build_edge_cut(build, facet->side[k], cut);
-  return cut_diagonal(build, &build->diagonal.item[facet->diagonal[k]], cut);
+    return layout_edge_cut(layout, facet->side[k], cut);
+  return cut_diagonal(layout, &layout->diagonal.item[facet->diagonal[k]], cut);
 }
 
 /* The sheet point of corner i of what is left of a facet: its own corner's,
  * the one that the side which leaves or reaches it was cut at, or a new one
  * where the paper's corner or its border at the near plane is inside. */
-static recto_status find_corner(struct build *build, const struct facet *facet,
+static recto_status find_corner(struct layout *layout,
+                                const struct facet *facet,
                                 const struct clip_polygon *polygon, int i,
                                 uint32_t *point) {
   const struct clip_corner *corner = &polygon->corner[i];
   *point = SHEET_NONE;
   if (corner->origin != CLIP_CUT) {
-    *point = build->point_map[facet->point[corner->origin]];
+    *point = layout->point_map[facet->point[corner->origin]];
     return RECTO_OK;
   }
   int reached = polygon->corner[i > 0 ? i - 1 : polygon->count - 1].side;
   bool leaves = corner->side != CLIP_CUT;
   int side = leaves ? corner->side : reached;
   if (side != CLIP_CUT) {
-    struct build_cut cut;
-    recto_status status = cut_side(build, facet, side, &cut);
+    struct layout_cut cut;
+    recto_status status = cut_side(layout, facet, side, &cut);
     if (status != RECTO_OK)
       return status;
     *point = cut.point[leaves != facet->forward[side]];
   }
   /* A side of which a single point is left has no cut either. */
-  return *point == SHEET_NONE ? build_new_point(build, corner->at, point)
+  return *point == SHEET_NONE ? layout_new_point(layout, corner->at, point)
                               : RECTO_OK;
 }
 
@@ -125,21 +129,21 @@ static uint32_t edge_of(const struct facet *facet,
 }
 
 /* Whether both points are on one border of the paper. */
-static bool is_on_border(const struct build *build, uint32_t a, uint32_t b) {
-  struct sheet_point p = build->sheet->point.item[a];
-  struct sheet_point q = build->sheet->point.item[b];
-  const double *half = build->projection.half;
+static bool is_on_border(const struct layout *layout, uint32_t a, uint32_t b) {
+  struct sheet_point p = layout->sheet->point.item[a];
+  struct sheet_point q = layout->sheet->point.item[b];
+  const double *half = layout->projection.half;
   return (p.x == q.x && abs(p.x) == half[0]) ||
          (p.y == q.y && abs(p.y) == half[1]);
 }
 
 /* Adds what is left of a facet as a fan.
  * area  grows by twice its area on the page, as the face winds */
-static recto_status add_fan(struct build *build, const struct facet *facet,
+static recto_status add_fan(struct layout *layout, const struct facet *facet,
                             const struct clip_polygon *polygon,
                             const uint32_t *point, int128 *area) {
-  if (!reserve(build, CLIP_MOST))
-    return error_memory(build->error);
+  if (!reserve(layout, CLIP_MOST))
+    return error_memory(layout->error);
   int sign = 0;
   for (int i = 1; i + 1 < polygon->count; i++) {
     bool last = i + 2 == polygon->count;
@@ -148,13 +152,13 @@ static recto_status add_fan(struct build *build, const struct facet *facet,
                               edge_of(facet, polygon, i),
                               last ? edge_of(facet, polygon, i + 1)
                                    : SHEET_NONE};
-    int64_t piece = add_triangle(build, facet->face, corner, side);
+    int64_t piece = add_triangle(layout, facet->face, corner, side);
     *area += piece;
     /* The grid may have folded a sliver over. */
     bool folds = i > 1 && (piece == 0 || geom_sign64(piece) != sign);
     sign = geom_sign64(piece);
     if (folds) {
-      recto_status status = build_contour(build, point[0], point[i]);
+      recto_status status = layout_contour(layout, point[0], point[i]);
       if (status != RECTO_OK)
         return status;
     }
@@ -164,84 +168,87 @@ static recto_status add_fan(struct build *build, const struct facet *facet,
 
 /* Adds what is left of a facet; its sides learn where it lies, and its cuts at
  * the near plane are contours. */
-static recto_status add_polygon(struct build *build, const struct facet *facet,
+static recto_status add_polygon(struct layout *layout,
+                                const struct facet *facet,
                                 const struct clip_polygon *polygon) {
   uint32_t point[CLIP_MOST];
   for (int i = 0; i < polygon->count; i++) {
-    recto_status status = find_corner(build, facet, polygon, i, &point[i]);
+    recto_status status = find_corner(layout, facet, polygon, i, &point[i]);
     if (status != RECTO_OK)
       return status;
   }
   int128 area = 0;
-  recto_status status = add_fan(build, facet, polygon, point, &area);
+  recto_status status = add_fan(layout, facet, polygon, point, &area);
   for (int i = 0; status == RECTO_OK && i < polygon->count; i++) {
     uint32_t next = point[i + 1 < polygon->count ? i + 1 : 0];
     if (polygon->corner[i].side != CLIP_CUT)
-      learn_side(build, facet, polygon->corner[i].side, geom_sign128(area));
-    else if (!is_on_border(build, point[i], next))
-      status = build_contour(build, point[i], next);
+      learn_side(layout, facet, polygon->corner[i].side, geom_sign128(area));
+    else if (!is_on_border(layout, point[i], next))
+      status = layout_contour(layout, point[i], next);
   }
   return status;
 }
 
-static recto_status cut_facet(struct build *build, const struct facet *facet) {
+static recto_status cut_facet(struct layout *layout,
+                              const struct facet *facet) {
   struct view_point corner[3];
   unsigned any = 0, all = ~0u;
   for (int k = 0; k < 3; k++) {
-    corner[k] = build_view(build, facet->point[k]);
-    any |= build->outcode[facet->point[k]];
-    all &= build->outcode[facet->point[k]];
+    corner[k] = layout_view(layout, facet->point[k]);
+    any |= layout->outcode[facet->point[k]];
+    all &= layout->outcode[facet->point[k]];
   }
   if (all)
     return RECTO_OK;
   if (!any) {
-    if (!reserve(build, 1))
-      return error_memory(build->error);
-    add_facet(build, facet);
+    if (!reserve(layout, 1))
+      return error_memory(layout->error);
+    add_facet(layout, facet);
     return RECTO_OK;
   }
   struct clip_polygon polygon;
-  if (!clip_triangle(&build->projection, corner, facet->forward, &polygon))
+  if (!clip_triangle(&layout->projection, corner, facet->forward, &polygon))
     return RECTO_OK;
-  return add_polygon(build, facet, &polygon);
+  return add_polygon(layout, facet, &polygon);
 }
 
 /* ---- Faces
  * -------------------------------------------------------------------- */
 
-static inline void set_side(const struct build *build, struct facet *facet,
+static inline void set_side(const struct layout *layout, struct facet *facet,
                             int k, uint32_t corner) {
   uint32_t from = facet->point[k], to = facet->point[k == 2 ? 0 : k + 1];
-  facet->side[k] = build->topology->corner_edge[corner];
+  facet->side[k] = layout->topology->corner_edge[corner];
   facet->forward[k] = from < to;
 }
 
 /* The facet of a face of three corners. */
-static inline struct facet facet_of_face(const struct build *build,
+static inline struct facet facet_of_face(const struct layout *layout,
                                          uint32_t face, uint32_t start) {
   struct facet facet = {.face = face};
   for (uint32_t k = 0; k < 3; k++)
-    facet.point[k] = build_weld(build, build->scene->corner.item[start + k]);
+    facet.point[k] = layout_weld(layout, layout->scene->corner.item[start + k]);
   for (int k = 0; k < 3; k++)
-    set_side(build, &facet, k, start + (uint32_t)k);
+    set_side(layout, &facet, k, start + (uint32_t)k);
   return facet;
 }
 
 /* One triangle of a triangulated face of `count` corners. */
-static struct facet facet_of_triangle(struct build *build, uint32_t face,
+static struct facet facet_of_triangle(struct layout *layout, uint32_t face,
                                       uint32_t start, uint32_t count,
                                       const struct triangulation_triangle *t) {
   struct facet facet = {.face = face};
   for (int k = 0; k < 3; k++)
     facet.point[k] =
-        build_weld(build, build->scene->corner.item[start + t->corner[k]]);
+        layout_weld(layout, layout->scene->corner.item[start + t->corner[k]]);
   for (int k = 0; k < 3; k++) {
     if (t->side[k] < count) {
-      set_side(build, &facet, k, start + t->side[k]);
+      set_side(layout, &facet, k, start + t->side[k]);
       continue;
     }
     facet.side[k] = SHEET_NONE;
-    struct build_diagonal *diagonal = &build->diagonal.item[t->side[k] - count];
+    struct layout_diagonal *diagonal =
+        &layout->diagonal.item[t->side[k] - count];
     int next = k == 2 ? 0 : k + 1;
     facet.diagonal[k] = t->side[k] - count;
     facet.forward[k] = t->corner[k] < t->corner[next];
@@ -252,94 +259,95 @@ static struct facet facet_of_triangle(struct build *build, uint32_t face,
 }
 
 /* The diagonals of the face at hand, with nothing known of them. */
-static bool start_diagonals(struct build *build, uint32_t count) {
-  build->diagonal.count = 0;
-  if (!ARRAY_RESERVE(&build->diagonal, count))
+static bool start_diagonals(struct layout *layout, uint32_t count) {
+  layout->diagonal.count = 0;
+  if (!ARRAY_RESERVE(&layout->diagonal, count))
     return false;
-  build->diagonal.count = count;
+  layout->diagonal.count = count;
   for (uint32_t d = 0; d < count; d++)
-    build->diagonal.item[d] =
-        (struct build_diagonal){SHEET_NONE, SHEET_NONE, SHEET_NONE, 0};
+    layout->diagonal.item[d] =
+        (struct layout_diagonal){SHEET_NONE, SHEET_NONE, SHEET_NONE, 0};
   return true;
 }
 
 /* A face that is not flat may fold at its diagonals. */
-static recto_status add_folds(struct build *build) {
-  for (size_t d = 0; d < build->diagonal.count; d++) {
-    struct build_diagonal *diagonal = &build->diagonal.item[d];
-    if (diagonal->sides == BUILD_PLAIN)
+static recto_status add_folds(struct layout *layout) {
+  for (size_t d = 0; d < layout->diagonal.count; d++) {
+    struct layout_diagonal *diagonal = &layout->diagonal.item[d];
+    if (diagonal->sides == LAYOUT_PLAIN)
       continue;
-    struct build_cut cut;
-    recto_status status = cut_diagonal(build, diagonal, &cut);
+    struct layout_cut cut;
+    recto_status status = cut_diagonal(layout, diagonal, &cut);
     if (status == RECTO_OK && cut.point[0] != SHEET_NONE)
-      status = build_contour(build, cut.point[0], cut.point[1]);
+      status = layout_contour(layout, cut.point[0], cut.point[1]);
     if (status != RECTO_OK)
       return status;
   }
   return RECTO_OK;
 }
 
-static recto_status add_polygon_face(struct build *build, uint32_t face,
+static recto_status add_polygon_face(struct layout *layout, uint32_t face,
                                      uint32_t start, uint32_t count,
                                      bool clipped) {
-  struct triangulation *triangulation = &build->triangulation;
-  if (!triangulate(triangulation, build->scene->point.item,
-                   build->scene->corner.item + start, count) ||
-      !reserve(build, triangulation->triangle.count) ||
-      !start_diagonals(build, count - 3))
-    return error_memory(build->error);
-  build->sheet->warped += triangulation->warped;
+  struct triangulation *triangulation = &layout->triangulation;
+  if (!triangulate(triangulation, layout->scene->point.item,
+                   layout->scene->corner.item + start, count) ||
+      !reserve(layout, triangulation->triangle.count) ||
+      !start_diagonals(layout, count - 3))
+    return error_memory(layout->error);
+  layout->sheet->warped += triangulation->warped;
   for (size_t t = 0; t < triangulation->triangle.count; t++) {
-    struct facet facet = facet_of_triangle(build, face, start, count,
+    struct facet facet = facet_of_triangle(layout, face, start, count,
                                            &triangulation->triangle.item[t]);
     recto_status status = RECTO_OK;
     if (clipped)
-      status = cut_facet(build, &facet);
+      status = cut_facet(layout, &facet);
     else
-      add_facet(build, &facet);
+      add_facet(layout, &facet);
     if (status != RECTO_OK)
       return status;
   }
-  return add_folds(build);
+  return add_folds(layout);
 }
 
-static recto_status add_face(struct build *build, uint32_t face) {
-  uint32_t start = build->scene->face_start.item[face];
-  uint32_t count = build->scene->face_start.item[face + 1] - start;
+static recto_status add_face(struct layout *layout, uint32_t face) {
+  uint32_t start = layout->scene->face_start.item[face];
+  uint32_t count = layout->scene->face_start.item[face + 1] - start;
   unsigned any = 0, all = ~0u;
   for (uint32_t c = start; c < start + count; c++) {
     uint8_t code =
-        build->outcode[build_weld(build, build->scene->corner.item[c])];
+        layout->outcode[layout_weld(layout, layout->scene->corner.item[c])];
     any |= code;
     all &= code;
   }
-  build->sheet->clipped_near += (any & CLIP_NEAR_BIT) != 0;
-  build->sheet->clipped_page += (any & CLIP_PAGE_BITS) != 0;
+  layout->sheet->clipped_near += (any & CLIP_NEAR_BIT) != 0;
+  layout->sheet->clipped_page += (any & CLIP_PAGE_BITS) != 0;
   if (all)
     return RECTO_OK;
   if (count != 3)
-    return add_polygon_face(build, face, start, count, any != 0);
-  struct facet facet = facet_of_face(build, face, start);
+    return add_polygon_face(layout, face, start, count, any != 0);
+  struct facet facet = facet_of_face(layout, face, start);
   if (any)
-    return cut_facet(build, &facet);
-  if (!reserve(build, 1))
-    return error_memory(build->error);
-  add_facet(build, &facet);
+    return cut_facet(layout, &facet);
+  if (!reserve(layout, 1))
+    return error_memory(layout->error);
+  add_facet(layout, &facet);
   return RECTO_OK;
 }
 
-recto_status build_triangles(struct build *build) {
-  uint32_t faces = scene_face_count(build->scene);
-  size_t triangles = build->scene->corner.count - 2 * (size_t)faces;
-  build->sides = mem_calloc(build->topology->edge.count, sizeof *build->sides);
-  if (!build->sides || !reserve(build, triangles))
-    return error_memory(build->error);
+recto_status layout_triangles(struct layout *layout) {
+  uint32_t faces = scene_face_count(layout->scene);
+  size_t triangles = layout->scene->corner.count - 2 * (size_t)faces;
+  layout->sides =
+      mem_calloc(layout->topology->edge.count, sizeof *layout->sides);
+  if (!layout->sides || !reserve(layout, triangles))
+    return error_memory(layout->error);
   for (uint32_t face = 0; face < faces; face++) {
-    recto_status status = add_face(build, face);
+    recto_status status = add_face(layout, face);
     if (status != RECTO_OK)
       return status;
-    if (build->sheet->triangle.count > SHEET_NONE / 2)
-      return error_set(build->error, RECTO_ERROR_LIMIT, NULL, 0,
+    if (layout->sheet->triangle.count > SHEET_NONE / 2)
+      return error_set(layout->error, RECTO_ERROR_LIMIT, NULL, 0,
                        "the drawing has more than 2^31 triangles");
   }
   return RECTO_OK;

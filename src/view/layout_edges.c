@@ -1,6 +1,6 @@
-/* build_edges.c - the sheet's edges: those of faces, with their classes, and
+/* layout_edges.c - the sheet's edges: those of faces, with their classes, and
  * those of polylines. */
-#include "view/build.h"
+#include "view/layout.h"
 
 /* Natures that faces give an edge. */
 static const unsigned face_natures =
@@ -9,9 +9,9 @@ static const unsigned face_natures =
 /* Both of its faces on one side of it on the page, or one of them seen
  * edge-on.  An edge that lost a face to clipping is none. */
 static bool is_silhouette(uint8_t sides) {
-  if (sides / BUILD_ONE_FACE != 2)
+  if (sides / LAYOUT_ONE_FACE != 2)
     return false;
-  bool left = sides & BUILD_LEFT, right = sides & BUILD_RIGHT;
+  bool left = sides & LAYOUT_LEFT, right = sides & LAYOUT_RIGHT;
   return left != right;
 }
 
@@ -27,20 +27,20 @@ static unsigned natures_of(const struct topology_edge *edge, unsigned still,
 static unsigned lowest_bit(unsigned mask) { return mask & (~mask + 1); }
 
 /* The sheet points of a topology edge, SHEET_NONE where it is not seen. */
-static recto_status find_ends(struct build *build, uint32_t edge,
-                              struct build_cut *ends) {
-  const uint32_t *point = build->topology->edge.item[edge].point;
-  *ends = (struct build_cut){
-      {build->point_map[point[0]], build->point_map[point[1]]}};
+static recto_status find_ends(struct layout *layout, uint32_t edge,
+                              struct layout_cut *ends) {
+  const uint32_t *point = layout->topology->edge.item[edge].point;
+  *ends = (struct layout_cut){
+      {layout->point_map[point[0]], layout->point_map[point[1]]}};
   if (ends->point[0] != SHEET_NONE && ends->point[1] != SHEET_NONE)
     return RECTO_OK;
   ends->point[0] = ends->point[1] = SHEET_NONE;
-  if (build->outcode[point[0]] & build->outcode[point[1]])
+  if (layout->outcode[point[0]] & layout->outcode[point[1]])
     return RECTO_OK;
-  return build_edge_cut(build, edge, ends);
+  return layout_edge_cut(layout, edge, ends);
 }
 
-static bool add_edge(struct build *build, struct build_cut ends,
+static bool add_edge(struct layout *layout, struct layout_cut ends,
                      uint32_t source, uint32_t group, unsigned edge_class,
                      uint32_t part) {
   struct sheet_edge edge = {
@@ -51,50 +51,50 @@ static bool add_edge(struct build *build, struct build_cut ends,
       .edge_class = (uint16_t)edge_class,
       .part = (uint16_t)(part & UINT16_MAX),
   };
-  return ARRAY_PUSH(&build->sheet->edge, edge);
+  return ARRAY_PUSH(&layout->sheet->edge, edge);
 }
 
 /* Makes the edges that are wanted.
  * natures  one a topology edge; NULL where no class of them was asked for
  * made     topology edge -> sheet edge, SHEET_NONE: not made */
-static recto_status make_edges(struct build *build, const uint8_t *natures,
+static recto_status make_edges(struct layout *layout, const uint8_t *natures,
                                uint32_t *made) {
-  const struct topology *topology = build->topology;
-  unsigned wanted = build->options->edges & face_natures;
+  const struct topology *topology = layout->topology;
+  unsigned wanted = layout->options->edges & face_natures;
   for (uint32_t e = 0; e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
     made[e] = SHEET_NONE;
     unsigned edge_class = 0;
     if (natures)
       edge_class =
-          lowest_bit(natures_of(edge, natures[e], build->sides[e]) & wanted);
-    bool contour = edge->uses != 2 || build->sides[e] != BUILD_PLAIN;
-    if (!edge_class && !build->outlines && !contour)
+          lowest_bit(natures_of(edge, natures[e], layout->sides[e]) & wanted);
+    bool contour = edge->uses != 2 || layout->sides[e] != LAYOUT_PLAIN;
+    if (!edge_class && !layout->outlines && !contour)
       continue;
-    struct build_cut ends;
-    recto_status status = find_ends(build, e, &ends);
+    struct layout_cut ends;
+    recto_status status = find_ends(layout, e, &ends);
     if (status != RECTO_OK)
       return status;
     if (ends.point[0] == SHEET_NONE)
       continue;
     if (contour)
-      status = build_contour(build, ends.point[0], ends.point[1]);
+      status = layout_contour(layout, ends.point[0], ends.point[1]);
     if (status != RECTO_OK)
       return status;
-    if (!edge_class && !build->outlines)
+    if (!edge_class && !layout->outlines)
       continue;
-    made[e] = (uint32_t)build->sheet->edge.count;
-    if (!add_edge(build, ends, e, build->scene->face_group.item[edge->face[0]],
-                  edge_class, 0))
-      return error_memory(build->error);
+    made[e] = (uint32_t)layout->sheet->edge.count;
+    if (!add_edge(layout, ends, e,
+                  layout->scene->face_group.item[edge->face[0]], edge_class, 0))
+      return error_memory(layout->error);
   }
   return RECTO_OK;
 }
 
 /* The sides of the triangles name sheet edges from now on, and the edges their
  * first two triangles. */
-static void name_sides(struct build *build, const uint32_t *made) {
-  struct sheet *sheet = build->sheet;
+static void name_sides(struct layout *layout, const uint32_t *made) {
+  struct sheet *sheet = layout->sheet;
   for (size_t t = 0; t < sheet->triangle.count; t++) {
     uint32_t *side = sheet->triangle.item[t].side;
     for (int k = 0; k < 3; k++) {
@@ -112,27 +112,27 @@ static void name_sides(struct build *build, const uint32_t *made) {
   }
 }
 
-recto_status build_edges(struct build *build) {
-  size_t edges = build->topology->edge.count;
+recto_status layout_edges(struct layout *layout) {
+  size_t edges = layout->topology->edge.count;
   recto_status status;
   uint32_t *made = mem_alloc(edges, sizeof *made);
   uint8_t *natures = NULL;
   if (!made)
     goto no_memory;
-  if (build->options->edges & face_natures) {
+  if (layout->options->edges & face_natures) {
     natures = mem_alloc(edges, sizeof *natures);
-    if (!natures || !topology_natures_all(build->topology, build->scene,
-                                          build->options->crease_deg, natures))
+    if (!natures || !topology_natures_all(layout->topology, layout->scene,
+                                          layout->options->crease_deg, natures))
       goto no_memory;
   }
-  if (build->outlines && !ARRAY_RESERVE(&build->sheet->edge, edges))
+  if (layout->outlines && !ARRAY_RESERVE(&layout->sheet->edge, edges))
     goto no_memory;
-  status = make_edges(build, natures, made);
+  status = make_edges(layout, natures, made);
   if (status == RECTO_OK)
-    name_sides(build, made);
+    name_sides(layout, made);
   goto end;
 no_memory:
-  status = error_memory(build->error);
+  status = error_memory(layout->error);
 end:
   mem_free(made);
   mem_free(natures);
@@ -142,31 +142,31 @@ end:
 /* ---- Wires
  * -------------------------------------------------------------------- */
 
-static recto_status add_wire(struct build *build, uint32_t wire) {
-  const struct scene *scene = build->scene;
+static recto_status add_wire(struct layout *layout, uint32_t wire) {
+  const struct scene *scene = layout->scene;
   uint32_t start = scene->wire_start.item[wire];
   uint32_t end = scene->wire_start.item[wire + 1];
   for (uint32_t c = start; c + 1 < end; c++) {
-    uint32_t from = build_weld(build, scene->wire_corner.item[c]);
-    uint32_t to = build_weld(build, scene->wire_corner.item[c + 1]);
-    struct build_cut ends;
-    recto_status status = build_segment(build, from, to, &ends);
+    uint32_t from = layout_weld(layout, scene->wire_corner.item[c]);
+    uint32_t to = layout_weld(layout, scene->wire_corner.item[c + 1]);
+    struct layout_cut ends;
+    recto_status status = layout_segment(layout, from, to, &ends);
     if (status != RECTO_OK)
       return status;
     if (ends.point[0] == SHEET_NONE || from == to)
       continue;
-    if (!add_edge(build, ends, wire, scene->wire_group.item[wire],
+    if (!add_edge(layout, ends, wire, scene->wire_group.item[wire],
                   RECTO_EDGE_WIRE, c - start))
-      return error_memory(build->error);
+      return error_memory(layout->error);
   }
   return RECTO_OK;
 }
 
-recto_status build_wires(struct build *build) {
-  if (!(build->options->edges & RECTO_EDGE_WIRE))
+recto_status layout_wires(struct layout *layout) {
+  if (!(layout->options->edges & RECTO_EDGE_WIRE))
     return RECTO_OK;
-  for (uint32_t w = 0; w < scene_wire_count(build->scene); w++) {
-    recto_status status = add_wire(build, w);
+  for (uint32_t w = 0; w < scene_wire_count(layout->scene); w++) {
+    recto_status status = add_wire(layout, w);
     if (status != RECTO_OK)
       return status;
   }

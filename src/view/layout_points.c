@@ -1,0 +1,129 @@
+/* layout_points.c - the sheet's points: those of the scene, and those where
+ * edges leave the paper or meet the near plane. */
+#include "view/layout.h"
+
+#include <string.h>
+
+#include "view/used.h"
+
+/* The sheet keeps point numbers below this, as the scene does. */
+static const size_t point_limit = (size_t)1 << 31;
+
+static recto_status out_of_points(const struct layout *layout) {
+  return error_set(layout->error, RECTO_ERROR_LIMIT, NULL, 0,
+                   "the drawing has more than 2^31 points");
+}
+
+static size_t count_used(const uint8_t *used, size_t count) {
+  size_t sum = 0;
+  for (size_t p = 0; p < count; p++)
+    sum += used[p];
+  return sum;
+}
+
+static void place_points(struct layout *layout, const uint8_t *used) {
+  struct sheet *sheet = layout->sheet;
+  const struct projection projection = layout->projection;
+  size_t count = 0;
+  for (size_t p = 0; p < layout->scene->point.count; p++) {
+    layout->point_map[p] = SHEET_NONE;
+    if (!used[p])
+      continue;
+    struct view_point at = layout_view(layout, (uint32_t)p);
+    layout->outcode[p] = clip_outcode(&projection, at);
+    if (layout->outcode[p] == 0) {
+      sheet->point.item[count] = project_point(&projection, at);
+      layout->point_map[p] = (uint32_t)count++;
+    }
+  }
+  sheet->point.count = count;
+}
+
+recto_status layout_points(struct layout *layout) {
+  size_t points = layout->scene->point.count;
+  recto_status status = RECTO_OK;
+  uint8_t *used = used_points(layout->scene, layout->topology->weld);
+  layout->point_map = mem_alloc(points, sizeof *layout->point_map);
+  layout->outcode = mem_calloc(points, sizeof *layout->outcode);
+  if (!used || !layout->point_map || !layout->outcode) {
+    status = error_memory(layout->error);
+    goto end;
+  }
+  size_t count = count_used(used, points);
+  if (count > point_limit)
+    status = out_of_points(layout);
+  else if (!ARRAY_RESERVE(&layout->sheet->point, count))
+    status = error_memory(layout->error);
+  else
+    place_points(layout, used);
+end:
+  mem_free(used);
+  return status;
+}
+
+recto_status layout_new_point(struct layout *layout, struct view_point at,
+                              uint32_t *point) {
+  struct sheet *sheet = layout->sheet;
+  *point = (uint32_t)sheet->point.count;
+  if (sheet->point.count >= point_limit)
+    return out_of_points(layout);
+  if (!ARRAY_PUSH(&sheet->point, project_point(&layout->projection, at)))
+    return error_memory(layout->error);
+  return RECTO_OK;
+}
+
+recto_status layout_segment(struct layout *layout, uint32_t from, uint32_t to,
+                            struct layout_cut *cut) {
+  const uint32_t source[2] = {from, to};
+  *cut = (struct layout_cut){{layout->point_map[from], layout->point_map[to]}};
+  if (cut->point[0] != SHEET_NONE && cut->point[1] != SHEET_NONE)
+    return RECTO_OK;
+  struct view_point end[2] = {layout_view(layout, from),
+                              layout_view(layout, to)};
+  bool moved[2];
+  if (!clip_segment(&layout->projection, end, moved)) {
+    cut->point[0] = cut->point[1] = SHEET_NONE;
+    return RECTO_OK;
+  }
+  for (int k = 0; k < 2; k++) {
+    recto_status status = RECTO_OK;
+    if (moved[k])
+      status = layout_new_point(layout, end[k], &cut->point[k]);
+    else
+      cut->point[k] = layout->point_map[source[k]];
+    if (status != RECTO_OK)
+      return status;
+  }
+  return RECTO_OK;
+}
+
+recto_status layout_edge_cut(struct layout *layout, uint32_t edge,
+                             struct layout_cut *cut) {
+  size_t edges = layout->topology->edge.count;
+  if (!layout->edge_cut) {
+    layout->edge_cut = mem_alloc(edges, sizeof *layout->edge_cut);
+    if (!layout->edge_cut)
+      return error_memory(layout->error);
+    memset(layout->edge_cut, 0xff, edges * sizeof *layout->edge_cut);
+  }
+  uint32_t *known = &layout->edge_cut[edge];
+  if (*known != SHEET_NONE) {
+    *cut = layout->cut.item[*known];
+    return RECTO_OK;
+  }
+  const struct topology_edge *e = &layout->topology->edge.item[edge];
+  recto_status status = layout_segment(layout, e->point[0], e->point[1], cut);
+  if (status != RECTO_OK)
+    return status;
+  *known = (uint32_t)layout->cut.count;
+  if (!ARRAY_PUSH(&layout->cut, *cut))
+    return error_memory(layout->error);
+  return RECTO_OK;
+}
+
+recto_status layout_contour(struct layout *layout, uint32_t from, uint32_t to) {
+  struct sheet_contour contour = {{from, to}};
+  return ARRAY_PUSH(&layout->sheet->contour, contour)
+             ? RECTO_OK
+             : error_memory(layout->error);
+}
