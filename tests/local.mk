@@ -74,3 +74,7 @@ unit_tests += %D%/test_status
 unit_tests += %D%/test_stream
 %C%_test_stream_SOURCES = %D%/test_stream.c \
   %D%/temporary.c %D%/temporary.h
+
+unit_tests += %D%/test_topology
+%C%_test_topology_SOURCES = %D%/test_topology.c
+%C%_test_topology_LDADD = %D%/scenes/libscenes.la $(LDADD)

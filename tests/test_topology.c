@@ -1,0 +1,529 @@
+/* test_topology.c - edges are found, stitched and told apart as promised. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "scene/angle.h"
+#include "scene/topology.h"
+#include "tests/scenes/random.h"
+#include "tests/scenes/scenes.h"
+
+static void find(struct topology *topology, const struct scene *scene) {
+  recto_error error;
+  assert_int_equal(topology_init(topology, scene, &error), RECTO_OK);
+}
+
+static uint32_t stands_for(const struct topology *topology, uint32_t point) {
+  return topology->weld ? topology->weld[point] : point;
+}
+
+/* ---- Against an obvious search ------------------------------------------- */
+
+/* The edge between two points, by looking at all of them. */
+static uint32_t search(const struct topology *topology, uint32_t a,
+                       uint32_t b) {
+  uint32_t found = SCENE_NONE, times = 0;
+  for (uint32_t e = 0; e < topology->edge.count; e++) {
+    const uint32_t *p = topology->edge.item[e].point;
+    if ((p[0] == a && p[1] == b) || (p[0] == b && p[1] == a)) {
+      found = e;
+      times++;
+    }
+  }
+  assert_int_equal(times, 1);
+  return found;
+}
+
+/* Checks every promise of topology.h but welding. */
+static void check(const struct scene *scene, const struct topology *topology) {
+  size_t edges = topology->edge.count;
+  struct topology_edge *seen = calloc(edges + 1, sizeof *seen);
+  uint8_t *forward = calloc(edges + 1, 1);
+  uint32_t next = 0;
+  for (uint32_t f = 0; f < scene_face_count(scene); f++) {
+    uint32_t start = scene->face_start.item[f];
+    uint32_t end = scene->face_start.item[f + 1];
+    for (uint32_t c = start; c < end; c++) {
+      uint32_t to = c + 1 < end ? c + 1 : start;
+      uint32_t a = stands_for(topology, scene->corner.item[c]);
+      uint32_t b = stands_for(topology, scene->corner.item[to]);
+      uint32_t e = topology->corner_edge[c];
+      assert_int_equal(e, search(topology, a, b));
+      if (e == next) { /* first used: in this order */
+        next++;
+        seen[e].face[0] = f;
+        seen[e].face[1] = SCENE_NONE;
+        forward[e] = a < b;
+      } else if (seen[e].uses == 1) {
+        seen[e].face[1] = f;
+        seen[e].same_way = forward[e] == (a < b);
+      }
+      assert_true(e < next);
+      seen[e].uses = (uint8_t)(seen[e].uses < 3 ? seen[e].uses + 1 : 3);
+    }
+  }
+  assert_int_equal(next, edges);
+  for (uint32_t e = 0; e < edges; e++) {
+    const struct topology_edge *edge = &topology->edge.item[e];
+    assert_true(edge->point[0] < edge->point[1]);
+    assert_int_equal(edge->face[0], seen[e].face[0]);
+    assert_int_equal(edge->face[1], seen[e].face[1]);
+    assert_int_equal(edge->uses, seen[e].uses);
+    if (edge->uses == 2)
+      assert_int_equal(edge->same_way, seen[e].same_way);
+  }
+  free(seen);
+  free(forward);
+}
+
+static void the_scenes_have_the_edges_that_a_search_finds(void **state) {
+  (void)state;
+  for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
+    struct scene scene;
+    recto_options options;
+    recto_options_init(&options);
+    scene_init(&scene);
+    entry->fill(&scene, &options);
+    if (scene.corner.count < 3000) {
+      struct topology topology;
+      find(&topology, &scene);
+      check(&scene, &topology);
+      topology_fini(&topology);
+    }
+    scene_fini(&scene);
+  }
+}
+
+/* Few points and many faces: hubs, edges of many faces, faces twice. */
+static void crowded_points_have_the_edges_that_a_search_finds(void **state) {
+  (void)state;
+  for (uint64_t seed = 1; seed <= 20; seed++) {
+    struct random random = {seed};
+    struct scene scene;
+    scene_init(&scene);
+    build_group(&scene, "crowd");
+    for (int p = 0; p < 24; p++)
+      build_point(&scene, p, (double)p * p, (double)p * p * p);
+    for (int f = 0; f < 300; f++) {
+      uint32_t corner[3];
+      for (int k = 0; k < 3; k++)
+        corner[k] = random_below(&random, 24);
+      build_face(&scene, corner, 3);
+    }
+    struct topology topology;
+    find(&topology, &scene);
+    check(&scene, &topology);
+    topology_fini(&topology);
+    scene_fini(&scene);
+  }
+}
+
+/* ---- Counts ----------------------------------------------------------------
+ */
+
+static void a_box_has_twelve_edges_of_two_faces_each(void **state) {
+  (void)state;
+  struct scene scene;
+  struct topology topology;
+  scene_init(&scene);
+  build_box(&scene, vector_of(0, 0, 0), vector_of(1, 2, 3));
+  find(&topology, &scene);
+  assert_int_equal(topology.edge.count, 12);
+  assert_null(topology.weld);
+  for (size_t e = 0; e < 12; e++) {
+    assert_int_equal(topology.edge.item[e].uses, 2);
+    assert_false(topology.edge.item[e].same_way);
+  }
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
+static void no_faces_have_no_edges(void **state) {
+  (void)state;
+  struct scene scene;
+  struct topology topology;
+  scene_init(&scene);
+  build_group(&scene, "wire");
+  build_segment(&scene, build_point(&scene, 0, 0, 0),
+                build_point(&scene, 1, 0, 0));
+  find(&topology, &scene);
+  assert_int_equal(topology.edge.count, 0);
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
+/* A fan of n triangles about the point that comes first or last. */
+static void fill_fan(struct scene *scene, uint32_t n, bool hub_first) {
+  uint32_t hub = 0, rim = 1;
+  build_group(scene, "fan");
+  if (hub_first)
+    hub = build_point(scene, 0, 0, 1);
+  rim = (uint32_t)scene->point.count;
+  for (uint32_t i = 0; i <= n; i++)
+    build_point(scene, i, 1, i % 2);
+  if (!hub_first)
+    hub = build_point(scene, 0, 0, 1);
+  for (uint32_t i = 0; i < n; i++)
+    build_triangle(scene, hub, rim + i, rim + i + 1);
+}
+
+static void a_fan_of_100000_triangles_is_no_trouble(void **state) {
+  (void)state;
+  const uint32_t n = 100000;
+  for (int hub_first = 0; hub_first < 2; hub_first++) {
+    struct scene scene;
+    struct topology topology;
+    scene_init(&scene);
+    fill_fan(&scene, n, hub_first);
+    find(&topology, &scene);
+    assert_int_equal(topology.edge.count, 2 * n + 1);
+    size_t shared = 0;
+    for (size_t e = 0; e < topology.edge.count; e++)
+      shared += topology.edge.item[e].uses == 2;
+    assert_int_equal(shared, n - 1);
+    topology_fini(&topology);
+    scene_fini(&scene);
+  }
+}
+
+/* ---- Welding ----------------------------------------------------------------
+ */
+
+static void an_unwelded_shell_is_stitched_whole(void **state) {
+  (void)state;
+  struct scene scene;
+  recto_options options;
+  struct topology topology;
+  recto_options_init(&options);
+  scene_init(&scene);
+  scenes_unwelded(&scene, &options);
+  find(&topology, &scene);
+  assert_non_null(topology.weld);
+  assert_true(topology.edge.count > 0);
+  for (size_t e = 0; e < topology.edge.count; e++)
+    assert_int_equal(topology.edge.item[e].uses, 2);
+  for (uint32_t p = 0; p < scene.point.count; p++) {
+    uint32_t to = topology.weld[p];
+    assert_true(to <= p);
+    assert_int_equal(topology.weld[to], to);
+    assert_memory_equal(&scene.point.item[p], &scene.point.item[to],
+                        sizeof(struct scene_point));
+  }
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
+static void minus_zero_is_zero_to_the_weld(void **state) {
+  (void)state;
+  struct scene scene;
+  struct topology topology;
+  const double left[] = {0, 0, 0, 0, 1, 0, -1, 0, 0};
+  const double right[] = {-0.0, 1, -0.0, 0, -0.0, 0, 1, 0, 0};
+  scene_init(&scene);
+  build_polygon(&scene, left, 3);
+  build_polygon(&scene, right, 3);
+  find(&topology, &scene);
+  assert_int_equal(topology.edge.count, 5);
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
+static void the_next_double_is_not_welded(void **state) {
+  (void)state;
+  struct scene scene;
+  struct topology topology;
+  const double left[] = {1, 0, 0, 1, 1, 0, -1, 0, 0};
+  const double right[] = {1, 1, 0, nextafter(1, 2), 0, 0, 2, 0, 0};
+  scene_init(&scene);
+  build_polygon(&scene, left, 3);
+  build_polygon(&scene, right, 3);
+  find(&topology, &scene);
+  assert_int_equal(topology.edge.count, 6);
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
+static void closed_shells_that_touch_stay_apart(void **state) {
+  (void)state;
+  struct scene scene;
+  struct topology topology;
+  scene_init(&scene);
+  build_box(&scene, vector_of(0, 0, 0), vector_of(1, 1, 1));
+  build_box(&scene, vector_of(1, 0, 0), vector_of(2, 1, 1));
+  find(&topology, &scene);
+  assert_null(topology.weld);
+  assert_int_equal(topology.edge.count, 24);
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
+static void
+edges_that_only_the_weld_makes_whole_are_counted_once(void **state) {
+  (void)state;
+  struct scene scene;
+  struct topology topology;
+  const double sheet[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  scene_init(&scene);
+  for (int i = 0; i < 4; i++)
+    build_polygon(&scene, sheet, 4);
+  find(&topology, &scene);
+  assert_int_equal(topology.edge.count, 4);
+  for (size_t e = 0; e < 4; e++) {
+    assert_int_equal(topology.edge.item[e].uses, 3);
+    assert_int_equal(topology.edge.item[e].face[0], 0);
+    assert_int_equal(topology.edge.item[e].face[1], 1);
+  }
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
+/* ---- Natures
+ * ----------------------------------------------------------------- */
+
+/* Two faces that meet along the z axis at an angle of their normals; the
+ * second one's winding is turned where `same_way` is set. */
+static void fill_hinge(struct scene *scene, double angle_deg, bool same_way,
+                       double scale) {
+  struct angle a = angle_of_degrees(angle_deg);
+  uint32_t p[6];
+  build_group(scene, "hinge");
+  p[0] = build_point(scene, 0, 0, 0);
+  p[1] = build_point(scene, 0, 0, scale);
+  p[2] = build_point(scene, -scale, 0, scale);
+  p[3] = build_point(scene, -scale, 0, 0);
+  p[4] = build_point(scene, scale * a.cosine, scale * a.sine, 0);
+  p[5] = build_point(scene, scale * a.cosine, scale * a.sine, scale);
+  build_quad(scene, p[0], p[1], p[2], p[3]);
+  if (same_way)
+    build_quad(scene, p[0], p[1], p[5], p[4]);
+  else
+    build_quad(scene, p[1], p[0], p[4], p[5]);
+}
+
+/* The natures of the edge that both faces share, told both ways. */
+static unsigned hinge_natures(double angle_deg, bool same_way, double scale,
+                              double crease_deg) {
+  struct scene scene;
+  struct topology topology;
+  uint8_t natures[7];
+  scene_init(&scene);
+  fill_hinge(&scene, angle_deg, same_way, scale);
+  find(&topology, &scene);
+  assert_int_equal(topology.edge.count, 7);
+  assert_true(topology_natures_all(&topology, &scene, crease_deg, natures));
+  for (uint32_t e = 0; e < 7; e++)
+    assert_int_equal(natures[e],
+                     topology_natures(&topology, &scene, e, crease_deg));
+  unsigned of_hinge = natures[0];
+  assert_int_equal(natures[1], RECTO_EDGE_BORDER);
+  topology_fini(&topology);
+  scene_fini(&scene);
+  return of_hinge;
+}
+
+static void a_crease_is_beyond_the_angle_and_not_at_it(void **state) {
+  (void)state;
+  for (int same_way = 0; same_way < 2; same_way++) {
+    assert_int_equal(hinge_natures(31, same_way, 1, 30), RECTO_EDGE_CREASE);
+    assert_int_equal(hinge_natures(29, same_way, 1, 30), RECTO_EDGE_SMOOTH);
+    assert_int_equal(hinge_natures(-31, same_way, 1, 30), RECTO_EDGE_CREASE);
+    assert_int_equal(hinge_natures(90, same_way, 1, 90), RECTO_EDGE_SMOOTH);
+    assert_int_equal(hinge_natures(90.001, same_way, 1, 90), RECTO_EDGE_CREASE);
+    assert_int_equal(hinge_natures(0, same_way, 1, 0), RECTO_EDGE_SMOOTH);
+    assert_int_equal(hinge_natures(0.01, same_way, 1, 0), RECTO_EDGE_CREASE);
+    assert_int_equal(hinge_natures(179, same_way, 1, 180), RECTO_EDGE_SMOOTH);
+  }
+}
+
+/* The filter in single precision must not decide what is close: angles a
+ * hundred-millionth of a degree on either side of the limit. */
+static void a_crease_close_to_its_angle_is_told_in_double(void **state) {
+  (void)state;
+  for (double limit = 10; limit < 175; limit += 11) {
+    assert_int_equal(hinge_natures(limit + 1e-8, false, 1, limit),
+                     RECTO_EDGE_CREASE);
+    assert_int_equal(hinge_natures(limit - 1e-8, false, 1, limit),
+                     RECTO_EDGE_SMOOTH);
+  }
+}
+
+static void creases_do_not_depend_on_the_unit(void **state) {
+  (void)state;
+  for (int exponent = -1000; exponent <= 1000; exponent += 50) {
+    double scale = ldexp(1, exponent);
+    assert_int_equal(hinge_natures(31, false, scale, 30), RECTO_EDGE_CREASE);
+    assert_int_equal(hinge_natures(29, false, scale, 30), RECTO_EDGE_SMOOTH);
+  }
+}
+
+static void a_face_folded_back_is_a_crease(void **state) {
+  (void)state;
+  assert_int_equal(hinge_natures(179.9, false, 1, 30), RECTO_EDGE_CREASE);
+  assert_int_equal(hinge_natures(179.9, true, 1, 179), RECTO_EDGE_CREASE);
+}
+
+/* Welded at all its borders, so no edge of it is a border any more. */
+static void a_face_given_twice_is_folded_at_all_its_edges(void **state) {
+  (void)state;
+  struct scene scene;
+  struct topology topology;
+  scene_init(&scene);
+  fill_hinge(&scene, 180, false, 1);
+  find(&topology, &scene);
+  assert_int_equal(topology.edge.count, 4);
+  for (uint32_t e = 0; e < 4; e++)
+    assert_int_equal(topology_natures(&topology, &scene, e, 30),
+                     RECTO_EDGE_CREASE);
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
+static void two_groups_meet_at_an_edge_of_class_group(void **state) {
+  (void)state;
+  struct scene scene;
+  struct topology topology;
+  scene_init(&scene);
+  build_group(&scene, "left");
+  build_point(&scene, 0, 0, 0);
+  build_point(&scene, 1, 0, 0);
+  build_point(&scene, 1, 1, 0);
+  build_point(&scene, 0, 1, 0);
+  build_triangle(&scene, 0, 1, 2);
+  build_group(&scene, "right");
+  build_triangle(&scene, 0, 2, 3);
+  find(&topology, &scene);
+  uint32_t diagonal = search(&topology, 0, 2);
+  assert_int_equal(topology_natures(&topology, &scene, diagonal, 30),
+                   RECTO_EDGE_GROUP);
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
+static void three_faces_make_a_border_whatever_their_order(void **state) {
+  (void)state;
+  struct scene scene;
+  struct topology topology;
+  scene_init(&scene);
+  for (int i = 0; i < 3; i++) {
+    char name[2] = {(char)('a' + i), 0};
+    const double page[] = {0, 0, 0, 0, 0, 1, i - 1.0, 1, 0};
+    build_group(&scene, name);
+    build_polygon(&scene, page, 3);
+  }
+  find(&topology, &scene);
+  uint32_t spine = search(&topology, 0, 1);
+  assert_int_equal(topology.edge.item[spine].uses, 3);
+  assert_int_equal(topology_natures(&topology, &scene, spine, 30),
+                   RECTO_EDGE_BORDER);
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
+static void a_shell_far_from_the_origin_has_the_same_creases(void **state) {
+  (void)state;
+  struct scene scene;
+  struct topology topology;
+  scene_init(&scene);
+  build_box(&scene, vector_of(1e7, -1e7, 1e7),
+            vector_of(1e7 + 1, 1 - 1e7, 10000002));
+  find(&topology, &scene);
+  for (uint32_t e = 0; e < 12; e++) {
+    assert_int_equal(topology_natures(&topology, &scene, e, 89),
+                     RECTO_EDGE_CREASE);
+    assert_int_equal(topology_natures(&topology, &scene, e, 90),
+                     RECTO_EDGE_SMOOTH);
+  }
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
+/* ---- Angles
+ * ------------------------------------------------------------------ */
+
+static void right_angles_are_exact_and_have_no_minus_zero(void **state) {
+  (void)state;
+  static const double sine[] = {0, 1, 0, -1}, cosine[] = {1, 0, -1, 0};
+  for (int quarter = -9; quarter <= 9; quarter++) {
+    struct angle a = angle_of_degrees(90.0 * quarter);
+    assert_true(a.sine == sine[quarter & 3]);
+    assert_true(a.cosine == cosine[quarter & 3]);
+    assert_false(a.sine == 0 && signbit(a.sine));
+    assert_false(a.cosine == 0 && signbit(a.cosine));
+  }
+}
+
+static void angles_agree_with_the_mathematical_library(void **state) {
+  (void)state;
+  const double pi = acos(-1);
+  for (double deg = -400; deg <= 400; deg += 0.37) {
+    struct angle a = angle_of_degrees(deg);
+    assert_true(fabs(a.sine - sin(deg * pi / 180)) < 1e-14);
+    assert_true(fabs(a.cosine - cos(deg * pi / 180)) < 1e-14);
+    assert_true(fabs(a.sine * a.sine + a.cosine * a.cosine - 1) < 5e-16);
+  }
+}
+
+/* ---- Faults
+ * ------------------------------------------------------------------- */
+
+static void every_failed_allocation_is_told(void **state) {
+  (void)state;
+  struct scene scene;
+  recto_options options;
+  recto_options_init(&options);
+  scene_init(&scene);
+  scenes_unwelded(&scene, &options);
+  fill_fan(&scene, 100, true);
+  recto_status status = RECTO_ERROR_MEMORY;
+  unsigned long n = 0;
+  while (status != RECTO_OK) {
+    struct topology topology;
+    recto_error error = {0};
+    mem_fail_after(++n);
+    status = topology_init(&topology, &scene, &error);
+    mem_fail_after(0);
+    if (status == RECTO_OK) {
+      topology_fini(&topology);
+    } else {
+      assert_int_equal(status, RECTO_ERROR_MEMORY);
+      assert_int_equal(error.code, RECTO_ERROR_MEMORY);
+      assert_null(topology.edge.item);
+      assert_null(topology.corner_edge);
+    }
+    assert_true(n < 100);
+  }
+  assert_true(n > 10);
+  scene_fini(&scene);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_scenes_have_the_edges_that_a_search_finds),
+      cmocka_unit_test(crowded_points_have_the_edges_that_a_search_finds),
+      cmocka_unit_test(a_box_has_twelve_edges_of_two_faces_each),
+      cmocka_unit_test(no_faces_have_no_edges),
+      cmocka_unit_test(a_fan_of_100000_triangles_is_no_trouble),
+      cmocka_unit_test(an_unwelded_shell_is_stitched_whole),
+      cmocka_unit_test(minus_zero_is_zero_to_the_weld),
+      cmocka_unit_test(the_next_double_is_not_welded),
+      cmocka_unit_test(closed_shells_that_touch_stay_apart),
+      cmocka_unit_test(edges_that_only_the_weld_makes_whole_are_counted_once),
+      cmocka_unit_test(a_crease_is_beyond_the_angle_and_not_at_it),
+      cmocka_unit_test(a_crease_close_to_its_angle_is_told_in_double),
+      cmocka_unit_test(creases_do_not_depend_on_the_unit),
+      cmocka_unit_test(a_face_folded_back_is_a_crease),
+      cmocka_unit_test(a_face_given_twice_is_folded_at_all_its_edges),
+      cmocka_unit_test(two_groups_meet_at_an_edge_of_class_group),
+      cmocka_unit_test(three_faces_make_a_border_whatever_their_order),
+      cmocka_unit_test(a_shell_far_from_the_origin_has_the_same_creases),
+      cmocka_unit_test(right_angles_are_exact_and_have_no_minus_zero),
+      cmocka_unit_test(angles_agree_with_the_mathematical_library),
+      cmocka_unit_test(every_failed_allocation_is_told),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
