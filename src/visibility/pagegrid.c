@@ -9,39 +9,14 @@ enum {
   SAMPLE = 1 << 16 /* triangles that are looked at to choose the cells */
 };
 
-static int32_t least(int32_t a, int32_t b) { return a < b ? a : b; }
-static int32_t most(int32_t a, int32_t b) { return a > b ? a : b; }
-
-struct page_box page_box_of_segment(struct geom_point p, struct geom_point q) {
-  return (struct page_box){least(p.x, q.x), least(p.y, q.y), most(p.x, q.x),
-                           most(p.y, q.y)};
-}
-
-struct page_box page_box_of_triangle(const struct sheet *sheet,
-                                     uint32_t triangle) {
-  const uint32_t *p = sheet->triangle.item[triangle].point;
-  const struct geom_point *a = &sheet->point.item[p[0]],
-                          *b = &sheet->point.item[p[1]],
-                          *c = &sheet->point.item[p[2]];
-  return (struct page_box){least(a->x, least(b->x, c->x)),
-                           least(a->y, least(b->y, c->y)),
-                           most(a->x, most(b->x, c->x)),
-                           most(a->y, most(b->y, c->y))};
-}
-
-static int cell_of(int32_t v, int32_t v0, int shift, int count) {
-  int64_t cell = ((int64_t)v - v0) >> shift;
-  return cell < 0 ? 0 : cell >= count ? count - 1 : (int)cell;
-}
-
 static struct page_box box_of_sheet(const struct sheet *sheet) {
   struct page_box all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
   for (size_t t = 0; t < sheet->triangle.count; t++) {
     struct page_box box = page_box_of_triangle(sheet, (uint32_t)t);
-    all.x0 = least(all.x0, box.x0);
-    all.y0 = least(all.y0, box.y0);
-    all.x1 = most(all.x1, box.x1);
-    all.y1 = most(all.y1, box.y1);
+    all.x0 = page_least(all.x0, box.x0);
+    all.y0 = page_least(all.y0, box.y0);
+    all.x1 = page_most(all.x1, box.x1);
+    all.y1 = page_most(all.y1, box.y1);
   }
   return sheet->triangle.count > 0 ? all : (struct page_box){0, 0, 0, 0};
 }
@@ -76,15 +51,6 @@ void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
   }
   grid->columns = (int)(width >> grid->shift) + 1;
   grid->rows = (int)(height >> grid->shift) + 1;
-}
-
-struct cell_range pagegrid_cells(const struct pagegrid *grid,
-                                 struct page_box box) {
-  return (struct cell_range){
-      cell_of(box.x0, grid->x0, grid->shift, grid->columns),
-      cell_of(box.y0, grid->y0, grid->shift, grid->rows),
-      cell_of(box.x1, grid->x0, grid->shift, grid->columns),
-      cell_of(box.y1, grid->y0, grid->shift, grid->rows)};
 }
 
 /* First pass: counts; second: places.  start[] ends as the lists' starts. */
@@ -193,11 +159,11 @@ void pagegrid_row(const struct pagegrid *grid, struct geom_point p,
   from = (a < b ? a : b) - 1;
   to = (a < b ? b : a) + 1;
   if (from > -0x1p30) {
-    int x = cell_of((int32_t)from - 1, grid->x0, grid->shift, grid->columns);
+    int x = pagegrid_cell((int32_t)from - 1, grid->x0, grid->shift, grid->columns);
     if (x > *x0) *x0 = x;
   }
   if (to < 0x1p30) {
-    int x = cell_of((int32_t)to + 1, grid->x0, grid->shift, grid->columns);
+    int x = pagegrid_cell((int32_t)to + 1, grid->x0, grid->shift, grid->columns);
     if (x < *x1) *x1 = x;
   }
 }

@@ -8,6 +8,31 @@ struct page_box {
   int32_t x0, y0, x1, y1; /* grid units, closed */
 };
 
+static inline int32_t page_least(int32_t a, int32_t b) { return a < b ? a : b; }
+static inline int32_t page_most(int32_t a, int32_t b) { return a > b ? a : b; }
+
+static inline struct page_box page_box_of_segment(struct geom_point p,
+                                                  struct geom_point q) {
+  return (struct page_box){page_least(p.x, q.x), page_least(p.y, q.y),
+                           page_most(p.x, q.x), page_most(p.y, q.y)};
+}
+
+static inline struct page_box page_box_of_triangle(const struct sheet *sheet,
+                                                   uint32_t triangle) {
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  const struct geom_point *a = &sheet->point.item[p[0]],
+                          *b = &sheet->point.item[p[1]],
+                          *c = &sheet->point.item[p[2]];
+  return (struct page_box){page_least(a->x, page_least(b->x, c->x)),
+                           page_least(a->y, page_least(b->y, c->y)),
+                           page_most(a->x, page_most(b->x, c->x)),
+                           page_most(a->y, page_most(b->y, c->y))};
+}
+
+static inline bool page_boxes_apart(struct page_box a, struct page_box b) {
+  return a.x1 < b.x0 || b.x1 < a.x0 || a.y1 < b.y0 || b.y1 < a.y0;
+}
+
 /* Cells are squares of 2^shift units; the triangles of cell c are
  * item[start[c] .. start[c + 1]), ascending. */
 struct pagegrid {
@@ -34,13 +59,25 @@ static inline size_t pagegrid_cell_count(const struct pagegrid *grid) {
   return (size_t)grid->columns * (size_t)grid->rows;
 }
 
+static inline int pagegrid_cell(int32_t v, int32_t v0, int shift, int count) {
+  int64_t cell = ((int64_t)v - v0) >> shift;
+  return cell < 0 ? 0 : cell >= count ? count - 1 : (int)cell;
+}
+
 /* Ranges of cells, closed. */
 struct cell_range {
   int x0, y0, x1, y1;
 };
 
-struct cell_range pagegrid_cells(const struct pagegrid *grid,
-                                 struct page_box box);
+/* The cells that a box meets; what is off the grid counts to its rim. */
+static inline struct cell_range pagegrid_cells(const struct pagegrid *grid,
+                                               struct page_box box) {
+  return (struct cell_range){
+      pagegrid_cell(box.x0, grid->x0, grid->shift, grid->columns),
+      pagegrid_cell(box.y0, grid->y0, grid->shift, grid->rows),
+      pagegrid_cell(box.x1, grid->x0, grid->shift, grid->columns),
+      pagegrid_cell(box.y1, grid->y0, grid->shift, grid->rows)};
+}
 
 /* Of row y, within `range`, the cells that the segment p-q meets. */
 void pagegrid_row(const struct pagegrid *grid, struct geom_point p,
@@ -67,13 +104,5 @@ USE_RESULT bool pagegrid_find(const struct pagegrid *grid,
 USE_RESULT bool pagegrid_find_along(const struct pagegrid *grid,
                                     struct geom_point p, struct geom_point q,
                                     struct pagegrid_query *query);
-
-struct page_box page_box_of_triangle(const struct sheet *sheet,
-                                     uint32_t triangle);
-struct page_box page_box_of_segment(struct geom_point p, struct geom_point q);
-
-static inline bool page_boxes_apart(struct page_box a, struct page_box b) {
-  return a.x1 < b.x0 || b.x1 < a.x0 || a.y1 < b.y0 || b.y1 < a.y0;
-}
 
 #endif

@@ -124,7 +124,7 @@ static void draw_levels(const struct pair *pair, struct raster *raster,
 
 size_t pair_draw(const struct pair *pair, struct raster *raster) {
   int32_t first = scan_edge_column(&pair->edges.left, &raster->grid);
-  int32_t past = scan_edge_column(&pair->edges.right, &raster->grid);
+  int32_t past = scan_edge_column_past(&pair->edges.right, &raster->grid);
   if (first >= past)
     return 0;
   if (raster->depth_bits > 0)

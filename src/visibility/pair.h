@@ -32,7 +32,9 @@ bool pair_start(struct pair *pair, const struct raster *raster,
                 const struct facets *facets, uint32_t facet);
 
 /* Puts the line at hand into the frame where the facet is nearer than what is
- * there.  Returns how many pixels it covers. */
+ * there.  A facet has the pixels whose centres lie on its left or right side,
+ * too: depth decides between it and its neighbour.  Returns how many pixels it
+ * covers. */
 size_t pair_draw(const struct pair *pair, struct raster *raster);
 
 /* Goes one line down; false past the last. */

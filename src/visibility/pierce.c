@@ -99,8 +99,9 @@ bool pierce_pair(const struct sheet *sheet, const struct hider *hf, uint32_t f,
     p[k] = sheet->point.item[sheet->triangle.item[g].point[k]];
   if (!straddles(hf, p)) return false;
   hider_init(&hg, sheet, g);
-  if (!straddles(&hg, hf->p) || shared_corners(hf->p, p) > 1) return false;
+  if (!straddles(&hg, hf->p)) return false;
   counts->straddle++;
+  if (shared_corners(hf->p, p) > 1) return false;
   find_ends(sheet, f, &hg, &ends);
   find_ends(sheet, g, hf, &ends);
   if (ends.count < 2 ||
@@ -183,64 +184,106 @@ bool pierce_add_edges(struct sheet *sheet, pierce_segments *segments) {
 
 /* ---- All pairs -------------------------------------------------------------- */
 
-struct depths {
-  int64_t low, high;
+/* What is asked first of a triangle, gathered once a cell. */
+struct summary {
+  struct page_box box;
+  int64_t low, high; /* depths */
+  uint32_t triangle;
 };
 
-static struct depths depths_of(const struct sheet *sheet, uint32_t triangle) {
+static struct summary summarise(const struct sheet *sheet, uint32_t triangle) {
   const uint32_t *p = sheet->triangle.item[triangle].point;
-  struct depths d = {sheet->point.item[p[0]].z, sheet->point.item[p[0]].z};
+  struct summary s = {page_box_of_triangle(sheet, triangle),
+                      sheet->point.item[p[0]].z, sheet->point.item[p[0]].z,
+                      triangle};
   for (int k = 1; k < 3; k++) {
     int64_t z = sheet->point.item[p[k]].z;
-    if (z < d.low) d.low = z;
-    if (z > d.high) d.high = z;
+    if (z < s.low) s.low = z;
+    if (z > s.high) s.high = z;
   }
-  return d;
+  return s;
 }
 
-/* The pairs of triangle f with the later ones that the query found. */
-static bool pierce_found(const struct sheet *sheet, uint32_t f,
-                         const struct pagegrid_query *query,
-                         pierce_segments *segments,
+/* A pair stands in several cells; it is asked in the one where the lower left
+ * corner of what their boxes share is. */
+static bool is_cell_of_pair(const struct pagegrid *grid, int x, int y,
+                            const struct summary *f, const struct summary *g) {
+  int32_t px = page_most(f->box.x0, g->box.x0),
+          py = page_most(f->box.y0, g->box.y0);
+  return pagegrid_cell(px, grid->x0, grid->shift, grid->columns) == x &&
+         pagegrid_cell(py, grid->y0, grid->shift, grid->rows) == y;
+}
+
+static bool share_an_edge(const struct sheet_triangle *f,
+                          const struct sheet_triangle *g) {
+  int shared = 0;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) shared += f->point[i] == g->point[j];
+  return shared > 1;
+}
+
+/* The pairs of summary[0] with the `count` - 1 behind it. */
+static bool pierce_first(const struct sheet *sheet, const struct pagegrid *grid,
+                         int x, int y, const struct summary *summary,
+                         size_t count, pierce_segments *segments,
                          struct pierce_counts *counts) {
-  struct page_box box = page_box_of_triangle(sheet, f);
-  struct depths depths = depths_of(sheet, f);
-  struct hider hf;
-  hider_init(&hf, sheet, f);
-  for (size_t i = 0; i < query->found.count; i++) {
-    uint32_t g = query->found.item[i];
+  const struct summary *f = summary;
+  struct hider hider;
+  bool prepared = false;
+  for (size_t i = 1; i < count; i++) {
+    const struct summary *g = &summary[i];
     struct pierce_segment segment;
-    struct depths other;
-    if (g <= f || page_boxes_apart(box, page_box_of_triangle(sheet, g)))
+    if (page_boxes_apart(f->box, g->box) || g->high < f->low ||
+        f->high < g->low ||
+        share_an_edge(&sheet->triangle.item[f->triangle],
+                      &sheet->triangle.item[g->triangle]) ||
+        !is_cell_of_pair(grid, x, y, f, g))
       continue;
-    other = depths_of(sheet, g);
-    if (other.high < depths.low || depths.high < other.low) continue;
-    if (pierce_pair(sheet, &hf, f, g, &segment, counts) &&
+    if (!prepared) hider_init(&hider, sheet, f->triangle);
+    prepared = true;
+    if (pierce_pair(sheet, &hider, f->triangle, g->triangle, &segment,
+                    counts) &&
         !ARRAY_PUSH(segments, segment))
       return false;
   }
   return true;
 }
 
+static bool pierce_cells(const struct sheet *sheet, const struct pagegrid *grid,
+                         pierce_segments *segments,
+                         struct pierce_counts *counts) {
+  ARRAY(struct summary) summary = {0};
+  bool done = true;
+  for (int y = 0; y < grid->rows && done; y++)
+    for (int x = 0; x < grid->columns && done; x++) {
+      size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+      size_t n = grid->start[cell + 1] - grid->start[cell];
+      summary.count = 0;
+      if (n < 2) continue;
+      if (!ARRAY_RESERVE(&summary, n)) {
+        done = false;
+        break;
+      }
+      for (size_t i = 0; i < n; i++)
+        summary.item[i] =
+            summarise(sheet, grid->item[grid->start[cell] + i]);
+      for (size_t i = 0; i + 1 < n && done; i++)
+        done = pierce_first(sheet, grid, x, y, &summary.item[i], n - i,
+                            segments, counts);
+    }
+  ARRAY_FREE(&summary);
+  return done;
+}
+
 recto_status pierce_all(struct sheet *sheet, const struct pagegrid *grid,
                         struct report *report, recto_error *error) {
-  struct pagegrid_query query;
   pierce_segments segments = {0};
   struct pierce_counts counts = {0};
-  recto_status status = RECTO_ERROR_MEMORY;
-  if (!pagegrid_query_init(&query, grid)) return error_memory(error);
-  for (size_t f = 0; f < sheet->triangle.count; f++)
-    if (!pagegrid_find(grid, page_box_of_triangle(sheet, (uint32_t)f),
-                       &query) ||
-        !pierce_found(sheet, (uint32_t)f, &query, &segments, &counts))
-      goto end;
-  if (!pierce_add_edges(sheet, &segments)) goto end;
+  bool done = pierce_cells(sheet, grid, &segments, &counts) &&
+              pierce_add_edges(sheet, &segments);
   report_int(report, "pierce", "pairs", (int64_t)counts.pairs);
   report_int(report, "pierce", "straddling", (int64_t)counts.straddle);
   report_int(report, "pierce", "segments", (int64_t)counts.segments);
-  status = RECTO_OK;
-end:
   ARRAY_FREE(&segments);
-  pagegrid_query_fini(&query);
-  return status == RECTO_OK ? RECTO_OK : error_memory(error);
+  return done ? RECTO_OK : error_memory(error);
 }

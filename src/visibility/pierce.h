@@ -42,7 +42,8 @@ bool pierce_pair(const struct sheet *sheet, const struct hider *hf, uint32_t f,
 USE_RESULT bool pierce_add_edges(struct sheet *sheet,
                                  pierce_segments *segments);
 
-/* Finds all piercing pairs with the help of the grid and adds their edges. */
+/* Finds the piercing pairs that share a listed cell of the grid, and adds
+ * their edges. */
 USE_RESULT recto_status pierce_all(struct sheet *sheet,
                                    const struct pagegrid *grid,
                                    struct report *report, recto_error *error);

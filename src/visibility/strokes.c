@@ -1,6 +1,8 @@
 /* strokes.c - from what triangles hide of an edge to its visible intervals. */
 #include "visibility/strokes.h"
 
+#include <string.h>
+
 #include "base/sort.h"
 
 static const struct ratio ZERO = {0, 1}, ONE = {1, 1};
@@ -19,9 +21,12 @@ bool strokes_hide(struct strokes *strokes, struct hidden_part part) {
 }
 
 bool strokes_open_map(struct map *map, size_t edge_count) {
-  map->edge_state = mem_calloc(edge_count, 1);
+  uint8_t *state = mem_resize(map->edge_state, edge_count, 1);
+  if (state == NULL) return false;
+  memset(state + map->edge_count, MAP_HIDDEN, edge_count - map->edge_count);
+  map->edge_state = state;
   map->edge_count = edge_count;
-  return map->edge_state != NULL;
+  return true;
 }
 
 static int compare_from(const void *a, const void *b, void *user) {

@@ -26,7 +26,8 @@ static inline void strokes_start(struct strokes *strokes) {
 /* Adds a hidden part; false when memory ran out. */
 USE_RESULT bool strokes_hide(struct strokes *strokes, struct hidden_part part);
 
-/* Room in the map for the edges of the sheet; all are hidden at first. */
+/* Room in the map for the edges of the sheet; those it had no room for yet
+ * are hidden at first. */
 USE_RESULT bool strokes_open_map(struct map *map, size_t edge_count);
 
 /* Files the visible intervals of `edge` in the map.  Edges come in ascending

@@ -3,13 +3,13 @@
  *
  * Phases
  *   1 classify the tiles
- *   2 find piercing pairs, in mixed tiles alone
- *   3 classify edges, and faces where fragments are asked for: visible or
+ *   2 classify edges, and faces where fragments are asked for: visible or
  *     hidden where all the tiles they meet say so; else they are left over
- *   4 list the faces of the tiles that left-over edges and faces meet
+ *   3 list the faces of the tiles that left-over edges and faces meet
+ *   4 find piercing pairs, in mixed tiles alone, and classify their edges
  *   5 solve the left-over ones by pairs, as the other exact solvers do
  *
- * Invariant: a decision in phase 3 is the one that pairs would have made.
+ * Invariant: a decision in phase 2 is the one that pairs would have made.
  */
 #include <string.h>
 
@@ -24,6 +24,7 @@ struct tiles_work {
   const struct solver_request *request;
   struct tilemap tiles;
   uint8_t *wanted;         /* tiles whose faces are to be listed */
+  bool wants_more;         /* than are listed */
   ARRAY(uint32_t) edge;    /* left over, ascending */
   ARRAY(uint32_t) face;    /* triangles left over, ascending */
   uint8_t *face_state;     /* one a triangle: enum map_state; MAP_MIXED is
@@ -31,23 +32,24 @@ struct tiles_work {
   struct hide_counts hide;
 };
 
-/* ---- 2. Piercing --------------------------------------------------------------- */
+/* ---- 3, 4. Lists and piercing --------------------------------------------------------------- */
 
-static bool find_piercing(struct tiles_work *work, struct report *report,
-                          recto_status *status, recto_error *error) {
+/* Faces that pierce each other where they can be seen do so in mixed tiles. */
+static void want_for_piercing(struct tiles_work *work) {
   size_t n = pagegrid_cell_count(&work->tiles.grid);
   for (size_t i = 0; i < n; i++)
-    work->wanted[i] = work->request->hidden ||
-                      work->tiles.tile[i].state == TILE_MIXED;
-  if (!pagegrid_fill(&work->tiles.grid, work->sheet, work->wanted))
-    return false;
-  *status = pierce_all(work->sheet, &work->tiles.grid, report, error);
-  pagegrid_fini(&work->tiles.grid);
-  memset(work->wanted, 0, n);
-  return *status == RECTO_OK;
+    if (work->request->hidden || work->tiles.tile[i].state == TILE_MIXED)
+      work->wanted[i] = 1;
 }
 
-/* ---- 3. Classifying -------------------------------------------------------------- */
+/* Lists the faces of the wanted tiles, again where more became wanted. */
+static bool list_faces(struct tiles_work *work) {
+  pagegrid_fini(&work->tiles.grid);
+  work->wants_more = false;
+  return pagegrid_fill(&work->tiles.grid, work->sheet, work->wanted);
+}
+
+/* ---- 2. Classifying -------------------------------------------------------------- */
 
 /* What a tile says of something with depths in these buckets: MAP_MIXED where
  * it does not say.  Of a wire it is not known that it lies in a layer. */
@@ -82,6 +84,7 @@ static enum map_state ask_along(struct tiles_work *work, struct geom_point p,
       size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
       int now = (int)ask_tile(&work->tiles.tile[i], low, high, wire);
       if (mark) {
+        work->wants_more |= !work->wanted[i];
         work->wanted[i] = 1;
       } else {
         if (now == MAP_MIXED || (state >= 0 && state != now)) return MAP_MIXED;
@@ -92,10 +95,12 @@ static enum map_state ask_along(struct tiles_work *work, struct geom_point p,
   return state < 0 ? MAP_MIXED : (enum map_state)state;
 }
 
-static bool classify_edges(struct tiles_work *work, struct map *map) {
+/* Classifies the edges from number `from` on. */
+static bool classify_edges(struct tiles_work *work, size_t from,
+                           struct map *map) {
   const struct sheet *sheet = work->sheet;
   if (!strokes_open_map(map, sheet->edge.count)) return false;
-  for (size_t e = 0; e < sheet->edge.count; e++) {
+  for (size_t e = from; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
     struct geom_point p = sheet->point.item[edge->point[0]],
                       q = sheet->point.item[edge->point[1]];
@@ -311,12 +316,18 @@ static bool solve_all(struct tiles_work *work, struct map *map,
     return false;
   work->wanted = mem_calloc(pagegrid_cell_count(&work->tiles.grid), 1);
   if (work->wanted == NULL) return false;
-  if (request->intersections && !find_piercing(work, report, status, error))
-    return false;
-  if (request->strokes && !classify_edges(work, map)) return false;
+  if (request->strokes && !classify_edges(work, 0, map)) return false;
   if (request->fragments && !classify_faces(work)) return false;
-  if (!pagegrid_fill(&work->tiles.grid, work->sheet, work->wanted))
-    return false;
+  if (request->intersections) want_for_piercing(work);
+  if (!list_faces(work)) return false;
+  if (request->intersections) {
+    size_t mesh_edges = work->sheet->edge.count;
+    *status = pierce_all(work->sheet, &work->tiles.grid, report, error);
+    if (*status != RECTO_OK) return false;
+    if (request->strokes && !classify_edges(work, mesh_edges, map))
+      return false;
+    if (work->wants_more && !list_faces(work)) return false;
+  }
   if (request->strokes && !solve_edges(work, map)) return false;
   return !request->fragments || solve_faces(work, map);
 }
