@@ -6,9 +6,10 @@
  * so the value of a third line there has the sign of det(l1, l2, l3) times
  * the sign of the last component.
  *
- * Filter: the nine inputs are within 2^-53 of the true coefficients; each of
- * the six triple products gathers at most 3 such errors and 5 roundings in all, so
- * the sum is off by less than 16 * 2^-53 times the sum of magnitudes.
+ * Filter: the nine inputs are within 2^-52 of the true coefficients (GMP cuts
+ * the digits off); each of the six triple products gathers at most 3 such
+ * errors and 5 roundings in all, so the sum is off by less than 16 * 2^-53
+ * times the sum of magnitudes.
  */
 #include "geom/line.h"
 
@@ -252,17 +253,25 @@ struct geom_corner geom_corner_at(struct geom_point p) {
   return (struct geom_corner){(double)p.x, (double)p.y, NULL, NULL, p.x, p.y};
 }
 
+/* Below this sine of the angle between two lines, doubles do not place their
+ * crossing well enough.  With |l| = |a| + |b| and a corner on the page,
+ * |c| <= 2^30 |l|; the terms of x, y and w gather at most 6 roundings, so x is
+ * off by less than 6 * 2^-53 * (2^31 + 2^30) |l1| |l2| / |w|: at this sine 9/64,
+ * within CORNER_ERROR.  (Compared with the terms of w alone, two lines nearly
+ * along an axis would pass for far from parallel: c is what is large there.) */
+#define CORNER_SINE 0x1p-16
+
 struct geom_corner geom_corner_of(const struct geom_line *l1,
                                   const struct geom_line *l2) {
   double w = l1->a * l2->b - l2->a * l1->b;
+  double size = (fabs(l1->a) + fabs(l1->b)) * (fabs(l2->a) + fabs(l2->b));
   struct geom_corner corner = {(l1->b * l2->c - l2->b * l1->c) / w,
                                (l1->c * l2->a - l2->c * l1->a) / w,
                                l1,
                                l2,
                                0,
                                0};
-  if (!isfinite(corner.x) || !isfinite(corner.y) ||
-      fabs(w) <= 0x1p-16 * (fabs(l1->a * l2->b) + fabs(l2->a * l1->b))) {
+  if (fabs(w) <= CORNER_SINE * size) {
     int64_t x, y; /* nearly parallel: the doubles would be far off */
     geom_corner_round(&corner, 8, &x, &y);
     corner.x = (double)x * 0x1p-8;
@@ -286,9 +295,8 @@ static int compare_exact(const struct geom_corner *p,
   return order;
 }
 
-/* How far a corner's doubles may be from the truth: the crossing of lines
- * that differ in direction by more than 2^-20 keeps 2^-53 * 2^20 * a few of
- * its largest coordinate, 2^30; the rest are rounded to 2^-9. */
+/* How far a corner's doubles may be from the truth: see CORNER_SINE; nearer to
+ * parallel they are rounded to 2^-9. */
 #define CORNER_ERROR 0x1p-2
 
 int geom_corner_compare(const struct geom_corner *p,

@@ -1,0 +1,9 @@
+# tests/exact.mk - layers 1 and 4, where every answer is exact.  hand/ holds what
+# these tests build and reckon by hand.
+hand_sheet = %D%/hand/sheet.c %D%/hand/sheet.h
+hand_rational = %D%/hand/rational.c %D%/hand/rational.h $(hand_sheet)
+hand_cppflags = $(AM_CPPFLAGS) -I$(srcdir)/%D%
+
+unit_tests += %D%/test_line
+%C%_test_line_SOURCES = %D%/test_line.c $(hand_rational)
+%C%_test_line_CPPFLAGS = $(hand_cppflags)
