@@ -90,10 +90,11 @@ static void lower_to(struct hidden_part *part, struct ratio t) {
 }
 
 /* Cuts the part to where the triangle's outline contains the edge. */
-static bool cut_to_outline(const struct hider *hider, struct geom_point p,
-                           struct geom_point q, struct hidden_part *part) {
+static bool cut_to_outline(const struct geom_point corner[3],
+                           struct geom_point p, struct geom_point q,
+                           struct hidden_part *part) {
   for (int k = 0; k < 3; k++) {
-    struct geom_point a = hider->p[k], b = hider->p[k == 2 ? 0 : k + 1];
+    struct geom_point a = corner[k], b = corner[k == 2 ? 0 : k + 1];
     int64_t s = geom_orient2d(a, b, p), t = geom_orient2d(a, b, q);
     if (s <= 0 && t <= 0) {
       if (s < 0 || t < 0) return false;
@@ -140,12 +141,12 @@ static bool cut_to_depth(const struct hider *hider, struct geom_point p,
   return ratio_compare(part->from, part->to) < 0;
 }
 
-bool hide_by_outline(const struct hider *hider, struct geom_point p,
+bool hide_by_outline(const struct geom_point corner[3], struct geom_point p,
                      struct geom_point q, struct hidden_part *part) {
   part->from = ratio_of(0, 1);
   part->to = ratio_of(1, 1);
   part->sides = HIDE_BOTH;
-  return cut_to_outline(hider, p, q, part);
+  return cut_to_outline(corner, p, q, part);
 }
 
 bool hide_edge(const struct hider *hider, struct geom_point p,
@@ -154,9 +155,24 @@ bool hide_edge(const struct hider *hider, struct geom_point p,
   if (p.z > hider->z_max && q.z > hider->z_max) return false;
   if (page_boxes_apart(hider->box, page_box_of_segment(p, q))) return false;
   counts->pairs++;
-  if (!hide_by_outline(hider, p, q, part)) return false;
+  if (!hide_by_outline(hider->p, p, q, part)) return false;
   counts->depth++;
   return cut_to_depth(hider, p, q, part, counts);
+}
+
+bool hide_edge_by(const struct sheet *sheet, uint32_t triangle,
+                  struct geom_point p, struct geom_point q,
+                  struct hidden_part *part, struct hide_counts *counts) {
+  const uint32_t *point = sheet->triangle.item[triangle].point;
+  const struct geom_point corner[3] = {sheet->point.item[point[0]],
+                                       sheet->point.item[point[1]],
+                                       sheet->point.item[point[2]]};
+  struct hider hider;
+  counts->pairs++;
+  if (!hide_by_outline(corner, p, q, part)) return false;
+  counts->depth++;
+  hider_init(&hider, sheet, triangle);
+  return cut_to_depth(&hider, p, q, part, counts);
 }
 
 void hide_counts_add(struct hide_counts *sum, const struct hide_counts *more) {

@@ -81,6 +81,12 @@ struct hide_counts {
   uint64_t crossings; /* of these, the edge goes through the tolerance */
 };
 
+/* hide_edge for a triangle that hide_may, prepared only where its outline
+ * meets the edge: most do not. */
+bool hide_edge_by(const struct sheet *sheet, uint32_t triangle,
+                  struct geom_point p, struct geom_point q,
+                  struct hidden_part *part, struct hide_counts *counts);
+
 void hide_counts_add(struct hide_counts *sum, const struct hide_counts *more);
 void hide_report(const struct hide_counts *counts, struct report *report);
 
@@ -92,7 +98,7 @@ bool hide_edge(const struct hider *hider, struct geom_point p,
 
 /* The part of the edge that lies within the triangle's outline, whatever the
  * depths. */
-bool hide_by_outline(const struct hider *hider, struct geom_point p,
+bool hide_by_outline(const struct geom_point corner[3], struct geom_point p,
                      struct geom_point q, struct hidden_part *part);
 
 /* (value << 16) + T of a point: negative where it is behind the plane by more

@@ -60,19 +60,15 @@ static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
        i++) {
     uint32_t t = work->query.found.item[i];
     struct hidden_part part;
-    struct hider hider;
     if (t == edge->triangle[0] || t == edge->triangle[1] ||
-        (sheet->triangle_flags[t] & SHEET_FLAT) ||
-        (piece[t].z_high < p.z && piece[t].z_high < q.z) ||
-        page_boxes_apart(box, piece[t].box))
+        !hide_may(sheet, t, p, q, box))
       continue;
     if (piece[t].state == NEWELL_PAINTED && piece[t].rank < rank &&
         !runs_along(sheet, t, p, q)) {
       work->by_order++;
       continue;
     }
-    hider_init(&hider, sheet, t);
-    if (hide_edge(&hider, p, q, &part, &work->counts) &&
+    if (hide_edge_by(sheet, t, p, q, &part, &work->counts) &&
         !strokes_hide(&work->strokes, part))
       return false;
   }

@@ -69,12 +69,13 @@ static bool solve_edge(struct painting *painting,
   for (size_t i = 0; i < painting->query.found.count; i++) {
     uint32_t t = painting->query.found.item[i];
     struct hidden_part part;
-    struct hider hider;
+    struct geom_point corner[3];
     if ((own && painting->rank[t] <= rank) ||
         (sheet->triangle_flags[t] & SHEET_FLAT))
       continue;
-    hider_init(&hider, sheet, t);
-    if (hide_by_outline(&hider, p, q, &part) && !strokes_hide(strokes, part))
+    for (int k = 0; k < 3; k++)
+      corner[k] = sheet->point.item[sheet->triangle.item[t].point[k]];
+    if (hide_by_outline(corner, p, q, &part) && !strokes_hide(strokes, part))
       return false;
   }
   return true;

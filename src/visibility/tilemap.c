@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Cells a triangle stands in, on average: a tile about an edge wide. */
-enum { SPREAD = 4, MANY = 2 };
+enum { SPREAD = 6, MANY = 2 };
 
 struct triangle_view {
   struct geom_point p[3];

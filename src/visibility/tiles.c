@@ -182,12 +182,10 @@ static bool solve_edge(const struct tiles_work *work, uint32_t e,
   for (size_t i = 0; i < query->found.count && !strokes->whole; i++) {
     uint32_t t = query->found.item[i];
     struct hidden_part part;
-    struct hider hider;
     if (t == edge->triangle[0] || t == edge->triangle[1] ||
         !hide_may(sheet, t, p, q, box))
       continue;
-    hider_init(&hider, sheet, t);
-    if (hide_edge(&hider, p, q, &part, counts) &&
+    if (hide_edge_by(sheet, t, p, q, &part, counts) &&
         !strokes_hide(strokes, part))
       return false;
   }
