@@ -12,7 +12,7 @@
  * Derivation  an end point is rounded by at most 1/2 unit in x and in y, so by
  *             0.71 across any line; of two pieces of one line, each end lies
  *             within 2 * 0.71 = 1.41 of the other piece: rounded up.
- * Users       ink/nodes.c, ink/coincident.c
+ * Users       ink/nodes.c, ink/coincident.c, ink/overlap.c
  * Ten times   lines 20 nm apart, such as two models side by side, become one:
  *             still far below what a pen can show. */
 #define TOLERANCE_COINCIDENT_UNITS 2
@@ -78,5 +78,14 @@
  * Users       view/triangulate.c (for a count alone: nothing is decided)
  * Ten times   fewer faces are counted as warped. */
 #define TOLERANCE_WARP_SHARE 1e-6
+
+/* A change of the pen's way in the air is made where it gains more.
+ * Unit        mm
+ * Derivation  sums of distances up to 2 m are rounded to 1e-12 mm; a gain
+ *             well above it is a real one, so no two moves can undo each
+ *             other for ever.
+ * Users       ink/tour.c
+ * Ten times   nothing that could be measured. */
+#define TOLERANCE_TRAVEL_MM 1e-6
 
 #endif

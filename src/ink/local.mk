@@ -1,3 +1,20 @@
 # src/ink/local.mk - the sources of this layer.
 librecto_core_la_SOURCES += \
-  %D%/drawing.c %D%/drawing.h
+  %D%/chain.c \
+  %D%/coincident.c \
+  %D%/dash.c \
+  %D%/drawing.c %D%/drawing.h \
+  %D%/fill.c %D%/fill.h %D%/hatch.c \
+  %D%/ink.c %D%/ink.h \
+  %D%/layers.c %D%/layers.h \
+  %D%/nearest.c %D%/nearest.h \
+  %D%/net.h %D%/nodes.c \
+  %D%/order.c %D%/order.h \
+  %D%/overlap.c %D%/overlap.h \
+  %D%/pairing.c %D%/pairing.h \
+  %D%/paths.h \
+  %D%/segments.c \
+  %D%/simplify.c \
+  %D%/straighten.c \
+  %D%/stroke.c %D%/stroke.h \
+  %D%/tour.c %D%/tour.h

@@ -1,0 +1,28 @@
+/* fill.h - visible fragments become fills or hatching. */
+#ifndef INK_FILL_H
+#define INK_FILL_H
+
+#include "ink/drawing.h"
+#include "visibility/map.h"
+
+/* The colour of a group: its own, or one of a palette, by its number. */
+uint32_t fill_colour(const struct scene *scene, uint32_t group);
+
+/* Adds a fill for every fragment of the map.
+ * RECTO_FILL_PAINT  in the colour of the face's group
+ * RECTO_FILL_SHADE  in the grey of its angle to options->light, both sides of
+ *                   a face alike */
+USE_RESULT bool fill_add(struct drawing *drawing, const struct sheet *sheet,
+                         const struct scene *scene, const struct map *map,
+                         const recto_options *options);
+
+/* Adds strokes of class 0 along parallel lines, hatch_pitch_mm apart and
+ * turned by hatch_angle_deg from the x axis, over every fragment.  The lines
+ * are the page's: over neighbours they meet.  A stroke goes to and fro while
+ * the move to the next line stays inside the fragment; shorter ones than
+ * shortest_mm are left out. */
+USE_RESULT bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
+                          const struct scene *scene, const struct map *map,
+                          const recto_options *options, double shortest_mm);
+
+#endif

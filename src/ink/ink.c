@@ -1,0 +1,206 @@
+/* ink.c - from the visible map to a drawing, phase by phase. */
+#include "ink/ink.h"
+
+#include <string.h>
+
+#include "ink/fill.h"
+#include "ink/layers.h"
+#include "ink/order.h"
+#include "ink/paths.h"
+#include "ink/stroke.h"
+
+/* Dashes and gaps in pen widths: those of ISO 128's dashed line.  Round ends
+ * make dashes look one width longer and gaps one shorter. */
+#define DASH_PENS 12
+#define GAP_PENS 3
+
+struct ink {
+  struct drawing *drawing;
+  const struct sheet *sheet;
+  const struct scene *scene;
+  const struct map *map;
+  const recto_options *options;
+  double shortest_mm;
+  int64_t too_short;
+};
+
+/* ---- Paths ---------------------------------------------------------------- */
+
+/* What is drawn once, as a net, its ends indexed. */
+static recto_status make_net(struct ink *ink, struct net *net,
+                             recto_error *error) {
+  struct report *report = ink->drawing->report;
+  struct net_rows rows = {0};
+  recto_status status =
+      net_collect(net, ink->sheet, ink->map, ink->options, error);
+  report_int(report, "ink", "segments", (int64_t)net->segment.count);
+  if (!status)
+    status = net_unite(net, &rows, error);
+  if (!status)
+    status = net_drop_coincident(net, &rows, error);
+  net_rows_fini(&rows);
+  report_int(report, "ink", "without_length", (int64_t)net->dots);
+  report_int(report, "ink", "drawn_twice", (int64_t)net->doubled);
+  return status;
+}
+
+static recto_status make_paths(struct ink *ink, struct ink_paths *paths,
+                               recto_error *error) {
+  struct net net;
+  net_init(&net);
+  recto_status status = make_net(ink, &net, error);
+  if (!status)
+    status = paths_chain(paths, &net, error);
+  net_fini(&net);
+  if (status)
+    return status;
+  paths_straighten(paths);
+  if (ink->options->simplify_mm > 0)
+    status = paths_simplify(
+        paths, ink->options->simplify_mm * SHEET_UNITS_PER_MM, error);
+  return status;
+}
+
+/* ---- Strokes -------------------------------------------------------------- */
+
+/* A stroke of that path without its points. */
+static struct drawing_stroke stroke_like(const struct ink *ink,
+                                         const struct ink_path *path) {
+  const struct sheet_edge *edge = &ink->sheet->edge.item[path->edge];
+  uint32_t face = DRAWING_NONE;
+  if (edge->triangle[0] != SHEET_NONE)
+    face = ink->sheet->triangle.item[edge->triangle[0]].face;
+  uint32_t layer = layers_pen_of_group(ink->options, edge->group);
+  if (path->hidden && ink->options->hidden == RECTO_HIDDEN_LAYER)
+    layer = layers_pen_count(ink->scene, ink->options);
+  return (struct drawing_stroke){.layer = layer,
+                                 .face = face,
+                                 .edge = edge->source,
+                                 .group = edge->group,
+                                 .edge_class = edge->edge_class};
+}
+
+static bool take_points(const struct ink *ink, const struct ink_paths *paths,
+                        const struct ink_path *path,
+                        struct stroke_line *line) {
+  line->closed = path->closed;
+  line->point.count = 0;
+  if (!ARRAY_RESERVE(&line->point, path->count))
+    return false;
+  for (uint32_t i = 0; i < path->count; i++) {
+    struct ink_point p = paths->point.item[path->point + i];
+    line->point.item[line->point.count++] = (struct drawing_point){
+        sheet_x_mm(ink->sheet, p.x), sheet_y_mm(ink->sheet, p.y)};
+  }
+  return true;
+}
+
+static bool add_path(struct ink *ink, const struct ink_path *path,
+                     const struct stroke_line *line) {
+  struct drawing_stroke like = stroke_like(ink, path);
+  double pen = ink->options->pen_mm;
+  if (stroke_line_length(line) < ink->shortest_mm) {
+    ink->too_short++;
+    return true;
+  }
+  if (path->hidden && ink->options->hidden == RECTO_HIDDEN_DASHED)
+    return stroke_add_dashed(ink->drawing, &like, line, DASH_PENS * pen,
+                             GAP_PENS * pen);
+  return stroke_add(ink->drawing, &like, line->point.item, line->point.count,
+                    line->closed);
+}
+
+static bool add_paths(struct ink *ink, const struct ink_paths *paths) {
+  struct stroke_line line = {0};
+  bool good = ARRAY_RESERVE(&ink->drawing->point, paths->point.count) &&
+              ARRAY_RESERVE(&ink->drawing->stroke, paths->path.count);
+  for (size_t i = 0; good && i < paths->path.count; i++) {
+    const struct ink_path *path = &paths->path.item[i];
+    good = take_points(ink, paths, path, &line) && add_path(ink, path, &line);
+  }
+  ARRAY_FREE(&line.point);
+  return good;
+}
+
+static recto_status draw_lines(struct ink *ink, recto_error *error) {
+  struct ink_paths paths = {0};
+  recto_status status = make_paths(ink, &paths, error);
+  if (!status && !add_paths(ink, &paths))
+    status = error_memory(error);
+  paths_fini(&paths);
+  return status;
+}
+
+/* ---- The drawing ---------------------------------------------------------- */
+
+static bool copy_group_names(struct ink *ink) {
+  for (size_t i = 0; i < ink->scene->group.count; i++) {
+    const char *name = ink->scene->group.item[i].name;
+    size_t size = name ? strlen(name) + 1 : 1;
+    char *copy = mem_alloc(size, 1);
+    if (!copy || !ARRAY_PUSH(&ink->drawing->group_name, copy)) {
+      mem_free(copy);
+      return false;
+    }
+    memcpy(copy, name ? name : "", size);
+  }
+  return true;
+}
+
+static bool start_drawing(struct ink *ink) {
+  ink->drawing->width_mm = ink->sheet->camera.page_mm[0];
+  ink->drawing->height_mm = ink->sheet->camera.page_mm[1];
+  ink->drawing->ids = ink->options->ids;
+  return layers_add(ink->drawing, ink->scene, ink->options) &&
+         (!ink->options->ids || copy_group_names(ink));
+}
+
+static bool add_fills(struct ink *ink) {
+  switch (ink->options->fill) {
+  case RECTO_FILL_PAINT:
+  case RECTO_FILL_SHADE:
+    return fill_add(ink->drawing, ink->sheet, ink->scene, ink->map,
+                    ink->options);
+  case RECTO_FILL_HATCH:
+    return hatch_add(ink->drawing, ink->sheet, ink->scene, ink->map,
+                     ink->options, ink->shortest_mm);
+  case RECTO_FILL_NONE:
+    break;
+  }
+  return true;
+}
+
+static bool finish_drawing(struct ink *ink) {
+  struct report *report = ink->drawing->report;
+  if (!layers_pack(ink->drawing))
+    return false;
+  report_double(report, "ink", "travel_before_mm",
+                drawing_travel_mm(ink->drawing));
+  if (ink->options->order == RECTO_ORDER_NEAR &&
+      !order_near(ink->drawing, &order_usual_effort))
+    return false;
+  report_double(report, "ink", "travel_mm", drawing_travel_mm(ink->drawing));
+  report_int(report, "ink", "too_short", ink->too_short);
+  report_int(report, "ink", "pen_lifts",
+             (int64_t)order_pen_lifts(ink->drawing));
+  return true;
+}
+
+recto_status ink_draw(struct drawing *drawing, const struct sheet *sheet,
+                      const struct scene *scene, const struct map *map,
+                      const recto_options *options, recto_error *error) {
+  struct ink ink = {.drawing = drawing,
+                    .sheet = sheet,
+                    .scene = scene,
+                    .map = map,
+                    .options = options,
+                    .shortest_mm = options->min_stroke_mm < 0
+                                       ? options->pen_mm / 2
+                                       : options->min_stroke_mm};
+  if (!start_drawing(&ink))
+    return error_memory(error);
+  recto_status status = draw_lines(&ink, error);
+  if (!status && !(add_fills(&ink) && finish_drawing(&ink)))
+    status = error_memory(error);
+  return status;
+}

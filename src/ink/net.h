@@ -1,0 +1,91 @@
+/* net.h - the ink of a sheet as segments that share nodes: what is left of
+ * the visible map once only lines on the page matter.
+ *
+ * Phases, each leaves the net ready for the next
+ *   net_collect          intervals of edges become segments (segments.c)
+ *   net_unite            nodes at one place become one (nodes.c)
+ *   net_drop_coincident  lines drawn twice are drawn once (coincident.c)
+ * Invariants
+ *   visible segments stand before hidden ones, either kind by sheet edge;
+ *   after net_unite no two nodes are nearer than the tolerance, and no
+ *   segment joins a node to itself. */
+#ifndef INK_NET_H
+#define INK_NET_H
+
+#include "base/memory.h"
+#include "visibility/map.h"
+
+#define NET_NONE UINT32_MAX
+
+struct ink_point {
+  int32_t x, y; /* grid units from the middle of the page */
+};
+
+struct net_segment {
+  uint32_t node[2];
+  uint32_t edge; /* sheet edge it is a piece of */
+  uint32_t bond; /* only segments of the same bond are ever joined */
+  uint32_t kin;  /* class and group: where several could be joined, those
+                    alike in this go first */
+};
+
+struct net {
+  ARRAY(struct ink_point) node;
+  ARRAY(struct net_segment) segment;
+  size_t visible; /* segments before this one are visible */
+  /* The ends at node n: end[end_start[n] .. end_start[n + 1]), ascending;
+   * end e is node[e & 1] of segment e >> 1. */
+  uint32_t *end_start, *end;
+  /* How many segments had no length on the page, how many were drawn twice
+   * (in whole or in part). */
+  size_t dots, doubled;
+};
+
+/* Nodes by rows: horizontal bands with about as many nodes as there are rows.
+ * Row r holds nodes [start[r], start[r + 1]), by x, then y; their y are in
+ * [low[r], low[r + 1]). */
+struct net_rows {
+  uint32_t *start;
+  int64_t *low;
+  uint16_t *row; /* of each node */
+  uint32_t count;
+};
+
+void net_init(struct net *net);
+void net_fini(struct net *net);
+void net_rows_fini(struct net_rows *rows);
+
+/* Fills an empty net with the visible intervals of the drawable edges and,
+ * where options->hidden asks, the hidden ones.  Ends at an edge's own end are
+ * the sheet's point, others are rounded to the grid once.
+ * Errors  RECTO_ERROR_MEMORY; RECTO_ERROR_LIMIT: 2^31 segments. */
+USE_RESULT recto_status net_collect(struct net *net, const struct sheet *sheet,
+                                    const struct map *map,
+                                    const recto_options *options,
+                                    recto_error *error);
+
+/* Makes one node of those within TOLERANCE_COINCIDENT_UNITS in x and y of the
+ * first in reading order, renumbers the nodes row by row, drops the segments
+ * that lost their length.
+ * rows  zero-initialised; the caller ends it with net_rows_fini
+ * Cost  linear, but for the radix sort. */
+USE_RESULT recto_status net_unite(struct net *net, struct net_rows *rows,
+                                  recto_error *error);
+
+/* Keeps of segments that lie on each other one: visible before hidden, then
+ * the lower class bit, then the lower edge.  What others have beyond it
+ * stays.  Indexes the ends.
+ * Cost  near linear in the segments without overlap; k log k for k that lie
+ *       on one line. */
+USE_RESULT recto_status net_drop_coincident(struct net *net,
+                                            const struct net_rows *rows,
+                                            recto_error *error);
+
+/* Builds end_start and end anew. */
+USE_RESULT recto_status net_index_ends(struct net *net, recto_error *error);
+
+static inline bool net_is_hidden(const struct net *net, size_t segment) {
+  return segment >= net->visible;
+}
+
+#endif

@@ -1,0 +1,46 @@
+/* paths.h - polylines on the page grid, between chaining and the drawing. */
+#ifndef INK_PATHS_H
+#define INK_PATHS_H
+
+#include "ink/net.h"
+
+/* A closed path's last point joins its first, which is not repeated; it has
+ * three points at least.  A path has two points at least. */
+struct ink_path {
+  uint32_t point, count;
+  uint32_t edge; /* sheet edge of its first segment */
+  bool hidden, closed;
+};
+
+struct ink_paths {
+  ARRAY(struct ink_point) point; /* path after path, without gaps */
+  ARRAY(struct ink_path) path;
+};
+
+void paths_fini(struct ink_paths *paths);
+
+/* Joins the segments of a net, which is indexed, end to end.
+ * A node with two ends of one bond joins them.  Where more meet, those of one
+ * class and group go first, and among them the pair that runs on straightest,
+ * then the next; equal ones by lowest edge.
+ * Closed paths start at the point farthest from their lowest in (x, y): that
+ * is a corner, so no straight run is cut by the start.
+ * paths  zero-initialised; visible paths before hidden ones
+ * Guarantees  every segment is in exactly one path. */
+USE_RESULT recto_status paths_chain(struct ink_paths *paths,
+                                    const struct net *net, recto_error *error);
+
+/* Drops points within TOLERANCE_COLLINEAR_UNITS of the straight line that is
+ * left when they are gone, and on the way along it.  Ends stay. */
+void paths_straighten(struct ink_paths *paths);
+
+/* Douglas-Peucker: drops points so that no part of a line moves by more than
+ * `tolerance` grid units; ends stay, closed paths keep three points.
+ * Cost  near linear: paths are treated in runs of bounded length. */
+USE_RESULT recto_status paths_simplify(struct ink_paths *paths,
+                                       double tolerance, recto_error *error);
+
+double paths_length(const struct ink_paths *paths,
+                    const struct ink_path *path);
+
+#endif

@@ -1,0 +1,170 @@
+/* segments.c - the visible and hidden intervals of the drawable edges become
+ * segments of the page. */
+#include "ink/net.h"
+
+#include <string.h>
+
+#include "ink/layers.h"
+
+/* An end is numbered twice its segment, in 32 bits. */
+#define SEGMENT_LIMIT (UINT32_MAX / 2)
+
+struct collector {
+  struct net *net;
+  const struct sheet *sheet;
+  const struct map *map;
+  const recto_options *options;
+  uint32_t *node_of_point; /* sheet point -> node, NET_NONE: not yet one */
+  uint32_t bond;           /* of the edge at hand */
+};
+
+void net_init(struct net *net) { *net = (struct net){0}; }
+
+void net_fini(struct net *net) {
+  ARRAY_FREE(&net->node);
+  ARRAY_FREE(&net->segment);
+  mem_free(net->end_start);
+  mem_free(net->end);
+  net_init(net);
+}
+
+static bool add_node(struct net *net, struct ink_point at, uint32_t *node) {
+  *node = (uint32_t)net->node.count;
+  return ARRAY_PUSH(&net->node, at);
+}
+
+static bool node_of_point(struct collector *c, uint32_t point, uint32_t *node) {
+  *node = c->node_of_point[point];
+  if (*node != NET_NONE)
+    return true;
+  const struct sheet_point *p = &c->sheet->point.item[point];
+  if (!add_node(c->net, (struct ink_point){p->x, p->y}, node))
+    return false;
+  c->node_of_point[point] = *node;
+  return true;
+}
+
+static bool node_at(struct collector *c, const struct sheet_edge *edge,
+                    struct ratio t, uint32_t *node) {
+  if (t.num == 0)
+    return node_of_point(c, edge->point[0], node);
+  if (t.num == t.den)
+    return node_of_point(c, edge->point[1], node);
+  const struct sheet_point *p = &c->sheet->point.item[edge->point[0]];
+  const struct sheet_point *q = &c->sheet->point.item[edge->point[1]];
+  struct ink_point at = {(int32_t)ratio_lerp(t, p->x, q->x),
+                         (int32_t)ratio_lerp(t, p->y, q->y)};
+  return add_node(c->net, at, node);
+}
+
+static bool is_same_place(const struct net *net, uint32_t a, uint32_t b) {
+  return net->node.item[a].x == net->node.item[b].x &&
+         net->node.item[a].y == net->node.item[b].y;
+}
+
+/* Whether two edges that follow each other are of one polyline. */
+static bool is_same_wire(const struct sheet_edge *a,
+                         const struct sheet_edge *b) {
+  return a->edge_class == RECTO_EDGE_WIRE && b->edge_class == RECTO_EDGE_WIRE &&
+         a->source == b->source;
+}
+
+/* Without ids whatever is of one pen may be joined.  With ids a stroke names
+ * its source, so it is joined from pieces of that source alone: one mesh
+ * edge, one intersection, one polyline of the user's. */
+static uint32_t bond_of(struct collector *c, uint32_t edge, bool hidden) {
+  const struct sheet_edge *e = &c->sheet->edge.item[edge];
+  if (!c->options->ids)
+    return 2 * layers_pen_of_group(c->options, e->group) + hidden;
+  if (edge > 0 && is_same_wire(e - 1, e))
+    return c->bond;
+  return 2 * edge + hidden;
+}
+
+static bool add_segment(struct collector *c, uint32_t edge, struct ratio t0,
+                        struct ratio t1) {
+  const struct sheet_edge *e = &c->sheet->edge.item[edge];
+  struct net_segment s = {
+      .edge = edge, .bond = c->bond, .kin = e->group << 7 | e->edge_class};
+  if (!node_at(c, e, t0, &s.node[0]) || !node_at(c, e, t1, &s.node[1]))
+    return false;
+  if (is_same_place(c->net, s.node[0], s.node[1])) {
+    c->net->dots++;
+    return true;
+  }
+  return ARRAY_PUSH(&c->net->segment, s);
+}
+
+static bool add_visible_intervals(struct collector *c,
+                                  const struct map_mixed *mixed) {
+  const struct map_interval *interval =
+      c->map->interval.item + mixed->interval;
+  for (uint32_t i = 0; i < mixed->count; i++)
+    if (!add_segment(c, mixed->edge, interval[i].t0, interval[i].t1))
+      return false;
+  return true;
+}
+
+/* What the visible intervals leave of the edge. */
+static bool add_hidden_intervals(struct collector *c,
+                                 const struct map_mixed *mixed) {
+  const struct map_interval *interval =
+      c->map->interval.item + mixed->interval;
+  struct ratio from = ratio_of(0, 1), end = ratio_of(1, 1);
+  for (uint32_t i = 0; i < mixed->count; i++) {
+    if (ratio_compare(from, interval[i].t0) < 0 &&
+        !add_segment(c, mixed->edge, from, interval[i].t0))
+      return false;
+    from = interval[i].t1;
+  }
+  return ratio_compare(from, end) >= 0 ||
+         add_segment(c, mixed->edge, from, end);
+}
+
+/* Adds the visible or the hidden parts of all drawable edges, in order. */
+static bool add_all(struct collector *c, bool hidden) {
+  const struct map_mixed *mixed = c->map->mixed.item;
+  uint8_t whole = hidden ? MAP_HIDDEN : MAP_VISIBLE;
+  for (uint32_t i = 0; i < c->map->edge_count; i++) {
+    uint8_t state = c->map->edge_state[i];
+    bool good = true;
+    if (c->sheet->edge.item[i].edge_class == 0)
+      continue;
+    c->bond = bond_of(c, i, hidden);
+    if (state == whole)
+      good = add_segment(c, i, ratio_of(0, 1), ratio_of(1, 1));
+    else if (state == MAP_MIXED)
+      good = hidden ? add_hidden_intervals(c, mixed)
+                    : add_visible_intervals(c, mixed);
+    if (!good)
+      return false;
+    mixed += state == MAP_MIXED;
+  }
+  return true;
+}
+
+recto_status net_collect(struct net *net, const struct sheet *sheet,
+                         const struct map *map, const recto_options *options,
+                         recto_error *error) {
+  if (!map->edge_state)
+    return RECTO_OK;
+  size_t points = sheet->point.count;
+  struct collector c = {
+      .net = net, .sheet = sheet, .map = map, .options = options};
+  c.node_of_point = mem_alloc(points, sizeof *c.node_of_point);
+  if (!c.node_of_point)
+    return error_memory(error);
+  memset(c.node_of_point, 0xff, points * sizeof *c.node_of_point);
+
+  bool good = add_all(&c, false);
+  net->visible = net->segment.count;
+  if (good && options->hidden != RECTO_HIDDEN_NONE)
+    good = add_all(&c, true);
+  mem_free(c.node_of_point);
+  if (!good)
+    return error_memory(error);
+  if (net->segment.count >= SEGMENT_LIMIT || net->node.count >= SEGMENT_LIMIT)
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "more than 2^31 visible lines");
+  return RECTO_OK;
+}
