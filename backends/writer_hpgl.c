@@ -161,22 +161,19 @@ static void plot_stroke(struct plot *plot, const struct drawing *drawing,
   const struct drawing_point *point = drawing->point.item + stroke->point;
   uint32_t start = choose_start(plot, point, stroke);
   uint32_t lines = stroke->count - (stroke->closed ? 0 : 1);
-  bool whole = true, joined = false;
+  bool whole = true;
   for (uint32_t i = 0; i < lines; i++) {
     struct spot a = spot_of(plot, &point[(start + i) % stroke->count]);
     struct spot b = spot_of(plot, &point[(start + i + 1) % stroke->count]);
     bool a_inside = is_inside(place, a), b_inside = is_inside(place, b);
     whole = whole && a_inside && b_inside;
-    if ((!a_inside || !b_inside) && !clip_line(place, &a, &b)) {
-      joined = false;
+    if ((!a_inside || !b_inside) && !clip_line(place, &a, &b))
       continue;
-    }
-    if (!joined || !a_inside)
+    if (i == 0 || !a_inside)
       begin_stroke(plot, round_into(a.x, place->x0, place->x1),
                    round_into(a.y, place->y0, place->y1));
     draw_to(plot, round_into(b.x, place->x0, place->x1),
             round_into(b.y, place->y0, place->y1));
-    joined = b_inside;
   }
   end_stroke(plot);
   plot->clipped += whole ? 0 : 1;

@@ -49,9 +49,11 @@ dist_check_SCRIPTS += \
   %D%/test_structure.sh
 
 # Drawings made by hand, for the writers.
-unit_tests += %D%/test_hpgl
-%C%_test_hpgl_SOURCES = %D%/test_hpgl.c \
+plotting = %D%/plotting.c %D%/plotting.h \
   %D%/hpgl_reader.c %D%/hpgl_reader.h %D%/maker.c %D%/maker.h
+unit_tests += %D%/test_hpgl %D%/test_device
+%C%_test_hpgl_SOURCES = %D%/test_hpgl.c $(plotting)
+%C%_test_device_SOURCES = %D%/test_device.c $(plotting)
 if HAVE_CAIRO
 unit_tests += %D%/test_cairo
 endif
@@ -78,3 +80,5 @@ unit_tests += %D%/test_stream
 unit_tests += %D%/test_topology
 %C%_test_topology_SOURCES = %D%/test_topology.c
 %C%_test_topology_LDADD = %D%/scenes/libscenes.la $(LDADD)
+
+include tests/exact.mk

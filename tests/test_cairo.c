@@ -152,6 +152,10 @@ static void tight_leaves_the_box_of_the_ink(void **state) {
   paint(&f);
   assert_in_range(cairo_image_surface_get_width(f.picture), 120, 121);
   assert_in_range(cairo_image_surface_get_height(f.picture), 20, 21);
+  assert_int_equal(colour_at(&f, 6, 0.3), 0);
+  assert_int_equal(colour_at(&f, 6, 1.7), 0);
+  assert_int_equal(colour_at(&f, 0.3, 1), 0);
+  assert_int_equal(colour_at(&f, 11.7, 1), 0);
   end(&f);
 }
 

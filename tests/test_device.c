@@ -1,0 +1,376 @@
+/* test_device.c - plotters: where a page lies on them, and that nothing is ever
+ * drawn outside their area. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "backends/device.h"
+#include "tests/plotting.h"
+#include "tests/scenes/random.h"
+
+/* ---- Devices ------------------------------------------------------------- */
+
+static void a_length_is_true_on_every_device(void **state) {
+  (void)state;
+  for (size_t i = 0; device_name(i); i++) {
+    struct plotting f;
+    plotting_begin(&f, 297, 210);
+    f.options.device = device_name(i);
+    uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
+    maker_line(&f.drawing, layer, 60, 60, 160, 60);
+    maker_line(&f.drawing, layer, 60, 60, 60, 160);
+    plotting_run(&f);
+    double unit = strncmp(device_name(i), "hp", 2) == 0 ? 0.02488 : 0.025;
+    const struct hpgl_point *point = f.back.point.item;
+    assert_int_equal(f.back.stroke.count, 2);
+    assert_in_range(point[1].x - point[0].x, (uintmax_t)(100 / unit),
+                    (uintmax_t)(100 / unit) + 1);
+    assert_int_equal(point[1].y, point[0].y);
+    assert_in_range(point[3].y - point[2].y, (uintmax_t)(100 / unit),
+                    (uintmax_t)(100 / unit) + 1);
+    assert_int_equal(point[3].x, point[2].x);
+    plotting_end(&f);
+  }
+}
+
+/* The middle of the page is the middle of HP's frame P1 P2. */
+static void the_hp7475a_draws_the_middle_in_the_middle(void **state) {
+  (void)state;
+  static const struct {
+    double width_mm, height_mm;
+    int x, y;
+  } paper[] = {{297, 210, 5603, 4121},
+               {210, 297, 5603, 4121},
+               {420, 297, 7770, 5602},
+               {8.5 * 25.4, 11 * 25.4, 5250, 4196},
+               {17 * 25.4, 11 * 25.4, 8122, 5259}};
+  for (size_t i = 0; i < 5; i++) {
+    struct plotting f;
+    plotting_begin(&f, paper[i].width_mm, paper[i].height_mm);
+    f.options.device = "hp7475a";
+    maker_line(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0),
+               paper[i].width_mm / 2, paper[i].height_mm / 2, 50, 50);
+    plotting_run(&f);
+    plotting_assert_point(&f, 0, 0, paper[i].x, paper[i].y);
+    plotting_end(&f);
+  }
+}
+
+/* Up on the page is left on the plotter, right is up. */
+static void a_portrait_page_is_turned_on_its_left_side(void **state) {
+  (void)state;
+  struct plotting f;
+  plotting_begin(&f, 210, 297);
+  f.options.device = "dxy";
+  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
+  maker_stroke(&f.drawing, layer, (double[]){0, 297, 0, 0, 210, 0}, 3, false);
+  plotting_run(&f);
+  plotting_assert_point(&f, 0, 0, 0, 0);
+  plotting_assert_point(&f, 0, 1, 11880, 0);
+  plotting_assert_point(&f, 0, 2, 11880, 8400);
+  assert_int_equal(f.warnings, 0);
+  plotting_end(&f);
+}
+
+static void the_smallest_paper_that_holds_the_page_is_taken(void **state) {
+  (void)state;
+  struct plotting f;
+  plotting_begin(&f, 300, 200);
+  f.options.device = "dxy";
+  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
+  maker_line(&f.drawing, layer, 0, 0, 300, 200);
+  plotting_run(&f);
+  plotting_assert_point(&f, 0, 0, 0, 0);
+  plotting_assert_point(&f, 0, 1, 12000, 8000);
+  assert_int_equal(f.warnings, 0);
+  plotting_end(&f);
+}
+
+/* Letter paper rounded up to whole millimetres is still letter paper. */
+static void a_page_a_touch_too_large_keeps_its_paper(void **state) {
+  (void)state;
+  struct plotting f;
+  plotting_begin(&f, 279.8, 216);
+  f.options.device = "hp7475a";
+  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
+  maker_line(&f.drawing, layer, 50, 60, 139.7, 107.95);
+  plotting_run(&f);
+  plotting_assert_point(&f, 0, 0, 1645, 2269);
+  plotting_assert_point(&f, 0, 1, 5250, 4196);
+  plotting_end(&f);
+}
+
+static void a_page_that_no_paper_holds_is_clipped_on_the_largest(void **state) {
+  (void)state;
+  struct plotting f;
+  plotting_begin(&f, 1189, 841);
+  f.options.device = "dxy";
+  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
+  maker_line(&f.drawing, layer, 0, 100, 1189, 100);
+  plotting_run(&f);
+  plotting_assert_point(&f, 0, 1, 16800, 4000);
+  assert_int_equal(f.warnings, 1);
+  plotting_end(&f);
+}
+
+static void a_drum_has_its_origin_in_the_middle(void **state) {
+  (void)state;
+  struct plotting f;
+  plotting_begin(&f, 600, 400);
+  f.options.device = "drum";
+  maker_line(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), 0, 0, 600, 400);
+  plotting_run(&f);
+  plotting_assert_point(&f, 0, 0, -12000, -8000);
+  plotting_assert_point(&f, 0, 1, 12000, 8000);
+  plotting_end(&f);
+}
+
+/* ---- Clipping ------------------------------------------------------------ */
+
+static void a_stroke_that_leaves_and_returns_is_two(void **state) {
+  (void)state;
+  struct plotting f;
+  plotting_begin(&f, 100, 100);
+  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
+  maker_stroke(&f.drawing, layer, (double[]){50, 10, 150, 10, 150, 30, 50, 30},
+               4, false);
+  maker_line(&f.drawing, layer, 110, 0, 110, 100);
+  maker_line(&f.drawing, layer, 10, 10, 20, 20);
+  plotting_run(&f);
+  assert_int_equal(f.back.stroke.count, 3);
+  plotting_assert_point(&f, 0, 0, 2000, 400);
+  plotting_assert_point(&f, 0, 1, 4000, 400);
+  plotting_assert_point(&f, 1, 0, 4000, 1200);
+  plotting_assert_point(&f, 1, 1, 2000, 1200);
+  assert_int_equal(f.warnings, 1);
+  assert_non_null(strstr(f.warning, "2 strokes clipped"));
+  plotting_end(&f);
+}
+
+/* Wherever the loop begins: what is left of a box whose right side is outside
+ * is one stroke of three lines. */
+static void a_clipped_loop_is_not_cut_where_it_begins(void **state) {
+  (void)state;
+  static const double box[] = {50, 20, 120, 20, 120, 80, 50, 80};
+  for (int turn = 0; turn < 4; turn++) {
+    struct plotting f;
+    double xy[8];
+    plotting_begin(&f, 100, 100);
+    for (int i = 0; i < 8; i++)
+      xy[i] = box[(i + 2 * turn) % 8];
+    maker_stroke(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), xy, 4, true);
+    plotting_run(&f);
+    assert_int_equal(f.back.stroke.count, 1);
+    assert_int_equal(f.back.stroke.item[0].count, 4);
+    plotting_assert_point(&f, 0, 1, 2000, 3200);
+    plotting_assert_point(&f, 0, 2, 2000, 800);
+    plotting_end(&f);
+  }
+}
+
+static void a_line_across_the_whole_area_keeps_its_middle(void **state) {
+  (void)state;
+  struct plotting f;
+  plotting_begin(&f, 100, 100);
+  maker_line(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), -100, -100, 200,
+             200);
+  plotting_run(&f);
+  assert_int_equal(f.back.stroke.count, 1);
+  plotting_assert_point(&f, 0, 0, 0, 0);
+  plotting_assert_point(&f, 0, 1, 4000, 4000);
+  plotting_end(&f);
+}
+
+/* 100.01 mm are 4000.4 units: the edge rounds into the area. */
+static void a_frame_around_the_page_is_all_there(void **state) {
+  (void)state;
+  struct plotting f;
+  plotting_begin(&f, 100.01, 100.01);
+  maker_box(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), 0, 0, 100.01,
+            100.01);
+  plotting_run(&f);
+  assert_int_equal(f.warnings, 0);
+  assert_int_equal(f.back.stroke.count, 1);
+  assert_int_equal(f.back.stroke.item[0].count, 5);
+  plotting_assert_point(&f, 0, 2, 4000, 4000);
+  plotting_end(&f);
+}
+
+/* ---- Any drawing --------------------------------------------------------- */
+
+/* Where the page's point ought to be, by the words of device.h. */
+static void expect(const struct device_placement *place, double height_mm,
+                   const struct drawing_point *point, double *x, double *y) {
+  *x = place->origin_x +
+       (place->turned ? height_mm - point->y : point->x) / place->unit_mm;
+  *y = place->origin_y + (place->turned ? point->x : point->y) / place->unit_mm;
+}
+
+static double distance_to_line(double x, double y, const struct hpgl_point *a,
+                               const struct hpgl_point *b) {
+  double run_x = b->x - a->x, run_y = b->y - a->y;
+  double square = run_x * run_x + run_y * run_y;
+  double share = ((x - a->x) * run_x + (y - a->y) * run_y) / square;
+  share = fmin(fmax(share, 0), 1);
+  return hypot(a->x + share * run_x - x, a->y + share * run_y - y);
+}
+
+/* How far the point is from all ink, in units. */
+static double distance_to_ink(const struct hpgl *hpgl, double x, double y) {
+  double best = INFINITY;
+  for (size_t i = 0; i < hpgl->stroke.count; i++) {
+    const struct hpgl_point *p = hpgl->point.item + hpgl->stroke.item[i].point;
+    for (uint32_t k = 1; k < hpgl->stroke.item[i].count; k++)
+      best = fmin(best, distance_to_line(x, y, &p[k - 1], &p[k]));
+  }
+  return best;
+}
+
+static void make_random(struct plotting *f, struct random *random,
+                        double overhang_mm) {
+  double width = random_int(random, 40, 600);
+  double height = random_int(random, 40, 600);
+  plotting_begin(f, width, height);
+  for (unsigned pen = 1; pen <= 3; pen++)
+    maker_layer(&f->drawing, pen, 0.3, 0);
+  int strokes = random_int(random, 1, 12);
+  for (int i = 0; i < strokes; i++) {
+    double xy[2 * 260];
+    int count = random_int(random, 0, 9) == 0 ? 260 : random_int(random, 1, 9);
+    for (int k = 0; k < count; k++) {
+      xy[2 * k] = random_between(random, -overhang_mm, width + overhang_mm);
+      xy[2 * k + 1] =
+          random_between(random, -overhang_mm, height + overhang_mm);
+    }
+    maker_stroke(&f->drawing, random_below(random, 3), xy, (uint32_t)count,
+                 random_below(random, 2));
+  }
+}
+
+static void assert_inside(const struct hpgl *hpgl,
+                          const struct device_placement *place) {
+  for (size_t i = 0; i < hpgl->point.count; i++) {
+    assert_true(hpgl->point.item[i].x >= place->x0);
+    assert_true(hpgl->point.item[i].x <= place->x1);
+    assert_true(hpgl->point.item[i].y >= place->y0);
+    assert_true(hpgl->point.item[i].y <= place->y1);
+  }
+}
+
+/* Places along every stroke, as far as they are in the area: all have ink. */
+static void assert_covered(const struct plotting *f,
+                           const struct device_placement *place) {
+  for (size_t i = 0; i < f->drawing.stroke.count; i++) {
+    const struct drawing_stroke *stroke = &f->drawing.stroke.item[i];
+    const struct drawing_point *p = f->drawing.point.item + stroke->point;
+    uint32_t lines = stroke->count - (stroke->closed ? 0 : 1);
+    for (uint32_t k = 0; stroke->count > 1 && k < lines; k += 7) {
+      double ax, ay, bx, by;
+      expect(place, f->drawing.height_mm, &p[k], &ax, &ay);
+      expect(place, f->drawing.height_mm, &p[(k + 1) % stroke->count], &bx,
+             &by);
+      for (int part = 0; part <= 5; part++) {
+        double x = ax + (bx - ax) * part / 5, y = ay + (by - ay) * part / 5;
+        if (x >= place->x0 && x <= place->x1 && y >= place->y0 &&
+            y <= place->y1)
+          assert_true(distance_to_ink(&f->back, x, y) <= 1);
+      }
+    }
+  }
+}
+
+static void no_drawing_leaves_the_area_or_the_cap(void **state) {
+  (void)state;
+  struct random random = {7};
+  size_t clipped = 0, devices = 0;
+  while (device_name(devices))
+    devices++;
+  for (size_t i = 0; i < 400; i++) {
+    struct plotting f;
+    struct device_placement place;
+    make_random(&f, &random, i % 2 ? 300 : 3);
+    f.options.device = device_name(i % devices);
+    device_place(device_by_name(f.options.device), f.drawing.width_mm,
+                 f.drawing.height_mm, &place);
+    plotting_run(&f);
+    assert_inside(&f.back, &place);
+    assert_in_range(f.back.longest, 0, 100);
+    assert_covered(&f, &place);
+    assert_in_range(f.warnings, 0, 1);
+    clipped += (size_t)f.warnings;
+    plotting_end(&f);
+  }
+  assert_in_range(clipped, 100, 399);
+}
+
+/* Within the page, what comes back is the drawing: the same strokes, in
+ * order, every point within half a unit (a unit is asked for). */
+static void every_stroke_comes_back_within_a_unit(void **state) {
+  (void)state;
+  struct random random = {11};
+  for (int i = 0; i < 200; i++) {
+    struct plotting f;
+    size_t back = 0;
+    make_random(&f, &random, 0);
+    plotting_run(&f);
+    for (uint32_t layer = 0; layer < 3; layer++) {
+      for (size_t s = 0; s < f.drawing.stroke.count; s++) {
+        const struct drawing_stroke *stroke = &f.drawing.stroke.item[s];
+        if (stroke->layer != layer || stroke->count < 2)
+          continue;
+        assert_true(back < f.back.stroke.count);
+        const struct hpgl_stroke *found = &f.back.stroke.item[back++];
+        assert_int_equal(found->pen, layer + 1);
+        assert_int_equal(found->count, stroke->count + stroke->closed);
+        for (uint32_t k = 0; k < found->count; k++) {
+          const struct drawing_point *p =
+              &f.drawing.point.item[stroke->point + k % stroke->count];
+          const struct hpgl_point *q = &f.back.point.item[found->point + k];
+          assert_true(fabs(p->x * 40 - q->x) <= 0.51);
+          assert_true(fabs(p->y * 40 - q->y) <= 0.51);
+        }
+      }
+    }
+    assert_int_equal(back, f.back.stroke.count);
+    assert_int_equal(f.warnings, 0);
+    plotting_end(&f);
+  }
+}
+
+static void the_same_drawing_gives_the_same_bytes(void **state) {
+  (void)state;
+  struct random first = {3}, second = {3};
+  struct plotting f, g;
+  make_random(&f, &first, 20);
+  make_random(&g, &second, 20);
+  plotting_run(&f);
+  plotting_run(&g);
+  assert_string_equal(f.text, g.text);
+  plotting_end(&f);
+  plotting_end(&g);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_length_is_true_on_every_device),
+      cmocka_unit_test(the_hp7475a_draws_the_middle_in_the_middle),
+      cmocka_unit_test(a_portrait_page_is_turned_on_its_left_side),
+      cmocka_unit_test(the_smallest_paper_that_holds_the_page_is_taken),
+      cmocka_unit_test(a_page_a_touch_too_large_keeps_its_paper),
+      cmocka_unit_test(a_page_that_no_paper_holds_is_clipped_on_the_largest),
+      cmocka_unit_test(a_drum_has_its_origin_in_the_middle),
+      cmocka_unit_test(a_stroke_that_leaves_and_returns_is_two),
+      cmocka_unit_test(a_clipped_loop_is_not_cut_where_it_begins),
+      cmocka_unit_test(a_line_across_the_whole_area_keeps_its_middle),
+      cmocka_unit_test(a_frame_around_the_page_is_all_there),
+      cmocka_unit_test(no_drawing_leaves_the_area_or_the_cap),
+      cmocka_unit_test(every_stroke_comes_back_within_a_unit),
+      cmocka_unit_test(the_same_drawing_gives_the_same_bytes),
+  };
+  return cmocka_run_group_tests_name("device", tests, NULL, NULL);
+}
