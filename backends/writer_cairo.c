@@ -68,7 +68,8 @@ static void write_box(const struct sink *sink) {
   stream_text(stream, "\n");
 }
 
-/* Takes one line of a PS file's head, or the beginning of a long one. */
+/* Takes one line of a PS file's head, or a part of a long one.  Not every cairo
+ * gives an EPS file an exact box; where one does, ours replaces that too. */
 static void pass_line(struct sink *sink) {
   if (starts_with(sink, "%%EndComments"))
     sink->in_header = false;
