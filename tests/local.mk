@@ -82,3 +82,5 @@ unit_tests += %D%/test_topology
 %C%_test_topology_LDADD = %D%/scenes/libscenes.la $(LDADD)
 
 include tests/exact.mk
+unit_tests += %D%/test_triangulate
+%C%_test_triangulate_SOURCES = %D%/test_triangulate.c

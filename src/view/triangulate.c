@@ -10,7 +10,9 @@
  *   bridges to holes visit places twice).  If any corner is inside, the one
  *   farthest from the diagonal is not convex, so only the others are looked
  *   at.  A corner on the diagonal blocks the ear: so a point in the middle of
- *   a side is never left over as a triangle without area.
+ *   a side is never left over as a triangle without area.  Where the polygon
+ *   doubles back, as it does where loops that touch were parted, that spike
+ *   goes first: all of its neighbours might else look like ears.
  * Robustness  All turns are exact_turn.  Where no ear is left the polygon is
  *   not simple: then a corner without area goes first, then a convex one,
  *   then any, so that the loop always ends with count - 2 triangles.
@@ -230,8 +232,13 @@ static void cut_fan(struct triangulation *triangulation, uint32_t count) {
         c + 2 == count ? count - 1 : count + c - 1);
 }
 
-/* ---- Ears
- * -------------------------------------------------------------------- */
+/* ---- Ears ---------------------------------------------------------------- */
+
+struct ears {
+  struct triangulation *triangulation;
+  struct triangulation_corner *corner;
+  uint32_t count, left; /* corners at first, and now */
+};
 
 /* The corners that are not convex form a ring through a head at [count]. */
 static void add_bent(struct triangulation_corner *corner, uint32_t c,
@@ -307,41 +314,63 @@ static uint32_t choose_corner(const struct triangulation_corner *corner,
   return convex;
 }
 
-/* Cuts off corner b by diagonal `side`; returns the corner before it. */
-static uint32_t cut_corner(struct triangulation *triangulation, uint32_t b,
-                           uint32_t side, uint32_t head) {
-  struct triangulation_corner *corner = triangulation->corner.item;
+/* Whether the polygon doubles back at a corner, or stands still. */
+static bool is_spike(const struct triangulation_corner *corner, uint32_t b) {
+  const double *at = corner[b].at;
+  const double *from = corner[corner[b].prev].at;
+  const double *to = corner[corner[b].next].at;
+  return corner[b].turn == 0 && (is_at(from, at) || is_at(at, to) ||
+                                 is_before(from, at) == is_before(to, at));
+}
+
+/* Cuts off corner b; returns the corner before it. */
+static uint32_t cut_corner(struct ears *ears, uint32_t b) {
+  struct triangulation_corner *corner = ears->corner;
   uint32_t a = corner[b].prev, c = corner[b].next;
-  add(triangulation, a, b, c, corner[a].side, corner[b].side, side);
+  uint32_t side = ears->count + (ears->count - ears->left--);
+  add(ears->triangulation, a, b, c, corner[a].side, corner[b].side, side);
   if (corner[b].turn <= 0)
     remove_bent(corner, b);
   corner[a].next = c;
   corner[c].prev = a;
   corner[a].side = side;
-  turn_again(corner, a, head);
-  turn_again(corner, c, head);
+  turn_again(corner, a, ears->count);
+  turn_again(corner, c, ears->count);
   return a;
+}
+
+/* Cuts off a spike and those that come to light by it; returns a corner that
+ * is left. */
+static uint32_t cut_spikes(struct ears *ears, uint32_t b) {
+  while (ears->left > 3 && is_spike(ears->corner, b)) {
+    uint32_t a = cut_corner(ears, b);
+    b = is_spike(ears->corner, a) ? a : ears->corner[a].next;
+  }
+  return b;
 }
 
 static void cut_ears(struct triangulation *triangulation, uint32_t count) {
   struct triangulation_corner *corner = triangulation->corner.item;
+  struct ears ears = {triangulation, corner, count, count};
   link_corners(corner, count);
-  uint32_t b = 0, tried = 0;
-  for (uint32_t left = count; left > 3;) {
-    if (tried == left)
+  uint32_t b = 0;
+  for (uint32_t c = 0; c < count; c++)
+    if (corner[corner[c].prev].next == c)
+      b = cut_spikes(&ears, c);
+  for (uint32_t tried = 0; ears.left > 3;) {
+    if (tried == ears.left)
       b = choose_corner(corner, b);
     else if (!is_ear(corner, b, count)) {
       b = corner[b].next;
       tried++;
       continue;
     }
-    uint32_t side = count + (count - left);
-    uint32_t a = cut_corner(triangulation, b, side, count);
+    uint32_t a = cut_spikes(&ears, cut_corner(&ears, b));
+    uint32_t c = cut_spikes(&ears, corner[a].next);
     /* One corner further on, so that ears are taken all around instead of as
      * a fan of needles. */
-    b = corner[corner[a].next].next;
+    b = corner[c].next;
     tried = 0;
-    left--;
   }
   uint32_t a = corner[b].prev, c = corner[b].next;
   add(triangulation, a, b, c, corner[a].side, corner[b].side, corner[c].side);
