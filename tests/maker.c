@@ -34,7 +34,7 @@ uint32_t maker_layer(struct drawing *drawing, unsigned pen, double width_mm,
 static uint32_t add_points(struct drawing *drawing, const double *xy,
                            uint32_t count) {
   uint32_t first = (uint32_t)drawing->point.count;
-  for (uint32_t i = 0; i < count; i++) {
+  for (size_t i = 0; i < count; i++) {
     struct drawing_point point = {xy[2 * i], xy[2 * i + 1]};
     need(ARRAY_PUSH(&drawing->point, point));
   }
@@ -102,10 +102,10 @@ static void make_spiral(struct drawing *drawing) {
   enum { POINTS = 1200 };
   double xy[2 * POINTS];
   maker_page(drawing, 210, 297);
-  for (int i = 0; i < POINTS; i++) {
-    double angle = full_turn * 9 * i / POINTS;
-    xy[2 * i] = 100 + (4 + 80.0 * i / POINTS) * cos(angle);
-    xy[2 * i + 1] = 160 + (4 + 80.0 * i / POINTS) * sin(angle);
+  for (size_t i = 0; i < POINTS; i++) {
+    double share = (double)i / POINTS, angle = full_turn * 9 * share;
+    xy[2 * i] = 100 + (4 + 80 * share) * cos(angle);
+    xy[2 * i + 1] = 160 + (4 + 80 * share) * sin(angle);
   }
   maker_stroke(drawing, maker_layer(drawing, 1, 0.5, 0), xy, POINTS, false);
 }
@@ -116,11 +116,13 @@ static void make_stars(struct drawing *drawing) {
   uint32_t layer = maker_layer(drawing, 1, 0.5, 0);
   for (int star = 0; star < 24; star++) {
     double xy[2 * 14];
-    double x = 30 + 45 * (star % 6), y = 30 + 45.0 * (star / 6);
-    for (int i = 0; i < 14; i++) {
+    int column = star % 6, row = star / 6;
+    double x = 30 + 45 * column, y = 30 + 45 * row;
+    for (size_t i = 0; i < 14; i++) {
       double radius = (i % 2 ? 0.4 : 1) * (2 + star * 0.8);
-      xy[2 * i] = x + radius * cos(full_turn * i / 14 + star);
-      xy[2 * i + 1] = y + radius * sin(full_turn * i / 14 + star);
+      double angle = full_turn * (double)i / 14 + star;
+      xy[2 * i] = x + radius * cos(angle);
+      xy[2 * i + 1] = y + radius * sin(angle);
     }
     maker_stroke(drawing, layer, xy, 14, true);
   }
@@ -158,10 +160,11 @@ static void make_waves(struct drawing *drawing) {
   uint32_t layer = maker_layer(drawing, 1, 0.4, 0);
   for (int line = 0; line < 60; line++) {
     double xy[2 * 130];
-    for (int i = 0; i < 130; i++) {
-      xy[2 * i] = 15 + 2 * i;
+    for (size_t i = 0; i < 130; i++) {
+      double at = (double)i;
+      xy[2 * i] = 15 + 2 * at;
       xy[2 * i + 1] =
-          20 + 2.5 * line + 4 * sin(i / 9.0 + line / 7.0) * sin(i / 31.0);
+          20 + 2.5 * line + 4 * sin(at / 9 + line / 7.0) * sin(at / 31);
     }
     maker_stroke(drawing, layer, xy, 130, false);
   }

@@ -113,7 +113,7 @@ static struct picture load(const char *path) {
     abort();
   for (int y = 0; y < picture.height; y++) {
     for (int x = 0; x < picture.width; x++) {
-      const unsigned char *p = row + 4 * x;
+      const unsigned char *p = row + 4 * (size_t)x;
       picture.ink[(size_t)y * (size_t)picture.width + (size_t)x] =
           1 - (float)(p[0] + p[1] + p[2]) / (3 * 255);
     }

@@ -86,10 +86,8 @@ static uint32_t colour_at(const struct fixture *f, double x_mm, double y_mm) {
   assert_in_range(y, 0, height - 1);
   const unsigned char *data = cairo_image_surface_get_data(f->picture);
   uint32_t pixel;
-  memcpy(&pixel,
-         data + (height - 1 - y) * cairo_image_surface_get_stride(f->picture) +
-             4 * x,
-         4);
+  size_t stride = (size_t)cairo_image_surface_get_stride(f->picture);
+  memcpy(&pixel, data + (size_t)(height - 1 - y) * stride + 4 * (size_t)x, 4);
   return pixel & 0xffffff;
 }
 

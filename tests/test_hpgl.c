@@ -58,9 +58,9 @@ static void long_strokes_are_cut_into_commands_of_100_points(void **state) {
   struct plotting f;
   double xy[2 * 1001];
   plotting_begin(&f, 100, 100);
-  for (int i = 0; i <= 1000; i++) {
-    xy[2 * i] = i * 0.1;
-    xy[2 * i + 1] = 10 + i % 2;
+  for (size_t i = 0; i <= 1000; i++) {
+    xy[2 * i] = (double)i * 0.1;
+    xy[2 * i + 1] = i % 2 ? 11 : 10;
   }
   maker_stroke(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), xy, 1001, false);
   plotting_run(&f);
@@ -201,9 +201,9 @@ static void a_full_disk_leaves_no_plot(void **state) {
   struct plotting f;
   double xy[2 * 20000];
   plotting_begin(&f, 297, 210);
-  for (int i = 0; i < 20000; i++) {
-    xy[2 * i] = 10 + 0.013 * i;
-    xy[2 * i + 1] = 100 + i % 7;
+  for (size_t i = 0; i < 20000; i++) {
+    xy[2 * i] = 10 + 0.013 * (double)i;
+    xy[2 * i + 1] = 100 + (double)(i % 7);
   }
   maker_stroke(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), xy, 20000,
                false);
