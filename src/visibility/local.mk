@@ -2,6 +2,7 @@ librecto_core_la_SOURCES += \
   %D%/brute.c \
   %D%/contact.c %D%/contact.h \
   %D%/cover.c %D%/cover.h \
+  %D%/facet.c %D%/facet.h \
   %D%/fragments.c %D%/fragments.h \
   %D%/hide.c %D%/hide.h \
   %D%/map.c %D%/map.h \
@@ -10,9 +11,16 @@ librecto_core_la_SOURCES += \
   %D%/newell_tests.c %D%/newell_tests.h \
   %D%/pagegrid.c %D%/pagegrid.h \
   %D%/painter.c \
+  %D%/pair.c %D%/pair.h \
   %D%/pierce.c %D%/pierce.h \
+  %D%/pixels.c %D%/pixels.h \
+  %D%/raster.c %D%/raster.h \
+  %D%/scanline_zbuffer.c %D%/scanline_zbuffer.h \
   %D%/sidelabel.c %D%/sidelabel.h \
   %D%/solver.c %D%/solver.h \
+  %D%/spans.c %D%/spans.h \
   %D%/strokes.c %D%/strokes.h \
   %D%/tilemap.c %D%/tilemap.h \
-  %D%/tiles.c
+  %D%/tiles.c \
+  %D%/trace.c %D%/trace.h \
+  %D%/zbuffer.c %D%/zbuffer.h

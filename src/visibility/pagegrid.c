@@ -55,10 +55,13 @@ void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
 
 /* First pass: counts; second: places.  start[] ends as the lists' starts. */
 static void fill_cells(struct pagegrid *grid, const struct sheet *sheet,
-                       const uint8_t *wanted, bool place) {
+                       const struct footprint *print, const uint8_t *wanted,
+                       bool place) {
   for (size_t t = sheet->triangle.count; t-- > 0;) {
     struct cell_range r =
-        pagegrid_cells(grid, page_box_of_triangle(sheet, (uint32_t)t));
+        print != NULL
+            ? footprint_cells(grid, sheet, t, print[t])
+            : pagegrid_cells(grid, page_box_of_triangle(sheet, (uint32_t)t));
     for (int y = r.y0; y <= r.y1; y++)
       for (int x = r.x0; x <= r.x1; x++) {
         size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
@@ -73,24 +76,24 @@ static void fill_cells(struct pagegrid *grid, const struct sheet *sheet,
 }
 
 bool pagegrid_fill(struct pagegrid *grid, const struct sheet *sheet,
-                   const uint8_t *wanted) {
+                   const struct footprint *print, const uint8_t *wanted) {
   size_t cells = pagegrid_cell_count(grid);
   grid->start = mem_calloc(cells + 1, sizeof *grid->start);
   if (grid->start == NULL) return false;
-  fill_cells(grid, sheet, wanted, false);
+  fill_cells(grid, sheet, print, wanted, false);
   for (size_t c = 0; c < cells; c++) grid->start[c + 1] += grid->start[c];
   grid->item = mem_alloc(grid->start[cells], sizeof *grid->item);
   if (grid->item == NULL) {
     pagegrid_fini(grid);
     return false;
   }
-  fill_cells(grid, sheet, wanted, true);
+  fill_cells(grid, sheet, print, wanted, true);
   return true;
 }
 
 bool pagegrid_init(struct pagegrid *grid, const struct sheet *sheet) {
   pagegrid_shape(grid, sheet, SPREAD);
-  return pagegrid_fill(grid, sheet, NULL);
+  return pagegrid_fill(grid, sheet, NULL, NULL);
 }
 
 void pagegrid_fini(struct pagegrid *grid) {

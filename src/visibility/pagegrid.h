@@ -48,11 +48,14 @@ void pagegrid_fini(struct pagegrid *grid);
 
 /* The same in two steps.  The first chooses the cells: as small as they may
  * be with a triangle in `spread` of them on average, so that memory is linear
- * in the triangles whatever their shape.  The second makes the lists of the
- * cells that are `wanted` (NULL: all); the others' stay empty. */
+ * in the triangles whatever their shape.  The second makes the lists.
+ * print   the triangles' footprints; NULL: not known
+ * wanted  the cells that get a list, the others' stay empty; NULL: all */
 void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
                     unsigned spread);
+struct footprint;
 USE_RESULT bool pagegrid_fill(struct pagegrid *grid, const struct sheet *sheet,
+                              const struct footprint *print,
                               const uint8_t *wanted);
 
 static inline size_t pagegrid_cell_count(const struct pagegrid *grid) {
@@ -83,6 +86,39 @@ static inline struct cell_range pagegrid_cells(const struct pagegrid *grid,
 void pagegrid_row(const struct pagegrid *grid, struct geom_point p,
                   struct geom_point q, struct cell_range range, int y, int *x0,
                   int *x1);
+
+/* The cells of a triangle, kept small so that the triangles can be streamed
+ * again without their points; and two numbers of whoever made it. */
+struct footprint {
+  uint16_t x, y;         /* the lower left */
+  uint8_t width, height; /* cells less one; FOOTPRINT_LARGE: ask the box */
+  uint8_t low, high;
+};
+enum { FOOTPRINT_LARGE = 255 };
+
+static inline struct footprint footprint_of(struct cell_range r, int low,
+                                            int high) {
+  int width = r.x1 - r.x0, height = r.y1 - r.y0;
+  bool large = width >= FOOTPRINT_LARGE || height >= FOOTPRINT_LARGE ||
+               r.x0 > UINT16_MAX || r.y0 > UINT16_MAX;
+  return (struct footprint){(uint16_t)(r.x0 & UINT16_MAX),
+                            (uint16_t)(r.y0 & UINT16_MAX),
+                            (uint8_t)(large ? FOOTPRINT_LARGE : width),
+                            (uint8_t)(large ? FOOTPRINT_LARGE : height),
+                            (uint8_t)low,
+                            (uint8_t)high};
+}
+
+static inline struct cell_range footprint_cells(const struct pagegrid *grid,
+                                                const struct sheet *sheet,
+                                                size_t triangle,
+                                                struct footprint print) {
+  if (print.width == FOOTPRINT_LARGE)
+    return pagegrid_cells(grid,
+                          page_box_of_triangle(sheet, (uint32_t)triangle));
+  return (struct cell_range){print.x, print.y, print.x + print.width,
+                             print.y + print.height};
+}
 
 /* A place for answers, one a thread. */
 struct pagegrid_query {

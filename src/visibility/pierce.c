@@ -1,6 +1,8 @@
 /* pierce.c - where two triangles pierce each other. */
 #include "visibility/pierce.h"
 
+#include <math.h>
+
 #include "base/sort.h"
 
 /* Are corners on both sides of the plane, beyond contact? */
@@ -222,19 +224,63 @@ static bool share_an_edge(const struct sheet_triangle *f,
   return shared > 1;
 }
 
+/* The plane of a triangle in doubles, with bounds for their errors. */
+struct rough_plane {
+  struct geom_point a;
+  double nx, ny, nz, ex, ey, ez;
+};
+
+static struct rough_plane rough_plane_of(const struct sheet *sheet,
+                                         uint32_t triangle) {
+  const uint32_t *t = sheet->triangle.item[triangle].point;
+  struct geom_point a = sheet->point.item[t[0]], b = sheet->point.item[t[1]],
+                    c = sheet->point.item[t[2]];
+  double ux = (double)b.x - a.x, uy = (double)b.y - a.y,
+         uz = (double)(b.z - a.z), vx = (double)c.x - a.x,
+         vy = (double)c.y - a.y, vz = (double)(c.z - a.z);
+  return (struct rough_plane){a,
+                              uy * vz - uz * vy,
+                              uz * vx - ux * vz,
+                              ux * vy - uy * vx,
+                              fabs(uy * vz) + fabs(uz * vy),
+                              fabs(uz * vx) + fabs(ux * vz),
+                              fabs(ux * vy) + fabs(uy * vx)};
+}
+
+/* Do all corners of a triangle lie on one side of the plane, for certain?
+ * Two roundings of the products, one of the difference, three more in the
+ * value: 16 times the unit is room enough. */
+static bool on_one_side(const struct sheet *sheet,
+                        const struct rough_plane *plane, uint32_t triangle) {
+  const uint32_t *t = sheet->triangle.item[triangle].point;
+  int sum = 0;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point p = sheet->point.item[t[k]];
+    double x = (double)p.x - plane->a.x, y = (double)p.y - plane->a.y,
+           z = (double)(p.z - plane->a.z);
+    double value = plane->nx * x + plane->ny * y + plane->nz * z;
+    double bound = 16 * 0x1p-53 *
+                   (plane->ex * fabs(x) + plane->ey * fabs(y) +
+                    plane->ez * fabs(z));
+    sum += (value > bound) - (value < -bound);
+  }
+  return sum == 3 || sum == -3;
+}
+
 /* The pairs of summary[0] with the `count` - 1 behind it. */
 static bool pierce_first(const struct sheet *sheet, const struct pagegrid *grid,
                          int x, int y, const struct summary *summary,
                          size_t count, pierce_segments *segments,
                          struct pierce_counts *counts) {
   const struct summary *f = summary;
+  struct rough_plane plane = rough_plane_of(sheet, f->triangle);
   struct hider hider;
   bool prepared = false;
   for (size_t i = 1; i < count; i++) {
     const struct summary *g = &summary[i];
     struct pierce_segment segment;
     if (page_boxes_apart(f->box, g->box) || g->high < f->low ||
-        f->high < g->low ||
+        f->high < g->low || on_one_side(sheet, &plane, g->triangle) ||
         share_an_edge(&sheet->triangle.item[f->triangle],
                       &sheet->triangle.item[g->triangle]) ||
         !is_cell_of_pair(grid, x, y, f, g))

@@ -10,7 +10,6 @@
 #define ASK_EVERY 64 /* lines between two questions whether to go on */
 
 recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
-                         const struct facets *facets,
                          const struct solver_request *request,
                          recto_error *error) {
   const struct sheet *sheet = raster->sheet;
@@ -18,8 +17,8 @@ recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
   memset(pixels, 0, sizeof *pixels);
   pixels->raster = raster;
   pixels->request = request;
-  if ((request->strokes && !trace_init(&pixels->trace, sheet, facets,
-                                       &raster->grid, 0.5, step, NULL)) ||
+  if ((request->strokes &&
+       !trace_init(&pixels->trace, sheet, &raster->grid, 0.5, step, NULL)) ||
       (request->fragments && !spans_init(&pixels->spans, sheet, &raster->grid,
                                          (size_t)raster->grid.columns))) {
     pixels_fini(pixels);

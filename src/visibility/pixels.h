@@ -26,7 +26,6 @@ static inline bool pixels_draws(const struct sheet *sheet,
 
 USE_RESULT recto_status pixels_init(struct pixels *pixels,
                                     const struct raster *raster,
-                                    const struct facets *facets,
                                     const struct solver_request *request,
                                     recto_error *error);
 void pixels_fini(struct pixels *pixels);

@@ -61,6 +61,8 @@ recto_status raster_init(struct raster *raster, const struct sheet *sheet,
                          int lines, int depth_bits, bool whole,
                          recto_error *error) {
   memset(raster, 0, sizeof *raster);
+  if (lines == 0)
+    lines = RASTER_LINES_DEFAULT;
   if (lines < 1 || lines > RASTER_LINES_MAX)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "a resolution of %d lines is not within 1 to %d", lines,

@@ -23,6 +23,7 @@
 #include "visibility/facet.h"
 
 #define RASTER_LINES_MAX 65536
+#define RASTER_LINES_DEFAULT 2048 /* on A4, two lines within a 0.3 mm pen */
 #define RASTER_COLUMNS_MAX (1 << 20)
 #define RASTER_DEPTH_BITS_MAX 32
 
@@ -50,7 +51,7 @@ struct raster {
 struct scan_grid raster_grid(const struct sheet *sheet, int32_t lines);
 
 /* An empty frame.
- * lines  over the page, 1 to RASTER_LINES_MAX
+ * lines  over the page, 1 to RASTER_LINES_MAX; 0: RASTER_LINES_DEFAULT
  * whole  hold all lines, else one
  * Errors RECTO_ERROR_ARGUMENT: lines or bits out of range; RECTO_ERROR_LIMIT:
  *        more than RASTER_COLUMNS_MAX columns; RECTO_ERROR_MEMORY. */

@@ -168,7 +168,7 @@ static recto_status scan(struct raster *raster, const struct facets *facets,
   struct drawn drawn = {raster->sheet, request};
   struct scanline scanline;
   struct pixels pixels;
-  recto_status status = pixels_init(&pixels, raster, facets, request, error);
+  recto_status status = pixels_init(&pixels, raster, request, error);
   if (status != RECTO_OK)
     return status;
   if (!scanline_init(&scanline, raster, facets, is_drawn, &drawn))

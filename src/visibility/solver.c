@@ -4,8 +4,10 @@
 #include <string.h>
 
 static const struct solver *const table[] = {
-    &solver_newell, &solver_tiles, &solver_painter, &solver_painter_given, &solver_brute,
-    NULL};
+    &solver_newell,        &solver_tiles,
+    &solver_zbuffer,       &solver_scanline_zbuffer,
+    &solver_painter,       &solver_painter_given,
+    &solver_brute,         NULL};
 
 const struct solver *const *solvers(void) { return table; }
 

@@ -14,7 +14,7 @@ struct solver_request {
   bool intersections; /* edges where faces pierce each other are drawable */
   int threads;        /* at least 1 */
   double pitch_mm;    /* watkins */
-  int resolution;     /* raster methods */
+  int resolution;     /* raster methods: lines over the page; 0: their own */
   recto_progress_fn progress; /* NULL: none */
   void *user;
   int depth_bits;     /* z-buffers: 1 to 32; 0: float64, ties exact */

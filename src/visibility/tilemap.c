@@ -11,31 +11,7 @@
 #include <string.h>
 
 /* Cells a triangle stands in, on average: a tile about an edge wide. */
-enum { SPREAD = 6, MANY = 2 };
-
-struct triangle_view {
-  struct geom_point p[3];
-  struct cell_range cells;
-  int low, high; /* buckets */
-};
-
-static struct triangle_view view_triangle(const struct sheet *sheet,
-                                          const struct pagegrid *grid,
-                                          size_t t) {
-  const uint32_t *point = sheet->triangle.item[t].point;
-  struct triangle_view view;
-  int64_t low, high;
-  for (int k = 0; k < 3; k++) view.p[k] = sheet->point.item[point[k]];
-  low = high = view.p[0].z;
-  for (int k = 1; k < 3; k++) {
-    if (view.p[k].z < low) low = view.p[k].z;
-    if (view.p[k].z > high) high = view.p[k].z;
-  }
-  view.low = tile_bucket(low);
-  view.high = tile_bucket(high);
-  view.cells = pagegrid_cells(grid, page_box_of_triangle(sheet, (uint32_t)t));
-  return view;
-}
+enum { SPREAD = 4, MANY = 2 };
 
 static uint64_t bucket_mask(int low, int high) {
   return (~UINT64_C(0) >> (TILE_BUCKETS - 1 - high)) & (~UINT64_C(0) << low);
@@ -45,13 +21,22 @@ static struct tile *tile_at(const struct tilemap *map, int x, int y) {
   return &map->tile[(size_t)y * (size_t)map->grid.columns + (size_t)x];
 }
 
+/* Which cells and buckets each triangle is in, and the cells' depths. */
 static void gather_depths(struct tilemap *map, const struct sheet *sheet) {
+  const struct geom_point *point = sheet->point.item;
   for (size_t t = 0; t < sheet->triangle.count; t++) {
-    struct triangle_view view = view_triangle(sheet, &map->grid, t);
-    uint64_t mask = bucket_mask(view.low, view.high);
-    for (int y = view.cells.y0; y <= view.cells.y1; y++)
-      for (int x = view.cells.x0; x <= view.cells.x1; x++)
-        tile_at(map, x, y)->depths |= mask;
+    const uint32_t *p = sheet->triangle.item[t].point;
+    struct cell_range r = pagegrid_cells(
+        &map->grid, page_box_of_triangle(sheet, (uint32_t)t));
+    int64_t z0 = point[p[0]].z, z1 = point[p[1]].z, z2 = point[p[2]].z;
+    int64_t low = z0 < z1 ? z0 : z1, high = z0 > z1 ? z0 : z1;
+    uint64_t mask;
+    if (z2 < low) low = z2;
+    if (z2 > high) high = z2;
+    map->print[t] = footprint_of(r, tile_bucket(low), tile_bucket(high));
+    mask = bucket_mask(tile_bucket(low), tile_bucket(high));
+    for (int y = r.y0; y <= r.y1; y++)
+      for (int x = r.x0; x <= r.x1; x++) tile_at(map, x, y)->depths |= mask;
   }
 }
 
@@ -102,12 +87,23 @@ static struct geom_point sample_of(const struct pagegrid *grid, int x, int y) {
   return p;
 }
 
+struct corners {
+  struct geom_point p[3];
+};
+
+static struct corners corners_of(const struct sheet *sheet, size_t t) {
+  const uint32_t *p = sheet->triangle.item[t].point;
+  return (struct corners){{sheet->point.item[p[0]], sheet->point.item[p[1]],
+                           sheet->point.item[p[2]]}};
+}
+
 /* Counts the triangle where it covers the tile's sample. */
-static void count_sample(struct tile *tile, const struct triangle_view *view,
+static void count_sample(struct tile *tile, const struct corners *corners,
                          struct geom_point sample) {
+  const struct geom_point *p = corners->p;
   int inside = 0;
   for (int k = 0; k < 3; k++) {
-    int64_t o = geom_orient2d(view->p[k], view->p[k == 2 ? 0 : k + 1], sample);
+    int64_t o = geom_orient2d(p[k], p[k == 2 ? 0 : k + 1], sample);
     if (o < 0) return;
     inside += o > 0;
   }
@@ -118,12 +114,11 @@ static void count_sample(struct tile *tile, const struct triangle_view *view,
 }
 
 /* May the triangle hide, or touch, across an empty bucket?  Its contact
- * tolerance (hide.h), bounded from above, against a bucket's depth: there is
- * another bucket's worth of room for the roundings. */
-static bool is_steep(const struct sheet *sheet,
-                     const struct triangle_view *view) {
+ * tolerance (hide.h), bounded from above, against a bucket's depth: half of
+ * it is room enough for the roundings. */
+static bool is_steep(const struct sheet *sheet, const struct corners *corners) {
   const struct camera *camera = &sheet->camera;
-  const struct geom_point *p = view->p;
+  const struct geom_point *p = corners->p;
   double ux = (double)p[1].x - p[0].x, uy = (double)p[1].y - p[0].y,
          uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
          vy = (double)p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
@@ -142,27 +137,36 @@ static bool is_steep(const struct sheet *sheet,
            nz * (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1)));
 }
 
+/* Counts the triangle in the simple tiles it may belong to the front of, or
+ * refuses them where it is too steep. */
+static void count_triangle(struct tilemap *map, const struct sheet *sheet,
+                           size_t t, bool steep_all) {
+  struct footprint print = map->print[t];
+  struct cell_range r = footprint_cells(&map->grid, sheet, t, print);
+  struct corners corners;
+  bool known = false, steep = false;
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++) {
+      struct tile *tile = tile_at(map, x, y);
+      bool front = print.low >= tile->front;
+      if (tile->state != TILE_SIMPLE || !(front || steep_all)) continue;
+      if (!known) {
+        corners = corners_of(sheet, t);
+        steep = is_steep(sheet, &corners);
+        known = true;
+      }
+      if (steep)
+        tile->state = TILE_MIXED;
+      else if (front)
+        count_sample(tile, &corners, sample_of(&map->grid, x, y));
+    }
+}
+
 static void count_samples(struct tilemap *map, const struct sheet *sheet,
                           bool steep_all) {
-  for (size_t t = 0; t < sheet->triangle.count; t++) {
-    struct triangle_view view;
-    bool steep;
-    if (sheet->triangle_flags[t] & SHEET_FLAT) continue;
-    view = view_triangle(sheet, &map->grid, t);
-    steep = is_steep(sheet, &view);
-    for (int y = view.cells.y0; y <= view.cells.y1; y++)
-      for (int x = view.cells.x0; x <= view.cells.x1; x++) {
-        struct tile *tile = tile_at(map, x, y);
-        if (tile->state != TILE_SIMPLE) continue;
-        if (view.low < tile->front) {
-          if (steep && steep_all) tile->state = TILE_MIXED;
-        } else if (steep) {
-          tile->state = TILE_MIXED;
-        } else {
-          count_sample(tile, &view, sample_of(&map->grid, x, y));
-        }
-      }
-  }
+  for (size_t t = 0; t < sheet->triangle.count; t++)
+    if (!(sheet->triangle_flags[t] & SHEET_FLAT))
+      count_triangle(map, sheet, t, steep_all);
 }
 
 bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
@@ -172,7 +176,8 @@ bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
   pagegrid_shape(&map->grid, sheet, SPREAD);
   n = pagegrid_cell_count(&map->grid);
   map->tile = mem_calloc(n, sizeof *map->tile);
-  if (map->tile == NULL) return false;
+  map->print = mem_alloc(sheet->triangle.count, sizeof *map->print);
+  if (map->tile == NULL || map->print == NULL) return false;
   gather_depths(map, sheet);
   find_fronts(map);
   refuse_contours(map, sheet);
@@ -191,5 +196,7 @@ bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
 void tilemap_fini(struct tilemap *map) {
   pagegrid_fini(&map->grid);
   mem_free(map->tile);
+  mem_free(map->print);
   map->tile = NULL;
+  map->print = NULL;
 }

@@ -40,6 +40,7 @@ struct tile {
 struct tilemap {
   struct pagegrid grid; /* its shape; lists only where they were filled */
   struct tile *tile;
+  struct footprint *print; /* one a triangle */
   uint64_t simple, mixed, empty;
 };
 

@@ -46,7 +46,8 @@ static void want_for_piercing(struct tiles_work *work) {
 static bool list_faces(struct tiles_work *work) {
   pagegrid_fini(&work->tiles.grid);
   work->wants_more = false;
-  return pagegrid_fill(&work->tiles.grid, work->sheet, work->wanted);
+  return pagegrid_fill(&work->tiles.grid, work->sheet, work->tiles.print,
+                       work->wanted);
 }
 
 /* ---- 2. Classifying -------------------------------------------------------------- */

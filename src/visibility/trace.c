@@ -63,8 +63,8 @@ static int32_t line_of(const struct trace *trace, const struct trace_edge *edge,
   return y < 0 ? 0 : y >= lines ? lines - 1 : (int32_t)y;
 }
 
-static void set_edge(struct trace *trace, const struct facets *facets,
-                     uint32_t e, struct trace_edge *to) {
+static void set_edge(const struct trace *trace, uint32_t e,
+                     struct trace_edge *to) {
   const struct sheet *sheet = trace->sheet;
   const struct sheet_edge *edge = &sheet->edge.item[e];
   struct geom_point p = sheet->point.item[edge->point[0]];
@@ -76,10 +76,6 @@ static void set_edge(struct trace *trace, const struct facets *facets,
   to->dy = frame_y(&trace->grid, q.y) - to->y0;
   to->z0 = (double)p.z;
   to->dz = (double)(q.z - p.z);
-  for (int k = 0; k < 2; k++)
-    to->own[k] = edge->triangle[k] == SHEET_NONE
-                     ? SHEET_NONE
-                     : facet_of(facets, edge->triangle[k]);
   to->bits = cell_bits(&trace->grid, to->dx, to->dy);
   to->turned = to->dy > 0;
   to->cell = 0;
@@ -112,8 +108,8 @@ static bool sort_edges(struct trace *trace, struct trace_edge *edge) {
 }
 
 bool trace_init(struct trace *trace, const struct sheet *sheet,
-                const struct facets *facets, const struct scan_grid *grid,
-                double reach_x, double step, const uint8_t *skip) {
+                const struct scan_grid *grid, double reach_x, double step,
+                const uint8_t *skip) {
   struct trace_edge *edge;
   bool good = false;
   memset(trace, 0, sizeof *trace);
@@ -132,7 +128,7 @@ bool trace_init(struct trace *trace, const struct sheet *sheet,
     size_t i = 0;
     for (size_t e = 0; e < sheet->edge.count; e++)
       if (is_traced(sheet, e, skip)) {
-        set_edge(trace, facets, (uint32_t)e, &edge[i]);
+        set_edge(trace, (uint32_t)e, &edge[i]);
         trace->bits[e] = (uint8_t)edge[i++].bits;
       }
     good = sort_edges(trace, edge);
@@ -167,16 +163,29 @@ static double deepest(const struct trace *trace, uint32_t facet, double x,
          fabs(per_column) * trace->reach_x - fabs(per_line) * 0.5;
 }
 
+/* The depth units that `contact` is at depth z: orthographic z = Z (d_max - d),
+ * perspective z = Z (1 / d - 1 / d_max), where dz = Z / d^2. */
+static double contact_depth(const struct sheet *sheet, double z) {
+  const struct camera *camera = &sheet->camera;
+  double per_unit = sheet->z_scale;
+  if (camera->perspective) {
+    double inverse = z / sheet->z_scale + 1 / camera->d_max;
+    per_unit *= inverse * inverse;
+  }
+  return camera->contact * per_unit;
+}
+
 static bool is_visible(const struct trace *trace, const struct trace_edge *edge,
                        int32_t line, trace_seen_fn seen, const void *user) {
   double t = middle_of(edge, edge->cell), x = edge->x0 + t * edge->dx;
+  double z = edge->z0 + t * edge->dz;
   uint32_t facet = seen(user, x);
-  if (facet == SHEET_NONE || facet == edge->own[0] || facet == edge->own[1])
+  if (facet == SHEET_NONE)
     return true;
   if (trace->reach_x > 0)
     x = floor(x) + 0.5;
-  return edge->z0 + t * edge->dz >=
-         deepest(trace, facet, x, line) - trace->step;
+  return z >= deepest(trace, facet, x, line) - trace->step -
+                  contact_depth(trace->sheet, z);
 }
 
 static bool end_run(struct trace *trace, struct trace_edge *edge) {

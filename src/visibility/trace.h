@@ -5,13 +5,15 @@
  * are no longer than half a line's height in x and y; a cell is visible if its
  * middle is.  So intervals start and end at multiples of 2^-m.
  *
- * Bias.  The middle of a cell is visible where nothing is seen, where a facet
- * of the edge itself is, or where the edge lies no deeper than
- *     z - |change of z over `reach_x` columns| - |over half a line| - `step`,
+ * Bias.  The middle of a cell is visible where nothing is seen, or where the
+ * edge lies no deeper than
+ *     z - |change of z over `reach_x` columns| - |over half a line| - `step`
+ *       - contact,
  * z the depth of the facet seen at the point the scan looked at: the deepest
  * that the facet's plane is in the part of the page for which the scan's
  * answer stands (reach_x 1/2: a pixel; 0: the scan's x is exact), less one step
- * of the depth buffer.  A larger bias draws lines through thin steep faces, a
+ * of the depth buffer and what the scene calls contact.  So a facet never
+ * hides its own sides.  A larger bias draws lines through thin steep faces, a
  * smaller one leaves gaps in edges that lie on faces.
  *
  * What ends within a pixel of the true place, or passes behind a facet by less
@@ -21,7 +23,6 @@
 #define VISIBILITY_TRACE_H
 
 #include "geom/scanfill.h"
-#include "visibility/facet.h"
 #include "visibility/solver.h"
 
 #define TRACE_BITS_MAX 24 /* 2^24 cells of an edge at most */
@@ -68,7 +69,6 @@ USE_RESULT recto_status trace_find_intersections(
  * grid  walked from the top
  * step  depth units */
 USE_RESULT bool trace_init(struct trace *trace, const struct sheet *sheet,
-                           const struct facets *facets,
                            const struct scan_grid *grid, double reach_x,
                            double step, const uint8_t *skip);
 void trace_fini(struct trace *trace);

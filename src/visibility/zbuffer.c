@@ -35,11 +35,10 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
 }
 
 static recto_status file_lines(const struct raster *raster,
-                               const struct facets *facets,
                                const struct solver_request *request,
                                struct map *map, recto_error *error) {
   struct pixels pixels;
-  recto_status status = pixels_init(&pixels, raster, facets, request, error);
+  recto_status status = pixels_init(&pixels, raster, request, error);
   if (status != RECTO_OK)
     return status;
   for (int32_t line = raster->grid.lines; line-- > 0 && status == RECTO_OK;)
@@ -65,7 +64,7 @@ static recto_status solve(struct sheet *sheet,
   if (status == RECTO_OK)
     status = zbuffer_draw(&raster, &facets, request, &covered, error);
   if (status == RECTO_OK)
-    status = file_lines(&raster, &facets, request, map, error);
+    status = file_lines(&raster, request, map, error);
   if (status == RECTO_OK) {
     report_int(report, "zbuffer", "lines", raster.grid.lines);
     report_int(report, "zbuffer", "columns", raster.grid.columns);
