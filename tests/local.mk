@@ -19,9 +19,6 @@ unit_tests += %D%/test_svg
 
 dist_check_SCRIPTS += %D%/test_models.sh
 
-unit_tests += %D%/test_scanfill
-%C%_test_scanfill_SOURCES = %D%/test_scanfill.c
-
 unit_tests += %D%/test_exact_map
 %C%_test_exact_map_SOURCES = %D%/test_exact_map.c \
   %D%/hand/sheet.c %D%/hand/sheet.h
@@ -84,3 +81,7 @@ unit_tests += %D%/test_topology
 include tests/exact.mk
 unit_tests += %D%/test_triangulate
 %C%_test_triangulate_SOURCES = %D%/test_triangulate.c
+include tests/scan.mk
+unit_tests += %D%/test_camera
+%C%_test_camera_SOURCES = %D%/test_camera.c
+%C%_test_camera_LDADD = %D%/scenes/libscenes.la $(LDADD)

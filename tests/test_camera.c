@@ -1,0 +1,793 @@
+/* test_camera.c - the camera stands, looks and fits as the options ask. */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "scene/angle.h"
+#include "tests/scenes/random.h"
+#include "tests/scenes/scenes.h"
+#include "view/camera.h"
+#include "view/frame.h"
+
+/* ---- Means
+ * -------------------------------------------------------------------- */
+
+static recto_options plain_options(void) {
+  recto_options options;
+  recto_options_init(&options);
+  options.page_width_mm = 200;
+  options.page_height_mm = 100;
+  options.margin_mm = 10;
+  return options;
+}
+
+static void eye_at(recto_options *options, double x, double y, double z) {
+  options->camera = RECTO_CAMERA_EYE;
+  options->eye[0] = x;
+  options->eye[1] = y;
+  options->eye[2] = z;
+}
+
+static void target_at(recto_options *options, double x, double y, double z) {
+  options->has_target = true;
+  options->target[0] = x;
+  options->target[1] = y;
+  options->target[2] = z;
+}
+
+static struct camera aim(const struct scene *scene,
+                         const recto_options *options) {
+  struct camera camera;
+  recto_error error = {0};
+  recto_status status = camera_aim(&camera, scene, options, &error);
+  if (status != RECTO_OK)
+    fail_msg("%s", error.text);
+  return camera;
+}
+
+static void assert_refused(const struct scene *scene,
+                           const recto_options *options, recto_status status) {
+  struct camera camera;
+  recto_error error = {0};
+  assert_int_equal(camera_aim(&camera, scene, options, &error), status);
+  assert_int_equal(error.code, status);
+  assert_true(strlen(error.text) > 0);
+}
+
+struct seen {
+  double x_mm, y_mm, d;
+};
+
+/* Where a point falls on the page, by the definition in camera.h. */
+static struct seen see(const struct camera *camera, double x, double y,
+                       double z) {
+  const double p[3] = {x - camera->eye[0], y - camera->eye[1],
+                       z - camera->eye[2]};
+  double view[3] = {0, 0, 0};
+  for (int k = 0; k < 3; k++) {
+    view[0] += camera->right[k] * p[k];
+    view[1] += camera->up[k] * p[k];
+    view[2] -= camera->back[k] * p[k];
+  }
+  double w = camera->perspective ? view[2] : 1;
+  return (struct seen){camera->middle_mm[0] + camera->s * view[0] / w,
+                       camera->middle_mm[1] + camera->s * view[1] / w, view[2]};
+}
+
+static struct seen see_point(const struct camera *camera,
+                             const struct scene *scene, size_t p) {
+  const struct scene_point *point = &scene->point.item[p];
+  return see(camera, point->x, point->y, point->z);
+}
+
+/* The rectangle of all points on the page. */
+struct rectangle {
+  double low[2], high[2];
+};
+
+static struct rectangle rectangle_of(const struct camera *camera,
+                                     const struct scene *scene) {
+  struct rectangle r = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  for (size_t p = 0; p < scene->point.count; p++) {
+    struct seen seen = see_point(camera, scene, p);
+    r.low[0] = fmin(r.low[0], seen.x_mm);
+    r.low[1] = fmin(r.low[1], seen.y_mm);
+    r.high[0] = fmax(r.high[0], seen.x_mm);
+    r.high[1] = fmax(r.high[1], seen.y_mm);
+  }
+  return r;
+}
+
+static void assert_near(double a, double b, double within) {
+  if (!(fabs(a - b) <= within))
+    fail_msg("%.17g is not within %g of %.17g", a, within, b);
+}
+
+static void fill_box(struct scene *scene) {
+  scene_init(scene);
+  build_box(scene, vector_of(-1, -2, -3), vector_of(2, 4, 3.5));
+}
+
+/* ---- Directions
+ * ----------------------------------------------------------------- */
+
+static void assert_axis(const double axis[3], double x, double y, double z) {
+  const double wanted[3] = {x, y, z};
+  for (int k = 0; k < 3; k++) {
+    assert_true(axis[k] == wanted[k]);
+    assert_false(axis[k] == 0 && signbit(axis[k]));
+  }
+}
+
+struct named {
+  double azimuth, elevation;
+  double back_y[3], up_y[3]; /* with up = +Y */
+  double back_z[3], up_z[3]; /* with up = +Z */
+};
+
+/* front, right, back, left, top, bottom */
+static const struct named named_views[] = {
+    {0, 0, {0, 0, 1}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}},
+    {90, 0, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
+    {180, 0, {0, 0, -1}, {0, 1, 0}, {0, 1, 0}, {0, 0, 1}},
+    {-90, 0, {-1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 0, 1}},
+    {0, 90, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}, {0, 1, 0}},
+    {0, -90, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {0, -1, 0}},
+};
+
+static void named_views_are_exact(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  for (size_t i = 0; i < sizeof named_views / sizeof *named_views; i++) {
+    const struct named *n = &named_views[i];
+    options.azimuth_deg = n->azimuth;
+    options.elevation_deg = n->elevation;
+    options.up[1] = 1;
+    options.up[2] = 0;
+    struct camera camera = aim(&scene, &options);
+    assert_axis(camera.back, n->back_y[0], n->back_y[1], n->back_y[2]);
+    assert_axis(camera.up, n->up_y[0], n->up_y[1], n->up_y[2]);
+    options.up[1] = 0;
+    options.up[2] = 1;
+    camera = aim(&scene, &options);
+    assert_axis(camera.back, n->back_z[0], n->back_z[1], n->back_z[2]);
+    assert_axis(camera.up, n->up_z[0], n->up_z[1], n->up_z[2]);
+  }
+  scene_fini(&scene);
+}
+
+static void any_up_along_an_axis_gives_exact_frames(void **state) {
+  (void)state;
+  for (int axis = 0; axis < 3; axis++)
+    for (int sign = -1; sign <= 1; sign += 2) {
+      double up[3] = {0, 0, 0};
+      up[axis] = 17.3 * sign; /* of any length */
+      for (int azimuth = -180; azimuth <= 360; azimuth += 90)
+        for (int elevation = -90; elevation <= 90; elevation += 90) {
+          struct frame f = frame_from_direction(up, azimuth, elevation);
+          const double *row[3] = {f.right, f.up, f.back};
+          for (int r = 0; r < 3; r++)
+            for (int k = 0; k < 3; k++)
+              assert_true(row[r][k] == 0 || fabs(row[r][k]) == 1);
+          if (elevation == 0)
+            assert_true(f.up[axis] == sign);
+        }
+    }
+}
+
+static double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void assert_orthonormal(const struct frame *f) {
+  const double tight = 1e-15;
+  assert_near(dot(f->right, f->right), 1, 4 * tight);
+  assert_near(dot(f->up, f->up), 1, 4 * tight);
+  assert_near(dot(f->back, f->back), 1, 4 * tight);
+  assert_near(dot(f->right, f->up), 0, tight);
+  assert_near(dot(f->up, f->back), 0, tight);
+  assert_near(dot(f->back, f->right), 0, tight);
+  assert_near(f->right[1] * f->up[2] - f->right[2] * f->up[1], f->back[0],
+              tight);
+}
+
+static void frames_are_orthonormal_and_right_handed(void **state) {
+  (void)state;
+  struct random random = {3};
+  for (int i = 0; i < 2000; i++) {
+    double up[3], eye[3], target[3];
+    for (int k = 0; k < 3; k++) {
+      up[k] = random_between(&random, -1, 1);
+      eye[k] = random_between(&random, -9, 9);
+      target[k] = random_between(&random, -9, 9);
+    }
+    struct frame f =
+        frame_from_direction(up, random_between(&random, -400, 400),
+                             random_between(&random, -90, 90));
+    assert_orthonormal(&f);
+    assert_int_equal(frame_from_eye(&f, eye, target, up), FRAME_OK);
+    assert_orthonormal(&f);
+    assert_true(dot(f.up, up) > 0);
+    const double away[3] = {eye[0] - target[0], eye[1] - target[1],
+                            eye[2] - target[2]};
+    assert_near(dot(away, f.back), sqrt(dot(away, away)), 1e-13);
+  }
+}
+
+/* But at +X and -X, where nothing can be. */
+static void a_little_tilt_of_up_turns_the_frame_a_little(void **state) {
+  (void)state;
+  struct random random = {5};
+  for (int i = 0; i < 500; i++) {
+    double a[3], b[3];
+    for (int k = 0; k < 3; k++)
+      a[k] = random_between(&random, -1, 1);
+    if (fabs(a[1]) + fabs(a[2]) < 0.1)
+      continue;
+    for (int k = 0; k < 3; k++)
+      b[k] = a[k] + random_between(&random, -1, 1) * 1e-7;
+    struct frame f = frame_from_direction(a, 30, 20);
+    struct frame g = frame_from_direction(b, 30, 20);
+    for (int k = 0; k < 3; k++)
+      assert_near(f.right[k], g.right[k], 1e-5);
+  }
+}
+
+static void the_scene_says_what_up_is_unless_told(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  options.azimuth_deg = options.elevation_deg = 0;
+  scene.up[1] = 0;
+  scene.up[2] = 1;
+  struct camera camera = aim(&scene, &options);
+  assert_axis(camera.up, 0, 0, 1);
+  options.up[1] = -1;
+  camera = aim(&scene, &options);
+  assert_axis(camera.up, 0, -1, 0);
+  scene_fini(&scene);
+}
+
+static void an_eye_along_an_axis_is_exact(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  options.fov_deg = 30;
+  eye_at(&options, 0.1, 0.7, 33);
+  target_at(&options, 0.1, 0.7, -0.3);
+  options.up[1] = 0.1;
+  struct camera camera = aim(&scene, &options);
+  assert_axis(camera.right, 1, 0, 0);
+  assert_axis(camera.up, 0, 1, 0);
+  assert_axis(camera.back, 0, 0, 1);
+  assert_true(camera.eye[2] == 33);
+  scene_fini(&scene);
+}
+
+/* ---- Fit
+ * ----------------------------------------------------------------------------
+ */
+
+/* The drawing is inside the margins, touches two of them, and is centred. */
+static void assert_fits(const struct camera *camera, const struct scene *scene,
+                        double margin) {
+  struct rectangle r = rectangle_of(camera, scene);
+  bool touches = false;
+  for (int k = 0; k < 2; k++) {
+    double page = camera->page_mm[k];
+    assert_near(r.low[k] + r.high[k], page, 1e-9);
+    assert_true(r.low[k] >= margin - 1e-9);
+    touches = touches || fabs(r.low[k] - margin) < 1e-9;
+  }
+  assert_true(touches);
+}
+
+static void the_drawing_fills_the_page_inside_the_margins(void **state) {
+  (void)state;
+  struct random random = {7};
+  struct scene scene;
+  fill_box(&scene);
+  for (int i = 0; i < 300; i++) {
+    recto_options options = plain_options();
+    options.page_width_mm = random_between(&random, 30, 2000);
+    options.page_height_mm = random_between(&random, 30, 2000);
+    options.margin_mm = random_between(&random, 0, 14);
+    options.azimuth_deg = random_between(&random, 0, 360);
+    options.elevation_deg = random_between(&random, -90, 90);
+    options.fov_deg = i % 2 ? random_between(&random, 1, 120) : 0;
+    if (i % 4 > 1)
+      eye_at(&options, 9 + i, 11, random_between(&random, -20, 20));
+    struct camera camera = aim(&scene, &options);
+    assert_fits(&camera, &scene, options.margin_mm);
+    for (size_t p = 0; p < scene.point.count; p++) {
+      double d = see_point(&camera, &scene, p).d;
+      assert_true(d >= camera.near_d);
+      assert_true(d >= camera.d_min && d <= camera.d_max);
+    }
+  }
+  scene_fini(&scene);
+}
+
+static void points_that_nothing_uses_do_not_count(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  struct camera before = aim(&scene, &options);
+  build_point(&scene, 1000, -1000, 1000);
+  struct camera after = aim(&scene, &options);
+  assert_memory_equal(&before, &after, sizeof before);
+  scene_fini(&scene);
+}
+
+/* design.md: (W / 2 + s x / d, H / 2 + s y / d). */
+static void without_fit_fov_spans_the_printable_height(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  options.fit = RECTO_FIT_NONE;
+  options.fov_deg = 40;
+  eye_at(&options, 3, 5, 30);
+  target_at(&options, 3, 5, 0);
+  options.up[1] = 1;
+  struct camera camera = aim(&scene, &options);
+  double s = (100 - 2 * 10) / (2 * tan(20 * acos(-1) / 180));
+  assert_near(camera.s, s, s * 4e-16);
+  for (size_t p = 0; p < scene.point.count; p++) {
+    const struct scene_point *q = &scene.point.item[p];
+    struct seen seen = see_point(&camera, &scene, p);
+    double d = 30 - q->z;
+    assert_near(seen.x_mm, 100 + s * (q->x - 3) / d, 1e-12 * 100);
+    assert_near(seen.y_mm, 50 + s * (q->y - 5) / d, 1e-12 * 100);
+  }
+  /* The edge of the field of view is the edge of the printable height. */
+  assert_near(see(&camera, 3, 5 + 30 * tan(20 * acos(-1) / 180), 0).y_mm, 90,
+              1e-10);
+  scene_fini(&scene);
+}
+
+static void without_fit_an_orthographic_view_is_true_to_scale(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  options.fit = RECTO_FIT_NONE;
+  options.azimuth_deg = options.elevation_deg = 0;
+  target_at(&options, 1, 2, 1e3);
+  struct camera camera = aim(&scene, &options);
+  struct seen seen = see(&camera, 2, 4, 0);
+  assert_near(seen.x_mm, 101, 1e-12);
+  assert_near(seen.y_mm, 52, 1e-12);
+  options.has_target = false; /* the middle of the scene is 0.5, 1, 0.25 */
+  camera = aim(&scene, &options);
+  seen = see(&camera, 0.5, 1, 9);
+  assert_near(seen.x_mm, 100, 1e-12);
+  assert_near(seen.y_mm, 50, 1e-12);
+  scene_fini(&scene);
+}
+
+static void a_scale_is_kept_at_the_target(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  options.fit = RECTO_FIT_SCALE;
+  options.scale = 2.5;
+  options.azimuth_deg = 37;
+  for (int perspective = 0; perspective < 2; perspective++) {
+    options.fov_deg = perspective ? 50 : 0;
+    target_at(&options, 1, 2, 0);
+    struct camera camera = aim(&scene, &options);
+    struct seen seen = see(&camera, 1, 2, 0);
+    assert_near(seen.x_mm, 100, 1e-10);
+    assert_near(seen.y_mm, 50, 1e-10);
+    seen =
+        see(&camera, 1 + camera.right[0], 2 + camera.right[1], camera.right[2]);
+    assert_near(seen.x_mm, 102.5, 1e-10);
+    assert_near(seen.y_mm, 50, 1e-10);
+  }
+  scene_fini(&scene);
+}
+
+static void a_perspective_direction_takes_the_whole_scene_in(void **state) {
+  (void)state;
+  struct random random = {9};
+  struct scene scene;
+  fill_box(&scene);
+  for (int i = 0; i < 100; i++) {
+    recto_options options = plain_options();
+    options.fit = RECTO_FIT_NONE;
+    options.page_width_mm = 100;
+    options.fov_deg = random_between(&random, 1, 170);
+    options.azimuth_deg = random_between(&random, 0, 360);
+    options.elevation_deg = random_between(&random, -90, 90);
+    struct camera camera = aim(&scene, &options);
+    struct rectangle r = rectangle_of(&camera, &scene);
+    for (int k = 0; k < 2; k++)
+      assert_true(r.low[k] >= 10 - 1e-9 && r.high[k] <= 90 + 1e-9);
+    assert_true(camera.d_min > 0);
+  }
+  scene_fini(&scene);
+}
+
+/* ---- Depth
+ * ----------------------------------------------------------------------------
+ */
+
+static void an_eye_before_the_scene_cuts_nothing(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  options.fov_deg = 30;
+  eye_at(&options, 0, 0, 20);
+  target_at(&options, 0, 0, 0);
+  struct camera camera = aim(&scene, &options);
+  assert_true(camera.near_d == 16.5);
+  assert_true(camera.d_min == 16.5);
+  assert_true(camera.d_max == 23);
+  scene_fini(&scene);
+}
+
+static void an_eye_within_the_scene_cuts_close_before_it(void **state) {
+  (void)state;
+  struct scene scene;
+  recto_options options;
+  for (int place = SCENES_EYE_INSIDE; place <= SCENES_EYE_ON_LINE; place++) {
+    recto_options_init(&options);
+    scene_init(&scene);
+    scenes_room(&scene, &options, (enum scenes_eye)place);
+    struct camera camera = aim(&scene, &options);
+    assert_true(camera.near_d > 0);
+    assert_true(camera.near_d <= camera.d_min);
+    assert_true(camera.d_min < camera.d_max);
+    assert_true(camera.near_d < camera.size);
+    assert_true(isfinite(camera.s) && camera.s > 0);
+    scene_fini(&scene);
+  }
+}
+
+static void a_near_distance_counts_from_the_eye(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  options.near_distance = 18;
+  for (int perspective = 0; perspective < 2; perspective++) {
+    options.fov_deg = perspective ? 30 : 0;
+    eye_at(&options, 0, 0, 20);
+    target_at(&options, 0, 0, 0);
+    struct camera camera = aim(&scene, &options);
+    double at_18 = see(&camera, 0, 0, 2).d;
+    assert_near(camera.near_d, at_18, 1e-12);
+    assert_true(camera.d_min == camera.near_d);
+  }
+  scene_fini(&scene);
+}
+
+static void a_section_counts_from_the_eye_or_the_nearest_point(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  options.has_section = true;
+  options.section = 2.5;
+  options.azimuth_deg = options.elevation_deg = 0;
+  for (int perspective = 0; perspective < 2; perspective++) {
+    options.fov_deg = perspective ? 30 : 0;
+    struct camera camera = aim(&scene, &options);
+    assert_near(camera.near_d, see(&camera, 0, 0, 1).d, 1e-12);
+  }
+  options.section = 21;
+  for (int perspective = 0; perspective < 2; perspective++) {
+    options.fov_deg = perspective ? 30 : 0;
+    eye_at(&options, 0, 0, 20);
+    target_at(&options, 0, 0, 0);
+    struct camera camera = aim(&scene, &options);
+    assert_near(camera.near_d, see(&camera, 0, 0, -1).d, 1e-12);
+  }
+  scene_fini(&scene);
+}
+
+static void an_orthographic_eye_sees_what_is_behind_it_too(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  eye_at(&options, 0, 0, 1);
+  target_at(&options, 0, 0, 0);
+  struct camera camera = aim(&scene, &options);
+  assert_near(camera.d_max - camera.d_min, 6.5, 1e-12);
+  assert_true(camera.d_min > 0);
+  scene_fini(&scene);
+}
+
+/* ---- Refusals
+ * ---------------------------------------------------------------------------
+ */
+
+static void what_makes_no_sense_is_refused(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  const recto_options good = plain_options();
+  recto_options o;
+#define REFUSED(change)                                                        \
+  do {                                                                         \
+    o = good;                                                                  \
+    change;                                                                    \
+    assert_refused(&scene, &o, RECTO_ERROR_ARGUMENT);                          \
+  } while (0)
+  REFUSED(o.page_width_mm = 0);
+  REFUSED(o.page_height_mm = -1);
+  REFUSED(o.page_width_mm = NAN);
+  REFUSED(o.page_height_mm = 2000.5);
+  REFUSED(o.margin_mm = -1);
+  REFUSED(o.margin_mm = 50);
+  REFUSED(o.margin_mm = NAN);
+  REFUSED(o.fov_deg = 180);
+  REFUSED(o.fov_deg = -1);
+  REFUSED(o.fov_deg = NAN);
+  REFUSED(o.azimuth_deg = INFINITY);
+  REFUSED(o.elevation_deg = NAN);
+  REFUSED(o.up[0] = NAN);
+  REFUSED(o.near_distance = -1);
+  REFUSED(o.has_section = true; o.section = NAN);
+  REFUSED(o.contact = NAN);
+  REFUSED(o.fit = RECTO_FIT_SCALE; o.scale = 0);
+  REFUSED(o.fit = RECTO_FIT_SCALE; o.scale = INFINITY);
+  REFUSED(eye_at(&o, 1, 2, 3); target_at(&o, 1, 2, 3));
+  REFUSED(eye_at(&o, 0.5, 1, 0.25)); /* the middle of the scene */
+  REFUSED(eye_at(&o, 0, 9, 0); target_at(&o, 0, 0, 0));
+  REFUSED(eye_at(&o, 1e-9, 9, 0); target_at(&o, 0, 0, 0));
+#undef REFUSED
+  scene_fini(&scene);
+}
+
+static void nothing_to_see_is_told(void **state) {
+  (void)state;
+  struct scene scene;
+  recto_options options = plain_options();
+  scene_init(&scene);
+  assert_refused(&scene, &options, RECTO_ERROR_EMPTY);
+  build_point(&scene, 1, 2, 3); /* used by nothing */
+  assert_refused(&scene, &options, RECTO_ERROR_EMPTY);
+  scene_fini(&scene);
+  fill_box(&scene);
+  options.has_section = true;
+  options.section = 100;
+  assert_refused(&scene, &options, RECTO_ERROR_EMPTY);
+  options.has_section = false;
+  options.fov_deg = 30;
+  eye_at(&options, 0, 0, 20);
+  target_at(&options, 0, 0, 40);
+  assert_refused(&scene, &options, RECTO_ERROR_EMPTY);
+  scene_fini(&scene);
+}
+
+static void a_scene_beyond_numbers_is_refused(void **state) {
+  (void)state;
+  struct scene scene;
+  recto_options options = plain_options();
+  fill_box(&scene);
+  scene.point.item[0].x = -DBL_MAX;
+  scene.point.item[7].x = DBL_MAX;
+  assert_refused(&scene, &options, RECTO_ERROR_LIMIT);
+  scene_fini(&scene);
+}
+
+/* ---- Contact
+ * ------------------------------------------------------------------------------
+ */
+
+static void contact_is_a_millionth_of_the_size_unless_told(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  double diagonal = sqrt(9 + 36 + 6.5 * 6.5);
+  struct camera camera = aim(&scene, &options);
+  assert_near(camera.size, diagonal, 1e-14);
+  assert_near(camera.contact, diagonal / 1000000, 1e-20);
+  options.contact = 0;
+  assert_true(aim(&scene, &options).contact == 0);
+  options.contact = 0.25;
+  assert_true(aim(&scene, &options).contact == 0.25);
+  scene_fini(&scene);
+}
+
+/* ---- Thin scenes
+ * ----------------------------------------------------------------------------
+ */
+
+static void a_single_wire_fits_from_wherever_it_is_seen(void **state) {
+  (void)state;
+  for (int axis = 0; axis < 3; axis++)
+    for (double azimuth = 0; azimuth <= 90; azimuth += 15)
+      for (int perspective = 0; perspective < 2; perspective++) {
+        struct scene scene;
+        recto_options options = plain_options();
+        options.azimuth_deg = azimuth;
+        options.elevation_deg = 0;
+        options.fov_deg = perspective ? 30 : 0;
+        scene_init(&scene);
+        build_group(&scene, "wire");
+        build_segment(&scene, build_point(&scene, 7, 7, 7),
+                      build_point(&scene, 7 + (axis == 0), 7 + (axis == 1),
+                                  7 + (axis == 2)));
+        struct camera camera = aim(&scene, &options);
+        assert_true(camera.s > 0 && isfinite(camera.s));
+        struct rectangle r = rectangle_of(&camera, &scene);
+        for (int k = 0; k < 2; k++) {
+          assert_true(r.low[k] >= 10 - 1e-9);
+          assert_true(r.high[k] <= camera.page_mm[k] - 10 + 1e-9);
+        }
+        scene_fini(&scene);
+      }
+}
+
+static void a_plate_seen_edge_on_fits_by_its_other_extent(void **state) {
+  (void)state;
+  struct scene scene;
+  recto_options options = plain_options();
+  options.azimuth_deg = options.elevation_deg = 0;
+  scene_init(&scene);
+  build_parallelogram(&scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
+                      vector_of(0, 0, 3));
+  struct camera camera = aim(&scene, &options);
+  assert_near(camera.s, 180 / 3.0, 1e-12);
+  scene_fini(&scene);
+}
+
+/* ---- Scale and place
+ * -------------------------------------------------------------------------- */
+
+static void powers_of_two_change_no_bit_of_the_page(void **state) {
+  (void)state;
+  for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
+    struct scene scene;
+    recto_options options;
+    recto_options_init(&options);
+    scene_init(&scene);
+    entry->fill(&scene, &options);
+    if (options.fit == RECTO_FIT_PAGE) {
+      struct camera before = aim(&scene, &options);
+      const double factor = 0x1p-20;
+      scenes_scale(&scene, factor, vector_of(0, 0, 0));
+      for (int k = 0; k < 3; k++) {
+        options.eye[k] *= factor;
+        options.target[k] *= factor;
+      }
+      options.near_distance *= factor;
+      options.section *= factor;
+      struct camera after = aim(&scene, &options);
+      assert_memory_equal(before.back, after.back, sizeof before.back);
+      assert_memory_equal(before.right, after.right, sizeof before.right);
+      assert_memory_equal(before.middle_mm, after.middle_mm,
+                          sizeof before.middle_mm);
+      assert_true(after.near_d == before.near_d * factor);
+      assert_true(after.d_min == before.d_min * factor);
+      assert_true(after.d_max == before.d_max * factor);
+      assert_true(after.s ==
+                  (before.perspective ? before.s : before.s / factor));
+    }
+    scene_fini(&scene);
+  }
+}
+
+/* failures.md row 21. */
+static void units_and_places_move_nothing_on_the_page(void **state) {
+  (void)state;
+  const double factors[] = {1e-6, 1e6, 1, 1};
+  const double moves[] = {0, 0, 1e7, -1e7};
+  const double within[] = {1e-9, 1e-9, 1e-5, 1e-5}; /* mm */
+  for (int perspective = 0; perspective < 2; perspective++)
+    for (int i = 0; i < 4; i++) {
+      struct scene scene;
+      recto_options options = plain_options();
+      options.azimuth_deg = 31;
+      options.fov_deg = perspective ? 30 : 0;
+      fill_box(&scene);
+      struct camera before = aim(&scene, &options);
+      struct seen seen[8];
+      for (size_t p = 0; p < 8; p++)
+        seen[p] = see_point(&before, &scene, p);
+      scenes_scale(&scene, factors[i],
+                   vector_of(moves[i], moves[i], -moves[i]));
+      struct camera after = aim(&scene, &options);
+      for (size_t p = 0; p < 8; p++) {
+        struct seen moved = see_point(&after, &scene, p);
+        assert_near(moved.x_mm, seen[p].x_mm, within[i]);
+        assert_near(moved.y_mm, seen[p].y_mm, within[i]);
+      }
+      scene_fini(&scene);
+    }
+}
+
+/* ---- Matrix
+ * --------------------------------------------------------------------------------------
+ */
+
+static void the_matrix_is_the_camera(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  for (int perspective = 0; perspective < 2; perspective++) {
+    recto_options options = plain_options();
+    options.azimuth_deg = 31;
+    options.fov_deg = perspective ? 30 : 0;
+    struct camera camera = aim(&scene, &options);
+    double m[12];
+    camera_matrix(&camera, m);
+    for (size_t p = 0; p < scene.point.count; p++) {
+      const struct scene_point *q = &scene.point.item[p];
+      double h[3];
+      for (int r = 0; r < 3; r++)
+        h[r] = m[4 * r] * q->x + m[4 * r + 1] * q->y + m[4 * r + 2] * q->z +
+               m[4 * r + 3];
+      struct seen seen = see_point(&camera, &scene, p);
+      assert_near(h[0] / h[2], seen.x_mm, 1e-11);
+      assert_near(h[1] / h[2], seen.y_mm, 1e-11);
+      assert_near(h[2], perspective ? seen.d : 1, 1e-13);
+    }
+  }
+  scene_fini(&scene);
+}
+
+/* ---- Faults
+ * ---------------------------------------------------------------------------------------
+ */
+
+static void a_failed_allocation_is_told(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  mem_fail_after(1);
+  assert_refused(&scene, &options, RECTO_ERROR_MEMORY);
+  mem_fail_after(0);
+  scene_fini(&scene);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(named_views_are_exact),
+      cmocka_unit_test(any_up_along_an_axis_gives_exact_frames),
+      cmocka_unit_test(frames_are_orthonormal_and_right_handed),
+      cmocka_unit_test(a_little_tilt_of_up_turns_the_frame_a_little),
+      cmocka_unit_test(the_scene_says_what_up_is_unless_told),
+      cmocka_unit_test(an_eye_along_an_axis_is_exact),
+      cmocka_unit_test(the_drawing_fills_the_page_inside_the_margins),
+      cmocka_unit_test(points_that_nothing_uses_do_not_count),
+      cmocka_unit_test(without_fit_fov_spans_the_printable_height),
+      cmocka_unit_test(without_fit_an_orthographic_view_is_true_to_scale),
+      cmocka_unit_test(a_scale_is_kept_at_the_target),
+      cmocka_unit_test(a_perspective_direction_takes_the_whole_scene_in),
+      cmocka_unit_test(an_eye_before_the_scene_cuts_nothing),
+      cmocka_unit_test(an_eye_within_the_scene_cuts_close_before_it),
+      cmocka_unit_test(a_near_distance_counts_from_the_eye),
+      cmocka_unit_test(a_section_counts_from_the_eye_or_the_nearest_point),
+      cmocka_unit_test(an_orthographic_eye_sees_what_is_behind_it_too),
+      cmocka_unit_test(what_makes_no_sense_is_refused),
+      cmocka_unit_test(nothing_to_see_is_told),
+      cmocka_unit_test(a_scene_beyond_numbers_is_refused),
+      cmocka_unit_test(contact_is_a_millionth_of_the_size_unless_told),
+      cmocka_unit_test(a_single_wire_fits_from_wherever_it_is_seen),
+      cmocka_unit_test(a_plate_seen_edge_on_fits_by_its_other_extent),
+      cmocka_unit_test(powers_of_two_change_no_bit_of_the_page),
+      cmocka_unit_test(units_and_places_move_nothing_on_the_page),
+      cmocka_unit_test(the_matrix_is_the_camera),
+      cmocka_unit_test(a_failed_allocation_is_told),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
