@@ -4,11 +4,16 @@
  *   1 gather the sides of all pieces, sorted by the line they lie on
  *   2 along each line add up what runs forwards and backwards: where both do
  *     the line is inside the union, where one does it is its boundary
- *   3 join boundary segments end to end, taking the sharpest left turn
+ *   3 join boundary segments end to end, taking the sharpest left turn, and
+ *     drop the corners that go straight on
  *   4 tell outer loops from holes, give each hole to the innermost outer loop
  *     around it, and order everything
- * Invariant: what phase 2 keeps depends on the union alone, because inner
- * sides cancel however they were divided.
+ * Invariants
+ *   What phase 2 keeps depends on the union alone, because inner sides cancel
+ *   however they were divided; where it is divided does not.
+ *   Boundary is divided wherever the union's angle beside it ends at a point
+ *   within it, for a piece ends there: so a loop turns away there too, and
+ *   every corner of a loop spans one whole angle of the union.
  */
 #include "geom/region.h"
 
@@ -109,15 +114,13 @@ static bool sweep_line(const struct segment *side, size_t count,
     int before = net;
     while (j < 2 * count && geom_corner_compare(&event[i].at, &event[j].at) == 0)
       net += event[j++].change;
-    if (net != before) {
-      if (before != 0) {
-        struct segment s = {from, event[i].at,
-                            line_running(side, count, before > 0), before > 0,
-                            false};
-        if (!ARRAY_PUSH(boundary, s)) return false;
-      }
-      from = event[i].at;
+    if (before != 0) {
+      struct segment s = {from, event[i].at,
+                          line_running(side, count, before > 0), before > 0,
+                          false};
+      if (!ARRAY_PUSH(boundary, s)) return false;
     }
+    from = event[i].at;
     i = j;
   }
   return true;
@@ -201,6 +204,31 @@ static bool rotate_loop(struct geom_region_side *side, uint32_t count) {
   return true;
 }
 
+/* Drops the corners that go straight on; returns how many are left. */
+static uint32_t drop_straight(struct geom_region_side *side, uint32_t count) {
+  const struct geom_line *before = side[count - 1].line;
+  uint32_t kept = 0;
+  for (uint32_t k = 0; k < count; k++) {
+    const struct geom_line *line = side[k].line;
+    if (geom_line_turn(before, line) != 0) side[kept++] = side[k];
+    before = line;
+  }
+  return kept;
+}
+
+/* A loop that starts at its lowest corner turns right there if it is a hole;
+ * of several visits to that corner, one does. */
+static bool is_hole(const struct geom_region_side *side, uint32_t count) {
+  const struct geom_line *before = side[count - 1].line;
+  bool hole = false;
+  for (uint32_t k = 0; k < count; k++) {
+    if (geom_corner_compare(&side[k].corner, &side[0].corner) == 0)
+      hole |= geom_line_turn(before, side[k].line) < 0;
+    before = side[k].line;
+  }
+  return hole;
+}
+
 static bool trace_loop(segments *boundary, struct segment *start,
                        struct geom_region *region) {
   struct geom_region_loop loop = {(uint32_t)region->side.count, 0, false};
@@ -212,8 +240,10 @@ static bool trace_loop(segments *boundary, struct segment *start,
     loop.count++;
   }
   side = region->side.item + loop.side;
+  loop.count = drop_straight(side, loop.count);
+  region->side.count = loop.side + loop.count;
   if (!rotate_loop(side, loop.count)) return false;
-  loop.hole = geom_line_turn(side[loop.count - 1].line, side[0].line) < 0;
+  loop.hole = is_hole(side, loop.count);
   return ARRAY_PUSH(&region->loop, loop);
 }
 
@@ -240,15 +270,39 @@ static int inside_loop(const struct geom_region *region,
   return inside ? 1 : -1;
 }
 
+static void add_area2(const struct geom_region *region,
+                      const struct geom_region_loop *loop, mpq_t area2) {
+  const struct geom_region_side *side = region->side.item + loop->side;
+  mpq_t x0, y0, x1, y1, term;
+  mpq_inits(x0, y0, x1, y1, term, NULL);
+  for (uint32_t k = 0; k < loop->count; k++) {
+    geom_corner_exact(&side[k].corner, x0, y0);
+    geom_corner_exact(&side[(k + 1) % loop->count].corner, x1, y1);
+    mpq_mul(term, x0, y1);
+    mpq_add(area2, area2, term);
+    mpq_mul(term, x1, y0);
+    mpq_sub(area2, area2, term);
+  }
+  mpq_clears(x0, y0, x1, y1, term, NULL);
+}
+
 static bool holds(const struct geom_region *region,
                   const struct geom_region_loop *outer,
                   const struct geom_region_loop *hole) {
   const struct geom_region_side *side = region->side.item + hole->side;
+  mpq_t difference;
+  bool larger;
   for (uint32_t k = 0; k < hole->count; k++) {
     int inside = inside_loop(region, outer, &side[k].corner);
     if (inside != 0) return inside > 0;
   }
-  return true; /* touches it with every corner, from within */
+  /* Touches it with every corner: a hole of it, or around it. */
+  mpq_init(difference);
+  add_area2(region, outer, difference);
+  add_area2(region, hole, difference);
+  larger = mpq_sgn(difference) > 0;
+  mpq_clear(difference);
+  return larger;
 }
 
 struct placed_loop {
@@ -332,18 +386,6 @@ end:
 
 void geom_region_area2(const struct geom_region *region, size_t loop,
                        mpq_t area2) {
-  const struct geom_region_loop *l = &region->loop.item[loop];
-  const struct geom_region_side *side = region->side.item + l->side;
-  mpq_t x0, y0, x1, y1, term;
-  mpq_inits(x0, y0, x1, y1, term, NULL);
   mpq_set_ui(area2, 0, 1);
-  for (uint32_t k = 0; k < l->count; k++) {
-    geom_corner_exact(&side[k].corner, x0, y0);
-    geom_corner_exact(&side[(k + 1) % l->count].corner, x1, y1);
-    mpq_mul(term, x0, y1);
-    mpq_add(area2, area2, term);
-    mpq_mul(term, x1, y0);
-    mpq_sub(area2, area2, term);
-  }
-  mpq_clears(x0, y0, x1, y1, term, NULL);
+  add_area2(region, &region->loop.item[loop], area2);
 }
