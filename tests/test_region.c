@@ -185,19 +185,25 @@ static bool inside_piece(const struct geom_convex *piece,
   return inside;
 }
 
+/* A number between 0 and `size` that is not whole, of a prime denominator, so
+ * that two of them are on no line of the lattice. */
+static void set_between(mpq_t to, uint64_t *r, int size, int prime) {
+  int whole = hand_below(r, size);
+  mpq_set_si(to, whole * prime + 1 + hand_below(r, prime - 1),
+             (unsigned long)prime);
+}
+
 /* Each outer with its holes goes round a point once or not at all, and round
  * the points of the pieces alone.  The pieces' sides are narrow. */
 static void check_samples(const struct geom_region *region,
                           const struct mosaic *m, int size, uint64_t *r) {
-  enum { SAMPLES = 12, DEN = 9973 }; /* a prime: not on any side */
+  enum { SAMPLES = 12 };
   struct rational_point p;
   rational_point_init(&p);
   for (int i = 0; i < SAMPLES; i++) {
     int covered = 0, round = 0, all = 0;
-    mpq_set_si(p.x, hand_below(r, size * DEN) + 1, DEN);
-    mpq_set_si(p.y, hand_below(r, size * DEN) + 1, DEN + 2);
-    mpq_canonicalize(p.x);
-    mpq_canonicalize(p.y);
+    set_between(p.x, r, size, 9973);
+    set_between(p.y, r, size, 9967);
     for (size_t k = 0; k < m->piece.count; k++)
       covered += inside_piece(&m->piece.item[k], &p);
     for (size_t l = 0; l < region->loop.count; l++) {
