@@ -85,3 +85,20 @@ include tests/scan.mk
 unit_tests += %D%/test_camera
 %C%_test_camera_SOURCES = %D%/test_camera.c
 %C%_test_camera_LDADD = %D%/scenes/libscenes.la $(LDADD)
+
+# Layer 2.
+unit_tests += %D%/test_exact
+%C%_test_exact_SOURCES = %D%/test_exact.c
+%C%_test_exact_LDADD = $(LDADD) $(GMP_LIBS)
+unit_tests += %D%/test_scene
+%C%_test_scene_SOURCES = %D%/test_scene.c %D%/reading.c %D%/reading.h
+unit_tests += %D%/test_obj
+%C%_test_obj_SOURCES = %D%/test_obj.c %D%/reading.c %D%/reading.h \
+  %D%/comma.c %D%/comma.h
+%C%_test_obj_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_stl
+%C%_test_stl_SOURCES = %D%/test_stl.c %D%/reading.c %D%/reading.h \
+  %D%/comma.c %D%/comma.h
+unit_tests += %D%/test_read
+%C%_test_read_SOURCES = %D%/test_read.c %D%/reading.c %D%/reading.h \
+  %D%/temporary.c %D%/temporary.h

@@ -109,6 +109,40 @@ static void assert_fill_is_judged(const struct scan_grid *grid,
   }
 }
 
+static int32_t clamp_column(int64_t column) {
+  return (int32_t)(column < 0 ? 0 : column > SIDE ? SIDE : column);
+}
+
+/* Sides of whole corners, where centres often lie right on them. */
+static void columns_past_an_edge_leave_out_the_one_on_it(void **state) {
+  struct random random = {10};
+  int on = 0;
+  (void)state;
+  for (int round = 0; round < 3000; round++) {
+    struct scan_grid grid = plain_grid(round % 2 == 1);
+    struct scan_point p = scan_point_of(&grid, random_int(&random, -9, 60),
+                                        random_int(&random, 0, SIDE));
+    struct scan_point q = scan_point_of(&grid, random_int(&random, -9, 60),
+                                        random_int(&random, 0, SIDE));
+    struct scan_edge edge;
+    if (!scan_edge_init(&edge, &grid, &p, &q))
+      continue;
+    /* 2 (x - 1/2) times the height, and its floor and ceiling. */
+    int64_t height = edge.y1 - edge.y0;
+    int64_t x = 2 * edge.x0 * height +
+                (2 * edge.line + 1 - 2 * edge.y0) * (edge.x1 - edge.x0) -
+                height;
+    int64_t low = x / (2 * height) - (x % (2 * height) < 0);
+    bool exact = x % (2 * height) == 0;
+    on += exact;
+    assert_int_equal(scan_edge_column(&edge, &grid),
+                     clamp_column(exact ? low : low + 1));
+    assert_int_equal(scan_edge_column_past(&edge, &grid),
+                     clamp_column(low + 1));
+  }
+  assert_true(on > 50);
+}
+
 static struct loops one_loop(const int64_t *xy, size_t count) {
   struct loops loops = {.count = 1, .points = {count}};
   memcpy(loops.xy[0], xy, 2 * count * sizeof *xy);
@@ -501,6 +535,7 @@ int main(void) {
       cmocka_unit_test(random_polygons_match_the_judge),
       cmocka_unit_test(random_large_polygons_match_the_judge),
       cmocka_unit_test(sides_that_graze_a_centre_are_decided_exactly),
+      cmocka_unit_test(columns_past_an_edge_leave_out_the_one_on_it),
       cmocka_unit_test(neighbours_share_no_pixel_and_leave_none),
       cmocka_unit_test(active_edges_stay_in_order_and_end_in_time),
       cmocka_unit_test(change_of_the_active_edges_is_noticed),

@@ -83,8 +83,10 @@ static int128 exact_x(const struct scan_edge *edge,
              (edge->x1 - edge->x0);
 }
 
-int32_t scan_edge_column(const struct scan_edge *edge,
-                         const struct scan_grid *grid) {
+/* The first column whose centre is right of the edge, or on it where `on`
+ * columns count. */
+static int32_t find_column(const struct scan_edge *edge,
+                           const struct scan_grid *grid, bool on) {
   double x = edge->x - 0.5;
   int32_t near;
   if (!(x > -1))
@@ -99,9 +101,20 @@ int32_t scan_edge_column(const struct scan_edge *edge,
   } else {
     int128 at = (int128)(near * grid->x_step + grid->x_step / 2) *
                 (edge->y1 - edge->y0);
-    near += at < exact_x(edge, grid);
+    int128 edge_at = exact_x(edge, grid);
+    near += at < edge_at || (at == edge_at && !on);
   }
   return near < grid->columns ? near : grid->columns;
+}
+
+int32_t scan_edge_column(const struct scan_edge *edge,
+                         const struct scan_grid *grid) {
+  return find_column(edge, grid, true);
+}
+
+int32_t scan_edge_column_past(const struct scan_edge *edge,
+                              const struct scan_grid *grid) {
+  return find_column(edge, grid, false);
 }
 
 int scan_edge_compare_x(const struct scan_edge *a, const struct scan_edge *b,

@@ -10,7 +10,9 @@
  * The half-open rule.  An edge covers the lines with
  *     y_low <= line centre < y_high,
  * a span the columns with x_left <= column centre < x_right, so that of two
- * neighbours exactly one gets a line or pixel on their common side.
+ * neighbours exactly one gets a line or pixel on their common side.  (Where
+ * depth decides between neighbours, a span may also take the centre that lies
+ * on its right edge: scan_edge_column_past.)
  *
  * Phases   edges enter the table by their first line (a bucket a line,
  *          horizontal ones dropped); line by line the bucket is merged into
@@ -85,10 +87,12 @@ static inline void scan_edge_step(struct scan_edge *edge, bool down) {
   edge->dy--;
 }
 
-/* The first column, 0 to grid->columns, whose centre is not left of the edge.
- * Exact. */
+/* The first column, 0 to grid->columns, whose centre is not left of the edge;
+ * the first whose centre is right of it.  Exact. */
 int32_t scan_edge_column(const struct scan_edge *edge,
                          const struct scan_grid *grid);
+int32_t scan_edge_column_past(const struct scan_edge *edge,
+                              const struct scan_grid *grid);
 
 /* Orders two edges at the same line by x: <0, 0, >0.  Exact. */
 int scan_edge_compare_x(const struct scan_edge *a, const struct scan_edge *b,

@@ -18,7 +18,7 @@ const struct pixels_scene pixels_two_rectangles = {
      {4, {{5, 12, 10}, {5, 20, 10}, {27, 20, 10}, {27, 12, 10}}},
      {3, {{15, 15, 25}, {25, 25, 5}, {30, 10, 5}}}}};
 
-/* ---- Random scenes ------------------------------------------------------- */
+/* ---- Random scenes ------------------------------------------------------ */
 
 static bool has_area(const struct pixels_face *face) {
   const int(*c)[3] = face->corner;
@@ -43,8 +43,8 @@ void pixels_random_scene(struct pixels_scene *scene, uint64_t seed) {
       for (int axis = 0; axis < 3; axis++)
         face->corner[k][axis] = hand_below(&seed, PIXELS_SIDE + 1);
     for (int axis = 0; axis < 3; axis++)
-      face->corner[3][axis] = face->corner[0][axis] + face->corner[2][axis] -
-                              face->corner[1][axis];
+      face->corner[3][axis] =
+          face->corner[0][axis] + face->corner[2][axis] - face->corner[1][axis];
     f += is_on_page(face) && has_area(face);
   }
 }
@@ -56,37 +56,40 @@ void pixels_sheet(struct sheet *sheet, const struct pixels_scene *scene) {
     int corner[4][3];
     for (int k = 0; k < scene->face[f].count; k++)
       for (int axis = 0; axis < 3; axis++)
-        corner[k][axis] = scene->face[f].corner[k][axis] -
-                          (axis < 2 ? PIXELS_SIDE / 2 : 0);
+        corner[k][axis] =
+            scene->face[f].corner[k][axis] - (axis < 2 ? PIXELS_SIDE / 2 : 0);
     hand_add_face(sheet, (const int(*)[3])corner, scene->face[f].count,
                   PIXELS_UNIT);
   }
 }
 
-/* ---- What is seen -------------------------------------------------------- */
+/* ---- What is seen ------------------------------------------------------- */
 
 /* Lengths are in units of 1 / (2 lines), in which centres are whole. */
 struct place {
   int64_t x, y, scale;
 };
 
-/* Crossings with the sides left of or at the place are odd; a side counts from
- * its lower end up to, but not with, its upper one. */
+/* A side counts from its lower end up to, but not with, its upper one.  The
+ * place is on one or between two of the convex face's sides. */
 static bool covers(const struct pixels_face *face, struct place at) {
-  bool inside = false;
+  bool left = false, right = false;
   for (int k = 0; k < face->count; k++) {
     const int *p = face->corner[k], *q = face->corner[(k + 1) % face->count];
+    int64_t x;
     if (p[1] > q[1]) {
       const int *swap = p;
       p = q;
       q = swap;
     }
-    if (at.y < at.scale * p[1] || at.y >= at.scale * q[1]) continue;
-    inside ^= at.scale * p[0] * (q[1] - p[1]) +
-                  (at.y - at.scale * p[1]) * (q[0] - p[0]) <=
-              at.x * (q[1] - p[1]);
+    if (at.y < at.scale * p[1] || at.y >= at.scale * q[1])
+      continue;
+    x = at.scale * p[0] * (q[1] - p[1]) +
+        (at.y - at.scale * p[1]) * (q[0] - p[0]) - at.x * (q[1] - p[1]);
+    left |= x <= 0;
+    right |= x >= 0;
   }
-  return inside;
+  return left && right;
 }
 
 /* Depth times scale as num / den, den > 0. */
@@ -117,33 +120,38 @@ int pixels_seen(const struct pixels_scene *scene, int lines, int column,
   int seen = -1, count = 0;
   for (int f = 0; f < scene->count; f++) {
     int64_t n, d;
-    if (!covers(&scene->face[f], at)) continue;
+    if (!covers(&scene->face[f], at))
+      continue;
     count++;
     depth_at(&scene->face[f], at, &n, &d);
-    if (seen >= 0 && n * den <= num * d) continue;
+    if (seen >= 0 && n * den <= num * d)
+      continue;
     num = n;
     den = d;
     seen = f;
   }
-  if (covered != NULL) *covered = count;
+  if (covered != NULL)
+    *covered = count;
   return seen;
 }
 
-/* ---- The worked frames --------------------------------------------------- */
+/* ---- The worked frames -------------------------------------------------- */
 
 /* Runs of pixels as pairs (how many, which), line by line from line `top`
  * down; outside them nothing is seen. */
-static int look_up(const signed char (*row)[16], int rows, int top, int column,
+static int look_up(const signed char (*row)[18], int rows, int top, int column,
                    int line) {
   const signed char *run;
-  if (line > top || line <= top - rows) return -1;
+  if (line > top || line <= top - rows)
+    return -1;
   run = row[top - line];
-  for (; column >= run[0]; run += 2) column -= run[0];
+  for (; column >= run[0]; run += 2)
+    column -= run[0];
   return run[1] - 1;
 }
 
 int pixels_frame_of_pierced_rectangle(int column, int line) {
-  static const signed char row[][16] = {
+  static const signed char row[][18] = {
       {10, 0, 15, 1, 7, 0},
       {10, 0, 15, 1, 1, 2, 6, 0},
       {10, 0, 15, 1, 1, 2, 6, 0},
@@ -169,7 +177,7 @@ int pixels_frame_of_pierced_rectangle(int column, int line) {
 }
 
 int pixels_frame_of_two_rectangles(int column, int line) {
-  static const signed char row[][16] = {
+  static const signed char row[][18] = {
       {10, 0, 12, 1, 10, 0},
       {10, 0, 12, 1, 10, 0},
       {10, 0, 12, 1, 10, 0},
@@ -181,8 +189,8 @@ int pixels_frame_of_two_rectangles(int column, int line) {
       {5, 0, 5, 2, 12, 1, 1, 3, 4, 2, 5, 0},
       {5, 0, 5, 2, 12, 1, 2, 3, 3, 2, 5, 0},
       {5, 0, 5, 2, 12, 1, 2, 3, 3, 2, 1, 3, 4, 0},
-      {5, 0, 5, 2, 6, 1, 2, 3, 4, 1, 2, 3, 3, 2, 1, 3},
-      {5, 0, 5, 2, 5, 1, 3, 3, 4, 1, 3, 3, 2, 2, 1, 3},
+      {5, 0, 5, 2, 6, 1, 2, 3, 4, 1, 2, 3, 3, 2, 1, 3, 4, 0},
+      {5, 0, 5, 2, 5, 1, 3, 3, 4, 1, 3, 3, 2, 2, 1, 3, 4, 0},
       {5, 0, 5, 2, 6, 1, 2, 3, 4, 1, 3, 3, 2, 2, 2, 3},
       {5, 0, 5, 2, 12, 1, 3, 3, 2, 2, 2, 3, 3, 0},
       {5, 0, 5, 2, 12, 1, 4, 3, 1, 2, 2, 3, 3, 0},

@@ -1,0 +1,11 @@
+# tests/scan.mk - methods that walk the page line by line.
+hand_pixels = %D%/hand/pixels.c %D%/hand/pixels.h $(hand_sheet)
+
+unit_tests += %D%/test_scanfill
+%C%_test_scanfill_SOURCES = %D%/test_scanfill.c
+unit_tests += %D%/test_facet
+%C%_test_facet_SOURCES = %D%/test_facet.c $(hand_sheet)
+%C%_test_facet_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_zbuffer
+%C%_test_zbuffer_SOURCES = %D%/test_zbuffer.c $(hand_pixels)
+%C%_test_zbuffer_CPPFLAGS = $(hand_cppflags)
