@@ -37,26 +37,62 @@ static bool sides_cross(const struct side *a, const struct side *b) {
              0;
 }
 
-/* The axis to look along: of the triangles from the first corner to each side,
- * the sums of their areas' components without their signs, for the lobes of a
- * bow-tie cancel. */
+static int largest(const double part[3]) {
+  int axis = part[1] > part[0] ? 1 : 0;
+  return part[2] > part[axis] ? 2 : axis;
+}
+
+/* A power of two that brings the polygon's extent near 1, so that its areas
+ * neither overflow nor vanish.  Coordinates are halved, for the difference of
+ * two may be too large. */
+static double choose_scale(const struct scene *scene, const uint32_t *corner,
+                           size_t count) {
+  enum { EXPONENT_MIN = -1000 };
+  const struct scene_point *point = scene->point.item;
+  const struct scene_point *a = &point[corner[0]];
+  double extent = 0;
+  for (size_t i = 1; i < count; i++) {
+    const struct scene_point *b = &point[corner[i]];
+    extent = fmax(extent, fabs(b->x / 2 - a->x / 2));
+    extent = fmax(extent, fabs(b->y / 2 - a->y / 2));
+    extent = fmax(extent, fabs(b->z / 2 - a->z / 2));
+  }
+  int exponent;
+  (void)frexp(extent, &exponent);
+  return ldexp(1, exponent < EXPONENT_MIN ? -EXPONENT_MIN : -exponent);
+}
+
+static void subtract(const struct scene_point *b, const struct scene_point *a,
+                     double scale, double to[3]) {
+  to[0] = (b->x / 2 - a->x / 2) * scale;
+  to[1] = (b->y / 2 - a->y / 2) * scale;
+  to[2] = (b->z / 2 - a->z / 2) * scale;
+}
+
+/* The axis to look along: the one that shows most of the polygon's area.  The
+ * lobes of a bow-tie may cancel; of the triangles from the first corner to
+ * each side, the areas are then added up without their signs.  (Those alone
+ * will not do, for they show a saddle from the side.) */
 static int choose_axis(const struct scene *scene, const uint32_t *corner,
                        size_t count) {
   const struct scene_point *point = scene->point.item;
-  const struct scene_point *a = &point[corner[0]];
-  double sum[3] = {0, 0, 0};
+  double area[3] = {0, 0, 0}, sum[3] = {0, 0, 0};
+  double scale = choose_scale(scene, corner, count);
   for (size_t i = 1; i + 1 < count; i++) {
-    const struct scene_point *b = &point[corner[i]];
-    const struct scene_point *c = &point[corner[i + 1]];
-    double u[3] = {b->x - a->x, b->y - a->y, b->z - a->z};
-    double v[3] = {c->x - a->x, c->y - a->y, c->z - a->z};
+    double u[3], v[3];
+    subtract(&point[corner[i]], &point[corner[0]], scale, u);
+    subtract(&point[corner[i + 1]], &point[corner[0]], scale, v);
     for (int k = 0; k < 3; k++) {
       int l = (k + 1) % 3, m = (k + 2) % 3;
-      sum[k] += fabs(u[l] * v[m] - u[m] * v[l]);
+      double part = u[l] * v[m] - u[m] * v[l];
+      area[k] += part;
+      sum[k] += fabs(part);
     }
   }
-  int axis = sum[1] > sum[0] ? 1 : 0;
-  return sum[2] > sum[axis] ? 2 : axis;
+  for (int k = 0; k < 3; k++)
+    area[k] = fabs(area[k]);
+  int axis = largest(area);
+  return area[axis] > 0 ? axis : largest(sum);
 }
 
 static void project(const struct scene_point *point, int axis, double to[2]) {

@@ -1,0 +1,131 @@
+/* reading.c - files given as text to a reader, and what came of it. */
+#include "tests/reading.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void keep_warning(void *user, const char *file, unsigned long line,
+                         const char *text) {
+  struct reading *reading = user;
+  int i = reading->warnings++;
+  (void)file;
+  if (i < (int)(sizeof reading->warning / sizeof *reading->warning))
+    snprintf(reading->warning[i], sizeof reading->warning[i], "%lu: %.250s",
+             line, text);
+}
+
+void reading_init(struct reading *reading) {
+  memset(reading, 0, sizeof *reading);
+  scene_init(&reading->scene);
+  reading->diagnostics.file = "file";
+  reading->diagnostics.warning = keep_warning;
+  reading->diagnostics.user = reading;
+}
+
+void reading_fini(struct reading *reading) { scene_fini(&reading->scene); }
+
+recto_status reading_bytes(struct reading *reading, const struct reader *reader,
+                           const char *bytes, size_t count) {
+  char *block = malloc(count + 1);
+  if (!block)
+    abort();
+  memcpy(block, bytes, count);
+  block[count] = '\0';
+  reading->status =
+      reader->read(&reading->scene, block, count, "file", reader->name,
+                   &reading->diagnostics, &reading->error);
+  free(block);
+  return reading->status;
+}
+
+void reading_of(struct reading *reading, const struct reader *reader,
+                const char *text) {
+  reading_init(reading);
+  (void)reading_bytes(reading, reader, text, strlen(text));
+}
+
+/* ---- Invariants -----------------------------------------------------------
+ */
+
+static bool same_place(const struct scene_point *a,
+                       const struct scene_point *b) {
+  return a->x == b->x && a->y == b->y && a->z == b->z;
+}
+
+/* What is wrong with faces (`closed`) or polylines given by their arrays. */
+static const char *element_fault(const struct scene *scene, bool closed,
+                                 const uint32_t *start, size_t starts,
+                                 const uint32_t *corner, size_t corners,
+                                 const uint32_t *group, size_t count) {
+  const struct scene_point *point = scene->point.item;
+  if (count == 0)
+    return starts == 0 && corners == 0 ? NULL : "corners of no element";
+  if (starts != count + 1 || start[0] != 0 || start[count] != corners)
+    return "starts do not fit the elements";
+  for (size_t i = 0; i < corners; i++)
+    if (corner[i] >= scene->point.count)
+      return "corner out of range";
+  for (size_t i = 0; i < count; i++) {
+    uint32_t n = start[i + 1] - start[i];
+    const uint32_t *c = corner + start[i];
+    if (start[i + 1] < start[i] || n < (closed ? 3 : 2))
+      return "too few corners";
+    if (group[i] >= scene->group.count)
+      return "group out of range";
+    for (uint32_t k = 0; k + !closed < n; k++)
+      if (same_place(&point[c[k]], &point[c[(k + 1) % n]]))
+        return "neighbouring corners at one place";
+  }
+  return NULL;
+}
+
+const char *reading_fault(const struct scene *scene) {
+  for (size_t i = 0; i < scene->point.count; i++) {
+    const struct scene_point *p = &scene->point.item[i];
+    if (!isfinite(p->x) || !isfinite(p->y) || !isfinite(p->z))
+      return "a point that is not finite";
+  }
+  for (size_t i = 0; i < scene->group.count; i++) {
+    if (!scene->group.item[i].name || !*scene->group.item[i].name)
+      return "a group without a name";
+    for (size_t k = 0; k < i && i < 100; k++)
+      if (strcmp(scene->group.item[i].name, scene->group.item[k].name) == 0)
+        return "two groups of one name";
+  }
+  const char *fault = element_fault(scene, true, scene->face_start.item,
+                                    scene->face_start.count, scene->corner.item,
+                                    scene->corner.count, scene->face_group.item,
+                                    scene->face_group.count);
+  if (fault)
+    return fault;
+  return element_fault(scene, false, scene->wire_start.item,
+                       scene->wire_start.count, scene->wire_corner.item,
+                       scene->wire_corner.count, scene->wire_group.item,
+                       scene->wire_group.count);
+}
+
+static bool same_indices(const uint32_t *a, size_t a_count, const uint32_t *b,
+                         size_t b_count) {
+  return a_count == b_count &&
+         (a_count == 0 || memcmp(a, b, a_count * sizeof *a) == 0);
+}
+
+#define SAME(a, b, array)                                                      \
+  same_indices((a)->array.item, (a)->array.count, (b)->array.item,             \
+               (b)->array.count)
+
+bool reading_same(const struct scene *a, const struct scene *b) {
+  if (a->point.count != b->point.count || a->group.count != b->group.count)
+    return false;
+  for (size_t i = 0; i < a->point.count; i++)
+    if (memcmp(&a->point.item[i], &b->point.item[i], sizeof *a->point.item))
+      return false;
+  for (size_t i = 0; i < a->group.count; i++)
+    if (strcmp(a->group.item[i].name, b->group.item[i].name) != 0)
+      return false;
+  return SAME(a, b, face_start) && SAME(a, b, corner) &&
+         SAME(a, b, face_group) && SAME(a, b, wire_start) &&
+         SAME(a, b, wire_corner) && SAME(a, b, wire_group);
+}

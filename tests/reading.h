@@ -1,0 +1,34 @@
+/* reading.h - files given as text to a reader, and what came of it. */
+#ifndef TESTS_READING_H
+#define TESTS_READING_H
+
+#include "scene/scene.h"
+
+struct reading {
+  struct scene scene;
+  struct diagnostics diagnostics;
+  recto_status status;
+  recto_error error;
+  int warnings;
+  char warning[16][300]; /* "LINE: text" of the first few */
+};
+
+/* An empty scene with diagnostics that keep the warnings. */
+void reading_init(struct reading *reading);
+void reading_fini(struct reading *reading);
+
+/* Hands `count` bytes to the reader, in a block that ends with their NUL. */
+recto_status reading_bytes(struct reading *reading, const struct reader *reader,
+                           const char *bytes, size_t count);
+
+/* The same with a text into a new reading. */
+void reading_of(struct reading *reading, const struct reader *reader,
+                const char *text);
+
+/* Why the scene does not keep its invariants; NULL where it does. */
+const char *reading_fault(const struct scene *scene);
+
+/* Whether two scenes have the same points, faces, polylines and groups. */
+bool reading_same(const struct scene *a, const struct scene *b);
+
+#endif
