@@ -74,6 +74,10 @@ double judge_depth(const struct judge_camera *camera, struct judge_spot p) {
   return apply_row(camera->matrix + 8, p);
 }
 
+double judge_near(const struct judge_camera *camera) {
+  return camera->near_d * (1 - 1e-9);
+}
+
 struct judge_place judge_project(const struct judge_camera *camera,
                                  struct judge_spot p) {
   double depth = judge_depth(camera, p);

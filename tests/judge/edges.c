@@ -261,8 +261,7 @@ void judge_edges_add(struct judge_edges *edges,
   double da = judge_depth(camera, a), db = judge_depth(camera, b);
   if (camera->perspective) {
     /* Behind the eye nothing has an image; just before it, no useful one. */
-    double least =
-        camera->near_d > 0 ? camera->near_d : 1e-9 * (fabs(da) + fabs(db));
+    double least = fmax(judge_near(camera), 1e-9 * (fabs(da) + fabs(db)));
     if (da <= least && db <= least)
       return;
     struct judge_spot cut =

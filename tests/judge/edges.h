@@ -39,6 +39,8 @@ void judge_edges_pierced(struct judge_edges *edges,
 
 /* Depth before the eye; 1 in an orthographic view. */
 double judge_depth(const struct judge_camera *camera, struct judge_spot p);
+/* The near distance, less what rounding does: what stands on it is drawn. */
+double judge_near(const struct judge_camera *camera);
 struct judge_place judge_project(const struct judge_camera *camera,
                                  struct judge_spot p);
 /* The spot of the same depth whose image is (dx, dy) mm away. */

@@ -45,7 +45,7 @@ static enum judge_sight look(const struct court *court,
   if (!camera->perspective)
     return judge_look(&court->all, from, camera->back, INFINITY, touch, beyond);
   return judge_look(&court->all, from, spot_sub(camera->eye, from),
-                    1 - camera->near_d / depth, touch, beyond);
+                    1 - judge_near(camera) / depth, touch, beyond);
 }
 
 /* What a point of an edge sees: by itself and a hair to either side, as long
@@ -178,10 +178,13 @@ static bool cut_to_page(const struct court *court,
   return *t0 <= *t1;
 }
 
+static double length_of(const struct judge_segment *s) {
+  return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
+}
+
 static uint32_t sample_count(const struct court *court,
                              const struct judge_segment *s) {
-  double length = hypot(s->b.x - s->a.x, s->b.y - s->a.y);
-  return (uint32_t)fmin(ceil(length / court->options.step_mm) + 1, 1e8);
+  return (uint32_t)fmin(ceil(length_of(s) / court->options.step_mm) + 1, 1e8);
 }
 
 static void try_all_ink(struct court *court) {
@@ -194,7 +197,7 @@ static void try_all_ink(struct court *court) {
       try_ink(court, (struct judge_place){s->a.x + t * (s->b.x - s->a.x),
                                           s->a.y + t * (s->b.y - s->a.y)});
     }
-    court->verdict->drawn_mm += hypot(s->b.x - s->a.x, s->b.y - s->a.y);
+    court->verdict->drawn_mm += length_of(s);
   }
 }
 
@@ -210,6 +213,9 @@ static void try_all_edges(struct court *court) {
          edge->at[0].y + t0 * (edge->at[1].y - edge->at[0].y)},
         {edge->at[0].x + t1 * (edge->at[1].x - edge->at[0].x),
          edge->at[0].y + t1 * (edge->at[1].y - edge->at[0].y)}};
+    /* What is seen as a point need not be drawn. */
+    if (length_of(&part) <= court->options.reach_mm)
+      continue;
     uint32_t count = sample_count(court, &part);
     for (uint32_t k = 0; k < count; k++)
       try_edge(court, edge, t0 + (t1 - t0) * (k + 0.5) / count);

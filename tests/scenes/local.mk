@@ -12,6 +12,7 @@ check_LTLIBRARIES += %D%/libscenes.la
   %D%/meshes.c \
   %D%/paper.c \
   %D%/piercing.c \
+  %D%/pipeline.c %D%/pipeline.h \
   %D%/random.h \
   %D%/scenes.h \
   %D%/small.c \

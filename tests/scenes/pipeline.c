@@ -1,0 +1,113 @@
+/* pipeline.c - see pipeline.h. */
+#include "tests/scenes/pipeline.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "backends/writer.h"
+#include "ink/ink.h"
+
+static recto_status solve(struct pipeline *pipeline,
+                          const recto_options *options,
+                          const struct solver *solver) {
+  const struct solver_request request = {
+      .strokes = options->edges != RECTO_EDGES_NONE,
+      .fragments = options->fill != RECTO_FILL_NONE,
+      .hidden = options->hidden != RECTO_HIDDEN_NONE,
+      .intersections = (options->edges & RECTO_EDGE_INTERSECTION) != 0,
+      .areas = options->fill != RECTO_FILL_NONE,
+      .threads = options->threads > 0 ? options->threads : 1,
+      .pitch_mm = options->pitch_mm,
+      .resolution = options->resolution,
+  };
+  return solver->solve(&pipeline->sheet, &request, &pipeline->map,
+                       pipeline->report, &pipeline->error);
+}
+
+void pipeline_run(struct pipeline *pipeline, const struct scene *scene,
+                  const recto_options *options, const struct solver *solver) {
+  memset(pipeline, 0, sizeof *pipeline);
+  map_init(&pipeline->map);
+  drawing_init(&pipeline->drawing);
+  pipeline->report = report_create();
+  recto_error *error = &pipeline->error;
+  bool outlines = options->fill != RECTO_FILL_NONE;
+  pipeline->status = topology_init(&pipeline->topology, scene, error);
+  if (pipeline->status == RECTO_OK)
+    pipeline->status = camera_aim(&pipeline->camera, scene, options, error);
+  if (pipeline->status == RECTO_OK)
+    pipeline->status =
+        sheet_init(&pipeline->sheet, scene, &pipeline->topology,
+                   &pipeline->camera, options, outlines, error);
+  if (pipeline->status == RECTO_OK)
+    pipeline->status = solve(pipeline, options, solver);
+  if (pipeline->status == RECTO_OK)
+    pipeline->status = ink_draw(&pipeline->drawing, &pipeline->sheet, scene,
+                                &pipeline->map, options, error);
+}
+
+void pipeline_fini(struct pipeline *pipeline) {
+  drawing_fini(&pipeline->drawing);
+  map_fini(&pipeline->map);
+  sheet_fini(&pipeline->sheet);
+  topology_fini(&pipeline->topology);
+  report_destroy(pipeline->report);
+}
+
+char *pipeline_svg(const struct pipeline *pipeline,
+                   const recto_options *options, size_t *length) {
+  const struct writer_options writing = {.precision = options->precision};
+  struct stream *stream = NULL;
+  build_require(stream_open_memory(&stream, NULL) == RECTO_OK);
+  recto_status status = pipeline->status;
+  if (status == RECTO_OK)
+    status = writer_svg.write(&pipeline->drawing, &writing, stream, NULL);
+  if (status != RECTO_OK)
+    stream_text(stream, recto_status_name(status));
+  const char *text = stream_memory(stream, length);
+  build_require(text != NULL);
+  char *copy = mem_alloc(*length + 1, 1);
+  build_require(copy != NULL);
+  memcpy(copy, text, *length + 1);
+  stream_discard(stream);
+  return copy;
+}
+
+char *pipeline_draw(const struct scene *scene, const recto_options *options,
+                    const struct solver *solver, size_t *length) {
+  struct pipeline pipeline;
+  pipeline_run(&pipeline, scene, options, solver);
+  char *text = pipeline_svg(&pipeline, options, length);
+  pipeline_fini(&pipeline);
+  return text;
+}
+
+void pipeline_fill(struct scene *scene, recto_options *options,
+                   const struct scenes_entry *entry) {
+  recto_options_init(options);
+  scene_init(scene);
+  entry->fill(scene, options);
+  options->min_stroke_mm = 0;
+  options->precision = 6;
+  options->threads = 1;
+}
+
+double pipeline_length(const struct pipeline *pipeline, unsigned classes,
+                       bool hidden) {
+  const struct drawing *drawing = &pipeline->drawing;
+  double length = 0;
+  for (size_t i = 0; i < drawing->stroke.count; i++) {
+    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    const char *label = drawing->layer.item[stroke->layer].label;
+    if ((stroke->edge_class & classes) == 0 ||
+        (strstr(label, "hidden") != NULL) != hidden)
+      continue;
+    const struct drawing_point *p = drawing->point.item + stroke->point;
+    for (uint32_t k = 1; k < stroke->count; k++)
+      length += hypot(p[k].x - p[k - 1].x, p[k].y - p[k - 1].y);
+    if (stroke->closed)
+      length += hypot(p[0].x - p[stroke->count - 1].x,
+                      p[0].y - p[stroke->count - 1].y);
+  }
+  return length;
+}
