@@ -102,3 +102,11 @@ unit_tests += %D%/test_stl
 unit_tests += %D%/test_read
 %C%_test_read_SOURCES = %D%/test_read.c %D%/reading.c %D%/reading.h \
   %D%/temporary.c %D%/temporary.h
+unit_tests += %D%/test_fuzz_readers
+%C%_test_fuzz_readers_SOURCES = %D%/test_fuzz_readers.c \
+  %D%/reading.c %D%/reading.h
+if HAVE_ASSIMP
+unit_tests += %D%/test_assimp
+endif
+%C%_test_assimp_SOURCES = %D%/test_assimp.c %D%/reading.c %D%/reading.h \
+  %D%/temporary.c %D%/temporary.h
