@@ -779,6 +779,49 @@ static void outlines_and_points_are_not_followed(void **state) {
   hand_sheet_fini(&sheet);
 }
 
+/* A dome of triangles, steeper and steeper towards its rim: near the rim the
+ * centres of pixels see facets further in, which are nearer. */
+static void outline_that_curves_away_has_no_gaps(void **state) {
+  enum { RINGS = 12, AROUND = 24 };
+  struct sheet sheet;
+  int at[RINGS + 1][AROUND][3];
+  (void)state;
+  hand_sheet_init(&sheet);
+  sheet.camera.page_mm[0] = sheet.camera.page_mm[1] = PIXELS_SIDE;
+  for (int r = 0; r <= RINGS; r++)
+    for (int a = 0; a < AROUND; a++) {
+      double up = acos(-1) / 2 * r / RINGS, round = 2 * acos(-1) * a / AROUND;
+      at[r][a][0] = (int)(14 * PIXELS_UNIT * cos(up) * cos(round));
+      at[r][a][1] = (int)(14 * PIXELS_UNIT * cos(up) * sin(round));
+      at[r][a][2] = (int)(14 * PIXELS_UNIT * sin(up));
+    }
+  for (int r = 0; r < RINGS; r++)
+    for (int a = 0; a < AROUND; a++) {
+      int next = (a + 1) % AROUND, corner[4][3];
+      memcpy(corner[0], at[r][a], sizeof corner[0]);
+      memcpy(corner[1], at[r][next], sizeof corner[0]);
+      memcpy(corner[2], at[r + 1][next], sizeof corner[0]);
+      memcpy(corner[3], at[r + 1][a], sizeof corner[0]);
+      hand_add_face(&sheet, (const int(*)[3])corner, 3, 1);
+      memcpy(corner[1], corner[0], sizeof corner[0]);
+      if (r + 1 < RINGS)
+        hand_add_face(&sheet, (const int(*)[3]) & corner[1], 3, 1);
+    }
+  for (int lines = 16; lines <= 1024; lines *= 2) {
+    const struct solver_request request = {
+        .strokes = true, .threads = 1, .resolution = lines};
+    struct map map;
+    map_init(&map);
+    assert_int_equal(solver_zbuffer.solve(&sheet, &request, &map, NULL, NULL),
+                     RECTO_OK);
+    for (size_t e = 0; e < sheet.edge.count; e++)
+      if (sheet.edge.item[e].edge_class == RECTO_EDGE_BORDER)
+        assert_int_equal(map.edge_state[e], MAP_VISIBLE);
+    map_fini(&map);
+  }
+  hand_sheet_fini(&sheet);
+}
+
 /* The edges turned round in number: each keeps what is seen of it. */
 static void order_of_the_edges_does_not_matter(void **state) {
   const struct solver_request request = {
@@ -964,6 +1007,7 @@ int main(void) {
       cmocka_unit_test(wrong_area_falls_with_the_lines),
       cmocka_unit_test(edges_are_seen_where_they_touch_and_not_behind),
       cmocka_unit_test(outlines_and_points_are_not_followed),
+      cmocka_unit_test(outline_that_curves_away_has_no_gaps),
       cmocka_unit_test(order_of_the_edges_does_not_matter),
       cmocka_unit_test(intersections_are_drawn_where_asked_for),
       cmocka_unit_test(bad_knobs_are_refused),

@@ -17,7 +17,10 @@ recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
   memset(pixels, 0, sizeof *pixels);
   pixels->raster = raster;
   pixels->request = request;
-  if ((request->strokes &&
+  pixels->above =
+      mem_alloc((size_t)raster->grid.columns, sizeof *pixels->above);
+  if (pixels->above == NULL ||
+      (request->strokes &&
        !trace_init(&pixels->trace, sheet, &raster->grid, 0.5, step, NULL)) ||
       (request->fragments && !spans_init(&pixels->spans, sheet, &raster->grid,
                                          (size_t)raster->grid.columns))) {
@@ -30,6 +33,7 @@ recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
 void pixels_fini(struct pixels *pixels) {
   trace_fini(&pixels->trace);
   spans_fini(&pixels->spans);
+  mem_free(pixels->above);
 }
 
 struct row {
@@ -73,6 +77,21 @@ static bool add_spans(struct pixels *pixels, int32_t line,
   return true;
 }
 
+/* Follows the edges from the line above, if there is one, to this one, if
+ * there is one. */
+static bool trace_edges(struct pixels *pixels, int32_t line,
+                        const struct row *row) {
+  const struct scan_grid *grid = &pixels->raster->grid;
+  const struct row above = {pixels->above, grid->columns};
+  if (!trace_line(&pixels->trace, line, seen_at,
+                  line + 1 < grid->lines ? &above : NULL, row))
+    return false;
+  if (row != NULL)
+    memcpy(pixels->above, row->facet,
+           (size_t)grid->columns * sizeof *row->facet);
+  return true;
+}
+
 recto_status pixels_line(struct pixels *pixels, int32_t line,
                          recto_error *error) {
   const struct raster *raster = pixels->raster;
@@ -80,9 +99,8 @@ recto_status pixels_line(struct pixels *pixels, int32_t line,
   int32_t done = raster->grid.lines - line;
   struct row row = {raster->facet + raster_row(raster, line),
                     raster->grid.columns};
-  if (request->strokes && !trace_line(&pixels->trace, line, seen_at, &row))
-    return error_memory(error);
-  if (request->fragments && !add_spans(pixels, line, &row))
+  if ((request->strokes && !trace_edges(pixels, line, &row)) ||
+      (request->fragments && !add_spans(pixels, line, &row)))
     return error_memory(error);
   if (request->progress != NULL && done % ASK_EVERY == 0 &&
       !request->progress(request->user, (double)done / raster->grid.lines,
@@ -93,7 +111,8 @@ recto_status pixels_line(struct pixels *pixels, int32_t line,
 
 recto_status pixels_finish(struct pixels *pixels, struct map *map,
                            recto_error *error) {
-  if ((pixels->request->strokes && !trace_finish(&pixels->trace, map)) ||
+  if ((pixels->request->strokes && (!trace_edges(pixels, -1, NULL) ||
+                                    !trace_finish(&pixels->trace, map))) ||
       (pixels->request->fragments && !spans_finish(&pixels->spans, map)))
     return error_memory(error);
   return RECTO_OK;

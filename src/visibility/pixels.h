@@ -13,6 +13,7 @@ struct pixels {
   const struct solver_request *request;
   struct trace trace;
   struct spans spans;
+  uint32_t *above; /* the facets seen on the line before */
 };
 
 /* Is the facet of a triangle drawn at all: it has area, and its back is not

@@ -55,12 +55,13 @@ static double middle_of(const struct trace_edge *edge, uint32_t cell) {
   return edge->turned ? 1 - t : t;
 }
 
-/* The line whose pixels the middle of a cell is in. */
+/* The line above whose centre, or at it, the middle of a cell is; -1 below
+ * the lowest centre. */
 static int32_t line_of(const struct trace *trace, const struct trace_edge *edge,
                        uint32_t cell) {
-  double y = floor(edge->y0 + middle_of(edge, cell) * edge->dy);
+  double y = floor(edge->y0 + middle_of(edge, cell) * edge->dy - 0.5);
   int32_t lines = trace->grid.lines;
-  return y < 0 ? 0 : y >= lines ? lines - 1 : (int32_t)y;
+  return y < 0 ? -1 : y >= lines ? lines - 1 : (int32_t)y;
 }
 
 static void set_edge(const struct trace *trace, uint32_t e,
@@ -175,17 +176,39 @@ static double contact_depth(const struct sheet *sheet, double z) {
   return camera->contact * per_unit;
 }
 
+/* What a scan sees at the two lines about the cells at hand. */
+struct sight {
+  trace_seen_fn seen;
+  const void *upper, *lower;
+  int32_t line; /* the lower one's */
+};
+
+/* Does the centre at frame x on one of the lines let depth z be seen? */
+static bool lets_be_seen(const struct trace *trace, const struct sight *sight,
+                         bool upper, double x, double z) {
+  const void *line = upper ? sight->upper : sight->lower;
+  uint32_t facet;
+  if (line == NULL)
+    return false;
+  facet = sight->seen(line, x);
+  return facet == SHEET_NONE ||
+         z >= deepest(trace, facet, x, sight->line + upper) - trace->step -
+                  contact_depth(trace->sheet, z);
+}
+
+/* Asks the centres about the middle of the cell, the nearest ones first. */
 static bool is_visible(const struct trace *trace, const struct trace_edge *edge,
-                       int32_t line, trace_seen_fn seen, const void *user) {
+                       const struct sight *sight) {
   double t = middle_of(edge, edge->cell), x = edge->x0 + t * edge->dx;
   double z = edge->z0 + t * edge->dz;
-  uint32_t facet = seen(user, x);
-  if (facet == SHEET_NONE)
+  bool upper = edge->y0 + t * edge->dy > sight->line + 1;
+  double near = trace->reach_x > 0 ? floor(x) + 0.5 : x;
+  double far = x < near ? near - 1 : near + 1;
+  if (lets_be_seen(trace, sight, upper, near, z) ||
+      lets_be_seen(trace, sight, !upper, near, z))
     return true;
-  if (trace->reach_x > 0)
-    x = floor(x) + 0.5;
-  return z >= deepest(trace, facet, x, line) - trace->step -
-                  contact_depth(trace->sheet, z);
+  return trace->reach_x > 0 && (lets_be_seen(trace, sight, upper, far, z) ||
+                                lets_be_seen(trace, sight, !upper, far, z));
 }
 
 static bool end_run(struct trace *trace, struct trace_edge *edge) {
@@ -201,13 +224,13 @@ static bool end_run(struct trace *trace, struct trace_edge *edge) {
   return ARRAY_PUSH(&trace->run, run);
 }
 
-/* Follows an edge through the cells that lie on the line. */
-static bool follow(struct trace *trace, struct trace_edge *edge, int32_t line,
-                   trace_seen_fn seen, const void *user) {
+/* Follows an edge through the cells above the lower line's centre. */
+static bool follow(struct trace *trace, struct trace_edge *edge,
+                   const struct sight *sight) {
   uint32_t cells = (uint32_t)1 << edge->bits;
-  for (; edge->cell < cells && line_of(trace, edge, edge->cell) >= line;
+  for (; edge->cell < cells && line_of(trace, edge, edge->cell) >= sight->line;
        edge->cell++) {
-    if (is_visible(trace, edge, line, seen, user)) {
+    if (is_visible(trace, edge, sight)) {
       if (edge->start == TRACE_HIDDEN)
         edge->start = edge->cell;
     } else if (!end_run(trace, edge)) {
@@ -218,14 +241,15 @@ static bool follow(struct trace *trace, struct trace_edge *edge, int32_t line,
 }
 
 bool trace_line(struct trace *trace, int32_t line, trace_seen_fn seen,
-                const void *user) {
+                const void *upper, const void *lower) {
+  const struct sight sight = {seen, upper, lower, line};
   size_t kept = 0;
   while (trace->entered < trace->count &&
          line_of(trace, &trace->edge[trace->entered], 0) >= line)
     trace->active[trace->active_count++] = (uint32_t)trace->entered++;
   for (size_t i = 0; i < trace->active_count; i++) {
     struct trace_edge *edge = &trace->edge[trace->active[i]];
-    if (!follow(trace, edge, line, seen, user))
+    if (!follow(trace, edge, &sight))
       return false;
     if (edge->cell < (uint32_t)1 << edge->bits)
       trace->active[kept++] = trace->active[i];

@@ -5,16 +5,21 @@
  * are no longer than half a line's height in x and y; a cell is visible if its
  * middle is.  So intervals start and end at multiples of 2^-m.
  *
- * Bias.  The middle of a cell is visible where nothing is seen, or where the
+ * The middle of a cell lies between the centres of two lines and, where the
+ * scan has pixels, of two columns.  It is visible where one of these two or
+ * four centres lets it: on an outline that curves away one of them is beyond
+ * it, though the others may see a facet further in that is nearer.
+ *
+ * Bias.  A centre lets the cell be seen where it sees nothing, or where the
  * edge lies no deeper than
  *     z - |change of z over `reach_x` columns| - |over half a line| - `step`
  *       - contact,
- * z the depth of the facet seen at the point the scan looked at: the deepest
- * that the facet's plane is in the part of the page for which the scan's
- * answer stands (reach_x 1/2: a pixel; 0: the scan's x is exact), less one step
- * of the depth buffer and what the scene calls contact.  So a facet never
- * hides its own sides.  A larger bias draws lines through thin steep faces, a
- * smaller one leaves gaps in edges that lie on faces.
+ * z the depth there of the facet that it sees: the deepest that the facet's
+ * plane is in the part of the page for which the centre stands (reach_x 1/2:
+ * a pixel; 0: the scan's x is exact), less one step of the depth buffer and
+ * what the scene calls contact.  So a facet never hides its own sides.  A
+ * larger bias draws lines through thin steep faces, a smaller one leaves gaps
+ * in edges that lie on faces.
  *
  * What ends within a pixel of the true place, or passes behind a facet by less
  * than the bias, is drawn wrong: the error falls with the lines' distance.
@@ -27,7 +32,7 @@
 
 #define TRACE_BITS_MAX 24 /* 2^24 cells of an edge at most */
 
-/* The facet seen on a line at frame x; SHEET_NONE. */
+/* The facet that a line sees at frame x; SHEET_NONE. */
 typedef uint32_t (*trace_seen_fn)(const void *line, double x);
 
 struct trace_edge {
@@ -73,10 +78,12 @@ USE_RESULT bool trace_init(struct trace *trace, const struct sheet *sheet,
                            double step, const uint8_t *skip);
 void trace_fini(struct trace *trace);
 
-/* Follows the edges through a line.  All lines of the grid come, from the
- * last to the first. */
+/* Follows the edges between the centres of two lines, from line + 1 down to
+ * `line`.  All come, from the grid's last line to -1.
+ * upper, lower  the two lines, for `seen`; NULL where there is none */
 USE_RESULT bool trace_line(struct trace *trace, int32_t line,
-                           trace_seen_fn seen, const void *user);
+                           trace_seen_fn seen, const void *upper,
+                           const void *lower);
 
 /* Adds a visible run of an edge that was skipped, in cells of 2^-bits; of one
  * edge in either order, apart, always with the same bits. */
