@@ -110,3 +110,8 @@ unit_tests += %D%/test_assimp
 endif
 %C%_test_assimp_SOURCES = %D%/test_assimp.c %D%/reading.c %D%/reading.h \
   %D%/temporary.c %D%/temporary.h
+
+include tests/failures.mk
+unit_tests += %D%/test_sheet
+%C%_test_sheet_SOURCES = %D%/test_sheet.c %D%/laid.c %D%/laid.h
+%C%_test_sheet_LDADD = %D%/scenes/libscenes.la $(LDADD)

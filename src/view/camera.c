@@ -17,6 +17,7 @@
 
 #include "base/tolerance.h"
 #include "scene/angle.h"
+#include "view/extent.h"
 #include "view/frame.h"
 #include "view/project.h"
 #include "view/used.h"
@@ -235,35 +236,14 @@ static recto_status set_reach(struct aim *aim) {
 /* ---- Fit
  * ---------------------------------------------------------------------- */
 
-/* The rectangle of the drawing in x / d, y / d, or x, y. */
-struct extent {
-  double low[2], high[2];
-};
-
-static struct extent measure_drawing(const struct aim *aim) {
-  struct extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-  for (size_t p = 0; p < aim->scene->point.count; p++) {
-    if (!aim->used[p])
-      continue;
-    struct view_point v = view_of_point(aim, p);
-    if (!(v.d >= aim->camera->near_d))
-      continue;
-    double scale = aim->camera->perspective ? 1 / v.d : 1;
-    const double xy[2] = {v.x * scale, v.y * scale};
-    for (int k = 0; k < 2; k++) {
-      e.low[k] = fmin(e.low[k], xy[k]);
-      e.high[k] = fmax(e.high[k], xy[k]);
-    }
-  }
-  return e;
-}
-
 /* The drawing fills the page inside the margins.  An extent that is only
  * rounding noise does not count; where both are, the scene's size stands in
  * for them. */
 static void fit_page(struct aim *aim) {
   struct camera *camera = aim->camera;
-  struct extent e = measure_drawing(aim);
+  struct extent e =
+      extent_of_drawing(camera, aim->scene, aim->used,
+                        aim->options->has_section || !camera->perspective);
   double size =
       camera->perspective ? camera->size / camera->d_max : camera->size;
   camera->s = INFINITY;

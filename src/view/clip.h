@@ -20,8 +20,8 @@ enum clip_plane {
   CLIP_PLANE_COUNT
 };
 
-/* The bits of an outcode. */
-enum { CLIP_NEAR_BIT = 1 << CLIP_NEAR, CLIP_PAGE_BITS = 0x1e };
+/* The bit of an outcode without which the others mean nothing. */
+enum { CLIP_NEAR_BIT = 1 << CLIP_NEAR };
 
 /* A linear function of the point that is negative outside of the plane. */
 static inline double clip_distance(const struct projection *projection,

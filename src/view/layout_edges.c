@@ -106,7 +106,7 @@ static void name_sides(struct layout *layout, const uint32_t *made) {
       uint32_t *of = sheet->edge.item[side[k]].triangle;
       if (of[0] == SHEET_NONE)
         of[0] = (uint32_t)t;
-      else if (of[1] == SHEET_NONE)
+      else if (of[1] == SHEET_NONE && of[0] != t)
         of[1] = (uint32_t)t;
     }
   }

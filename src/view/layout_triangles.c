@@ -137,14 +137,17 @@ static bool is_on_border(const struct layout *layout, uint32_t a, uint32_t b) {
          (p.y == q.y && abs(p.y) == half[1]);
 }
 
-/* Adds what is left of a facet as a fan.
- * area  grows by twice its area on the page, as the face winds */
+/* Adds what is left of a facet as a fan.  Where the grid folded a sliver of it
+ * over or made it flat, that triangle's sides are contours.
+ * Returns the sign of the whole's area on the page, as the face winds, in
+ * *sign. */
 static recto_status add_fan(struct layout *layout, const struct facet *facet,
                             const struct clip_polygon *polygon,
-                            const uint32_t *point, int128 *area) {
+                            const uint32_t *point, int *sign) {
+  int64_t area[CLIP_MOST] = {0};
+  int128 whole = 0;
   if (!reserve(layout, CLIP_MOST))
     return error_memory(layout->error);
-  int sign = 0;
   for (int i = 1; i + 1 < polygon->count; i++) {
     bool last = i + 2 == polygon->count;
     const uint32_t corner[3] = {point[0], point[i], point[i + 1]};
@@ -152,18 +155,18 @@ static recto_status add_fan(struct layout *layout, const struct facet *facet,
                               edge_of(facet, polygon, i),
                               last ? edge_of(facet, polygon, i + 1)
                                    : SHEET_NONE};
-    int64_t piece = add_triangle(layout, facet->face, corner, side);
-    *area += piece;
-    /* The grid may have folded a sliver over. */
-    bool folds = i > 1 && (piece == 0 || geom_sign64(piece) != sign);
-    sign = geom_sign64(piece);
-    if (folds) {
-      recto_status status = layout_contour(layout, point[0], point[i]);
-      if (status != RECTO_OK)
-        return status;
-    }
+    area[i] = add_triangle(layout, facet->face, corner, side);
+    whole += area[i];
   }
-  return RECTO_OK;
+  *sign = geom_sign128(whole);
+  recto_status status = RECTO_OK;
+  for (int i = 1; status == RECTO_OK && i + 1 < polygon->count; i++) {
+    const uint32_t corner[4] = {point[0], point[i], point[i + 1], point[0]};
+    bool odd = area[i] == 0 || geom_sign64(area[i]) != *sign;
+    for (int k = 0; odd && status == RECTO_OK && k < 3; k++)
+      status = layout_contour(layout, corner[k], corner[k + 1]);
+  }
+  return status;
 }
 
 /* Adds what is left of a facet; its sides learn where it lies, and its cuts at
@@ -177,12 +180,12 @@ static recto_status add_polygon(struct layout *layout,
     if (status != RECTO_OK)
       return status;
   }
-  int128 area = 0;
-  recto_status status = add_fan(layout, facet, polygon, point, &area);
+  int sign = 0;
+  recto_status status = add_fan(layout, facet, polygon, point, &sign);
   for (int i = 0; status == RECTO_OK && i < polygon->count; i++) {
     uint32_t next = point[i + 1 < polygon->count ? i + 1 : 0];
     if (polygon->corner[i].side != CLIP_CUT)
-      learn_side(layout, facet, polygon->corner[i].side, geom_sign128(area));
+      learn_side(layout, facet, polygon->corner[i].side, sign);
     else if (!is_on_border(layout, point[i], next))
       status = layout_contour(layout, point[i], next);
   }
@@ -313,15 +316,16 @@ static recto_status add_polygon_face(struct layout *layout, uint32_t face,
 static recto_status add_face(struct layout *layout, uint32_t face) {
   uint32_t start = layout->scene->face_start.item[face];
   uint32_t count = layout->scene->face_start.item[face + 1] - start;
-  unsigned any = 0, all = ~0u;
+  unsigned any = 0, all = ~0u, beyond = 0;
   for (uint32_t c = start; c < start + count; c++) {
     uint8_t code =
         layout->outcode[layout_weld(layout, layout->scene->corner.item[c])];
     any |= code;
     all &= code;
+    beyond |= code & CLIP_NEAR_BIT ? 0u : code;
   }
   layout->sheet->clipped_near += (any & CLIP_NEAR_BIT) != 0;
-  layout->sheet->clipped_page += (any & CLIP_PAGE_BITS) != 0;
+  layout->sheet->clipped_page += beyond != 0;
   if (all)
     return RECTO_OK;
   if (count != 3)

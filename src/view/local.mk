@@ -2,6 +2,7 @@
 librecto_core_la_SOURCES += \
   %D%/camera.c %D%/camera.h \
   %D%/clip.c %D%/clip.h \
+  %D%/extent.c %D%/extent.h \
   %D%/frame.c %D%/frame.h \
   %D%/layout.h \
   %D%/layout_edges.c %D%/layout_points.c %D%/layout_triangles.c \

@@ -1,0 +1,76 @@
+/* extent.c - how large the drawing is before it is scaled to the page. */
+#include "view/extent.h"
+
+#include <math.h>
+
+#include "view/project.h"
+
+static struct view_point view_of(const struct camera *camera,
+                                 const struct scene *scene, uint32_t point) {
+  const struct scene_point *p = &scene->point.item[point];
+  return camera_view(camera, p->x, p->y, p->z);
+}
+
+static void grow(struct extent *extent, const struct camera *camera,
+                 struct view_point v) {
+  double scale = camera->perspective ? 1 / v.d : 1;
+  const double xy[2] = {v.x * scale, v.y * scale};
+  for (int k = 0; k < 2; k++) {
+    extent->low[k] = fmin(extent->low[k], xy[k]);
+    extent->high[k] = fmax(extent->high[k], xy[k]);
+  }
+}
+
+/* Adds the point where a segment crosses the near plane, if it does. */
+static void grow_by_cut(struct extent *extent, const struct camera *camera,
+                        struct view_point a, struct view_point b) {
+  double from = a.d - camera->near_d, to = b.d - camera->near_d;
+  if ((from >= 0) == (to >= 0))
+    return;
+  double t = from / (from - to);
+  struct view_point cut = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y),
+                           camera->near_d};
+  grow(extent, camera, cut);
+}
+
+/* Adds the cuts of consecutive corners.
+ * start   where each face or polyline starts, `count` of them and one more
+ * closed  whether the last corner stands before the first */
+static void grow_by_cuts(struct extent *extent, const struct camera *camera,
+                         const struct scene *scene, const uint32_t *start,
+                         uint32_t count, const uint32_t *corner, bool closed) {
+  for (uint32_t i = 0; i < count; i++) {
+    struct view_point first = view_of(camera, scene, corner[start[i]]);
+    struct view_point a = first;
+    for (uint32_t c = start[i] + 1; c < start[i + 1]; c++) {
+      struct view_point b = view_of(camera, scene, corner[c]);
+      grow_by_cut(extent, camera, a, b);
+      a = b;
+    }
+    if (closed)
+      grow_by_cut(extent, camera, a, first);
+  }
+}
+
+struct extent extent_of_drawing(const struct camera *camera,
+                                const struct scene *scene, const uint8_t *used,
+                                bool cuts) {
+  struct extent extent = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  bool any_cut = false;
+  for (size_t p = 0; p < scene->point.count; p++) {
+    if (!used[p])
+      continue;
+    struct view_point v = view_of(camera, scene, (uint32_t)p);
+    if (v.d >= camera->near_d)
+      grow(&extent, camera, v);
+    else
+      any_cut = cuts;
+  }
+  if (any_cut) {
+    grow_by_cuts(&extent, camera, scene, scene->face_start.item,
+                 scene_face_count(scene), scene->corner.item, true);
+    grow_by_cuts(&extent, camera, scene, scene->wire_start.item,
+                 scene_wire_count(scene), scene->wire_corner.item, false);
+  }
+  return extent;
+}

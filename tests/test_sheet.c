@@ -1,0 +1,739 @@
+/* test_sheet.c - the sheet holds what it promises, clipped or whole. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "geom/predicate.h"
+#include "tests/laid.h"
+#include "tests/scenes/random.h"
+
+/* ---- Invariants
+ * ------------------------------------------------------------------ */
+
+static void the_scenes_keep_every_invariant(void **state) {
+  (void)state;
+  for (const struct scenes_entry *entry = scene_list; entry->name; entry++)
+    for (int outlines = 0; outlines < 2; outlines++) {
+      struct laid laid;
+      laid_start(&laid);
+      entry->fill(&laid.scene, &laid.options);
+      laid.options.edges = RECTO_EDGES_ALL;
+      laid_out(&laid, outlines);
+      laid_check(&laid);
+      laid_fini(&laid);
+    }
+}
+
+static bool is_in_view(const struct laid *laid) {
+  struct camera camera;
+  return camera_aim(&camera, &laid->scene, &laid->options, NULL) == RECTO_OK;
+}
+
+static void random_scenes_keep_every_invariant(void **state) {
+  (void)state;
+  int checked = 0;
+  for (uint64_t seed = 1; seed <= 600; seed++) {
+    struct laid laid;
+    laid_start(&laid);
+    scenes_small(&laid.scene, &laid.options, seed);
+    laid.options.edges = (unsigned)seed & RECTO_EDGES_ALL;
+    if (is_in_view(&laid)) {
+      laid_out(&laid, seed % 3 != 0);
+      laid_check(&laid);
+      checked++;
+    }
+    laid_fini(&laid);
+  }
+  assert_true(checked > 500);
+}
+
+/* A camera somewhere in the scene, so that the near plane and the page both
+ * cut it. */
+static void put_camera_inside(struct laid *laid, struct random *random) {
+  recto_options *o = &laid->options;
+  o->camera = RECTO_CAMERA_EYE;
+  o->has_target = true;
+  do {
+    for (int k = 0; k < 3; k++) {
+      o->eye[k] = random_between(random, -4, 4);
+      o->target[k] = random_between(random, -4, 4);
+      if (random_below(random, 3) == 0) /* on planes and points too */
+        o->eye[k] = floor(o->eye[k]);
+    }
+  } while (fabs(o->eye[0] - o->target[0]) < 0.1);
+  o->up[0] = 0;
+  o->up[1] = 0.01;
+  o->up[2] = 1;
+  o->fov_deg = random_between(random, 20, 110);
+  o->fit = random_below(random, 2) ? RECTO_FIT_NONE : RECTO_FIT_PAGE;
+}
+
+static void clipped_scenes_keep_every_invariant(void **state) {
+  (void)state;
+  struct random random = {21};
+  uint64_t near = 0, page = 0;
+  for (uint64_t seed = 1; seed <= 1500; seed++) {
+    struct laid laid;
+    laid_start(&laid);
+    scenes_small(&laid.scene, &laid.options, seed);
+    put_camera_inside(&laid, &random);
+    laid.options.edges = RECTO_EDGES_ALL;
+    if (is_in_view(&laid)) {
+      laid_out(&laid, true);
+      laid_check(&laid);
+      near += laid.sheet.clipped_near;
+      page += laid.sheet.clipped_page;
+    }
+    laid_fini(&laid);
+  }
+  assert_true(near > 1000 && page > 1000); /* they were clipped indeed */
+}
+
+static void an_eye_in_an_odd_place_is_no_trouble(void **state) {
+  (void)state;
+  for (int place = SCENES_EYE_INSIDE; place <= SCENES_EYE_ON_LINE; place++)
+    for (int fit = RECTO_FIT_PAGE; fit <= RECTO_FIT_NONE; fit++) {
+      struct laid laid;
+      laid_start(&laid);
+      scenes_room(&laid.scene, &laid.options, (enum scenes_eye)place);
+      laid.options.fit = (recto_fit)fit;
+      laid.options.edges = RECTO_EDGES_ALL;
+      laid_out(&laid, true);
+      laid_check(&laid);
+      assert_true(laid.sheet.triangle.count > 0);
+      assert_true(laid.sheet.clipped_near > 0);
+      laid_fini(&laid);
+    }
+}
+
+/* ---- Where points fall
+ * -------------------------------------------------------------- */
+
+/* The sheet point of a scene point, found by walking an edge. */
+static struct sheet_point where(const struct laid *laid, uint32_t point) {
+  for (size_t e = 0; e < laid->sheet.edge.count; e++) {
+    const struct sheet_edge *edge = &laid->sheet.edge.item[e];
+    const uint32_t *ends = laid->topology.edge.item[edge->source].point;
+    for (int k = 0; k < 2; k++)
+      if (ends[k] == point)
+        return laid->sheet.point.item[edge->point[k]];
+  }
+  fail_msg("point %u is not on the sheet", (unsigned)point);
+  return (struct sheet_point){0, 0, 0};
+}
+
+static void fill_box(struct laid *laid) {
+  laid_start(laid);
+  build_box(&laid->scene, vector_of(-3, -4, -5), vector_of(3, 4, 6));
+}
+
+static void points_are_snapped_to_the_nearest_grid_unit(void **state) {
+  (void)state;
+  for (int perspective = 0; perspective < 2; perspective++) {
+    struct laid laid;
+    fill_box(&laid);
+    laid.options.fov_deg = perspective ? 40 : 0;
+    laid_out(&laid, true);
+    const struct camera *c = &laid.camera;
+    double m[12];
+    camera_matrix(c, m);
+    for (uint32_t p = 0; p < 8; p++) {
+      const struct scene_point *q = &laid.scene.point.item[p];
+      double h[3], view_d = 0;
+      for (int r = 0; r < 3; r++)
+        h[r] = m[4 * r] * q->x + m[4 * r + 1] * q->y + m[4 * r + 2] * q->z +
+               m[4 * r + 3];
+      const double to[3] = {q->x - c->eye[0], q->y - c->eye[1],
+                            q->z - c->eye[2]};
+      for (int k = 0; k < 3; k++)
+        view_d -= c->back[k] * to[k];
+      struct sheet_point at = where(&laid, p);
+      assert_true(fabs(sheet_x_mm(&laid.sheet, at.x) - h[0] / h[2]) <
+                  0.5001 / SHEET_UNITS_PER_MM);
+      assert_true(fabs(sheet_y_mm(&laid.sheet, at.y) - h[1] / h[2]) <
+                  0.5001 / SHEET_UNITS_PER_MM);
+      double z = perspective ? laid.sheet.z_scale * (1 / view_d - 1 / c->d_max)
+                             : laid.sheet.z_scale * (c->d_max - view_d);
+      assert_true(fabs((double)at.z - z) < 1);
+    }
+    assert_true(laid.sheet.units_per_view == c->s * SHEET_UNITS_PER_MM);
+    laid_fini(&laid);
+  }
+}
+
+static void depth_fills_its_range(void **state) {
+  (void)state;
+  for (int perspective = 0; perspective < 2; perspective++) {
+    struct laid laid;
+    fill_box(&laid);
+    laid.options.fov_deg = perspective ? 40 : 0;
+    laid_out(&laid, false);
+    int64_t low = SHEET_Z_MAX, high = 0;
+    for (size_t p = 0; p < laid.sheet.point.count; p++) {
+      int64_t z = laid.sheet.point.item[p].z;
+      low = z < low ? z : low;
+      high = z > high ? z : high;
+    }
+    assert_int_equal(low, 0);
+    assert_int_equal(high, SHEET_Z_MAX);
+    laid_fini(&laid);
+  }
+}
+
+/* Rounding puts a corner at most half a unit off, so a face's fourth corner is
+ * within a few units of the plane of the other three. */
+static void planes_stay_planes(void **state) {
+  (void)state;
+  for (int perspective = 0; perspective < 2; perspective++) {
+    struct laid laid;
+    fill_box(&laid);
+    laid.options.fov_deg = perspective ? 60 : 0;
+    laid_out(&laid, true);
+    for (uint32_t f = 0; f < 6; f++) {
+      const uint32_t *corner =
+          laid.scene.corner.item + laid.scene.face_start.item[f];
+      struct sheet_point p[4];
+      for (int k = 0; k < 4; k++)
+        p[k] = where(&laid, corner[k]);
+      struct geom_plane plane = geom_plane_of(p[0], p[1], p[2]);
+      double off = (double)geom_plane_value(&plane, p[3]) / (double)plane.nz;
+      double slope = 1 + fabs((double)plane.nx / (double)plane.nz) +
+                     fabs((double)plane.ny / (double)plane.nz);
+      assert_true(fabs(off) <= 4 * slope);
+    }
+    laid_fini(&laid);
+  }
+}
+
+static void a_flat_scene_square_on_is_fine(void **state) {
+  (void)state;
+  for (int perspective = 0; perspective < 2; perspective++) {
+    struct laid laid;
+    laid_start(&laid);
+    build_parallelogram(&laid.scene, vector_of(0, 0, 7), vector_of(3, 0, 0),
+                        vector_of(0, 2, 0));
+    laid.options.azimuth_deg = laid.options.elevation_deg = 0;
+    laid.options.fov_deg = perspective ? 40 : 0;
+    laid_out(&laid, true);
+    laid_check(&laid);
+    assert_true(isfinite(laid.sheet.z_scale) && laid.sheet.z_scale > 0);
+    assert_int_equal(laid.sheet.triangle.count, 2);
+    laid_fini(&laid);
+  }
+}
+
+/* A contact length in depth units must be a number that int64 can hold. */
+static void a_noisy_flat_scene_does_not_blow_depth_up(void **state) {
+  (void)state;
+  struct laid laid;
+  laid_start(&laid);
+  build_parallelogram(&laid.scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
+                      vector_of(0, 2, 0));
+  scenes_turn(&laid.scene, vector_of(1, 2, 3), 1);
+  laid.options.azimuth_deg = 0;
+  laid.options.elevation_deg = 0;
+  struct scene_point *p = laid.scene.point.item;
+  struct vector u =
+      vector_of(p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z);
+  struct vector v =
+      vector_of(p[3].x - p[0].x, p[3].y - p[0].y, p[3].z - p[0].z);
+  struct vector n = vector_cross(u, v);
+  laid.options.camera = RECTO_CAMERA_EYE;
+  laid.options.eye[0] = n.x;
+  laid.options.eye[1] = n.y;
+  laid.options.eye[2] = n.z;
+  laid.options.has_target = true;
+  laid.options.target[0] = laid.options.target[1] = laid.options.target[2] = 0;
+  laid_out(&laid, true);
+  laid_check(&laid);
+  assert_true(laid.camera.contact * laid.sheet.z_scale < 0x1p62);
+  laid_fini(&laid);
+}
+
+/* ---- Areas
+ * ------------------------------------------------------------------------------
+ */
+
+/* A polygon's area from the corners that its edges have on the sheet. */
+static int64_t outline_area(const struct laid *laid, uint32_t face) {
+  const struct scene *scene = &laid->scene;
+  uint32_t start = scene->face_start.item[face];
+  uint32_t count = scene->face_start.item[face + 1] - start;
+  int64_t area = 0;
+  for (uint32_t c = 1; c + 1 < count; c++)
+    area += geom_orient2d(where(laid, scene->corner.item[start]),
+                          where(laid, scene->corner.item[start + c]),
+                          where(laid, scene->corner.item[start + c + 1]));
+  return llabs(area);
+}
+
+static void triangles_of_a_polygon_have_its_area_exactly(void **state) {
+  (void)state;
+  for (int corners = 5; corners < 40; corners += 3) {
+    struct laid laid;
+    double xyz[3 * 40];
+    laid_start(&laid);
+    for (int c = 0; c < corners; c++) { /* a star, tilted */
+      double r = c % 2 ? 3 : 7, angle = 2 * acos(-1) * c / corners;
+      xyz[3 * c] = r * cos(angle);
+      xyz[3 * c + 1] = r * sin(angle);
+      xyz[3 * c + 2] = 0.5 * xyz[3 * c] - 0.25 * xyz[3 * c + 1];
+    }
+    build_polygon(&laid.scene, xyz, (size_t)corners);
+    laid.options.azimuth_deg = laid.options.elevation_deg = 0;
+    laid_out(&laid, true);
+    laid_check(&laid);
+    assert_int_equal(laid.sheet.triangle.count, corners - 2);
+    assert_int_equal(laid_area(&laid, 0), outline_area(&laid, 0));
+    laid_fini(&laid);
+  }
+}
+
+static int64_t page_area(const struct laid *laid) {
+  return 8 * (int64_t)laid_half(laid, 0) * laid_half(laid, 1);
+}
+
+/* A sheet of n x n quads far larger than the page. */
+static void fill_large_grid(struct laid *laid, unsigned n, bool triangles) {
+  laid_start(laid);
+  build_group(&laid->scene, "grid");
+  for (unsigned row = 0; row <= n; row++)
+    for (unsigned column = 0; column <= n; column++)
+      build_point(&laid->scene, 600.0 * column / n - 301.7,
+                  600.0 * row / n - 297.1, 10 * sin(row) * cos(column));
+  build_grid(&laid->scene, 0, n, n, triangles);
+  laid->options.fit = RECTO_FIT_NONE;
+  laid->options.azimuth_deg = laid->options.elevation_deg = 0;
+}
+
+/* Neither a gap nor an overlap of a single unit, however the page cuts. */
+static void a_grid_beyond_the_page_fills_the_page_exactly(void **state) {
+  (void)state;
+  for (int triangles = 0; triangles < 2; triangles++)
+    for (unsigned n = 1; n <= 41; n += 8) {
+      struct laid laid;
+      fill_large_grid(&laid, n, triangles);
+      laid_out(&laid, true);
+      laid_check(&laid);
+      assert_true(laid.sheet.clipped_page > 0);
+      if (n == 1)
+        assert_int_equal(laid.sheet.clipped_near, 0);
+      assert_int_equal(laid_area(&laid, SHEET_NONE), page_area(&laid));
+      laid_fini(&laid);
+    }
+}
+
+static void a_polygon_around_the_page_is_cut_to_the_page(void **state) {
+  (void)state;
+  struct laid laid;
+  laid_start(&laid);
+  const double xyz[] = {-900, -800, 1, 0, -500, 1, 900,  -700, 1, 800,  300, 1,
+                        200,  900,  1, 0, 400,  1, -200, 900,  1, -700, 500, 1};
+  build_polygon(&laid.scene, xyz, 8);
+  laid.options.fit = RECTO_FIT_NONE;
+  laid.options.azimuth_deg = laid.options.elevation_deg = 0;
+  laid_out(&laid, true);
+  laid_check(&laid);
+  assert_int_equal(laid.sheet.clipped_page, 1);
+  assert_int_equal(laid_area(&laid, SHEET_NONE), page_area(&laid));
+  assert_int_equal(laid.sheet.edge.count, 0); /* they are all beyond it */
+  laid_fini(&laid);
+}
+
+static void a_floor_to_the_horizon_is_cut_by_both(void **state) {
+  (void)state;
+  struct laid laid;
+  laid_start(&laid);
+  build_group(&laid.scene, "floor");
+  for (int row = 0; row <= 20; row++)
+    for (int column = 0; column <= 20; column++)
+      build_point(&laid.scene, 20.0 * column - 200, 0, 10.0 * row - 100);
+  build_grid(&laid.scene, 0, 20, 20, false);
+  laid.options.camera = RECTO_CAMERA_EYE;
+  laid.options.eye[1] = 1.5;
+  laid.options.has_target = true;
+  laid.options.target[1] = 1.5;
+  laid.options.target[2] = -100;
+  laid.options.fov_deg = 60;
+  laid.options.fit = RECTO_FIT_NONE;
+  laid.options.near_distance = 1;
+  laid_out(&laid, true);
+  laid_check(&laid);
+  assert_true(laid.sheet.clipped_near > 0 && laid.sheet.clipped_page > 0);
+  for (size_t p = 0; p < laid.sheet.point.count; p++)
+    assert_true(laid.sheet.point.item[p].y < 0); /* below the horizon */
+  /* The floor's far border is 100 away, 1.5 down, and wider than the page. */
+  double s = laid.camera.s, half = laid_half(&laid, 1);
+  double border = s * 1.5 / 100 * SHEET_UNITS_PER_MM;
+  double area = 2 * (half - border) * 2 * laid_half(&laid, 0);
+  double found = (double)laid_area(&laid, SHEET_NONE);
+  assert_true(fabs(found - area) < 1e-6 * area);
+  laid_fini(&laid);
+}
+
+/* ---- Clipping
+ * ----------------------------------------------------------------------------
+ */
+
+static void a_drawing_that_fits_the_page_is_never_cut(void **state) {
+  (void)state;
+  struct random random = {33};
+  for (int i = 0; i < 300; i++) {
+    struct laid laid;
+    fill_box(&laid);
+    laid.options.margin_mm = 0;
+    laid.options.page_width_mm = random_between(&random, 10, 2000);
+    laid.options.page_height_mm = random_between(&random, 10, 2000);
+    laid.options.azimuth_deg = random_between(&random, 0, 360);
+    laid.options.elevation_deg = random_between(&random, -90, 90);
+    laid.options.fov_deg = i % 2 ? random_between(&random, 1, 150) : 0;
+    laid_out(&laid, true);
+    laid_check(&laid);
+    assert_int_equal(laid.sheet.clipped_page, 0);
+    assert_int_equal(laid.sheet.clipped_near, 0);
+    assert_int_equal(laid.sheet.triangle.count, 12);
+    assert_int_equal(laid.sheet.edge.count, 12);
+    laid_fini(&laid);
+  }
+}
+
+static void a_cut_edge_is_cut_once_for_all_who_use_it(void **state) {
+  (void)state;
+  struct laid laid;
+  fill_large_grid(&laid, 9, true);
+  laid.options.edges = RECTO_EDGES_ALL;
+  laid_out(&laid, true);
+  size_t cut = 0;
+  for (size_t e = 0; e < laid.sheet.edge.count; e++) {
+    const struct sheet_edge *edge = &laid.sheet.edge.item[e];
+    const struct topology_edge *source = &laid.topology.edge.item[edge->source];
+    if (source->uses < 2)
+      continue;
+    assert_int_not_equal(edge->triangle[1], SHEET_NONE);
+    for (int k = 0; k < 2; k++) { /* see also check_sides in laid.c */
+      struct sheet_point p = laid.sheet.point.item[edge->point[k]];
+      cut += abs(p.x) == laid_half(&laid, 0) || abs(p.y) == laid_half(&laid, 1);
+    }
+  }
+  assert_true(cut > 20);
+  laid_fini(&laid);
+}
+
+static void a_section_cuts_and_leaves_no_line(void **state) {
+  (void)state;
+  for (int perspective = 0; perspective < 2; perspective++) {
+    struct laid laid;
+    fill_box(&laid);
+    laid.options.azimuth_deg = 20;
+    laid.options.elevation_deg = 0;
+    laid.options.fov_deg = perspective ? 30 : 0;
+    laid.options.has_section = true;
+    laid.options.section = 6;
+    laid.options.edges = RECTO_EDGES_ALL;
+    laid_out(&laid, true);
+    laid_check(&laid);
+    assert_true(laid.sheet.clipped_near >= 4);
+    assert_int_equal(laid.sheet.clipped_page, 0);
+    size_t at_cut = 0;
+    for (size_t e = 0; e < laid.sheet.edge.count; e++) {
+      const uint32_t *p = laid.sheet.edge.item[e].point;
+      bool first = laid.sheet.point.item[p[0]].z == SHEET_Z_MAX;
+      bool second = laid.sheet.point.item[p[1]].z == SHEET_Z_MAX;
+      assert_false(first && second);
+      at_cut += first || second;
+    }
+    assert_true(at_cut >= 3);
+    laid_fini(&laid);
+  }
+}
+
+/* The side of a box that lies in the section itself stays whole. */
+static void a_face_in_the_section_plane_stays(void **state) {
+  (void)state;
+  struct laid laid;
+  laid_start(&laid);
+  build_box(&laid.scene, vector_of(0, 0, 0), vector_of(1, 1, 1));
+  build_box(&laid.scene, vector_of(2, 0, 0), vector_of(3, 1, 2));
+  laid.options.azimuth_deg = laid.options.elevation_deg = 0;
+  laid.options.has_section = true;
+  laid.options.section = 1; /* the nearest point is at z = 2 */
+  laid_out(&laid, true);
+  laid_check(&laid);
+  size_t front = 0;
+  for (size_t t = 0; t < laid.sheet.triangle.count; t++) {
+    const uint32_t *p = laid.sheet.triangle.item[t].point;
+    front += laid.sheet.point.item[p[0]].z == SHEET_Z_MAX &&
+             laid.sheet.point.item[p[1]].z == SHEET_Z_MAX &&
+             laid.sheet.point.item[p[2]].z == SHEET_Z_MAX &&
+             !(laid.sheet.triangle_flags[t] & SHEET_FLAT);
+  }
+  assert_int_equal(front, 2); /* of the lower box: a quad */
+  laid_fini(&laid);
+}
+
+/* Whether a face is cut by its first corner or by its last must not matter. */
+static void the_order_of_corners_changes_no_point(void **state) {
+  (void)state;
+  struct random random = {41};
+  for (int i = 0; i < 200; i++) {
+    struct laid laid[2];
+    double xyz[9];
+    for (int k = 0; k < 9; k++)
+      xyz[k] = random_between(&random, -300, 300);
+    for (int turn = 0; turn < 2; turn++) {
+      laid_start(&laid[turn]);
+      struct scene *scene = &laid[turn].scene;
+      build_group(scene, "one");
+      for (int c = 0; c < 3; c++)
+        build_point(scene, xyz[3 * c], xyz[3 * c + 1], xyz[3 * c + 2]);
+      if (turn)
+        build_triangle(scene, 2, 1, 0);
+      else
+        build_triangle(scene, 0, 1, 2);
+      laid[turn].options.fit = RECTO_FIT_NONE;
+      laid[turn].options.edges = RECTO_EDGES_ALL;
+      laid_out(&laid[turn], true);
+    }
+    assert_int_equal(laid_area(&laid[0], 0), laid_area(&laid[1], 0));
+    for (size_t e = 0; e < laid[0].sheet.edge.count; e++)
+      for (size_t f = 0; f < laid[1].sheet.edge.count; f++) {
+        const struct sheet_edge *a = &laid[0].sheet.edge.item[e];
+        const struct sheet_edge *b = &laid[1].sheet.edge.item[f];
+        if (memcmp(laid[0].topology.edge.item[a->source].point,
+                   laid[1].topology.edge.item[b->source].point, 8) != 0)
+          continue;
+        for (int k = 0; k < 2; k++)
+          assert_memory_equal(&laid[0].sheet.point.item[a->point[k]],
+                              &laid[1].sheet.point.item[b->point[k]],
+                              sizeof(struct sheet_point));
+      }
+    laid_fini(&laid[0]);
+    laid_fini(&laid[1]);
+  }
+}
+
+/* ---- Wires
+ * ----------------------------------------------------------------------------------
+ */
+
+static void wires_are_edges_segment_by_segment(void **state) {
+  (void)state;
+  struct laid laid;
+  laid_start(&laid);
+  build_group(&laid.scene, "wire");
+  uint32_t corner[5];
+  for (uint32_t c = 0; c < 5; c++)
+    corner[c] = build_point(&laid.scene, c, c % 2, c % 3);
+  for (int w = 0; w < 2; w++)
+    assert_int_equal(scene_add_wire(&laid.scene, corner, 5, 0, NULL, NULL),
+                     RECTO_OK);
+  laid_out(&laid, false);
+  laid_check(&laid);
+  assert_int_equal(laid.sheet.edge.count, 8);
+  for (uint32_t e = 0; e < 8; e++) {
+    const struct sheet_edge *edge = &laid.sheet.edge.item[e];
+    assert_int_equal(edge->edge_class, RECTO_EDGE_WIRE);
+    assert_int_equal(edge->source, e / 4);
+    assert_int_equal(edge->part, e % 4);
+    if (e % 4 > 0)
+      assert_int_equal(edge->point[0], edge[-1].point[1]);
+  }
+  laid_fini(&laid);
+}
+
+static void wires_are_cut_at_the_page(void **state) {
+  (void)state;
+  struct laid laid;
+  laid_start(&laid);
+  build_group(&laid.scene, "wire");
+  build_segment(&laid.scene, build_point(&laid.scene, -500, 0, 0),
+                build_point(&laid.scene, 500, 0, 0));
+  build_segment(&laid.scene, build_point(&laid.scene, -500, 400, 0),
+                build_point(&laid.scene, 500, 400, 0)); /* beyond it */
+  laid.options.fit = RECTO_FIT_NONE;
+  laid.options.has_target = true;
+  laid.options.azimuth_deg = laid.options.elevation_deg = 0;
+  laid_out(&laid, false);
+  laid_check(&laid);
+  assert_int_equal(laid.sheet.edge.count, 1);
+  const uint32_t *p = laid.sheet.edge.item[0].point;
+  assert_int_equal(laid.sheet.point.item[p[0]].x, -laid_half(&laid, 0));
+  assert_int_equal(laid.sheet.point.item[p[1]].x, laid_half(&laid, 0));
+  laid_fini(&laid);
+}
+
+static void wires_not_asked_for_are_not_there(void **state) {
+  (void)state;
+  struct laid laid;
+  laid_start(&laid);
+  build_group(&laid.scene, "wire");
+  build_segment(&laid.scene, build_point(&laid.scene, 0, 0, 0),
+                build_point(&laid.scene, 1, 0, 0));
+  laid.options.edges = RECTO_EDGES_ALL & ~(unsigned)RECTO_EDGE_WIRE;
+  laid_out(&laid, true);
+  assert_int_equal(laid.sheet.edge.count, 0);
+  laid_fini(&laid);
+}
+
+/* ---- Diagonals, welds, warps
+ * ------------------------------------------------------------------ */
+
+static void diagonals_are_no_edges(void **state) {
+  (void)state;
+  struct laid laid;
+  laid_start(&laid);
+  build_parallelogram(&laid.scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
+                      vector_of(0, 2, 0));
+  laid.options.edges = RECTO_EDGES_ALL;
+  laid_out(&laid, true);
+  laid_check(&laid);
+  assert_int_equal(laid.sheet.edge.count, 4);
+  assert_int_equal(laid.sheet.triangle.count, 2);
+  size_t without = 0;
+  for (size_t t = 0; t < 2; t++)
+    for (int k = 0; k < 3; k++)
+      without += laid.sheet.triangle.item[t].side[k] == SHEET_NONE;
+  assert_int_equal(without, 2);
+  laid_fini(&laid);
+}
+
+static void welded_points_are_one_on_the_sheet(void **state) {
+  (void)state;
+  struct laid laid;
+  laid_start(&laid);
+  scenes_unwelded(&laid.scene, &laid.options);
+  laid.options.edges = RECTO_EDGES_ALL;
+  laid_out(&laid, true);
+  laid_check(&laid);
+  size_t standing = 0;
+  for (uint32_t p = 0; p < laid.scene.point.count; p++)
+    standing += laid.topology.weld[p] == p;
+  assert_int_equal(laid.sheet.point.count, standing);
+  laid_fini(&laid);
+}
+
+static void warped_faces_are_counted_and_drawn(void **state) {
+  (void)state;
+  struct laid laid;
+  laid_start(&laid);
+  const double xyz[] = {0, 0, 0, 1, 0, 0, 1, 1, 0.5, 0, 1, 0};
+  build_polygon(&laid.scene, xyz, 4);
+  laid_out(&laid, true);
+  laid_check(&laid);
+  assert_int_equal(laid.sheet.warped, 1);
+  assert_int_equal(laid.sheet.triangle.count, 2);
+  assert_int_equal(laid.sheet.edge.count, 4);
+  laid_fini(&laid);
+}
+
+/* ---- Scale
+ * --------------------------------------------------------------------------------------
+ */
+
+static void powers_of_two_change_no_bit_of_the_sheet(void **state) {
+  (void)state;
+  for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
+    struct laid laid[2];
+    for (int i = 0; i < 2; i++) {
+      const double factor = i ? 0x1p+30 : 1;
+      recto_options *o = &laid[i].options;
+      laid_start(&laid[i]);
+      entry->fill(&laid[i].scene, o);
+      scenes_scale(&laid[i].scene, factor, vector_of(0, 0, 0));
+      for (int k = 0; k < 3; k++) {
+        o->eye[k] *= factor;
+        o->target[k] *= factor;
+      }
+      o->near_distance *= factor;
+      o->section *= factor;
+      o->scale /= factor;
+      o->fit = o->fit == RECTO_FIT_NONE ? RECTO_FIT_PAGE : o->fit;
+      laid_out(&laid[i], true);
+    }
+    const struct sheet *a = &laid[0].sheet, *b = &laid[1].sheet;
+    assert_int_equal(a->point.count, b->point.count);
+    assert_int_equal(a->triangle.count, b->triangle.count);
+    assert_int_equal(a->edge.count, b->edge.count);
+    assert_int_equal(a->contour.count, b->contour.count);
+    assert_memory_equal(a->point.item, b->point.item,
+                        a->point.count * sizeof *a->point.item);
+    if (a->triangle.count > 0)
+      assert_memory_equal(a->triangle.item, b->triangle.item,
+                          a->triangle.count * sizeof *a->triangle.item);
+    if (a->edge.count > 0)
+      assert_memory_equal(a->edge.item, b->edge.item,
+                          a->edge.count * sizeof *a->edge.item);
+    laid_fini(&laid[0]);
+    laid_fini(&laid[1]);
+  }
+}
+
+/* ---- Faults
+ * -------------------------------------------------------------------------------------
+ */
+
+static void every_failed_allocation_is_told(void **state) {
+  (void)state;
+  struct laid laid;
+  fill_large_grid(&laid, 5, false); /* clipped, and of quads */
+  build_segment(&laid.scene, 0, 35);
+  laid.options.edges = RECTO_EDGES_ALL;
+  laid_out(&laid, true);
+  unsigned long n = 0;
+  for (recto_status status = RECTO_ERROR_MEMORY; status != RECTO_OK;) {
+    struct sheet sheet;
+    recto_error error = {0};
+    mem_fail_after(++n);
+    status = sheet_init(&sheet, &laid.scene, &laid.topology, &laid.camera,
+                        &laid.options, true, &error);
+    mem_fail_after(0);
+    if (status == RECTO_OK) {
+      sheet_fini(&sheet);
+    } else {
+      assert_int_equal(status, RECTO_ERROR_MEMORY);
+      assert_int_equal(error.code, RECTO_ERROR_MEMORY);
+      assert_null(sheet.point.item);
+      assert_null(sheet.triangle_flags);
+    }
+    assert_true(n < 200);
+  }
+  assert_true(n > 15);
+  laid_fini(&laid);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_scenes_keep_every_invariant),
+      cmocka_unit_test(random_scenes_keep_every_invariant),
+      cmocka_unit_test(clipped_scenes_keep_every_invariant),
+      cmocka_unit_test(an_eye_in_an_odd_place_is_no_trouble),
+      cmocka_unit_test(points_are_snapped_to_the_nearest_grid_unit),
+      cmocka_unit_test(depth_fills_its_range),
+      cmocka_unit_test(planes_stay_planes),
+      cmocka_unit_test(a_flat_scene_square_on_is_fine),
+      cmocka_unit_test(a_noisy_flat_scene_does_not_blow_depth_up),
+      cmocka_unit_test(triangles_of_a_polygon_have_its_area_exactly),
+      cmocka_unit_test(a_grid_beyond_the_page_fills_the_page_exactly),
+      cmocka_unit_test(a_polygon_around_the_page_is_cut_to_the_page),
+      cmocka_unit_test(a_floor_to_the_horizon_is_cut_by_both),
+      cmocka_unit_test(a_drawing_that_fits_the_page_is_never_cut),
+      cmocka_unit_test(a_cut_edge_is_cut_once_for_all_who_use_it),
+      cmocka_unit_test(a_section_cuts_and_leaves_no_line),
+      cmocka_unit_test(a_face_in_the_section_plane_stays),
+      cmocka_unit_test(the_order_of_corners_changes_no_point),
+      cmocka_unit_test(wires_are_edges_segment_by_segment),
+      cmocka_unit_test(wires_are_cut_at_the_page),
+      cmocka_unit_test(wires_not_asked_for_are_not_there),
+      cmocka_unit_test(diagonals_are_no_edges),
+      cmocka_unit_test(welded_points_are_one_on_the_sheet),
+      cmocka_unit_test(warped_faces_are_counted_and_drawn),
+      cmocka_unit_test(powers_of_two_change_no_bit_of_the_sheet),
+      cmocka_unit_test(every_failed_allocation_is_told),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
