@@ -25,20 +25,6 @@ struct render {
   double share; /* of all the work, done when the stage at hand began */
 };
 
-/* ---- Options that nothing in this build serves ----------------------------
- */
-
-static recto_status check_supported(const recto_options *options,
-                                    recto_error *error) {
-  const char *what = options->fill != RECTO_FILL_NONE     ? "fills are"
-                     : options->order != RECTO_ORDER_NONE ? "ordering is"
-                                                          : NULL;
-  if (what != NULL)
-    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                     "%s not available in this build", what);
-  return RECTO_OK;
-}
-
 /* ---- The method -----------------------------------------------------------
  */
 
@@ -120,6 +106,7 @@ static recto_status solve(struct render *render, recto_error *error) {
   struct solver_request request = {
       .strokes = options->edges != RECTO_EDGES_NONE,
       .fragments = options->fill != RECTO_FILL_NONE,
+      .hidden = options->hidden != RECTO_HIDDEN_NONE,
       .intersections = (options->edges & RECTO_EDGE_INTERSECTION) != 0,
       .threads = count_threads(options),
       .pitch_mm = options->pitch_mm,
@@ -250,8 +237,6 @@ recto_status recto_scene_render(const recto_scene *scene,
   }
   *drawing = NULL;
   recto_status status = options_check(options, error);
-  if (status == RECTO_OK)
-    status = check_supported(options, error);
   if (status != RECTO_OK)
     return status;
   recto_drawing *made = mem_calloc(1, sizeof *made);

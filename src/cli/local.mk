@@ -5,4 +5,5 @@ recto_SOURCES += \
   %D%/job.c %D%/job.h \
   %D%/main.c \
   %D%/options.c \
-  %D%/value.c %D%/value.h
+  %D%/value.c %D%/value.h \
+  %D%/waiting.c
