@@ -93,6 +93,65 @@ static void two_rectangles_and_triangle_have_their_exact_areas(void **state) {
   }
 }
 
+/* A wall goes through a floor just where the floor's diagonal runs: neither
+ * of the floor's triangles straddles the wall's plane, but the floor does. */
+static void a_crossing_along_a_diagonal_is_drawn(void **state) {
+  static const int floor[][3] = {
+      {0, 0, 10}, {20, 0, 10}, {20, 20, 10}, {0, 20, 10}};
+  static const int wall[][3] = {
+      {10, 2, 18}, {18, 10, 18}, {10, 18, 2}, {2, 10, 2}};
+  (void)state;
+  for (int s = 0; s < EXACT_COUNT; s++) {
+    struct sheet sheet;
+    struct map map;
+    int low = 99, high = 0, found = 0;
+    hand_sheet_init(&sheet);
+    hand_add_face(&sheet, floor, 4, SCALE);
+    hand_add_face(&sheet, wall, 4, SCALE);
+    hand_solve(exact[s], &sheet, &map, NULL);
+    for (size_t e = 0; e < sheet.edge.count; e++) {
+      if (sheet.edge.item[e].edge_class != RECTO_EDGE_INTERSECTION) continue;
+      found++;
+      assert_int_equal(map.edge_state[e], MAP_VISIBLE);
+      for (int k = 0; k < 2; k++) {
+        struct geom_point p =
+            sheet.point.item[sheet.edge.item[e].point[k]];
+        assert_int_equal(p.x, p.y);
+        assert_int_equal(p.z, 10 * SCALE);
+        if (p.x / SCALE < low) low = p.x / SCALE;
+        if (p.x / SCALE > high) high = p.x / SCALE;
+      }
+    }
+    assert_int_equal(found, 2); /* the wall has a diagonal of its own */
+    assert_int_equal(low, 6);
+    assert_int_equal(high, 14);
+    map_fini(&map);
+    hand_sheet_fini(&sheet);
+  }
+}
+
+/* Where the wall only stands on the floor's diagonal, nothing is crossed. */
+static void standing_on_a_diagonal_is_no_crossing(void **state) {
+  static const int floor[][3] = {
+      {0, 0, 10}, {20, 0, 10}, {20, 20, 10}, {0, 20, 10}};
+  static const int wall[][3] = {
+      {10, 2, 18}, {18, 10, 18}, {14, 14, 10}, {6, 6, 10}};
+  (void)state;
+  for (int s = 0; s < EXACT_COUNT; s++) {
+    struct sheet sheet;
+    struct map map;
+    hand_sheet_init(&sheet);
+    hand_add_face(&sheet, floor, 4, SCALE);
+    hand_add_face(&sheet, wall, 4, SCALE);
+    hand_solve(exact[s], &sheet, &map, NULL);
+    for (size_t e = 0; e < sheet.edge.count; e++)
+      assert_int_not_equal(sheet.edge.item[e].edge_class,
+                           RECTO_EDGE_INTERSECTION);
+    map_fini(&map);
+    hand_sheet_fini(&sheet);
+  }
+}
+
 /* Three bars, each over the next: (x, y) boxes with tilted depth. */
 static void add_cycle(struct sheet *sheet, int x, int y) {
   const int a[][3] = {{x + 0, y + 0, 10}, {x + 2, y + 0, 10},
@@ -206,6 +265,8 @@ int main(void) {
       cmocka_unit_test(pierced_rectangle_has_its_exact_areas),
       cmocka_unit_test(pierced_rectangle_has_its_corners_and_sides),
       cmocka_unit_test(two_rectangles_and_triangle_have_their_exact_areas),
+      cmocka_unit_test(a_crossing_along_a_diagonal_is_drawn),
+      cmocka_unit_test(standing_on_a_diagonal_is_no_crossing),
       cmocka_unit_test(a_field_of_cycles_is_right),
       cmocka_unit_test(solvers_agree_on_random_scenes),
   };

@@ -57,6 +57,23 @@ void hider_init(struct hider *hider, const struct sheet *sheet,
   hider->box = page_box_of_triangle(sheet, triangle);
 }
 
+double hide_tolerance_bound(const struct sheet *sheet, struct geom_point a,
+                            double nx, double ny, double nz) {
+  const struct camera *camera = &sheet->camera;
+  double third = sheet->z_scale * nz, nearest = 1, length;
+  if (camera->perspective) {
+    struct sheet_axis axis = sheet_view_axis(sheet);
+    third = nz * (sheet->z_scale / camera->d_max) -
+            (nx * (axis.x - a.x) + ny * (axis.y - a.y) - nz * (double)a.z);
+    nearest = 1 / camera->d_min;
+  }
+  length = sheet->units_per_view * (fabs(nx) + fabs(ny)) + fabs(third);
+  return (fabs(nx) + fabs(ny) + fabs(nz) +
+          length * camera->contact * nearest) *
+             (1 + 0x1p-20) +
+         1;
+}
+
 int128 hider_depth(const struct hider *hider, struct geom_point p) {
   return geom_plane_value(&hider->plane, p) * FIXED_ONE + hider->t0 +
          hider->t1 * p.z;

@@ -101,6 +101,11 @@ bool hide_edge(const struct hider *hider, struct geom_point p,
 bool hide_by_outline(const struct geom_point corner[3], struct geom_point p,
                      struct geom_point q, struct hidden_part *part);
 
+/* An upper bound of T, in units of value, for the plane with this normal
+ * (doubles of the integer one) through a point; at any depth of the sheet. */
+double hide_tolerance_bound(const struct sheet *sheet, struct geom_point a,
+                            double nx, double ny, double nz);
+
 /* (value << 16) + T of a point: negative where it is behind the plane by more
  * than contact explains.  Exact. */
 int128 hider_depth(const struct hider *hider, struct geom_point p);

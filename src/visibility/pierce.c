@@ -4,17 +4,60 @@
 #include <math.h>
 
 #include "base/sort.h"
+#include "visibility/hide.h"
 
-/* Are corners on both sides of the plane, beyond contact? */
-static bool straddles(const struct hider *plane, const struct geom_point p[3]) {
-  bool behind = false, before = false;
+struct pierce_segment {
+  uint32_t triangle[2]; /* the lower first */
+  struct geom_point end[2];
+};
+
+struct seam_side {
+  uint32_t i, j;     /* ends of an edge, i < j; or i: a triangle, j: none */
+  uint32_t triangle; /* the one that ends there, or that triangle */
+};
+
+/* One triangle that ends on another's plane, or two that end on each
+ * other's: half of a crossing, or a quarter. */
+struct seam {
+  struct seam_side side[2]; /* the lower first */
+  int signs;                /* bits: SEAM_BEHIND << 2 k, SEAM_BEFORE << 2 k */
+};
+
+enum { SEAM_BEHIND = 1, SEAM_BEFORE = 2 };
+
+struct pierce {
+  const struct sheet *sheet;
+  ARRAY(struct pierce_segment) segment;
+  ARRAY(struct seam) seam;
+  struct {
+    uint64_t pairs;    /* that doubles could not tell apart */
+    uint64_t straddle; /* of these, each reaches the other's plane */
+    uint64_t seams;    /* crossings along an edge */
+  } counts;
+};
+
+/* How a triangle's corners lie to a plane, beyond contact or touching it. */
+struct stance {
+  int behind, before; /* how many corners */
+  int apart;          /* the last corner that does not touch */
+};
+
+static struct stance stance_of(const struct hider *plane,
+                               const struct geom_point p[3]) {
+  struct stance stance = {0, 0, 0};
   for (int k = 0; k < 3; k++) {
     int side = hider_side(plane, p[k]);
-    behind |= side < 0;
-    before |= side > 0;
+    stance.behind += side < 0;
+    stance.before += side > 0;
+    if (side != 0) stance.apart = k;
   }
-  return behind && before;
+  return stance;
 }
+
+static bool straddles(struct stance s) { return s.behind > 0 && s.before > 0; }
+
+/* Two corners touch the plane: the triangle ends there, along a side. */
+static bool ends_there(struct stance s) { return s.behind + s.before == 1; }
 
 /* The sign of the volume of a, b, c, d. */
 static int volume_sign(struct geom_point a, struct geom_point b,
@@ -88,31 +131,169 @@ static int shared_corners(const struct geom_point f[3],
   return shared;
 }
 
-bool pierce_pair(const struct sheet *sheet, const struct hider *hf, uint32_t f,
-                 uint32_t g, struct pierce_segment *segment,
-                 struct pierce_counts *counts) {
+/* Triangles f and g straddle each other's planes: the segment they share. */
+static bool find_segment(const struct sheet *sheet, uint32_t f, uint32_t g,
+                         const struct hider *hf, const struct hider *hg,
+                         struct pierce_segment *segment) {
   struct ends ends = {0};
-  struct geom_point p[3];
-  struct hider hg;
-  if (sheet->triangle.item[f].face == sheet->triangle.item[g].face)
-    return false;
-  counts->pairs++;
-  for (int k = 0; k < 3; k++)
-    p[k] = sheet->point.item[sheet->triangle.item[g].point[k]];
-  if (!straddles(hf, p)) return false;
-  hider_init(&hg, sheet, g);
-  if (!straddles(&hg, hf->p)) return false;
-  counts->straddle++;
-  if (shared_corners(hf->p, p) > 1) return false;
-  find_ends(sheet, f, &hg, &ends);
+  if (shared_corners(hf->p, hg->p) > 1) return false;
+  find_ends(sheet, f, hg, &ends);
   find_ends(sheet, g, hf, &ends);
   if (ends.count < 2 ||
       (ends.low.x == ends.high.x && ends.low.y == ends.high.y))
     return false;
-  counts->segments++;
   *segment = (struct pierce_segment){{f < g ? f : g, f < g ? g : f},
                                      {ends.low, ends.high}};
   return true;
+}
+
+/* ---- Crossing along an edge -------------------------------------------------- */
+
+static struct seam_side seam_edge(const struct sheet *sheet, uint32_t triangle,
+                                  struct stance stance) {
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  uint32_t i = p[(stance.apart + 1) % 3], j = p[(stance.apart + 2) % 3];
+  return (struct seam_side){i < j ? i : j, i < j ? j : i, triangle};
+}
+
+static int seam_sign(struct stance stance) {
+  return stance.behind > 0 ? SEAM_BEHIND : SEAM_BEFORE;
+}
+
+static int compare_seam_sides(struct seam_side a, struct seam_side b) {
+  if (a.j != b.j) return a.j < b.j ? -1 : 1;
+  return (a.i > b.i) - (a.i < b.i);
+}
+
+/* Triangle f ends on the plane of g, which straddles f's or ends on it. */
+static bool add_seam(struct pierce *pierce, uint32_t f, struct stance sf,
+                     uint32_t g, struct stance sg) {
+  struct seam seam = {{seam_edge(pierce->sheet, f, sf), {g, SHEET_NONE, g}},
+                      seam_sign(sf)};
+  if (ends_there(sg)) {
+    seam.side[1] = seam_edge(pierce->sheet, g, sg);
+    seam.signs |= seam_sign(sg) << 2;
+  }
+  if (compare_seam_sides(seam.side[0], seam.side[1]) > 0) {
+    struct seam_side swap = seam.side[0];
+    seam.side[0] = seam.side[1];
+    seam.side[1] = swap;
+    seam.signs = (seam.signs >> 2) | ((seam.signs & 3) << 2);
+  }
+  return ARRAY_PUSH(&pierce->seam, seam);
+}
+
+static int compare_seams(const void *a, const void *b, void *user) {
+  const struct seam *s = a, *t = b;
+  int order = compare_seam_sides(s->side[0], t->side[0]);
+  (void)user;
+  return order != 0 ? order : compare_seam_sides(s->side[1], t->side[1]);
+}
+
+/* The part of edge i-j that triangle g covers on the page. */
+static bool clip_to_triangle(const struct sheet *sheet, struct seam_side edge,
+                             uint32_t g, struct geom_point end[2]) {
+  const uint32_t *t = sheet->triangle.item[g].point;
+  const struct geom_point corner[3] = {sheet->point.item[t[0]],
+                                       sheet->point.item[t[1]],
+                                       sheet->point.item[t[2]]},
+                          p = sheet->point.item[edge.i],
+                          q = sheet->point.item[edge.j];
+  struct hidden_part part;
+  if ((sheet->triangle_flags[g] & SHEET_FLAT) ||
+      !hide_by_outline(corner, p, q, &part))
+    return false;
+  for (int k = 0; k < 2; k++) {
+    struct ratio t_k = k == 0 ? part.from : part.to;
+    end[k] = (struct geom_point){(int32_t)ratio_lerp(t_k, p.x, q.x),
+                                 (int32_t)ratio_lerp(t_k, p.y, q.y),
+                                 ratio_lerp(t_k, p.z, q.z)};
+  }
+  return true;
+}
+
+/* What two edges on one line share: the middle two of their ends. */
+static bool clip_to_edge(const struct sheet *sheet, struct seam_side e,
+                         struct seam_side f, struct geom_point end[2]) {
+  struct geom_point a = sheet->point.item[e.i], b = sheet->point.item[e.j],
+                    c = sheet->point.item[f.i], d = sheet->point.item[f.j], s;
+  if (compare_points(a, b) > 0) {
+    s = a;
+    a = b;
+    b = s;
+  }
+  if (compare_points(c, d) > 0) {
+    s = c;
+    c = d;
+    d = s;
+  }
+  end[0] = compare_points(a, c) > 0 ? a : c;
+  end[1] = compare_points(b, d) < 0 ? b : d;
+  return compare_points(end[0], end[1]) < 0;
+}
+
+/* Where triangles end on a plane from both sides, they cross it there. */
+static bool join_seams(struct pierce *pierce) {
+  size_t n = pierce->seam.count;
+  struct seam *seam = pierce->seam.item;
+  if (!sort_stable(seam, n, sizeof *seam, compare_seams, NULL)) return false;
+  for (size_t i = 0, j; i < n; i = j) {
+    struct seam all = seam[i];
+    struct pierce_segment segment;
+    bool edge_0 = all.side[0].j != SHEET_NONE,
+         edge_1 = all.side[1].j != SHEET_NONE;
+    int needed = (edge_0 ? 3 : 0) | (edge_1 ? 12 : 0);
+    for (j = i + 1; j < n && compare_seams(&seam[i], &seam[j], NULL) == 0; j++)
+      for (int k = 0; k < 2; k++) {
+        all.signs |= seam[j].signs;
+        if (seam[j].side[k].triangle < all.side[k].triangle)
+          all.side[k].triangle = seam[j].side[k].triangle;
+      }
+    if ((all.signs & needed) != needed) continue;
+    if (!(edge_0 && edge_1
+              ? clip_to_edge(pierce->sheet, all.side[0], all.side[1],
+                             segment.end)
+              : clip_to_triangle(pierce->sheet, all.side[edge_0 ? 0 : 1],
+                                 all.side[edge_0 ? 1 : 0].triangle,
+                                 segment.end)) ||
+        (segment.end[0].x == segment.end[1].x &&
+         segment.end[0].y == segment.end[1].y))
+      continue;
+    segment.triangle[0] = all.side[0].triangle < all.side[1].triangle
+                              ? all.side[0].triangle
+                              : all.side[1].triangle;
+    segment.triangle[1] = all.side[0].triangle < all.side[1].triangle
+                              ? all.side[1].triangle
+                              : all.side[0].triangle;
+    pierce->counts.seams++;
+    if (!ARRAY_PUSH(&pierce->segment, segment)) return false;
+  }
+  return true;
+}
+
+/* Asks triangle f, prepared as a hider (a flat one too), and triangle g. */
+static bool ask_pair(struct pierce *pierce, const struct hider *hf, uint32_t f,
+                     uint32_t g) {
+  const struct sheet *sheet = pierce->sheet;
+  struct geom_point p[3];
+  struct hider hg;
+  struct stance sf, sg;
+  struct pierce_segment segment;
+  if (sheet->triangle.item[f].face == sheet->triangle.item[g].face)
+    return true;
+  pierce->counts.pairs++;
+  for (int k = 0; k < 3; k++)
+    p[k] = sheet->point.item[sheet->triangle.item[g].point[k]];
+  sg = stance_of(hf, p);
+  if (!straddles(sg) && !ends_there(sg)) return true;
+  hider_init(&hg, sheet, g);
+  sf = stance_of(&hg, hf->p);
+  if (!straddles(sf) && !ends_there(sf)) return true;
+  pierce->counts.straddle++;
+  if (ends_there(sf)) return add_seam(pierce, f, sf, g, sg);
+  if (ends_there(sg)) return add_seam(pierce, g, sg, f, sf);
+  return !find_segment(sheet, f, g, hf, &hg, &segment) ||
+         ARRAY_PUSH(&pierce->segment, segment);
 }
 
 /* ---- Edges of the sheet ---------------------------------------------------- */
@@ -138,14 +319,14 @@ static int compare_ends(const void *a, const void *b, void *user) {
 }
 
 /* Gives each end its point in the sheet, the same one for the same place. */
-static bool add_points(struct sheet *sheet, const pierce_segments *segments,
+static bool add_points(struct sheet *sheet, const struct pierce *pierce,
                        struct sheet_edge *edge) {
-  size_t n = 2 * segments->count;
+  size_t n = 2 * pierce->segment.count;
   struct loose_end *end = mem_alloc(n, sizeof *end);
   bool done = false;
   if (end == NULL) return false;
   for (size_t i = 0; i < n; i++)
-    end[i] = (struct loose_end){segments->item[i / 2].end[i % 2],
+    end[i] = (struct loose_end){pierce->segment.item[i / 2].end[i % 2],
                                 (uint32_t)(i / 2), (uint32_t)(i % 2)};
   if (!sort_stable(end, n, sizeof *end, compare_ends, NULL)) goto end;
   for (size_t i = 0; i < n; i++) {
@@ -161,17 +342,19 @@ end:
   return done;
 }
 
-bool pierce_add_edges(struct sheet *sheet, pierce_segments *segments) {
-  size_t n = segments->count;
+/* Adds the segments to the sheet as drawable edges, ordered by their
+ * triangles; ends at the same place become one point. */
+static bool add_edges(struct sheet *sheet, struct pierce *pierce) {
+  size_t n = pierce->segment.count;
   struct sheet_edge *edge;
   if (n == 0) return true;
-  if (!sort_stable(segments->item, n, sizeof *segments->item, compare_segments,
-                   NULL) ||
+  if (!sort_stable(pierce->segment.item, n, sizeof *pierce->segment.item,
+                   compare_segments, NULL) ||
       !ARRAY_RESERVE(&sheet->edge, n))
     return false;
   edge = sheet->edge.item + sheet->edge.count;
   for (size_t i = 0; i < n; i++) {
-    const struct pierce_segment *s = &segments->item[i];
+    const struct pierce_segment *s = &pierce->segment.item[i];
     edge[i] = (struct sheet_edge){
         .triangle = {s->triangle[0], s->triangle[1]},
         .source = SHEET_NONE,
@@ -179,7 +362,7 @@ bool pierce_add_edges(struct sheet *sheet, pierce_segments *segments) {
             sheet->triangle.item[s->triangle[0]].face],
         .edge_class = RECTO_EDGE_INTERSECTION};
   }
-  if (!add_points(sheet, segments, edge)) return false;
+  if (!add_points(sheet, pierce, edge)) return false;
   sheet->edge.count += n;
   return true;
 }
@@ -206,14 +389,21 @@ static struct summary summarise(const struct sheet *sheet, uint32_t triangle) {
   return s;
 }
 
-/* A pair stands in several cells; it is asked in the one where the lower left
- * corner of what their boxes share is. */
-static bool is_cell_of_pair(const struct pagegrid *grid, int x, int y,
+/* A pair stands in several cells; it is asked in the first that has a list
+ * and that both boxes meet. */
+static bool is_cell_of_pair(const struct pagegrid *grid, size_t cell,
                             const struct summary *f, const struct summary *g) {
-  int32_t px = page_most(f->box.x0, g->box.x0),
-          py = page_most(f->box.y0, g->box.y0);
-  return pagegrid_cell(px, grid->x0, grid->shift, grid->columns) == x &&
-         pagegrid_cell(py, grid->y0, grid->shift, grid->rows) == y;
+  struct page_box both = {page_most(f->box.x0, g->box.x0),
+                          page_most(f->box.y0, g->box.y0),
+                          page_least(f->box.x1, g->box.x1),
+                          page_least(f->box.y1, g->box.y1)};
+  struct cell_range r = pagegrid_cells(grid, both);
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++) {
+      size_t c = (size_t)y * (size_t)grid->columns + (size_t)x;
+      if (grid->start[c] < grid->start[c + 1]) return c == cell;
+    }
+  return false;
 }
 
 static bool share_an_edge(const struct sheet_triangle *f,
@@ -228,6 +418,7 @@ static bool share_an_edge(const struct sheet_triangle *f,
 struct rough_plane {
   struct geom_point a;
   double nx, ny, nz, ex, ey, ez;
+  double tolerance; /* no corner this near is apart from it */
 };
 
 static struct rough_plane rough_plane_of(const struct sheet *sheet,
@@ -238,16 +429,20 @@ static struct rough_plane rough_plane_of(const struct sheet *sheet,
   double ux = (double)b.x - a.x, uy = (double)b.y - a.y,
          uz = (double)(b.z - a.z), vx = (double)c.x - a.x,
          vy = (double)c.y - a.y, vz = (double)(c.z - a.z);
+  double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz,
+         nz = ux * vy - uy * vx;
   return (struct rough_plane){a,
-                              uy * vz - uz * vy,
-                              uz * vx - ux * vz,
-                              ux * vy - uy * vx,
+                              nx,
+                              ny,
+                              nz,
                               fabs(uy * vz) + fabs(uz * vy),
                               fabs(uz * vx) + fabs(ux * vz),
-                              fabs(ux * vy) + fabs(uy * vx)};
+                              fabs(ux * vy) + fabs(uy * vx),
+                              hide_tolerance_bound(sheet, a, nx, ny, nz)};
 }
 
-/* Do all corners of a triangle lie on one side of the plane, for certain?
+/* Do all corners of a triangle lie on one side of the plane, beyond contact,
+ * for certain?
  * Two roundings of the products, one of the difference, three more in the
  * value: 16 times the unit is room enough. */
 static bool on_one_side(const struct sheet *sheet,
@@ -260,76 +455,67 @@ static bool on_one_side(const struct sheet *sheet,
            z = (double)(p.z - plane->a.z);
     double value = plane->nx * x + plane->ny * y + plane->nz * z;
     double bound = 16 * 0x1p-53 *
-                   (plane->ex * fabs(x) + plane->ey * fabs(y) +
-                    plane->ez * fabs(z));
+                       (plane->ex * fabs(x) + plane->ey * fabs(y) +
+                        plane->ez * fabs(z)) +
+                   plane->tolerance;
     sum += (value > bound) - (value < -bound);
   }
   return sum == 3 || sum == -3;
 }
 
 /* The pairs of summary[0] with the `count` - 1 behind it. */
-static bool pierce_first(const struct sheet *sheet, const struct pagegrid *grid,
-                         int x, int y, const struct summary *summary,
-                         size_t count, pierce_segments *segments,
-                         struct pierce_counts *counts) {
+static bool pierce_first(struct pierce *pierce, const struct pagegrid *grid,
+                         size_t cell, const struct summary *summary,
+                         size_t count) {
+  const struct sheet *sheet = pierce->sheet;
   const struct summary *f = summary;
   struct rough_plane plane = rough_plane_of(sheet, f->triangle);
   struct hider hider;
   bool prepared = false;
   for (size_t i = 1; i < count; i++) {
     const struct summary *g = &summary[i];
-    struct pierce_segment segment;
     if (page_boxes_apart(f->box, g->box) || g->high < f->low ||
         f->high < g->low || on_one_side(sheet, &plane, g->triangle) ||
         share_an_edge(&sheet->triangle.item[f->triangle],
                       &sheet->triangle.item[g->triangle]) ||
-        !is_cell_of_pair(grid, x, y, f, g))
+        !is_cell_of_pair(grid, cell, f, g))
       continue;
     if (!prepared) hider_init(&hider, sheet, f->triangle);
     prepared = true;
-    if (pierce_pair(sheet, &hider, f->triangle, g->triangle, &segment,
-                    counts) &&
-        !ARRAY_PUSH(segments, segment))
-      return false;
+    if (!ask_pair(pierce, &hider, f->triangle, g->triangle)) return false;
   }
   return true;
 }
 
-static bool pierce_cells(const struct sheet *sheet, const struct pagegrid *grid,
-                         pierce_segments *segments,
-                         struct pierce_counts *counts) {
+static bool pierce_cells(struct pierce *pierce, const struct pagegrid *grid) {
   ARRAY(struct summary) summary = {0};
+  size_t cells = pagegrid_cell_count(grid);
   bool done = true;
-  for (int y = 0; y < grid->rows && done; y++)
-    for (int x = 0; x < grid->columns && done; x++) {
-      size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
-      size_t n = grid->start[cell + 1] - grid->start[cell];
-      summary.count = 0;
-      if (n < 2) continue;
-      if (!ARRAY_RESERVE(&summary, n)) {
-        done = false;
-        break;
-      }
-      for (size_t i = 0; i < n; i++)
-        summary.item[i] =
-            summarise(sheet, grid->item[grid->start[cell] + i]);
-      for (size_t i = 0; i + 1 < n && done; i++)
-        done = pierce_first(sheet, grid, x, y, &summary.item[i], n - i,
-                            segments, counts);
-    }
+  for (size_t cell = 0; cell < cells && done; cell++) {
+    const uint32_t *item = grid->item + grid->start[cell];
+    size_t n = grid->start[cell + 1] - grid->start[cell];
+    summary.count = 0;
+    if (n < 2) continue;
+    done = ARRAY_RESERVE(&summary, n);
+    for (size_t i = 0; done && i < n; i++)
+      summary.item[i] = summarise(pierce->sheet, item[i]);
+    for (size_t i = 0; done && i + 1 < n; i++)
+      done = pierce_first(pierce, grid, cell, &summary.item[i], n - i);
+  }
   ARRAY_FREE(&summary);
   return done;
 }
 
 recto_status pierce_all(struct sheet *sheet, const struct pagegrid *grid,
                         struct report *report, recto_error *error) {
-  pierce_segments segments = {0};
-  struct pierce_counts counts = {0};
-  bool done = pierce_cells(sheet, grid, &segments, &counts) &&
-              pierce_add_edges(sheet, &segments);
-  report_int(report, "pierce", "pairs", (int64_t)counts.pairs);
-  report_int(report, "pierce", "straddling", (int64_t)counts.straddle);
-  report_int(report, "pierce", "segments", (int64_t)counts.segments);
-  ARRAY_FREE(&segments);
+  struct pierce pierce = {.sheet = sheet};
+  bool done = pierce_cells(&pierce, grid) && join_seams(&pierce) &&
+              add_edges(sheet, &pierce);
+  report_int(report, "pierce", "pairs", (int64_t)pierce.counts.pairs);
+  report_int(report, "pierce", "straddling", (int64_t)pierce.counts.straddle);
+  report_int(report, "pierce", "along_edges", (int64_t)pierce.counts.seams);
+  report_int(report, "pierce", "segments", (int64_t)pierce.segment.count);
+  ARRAY_FREE(&pierce.segment);
+  ARRAY_FREE(&pierce.seam);
   return done ? RECTO_OK : error_memory(error);
 }

@@ -7,8 +7,9 @@
  */
 #include "visibility/tilemap.h"
 
-#include <math.h>
 #include <string.h>
+
+#include "visibility/hide.h"
 
 /* Cells a triangle stands in, on average: a tile about an edge wide. */
 enum { SPREAD = 4, MANY = 2 };
@@ -117,24 +118,14 @@ static void count_sample(struct tile *tile, const struct corners *corners,
  * tolerance (hide.h), bounded from above, against a bucket's depth: half of
  * it is room enough for the roundings. */
 static bool is_steep(const struct sheet *sheet, const struct corners *corners) {
-  const struct camera *camera = &sheet->camera;
   const struct geom_point *p = corners->p;
   double ux = (double)p[1].x - p[0].x, uy = (double)p[1].y - p[0].y,
          uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
          vy = (double)p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
-  double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz,
-         nz = ux * vy - uy * vx;
-  double third = sheet->z_scale * nz, nearest = 1, length;
-  if (camera->perspective) {
-    struct sheet_axis axis = sheet_view_axis(sheet);
-    third = nz * (sheet->z_scale / camera->d_max) -
-            (nx * (axis.x - p[0].x) + ny * (axis.y - p[0].y) -
-             nz * (double)p[0].z);
-    nearest = 1 / camera->d_min;
-  }
-  length = sheet->units_per_view * (fabs(nx) + fabs(ny)) + fabs(third);
-  return !(fabs(nx) + fabs(ny) + nz + length * camera->contact * nearest <
-           nz * (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1)));
+  double nz = ux * vy - uy * vx;
+  double bound = hide_tolerance_bound(sheet, p[0], uy * vz - uz * vy,
+                                      uz * vx - ux * vz, nz);
+  return !(bound < nz * (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1)));
 }
 
 /* Counts the triangle in the simple tiles it may belong to the front of, or
