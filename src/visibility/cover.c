@@ -73,6 +73,31 @@ bool cover_take(struct cover *cover, const struct geom_line *line,
   return true;
 }
 
+bool cover_keep(struct cover *cover, const struct geom_line *line,
+                const struct geom_line *back, int count) {
+  size_t n = (size_t)count, kept = 0;
+  struct geom_line *copy = arena_alloc(&cover->arena, 2 * n, sizeof *copy);
+  if (copy == NULL) return false;
+  memcpy(copy, line, n * sizeof *copy);
+  memcpy(copy + n, back, n * sizeof *copy);
+  for (size_t i = 0; i < cover->left.count; i++) {
+    struct geom_convex part = cover->left.item[i];
+    uint32_t corners = part.count;
+    for (size_t k = 0; k < n && part.count > 0; k++) {
+      struct geom_convex inside, outside;
+      if (!geom_convex_split(&part, &copy[k], &copy[n + k], &inside, &outside,
+                             &cover->arena))
+        return false;
+      if (outside.count > 0) corners = 0;
+      part = inside;
+    }
+    if (corners != part.count) cover->whole = false;
+    if (part.count > 0) cover->left.item[kept++] = part;
+  }
+  cover->left.count = kept;
+  return true;
+}
+
 bool cover_take_nearer(struct cover *cover, uint32_t g) {
   struct geom_line line[4], back[4];
   struct triangle_plane plane;

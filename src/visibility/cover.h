@@ -30,6 +30,10 @@ USE_RESULT bool cover_take_nearer(struct cover *cover, uint32_t g);
 USE_RESULT bool cover_take(struct cover *cover, const struct geom_line *line,
                            const struct geom_line *back, int count);
 
+/* Keeps only what is left of `count` lines; they are copied. */
+USE_RESULT bool cover_keep(struct cover *cover, const struct geom_line *line,
+                           const struct geom_line *back, int count);
+
 static inline bool cover_is_empty(const struct cover *cover) {
   return cover->left.count == 0;
 }

@@ -19,6 +19,7 @@ struct solver_request {
   void *user;
   int depth_bits;     /* z-buffers: 1 to 32; 0: float64, ties exact */
   bool remove_backs;  /* z-buffers: faces that run clockwise are left out */
+  bool divide_by_box; /* warnock: windows are cut at faces' boxes */
   bool no_coherence;  /* watkins: depth orders are not kept line to line */
 };
 
@@ -37,6 +38,7 @@ struct solver {
 
 extern const struct solver solver_brute;
 extern const struct solver solver_newell;
+extern const struct solver solver_warnock;
 extern const struct solver solver_tiles;
 extern const struct solver solver_painter;       /* by centroid */
 extern const struct solver solver_painter_given; /* the file's order */

@@ -1,0 +1,470 @@
+/* warnock.c - subdivision of the page, in vector mode: windows are divided
+ * until what is in them is simple, and then give clipped fragments and edge
+ * intervals, never pixels.
+ *
+ * A window holds the faces that meet it, nearest first, those that surround it
+ * apart, and the drawable edges that meet it.  It is finished where
+ *   - no drawable edge is in it and no fragments are asked for,
+ *   - no face is in it,
+ *   - few faces are in it, or it is about as small as an edge is long: then
+ *     its own list is solved by pairs, exactly;
+ * otherwise it is divided.  A surrounder takes from its list whatever is
+ * behind it by more than contact explains, at every corner of the window; a
+ * face that surrounds a window is never asked again about its outline below.
+ *
+ * Invariants
+ *   the windows tile the page; a piece of an edge or a face on a window's
+ *   border is joined with its other half again, by parameter (strokes.h) or by
+ *   uniting (region.h), so borders are never drawn;
+ *   what is dropped from a window's list is hidden there by what stays.
+ *
+ * An explicit stack: the lists of a window stand above its parent's and are
+ * forgotten when the stack falls back to it.
+ *
+ * Source  [Warnock1969]; [Rogers1985] ch. 4.
+ */
+#include <string.h>
+
+#include "base/sort.h"
+#include "visibility/cover.h"
+#include "visibility/pierce.h"
+#include "visibility/solver.h"
+#include "visibility/strokes.h"
+#include "visibility/warnock_raster.h"
+#include "visibility/warnock_tests.h"
+
+/* Where a window's lists stand in the pools. */
+struct range {
+  size_t from, to;
+};
+
+struct warnock_window {
+  struct window window;
+  int level;
+  struct range faces, surrounders, edges; /* of the parent */
+};
+
+/* A hidden part of an edge inside one window. */
+struct edge_part {
+  uint32_t edge;
+  struct hidden_part part;
+};
+
+/* A visible piece of a triangle inside one window. */
+struct face_piece {
+  uint32_t triangle;
+  struct geom_convex piece;
+};
+
+struct warnock {
+  const struct sheet *sheet;
+  const struct solver_request *request;
+  ARRAY(struct warnock_window) stack;
+  ARRAY(uint32_t) faces, surrounders, edges; /* the pools */
+  ARRAY(struct edge_part) part;
+  ARRAY(struct face_piece) piece;
+  struct arena arena;        /* of the pieces */
+  struct cover cover;
+  int64_t floor;             /* no smaller window is divided */
+  struct window_counts tests;
+  struct warnock_depth_counts depth;
+  struct hide_counts hide;
+  struct {
+    uint64_t all, no_edge, no_face, one_surrounder, few, floor, divided;
+  } windows;
+};
+
+/* At most so many faces, surrounders included, are solved by pairs. */
+enum { FEW = 12 };
+
+/* ---- Lists ------------------------------------------------------------------------ */
+
+/* The surrounder whose farthest depth in the window is nearest: the front. */
+struct front {
+  uint32_t triangle; /* SHEET_NONE: no surrounder */
+  struct warnock_corners depth;
+};
+
+static void meet_surrounder(struct warnock *w, const struct window *window,
+                            uint32_t t, struct front *front) {
+  struct warnock_corners depth;
+  warnock_corner_depths(w->sheet, t, window, &depth);
+  if (front->triangle == SHEET_NONE || depth.low > front->depth.low) {
+    front->triangle = t;
+    front->depth = depth;
+  }
+}
+
+/* Sorts the parent's faces out for this window: those that meet it and those
+ * that surround it.  They come nearest first, so the rest is behind the front
+ * as soon as one is behind its farthest depth. */
+static bool list_faces(struct warnock *w, struct warnock_window *win,
+                       struct front *front) {
+  struct range faces = win->faces, surrounders = win->surrounders;
+  win->faces.from = w->faces.count;
+  win->surrounders.from = w->surrounders.count;
+  front->triangle = SHEET_NONE;
+  for (size_t i = surrounders.from; i < surrounders.to; i++)
+    meet_surrounder(w, &win->window, w->surrounders.item[i], front);
+  for (size_t i = faces.from; i < faces.to; i++) {
+    uint32_t t = w->faces.item[i];
+    struct geom_point p[3];
+    enum window_class class;
+    bool pushed = true;
+    if (front->triangle != SHEET_NONE &&
+        warnock_nearest(w->sheet, t) < front->depth.low) {
+      w->depth.sorted++;
+      break;
+    }
+    for (int k = 0; k < 3; k++)
+      p[k] = w->sheet->point.item[w->sheet->triangle.item[t].point[k]];
+    class = window_classify(&win->window, p, 3, &w->tests);
+    if (class == WINDOW_SURROUNDING) {
+      pushed = ARRAY_PUSH(&w->surrounders, t);
+      meet_surrounder(w, &win->window, t, front);
+    } else if (class != WINDOW_DISJOINT) {
+      pushed = ARRAY_PUSH(&w->faces, t);
+    }
+    if (!pushed) return false;
+  }
+  for (size_t i = surrounders.from; i < surrounders.to; i++)
+    if (!ARRAY_PUSH(&w->surrounders, w->surrounders.item[i])) return false;
+  win->faces.to = w->faces.count;
+  win->surrounders.to = w->surrounders.count;
+  return true;
+}
+
+/* Drops what is behind the front at every corner of the window. */
+static void drop_hidden(struct warnock *w, struct warnock_window *win,
+                        const struct front *front) {
+  size_t kept = win->faces.from;
+  if (front->triangle == SHEET_NONE) return;
+  for (size_t i = win->faces.from; i < win->faces.to; i++) {
+    uint32_t t = w->faces.item[i];
+    if (!warnock_is_behind(w->sheet, t, &win->window, &front->depth, &w->depth))
+      w->faces.item[kept++] = t;
+  }
+  win->faces.to = w->faces.count = kept;
+  kept = win->surrounders.from;
+  for (size_t i = win->surrounders.from; i < win->surrounders.to; i++) {
+    uint32_t t = w->surrounders.item[i];
+    if (t == front->triangle ||
+        !warnock_is_behind(w->sheet, t, &win->window, &front->depth, &w->depth))
+      w->surrounders.item[kept++] = t;
+  }
+  win->surrounders.to = w->surrounders.count = kept;
+}
+
+static bool list_edges(struct warnock *w, struct warnock_window *win) {
+  struct range edges = win->edges;
+  win->edges.from = w->edges.count;
+  for (size_t i = edges.from; i < edges.to; i++) {
+    uint32_t e = w->edges.item[i];
+    const uint32_t *point = w->sheet->edge.item[e].point;
+    if (window_meets_edge(&win->window, w->sheet->point.item[point[0]],
+                          w->sheet->point.item[point[1]]) &&
+        !ARRAY_PUSH(&w->edges, e))
+      return false;
+  }
+  win->edges.to = w->edges.count;
+  return true;
+}
+
+/* ---- Finished windows -------------------------------------------------------------- */
+
+/* What one triangle hides of one edge inside the window. */
+static bool solve_pair(struct warnock *w, const struct window *window,
+                       uint32_t e, uint32_t t) {
+  const struct sheet *sheet = w->sheet;
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  struct geom_point p = sheet->point.item[edge->point[0]],
+                    q = sheet->point.item[edge->point[1]];
+  struct edge_part part = {.edge = e};
+  struct ratio from, to;
+  if (t == edge->triangle[0] || t == edge->triangle[1] ||
+      !hide_may(sheet, t, p, q, page_box_of_segment(p, q)) ||
+      !hide_edge_by(sheet, t, p, q, &part.part, &w->hide) ||
+      !window_clip(window, p, q, &from, &to))
+    return true;
+  if (ratio_compare(part.part.from, from) < 0) part.part.from = from;
+  if (ratio_compare(to, part.part.to) < 0) part.part.to = to;
+  return ratio_compare(part.part.from, part.part.to) >= 0 ||
+         ARRAY_PUSH(&w->part, part);
+}
+
+/* Each face of the window, clipped to it, less what is nearer. */
+static bool solve_face(struct warnock *w, const struct warnock_window *win,
+                       uint32_t t) {
+  struct geom_line border[8];
+  const struct range *list[2] = {&win->surrounders, &win->faces};
+  if (w->sheet->triangle_flags[t] & SHEET_FLAT) return true;
+  warnock_window_lines(&win->window, border, border + 4);
+  if (!cover_start(&w->cover, t, NULL) ||
+      !cover_keep(&w->cover, border, border + 4, 4))
+    return false;
+  for (int l = 0; l < 2; l++) {
+    const uint32_t *pool = l == 0 ? w->surrounders.item : w->faces.item;
+    for (size_t i = list[l]->from; i < list[l]->to; i++) {
+      uint32_t g = pool[i];
+      if (cover_is_empty(&w->cover)) return true;
+      if (g != t && !(w->sheet->triangle_flags[g] & SHEET_FLAT) &&
+          !cover_take_nearer(&w->cover, g))
+        return false;
+    }
+  }
+  for (size_t i = 0; i < w->cover.left.count; i++) {
+    struct face_piece piece = {.triangle = t};
+    if (!geom_convex_copy(&piece.piece, &w->cover.left.item[i], &w->arena) ||
+        !ARRAY_PUSH(&w->piece, piece))
+      return false;
+  }
+  return true;
+}
+
+/* Solves the window's own lists by pairs. */
+static bool solve_window(struct warnock *w, const struct warnock_window *win) {
+  for (size_t i = win->edges.from; i < win->edges.to; i++) {
+    uint32_t e = w->edges.item[i];
+    for (size_t k = win->surrounders.from; k < win->surrounders.to; k++)
+      if (!solve_pair(w, &win->window, e, w->surrounders.item[k])) return false;
+    for (size_t k = win->faces.from; k < win->faces.to; k++)
+      if (!solve_pair(w, &win->window, e, w->faces.item[k])) return false;
+  }
+  if (!w->request->fragments) return true;
+  for (size_t k = win->surrounders.from; k < win->surrounders.to; k++)
+    if (!solve_face(w, win, w->surrounders.item[k])) return false;
+  for (size_t k = win->faces.from; k < win->faces.to; k++)
+    if (!solve_face(w, win, w->faces.item[k])) return false;
+  return true;
+}
+
+/* ---- Division ------------------------------------------------------------------------ */
+
+/* Where to divide: in the middle, or at a corner of the box of the window's
+ * nearest face where one is inside. */
+static void choose_cut(const struct warnock *w,
+                       const struct warnock_window *win, int32_t *x,
+                       int32_t *y) {
+  const struct window *v = &win->window;
+  *x = (int32_t)(((int64_t)v->x0 + v->x1) / 2);
+  *y = (int32_t)(((int64_t)v->y0 + v->y1) / 2);
+  if (w->request->divide_by_box && win->faces.from < win->faces.to) {
+    struct page_box box =
+        page_box_of_triangle(w->sheet, w->faces.item[win->faces.from]);
+    if (v->x0 < box.x0 && box.x0 < v->x1)
+      *x = box.x0;
+    else if (v->x0 < box.x1 && box.x1 < v->x1)
+      *x = box.x1;
+    if (v->y0 < box.y0 && box.y0 < v->y1)
+      *y = box.y0;
+    else if (v->y0 < box.y1 && box.y1 < v->y1)
+      *y = box.y1;
+  }
+}
+
+static bool divide(struct warnock *w, const struct warnock_window *win) {
+  const struct window *v = &win->window;
+  int32_t x, y;
+  choose_cut(w, win, &x, &y);
+  for (int k = 0; k < 4; k++) {
+    struct warnock_window part = *win;
+    part.window = (struct window){k & 1 ? x : v->x0, k & 2 ? y : v->y0,
+                                  k & 1 ? v->x1 : x, k & 2 ? v->y1 : y};
+    part.level = win->level + 1;
+    if (!ARRAY_PUSH(&w->stack, part)) return false;
+  }
+  w->windows.divided++;
+  return true;
+}
+
+static bool is_small(const struct warnock *w, const struct window *v) {
+  int64_t width = (int64_t)v->x1 - v->x0, height = (int64_t)v->y1 - v->y0;
+  return width < 2 || height < 2 ||
+         (width <= w->floor && height <= w->floor);
+}
+
+static bool take_window(struct warnock *w) {
+  struct warnock_window win = w->stack.item[--w->stack.count];
+  struct front front;
+  size_t faces;
+  w->windows.all++;
+  w->faces.count = win.faces.to;
+  w->surrounders.count = win.surrounders.to;
+  w->edges.count = win.edges.to;
+  if (!list_edges(w, &win)) return false;
+  if (win.edges.from == win.edges.to && !w->request->fragments) {
+    w->windows.no_edge++;
+    return true;
+  }
+  if (!list_faces(w, &win, &front)) return false;
+  drop_hidden(w, &win, &front);
+  faces = win.faces.to - win.faces.from + win.surrounders.to -
+          win.surrounders.from;
+  if (faces == 0) {
+    w->windows.no_face++;
+    return true;
+  }
+  if (win.faces.from == win.faces.to && faces == 1)
+    w->windows.one_surrounder++;
+  else if (faces <= FEW)
+    w->windows.few++;
+  else if (is_small(w, &win.window))
+    w->windows.floor++;
+  else
+    return divide(w, &win);
+  return solve_window(w, &win);
+}
+
+/* ---- What the windows gave ------------------------------------------------------------- */
+
+static bool file_strokes(struct warnock *w, struct map *map) {
+  const struct sheet *sheet = w->sheet;
+  size_t n = w->part.count, i = 0;
+  struct sort_key *key = mem_alloc(2 * n, sizeof *key);
+  struct strokes strokes = {0};
+  bool done = key != NULL && strokes_open_map(map, sheet->edge.count);
+  for (size_t k = 0; done && k < n; k++)
+    key[k] = (struct sort_key){w->part.item[k].edge, (uint32_t)k};
+  if (done) sort_keys(key, key + n, n);
+  for (uint32_t e = 0; done && e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    struct geom_point p = sheet->point.item[edge->point[0]],
+                      q = sheet->point.item[edge->point[1]];
+    if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y)) continue;
+    strokes_start(&strokes);
+    for (; done && i < n && key[i].key == e; i++)
+      done = strokes_hide(&strokes, w->part.item[key[i].value].part);
+    done = done && strokes_file(&strokes, e, map);
+  }
+  mem_free(key);
+  strokes_fini(&strokes);
+  return done;
+}
+
+static int compare_pieces(const void *a, const void *b, void *user) {
+  const struct face_piece *p = a, *q = b;
+  (void)user;
+  return (p->triangle > q->triangle) - (p->triangle < q->triangle);
+}
+
+static bool file_fragments(struct warnock *w, const struct pagegrid *grid,
+                           struct map *map) {
+  struct fragments fragments;
+  geom_pieces piece = {0};
+  size_t n = w->piece.count;
+  bool done = fragments_init(&fragments, w->sheet, grid, true) &&
+              sort_stable(w->piece.item, n, sizeof *w->piece.item,
+                          compare_pieces, NULL);
+  for (size_t i = 0, j; done && i < n; i = j) {
+    piece.count = 0;
+    for (j = i; done && j < n &&
+                w->piece.item[j].triangle == w->piece.item[i].triangle;
+         j++)
+      done = ARRAY_PUSH(&piece, w->piece.item[j].piece);
+    done = done && fragments_add(&fragments, w->piece.item[i].triangle,
+                                 piece.item, piece.count);
+  }
+  done = done && fragments_finish(&fragments, w->request->areas, map);
+  ARRAY_FREE(&piece);
+  fragments_fini(&fragments);
+  return done;
+}
+
+/* ---- The solver -------------------------------------------------------------------------- */
+
+/* All faces, nearest first, and all drawable edges. */
+static bool fill_pools(struct warnock *w) {
+  const struct sheet *sheet = w->sheet;
+  size_t n = sheet->triangle.count;
+  struct sort_key *key = mem_alloc(2 * n, sizeof *key);
+  bool done = key != NULL && ARRAY_RESERVE(&w->faces, n);
+  for (size_t t = 0; done && t < n; t++)
+    key[t] = (struct sort_key){
+        ~sort_key_of_int64(warnock_nearest(sheet, (uint32_t)t)), (uint32_t)t};
+  if (done) sort_keys(key, key + n, n);
+  for (size_t t = 0; done && t < n; t++)
+    if (!(sheet->triangle_flags[key[t].value] & SHEET_FLAT))
+      w->faces.item[w->faces.count++] = key[t].value;
+  mem_free(key);
+  for (size_t e = 0; done && w->request->strokes && e < sheet->edge.count; e++)
+    if (sheet->edge.item[e].edge_class != 0)
+      done = ARRAY_PUSH(&w->edges, (uint32_t)e);
+  return done;
+}
+
+static bool run(struct warnock *w, recto_status *status, recto_error *error) {
+  enum { ASK_EVERY = 4096 };
+  struct warnock_window page;
+  if (!fill_pools(w)) return false;
+  page = (struct warnock_window){
+      warnock_page_window(w->sheet), 0, {0, w->faces.count}, {0, 0},
+      {0, w->edges.count}};
+  w->floor = warnock_edge_length(w->sheet);
+  if (!ARRAY_PUSH(&w->stack, page)) return false;
+  while (w->stack.count > 0) {
+    if (!take_window(w)) return false;
+    if (w->request->progress != NULL && w->windows.all % ASK_EVERY == 0 &&
+        !w->request->progress(w->request->user, 0.5, "subdividing")) {
+      *status = error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+      return false;
+    }
+  }
+  return true;
+}
+
+static void report_windows(const struct warnock *w, struct report *report) {
+  report_int(report, "warnock", "windows", (int64_t)w->windows.all);
+  report_int(report, "warnock", "without_edge", (int64_t)w->windows.no_edge);
+  report_int(report, "warnock", "without_face", (int64_t)w->windows.no_face);
+  report_int(report, "warnock", "one_surrounder",
+             (int64_t)w->windows.one_surrounder);
+  report_int(report, "warnock", "few_faces", (int64_t)w->windows.few);
+  report_int(report, "warnock", "at_the_floor", (int64_t)w->windows.floor);
+  report_int(report, "warnock", "divided", (int64_t)w->windows.divided);
+  report_text(report, "warnock", "division",
+              w->request->divide_by_box ? "box" : "four");
+  report_int(report, "warnock", "settled_by_box", (int64_t)w->tests.box);
+  report_int(report, "warnock", "settled_by_sign", (int64_t)w->tests.sign);
+  report_int(report, "warnock", "settled_by_angle", (int64_t)w->tests.angle);
+  report_int(report, "warnock", "stopped_by_depth_order",
+             (int64_t)w->depth.sorted);
+  report_int(report, "warnock", "dropped_by_corner_depths",
+             (int64_t)w->depth.corners);
+  hide_report(&w->hide, report);
+}
+
+static recto_status solve(struct sheet *sheet,
+                          const struct solver_request *request,
+                          struct map *map, struct report *report,
+                          recto_error *error) {
+  struct warnock w = {.sheet = sheet, .request = request};
+  struct pagegrid grid;
+  recto_status status = RECTO_OK;
+  bool done;
+  if (request->resolution > 0)
+    return warnock_raster_solve(sheet, request, map, report, error);
+  if (!pagegrid_init(&grid, sheet)) return error_memory(error);
+  if (request->intersections)
+    status = pierce_all(sheet, &grid, report, error);
+  if (status == RECTO_OK) {
+    cover_init(&w.cover, sheet);
+    done = run(&w, &status, error) &&
+           (!request->strokes || file_strokes(&w, map)) &&
+           (!request->fragments || file_fragments(&w, &grid, map));
+    if (!done && status == RECTO_OK) status = error_memory(error);
+    cover_fini(&w.cover);
+  }
+  report_windows(&w, report);
+  ARRAY_FREE(&w.stack);
+  ARRAY_FREE(&w.faces);
+  ARRAY_FREE(&w.surrounders);
+  ARRAY_FREE(&w.edges);
+  ARRAY_FREE(&w.part);
+  ARRAY_FREE(&w.piece);
+  arena_fini(&w.arena);
+  pagegrid_fini(&grid);
+  return status;
+}
+
+const struct solver solver_warnock = {RECTO_METHOD_WARNOCK, "warnock", true,
+                                      solve};
