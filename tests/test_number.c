@@ -16,7 +16,11 @@
 #include "tests/comma.h"
 #include "tests/scenes/random.h"
 
+/* As many samples as the tools that slow us down leave time for. */
 static int samples(int count) {
+#ifdef __SANITIZE_ADDRESS__
+  count /= 5;
+#endif
   return getenv("RECTO_VALGRIND") ? count / 100 : count;
 }
 

@@ -44,9 +44,8 @@ size_t mem_peak_bytes(void);
 
 /* Appends a value: false when memory ran out. */
 #define ARRAY_PUSH(array, value)                                               \
-  (ARRAY_RESERVE(array, 1)                                                     \
-       ? ((array)->item[(array)->count++] = (value), true)                     \
-       : false)
+  (ARRAY_RESERVE(array, 1) ? ((array)->item[(array)->count++] = (value), true) \
+                           : false)
 
 #define ARRAY_FREE(array)                                                      \
   do {                                                                         \

@@ -124,6 +124,23 @@ static ptrdiff_t count_significant(const char *text, const char *end) {
   return count;
 }
 
+/* The double nearest to the digits in [first, last), whose last 64 bits are w,
+ * times 10^exponent. */
+static double scale_digits(const char *first, const char *last, uint64_t w,
+                           int64_t exponent) {
+  bool fits = last - first <= DIGITS_SAFE ||
+              count_significant(first, last) <= DIGITS_SAFE;
+  if (fits && w == 0)
+    return 0;
+  if (fits && FLT_EVAL_METHOD == 0 && w <= UINT64_C(1) << 53 &&
+      exponent >= -POWER_OF_TEN_MAX && exponent <= POWER_OF_TEN_MAX)
+    return exponent < 0 ? (double)w / power_of_ten[-exponent]
+                        : (double)w * power_of_ten[exponent];
+  if (fits && exponent >= -POWER_OF_FIVE_MAX && exponent <= POWER_OF_FIVE_MAX)
+    return scale_exactly(w, (int)exponent);
+  return decimal_to_double(first, last, exponent);
+}
+
 const char *number_parse_double(const char *text, const char *end,
                                 double *value) {
   const char *p = text;
@@ -141,7 +158,6 @@ const char *number_parse_double(const char *text, const char *end,
     exponent = fraction - p;
     digits += p - fraction;
   }
-  const char *last = p;
   double magnitude;
   if (digits == 0) {
     p = parse_special(first, end, &magnitude);
@@ -149,21 +165,10 @@ const char *number_parse_double(const char *text, const char *end,
       *value = negative ? -magnitude : magnitude;
     return p;
   }
+  const char *last = p;
   if (p < end && (*p | 0x20) == 'e')
     p = parse_exponent(p, end, &exponent);
-
-  if (digits > DIGITS_SAFE && count_significant(first, last) > DIGITS_SAFE)
-    magnitude = decimal_to_double(first, last, exponent);
-  else if (w == 0)
-    magnitude = 0;
-  else if (FLT_EVAL_METHOD == 0 && w <= UINT64_C(1) << 53 &&
-           exponent >= -POWER_OF_TEN_MAX && exponent <= POWER_OF_TEN_MAX)
-    magnitude = exponent < 0 ? (double)w / power_of_ten[-exponent]
-                             : (double)w * power_of_ten[exponent];
-  else if (exponent >= -POWER_OF_FIVE_MAX && exponent <= POWER_OF_FIVE_MAX)
-    magnitude = scale_exactly(w, (int)exponent);
-  else
-    magnitude = decimal_to_double(first, last, exponent);
+  magnitude = scale_digits(first, last, w, exponent);
   *value = negative ? -magnitude : magnitude;
   return p;
 }

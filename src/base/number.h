@@ -18,8 +18,7 @@ const char *number_parse_double(const char *text, const char *end,
 
 /* Parses [+-]digits.  Returns where it stopped, or NULL when there is none or
  * it does not fit. */
-const char *number_parse_int(const char *text, const char *end,
-                             int64_t *value);
+const char *number_parse_int(const char *text, const char *end, int64_t *value);
 
 /* Parses a whole NUL-terminated string as a number; false if anything is
  * left over. */

@@ -1,6 +1,4 @@
 /* report.c - counts, times and choices gathered for --stats, as JSON. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "base/report.h"
 
 #include <math.h>

@@ -21,8 +21,8 @@ void report_int(struct report *report, const char *section, const char *name,
                 int64_t value);
 void report_add(struct report *report, const char *section, const char *name,
                 int64_t value);
-void report_double(struct report *report, const char *section,
-                   const char *name, double value);
+void report_double(struct report *report, const char *section, const char *name,
+                   double value);
 void report_doubles(struct report *report, const char *section,
                     const char *name, const double *value, size_t count);
 void report_text(struct report *report, const char *section, const char *name,

@@ -39,7 +39,7 @@ static void copy_path(char *to, size_t size, const char *path) {
     memcpy(to, path, length + 1);
     return;
   }
-  memcpy(to, "...", 3);
+  to[0] = to[1] = to[2] = '.';
   memcpy(to + 3, path + length - (size - 4), size - 3);
 }
 

@@ -5,8 +5,6 @@
  * to a device or to a pipe stays in the buffer, which grows, until the stream
  * is finished; memory just stays.
  */
-#define _XOPEN_SOURCE 700
-
 #include "base/stream.h"
 
 #include <errno.h>

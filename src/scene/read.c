@@ -4,8 +4,6 @@
  * with a NUL behind, so that most of their look-ahead needs no comparison
  * with the end.
  */
-#define _DEFAULT_SOURCE
-
 #include "scene/scene.h"
 
 #include <errno.h>

@@ -435,6 +435,14 @@ static recto_status read_statement(struct parser *p, char keyword) {
   }
 }
 
+/* Whether a statement is passed over without a look at what follows. */
+static bool is_ignored(char keyword, char next, bool points_only) {
+  bool is_point = keyword == 'v' && ends_word(next);
+  bool is_other_v =
+      keyword == 'v' && (next == 't' || next == 'n' || next == 'p');
+  return is_other_v || (points_only && !is_point);
+}
+
 static recto_status read_statements(struct parser *p, bool points_only) {
   recto_status status = RECTO_OK;
   while (status == RECTO_OK) {
@@ -444,9 +452,7 @@ static recto_status read_statements(struct parser *p, bool points_only) {
     char keyword = *p->at, next = p->at[1];
     if (keyword == '\n' || keyword == '#')
       finish_statement(p);
-    else if (keyword == 'v' && (next == 't' || next == 'n' || next == 'p'))
-      skip_line(p, true);
-    else if (points_only && !(keyword == 'v' && ends_word(next)))
+    else if (is_ignored(keyword, next, points_only))
       skip_line(p, true);
     else if (ends_word(next))
       status = read_statement(p, keyword);

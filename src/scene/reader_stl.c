@@ -54,11 +54,12 @@ static recto_status read_batch(struct scene *scene, const char *record,
                                recto_error *error) {
   struct scene_point point[3 * BATCH];
   uint64_t hash[3 * BATCH];
-  for (size_t i = 0; i < 3 * count; i++) {
-    read_corner(record + RECORD_SIZE * (i / 3) + 12 + 12 * (i % 3), &point[i]);
-    hash[i] = positions_hash(&point[i]);
-    positions_prefetch(positions, hash[i]);
-  }
+  for (size_t i = 0; i < count; i++, record += RECORD_SIZE)
+    for (size_t k = 3 * i; k < 3 * i + 3; k++) {
+      read_corner(record + 12 * (1 + k - 3 * i), &point[k]);
+      hash[k] = positions_hash(&point[k]);
+      positions_prefetch(positions, hash[k]);
+    }
   recto_status status = RECTO_OK;
   for (size_t i = 0; i < count && status == RECTO_OK; i++) {
     const struct scene_point *p = &point[3 * i];

@@ -41,7 +41,7 @@ struct scene {
   uint32_t current_group;          /* what scene_add_* add to */
   uint32_t *group_slot;            /* finds groups by name: see scene.c */
   size_t group_slot_count;
-  double up[3];                    /* what the format means by up */
+  double up[3]; /* what the format means by up */
 };
 
 void scene_init(struct scene *scene);
@@ -62,19 +62,19 @@ USE_RESULT recto_status scene_use_group(struct scene *scene, const char *name,
 /* ---- Reading -------------------------------------------------------------
  * Warnings: a bad element is skipped, reported and counted, never fatal. */
 enum scene_fault {
-  SCENE_FAULT_NOT_FINITE,     /* NaN or infinite coordinate */
-  SCENE_FAULT_INDEX,          /* index out of range */
-  SCENE_FAULT_FEW_CORNERS,    /* fewer than three distinct corners */
-  SCENE_FAULT_ZERO_AREA,      /* corners on one line */
-  SCENE_FAULT_BOW_TIE,        /* sides of a polygon cross (kept, warned) */
-  SCENE_FAULT_WARPED,         /* not planar (kept, counted, not warned) */
-  SCENE_FAULT_SYNTAX,         /* an element that cannot be parsed */
+  SCENE_FAULT_NOT_FINITE,  /* NaN or infinite coordinate */
+  SCENE_FAULT_INDEX,       /* index out of range */
+  SCENE_FAULT_FEW_CORNERS, /* fewer than three distinct corners */
+  SCENE_FAULT_ZERO_AREA,   /* corners on one line */
+  SCENE_FAULT_BOW_TIE,     /* sides of a polygon cross (kept, warned) */
+  SCENE_FAULT_WARPED,      /* not planar (kept, counted, not warned) */
+  SCENE_FAULT_SYNTAX,      /* an element that cannot be parsed */
   SCENE_FAULT_COUNT
 };
 
 struct diagnostics {
-  const char *file;           /* as the user wrote it, "-" for stdin */
-  recto_warning_fn warning;   /* NULL: silent */
+  const char *file;         /* as the user wrote it, "-" for stdin */
+  recto_warning_fn warning; /* NULL: silent */
   void *user;
   unsigned long count[SCENE_FAULT_COUNT];
   unsigned long settled[SCENE_FAULT_COUNT]; /* count at the last _finish */
