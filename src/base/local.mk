@@ -8,4 +8,5 @@ librecto_core_la_SOURCES += \
   %D%/sort.c %D%/sort.h \
   %D%/status.c %D%/status.h \
   %D%/stream.c %D%/stream.h \
+  %D%/tolerance.h \
   %D%/vocabulary.c
