@@ -23,4 +23,9 @@ librecto_core_la_SOURCES += \
   %D%/tilemap.c %D%/tilemap.h \
   %D%/tiles.c \
   %D%/trace.c %D%/trace.h \
+  %D%/warnock.c \
+  %D%/warnock_raster.c %D%/warnock_raster.h \
+  %D%/warnock_sample.c %D%/warnock_sample.h \
+  %D%/warnock_tests.c %D%/warnock_tests.h \
+  %D%/window.c %D%/window.h \
   %D%/zbuffer.c %D%/zbuffer.h

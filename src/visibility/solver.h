@@ -21,6 +21,7 @@ struct solver_request {
   bool remove_backs;  /* z-buffers: faces that run clockwise are left out */
   bool divide_by_box; /* warnock: windows are cut at faces' boxes */
   bool no_coherence;  /* watkins: depth orders are not kept line to line */
+  int subpixels;      /* warnock in pixels: K x K averaged in each; 0: none */
 };
 
 struct solver {
