@@ -22,6 +22,8 @@
 #include "base/number.h"
 #include "scene/limit.h"
 
+enum { DIGITS_MAX = 12 }; /* of an index that may be in range */
+
 enum name_kind { NAME_OBJECT, NAME_GROUP, NAME_MATERIAL, NAME_COUNT };
 
 struct name {
@@ -271,7 +273,6 @@ static recto_status use_group(struct parser *p) {
  * stay out of range: the sum of so many digits may have gone round. */
 static inline const char *parse_index(const char *at, const char *end,
                                       int64_t *index) {
-  enum { DIGITS_MAX = 12 };
   static const int64_t beyond = INT64_C(1) << 40;
   bool negative = *at == '-';
   if (*at == '-' || *at == '+')
@@ -313,6 +314,32 @@ static recto_status resolve_rare_index(struct parser *p, int64_t index,
   return RECTO_OK;
 }
 
+/* Reads corners for as long as they are plain: a point seen so far counted
+ * from the first, blanks, no faults, all on one line.  Nearly all are; what
+ * follows is left to read_corners. */
+static bool read_plain_corners(struct parser *p) {
+  const char *at = p->at;
+  uint64_t seen = p->seen;
+  uint32_t before = (uint32_t)p->first - 1;
+  for (;;) {
+    while (*at == ' ')
+      at++;
+    uint64_t index = 0;
+    const char *stop = digits_gather(at, p->end, &index);
+    if (stop - at > DIGITS_MAX || index - 1 >= seen)
+      break;
+    if (*stop == '/')
+      stop = skip_other_indices(stop);
+    if (!ends_word(*stop))
+      break;
+    if (!ARRAY_PUSH(&p->corner, before + (uint32_t)index))
+      return false;
+    at = stop;
+  }
+  p->at = at;
+  return true;
+}
+
 /* The corners of the statement into p->corner; *broken where they cannot be
  * parsed, *missing where a point is not there: *first_missing is then its
  * index. */
@@ -321,6 +348,8 @@ static recto_status read_corners(struct parser *p, bool *broken, bool *missing,
   *broken = false;
   *missing = false;
   p->corner.count = 0;
+  if (!read_plain_corners(p))
+    return error_memory(p->error);
   for (skip_blanks(p); !is_at_end_of_line(p); skip_blanks(p)) {
     int64_t index;
     const char *stop = parse_index(p->at, p->end, &index);
