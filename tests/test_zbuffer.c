@@ -20,10 +20,7 @@ static const struct solver *const both[] = {&solver_zbuffer,
 
 /* ---- Frames ------------------------------------------------------------- */
 
-static bool draws_all(const void *user, uint32_t facet) {
-  const struct sheet *sheet = user;
-  return (sheet->triangle_flags[facet] & SHEET_FLAT) == 0;
-}
+static const struct solver_request plain = {.threads = 1};
 
 /* Both frames of a sheet: the triangle seen in each pixel. */
 struct frames {
@@ -39,7 +36,7 @@ static void scan_frame(struct frames *frames, const struct sheet *sheet,
   size_t columns = (size_t)frames->whole.grid.columns;
   assert_int_equal(raster_init(&one, sheet, lines, bits, false, NULL),
                    RECTO_OK);
-  assert_true(scanline_init(&scanline, &one, facets, draws_all, sheet));
+  assert_true(scanline_init(&scanline, &one, facets, &plain));
   for (int32_t line = lines; line-- > 0;) {
     raster_clear_line(&one, line);
     assert_true(scanline_enter(&scanline, line));
@@ -55,15 +52,13 @@ static void scan_frame(struct frames *frames, const struct sheet *sheet,
 
 static void draw_frames(struct frames *frames, const struct sheet *sheet,
                         int lines, int bits) {
-  const struct solver_request request = {.threads = 1};
   struct facets facets;
   int64_t covered = 0;
   assert_true(facets_init(&facets, sheet));
   assert_int_equal(raster_init(&frames->whole, sheet, lines, bits, true, NULL),
                    RECTO_OK);
   assert_int_equal(
-      zbuffer_draw(&frames->whole, &facets, &request, &covered, NULL),
-      RECTO_OK);
+      zbuffer_draw(&frames->whole, &facets, &plain, &covered, NULL), RECTO_OK);
   frames->pixels = (size_t)lines * (size_t)frames->whole.grid.columns;
   frames->scanned = mem_alloc(frames->pixels, sizeof *frames->scanned);
   scan_frame(frames, sheet, &facets, lines, bits);
@@ -217,7 +212,7 @@ static void active_pairs_are_as_listed(void **state) {
   pixels_sheet(&sheet, &pixels_pierced_rectangle);
   assert_true(facets_init(&facets, &sheet));
   assert_int_equal(raster_init(&raster, &sheet, 32, 0, false, NULL), RECTO_OK);
-  assert_true(scanline_init(&scanline, &raster, &facets, draws_all, &sheet));
+  assert_true(scanline_init(&scanline, &raster, &facets, &plain));
   for (int32_t line = 31; line >= 0; line--) {
     const struct pair *pair = scanline.pair.item;
     raster_clear_line(&raster, line);

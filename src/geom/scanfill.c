@@ -83,38 +83,13 @@ static int128 exact_x(const struct scan_edge *edge,
              (edge->x1 - edge->x0);
 }
 
-/* The first column whose centre is right of the edge, or on it where `on`
- * columns count. */
-static int32_t find_column(const struct scan_edge *edge,
-                           const struct scan_grid *grid, bool on) {
-  double x = edge->x - 0.5;
-  int32_t near;
-  if (!(x > -1))
-    return 0;
-  if (x > grid->columns)
-    return grid->columns;
-  near = (int32_t)(x + 0.5); /* the nearest column centre, or -0 */
-  if (x + edge->slack < near) {
-    /* surely left of it */
-  } else if (x - edge->slack > near) {
-    near++;
-  } else {
-    int128 at = (int128)(near * grid->x_step + grid->x_step / 2) *
-                (edge->y1 - edge->y0);
-    int128 edge_at = exact_x(edge, grid);
-    near += at < edge_at || (at == edge_at && !on);
-  }
-  return near < grid->columns ? near : grid->columns;
-}
-
-int32_t scan_edge_column(const struct scan_edge *edge,
-                         const struct scan_grid *grid) {
-  return find_column(edge, grid, true);
-}
-
-int32_t scan_edge_column_past(const struct scan_edge *edge,
-                              const struct scan_grid *grid) {
-  return find_column(edge, grid, false);
+int32_t scan_edge_column_exact(const struct scan_edge *edge,
+                               const struct scan_grid *grid, int32_t near,
+                               bool on) {
+  int128 at =
+      (int128)(near * grid->x_step + grid->x_step / 2) * (edge->y1 - edge->y0);
+  int128 edge_at = exact_x(edge, grid);
+  return near + (at < edge_at || (at == edge_at && !on));
 }
 
 int scan_edge_compare_x(const struct scan_edge *a, const struct scan_edge *b,

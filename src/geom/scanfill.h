@@ -87,12 +87,39 @@ static inline void scan_edge_step(struct scan_edge *edge, bool down) {
   edge->dy--;
 }
 
+/* See scan_edge_column: where the centre of column `near` may lie on the edge.
+ * on  such a column counts */
+int32_t scan_edge_column_exact(const struct scan_edge *edge,
+                               const struct scan_grid *grid, int32_t near,
+                               bool on);
+
+static inline int32_t scan_edge_find_column(const struct scan_edge *edge,
+                                            const struct scan_grid *grid,
+                                            bool on) {
+  double x = edge->x - 0.5;
+  int32_t near;
+  if (!(x > -1))
+    return 0;
+  if (x > grid->columns)
+    return grid->columns;
+  near = (int32_t)(x + 0.5); /* of the nearest centre, or -0 */
+  if (x - edge->slack > near)
+    near++;
+  else if (x + edge->slack >= near)
+    near = scan_edge_column_exact(edge, grid, near, on);
+  return near < grid->columns ? near : grid->columns;
+}
+
 /* The first column, 0 to grid->columns, whose centre is not left of the edge;
  * the first whose centre is right of it.  Exact. */
-int32_t scan_edge_column(const struct scan_edge *edge,
-                         const struct scan_grid *grid);
-int32_t scan_edge_column_past(const struct scan_edge *edge,
-                              const struct scan_grid *grid);
+static inline int32_t scan_edge_column(const struct scan_edge *edge,
+                                       const struct scan_grid *grid) {
+  return scan_edge_find_column(edge, grid, true);
+}
+static inline int32_t scan_edge_column_past(const struct scan_edge *edge,
+                                            const struct scan_grid *grid) {
+  return scan_edge_find_column(edge, grid, false);
+}
 
 /* Orders two edges at the same line by x: <0, 0, >0.  Exact. */
 int scan_edge_compare_x(const struct scan_edge *a, const struct scan_edge *b,

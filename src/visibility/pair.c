@@ -115,7 +115,7 @@ static void draw_levels(const struct pair *pair, struct raster *raster,
   for (int32_t c = first; c < past; c++, z -= pair->dz_x) {
     double within = z < low ? low : z > high ? high : z;
     uint32_t here = (uint32_t)(within * scale) + 1;
-    if (here <= level[c])
+    if (here < level[c] || (here == level[c] && seen[c] < pair->facet))
       continue;
     level[c] = here;
     seen[c] = pair->facet;

@@ -9,6 +9,46 @@
 
 #define ASK_EVERY 64 /* lines between two questions whether to go on */
 
+/* The line a facet starts at from the top, or -1 where it covers none. */
+static int32_t top_line(const struct raster *raster,
+                        const struct facets *facets, uint32_t facet) {
+  const uint32_t *corner, *side;
+  int32_t low = INT32_MAX, high = 0;
+  uint32_t count = facet_outline(facets, raster->sheet, facet, &corner, &side);
+  for (uint32_t k = 0; k < count; k++) {
+    int32_t line = raster->point[corner[k]].line;
+    if (line < low)
+      low = line;
+    if (line > high)
+      high = line;
+  }
+  return low == high ? -1 : high - 1;
+}
+
+struct sort_key *pixels_buckets(const struct raster *raster,
+                                const struct facets *facets,
+                                const struct solver_request *request, int shift,
+                                size_t *count) {
+  const struct sheet *sheet = raster->sheet;
+  uint32_t all = (uint32_t)sheet->triangle.count;
+  int left_out = SHEET_FLAT | (request->remove_backs ? SHEET_FLIPPED : 0);
+  struct sort_key *key = mem_alloc(2 * (size_t)all, sizeof *key);
+  *count = 0;
+  if (key == NULL)
+    return NULL;
+  for (uint32_t t = 0; t < all; t++) {
+    int32_t top;
+    if ((sheet->triangle_flags[t] & left_out) || facet_of(facets, t) != t)
+      continue;
+    top = top_line(raster, facets, t);
+    if (top >= 0)
+      key[(*count)++] = (struct sort_key){
+          (uint64_t)(raster->grid.lines - 1 - top) >> shift, t};
+  }
+  sort_keys(key, key + *count, *count);
+  return key;
+}
+
 recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
                          const struct solver_request *request,
                          recto_error *error) {

@@ -3,6 +3,7 @@
 #ifndef VISIBILITY_PIXELS_H
 #define VISIBILITY_PIXELS_H
 
+#include "base/sort.h"
 #include "visibility/raster.h"
 #include "visibility/solver.h"
 #include "visibility/spans.h"
@@ -16,14 +17,14 @@ struct pixels {
   uint32_t *above; /* the facets seen on the line before */
 };
 
-/* Is the facet of a triangle drawn at all: it has area, and its back is not
- * removed? */
-static inline bool pixels_draws(const struct sheet *sheet,
-                                const struct solver_request *request,
-                                uint32_t triangle) {
-  unsigned left_out = SHEET_FLAT | (request->remove_backs ? SHEET_FLIPPED : 0u);
-  return (sheet->triangle_flags[triangle] & left_out) == 0;
-}
+/* The facets that are drawn (with area, their backs not removed) and cover a
+ * line, by the band of 2^shift lines, from the top, in which their top line is,
+ * then by their order: the value is the facet, the key the band.
+ * Returns NULL when memory ran out. */
+struct sort_key *pixels_buckets(const struct raster *raster,
+                                const struct facets *facets,
+                                const struct solver_request *request, int shift,
+                                size_t *count);
 
 USE_RESULT recto_status pixels_init(struct pixels *pixels,
                                     const struct raster *raster,

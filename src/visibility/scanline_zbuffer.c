@@ -19,46 +19,15 @@
 
 /* ---- Lists -------------------------------------------------------------- */
 
-/* The line a facet starts at from the top, or -1 where it covers none. */
-static int32_t top_line(const struct scanline *scanline, uint32_t facet) {
-  const struct raster *raster = scanline->raster;
-  const uint32_t *corner, *side;
-  int32_t low = INT32_MAX, high = 0;
-  uint32_t count =
-      facet_outline(scanline->facets, raster->sheet, facet, &corner, &side);
-  for (uint32_t k = 0; k < count; k++) {
-    int32_t line = raster->point[corner[k]].line;
-    if (line < low)
-      low = line;
-    if (line > high)
-      high = line;
-  }
-  return low == high ? -1 : high - 1;
-}
-
 bool scanline_init(struct scanline *scanline, struct raster *raster,
                    const struct facets *facets,
-                   bool (*draws)(const void *user, uint32_t facet),
-                   const void *user) {
-  size_t count = raster->sheet->triangle.count;
+                   const struct solver_request *request) {
   memset(scanline, 0, sizeof *scanline);
   scanline->raster = raster;
   scanline->facets = facets;
-  scanline->bucket = mem_alloc(2 * count, sizeof *scanline->bucket);
-  if (scanline->bucket == NULL)
-    return false;
-  for (uint32_t t = 0; t < count; t++) {
-    int32_t top;
-    if (facet_of(facets, t) != t || !draws(user, t))
-      continue;
-    top = top_line(scanline, t);
-    if (top >= 0)
-      scanline->bucket[scanline->bucket_count++] =
-          (struct sort_key){(uint64_t)(raster->grid.lines - 1 - top), t};
-  }
-  sort_keys(scanline->bucket, scanline->bucket + scanline->bucket_count,
-            scanline->bucket_count);
-  return true;
+  scanline->bucket =
+      pixels_buckets(raster, facets, request, 0, &scanline->bucket_count);
+  return scanline->bucket != NULL;
 }
 
 void scanline_fini(struct scanline *scanline) {
@@ -136,16 +105,6 @@ bool scanline_step(struct scanline *scanline) {
 
 /* ---- The solver --------------------------------------------------------- */
 
-struct drawn {
-  const struct sheet *sheet;
-  const struct solver_request *request;
-};
-
-static bool is_drawn(const void *user, uint32_t facet) {
-  const struct drawn *drawn = user;
-  return pixels_draws(drawn->sheet, drawn->request, facet);
-}
-
 static recto_status walk_lines(struct scanline *scanline, struct pixels *pixels,
                                recto_error *error) {
   recto_status status = RECTO_OK;
@@ -165,13 +124,12 @@ static recto_status walk_lines(struct scanline *scanline, struct pixels *pixels,
 static recto_status scan(struct raster *raster, const struct facets *facets,
                          const struct solver_request *request, struct map *map,
                          struct report *report, recto_error *error) {
-  struct drawn drawn = {raster->sheet, request};
   struct scanline scanline;
   struct pixels pixels;
   recto_status status = pixels_init(&pixels, raster, request, error);
   if (status != RECTO_OK)
     return status;
-  if (!scanline_init(&scanline, raster, facets, is_drawn, &drawn))
+  if (!scanline_init(&scanline, raster, facets, request))
     status = error_memory(error);
   if (status == RECTO_OK)
     status = walk_lines(&scanline, &pixels, error);

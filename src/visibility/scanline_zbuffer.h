@@ -4,6 +4,7 @@
 
 #include "base/sort.h"
 #include "visibility/pair.h"
+#include "visibility/solver.h"
 
 typedef ARRAY(uint32_t) scanline_list;
 
@@ -20,12 +21,10 @@ struct scanline {
   int64_t covered;
 };
 
-/* Sorts the facets that are drawn into their buckets.
- * draws  for each triangle whether it is drawn */
+/* Sorts the facets that are drawn into their buckets. */
 USE_RESULT bool scanline_init(struct scanline *scanline, struct raster *raster,
                               const struct facets *facets,
-                              bool (*draws)(const void *user, uint32_t facet),
-                              const void *user);
+                              const struct solver_request *request);
 void scanline_fini(struct scanline *scanline);
 
 /* Takes the facets that start on the line into the active list. */

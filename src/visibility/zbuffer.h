@@ -7,7 +7,7 @@
 
 /* Puts all facets that are drawn into the frame, which holds all lines.
  * covered  the pixels they cover, hidden or not, are added to it
- * Errors   RECTO_ERROR_CANCELLED. */
+ * Errors   RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED. */
 USE_RESULT recto_status zbuffer_draw(struct raster *raster,
                                      const struct facets *facets,
                                      const struct solver_request *request,
