@@ -16,3 +16,6 @@ unit_tests += %D%/test_ratio
 unit_tests += %D%/test_region
 %C%_test_region_SOURCES = %D%/test_region.c $(hand_rational)
 %C%_test_region_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_convex
+%C%_test_convex_SOURCES = %D%/test_convex.c $(hand_rational)
+%C%_test_convex_CPPFLAGS = $(hand_cppflags)
