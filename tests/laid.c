@@ -69,8 +69,7 @@ size_t laid_count(const struct laid *laid, unsigned edge_class) {
   return count;
 }
 
-/* ---- Points and triangles
- * ------------------------------------------------------ */
+/* ---- Points and triangles ------------------------------------------------ */
 
 static void check_points(const struct laid *laid) {
   const struct sheet *sheet = &laid->sheet;
@@ -100,8 +99,7 @@ static void check_triangles(const struct laid *laid) {
   }
 }
 
-/* ---- Edges
- * ----------------------------------------------------------------------- */
+/* ---- Edges --------------------------------------------------------------- */
 
 static bool has_one_bit(unsigned mask) {
   return mask != 0 && (mask & (mask - 1)) == 0;
@@ -169,8 +167,7 @@ static void check_sides(const struct laid *laid) {
   free(uses);
 }
 
-/* ---- Contours
- * ---------------------------------------------------------------------- */
+/* ---- Contours ------------------------------------------------------------ */
 
 /* A side of a triangle, by its lower point first; the key keeps edges apart
  * from diagonals. */

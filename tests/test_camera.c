@@ -14,8 +14,7 @@
 #include "view/camera.h"
 #include "view/frame.h"
 
-/* ---- Means
- * -------------------------------------------------------------------- */
+/* ---- Means --------------------------------------------------------------- */
 
 static recto_options plain_options(void) {
   recto_options options;
@@ -113,8 +112,7 @@ static void fill_box(struct scene *scene) {
   build_box(scene, vector_of(-1, -2, -3), vector_of(2, 4, 3.5));
 }
 
-/* ---- Directions
- * ----------------------------------------------------------------- */
+/* ---- Directions ---------------------------------------------------------- */
 
 static void assert_axis(const double axis[3], double x, double y, double z) {
   const double wanted[3] = {x, y, z};
@@ -273,9 +271,7 @@ static void an_eye_along_an_axis_is_exact(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Fit
- * ----------------------------------------------------------------------------
- */
+/* ---- Fit ----------------------------------------------------------------- */
 
 /* The drawing is inside the margins, touches two of them, and is centred. */
 static void assert_fits(const struct camera *camera, const struct scene *scene,
@@ -420,9 +416,7 @@ static void a_perspective_direction_takes_the_whole_scene_in(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Depth
- * ----------------------------------------------------------------------------
- */
+/* ---- Depth --------------------------------------------------------------- */
 
 static void an_eye_before_the_scene_cuts_nothing(void **state) {
   (void)state;
@@ -512,9 +506,7 @@ static void an_orthographic_eye_sees_what_is_behind_it_too(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Refusals
- * ---------------------------------------------------------------------------
- */
+/* ---- Refusals ------------------------------------------------------------ */
 
 static void what_makes_no_sense_is_refused(void **state) {
   (void)state;
@@ -586,9 +578,7 @@ static void a_scene_beyond_numbers_is_refused(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Contact
- * ------------------------------------------------------------------------------
- */
+/* ---- Contact ------------------------------------------------------------- */
 
 static void contact_is_a_millionth_of_the_size_unless_told(void **state) {
   (void)state;
@@ -606,9 +596,7 @@ static void contact_is_a_millionth_of_the_size_unless_told(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Thin scenes
- * ----------------------------------------------------------------------------
- */
+/* ---- Thin scenes --------------------------------------------------------- */
 
 static void a_single_wire_fits_from_wherever_it_is_seen(void **state) {
   (void)state;
@@ -649,8 +637,7 @@ static void a_plate_seen_edge_on_fits_by_its_other_extent(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Scale and place
- * -------------------------------------------------------------------------- */
+/* ---- Scale and place ----------------------------------------------------- */
 
 static void powers_of_two_change_no_bit_of_the_page(void **state) {
   (void)state;
@@ -714,9 +701,7 @@ static void units_and_places_move_nothing_on_the_page(void **state) {
     }
 }
 
-/* ---- Matrix
- * --------------------------------------------------------------------------------------
- */
+/* ---- Matrix -------------------------------------------------------------- */
 
 static void the_matrix_is_the_camera(void **state) {
   (void)state;
@@ -744,9 +729,7 @@ static void the_matrix_is_the_camera(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Faults
- * ---------------------------------------------------------------------------------------
- */
+/* ---- Faults -------------------------------------------------------------- */
 
 static void a_failed_allocation_is_told(void **state) {
   (void)state;

@@ -12,8 +12,7 @@
 #include "tests/laid.h"
 #include "tests/scenes/random.h"
 
-/* ---- Invariants
- * ------------------------------------------------------------------ */
+/* ---- Invariants ---------------------------------------------------------- */
 
 static void the_scenes_keep_every_invariant(void **state) {
   (void)state;
@@ -111,8 +110,7 @@ static void an_eye_in_an_odd_place_is_no_trouble(void **state) {
     }
 }
 
-/* ---- Where points fall
- * -------------------------------------------------------------- */
+/* ---- Where points fall --------------------------------------------------- */
 
 /* The sheet point of a scene point, found by walking an edge. */
 static struct sheet_point where(const struct laid *laid, uint32_t point) {
@@ -255,9 +253,7 @@ static void a_noisy_flat_scene_does_not_blow_depth_up(void **state) {
   laid_fini(&laid);
 }
 
-/* ---- Areas
- * ------------------------------------------------------------------------------
- */
+/* ---- Areas --------------------------------------------------------------- */
 
 /* A polygon's area from the corners that its edges have on the sheet. */
 static int64_t outline_area(const struct laid *laid, uint32_t face) {
@@ -376,9 +372,7 @@ static void a_floor_to_the_horizon_is_cut_by_both(void **state) {
   laid_fini(&laid);
 }
 
-/* ---- Clipping
- * ----------------------------------------------------------------------------
- */
+/* ---- Clipping ------------------------------------------------------------ */
 
 static void a_drawing_that_fits_the_page_is_never_cut(void **state) {
   (void)state;
@@ -405,7 +399,7 @@ static void a_drawing_that_fits_the_page_is_never_cut(void **state) {
 static void a_cut_edge_is_cut_once_for_all_who_use_it(void **state) {
   (void)state;
   struct laid laid;
-  fill_large_grid(&laid, 9, true);
+  fill_large_grid(&laid, 29, true);
   laid.options.edges = RECTO_EDGES_ALL;
   laid_out(&laid, true);
   size_t cut = 0;
@@ -517,9 +511,7 @@ static void the_order_of_corners_changes_no_point(void **state) {
   }
 }
 
-/* ---- Wires
- * ----------------------------------------------------------------------------------
- */
+/* ---- Wires --------------------------------------------------------------- */
 
 static void wires_are_edges_segment_by_segment(void **state) {
   (void)state;
@@ -580,8 +572,7 @@ static void wires_not_asked_for_are_not_there(void **state) {
   laid_fini(&laid);
 }
 
-/* ---- Diagonals, welds, warps
- * ------------------------------------------------------------------ */
+/* ---- Diagonals, welds, warps --------------------------------------------- */
 
 static void diagonals_are_no_edges(void **state) {
   (void)state;
@@ -631,9 +622,7 @@ static void warped_faces_are_counted_and_drawn(void **state) {
   laid_fini(&laid);
 }
 
-/* ---- Scale
- * --------------------------------------------------------------------------------------
- */
+/* ---- Scale --------------------------------------------------------------- */
 
 static void powers_of_two_change_no_bit_of_the_sheet(void **state) {
   (void)state;
@@ -673,9 +662,7 @@ static void powers_of_two_change_no_bit_of_the_sheet(void **state) {
   }
 }
 
-/* ---- Faults
- * -------------------------------------------------------------------------------------
- */
+/* ---- Faults -------------------------------------------------------------- */
 
 static void every_failed_allocation_is_told(void **state) {
   (void)state;

@@ -123,8 +123,7 @@ static void crowded_points_have_the_edges_that_a_search_finds(void **state) {
   }
 }
 
-/* ---- Counts ----------------------------------------------------------------
- */
+/* ---- Counts -------------------------------------------------------------- */
 
 static void a_box_has_twelve_edges_of_two_faces_each(void **state) {
   (void)state;
@@ -191,8 +190,7 @@ static void a_fan_of_100000_triangles_is_no_trouble(void **state) {
   }
 }
 
-/* ---- Welding ----------------------------------------------------------------
- */
+/* ---- Welding ------------------------------------------------------------- */
 
 static void an_unwelded_shell_is_stitched_whole(void **state) {
   (void)state;
@@ -282,8 +280,7 @@ edges_that_only_the_weld_makes_whole_are_counted_once(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Natures
- * ----------------------------------------------------------------- */
+/* ---- Natures ------------------------------------------------------------- */
 
 /* Two faces that meet along the z axis at an angle of their normals; the
  * second one's winding is turned where `same_way` is set. */
@@ -442,8 +439,7 @@ static void a_shell_far_from_the_origin_has_the_same_creases(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Angles
- * ------------------------------------------------------------------ */
+/* ---- Angles -------------------------------------------------------------- */
 
 static void right_angles_are_exact_and_have_no_minus_zero(void **state) {
   (void)state;
@@ -468,8 +464,7 @@ static void angles_agree_with_the_mathematical_library(void **state) {
   }
 }
 
-/* ---- Faults
- * ------------------------------------------------------------------- */
+/* ---- Faults -------------------------------------------------------------- */
 
 static void every_failed_allocation_is_told(void **state) {
   (void)state;

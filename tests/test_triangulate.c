@@ -43,8 +43,7 @@ static int64_t area_of(const struct flat *p) {
   return area;
 }
 
-/* ---- The polygon in space --------------------------------------------------
- */
+/* ---- The polygon in space ------------------------------------------------ */
 
 enum pose { POSE_XY, POSE_YZ, POSE_ZX, POSE_TILTED, POSE_COUNT };
 
@@ -167,8 +166,7 @@ static void from_list(struct flat *p, const int *xy, uint32_t count) {
     from_list((p), list, sizeof list / sizeof *list / 2);                      \
   } while (0)
 
-/* ---- Simple polygons
- * ---------------------------------------------------------- */
+/* ---- Simple polygons ----------------------------------------------------- */
 
 static void triangles_and_quadrilaterals_are_covered(void **state) {
   (void)state;
@@ -260,8 +258,7 @@ a_star_that_goes_around_twice_is_not_taken_for_convex(void **state) {
   free(p);
 }
 
-/* ---- Random simple polygons
- * ----------------------------------------------------- */
+/* ---- Random simple polygons ---------------------------------------------- */
 
 static int64_t turn_of(int64_t ax, int64_t ay, int64_t bx, int64_t by,
                        int64_t cx, int64_t cy) {
@@ -355,8 +352,7 @@ static void random_simple_polygons_are_covered(void **state) {
   free(p);
 }
 
-/* ---- Bridges to holes
- * ------------------------------------------------------------ */
+/* ---- Bridges to holes ---------------------------------------------------- */
 
 static void a_hole_on_a_bridge_stays_open(void **state) {
   (void)state;
@@ -382,8 +378,7 @@ static void loops_that_touch_at_a_corner_are_covered(void **state) {
   free(p);
 }
 
-/* ---- What is not simple
- * ------------------------------------------------------------ */
+/* ---- What is not simple -------------------------------------------------- */
 
 static void check_ends(const struct flat *p) {
   struct triangulation a = {0}, b = {0};
@@ -431,8 +426,7 @@ static void random_tangles_end(void **state) {
   free(p);
 }
 
-/* ---- Exactness
- * ----------------------------------------------------------------------- */
+/* ---- Exactness ----------------------------------------------------------- */
 
 /* A corner some units in the last place off a straight side, up or down: no
  * triangle may be the wrong way round, not even by that little. */
@@ -494,8 +488,7 @@ static void powers_of_two_change_nothing(void **state) {
   free(p);
 }
 
-/* ---- Quadrilaterals
- * ------------------------------------------------------------------- */
+/* ---- Quadrilaterals ------------------------------------------------------ */
 
 static bool has_diagonal_from_0(const struct scene_point point[4],
                                 bool *warped) {
@@ -526,6 +519,22 @@ static void the_shorter_diagonal_cuts_a_quadrilateral(void **state) {
   assert_true(has_diagonal_from_0(high, &warped));
 }
 
+/* A warped square, from each of its corners and in both directions. */
+static void of_two_diagonals_as_long_the_same_is_taken(void **state) {
+  (void)state;
+  const struct scene_point square[] = {
+      {0, 0, 0}, {1, 0, 0.25}, {1, 1, 0}, {0, 1, 0.25}};
+  for (uint32_t start = 0; start < 4; start++)
+    for (uint32_t step = 1; step <= 3; step += 2) {
+      struct scene_point point[4];
+      bool warped;
+      for (uint32_t c = 0; c < 4; c++)
+        point[c] = square[(start + step * c) % 4];
+      assert_int_equal(has_diagonal_from_0(point, &warped), start % 2 == 0);
+      assert_true(warped);
+    }
+}
+
 static void a_concave_quadrilateral_is_cut_from_its_hollow(void **state) {
   (void)state;
   bool warped;
@@ -545,9 +554,7 @@ static void a_warped_quadrilateral_is_counted(void **state) {
   assert_false(warped);
 }
 
-/* ---- Faults
- * ---------------------------------------------------------------------------
- */
+/* ---- Faults -------------------------------------------------------------- */
 
 static void a_failed_allocation_is_told(void **state) {
   (void)state;
@@ -581,6 +588,7 @@ int main(void) {
       cmocka_unit_test(turns_of_one_last_place_are_seen),
       cmocka_unit_test(powers_of_two_change_nothing),
       cmocka_unit_test(the_shorter_diagonal_cuts_a_quadrilateral),
+      cmocka_unit_test(of_two_diagonals_as_long_the_same_is_taken),
       cmocka_unit_test(a_concave_quadrilateral_is_cut_from_its_hollow),
       cmocka_unit_test(a_warped_quadrilateral_is_counted),
       cmocka_unit_test(a_failed_allocation_is_told),

@@ -23,8 +23,7 @@
 /* A point with more sides than this above it is a hub. */
 enum { FEW_SIDES = 24 };
 
-/* ---- The sides of all faces, in file order --------------------------------
- */
+/* ---- The sides of all faces, in file order ------------------------------- */
 
 struct walk {
   const struct scene *scene;
@@ -69,8 +68,7 @@ static inline uint32_t upper(const struct walk *walk) {
   return walk->from < walk->to ? walk->to : walk->from;
 }
 
-/* ---- Hubs ------------------------------------------------------------------
- */
+/* ---- Hubs ---------------------------------------------------------------- */
 
 /* A side of a hub. */
 struct side {
@@ -127,8 +125,7 @@ static bool name_hubs(const struct scene *scene, const uint32_t *weld,
   return done;
 }
 
-/* ---- Edges ------------------------------------------------------------------
- */
+/* ---- Edges --------------------------------------------------------------- */
 
 /* The edges of a point that is no hub hang on it as a list. */
 struct lists {

@@ -43,8 +43,7 @@ static recto_status refuse(const struct aim *aim, const char *words) {
   return error_set(aim->error, RECTO_ERROR_ARGUMENT, NULL, 0, "%s", words);
 }
 
-/* ---- Options ----------------------------------------------------------------
- */
+/* ---- Options ------------------------------------------------------------- */
 
 static recto_status check_page(const struct aim *aim) {
   const recto_options *o = aim->options;
@@ -81,8 +80,7 @@ static recto_status check_view(const struct aim *aim) {
   return RECTO_OK;
 }
 
-/* ---- Aim
- * ---------------------------------------------------------------------- */
+/* ---- Aim ----------------------------------------------------------------- */
 
 static void grow_box(double low[3], double high[3],
                      const struct scene_point *point) {
@@ -184,8 +182,7 @@ static struct view_point view_of_point(const struct aim *aim, size_t p) {
   return camera_view(aim->camera, point->x, point->y, point->z);
 }
 
-/* ---- Reach
- * -------------------------------------------------------------------- */
+/* ---- Reach --------------------------------------------------------------- */
 
 static void measure_depth(struct aim *aim) {
   aim->d_low = INFINITY;
@@ -233,8 +230,7 @@ static recto_status set_reach(struct aim *aim) {
   return RECTO_OK;
 }
 
-/* ---- Fit
- * ---------------------------------------------------------------------- */
+/* ---- Fit ----------------------------------------------------------------- */
 
 /* The drawing fills the page inside the margins.  An extent that is only
  * rounding noise does not count; where both are, the scene's size stands in
@@ -304,8 +300,7 @@ static bool is_usable(const struct camera *camera) {
          (!camera->perspective || camera->near_d > 0);
 }
 
-/* ----------------------------------------------------------------------------
- */
+/* -------------------------------------------------------------------------- */
 
 static recto_status aim_and_fit(struct aim *aim) {
   const recto_options *o = aim->options;

@@ -15,11 +15,13 @@ static bool is_silhouette(uint8_t sides) {
   return left != right;
 }
 
-/* The natures of an edge as it is seen.
+/* The natures of an edge as it is seen.  One that a face has twice, a bridge to
+ * a hole or a spike, lies within that face.
  * still  those that do not depend on the camera */
 static unsigned natures_of(const struct topology_edge *edge, unsigned still,
                            uint8_t sides) {
-  if (edge->uses != 2 || !is_silhouette(sides))
+  if (edge->uses != 2 || edge->face[0] == edge->face[1] ||
+      !is_silhouette(sides))
     return still;
   return (still & ~(unsigned)RECTO_EDGE_SMOOTH) | RECTO_EDGE_SILHOUETTE;
 }
@@ -139,8 +141,7 @@ end:
   return status;
 }
 
-/* ---- Wires
- * -------------------------------------------------------------------- */
+/* ---- Wires --------------------------------------------------------------- */
 
 static recto_status add_wire(struct layout *layout, uint32_t wire) {
   const struct scene *scene = layout->scene;

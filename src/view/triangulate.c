@@ -54,8 +54,7 @@ static void offset(const struct polygon *polygon, uint32_t c,
     to[k] -= origin[k];
 }
 
-/* ---- Flatten ----------------------------------------------------------------
- */
+/* ---- Flatten ------------------------------------------------------------- */
 
 /* Twice the area seen along each axis. */
 struct areas {
@@ -173,8 +172,7 @@ static bool is_warped(const struct polygon *polygon,
   return false;
 }
 
-/* ---- Cut --------------------------------------------------------------------
- */
+/* ---- Cut ----------------------------------------------------------------- */
 
 static void add(struct triangulation *triangulation, uint32_t a, uint32_t b,
                 uint32_t c, uint32_t ab, uint32_t bc, uint32_t ca) {
@@ -190,6 +188,33 @@ static double square_distance(const struct polygon *polygon, uint32_t a,
   return vector_dot(to, to);
 }
 
+/* Whether corner 0 or 2 of a quadrilateral is the first of all in x, y, z. */
+static bool is_first_even(const struct polygon *polygon) {
+  uint32_t first = 0;
+  double low[3], at[3];
+  coordinates(polygon, 0, low);
+  for (uint32_t c = 1; c < 4; c++) {
+    coordinates(polygon, c, at);
+    int k = 0;
+    while (k < 2 && at[k] == low[k])
+      k++;
+    if (at[k] >= low[k])
+      continue;
+    first = c;
+    coordinates(polygon, c, low);
+  }
+  return first % 2 == 0;
+}
+
+/* Whether the diagonal from corner 0 is the shorter one, or of two that are as
+ * long the one from the first corner in space: where the face starts and which
+ * way it winds must not matter. */
+static bool is_shorter_from_0(const struct polygon *polygon) {
+  double from_0 = square_distance(polygon, 0, 2);
+  double from_1 = square_distance(polygon, 1, 3);
+  return from_0 < from_1 || (from_0 == from_1 && is_first_even(polygon));
+}
+
 /* Cuts a quadrilateral by a diagonal that leaves area on both its sides; false
  * where there is none. */
 static bool cut_quadrilateral(struct triangulation *triangulation,
@@ -200,7 +225,7 @@ static bool cut_quadrilateral(struct triangulation *triangulation,
   if (!from_0 && !from_1)
     return false;
   if (from_0 && from_1)
-    from_0 = square_distance(polygon, 0, 2) <= square_distance(polygon, 1, 3);
+    from_0 = is_shorter_from_0(polygon);
   if (from_0) {
     add(triangulation, 0, 1, 2, 0, 1, 4);
     add(triangulation, 0, 2, 3, 4, 2, 3);
@@ -376,8 +401,7 @@ static void cut_ears(struct triangulation *triangulation, uint32_t count) {
   add(triangulation, a, b, c, corner[a].side, corner[b].side, corner[c].side);
 }
 
-/* ------------------------------------------------------------------------------
- */
+/* -------------------------------------------------------------------------- */
 
 bool triangulate(struct triangulation *triangulation,
                  const struct scene_point *point, const uint32_t *corner,

@@ -1,0 +1,162 @@
+/* layout_facet.c - what clipping leaves of a triangle of a face. */
+#include "view/layout_facet.h"
+
+#include <stdlib.h>
+
+recto_status layout_diagonal_cut(struct layout *layout,
+                                 struct layout_diagonal *diagonal,
+                                 struct layout_cut *cut) {
+  if (diagonal->cut != SHEET_NONE) {
+    *cut = layout->cut.item[diagonal->cut];
+    return RECTO_OK;
+  }
+  recto_status status =
+      layout_segment(layout, diagonal->from, diagonal->to, cut);
+  if (status != RECTO_OK)
+    return status;
+  diagonal->cut = (uint32_t)layout->cut.count;
+  return ARRAY_PUSH(&layout->cut, *cut) ? RECTO_OK
+                                        : error_memory(layout->error);
+}
+
+/* The cut of a side of a facet, in the side's canonical direction. */
+static recto_status cut_side(struct layout *layout,
+                             const struct layout_facet *facet, int k,
+                             struct layout_cut *cut) {
+  if (facet->side[k] != SHEET_NONE)
+    return layout_edge_cut(layout, facet->side[k], cut);
+  return layout_diagonal_cut(layout, &layout->diagonal.item[facet->diagonal[k]],
+                             cut);
+}
+
+/* The sheet point of corner i of what is left of a facet: its own corner's,
+ * the one that the side which leaves or reaches it was cut at, or a new one
+ * where the paper's corner or its border at the near plane is inside. */
+static recto_status find_corner(struct layout *layout,
+                                const struct layout_facet *facet,
+                                const struct clip_polygon *polygon, int i,
+                                uint32_t *point) {
+  const struct clip_corner *corner = &polygon->corner[i];
+  *point = SHEET_NONE;
+  if (corner->origin != CLIP_CUT) {
+    *point = layout->point_map[facet->point[corner->origin]];
+    return RECTO_OK;
+  }
+  int reached = polygon->corner[i > 0 ? i - 1 : polygon->count - 1].side;
+  bool leaves = corner->side != CLIP_CUT;
+  int side = leaves ? corner->side : reached;
+  if (side != CLIP_CUT) {
+    struct layout_cut cut;
+    recto_status status = cut_side(layout, facet, side, &cut);
+    if (status != RECTO_OK)
+      return status;
+    *point = cut.point[leaves != facet->forward[side]];
+  }
+  /* A side of which a single point is left has no cut either. */
+  return *point == SHEET_NONE ? layout_new_point(layout, corner->at, point)
+                              : RECTO_OK;
+}
+
+static uint32_t edge_of(const struct layout_facet *facet,
+                        const struct clip_polygon *polygon, int i) {
+  int side = polygon->corner[i].side;
+  return side == CLIP_CUT ? SHEET_NONE : facet->side[side];
+}
+
+/* Adds what is left of a facet as a fan.  Where the grid folded a sliver of it
+ * over or made it flat, that triangle's sides are contours.
+ * Returns the sign of the whole's area on the page, as the face winds, in
+ * *sign. */
+static recto_status add_fan(struct layout *layout,
+                            const struct layout_facet *facet,
+                            const struct clip_polygon *polygon,
+                            const uint32_t *point, int *sign) {
+  int64_t area[CLIP_MOST] = {0};
+  int128 whole = 0;
+  if (!layout_reserve(layout, CLIP_MOST))
+    return error_memory(layout->error);
+  for (int i = 1; i + 1 < polygon->count; i++) {
+    bool last = i + 2 == polygon->count;
+    const uint32_t corner[3] = {point[0], point[i], point[i + 1]};
+    const uint32_t side[3] = {i == 1 ? edge_of(facet, polygon, 0) : SHEET_NONE,
+                              edge_of(facet, polygon, i),
+                              last ? edge_of(facet, polygon, i + 1)
+                                   : SHEET_NONE};
+    area[i] = layout_add_triangle(layout, facet->face, corner, side);
+    whole += area[i];
+  }
+  *sign = geom_sign128(whole);
+  recto_status status = RECTO_OK;
+  for (int i = 1; status == RECTO_OK && i + 1 < polygon->count; i++) {
+    const uint32_t corner[4] = {point[0], point[i], point[i + 1], point[0]};
+    bool odd = area[i] == 0 || geom_sign64(area[i]) != *sign;
+    for (int k = 0; odd && status == RECTO_OK && k < 3; k++)
+      status = layout_contour(layout, corner[k], corner[k + 1]);
+  }
+  return status;
+}
+
+/* Whether nothing of a facet is left but the half unit by which clipping takes
+ * the paper wider than it is. */
+static bool is_all_on_border(const struct layout *layout, const uint32_t *point,
+                             int count) {
+  const struct sheet_point *at = layout->sheet->point.item;
+  for (int axis = 0; axis < 2; axis++) {
+    int32_t first = axis ? at[point[0]].y : at[point[0]].x;
+    bool all = abs(first) == layout->projection.half[axis];
+    for (int i = 1; i < count; i++)
+      all = all && (axis ? at[point[i]].y : at[point[i]].x) == first;
+    if (all)
+      return true;
+  }
+  return false;
+}
+
+/* Adds what is left of a facet; its sides learn where it lies, and its cuts at
+ * the near plane are contours. */
+static recto_status add_polygon(struct layout *layout,
+                                const struct layout_facet *facet,
+                                const struct clip_polygon *polygon) {
+  uint32_t point[CLIP_MOST];
+  for (int i = 0; i < polygon->count; i++) {
+    recto_status status = find_corner(layout, facet, polygon, i, &point[i]);
+    if (status != RECTO_OK)
+      return status;
+  }
+  if (is_all_on_border(layout, point, polygon->count))
+    return RECTO_OK;
+  int sign = 0;
+  recto_status status = add_fan(layout, facet, polygon, point, &sign);
+  for (int i = 0; status == RECTO_OK && i < polygon->count; i++) {
+    const uint32_t end[2] = {point[i],
+                             point[i + 1 < polygon->count ? i + 1 : 0]};
+    if (polygon->corner[i].side != CLIP_CUT)
+      layout_learn_side(layout, facet, polygon->corner[i].side, sign);
+    else if (!is_all_on_border(layout, end, 2))
+      status = layout_contour(layout, end[0], end[1]);
+  }
+  return status;
+}
+
+recto_status layout_cut_facet(struct layout *layout,
+                              const struct layout_facet *facet) {
+  struct view_point corner[3];
+  unsigned any = 0, all = ~0u;
+  for (int k = 0; k < 3; k++) {
+    corner[k] = layout_view(layout, facet->point[k]);
+    any |= layout->outcode[facet->point[k]];
+    all &= layout->outcode[facet->point[k]];
+  }
+  if (all)
+    return RECTO_OK;
+  if (!any) {
+    if (!layout_reserve(layout, 1))
+      return error_memory(layout->error);
+    layout_learn_sides(layout, facet, layout_add_facet(layout, facet));
+    return RECTO_OK;
+  }
+  struct clip_polygon polygon;
+  if (!clip_triangle(&layout->projection, corner, facet->forward, &polygon))
+    return RECTO_OK;
+  return add_polygon(layout, facet, &polygon);
+}

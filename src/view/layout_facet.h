@@ -1,0 +1,84 @@
+/* layout_facet.h - one triangle of a face on its way to the sheet. */
+#ifndef VIEW_LAYOUT_FACET_H
+#define VIEW_LAYOUT_FACET_H
+
+#include "geom/predicate.h"
+#include "view/layout.h"
+
+/* A triangle of a face, before clipping. */
+struct layout_facet {
+  uint32_t face;
+  uint32_t point[3];    /* scene points, welded */
+  uint32_t side[3];     /* topology edges; SHEET_NONE: a diagonal */
+  bool forward[3];      /* whether the side runs in its canonical direction */
+  uint32_t diagonal[3]; /* where the side is one: its number in the face */
+};
+
+/* The side of a facet that is a diagonal, or an edge, learns where it lies. */
+static inline void layout_learn_side(struct layout *layout,
+                                     const struct layout_facet *facet, int k,
+                                     int sign) {
+  uint8_t *sides = facet->side[k] != SHEET_NONE
+                       ? &layout->sides[facet->side[k]]
+                       : &layout->diagonal.item[facet->diagonal[k]].sides;
+  layout_learn(sides, facet->forward[k], sign);
+}
+
+/* Adds a triangle of three sheet points; there is room for it.
+ * Returns twice its signed area on the page, as the face winds. */
+static inline int64_t layout_add_triangle(struct layout *layout, uint32_t face,
+                                          const uint32_t point[3],
+                                          const uint32_t side[3]) {
+  struct sheet *sheet = layout->sheet;
+  const struct sheet_point *at = sheet->point.item;
+  int64_t area = geom_orient2d(at[point[0]], at[point[1]], at[point[2]]);
+  struct sheet_triangle *t = &sheet->triangle.item[sheet->triangle.count++];
+  uint8_t *flags = &layout->flags.item[layout->flags.count++];
+  if (area >= 0) {
+    *t = (struct sheet_triangle){
+        {point[0], point[1], point[2]}, {side[0], side[1], side[2]}, face};
+    *flags = area == 0 ? SHEET_FLAT : 0;
+  } else {
+    *t = (struct sheet_triangle){
+        {point[0], point[2], point[1]}, {side[2], side[1], side[0]}, face};
+    *flags = SHEET_FLIPPED;
+  }
+  return area;
+}
+
+/* Makes room for more triangles. */
+static inline bool layout_reserve(struct layout *layout, size_t extra) {
+  return ARRAY_RESERVE(&layout->sheet->triangle, extra) &&
+         ARRAY_RESERVE(&layout->flags, extra);
+}
+
+/* Adds a facet whose corners are all on the sheet; there is room for it.
+ * Returns the sign of its area on the page, as the face winds. */
+static inline int layout_add_facet(struct layout *layout,
+                                   const struct layout_facet *facet) {
+  const uint32_t *map = layout->point_map;
+  const uint32_t point[3] = {map[facet->point[0]], map[facet->point[1]],
+                             map[facet->point[2]]};
+  return geom_sign64(
+      layout_add_triangle(layout, facet->face, point, facet->side));
+}
+
+/* The sides of a facet learn where it lies. */
+static inline void layout_learn_sides(struct layout *layout,
+                                      const struct layout_facet *facet,
+                                      int sign) {
+  for (int k = 0; k < 3; k++)
+    layout_learn_side(layout, facet, k, sign);
+}
+
+/* Adds what is left of a facet inside of the paper and the near plane; its
+ * sides learn where that lies. */
+USE_RESULT recto_status layout_cut_facet(struct layout *layout,
+                                         const struct layout_facet *facet);
+
+/* The cut of a diagonal of the face at hand. */
+USE_RESULT recto_status layout_diagonal_cut(struct layout *layout,
+                                            struct layout_diagonal *diagonal,
+                                            struct layout_cut *cut);
+
+#endif

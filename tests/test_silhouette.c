@@ -1,0 +1,353 @@
+/* test_silhouette.c - the classes that edges have as they are seen. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/laid.h"
+#include "tests/scenes/random.h"
+
+/* A camera in front: x right, y up, z towards the viewer. */
+static void start_in_front(struct laid *laid) {
+  laid_start(laid);
+  laid->options.azimuth_deg = laid->options.elevation_deg = 0;
+  laid->options.edges = RECTO_EDGES_ALL;
+}
+
+static void start_from_corner(struct laid *laid) {
+  laid_start(laid);
+  laid->options.azimuth_deg = 33;
+  laid->options.elevation_deg = 21;
+  laid->options.edges = RECTO_EDGES_ALL;
+}
+
+/* ---- Solids -------------------------------------------------------------- */
+
+static void a_box_from_a_corner_has_six_silhouettes(void **state) {
+  (void)state;
+  for (int perspective = 0; perspective < 2; perspective++) {
+    struct laid laid;
+    start_from_corner(&laid);
+    laid.options.fov_deg = perspective ? 30 : 0;
+    build_box(&laid.scene, vector_of(0, 0, 0), vector_of(1, 2, 3));
+    laid_out(&laid, true);
+    laid_check(&laid);
+    assert_int_equal(laid_count(&laid, RECTO_EDGE_SILHOUETTE), 6);
+    assert_int_equal(laid_count(&laid, RECTO_EDGE_CREASE), 6);
+    assert_int_equal(laid.sheet.contour.count, 6);
+    laid_fini(&laid);
+  }
+}
+
+/* Front and back are outlines, the four sides are seen edge-on. */
+static void a_box_square_on_has_the_outlines_of_its_ends(void **state) {
+  (void)state;
+  struct laid laid;
+  start_in_front(&laid);
+  build_box(&laid.scene, vector_of(0, 0, 0), vector_of(1, 2, 3));
+  laid_out(&laid, true);
+  laid_check(&laid);
+  assert_int_equal(laid_count(&laid, RECTO_EDGE_SILHOUETTE), 8);
+  assert_int_equal(laid_count(&laid, RECTO_EDGE_CREASE), 4); /* end-on */
+  laid_fini(&laid);
+}
+
+/* At every point of a closed surface without seams silhouettes come in pairs:
+ * they are closed loops. */
+static void silhouettes_of_a_closed_surface_are_closed(void **state) {
+  (void)state;
+  for (unsigned rings = 4; rings <= 30; rings += 13)
+    for (double azimuth = 0; azimuth < 360; azimuth += 41) {
+      struct laid laid;
+      start_from_corner(&laid);
+      scenes_globe(&laid.scene, &laid.options, rings);
+      laid.options.azimuth_deg = azimuth;
+      laid.options.edges = RECTO_EDGE_SILHOUETTE;
+      laid_out(&laid, false);
+      laid_check(&laid);
+      assert_true(laid.sheet.edge.count > 0);
+      uint8_t *degree = calloc(laid.sheet.point.count, 1);
+      for (size_t e = 0; e < laid.sheet.edge.count; e++)
+        for (int k = 0; k < 2; k++)
+          degree[laid.sheet.edge.item[e].point[k]]++;
+      for (size_t p = 0; p < laid.sheet.point.count; p++)
+        assert_int_equal(degree[p] % 2, 0);
+      free(degree);
+      laid_fini(&laid);
+    }
+}
+
+/* ---- The two faces of an edge -------------------------------------------- */
+
+/* Two triangles at the edge from (0, 0, 0) to (0, 4, 0), their third corners
+ * where told; returns the class of that edge. */
+static unsigned class_of_hinge(struct vector left, struct vector right,
+                               bool turned, unsigned edges) {
+  struct laid laid;
+  start_in_front(&laid);
+  laid.options.edges = edges;
+  build_group(&laid.scene, "hinge");
+  build_point(&laid.scene, 0, 0, 0);
+  build_point(&laid.scene, 0, 4, 0);
+  build_vector(&laid.scene, left);
+  build_vector(&laid.scene, right);
+  build_triangle(&laid.scene, 0, 1, 2);
+  if (turned)
+    build_triangle(&laid.scene, 0, 1, 3);
+  else
+    build_triangle(&laid.scene, 1, 0, 3);
+  laid_out(&laid, true);
+  laid_check(&laid);
+  assert_int_equal(laid.topology.edge.item[0].uses, 2);
+  assert_int_equal(laid.sheet.edge.item[0].source, 0);
+  unsigned edge_class = laid.sheet.edge.item[0].edge_class;
+  laid_fini(&laid);
+  return edge_class;
+}
+
+static void winding_does_not_matter(void **state) {
+  (void)state;
+  const unsigned all = RECTO_EDGES_ALL;
+  for (int turned = 0; turned < 2; turned++) {
+    /* one on either side, flat and bent */
+    assert_int_equal(
+        class_of_hinge(vector_of(-3, 1, 0), vector_of(3, 1, 0), turned, all),
+        RECTO_EDGE_SMOOTH);
+    assert_int_equal(
+        class_of_hinge(vector_of(-3, 1, -3), vector_of(3, 1, -3), turned, all),
+        RECTO_EDGE_CREASE);
+    /* both on one side */
+    assert_int_equal(
+        class_of_hinge(vector_of(3, 1, 3), vector_of(3, 1, -3), turned, all),
+        RECTO_EDGE_SILHOUETTE);
+    assert_int_equal(
+        class_of_hinge(vector_of(-3, 1, 3), vector_of(-2, 1, -3), turned, all),
+        RECTO_EDGE_SILHOUETTE);
+    /* one of them edge-on */
+    assert_int_equal(
+        class_of_hinge(vector_of(0, 1, 3), vector_of(3, 1, 0), turned, all),
+        RECTO_EDGE_SILHOUETTE);
+    assert_int_equal(
+        class_of_hinge(vector_of(-3, 1, 0), vector_of(0, 1, -3), turned, all),
+        RECTO_EDGE_SILHOUETTE);
+    /* both of them */
+    assert_int_equal(
+        class_of_hinge(vector_of(0, 1, 3), vector_of(0, 1, -3), turned, all),
+        RECTO_EDGE_SMOOTH);
+  }
+}
+
+static void the_first_class_asked_for_is_the_edge_s(void **state) {
+  (void)state;
+  const struct vector over = vector_of(3, 1, 3), under = vector_of(3, 1, -3);
+  const struct vector left = vector_of(-3, 1, -3), right = vector_of(3, 1, -3);
+  /* a silhouette that is a crease, too */
+  assert_int_equal(class_of_hinge(over, under, false, RECTO_EDGES_ALL),
+                   RECTO_EDGE_SILHOUETTE);
+  assert_int_equal(class_of_hinge(over, under, false, RECTO_EDGE_CREASE),
+                   RECTO_EDGE_CREASE);
+  assert_int_equal(class_of_hinge(over, under, false, RECTO_EDGE_SMOOTH), 0);
+  /* a crease alone */
+  assert_int_equal(class_of_hinge(left, right, false, RECTO_EDGE_SILHOUETTE),
+                   0);
+  /* a silhouette is smooth no more */
+  assert_int_equal(class_of_hinge(vector_of(3, 1, 0.1), vector_of(3, 1, 0),
+                                  true, RECTO_EDGE_SMOOTH),
+                   0);
+}
+
+/* Shuffled faces, turned at random, have the same edges of the same classes. */
+struct known {
+  struct sheet_point end[2];
+  uint16_t edge_class;
+};
+
+static int compare_known(const void *one, const void *other) {
+  return memcmp(one, other, sizeof(struct known));
+}
+
+static struct known *list_known(const struct laid *laid) {
+  const struct sheet *sheet = &laid->sheet;
+  struct known *known = calloc(sheet->edge.count + 1, sizeof *known);
+  for (size_t e = 0; e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    const struct sheet_point *p = &sheet->point.item[edge->point[0]];
+    const struct sheet_point *q = &sheet->point.item[edge->point[1]];
+    bool swap = memcmp(p, q, sizeof *p) > 0;
+    known[e].end[0] = swap ? *q : *p;
+    known[e].end[1] = swap ? *p : *q;
+    known[e].edge_class = edge->edge_class;
+  }
+  qsort(known, sheet->edge.count, sizeof *known, compare_known);
+  return known;
+}
+
+static void turn_faces(struct scene *scene, struct random *random) {
+  for (uint32_t f = 0; f < scene_face_count(scene); f++) {
+    uint32_t *first = scene->corner.item + scene->face_start.item[f];
+    uint32_t *last = scene->corner.item + scene->face_start.item[f + 1] - 1;
+    if (random_below(random, 2))
+      continue;
+    for (; first < last; first++, last--) {
+      uint32_t corner = *first;
+      *first = *last;
+      *last = corner;
+    }
+  }
+}
+
+static void order_and_winding_of_faces_change_no_class(void **state) {
+  (void)state;
+  struct random random = {51};
+  for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
+    struct laid laid[2];
+    for (int i = 0; i < 2; i++) {
+      laid_start(&laid[i]);
+      if (i == 0) {
+        entry->fill(&laid[0].scene, &laid[0].options);
+        laid[0].options.edges = RECTO_EDGES_ALL;
+      } else {
+        laid[1].options = laid[0].options;
+        scenes_copy(&laid[1].scene, &laid[0].scene, 99);
+        turn_faces(&laid[1].scene, &random);
+      }
+      laid_out(&laid[i], false);
+      laid_check(&laid[i]);
+    }
+    struct known *a = list_known(&laid[0]), *b = list_known(&laid[1]);
+    assert_int_equal(laid[0].sheet.edge.count, laid[1].sheet.edge.count);
+    assert_memory_equal(a, b, (laid[0].sheet.edge.count + 1) * sizeof *a);
+    free(a);
+    free(b);
+    laid_fini(&laid[0]);
+    laid_fini(&laid[1]);
+  }
+}
+
+/* ---- Borders, groups, outlines ------------------------------------------- */
+
+static void a_lone_face_has_borders(void **state) {
+  (void)state;
+  struct laid laid;
+  start_from_corner(&laid);
+  build_parallelogram(&laid.scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
+                      vector_of(0, 2, 0));
+  laid_out(&laid, true);
+  laid_check(&laid);
+  assert_int_equal(laid_count(&laid, RECTO_EDGE_BORDER), 4);
+  assert_int_equal(laid.sheet.contour.count, 4);
+  laid_fini(&laid);
+}
+
+static void
+where_groups_meet_is_an_edge_of_the_first_face_s_group(void **state) {
+  (void)state;
+  struct laid laid;
+  start_from_corner(&laid);
+  build_group(&laid.scene, "one");
+  for (int p = 0; p < 6; p++)
+    build_point(&laid.scene, p / 2, p % 2, 0);
+  build_quad(&laid.scene, 0, 2, 3, 1);
+  build_group(&laid.scene, "two");
+  build_quad(&laid.scene, 2, 4, 5, 3);
+  laid.options.edges = RECTO_EDGE_GROUP;
+  laid_out(&laid, false);
+  laid_check(&laid);
+  assert_int_equal(laid.sheet.edge.count, 1);
+  assert_int_equal(laid.sheet.edge.item[0].edge_class, RECTO_EDGE_GROUP);
+  assert_int_equal(laid.sheet.edge.item[0].group, 0);
+  laid_fini(&laid);
+}
+
+/* Whatever is asked for, the same edges are drawn with outlines as without. */
+static void outlines_add_edges_that_are_not_drawn(void **state) {
+  (void)state;
+  for (unsigned edges = 0; edges <= RECTO_EDGES_ALL; edges += 5) {
+    struct laid laid[2];
+    for (int outlines = 0; outlines < 2; outlines++) {
+      start_from_corner(&laid[outlines]);
+      build_box(&laid[outlines].scene, vector_of(0, 0, 0), vector_of(1, 2, 3));
+      build_parallelogram(&laid[outlines].scene, vector_of(4, 0, 0),
+                          vector_of(1, 0, 0), vector_of(0, 1, 1));
+      laid[outlines].options.edges = edges;
+      laid_out(&laid[outlines], outlines);
+      laid_check(&laid[outlines]);
+    }
+    assert_int_equal(laid_count(&laid[0], 0), 0);
+    assert_int_equal(laid[1].sheet.edge.count, 16);
+    for (unsigned bit = 1; bit <= RECTO_EDGE_SMOOTH; bit *= 2)
+      assert_int_equal(laid_count(&laid[0], bit), laid_count(&laid[1], bit));
+    assert_int_equal(laid[0].sheet.contour.count, laid[1].sheet.contour.count);
+    laid_fini(&laid[0]);
+    laid_fini(&laid[1]);
+  }
+}
+
+/* A warped face folds at its diagonal, which is no edge. */
+static void a_fold_at_a_diagonal_is_a_contour(void **state) {
+  (void)state;
+  struct laid laid;
+  start_in_front(&laid);
+  laid.options.azimuth_deg = 80;
+  const double xyz[] = {0, 0, 0, 3, 0, 0, 3, 3, 2, 0, 3, 0};
+  build_polygon(&laid.scene, xyz, 4);
+  bool folded = false;
+  for (double azimuth = 0; azimuth < 180; azimuth += 7) {
+    struct laid turned = laid;
+    turned.options.azimuth_deg = azimuth;
+    laid_out(&turned, true);
+    laid_check(&turned);
+    uint8_t both =
+        turned.sheet.triangle_flags[0] ^ turned.sheet.triangle_flags[1];
+    if (both & SHEET_FLIPPED) {
+      folded = true;
+      assert_int_equal(turned.sheet.contour.count, 5);
+    }
+    sheet_fini(&turned.sheet);
+    topology_fini(&turned.topology);
+  }
+  assert_true(folded);
+  laid_fini(&laid);
+}
+
+/* Of a smooth surface that leaves the page, no edge becomes a silhouette
+ * because its face does. */
+static void clipping_makes_no_silhouettes(void **state) {
+  (void)state;
+  struct laid laid;
+  start_in_front(&laid);
+  build_group(&laid.scene, "grid");
+  for (int row = 0; row <= 30; row++)
+    for (int column = 0; column <= 30; column++)
+      build_point(&laid.scene, 10 * column - 151.3, 10 * row - 147.9,
+                  0.01 * row * column);
+  build_grid(&laid.scene, 0, 30, 30, true);
+  laid.options.fit = RECTO_FIT_NONE;
+  laid.options.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_BORDER;
+  laid_out(&laid, false);
+  laid_check(&laid);
+  assert_true(laid.sheet.clipped_page > 0);
+  assert_int_equal(laid.sheet.edge.count, 0);
+  laid_fini(&laid);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_box_from_a_corner_has_six_silhouettes),
+      cmocka_unit_test(a_box_square_on_has_the_outlines_of_its_ends),
+      cmocka_unit_test(silhouettes_of_a_closed_surface_are_closed),
+      cmocka_unit_test(winding_does_not_matter),
+      cmocka_unit_test(the_first_class_asked_for_is_the_edge_s),
+      cmocka_unit_test(order_and_winding_of_faces_change_no_class),
+      cmocka_unit_test(a_lone_face_has_borders),
+      cmocka_unit_test(where_groups_meet_is_an_edge_of_the_first_face_s_group),
+      cmocka_unit_test(outlines_add_edges_that_are_not_drawn),
+      cmocka_unit_test(a_fold_at_a_diagonal_is_a_contour),
+      cmocka_unit_test(clipping_makes_no_silhouettes),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
