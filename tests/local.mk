@@ -43,6 +43,7 @@ unit_tests += %D%/test_judge
 EXTRA_DIST += %D%/tap.sh
 dist_check_SCRIPTS += \
   %D%/test_cli.sh \
+  %D%/test_documents.sh \
   %D%/test_structure.sh
 
 # Drawings made by hand, for the writers.

@@ -159,6 +159,12 @@ claim "a drawing is made in silence" draws_in_silence
 # A convex solid seen from a corner: nine lines; the outline is one of them.
 claim "the cube is drawn" grep -q '<path d="M' cube.svg
 
+if command -v xmllint >/dev/null; then
+  claim "the drawing is well-formed XML" xmllint --noout cube.svg
+else
+  skip "the drawing is well-formed XML" "no xmllint"
+fi
+
 same_again() { run 0 cube.obj -o again.svg && cmp -s cube.svg again.svg; }
 claim "the same call gives the same bytes" same_again
 

@@ -1,0 +1,150 @@
+#!/bin/bash
+# test_documents.sh - the documents tell the truth: examples run, options and
+# packages agree, what is referred to is there.
+. "$(dirname "$0")/tap.sh"
+
+manual=$srcdir/doc/recto.1
+readme=$srcdir/README.md
+"$recto" --help >"$scratch/help.txt"
+
+same() { diff "$1" "$2" >"$scratch/diff" || { say "$(cat "$scratch/diff")" && false; }; }
+
+# ---- The manual page ------------------------------------------------------
+
+mkdir "$scratch/examples"
+cp "$srcdir"/examples/models/*.obj "$scratch/examples"
+runs() {
+  (cd "$scratch/examples" && PATH=$scratch:$PATH bash -c "$1" >log 2>&1) ||
+    { say "$(head -n 3 "$scratch/examples/log")" && false; }
+}
+ln -s "$recto" "$scratch/recto"
+examples=0
+while IFS= read -r line; do
+  examples=$((examples + 1))
+  claim "the manual's example runs: $line" runs "$line"
+done < <(awk '/^\.EX/ { on = 1 } /^\.EE/ { on = 0 } on && /^recto /' "$manual" |
+  sed 's/\\-/-/g')
+claim "the manual has examples" test "$examples" -ge 4
+
+grep -oE -- '--[a-z-]+' "$scratch/help.txt" | LC_ALL=C sort -u \
+  >"$scratch/options-help"
+sed 's/\\-/-/g' "$manual" | awk '/^\.SH OPTIONS/ { on = 1 }
+  /^\.SH METHODS/ { on = 0 } on && previous == ".TP"; { previous = $0 }' |
+  grep -oE -- '--[a-z-]+' | LC_ALL=C sort -u >"$scratch/options-manual"
+claim "the manual and --help have the same options" \
+  same "$scratch/options-help" "$scratch/options-manual"
+
+sed -n 's/^Methods: //p' "$scratch/help.txt" | tr ' ' '\n' | LC_ALL=C sort \
+  >"$scratch/methods-help"
+awk '/^\.SH/ { on = $2 == "METHODS" }
+  on && /^\.TP/ { getline; gsub(/\\-/, "-"); print $2 }' "$manual" |
+  LC_ALL=C sort >"$scratch/methods-manual"
+claim "the manual and --help have the same methods" \
+  same "$scratch/methods-help" "$scratch/methods-manual"
+
+formats_clean() {
+  test -z "$(LC_ALL=C.UTF-8 man -l --warnings=w "$manual" 2>&1 >/dev/null)"
+}
+if man -l "$manual" >/dev/null 2>&1; then
+  claim "the manual page formats without a warning" formats_clean
+else
+  skip "the manual page formats without a warning" "no man -l"
+fi
+
+# ---- The README -----------------------------------------------------------
+
+claim "the README has two commands" \
+  test "$(grep -c '^\./bootstrap' "$readme")" -eq 2
+claim "one of them is make check" \
+  grep -qx '\./bootstrap && make check' "$readme"
+draws_a_model() {
+  local model
+  model=$(sed -n 's|^\./bootstrap && \./recto \([^ ]*\) -o .*|\1|p' "$readme")
+  test -s "$srcdir/$model" && "$recto" "$srcdir/$model" -o "$scratch/first.svg"
+}
+claim "the other draws a model that is there" draws_a_model
+
+# Every package in the README, and none that is not on the list.
+awk '$1 ~ /^(build|test|dev)$/ { print $2 }' "$srcdir/packages.txt" |
+  LC_ALL=C sort >"$scratch/packages-list"
+awk -F'|' '/^\| Debian package/ { on = 1; getline; next } !/^\|/ { on = 0 }
+  on { gsub(/,/, "", $2); n = split($2, name, " ")
+       for (i = 1; i <= n; i++) print name[i] }' "$readme" |
+  LC_ALL=C sort >"$scratch/packages-readme"
+claim "the README explains the packages of packages.txt" \
+  same "$scratch/packages-list" "$scratch/packages-readme"
+
+# The library example compiles and links as a user would have it.
+awk '/^```c/ { on = 1; next } /^```/ { on = 0 } on' "$readme" \
+  >"$scratch/example.c"
+library_example_builds() {
+  # shellcheck disable=SC2086 # CC may be several words
+  ${CC:-cc} -Wall -Werror -I"$srcdir/src" "$scratch/example.c" \
+    -o "$scratch/example" "$builddir/.libs/librecto.so"
+}
+example_runs() {
+  cp "$srcdir/examples/models/knot.obj" "$scratch/model.obj"
+  (cd "$scratch" && LD_LIBRARY_PATH=$builddir/.libs ./example) &&
+    grep -q '<path' "$scratch/model.svg"
+}
+if test -e "$builddir/.libs/librecto.so" &&
+  ! nm -D "$builddir/.libs/librecto.so" 2>/dev/null | grep -q __asan_init; then
+  claim "the README's program builds against the shared library" \
+    library_example_builds
+  claim "and draws" example_runs
+else
+  skip "the README's program builds against the shared library" \
+    "none without sanitizers was built"
+fi
+
+# ---- References -----------------------------------------------------------
+
+# Names of files in backquotes or links, with a folder or an ending.
+references() {
+  # shellcheck disable=SC2016 # backquotes, not a command
+  grep -ohE '(`|\()[A-Za-z_./0-9-]+(`|\))' "$@" | tr -d '`()' |
+    grep -E '^[a-z]+/|^[A-Za-z0-9]+\.(md|txt|h|c)$' | grep -vE 'NAME|^http'
+}
+# A header named alone is in one of the source's folders.
+is_there() {
+  local place
+  for place in . src src/base src/visibility src/scene tests; do
+    test -e "$srcdir/$place/$1" && return 0
+  done
+  say "not there: $1"
+  return 1
+}
+all_there() {
+  local reference all=0
+  for reference in $(references "$@"); do
+    is_there "$reference" || all=1
+  done
+  return "$all"
+}
+for document in README.md CONTRIBUTING.md; do
+  claim "what $document refers to is there" all_there "$srcdir/$document"
+done
+
+keys_listed() {
+  local key all=0
+  for key in $(grep -rohE '\[[A-Z][A-Za-z]+[0-9]{4}\]' "$srcdir/src" \
+    "$srcdir/backends" "$srcdir/doc" | tr -d '[]' | sort -u); do
+    grep -qF "**[$key]**" "$srcdir/BIBLIOGRAPHY.md" ||
+      { say "not in BIBLIOGRAPHY.md: $key" && all=1; }
+  done
+  return "$all"
+}
+claim "the bibliography has every key that is cited" keys_listed
+claim "in the order of the alphabet" bash -c \
+  "grep -o '^- \*\*\[[A-Za-z0-9]*' '$srcdir/BIBLIOGRAPHY.md' | LC_ALL=C sort -c"
+
+# ---- Pictures -------------------------------------------------------------
+
+picture_is_current() {
+  "$recto" "$srcdir/examples/models/castle.obj" --page 180x140mm \
+    --margin 2mm -o "$scratch/castle.svg" &&
+    same "$srcdir/doc/images/castle.svg" "$scratch/castle.svg"
+}
+claim "the README's picture is what recto draws (else: make images)" \
+  picture_is_current
+finish
