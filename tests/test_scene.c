@@ -296,6 +296,10 @@ static bool judge_crossing(const double (*p)[2], int n) {
   return false;
 }
 
+static bool same_place(const double a[2], const double b[2]) {
+  return a[0] == b[0] && a[1] == b[1];
+}
+
 /* On small whole numbers, where doubles are exact. */
 static void polygons_cross_where_two_sides_do(void **state) {
   struct reading *r = *state;
@@ -307,8 +311,12 @@ static void polygons_cross_where_two_sides_do(void **state) {
     uint32_t n = 3 + random_below(&random, 6);
     r->scene.point.count = 0;
     for (uint32_t k = 0; k < n; k++) {
-      flat[k][0] = random_int(&random, 0, 6);
-      flat[k][1] = random_int(&random, 0, 6);
+      const double *before = flat[k ? k - 1 : 0], *first = flat[0];
+      do {
+        flat[k][0] = random_int(&random, 0, 6);
+        flat[k][1] = random_int(&random, 0, 6);
+      } while ((k > 0 && same_place(flat[k], before)) ||
+               (k == n - 1 && same_place(flat[k], first)));
       add_point(r, flat[k][0], flat[k][1], flat[k][0] * 0.25);
       corner[k] = k;
     }

@@ -1,9 +1,11 @@
 /* bowtie.c - crossing sides, found by a sweep along x.
  *
- * The sides are taken in the order of their left ends.  Those that the sweep
- * has not yet left behind are active, and each new side is tested against
- * them.  Long sides that stay active make this quadratic; the number of tests
- * is bounded, since all that hangs on the answer is a warning.
+ * Most polygons are convex, and one walk around tells: they turn one way only
+ * and go round once.  Of the others, the sides are taken in the order of their
+ * left ends.  Those that the sweep has not yet left behind are active, and
+ * each new side is tested against them.  Long sides that stay active make this
+ * quadratic; the number of tests is bounded, since all that hangs on the
+ * answer is a warning.
  */
 #include "scene/bowtie.h"
 
@@ -21,21 +23,16 @@ enum { FEW_SIDES = 32, TESTS_PER_SIDE = 256 };
 
 /* Room for the sweep, on the stack where the polygon is small. */
 struct sweep {
+  double (*flat)[2]; /* the corners, seen along the axis */
   struct side *side;
   struct sort_key *order, *scratch;
   uint32_t *active;
 };
 
-static bool sides_cross(const struct side *a, const struct side *b) {
-  return fmin(a->left[1], a->right[1]) <= fmax(b->left[1], b->right[1]) &&
-         fmin(b->left[1], b->right[1]) <= fmax(a->left[1], a->right[1]) &&
-         exact_turn(a->left, a->right, b->left) *
-                 exact_turn(a->left, a->right, b->right) <
-             0 &&
-         exact_turn(b->left, b->right, a->left) *
-                 exact_turn(b->left, b->right, a->right) <
-             0;
-}
+static double smaller(double a, double b) { return a < b ? a : b; }
+static double larger(double a, double b) { return a > b ? a : b; }
+
+/* ---- The view ------------------------------------------------------------ */
 
 static int largest(const double part[3]) {
   int axis = part[1] > part[0] ? 1 : 0;
@@ -53,9 +50,9 @@ static double choose_scale(const struct scene *scene, const uint32_t *corner,
   double extent = 0;
   for (size_t i = 1; i < count; i++) {
     const struct scene_point *b = &point[corner[i]];
-    extent = fmax(extent, fabs(b->x / 2 - a->x / 2));
-    extent = fmax(extent, fabs(b->y / 2 - a->y / 2));
-    extent = fmax(extent, fabs(b->z / 2 - a->z / 2));
+    extent = larger(extent, fabs(b->x / 2 - a->x / 2));
+    extent = larger(extent, fabs(b->y / 2 - a->y / 2));
+    extent = larger(extent, fabs(b->z / 2 - a->z / 2));
   }
   int exponent;
   (void)frexp(extent, &exponent);
@@ -108,15 +105,41 @@ static uint64_t key_of_double(double value) {
   return bits >> 63 ? ~bits : bits | UINT64_C(1) << 63;
 }
 
-static void make_sides(const struct scene *scene, const uint32_t *corner,
-                       size_t count, struct sweep *sweep) {
-  int axis = choose_axis(scene, corner, count);
+/* ---- Convex polygons ----------------------------------------------------- */
+
+/* Whether the side from a to b runs to the right, or straight up. */
+static bool runs_right(const double a[2], const double b[2]) {
+  return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
+}
+
+/* Whether all corners turn one way (or not at all) and the sides change
+ * between right and left only twice, so that the turns add up to a full one:
+ * then no side can meet another. */
+static bool is_convex(const double (*flat)[2], size_t count) {
+  int way = 0, changes = 0;
+  const double *a = flat[count - 2], *b = flat[count - 1];
+  bool right = runs_right(a, b);
   for (size_t i = 0; i < count; i++) {
-    size_t next = i + 1 < count ? i + 1 : 0;
+    const double *c = flat[i];
+    int turn = exact_turn(a, b, c);
+    if (turn * way < 0)
+      return false;
+    way = way ? way : turn;
+    changes += runs_right(b, c) != right;
+    right = runs_right(b, c);
+    a = b;
+    b = c;
+  }
+  return changes == 2;
+}
+
+/* ---- The sweep ----------------------------------------------------------- */
+
+static void make_sides(const struct sweep *sweep, size_t count) {
+  for (size_t i = 0; i < count; i++) {
     struct side *side = &sweep->side[i];
-    double from[2], to[2];
-    project(&scene->point.item[corner[i]], axis, from);
-    project(&scene->point.item[corner[next]], axis, to);
+    const double *from = sweep->flat[i];
+    const double *to = sweep->flat[i + 1 < count ? i + 1 : 0];
     bool turned = to[0] < from[0];
     memcpy(side->left, turned ? to : from, sizeof side->left);
     memcpy(side->right, turned ? from : to, sizeof side->right);
@@ -126,8 +149,20 @@ static void make_sides(const struct scene *scene, const uint32_t *corner,
   sort_keys(sweep->order, sweep->scratch, count);
 }
 
+static bool sides_cross(const struct side *a, const struct side *b) {
+  return smaller(a->left[1], a->right[1]) <= larger(b->left[1], b->right[1]) &&
+         smaller(b->left[1], b->right[1]) <= larger(a->left[1], a->right[1]) &&
+         exact_turn(a->left, a->right, b->left) *
+                 exact_turn(a->left, a->right, b->right) <
+             0 &&
+         exact_turn(b->left, b->right, a->left) *
+                 exact_turn(b->left, b->right, a->right) <
+             0;
+}
+
 static bool find_crossing(const struct sweep *sweep, size_t count) {
   size_t active = 0, tests = 0;
+  make_sides(sweep, count);
   for (size_t i = 0; i < count; i++) {
     const struct side *side = &sweep->side[sweep->order[i].value];
     size_t kept = 0;
@@ -148,26 +183,34 @@ static bool find_crossing(const struct sweep *sweep, size_t count) {
   return false;
 }
 
+static bool has_crossing(const struct scene *scene, const uint32_t *corner,
+                         size_t count, const struct sweep *sweep) {
+  int axis = choose_axis(scene, corner, count);
+  for (size_t i = 0; i < count; i++)
+    project(&scene->point.item[corner[i]], axis, sweep->flat[i]);
+  return !is_convex((const double(*)[2])sweep->flat, count) &&
+         find_crossing(sweep, count);
+}
+
 bool bowtie_has_crossing(const struct scene *scene, const uint32_t *corner,
                          size_t count) {
   if (count <= FEW_SIDES) {
+    double flat[FEW_SIDES][2];
     struct side side[FEW_SIDES];
     struct sort_key order[FEW_SIDES], scratch[FEW_SIDES];
     uint32_t active[FEW_SIDES];
-    struct sweep sweep = {side, order, scratch, active};
-    make_sides(scene, corner, count, &sweep);
-    return find_crossing(&sweep, count);
+    struct sweep sweep = {flat, side, order, scratch, active};
+    return has_crossing(scene, corner, count, &sweep);
   }
   struct arena arena = {NULL, 0};
-  struct sweep sweep = {arena_alloc(&arena, count, sizeof *sweep.side),
+  struct sweep sweep = {arena_alloc(&arena, count, sizeof *sweep.flat),
+                        arena_alloc(&arena, count, sizeof *sweep.side),
                         arena_alloc(&arena, count, sizeof *sweep.order),
                         arena_alloc(&arena, count, sizeof *sweep.scratch),
                         arena_alloc(&arena, count, sizeof *sweep.active)};
   bool crossing = false;
-  if (sweep.side && sweep.order && sweep.scratch && sweep.active) {
-    make_sides(scene, corner, count, &sweep);
-    crossing = find_crossing(&sweep, count);
-  }
+  if (sweep.flat && sweep.side && sweep.order && sweep.scratch && sweep.active)
+    crossing = has_crossing(scene, corner, count, &sweep);
   arena_fini(&arena);
   return crossing;
 }

@@ -6,7 +6,8 @@
 
 /* Whether two sides cross properly (not at a corner of either), seen along the
  * axis that shows most of the polygon.
- * corner  of `count` >= 3, indices of points
+ * corner  of `count` >= 3, indices of points, no two neighbouring ones equal in
+ *         position
  * Exact: a crossing that is told is one.  One may be missed where memory ran
  *        out or a polygon is made to be slow: it serves a warning.
  * Cost: of an ordinary polygon, that of sorting its sides. */

@@ -103,8 +103,11 @@ static inline int turn_quickly(double ax, double ay, double bx, double by,
     return 1;
   if (determinant < -bound)
     return -1;
-  /* Lines along an axis are common, and no rounding is in them. */
+  /* Lines along an axis are common, and no rounding is in them; nor is in
+   * sides that share a corner. */
   if ((bx == ax || cy == ay) && (by == ay || cx == ax))
+    return 0;
+  if (cx == bx && cy == by)
     return 0;
   return UNKNOWN;
 }
