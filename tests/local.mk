@@ -83,6 +83,7 @@ include tests/exact.mk
 unit_tests += %D%/test_triangulate
 %C%_test_triangulate_SOURCES = %D%/test_triangulate.c
 include tests/scan.mk
+include tests/warnock.mk
 unit_tests += %D%/test_camera
 %C%_test_camera_SOURCES = %D%/test_camera.c
 %C%_test_camera_LDADD = %D%/scenes/libscenes.la $(LDADD)
@@ -119,3 +120,5 @@ unit_tests += %D%/test_sheet
 unit_tests += %D%/test_silhouette
 %C%_test_silhouette_SOURCES = %D%/test_silhouette.c %D%/laid.c %D%/laid.h
 %C%_test_silhouette_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_api
+%C%_test_api_SOURCES = %D%/test_api.c

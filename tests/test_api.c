@@ -1,0 +1,607 @@
+/* test_api.c - what recto.h promises: options, handles, errors, cancelling,
+ * and outputs that are NULL or whole. */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "base/stream.h"
+#include "recto.h"
+
+/* ---- A cube, made by hand --------------------------------------------------
+ */
+
+static const double cube_point[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},
+                                        {0, 1, 0}, {0, 0, 1}, {1, 0, 1},
+                                        {1, 1, 1}, {0, 1, 1}};
+static const uint32_t cube_face[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7},
+                                         {0, 1, 5, 4}, {1, 2, 6, 5},
+                                         {2, 3, 7, 6}, {3, 0, 4, 7}};
+
+static recto_status add_cube(recto_scene *scene, recto_error *error) {
+  recto_status status = recto_scene_add_group(scene, "cube", error);
+  for (int i = 0; i < 8 && status == RECTO_OK; i++)
+    status = recto_scene_add_point(scene, cube_point[i], NULL, error);
+  for (int i = 0; i < 6 && status == RECTO_OK; i++)
+    status = recto_scene_add_face(scene, cube_face[i], 4, error);
+  return status;
+}
+
+static recto_scene *make_cube(void) {
+  recto_scene *scene;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(add_cube(scene, NULL), RECTO_OK);
+  return scene;
+}
+
+static recto_drawing *draw(const recto_scene *scene,
+                           const recto_options *options) {
+  recto_drawing *drawing;
+  recto_error error = {0};
+  if (recto_scene_render(scene, options, &drawing, &error) != RECTO_OK)
+    fail_msg("%s", error.text);
+  return drawing;
+}
+
+static double length_of(const recto_stroke *stroke) {
+  double length = 0;
+  for (size_t i = 0; i + 1 < stroke->count + stroke->closed; i++) {
+    const double *a = stroke->points + 2 * i;
+    const double *b = stroke->points + 2 * ((i + 1) % stroke->count);
+    length += hypot(b[0] - a[0], b[1] - a[1]);
+  }
+  return length;
+}
+
+static double drawn_length(const recto_drawing *drawing) {
+  double length = 0;
+  for (size_t i = 0; i < recto_drawing_stroke_count(drawing); i++) {
+    recto_stroke stroke = recto_drawing_stroke(drawing, i);
+    length += length_of(&stroke);
+  }
+  return length;
+}
+
+/* A path for a file of this test that ends in `name`; good for two calls. */
+static const char *path_of(const char *name) {
+  static char path[2][64];
+  static int which;
+  which = !which;
+  snprintf(path[which], sizeof path[which], "test_api.%ld.%s", (long)getpid(),
+           name);
+  return path[which];
+}
+
+/* ---- Words -----------------------------------------------------------------
+ */
+
+static void every_enumerator_has_a_word_of_its_own(void **state) {
+  (void)state;
+  for (int i = 0; i < RECTO_METHOD_COUNT; i++)
+    for (int k = 0; k < i; k++)
+      assert_string_not_equal(recto_method_name((recto_method)i),
+                              recto_method_name((recto_method)k));
+  for (int i = 0; i < RECTO_STATUS_COUNT; i++)
+    for (int k = 0; k < i; k++)
+      assert_string_not_equal(recto_status_name((recto_status)i),
+                              recto_status_name((recto_status)k));
+  for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
+    for (int k = 0; k < i; k++)
+      assert_string_not_equal(
+          recto_edge_class_name((recto_edge_class)(1 << i)),
+          recto_edge_class_name((recto_edge_class)(1 << k)));
+}
+
+static void bad_enumerators_have_a_word_too(void **state) {
+  (void)state;
+  assert_string_equal(recto_method_name(RECTO_METHOD_COUNT), "unknown");
+  assert_string_equal(recto_method_name((recto_method)-1), "unknown");
+  assert_string_equal(recto_status_name(RECTO_STATUS_COUNT), "unknown");
+  assert_string_equal(recto_edge_class_name((recto_edge_class)3), "unknown");
+}
+
+static void the_version_is_three_numbers(void **state) {
+  (void)state;
+  int a, b, c, end = 0;
+  assert_int_equal(sscanf(recto_version(), "%d.%d.%d%n", &a, &b, &c, &end), 3);
+  assert_int_equal(recto_version()[end], '\0');
+}
+
+/* ---- Options ---------------------------------------------------------------
+ */
+
+static void no_options_are_the_defaults(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_options options;
+  recto_options_init(&options);
+  recto_drawing *a = draw(scene, &options), *b = draw(scene, NULL);
+  assert_true(recto_drawing_stroke_count(a) > 0);
+  assert_int_equal(recto_drawing_stroke_count(a),
+                   recto_drawing_stroke_count(b));
+  assert_true(drawn_length(a) == drawn_length(b));
+  recto_drawing_destroy(a);
+  recto_drawing_destroy(b);
+  recto_scene_destroy(scene);
+}
+
+static void assert_refused(const recto_scene *scene,
+                           const recto_options *options, const char *what) {
+  recto_error error = {0};
+  recto_drawing *drawing = (recto_drawing *)&error;
+  recto_status status = recto_scene_render(scene, options, &drawing, &error);
+  if (status != RECTO_ERROR_ARGUMENT)
+    fail_msg("%s gives %s", what, recto_status_name(status));
+  assert_int_equal(error.code, status);
+  assert_true(error.text[0] != '\0');
+  assert_null(drawing);
+}
+
+static void numbers_that_make_no_sense_are_refused(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_options options;
+#define REFUSED(field, bad)                                                    \
+  do {                                                                         \
+    recto_options_init(&options);                                              \
+    options.field = bad;                                                       \
+    assert_refused(scene, &options, #field " = " #bad);                        \
+  } while (0)
+  REFUSED(method, RECTO_METHOD_COUNT);
+  REFUSED(method, (recto_method)-1);
+  REFUSED(threads, -1);
+  REFUSED(contact, (double)NAN);
+  REFUSED(azimuth_deg, (double)INFINITY);
+  REFUSED(elevation_deg, (double)NAN);
+  REFUSED(eye[1], (double)NAN);
+  REFUSED(target[2], (double)-INFINITY);
+  REFUSED(up[0], (double)NAN);
+  REFUSED(fov_deg, -1);
+  REFUSED(fov_deg, 180);
+  REFUSED(scale, 0);
+  REFUSED(near_distance, -1);
+  REFUSED(section, (double)NAN);
+  REFUSED(page_width_mm, 0);
+  REFUSED(page_height_mm, -297);
+  REFUSED(page_width_mm, 2001);
+  REFUSED(margin_mm, -1);
+  REFUSED(margin_mm, 105);
+  REFUSED(edges, 0x80);
+  REFUSED(crease_deg, 181);
+  REFUSED(hidden, (recto_hidden)3);
+  REFUSED(fill, (recto_fill)4);
+  REFUSED(hatch_pitch_mm, 0);
+  REFUSED(pen_mm, 0);
+  REFUSED(pen_mm, (double)NAN);
+  REFUSED(pens, 0);
+  REFUSED(order, (recto_order)2);
+  REFUSED(simplify_mm, -1);
+  REFUSED(min_stroke_mm, (double)NAN);
+  REFUSED(precision, 10);
+  REFUSED(precision, -1);
+  REFUSED(dpi, -1);
+  REFUSED(velocity_cm_s, (double)NAN);
+  recto_scene_destroy(scene);
+}
+
+static void an_eye_on_its_target_is_refused(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_options options;
+  recto_options_init(&options);
+  options.camera = RECTO_CAMERA_EYE;
+  options.has_target = true;
+  assert_refused(scene, &options, "eye = target");
+  recto_scene_destroy(scene);
+}
+
+static void methods_not_built_are_unsupported(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_options options;
+  recto_options_init(&options);
+  for (int i = 0; i < RECTO_METHOD_COUNT; i++) {
+    options.method = (recto_method)i;
+    recto_drawing *drawing;
+    recto_status status = recto_scene_render(scene, &options, &drawing, NULL);
+    assert_int_equal(status, recto_method_is_available(options.method)
+                                 ? RECTO_OK
+                                 : RECTO_ERROR_UNSUPPORTED);
+    recto_drawing_destroy(drawing);
+  }
+  recto_scene_destroy(scene);
+}
+
+/* ---- Scenes ----------------------------------------------------------------
+ */
+
+static void destroying_nothing_is_fine(void **state) {
+  (void)state;
+  recto_scene_destroy(NULL);
+  recto_drawing_destroy(NULL);
+}
+
+static void wrong_elements_are_refused_and_leave_no_trace(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_error error = {0};
+  const uint32_t bad[4] = {0, 1, 8, 2};
+  const double nowhere[3] = {0, (double)NAN, 0};
+  uint32_t index = 77;
+  assert_int_equal(recto_scene_add_face(scene, cube_face[0], 2, &error),
+                   RECTO_ERROR_ARGUMENT);
+  assert_int_equal(recto_scene_add_face(scene, bad, 4, &error),
+                   RECTO_ERROR_ARGUMENT);
+  assert_non_null(strstr(error.text, "8"));
+  assert_int_equal(recto_scene_add_polyline(scene, bad, 1, &error),
+                   RECTO_ERROR_ARGUMENT);
+  assert_int_equal(recto_scene_add_polyline(scene, bad, 3, &error),
+                   RECTO_ERROR_ARGUMENT);
+  assert_int_equal(recto_scene_add_point(scene, nowhere, &index, &error),
+                   RECTO_ERROR_ARGUMENT);
+  assert_int_equal(index, 77);
+  recto_drawing *drawing = draw(scene, NULL);
+  const char *stats = recto_drawing_stats(drawing);
+  assert_non_null(strstr(stats, "\"points\": 8,"));
+  assert_non_null(strstr(stats, "\"faces\": 6,"));
+  assert_non_null(strstr(stats, "\"polylines\": 0,"));
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
+static void faces_without_area_are_skipped_and_counted(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  const uint32_t flat[3] = {0, 1, 0}, few[4] = {2, 2, 3, 3};
+  assert_int_equal(recto_scene_add_face(scene, flat, 3, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_face(scene, few, 4, NULL), RECTO_OK);
+  recto_drawing *drawing = draw(scene, NULL);
+  const char *stats = recto_drawing_stats(drawing);
+  assert_non_null(strstr(stats, "\"faces\": 6,"));
+  assert_non_null(strstr(stats, "\"few_corners\": 2,"));
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
+static void points_are_numbered_as_they_come(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  uint32_t index;
+  const double point[3] = {5, 5, 5};
+  assert_int_equal(recto_scene_add_point(scene, point, &index, NULL), RECTO_OK);
+  assert_int_equal(index, 8);
+  recto_scene_destroy(scene);
+}
+
+static void nothing_to_draw_is_said(void **state) {
+  (void)state;
+  recto_scene *scene;
+  recto_drawing *drawing;
+  recto_error error = {0};
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_render(scene, NULL, &drawing, &error),
+                   RECTO_ERROR_EMPTY);
+  assert_null(drawing);
+  assert_int_equal(error.code, RECTO_ERROR_EMPTY);
+  recto_scene_destroy(scene);
+}
+
+static void a_scene_may_be_drawn_again(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_options options;
+  recto_options_init(&options);
+  recto_drawing *first = draw(scene, &options);
+  options.azimuth_deg = options.elevation_deg = 0;
+  recto_drawing *front = draw(scene, &options);
+  recto_options_init(&options);
+  recto_drawing *again = draw(scene, &options);
+  assert_true(drawn_length(first) == drawn_length(again));
+  assert_true(drawn_length(first) != drawn_length(front));
+  recto_drawing_destroy(first);
+  recto_drawing_destroy(front);
+  recto_drawing_destroy(again);
+  recto_scene_destroy(scene);
+}
+
+/* ---- Drawings --------------------------------------------------------------
+ */
+
+/* Isometric, 100 units to the mm: nine edges of 100 sqrt(2/3) mm. */
+static void a_cube_at_true_scale_shows_nine_edges(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_options options;
+  recto_options_init(&options);
+  options.fit = RECTO_FIT_SCALE;
+  options.scale = 100;
+  recto_drawing *drawing = draw(scene, &options);
+  double length = drawn_length(drawing), expected = 9 * 100 * sqrt(2.0 / 3);
+  /* A few grid units of 1e-6 mm for each of the edges' ends. */
+  assert_true(fabs(length - expected) < 1e-4);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
+static void strokes_know_where_they_come_from(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_options options;
+  recto_options_init(&options);
+  options.edges = RECTO_EDGE_CREASE;
+  recto_drawing *drawing = draw(scene, &options);
+  assert_true(recto_drawing_stroke_count(drawing) > 0);
+  for (size_t i = 0; i < recto_drawing_stroke_count(drawing); i++) {
+    recto_stroke stroke = recto_drawing_stroke(drawing, i);
+    assert_int_equal(stroke.edge_class, RECTO_EDGE_CREASE);
+    assert_int_equal(stroke.group, 0);
+    assert_true(stroke.face < 6);
+    assert_true(stroke.edge < 12);
+    assert_true(stroke.count >= 2);
+    assert_int_equal(stroke.layer, 0);
+  }
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
+static char *read_all(const char *path) {
+  FILE *file = fopen(path, "rb");
+  assert_non_null(file);
+  char *text = calloc(1, 1 << 16);
+  assert_non_null(text);
+  assert_true(fread(text, 1, (1 << 16) - 1, file) > 0);
+  assert_int_equal(fclose(file), 0);
+  return text;
+}
+
+static void a_drawing_is_written_by_name_and_by_extension(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_drawing *drawing = draw(scene, NULL);
+  assert_int_equal(
+      recto_drawing_write(drawing, path_of("svg"), NULL, NULL, NULL), RECTO_OK);
+  char *by_extension = read_all(path_of("svg"));
+  assert_int_equal(
+      recto_drawing_write(drawing, path_of("x"), "svg", NULL, NULL), RECTO_OK);
+  char *by_name = read_all(path_of("x"));
+  assert_string_equal(by_extension, by_name);
+  assert_non_null(strstr(by_name, "<path"));
+  assert_int_equal(unlink(path_of("svg")), 0);
+  assert_int_equal(unlink(path_of("x")), 0);
+  free(by_extension);
+  free(by_name);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
+static void formats_that_are_not_there_are_refused(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_drawing *drawing = draw(scene, NULL);
+  recto_error error = {0};
+  assert_int_equal(
+      recto_drawing_write(drawing, path_of("svg"), "xyz", NULL, &error),
+      RECTO_ERROR_UNSUPPORTED);
+  assert_int_equal(
+      recto_drawing_write(drawing, path_of("xyz"), NULL, NULL, &error),
+      RECTO_ERROR_UNSUPPORTED);
+  assert_string_equal(error.file, path_of("xyz"));
+  assert_int_equal(recto_drawing_write(drawing, "-", NULL, NULL, &error),
+                   RECTO_ERROR_ARGUMENT);
+  assert_int_not_equal(access(path_of("svg"), F_OK), 0);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
+static void formats_are_told(void **state) {
+  (void)state;
+  assert_string_equal(recto_output_format_name(0), "svg");
+  assert_string_equal(recto_output_format("a.SVG", NULL), "svg");
+  assert_string_equal(recto_output_format("a.svg", "hpgl"), "hpgl");
+  assert_null(recto_output_format("a.xyz", NULL));
+  size_t count = 0;
+  while (recto_output_format_name(count) != NULL)
+    count++;
+  assert_true(count >= 2 && count < 20);
+}
+
+/* ---- The whole job ---------------------------------------------------------
+ */
+
+static void write_model(const char *path) {
+  FILE *file = fopen(path, "wb");
+  assert_non_null(file);
+  for (int i = 0; i < 8; i++)
+    fprintf(file, "v %d %d %d\n", (int)cube_point[i][0], (int)cube_point[i][1],
+            (int)cube_point[i][2]);
+  for (int i = 0; i < 6; i++)
+    fprintf(file, "f %u %u %u %u\n", cube_face[i][0] + 1, cube_face[i][1] + 1,
+            cube_face[i][2] + 1, cube_face[i][3] + 1);
+  fprintf(file, "f 1 2 9\n");
+  assert_int_equal(fclose(file), 0);
+}
+
+struct warnings {
+  int count;
+  unsigned long line;
+};
+
+static void count_warning(void *user, const char *file, unsigned long line,
+                          const char *text) {
+  struct warnings *warnings = user;
+  (void)text;
+  assert_true(strlen(file) > 0);
+  warnings->count++;
+  warnings->line = line;
+}
+
+static void one_call_does_it_and_warns_by_line(void **state) {
+  (void)state;
+  char model[64];
+  snprintf(model, sizeof model, "%s", path_of("obj"));
+  write_model(model);
+  struct warnings warnings = {0, 0};
+  recto_options options;
+  recto_options_init(&options);
+  options.warning = count_warning;
+  options.user = &warnings;
+  assert_int_equal(
+      recto_draw_file(model, NULL, path_of("svg"), NULL, &options, NULL),
+      RECTO_OK);
+  assert_int_equal(warnings.count, 1);
+  assert_int_equal(warnings.line, 15);
+  assert_int_equal(unlink(path_of("svg")), 0);
+  assert_int_equal(unlink(model), 0);
+}
+
+static void a_bad_job_leaves_nothing(void **state) {
+  (void)state;
+  recto_error error = {0};
+  assert_int_equal(recto_draw_file(path_of("none.obj"), NULL, path_of("svg"),
+                                   NULL, NULL, &error),
+                   RECTO_ERROR_IO);
+  assert_string_not_equal(error.file, "");
+  assert_int_not_equal(access(path_of("svg"), F_OK), 0);
+  assert_int_equal(
+      recto_draw_file("none.obj", NULL, path_of("xyz"), NULL, NULL, &error),
+      RECTO_ERROR_UNSUPPORTED);
+}
+
+/* ---- Progress --------------------------------------------------------------
+ */
+
+struct talk {
+  int calls, stop_at;
+  double last;
+};
+
+static bool listen(void *user, double share, const char *stage) {
+  struct talk *talk = user;
+  assert_true(share >= 0 && share <= 1);
+  assert_true(share >= talk->last);
+  assert_true(strlen(stage) > 0);
+  talk->last = share;
+  return ++talk->calls != talk->stop_at;
+}
+
+static void progress_rises_and_may_cancel_at_every_step(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_options options;
+  recto_options_init(&options);
+  options.progress = listen;
+  struct talk talk = {0, 0, 0};
+  options.user = &talk;
+  recto_drawing_destroy(draw(scene, &options));
+  int calls = talk.calls;
+  assert_true(calls >= 4);
+  for (int i = 1; i <= calls; i++) {
+    recto_error error = {0};
+    recto_drawing *drawing = (recto_drawing *)&error;
+    talk = (struct talk){0, i, 0};
+    assert_int_equal(recto_scene_render(scene, &options, &drawing, &error),
+                     RECTO_ERROR_CANCELLED);
+    assert_int_equal(error.code, RECTO_ERROR_CANCELLED);
+    assert_null(drawing);
+    assert_int_equal(talk.calls, i);
+  }
+  recto_scene_destroy(scene);
+}
+
+/* ---- Faults ----------------------------------------------------------------
+ */
+
+/* The whole job; what was made is freed in any case. */
+static recto_status whole_job(const char *path) {
+  recto_scene *scene = NULL;
+  recto_drawing *drawing = NULL;
+  recto_options options;
+  recto_options_init(&options);
+  options.threads = 1;
+  options.method = RECTO_METHOD_BRUTE;
+  options.ids = true;
+  recto_status status = recto_scene_create(&scene, NULL);
+  if (status == RECTO_OK)
+    status = add_cube(scene, NULL);
+  if (status == RECTO_OK)
+    status = recto_scene_render(scene, &options, &drawing, NULL);
+  if (status == RECTO_OK)
+    status = recto_drawing_write(drawing, path, NULL, &options, NULL);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+  return status;
+}
+
+/* Losing a report's entry is no failure, so that some of the runs succeed:
+ * the drawing is then whole. */
+static void every_allocation_may_fail(void **state) {
+  (void)state;
+  assert_int_equal(whole_job(path_of("svg")), RECTO_OK);
+  char *whole = read_all(path_of("svg"));
+  int failures = 0, successes = 0;
+  for (unsigned long n = 1; successes < 300 && n < 5000; n++) {
+    unlink(path_of("svg"));
+    mem_fail_after(n);
+    recto_status status = whole_job(path_of("svg"));
+    mem_fail_after(0);
+    if (status == RECTO_OK) {
+      char *text = read_all(path_of("svg"));
+      assert_string_equal(text, whole);
+      free(text);
+      successes++;
+    } else {
+      assert_int_equal(status, RECTO_ERROR_MEMORY);
+      assert_int_not_equal(access(path_of("svg"), F_OK), 0);
+      failures++;
+    }
+  }
+  assert_true(failures > 10);
+  assert_true(successes >= 300);
+  free(whole);
+  unlink(path_of("svg"));
+}
+
+static void every_write_may_fail(void **state) {
+  (void)state;
+  stream_fail_after(1);
+  assert_int_equal(whole_job(path_of("svg")), RECTO_ERROR_IO);
+  stream_fail_after(0);
+  assert_int_not_equal(access(path_of("svg"), F_OK), 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_enumerator_has_a_word_of_its_own),
+      cmocka_unit_test(bad_enumerators_have_a_word_too),
+      cmocka_unit_test(the_version_is_three_numbers),
+      cmocka_unit_test(no_options_are_the_defaults),
+      cmocka_unit_test(numbers_that_make_no_sense_are_refused),
+      cmocka_unit_test(an_eye_on_its_target_is_refused),
+      cmocka_unit_test(methods_not_built_are_unsupported),
+      cmocka_unit_test(destroying_nothing_is_fine),
+      cmocka_unit_test(wrong_elements_are_refused_and_leave_no_trace),
+      cmocka_unit_test(faces_without_area_are_skipped_and_counted),
+      cmocka_unit_test(points_are_numbered_as_they_come),
+      cmocka_unit_test(nothing_to_draw_is_said),
+      cmocka_unit_test(a_scene_may_be_drawn_again),
+      cmocka_unit_test(a_cube_at_true_scale_shows_nine_edges),
+      cmocka_unit_test(strokes_know_where_they_come_from),
+      cmocka_unit_test(a_drawing_is_written_by_name_and_by_extension),
+      cmocka_unit_test(formats_that_are_not_there_are_refused),
+      cmocka_unit_test(formats_are_told),
+      cmocka_unit_test(one_call_does_it_and_warns_by_line),
+      cmocka_unit_test(a_bad_job_leaves_nothing),
+      cmocka_unit_test(progress_rises_and_may_cancel_at_every_step),
+      cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(every_write_may_fail),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
