@@ -125,7 +125,8 @@ void hand_solve(const struct solver *solver, struct sheet *sheet,
                                          .intersections = true,
                                          .threads = 1,
                                          .pitch_mm = 1,
-                                         .resolution = 256};
+                                         .resolution =
+                                             solver->exact ? 0 : 256};
   recto_error error;
   map_init(map);
   find_contours(sheet);
