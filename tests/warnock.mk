@@ -2,3 +2,6 @@
 unit_tests += %D%/test_window
 %C%_test_window_SOURCES = %D%/test_window.c $(hand_sheet)
 %C%_test_window_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_warnock_raster
+%C%_test_warnock_raster_SOURCES = %D%/test_warnock_raster.c $(hand_pixels)
+%C%_test_warnock_raster_CPPFLAGS = $(hand_cppflags)

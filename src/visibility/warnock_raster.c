@@ -29,7 +29,7 @@
 #include "visibility/pagegrid.h"
 #include "visibility/pixels.h"
 #include "visibility/warnock_sample.h"
-#include "visibility/warnock_tests.h"
+#include "visibility/window.h"
 
 /* Where a window's list stands in a pool. */
 struct range {
@@ -178,7 +178,7 @@ static uint32_t ask_centre(const struct subdivision *s,
           warnock_sample_depth(&s->sample, seen, column, line);
       low = d.z - d.error;
     }
-    if ((double)warnock_nearest(s->sheet, t) < low)
+    if (s->sample.plane[t].nearest < low)
       break;
     if (warnock_sample_covers(&s->sample, t, column, line) &&
         (seen == SHEET_NONE ||
@@ -287,7 +287,7 @@ static bool list_faces(struct subdivision *s, const struct window *window,
   for (size_t i = faces.from; i < faces.to; i++) {
     uint32_t t = s->faces.item[i];
     enum window_class class;
-    *hidden = (double)warnock_nearest(s->sheet, t) < front->low;
+    *hidden = s->sample.plane[t].nearest < front->low;
     if (*hidden)
       break;
     class = classify(s, window, t);
@@ -485,8 +485,8 @@ static bool fill_pools(struct subdivision *s) {
   for (uint32_t t = 0; done && t < n; t++)
     if ((sheet->triangle_flags[t] & left_out) == 0 &&
         facet_of(s->facets, t) == t)
-      key[count++] =
-          (struct sort_key){~sort_key_of_int64(warnock_nearest(sheet, t)), t};
+      key[count++] = (struct sort_key){
+          ~sort_key_of_int64((int64_t)s->sample.plane[t].nearest), t};
   if (done)
     sort_keys(key, key + n, count);
   for (size_t i = 0; done && i < count; i++)

@@ -11,25 +11,41 @@
 /* Each term of a depth gathers fewer than ten roundings. */
 #define SLACK (16 * 0x1p-53)
 
+static struct sample_plane plane_of(const struct sheet *sheet,
+                                    const struct facets *facets,
+                                    const struct scan_grid *grid,
+                                    uint32_t facet) {
+  const uint32_t *p = sheet->triangle.item[facet].point, *corner, *side;
+  uint32_t count = facet_outline(facets, sheet, facet, &corner, &side);
+  struct geom_plane plane =
+      geom_plane_of(sheet->point.item[p[0]], sheet->point.item[p[1]],
+                    sheet->point.item[p[2]]);
+  double scale = -(double)plane.nz * (double)grid->den;
+  int64_t nearest = 0;
+  for (uint32_t k = 0; k < count; k++)
+    if (sheet->point.item[corner[k]].z > nearest)
+      nearest = sheet->point.item[corner[k]].z;
+  return (struct sample_plane){.per_x = (double)plane.nx / scale,
+                               .per_y = (double)plane.ny / scale,
+                               .z0 = (double)plane.a.z,
+                               .nearest = (double)nearest,
+                               .x0 = plane.a.x,
+                               .y0 = plane.a.y};
+}
+
 bool warnock_sample_init(struct warnock_sample *sample,
                          const struct sheet *sheet, const struct facets *facets,
                          const struct scan_grid *grid) {
-  size_t count = sheet->triangle.count;
+  uint32_t count = (uint32_t)sheet->triangle.count;
   *sample = (struct warnock_sample){.facets = facets,
                                     .fine = {.sheet = sheet, .grid = *grid}};
   sample->plane = mem_alloc(count, sizeof *sample->plane);
   if (sample->plane == NULL)
     return false;
-  for (size_t t = 0; t < count; t++) {
-    const uint32_t *p = sheet->triangle.item[t].point;
-    struct geom_plane plane =
-        geom_plane_of(sheet->point.item[p[0]], sheet->point.item[p[1]],
-                      sheet->point.item[p[2]]);
-    double scale = -(double)plane.nz * (double)grid->den;
-    sample->plane[t] = (struct sample_plane){
-        (double)plane.nx / scale, (double)plane.ny / scale, (double)plane.a.z,
-        plane.a.x, plane.a.y};
-  }
+  for (uint32_t t = 0; t < count; t++)
+    if ((sheet->triangle_flags[t] & SHEET_FLAT) == 0 &&
+        facet_of(facets, t) == t)
+      sample->plane[t] = plane_of(sheet, facets, grid, t);
   return true;
 }
 

@@ -13,13 +13,15 @@
 /* z = z0 + per_x (x - x0) + per_y (y - y0), x and y in units of 1 / den. */
 struct sample_plane {
   double per_x, per_y, z0;
+  double nearest; /* depth of the facet's corners */
   int32_t x0, y0; /* sheet units */
 };
 
 struct warnock_sample {
   const struct facets *facets;
   struct raster fine;         /* a frame of sub-pixels: sheet and grid alone */
-  struct sample_plane *plane; /* one a triangle */
+  struct sample_plane *plane; /* one a triangle; set for those that
+                                 a facet is known by */
 };
 
 /* grid  of the sub-pixels.  False when memory ran out. */
