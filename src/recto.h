@@ -138,6 +138,11 @@ typedef enum recto_camera {
   RECTO_CAMERA_EYE            /* from eye to target */
 } recto_camera;
 
+typedef enum recto_divide {
+  RECTO_DIVIDE_FOUR = 0, /* windows are cut in the middle */
+  RECTO_DIVIDE_BOX       /* around the box of their nearest face */
+} recto_divide;
+
 /* ---- Options ------------------------------------------------------------ */
 
 /* Called now and then with the share of the work done, 0 to 1, and the name
@@ -156,7 +161,8 @@ typedef struct recto_options {
   int threads;        /* 0: as many as the machine offers */
   double contact;     /* scene units; negative: a millionth of the size */
   double pitch_mm;    /* watkins: between scan lines; 0: exact sweep */
-  int resolution;     /* raster methods: lines over the page height */
+  int resolution;     /* raster methods: lines over the page height; warnock:
+                         in pixels, so many lines; 0: exact */
 
   /* Camera. */
   recto_camera camera;
@@ -204,6 +210,10 @@ typedef struct recto_options {
   recto_progress_fn progress;
   recto_warning_fn warning;
   void *user;
+
+  /* Warnock. */
+  recto_divide divide;
+  int subpixels;       /* in pixels: average K x K in each, to 16; 0: none */
 } recto_options;
 
 /* Fills `options` with the defaults: auto, isometric, A4 portrait with a

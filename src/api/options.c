@@ -90,6 +90,8 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the precision", o->precision, 0, 9},
       {"the resolution of PNG", o->dpi, 0, 10000},
       {"the pen speed", o->velocity_cm_s, 0, 1000},
+      {"the way to divide", o->divide, 0, RECTO_DIVIDE_BOX},
+      {"the number of sub-pixels", o->subpixels, 0, 16},
   };
   return check_ranges(range, sizeof range / sizeof range[0], error);
 }

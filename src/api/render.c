@@ -111,6 +111,8 @@ static recto_status solve(struct render *render, recto_error *error) {
       .threads = count_threads(options),
       .pitch_mm = options->pitch_mm,
       .resolution = options->resolution,
+      .divide_by_box = options->divide == RECTO_DIVIDE_BOX,
+      .subpixels = options->subpixels,
       .progress = options->progress != NULL ? pass_progress : NULL,
       .user = render,
   };
