@@ -19,3 +19,14 @@ unit_tests += %D%/test_region
 unit_tests += %D%/test_convex
 %C%_test_convex_SOURCES = %D%/test_convex.c $(hand_rational)
 %C%_test_convex_CPPFLAGS = $(hand_cppflags)
+
+# Layer 4.
+hand_scene = %D%/hand/scene.c %D%/hand/scene.h $(hand_sheet)
+hand_oracle = %D%/hand/oracle.c %D%/hand/oracle.h $(hand_rational) \
+  %D%/hand/scene.c %D%/hand/scene.h
+unit_tests += %D%/test_fragments
+%C%_test_fragments_SOURCES = %D%/test_fragments.c $(hand_oracle)
+%C%_test_fragments_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_sidelabel
+%C%_test_sidelabel_SOURCES = %D%/test_sidelabel.c $(hand_sheet)
+%C%_test_sidelabel_CPPFLAGS = $(hand_cppflags)
