@@ -32,10 +32,9 @@ static inline void add_product(struct normal *sum, const struct normal *a,
   sum->z += a->x * b->y - a->y * b->x;
 }
 
-/* Twice the area vector of a face whose coordinates are scaled; inline, so
- * that a scale of 1 costs nothing. */
-static inline struct normal sum_area(const struct scene *scene, uint32_t face,
-                                     double scale) {
+/* Twice the area vector of a face whose coordinates are scaled. */
+static struct normal sum_area(const struct scene *scene, uint32_t face,
+                              double scale) {
   const struct scene_point *point = scene->point.item;
   const uint32_t *corner = scene->corner.item + scene->face_start.item[face];
   uint32_t count =
@@ -79,9 +78,29 @@ static struct normal normal_of_odd_face(const struct scene *scene,
   return is_in_range(n.square) ? n : (struct normal){0, 0, 0, 0};
 }
 
+/* What sum_area gives for three corners and a scale of 1, bit for bit. */
+static inline struct normal area_of_triangle(const struct scene_point *p,
+                                             const struct scene_point *q,
+                                             const struct scene_point *r) {
+  double ax = q->x - p->x, ay = q->y - p->y, az = q->z - p->z;
+  double bx = r->x - p->x, by = r->y - p->y, bz = r->z - p->z;
+  struct normal n = {ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx,
+                     0};
+  n.square = n.x * n.x + n.y * n.y + n.z * n.z;
+  return n;
+}
+
 static inline struct normal normal_of_face(const struct scene *scene,
                                            uint32_t face) {
-  struct normal n = sum_area(scene, face, 1);
+  const struct scene_point *point = scene->point.item;
+  uint32_t start = scene->face_start.item[face];
+  const uint32_t *corner = scene->corner.item + start;
+  struct normal n;
+  if (scene->face_start.item[face + 1] - start == 3)
+    n = area_of_triangle(&point[corner[0]], &point[corner[1]],
+                         &point[corner[2]]);
+  else
+    n = sum_area(scene, face, 1);
   return is_in_range(n.square) ? n : normal_of_odd_face(scene, face);
 }
 

@@ -86,8 +86,8 @@ static void grow_box(double low[3], double high[3],
                      const struct scene_point *point) {
   const double p[3] = {point->x, point->y, point->z};
   for (int k = 0; k < 3; k++) {
-    low[k] = fmin(low[k], p[k]);
-    high[k] = fmax(high[k], p[k]);
+    low[k] = lower_bound(low[k], p[k]);
+    high[k] = upper_bound(high[k], p[k]);
   }
 }
 
@@ -191,8 +191,8 @@ static void measure_depth(struct aim *aim) {
     if (!aim->used[p])
       continue;
     double d = view_of_point(aim, p).d;
-    aim->d_low = fmin(aim->d_low, d);
-    aim->d_high = fmax(aim->d_high, d);
+    aim->d_low = lower_bound(aim->d_low, d);
+    aim->d_high = upper_bound(aim->d_high, d);
   }
 }
 

@@ -9,8 +9,8 @@
  * orthographic: mm = middle + s (x, y). */
 struct camera {
   double right[3], up[3], back[3]; /* unit, orthogonal, scene space */
-  double eye[3];       /* scene units; orthographic: any point that has
-                          every visible one in front */
+  double eye[3]; /* scene units; orthographic: any point that has
+                    every visible one in front */
   bool perspective;
   double s;            /* perspective: mm; orthographic: mm a scene unit */
   double middle_mm[2]; /* where the view axis meets the page */

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "view/project.h"
+#include "view/vector.h"
 
 static struct view_point view_of(const struct camera *camera,
                                  const struct scene *scene, uint32_t point) {
@@ -16,8 +17,8 @@ static void grow(struct extent *extent, const struct camera *camera,
   double scale = camera->perspective ? 1 / v.d : 1;
   const double xy[2] = {v.x * scale, v.y * scale};
   for (int k = 0; k < 2; k++) {
-    extent->low[k] = fmin(extent->low[k], xy[k]);
-    extent->high[k] = fmax(extent->high[k], xy[k]);
+    extent->low[k] = lower_bound(extent->low[k], xy[k]);
+    extent->high[k] = upper_bound(extent->high[k], xy[k]);
   }
 }
 

@@ -24,25 +24,56 @@ static inline void layout_learn_side(struct layout *layout,
   layout_learn(sides, facet->forward[k], sign);
 }
 
+/* Where triangles go, held in registers by those who add many. */
+struct layout_triangle_sink {
+  const struct sheet_point *point;
+  struct sheet_triangle *triangle; /* the next one */
+  uint8_t *flags;
+  size_t room;
+};
+
+static inline struct layout_triangle_sink
+layout_sink_of(const struct layout *layout) {
+  const struct sheet *sheet = layout->sheet;
+  size_t room = sheet->triangle.capacity - sheet->triangle.count;
+  size_t flags_room = layout->flags.capacity - layout->flags.count;
+  return (struct layout_triangle_sink){
+      sheet->point.item, sheet->triangle.item + sheet->triangle.count,
+      layout->flags.item + layout->flags.count,
+      room < flags_room ? room : flags_room};
+}
+
+static inline void layout_sink_close(struct layout *layout,
+                                     const struct layout_triangle_sink *sink) {
+  layout->sheet->triangle.count =
+      (size_t)(sink->triangle - layout->sheet->triangle.item);
+  layout->flags.count = layout->sheet->triangle.count;
+}
+
 /* Adds a triangle of three sheet points; there is room for it.
  * Returns twice its signed area on the page, as the face winds. */
+static inline int64_t layout_sink_triangle(struct layout_triangle_sink *sink,
+                                           uint32_t face,
+                                           const uint32_t point[3],
+                                           const uint32_t side[3]) {
+  int64_t area = geom_orient2d(sink->point[point[0]], sink->point[point[1]],
+                               sink->point[point[2]]);
+  bool flip = area < 0;
+  *sink->triangle++ =
+      (struct sheet_triangle){{point[0], point[1 + flip], point[2 - flip]},
+                              {side[2 * flip], side[1], side[2 - 2 * flip]},
+                              face};
+  *sink->flags++ = flip ? SHEET_FLIPPED : area == 0 ? SHEET_FLAT : 0;
+  sink->room--;
+  return area;
+}
+
 static inline int64_t layout_add_triangle(struct layout *layout, uint32_t face,
                                           const uint32_t point[3],
                                           const uint32_t side[3]) {
-  struct sheet *sheet = layout->sheet;
-  const struct sheet_point *at = sheet->point.item;
-  int64_t area = geom_orient2d(at[point[0]], at[point[1]], at[point[2]]);
-  struct sheet_triangle *t = &sheet->triangle.item[sheet->triangle.count++];
-  uint8_t *flags = &layout->flags.item[layout->flags.count++];
-  if (area >= 0) {
-    *t = (struct sheet_triangle){
-        {point[0], point[1], point[2]}, {side[0], side[1], side[2]}, face};
-    *flags = area == 0 ? SHEET_FLAT : 0;
-  } else {
-    *t = (struct sheet_triangle){
-        {point[0], point[2], point[1]}, {side[2], side[1], side[0]}, face};
-    *flags = SHEET_FLIPPED;
-  }
+  struct layout_triangle_sink sink = layout_sink_of(layout);
+  int64_t area = layout_sink_triangle(&sink, face, point, side);
+  layout_sink_close(layout, &sink);
   return area;
 }
 

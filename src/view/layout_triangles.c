@@ -147,6 +147,42 @@ static recto_status add_polygon_face(struct layout *layout, uint32_t face,
   return status == RECTO_OK ? add_folds(layout) : status;
 }
 
+/* Adds faces of three corners that are all on the sheet, from `face` on, up to
+ * the first that is not such a one, or for which there is no room.  Nearly all
+ * faces go this way, so everything that it reads is at hand.
+ * Returns that first face. */
+static uint32_t add_plain_faces(struct layout *layout, uint32_t face) {
+  const struct scene *scene = layout->scene;
+  const uint32_t *start = scene->face_start.item, *corner = scene->corner.item;
+  const uint32_t *weld = layout->topology->weld, *map = layout->point_map;
+  const uint32_t *corner_edge = layout->topology->corner_edge;
+  struct layout_triangle_sink sink = layout_sink_of(layout);
+  uint8_t *sides = layout->sides;
+  uint32_t end = scene_face_count(scene);
+  for (; face < end && sink.room > 0; face++) {
+    uint32_t c = start[face];
+    if (start[face + 1] - c != 3)
+      break;
+    uint32_t a = corner[c], b = corner[c + 1], d = corner[c + 2];
+    if (weld) {
+      a = weld[a];
+      b = weld[b];
+      d = weld[d];
+    }
+    const uint32_t point[3] = {map[a], map[b], map[d]};
+    if (point[0] == SHEET_NONE || point[1] == SHEET_NONE ||
+        point[2] == SHEET_NONE)
+      break;
+    int sign =
+        geom_sign64(layout_sink_triangle(&sink, face, point, corner_edge + c));
+    layout_learn(&sides[corner_edge[c]], a < b, sign);
+    layout_learn(&sides[corner_edge[c + 1]], b < d, sign);
+    layout_learn(&sides[corner_edge[c + 2]], d < a, sign);
+  }
+  layout_sink_close(layout, &sink);
+  return face;
+}
+
 static recto_status add_face(struct layout *layout, uint32_t face) {
   uint32_t start = layout->scene->face_start.item[face];
   uint32_t count = layout->scene->face_start.item[face + 1] - start;
@@ -181,6 +217,9 @@ recto_status layout_triangles(struct layout *layout) {
   if (!layout->sides || !layout_reserve(layout, triangles))
     return error_memory(layout->error);
   for (uint32_t face = 0; face < faces; face++) {
+    face = add_plain_faces(layout, face);
+    if (face == faces)
+      break;
     recto_status status = add_face(layout, face);
     if (status != RECTO_OK)
       return status;

@@ -4,7 +4,9 @@
  * the page, x right and y up.  z is an integer that grows towards the viewer:
  *   orthographic  z = z_scale * (d_max - d)
  *   perspective   z = z_scale * (1 / d - 1 / d_max)
- * so planes stay planes.  After the sheet is built no decision is rounded.
+ * so planes stay planes.  The scale lets the range from d_min to d_max fill all
+ * of z, but for ranges that are no more than rounding noise.  After the sheet
+ * is built no decision is rounded.
  *
  * Invariants
  *   |x|, |y| <= SHEET_XY_MAX;  0 <= z <= SHEET_Z_MAX.
@@ -50,7 +52,8 @@ struct sheet_edge {
                            for intersections */
   uint32_t group;       /* of its first face, or of the wire */
   uint16_t edge_class;  /* one recto_edge_class: of its natures that were
-                           asked for, the first in that enumeration; 0: an outline */
+                           asked for, the first in that enumeration; 0: an
+                           outline */
   uint16_t part;        /* wires: segment's index, low bits */
 };
 
@@ -61,20 +64,24 @@ struct sheet_contour {
 struct sheet {
   ARRAY(struct sheet_point) point;
   ARRAY(struct sheet_triangle) triangle;
-  uint8_t *triangle_flags; /* one a triangle */
+  uint8_t *triangle_flags;    /* one a triangle */
   const uint32_t *face_group; /* the scene's, lent */
   /* Mesh edges in topology order, then wires, then intersections once they
    * were found.  Edges of class 0 are there as outlines, not to be drawn. */
   ARRAY(struct sheet_edge) edge;
   /* The contours, whether drawn or not: edges of one face or more than two,
-   * silhouettes, and edges of a triangle that is SHEET_FLAT.  Away from them
-   * the projected faces neither fold nor end. */
+   * silhouettes, sides of a triangle that is SHEET_FLAT, diagonals at which a
+   * warped face folds, and cuts at the near plane.  Away from them, and from
+   * the page's border, the projected faces neither fold nor end.  One may be
+   * there twice. */
   ARRAY(struct sheet_contour) contour;
   struct camera camera;
-  double z_scale;          /* see above */
-  double units_per_view;   /* grid units of x for one of X/d (perspective) or
-                              X (orthographic) */
-  uint64_t clipped_near, clipped_page, warped; /* faces */
+  double z_scale;        /* see above */
+  double units_per_view; /* grid units of x for one of X/d (perspective) or
+                            X (orthographic) */
+  /* Faces that reach before the near plane, or beyond the page, wholly or in
+   * part; faces that are not planar. */
+  uint64_t clipped_near, clipped_page, warped;
 };
 
 /* Projects the scene: classes, clipping to the near plane and the page,

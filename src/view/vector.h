@@ -5,6 +5,15 @@
 #include <math.h>
 #include <stdbool.h>
 
+/* What fmin and fmax do, without a call: a value that is not a number does not
+ * change the bound. */
+static inline double lower_bound(double bound, double value) {
+  return value < bound ? value : bound;
+}
+static inline double upper_bound(double bound, double value) {
+  return value > bound ? value : bound;
+}
+
 static inline double vector_dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
