@@ -381,7 +381,7 @@ static void a_drawing_that_fits_the_page_is_never_cut(void **state) {
     struct laid laid;
     fill_box(&laid);
     laid.options.margin_mm = 0;
-    laid.options.page_width_mm = random_between(&random, 10, 2000);
+    laid.options.page_width_mm = random_int(&random, 10, 2000);
     laid.options.page_height_mm = random_between(&random, 10, 2000);
     laid.options.azimuth_deg = random_between(&random, 0, 360);
     laid.options.elevation_deg = random_between(&random, -90, 90);

@@ -6,7 +6,7 @@
  *   through the planes in one order, and both cut by cut_between with the
  *   ends in the canonical order.  A point on a plane is inside, and a segment
  *   from it to the outside is gone.
- * Source      [Sutherland & Hodgman 1974].
+ * Source      [SutherlandHodgman1974].
  */
 #include "view/clip.h"
 

@@ -16,7 +16,7 @@
  * Robustness  All turns are exact_turn.  Where no ear is left the polygon is
  *   not simple: then a corner without area goes first, then a convex one,
  *   then any, so that the loop always ends with count - 2 triangles.
- * Source      ear clipping: [Meisters 1975], the two-ears theorem.
+ * Source      ear clipping: [Meisters1975], the two-ears theorem.
  */
 #include "view/triangulate.h"
 
