@@ -30,3 +30,6 @@ unit_tests += %D%/test_fragments
 unit_tests += %D%/test_sidelabel
 %C%_test_sidelabel_SOURCES = %D%/test_sidelabel.c $(hand_sheet)
 %C%_test_sidelabel_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_hide
+%C%_test_hide_SOURCES = %D%/test_hide.c $(hand_oracle)
+%C%_test_hide_CPPFLAGS = $(hand_cppflags)
