@@ -5,3 +5,6 @@ unit_tests += %D%/test_window
 unit_tests += %D%/test_warnock_raster
 %C%_test_warnock_raster_SOURCES = %D%/test_warnock_raster.c $(hand_pixels)
 %C%_test_warnock_raster_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_warnock
+%C%_test_warnock_SOURCES = %D%/test_warnock.c $(hand_sheet)
+%C%_test_warnock_CPPFLAGS = $(hand_cppflags)

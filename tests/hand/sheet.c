@@ -127,11 +127,18 @@ void hand_solve(const struct solver *solver, struct sheet *sheet,
                                          .pitch_mm = 1,
                                          .resolution =
                                              solver->exact ? 0 : 256};
+  assert_int_equal(hand_solve_as(solver, &request, sheet, map, report),
+                   RECTO_OK);
+}
+
+recto_status hand_solve_as(const struct solver *solver,
+                           const struct solver_request *request,
+                           struct sheet *sheet, struct map *map,
+                           struct report *report) {
   recto_error error;
   map_init(map);
   find_contours(sheet);
-  assert_int_equal(solver->solve(sheet, &request, map, report, &error),
-                   RECTO_OK);
+  return solver->solve(sheet, request, map, report, &error);
 }
 
 #define ASSERT_SAME(a, b, what)                                                \
@@ -160,9 +167,8 @@ static void assert_same_strokes(const struct map *a, const struct map *b,
   }
 }
 
-void hand_assert_same_map(const struct map *a, const struct map *b,
-                          const char *what) {
-  assert_same_strokes(a, b, what);
+static void assert_same_fragments(const struct map *a, const struct map *b,
+                                  const char *what) {
   ASSERT_SAME(a->fragment.count, b->fragment.count, what);
   ASSERT_SAME(a->loop.count, b->loop.count, what);
   ASSERT_SAME(a->corner.count, b->corner.count, what);
@@ -179,6 +185,52 @@ void hand_assert_same_map(const struct map *a, const struct map *b,
       fail_msg("%s: corner %zu: %g %g %d %u and %g %g %d %u", what, c, p->x,
                p->y, p->side, p->id, q->x, q->y, q->side, q->id);
   }
+}
+
+void hand_assert_same_map(const struct map *a, const struct map *b,
+                          const char *what) {
+  assert_same_strokes(a, b, what);
+  assert_same_fragments(a, b, what);
+}
+
+/* The next edge from `e` on that is seen somewhere. */
+static size_t next_seen(const struct map *map, size_t e) {
+  while (e < map->edge_count && map->edge_state[e] == MAP_HIDDEN) e++;
+  return e;
+}
+
+static void assert_same_edge(const struct sheet *sa, size_t a,
+                             const struct sheet *sb, size_t b,
+                             const char *what) {
+  const struct sheet_edge *p = &sa->edge.item[a], *q = &sb->edge.item[b];
+  ASSERT_SAME(p->edge_class, q->edge_class, what);
+  for (int k = 0; k < 2; k++) {
+    ASSERT_SAME(p->triangle[k], q->triangle[k], what);
+    ASSERT_SAME(geom_same_point(sa->point.item[p->point[k]],
+                                sb->point.item[q->point[k]]),
+                true, what);
+  }
+}
+
+void hand_assert_visible_same(const struct map *a, const struct sheet *sa,
+                              const struct map *b, const struct sheet *sb,
+                              const char *what) {
+  size_t i = next_seen(a, 0), j = next_seen(b, 0);
+  for (; i < a->edge_count && j < b->edge_count;
+       i = next_seen(a, i + 1), j = next_seen(b, j + 1)) {
+    assert_same_edge(sa, i, sb, j, what);
+    ASSERT_SAME(a->edge_state[i], b->edge_state[j], what);
+  }
+  if (i < a->edge_count || j < b->edge_count)
+    fail_msg("%s: more edges are seen in one than in the other", what);
+  ASSERT_SAME(a->interval.count, b->interval.count, what);
+  for (size_t k = 0; k < a->interval.count; k++) {
+    ASSERT_SAME(ratio_compare(a->interval.item[k].t0, b->interval.item[k].t0),
+                0, what);
+    ASSERT_SAME(ratio_compare(a->interval.item[k].t1, b->interval.item[k].t1),
+                0, what);
+  }
+  assert_same_fragments(a, b, what);
 }
 
 void hand_assert_area(const struct map *map, uint32_t face, int scale,

@@ -18,10 +18,21 @@ void hand_add_face(struct sheet *sheet, const int corner[][3], int count,
 /* Solves with everything asked for; asserts that it went well. */
 void hand_solve(const struct solver *solver, struct sheet *sheet,
                 struct map *map, struct report *report);
+/* The same as the request says; tells how it went. */
+recto_status hand_solve_as(const struct solver *solver,
+                           const struct solver_request *request,
+                           struct sheet *sheet, struct map *map,
+                           struct report *report);
 
 /* Asserts that two maps are the same to the last bit of every number. */
 void hand_assert_same_map(const struct map *a, const struct map *b,
                           const char *what);
+
+/* The same for what is seen alone: a solver may leave out intersections that
+ * are hidden from end to end. */
+void hand_assert_visible_same(const struct map *a, const struct sheet *sa,
+                              const struct map *b, const struct sheet *sb,
+                              const char *what);
 
 /* The area of all fragments of a face over scale^2, as a fraction in lowest
  * terms: asserts that it is num / den. */
