@@ -20,12 +20,13 @@ librecto_core_la_SOURCES += \
   %D%/solver.c %D%/solver.h \
   %D%/spans.c %D%/spans.h \
   %D%/strokes.c %D%/strokes.h \
+  %D%/surround.c %D%/surround.h \
   %D%/tilemap.c %D%/tilemap.h \
   %D%/tiles.c \
   %D%/trace.c %D%/trace.h \
   %D%/warnock.c \
   %D%/warnock_raster.c %D%/warnock_raster.h \
   %D%/warnock_sample.c %D%/warnock_sample.h \
-  %D%/warnock_tests.c %D%/warnock_tests.h \
+  %D%/warnock_window.c %D%/warnock_window.h \
   %D%/window.c %D%/window.h \
   %D%/zbuffer.c %D%/zbuffer.h

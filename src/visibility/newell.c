@@ -5,7 +5,7 @@
  * Strokes: of two faces that overlap, the one painted first hides nothing of
  * the other.  So an edge is asked only about faces painted after its own; but
  * one that runs along the side of a face does not overlap it, and is always
- * asked.
+ * asked.  So is one that was rounded off its face.
  *
  * Source  [Newell1972].
  */
@@ -26,11 +26,13 @@ struct stroke_work {
   uint64_t by_order; /* pairs the order settled */
 };
 
-/* The rank of the edge's own face where it is one whole piece, else 0. */
+/* The rank of the edge's own face where it is one whole piece, else 0: also
+ * for an intersection, whose ends were rounded and may lie beside its face. */
 static uint32_t rank_of_edge(const struct stroke_work *work,
                              const struct sheet_edge *edge) {
   uint32_t t = edge->triangle[0];
-  if (t == SHEET_NONE || work->order->piece.item[t].state != NEWELL_PAINTED)
+  if (t == SHEET_NONE || edge->edge_class == RECTO_EDGE_INTERSECTION ||
+      work->order->piece.item[t].state != NEWELL_PAINTED)
     return 0;
   return work->order->piece.item[t].rank;
 }

@@ -33,11 +33,14 @@
 static bool add_triangles(struct newell_order *order) {
   const struct sheet *sheet = order->sheet;
   size_t n = sheet->triangle.count;
-  if (!ARRAY_RESERVE(&order->piece, n)) return false;
+  order->open = mem_alloc(n, sizeof *order->open);
+  if (order->open == NULL || !ARRAY_RESERVE(&order->piece, n)) return false;
   for (size_t t = 0; t < n; t++) {
     struct newell_piece piece = {
         .triangle = (uint32_t)t,
         .next = NEWELL_NONE,
+        .next_open = NEWELL_NONE,
+        .last_open = NEWELL_NONE,
         .box = page_box_of_triangle(sheet, (uint32_t)t),
         .rank = NEWELL_NONE,
         .state = sheet->triangle_flags[t] & SHEET_FLAT ? NEWELL_UNSEEN
@@ -49,6 +52,8 @@ static bool add_triangles(struct newell_order *order) {
       if (z < piece.z_low) piece.z_low = z;
       if (z > piece.z_high) piece.z_high = z;
     }
+    order->open[t] =
+        piece.state == NEWELL_WAITING ? (uint32_t)t : NEWELL_NONE;
     order->piece.item[order->piece.count++] = piece;
   }
   return true;
@@ -72,7 +77,25 @@ static bool add_part(struct newell_order *order, uint32_t from,
                                 clamp(shape->x1 + 1), clamp(shape->y1 + 1)};
   piece.next = first->next;
   first->next = (uint32_t)order->piece.count;
+  piece.last_open = NEWELL_NONE;
+  piece.next_open = order->open[piece.triangle];
+  if (piece.next_open != NEWELL_NONE)
+    order->piece.item[piece.next_open].last_open = first->next;
+  order->open[piece.triangle] = first->next;
   return ARRAY_PUSH(&order->piece, piece);
+}
+
+/* A piece is painted, split or unseen: it is asked no more. */
+static void close_piece(struct newell_order *order, uint32_t piece,
+                        enum newell_state state) {
+  struct newell_piece *p = &order->piece.item[piece];
+  p->state = (uint8_t)state;
+  if (p->last_open != NEWELL_NONE)
+    order->piece.item[p->last_open].next_open = p->next_open;
+  else
+    order->open[p->triangle] = p->next_open;
+  if (p->next_open != NEWELL_NONE)
+    order->piece.item[p->next_open].last_open = p->last_open;
 }
 
 struct geom_line *newell_piece_lines(const struct newell_order *order,
@@ -106,7 +129,7 @@ static bool split_by(struct newell_order *order, uint32_t piece,
     return false;
   *split = left.count > 0 && right.count > 0;
   if (!*split) return true;
-  order->piece.item[piece].state = NEWELL_SPLIT;
+  close_piece(order, piece, NEWELL_SPLIT);
   return add_part(order, piece, &left) && add_part(order, piece, &right);
 }
 
@@ -142,7 +165,7 @@ static bool split_cycle(struct newell_order *order, uint32_t p, uint32_t q) {
   if (split) {
     order->counts.split_cycle++;
   } else { /* Q is inside the outline of P, which is in front of it */
-    order->piece.item[q].state = NEWELL_UNSEEN;
+    close_piece(order, q, NEWELL_UNSEEN);
     order->counts.unseen++;
   }
   return true;
@@ -191,11 +214,11 @@ static enum step test_candidate(struct newell_order *order, uint32_t p) {
   if (!pagegrid_find(order->grid, order->piece.item[p].box, &order->query))
     return STEP_FAILED;
   for (size_t i = 0; i < order->query.found.count; i++) {
-    uint32_t q = order->query.found.item[i];
-    if (q == triangle) continue;
-    for (; q != NEWELL_NONE; q = order->piece.item[q].next) {
+    uint32_t t = order->query.found.item[i];
+    if (t == triangle) continue;
+    for (uint32_t q = order->open[t]; q != NEWELL_NONE;
+         q = order->piece.item[q].next_open) {
       enum step step;
-      if (order->piece.item[q].state > NEWELL_MARKED) continue;
       step = test_pair(order, p, q);
       arena_reset(&order->scratch);
       if (step == STEP_FAILED || step == STEP_SPLIT) return step;
@@ -221,7 +244,7 @@ static bool paint(struct newell_order *order, uint32_t root) {
       return false;
     case STEP_PAINT:
       order->stack.count--;
-      piece->state = NEWELL_PAINTED;
+      close_piece(order, p, NEWELL_PAINTED);
       piece->rank = (uint32_t)order->painted.count;
       if (!ARRAY_PUSH(&order->painted, p)) return false;
       break;
@@ -271,14 +294,8 @@ recto_status newell_order_init(struct newell_order *order,
     uint32_t p = s[i].value;
     if (cancelled(request, i, n))
       status = error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
-    while (p != NEWELL_NONE && status == RECTO_OK) {
-      if (order->piece.item[p].state == NEWELL_WAITING) {
-        if (!paint(order, p)) status = error_memory(error);
-        p = s[i].value; /* parts may have come before the next one */
-      } else {
-        p = order->piece.item[p].next;
-      }
-    }
+    while (status == RECTO_OK && order->open[p] != NEWELL_NONE)
+      if (!paint(order, order->open[p])) status = error_memory(error);
   }
   mem_free(s);
   return status;
@@ -287,6 +304,7 @@ recto_status newell_order_init(struct newell_order *order,
 void newell_order_fini(struct newell_order *order) {
   pagegrid_query_fini(&order->query);
   ARRAY_FREE(&order->piece);
+  mem_free(order->open);
   ARRAY_FREE(&order->painted);
   ARRAY_FREE(&order->stack);
   arena_fini(&order->arena);

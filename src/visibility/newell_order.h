@@ -22,6 +22,7 @@ enum newell_state {
 struct newell_piece {
   uint32_t triangle;
   uint32_t next;             /* the triangle's next piece, NEWELL_NONE */
+  uint32_t next_open, last_open; /* the same among those not painted yet */
   struct geom_convex *shape; /* NULL: the whole triangle */
   struct page_box box;
   int64_t z_low, z_high;     /* of the triangle */
@@ -40,6 +41,7 @@ struct newell_order {
   const struct pagegrid *grid;
   struct pagegrid_query query;
   ARRAY(struct newell_piece) piece;
+  uint32_t *open;          /* a triangle's first piece not painted yet */
   ARRAY(uint32_t) painted; /* pieces, back to front */
   ARRAY(uint32_t) stack;   /* candidates: each is to be painted before those
                               under it */

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "visibility/surround.h"
+
 enum {
   SPREAD = 8, /* cells a triangle, on average, for lists of pairs */
   MAX_SHIFT = 31,
@@ -35,7 +37,7 @@ static bool is_spread(const struct sheet *sheet, int shift, unsigned spread) {
 }
 
 void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
-                    unsigned spread) {
+                    unsigned spread, unsigned most) {
   struct page_box all = box_of_sheet(sheet);
   uint64_t n = sheet->triangle.count, width, height;
   memset(grid, 0, sizeof *grid);
@@ -47,7 +49,7 @@ void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
   for (grid->shift = 0; grid->shift < MAX_SHIFT; grid->shift++) {
     uint64_t cells =
         ((width >> grid->shift) + 1) * ((height >> grid->shift) + 1);
-    if (cells <= 2 * n + 16 && is_spread(sheet, grid->shift, spread)) break;
+    if (cells <= most * n + 16 && is_spread(sheet, grid->shift, spread)) break;
   }
   grid->columns = (int)(width >> grid->shift) + 1;
   grid->rows = (int)(height >> grid->shift) + 1;
@@ -56,17 +58,20 @@ void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
 /* First pass: counts; second: places.  start[] ends as the lists' starts. */
 static void fill_cells(struct pagegrid *grid, const struct sheet *sheet,
                        const struct footprint *print, const uint8_t *wanted,
-                       bool place) {
+                       const double *horizon, bool place) {
   for (size_t t = sheet->triangle.count; t-- > 0;) {
     struct cell_range r =
         print != NULL
             ? footprint_cells(grid, sheet, t, print[t])
             : pagegrid_cells(grid, page_box_of_triangle(sheet, (uint32_t)t));
+    double nearest =
+        horizon != NULL ? (double)triangle_nearest(sheet, (uint32_t)t) : 0;
     for (int y = r.y0; y <= r.y1; y++)
       for (int x = r.x0; x <= r.x1; x++) {
         size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
         uint32_t *end = &grid->start[cell];
         if (wanted != NULL && !wanted[cell]) continue;
+        if (horizon != NULL && nearest < horizon[cell]) continue;
         if (place)
           grid->item[--*end] = (uint32_t)t;
         else
@@ -76,24 +81,26 @@ static void fill_cells(struct pagegrid *grid, const struct sheet *sheet,
 }
 
 bool pagegrid_fill(struct pagegrid *grid, const struct sheet *sheet,
-                   const struct footprint *print, const uint8_t *wanted) {
+                   const struct footprint *print, const uint8_t *wanted,
+                   const double *horizon) {
   size_t cells = pagegrid_cell_count(grid);
+  grid->horizon = horizon;
   grid->start = mem_calloc(cells + 1, sizeof *grid->start);
   if (grid->start == NULL) return false;
-  fill_cells(grid, sheet, print, wanted, false);
+  fill_cells(grid, sheet, print, wanted, horizon, false);
   for (size_t c = 0; c < cells; c++) grid->start[c + 1] += grid->start[c];
   grid->item = mem_alloc(grid->start[cells], sizeof *grid->item);
   if (grid->item == NULL) {
     pagegrid_fini(grid);
     return false;
   }
-  fill_cells(grid, sheet, print, wanted, true);
+  fill_cells(grid, sheet, print, wanted, horizon, true);
   return true;
 }
 
 bool pagegrid_init(struct pagegrid *grid, const struct sheet *sheet) {
-  pagegrid_shape(grid, sheet, SPREAD);
-  return pagegrid_fill(grid, sheet, NULL, NULL);
+  pagegrid_shape(grid, sheet, SPREAD, 2);
+  return pagegrid_fill(grid, sheet, NULL, NULL, NULL);
 }
 
 void pagegrid_fini(struct pagegrid *grid) {

@@ -40,6 +40,7 @@ struct pagegrid {
   int32_t x0, y0; /* lower left corner */
   uint32_t *start, *item;
   size_t triangle_count;
+  const double *horizon; /* what the lists were made with; lent */
 };
 
 /* Indexes the boxes of all triangles of the sheet. */
@@ -48,15 +49,17 @@ void pagegrid_fini(struct pagegrid *grid);
 
 /* The same in two steps.  The first chooses the cells: as small as they may
  * be with a triangle in `spread` of them on average, so that memory is linear
- * in the triangles whatever their shape.  The second makes the lists.
+ * in the triangles whatever their shape, and at most `cells` cells a
+ * triangle.  The second makes the lists.
  * print   the triangles' footprints; NULL: not known
- * wanted  the cells that get a list, the others' stay empty; NULL: all */
+ * wanted  the cells that get a list, the others' stay empty; NULL: all
+ * horizon one a cell: triangles wholly behind it are left out; NULL: none */
 void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
-                    unsigned spread);
+                    unsigned spread, unsigned cells);
 struct footprint;
 USE_RESULT bool pagegrid_fill(struct pagegrid *grid, const struct sheet *sheet,
                               const struct footprint *print,
-                              const uint8_t *wanted);
+                              const uint8_t *wanted, const double *horizon);
 
 static inline size_t pagegrid_cell_count(const struct pagegrid *grid) {
   return (size_t)grid->columns * (size_t)grid->rows;

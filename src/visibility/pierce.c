@@ -389,8 +389,14 @@ static struct summary summarise(const struct sheet *sheet, uint32_t triangle) {
   return s;
 }
 
-/* A pair stands in several cells; it is asked in the first that has a list
- * and that both boxes meet. */
+static bool is_listed(const struct pagegrid *grid, size_t cell,
+                      const struct summary *s) {
+  return grid->start[cell] < grid->start[cell + 1] &&
+         (grid->horizon == NULL || !((double)s->high < grid->horizon[cell]));
+}
+
+/* A pair stands in several cells; it is asked in the first whose list has
+ * both. */
 static bool is_cell_of_pair(const struct pagegrid *grid, size_t cell,
                             const struct summary *f, const struct summary *g) {
   struct page_box both = {page_most(f->box.x0, g->box.x0),
@@ -401,7 +407,7 @@ static bool is_cell_of_pair(const struct pagegrid *grid, size_t cell,
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t c = (size_t)y * (size_t)grid->columns + (size_t)x;
-      if (grid->start[c] < grid->start[c + 1]) return c == cell;
+      if (is_listed(grid, c, f) && is_listed(grid, c, g)) return c == cell;
     }
   return false;
 }

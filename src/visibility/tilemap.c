@@ -10,9 +10,15 @@
 #include <string.h>
 
 #include "visibility/hide.h"
+#include "visibility/surround.h"
 
-/* Cells a triangle stands in, on average: a tile about an edge wide. */
-enum { SPREAD = 4, MANY = 2 };
+enum {
+  SPREAD = 4, /* cells a triangle is in, on average: a tile is about an edge */
+  MANY = 2,
+  SOUP = 32,            /* faces over a point, on average, that make a soup */
+  SOUP_CELLS = 1 << 22, /* cells of all triangles of a soup together */
+  SAMPLE = 1 << 12
+};
 
 static uint64_t bucket_mask(int low, int high) {
   return (~UINT64_C(0) >> (TILE_BUCKETS - 1 - high)) & (~UINT64_C(0) << low);
@@ -77,6 +83,13 @@ static void refuse_contours(struct tilemap *map, const struct sheet *sheet) {
   }
 }
 
+static struct window tile_window(const struct pagegrid *grid, int x, int y) {
+  int64_t side = INT64_C(1) << grid->shift, x0 = grid->x0 + x * side,
+          y0 = grid->y0 + y * side;
+  return (struct window){(int32_t)x0, (int32_t)y0, (int32_t)(x0 + side),
+                         (int32_t)(y0 + side)};
+}
+
 /* Where a tile is sampled: off the middle, so that regular meshes whose edges
  * run along the grid are not met on an edge again and again. */
 static struct geom_point sample_of(const struct pagegrid *grid, int x, int y) {
@@ -86,6 +99,40 @@ static struct geom_point sample_of(const struct pagegrid *grid, int x, int y) {
   struct geom_point p = {(int32_t)(px > SHEET_XY_MAX ? SHEET_XY_MAX : px),
                          (int32_t)(py > SHEET_XY_MAX ? SHEET_XY_MAX : py), 0};
   return p;
+}
+
+/* How many triangles' boxes are over a point of the page, on average. */
+static double mean_layers(const struct sheet *sheet,
+                          const struct pagegrid *grid) {
+  size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
+  double side = (double)(INT64_C(1) << grid->shift), sum = 0;
+  for (size_t t = 0; t < n; t += stride) {
+    struct page_box b = page_box_of_triangle(sheet, (uint32_t)t);
+    sum += ((double)b.x1 - b.x0) * ((double)b.y1 - b.y0) * (double)stride;
+  }
+  return sum / (side * side * grid->columns * grid->rows);
+}
+
+/* The horizons of the tiles that the triangle surrounds. */
+static void raise_horizons(struct tilemap *map, const struct sheet *sheet,
+                           size_t t) {
+  struct cell_range r = footprint_cells(&map->grid, sheet, t, map->print[t]);
+  struct geom_point p[3];
+  if (r.x1 - r.x0 < 2 || r.y1 - r.y0 < 2) return;
+  for (int k = 0; k < 3; k++)
+    p[k] = sheet->point.item[sheet->triangle.item[t].point[k]];
+  for (int y = r.y0 + 1; y < r.y1; y++)
+    for (int x = r.x0 + 1; x < r.x1; x++) {
+      struct window window = tile_window(&map->grid, x, y);
+      struct window_counts counts;
+      struct surround_depths depth;
+      double *horizon = &map->horizon[(size_t)y * (size_t)map->grid.columns +
+                                      (size_t)x];
+      if (window_classify(&window, p, 3, &counts) != WINDOW_SURROUNDING)
+        continue;
+      surround_depths_of(sheet, (uint32_t)t, &window, &depth);
+      if (depth.low > *horizon) *horizon = depth.low;
+    }
 }
 
 struct corners {
@@ -128,10 +175,41 @@ static bool is_steep(const struct sheet *sheet, const struct corners *corners) {
   return !(bound < nz * (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1)));
 }
 
+/* Fragments ask which faces touch, and a steep one may touch across a
+ * horizon: it takes the horizons of its tiles away. */
+static void drop_horizons(struct tilemap *map, const struct sheet *sheet,
+                          size_t t) {
+  struct corners corners = corners_of(sheet, t);
+  struct cell_range r;
+  if (!is_steep(sheet, &corners)) return;
+  r = footprint_cells(&map->grid, sheet, t, map->print[t]);
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++)
+      map->horizon[(size_t)y * (size_t)map->grid.columns + (size_t)x] = -1;
+}
+
+static bool find_horizons(struct tilemap *map, const struct sheet *sheet,
+                          bool fragments) {
+  size_t n = pagegrid_cell_count(&map->grid);
+  map->horizon = mem_alloc(n, sizeof *map->horizon);
+  if (map->horizon == NULL) return false;
+  for (size_t i = 0; i < n; i++) map->horizon[i] = -1;
+  for (size_t t = 0; t < sheet->triangle.count; t++)
+    if (!(sheet->triangle_flags[t] & SHEET_FLAT))
+      raise_horizons(map, sheet, t);
+  if (!fragments) return true;
+  for (size_t i = 0; i < n; i++)
+    map->horizon[i] -= (double)(INT64_C(1) << TILE_BUCKET_SHIFT);
+  for (size_t t = 0; t < sheet->triangle.count; t++)
+    if (!(sheet->triangle_flags[t] & SHEET_FLAT))
+      drop_horizons(map, sheet, t);
+  return true;
+}
+
 /* Counts the triangle in the simple tiles it may belong to the front of, or
  * refuses them where it is too steep. */
 static void count_triangle(struct tilemap *map, const struct sheet *sheet,
-                           size_t t, bool steep_all) {
+                           size_t t, bool fragments) {
   struct footprint print = map->print[t];
   struct cell_range r = footprint_cells(&map->grid, sheet, t, print);
   struct corners corners;
@@ -140,7 +218,7 @@ static void count_triangle(struct tilemap *map, const struct sheet *sheet,
     for (int x = r.x0; x <= r.x1; x++) {
       struct tile *tile = tile_at(map, x, y);
       bool front = print.low >= tile->front;
-      if (tile->state != TILE_SIMPLE || !(front || steep_all)) continue;
+      if (tile->state != TILE_SIMPLE || !(front || fragments)) continue;
       if (!known) {
         corners = corners_of(sheet, t);
         steep = is_steep(sheet, &corners);
@@ -154,25 +232,32 @@ static void count_triangle(struct tilemap *map, const struct sheet *sheet,
 }
 
 static void count_samples(struct tilemap *map, const struct sheet *sheet,
-                          bool steep_all) {
+                          bool fragments) {
   for (size_t t = 0; t < sheet->triangle.count; t++)
     if (!(sheet->triangle_flags[t] & SHEET_FLAT))
-      count_triangle(map, sheet, t, steep_all);
+      count_triangle(map, sheet, t, fragments);
 }
 
 bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
-                  bool steep_all) {
+                  bool fragments) {
   size_t n;
+  bool soup;
   memset(map, 0, sizeof *map);
-  pagegrid_shape(&map->grid, sheet, SPREAD);
+  pagegrid_shape(&map->grid, sheet, SPREAD, SPREAD / 2);
+  soup = mean_layers(sheet, &map->grid) > SOUP;
+  if (soup) {
+    unsigned spread = (unsigned)(SOUP_CELLS / sheet->triangle.count + SPREAD);
+    pagegrid_shape(&map->grid, sheet, spread, spread);
+  }
   n = pagegrid_cell_count(&map->grid);
   map->tile = mem_calloc(n, sizeof *map->tile);
   map->print = mem_alloc(sheet->triangle.count, sizeof *map->print);
   if (map->tile == NULL || map->print == NULL) return false;
   gather_depths(map, sheet);
+  if (soup && !find_horizons(map, sheet, fragments)) return false;
   find_fronts(map);
   refuse_contours(map, sheet);
-  count_samples(map, sheet, steep_all);
+  count_samples(map, sheet, fragments);
   for (size_t i = 0; i < n; i++) {
     struct tile *tile = &map->tile[i];
     if (tile->state == TILE_SIMPLE && tile->covered != 1)
@@ -188,6 +273,14 @@ void tilemap_fini(struct tilemap *map) {
   pagegrid_fini(&map->grid);
   mem_free(map->tile);
   mem_free(map->print);
+  mem_free(map->horizon);
   map->tile = NULL;
   map->print = NULL;
+  map->horizon = NULL;
+}
+
+bool tilemap_list(struct tilemap *map, const struct sheet *sheet,
+                  const uint8_t *wanted) {
+  pagegrid_fini(&map->grid);
+  return pagegrid_fill(&map->grid, sheet, map->print, wanted, map->horizon);
 }

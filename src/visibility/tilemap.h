@@ -12,7 +12,13 @@
  *   - what is behind it is hidden, exactly: a bucket is empty between them,
  *     which is more than contact can explain (faces seen so steeply that it
  *     might are refused).
- * Such a tile is simple.  All of this is decided by integers; a tile that is
+ * Such a tile is simple.
+ *
+ * In deep soups of large faces single faces do surround tiles.  There a tile
+ * also has a horizon: the nearest depth that some surrounding face surely
+ * reaches all over it; what is behind the horizon is hidden in the tile, and
+ * left out of its list.
+ *  All of this is decided by integers; a tile that is
  * refused for caution costs time, never truth.
  *
  * Source  Warnock's surrounder [Warnock1969], with a layer for the face.
@@ -41,14 +47,27 @@ struct tilemap {
   struct pagegrid grid; /* its shape; lists only where they were filled */
   struct tile *tile;
   struct footprint *print; /* one a triangle */
+  double *horizon;         /* one a tile; NULL: no soup */
   uint64_t simple, mixed, empty;
 };
 
+/* Is a depth behind the tile's horizon? */
+static inline bool tilemap_is_beyond(const struct tilemap *map, size_t tile,
+                                     int64_t z) {
+  return map->horizon != NULL && (double)z < map->horizon[tile];
+}
+
 /* Classifies the tiles of the sheet.
- * steep_all  refuse tiles with steep faces in any layer, not just the front */
+ * fragments  will be asked for: faces that touch must be told too, so tiles
+ *            with steep faces in any layer are refused */
 USE_RESULT bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
-                             bool steep_all);
+                             bool fragments);
 void tilemap_fini(struct tilemap *map);
+
+/* Lists the triangles of the wanted tiles that are not beyond their horizons,
+ * in place of the lists before. */
+USE_RESULT bool tilemap_list(struct tilemap *map, const struct sheet *sheet,
+                             const uint8_t *wanted);
 
 static inline int tile_bucket(int64_t z) {
   return (int)(z >> TILE_BUCKET_SHIFT);

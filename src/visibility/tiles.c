@@ -17,6 +17,7 @@
 #include "visibility/pierce.h"
 #include "visibility/solver.h"
 #include "visibility/strokes.h"
+#include "visibility/surround.h"
 #include "visibility/tilemap.h"
 
 struct tiles_work {
@@ -44,10 +45,8 @@ static void want_for_piercing(struct tiles_work *work) {
 
 /* Lists the faces of the wanted tiles, again where more became wanted. */
 static bool list_faces(struct tiles_work *work) {
-  pagegrid_fini(&work->tiles.grid);
   work->wants_more = false;
-  return pagegrid_fill(&work->tiles.grid, work->sheet, work->tiles.print,
-                       work->wanted);
+  return tilemap_list(&work->tiles, work->sheet, work->wanted);
 }
 
 /* ---- 2. Classifying -------------------------------------------------------------- */
@@ -77,13 +76,16 @@ static enum map_state ask_along(struct tiles_work *work, struct geom_point p,
   const struct pagegrid *grid = &work->tiles.grid;
   struct cell_range r = pagegrid_cells(grid, page_box_of_segment(p, q));
   int low = least_bucket(p.z, q.z), high = most_bucket(p.z, q.z);
+  int64_t nearest = p.z > q.z ? p.z : q.z;
   int state = -1;
   for (int y = r.y0; y <= r.y1; y++) {
     int x0, x1;
     pagegrid_row(grid, p, q, r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++) {
       size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
-      int now = (int)ask_tile(&work->tiles.tile[i], low, high, wire);
+      int now = tilemap_is_beyond(&work->tiles, i, nearest)
+                    ? MAP_HIDDEN
+                    : (int)ask_tile(&work->tiles.tile[i], low, high, wire);
       if (mark) {
         work->wants_more |= !work->wanted[i];
         work->wanted[i] = 1;
@@ -122,6 +124,7 @@ static enum map_state ask_face(const struct tiles_work *work, uint32_t t) {
   const uint32_t *point = sheet->triangle.item[t].point;
   struct cell_range r = pagegrid_cells(grid, page_box_of_triangle(sheet, t));
   int low = TILE_BUCKETS, high = -1, state = -1;
+  int64_t nearest = triangle_nearest(sheet, t);
   for (int k = 0; k < 3; k++) {
     int bucket = tile_bucket(sheet->point.item[point[k]].z);
     if (bucket < low) low = bucket;
@@ -130,7 +133,9 @@ static enum map_state ask_face(const struct tiles_work *work, uint32_t t) {
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
-      int now = (int)ask_tile(&work->tiles.tile[i], low, high, false);
+      int now = tilemap_is_beyond(&work->tiles, i, nearest)
+                    ? MAP_HIDDEN
+                    : (int)ask_tile(&work->tiles.tile[i], low, high, false);
       if (now == MAP_MIXED || (state >= 0 && state != now)) return MAP_MIXED;
       state = now;
     }
@@ -301,6 +306,7 @@ static void report_tiles(const struct tiles_work *work, struct report *report) {
   report_int(report, "tiles", "simple", (int64_t)work->tiles.simple);
   report_int(report, "tiles", "mixed", (int64_t)work->tiles.mixed);
   report_int(report, "tiles", "empty", (int64_t)work->tiles.empty);
+  report_int(report, "tiles", "with_horizons", work->tiles.horizon != NULL);
   report_int(report, "tiles", "edges_left_over", (int64_t)work->edge.count);
   report_int(report, "tiles", "triangles_left_over",
              (int64_t)work->face.count);

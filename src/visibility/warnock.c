@@ -30,8 +30,9 @@
 #include "visibility/pierce.h"
 #include "visibility/solver.h"
 #include "visibility/strokes.h"
+#include "visibility/surround.h"
 #include "visibility/warnock_raster.h"
-#include "visibility/warnock_tests.h"
+#include "visibility/warnock_window.h"
 
 /* Where a window's lists stand in the pools. */
 struct range {
@@ -63,11 +64,12 @@ struct warnock {
   ARRAY(uint32_t) faces, surrounders, edges; /* the pools */
   ARRAY(struct edge_part) part;
   ARRAY(struct face_piece) piece;
-  struct arena arena;        /* of the pieces */
+  struct arena arena; /* of the pieces */
   struct cover cover;
-  int64_t floor;             /* no smaller window is divided */
+  int64_t floor; /* no smaller window is divided */
   struct window_counts tests;
-  struct warnock_depth_counts depth;
+  uint64_t cut_short; /* lists of which the rest is behind the front */
+  uint64_t dropped;   /* faces behind it at every corner of a window */
   struct hide_counts hide;
   struct {
     uint64_t all, no_edge, no_face, one_surrounder, few, floor, divided;
@@ -77,18 +79,27 @@ struct warnock {
 /* At most so many faces, surrounders included, are solved by pairs. */
 enum { FEW = 12 };
 
-/* ---- Lists ------------------------------------------------------------------------ */
+/* Is the edge to be drawn, and not seen end-on? */
+static bool is_drawn(const struct sheet *sheet, uint32_t e) {
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  struct geom_point p = sheet->point.item[edge->point[0]],
+                    q = sheet->point.item[edge->point[1]];
+  return edge->edge_class != 0 && (p.x != q.x || p.y != q.y);
+}
+
+/* ---- Lists
+ * ------------------------------------------------------------------------ */
 
 /* The surrounder whose farthest depth in the window is nearest: the front. */
 struct front {
   uint32_t triangle; /* SHEET_NONE: no surrounder */
-  struct warnock_corners depth;
+  struct surround_depths depth;
 };
 
 static void meet_surrounder(struct warnock *w, const struct window *window,
                             uint32_t t, struct front *front) {
-  struct warnock_corners depth;
-  warnock_corner_depths(w->sheet, t, window, &depth);
+  struct surround_depths depth;
+  surround_depths_of(w->sheet, t, window, &depth);
   if (front->triangle == SHEET_NONE || depth.low > front->depth.low) {
     front->triangle = t;
     front->depth = depth;
@@ -112,8 +123,8 @@ static bool list_faces(struct warnock *w, struct warnock_window *win,
     enum window_class class;
     bool pushed = true;
     if (front->triangle != SHEET_NONE &&
-        warnock_nearest(w->sheet, t) < front->depth.low) {
-      w->depth.sorted++;
+        triangle_nearest(w->sheet, t) < front->depth.low) {
+      w->cut_short++;
       break;
     }
     for (int k = 0; k < 3; k++)
@@ -125,31 +136,41 @@ static bool list_faces(struct warnock *w, struct warnock_window *win,
     } else if (class != WINDOW_DISJOINT) {
       pushed = ARRAY_PUSH(&w->faces, t);
     }
-    if (!pushed) return false;
+    if (!pushed)
+      return false;
   }
   for (size_t i = surrounders.from; i < surrounders.to; i++)
-    if (!ARRAY_PUSH(&w->surrounders, w->surrounders.item[i])) return false;
+    if (!ARRAY_PUSH(&w->surrounders, w->surrounders.item[i]))
+      return false;
   win->faces.to = w->faces.count;
   win->surrounders.to = w->surrounders.count;
   return true;
 }
 
-/* Drops what is behind the front at every corner of the window. */
+/* Is the triangle not behind the front at every corner of the window? */
+static bool is_seen(struct warnock *w, const struct window *window,
+                    const struct front *front, uint32_t triangle) {
+  bool hidden = surround_hides(w->sheet, &front->depth, window, triangle);
+  w->dropped += hidden;
+  return !hidden;
+}
+
+/* Drops what is behind the front. */
 static void drop_hidden(struct warnock *w, struct warnock_window *win,
                         const struct front *front) {
   size_t kept = win->faces.from;
-  if (front->triangle == SHEET_NONE) return;
+  if (front->triangle == SHEET_NONE)
+    return;
   for (size_t i = win->faces.from; i < win->faces.to; i++) {
     uint32_t t = w->faces.item[i];
-    if (!warnock_is_behind(w->sheet, t, &win->window, &front->depth, &w->depth))
+    if (is_seen(w, &win->window, front, t))
       w->faces.item[kept++] = t;
   }
   win->faces.to = w->faces.count = kept;
   kept = win->surrounders.from;
   for (size_t i = win->surrounders.from; i < win->surrounders.to; i++) {
     uint32_t t = w->surrounders.item[i];
-    if (t == front->triangle ||
-        !warnock_is_behind(w->sheet, t, &win->window, &front->depth, &w->depth))
+    if (t == front->triangle || is_seen(w, &win->window, front, t))
       w->surrounders.item[kept++] = t;
   }
   win->surrounders.to = w->surrounders.count = kept;
@@ -170,7 +191,8 @@ static bool list_edges(struct warnock *w, struct warnock_window *win) {
   return true;
 }
 
-/* ---- Finished windows -------------------------------------------------------------- */
+/* ---- Finished windows
+ * -------------------------------------------------------------- */
 
 /* What one triangle hides of one edge inside the window. */
 static bool solve_pair(struct warnock *w, const struct window *window,
@@ -186,8 +208,10 @@ static bool solve_pair(struct warnock *w, const struct window *window,
       !hide_edge_by(sheet, t, p, q, &part.part, &w->hide) ||
       !window_clip(window, p, q, &from, &to))
     return true;
-  if (ratio_compare(part.part.from, from) < 0) part.part.from = from;
-  if (ratio_compare(to, part.part.to) < 0) part.part.to = to;
+  if (ratio_compare(part.part.from, from) < 0)
+    part.part.from = from;
+  if (ratio_compare(to, part.part.to) < 0)
+    part.part.to = to;
   return ratio_compare(part.part.from, part.part.to) >= 0 ||
          ARRAY_PUSH(&w->part, part);
 }
@@ -197,7 +221,8 @@ static bool solve_face(struct warnock *w, const struct warnock_window *win,
                        uint32_t t) {
   struct geom_line border[8];
   const struct range *list[2] = {&win->surrounders, &win->faces};
-  if (w->sheet->triangle_flags[t] & SHEET_FLAT) return true;
+  if (w->sheet->triangle_flags[t] & SHEET_FLAT)
+    return true;
   warnock_window_lines(&win->window, border, border + 4);
   if (!cover_start(&w->cover, t, NULL) ||
       !cover_keep(&w->cover, border, border + 4, 4))
@@ -206,7 +231,8 @@ static bool solve_face(struct warnock *w, const struct warnock_window *win,
     const uint32_t *pool = l == 0 ? w->surrounders.item : w->faces.item;
     for (size_t i = list[l]->from; i < list[l]->to; i++) {
       uint32_t g = pool[i];
-      if (cover_is_empty(&w->cover)) return true;
+      if (cover_is_empty(&w->cover))
+        return true;
       if (g != t && !(w->sheet->triangle_flags[g] & SHEET_FLAT) &&
           !cover_take_nearer(&w->cover, g))
         return false;
@@ -226,19 +252,25 @@ static bool solve_window(struct warnock *w, const struct warnock_window *win) {
   for (size_t i = win->edges.from; i < win->edges.to; i++) {
     uint32_t e = w->edges.item[i];
     for (size_t k = win->surrounders.from; k < win->surrounders.to; k++)
-      if (!solve_pair(w, &win->window, e, w->surrounders.item[k])) return false;
+      if (!solve_pair(w, &win->window, e, w->surrounders.item[k]))
+        return false;
     for (size_t k = win->faces.from; k < win->faces.to; k++)
-      if (!solve_pair(w, &win->window, e, w->faces.item[k])) return false;
+      if (!solve_pair(w, &win->window, e, w->faces.item[k]))
+        return false;
   }
-  if (!w->request->fragments) return true;
+  if (!w->request->fragments)
+    return true;
   for (size_t k = win->surrounders.from; k < win->surrounders.to; k++)
-    if (!solve_face(w, win, w->surrounders.item[k])) return false;
+    if (!solve_face(w, win, w->surrounders.item[k]))
+      return false;
   for (size_t k = win->faces.from; k < win->faces.to; k++)
-    if (!solve_face(w, win, w->faces.item[k])) return false;
+    if (!solve_face(w, win, w->faces.item[k]))
+      return false;
   return true;
 }
 
-/* ---- Division ------------------------------------------------------------------------ */
+/* ---- Division
+ * ------------------------------------------------------------------------ */
 
 /* Where to divide: in the middle, or at a corner of the box of the window's
  * nearest face where one is inside. */
@@ -271,7 +303,8 @@ static bool divide(struct warnock *w, const struct warnock_window *win) {
     part.window = (struct window){k & 1 ? x : v->x0, k & 2 ? y : v->y0,
                                   k & 1 ? v->x1 : x, k & 2 ? v->y1 : y};
     part.level = win->level + 1;
-    if (!ARRAY_PUSH(&w->stack, part)) return false;
+    if (!ARRAY_PUSH(&w->stack, part))
+      return false;
   }
   w->windows.divided++;
   return true;
@@ -279,8 +312,7 @@ static bool divide(struct warnock *w, const struct warnock_window *win) {
 
 static bool is_small(const struct warnock *w, const struct window *v) {
   int64_t width = (int64_t)v->x1 - v->x0, height = (int64_t)v->y1 - v->y0;
-  return width < 2 || height < 2 ||
-         (width <= w->floor && height <= w->floor);
+  return width < 2 || height < 2 || (width <= w->floor && height <= w->floor);
 }
 
 static bool take_window(struct warnock *w) {
@@ -291,15 +323,17 @@ static bool take_window(struct warnock *w) {
   w->faces.count = win.faces.to;
   w->surrounders.count = win.surrounders.to;
   w->edges.count = win.edges.to;
-  if (!list_edges(w, &win)) return false;
+  if (!list_edges(w, &win))
+    return false;
   if (win.edges.from == win.edges.to && !w->request->fragments) {
     w->windows.no_edge++;
     return true;
   }
-  if (!list_faces(w, &win, &front)) return false;
+  if (!list_faces(w, &win, &front))
+    return false;
   drop_hidden(w, &win, &front);
-  faces = win.faces.to - win.faces.from + win.surrounders.to -
-          win.surrounders.from;
+  faces =
+      win.faces.to - win.faces.from + win.surrounders.to - win.surrounders.from;
   if (faces == 0) {
     w->windows.no_face++;
     return true;
@@ -315,7 +349,8 @@ static bool take_window(struct warnock *w) {
   return solve_window(w, &win);
 }
 
-/* ---- What the windows gave ------------------------------------------------------------- */
+/* ---- What the windows gave
+ * ------------------------------------------------------------- */
 
 static bool file_strokes(struct warnock *w, struct map *map) {
   const struct sheet *sheet = w->sheet;
@@ -325,12 +360,11 @@ static bool file_strokes(struct warnock *w, struct map *map) {
   bool done = key != NULL && strokes_open_map(map, sheet->edge.count);
   for (size_t k = 0; done && k < n; k++)
     key[k] = (struct sort_key){w->part.item[k].edge, (uint32_t)k};
-  if (done) sort_keys(key, key + n, n);
+  if (done)
+    sort_keys(key, key + n, n);
   for (uint32_t e = 0; done && e < sheet->edge.count; e++) {
-    const struct sheet_edge *edge = &sheet->edge.item[e];
-    struct geom_point p = sheet->point.item[edge->point[0]],
-                      q = sheet->point.item[edge->point[1]];
-    if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y)) continue;
+    if (!is_drawn(sheet, e))
+      continue;
     strokes_start(&strokes);
     for (; done && i < n && key[i].key == e; i++)
       done = strokes_hide(&strokes, w->part.item[key[i].value].part);
@@ -370,7 +404,8 @@ static bool file_fragments(struct warnock *w, const struct pagegrid *grid,
   return done;
 }
 
-/* ---- The solver -------------------------------------------------------------------------- */
+/* ---- The solver
+ * -------------------------------------------------------------------------- */
 
 /* All faces, nearest first, and all drawable edges. */
 static bool fill_pools(struct warnock *w) {
@@ -380,14 +415,15 @@ static bool fill_pools(struct warnock *w) {
   bool done = key != NULL && ARRAY_RESERVE(&w->faces, n);
   for (size_t t = 0; done && t < n; t++)
     key[t] = (struct sort_key){
-        ~sort_key_of_int64(warnock_nearest(sheet, (uint32_t)t)), (uint32_t)t};
-  if (done) sort_keys(key, key + n, n);
+        ~sort_key_of_int64(triangle_nearest(sheet, (uint32_t)t)), (uint32_t)t};
+  if (done)
+    sort_keys(key, key + n, n);
   for (size_t t = 0; done && t < n; t++)
     if (!(sheet->triangle_flags[key[t].value] & SHEET_FLAT))
       w->faces.item[w->faces.count++] = key[t].value;
   mem_free(key);
   for (size_t e = 0; done && w->request->strokes && e < sheet->edge.count; e++)
-    if (sheet->edge.item[e].edge_class != 0)
+    if (is_drawn(sheet, (uint32_t)e))
       done = ARRAY_PUSH(&w->edges, (uint32_t)e);
   return done;
 }
@@ -395,14 +431,19 @@ static bool fill_pools(struct warnock *w) {
 static bool run(struct warnock *w, recto_status *status, recto_error *error) {
   enum { ASK_EVERY = 4096 };
   struct warnock_window page;
-  if (!fill_pools(w)) return false;
-  page = (struct warnock_window){
-      warnock_page_window(w->sheet), 0, {0, w->faces.count}, {0, 0},
-      {0, w->edges.count}};
+  if (!fill_pools(w))
+    return false;
+  page = (struct warnock_window){warnock_page_window(w->sheet),
+                                 0,
+                                 {0, w->faces.count},
+                                 {0, 0},
+                                 {0, w->edges.count}};
   w->floor = warnock_edge_length(w->sheet);
-  if (!ARRAY_PUSH(&w->stack, page)) return false;
+  if (!ARRAY_PUSH(&w->stack, page))
+    return false;
   while (w->stack.count > 0) {
-    if (!take_window(w)) return false;
+    if (!take_window(w))
+      return false;
     if (w->request->progress != NULL && w->windows.all % ASK_EVERY == 0 &&
         !w->request->progress(w->request->user, 0.5, "subdividing")) {
       *status = error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
@@ -427,23 +468,23 @@ static void report_windows(const struct warnock *w, struct report *report) {
   report_int(report, "warnock", "settled_by_sign", (int64_t)w->tests.sign);
   report_int(report, "warnock", "settled_by_angle", (int64_t)w->tests.angle);
   report_int(report, "warnock", "stopped_by_depth_order",
-             (int64_t)w->depth.sorted);
+             (int64_t)w->cut_short);
   report_int(report, "warnock", "dropped_by_corner_depths",
-             (int64_t)w->depth.corners);
+             (int64_t)w->dropped);
   hide_report(&w->hide, report);
 }
 
 static recto_status solve(struct sheet *sheet,
-                          const struct solver_request *request,
-                          struct map *map, struct report *report,
-                          recto_error *error) {
+                          const struct solver_request *request, struct map *map,
+                          struct report *report, recto_error *error) {
   struct warnock w = {.sheet = sheet, .request = request};
   struct pagegrid grid;
   recto_status status = RECTO_OK;
   bool done;
   if (request->resolution > 0)
     return warnock_raster_solve(sheet, request, map, report, error);
-  if (!pagegrid_init(&grid, sheet)) return error_memory(error);
+  if (!pagegrid_init(&grid, sheet))
+    return error_memory(error);
   if (request->intersections)
     status = pierce_all(sheet, &grid, report, error);
   if (status == RECTO_OK) {
@@ -451,7 +492,8 @@ static recto_status solve(struct sheet *sheet,
     done = run(&w, &status, error) &&
            (!request->strokes || file_strokes(&w, map)) &&
            (!request->fragments || file_fragments(&w, &grid, map));
-    if (!done && status == RECTO_OK) status = error_memory(error);
+    if (!done && status == RECTO_OK)
+      status = error_memory(error);
     cover_fini(&w.cover);
   }
   report_windows(&w, report);
