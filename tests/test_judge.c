@@ -266,6 +266,32 @@ static void what_lies_in_a_notch_is_seen(void **state) {
   scene_fini(&scene);
 }
 
+static void a_spike_covers_nothing(void **state) {
+  (void)state;
+  struct page page;
+  struct scene scene;
+  scene_init(&scene);
+  /* Out from a corner of the square, and back to it. */
+  uint32_t corner[6] = {0, 1, 4, 1, 2, 3};
+  build_point(&scene, -2, -2, 1);
+  build_point(&scene, 0, -2, 1);
+  build_point(&scene, 0, 0, 1);
+  build_point(&scene, -2, 0, 1);
+  build_point(&scene, 3, 3, 1);
+  build_face(&scene, corner, 6);
+  build_segment(&scene, build_point(&scene, 0.5, -1, 0),
+                build_point(&scene, 3, 1, 0));
+  static const double square[12] = {-2, -2, 1, 0, -2, 1, 0, 0, 1, -2, 0, 1};
+  open_page(&page);
+  look_square_on(&page);
+  draw_loop(&page, square, 4);
+  draw_line(&page, vector_of(0.5, -1, 0), vector_of(3, 1, 0));
+  struct judge_verdict verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+  assert_int_equal(verdict.false_ink, 0);
+  assert_int_equal(verdict.missing, 0);
+  scene_fini(&scene);
+}
+
 static void lines_where_faces_pierce_are_asked_for(void **state) {
   (void)state;
   struct page page;
@@ -404,6 +430,7 @@ int main(void) {
       cmocka_unit_test(half_an_edge_is_half_missing),
       cmocka_unit_test(a_matrix_says_the_same_as_a_camera),
       cmocka_unit_test(what_lies_in_a_notch_is_seen),
+      cmocka_unit_test(a_spike_covers_nothing),
       cmocka_unit_test(lines_where_faces_pierce_are_asked_for),
       cmocka_unit_test(contact_does_not_hide),
       cmocka_unit_test(smooth_edges_are_asked_for_by_all_alone),

@@ -42,6 +42,32 @@ static void flatten(struct outline *outline, const struct scene *scene,
   outline->count = count;
 }
 
+static bool is_same(const struct outline *outline, uint32_t i, uint32_t k) {
+  struct judge_place a = outline->at[outline->left[i % outline->count]];
+  struct judge_place b = outline->at[outline->left[k % outline->count]];
+  return a.x == b.x && a.y == b.y;
+}
+
+static void drop(struct outline *outline, uint32_t i) {
+  for (outline->count--; i < outline->count; i++)
+    outline->left[i] = outline->left[i + 1];
+}
+
+/* Drops corners that repeat, and spikes that go out and come back. */
+static void tidy(struct outline *outline) {
+  uint32_t i = 0;
+  while (i < outline->count && outline->count > 2) {
+    bool spike = is_same(outline, i, i + 2);
+    if (!spike && !is_same(outline, i, i + 1)) {
+      i++;
+      continue;
+    }
+    drop(outline, (i + 1) % outline->count);
+    /* What is now beside it may repeat, too. */
+    i = 0;
+  }
+}
+
 /* Whether the corner at `i` of those left can be cut off. */
 static bool is_ear(const struct outline *outline, uint32_t i) {
   uint32_t n = outline->count;
@@ -69,6 +95,7 @@ uint32_t judge_cut_ears(const struct scene *scene, const uint32_t *corner,
                             mem_alloc(count, sizeof *outline.left), 0};
   judge_require(outline.at != NULL && outline.left != NULL);
   flatten(&outline, scene, corner, count);
+  tidy(&outline);
   while (outline.count >= 3) {
     uint32_t n = outline.count, i = 0;
     while (i < n && !is_ear(&outline, i))
@@ -79,9 +106,7 @@ uint32_t judge_cut_ears(const struct scene *scene, const uint32_t *corner,
     ear[ears][0] = outline.left[(i + n - 1) % n];
     ear[ears][1] = outline.left[i];
     ear[ears++][2] = outline.left[(i + 1) % n];
-    for (uint32_t k = i; k + 1 < n; k++)
-      outline.left[k] = outline.left[k + 1];
-    outline.count--;
+    drop(&outline, i);
   }
   mem_free(outline.left);
   mem_free(outline.at);

@@ -134,11 +134,22 @@ static unsigned natures_of_pair(const struct finder *finder,
   return natures;
 }
 
-static void add_side(struct finder *finder, const struct side *side,
-                     unsigned natures) {
+/* Adds the edge of two sides; of a spike of one face, which goes out and comes
+ * back, nothing is sure. */
+static void add_pair(struct finder *finder, const struct side *side,
+                     const struct side *other, bool against) {
+  bool spike = side->face == other->face;
+  judge_edges_add(
+      finder->edges, finder->camera, spot_at(finder->scene, side->a),
+      spot_at(finder->scene, side->b),
+      spike ? 0 : natures_of_pair(finder, side, other, against), !spike);
+}
+
+/* Adds the edge of one side, or of more than two. */
+static void add_border(struct finder *finder, const struct side *side) {
   judge_edges_add(finder->edges, finder->camera,
                   spot_at(finder->scene, side->a),
-                  spot_at(finder->scene, side->b), natures, true);
+                  spot_at(finder->scene, side->b), RECTO_EDGE_BORDER, true);
 }
 
 /* Whether the face runs along the side from a to b. */
@@ -192,12 +203,11 @@ static void pair_group(struct finder *finder, const struct side *side,
   if (count == 1)
     judge_require(ARRAY_PUSH(&single->side, side[0]));
   else if (count == 2)
-    add_side(finder, side,
-             natures_of_pair(finder, &side[0], &side[1],
-                             runs_from(finder, &side[0], side->a, NULL) !=
-                                 runs_from(finder, &side[1], side->a, NULL)));
+    add_pair(finder, &side[0], &side[1],
+             runs_from(finder, &side[0], side->a, NULL) !=
+                 runs_from(finder, &side[1], side->a, NULL));
   else
-    add_side(finder, side, RECTO_EDGE_BORDER);
+    add_border(finder, side);
 }
 
 /* A side with the places of its ends. */
@@ -231,15 +241,13 @@ static void pair_singles(struct finder *finder, const struct sides *single) {
                        placed[next].high == placed[i].high;)
       next++;
     const struct side *side = &placed[i].side;
-    unsigned natures = RECTO_EDGE_BORDER;
-    if (next == i + 2) {
-      const struct side *other = &placed[i + 1].side;
-      natures =
-          natures_of_pair(finder, side, other,
-                          runs_from(finder, side, placed[i].low, place) !=
-                              runs_from(finder, other, placed[i].low, place));
-    }
-    add_side(finder, side, natures);
+    if (next == i + 2)
+      add_pair(
+          finder, side, &placed[i + 1].side,
+          runs_from(finder, side, placed[i].low, place) !=
+              runs_from(finder, &placed[i + 1].side, placed[i].low, place));
+    else
+      add_border(finder, side);
   }
   mem_free(placed);
 }

@@ -7,5 +7,6 @@ check_LTLIBRARIES += %D%/libjudge.la
   %D%/grid.c %D%/grid.h \
   %D%/judge.c %D%/judge.h \
   %D%/pierced.c \
+  %D%/raster.c %D%/raster.h \
   %D%/svg.c \
   %D%/triangles.c %D%/triangles.h

@@ -162,7 +162,8 @@ void judge_triangles_fini(struct judge_triangles *all) {
  * ------------------------------------------------------------------------ */
 
 struct ray {
-  double from[3], inverse[3]; /* 1 / direction, infinite for 0 */
+  double from[3], inverse[3]; /* 1 / direction */
+  bool parallel[3];           /* direction 0 */
   struct judge_spot origin, towards;
   double reach;
 };
@@ -170,15 +171,16 @@ struct ray {
 static bool ray_meets_box(const struct ray *ray, const struct judge_box *box) {
   double t0 = 0, t1 = ray->reach;
   for (int k = 0; k < 3; k++) {
-    if (isinf(ray->inverse[k])) {
+    if (ray->parallel[k]) {
       if (ray->from[k] < box->low[k] || ray->from[k] > box->high[k])
         return false;
       continue;
     }
     double a = (box->low[k] - ray->from[k]) * ray->inverse[k];
     double b = (box->high[k] - ray->from[k]) * ray->inverse[k];
-    t0 = fmax(t0, a < b ? a : b);
-    t1 = fmin(t1, a < b ? b : a);
+    double first = a < b ? a : b, last = a < b ? b : a;
+    t0 = first > t0 ? first : t0;
+    t1 = last < t1 ? last : t1;
   }
   return t0 <= t1;
 }
@@ -215,6 +217,7 @@ enum judge_sight judge_look(const struct judge_triangles *all,
                             double reach, double touch, double beyond) {
   struct ray ray = {{from.x, from.y, from.z},
                     {1 / towards.x, 1 / towards.y, 1 / towards.z},
+                    {towards.x == 0, towards.y == 0, towards.z == 0},
                     from,
                     towards,
                     reach};

@@ -15,7 +15,7 @@ void scenes_large_table(struct scene *scene, recto_options *options) {
   build_group(scene, "legs");
   for (int i = 0; i < 4; i++) {
     double x = i & 1 ? 47 : -49, y = i & 2 ? 27 : -29;
-    build_box(scene, vector_of(x, y, -40), vector_of(x + 2, y + 2, 0));
+    build_box(scene, vector_of(x, y, -40), vector_of(x + 2, y + 2, -0.5));
   }
   scenes_view_direction(options, 15, 12);
 }

@@ -36,9 +36,8 @@ void pipeline_run(struct pipeline *pipeline, const struct scene *scene,
   if (pipeline->status == RECTO_OK)
     pipeline->status = camera_aim(&pipeline->camera, scene, options, error);
   if (pipeline->status == RECTO_OK)
-    pipeline->status =
-        sheet_init(&pipeline->sheet, scene, &pipeline->topology,
-                   &pipeline->camera, options, outlines, error);
+    pipeline->status = sheet_init(&pipeline->sheet, scene, &pipeline->topology,
+                                  &pipeline->camera, options, outlines, error);
   if (pipeline->status == RECTO_OK)
     pipeline->status = solve(pipeline, options, solver);
   if (pipeline->status == RECTO_OK)

@@ -1,0 +1,120 @@
+/* failures.c - see failures.h. */
+#include "tests/failures.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* The oracle and those that must agree with it. */
+static const struct solver *const agreeing[] = {&solver_brute, &solver_newell,
+                                                &solver_tiles};
+
+/* Solves by every one of them and compares with the first. */
+static void compare_solvers(const struct scene *scene,
+                            const recto_options *options, const char *name) {
+  char *first = NULL;
+  size_t first_length = 0;
+  for (size_t i = 0; i < sizeof agreeing / sizeof *agreeing; i++) {
+    size_t length;
+    char *text = pipeline_draw(scene, options, agreeing[i], &length);
+    bool same = first == NULL ||
+                (length == first_length && memcmp(text, first, length) == 0);
+    if (!same)
+      fail_msg("%s: %s disagrees (fill %d, hidden %d)", name, agreeing[i]->name,
+               (int)options->fill, (int)options->hidden);
+    if (first == NULL) {
+      first = text;
+      first_length = length;
+    } else {
+      mem_free(text);
+    }
+  }
+  mem_free(first);
+}
+
+void failures_assert_agree(const struct scene *scene,
+                           const recto_options *options, const char *name) {
+  recto_options lines = *options, hidden = *options, painted = *options;
+  lines.fill = hidden.fill = RECTO_FILL_NONE;
+  hidden.hidden = RECTO_HIDDEN_LAYER;
+  painted.fill = RECTO_FILL_PAINT;
+  compare_solvers(scene, &lines, name);
+  compare_solvers(scene, &hidden, name);
+  compare_solvers(scene, &painted, name);
+}
+
+void failures_camera(struct judge_camera *camera,
+                     const struct pipeline *pipeline) {
+  const struct camera *used = &pipeline->camera;
+  double matrix[12];
+  camera_matrix(used, matrix);
+  judge_camera_matrix(camera, matrix, used->page_mm[0], used->page_mm[1]);
+  if (used->perspective)
+    camera->near_d = used->near_d;
+}
+
+void failures_assert_judged(const struct scene *scene,
+                            const recto_options *options, unsigned asked,
+                            const char *name) {
+  struct pipeline pipeline;
+  struct judge_drawing drawing;
+  struct judge_camera camera;
+  struct judge_options judging;
+  struct judge_verdict verdict;
+  size_t length;
+  pipeline_run(&pipeline, scene, options, &solver_newell);
+  if (pipeline.status != RECTO_OK)
+    fail_msg("%s: %s", name, pipeline.error.text);
+  char *text = pipeline_svg(&pipeline, options, &length);
+  assert_null(judge_read_svg(&drawing, text, length));
+  failures_camera(&camera, &pipeline);
+  judge_options_init(&judging);
+  judging.edges = asked;
+  judging.contact = pipeline.camera.contact;
+  judging.crease_deg = options->crease_deg;
+  judge_drawing(&verdict, &drawing, scene, &camera, &judging);
+  if (verdict.false_ink > 0)
+    fail_msg("%s: false ink at %.4f %.4f and in %lu of %lu samples", name,
+             verdict.false_at.x, verdict.false_at.y,
+             (unsigned long)verdict.false_ink, (unsigned long)verdict.drawn);
+  if (verdict.missing > 0)
+    fail_msg("%s: missing ink at %.4f %.4f and in %lu of %lu samples", name,
+             verdict.missing_at.x, verdict.missing_at.y,
+             (unsigned long)verdict.missing, (unsigned long)verdict.visible);
+  judge_drawing_fini(&drawing);
+  mem_free(text);
+  pipeline_fini(&pipeline);
+}
+
+void failures_count_states(const struct pipeline *pipeline, unsigned count[3]) {
+  memset(count, 0, 3 * sizeof *count);
+  for (size_t i = 0; i < pipeline->map.edge_count; i++)
+    if (pipeline->sheet.edge.item[i].edge_class != 0)
+      count[pipeline->map.edge_state[i]]++;
+}
+
+double failures_area(const struct pipeline *pipeline, uint32_t face) {
+  const struct map *map = &pipeline->map;
+  double twice = 0;
+  for (size_t i = 0; i < map->fragment.count; i++) {
+    const struct map_fragment *fragment = &map->fragment.item[i];
+    for (uint32_t l = 0; fragment->face == face && l < fragment->loops; l++) {
+      const struct map_loop *loop = &map->loop.item[fragment->loop + l];
+      const struct map_corner *corner = map->corner.item + loop->corner;
+      for (uint32_t k = 0; k < loop->count; k++) {
+        const struct map_corner *next = &corner[(k + 1) % loop->count];
+        twice += corner[k].x * next->y - next->x * corner[k].y;
+      }
+    }
+  }
+  return twice / 2 / (SHEET_UNITS_PER_MM * SHEET_UNITS_PER_MM);
+}
+
+void failures_assert_near(double a, double b, double within, const char *name) {
+  if (!(fabs(a - b) <= within))
+    fail_msg("%s: %.9g is not %.9g (within %g)", name, a, b, within);
+}

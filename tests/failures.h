@@ -1,0 +1,34 @@
+/* failures.h - what the tests of known failures have in common. */
+#ifndef TESTS_FAILURES_H
+#define TESTS_FAILURES_H
+
+#include "tests/judge/judge.h"
+#include "tests/scenes/pipeline.h"
+
+/* Fails the test, with `name`, unless brute, newell and tiles give the same
+ * SVG text, to the byte: lines alone, with hidden ones on a layer of their own,
+ * and with the faces painted. */
+void failures_assert_agree(const struct scene *scene,
+                           const recto_options *options, const char *name);
+
+/* Fails the test, with `name`, unless the judge finds no false and no missing
+ * ink in the drawing of the classes `asked` (the options' own others are
+ * drawn, but may be missing). */
+void failures_assert_judged(const struct scene *scene,
+                            const recto_options *options, unsigned asked,
+                            const char *name);
+
+/* The judge's camera for a run, from its matrix. */
+void failures_camera(struct judge_camera *camera,
+                     const struct pipeline *pipeline);
+
+/* How many drawn edges are hidden, visible, mixed (enum map_state). */
+void failures_count_states(const struct pipeline *pipeline, unsigned count[3]);
+
+/* The area in mm^2 of what is seen of a face. */
+double failures_area(const struct pipeline *pipeline, uint32_t face);
+
+/* Fails the test where `a` is not within `within` of `b`. */
+void failures_assert_near(double a, double b, double within, const char *name);
+
+#endif

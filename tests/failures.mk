@@ -1,0 +1,22 @@
+# tests/failures.mk - the rows of the list of known failures.
+failures = %D%/failures.c %D%/failures.h
+failures_libs = %D%/judge/libjudge.la %D%/scenes/libscenes.la $(LDADD)
+
+unit_tests += %D%/test_failures_agree
+%C%_test_failures_agree_SOURCES = %D%/test_failures_agree.c $(failures)
+%C%_test_failures_agree_LDADD = $(failures_libs)
+unit_tests += %D%/test_failures_hiding
+%C%_test_failures_hiding_SOURCES = %D%/test_failures_hiding.c $(failures)
+%C%_test_failures_hiding_LDADD = $(failures_libs)
+unit_tests += %D%/test_failures_meshes
+%C%_test_failures_meshes_SOURCES = %D%/test_failures_meshes.c $(failures) \
+  %D%/temporary.c %D%/temporary.h
+%C%_test_failures_meshes_LDADD = $(failures_libs)
+unit_tests += %D%/test_failures_numbers
+%C%_test_failures_numbers_SOURCES = %D%/test_failures_numbers.c $(failures) \
+  %D%/comma.c %D%/comma.h
+%C%_test_failures_numbers_LDADD = $(failures_libs)
+unit_tests += %D%/test_judged
+%C%_test_judged_SOURCES = %D%/test_judged.c $(failures) \
+  %D%/temporary.c %D%/temporary.h
+%C%_test_judged_LDADD = $(failures_libs)
