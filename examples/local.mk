@@ -4,6 +4,10 @@ noinst_PROGRAMS += %D%/generate
   %D%/castle.c %D%/gears.c %D%/knot.c %D%/shape.c %D%/shape.h
 %C%_generate_LDADD = -lm
 
+noinst_PROGRAMS += %D%/draw
+%C%_draw_SOURCES = %D%/draw.c
+%C%_draw_LDADD = librecto.la
+
 example_models = %D%/models/castle.obj %D%/models/gears.obj \
   %D%/models/knot.obj
 EXTRA_DIST += $(example_models)

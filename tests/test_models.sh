@@ -38,5 +38,16 @@ for name in castle gears knot; do
 done
 ! examples/generate nothing 2>/dev/null
 report $? "an unknown name is refused"
+
+# The shortest program that uses the library draws what recto draws.
+folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT
+examples/draw "$models/knot.obj" "$folder/one.svg" &&
+  "${RECTO:-./recto}" "$models/knot.obj" -o "$folder/two.svg" &&
+  cmp -s "$folder/one.svg" "$folder/two.svg"
+report $? "examples/draw draws as recto does"
+examples/draw "$folder/none.obj" "$folder/none.svg" 2>"$folder/error"
+test $? = 1 && grep -q 'none.obj' "$folder/error" &&
+  test ! -e "$folder/none.svg"
+report $? "examples/draw says which file it cannot read"
 echo "1..$count"
 exit $failed
