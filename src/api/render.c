@@ -1,7 +1,7 @@
 /* render.c - from scene to drawing: one stage after the other, each timed.
  *
- * Phases: check the options, choose the method, find the edges, aim the
- * camera, build the sheet, solve it, ink it. */
+ * Phases: check the options, find the edges, aim the camera, build the sheet,
+ * choose the method, solve, ink. */
 #include <unistd.h>
 
 #include "api/handle.h"
@@ -15,7 +15,6 @@
 struct render {
   const recto_scene *model;
   const recto_options *options;
-  const struct solver *solver;
   struct topology topology;
   struct camera camera;
   struct sheet sheet;
@@ -32,27 +31,34 @@ bool recto_method_is_available(recto_method method) {
   return method == RECTO_METHOD_AUTO || solver_by_method(method) != NULL;
 }
 
-static const struct solver *choose_solver(const recto_options *options,
-                                          const char **why) {
-  if (options->method != RECTO_METHOD_AUTO) {
-    *why = "asked for";
-    return solver_by_method(options->method);
-  }
-  *why = "exact on every scene";
-  return solver_by_method(RECTO_METHOD_NEWELL);
+static recto_status check_method(const recto_options *options,
+                                 recto_error *error) {
+  if (!recto_method_is_available(options->method))
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "method %s is not available in this build",
+                     recto_method_name(options->method));
+  return RECTO_OK;
 }
 
-static recto_status choose_method(struct render *render, recto_error *error) {
-  const char *why;
-  const char *name = recto_method_name(render->options->method);
-  render->solver = choose_solver(render->options, &why);
-  if (render->solver == NULL)
-    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                     "method %s is not available in this build", name);
-  report_text(render->report, "method", "asked", name);
-  report_text(render->report, "method", "chosen", render->solver->name);
+static const struct solver *
+choose_method(struct render *render, const struct solver_request *request) {
+  recto_method asked = render->options->method;
+  const char *why = "asked for";
+  const struct solver *solver =
+      asked == RECTO_METHOD_AUTO
+          ? solver_choose(&render->sheet, request, &why)
+          : solver_by_method(asked);
+  report_text(render->report, "method", "asked", recto_method_name(asked));
+  report_text(render->report, "method", "chosen", solver->name);
   report_text(render->report, "method", "why", why);
-  return RECTO_OK;
+  report_text(render->report, "method", "strokes",
+              request->strokes ? "asked for" : "not modelled");
+  report_text(render->report, "method", "fragments",
+              request->fragments ? "asked for" : "not modelled");
+  report_text(render->report, "method", "intersections",
+              request->intersections ? "asked for" : "not modelled");
+  report_int(render->report, "method", "threads", request->threads);
+  return solver;
 }
 
 static int count_threads(const recto_options *options) {
@@ -116,9 +122,8 @@ static recto_status solve(struct render *render, recto_error *error) {
       .progress = options->progress != NULL ? pass_progress : NULL,
       .user = render,
   };
-  report_int(render->report, "method", "threads", request.threads);
-  return render->solver->solve(&render->sheet, &request, &render->map,
-                               render->report, error);
+  return choose_method(render, &request)
+      ->solve(&render->sheet, &request, &render->map, render->report, error);
 }
 
 static recto_status ink(struct render *render, recto_error *error) {
@@ -206,7 +211,7 @@ static void report_drawing(struct report *report,
  */
 
 static recto_status run(struct render *render, recto_error *error) {
-  recto_status status = choose_method(render, error);
+  recto_status status = check_method(render->options, error);
   if (status != RECTO_OK)
     return status;
   report_scene(render->report, render->model);

@@ -1,4 +1,5 @@
 librecto_core_la_SOURCES += \
+  %D%/auto.c \
   %D%/brute.c \
   %D%/contact.c %D%/contact.h \
   %D%/cover.c %D%/cover.h \

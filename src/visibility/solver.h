@@ -47,6 +47,12 @@ extern const struct solver solver_zbuffer;
 extern const struct solver solver_scanline_zbuffer;
 extern const struct solver solver_watkins;       /* at a pitch */
 
+/* What auto takes: the least exact method for this sheet and this request.
+ * why  a phrase for --stats */
+const struct solver *solver_choose(const struct sheet *sheet,
+                                   const struct solver_request *request,
+                                   const char **why);
+
 /* The solver of a method, or of its name; NULL where there is none. */
 const struct solver *solver_by_method(recto_method method);
 const struct solver *solver_by_name(const char *name);

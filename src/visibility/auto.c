@@ -1,0 +1,26 @@
+/* auto.c - the least method that is exact for what was asked. */
+#include "visibility/solver.h"
+
+/* Up to so many pairs of edge and face, asking all of them is quicker than
+ * finding out which to ask. */
+#define FEW_PAIRS 20000
+
+static size_t count_drawn(const struct sheet *sheet) {
+  size_t drawn = 0;
+  for (size_t e = 0; e < sheet->edge.count; e++)
+    drawn += sheet->edge.item[e].edge_class != 0;
+  return drawn;
+}
+
+const struct solver *solver_choose(const struct sheet *sheet,
+                                   const struct solver_request *request,
+                                   const char **why) {
+  size_t triangles = sheet->triangle.count;
+  if (!request->fragments && triangles < FEW_PAIRS &&
+      triangles * count_drawn(sheet) <= FEW_PAIRS) {
+    *why = "few edges and faces: every pair is quickest";
+    return &solver_brute;
+  }
+  *why = "tiles leave the fewest pairs to ask";
+  return &solver_tiles;
+}
