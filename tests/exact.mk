@@ -39,3 +39,7 @@ unit_tests += %D%/test_pagegrid
 unit_tests += %D%/test_strokes
 %C%_test_strokes_SOURCES = %D%/test_strokes.c $(hand_sheet)
 %C%_test_strokes_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_pierce
+%C%_test_pierce_SOURCES = %D%/test_pierce.c $(hand_rational) \
+  %D%/hand/scene.c %D%/hand/scene.h
+%C%_test_pierce_CPPFLAGS = $(hand_cppflags)
