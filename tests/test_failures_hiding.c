@@ -55,9 +55,9 @@ static void check_convex(const struct scene *scene,
   /* Visible and hidden lines make the whole. */
   double length = 0;
   for (size_t i = 0; i < pipeline.topology.edge.count; i++) {
-    struct sheet_point a =
+    struct geom_point a =
         pipeline.sheet.point.item[pipeline.sheet.edge.item[i].point[0]];
-    struct sheet_point b =
+    struct geom_point b =
         pipeline.sheet.point.item[pipeline.sheet.edge.item[i].point[1]];
     length += hypot(b.x - a.x, b.y - a.y) / SHEET_UNITS_PER_MM;
   }

@@ -62,8 +62,8 @@ static void row_04_faces_edge_on_hide_nothing(void **state) {
   double cube = 0;
   for (size_t i = 0; i < pipeline.map.edge_count; i++) {
     const struct sheet_edge *edge = &pipeline.sheet.edge.item[i];
-    struct sheet_point a = pipeline.sheet.point.item[edge->point[0]];
-    struct sheet_point b = pipeline.sheet.point.item[edge->point[1]];
+    struct geom_point a = pipeline.sheet.point.item[edge->point[0]];
+    struct geom_point b = pipeline.sheet.point.item[edge->point[1]];
     bool front = a.z == b.z && (a.x != b.x || a.y != b.y);
     if (edge->group == 0 && front && pipeline.map.edge_state[i] == MAP_VISIBLE)
       cube += hypot(b.x - a.x, b.y - a.y) / SHEET_UNITS_PER_MM;

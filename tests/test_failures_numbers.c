@@ -250,8 +250,8 @@ static struct segment *list_visible(const struct pipeline *pipeline,
   size_t mixed = 0;
   for (size_t i = 0; i < map->edge_count; i++) {
     const struct sheet_edge *edge = &pipeline->sheet.edge.item[i];
-    struct sheet_point p = pipeline->sheet.point.item[edge->point[0]];
-    struct sheet_point q = pipeline->sheet.point.item[edge->point[1]];
+    struct geom_point p = pipeline->sheet.point.item[edge->point[0]];
+    struct geom_point q = pipeline->sheet.point.item[edge->point[1]];
     const struct map_interval whole = {{0, 1}, {1, 1}}, *part = &whole;
     uint32_t parts = map->edge_state[i] == MAP_VISIBLE;
     if (map->edge_state[i] == MAP_MIXED) {

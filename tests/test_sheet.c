@@ -113,7 +113,7 @@ static void an_eye_in_an_odd_place_is_no_trouble(void **state) {
 /* ---- Where points fall --------------------------------------------------- */
 
 /* The sheet point of a scene point, found by walking an edge. */
-static struct sheet_point where(const struct laid *laid, uint32_t point) {
+static struct geom_point where(const struct laid *laid, uint32_t point) {
   for (size_t e = 0; e < laid->sheet.edge.count; e++) {
     const struct sheet_edge *edge = &laid->sheet.edge.item[e];
     const uint32_t *ends = laid->topology.edge.item[edge->source].point;
@@ -122,7 +122,7 @@ static struct sheet_point where(const struct laid *laid, uint32_t point) {
         return laid->sheet.point.item[edge->point[k]];
   }
   fail_msg("point %u is not on the sheet", (unsigned)point);
-  return (struct sheet_point){0, 0, 0};
+  return (struct geom_point){0, 0, 0};
 }
 
 static void fill_box(struct laid *laid) {
@@ -150,7 +150,7 @@ static void points_are_snapped_to_the_nearest_grid_unit(void **state) {
                             q->z - c->eye[2]};
       for (int k = 0; k < 3; k++)
         view_d -= c->back[k] * to[k];
-      struct sheet_point at = where(&laid, p);
+      struct geom_point at = where(&laid, p);
       assert_true(fabs(sheet_x_mm(&laid.sheet, at.x) - h[0] / h[2]) <
                   0.5001 / SHEET_UNITS_PER_MM);
       assert_true(fabs(sheet_y_mm(&laid.sheet, at.y) - h[1] / h[2]) <
@@ -195,7 +195,7 @@ static void planes_stay_planes(void **state) {
     for (uint32_t f = 0; f < 6; f++) {
       const uint32_t *corner =
           laid.scene.corner.item + laid.scene.face_start.item[f];
-      struct sheet_point p[4];
+      struct geom_point p[4];
       for (int k = 0; k < 4; k++)
         p[k] = where(&laid, corner[k]);
       struct geom_plane plane = geom_plane_of(p[0], p[1], p[2]);
@@ -410,7 +410,7 @@ static void a_cut_edge_is_cut_once_for_all_who_use_it(void **state) {
       continue;
     assert_int_not_equal(edge->triangle[1], SHEET_NONE);
     for (int k = 0; k < 2; k++) { /* see also check_sides in laid.c */
-      struct sheet_point p = laid.sheet.point.item[edge->point[k]];
+      struct geom_point p = laid.sheet.point.item[edge->point[k]];
       cut += abs(p.x) == laid_half(&laid, 0) || abs(p.y) == laid_half(&laid, 1);
     }
   }
@@ -504,7 +504,7 @@ static void the_order_of_corners_changes_no_point(void **state) {
         for (int k = 0; k < 2; k++)
           assert_memory_equal(&laid[0].sheet.point.item[a->point[k]],
                               &laid[1].sheet.point.item[b->point[k]],
-                              sizeof(struct sheet_point));
+                              sizeof(struct geom_point));
       }
     laid_fini(&laid[0]);
     laid_fini(&laid[1]);

@@ -37,7 +37,7 @@ static bool node_of_point(struct collector *c, uint32_t point, uint32_t *node) {
   *node = c->node_of_point[point];
   if (*node != NET_NONE)
     return true;
-  const struct sheet_point *p = &c->sheet->point.item[point];
+  const struct geom_point *p = &c->sheet->point.item[point];
   if (!add_node(c->net, (struct ink_point){p->x, p->y}, node))
     return false;
   c->node_of_point[point] = *node;
@@ -50,8 +50,8 @@ static bool node_at(struct collector *c, const struct sheet_edge *edge,
     return node_of_point(c, edge->point[0], node);
   if (t.num == t.den)
     return node_of_point(c, edge->point[1], node);
-  const struct sheet_point *p = &c->sheet->point.item[edge->point[0]];
-  const struct sheet_point *q = &c->sheet->point.item[edge->point[1]];
+  const struct geom_point *p = &c->sheet->point.item[edge->point[0]];
+  const struct geom_point *q = &c->sheet->point.item[edge->point[1]];
   struct ink_point at = {(int32_t)ratio_lerp(t, p->x, q->x),
                          (int32_t)ratio_lerp(t, p->y, q->y)};
   return add_node(c->net, at, node);
@@ -97,8 +97,7 @@ static bool add_segment(struct collector *c, uint32_t edge, struct ratio t0,
 
 static bool add_visible_intervals(struct collector *c,
                                   const struct map_mixed *mixed) {
-  const struct map_interval *interval =
-      c->map->interval.item + mixed->interval;
+  const struct map_interval *interval = c->map->interval.item + mixed->interval;
   for (uint32_t i = 0; i < mixed->count; i++)
     if (!add_segment(c, mixed->edge, interval[i].t0, interval[i].t1))
       return false;
@@ -108,8 +107,7 @@ static bool add_visible_intervals(struct collector *c,
 /* What the visible intervals leave of the edge. */
 static bool add_hidden_intervals(struct collector *c,
                                  const struct map_mixed *mixed) {
-  const struct map_interval *interval =
-      c->map->interval.item + mixed->interval;
+  const struct map_interval *interval = c->map->interval.item + mixed->interval;
   struct ratio from = ratio_of(0, 1), end = ratio_of(1, 1);
   for (uint32_t i = 0; i < mixed->count; i++) {
     if (ratio_compare(from, interval[i].t0) < 0 &&

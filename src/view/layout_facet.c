@@ -100,7 +100,7 @@ static recto_status add_fan(struct layout *layout,
  * the paper wider than it is. */
 static bool is_all_on_border(const struct layout *layout, const uint32_t *point,
                              int count) {
-  const struct sheet_point *at = layout->sheet->point.item;
+  const struct geom_point *at = layout->sheet->point.item;
   for (int axis = 0; axis < 2; axis++) {
     int32_t first = axis ? at[point[0]].y : at[point[0]].x;
     bool all = abs(first) == layout->projection.half[axis];

@@ -26,7 +26,7 @@ static inline void layout_learn_side(struct layout *layout,
 
 /* Where triangles go, held in registers by those who add many. */
 struct layout_triangle_sink {
-  const struct sheet_point *point;
+  const struct geom_point *point;
   struct sheet_triangle *triangle; /* the next one */
   uint8_t *flags;
   size_t room;

@@ -48,7 +48,7 @@ static inline double clamp(double value, double least, double most) {
 
 /* The grid point of a view point on the paper and not before the near plane:
  * what rounding takes past a limit is set to the limit. */
-static inline struct sheet_point
+static inline struct geom_point
 project_point(const struct projection *projection, struct view_point p) {
   double per_unit = projection->units, z = projection->d_max - p.d;
   if (projection->perspective) {
@@ -57,7 +57,7 @@ project_point(const struct projection *projection, struct view_point p) {
     z *= inverse;
   }
   const double *half = projection->half;
-  return (struct sheet_point){
+  return (struct geom_point){
       (int32_t)snap(
           clamp(p.x * per_unit + projection->offset[0], -half[0], half[0])),
       (int32_t)snap(

@@ -28,9 +28,6 @@
 #define SHEET_Z_MAX ((INT64_C(1) << SHEET_Z_BITS) - 1)
 #define SHEET_NONE UINT32_MAX
 
-/* x, y in grid units from the middle of the page, z in depth units. */
-#define sheet_point geom_point
-
 /* A side k of a triangle runs from point[k] to point[(k + 1) % 3]. */
 struct sheet_triangle {
   uint32_t point[3];
@@ -62,7 +59,7 @@ struct sheet_contour {
 };
 
 struct sheet {
-  ARRAY(struct sheet_point) point;
+  ARRAY(struct geom_point) point; /* x, y in grid units, z in depth units */
   ARRAY(struct sheet_triangle) triangle;
   uint8_t *triangle_flags;    /* one a triangle */
   const uint32_t *face_group; /* the scene's, lent */
