@@ -42,8 +42,8 @@ int32_t laid_half(const struct laid *laid, int axis) {
 }
 
 bool laid_on_border(const struct laid *laid, uint32_t a, uint32_t b) {
-  struct sheet_point p = laid->sheet.point.item[a];
-  struct sheet_point q = laid->sheet.point.item[b];
+  struct geom_point p = laid->sheet.point.item[a];
+  struct geom_point q = laid->sheet.point.item[b];
   return (p.x == q.x && abs(p.x) == laid_half(laid, 0)) ||
          (p.y == q.y && abs(p.y) == laid_half(laid, 1));
 }
@@ -74,7 +74,7 @@ size_t laid_count(const struct laid *laid, unsigned edge_class) {
 static void check_points(const struct laid *laid) {
   const struct sheet *sheet = &laid->sheet;
   for (size_t p = 0; p < sheet->point.count; p++) {
-    struct sheet_point at = sheet->point.item[p];
+    struct geom_point at = sheet->point.item[p];
     assert_true(abs(at.x) <= laid_half(laid, 0) && abs(at.x) <= SHEET_XY_MAX);
     assert_true(abs(at.y) <= laid_half(laid, 1) && abs(at.y) <= SHEET_XY_MAX);
     assert_true(at.z >= 0 && at.z <= SHEET_Z_MAX);
