@@ -162,7 +162,7 @@ static void the_first_class_asked_for_is_the_edge_s(void **state) {
 
 /* Shuffled faces, turned at random, have the same edges of the same classes. */
 struct known {
-  struct sheet_point end[2];
+  struct geom_point end[2];
   uint16_t edge_class;
 };
 
@@ -175,8 +175,8 @@ static struct known *list_known(const struct laid *laid) {
   struct known *known = calloc(sheet->edge.count + 1, sizeof *known);
   for (size_t e = 0; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
-    const struct sheet_point *p = &sheet->point.item[edge->point[0]];
-    const struct sheet_point *q = &sheet->point.item[edge->point[1]];
+    const struct geom_point *p = &sheet->point.item[edge->point[0]];
+    const struct geom_point *q = &sheet->point.item[edge->point[1]];
     bool swap = memcmp(p, q, sizeof *p) > 0;
     known[e].end[0] = swap ? *q : *p;
     known[e].end[1] = swap ? *p : *q;
