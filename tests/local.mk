@@ -40,7 +40,7 @@ unit_tests += %D%/test_judge
 %C%_test_judge_SOURCES = %D%/test_judge.c
 %C%_test_judge_LDADD = %D%/judge/libjudge.la %D%/scenes/libscenes.la $(LDADD)
 
-EXTRA_DIST += %D%/tap.sh
+EXTRA_DIST += %D%/tap.sh %D%/unit.sh
 dist_check_SCRIPTS += \
   %D%/test_cli.sh \
   %D%/test_documents.sh \

@@ -36,6 +36,14 @@ say() {
   done <<<"$1"
 }
 
+# help_words HEAD FILE - the words of a list in --help, one a line.
+help_words() {
+  awk -v head="$1:" '
+    index($0, head) == 1 { on = 1; $0 = substr($0, length(head) + 1) }
+    /^[^ ]/ { on = 0 }
+    on { for (i = 1; i <= NF; i++) print $i }' "$2"
+}
+
 # Ends the test.
 finish() {
   echo "1..$claims"

@@ -140,7 +140,7 @@ for option in output format from method pitch resolution contact view azimuth \
 done
 for method in auto newell watkins warnock tiles zbuffer scanline-zbuffer \
   painter painter-given brute; do
-  if sed -n 's/^Methods: //p' help.txt | tr ' ' '\n' | grep -qx "$method"; then
+  if help_words Methods help.txt | grep -qx "$method"; then
     claim "method $method draws" run 0 cube.obj -o out.svg --method "$method"
   else
     claim "method $method is refused by name" \

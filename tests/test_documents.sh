@@ -34,7 +34,7 @@ sed 's/\\-/-/g' "$manual" | awk '/^\.SH OPTIONS/ { on = 1 }
 claim "the manual and --help have the same options" \
   same "$scratch/options-help" "$scratch/options-manual"
 
-sed -n 's/^Methods: //p' "$scratch/help.txt" | tr ' ' '\n' | LC_ALL=C sort \
+help_words Methods "$scratch/help.txt" | LC_ALL=C sort \
   >"$scratch/methods-help"
 awk '/^\.SH/ { on = $2 == "METHODS" }
   on && /^\.TP/ { getline; gsub(/\\-/, "-"); print $2 }' "$manual" |

@@ -14,25 +14,37 @@ static void print_entry(const struct option_entry *entry) {
   printf("%*s%s\n", width < column ? column - width : 1, "", entry->help);
 }
 
+/* Prints one more word of a list, on a new line where this one is full;
+ * returns the new column. */
+static int print_word(int column, const char *word) {
+  const int edge = 80;
+  if (column + 1 + (int)strlen(word) > edge) {
+    printf("\n ");
+    column = 1;
+  }
+  return column + printf(" %s", word);
+}
+
 static void print_methods(void) {
-  printf("Methods:");
+  int column = printf("Methods:");
   for (int i = 0; i < RECTO_METHOD_COUNT; i++)
     if (recto_method_is_available((recto_method)i))
-      printf(" %s", recto_method_name((recto_method)i));
+      column = print_word(column, recto_method_name((recto_method)i));
   printf("\n");
 }
 
 static void print_formats(void) {
-  printf("Output formats:");
+  int column = printf("Output formats:");
   for (size_t i = 0; recto_output_format_name(i) != NULL; i++)
-    printf(" %s", recto_output_format_name(i));
+    column = print_word(column, recto_output_format_name(i));
   printf("\n");
 }
 
 static void print_classes(void) {
-  printf("Edge classes:");
+  int column = printf("Edge classes:");
   for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
-    printf(" %s", recto_edge_class_name((recto_edge_class)(1u << i)));
+    column =
+        print_word(column, recto_edge_class_name((recto_edge_class)(1u << i)));
   printf(";\n  all; none; default: all of these but smooth\n");
 }
 
