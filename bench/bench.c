@@ -1,0 +1,331 @@
+/* bench.c - how long recto takes: stage by stage, in CPU seconds, with peak
+ * memory; on the example models, on real meshes where they are, and on finer
+ * and finer versions of one of them.
+ *
+ *   bench RECTO ZRASTER EXAMPLES [METHOD]...
+ *
+ * RECTO_MODELS in the environment names the folder of the real meshes.  Each
+ * figure is the median of several runs of the whole program, file to SVG. */
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/report.h"
+#include "base/stream.h"
+#include "bench/table.h"
+#include "tests/scenes/build.h"
+#include "tests/scenes/subdivide.h"
+
+enum { runs = 3, limit_s = 120, path_size = PATH_MAX };
+
+struct bench {
+  const char *recto, *zraster;
+  char folder[64];           /* temporary */
+  const char *const *method; /* methods to try, ended by NULL */
+};
+
+struct model {
+  const char *name;
+  char path[path_size];
+  double triangles, bytes;
+  double eye[3], middle[3];
+};
+
+/* ---- Models
+ * ------------------------------------------------------------------ */
+
+/* Looks from three radii away, along a direction without meaning. */
+static void choose_view(struct model *model, const struct scene *scene) {
+  const double direction[3] = {0.6, 0.5, 0.62};
+  double low[3] = {INFINITY, INFINITY, INFINITY};
+  double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  for (size_t i = 0; i < scene->point.count; i++) {
+    const struct scene_point *p = &scene->point.item[i];
+    const double at[3] = {p->x, p->y, p->z};
+    for (int k = 0; k < 3; k++) {
+      low[k] = fmin(low[k], at[k]);
+      high[k] = fmax(high[k], at[k]);
+    }
+  }
+  double radius =
+      hypot(hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]) / 2;
+  for (int k = 0; k < 3; k++) {
+    model->middle[k] = (low[k] + high[k]) / 2;
+    model->eye[k] = model->middle[k] + 3 * radius * direction[k];
+  }
+}
+
+static double count_triangles(const struct scene *scene) {
+  double corners = (double)scene->corner.count;
+  return corners - 2 * (double)scene_face_count(scene);
+}
+
+/* Reads a model to learn its size; false where it is not there. */
+static bool open_model(struct model *model, struct scene *scene,
+                       const char *folder, const char *name) {
+  struct diagnostics silent = {.file = model->path};
+  size_t length;
+  model->name = name;
+  snprintf(model->path, sizeof model->path, "%s/%s.obj", folder, name);
+  char *text = read_file(model->path, &length);
+  if (text == NULL)
+    return false;
+  free(text);
+  scene_init(scene);
+  if (scene_read(scene, model->path, NULL, &silent, NULL) != RECTO_OK)
+    return false;
+  model->bytes = (double)length;
+  model->triangles = count_triangles(scene);
+  choose_view(model, scene);
+  return true;
+}
+
+static bool write_obj(struct model *model, const struct scene *scene) {
+  struct stream *stream = NULL;
+  if (stream_open(&stream, model->path, NULL) != RECTO_OK)
+    return false;
+  scene_write_obj(scene, stream);
+  return stream_finish(stream, NULL) == RECTO_OK;
+}
+
+static void put_float(unsigned char **at, double value) {
+  float number = (float)value;
+  memcpy(*at, &number, sizeof number);
+  *at += sizeof number;
+}
+
+/* Writes triangles as binary STL (on a little-endian machine). */
+static bool write_stl(const char *path, const struct scene *scene) {
+  FILE *file = fopen(path, "wb");
+  if (file == NULL)
+    return false;
+  unsigned char header[84] = {0};
+  uint32_t count = scene_face_count(scene);
+  memcpy(header + 80, &count, sizeof count);
+  fwrite(header, sizeof header, 1, file);
+  for (uint32_t i = 0; i < count; i++) {
+    unsigned char facet[50] = {0}, *at = facet + 12;
+    const uint32_t *corner = scene->corner.item + scene->face_start.item[i];
+    for (int k = 0; k < 3; k++) {
+      const struct scene_point *p = &scene->point.item[corner[k]];
+      put_float(&at, p->x);
+      put_float(&at, p->y);
+      put_float(&at, p->z);
+    }
+    fwrite(facet, sizeof facet, 1, file);
+  }
+  bool good = !ferror(file);
+  return fclose(file) == 0 && good;
+}
+
+/* ---- Measuring
+ * ------------------------------------------------------------------ */
+
+/* The stages of the report, in their order, and the columns they go to. */
+static const char *const stage[] = {"read_cpu_s",  "topology_cpu_s",
+                                    "sheet_cpu_s", "solve_cpu_s",
+                                    "ink_cpu_s",   "write_cpu_s"};
+enum { stages = sizeof stage / sizeof *stage, columns = stages + 3 };
+
+/* The medians of a row: the stages, CPU, wall, peak.  False where a run
+ * failed or took too long. */
+static bool measure(const struct bench *bench, const struct model *model,
+                    const char *method, const char *edges,
+                    double row[columns]) {
+  char camera[200], target[200], stats[100], report[90], output[90];
+  double cell[columns][RUNS_MAX];
+  snprintf(camera, sizeof camera, "%.17g,%.17g,%.17g", model->eye[0],
+           model->eye[1], model->eye[2]);
+  snprintf(target, sizeof target, "%.17g,%.17g,%.17g", model->middle[0],
+           model->middle[1], model->middle[2]);
+  snprintf(report, sizeof report, "%s/report.json", bench->folder);
+  snprintf(stats, sizeof stats, "--stats=%s", report);
+  snprintf(output, sizeof output, "%s/drawing.svg", bench->folder);
+  const char *const argv[] = {
+      bench->recto, model->path, "-m", method, "-e", edges,   "-c", camera,
+      "-l",         target,      "-F", "30",   "-u", "0,1,0", "-p", "200x200mm",
+      "--margin",   "5mm",       "-q", stats,  "-o", output,  NULL};
+  for (size_t i = 0; i < runs; i++) {
+    struct run run;
+    run_program(&run, argv, limit_s);
+    if (run.status != 0)
+      return false;
+    char *text = read_file(report, NULL);
+    for (size_t k = 0; k < stages; k++)
+      cell[k][i] = report_number(text, stage[k]);
+    free(text);
+    cell[stages][i] = run.cpu_s;
+    cell[stages + 1][i] = run.wall_s;
+    cell[stages + 2][i] = run.peak_mb;
+  }
+  for (size_t k = 0; k < columns; k++)
+    row[k] = median_of(cell[k], runs);
+  return true;
+}
+
+static void print_heading(void) {
+  printf("\n%-16s %9s %-8s %-8s %7s %7s %7s %7s %7s %7s %8s %7s %6s %5s\n",
+         "model", "triangles", "method", "lines", "read", "edges", "sheet",
+         "solve", "ink", "write", "CPU", "wall", "MB", "B/tri");
+}
+
+static void print_row(const struct bench *bench, const struct model *model,
+                      const char *method, const char *edges) {
+  double row[columns];
+  printf("%-16s %9.0f %-8s %-8s", model->name, model->triangles, method,
+         strcmp(edges, "all") == 0 ? "all" : "features");
+  if (!measure(bench, model, method, edges, row)) {
+    printf(" failed, or over %d s\n", limit_s);
+    return;
+  }
+  for (size_t k = 0; k < stages; k++)
+    printf(" %7.3f", row[k]);
+  printf(" %8.3f %7.3f %6.0f %5.0f\n", row[stages], row[stages + 1],
+         row[stages + 2], 1e6 * row[stages + 2] / model->triangles);
+  fflush(stdout);
+}
+
+static void print_model(const struct bench *bench, const struct model *model) {
+  static const char features[] =
+      "silhouette,border,crease,group,intersection,wire";
+  for (size_t i = 0; bench->method[i] != NULL; i++) {
+    print_row(bench, model, bench->method[i], features);
+    print_row(bench, model, bench->method[i], "all");
+  }
+}
+
+static void print_yardstick(const struct bench *bench,
+                            const struct model *model) {
+  char eye[3][40];
+  double cpu[RUNS_MAX], peak[RUNS_MAX];
+  for (int k = 0; k < 3; k++)
+    snprintf(eye[k], sizeof eye[k], "%.17g", model->eye[k]);
+  const char *const argv[] = {bench->zraster, model->path, eye[0],
+                              eye[1],         eye[2],      NULL};
+  for (size_t i = 0; i < runs; i++) {
+    struct run run;
+    run_program(&run, argv, limit_s);
+    cpu[i] = run.status == 0 ? run.cpu_s : NAN;
+    peak[i] = run.peak_mb;
+  }
+  printf("%-16s %9.0f depth buffer of 4096 x 4096, whole process: %.3f s, "
+         "%.0f MB\n",
+         model->name, model->triangles, median_of(cpu, runs),
+         median_of(peak, runs));
+}
+
+/* How fast a file is read by itself: in MB a second of CPU time. */
+static void print_reading(const char *path, const char *what) {
+  double cpu[RUNS_MAX], bytes = 0;
+  for (size_t i = 0; i < runs; i++) {
+    struct scene scene;
+    struct diagnostics silent = {.file = path};
+    size_t length = 0;
+    free(read_file(path, &length)); /* into the system's cache */
+    bytes = (double)length;
+    scene_init(&scene);
+    double start = clock_cpu();
+    bool good = scene_read(&scene, path, NULL, &silent, NULL) == RECTO_OK;
+    cpu[i] = good ? clock_cpu() - start : NAN;
+    scene_fini(&scene);
+  }
+  double median = median_of(cpu, runs);
+  printf("%-16s %6.1f MB in %.3f s: %.0f MB/s\n", what, bytes / 1e6, median,
+         bytes / 1e6 / median);
+}
+
+/* ---- All of it
+ * --------------------------------------------------------------------- */
+
+static void print_folder(const struct bench *bench, const char *folder,
+                         const char *const *name) {
+  for (size_t i = 0; name[i] != NULL; i++) {
+    struct model model;
+    struct scene scene;
+    if (!open_model(&model, &scene, folder, name[i]))
+      continue;
+    print_model(bench, &model);
+    scene_fini(&scene);
+  }
+}
+
+/* Smooths the model twice and takes its measure each time. */
+static void print_growth(const struct bench *bench, struct model *model,
+                         struct scene *scene) {
+  static const char *const level[] = {"... x 4", "... x 16"};
+  char stl[100];
+  snprintf(stl, sizeof stl, "%s/model.stl", bench->folder);
+  print_yardstick(bench, model);
+  for (size_t i = 0; i < 2; i++) {
+    struct scene finer;
+    scene_init(&finer);
+    scenes_subdivide(&finer, scene, SUBDIVIDE_LOOP);
+    scene_fini(scene);
+    *scene = finer;
+    model->name = level[i];
+    snprintf(model->path, sizeof model->path, "%s/model.obj", bench->folder);
+    model->triangles = count_triangles(scene);
+    if (!write_obj(model, scene)) {
+      fputs("bench: cannot write the finer model\n", stderr);
+      break;
+    }
+    print_model(bench, model);
+    print_yardstick(bench, model);
+  }
+  printf("\nReading alone\n");
+  print_reading(model->path, "OBJ");
+  if (write_stl(stl, scene))
+    print_reading(stl, "binary STL");
+  unlink(model->path);
+  unlink(stl);
+}
+
+static void print_all(const struct bench *bench, const char *examples,
+                      const char *models) {
+  static const char *const own[] = {"castle", "gears", "knot", NULL};
+  static const char *const real[] = {"suzanne", "spot",    "cow",
+                                     "teapot",  "fandisk", NULL};
+  struct model model;
+  struct scene scene;
+  print_heading();
+  print_folder(bench, examples, own);
+  if (models != NULL)
+    print_folder(bench, models, real);
+  /* The bunny grows, where it is; else the knot does. */
+  if (models == NULL || !open_model(&model, &scene, models, "stanford-bunny")) {
+    if (!open_model(&model, &scene, examples, "knot"))
+      return;
+  }
+  print_model(bench, &model);
+  print_growth(bench, &model, &scene);
+  scene_fini(&scene);
+}
+
+int main(int argc, char **argv) {
+  static const char *const usual[] = {"newell", "auto", NULL};
+  struct bench bench = {.folder = "/tmp/recto-bench-XXXXXX"};
+  if (argc < 4) {
+    fputs("usage: bench RECTO ZRASTER EXAMPLES [METHOD]...\n", stderr);
+    return 2;
+  }
+  bench.recto = argv[1];
+  bench.zraster = argv[2];
+  bench.method = argc > 4 ? (const char *const *)argv + 4 : usual;
+  if (mkdtemp(bench.folder) == NULL) {
+    fputs("bench: no temporary folder\n", stderr);
+    return 1;
+  }
+  printf("CPU seconds, medians of %d runs; the whole process under CPU.\n",
+         runs);
+  print_all(&bench, argv[3], getenv("RECTO_MODELS"));
+  char path[100];
+  snprintf(path, sizeof path, "%s/report.json", bench.folder);
+  unlink(path);
+  snprintf(path, sizeof path, "%s/drawing.svg", bench.folder);
+  unlink(path);
+  rmdir(bench.folder);
+  return 0;
+}

@@ -1,0 +1,89 @@
+/* table.c - see table.h. */
+#include "bench/table.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+static double now(void) {
+  struct timespec at;
+  clock_gettime(CLOCK_MONOTONIC, &at);
+  return (double)at.tv_sec + 1e-9 * (double)at.tv_nsec;
+}
+
+static double seconds_of(struct timeval at) {
+  return (double)at.tv_sec + 1e-6 * (double)at.tv_usec;
+}
+
+/* Becomes the program; an alarm ends it when its time is up. */
+static void become(const char *const argv[], unsigned limit_s) {
+  int nothing = open("/dev/null", O_WRONLY);
+  if (nothing >= 0)
+    dup2(nothing, STDOUT_FILENO);
+  alarm(limit_s);
+  execv(argv[0], (char *const *)argv);
+  _exit(127);
+}
+
+void run_program(struct run *run, const char *const argv[], unsigned limit_s) {
+  memset(run, 0, sizeof *run);
+  fflush(NULL);
+  double start = now();
+  pid_t child = fork();
+  if (child == 0)
+    become(argv, limit_s);
+  struct rusage usage;
+  int status;
+  run->status = -1;
+  if (child < 0 || wait4(child, &status, 0, &usage) != child)
+    return;
+  run->wall_s = now() - start;
+  run->cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+  run->peak_mb = (double)usage.ru_maxrss / 1000;
+  if (WIFEXITED(status))
+    run->status = WEXITSTATUS(status);
+}
+
+double report_number(const char *text, const char *name) {
+  char key[64];
+  snprintf(key, sizeof key, "\"%s\":", name);
+  const char *at = text == NULL ? NULL : strstr(text, key);
+  return at == NULL ? 0 : strtod(at + strlen(key), NULL);
+}
+
+char *read_file(const char *path, size_t *length) {
+  FILE *file = fopen(path, "rb");
+  char *text = NULL;
+  if (file == NULL)
+    return NULL;
+  long size = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
+  if (size >= 0 && fseek(file, 0, SEEK_SET) == 0)
+    text = malloc((size_t)size + 1);
+  if (text != NULL && fread(text, 1, (size_t)size, file) == (size_t)size) {
+    text[size] = '\0';
+    if (length != NULL)
+      *length = (size_t)size;
+  } else {
+    free(text);
+    text = NULL;
+  }
+  fclose(file);
+  return text;
+}
+
+static int compare_numbers(const void *a, const void *b) {
+  const double *x = a, *y = b;
+  return *x < *y ? -1 : *x > *y;
+}
+
+double median_of(double *number, size_t count) {
+  qsort(number, count, sizeof *number, compare_numbers);
+  return count % 2 == 1 ? number[count / 2]
+                        : (number[count / 2 - 1] + number[count / 2]) / 2;
+}

@@ -1,0 +1,31 @@
+/* table.h - running programs and taking their measure, for the bench. */
+#ifndef BENCH_TABLE_H
+#define BENCH_TABLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { RUNS_MAX = 9 };
+
+/* What one run of a program cost. */
+struct run {
+  double cpu_s, wall_s; /* user and system, all threads; elapsed */
+  double peak_mb;       /* resident */
+  int status;           /* exit status; -1: killed or too slow */
+};
+
+/* Runs argv[0], its standard output thrown away, for `limit_s` at most. */
+void run_program(struct run *run, const char *const argv[], unsigned limit_s);
+
+/* A report that recto wrote: the number called `name` in it, 0 where there is
+ * none.  `text` is the JSON. */
+double report_number(const char *text, const char *name);
+
+/* The whole file, NUL-terminated, to be freed; NULL where it cannot be read.
+ * Its length goes to *length where that is not NULL. */
+char *read_file(const char *path, size_t *length);
+
+/* The median; sorts the numbers. */
+double median_of(double *number, size_t count);
+
+#endif
