@@ -396,6 +396,28 @@ static void clipping_keeps_what_is_inside_and_no_less(void **state) {
   }
 }
 
+/* ---- Cutting ------------------------------------------------------------ */
+
+static void cuts_are_at_a_box_but_cut_no_slivers_off(void **state) {
+  (void)state;
+  assert_int_equal(window_cut(0, 100, 30, 60), 60);
+  assert_int_equal(window_cut(0, 100, 45, 60), 45);
+  assert_int_equal(window_cut(0, 100, 40, 60), 40);
+  assert_int_equal(window_cut(0, 100, 25, 99), 25);
+  assert_int_equal(window_cut(0, 100, 24, 99), 50);
+  assert_int_equal(window_cut(0, 100, -7, 300), 50);
+  assert_int_equal(window_cut(-100, 0, -200, -75), -75);
+  assert_int_equal(window_cut(-FAR_OFF, FAR_OFF, -FAR_OFF, FAR_OFF), 0);
+  for (int32_t low = -12; low < 24; low++)
+    for (int32_t width = 0; width < 24; width++)
+      for (int32_t past = 2; past < 12; past++) {
+        int32_t cut = window_cut(0, past, low, low + width);
+        assert_true(4 * cut >= past - 1 && 4 * (past - cut) >= past);
+      }
+}
+
+/* ---- Range -------------------------------------------------------------- */
+
 static void the_ends_of_the_grid_are_no_harder(void **state) {
   const struct window page = {-FAR_OFF, -FAR_OFF, FAR_OFF, FAR_OFF};
   const struct window corner = {FAR_OFF - 1, FAR_OFF - 1, FAR_OFF, FAR_OFF};
@@ -429,6 +451,7 @@ int main(void) {
       cmocka_unit_test(classes_are_those_of_the_definition),
       cmocka_unit_test(what_touches_the_window_intersects_it),
       cmocka_unit_test(clipping_keeps_what_is_inside_and_no_less),
+      cmocka_unit_test(cuts_are_at_a_box_but_cut_no_slivers_off),
       cmocka_unit_test(the_ends_of_the_grid_are_no_harder),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -272,8 +272,8 @@ static bool solve_window(struct warnock *w, const struct warnock_window *win) {
 /* ---- Division
  * ------------------------------------------------------------------------ */
 
-/* Where to divide: in the middle, or at a corner of the box of the window's
- * nearest face where one is inside. */
+/* Where to divide: in the middle, or at a side of the box of the window's
+ * nearest face. */
 static void choose_cut(const struct warnock *w,
                        const struct warnock_window *win, int32_t *x,
                        int32_t *y) {
@@ -283,14 +283,8 @@ static void choose_cut(const struct warnock *w,
   if (w->request->divide_by_box && win->faces.from < win->faces.to) {
     struct page_box box =
         page_box_of_triangle(w->sheet, w->faces.item[win->faces.from]);
-    if (v->x0 < box.x0 && box.x0 < v->x1)
-      *x = box.x0;
-    else if (v->x0 < box.x1 && box.x1 < v->x1)
-      *x = box.x1;
-    if (v->y0 < box.y0 && box.y0 < v->y1)
-      *y = box.y0;
-    else if (v->y0 < box.y1 && box.y1 < v->y1)
-      *y = box.y1;
+    *x = window_cut(v->x0, v->x1, box.x0, box.x1);
+    *y = window_cut(v->y0, v->y1, box.y0, box.y1);
   }
 }
 

@@ -336,35 +336,25 @@ static bool list_edges(struct subdivision *s, const struct block *b,
  */
 
 /* The pixel in which a sheet coordinate lies. */
-static int64_t pixel_of(int64_t value, int64_t first, int64_t step,
+static int32_t pixel_of(int64_t value, int64_t first, int64_t step,
                         int64_t den) {
-  return floor_divide(value * den - first, step);
+  return (int32_t)floor_divide(value * den - first, step);
 }
 
-/* Of two places the first that lies inside (from, past), else the middle. */
-static int32_t choose_cut(int64_t low, int64_t high, int32_t from,
-                          int32_t past) {
-  if (from < low && low < past)
-    return (int32_t)low;
-  if (from < high && high < past)
-    return (int32_t)high;
-  return from + (past - from) / 2;
-}
-
-/* Four windows in place of one: cut in the middle, or around the box of its
- * nearest face. */
+/* Four windows in place of one: cut in the middle, or at sides of the box of
+ * its nearest face. */
 static bool divide(struct subdivision *s, const struct pixel_window *win) {
   const struct scan_grid *g = &s->frame->raster.grid;
   int32_t x = win->column + win->columns / 2, y = win->line + win->lines / 2;
   if (s->request->divide_by_box && win->faces.from < win->faces.to) {
     struct page_box box =
         page_box_of_triangle(s->sheet, s->faces.item[win->faces.from]);
-    x = choose_cut(pixel_of(box.x0, g->x_first, g->x_step, g->den),
-                   pixel_of(box.x1, g->x_first, g->x_step, g->den) + 1,
-                   win->column, win->column + win->columns);
-    y = choose_cut(pixel_of(box.y0, g->y_first, g->y_step, g->den),
-                   pixel_of(box.y1, g->y_first, g->y_step, g->den) + 1,
-                   win->line, win->line + win->lines);
+    x = window_cut(win->column, win->column + win->columns,
+                   pixel_of(box.x0, g->x_first, g->x_step, g->den),
+                   pixel_of(box.x1, g->x_first, g->x_step, g->den) + 1);
+    y = window_cut(win->line, win->line + win->lines,
+                   pixel_of(box.y0, g->y_first, g->y_step, g->den),
+                   pixel_of(box.y1, g->y_first, g->y_step, g->den) + 1);
   }
   for (int k = 0; k < 4; k++) {
     struct pixel_window part = *win;

@@ -5,10 +5,14 @@ enum window_class window_box_test(const struct window *window,
                                   const struct geom_point *corner, int count) {
   int32_t x0 = corner[0].x, y0 = corner[0].y, x1 = x0, y1 = y0;
   for (int k = 1; k < count; k++) {
-    if (corner[k].x < x0) x0 = corner[k].x;
-    if (corner[k].x > x1) x1 = corner[k].x;
-    if (corner[k].y < y0) y0 = corner[k].y;
-    if (corner[k].y > y1) y1 = corner[k].y;
+    if (corner[k].x < x0)
+      x0 = corner[k].x;
+    if (corner[k].x > x1)
+      x1 = corner[k].x;
+    if (corner[k].y < y0)
+      y0 = corner[k].y;
+    if (corner[k].y > y1)
+      y1 = corner[k].y;
   }
   if (x1 < window->x0 || x0 > window->x1 || y1 < window->y0 || y0 > window->y1)
     return WINDOW_DISJOINT;
@@ -24,7 +28,8 @@ void window_line_function(const struct window *window, struct geom_point p,
                                    {window->x0, window->y1, 0},
                                    {window->x1, window->y1, 0},
                                    {window->x1, window->y0, 0}};
-  for (int k = 0; k < 4; k++) value[k] = geom_orient2d(p, q, at[k]);
+  for (int k = 0; k < 4; k++)
+    value[k] = geom_orient2d(p, q, at[k]);
 }
 
 bool window_meets_edge(const struct window *window, struct geom_point p,
@@ -32,7 +37,8 @@ bool window_meets_edge(const struct window *window, struct geom_point p,
   const struct geom_point edge[2] = {p, q};
   int64_t value[4];
   bool left = false, right = false;
-  if (window_box_test(window, edge, 2) == WINDOW_DISJOINT) return false;
+  if (window_box_test(window, edge, 2) == WINDOW_DISJOINT)
+    return false;
   window_line_function(window, p, q, value);
   for (int k = 0; k < 4; k++) {
     left |= value[k] >= 0;
@@ -57,7 +63,8 @@ int window_octant(const struct window *window, int64_t x, int64_t y) {
 
 /* A difference of octants brought into -4 .. 4. */
 static int fold(int difference) {
-  if (difference > 4) return difference - 8;
+  if (difference > 4)
+    return difference - 8;
   return difference < -4 ? difference + 8 : difference;
 }
 
@@ -77,7 +84,8 @@ static int count_edge(const struct window *window, struct geom_point p,
     int a = octant_scaled(window, px, py, bits),
         b = octant_scaled(window, qx, qy, bits), d = fold(b - a), m;
     int64_t mx = px + qx, my = py + qy;
-    if (!is_ambiguous(d) || bits == 31) return sum + d;
+    if (!is_ambiguous(d) || bits == 31)
+      return sum + d;
     m = octant_scaled(window, mx, my, bits + 1);
     if (is_ambiguous(fold(m - a))) { /* go on with the first half */
       sum += fold(b - m);
@@ -109,8 +117,10 @@ int window_ray_count(const struct window *window,
   int crossings = 0;
   for (int k = 0; k < count; k++) {
     struct geom_point p = corner[k], q = corner[k + 1 == count ? 0 : k + 1];
-    if ((p.x <= start.x) == (q.x <= start.x)) continue;
-    if ((geom_orient2d(p, q, start) > 0) == (p.x < q.x)) crossings++;
+    if ((p.x <= start.x) == (q.x <= start.x))
+      continue;
+    if ((geom_orient2d(p, q, start) > 0) == (p.x < q.x))
+      crossings++;
   }
   return crossings;
 }
@@ -137,14 +147,18 @@ enum window_class window_classify(const struct window *window,
 /* Keeps of [from, to] where s + t (e - s) >= 0. */
 static bool clip_above(int64_t s, int64_t e, struct ratio *from,
                        struct ratio *to) {
-  if (s >= 0 && e >= 0) return true;
-  if (s < 0 && e < 0) return false;
+  if (s >= 0 && e >= 0)
+    return true;
+  if (s < 0 && e < 0)
+    return false;
   if (s < 0) {
     struct ratio t = ratio_of(-s, e - s);
-    if (ratio_compare(*from, t) < 0) *from = t;
+    if (ratio_compare(*from, t) < 0)
+      *from = t;
   } else {
     struct ratio t = ratio_of(s, s - e);
-    if (ratio_compare(t, *to) < 0) *to = t;
+    if (ratio_compare(t, *to) < 0)
+      *to = t;
   }
   return ratio_compare(*from, *to) <= 0;
 }
@@ -161,4 +175,18 @@ bool window_clip(const struct window *window, struct geom_point p,
                     to) &&
          clip_above((int64_t)window->y1 - p.y, (int64_t)window->y1 - q.y, from,
                     to);
+}
+
+/* Slivers between sides that all but coincide would be cut off one after the
+ * other: hence the quarter. */
+int32_t window_cut(int32_t from, int32_t to, int32_t low, int32_t high) {
+  int64_t sum = (int64_t)from + to, width = (int64_t)to - from;
+  int64_t off_low = 2 * (int64_t)low - sum, off_high = 2 * (int64_t)high - sum;
+  if (off_low < 0)
+    off_low = -off_low;
+  if (off_high < 0)
+    off_high = -off_high;
+  if (2 * off_low > width && 2 * off_high > width)
+    return (int32_t)(sum / 2);
+  return off_low <= off_high ? low : high;
 }

@@ -68,4 +68,9 @@ int window_ray_count(const struct window *window,
 bool window_clip(const struct window *window, struct geom_point p,
                  struct geom_point q, struct ratio *from, struct ratio *to);
 
+/* Where to cut the range from..to: at `low` or `high`, the sides of a box, the
+ * one nearer to the middle, or in the middle where that would cut off less
+ * than a quarter. */
+int32_t window_cut(int32_t from, int32_t to, int32_t low, int32_t high);
+
 #endif
