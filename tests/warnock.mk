@@ -8,3 +8,7 @@ unit_tests += %D%/test_warnock_raster
 unit_tests += %D%/test_warnock
 %C%_test_warnock_SOURCES = %D%/test_warnock.c $(hand_sheet)
 %C%_test_warnock_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_solvers_agree
+%C%_test_solvers_agree_SOURCES = %D%/test_solvers_agree.c \
+  %D%/degenerate.c %D%/degenerate.h
+%C%_test_solvers_agree_LDADD = %D%/scenes/libscenes.la $(LDADD)

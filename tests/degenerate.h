@@ -1,0 +1,18 @@
+/* degenerate.h - views that hide nothing of a scene's regularity: along axes,
+ * diagonals and the scene's own edges, from afar and from near. */
+#ifndef TESTS_DEGENERATE_H
+#define TESTS_DEGENERATE_H
+
+#include "tests/scenes/scenes.h"
+
+enum { DEGENERATE_VIEWS = 60 };
+
+/* Aims the camera of view 0 to 59: at the scene's middle along
+ *   the 6 directions of the axes, 6 diagonals of a square, 4 of a cube, each
+ *   orthographic, and in perspective from 3 and from 1,000 times its size;
+ * and along 6 edges of its faces, in perspective from the same distances, the
+ * eye on the line of the edge. */
+void degenerate_view(recto_options *options, const struct scene *scene,
+                     int view);
+
+#endif
