@@ -5,7 +5,6 @@
  * meshes with seams are whole. */
 #include "tests/judge/edges.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* A face's side, its ends in a fixed order. */
@@ -59,7 +58,7 @@ static uint32_t *find_places(const struct scene *scene) {
   judge_require(place != NULL && order != NULL);
   for (size_t i = 0; i < count; i++)
     order[i] = &scene->point.item[i];
-  qsort(order, count, sizeof *order, compare_positions);
+  judge_sort(order, count, sizeof *order, compare_positions);
   for (size_t i = 0; i < count; i++) {
     uint32_t here = (uint32_t)(order[i] - scene->point.item);
     bool same = i > 0 && order[i]->x == order[i - 1]->x &&
@@ -192,8 +191,8 @@ static void list_sides(const struct scene *scene, struct sides *sides) {
         judge_require(ARRAY_PUSH(&sides->side, side));
     }
   }
-  qsort(sides->side.item, sides->side.count, sizeof *sides->side.item,
-        compare_sides);
+  judge_sort(sides->side.item, sides->side.count, sizeof *sides->side.item,
+             compare_sides);
 }
 
 /* Gives the sides of one pair of points their edge; a single one is kept for
@@ -235,7 +234,7 @@ static void pair_singles(struct finder *finder, const struct sides *single) {
     uint32_t a = place[side->a], b = place[side->b];
     placed[i] = (struct placed_side){a < b ? a : b, a < b ? b : a, *side};
   }
-  qsort(placed, count, sizeof *placed, compare_placed);
+  judge_sort(placed, count, sizeof *placed, compare_placed);
   for (size_t i = 0, next; i < count; i = next) {
     for (next = i + 1; next < count && placed[next].low == placed[i].low &&
                        placed[next].high == placed[i].high;)

@@ -1,8 +1,6 @@
 /* raster.c - see raster.h. */
 #include "tests/judge/raster.h"
 
-#include <stdlib.h>
-
 #include "tests/judge/edges.h"
 
 void judge_raster_init(struct judge_raster *raster, unsigned n,
@@ -106,8 +104,8 @@ void judge_raster_scene(struct judge_raster *raster, const struct scene *scene,
     depth[i] = -INFINITY;
   judge_triangles_init(&all, scene);
   /* The tree has mixed them; earlier faces come first again. */
-  qsort(all.triangle.item, all.triangle.count, sizeof *all.triangle.item,
-        compare_faces);
+  judge_sort(all.triangle.item, all.triangle.count, sizeof *all.triangle.item,
+             compare_faces);
   for (size_t i = 0; i < all.triangle.count; i++) {
     struct image image = image_of(raster, camera, &all.triangle.item[i]);
     draw_image(raster, depth, &image, all.triangle.item[i].face);
@@ -156,8 +154,8 @@ void judge_raster_region(struct judge_raster *raster,
     crossings.x.count = 0;
     for (uint32_t i = 0; i < loops; at += count[i++])
       cross_loop(&crossings, at, count[i], scale, row + 0.5);
-    qsort(crossings.x.item, crossings.x.count, sizeof *crossings.x.item,
-          compare_numbers);
+    judge_sort(crossings.x.item, crossings.x.count, sizeof *crossings.x.item,
+               compare_numbers);
     for (size_t k = 0; k + 1 < crossings.x.count; k += 2) {
       unsigned last = first_pixel(raster, crossings.x.item[k + 1]);
       for (unsigned i = first_pixel(raster, crossings.x.item[k]); i < last; i++)

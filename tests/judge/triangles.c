@@ -19,6 +19,12 @@ void judge_require(bool good) {
   abort();
 }
 
+void judge_sort(void *item, size_t count, size_t size,
+                int (*compare)(const void *, const void *)) {
+  if (count > 1)
+    qsort(item, count, size, compare);
+}
+
 static struct judge_spot spot_at(const struct scene *scene, uint32_t point) {
   const struct scene_point *p = &scene->point.item[point];
   return judge_spot_of(p->x, p->y, p->z);

@@ -86,6 +86,10 @@ void judge_triangles_near(const struct judge_triangles *all,
 
 struct judge_box judge_triangle_box(const struct judge_triangle *triangle);
 
+/* qsort, which may not be asked to sort nothing at NULL. */
+void judge_sort(void *item, size_t count, size_t size,
+                int (*compare)(const void *, const void *));
+
 /* Ends the program unless `good`. */
 void judge_require(bool good);
 
