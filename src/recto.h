@@ -76,8 +76,8 @@ typedef enum recto_method {
   RECTO_METHOD_TILES,
   RECTO_METHOD_ZBUFFER,
   RECTO_METHOD_SCANLINE_ZBUFFER,
-  RECTO_METHOD_PAINTER,          /* depth sort by centroid */
-  RECTO_METHOD_PAINTER_GIVEN,    /* the file's own order, first is rearmost */
+  RECTO_METHOD_PAINTER,       /* depth sort by centroid */
+  RECTO_METHOD_PAINTER_GIVEN, /* the file's own order, first is rearmost */
   RECTO_METHOD_BRUTE,
   RECTO_METHOD_COUNT
 } recto_method;
@@ -158,11 +158,11 @@ typedef void (*recto_warning_fn)(void *user, const char *file,
 typedef struct recto_options {
   /* Method. */
   recto_method method;
-  int threads;        /* 0: as many as the machine offers */
-  double contact;     /* scene units; negative: a millionth of the size */
-  double pitch_mm;    /* watkins: between scan lines; 0: exact sweep */
-  int resolution;     /* raster methods: lines over the page height; warnock:
-                         in pixels, so many lines; 0: exact */
+  int threads;     /* 0: as many as the machine offers */
+  double contact;  /* scene units; negative: a millionth of the size */
+  double pitch_mm; /* watkins: between scan lines; 0: exact sweep */
+  int resolution;  /* raster methods: lines over the page height; warnock:
+                      in pixels, so many lines; 0: exact */
 
   /* Camera. */
   recto_camera camera;
@@ -173,38 +173,38 @@ typedef struct recto_options {
   double up[3];                      /* 0,0,0: what the format means */
   double fov_deg;                    /* vertical; 0: orthographic */
   recto_fit fit;
-  double scale;                      /* with RECTO_FIT_SCALE */
-  double near_distance;              /* scene units; 0: chosen */
+  double scale;         /* with RECTO_FIT_SCALE */
+  double near_distance; /* scene units; 0: chosen */
   bool has_section;
-  double section;                    /* scene units in front of the eye, or
-                                        behind the scene's nearest point for
-                                        a direction: what is nearer is cut */
+  double section; /* scene units in front of the eye, or
+                     behind the scene's nearest point for
+                     a direction: what is nearer is cut */
 
   /* Page. */
   double page_width_mm, page_height_mm, margin_mm;
 
   /* Ink. */
-  unsigned edges;      /* mask of recto_edge_class */
+  unsigned edges; /* mask of recto_edge_class */
   double crease_deg;
   recto_hidden hidden;
   recto_fill fill;
   double hatch_pitch_mm, hatch_angle_deg;
-  double light[3];     /* direction towards the light; 0,0,0: the viewer's
-                          upper left */
+  double light[3]; /* direction towards the light; 0,0,0: the viewer's
+                      upper left */
   double pen_mm;
-  int pens;            /* pens to deal the groups to; 1: all on one */
+  int pens; /* pens to deal the groups to; 1: all on one */
   recto_order order;
-  double simplify_mm;  /* no point of a line moves by more */
-  double min_stroke_mm;/* shorter strokes are dropped; negative: half a pen */
-  bool ids;            /* keep source ids on every stroke */
+  double simplify_mm;   /* no point of a line moves by more */
+  double min_stroke_mm; /* shorter strokes are dropped; negative: half a pen */
+  bool ids;             /* keep source ids on every stroke */
 
   /* Output. */
-  int precision;       /* decimals of a millimetre in text formats, 0 to 9 */
-  bool polyline;       /* SVG: <polyline> elements instead of <path> */
-  bool tight;          /* PDF, EPS, PS, PNG: the page is the ink's box */
-  double dpi;          /* PNG: pixels per inch; 0: 150 */
-  const char *device;  /* HPGL: the plotter's name; NULL: "generic" */
-  double velocity_cm_s;/* HPGL: pen speed; 0: the plotter's own */
+  int precision;        /* decimals of a millimetre in text formats, 0 to 9 */
+  bool polyline;        /* SVG: <polyline> elements instead of <path> */
+  bool tight;           /* PDF, EPS, PS, PNG: the page is the ink's box */
+  double dpi;           /* PNG: pixels per inch; 0: 150 */
+  const char *device;   /* HPGL: the plotter's name; NULL: "generic" */
+  double velocity_cm_s; /* HPGL: pen speed; 0: the plotter's own */
 
   /* Conversation. */
   recto_progress_fn progress;
@@ -213,7 +213,7 @@ typedef struct recto_options {
 
   /* Warnock. */
   recto_divide divide;
-  int subpixels;       /* in pixels: average K x K in each, to 16; 0: none */
+  int subpixels; /* in pixels: average K x K in each, to 16; 0: none */
 } recto_options;
 
 /* Fills `options` with the defaults: auto, isometric, A4 portrait with a
@@ -228,12 +228,9 @@ void recto_options_init(recto_options *options);
  * output  path, or "-" for standard output
  * to      format name such as "svg"; NULL: by extension
  * options NULL: the defaults */
-RECTO_USE_RESULT recto_status recto_draw_file(const char *model,
-                                              const char *from,
-                                              const char *output,
-                                              const char *to,
-                                              const recto_options *options,
-                                              recto_error *error);
+RECTO_USE_RESULT recto_status recto_draw_file(
+    const char *model, const char *from, const char *output, const char *to,
+    const recto_options *options, recto_error *error);
 
 /* ---- Ring 2: scene, drawing --------------------------------------------- */
 
@@ -306,8 +303,8 @@ const char *recto_drawing_stats(const recto_drawing *drawing);
 typedef struct recto_stroke {
   const double *points; /* count pairs x, y in page mm */
   size_t count;
-  bool closed;          /* the last point joins the first, not repeated */
-  size_t layer;         /* index of its layer */
+  bool closed;  /* the last point joins the first, not repeated */
+  size_t layer; /* index of its layer */
   recto_edge_class edge_class;
   uint32_t face, edge, group; /* source ids, UINT32_MAX where none */
 } recto_stroke;

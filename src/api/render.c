@@ -45,9 +45,8 @@ choose_method(struct render *render, const struct solver_request *request) {
   recto_method asked = render->options->method;
   const char *why = "asked for";
   const struct solver *solver =
-      asked == RECTO_METHOD_AUTO
-          ? solver_choose(&render->sheet, request, &why)
-          : solver_by_method(asked);
+      asked == RECTO_METHOD_AUTO ? solver_choose(&render->sheet, request, &why)
+                                 : solver_by_method(asked);
   report_text(render->report, "method", "asked", recto_method_name(asked));
   report_text(render->report, "method", "chosen", solver->name);
   report_text(render->report, "method", "why", why);
