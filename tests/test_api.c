@@ -16,8 +16,7 @@
 #include "base/stream.h"
 #include "recto.h"
 
-/* ---- A cube, made by hand --------------------------------------------------
- */
+/* ---- A cube, made by hand ------------------------------------------------ */
 
 static const double cube_point[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},
                                         {0, 1, 0}, {0, 0, 1}, {1, 0, 1},
@@ -80,8 +79,7 @@ static const char *path_of(const char *name) {
   return path[which];
 }
 
-/* ---- Words -----------------------------------------------------------------
- */
+/* ---- Words --------------------------------------------------------------- */
 
 static void every_enumerator_has_a_word_of_its_own(void **state) {
   (void)state;
@@ -115,8 +113,7 @@ static void the_version_is_three_numbers(void **state) {
   assert_int_equal(recto_version()[end], '\0');
 }
 
-/* ---- Options ---------------------------------------------------------------
- */
+/* ---- Options ------------------------------------------------------------- */
 
 static void no_options_are_the_defaults(void **state) {
   (void)state;
@@ -220,8 +217,7 @@ static void methods_not_built_are_unsupported(void **state) {
   recto_scene_destroy(scene);
 }
 
-/* ---- Scenes ----------------------------------------------------------------
- */
+/* ---- Scenes -------------------------------------------------------------- */
 
 static void destroying_nothing_is_fine(void **state) {
   (void)state;
@@ -312,8 +308,7 @@ static void a_scene_may_be_drawn_again(void **state) {
   recto_scene_destroy(scene);
 }
 
-/* ---- Drawings --------------------------------------------------------------
- */
+/* ---- Drawings ------------------------------------------------------------ */
 
 /* Isometric, 100 units to the mm: nine edges of 100 sqrt(2/3) mm. */
 static void a_cube_at_true_scale_shows_nine_edges(void **state) {
@@ -413,8 +408,7 @@ static void formats_are_told(void **state) {
   assert_true(count >= 2 && count < 20);
 }
 
-/* ---- The whole job ---------------------------------------------------------
- */
+/* ---- The whole job ------------------------------------------------------- */
 
 static void write_model(const char *path) {
   FILE *file = fopen(path, "wb");
@@ -475,8 +469,7 @@ static void a_bad_job_leaves_nothing(void **state) {
       RECTO_ERROR_UNSUPPORTED);
 }
 
-/* ---- Progress --------------------------------------------------------------
- */
+/* ---- Progress ------------------------------------------------------------ */
 
 struct talk {
   int calls, stop_at;
@@ -516,8 +509,7 @@ static void progress_rises_and_may_cancel_at_every_step(void **state) {
   recto_scene_destroy(scene);
 }
 
-/* ---- Faults ----------------------------------------------------------------
- */
+/* ---- Faults -------------------------------------------------------------- */
 
 /* The whole job; what was made is freed in any case. */
 static recto_status whole_job(const char *path) {

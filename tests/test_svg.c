@@ -10,8 +10,7 @@
 
 #include "backends/writer.h"
 
-/* ---- A small drawing, and what becomes of it ------------------------------
- */
+/* ---- A small drawing, and what becomes of it ----------------------------- */
 
 struct fixture {
   struct drawing drawing;
@@ -124,8 +123,7 @@ static unsigned count_of(const char *text, const char *word) {
       fail_msg("<%s> is in:\n%s", (part), (text));                             \
   } while (0)
 
-/* ---- The page --------------------------------------------------------------
- */
+/* ---- The page ------------------------------------------------------------ */
 
 static void a_whole_file_is_as_promised(void **state) {
   struct fixture *f = *state;
@@ -162,8 +160,7 @@ static void y_runs_down_in_the_numbers(void **state) {
   assert_lacks(f->svg, "transform");
 }
 
-/* ---- Numbers ---------------------------------------------------------------
- */
+/* ---- Numbers ------------------------------------------------------------- */
 
 static void numbers_have_the_decimals_asked_for(void **state) {
   struct fixture *f = *state;
@@ -187,8 +184,7 @@ static void a_comma_locale_changes_nothing(void **state) {
   assert_has(write_it(f), "M0.5 0.5L1.25 0.5");
 }
 
-/* ---- Strokes ---------------------------------------------------------------
- */
+/* ---- Strokes ------------------------------------------------------------- */
 
 static void only_closed_loops_end_in_z(void **state) {
   struct fixture *f = *state;
@@ -236,8 +232,7 @@ static void polylines_are_there_for_the_asking(void **state) {
   assert_lacks(f->svg, "<path");
 }
 
-/* ---- Layers and fills ------------------------------------------------------
- */
+/* ---- Layers and fills ---------------------------------------------------- */
 
 static void strokes_stand_in_their_layers(void **state) {
   struct fixture *f = *state;
@@ -292,8 +287,7 @@ static void a_seam_is_a_stroke_of_the_fill_s_colour(void **state) {
   assert_has(write_it(f), "stroke=\"#aa5500\" stroke-width=\"0.05\"");
 }
 
-/* ---- Ids and names ---------------------------------------------------------
- */
+/* ---- Ids and names ------------------------------------------------------- */
 
 static void ids_are_written_only_when_asked_for(void **state) {
   struct fixture *f = *state;
@@ -347,8 +341,7 @@ static void bytes_that_are_no_text_are_replaced(void **state) {
   }
 }
 
-/* ---- Faults ----------------------------------------------------------------
- */
+/* ---- Faults -------------------------------------------------------------- */
 
 static void running_out_of_memory_is_told(void **state) {
   struct fixture *f = *state;
@@ -372,8 +365,7 @@ static void running_out_of_memory_is_told(void **state) {
   assert_true(failures >= 1 && failures < 19);
 }
 
-/* ---- The table of writers --------------------------------------------------
- */
+/* ---- The table of writers ------------------------------------------------ */
 
 static void writers_are_found_by_name_and_by_path(void **state) {
   (void)state;
@@ -397,8 +389,7 @@ static void every_writer_in_the_table_is_found_by_its_name(void **state) {
   assert_true(count > 0);
 }
 
-/* ---- The drawing itself ----------------------------------------------------
- */
+/* ---- The drawing itself -------------------------------------------------- */
 
 static void length_counts_the_closing_side(void **state) {
   struct fixture *f = *state;

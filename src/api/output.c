@@ -41,8 +41,7 @@ recto_stroke recto_drawing_stroke(const recto_drawing *drawing, size_t index) {
   };
 }
 
-/* ---- Writing --------------------------------------------------------------
- */
+/* ---- Writing ------------------------------------------------------------- */
 
 static const struct writer *find_writer(const char *path, const char *format) {
   return format != NULL ? writer_by_name(format) : writer_by_path(path);

@@ -24,8 +24,7 @@ struct render {
   double share; /* of all the work, done when the stage at hand began */
 };
 
-/* ---- The method -----------------------------------------------------------
- */
+/* ---- The method ---------------------------------------------------------- */
 
 bool recto_method_is_available(recto_method method) {
   return method == RECTO_METHOD_AUTO || solver_by_method(method) != NULL;
@@ -72,8 +71,7 @@ static int count_threads(const recto_options *options) {
 #endif
 }
 
-/* ---- Stages ----------------------------------------------------------------
- */
+/* ---- Stages -------------------------------------------------------------- */
 
 static recto_status find_edges(struct render *render, recto_error *error) {
   return topology_init(&render->topology, &render->model->scene, error);
@@ -161,8 +159,7 @@ static recto_status run_stages(struct render *render, recto_error *error) {
   return RECTO_OK;
 }
 
-/* ---- The report ------------------------------------------------------------
- */
+/* ---- The report ---------------------------------------------------------- */
 
 static void report_scene(struct report *report, const recto_scene *model) {
   const struct scene *scene = &model->scene;
@@ -206,8 +203,7 @@ static void report_drawing(struct report *report,
   report_double(report, "drawing", "travel_mm", drawing_travel_mm(drawing));
 }
 
-/* ---- All of it -------------------------------------------------------------
- */
+/* ---- All of it ----------------------------------------------------------- */
 
 static recto_status run(struct render *render, recto_error *error) {
   recto_status status = check_method(render->options, error);

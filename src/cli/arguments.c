@@ -9,8 +9,7 @@
 
 enum { FIRST_LONG = 256, MAX_OPTIONS = 80 };
 
-/* ---- The table, as getopt_long wants it ------------------------------------
- */
+/* ---- The table, as getopt_long wants it ---------------------------------- */
 
 static bool is_end(const struct option_entry *entry) {
   return entry->name == NULL && entry->help == NULL;
@@ -54,8 +53,7 @@ static const struct option_entry *find_entry(int code) {
   return NULL;
 }
 
-/* ---- One option ------------------------------------------------------------
- */
+/* ---- One option ---------------------------------------------------------- */
 
 static bool in_range(const struct option_entry *entry, double value) {
   return value >= entry->least && value <= entry->most;
@@ -144,8 +142,7 @@ static void explain(int code, char **argv, char message[MESSAGE_SIZE]) {
              argv[optind - 1]);
 }
 
-/* ---- What depends on several -----------------------------------------------
- */
+/* ---- What depends on several --------------------------------------------- */
 
 static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
   const char *wrong = NULL;
@@ -165,17 +162,24 @@ static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
   return true;
 }
 
-static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
-  message[0] = '\0';
+/* What is wrong with the files' names; NULL: nothing. */
+static const char *judge_files(const struct arguments *a) {
   if (a->model_count == 0)
-    snprintf(message, MESSAGE_SIZE, "no model: see recto --help");
-  else if (a->output == NULL)
-    snprintf(message, MESSAGE_SIZE, "no output: say -o FILE");
+    return "no model: see recto --help";
+  if (a->output == NULL)
+    return "no output: say -o FILE";
   for (int i = 0; i < a->model_count && a->from == NULL; i++)
     if (strcmp(a->model[i], "-") == 0)
-      snprintf(message, MESSAGE_SIZE, "standard input needs --from FORMAT");
-  if (message[0] != '\0')
+      return "standard input needs --from FORMAT";
+  return NULL;
+}
+
+static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
+  const char *wrong = judge_files(a);
+  if (wrong != NULL) {
+    snprintf(message, MESSAGE_SIZE, "%s", wrong);
     return false;
+  }
   if (a->format == NULL && strcmp(a->output, "-") == 0)
     a->format = "svg";
   if (recto_output_format(a->output, a->format) == NULL) {

@@ -31,8 +31,7 @@ enum { MESSAGE_SIZE = 256 };
 bool arguments_parse(struct arguments *arguments, int argc, char **argv,
                      char message[MESSAGE_SIZE]);
 
-/* ---- The table of options --------------------------------------------------
- */
+/* ---- The table of options ------------------------------------------------ */
 
 enum option_kind {
   OPTION_HEADING, /* no option: a line of --help */

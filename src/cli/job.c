@@ -22,8 +22,7 @@ static void catch_interrupts(void) {
   sigaction(SIGTERM, &action, NULL);
 }
 
-/* ---- Conversation ----------------------------------------------------------
- */
+/* ---- Conversation -------------------------------------------------------- */
 
 void job_complain(const char *file, unsigned long line, const char *text) {
   fprintf(stderr, "recto: ");
@@ -59,8 +58,7 @@ static bool pass_progress(void *user, double share, const char *stage) {
   return interrupted == 0;
 }
 
-/* ---- The work --------------------------------------------------------------
- */
+/* ---- The work ------------------------------------------------------------ */
 
 static recto_status write_stats(const struct arguments *arguments,
                                 const recto_drawing *drawing,

@@ -11,8 +11,7 @@
 
 #define AT(member) offsetof(struct arguments, member)
 
-/* ---- Options with a way of their own ---------------------------------------
- */
+/* ---- Options with a way of their own ------------------------------------- */
 
 static bool take_method(struct arguments *arguments, const char *text) {
   for (int i = 0; i < RECTO_METHOD_COUNT; i++)
@@ -75,13 +74,12 @@ static bool take_edges(struct arguments *arguments, const char *text) {
   return value_edges(text, &arguments->options.edges);
 }
 
-/* ---- The table --------------------------------------------------------------
- */
+/* ---- The table ----------------------------------------------------------- */
 
 #define HEADING(text)                                                          \
-  { .kind = OPTION_HEADING, .help = text }
+  { .kind = OPTION_HEADING, .help = (text) }
 #define ABSENT(text, word)                                                     \
-  { .kind = OPTION_ABSENT, .name = text, .argument = word }
+  { .kind = OPTION_ABSENT, .name = (text), .argument = (word) }
 
 const struct option_entry option_table[] = {
     {OPTION_TEXT, "output", 'o', "FILE", "a file", "- for standard output",

@@ -34,8 +34,7 @@ bool value_int(const char *text, int *number) {
   return true;
 }
 
-/* ---- Lengths --------------------------------------------------------------
- */
+/* ---- Lengths ------------------------------------------------------------- */
 
 /* Millimetres of the unit [text, end), of which nothing is mm; 0 where there
  * is no such unit. */
@@ -63,8 +62,7 @@ bool value_length(const char *text, double *mm) {
   return true;
 }
 
-/* ---- Vectors --------------------------------------------------------------
- */
+/* ---- Vectors ------------------------------------------------------------- */
 
 bool value_vector(const char *text, double vector[3]) {
   const char *end = text + strlen(text);
@@ -82,8 +80,7 @@ bool value_vector(const char *text, double vector[3]) {
   return true;
 }
 
-/* ---- Pages ----------------------------------------------------------------
- */
+/* ---- Pages --------------------------------------------------------------- */
 
 static bool same_word(const char *a, const char *b) {
   for (; *a != '\0' && *b != '\0'; a++, b++) {
@@ -146,8 +143,7 @@ bool value_scale(const char *text, double *scale) {
   return true;
 }
 
-/* ---- Words ----------------------------------------------------------------
- */
+/* ---- Words --------------------------------------------------------------- */
 
 /* The classes of the word [text, text + length); 0 where it is none. */
 static unsigned find_class(const char *text, size_t length) {
