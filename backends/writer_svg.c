@@ -23,8 +23,7 @@ struct svg {
   ARRAY(struct svg_point) point; /* of the stroke or loop at hand */
 };
 
-/* ---- Text -----------------------------------------------------------------
- */
+/* ---- Text ---------------------------------------------------------------- */
 
 /* The length of the well-formed UTF-8 sequence at `text` if it is a character
  * that XML 1.0 allows, else 0. */
@@ -103,8 +102,7 @@ static void write_length(const struct svg *svg, double mm) {
   stream_number(svg->out, mm, decimals > 3 ? decimals : 3);
 }
 
-/* ---- Geometry -------------------------------------------------------------
- */
+/* ---- Geometry ------------------------------------------------------------ */
 
 /* Rounds points to svg->point, dropping those that repeat; where closed, also
  * at the end those that repeat the first.  False when memory ran out. */
@@ -155,8 +153,7 @@ static void write_point_list(const struct svg *svg) {
   }
 }
 
-/* ---- Elements -------------------------------------------------------------
- */
+/* ---- Elements ------------------------------------------------------------ */
 
 static void write_id(const struct svg *svg, const char *name, uint32_t id) {
   if (id == DRAWING_NONE)
