@@ -20,7 +20,7 @@ struct hpgl {
   ARRAY(unsigned) pen; /* in the order in which they were taken */
   int velocity;        /* of VS; 0: none */
   size_t longest;      /* most points in one PD */
-  char fault[80];      /* "" where the file is in the dialect */
+  char fault[128];     /* "" where the file is in the dialect */
 };
 
 /* Reads `count` bytes.
