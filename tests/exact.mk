@@ -43,3 +43,10 @@ unit_tests += %D%/test_pierce
 %C%_test_pierce_SOURCES = %D%/test_pierce.c $(hand_rational) \
   %D%/hand/scene.c %D%/hand/scene.h
 %C%_test_pierce_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_newell
+%C%_test_newell_SOURCES = %D%/test_newell.c $(hand_rational) \
+  %D%/hand/scene.c %D%/hand/scene.h
+%C%_test_newell_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_agreement
+%C%_test_agreement_SOURCES = %D%/test_agreement.c $(hand_scene)
+%C%_test_agreement_CPPFLAGS = $(hand_cppflags)

@@ -29,7 +29,9 @@ static bool solve_strokes(const struct sheet *sheet, struct map *map,
     strokes_start(&strokes);
     for (size_t t = 0; t < n; t++) {
       struct hidden_part part;
-      if (!is_flat(sheet, t) && hide_edge(&hider[t], p, q, &part, counts) &&
+      bool own = t == edge->triangle[0] || t == edge->triangle[1];
+      if (!own && !is_flat(sheet, t) &&
+          hide_edge(&hider[t], p, q, &part, counts) &&
           !strokes_hide(&strokes, part))
         goto end;
     }

@@ -27,6 +27,10 @@
  * An edge along a side of the triangle is covered on one side of itself only;
  * it is hidden where both of its sides are covered (strokes.h).
  *
+ * An edge is never hidden by the two triangles that it names: a mesh edge has
+ * value 0 there in any case, and an intersection, which lies on both, was
+ * rounded and may be off them by more than contact.
+ *
  * Bits: value < 2^105, shifted 2^121; T is capped at 2^122; their sum and the
  * difference of two such sums stay below 2^125: what ratio.h asks for.
  */

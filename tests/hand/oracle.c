@@ -309,7 +309,7 @@ bool oracle_is_hidden(const struct sheet *sheet, uint32_t e, const mpq_t t) {
   point_on_edge(&at, p, q, t);
   for (uint32_t f = 0; f < sheet->triangle.count; f++) {
     struct hider hider;
-    if (is_flat(sheet, f))
+    if (is_flat(sheet, f) || f == edge->triangle[0] || f == edge->triangle[1])
       continue;
     corners_of(sheet, f, corner);
     hider_init(&hider, sheet, f);

@@ -1,6 +1,7 @@
 /* scene.c - random sheets, each of a kind that is hard in its own way. */
 #include "hand/scene.h"
 
+#include <math.h>
 #include <string.h>
 
 #define XY_MAX ((1 << 30) - 1)
@@ -76,6 +77,50 @@ static void add_planes(struct sheet *sheet, int faces, uint64_t *r) {
   }
 }
 
+/* The depth of the plane through a triangle's corners. */
+static double depth_at(const int corner[3][3], const int at[3],
+                       double *tolerance) {
+  double u[3], v[3], nz, a, b;
+  for (int i = 0; i < 3; i++) {
+    u[i] = corner[1][i] - corner[0][i];
+    v[i] = corner[2][i] - corner[0][i];
+  }
+  nz = u[0] * v[1] - u[1] * v[0];
+  a = nz == 0 ? 0 : (u[2] * v[1] - u[1] * v[2]) / nz;
+  b = nz == 0 ? 0 : (u[0] * v[2] - u[2] * v[0]) / nz;
+  *tolerance = 1 + fabs(a) + fabs(b);
+  return corner[0][2] + a * (at[0] - corner[0][0]) + b * (at[1] - corner[0][1]);
+}
+
+/* A floor and two walls on one edge, which is as far off the floor as contact
+ * allows: one wall goes up and the other down. */
+static void add_seam(struct sheet *sheet, uint64_t *r) {
+  int size = 20 + hand_below(r, 60), first = hand_below(r, 3);
+  int face[3][3][3];
+  for (int k = 0; k < 3; k++) {
+    face[0][k][0] = hand_below(r, size);
+    face[0][k][1] = hand_below(r, size);
+    face[0][k][2] = 4 * size + hand_below(r, 2 * size);
+  }
+  for (int k = 0; k < 4; k++) { /* the edge's ends, then the walls' tops */
+    int *at = k < 2 ? face[1][k] : face[k - 1][2];
+    double tolerance, z;
+    at[0] = hand_below(r, 2 * size) - size / 2;
+    at[1] = hand_below(r, 2 * size) - size / 2;
+    z = depth_at((const int(*)[3])face[0], at, &tolerance);
+    if (k >= 2)
+      z += (k == 2 ? 1 : -1) * (5 + hand_below(r, 100));
+    else if (hand_below(r, 4) == 0)
+      z = floor(z + tolerance);
+    else
+      z = ceil(z - tolerance);
+    at[2] = z < 0 ? 0 : (int)z;
+  }
+  memcpy(face[2], face[1], 2 * sizeof face[1][0]);
+  for (int f = 0; f < 3; f++)
+    add(sheet, (const int(*)[3])face[(f + first) % 3]);
+}
+
 static void add_extremes(struct sheet *sheet, int faces, uint64_t *r) {
   int corner[3][3];
   for (int f = 0; f < faces; f++) {
@@ -129,6 +174,10 @@ void hand_random_sheet(struct sheet *sheet, enum hand_kind kind, int faces,
     break;
   case HAND_PLANES:
     add_planes(sheet, faces, r);
+    break;
+  case HAND_SEAMS:
+    for (int f = 0; f < faces; f += 3)
+      add_seam(sheet, r);
     break;
   default:
     add_extremes(sheet, faces, r);

@@ -10,6 +10,7 @@ enum hand_kind {
   HAND_MESH,    /* triangles of a dozen points: shared corners and edges */
   HAND_NEEDLES, /* long, thin, nearly parallel */
   HAND_PLANES,  /* all but in one tilted plane */
+  HAND_SEAMS,   /* two that end on a third's plane, at the limit of contact */
   HAND_EXTREME, /* at the ends of the sheet's ranges */
   HAND_KINDS
 };
