@@ -123,7 +123,7 @@ static bool list_faces(struct warnock *w, struct warnock_window *win,
     enum window_class class;
     bool pushed = true;
     if (front->triangle != SHEET_NONE &&
-        triangle_nearest(w->sheet, t) < front->depth.low) {
+        (double)triangle_nearest(w->sheet, t) < front->depth.low) {
       w->cut_short++;
       break;
     }
