@@ -5,8 +5,8 @@
 #include "tests/judge/judge.h"
 #include "tests/scenes/pipeline.h"
 
-/* Fails the test, with `name`, unless brute, newell and tiles give the same
- * SVG text, to the byte: lines alone, with hidden ones on a layer of their own,
+/* Fails the test, with `name`, unless all exact solvers give the same SVG
+ * text, to the byte: lines alone, with hidden ones on a layer of their own,
  * and with the faces painted. */
 void failures_assert_agree(const struct scene *scene,
                            const recto_options *options, const char *name);

@@ -82,7 +82,7 @@ static void random_small_scenes_are_drawn_right(void **state) {
     scenes_small(&scene, &options, seed);
     options.min_stroke_mm = 0;
     options.precision = 6;
-    /* Without a contact tolerance the grid decides what doubles cannot. */
+    /* Without a contact tolerance the grid decides, which doubles cannot. */
     options.contact = -1;
     if (camera_aim(&camera, &scene, &options, NULL) == RECTO_OK)
       failures_assert_judged(&scene, &options,
@@ -95,10 +95,9 @@ static void random_small_scenes_are_drawn_right(void **state) {
 /* ---- Real meshes
  * -------------------------------------------------------------- */
 
-/* Reads a model of the shared ones; false where they are not here. */
+/* Reads a model; false where it is not there. */
 static bool read_model(struct scene *scene, char *path, size_t room,
-                       const char *name) {
-  const char *folder = getenv("RECTO_MODELS");
+                       const char *folder, const char *name) {
   if (folder == NULL)
     return false;
   snprintf(path, room, "%s/%s.obj", folder, name);
@@ -128,11 +127,12 @@ static struct judge_spot middle_of(const struct scene *scene, double *size) {
 /* Draws the model as --no-fit --camera ... --lookat ... --fov 30 --page
  * 200x200mm --margin 0 does, and judges the file by the design's own words
  * for that camera. */
-static void check_model(void **state, const char *name, unsigned edges) {
+static void check_model_of(void **state, const char *folder, const char *name,
+                           unsigned edges) {
   char path[1000];
   struct scene scene;
   if (getenv("RECTO_VALGRIND") != NULL ||
-      !read_model(&scene, path, sizeof path, name))
+      !read_model(&scene, path, sizeof path, folder, name))
     skip();
   double size;
   struct judge_spot target = middle_of(&scene, &size);
@@ -181,6 +181,21 @@ static void check_model(void **state, const char *name, unsigned edges) {
   scene_fini(&scene);
 }
 
+/* One of the real meshes, where they are. */
+static void check_model(void **state, const char *name, unsigned edges) {
+  check_model_of(state, getenv("RECTO_MODELS"), name, edges);
+}
+
+static void the_example_models_are_drawn_right(void **state) {
+  const char *source = getenv("srcdir");
+  char folder[600];
+  snprintf(folder, sizeof folder, "%s/examples/models",
+           source != NULL ? source : ".");
+  check_model_of(state, folder, "castle", RECTO_EDGES_DEFAULT);
+  check_model_of(state, folder, "gears", RECTO_EDGES_DEFAULT);
+  check_model_of(state, folder, "knot", RECTO_EDGES_DEFAULT);
+}
+
 static void spot_is_drawn_right(void **state) {
   check_model(state, "spot", RECTO_EDGES_DEFAULT);
   check_model(state, "spot", RECTO_EDGES_ALL);
@@ -209,6 +224,7 @@ int main(void) {
       cmocka_unit_test(row_02_eyes_in_odd_places_see_all_there_is),
       cmocka_unit_test(row_20_surfaces_do_not_leak_at_any_step),
       cmocka_unit_test(random_small_scenes_are_drawn_right),
+      WITH_FOLDER(the_example_models_are_drawn_right),
       WITH_FOLDER(spot_is_drawn_right),
       WITH_FOLDER(the_bunny_is_drawn_right),
       WITH_FOLDER(all_edges_of_the_bunny_are_drawn_right),

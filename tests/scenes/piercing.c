@@ -74,3 +74,25 @@ void scenes_self_intersecting(struct scene *scene, recto_options *options) {
   }
   scenes_view_direction(options, 20, 40);
 }
+
+void scenes_pierced_along_diagonal(struct scene *scene,
+                                   recto_options *options) {
+  /* The upright sheet stands on one diagonal of the square, on the other of
+   * the kite, and through an edge that two triangles share. */
+  build_group(scene, "square");
+  build_parallelogram(scene, vector_of(-2, -2, 0), vector_of(4, 0, 0),
+                      vector_of(0, 4, 0));
+  build_group(scene, "fan");
+  uint32_t first = build_point(scene, 3, 3, 0);
+  build_point(scene, 5, 5, 0);
+  build_point(scene, 3, 5, 0.5);
+  build_point(scene, 5, 3, 0.5);
+  build_triangle(scene, first, first + 1, first + 2);
+  build_triangle(scene, first, first + 3, first + 1);
+  build_group(scene, "sheets");
+  build_parallelogram(scene, vector_of(-1.5, -1.5, -1), vector_of(6, 6, 0),
+                      vector_of(0, 0, 2));
+  build_parallelogram(scene, vector_of(-1.5, 1.5, -1), vector_of(3, -3, 0),
+                      vector_of(0, 0, 2));
+  scenes_view_direction(options, 14, 38);
+}

@@ -102,6 +102,8 @@ void scenes_crossed_boxes(struct scene *scene, recto_options *options);
 void scenes_three_sheets(struct scene *scene, recto_options *options);
 /* An edge that runs exactly through another mesh's vertex. */
 void scenes_edge_through_vertex(struct scene *scene, recto_options *options);
+/* Sheets that pierce faces exactly along a diagonal and a shared edge. */
+void scenes_pierced_along_diagonal(struct scene *scene, recto_options *options);
 /* A closed tube bent so that it runs through itself. */
 void scenes_self_intersecting(struct scene *scene, recto_options *options);
 
