@@ -23,7 +23,7 @@
 struct walk {
   struct net *net;
   const struct net_rows *rows;
-  uint8_t *gone;    /* one a segment: not to be drawn as it is */
+  uint8_t *gone; /* one a segment: not to be drawn as it is */
   size_t gone_count;
   /* Clusters: the parent's number and one; 0: its own root.  So the pages of
    * segments that overlap nothing are never touched. */
@@ -57,7 +57,8 @@ recto_status net_index_ends(struct net *net, recto_error *error) {
   return RECTO_OK;
 }
 
-/* ---- 1 Twins -------------------------------------------------------------- */
+/* ---- 1 Twins --------------------------------------------------------------
+ */
 
 static bool drop_twins(struct walk *w) {
   struct net *net = w->net;
@@ -88,7 +89,8 @@ static bool drop_twins(struct walk *w) {
   return true;
 }
 
-/* ---- 2 Walk --------------------------------------------------------------- */
+/* ---- 2 Walk ---------------------------------------------------------------
+ */
 
 static uint32_t root_of(uint32_t *parent, uint32_t segment) {
   while (parent[segment]) {
@@ -151,8 +153,8 @@ static bool scan_down(struct walk *w, const struct probe *probe, uint32_t k,
 
 /* Where the probe's line is at height y; only for those that rise. */
 static double x_at(const struct probe *probe, double y) {
-  return probe->from.x + (double)probe->dx * (y - probe->from.y) /
-                             (double)probe->dy;
+  return probe->from.x +
+         (double)probe->dx * (y - probe->from.y) / (double)probe->dy;
 }
 
 /* The row in which the probe starts or ends, at `node`, the probe leaving
@@ -237,7 +239,8 @@ static bool walk_segment(struct walk *w, uint32_t segment) {
   return scan_other_rows(w, &probe);
 }
 
-/* ---- 3 Resolve ------------------------------------------------------------ */
+/* ---- 3 Resolve ------------------------------------------------------------
+ */
 
 /* Sorts the members by cluster and drops those named twice. */
 static bool gather_members(struct walk *w) {
@@ -266,8 +269,8 @@ static bool resolve_clusters(struct walk *w, struct overlap *overlap) {
   const uint32_t *member = w->member.item;
   for (size_t i = 0, end; i < w->member.count; i = end) {
     uint32_t root = root_of(w->parent, member[i]);
-    for (end = i; end < w->member.count &&
-                  root_of(w->parent, member[end]) == root;
+    for (end = i;
+         end < w->member.count && root_of(w->parent, member[end]) == root;
          end++) {
       w->gone[member[end]] = 1;
       w->gone_count++;
@@ -278,7 +281,8 @@ static bool resolve_clusters(struct walk *w, struct overlap *overlap) {
   return true;
 }
 
-/* ---- 4 Rebuild ------------------------------------------------------------ */
+/* ---- 4 Rebuild ------------------------------------------------------------
+ */
 
 static void drop_gone(struct walk *w) {
   struct net *net = w->net;

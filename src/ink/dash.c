@@ -56,8 +56,7 @@ static bool cut(struct cursor *c, double from, double to,
   skip_sides(c, from);
   if (!ARRAY_PUSH(&piece->point, place(c, from)))
     return false;
-  while (c->side + 1 < count_sides(c->line) &&
-         c->start + side_length(c) < to) {
+  while (c->side + 1 < count_sides(c->line) && c->start + side_length(c) < to) {
     next_side(c);
     if (!ARRAY_PUSH(&piece->point, corner(c->line, c->side)))
       return false;

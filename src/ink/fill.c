@@ -17,7 +17,8 @@ uint32_t fill_colour(const struct scene *scene, uint32_t group) {
   return palette[group % (sizeof palette / sizeof palette[0])];
 }
 
-/* ---- Shade ---------------------------------------------------------------- */
+/* ---- Shade ----------------------------------------------------------------
+ */
 
 struct vector {
   double x, y, z;
@@ -87,7 +88,8 @@ static uint32_t grey_of(struct vector normal, struct vector light) {
   return level << 16 | level << 8 | level;
 }
 
-/* ---- Fills ---------------------------------------------------------------- */
+/* ---- Fills ----------------------------------------------------------------
+ */
 
 static bool add_loops(struct drawing *drawing, const struct sheet *sheet,
                       const struct map *map,
@@ -114,12 +116,11 @@ bool fill_add(struct drawing *drawing, const struct sheet *sheet,
   for (size_t i = 0; i < map->fragment.count; i++) {
     const struct map_fragment *fragment = &map->fragment.item[i];
     uint32_t group = scene->face_group.item[fragment->face];
-    struct drawing_fill fill = {
-        .loop = (uint32_t)drawing->loop.count,
-        .loops = fragment->loops,
-        .layer = layers_pen_of_group(options, group),
-        .face = fragment->face,
-        .group = group};
+    struct drawing_fill fill = {.loop = (uint32_t)drawing->loop.count,
+                                .loops = fragment->loops,
+                                .layer = layers_pen_of_group(options, group),
+                                .face = fragment->face,
+                                .group = group};
     fill.colour =
         options->fill == RECTO_FILL_SHADE
             ? grey_of(seen_normal(scene, fragment->face, &sheet->camera), light)

@@ -57,7 +57,8 @@ struct hatch {
   struct stroke_line line; /* the stroke at hand */
 };
 
-/* ---- 1 Sides -------------------------------------------------------------- */
+/* ---- 1 Sides --------------------------------------------------------------
+ */
 
 static struct place turn(const struct hatch *h, const struct map_corner *c) {
   double x = sheet_x_mm(h->sheet, c->x), y = sheet_y_mm(h->sheet, c->y);
@@ -139,7 +140,8 @@ static bool list_strips(struct hatch *h, int64_t first, int64_t last) {
   return true;
 }
 
-/* ---- 2 Spans -------------------------------------------------------------- */
+/* ---- 2 Spans --------------------------------------------------------------
+ */
 
 static double u_at(const struct side *side, double v) {
   struct place a = side->from, b = side->to;
@@ -171,13 +173,15 @@ static bool find_spans(struct hatch *h) {
     return false;
   for (size_t i = 0; i + 1 < h->crossing.count; i += 2) {
     const struct crossing *c = &h->crossing.item[i];
-    if (c[0].u < c[1].u && !ARRAY_PUSH(&h->span, ((struct span){c[0], c[1], false})))
+    if (c[0].u < c[1].u &&
+        !ARRAY_PUSH(&h->span, ((struct span){c[0], c[1], false})))
       return false;
   }
   return true;
 }
 
-/* ---- 3 Strokes ------------------------------------------------------------ */
+/* ---- 3 Strokes ------------------------------------------------------------
+ */
 
 static double cross(struct place a, struct place b, struct place c) {
   return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
@@ -239,7 +243,7 @@ static struct span *find_next(struct hatch *h, const struct span *span,
   size_t high = find_span(h, low, line, span->right.u);
   low -= low > here + 1;
   for (int tests = 0; tests < 2; tests++) {
-    for (size_t i = low; i < h->span.count && i <= high + 1; i++) {
+    for (size_t i = low; i < h->span.count && i <= high; i++) {
       struct span *next = &h->span.item[i];
       const struct crossing *to = right ? &next->right : &next->left;
       if (to->line == line && !next->used &&
@@ -251,8 +255,7 @@ static struct span *find_next(struct hatch *h, const struct span *span,
 }
 
 static bool add_point(struct hatch *h, const struct crossing *c) {
-  return ARRAY_PUSH(&h->line.point,
-                    turn_back(h, c->u, height_of(h, c->line)));
+  return ARRAY_PUSH(&h->line.point, turn_back(h, c->u, height_of(h, c->line)));
 }
 
 /* Draws from `span` upwards as far as the pen need not be lifted. */
@@ -307,11 +310,11 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
   for (size_t i = 0; good && i < map->fragment.count; i++) {
     const struct map_fragment *fragment = &map->fragment.item[i];
     uint32_t group = scene->face_group.item[fragment->face];
-    h.like = (struct drawing_stroke){
-        .layer = layers_pen_of_group(options, group),
-        .face = fragment->face,
-        .edge = DRAWING_NONE,
-        .group = group};
+    h.like =
+        (struct drawing_stroke){.layer = layers_pen_of_group(options, group),
+                                .face = fragment->face,
+                                .edge = DRAWING_NONE,
+                                .group = group};
     good = hatch_fragment(&h, fragment);
   }
   ARRAY_FREE(&h.side);

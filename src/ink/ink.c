@@ -24,7 +24,8 @@ struct ink {
   int64_t too_short;
 };
 
-/* ---- Paths ---------------------------------------------------------------- */
+/* ---- Paths ----------------------------------------------------------------
+ */
 
 /* What is drawn once, as a net, its ends indexed. */
 static recto_status make_net(struct ink *ink, struct net *net,
@@ -61,7 +62,8 @@ static recto_status make_paths(struct ink *ink, struct ink_paths *paths,
   return status;
 }
 
-/* ---- Strokes -------------------------------------------------------------- */
+/* ---- Strokes --------------------------------------------------------------
+ */
 
 /* A stroke of that path without its points. */
 static struct drawing_stroke stroke_like(const struct ink *ink,
@@ -81,8 +83,7 @@ static struct drawing_stroke stroke_like(const struct ink *ink,
 }
 
 static bool take_points(const struct ink *ink, const struct ink_paths *paths,
-                        const struct ink_path *path,
-                        struct stroke_line *line) {
+                        const struct ink_path *path, struct stroke_line *line) {
   line->closed = path->closed;
   line->point.count = 0;
   if (!ARRAY_RESERVE(&line->point, path->count))
@@ -131,7 +132,8 @@ static recto_status draw_lines(struct ink *ink, recto_error *error) {
   return status;
 }
 
-/* ---- The drawing ---------------------------------------------------------- */
+/* ---- The drawing ----------------------------------------------------------
+ */
 
 static bool copy_group_names(struct ink *ink) {
   for (size_t i = 0; i < ink->scene->group.count; i++) {

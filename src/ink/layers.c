@@ -7,7 +7,8 @@
 #include "base/sort.h"
 
 #define BLACK 0x000000u
-#define GREY 0x808080u /* hidden lines on a screen; a pen has its own colour */
+#define GREY 0x808080u /* hidden lines on a screen; a pen has its own colour   \
+                        */
 
 /* Appends to a label what fits of `text`, never half a character. */
 static void append(char label[], size_t size, const char *text) {
@@ -62,7 +63,8 @@ bool layers_add(struct drawing *drawing, const struct scene *scene,
          add_layer(drawing, " hidden", GREY, options->pen_mm);
 }
 
-/* ---- Packing -------------------------------------------------------------- */
+/* ---- Packing --------------------------------------------------------------
+ */
 
 /* Numbers the layers in use anew: number[old] is the new one.  Returns how
  * many there are. */

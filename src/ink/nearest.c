@@ -1,8 +1,8 @@
 /* nearest.c - the nearest of a set of points that shrinks.
  *
- * Invariants  Box i of level l holds the points order[n j / 2^l] up to
- *   order[n (j + 1) / 2^l], j = i - 2^l: halves are equal whatever the points,
- *   so the depth is log2 n.  `left` counts what is still there.
+ * Invariants  Box i of level l holds the items n j / 2^l up to
+ *   n (j + 1) / 2^l, j = i - 2^l: halves are equal whatever the points, so the
+ *   depth is log2 n.  `left` counts what is still there.
  * Robustness  A box is skipped where it is not nearer than the best so far;
  *   where many points coincide the first of them found is as good as any, and
  *   always the same. */
@@ -12,29 +12,35 @@
 
 enum { LEAF = 8, DEEPEST = 32 };
 
+struct nearest_item {
+  struct drawing_point at;
+  uint32_t point;
+  bool gone;
+};
+
 struct nearest_box {
   double low[2], high[2];
   uint32_t left;
 };
 
-/* ---- Building ------------------------------------------------------------- */
+/* ---- Building -------------------------------------------------------------
+ */
 
 static uint32_t start_of(const struct nearest *t, int level, uint32_t j) {
   return (uint32_t)(((uint64_t)t->count * j) >> level);
 }
 
 static double coordinate(const struct nearest *t, uint32_t i, int axis) {
-  const struct drawing_point *p = &t->point[t->order[i]];
-  return axis ? p->y : p->x;
+  return axis ? t->item[i].at.y : t->item[i].at.x;
 }
 
-static void swap(uint32_t *a, uint32_t *b) {
-  uint32_t c = *a;
+static void swap(struct nearest_item *a, struct nearest_item *b) {
+  struct nearest_item c = *a;
   *a = *b;
   *b = c;
 }
 
-/* Arranges order[low, high) so that none before `middle` is greater than any
+/* Arranges items [low, high) so that none before `middle` is greater than any
  * from there on.  Quickselect in three parts, so that equal points end it. */
 static void select_middle(struct nearest *t, uint32_t low, uint32_t high,
                           uint32_t middle, int axis) {
@@ -44,9 +50,9 @@ static void select_middle(struct nearest *t, uint32_t low, uint32_t high,
     while (equal < more) {
       double c = coordinate(t, equal, axis);
       if (c < pivot)
-        swap(&t->order[less++], &t->order[equal++]);
+        swap(&t->item[less++], &t->item[equal++]);
       else if (c > pivot)
-        swap(&t->order[equal], &t->order[--more]);
+        swap(&t->item[equal], &t->item[--more]);
       else
         equal++;
     }
@@ -59,18 +65,33 @@ static void select_middle(struct nearest *t, uint32_t low, uint32_t high,
   }
 }
 
-static void bound(struct nearest *t, struct nearest_box *box, uint32_t low,
-                  uint32_t high) {
-  *box = (struct nearest_box){{INFINITY, INFINITY},
-                              {-INFINITY, -INFINITY},
-                              high - low};
+/* The box of what is left of items [low, high). */
+static struct nearest_box bound(const struct nearest *t, uint32_t low,
+                                uint32_t high) {
+  struct nearest_box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 0};
   for (uint32_t i = low; i < high; i++) {
-    for (int axis = 0; axis < 2; axis++) {
+    for (int axis = 0; axis < 2 && !t->item[i].gone; axis++) {
       double c = coordinate(t, i, axis);
-      box->low[axis] = c < box->low[axis] ? c : box->low[axis];
-      box->high[axis] = c > box->high[axis] ? c : box->high[axis];
+      box.low[axis] = c < box.low[axis] ? c : box.low[axis];
+      box.high[axis] = c > box.high[axis] ? c : box.high[axis];
     }
+    box.left += !t->item[i].gone;
   }
+  return box;
+}
+
+/* The box of two halves; empty ones are beyond everything and change
+ * nothing. */
+static struct nearest_box unite(const struct nearest_box *a,
+                                const struct nearest_box *b) {
+  struct nearest_box box = *a;
+  for (int axis = 0; axis < 2; axis++) {
+    box.low[axis] = b->low[axis] < a->low[axis] ? b->low[axis] : a->low[axis];
+    box.high[axis] =
+        b->high[axis] > a->high[axis] ? b->high[axis] : a->high[axis];
+  }
+  box.left += b->left;
+  return box;
 }
 
 static void build(struct nearest *t) {
@@ -78,14 +99,11 @@ static void build(struct nearest *t) {
     for (uint32_t j = 0; j < UINT32_C(1) << level; j++) {
       uint32_t low = start_of(t, level, j), high = start_of(t, level, j + 1);
       struct nearest_box *box = &t->box[(UINT32_C(1) << level) + j];
-      bound(t, box, low, high);
+      *box = bound(t, low, high);
       if (level < t->levels) {
         int axis = box->high[1] - box->low[1] > box->high[0] - box->low[0];
         uint32_t middle = start_of(t, level + 1, 2 * j + 1);
         select_middle(t, low, high, middle, axis);
-      } else {
-        for (uint32_t i = low; i < high; i++)
-          t->leaf[t->order[i]] = j;
       }
     }
   }
@@ -93,36 +111,44 @@ static void build(struct nearest *t) {
 
 bool nearest_init(struct nearest *t, const struct drawing_point *point,
                   uint32_t count) {
-  *t = (struct nearest){.point = point, .count = count};
+  *t = (struct nearest){.count = count};
   while ((uint64_t)LEAF << t->levels < count)
     t->levels++;
-  t->order = mem_alloc(count, sizeof *t->order);
-  t->leaf = mem_alloc(count, sizeof *t->leaf);
-  t->gone = mem_calloc(count, sizeof *t->gone);
+  t->item = mem_alloc(count, sizeof *t->item);
+  t->place = mem_alloc(count, sizeof *t->place);
   t->box = mem_alloc((size_t)2 << t->levels, sizeof *t->box);
-  if (!t->order || !t->leaf || !t->gone || !t->box)
+  if (!t->item || !t->place || !t->box)
     return false;
   for (uint32_t i = 0; i < count; i++)
-    t->order[i] = i;
+    t->item[i] = (struct nearest_item){point[i], i, false};
   build(t);
+  for (uint32_t i = 0; i < count; i++)
+    t->place[t->item[i].point] = i;
   return true;
 }
 
 void nearest_fini(struct nearest *t) {
-  mem_free(t->order);
-  mem_free(t->leaf);
-  mem_free(t->gone);
+  mem_free(t->item);
+  mem_free(t->place);
   mem_free(t->box);
   *t = (struct nearest){0};
 }
 
 void nearest_remove(struct nearest *t, uint32_t point) {
-  t->gone[point] = true;
-  for (uint32_t i = (UINT32_C(1) << t->levels) + t->leaf[point]; i > 0; i /= 2)
-    t->box[i].left--;
+  uint64_t place = t->place[point];
+  t->item[place].gone = true;
+  /* The last leaf j that starts at the place or before it, n j / 2^l being
+   * less than place + 1. */
+  uint32_t leaf = (uint32_t)((((place + 1) << t->levels) - 1) / t->count);
+  uint32_t i = (UINT32_C(1) << t->levels) + leaf;
+  t->box[i] =
+      bound(t, start_of(t, t->levels, leaf), start_of(t, t->levels, leaf + 1));
+  for (i /= 2; i > 0; i /= 2)
+    t->box[i] = unite(&t->box[2 * i], &t->box[2 * i + 1]);
 }
 
-/* ---- Searching ------------------------------------------------------------ */
+/* ---- Searching ------------------------------------------------------------
+ */
 
 /* The best so far, nearest first, and what is looked for. */
 struct search {
@@ -152,10 +178,10 @@ static void look_in_leaf(const struct nearest *t, struct search *s,
                          uint32_t leaf) {
   uint32_t end = start_of(t, t->levels, leaf + 1);
   for (uint32_t i = start_of(t, t->levels, leaf); i < end; i++) {
-    uint32_t p = t->order[i];
-    double dx = t->point[p].x - s->from.x, dy = t->point[p].y - s->from.y;
+    const struct nearest_item *item = &t->item[i];
+    double dx = item->at.x - s->from.x, dy = item->at.y - s->from.y;
     double d = dx * dx + dy * dy;
-    if (t->gone[p] || p / 2 == s->skip || d >= limit(s))
+    if (item->gone || item->point / 2 == s->skip || d >= limit(s))
       continue;
     uint32_t k = s->count < s->wanted ? s->count++ : s->count - 1;
     for (; k > 0 && s->distance2[k - 1] > d; k--) {
@@ -163,7 +189,7 @@ static void look_in_leaf(const struct nearest *t, struct search *s,
       s->found[k] = s->found[k - 1];
     }
     s->distance2[k] = d;
-    s->found[k] = p;
+    s->found[k] = item->point;
   }
 }
 

@@ -25,14 +25,14 @@ enum { BUCKET_BITS = 16, BUCKETS = 1 << BUCKET_BITS, MOST_ROWS = 65535 };
 struct unite {
   struct net *net;
   struct net_rows *rows;
-  size_t count;            /* of nodes, before */
-  struct ink_point *at;    /* row by row */
-  uint32_t *order;         /* row by row: the node's old number */
-  uint32_t *root;          /* row by row: who took it in, itself if none */
-  uint32_t *renumber;      /* old number -> new */
-  uint32_t *bucket;        /* nodes in each bucket of y, then its row */
+  size_t count;         /* of nodes, before */
+  struct ink_point *at; /* row by row */
+  uint32_t *order;      /* row by row: the node's old number */
+  uint32_t *root;       /* row by row: who took it in, itself if none */
+  uint32_t *renumber;   /* old number -> new */
+  uint32_t *bucket;     /* nodes in each bucket of y, then its row */
   int32_t x_low, y_low;
-  int shift;               /* y - y_low to bucket */
+  int shift; /* y - y_low to bucket */
 };
 
 void net_rows_fini(struct net_rows *rows) {
@@ -42,7 +42,8 @@ void net_rows_fini(struct net_rows *rows) {
   *rows = (struct net_rows){0};
 }
 
-/* ---- 1 Sort --------------------------------------------------------------- */
+/* ---- 1 Sort ---------------------------------------------------------------
+ */
 
 static int bit_width(uint64_t value) {
   int width = 0;
@@ -82,7 +83,8 @@ static struct sort_key *sort_nodes(struct unite *u) {
   return key;
 }
 
-/* ---- 2 Rows --------------------------------------------------------------- */
+/* ---- 2 Rows ---------------------------------------------------------------
+ */
 
 static size_t bucket_of(const struct unite *u, int32_t y) {
   return (size_t)(((int64_t)y - u->y_low) >> u->shift);
@@ -93,7 +95,8 @@ static size_t bucket_of(const struct unite *u, int32_t y) {
 static void form_rows(struct unite *u) {
   struct net_rows *rows = u->rows;
   double aim = sqrt((double)u->count);
-  uint32_t target = (uint32_t)(aim < MOST_ROWS ? aim + 1 : aim * aim / MOST_ROWS + 1);
+  uint32_t target =
+      (uint32_t)(aim < MOST_ROWS ? aim + 1 : aim * aim / MOST_ROWS + 1);
   uint32_t in_row = target, before = 0;
   rows->count = 0;
   for (size_t b = 0; b < BUCKETS; b++) {
@@ -135,7 +138,8 @@ static bool make_rows(struct unite *u) {
   return true;
 }
 
-/* ---- 3 Unite -------------------------------------------------------------- */
+/* ---- 3 Unite --------------------------------------------------------------
+ */
 
 /* The first place in [low, high) that is not before (x, y). */
 static uint32_t find_place(const struct ink_point *at, uint32_t low,
@@ -181,7 +185,8 @@ static void unite_near(struct unite *u) {
   }
 }
 
-/* ---- 4 Renumber ----------------------------------------------------------- */
+/* ---- 4 Renumber -----------------------------------------------------------
+ */
 
 static void renumber_nodes(struct unite *u) {
   struct net_rows *rows = u->rows;

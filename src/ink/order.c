@@ -13,9 +13,10 @@
 #include "ink/nearest.h"
 #include "ink/stroke.h"
 
-/* By measurement on 100,000 short strokes: ten times as much shortens the way
- * by less than a hundredth. */
-const struct tour_effort order_usual_effort = {.looks = 200, .moves = 1000};
+/* Measured with 100,000 strokes at random over a page: short ones come to where
+ * no move gains any more before this is spent, long ones to 2 % from there, in
+ * less than 2 s.  For more strokes it bounds the time. */
+const struct tour_effort order_usual_effort = {.looks = 1e8, .moves = 8e8};
 
 /* Corners of a loop that the greedy phase looks at. */
 enum { LOOP_ENTRIES = 16 };
@@ -30,11 +31,11 @@ struct order {
   struct drawing_stroke *stroke; /* of the layer */
   uint32_t count;
   struct drawing_point start;
-  ARRAY(struct entry) entry;          /* stroke by stroke */
-  ARRAY(struct drawing_point) place;  /* of each entry */
-  uint32_t *first_entry;              /* one a stroke, and one */
-  uint32_t *corner;                   /* where each loop begins */
-  struct drawing_point *end;          /* two a stroke: see tour.h */
+  ARRAY(struct entry) entry;         /* stroke by stroke */
+  ARRAY(struct drawing_point) place; /* of each entry */
+  uint32_t *first_entry;             /* one a stroke, and one */
+  uint32_t *corner;                  /* where each loop begins */
+  struct drawing_point *end;         /* two a stroke: see tour.h */
   struct tour tour;
 };
 
@@ -43,7 +44,8 @@ static struct drawing_point corner_of(const struct order *o, uint32_t stroke,
   return o->drawing->point.item[o->stroke[stroke].point + corner];
 }
 
-/* ---- 1 Greedy ------------------------------------------------------------- */
+/* ---- 1 Greedy -------------------------------------------------------------
+ */
 
 static bool add_entries(struct order *o) {
   for (uint32_t i = 0; i < o->count; i++) {
@@ -52,7 +54,7 @@ static bool add_entries(struct order *o) {
     if (stroke->closed)
       step = (stroke->count + LOOP_ENTRIES - 1) / LOOP_ENTRIES;
     o->first_entry[i] = (uint32_t)o->entry.count;
-    for (uint32_t k = 0; k < stroke->count; k += step > 0 ? step : 1)
+    for (uint32_t k = 0; k<stroke->count; k += step> 0 ? step : 1)
       if (!ARRAY_PUSH(&o->entry, ((struct entry){i, k})) ||
           !ARRAY_PUSH(&o->place, corner_of(o, i, k)))
         return false;
@@ -78,8 +80,8 @@ static struct drawing_point take_stroke(struct order *o, struct entry entry) {
 static bool go_to_nearest(struct order *o) {
   struct nearest nearest = {0};
   struct drawing_point pen = o->start;
-  bool good = add_entries(o) && nearest_init(&nearest, o->place.item,
-                                             (uint32_t)o->entry.count);
+  bool good = add_entries(o) &&
+              nearest_init(&nearest, o->place.item, (uint32_t)o->entry.count);
   while (good && o->tour.count < o->count) {
     struct entry entry = o->entry.item[nearest_find(&nearest, pen)];
     pen = take_stroke(o, entry);
@@ -91,7 +93,8 @@ static bool go_to_nearest(struct order *o) {
   return good;
 }
 
-/* ---- 3 Loops -------------------------------------------------------------- */
+/* ---- 3 Loops --------------------------------------------------------------
+ */
 
 /* Begins the loop at place k of the tour where it is least out of the way. */
 static void start_loop_best(struct order *o, uint32_t k) {
@@ -125,7 +128,8 @@ static void start_loops_best(struct order *o) {
         start_loop_best(o, k);
 }
 
-/* ---- 4 Apply -------------------------------------------------------------- */
+/* ---- 4 Apply --------------------------------------------------------------
+ */
 
 static void reverse(struct drawing_point *point, uint32_t count) {
   for (uint32_t i = 0; i < count / 2; i++) {
@@ -173,7 +177,8 @@ static double given_travel(const struct order *o) {
   return travel;
 }
 
-/* ---- Layers --------------------------------------------------------------- */
+/* ---- Layers ---------------------------------------------------------------
+ */
 
 static bool order_layer(struct order *o, const struct tour_effort *effort) {
   size_t count = o->count;

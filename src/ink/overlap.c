@@ -58,8 +58,7 @@ bool overlap_is_along(const struct net *net, uint32_t a, uint32_t b) {
   for (int k = 0; k < 4; k++) {
     const struct line *other = k < 2 ? &on_b : &on_a;
     uint32_t segment = k < 2 ? a : b;
-    struct ink_point p =
-        net->node.item[net->segment.item[segment].node[k & 1]];
+    struct ink_point p = net->node.item[net->segment.item[segment].node[k & 1]];
     if (!is_on(other, p))
       continue;
     double along = (double)position_on(&on_a, p);
@@ -69,7 +68,8 @@ bool overlap_is_along(const struct net *net, uint32_t a, uint32_t b) {
   return high - low > NEAR * on_a.length;
 }
 
-/* ---- Work space ----------------------------------------------------------- */
+/* ---- Work space -----------------------------------------------------------
+ */
 
 bool overlap_init(struct overlap *o, size_t segments) {
   *o = (struct overlap){0};
@@ -98,7 +98,8 @@ void overlap_fini(struct overlap *o) {
   *o = (struct overlap){0};
 }
 
-/* ---- 1 The line ----------------------------------------------------------- */
+/* ---- 1 The line -----------------------------------------------------------
+ */
 
 static struct line choose_line(const struct net *net, const uint32_t *member,
                                size_t count) {
@@ -125,7 +126,8 @@ static bool is_member_near(const struct net *net, const struct line *line,
          distance_from(line, net->node.item[node[1]]) <= 2 * NEAR;
 }
 
-/* ---- 2 Breakpoints -------------------------------------------------------- */
+/* ---- 2 Breakpoints --------------------------------------------------------
+ */
 
 /* Fills slot[2 i + k] with the breakpoint of end k of near[i], node[] with
  * the node of each breakpoint.  Returns how many there are. */
@@ -150,7 +152,8 @@ static uint32_t find_breakpoints(struct overlap *o, const struct net *net,
   return points;
 }
 
-/* ---- 3 Owners ------------------------------------------------------------- */
+/* ---- 3 Owners -------------------------------------------------------------
+ */
 
 /* The first free slot from `slot` on; halves the path behind it. */
 static uint32_t next_free(uint32_t *next, uint32_t slot) {
@@ -161,8 +164,8 @@ static uint32_t next_free(uint32_t *next, uint32_t slot) {
   return slot;
 }
 
-static void take_slots(struct overlap *o, const struct net *net,
-                       uint32_t count, uint32_t points) {
+static void take_slots(struct overlap *o, const struct net *net, uint32_t count,
+                       uint32_t points) {
   for (uint32_t k = 0; k < points; k++) {
     o->owner[k] = NET_NONE;
     o->next[k] = k;
@@ -181,7 +184,8 @@ static void take_slots(struct overlap *o, const struct net *net,
   }
 }
 
-/* ---- 4 Pieces ------------------------------------------------------------- */
+/* ---- 4 Pieces -------------------------------------------------------------
+ */
 
 static bool add_pieces(struct overlap *o, const struct net *net,
                        uint32_t points) {

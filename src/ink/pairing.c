@@ -61,7 +61,8 @@ static void join(struct pairing *p, uint32_t a, uint32_t b) {
   p->mate[b] = a;
 }
 
-/* ---- Few ends ------------------------------------------------------------- */
+/* ---- Few ends -------------------------------------------------------------
+ */
 
 static void pair_few(struct pairing *p, const uint32_t *end, uint32_t count) {
   enum { NO_PAIR = 4 }; /* beyond any sum of a cosine and a penalty */
@@ -76,8 +77,8 @@ static void pair_few(struct pairing *p, const uint32_t *end, uint32_t count) {
       for (uint32_t k = i + 1; k < count; k++) {
         if (fan[i].bond != fan[k].bond)
           continue;
-        float bend = fan[i].away.x * fan[k].away.x +
-                     fan[i].away.y * fan[k].away.y;
+        float bend =
+            fan[i].away.x * fan[k].away.x + fan[i].away.y * fan[k].away.y;
         if (fan[i].kin != fan[k].kin)
           bend += 2.5f; /* beyond any pair of one kin: cosines span 2 */
         if (bend < best) {
@@ -96,7 +97,8 @@ static void pair_few(struct pairing *p, const uint32_t *end, uint32_t count) {
   }
 }
 
-/* ---- Many ends ------------------------------------------------------------ */
+/* ---- Many ends ------------------------------------------------------------
+ */
 
 /* Grows with the angle from 0 up to 4. */
 static float turn_of(struct direction d) {
@@ -104,9 +106,7 @@ static float turn_of(struct direction d) {
   return d.x < 0 ? 2 - t : d.y < 0 ? 4 + t : t;
 }
 
-static int compare_numbers(uint32_t a, uint32_t b) {
-  return (a > b) - (a < b);
-}
+static int compare_numbers(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
 
 static int compare_by_kin(const void *first, const void *second, void *user) {
   const struct fan_end *a = first, *b = second;
@@ -164,7 +164,8 @@ static bool pair_many(struct pairing *p, const uint32_t *end, uint32_t count) {
   return true;
 }
 
-/* ---- All nodes ------------------------------------------------------------ */
+/* ---- All nodes ------------------------------------------------------------
+ */
 
 static bool pair_all(struct pairing *p) {
   const struct net *net = p->net;

@@ -40,7 +40,6 @@ void paths_straighten(struct ink_paths *paths);
 USE_RESULT recto_status paths_simplify(struct ink_paths *paths,
                                        double tolerance, recto_error *error);
 
-double paths_length(const struct ink_paths *paths,
-                    const struct ink_path *path);
+double paths_length(const struct ink_paths *paths, const struct ink_path *path);
 
 #endif

@@ -76,8 +76,8 @@ static uint32_t straighten_line(struct ink_point *to,
     struct ink_point after = i + 1 < count ? point[i + 1] : last;
     struct vector next = from_to(anchor, after);
     struct vector passed = from_to(anchor, here);
-    bool straight = !is_corner(passed, next) && dot(passed, next) > 0 &&
-                    dot(next, next) > dot(passed, passed);
+    bool straight =
+        !is_corner(passed, next) && dot(next, next) > dot(passed, passed);
     if (straight) {
       narrow(&wedge, passed);
       straight = is_in(&wedge, next);

@@ -26,16 +26,16 @@ enum { NEIGHBOURS = 8, RUN = 3 };
 struct ring {
   const struct drawing_point *end;
   struct drawing_point start;
-  uint32_t count;     /* of stops, the home, the last stroke, included */
-  uint32_t *stop;     /* in order */
-  uint32_t *place;    /* of each stop in that order */
-  bool *turned;       /* of each stop */
+  uint32_t count;      /* of stops, the home, the last stroke, included */
+  uint32_t *stop;      /* in order */
+  uint32_t *place;     /* of each stop in that order */
+  bool *turned;        /* of each stop */
   uint32_t *neighbour; /* NEIGHBOURS an end, NEAREST_NONE at the end */
-  uint32_t *queue;    /* stops to weigh, a ring as large as this one */
-  bool *queued;       /* of each stop */
+  uint32_t *queue;     /* stops to weigh, a ring as large as this one */
+  bool *queued;        /* of each stop */
   uint32_t queue_head, queue_count;
   double looks, moves; /* left */
-  bool back;          /* whether the ring is read backwards */
+  bool back;           /* whether the ring is read backwards */
 };
 
 double tour_travel(const struct tour *tour) {
@@ -49,7 +49,8 @@ double tour_travel(const struct tour *tour) {
   return travel;
 }
 
-/* ---- The ring ------------------------------------------------------------- */
+/* ---- The ring -------------------------------------------------------------
+ */
 
 static uint32_t after(const struct ring *r, uint32_t stop) {
   uint32_t p = r->place[stop];
@@ -150,8 +151,8 @@ static uint32_t count_ahead(const struct ring *r, uint32_t p, uint32_t count,
 /* Puts the run of `count` <= RUN stops from `first` on, forwards, after stop
  * g, turned round or not.  Those between make room: on this side of the ring
  * or on the other, where they are fewer. */
-static void move_run(struct ring *r, uint32_t first, uint32_t count,
-                     uint32_t g, bool turn) {
+static void move_run(struct ring *r, uint32_t first, uint32_t count, uint32_t g,
+                     bool turn) {
   uint32_t run[RUN], p = r->place[first], to = p;
   for (uint32_t i = 0; i < count; i++)
     run[i] = r->stop[wrap(r, p + i)];
@@ -182,7 +183,8 @@ static void wake(struct ring *r, uint32_t stop) {
   r->queued[stop] = true;
 }
 
-/* ---- Moves ---------------------------------------------------------------- */
+/* ---- Moves ----------------------------------------------------------------
+ */
 
 /* The gap at hand: from stop c on to d, so wide; and the end of x that is
  * nearer to c's. */
@@ -276,15 +278,18 @@ static void improve(struct ring *r) {
   r->back = false;
 }
 
-/* ---- From tour to ring and back ------------------------------------------- */
+/* ---- From tour to ring and back -------------------------------------------
+ */
 
+/* Fills the lists of all ends, stop by stop in the ring's order: so one search
+ * is near the last one, and what it needs at hand. */
 static bool find_neighbours(struct ring *r) {
   uint32_t home_in = 2 * (r->count - 1);
   struct nearest nearest;
   bool good = nearest_init(&nearest, r->end, home_in);
-  for (uint32_t e = 0; good && e < home_in + 2; e++) {
+  for (uint32_t i = 0; good && i < 2 * r->count; i++) {
+    uint32_t e = 2 * r->stop[i / 2] + i % 2, count = 0;
     uint32_t *found = r->neighbour + (size_t)e * NEIGHBOURS;
-    uint32_t count = 0;
     if (e != home_in)
       count = nearest_list(&nearest, e < home_in ? r->end[e] : r->start, e / 2,
                            found, NEIGHBOURS);
@@ -320,18 +325,21 @@ bool tour_improve(struct tour *tour, const struct tour_effort *effort) {
   struct ring r = {.end = tour->end,
                    .start = tour->start,
                    .count = count,
-                   .looks = effort->looks * count,
-                   .moves = effort->moves * count};
+                   .looks = effort->looks,
+                   .moves = effort->moves};
   r.stop = mem_alloc(count, sizeof *r.stop);
   r.place = mem_alloc(count, sizeof *r.place);
   r.turned = mem_alloc(count, sizeof *r.turned);
   r.neighbour = mem_alloc(count, 2 * NEIGHBOURS * sizeof *r.neighbour);
   r.queue = mem_alloc(count, sizeof *r.queue);
   r.queued = mem_calloc(count, sizeof *r.queued);
-  bool good = r.stop && r.place && r.turned && r.neighbour && r.queue &&
-              r.queued && find_neighbours(&r);
+  bool good =
+      r.stop && r.place && r.turned && r.neighbour && r.queue && r.queued;
   if (good) {
     take_tour(&r, tour);
+    good = find_neighbours(&r);
+  }
+  if (good) {
     improve(&r);
     give_tour(&r, tour);
   }

@@ -4,7 +4,7 @@
 
 #include "ink/drawing.h"
 
-/* What is spent on a better tour, for each stroke. */
+/* What may be spent on a better tour, in all. */
 struct tour_effort {
   double looks; /* neighbours weighed */
   double moves; /* strokes put elsewhere in the tour's memory */

@@ -1,0 +1,434 @@
+/* test_ink_chain.c - lines are joined to the longest strokes, outlines to
+ * closed ones. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "tests/inked.h"
+#include "tests/scenes/random.h"
+
+enum {
+  SILHOUETTE = RECTO_EDGE_SILHOUETTE,
+  CREASE = RECTO_EDGE_CREASE,
+  SMOOTH = RECTO_EDGE_SMOOTH,
+  WIRE = RECTO_EDGE_WIRE
+};
+
+static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
+
+static double total_length(const struct inked *k) {
+  double length = 0;
+  for (size_t s = 0; s < k->drawing.stroke.count; s++)
+    length += inked_stroke_length(k, s);
+  return length;
+}
+
+static size_t count_closed(const struct inked *k) {
+  size_t closed = 0;
+  for (size_t s = 0; s < k->drawing.stroke.count; s++)
+    closed += k->drawing.stroke.item[s].closed;
+  return closed;
+}
+
+/* ---- Outlines -------------------------------------------------------------
+ */
+
+static const double square[] = {20, 20, 60, 20, 60, 50, 20, 50};
+
+static void outline_of_shared_points_is_closed(void **state) {
+  struct inked k;
+  uint32_t p[4];
+  (void)state;
+  inked_start(&k);
+  for (int i = 0; i < 4; i++)
+    p[i] = inked_point(&k, square[2 * i], square[2 * i + 1]);
+  inked_edge(&k, p[0], p[1], SILHOUETTE);
+  inked_edge(&k, p[3], p[2], SILHOUETTE); /* as the file has them */
+  inked_edge(&k, p[1], p[2], SILHOUETTE);
+  inked_edge(&k, p[0], p[3], SILHOUETTE);
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 1);
+  inked_assert_same_line(&k, 0, true, INKED_XY(square));
+  inked_end(&k);
+}
+
+static void outline_of_points_at_the_same_places_is_closed(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  for (int i = 0; i < 4; i++) {
+    const double *a = square + 2 * i, *b = square + 2 * ((i + 1) % 4);
+    inked_line(&k, a[0], a[1], b[0], b[1], SILHOUETTE);
+  }
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 1);
+  inked_assert_same_line(&k, 0, true, INKED_XY(square));
+  inked_end(&k);
+}
+
+/* Row 12 of the list of failures. */
+static void row_12_cube_is_a_closed_outline_and_two_strokes(void **state) {
+  struct inked k;
+  double hexagon[12];
+  uint32_t p[7];
+  (void)state;
+  inked_start(&k);
+  for (int i = 0; i < 6; i++) {
+    hexagon[2 * i] = 50 + 30 * cos(i * acos(-1) / 3 + 0.5);
+    hexagon[2 * i + 1] = 50 + 30 * sin(i * acos(-1) / 3 + 0.5);
+    p[i] = inked_point(&k, hexagon[2 * i], hexagon[2 * i + 1]);
+  }
+  p[6] = inked_point(&k, 50, 50);
+  for (int i = 0; i < 6; i += 2)
+    inked_edge(&k, p[i], p[6], CREASE);
+  for (int i = 0; i < 6; i++)
+    inked_edge(&k, p[i], p[(i + 1) % 6], SILHOUETTE);
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 3);
+  assert_int_equal(count_closed(&k), 1);
+  inked_assert_same_line(&k, 2, true, INKED_XY(hexagon));
+  assert_int_equal(k.drawing.stroke.item[0].edge_class, CREASE);
+  assert_int_equal(k.drawing.stroke.item[2].edge_class, SILHOUETTE);
+  inked_end(&k);
+}
+
+static void outlines_that_touch_at_a_point_close_each(void **state) {
+  struct inked k;
+  const double boxes[2][8] = {{10, 10, 50, 10, 50, 50, 10, 50},
+                              {50, 50, 90, 50, 90, 90, 50, 90}};
+  (void)state;
+  inked_start(&k);
+  for (int b = 0; b < 2; b++)
+    for (int i = 0; i < 4; i++) {
+      const double *p = boxes[b] + 2 * i, *q = boxes[b] + 2 * ((i + 1) % 4);
+      uint32_t edge = inked_line(&k, p[0], p[1], q[0], q[1], SILHOUETTE);
+      k.sheet.edge.item[edge].group = (uint32_t)b;
+    }
+  inked_group(&k, "other");
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 2);
+  assert_int_equal(count_closed(&k), 2);
+  inked_end(&k);
+}
+
+static void circle_is_one_closed_stroke(void **state) {
+  enum { SIDES = 1000 };
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  for (int i = 0; i < SIDES; i++) {
+    double a = 2 * acos(-1) * ((i * 7) % SIDES) / SIDES;
+    double b = 2 * acos(-1) * ((i * 7) % SIDES + 1) / SIDES;
+    inked_line(&k, 50 + 40 * cos(a), 50 + 40 * sin(a), 50 + 40 * cos(b),
+               50 + 40 * sin(b), SILHOUETTE);
+  }
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 1);
+  assert_true(k.drawing.stroke.item[0].closed);
+  assert_int_equal(k.drawing.stroke.item[0].count, SIDES);
+  inked_end(&k);
+}
+
+/* ---- What is joined -------------------------------------------------------
+ */
+
+static void straightest_pair_goes_on(void **state) {
+  struct inked k;
+  const double flat[] = {10, 50, 90, 50}, steep[] = {40, 10, 60, 90};
+  (void)state;
+  inked_start(&k);
+  uint32_t middle = inked_point(&k, 50, 50);
+  inked_edge(&k, inked_point(&k, 10, 50), middle, CREASE);
+  inked_edge(&k, inked_point(&k, 40, 10), middle, CREASE);
+  inked_edge(&k, middle, inked_point(&k, 60, 90), CREASE);
+  inked_edge(&k, inked_point(&k, 90, 50), middle, CREASE);
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 2);
+  inked_assert_same_line(&k, 0, false, INKED_XY(flat));
+  inked_assert_same_line(&k, 1, false, INKED_XY(steep));
+  inked_end(&k);
+}
+
+static void one_class_goes_on_before_a_straighter_other(void **state) {
+  struct inked k;
+  const double bent[] = {10, 50, 50, 50, 70, 90};
+  (void)state;
+  inked_start(&k);
+  uint32_t middle = inked_point(&k, 50, 50);
+  inked_edge(&k, middle, inked_point(&k, 90, 50), CREASE);
+  inked_edge(&k, inked_point(&k, 10, 50), middle, SILHOUETTE);
+  inked_edge(&k, middle, inked_point(&k, 70, 90), SILHOUETTE);
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 2);
+  inked_assert_same_line(&k, 1, false, INKED_XY(bent));
+  inked_end(&k);
+}
+
+static void two_ends_are_joined_whatever_their_class(void **state) {
+  struct inked k;
+  const double sharp[] = {10, 50, 50, 50, 11, 52};
+  (void)state;
+  inked_start(&k);
+  uint32_t middle = inked_point(&k, 50, 50);
+  inked_edge(&k, inked_point(&k, 10, 50), middle, SILHOUETTE);
+  inked_edge(&k, inked_point(&k, 11, 52), middle, SMOOTH);
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 1);
+  inked_assert_same_line(&k, 0, false, INKED_XY(sharp));
+  assert_int_equal(k.drawing.stroke.item[0].edge_class, SILHOUETTE);
+  inked_end(&k);
+}
+
+static void hidden_and_visible_are_not_joined(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  k.options.hidden = RECTO_HIDDEN_LAYER;
+  inked_show(&k, inked_line(&k, 10, 50, 90, 50, CREASE), 0, 1, 2);
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 2);
+  inked_end(&k);
+}
+
+static void strokes_of_two_pens_are_not_joined(void **state) {
+  (void)state;
+  for (int pens = 1; pens <= 2; pens++) {
+    struct inked k;
+    inked_start(&k);
+    inked_group(&k, "other");
+    k.options.pens = pens;
+    inked_line(&k, 10, 50, 50, 50, CREASE);
+    uint32_t edge = inked_line(&k, 50, 50, 90, 80, CREASE);
+    k.sheet.edge.item[edge].group = 1;
+    inked_draw(&k);
+    assert_int_equal(k.drawing.stroke.count, pens);
+    inked_end(&k);
+  }
+}
+
+/* ---- Ids ------------------------------------------------------------------
+ */
+
+static void stroke_has_the_ids_of_its_first_segment(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  inked_group(&k, "other");
+  uint32_t edge = inked_line(&k, 10, 10, 50, 10, CREASE);
+  struct sheet_triangle t = {.face = 42};
+  assert_true(ARRAY_PUSH(&k.sheet.triangle, t));
+  k.sheet.edge.item[edge].triangle[0] = 0;
+  k.sheet.edge.item[edge].group = 1;
+  k.sheet.edge.item[edge].source = 7;
+  inked_draw(&k);
+  const struct drawing_stroke *stroke = k.drawing.stroke.item;
+  assert_int_equal(stroke->face, 42);
+  assert_int_equal(stroke->edge, 7);
+  assert_int_equal(stroke->group, 1);
+  assert_int_equal(stroke->edge_class, CREASE);
+  assert_false(k.drawing.ids);
+  assert_int_equal(k.drawing.group_name.count, 0);
+  inked_end(&k);
+}
+
+static void with_ids_every_stroke_is_of_one_edge(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  k.options.ids = true;
+  inked_group(&k, "other");
+  uint32_t p[4];
+  for (int i = 0; i < 4; i++)
+    p[i] = inked_point(&k, square[2 * i], square[2 * i + 1]);
+  for (uint32_t i = 0; i < 4; i++)
+    inked_edge(&k, p[i], p[(i + 1) % 4], SILHOUETTE);
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 4);
+  for (uint32_t i = 0; i < 4; i++) {
+    assert_int_equal(k.drawing.stroke.item[i].edge, i);
+    assert_int_equal(k.drawing.stroke.item[i].count, 2);
+  }
+  assert_true(k.drawing.ids);
+  assert_int_equal(k.drawing.group_name.count, 2);
+  assert_string_equal(k.drawing.group_name.item[0], "thing");
+  assert_string_equal(k.drawing.group_name.item[1], "other");
+  inked_end(&k);
+}
+
+static void with_ids_a_polyline_of_the_users_is_one_stroke(void **state) {
+  struct inked k;
+  const double first[] = {10, 10, 20, 30, 40, 10}, second[] = {40, 10, 60, 20};
+  (void)state;
+  inked_start(&k);
+  k.options.ids = true;
+  uint32_t a = inked_line(&k, 10, 10, 20, 30, WIRE);
+  uint32_t b = inked_line(&k, 20, 30, 40, 10, WIRE);
+  uint32_t c = inked_line(&k, 40, 10, 60, 20, WIRE);
+  k.sheet.edge.item[a].source = k.sheet.edge.item[b].source = 5;
+  k.sheet.edge.item[c].source = 6;
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 2);
+  inked_assert_stroke(&k, 0, false, INKED_XY(first));
+  inked_assert_stroke(&k, 1, false, INKED_XY(second));
+  assert_int_equal(k.drawing.stroke.item[0].edge, 5);
+  assert_int_equal(k.drawing.stroke.item[1].edge, 6);
+  assert_int_equal(k.drawing.stroke.item[0].face, DRAWING_NONE);
+  inked_end(&k);
+}
+
+/* ---- Any graph ------------------------------------------------------------
+ */
+
+/* Chains of a graph: every edge once, and no more open strokes than its odd
+ * nodes demand. */
+static void random_graphs_need_no_more_strokes_than_odd_nodes(void **state) {
+  enum { NODES = 40, EDGES = 90 };
+  struct random random = {23};
+  int rounds = is_under_valgrind() ? 20 : 500;
+  (void)state;
+  for (int round = 0; round < rounds; round++) {
+    struct inked k;
+    bool linked[NODES][NODES] = {{false}};
+    int degree[NODES] = {0};
+    double length = 0;
+    inked_start(&k);
+    /* On a circle: no two edges overlap. */
+    for (int i = 0; i < NODES; i++)
+      inked_point(&k, 50 + 45 * cos(i * 0.157), 50 + 45 * sin(i * 0.157));
+    for (int i = 0; i < EDGES; i++) {
+      uint32_t a = random_below(&random, NODES),
+               b = random_below(&random, NODES);
+      if (round % 5 == 0)
+        a = 3; /* more ends at a node than are paired one by one */
+      if (a == b || linked[a][b])
+        continue;
+      linked[a][b] = linked[b][a] = true;
+      degree[a]++;
+      degree[b]++;
+      inked_edge(&k, a, b,
+                 1u << random_below(&random, 1 + (uint32_t)round % 7));
+      length +=
+          hypot((double)k.sheet.point.item[a].x - k.sheet.point.item[b].x,
+                (double)k.sheet.point.item[a].y - k.sheet.point.item[b].y) /
+          1048576;
+    }
+    inked_draw(&k);
+    size_t odd = 0;
+    for (int i = 0; i < NODES; i++)
+      odd += (size_t)(degree[i] % 2);
+    assert_int_equal(k.drawing.stroke.count - count_closed(&k), odd / 2);
+    assert_true(fabs(total_length(&k) - length) < 1e-3);
+    inked_end(&k);
+  }
+}
+
+static void full_fan_is_paired_straight_through(void **state) {
+  static const int spokes[] = {4, 8, 14, 16, 18, 40, 1000};
+  (void)state;
+  for (size_t n = 0; n < sizeof spokes / sizeof *spokes; n++) {
+    struct inked k;
+    inked_start(&k);
+    uint32_t hub = inked_point(&k, 50, 50);
+    for (int i = 0; i < spokes[n]; i++) {
+      double angle = 2 * acos(-1) * ((i * 3) % spokes[n]) / spokes[n] + 0.1;
+      if (spokes[n] % 3 == 0)
+        angle = 2 * acos(-1) * i / spokes[n] + 0.1;
+      inked_edge(&k, hub,
+                 inked_point(&k, 50 + 40 * cos(angle), 50 + 40 * sin(angle)),
+                 CREASE);
+    }
+    inked_draw(&k);
+    assert_int_equal(k.drawing.stroke.count, spokes[n] / 2);
+    for (size_t s = 0; s < k.drawing.stroke.count; s++)
+      assert_int_equal(k.drawing.stroke.item[s].count, 2);
+    inked_end(&k);
+  }
+}
+
+/* Row 29 of the list of failures. */
+static void row_29_fan_of_100000_ends_soon(void **state) {
+  int spokes = is_under_valgrind() ? 500 : 100000;
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  uint32_t hub = inked_point(&k, 10, 10);
+  for (int i = 0; i < spokes; i++)
+    inked_edge(&k, hub, inked_point(&k, 90, 20 + 60.0 * i / spokes),
+               i % 3 ? CREASE : SMOOTH);
+  double before = clock_cpu();
+  inked_draw(&k);
+  assert_true(is_under_valgrind() || clock_cpu() - before < 2);
+  assert_int_equal(k.drawing.stroke.count, spokes / 2);
+  inked_end(&k);
+}
+
+static void strokes_come_as_the_edges_come(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  for (int i = 0; i < 20; i++)
+    inked_line(&k, 10, 5 + (i * 7 % 20) * 4, 90, 5 + (i * 7 % 20) * 4, CREASE);
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 20);
+  for (uint32_t i = 0; i < 20; i++)
+    assert_int_equal(k.drawing.stroke.item[i].edge, i);
+  inked_end(&k);
+}
+
+static void same_sheet_gives_the_same_drawing(void **state) {
+  struct random random = {31};
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  k.options.order = RECTO_ORDER_NEAR;
+  for (int i = 0; i < 300; i++)
+    inked_line(&k, random_int(&random, 0, 20) * 5,
+               random_int(&random, 0, 20) * 5, random_int(&random, 0, 20) * 5,
+               random_int(&random, 0, 20) * 5, 1u << random_below(&random, 7));
+  inked_draw(&k);
+  struct drawing first = k.drawing;
+  drawing_init(&k.drawing);
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, first.stroke.count);
+  for (size_t i = 0; i < first.stroke.count; i++) {
+    const struct drawing_stroke *a = &first.stroke.item[i];
+    const struct drawing_stroke *b = &k.drawing.stroke.item[i];
+    assert_int_equal(a->point, b->point);
+    assert_int_equal(a->count, b->count);
+    assert_int_equal(a->closed, b->closed);
+    assert_int_equal(a->edge, b->edge);
+  }
+  assert_int_equal(k.drawing.point.count, first.point.count);
+  assert_memory_equal(k.drawing.point.item, first.point.item,
+                      first.point.count * sizeof *first.point.item);
+  drawing_fini(&first);
+  inked_end(&k);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(outline_of_shared_points_is_closed),
+      cmocka_unit_test(outline_of_points_at_the_same_places_is_closed),
+      cmocka_unit_test(row_12_cube_is_a_closed_outline_and_two_strokes),
+      cmocka_unit_test(outlines_that_touch_at_a_point_close_each),
+      cmocka_unit_test(circle_is_one_closed_stroke),
+      cmocka_unit_test(straightest_pair_goes_on),
+      cmocka_unit_test(one_class_goes_on_before_a_straighter_other),
+      cmocka_unit_test(two_ends_are_joined_whatever_their_class),
+      cmocka_unit_test(hidden_and_visible_are_not_joined),
+      cmocka_unit_test(strokes_of_two_pens_are_not_joined),
+      cmocka_unit_test(stroke_has_the_ids_of_its_first_segment),
+      cmocka_unit_test(with_ids_every_stroke_is_of_one_edge),
+      cmocka_unit_test(with_ids_a_polyline_of_the_users_is_one_stroke),
+      cmocka_unit_test(random_graphs_need_no_more_strokes_than_odd_nodes),
+      cmocka_unit_test(full_fan_is_paired_straight_through),
+      cmocka_unit_test(row_29_fan_of_100000_ends_soon),
+      cmocka_unit_test(strokes_come_as_the_edges_come),
+      cmocka_unit_test(same_sheet_gives_the_same_drawing),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,517 @@
+/* test_ink_fill.c - layers and their labels, fills and their colours, and
+ * hatching that stays inside. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "ink/fill.h"
+#include "tests/inked.h"
+#include "tests/scenes/random.h"
+
+enum { CREASE = RECTO_EDGE_CREASE };
+
+static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
+
+/* ---- Layers ---------------------------------------------------------------
+ */
+
+static void assert_layer(const struct inked *k, size_t layer, unsigned pen,
+                         const char *label) {
+  assert_in_range(layer + 1, 1, k->drawing.layer.count);
+  assert_int_equal(k->drawing.layer.item[layer].pen, pen);
+  assert_string_equal(k->drawing.layer.item[layer].label, label);
+  assert_true(k->drawing.layer.item[layer].width_mm == k->options.pen_mm);
+}
+
+static void one_pen_draws_everything_visible(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  k.options.pen_mm = 0.7;
+  inked_group(&k, "other");
+  uint32_t edge = inked_line(&k, 10, 10, 50, 10, CREASE);
+  inked_line(&k, 10, 20, 50, 20, CREASE);
+  k.sheet.edge.item[edge].group = 1;
+  inked_draw(&k);
+  assert_int_equal(k.drawing.layer.count, 1);
+  assert_layer(&k, 0, 1, "1 visible");
+  assert_int_equal(k.drawing.layer.item[0].colour, 0x000000);
+  inked_end(&k);
+}
+
+static void hidden_lines_have_a_layer_of_their_own(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  k.options.hidden = RECTO_HIDDEN_LAYER;
+  inked_hide(&k, inked_line(&k, 10, 10, 50, 10, CREASE));
+  inked_line(&k, 10, 20, 50, 20, CREASE);
+  inked_draw(&k);
+  assert_int_equal(k.drawing.layer.count, 2);
+  assert_layer(&k, 0, 1, "1 visible");
+  assert_layer(&k, 1, 2, "2 hidden");
+  assert_int_not_equal(k.drawing.layer.item[1].colour, 0x000000);
+  assert_int_equal(k.drawing.stroke.item[0].layer, 0);
+  assert_int_equal(k.drawing.stroke.item[1].layer, 1);
+  inked_end(&k);
+}
+
+static void groups_are_dealt_to_the_pens(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  k.options.pens = 2;
+  k.options.hidden = RECTO_HIDDEN_LAYER;
+  inked_group(&k, "wheel");
+  inked_group(&k, "axle");
+  for (uint32_t g = 3; g-- > 0;) {
+    uint32_t edge = inked_line(&k, 10, 10 + g, 50, 10 + g, CREASE);
+    k.sheet.edge.item[edge].group = g;
+  }
+  inked_hide(&k, inked_line(&k, 10, 30, 50, 30, CREASE));
+  inked_draw(&k);
+  assert_int_equal(k.drawing.layer.count, 3);
+  assert_layer(&k, 0, 1, "1 thing, axle");
+  assert_layer(&k, 1, 2, "2 wheel");
+  assert_layer(&k, 2, 3, "3 hidden");
+  /* By layer, and as the edges come within one. */
+  static const uint32_t group[] = {2, 0, 1, 0}, layer[] = {0, 0, 1, 2};
+  assert_int_equal(k.drawing.stroke.count, 4);
+  for (int i = 0; i < 4; i++) {
+    assert_int_equal(k.drawing.stroke.item[i].group, group[i]);
+    assert_int_equal(k.drawing.stroke.item[i].layer, layer[i]);
+  }
+  inked_end(&k);
+}
+
+static void
+empty_layers_are_left_out_and_pens_keep_their_numbers(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  k.options.pens = 9;
+  inked_group(&k, "wheel");
+  inked_group(&k, "axle");
+  uint32_t edge = inked_line(&k, 10, 10, 50, 10, CREASE);
+  k.sheet.edge.item[edge].group = 2;
+  inked_draw(&k);
+  assert_int_equal(k.drawing.layer.count, 1);
+  assert_layer(&k, 0, 3, "3 axle");
+  assert_int_equal(k.drawing.stroke.item[0].layer, 0);
+  inked_end(&k);
+}
+
+static void empty_drawing_has_its_first_layer(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  k.options.hidden = RECTO_HIDDEN_LAYER;
+  inked_draw(&k);
+  assert_int_equal(k.drawing.layer.count, 1);
+  assert_layer(&k, 0, 1, "1 visible");
+  inked_end(&k);
+}
+
+static void long_names_are_cut_between_characters(void **state) {
+  (void)state;
+  for (int pad = 0; pad < 4; pad++) {
+    struct inked k;
+    char name[200] = "";
+    inked_start(&k);
+    k.options.pens = 2;
+    memset(name, 'a', (size_t)pad);
+    for (int i = 0; i < 30; i++)
+      strcat(name, "\xe2\x82\xac"); /* three bytes each */
+    uint32_t edge = inked_line(&k, 1, 1, 5, 5, CREASE);
+    k.sheet.edge.item[edge].group = inked_group(&k, name);
+    inked_draw(&k);
+    const char *label = k.drawing.layer.item[0].label;
+    assert_in_range(strlen(label), 44,
+                    sizeof k.drawing.layer.item[0].label - 1);
+    assert_int_equal((strlen(label) - 2 - (size_t)pad) % 3, 0);
+    inked_end(&k);
+  }
+}
+
+static void group_without_name_has_a_label(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  k.options.pens = 2;
+  mem_free(k.scene.group.item[0].name);
+  k.scene.group.item[0].name = mem_calloc(1, 1);
+  inked_line(&k, 1, 1, 5, 5, CREASE);
+  inked_draw(&k);
+  assert_layer(&k, 0, 1, "1 unnamed");
+  inked_end(&k);
+}
+
+/* ---- Fills ----------------------------------------------------------------
+ */
+
+static const double flat[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+static const double outer[] = {10, 10, 90, 10, 90, 80, 10, 80};
+static const double inner[] = {30, 30, 30, 50, 60, 50, 60, 30};
+
+static void fragments_become_fills_with_their_holes(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  k.options.fill = RECTO_FILL_PAINT;
+  uint32_t face = inked_face(&k, 0, flat, 4);
+  inked_fragment(&k, face, INKED_XY(outer));
+  inked_hole(&k, INKED_XY(inner));
+  inked_draw(&k);
+  assert_int_equal(k.drawing.fill.count, 1);
+  assert_int_equal(k.drawing.fill.item[0].loops, 2);
+  assert_int_equal(k.drawing.fill.item[0].face, face);
+  assert_int_equal(k.drawing.fill.item[0].colour, fill_colour(&k.scene, 0));
+  for (uint32_t l = 0; l < 2; l++) {
+    const struct drawing_loop *loop =
+        &k.drawing.loop.item[k.drawing.fill.item[0].loop + l];
+    const double *xy = l ? inner : outer;
+    assert_int_equal(loop->count, 4);
+    for (uint32_t i = 0; i < 4; i++) {
+      struct drawing_point p = k.drawing.point.item[loop->point + i];
+      assert_true(p.x == xy[2 * i] && p.y == xy[2 * i + 1]);
+    }
+  }
+  inked_end(&k);
+}
+
+static void
+groups_are_painted_in_their_colour_or_one_of_their_own(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  k.options.fill = RECTO_FILL_PAINT;
+  k.options.pens = 3;
+  inked_group(&k, "red");
+  k.scene.group.item[1].colour = 0xc00000;
+  k.scene.group.item[1].has_colour = true;
+  inked_group(&k, "third");
+  for (uint32_t g = 0; g < 3; g++)
+    inked_fragment(&k, inked_face(&k, g, flat, 4), INKED_XY(outer));
+  inked_draw(&k);
+  const struct drawing_fill *fill = k.drawing.fill.item;
+  assert_int_equal(k.drawing.fill.count, 3);
+  assert_int_equal(fill[1].colour, 0xc00000);
+  assert_int_not_equal(fill[0].colour, fill[2].colour);
+  for (uint32_t g = 0; g < 3; g++) {
+    assert_int_equal(fill[g].group, g);
+    assert_int_equal(fill[g].layer, g);
+  }
+  inked_end(&k);
+}
+
+static uint32_t shade(const double *face, uint32_t count,
+                      const double light[3]) {
+  struct inked k;
+  inked_start(&k);
+  k.options.fill = RECTO_FILL_SHADE;
+  memcpy(k.options.light, light, sizeof k.options.light);
+  inked_fragment(&k, inked_face(&k, 0, face, count), INKED_XY(outer));
+  inked_draw(&k);
+  uint32_t colour = k.drawing.fill.item[0].colour;
+  inked_end(&k);
+  assert_int_equal(colour >> 16, colour & 0xff);
+  assert_int_equal(colour >> 8 & 0xff, colour & 0xff);
+  return colour & 0xff;
+}
+
+static void shade_is_by_the_angle_to_the_light(void **state) {
+  const double front[] = {0, 0, 1}, slant[] = {1, 0, 1}, side[] = {1, 0, 0};
+  const double behind[] = {0, 0, -1}, none[] = {0, 0, 0};
+  /* Seen from its back, far from the origin, and of five corners. */
+  const double turned[] = {1e7, 1e7,     1,         1e7, 1e7 + 1,
+                           1,   1e7 + 1, 1e7 + 1,   1,   1e7 + 1,
+                           1e7, 1,       1e7 + 0.5, 1e7, 1};
+  (void)state;
+  uint32_t lit = shade(flat, 4, front);
+  assert_int_equal(lit, 255);
+  assert_in_range(shade(flat, 4, slant), shade(flat, 4, side) + 1, lit - 1);
+  assert_int_equal(shade(flat, 4, side), shade(flat, 4, behind));
+  assert_in_range(shade(flat, 4, side), 50, 100);
+  assert_in_range(shade(flat, 4, none), 150, 254);
+  assert_int_equal(shade(turned, 5, slant), shade(flat, 4, slant));
+}
+
+static void perspective_shades_the_side_that_the_eye_sees(void **state) {
+  struct inked k;
+  /* A floor below the axis and a ceiling above it, both seen. */
+  const double floor_face[] = {0, -1, 0, 1, -1, 0, 1, -1, -1};
+  const double ceiling[] = {0, 1, 0, 1, 1, 0, 1, 1, -1};
+  (void)state;
+  inked_start(&k);
+  k.options.fill = RECTO_FILL_SHADE;
+  k.options.light[1] = 1;
+  k.sheet.camera.perspective = true;
+  k.sheet.camera.eye[2] = 10;
+  inked_fragment(&k, inked_face(&k, 0, floor_face, 3), INKED_XY(outer));
+  inked_fragment(&k, inked_face(&k, 0, ceiling, 3), INKED_XY(outer));
+  inked_draw(&k);
+  assert_int_equal(k.drawing.fill.item[0].colour, 0xffffff);
+  assert_true(k.drawing.fill.item[1].colour < 0x808080);
+  inked_end(&k);
+}
+
+/* ---- Hatching -------------------------------------------------------------
+ */
+
+struct polygon {
+  double xy[2][400];
+  uint32_t count[2];
+  int loops;
+};
+
+static double area_of(const struct polygon *p) {
+  double sum = 0;
+  for (int l = 0; l < p->loops; l++)
+    for (uint32_t i = 0; i < p->count[l]; i++) {
+      const double *a = p->xy[l] + 2 * i;
+      const double *b = p->xy[l] + 2 * ((i + 1) % p->count[l]);
+      sum += a[0] * b[1] - a[1] * b[0];
+    }
+  return sum / 2;
+}
+
+/* How deep a point is inside; negative outside. */
+static double depth_in(const struct polygon *p, double x, double y) {
+  double nearest = INFINITY;
+  bool inside = false;
+  for (int l = 0; l < p->loops; l++) {
+    for (uint32_t i = 0; i < p->count[l]; i++) {
+      const double *a = p->xy[l] + 2 * i;
+      const double *b = p->xy[l] + 2 * ((i + 1) % p->count[l]);
+      double dx = b[0] - a[0], dy = b[1] - a[1];
+      double t = ((x - a[0]) * dx + (y - a[1]) * dy) / (dx * dx + dy * dy);
+      t = t < 0 ? 0 : t > 1 ? 1 : t;
+      nearest = fmin(nearest, hypot(a[0] + t * dx - x, a[1] + t * dy - y));
+      if ((a[1] <= y) != (b[1] <= y) &&
+          a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]) < x)
+        inside = !inside;
+    }
+  }
+  return inside ? nearest : -nearest;
+}
+
+static void draw_hatch(struct inked *k, const struct polygon *p, double pitch,
+                       double angle_deg) {
+  inked_start(k);
+  k->options.fill = RECTO_FILL_HATCH;
+  k->options.hatch_pitch_mm = pitch;
+  k->options.hatch_angle_deg = angle_deg;
+  inked_fragment(k, inked_face(k, 0, flat, 4), p->xy[0], p->count[0]);
+  for (int l = 1; l < p->loops; l++)
+    inked_hole(k, p->xy[l], p->count[l]);
+  inked_draw(k);
+}
+
+/* Every stroke stays inside and its long runs are on the page's lines; the
+ * runs add up to the area.  Returns how many strokes there are. */
+static size_t assert_hatch(const struct polygon *p, double pitch,
+                           double angle_deg, double area_slack) {
+  enum { SAMPLES = 9 };
+  struct inked k;
+  draw_hatch(&k, p, pitch, angle_deg);
+  double turn = angle_deg * acos(-1) / 180, along = 0;
+  for (size_t s = 0; s < k.drawing.stroke.count; s++) {
+    const struct drawing_stroke *stroke = &k.drawing.stroke.item[s];
+    const struct drawing_point *q = k.drawing.point.item + stroke->point;
+    assert_int_equal(stroke->edge_class, 0);
+    assert_int_equal(stroke->edge, DRAWING_NONE);
+    assert_int_equal(stroke->face, 0);
+    assert_int_equal(stroke->count % 2, 0);
+    for (uint32_t i = 0; i + 1 < stroke->count; i++) {
+      for (int t = 0; t <= SAMPLES; t++) {
+        double x = q[i].x + (q[i + 1].x - q[i].x) * t / SAMPLES;
+        double y = q[i].y + (q[i + 1].y - q[i].y) * t / SAMPLES;
+        assert_true(depth_in(p, x, y) > -1e-6);
+      }
+      double across = q[i].y * cos(turn) - q[i].x * sin(turn);
+      double line = across / pitch - 0.5;
+      assert_true(fabs(line - round(line)) < 1e-6);
+      if (i % 2 == 0)
+        along += hypot(q[i + 1].x - q[i].x, q[i + 1].y - q[i].y);
+    }
+  }
+  assert_true(fabs(along * pitch - area_of(p)) <= area_slack);
+  size_t strokes = k.drawing.stroke.count;
+  inked_end(&k);
+  return strokes;
+}
+
+static struct polygon polygon_of(const double *xy, uint32_t count) {
+  struct polygon p = {.loops = 1, .count = {count}};
+  memcpy(p.xy[0], xy, 2 * count * sizeof *xy);
+  return p;
+}
+
+static void rectangle_is_hatched_in_one_stroke(void **state) {
+  struct polygon p = polygon_of(INKED_XY(outer));
+  (void)state;
+  assert_int_equal(assert_hatch(&p, 2, 0, 1e-6), 1);
+  assert_int_equal(assert_hatch(&p, 2, 90, 1e-6), 1);
+  assert_int_equal(assert_hatch(&p, 2.5, 45, 100), 1);
+  assert_int_equal(assert_hatch(&p, 1, -30, 40), 1);
+}
+
+static void lines_through_corners_count_once(void **state) {
+  /* Corners and horizontal sides exactly on hatch lines, at odd heights. */
+  const double diamond[] = {50, 11, 90, 51, 50, 91, 10, 51};
+  const double step[] = {10, 11, 90, 11, 90, 51, 50, 51, 50, 71, 10, 71};
+  struct polygon p = polygon_of(INKED_XY(diamond));
+  (void)state;
+  assert_int_equal(assert_hatch(&p, 2, 0, 1e-6), 1);
+  p = polygon_of(INKED_XY(step));
+  assert_int_equal(assert_hatch(&p, 2, 0, 1e-6), 1);
+}
+
+static void hole_is_left_white(void **state) {
+  struct polygon p = polygon_of(INKED_XY(outer));
+  memcpy(p.xy[1], inner, sizeof inner);
+  p.count[1] = 4;
+  p.loops = 2;
+  (void)state;
+  /* Below and up one side, then the other side. */
+  assert_int_equal(assert_hatch(&p, 2, 0, 1e-6), 2);
+  assert_in_range(assert_hatch(&p, 1, 45, 100), 2, 4);
+}
+
+static void teeth_are_hatched_one_by_one(void **state) {
+  struct polygon p = {.loops = 1};
+  uint32_t n = 0;
+  (void)state;
+  for (int i = 0; i < 20; i++) {
+    const double tooth[] = {90 - 4.0 * i, 80, 88 - 4.0 * i, 20};
+    memcpy(p.xy[0] + 2 * n, tooth, sizeof tooth);
+    n += 2;
+  }
+  const double back[] = {10, 10, 92, 10};
+  memcpy(p.xy[0] + 2 * n, back, sizeof back);
+  p.count[0] = n + 2;
+  assert_true(area_of(&p) > 0);
+  assert_in_range(assert_hatch(&p, 1, 0, 60), 20, 22);
+}
+
+static void leaning_strip_is_hatched_in_one_stroke(void **state) {
+  const double right[] = {2, 10, 4, 10, 97, 30, 95, 30};
+  const double left[] = {95, 10, 97, 10, 4, 30, 2, 30};
+  struct polygon p = polygon_of(INKED_XY(right));
+  (void)state;
+  assert_int_equal(assert_hatch(&p, 1, 0, 1e-6), 1);
+  p = polygon_of(INKED_XY(left));
+  assert_int_equal(assert_hatch(&p, 1, 0, 1e-6), 1);
+}
+
+static void random_polygons_are_hatched_inside(void **state) {
+  struct random random = {53};
+  int rounds = is_under_valgrind() ? 20 : 300;
+  (void)state;
+  for (int round = 0; round < rounds; round++) {
+    struct polygon p = {.loops = 1};
+    p.count[0] = (uint32_t)random_int(&random, 3, 60);
+    for (uint32_t i = 0; i < p.count[0]; i++) {
+      double angle = 2 * acos(-1) * i / p.count[0];
+      double radius = random_between(&random, 5, 45);
+      p.xy[0][2 * i] = 50 + radius * cos(angle);
+      p.xy[0][2 * i + 1] = 50 + radius * sin(angle);
+    }
+    double pitch = random_between(&random, 0.3, 5);
+    /* Half a pitch along the boundary bounds what lines can miss. */
+    double around = 0;
+    for (uint32_t i = 0; i < p.count[0]; i++) {
+      const double *a = p.xy[0] + 2 * i;
+      const double *b = p.xy[0] + 2 * ((i + 1) % p.count[0]);
+      around += hypot(b[0] - a[0], b[1] - a[1]);
+    }
+    assert_hatch(&p, pitch, random_between(&random, -200, 200),
+                 around * pitch / 2);
+  }
+}
+
+static void neighbours_are_hatched_on_the_same_lines(void **state) {
+  struct inked k;
+  const double left[] = {10, 10, 50, 10, 50, 50};
+  const double right[] = {10, 10, 50, 50, 10, 50};
+  (void)state;
+  inked_start(&k);
+  k.options.fill = RECTO_FILL_HATCH;
+  k.options.hatch_angle_deg = 0;
+  k.options.hatch_pitch_mm = 2;
+  uint32_t face = inked_face(&k, 0, flat, 4);
+  inked_fragment(&k, face, INKED_XY(left));
+  inked_fragment(&k, face, INKED_XY(right));
+  inked_draw(&k);
+  for (double y = 11; y < 50; y += 2)
+    for (double x = 10.1; x < 50; x += 3.3)
+      assert_true(inked_distance(&k, x, y) < 1e-6);
+  inked_end(&k);
+}
+
+static void fragment_between_two_lines_is_left_alone(void **state) {
+  struct inked k;
+  const double sliver[] = {10, 10.1, 60, 10.1, 60, 10.9};
+  struct polygon p = polygon_of(INKED_XY(sliver));
+  (void)state;
+  draw_hatch(&k, &p, 2, 0);
+  assert_int_equal(k.drawing.stroke.count, 0);
+  inked_end(&k);
+}
+
+static void short_hatch_strokes_are_dropped(void **state) {
+  struct inked k;
+  const double small[] = {10, 10, 10.3, 10, 10, 12};
+  struct polygon p = polygon_of(INKED_XY(small));
+  (void)state;
+  draw_hatch(&k, &p, 2, 0);
+  assert_int_equal(k.drawing.stroke.count, 1);
+  k.options.min_stroke_mm = 1;
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 0);
+  inked_end(&k);
+}
+
+static void edges_come_before_the_hatching(void **state) {
+  struct inked k;
+  struct polygon p = polygon_of(INKED_XY(outer));
+  (void)state;
+  draw_hatch(&k, &p, 2, 0);
+  inked_line(&k, 5, 5, 95, 5, CREASE);
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 2);
+  assert_int_equal(k.drawing.stroke.item[0].edge_class, CREASE);
+  assert_int_equal(k.drawing.stroke.item[1].edge_class, 0);
+  inked_end(&k);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(one_pen_draws_everything_visible),
+      cmocka_unit_test(hidden_lines_have_a_layer_of_their_own),
+      cmocka_unit_test(groups_are_dealt_to_the_pens),
+      cmocka_unit_test(empty_layers_are_left_out_and_pens_keep_their_numbers),
+      cmocka_unit_test(empty_drawing_has_its_first_layer),
+      cmocka_unit_test(long_names_are_cut_between_characters),
+      cmocka_unit_test(group_without_name_has_a_label),
+      cmocka_unit_test(fragments_become_fills_with_their_holes),
+      cmocka_unit_test(groups_are_painted_in_their_colour_or_one_of_their_own),
+      cmocka_unit_test(shade_is_by_the_angle_to_the_light),
+      cmocka_unit_test(perspective_shades_the_side_that_the_eye_sees),
+      cmocka_unit_test(rectangle_is_hatched_in_one_stroke),
+      cmocka_unit_test(lines_through_corners_count_once),
+      cmocka_unit_test(hole_is_left_white),
+      cmocka_unit_test(teeth_are_hatched_one_by_one),
+      cmocka_unit_test(leaning_strip_is_hatched_in_one_stroke),
+      cmocka_unit_test(random_polygons_are_hatched_inside),
+      cmocka_unit_test(neighbours_are_hatched_on_the_same_lines),
+      cmocka_unit_test(fragment_between_two_lines_is_left_alone),
+      cmocka_unit_test(short_hatch_strokes_are_dropped),
+      cmocka_unit_test(edges_come_before_the_hatching),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
