@@ -1,0 +1,174 @@
+/* test_painter.c - the painter's algorithms without tests: right where their
+ * order is, and wrong where it must be. */
+#include "hand/oracle.h"
+#include "hand/scene.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+enum { SCALE = 1024, STEPS = 8 };
+
+/* Level steps that overlap, the k-th at depth depth[k]. */
+static void staircase(struct sheet *sheet, const int depth[STEPS]) {
+  hand_sheet_init(sheet);
+  for (int k = 0; k < STEPS; k++) {
+    int x = 3 * k, y = k % 3, z = depth[k];
+    const int step[][3] = {
+        {x, y, z}, {x + 8, y, z}, {x + 8, y + 5, z}, {x, y + 5, z}};
+    hand_add_face(sheet, step, 4, SCALE);
+  }
+}
+
+/* Solves a staircase by both. */
+static void solve_both(const struct solver *solver, const int depth[STEPS],
+                       struct map *map, struct map *brute) {
+  struct sheet sheet;
+  staircase(&sheet, depth);
+  hand_solve(solver, &sheet, map, NULL);
+  hand_sheet_fini(&sheet);
+  staircase(&sheet, depth);
+  hand_solve(&solver_brute, &sheet, brute, NULL);
+  hand_sheet_fini(&sheet);
+}
+
+static void depth_sort_is_right_on_a_staircase(void **state) {
+  static const int depth[][STEPS] = {{1, 2, 3, 4, 5, 6, 7, 8},
+                                     {8, 7, 6, 5, 4, 3, 2, 1},
+                                     {3, 8, 1, 6, 2, 7, 5, 4}};
+  (void)state;
+  for (size_t k = 0; k < sizeof depth / sizeof *depth; k++) {
+    struct map map, brute;
+    solve_both(&solver_painter, depth[k], &map, &brute);
+    hand_assert_same_map(&map, &brute, "staircase");
+    map_fini(&map);
+    map_fini(&brute);
+  }
+}
+
+static void the_given_order_is_right_from_back_to_front(void **state) {
+  static const int depth[STEPS] = {1, 2, 3, 4, 5, 6, 7, 8};
+  struct map map, brute;
+  (void)state;
+  solve_both(&solver_painter_given, depth, &map, &brute);
+  hand_assert_same_map(&map, &brute, "given order");
+  map_fini(&map);
+  map_fini(&brute);
+}
+
+static void the_given_order_is_wrong_from_front_to_back(void **state) {
+  static const int depth[STEPS] = {8, 7, 6, 5, 4, 3, 2, 1};
+  struct map map, brute;
+  (void)state;
+  solve_both(&solver_painter_given, depth, &map, &brute);
+  /* What should be seen whole is painted over, and the other way round. */
+  hand_assert_area(&brute, 0, SCALE, 40, 1);
+  hand_assert_area(&map, 0, SCALE, 40 - 5 * 4, 1);
+  hand_assert_area(&map, STEPS - 1, SCALE, 40, 1);
+  map_fini(&map);
+  map_fini(&brute);
+}
+
+static void a_cycle_cannot_be_painted(void **state) {
+  static const int bars[3][3][3] = {{{0, 0, 10}, {2, 0, 10}, {12, 20, 30}},
+                                    {{24, 4, 10}, {24, 6, 10}, {-2, 5, 30}},
+                                    {{8, 20, 10}, {10, 22, 10}, {22, 1, 30}}};
+  static const struct solver *const painter[] = {&solver_painter,
+                                                 &solver_painter_given};
+  (void)state;
+  for (int s = 0; s < 2; s++) {
+    struct sheet sheet;
+    struct map map, brute;
+    int wrong = 0;
+    hand_sheet_init(&sheet);
+    for (int k = 0; k < 3; k++)
+      hand_add_face(&sheet, bars[k], 3, SCALE);
+    hand_solve(painter[s], &sheet, &map, NULL);
+    hand_solve(&solver_brute, &sheet, &brute, NULL);
+    for (uint32_t f = 0; f < 3; f++) {
+      mpq_t area[2];
+      const struct map *both[2] = {&map, &brute};
+      mpq_inits(area[0], area[1], NULL);
+      for (int i = 0; i < 2; i++)
+        for (size_t k = 0; k < both[i]->fragment.count; k++)
+          if (both[i]->fragment.item[k].face == f)
+            mpq_add(area[i], area[i], both[i]->area2.item[k]);
+      wrong += !mpq_equal(area[0], area[1]);
+      mpq_clears(area[0], area[1], NULL);
+    }
+    assert_true(wrong >= 2); /* one too large, one too small */
+    map_fini(&map);
+    map_fini(&brute);
+    hand_sheet_fini(&sheet);
+  }
+}
+
+/* The table's middle is nearer than the cup on its far end. */
+static void depth_sort_is_wrong_for_a_cup_on_a_long_table(void **state) {
+  static const int table[][3] = {
+      {0, 0, 0}, {100, 0, 100}, {100, 20, 100}, {0, 20, 0}};
+  static const int cup[][3] = {
+      {5, 5, 20}, {10, 5, 20}, {10, 10, 20}, {5, 10, 20}};
+  struct sheet sheet;
+  struct map map, brute;
+  (void)state;
+  hand_sheet_init(&sheet);
+  hand_add_face(&sheet, table, 4, SCALE);
+  hand_add_face(&sheet, cup, 4, SCALE);
+  hand_solve(&solver_painter, &sheet, &map, NULL);
+  hand_solve(&solver_brute, &sheet, &brute, NULL);
+  hand_assert_area(&brute, 1, SCALE, 25, 1);
+  hand_assert_area(&map, 1, SCALE, 0, 1);
+  hand_assert_area(&map, 0, SCALE, 2000, 1);
+  map_fini(&map);
+  map_fini(&brute);
+  hand_sheet_fini(&sheet);
+}
+
+/* Wrong or not, every point of the page is painted by one face. */
+static void what_is_painted_covers_all_there_is(void **state) {
+  (void)state;
+  for (uint64_t seed = 1; seed <= 60; seed++) {
+    uint64_t r = seed;
+    struct sheet sheet;
+    mpq_t *area2, covered, sum;
+    hand_random_sheet(&sheet, (enum hand_kind)(seed % HAND_KINDS),
+                      2 + hand_below(&r, 3), &r);
+    area2 = malloc((sheet.triangle.count + 1) * sizeof *area2);
+    assert_non_null(area2);
+    for (size_t t = 0; t < sheet.triangle.count; t++)
+      mpq_init(area2[t]);
+    mpq_inits(covered, sum, NULL);
+    oracle_areas(&sheet, false, area2, covered);
+    for (int s = 0; s < 2; s++) {
+      struct map map;
+      hand_solve(s == 0 ? &solver_painter : &solver_painter_given, &sheet, &map,
+                 NULL);
+      mpq_set_ui(sum, 0, 1);
+      for (size_t f = 0; f < map.fragment.count; f++)
+        mpq_add(sum, sum, map.area2.item[f]);
+      assert_true(mpq_equal(sum, covered));
+      map_fini(&map);
+    }
+    mpq_clears(covered, sum, NULL);
+    for (size_t t = 0; t < sheet.triangle.count; t++)
+      mpq_clear(area2[t]);
+    free(area2);
+    hand_sheet_fini(&sheet);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(depth_sort_is_right_on_a_staircase),
+      cmocka_unit_test(the_given_order_is_right_from_back_to_front),
+      cmocka_unit_test(the_given_order_is_wrong_from_front_to_back),
+      cmocka_unit_test(a_cycle_cannot_be_painted),
+      cmocka_unit_test(depth_sort_is_wrong_for_a_cup_on_a_long_table),
+      cmocka_unit_test(what_is_painted_covers_all_there_is),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,179 @@
+/* test_solver.c - what holds of every visibility method: the table, and each
+ * allocation failing in turn. */
+#include "hand/scene.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* ---- The table
+ * ----------------------------------------------------------------- */
+
+static void a_solver_is_found_by_its_method_and_its_name(void **state) {
+  int count = 0;
+  (void)state;
+  for (const struct solver *const *s = solvers(); *s != NULL; s++, count++) {
+    assert_ptr_equal(solver_by_method((*s)->method), *s);
+    assert_ptr_equal(solver_by_name((*s)->name), *s);
+    assert_string_equal((*s)->name, recto_method_name((*s)->method));
+    assert_true(recto_method_is_available((*s)->method));
+    for (const struct solver *const *t = solvers(); t != s; t++)
+      assert_true((*t)->method != (*s)->method);
+  }
+  assert_true(count >= 4);
+  assert_null(solver_by_name("no such method"));
+  assert_null(solver_by_name(""));
+  assert_null(solver_by_method(RECTO_METHOD_COUNT));
+  assert_true(solver_brute.exact && solver_newell.exact);
+  assert_false(solver_painter.exact || solver_painter_given.exact);
+}
+
+/* ---- Each allocation failing
+ * ----------------------------------------------------- */
+
+/* Bars in a cycle, a sheet that pierces them, a decal on that and a needle
+ * edge-on: all that solvers have room to fail at. */
+static void all_kinds(struct sheet *sheet) {
+  static const int face[][3][3] = {{{0, 0, 10}, {2, 0, 10}, {12, 20, 30}},
+                                   {{24, 4, 10}, {24, 6, 10}, {-2, 5, 30}},
+                                   {{8, 20, 10}, {10, 22, 10}, {22, 1, 30}},
+                                   {{0, 0, 5}, {20, 0, 15}, {0, 20, 25}},
+                                   {{2, 2, 7}, {6, 2, 9}, {2, 6, 11}},
+                                   {{3, 3, 0}, {9, 9, 20}, {6, 6, 40}}};
+  static const int back[][3] = {
+      {-9, -9, 1}, {30, -9, 1}, {30, 30, 1}, {-9, 30, 1}};
+  hand_sheet_init(sheet);
+  for (size_t f = 0; f < sizeof face / sizeof *face; f++)
+    hand_add_face(sheet, face[f], 3, 1 << 20);
+  hand_add_face(sheet, back, 4, 1 << 20);
+}
+
+static void one_in_front(struct sheet *sheet) {
+  static const int low[][3] = {{0, 0, 1}, {9, 0, 1}, {0, 9, 1}};
+  static const int high[][3] = {{2, 2, 5}, {4, 2, 5}, {2, 4, 5}};
+  hand_sheet_init(sheet);
+  hand_add_face(sheet, low, 3, 1 << 20);
+  hand_add_face(sheet, high, 3, 1 << 20);
+}
+
+static void empty(struct sheet *sheet) { hand_sheet_init(sheet); }
+
+static void random_mesh(struct sheet *sheet) {
+  uint64_t r = 7;
+  hand_random_sheet(sheet, HAND_MESH, 12, &r);
+}
+
+typedef void make_fn(struct sheet *sheet);
+
+/* Solves a new sheet with the n-th allocation failing; 0: none.
+ * lines  of the raster methods; 0 where the method knows better ones */
+static recto_status solve(const struct solver *solver, int lines, make_fn *make,
+                          unsigned long n, struct map *map) {
+  const struct solver_request request = {.strokes = true,
+                                         .fragments = true,
+                                         .areas = true,
+                                         .intersections = true,
+                                         .threads = 1,
+                                         .pitch_mm = 100,
+                                         .resolution = lines};
+  struct sheet sheet;
+  recto_error error = {0};
+  recto_status status;
+  make(&sheet);
+  map_init(map);
+  mem_fail_after(n);
+  status = solver->solve(&sheet, &request, map, NULL, &error);
+  mem_fail_after(0);
+  if (status != RECTO_OK)
+    assert_int_equal(error.code, status);
+  hand_sheet_fini(&sheet);
+  return status;
+}
+
+/* Whatever allocation fails, the run says so or was not harmed.  Past the last
+ * allocation all runs succeed. */
+static void fail_in_turn(const struct solver *solver, int lines,
+                         make_fn *make) {
+  enum { MOST = 20000, AFTER = 64 };
+  struct map map, again;
+  int succeeded = 0;
+  recto_status status = solve(solver, lines, make, 0, &map);
+  if (status == RECTO_ERROR_UNSUPPORTED) { /* asks for more than it does */
+    map_fini(&map);
+    return;
+  }
+  assert_int_equal(status, RECTO_OK);
+  for (unsigned long n = 1; succeeded < AFTER; n++) {
+    assert_true(n < MOST);
+    status = solve(solver, lines, make, n, &again);
+    if (status == RECTO_OK) {
+      if (lines == 0)
+        hand_assert_same_map(&map, &again, solver->name);
+      succeeded++;
+    } else {
+      assert_int_equal(status, RECTO_ERROR_MEMORY);
+      succeeded = 0;
+    }
+    map_fini(&again);
+  }
+  map_fini(&map);
+}
+
+static void running_out_of_memory_is_a_status_and_leaks_nothing(void **state) {
+  static make_fn *const make[] = {all_kinds, one_in_front, empty, random_mesh};
+  (void)state;
+  for (const struct solver *const *s = solvers(); *s != NULL; s++)
+    for (size_t k = 0; k < sizeof make / sizeof *make; k++) {
+      if ((*s)->exact)
+        fail_in_turn(*s, 0, make[k]);
+      fail_in_turn(*s, 16, make[k]);
+    }
+}
+
+/* ---- No more than was asked
+ * ------------------------------------------------------- */
+
+static void check_parts(const struct solver *solver, bool strokes,
+                        bool fragments) {
+  const struct solver_request request = {.strokes = strokes,
+                                         .fragments = fragments,
+                                         .threads = 1,
+                                         .pitch_mm = 100,
+                                         .resolution = 0};
+  struct sheet sheet;
+  struct map map;
+  recto_error error;
+  size_t edges;
+  all_kinds(&sheet);
+  edges = sheet.edge.count;
+  map_init(&map);
+  assert_int_equal(solver->solve(&sheet, &request, &map, NULL, &error),
+                   RECTO_OK);
+  assert_int_equal(map.edge_state != NULL, strokes);
+  assert_int_equal(map.fragment.count > 0, fragments);
+  assert_int_equal(map.area2.count, 0);
+  assert_int_equal(sheet.edge.count, edges); /* no intersections */
+  map_fini(&map);
+  hand_sheet_fini(&sheet);
+}
+
+static void a_solver_does_no_more_than_was_asked(void **state) {
+  (void)state;
+  for (const struct solver *const *s = solvers(); *s != NULL; s++)
+    if ((*s)->exact || *s == &solver_painter || *s == &solver_painter_given)
+      for (int parts = 0; parts < 4; parts++)
+        check_parts(*s, parts & 1, parts & 2);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_solver_is_found_by_its_method_and_its_name),
+      cmocka_unit_test(running_out_of_memory_is_a_status_and_leaks_nothing),
+      cmocka_unit_test(a_solver_does_no_more_than_was_asked),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
