@@ -20,3 +20,4 @@ unit_tests += %D%/test_judged
 %C%_test_judged_SOURCES = %D%/test_judged.c $(failures) \
   %D%/temporary.c %D%/temporary.h
 %C%_test_judged_LDADD = $(failures_libs)
+dist_check_SCRIPTS += %D%/test_failures_compilers.sh
