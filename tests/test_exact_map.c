@@ -322,7 +322,7 @@ static void solvers_agree_on_deep_soups(void **state) {
   (void)state;
   for (uint64_t seed = 1; seed <= 2; seed++) {
     check_soup(seed, 160, false);
-    check_soup(seed, 80, true);
+    check_soup(seed, 60, true);
   }
 }
 
