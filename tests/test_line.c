@@ -161,7 +161,7 @@ static bool wide(uint64_t *r, const struct geom_point family[4],
   return true;
 }
 
-enum { LINES = 5, ROUNDS = 4000 };
+enum { LINES = 5, ROUNDS = 3000 };
 
 /* Lines that know each other: many cross in one point or nearly so. */
 static void draw_lines(uint64_t *r, struct twin t[LINES]) {

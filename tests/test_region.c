@@ -347,7 +347,7 @@ static void random_mosaic(struct mosaic *m, uint64_t *r, int size) {
 
 static void random_regions_are_right(void **state) {
   (void)state;
-  for (uint64_t seed = 1; seed <= 3000; seed++) {
+  for (uint64_t seed = 1; seed <= 1500; seed++) {
     uint64_t r = seed;
     struct mosaic m = {0};
     struct geom_region region = {0};
@@ -362,7 +362,7 @@ static void random_regions_are_right(void **state) {
 
 static void the_form_depends_on_the_union_alone(void **state) {
   (void)state;
-  for (uint64_t seed = 1; seed <= 1200; seed++) {
+  for (uint64_t seed = 1; seed <= 600; seed++) {
     struct geom_region region[2] = {0};
     struct mosaic m[2] = {0};
     uint64_t r;
