@@ -283,6 +283,17 @@ static void with_ids_a_polyline_of_the_users_is_one_stroke(void **state) {
 /* ---- Any graph ------------------------------------------------------------
  */
 
+/* An open stroke starts at its lower end, a closed one goes to the lower
+ * neighbour of its start. */
+static void assert_directions(const struct inked *k) {
+  for (size_t s = 0; s < k->drawing.stroke.count; s++) {
+    const struct drawing_stroke *stroke = &k->drawing.stroke.item[s];
+    const struct drawing_point *p = k->drawing.point.item + stroke->point;
+    struct drawing_point a = p[stroke->closed], b = p[stroke->count - 1];
+    assert_true(a.x < b.x || (a.x == b.x && a.y <= b.y));
+  }
+}
+
 /* Chains of a graph: every edge once, and no more open strokes than its odd
  * nodes demand. */
 static void random_graphs_need_no_more_strokes_than_odd_nodes(void **state) {
@@ -321,6 +332,7 @@ static void random_graphs_need_no_more_strokes_than_odd_nodes(void **state) {
     for (int i = 0; i < NODES; i++)
       odd += (size_t)(degree[i] % 2);
     assert_int_equal(k.drawing.stroke.count - count_closed(&k), odd / 2);
+    assert_directions(&k);
     assert_true(fabs(total_length(&k) - length) < 1e-3);
     inked_end(&k);
   }
@@ -379,6 +391,66 @@ static void strokes_come_as_the_edges_come(void **state) {
   inked_end(&k);
 }
 
+/* Rows of Ys: at every fork the foot goes on as straight to either side.  The
+ * edges come in some order, this way or that. */
+static void draw_forks(struct inked *k, uint64_t seed) {
+  enum { SIDE = 9, EDGES = 3 * SIDE * SIDE };
+  static const int arm[3][2] = {{1, 1}, {-1, 1}, {0, -1}};
+  struct random random = {seed};
+  int order[EDGES];
+  inked_start(k);
+  for (int i = 0; i < EDGES; i++) {
+    int other = (int)random_below(&random, (uint32_t)i + 1);
+    order[i] = order[other];
+    order[other] = i;
+  }
+  for (int i = 0; i < EDGES; i++) {
+    int x = 10 + 8 * (order[i] / 3 % SIDE), y = 10 + 9 * (order[i] / 3 / SIDE);
+    int dx = 4 * arm[order[i] % 3][0], dy = 4 * arm[order[i] % 3][1];
+    if (random_below(&random, 2))
+      inked_line(k, x, y, x + dx, y + dy, SMOOTH);
+    else
+      inked_line(k, x + dx, y + dy, x, y, SMOOTH);
+  }
+  /* And a loop. */
+  for (int i = 0; i < 4; i++) {
+    int at = seed % 2 ? i : 3 - i, to = (at + 1) % 4;
+    inked_line(k, 5 + square[2 * at] / 50, square[2 * at + 1],
+               5 + square[2 * to] / 50, square[2 * to + 1], SMOOTH);
+  }
+  inked_draw(k);
+}
+
+static bool is_same_stroke(const struct drawing *a, size_t s,
+                           const struct drawing *b, size_t t) {
+  const struct drawing_stroke *p = &a->stroke.item[s], *q = &b->stroke.item[t];
+  return p->count == q->count && p->closed == q->closed &&
+         memcmp(a->point.item + p->point, b->point.item + q->point,
+                p->count * sizeof *a->point.item) == 0;
+}
+
+/* Row 23 of the list of failures. */
+static void row_23_shuffled_edges_give_the_same_strokes(void **state) {
+  struct inked a;
+  (void)state;
+  draw_forks(&a, 1);
+  assert_in_range(a.drawing.stroke.count, 50, 200);
+  assert_in_range(count_closed(&a), 1, 2);
+  for (uint64_t seed = 2; seed < 12; seed++) {
+    struct inked b;
+    draw_forks(&b, seed);
+    assert_int_equal(a.drawing.stroke.count, b.drawing.stroke.count);
+    for (size_t s = 0; s < a.drawing.stroke.count; s++) {
+      size_t found = 0;
+      for (size_t t = 0; t < b.drawing.stroke.count; t++)
+        found += is_same_stroke(&a.drawing, s, &b.drawing, t);
+      assert_int_equal(found, 1);
+    }
+    inked_end(&b);
+  }
+  inked_end(&a);
+}
+
 static void same_sheet_gives_the_same_drawing(void **state) {
   struct random random = {31};
   struct inked k;
@@ -428,6 +500,7 @@ int main(void) {
       cmocka_unit_test(full_fan_is_paired_straight_through),
       cmocka_unit_test(row_29_fan_of_100000_ends_soon),
       cmocka_unit_test(strokes_come_as_the_edges_come),
+      cmocka_unit_test(row_23_shuffled_edges_give_the_same_strokes),
       cmocka_unit_test(same_sheet_gives_the_same_drawing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

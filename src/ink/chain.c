@@ -5,10 +5,13 @@
  *     and loops
  *   2 from every end that is joined to none, walk to the other such end
  *   3 what was not walked over is loops
- *   4 look the points up: not while walking, when each step would wait for
+ *   4 turn every path the way it is to be read
+ *   5 sort the paths by their first edges
+ *   6 look the points up: not while walking, when each step would wait for
  *     it; a row of look-ups waits for memory only once */
 #include "ink/paths.h"
 
+#include "base/sort.h"
 #include "ink/pairing.h"
 
 struct chain {
@@ -16,7 +19,7 @@ struct chain {
   struct ink_paths *paths;
   uint32_t *mate;
   uint8_t *used;       /* one a segment */
-  ARRAY(uint32_t) end; /* the points of all paths, as ends there */
+  ARRAY(uint32_t) end; /* path by path, each point as an end that is there */
 };
 
 void paths_fini(struct ink_paths *paths) {
@@ -28,16 +31,37 @@ static struct ink_point point_of_end(const struct chain *c, uint32_t end) {
   return c->net->node.item[c->net->segment.item[end >> 1].node[end & 1]];
 }
 
-/* Makes a path of the ends from `from` on. */
-static bool add_path(struct chain *c, size_t from, bool closed) {
-  uint32_t first = c->end.item[from] >> 1;
+static bool is_lower(struct ink_point a, struct ink_point b) {
+  return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
+
+static double distance2(struct ink_point a, struct ink_point b) {
+  double dx = (double)a.x - b.x, dy = (double)a.y - b.y;
+  return dx * dx + dy * dy;
+}
+
+static void reverse(uint32_t *end, size_t count) {
+  for (size_t i = 0; i < count / 2; i++) {
+    uint32_t swap = end[i];
+    end[i] = end[count - 1 - i];
+    end[count - 1 - i] = swap;
+  }
+}
+
+/* Makes a path of the ends from `from` on; segment `first` is its first. */
+static bool add_path(struct chain *c, size_t from, uint32_t first,
+                     bool closed) {
+  const struct net_segment *s = &c->net->segment.item[first];
   struct ink_path path = {.point = (uint32_t)from,
                           .count = (uint32_t)(c->end.count - from),
-                          .edge = c->net->segment.item[first].edge,
-                          .hidden = net_is_hidden(c->net, first),
+                          .edge = s->edge,
+                          .hidden = net_is_hidden(s),
                           .closed = closed};
   return ARRAY_PUSH(&c->paths->path, path);
 }
+
+/* ---- Open paths -----------------------------------------------------------
+ */
 
 static bool walk_open(struct chain *c, uint32_t end) {
   size_t from = c->end.count;
@@ -48,17 +72,19 @@ static bool walk_open(struct chain *c, uint32_t end) {
       return false;
     last = end ^ 1;
   }
-  return ARRAY_PUSH(&c->end, last) && add_path(c, from, false);
+  if (!ARRAY_PUSH(&c->end, last))
+    return false;
+  uint32_t *path = c->end.item + from, first = path[0];
+  size_t count = c->end.count - from;
+  if (is_lower(point_of_end(c, last), point_of_end(c, first))) {
+    reverse(path, count);
+    first = last;
+  }
+  return add_path(c, from, first >> 1, false);
 }
 
-static bool is_lower(struct ink_point a, struct ink_point b) {
-  return a.x < b.x || (a.x == b.x && a.y < b.y);
-}
-
-static double distance2(struct ink_point a, struct ink_point b) {
-  double dx = (double)a.x - b.x, dy = (double)a.y - b.y;
-  return dx * dx + dy * dy;
-}
+/* ---- Loops ----------------------------------------------------------------
+ */
 
 /* Which of a loop's ends is to be its first: see paths_chain. */
 static size_t choose_start(const struct chain *c, const uint32_t *end,
@@ -84,53 +110,88 @@ static size_t choose_start(const struct chain *c, const uint32_t *end,
   return start;
 }
 
-static void reverse(uint32_t *end, size_t count) {
-  for (size_t i = 0; i < count / 2; i++) {
-    uint32_t swap = end[i];
-    end[i] = end[count - 1 - i];
-    end[count - 1 - i] = swap;
-  }
-}
-
-static bool walk_loop(struct chain *c, uint32_t first) {
+static bool walk_loop(struct chain *c, uint32_t end) {
   size_t from = c->end.count;
-  uint32_t end = first;
+  uint32_t start = end;
   do {
     c->used[end >> 1] = 1;
     if (!ARRAY_PUSH(&c->end, end))
       return false;
     end = c->mate[end ^ 1];
-  } while (end != first);
+  } while (end != start);
   uint32_t *loop = c->end.item + from;
-  size_t count = c->end.count - from, start = choose_start(c, loop, count);
-  /* Both parts turned round, then the whole: the loop begins at `start`. */
-  reverse(loop, start);
-  reverse(loop + start, count - start);
+  size_t count = c->end.count - from, corner = choose_start(c, loop, count);
+  /* Both parts turned round, then the whole: the loop begins at its corner. */
+  reverse(loop, corner);
+  reverse(loop + corner, count - corner);
   reverse(loop, count);
-  return add_path(c, from, true);
+  /* Towards the lower of its neighbours; each end leaves its point forwards,
+   * so the first segment of the loop turned round is the last one's. */
+  uint32_t first = loop[0] >> 1;
+  if (is_lower(point_of_end(c, loop[count - 1]), point_of_end(c, loop[1]))) {
+    first = loop[count - 1] >> 1;
+    reverse(loop + 1, count - 1);
+  }
+  return add_path(c, from, first, true);
 }
 
-/* Paths and loops of the segments [from, to). */
-static bool walk_all(struct chain *c, size_t from, size_t to) {
-  for (size_t i = from; i < to; i++) {
+static bool walk_all(struct chain *c) {
+  size_t count = c->net->segment.count;
+  for (size_t i = 0; i < count; i++) {
     for (uint32_t side = 0; side < 2 && !c->used[i]; side++) {
       uint32_t end = (uint32_t)(2 * i) + side;
       if (c->mate[end] == NET_NONE && !walk_open(c, end))
         return false;
     }
   }
-  for (size_t i = from; i < to; i++)
+  for (size_t i = 0; i < count; i++)
     if (!c->used[i] && !walk_loop(c, (uint32_t)(2 * i)))
       return false;
   return true;
 }
 
+/* ---- In order -------------------------------------------------------------
+ */
+
+static bool sort_paths(struct ink_paths *paths) {
+  size_t count = paths->path.count;
+  struct sort_key *key = mem_alloc(count, sizeof *key);
+  struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
+  struct ink_path *sorted = mem_alloc(count, sizeof *sorted);
+  bool good = key && scratch && sorted;
+  if (good) {
+    for (size_t i = 0; i < count; i++) {
+      const struct ink_path *path = &paths->path.item[i];
+      key[i].key = (uint64_t)path->hidden << 32 | path->edge;
+      key[i].value = (uint32_t)i;
+    }
+    sort_keys(key, scratch, count);
+    for (size_t i = 0; i < count; i++)
+      sorted[i] = paths->path.item[key[i].value];
+    mem_free(paths->path.item);
+    paths->path.item = sorted;
+    paths->path.capacity = count;
+    sorted = NULL;
+  }
+  mem_free(key);
+  mem_free(scratch);
+  mem_free(sorted);
+  return good;
+}
+
 static bool place_points(struct chain *c) {
-  if (!ARRAY_RESERVE(&c->paths->point, c->end.count))
+  struct ink_paths *paths = c->paths;
+  if (!ARRAY_RESERVE(&paths->point, c->end.count))
     return false;
-  for (size_t i = 0; i < c->end.count; i++)
-    c->paths->point.item[i] = point_of_end(c, c->end.item[i]);
-  c->paths->point.count = c->end.count;
+  for (size_t i = 0; i < paths->path.count; i++) {
+    struct ink_path *path = &paths->path.item[i];
+    const uint32_t *end = c->end.item + path->point;
+    struct ink_point *point = paths->point.item + paths->point.count;
+    for (uint32_t k = 0; k < path->count; k++)
+      point[k] = point_of_end(c, end[k]);
+    path->point = (uint32_t)paths->point.count;
+    paths->point.count += path->count;
+  }
   return true;
 }
 
@@ -140,9 +201,8 @@ recto_status paths_chain(struct ink_paths *paths, const struct net *net,
   struct chain c = {.net = net, .paths = paths};
   c.mate = mem_alloc(count, 2 * sizeof *c.mate);
   c.used = mem_calloc(count, sizeof *c.used);
-  bool good = c.mate && c.used && pairing_find(c.mate, net) &&
-              walk_all(&c, 0, net->visible) &&
-              walk_all(&c, net->visible, count) && place_points(&c);
+  bool good = c.mate && c.used && pairing_find(c.mate, net) && walk_all(&c) &&
+              sort_paths(paths) && place_points(&c);
   mem_free(c.mate);
   mem_free(c.used);
   ARRAY_FREE(&c.end);

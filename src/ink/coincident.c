@@ -1,13 +1,14 @@
 /* coincident.c - finds the segments that lie on each other and has one drawn.
  *
  * Phases
- *   1 twins   segments between the same two nodes: the best of them stays
+ *   1 twins   of segments between the same two nodes, which stand together,
+ *             the best stays
  *   2 walk    two segments that overlap otherwise have an end of one inside
  *             the other, so each segment looks at the nodes along it, row by
  *             row; where a segment that starts there runs along it, the two
  *             are of one cluster
  *   3 resolve each cluster leaves pieces that do not overlap (overlap.c)
- *   4 rebuild the segments, in their order
+ *   4 rebuild the segments
  * Cost  A segment of average length meets a node or two besides its own.  On a
  *   mesh without overlaps phase 2 is nearly all of the time. */
 #include "ink/net.h"
@@ -31,9 +32,9 @@ struct walk {
   ARRAY(uint32_t) member; /* segments of clusters, some of them often */
 };
 
-/* The segment at hand, from its lower row to its higher. */
+/* The segment at hand, from the node in the lower row to the other. */
 struct probe {
-  uint32_t segment, p, q; /* nodes */
+  uint32_t segment, p, q; /* nodes, p < q */
   struct ink_point from, to;
   int64_t dx, dy;
   int64_t reach; /* a cross product beyond it is farther than the tolerance */
@@ -60,33 +61,21 @@ recto_status net_index_ends(struct net *net, recto_error *error) {
 /* ---- 1 Twins --------------------------------------------------------------
  */
 
-static bool drop_twins(struct walk *w) {
-  struct net *net = w->net;
-  /* For a node: the end whose segment came here from the node at hand. */
-  uint32_t *seen = mem_calloc(net->node.count, sizeof *seen);
-  if (!seen)
-    return false;
-  for (uint32_t n = 0; n < net->node.count; n++) {
-    for (uint32_t k = net->end_start[n]; k < net->end_start[n + 1]; k++) {
-      uint32_t e = net->end[k], far = net->segment.item[e >> 1].node[~e & 1];
-      if (far < n)
-        continue;
-      uint32_t other = net->end[seen[far]];
-      /* What an earlier node left behind is told by where it starts. */
-      if (seen[far] < net->end_start[n] || seen[far] >= k ||
-          net->segment.item[other >> 1].node[~other & 1] != far) {
-        seen[far] = k;
-        continue;
-      }
-      bool better = overlap_rank(net, e >> 1) < overlap_rank(net, other >> 1);
-      w->gone[better ? other >> 1 : e >> 1] = 1;
+static void drop_twins(struct walk *w) {
+  const struct net_segment *s = w->net->segment.item;
+  uint32_t best = 0;
+  for (uint32_t i = 1; i < w->net->segment.count; i++) {
+    bool twins =
+        s[i].node[0] == s[best].node[0] && s[i].node[1] == s[best].node[1];
+    bool better =
+        !twins || overlap_rank(w->net, i) < overlap_rank(w->net, best);
+    if (twins) {
+      w->gone[better ? best : i] = 1;
       w->gone_count++;
-      if (better)
-        seen[far] = k;
     }
+    if (better)
+      best = i;
   }
-  mem_free(seen);
-  return true;
 }
 
 /* ---- 2 Walk ---------------------------------------------------------------
@@ -214,9 +203,8 @@ static bool walk_segment(struct walk *w, uint32_t segment) {
   const struct net_segment *s = &w->net->segment.item[segment];
   const struct net_rows *rows = w->rows;
   struct probe probe = {.segment = segment};
-  /* Nodes are numbered row by row, and by x in each. */
-  probe.p = s->node[0] < s->node[1] ? s->node[0] : s->node[1];
-  probe.q = s->node[0] < s->node[1] ? s->node[1] : s->node[0];
+  probe.p = s->node[0];
+  probe.q = s->node[1];
   probe.from = w->net->node.item[probe.p];
   probe.to = w->net->node.item[probe.q];
   probe.dx = (int64_t)probe.to.x - probe.from.x;
@@ -286,49 +274,18 @@ static bool resolve_clusters(struct walk *w, struct overlap *overlap) {
 
 static void drop_gone(struct walk *w) {
   struct net *net = w->net;
-  size_t kept = 0, visible = 0;
-  for (size_t i = 0; i < net->segment.count; i++) {
-    if (w->gone[i])
-      continue;
-    visible += i < net->visible;
-    net->segment.item[kept++] = net->segment.item[i];
-  }
+  size_t kept = 0;
+  for (size_t i = 0; i < net->segment.count; i++)
+    if (!w->gone[i])
+      net->segment.item[kept++] = net->segment.item[i];
   net->segment.count = kept;
-  net->visible = visible;
 }
 
-/* Adds the pieces and sorts everything by hidden, then edge. */
-static bool add_pieces(struct walk *w, const struct overlap *overlap) {
-  struct net *net = w->net;
-  size_t pieces = overlap->piece.count, old = net->segment.count;
-  size_t count = old + pieces, visible = net->visible;
-  struct net_segment *sorted = mem_alloc(count, sizeof *sorted);
-  struct sort_key *key = mem_alloc(count, sizeof *key);
-  struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
-  bool good = sorted && key && scratch && ARRAY_RESERVE(&net->segment, pieces);
-  if (good) {
-    for (size_t i = 0; i < count; i++) {
-      bool hidden = i >= net->visible;
-      if (i >= old) {
-        net->segment.item[i] = overlap->piece.item[i - old].segment;
-        hidden = overlap->piece.item[i - old].hidden;
-        visible += !hidden;
-      }
-      key[i].key = (uint64_t)hidden << 32 | net->segment.item[i].edge;
-      key[i].value = (uint32_t)i;
-    }
-    sort_keys(key, scratch, count);
-    for (size_t i = 0; i < count; i++)
-      sorted[i] = net->segment.item[key[i].value];
-    for (size_t i = 0; i < count; i++)
-      net->segment.item[i] = sorted[i];
-    net->segment.count = count;
-    net->visible = visible;
-  }
-  mem_free(sorted);
-  mem_free(key);
-  mem_free(scratch);
-  return good;
+static bool add_pieces(struct net *net, const struct overlap *overlap) {
+  for (size_t i = 0; i < overlap->piece.count; i++)
+    if (!ARRAY_PUSH(&net->segment, overlap->piece.item[i]))
+      return false;
+  return net_sort_segments(net);
 }
 
 static bool replace_clusters(struct walk *w) {
@@ -337,7 +294,7 @@ static bool replace_clusters(struct walk *w) {
               resolve_clusters(w, &overlap);
   if (good) {
     drop_gone(w);
-    good = add_pieces(w, &overlap);
+    good = add_pieces(w->net, &overlap);
   }
   overlap_fini(&overlap);
   return good;
@@ -352,7 +309,9 @@ recto_status net_drop_coincident(struct net *net, const struct net_rows *rows,
     return status;
   w.gone = mem_calloc(count, sizeof *w.gone);
   w.parent = mem_calloc(count, sizeof *w.parent);
-  bool good = w.gone && w.parent && drop_twins(&w);
+  bool good = w.gone && w.parent;
+  if (good)
+    drop_twins(&w);
   for (uint32_t i = 0; good && i < count; i++)
     good = w.gone[i] || walk_segment(&w, i);
   if (good && w.member.count)

@@ -5,10 +5,13 @@
  *   net_collect          intervals of edges become segments (segments.c)
  *   net_unite            nodes at one place become one (nodes.c)
  *   net_drop_coincident  lines drawn twice are drawn once (coincident.c)
- * Invariants
- *   visible segments stand before hidden ones, either kind by sheet edge;
- *   after net_unite no two nodes are nearer than the tolerance, and no
- *   segment joins a node to itself. */
+ * Invariants, from net_unite on
+ *   no two nodes are nearer than the tolerance; they are numbered by where
+ *   they are on the page, row by row;
+ *   a segment's first node is the lower one; segments stand in the order of
+ *   their first nodes, then of their second ones.  So what is near on the page is near in memory, and
+ *   nothing depends on the order of the edges but the choice between two
+ *   segments that coincide. */
 #ifndef INK_NET_H
 #define INK_NET_H
 
@@ -24,15 +27,15 @@ struct ink_point {
 struct net_segment {
   uint32_t node[2];
   uint32_t edge; /* sheet edge it is a piece of */
-  uint32_t bond; /* only segments of the same bond are ever joined */
-  uint32_t kin;  /* class and group: where several could be joined, those
-                    alike in this go first */
+  uint32_t bond; /* only segments of the same bond are ever joined; odd where
+                    the segment is hidden */
+  uint32_t kin;  /* class (low bits, see recto_edge_class) and group: where
+                    several could be joined, those alike in this go first */
 };
 
 struct net {
   ARRAY(struct ink_point) node;
   ARRAY(struct net_segment) segment;
-  size_t visible; /* segments before this one are visible */
   /* The ends at node n: end[end_start[n] .. end_start[n + 1]), ascending;
    * end e is node[e & 1] of segment e >> 1. */
   uint32_t *end_start, *end;
@@ -66,7 +69,7 @@ USE_RESULT recto_status net_collect(struct net *net, const struct sheet *sheet,
 
 /* Makes one node of those within TOLERANCE_COINCIDENT_UNITS in x and y of the
  * first in reading order, renumbers the nodes row by row, drops the segments
- * that lost their length.
+ * that lost their length, sorts the rest.
  * rows  zero-initialised; the caller ends it with net_rows_fini
  * Cost  linear, but for the radix sort. */
 USE_RESULT recto_status net_unite(struct net *net, struct net_rows *rows,
@@ -81,11 +84,14 @@ USE_RESULT recto_status net_drop_coincident(struct net *net,
                                             const struct net_rows *rows,
                                             recto_error *error);
 
-/* Builds end_start and end anew. */
+/* Builds end_start and end. */
 USE_RESULT recto_status net_index_ends(struct net *net, recto_error *error);
 
-static inline bool net_is_hidden(const struct net *net, size_t segment) {
-  return segment >= net->visible;
+/* Restores the order of the segments. */
+USE_RESULT bool net_sort_segments(struct net *net);
+
+static inline bool net_is_hidden(const struct net_segment *segment) {
+  return segment->bond & 1;
 }
 
 #endif

@@ -6,7 +6,7 @@
  *            are bands: wherever the nodes crowd, bands are thin, so looking
  *            up one place costs at most a band
  *   3 unite  in reading order each node takes in those near it
- *   4 renumber, so that what is near on the page is near in memory
+ *   4 renumber the nodes, and sort the segments by them
  * Invariant  Of two nodes left, x or y differ by more than the tolerance: the
  *   later one was looked at by the earlier and would have been taken in.
  *   Nothing moves by more than the tolerance, as only nodes that have taken
@@ -212,20 +212,71 @@ static void renumber_nodes(struct unite *u) {
 
 static void renumber_segments(struct unite *u) {
   struct net *net = u->net;
-  size_t kept = 0, visible = 0;
+  size_t kept = 0;
   for (size_t i = 0; i < net->segment.count; i++) {
     struct net_segment s = net->segment.item[i];
-    s.node[0] = u->renumber[s.node[0]];
-    s.node[1] = u->renumber[s.node[1]];
-    if (s.node[0] == s.node[1]) {
-      net->dots++;
-      continue;
-    }
-    visible += i < net->visible;
-    net->segment.item[kept++] = s;
+    uint32_t a = u->renumber[s.node[0]], b = u->renumber[s.node[1]];
+    s.node[0] = a < b ? a : b;
+    s.node[1] = a < b ? b : a;
+    if (a != b)
+      net->segment.item[kept++] = s;
   }
+  net->dots += net->segment.count - kept;
   net->segment.count = kept;
-  net->visible = visible;
+}
+
+static int compare_second(const void *first, const void *second, void *user) {
+  const struct net_segment *a = first, *b = second;
+  (void)user;
+  return (a->node[1] > b->node[1]) - (a->node[1] < b->node[1]);
+}
+
+/* Sorts segments with one first node by the second; there are few, or else a
+ * fan. */
+static bool sort_run(struct net_segment *segment, size_t count) {
+  enum { FEW = 16 };
+  if (count > FEW)
+    return sort_stable(segment, count, sizeof *segment, compare_second, NULL);
+  for (size_t i = 1; i < count; i++) {
+    struct net_segment moving = segment[i];
+    size_t hole = i;
+    for (; hole > 0 && segment[hole - 1].node[1] > moving.node[1]; hole--)
+      segment[hole] = segment[hole - 1];
+    segment[hole] = moving;
+  }
+  return true;
+}
+
+/* `start` has room for the nodes and one, all 0. */
+static bool sort_into(struct net_segment *sorted, uint32_t *start,
+                      const struct net *net) {
+  for (size_t i = 0; i < net->segment.count; i++)
+    start[net->segment.item[i].node[0] + 1]++;
+  for (size_t n = 0; n < net->node.count; n++)
+    start[n + 1] += start[n];
+  for (size_t i = 0; i < net->segment.count; i++)
+    sorted[start[net->segment.item[i].node[0]]++] = net->segment.item[i];
+  /* start[n] is by now where the run of node n ends. */
+  for (size_t n = 0, from = 0; n < net->node.count; from = start[n++])
+    if (!sort_run(sorted + from, start[n] - from))
+      return false;
+  return true;
+}
+
+bool net_sort_segments(struct net *net) {
+  size_t count = net->segment.count;
+  struct net_segment *sorted = mem_alloc(count, sizeof *sorted);
+  uint32_t *start = mem_calloc(net->node.count + 1, sizeof *start);
+  bool good = sorted && start && sort_into(sorted, start, net);
+  if (good) {
+    mem_free(net->segment.item);
+    net->segment.item = sorted;
+    net->segment.capacity = count;
+    sorted = NULL;
+  }
+  mem_free(sorted);
+  mem_free(start);
+  return good;
 }
 
 recto_status net_unite(struct net *net, struct net_rows *rows,
@@ -253,7 +304,7 @@ recto_status net_unite(struct net *net, struct net_rows *rows,
     renumber_nodes(&u);
     renumber_segments(&u);
   }
-  good = true;
+  good = net_sort_segments(net);
 done:
   mem_free(u.at);
   mem_free(u.order);

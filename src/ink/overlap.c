@@ -196,11 +196,10 @@ static bool add_pieces(struct overlap *o, const struct net *net,
       continue;
     if (i == NET_NONE)
       continue;
-    bool turned = o->slot[2 * i] > o->slot[2 * i + 1];
-    struct overlap_piece piece = {net->segment.item[o->near[i]],
-                                  net_is_hidden(net, o->near[i])};
-    piece.segment.node[turned] = o->node[s];
-    piece.segment.node[!turned] = o->node[end];
+    struct net_segment piece = net->segment.item[o->near[i]];
+    uint32_t p = o->node[s], q = o->node[end];
+    piece.node[0] = p < q ? p : q;
+    piece.node[1] = p < q ? q : p;
     if (!ARRAY_PUSH(&o->piece, piece))
       return false;
   }

@@ -12,14 +12,8 @@ bool overlap_is_along(const struct net *net, uint32_t a, uint32_t b);
 static inline uint64_t overlap_rank(const struct net *net, uint32_t segment) {
   const struct net_segment *s = &net->segment.item[segment];
   uint64_t edge_class = s->kin & RECTO_EDGES_ALL;
-  return (uint64_t)net_is_hidden(net, segment) << 40 | edge_class << 32 |
-         s->edge;
+  return (uint64_t)net_is_hidden(s) << 40 | edge_class << 32 | s->edge;
 }
-
-struct overlap_piece {
-  struct net_segment segment;
-  bool hidden;
-};
 
 /* Work space for clusters of up to so many segments, and what they leave. */
 struct overlap {
@@ -27,7 +21,7 @@ struct overlap {
   uint32_t *slot;                 /* two a segment */
   uint32_t *node, *owner, *next;  /* two a segment, and one */
   uint32_t *near, *rest;          /* one a segment */
-  ARRAY(struct overlap_piece) piece;
+  ARRAY(struct net_segment) piece;
 };
 
 USE_RESULT bool overlap_init(struct overlap *overlap, size_t segments);

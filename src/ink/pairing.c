@@ -72,7 +72,7 @@ static void pair_few(struct pairing *p, const uint32_t *end, uint32_t count) {
   while (count > 1) {
     float best = NO_PAIR;
     uint32_t a = 0, b = 0;
-    /* Ends come in the order of their edges: the first of equals stays. */
+    /* Of equals the first stays: the order of the ends is the page's. */
     for (uint32_t i = 0; i + 1 < count; i++) {
       for (uint32_t k = i + 1; k < count; k++) {
         if (fan[i].bond != fan[k].bond)

@@ -22,10 +22,12 @@ void paths_fini(struct ink_paths *paths);
 /* Joins the segments of a net, which is indexed, end to end.
  * A node with two ends of one bond joins them.  Where more meet, those of one
  * class and group go first, and among them the pair that runs on straightest,
- * then the next; equal ones by lowest edge.
- * Closed paths start at the point farthest from their lowest in (x, y): that
- * is a corner, so no straight run is cut by the start.
- * paths  zero-initialised; visible paths before hidden ones
+ * then the next.
+ * An open path starts at its lower end in (x, y); a closed one at the point
+ * farthest from its lowest, which is a corner, so that no straight run is cut
+ * by the start.  Paths come by the sheet edge of their first segment, visible
+ * before hidden ones; but for this order, that of the edges does not matter.
+ * paths  zero-initialised
  * Guarantees  every segment is in exactly one path. */
 USE_RESULT recto_status paths_chain(struct ink_paths *paths,
                                     const struct net *net, recto_error *error);

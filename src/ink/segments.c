@@ -155,7 +155,6 @@ recto_status net_collect(struct net *net, const struct sheet *sheet,
   memset(c.node_of_point, 0xff, points * sizeof *c.node_of_point);
 
   bool good = add_all(&c, false);
-  net->visible = net->segment.count;
   if (good && options->hidden != RECTO_HIDDEN_NONE)
     good = add_all(&c, true);
   mem_free(c.node_of_point);
