@@ -43,6 +43,9 @@ unit_tests += %D%/test_pierce
 %C%_test_pierce_SOURCES = %D%/test_pierce.c $(hand_rational) \
   %D%/hand/scene.c %D%/hand/scene.h
 %C%_test_pierce_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_seams
+%C%_test_seams_SOURCES = %D%/test_seams.c $(hand_sheet)
+%C%_test_seams_CPPFLAGS = $(hand_cppflags)
 unit_tests += %D%/test_newell
 %C%_test_newell_SOURCES = %D%/test_newell.c $(hand_rational) \
   %D%/hand/scene.c %D%/hand/scene.h

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/sort.h"
+#include "base/tolerance.h"
 #include "visibility/hide.h"
 
 struct pierce_segment {
@@ -212,7 +213,18 @@ static bool clip_to_triangle(const struct sheet *sheet, struct seam_side edge,
   return true;
 }
 
-/* What two edges on one line share: the middle two of their ends. */
+/* Does p lie on the line through a and b on the page, but for rounding? */
+static bool is_near_line(struct geom_point a, struct geom_point b,
+                         struct geom_point p) {
+  const int128 near = TOLERANCE_COINCIDENT_UNITS;
+  int64_t x = (int64_t)b.x - a.x, y = (int64_t)b.y - a.y,
+          off = geom_orient2d(a, b, p);
+  return (int128)off * off <= near * near * ((int128)x * x + (int128)y * y);
+}
+
+/* What two edges share: the middle two of their ends, where these lie on both.
+ * Edges of faces that are all but in one plane touch each other's planes
+ * wherever they run. */
 static bool clip_to_edge(const struct sheet *sheet, struct seam_side e,
                          struct seam_side f, struct geom_point end[2]) {
   struct geom_point a = sheet->point.item[e.i], b = sheet->point.item[e.j],
@@ -229,6 +241,9 @@ static bool clip_to_edge(const struct sheet *sheet, struct seam_side e,
   }
   end[0] = compare_points(a, c) > 0 ? a : c;
   end[1] = compare_points(b, d) < 0 ? b : d;
+  for (int k = 0; k < 2; k++)
+    if (!is_near_line(a, b, end[k]) || !is_near_line(c, d, end[k]))
+      return false;
   return compare_points(end[0], end[1]) < 0;
 }
 
