@@ -42,6 +42,7 @@ unit_tests += %D%/test_judge
 
 EXTRA_DIST += %D%/tap.sh %D%/unit.sh
 dist_check_SCRIPTS += \
+  %D%/test_bootstrap.sh \
   %D%/test_cli.sh \
   %D%/test_documents.sh \
   %D%/test_structure.sh
