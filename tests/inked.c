@@ -23,7 +23,13 @@ void inked_start(struct inked *k) {
   k->sheet.camera.page_mm[0] = k->sheet.camera.page_mm[1] = PAGE_MM;
   k->sheet.camera.right[0] = k->sheet.camera.up[1] = 1;
   k->sheet.camera.back[2] = 1;
+  k->side = SHEET_NONE;
   inked_group(k, "thing");
+}
+
+void inked_side(struct inked *k) {
+  k->side = inked_line(k, 1, 1, 2, 2, RECTO_EDGE_CREASE);
+  inked_hide(k, k->side);
 }
 
 void inked_end(struct inked *k) {
@@ -119,7 +125,9 @@ static void add_loop(struct inked *k, const double *xy, uint32_t count) {
   for (uint32_t i = 0; i < count; i++) {
     struct map_corner corner = {
         .x = (xy[2 * i] - PAGE_MM / 2) * SHEET_UNITS_PER_MM,
-        .y = (xy[2 * i + 1] - PAGE_MM / 2) * SHEET_UNITS_PER_MM};
+        .y = (xy[2 * i + 1] - PAGE_MM / 2) * SHEET_UNITS_PER_MM,
+        .side = MAP_SIDE_EDGE,
+        .id = k->side};
     assert_true(ARRAY_PUSH(&k->map.corner, corner));
   }
 }

@@ -14,9 +14,13 @@ struct inked {
   recto_options options;
   struct drawing drawing;
   ARRAY(uint8_t) state; /* of the edges */
+  uint32_t side;        /* edge that all sides of fragments are pieces of */
 };
 
 void inked_start(struct inked *k);
+/* From here on the sides of fragments are of an edge that is drawn; it is
+ * hidden itself. */
+void inked_side(struct inked *k);
 void inked_end(struct inked *k);
 
 uint32_t inked_group(struct inked *k, const char *name);

@@ -174,6 +174,7 @@ static void fill_all(struct inked *k) {
   for (int i = 0; i < 4; i++)
     inked_line(k, inner[2 * i], inner[2 * i + 1], inner[(2 * i + 2) % 8],
                inner[(2 * i + 3) % 8], RECTO_EDGE_SILHOUETTE);
+  inked_side(k);
   inked_fragment(k, inked_face(k, 0, flat, 4), INKED_XY(outer));
   inked_hole(k, INKED_XY(inner));
   k->options.pens = 2;

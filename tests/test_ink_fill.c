@@ -302,6 +302,7 @@ static double depth_in(const struct polygon *p, double x, double y) {
 static void draw_hatch(struct inked *k, const struct polygon *p, double pitch,
                        double angle_deg) {
   inked_start(k);
+  inked_side(k);
   k->options.fill = RECTO_FILL_HATCH;
   k->options.hatch_pitch_mm = pitch;
   k->options.hatch_angle_deg = angle_deg;
@@ -358,6 +359,32 @@ static void rectangle_is_hatched_in_one_stroke(void **state) {
   assert_int_equal(assert_hatch(&p, 2, 90, 1e-6), 1);
   assert_int_equal(assert_hatch(&p, 2.5, 45, 100), 1);
   assert_int_equal(assert_hatch(&p, 1, -30, 40), 1);
+}
+
+static void pen_goes_to_the_next_line_along_ink_alone(void **state) {
+  struct inked k;
+  struct polygon p = polygon_of(INKED_XY(outer));
+  (void)state;
+  draw_hatch(&k, &p, 2, 0);
+  assert_int_equal(k.drawing.stroke.count, 1);
+  /* No ink on the right: 35 lines in strokes of two. */
+  k.map.corner.item[1].id = SHEET_NONE;
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 18);
+  k.map.corner.item[1].side = MAP_SIDE_INTERSECTION;
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 1);
+  k.options.edges &= ~(unsigned)RECTO_EDGE_INTERSECTION;
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 18);
+  k.map.corner.item[1].side = MAP_SIDE_CUT;
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 18);
+  /* Nor on the left. */
+  k.map.corner.item[3].id = SHEET_NONE;
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 35);
+  inked_end(&k);
 }
 
 static void lines_through_corners_count_once(void **state) {
@@ -503,6 +530,7 @@ int main(void) {
       cmocka_unit_test(shade_is_by_the_angle_to_the_light),
       cmocka_unit_test(perspective_shades_the_side_that_the_eye_sees),
       cmocka_unit_test(rectangle_is_hatched_in_one_stroke),
+      cmocka_unit_test(pen_goes_to_the_next_line_along_ink_alone),
       cmocka_unit_test(lines_through_corners_count_once),
       cmocka_unit_test(hole_is_left_white),
       cmocka_unit_test(teeth_are_hatched_one_by_one),

@@ -7,7 +7,7 @@
  *   2 spans     between the first and second, third and fourth, ... crossing
  *               of a line with the sides (even-odd)
  *   3 strokes   from a span to one of the next line, at the end where the pen
- *               stands, while the move stays inside
+ *               stands, while the move stays inside and near inked sides
  * Robustness  A side crosses the lines with low <= height < high, its ends'
  *   heights being the same doubles as its neighbours', so that every line has
  *   an even number of crossings.  Where a side lies within rounding of a line
@@ -26,6 +26,7 @@ struct place {
 
 struct side {
   struct place from, to;
+  bool inked; /* a line is drawn along it */
 };
 
 struct crossing {
@@ -45,6 +46,7 @@ struct hatch {
   const struct sheet *sheet;
   const struct map *map;
   double pitch, cosine, sine, shortest;
+  bool intersections; /* are drawn */
   struct drawing_stroke like;
   ARRAY(struct side) side;
   ARRAY(struct crossing) crossing;
@@ -87,6 +89,20 @@ static int64_t line_above(const struct hatch *h, double v) {
   return line;
 }
 
+/* Whether the side that leaves the corner is drawn as a line. */
+static bool is_inked(const struct hatch *h, const struct map_corner *corner) {
+  switch (corner->side) {
+  case MAP_SIDE_EDGE:
+  case MAP_SIDE_OUTLINE:
+    return corner->id < h->sheet->edge.count &&
+           h->sheet->edge.item[corner->id].edge_class != 0;
+  case MAP_SIDE_INTERSECTION:
+    return h->intersections;
+  default:
+    return false;
+  }
+}
+
 static bool add_sides(struct hatch *h, const struct map_fragment *fragment) {
   h->side.count = 0;
   for (uint32_t l = 0; l < fragment->loops; l++) {
@@ -94,7 +110,8 @@ static bool add_sides(struct hatch *h, const struct map_fragment *fragment) {
     const struct map_corner *corner = h->map->corner.item + loop->corner;
     for (uint32_t i = 0; i < loop->count; i++) {
       uint32_t next = i + 1 < loop->count ? i + 1 : 0;
-      struct side side = {turn(h, &corner[i]), turn(h, &corner[next])};
+      struct side side = {turn(h, &corner[i]), turn(h, &corner[next]),
+                          is_inked(h, &corner[i])};
       if (!ARRAY_PUSH(&h->side, side))
         return false;
     }
@@ -232,7 +249,9 @@ static size_t find_span(const struct hatch *h, size_t i, int64_t line,
 
 /* The free span of the next line that the pen can go to; NULL where there is
  * none.  Those above the span are tried, and one more on either side; first
- * those along the same side, as it costs nothing to see that they do.
+ * those along the same side, as it costs nothing to see that they do.  From
+ * sides and to sides that bear no ink there is no way: the move would be seen
+ * as a line between two faces that has no business there.
  * right  whether the pen stands at the right end */
 static struct span *find_next(struct hatch *h, const struct span *span,
                               bool right) {
@@ -242,11 +261,13 @@ static struct span *find_next(struct hatch *h, const struct span *span,
   size_t low = find_span(h, here, line, span->left.u);
   size_t high = find_span(h, low, line, span->right.u);
   low -= low > here + 1;
+  if (!h->side.item[from->side].inked)
+    return NULL;
   for (int tests = 0; tests < 2; tests++) {
     for (size_t i = low; i < h->span.count && i <= high; i++) {
       struct span *next = &h->span.item[i];
       const struct crossing *to = right ? &next->right : &next->left;
-      if (to->line == line && !next->used &&
+      if (to->line == line && !next->used && h->side.item[to->side].inked &&
           (tests ? is_inside(h, from, to) : from->side == to->side))
         return next;
     }
@@ -260,7 +281,8 @@ static bool add_point(struct hatch *h, const struct crossing *c) {
 
 /* Draws from `span` upwards as far as the pen need not be lifted. */
 static bool add_stroke(struct hatch *h, struct span *span) {
-  bool right = false;
+  /* From the left, unless there is a way on from there alone. */
+  bool right = !find_next(h, span, true) && find_next(h, span, false);
   h->line.point.count = 0;
   for (; span; span = find_next(h, span, right)) {
     span->used = true;
@@ -305,7 +327,9 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
                     .pitch = options->hatch_pitch_mm,
                     .cosine = cos(angle),
                     .sine = sin(angle),
-                    .shortest = shortest_mm};
+                    .shortest = shortest_mm,
+                    .intersections =
+                        (options->edges & RECTO_EDGE_INTERSECTION) != 0};
   bool good = true;
   for (size_t i = 0; good && i < map->fragment.count; i++) {
     const struct map_fragment *fragment = &map->fragment.item[i];
