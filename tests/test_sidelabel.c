@@ -1,5 +1,5 @@
 /* test_sidelabel.c - each side of a fragment says what it is. */
-#include "hand/sheet.h"
+#include "hand/scene.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -200,6 +200,101 @@ static void a_side_without_an_edge_is_a_cut(void **state) {
   }
 }
 
+/* One corner of the face is off its plane by a unit, as rounding does it: its
+ * two triangles cross the other face along two lines. */
+static void each_triangle_of_a_face_has_a_plane_of_its_own(void **state) {
+  static const int roof[][3] = {
+      {0, 4, 4}, {16, 4, 12}, {16, 12, 12}, {0, 12, 4}};
+  (void)state;
+  for (int s = 0; s < EXACT_COUNT; s++)
+    for (int first = 0; first < 2; first++)
+      for (uint32_t corner = 0; corner < 4; corner++) {
+        struct sheet sheet;
+        struct map map;
+        int intersections = 0;
+        hand_sheet_init(&sheet);
+        if (first == 0)
+          hand_add_face(&sheet, table, 4, SCALE);
+        hand_add_face(&sheet, roof, 4, SCALE);
+        if (first == 1)
+          hand_add_face(&sheet, table, 4, SCALE);
+        sheet.point.item[corner + (first == 0 ? 4 : 0)].z++;
+        hand_solve(exact[s], &sheet, &map, NULL);
+        for (size_t c = 0; c < map.corner.count; c++) {
+          assert_int_not_equal(map.corner.item[c].side, MAP_SIDE_CUT);
+          intersections += map.corner.item[c].side == MAP_SIDE_INTERSECTION;
+        }
+        assert_true(intersections >= 2);
+        map_fini(&map);
+        hand_sheet_fini(&sheet);
+      }
+}
+
+/* A face folded along its diagonal: the plane of its first triangle, far away
+ * from it, is nearer than the post that stands before the second. */
+static void a_folded_face_is_asked_where_the_side_is(void **state) {
+  static const int folded[][3] = {
+      {0, 0, 8}, {16, 0, 0}, {16, 16, 8}, {0, 16, 8}};
+  static const int post[][3] = {
+      {2, 12, 10}, {4, 12, 10}, {4, 16, 10}, {2, 16, 10}};
+  (void)state;
+  for (int s = 0; s < EXACT_COUNT; s++) {
+    struct sheet sheet;
+    struct map map;
+    hand_sheet_init(&sheet);
+    hand_add_face(&sheet, folded, 4, SCALE);
+    hand_add_face(&sheet, post, 4, SCALE);
+    hand_solve(exact[s], &sheet, &map, NULL);
+    assert_label(&map, 0, 4, 16, MAP_SIDE_OUTLINE,
+                 edge_between(&sheet, 4, 12, 4, 16));
+    assert_label(&map, 0, 4, 12, MAP_SIDE_OUTLINE,
+                 edge_between(&sheet, 2, 12, 4, 12));
+    assert_label(&map, 0, 2, 12, MAP_SIDE_OUTLINE,
+                 edge_between(&sheet, 2, 12, 2, 16));
+    map_fini(&map);
+    hand_sheet_fini(&sheet);
+  }
+}
+
+/* A wall that stands on the floor exactly is nearer beyond its foot alone. */
+static void the_foot_of_a_wall_is_an_outline(void **state) {
+  static const int wall[][3] = {
+      {8, 4, 8}, {8, 12, 8}, {12, 12, 16}, {12, 4, 16}};
+  (void)state;
+  for (int s = 0; s < EXACT_COUNT; s++) {
+    struct sheet sheet;
+    struct map map;
+    hand_sheet_init(&sheet);
+    hand_add_face(&sheet, table, 4, SCALE);
+    hand_add_face(&sheet, wall, 4, SCALE);
+    hand_solve(exact[s], &sheet, &map, NULL);
+    assert_label(&map, 0, 8, 4, MAP_SIDE_OUTLINE,
+                 edge_between(&sheet, 8, 4, 8, 12));
+    map_fini(&map);
+    hand_sheet_fini(&sheet);
+  }
+}
+
+/* Every side of every triangle has an edge, so nothing is a cut: whatever ends
+ * a fragment has a name. */
+static void nothing_is_a_cut_where_nothing_was_cut(void **state) {
+  (void)state;
+  for (uint64_t seed = 1; seed <= 1200; seed++) {
+    uint64_t r = seed;
+    struct sheet sheet;
+    struct map map;
+    hand_random_sheet(&sheet, (enum hand_kind)(seed % HAND_KINDS),
+                      3 + hand_below(&r, 8), &r);
+    hand_solve(&solver_brute, &sheet, &map, NULL);
+    for (size_t c = 0; c < map.corner.count; c++)
+      if (map.corner.item[c].side == MAP_SIDE_CUT)
+        fail_msg("seed %u: a cut at %g %g", (unsigned)seed,
+                 map.corner.item[c].x, map.corner.item[c].y);
+    map_fini(&map);
+    hand_sheet_fini(&sheet);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_face_s_own_sides_are_its_edges),
@@ -208,6 +303,10 @@ int main(void) {
       cmocka_unit_test(of_several_edges_the_lowest_is_named),
       cmocka_unit_test(where_faces_pierce_is_an_intersection),
       cmocka_unit_test(a_side_without_an_edge_is_a_cut),
+      cmocka_unit_test(each_triangle_of_a_face_has_a_plane_of_its_own),
+      cmocka_unit_test(a_folded_face_is_asked_where_the_side_is),
+      cmocka_unit_test(the_foot_of_a_wall_is_an_outline),
+      cmocka_unit_test(nothing_is_a_cut_where_nothing_was_cut),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

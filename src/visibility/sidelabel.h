@@ -8,8 +8,10 @@
 
 /* Labels the side of a fragment of `face` that runs on `line` from p to q.
  * The first that holds of: an edge of the face itself lies along it; an edge
- * of a nearer face does; a face crosses this one's plane along it; a cut.
- * Of several the lowest number.
+ * of a nearer face does; a face crosses this one's plane along it; any of
+ * these of a later face in contact, whose pieces this one was given; a cut.
+ * Of several the lowest number.  A face's triangles may each have a plane of
+ * their own: those beside the stretch are asked.
  * own, count  the face's triangles that have area on the page
  * side, id    as in struct map_corner
  * Returns false when memory ran out. */
