@@ -17,6 +17,7 @@ enum {
   MANY = 2,
   SOUP = 32,            /* faces over a point, on average, that make a soup */
   SOUP_CELLS = 1 << 22, /* cells of all triangles of a soup together */
+  SOUP_SPREAD = 256,    /* but no more of each: pairs are met cell by cell */
   SAMPLE = 1 << 12
 };
 
@@ -247,6 +248,7 @@ bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
   soup = mean_layers(sheet, &map->grid) > SOUP;
   if (soup) {
     unsigned spread = (unsigned)(SOUP_CELLS / sheet->triangle.count + SPREAD);
+    if (spread > SOUP_SPREAD) spread = SOUP_SPREAD;
     pagegrid_shape(&map->grid, sheet, spread, spread);
   }
   n = pagegrid_cell_count(&map->grid);
