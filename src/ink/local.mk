@@ -8,6 +8,7 @@ librecto_core_la_SOURCES += \
   %D%/ink.c %D%/ink.h \
   %D%/layers.c %D%/layers.h \
   %D%/nearest.c %D%/nearest.h \
+  %D%/light.c %D%/light.h \
   %D%/net.h %D%/nodes.c \
   %D%/order.c %D%/order.h \
   %D%/overlap.c %D%/overlap.h \

@@ -25,6 +25,7 @@ recto_status sheet_init(struct sheet *sheet, const struct scene *scene,
   memset(sheet, 0, sizeof *sheet);
   sheet->camera = *camera;
   sheet->face_group = scene->face_group.item;
+  sheet->topology = topology;
   struct layout layout = {
       .sheet = sheet,
       .scene = scene,

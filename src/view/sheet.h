@@ -63,6 +63,7 @@ struct sheet {
   ARRAY(struct sheet_triangle) triangle;
   uint8_t *triangle_flags;    /* one a triangle */
   const uint32_t *face_group; /* the scene's, lent */
+  const struct topology *topology; /* the scene's, lent; NULL: unknown */
   /* Mesh edges in topology order, then wires, then intersections once they
    * were found.  Edges of class 0 are there as outlines, not to be drawn. */
   ARRAY(struct sheet_edge) edge;
