@@ -214,6 +214,10 @@ typedef struct recto_options {
   /* Warnock. */
   recto_divide divide;
   int subpixels; /* in pixels: average K x K in each, to 16; 0: none */
+
+  /* In pixels: the z-buffers, and warnock where a resolution is given. */
+  bool remove_backs; /* leave out faces that are seen from behind */
+  int depth_bits;    /* z-buffers: 1 to 32 bits of depth; 0: float64 */
 } recto_options;
 
 /* Fills `options` with the defaults: auto, isometric, A4 portrait with a

@@ -9,3 +9,6 @@ unit_tests += %D%/test_facet
 unit_tests += %D%/test_zbuffer
 %C%_test_zbuffer_SOURCES = %D%/test_zbuffer.c $(hand_pixels)
 %C%_test_zbuffer_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_subpixels
+%C%_test_subpixels_SOURCES = %D%/test_subpixels.c $(hand_pixels)
+%C%_test_subpixels_CPPFLAGS = $(hand_cppflags)

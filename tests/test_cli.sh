@@ -114,6 +114,9 @@ fov 0 -1 180 x
 scale 0 1: :1 1:0 -1:2 1:2:3 x
 near 0 -1 x
 section x
+depth-bits 8 0 25 x float
+subpixels 0 17 x
+resolution 0 65537 x
 page A7 200 200x x200 200x-100 0x100 200x100m nanx100 200x100mmx
 margin -1 x 1,5 nan 1e999mm 10furlongs
 edges x silhouette, ,crease silhouette,,crease
@@ -131,7 +134,8 @@ offered_or_refused() {
   grep -qE -- "--$1( |\$|\[)" help.txt && return 0
   refuses "--$1 is not available in this build" cube.obj -o no.svg "--$1"
 }
-for option in output format from method pitch resolution contact view azimuth \
+for option in output format from method pitch resolution depth-bits subpixels \
+  remove-backs contact view azimuth \
   elevation camera lookat up fov ortho fit no-fit scale near section page \
   landscape margin edges crease hidden fill hatch-pitch hatch-angle light pen \
   pens order simplify precision ids stats verify check threads progress quiet \

@@ -92,6 +92,7 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the pen speed", o->velocity_cm_s, 0, 1000},
       {"the way to divide", o->divide, 0, RECTO_DIVIDE_BOX},
       {"the number of sub-pixels", o->subpixels, 0, 16},
+      {"the number of depth bits", o->depth_bits, 0, 32},
   };
   return check_ranges(range, sizeof range / sizeof range[0], error);
 }

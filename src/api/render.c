@@ -116,6 +116,8 @@ static recto_status solve(struct render *render, recto_error *error) {
       .resolution = options->resolution,
       .divide_by_box = options->divide == RECTO_DIVIDE_BOX,
       .subpixels = options->subpixels,
+      .remove_backs = options->remove_backs,
+      .depth_bits = options->depth_bits,
       .progress = options->progress != NULL ? pass_progress : NULL,
       .user = render,
   };

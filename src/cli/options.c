@@ -70,6 +70,19 @@ static bool take_page(struct arguments *arguments, const char *text) {
                     &arguments->options.page_height_mm);
 }
 
+static bool take_depth_bits(struct arguments *arguments, const char *text) {
+  static const struct {
+    const char *word;
+    int bits; /* 0: float64 */
+  } depth[] = {{"16", 16}, {"24", 24}, {"32", 32}, {"64", 0}, {"float64", 0}};
+  for (size_t i = 0; i < sizeof depth / sizeof depth[0]; i++)
+    if (strcmp(text, depth[i].word) == 0) {
+      arguments->options.depth_bits = depth[i].bits;
+      return true;
+    }
+  return false;
+}
+
 static bool take_edges(struct arguments *arguments, const char *text) {
   return value_edges(text, &arguments->options.edges);
 }
@@ -102,9 +115,15 @@ const struct option_entry option_table[] = {
     {OPTION_WORD, "divide", 0, "HOW", "four or box",
      "warnock: cut windows in four (default) box", .offset = AT(options.divide),
      .words = "four box"},
+    {OPTION_TAKE, "depth-bits", 0, "B", "16, 24, 32 or 64",
+     "z-buffers: 16 24 32, or 64 for doubles (default)",
+     .take = take_depth_bits},
     {OPTION_INT, "subpixels", 0, "K", "a number from 1 to 16",
-     "warnock in pixels: average K x K in each (1)",
-     .offset = AT(options.subpixels), .least = 1, .most = 16},
+     "in pixels: average K x K in each (1)", .offset = AT(options.subpixels),
+     .least = 1, .most = 16},
+    {OPTION_FLAG, "remove-backs", 0, NULL, NULL,
+     "in pixels: leave out faces seen from behind",
+     .offset = AT(options.remove_backs)},
 
     HEADING("Camera"),
     {OPTION_TAKE, "view", 0, "NAME",

@@ -21,6 +21,7 @@ librecto_core_la_SOURCES += \
   %D%/solver.c %D%/solver.h \
   %D%/spans.c %D%/spans.h \
   %D%/strokes.c %D%/strokes.h \
+  %D%/subpixels.c %D%/subpixels.h \
   %D%/surround.c %D%/surround.h \
   %D%/tilemap.c %D%/tilemap.h \
   %D%/tiles.c \

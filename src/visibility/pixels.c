@@ -49,21 +49,51 @@ struct sort_key *pixels_buckets(const struct raster *raster,
   return key;
 }
 
+/* One a sheet edge: 1 where all its faces turn their backs and are removed,
+ * so that it is no longer there to be drawn.  NULL when memory ran out. */
+static uint8_t *find_backs(const struct sheet *sheet) {
+  uint8_t *skip = mem_calloc(sheet->edge.count, 1);
+  for (size_t e = 0; skip != NULL && e < sheet->edge.count; e++) {
+    const uint32_t *triangle = sheet->edge.item[e].triangle;
+    skip[e] = triangle[0] != SHEET_NONE &&
+              (sheet->triangle_flags[triangle[0]] & SHEET_FLIPPED) &&
+              (triangle[1] == SHEET_NONE ||
+               (sheet->triangle_flags[triangle[1]] & SHEET_FLIPPED));
+  }
+  return skip;
+}
+
+static bool open_trace(struct pixels *pixels) {
+  const struct raster *raster = pixels->raster;
+  double step = raster->depth_bits > 0 ? 1 / raster->level_scale : 1;
+  uint8_t *skip = NULL;
+  bool good = true;
+  if (pixels->request->remove_backs)
+    good = (skip = find_backs(raster->sheet)) != NULL;
+  good = good && trace_init(&pixels->trace, raster->sheet, &pixels->grid, 0.5,
+                            step, skip);
+  mem_free(skip);
+  return good;
+}
+
 recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
-                         const struct solver_request *request,
+                         int subpixels, const struct solver_request *request,
                          recto_error *error) {
   const struct sheet *sheet = raster->sheet;
-  double step = raster->depth_bits > 0 ? 1 / raster->level_scale : 1;
   memset(pixels, 0, sizeof *pixels);
   pixels->raster = raster;
   pixels->request = request;
+  pixels->grid = raster_grid(sheet, raster->grid.lines / subpixels);
+  pixels->subpixels.k = subpixels;
   pixels->above =
-      mem_alloc((size_t)raster->grid.columns, sizeof *pixels->above);
+      mem_alloc((size_t)pixels->grid.columns, sizeof *pixels->above);
   if (pixels->above == NULL ||
-      (request->strokes &&
-       !trace_init(&pixels->trace, sheet, &raster->grid, 0.5, step, NULL)) ||
-      (request->fragments && !spans_init(&pixels->spans, sheet, &raster->grid,
-                                         (size_t)raster->grid.columns))) {
+      (subpixels > 1 &&
+       !subpixels_init(&pixels->subpixels, subpixels, raster->grid.columns,
+                       pixels->grid.columns)) ||
+      (request->strokes && !open_trace(pixels)) ||
+      (request->fragments && !spans_init(&pixels->spans, sheet, &pixels->grid,
+                                         (size_t)pixels->grid.columns))) {
     pixels_fini(pixels);
     return error_memory(error);
   }
@@ -73,6 +103,7 @@ recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
 void pixels_fini(struct pixels *pixels) {
   trace_fini(&pixels->trace);
   spans_fini(&pixels->spans);
+  subpixels_fini(&pixels->subpixels);
   mem_free(pixels->above);
 }
 
@@ -98,7 +129,7 @@ static struct span_side side_at(const struct scan_grid *grid, int32_t column) {
 
 static bool add_spans(struct pixels *pixels, int32_t line,
                       const struct row *row) {
-  const struct scan_grid *grid = &pixels->raster->grid;
+  const struct scan_grid *grid = &pixels->grid;
   const struct sheet_triangle *triangle = pixels->raster->sheet->triangle.item;
   for (int32_t c = 0, past; c < row->columns; c = past) {
     struct span span;
@@ -121,7 +152,7 @@ static bool add_spans(struct pixels *pixels, int32_t line,
  * there is one. */
 static bool trace_edges(struct pixels *pixels, int32_t line,
                         const struct row *row) {
-  const struct scan_grid *grid = &pixels->raster->grid;
+  const struct scan_grid *grid = &pixels->grid;
   const struct row above = {pixels->above, grid->columns};
   if (!trace_line(&pixels->trace, line, seen_at,
                   line + 1 < grid->lines ? &above : NULL, row))
@@ -136,11 +167,17 @@ recto_status pixels_line(struct pixels *pixels, int32_t line,
                          recto_error *error) {
   const struct raster *raster = pixels->raster;
   const struct solver_request *request = pixels->request;
+  struct subpixels *subpixels = &pixels->subpixels;
   int32_t done = raster->grid.lines - line;
   struct row row = {raster->facet + raster_row(raster, line),
-                    raster->grid.columns};
-  if ((request->strokes && !trace_edges(pixels, line, &row)) ||
-      (request->fragments && !add_spans(pixels, line, &row)))
+                    pixels->grid.columns};
+  bool whole = subpixels->k == 1 || subpixels_take(subpixels, line, row.facet);
+  if (subpixels->k > 1) {
+    line /= subpixels->k;
+    row.facet = subpixels->facet;
+  }
+  if (whole && ((request->strokes && !trace_edges(pixels, line, &row)) ||
+                (request->fragments && !add_spans(pixels, line, &row))))
     return error_memory(error);
   if (request->progress != NULL && done % ASK_EVERY == 0 &&
       !request->progress(request->user, (double)done / raster->grid.lines,
@@ -149,11 +186,42 @@ recto_status pixels_line(struct pixels *pixels, int32_t line,
   return RECTO_OK;
 }
 
+/* The share of the frame's sub-pixels that see a face. */
+static double covered_share(const struct pixels *pixels) {
+  const struct scan_grid *grid = &pixels->grid;
+  double k = pixels->subpixels.k;
+  return (double)pixels->subpixels.covered /
+         (k * k * grid->columns * grid->lines);
+}
+
 recto_status pixels_finish(struct pixels *pixels, struct map *map,
+                           struct report *report, const char *section,
                            recto_error *error) {
   if ((pixels->request->strokes && (!trace_edges(pixels, -1, NULL) ||
                                     !trace_finish(&pixels->trace, map))) ||
       (pixels->request->fragments && !spans_finish(&pixels->spans, map)))
     return error_memory(error);
+  report_int(report, section, "lines", pixels->grid.lines);
+  report_int(report, section, "columns", pixels->grid.columns);
+  if (pixels->subpixels.k > 1) {
+    report_int(report, section, "subpixels", pixels->subpixels.k);
+    report_double(report, section, "covered_share", covered_share(pixels));
+  }
   return RECTO_OK;
+}
+
+recto_status pixels_file(const struct raster *raster, int subpixels,
+                         const struct solver_request *request, struct map *map,
+                         struct report *report, const char *section,
+                         recto_error *error) {
+  struct pixels pixels;
+  recto_status status = pixels_init(&pixels, raster, subpixels, request, error);
+  if (status != RECTO_OK)
+    return status;
+  for (int32_t line = raster->grid.lines; line-- > 0 && status == RECTO_OK;)
+    status = pixels_line(&pixels, line, error);
+  if (status == RECTO_OK)
+    status = pixels_finish(&pixels, map, report, section, error);
+  pixels_fini(&pixels);
+  return status;
 }

@@ -7,11 +7,14 @@
 #include "visibility/raster.h"
 #include "visibility/solver.h"
 #include "visibility/spans.h"
+#include "visibility/subpixels.h"
 #include "visibility/trace.h"
 
 struct pixels {
   const struct raster *raster;
   const struct solver_request *request;
+  struct scan_grid grid;      /* of the pixels */
+  struct subpixels subpixels; /* k > 1: the raster's pixels are sub-pixels */
   struct trace trace;
   struct spans spans;
   uint32_t *above; /* the facets seen on the line before */
@@ -26,8 +29,9 @@ struct sort_key *pixels_buckets(const struct raster *raster,
                                 const struct solver_request *request, int shift,
                                 size_t *count);
 
+/* subpixels  K: a pixel is made of K x K of the raster's; 1: of one */
 USE_RESULT recto_status pixels_init(struct pixels *pixels,
-                                    const struct raster *raster,
+                                    const struct raster *raster, int subpixels,
                                     const struct solver_request *request,
                                     recto_error *error);
 void pixels_fini(struct pixels *pixels);
@@ -37,7 +41,15 @@ void pixels_fini(struct pixels *pixels);
 USE_RESULT recto_status pixels_line(struct pixels *pixels, int32_t line,
                                     recto_error *error);
 
+/* Writes the map, and to `section` of the report what the frame was. */
 USE_RESULT recto_status pixels_finish(struct pixels *pixels, struct map *map,
-                                      recto_error *error);
+                                      struct report *report,
+                                      const char *section, recto_error *error);
+
+/* All of it for a frame that holds all its lines. */
+USE_RESULT recto_status pixels_file(const struct raster *raster, int subpixels,
+                                    const struct solver_request *request,
+                                    struct map *map, struct report *report,
+                                    const char *section, recto_error *error);
 
 #endif

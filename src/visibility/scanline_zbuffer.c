@@ -126,7 +126,8 @@ static recto_status scan(struct raster *raster, const struct facets *facets,
                          struct report *report, recto_error *error) {
   struct scanline scanline;
   struct pixels pixels;
-  recto_status status = pixels_init(&pixels, raster, request, error);
+  recto_status status =
+      pixels_init(&pixels, raster, subpixels_of(request), request, error);
   if (status != RECTO_OK)
     return status;
   if (!scanline_init(&scanline, raster, facets, request))
@@ -134,10 +135,8 @@ static recto_status scan(struct raster *raster, const struct facets *facets,
   if (status == RECTO_OK)
     status = walk_lines(&scanline, &pixels, error);
   if (status == RECTO_OK)
-    status = pixels_finish(&pixels, map, error);
+    status = pixels_finish(&pixels, map, report, "scanline_zbuffer", error);
   if (status == RECTO_OK) {
-    report_int(report, "scanline_zbuffer", "lines", raster->grid.lines);
-    report_int(report, "scanline_zbuffer", "columns", raster->grid.columns);
     report_int(report, "scanline_zbuffer", "depth_bits", raster->depth_bits);
     report_int(report, "scanline_zbuffer", "pixels_covered", scanline.covered);
     report_int(report, "scanline_zbuffer", "most_active",
@@ -153,10 +152,13 @@ static recto_status solve(struct sheet *sheet,
                           struct report *report, recto_error *error) {
   struct raster raster = {0};
   struct facets facets = {0};
+  int lines;
   recto_status status = trace_find_intersections(sheet, request, report, error);
   if (status == RECTO_OK)
-    status = raster_init(&raster, sheet, request->resolution,
-                         request->depth_bits, false, error);
+    status = subpixels_lines(request, &lines, error);
+  if (status == RECTO_OK)
+    status =
+        raster_init(&raster, sheet, lines, request->depth_bits, false, error);
   if (status == RECTO_OK && !facets_init(&facets, sheet))
     status = error_memory(error);
   if (status == RECTO_OK)

@@ -18,10 +18,10 @@ struct solver_request {
   recto_progress_fn progress; /* NULL: none */
   void *user;
   int depth_bits;     /* z-buffers: 1 to 32; 0: float64, ties exact */
-  bool remove_backs;  /* z-buffers: faces that run clockwise are left out */
+  bool remove_backs;  /* in pixels: faces that run clockwise are left out */
   bool divide_by_box; /* warnock: windows are cut at faces' boxes */
   bool no_coherence;  /* watkins: depth orders are not kept line to line */
-  int subpixels;      /* warnock in pixels: K x K averaged in each; 0: none */
+  int subpixels;      /* in pixels: K x K averaged in each; 0: none */
 };
 
 struct solver {

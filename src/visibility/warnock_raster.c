@@ -28,6 +28,7 @@
 #include "base/sort.h"
 #include "visibility/pagegrid.h"
 #include "visibility/pixels.h"
+#include "visibility/subpixels.h"
 #include "visibility/warnock_sample.h"
 #include "visibility/window.h"
 
@@ -190,34 +191,14 @@ static uint32_t ask_centre(const struct subdivision *s,
   return seen;
 }
 
-/* The facet most of the sub-pixels see, the earlier of equals. */
-static uint32_t find_most(const uint32_t *seen, uint32_t all) {
-  uint32_t best = SHEET_NONE, most = 0;
-  for (uint32_t i = 0; i < all; i++) {
-    uint32_t same = 0;
-    if (seen[i] == SHEET_NONE)
-      continue;
-    for (uint32_t j = 0; j < all; j++)
-      same += seen[j] == seen[i];
-    if (same > most || (same == most && seen[i] < best)) {
-      most = same;
-      best = seen[i];
-    }
-  }
-  return best;
-}
-
 static void draw_pixel(struct subdivision *s, const struct pixel_window *win) {
   int32_t k = s->frame->subpixels;
-  uint32_t seen[WARNOCK_SUBPIXELS_MAX * WARNOCK_SUBPIXELS_MAX], all = 0,
-                                                                covered = 0;
+  uint32_t seen[SUBPIXELS_MAX * SUBPIXELS_MAX], all = 0, covered, facet;
   for (int32_t y = win->line * k; y < (win->line + 1) * k; y++)
-    for (int32_t x = win->column * k; x < (win->column + 1) * k; x++) {
-      seen[all] = ask_centre(s, win, x, y);
-      covered += seen[all++] != SHEET_NONE;
-    }
-  set_pixel(s, pixel_at(s, win->column, win->line),
-            2 * covered >= all ? find_most(seen, all) : SHEET_NONE, covered);
+    for (int32_t x = win->column * k; x < (win->column + 1) * k; x++)
+      seen[all++] = ask_centre(s, win, x, y);
+  facet = subpixels_resolve(seen, all, &covered);
+  set_pixel(s, pixel_at(s, win->column, win->line), facet, covered);
 }
 
 /* ---- Lists -----------------------------------------------------------------
@@ -438,20 +419,18 @@ recto_status warnock_frame_init(struct warnock_frame *frame,
                                 const struct sheet *sheet,
                                 const struct solver_request *request,
                                 recto_error *error) {
-  int k = request->subpixels == 0 ? 1 : request->subpixels;
+  int lines;
   size_t pixels;
-  recto_status status;
+  recto_status status = subpixels_lines(request, &lines, error);
   memset(frame, 0, sizeof *frame);
-  frame->subpixels = k;
-  if (k < 1 || k > WARNOCK_SUBPIXELS_MAX ||
-      request->resolution > RASTER_LINES_MAX / k)
+  frame->subpixels = subpixels_of(request);
+  if (status == RECTO_OK && lines > RASTER_LINES_MAX)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                     "%d lines of %d sub-pixels are not within %d and %d",
-                     request->resolution, k, RASTER_LINES_MAX / k,
-                     WARNOCK_SUBPIXELS_MAX);
-  status =
-      raster_init(&frame->raster, sheet, request->resolution, 0, true, error);
-  if (status != RECTO_OK || k == 1)
+                     "more than %d lines of sub-pixels", RASTER_LINES_MAX);
+  if (status == RECTO_OK)
+    status =
+        raster_init(&frame->raster, sheet, request->resolution, 0, true, error);
+  if (status != RECTO_OK || frame->subpixels == 1)
     return status;
   pixels = (size_t)frame->raster.grid.columns * (size_t)frame->raster.kept;
   frame->coverage = mem_calloc(pixels, sizeof *frame->coverage);
@@ -566,8 +545,6 @@ static void report_frame(const struct warnock_frame *frame,
   static const char *const name[WARNOCK_RULE_COUNT] = {
       "without_edge",   "background",       "one_contained", "one_intersecting",
       "one_surrounder", "surrounder_first", "pixels",        "divided"};
-  report_int(report, "warnock", "lines", frame->raster.grid.lines);
-  report_int(report, "warnock", "columns", frame->raster.grid.columns);
   report_int(report, "warnock", "subpixels", frame->subpixels);
   report_text(report, "warnock", "division",
               request->divide_by_box ? "box" : "four");
@@ -577,21 +554,6 @@ static void report_frame(const struct warnock_frame *frame,
   report_int(report, "warnock", "classified", (int64_t)frame->classified);
   if (request->fragments)
     report_double(report, "warnock", "covered_share", covered_share(frame));
-}
-
-static recto_status file_lines(const struct raster *raster,
-                               const struct solver_request *request,
-                               struct map *map, recto_error *error) {
-  struct pixels pixels;
-  recto_status status = pixels_init(&pixels, raster, request, error);
-  if (status != RECTO_OK)
-    return status;
-  for (int32_t line = raster->grid.lines; line-- > 0 && status == RECTO_OK;)
-    status = pixels_line(&pixels, line, error);
-  if (status == RECTO_OK)
-    status = pixels_finish(&pixels, map, error);
-  pixels_fini(&pixels);
-  return status;
 }
 
 recto_status warnock_raster_solve(struct sheet *sheet,
@@ -608,7 +570,8 @@ recto_status warnock_raster_solve(struct sheet *sheet,
   if (status == RECTO_OK)
     status = warnock_frame_draw(&frame, &facets, request, error);
   if (status == RECTO_OK)
-    status = file_lines(&frame.raster, request, map, error);
+    status =
+        pixels_file(&frame.raster, 1, request, map, report, "warnock", error);
   if (status == RECTO_OK)
     report_frame(&frame, request, report);
   warnock_frame_fini(&frame);

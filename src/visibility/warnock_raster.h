@@ -5,8 +5,6 @@
 #include "visibility/raster.h"
 #include "visibility/solver.h"
 
-#define WARNOCK_SUBPIXELS_MAX 16
-
 /* How a window was finished. */
 enum warnock_rule {
   WARNOCK_NO_EDGE,      /* lines alone: no drawable edge is near */

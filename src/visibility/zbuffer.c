@@ -41,40 +41,27 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
   return status;
 }
 
-static recto_status file_lines(const struct raster *raster,
-                               const struct solver_request *request,
-                               struct map *map, recto_error *error) {
-  struct pixels pixels;
-  recto_status status = pixels_init(&pixels, raster, request, error);
-  if (status != RECTO_OK)
-    return status;
-  for (int32_t line = raster->grid.lines; line-- > 0 && status == RECTO_OK;)
-    status = pixels_line(&pixels, line, error);
-  if (status == RECTO_OK)
-    status = pixels_finish(&pixels, map, error);
-  pixels_fini(&pixels);
-  return status;
-}
-
 static recto_status solve(struct sheet *sheet,
                           const struct solver_request *request, struct map *map,
                           struct report *report, recto_error *error) {
   struct raster raster = {0};
   struct facets facets = {0};
   int64_t covered = 0;
+  int lines;
   recto_status status = trace_find_intersections(sheet, request, report, error);
   if (status == RECTO_OK)
-    status = raster_init(&raster, sheet, request->resolution,
-                         request->depth_bits, true, error);
+    status = subpixels_lines(request, &lines, error);
+  if (status == RECTO_OK)
+    status =
+        raster_init(&raster, sheet, lines, request->depth_bits, true, error);
   if (status == RECTO_OK && !facets_init(&facets, sheet))
     status = error_memory(error);
   if (status == RECTO_OK)
     status = zbuffer_draw(&raster, &facets, request, &covered, error);
   if (status == RECTO_OK)
-    status = file_lines(&raster, request, map, error);
+    status = pixels_file(&raster, subpixels_of(request), request, map, report,
+                         "zbuffer", error);
   if (status == RECTO_OK) {
-    report_int(report, "zbuffer", "lines", raster.grid.lines);
-    report_int(report, "zbuffer", "columns", raster.grid.columns);
     report_int(report, "zbuffer", "depth_bits", request->depth_bits);
     report_int(report, "zbuffer", "pixels_covered", covered);
   }

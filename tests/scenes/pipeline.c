@@ -19,6 +19,9 @@ static recto_status solve(struct pipeline *pipeline,
       .threads = options->threads > 0 ? options->threads : 1,
       .pitch_mm = options->pitch_mm,
       .resolution = options->resolution,
+      .subpixels = options->subpixels,
+      .remove_backs = options->remove_backs,
+      .depth_bits = options->depth_bits,
   };
   return solver->solve(&pipeline->sheet, &request, &pipeline->map,
                        pipeline->report, &pipeline->error);

@@ -1,0 +1,217 @@
+/* test_subpixels.c - supersampling and back-face removal in the z-buffers. */
+#include "hand/pixels.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/report.h"
+#include "visibility/solver.h"
+#include "visibility/subpixels.h"
+
+static const struct solver *const both[] = {&solver_zbuffer,
+                                            &solver_scanline_zbuffer};
+
+static void solve(const struct solver *solver, const struct pixels_scene *scene,
+                  const struct solver_request *request, struct map *map,
+                  struct report *report) {
+  struct sheet sheet;
+  pixels_sheet(&sheet, scene);
+  map_init(map);
+  assert_int_equal(solver->solve(&sheet, request, map, report, NULL), RECTO_OK);
+  hand_sheet_fini(&sheet);
+}
+
+static void assert_same_map(const struct map *a, const struct map *b) {
+  assert_int_equal(a->edge_count, b->edge_count);
+  assert_memory_equal(a->edge_state, b->edge_state, a->edge_count);
+  assert_int_equal(a->interval.count, b->interval.count);
+  for (size_t i = 0; i < a->interval.count; i++)
+    assert_true(
+        ratio_compare(a->interval.item[i].t0, b->interval.item[i].t0) == 0 &&
+        ratio_compare(a->interval.item[i].t1, b->interval.item[i].t1) == 0);
+  assert_int_equal(a->fragment.count, b->fragment.count);
+  assert_int_equal(a->corner.count, b->corner.count);
+  for (size_t f = 0; f < a->fragment.count; f++)
+    assert_int_equal(a->fragment.item[f].face, b->fragment.item[f].face);
+  for (size_t c = 0; c < a->corner.count; c++)
+    assert_true(a->corner.item[c].x == b->corner.item[c].x &&
+                a->corner.item[c].y == b->corner.item[c].y);
+}
+
+/* Warnock finds its sub-pixels in a way of its own. */
+static void averaged_pixels_are_those_of_warnock(void **state) {
+  (void)state;
+  for (uint64_t seed = 800; seed < 830; seed++) {
+    const struct solver_request request = {.strokes = true,
+                                           .fragments = true,
+                                           .threads = 1,
+                                           .resolution = 11 + (int)seed % 30,
+                                           .subpixels = 1 + (int)seed % 5};
+    struct pixels_scene scene;
+    struct map want, got;
+    pixels_random_scene(&scene, seed);
+    solve(&solver_warnock, &scene, &request, &want, NULL);
+    for (int s = 0; s < 2; s++) {
+      solve(both[s], &scene, &request, &got, NULL);
+      assert_same_map(&want, &got);
+      map_fini(&got);
+    }
+    map_fini(&want);
+  }
+}
+
+static void a_pixel_is_what_most_of_it_see(void **state) {
+  static const struct {
+    uint32_t seen[4], facet, covered;
+  } pixel[] = {{{7, 7, 3, 3}, 3, 4},
+               {{7, 7, 7, 3}, 7, 4},
+               {{SHEET_NONE, 9, SHEET_NONE, 4}, 4, 2},
+               {{SHEET_NONE, 9, SHEET_NONE, 9}, 9, 2},
+               {{SHEET_NONE, SHEET_NONE, 0, SHEET_NONE}, SHEET_NONE, 1}};
+  (void)state;
+  for (size_t i = 0; i < sizeof pixel / sizeof *pixel; i++) {
+    uint32_t covered;
+    assert_int_equal(subpixels_resolve(pixel[i].seen, 4, &covered),
+                     pixel[i].facet);
+    assert_int_equal(covered, pixel[i].covered);
+  }
+}
+
+/* A page that is not a whole number of pixels wide: the last pixel of a line
+ * has sub-pixels beyond the page, which see nothing. */
+static void the_last_pixel_may_reach_beyond_the_page(void **state) {
+  const uint32_t line[5] = {1, 1, 1, 1, 2};
+  struct subpixels subpixels;
+  (void)state;
+  assert_true(subpixels_init(&subpixels, 2, 5, 3));
+  assert_false(subpixels_take(&subpixels, 3, line));
+  assert_true(subpixels_take(&subpixels, 2, line));
+  assert_int_equal(subpixels.facet[1], 1);
+  assert_int_equal(subpixels.facet[2], 2);
+  assert_int_equal(subpixels.covered, 10);
+  subpixels_fini(&subpixels);
+}
+
+static double reported_share(int lines, int subpixels, int s) {
+  static const char key[] = "\"covered_share\":";
+  const struct solver_request request = {.fragments = true,
+                                         .threads = 1,
+                                         .resolution = lines,
+                                         .subpixels = subpixels};
+  struct report *report = report_create();
+  struct map map;
+  const char *at;
+  double share;
+  solve(both[s], &pixels_pierced_rectangle, &request, &map, report);
+  at = strstr(report_json(report), key);
+  assert_non_null(at);
+  share = strtod(at + strlen(key), NULL);
+  map_fini(&map);
+  report_destroy(report);
+  return share;
+}
+
+/* 300 for the rectangle, 100 / 3 for what of the triangle lies beside it. */
+static void averaging_comes_nearer_to_the_area(void **state) {
+  const double want = (300 + 100 / 3.) / 1024;
+  double coarse = 0, fine = 0;
+  (void)state;
+  for (int lines = 5; lines < 20; lines++) {
+    coarse += fabs(reported_share(lines, 2, 0) - want);
+    fine += fabs(reported_share(lines, 16, 0) - want);
+    assert_true(fabs(reported_share(lines, 16, 0) - want) < 0.003);
+    assert_true(reported_share(lines, 16, 0) == reported_share(lines, 16, 1));
+  }
+  assert_true(4 * fine < coarse);
+}
+
+static void bad_numbers_of_sub_pixels_are_refused(void **state) {
+  const struct solver_request bad[] = {{.resolution = 64, .subpixels = -1},
+                                       {.resolution = 64, .subpixels = 17},
+                                       {.resolution = 40000, .subpixels = 2},
+                                       {.resolution = 65537, .subpixels = 2}};
+  (void)state;
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+    for (int s = 0; s < 2; s++) {
+      struct sheet sheet;
+      struct map map;
+      recto_error error;
+      pixels_sheet(&sheet, &pixels_pierced_rectangle);
+      map_init(&map);
+      assert_int_equal(both[s]->solve(&sheet, &bad[i], &map, NULL, &error),
+                       RECTO_ERROR_ARGUMENT);
+      map_fini(&map);
+      hand_sheet_fini(&sheet);
+    }
+}
+
+static void running_out_of_memory_is_told(void **state) {
+  const struct solver_request request = {.strokes = true,
+                                         .fragments = true,
+                                         .threads = 1,
+                                         .resolution = 20,
+                                         .subpixels = 3,
+                                         .remove_backs = true};
+  (void)state;
+  for (int s = 0; s < 2; s++) {
+    recto_status status = RECTO_ERROR_MEMORY;
+    for (unsigned long n = 1; status != RECTO_OK; n++) {
+      struct sheet sheet;
+      struct map map;
+      pixels_sheet(&sheet, &pixels_two_rectangles);
+      map_init(&map);
+      mem_fail_after(n);
+      status = both[s]->solve(&sheet, &request, &map, NULL, NULL);
+      mem_fail_after(0);
+      assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
+      assert_true(n > 10 || status != RECTO_OK);
+      map_fini(&map);
+      hand_sheet_fini(&sheet);
+    }
+  }
+}
+
+/* ---- Backs -------------------------------------------------------------- */
+
+/* A back face before a front face, apart: what is removed takes its lines
+ * with it, wherever they are. */
+static void removed_backs_take_their_lines_with_them(void **state) {
+  const struct pixels_scene scene = {
+      2,
+      {{4, {{4, 4, 9}, {4, 20, 9}, {20, 20, 9}, {20, 4, 9}}},
+       {4, {{2, 2, 3}, {30, 2, 3}, {30, 30, 3}, {2, 30, 3}}}}};
+  (void)state;
+  for (int s = 0; s < 2; s++)
+    for (int remove = 0; remove < 2; remove++) {
+      const struct solver_request request = {.strokes = true,
+                                             .threads = 1,
+                                             .resolution = 32,
+                                             .remove_backs = remove == 1};
+      struct map map;
+      solve(both[s], &scene, &request, &map, NULL);
+      assert_int_equal(map.edge_count, 8);
+      for (size_t e = 0; e < 8; e++)
+        assert_int_equal(map.edge_state[e],
+                         remove == 1 && e < 4 ? MAP_HIDDEN : MAP_VISIBLE);
+      map_fini(&map);
+    }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(averaged_pixels_are_those_of_warnock),
+      cmocka_unit_test(a_pixel_is_what_most_of_it_see),
+      cmocka_unit_test(the_last_pixel_may_reach_beyond_the_page),
+      cmocka_unit_test(averaging_comes_nearer_to_the_area),
+      cmocka_unit_test(bad_numbers_of_sub_pixels_are_refused),
+      cmocka_unit_test(running_out_of_memory_is_told),
+      cmocka_unit_test(removed_backs_take_their_lines_with_them),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
