@@ -326,6 +326,84 @@ static void a_cube_at_true_scale_shows_nine_edges(void **state) {
   recto_scene_destroy(scene);
 }
 
+static recto_scene *make_scaled_cube(double scale, double middle) {
+  recto_scene *scene;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  for (int i = 0; i < 8; i++) {
+    double point[3];
+    for (int k = 0; k < 3; k++)
+      point[k] = scale * (2 * (cube_point[i][k] - middle));
+    assert_int_equal(recto_scene_add_point(scene, point, NULL, NULL), RECTO_OK);
+  }
+  for (int i = 0; i < 6; i++)
+    assert_int_equal(recto_scene_add_face(scene, cube_face[i], 4, NULL),
+                     RECTO_OK);
+  return scene;
+}
+
+static void assert_same_drawing(const recto_drawing *a,
+                                const recto_drawing *b) {
+  assert_int_equal(recto_drawing_stroke_count(a),
+                   recto_drawing_stroke_count(b));
+  for (size_t i = 0; i < recto_drawing_stroke_count(a); i++) {
+    recto_stroke p = recto_drawing_stroke(a, i), q = recto_drawing_stroke(b, i);
+    assert_int_equal(p.count, q.count);
+    assert_memory_equal(p.points, q.points, p.count * 2 * sizeof *p.points);
+  }
+}
+
+/* Row 21: from the least double to the largest.  The eye, the contact and the
+ * near distance scale with the model. */
+static void row_21_every_size_of_doubles_draws_the_same(void **state) {
+  (void)state;
+  recto_options options;
+  recto_options_init(&options);
+  recto_scene *scene = make_scaled_cube(1, 0.5);
+  recto_drawing *iso = draw(scene, NULL);
+  options.camera = RECTO_CAMERA_EYE;
+  options.fov_deg = 30;
+  const double eye[3] = {3, 4, 5};
+  memcpy(options.eye, eye, sizeof eye);
+  options.contact = 0x1p-10;
+  recto_drawing *perspective = draw(scene, &options);
+  recto_scene_destroy(scene);
+  for (int e = -1074; e <= 1021; e += e < 1008 ? 13 : 1) {
+    double scale = ldexp(1, e);
+    scene = make_scaled_cube(scale, 0.5);
+    recto_drawing *same = draw(scene, NULL);
+    assert_same_drawing(iso, same);
+    recto_drawing_destroy(same);
+    for (int k = 0; k < 3; k++)
+      options.eye[k] = eye[k] * scale;
+    options.contact = ldexp(0x1p-10, e);
+    same = draw(scene, &options);
+    assert_same_drawing(perspective, same);
+    recto_drawing_destroy(same);
+    recto_scene_destroy(scene);
+  }
+  recto_drawing_destroy(iso);
+  recto_drawing_destroy(perspective);
+}
+
+/* Numbers around the scene that its scale takes out of their range. */
+static void an_eye_beyond_numbers_is_refused(void **state) {
+  (void)state;
+  recto_scene *scene = make_scaled_cube(0x1p-1070, 0.5);
+  recto_options options;
+  recto_drawing *drawing;
+  recto_options_init(&options);
+  options.camera = RECTO_CAMERA_EYE;
+  options.eye[2] = 1;
+  recto_drawing *near = draw(scene, &options);
+  recto_drawing_destroy(near);
+  options.eye[2] = 1e300;
+  recto_error error;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, &error),
+                   RECTO_ERROR_LIMIT);
+  assert_null(drawing);
+  recto_scene_destroy(scene);
+}
+
 static void strokes_know_where_they_come_from(void **state) {
   (void)state;
   recto_scene *scene = make_cube();
@@ -585,6 +663,8 @@ int main(void) {
       cmocka_unit_test(nothing_to_draw_is_said),
       cmocka_unit_test(a_scene_may_be_drawn_again),
       cmocka_unit_test(a_cube_at_true_scale_shows_nine_edges),
+      cmocka_unit_test(row_21_every_size_of_doubles_draws_the_same),
+      cmocka_unit_test(an_eye_beyond_numbers_is_refused),
       cmocka_unit_test(strokes_know_where_they_come_from),
       cmocka_unit_test(a_drawing_is_written_by_name_and_by_extension),
       cmocka_unit_test(formats_that_are_not_there_are_refused),

@@ -210,7 +210,7 @@ static void frames_are_orthonormal_and_right_handed(void **state) {
         frame_from_direction(up, random_between(&random, -400, 400),
                              random_between(&random, -90, 90));
     assert_orthonormal(&f);
-    assert_int_equal(frame_from_eye(&f, eye, target, up), FRAME_OK);
+    assert_int_equal(frame_from_eye(&f, eye, target, up, false), FRAME_OK);
     assert_orthonormal(&f);
     assert_true(dot(f.up, up) > 0);
     const double away[3] = {eye[0] - target[0], eye[1] - target[1],
@@ -540,8 +540,8 @@ static void what_makes_no_sense_is_refused(void **state) {
   REFUSED(o.fit = RECTO_FIT_SCALE; o.scale = INFINITY);
   REFUSED(eye_at(&o, 1, 2, 3); target_at(&o, 1, 2, 3));
   REFUSED(eye_at(&o, 0.5, 1, 0.25)); /* the middle of the scene */
-  REFUSED(eye_at(&o, 0, 9, 0); target_at(&o, 0, 0, 0));
-  REFUSED(eye_at(&o, 1e-9, 9, 0); target_at(&o, 0, 0, 0));
+  REFUSED(eye_at(&o, 0, 9, 0); target_at(&o, 0, 0, 0); o.up[1] = 2);
+  REFUSED(eye_at(&o, 1e-9, 9, 0); target_at(&o, 0, 0, 0); o.up[1] = 2);
 #undef REFUSED
   scene_fini(&scene);
 }
@@ -575,6 +575,113 @@ static void a_scene_beyond_numbers_is_refused(void **state) {
   scene.point.item[0].x = -DBL_MAX;
   scene.point.item[7].x = DBL_MAX;
   assert_refused(&scene, &options, RECTO_ERROR_LIMIT);
+  scene_fini(&scene);
+}
+
+/* ---- Far eyes -------------------------------------------------------------
+ */
+
+/* The extent of x over that of y of the whole drawing. */
+static double shape_of(const struct camera *camera, const struct scene *scene) {
+  struct rectangle r = rectangle_of(camera, scene);
+  return (r.high[0] - r.low[0]) / (r.high[1] - r.low[1]);
+}
+
+static void a_far_eye_sees_what_an_orthographic_one_does(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  /* A grid unit and the eye's own rounding at the border of the two. */
+  for (int e = 30; e <= 1020; e += e < 60 ? 1 : 97) {
+    double far = ldexp(1, e);
+    eye_at(&options, -0.5 + far * 1.5, far * 2, 0.25 + far * 2.75);
+    target_at(&options, 0, 0, 0.25);
+    options.fov_deg = 30;
+    struct camera camera = aim(&scene, &options);
+    eye_at(&options, 1.5, 2, 3);
+    options.fov_deg = 0;
+    struct camera level = aim(&scene, &options);
+    for (size_t p = 0; p < scene.point.count; p++) {
+      struct seen near = see_point(&level, &scene, p);
+      struct seen seen = see_point(&camera, &scene, p);
+      assert_near(seen.x_mm, near.x_mm, 4 * 0x1p-20);
+      assert_near(seen.y_mm, near.y_mm, 4 * 0x1p-20);
+    }
+    assert_near(shape_of(&camera, &scene), shape_of(&level, &scene), 1e-6);
+  }
+  scene_fini(&scene);
+}
+
+static void a_far_eye_keeps_scale_and_distances(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene); /* z from -3 to 0.5 */
+  recto_options options = plain_options();
+  const double far = 0x1p40;
+  options.fov_deg = 1e-9;
+  options.fit = RECTO_FIT_NONE;
+  eye_at(&options, 0, 0, far);
+  target_at(&options, 0, 0, 0);
+  struct camera camera = aim(&scene, &options);
+  assert_false(camera.perspective);
+  double height = 2 * far * tan(acos(-1) / 180 * 0.5e-9);
+  assert_near(camera.s / (80 / height), 1, 1e-9);
+  assert_near(see(&camera, 0, 0, 0).x_mm, 100, 1e-9);
+  options.fit = RECTO_FIT_SCALE;
+  options.scale = 7;
+  assert_near(aim(&scene, &options).s, 7, 1e-9);
+  options.has_section = true;
+  options.section = far + 1;
+  camera = aim(&scene, &options);
+  assert_near(camera.near_d - see(&camera, 0, 0, 0).d, 1, 1e-3);
+  options.has_section = false;
+  options.camera = RECTO_CAMERA_DIRECTION;
+  options.near_distance = 1; /* from an eye as far, so nothing is cut */
+  camera = aim(&scene, &options);
+  assert_false(camera.perspective);
+  assert_true(camera.near_d < camera.d_min);
+  scene_fini(&scene);
+}
+
+/* What it does not look at would be seen aslant, and sheared. */
+static void a_far_eye_must_look_at_the_scene(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  options.fov_deg = 30;
+  eye_at(&options, 0, 0, 1e15);
+  target_at(&options, 0.5, 0, 0);
+  (void)aim(&scene, &options);
+  target_at(&options, 1e14, 0, 0);
+  assert_refused(&scene, &options, RECTO_ERROR_LIMIT);
+  target_at(&options, 0, 0, 2e15); /* away from it */
+  assert_refused(&scene, &options, RECTO_ERROR_EMPTY);
+  scene_fini(&scene);
+}
+
+static void an_eye_right_above_sees_the_view_from_the_top(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  static const double up[][3] = {{0, 1, 0}, {0, 0, 1}, {3, 0, 0}};
+  for (size_t i = 0; i < 3; i++)
+    for (int sign = -1; sign <= 1; sign += 2) {
+      memcpy(scene.up, up[i], sizeof scene.up);
+      recto_options_init(&options);
+      options.azimuth_deg = 0;
+      options.elevation_deg = sign * 90;
+      struct camera top = aim(&scene, &options);
+      target_at(&options, 0, 0, 0);
+      eye_at(&options, sign * 9 * up[i][0], sign * 9 * up[i][1],
+             sign * 9 * up[i][2]);
+      struct camera above = aim(&scene, &options);
+      assert_axis(above.right, top.right[0], top.right[1], top.right[2]);
+      assert_axis(above.up, top.up[0], top.up[1], top.up[2]);
+      assert_axis(above.back, top.back[0], top.back[1], top.back[2]);
+    }
   scene_fini(&scene);
 }
 
@@ -764,6 +871,10 @@ int main(void) {
       cmocka_unit_test(what_makes_no_sense_is_refused),
       cmocka_unit_test(nothing_to_see_is_told),
       cmocka_unit_test(a_scene_beyond_numbers_is_refused),
+      cmocka_unit_test(a_far_eye_sees_what_an_orthographic_one_does),
+      cmocka_unit_test(a_far_eye_keeps_scale_and_distances),
+      cmocka_unit_test(a_far_eye_must_look_at_the_scene),
+      cmocka_unit_test(an_eye_right_above_sees_the_view_from_the_top),
       cmocka_unit_test(contact_is_a_millionth_of_the_size_unless_told),
       cmocka_unit_test(a_single_wire_fits_from_wherever_it_is_seen),
       cmocka_unit_test(a_plate_seen_edge_on_fits_by_its_other_extent),

@@ -6,4 +6,5 @@ librecto_core_la_SOURCES += \
   %D%/options.c \
   %D%/output.c \
   %D%/render.c \
+  %D%/rescale.c %D%/rescale.h \
   %D%/version.c

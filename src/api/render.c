@@ -1,10 +1,12 @@
 /* render.c - from scene to drawing: one stage after the other, each timed.
  *
- * Phases: check the options, find the edges, aim the camera, build the sheet,
+ * Phases: check the options, scale what is too large or small, find the edges, aim the camera, build the sheet,
  * choose the method, solve, ink. */
+#include <math.h>
 #include <unistd.h>
 
 #include "api/handle.h"
+#include "api/rescale.h"
 #include "ink/ink.h"
 #include "scene/topology.h"
 #include "view/camera.h"
@@ -15,6 +17,7 @@
 struct render {
   const recto_scene *model;
   const recto_options *options;
+  struct rescaled rescaled; /* scene and options as the stages see them */
   struct topology topology;
   struct camera camera;
   struct sheet sheet;
@@ -74,25 +77,28 @@ static int count_threads(const recto_options *options) {
 /* ---- Stages -------------------------------------------------------------- */
 
 static recto_status find_edges(struct render *render, recto_error *error) {
-  return topology_init(&render->topology, &render->model->scene, error);
+  return topology_init(&render->topology, &render->rescaled.scene, error);
 }
 
 static recto_status aim(struct render *render, recto_error *error) {
-  recto_status status = camera_aim(&render->camera, &render->model->scene,
-                                   render->options, error);
+  recto_status status = camera_aim(&render->camera, &render->rescaled.scene,
+                                   &render->rescaled.options, error);
   if (status != RECTO_OK)
     return status;
   double matrix[12];
   camera_matrix(&render->camera, matrix);
+  rescale_matrix(&render->rescaled, matrix);
   report_doubles(render->report, "camera", "model_to_page_mm", matrix, 12);
-  report_double(render->report, "camera", "contact", render->camera.contact);
+  report_double(render->report, "camera", "contact",
+                ldexp(render->camera.contact, render->rescaled.exponent));
   return RECTO_OK;
 }
 
 static recto_status project(struct render *render, recto_error *error) {
   bool outlines = render->options->fill != RECTO_FILL_NONE;
-  return sheet_init(&render->sheet, &render->model->scene, &render->topology,
-                    &render->camera, render->options, outlines, error);
+  return sheet_init(&render->sheet, &render->rescaled.scene, &render->topology,
+                    &render->camera, &render->rescaled.options, outlines,
+                    error);
 }
 
 /* Hands the share of the stage on as a share of the whole. */
@@ -126,7 +132,7 @@ static recto_status solve(struct render *render, recto_error *error) {
 }
 
 static recto_status ink(struct render *render, recto_error *error) {
-  return ink_draw(render->drawing, &render->sheet, &render->model->scene,
+  return ink_draw(render->drawing, &render->sheet, &render->rescaled.scene,
                   &render->map, render->options, error);
 }
 
@@ -216,7 +222,10 @@ static recto_status run(struct render *render, recto_error *error) {
   report_seconds(render->report, "read_cpu_s", render->model->read_cpu);
   report_seconds(render->report, "read_wall_s", render->model->read_wall);
   map_init(&render->map);
-  status = run_stages(render, error);
+  status = rescale(&render->rescaled, &render->model->scene, render->options,
+                   error);
+  if (status == RECTO_OK)
+    status = run_stages(render, error);
   if (status == RECTO_OK) {
     report_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
     report_seconds(render->report, "render_wall_s", clock_wall() - wall);
@@ -228,6 +237,7 @@ static recto_status run(struct render *render, recto_error *error) {
   map_fini(&render->map);
   sheet_fini(&render->sheet);
   topology_fini(&render->topology);
+  rescale_fini(&render->rescaled);
   return status;
 }
 

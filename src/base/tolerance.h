@@ -46,6 +46,18 @@
  * Ten times   views within 1.5e-7 rad of up are refused. */
 #define TOLERANCE_UP_SINE 0x1p-26
 
+/* A perspective eye farther away than this sees the scene as an orthographic
+ * view does.
+ * Unit        the scene's diagonal
+ * Derivation  a point half a diagonal behind the middle and half of one aside
+ *             moves on the page by 2^-29 of the drawing's extent, half a grid
+ *             unit on A4; and differences to an eye so far away are off by
+ *             2^-26 of the diagonal.  The one error falls and the other rises
+ *             with the distance: they meet here.
+ * Users       view/camera.c
+ * Ten times   eyes almost as far lose another three bits of their depths. */
+#define TOLERANCE_FAR_EYE 0x1p27
+
 /* Nearest that a perspective view comes to the eye where no near distance is
  * given and the scene is not safely in front of it.
  * Unit        share of the scene's diagonal

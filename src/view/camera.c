@@ -6,7 +6,9 @@
  *   fit     the scale, and where the view axis meets the page.
  * Robustness  Coordinates are taken from the eye before anything else is done
  * with them, and an orthographic eye stands right before the scene wherever
- * the scene lies, so that no digits are lost to a far origin.  Every length
+ * the scene lies, so that no digits are lost to a far origin.  A perspective
+ * eye so far away that differences to it would lose the scene's digits sees
+ * what an orthographic one does: such a view is made one.  Every length
  * is judged against the scene's own, so that scaling the scene by a power of
  * two changes no bit of the drawing.
  */
@@ -35,7 +37,10 @@ struct aim {
   uint8_t *used;        /* one a point */
   double centre[3];     /* of the scene's bounding box */
   double target[3];     /* what is looked at */
-  double target_d;      /* its depth */
+  double eye[3];        /* where a perspective eye stands, however far */
+  bool far;             /* so far that the view is made orthographic */
+  double centre_d;      /* then the depth of the scene's middle */
+  double target_d;      /* then that of the target */
   double d_low, d_high; /* depths of the scene, nothing cut */
 };
 
@@ -137,21 +142,20 @@ static double distance_for_fov(const struct aim *aim) {
 static recto_status set_axes(struct aim *aim) {
   const recto_options *o = aim->options;
   double up[3] = {0, 1, 0};
-  if (o->up[0] != 0 || o->up[1] != 0 || o->up[2] != 0)
+  bool named = o->up[0] != 0 || o->up[1] != 0 || o->up[2] != 0;
+  if (named)
     memcpy(up, o->up, sizeof up);
   else if (aim->scene->up[0] != 0 || aim->scene->up[1] != 0 ||
            aim->scene->up[2] != 0)
     memcpy(up, aim->scene->up, sizeof up);
   struct frame frame;
   if (o->camera == RECTO_CAMERA_EYE) {
-    switch (frame_from_eye(&frame, o->eye, aim->target, up)) {
-    case FRAME_NO_DIRECTION:
+    enum frame_fault fault =
+        frame_from_eye(&frame, o->eye, aim->target, up, !named);
+    if (fault == FRAME_NO_DIRECTION)
       return refuse(aim, "the eye is where it looks");
-    case FRAME_UP_ALONG_VIEW:
+    if (fault == FRAME_UP_ALONG_VIEW)
       return refuse(aim, "up points along the view");
-    case FRAME_OK:
-      break;
-    }
   } else {
     frame = frame_from_direction(up, o->azimuth_deg, o->elevation_deg);
   }
@@ -161,16 +165,53 @@ static recto_status set_axes(struct aim *aim) {
   return RECTO_OK;
 }
 
-static void set_eye(struct aim *aim) {
-  struct camera *camera = aim->camera;
-  if (camera->perspective && aim->options->camera == RECTO_CAMERA_EYE) {
-    memcpy(camera->eye, aim->options->eye, sizeof camera->eye);
-    return;
-  }
-  const double *from = camera->perspective ? aim->target : aim->centre;
-  double distance = camera->perspective ? distance_for_fov(aim) : camera->size;
+static void step_back(const struct aim *aim, const double from[3],
+                      double distance, double eye[3]) {
   for (int k = 0; k < 3; k++)
-    camera->eye[k] = from[k] + camera->back[k] * distance;
+    eye[k] = from[k] + aim->camera->back[k] * distance;
+}
+
+static void difference(const double a[3], const double b[3], double c[3]) {
+  for (int k = 0; k < 3; k++)
+    c[k] = a[k] - b[k];
+}
+
+/* Makes the view from a far eye an orthographic one.  It is one only where the
+ * scene is close to the view axis: what is seen aslant is sheared. */
+static recto_status judge_distance(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  double to_eye[3], to_target[3], aside[3];
+  difference(aim->eye, aim->centre, to_eye);
+  aim->centre_d = vector_dot(camera->back, to_eye);
+  aim->far = camera->perspective && aim->centre_d > 0 &&
+             vector_length(to_eye) > camera->size * TOLERANCE_FAR_EYE;
+  if (!aim->far)
+    return RECTO_OK;
+  difference(aim->eye, aim->target, to_target);
+  difference(aim->centre, aim->target, aside);
+  aim->target_d = vector_dot(camera->back, to_target);
+  double limit = aim->centre_d / TOLERANCE_FAR_EYE;
+  if (!(fabs(vector_dot(camera->right, aside)) <= limit &&
+        fabs(vector_dot(camera->up, aside)) <= limit))
+    return error_set(aim->error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "the eye is too far from a scene that it does not look "
+                     "at");
+  camera->perspective = false;
+  return RECTO_OK;
+}
+
+static recto_status set_eye(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  if (aim->options->camera == RECTO_CAMERA_EYE)
+    memcpy(aim->eye, aim->options->eye, sizeof aim->eye);
+  else if (camera->perspective)
+    step_back(aim, aim->target, distance_for_fov(aim), aim->eye);
+  recto_status status = judge_distance(aim);
+  if (camera->perspective)
+    memcpy(camera->eye, aim->eye, sizeof camera->eye);
+  else
+    step_back(aim, aim->centre, camera->size, camera->eye);
+  return status;
 }
 
 static struct view_point view_of(const struct aim *aim, const double p[3]) {
@@ -208,9 +249,9 @@ static double choose_near(const struct aim *aim) {
  * the nearest point of the scene.  A perspective eye set by a direction is
  * an eye for the near distance all the same. */
 static double depth_of_eye(const struct aim *aim, bool section) {
-  if (aim->options->camera == RECTO_CAMERA_EYE)
-    return view_of(aim, aim->options->eye).d;
-  return aim->camera->perspective && !section ? 0 : aim->d_low;
+  bool is_eye = aim->options->camera == RECTO_CAMERA_EYE ||
+                (aim->options->fov_deg > 0 && !section);
+  return is_eye ? view_of(aim, aim->eye).d : aim->d_low;
 }
 
 static recto_status set_reach(struct aim *aim) {
@@ -280,10 +321,14 @@ static void set_scale(struct aim *aim) {
     camera->s = o->scale;
     if (camera->perspective)
       camera->s *= view_of(aim, aim->target).d;
-  } else if (camera->perspective) {
+    else if (aim->far)
+      camera->s *= aim->target_d / aim->centre_d;
+  } else if (camera->perspective || aim->far) {
     struct angle half = angle_of_degrees(o->fov_deg / 2);
     camera->s = (o->page_height_mm - 2 * o->margin_mm) /
                 (2 * (half.sine / half.cosine));
+    if (aim->far)
+      camera->s /= aim->centre_d;
   } else {
     camera->s = 1;
   }
@@ -318,8 +363,9 @@ static recto_status aim_and_fit(struct aim *aim) {
   status = set_axes(aim);
   if (status != RECTO_OK)
     return status;
-  set_eye(aim);
-  status = set_reach(aim);
+  status = set_eye(aim);
+  if (status == RECTO_OK)
+    status = set_reach(aim);
   if (status != RECTO_OK)
     return status;
   set_scale(aim);

@@ -43,7 +43,8 @@ struct frame frame_from_direction(const double up[3], double azimuth_deg,
 }
 
 enum frame_fault frame_from_eye(struct frame *frame, const double eye[3],
-                                const double target[3], const double up[3]) {
+                                const double target[3], const double up[3],
+                                bool may_turn) {
   double u[3];
   for (int k = 0; k < 3; k++) {
     frame->back[k] = eye[k] - target[k];
@@ -54,8 +55,13 @@ enum frame_fault frame_from_eye(struct frame *frame, const double eye[3],
   if (!vector_normalise(u))
     return FRAME_UP_ALONG_VIEW;
   vector_cross(u, frame->back, frame->right);
-  if (!(vector_length(frame->right) > TOLERANCE_UP_SINE))
-    return FRAME_UP_ALONG_VIEW;
+  if (!(vector_length(frame->right) > TOLERANCE_UP_SINE)) {
+    if (!may_turn)
+      return FRAME_UP_ALONG_VIEW;
+    double elevation_deg = vector_dot(u, frame->back) > 0 ? 90 : -90;
+    struct frame level = frame_from_direction(up, 0, elevation_deg);
+    vector_cross(level.up, frame->back, frame->right);
+  }
   vector_normalise(frame->right);
   vector_cross(frame->back, frame->right, frame->up);
   vector_normalise(frame->up);

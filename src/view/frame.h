@@ -22,8 +22,12 @@ struct frame frame_from_direction(const double up[3], double azimuth_deg,
 
 enum frame_fault { FRAME_OK = 0, FRAME_NO_DIRECTION, FRAME_UP_ALONG_VIEW };
 
-/* Looks from eye to target; all finite. */
+/* Looks from eye to target; all finite.
+ * may_turn  where up is along the view, take what is up in the view of a
+ *           scene from right above it, or right below, as
+ *           frame_from_direction has it */
 enum frame_fault frame_from_eye(struct frame *frame, const double eye[3],
-                                const double target[3], const double up[3]);
+                                const double target[3], const double up[3],
+                                bool may_turn);
 
 #endif
