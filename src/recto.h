@@ -145,6 +145,10 @@ typedef enum recto_divide {
 
 /* ---- Options ------------------------------------------------------------ */
 
+/* Pens, the pitches of hatching and of scan lines are no finer than this: on
+ * the largest page, 2 m, that is 200,000 lines. */
+#define RECTO_FINEST_MM 0.01
+
 /* Called now and then with the share of the work done, 0 to 1, and the name
  * of the stage.  Returns false to cancel: the call then ends with
  * RECTO_ERROR_CANCELLED and no output. */
@@ -160,7 +164,8 @@ typedef struct recto_options {
   recto_method method;
   int threads;     /* 0: as many as the machine offers */
   double contact;  /* scene units; negative: a millionth of the size */
-  double pitch_mm; /* watkins: between scan lines; 0: exact sweep */
+  double pitch_mm; /* watkins: between scan lines; 0: exact sweep, else at
+                      least RECTO_FINEST_MM */
   int resolution;  /* raster methods: lines over the page height; warnock:
                       in pixels, so many lines; 0: exact */
 
@@ -188,10 +193,10 @@ typedef struct recto_options {
   double crease_deg;
   recto_hidden hidden;
   recto_fill fill;
-  double hatch_pitch_mm, hatch_angle_deg;
+  double hatch_pitch_mm, hatch_angle_deg; /* at least RECTO_FINEST_MM */
   double light[3]; /* direction towards the light; 0,0,0: the viewer's
                       upper left */
-  double pen_mm;
+  double pen_mm; /* RECTO_FINEST_MM to 100 */
   int pens; /* pens to deal the groups to; 1: all on one */
   recto_order order;
   double simplify_mm;   /* no point of a line moves by more */

@@ -534,6 +534,51 @@ static void one_call_does_it_and_warns_by_line(void **state) {
   assert_int_equal(unlink(model), 0);
 }
 
+static void keep_warning(void *user, const char *file, unsigned long line,
+                         const char *text) {
+  (void)file;
+  (void)line;
+  snprintf(user, 128, "%s", text);
+}
+
+static void assert_warns(const recto_scene *scene, recto_options options,
+                         const char *wanted) {
+  char text[128] = "";
+  options.warning = keep_warning;
+  options.user = text;
+  recto_drawing_destroy(draw(scene, &options));
+  assert_string_equal(text, wanted);
+}
+
+static void an_empty_page_says_why(void **state) {
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_options options;
+  recto_options_init(&options);
+  assert_warns(scene, options, "");
+  options.edges = RECTO_EDGES_NONE;
+  assert_warns(scene, options, "");
+  options.edges = RECTO_EDGE_INTERSECTION;
+  assert_warns(scene, options,
+               "the drawing is empty: no line of the classes that were asked "
+               "for is visible");
+  options.edges = RECTO_EDGES_DEFAULT;
+  options.fit = RECTO_FIT_SCALE;
+  options.scale = 0.01;
+  assert_warns(scene, options,
+               "the drawing is empty: every line is shorter than the shortest "
+               "that is drawn");
+  options.scale = 100;
+  options.has_target = true;
+  options.target[0] = 50;
+  assert_warns(scene, options,
+               "the drawing is empty: all of the scene is outside of the page");
+  options.fill = RECTO_FILL_PAINT;
+  assert_warns(scene, options,
+               "the drawing is empty: all of the scene is outside of the page");
+  recto_scene_destroy(scene);
+}
+
 static void a_bad_job_leaves_nothing(void **state) {
   (void)state;
   recto_error error = {0};
@@ -670,6 +715,7 @@ int main(void) {
       cmocka_unit_test(formats_that_are_not_there_are_refused),
       cmocka_unit_test(formats_are_told),
       cmocka_unit_test(one_call_does_it_and_warns_by_line),
+      cmocka_unit_test(an_empty_page_says_why),
       cmocka_unit_test(a_bad_job_leaves_nothing),
       cmocka_unit_test(progress_rises_and_may_cancel_at_every_step),
       cmocka_unit_test(every_allocation_may_fail),

@@ -91,6 +91,8 @@ claim "an unknown format name is wrong usage" refuses 'no output format' \
 claim "standard input needs its format" refuses 'needs --from' - -o no.svg
 claim "an unknown model format is wrong usage" \
   refuses '.' cube.obj -o no.svg --from nonsense
+claim "an unknown plotter is wrong usage, whatever the output" \
+  refuses 'no plotter "foo"' cube.obj -o no.svg --device foo
 claim "eye and view exclude each other" refuses 'exclude' \
   cube.obj -o no.svg --camera 1,2,3 --view top
 claim "--ortho and --fov exclude each other" refuses 'exclude' \
@@ -109,7 +111,7 @@ azimuth nan 1e999 30deg
 elevation 91 -91 x
 camera 1,2 1,2,3,4 1,2,x 1,,3 nan,0,0 1;2;3
 lookat 1,2
-up 0
+up 0 0,0,0
 fov 0 -1 180 x
 scale 0 1: :1 1:0 -1:2 1:2:3 x
 near 0 -1 x
@@ -122,7 +124,10 @@ margin -1 x 1,5 nan 1e999mm 10furlongs
 edges x silhouette, ,crease silhouette,,crease
 crease -1 181 x
 hidden x
-pen 0 -1 101 x
+pen 0 -1 101 x 1e-9 0.009mm
+hatch-pitch 0 1e-9 x
+pitch 0 1e-9
+light 0,0,0 x
 pens 0 1001 1.5 x
 simplify -1
 min-stroke -1
@@ -311,7 +316,19 @@ full_output() {
 claim "a full standard output fails" full_output
 claim "a full disk for --stats fails" run 1 cube.obj -o cube.svg \
   --stats=/dev/full
+no_drawing_without_stats() {
+  rm -f no.svg
+  run 1 cube.obj -o no.svg --stats=/no/such/folder/stats && says '/no/such' &&
+    test ! -e no.svg
+}
+claim "where --stats cannot be written nothing is" no_drawing_without_stats
 claim "nothing half-written is left" none_left
+
+# The default up gives way to an eye right above; one that was named does not.
+claim "an eye right above needs no --up" run 0 cube.obj -o above.svg \
+  --camera 0,10,0
+claim "--up along the view is refused" refuses 'up points along the view' \
+  cube.obj -o no.svg --camera 0,10,0 --up 0,1,0
 
 # An eye on its target is wrong usage that only the scene tells.
 claim "an eye on its target is refused" refuses '.' cube.obj -o no.svg \
@@ -340,10 +357,18 @@ claim "an interrupt leaves nothing behind" interrupt_cleans_up
 # ---- Locale ---------------------------------------------------------------
 
 comma_locale() {
-  localedef -i de_DE -f UTF-8 "$PWD/de_DE.UTF-8" 2>/dev/null ||
-    test -d de_DE.UTF-8
+  # The tool is there on every machine; the sources of locales may not be.
+  {
+    printf 'LC_NUMERIC\ndecimal_point ","\nthousands_sep "."\n'
+    printf 'grouping 3;3\nEND LC_NUMERIC\n'
+  } >comma.source
+  localedef -c --no-archive -i comma.source -f ANSI_X3.4-1968 "$PWD/comma" \
+    >/dev/null 2>&1
+  test "$(in_comma_locale locale decimal_point)" = ,
 }
-in_comma_locale() { LOCPATH=$PWD LC_ALL=de_DE.UTF-8 "$@"; }
+in_comma_locale() {
+  env -u LC_ALL LANG=C LOCPATH="$PWD" LC_NUMERIC=comma "$@"
+}
 unit_in_comma_locale() {
   in_comma_locale "$builddir/tests/$1" >unit.log 2>&1 ||
     { say "$(tail -n 5 unit.log)" && false; }

@@ -185,6 +185,22 @@ static void comments_are_not_continued(void **state) {
   (void)state;
   assert_same("# C:\\models\\\n" POINTS "f 1 2 3 # C:\\\nf 1 3 4\n",
               POINTS "f 1 2 3\nf 1 3 4\n");
+  assert_same("v 0 0 0 # C:\\\nv 1 0 0 1 # C:\\\nv 1 1 0\nv 0 1 0\nf 1 2 3\n",
+              POINTS "f 1 2 3\n");
+}
+
+static void a_comment_may_begin_anywhere(void **state) {
+  (void)state;
+  assert_same("v 0 0 0#a\nv 1 0 0#\nv 1 1 0.#1\nv 0 1 0 #\nf 1 2 3#4\n"
+              "f 1/1 2//2 3/3/3#4\nl 1 2#3\n",
+              POINTS "f 1 2 3\nf 1 2 3\nl 1 2\n");
+}
+
+static void carriage_returns_alone_are_refused_by_name(void **state) {
+  (void)state;
+  ASSERT_BROKEN("v 0 0 0\rv 1 0 0\rv 1 1 0\rf 1 2 3\r", 1,
+                "its lines end in a carriage return alone; a line feed must "
+                "end them");
 }
 
 static void ends_of_lines_may_have_a_carriage_return(void **state) {
@@ -521,6 +537,8 @@ int main(void) {
       T(what_else_there_is_is_passed_over),
       T(lines_may_be_continued),
       T(comments_are_not_continued),
+      T(a_comment_may_begin_anywhere),
+      T(carriage_returns_alone_are_refused_by_name),
       T(ends_of_lines_may_have_a_carriage_return),
       T(the_last_line_needs_no_end),
       T(objects_groups_and_materials_are_groups),

@@ -42,6 +42,9 @@ static void assert_broken(const char *bytes, size_t count, unsigned long line,
 #define ASSERT_BROKEN(text, line, message)                                     \
   assert_broken((text), sizeof(text) - 1, (line), (message))
 
+#define NEITHER                                                                \
+  "neither a text STL, which begins with 'solid', nor a binary one"
+
 /* ---- Binary ---------------------------------------------------------------
  */
 
@@ -214,16 +217,17 @@ static void a_truncated_binary_file_is_an_error(void **state) {
   struct binary *binary = start_binary("solid, it says");
   add_square(binary);
   assert_broken(binary->bytes, 183, 2,
-                "binary STL of 2 triangles in 183 bytes instead of 184");
+                "binary STL cut short: it says 2 triangles and has 1");
   assert_broken(binary->bytes, 134, 2,
-                "binary STL of 2 triangles in 134 bytes instead of 184");
+                "binary STL cut short: it says 2 triangles and has 1");
   assert_broken(binary->bytes, 84, 1,
-                "binary STL of 2 triangles in 84 bytes instead of 184");
-  assert_broken(binary->bytes, 83, 1, "neither a text nor a binary STL");
-  assert_broken(binary->bytes, 1, 1, "neither a text nor a binary STL");
+                "binary STL cut short: it says 2 triangles and has 0");
+  assert_broken(binary->bytes, 83, 1, NEITHER);
+  assert_broken(binary->bytes, 1, 1, NEITHER);
   binary->bytes[binary->count] = 'x';
   assert_broken(binary->bytes, 185, 3,
-                "binary STL of 2 triangles in 185 bytes instead of 184");
+                "binary STL with 1 bytes after the 2 triangles that it says "
+                "it has");
 }
 
 /* Four thousand million triangles in a hundred bytes: told at once, and
@@ -234,8 +238,8 @@ static void a_size_is_checked_before_memory_is_taken(void **state) {
   put_uint32(binary->bytes + 80, UINT32_C(4000000000));
   mem_fail_after(1);
   assert_broken(binary->bytes, 100, 1,
-                "binary STL of 4000000000 triangles in 100 bytes instead of "
-                "200000000084");
+                "binary STL cut short: it says 4000000000 triangles and has "
+                "0");
 }
 
 /* ---- Text -----------------------------------------------------------------
@@ -352,9 +356,17 @@ static void text_out_of_order_is_an_error(void **state) {
 
 static void other_text_is_an_error(void **state) {
   (void)state;
-  ASSERT_BROKEN("v 0 0 0\n", 1, "neither a text nor a binary STL");
-  ASSERT_BROKEN("solid\0x", 1, "neither a text nor a binary STL");
+  ASSERT_BROKEN("v 0 0 0\n", 1, NEITHER);
+  ASSERT_BROKEN("solid\0x", 1, NEITHER);
   ASSERT_BROKEN("solidity\n", 1, "'solidity' where 'solid' should stand");
+}
+
+/* Long enough to have a count of triangles, if it were binary. */
+static void long_text_is_not_taken_for_a_count(void **state) {
+  (void)state;
+  ASSERT_BROKEN("# a model of another kind, by somebody who gave it this name\n"
+                "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n# end\n",
+                1, NEITHER);
 }
 
 static void row_22_a_decimal_comma_changes_nothing(void **state) {
@@ -428,6 +440,7 @@ int main(void) {
       T(text_that_stops_is_an_error),
       T(text_out_of_order_is_an_error),
       T(other_text_is_an_error),
+      T(long_text_is_not_taken_for_a_count),
       T(row_22_a_decimal_comma_changes_nothing),
       T(running_out_of_memory_is_an_error),
   };

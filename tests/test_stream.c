@@ -184,6 +184,37 @@ static void a_link_stays_and_its_file_is_replaced(void **state) {
   assert_file(path, "new");
 }
 
+static void the_file_behind_a_link_is_made(void **state) {
+  const char *path = temporary_path(state, "new.txt");
+  const char *link = temporary_path(state, "link.txt");
+  const char *other = temporary_path(state, "other.txt");
+  assert_int_equal(symlink("link.txt", other), 0);
+  assert_int_equal(symlink(path, link), 0);
+  struct stream *stream = open_stream(other);
+  stream_text(stream, "new");
+  assert_int_equal(stream_finish(stream, NULL), RECTO_OK);
+  struct stat about;
+  assert_int_equal(lstat(other, &about), 0);
+  assert_true(S_ISLNK(about.st_mode));
+  assert_int_equal(lstat(link, &about), 0);
+  assert_true(S_ISLNK(about.st_mode));
+  assert_file(path, "new");
+}
+
+static void a_ring_of_links_is_an_error(void **state) {
+  const char *a = temporary_path(state, "a"), *b = temporary_path(state, "b");
+  assert_int_equal(symlink("b", a), 0);
+  assert_int_equal(symlink("a", b), 0);
+  struct stream *stream;
+  recto_error error = {0};
+  recto_status status = stream_open(&stream, a, &error);
+  if (status == RECTO_OK) {
+    stream_discard(stream);
+    fail_msg("opened");
+  }
+  assert_int_equal(status, RECTO_ERROR_IO);
+}
+
 static void two_streams_in_one_folder_do_not_mix(void **state) {
   const char *a = temporary_path(state, "a"), *b = temporary_path(state, "b");
   struct stream *first = open_stream(a), *second = open_stream(b);
@@ -314,6 +345,8 @@ int main(void) {
       T(a_replaced_file_keeps_its_mode),
       T(a_new_file_has_the_mode_that_umask_leaves),
       T(a_link_stays_and_its_file_is_replaced),
+      T(the_file_behind_a_link_is_made),
+      T(a_ring_of_links_is_an_error),
       T(two_streams_in_one_folder_do_not_mix),
       T(places_that_cannot_be_written_are_told),
       T(standard_output_is_held_back_until_the_end),

@@ -2,6 +2,7 @@
 #include <float.h>
 
 #include "api/handle.h"
+#include "backends/device.h"
 
 void recto_options_init(recto_options *options) {
   *options = (recto_options){
@@ -41,7 +42,8 @@ static recto_status check_ranges(const struct range *range, size_t count,
   for (size_t i = 0; i < count; i++)
     if (!(range[i].value >= range[i].least && range[i].value <= range[i].most))
       return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                       "%s is out of range", range[i].name);
+                       "%s is out of range: %g to %g", range[i].name,
+                       range[i].least, range[i].most);
   return RECTO_OK;
 }
 
@@ -51,7 +53,7 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the method", o->method, 0, RECTO_METHOD_COUNT - 1},
       {"the number of threads", o->threads, 0, 1024},
       {"the contact length", o->contact, -huge, huge},
-      {"the pitch", o->pitch_mm, 0, huge},
+      {"the pitch", o->pitch_mm, o->pitch_mm == 0 ? 0 : RECTO_FINEST_MM, huge},
       {"the resolution", o->resolution, 0, 1 << 20},
       {"the kind of camera", o->camera, 0, RECTO_CAMERA_EYE},
       {"the azimuth", o->azimuth_deg, -huge, huge},
@@ -77,12 +79,12 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the crease angle", o->crease_deg, 0, 180},
       {"the way with hidden lines", o->hidden, 0, RECTO_HIDDEN_LAYER},
       {"the kind of fill", o->fill, 0, RECTO_FILL_HATCH},
-      {"the hatch pitch", o->hatch_pitch_mm, small, huge},
+      {"the hatch pitch", o->hatch_pitch_mm, RECTO_FINEST_MM, huge},
       {"the hatch angle", o->hatch_angle_deg, -huge, huge},
       {"the light", o->light[0], -huge, huge},
       {"the light", o->light[1], -huge, huge},
       {"the light", o->light[2], -huge, huge},
-      {"the pen width", o->pen_mm, small, 100},
+      {"the pen width", o->pen_mm, RECTO_FINEST_MM, 100},
       {"the number of pens", o->pens, 1, 1000},
       {"the order", o->order, 0, RECTO_ORDER_NEAR},
       {"the simplification", o->simplify_mm, 0, huge},
@@ -94,5 +96,8 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the number of sub-pixels", o->subpixels, 0, 16},
       {"the number of depth bits", o->depth_bits, 0, 32},
   };
+  if (o->device != NULL && device_by_name(o->device) == NULL)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "there is no plotter \"%.60s\"", o->device);
   return check_ranges(range, sizeof range / sizeof range[0], error);
 }

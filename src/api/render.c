@@ -3,6 +3,7 @@
  * Phases: check the options, scale what is too large or small, find the edges, aim the camera, build the sheet,
  * choose the method, solve, ink. */
 #include <math.h>
+#include <stdio.h>
 #include <unistd.h>
 
 #include "api/handle.h"
@@ -211,6 +212,24 @@ static void report_drawing(struct report *report,
   report_double(report, "drawing", "travel_mm", drawing_travel_mm(drawing));
 }
 
+/* An empty page is an answer, but seldom the one that was wanted. */
+static void warn_of_empty_page(const struct render *render) {
+  const recto_options *o = render->options;
+  const struct drawing *drawing = render->drawing;
+  bool asked = o->edges != RECTO_EDGES_NONE || o->fill != RECTO_FILL_NONE;
+  if (drawing->stroke.count > 0 || drawing->fill.count > 0 || !asked ||
+      o->warning == NULL)
+    return;
+  const char *why = "no line of the classes that were asked for is visible";
+  if (render->sheet.triangle.count == 0 && render->sheet.edge.count == 0)
+    why = "all of the scene is outside of the page";
+  else if (report_get(render->report, "ink", "too_short", 0) > 0)
+    why = "every line is shorter than the shortest that is drawn";
+  char text[128];
+  snprintf(text, sizeof text, "the drawing is empty: %s", why);
+  o->warning(o->user, "", 0, text);
+}
+
 /* ---- All of it ----------------------------------------------------------- */
 
 static recto_status run(struct render *render, recto_error *error) {
@@ -229,6 +248,7 @@ static recto_status run(struct render *render, recto_error *error) {
   if (status == RECTO_OK) {
     report_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
     report_seconds(render->report, "render_wall_s", clock_wall() - wall);
+    warn_of_empty_page(render);
     report_sheet(render->report, render);
     report_drawing(render->report, render->drawing);
     report_int(render->report, "memory", "peak_bytes",

@@ -9,8 +9,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -78,13 +78,50 @@ static char *copy_text(const char *text) {
   return copy;
 }
 
+/* What the link at `path` says, as seen from here; NULL with *failed false
+ * where there is no link. */
+static char *read_link(const char *path, bool *failed) {
+  struct stat about;
+  *failed = false;
+  if (lstat(path, &about) != 0 || !S_ISLNK(about.st_mode))
+    return NULL;
+  const char *slash = strrchr(path, '/');
+  size_t folder = slash ? (size_t)(slash + 1 - path) : 0;
+  char *target = mem_alloc(folder + PATH_MAX, 1);
+  ssize_t length =
+      target ? readlink(path, target + folder, PATH_MAX - 1) : -1;
+  *failed = length <= 0;
+  if (*failed) {
+    mem_free(target);
+    return NULL;
+  }
+  target[folder + (size_t)length] = '\0';
+  if (target[folder] == '/')
+    memmove(target, target + folder, (size_t)length + 1);
+  else
+    memcpy(target, path, folder);
+  return target;
+}
+
 /* The path with its symbolic links followed, so that a link is kept and the
- * file behind it is replaced; of a new file just the path. */
+ * file behind it is replaced, or made where there is none.  A ring of links is
+ * left for the system to complain of. */
 static char *follow_links(const char *path) {
-  char *resolved = realpath(path, NULL);
-  char *copy = copy_text(resolved ? resolved : path);
-  free(resolved);
-  return copy;
+  enum { MOST_LINKS = 40 };
+  char *here = copy_text(path);
+  bool failed = here == NULL;
+  for (int i = 0; i < MOST_LINKS && !failed; i++) {
+    char *target = read_link(here, &failed);
+    if (target == NULL)
+      break;
+    mem_free(here);
+    here = target;
+  }
+  if (failed) {
+    mem_free(here);
+    return NULL;
+  }
+  return here;
 }
 
 /* Creates a file of a new name in the folder of stream->path. */
@@ -119,6 +156,11 @@ static bool create_temporary(struct stream *stream, recto_error *error) {
 static bool open_path(struct stream *stream, recto_error *error) {
   struct stat about;
   bool exists = stat(stream->path, &about) == 0;
+  if (!exists && errno == ELOOP) {
+    error_set(error, RECTO_ERROR_IO, stream->name, 0, "cannot create: %s",
+              strerror(errno));
+    return false;
+  }
   if (exists && S_ISDIR(about.st_mode)) {
     error_set(error, RECTO_ERROR_IO, stream->name, 0, "is a directory");
     return false;

@@ -59,6 +59,10 @@ static bool in_range(const struct option_entry *entry, double value) {
   return value >= entry->least && value <= entry->most;
 }
 
+static bool is_nothing(const double vector[3]) {
+  return vector[0] == 0 && vector[1] == 0 && vector[2] == 0;
+}
+
 /* Puts the option's value where it belongs; false where it is not what the
  * option expects. */
 static bool store(struct arguments *arguments, const struct option_entry *entry,
@@ -86,7 +90,8 @@ static bool store(struct arguments *arguments, const struct option_entry *entry,
     *(int *)to = integer;
     return in_range(entry, integer);
   case OPTION_VECTOR:
-    return value_vector(text, to);
+    return value_vector(text, to) &&
+           (entry->least == 0 || !is_nothing((const double *)to));
   case OPTION_WORD:
     if (!value_word(text, entry->words, &integer))
       return false;

@@ -40,7 +40,7 @@ enum option_kind {
   OPTION_NUMBER,  /* a double in [least, most] */
   OPTION_LENGTH,  /* a double in [least, most], in mm */
   OPTION_INT,     /* an int in [least, most] */
-  OPTION_VECTOR,  /* a double[3] */
+  OPTION_VECTOR,  /* a double[3]; not 0,0,0 where `least` is above 0 */
   OPTION_WORD,    /* an enumerator, by its place in `words` */
   OPTION_TAKE,    /* what `take` makes of it */
   OPTION_ABSENT   /* known, but not available in this build */

@@ -60,20 +60,28 @@ static bool pass_progress(void *user, double share, const char *stage) {
 
 /* ---- The work ------------------------------------------------------------ */
 
+/* Opens what the stats go to, before any of the work: a drawing whose stats
+ * cannot be written is not to be written either.
+ * stream  NULL: to standard error, or nowhere */
+static recto_status open_stats(const struct arguments *arguments,
+                               struct stream **stream, recto_error *error) {
+  const char *file = arguments->stats_file;
+  *stream = NULL;
+  if (!arguments->stats || (file == NULL && strcmp(arguments->output, "-") == 0))
+    return RECTO_OK;
+  return stream_open(stream, file != NULL ? file : "-", error);
+}
+
+/* Finishes the stream, if there is one. */
 static recto_status write_stats(const struct arguments *arguments,
                                 const recto_drawing *drawing,
-                                recto_error *error) {
+                                struct stream *stream, recto_error *error) {
   const char *json = recto_drawing_stats(drawing);
-  if (arguments->stats_file == NULL && strcmp(arguments->output, "-") == 0) {
-    fputs(json, stderr);
+  if (stream == NULL) {
+    if (arguments->stats)
+      fputs(json, stderr);
     return RECTO_OK;
   }
-  const char *path =
-      arguments->stats_file != NULL ? arguments->stats_file : "-";
-  struct stream *stream;
-  recto_status status = stream_open(&stream, path, error);
-  if (status != RECTO_OK)
-    return status;
   stream_text(stream, json);
   return stream_finish(stream, error);
 }
@@ -91,8 +99,11 @@ static recto_status work(const struct arguments *arguments,
                          recto_error *error) {
   recto_scene *scene = NULL;
   recto_drawing *drawing = NULL;
+  struct stream *stats;
   const recto_options *options = &arguments->options;
-  recto_status status = recto_scene_create(&scene, error);
+  recto_status status = open_stats(arguments, &stats, error);
+  if (status == RECTO_OK)
+    status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)
     status = read_models(arguments, scene, error);
   if (status == RECTO_OK)
@@ -100,8 +111,10 @@ static recto_status work(const struct arguments *arguments,
   if (status == RECTO_OK)
     status = recto_drawing_write(drawing, arguments->output, arguments->format,
                                  options, error);
-  if (status == RECTO_OK && arguments->stats)
-    status = write_stats(arguments, drawing, error);
+  if (status == RECTO_OK)
+    status = write_stats(arguments, drawing, stats, error);
+  else
+    stream_discard(stats);
   recto_drawing_destroy(drawing);
   recto_scene_destroy(scene);
   return status;

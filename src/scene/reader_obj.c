@@ -58,7 +58,7 @@ static inline bool is_blank(char c) {
 
 /* Whether a word may end before this character. */
 static inline bool ends_word(char c) {
-  return (unsigned char)c <= ' ' || c == '\\';
+  return (unsigned char)c <= ' ' || c == '\\' || c == '#';
 }
 
 /* Passes over a backslash at the end of a line. */
@@ -83,7 +83,7 @@ static inline void skip_blanks(struct parser *p) {
 }
 
 /* To the start of the next line, or of the one after it where the line is
- * continued. */
+ * continued.  A comment never is: it may end in a path of one system. */
 static void skip_line(struct parser *p, bool may_continue) {
   for (;;) {
     const char *start = p->at;
@@ -96,7 +96,8 @@ static void skip_line(struct parser *p, bool may_continue) {
     p->at = stop + 1;
     if (stop > start && stop[-1] == '\r')
       stop--;
-    if (!may_continue || stop == start || stop[-1] != '\\')
+    if (!may_continue || stop == start || stop[-1] != '\\' ||
+        memchr(start, '#', (size_t)(stop - start)))
       return;
   }
 }
@@ -508,6 +509,10 @@ static recto_status read_obj(struct scene *scene, const char *bytes,
                      .renamed = true};
   if (strncmp(bytes, byte_order_mark, 3) == 0)
     p.at += 3;
+  if (!memchr(bytes, '\n', count) && memchr(bytes, '\r', count))
+    return error_set(error, RECTO_ERROR_FORMAT, path, 1,
+                     "its lines end in a carriage return alone; a line feed "
+                     "must end them");
   recto_status status = read_statements(&p, false);
   if (status == RECTO_OK && !p.known && p.strange)
     status = error_set(error, RECTO_ERROR_FORMAT, path, p.strange,

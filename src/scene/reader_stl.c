@@ -41,6 +41,8 @@ static void read_corner(const char *bytes, struct scene_point *point) {
   point->z = read_single(bytes + 8);
 }
 
+static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
 static bool is_finite(const struct scene_point *point) {
   return isfinite(point->x) && isfinite(point->y) && isfinite(point->z);
 }
@@ -76,21 +78,45 @@ static recto_status read_batch(struct scene *scene, const char *record,
   return status;
 }
 
+/* Whether the bytes where a binary file has its header and its count are all
+ * text: a count of such bytes would be one of 500 million or more. */
+static bool has_text_for_header(const char *bytes, size_t count) {
+  for (size_t i = 0; i < count && i < HEADER_SIZE; i++)
+    if ((unsigned char)bytes[i] < ' ' && !is_space(bytes[i]))
+      return false;
+  return true;
+}
+
+/* Fails where the file is not as long as its count of triangles says; where it
+ * is cut short, at the number of the first that is not there. */
+static recto_status check_length(size_t triangles, size_t count,
+                                 const char *path, recto_error *error) {
+  size_t there = (count - HEADER_SIZE) / RECORD_SIZE;
+  size_t needed = HEADER_SIZE + RECORD_SIZE * triangles;
+  if (count < needed)
+    return error_set(error, RECTO_ERROR_FORMAT, path, there + 1,
+                     "binary STL cut short: it says %zu triangles and has %zu",
+                     triangles, there);
+  if (count > needed)
+    return error_set(error, RECTO_ERROR_FORMAT, path, triangles + 1,
+                     "binary STL with %zu bytes after the %zu triangles that "
+                     "it says it has",
+                     count - needed, triangles);
+  return RECTO_OK;
+}
+
 static recto_status read_binary(struct scene *scene, const char *bytes,
                                 size_t count, const char *path,
                                 struct diagnostics *diagnostics,
                                 recto_error *error) {
   size_t triangles = read_uint32(bytes + 80);
-  size_t there = (count - HEADER_SIZE) / RECORD_SIZE;
-  if (count != HEADER_SIZE + RECORD_SIZE * triangles)
-    return error_set(error, RECTO_ERROR_FORMAT, path,
-                     triangles > there ? there + 1 : triangles + 1,
-                     "binary STL of %zu triangles in %zu bytes instead of %zu",
-                     triangles, count, HEADER_SIZE + RECORD_SIZE * triangles);
+  recto_status status = check_length(triangles, count, path, error);
+  if (status != RECTO_OK)
+    return status;
   if (3 * triangles > SCENE_LIMIT - scene->corner.count)
     return error_set(error, RECTO_ERROR_LIMIT, path, 0,
                      "%zu triangles are too many", triangles);
-  recto_status status = scene_use_group(scene, NULL, 0, error);
+  status = scene_use_group(scene, NULL, 0, error);
   if (status != RECTO_OK)
     return status;
   if (!ARRAY_RESERVE(&scene->corner, 3 * triangles) ||
@@ -130,8 +156,6 @@ struct parser {
   struct diagnostics *diagnostics;
   recto_error *error;
 };
-
-static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 static struct word next_word(struct parser *p) {
   for (; is_space(*p->at); p->at++)
@@ -294,12 +318,7 @@ static bool looks_like_text(const char *bytes, size_t count) {
   struct word word = {bytes + start, 0, 1};
   while (word.length < 5 && start + word.length < count)
     word.length++;
-  if (!is_word(word, "solid"))
-    return false;
-  for (size_t i = 0; i < count && i < HEADER_SIZE; i++)
-    if ((unsigned char)bytes[i] < ' ' && !is_space(bytes[i]))
-      return false;
-  return true;
+  return is_word(word, "solid") && has_text_for_header(bytes, count);
 }
 
 static recto_status read_stl(struct scene *scene, const char *bytes,
@@ -311,11 +330,13 @@ static recto_status read_stl(struct scene *scene, const char *bytes,
       count >= HEADER_SIZE &&
       count == HEADER_SIZE + (uint64_t)RECORD_SIZE * read_uint32(bytes + 80);
   bool text = !exact && looks_like_text(bytes, count);
-  if (!text && count >= HEADER_SIZE)
+  if (exact || (!text && count >= HEADER_SIZE &&
+                !has_text_for_header(bytes, count)))
     return read_binary(scene, bytes, count, path, diagnostics, error);
   if (!text)
     return error_set(error, RECTO_ERROR_FORMAT, path, 1,
-                     "neither a text nor a binary STL");
+                     "neither a text STL, which begins with 'solid', nor a "
+                     "binary one");
   struct parser p = {.scene = scene,
                      .at = bytes,
                      .end = bytes + count,
