@@ -4,18 +4,25 @@
  *   flatten  two of the three coordinates are kept, those in which the polygon
  *            has the most area, in the order in which it is counter-clockwise.
  *   cut      a quadrilateral by the shorter of the diagonals that are inside;
- *            a convex polygon as a fan; all others ear by ear.
+ *            all others ear by ear, in rounds.
  * Invariants  An ear is a corner that turns left, with no other corner in its
  *   closed triangle (corners at the places of its own three do not count:
  *   bridges to holes visit places twice).  If any corner is inside, the one
  *   farthest from the diagonal is not convex, so only the others are looked
- *   at.  A corner on the diagonal blocks the ear: so a point in the middle of
- *   a side is never left over as a triangle without area.  Where the polygon
- *   doubles back, as it does where loops that touch were parted, that spike
- *   goes first: all of its neighbours might else look like ears.
+ *   at, those near the triangle alone (blockers.h).  A corner on the diagonal
+ *   blocks the ear: so a point in the middle of a side is never left over as a
+ *   triangle without area.  Where the polygon doubles back, as it does where
+ *   loops that touch were parted, that spike goes first: all of its neighbours
+ *   might else look like ears.
+ * Rounds      In one round no corner beside a cut is cut: a convex polygon
+ *   loses every other corner, then every other of those left.  So its
+ *   triangles are compact, and a line meets few of them; a fan would be needles
+ *   that all meet at one corner.  A cut makes ears of its two neighbours alone,
+ *   so each cut asks two corners.
  * Robustness  All turns are exact_turn.  Where no ear is left the polygon is
- *   not simple: then a corner without area goes first, then a convex one,
- *   then any, so that the loop always ends with count - 2 triangles.
+ *   not simple: then a corner without area goes first, then a convex one, then
+ *   any, and all are asked again; when many were, any corner will do.  So the
+ *   loop always ends with count - 2 triangles.
  * Source      ear clipping: [Meisters1975], the two-ears theorem.
  */
 #include "view/triangulate.h"
@@ -27,9 +34,18 @@
 #include "scene/exact.h"
 #include "view/vector.h"
 
+enum {
+  TURN_GONE = 2, /* of a corner that was cut off */
+  /* So many corners are asked again where a polygon is not simple. */
+  PATIENCE_CORNERS = 1 << 20,
+  PATIENCE_EACH = 32
+};
+
 void triangulation_fini(struct triangulation *triangulation) {
   ARRAY_FREE(&triangulation->triangle);
   ARRAY_FREE(&triangulation->corner);
+  ARRAY_FREE(&triangulation->queue);
+  blockers_fini(&triangulation->blockers);
 }
 
 /* A polygon of the scene. */
@@ -236,91 +252,90 @@ static bool cut_quadrilateral(struct triangulation *triangulation,
   return true;
 }
 
-/* Whether all corners turn left and the polygon goes around but once: it then
- * runs up, in the order of is_before, once and down once. */
-static bool is_convex(const struct triangulation_corner *corner,
-                      uint32_t count) {
-  uint32_t reversals = 0;
-  for (uint32_t c = 0; c < count; c++) {
-    uint32_t prev = (c + count - 1) % count, next = (c + 1) % count;
-    if (turn_at(corner, prev, c, next) <= 0)
-      return false;
-    reversals += is_before(corner[prev].at, corner[c].at) !=
-                 is_before(corner[c].at, corner[next].at);
-  }
-  return reversals == 2;
-}
-
-static void cut_fan(struct triangulation *triangulation, uint32_t count) {
-  for (uint32_t c = 1; c + 1 < count; c++)
-    add(triangulation, 0, c, c + 1, c == 1 ? 0 : count + c - 2, c,
-        c + 2 == count ? count - 1 : count + c - 1);
-}
-
 /* ---- Ears ---------------------------------------------------------------- */
 
 struct ears {
   struct triangulation *triangulation;
   struct triangulation_corner *corner;
   uint32_t count, left; /* corners at first, and now */
+  uint32_t round;
+  uint32_t next, queued; /* of the ring of corners to be asked: the first, and
+                            how many */
+  uint64_t patience;     /* corners that may be asked again for want of ears */
 };
 
-/* The corners that are not convex form a ring through a head at [count]. */
-static void add_bent(struct triangulation_corner *corner, uint32_t c,
-                     uint32_t head) {
-  corner[c].prev_bent = head;
-  corner[c].next_bent = corner[head].next_bent;
-  corner[corner[head].next_bent].prev_bent = c;
-  corner[head].next_bent = c;
+static void set_turn(struct ears *ears, uint32_t c, int turn) {
+  struct triangulation_corner *corner = &ears->corner[c];
+  bool was_bent = corner->turn <= 0, is_bent = turn <= 0;
+  if (was_bent != is_bent)
+    blockers_change(&ears->triangulation->blockers, c, is_bent);
+  corner->turn = (int8_t)turn;
 }
 
-static void remove_bent(struct triangulation_corner *corner, uint32_t c) {
-  corner[corner[c].prev_bent].next_bent = corner[c].next_bent;
-  corner[corner[c].next_bent].prev_bent = corner[c].prev_bent;
+static void turn_again(struct ears *ears, uint32_t c) {
+  struct triangulation_corner *corner = ears->corner;
+  set_turn(ears, c, turn_at(corner, corner[c].prev, c, corner[c].next));
 }
 
-static void link_corners(struct triangulation_corner *corner, uint32_t count) {
-  corner[count].next_bent = corner[count].prev_bent = count;
-  for (uint32_t c = 0; c < count; c++) {
-    corner[c].prev = (c + count - 1) % count;
-    corner[c].next = (c + 1) % count;
+static void ask_later(struct ears *ears, uint32_t c) {
+  uint32_t end = ears->next + ears->queued;
+  if (ears->corner[c].waits)
+    return;
+  ears->corner[c].waits = true;
+  ears->triangulation->queue.item[end < ears->count ? end : end - ears->count] =
+      c;
+  ears->queued++;
+}
+
+static uint32_t next_in_queue(struct ears *ears) {
+  uint32_t c = ears->triangulation->queue.item[ears->next++];
+  if (ears->next == ears->count)
+    ears->next = 0;
+  ears->queued--;
+  ears->corner[c].waits = false;
+  return c;
+}
+
+static void link_corners(struct ears *ears) {
+  struct triangulation_corner *corner = ears->corner;
+  for (uint32_t c = 0; c < ears->count; c++) {
+    corner[c].prev = c == 0 ? ears->count - 1 : c - 1;
+    corner[c].next = c + 1 == ears->count ? 0 : c + 1;
     corner[c].side = c;
-    corner[c].turn = (int8_t)turn_at(corner, corner[c].prev, c, corner[c].next);
-    if (corner[c].turn <= 0)
-      add_bent(corner, c, count);
+    corner[c].turn = 1;
+    corner[c].waits = false;
+    corner[c].changed = 0;
   }
+  for (uint32_t c = 0; c < ears->count; c++)
+    turn_again(ears, c);
 }
 
-static void turn_again(struct triangulation_corner *corner, uint32_t c,
-                       uint32_t head) {
-  int turn = turn_at(corner, corner[c].prev, c, corner[c].next);
-  if (corner[c].turn <= 0 && turn > 0)
-    remove_bent(corner, c);
-  else if (corner[c].turn > 0 && turn <= 0)
-    add_bent(corner, c, head);
-  corner[c].turn = (int8_t)turn;
-}
+/* What may be an ear. */
+struct ear {
+  const struct triangulation_corner *corner;
+  uint32_t a, b, c;
+};
 
-/* Whether p is in the closed triangle a, b, c and at none of its corners. */
-static bool blocks(const struct triangulation_corner *corner, uint32_t a,
-                   uint32_t b, uint32_t c, uint32_t p) {
-  const double *at = corner[p].at;
-  if (is_at(at, corner[a].at) || is_at(at, corner[b].at) ||
-      is_at(at, corner[c].at))
+/* Whether p is bent, in the closed triangle a, b, c, and at none of its
+ * corners. */
+static bool blocks(const void *user, uint32_t p) {
+  const struct ear *ear = user;
+  const struct triangulation_corner *corner = ear->corner;
+  const double *at = corner[p].at, *a = corner[ear->a].at,
+               *b = corner[ear->b].at, *c = corner[ear->c].at;
+  if (corner[p].turn > 0 || is_at(at, a) || is_at(at, b) || is_at(at, c))
     return false;
-  return turn_at(corner, c, a, p) >= 0 && turn_at(corner, a, b, p) >= 0 &&
-         turn_at(corner, b, c, p) >= 0;
+  return exact_turn(c, a, at) >= 0 && exact_turn(a, b, at) >= 0 &&
+         exact_turn(b, c, at) >= 0;
 }
 
-static bool is_ear(const struct triangulation_corner *corner, uint32_t b,
-                   uint32_t head) {
-  if (corner[b].turn <= 0)
-    return false;
-  uint32_t a = corner[b].prev, c = corner[b].next;
-  for (uint32_t p = corner[head].next_bent; p != head; p = corner[p].next_bent)
-    if (p != a && p != c && blocks(corner, a, b, c, p))
-      return false;
-  return true;
+static bool is_ear(const struct ears *ears, uint32_t b) {
+  const struct triangulation_corner *corner = ears->corner;
+  struct ear ear = {corner, corner[b].prev, b, corner[b].next};
+  const double *triangle[3] = {corner[ear.a].at, corner[b].at,
+                               corner[ear.c].at};
+  return corner[b].turn > 0 &&
+         !blockers_ask(&ears->triangulation->blockers, triangle, blocks, &ear);
 }
 
 /* The corner to cut off where there is no ear: one without area, or a convex
@@ -354,13 +369,15 @@ static uint32_t cut_corner(struct ears *ears, uint32_t b) {
   uint32_t a = corner[b].prev, c = corner[b].next;
   uint32_t side = ears->count + (ears->count - ears->left--);
   add(ears->triangulation, a, b, c, corner[a].side, corner[b].side, side);
-  if (corner[b].turn <= 0)
-    remove_bent(corner, b);
+  set_turn(ears, b, TURN_GONE);
   corner[a].next = c;
   corner[c].prev = a;
   corner[a].side = side;
-  turn_again(corner, a, ears->count);
-  turn_again(corner, c, ears->count);
+  corner[a].changed = corner[c].changed = ears->round;
+  turn_again(ears, a);
+  turn_again(ears, c);
+  ask_later(ears, a);
+  ask_later(ears, c);
   return a;
 }
 
@@ -374,28 +391,62 @@ static uint32_t cut_spikes(struct ears *ears, uint32_t b) {
   return b;
 }
 
+/* Cuts off an ear, and what spikes that brings; returns a corner that is
+ * left. */
+static uint32_t cut_ear(struct ears *ears, uint32_t b) {
+  uint32_t a = cut_spikes(ears, cut_corner(ears, b));
+  return cut_spikes(ears, ears->corner[a].next);
+}
+
+/* One round: asks each corner that waits, but not those beside a cut of this
+ * round; these, and what becomes new, are for the next.  Returns a corner that
+ * is left. */
+static uint32_t cut_round(struct ears *ears, uint32_t b, bool any) {
+  ears->round++;
+  for (uint32_t asked = ears->queued; asked > 0 && ears->left > 3; asked--) {
+    uint32_t c = next_in_queue(ears);
+    if (ears->corner[c].turn == TURN_GONE)
+      continue;
+    if (ears->corner[c].changed == ears->round)
+      ask_later(ears, c);
+    else if (any || is_ear(ears, c))
+      b = cut_ear(ears, c);
+  }
+  return b;
+}
+
+static void ask_all_again(struct ears *ears, uint32_t b) {
+  for (uint32_t c = ears->corner[b].next; c != b; c = ears->corner[c].next)
+    ask_later(ears, c);
+  ask_later(ears, b);
+}
+
 static void cut_ears(struct triangulation *triangulation, uint32_t count) {
   struct triangulation_corner *corner = triangulation->corner.item;
-  struct ears ears = {triangulation, corner, count, count};
-  link_corners(corner, count);
+  struct ears ears = {.triangulation = triangulation,
+                      .corner = corner,
+                      .count = count,
+                      .left = count,
+                      .patience =
+                          PATIENCE_CORNERS + PATIENCE_EACH * (uint64_t)count};
   uint32_t b = 0;
+  link_corners(&ears);
   for (uint32_t c = 0; c < count; c++)
-    if (corner[corner[c].prev].next == c)
+    if (corner[c].turn != TURN_GONE)
       b = cut_spikes(&ears, c);
-  for (uint32_t tried = 0; ears.left > 3;) {
-    if (tried == ears.left)
-      b = choose_corner(corner, b);
-    else if (!is_ear(corner, b, count)) {
-      b = corner[b].next;
-      tried++;
+  ask_all_again(&ears, b);
+  for (uint32_t asked = ears.left; ears.left > 3;) {
+    bool patient = ears.patience >= ears.left;
+    b = cut_round(&ears, b, !patient);
+    if (ears.queued > 0 || ears.left == 3)
       continue;
-    }
-    uint32_t a = cut_spikes(&ears, cut_corner(&ears, b));
-    uint32_t c = cut_spikes(&ears, corner[a].next);
-    /* One corner further on, so that ears are taken all around instead of as
-     * a fan of needles. */
-    b = corner[c].next;
-    tried = 0;
+    /* Not simple: in one that is, a corner becomes an ear by a cut beside it
+     * alone. */
+    ears.patience -= ears.left;
+    if (asked == ears.left)
+      b = cut_ear(&ears, choose_corner(corner, b));
+    asked = ears.left;
+    ask_all_again(&ears, b);
   }
   uint32_t a = corner[b].prev, c = corner[b].next;
   add(triangulation, a, b, c, corner[a].side, corner[b].side, corner[c].side);
@@ -411,7 +462,8 @@ bool triangulate(struct triangulation *triangulation,
   triangulation->corner.count = 0;
   triangulation->warped = false;
   if (!ARRAY_RESERVE(&triangulation->triangle, count - 2) ||
-      !ARRAY_RESERVE(&triangulation->corner, count + 1))
+      !ARRAY_RESERVE(&triangulation->corner, count) ||
+      !ARRAY_RESERVE(&triangulation->queue, count))
     return false;
   if (count == 3) {
     add(triangulation, 0, 1, 2, 0, 1, 2);
@@ -422,9 +474,9 @@ bool triangulate(struct triangulation *triangulation,
   flatten(&polygon, &areas, triangulation->corner.item);
   if (count == 4 && cut_quadrilateral(triangulation, &polygon))
     return true;
-  if (count > 4 && is_convex(triangulation->corner.item, polygon.count))
-    cut_fan(triangulation, polygon.count);
-  else
-    cut_ears(triangulation, polygon.count);
+  if (!blockers_init(&triangulation->blockers, triangulation->corner.item,
+                     sizeof *triangulation->corner.item, polygon.count))
+    return false;
+  cut_ears(triangulation, polygon.count);
   return true;
 }

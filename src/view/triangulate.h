@@ -3,6 +3,7 @@
 #define VIEW_TRIANGULATE_H
 
 #include "scene/scene.h"
+#include "view/blockers.h"
 
 /* Corners are counted from 0 within the polygon.  Side k runs from corner[k]
  * to corner[(k + 1) % 3]; below the polygon's number of corners it is the
@@ -19,14 +20,18 @@ struct triangulation_corner {
                           runs counter-clockwise there */
   uint32_t next, prev; /* of the corners that are left */
   uint32_t side;       /* what leaves it: see above */
-  uint32_t next_bent, prev_bent; /* the corners that may block an ear */
-  int8_t turn; /* 1 convex, 0 straight on or back, -1 reflex */
+  uint32_t changed;    /* the last round that cut one beside it */
+  bool waits;          /* to be asked whether it is an ear */
+  int8_t turn; /* 1 convex, 0 straight on or back, -1 reflex, 2 cut off */
 };
 
 struct triangulation {
   ARRAY(struct triangulation_triangle) triangle;
   bool warped; /* a corner is off the polygon's plane */
-  ARRAY(struct triangulation_corner) corner; /* kept from call to call */
+  /* Kept from call to call. */
+  ARRAY(struct triangulation_corner) corner;
+  ARRAY(uint32_t) queue; /* corners to be asked whether they are ears */
+  struct blockers blockers;
 };
 
 /* Zero-initialised is empty; one object serves any number of polygons. */
@@ -40,8 +45,9 @@ void triangulation_fini(struct triangulation *triangulation);
  *   double bridges included, is covered exactly once by triangles that have an
  *   area; of others something is made that ends and is always the same.
  * Exact: decided on the coordinates themselves, in a plane along two axes.
- * Cost: linear up to four corners and for convex polygons, else corners times
- *   reflex corners. */
+ * Cost: linear for convex polygons; for others, each corner asks a few times
+ *   which reflex corners are near it: n log n but for many long needles side by
+ *   side. */
 USE_RESULT bool triangulate(struct triangulation *triangulation,
                             const struct scene_point *point,
                             const uint32_t *corner, size_t count);
