@@ -1,13 +1,22 @@
-# bench/local.mk - make bench: how long things take, and what memory.
-EXTRA_PROGRAMS = %D%/bench %D%/zraster
+# bench/local.mk - make bench: how long things take, what memory, and how far
+# from the truth.
+EXTRA_PROGRAMS = %D%/bench %D%/zraster %D%/accuracy
 %C%_bench_SOURCES = %D%/bench.c %D%/table.c %D%/table.h
 %C%_bench_LDADD = tests/scenes/libscenes.la librecto_core.la
 %C%_zraster_SOURCES = %D%/zraster.c
 %C%_zraster_LDADD = librecto_core.la -lm
-CLEANFILES += $(EXTRA_PROGRAMS)
+%C%_accuracy_SOURCES = %D%/accuracy.c %D%/chart.c %D%/chart.h \
+  %D%/table.c %D%/table.h
+%C%_accuracy_LDADD = tests/measure/libmeasure.la tests/scenes/libscenes.la \
+  librecto_core.la -lm
+CLEANFILES += $(EXTRA_PROGRAMS) %D%/accuracy.svg
 
 # BENCH_METHODS  the methods to measure; else newell and auto
-bench: recto$(EXEEXT) $(EXTRA_PROGRAMS)
+bench: recto$(EXEEXT) $(EXTRA_PROGRAMS) bench-accuracy
 	$(AM_TESTS_ENVIRONMENT) %D%/bench$(EXEEXT) ./recto$(EXEEXT) \
 	  %D%/zraster$(EXEEXT) $(srcdir)/examples/models $(BENCH_METHODS)
-.PHONY: bench
+
+# Speed against accuracy: a table, and bench/accuracy.svg.
+bench-accuracy: %D%/accuracy$(EXEEXT)
+	$(AM_TESTS_ENVIRONMENT) %D%/accuracy$(EXEEXT) %D%/accuracy.svg
+.PHONY: bench bench-accuracy

@@ -27,6 +27,7 @@ unit_tests += %D%/test_exact_map
 check_LTLIBRARIES =
 include tests/scenes/local.mk
 include tests/judge/local.mk
+include tests/measure/local.mk
 
 unit_tests += %D%/test_scenes
 %C%_test_scenes_SOURCES = %D%/test_scenes.c

@@ -12,3 +12,16 @@ unit_tests += %D%/test_zbuffer
 unit_tests += %D%/test_subpixels
 %C%_test_subpixels_SOURCES = %D%/test_subpixels.c $(hand_pixels)
 %C%_test_subpixels_CPPFLAGS = $(hand_cppflags)
+
+# How far they are from the exact answer.
+unit_tests += %D%/test_measure
+%C%_test_measure_SOURCES = %D%/test_measure.c
+%C%_test_measure_LDADD = %D%/measure/libmeasure.la %D%/scenes/libscenes.la \
+  $(LDADD)
+measure_libs = %D%/measure/libmeasure.la %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_accuracy
+%C%_test_accuracy_SOURCES = %D%/test_accuracy.c
+%C%_test_accuracy_LDADD = $(measure_libs)
+unit_tests += %D%/test_failures_lines
+%C%_test_failures_lines_SOURCES = %D%/test_failures_lines.c
+%C%_test_failures_lines_LDADD = $(measure_libs)

@@ -78,12 +78,15 @@ void scenes_near_sheets(struct scene *scene, recto_options *options,
                       vector_of(0, 0.5, 0));
   build_parallelogram(scene, vector_of(2, 2, 1), vector_of(0.5, 0, 0),
                       vector_of(0, 0.5, 0));
+  /* z rises by 1/128 along x and 1/256 along y: a nanometre on the page, to
+   * which points are rounded, is less than 1e-9 of the depth. */
   build_group(scene, "far sheet");
-  build_parallelogram(scene, vector_of(-1.5, -1, 0.4), vector_of(3, 0, 0.125),
-                      vector_of(0, 2, 0.0625));
+  build_parallelogram(scene, vector_of(-1.5, -1, 0.4),
+                      vector_of(3, 0, 3 / 128.0), vector_of(0, 2, 2 / 256.0));
   build_group(scene, "near sheet");
-  build_parallelogram(scene, vector_of(-1, -1.5, 0.4 + gap),
-                      vector_of(3, 0, 0.125), vector_of(0, 2, 0.0625));
+  build_parallelogram(scene,
+                      vector_of(-1, -1.5, 0.4 + gap + 0.5 / 128 - 0.5 / 256),
+                      vector_of(3, 0, 3 / 128.0), vector_of(0, 2, 2 / 256.0));
   scenes_view_above(options);
   options->contact = 0;
 }

@@ -1,0 +1,377 @@
+/* measure.c - see measure.h.
+ *
+ * The area that two fragments share: one of them is made a sum of convex
+ * loops with signs (itself where it is a triangle or a convex quadrilateral,
+ * else the fan of triangles from a corner of each loop), and every loop of the
+ * other is clipped by each of these, side by side.  A loop clipped so keeps to
+ * the clipping side where it was outside, there and back; what it encloses
+ * there has no area, so signed areas are right for holes and for loops that
+ * are not convex.
+ *
+ * To find the pairs, the exact map's fragments lie in the cells of a grid. */
+#include "tests/measure/measure.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Grid cells a side: enough that few fragments share one. */
+enum { CELLS = 128 };
+
+static const double mm2 = SHEET_UNITS_PER_MM * SHEET_UNITS_PER_MM;
+
+struct place {
+  double x, y;
+};
+
+typedef ARRAY(struct place) places;
+
+struct box {
+  double x0, y0, x1, y1;
+};
+
+/* The fragments of the exact map by the cells that their boxes meet. */
+struct cells {
+  struct box page;
+  struct box *box; /* of each fragment */
+  ARRAY(uint32_t) list[CELLS * CELLS];
+  uint32_t *asked; /* of each fragment: when it was asked about last, plus 1 */
+  uint32_t now;
+};
+
+/* ---- Areas -------------------------------------------------------------- */
+
+static double loop_area(const struct place *p, size_t count) {
+  double twice = 0;
+  for (size_t i = 0; i < count; i++) {
+    const struct place *q = &p[i + 1 == count ? 0 : i + 1];
+    /* From the first place, so that far from the origin little is lost. */
+    twice += (p[i].x - p->x) * (q->y - p->y) - (q->x - p->x) * (p[i].y - p->y);
+  }
+  return twice / 2;
+}
+
+static bool copy_loop(const struct map *map, uint32_t loop, places *to) {
+  const struct map_loop *l = &map->loop.item[loop];
+  to->count = 0;
+  for (uint32_t i = 0; i < l->count; i++) {
+    const struct map_corner *c = &map->corner.item[l->corner + i];
+    if (!ARRAY_PUSH(to, ((struct place){c->x, c->y})))
+      return false;
+  }
+  return true;
+}
+
+static double side_of(const struct place *a, const struct place *b,
+                      const struct place *p) {
+  return (b->x - a->x) * (p->y - a->y) - (b->y - a->y) * (p->x - a->x);
+}
+
+/* Keeps what is left of the line from a to b. */
+static bool clip(const places *from, const struct place *a,
+                 const struct place *b, places *to) {
+  to->count = 0;
+  for (size_t i = 0; i < from->count; i++) {
+    const struct place *p = &from->item[i];
+    const struct place *q = &from->item[i + 1 == from->count ? 0 : i + 1];
+    double at_p = side_of(a, b, p), at_q = side_of(a, b, q);
+    if (at_p >= 0 && !ARRAY_PUSH(to, *p))
+      return false;
+    if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) {
+      double t = at_p / (at_p - at_q);
+      struct place cut = {p->x + t * (q->x - p->x), p->y + t * (q->y - p->y)};
+      if (!ARRAY_PUSH(to, cut))
+        return false;
+    }
+  }
+  return true;
+}
+
+/* What a fragment is asked with again and again. */
+struct clipper {
+  const struct map *exact, *map;
+  places loop, spare;
+};
+
+/* Adds to *area what a convex, counter-clockwise loop holds of an exact
+ * fragment, times `sign`. */
+static bool add_common(struct clipper *clipper, uint32_t fragment,
+                       const struct place *convex, size_t count, double sign,
+                       double *area) {
+  const struct map_fragment *f = &clipper->exact->fragment.item[fragment];
+  for (uint32_t l = f->loop; l < f->loop + f->loops; l++) {
+    if (!copy_loop(clipper->exact, l, &clipper->loop))
+      return false;
+    for (size_t i = 0; i < count && clipper->loop.count > 0; i++) {
+      places swap = clipper->loop;
+      if (!clip(&clipper->loop, &convex[i], &convex[i + 1 == count ? 0 : i + 1],
+                &clipper->spare))
+        return false;
+      clipper->loop = clipper->spare;
+      clipper->spare = swap;
+    }
+    *area += sign * loop_area(clipper->loop.item, clipper->loop.count);
+  }
+  return true;
+}
+
+/* ---- Pairs -------------------------------------------------------------- */
+
+static struct box box_of(const struct map *map, size_t fragment) {
+  const struct map_loop *loop =
+      &map->loop.item[map->fragment.item[fragment].loop];
+  const struct map_corner *corner = map->corner.item + loop->corner;
+  struct box box = {corner->x, corner->y, corner->x, corner->y};
+  for (uint32_t i = 1; i < loop->count; i++) {
+    box.x0 = fmin(box.x0, corner[i].x);
+    box.y0 = fmin(box.y0, corner[i].y);
+    box.x1 = fmax(box.x1, corner[i].x);
+    box.y1 = fmax(box.y1, corner[i].y);
+  }
+  return box;
+}
+
+static int cell_of(double at, double low, double high) {
+  double cell = floor((at - low) / (high - low) * CELLS);
+  return cell < 0 ? 0 : cell > CELLS - 1 ? CELLS - 1 : (int)cell;
+}
+
+/* The cells that a box meets, closed, in the four members. */
+static void find_cells(const struct cells *cells, const struct box *box,
+                       int range[4]) {
+  const struct box *page = &cells->page;
+  range[0] = cell_of(box->x0, page->x0, page->x1);
+  range[1] = cell_of(box->y0, page->y0, page->y1);
+  range[2] = cell_of(box->x1, page->x0, page->x1);
+  range[3] = cell_of(box->y1, page->y0, page->y1);
+}
+
+static void free_cells(struct cells *cells) {
+  if (cells == NULL)
+    return;
+  for (size_t i = 0; i < CELLS * CELLS; i++)
+    ARRAY_FREE(&cells->list[i]);
+  mem_free(cells->box);
+  mem_free(cells->asked);
+  mem_free(cells);
+}
+
+static struct cells *make_cells(const struct sheet *sheet,
+                                const struct map *exact) {
+  struct cells *cells = mem_calloc(1, sizeof *cells);
+  size_t count = exact->fragment.count;
+  if (cells == NULL)
+    return NULL;
+  cells->page.x1 = sheet->camera.page_mm[0] / 2 * SHEET_UNITS_PER_MM;
+  cells->page.y1 = sheet->camera.page_mm[1] / 2 * SHEET_UNITS_PER_MM;
+  cells->page.x0 = -cells->page.x1;
+  cells->page.y0 = -cells->page.y1;
+  cells->box = mem_alloc(count, sizeof *cells->box);
+  cells->asked = mem_calloc(count, sizeof *cells->asked);
+  bool good = cells->box != NULL && cells->asked != NULL;
+  for (size_t f = 0; good && f < count; f++) {
+    int range[4];
+    cells->box[f] = box_of(exact, f);
+    find_cells(cells, &cells->box[f], range);
+    for (int y = range[1]; y <= range[3]; y++)
+      for (int x = range[0]; x <= range[2]; x++)
+        good = good && ARRAY_PUSH(&cells->list[y * CELLS + x], (uint32_t)f);
+  }
+  if (!good) {
+    free_cells(cells);
+    return NULL;
+  }
+  return cells;
+}
+
+/* Adds what one convex loop of a fragment of `face` has in common with the
+ * exact map: with that face's fragments to *right, with all to *both. */
+static bool meet_all(struct clipper *clipper, struct cells *cells,
+                     const struct place *convex, size_t count, double sign,
+                     uint32_t face, double *right, double *both) {
+  struct box box = {convex->x, convex->y, convex->x, convex->y};
+  int range[4];
+  for (size_t i = 1; i < count; i++) {
+    box.x0 = fmin(box.x0, convex[i].x);
+    box.y0 = fmin(box.y0, convex[i].y);
+    box.x1 = fmax(box.x1, convex[i].x);
+    box.y1 = fmax(box.y1, convex[i].y);
+  }
+  find_cells(cells, &box, range);
+  cells->now++;
+  for (int y = range[1]; y <= range[3]; y++)
+    for (int x = range[0]; x <= range[2]; x++)
+      for (size_t i = 0; i < cells->list[y * CELLS + x].count; i++) {
+        uint32_t f = cells->list[y * CELLS + x].item[i];
+        const struct box *other = &cells->box[f];
+        double area = 0;
+        if (cells->asked[f] == cells->now || other->x0 >= box.x1 ||
+            box.x0 >= other->x1 || other->y0 >= box.y1 || box.y0 >= other->y1)
+          continue;
+        cells->asked[f] = cells->now;
+        if (!add_common(clipper, f, convex, count, sign, &area))
+          return false;
+        *both += area;
+        if (clipper->exact->fragment.item[f].face == face)
+          *right += area;
+      }
+  return true;
+}
+
+static bool is_convex(const places *loop) {
+  if (loop->count > 4)
+    return false;
+  for (size_t i = 0; i < loop->count; i++)
+    if (side_of(&loop->item[i], &loop->item[(i + 1) % loop->count],
+                &loop->item[(i + 2) % loop->count]) < 0)
+      return false;
+  return true;
+}
+
+/* The same for a whole fragment; `loop` is room for one of its loops. */
+static bool meet_fragment(struct clipper *clipper, struct cells *cells,
+                          const struct map_fragment *fragment, places *loop,
+                          double *right, double *both) {
+  for (uint32_t l = fragment->loop; l < fragment->loop + fragment->loops; l++) {
+    if (!copy_loop(clipper->map, l, loop))
+      return false;
+    if (is_convex(loop)) {
+      if (!meet_all(clipper, cells, loop->item, loop->count, 1, fragment->face,
+                    right, both))
+        return false;
+      continue;
+    }
+    for (size_t i = 1; i + 1 < loop->count; i++) {
+      struct place fan[3] = {loop->item[0], loop->item[i], loop->item[i + 1]};
+      double sign = 1;
+      if (side_of(&fan[0], &fan[1], &fan[2]) < 0) {
+        fan[1] = loop->item[i + 1];
+        fan[2] = loop->item[i];
+        sign = -1;
+      }
+      if (!meet_all(clipper, cells, fan, 3, sign, fragment->face, right, both))
+        return false;
+    }
+  }
+  return true;
+}
+
+double measure_fragment_area(const struct map *map, size_t fragment) {
+  const struct map_fragment *f = &map->fragment.item[fragment];
+  double twice = 0;
+  for (uint32_t l = f->loop; l < f->loop + f->loops; l++) {
+    const struct map_loop *loop = &map->loop.item[l];
+    const struct map_corner *c = map->corner.item + loop->corner;
+    for (uint32_t i = 0; i < loop->count; i++) {
+      const struct map_corner *next = &c[i + 1 == loop->count ? 0 : i + 1];
+      twice += (c[i].x - c->x) * (next->y - c->y) -
+               (next->x - c->x) * (c[i].y - c->y);
+    }
+  }
+  return twice / 2 / mm2;
+}
+
+static bool measure_areas(struct measure *measure, const struct sheet *sheet,
+                          const struct map *exact, const struct map *map) {
+  struct clipper clipper = {.exact = exact, .map = map};
+  struct cells *cells = make_cells(sheet, exact);
+  places loop = {0};
+  double right = 0, both = 0, shown = 0;
+  bool good = cells != NULL;
+  for (size_t f = 0; good && f < map->fragment.count; f++) {
+    shown += measure_fragment_area(map, f);
+    good = meet_fragment(&clipper, cells, &map->fragment.item[f], &loop, &right,
+                         &both);
+  }
+  for (size_t f = 0; f < exact->fragment.count; f++)
+    measure->true_area += measure_fragment_area(exact, f);
+  measure->wrong_face = (both - right) / mm2;
+  measure->missing_area = measure->true_area - both / mm2;
+  measure->false_area = shown - both / mm2;
+  ARRAY_FREE(&loop);
+  ARRAY_FREE(&clipper.loop);
+  ARRAY_FREE(&clipper.spare);
+  free_cells(cells);
+  return good;
+}
+
+/* ---- Ink ---------------------------------------------------------------- */
+
+static const struct map_interval whole = {{0, 1}, {1, 1}};
+
+/* The visible intervals of an edge; *at moves through map->mixed with it. */
+static const struct map_interval *
+intervals_of(const struct map *map, uint32_t edge, size_t *at, size_t *count) {
+  *count = 0;
+  if (edge >= map->edge_count || map->edge_state[edge] == MAP_HIDDEN)
+    return NULL;
+  if (map->edge_state[edge] == MAP_VISIBLE) {
+    *count = 1;
+    return &whole;
+  }
+  while (map->mixed.item[*at].edge < edge)
+    ++*at;
+  *count = map->mixed.item[*at].count;
+  return map->interval.item + map->mixed.item[*at].interval;
+}
+
+static double length_of(const struct map_interval *part, size_t count) {
+  double sum = 0;
+  for (size_t i = 0; i < count; i++)
+    sum += ratio_to_double(part[i].t1) - ratio_to_double(part[i].t0);
+  return sum;
+}
+
+static double common_length(const struct map_interval *p, size_t p_count,
+                            const struct map_interval *q, size_t q_count) {
+  double sum = 0;
+  for (size_t i = 0, j = 0; i < p_count && j < q_count;) {
+    struct ratio from = ratio_compare(p[i].t0, q[j].t0) > 0 ? p[i].t0 : q[j].t0;
+    bool p_ends = ratio_compare(p[i].t1, q[j].t1) < 0;
+    struct ratio to = p_ends ? p[i].t1 : q[j].t1;
+    if (ratio_compare(from, to) < 0)
+      sum += ratio_to_double(to) - ratio_to_double(from);
+    if (p_ends)
+      i++;
+    else
+      j++;
+  }
+  return sum;
+}
+
+static void measure_ink(struct measure *measure, const struct sheet *sheet,
+                        const struct map *exact, const struct map *map) {
+  size_t in_exact = 0, in_map = 0;
+  for (uint32_t e = 0; e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    const struct geom_point *p = &sheet->point.item[edge->point[0]];
+    const struct geom_point *q = &sheet->point.item[edge->point[1]];
+    double length = hypot(q->x - p->x, q->y - p->y) / SHEET_UNITS_PER_MM;
+    size_t t_count, m_count;
+    const struct map_interval *t = intervals_of(exact, e, &in_exact, &t_count);
+    const struct map_interval *m = intervals_of(map, e, &in_map, &m_count);
+    double common = common_length(t, t_count, m, m_count);
+    if (edge->edge_class == 0)
+      continue;
+    measure->true_ink += length * length_of(t, t_count);
+    measure->missing_ink += length * (length_of(t, t_count) - common);
+    measure->false_ink += length * (length_of(m, m_count) - common);
+  }
+}
+
+/* ---- Both --------------------------------------------------------------- */
+
+double measure_area_share(const struct measure *measure) {
+  return (measure->wrong_face + measure->missing_area + measure->false_area) /
+         measure->true_area;
+}
+
+double measure_ink_share(const struct measure *measure) {
+  return (measure->missing_ink + measure->false_ink) / measure->true_ink;
+}
+
+bool measure_map(struct measure *measure, const struct sheet *sheet,
+                 const struct map *exact, const struct map *map) {
+  memset(measure, 0, sizeof *measure);
+  measure_ink(measure, sheet, exact, map);
+  return measure_areas(measure, sheet, exact, map);
+}

@@ -1,0 +1,48 @@
+/* trial.c - see trial.h. */
+#include "tests/measure/trial.h"
+
+#include <string.h>
+
+static recto_status solve(struct trial *trial, const recto_options *options,
+                          const struct solver *solver, int lines,
+                          enum trial_part part) {
+  const struct solver_request request = {
+      .strokes = (part & TRIAL_STROKES) != 0,
+      .fragments = (part & TRIAL_FRAGMENTS) != 0,
+      .intersections = (part & TRIAL_STROKES) != 0 &&
+                       (options->edges & RECTO_EDGE_INTERSECTION) != 0,
+      .threads = 1,
+      .resolution = lines,
+      .pitch_mm = lines > 0 ? options->page_height_mm / lines : 0,
+      .subpixels = options->subpixels,
+      .remove_backs = options->remove_backs,
+      .depth_bits = options->depth_bits,
+  };
+  double start = clock_cpu();
+  recto_status status =
+      solver->solve(&trial->sheet, &request, &trial->map, NULL, NULL);
+  trial->solve_s = clock_cpu() - start;
+  return status;
+}
+
+void trial_run(struct trial *trial, const struct scene *scene,
+               const recto_options *options, const struct solver *solver,
+               int lines, enum trial_part part) {
+  bool outlines = (part & TRIAL_FRAGMENTS) != 0;
+  memset(trial, 0, sizeof *trial);
+  map_init(&trial->map);
+  trial->status = topology_init(&trial->topology, scene, NULL);
+  if (trial->status == RECTO_OK)
+    trial->status = camera_aim(&trial->camera, scene, options, NULL);
+  if (trial->status == RECTO_OK)
+    trial->status = sheet_init(&trial->sheet, scene, &trial->topology,
+                               &trial->camera, options, outlines, NULL);
+  if (trial->status == RECTO_OK)
+    trial->status = solve(trial, options, solver, lines, part);
+}
+
+void trial_fini(struct trial *trial) {
+  map_fini(&trial->map);
+  sheet_fini(&trial->sheet);
+  topology_fini(&trial->topology);
+}

@@ -1,0 +1,27 @@
+/* trial.h - a scene by one method: the map, and the CPU time to find it. */
+#ifndef MEASURE_TRIAL_H
+#define MEASURE_TRIAL_H
+
+#include "tests/measure/measure.h"
+#include "visibility/solver.h"
+
+struct trial {
+  struct topology topology;
+  struct camera camera;
+  struct sheet sheet;
+  struct map map;
+  double solve_s; /* CPU, of the solver alone */
+  recto_status status;
+};
+
+enum trial_part { TRIAL_STROKES = 1, TRIAL_FRAGMENTS = 2, TRIAL_BOTH = 3 };
+
+/* Solves the scene; look at `status` first.  Always ends with trial_fini.
+ * lines  over the page, for methods that have a number of them, and as
+ *        many a page is the pitch between; 0: exact, where a method is */
+void trial_run(struct trial *trial, const struct scene *scene,
+               const recto_options *options, const struct solver *solver,
+               int lines, enum trial_part part);
+void trial_fini(struct trial *trial);
+
+#endif
