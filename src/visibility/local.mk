@@ -30,5 +30,9 @@ librecto_core_la_SOURCES += \
   %D%/warnock_raster.c %D%/warnock_raster.h \
   %D%/warnock_sample.c %D%/warnock_sample.h \
   %D%/warnock_window.c %D%/warnock_window.h \
+  %D%/watkins.c %D%/watkins.h \
+  %D%/watkins_ends.c \
+  %D%/watkins_interval.c \
+  %D%/watkins_lists.c \
   %D%/window.c %D%/window.h \
   %D%/zbuffer.c %D%/zbuffer.h

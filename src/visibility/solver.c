@@ -5,6 +5,7 @@
 
 static const struct solver *const table[] = {&solver_newell,
                                              &solver_warnock,
+                                             &solver_watkins,
                                              &solver_tiles,
                                              &solver_zbuffer,
                                              &solver_scanline_zbuffer,

@@ -164,9 +164,9 @@ static double deepest(const struct trace *trace, uint32_t facet, double x,
          fabs(per_column) * trace->reach_x - fabs(per_line) * 0.5;
 }
 
-/* The depth units that `contact` is at depth z: orthographic z = Z (d_max - d),
- * perspective z = Z (1 / d - 1 / d_max), where dz = Z / d^2. */
-static double contact_depth(const struct sheet *sheet, double z) {
+/* Orthographic z = Z (d_max - d); perspective z = Z (1 / d - 1 / d_max), where
+ * dz = Z / d^2. */
+double trace_contact(const struct sheet *sheet, double z) {
   const struct camera *camera = &sheet->camera;
   double per_unit = sheet->z_scale;
   if (camera->perspective) {
@@ -193,7 +193,7 @@ static bool lets_be_seen(const struct trace *trace, const struct sight *sight,
   facet = sight->seen(line, x);
   return facet == SHEET_NONE ||
          z >= deepest(trace, facet, x, sight->line + upper) - trace->step -
-                  contact_depth(trace->sheet, z);
+                  trace_contact(trace->sheet, z);
 }
 
 /* Asks the centres about the middle of the cell, the nearest ones first. */

@@ -1,0 +1,262 @@
+/* watkins_lists.c - Watkins' lists: S and A, and the walk along a line. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "visibility/raster.h"
+#include "visibility/watkins.h"
+
+/* A pitch is a whole number of 1/256 grid units, and a line's centre is half
+ * a pitch above its lower border: all whole in 1/512 units. */
+enum { DEN = 512, PITCH_DEN = DEN / 2 };
+
+recto_status watkins_grid(struct scan_grid *grid, const struct sheet *sheet,
+                          double pitch_mm, recto_error *error) {
+  double height = round(sheet->camera.page_mm[1] * SHEET_UNITS_PER_MM);
+  if (pitch_mm == 0)
+    pitch_mm = WATKINS_PITCH_DEFAULT_MM;
+  double pitch = round(pitch_mm * SHEET_UNITS_PER_MM * PITCH_DEN);
+  double lines = ceil(height * PITCH_DEN / pitch);
+  if (!(pitch >= PITCH_DEN) || lines > WATKINS_LINES_MAX)
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "a pitch of %g mm makes more than %d lines", pitch_mm,
+                     WATKINS_LINES_MAX);
+  if (pitch > height * PITCH_DEN)
+    pitch = height * PITCH_DEN;
+  *grid = (struct scan_grid){.den = DEN,
+                             .x_step = DEN,
+                             .y_first = -(int64_t)height * PITCH_DEN,
+                             .y_step = 2 * (int64_t)pitch,
+                             .columns = 0,
+                             .lines = (int32_t)lines,
+                             .down = true};
+  return RECTO_OK;
+}
+
+/* ---- S ------------------------------------------------------------------ */
+
+static double line_height(const struct scan_grid *grid, int64_t y) {
+  return (double)(y * grid->den - grid->y_first) / (double)grid->y_step;
+}
+
+/* A facet is gentle where its plane's depth changes by no more than this over
+ * the page and its lines. */
+#define GENTLE 0x1p48
+
+/* The bound of a depth's error: its plane is stepped over the lines, and x is
+ * off by some units in the last place of the page's coordinates.  What is kept
+ * is eight times as much: see watkins_interval.c. */
+static void set_slack(struct watkins_facet *facet,
+                      const struct scan_grid *grid) {
+  double fall =
+      fabs(facet->per_x) * SHEET_XY_MAX + fabs(facet->per_line) * grid->lines;
+  facet->gentle = fall <= GENTLE;
+  if (facet->gentle)
+    fall = GENTLE;
+  facet->slack =
+      8 * DBL_EPSILON * (grid->lines + 64) * (fall + (double)SHEET_Z_MAX);
+}
+
+static void set_facet(const struct watkins *watkins, uint32_t triangle,
+                      const uint32_t *corner, uint32_t count,
+                      struct watkins_facet *facet) {
+  const struct sheet *sheet = watkins->sheet;
+  double up;
+  memset(facet, 0, sizeof *facet);
+  facet->triangle = triangle;
+  facet->face = sheet->triangle.item[triangle].face;
+  facet->z_low = INFINITY;
+  facet->z_high = -INFINITY;
+  for (uint32_t k = 0; k < count; k++) {
+    double z = (double)sheet->point.item[corner[k]].z;
+    facet->z_low = fmin(facet->z_low, z);
+    facet->z_high = fmax(facet->z_high, z);
+  }
+  raster_slopes(sheet, &watkins->table.grid, triangle, &facet->per_x, &up);
+  facet->per_line = -up;
+  set_slack(facet, &watkins->table.grid);
+}
+
+/* Adds the side from sheet point p to q, with its depth along it. */
+static bool add_edge(struct watkins *watkins, const struct scan_point *point,
+                     uint32_t p, uint32_t q, uint32_t side) {
+  const struct scan_grid *grid = &watkins->table.grid;
+  const struct geom_point *at = watkins->sheet->point.item;
+  size_t before = watkins->table.edge.count;
+  const struct scan_edge *added;
+  struct watkins_edge edge;
+  double rise, low;
+  if (!scan_table_add(&watkins->table, &point[p], &point[q], side))
+    return false;
+  if (watkins->table.edge.count == before)
+    return true;
+  added = &watkins->table.edge.item[before];
+  rise = (double)(at[q].z - at[p].z) /
+         (line_height(grid, at[q].y) - line_height(grid, at[p].y));
+  low = added->line + 0.5 - line_height(grid, at[p].y);
+  edge = (struct watkins_edge){.z = (double)at[p].z + low * rise,
+                               .dz = -rise,
+                               .lines = added->dy,
+                               .facet = (uint32_t)watkins->facet.count,
+                               .side = side,
+                               .drawn = watkins_is_steep(watkins->sheet, side),
+                               .record = WATKINS_NONE};
+  return ARRAY_PUSH(&watkins->edge, edge);
+}
+
+static bool add_facets(struct watkins *watkins, const struct facets *facets,
+                       const struct scan_point *point) {
+  const struct sheet *sheet = watkins->sheet;
+  for (uint32_t t = 0; t < sheet->triangle.count; t++) {
+    const uint32_t *corner, *side;
+    size_t before = watkins->edge.count;
+    struct watkins_facet facet;
+    uint32_t count;
+    if ((sheet->triangle_flags[t] & SHEET_FLAT) || facet_of(facets, t) != t)
+      continue;
+    count = facet_outline(facets, sheet, t, &corner, &side);
+    for (uint32_t k = 0; k < count; k++)
+      if (!add_edge(watkins, point, corner[k],
+                    corner[k + 1 == count ? 0 : k + 1], side[k]))
+        return false;
+    if (watkins->edge.count == before)
+      continue;
+    set_facet(watkins, t, corner, count, &facet);
+    if (!ARRAY_PUSH(&watkins->facet, facet))
+      return false;
+  }
+  return true;
+}
+
+bool watkins_init(struct watkins *watkins, const struct sheet *sheet,
+                  const struct facets *facets, const struct scan_grid *grid) {
+  size_t points = sheet->point.count;
+  struct scan_point *point = mem_alloc(points, sizeof *point);
+  bool good;
+  memset(watkins, 0, sizeof *watkins);
+  watkins->sheet = sheet;
+  watkins->coherence = true;
+  scan_table_init(&watkins->table, grid);
+  if (point == NULL)
+    return false;
+  for (size_t i = 0; i < points; i++)
+    point[i] =
+        scan_point_of(grid, sheet->point.item[i].x, sheet->point.item[i].y);
+  good =
+      add_facets(watkins, facets, point) && scan_table_start(&watkins->table);
+  mem_free(point);
+  return good;
+}
+
+void watkins_fini(struct watkins *watkins) {
+  scan_table_fini(&watkins->table);
+  ARRAY_FREE(&watkins->edge);
+  ARRAY_FREE(&watkins->facet);
+  ARRAY_FREE(&watkins->in);
+  ARRAY_FREE(&watkins->depth);
+  ARRAY_FREE(&watkins->stack);
+  ARRAY_FREE(&watkins->piece);
+  ARRAY_FREE(&watkins->shown);
+  for (int i = 0; i < 2; i++) {
+    ARRAY_FREE(&watkins->record[i]);
+    ARRAY_FREE(&watkins->order[i]);
+  }
+}
+
+/* ---- A line ------------------------------------------------------------- */
+
+double watkins_edge_depth(const struct watkins *watkins, uint32_t edge) {
+  const struct watkins_edge *e = &watkins->edge.item[edge];
+  return e->z + (e->lines - watkins->table.edge.item[edge].dy) * e->dz;
+}
+
+/* The flag of the edge's facet flips. */
+static bool pass_edge(struct watkins *watkins, uint32_t edge) {
+  uint32_t f = watkins->edge.item[edge].facet;
+  struct watkins_facet *facet = &watkins->facet.item[f];
+  size_t i = 0;
+  facet->in = !facet->in;
+  if (facet->in) {
+    facet->x = watkins->table.edge.item[edge].x;
+    facet->z = watkins_edge_depth(watkins, edge);
+    return ARRAY_PUSH(&watkins->in, f);
+  }
+  while (watkins->in.item[i] != f)
+    i++;
+  for (; i + 1 < watkins->in.count; i++)
+    watkins->in.item[i] = watkins->in.item[i + 1];
+  watkins->in.count--;
+  return true;
+}
+
+/* Of the edges active[first..past), which are at one x, the facet's own; else
+ * the first that is an edge of the sheet, else the first. */
+static uint32_t choose_edge(const struct watkins *watkins, size_t first,
+                            size_t past, uint32_t facet) {
+  uint32_t chosen = watkins->table.active[first];
+  for (size_t i = first; i < past; i++) {
+    uint32_t e = watkins->table.active[i];
+    if (watkins->edge.item[e].facet == facet)
+      return e;
+    if (watkins->edge.item[chosen].side == SHEET_NONE)
+      chosen = e;
+  }
+  return chosen;
+}
+
+/* Where the edges at the same x as active[first] end. */
+static size_t find_past(const struct scan_table *table, size_t first) {
+  const struct scan_edge *edge = table->edge.item;
+  size_t past = first + 1;
+  while (past < table->active_count &&
+         scan_edge_compare_x(&edge[table->active[first]],
+                             &edge[table->active[past]], &table->grid) == 0)
+    past++;
+  return past;
+}
+
+/* Passes the edges active[first..past) and decides the interval after them.
+ * left   the facet seen before them; WATKINS_NONE
+ * right  gets the one seen before the next edges */
+static bool pass_end(struct watkins *watkins, size_t first, size_t past,
+                     uint32_t left, uint32_t *right) {
+  const uint32_t *active = watkins->table.active;
+  size_t piece = watkins->piece.count;
+  uint32_t seen = WATKINS_NONE;
+  for (size_t i = first; i < past; i++)
+    if (!pass_edge(watkins, active[i]))
+      return false;
+  if (left != WATKINS_NONE)
+    watkins->piece.item[piece - 1].right =
+        choose_edge(watkins, first, past, left);
+  *right = WATKINS_NONE;
+  if (watkins->in.count > 0) {
+    /* There is another edge: a facet is in. */
+    if (!watkins_decide(watkins, active[past - 1], active[past]))
+      return false;
+    seen = watkins->piece.item[piece].facet;
+    watkins->piece.item[piece].left = choose_edge(watkins, first, past, seen);
+    *right = watkins->piece.item[watkins->piece.count - 1].facet;
+  }
+  return watkins_show_ends(watkins, first, past, left, seen);
+}
+
+bool watkins_next(struct watkins *watkins, bool *more) {
+  struct scan_table *table = &watkins->table;
+  uint32_t seen = WATKINS_NONE;
+  int parity;
+  watkins->piece.count = 0;
+  watkins->shown.count = 0;
+  *more = scan_table_next(table);
+  if (!*more)
+    return true;
+  parity = table->line & 1;
+  watkins->record[parity].count = 0;
+  watkins->order[parity].count = 0;
+  for (size_t i = 0, past; i < table->active_count; i = past) {
+    past = find_past(table, i);
+    if (!pass_end(watkins, i, past, seen, &seen))
+      return false;
+  }
+  return true;
+}
