@@ -14,6 +14,7 @@ librecto_core_la_SOURCES += \
   %D%/overlap.c %D%/overlap.h \
   %D%/pairing.c %D%/pairing.h \
   %D%/paths.h \
+  %D%/ruling.c %D%/ruling.h \
   %D%/segments.c \
   %D%/simplify.c \
   %D%/straighten.c \

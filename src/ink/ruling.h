@@ -1,0 +1,68 @@
+/* ruling.h - the page ruled with parallel lines, and what of them lies in a
+ * fragment. */
+#ifndef INK_RULING_H
+#define INK_RULING_H
+
+#include "ink/drawing.h"
+#include "visibility/map.h"
+
+/* mm along the lines, mm across: the page turned so that they are level. */
+struct ruling_place {
+  double u, v;
+};
+
+struct ruling_side {
+  struct ruling_place from, to;
+  const struct map_corner *corner; /* that it leaves */
+};
+
+struct ruling_crossing {
+  int64_t line;
+  double u;
+  uint32_t side;
+};
+
+/* Between two crossings of a line. */
+struct ruling_span {
+  struct ruling_crossing left, right;
+  bool used; /* the caller's */
+};
+
+/* Line k is at v = (k + 1/2) pitch, wherever a fragment lies: over neighbours
+ * the lines meet. */
+struct ruling {
+  const struct sheet *sheet;
+  double pitch; /* mm; may be changed between ruling_take and _find_spans */
+  double cosine, sine;
+  ARRAY(struct ruling_side) side; /* of the fragment at hand */
+  ARRAY(struct ruling_crossing) crossing;
+  ARRAY(struct ruling_span) span; /* by line, then from the left */
+};
+
+/* angle_deg  of the lines from the x axis, counter-clockwise */
+void ruling_init(struct ruling *ruling, const struct sheet *sheet, double pitch,
+                 double angle_deg);
+void ruling_fini(struct ruling *ruling);
+
+double ruling_height(const struct ruling *ruling, int64_t line);
+
+struct ruling_place ruling_turn(const struct ruling *ruling,
+                                struct drawing_point p);
+struct drawing_point ruling_turn_back(const struct ruling *ruling,
+                                      struct ruling_place p);
+
+/* The lowest and the highest line at or above an end of the side: it crosses
+ * the lines [low, high). */
+void ruling_find_lines(const struct ruling *ruling,
+                       const struct ruling_side *side, int64_t *low,
+                       int64_t *high);
+
+/* Where a side that is not level is at height v. */
+double ruling_u_at(const struct ruling_side *side, double v);
+
+/* Takes a fragment's sides; finds its spans, which have a length each. */
+USE_RESULT bool ruling_take(struct ruling *ruling, const struct map *map,
+                            const struct map_fragment *fragment);
+USE_RESULT bool ruling_find_spans(struct ruling *ruling);
+
+#endif
