@@ -60,7 +60,8 @@ endif
 %C%_test_cairo_SOURCES = %D%/test_cairo.c %D%/maker.c %D%/maker.h
 check_PROGRAMS += %D%/paper_tool
 %C%_paper_tool_SOURCES = %D%/paper_tool.c %D%/maker.c %D%/maker.h
-dist_check_SCRIPTS += %D%/test_paper.sh %D%/test_same_picture.sh
+dist_check_SCRIPTS += %D%/test_paper.sh %D%/test_same_picture.sh \
+  %D%/test_tone.sh
 
 # Layer 0.
 unit_tests += %D%/test_memory

@@ -9,6 +9,8 @@
  *       the upper or the lower edge.
  *   paper_tool same ONE.png OTHER.png PIXELS
  *       Does all ink of each lie within so many pixels of the other's?
+ *   paper_tool coverage PICTURE.png MARGIN
+ *       Prints the share of ink in per cent, but for so many pixels around.
  *
  * Exits 0 for yes, 1 for no with the reason on standard output, 77 where it
  * was built without cairo and cannot look at pictures. */
@@ -247,6 +249,24 @@ static int compare(const char *one_path, const char *other_path, int reach) {
                                                                            : NO;
 }
 
+/* ---- Coverage ------------------------------------------------------------ */
+
+static int print_coverage(const char *path, int margin) {
+  struct picture picture = load(path);
+  double ink = 0;
+  long pixels = 0;
+  for (int y = margin; y < picture.height - margin; y++)
+    for (int x = margin; x < picture.width - margin; x++) {
+      ink += (double)ink_at(&picture, x, y);
+      pixels++;
+    }
+  free(picture.ink);
+  if (pixels == 0)
+    return NO;
+  printf("%.4f\n", 100 * ink / (double)pixels);
+  return YES;
+}
+
 #else
 
 static int measure_picture(const char *path, double dpi, double limit_mm,
@@ -257,6 +277,11 @@ static int measure_picture(const char *path, double dpi, double limit_mm,
 
 static int compare(const char *one_path, const char *other_path, int reach) {
   (void)one_path, (void)other_path, (void)reach;
+  return CANNOT;
+}
+
+static int print_coverage(const char *path, int margin) {
+  (void)path, (void)margin;
   return CANNOT;
 }
 
@@ -277,6 +302,9 @@ int main(int argc, char **argv) {
   if (strcmp(verb, "same") == 0 && argc == 5 &&
       number_from_string(argv[4], &limit))
     return compare(argv[2], argv[3], (int)limit);
+  if (strcmp(verb, "coverage") == 0 && argc == 4 &&
+      number_from_string(argv[3], &limit))
+    return print_coverage(argv[2], (int)limit);
   fputs("paper_tool: see the top of tests/paper_tool.c\n", stderr);
   return 2;
 }

@@ -25,4 +25,11 @@ USE_RESULT bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
                           const struct scene *scene, const struct map *map,
                           const recto_options *options, double shortest_mm);
 
+/* Adds strokes of class 0 along parallel lines in up to three directions, the
+ * first at hatch_angle_deg, so that the ink of a pen pen_mm wide covers the
+ * share of the paper that options->light leaves dark (tone.h). */
+USE_RESULT bool engrave_add(struct drawing *drawing, const struct sheet *sheet,
+                            const struct scene *scene, const struct map *map,
+                            const recto_options *options, double shortest_mm);
+
 #endif

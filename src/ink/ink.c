@@ -157,6 +157,11 @@ static bool start_drawing(struct ink *ink) {
          (!ink->options->ids || copy_group_names(ink));
 }
 
+static bool is_lit(const recto_options *options) {
+  const double *light = options->light;
+  return light[0] != 0 || light[1] != 0 || light[2] != 0;
+}
+
 static bool add_fills(struct ink *ink) {
   switch (ink->options->fill) {
   case RECTO_FILL_PAINT:
@@ -164,8 +169,9 @@ static bool add_fills(struct ink *ink) {
     return fill_add(ink->drawing, ink->sheet, ink->scene, ink->map,
                     ink->options);
   case RECTO_FILL_HATCH:
-    return hatch_add(ink->drawing, ink->sheet, ink->scene, ink->map,
-                     ink->options, ink->shortest_mm);
+    return (is_lit(ink->options) ? engrave_add : hatch_add)(
+        ink->drawing, ink->sheet, ink->scene, ink->map, ink->options,
+        ink->shortest_mm);
   case RECTO_FILL_NONE:
     break;
   }

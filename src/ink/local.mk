@@ -4,6 +4,7 @@ librecto_core_la_SOURCES += \
   %D%/coincident.c \
   %D%/dash.c \
   %D%/drawing.c %D%/drawing.h \
+  %D%/engrave.c \
   %D%/fill.c %D%/fill.h %D%/hatch.c \
   %D%/ink.c %D%/ink.h \
   %D%/layers.c %D%/layers.h \
@@ -15,8 +16,10 @@ librecto_core_la_SOURCES += \
   %D%/pairing.c %D%/pairing.h \
   %D%/paths.h \
   %D%/ruling.c %D%/ruling.h \
+  %D%/runs.c %D%/runs.h \
   %D%/segments.c \
   %D%/simplify.c \
   %D%/straighten.c \
   %D%/stroke.c %D%/stroke.h \
+  %D%/tone.c %D%/tone.h \
   %D%/tour.c %D%/tour.h

@@ -1,0 +1,72 @@
+/* runs.c - bits of parallel lines, face by face, joined to the runs that a
+ * pen draws. */
+#include "ink/runs.h"
+
+#include "base/sort.h"
+
+static int compare_lines(const struct run_bit *a, const struct run_bit *b) {
+  if (a->pen != b->pen)
+    return a->pen < b->pen ? -1 : 1;
+  if (a->cross != b->cross)
+    return a->cross < b->cross ? -1 : 1;
+  if (a->step != b->step)
+    return a->step < b->step ? -1 : 1;
+  return (a->line > b->line) - (a->line < b->line);
+}
+
+static int compare_bits(const void *first, const void *second, void *user) {
+  const struct run_bit *a = first, *b = second;
+  int lines = compare_lines(a, b);
+  (void)user;
+  return lines ? lines : (a->u0 > b->u0) - (a->u0 < b->u0);
+}
+
+bool runs_sort(struct runs *runs) {
+  runs->next = 0;
+  return sort_stable(runs->bit.item, runs->bit.count, sizeof *runs->bit.item,
+                     compare_bits, NULL);
+}
+
+/* Takes what goes on from the bit at run->first.  Returns whether the run ends
+ * because of the tone. */
+static bool extend(const struct runs *runs, struct run *run) {
+  const struct run_bit *bit = runs->bit.item, *first = &bit[run->first];
+  double blank = first->u1; /* how far the face is known to run on */
+  bool cut = first->cut1;
+  run->end = run->first + 1;
+  run->u0 = first->u0;
+  run->u1 = first->u1;
+  for (size_t i = run->end;
+       i < runs->bit.count && compare_lines(first, &bit[i]) == 0; i++) {
+    if (bit[i].u0 > blank + runs->touch)
+      break;
+    if (bit[i].blank) {
+      blank = bit[i].u1 > blank ? bit[i].u1 : blank;
+      continue;
+    }
+    if (bit[i].u0 > run->u1 + runs->touch &&
+        !(cut && bit[i].cut0 && bit[i].u0 - run->u1 < runs->speck))
+      break;
+    run->end = i + 1;
+    if (bit[i].u1 > run->u1) {
+      run->u1 = bit[i].u1;
+      cut = bit[i].cut1;
+    }
+    blank = run->u1 > blank ? run->u1 : blank;
+  }
+  return cut;
+}
+
+bool runs_next(struct runs *runs, struct run *run) {
+  while (runs->next < runs->bit.count) {
+    const struct run_bit *bit = &runs->bit.item[runs->next];
+    run->first = runs->next++;
+    if (bit->blank)
+      continue;
+    bool cut = extend(runs, run);
+    runs->next = run->end;
+    if (!(bit->cut0 && cut && run->u1 - run->u0 < runs->speck))
+      return true;
+  }
+  return false;
+}

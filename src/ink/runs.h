@@ -1,0 +1,39 @@
+/* runs.h - bits of parallel lines, face by face, joined to the runs that a
+ * pen draws. */
+#ifndef INK_RUNS_H
+#define INK_RUNS_H
+
+#include "base/memory.h"
+
+/* A bit of a line.  Blank ones say that the face runs on there without ink. */
+struct run_bit {
+  uint32_t pen, cross, step; /* with the line's number: which line it is */
+  uint32_t face;
+  int64_t line;
+  double u0, u1;   /* mm along the line, u0 < u1 */
+  bool blank;      /* no longer than runs.speck: others say nothing */
+  bool cut0, cut1; /* begins, ends because of the tone, not of the face */
+};
+
+struct runs {
+  ARRAY(struct run_bit) bit;
+  double touch; /* mm: bits less than that apart meet */
+  double speck; /* mm: shorter runs, and shorter gaps, between two changes of
+                   the tone are left out: they are noise of the surface */
+  size_t next;  /* bit */
+};
+
+/* Bits [first, end) of one line, ink from u0 to u1. */
+struct run {
+  size_t first, end;
+  double u0, u1;
+};
+
+/* Sorts the bits: afterwards runs_next gives the runs in order of pen, cross,
+ * step, line, place. */
+USE_RESULT bool runs_sort(struct runs *runs);
+
+/* The next run; false: there is none left. */
+bool runs_next(struct runs *runs, struct run *run);
+
+#endif
