@@ -173,6 +173,7 @@ static bool take_curved(struct engraving *e, const struct map *map,
     if (e->tone.most <= threshold(k, 0))
       break;
     r->pitch = e->pitch;
+    ruling_clear(r);
     if (!ruling_take(r, map, fragment) || !ruling_find_spans(r))
       return false;
     for (size_t i = 0; i < r->span.count; i++)
@@ -189,6 +190,7 @@ static bool take_even(struct engraving *e, const struct map *map,
   for (int k = 0; each > 0 && k < layers; k++) {
     struct ruling *r = &e->ruling[k];
     r->pitch = e->pen / each;
+    ruling_clear(r);
     if (!ruling_take(r, map, fragment) || !ruling_find_spans(r))
       return false;
     for (size_t i = 0; i < r->span.count; i++)

@@ -2,13 +2,16 @@
  * apart.
  *
  * Strip k lies between lines k - 1 and k of the ruling (ruling.h).
- * Phases, for each fragment
- *   1 spans     of the ruling's lines within it
- *   2 strips    its sides listed by the strips they reach into
- *   3 strokes   from a span to one of the next line, at the end where the pen
+ * Phases, for each patch of fragments that no drawn line parts (patches.h)
+ *   1 sides     of all its fragments; sides that two of them share go
+ *   2 spans     of the ruling's lines within it
+ *   3 strips    its sides listed by the strips they reach into
+ *   4 strokes   from a span to one of the next line, at the end where the pen
  *               stands, while the move stays inside and near inked sides */
+#include "base/sort.h"
 #include "ink/fill.h"
 #include "ink/layers.h"
+#include "ink/patches.h"
 #include "ink/ruling.h"
 #include "ink/stroke.h"
 
@@ -16,8 +19,8 @@ struct hatch {
   struct drawing *drawing;
   const struct sheet *sheet;
   struct ruling ruling;
+  struct patches patches;
   double shortest;
-  bool intersections; /* are drawn */
   struct drawing_stroke like;
   /* Sides that reach into strip first + k: strip_side[strip[k] ..
    * strip[k + 1]). */
@@ -27,10 +30,68 @@ struct hatch {
   struct stroke_line line; /* the stroke at hand */
 };
 
-/* ---- 2 Strips -------------------------------------------------------------
+/* ---- 1 Sides --------------------------------------------------------------
  */
 
-/* Lists the sides by strip, the fragment's lines being [first, last). */
+/* Whether a side is drawn as a line. */
+static bool is_inked(const struct hatch *h, uint32_t side) {
+  return patches_is_inked(&h->patches, h->ruling.side.item[side].corner);
+}
+
+static int compare_places(struct ruling_place a, struct ruling_place b) {
+  if (a.u != b.u)
+    return a.u < b.u ? -1 : 1;
+  return (a.v > b.v) - (a.v < b.v);
+}
+
+/* The ends of a side, the lower one first. */
+static void order_ends(const struct ruling_side *side,
+                       struct ruling_place end[2]) {
+  bool turned = compare_places(side->from, side->to) > 0;
+  end[turned] = side->from;
+  end[!turned] = side->to;
+}
+
+static int compare_sides(const void *first, const void *second, void *user) {
+  struct ruling_place a[2], b[2];
+  (void)user;
+  order_ends(first, a);
+  order_ends(second, b);
+  int low = compare_places(a[0], b[0]);
+  return low ? low : compare_places(a[1], b[1]);
+}
+
+/* Takes the sides of fragments [begin, end) of the patches, but for those that
+ * two of them share and no line is drawn along: the pen may cross these. */
+static bool take_sides(struct hatch *h, const struct map *map, size_t begin,
+                       size_t end) {
+  struct ruling *r = &h->ruling;
+  ruling_clear(r);
+  for (size_t i = begin; i < end; i++)
+    if (!ruling_take(r, map, &map->fragment.item[h->patches.fragment[i]]))
+      return false;
+  if (end - begin == 1)
+    return true;
+  if (!sort_stable(r->side.item, r->side.count, sizeof *r->side.item,
+                   compare_sides, NULL))
+    return false;
+  size_t kept = 0;
+  for (uint32_t i = 0; i < r->side.count; i++) {
+    const struct ruling_side *side = &r->side.item[i];
+    if (i + 1 < r->side.count && compare_sides(side, side + 1, NULL) == 0 &&
+        !is_inked(h, i) && !is_inked(h, i + 1))
+      i++;
+    else
+      r->side.item[kept++] = *side;
+  }
+  r->side.count = kept;
+  return true;
+}
+
+/* ---- 3 Strips -------------------------------------------------------------
+ */
+
+/* Lists the sides by strip, the patch's lines being [first, last). */
 static bool list_strips(struct hatch *h, int64_t first, int64_t last) {
   const struct ruling *r = &h->ruling;
   size_t count = (size_t)(last - first) + 1;
@@ -60,27 +121,12 @@ static bool list_strips(struct hatch *h, int64_t first, int64_t last) {
   return true;
 }
 
-/* ---- 3 Strokes ------------------------------------------------------------
+/* ---- 4 Strokes ------------------------------------------------------------
  */
 
 static double cross(struct ruling_place a, struct ruling_place b,
                     struct ruling_place c) {
   return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
-}
-
-/* Whether a side is drawn as a line. */
-static bool is_inked(const struct hatch *h, uint32_t side) {
-  const struct map_corner *corner = h->ruling.side.item[side].corner;
-  switch (corner->side) {
-  case MAP_SIDE_EDGE:
-  case MAP_SIDE_OUTLINE:
-    return corner->id < h->sheet->edge.count &&
-           h->sheet->edge.item[corner->id].edge_class != 0;
-  case MAP_SIDE_INTERSECTION:
-    return h->intersections;
-  default:
-    return false;
-  }
 }
 
 static bool is_crossed(const struct ruling_side *side, struct ruling_place a,
@@ -176,7 +222,7 @@ static bool add_stroke(struct hatch *h, struct ruling_span *span) {
                     h->line.point.count, false);
 }
 
-static bool hatch_fragment(struct hatch *h) {
+static bool hatch_patch(struct hatch *h) {
   struct ruling *r = &h->ruling;
   if (!ruling_find_spans(r))
     return false;
@@ -200,25 +246,24 @@ static bool hatch_fragment(struct hatch *h) {
 bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
                const struct scene *scene, const struct map *map,
                const recto_options *options, double shortest_mm) {
-  struct hatch h = {.drawing = drawing,
-                    .sheet = sheet,
-                    .shortest = shortest_mm,
-                    .intersections =
-                        (options->edges & RECTO_EDGE_INTERSECTION) != 0};
+  struct hatch h = {
+      .drawing = drawing, .sheet = sheet, .shortest = shortest_mm};
   ruling_init(&h.ruling, sheet, options->hatch_pitch_mm,
               options->hatch_angle_deg);
-  bool good = true;
-  for (size_t i = 0; good && i < map->fragment.count; i++) {
-    const struct map_fragment *fragment = &map->fragment.item[i];
-    uint32_t group = scene->face_group.item[fragment->face];
+  bool good = patches_init(&h.patches, sheet, scene, map, options);
+  for (size_t i = 0, end; good && i < map->fragment.count; i = end) {
+    end = patches_end(&h.patches, i);
+    uint32_t face = map->fragment.item[h.patches.fragment[i]].face;
+    uint32_t group = scene->face_group.item[face];
     h.like =
         (struct drawing_stroke){.layer = layers_pen_of_group(options, group),
-                                .face = fragment->face,
+                                .face = face,
                                 .edge = DRAWING_NONE,
                                 .group = group};
-    good = ruling_take(&h.ruling, map, fragment) && hatch_fragment(&h);
+    good = take_sides(&h, map, i, end) && hatch_patch(&h);
   }
   ruling_fini(&h.ruling);
+  patches_fini(&h.patches);
   ARRAY_FREE(&h.strip);
   ARRAY_FREE(&h.strip_side);
   ARRAY_FREE(&h.line.point);

@@ -14,6 +14,7 @@ librecto_core_la_SOURCES += \
   %D%/order.c %D%/order.h \
   %D%/overlap.c %D%/overlap.h \
   %D%/pairing.c %D%/pairing.h \
+  %D%/patches.c %D%/patches.h \
   %D%/paths.h \
   %D%/ruling.c %D%/ruling.h \
   %D%/runs.c %D%/runs.h \

@@ -1,5 +1,5 @@
-/* ruling.c - the page ruled with parallel lines, and what of them lies in a
- * fragment.
+/* ruling.c - the page ruled with parallel lines, and what of them lies in
+ * fragments.
  *
  * A fragment is turned so that the lines are level.  Its spans lie between
  * the first and second, third and fourth, ... crossing of a line with the
@@ -14,6 +14,7 @@
 #include <math.h>
 
 #include "base/sort.h"
+#include "base/tolerance.h"
 
 void ruling_init(struct ruling *ruling, const struct sheet *sheet, double pitch,
                  double angle_deg) {
@@ -54,9 +55,10 @@ static struct ruling_place turn_corner(const struct ruling *ruling,
                                             sheet_y_mm(ruling->sheet, c->y)});
 }
 
+void ruling_clear(struct ruling *ruling) { ruling->side.count = 0; }
+
 bool ruling_take(struct ruling *ruling, const struct map *map,
                  const struct map_fragment *fragment) {
-  ruling->side.count = 0;
   for (uint32_t l = 0; l < fragment->loops; l++) {
     const struct map_loop *loop = &map->loop.item[fragment->loop + l];
     const struct map_corner *corner = map->corner.item + loop->corner;
@@ -126,13 +128,21 @@ static bool find_crossings(struct ruling *ruling) {
 }
 
 bool ruling_find_spans(struct ruling *ruling) {
+  /* Spans that meet where two fragments do are one. */
+  const double gap = TOLERANCE_COINCIDENT_UNITS / SHEET_UNITS_PER_MM;
   ruling->span.count = 0;
   if (!find_crossings(ruling))
     return false;
   for (size_t i = 0; i + 1 < ruling->crossing.count; i += 2) {
     const struct ruling_crossing *c = &ruling->crossing.item[i];
-    if (c[0].u < c[1].u &&
-        !ARRAY_PUSH(&ruling->span, ((struct ruling_span){c[0], c[1], false})))
+    struct ruling_span *last = NULL;
+    if (ruling->span.count > 0)
+      last = &ruling->span.item[ruling->span.count - 1];
+    if (last && last->left.line == c[0].line && c[0].u <= last->right.u + gap)
+      last->right = c[1];
+    else if (c[0].u < c[1].u &&
+             !ARRAY_PUSH(&ruling->span,
+                         ((struct ruling_span){c[0], c[1], false})))
       return false;
   }
   return true;

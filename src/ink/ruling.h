@@ -1,5 +1,5 @@
-/* ruling.h - the page ruled with parallel lines, and what of them lies in a
- * fragment. */
+/* ruling.h - the page ruled with parallel lines, and what of them lies in
+ * fragments. */
 #ifndef INK_RULING_H
 #define INK_RULING_H
 
@@ -32,9 +32,9 @@ struct ruling_span {
  * the lines meet. */
 struct ruling {
   const struct sheet *sheet;
-  double pitch; /* mm; may be changed between ruling_take and _find_spans */
+  double pitch; /* mm; may be changed between ruling_clear and _find_spans */
   double cosine, sine;
-  ARRAY(struct ruling_side) side; /* of the fragment at hand */
+  ARRAY(struct ruling_side) side; /* of the fragments at hand */
   ARRAY(struct ruling_crossing) crossing;
   ARRAY(struct ruling_span) span; /* by line, then from the left */
 };
@@ -60,7 +60,9 @@ void ruling_find_lines(const struct ruling *ruling,
 /* Where a side that is not level is at height v. */
 double ruling_u_at(const struct ruling_side *side, double v);
 
-/* Takes a fragment's sides; finds its spans, which have a length each. */
+/* Forgets all sides; takes those of one more fragment; finds the spans, which
+ * have a length each. */
+void ruling_clear(struct ruling *ruling);
 USE_RESULT bool ruling_take(struct ruling *ruling, const struct map *map,
                             const struct map_fragment *fragment);
 USE_RESULT bool ruling_find_spans(struct ruling *ruling);

@@ -1,0 +1,123 @@
+/* patches.c - fragments that no drawn line parts. */
+#include "ink/patches.h"
+
+#include "base/sort.h"
+#include "ink/layers.h"
+
+/* The mesh edge that a side is a piece of; SHEET_NONE where there is none. */
+static uint32_t own_edge(const struct patches *patches,
+                         const struct map_corner *corner) {
+  bool own =
+      corner->side == MAP_SIDE_EDGE && corner->id < patches->sheet->edge.count;
+  return own ? corner->id : SHEET_NONE;
+}
+
+bool patches_is_inked(const struct patches *patches,
+                      const struct map_corner *corner) {
+  switch (corner->side) {
+  case MAP_SIDE_EDGE:
+  case MAP_SIDE_OUTLINE:
+    return corner->id < patches->sheet->edge.count &&
+           patches->sheet->edge.item[corner->id].edge_class != 0;
+  case MAP_SIDE_INTERSECTION:
+    return patches->intersections;
+  default:
+    return false;
+  }
+}
+
+static uint32_t find_root(uint32_t *root, uint32_t i) {
+  while (root[i] != i) {
+    root[i] = root[root[i]];
+    i = root[i];
+  }
+  return i;
+}
+
+/* Joins a fragment to the one that was met first at an edge. */
+static void join_at(const struct patches *patches, uint32_t *seen,
+                    uint32_t fragment) {
+  uint32_t a = find_root(patches->root, fragment);
+  uint32_t b = find_root(patches->root, *seen);
+  patches->root[a > b ? a : b] = a > b ? b : a;
+}
+
+/* seen  one a sheet edge: a fragment beside it, SHEET_NONE for not yet */
+static void join_all(const struct patches *patches, const struct scene *scene,
+                     const struct map *map, const recto_options *options,
+                     uint32_t *seen) {
+  for (uint32_t f = 0; f < patches->count; f++) {
+    const struct map_fragment *fragment = &map->fragment.item[f];
+    uint32_t pen =
+        layers_pen_of_group(options, scene->face_group.item[fragment->face]);
+    for (uint32_t l = 0; l < fragment->loops; l++) {
+      const struct map_loop *loop = &map->loop.item[fragment->loop + l];
+      for (uint32_t i = 0; i < loop->count; i++) {
+        const struct map_corner *corner = &map->corner.item[loop->corner + i];
+        uint32_t edge = own_edge(patches, corner);
+        if (edge == SHEET_NONE || patches_is_inked(patches, corner))
+          continue;
+        if (seen[edge] == SHEET_NONE)
+          seen[edge] = f;
+        uint32_t other = map->fragment.item[seen[edge]].face;
+        if (layers_pen_of_group(options, scene->face_group.item[other]) == pen)
+          join_at(patches, &seen[edge], f);
+      }
+    }
+  }
+}
+
+/* Lists the fragments by patch. */
+static bool list(struct patches *patches) {
+  struct sort_key *key = mem_alloc(patches->count, 2 * sizeof *key);
+  if (key == NULL)
+    return false;
+  for (uint32_t f = 0; f < patches->count; f++) {
+    patches->root[f] = find_root(patches->root, f);
+    key[f] = (struct sort_key){patches->root[f], f};
+  }
+  sort_keys(key, key + patches->count, patches->count);
+  for (size_t i = 0; i < patches->count; i++)
+    patches->fragment[i] = key[i].value;
+  mem_free(key);
+  return true;
+}
+
+bool patches_init(struct patches *patches, const struct sheet *sheet,
+                  const struct scene *scene, const struct map *map,
+                  const recto_options *options) {
+  size_t edges = options->ids ? 0 : sheet->edge.count;
+  *patches = (struct patches){
+      .sheet = sheet,
+      .intersections = (options->edges & RECTO_EDGE_INTERSECTION) != 0,
+      .count = map->fragment.count};
+  uint32_t *seen = mem_alloc(edges, sizeof *seen);
+  patches->root = mem_alloc(patches->count, sizeof *patches->root);
+  patches->fragment = mem_alloc(patches->count, sizeof *patches->fragment);
+  bool good = seen && patches->root && patches->fragment;
+  for (uint32_t f = 0; good && f < patches->count; f++)
+    patches->root[f] = f;
+  for (size_t e = 0; good && e < edges; e++)
+    seen[e] = SHEET_NONE;
+  if (good && !options->ids)
+    join_all(patches, scene, map, options, seen);
+  good = good && list(patches);
+  mem_free(seen);
+  if (!good)
+    patches_fini(patches);
+  return good;
+}
+
+void patches_fini(struct patches *patches) {
+  mem_free(patches->root);
+  mem_free(patches->fragment);
+  *patches = (struct patches){0};
+}
+
+size_t patches_end(const struct patches *patches, size_t begin) {
+  uint32_t root = patches->root[patches->fragment[begin]];
+  size_t end = begin + 1;
+  while (end < patches->count && patches->root[patches->fragment[end]] == root)
+    end++;
+  return end;
+}
