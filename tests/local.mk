@@ -128,11 +128,15 @@ unit_tests += %D%/test_api
 
 # Ink, on sheets and maps made by hand.
 unit_tests += %D%/test_ink_net %D%/test_ink_chain %D%/test_ink_clean \
-  %D%/test_ink_fill %D%/test_ink_order %D%/test_ink_draw
+  %D%/test_ink_fill %D%/test_ink_engrave %D%/test_ink_order \
+  %D%/test_ink_draw
 %C%_test_ink_net_SOURCES = %D%/test_ink_net.c %D%/inked.c %D%/inked.h
 %C%_test_ink_chain_SOURCES = %D%/test_ink_chain.c %D%/inked.c %D%/inked.h
 %C%_test_ink_clean_SOURCES = %D%/test_ink_clean.c %D%/inked.c %D%/inked.h
 %C%_test_ink_fill_SOURCES = %D%/test_ink_fill.c %D%/inked.c %D%/inked.h
+%C%_test_ink_engrave_SOURCES = %D%/test_ink_engrave.c \
+  %D%/inked.c %D%/inked.h
+%C%_test_ink_engrave_LDADD = %D%/scenes/libscenes.la $(LDADD)
 %C%_test_ink_order_SOURCES = %D%/test_ink_order.c %D%/inked.c %D%/inked.h
 %C%_test_ink_draw_SOURCES = %D%/test_ink_draw.c %D%/inked.c %D%/inked.h
 %C%_test_ink_draw_LDADD = %D%/scenes/libscenes.la $(LDADD)

@@ -480,6 +480,40 @@ static void neighbours_are_hatched_on_the_same_lines(void **state) {
   inked_end(&k);
 }
 
+/* Two triangles with ink all around, and an edge between them. */
+static size_t count_strokes_over(unsigned edge_class, bool ids, int pens) {
+  struct inked k;
+  const double lower[] = {10, 10, 50, 10, 50, 50};
+  const double upper[] = {10, 10, 50, 50, 10, 50};
+  inked_start(&k);
+  inked_side(&k);
+  k.options.fill = RECTO_FILL_HATCH;
+  k.options.hatch_angle_deg = 0;
+  k.options.hatch_pitch_mm = 2;
+  k.options.ids = ids;
+  k.options.pens = pens;
+  inked_group(&k, "other");
+  inked_fragment(&k, inked_face(&k, 0, flat, 4), INKED_XY(lower));
+  inked_fragment(&k, inked_face(&k, 1, flat, 4), INKED_XY(upper));
+  uint32_t edge = inked_line(&k, 10, 10, 50, 50, edge_class);
+  inked_hide(&k, edge);
+  k.map.corner.item[2].id = k.map.corner.item[3].id = edge;
+  inked_draw(&k);
+  size_t strokes = k.drawing.stroke.count;
+  inked_end(&k);
+  return strokes;
+}
+
+static void hatching_runs_on_over_edges_that_are_not_drawn(void **state) {
+  (void)state;
+  assert_int_equal(count_strokes_over(0, false, 1), 1);
+  assert_int_equal(count_strokes_over(CREASE, false, 1), 2);
+  /* Spans end at the diagonal, which bears no ink: 20 lines over each face, in
+   * pairs. */
+  assert_int_equal(count_strokes_over(0, true, 1), 20);
+  assert_int_equal(count_strokes_over(0, false, 2), 20);
+}
+
 static void fragment_between_two_lines_is_left_alone(void **state) {
   struct inked k;
   const double sliver[] = {10, 10.1, 60, 10.1, 60, 10.9};
@@ -537,6 +571,7 @@ int main(void) {
       cmocka_unit_test(leaning_strip_is_hatched_in_one_stroke),
       cmocka_unit_test(random_polygons_are_hatched_inside),
       cmocka_unit_test(neighbours_are_hatched_on_the_same_lines),
+      cmocka_unit_test(hatching_runs_on_over_edges_that_are_not_drawn),
       cmocka_unit_test(fragment_between_two_lines_is_left_alone),
       cmocka_unit_test(short_hatch_strokes_are_dropped),
       cmocka_unit_test(edges_come_before_the_hatching),

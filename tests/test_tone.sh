@@ -114,6 +114,8 @@ for direction in 0.2,0.3,1 -1,1.5,1 1,0.2,-0.4; do
 done
 as_shade "in perspective too" \
   ball.obj --camera 0,0,4 --light=-1,1.5,1 --fov 30
+as_shade "and facet by facet" \
+  ball.obj --scale 48 --view front --light=-1,1.5,1 --crease 0
 
 bunny=${RECTO_MODELS:-$srcdir/../shared/models}/stanford-bunny.obj
 if test -r "$bunny"; then

@@ -34,8 +34,6 @@
 enum { LAYERS = 3, LAYER_DEG = 60, THRESHOLD_BITS = 8 };
 
 #define SPECK_PENS 6.0
-/* Finer pens are taken for this fine: the number of lines has to end. */
-#define FINEST_MM 0.01
 
 /* What a whole layer of a curved region covers, so that three of them cover
  * what the light leaves dark at most: FULL = 1 - sqrt(0.4). */
@@ -273,7 +271,7 @@ bool engrave_add(struct drawing *drawing, const struct sheet *sheet,
                  const recto_options *options, double shortest_mm) {
   struct engraving e = {.drawing = drawing,
                         .options = options,
-                        .pen = fmax(options->pen_mm, FINEST_MM),
+                        .pen = options->pen_mm,
                         .shortest = shortest_mm};
   e.pitch = e.pen / FULL;
   /* What is less than an eighth of the pen apart, the ink would join. */
