@@ -74,15 +74,15 @@ void failures_assert_judged(const struct scene *scene,
   judging.edges = asked;
   judging.contact = pipeline.camera.contact;
   judging.crease_deg = options->crease_deg;
-  judge_drawing(&verdict, &drawing, scene, &camera, &judging);
-  if (verdict.false_ink > 0)
+  assert_true(judge_drawing(&verdict, &drawing, scene, &camera, &judging));
+  if (verdict.false_ink.samples > 0)
     fail_msg("%s: false ink at %.4f %.4f and in %lu of %lu samples", name,
-             verdict.false_at.x, verdict.false_at.y,
-             (unsigned long)verdict.false_ink, (unsigned long)verdict.drawn);
-  if (verdict.missing > 0)
+             verdict.false_at.at.x, verdict.false_at.at.y,
+             (unsigned long)verdict.false_ink.samples, (unsigned long)verdict.drawn.samples);
+  if (verdict.missing.samples > 0)
     fail_msg("%s: missing ink at %.4f %.4f and in %lu of %lu samples", name,
-             verdict.missing_at.x, verdict.missing_at.y,
-             (unsigned long)verdict.missing, (unsigned long)verdict.visible);
+             verdict.missing_at.at.x, verdict.missing_at.at.y,
+             (unsigned long)verdict.missing.samples, (unsigned long)verdict.visible.samples);
   judge_drawing_fini(&drawing);
   mem_free(text);
   pipeline_fini(&pipeline);

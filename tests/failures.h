@@ -2,7 +2,7 @@
 #ifndef TESTS_FAILURES_H
 #define TESTS_FAILURES_H
 
-#include "tests/judge/judge.h"
+#include "judge/judge.h"
 #include "tests/scenes/pipeline.h"
 
 /* Fails the test, with `name`, unless all exact solvers give the same SVG

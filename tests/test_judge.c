@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "tests/judge/judge.h"
+#include "judge/judge.h"
 #include "tests/scenes/scenes.h"
 
 /* An SVG file that is being written. */
@@ -63,7 +63,7 @@ judge_page(struct page *page, const struct scene *scene, unsigned edges) {
   options.edges = edges;
   write_text(page, "</g>\n</svg>\n");
   assert_null(judge_read_svg(&drawing, page->text, page->length));
-  judge_drawing(&verdict, &drawing, scene, &page->camera, &options);
+  assert_true(judge_drawing(&verdict, &drawing, scene, &page->camera, &options));
   judge_drawing_fini(&drawing);
   return verdict;
 }
@@ -135,10 +135,10 @@ static struct judge_verdict judge_cube(bool (*wanted)(unsigned, bool)) {
 static void a_right_drawing_of_a_cube_is_accepted(void **state) {
   (void)state;
   struct judge_verdict verdict = judge_cube(want_seen);
-  assert_true(verdict.drawn > 1000);
-  assert_true(verdict.visible > 1000);
-  assert_int_equal(verdict.false_ink, 0);
-  assert_int_equal(verdict.missing, 0);
+  assert_true(verdict.drawn.samples > 1000);
+  assert_true(verdict.visible.samples > 1000);
+  assert_int_equal(verdict.false_ink.samples, 0);
+  assert_int_equal(verdict.missing.samples, 0);
 }
 
 static void any_hidden_edge_drawn_is_false_ink(void **state) {
@@ -146,12 +146,12 @@ static void any_hidden_edge_drawn_is_false_ink(void **state) {
   unsigned hidden = 0;
   for (put_in = 0; put_in < 12; put_in++) {
     struct judge_verdict verdict = judge_cube(want_one_more);
-    hidden += verdict.false_ink > 0;
-    assert_int_equal(verdict.missing, 0);
+    hidden += verdict.false_ink.samples > 0;
+    assert_int_equal(verdict.missing.samples, 0);
   }
   assert_int_equal(hidden, 3);
   struct judge_verdict verdict = judge_cube(want_all);
-  assert_true(verdict.false_ink > 500);
+  assert_true(verdict.false_ink.samples > 500);
 }
 
 static void any_visible_edge_left_out_is_missing_ink(void **state) {
@@ -159,8 +159,8 @@ static void any_visible_edge_left_out_is_missing_ink(void **state) {
   unsigned seen = 0;
   for (left_out = 0; left_out < 12; left_out++) {
     struct judge_verdict verdict = judge_cube(want_all_but_one);
-    seen += verdict.missing > 0;
-    assert_int_equal(verdict.false_ink, 0);
+    seen += verdict.missing.samples > 0;
+    assert_int_equal(verdict.false_ink.samples, 0);
   }
   assert_int_equal(seen, 9);
 }
@@ -175,8 +175,8 @@ static void ink_where_no_edge_is_is_false(void **state) {
   draw_cube(&page, want_seen);
   draw_line(&page, vector_of(1, -0.5, -0.5), vector_of(1, 0.5, 0.5));
   struct judge_verdict verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
-  assert_true(verdict.false_ink > 100);
-  assert_int_equal(verdict.missing, 0);
+  assert_true(verdict.false_ink.samples > 100);
+  assert_int_equal(verdict.missing.samples, 0);
   scene_fini(&scene);
 }
 
@@ -199,8 +199,8 @@ static void half_an_edge_is_half_missing(void **state) {
     x[i] = (m[0] * i + m[1] + m[2] + m[3]) / d;
     y[i] = (m[4] * i + m[5] + m[6] + m[7]) / d;
   }
-  double missing_mm = 0.02 * (double)verdict.missing;
-  assert_int_equal(verdict.false_ink, 0);
+  double missing_mm = 0.02 * (double)verdict.missing.samples;
+  assert_int_equal(verdict.false_ink.samples, 0);
   assert_true(fabs(missing_mm - hypot(x[1] - x[0], y[1] - y[0])) < 0.1);
   scene_fini(&scene);
 }
@@ -260,8 +260,8 @@ static void what_lies_in_a_notch_is_seen(void **state) {
       draw_line(&page, vector_of(-2, -2, 0), vector_of(2, -2, 0));
     struct judge_verdict verdict =
         judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
-    assert_int_equal(verdict.missing, 0);
-    assert_int_equal(verdict.false_ink > 0, hidden_too);
+    assert_int_equal(verdict.missing.samples, 0);
+    assert_int_equal(verdict.false_ink.samples > 0, hidden_too);
   }
   scene_fini(&scene);
 }
@@ -287,8 +287,8 @@ static void a_spike_covers_nothing(void **state) {
   draw_loop(&page, square, 4);
   draw_line(&page, vector_of(0.5, -1, 0), vector_of(3, 1, 0));
   struct judge_verdict verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
-  assert_int_equal(verdict.false_ink, 0);
-  assert_int_equal(verdict.missing, 0);
+  assert_int_equal(verdict.false_ink.samples, 0);
+  assert_int_equal(verdict.missing.samples, 0);
   scene_fini(&scene);
 }
 
@@ -313,8 +313,8 @@ static void lines_where_faces_pierce_are_asked_for(void **state) {
       draw_line(&page, vector_of(0, -2, 0), vector_of(0, 2, 0));
     struct judge_verdict verdict =
         judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
-    assert_int_equal(verdict.false_ink, 0);
-    assert_int_equal(verdict.missing == 0, with_line);
+    assert_int_equal(verdict.false_ink.samples, 0);
+    assert_int_equal(verdict.missing.samples == 0, with_line);
   }
   scene_fini(&scene);
 }
@@ -337,9 +337,9 @@ static void contact_does_not_hide(void **state) {
   look_square_on(&page);
   draw_loop(&page, plate, 4);
   struct judge_verdict verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
-  assert_int_equal(verdict.false_ink, 0);
-  assert_in_range(verdict.missing, 1900, 2100);
-  assert_true(fabs(verdict.missing_at.y - 40) < 0.01);
+  assert_int_equal(verdict.false_ink.samples, 0);
+  assert_in_range(verdict.missing.samples, 1900, 2100);
+  assert_true(fabs(verdict.missing_at.at.y - 40) < 0.01);
   scene_fini(&scene);
 }
 
@@ -361,8 +361,8 @@ static void smooth_edges_are_asked_for_by_all_alone(void **state) {
     draw_loop(&page, square, 4);
     struct judge_verdict verdict =
         judge_page(&page, &scene, all ? RECTO_EDGES_ALL : RECTO_EDGES_DEFAULT);
-    assert_int_equal(verdict.missing > 0, all);
-    assert_int_equal(verdict.false_ink, 0);
+    assert_int_equal(verdict.missing.samples > 0, all);
+    assert_int_equal(verdict.false_ink.samples, 0);
   }
   scene_fini(&scene);
 }
@@ -389,8 +389,8 @@ static void paths_and_polylines_are_read(void **state) {
   assert_int_equal(drawing.stroke.count, 4);
   assert_int_equal(drawing.stroke.item[0].count, 4);
   assert_int_equal(drawing.stroke.item[1].count, 2);
-  assert_false(drawing.stroke.item[2].hidden);
-  assert_true(drawing.stroke.item[3].hidden);
+  assert_int_equal(drawing.stroke.item[2].role, JUDGE_INK);
+  assert_int_equal(drawing.stroke.item[3].role, JUDGE_HIDDEN);
   assert_true(drawing.point.item[1].x == 3);
   assert_true(drawing.point.item[1].y == 5.5);
   assert_true(drawing.point.item[2].x == -0.5);

@@ -169,16 +169,16 @@ static void check_model_of(void **state, const char *folder, const char *name,
                     0);
   judge_options_init(&judging);
   judging.edges = edges;
-  judge_drawing(&verdict, &drawing, &scene, &camera, &judging);
-  assert_true(verdict.drawn > 10000 && verdict.visible > 10000);
-  if (verdict.false_ink > 0 || verdict.missing > 0)
+  assert_true(judge_drawing(&verdict, &drawing, &scene, &camera, &judging));
+  assert_true(verdict.drawn.samples > 10000 && verdict.visible.samples > 10000);
+  if (verdict.false_ink.samples > 0 || verdict.missing.samples > 0)
     fail_msg("%s: false ink in %lu of %lu samples (%.3f %.3f), missing in %lu "
              "of %lu (%.3f %.3f)",
-             name, (unsigned long)verdict.false_ink,
-             (unsigned long)verdict.drawn, verdict.false_at.x,
-             verdict.false_at.y, (unsigned long)verdict.missing,
-             (unsigned long)verdict.visible, verdict.missing_at.x,
-             verdict.missing_at.y);
+             name, (unsigned long)verdict.false_ink.samples,
+             (unsigned long)verdict.drawn.samples, verdict.false_at.at.x,
+             verdict.false_at.at.y, (unsigned long)verdict.missing.samples,
+             (unsigned long)verdict.visible.samples, verdict.missing_at.at.x,
+             verdict.missing_at.at.y);
   judge_drawing_fini(&drawing);
   free(text);
   scene_fini(&scene);

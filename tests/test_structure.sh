@@ -11,13 +11,14 @@ sources() {
 }
 
 # A file includes its own layer or a lower one; writers see base and the
-# drawing alone, the program base and recto.h.  Solvers, writers and readers
+# drawing alone, the judge base and the scene, the program base and recto.h.  Solvers, writers and readers
 # never include each other: what belongs to one of them bears its name.
 check_includes() {
   (cd "$1" && sources . | xargs grep -n '^ *# *include *"' /dev/null) |
     awk -F: '
       BEGIN {
-        split("base geom scene view visibility ink backends api cli", name, " ")
+        split("base geom scene view visibility ink backends judge api cli",
+              name, " ")
         for (i in name)
           layer[name[i]] = i - 1
       }
@@ -67,6 +68,9 @@ check_includes() {
         else if (from == "backends" && to != "backends" && to != "base" &&
                  included != "ink/drawing.h")
           wrong("a writer sees base and the drawing alone")
+        else if (from == "judge" && to != "judge" && to != "base" &&
+                 to != "scene")
+          wrong("the judge sees base and the scene alone")
         else if (from == "cli" && to != "cli" && to != "base")
           wrong("the program sees base and recto.h alone")
         else if (member(included) != "" && member(included) != member(file))
@@ -149,6 +153,7 @@ src/scene/reader_obj.c|#include "scene/reader_stl.h"
 backends/writer_svg.c|#include "scene/scene.h"
 backends/writer_svg.c|#include "ink/ink.h"
 backends/writer_svg.c|#include "backends/writer_hpgl.h"
+src/judge/judge.c|#include "view/sheet.h"
 backends/writers.c|#include "api/handle.h"
 src/cli/main.c|#include "scene/scene.h"
 src/cli/main.c|#include "backends/writer.h"

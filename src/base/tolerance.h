@@ -92,6 +92,32 @@
  * Ten times   fewer faces are counted as warped. */
 #define TOLERANCE_WARP_SHARE 1e-6
 
+/* How far the judge's rays are moved to either side of an edge.
+ * Unit        mm
+ * Derivation  20 grid units: what the page grid rounds, and doubles do in a
+ *             ray's way through the scene, is a tenth of it.
+ * Users       judge/judge.c
+ * Ten times   slits and slivers of 0.2 um are passed over. */
+#define TOLERANCE_JUDGE_HAIR_MM 2e-5
+
+/* The judge leaves open what a face's slope to the view, or an edge's angle to
+ * the crease angle, is within this of.
+ * Unit        1 (a sine, a cosine)
+ * Derivation  single precision rounds a normal by 1e-7 of its length and that
+ *             of a face a hundred times longer than wide by 1e-5.
+ * Users       judge/edges.c
+ * Ten times   silhouettes seen within 0.006 degrees of edge-on may be missing
+ *             unnoticed. */
+#define TOLERANCE_JUDGE_ANGLE 1e-5
+
+/* The judge takes the near plane to be nearer by this.
+ * Unit        share of the near distance
+ * Derivation  doubles place a point of the near plane within 1e-15 of it; this
+ *             is well above, and far below what is seen.
+ * Users       judge/camera.c, judge/edges.c
+ * Ten times   nothing that could be seen. */
+#define TOLERANCE_JUDGE_NEAR_SHARE 1e-9
+
 /* A change of the pen's way in the air is made where it gains more.
  * Unit        mm
  * Derivation  sums of distances up to 2 m are rounded to 1e-12 mm; a gain

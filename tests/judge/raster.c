@@ -1,14 +1,24 @@
 /* raster.c - see raster.h. */
 #include "tests/judge/raster.h"
 
-#include "tests/judge/edges.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "judge/edges.h"
+
+static void require(bool good) {
+  if (!good) {
+    fputs("raster: out of memory\n", stderr);
+    abort();
+  }
+}
 
 void judge_raster_init(struct judge_raster *raster, unsigned n,
                        double page_mm) {
   raster->n = n;
   raster->page_mm = page_mm;
   raster->face = mem_alloc((size_t)n * n, sizeof *raster->face);
-  judge_require(raster->face != NULL);
+  require(raster->face != NULL);
   for (size_t i = 0; i < (size_t)n * n; i++)
     raster->face[i] = SCENE_NONE;
 }
@@ -99,10 +109,10 @@ void judge_raster_scene(struct judge_raster *raster, const struct scene *scene,
   size_t pixels = (size_t)raster->n * raster->n;
   double *depth = mem_alloc(pixels, sizeof *depth);
   struct judge_triangles all;
-  judge_require(depth != NULL);
+  require(depth != NULL);
   for (size_t i = 0; i < pixels; i++)
     depth[i] = -INFINITY;
-  judge_triangles_init(&all, scene);
+  require(judge_triangles_init(&all, scene));
   /* The tree has mixed them; earlier faces come first again. */
   judge_sort(all.triangle.item, all.triangle.count, sizeof *all.triangle.item,
              compare_faces);
@@ -134,7 +144,7 @@ static void cross_loop(struct crossings *crossings,
     if ((a.y * scale <= y) == (b.y * scale <= y))
       continue;
     double x = a.x * scale + (y - a.y * scale) * (b.x - a.x) / (b.y - a.y);
-    judge_require(ARRAY_PUSH(&crossings->x, x));
+    require(ARRAY_PUSH(&crossings->x, x));
   }
 }
 

@@ -2,7 +2,7 @@
 #ifndef JUDGE_RASTER_H
 #define JUDGE_RASTER_H
 
-#include "tests/judge/judge.h"
+#include "judge/judge.h"
 
 /* n x n pixels over a square page, the first row at the bottom; each holds
  * the face seen at its middle, SCENE_NONE where there is none. */

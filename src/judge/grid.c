@@ -1,5 +1,5 @@
-/* grid.c - see grid.h. */
-#include "tests/judge/grid.h"
+/* grid.c - segments on the page, found by place. */
+#include "judge/grid.h"
 
 #include <string.h>
 
@@ -56,7 +56,7 @@ static void enter(struct judge_grid *grid, uint32_t i, uint32_t *fill) {
   }
 }
 
-void judge_grid_init(struct judge_grid *grid,
+bool judge_grid_init(struct judge_grid *grid,
                      const struct judge_segment *segment, uint32_t count,
                      double width_mm, double height_mm, double cell_mm,
                      double reach_mm) {
@@ -68,22 +68,29 @@ void judge_grid_init(struct judge_grid *grid,
   size_t cells = (size_t)grid->columns * grid->rows;
   grid->start = mem_calloc(cells + 1, sizeof *grid->start);
   uint32_t *fill = mem_calloc(cells + 1, sizeof *fill);
-  judge_require(grid->start != NULL && fill != NULL);
+  if (grid->start == NULL || fill == NULL)
+    goto end;
   for (uint32_t i = 0; i < count; i++)
     enter(grid, i, fill);
   for (size_t i = 0; i < cells; i++)
     grid->start[i + 1] = grid->start[i] + fill[i];
   grid->item = mem_alloc(grid->start[cells], sizeof *grid->item);
-  judge_require(grid->item != NULL);
+  if (grid->item == NULL)
+    goto end;
   memcpy(fill, grid->start, cells * sizeof *fill);
   for (uint32_t i = 0; i < count; i++)
     enter(grid, i, fill);
+end:
   mem_free(fill);
+  if (grid->item == NULL)
+    judge_grid_fini(grid);
+  return grid->item != NULL;
 }
 
 void judge_grid_fini(struct judge_grid *grid) {
   mem_free(grid->start);
   mem_free(grid->item);
+  grid->start = grid->item = NULL;
 }
 
 const uint32_t *judge_grid_near(const struct judge_grid *grid,

@@ -1,7 +1,7 @@
 /* pierced.c - the lines along which triangles pierce each other. */
 #include <string.h>
 
-#include "tests/judge/edges.h"
+#include "judge/edges.h"
 
 struct piercer {
   struct judge_edges *edges;
@@ -49,47 +49,55 @@ static unsigned shared_corners(const struct judge_triangle *s,
 
 /* Adds what two triangles' cuts by each other's planes have in common; both
  * lie on the line of those planes. */
-static void add_common(struct piercer *piercer, const struct cut *s,
-                       const struct cut *t, struct judge_spot along) {
+static bool add_common(struct piercer *piercer, const struct cut *s,
+                       const struct cut *t, struct judge_spot along,
+                       uint32_t other) {
   double s0 = spot_dot(along, s->end[0]), s1 = spot_dot(along, s->end[1]);
   double t0 = spot_dot(along, t->end[0]), t1 = spot_dot(along, t->end[1]);
   double low = fmax(fmin(s0, s1), fmin(t0, t1));
   double high = fmin(fmax(s0, s1), fmax(t0, t1));
   if (!(low < high))
-    return;
+    return true;
   struct judge_spot a = spot_along(s->end[0], low - s0, along);
   struct judge_spot b = spot_along(s->end[0], high - s0, along);
   /* Sure where all four reaches are well beyond what counts as contact. */
   double reach = fmin(fmin(s->before, s->behind), fmin(t->before, t->behind));
   bool sure = reach > 10 * piercer->contact;
-  judge_edges_add(piercer->edges, piercer->camera, a, b,
-                  sure ? RECTO_EDGE_INTERSECTION : 0, false);
+  const struct judge_triangle *triangle = piercer->all->triangle.item;
+  const struct judge_source source = {
+      {SCENE_NONE, SCENE_NONE},
+      {triangle[piercer->current].face, triangle[other].face},
+      sure ? RECTO_EDGE_INTERSECTION : 0,
+      false};
+  return judge_edges_add(piercer->edges, piercer->camera, a, b, &source);
 }
 
-static void pierce(void *user, uint32_t other) {
+static bool pierce(void *user, uint32_t other) {
   struct piercer *piercer = user;
   if (other <= piercer->current)
-    return;
+    return true;
   const struct judge_triangle *s =
       &piercer->all->triangle.item[piercer->current];
   const struct judge_triangle *t = &piercer->all->triangle.item[other];
   if (s->face == t->face || shared_corners(s, t) >= 2)
-    return;
+    return true;
   struct judge_spot along = spot_cross(s->normal, t->normal);
   if (!(spot_length(along) > 0))
-    return;
+    return true;
   struct cut cs = cut_by_plane(s, t), ct = cut_by_plane(t, s);
-  if (cs.count == 2 && ct.count == 2)
-    add_common(piercer, &cs, &ct, spot_unit(along));
+  return cs.count != 2 || ct.count != 2 ||
+         add_common(piercer, &cs, &ct, spot_unit(along), other);
 }
 
-void judge_edges_pierced(struct judge_edges *edges,
+bool judge_edges_pierced(struct judge_edges *edges,
                          const struct judge_triangles *all,
                          const struct judge_camera *camera, double contact) {
   struct piercer piercer = {edges, all, camera, contact, 0};
   for (uint32_t i = 0; i < all->triangle.count; i++) {
     struct judge_box box = judge_triangle_box(&all->triangle.item[i]);
     piercer.current = i;
-    judge_triangles_near(all, &box, pierce, &piercer);
+    if (!judge_triangles_near(all, &box, pierce, &piercer))
+      return false;
   }
+  return true;
 }

@@ -2,7 +2,7 @@
 #ifndef JUDGE_GRID_H
 #define JUDGE_GRID_H
 
-#include "tests/judge/triangles.h"
+#include "judge/triangles.h"
 
 struct judge_segment {
   struct judge_place a, b;
@@ -16,11 +16,13 @@ struct judge_grid {
 };
 
 /* Sorts segments into the cells of a page that are within reach of them.
- * What lies beyond the page is left out. */
-void judge_grid_init(struct judge_grid *grid,
-                     const struct judge_segment *segment, uint32_t count,
-                     double width_mm, double height_mm, double cell_mm,
-                     double reach_mm);
+ * What lies beyond the page is left out.
+ * Returns false when memory ran out. */
+USE_RESULT bool judge_grid_init(struct judge_grid *grid,
+                                const struct judge_segment *segment,
+                                uint32_t count, double width_mm,
+                                double height_mm, double cell_mm,
+                                double reach_mm);
 void judge_grid_fini(struct judge_grid *grid);
 
 /* The segments that may be within reach of a place; *count of them. */

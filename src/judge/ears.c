@@ -1,7 +1,5 @@
-/* ears.c - see ears.h. */
-#include "tests/judge/ears.h"
-
-#include "tests/judge/triangles.h"
+/* ears.c - cutting a polygon into triangles, for the judge. */
+#include "judge/ears.h"
 
 /* The polygon in the plane, counter-clockwise, and who is left of it. */
 struct outline {
@@ -88,27 +86,39 @@ static bool is_ear(const struct outline *outline, uint32_t i) {
   return true;
 }
 
-uint32_t judge_cut_ears(const struct scene *scene, const uint32_t *corner,
-                        uint32_t count, uint32_t (*ear)[3]) {
-  uint32_t ears = 0;
-  struct outline outline = {mem_alloc(count, sizeof *outline.at),
-                            mem_alloc(count, sizeof *outline.left), 0};
-  judge_require(outline.at != NULL && outline.left != NULL);
+static void cut(struct judge_ears *ears, const struct outline *outline,
+                uint32_t i) {
+  uint32_t n = outline->count;
+  ears->ear.item[ears->ear.count++] = (struct judge_ear){
+      {outline->left[(i + n - 1) % n], outline->left[i],
+       outline->left[(i + 1) % n]}};
+}
+
+bool judge_cut_ears(struct judge_ears *ears, const struct scene *scene,
+                    const uint32_t *corner, uint32_t count) {
+  ears->ear.count = 0;
+  if (!ARRAY_RESERVE(&ears->ear, count) || !ARRAY_RESERVE(&ears->at, count) ||
+      !ARRAY_RESERVE(&ears->left, count))
+    return false;
+  struct outline outline = {ears->at.item, ears->left.item, 0};
   flatten(&outline, scene, corner, count);
   tidy(&outline);
-  while (outline.count >= 3) {
-    uint32_t n = outline.count, i = 0;
-    while (i < n && !is_ear(&outline, i))
-      i++;
+  /* The search goes on where the last ear was. */
+  for (uint32_t i = 0; outline.count >= 3;) {
+    uint32_t n = outline.count, tried = 0;
+    while (tried < n && !is_ear(&outline, (i + tried) % n))
+      tried++;
     /* No ear: what is left has no area, or crosses itself. */
-    if (i == n)
-      i = 0;
-    ear[ears][0] = outline.left[(i + n - 1) % n];
-    ear[ears][1] = outline.left[i];
-    ear[ears++][2] = outline.left[(i + 1) % n];
+    i = tried == n ? 0 : (i + tried) % n;
+    cut(ears, &outline, i);
     drop(&outline, i);
+    i = i < outline.count ? i : 0;
   }
-  mem_free(outline.left);
-  mem_free(outline.at);
-  return ears;
+  return true;
+}
+
+void judge_ears_fini(struct judge_ears *ears) {
+  ARRAY_FREE(&ears->ear);
+  ARRAY_FREE(&ears->at);
+  ARRAY_FREE(&ears->left);
 }

@@ -1,33 +1,23 @@
-/* triangles.c - see triangles.h.
+/* triangles.c - the judge's triangles, their tree of boxes, and its rays.
  *
  * The tree is built from the top: a node's triangles are parted at the middle
- * of their centroids' longest extent, which suits meshes of even density. */
-#include "tests/judge/triangles.h"
+ * of their centroids' longest extent, which suits meshes of even density, or
+ * where that leaves less than an eighth on one side, by number.  So a child
+ * has at most 7/8 of its parent, and 2^31 triangles make a tree less deep than
+ * log(2^31) / log(8/7) = 161. */
+#include "judge/triangles.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/judge/ears.h"
+#include "judge/ears.h"
 
-enum { leaf_size = 4, depth_max = 128 };
-
-void judge_require(bool good) {
-  if (good)
-    return;
-  fputs("judge: out of memory\n", stderr);
-  abort();
-}
+enum { LEAF_SIZE = 4, STACK_SIZE = 192, FEWEST_SHARE = 8 };
 
 void judge_sort(void *item, size_t count, size_t size,
                 int (*compare)(const void *, const void *)) {
   if (count > 1)
     qsort(item, count, size, compare);
-}
-
-static struct judge_spot spot_at(const struct scene *scene, uint32_t point) {
-  const struct scene_point *p = &scene->point.item[point];
-  return judge_spot_of(p->x, p->y, p->z);
 }
 
 /* ---- Boxes -----------------------------------------------------------------
@@ -68,8 +58,8 @@ static double centroid_3(const struct judge_triangle *t, int axis) {
 /* ---- The tree
  * ---------------------------------------------------------------- */
 
-/* Parts triangles [first, first + count) by the middle of their longest
- * extent; returns how many come first, 0 where they cannot be parted. */
+/* Parts triangles by the middle of their longest extent, or by number; returns
+ * how many come first. */
 static uint32_t part_triangles(struct judge_triangle *t, uint32_t count) {
   struct judge_box box = empty_box();
   for (uint32_t i = 0; i < count; i++)
@@ -88,13 +78,17 @@ static uint32_t part_triangles(struct judge_triangle *t, uint32_t count) {
     t[i] = t[low];
     t[low++] = swap;
   }
-  return low == count ? 0 : low;
+  uint32_t fewest = count / FEWEST_SHARE;
+  return low < fewest || count - low < fewest || low == 0 || low == count
+             ? count / 2
+             : low;
 }
 
-static void build_tree(struct judge_triangles *all) {
+static bool build_tree(struct judge_triangles *all) {
   uint32_t total = (uint32_t)all->triangle.count;
   all->node = mem_alloc(2 * (size_t)total + 1, sizeof *all->node);
-  judge_require(all->node != NULL);
+  if (all->node == NULL)
+    return false;
   all->nodes = 1;
   all->node[0] = (struct judge_node){.first = 0, .count = total};
   /* Children come after their parent: one pass serves as the stack. */
@@ -105,9 +99,9 @@ static void build_tree(struct judge_triangles *all) {
     for (uint32_t k = 0; k < node->count; k++)
       for (int j = 0; j < 3; j++)
         grow_box(&node->box, t[k].p[j]);
-    uint32_t low = node->count > leaf_size ? part_triangles(t, node->count) : 0;
-    if (low == 0)
+    if (node->count <= LEAF_SIZE)
       continue;
+    uint32_t low = part_triangles(t, node->count);
     struct judge_node left = {.first = node->first, .count = low};
     struct judge_node right = {.first = node->first + low,
                                .count = node->count - low};
@@ -116,52 +110,66 @@ static void build_tree(struct judge_triangles *all) {
     all->node[all->nodes++] = left;
     all->node[all->nodes++] = right;
   }
+  return true;
 }
 
 /* ---- Triangles
  * ----------------------------------------------------------------- */
 
-static void add_triangle(struct judge_triangles *all, const struct scene *scene,
+static bool add_triangle(struct judge_triangles *all, const struct scene *scene,
                          const uint32_t *corner, const uint32_t ear[3],
                          uint32_t face) {
   struct judge_triangle t = {.face = face};
   for (int k = 0; k < 3; k++) {
     t.point[k] = corner[ear[k]];
-    t.p[k] = spot_at(scene, t.point[k]);
+    t.p[k] = judge_spot_at(scene, t.point[k]);
   }
   struct judge_spot normal =
       spot_cross(spot_sub(t.p[1], t.p[0]), spot_sub(t.p[2], t.p[0]));
   if (spot_length(normal) > 0)
     t.normal = spot_unit(normal);
-  judge_require(ARRAY_PUSH(&all->triangle, t));
+  return ARRAY_PUSH(&all->triangle, t);
 }
 
-void judge_triangles_init(struct judge_triangles *all,
+/* Cuts one face; `ears` is kept from face to face. */
+static bool add_face(struct judge_triangles *all, const struct scene *scene,
+                     uint32_t face, struct judge_ears *ears) {
+  uint32_t start = scene->face_start.item[face];
+  uint32_t count = scene->face_start.item[face + 1] - start;
+  const uint32_t *corner = scene->corner.item + start;
+  if (!judge_cut_ears(ears, scene, corner, count))
+    return false;
+  for (size_t k = 0; k < ears->ear.count; k++)
+    if (!add_triangle(all, scene, corner, ears->ear.item[k].corner, face))
+      return false;
+  return true;
+}
+
+bool judge_triangles_init(struct judge_triangles *all,
                           const struct scene *scene) {
   struct judge_box box = empty_box();
+  struct judge_ears ears = {0};
+  bool good = true;
   memset(all, 0, sizeof *all);
-  for (uint32_t i = 0; i < scene_face_count(scene); i++) {
-    uint32_t start = scene->face_start.item[i];
-    uint32_t count = scene->face_start.item[i + 1] - start;
-    const uint32_t *corner = scene->corner.item + start;
-    uint32_t(*ear)[3] = mem_alloc(count, sizeof *ear);
-    judge_require(ear != NULL);
-    uint32_t ears = judge_cut_ears(scene, corner, count, ear);
-    for (uint32_t k = 0; k < ears; k++)
-      add_triangle(all, scene, corner, ear[k], i);
-    mem_free(ear);
-  }
+  for (uint32_t i = 0; good && i < scene_face_count(scene); i++)
+    good = add_face(all, scene, i, &ears);
+  judge_ears_fini(&ears);
   for (size_t i = 0; i < scene->point.count; i++)
-    grow_box(&box, spot_at(scene, (uint32_t)i));
+    grow_box(&box, judge_spot_at(scene, (uint32_t)i));
   all->size = spot_length(judge_spot_of(box.high[0] - box.low[0],
                                         box.high[1] - box.low[1],
                                         box.high[2] - box.low[2]));
-  build_tree(all);
+  if (good && build_tree(all))
+    return true;
+  judge_triangles_fini(all);
+  return false;
 }
 
 void judge_triangles_fini(struct judge_triangles *all) {
   ARRAY_FREE(&all->triangle);
   mem_free(all->node);
+  all->node = NULL;
+  all->nodes = 0;
 }
 
 /* ---- Rays
@@ -220,14 +228,15 @@ static enum judge_sight look_at(const struct ray *ray,
 
 enum judge_sight judge_look(const struct judge_triangles *all,
                             struct judge_spot from, struct judge_spot towards,
-                            double reach, double touch, double beyond) {
+                            double reach, double touch, double beyond,
+                            uint32_t *face) {
   struct ray ray = {{from.x, from.y, from.z},
                     {1 / towards.x, 1 / towards.y, 1 / towards.z},
                     {towards.x == 0, towards.y == 0, towards.z == 0},
                     from,
                     towards,
                     reach};
-  uint32_t stack[depth_max];
+  uint32_t stack[STACK_SIZE];
   unsigned depth = 0;
   enum judge_sight sight = JUDGE_CLEAR;
   stack[depth++] = 0;
@@ -236,16 +245,18 @@ enum judge_sight judge_look(const struct judge_triangles *all,
     if (!ray_meets_box(&ray, &node->box))
       continue;
     if (node->count == 0) {
-      judge_require(depth + 2 <= depth_max);
       stack[depth++] = node->first;
       stack[depth++] = node->first + 1;
       continue;
     }
     for (uint32_t i = 0; i < node->count; i++) {
-      enum judge_sight seen =
-          look_at(&ray, &all->triangle.item[node->first + i], touch, beyond);
-      if (seen == JUDGE_BLOCKED)
+      const struct judge_triangle *t = &all->triangle.item[node->first + i];
+      enum judge_sight seen = look_at(&ray, t, touch, beyond);
+      if (seen == JUDGE_BLOCKED) {
+        if (face != NULL)
+          *face = t->face;
         return seen;
+      }
       sight = seen == JUDGE_UNSURE ? seen : sight;
     }
   }
@@ -259,11 +270,11 @@ static bool boxes_meet(const struct judge_box *a, const struct judge_box *b) {
   return true;
 }
 
-void judge_triangles_near(const struct judge_triangles *all,
+bool judge_triangles_near(const struct judge_triangles *all,
                           const struct judge_box *box,
-                          void (*found)(void *user, uint32_t triangle),
+                          bool (*found)(void *user, uint32_t triangle),
                           void *user) {
-  uint32_t stack[depth_max];
+  uint32_t stack[STACK_SIZE];
   unsigned depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
@@ -271,12 +282,13 @@ void judge_triangles_near(const struct judge_triangles *all,
     if (!boxes_meet(&node->box, box))
       continue;
     if (node->count == 0) {
-      judge_require(depth + 2 <= depth_max);
       stack[depth++] = node->first;
       stack[depth++] = node->first + 1;
       continue;
     }
     for (uint32_t i = 0; i < node->count; i++)
-      found(user, node->first + i);
+      if (!found(user, node->first + i))
+        return false;
   }
+  return true;
 }

@@ -17,6 +17,11 @@ struct judge_spot {
 static inline struct judge_spot judge_spot_of(double x, double y, double z) {
   return (struct judge_spot){x, y, z};
 }
+static inline struct judge_spot judge_spot_at(const struct scene *scene,
+                                              uint32_t point) {
+  const struct scene_point *p = &scene->point.item[point];
+  return judge_spot_of(p->x, p->y, p->z);
+}
 static inline struct judge_spot spot_sub(struct judge_spot a,
                                          struct judge_spot b) {
   return judge_spot_of(a.x - b.x, a.y - b.y, a.z - b.z);
@@ -64,24 +69,28 @@ struct judge_triangles {
   double size; /* diagonal of the box of all points that faces use */
 };
 
-/* Cuts faces into triangles and builds the tree.  Cost: n log n. */
-void judge_triangles_init(struct judge_triangles *all,
-                          const struct scene *scene);
+/* Cuts faces into triangles and builds the tree.  Cost: n log n.
+ * Returns false when memory ran out. */
+USE_RESULT bool judge_triangles_init(struct judge_triangles *all,
+                                     const struct scene *scene);
 void judge_triangles_fini(struct judge_triangles *all);
 
 enum judge_sight { JUDGE_CLEAR, JUDGE_UNSURE, JUDGE_BLOCKED };
 
 /* What a point sees along a direction, for 0 < t < reach.
  * touch   planes no farther than this from the point block nothing
- * beyond  planes farther than this from it do */
+ * beyond  planes farther than this from it do
+ * face    of what blocks it, set where something does; NULL: not wanted */
 enum judge_sight judge_look(const struct judge_triangles *all,
                             struct judge_spot from, struct judge_spot towards,
-                            double reach, double touch, double beyond);
+                            double reach, double touch, double beyond,
+                            uint32_t *face);
 
-/* Calls found(user, i) for the triangles whose boxes meet `box`. */
-void judge_triangles_near(const struct judge_triangles *all,
+/* Calls found(user, i) for the triangles whose boxes meet `box`, until it
+ * returns false: that is then returned. */
+bool judge_triangles_near(const struct judge_triangles *all,
                           const struct judge_box *box,
-                          void (*found)(void *user, uint32_t triangle),
+                          bool (*found)(void *user, uint32_t triangle),
                           void *user);
 
 struct judge_box judge_triangle_box(const struct judge_triangle *triangle);
@@ -89,8 +98,5 @@ struct judge_box judge_triangle_box(const struct judge_triangle *triangle);
 /* qsort, which may not be asked to sort nothing at NULL. */
 void judge_sort(void *item, size_t count, size_t size,
                 int (*compare)(const void *, const void *));
-
-/* Ends the program unless `good`. */
-void judge_require(bool good);
 
 #endif

@@ -1,8 +1,8 @@
 /* judge.h - an independent judge of drawings, in double precision.
  *
  * It shares nothing with the solvers, the sheet or the camera: it has its own
- * projection, adjacency, bounding volumes and ray test, all in doubles, and
- * it knows a drawing only from the SVG file.  Two questions are asked:
+ * projection, adjacency, bounding volumes and ray test, all in doubles, and of
+ * a drawing it knows the strokes alone.  Two questions are asked:
  *
  *   false ink    is there, under every drawn point, an edge of the scene that
  *                is visible there?
@@ -14,21 +14,24 @@
  * cases on the border, so there are three answers: clear, blocked, unsure.
  * Rays start from P itself and from a hair (judge_options.hair_mm) to the left
  * and right of the edge on the page.  A point counts as false ink only if all
- * three are blocked, as missing only if all three are clear.
- *
- * Running out of memory ends the program: this is a test's means. */
+ * three are blocked, as missing only if all three are clear. */
 #ifndef JUDGE_JUDGE_H
 #define JUDGE_JUDGE_H
 
 #include "scene/scene.h"
-#include "tests/judge/triangles.h"
+#include "judge/triangles.h"
 
-/* ---- What a drawing says ---------------------------------------------------
- */
+/* ---- What a drawing says ------------------------------------------------- */
+
+enum judge_role {
+  JUDGE_INK,
+  JUDGE_HIDDEN, /* a hidden line: not judged */
+  JUDGE_DROPPED /* not drawn, for being too short: nothing is missing there */
+};
 
 struct judge_stroke {
   uint32_t point, count; /* a closed one repeats its first point */
-  bool hidden;           /* on a layer whose label speaks of hidden */
+  enum judge_role role;
 };
 
 struct judge_drawing {
@@ -39,21 +42,24 @@ struct judge_drawing {
 
 /* Reads an SVG file such as recto writes: a root in mm with a viewBox in the
  * same, paths of M, L, Z with absolute numbers, polylines and polygons.
+ * Strokes on a layer whose label speaks of hidden are JUDGE_HIDDEN.
  * Returns NULL, or what is wrong with it. */
 const char *judge_read_svg(struct judge_drawing *drawing, const char *text,
                            size_t length);
 void judge_drawing_fini(struct judge_drawing *drawing);
 
-/* ---- Where it is seen from
- * --------------------------------------------------- */
+/* ---- Where it is seen from ----------------------------------------------- */
 
 struct judge_camera {
   double matrix[12]; /* model to page mm, homogeneous, row by row; the third
                         row is the depth in front of the eye (perspective) */
   bool perspective;
-  struct judge_spot eye;  /* perspective */
-  struct judge_spot back; /* orthographic: unit, towards the viewer */
-  double near_d;          /* perspective: nothing nearer is drawn */
+  struct judge_spot eye;  /* orthographic: near_d counts from it */
+  struct judge_spot back; /* unit, towards the viewer */
+  double near_d;          /* nothing nearer to the eye is drawn; perspective:
+                             0 or more; orthographic: -INFINITY cuts nothing */
+  double depth_step;      /* what rounding does to depths: scene units, in
+                             perspective those of 1 / d; 0: nothing */
   double width_mm, height_mm;
 };
 
@@ -64,15 +70,23 @@ void judge_camera_look(struct judge_camera *camera, struct judge_spot eye,
                        double fov_deg, double width_mm, double height_mm,
                        double margin_mm);
 
+/* From the camera's axes: on the page mm = middle + s (x, y) / d, in an
+ * orthographic view s (x, y). */
+void judge_camera_axes(struct judge_camera *camera, const double right[3],
+                       const double up[3], const double back[3],
+                       const double eye[3], bool perspective, double s,
+                       const double middle_mm[2], const double page_mm[2]);
+
 /* From the 3 x 4 matrix that a drawing's report holds. */
 void judge_camera_matrix(struct judge_camera *camera, const double matrix[12],
                          double width_mm, double height_mm);
 
-/* ---- The verdict
- * ---------------------------------------------------------------- */
+/* ---- The verdict --------------------------------------------------------- */
 
 struct judge_options {
   double step_mm;    /* between samples */
+  size_t samples;    /* so many of each kind, spread evenly; 0: by step_mm, at
+                        least two on every piece */
   double reach_mm;   /* ink this near to a visible point is enough */
   double lateral_mm; /* an edge this near explains a drawn point: the file's
                         own rounding and a little */
@@ -86,17 +100,36 @@ struct judge_options {
 /* 0.02 mm steps and reach, 30 degrees, the default classes. */
 void judge_options_init(struct judge_options *options);
 
-struct judge_verdict {
-  size_t drawn, false_ink; /* samples of strokes */
-  size_t visible, missing; /* samples of edges that were asked for */
-  double drawn_mm;         /* length of the strokes */
-  struct judge_place false_at, missing_at; /* the first of each */
+/* What shows a drawing to be wrong. */
+struct judge_witness {
+  struct judge_place at;
+  bool on_edge;            /* false: no edge is there, and so none of these */
+  struct judge_spot spot;  /* of the edge, seen or hidden */
+  uint32_t point[2];       /* the edge's ends; SCENE_NONE: an intersection */
+  uint32_t face[2];        /* two of its faces; SCENE_NONE */
+  uint32_t blocker;        /* the face that hides it; SCENE_NONE */
 };
 
-/* Judges the strokes that are not on a hidden layer. */
-void judge_drawing(struct judge_verdict *verdict,
-                   const struct judge_drawing *drawing,
-                   const struct scene *scene, const struct judge_camera *camera,
-                   const struct judge_options *options);
+/* Samples, and the length in mm that they stand for. */
+struct judge_count {
+  size_t samples;
+  double mm;
+};
+
+struct judge_verdict {
+  struct judge_count drawn, false_ink, unsure_ink; /* of strokes: the last two
+                                                      are of the first */
+  struct judge_count visible, missing; /* of edges that were asked for */
+  struct judge_count hidden, unsure;   /* of these without ink */
+  struct judge_witness false_at, missing_at; /* the first of each */
+};
+
+/* Judges the strokes that are ink.
+ * Returns false when memory ran out. */
+USE_RESULT bool judge_drawing(struct judge_verdict *verdict,
+                              const struct judge_drawing *drawing,
+                              const struct scene *scene,
+                              const struct judge_camera *camera,
+                              const struct judge_options *options);
 
 #endif

@@ -4,7 +4,7 @@
  * fault in writing them is not undone by the same fault in reading. */
 #include <string.h>
 
-#include "tests/judge/judge.h"
+#include "judge/judge.h"
 
 struct source {
   const char *at, *end;
@@ -67,19 +67,20 @@ static bool has_word(struct source text, const char *word) {
   return false;
 }
 
-/* ---- Strokes ---------------------------------------------------------------
- */
+/* ---- Strokes -------------------------------------------------------------- */
 
 struct svg_reader {
   struct judge_drawing *drawing;
   bool hidden; /* the layer at hand */
   bool root;   /* seen */
+  bool starved; /* memory ran out */
 };
 
 static void start_stroke(struct svg_reader *reader) {
   struct judge_stroke stroke = {(uint32_t)reader->drawing->point.count, 0,
-                                reader->hidden};
-  judge_require(ARRAY_PUSH(&reader->drawing->stroke, stroke));
+                                reader->hidden ? JUDGE_HIDDEN : JUDGE_INK};
+  if (!ARRAY_PUSH(&reader->drawing->stroke, stroke))
+    reader->starved = true;
 }
 
 static struct judge_stroke *last_stroke(struct svg_reader *reader) {
@@ -92,16 +93,20 @@ static bool add_place(struct svg_reader *reader, struct source *source) {
   if (!read_number(source, &at.x) || !read_number(source, &at.y))
     return false;
   at.y = reader->drawing->height_mm - at.y;
-  judge_require(ARRAY_PUSH(&reader->drawing->point, at));
-  last_stroke(reader)->count++;
+  if (!ARRAY_PUSH(&reader->drawing->point, at))
+    reader->starved = true;
+  else if (!reader->starved)
+    last_stroke(reader)->count++;
   return true;
 }
 
 static void close_stroke(struct svg_reader *reader) {
   struct judge_stroke *stroke = last_stroke(reader);
   struct judge_place first = reader->drawing->point.item[stroke->point];
-  judge_require(ARRAY_PUSH(&reader->drawing->point, first));
-  stroke->count++;
+  if (!ARRAY_PUSH(&reader->drawing->point, first))
+    reader->starved = true;
+  else
+    stroke->count++;
 }
 
 static const char *read_path(struct svg_reader *reader, struct source data) {
@@ -134,8 +139,7 @@ static const char *read_points(struct svg_reader *reader, struct source data,
   return NULL;
 }
 
-/* ---- Tags
- * -------------------------------------------------------------------- */
+/* ---- Tags ----------------------------------------------------------------- */
 
 static const char *read_root(struct svg_reader *reader, struct source tag) {
   struct source width, height, box;
@@ -193,7 +197,7 @@ static const char *read_tag(struct svg_reader *reader, struct source tag) {
 
 const char *judge_read_svg(struct judge_drawing *drawing, const char *text,
                            size_t length) {
-  struct svg_reader reader = {drawing, false, false};
+  struct svg_reader reader = {.drawing = drawing};
   const char *end = text + length, *fault = NULL;
   memset(drawing, 0, sizeof *drawing);
   while (fault == NULL && text < end) {
@@ -205,6 +209,8 @@ const char *judge_read_svg(struct judge_drawing *drawing, const char *text,
     fault = read_tag(&reader, (struct source){open + 1, close + 1});
     text = close + 1;
   }
+  if (reader.starved)
+    return "memory ran out";
   return fault != NULL ? fault : reader.root ? NULL : "no svg in it";
 }
 

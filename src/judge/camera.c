@@ -1,7 +1,8 @@
 /* camera.c - the judge's own projection. */
 #include <string.h>
 
-#include "tests/judge/edges.h"
+#include "base/tolerance.h"
+#include "judge/edges.h"
 
 /* Fills one row of the matrix: (direction, offset). */
 static void set_row(double row[4], struct judge_spot direction, double offset) {
@@ -32,8 +33,40 @@ void judge_camera_look(struct judge_camera *camera, struct judge_spot eye,
   set_row(camera->matrix + 8, ahead, -spot_dot(ahead, eye));
   camera->perspective = true;
   camera->eye = eye;
+  camera->back = spot_along(zero, -1, ahead);
   camera->width_mm = width_mm;
   camera->height_mm = height_mm;
+}
+
+static struct judge_spot spot_of(const double xyz[3]) {
+  return judge_spot_of(xyz[0], xyz[1], xyz[2]);
+}
+
+void judge_camera_axes(struct judge_camera *camera, const double right[3],
+                       const double up[3], const double back[3],
+                       const double eye[3], bool perspective, double s,
+                       const double middle_mm[2], const double page_mm[2]) {
+  const double *axis[2] = {right, up};
+  const struct judge_spot zero = {0, 0, 0};
+  memset(camera, 0, sizeof *camera);
+  camera->perspective = perspective;
+  camera->eye = spot_of(eye);
+  camera->back = spot_of(back);
+  camera->near_d = -INFINITY;
+  camera->width_mm = page_mm[0];
+  camera->height_mm = page_mm[1];
+  struct judge_spot ahead = spot_along(zero, -1, camera->back);
+  for (int k = 0; k < 2; k++) {
+    struct judge_spot row = spot_along(zero, s, spot_of(axis[k]));
+    if (perspective)
+      row = spot_along(row, middle_mm[k], ahead);
+    set_row(camera->matrix + 4 * k, row,
+            (perspective ? 0 : middle_mm[k]) - spot_dot(row, camera->eye));
+  }
+  if (perspective)
+    set_row(camera->matrix + 8, ahead, -spot_dot(ahead, camera->eye));
+  else
+    set_row(camera->matrix + 8, zero, 1);
 }
 
 /* The spot that the matrix maps to nothing: where its three planes meet. */
@@ -57,7 +90,9 @@ void judge_camera_matrix(struct judge_camera *camera, const double matrix[12],
     camera->matrix[i] = matrix[i] * scale;
   if (camera->perspective) {
     camera->eye = common_spot(camera->matrix);
+    camera->back = spot_unit(judge_spot_of(-third.x, -third.y, -third.z));
   } else {
+    camera->near_d = -INFINITY;
     struct judge_spot x = {matrix[0], matrix[1], matrix[2]};
     struct judge_spot y = {matrix[4], matrix[5], matrix[6]};
     camera->back = spot_unit(spot_cross(x, y));
@@ -74,8 +109,13 @@ double judge_depth(const struct judge_camera *camera, struct judge_spot p) {
   return apply_row(camera->matrix + 8, p);
 }
 
+double judge_ahead(const struct judge_camera *camera, struct judge_spot p) {
+  return camera->perspective ? judge_depth(camera, p)
+                             : spot_dot(camera->back, spot_sub(camera->eye, p));
+}
+
 double judge_near(const struct judge_camera *camera) {
-  return camera->near_d * (1 - 1e-9);
+  return camera->near_d - fabs(camera->near_d) * TOLERANCE_JUDGE_NEAR_SHARE;
 }
 
 struct judge_place judge_project(const struct judge_camera *camera,
@@ -92,10 +132,8 @@ struct judge_spot judge_shift(const struct judge_camera *camera,
                               struct judge_spot p, double dx, double dy) {
   const double *m = camera->matrix;
   struct judge_spot x = {m[0], m[1], m[2]}, y = {m[4], m[5], m[6]};
-  struct judge_spot ahead =
-      camera->perspective ? judge_spot_of(m[8], m[9], m[10]) : camera->back;
-  x = spot_along(x, -spot_dot(x, ahead), ahead);
-  y = spot_along(y, -spot_dot(y, ahead), ahead);
+  x = spot_along(x, -spot_dot(x, camera->back), camera->back);
+  y = spot_along(y, -spot_dot(y, camera->back), camera->back);
   double depth = judge_depth(camera, p);
   p = spot_along(p, dx * depth / spot_dot(x, x), x);
   return spot_along(p, dy * depth / spot_dot(y, y), y);

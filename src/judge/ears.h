@@ -1,0 +1,27 @@
+/* ears.h - cutting a polygon into triangles, for the judge. */
+#ifndef JUDGE_EARS_H
+#define JUDGE_EARS_H
+
+#include "judge/triangles.h"
+
+struct judge_ear {
+  uint32_t corner[3]; /* numbers of the face's corners */
+};
+
+/* Room that is kept from face to face; zero-initialised is empty. */
+struct judge_ears {
+  ARRAY(struct judge_ear) ear;  /* of the face cut last */
+  ARRAY(struct judge_place) at; /* its corners in a plane */
+  ARRAY(uint32_t) left;         /* numbers of corners still there */
+};
+
+/* Cuts a face into at most count - 2 triangles.  Works in doubles in the plane
+ * of the face's own normal; a face that crosses itself gives some triangles
+ * that cover it.  Returns false when memory ran out.
+ * Cost: about the square of the count. */
+USE_RESULT bool judge_cut_ears(struct judge_ears *ears,
+                               const struct scene *scene,
+                               const uint32_t *corner, uint32_t count);
+void judge_ears_fini(struct judge_ears *ears);
+
+#endif

@@ -1,0 +1,410 @@
+/* judge.c - what a drawing has too much and what it lacks, by sampling. */
+#include "judge/judge.h"
+
+#include <string.h>
+
+#include "base/tolerance.h"
+#include "judge/edges.h"
+#include "judge/grid.h"
+
+struct court {
+  const struct judge_drawing *drawing;
+  const struct judge_camera *camera;
+  struct judge_options options;
+  struct judge_triangles all;
+  struct judge_edges edges;
+  struct judge_segment *image, *ink; /* of the edges; of the strokes */
+  uint32_t inks, drops;              /* of ink; of what was dropped, behind it */
+  struct judge_grid by_image, by_ink;
+  struct judge_verdict *verdict;
+};
+
+void judge_options_init(struct judge_options *options) {
+  *options = (struct judge_options){.step_mm = 0.02,
+                                    .reach_mm = 0.02,
+                                    .lateral_mm = 0.0015,
+                                    .hair_mm = TOLERANCE_JUDGE_HAIR_MM,
+                                    .contact = -1,
+                                    .crease_deg = 30,
+                                    .edges = RECTO_EDGES_DEFAULT};
+}
+
+/* ---- Sight ---------------------------------------------------------------- */
+
+/* What a spot sees towards the eye.  Planes nearer than half the contact
+ * block nothing, beyond one and a half times they do; the hair by which rays
+ * are moved aside, and the rounding of depths, are added to both. */
+static enum judge_sight look(const struct court *court, struct judge_spot from,
+                             uint32_t *blocker) {
+  const struct judge_camera *camera = court->camera;
+  double depth = judge_depth(camera, from);
+  double per_mm = spot_length(
+      spot_sub(judge_shift(camera, from, court->options.hair_mm, 0), from));
+  double rounding = per_mm + camera->depth_step * depth * depth;
+  double touch = 0.5 * court->options.contact + 2 * rounding;
+  double beyond = 1.5 * court->options.contact + 4 * rounding;
+  double near = judge_near(camera);
+  if (!camera->perspective)
+    return judge_look(&court->all, from, camera->back,
+                      judge_ahead(camera, from) - near, touch, beyond, blocker);
+  return judge_look(&court->all, from, spot_sub(camera->eye, from),
+                    1 - near / depth, touch, beyond, blocker);
+}
+
+/* What a point of an edge sees: by itself and a hair to either side, as long
+ * as the answers are `expected`; the first other one is the answer. */
+static enum judge_sight look_around(const struct court *court,
+                                    const struct judge_edge *edge,
+                                    struct judge_spot from,
+                                    enum judge_sight expected,
+                                    uint32_t *blocker) {
+  double dx = edge->at[1].x - edge->at[0].x;
+  double dy = edge->at[1].y - edge->at[0].y;
+  double length = hypot(dx, dy), hair = court->options.hair_mm;
+  double x = length > 0 ? -dy / length * hair : hair;
+  double y = length > 0 ? dx / length * hair : 0;
+  enum judge_sight sight = look(court, from, blocker);
+  if (sight != expected)
+    return sight;
+  sight = look(court, judge_shift(court->camera, from, x, y), blocker);
+  if (sight != expected)
+    return sight;
+  return look(court, judge_shift(court->camera, from, -x, -y), blocker);
+}
+
+/* The spot of an edge whose image is at t of the way along its image. */
+static struct judge_spot spot_of_image(const struct judge_edge *edge,
+                                       double t) {
+  double one = (1 - t) * edge->depth[1], two = t * edge->depth[0];
+  return spot_along(edge->p[0], two / (one + two),
+                    spot_sub(edge->p[1], edge->p[0]));
+}
+
+/* ---- Samples -------------------------------------------------------------- */
+
+/* Goes along pieces laid end to end. */
+struct sampler {
+  double step;    /* mm; each: about so much */
+  bool each;      /* on every piece by itself */
+  double length;  /* of the piece at hand */
+  uint32_t count; /* each: on the piece at hand, and how many are done */
+  uint32_t done;
+  double behind; /* all: what pieces went before, and how many are done */
+  uint64_t passed;
+};
+
+static struct sampler sampler_of(const struct judge_options *options,
+                                 double length) {
+  struct sampler sampler = {.step = options->step_mm,
+                            .each = options->samples == 0};
+  if (!sampler.each)
+    sampler.step = length / (double)options->samples;
+  return sampler;
+}
+
+static void start_piece(struct sampler *sampler, double length) {
+  sampler->length = length;
+  sampler->done = 0;
+  if (sampler->each)
+    sampler->count = (uint32_t)fmin(ceil(length / sampler->step) + 1, 1e8);
+}
+
+/* The next sample of the piece, within it: its ends are corners of others.
+ * Where all pieces share their samples, one lies in each step, at places that
+ * keep no time with the pieces.
+ * t  0 to 1;  *mm  what it stands for */
+static bool next_sample(struct sampler *sampler, double *t, double *mm) {
+  if (sampler->each) {
+    *mm = sampler->length / sampler->count;
+    *t = (sampler->done + 0.5) / sampler->count;
+    return sampler->done++ < sampler->count;
+  }
+  const double golden = 0.6180339887498949;
+  double k = (double)sampler->passed, whole;
+  double at = (k + modf(k * golden, &whole)) * sampler->step - sampler->behind;
+  if (!(at < sampler->length)) {
+    sampler->behind += sampler->length;
+    return false;
+  }
+  sampler->passed++;
+  *t = fmax(at, 0) / sampler->length;
+  *mm = sampler->step;
+  return true;
+}
+
+static void count_sample(struct judge_count *count, double mm) {
+  count->samples++;
+  count->mm += mm;
+}
+
+static double length_of(const struct judge_segment *s) {
+  return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
+}
+
+static struct judge_place place_on(const struct judge_segment *s, double t) {
+  return (struct judge_place){s->a.x + t * (s->b.x - s->a.x),
+                              s->a.y + t * (s->b.y - s->a.y)};
+}
+
+static void name_edge(struct judge_witness *witness,
+                      const struct judge_edge *edge, struct judge_spot spot,
+                      uint32_t blocker) {
+  *witness = (struct judge_witness){
+      .at = witness->at, .on_edge = true, .spot = spot, .blocker = blocker};
+  memcpy(witness->point, edge->source.point, sizeof witness->point);
+  memcpy(witness->face, edge->source.face, sizeof witness->face);
+}
+
+/* ---- False ink ------------------------------------------------------------ */
+
+/* What an edge sees at t, or as little before or after it as the file's
+ * rounding moves the end of a stroke: blocked where it is at all of them. */
+static enum judge_sight sight_of(const struct court *court,
+                                 const struct judge_edge *edge, double t,
+                                 uint32_t *blocker) {
+  double length =
+      hypot(edge->at[1].x - edge->at[0].x, edge->at[1].y - edge->at[0].y);
+  double slack = length > 0 ? court->options.lateral_mm / length : 0;
+  const double where[3] = {t, fmin(t + slack, 1), fmax(t - slack, 0)};
+  for (int k = 0; k < 3; k++) {
+    enum judge_sight sight =
+        look_around(court, edge, spot_of_image(edge, where[k]), JUDGE_BLOCKED,
+                    blocker);
+    if (sight != JUDGE_BLOCKED)
+      return sight;
+  }
+  return JUDGE_BLOCKED;
+}
+
+/* Whether an edge explains the ink at a place.  The nearest of those that do
+ * not is the witness. */
+static enum judge_sight explain(const struct court *court,
+                                struct judge_witness *witness) {
+  uint32_t count;
+  const uint32_t *near =
+      judge_grid_near(&court->by_image, witness->at, &count);
+  enum judge_sight best = JUDGE_BLOCKED;
+  double nearest = INFINITY;
+  for (uint32_t i = 0; i < count && best != JUDGE_CLEAR; i++) {
+    double t;
+    double away = judge_distance(&court->image[near[i]], witness->at, &t);
+    if (away > court->options.lateral_mm)
+      continue;
+    const struct judge_edge *edge = &court->edges.edge.item[near[i]];
+    uint32_t blocker = SCENE_NONE;
+    enum judge_sight sight = sight_of(court, edge, t, &blocker);
+    best = sight < best ? sight : best;
+    if (sight == JUDGE_BLOCKED && away < nearest) {
+      nearest = away;
+      name_edge(witness, edge, spot_of_image(edge, t), blocker);
+    }
+  }
+  return best;
+}
+
+static void try_ink(struct court *court, struct judge_place at, double mm) {
+  struct judge_verdict *verdict = court->verdict;
+  struct judge_witness witness = {.at = at, .blocker = SCENE_NONE};
+  count_sample(&verdict->drawn, mm);
+  switch (explain(court, &witness)) {
+  case JUDGE_CLEAR:
+    break;
+  case JUDGE_UNSURE:
+    count_sample(&verdict->unsure_ink, mm);
+    break;
+  case JUDGE_BLOCKED:
+    if (verdict->false_ink.samples == 0)
+      verdict->false_at = witness;
+    count_sample(&verdict->false_ink, mm);
+  }
+}
+
+static void try_all_ink(struct court *court) {
+  double all = 0;
+  for (uint32_t i = 0; i < court->inks; i++)
+    all += length_of(&court->ink[i]);
+  struct sampler sampler = sampler_of(&court->options, all);
+  for (uint32_t i = 0; i < court->inks; i++) {
+    double t, mm;
+    start_piece(&sampler, length_of(&court->ink[i]));
+    while (next_sample(&sampler, &t, &mm))
+      try_ink(court, place_on(&court->ink[i], t), mm);
+  }
+}
+
+/* ---- Missing ink ---------------------------------------------------------- */
+
+static bool has_ink(const struct court *court, struct judge_place at) {
+  uint32_t count;
+  const uint32_t *near = judge_grid_near(&court->by_ink, at, &count);
+  for (uint32_t i = 0; i < count; i++) {
+    double t;
+    if (judge_distance(&court->ink[near[i]], at, &t) <= court->options.reach_mm)
+      return true;
+  }
+  return false;
+}
+
+static void try_edge(struct court *court, const struct judge_edge *edge,
+                     struct judge_place at, double t, double mm) {
+  struct judge_verdict *verdict = court->verdict;
+  struct judge_spot from = spot_of_image(edge, t);
+  /* Where there is ink the sight is asked for only to count the samples; one
+   * ray is enough for that. */
+  if (has_ink(court, at)) {
+    if (look(court, from, NULL) == JUDGE_CLEAR)
+      count_sample(&verdict->visible, mm);
+    return;
+  }
+  switch (look_around(court, edge, from, JUDGE_CLEAR, NULL)) {
+  case JUDGE_CLEAR:
+    if (verdict->missing.samples == 0) {
+      verdict->missing_at.at = at;
+      name_edge(&verdict->missing_at, edge, from, SCENE_NONE);
+    }
+    count_sample(&verdict->visible, mm);
+    count_sample(&verdict->missing, mm);
+    break;
+  case JUDGE_UNSURE:
+    count_sample(&verdict->unsure, mm);
+    break;
+  case JUDGE_BLOCKED:
+    count_sample(&verdict->hidden, mm);
+  }
+}
+
+static bool is_asked_for(const struct court *court,
+                         const struct judge_source *source) {
+  unsigned asked = court->options.edges;
+  return (source->natures & asked) != 0 ||
+         (source->exists && (asked & RECTO_EDGES_ALL) == RECTO_EDGES_ALL);
+}
+
+/* Cuts a segment to the page, from *t0 to *t1. */
+static bool cut_to_page(const struct court *court,
+                        const struct judge_segment *s, double *t0, double *t1) {
+  const double a[2] = {s->a.x, s->a.y}, b[2] = {s->b.x, s->b.y};
+  const double high[2] = {court->camera->width_mm, court->camera->height_mm};
+  *t0 = 0;
+  *t1 = 1;
+  for (int k = 0; k < 2; k++) {
+    double d = b[k] - a[k];
+    if (d == 0 && (a[k] < 0 || a[k] > high[k]))
+      return false;
+    if (d == 0)
+      continue;
+    double in = (0 - a[k]) / d, out = (high[k] - a[k]) / d;
+    *t0 = fmax(*t0, fmin(in, out));
+    *t1 = fmin(*t1, fmax(in, out));
+  }
+  return *t0 <= *t1;
+}
+
+/* The part of an edge's image that is on the page; false where it need not be
+ * drawn, as what is seen as a point. */
+static bool find_part(const struct court *court, size_t edge,
+                      struct judge_segment *part, double *t0, double *t1) {
+  if (!is_asked_for(court, &court->edges.edge.item[edge].source) ||
+      !cut_to_page(court, &court->image[edge], t0, t1))
+    return false;
+  part->a = place_on(&court->image[edge], *t0);
+  part->b = place_on(&court->image[edge], *t1);
+  return length_of(part) > court->options.reach_mm;
+}
+
+static void try_all_edges(struct court *court) {
+  struct judge_segment part;
+  double t0, t1, all = 0;
+  for (size_t i = 0; i < court->edges.edge.count; i++)
+    all += find_part(court, i, &part, &t0, &t1) ? length_of(&part) : 0;
+  struct sampler sampler = sampler_of(&court->options, all);
+  for (size_t i = 0; i < court->edges.edge.count; i++) {
+    double t, mm;
+    if (!find_part(court, i, &part, &t0, &t1))
+      continue;
+    start_piece(&sampler, length_of(&part));
+    while (next_sample(&sampler, &t, &mm))
+      try_edge(court, &court->edges.edge.item[i], place_on(&part, t),
+               t0 + (t1 - t0) * t, mm);
+  }
+}
+
+/* ---- The court ------------------------------------------------------------ */
+
+static void collect_strokes(struct court *court, enum judge_role role,
+                            uint32_t *count) {
+  const struct judge_drawing *drawing = court->drawing;
+  for (size_t i = 0; i < drawing->stroke.count; i++) {
+    const struct judge_stroke *stroke = &drawing->stroke.item[i];
+    for (uint32_t k = 1; stroke->role == role && k < stroke->count; k++) {
+      const struct judge_place *at =
+          &drawing->point.item[stroke->point + k - 1];
+      court->ink[court->inks + court->drops] =
+          (struct judge_segment){at[0], at[1]};
+      ++*count;
+    }
+  }
+}
+
+static bool collect_ink(struct court *court) {
+  court->ink = mem_alloc(court->drawing->point.count, sizeof *court->ink);
+  if (court->ink == NULL)
+    return false;
+  collect_strokes(court, JUDGE_INK, &court->inks);
+  collect_strokes(court, JUDGE_DROPPED, &court->drops);
+  return true;
+}
+
+static bool collect_images(struct court *court) {
+  size_t count = court->edges.edge.count;
+  court->image = mem_alloc(count, sizeof *court->image);
+  if (court->image == NULL)
+    return false;
+  for (size_t i = 0; i < count; i++)
+    court->image[i] = (struct judge_segment){court->edges.edge.item[i].at[0],
+                                             court->edges.edge.item[i].at[1]};
+  return true;
+}
+
+/* Finds all that the questions need; false when memory ran out. */
+static bool open_court(struct court *court, const struct scene *scene) {
+  const struct judge_camera *camera = court->camera;
+  double width = camera->width_mm, height = camera->height_mm;
+  const double cells = 400;
+  double cell = fmax(width, height) / cells;
+  if (!judge_triangles_init(&court->all, scene))
+    return false;
+  if (court->options.contact < 0)
+    court->options.contact = TOLERANCE_CONTACT_SHARE * court->all.size;
+  return judge_edges_init(&court->edges, scene, &court->all, camera,
+                          &court->options) &&
+         collect_images(court) && collect_ink(court) &&
+         judge_grid_init(&court->by_image, court->image,
+                         (uint32_t)court->edges.edge.count, width, height, cell,
+                         court->options.lateral_mm) &&
+         judge_grid_init(&court->by_ink, court->ink, court->inks + court->drops,
+                         width, height, cell, court->options.reach_mm);
+}
+
+bool judge_drawing(struct judge_verdict *verdict,
+                   const struct judge_drawing *drawing,
+                   const struct scene *scene, const struct judge_camera *camera,
+                   const struct judge_options *options) {
+  struct court court = {.drawing = drawing,
+                        .camera = camera,
+                        .options = *options,
+                        .verdict = verdict};
+  memset(verdict, 0, sizeof *verdict);
+  bool good = open_court(&court, scene);
+  if (good) {
+    try_all_ink(&court);
+    try_all_edges(&court);
+  }
+  judge_grid_fini(&court.by_image);
+  judge_grid_fini(&court.by_ink);
+  mem_free(court.image);
+  mem_free(court.ink);
+  judge_edges_fini(&court.edges);
+  judge_triangles_fini(&court.all);
+  return good;
+}

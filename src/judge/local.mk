@@ -1,0 +1,10 @@
+# src/judge/local.mk - the independent judge: sees the scene alone.
+librecto_core_la_SOURCES += \
+  %D%/camera.c \
+  %D%/ears.c %D%/ears.h \
+  %D%/edges.c %D%/edges.h \
+  %D%/grid.c %D%/grid.h \
+  %D%/judge.c %D%/judge.h \
+  %D%/pierced.c \
+  %D%/svg.c \
+  %D%/triangles.c %D%/triangles.h
