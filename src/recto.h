@@ -223,6 +223,9 @@ typedef struct recto_options {
   /* In pixels: the z-buffers, and warnock where a resolution is given. */
   bool remove_backs; /* leave out faces that are seen from behind */
   int depth_bits;    /* z-buffers: 1 to 32 bits of depth; 0: float64 */
+
+  /* Ink. */
+  int hidden_layers; /* hidden parts behind at most so many faces; 0: all */
 } recto_options;
 
 /* Fills `options` with the defaults: auto, isometric, A4 portrait with a

@@ -59,3 +59,7 @@ unit_tests += %D%/test_painter
 unit_tests += %D%/test_solver
 %C%_test_solver_SOURCES = %D%/test_solver.c $(hand_scene)
 %C%_test_solver_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_depths
+%C%_test_depths_SOURCES = %D%/test_depths.c $(hand_scene)
+%C%_test_depths_CPPFLAGS = $(hand_cppflags)
+%C%_test_depths_LDADD = %D%/scenes/libscenes.la $(LDADD)

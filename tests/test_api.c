@@ -174,6 +174,7 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
   REFUSED(edges, 0x80);
   REFUSED(crease_deg, 181);
   REFUSED(hidden, (recto_hidden)3);
+  REFUSED(hidden_layers, -1);
   REFUSED(fill, (recto_fill)4);
   REFUSED(hatch_pitch_mm, 0);
   REFUSED(pen_mm, 0);

@@ -123,7 +123,7 @@ page A7 200 200x x200 200x-100 0x100 200x100m nanx100 200x100mmx
 margin -1 x 1,5 nan 1e999mm 10furlongs
 edges x silhouette, ,crease silhouette,,crease
 crease -1 181 x
-hidden x
+hidden x 0 -1 none,2 layer,0 dashed,x ,2 1,2
 pen 0 -1 101 x 1e-9 0.009mm
 hatch-pitch 0 1e-9 x
 pitch 0 1e-9
@@ -164,6 +164,15 @@ draws_in_silence() {
   run 0 cube.obj -o cube.svg && silent && test ! -s out && test -s cube.svg
 }
 claim "a drawing is made in silence" draws_in_silence
+
+# same_drawing OPTION OPTION - both draw the cube alike.
+same_drawing() {
+  run 0 cube.obj -o one.svg "$1" && run 0 cube.obj -o other.svg "$2" &&
+    cmp one.svg other.svg
+}
+claim "--hidden=2 is dashed,2" same_drawing --hidden=2 --hidden=dashed,2
+claim "one face hides a cube's hidden edges" \
+  same_drawing --hidden=layer,1 --hidden=layer
 
 # A convex solid seen from a corner: nine lines; the outline is one of them.
 claim "the cube is drawn" grep -q '<path d="M' cube.svg

@@ -339,11 +339,11 @@ static void short_pieces_of_a_long_chain_stay(void **state) {
 
 /* How far along the line through `count` pairs the point is; fails when it is
  * off it. */
-static double along(const double *xy, uint32_t count, bool closed,
-                    struct drawing_point p, double from) {
+static double along(const double *xy, uint32_t count, struct drawing_point p,
+                    double from) {
   double start = 0;
-  for (uint32_t i = 0; i + !closed < count; i++) {
-    const double *a = xy + 2 * i, *b = xy + 2 * ((i + 1) % count);
+  for (uint32_t i = 0; i + 1 < count; i++) {
+    const double *a = xy + 2 * i, *b = a + 2;
     double dx = b[0] - a[0], dy = b[1] - a[1], length = hypot(dx, dy);
     double t = ((p.x - a[0]) * dx + (p.y - a[1]) * dy) / length;
     double off = fabs((p.x - a[0]) * dy - (p.y - a[1]) * dx) / length;
@@ -376,28 +376,29 @@ static void draw_hidden(struct inked *k, const double *xy, uint32_t count,
   inked_draw(k);
 }
 
-/* All dashes are as long, all gaps three pens wide, dashes near twelve. */
+/* All dashes of an open line are as long, all gaps three pens wide, dashes near
+ * twelve. */
 static void assert_dashes(const struct inked *k, const double *xy,
-                          uint32_t count, bool closed) {
+                          uint32_t count) {
   const double gap = 0.9, dash = 3.6;
   size_t dashes = k->drawing.stroke.count;
-  double whole = length_of(xy, count, closed), end = 0;
-  double each = (whole - gap * (double)(dashes - !closed)) / (double)dashes;
+  double whole = length_of(xy, count, false), end = 0;
+  double each = (whole - gap * (double)(dashes - 1)) / (double)dashes;
   assert_in_range(dashes, 2, 1000);
   if (dashes > 3)
     assert_true(each > 0.7 * dash && each < 1.4 * dash);
   for (size_t i = 0; i < dashes; i++) {
     const struct drawing_stroke *s = &k->drawing.stroke.item[i];
     const struct drawing_point *p = k->drawing.point.item + s->point;
-    double from = along(xy, count, closed, p[0], end);
+    double from = along(xy, count, p[0], end);
     assert_true(fabs(from - (i ? end + gap : 0)) < 1e-5);
     assert_true(fabs(inked_stroke_length(k, i) - each) < 1e-5);
     assert_false(s->closed);
     for (uint32_t c = 1; c < s->count; c++)
-      end = along(xy, count, closed, p[c], from);
+      end = along(xy, count, p[c], from);
     assert_true(fabs(end - from - each) < 1e-5);
   }
-  assert_true(fabs(end - (closed ? whole - gap : whole)) < 1e-5);
+  assert_true(fabs(end - whole) < 1e-5);
 }
 
 static void dashes_begin_and_end_with_ink(void **state) {
@@ -406,31 +407,108 @@ static void dashes_begin_and_end_with_ink(void **state) {
     struct inked k;
     const double line[] = {5, 10, 5 + x, 10};
     draw_hidden(&k, INKED_XY(line), false);
-    assert_dashes(&k, INKED_XY(line), false);
+    assert_dashes(&k, INKED_XY(line));
     inked_end(&k);
   }
 }
 
-static void dashes_go_round_corners(void **state) {
+/* A circle of radius 35, or half of it. */
+static void make_round(double *xy, uint32_t count, bool closed) {
+  for (uint32_t i = 0; i < count; i++) {
+    double angle = acos(-1) * i / (closed ? count / 2.0 : count - 1);
+    xy[2 * i] = 50 + 35 * cos(angle);
+    xy[2 * i + 1] = 50 + 35 * sin(angle);
+  }
+}
+
+static void dashes_go_round_bends(void **state) {
+  size_t bends = 0;
+  (void)state;
+  for (uint32_t count = 9; count < 40; count++) {
+    struct inked k;
+    double line[2 * 40];
+    make_round(line, count, false);
+    draw_hidden(&k, line, count, false);
+    /* Paths begin at their lower end. */
+    for (uint32_t i = 0; i < count / 2; i++)
+      for (int c = 0; c < 2; c++) {
+        double swap = line[2 * i + (uint32_t)c];
+        line[2 * i + (uint32_t)c] = line[2 * (count - 1 - i) + (uint32_t)c];
+        line[2 * (count - 1 - i) + (uint32_t)c] = swap;
+      }
+    assert_dashes(&k, line, count);
+    for (size_t i = 0; i < k.drawing.stroke.count; i++)
+      bends += k.drawing.stroke.item[i].count - 2;
+    inked_end(&k);
+  }
+  assert_in_range(bends, 400, 700); /* of 682 */
+}
+
+/* An end of a stroke is there. */
+static size_t count_ends(const struct inked *k, double x, double y) {
+  size_t ends = 0;
+  for (size_t i = 0; i < k->drawing.stroke.count; i++) {
+    const struct drawing_stroke *s = &k->drawing.stroke.item[i];
+    const struct drawing_point *p = k->drawing.point.item + s->point;
+    for (uint32_t e = 0; e < 2; e++) {
+      struct drawing_point q = p[e ? s->count - 1 : 0];
+      ends += hypot(q.x - x, q.y - y) < NANOMETRE;
+    }
+  }
+  return ends;
+}
+
+/* Every side begins and ends with ink: two strokes end at each corner. */
+static void dashes_begin_anew_at_corners(void **state) {
+  const double line[] = {10, 10, 40, 10, 40, 18, 48, 18, 90, 50, 20, 40};
+  const double loop[] = {80, 70, 20, 70, 20, 10, 80, 10};
   struct inked k;
-  const double line[] = {10, 10, 40, 10, 40, 12, 42, 12, 42, 90, 20, 40};
   (void)state;
   draw_hidden(&k, INKED_XY(line), false);
-  assert_dashes(&k, INKED_XY(line), false);
-  size_t corners = 0;
+  for (int i = 0; i < 6; i++)
+    assert_int_equal(count_ends(&k, line[2 * i], line[2 * i + 1]),
+                     i == 0 || i == 5 ? 1 : 2);
   for (size_t i = 0; i < k.drawing.stroke.count; i++)
-    corners += k.drawing.stroke.item[i].count - 2;
-  assert_in_range(corners, 1, 4);
+    assert_int_equal(k.drawing.stroke.item[i].count, 2);
+  inked_end(&k);
+  draw_hidden(&k, INKED_XY(loop), true);
+  for (int i = 0; i < 4; i++)
+    assert_int_equal(count_ends(&k, loop[2 * i], loop[2 * i + 1]), 2);
+  assert_int_equal(k.drawing.stroke.count % 4, 0);
+  inked_end(&k);
+}
+
+/* A bond of one corner is dashed from there to there. */
+static void loop_with_one_corner_begins_at_it(void **state) {
+  enum { COUNT = 31 };
+  struct inked k;
+  double drop[2 * COUNT];
+  (void)state;
+  make_round(drop, COUNT - 1, false);
+  drop[2 * COUNT - 2] = 50;
+  drop[2 * COUNT - 1] = 2;
+  draw_hidden(&k, drop, COUNT, true);
+  assert_int_equal(count_ends(&k, 50, 2), 2);
+  for (size_t i = 0; i < k.drawing.stroke.count; i++)
+    assert_false(k.drawing.stroke.item[i].closed);
   inked_end(&k);
 }
 
 static void dashes_go_round_a_loop_evenly(void **state) {
-  struct inked k;
-  const double loop[] = {80, 70, 20, 70, 20, 10, 80, 10};
   (void)state;
-  draw_hidden(&k, INKED_XY(loop), true);
-  assert_dashes(&k, INKED_XY(loop), true);
-  inked_end(&k);
+  for (uint32_t count = 14; count < 40; count += 2) {
+    struct inked k;
+    double loop[2 * 40];
+    make_round(loop, count, true);
+    draw_hidden(&k, loop, count, true);
+    const double gap = 0.9, each = inked_stroke_length(&k, 0);
+    double whole = length_of(loop, count, true);
+    for (size_t i = 1; i < k.drawing.stroke.count; i++)
+      assert_true(fabs(inked_stroke_length(&k, i) - each) < 1e-5);
+    assert_true(fabs((each + gap) * (double)k.drawing.stroke.count - whole) <
+                1e-4);
+    inked_end(&k);
+  }
 }
 
 static void short_hidden_line_is_drawn_whole(void **state) {
@@ -468,7 +546,9 @@ int main(void) {
       cmocka_unit_test(row_14_strokes_below_half_a_pen_are_dropped),
       cmocka_unit_test(short_pieces_of_a_long_chain_stay),
       cmocka_unit_test(dashes_begin_and_end_with_ink),
-      cmocka_unit_test(dashes_go_round_corners),
+      cmocka_unit_test(dashes_go_round_bends),
+      cmocka_unit_test(dashes_begin_anew_at_corners),
+      cmocka_unit_test(loop_with_one_corner_begins_at_it),
       cmocka_unit_test(dashes_go_round_a_loop_evenly),
       cmocka_unit_test(short_hidden_line_is_drawn_whole),
       cmocka_unit_test(dashes_stand_on_the_layer_of_the_visible),

@@ -1,5 +1,6 @@
 /* options.c - the options' defaults, and whether they make sense. */
 #include <float.h>
+#include <limits.h>
 
 #include "api/handle.h"
 #include "backends/device.h"
@@ -78,6 +79,7 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the mask of edges", o->edges, 0, RECTO_EDGES_ALL},
       {"the crease angle", o->crease_deg, 0, 180},
       {"the way with hidden lines", o->hidden, 0, RECTO_HIDDEN_LAYER},
+      {"the number of layers that hide", o->hidden_layers, 0, INT_MAX},
       {"the kind of fill", o->fill, 0, RECTO_FILL_HATCH},
       {"the hatch pitch", o->hatch_pitch_mm, RECTO_FINEST_MM, huge},
       {"the hatch angle", o->hatch_angle_deg, -huge, huge},

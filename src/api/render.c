@@ -1,7 +1,7 @@
 /* render.c - from scene to drawing: one stage after the other, each timed.
  *
- * Phases: check the options, scale what is too large or small, find the edges, aim the camera, build the sheet,
- * choose the method, solve, ink. */
+ * Phases: check the options, scale what is too large or small, find the edges,
+ * aim the camera, build the sheet, choose the method, solve, ink. */
 #include <math.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -12,6 +12,7 @@
 #include "scene/topology.h"
 #include "view/camera.h"
 #include "view/sheet.h"
+#include "visibility/depths.h"
 #include "visibility/solver.h"
 
 /* Everything a render makes on its way; zeroed is empty. */
@@ -128,8 +129,13 @@ static recto_status solve(struct render *render, recto_error *error) {
       .progress = options->progress != NULL ? pass_progress : NULL,
       .user = render,
   };
-  return choose_method(render, &request)
-      ->solve(&render->sheet, &request, &render->map, render->report, error);
+  recto_status status = choose_method(render, &request)
+                            ->solve(&render->sheet, &request, &render->map,
+                                    render->report, error);
+  if (status == RECTO_OK && request.hidden && options->hidden_layers > 0)
+    status = depths_find(&render->map, &render->sheet, options->hidden_layers,
+                         &request, render->report, error);
+  return status;
 }
 
 static recto_status ink(struct render *render, recto_error *error) {
@@ -241,8 +247,8 @@ static recto_status run(struct render *render, recto_error *error) {
   report_seconds(render->report, "read_cpu_s", render->model->read_cpu);
   report_seconds(render->report, "read_wall_s", render->model->read_wall);
   map_init(&render->map);
-  status = rescale(&render->rescaled, &render->model->scene, render->options,
-                   error);
+  status =
+      rescale(&render->rescaled, &render->model->scene, render->options, error);
   if (status == RECTO_OK)
     status = run_stages(render, error);
   if (status == RECTO_OK) {

@@ -87,6 +87,27 @@ static bool take_edges(struct arguments *arguments, const char *text) {
   return value_edges(text, &arguments->options.edges);
 }
 
+/* HOW, HOW,N or N, which is dashed,N. */
+static bool take_hidden(struct arguments *arguments, const char *text) {
+  static const char *const word[] = {"none", "dashed", "layer"};
+  size_t length = strcspn(text, ",");
+  const char *number = text[length] == ',' ? text + length + 1 : NULL;
+  int how = -1, layers = 0;
+  for (int i = 0; i < 3; i++)
+    if (strlen(word[i]) == length && memcmp(text, word[i], length) == 0)
+      how = i;
+  if (how < 0 && number == NULL) {
+    how = RECTO_HIDDEN_DASHED;
+    number = text;
+  }
+  if (how < 0 || (number != NULL &&
+                  (!value_int(number, &layers) || layers < 1 || how == 0)))
+    return false;
+  arguments->options.hidden = (recto_hidden)how;
+  arguments->options.hidden_layers = layers;
+  return true;
+}
+
 /* ---- The table ----------------------------------------------------------- */
 
 #define HEADING(text)                                                          \
@@ -182,9 +203,9 @@ const struct option_entry option_table[] = {
     {OPTION_NUMBER, "crease", 0, "DEG", "an angle from 0 to 180",
      "faces that meet at more make a crease (30)",
      .offset = AT(options.crease_deg), .least = 0, .most = 180},
-    {OPTION_WORD, "hidden", 0, "HOW", "none, dashed or layer",
-     "hidden lines: none (default) dashed layer", .offset = AT(options.hidden),
-     .words = "none dashed layer"},
+    {OPTION_TAKE, "hidden", 0, "HOW[,N]",
+     "none, dashed or layer, with ,N or not, or N above 0",
+     "none (default) dashed layer; N: behind N at most", .take = take_hidden},
     {OPTION_WORD, "fill", 0, "HOW", "none, paint, shade or hatch",
      "faces: none (default) paint shade hatch", .offset = AT(options.fill),
      .words = "none paint shade hatch"},

@@ -1,7 +1,9 @@
 /* dash.c - a line as dashes of real geometry, since plotters know no other.
  *
- * The number of dashes is the one whose dashes come nearest the wanted
- * length; what is over or missing is spread over all of them. */
+ * A line is dashed anew from each of its corners on, so that every edge of a
+ * box begins and ends with ink.  The number of dashes is the one whose dashes
+ * come nearest the wanted length; what is over or missing is spread over all of
+ * them. */
 #include <math.h>
 
 #include "ink/stroke.h"
@@ -70,7 +72,8 @@ static double count_dashes(double length, double dash, double gap) {
   return n < 2 ? 2 : n;
 }
 
-bool stroke_add_dashed(struct drawing *drawing,
+/* Dashes a line without corners. */
+static bool add_dashes(struct drawing *drawing,
                        const struct drawing_stroke *like,
                        const struct stroke_line *line, double dash,
                        double gap) {
@@ -92,6 +95,56 @@ bool stroke_add_dashed(struct drawing *drawing,
           line->point.item[line->point.count - 1];
     good = good && stroke_add(drawing, like, piece.point.item,
                               piece.point.count, false);
+  }
+  ARRAY_FREE(&piece.point);
+  return good;
+}
+
+/* ---- Corners --------------------------------------------------------------
+ */
+
+/* A line that turns by more, cosine of 30 degrees, has a corner there: a box
+ * has, a circle of 16 sides has none. */
+#define CORNER_COSINE 0.8660254037844386
+
+static bool is_corner(const struct stroke_line *line, size_t i) {
+  size_t count = line->point.count;
+  struct drawing_point p = line->point.item[i > 0 ? i - 1 : count - 1];
+  struct drawing_point q = line->point.item[i], r = corner(line, i + 1);
+  double dot = (q.x - p.x) * (r.x - q.x) + (q.y - p.y) * (r.y - q.y);
+  return dot < CORNER_COSINE * stroke_distance(p, q) * stroke_distance(q, r);
+}
+
+/* The next corner after point i, counted on past the end of a loop; where
+ * there is none, the end of the line or `end`. */
+static size_t find_corner(const struct stroke_line *line, size_t i,
+                          size_t end) {
+  size_t count = line->point.count;
+  for (i++; i < end && !is_corner(line, i % count); i++)
+    continue;
+  return i;
+}
+
+bool stroke_add_dashed(struct drawing *drawing,
+                       const struct drawing_stroke *like,
+                       const struct stroke_line *line, double dash,
+                       double gap) {
+  size_t count = line->point.count, first = 0, end = count - 1;
+  if (line->closed) {
+    while (first < count && !is_corner(line, first))
+      first++;
+    if (first == count)
+      return add_dashes(drawing, like, line, dash, gap);
+    end = first + count;
+  }
+  struct stroke_line piece = {0};
+  bool good = true;
+  for (size_t i = first, next; good && i < end; i = next) {
+    next = find_corner(line, i, end);
+    piece.point.count = 0;
+    for (size_t k = i; good && k <= next; k++)
+      good = ARRAY_PUSH(&piece.point, line->point.item[k % count]);
+    good = good && add_dashes(drawing, like, &piece, dash, gap);
   }
   ARRAY_FREE(&piece.point);
   return good;

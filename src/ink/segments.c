@@ -95,48 +95,80 @@ static bool add_segment(struct collector *c, uint32_t edge, struct ratio t0,
   return ARRAY_PUSH(&c->net->segment, s);
 }
 
-static bool add_visible_intervals(struct collector *c,
-                                  const struct map_mixed *mixed) {
-  const struct map_interval *interval = c->map->interval.item + mixed->interval;
-  for (uint32_t i = 0; i < mixed->count; i++)
-    if (!add_segment(c, mixed->edge, interval[i].t0, interval[i].t1))
+/* Intervals of one edge, in order and apart. */
+struct intervals {
+  const struct map_interval *item;
+  uint32_t count;
+};
+
+static bool add_visible_intervals(struct collector *c, uint32_t edge,
+                                  struct intervals visible) {
+  for (uint32_t i = 0; i < visible.count; i++)
+    if (!add_segment(c, edge, visible.item[i].t0, visible.item[i].t1))
       return false;
   return true;
 }
 
-/* What the visible intervals leave of the edge. */
-static bool add_hidden_intervals(struct collector *c,
-                                 const struct map_mixed *mixed) {
-  const struct map_interval *interval = c->map->interval.item + mixed->interval;
+/* What the visible intervals, and those that are too deep, leave of the
+ * edge. */
+static bool add_hidden_intervals(struct collector *c, uint32_t edge,
+                                 struct intervals visible,
+                                 struct intervals deep) {
   struct ratio from = ratio_of(0, 1), end = ratio_of(1, 1);
-  for (uint32_t i = 0; i < mixed->count; i++) {
-    if (ratio_compare(from, interval[i].t0) < 0 &&
-        !add_segment(c, mixed->edge, from, interval[i].t0))
+  while (visible.count + deep.count > 0) {
+    bool take_deep =
+        deep.count > 0 && (visible.count == 0 ||
+                           ratio_compare(deep.item->t0, visible.item->t0) < 0);
+    struct intervals *next = take_deep ? &deep : &visible;
+    if (ratio_compare(from, next->item->t0) < 0 &&
+        !add_segment(c, edge, from, next->item->t0))
       return false;
-    from = interval[i].t1;
+    if (ratio_compare(from, next->item->t1) < 0)
+      from = next->item->t1;
+    next->item++;
+    next->count--;
   }
-  return ratio_compare(from, end) >= 0 ||
-         add_segment(c, mixed->edge, from, end);
+  return ratio_compare(from, end) >= 0 || add_segment(c, edge, from, end);
+}
+
+/* The intervals of an edge, where the row at *mixed is the edge's; steps over
+ * it then. */
+static struct intervals take_intervals(const struct map_mixed **mixed,
+                                       const struct map_mixed *end,
+                                       const struct map_interval *interval,
+                                       uint32_t edge) {
+  struct intervals taken = {NULL, 0};
+  if (*mixed < end && (*mixed)->edge == edge) {
+    taken = (struct intervals){interval + (*mixed)->interval, (*mixed)->count};
+    ++*mixed;
+  }
+  return taken;
 }
 
 /* Adds the visible or the hidden parts of all drawable edges, in order. */
 static bool add_all(struct collector *c, bool hidden) {
-  const struct map_mixed *mixed = c->map->mixed.item;
-  uint8_t whole = hidden ? MAP_HIDDEN : MAP_VISIBLE;
-  for (uint32_t i = 0; i < c->map->edge_count; i++) {
-    uint8_t state = c->map->edge_state[i];
+  const struct map *map = c->map;
+  const struct map_mixed *mixed = map->mixed.item, *deep = map->deep.item;
+  const struct map_mixed *mixed_end = mixed + map->mixed.count;
+  const struct map_mixed *deep_end = deep + map->deep.count;
+  for (uint32_t i = 0; i < map->edge_count; i++) {
+    struct intervals visible =
+        take_intervals(&mixed, mixed_end, map->interval.item, i);
+    struct intervals too_deep =
+        take_intervals(&deep, deep_end, map->deep_interval.item, i);
+    uint8_t state = map->edge_state[i];
     bool good = true;
     if (c->sheet->edge.item[i].edge_class == 0)
       continue;
     c->bond = bond_of(c, i, hidden);
-    if (state == whole)
+    if (hidden && state != MAP_VISIBLE)
+      good = add_hidden_intervals(c, i, visible, too_deep);
+    else if (!hidden && state == MAP_VISIBLE)
       good = add_segment(c, i, ratio_of(0, 1), ratio_of(1, 1));
-    else if (state == MAP_MIXED)
-      good = hidden ? add_hidden_intervals(c, mixed)
-                    : add_visible_intervals(c, mixed);
+    else if (!hidden)
+      good = add_visible_intervals(c, i, visible);
     if (!good)
       return false;
-    mixed += state == MAP_MIXED;
   }
   return true;
 }

@@ -21,8 +21,8 @@ USE_RESULT bool stroke_add(struct drawing *drawing,
                            const struct drawing_point *point, size_t count,
                            bool closed);
 
-/* Appends the line as dashes.  They begin and end with ink; around a loop
- * they are spread evenly.
+/* Appends the line as dashes.  They begin and end with ink, at every corner
+ * too; around a loop without any they are spread evenly.
  * dash, gap  mm, > 0: gaps are kept, dashes are fitted to the length
  * A line too short for two dashes as long as the gap is drawn whole. */
 USE_RESULT bool stroke_add_dashed(struct drawing *drawing,

@@ -65,6 +65,10 @@ struct map {
   size_t edge_count;
   ARRAY(struct map_mixed) mixed;
   ARRAY(struct map_interval) interval;
+  /* Parts of edges behind more faces than are asked for, in the same form;
+   * empty where nobody asked (depths.h). */
+  ARRAY(struct map_mixed) deep;
+  ARRAY(struct map_interval) deep_interval;
 
   ARRAY(struct map_fragment) fragment;
   ARRAY(struct map_loop) loop;

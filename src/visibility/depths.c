@@ -1,0 +1,136 @@
+/* depths.c - behind how many faces an edge runs.
+ *
+ * What each triangle covers of an edge, on its left and on its right, is an
+ * open interval of exact parameters.  Where they begin and end the two counts
+ * change; the edge is behind the smaller of them. */
+#include "visibility/depths.h"
+
+#include "base/sort.h"
+#include "visibility/hide.h"
+
+/* Edges between two calls of the progress function. */
+enum { PROGRESS_EDGES = 4096 };
+
+/* A place where the counts change. */
+struct change {
+  struct ratio at;
+  int left, right; /* +1, 0 or -1 */
+};
+
+struct depths {
+  const struct sheet *sheet;
+  struct map *map;
+  int most;
+  struct pagegrid grid;
+  struct pagegrid_query query;
+  struct hide_counts counts;
+  ARRAY(struct change) change;
+};
+
+static int compare_changes(const void *first, const void *second, void *user) {
+  const struct change *a = first, *b = second;
+  (void)user;
+  return ratio_compare(a->at, b->at);
+}
+
+static bool add_part(struct depths *d, const struct hidden_part *part) {
+  int left = (part->sides & HIDE_LEFT) != 0;
+  int right = (part->sides & HIDE_RIGHT) != 0;
+  return ARRAY_PUSH(&d->change, ((struct change){part->from, left, right})) &&
+         ARRAY_PUSH(&d->change, ((struct change){part->to, -left, -right}));
+}
+
+/* Gathers and sorts the changes along an edge. */
+static bool find_changes(struct depths *d, const struct sheet_edge *edge) {
+  const struct geom_point *point = d->sheet->point.item;
+  struct geom_point p = point[edge->point[0]], q = point[edge->point[1]];
+  struct page_box box = page_box_of_segment(p, q);
+  d->change.count = 0;
+  if (!pagegrid_find_along(&d->grid, p, q, &d->query))
+    return false;
+  for (size_t i = 0; i < d->query.found.count; i++) {
+    uint32_t t = d->query.found.item[i];
+    struct hidden_part part;
+    if (t == edge->triangle[0] || t == edge->triangle[1] ||
+        !hide_may(d->sheet, t, p, q, box))
+      continue;
+    if (hide_edge_by(d->sheet, t, p, q, &part, &d->counts) &&
+        !add_part(d, &part))
+      return false;
+  }
+  return sort_stable(d->change.item, d->change.count, sizeof *d->change.item,
+                     compare_changes, NULL);
+}
+
+/* Files the intervals where both counts are above `most`. */
+static bool file_deep(struct depths *d, uint32_t edge) {
+  struct map_mixed deep = {edge, (uint32_t)d->map->deep_interval.count, 0};
+  struct ratio from = ratio_of(0, 1);
+  bool inside = false;
+  int left = 0, right = 0;
+  for (size_t i = 0; i < d->change.count;) {
+    struct ratio at = d->change.item[i].at;
+    for (; i < d->change.count && ratio_compare(d->change.item[i].at, at) == 0;
+         i++) {
+      left += d->change.item[i].left;
+      right += d->change.item[i].right;
+    }
+    bool now = left > d->most && right > d->most;
+    if (now && !inside)
+      from = at;
+    if (inside && !now) {
+      struct map_interval interval = {from, at};
+      if (!ARRAY_PUSH(&d->map->deep_interval, interval))
+        return false;
+      deep.count++;
+    }
+    inside = now;
+  }
+  return deep.count == 0 || ARRAY_PUSH(&d->map->deep, deep);
+}
+
+static bool is_asked_for(const struct depths *d, size_t e) {
+  const struct sheet_edge *edge = &d->sheet->edge.item[e];
+  const struct geom_point *p = &d->sheet->point.item[edge->point[0]];
+  const struct geom_point *q = &d->sheet->point.item[edge->point[1]];
+  return edge->edge_class != 0 && d->map->edge_state[e] != MAP_VISIBLE &&
+         (p->x != q->x || p->y != q->y);
+}
+
+static recto_status find_all(struct depths *d,
+                             const struct solver_request *request,
+                             recto_error *error) {
+  size_t edges = d->map->edge_count;
+  for (size_t e = 0; e < edges; e++) {
+    if (e % PROGRESS_EDGES == 0 && request->progress != NULL &&
+        !request->progress(request->user, (double)e / (double)edges, "depths"))
+      return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+    if (is_asked_for(d, e) && !(find_changes(d, &d->sheet->edge.item[e]) &&
+                                file_deep(d, (uint32_t)e)))
+      return error_memory(error);
+  }
+  return RECTO_OK;
+}
+
+recto_status depths_find(struct map *map, const struct sheet *sheet, int most,
+                         const struct solver_request *request,
+                         struct report *report, recto_error *error) {
+  struct depths d = {.sheet = sheet, .map = map, .most = most};
+  if (map->edge_state == NULL)
+    return RECTO_OK;
+  if (!pagegrid_init(&d.grid, sheet))
+    return error_memory(error);
+  recto_status status = RECTO_OK;
+  if (pagegrid_query_init(&d.query, &d.grid))
+    status = find_all(&d, request, error);
+  else
+    status = error_memory(error);
+  report_int(report, "hidden", "most_layers", most);
+  report_int(report, "hidden", "pairs_for_layers", (int64_t)d.counts.pairs);
+  report_int(report, "hidden", "parts_too_deep",
+             (int64_t)map->deep_interval.count);
+  pagegrid_query_fini(&d.query);
+  pagegrid_fini(&d.grid);
+  ARRAY_FREE(&d.change);
+  return status;
+}
