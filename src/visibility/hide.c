@@ -74,6 +74,20 @@ double hide_tolerance_bound(const struct sheet *sheet, struct geom_point a,
          1;
 }
 
+struct hide_bound hide_tolerance_bound_all(const struct sheet *sheet) {
+  const struct camera *camera = &sheet->camera;
+  double level = sheet->z_scale, slope = 0, share = camera->contact;
+  if (camera->perspective) {
+    struct sheet_axis axis = sheet_view_axis(sheet);
+    level = sheet->z_scale / camera->d_max + (double)SHEET_Z_MAX;
+    slope = fmax(fabs(axis.x), fabs(axis.y)) + (double)SHEET_XY_MAX;
+    share /= camera->d_min;
+  }
+  slope += sheet->units_per_view;
+  return (struct hide_bound){(1 + level * share) * (1 + 0x1p-19),
+                             (1 + slope * share) * (1 + 0x1p-19)};
+}
+
 int128 hider_depth(const struct hider *hider, struct geom_point p) {
   return geom_plane_value(&hider->plane, p) * FIXED_ONE + hider->t0 +
          hider->t1 * p.z;

@@ -110,6 +110,13 @@ bool hide_by_outline(const struct geom_point corner[3], struct geom_point p,
 double hide_tolerance_bound(const struct sheet *sheet, struct geom_point a,
                             double nx, double ny, double nz);
 
+/* The same for any point of the sheet, coarser: the bound is at most
+ * 1 + level * nz + slope * (|nx| + |ny|). */
+struct hide_bound {
+  double level, slope;
+};
+struct hide_bound hide_tolerance_bound_all(const struct sheet *sheet);
+
 /* (value << 16) + T of a point: negative where it is behind the plane by more
  * than contact explains.  Exact. */
 int128 hider_depth(const struct hider *hider, struct geom_point p);

@@ -1,12 +1,14 @@
 /* tilemap.c - page tiles over which a layer of many small faces hides all that
  * is behind it.
  *
- * Phases: gather depths by streaming the faces; find each tile's front layer;
- * refuse tiles with contours in the layer; stream the faces once more to count
- * who covers the samples, refusing steep ones.
+ * Phases: stream the faces once, and gather of each tile the depths that its
+ * faces are in, the two nearest faces over its sample, and the nearest one that
+ * forbids telling; find each tile's front layer, which is simple where just one
+ * of its faces is over the sample; refuse tiles with contours in the layer.
  */
 #include "visibility/tilemap.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "visibility/hide.h"
@@ -14,7 +16,6 @@
 
 enum {
   SPREAD = 4, /* cells a triangle is in, on average: a tile is about an edge */
-  MANY = 2,
   SOUP = 32,            /* faces over a point, on average, that make a soup */
   SOUP_CELLS = 1 << 22, /* cells of all triangles of a soup together */
   SOUP_SPREAD = 256,    /* but no more of each: pairs are met cell by cell */
@@ -29,40 +30,152 @@ static struct tile *tile_at(const struct tilemap *map, int x, int y) {
   return &map->tile[(size_t)y * (size_t)map->grid.columns + (size_t)x];
 }
 
-/* Which cells and buckets each triangle is in, and the cells' depths. */
-static void gather_depths(struct tilemap *map, const struct sheet *sheet) {
-  const struct geom_point *point = sheet->point.item;
-  for (size_t t = 0; t < sheet->triangle.count; t++) {
-    const uint32_t *p = sheet->triangle.item[t].point;
-    struct cell_range r = pagegrid_cells(
-        &map->grid, page_box_of_triangle(sheet, (uint32_t)t));
-    int64_t z0 = point[p[0]].z, z1 = point[p[1]].z, z2 = point[p[2]].z;
-    int64_t low = z0 < z1 ? z0 : z1, high = z0 > z1 ? z0 : z1;
-    uint64_t mask;
-    if (z2 < low) low = z2;
-    if (z2 > high) high = z2;
-    map->print[t] = footprint_of(r, tile_bucket(low), tile_bucket(high));
-    mask = bucket_mask(tile_bucket(low), tile_bucket(high));
-    for (int y = r.y0; y <= r.y1; y++)
-      for (int x = r.x0; x <= r.x1; x++) tile_at(map, x, y)->depths |= mask;
+/* ---- Gathering ------------------------------------------------------------ */
+
+struct corners {
+  struct geom_point p[3];
+};
+
+static inline struct corners corners_of(const struct sheet *sheet, size_t t) {
+  const uint32_t *p = sheet->triangle.item[t].point;
+  return (struct corners){{sheet->point.item[p[0]], sheet->point.item[p[1]],
+                           sheet->point.item[p[2]]}};
+}
+
+/* May the triangle hide, or touch, across an empty bucket?  Its contact
+ * tolerance (hide.h), bounded from above, against a bucket's depth: half of
+ * it is room enough for the roundings.
+ * all  what bounds the tolerances of all triangles: asked first */
+static bool is_steep(const struct sheet *sheet, const struct hide_bound *all,
+                     const struct corners *corners) {
+  const struct geom_point *p = corners->p;
+  double ux = (double)p[1].x - p[0].x, uy = (double)p[1].y - p[0].y,
+         uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
+         vy = (double)p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
+  double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+  double room = nz * (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1));
+  if (1 + all->level * nz + all->slope * (fabs(nx) + fabs(ny)) < room)
+    return false;
+  return !(hide_tolerance_bound(sheet, p[0], nx, ny, nz) < room);
+}
+
+/* Where a tile is sampled: off the middle, so that regular meshes whose edges
+ * run along the grid are not met on an edge again and again. */
+static int64_t sample_x(const struct pagegrid *grid) {
+  return (INT64_C(1) << grid->shift) * 37 / 64 + grid->x0;
+}
+static int64_t sample_y(const struct pagegrid *grid) {
+  return (INT64_C(1) << grid->shift) * 29 / 64 + grid->y0;
+}
+
+/* The columns, or rows, whose samples are in [low, high]; *past <= *first:
+ * none.
+ * origin  where the first one is sampled */
+static inline void find_samples(int32_t low, int32_t high, int64_t origin,
+                                int shift, int count, int *first, int *past) {
+  int64_t from = (low - origin + (INT64_C(1) << shift) - 1) >> shift;
+  int64_t to = (high - origin) >> shift;
+  *first = from < 0 ? 0 : (int)from;
+  *past = to < count ? (int)to + 1 : count;
+}
+
+static inline void note_bar(struct tile *tile, uint8_t note) {
+  if (tile->bar < note) tile->bar = note;
+}
+
+/* Notes the triangle where it is over the tile's sample; where the sample is
+ * on one of its sides that cannot be told. */
+static inline void ask_sample(struct tile *tile, const struct corners *corners,
+                              struct geom_point sample, uint8_t note) {
+  const struct geom_point *p = corners->p;
+  int64_t a = geom_orient2d(p[0], p[1], sample),
+          b = geom_orient2d(p[1], p[2], sample),
+          c = geom_orient2d(p[2], p[0], sample);
+  if ((a | b | c) < 0) return;
+  if (a == 0 || b == 0 || c == 0) {
+    note_bar(tile, note);
+  } else if (note > tile->over[0]) {
+    tile->over[1] = tile->over[0];
+    tile->over[0] = note;
+  } else if (note > tile->over[1]) {
+    tile->over[1] = note;
   }
 }
 
-/* The lowest bit of the topmost run of ones; depths != 0. */
-static int bottom_of_front(uint64_t depths) {
-  int bottom = TILE_BUCKETS - 1;
-  while (!(depths >> bottom & 1)) bottom--;
-  while (bottom > 0 && (depths >> (bottom - 1) & 1)) bottom--;
-  return bottom;
+static void ask_samples(struct tilemap *map, const struct corners *corners,
+                        struct page_box box, uint8_t note) {
+  const struct pagegrid *grid = &map->grid;
+  int64_t ox = sample_x(grid), oy = sample_y(grid);
+  int x0, x1, y0, y1;
+  find_samples(box.x0, box.x1, ox, grid->shift, grid->columns, &x0, &x1);
+  find_samples(box.y0, box.y1, oy, grid->shift, grid->rows, &y0, &y1);
+  for (int y = y0; y < y1; y++)
+    for (int x = x0; x < x1; x++) {
+      struct geom_point sample = {
+          (int32_t)(ox + ((int64_t)x << grid->shift)),
+          (int32_t)(oy + ((int64_t)y << grid->shift)), 0};
+      ask_sample(tile_at(map, x, y), corners, sample, note);
+    }
 }
 
-static void find_fronts(struct tilemap *map) {
+static inline struct page_box box_of(const struct corners *corners) {
+  const struct geom_point *p = corners->p;
+  return (struct page_box){page_least(p[0].x, page_least(p[1].x, p[2].x)),
+                           page_least(p[0].y, page_least(p[1].y, p[2].y)),
+                           page_most(p[0].x, page_most(p[1].x, p[2].x)),
+                           page_most(p[0].y, page_most(p[1].y, p[2].y))};
+}
+
+/* Streams the triangles: their cells and buckets, and what tiles note. */
+static void gather(struct tilemap *map, const struct sheet *sheet,
+                   bool fragments) {
+  struct hide_bound all = hide_tolerance_bound_all(sheet);
+  for (size_t t = 0; t < sheet->triangle.count; t++) {
+    struct corners corners = corners_of(sheet, t);
+    struct page_box box = box_of(&corners);
+    struct cell_range r = pagegrid_cells(&map->grid, box);
+    int64_t z0 = corners.p[0].z, z1 = corners.p[1].z, z2 = corners.p[2].z;
+    int64_t least = z0 < z1 ? z0 : z1, most = z0 > z1 ? z0 : z1;
+    int low = tile_bucket(z2 < least ? z2 : least),
+        high = tile_bucket(z2 > most ? z2 : most);
+    uint64_t mask = bucket_mask(low, high);
+    bool flat = sheet->triangle_flags[t] & SHEET_FLAT;
+    uint8_t note = (uint8_t)(low + 1);
+    map->print[t] = footprint_of(r, low, high);
+    if (!flat && is_steep(sheet, &all, &corners)) {
+      note = fragments ? UINT8_MAX : note;
+      for (int y = r.y0; y <= r.y1; y++)
+        for (int x = r.x0; x <= r.x1; x++) note_bar(tile_at(map, x, y), note);
+      flat = true;
+    }
+    for (int y = r.y0; y <= r.y1; y++)
+      for (int x = r.x0; x <= r.x1; x++) tile_at(map, x, y)->depths |= mask;
+    if (!flat) ask_samples(map, &corners, box, note);
+  }
+}
+
+/* ---- Judging -------------------------------------------------------------- */
+
+/* The lowest bit of the topmost run of ones; depths != 0. */
+static int bottom_of_front(uint64_t depths) {
+  int above = __builtin_clzll(depths);
+  uint64_t gaps = ~(depths << above);
+  int run = gaps == 0 ? TILE_BUCKETS : __builtin_clzll(gaps);
+  return TILE_BUCKETS - above - run;
+}
+
+/* Where just one face of the front layer is over the sample, and none forbids
+ * telling, the layer is there once. */
+static void judge(struct tilemap *map) {
   size_t n = pagegrid_cell_count(&map->grid);
   for (size_t i = 0; i < n; i++) {
     struct tile *tile = &map->tile[i];
     if (tile->depths == 0) continue;
-    tile->front = (uint8_t)bottom_of_front(tile->depths);
-    tile->state = TILE_SIMPLE;
+    int front = bottom_of_front(tile->depths);
+    bool simple =
+        tile->over[0] > front && tile->over[1] <= front && tile->bar <= front;
+    tile->front = (uint8_t)front;
+    tile->state = simple ? TILE_SIMPLE : TILE_MIXED;
   }
 }
 
@@ -89,17 +202,6 @@ static struct window tile_window(const struct pagegrid *grid, int x, int y) {
           y0 = grid->y0 + y * side;
   return (struct window){(int32_t)x0, (int32_t)y0, (int32_t)(x0 + side),
                          (int32_t)(y0 + side)};
-}
-
-/* Where a tile is sampled: off the middle, so that regular meshes whose edges
- * run along the grid are not met on an edge again and again. */
-static struct geom_point sample_of(const struct pagegrid *grid, int x, int y) {
-  int64_t side = INT64_C(1) << grid->shift;
-  int64_t px = grid->x0 + x * side + side * 37 / 64,
-          py = grid->y0 + y * side + side * 29 / 64;
-  struct geom_point p = {(int32_t)(px > SHEET_XY_MAX ? SHEET_XY_MAX : px),
-                         (int32_t)(py > SHEET_XY_MAX ? SHEET_XY_MAX : py), 0};
-  return p;
 }
 
 /* How many triangles' boxes are over a point of the page, on average. */
@@ -136,53 +238,13 @@ static void raise_horizons(struct tilemap *map, const struct sheet *sheet,
     }
 }
 
-struct corners {
-  struct geom_point p[3];
-};
-
-static struct corners corners_of(const struct sheet *sheet, size_t t) {
-  const uint32_t *p = sheet->triangle.item[t].point;
-  return (struct corners){{sheet->point.item[p[0]], sheet->point.item[p[1]],
-                           sheet->point.item[p[2]]}};
-}
-
-/* Counts the triangle where it covers the tile's sample. */
-static void count_sample(struct tile *tile, const struct corners *corners,
-                         struct geom_point sample) {
-  const struct geom_point *p = corners->p;
-  int inside = 0;
-  for (int k = 0; k < 3; k++) {
-    int64_t o = geom_orient2d(p[k], p[k == 2 ? 0 : k + 1], sample);
-    if (o < 0) return;
-    inside += o > 0;
-  }
-  if (inside < 3)
-    tile->state = TILE_MIXED; /* met on an edge: not to be told */
-  else if (tile->covered < MANY)
-    tile->covered++;
-}
-
-/* May the triangle hide, or touch, across an empty bucket?  Its contact
- * tolerance (hide.h), bounded from above, against a bucket's depth: half of
- * it is room enough for the roundings. */
-static bool is_steep(const struct sheet *sheet, const struct corners *corners) {
-  const struct geom_point *p = corners->p;
-  double ux = (double)p[1].x - p[0].x, uy = (double)p[1].y - p[0].y,
-         uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
-         vy = (double)p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
-  double nz = ux * vy - uy * vx;
-  double bound = hide_tolerance_bound(sheet, p[0], uy * vz - uz * vy,
-                                      uz * vx - ux * vz, nz);
-  return !(bound < nz * (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1)));
-}
-
 /* Fragments ask which faces touch, and a steep one may touch across a
  * horizon: it takes the horizons of its tiles away. */
 static void drop_horizons(struct tilemap *map, const struct sheet *sheet,
-                          size_t t) {
+                          const struct hide_bound *all, size_t t) {
   struct corners corners = corners_of(sheet, t);
   struct cell_range r;
-  if (!is_steep(sheet, &corners)) return;
+  if (!is_steep(sheet, all, &corners)) return;
   r = footprint_cells(&map->grid, sheet, t, map->print[t]);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++)
@@ -191,6 +253,7 @@ static void drop_horizons(struct tilemap *map, const struct sheet *sheet,
 
 static bool find_horizons(struct tilemap *map, const struct sheet *sheet,
                           bool fragments) {
+  struct hide_bound all = hide_tolerance_bound_all(sheet);
   size_t n = pagegrid_cell_count(&map->grid);
   map->horizon = mem_alloc(n, sizeof *map->horizon);
   if (map->horizon == NULL) return false;
@@ -203,40 +266,8 @@ static bool find_horizons(struct tilemap *map, const struct sheet *sheet,
     map->horizon[i] -= (double)(INT64_C(1) << TILE_BUCKET_SHIFT);
   for (size_t t = 0; t < sheet->triangle.count; t++)
     if (!(sheet->triangle_flags[t] & SHEET_FLAT))
-      drop_horizons(map, sheet, t);
+      drop_horizons(map, sheet, &all, t);
   return true;
-}
-
-/* Counts the triangle in the simple tiles it may belong to the front of, or
- * refuses them where it is too steep. */
-static void count_triangle(struct tilemap *map, const struct sheet *sheet,
-                           size_t t, bool fragments) {
-  struct footprint print = map->print[t];
-  struct cell_range r = footprint_cells(&map->grid, sheet, t, print);
-  struct corners corners;
-  bool known = false, steep = false;
-  for (int y = r.y0; y <= r.y1; y++)
-    for (int x = r.x0; x <= r.x1; x++) {
-      struct tile *tile = tile_at(map, x, y);
-      bool front = print.low >= tile->front;
-      if (tile->state != TILE_SIMPLE || !(front || fragments)) continue;
-      if (!known) {
-        corners = corners_of(sheet, t);
-        steep = is_steep(sheet, &corners);
-        known = true;
-      }
-      if (steep)
-        tile->state = TILE_MIXED;
-      else if (front)
-        count_sample(tile, &corners, sample_of(&map->grid, x, y));
-    }
-}
-
-static void count_samples(struct tilemap *map, const struct sheet *sheet,
-                          bool fragments) {
-  for (size_t t = 0; t < sheet->triangle.count; t++)
-    if (!(sheet->triangle_flags[t] & SHEET_FLAT))
-      count_triangle(map, sheet, t, fragments);
 }
 
 bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
@@ -255,15 +286,12 @@ bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
   map->tile = mem_calloc(n, sizeof *map->tile);
   map->print = mem_alloc(sheet->triangle.count, sizeof *map->print);
   if (map->tile == NULL || map->print == NULL) return false;
-  gather_depths(map, sheet);
+  gather(map, sheet, fragments);
   if (soup && !find_horizons(map, sheet, fragments)) return false;
-  find_fronts(map);
+  judge(map);
   refuse_contours(map, sheet);
-  count_samples(map, sheet, fragments);
   for (size_t i = 0; i < n; i++) {
     struct tile *tile = &map->tile[i];
-    if (tile->state == TILE_SIMPLE && tile->covered != 1)
-      tile->state = TILE_MIXED;
     map->simple += tile->state == TILE_SIMPLE;
     map->mixed += tile->state == TILE_MIXED;
     map->empty += tile->state == TILE_EMPTY;

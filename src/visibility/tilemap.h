@@ -36,11 +36,13 @@ enum tile_state {
 
 enum { TILE_BUCKETS = 64, TILE_BUCKET_SHIFT = SHEET_Z_BITS - 6 };
 
+/* Faces are noted by their lowest bucket + 1; 0: none. */
 struct tile {
-  uint64_t depths;  /* bit b: some face is in bucket b */
-  uint8_t front;    /* the front layer's lowest bucket */
-  uint8_t covered;  /* faces of the layer over the sample point, capped */
-  uint8_t state;    /* enum tile_state */
+  uint64_t depths; /* bit b: some face is in bucket b */
+  uint8_t over[2]; /* the nearest face over the sample point, and the next */
+  uint8_t bar;     /* the nearest face that forbids telling */
+  uint8_t front;   /* the front layer's lowest bucket */
+  uint8_t state;   /* enum tile_state */
 };
 
 struct tilemap {

@@ -31,6 +31,8 @@ struct tiles_work {
   uint8_t *face_state;     /* one a triangle: enum map_state; MAP_MIXED is
                               left over */
   struct hide_counts hide;
+  struct report *report;
+  double phase_start; /* of the phase at hand */
 };
 
 /* ---- 3, 4. Lists and piercing --------------------------------------------------------------- */
@@ -313,37 +315,63 @@ static void report_tiles(const struct tiles_work *work, struct report *report) {
   hide_report(&work->hide, report);
 }
 
-static bool solve_all(struct tiles_work *work, struct map *map,
-                      struct report *report, recto_status *status,
-                      recto_error *error) {
+/* Files how long the phase took that ends now. */
+static void end_phase(struct tiles_work *work, const char *name) {
+  double now = clock_cpu();
+  report_double(work->report, "tiles", name, now - work->phase_start);
+  work->phase_start = now;
+}
+
+static bool classify(struct tiles_work *work, struct map *map) {
   const struct solver_request *request = work->request;
+  work->phase_start = clock_cpu();
   if (!tilemap_init(&work->tiles, work->sheet, request->fragments))
     return false;
+  end_phase(work, "tiles_cpu_s");
   work->wanted = mem_calloc(pagegrid_cell_count(&work->tiles.grid), 1);
   if (work->wanted == NULL) return false;
   if (request->strokes && !classify_edges(work, 0, map)) return false;
   if (request->fragments && !classify_faces(work)) return false;
+  end_phase(work, "classes_cpu_s");
+  return true;
+}
+
+/* Finds the piercing pairs, and what they add to the edges. */
+static bool find_piercing(struct tiles_work *work, struct map *map,
+                          recto_status *status, recto_error *error) {
+  size_t mesh_edges = work->sheet->edge.count;
+  *status = pierce_all(work->sheet, &work->tiles.grid, work->report, error);
+  if (*status != RECTO_OK) return false;
+  if (work->request->strokes && !classify_edges(work, mesh_edges, map))
+    return false;
+  end_phase(work, "piercing_cpu_s");
+  return !work->wants_more || list_faces(work);
+}
+
+static bool solve_all(struct tiles_work *work, struct map *map,
+                      recto_status *status, recto_error *error) {
+  const struct solver_request *request = work->request;
+  if (!classify(work, map)) return false;
   if (request->intersections) want_for_piercing(work);
   if (!list_faces(work)) return false;
-  if (request->intersections) {
-    size_t mesh_edges = work->sheet->edge.count;
-    *status = pierce_all(work->sheet, &work->tiles.grid, report, error);
-    if (*status != RECTO_OK) return false;
-    if (request->strokes && !classify_edges(work, mesh_edges, map))
-      return false;
-    if (work->wants_more && !list_faces(work)) return false;
-  }
+  end_phase(work, "lists_cpu_s");
+  if (request->intersections && !find_piercing(work, map, status, error))
+    return false;
   if (request->strokes && !solve_edges(work, map)) return false;
-  return !request->fragments || solve_faces(work, map);
+  end_phase(work, "edges_cpu_s");
+  if (request->fragments && !solve_faces(work, map)) return false;
+  end_phase(work, "faces_cpu_s");
+  return true;
 }
 
 static recto_status solve(struct sheet *sheet,
                           const struct solver_request *request,
                           struct map *map, struct report *report,
                           recto_error *error) {
-  struct tiles_work work = {.sheet = sheet, .request = request};
+  struct tiles_work work = {
+      .sheet = sheet, .request = request, .report = report};
   recto_status status = RECTO_OK;
-  if (!solve_all(&work, map, report, &status, error) && status == RECTO_OK)
+  if (!solve_all(&work, map, &status, error) && status == RECTO_OK)
     status = error_memory(error);
   report_tiles(&work, report);
   tilemap_fini(&work.tiles);
