@@ -8,16 +8,47 @@
 static const struct ratio ZERO = {0, 1}, ONE = {1, 1};
 
 void strokes_fini(struct strokes *strokes) {
+  ARRAY_FREE(&strokes->both);
   ARRAY_FREE(&strokes->part);
   ARRAY_FREE(&strokes->left);
   ARRAY_FREE(&strokes->right);
 }
 
+/* Parts that are kept united as they come: so many that an edge is seen to be
+ * hidden as a whole as soon as it is, so few that they are found at once. */
+enum { UNITED_MOST = 32 };
+
+/* Puts a part among others in order and apart, with which it unites where it
+ * meets them.  There is room for one more. */
+static void put(stroke_parts *united, struct hidden_part part) {
+  struct hidden_part *item = united->item;
+  size_t first = 0, past;
+  while (first < united->count &&
+         ratio_compare(item[first].to, part.from) < 0)
+    first++;
+  for (past = first; past < united->count &&
+                     ratio_compare(item[past].from, part.to) <= 0;
+       past++) {
+    if (ratio_compare(item[past].from, part.from) < 0)
+      part.from = item[past].from;
+    if (ratio_compare(part.to, item[past].to) < 0) part.to = item[past].to;
+  }
+  if (past != first + 1)
+    memmove(item + first + 1, item + past,
+            (united->count - past) * sizeof *item);
+  united->count += first + 1 - past;
+  item[first] = part;
+}
+
 bool strokes_hide(struct strokes *strokes, struct hidden_part part) {
-  if (part.sides == HIDE_BOTH && part.from.num == 0 &&
-      part.to.num == part.to.den)
-    strokes->whole = true;
-  return ARRAY_PUSH(&strokes->part, part);
+  stroke_parts *both = &strokes->both;
+  if (part.sides != HIDE_BOTH || both->count == UNITED_MOST)
+    return ARRAY_PUSH(&strokes->part, part);
+  if (!ARRAY_RESERVE(both, 1)) return false;
+  put(both, part);
+  strokes->whole = both->count == 1 && both->item[0].from.num == 0 &&
+                   both->item[0].to.num == both->item[0].to.den;
+  return true;
 }
 
 bool strokes_open_map(struct map *map, size_t edge_count) {
@@ -36,25 +67,29 @@ static int compare_from(const void *a, const void *b, void *user) {
 }
 
 /* The union of the parts that cover `side`, in order and apart. */
-static bool unite(const stroke_parts *part, int side, stroke_parts *united) {
+static bool unite(const struct strokes *strokes, int side,
+                  stroke_parts *united) {
+  const stroke_parts *both = &strokes->both, *part = &strokes->part;
+  size_t last = 0;
   united->count = 0;
+  for (size_t i = 0; i < both->count; i++)
+    if (!ARRAY_PUSH(united, both->item[i])) return false;
   for (size_t i = 0; i < part->count; i++)
     if ((part->item[i].sides & side) && !ARRAY_PUSH(united, part->item[i]))
       return false;
-  if (united->count > 1) {
-    size_t last = 0;
-    if (!sort_stable(united->item, united->count, sizeof *united->item,
-                     compare_from, NULL))
-      return false;
-    for (size_t i = 1; i < united->count; i++) {
-      struct hidden_part *p = &united->item[last], q = united->item[i];
-      if (ratio_compare(q.from, p->to) > 0)
-        united->item[++last] = q;
-      else if (ratio_compare(p->to, q.to) < 0)
-        p->to = q.to;
-    }
-    united->count = last + 1;
+  if (united->count == 0) return true;
+  if (!sort_stable(united->item, united->count, sizeof *united->item,
+                   compare_from, NULL))
+    return false;
+  for (size_t i = 1; i < united->count; i++) {
+    struct hidden_part *p = &united->item[last];
+    const struct hidden_part *q = &united->item[i];
+    if (ratio_compare(q->from, p->to) > 0)
+      united->item[++last] = *q;
+    else if (ratio_compare(p->to, q->to) < 0)
+      p->to = q->to;
   }
+  united->count = last + 1;
   return true;
 }
 
@@ -98,24 +133,19 @@ static bool file_visible(const stroke_parts *hidden, uint32_t edge,
 
 bool strokes_file(struct strokes *strokes, uint32_t edge, struct map *map) {
   const stroke_parts *part = &strokes->part;
-  bool one_sided = false;
+  const stroke_parts *hidden = &strokes->both;
   map->edge_state[edge] = MAP_HIDDEN;
   if (strokes->whole) return true;
-  for (size_t i = 0; i < part->count; i++)
-    one_sided |= part->item[i].sides != HIDE_BOTH;
-  if (!unite(part, HIDE_LEFT, &strokes->left)) return false;
-  if (one_sided) {
-    stroke_parts swap;
-    if (!unite(part, HIDE_RIGHT, &strokes->right) ||
+  if (part->count > 0) {
+    if (!unite(strokes, HIDE_LEFT, &strokes->left) ||
+        !unite(strokes, HIDE_RIGHT, &strokes->right) ||
         !intersect(&strokes->left, &strokes->right, &strokes->part))
       return false;
-    swap = strokes->left;
-    strokes->left = strokes->part;
-    strokes->part = swap;
+    hidden = &strokes->part;
   }
-  if (strokes->left.count == 0) {
+  if (hidden->count == 0) {
     map->edge_state[edge] = MAP_VISIBLE;
     return true;
   }
-  return file_visible(&strokes->left, edge, map);
+  return file_visible(hidden, edge, map);
 }

@@ -9,9 +9,11 @@ typedef ARRAY(struct hidden_part) stroke_parts;
 
 /* What is hidden of the edge at hand; one a thread, used edge by edge. */
 struct strokes {
-  stroke_parts part;  /* as they came */
+  stroke_parts both; /* parts with both sides covered: in order and apart, a
+                        few at most */
+  stroke_parts part; /* the others, as they came */
   stroke_parts left, right; /* scratch: united, by side */
-  bool whole;         /* hidden from end to end: no more need be asked */
+  bool whole; /* hidden from end to end: no more need be asked */
 };
 
 /* Zero-initialised is empty. */
@@ -19,6 +21,7 @@ void strokes_fini(struct strokes *strokes);
 
 /* Forgets the last edge. */
 static inline void strokes_start(struct strokes *strokes) {
+  strokes->both.count = 0;
   strokes->part.count = 0;
   strokes->whole = false;
 }
