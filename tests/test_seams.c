@@ -1,5 +1,6 @@
 /* test_seams.c - no lines where faces of a smooth surface meet. */
 #include "hand/sheet.h"
+#include "visibility/stance.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -41,18 +42,36 @@ static void add_fan(struct sheet *sheet, bool turned) {
   sheet->face_group = group;
 }
 
+/* May corners of triangle f pierce the plane of g, for all that is known? */
+static bool is_in_doubt(const struct sheet *sheet, uint32_t f, uint32_t g) {
+  struct stance_plane plane = stance_plane_of(sheet, g);
+  struct geom_point corner[3];
+  for (int k = 0; k < 3; k++)
+    corner[k] = sheet->point.item[sheet->triangle.item[f].point[k]];
+  return stance_may_pierce(&plane, corner);
+}
+
+/* How many pairs that are not next to each other the planes do not settle. */
+static int count_doubts(const struct sheet *sheet) {
+  static const uint32_t apart[][2] = {{0, 3}, {0, 4}, {0, 5}, {1, 2}, {1, 4},
+                                      {1, 5}, {2, 3}, {2, 5}, {3, 4}};
+  int doubts = 0;
+  for (size_t i = 0; i < sizeof apart / sizeof *apart; i++)
+    doubts += is_in_doubt(sheet, apart[i][0], apart[i][1]) &&
+              is_in_doubt(sheet, apart[i][1], apart[i][0]);
+  return doubts;
+}
+
 static void faces_of_a_smooth_surface_make_no_line(void **state) {
   (void)state;
   for (int turned = 0; turned < 2; turned++) {
     struct sheet sheet;
     struct map map;
-    struct report *report = report_create();
     add_fan(&sheet, turned == 1);
-    hand_solve(&solver_brute, &sheet, &map, report);
-    /* Pairs were in doubt, and yet. */
-    assert_true(report_get(report, "pierce", "straddling", 0) > 0);
+    /* Their planes leave pairs in doubt, and yet. */
+    assert_true(count_doubts(&sheet) > 0);
+    hand_solve(&solver_brute, &sheet, &map, NULL);
     assert_int_equal(sheet.edge.count, 0);
-    report_destroy(report);
     map_fini(&map);
     hand_sheet_fini(&sheet);
   }

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "visibility/stance.h"
+
 #define FIXED_ONE 65536 /* 2^16: T has 16 bits below the value's unit */
 #define T_CAP 0x1p121
 
@@ -120,27 +122,51 @@ static void lower_to(struct hidden_part *part, struct ratio t) {
   if (ratio_compare(t, part->to) < 0) part->to = t;
 }
 
-/* Cuts the part to where the triangle's outline contains the edge. */
+/* Which side of itself an edge from p to q has covered that runs along the
+ * side a-b: the triangle lies left of that. */
+static int covered_side(struct geom_point a, struct geom_point b,
+                        struct geom_point p, struct geom_point q) {
+  int64_t along = ((int64_t)q.x - p.x) * ((int64_t)b.x - a.x) +
+                  ((int64_t)q.y - p.y) * ((int64_t)b.y - a.y);
+  return along > 0 ? HIDE_LEFT : HIDE_RIGHT;
+}
+
+/* Cuts the part to where the triangle's outline contains the edge.
+ * With corners c as seen from p, and d from there to q, the areas are
+ *   line[k] = d x c[k]           of p, q and corner k;
+ *   s[k]    = c[k] x c[k + 1]    of side k and p;
+ *   t[k]    = s[k] + line[k] - line[k + 1]   of side k and q:
+ * each below 2^63, though the sum on the way may not be.  Where all corners
+ * are on one side of the line, at most one of them on it, nothing is
+ * covered. */
 static bool cut_to_outline(const struct geom_point corner[3],
                            struct geom_point p, struct geom_point q,
                            struct hidden_part *part) {
+  int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y;
+  int64_t x[3], y[3], line[3], s[3], t[3];
+  int left = 0, right = 0;
   for (int k = 0; k < 3; k++) {
-    struct geom_point a = corner[k], b = corner[k == 2 ? 0 : k + 1];
-    int64_t s = geom_orient2d(a, b, p), t = geom_orient2d(a, b, q);
-    if (s <= 0 && t <= 0) {
-      if (s < 0 || t < 0) return false;
-      /* Along the side: the triangle lies left of the side. */
-      part->sides =
-          ((int64_t)q.x - p.x) * ((int64_t)b.x - a.x) +
-                      ((int64_t)q.y - p.y) * ((int64_t)b.y - a.y) >
-                  0
-              ? HIDE_LEFT
-              : HIDE_RIGHT;
-    } else if (s < 0) {
-      raise_from(part, ratio_of(-s, t - s));
-    } else if (t < 0) {
-      lower_to(part, ratio_of(s, s - t));
+    x[k] = (int64_t)corner[k].x - p.x;
+    y[k] = (int64_t)corner[k].y - p.y;
+    line[k] = dx * y[k] - dy * x[k];
+    left += line[k] > 0;
+    right += line[k] < 0;
+  }
+  if ((left == 0 || right == 0) && left + right >= 2) return false;
+  for (int k = 0; k < 3; k++) {
+    int next = k == 2 ? 0 : k + 1;
+    s[k] = x[k] * y[next] - y[k] * x[next];
+    t[k] = (int64_t)((uint64_t)s[k] + (uint64_t)line[k] - (uint64_t)line[next]);
+    if (s[k] <= 0 && t[k] <= 0) {
+      if (s[k] < 0 || t[k] < 0) return false;
+      part->sides = covered_side(corner[k], corner[next], p, q);
     }
+  }
+  for (int k = 0; k < 3; k++) {
+    if (s[k] < 0)
+      raise_from(part, ratio_of(-s[k], t[k] - s[k]));
+    else if (t[k] < 0)
+      lower_to(part, ratio_of(s[k], s[k] - t[k]));
   }
   return ratio_compare(part->from, part->to) < 0;
 }
@@ -199,9 +225,15 @@ bool hide_edge_by(const struct sheet *sheet, uint32_t triangle,
                                        sheet->point.item[point[1]],
                                        sheet->point.item[point[2]]};
   struct hider hider;
+  struct stance_plane plane;
+  int at_p, at_q;
   counts->pairs++;
   if (!hide_by_outline(corner, p, q, part)) return false;
   counts->depth++;
+  plane = stance_plane_of(sheet, triangle);
+  at_p = stance_hides(&plane, p);
+  at_q = stance_hides(&plane, q);
+  if (at_p == at_q && at_p != 0) return at_p < 0;
   hider_init(&hider, sheet, triangle);
   return cut_to_depth(&hider, p, q, part, counts);
 }

@@ -11,16 +11,19 @@ librecto_core_la_SOURCES += \
   %D%/newell.c \
   %D%/newell_order.c %D%/newell_order.h \
   %D%/newell_tests.c %D%/newell_tests.h \
+  %D%/octagon.h \
   %D%/pagegrid.c %D%/pagegrid.h \
   %D%/painter.c \
   %D%/pair.c %D%/pair.h \
   %D%/pierce.c %D%/pierce.h \
+  %D%/pierce_pairs.c %D%/pierce_pairs.h \
   %D%/pixels.c %D%/pixels.h \
   %D%/raster.c %D%/raster.h \
   %D%/scanline_zbuffer.c %D%/scanline_zbuffer.h \
   %D%/sidelabel.c %D%/sidelabel.h \
   %D%/solver.c %D%/solver.h \
   %D%/spans.c %D%/spans.h \
+  %D%/stance.c %D%/stance.h \
   %D%/strokes.c %D%/strokes.h \
   %D%/subpixels.c %D%/subpixels.h \
   %D%/surround.c %D%/surround.h \

@@ -11,6 +11,8 @@ enum {
   SAMPLE = 1 << 16 /* triangles that are looked at to choose the cells */
 };
 
+typedef ARRAY(uint32_t) triangle_list;
+
 static struct page_box box_of_sheet(const struct sheet *sheet) {
   struct page_box all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
   for (size_t t = 0; t < sheet->triangle.count; t++) {
@@ -55,52 +57,108 @@ void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
   grid->rows = (int)(height >> grid->shift) + 1;
 }
 
-/* First pass: counts; second: places.  start[] ends as the lists' starts. */
-static void fill_cells(struct pagegrid *grid, const struct sheet *sheet,
-                       const struct footprint *print, const uint8_t *wanted,
-                       const double *horizon, bool place) {
-  for (size_t t = sheet->triangle.count; t-- > 0;) {
-    struct cell_range r =
-        print != NULL
-            ? footprint_cells(grid, sheet, t, print[t])
-            : pagegrid_cells(grid, page_box_of_triangle(sheet, (uint32_t)t));
-    double nearest =
-        horizon != NULL ? (double)triangle_nearest(sheet, (uint32_t)t) : 0;
-    for (int y = r.y0; y <= r.y1; y++)
-      for (int x = r.x0; x <= r.x1; x++) {
-        size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
-        uint32_t *end = &grid->start[cell];
-        if (wanted != NULL && !wanted[cell]) continue;
-        if (horizon != NULL && nearest < horizon[cell]) continue;
-        if (place)
-          grid->item[--*end] = (uint32_t)t;
-        else
-          ++*end;
-      }
-  }
+/* What the lists are made of. */
+struct filling {
+  struct pagegrid *grid;
+  const struct sheet *sheet;
+  const struct footprint *print;
+  const uint8_t *wanted;
+  const uint32_t *some; /* the triangles that may be listed; NULL: all */
+  size_t count;
+};
+
+static void fill_triangle(const struct filling *filling, uint32_t t,
+                          bool place) {
+  struct pagegrid *grid = filling->grid;
+  const struct sheet *sheet = filling->sheet;
+  struct cell_range r =
+      filling->print != NULL
+          ? footprint_cells(grid, sheet, t, filling->print[t])
+          : pagegrid_cells(grid, page_box_of_triangle(sheet, t));
+  double nearest =
+      grid->horizon != NULL ? (double)triangle_nearest(sheet, t) : 0;
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++) {
+      size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+      uint32_t *end = &grid->start[cell];
+      if (filling->wanted != NULL && !filling->wanted[cell]) continue;
+      if (grid->horizon != NULL && nearest < grid->horizon[cell]) continue;
+      if (place)
+        grid->item[--*end] = t;
+      else
+        ++*end;
+    }
 }
 
-bool pagegrid_fill(struct pagegrid *grid, const struct sheet *sheet,
-                   const struct footprint *print, const uint8_t *wanted,
-                   const double *horizon) {
+/* First pass: counts; second: places.  start[] ends as the lists' starts. */
+static void fill_cells(const struct filling *filling, bool place) {
+  for (size_t i = filling->count; i-- > 0;)
+    fill_triangle(filling,
+                  filling->some != NULL ? filling->some[i] : (uint32_t)i,
+                  place);
+}
+
+static bool fill(const struct filling *filling) {
+  struct pagegrid *grid = filling->grid;
   size_t cells = pagegrid_cell_count(grid);
-  grid->horizon = horizon;
   grid->start = mem_calloc(cells + 1, sizeof *grid->start);
   if (grid->start == NULL) return false;
-  fill_cells(grid, sheet, print, wanted, horizon, false);
+  fill_cells(filling, false);
   for (size_t c = 0; c < cells; c++) grid->start[c + 1] += grid->start[c];
   grid->item = mem_alloc(grid->start[cells], sizeof *grid->item);
   if (grid->item == NULL) {
     pagegrid_fini(grid);
     return false;
   }
-  fill_cells(grid, sheet, print, wanted, horizon, true);
+  fill_cells(filling, true);
   return true;
+}
+
+/* One a cell: is it wanted, or the next one in x, in y or in both?  So a
+ * triangle in two cells each way or less asks once. */
+static uint8_t *widen(const struct pagegrid *grid, const uint8_t *wanted) {
+  size_t n = pagegrid_cell_count(grid), columns = (size_t)grid->columns;
+  uint8_t *wide = mem_alloc(n, 1);
+  if (wide == NULL) return NULL;
+  for (size_t i = 0; i + 1 < n; i++) wide[i] = wanted[i] | wanted[i + 1];
+  wide[n - 1] = wanted[n - 1];
+  for (size_t i = 0; i + columns < n; i++) wide[i] |= wide[i + columns];
+  return wide;
+}
+
+/* The triangles that are in wanted cells, and maybe a few more. */
+static bool choose_some(const struct pagegrid *grid,
+                        const struct footprint *print, const uint8_t *wide,
+                        triangle_list *some) {
+  for (size_t t = 0; t < grid->triangle_count; t++) {
+    struct footprint f = print[t];
+    size_t cell = (size_t)f.y * (size_t)grid->columns + f.x;
+    bool small = f.width <= 1 && f.height <= 1;
+    if (small && !wide[cell]) continue;
+    if (!ARRAY_PUSH(some, (uint32_t)t)) return false;
+  }
+  return true;
+}
+
+bool pagegrid_fill(struct pagegrid *grid, const struct sheet *sheet,
+                   const struct footprint *print, const uint8_t *wanted,
+                   const double *horizon) {
+  triangle_list some = {0};
+  uint8_t *wide = widen(grid, wanted);
+  grid->horizon = horizon;
+  bool done = wide != NULL && choose_some(grid, print, wide, &some);
+  mem_free(wide);
+  done = done && fill(&(struct filling){grid, sheet, print, wanted, some.item,
+                                        some.count});
+  ARRAY_FREE(&some);
+  return done;
 }
 
 bool pagegrid_init(struct pagegrid *grid, const struct sheet *sheet) {
   pagegrid_shape(grid, sheet, SPREAD, 2);
-  return pagegrid_fill(grid, sheet, NULL, NULL, NULL);
+  return fill(&(struct filling){.grid = grid,
+                                .sheet = sheet,
+                                .count = sheet->triangle.count});
 }
 
 void pagegrid_fini(struct pagegrid *grid) {
@@ -122,8 +180,8 @@ void pagegrid_query_fini(struct pagegrid_query *query) {
   ARRAY_FREE(&query->found);
 }
 
-static void start_query(const struct pagegrid *grid,
-                        struct pagegrid_query *query) {
+void pagegrid_query_start(const struct pagegrid *grid,
+                          struct pagegrid_query *query) {
   query->found.count = 0;
   if (++query->now == 0) {
     memset(query->stamp, 0, grid->triangle_count * sizeof *query->stamp);
@@ -136,9 +194,8 @@ static bool visit_cell(const struct pagegrid *grid, int x, int y,
   size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
   for (uint32_t i = grid->start[cell]; i < grid->start[cell + 1]; i++) {
     uint32_t t = grid->item[i];
-    if (query->stamp[t] == query->now) continue;
-    query->stamp[t] = query->now;
-    if (!ARRAY_PUSH(&query->found, t)) return false;
+    if (pagegrid_query_first(query, t) && !ARRAY_PUSH(&query->found, t))
+      return false;
   }
   return true;
 }
@@ -146,7 +203,7 @@ static bool visit_cell(const struct pagegrid *grid, int x, int y,
 bool pagegrid_find(const struct pagegrid *grid, struct page_box box,
                    struct pagegrid_query *query) {
   struct cell_range r = pagegrid_cells(grid, box);
-  start_query(grid, query);
+  pagegrid_query_start(grid, query);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++)
       if (!visit_cell(grid, x, y, query)) return false;
@@ -181,7 +238,7 @@ void pagegrid_row(const struct pagegrid *grid, struct geom_point p,
 bool pagegrid_find_along(const struct pagegrid *grid, struct geom_point p,
                          struct geom_point q, struct pagegrid_query *query) {
   struct cell_range r = pagegrid_cells(grid, page_box_of_segment(p, q));
-  start_query(grid, query);
+  pagegrid_query_start(grid, query);
   for (int y = r.y0; y <= r.y1; y++) {
     int x0, x1;
     pagegrid_row(grid, p, q, r, y, &x0, &x1);

@@ -51,8 +51,8 @@ void pagegrid_fini(struct pagegrid *grid);
  * be with a triangle in `spread` of them on average, so that memory is linear
  * in the triangles whatever their shape, and at most `cells` cells a
  * triangle.  The second makes the lists.
- * print   the triangles' footprints; NULL: not known
- * wanted  the cells that get a list, the others' stay empty; NULL: all
+ * print   the triangles' footprints
+ * wanted  the cells that get a list, the others' stay empty
  * horizon one a cell: triangles wholly behind it are left out; NULL: none */
 void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
                     unsigned spread, unsigned cells);
@@ -132,6 +132,18 @@ struct pagegrid_query {
 USE_RESULT bool pagegrid_query_init(struct pagegrid_query *query,
                                     const struct pagegrid *grid);
 void pagegrid_query_fini(struct pagegrid_query *query);
+
+/* Forgets the last answer. */
+void pagegrid_query_start(const struct pagegrid *grid,
+                          struct pagegrid_query *query);
+
+/* Is the triangle not in the answer yet?  From now on it is. */
+static inline bool pagegrid_query_first(struct pagegrid_query *query,
+                                        uint32_t triangle) {
+  bool first = query->stamp[triangle] != query->now;
+  query->stamp[triangle] = query->now;
+  return first;
+}
 
 /* Finds every triangle whose box meets `box` (and some more), each once, in
  * an order that depends on the grid alone.  False when memory ran out. */

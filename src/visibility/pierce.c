@@ -1,11 +1,10 @@
 /* pierce.c - where two triangles pierce each other. */
 #include "visibility/pierce.h"
 
-#include <math.h>
-
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "visibility/hide.h"
+#include "visibility/pierce_pairs.h"
 
 struct pierce_segment {
   uint32_t triangle[2]; /* the lower first */
@@ -30,6 +29,8 @@ struct pierce {
   const struct sheet *sheet;
   ARRAY(struct pierce_segment) segment;
   ARRAY(struct seam) seam;
+  struct hider hider; /* of triangle `prepared` */
+  uint32_t prepared;
   struct {
     uint64_t pairs;    /* that doubles could not tell apart */
     uint64_t straddle; /* of these, each reaches the other's plane */
@@ -286,10 +287,18 @@ static bool join_seams(struct pierce *pierce) {
   return true;
 }
 
-/* Asks triangle f, prepared as a hider (a flat one too), and triangle g. */
-static bool ask_pair(struct pierce *pierce, const struct hider *hf, uint32_t f,
-                     uint32_t g) {
+/* Triangle f, prepared; it often is the one of the last pair too. */
+static const struct hider *prepare(struct pierce *pierce, uint32_t f) {
+  if (pierce->prepared != f) hider_init(&pierce->hider, pierce->sheet, f);
+  pierce->prepared = f;
+  return &pierce->hider;
+}
+
+/* Asks two triangles, flat ones too. */
+static bool ask_pair(void *user, uint32_t f, uint32_t g) {
+  struct pierce *pierce = user;
   const struct sheet *sheet = pierce->sheet;
+  const struct hider *hf;
   struct geom_point p[3];
   struct hider hg;
   struct stance sf, sg;
@@ -297,6 +306,7 @@ static bool ask_pair(struct pierce *pierce, const struct hider *hf, uint32_t f,
   if (sheet->triangle.item[f].face == sheet->triangle.item[g].face)
     return true;
   pierce->counts.pairs++;
+  hf = prepare(pierce, f);
   for (int k = 0; k < 3; k++)
     p[k] = sheet->point.item[sheet->triangle.item[g].point[k]];
   sg = stance_of(hf, p);
@@ -382,156 +392,12 @@ static bool add_edges(struct sheet *sheet, struct pierce *pierce) {
   return true;
 }
 
-/* ---- All pairs -------------------------------------------------------------- */
-
-/* What is asked first of a triangle, gathered once a cell. */
-struct summary {
-  struct page_box box;
-  int64_t low, high; /* depths */
-  uint32_t triangle;
-};
-
-static struct summary summarise(const struct sheet *sheet, uint32_t triangle) {
-  const uint32_t *p = sheet->triangle.item[triangle].point;
-  struct summary s = {page_box_of_triangle(sheet, triangle),
-                      sheet->point.item[p[0]].z, sheet->point.item[p[0]].z,
-                      triangle};
-  for (int k = 1; k < 3; k++) {
-    int64_t z = sheet->point.item[p[k]].z;
-    if (z < s.low) s.low = z;
-    if (z > s.high) s.high = z;
-  }
-  return s;
-}
-
-static bool is_listed(const struct pagegrid *grid, size_t cell,
-                      const struct summary *s) {
-  return grid->start[cell] < grid->start[cell + 1] &&
-         (grid->horizon == NULL || !((double)s->high < grid->horizon[cell]));
-}
-
-/* A pair stands in several cells; it is asked in the first whose list has
- * both. */
-static bool is_cell_of_pair(const struct pagegrid *grid, size_t cell,
-                            const struct summary *f, const struct summary *g) {
-  struct page_box both = {page_most(f->box.x0, g->box.x0),
-                          page_most(f->box.y0, g->box.y0),
-                          page_least(f->box.x1, g->box.x1),
-                          page_least(f->box.y1, g->box.y1)};
-  struct cell_range r = pagegrid_cells(grid, both);
-  for (int y = r.y0; y <= r.y1; y++)
-    for (int x = r.x0; x <= r.x1; x++) {
-      size_t c = (size_t)y * (size_t)grid->columns + (size_t)x;
-      if (is_listed(grid, c, f) && is_listed(grid, c, g)) return c == cell;
-    }
-  return false;
-}
-
-static bool share_an_edge(const struct sheet_triangle *f,
-                          const struct sheet_triangle *g) {
-  int shared = 0;
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) shared += f->point[i] == g->point[j];
-  return shared > 1;
-}
-
-/* The plane of a triangle in doubles, with bounds for their errors. */
-struct rough_plane {
-  struct geom_point a;
-  double nx, ny, nz, ex, ey, ez;
-  double tolerance; /* no corner this near is apart from it */
-};
-
-static struct rough_plane rough_plane_of(const struct sheet *sheet,
-                                         uint32_t triangle) {
-  const uint32_t *t = sheet->triangle.item[triangle].point;
-  struct geom_point a = sheet->point.item[t[0]], b = sheet->point.item[t[1]],
-                    c = sheet->point.item[t[2]];
-  double ux = (double)b.x - a.x, uy = (double)b.y - a.y,
-         uz = (double)(b.z - a.z), vx = (double)c.x - a.x,
-         vy = (double)c.y - a.y, vz = (double)(c.z - a.z);
-  double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz,
-         nz = ux * vy - uy * vx;
-  return (struct rough_plane){a,
-                              nx,
-                              ny,
-                              nz,
-                              fabs(uy * vz) + fabs(uz * vy),
-                              fabs(uz * vx) + fabs(ux * vz),
-                              fabs(ux * vy) + fabs(uy * vx),
-                              hide_tolerance_bound(sheet, a, nx, ny, nz)};
-}
-
-/* Do all corners of a triangle lie on one side of the plane, beyond contact,
- * for certain?
- * Two roundings of the products, one of the difference, three more in the
- * value: 16 times the unit is room enough. */
-static bool on_one_side(const struct sheet *sheet,
-                        const struct rough_plane *plane, uint32_t triangle) {
-  const uint32_t *t = sheet->triangle.item[triangle].point;
-  int sum = 0;
-  for (int k = 0; k < 3; k++) {
-    struct geom_point p = sheet->point.item[t[k]];
-    double x = (double)p.x - plane->a.x, y = (double)p.y - plane->a.y,
-           z = (double)(p.z - plane->a.z);
-    double value = plane->nx * x + plane->ny * y + plane->nz * z;
-    double bound = 16 * 0x1p-53 *
-                       (plane->ex * fabs(x) + plane->ey * fabs(y) +
-                        plane->ez * fabs(z)) +
-                   plane->tolerance;
-    sum += (value > bound) - (value < -bound);
-  }
-  return sum == 3 || sum == -3;
-}
-
-/* The pairs of summary[0] with the `count` - 1 behind it. */
-static bool pierce_first(struct pierce *pierce, const struct pagegrid *grid,
-                         size_t cell, const struct summary *summary,
-                         size_t count) {
-  const struct sheet *sheet = pierce->sheet;
-  const struct summary *f = summary;
-  struct rough_plane plane = rough_plane_of(sheet, f->triangle);
-  struct hider hider;
-  bool prepared = false;
-  for (size_t i = 1; i < count; i++) {
-    const struct summary *g = &summary[i];
-    if (page_boxes_apart(f->box, g->box) || g->high < f->low ||
-        f->high < g->low || on_one_side(sheet, &plane, g->triangle) ||
-        share_an_edge(&sheet->triangle.item[f->triangle],
-                      &sheet->triangle.item[g->triangle]) ||
-        !is_cell_of_pair(grid, cell, f, g))
-      continue;
-    if (!prepared) hider_init(&hider, sheet, f->triangle);
-    prepared = true;
-    if (!ask_pair(pierce, &hider, f->triangle, g->triangle)) return false;
-  }
-  return true;
-}
-
-static bool pierce_cells(struct pierce *pierce, const struct pagegrid *grid) {
-  ARRAY(struct summary) summary = {0};
-  size_t cells = pagegrid_cell_count(grid);
-  bool done = true;
-  for (size_t cell = 0; cell < cells && done; cell++) {
-    const uint32_t *item = grid->item + grid->start[cell];
-    size_t n = grid->start[cell + 1] - grid->start[cell];
-    summary.count = 0;
-    if (n < 2) continue;
-    done = ARRAY_RESERVE(&summary, n);
-    for (size_t i = 0; done && i < n; i++)
-      summary.item[i] = summarise(pierce->sheet, item[i]);
-    for (size_t i = 0; done && i + 1 < n; i++)
-      done = pierce_first(pierce, grid, cell, &summary.item[i], n - i);
-  }
-  ARRAY_FREE(&summary);
-  return done;
-}
-
 recto_status pierce_all(struct sheet *sheet, const struct pagegrid *grid,
-                        struct report *report, recto_error *error) {
-  struct pierce pierce = {.sheet = sheet};
-  bool done = pierce_cells(&pierce, grid) && join_seams(&pierce) &&
-              add_edges(sheet, &pierce);
+                        const uint8_t *cells, struct report *report,
+                        recto_error *error) {
+  struct pierce pierce = {.sheet = sheet, .prepared = SHEET_NONE};
+  bool done = pierce_pairs(sheet, grid, cells, ask_pair, &pierce) &&
+              join_seams(&pierce) && add_edges(sheet, &pierce);
   report_int(report, "pierce", "pairs", (int64_t)pierce.counts.pairs);
   report_int(report, "pierce", "straddling", (int64_t)pierce.counts.straddle);
   report_int(report, "pierce", "along_edges", (int64_t)pierce.counts.seams);

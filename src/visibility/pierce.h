@@ -21,9 +21,11 @@
 #include "visibility/pagegrid.h"
 
 /* Finds the piercing pairs that share a listed cell of the grid, and adds
- * their edges. */
+ * their edges.
+ * cells  one a cell: where to look; NULL: everywhere */
 USE_RESULT recto_status pierce_all(struct sheet *sheet,
                                    const struct pagegrid *grid,
+                                   const uint8_t *cells,
                                    struct report *report, recto_error *error);
 
 #endif

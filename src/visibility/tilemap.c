@@ -15,7 +15,7 @@
 #include "visibility/surround.h"
 
 enum {
-  SPREAD = 4, /* cells a triangle is in, on average: a tile is about an edge */
+  SPREAD = 2, /* cells a triangle is in, on average: a tile is about an edge */
   SOUP = 32,            /* faces over a point, on average, that make a soup */
   SOUP_CELLS = 1 << 22, /* cells of all triangles of a soup together */
   SOUP_SPREAD = 256,    /* but no more of each: pairs are met cell by cell */
@@ -275,7 +275,7 @@ bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
   size_t n;
   bool soup;
   memset(map, 0, sizeof *map);
-  pagegrid_shape(&map->grid, sheet, SPREAD, SPREAD / 2);
+  pagegrid_shape(&map->grid, sheet, SPREAD, 2);
   soup = mean_layers(sheet, &map->grid) > SOUP;
   if (soup) {
     unsigned spread = (unsigned)(SOUP_CELLS / sheet->triangle.count + SPREAD);
@@ -304,13 +304,52 @@ void tilemap_fini(struct tilemap *map) {
   mem_free(map->tile);
   mem_free(map->print);
   mem_free(map->horizon);
+  mem_free(map->word);
   map->tile = NULL;
   map->print = NULL;
   map->horizon = NULL;
+  map->word = NULL;
+}
+
+/* ---- Lists ---------------------------------------------------------------- */
+
+struct octagon_frame tilemap_frame(const struct tilemap *map, int x, int y) {
+  struct window window = tile_window(&map->grid, x, y);
+  uint64_t depths = tile_at(map, x, y)->depths;
+  int low = __builtin_ctzll(depths), buckets = 64 - __builtin_clzll(depths) - low;
+  int bits = buckets > 1 ? 32 - __builtin_clz((unsigned)buckets - 1) : 0;
+  return (struct octagon_frame){window.x0, window.y0, map->grid.shift,
+                                (int64_t)low << TILE_BUCKET_SHIFT,
+                                TILE_BUCKET_SHIFT + bits - 6};
+}
+
+static void write_words(struct tilemap *map, const struct sheet *sheet, int x,
+                        int y, size_t from, size_t to) {
+  struct octagon_frame frame = tilemap_frame(map, x, y);
+  for (size_t i = from; i < to; i++) {
+    struct corners corners = corners_of(sheet, map->grid.item[i]);
+    struct octagon octagon = octagon_of_point(corners.p[0]);
+    octagon_add(&octagon, corners.p[1]);
+    octagon_add(&octagon, corners.p[2]);
+    map->word[i] = octagon_word(&frame, &octagon);
+  }
 }
 
 bool tilemap_list(struct tilemap *map, const struct sheet *sheet,
                   const uint8_t *wanted) {
+  const struct pagegrid *grid = &map->grid;
+  size_t cell = 0;
   pagegrid_fini(&map->grid);
-  return pagegrid_fill(&map->grid, sheet, map->print, wanted, map->horizon);
+  mem_free(map->word);
+  map->word = NULL;
+  if (!pagegrid_fill(&map->grid, sheet, map->print, wanted, map->horizon))
+    return false;
+  map->word =
+      mem_alloc(grid->start[pagegrid_cell_count(grid)], sizeof *map->word);
+  if (map->word == NULL) return false;
+  for (int y = 0; y < grid->rows; y++)
+    for (int x = 0; x < grid->columns; x++, cell++)
+      if (grid->start[cell] < grid->start[cell + 1])
+        write_words(map, sheet, x, y, grid->start[cell], grid->start[cell + 1]);
+  return true;
 }

@@ -26,6 +26,7 @@
 #ifndef VISIBILITY_TILEMAP_H
 #define VISIBILITY_TILEMAP_H
 
+#include "visibility/octagon.h"
 #include "visibility/pagegrid.h"
 
 enum tile_state {
@@ -49,6 +50,7 @@ struct tilemap {
   struct pagegrid grid; /* its shape; lists only where they were filled */
   struct tile *tile;
   struct footprint *print; /* one a triangle */
+  uint64_t *word;          /* one a listed triangle: see octagon.h */
   double *horizon;         /* one a tile; NULL: no soup */
   uint64_t simple, mixed, empty;
 };
@@ -65,6 +67,9 @@ static inline bool tilemap_is_beyond(const struct tilemap *map, size_t tile,
 USE_RESULT bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
                              bool fragments);
 void tilemap_fini(struct tilemap *map);
+
+/* What the words of a tile's list are relative to; it has a face. */
+struct octagon_frame tilemap_frame(const struct tilemap *map, int x, int y);
 
 /* Lists the triangles of the wanted tiles that are not beyond their horizons,
  * in place of the lists before. */

@@ -25,6 +25,7 @@ struct tiles_work {
   const struct solver_request *request;
   struct tilemap tiles;
   uint8_t *wanted;         /* tiles whose faces are to be listed */
+  uint8_t *pierced;        /* tiles where faces may be seen to pierce */
   bool wants_more;         /* than are listed */
   ARRAY(uint32_t) edge;    /* left over, ascending */
   ARRAY(uint32_t) face;    /* triangles left over, ascending */
@@ -38,11 +39,16 @@ struct tiles_work {
 /* ---- 3, 4. Lists and piercing --------------------------------------------------------------- */
 
 /* Faces that pierce each other where they can be seen do so in mixed tiles. */
-static void want_for_piercing(struct tiles_work *work) {
+static bool want_for_piercing(struct tiles_work *work) {
   size_t n = pagegrid_cell_count(&work->tiles.grid);
-  for (size_t i = 0; i < n; i++)
-    if (work->request->hidden || work->tiles.tile[i].state == TILE_MIXED)
-      work->wanted[i] = 1;
+  work->pierced = mem_alloc(n, 1);
+  if (work->pierced == NULL) return false;
+  for (size_t i = 0; i < n; i++) {
+    work->pierced[i] =
+        work->request->hidden || work->tiles.tile[i].state == TILE_MIXED;
+    work->wanted[i] |= work->pierced[i];
+  }
+  return true;
 }
 
 /* Lists the faces of the wanted tiles, again where more became wanted. */
@@ -177,25 +183,66 @@ struct edge_run {
   bool done;
 };
 
-static bool solve_edge(const struct tiles_work *work, uint32_t e,
-                       struct pagegrid_query *query, struct strokes *strokes,
-                       struct hide_counts *counts) {
-  const struct sheet *sheet = work->sheet;
-  const struct sheet_edge *edge = &sheet->edge.item[e];
-  struct geom_point p = sheet->point.item[edge->point[0]],
-                    q = sheet->point.item[edge->point[1]];
-  struct page_box box = page_box_of_segment(p, q);
-  strokes_start(strokes);
-  if (!pagegrid_find_along(&work->tiles.grid, p, q, query)) return false;
-  for (size_t i = 0; i < query->found.count && !strokes->whole; i++) {
-    uint32_t t = query->found.item[i];
+/* The edge at hand and who works on it. */
+struct edge_task {
+  uint32_t triangle[2]; /* its own */
+  struct geom_point p, q;
+  struct page_box box;
+  struct octagon octagon;
+  bool several; /* it meets several tiles, and may meet a triangle in each */
+  struct pagegrid_query *query;
+  struct strokes *strokes;
+  struct hide_counts *counts;
+};
+
+/* Asks the triangles listed in a tile that may meet the edge. */
+static bool ask_list(const struct tiles_work *work, struct edge_task *task,
+                     int x, int y) {
+  const struct tilemap *map = &work->tiles;
+  size_t cell = (size_t)y * (size_t)map->grid.columns + (size_t)x;
+  uint32_t i = map->grid.start[cell], end = map->grid.start[cell + 1];
+  struct octagon_frame frame;
+  uint64_t question;
+  if (i == end) return true;
+  frame = tilemap_frame(map, x, y);
+  question = octagon_question(&frame, &task->octagon);
+  for (;; i++) {
     struct hidden_part part;
-    if (t == edge->triangle[0] || t == edge->triangle[1] ||
-        !hide_may(sheet, t, p, q, box))
+    uint32_t t;
+    while (i < end && !octagon_meets(map->word[i], question)) i++;
+    if (i == end || task->strokes->whole) return true;
+    t = map->grid.item[i];
+    if (t == task->triangle[0] || t == task->triangle[1] ||
+        !hide_may(work->sheet, t, task->p, task->q, task->box) ||
+        (task->several && !pagegrid_query_first(task->query, t)))
       continue;
-    if (hide_edge_by(sheet, t, p, q, &part, counts) &&
-        !strokes_hide(strokes, part))
+    if (hide_edge_by(work->sheet, t, task->p, task->q, &part, task->counts) &&
+        !strokes_hide(task->strokes, part))
       return false;
+  }
+}
+
+static bool solve_edge(const struct tiles_work *work, uint32_t e,
+                       struct edge_task *task) {
+  const struct pagegrid *grid = &work->tiles.grid;
+  const struct sheet_edge *edge = &work->sheet->edge.item[e];
+  struct cell_range r;
+  task->triangle[0] = edge->triangle[0];
+  task->triangle[1] = edge->triangle[1];
+  task->p = work->sheet->point.item[edge->point[0]];
+  task->q = work->sheet->point.item[edge->point[1]];
+  task->box = page_box_of_segment(task->p, task->q);
+  task->octagon = octagon_of_point(task->p);
+  octagon_add(&task->octagon, task->q);
+  r = pagegrid_cells(grid, task->box);
+  task->several = r.x0 < r.x1 || r.y0 < r.y1;
+  if (task->several) pagegrid_query_start(grid, task->query);
+  strokes_start(task->strokes);
+  for (int y = r.y0; y <= r.y1; y++) {
+    int x0, x1;
+    pagegrid_row(grid, task->p, task->q, r, y, &x0, &x1);
+    for (int x = x0; x <= x1; x++)
+      if (!ask_list(work, task, x, y)) return false;
   }
   return true;
 }
@@ -203,14 +250,13 @@ static bool solve_edge(const struct tiles_work *work, uint32_t e,
 enum { RUN = 1024 };
 
 static void solve_run(const struct tiles_work *work, size_t from,
-                      struct pagegrid_query *query, struct strokes *strokes,
-                      struct edge_run *run) {
+                      struct edge_task *task, struct edge_run *run) {
   size_t to = work->edge.count - from < RUN ? work->edge.count : from + RUN;
   run->done = true;
+  task->counts = &run->counts;
   for (size_t i = from; run->done && i < to; i++)
-    run->done = solve_edge(work, work->edge.item[i], query, strokes,
-                           &run->counts) &&
-                strokes_file(strokes, work->edge.item[i], &run->map);
+    run->done = solve_edge(work, work->edge.item[i], task) &&
+                strokes_file(task->strokes, work->edge.item[i], &run->map);
 }
 
 static void solve_runs(const struct tiles_work *work, struct edge_run *run,
@@ -221,12 +267,13 @@ static void solve_runs(const struct tiles_work *work, struct edge_run *run,
   {
     struct pagegrid_query query;
     struct strokes strokes = {0};
+    struct edge_task task = {.query = &query, .strokes = &strokes};
     bool ready = pagegrid_query_init(&query, &work->tiles.grid);
 #ifdef _OPENMP
 #pragma omp for schedule(dynamic)
 #endif
     for (size_t i = 0; i < runs; i++)
-      if (ready) solve_run(work, i * RUN, &query, &strokes, &run[i]);
+      if (ready) solve_run(work, i * RUN, &task, &run[i]);
     strokes_fini(&strokes);
     pagegrid_query_fini(&query);
   }
@@ -340,7 +387,8 @@ static bool classify(struct tiles_work *work, struct map *map) {
 static bool find_piercing(struct tiles_work *work, struct map *map,
                           recto_status *status, recto_error *error) {
   size_t mesh_edges = work->sheet->edge.count;
-  *status = pierce_all(work->sheet, &work->tiles.grid, work->report, error);
+  *status = pierce_all(work->sheet, &work->tiles.grid, work->pierced,
+                       work->report, error);
   if (*status != RECTO_OK) return false;
   if (work->request->strokes && !classify_edges(work, mesh_edges, map))
     return false;
@@ -352,7 +400,7 @@ static bool solve_all(struct tiles_work *work, struct map *map,
                       recto_status *status, recto_error *error) {
   const struct solver_request *request = work->request;
   if (!classify(work, map)) return false;
-  if (request->intersections) want_for_piercing(work);
+  if (request->intersections && !want_for_piercing(work)) return false;
   if (!list_faces(work)) return false;
   end_phase(work, "lists_cpu_s");
   if (request->intersections && !find_piercing(work, map, status, error))
@@ -376,6 +424,7 @@ static recto_status solve(struct sheet *sheet,
   report_tiles(&work, report);
   tilemap_fini(&work.tiles);
   mem_free(work.wanted);
+  mem_free(work.pierced);
   mem_free(work.face_state);
   ARRAY_FREE(&work.edge);
   ARRAY_FREE(&work.face);

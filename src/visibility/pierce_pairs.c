@@ -1,0 +1,199 @@
+/* pierce_pairs.c - pairs of triangles that may pierce each other.
+ *
+ * Cell by cell, a sweep from the deepest triangle to the nearest meets every
+ * pair whose depths overlap; boxes, shared corners and planes in doubles
+ * (stance.h) settle most of them.
+ */
+#include "visibility/pierce_pairs.h"
+
+#include "base/sort.h"
+#include "visibility/stance.h"
+
+/* What is asked of a triangle, gathered once a cell. */
+struct summary {
+  struct page_box box;
+  int64_t low, high; /* depths */
+  int x0, y0;        /* the cell of the box's lower left corner */
+  uint32_t triangle;
+  bool planned; /* the plane is there */
+  struct stance_plane plane;
+};
+
+struct sweep {
+  const struct sheet *sheet;
+  const struct pagegrid *grid;
+  const uint8_t *cells;
+  bool (*visit)(void *user, uint32_t f, uint32_t g);
+  void *user;
+  int x, y; /* the cell at hand */
+  ARRAY(struct summary) summary;
+  ARRAY(struct sort_key) key; /* twice as many: by depth, and to sort in */
+};
+
+static void summarise(const struct sweep *sweep, uint32_t triangle,
+                      struct summary *s) {
+  const struct sheet *sheet = sweep->sheet;
+  const struct pagegrid *grid = sweep->grid;
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  s->box = page_box_of_triangle(sheet, triangle);
+  s->low = s->high = sheet->point.item[p[0]].z;
+  for (int k = 1; k < 3; k++) {
+    int64_t z = sheet->point.item[p[k]].z;
+    if (z < s->low) s->low = z;
+    if (z > s->high) s->high = z;
+  }
+  s->x0 = pagegrid_cell(s->box.x0, grid->x0, grid->shift, grid->columns);
+  s->y0 = pagegrid_cell(s->box.y0, grid->y0, grid->shift, grid->rows);
+  s->triangle = triangle;
+  s->planned = false;
+}
+
+static bool is_listed(const struct sweep *sweep, int x, int y,
+                      const struct summary *f, const struct summary *g) {
+  const struct pagegrid *grid = sweep->grid;
+  size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+  if (sweep->cells != NULL && !sweep->cells[cell]) return false;
+  return grid->start[cell] < grid->start[cell + 1] &&
+         (grid->horizon == NULL || (!((double)f->high < grid->horizon[cell]) &&
+                                    !((double)g->high < grid->horizon[cell])));
+}
+
+/* A pair stands in several cells; it is asked in the first whose list has
+ * both: mostly the one where their boxes' overlap begins. */
+static bool is_cell_of_pair(const struct sweep *sweep, const struct summary *f,
+                            const struct summary *g) {
+  const struct pagegrid *grid = sweep->grid;
+  int x0 = f->x0 > g->x0 ? f->x0 : g->x0, y0 = f->y0 > g->y0 ? f->y0 : g->y0;
+  if (x0 == sweep->x && y0 == sweep->y) return true;
+  if (is_listed(sweep, x0, y0, f, g)) return false;
+  int x1 = pagegrid_cell(page_least(f->box.x1, g->box.x1), grid->x0,
+                         grid->shift, grid->columns);
+  for (int y = y0; y <= sweep->y; y++) {
+    int end = y < sweep->y ? x1 : sweep->x - 1;
+    for (int x = x0; x <= end; x++)
+      if (is_listed(sweep, x, y, f, g)) return false;
+  }
+  return true;
+}
+
+/* Which corners two triangles share: how many, and where the last of them is
+ * in each. */
+struct shared {
+  int count, in_f, in_g;
+};
+
+static struct shared shared_corners(const uint32_t f[3], const uint32_t g[3]) {
+  struct shared shared = {0, 0, 0};
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      if (f[i] == g[j]) shared = (struct shared){shared.count + 1, i, j};
+  return shared;
+}
+
+/* Two points as they are seen from a third. */
+struct sector {
+  int64_t x[2], y[2];
+};
+
+static struct sector sector_of(const struct sheet *sheet, const uint32_t p[3],
+                               int corner) {
+  struct geom_point v = sheet->point.item[p[corner]],
+                    a = sheet->point.item[p[corner == 2 ? 0 : corner + 1]],
+                    b = sheet->point.item[p[corner == 0 ? 2 : corner - 1]];
+  return (struct sector){{(int64_t)a.x - v.x, (int64_t)b.x - v.x},
+                         {(int64_t)a.y - v.y, (int64_t)b.y - v.y}};
+}
+
+/* Is g strictly to the right of the first side of f, or to the left of its
+ * last one, while f is on the other side? */
+static bool is_parted_by(const struct sector *f, const struct sector *g) {
+  return (f->x[0] * g->y[0] < f->y[0] * g->x[0] &&
+          f->x[0] * g->y[1] < f->y[0] * g->x[1]) ||
+         (f->x[1] * g->y[0] > f->y[1] * g->x[0] &&
+          f->x[1] * g->y[1] > f->y[1] * g->x[1]);
+}
+
+/* Do the two, which run counter-clockwise and share a corner, meet nowhere
+ * else on the page?  On a dense mesh it is so about nearly every corner. */
+static bool part_at_corner(const struct sheet *sheet, const uint32_t f[3],
+                           const uint32_t g[3], struct shared shared) {
+  struct sector a = sector_of(sheet, f, shared.in_f),
+                b = sector_of(sheet, g, shared.in_g);
+  return is_parted_by(&a, &b) || is_parted_by(&b, &a);
+}
+
+/* Do two triangles share an edge, or a corner and nothing more?  Then they do
+ * not pierce each other. */
+static bool are_neighbours(const struct sheet *sheet, uint32_t f, uint32_t g) {
+  const uint32_t *p = sheet->triangle.item[f].point,
+                 *q = sheet->triangle.item[g].point;
+  struct shared shared = shared_corners(p, q);
+  return shared.count > 1 ||
+         (shared.count == 1 && part_at_corner(sheet, p, q, shared));
+}
+
+/* May the corners of f pierce the plane of g? */
+static bool may_pierce(const struct sheet *sheet, const struct summary *f,
+                       struct summary *g) {
+  const uint32_t *p = sheet->triangle.item[f->triangle].point;
+  const struct geom_point corner[3] = {sheet->point.item[p[0]],
+                                       sheet->point.item[p[1]],
+                                       sheet->point.item[p[2]]};
+  if (!g->planned) g->plane = stance_plane_of(sheet, g->triangle);
+  g->planned = true;
+  return stance_may_pierce(&g->plane, corner);
+}
+
+static bool meet(const struct sweep *sweep, struct summary *f,
+                 struct summary *g) {
+  if (page_boxes_apart(f->box, g->box) || !is_cell_of_pair(sweep, f, g) ||
+      are_neighbours(sweep->sheet, f->triangle, g->triangle) ||
+      !may_pierce(sweep->sheet, f, g) || !may_pierce(sweep->sheet, g, f))
+    return true;
+  return f->triangle < g->triangle
+             ? sweep->visit(sweep->user, f->triangle, g->triangle)
+             : sweep->visit(sweep->user, g->triangle, f->triangle);
+}
+
+/* Meets the pairs of n triangles. */
+static bool sweep_cell(struct sweep *sweep, const uint32_t *item, size_t n) {
+  struct summary *summary;
+  struct sort_key *key;
+  if (!ARRAY_RESERVE(&sweep->summary, n) || !ARRAY_RESERVE(&sweep->key, 2 * n))
+    return false;
+  summary = sweep->summary.item;
+  key = sweep->key.item;
+  for (size_t i = 0; i < n; i++) {
+    summarise(sweep, item[i], &summary[i]);
+    key[i] = (struct sort_key){(uint64_t)summary[i].low, (uint32_t)i};
+  }
+  sort_keys(key, key + n, n);
+  for (size_t i = 0; i < n; i++) {
+    struct summary *f = &summary[key[i].value];
+    for (size_t j = i + 1; j < n && key[j].key <= (uint64_t)f->high; j++)
+      if (!meet(sweep, f, &summary[key[j].value])) return false;
+  }
+  return true;
+}
+
+bool pierce_pairs(const struct sheet *sheet, const struct pagegrid *grid,
+                  const uint8_t *cells,
+                  bool (*visit)(void *user, uint32_t f, uint32_t g),
+                  void *user) {
+  struct sweep sweep = {.sheet = sheet,
+                        .grid = grid,
+                        .cells = cells,
+                        .visit = visit,
+                        .user = user};
+  bool done = true;
+  size_t cell = 0;
+  for (sweep.y = 0; done && sweep.y < grid->rows; sweep.y++)
+    for (sweep.x = 0; done && sweep.x < grid->columns; sweep.x++, cell++) {
+      size_t n = grid->start[cell + 1] - grid->start[cell];
+      if (n > 1 && (cells == NULL || cells[cell]))
+        done = sweep_cell(&sweep, grid->item + grid->start[cell], n);
+    }
+  ARRAY_FREE(&sweep.summary);
+  ARRAY_FREE(&sweep.key);
+  return done;
+}

@@ -1,0 +1,18 @@
+/* pierce_pairs.h - pairs of triangles that may pierce each other. */
+#ifndef VISIBILITY_PIERCE_PAIRS_H
+#define VISIBILITY_PIERCE_PAIRS_H
+
+#include "visibility/pagegrid.h"
+
+/* Calls visit(user, f, g), f < g, once for every pair that shares a cell of
+ * the grid which has a list and is among `cells`, and may pierce: the boxes
+ * meet on the page and in depth, they share less than an edge, and neither is
+ * surely apart from the other's plane.
+ * cells  one a cell; NULL: all
+ * Returns false when memory ran out, or as soon as visit does. */
+USE_RESULT bool pierce_pairs(const struct sheet *sheet,
+                             const struct pagegrid *grid, const uint8_t *cells,
+                             bool (*visit)(void *user, uint32_t f, uint32_t g),
+                             void *user);
+
+#endif

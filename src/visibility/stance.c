@@ -1,0 +1,106 @@
+/* stance.c - how points lie to the plane of a triangle, in doubles.
+ *
+ * Robustness  With u = 2^-53.  The differences of corners are exact.  A part
+ * of the normal is a difference of two products: it is off by less than 3u
+ * (|a| + |b|) =: 3u m.  The value sums three products of these: off by less
+ * than 7u times the sum of m |d|.  The tolerance of hide.h takes its length
+ * from the normal rounded once: the two lengths differ by no more than the
+ * vectors do, and the third coordinate of these is a sum of four terms.  So
+ * 32u times the sums of the magnitudes is room enough for all.  What hide.h
+ * rounds up makes the tolerance larger by less than one unit of 2^-16 each.
+ */
+#include "visibility/stance.h"
+
+#include <math.h>
+
+#define SLACK (32 * 0x1p-53)
+
+/* From here on hide.h may cap its numbers. */
+#define T0_LARGE 0x1p104
+#define T1_LARGE 0x1p64
+
+/* T(p) has 16 bits below the value's unit. */
+#define T_UNIT 0x1p-16
+
+struct stance_plane stance_plane_of(const struct sheet *sheet,
+                                    uint32_t triangle) {
+  const uint32_t *t = sheet->triangle.item[triangle].point;
+  const struct camera *camera = &sheet->camera;
+  struct geom_point a = sheet->point.item[t[0]], b = sheet->point.item[t[1]],
+                    c = sheet->point.item[t[2]];
+  double ux = (double)b.x - a.x, uy = (double)b.y - a.y,
+         uz = (double)(b.z - a.z), vx = (double)c.x - a.x,
+         vy = (double)c.y - a.y, vz = (double)(c.z - a.z);
+  double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+  double mx = fabs(uy * vz) + fabs(uz * vy), my = fabs(uz * vx) + fabs(ux * vz),
+         mz = fabs(ux * vy) + fabs(uy * vx);
+  double s = sheet->units_per_view, third = sheet->z_scale * nz,
+         third_most = sheet->z_scale * mz, by_near = 1, by_z = 0;
+  if (camera->perspective) {
+    struct sheet_axis axis = sheet_view_axis(sheet);
+    double x = axis.x - a.x, y = axis.y - a.y,
+           z = sheet->z_scale / camera->d_max + (double)a.z;
+    third = nz * z - (nx * x + ny * y);
+    third_most = mz * fabs(z) + mx * fabs(x) + my * fabs(y);
+    by_near = 1 / camera->d_max;
+    by_z = 1 / sheet->z_scale;
+  }
+  double length = camera->contact * sqrt(s * nx * (s * nx) + s * ny * (s * ny) +
+                                         third * third);
+  double length_most = camera->contact * (s * (mx + my) + third_most);
+  struct stance_plane plane = {
+      .x = a.x,
+      .y = a.y,
+      .z = (double)a.z,
+      .nx = nx,
+      .ny = ny,
+      .nz = nz,
+      .ex = SLACK * mx,
+      .ey = SLACK * my,
+      .ez = SLACK * mz,
+      .t0 = fabs(nx) + fabs(ny) + fabs(nz) + length * by_near,
+      .t1 = length * by_z,
+      .t0_more = T_UNIT,
+      .t1_more = camera->perspective ? T_UNIT : 0,
+      .t_off = SLACK * (mx + my + mz +
+                        length_most * (by_near + by_z * (double)SHEET_Z_MAX))};
+  if (!(length_most * by_near < T0_LARGE && length_most * by_z < T1_LARGE))
+    plane.t_off = INFINITY;
+  return plane;
+}
+
+/* The value at a point, and between what the tolerance is there, the value's
+ * own error taken in. */
+struct reading {
+  double value, least, most;
+};
+
+static inline struct reading read_at(const struct stance_plane *plane,
+                                     struct geom_point p) {
+  double z = (double)p.z, dx = p.x - plane->x, dy = p.y - plane->y,
+         dz = z - plane->z;
+  double off = plane->ex * fabs(dx) + plane->ey * fabs(dy) +
+               plane->ez * fabs(dz) + plane->t_off;
+  double least = plane->t0 + plane->t1 * z;
+  return (struct reading){
+      plane->nx * dx + plane->ny * dy + plane->nz * dz, least - off,
+      least + plane->t0_more + plane->t1_more * z + off};
+}
+
+bool stance_may_pierce(const struct stance_plane *plane,
+                       const struct geom_point corner[3]) {
+  int behind = 0, before = 0;
+  for (int k = 0; k < 3; k++) {
+    struct reading at = read_at(plane, corner[k]);
+    bool is_behind = at.value < -at.most, is_before = at.value > at.most;
+    if (!is_behind && !is_before && !(fabs(at.value) < at.least)) return true;
+    behind += is_behind;
+    before += is_before;
+  }
+  return (behind > 0 && before > 0) || behind + before == 1;
+}
+
+int stance_hides(const struct stance_plane *plane, struct geom_point p) {
+  struct reading at = read_at(plane, p);
+  return (at.value > -at.least) - (at.value < -at.most);
+}

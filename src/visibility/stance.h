@@ -1,0 +1,38 @@
+/* stance.h - how points lie to the plane of a triangle, contact allowed, told
+ * in doubles that know when they cannot tell.
+ *
+ * Two triangles can only pierce each other where each straddles the other's
+ * plane, or ends on it (pierce.h).  On a dense mesh nearly all neighbours lie
+ * within contact of each other's planes, and doubles suffice to see it.
+ */
+#ifndef VISIBILITY_STANCE_H
+#define VISIBILITY_STANCE_H
+
+#include "view/sheet.h"
+
+/* A plane as hide.h has it, value(p) against the tolerance T(p) / 2^16, with
+ * bounds for what the doubles are off. */
+struct stance_plane {
+  double x, y, z;          /* of a corner */
+  double nx, ny, nz;       /* value(p) = n (p - corner) */
+  double ex, ey, ez;       /* it is off by less than e |p - corner| */
+  double t0, t1;           /* the tolerance is t0 + t1 z ... */
+  double t0_more, t1_more; /* ... or more, by less than this ... */
+  double t_off;            /* ... or more or less, by less than that */
+};
+
+/* The plane of a triangle, which may be SHEET_FLAT. */
+struct stance_plane stance_plane_of(const struct sheet *sheet,
+                                    uint32_t triangle);
+
+/* May these corners straddle the plane, or end on it: some behind it and some
+ * before it by more than the tolerance, or just one of them?  A no is
+ * certain. */
+bool stance_may_pierce(const struct stance_plane *plane,
+                       const struct geom_point corner[3]);
+
+/* The sign of value + tolerance: -1 where the triangle is in front of the
+ * point by more than contact explains, so that it hides it; 0: not known. */
+int stance_hides(const struct stance_plane *plane, struct geom_point p);
+
+#endif
