@@ -23,6 +23,8 @@ struct writer_options {
 struct writer {
   const char *name;       /* "svg" */
   const char *extensions; /* "svg", space-separated */
+  /* The step in mm to which it rounds the points of strokes. */
+  double (*unit_mm)(const struct writer_options *options);
   recto_status (*write)(const struct drawing *drawing,
                         const struct writer_options *options,
                         struct stream *stream, recto_error *error);

@@ -373,11 +373,31 @@ static recto_status write_png(const struct drawing *drawing,
   return judge(status, stream, error);
 }
 
-const struct writer writer_pdf = {
-    .name = "pdf", .extensions = "pdf", .write = write_pdf};
-const struct writer writer_eps = {
-    .name = "eps", .extensions = "eps", .write = write_eps};
+/* cairo keeps the points of paths in steps of 1/256 of the surface's unit: a
+ * point in PDF, EPS and PS, a pixel in PNG. */
+#define STEPS_PER_UNIT 256
+
+static double find_point(const struct writer_options *options) {
+  (void)options;
+  return MM_PER_INCH / POINTS_PER_INCH / STEPS_PER_UNIT;
+}
+
+static double find_pixel(const struct writer_options *options) {
+  double dpi = options->dpi == 0 ? DEFAULT_DPI : options->dpi;
+  return dpi > 0 ? MM_PER_INCH / dpi / STEPS_PER_UNIT : 0;
+}
+
+const struct writer writer_pdf = {.name = "pdf",
+                                  .extensions = "pdf",
+                                  .unit_mm = find_point,
+                                  .write = write_pdf};
+const struct writer writer_eps = {.name = "eps",
+                                  .extensions = "eps",
+                                  .unit_mm = find_point,
+                                  .write = write_eps};
 const struct writer writer_ps = {
-    .name = "ps", .extensions = "ps", .write = write_ps};
-const struct writer writer_png = {
-    .name = "png", .extensions = "png", .write = write_png};
+    .name = "ps", .extensions = "ps", .unit_mm = find_point, .write = write_ps};
+const struct writer writer_png = {.name = "png",
+                                  .extensions = "png",
+                                  .unit_mm = find_pixel,
+                                  .write = write_png};

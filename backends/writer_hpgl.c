@@ -18,6 +18,7 @@
 #include "backends/writer.h"
 
 #define POINTS_PER_COMMAND 100
+#define DEFAULT_DEVICE "generic"
 #define MAX_VELOCITY 127 /* cm/s: HPGL's own upper end for VS */
 
 struct plot {
@@ -242,7 +243,7 @@ static recto_status refuse_device(const char *name, recto_error *error) {
 static recto_status write_hpgl(const struct drawing *drawing,
                                const struct writer_options *options,
                                struct stream *stream, recto_error *error) {
-  const char *name = options->device ? options->device : "generic";
+  const char *name = options->device ? options->device : DEFAULT_DEVICE;
   const struct device *device = device_by_name(name);
   if (!device)
     return refuse_device(name, error);
@@ -267,5 +268,14 @@ static recto_status write_hpgl(const struct drawing *drawing,
   return RECTO_OK;
 }
 
-const struct writer writer_hpgl = {
-    .name = "hpgl", .extensions = "hpgl plt", .write = write_hpgl};
+/* 0 for a device that is not known: write_hpgl refuses it. */
+static double find_unit(const struct writer_options *options) {
+  const struct device *device =
+      device_by_name(options->device ? options->device : DEFAULT_DEVICE);
+  return device ? device->unit_mm : 0;
+}
+
+const struct writer writer_hpgl = {.name = "hpgl",
+                                   .extensions = "hpgl plt",
+                                   .unit_mm = find_unit,
+                                   .write = write_hpgl};

@@ -301,4 +301,14 @@ static recto_status write_svg(const struct drawing *drawing,
   return done ? RECTO_OK : error_memory(error);
 }
 
-const struct writer writer_svg = {"svg", "svg", write_svg};
+static double find_unit(const struct writer_options *options) {
+  double unit = 1;
+  for (int i = 0; i < options->precision; i++)
+    unit /= 10;
+  return unit;
+}
+
+const struct writer writer_svg = {.name = "svg",
+                                  .extensions = "svg",
+                                  .unit_mm = find_unit,
+                                  .write = write_svg};

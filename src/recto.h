@@ -226,6 +226,10 @@ typedef struct recto_options {
 
   /* Ink. */
   int hidden_layers; /* hidden parts behind at most so many faces; 0: all */
+
+  /* The output's finest step, see recto_output_unit_mm: lines that it cannot
+   * tell apart are drawn once.  0: only those on the same place of the page */
+  double unit_mm;
 } recto_options;
 
 /* Fills `options` with the defaults: auto, isometric, A4 portrait with a
@@ -303,6 +307,12 @@ RECTO_USE_RESULT recto_status recto_drawing_write(const recto_drawing *drawing,
 /* The name of the output format that recto_drawing_write would take for this
  * path and format, which may be NULL; NULL where there is none. */
 const char *recto_output_format(const char *path, const char *format);
+
+/* The finest step in mm in which recto_drawing_write would write for this
+ * path, format and options, for the options' unit_mm; 0 where there is no such
+ * format. */
+double recto_output_unit_mm(const char *path, const char *format,
+                            const recto_options *options);
 
 /* The output format at `index`, such as "svg"; NULL past the last. */
 const char *recto_output_format_name(size_t index);

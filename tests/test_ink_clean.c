@@ -168,7 +168,7 @@ static void straightening_keeps_within_the_tolerance(void **state) {
     struct ink_paths paths = {0};
     struct line was = random_line(&random, round % 3 == 0);
     add_path(&paths, was.point, was.count, was.closed);
-    paths_straighten(&paths);
+    paths_straighten(&paths, 0);
     struct line is = line_of(&paths, 0);
     assert_thinned(&was, &is, TOLERANCE_COLLINEAR_UNITS + 1e-3);
     paths_fini(&paths);
@@ -187,7 +187,7 @@ static void fine_curve_does_not_drift(void **state) {
         (int32_t)lrint(90000 * cos(i * 2 * acos(-1) / SIDES)),
         (int32_t)lrint(90000 * sin(i * 2 * acos(-1) / SIDES))};
   add_path(&paths, was.point, SIDES, true);
-  paths_straighten(&paths);
+  paths_straighten(&paths, 0);
   struct line is = line_of(&paths, 0);
   assert_true(is.closed);
   assert_in_range(is.count, 3, SIDES - 1);
@@ -200,7 +200,7 @@ static void there_and_back_keeps_its_turning_point(void **state) {
   const struct ink_point spike[] = {{0, 0}, {100, 0}, {1000, 0}, {400, 0}};
   (void)state;
   add_path(&paths, spike, 4, false);
-  paths_straighten(&paths);
+  paths_straighten(&paths, 0);
   assert_int_equal(paths.path.item[0].count, 3);
   assert_int_equal(paths.point.item[1].x, 1000);
   assert_int_equal(paths.point.item[2].x, 400);
@@ -214,7 +214,7 @@ static void loop_without_width_becomes_a_line(void **state) {
   (void)state;
   add_path(&paths, thin, 3, true);
   add_path(&paths, next, 2, false);
-  paths_straighten(&paths);
+  paths_straighten(&paths, 0);
   assert_false(paths.path.item[0].closed);
   assert_int_equal(paths.path.item[0].count, 2);
   assert_int_equal(paths.path.item[1].point, 2);

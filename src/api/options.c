@@ -97,6 +97,7 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the way to divide", o->divide, 0, RECTO_DIVIDE_BOX},
       {"the number of sub-pixels", o->subpixels, 0, 16},
       {"the number of depth bits", o->depth_bits, 0, 32},
+      {"the output's unit", o->unit_mm, 0, 100},
   };
   if (o->device != NULL && device_by_name(o->device) == NULL)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,

@@ -60,6 +60,24 @@ const char *recto_output_format_name(size_t index) {
   return NULL;
 }
 
+static struct writer_options writer_options_of(const recto_options *options) {
+  return (struct writer_options){.precision = options->precision,
+                                 .polyline = options->polyline,
+                                 .tight = options->tight,
+                                 .dpi = options->dpi,
+                                 .device = options->device,
+                                 .velocity = options->velocity_cm_s,
+                                 .warning = options->warning,
+                                 .user = options->user};
+}
+
+double recto_output_unit_mm(const char *path, const char *format,
+                            const recto_options *options) {
+  const struct writer *writer = find_writer(path, format);
+  struct writer_options how = writer_options_of(options);
+  return writer != NULL ? writer->unit_mm(&how) : 0;
+}
+
 /* Says why find_writer found none. */
 static recto_status refuse(const char *path, const char *format,
                            recto_error *error) {
@@ -93,14 +111,7 @@ recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
   status = stream_open(&stream, path, error);
   if (status != RECTO_OK)
     return status;
-  struct writer_options how = {.precision = options->precision,
-                               .polyline = options->polyline,
-                               .tight = options->tight,
-                               .dpi = options->dpi,
-                               .device = options->device,
-                               .velocity = options->velocity_cm_s,
-                               .warning = options->warning,
-                               .user = options->user};
+  struct writer_options how = writer_options_of(options);
   status = writer->write(&drawing->drawing, &how, stream, error);
   if (status != RECTO_OK) {
     stream_discard(stream);
@@ -117,9 +128,16 @@ recto_status recto_draw_file(const char *model, const char *from,
                              const recto_options *options, recto_error *error) {
   recto_scene *scene = NULL;
   recto_drawing *drawing = NULL;
+  recto_options fitting;
   /* Known before the work: a format that is not there. */
   if (find_writer(output, to) == NULL)
     return refuse(output, to, error);
+  if (options != NULL)
+    fitting = *options;
+  else
+    recto_options_init(&fitting);
+  fitting.unit_mm = recto_output_unit_mm(output, to, &fitting);
+  options = &fitting;
   recto_status status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)
     status = recto_scene_read(scene, model, from, options, error);

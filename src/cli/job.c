@@ -100,17 +100,19 @@ static recto_status work(const struct arguments *arguments,
   recto_scene *scene = NULL;
   recto_drawing *drawing = NULL;
   struct stream *stats;
-  const recto_options *options = &arguments->options;
+  recto_options options = arguments->options;
+  options.unit_mm =
+      recto_output_unit_mm(arguments->output, arguments->format, &options);
   recto_status status = open_stats(arguments, &stats, error);
   if (status == RECTO_OK)
     status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)
     status = read_models(arguments, scene, error);
   if (status == RECTO_OK)
-    status = recto_scene_render(scene, options, &drawing, error);
+    status = recto_scene_render(scene, &options, &drawing, error);
   if (status == RECTO_OK)
     status = recto_drawing_write(drawing, arguments->output, arguments->format,
-                                 options, error);
+                                 &options, error);
   if (status == RECTO_OK)
     status = write_stats(arguments, drawing, stats, error);
   else

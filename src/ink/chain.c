@@ -25,10 +25,15 @@ struct chain {
 void paths_fini(struct ink_paths *paths) {
   ARRAY_FREE(&paths->point);
   ARRAY_FREE(&paths->path);
+  mem_free(paths->loose);
+}
+
+static uint32_t node_of_end(const struct chain *c, uint32_t end) {
+  return c->net->segment.item[end >> 1].node[end & 1];
 }
 
 static struct ink_point point_of_end(const struct chain *c, uint32_t end) {
-  return c->net->node.item[c->net->segment.item[end >> 1].node[end & 1]];
+  return c->net->node.item[node_of_end(c, end)];
 }
 
 static bool is_lower(struct ink_point a, struct ink_point b) {
@@ -183,12 +188,20 @@ static bool place_points(struct chain *c) {
   struct ink_paths *paths = c->paths;
   if (!ARRAY_RESERVE(&paths->point, c->end.count))
     return false;
+  if (c->net->loose) {
+    paths->loose = mem_alloc(c->end.count, sizeof *paths->loose);
+    if (!paths->loose)
+      return false;
+  }
   for (size_t i = 0; i < paths->path.count; i++) {
     struct ink_path *path = &paths->path.item[i];
     const uint32_t *end = c->end.item + path->point;
     struct ink_point *point = paths->point.item + paths->point.count;
     for (uint32_t k = 0; k < path->count; k++)
       point[k] = point_of_end(c, end[k]);
+    for (uint32_t k = 0; paths->loose && k < path->count; k++)
+      paths->loose[paths->point.count + k] =
+          c->net->loose[node_of_end(c, end[k])];
     path->point = (uint32_t)paths->point.count;
     paths->point.count += path->count;
   }

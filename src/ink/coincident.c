@@ -9,35 +9,22 @@
  *             are of one cluster
  *   3 resolve each cluster leaves pieces that do not overlap (overlap.c)
  *   4 rebuild the segments
- * Cost  A segment of average length meets a node or two besides its own.  On a
- *   mesh without overlaps phase 2 is nearly all of the time. */
+ * Cost  On a mesh without overlaps phase 2 is nearly all of the time. */
 #include "ink/net.h"
-
-#include <stdlib.h>
 
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "ink/overlap.h"
+#include "ink/walk.h"
 
-#define NEAR TOLERANCE_COINCIDENT_UNITS
-
-struct walk {
+struct finder {
   struct net *net;
-  const struct net_rows *rows;
   uint8_t *gone; /* one a segment: not to be drawn as it is */
   size_t gone_count;
   /* Clusters: the parent's number and one; 0: its own root.  So the pages of
    * segments that overlap nothing are never touched. */
   uint32_t *parent;
   ARRAY(uint32_t) member; /* segments of clusters, some of them often */
-};
-
-/* The segment at hand, from the node in the lower row to the other. */
-struct probe {
-  uint32_t segment, p, q; /* nodes, p < q */
-  struct ink_point from, to;
-  int64_t dx, dy;
-  int64_t reach; /* a cross product beyond it is farther than the tolerance */
 };
 
 recto_status net_index_ends(struct net *net, recto_error *error) {
@@ -61,7 +48,7 @@ recto_status net_index_ends(struct net *net, recto_error *error) {
 /* ---- 1 Twins --------------------------------------------------------------
  */
 
-static void drop_twins(struct walk *w) {
+static void drop_twins(struct finder *w) {
   const struct net_segment *s = w->net->segment.item;
   uint32_t best = 0;
   for (uint32_t i = 1; i < w->net->segment.count; i++) {
@@ -91,7 +78,7 @@ static uint32_t root_of(uint32_t *parent, uint32_t segment) {
   return segment;
 }
 
-static bool join_clusters(struct walk *w, uint32_t a, uint32_t b) {
+static bool join_clusters(struct finder *w, uint32_t a, uint32_t b) {
   uint32_t ra = root_of(w->parent, a), rb = root_of(w->parent, b);
   if (ra == rb)
     return true;
@@ -100,138 +87,24 @@ static bool join_clusters(struct walk *w, uint32_t a, uint32_t b) {
   return ARRAY_PUSH(&w->member, a) && ARRAY_PUSH(&w->member, b);
 }
 
-/* Node k is near the probe's line: looks for segments that run along. */
-static bool look_at(struct walk *w, const struct probe *probe, uint32_t k) {
+/* Node k is near the segment's line: looks for segments that run along. */
+static bool look_at(void *user, uint32_t segment, uint32_t k) {
+  struct finder *w = user;
   const struct net *net = w->net;
   for (uint32_t i = net->end_start[k]; i < net->end_start[k + 1]; i++) {
     uint32_t other = net->end[i] >> 1;
-    if (!w->gone[other] && overlap_is_along(net, probe->segment, other) &&
-        !join_clusters(w, probe->segment, other))
+    if (!w->gone[other] && overlap_is_along(net, segment, other) &&
+        !join_clusters(w, segment, other))
       return false;
   }
   return true;
-}
-
-static inline bool is_near(const struct probe *probe, struct ink_point p) {
-  int64_t cross = probe->dx * ((int64_t)p.y - probe->from.y) -
-                  probe->dy * ((int64_t)p.x - probe->from.x);
-  return -probe->reach <= cross && cross <= probe->reach;
-}
-
-/* Nodes from k on upwards, up to `end` and up to x. */
-static bool scan_up(struct walk *w, const struct probe *probe, uint32_t k,
-                    uint32_t end, double x) {
-  const struct ink_point *at = w->net->node.item;
-  for (; k < end && at[k].x <= x; k++)
-    if (is_near(probe, at[k]) && k != probe->q && !look_at(w, probe, k))
-      return false;
-  return true;
-}
-
-/* Nodes before k downwards, from `start` and from x. */
-static bool scan_down(struct walk *w, const struct probe *probe, uint32_t k,
-                      uint32_t start, double x) {
-  const struct ink_point *at = w->net->node.item;
-  while (k > start && at[k - 1].x >= x) {
-    k--;
-    if (is_near(probe, at[k]) && k != probe->p && !look_at(w, probe, k))
-      return false;
-  }
-  return true;
-}
-
-/* Where the probe's line is at height y; only for those that rise. */
-static double x_at(const struct probe *probe, double y) {
-  return probe->from.x +
-         (double)probe->dx * (y - probe->from.y) / (double)probe->dy;
-}
-
-/* The row in which the probe starts or ends, at `node`, the probe leaving
- * it towards x. */
-static bool scan_from(struct walk *w, const struct probe *probe, uint32_t node,
-                      double x) {
-  uint32_t r = w->rows->row[node];
-  uint32_t start = w->rows->start[r], end = w->rows->start[r + 1];
-  double here = w->net->node.item[node].x;
-  double low = (x < here ? x : here) - NEAR - 1;
-  double high = (x < here ? here : x) + NEAR + 1;
-  return scan_down(w, probe, node, start, low) &&
-         scan_up(w, probe, node + 1, end, high);
-}
-
-/* A row in which the probe has no end. */
-static bool scan_row(struct walk *w, const struct probe *probe, uint32_t r) {
-  double low = (double)w->rows->low[r] - NEAR;
-  double high = (double)w->rows->low[r + 1] + NEAR;
-  double a = probe->from.x, b = probe->to.x;
-  if (low > probe->from.y && probe->dy > 0)
-    a = x_at(probe, low < probe->to.y ? low : probe->to.y);
-  if (high < probe->to.y && probe->dy > 0)
-    b = x_at(probe, high > probe->from.y ? high : probe->from.y);
-  double left = (a < b ? a : b) - NEAR - 1, right = (a < b ? b : a) + NEAR + 1;
-
-  const struct ink_point *at = w->net->node.item;
-  uint32_t i = w->rows->start[r], end = w->rows->start[r + 1], j = end;
-  while (i < j) {
-    uint32_t middle = i + (j - i) / 2;
-    if (at[middle].x < left)
-      i = middle + 1;
-    else
-      j = middle;
-  }
-  return scan_up(w, probe, i, end, right);
-}
-
-/* Rows that the probe comes near without reaching them, and those between
- * the rows of its ends. */
-static bool scan_other_rows(struct walk *w, const struct probe *probe) {
-  const struct net_rows *rows = w->rows;
-  uint32_t first = rows->row[probe->p], last = rows->row[probe->q];
-  for (uint32_t r = first; r > 0 && rows->low[r] > probe->from.y - NEAR; r--)
-    if (!scan_row(w, probe, r - 1))
-      return false;
-  for (uint32_t r = first + 1; r < last; r++)
-    if (!scan_row(w, probe, r))
-      return false;
-  for (uint32_t r = last + 1; rows->low[r] <= probe->to.y + NEAR; r++)
-    if (!scan_row(w, probe, r))
-      return false;
-  return true;
-}
-
-static bool walk_segment(struct walk *w, uint32_t segment) {
-  const struct net_segment *s = &w->net->segment.item[segment];
-  const struct net_rows *rows = w->rows;
-  struct probe probe = {.segment = segment};
-  probe.p = s->node[0];
-  probe.q = s->node[1];
-  probe.from = w->net->node.item[probe.p];
-  probe.to = w->net->node.item[probe.q];
-  probe.dx = (int64_t)probe.to.x - probe.from.x;
-  probe.dy = (int64_t)probe.to.y - probe.from.y;
-  probe.reach = NEAR * (llabs(probe.dx) + llabs(probe.dy));
-
-  uint32_t first = rows->row[probe.p], last = rows->row[probe.q];
-  if (first == last) {
-    if (!scan_from(w, &probe, probe.p, probe.to.x))
-      return false;
-  } else {
-    double leave = (double)rows->low[first + 1] + NEAR;
-    double enter = (double)rows->low[last] - NEAR;
-    leave = leave < probe.to.y ? leave : probe.to.y;
-    enter = enter > probe.from.y ? enter : probe.from.y;
-    if (!scan_from(w, &probe, probe.p, x_at(&probe, leave)) ||
-        !scan_from(w, &probe, probe.q, x_at(&probe, enter)))
-      return false;
-  }
-  return scan_other_rows(w, &probe);
 }
 
 /* ---- 3 Resolve ------------------------------------------------------------
  */
 
 /* Sorts the members by cluster and drops those named twice. */
-static bool gather_members(struct walk *w) {
+static bool gather_members(struct finder *w) {
   size_t count = w->member.count, kept = 0;
   struct sort_key *key = mem_alloc(count, sizeof *key);
   struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
@@ -253,7 +126,7 @@ static bool gather_members(struct walk *w) {
   return good;
 }
 
-static bool resolve_clusters(struct walk *w, struct overlap *overlap) {
+static bool resolve_clusters(struct finder *w, struct overlap *overlap) {
   const uint32_t *member = w->member.item;
   for (size_t i = 0, end; i < w->member.count; i = end) {
     uint32_t root = root_of(w->parent, member[i]);
@@ -272,7 +145,7 @@ static bool resolve_clusters(struct walk *w, struct overlap *overlap) {
 /* ---- 4 Rebuild ------------------------------------------------------------
  */
 
-static void drop_gone(struct walk *w) {
+static void drop_gone(struct finder *w) {
   struct net *net = w->net;
   size_t kept = 0;
   for (size_t i = 0; i < net->segment.count; i++)
@@ -288,7 +161,7 @@ static bool add_pieces(struct net *net, const struct overlap *overlap) {
   return net_sort_segments(net);
 }
 
-static bool replace_clusters(struct walk *w) {
+static bool replace_clusters(struct finder *w) {
   struct overlap overlap;
   bool good = overlap_init(&overlap, w->member.count) && gather_members(w) &&
               resolve_clusters(w, &overlap);
@@ -303,7 +176,8 @@ static bool replace_clusters(struct walk *w) {
 recto_status net_drop_coincident(struct net *net, const struct net_rows *rows,
                                  recto_error *error) {
   size_t count = net->segment.count;
-  struct walk w = {.net = net, .rows = rows};
+  struct finder w = {.net = net};
+  const struct walk walk = {net, rows, TOLERANCE_COINCIDENT_UNITS, look_at, &w};
   recto_status status = net_index_ends(net, error);
   if (status)
     return status;
@@ -313,7 +187,7 @@ recto_status net_drop_coincident(struct net *net, const struct net_rows *rows,
   if (good)
     drop_twins(&w);
   for (uint32_t i = 0; good && i < count; i++)
-    good = w.gone[i] || walk_segment(&w, i);
+    good = w.gone[i] || walk_along(&walk, i);
   if (good && w.member.count)
     good = replace_clusters(&w);
   else if (good && w.gone_count)

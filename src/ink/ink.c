@@ -39,6 +39,9 @@ static recto_status make_net(struct ink *ink, struct net *net,
     status = net_unite(net, &rows, error);
   if (!status)
     status = net_drop_coincident(net, &rows, error);
+  if (!status)
+    status = net_drop_repeats(
+        net, &rows, ink->options->unit_mm * SHEET_UNITS_PER_MM, error);
   net_rows_fini(&rows);
   report_int(report, "ink", "without_length", (int64_t)net->dots);
   report_int(report, "ink", "drawn_twice", (int64_t)net->doubled);
@@ -55,7 +58,7 @@ static recto_status make_paths(struct ink *ink, struct ink_paths *paths,
   net_fini(&net);
   if (status)
     return status;
-  paths_straighten(paths);
+  paths_straighten(paths, ink->options->unit_mm * SHEET_UNITS_PER_MM);
   if (ink->options->simplify_mm > 0)
     status = paths_simplify(
         paths, ink->options->simplify_mm * SHEET_UNITS_PER_MM, error);

@@ -1,5 +1,6 @@
 # src/ink/local.mk - the sources of this layer.
 librecto_core_la_SOURCES += \
+  %D%/blur.c %D%/blur.h \
   %D%/chain.c \
   %D%/coincident.c \
   %D%/dash.c \
@@ -16,6 +17,7 @@ librecto_core_la_SOURCES += \
   %D%/pairing.c %D%/pairing.h \
   %D%/patches.c %D%/patches.h \
   %D%/paths.h \
+  %D%/repeats.c \
   %D%/ruling.c %D%/ruling.h \
   %D%/runs.c %D%/runs.h \
   %D%/segments.c \
@@ -23,4 +25,5 @@ librecto_core_la_SOURCES += \
   %D%/straighten.c \
   %D%/stroke.c %D%/stroke.h \
   %D%/tone.c %D%/tone.h \
-  %D%/tour.c %D%/tour.h
+  %D%/tour.c %D%/tour.h \
+  %D%/walk.c %D%/walk.h

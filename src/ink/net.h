@@ -5,13 +5,14 @@
  *   net_collect          intervals of edges become segments (segments.c)
  *   net_unite            nodes at one place become one (nodes.c)
  *   net_drop_coincident  lines drawn twice are drawn once (coincident.c)
+ *   net_drop_repeats     and those that the output would make one (repeats.c)
  * Invariants, from net_unite on
  *   no two nodes are nearer than the tolerance; they are numbered by where
  *   they are on the page, row by row;
  *   a segment's first node is the lower one; segments stand in the order of
- *   their first nodes, then of their second ones.  So what is near on the page is near in memory, and
- *   nothing depends on the order of the edges but the choice between two
- *   segments that coincide. */
+ *   their first nodes, then of their second ones.  So what is near on the page
+ * is near in memory, and nothing depends on the order of the edges but the
+ * choice between two segments that coincide. */
 #ifndef INK_NET_H
 #define INK_NET_H
 
@@ -39,6 +40,9 @@ struct net {
   /* The ends at node n: end[end_start[n] .. end_start[n + 1]), ascending;
    * end e is node[e & 1] of segment e >> 1. */
   uint32_t *end_start, *end;
+  /* Of each node whether it is on the lines that meet there to the output's
+   * unit only; NULL: none. */
+  uint8_t *loose;
   /* How many segments had no length on the page, how many were drawn twice
    * (in whole or in part). */
   size_t dots, doubled;
@@ -83,6 +87,16 @@ USE_RESULT recto_status net_unite(struct net *net, struct net_rows *rows,
 USE_RESULT recto_status net_drop_coincident(struct net *net,
                                             const struct net_rows *rows,
                                             recto_error *error);
+
+/* Of lines that the output cannot tell apart keeps one, by the same rank, and
+ * shrinks what has no length in it where that crowds.  Afterwards a node may have no ends.
+ * Leaves the ends indexed.
+ * unit    the output's finest step, in grid units; up to the tolerance of
+ *         net_drop_coincident there is nothing to do
+ * Cost    near linear in the segments where few repeat */
+USE_RESULT recto_status net_drop_repeats(struct net *net,
+                                         const struct net_rows *rows,
+                                         double unit, recto_error *error);
 
 /* Builds end_start and end. */
 USE_RESULT recto_status net_index_ends(struct net *net, recto_error *error);

@@ -15,6 +15,7 @@ struct ink_path {
 struct ink_paths {
   ARRAY(struct ink_point) point; /* path after path, without gaps */
   ARRAY(struct ink_path) path;
+  uint8_t *loose; /* one a point, see net.h; NULL: none, or no longer known */
 };
 
 void paths_fini(struct ink_paths *paths);
@@ -32,9 +33,10 @@ void paths_fini(struct ink_paths *paths);
 USE_RESULT recto_status paths_chain(struct ink_paths *paths,
                                     const struct net *net, recto_error *error);
 
-/* Drops points within TOLERANCE_COLLINEAR_UNITS of the straight line that is
- * left when they are gone, and on the way along it.  Ends stay. */
-void paths_straighten(struct ink_paths *paths);
+/* Drops points within TOLERANCE_COLLINEAR_UNITS (loose ones: within `unit`
+ * grid units, if that is more) of the straight line that is left when they are
+ * gone, and on the way along it.  Ends stay. */
+void paths_straighten(struct ink_paths *paths, double unit);
 
 /* Douglas-Peucker: drops points so that no part of a line moves by more than
  * `tolerance` grid units; ends stay, closed paths keep three points.

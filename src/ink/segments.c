@@ -25,6 +25,7 @@ void net_fini(struct net *net) {
   ARRAY_FREE(&net->segment);
   mem_free(net->end_start);
   mem_free(net->end);
+  mem_free(net->loose);
   net_init(net);
 }
 

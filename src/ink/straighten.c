@@ -10,6 +10,7 @@
 #include "ink/paths.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/tolerance.h"
 
@@ -35,8 +36,8 @@ static struct vector from_to(struct ink_point a, struct ink_point b) {
 }
 
 /* Only directions that pass v within the tolerance stay. */
-static void narrow(struct wedge *wedge, struct vector v) {
-  double sine = TOLERANCE_COLLINEAR_UNITS / sqrt(dot(v, v));
+static void narrow(struct wedge *wedge, struct vector v, double tolerance) {
+  double sine = tolerance / sqrt(dot(v, v));
   if (sine >= 1)
     return;
   double cosine = sqrt(1 - sine * sine);
@@ -56,56 +57,100 @@ static bool is_in(const struct wedge *wedge, struct vector v) {
 
 /* Whether the line along `next` certainly misses `passed`: a bound without a
  * root, as |next| is at most the sum. */
-static bool is_corner(struct vector passed, struct vector next) {
-  return fabs(cross(passed, next)) >
-         TOLERANCE_COLLINEAR_UNITS * (fabs(next.x) + fabs(next.y));
+static bool is_corner(struct vector passed, struct vector next,
+                      double tolerance) {
+  return fabs(cross(passed, next)) > tolerance * (fabs(next.x) + fabs(next.y));
 }
 
-/* Writes to `to`, which may be where they come from, the points of a line
- * that are needed; `last` follows the others and is not written.
- * Returns how many were written. */
-static uint32_t straighten_line(struct ink_point *to,
-                                const struct ink_point *point, uint32_t count,
-                                struct ink_point last) {
+/* Drops from a line the points that are not needed; `last` follows the others
+ * and stays out of it.  A loose point, and what comes after one that is kept,
+ * has the wider tolerance.
+ * loose  one a point, dropped with them; or NULL
+ * Returns how many are left. */
+static uint32_t straighten_line(struct ink_point *point, uint8_t *loose,
+                                uint32_t count, struct ink_point last,
+                                double unit) {
   struct ink_point anchor = point[0];
   struct wedge wedge = {.open = true};
-  uint32_t kept = 0;
-  to[kept++] = anchor;
+  uint32_t kept = 1;
   for (uint32_t i = 1; i < count; i++) {
     struct ink_point here = point[i];
     struct ink_point after = i + 1 < count ? point[i + 1] : last;
     struct vector next = from_to(anchor, after);
     struct vector passed = from_to(anchor, here);
-    bool straight =
-        !is_corner(passed, next) && dot(next, next) > dot(passed, passed);
+    bool wide = loose && (loose[i] || loose[kept - 1]);
+    double tolerance = wide ? unit : TOLERANCE_COLLINEAR_UNITS;
+    bool straight = !is_corner(passed, next, tolerance) &&
+                    dot(next, next) > dot(passed, passed);
     if (straight) {
-      narrow(&wedge, passed);
+      narrow(&wedge, passed, tolerance);
       straight = is_in(&wedge, next);
     }
     if (!straight) {
-      to[kept++] = anchor = here;
+      if (loose)
+        loose[kept] = loose[i];
+      point[kept++] = anchor = here;
       wedge.open = true;
     }
   }
   return kept;
 }
 
-void paths_straighten(struct ink_paths *paths) {
+static void reverse(struct ink_point *point, uint8_t *loose, uint32_t count) {
+  for (uint32_t i = 0; i < count / 2; i++) {
+    uint32_t k = count - 1 - i;
+    struct ink_point p = point[i];
+    uint8_t l = loose[i];
+    point[i] = point[k];
+    loose[i] = loose[k];
+    point[k] = p;
+    loose[k] = l;
+  }
+}
+
+/* The same for an open line with its end. */
+static uint32_t straighten_open(struct ink_point *point, uint8_t *loose,
+                                uint32_t count, double unit) {
+  struct ink_point last = point[count - 1];
+  uint8_t last_loose = loose ? loose[count - 1] : 0;
+  uint32_t kept = straighten_line(point, loose, count - 1, last, unit);
+  if (loose)
+    loose[kept] = last_loose;
+  point[kept++] = last;
+  return kept;
+}
+
+/* Both ways, so that a loose point is one to the points before it too. */
+static uint32_t straighten_path(struct ink_point *point, uint8_t *loose,
+                                const struct ink_path *path, double unit) {
+  if (path->closed)
+    return straighten_line(point, loose, path->count, point[0], unit);
+  uint32_t kept = straighten_open(point, loose, path->count, unit);
+  if (loose && kept > 2) {
+    reverse(point, loose, kept);
+    kept = straighten_open(point, loose, kept, unit);
+    reverse(point, loose, kept);
+  }
+  return kept;
+}
+
+void paths_straighten(struct ink_paths *paths, double unit) {
   struct ink_point *point = paths->point.item;
   uint32_t to = 0;
+  unit = fmax(unit, TOLERANCE_COLLINEAR_UNITS);
   for (size_t i = 0; i < paths->path.count; i++) {
     struct ink_path *path = &paths->path.item[i];
-    const struct ink_point *from = point + path->point;
-    struct ink_point end = path->closed ? from[0] : from[path->count - 1];
-    uint32_t inner = path->closed ? path->count : path->count - 1;
-    uint32_t kept = straighten_line(point + to, from, inner, end);
-    if (!path->closed)
-      point[to + kept++] = end;
-    else if (kept < 3) /* so thin a loop is a line, there and back */
+    struct ink_point *from = point + path->point;
+    uint8_t *loose = paths->loose ? paths->loose + path->point : NULL;
+    uint32_t kept = straighten_path(from, loose, path, unit);
+    if (path->closed && kept < 3) /* so thin a loop is a line, there and back */
       path->closed = false;
+    memmove(point + to, from, kept * sizeof *from);
     path->point = to;
     path->count = kept;
     to += kept;
   }
   paths->point.count = to;
+  mem_free(paths->loose);
+  paths->loose = NULL;
 }
