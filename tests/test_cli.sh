@@ -126,7 +126,7 @@ crease -1 181 x
 hidden x 0 -1 none,2 layer,0 dashed,x ,2 1,2
 pen 0 -1 101 x 1e-9 0.009mm
 hatch-pitch 0 1e-9 x
-pitch 0 1e-9
+pitch 0 1e-9 exactly
 light 0,0,0 x
 pens 0 1001 1.5 x
 simplify -1

@@ -70,7 +70,8 @@ static void random_mesh(struct sheet *sheet) {
 typedef void make_fn(struct sheet *sheet);
 
 /* Solves a new sheet with the n-th allocation failing; 0: none.
- * lines  of the raster methods; 0 where the method knows better ones */
+ * lines  of the raster methods (for watkins a large pitch); 0 where the
+ *        method knows better ones */
 static recto_status solve(const struct solver *solver, int lines, make_fn *make,
                           unsigned long n, struct map *map) {
   const struct solver_request request = {.strokes = true,
@@ -78,7 +79,7 @@ static recto_status solve(const struct solver *solver, int lines, make_fn *make,
                                          .areas = true,
                                          .intersections = true,
                                          .threads = 1,
-                                         .pitch_mm = 100,
+                                         .pitch_mm = lines > 0 ? 100 : 0,
                                          .resolution = lines};
   struct sheet sheet;
   recto_error error = {0};
@@ -142,7 +143,6 @@ static void check_parts(const struct solver *solver, bool strokes,
   const struct solver_request request = {.strokes = strokes,
                                          .fragments = fragments,
                                          .threads = 1,
-                                         .pitch_mm = 100,
                                          .resolution = 0};
   struct sheet sheet;
   struct map map;

@@ -83,6 +83,15 @@ static bool take_depth_bits(struct arguments *arguments, const char *text) {
   return false;
 }
 
+/* 0: no pitch at all, which also is the default. */
+static bool take_pitch(struct arguments *arguments, const char *text) {
+  double mm = 0;
+  if (strcmp(text, "exact") != 0 && !(value_length(text, &mm) && mm >= RECTO_FINEST_MM))
+    return false;
+  arguments->options.pitch_mm = mm;
+  return true;
+}
+
 static bool take_edges(struct arguments *arguments, const char *text) {
   return value_edges(text, &arguments->options.edges);
 }
@@ -127,9 +136,10 @@ const struct option_entry option_table[] = {
     {OPTION_NUMBER, "contact", 0, "LENGTH", "a number, 0 or more",
      "what lies closer in depth touches, in model units",
      .offset = AT(options.contact), .least = 0, .most = DBL_MAX},
-    {OPTION_LENGTH, "pitch", 0, "LENGTH", "a length of at least 0.01 mm",
-     "watkins: between its scan lines", .offset = AT(options.pitch_mm),
-     .least = RECTO_FINEST_MM, .most = DBL_MAX},
+    {OPTION_TAKE, "pitch", 0, "LENGTH",
+     "a length of at least 0.01 mm, or exact",
+     "watkins: between its scan lines, or exact (default)",
+     .take = take_pitch},
     {OPTION_INT, "resolution", 0, "N", "a number from 1 to 65536",
      "lines of pixels: z-buffers, warnock if asked",
      .offset = AT(options.resolution), .least = 1, .most = 65536},

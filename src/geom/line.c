@@ -84,6 +84,23 @@ int geom_line_between(struct geom_line *line, const struct geom_plane *front,
   return parallel;
 }
 
+void geom_line_level(struct geom_line *line, struct ratio height) {
+  mpz_t value;
+  if (height.num % height.den == 0) {
+    int32_t y = (int32_t)(height.num / height.den);
+    geom_line_through(line, (struct geom_point){0, y, 0},
+                      (struct geom_point){1, y, 0});
+    return;
+  }
+  memset(line, 0, sizeof *line);
+  mpz_init(value);
+  wide_set_int128(value, height.den);
+  store(line, 1, value, &line->b);
+  wide_set_int128(value, -height.num);
+  store(line, 2, value, &line->c);
+  mpz_clear(value);
+}
+
 void geom_line_reverse(struct geom_line *line) {
   int32_t x = line->x0, y = line->y0;
   line->x0 = line->x1;

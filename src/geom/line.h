@@ -44,6 +44,10 @@ int geom_line_between(struct geom_line *line, const struct geom_plane *front,
                       const struct geom_plane *back);
 #define GEOM_SAME_PLANE 2
 
+/* The horizontal line at y = height, from left to right.
+ * height  |num| < 2^94, den < 2^64 */
+void geom_line_level(struct geom_line *line, struct ratio height);
+
 /* Turns the line round. */
 void geom_line_reverse(struct geom_line *line);
 

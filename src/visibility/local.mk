@@ -35,8 +35,12 @@ librecto_core_la_SOURCES += \
   %D%/warnock_sample.c %D%/warnock_sample.h \
   %D%/warnock_window.c %D%/warnock_window.h \
   %D%/watkins.c %D%/watkins.h \
+  %D%/watkins_cells.c %D%/watkins_cells.h \
   %D%/watkins_ends.c \
+  %D%/watkins_exact.c %D%/watkins_exact.h \
   %D%/watkins_interval.c \
   %D%/watkins_lists.c \
+  %D%/watkins_places.c \
+  %D%/watkins_sweep.c %D%/watkins_sweep.h \
   %D%/window.c %D%/window.h \
   %D%/zbuffer.c %D%/zbuffer.h

@@ -15,6 +15,7 @@
  *            below (trace.h).
  *   Cost     linear in the edges' lines and the intervals; memory linear in
  *            the scene and what is seen.
+ * Without one: watkins_exact.c.
  *
  * Source  [Watkins1970]; [Romney1969] coherence; [Archuleta1972] strokes;
  *         Rogers ch. 4.
@@ -23,6 +24,8 @@
 
 #include <math.h>
 #include <string.h>
+
+#include "visibility/watkins_exact.h"
 
 #define ASK_EVERY 64 /* lines between two questions whether to go on */
 #define OPEN_NONE (-1)
@@ -319,11 +322,14 @@ static recto_status scan_lines(const struct sheet *sheet,
 static recto_status solve(struct sheet *sheet,
                           const struct solver_request *request, struct map *map,
                           struct report *report, recto_error *error) {
-  recto_status status = trace_find_intersections(sheet, request, report, error);
+  recto_status status;
+  if (request->pitch_mm == 0)
+    return watkins_solve_exactly(sheet, request, map, report, error);
+  status = trace_find_intersections(sheet, request, report, error);
   if (status == RECTO_OK)
     status = scan_lines(sheet, request, map, report, error);
   return status;
 }
 
-const struct solver solver_watkins = {RECTO_METHOD_WATKINS, "watkins", false,
+const struct solver solver_watkins = {RECTO_METHOD_WATKINS, "watkins", true,
                                       solve};

@@ -24,7 +24,6 @@
 #include "visibility/trace.h"
 
 #define WATKINS_LINES_MAX (1 << 20)
-#define WATKINS_PITCH_DEFAULT_MM 0.3 /* the pen's width, if nobody says */
 #define WATKINS_NONE UINT32_MAX
 
 /* What an edge knows beside x, dx and the lines left (the edge of the same

@@ -13,8 +13,6 @@ enum { DEN = 512, PITCH_DEN = DEN / 2 };
 recto_status watkins_grid(struct scan_grid *grid, const struct sheet *sheet,
                           double pitch_mm, recto_error *error) {
   double height = round(sheet->camera.page_mm[1] * SHEET_UNITS_PER_MM);
-  if (pitch_mm == 0)
-    pitch_mm = WATKINS_PITCH_DEFAULT_MM;
   double pitch = round(pitch_mm * SHEET_UNITS_PER_MM * PITCH_DEN);
   double lines = ceil(height * PITCH_DEN / pitch);
   if (!(pitch >= PITCH_DEN) || lines > WATKINS_LINES_MAX)

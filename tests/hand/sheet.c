@@ -124,7 +124,7 @@ void hand_solve(const struct solver *solver, struct sheet *sheet,
                                          .areas = true,
                                          .intersections = true,
                                          .threads = 1,
-                                         .pitch_mm = 1,
+                                         .pitch_mm = solver->exact ? 0 : 1,
                                          .resolution =
                                              solver->exact ? 0 : 256};
   assert_int_equal(hand_solve_as(solver, &request, sheet, map, report),

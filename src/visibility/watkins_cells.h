@@ -1,0 +1,57 @@
+/* watkins_cells.h - which triangles are seen in the trapezoids of a sweep, and
+ * the fragments they make. */
+#ifndef VISIBILITY_WATKINS_CELLS_H
+#define VISIBILITY_WATKINS_CELLS_H
+
+#include "visibility/fragments.h"
+#include "visibility/watkins_sweep.h"
+
+/* At most: trapezoids kept; triangles that doubles cannot tell apart in them;
+ * trapezoids that become pieces of fragments. */
+#define CELLS_MAX (1 << 23)
+#define CELLS_TIED_MAX (1 << 25)
+#define CELLS_PIECES_MAX (1 << 20)
+
+/* The depth of a triangle's plane in doubles. */
+struct cell_plane {
+  double x, y, z; /* of its first corner */
+  double per_x, per_y;
+};
+
+/* A trapezoid in which a triangle is seen, in all of it where it is the only
+ * one listed. */
+struct cell_part {
+  uint32_t triangle;
+  uint32_t left, right, top, bottom; /* as in struct sweep_cell */
+  uint32_t tied, count; /* others that may be seen in a part of it */
+};
+
+struct cells {
+  const struct sheet *sheet;
+  struct cell_plane *plane; /* one a triangle */
+  uint8_t *seen;            /* one a triangle: it may be seen somewhere */
+  uint8_t *covered;         /* another may be seen somewhere before it */
+  bool keep;                /* parts are kept, not only noted as seen */
+  bool too_many;            /* a limit was met */
+  ARRAY(struct cell_part) part;
+  sweep_list tied;
+  sweep_list candidate; /* scratch */
+  uint64_t count;       /* trapezoids taken */
+  uint64_t asked;       /* of these, doubles could not tell who is seen */
+};
+
+USE_RESULT bool cells_init(struct cells *cells, const struct sheet *sheet);
+void cells_fini(struct cells *cells);
+
+/* Takes a trapezoid (struct sweep's `cell`; user: struct cells). */
+bool cells_take(void *user, const struct sweep *sweep,
+                const struct sweep_cell *cell);
+
+/* Hands what was kept to the fragments.
+ * Errors  RECTO_ERROR_LIMIT, RECTO_ERROR_MEMORY. */
+USE_RESULT recto_status cells_finish(struct cells *cells,
+                                     const struct sweep *sweep,
+                                     struct fragments *fragments,
+                                     recto_error *error);
+
+#endif

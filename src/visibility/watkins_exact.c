@@ -1,0 +1,218 @@
+/* watkins_exact.c - from the sweep over exact heights to the visible map.
+ *
+ * Strokes    while a line is active, the sweep lists the triangles that are in
+ *            beside it; each is asked once what it hides of the line (hide.h).
+ *            No triangle that is never in beside it can hide anything of it.
+ * Fragments  see watkins_cells.c: trapezoids, each with the triangle that is
+ *            seen in it, are joined by fragments.h.
+ */
+#include "visibility/watkins_exact.h"
+
+#include <string.h>
+
+#include "visibility/pierce.h"
+#include "visibility/strokes.h"
+#include "visibility/watkins_cells.h"
+
+/* At most so many lines and triangles that may hide something of them. */
+#define MEETINGS_MAX (1 << 24)
+
+/* ---- Meetings ----------------------------------------------------------- */
+
+/* Pairs of a line and a triangle beside it. */
+struct meetings {
+  ARRAY(struct sort_key) pair; /* edge of the sheet << 32 | triangle */
+  size_t room; /* pairs are sorted and made unique when there are so many */
+  bool too_many;
+};
+
+/* What both sweeps' callbacks get. */
+struct exact {
+  struct cells cells;
+  struct meetings meetings;
+};
+
+/* Sorts the pairs and drops those that are there twice. */
+static bool settle_pairs(struct meetings *meetings) {
+  size_t count = meetings->pair.count, kept = 0;
+  struct sort_key *pair = meetings->pair.item;
+  struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
+  if (scratch == NULL)
+    return false;
+  sort_keys(pair, scratch, count);
+  mem_free(scratch);
+  for (size_t i = 0; i < count; i++)
+    if (kept == 0 || pair[i].key != pair[kept - 1].key)
+      pair[kept++] = pair[i];
+  meetings->pair.count = kept;
+  meetings->room = 2 * kept + 4096;
+  meetings->too_many = kept > MEETINGS_MAX;
+  return true;
+}
+
+static bool take_meeting(void *user, const struct sweep *sweep, uint32_t edge,
+                         uint32_t triangle) {
+  struct meetings *meetings = &((struct exact *)user)->meetings;
+  uint32_t side = sweep->edge.item[edge].side;
+  const uint32_t *own = sweep->sheet->edge.item[side].triangle;
+  struct sort_key pair = {(uint64_t)side << 32 | triangle, 0};
+  if (meetings->too_many || triangle == own[0] || triangle == own[1])
+    return true;
+  return (meetings->pair.count < meetings->room || settle_pairs(meetings)) &&
+         ARRAY_PUSH(&meetings->pair, pair);
+}
+
+static bool take_cell(void *user, const struct sweep *sweep,
+                      const struct sweep_cell *cell) {
+  return cells_take(&((struct exact *)user)->cells, sweep, cell);
+}
+
+/* ---- Strokes ------------------------------------------------------------ */
+
+static bool file_edge(const struct sheet *sheet, uint32_t e,
+                      const struct sort_key *pair, size_t count,
+                      struct strokes *strokes, struct hide_counts *counts,
+                      struct map *map) {
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  struct geom_point p = sheet->point.item[edge->point[0]];
+  struct geom_point q = sheet->point.item[edge->point[1]];
+  struct page_box box = page_box_of_segment(p, q);
+  strokes_start(strokes);
+  for (size_t i = 0; i < count && !strokes->whole; i++) {
+    uint32_t triangle = (uint32_t)pair[i].key;
+    struct hidden_part part;
+    if (hide_may(sheet, triangle, p, q, box) &&
+        hide_edge_by(sheet, triangle, p, q, &part, counts) &&
+        !strokes_hide(strokes, part))
+      return false;
+  }
+  return strokes_file(strokes, e, map);
+}
+
+static recto_status file_strokes(const struct sheet *sheet,
+                                 struct meetings *meetings, struct map *map,
+                                 struct report *report, recto_error *error) {
+  const struct sort_key *pair;
+  struct strokes strokes = {0};
+  struct hide_counts counts = {0};
+  size_t i = 0, count;
+  bool good =
+      settle_pairs(meetings) && strokes_open_map(map, sheet->edge.count);
+  if (good && meetings->too_many)
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "too many faces over lines for watkins without a pitch: "
+                     "more than %d pairs",
+                     MEETINGS_MAX);
+  pair = meetings->pair.item;
+  count = meetings->pair.count;
+  for (uint32_t e = 0; good && e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    const struct geom_point *p = &sheet->point.item[edge->point[0]];
+    const struct geom_point *q = &sheet->point.item[edge->point[1]];
+    size_t first = i;
+    while (i < count && pair[i].key >> 32 == e)
+      i++;
+    if (edge->edge_class != 0 && (p->x != q->x || p->y != q->y))
+      good =
+          file_edge(sheet, e, pair + first, i - first, &strokes, &counts, map);
+  }
+  hide_report(&counts, report);
+  report_int(report, "watkins", "faces_beside_lines", (int64_t)count);
+  strokes_fini(&strokes);
+  return good ? RECTO_OK : error_memory(error);
+}
+
+/* ---- Fragments ---------------------------------------------------------- */
+
+/* Sweeps the triangles that were seen once more. */
+static recto_status solve_fragments(struct exact *exact,
+                                    const struct sheet *sheet,
+                                    const struct pagegrid *grid,
+                                    const struct solver_request *request,
+                                    struct map *map, struct report *report,
+                                    recto_error *error) {
+  struct cells *cells = &exact->cells;
+  struct fragments fragments;
+  struct sweep sweep;
+  recto_status status = RECTO_OK;
+  bool ready = fragments_init(&fragments, sheet, grid, true);
+  if (!sweep_init(&sweep, sheet, cells->seen, false) || !ready)
+    status = error_memory(error);
+  sweep.cell = take_cell;
+  sweep.user = exact;
+  cells->keep = true;
+  cells->count = cells->asked = 0;
+  if (status == RECTO_OK)
+    status = sweep_run(&sweep, request, 0.5, 0.7, error);
+  if (status == RECTO_OK)
+    status = cells_finish(cells, &sweep, &fragments, error);
+  if (status == RECTO_OK && !fragments_finish(&fragments, request->areas, map))
+    status = error_memory(error);
+  report_int(report, "watkins", "trapezoids_of_seen", (int64_t)cells->count);
+  report_int(report, "watkins", "not_told_by_doubles", (int64_t)cells->asked);
+  sweep_fini(&sweep);
+  if (ready)
+    fragments_fini(&fragments);
+  return status;
+}
+
+/* ---- The solver --------------------------------------------------------- */
+
+/* Sweeps all triangles and lines. */
+static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
+                              const struct solver_request *request,
+                              struct report *report, recto_error *error) {
+  struct sweep sweep;
+  recto_status status = RECTO_OK;
+  if (!sweep_init(&sweep, sheet, NULL, request->strokes))
+    status = error_memory(error);
+  sweep.cell = request->fragments ? take_cell : NULL;
+  sweep.meet = request->strokes ? take_meeting : NULL;
+  sweep.user = exact;
+  if (status == RECTO_OK)
+    status = sweep_run(&sweep, request, 0, 0.5, error);
+  report_int(report, "watkins", "edges", (int64_t)sweep.edge.count);
+  report_int(report, "watkins", "places", (int64_t)sweep.places);
+  report_int(report, "watkins", "heights", (int64_t)sweep.height.count);
+  report_int(report, "watkins", "crossings_found", (int64_t)sweep.crossings);
+  report_int(report, "watkins", "trapezoids", (int64_t)exact->cells.count);
+  sweep_fini(&sweep);
+  return status;
+}
+
+static recto_status solve_on(struct exact *exact, const struct sheet *sheet,
+                             const struct pagegrid *grid,
+                             const struct solver_request *request,
+                             struct map *map, struct report *report,
+                             recto_error *error) {
+  recto_status status = RECTO_OK;
+  if (request->fragments && !cells_init(&exact->cells, sheet))
+    status = error_memory(error);
+  if (status == RECTO_OK)
+    status = sweep_all(exact, sheet, request, report, error);
+  if (status == RECTO_OK && request->strokes)
+    status = file_strokes(sheet, &exact->meetings, map, report, error);
+  if (status == RECTO_OK && request->fragments)
+    status = solve_fragments(exact, sheet, grid, request, map, report, error);
+  return status;
+}
+
+recto_status watkins_solve_exactly(struct sheet *sheet,
+                                   const struct solver_request *request,
+                                   struct map *map, struct report *report,
+                                   recto_error *error) {
+  struct exact exact;
+  struct pagegrid grid;
+  recto_status status = RECTO_OK;
+  memset(&exact, 0, sizeof exact);
+  if (!pagegrid_init(&grid, sheet))
+    return error_memory(error);
+  if (request->intersections)
+    status = pierce_all(sheet, &grid, report, error);
+  if (status == RECTO_OK)
+    status = solve_on(&exact, sheet, &grid, request, map, report, error);
+  ARRAY_FREE(&exact.meetings.pair);
+  cells_fini(&exact.cells);
+  pagegrid_fini(&grid);
+  return status;
+}

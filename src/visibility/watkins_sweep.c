@@ -1,0 +1,417 @@
+/* watkins_sweep.c - the walk through the exact heights. */
+#include "visibility/watkins_sweep.h"
+
+#include <string.h>
+
+#define ASK_EVERY 4096 /* places between two questions whether to go on */
+#define FEW 16         /* edges at a place that are sorted by insertion */
+
+/* ---- Edges -------------------------------------------------------------- */
+
+/* Sides of triangles and drawn lines, by their two points. */
+struct gathering {
+  struct sort_key *key;
+  size_t count;
+};
+
+static uint64_t key_of(uint32_t p, uint32_t q) {
+  return p < q ? (uint64_t)p << 32 | q : (uint64_t)q << 32 | p;
+}
+
+static bool is_drawn(const struct sheet *sheet, size_t e) {
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  const struct geom_point *p = &sheet->point.item[edge->point[0]];
+  const struct geom_point *q = &sheet->point.item[edge->point[1]];
+  return edge->edge_class != 0 && (p->x != q->x || p->y != q->y);
+}
+
+/* The value of a key: of triangle t's side k 3 t + k, of a drawn line e
+ * 3 x triangles + e. */
+static void list_keys(struct gathering *g, const struct sheet *sheet,
+                      const uint8_t *kept, bool drawn) {
+  uint32_t triangles = (uint32_t)sheet->triangle.count;
+  for (uint32_t t = 0; t < triangles; t++) {
+    const uint32_t *point = sheet->triangle.item[t].point;
+    if ((sheet->triangle_flags[t] & SHEET_FLAT) || (kept != NULL && !kept[t]))
+      continue;
+    for (uint32_t k = 0; k < 3; k++)
+      g->key[g->count++] = (struct sort_key){
+          key_of(point[k], point[k == 2 ? 0 : k + 1]), 3 * t + k};
+  }
+  for (uint32_t e = 0; drawn && e < sheet->edge.count; e++)
+    if (is_drawn(sheet, e))
+      g->key[g->count++] = (struct sort_key){
+          key_of(sheet->edge.item[e].point[0], sheet->edge.item[e].point[1]),
+          3 * triangles + e};
+}
+
+static uint64_t key_of_end(int32_t x, int32_t y) {
+  return ((uint64_t)((INT64_C(1) << 30) - y) << 31) |
+         (uint64_t)((INT64_C(1) << 30) + x);
+}
+
+static bool add_edge(struct sweep *sweep, uint64_t points, uint32_t side) {
+  const struct geom_point *p = &sweep->sheet->point.item[points >> 32];
+  const struct geom_point *q = &sweep->sheet->point.item[points & UINT32_MAX];
+  struct sweep_edge edge = {.toggle = (uint32_t)sweep->toggle.count,
+                            .side = side};
+  if (key_of_end(p->x, p->y) > key_of_end(q->x, q->y)) {
+    const struct geom_point *swap = p;
+    p = q;
+    q = swap;
+  }
+  edge.x0 = p->x;
+  edge.y0 = p->y;
+  edge.x1 = q->x;
+  edge.y1 = q->y;
+  return ARRAY_PUSH(&sweep->edge, edge);
+}
+
+/* Makes one edge of all that run between the same two points; of more than
+ * one drawn line, more edges. */
+static bool add_edges(struct sweep *sweep, const struct sort_key *key,
+                      size_t count) {
+  uint32_t sides = 3 * (uint32_t)sweep->sheet->triangle.count;
+  size_t i = 0;
+  if (key->value < sides) {
+    if (!add_edge(sweep, key->key, SHEET_NONE))
+      return false;
+    for (; i < count && key[i].value < sides; i++)
+      if (!ARRAY_PUSH(&sweep->toggle, key[i].value / 3))
+        return false;
+    sweep->edge.item[sweep->edge.count - 1].toggles = (uint32_t)i;
+    if (i < count)
+      sweep->edge.item[sweep->edge.count - 1].side = key[i++].value - sides;
+  }
+  for (; i < count; i++)
+    if (!add_edge(sweep, key->key, key[i].value - sides))
+      return false;
+  return true;
+}
+
+/* Sorts the ends of all edges by their places. */
+static bool sort_ends(struct sweep *sweep) {
+  size_t count = sweep->edge.count;
+  struct sort_key *scratch = mem_alloc(2 * count, sizeof *scratch);
+  sweep->end = mem_alloc(2 * count, sizeof *sweep->end);
+  if (scratch == NULL || sweep->end == NULL) {
+    mem_free(scratch);
+    return false;
+  }
+  for (size_t e = 0; e < count; e++) {
+    const struct sweep_edge *edge = &sweep->edge.item[e];
+    sweep->end[2 * e] =
+        (struct sort_key){key_of_end(edge->x0, edge->y0), (uint32_t)e};
+    sweep->end[2 * e + 1] =
+        (struct sort_key){key_of_end(edge->x1, edge->y1), SWEEP_NONE};
+  }
+  sweep->ends = 2 * count;
+  sort_keys(sweep->end, scratch, sweep->ends);
+  mem_free(scratch);
+  return true;
+}
+
+bool sweep_init(struct sweep *sweep, const struct sheet *sheet,
+                const uint8_t *kept, bool drawn) {
+  size_t most = 3 * sheet->triangle.count + (drawn ? sheet->edge.count : 0);
+  struct gathering g = {mem_alloc(2 * most, sizeof *g.key), 0};
+  bool good = g.key != NULL;
+  memset(sweep, 0, sizeof *sweep);
+  sweep->sheet = sheet;
+  if (good) {
+    list_keys(&g, sheet, kept, drawn);
+    sort_keys(g.key, g.key + most, g.count);
+  }
+  for (size_t i = 0, past; good && i < g.count; i = past) {
+    for (past = i + 1; past < g.count && g.key[past].key == g.key[i].key;)
+      past++;
+    good = add_edges(sweep, &g.key[i], past - i);
+  }
+  mem_free(g.key);
+  return good && sort_ends(sweep);
+}
+
+void sweep_fini(struct sweep *sweep) {
+  for (size_t e = 0; e < sweep->edge.count; e++)
+    ARRAY_FREE(&sweep->edge.item[e].in);
+  ARRAY_FREE(&sweep->edge);
+  ARRAY_FREE(&sweep->toggle);
+  ARRAY_FREE(&sweep->crossing);
+  ARRAY_FREE(&sweep->height);
+  ARRAY_FREE(&sweep->active);
+  ARRAY_FREE(&sweep->out);
+  ARRAY_FREE(&sweep->starting);
+  ARRAY_FREE(&sweep->around);
+  mem_free(sweep->end);
+  sweep->end = NULL;
+}
+
+/* ---- A place ------------------------------------------------------------ */
+
+/* Takes the first of the places ahead; the edges that start there are
+ * `starting`.  False: there is none, or memory ran out. */
+static bool take_place(struct sweep *sweep, struct sweep_place *place,
+                       bool *more) {
+  bool at_end = sweep->met < sweep->ends;
+  uint64_t key = at_end ? sweep->end[sweep->met].key : 0;
+  sweep->starting.count = 0;
+  *more = at_end || sweep->crossing.count > 0;
+  if (!*more)
+    return true;
+  if (at_end) {
+    *place = sweep_place_at(
+        (int32_t)((int64_t)(key & ((UINT64_C(1) << 31) - 1)) - (1 << 30)),
+        (int32_t)((1 << 30) - (int64_t)(key >> 31)));
+    at_end = sweep->crossing.count == 0 ||
+             sweep_place_compare(place, &sweep->crossing.item[0]) <= 0;
+  }
+  if (!at_end)
+    *place = sweep->crossing.item[0];
+  for (;
+       at_end && sweep->met < sweep->ends && sweep->end[sweep->met].key == key;
+       sweep->met++)
+    if (sweep->end[sweep->met].value != SWEEP_NONE &&
+        !ARRAY_PUSH(&sweep->starting, sweep->end[sweep->met].value))
+      return false;
+  while (sweep->crossing.count > 0 &&
+         sweep_place_compare(place, &sweep->crossing.item[0]) == 0)
+    sweep_drop_crossing(sweep);
+  return true;
+}
+
+static bool reach_height(struct sweep *sweep, const struct sweep_place *place) {
+  struct ratio height = {place->y, place->den};
+  size_t count = sweep->height.count;
+  return (count > 0 &&
+          ratio_compare(sweep->height.item[count - 1], height) == 0) ||
+         ARRAY_PUSH(&sweep->height, height);
+}
+
+/* The active edges through the place are [*low, *high). */
+static void find_through(const struct sweep *sweep,
+                         const struct sweep_place *place, size_t *low,
+                         size_t *high) {
+  const uint32_t *active = sweep->active.item;
+  size_t past = sweep->active.count;
+  *low = 0;
+  for (*high = past; *low < *high;) {
+    size_t middle = *low + (*high - *low) / 2;
+    if (sweep_side(&sweep->edge.item[active[middle]], place) > 0)
+      *low = middle + 1;
+    else
+      *high = middle;
+  }
+  while (*high < past &&
+         sweep_side(&sweep->edge.item[active[*high]], place) == 0)
+    (*high)++;
+}
+
+/* The interval after the active edge of that rank ends at this height. */
+static bool close_interval(struct sweep *sweep, size_t rank) {
+  uint32_t left = sweep->active.item[rank];
+  const struct sweep_edge *edge = &sweep->edge.item[left];
+  struct sweep_cell cell = {.left = left,
+                            .top = edge->top,
+                            .bottom = (uint32_t)sweep->height.count - 1,
+                            .in = edge->in.item,
+                            .count = edge->in.count};
+  if (sweep->cell == NULL || cell.count == 0 || cell.top == cell.bottom)
+    return true;
+  cell.right = sweep->active.item[rank + 1];
+  return sweep_same_line(edge, &sweep->edge.item[cell.right]) ||
+         sweep->cell(sweep->user, sweep, &cell);
+}
+
+static int compare_out(const void *a, const void *b, void *user) {
+  const struct sweep *sweep = user;
+  uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
+  int turn = sweep_turn(&sweep->edge.item[p], &sweep->edge.item[q]);
+  return turn != 0 ? -turn : (p > q) - (p < q);
+}
+
+/* Lists in `out` the edges that leave the place, from the left. */
+static bool list_out(struct sweep *sweep, const struct sweep_place *place,
+                     size_t low, size_t high) {
+  sweep_list *out = &sweep->out;
+  out->count = 0;
+  if (!ARRAY_RESERVE(out, high - low + sweep->starting.count))
+    return false;
+  for (size_t i = low; i < high; i++) {
+    uint32_t e = sweep->active.item[i];
+    struct sweep_edge *edge = &sweep->edge.item[e];
+    if (place->den != 1 || edge->x1 != place->x || edge->y1 != place->y) {
+      out->item[out->count++] = e;
+      continue;
+    }
+    sweep->in -= edge->in.count;
+    ARRAY_FREE(&edge->in);
+  }
+  for (size_t i = 0; i < sweep->starting.count; i++)
+    out->item[out->count++] = sweep->starting.item[i];
+  if (out->count > FEW)
+    return sort_stable(out->item, out->count, sizeof *out->item, compare_out,
+                       sweep);
+  for (size_t i = 1; i < out->count; i++) {
+    uint32_t moving = out->item[i];
+    size_t hole = i;
+    for (; hole > 0 && compare_out(&out->item[hole - 1], &moving, sweep) > 0;
+         hole--)
+      out->item[hole] = out->item[hole - 1];
+    out->item[hole] = moving;
+  }
+  return true;
+}
+
+/* Puts `out` in the place of active[low..high). */
+static bool replace_active(struct sweep *sweep, size_t low, size_t high) {
+  sweep_list *active = &sweep->active;
+  size_t out = sweep->out.count;
+  if (!ARRAY_RESERVE(active, out))
+    return false;
+  memmove(active->item + low + out, active->item + high,
+          (active->count - high) * sizeof *active->item);
+  if (out > 0)
+    memcpy(active->item + low, sweep->out.item, out * sizeof *active->item);
+  active->count = active->count - (high - low) + out;
+  return true;
+}
+
+static void toggle_triangle(sweep_list *in, uint32_t triangle) {
+  for (size_t i = 0; i < in->count; i++)
+    if (in->item[i] == triangle) {
+      in->item[i] = in->item[--in->count];
+      return;
+    }
+  in->item[in->count++] = triangle;
+}
+
+/* Finds the triangles that are in after the active edge of that rank, from
+ * those before it. */
+static bool set_in(struct sweep *sweep, size_t rank) {
+  struct sweep_edge *edge = &sweep->edge.item[sweep->active.item[rank]];
+  const sweep_list *before =
+      rank > 0 ? &sweep->edge.item[sweep->active.item[rank - 1]].in : NULL;
+  size_t count = before != NULL ? before->count : 0;
+  sweep->in -= edge->in.count;
+  edge->in.count = 0;
+  if (!ARRAY_RESERVE(&edge->in, count + edge->toggles))
+    return false;
+  if (count > 0)
+    memcpy(edge->in.item, before->item, count * sizeof *before->item);
+  edge->in.count = count;
+  for (uint32_t i = 0; i < edge->toggles; i++)
+    toggle_triangle(&edge->in, sweep->toggle.item[edge->toggle + i]);
+  sweep->in += edge->in.count;
+  return true;
+}
+
+static bool watch_neighbours(struct sweep *sweep, size_t left) {
+  const struct sweep_edge *edge = sweep->edge.item;
+  struct sweep_place place;
+  if (left + 1 >= sweep->active.count ||
+      !sweep_crossing(&edge[sweep->active.item[left]],
+                      &edge[sweep->active.item[left + 1]], &place))
+    return true;
+  sweep->crossings++;
+  return sweep_add_crossing(sweep, &place);
+}
+
+/* ---- What may hide a line ----------------------------------------------- */
+
+/* Adds the triangles that begin or end at some of the edges to `around`. */
+static bool list_around(struct sweep *sweep, const uint32_t *edge,
+                        size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    const struct sweep_edge *at = &sweep->edge.item[edge[i]];
+    for (uint32_t k = 0; k < at->toggles; k++)
+      if (!ARRAY_PUSH(&sweep->around, sweep->toggle.item[at->toggle + k]))
+        return false;
+  }
+  return true;
+}
+
+static bool meet_all(struct sweep *sweep, uint32_t edge,
+                     const sweep_list *list) {
+  for (size_t i = 0; i < list->count; i++)
+    if (!sweep->meet(sweep->user, sweep, edge, list->item[i]))
+      return false;
+  return true;
+}
+
+/* Lines that leave the place meet the triangles that end at it; those that
+ * start there also the ones that are in beside it. */
+static bool meet_triangles(struct sweep *sweep, size_t low) {
+  for (size_t i = 0; i < sweep->out.count; i++) {
+    uint32_t e = sweep->out.item[i];
+    if (sweep->edge.item[e].side != SHEET_NONE &&
+        !meet_all(sweep, e, &sweep->around))
+      return false;
+  }
+  for (size_t i = 0; low > 0 && i < sweep->starting.count; i++) {
+    uint32_t e = sweep->starting.item[i];
+    if (sweep->edge.item[e].side != SHEET_NONE &&
+        !meet_all(sweep, e, &sweep->edge.item[sweep->active.item[low - 1]].in))
+      return false;
+  }
+  return true;
+}
+
+/* ---- The walk ----------------------------------------------------------- */
+
+static bool pass_place(struct sweep *sweep, const struct sweep_place *place) {
+  size_t low, high, past;
+  uint32_t height;
+  if (!reach_height(sweep, place))
+    return false;
+  find_through(sweep, place, &low, &high);
+  for (size_t i = low > 0 ? low - 1 : low; i < high; i++)
+    if (!close_interval(sweep, i))
+      return false;
+  sweep->around.count = 0;
+  if ((sweep->meet != NULL &&
+       !list_around(sweep, sweep->active.item + low, high - low)) ||
+      !list_out(sweep, place, low, high) ||
+      (sweep->meet != NULL &&
+       !list_around(sweep, sweep->starting.item, sweep->starting.count)) ||
+      !replace_active(sweep, low, high))
+    return false;
+  past = low + sweep->out.count;
+  height = (uint32_t)sweep->height.count - 1;
+  for (size_t i = low; i < past; i++)
+    if (!set_in(sweep, i))
+      return false;
+  for (size_t i = low > 0 ? low - 1 : low; i < past; i++)
+    sweep->edge.item[sweep->active.item[i]].top = height;
+  if ((low > 0 && !watch_neighbours(sweep, low - 1)) ||
+      (past > low && !watch_neighbours(sweep, past - 1)))
+    return false;
+  return sweep->meet == NULL || meet_triangles(sweep, low);
+}
+
+recto_status sweep_run(struct sweep *sweep,
+                       const struct solver_request *request, double from,
+                       double to, recto_error *error) {
+  for (;;) {
+    struct sweep_place place;
+    bool more;
+    if (!take_place(sweep, &place, &more))
+      return error_memory(error);
+    if (!more)
+      return RECTO_OK;
+    if (!pass_place(sweep, &place))
+      return error_memory(error);
+    if (++sweep->places > SWEEP_PLACES_MAX || sweep->in > SWEEP_IN_MAX)
+      return error_set(
+          error, RECTO_ERROR_LIMIT, NULL, 0,
+          "too many edges cross for watkins without a pitch: "
+          "more than %d %s",
+          sweep->in > SWEEP_IN_MAX ? SWEEP_IN_MAX : SWEEP_PLACES_MAX,
+          sweep->in > SWEEP_IN_MAX ? "faces over each other" : "places");
+    if (request->progress != NULL && sweep->places % ASK_EVERY == 0 &&
+        !request->progress(request->user,
+                           from + (to - from) * (double)sweep->met /
+                                      (double)sweep->ends,
+                           "visibility"))
+      return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+  }
+}
