@@ -222,7 +222,7 @@ static void z_buffers_agree_on_every_model(void **state) {
 
 /* ---- Memory ------------------------------------------------------------- */
 
-/* The peak in bytes of a process that solves the soup on a page that is
+/* The peak in bytes of a process that puts a face over all of a page that is
  * `lines` high and 512 pixels wide, with nothing to write down. */
 static size_t peak_of(const struct solver *solver, int lines) {
   int end[2];
@@ -234,9 +234,11 @@ static size_t peak_of(const struct solver *solver, int lines) {
     struct scene scene;
     recto_options options;
     struct trial trial;
-    open_soup(&scene, &options);
-    options.page_width_mm = 51.2;
-    options.page_height_mm = lines / 10.0;
+    recto_options_init(&options);
+    scene_init(&scene);
+    build_parallelogram(&scene, vector_of(0, 0, 0), vector_of(51.2, 0, 0),
+                        vector_of(0, lines / 10.0, 9));
+    scenes_view_page(&options, 51.2, lines / 10.0);
     trial_run(&trial, &scene, &options, solver, lines, 0);
     peak = trial.status == RECTO_OK ? mem_peak_bytes() : 0;
     _exit(write(end[1], &peak, sizeof peak) != sizeof peak);

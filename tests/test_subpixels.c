@@ -68,17 +68,17 @@ static void averaged_pixels_are_those_of_warnock(void **state) {
 
 static void a_pixel_is_what_most_of_it_see(void **state) {
   static const struct {
-    uint32_t seen[4], facet, covered;
+    uint32_t seen[4], most, covered;
   } pixel[] = {{{7, 7, 3, 3}, 3, 4},
                {{7, 7, 7, 3}, 7, 4},
-               {{SHEET_NONE, 9, SHEET_NONE, 4}, 4, 2},
-               {{SHEET_NONE, 9, SHEET_NONE, 9}, 9, 2},
-               {{SHEET_NONE, SHEET_NONE, 0, SHEET_NONE}, SHEET_NONE, 1}};
+               {{0, 9, 0, 4}, 4, 2},
+               {{0, 9, 0, 9}, 9, 2},
+               {{0, 0, 1, 0}, 0, 1}};
   (void)state;
   for (size_t i = 0; i < sizeof pixel / sizeof *pixel; i++) {
     uint32_t covered;
     assert_int_equal(subpixels_resolve(pixel[i].seen, 4, &covered),
-                     pixel[i].facet);
+                     pixel[i].most);
     assert_int_equal(covered, pixel[i].covered);
   }
 }
@@ -92,8 +92,8 @@ static void the_last_pixel_may_reach_beyond_the_page(void **state) {
   assert_true(subpixels_init(&subpixels, 2, 5, 3));
   assert_false(subpixels_take(&subpixels, 3, line));
   assert_true(subpixels_take(&subpixels, 2, line));
-  assert_int_equal(subpixels.facet[1], 1);
-  assert_int_equal(subpixels.facet[2], 2);
+  assert_int_equal(subpixels.pixel[1], 1);
+  assert_int_equal(subpixels.pixel[2], 2);
   assert_int_equal(subpixels.covered, 10);
   subpixels_fini(&subpixels);
 }

@@ -31,7 +31,8 @@ static size_t pixels_of(const struct raster *raster) {
 
 static int face_at(const struct warnock_frame *frame, int column, int line) {
   const struct raster *raster = &frame->raster;
-  uint32_t facet = raster->facet[line * raster->grid.columns + column];
+  uint32_t facet =
+      raster_facet(raster->seen[line * raster->grid.columns + column]);
   return facet == SHEET_NONE ? -1
                              : (int)raster->sheet->triangle.item[facet].face;
 }
@@ -50,10 +51,11 @@ static void assert_zbuffer_sees_the_same(const struct warnock_frame *frame,
   assert_int_equal(zbuffer_draw(&raster, &facets, &request, &covered, NULL),
                    RECTO_OK);
   for (size_t i = 0; i < pixels_of(&raster); i++)
-    if (raster.facet[i] != frame->raster.facet[i])
+    if (raster.seen[i] != frame->raster.seen[i])
       fail_msg("%s: pixel %zu %zu: facet %d, not %d", what,
                i % (size_t)raster.grid.columns, i / (size_t)raster.grid.columns,
-               (int)frame->raster.facet[i], (int)raster.facet[i]);
+               (int)raster_facet(frame->raster.seen[i]),
+               (int)raster_facet(raster.seen[i]));
   raster_fini(&raster);
   facets_fini(&facets);
 }
@@ -412,7 +414,8 @@ static uint32_t count_in(const struct raster *fine, int32_t k, size_t column,
   uint32_t count = 0;
   for (size_t y = line * (size_t)k; y < (line + 1) * (size_t)k; y++)
     for (size_t x = column * (size_t)k; x < (column + 1) * (size_t)k; x++)
-      count += fine->facet[y * (size_t)fine->grid.columns + x] == facet;
+      count +=
+          fine->seen[y * (size_t)fine->grid.columns + x] == raster_seen(facet);
   return count;
 }
 
@@ -435,7 +438,7 @@ static void sub_pixels_are_those_of_a_finer_frame(void **state) {
     assert_null(fine.coverage);
     for (size_t i = 0; i < pixels_of(&frame.raster); i++) {
       size_t x = i % (size_t)lines, y = i / (size_t)lines;
-      uint32_t seen = frame.raster.facet[i], most = 0;
+      uint32_t seen = raster_facet(frame.raster.seen[i]), most = 0;
       uint32_t none = count_in(&fine.raster, k, x, y, SHEET_NONE);
       assert_int_equal(frame.coverage[i], all - none);
       assert_int_equal(seen != SHEET_NONE, 2 * (all - none) >= all);
@@ -463,8 +466,8 @@ static double covered_share(int lines, int subpixels) {
   pixels_sheet(&sheet, &pixels_pierced_rectangle);
   draw_frame(&frame, &sheet, &request);
   for (size_t i = 0; i < pixels_of(&frame.raster); i++)
-    covered += frame.coverage == NULL ? frame.raster.facet[i] != SHEET_NONE
-                                      : frame.coverage[i];
+    covered +=
+        frame.coverage == NULL ? frame.raster.seen[i] != 0 : frame.coverage[i];
   warnock_frame_fini(&frame);
   hand_sheet_fini(&sheet);
   return (double)covered / (lines * lines) /

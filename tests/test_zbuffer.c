@@ -25,7 +25,7 @@ static const struct solver_request plain = {.threads = 1};
 /* Both frames of a sheet: the triangle seen in each pixel. */
 struct frames {
   struct raster whole;
-  uint32_t *scanned; /* what the scan-line z-buffer saw */
+  uint32_t *scanned; /* what the scan-line z-buffer saw, as a raster has it */
   size_t pixels;
 };
 
@@ -42,8 +42,8 @@ static void scan_frame(struct frames *frames, const struct sheet *sheet,
     assert_true(scanline_enter(&scanline, line));
     scanline_draw(&scanline);
     assert_true(scanline_step(&scanline));
-    memcpy(frames->scanned + (size_t)line * columns, one.facet,
-           columns * sizeof *one.facet);
+    memcpy(frames->scanned + (size_t)line * columns, one.seen,
+           columns * sizeof *one.seen);
   }
   assert_int_equal(scanline.active.count, 0);
   scanline_fini(&scanline);
@@ -72,9 +72,9 @@ static void free_frames(struct frames *frames) {
 
 static int face_at(const struct sheet *sheet, const uint32_t *frame,
                    size_t pixel) {
-  return frame[pixel] == SHEET_NONE
+  return frame[pixel] == 0
              ? -1
-             : (int)sheet->triangle.item[frame[pixel]].face;
+             : (int)sheet->triangle.item[raster_facet(frame[pixel])].face;
 }
 
 /* Draws a scene at a number of lines by both and holds each pixel against
@@ -90,8 +90,8 @@ static void assert_frames_are_judged(const struct pixels_scene *scene,
     for (int x = 0; x < lines; x++) {
       size_t pixel = (size_t)(y * lines + x);
       int want = pixels_seen(scene, lines, x, y, NULL);
-      int got = face_at(&sheet, frames.whole.facet, pixel);
-      if (got != want || frames.scanned[pixel] != frames.whole.facet[pixel])
+      int got = face_at(&sheet, frames.whole.seen, pixel);
+      if (got != want || frames.scanned[pixel] != frames.whole.seen[pixel])
         fail_msg("%d lines, pixel %d %d: face %d, not %d", lines, x, y, got,
                  want);
     }
@@ -150,7 +150,7 @@ static void scan_line_agrees_at_every_depth(void **state) {
     pixels_random_scene(&scene, seed);
     pixels_sheet(&sheet, &scene);
     draw_frames(&frames, &sheet, 40 + (int)seed % 50, bits[seed % 5]);
-    assert_memory_equal(frames.scanned, frames.whole.facet,
+    assert_memory_equal(frames.scanned, frames.whole.seen,
                         frames.pixels * sizeof *frames.scanned);
     free_frames(&frames);
     hand_sheet_fini(&sheet);
@@ -267,7 +267,7 @@ static void depths_of_line_15_fall_by_three_quarters(void **state) {
     assert_near(raster.depth[15 * 32 + 15 + i] / PIXELS_UNIT, depth[i]);
   assert_near(raster.depth[15 * 32 + 20] / PIXELS_UNIT, 43 / 4.);
   assert_near(raster_depth(&raster, 2, 20, 15) / PIXELS_UNIT, 43 / 4.);
-  assert_int_equal(raster.facet[15 * 32 + 14], SHEET_NONE);
+  assert_int_equal(raster.seen[15 * 32 + 14], 0);
   raster_fini(&raster);
   facets_fini(&facets);
   hand_sheet_fini(&sheet);
@@ -307,10 +307,10 @@ static int face_in_the_middle(int64_t z, int64_t gap, int bits) {
   int face;
   near_sheets(&sheet, z, gap);
   draw_frames(&frames, &sheet, 16, bits);
-  face = face_at(&sheet, frames.whole.facet, 8 * 16 + 8);
+  face = face_at(&sheet, frames.whole.seen, 8 * 16 + 8);
   for (size_t y = 4; y < 12; y++)
     for (size_t x = 4; x < 12; x++)
-      assert_int_equal(face_at(&sheet, frames.whole.facet, y * 16 + x), face);
+      assert_int_equal(face_at(&sheet, frames.whole.seen, y * 16 + x), face);
   free_frames(&frames);
   hand_sheet_fini(&sheet);
   return face;
@@ -415,9 +415,9 @@ static void steep_faces_are_decided_at_the_centre(void **state) {
     add_level(&sheet, x, y, z + round % 2);
     draw_frames(&frames, &sheet, COARSE, 0);
     assert_int_equal(
-        face_at(&sheet, frames.whole.facet, (size_t)(y * COARSE + x)),
+        face_at(&sheet, frames.whole.seen, (size_t)(y * COARSE + x)),
         round % 2 == 1);
-    assert_memory_equal(frames.scanned, frames.whole.facet,
+    assert_memory_equal(frames.scanned, frames.whole.seen,
                         frames.pixels * sizeof *frames.scanned);
     free_frames(&frames);
     hand_sheet_fini(&sheet);
@@ -450,7 +450,7 @@ static void steep_faces_meet_gentle_ones_exactly(void **state) {
     add_triangle(&sheet, needle, 1);
     draw_frames(&frames, &sheet, COARSE, 0);
     assert_int_equal(
-        face_at(&sheet, frames.whole.facet, (size_t)(y * COARSE + x)),
+        face_at(&sheet, frames.whole.seen, (size_t)(y * COARSE + x)),
         round % 2);
     free_frames(&frames);
     hand_sheet_fini(&sheet);
@@ -476,7 +476,7 @@ static void steep_faces_keep_within_their_depths(void **state) {
     sheet.camera.page_mm[0] = sheet.camera.page_mm[1] = 1024;
     add_triangle(&sheet, needle, 0);
     draw_frames(&frames, &sheet, COARSE, 32);
-    assert_int_equal(frames.whole.facet[y * COARSE + x], 0);
+    assert_int_equal(frames.whole.seen[y * COARSE + x], raster_seen(0));
     if (low == 0)
       assert_in_range(frames.whole.level[y * COARSE + x], 1, 1 << 16);
     else

@@ -74,21 +74,21 @@ bool scan_edge_init(struct scan_edge *edge, const struct scan_grid *grid,
   return true;
 }
 
-/* x of the edge times its height and x_step. */
+/* x of the edge on a line, times its height and x_step. */
 static int128 exact_x(const struct scan_edge *edge,
-                      const struct scan_grid *grid) {
+                      const struct scan_grid *grid, int32_t line) {
   return (int128)(edge->x0 * grid->den - grid->x_first) *
              (edge->y1 - edge->y0) +
-         (int128)(centre(grid, edge->line) - edge->y0 * grid->den) *
+         (int128)(centre(grid, line) - edge->y0 * grid->den) *
              (edge->x1 - edge->x0);
 }
 
 int32_t scan_edge_column_exact(const struct scan_edge *edge,
-                               const struct scan_grid *grid, int32_t near,
-                               bool on) {
+                               const struct scan_grid *grid, int32_t line,
+                               int32_t near, bool on) {
   int128 at =
       (int128)(near * grid->x_step + grid->x_step / 2) * (edge->y1 - edge->y0);
-  int128 edge_at = exact_x(edge, grid);
+  int128 edge_at = exact_x(edge, grid, line);
   return near + (at < edge_at || (at == edge_at && !on));
 }
 
@@ -99,8 +99,9 @@ int scan_edge_compare_x(const struct scan_edge *a, const struct scan_edge *b,
     return -1;
   if (apart > slack)
     return 1;
-  return ratio_compare((struct ratio){exact_x(a, grid), a->y1 - a->y0},
-                       (struct ratio){exact_x(b, grid), b->y1 - b->y0});
+  return ratio_compare(
+      (struct ratio){exact_x(a, grid, a->line), a->y1 - a->y0},
+      (struct ratio){exact_x(b, grid, b->line), b->y1 - b->y0});
 }
 
 int scan_edge_compare(const struct scan_edge *a, const struct scan_edge *b,

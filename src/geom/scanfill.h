@@ -33,6 +33,8 @@
 #ifndef GEOM_SCANFILL_H
 #define GEOM_SCANFILL_H
 
+#include <math.h>
+
 #include "base/memory.h"
 #include "geom/ratio.h"
 
@@ -87,38 +89,44 @@ static inline void scan_edge_step(struct scan_edge *edge, bool down) {
   edge->dy--;
 }
 
-/* See scan_edge_column: where the centre of column `near` may lie on the edge.
+/* See scan_edge_column_at: where the centre of column `near` may lie on the
+ * edge.
  * on  such a column counts */
 int32_t scan_edge_column_exact(const struct scan_edge *edge,
-                               const struct scan_grid *grid, int32_t near,
-                               bool on);
+                               const struct scan_grid *grid, int32_t line,
+                               int32_t near, bool on);
 
-static inline int32_t scan_edge_find_column(const struct scan_edge *edge,
-                                            const struct scan_grid *grid,
-                                            bool on) {
-  double x = edge->x - 0.5;
+/* The first column, 0 to grid->columns, whose centre is not left of the edge
+ * where it passes a line's centre at x or less than its slack off; where not
+ * `on`, the first whose centre is right of it.  Exact.
+ * x  as the edge's own x would be on that line */
+static inline int32_t scan_edge_column_at(const struct scan_edge *edge,
+                                          const struct scan_grid *grid,
+                                          int32_t line, double x, bool on) {
+  double at = x - 0.5;
   int32_t near;
-  if (!(x > -1))
+  if (!(at > -1))
     return 0;
-  if (x > grid->columns)
+  if (at > grid->columns)
     return grid->columns;
-  near = (int32_t)(x + 0.5); /* of the nearest centre, or -0 */
-  if (x - edge->slack > near)
-    near++;
-  else if (x + edge->slack >= near)
-    near = scan_edge_column_exact(edge, grid, near, on);
+  near = (int32_t)x; /* of the nearest centre, or -0 */
+  at -= near;
+  /* Which side of the centre is as good as random: no jump depends on it. */
+  if (fabs(at) > edge->slack)
+    near += at > 0;
+  else
+    near = scan_edge_column_exact(edge, grid, line, near, on);
   return near < grid->columns ? near : grid->columns;
 }
 
-/* The first column, 0 to grid->columns, whose centre is not left of the edge;
- * the first whose centre is right of it.  Exact. */
+/* The same for the line that the edge is at. */
 static inline int32_t scan_edge_column(const struct scan_edge *edge,
                                        const struct scan_grid *grid) {
-  return scan_edge_find_column(edge, grid, true);
+  return scan_edge_column_at(edge, grid, edge->line, edge->x, true);
 }
 static inline int32_t scan_edge_column_past(const struct scan_edge *edge,
                                             const struct scan_grid *grid) {
-  return scan_edge_find_column(edge, grid, false);
+  return scan_edge_column_at(edge, grid, edge->line, edge->x, false);
 }
 
 /* Orders two edges at the same line by x: <0, 0, >0.  Exact. */

@@ -43,4 +43,5 @@ librecto_core_la_SOURCES += \
   %D%/watkins_places.c \
   %D%/watkins_sweep.c %D%/watkins_sweep.h \
   %D%/window.c %D%/window.h \
-  %D%/zbuffer.c %D%/zbuffer.h
+  %D%/zbuffer.c %D%/zbuffer.h \
+  %D%/zfill.c %D%/zfill.h

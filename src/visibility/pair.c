@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "visibility/zfill.h"
+
 /* The depth on the left edge, from the corner that this edge leads to. */
 static double depth_on_left(const struct pair *pair,
                             const struct raster *raster) {
@@ -58,50 +60,22 @@ bool pair_next(struct pair *pair, const struct raster *raster) {
   return true;
 }
 
-/* Is the facet nearer, or as near and earlier, at the pixel's centre? */
-static bool is_nearer(const struct raster *raster, uint32_t facet,
-                      uint32_t there, int32_t column, int32_t line) {
-  int order;
-  if (there == SHEET_NONE)
-    return true;
-  order = raster_compare(raster, facet, there, column, line);
-  return order > 0 || (order == 0 && facet < there);
-}
-
-static void draw_depths(const struct pair *pair, struct raster *raster,
-                        int32_t first, int32_t past) {
-  int32_t line = pair->edges.left.line;
-  size_t row = raster_row(raster, line);
-  double *depth = raster->depth + row, doubt = raster->doubt;
-  uint32_t *seen = raster->facet + row;
-  double z = pair->z_left - pair->dz_x * (first + 0.5 - pair->edges.left.x);
-  for (int32_t c = first; c < past; c++, z -= pair->dz_x) {
-    if (z <= depth[c] - doubt)
-      continue;
-    if (z < depth[c] + doubt &&
-        !is_nearer(raster, pair->facet, seen[c], c, line))
-      continue;
-    depth[c] = z;
-    seen[c] = pair->facet;
-  }
-}
-
-/* The same for a facet too steep for steps of doubles. */
+/* A facet too steep for steps of doubles. */
 static void draw_steep(const struct pair *pair, struct raster *raster,
                        int32_t first, int32_t past) {
   int32_t line = pair->edges.left.line;
   size_t row = raster_row(raster, line);
   for (int32_t c = first; c < past; c++) {
     double *depth = &raster->depth[row + (size_t)c];
-    uint32_t *seen = &raster->facet[row + (size_t)c];
+    uint32_t *seen = &raster->seen[row + (size_t)c];
     double z = raster_depth(raster, pair->facet, c, line);
     if (z <= *depth - raster->doubt)
       continue;
     if (z < *depth + raster->doubt &&
-        !is_nearer(raster, pair->facet, *seen, c, line))
+        !zfill_is_nearer(raster, pair->facet, raster_facet(*seen), c, line))
       continue;
     *depth = z;
-    *seen = pair->facet;
+    *seen = raster_seen(pair->facet);
   }
 }
 
@@ -109,16 +83,16 @@ static void draw_steep(const struct pair *pair, struct raster *raster,
 static void draw_levels(const struct pair *pair, struct raster *raster,
                         int32_t first, int32_t past) {
   size_t row = raster_row(raster, pair->edges.left.line);
-  uint32_t *level = raster->level + row, *seen = raster->facet + row;
+  uint32_t *level = raster->level + row, *seen = raster->seen + row;
   double scale = raster->level_scale, low = pair->z_low, high = pair->z_high;
   double z = pair->z_left - pair->dz_x * (first + 0.5 - pair->edges.left.x);
   for (int32_t c = first; c < past; c++, z -= pair->dz_x) {
     double within = z < low ? low : z > high ? high : z;
     uint32_t here = (uint32_t)(within * scale) + 1;
-    if (here < level[c] || (here == level[c] && seen[c] < pair->facet))
+    if (here < level[c] || (here == level[c] && seen[c] <= pair->facet))
       continue;
     level[c] = here;
-    seen[c] = pair->facet;
+    seen[c] = raster_seen(pair->facet);
   }
 }
 
@@ -130,7 +104,9 @@ size_t pair_draw(const struct pair *pair, struct raster *raster) {
   if (raster->depth_bits > 0)
     draw_levels(pair, raster, first, past);
   else if (pair->gentle)
-    draw_depths(pair, raster, first, past);
+    zfill_span(raster, pair->facet, pair->edges.left.line, first, past,
+               pair->z_left - pair->dz_x * (first + 0.5 - pair->edges.left.x),
+               -pair->dz_x);
   else
     draw_steep(pair, raster, first, past);
   return (size_t)(past - first);

@@ -108,7 +108,7 @@ void pixels_fini(struct pixels *pixels) {
 }
 
 struct row {
-  const uint32_t *facet;
+  const uint32_t *seen; /* as in a raster */
   int32_t columns;
 };
 
@@ -119,7 +119,7 @@ static uint32_t seen_at(const void *user, double x) {
     column = 0;
   if (column > row->columns - 1)
     column = row->columns - 1;
-  return row->facet[(int32_t)column];
+  return raster_facet(row->seen[(int32_t)column]);
 }
 
 static struct span_side side_at(const struct scan_grid *grid, int32_t column) {
@@ -134,11 +134,11 @@ static bool add_spans(struct pixels *pixels, int32_t line,
   for (int32_t c = 0, past; c < row->columns; c = past) {
     struct span span;
     past = c + 1;
-    if (row->facet[c] == SHEET_NONE)
+    if (row->seen[c] == 0)
       continue;
-    span.face = triangle[row->facet[c]].face;
-    while (past < row->columns && row->facet[past] != SHEET_NONE &&
-           triangle[row->facet[past]].face == span.face)
+    span.face = triangle[raster_facet(row->seen[c])].face;
+    while (past < row->columns && row->seen[past] != 0 &&
+           triangle[raster_facet(row->seen[past])].face == span.face)
       past++;
     span.left = side_at(grid, c);
     span.right = side_at(grid, past);
@@ -158,8 +158,7 @@ static bool trace_edges(struct pixels *pixels, int32_t line,
                   line + 1 < grid->lines ? &above : NULL, row))
     return false;
   if (row != NULL)
-    memcpy(pixels->above, row->facet,
-           (size_t)grid->columns * sizeof *row->facet);
+    memcpy(pixels->above, row->seen, (size_t)grid->columns * sizeof *row->seen);
   return true;
 }
 
@@ -169,12 +168,12 @@ recto_status pixels_line(struct pixels *pixels, int32_t line,
   const struct solver_request *request = pixels->request;
   struct subpixels *subpixels = &pixels->subpixels;
   int32_t done = raster->grid.lines - line;
-  struct row row = {raster->facet + raster_row(raster, line),
+  struct row row = {raster->seen + raster_row(raster, line),
                     pixels->grid.columns};
-  bool whole = subpixels->k == 1 || subpixels_take(subpixels, line, row.facet);
+  bool whole = subpixels->k == 1 || subpixels_take(subpixels, line, row.seen);
   if (subpixels->k > 1) {
     line /= subpixels->k;
-    row.facet = subpixels->facet;
+    row.seen = subpixels->pixel;
   }
   if (whole && ((request->strokes && !trace_edges(pixels, line, &row)) ||
                 (request->fragments && !add_spans(pixels, line, &row))))

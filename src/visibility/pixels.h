@@ -17,7 +17,7 @@ struct pixels {
   struct subpixels subpixels; /* k > 1: the raster's pixels are sub-pixels */
   struct trace trace;
   struct spans spans;
-  uint32_t *above; /* the facets seen on the line before */
+  uint32_t *above; /* what was seen on the line before */
 };
 
 /* The facets that are drawn (with area, their backs not removed) and cover a

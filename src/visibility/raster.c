@@ -48,12 +48,12 @@ static bool allocate(struct raster *raster) {
   size_t pixels = (size_t)raster->grid.columns * (size_t)raster->kept;
   size_t points = raster->sheet->point.count;
   raster->point = mem_alloc(points, sizeof *raster->point);
-  raster->facet = mem_alloc(pixels, sizeof *raster->facet);
+  raster->seen = mem_calloc(pixels, sizeof *raster->seen);
   if (raster->depth_bits > 0)
-    raster->level = mem_alloc(pixels, sizeof *raster->level);
+    raster->level = mem_calloc(pixels, sizeof *raster->level);
   else
-    raster->depth = mem_alloc(pixels, sizeof *raster->depth);
-  return raster->point != NULL && raster->facet != NULL &&
+    raster->depth = mem_calloc(pixels, sizeof *raster->depth);
+  return raster->point != NULL && raster->seen != NULL &&
          (raster->level != NULL || raster->depth != NULL);
 }
 
@@ -89,14 +89,12 @@ recto_status raster_init(struct raster *raster, const struct sheet *sheet,
   for (size_t i = 0; i < sheet->point.count; i++)
     raster->point[i] = scan_point_of(&raster->grid, sheet->point.item[i].x,
                                      sheet->point.item[i].y);
-  for (int32_t line = 0; line < raster->kept; line++)
-    raster_clear_line(raster, line);
   return RECTO_OK;
 }
 
 void raster_fini(struct raster *raster) {
   mem_free(raster->point);
-  mem_free(raster->facet);
+  mem_free(raster->seen);
   mem_free(raster->depth);
   mem_free(raster->level);
   memset(raster, 0, sizeof *raster);
@@ -105,12 +103,11 @@ void raster_fini(struct raster *raster) {
 void raster_clear_line(struct raster *raster, int32_t line) {
   size_t row = raster_row(raster, line);
   size_t columns = (size_t)raster->grid.columns;
-  memset(raster->facet + row, 0xff, columns * sizeof *raster->facet);
+  memset(raster->seen + row, 0, columns * sizeof *raster->seen);
   if (raster->level != NULL)
     memset(raster->level + row, 0, columns * sizeof *raster->level);
   else
-    for (size_t i = 0; i < columns; i++)
-      raster->depth[row + i] = -INFINITY;
+    memset(raster->depth + row, 0, columns * sizeof *raster->depth);
 }
 
 static struct geom_plane facet_plane(const struct sheet *sheet,

@@ -42,10 +42,16 @@ struct raster {
   double doubt;       /* float64: doubles this near are compared exactly */
   struct scan_point *point; /* the sheet's points */
   int32_t kept;             /* lines held: all of them, or one at a time */
-  uint32_t *facet;          /* kept x columns: the facet seen; SHEET_NONE */
-  double *depth;            /* float64 */
-  uint32_t *level;          /* integer */
+  /* kept x columns.  All are 0 where nothing is seen, so that the system lends
+   * a page of zeros to what is never written to. */
+  uint32_t *seen;  /* the facet seen, plus 1 */
+  double *depth;   /* float64; 0 is the farthest there is */
+  uint32_t *level; /* integer */
 };
+
+/* What `seen` holds for a facet, and back; SHEET_NONE is 0. */
+static inline uint32_t raster_seen(uint32_t facet) { return facet + 1; }
+static inline uint32_t raster_facet(uint32_t seen) { return seen - 1; }
 
 /* A grid of `lines` lines over the sheet's page, walked from the top. */
 struct scan_grid raster_grid(const struct sheet *sheet, int32_t lines);

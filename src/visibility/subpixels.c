@@ -18,10 +18,10 @@ recto_status subpixels_lines(const struct solver_request *request, int *lines,
 
 /* The facet most of the sub-pixels see, the earlier of equals. */
 static uint32_t find_most(const uint32_t *seen, uint32_t all) {
-  uint32_t best = SHEET_NONE, most = 0;
+  uint32_t best = 0, most = 0;
   for (uint32_t i = 0; i < all; i++) {
     uint32_t same = 0;
-    if (seen[i] == SHEET_NONE || seen[i] == best)
+    if (seen[i] == best || seen[i] == 0)
       continue;
     for (uint32_t j = 0; j < all; j++)
       same += seen[j] == seen[i];
@@ -37,8 +37,8 @@ uint32_t subpixels_resolve(const uint32_t *seen, uint32_t all,
                            uint32_t *covered) {
   *covered = 0;
   for (uint32_t i = 0; i < all; i++)
-    *covered += seen[i] != SHEET_NONE;
-  return 2 * *covered >= all ? find_most(seen, all) : SHEET_NONE;
+    *covered += seen[i] != 0;
+  return 2 * *covered >= all ? find_most(seen, all) : 0;
 }
 
 bool subpixels_init(struct subpixels *subpixels, int k, int32_t fine_columns,
@@ -49,8 +49,8 @@ bool subpixels_init(struct subpixels *subpixels, int k, int32_t fine_columns,
   subpixels->columns = columns;
   subpixels->seen =
       mem_alloc((size_t)k * (size_t)fine_columns, sizeof *subpixels->seen);
-  subpixels->facet = mem_alloc((size_t)columns, sizeof *subpixels->facet);
-  if (subpixels->seen != NULL && subpixels->facet != NULL)
+  subpixels->pixel = mem_alloc((size_t)columns, sizeof *subpixels->pixel);
+  if (subpixels->seen != NULL && subpixels->pixel != NULL)
     return true;
   subpixels_fini(subpixels);
   return false;
@@ -58,7 +58,7 @@ bool subpixels_init(struct subpixels *subpixels, int k, int32_t fine_columns,
 
 void subpixels_fini(struct subpixels *subpixels) {
   mem_free(subpixels->seen);
-  mem_free(subpixels->facet);
+  mem_free(subpixels->pixel);
   memset(subpixels, 0, sizeof *subpixels);
 }
 
@@ -74,18 +74,17 @@ static void resolve_line(struct subpixels *subpixels) {
             x < subpixels->fine_columns
                 ? subpixels->seen[(size_t)y * (size_t)subpixels->fine_columns +
                                   (size_t)x]
-                : SHEET_NONE;
-    subpixels->facet[column] = subpixels_resolve(seen, all, &covered);
+                : 0;
+    subpixels->pixel[column] = subpixels_resolve(seen, all, &covered);
     subpixels->covered += covered;
   }
 }
 
 bool subpixels_take(struct subpixels *subpixels, int32_t fine_line,
-                    const uint32_t *facet) {
+                    const uint32_t *seen) {
   size_t columns = (size_t)subpixels->fine_columns;
   int32_t at = fine_line % subpixels->k;
-  memcpy(subpixels->seen + (size_t)at * columns, facet,
-         columns * sizeof *facet);
+  memcpy(subpixels->seen + (size_t)at * columns, seen, columns * sizeof *seen);
   if (at > 0)
     return false;
   resolve_line(subpixels);

@@ -25,7 +25,8 @@ static inline int subpixels_of(const struct solver_request *request) {
 USE_RESULT recto_status subpixels_lines(const struct solver_request *request,
                                         int *lines, recto_error *error);
 
-/* The facet that a pixel gets from what its `all` sub-pixels see.
+/* What a pixel gets to see from what its `all` sub-pixels do, as a raster has
+ * it: 0 for nothing.
  * covered  gets how many see a facet */
 uint32_t subpixels_resolve(const uint32_t *seen, uint32_t all,
                            uint32_t *covered);
@@ -35,7 +36,7 @@ struct subpixels {
   int k;
   int32_t fine_columns, columns;
   uint32_t *seen;   /* K lines of sub-pixels */
-  uint32_t *facet;  /* the line of pixels */
+  uint32_t *pixel;  /* the line of pixels */
   uint64_t covered; /* sub-pixels that see a facet, of all lines so far */
 };
 
@@ -46,8 +47,8 @@ USE_RESULT bool subpixels_init(struct subpixels *subpixels, int k,
 void subpixels_fini(struct subpixels *subpixels);
 
 /* Takes a line of sub-pixels; they come from the top.  True where it was a
- * pixel line's last, which `facet` then has. */
+ * pixel line's last, which `pixel` then has. */
 bool subpixels_take(struct subpixels *subpixels, int32_t fine_line,
-                    const uint32_t *facet);
+                    const uint32_t *seen);
 
 #endif

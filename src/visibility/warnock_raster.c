@@ -110,7 +110,7 @@ static size_t pixel_at(const struct subdivision *s, int32_t column,
 
 static void set_pixel(struct subdivision *s, size_t pixel, uint32_t facet,
                       uint32_t covered) {
-  s->frame->raster.facet[pixel] = facet;
+  s->frame->raster.seen[pixel] = raster_seen(facet);
   if (s->frame->coverage != NULL)
     s->frame->coverage[pixel] = (uint16_t)covered;
 }
@@ -196,8 +196,8 @@ static void draw_pixel(struct subdivision *s, const struct pixel_window *win) {
   uint32_t seen[SUBPIXELS_MAX * SUBPIXELS_MAX], all = 0, covered, facet;
   for (int32_t y = win->line * k; y < (win->line + 1) * k; y++)
     for (int32_t x = win->column * k; x < (win->column + 1) * k; x++)
-      seen[all++] = ask_centre(s, win, x, y);
-  facet = subpixels_resolve(seen, all, &covered);
+      seen[all++] = raster_seen(ask_centre(s, win, x, y));
+  facet = raster_facet(subpixels_resolve(seen, all, &covered));
   set_pixel(s, pixel_at(s, win->column, win->line), facet, covered);
 }
 
@@ -534,7 +534,7 @@ static double covered_share(const struct warnock_frame *frame) {
   uint64_t covered = 0;
   for (size_t i = 0; i < pixels; i++)
     covered += frame->coverage != NULL ? frame->coverage[i]
-                                       : frame->raster.facet[i] != SHEET_NONE;
+                                       : frame->raster.seen[i] != 0;
   return (double)covered / (double)pixels /
          (frame->subpixels * frame->subpixels);
 }

@@ -14,24 +14,50 @@
 
 #include "visibility/pair.h"
 #include "visibility/pixels.h"
+#include "visibility/zfill.h"
 
 #define BAND_SHIFT 4   /* bands of 16 lines */
 #define ASK_EVERY 8192 /* facets between two questions whether to go on */
+
+static void draw_facet(struct raster *raster, const struct facets *facets,
+                       uint32_t facet, int64_t *covered) {
+  bool joined = facets->part != NULL && facets->part[facet] != SHEET_NONE;
+  if (joined || raster->depth_bits > 0 ||
+      !zfill_triangle(raster, facet, covered)) {
+    struct pair pair;
+    bool more = pair_start(&pair, raster, facets, facet);
+    for (; more; more = pair_next(&pair, raster))
+      *covered += (int64_t)pair_draw(&pair, raster);
+  }
+}
+
+/* Facets of a band lie anywhere in memory: what is drawn soon is sent for. */
+static void fetch(const struct raster *raster, const struct sort_key *key,
+                  size_t count, size_t i) {
+  enum { SOON = 8, LATER = 16 };
+  const struct sheet *sheet = raster->sheet;
+  if (i + LATER < count)
+    __builtin_prefetch(&sheet->triangle.item[key[i + LATER].value]);
+  if (i + SOON < count)
+    for (int k = 0; k < 3; k++) {
+      uint32_t point = sheet->triangle.item[key[i + SOON].value].point[k];
+      __builtin_prefetch(&raster->point[point]);
+      __builtin_prefetch(&sheet->point.item[point]);
+    }
+}
 
 recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
                           const struct solver_request *request,
                           int64_t *covered, recto_error *error) {
   recto_status status = RECTO_OK;
-  struct pair pair;
   size_t count;
   struct sort_key *key =
       pixels_buckets(raster, facets, request, BAND_SHIFT, &count);
   if (key == NULL)
     return error_memory(error);
   for (size_t i = 0; i < count && status == RECTO_OK; i++) {
-    bool more = pair_start(&pair, raster, facets, key[i].value);
-    for (; more; more = pair_next(&pair, raster))
-      *covered += (int64_t)pair_draw(&pair, raster);
+    fetch(raster, key, count, i);
+    draw_facet(raster, facets, key[i].value, covered);
     if (request->progress != NULL && i % ASK_EVERY == 0 &&
         !request->progress(request->user, (double)i / (double)count,
                            "depth buffer"))
