@@ -50,6 +50,7 @@ typedef enum recto_status {
   RECTO_ERROR_EMPTY,       /* nothing to draw */
   RECTO_ERROR_LIMIT,       /* too large: a stated limit was passed */
   RECTO_ERROR_CANCELLED,   /* the caller's progress function said stop */
+  RECTO_ERROR_VERIFY,      /* the drawing was asked about and found wrong */
   RECTO_STATUS_COUNT       /* not a status: how many there are */
 } recto_status;
 
@@ -230,6 +231,10 @@ typedef struct recto_options {
   /* The output's finest step, see recto_output_unit_mm: lines that it cannot
    * tell apart are drawn once.  0: only those on the same place of the page */
   double unit_mm;
+
+  /* Verification. */
+  int verify; /* points to ask an independent ray caster about, of the drawn
+                 lines and of the edges asked for; 0: none */
 } recto_options;
 
 /* Fills `options` with the defaults: auto, isometric, A4 portrait with a
@@ -316,6 +321,10 @@ double recto_output_unit_mm(const char *path, const char *format,
 
 /* The output format at `index`, such as "svg"; NULL past the last. */
 const char *recto_output_format_name(size_t index);
+
+/* What verification found, a sentence; NULL where it was not asked for: what
+ * it finds wrong is an error of recto_scene_render.  Lends. */
+const char *recto_drawing_verdict(const recto_drawing *drawing);
 
 /* Counts, times and choices as one JSON object.  Lends. */
 const char *recto_drawing_stats(const recto_drawing *drawing);

@@ -40,6 +40,9 @@ unit_tests += %D%/test_subdivide
 unit_tests += %D%/test_judge
 %C%_test_judge_SOURCES = %D%/test_judge.c
 %C%_test_judge_LDADD = %D%/judge/libjudge.la %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_verify
+%C%_test_verify_SOURCES = %D%/test_verify.c
+%C%_test_verify_LDADD = %D%/scenes/libscenes.la $(LDADD)
 
 EXTRA_DIST += %D%/tap.sh %D%/unit.sh
 dist_check_SCRIPTS += \

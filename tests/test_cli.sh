@@ -132,6 +132,7 @@ pens 0 1001 1.5 x
 simplify -1
 min-stroke -1
 precision -1 10 x 3.0
+verify 0 -1 x 1.5
 END
 
 # What is planned is either there or refused by name, never unknown.
@@ -338,6 +339,29 @@ claim "an eye right above needs no --up" run 0 cube.obj -o above.svg \
   --camera 0,10,0
 claim "--up along the view is refused" refuses 'up points along the view' \
   cube.obj -o no.svg --camera 0,10,0 --up 0,1,0
+
+# ---- Verification ----------------------------------------------------------
+
+verifies() {
+  run 0 cube.obj -o checked.svg --verify=500 &&
+    says '^recto: verified: 500 drawn points visible, [0-9]+ others hidden' &&
+    run 0 cube.obj -o plain.svg && cmp -s checked.svg plain.svg &&
+    run 0 cube.obj -q -o checked.svg --verify && silent
+}
+claim "--verify says that a right drawing is right" verifies
+# Two cubes, one inside the other: what is painted last covers.
+{
+  cat cube.obj
+  awk '/^v/ { print "v", $2 / 2, $3 / 2, $4 / 2 }
+    /^f/ { print "f", $2 + 8, $3 + 8, $4 + 8, $5 + 8 }' cube.obj
+} >nested.obj
+finds_wrong() {
+  rm -f no.svg
+  run 1 nested.obj -o no.svg -m painter-given --verify &&
+    says 'the drawing is wrong: at .* is hidden by face [0-9]+$' &&
+    test ! -e no.svg && run 0 nested.obj -o right.svg --verify
+}
+claim "--verify finds a wrong one, and nothing is written" finds_wrong
 
 # An eye on its target is wrong usage that only the scene tells.
 claim "an eye on its target is refused" refuses '.' cube.obj -o no.svg \

@@ -63,7 +63,8 @@ judge_page(struct page *page, const struct scene *scene, unsigned edges) {
   options.edges = edges;
   write_text(page, "</g>\n</svg>\n");
   assert_null(judge_read_svg(&drawing, page->text, page->length));
-  assert_true(judge_drawing(&verdict, &drawing, scene, &page->camera, &options));
+  assert_true(
+      judge_drawing(&verdict, &drawing, scene, &page->camera, &options));
   judge_drawing_fini(&drawing);
   return verdict;
 }

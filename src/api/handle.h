@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "api/verify.h"
 #include "ink/drawing.h"
 #include "scene/scene.h"
 
@@ -15,6 +16,7 @@ struct recto_scene {
 
 struct recto_drawing {
   struct drawing drawing;
+  char verdict[VERIFY_SUMMARY_SIZE]; /* "": not verified */
 };
 
 /* Checks what can be checked of the options alone: finite, in range. */

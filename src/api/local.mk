@@ -7,4 +7,5 @@ librecto_core_la_SOURCES += \
   %D%/output.c \
   %D%/render.c \
   %D%/rescale.c %D%/rescale.h \
+  %D%/verify.c %D%/verify.h \
   %D%/version.c

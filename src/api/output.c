@@ -13,6 +13,10 @@ void recto_drawing_destroy(recto_drawing *drawing) {
   mem_free(drawing);
 }
 
+const char *recto_drawing_verdict(const recto_drawing *drawing) {
+  return drawing->verdict[0] != '\0' ? drawing->verdict : NULL;
+}
+
 const char *recto_drawing_stats(const recto_drawing *drawing) {
   const char *json = drawing->drawing.report != NULL
                          ? report_json(drawing->drawing.report)

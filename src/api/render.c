@@ -1,7 +1,8 @@
 /* render.c - from scene to drawing: one stage after the other, each timed.
  *
  * Phases: check the options, scale what is too large or small, find the edges,
- * aim the camera, build the sheet, choose the method, solve, ink. */
+ * aim the camera, build the sheet, choose the method, solve, ink, and where it
+ * is asked for verify. */
 #include <math.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -26,7 +27,8 @@ struct render {
   struct map map;
   struct drawing *drawing;
   struct report *report;
-  double share; /* of all the work, done when the stage at hand began */
+  char *verdict; /* VERIFY_SUMMARY_SIZE */
+  double share;  /* of all the work, done when the stage at hand began */
 };
 
 /* ---- The method ---------------------------------------------------------- */
@@ -143,6 +145,19 @@ static recto_status ink(struct render *render, recto_error *error) {
                   &render->map, render->options, error);
 }
 
+static recto_status verify(struct render *render, recto_error *error) {
+  if (render->options->verify == 0)
+    return RECTO_OK;
+  const struct verify what = {.scene = &render->rescaled.scene,
+                              .exponent = render->rescaled.exponent,
+                              .camera = &render->camera,
+                              .sheet = &render->sheet,
+                              .map = &render->map,
+                              .drawing = render->drawing,
+                              .options = &render->rescaled.options};
+  return verify_drawing(&what, render->report, render->verdict, error);
+}
+
 static const struct stage {
   const char *name;
   const char *cpu, *wall; /* names in the report */
@@ -154,6 +169,7 @@ static const struct stage {
     {"sheet", "sheet_cpu_s", "sheet_wall_s", 0.1, project},
     {"solve", "solve_cpu_s", "solve_wall_s", 0.2, solve},
     {"ink", "ink_cpu_s", "ink_wall_s", 0.9, ink},
+    {"verify", "verify_cpu_s", "verify_wall_s", 0.95, verify},
 };
 
 static recto_status run_stages(struct render *render, recto_error *error) {
@@ -287,7 +303,8 @@ recto_status recto_scene_render(const recto_scene *scene,
   struct render render = {.model = scene,
                           .options = options,
                           .drawing = &made->drawing,
-                          .report = made->drawing.report};
+                          .report = made->drawing.report,
+                          .verdict = made->verdict};
   status = run(&render, error);
   if (status != RECTO_OK) {
     recto_drawing_destroy(made);

@@ -28,10 +28,10 @@ static double largest_corner(const struct scene *scene, const uint32_t *corner,
 }
 
 static double largest_used(const struct scene *scene, double enough) {
-  return fmax(largest_corner(scene, scene->corner.item, scene->corner.count,
-                             enough),
-              largest_corner(scene, scene->wire_corner.item,
-                             scene->wire_corner.count, enough));
+  return fmax(
+      largest_corner(scene, scene->corner.item, scene->corner.count, enough),
+      largest_corner(scene, scene->wire_corner.item, scene->wire_corner.count,
+                     enough));
 }
 
 /* The power of two to divide by. */
@@ -53,7 +53,8 @@ static int choose_exponent(const struct scene *scene) {
 
 /* ---- Scaling ------------------------------------------------------------- */
 
-static recto_status scale_points(struct rescaled *rescaled, recto_error *error) {
+static recto_status scale_points(struct rescaled *rescaled,
+                                 recto_error *error) {
   struct scene *scene = &rescaled->scene;
   size_t count = scene->point.count;
   const struct scene_point *from = scene->point.item;
@@ -73,8 +74,8 @@ static recto_status scale_points(struct rescaled *rescaled, recto_error *error) 
 
 /* Returns whether the lengths are still finite that must be. */
 static bool scale_lengths(recto_options *o, int exponent) {
-  double *const length[] = {&o->eye[0],    &o->eye[1],    &o->eye[2],
-                            &o->target[0], &o->target[1], &o->target[2],
+  double *const length[] = {&o->eye[0],    &o->eye[1],       &o->eye[2],
+                            &o->target[0], &o->target[1],    &o->target[2],
                             &o->section,   &o->near_distance};
   bool finite = true;
   for (size_t i = 0; i < sizeof length / sizeof length[0]; i++) {

@@ -25,6 +25,8 @@ const char *recto_status_name(recto_status status) {
     return "limit";
   case RECTO_ERROR_CANCELLED:
     return "cancelled";
+  case RECTO_ERROR_VERIFY:
+    return "verify";
   case RECTO_STATUS_COUNT:
     break;
   }

@@ -88,8 +88,7 @@ static char *read_link(const char *path, bool *failed) {
   const char *slash = strrchr(path, '/');
   size_t folder = slash ? (size_t)(slash + 1 - path) : 0;
   char *target = mem_alloc(folder + PATH_MAX, 1);
-  ssize_t length =
-      target ? readlink(path, target + folder, PATH_MAX - 1) : -1;
+  ssize_t length = target ? readlink(path, target + folder, PATH_MAX - 1) : -1;
   *failed = length <= 0;
   if (*failed) {
     mem_free(target);

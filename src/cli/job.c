@@ -67,7 +67,8 @@ static recto_status open_stats(const struct arguments *arguments,
                                struct stream **stream, recto_error *error) {
   const char *file = arguments->stats_file;
   *stream = NULL;
-  if (!arguments->stats || (file == NULL && strcmp(arguments->output, "-") == 0))
+  if (!arguments->stats ||
+      (file == NULL && strcmp(arguments->output, "-") == 0))
     return RECTO_OK;
   return stream_open(stream, file != NULL ? file : "-", error);
 }
@@ -110,6 +111,9 @@ static recto_status work(const struct arguments *arguments,
     status = read_models(arguments, scene, error);
   if (status == RECTO_OK)
     status = recto_scene_render(scene, &options, &drawing, error);
+  if (status == RECTO_OK && !arguments->quiet &&
+      recto_drawing_verdict(drawing) != NULL)
+    job_complain("", 0, recto_drawing_verdict(drawing));
   if (status == RECTO_OK)
     status = recto_drawing_write(drawing, arguments->output, arguments->format,
                                  &options, error);

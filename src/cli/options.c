@@ -117,6 +117,14 @@ static bool take_hidden(struct arguments *arguments, const char *text) {
   return true;
 }
 
+static bool take_verify(struct arguments *arguments, const char *text) {
+  const int usual = 4000;
+  arguments->options.verify = usual;
+  return text == NULL || (value_int(text, &arguments->options.verify) &&
+                          arguments->options.verify > 0 &&
+                          arguments->options.verify <= 100000000);
+}
+
 /* ---- The table ----------------------------------------------------------- */
 
 #define HEADING(text)                                                          \
@@ -276,7 +284,9 @@ const struct option_entry option_table[] = {
     {OPTION_TEXT, "stats", 0, "[=FILE]", "a file",
      "counts, times and choices as JSON", .offset = AT(stats_file),
      .given = AT(stats)},
-    ABSENT("verify", "[=N]"),
+    {OPTION_TAKE, "verify", 0, "[=N]", "a number from 1 to 100000000",
+     "ask a ray caster about N points, 4000; fail if wrong",
+     .take = take_verify},
     ABSENT("check", "FILE"),
     {OPTION_INT, "threads", 0, "N", "a number from 1 to 1024",
      "at most so many threads (all there are)", .offset = AT(options.threads),

@@ -21,6 +21,7 @@ struct drawing_stroke {
   uint32_t face, edge, group; /* of its first segment; DRAWING_NONE */
   uint16_t edge_class;        /* one recto_edge_class; 0: a hatch line */
   bool closed;
+  bool hidden; /* part of a hidden line */
 };
 
 /* A region: an outer loop and its holes, even-odd. */

@@ -82,7 +82,8 @@ static struct drawing_stroke stroke_like(const struct ink *ink,
                                  .face = face,
                                  .edge = edge->source,
                                  .group = edge->group,
-                                 .edge_class = edge->edge_class};
+                                 .edge_class = edge->edge_class,
+                                 .hidden = path->hidden};
 }
 
 static bool take_points(const struct ink *ink, const struct ink_paths *paths,

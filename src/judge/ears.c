@@ -89,13 +89,13 @@ static bool is_ear(const struct outline *outline, uint32_t i) {
 static void cut(struct judge_ears *ears, const struct outline *outline,
                 uint32_t i) {
   uint32_t n = outline->count;
-  ears->ear.item[ears->ear.count++] = (struct judge_ear){
-      {outline->left[(i + n - 1) % n], outline->left[i],
-       outline->left[(i + 1) % n]}};
+  ears->ear.item[ears->ear.count++] =
+      (struct judge_ear){{outline->left[(i + n - 1) % n], outline->left[i],
+                          outline->left[(i + 1) % n]}};
 }
 
 bool judge_cut_ears(struct judge_ears *ears, const struct scene *scene,
-                    const uint32_t *corner, uint32_t count) {
+                    const uint32_t *corner, uint32_t count, uint32_t first) {
   ears->ear.count = 0;
   if (!ARRAY_RESERVE(&ears->ear, count) || !ARRAY_RESERVE(&ears->at, count) ||
       !ARRAY_RESERVE(&ears->left, count))
@@ -104,12 +104,12 @@ bool judge_cut_ears(struct judge_ears *ears, const struct scene *scene,
   flatten(&outline, scene, corner, count);
   tidy(&outline);
   /* The search goes on where the last ear was. */
-  for (uint32_t i = 0; outline.count >= 3;) {
+  for (uint32_t i = first; outline.count >= 3;) {
     uint32_t n = outline.count, tried = 0;
     while (tried < n && !is_ear(&outline, (i + tried) % n))
       tried++;
     /* No ear: what is left has no area, or crosses itself. */
-    i = tried == n ? 0 : (i + tried) % n;
+    i = tried == n ? i % n : (i + tried) % n;
     cut(ears, &outline, i);
     drop(&outline, i);
     i = i < outline.count ? i : 0;

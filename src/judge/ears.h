@@ -18,10 +18,12 @@ struct judge_ears {
 /* Cuts a face into at most count - 2 triangles.  Works in doubles in the plane
  * of the face's own normal; a face that crosses itself gives some triangles
  * that cover it.  Returns false when memory ran out.
+ * first  the corner to try first
  * Cost: about the square of the count. */
 USE_RESULT bool judge_cut_ears(struct judge_ears *ears,
                                const struct scene *scene,
-                               const uint32_t *corner, uint32_t count);
+                               const uint32_t *corner, uint32_t count,
+                               uint32_t first);
 void judge_ears_fini(struct judge_ears *ears);
 
 #endif

@@ -22,6 +22,7 @@ struct sides {
 struct facing {
   struct judge_spot normal; /* unit */
   bool flat;                /* no area */
+  bool warped;              /* which way it faces hangs on how it is cut */
 };
 
 struct finder {
@@ -75,18 +76,11 @@ static uint32_t *find_places(const struct scene *scene) {
 /* ---- Natures
  * ------------------------------------------------------------------ */
 
-static struct facing facing_of(const struct scene *scene, uint32_t face) {
-  uint32_t start = scene->face_start.item[face];
-  uint32_t count = scene->face_start.item[face + 1] - start;
-  struct judge_spot sum = {0, 0, 0};
-  struct judge_spot first = judge_spot_at(scene, scene->corner.item[start]);
-  for (uint32_t i = 1; i + 1 < count; i++) {
-    const uint32_t *corner = scene->corner.item + start + i;
-    struct judge_spot u = spot_sub(judge_spot_at(scene, corner[0]), first);
-    struct judge_spot v = spot_sub(judge_spot_at(scene, corner[1]), first);
-    sum = spot_along(sum, 1, spot_cross(u, v));
-  }
-  struct facing facing = {.flat = !(spot_length(sum) > 0)};
+static struct facing facing_of(const struct scene *scene, uint32_t face,
+                               double contact) {
+  struct judge_spot sum = judge_area(scene, face);
+  struct facing facing = {.flat = !(spot_length(sum) > 0),
+                          .warped = judge_is_warped(scene, face, contact)};
   if (!facing.flat)
     facing.normal = spot_unit(sum);
   return facing;
@@ -120,12 +114,15 @@ static unsigned natures_of_pair(const struct finder *finder,
   double crease = cos(finder->options->crease_deg / 180 * acos(-1));
   if (cosine < crease - TOLERANCE_JUDGE_ANGLE)
     natures |= RECTO_EDGE_CREASE;
+  if (f->warped || g->warped)
+    return natures;
   double one = slope(finder, s->face, at), two = slope(finder, t->face, at);
   two = against ? two : -two;
   if ((one > TOLERANCE_JUDGE_ANGLE && two < -TOLERANCE_JUDGE_ANGLE) ||
       (one < -TOLERANCE_JUDGE_ANGLE && two > TOLERANCE_JUDGE_ANGLE))
     natures |= RECTO_EDGE_SILHOUETTE;
-  bool folded = fabs(one) < TOLERANCE_JUDGE_ANGLE || fabs(two) < TOLERANCE_JUDGE_ANGLE;
+  bool folded =
+      fabs(one) < TOLERANCE_JUDGE_ANGLE || fabs(two) < TOLERANCE_JUDGE_ANGLE;
   if (natures == 0 && cosine > crease + TOLERANCE_JUDGE_ANGLE && !folded)
     natures = RECTO_EDGE_SMOOTH;
   return natures;
@@ -148,10 +145,8 @@ static bool add_pair(struct finder *finder, const struct side *side,
 
 /* Adds the edge of one side, or of more than two. */
 static bool add_border(struct finder *finder, const struct side *side) {
-  const struct judge_source source = {{side->a, side->b},
-                                      {side->face, SCENE_NONE},
-                                      RECTO_EDGE_BORDER,
-                                      true};
+  const struct judge_source source = {
+      {side->a, side->b}, {side->face, SCENE_NONE}, RECTO_EDGE_BORDER, true};
   return judge_edges_add(finder->edges, finder->camera,
                          judge_spot_at(finder->scene, side->a),
                          judge_spot_at(finder->scene, side->b), &source);
@@ -308,7 +303,7 @@ static bool find_facings(struct finder *finder) {
   if (finder->facing == NULL)
     return false;
   for (uint32_t i = 0; i < faces; i++)
-    finder->facing[i] = facing_of(finder->scene, i);
+    finder->facing[i] = facing_of(finder->scene, i, finder->options->contact);
   return true;
 }
 

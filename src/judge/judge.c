@@ -14,7 +14,7 @@ struct court {
   struct judge_triangles all;
   struct judge_edges edges;
   struct judge_segment *image, *ink; /* of the edges; of the strokes */
-  uint32_t inks, drops;              /* of ink; of what was dropped, behind it */
+  uint32_t inks, drops; /* of ink; of what was dropped, behind it */
   struct judge_grid by_image, by_ink;
   struct judge_verdict *verdict;
 };
@@ -29,19 +29,23 @@ void judge_options_init(struct judge_options *options) {
                                     .edges = RECTO_EDGES_DEFAULT};
 }
 
-/* ---- Sight ---------------------------------------------------------------- */
+/* ---- Sight ----------------------------------------------------------------
+ */
 
 /* What a spot sees towards the eye.  Planes nearer than half the contact
  * block nothing, beyond one and a half times they do; the hair by which rays
- * are moved aside, and the rounding of depths, are added to both. */
+ * are moved aside, and the rounding of depths, are added.
+ * aside  the spot is off its edge by a hair, and so off the edge's own faces */
 static enum judge_sight look(const struct court *court, struct judge_spot from,
-                             uint32_t *blocker) {
+                             bool aside, uint32_t *blocker) {
   const struct judge_camera *camera = court->camera;
   double depth = judge_depth(camera, from);
   double per_mm = spot_length(
       spot_sub(judge_shift(camera, from, court->options.hair_mm, 0), from));
   double rounding = per_mm + camera->depth_step * depth * depth;
-  double touch = 0.5 * court->options.contact + 2 * rounding;
+  double touch =
+      0.5 * court->options.contact +
+      (aside ? 2 * rounding : court->all.size * TOLERANCE_EXTENT_SHARE);
   double beyond = 1.5 * court->options.contact + 4 * rounding;
   double near = judge_near(camera);
   if (!camera->perspective)
@@ -63,13 +67,13 @@ static enum judge_sight look_around(const struct court *court,
   double length = hypot(dx, dy), hair = court->options.hair_mm;
   double x = length > 0 ? -dy / length * hair : hair;
   double y = length > 0 ? dx / length * hair : 0;
-  enum judge_sight sight = look(court, from, blocker);
+  enum judge_sight sight = look(court, from, false, blocker);
   if (sight != expected)
     return sight;
-  sight = look(court, judge_shift(court->camera, from, x, y), blocker);
+  sight = look(court, judge_shift(court->camera, from, x, y), true, blocker);
   if (sight != expected)
     return sight;
-  return look(court, judge_shift(court->camera, from, -x, -y), blocker);
+  return look(court, judge_shift(court->camera, from, -x, -y), true, blocker);
 }
 
 /* The spot of an edge whose image is at t of the way along its image. */
@@ -80,7 +84,8 @@ static struct judge_spot spot_of_image(const struct judge_edge *edge,
                     spot_sub(edge->p[1], edge->p[0]));
 }
 
-/* ---- Samples -------------------------------------------------------------- */
+/* ---- Samples --------------------------------------------------------------
+ */
 
 /* Goes along pieces laid end to end. */
 struct sampler {
@@ -121,7 +126,8 @@ static bool next_sample(struct sampler *sampler, double *t, double *mm) {
   }
   const double golden = 0.6180339887498949;
   double k = (double)sampler->passed, whole;
-  double at = (k + modf(k * golden, &whole)) * sampler->step - sampler->behind;
+  double at =
+      (k + modf((k + 0.5) * golden, &whole)) * sampler->step - sampler->behind;
   if (!(at < sampler->length)) {
     sampler->behind += sampler->length;
     return false;
@@ -155,7 +161,8 @@ static void name_edge(struct judge_witness *witness,
   memcpy(witness->face, edge->source.face, sizeof witness->face);
 }
 
-/* ---- False ink ------------------------------------------------------------ */
+/* ---- False ink ------------------------------------------------------------
+ */
 
 /* What an edge sees at t, or as little before or after it as the file's
  * rounding moves the end of a stroke: blocked where it is at all of them. */
@@ -167,9 +174,8 @@ static enum judge_sight sight_of(const struct court *court,
   double slack = length > 0 ? court->options.lateral_mm / length : 0;
   const double where[3] = {t, fmin(t + slack, 1), fmax(t - slack, 0)};
   for (int k = 0; k < 3; k++) {
-    enum judge_sight sight =
-        look_around(court, edge, spot_of_image(edge, where[k]), JUDGE_BLOCKED,
-                    blocker);
+    enum judge_sight sight = look_around(
+        court, edge, spot_of_image(edge, where[k]), JUDGE_BLOCKED, blocker);
     if (sight != JUDGE_BLOCKED)
       return sight;
   }
@@ -181,8 +187,7 @@ static enum judge_sight sight_of(const struct court *court,
 static enum judge_sight explain(const struct court *court,
                                 struct judge_witness *witness) {
   uint32_t count;
-  const uint32_t *near =
-      judge_grid_near(&court->by_image, witness->at, &count);
+  const uint32_t *near = judge_grid_near(&court->by_image, witness->at, &count);
   enum judge_sight best = JUDGE_BLOCKED;
   double nearest = INFINITY;
   for (uint32_t i = 0; i < count && best != JUDGE_CLEAR; i++) {
@@ -232,7 +237,8 @@ static void try_all_ink(struct court *court) {
   }
 }
 
-/* ---- Missing ink ---------------------------------------------------------- */
+/* ---- Missing ink ----------------------------------------------------------
+ */
 
 static bool has_ink(const struct court *court, struct judge_place at) {
   uint32_t count;
@@ -252,7 +258,7 @@ static void try_edge(struct court *court, const struct judge_edge *edge,
   /* Where there is ink the sight is asked for only to count the samples; one
    * ray is enough for that. */
   if (has_ink(court, at)) {
-    if (look(court, from, NULL) == JUDGE_CLEAR)
+    if (look(court, from, false, NULL) == JUDGE_CLEAR)
       count_sample(&verdict->visible, mm);
     return;
   }
@@ -329,7 +335,8 @@ static void try_all_edges(struct court *court) {
   }
 }
 
-/* ---- The court ------------------------------------------------------------ */
+/* ---- The court ------------------------------------------------------------
+ */
 
 static void collect_strokes(struct court *court, enum judge_role role,
                             uint32_t *count) {
@@ -372,7 +379,7 @@ static bool open_court(struct court *court, const struct scene *scene) {
   double width = camera->width_mm, height = camera->height_mm;
   const double cells = 400;
   double cell = fmax(width, height) / cells;
-  if (!judge_triangles_init(&court->all, scene))
+  if (!judge_triangles_init(&court->all, scene, court->options.contact))
     return false;
   if (court->options.contact < 0)
     court->options.contact = TOLERANCE_CONTACT_SHARE * court->all.size;

@@ -103,11 +103,11 @@ void judge_options_init(struct judge_options *options);
 /* What shows a drawing to be wrong. */
 struct judge_witness {
   struct judge_place at;
-  bool on_edge;            /* false: no edge is there, and so none of these */
-  struct judge_spot spot;  /* of the edge, seen or hidden */
-  uint32_t point[2];       /* the edge's ends; SCENE_NONE: an intersection */
-  uint32_t face[2];        /* two of its faces; SCENE_NONE */
-  uint32_t blocker;        /* the face that hides it; SCENE_NONE */
+  bool on_edge;           /* false: no edge is there, and so none of these */
+  struct judge_spot spot; /* of the edge, seen or hidden */
+  uint32_t point[2];      /* the edge's ends; SCENE_NONE: an intersection */
+  uint32_t face[2];       /* two of its faces; SCENE_NONE */
+  uint32_t blocker;       /* the face that hides it; SCENE_NONE */
 };
 
 /* Samples, and the length in mm that they stand for. */
@@ -119,8 +119,8 @@ struct judge_count {
 struct judge_verdict {
   struct judge_count drawn, false_ink, unsure_ink; /* of strokes: the last two
                                                       are of the first */
-  struct judge_count visible, missing; /* of edges that were asked for */
-  struct judge_count hidden, unsure;   /* of these without ink */
+  struct judge_count visible, missing;       /* of edges that were asked for */
+  struct judge_count hidden, unsure;         /* of these without ink */
   struct judge_witness false_at, missing_at; /* the first of each */
 };
 

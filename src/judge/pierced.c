@@ -60,10 +60,13 @@ static bool add_common(struct piercer *piercer, const struct cut *s,
     return true;
   struct judge_spot a = spot_along(s->end[0], low - s0, along);
   struct judge_spot b = spot_along(s->end[0], high - s0, along);
-  /* Sure where all four reaches are well beyond what counts as contact. */
+  /* Sure where all four reaches are well beyond what counts as contact, and
+   * there is one way to cut both faces. */
   double reach = fmin(fmin(s->before, s->behind), fmin(t->before, t->behind));
-  bool sure = reach > 10 * piercer->contact;
   const struct judge_triangle *triangle = piercer->all->triangle.item;
+  bool sure = reach > 10 * piercer->contact &&
+              triangle[piercer->current].cut == JUDGE_PLANAR &&
+              triangle[other].cut == JUDGE_PLANAR;
   const struct judge_source source = {
       {SCENE_NONE, SCENE_NONE},
       {triangle[piercer->current].face, triangle[other].face},

@@ -67,12 +67,13 @@ static bool has_word(struct source text, const char *word) {
   return false;
 }
 
-/* ---- Strokes -------------------------------------------------------------- */
+/* ---- Strokes --------------------------------------------------------------
+ */
 
 struct svg_reader {
   struct judge_drawing *drawing;
-  bool hidden; /* the layer at hand */
-  bool root;   /* seen */
+  bool hidden;  /* the layer at hand */
+  bool root;    /* seen */
   bool starved; /* memory ran out */
 };
 
@@ -139,7 +140,8 @@ static const char *read_points(struct svg_reader *reader, struct source data,
   return NULL;
 }
 
-/* ---- Tags ----------------------------------------------------------------- */
+/* ---- Tags -----------------------------------------------------------------
+ */
 
 static const char *read_root(struct svg_reader *reader, struct source tag) {
   struct source width, height, box;

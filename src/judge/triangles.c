@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/tolerance.h"
 #include "judge/ears.h"
 
 enum { LEAF_SIZE = 4, STACK_SIZE = 192, FEWEST_SHARE = 8 };
@@ -118,8 +119,8 @@ static bool build_tree(struct judge_triangles *all) {
 
 static bool add_triangle(struct judge_triangles *all, const struct scene *scene,
                          const uint32_t *corner, const uint32_t ear[3],
-                         uint32_t face) {
-  struct judge_triangle t = {.face = face};
+                         uint32_t face, enum judge_cut cut) {
+  struct judge_triangle t = {.face = face, .cut = cut};
   for (int k = 0; k < 3; k++) {
     t.point[k] = corner[ear[k]];
     t.p[k] = judge_spot_at(scene, t.point[k]);
@@ -131,34 +132,85 @@ static bool add_triangle(struct judge_triangles *all, const struct scene *scene,
   return ARRAY_PUSH(&all->triangle, t);
 }
 
-/* Cuts one face; `ears` is kept from face to face. */
-static bool add_face(struct judge_triangles *all, const struct scene *scene,
-                     uint32_t face, struct judge_ears *ears) {
+struct judge_spot judge_area(const struct scene *scene, uint32_t face) {
+  uint32_t start = scene->face_start.item[face];
+  uint32_t count = scene->face_start.item[face + 1] - start;
+  struct judge_spot sum = {0, 0, 0};
+  struct judge_spot first = judge_spot_at(scene, scene->corner.item[start]);
+  for (uint32_t i = 1; i + 1 < count; i++) {
+    const uint32_t *corner = scene->corner.item + start + i;
+    struct judge_spot u = spot_sub(judge_spot_at(scene, corner[0]), first);
+    struct judge_spot v = spot_sub(judge_spot_at(scene, corner[1]), first);
+    sum = spot_along(sum, 1, spot_cross(u, v));
+  }
+  return sum;
+}
+
+bool judge_is_warped(const struct scene *scene, uint32_t face, double contact) {
+  uint32_t start = scene->face_start.item[face];
+  uint32_t count = scene->face_start.item[face + 1] - start;
+  struct judge_spot normal = judge_area(scene, face);
+  if (count == 3 || !(spot_length(normal) > 0))
+    return false;
+  normal = spot_unit(normal);
+  struct judge_spot first = judge_spot_at(scene, scene->corner.item[start]);
+  double off = 0, extent = 0;
+  for (uint32_t i = 1; i < count; i++) {
+    struct judge_spot p = judge_spot_at(scene, scene->corner.item[start + i]);
+    struct judge_spot away = spot_sub(p, first);
+    off = fmax(off, fabs(spot_dot(normal, away)));
+    extent = fmax(extent, spot_length(away));
+  }
+  return off > fmax(contact / 4, extent * TOLERANCE_EXTENT_SHARE);
+}
+
+/* Cuts one face in a way; `ears` is kept from face to face. */
+static bool add_cut(struct judge_triangles *all, const struct scene *scene,
+                    uint32_t face, struct judge_ears *ears,
+                    enum judge_cut cut) {
   uint32_t start = scene->face_start.item[face];
   uint32_t count = scene->face_start.item[face + 1] - start;
   const uint32_t *corner = scene->corner.item + start;
-  if (!judge_cut_ears(ears, scene, corner, count))
+  if (!judge_cut_ears(ears, scene, corner, count, cut == JUDGE_OTHER_WAY))
     return false;
   for (size_t k = 0; k < ears->ear.count; k++)
-    if (!add_triangle(all, scene, corner, ears->ear.item[k].corner, face))
+    if (!add_triangle(all, scene, corner, ears->ear.item[k].corner, face, cut))
       return false;
   return true;
 }
 
-bool judge_triangles_init(struct judge_triangles *all,
-                          const struct scene *scene) {
+static bool add_face(struct judge_triangles *all, const struct scene *scene,
+                     uint32_t face, double contact, struct judge_ears *ears) {
+  uint32_t count =
+      scene->face_start.item[face + 1] - scene->face_start.item[face];
+  if (!judge_is_warped(scene, face, contact))
+    return add_cut(all, scene, face, ears, JUDGE_PLANAR);
+  if (count > 4)
+    return add_cut(all, scene, face, ears, JUDGE_ANY_WAY);
+  return add_cut(all, scene, face, ears, JUDGE_ONE_WAY) &&
+         add_cut(all, scene, face, ears, JUDGE_OTHER_WAY);
+}
+
+static double measure(const struct scene *scene) {
   struct judge_box box = empty_box();
+  for (size_t i = 0; i < scene->point.count; i++)
+    grow_box(&box, judge_spot_at(scene, (uint32_t)i));
+  return spot_length(judge_spot_of(box.high[0] - box.low[0],
+                                   box.high[1] - box.low[1],
+                                   box.high[2] - box.low[2]));
+}
+
+bool judge_triangles_init(struct judge_triangles *all,
+                          const struct scene *scene, double contact) {
   struct judge_ears ears = {0};
   bool good = true;
   memset(all, 0, sizeof *all);
+  all->size = measure(scene);
+  if (contact < 0)
+    contact = TOLERANCE_CONTACT_SHARE * all->size;
   for (uint32_t i = 0; good && i < scene_face_count(scene); i++)
-    good = add_face(all, scene, i, &ears);
+    good = add_face(all, scene, i, contact, &ears);
   judge_ears_fini(&ears);
-  for (size_t i = 0; i < scene->point.count; i++)
-    grow_box(&box, judge_spot_at(scene, (uint32_t)i));
-  all->size = spot_length(judge_spot_of(box.high[0] - box.low[0],
-                                        box.high[1] - box.low[1],
-                                        box.high[2] - box.low[2]));
   if (good && build_tree(all))
     return true;
   judge_triangles_fini(all);
@@ -226,6 +278,31 @@ static enum judge_sight look_at(const struct ray *ray,
   return away > beyond ? JUDGE_BLOCKED : JUDGE_UNSURE;
 }
 
+/* Faces that are not planar, as far as a ray has met them. */
+struct doubts {
+  struct doubt {
+    uint32_t face;
+    enum judge_cut cut;
+  } item[16];
+  unsigned count;
+};
+
+/* A face that is cut in two ways blocks where it does in both.  Where there
+ * are too many to keep in mind it stays unsure. */
+static enum judge_sight weigh(struct doubts *doubts,
+                              const struct judge_triangle *t,
+                              enum judge_sight sight) {
+  if (t->cut == JUDGE_PLANAR || sight != JUDGE_BLOCKED)
+    return sight;
+  for (unsigned i = 0; i < doubts->count; i++)
+    if (doubts->item[i].face == t->face && doubts->item[i].cut != t->cut)
+      return JUDGE_BLOCKED;
+  if (t->cut != JUDGE_ANY_WAY &&
+      doubts->count < sizeof doubts->item / sizeof doubts->item[0])
+    doubts->item[doubts->count++] = (struct doubt){t->face, t->cut};
+  return JUDGE_UNSURE;
+}
+
 enum judge_sight judge_look(const struct judge_triangles *all,
                             struct judge_spot from, struct judge_spot towards,
                             double reach, double touch, double beyond,
@@ -238,6 +315,7 @@ enum judge_sight judge_look(const struct judge_triangles *all,
                     reach};
   uint32_t stack[STACK_SIZE];
   unsigned depth = 0;
+  struct doubts doubts = {.count = 0};
   enum judge_sight sight = JUDGE_CLEAR;
   stack[depth++] = 0;
   while (depth > 0) {
@@ -251,7 +329,8 @@ enum judge_sight judge_look(const struct judge_triangles *all,
     }
     for (uint32_t i = 0; i < node->count; i++) {
       const struct judge_triangle *t = &all->triangle.item[node->first + i];
-      enum judge_sight seen = look_at(&ray, t, touch, beyond);
+      enum judge_sight seen =
+          weigh(&doubts, t, look_at(&ray, t, touch, beyond));
       if (seen == JUDGE_BLOCKED) {
         if (face != NULL)
           *face = t->face;

@@ -46,11 +46,17 @@ static inline struct judge_spot spot_unit(struct judge_spot a) {
   return spot_along(judge_spot_of(0, 0, 0), 1 / spot_length(a), a);
 }
 
+/* A face that is not planar is what its diagonals make of it, and those are
+ * not the judge's to choose: of four corners it is cut in both ways, and hides
+ * for sure what both of them do. */
+enum judge_cut { JUDGE_PLANAR, JUDGE_ONE_WAY, JUDGE_OTHER_WAY, JUDGE_ANY_WAY };
+
 struct judge_triangle {
   struct judge_spot p[3];
   struct judge_spot normal; /* unit; 0 where the triangle has no area */
   uint32_t point[3];        /* scene points */
   uint32_t face;            /* scene face */
+  enum judge_cut cut;
 };
 
 struct judge_box {
@@ -70,9 +76,17 @@ struct judge_triangles {
 };
 
 /* Cuts faces into triangles and builds the tree.  Cost: n log n.
+ * contact  as in judge_options
  * Returns false when memory ran out. */
 USE_RESULT bool judge_triangles_init(struct judge_triangles *all,
-                                     const struct scene *scene);
+                                     const struct scene *scene, double contact);
+
+/* The face's normal, as long as twice its area. */
+struct judge_spot judge_area(const struct scene *scene, uint32_t face);
+
+/* Whether a corner of the face is so far off its plane that it matters how it
+ * is cut. */
+bool judge_is_warped(const struct scene *scene, uint32_t face, double contact);
 void judge_triangles_fini(struct judge_triangles *all);
 
 enum judge_sight { JUDGE_CLEAR, JUDGE_UNSURE, JUDGE_BLOCKED };

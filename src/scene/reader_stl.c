@@ -330,8 +330,8 @@ static recto_status read_stl(struct scene *scene, const char *bytes,
       count >= HEADER_SIZE &&
       count == HEADER_SIZE + (uint64_t)RECORD_SIZE * read_uint32(bytes + 80);
   bool text = !exact && looks_like_text(bytes, count);
-  if (exact || (!text && count >= HEADER_SIZE &&
-                !has_text_for_header(bytes, count)))
+  if (exact ||
+      (!text && count >= HEADER_SIZE && !has_text_for_header(bytes, count)))
     return read_binary(scene, bytes, count, path, diagnostics, error);
   if (!text)
     return error_set(error, RECTO_ERROR_FORMAT, path, 1,

@@ -1,0 +1,245 @@
+/* verify.c - asks the judge about a drawing that was just made.
+ *
+ * Phases
+ *   scene    the points are counted from one of their own, so that a far
+ *            origin costs the judge's doubles no digits.
+ *   strokes  the lines of the drawing; and of those that would be there if no
+ *            line were too short, the short ones: nothing is missing there.
+ *   verdict  the judge's, as a report, a summary or an error. */
+#include "api/verify.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "ink/ink.h"
+#include "ink/stroke.h"
+
+/* ---- The scene ------------------------------------------------------------
+ */
+
+static uint32_t first_used_point(const struct scene *scene) {
+  return scene->corner.count > 0 ? scene->corner.item[0]
+                                 : scene->wire_corner.item[0];
+}
+
+/* Lends all of the scene but its points.  Returns false when memory ran out. */
+static bool move_scene(const struct scene *scene, struct scene_point origin,
+                       struct scene *moved) {
+  size_t count = scene->point.count;
+  const struct scene_point *from = scene->point.item;
+  struct scene_point *to = mem_alloc(count, sizeof *to);
+  if (to == NULL)
+    return false;
+  for (size_t i = 0; i < count; i++)
+    to[i] = (struct scene_point){from[i].x - origin.x, from[i].y - origin.y,
+                                 from[i].z - origin.z};
+  *moved = *scene;
+  moved->point.item = to;
+  return true;
+}
+
+static struct judge_camera camera_of(const struct verify *verify,
+                                     struct scene_point origin) {
+  const struct camera *c = verify->camera;
+  const recto_options *o = verify->options;
+  const double eye[3] = {c->eye[0] - origin.x, c->eye[1] - origin.y,
+                         c->eye[2] - origin.z};
+  struct judge_camera camera;
+  judge_camera_axes(&camera, c->right, c->up, c->back, eye, c->perspective,
+                    c->s, c->middle_mm, c->page_mm);
+  /* An orthographic view that was not cut begins at its nearest point. */
+  if (c->perspective || o->has_section || o->near_distance > 0)
+    camera.near_d = c->near_d;
+  camera.depth_step = 1 / verify->sheet->z_scale;
+  return camera;
+}
+
+/* ---- The strokes ----------------------------------------------------------
+ */
+
+static bool take_stroke(struct judge_drawing *to, const struct drawing *drawing,
+                        const struct drawing_stroke *stroke,
+                        enum judge_role role) {
+  const struct drawing_point *point = drawing->point.item + stroke->point;
+  struct judge_stroke taken = {(uint32_t)to->point.count,
+                               stroke->count + stroke->closed, role};
+  if (!ARRAY_RESERVE(&to->point, taken.count) ||
+      !ARRAY_PUSH(&to->stroke, taken))
+    return false;
+  for (uint32_t i = 0; i < taken.count; i++) {
+    const struct drawing_point *p = &point[i < stroke->count ? i : 0];
+    to->point.item[to->point.count++] = (struct judge_place){p->x, p->y};
+  }
+  return true;
+}
+
+/* The lines of edges: hatching is not one. */
+static bool take_drawn(struct judge_drawing *to,
+                       const struct drawing *drawing) {
+  for (size_t i = 0; i < drawing->stroke.count; i++) {
+    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    if (stroke->edge_class != 0 &&
+        !take_stroke(to, drawing, stroke,
+                     stroke->hidden ? JUDGE_HIDDEN : JUDGE_INK))
+      return false;
+  }
+  return true;
+}
+
+static double length_of(const struct drawing *drawing,
+                        const struct drawing_stroke *stroke) {
+  const struct drawing_point *p = drawing->point.item + stroke->point;
+  double length = 0;
+  for (uint32_t i = 1; i < stroke->count + stroke->closed; i++)
+    length += stroke_distance(p[i - 1], p[i < stroke->count ? i : 0]);
+  return length;
+}
+
+/* What would be drawn if nothing were too short, the short lines of it. */
+static recto_status take_dropped(struct judge_drawing *to,
+                                 const struct verify *verify,
+                                 recto_error *error) {
+  recto_options all = *verify->options;
+  double shortest = all.min_stroke_mm < 0 ? all.pen_mm / 2 : all.min_stroke_mm;
+  if (shortest == 0)
+    return RECTO_OK;
+  all.min_stroke_mm = 0;
+  all.hidden = RECTO_HIDDEN_NONE;
+  all.fill = RECTO_FILL_NONE;
+  all.order = RECTO_ORDER_NONE;
+  struct drawing drawing;
+  drawing_init(&drawing);
+  recto_status status = ink_draw(&drawing, verify->sheet, verify->scene,
+                                 verify->map, &all, error);
+  for (size_t i = 0; status == RECTO_OK && i < drawing.stroke.count; i++)
+    if (length_of(&drawing, &drawing.stroke.item[i]) < shortest &&
+        !take_stroke(to, &drawing, &drawing.stroke.item[i], JUDGE_DROPPED))
+      status = error_memory(error);
+  drawing_fini(&drawing);
+  return status;
+}
+
+/* ---- The verdict ----------------------------------------------------------
+ */
+
+/* Words of the parts of a witness that it has, one after the other. */
+struct words {
+  char text[200];
+  size_t length;
+};
+
+static void say(struct words *words, const char *format, ...) PRINTF_LIKE(2, 3);
+static void say(struct words *words, const char *format, ...) {
+  va_list arguments;
+  size_t room = sizeof words->text - words->length;
+  va_start(arguments, format);
+  int length = vsnprintf(words->text + words->length, room, format, arguments);
+  va_end(arguments);
+  if (length > 0)
+    words->length += (size_t)length < room ? (size_t)length : room - 1;
+}
+
+static void say_edge(struct words *words, const struct verify *verify,
+                     const struct judge_witness *w, struct scene_point origin) {
+  say(words, "point %.9g,%.9g,%.9g of ",
+      ldexp(w->spot.x + origin.x, verify->exponent),
+      ldexp(w->spot.y + origin.y, verify->exponent),
+      ldexp(w->spot.z + origin.z, verify->exponent));
+  if (w->point[0] == SCENE_NONE)
+    say(words, "the intersection");
+  else
+    say(words, "the edge from %lu to %lu", (unsigned long)w->point[0],
+        (unsigned long)w->point[1]);
+  if (w->face[0] != SCENE_NONE)
+    say(words, " of face %lu", (unsigned long)w->face[0]);
+  if (w->face[1] != SCENE_NONE)
+    say(words, " and %lu", (unsigned long)w->face[1]);
+}
+
+static recto_status tell(const struct verify *verify,
+                         const struct judge_verdict *verdict,
+                         struct scene_point origin, recto_error *error) {
+  bool is_false = verdict->false_ink.samples > 0;
+  const struct judge_witness *w =
+      is_false ? &verdict->false_at : &verdict->missing_at;
+  struct words words = {.length = 0};
+  if (is_false && !w->on_edge)
+    say(&words, "there is a line and no edge");
+  else if (is_false)
+    say(&words, "a line is drawn and ");
+  else
+    say(&words, "no line is drawn and ");
+  if (w->on_edge)
+    say_edge(&words, verify, w, origin);
+  if (w->on_edge && is_false)
+    say(&words, " is hidden by face %lu", (unsigned long)w->blocker);
+  else if (w->on_edge)
+    say(&words, " is visible");
+  return error_set(error, RECTO_ERROR_VERIFY, NULL, 0,
+                   "the drawing is wrong: at %.4f,%.4f mm %s", w->at.x, w->at.y,
+                   words.text);
+}
+
+static void report_verdict(struct report *report,
+                           const struct judge_verdict *v) {
+  report_int(report, "verify", "drawn", (int64_t)v->drawn.samples);
+  report_int(report, "verify", "drawn_wrong", (int64_t)v->false_ink.samples);
+  report_int(report, "verify", "drawn_too_close_to_call",
+             (int64_t)v->unsure_ink.samples);
+  report_int(report, "verify", "not_drawn_hidden", (int64_t)v->hidden.samples);
+  report_int(report, "verify", "not_drawn_wrong", (int64_t)v->missing.samples);
+  report_int(report, "verify", "not_drawn_too_close_to_call",
+             (int64_t)v->unsure.samples);
+}
+
+static recto_status judge(const struct verify *verify,
+                          const struct scene *moved, struct scene_point origin,
+                          const struct judge_drawing *drawing,
+                          struct judge_verdict *verdict, recto_error *error) {
+  const recto_options *o = verify->options;
+  struct judge_camera camera = camera_of(verify, origin);
+  struct judge_options options;
+  judge_options_init(&options);
+  options.samples = (size_t)o->verify;
+  options.reach_mm += o->simplify_mm + o->unit_mm;
+  options.lateral_mm += o->simplify_mm + o->unit_mm;
+  options.contact = verify->camera->contact;
+  options.crease_deg = o->crease_deg;
+  options.edges = o->edges;
+  return judge_drawing(verdict, drawing, moved, &camera, &options)
+             ? RECTO_OK
+             : error_memory(error);
+}
+
+recto_status verify_drawing(const struct verify *verify, struct report *report,
+                            char summary[VERIFY_SUMMARY_SIZE],
+                            recto_error *error) {
+  struct judge_drawing drawing = {0};
+  struct judge_verdict verdict;
+  struct scene moved;
+  struct scene_point origin =
+      verify->scene->point.item[first_used_point(verify->scene)];
+  if (!move_scene(verify->scene, origin, &moved))
+    return error_memory(error);
+  recto_status status = take_drawn(&drawing, verify->drawing)
+                            ? take_dropped(&drawing, verify, error)
+                            : error_memory(error);
+  if (status == RECTO_OK)
+    status = judge(verify, &moved, origin, &drawing, &verdict, error);
+  judge_drawing_fini(&drawing);
+  mem_free(moved.point.item);
+  if (status != RECTO_OK)
+    return status;
+  report_verdict(report, &verdict);
+  if (verdict.false_ink.samples > 0 || verdict.missing.samples > 0)
+    return tell(verify, &verdict, origin, error);
+  snprintf(summary, VERIFY_SUMMARY_SIZE,
+           "verified: %zu drawn points visible, %zu others hidden, %zu too "
+           "close to call",
+           verdict.drawn.samples - verdict.unsure_ink.samples,
+           verdict.hidden.samples,
+           verdict.unsure_ink.samples + verdict.unsure.samples);
+  return RECTO_OK;
+}
