@@ -21,3 +21,6 @@ unit_tests += %D%/test_judged
   %D%/temporary.c %D%/temporary.h
 %C%_test_judged_LDADD = $(failures_libs)
 dist_check_SCRIPTS += %D%/test_failures_compilers.sh
+unit_tests += %D%/test_ink_repeats
+%C%_test_ink_repeats_SOURCES = %D%/test_ink_repeats.c %D%/inked.c %D%/inked.h
+%C%_test_ink_repeats_LDADD = $(failures_libs)

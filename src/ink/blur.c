@@ -156,11 +156,11 @@ static size_t list_twins(struct blur *blur, const uint32_t *crowd,
     uint32_t a = crowd[node[0]], b = crowd[node[1]];
     if (!company[a] || !company[b])
       continue;
-    if (a == b && company[a] == CROWDED &&
-        blur_is_near(blur, node[0], node[1]) &&
+    bool is_large = company[a] == CROWDED;
+    if (a == b && is_large && blur_is_near(blur, node[0], node[1]) &&
         blur_unite(blur, node[1], node[0]))
       drop(blur, i);
-    else
+    else if (a != b || is_large) /* short ones are left to the next phase */
       twin[count++] = (struct sort_key){
           (uint64_t)(a < b ? a : b) << 32 | (a < b ? b : a), i};
   }

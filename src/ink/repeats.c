@@ -98,16 +98,20 @@ static bool find_cover(const struct blur *blur, const uint32_t a[2],
   *cover = (struct cover){INFINITY, -INFINITY, {NET_NONE, NET_NONE}};
   if (of_a.length == 0 || of_b.length == 0)
     return false;
-  double along;
+  double along, place[2];
   for (int k = 0; k < 2; k++)
-    if (is_on(&of_a, k ? of_b.to : of_b.from, &along))
-      widen(cover, along, along > 0 && along < of_a.length ? b[k] : NET_NONE);
+    if (is_on(&of_a, k ? of_b.to : of_b.from, &place[k]))
+      widen(cover, place[k],
+            place[k] > 0 && place[k] < of_a.length ? b[k] : NET_NONE);
   if (is_on(&of_b, of_a.from, &along))
     widen(cover, 0, NET_NONE);
   if (is_on(&of_b, of_a.to, &along))
     widen(cover, of_a.length, NET_NONE);
+  /* Ends count as near a little beyond the other's; the run itself does not
+   * begin there, or short sides of a curve would run along the next. */
   double shorter = fmin(of_a.length, of_b.length);
-  return cover->to - cover->from > fmin((double)blur->unit, shorter / 2);
+  double run = fmin(fabs(place[1] - place[0]), cover->to - cover->from);
+  return run > fmin((double)blur->unit, shorter / 2);
 }
 
 /* ---- 2 Pairs ------------------------------------------------------------- */
