@@ -1,6 +1,6 @@
 # bench/local.mk - make bench: how long things take, what memory, and how far
 # from the truth.
-EXTRA_PROGRAMS = %D%/bench %D%/zraster %D%/accuracy
+EXTRA_PROGRAMS = %D%/bench %D%/zraster %D%/accuracy %D%/order
 %C%_bench_SOURCES = %D%/bench.c %D%/table.c %D%/table.h
 %C%_bench_LDADD = tests/scenes/libscenes.la librecto_core.la
 %C%_zraster_SOURCES = %D%/zraster.c
@@ -9,14 +9,20 @@ EXTRA_PROGRAMS = %D%/bench %D%/zraster %D%/accuracy
   %D%/table.c %D%/table.h
 %C%_accuracy_LDADD = tests/measure/libmeasure.la tests/scenes/libscenes.la \
   librecto_core.la -lm
+%C%_order_SOURCES = %D%/order.c
+%C%_order_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
 CLEANFILES += $(EXTRA_PROGRAMS) %D%/accuracy.svg
 
 # BENCH_METHODS  the methods to measure; else newell and auto
-bench: recto$(EXEEXT) $(EXTRA_PROGRAMS) bench-accuracy
+bench: recto$(EXEEXT) $(EXTRA_PROGRAMS) bench-accuracy bench-order
 	$(AM_TESTS_ENVIRONMENT) %D%/bench$(EXEEXT) ./recto$(EXEEXT) \
 	  %D%/zraster$(EXEEXT) $(srcdir)/examples/models $(BENCH_METHODS)
 
 # Speed against accuracy: a table, and bench/accuracy.svg.
 bench-accuracy: %D%/accuracy$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) %D%/accuracy$(EXEEXT) %D%/accuracy.svg
-.PHONY: bench bench-accuracy
+
+# What --order near gains, and what it costs.
+bench-order: %D%/order$(EXEEXT)
+	$(AM_TESTS_ENVIRONMENT) %D%/order$(EXEEXT) $(srcdir)/examples/models
+.PHONY: bench bench-accuracy bench-order
