@@ -3,7 +3,11 @@
  * Areas and units are the makers' own.  HP's manual of the 7475A says that its
  * default scaling frame P1 P2 is centred on the paper: the centres below are
  * the middles of those frames.  Of the 7550A we take the middle of its area.
- * On the DXY the area is the whole sheet. */
+ * On the DXY the area is the whole sheet.
+ *
+ * Speeds are nominal and serve the estimate of --stats alone: what the plotter
+ * draws at unless told otherwise, and its fastest with the pen up.  The generic
+ * ones are those of a careful hobby machine. */
 #include "backends/device.h"
 
 #include <math.h>
@@ -33,11 +37,11 @@ static const struct device_paper dxy[] = {
 #define PAPERS(table) table, sizeof(table) / sizeof *(table)
 
 static const struct device devices[] = {
-    {"generic", 0.025, 0, false, NULL, 0},
-    {"drum", 0.025, 8, true, NULL, 0},
-    {"hp7475a", 0.02488, 6, false, PAPERS(hp7475a)},
-    {"hp7550a", 0.02488, 8, false, PAPERS(hp7550a)},
-    {"dxy", 0.025, 8, false, PAPERS(dxy)},
+    {"generic", 0.025, 0, false, NULL, 0, 10, 20},
+    {"drum", 0.025, 8, true, NULL, 0, 40, 60},
+    {"hp7475a", 0.02488, 6, false, PAPERS(hp7475a), 38.1, 50.8},
+    {"hp7550a", 0.02488, 8, false, PAPERS(hp7550a), 50, 80},
+    {"dxy", 0.025, 8, false, PAPERS(dxy), 20, 42},
 };
 
 const struct device *device_by_name(const char *name) {

@@ -22,7 +22,12 @@ struct device {
                     lower left corner */
   const struct device_paper *paper; /* NULL: takes every page as it is */
   size_t papers;
+  double down_cm_s, up_cm_s; /* speeds, where the user names none */
 };
+
+/* From pen up to pen down and back: an estimate for all of them, as the makers
+ * name none. */
+#define DEVICE_LIFT_S 0.2
 
 /* A page on a device.  A point x, y of the page, in mm, is at
  * origin + (x, y) / unit, or, where the page is turned,

@@ -235,6 +235,10 @@ typedef struct recto_options {
   /* Verification. */
   int verify; /* points to ask an independent ray caster about, of the drawn
                  lines and of the edges asked for; 0: none */
+
+  /* Reports. */
+  double velocity_up_cm_s; /* speed with the pen up, for the time that plotting
+                              takes; 0: the plotter's own */
 } recto_options;
 
 /* Fills `options` with the defaults: auto, isometric, A4 portrait with a

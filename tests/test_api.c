@@ -187,6 +187,7 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
   REFUSED(precision, -1);
   REFUSED(dpi, -1);
   REFUSED(velocity_cm_s, (double)NAN);
+  REFUSED(velocity_up_cm_s, -1);
   recto_scene_destroy(scene);
 }
 

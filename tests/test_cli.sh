@@ -129,6 +129,8 @@ hatch-pitch 0 1e-9 x
 pitch 0 1e-9 exactly
 light 0,0,0 x
 pens 0 1001 1.5 x
+velocity 0 0.5 1001 x
+velocity-up 0 0.5 1001 x
 simplify -1
 min-stroke -1
 precision -1 10 x 3.0
@@ -165,6 +167,25 @@ draws_in_silence() {
   run 0 cube.obj -o cube.svg && silent && test ! -s out && test -s cube.svg
 }
 claim "a drawing is made in silence" draws_in_silence
+
+# time_adds_up DOWN UP [OPTION]... - the time of --stats is that of these speeds
+# in cm/s, and 0.2 s for every pen lift.
+time_adds_up() {
+  run 0 cube.obj -o out.svg --stats=stats.json "${@:3}" &&
+    awk -v down="$1" -v up="$2" '
+      /"length_mm"/ { length_mm = $2 + 0 }
+      /"travel_mm"/ { travel_mm = $2 + 0 }
+      /"pen_lifts"/ { lifts = $2 + 0 }
+      /"time_s"/ { time = $2 + 0 }
+      END {
+        off = length_mm / 10 / down + travel_mm / 10 / up + 0.2 * lifts - time
+        exit !(length_mm > 100 && lifts > 1 && time > 1 && off * off < 1e-12)
+      }' stats.json
+}
+claim "the time that plotting takes adds up" time_adds_up 10 20
+claim "at a plotter's speeds" time_adds_up 38.1 50.8 --device hp7475a
+claim "at the speeds asked for" \
+  time_adds_up 5 7 --device hp7475a --velocity 5 --velocity-up 7
 
 # same_drawing OPTION OPTION - both draw the cube alike.
 same_drawing() {

@@ -94,6 +94,7 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the precision", o->precision, 0, 9},
       {"the resolution of PNG", o->dpi, 0, 10000},
       {"the pen speed", o->velocity_cm_s, 0, 1000},
+      {"the speed with the pen up", o->velocity_up_cm_s, 0, 1000},
       {"the way to divide", o->divide, 0, RECTO_DIVIDE_BOX},
       {"the number of points to verify", o->verify, 0, 100000000},
       {"the number of sub-pixels", o->subpixels, 0, 16},

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "api/handle.h"
+#include "backends/device.h"
 #include "api/rescale.h"
 #include "ink/ink.h"
 #include "scene/topology.h"
@@ -252,6 +253,29 @@ static void warn_of_empty_page(const struct render *render) {
   o->warning(o->user, "", 0, text);
 }
 
+/* How long a plotter takes: at its speeds or at those asked for, with no time
+ * for speeding up and slowing down. */
+static void report_plotting(struct report *report,
+                            const struct drawing *drawing,
+                            const recto_options *options) {
+  const char *name = options->device != NULL ? options->device : "generic";
+  const struct device *device = device_by_name(name);
+  if (device == NULL)
+    return;
+  double down = options->velocity_cm_s, up = options->velocity_up_cm_s;
+  down = down > 0 ? down : device->down_cm_s;
+  up = up > 0 ? up : device->up_cm_s;
+  double lifts = (double)report_get(report, "ink", "pen_lifts", 0);
+  report_text(report, "plotting", "device", device->name);
+  report_double(report, "plotting", "velocity_cm_s", down);
+  report_double(report, "plotting", "velocity_up_cm_s", up);
+  report_double(report, "plotting", "lift_s", DEVICE_LIFT_S);
+  report_double(report, "plotting", "time_s",
+                drawing_length_mm(drawing) / (10 * down) +
+                    drawing_travel_mm(drawing) / (10 * up) +
+                    lifts * DEVICE_LIFT_S);
+}
+
 /* ---- All of it ----------------------------------------------------------- */
 
 static recto_status run(struct render *render, recto_error *error) {
@@ -273,6 +297,7 @@ static recto_status run(struct render *render, recto_error *error) {
     warn_of_empty_page(render);
     report_sheet(render->report, render);
     report_drawing(render->report, render->drawing);
+    report_plotting(render->report, render->drawing, render->options);
     report_int(render->report, "memory", "peak_bytes",
                (int64_t)mem_peak_bytes());
   }

@@ -268,6 +268,9 @@ const struct option_entry option_table[] = {
     {OPTION_NUMBER, "velocity", 0, "SPEED", "a speed in cm/s, at least 1",
      "HPGL: pen speed in cm/s", .offset = AT(options.velocity_cm_s), .least = 1,
      .most = 1000},
+    {OPTION_NUMBER, "velocity-up", 0, "SPEED", "a speed in cm/s, at least 1",
+     "pen up, for the time in --stats", .offset = AT(options.velocity_up_cm_s),
+     .least = 1, .most = 1000},
 #ifdef HAVE_CAIRO
     {OPTION_FLAG, "tight", 0, NULL, NULL,
      "PDF, EPS, PS, PNG: crop the page to the ink",
