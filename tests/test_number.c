@@ -307,6 +307,32 @@ static void nothing_is_read_past_the_end(void **state) {
   }
 }
 
+#if DIGITS_WINDOWS
+static void plain_numbers_are_read_as_all_others(void **state) {
+  struct random random = {7};
+  int plain = 0;
+  (void)state;
+  for (int i = 0; i < samples(300000); i++) {
+    char text[2 * NUMBER_PLAIN_ROOM + 40] = "", *at = text;
+    double value = 0, expected;
+    if (i % 3 == 0)
+      *at++ = '-';
+    put_digits(&random, &at, i / 3 % 10);
+    if (i % 5 != 0)
+      *at++ = '.';
+    put_digits(&random, &at, i / 7 % 10);
+    *at = " e/\n"[i % 4];
+    const char *stop = number_parse_plain(text, &value);
+    if (stop == NULL)
+      continue;
+    plain++;
+    assert_ptr_equal(stop, number_parse_double(text, at, &expected));
+    assert_true(bits_of(value) == bits_of(expected));
+  }
+  assert_true(plain > samples(150000));
+}
+#endif
+
 static void words_for_what_is_not_finite_are_read(void **state) {
   (void)state;
   assert_reads("inf", INFINITY);
@@ -538,6 +564,9 @@ int main(void) {
       cmocka_unit_test(digits_of_any_number_are_read),
       cmocka_unit_test(reading_stops_where_the_number_does),
       cmocka_unit_test(nothing_is_read_past_the_end),
+#if DIGITS_WINDOWS
+      cmocka_unit_test(plain_numbers_are_read_as_all_others),
+#endif
       cmocka_unit_test(words_for_what_is_not_finite_are_read),
       cmocka_unit_test(a_whole_string_must_be_a_number),
       cmocka_unit_test(integers_are_read_up_to_their_limits),

@@ -210,6 +210,63 @@ static void ends_of_lines_may_have_a_carriage_return(void **state) {
               POINTS "g a b\nf 1 2 3\nl 1 2\n");
 }
 
+/* Appends a statement with each space of it replaced. */
+static char *put_statement(char *at, const char *statement, const char *blank) {
+  for (; *statement; statement++) {
+    size_t length = *statement == ' ' ? strlen(blank) : 1;
+    memcpy(at, *statement == ' ' ? blank : statement, length);
+    at += length;
+  }
+  *at = '\0';
+  return at;
+}
+
+/* Writes points and faces, most of them plain, some odd and some faulty, with
+ * `blank` for each space. */
+static char *write_mixture(const char *blank) {
+  enum { HOW_MANY_POINTS = 5000, HOW_MANY_FACES = 9000, LONGEST = 80 };
+  static const char *const odd[] = {
+      "f 1 2 2\n",       "f 1 2 99999\n",   "f -1 -2 -3\n",
+      "f 1//3 2//4 3//5\n", "f 1/2/3 4/5/6 7\n", "f 1 2 x\n",
+      "f 7 8 12 \r\n",   "v 1e1 -0 .5\n",   "v 0.123456789 1 1234567890\n"};
+  enum { ODD = sizeof odd / sizeof *odd };
+  char *text = malloc((HOW_MANY_POINTS + HOW_MANY_FACES) * LONGEST), *at = text;
+  char statement[LONGEST];
+  assert_non_null(text);
+  for (int i = 0; i < HOW_MANY_POINTS; i++) {
+    snprintf(statement, sizeof statement, "v %d.%d -%d.%04d %d\n", i % 7, i, i,
+             i * 7 % 10000, i % 11);
+    at = put_statement(at, statement, blank);
+  }
+  for (int i = 0; i < HOW_MANY_FACES; i++) {
+    int a = i * 31 % HOW_MANY_POINTS;
+    snprintf(statement, sizeof statement, "f %d %d %d\n", a + 1,
+             (a + 17) % HOW_MANY_POINTS + 1, (a + 1234) % HOW_MANY_POINTS + 1);
+    at = put_statement(at, i % 97 == 0 ? odd[i / 97 % ODD] : statement, blank);
+  }
+  put_statement(at, "f 1 2 3\n", blank);
+  return text;
+}
+
+static void plain_statements_are_read_as_all_others(void **state) {
+  struct reading a, b;
+  char *plain = write_mixture(" "), *other = write_mixture("  ");
+  (void)state;
+  reading_of(&a, &reader_obj, plain);
+  reading_of(&b, &reader_obj, other);
+  assert_int_equal(a.status, RECTO_OK);
+  assert_true(scene_face_count(&a.scene) > 8900);
+  assert_true(reading_same(&a.scene, &b.scene));
+  assert_true(a.warnings > 3);
+  assert_int_equal(a.warnings, b.warnings);
+  for (int i = 0; i < a.warnings && i < 16; i++)
+    assert_string_equal(a.warning[i], b.warning[i]);
+  reading_fini(&a);
+  reading_fini(&b);
+  free(plain);
+  free(other);
+}
+
 static void the_last_line_needs_no_end(void **state) {
   (void)state;
   assert_same(POINTS "f 1 2 3", POINTS "f 1 2 3\n");
@@ -540,6 +597,7 @@ int main(void) {
       T(a_comment_may_begin_anywhere),
       T(carriage_returns_alone_are_refused_by_name),
       T(ends_of_lines_may_have_a_carriage_return),
+      T(plain_statements_are_read_as_all_others),
       T(the_last_line_needs_no_end),
       T(objects_groups_and_materials_are_groups),
       T(groups_without_elements_are_none),

@@ -8,6 +8,40 @@
 
 static inline bool digits_is_one(char c) { return c >= '0' && c <= '9'; }
 
+#if defined __BYTE_ORDER__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+#define DIGITS_WINDOWS 1 /* eight digits can be looked at as a number */
+
+/* The window of the eight bytes at `text` with each digit as its value, and
+ * how many of them, from the first one on, are digits.
+ *
+ * A byte b is a digit where b ^ '0' <= 9; adding 0x76 then carries into its
+ * top bit if it is not. */
+static inline int digits_count(const char *text, uint64_t *window) {
+  memcpy(window, text, 8);
+  *window ^= UINT64_C(0x3030303030303030);
+  uint64_t other = ((*window & UINT64_C(0x7f7f7f7f7f7f7f7f)) +
+                    UINT64_C(0x7676767676767676)) |
+                   *window;
+  other &= UINT64_C(0x8080808080808080);
+  return other ? __builtin_ctzll(other) / 8 : 8;
+}
+
+/* The number that the first `count` > 0 digits of a window make: shifted to
+ * its end, zeros before them, they are added up in pairs, then fours, then
+ * all eight. */
+static inline uint64_t digits_sum(uint64_t window, int count) {
+  window <<= 64 - 8 * count;
+  window = window * 10 + (window >> 8);
+  uint64_t first = window & UINT64_C(0x000000ff000000ff);
+  uint64_t second = (window >> 16) & UINT64_C(0x000000ff000000ff);
+  window = first * (UINT64_C(1000000) << 32 | 100) +
+           second * (UINT64_C(10000) << 32 | 1);
+  return window >> 32;
+}
+#else
+#define DIGITS_WINDOWS 0
+#endif
+
 /* Appends the digits at `text` to *w, which goes round where they are too
  * many, and returns where they end.  Best where they are few. */
 static inline const char *digits_gather_singly(const char *text,
@@ -17,35 +51,19 @@ static inline const char *digits_gather_singly(const char *text,
   return text;
 }
 
-/* The same, without a branch that depends on how many there are up to eight.
- *
- * A byte b of the window is a digit where b ^ '0' <= 9; adding 0x76 then
- * carries into its top bit if it is not.  The digits are shifted to the
- * window's end, zeros before them, and added up in pairs, then fours, then
- * all eight. */
+/* The same, without a branch that depends on how many there are up to
+ * eight. */
 static inline const char *digits_gather(const char *text, const char *end,
                                         uint64_t *w) {
-#if defined __BYTE_ORDER__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+#if DIGITS_WINDOWS
   static const uint64_t scale[9] = {1,      10,      100,      1000,     10000,
                                     100000, 1000000, 10000000, 100000000};
   while (end - text >= 8) {
     uint64_t window;
-    memcpy(&window, text, 8);
-    window ^= UINT64_C(0x3030303030303030);
-    uint64_t other = ((window & UINT64_C(0x7f7f7f7f7f7f7f7f)) +
-                      UINT64_C(0x7676767676767676)) |
-                     window;
-    other &= UINT64_C(0x8080808080808080);
-    int count = other ? __builtin_ctzll(other) / 8 : 8;
+    int count = digits_count(text, &window);
     if (count == 0)
       return text;
-    window <<= 64 - 8 * count;
-    window = window * 10 + (window >> 8);
-    uint64_t first = window & UINT64_C(0x000000ff000000ff);
-    uint64_t second = (window >> 16) & UINT64_C(0x000000ff000000ff);
-    window = first * (UINT64_C(1000000) << 32 | 100) +
-             second * (UINT64_C(10000) << 32 | 1);
-    *w = *w * scale[count] + (window >> 32);
+    *w = *w * scale[count] + digits_sum(window, count);
     text += count;
     if (count < 8)
       return text;

@@ -3,6 +3,8 @@
 #ifndef SCENE_EXACT_H
 #define SCENE_EXACT_H
 
+#include <float.h>
+#include <math.h>
 #include <stdbool.h>
 
 #include "scene/scene.h"
@@ -11,6 +13,16 @@
  * Returns 1 where a, b, c turn counter-clockwise, -1 clockwise, 0 on it.
  * Exact: for all finite coordinates, the smallest and the largest too. */
 int exact_turn(const double a[2], const double b[2], const double c[2]);
+
+/* Whether three points surely are not on one line, told from one view along
+ * an axis: a no says nothing.  The bound is that of exact.c. */
+static inline bool exact_surely_turns(double ax, double ay, double bx,
+                                      double by, double cx, double cy) {
+  double left = (bx - ax) * (cy - ay);
+  double right = (by - ay) * (cx - ax);
+  double bound = 2.5 * DBL_EPSILON * (fabs(left) + fabs(right)) + DBL_MIN;
+  return fabs(left - right) > bound;
+}
 
 /* Whether three points lie on one line; also where two of them are equal.
  * Exact: likewise. */

@@ -20,6 +20,7 @@
 
 #include "base/digits.h"
 #include "base/number.h"
+#include "scene/exact.h"
 #include "scene/limit.h"
 
 enum { DIGITS_MAX = 12 }; /* of an index that may be in range */
@@ -424,6 +425,128 @@ static recto_status read_element(struct parser *p, bool is_face) {
                                   line, p->diagnostics, p->error);
 }
 
+/* ---- Runs of plain points and faces -------------------------------------- */
+
+#if DIGITS_WINDOWS
+
+/* Nearly all statements are like the one before them, and plain: they are read
+ * without a question that only others need. */
+enum {
+  PLAIN_ROOM = 128, /* bytes, more than a plain statement has */
+  PLAIN_RUN = 4096  /* statements that room is made for */
+};
+
+/* Is the next statement one of that letter, with room to look at? */
+static inline bool is_plain(const struct parser *p, char keyword) {
+  return p->end - p->at > PLAIN_ROOM && p->at[0] == keyword && p->at[1] == ' ';
+}
+
+/* Reads "v x y z" for as long as the numbers are short decimals: all points
+ * that are so are finite. */
+static recto_status read_plain_points(struct parser *p) {
+  struct scene *scene = p->scene;
+  if (scene->point.count > SCENE_LIMIT - PLAIN_RUN)
+    return RECTO_OK;
+  if (!ARRAY_RESERVE(&scene->point, PLAIN_RUN))
+    return error_memory(p->error);
+  for (int i = 0; i < PLAIN_RUN && is_plain(p, 'v'); i++) {
+    struct scene_point point;
+    const char *at = number_parse_plain(p->at + 2, &point.x);
+    if (at && *at == ' ')
+      at = number_parse_plain(at + 1, &point.y);
+    else
+      break;
+    if (at && *at == ' ')
+      at = number_parse_plain(at + 1, &point.z);
+    else
+      break;
+    if (!at || *at != '\n')
+      break;
+    p->at = at + 1;
+    p->line++;
+    p->seen++;
+    scene->point.item[scene->point.count++] = point;
+  }
+  return RECTO_OK;
+}
+
+/* Reads " index" or " index/other/other" of up to seven digits, of a point
+ * seen so far; NULL where it is something else. */
+static inline const char *read_plain_index(const struct parser *p,
+                                           const char *at, uint32_t *point) {
+  uint64_t window;
+  if (*at != ' ')
+    return NULL;
+  int count = digits_count(++at, &window);
+  if (count == 0 || count == 8)
+    return NULL;
+  uint64_t index = digits_sum(window, count) - 1;
+  if (index >= p->seen)
+    return NULL;
+  *point = (uint32_t)(p->first + index);
+  return at[count] == '/' ? skip_other_indices(at + count) : at + count;
+}
+
+/* Reads "f a b c" to its end; NULL where it is something else, or where a
+ * closer look is needed. */
+static inline const char *read_plain_face(const struct parser *p,
+                                          uint32_t corner[3]) {
+  const char *at = p->at + 1;
+  for (int k = 0; k < 3; k++) {
+    at = read_plain_index(p, at, &corner[k]);
+    if (!at || at - p->at > PLAIN_ROOM / 2)
+      return NULL;
+  }
+  const struct scene_point *point = p->scene->point.item;
+  const struct scene_point *a = &point[corner[0]], *b = &point[corner[1]],
+                           *c = &point[corner[2]];
+  bool bent = exact_surely_turns(a->x, a->y, b->x, b->y, c->x, c->y) ||
+              exact_surely_turns(a->y, a->z, b->y, b->z, c->y, c->z);
+  return bent && *at == '\n' ? at + 1 : NULL;
+}
+
+/* Reads faces for as long as they are triangles without fault, a line each,
+ * of points and a group that are there: nearly all are.  What follows is left
+ * to read_element. */
+static recto_status read_plain_faces(struct parser *p) {
+  struct scene *scene = p->scene;
+  if (p->bad.count || p->renamed || scene->face_start.count == 0)
+    return RECTO_OK;
+  if (scene->corner.count > SCENE_LIMIT - 3 * PLAIN_RUN)
+    return RECTO_OK;
+  if (!ARRAY_RESERVE(&scene->corner, 3 * PLAIN_RUN) ||
+      !ARRAY_RESERVE(&scene->face_start, PLAIN_RUN) ||
+      !ARRAY_RESERVE(&scene->face_group, PLAIN_RUN))
+    return error_memory(p->error);
+  for (int i = 0; i < PLAIN_RUN && is_plain(p, 'f'); i++) {
+    uint32_t *corner = scene->corner.item + scene->corner.count;
+    const char *past = read_plain_face(p, corner);
+    if (!past)
+      break;
+    p->at = past;
+    p->line++;
+    scene->corner.count += 3;
+    scene->face_start.item[scene->face_start.count++] =
+        (uint32_t)scene->corner.count;
+    scene->face_group.item[scene->face_group.count++] = scene->current_group;
+  }
+  return RECTO_OK;
+}
+
+#else
+
+static recto_status read_plain_points(struct parser *p) {
+  (void)p;
+  return RECTO_OK;
+}
+
+static recto_status read_plain_faces(struct parser *p) {
+  (void)p;
+  return RECTO_OK;
+}
+
+#endif
+
 /* ---- Statements ---------------------------------------------------------- */
 
 static recto_status read_unknown(struct parser *p) {
@@ -440,8 +563,10 @@ static recto_status read_unknown(struct parser *p) {
 
 static recto_status read_v(struct parser *p) {
   p->known = true;
-  if (!p->ahead)
-    return read_point(p);
+  if (!p->ahead) {
+    recto_status status = read_point(p);
+    return status == RECTO_OK ? read_plain_points(p) : status;
+  }
   p->seen++;
   skip_line(p, true);
   return RECTO_OK;
@@ -452,8 +577,10 @@ static recto_status read_statement(struct parser *p, char keyword) {
   switch (keyword) {
   case 'v':
     return read_v(p);
-  case 'f':
-    return read_element(p, true);
+  case 'f': {
+    recto_status status = read_element(p, true);
+    return status == RECTO_OK ? read_plain_faces(p) : status;
+  }
   case 'l':
     return read_element(p, false);
   case 'g':
