@@ -25,3 +25,8 @@ unit_tests += %D%/test_accuracy
 unit_tests += %D%/test_failures_lines
 %C%_test_failures_lines_SOURCES = %D%/test_failures_lines.c
 %C%_test_failures_lines_LDADD = $(measure_libs)
+
+# Intervals.
+unit_tests += %D%/test_watkins
+%C%_test_watkins_SOURCES = %D%/test_watkins.c $(hand_pixels)
+%C%_test_watkins_CPPFLAGS = $(hand_cppflags)

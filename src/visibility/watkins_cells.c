@@ -32,6 +32,7 @@ bool cells_init(struct cells *cells, const struct sheet *sheet) {
   size_t count = sheet->triangle.count;
   memset(cells, 0, sizeof *cells);
   cells->sheet = sheet;
+  cells->most_pieces = CELLS_PIECES_MAX;
   cells->plane = mem_alloc(count, sizeof *cells->plane);
   cells->seen = mem_calloc(count, 1);
   cells->covered = mem_calloc(count, 1);
@@ -289,7 +290,7 @@ static bool has_too_many(const struct cells *cells) {
   size_t pieces = 0;
   for (size_t i = 0; i < cells->part.count; i++)
     pieces += cells->covered[cells->part.item[i].triangle];
-  return cells->too_many || pieces > CELLS_PIECES_MAX;
+  return cells->too_many || pieces > cells->most_pieces;
 }
 
 recto_status cells_finish(struct cells *cells, const struct sweep *sweep,
@@ -301,9 +302,9 @@ recto_status cells_finish(struct cells *cells, const struct sweep *sweep,
   bool good;
   if (has_too_many(cells))
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
-                     "too many trapezoids for watkins without a pitch: more "
-                     "than %d that are cut",
-                     CELLS_PIECES_MAX);
+                     "too much for watkins without a pitch: faces are cut "
+                     "into more than %zu trapezoids",
+                     cells->most_pieces);
   key = sort_parts(cells);
   good = key != NULL;
   cover_init(&work.cover, cells->sheet);

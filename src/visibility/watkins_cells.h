@@ -33,6 +33,7 @@ struct cells {
   uint8_t *covered;         /* another may be seen somewhere before it */
   bool keep;                /* parts are kept, not only noted as seen */
   bool too_many;            /* a limit was met */
+  size_t most_pieces;       /* CELLS_PIECES_MAX */
   ARRAY(struct cell_part) part;
   sweep_list tied;
   sweep_list candidate; /* scratch */

@@ -16,14 +16,15 @@ bool watkins_is_steep(const struct sheet *sheet, uint32_t side) {
   return llabs((int64_t)q->x - p->x) <= llabs((int64_t)q->y - p->y);
 }
 
-/* Does a facet seen beside the edge hide it there?  Not what ends at it, nor
- * what touches it. */
-static bool is_hidden_by(struct watkins *watkins, uint32_t seen,
-                         uint32_t edge) {
-  double x = watkins->table.edge.item[edge].x, z;
-  if (seen == WATKINS_NONE || seen == watkins->edge.item[edge].facet)
-    return false;
-  z = watkins_edge_depth(watkins, edge);
+/* Is it the background or the edge's own facet? */
+static bool shows(const struct watkins *watkins, uint32_t seen, uint32_t edge) {
+  return seen == WATKINS_NONE || seen == watkins->edge.item[edge].facet;
+}
+
+/* Is a facet seen beside the edge nearer by more than contact explains? */
+static bool is_before(struct watkins *watkins, uint32_t seen, uint32_t edge) {
+  double x = watkins->table.edge.item[edge].x;
+  double z = watkins_edge_depth(watkins, edge);
   watkins->counts.comparisons++;
   return watkins_depth(watkins, seen, x) >
          z + watkins->facet.item[seen].slack + trace_contact(watkins->sheet, z);
@@ -34,7 +35,9 @@ bool watkins_show_ends(struct watkins *watkins, size_t first, size_t past,
   for (size_t i = first; i < past; i++) {
     uint32_t e = watkins->table.active[i];
     if (!watkins->edge.item[e].drawn ||
-        (is_hidden_by(watkins, left, e) && is_hidden_by(watkins, right, e)))
+        (!shows(watkins, left, e) && !shows(watkins, right, e) &&
+         is_before(watkins, left, e) &&
+         (left == right || is_before(watkins, right, e))))
       continue;
     if (!ARRAY_PUSH(&watkins->shown, e))
       return false;

@@ -100,8 +100,8 @@ static recto_status file_strokes(const struct sheet *sheet,
       settle_pairs(meetings) && strokes_open_map(map, sheet->edge.count);
   if (good && meetings->too_many)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
-                     "too many faces over lines for watkins without a pitch: "
-                     "more than %d pairs",
+                     "too much for watkins without a pitch: lines have faces "
+                     "beside them in more than %d pairs",
                      MEETINGS_MAX);
   pair = meetings->pair.item;
   count = meetings->pair.count;

@@ -13,14 +13,13 @@ enum { DEN = 512, PITCH_DEN = DEN / 2 };
 recto_status watkins_grid(struct scan_grid *grid, const struct sheet *sheet,
                           double pitch_mm, recto_error *error) {
   double height = round(sheet->camera.page_mm[1] * SHEET_UNITS_PER_MM);
-  double pitch = round(pitch_mm * SHEET_UNITS_PER_MM * PITCH_DEN);
+  double pitch = fmin(round(pitch_mm * SHEET_UNITS_PER_MM * PITCH_DEN),
+                      height * PITCH_DEN);
   double lines = ceil(height * PITCH_DEN / pitch);
   if (!(pitch >= PITCH_DEN) || lines > WATKINS_LINES_MAX)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "a pitch of %g mm makes more than %d lines", pitch_mm,
                      WATKINS_LINES_MAX);
-  if (pitch > height * PITCH_DEN)
-    pitch = height * PITCH_DEN;
   *grid = (struct scan_grid){.den = DEN,
                              .x_step = DEN,
                              .y_first = -(int64_t)height * PITCH_DEN,
@@ -230,7 +229,7 @@ static bool pass_end(struct watkins *watkins, size_t first, size_t past,
   *right = WATKINS_NONE;
   if (watkins->in.count > 0) {
     /* There is another edge: a facet is in. */
-    if (!watkins_decide(watkins, active[past - 1], active[past]))
+    if (!watkins_decide(watkins, active[first], active[past]))
       return false;
     seen = watkins->piece.item[piece].facet;
     watkins->piece.item[piece].left = choose_edge(watkins, first, past, seen);

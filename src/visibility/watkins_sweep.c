@@ -118,6 +118,8 @@ bool sweep_init(struct sweep *sweep, const struct sheet *sheet,
   bool good = g.key != NULL;
   memset(sweep, 0, sizeof *sweep);
   sweep->sheet = sheet;
+  sweep->most_in = SWEEP_IN_MAX;
+  sweep->most_places = SWEEP_PLACES_MAX;
   if (good) {
     list_keys(&g, sheet, kept, drawn);
     sort_keys(g.key, g.key + most, g.count);
@@ -388,6 +390,18 @@ static bool pass_place(struct sweep *sweep, const struct sweep_place *place) {
   return sweep->meet == NULL || meet_triangles(sweep, low);
 }
 
+static recto_status refuse(const struct sweep *sweep, recto_error *error) {
+  if (sweep->in > sweep->most_in)
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "too much for watkins without a pitch: more than %zu "
+                     "faces over each other, counted in every interval",
+                     sweep->most_in);
+  return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                   "too much for watkins without a pitch: edges end or cross "
+                   "in more than %zu places",
+                   sweep->most_places);
+}
+
 recto_status sweep_run(struct sweep *sweep,
                        const struct solver_request *request, double from,
                        double to, recto_error *error) {
@@ -400,13 +414,9 @@ recto_status sweep_run(struct sweep *sweep,
       return RECTO_OK;
     if (!pass_place(sweep, &place))
       return error_memory(error);
-    if (++sweep->places > SWEEP_PLACES_MAX || sweep->in > SWEEP_IN_MAX)
-      return error_set(
-          error, RECTO_ERROR_LIMIT, NULL, 0,
-          "too many edges cross for watkins without a pitch: "
-          "more than %d %s",
-          sweep->in > SWEEP_IN_MAX ? SWEEP_IN_MAX : SWEEP_PLACES_MAX,
-          sweep->in > SWEEP_IN_MAX ? "faces over each other" : "places");
+    sweep->places++;
+    if (sweep->places > sweep->most_places || sweep->in > sweep->most_in)
+      return refuse(sweep, error);
     if (request->progress != NULL && sweep->places % ASK_EVERY == 0 &&
         !request->progress(request->user,
                            from + (to - from) * (double)sweep->met /

@@ -31,7 +31,8 @@
 
 #define SWEEP_NONE UINT32_MAX
 
-/* At most: places met; triangles in, counted over all active edges. */
+/* Places met at most, and triangles in, counted over all active edges: about
+ * half a gigabyte each. */
 #define SWEEP_PLACES_MAX (1 << 23)
 #define SWEEP_IN_MAX (1 << 26)
 
@@ -71,9 +72,9 @@ struct sweep {
   ARRAY(struct sweep_place) crossing; /* those ahead: a heap */
   ARRAY(struct ratio) height;         /* falling */
   sweep_list active, out, starting, around;
-  size_t in;     /* triangles in, over all active edges */
-  size_t places; /* met */
-  size_t crossings;
+  size_t in, most_in;         /* triangles in, over all active edges; at most */
+  size_t places, most_places; /* met; at most */
+  size_t crossings;           /* found */
   /* Takes a cell; NULL: none wanted.  False when memory ran out. */
   bool (*cell)(void *user, const struct sweep *sweep,
                const struct sweep_cell *cell);

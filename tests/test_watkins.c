@@ -1,0 +1,513 @@
+/* test_watkins.c - the interval scan line: the worked frames and lists, its
+ * coherence, and what it draws. */
+#include "hand/pixels.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "visibility/watkins.h"
+
+/* A walk of the lists themselves. */
+struct walk {
+  struct sheet sheet;
+  struct facets facets;
+  struct watkins watkins;
+};
+
+static void start_walk(struct walk *walk, const struct pixels_scene *scene,
+                       double pitch_mm) {
+  struct scan_grid grid;
+  pixels_sheet(&walk->sheet, scene);
+  assert_true(facets_init(&walk->facets, &walk->sheet));
+  assert_int_equal(watkins_grid(&grid, &walk->sheet, pitch_mm, NULL), RECTO_OK);
+  assert_true(watkins_init(&walk->watkins, &walk->sheet, &walk->facets, &grid));
+}
+
+static void end_walk(struct walk *walk) {
+  watkins_fini(&walk->watkins);
+  facets_fini(&walk->facets);
+  hand_sheet_fini(&walk->sheet);
+}
+
+static bool next_line(struct walk *walk) {
+  bool more;
+  assert_true(watkins_next(&walk->watkins, &more));
+  return more;
+}
+
+/* x on the line, as the scene has it. */
+static double scene_x(double x) { return x / PIXELS_UNIT + PIXELS_SIDE / 2; }
+
+static int face_of(const struct walk *walk, const struct watkins_piece *piece) {
+  return (int)walk->watkins.facet.item[piece->facet].face;
+}
+
+static void assert_near(double got, double want) {
+  if (!(fabs(got - want) < 0x1p-30))
+    fail_msg("%.12g, not %.12g", got, want);
+}
+
+/* ---- Frames ------------------------------------------------------------- */
+
+/* Is the facet's depth at x above that of another by more than rounding? */
+static bool is_nearer(const struct walk *walk, uint32_t f, uint32_t g,
+                      double x) {
+  return watkins_depth(&walk->watkins, f, x) -
+             watkins_depth(&walk->watkins, g, x) >
+         1;
+}
+
+/* The face at the centre of a column.  Pieces are asked with their ends: where
+ * two meet at the centre, the nearer, the earlier where equally near. */
+static int seen_at_column(const struct walk *walk, int column, int columns) {
+  const struct watkins *watkins = &walk->watkins;
+  double x =
+      ((column + 0.5) * PIXELS_SIDE / columns - PIXELS_SIDE / 2) * PIXELS_UNIT;
+  const struct watkins_piece *seen = NULL;
+  for (size_t i = 0; i < watkins->piece.count; i++) {
+    const struct watkins_piece *piece = &watkins->piece.item[i];
+    if (x < piece->x0 - 0x1p-8 || x > piece->x1 + 0x1p-8)
+      continue;
+    if (seen == NULL || is_nearer(walk, piece->facet, seen->facet, x) ||
+        (!is_nearer(walk, seen->facet, piece->facet, x) &&
+         face_of(walk, piece) < face_of(walk, seen)))
+      seen = piece;
+  }
+  return seen == NULL ? -1 : face_of(walk, seen);
+}
+
+static void assert_pieces_in_order(const struct walk *walk) {
+  const struct watkins *watkins = &walk->watkins;
+  for (size_t i = 0; i < watkins->piece.count; i++) {
+    assert_true(watkins->piece.item[i].x0 <= watkins->piece.item[i].x1);
+    if (i > 0)
+      assert_true(watkins->piece.item[i - 1].x1 <= watkins->piece.item[i].x0);
+  }
+}
+
+/* Holds every pixel against the judge, at `lines` lines over the page. */
+static void assert_frame_is_judged(const struct pixels_scene *scene,
+                                   int lines) {
+  struct walk walk;
+  int32_t next = lines - 1;
+  start_walk(&walk, scene, (double)PIXELS_SIDE / lines);
+  assert_int_equal(walk.watkins.table.grid.lines, lines);
+  while (next_line(&walk)) {
+    int32_t line = walk.watkins.table.line;
+    for (; next >= line; next--) {
+      if (next == line)
+        assert_pieces_in_order(&walk);
+      for (int column = 0; column < lines; column++) {
+        int want = pixels_seen(scene, lines, column, next, NULL);
+        int got = next == line ? seen_at_column(&walk, column, lines) : -1;
+        if (got != want)
+          fail_msg("%d lines, pixel %d %d: face %d, not %d", lines, column,
+                   (int)next, got, want);
+      }
+    }
+  }
+  for (; next >= 0; next--)
+    for (int column = 0; column < lines; column++)
+      assert_int_equal(pixels_seen(scene, lines, column, next, NULL), -1);
+  end_walk(&walk);
+}
+
+static void assert_worked_frame(const struct pixels_scene *scene,
+                                int (*frame)(int, int)) {
+  for (int y = 0; y < 32; y++)
+    for (int x = 0; x < 32; x++)
+      assert_int_equal(pixels_seen(scene, 32, x, y, NULL), frame(x, y));
+  assert_frame_is_judged(scene, 32);
+}
+
+static void pierced_rectangle_is_right_in_every_pixel(void **state) {
+  (void)state;
+  assert_worked_frame(&pixels_pierced_rectangle,
+                      pixels_frame_of_pierced_rectangle);
+}
+
+static void two_rectangles_are_right_in_every_pixel(void **state) {
+  (void)state;
+  assert_worked_frame(&pixels_two_rectangles, pixels_frame_of_two_rectangles);
+}
+
+/* Line centres keep clear of corners, or a facet may be there without any
+ * width. */
+static void random_scenes_are_right_in_every_pixel(void **state) {
+  static const int lines[] = {32, 64, 128};
+  (void)state;
+  for (uint64_t seed = 0; seed < 150; seed++) {
+    struct pixels_scene scene;
+    pixels_random_scene(&scene, seed);
+    assert_frame_is_judged(&scene, lines[seed % 3]);
+  }
+}
+
+/* ---- Worked lists ------------------------------------------------------- */
+
+struct listed_edge {
+  double x, dx;
+  int lines_left;
+  double z, dz;
+  int face;
+};
+
+static void assert_active(const struct walk *walk,
+                          const struct listed_edge want[4]) {
+  const struct watkins *watkins = &walk->watkins;
+  const struct scan_table *table = &watkins->table;
+  assert_int_equal(table->active_count, 4);
+  for (size_t i = 0; i < 4; i++) {
+    uint32_t e = table->active[i];
+    assert_near(scene_x(table->edge.item[e].x), want[i].x);
+    assert_near(table->edge.item[e].dx / PIXELS_UNIT, want[i].dx);
+    assert_int_equal(table->edge.item[e].dy, want[i].lines_left);
+    assert_near(watkins_edge_depth(watkins, e) / PIXELS_UNIT, want[i].z);
+    assert_near(watkins->edge.item[e].dz / PIXELS_UNIT, want[i].dz);
+    assert_int_equal(watkins->facet.item[watkins->edge.item[e].facet].face,
+                     want[i].face);
+  }
+}
+
+static void walk_to_line(struct walk *walk, int32_t line) {
+  do
+    assert_true(next_line(walk));
+  while (walk->watkins.table.line > line);
+  assert_int_equal(walk->watkins.table.line, line);
+}
+
+static void active_edges_are_as_listed(void **state) {
+  static const struct listed_edge line_24[] = {
+      {10, 0, 19, 10, 0, 0},
+      {24.5, -1, 9, 5.5, 1, 1},
+      {25, 0, 19, 10, 0, 0},
+      {25 + 1 / 6., 1 / 3., 14, 5, 0, 1}};
+  static const struct listed_edge line_15[] = {
+      {10, 0, 10, 10, 0, 0},
+      {15.5, -1, 0, 14.5, 1, 1},
+      {25, 0, 10, 10, 0, 0},
+      {28 + 1 / 6., 1 / 3., 5, 5, 0, 1}};
+  static const struct listed_edge line_14[] = {{10, 0, 9, 10, 0, 0},
+                                               {16.5, 3, 4, 14, -2, 1},
+                                               {25, 0, 9, 10, 0, 0},
+                                               {28.5, 1 / 3., 4, 5, 0, 1}};
+  struct walk walk;
+  (void)state;
+  start_walk(&walk, &pixels_pierced_rectangle, 1);
+  walk_to_line(&walk, 24);
+  assert_active(&walk, line_24);
+  walk_to_line(&walk, 15);
+  assert_active(&walk, line_15);
+  walk_to_line(&walk, 14);
+  assert_active(&walk, line_14);
+  walk_to_line(&walk, 9);
+  assert_int_equal(walk.watkins.table.active_count, 2);
+  end_walk(&walk);
+}
+
+static void edges_wait_in_the_order_of_y_x_and_dx(void **state) {
+  (void)state;
+  for (uint64_t seed = 300; seed < 340; seed++) {
+    struct pixels_scene scene;
+    struct walk walk;
+    const struct scan_table *table = &walk.watkins.table;
+    pixels_random_scene(&scene, seed);
+    start_walk(&walk, &scene, 1);
+    for (size_t i = 1; i < table->edge.count; i++) {
+      const struct scan_edge *a = &table->edge.item[table->order[i - 1]];
+      const struct scan_edge *b = &table->edge.item[table->order[i]];
+      assert_true(a->line >= b->line);
+      if (a->line == b->line)
+        assert_true(scan_edge_compare(a, b, &table->grid) <= 0);
+    }
+    end_walk(&walk);
+  }
+}
+
+struct listed_span {
+  double x0, x1;
+  int face;
+};
+
+static void assert_spans(const struct walk *walk,
+                         const struct listed_span *want, size_t count) {
+  assert_int_equal(walk->watkins.piece.count, count);
+  for (size_t i = 0; i < count; i++) {
+    const struct watkins_piece *piece = &walk->watkins.piece.item[i];
+    assert_near(scene_x(piece->x0), want[i].x0);
+    assert_near(scene_x(piece->x1), want[i].x1);
+    assert_int_equal(face_of(walk, piece), want[i].face);
+  }
+}
+
+static double grid_x(double x) { return (x - PIXELS_SIDE / 2) * PIXELS_UNIT; }
+
+/* The interval from 15.5 to 25 has different signs at its ends. */
+static void assert_depths_of_line_15(struct walk *walk) {
+  struct watkins *watkins = &walk->watkins;
+  static const struct {
+    double x, depth;
+    int sign;
+  } at[] = {{15.5, 14.5, 1},
+            {25, 7.375, -1},
+            {18.5, 12.25, 1},
+            {23.25, 8.6875, -1},
+            {21.5, 10, 0}};
+  for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
+    double x = grid_x(at[i].x);
+    assert_near(watkins_depth(watkins, 1, x) / PIXELS_UNIT, at[i].depth);
+    assert_near(watkins_depth(watkins, 0, x) / PIXELS_UNIT, 10);
+    assert_int_equal(watkins_compare(watkins, 1, 0, x), at[i].sign);
+  }
+}
+
+static void line_15_is_split_as_listed(void **state) {
+  static const struct listed_span spans[] = {
+      {10, 15.5, 0}, {15.5, 21.5, 1}, {21.5, 25, 0}, {25, 28 + 1 / 6., 1}};
+  struct walk walk;
+  int64_t before;
+  (void)state;
+  start_walk(&walk, &pixels_pierced_rectangle, 1);
+  walk_to_line(&walk, 16);
+  before = walk.watkins.counts.splits;
+  walk_to_line(&walk, 15);
+  assert_int_equal(walk.watkins.counts.splits, before + 1);
+  assert_spans(&walk, spans, 4);
+  assert_int_equal(walk.watkins.piece.item[1].right, WATKINS_NONE);
+  assert_int_equal(walk.watkins.piece.item[2].left, WATKINS_NONE);
+  assert_depths_of_line_15(&walk);
+  end_walk(&walk);
+}
+
+static void line_14_is_split_as_listed(void **state) {
+  /* 3 x + y = 80 at y = 14.5. */
+  static const struct listed_span spans[] = {
+      {10, 16.5, 0}, {16.5, 65.5 / 3, 1}, {65.5 / 3, 25, 0}, {25, 28.5, 1}};
+  struct walk walk;
+  (void)state;
+  start_walk(&walk, &pixels_pierced_rectangle, 1);
+  walk_to_line(&walk, 14);
+  assert_spans(&walk, spans, 4);
+  end_walk(&walk);
+}
+
+/* Tangents of a parabola: each of the nine is seen between two others, and the
+ * stack holds several parts. */
+static void an_interval_is_split_wherever_two_seen_faces_pierce(void **state) {
+  struct pixels_scene fan = {9, {{0}}};
+  struct walk walk;
+  (void)state;
+  for (int f = 0; f < 9; f++) {
+    int t = f - 4, left = 48 - 8 * t - t * t, right = 48 + 8 * t - t * t;
+    fan.face[f] = (struct pixels_face){
+        4, {{0, 0, left}, {32, 0, right}, {32, 32, right}, {0, 32, left}}};
+  }
+  start_walk(&walk, &fan, 1);
+  assert_true(next_line(&walk));
+  assert_int_equal(walk.watkins.counts.intervals, 1);
+  assert_int_equal(walk.watkins.counts.splits, 8);
+  assert_int_equal(walk.watkins.piece.count, 9);
+  for (size_t i = 0; i < 9; i++)
+    assert_int_equal(face_of(&walk, &walk.watkins.piece.item[i]), i);
+  end_walk(&walk);
+  assert_frame_is_judged(&fan, 32);
+}
+
+/* ---- Coherence ---------------------------------------------------------- */
+
+static void solve_scene(const struct pixels_scene *scene, bool coherent,
+                        double pitch_mm, struct map *map,
+                        struct report *report) {
+  const struct solver_request request = {.strokes = true,
+                                         .fragments = true,
+                                         .threads = 1,
+                                         .pitch_mm = pitch_mm,
+                                         .no_coherence = !coherent};
+  struct sheet sheet;
+  pixels_sheet(&sheet, scene);
+  map_init(map);
+  assert_int_equal(solver_watkins.solve(&sheet, &request, map, report, NULL),
+                   RECTO_OK);
+  hand_sheet_fini(&sheet);
+}
+
+static void assert_same_map(const struct map *a, const struct map *b) {
+  assert_int_equal(a->edge_count, b->edge_count);
+  assert_memory_equal(a->edge_state, b->edge_state, a->edge_count);
+  assert_int_equal(a->interval.count, b->interval.count);
+  for (size_t i = 0; i < a->interval.count; i++) {
+    assert_int_equal(
+        ratio_compare(a->interval.item[i].t0, b->interval.item[i].t0), 0);
+    assert_int_equal(
+        ratio_compare(a->interval.item[i].t1, b->interval.item[i].t1), 0);
+  }
+  assert_int_equal(a->fragment.count, b->fragment.count);
+  for (size_t f = 0; f < a->fragment.count; f++)
+    assert_int_equal(a->fragment.item[f].face, b->fragment.item[f].face);
+  assert_int_equal(a->corner.count, b->corner.count);
+  for (size_t c = 0; c < a->corner.count; c++) {
+    assert_true(a->corner.item[c].x == b->corner.item[c].x);
+    assert_true(a->corner.item[c].y == b->corner.item[c].y);
+    assert_int_equal(a->corner.item[c].side, b->corner.item[c].side);
+    assert_int_equal(a->corner.item[c].id, b->corner.item[c].id);
+  }
+}
+
+/* Depth comparisons with coherence, and without; the maps are the same. */
+static void compare_coherence(const struct pixels_scene *scene, double pitch_mm,
+                              int64_t *with, int64_t *without) {
+  struct report *report[2] = {report_create(), report_create()};
+  struct map map[2];
+  for (int k = 0; k < 2; k++)
+    solve_scene(scene, k == 0, pitch_mm, &map[k], report[k]);
+  assert_same_map(&map[0], &map[1]);
+  *with = report_get(report[0], "watkins", "depth_comparisons", -1);
+  *without = report_get(report[1], "watkins", "depth_comparisons", -1);
+  assert_int_equal(report_get(report[1], "watkins", "kept_by_coherence", -1),
+                   0);
+  for (int k = 0; k < 2; k++) {
+    map_fini(&map[k]);
+    report_destroy(report[k]);
+  }
+}
+
+static void coherence_saves_comparisons_and_changes_nothing(void **state) {
+  static const double pitch[] = {1, 0.37, 0.05, 2.5};
+  int64_t all_with = 0, all_without = 0;
+  (void)state;
+  for (uint64_t seed = 500; seed < 620; seed++) {
+    struct pixels_scene scene;
+    int64_t with, without;
+    pixels_random_scene(&scene, seed);
+    compare_coherence(&scene, pitch[seed % 4], &with, &without);
+    assert_in_range(with, 0, without);
+    all_with += with;
+    all_without += without;
+  }
+  assert_true(2 * all_with < all_without);
+}
+
+static void a_standing_order_is_computed_once(void **state) {
+  /* Two squares, one before the other: one order for all lines. */
+  const struct pixels_scene scene = {
+      2,
+      {{4, {{4, 4, 9}, {4, 28, 9}, {28, 28, 9}, {28, 4, 9}}},
+       {4, {{4, 4, 3}, {28, 4, 3}, {28, 28, 3}, {4, 28, 3}}}}};
+  int64_t with, without, with_fine, without_fine;
+  (void)state;
+  compare_coherence(&scene, 1, &with, &without);
+  compare_coherence(&scene, 0.25, &with_fine, &without_fine);
+  assert_int_equal(with, with_fine);
+  assert_int_equal(without_fine, 4 * without);
+}
+
+/* ---- What it draws ------------------------------------------------------ */
+
+static void equal_sides_make_one_trapezoid(void **state) {
+  const struct pixels_scene square = {
+      1, {{4, {{4, 4, 9}, {4, 28, 9}, {20, 28, 9}, {20, 4, 9}}}}};
+  const struct pixels_scene triangle = {
+      1, {{3, {{4, 4, 9}, {28, 16, 9}, {4, 28, 9}}}}};
+  struct map map;
+  (void)state;
+  solve_scene(&square, true, 0.5, &map, NULL);
+  assert_int_equal(map.fragment.count, 1);
+  assert_int_equal(map.corner.count, 4);
+  for (int k = 0; k < 4; k++) {
+    assert_near(fabs(map.corner.item[k].x / PIXELS_UNIT + 4), 8);
+    assert_near(fabs(map.corner.item[k].y / PIXELS_UNIT), 12);
+  }
+  map_fini(&map);
+  /* One above the right corner, one below it. */
+  solve_scene(&triangle, true, 0.5, &map, NULL);
+  assert_int_equal(map.fragment.count, 2);
+  map_fini(&map);
+}
+
+static void whole_edges_are_visible_from_end_to_end(void **state) {
+  static const double pitch[] = {0.3, 1, 3, 7};
+  const struct pixels_scene scene = {
+      2,
+      {{4, {{3, 2, 9}, {5, 29, 9}, {20, 28, 9}, {22, 4, 9}}},
+       {3, {{23, 5, 1}, {30, 14, 1}, {24, 30, 1}}}}};
+  (void)state;
+  for (int i = 0; i < 4; i++) {
+    struct map map;
+    solve_scene(&scene, true, pitch[i], &map, NULL);
+    for (size_t e = 0; e < map.edge_count; e++)
+      assert_int_equal(map.edge_state[e], MAP_VISIBLE);
+    map_fini(&map);
+  }
+}
+
+/* The sum of the visible shares of all edges. */
+static double visible_share(const struct map *map) {
+  double share = 0;
+  for (size_t e = 0; e < map->edge_count; e++)
+    share += map->edge_state[e] == MAP_VISIBLE;
+  for (size_t i = 0; i < map->interval.count; i++)
+    share += ratio_to_double(map->interval.item[i].t1) -
+             ratio_to_double(map->interval.item[i].t0);
+  return share;
+}
+
+/* The two steep sides that enter the rectangle at (20, 20): the pierced one is
+ * seen from (15, 15) halfway up; the rectangle's right side is hidden nowhere;
+ * the side to (30, 10) wholly seen. */
+static void strokes_end_where_faces_pierce_within_a_pitch(void **state) {
+  static const double pitch[] = {1, 0.3, 0.05};
+  (void)state;
+  for (int i = 0; i < 3; i++) {
+    struct map map, exact;
+    solve_scene(&pixels_pierced_rectangle, true, pitch[i], &map, NULL);
+    solve_scene(&pixels_pierced_rectangle, true, 0, &exact, NULL);
+    assert_true(fabs(visible_share(&map) - visible_share(&exact)) <
+                2 * pitch[i] / 10);
+    assert_int_equal(map.edge_count, exact.edge_count);
+    for (size_t e = 0; e < map.edge_count; e++)
+      assert_int_equal(map.edge_state[e], exact.edge_state[e]);
+    map_fini(&map);
+    map_fini(&exact);
+  }
+}
+
+static void lines_are_refused_where_there_are_too_many(void **state) {
+  struct sheet sheet;
+  struct scan_grid grid;
+  recto_error error;
+  (void)state;
+  pixels_sheet(&sheet, &pixels_two_rectangles);
+  assert_int_equal(watkins_grid(&grid, &sheet, 1e-5, &error),
+                   RECTO_ERROR_LIMIT);
+  assert_non_null(strstr(error.text, "pitch"));
+  assert_int_equal(watkins_grid(&grid, &sheet, 1e300, &error), RECTO_OK);
+  assert_int_equal(grid.lines, 1);
+  assert_int_equal(watkins_grid(&grid, &sheet, 0.3, &error), RECTO_OK);
+  assert_int_equal(grid.lines, 107);
+  hand_sheet_fini(&sheet);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(pierced_rectangle_is_right_in_every_pixel),
+      cmocka_unit_test(two_rectangles_are_right_in_every_pixel),
+      cmocka_unit_test(random_scenes_are_right_in_every_pixel),
+      cmocka_unit_test(active_edges_are_as_listed),
+      cmocka_unit_test(edges_wait_in_the_order_of_y_x_and_dx),
+      cmocka_unit_test(line_15_is_split_as_listed),
+      cmocka_unit_test(line_14_is_split_as_listed),
+      cmocka_unit_test(an_interval_is_split_wherever_two_seen_faces_pierce),
+      cmocka_unit_test(coherence_saves_comparisons_and_changes_nothing),
+      cmocka_unit_test(a_standing_order_is_computed_once),
+      cmocka_unit_test(equal_sides_make_one_trapezoid),
+      cmocka_unit_test(whole_edges_are_visible_from_end_to_end),
+      cmocka_unit_test(strokes_end_where_faces_pierce_within_a_pitch),
+      cmocka_unit_test(lines_are_refused_where_there_are_too_many),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
