@@ -1,8 +1,9 @@
-/* fill.c - one fill for each visible fragment, painted or shaded. */
+/* fill.c - visible fragments become fills, painted or shaded. */
 #include "ink/fill.h"
 
 #include "ink/layers.h"
 #include "ink/light.h"
+#include "ink/merge.h"
 #include "view/vector.h"
 
 /* Muted, so that lines stay the picture, and apart in hue or in lightness. */
@@ -35,43 +36,33 @@ static uint32_t grey_of(const struct scene *scene, uint32_t face,
 /* ---- Fills ----------------------------------------------------------------
  */
 
-static bool add_loops(struct drawing *drawing, const struct sheet *sheet,
-                      const struct map *map,
-                      const struct map_fragment *fragment) {
-  for (uint32_t l = 0; l < fragment->loops; l++) {
-    const struct map_loop *loop = &map->loop.item[fragment->loop + l];
-    struct drawing_loop made = {(uint32_t)drawing->point.count, loop->count};
-    if (!ARRAY_RESERVE(&drawing->point, loop->count) ||
-        !ARRAY_PUSH(&drawing->loop, made))
-      return false;
-    for (uint32_t i = 0; i < loop->count; i++) {
-      const struct map_corner *c = &map->corner.item[loop->corner + i];
-      drawing->point.item[drawing->point.count++] = (struct drawing_point){
-          sheet_x_mm(sheet, c->x), sheet_y_mm(sheet, c->y)};
-    }
-  }
-  return true;
+/* The fill that a fragment would be, without its loops. */
+static struct drawing_fill fill_like(const struct sheet *sheet,
+                                     const struct scene *scene, uint32_t face,
+                                     const double light[3],
+                                     const recto_options *options) {
+  uint32_t group = scene->face_group.item[face];
+  return (struct drawing_fill){
+      .layer = layers_pen_of_group(options, group),
+      .colour = options->fill == RECTO_FILL_SHADE
+                    ? grey_of(scene, face, &sheet->camera, light)
+                    : fill_colour(scene, group),
+      .face = face,
+      .group = group};
 }
 
 bool fill_add(struct drawing *drawing, const struct sheet *sheet,
               const struct scene *scene, const struct map *map,
               const recto_options *options) {
+  struct drawing_fill *like = mem_alloc(map->fragment.count, sizeof *like);
   double light[3];
+  if (!like)
+    return false;
   light_direction(&sheet->camera, options, light);
-  for (size_t i = 0; i < map->fragment.count; i++) {
-    const struct map_fragment *fragment = &map->fragment.item[i];
-    uint32_t group = scene->face_group.item[fragment->face];
-    struct drawing_fill fill = {.loop = (uint32_t)drawing->loop.count,
-                                .loops = fragment->loops,
-                                .layer = layers_pen_of_group(options, group),
-                                .face = fragment->face,
-                                .group = group};
-    fill.colour = options->fill == RECTO_FILL_SHADE
-                      ? grey_of(scene, fragment->face, &sheet->camera, light)
-                      : fill_colour(scene, group);
-    if (!add_loops(drawing, sheet, map, fragment) ||
-        !ARRAY_PUSH(&drawing->fill, fill))
-      return false;
-  }
-  return true;
+  for (size_t i = 0; i < map->fragment.count; i++)
+    like[i] =
+        fill_like(sheet, scene, map->fragment.item[i].face, light, options);
+  bool good = merge_fills(drawing, sheet, scene, map, like, options);
+  mem_free(like);
+  return good;
 }

@@ -8,7 +8,7 @@
 /* The colour of a group: its own, or one of a palette, by its number. */
 uint32_t fill_colour(const struct scene *scene, uint32_t group);
 
-/* Adds a fill for every fragment of the map.
+/* Adds the fills of the map's fragments, merged (merge.h).
  * RECTO_FILL_PAINT  in the colour of the face's group
  * RECTO_FILL_SHADE  in the grey of its angle to options->light, both sides of
  *                   a face alike */

@@ -11,8 +11,10 @@ librecto_core_la_SOURCES += \
   %D%/layers.c %D%/layers.h \
   %D%/nearest.c %D%/nearest.h \
   %D%/light.c %D%/light.h \
+  %D%/merge.c %D%/merge.h \
   %D%/net.h %D%/nodes.c \
   %D%/order.c %D%/order.h \
+  %D%/outline.c %D%/outline.h \
   %D%/overlap.c %D%/overlap.h \
   %D%/pairing.c %D%/pairing.h \
   %D%/patches.c %D%/patches.h \
