@@ -15,7 +15,7 @@
 /* ---- Sheets with many triangles
  * ------------------------------------------------ */
 
-enum crowd {
+enum crowding {
   CROWD_SMALL, /* small triangles all over the page */
   CROWD_LONG,  /* from end to end */
   CROWD_MIXED, /* a few large ones, and many in one small place */
@@ -30,7 +30,7 @@ static int32_t draw(uint64_t *r, int32_t middle, int32_t reach) {
   return (int32_t)(v < -XY_MAX ? -XY_MAX : v > XY_MAX ? XY_MAX : v);
 }
 
-static void crowd(struct sheet *sheet, enum crowd kind, uint32_t count,
+static void crowd(struct sheet *sheet, enum crowding kind, uint32_t count,
                   uint64_t *r) {
   hand_sheet_init(sheet);
   for (uint32_t t = 0; t < count; t++) {
@@ -170,7 +170,7 @@ static void queries_find_all_that_is_there(void **state) {
     for (uint64_t seed = 1; seed <= 4; seed++) {
       uint64_t r = seed;
       struct sheet sheet;
-      crowd(&sheet, (enum crowd)kind, 700, &r);
+      crowd(&sheet, (enum crowding)kind, 700, &r);
       check_queries(&sheet, 150, &r);
       hand_sheet_fini(&sheet);
     }

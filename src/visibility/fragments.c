@@ -42,7 +42,7 @@ static bool find_touching(struct fragments *f, uint32_t triangle) {
   size_t kept = 0;
   f->query.found.count = 0;
   if (!f->contact) return true;
-  if (!pagegrid_find(f->grid, box, &f->query)) return false;
+  if (!pagegrid_find_about(f->grid, triangle, &f->query)) return false;
   for (size_t i = 0; i < f->query.found.count; i++) {
     uint32_t g = f->query.found.item[i];
     if (g < triangle && !(sheet->triangle_flags[g] & SHEET_FLAT) &&

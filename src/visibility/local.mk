@@ -3,6 +3,8 @@ librecto_core_la_SOURCES += \
   %D%/brute.c \
   %D%/contact.c %D%/contact.h \
   %D%/cover.c %D%/cover.h \
+  %D%/crowd.c %D%/crowd.h \
+  %D%/cut.c %D%/cut.h \
   %D%/depths.c %D%/depths.h \
   %D%/facet.c %D%/facet.h \
   %D%/fragments.c %D%/fragments.h \

@@ -105,7 +105,7 @@ static bool solve_strokes(const struct sheet *sheet,
 static bool take_later(const struct newell_order *order, uint32_t p,
                        struct pagegrid_query *query, struct cover *cover) {
   const struct newell_piece *piece = &order->piece.item[p];
-  if (!pagegrid_find(order->grid, piece->box, query)) return false;
+  if (!pagegrid_find_about(order->grid, piece->triangle, query)) return false;
   for (size_t i = 0; i < query->found.count && !cover_is_empty(cover); i++) {
     uint32_t q = query->found.item[i];
     if (q == piece->triangle) continue;

@@ -3,10 +3,12 @@
 
 #include <string.h>
 
+#include "visibility/crowd.h"
 #include "visibility/surround.h"
 
 enum {
   SPREAD = 8, /* cells a triangle, on average, for lists of pairs */
+  CROWD = 1024, /* triangles in one cell that are worth parting */
   MAX_SHIFT = 31,
   SAMPLE = 1 << 16 /* triangles that are looked at to choose the cells */
 };
@@ -98,6 +100,25 @@ static void fill_cells(const struct filling *filling, bool place) {
                   place);
 }
 
+/* Parts the long lists. */
+static bool part_crowds(struct pagegrid *grid) {
+  size_t cells = pagegrid_cell_count(grid);
+  for (size_t c = 0; c < cells; c++) {
+    size_t count = grid->start[c + 1] - grid->start[c];
+    if (count < CROWD) continue;
+    if (grid->crowd == NULL) {
+      grid->crowd = mem_calloc(1, sizeof *grid->crowd);
+      grid->crowd_root = mem_alloc(cells, sizeof *grid->crowd_root);
+      if (grid->crowd == NULL || grid->crowd_root == NULL) return false;
+      memset(grid->crowd_root, 0xff, cells * sizeof *grid->crowd_root);
+    }
+    if (!crowd_add(grid->crowd, grid->sheet, grid->item + grid->start[c], count,
+                   false, &grid->crowd_root[c]))
+      return false;
+  }
+  return true;
+}
+
 static bool fill(const struct filling *filling) {
   struct pagegrid *grid = filling->grid;
   size_t cells = pagegrid_cell_count(grid);
@@ -111,6 +132,11 @@ static bool fill(const struct filling *filling) {
     return false;
   }
   fill_cells(filling, true);
+  grid->sheet = filling->sheet;
+  if (!part_crowds(grid)) {
+    pagegrid_fini(grid);
+    return false;
+  }
   return true;
 }
 
@@ -164,7 +190,11 @@ bool pagegrid_init(struct pagegrid *grid, const struct sheet *sheet) {
 void pagegrid_fini(struct pagegrid *grid) {
   mem_free(grid->start);
   mem_free(grid->item);
-  grid->start = grid->item = NULL;
+  if (grid->crowd != NULL) crowd_fini(grid->crowd);
+  mem_free(grid->crowd);
+  mem_free(grid->crowd_root);
+  grid->start = grid->item = grid->crowd_root = NULL;
+  grid->crowd = NULL;
 }
 
 bool pagegrid_query_init(struct pagegrid_query *query,
@@ -189,25 +219,57 @@ void pagegrid_query_start(const struct pagegrid *grid,
   }
 }
 
+static bool visit(struct pagegrid_query *query, uint32_t t) {
+  return !pagegrid_query_first(query, t) || ARRAY_PUSH(&query->found, t);
+}
+
+static bool visit_crowd(const struct pagegrid *grid, uint32_t root,
+                        const struct crowd_shape *shape,
+                        struct pagegrid_query *query) {
+  struct crowd_walk walk = crowd_walk_from(root);
+  const struct crowd_node *node;
+  while ((node = crowd_next(grid->crowd, &walk, shape)) != NULL)
+    for (uint32_t i = node->from; i < node->from + node->count; i++)
+      if (!visit(query, grid->crowd->member.item[i].triangle)) return false;
+  return true;
+}
+
 static bool visit_cell(const struct pagegrid *grid, int x, int y,
+                       const struct crowd_shape *shape,
                        struct pagegrid_query *query) {
   size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
-  for (uint32_t i = grid->start[cell]; i < grid->start[cell + 1]; i++) {
-    uint32_t t = grid->item[i];
-    if (pagegrid_query_first(query, t) && !ARRAY_PUSH(&query->found, t))
-      return false;
-  }
+  uint32_t root = pagegrid_crowd(grid, cell);
+  if (root != SHEET_NONE) return visit_crowd(grid, root, shape, query);
+  for (uint32_t i = grid->start[cell]; i < grid->start[cell + 1]; i++)
+    if (!visit(query, grid->item[i])) return false;
+  return true;
+}
+
+static bool find_in_box(const struct pagegrid *grid,
+                        const struct crowd_shape *shape,
+                        struct pagegrid_query *query) {
+  struct cell_range r = pagegrid_cells(grid, shape->box);
+  pagegrid_query_start(grid, query);
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++)
+      if (!visit_cell(grid, x, y, shape, query)) return false;
   return true;
 }
 
 bool pagegrid_find(const struct pagegrid *grid, struct page_box box,
                    struct pagegrid_query *query) {
-  struct cell_range r = pagegrid_cells(grid, box);
-  pagegrid_query_start(grid, query);
-  for (int y = r.y0; y <= r.y1; y++)
-    for (int x = r.x0; x <= r.x1; x++)
-      if (!visit_cell(grid, x, y, query)) return false;
-  return true;
+  const struct crowd_shape shape = {.kind = CROWD_BOX, .box = box};
+  return find_in_box(grid, &shape, query);
+}
+
+bool pagegrid_find_about(const struct pagegrid *grid, uint32_t triangle,
+                         struct pagegrid_query *query) {
+  const struct crowd_shape shape = {
+      .kind = CROWD_TRIANGLE,
+      .triangle = triangle,
+      .sheet = grid->sheet,
+      .box = page_box_of_triangle(grid->sheet, triangle)};
+  return find_in_box(grid, &shape, query);
 }
 
 void pagegrid_row(const struct pagegrid *grid, struct geom_point p,
@@ -237,13 +299,14 @@ void pagegrid_row(const struct pagegrid *grid, struct geom_point p,
 
 bool pagegrid_find_along(const struct pagegrid *grid, struct geom_point p,
                          struct geom_point q, struct pagegrid_query *query) {
+  const struct crowd_shape shape = {.kind = CROWD_SEGMENT, .p = {p, q}};
   struct cell_range r = pagegrid_cells(grid, page_box_of_segment(p, q));
   pagegrid_query_start(grid, query);
   for (int y = r.y0; y <= r.y1; y++) {
     int x0, x1;
     pagegrid_row(grid, p, q, r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
-      if (!visit_cell(grid, x, y, query)) return false;
+      if (!visit_cell(grid, x, y, &shape, query)) return false;
   }
   return true;
 }

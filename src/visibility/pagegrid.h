@@ -40,6 +40,9 @@ struct pagegrid {
   int32_t x0, y0; /* lower left corner */
   uint32_t *start, *item;
   size_t triangle_count;
+  const struct sheet *sheet; /* lent */
+  struct crowd *crowd;       /* the long lists, parted; NULL: none is */
+  uint32_t *crowd_root;      /* one a cell; SHEET_NONE: not parted */
   const double *horizon; /* what the lists were made with; lent */
 };
 
@@ -68,6 +71,12 @@ static inline size_t pagegrid_cell_count(const struct pagegrid *grid) {
 static inline int pagegrid_cell(int32_t v, int32_t v0, int shift, int count) {
   int64_t cell = ((int64_t)v - v0) >> shift;
   return cell < 0 ? 0 : cell >= count ? count - 1 : (int)cell;
+}
+
+/* The root of a cell's list in grid->crowd; SHEET_NONE: it was not parted. */
+static inline uint32_t pagegrid_crowd(const struct pagegrid *grid,
+                                      size_t cell) {
+  return grid->crowd_root != NULL ? grid->crowd_root[cell] : SHEET_NONE;
 }
 
 /* Ranges of cells, closed. */
@@ -151,9 +160,17 @@ USE_RESULT bool pagegrid_find(const struct pagegrid *grid,
                               struct page_box box,
                               struct pagegrid_query *query);
 
-/* The same along the segment from p to q: triangles of the cells it meets. */
+/* The same along the segment from p to q: triangles of the cells it meets.
+ * In long lists, those that share no stretch of the page with it may be left
+ * out. */
 USE_RESULT bool pagegrid_find_along(const struct pagegrid *grid,
                                     struct geom_point p, struct geom_point q,
+                                    struct pagegrid_query *query);
+
+/* The same about a triangle of the sheet: those that may share an area of the
+ * page with it. */
+USE_RESULT bool pagegrid_find_about(const struct pagegrid *grid,
+                                    uint32_t triangle,
                                     struct pagegrid_query *query);
 
 #endif

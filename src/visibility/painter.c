@@ -100,7 +100,7 @@ static bool solve_strokes(struct painting *painting, struct map *map) {
 static bool take_later(struct painting *painting, uint32_t f,
                        struct cover *cover) {
   struct geom_line line[3], back[3];
-  if (!pagegrid_find(painting->grid, cover->box, &painting->query))
+  if (!pagegrid_find_about(painting->grid, f, &painting->query))
     return false;
   for (size_t i = 0;
        i < painting->query.found.count && !cover_is_empty(cover); i++) {

@@ -32,6 +32,7 @@ struct pierce {
   struct hider hider; /* of triangle `prepared` */
   uint32_t prepared;
   struct {
+    uint64_t met;      /* pairs in one list, overlapping in depth */
     uint64_t pairs;    /* that doubles could not tell apart */
     uint64_t straddle; /* of these, each reaches the other's plane */
     uint64_t seams;    /* crossings along an edge */
@@ -396,8 +397,10 @@ recto_status pierce_all(struct sheet *sheet, const struct pagegrid *grid,
                         const uint8_t *cells, struct report *report,
                         recto_error *error) {
   struct pierce pierce = {.sheet = sheet, .prepared = SHEET_NONE};
-  bool done = pierce_pairs(sheet, grid, cells, ask_pair, &pierce) &&
+  bool done = pierce_pairs(sheet, grid, cells, ask_pair, &pierce,
+                           &pierce.counts.met) &&
               join_seams(&pierce) && add_edges(sheet, &pierce);
+  report_int(report, "pierce", "pairs_met", (int64_t)pierce.counts.met);
   report_int(report, "pierce", "pairs", (int64_t)pierce.counts.pairs);
   report_int(report, "pierce", "straddling", (int64_t)pierce.counts.straddle);
   report_int(report, "pierce", "along_edges", (int64_t)pierce.counts.seams);

@@ -2,12 +2,16 @@
  *
  * Cell by cell, a sweep from the deepest triangle to the nearest meets every
  * pair whose depths overlap; boxes, shared corners and planes in doubles
- * (stance.h) settle most of them.
+ * (stance.h) settle most of them.  A long list is parted before (crowd.h).
  */
 #include "visibility/pierce_pairs.h"
 
 #include "base/sort.h"
+#include "visibility/crowd.h"
 #include "visibility/stance.h"
+
+/* So many triangles in one cell are worth parting (crowd.h). */
+enum { CROWD = 256 };
 
 /* What is asked of a triangle, gathered once a cell. */
 struct summary {
@@ -15,6 +19,7 @@ struct summary {
   int64_t low, high; /* depths */
   int x0, y0;        /* the cell of the box's lower left corner */
   uint32_t triangle;
+  uint64_t seen; /* crowd.h */
   bool planned; /* the plane is there */
   struct stance_plane plane;
 };
@@ -28,10 +33,12 @@ struct sweep {
   int x, y; /* the cell at hand */
   ARRAY(struct summary) summary;
   ARRAY(struct sort_key) key; /* twice as many: by depth, and to sort in */
+  struct crowd crowd;
+  uint64_t *met;
 };
 
 static void summarise(const struct sweep *sweep, uint32_t triangle,
-                      struct summary *s) {
+                      uint64_t seen, struct summary *s) {
   const struct sheet *sheet = sweep->sheet;
   const struct pagegrid *grid = sweep->grid;
   const uint32_t *p = sheet->triangle.item[triangle].point;
@@ -45,6 +52,7 @@ static void summarise(const struct sweep *sweep, uint32_t triangle,
   s->x0 = pagegrid_cell(s->box.x0, grid->x0, grid->shift, grid->columns);
   s->y0 = pagegrid_cell(s->box.y0, grid->y0, grid->shift, grid->rows);
   s->triangle = triangle;
+  s->seen = seen;
   s->planned = false;
 }
 
@@ -146,7 +154,8 @@ static bool may_pierce(const struct sheet *sheet, const struct summary *f,
 
 static bool meet(const struct sweep *sweep, struct summary *f,
                  struct summary *g) {
-  if (page_boxes_apart(f->box, g->box) || !is_cell_of_pair(sweep, f, g) ||
+  if (page_boxes_apart(f->box, g->box) || (f->seen & g->seen) != 0 ||
+      !is_cell_of_pair(sweep, f, g) ||
       are_neighbours(sweep->sheet, f->triangle, g->triangle) ||
       !may_pierce(sweep->sheet, f, g) || !may_pierce(sweep->sheet, g, f))
     return true;
@@ -155,36 +164,71 @@ static bool meet(const struct sweep *sweep, struct summary *f,
              : sweep->visit(sweep->user, g->triangle, f->triangle);
 }
 
-/* Meets the pairs of n triangles. */
-static bool sweep_cell(struct sweep *sweep, const uint32_t *item, size_t n) {
-  struct summary *summary;
-  struct sort_key *key;
-  if (!ARRAY_RESERVE(&sweep->summary, n) || !ARRAY_RESERVE(&sweep->key, 2 * n))
-    return false;
-  summary = sweep->summary.item;
-  key = sweep->key.item;
-  for (size_t i = 0; i < n; i++) {
-    summarise(sweep, item[i], &summary[i]);
-    key[i] = (struct sort_key){(uint64_t)summary[i].low, (uint32_t)i};
-  }
+/* Makes room for the summaries of a list. */
+static bool start_list(struct sweep *sweep, size_t n) {
+  sweep->summary.count = 0;
+  return ARRAY_RESERVE(&sweep->summary, n) && ARRAY_RESERVE(&sweep->key, 2 * n);
+}
+
+static void add_to_list(struct sweep *sweep, uint32_t triangle, uint64_t seen) {
+  size_t i = sweep->summary.count++;
+  summarise(sweep, triangle, seen, &sweep->summary.item[i]);
+  sweep->key.item[i] = (struct sort_key){
+      (uint64_t)sweep->summary.item[i].low, (uint32_t)i};
+}
+
+/* Meets the pairs of the list that was added. */
+static bool sweep_list(struct sweep *sweep) {
+  struct summary *summary = sweep->summary.item;
+  struct sort_key *key = sweep->key.item;
+  size_t n = sweep->summary.count;
   sort_keys(key, key + n, n);
   for (size_t i = 0; i < n; i++) {
     struct summary *f = &summary[key[i].value];
-    for (size_t j = i + 1; j < n && key[j].key <= (uint64_t)f->high; j++)
+    for (size_t j = i + 1; j < n && key[j].key <= (uint64_t)f->high; j++) {
+      (*sweep->met)++;
       if (!meet(sweep, f, &summary[key[j].value])) return false;
+    }
   }
   return true;
+}
+
+static bool sweep_crowd(struct sweep *sweep) {
+  const struct crowd *crowd = &sweep->crowd;
+  for (size_t n = 0; n < crowd->node.count; n++) {
+    const struct crowd_node *node = &crowd->node.item[n];
+    if (node->child[0] != SHEET_NONE) continue;
+    if (!start_list(sweep, node->count)) return false;
+    for (uint32_t i = node->from; i < node->from + node->count; i++)
+      add_to_list(sweep, crowd->member.item[i].triangle,
+                  crowd->member.item[i].seen);
+    if (!sweep_list(sweep)) return false;
+  }
+  return true;
+}
+
+static bool sweep_cell(struct sweep *sweep, const uint32_t *item, size_t n) {
+  uint32_t root = SHEET_NONE;
+  crowd_clear(&sweep->crowd);
+  if (n >= CROWD &&
+      !crowd_add(&sweep->crowd, sweep->sheet, item, n, true, &root))
+    return false;
+  if (root != SHEET_NONE) return sweep_crowd(sweep);
+  if (!start_list(sweep, n)) return false;
+  for (size_t i = 0; i < n; i++) add_to_list(sweep, item[i], 0);
+  return sweep_list(sweep);
 }
 
 bool pierce_pairs(const struct sheet *sheet, const struct pagegrid *grid,
                   const uint8_t *cells,
                   bool (*visit)(void *user, uint32_t f, uint32_t g),
-                  void *user) {
+                  void *user, uint64_t *met) {
   struct sweep sweep = {.sheet = sheet,
                         .grid = grid,
                         .cells = cells,
                         .visit = visit,
-                        .user = user};
+                        .user = user,
+                        .met = met};
   bool done = true;
   size_t cell = 0;
   for (sweep.y = 0; done && sweep.y < grid->rows; sweep.y++)
@@ -195,5 +239,6 @@ bool pierce_pairs(const struct sheet *sheet, const struct pagegrid *grid,
     }
   ARRAY_FREE(&sweep.summary);
   ARRAY_FREE(&sweep.key);
+  crowd_fini(&sweep.crowd);
   return done;
 }

@@ -19,6 +19,7 @@ enum {
   SOUP = 32,            /* faces over a point, on average, that make a soup */
   SOUP_CELLS = 1 << 22, /* cells of all triangles of a soup together */
   SOUP_SPREAD = 256,    /* but no more of each: pairs are met cell by cell */
+  BOX_PER_AREA = 4, /* a common triangle's box has so many times its area */
   SAMPLE = 1 << 12
 };
 
@@ -204,14 +205,20 @@ static struct window tile_window(const struct pagegrid *grid, int x, int y) {
                          (int32_t)(y0 + side)};
 }
 
-/* How many triangles' boxes are over a point of the page, on average. */
+/* How many triangles are over a point of the page, on average; about, and no
+ * more than their boxes.  Needles are not what soups are made of. */
 static double mean_layers(const struct sheet *sheet,
                           const struct pagegrid *grid) {
   size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
   double side = (double)(INT64_C(1) << grid->shift), sum = 0;
   for (size_t t = 0; t < n; t += stride) {
+    const uint32_t *p = sheet->triangle.item[t].point;
     struct page_box b = page_box_of_triangle(sheet, (uint32_t)t);
-    sum += ((double)b.x1 - b.x0) * ((double)b.y1 - b.y0) * (double)stride;
+    double box = ((double)b.x1 - b.x0) * ((double)b.y1 - b.y0);
+    double area = 0.5 * fabs((double)geom_orient2d(sheet->point.item[p[0]],
+                                                   sheet->point.item[p[1]],
+                                                   sheet->point.item[p[2]]));
+    sum += fmin(box, BOX_PER_AREA * area) * (double)stride;
   }
   return sum / (side * side * grid->columns * grid->rows);
 }

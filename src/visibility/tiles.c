@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "visibility/cover.h"
+#include "visibility/crowd.h"
 #include "visibility/pierce.h"
 #include "visibility/solver.h"
 #include "visibility/strokes.h"
@@ -195,6 +196,38 @@ struct edge_task {
   struct hide_counts *counts;
 };
 
+/* Asks what triangle t hides of the edge. */
+static bool ask_triangle(const struct tiles_work *work, struct edge_task *task,
+                         uint32_t t) {
+  struct hidden_part part;
+  if (t == task->triangle[0] || t == task->triangle[1] ||
+      !hide_may(work->sheet, t, task->p, task->q, task->box) ||
+      (task->several && !pagegrid_query_first(task->query, t)))
+    return true;
+  return !hide_edge_by(work->sheet, t, task->p, task->q, &part, task->counts) ||
+         strokes_hide(task->strokes, part);
+}
+
+/* Asks the triangles of a tile's list that was parted. */
+static bool ask_crowd(const struct tiles_work *work, struct edge_task *task,
+                      size_t cell, uint64_t question) {
+  const struct pagegrid *grid = &work->tiles.grid;
+  const struct crowd_shape shape = {.kind = CROWD_SEGMENT,
+                                    .p = {task->p, task->q}};
+  struct crowd_walk walk = crowd_walk_from(pagegrid_crowd(grid, cell));
+  const uint64_t *word = work->tiles.word + grid->start[cell];
+  const struct crowd_node *node;
+  while ((node = crowd_next(grid->crowd, &walk, &shape)) != NULL) {
+    const struct crowd_member *member = grid->crowd->member.item + node->from;
+    for (uint32_t i = 0; i < node->count && !task->strokes->whole; i++)
+      if (octagon_meets(word[member[i].place], question) &&
+          !ask_triangle(work, task, member[i].triangle))
+        return false;
+    if (task->strokes->whole) return true;
+  }
+  return true;
+}
+
 /* Asks the triangles listed in a tile that may meet the edge. */
 static bool ask_list(const struct tiles_work *work, struct edge_task *task,
                      int x, int y) {
@@ -206,19 +239,12 @@ static bool ask_list(const struct tiles_work *work, struct edge_task *task,
   if (i == end) return true;
   frame = tilemap_frame(map, x, y);
   question = octagon_question(&frame, &task->octagon);
+  if (pagegrid_crowd(&map->grid, cell) != SHEET_NONE)
+    return ask_crowd(work, task, cell, question);
   for (;; i++) {
-    struct hidden_part part;
-    uint32_t t;
     while (i < end && !octagon_meets(map->word[i], question)) i++;
     if (i == end || task->strokes->whole) return true;
-    t = map->grid.item[i];
-    if (t == task->triangle[0] || t == task->triangle[1] ||
-        !hide_may(work->sheet, t, task->p, task->q, task->box) ||
-        (task->several && !pagegrid_query_first(task->query, t)))
-      continue;
-    if (hide_edge_by(work->sheet, t, task->p, task->q, &part, task->counts) &&
-        !strokes_hide(task->strokes, part))
-      return false;
+    if (!ask_triangle(work, task, map->grid.item[i])) return false;
   }
 }
 
@@ -316,7 +342,7 @@ static bool solve_edges(struct tiles_work *work, struct map *map) {
 static bool cover_face(const struct tiles_work *work, uint32_t t,
                        struct pagegrid_query *query, struct cover *cover) {
   if (!cover_start(cover, t, NULL) ||
-      !pagegrid_find(&work->tiles.grid, cover->box, query))
+      !pagegrid_find_about(&work->tiles.grid, t, query))
     return false;
   for (size_t i = 0; i < query->found.count && !cover_is_empty(cover); i++) {
     uint32_t g = query->found.item[i];

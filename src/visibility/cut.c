@@ -1,0 +1,252 @@
+/* cut.c - a line of the page, or a plane, that parts a crowd of triangles.
+ *
+ * Why nothing is lost.  Two triangles, or an edge and one, concern each other
+ * where they share a stretch of the page: one hides a stretch of the other, or
+ * they pierce each other, or an edge of one touches the plane of the other
+ * along what that one covers, or edges of both run along each other within
+ * TOLERANCE_COINCIDENT_UNITS.
+ *   A line.  Of two that are on different sides alone, one is beyond the margin
+ *   but for the apex, and so is the other: they share no more than the apex,
+ *   and no end of an edge of one is near an edge of the other but there.
+ *   A plane.  Piercing needs a common stretch in space, which would be on the
+ *   plane, where both have no more than the apex.  Touching needs a place of
+ *   the page where their depths differ by no more than the thickness of the
+ *   triangle that is touched.  One that does not have the apex is farther
+ *   from the plane than that, everywhere.  Where both have it, all that they
+ *   share on the page is a wedge at the apex, and their depths part from there
+ *   on at a steady rate: at the other end of the edge, which must touch too, it
+ *   is off by more than the thickness, since it is off the plane by more.
+ *   Hiding is not a matter of planes: what is far behind may be hidden.
+ */
+#include "visibility/cut.h"
+
+#include <math.h>
+
+#include "base/tolerance.h"
+
+enum {
+  CUT_MARGIN = 4 * TOLERANCE_COINCIDENT_UNITS,
+  SAMPLE = 64, /* triangles by which cuts are judged */
+  CANDIDATES = 6
+};
+
+/* Steeper than so many times the middling triangle is on both sides. */
+#define THICKEST 16
+
+/* Shares of the pairs: a cut must leave fewer than the first; one that leaves
+ * no more than the other needs no better. */
+#define MOST_LEFT 0.85
+#define GOOD 0.55
+
+static int side_of_line(const struct cut *cut, struct geom_point p) {
+  int64_t value = cut->dx * ((int64_t)p.y - cut->apex.y) -
+                  cut->dy * ((int64_t)p.x - cut->apex.x);
+  return value > cut->margin    ? CUT_LEFT
+         : value < -cut->margin ? CUT_RIGHT
+                                : CUT_BOTH;
+}
+
+static int side_of_plane(const struct cut *cut, struct geom_point p) {
+  const struct stance_plane *plane = &cut->plane;
+  double x = p.x - plane->x, y = p.y - plane->y, z = (double)p.z - plane->z;
+  double value = plane->nx * x + plane->ny * y + plane->nz * z;
+  double bound = plane->ex * fabs(x) + plane->ey * fabs(y) +
+                 plane->ez * fabs(z) + plane->nz * cut->thickness;
+  return value > bound ? CUT_LEFT : value < -bound ? CUT_RIGHT : CUT_BOTH;
+}
+
+static int side_of_point(const struct cut *cut, struct geom_point p) {
+  return cut->is_plane ? side_of_plane(cut, p) : side_of_line(cut, p);
+}
+
+/* Lines end where the page does: for them all points at one place are one. */
+static bool is_apex(const struct cut *cut, struct geom_point p) {
+  return p.x == cut->apex.x && p.y == cut->apex.y &&
+         (!cut->is_plane || p.z == cut->apex.z);
+}
+
+static int side_of_points(const struct cut *cut, const struct geom_point *p,
+                          int count) {
+  int sides = 0, apexes = 0;
+  for (int k = 0; k < count; k++)
+    if (is_apex(cut, p[k]))
+      apexes++;
+    else
+      sides |= side_of_point(cut, p[k]);
+  return apexes > 1 ? CUT_BOTH : sides;
+}
+
+int cut_side_of_segment(const struct cut *cut, struct geom_point p,
+                        struct geom_point q) {
+  const struct geom_point end[2] = {p, q};
+  return side_of_points(cut, end, 2);
+}
+
+int cut_side_of_corners(const struct cut *cut, const struct geom_point p[3]) {
+  return side_of_point(cut, p[0]) | side_of_point(cut, p[1]) |
+         side_of_point(cut, p[2]);
+}
+
+static void corners_of(const struct sheet *sheet, uint32_t triangle,
+                       struct geom_point p[3]) {
+  const uint32_t *t = sheet->triangle.item[triangle].point;
+  for (int k = 0; k < 3; k++)
+    p[k] = sheet->point.item[t[k]];
+}
+
+/* The contact tolerance of a triangle, as depth. */
+static double thickness_of(const struct stance_plane *plane) {
+  double most = plane->t0 + plane->t0_more + plane->t_off +
+                (plane->t1 + plane->t1_more) * (double)SHEET_Z_MAX;
+  return plane->nz > 0 ? most / plane->nz * (1 + 0x1p-40) : INFINITY;
+}
+
+int cut_side_of_triangle(const struct cut *cut, const struct sheet *sheet,
+                         uint32_t triangle) {
+  struct geom_point p[3];
+  int sides;
+  corners_of(sheet, triangle, p);
+  sides = side_of_points(cut, p, 3);
+  if (cut->is_plane && sides != CUT_BOTH) {
+    struct stance_plane plane = stance_plane_of(sheet, triangle);
+    if (!(thickness_of(&plane) <= cut->thickness))
+      return CUT_BOTH;
+  }
+  return sides;
+}
+
+/* ---- Choosing ------------------------------------------------------------ */
+
+/* What stands for the crowd while cuts are judged. */
+struct sample {
+  const struct sheet *sheet;
+  uint32_t triangle[SAMPLE];
+  struct geom_point p[SAMPLE][3];
+  double thickness[SAMPLE];
+  int count;
+};
+
+static void take_sample(struct sample *sample, const struct sheet *sheet,
+                        const uint32_t *triangle, size_t count, bool planes) {
+  sample->sheet = sheet;
+  sample->count = count < SAMPLE ? (int)count : SAMPLE;
+  for (int i = 0; i < sample->count; i++) {
+    uint32_t t = triangle[(size_t)i * count / (size_t)sample->count];
+    sample->triangle[i] = t;
+    corners_of(sheet, t, sample->p[i]);
+    if (planes) {
+      struct stance_plane plane = stance_plane_of(sheet, t);
+      sample->thickness[i] = thickness_of(&plane);
+    }
+  }
+}
+
+/* THICKEST times the thickness that half of the sample stays below. */
+static double greatest_thickness(const struct sample *sample) {
+  double sorted[SAMPLE];
+  for (int i = 0; i < sample->count; i++) {
+    int k = i;
+    for (; k > 0 && sorted[k - 1] > sample->thickness[i]; k--)
+      sorted[k] = sorted[k - 1];
+    sorted[k] = sample->thickness[i];
+  }
+  return THICKEST * sorted[sample->count / 2];
+}
+
+/* How many of the sample have a corner there. */
+static int count_sharing(const struct sample *sample, struct geom_point apex) {
+  int sharing = 0;
+  for (int i = 0; i < sample->count; i++)
+    for (int k = 0; k < 3; k++)
+      sharing += geom_same_point(sample->p[i][k], apex);
+  return sharing;
+}
+
+/* The pairs that a cut leaves of the sample's, as a share. */
+static double pairs_left(const struct sample *sample, const struct cut *cut) {
+  double left = 0, right = 0, all = sample->count;
+  for (int i = 0; i < sample->count; i++) {
+    int sides = side_of_points(cut, sample->p[i], 3);
+    if (cut->is_plane && !(sample->thickness[i] <= cut->thickness))
+      sides = CUT_BOTH;
+    left += (sides & CUT_LEFT) != 0;
+    right += (sides & CUT_RIGHT) != 0;
+  }
+  return (left * left + right * right) / (all * all);
+}
+
+/* The line along side k of a triangle, with one end of it as its apex. */
+static struct cut line_along(const struct geom_point p[3], int k, int apex) {
+  struct geom_point a = p[k], b = p[(k + 1) % 3];
+  struct cut cut = {.apex = apex == (k + 1) % 3 ? b : a};
+  cut.dx = (int64_t)b.x - a.x;
+  cut.dy = (int64_t)b.y - a.y;
+  cut.margin = CUT_MARGIN * ((cut.dx < 0 ? -cut.dx : cut.dx) +
+                             (cut.dy < 0 ? -cut.dy : cut.dy));
+  return cut;
+}
+
+static struct cut plane_of(const struct sheet *sheet, uint32_t triangle,
+                           struct geom_point apex, double thickness) {
+  return (struct cut){.apex = apex,
+                      .is_plane = true,
+                      .thickness = thickness,
+                      .plane = stance_plane_of(sheet, triangle)};
+}
+
+/* The corner of a triangle of the sample that most others share. */
+static int choose_apex(const struct sample *sample, int i) {
+  int best = 0, most = -1;
+  for (int k = 0; k < 3; k++) {
+    int sharing = count_sharing(sample, sample->p[i][k]);
+    if (sharing > most) {
+      most = sharing;
+      best = k;
+    }
+  }
+  return best;
+}
+
+/* The best cut so far, and the pairs that it leaves. */
+struct choice {
+  struct cut *cut;
+  double left;
+  bool found;
+};
+
+static void consider(struct choice *choice, const struct sample *sample,
+                     const struct cut *cut) {
+  double left;
+  if (cut->is_plane ? !(cut->plane.nz > 0) : cut->dx == 0 && cut->dy == 0)
+    return;
+  left = pairs_left(sample, cut);
+  if (left >= choice->left)
+    return;
+  choice->left = left;
+  choice->found = true;
+  *choice->cut = *cut;
+}
+
+bool cut_choose(struct cut *cut, const struct sheet *sheet,
+                const uint32_t *triangle, size_t count, bool planes) {
+  struct choice choice = {cut, MOST_LEFT, false};
+  struct sample sample;
+  double thickness = 0;
+  take_sample(&sample, sheet, triangle, count, planes);
+  if (planes)
+    thickness = greatest_thickness(&sample);
+  for (int c = 0; c < CANDIDATES && choice.left > GOOD; c++) {
+    int i = (2 * c + 1) * sample.count / (2 * CANDIDATES);
+    int apex = choose_apex(&sample, i);
+    struct cut now;
+    for (int k = 0; k < 3; k++) {
+      now = line_along(sample.p[i], k, apex);
+      consider(&choice, &sample, &now);
+    }
+    if (planes) {
+      now = plane_of(sheet, sample.triangle[i], sample.p[i][apex], thickness);
+      consider(&choice, &sample, &now);
+    }
+  }
+  return choice.found;
+}

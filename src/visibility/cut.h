@@ -1,0 +1,47 @@
+/* cut.h - a line of the page, or a plane, that parts a crowd of triangles, so
+ * that those on different sides need not be asked about one another.
+ *
+ * A triangle is on a side where a corner of it is, or is so near to the cut
+ * that it might as well be; one with corners on both is on both.  The cut's
+ * apex, a point that many triangles share, does not count: of two triangles
+ * that share it, one on each side, nothing else meets.  So a fan about one
+ * vertex falls into halves, and these into quarters.
+ *
+ * Near, of a line: within CUT_MARGIN units, more than any two lines may be
+ * apart that count as one.  Of a plane: what is before or behind it by no more
+ * than the thickest contact tolerance of the crowd, all but the steepest
+ * triangles', which are on both sides.  So of what a triangle may hide or touch
+ * nothing is on the other side alone; see the reasons at cut.c.
+ */
+#ifndef VISIBILITY_CUT_H
+#define VISIBILITY_CUT_H
+
+#include "visibility/pagegrid.h"
+#include "visibility/stance.h"
+
+enum { CUT_LEFT = 1, CUT_RIGHT = 2, CUT_BOTH = 3 };
+
+struct cut {
+  struct geom_point apex;
+  int64_t dx, dy, margin; /* of a line: its direction, what is near to it */
+  bool is_plane;
+  struct stance_plane plane;
+  double thickness; /* depth units: the most that a triangle may be thick */
+};
+
+/* On which sides a triangle, or a segment, is. */
+int cut_side_of_triangle(const struct cut *cut, const struct sheet *sheet,
+                         uint32_t triangle);
+int cut_side_of_segment(const struct cut *cut, struct geom_point p,
+                        struct geom_point q);
+
+/* The sides of anything within three points, no apex among them. */
+int cut_side_of_corners(const struct cut *cut, const struct geom_point p[3]);
+
+/* Chooses what parts a crowd best, by a sample of it.
+ * planes  may be planes, not only lines of the page
+ * Returns false where nothing leaves clearly fewer pairs. */
+bool cut_choose(struct cut *cut, const struct sheet *sheet,
+                const uint32_t *triangle, size_t count, bool planes);
+
+#endif
