@@ -30,3 +30,10 @@ unit_tests += %D%/test_failures_lines
 unit_tests += %D%/test_watkins
 %C%_test_watkins_SOURCES = %D%/test_watkins.c $(hand_pixels)
 %C%_test_watkins_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_watkins_sweep
+%C%_test_watkins_sweep_SOURCES = %D%/test_watkins_sweep.c $(hand_rational) \
+  %D%/hand/scene.c %D%/hand/scene.h
+%C%_test_watkins_sweep_CPPFLAGS = $(hand_cppflags)
+unit_tests += %D%/test_watkins_exact
+%C%_test_watkins_exact_SOURCES = %D%/test_watkins_exact.c
+%C%_test_watkins_exact_LDADD = %D%/scenes/libscenes.la $(LDADD)

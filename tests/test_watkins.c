@@ -336,28 +336,6 @@ static void solve_scene(const struct pixels_scene *scene, bool coherent,
   hand_sheet_fini(&sheet);
 }
 
-static void assert_same_map(const struct map *a, const struct map *b) {
-  assert_int_equal(a->edge_count, b->edge_count);
-  assert_memory_equal(a->edge_state, b->edge_state, a->edge_count);
-  assert_int_equal(a->interval.count, b->interval.count);
-  for (size_t i = 0; i < a->interval.count; i++) {
-    assert_int_equal(
-        ratio_compare(a->interval.item[i].t0, b->interval.item[i].t0), 0);
-    assert_int_equal(
-        ratio_compare(a->interval.item[i].t1, b->interval.item[i].t1), 0);
-  }
-  assert_int_equal(a->fragment.count, b->fragment.count);
-  for (size_t f = 0; f < a->fragment.count; f++)
-    assert_int_equal(a->fragment.item[f].face, b->fragment.item[f].face);
-  assert_int_equal(a->corner.count, b->corner.count);
-  for (size_t c = 0; c < a->corner.count; c++) {
-    assert_true(a->corner.item[c].x == b->corner.item[c].x);
-    assert_true(a->corner.item[c].y == b->corner.item[c].y);
-    assert_int_equal(a->corner.item[c].side, b->corner.item[c].side);
-    assert_int_equal(a->corner.item[c].id, b->corner.item[c].id);
-  }
-}
-
 /* Depth comparisons with coherence, and without; the maps are the same. */
 static void compare_coherence(const struct pixels_scene *scene, double pitch_mm,
                               int64_t *with, int64_t *without) {
@@ -365,7 +343,7 @@ static void compare_coherence(const struct pixels_scene *scene, double pitch_mm,
   struct map map[2];
   for (int k = 0; k < 2; k++)
     solve_scene(scene, k == 0, pitch_mm, &map[k], report[k]);
-  assert_same_map(&map[0], &map[1]);
+  hand_assert_same_map(&map[0], &map[1], "coherence");
   *with = report_get(report[0], "watkins", "depth_comparisons", -1);
   *without = report_get(report[1], "watkins", "depth_comparisons", -1);
   assert_int_equal(report_get(report[1], "watkins", "kept_by_coherence", -1),

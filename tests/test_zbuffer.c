@@ -599,27 +599,6 @@ static void fragments_are_loops_in_canonical_order(void **state) {
   hand_sheet_fini(&sheet);
 }
 
-static void assert_same_map(const struct map *a, const struct map *b) {
-  assert_int_equal(a->edge_count, b->edge_count);
-  assert_memory_equal(a->edge_state, b->edge_state, a->edge_count);
-  assert_int_equal(a->mixed.count, b->mixed.count);
-  assert_int_equal(a->interval.count, b->interval.count);
-  for (size_t i = 0; i < a->interval.count; i++) {
-    assert_int_equal(
-        ratio_compare(a->interval.item[i].t0, b->interval.item[i].t0), 0);
-    assert_int_equal(
-        ratio_compare(a->interval.item[i].t1, b->interval.item[i].t1), 0);
-  }
-  assert_int_equal(a->fragment.count, b->fragment.count);
-  assert_int_equal(a->corner.count, b->corner.count);
-  for (size_t f = 0; f < a->fragment.count; f++)
-    assert_int_equal(a->fragment.item[f].face, b->fragment.item[f].face);
-  for (size_t c = 0; c < a->corner.count; c++) {
-    assert_true(a->corner.item[c].x == b->corner.item[c].x);
-    assert_true(a->corner.item[c].y == b->corner.item[c].y);
-  }
-}
-
 static void scan_line_draws_the_same_map(void **state) {
   static const int bits[] = {0, 16, 24};
   (void)state;
@@ -631,7 +610,7 @@ static void scan_line_draws_the_same_map(void **state) {
     for (int s = 0; s < 2; s++)
       solve_scene(both[s], &scene, 32 << (seed % 4), bits[seed % 3], &sheet[s],
                   &map[s]);
-    assert_same_map(&map[0], &map[1]);
+    hand_assert_same_map(&map[0], &map[1], "scan line");
     for (int s = 0; s < 2; s++) {
       map_fini(&map[s]);
       hand_sheet_fini(&sheet[s]);

@@ -24,7 +24,8 @@ recto_status hand_solve_as(const struct solver *solver,
                            struct sheet *sheet, struct map *map,
                            struct report *report);
 
-/* Asserts that two maps are the same to the last bit of every number. */
+/* Asserts that two maps are the same to the last bit of every number, exact
+ * areas where they are there. */
 void hand_assert_same_map(const struct map *a, const struct map *b,
                           const char *what);
 
