@@ -144,11 +144,9 @@ claim "in the order of the alphabet" bash -c \
 
 # ---- Pictures -------------------------------------------------------------
 
-picture_is_current() {
-  "$recto" "$srcdir/examples/models/castle.obj" --page 180x140mm \
-    --margin 2mm -o "$scratch/castle.svg" &&
-    same "$srcdir/doc/images/castle.svg" "$scratch/castle.svg"
-}
-claim "the README's picture is what recto draws (else: make images)" \
-  picture_is_current
+bash "$srcdir/doc/draw.sh" "$recto" "$srcdir/examples/models" "$scratch"
+for picture in castle gears knot; do
+  claim "the README's $picture is what recto draws (else: make images)" \
+    same "$srcdir/doc/images/$picture.svg" "$scratch/$picture.svg"
+done
 finish
