@@ -1,20 +1,20 @@
 /* ruling.c - the page ruled with parallel lines, and what of them lies in
  * fragments.
  *
- * A fragment is turned so that the lines are level.  Its spans lie between
- * the first and second, third and fourth, ... crossing of a line with the
- * sides (even-odd).
- * Robustness  A side crosses the lines with low <= height < high, its ends'
- *   heights being the same doubles as its neighbours', so that every line has
- *   an even number of crossings.  Where a side lies within rounding of a line
- *   either outcome is right.
+ * A fragment is turned so that the lines are level, its corners are rounded to
+ * 2^-28 mm, and the scan-line fill does the rest (even-odd).
+ * Robustness  A corner that fragments share is rounded to one place.  Where a
+ *   side lies within rounding of a line either outcome is right.
  * Source  [Foley] ch. 3 */
 #include "ink/ruling.h"
 
 #include <math.h>
 
-#include "base/sort.h"
 #include "base/tolerance.h"
+
+#define UNITS_PER_MM 0x1p28
+#define STEP_DEN (1 << 10) /* lines stand at multiples of 1 / (2 STEP_DEN) */
+#define REACH_MM 4096.0    /* no page is so large, wherever it is turned */
 
 void ruling_init(struct ruling *ruling, const struct sheet *sheet, double pitch,
                  double angle_deg) {
@@ -25,7 +25,7 @@ void ruling_init(struct ruling *ruling, const struct sheet *sheet, double pitch,
 
 void ruling_fini(struct ruling *ruling) {
   ARRAY_FREE(&ruling->side);
-  ARRAY_FREE(&ruling->crossing);
+  ARRAY_FREE(&ruling->found);
   ARRAY_FREE(&ruling->span);
 }
 
@@ -74,76 +74,92 @@ bool ruling_take(struct ruling *ruling, const struct map *map,
   return true;
 }
 
-/* The first line not below v. */
-static int64_t line_above(const struct ruling *ruling, double v) {
-  int64_t line = (int64_t)ceil(v / ruling->pitch - 0.5);
-  /* The quotient may have been rounded across. */
-  while (ruling_height(ruling, line) < v)
-    line++;
-  while (ruling_height(ruling, line - 1) >= v)
-    line--;
-  return line;
+/* ---- Spans ----------------------------------------------------------------
+ */
+
+/* Lines all over the page, in units of 2^-28 mm. */
+static void set_grid(struct ruling *ruling) {
+  double pitch = ruling->pitch < REACH_MM ? ruling->pitch : REACH_MM;
+  double half = ceil(REACH_MM / pitch);
+  struct scan_grid *grid = &ruling->grid;
+  ruling->first = -(int64_t)half;
+  grid->den = grid->x_step = STEP_DEN;
+  grid->x_first = 0;
+  grid->y_step = 2 * llround(pitch * UNITS_PER_MM * STEP_DEN / 2);
+  grid->y_first = ruling->first * grid->y_step;
+  grid->columns = 1; /* not asked for */
+  grid->lines = (int32_t)(2 * half);
+  grid->down = false;
+}
+
+static struct scan_point point_of(const struct ruling *ruling,
+                                  struct ruling_place place) {
+  return scan_point_of(&ruling->grid, llround(place.u * UNITS_PER_MM),
+                       llround(place.v * UNITS_PER_MM));
 }
 
 void ruling_find_lines(const struct ruling *ruling,
                        const struct ruling_side *side, int64_t *low,
                        int64_t *high) {
-  int64_t a = line_above(ruling, side->from.v);
-  int64_t b = line_above(ruling, side->to.v);
+  int64_t a = point_of(ruling, side->from).line + ruling->first;
+  int64_t b = point_of(ruling, side->to).line + ruling->first;
   *low = a < b ? a : b;
   *high = a < b ? b : a;
 }
-
-/* ---- Spans ----------------------------------------------------------------
- */
 
 double ruling_u_at(const struct ruling_side *side, double v) {
   struct ruling_place a = side->from, b = side->to;
   return a.u + (b.u - a.u) * ((v - a.v) / (b.v - a.v));
 }
 
-static int compare_crossings(const void *first, const void *second,
-                             void *user) {
-  const struct ruling_crossing *a = first, *b = second;
-  (void)user;
-  if (a->line != b->line)
-    return (a->line > b->line) - (a->line < b->line);
-  return (a->u > b->u) - (a->u < b->u);
-}
-
-static bool find_crossings(struct ruling *ruling) {
-  ruling->crossing.count = 0;
-  for (uint32_t i = 0; i < ruling->side.count; i++) {
-    const struct ruling_side *side = &ruling->side.item[i];
-    int64_t low, high;
-    ruling_find_lines(ruling, side, &low, &high);
-    for (int64_t k = low; k < high; k++) {
-      double u = ruling_u_at(side, ruling_height(ruling, k));
-      if (!ARRAY_PUSH(&ruling->crossing, ((struct ruling_crossing){k, u, i})))
-        return false;
+/* Adds a span of the line at hand; one that begins where the last ended makes
+ * that one longer. */
+static bool add_span(struct ruling *ruling, const struct scan_table *table,
+                     const struct scan_span *found) {
+  const double gap = TOLERANCE_COINCIDENT_UNITS / SHEET_UNITS_PER_MM;
+  const struct scan_edge *edge = table->edge.item;
+  int64_t line = table->line + ruling->first;
+  struct ruling_span span = {
+      {line, found->x0 / UNITS_PER_MM, edge[found->left].owner},
+      {line, found->x1 / UNITS_PER_MM, edge[found->right].owner},
+      false};
+  if (ruling->span.count > 0) {
+    struct ruling_span *last = &ruling->span.item[ruling->span.count - 1];
+    if (last->left.line == line && span.left.u <= last->right.u + gap) {
+      last->right = span.right;
+      return true;
     }
   }
-  return sort_stable(ruling->crossing.item, ruling->crossing.count,
-                     sizeof *ruling->crossing.item, compare_crossings, NULL);
+  return span.left.u >= span.right.u || ARRAY_PUSH(&ruling->span, span);
+}
+
+static bool scan_sides(struct ruling *ruling, struct scan_table *table) {
+  for (uint32_t i = 0; i < ruling->side.count; i++) {
+    struct scan_point p = point_of(ruling, ruling->side.item[i].from);
+    struct scan_point q = point_of(ruling, ruling->side.item[i].to);
+    if (!scan_table_add(table, &p, &q, i))
+      return false;
+  }
+  if (!scan_table_start(table))
+    return false;
+  while (scan_table_next(table)) {
+    ruling->found.count = 0;
+    if (!ARRAY_RESERVE(&ruling->found, table->active_count))
+      return false;
+    size_t count = scan_table_spans(table, SCAN_EVEN_ODD, ruling->found.item);
+    for (size_t i = 0; i < count; i++)
+      if (!add_span(ruling, table, &ruling->found.item[i]))
+        return false;
+  }
+  return true;
 }
 
 bool ruling_find_spans(struct ruling *ruling) {
-  /* Spans that meet where two fragments do are one. */
-  const double gap = TOLERANCE_COINCIDENT_UNITS / SHEET_UNITS_PER_MM;
+  struct scan_table table;
   ruling->span.count = 0;
-  if (!find_crossings(ruling))
-    return false;
-  for (size_t i = 0; i + 1 < ruling->crossing.count; i += 2) {
-    const struct ruling_crossing *c = &ruling->crossing.item[i];
-    struct ruling_span *last = NULL;
-    if (ruling->span.count > 0)
-      last = &ruling->span.item[ruling->span.count - 1];
-    if (last && last->left.line == c[0].line && c[0].u <= last->right.u + gap)
-      last->right = c[1];
-    else if (c[0].u < c[1].u &&
-             !ARRAY_PUSH(&ruling->span,
-                         ((struct ruling_span){c[0], c[1], false})))
-      return false;
-  }
-  return true;
+  set_grid(ruling);
+  scan_table_init(&table, &ruling->grid);
+  bool good = scan_sides(ruling, &table);
+  scan_table_fini(&table);
+  return good;
 }

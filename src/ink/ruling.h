@@ -3,6 +3,7 @@
 #ifndef INK_RULING_H
 #define INK_RULING_H
 
+#include "geom/scanfill.h"
 #include "ink/drawing.h"
 #include "visibility/map.h"
 
@@ -35,8 +36,10 @@ struct ruling {
   double pitch; /* mm; may be changed between ruling_clear and _find_spans */
   double cosine, sine;
   ARRAY(struct ruling_side) side; /* of the fragments at hand */
-  ARRAY(struct ruling_crossing) crossing;
   ARRAY(struct ruling_span) span; /* by line, then from the left */
+  struct scan_grid grid;
+  int64_t first;                 /* the grid's line 0 */
+  ARRAY(struct scan_span) found; /* on the line at hand */
 };
 
 /* angle_deg  of the lines from the x axis, counter-clockwise */
@@ -52,7 +55,7 @@ struct drawing_point ruling_turn_back(const struct ruling *ruling,
                                       struct ruling_place p);
 
 /* The lowest and the highest line at or above an end of the side: it crosses
- * the lines [low, high). */
+ * the lines [low, high).  After ruling_find_spans. */
 void ruling_find_lines(const struct ruling *ruling,
                        const struct ruling_side *side, int64_t *low,
                        int64_t *high);
