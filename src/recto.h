@@ -239,6 +239,9 @@ typedef struct recto_options {
   /* Reports. */
   double velocity_up_cm_s; /* speed with the pen up, for the time that plotting
                               takes; 0: the plotter's own */
+
+  bool hatch_inset; /* without a light: hatching ends half a pen inside, so that
+                       no ink lies beyond what is visible */
 } recto_options;
 
 /* Fills `options` with the defaults: auto, isometric, A4 portrait with a

@@ -37,3 +37,7 @@ unit_tests += %D%/test_watkins_sweep
 unit_tests += %D%/test_watkins_exact
 %C%_test_watkins_exact_SOURCES = %D%/test_watkins_exact.c
 %C%_test_watkins_exact_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_hatching
+%C%_test_hatching_SOURCES = %D%/test_hatching.c \
+  %D%/hpgl_reader.c %D%/hpgl_reader.h
+%C%_test_hatching_LDADD = $(measure_libs)

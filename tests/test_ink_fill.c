@@ -409,6 +409,83 @@ static void hole_is_left_white(void **state) {
   assert_in_range(assert_hatch(&p, 1, 45, 100), 2, 4);
 }
 
+/* Hatching that keeps half a pen from all sides, moves to the next line
+ * included; returns the length of its lines. */
+static double assert_inset(const struct polygon *p, double pitch,
+                           double angle_deg, double pen, size_t *strokes) {
+  enum { SAMPLES = 19 };
+  struct inked k;
+  double along = 0;
+  draw_hatch(&k, p, pitch, angle_deg);
+  k.options.pen_mm = pen;
+  k.options.hatch_inset = true;
+  k.options.min_stroke_mm = 0;
+  inked_draw(&k);
+  *strokes = k.drawing.stroke.count;
+  for (size_t s = 0; s < k.drawing.stroke.count; s++) {
+    const struct drawing_stroke *stroke = &k.drawing.stroke.item[s];
+    const struct drawing_point *q = k.drawing.point.item + stroke->point;
+    for (uint32_t i = 0; i + 1 < stroke->count; i++) {
+      for (int t = 0; t <= SAMPLES; t++) {
+        double x = q[i].x + (q[i + 1].x - q[i].x) * t / SAMPLES;
+        double y = q[i].y + (q[i + 1].y - q[i].y) * t / SAMPLES;
+        if (depth_in(p, x, y) < pen / 2 - 1e-5)
+          fail_msg("%.6f %.6f is %.6f from a side, not %.3f", x, y,
+                   depth_in(p, x, y), pen / 2);
+      }
+      if (i % 2 == 0)
+        along += hypot(q[i + 1].x - q[i].x, q[i + 1].y - q[i].y);
+    }
+  }
+  inked_end(&k);
+  return along;
+}
+
+static void inset_hatching_keeps_half_a_pen_from_all_sides(void **state) {
+  const double box[] = {10, 10, 90, 10, 90, 50, 10, 50};
+  const double bent[] = {10, 10, 90, 10, 90, 30, 40, 30, 40, 90, 10, 70};
+  struct polygon p = polygon_of(INKED_XY(box));
+  size_t strokes;
+  (void)state;
+  /* Lines at 11, 13, ... 49: the pen of 3 mm keeps from the first and the
+   * last, and 1.5 mm from either end. */
+  assert_true(fabs(assert_inset(&p, 2, 0, 3, &strokes) - 18 * 77) < 1e-6);
+  assert_int_equal(strokes, 1);
+  /* Wider than half the face: nothing is left. */
+  assert_true(assert_inset(&p, 2, 0, 41, &strokes) == 0);
+  for (double angle = 0; angle < 180; angle += 17) {
+    p = polygon_of(INKED_XY(box));
+    /* The box less a border of half a pen, but for where lines end. */
+    double want = (80 - 2.) * (40 - 2.) / 0.5;
+    assert_true(fabs(assert_inset(&p, 0.5, angle, 2, &strokes) - want) < 80);
+    p = polygon_of(INKED_XY(bent));
+    assert_inset(&p, 1.3, angle, 2, &strokes);
+    assert_inset(&p, 0.7, angle, 3, &strokes);
+    p = polygon_of(INKED_XY(outer));
+    memcpy(p.xy[1], inner, sizeof inner);
+    p.count[1] = 4;
+    p.loops = 2;
+    assert_inset(&p, 1.3, angle, 2, &strokes);
+  }
+}
+
+/* Below, above, and the neck between where the pen fits through. */
+static void
+inset_hatching_leaves_out_what_is_narrower_than_the_pen(void **state) {
+  const double neck[] = {10, 10, 90, 10, 90, 40, 51, 40, 51, 60, 90, 60,
+                         90, 90, 10, 90, 10, 60, 49, 60, 49, 40, 10, 40};
+  struct polygon p = polygon_of(INKED_XY(neck));
+  size_t strokes;
+  (void)state;
+  assert_inset(&p, 2, 0, 1, &strokes);
+  assert_int_equal(strokes, 3);
+  /* Half a millimetre in either mouth, between its corners. */
+  assert_inset(&p, 2, 0, 2.5, &strokes);
+  assert_int_equal(strokes, 4);
+  assert_inset(&p, 2, 0, 3, &strokes);
+  assert_int_equal(strokes, 2);
+}
+
 static void teeth_are_hatched_one_by_one(void **state) {
   struct polygon p = {.loops = 1};
   uint32_t n = 0;
@@ -567,6 +644,8 @@ int main(void) {
       cmocka_unit_test(pen_goes_to_the_next_line_along_ink_alone),
       cmocka_unit_test(lines_through_corners_count_once),
       cmocka_unit_test(hole_is_left_white),
+      cmocka_unit_test(inset_hatching_keeps_half_a_pen_from_all_sides),
+      cmocka_unit_test(inset_hatching_leaves_out_what_is_narrower_than_the_pen),
       cmocka_unit_test(teeth_are_hatched_one_by_one),
       cmocka_unit_test(leaning_strip_is_hatched_in_one_stroke),
       cmocka_unit_test(random_polygons_are_hatched_inside),

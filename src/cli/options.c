@@ -86,7 +86,8 @@ static bool take_depth_bits(struct arguments *arguments, const char *text) {
 /* 0: no pitch at all, which also is the default. */
 static bool take_pitch(struct arguments *arguments, const char *text) {
   double mm = 0;
-  if (strcmp(text, "exact") != 0 && !(value_length(text, &mm) && mm >= RECTO_FINEST_MM))
+  if (strcmp(text, "exact") != 0 &&
+      !(value_length(text, &mm) && mm >= RECTO_FINEST_MM))
     return false;
   arguments->options.pitch_mm = mm;
   return true;
@@ -146,8 +147,7 @@ const struct option_entry option_table[] = {
      .offset = AT(options.contact), .least = 0, .most = DBL_MAX},
     {OPTION_TAKE, "pitch", 0, "LENGTH",
      "a length of at least 0.01 mm, or exact",
-     "watkins: between its scan lines, or exact (default)",
-     .take = take_pitch},
+     "watkins: between its scan lines, or exact (default)", .take = take_pitch},
     {OPTION_INT, "resolution", 0, "N", "a number from 1 to 65536",
      "lines of pixels: z-buffers, warnock if asked",
      .offset = AT(options.resolution), .least = 1, .most = 65536},
@@ -234,6 +234,9 @@ const struct option_entry option_table[] = {
     {OPTION_NUMBER, "hatch-angle", 0, "DEG", "an angle in degrees",
      "direction of hatching (45)", .offset = AT(options.hatch_angle_deg),
      .least = -DBL_MAX, .most = DBL_MAX},
+    {OPTION_FLAG, "hatch-inset", 0, NULL, NULL,
+     "hatching without --light ends half a pen inside",
+     .offset = AT(options.hatch_inset)},
     {OPTION_VECTOR, "light", 0, "X,Y,Z", "a direction such as 1,2,3",
      "to the light (upper left); hatch: sets the tone",
      .offset = AT(options.light), .least = DBL_MIN},

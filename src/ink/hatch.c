@@ -4,12 +4,15 @@
  * Strip k lies between lines k - 1 and k of the ruling (ruling.h).
  * Phases, for each patch of fragments that no drawn line parts (patches.h)
  *   1 sides     of all its fragments; sides that two of them share go
- *   2 spans     of the ruling's lines within it
+ *   2 spans     of the ruling's lines within it, inset where asked (inset.h)
  *   3 strips    its sides listed by the strips they reach into
  *   4 strokes   from a span to one of the next line, at the end where the pen
  *               stands, while the move stays inside and near inked sides */
+#include <math.h>
+
 #include "base/sort.h"
 #include "ink/fill.h"
+#include "ink/inset.h"
 #include "ink/layers.h"
 #include "ink/patches.h"
 #include "ink/ruling.h"
@@ -21,10 +24,11 @@ struct hatch {
   struct ruling ruling;
   struct patches patches;
   double shortest;
+  double inset; /* mm that the pen keeps from all sides; 0: it does not */
   struct drawing_stroke like;
   /* Sides that reach into strip first + k: strip_side[strip[k] ..
    * strip[k + 1]). */
-  int64_t first;
+  int64_t first, strips;
   ARRAY(uint32_t) strip;
   ARRAY(uint32_t) strip_side;
   struct stroke_line line; /* the stroke at hand */
@@ -96,6 +100,7 @@ static bool list_strips(struct hatch *h, int64_t first, int64_t last) {
   const struct ruling *r = &h->ruling;
   size_t count = (size_t)(last - first) + 1;
   h->first = first;
+  h->strips = (int64_t)count;
   h->strip.count = h->strip_side.count = 0;
   if (!ARRAY_RESERVE(&h->strip, count + 2))
     return false;
@@ -156,6 +161,32 @@ static bool is_inside(const struct hatch *h, const struct ruling_crossing *from,
   return inside;
 }
 
+/* Whether the move keeps its distance from the sides about its strip. */
+static bool is_clear(const struct hatch *h, const struct ruling_crossing *from,
+                     const struct ruling_crossing *to) {
+  struct ruling_place a = {from->u, ruling_height(&h->ruling, from->line)};
+  struct ruling_place b = {to->u, ruling_height(&h->ruling, to->line)};
+  int64_t reach = (int64_t)ceil(h->inset / h->ruling.pitch);
+  int64_t last = h->strips - 1, strip = to->line - h->first;
+  int64_t low = strip > reach ? strip - reach : 0;
+  int64_t high = strip + reach < last ? strip + reach : last;
+  const uint32_t *start = h->strip.item;
+  for (uint32_t i = start[low]; i < start[high + 1]; i++)
+    if (!inset_is_clear(&h->ruling.side.item[h->strip_side.item[i]], a, b,
+                        h->inset))
+      return false;
+  return true;
+}
+
+/* Whether the pen may go from one crossing to one on the next line.
+ * beside  asks no more than whether both are on one side */
+static bool may_go(const struct hatch *h, const struct ruling_crossing *from,
+                   const struct ruling_crossing *to, bool beside) {
+  if (h->inset > 0)
+    return !beside && is_inside(h, from, to) && is_clear(h, from, to);
+  return beside ? from->side == to->side : is_inside(h, from, to);
+}
+
 /* The first span, from span `i` on, of a later line than that or of that line
  * and not wholly left of u. */
 static size_t find_span(const struct hatch *h, size_t i, int64_t line,
@@ -193,7 +224,7 @@ find_next(struct hatch *h, const struct ruling_span *span, bool right) {
       struct ruling_span *next = &h->ruling.span.item[i];
       const struct ruling_crossing *to = right ? &next->right : &next->left;
       if (to->line == line && !next->used && is_inked(h, to->side) &&
-          (tests ? is_inside(h, from, to) : from->side == to->side))
+          may_go(h, from, to, tests == 0))
         return next;
     }
   }
@@ -224,7 +255,7 @@ static bool add_stroke(struct hatch *h, struct ruling_span *span) {
 
 static bool hatch_patch(struct hatch *h) {
   struct ruling *r = &h->ruling;
-  if (!ruling_find_spans(r))
+  if (!ruling_find_spans(r) || (h->inset > 0 && !inset_spans(r, h->inset)))
     return false;
   if (r->span.count == 0) /* between two lines */
     return true;
@@ -246,8 +277,10 @@ static bool hatch_patch(struct hatch *h) {
 bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
                const struct scene *scene, const struct map *map,
                const recto_options *options, double shortest_mm) {
-  struct hatch h = {
-      .drawing = drawing, .sheet = sheet, .shortest = shortest_mm};
+  struct hatch h = {.drawing = drawing,
+                    .sheet = sheet,
+                    .shortest = shortest_mm,
+                    .inset = options->hatch_inset ? options->pen_mm / 2 : 0};
   ruling_init(&h.ruling, sheet, options->hatch_pitch_mm,
               options->hatch_angle_deg);
   bool good = patches_init(&h.patches, sheet, scene, map, options);

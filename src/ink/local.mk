@@ -8,6 +8,7 @@ librecto_core_la_SOURCES += \
   %D%/engrave.c \
   %D%/fill.c %D%/fill.h %D%/hatch.c \
   %D%/ink.c %D%/ink.h \
+  %D%/inset.c %D%/inset.h \
   %D%/layers.c %D%/layers.h \
   %D%/nearest.c %D%/nearest.h \
   %D%/light.c %D%/light.h \

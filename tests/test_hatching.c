@@ -1,0 +1,174 @@
+/* test_hatching.c - whole models hatched, as read back from the files: as much
+ * line as the area that is seen asks for. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "backends/writer.h"
+#include "judge/judge.h"
+#include "tests/hpgl_reader.h"
+#include "tests/measure/measure.h"
+#include "tests/scenes/pipeline.h"
+
+static const double hpgl_units_per_mm = 40;
+
+/* The length in mm of what runs along the page in an SVG file. */
+static double level_ink_in_svg(const struct pipeline *pipeline,
+                               const recto_options *options) {
+  struct judge_drawing drawing;
+  size_t length;
+  double sum = 0;
+  char *text = pipeline_svg(pipeline, options, &length);
+  assert_null(judge_read_svg(&drawing, text, length));
+  for (size_t s = 0; s < drawing.stroke.count; s++) {
+    const struct judge_stroke *stroke = &drawing.stroke.item[s];
+    const struct judge_place *p = drawing.point.item + stroke->point;
+    for (uint32_t i = 0; i + 1 < stroke->count; i++)
+      if (p[i].y == p[i + 1].y)
+        sum += fabs(p[i + 1].x - p[i].x);
+  }
+  judge_drawing_fini(&drawing);
+  mem_free(text);
+  return sum;
+}
+
+static double level_ink_in_hpgl(const struct pipeline *pipeline) {
+  const struct writer_options writing = {.device = "generic"};
+  struct stream *stream = NULL;
+  struct hpgl hpgl;
+  size_t length;
+  double sum = 0;
+  assert_int_equal(stream_open_memory(&stream, NULL), RECTO_OK);
+  assert_int_equal(
+      writer_hpgl.write(&pipeline->drawing, &writing, stream, NULL), RECTO_OK);
+  const char *text = stream_memory(stream, &length);
+  assert_non_null(text);
+  hpgl_read(&hpgl, text, length);
+  assert_string_equal(hpgl.fault, "");
+  for (size_t s = 0; s < hpgl.stroke.count; s++) {
+    const struct hpgl_stroke *stroke = &hpgl.stroke.item[s];
+    const struct hpgl_point *p = hpgl.point.item + stroke->point;
+    for (uint32_t i = 0; i + 1 < stroke->count; i++)
+      if (p[i].y == p[i + 1].y)
+        sum += abs(p[i + 1].x - p[i].x) / hpgl_units_per_mm;
+  }
+  hpgl_free(&hpgl);
+  stream_discard(stream);
+  return sum;
+}
+
+static double visible_area(const struct map *map) {
+  double area = 0;
+  for (size_t f = 0; f < map->fragment.count; f++)
+    area += measure_fragment_area(map, f);
+  return area;
+}
+
+/* Hatches a model with level lines.  False where it is not there. */
+static bool hatch(struct pipeline *pipeline, recto_options *options,
+                  const char *folder, const char *name, double pitch) {
+  char path[1000];
+  struct scene scene;
+  struct diagnostics silent = {.file = path};
+  snprintf(path, sizeof path, "%.900s/%s.obj", folder ? folder : "none", name);
+  scene_init(&scene);
+  bool there = scene_read(&scene, path, NULL, &silent, NULL) == RECTO_OK;
+  recto_options_init(options);
+  options->azimuth_deg = 30;
+  options->elevation_deg = 25;
+  options->fill = RECTO_FILL_HATCH;
+  options->edges = RECTO_EDGES_NONE;
+  options->hatch_pitch_mm = pitch;
+  options->hatch_angle_deg = 0;
+  options->min_stroke_mm = 0;
+  if (there) {
+    pipeline_run(pipeline, &scene, options, &solver_tiles);
+    assert_int_equal(pipeline->status, RECTO_OK);
+  } else {
+    print_message("no %s\n", name);
+  }
+  scene_fini(&scene);
+  return there;
+}
+
+/* Within 1 % of area over pitch.  The steps of HPGL are no fraction of the
+ * pitch: a line stands up to half a step off, but is as long as it is. */
+static void check_length(const char *folder, const char *name, double pitch) {
+  struct pipeline pipeline;
+  recto_options options;
+  if (!hatch(&pipeline, &options, folder, name, pitch))
+    return;
+  double want = visible_area(&pipeline.map) / pitch;
+  double svg = level_ink_in_svg(&pipeline, &options);
+  double hpgl = level_ink_in_hpgl(&pipeline);
+  assert_true(want > 1000);
+  if (!(fabs(svg / want - 1) < 0.01 && fabs(hpgl / want - 1) < 0.01))
+    fail_msg("%s: %.1f mm in SVG, %.1f mm in HPGL, not %.1f", name, svg, hpgl,
+             want);
+  pipeline_fini(&pipeline);
+}
+
+static void hatched_length_is_area_over_pitch(void **state) {
+  static const double pitch[] = {1, 0.6};
+  const char *source = getenv("srcdir"), *real = getenv("RECTO_MODELS");
+  char examples[600];
+  (void)state;
+  snprintf(examples, sizeof examples, "%.500s/examples/models",
+           source != NULL ? source : ".");
+  check_length(examples, "gears", 1);
+  for (int i = 0; i < 2; i++) {
+    check_length(real, "fandisk", pitch[i]);
+    check_length(real, "spot", pitch[i]);
+  }
+}
+
+/* The lines of the page turned by some angle: the strokes' own lengths, moves
+ * from line to line left out. */
+static void the_angle_of_hatching_changes_no_length(void **state) {
+  const char *source = getenv("srcdir");
+  char path[600];
+  struct scene scene;
+  struct diagnostics silent = {.file = path};
+  (void)state;
+  snprintf(path, sizeof path, "%.500s/examples/models/gears.obj",
+           source != NULL ? source : ".");
+  scene_init(&scene);
+  assert_int_equal(scene_read(&scene, path, NULL, &silent, NULL), RECTO_OK);
+  for (double angle = -80; angle < 90; angle += 62) {
+    struct pipeline pipeline;
+    recto_options options;
+    double along = 0;
+    recto_options_init(&options);
+    options.fill = RECTO_FILL_HATCH;
+    options.edges = RECTO_EDGES_NONE;
+    options.hatch_angle_deg = angle;
+    options.min_stroke_mm = 0;
+    pipeline_run(&pipeline, &scene, &options, &solver_tiles);
+    for (size_t s = 0; s < pipeline.drawing.stroke.count; s++) {
+      const struct drawing_stroke *stroke = &pipeline.drawing.stroke.item[s];
+      const struct drawing_point *p =
+          pipeline.drawing.point.item + stroke->point;
+      for (uint32_t i = 0; i + 1 < stroke->count; i += 2)
+        along += hypot(p[i + 1].x - p[i].x, p[i + 1].y - p[i].y);
+    }
+    double want = visible_area(&pipeline.map) / options.hatch_pitch_mm;
+    if (!(fabs(along / want - 1) < 0.01))
+      fail_msg("%g degrees: %.1f mm, not %.1f", angle, along, want);
+    pipeline_fini(&pipeline);
+  }
+  scene_fini(&scene);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(hatched_length_is_area_over_pitch),
+      cmocka_unit_test(the_angle_of_hatching_changes_no_length),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
