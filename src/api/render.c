@@ -81,8 +81,17 @@ static int count_threads(const recto_options *options) {
 
 /* ---- Stages -------------------------------------------------------------- */
 
+static bool has_fills(const struct render *render) {
+  return render->options->fill != RECTO_FILL_NONE;
+}
+
 static recto_status find_edges(struct render *render, recto_error *error) {
-  return topology_init(&render->topology, &render->rescaled.scene, error);
+  recto_status status =
+      topology_init(&render->topology, &render->rescaled.scene, error);
+  render->topology.brief = !has_fills(render);
+  report_int(render->report, "scene", "edges",
+             (int64_t)render->topology.edge.count);
+  return status;
 }
 
 static recto_status aim(struct render *render, recto_error *error) {
@@ -100,10 +109,16 @@ static recto_status aim(struct render *render, recto_error *error) {
 }
 
 static recto_status project(struct render *render, recto_error *error) {
-  bool outlines = render->options->fill != RECTO_FILL_NONE;
-  return sheet_init(&render->sheet, &render->rescaled.scene, &render->topology,
-                    &render->camera, &render->rescaled.options, outlines,
-                    error);
+  recto_status status = sheet_init(
+      &render->sheet, &render->rescaled.scene, &render->topology,
+      &render->camera, &render->rescaled.options, has_fills(render), error);
+  /* On a fine mesh it is a quarter of all memory, and lines alone never ask
+   * it again. */
+  if (!has_fills(render)) {
+    render->sheet.topology = NULL;
+    topology_fini(&render->topology);
+  }
+  return status;
 }
 
 /* Hands the share of the stage on as a share of the whole. */
@@ -214,7 +229,6 @@ static void report_scene(struct report *report, const recto_scene *model) {
 
 static void report_sheet(struct report *report, const struct render *render) {
   const struct sheet *sheet = &render->sheet;
-  report_int(report, "scene", "edges", (int64_t)render->topology.edge.count);
   report_add(report, "faults", "warped", (int64_t)sheet->warped);
   report_int(report, "sheet", "points", (int64_t)sheet->point.count);
   report_int(report, "sheet", "triangles", (int64_t)sheet->triangle.count);

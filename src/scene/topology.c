@@ -249,6 +249,11 @@ fail:
   return error_memory(error);
 }
 
+void topology_drop_corners(struct topology *topology) {
+  mem_free(topology->corner_edge);
+  topology->corner_edge = NULL;
+}
+
 void topology_fini(struct topology *topology) {
   ARRAY_FREE(&topology->edge);
   mem_free(topology->corner_edge);

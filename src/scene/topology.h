@@ -21,6 +21,8 @@ struct topology {
   ARRAY(struct topology_edge) edge; /* in order of first use by a face */
   uint32_t *corner_edge; /* for corner c of a face, the edge from it to the
                             face's next corner; one per scene corner */
+  bool brief;            /* nobody asks for corner_edge once there are
+                            triangles on the sheet: it may be given up then */
   uint32_t *weld;        /* point -> the point that stands for it; NULL where
                             nothing was welded */
 };
@@ -30,6 +32,9 @@ USE_RESULT recto_status topology_init(struct topology *topology,
                                       const struct scene *scene,
                                       recto_error *error);
 void topology_fini(struct topology *topology);
+
+/* Gives up corner_edge. */
+void topology_drop_corners(struct topology *topology);
 
 /* The natures of an edge that do not depend on the camera, a mask of
  * RECTO_EDGE_BORDER (one face or more than two), RECTO_EDGE_CREASE (angle

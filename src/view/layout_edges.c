@@ -42,6 +42,34 @@ static recto_status find_ends(struct layout *layout, uint32_t edge,
   return layout_edge_cut(layout, edge, ends);
 }
 
+/* Which topology edges were made, a bit each, and how many before each 64 of
+ * them: as sheet edges stand in the same order, that is their numbers.  It is
+ * asked for every side of every triangle, and fits in a cache. */
+struct made {
+  uint64_t *bits;
+  uint32_t *before;
+};
+
+static bool made_init(struct made *made, size_t edges) {
+  made->bits = mem_calloc(edges / 64 + 1, sizeof *made->bits);
+  made->before = mem_alloc(edges / 64 + 1, sizeof *made->before);
+  return made->bits && made->before;
+}
+
+static void made_fini(struct made *made) {
+  mem_free(made->bits);
+  mem_free(made->before);
+}
+
+/* The sheet edge of a topology edge; SHEET_NONE: it was not made. */
+static inline uint32_t made_of(const struct made *made, uint32_t edge) {
+  uint64_t bits = made->bits[edge / 64], bit = UINT64_C(1) << edge % 64;
+  if (!(bits & bit))
+    return SHEET_NONE;
+  return made->before[edge / 64] +
+         (uint32_t)__builtin_popcountll(bits & (bit - 1));
+}
+
 static bool add_edge(struct layout *layout, struct layout_cut ends,
                      uint32_t source, uint32_t group, unsigned edge_class,
                      uint32_t part) {
@@ -57,15 +85,15 @@ static bool add_edge(struct layout *layout, struct layout_cut ends,
 }
 
 /* Makes the edges that are wanted.
- * natures  one a topology edge; NULL where no class of them was asked for
- * made     topology edge -> sheet edge, SHEET_NONE: not made */
+ * natures  one a topology edge; NULL where no class of them was asked for */
 static recto_status make_edges(struct layout *layout, const uint8_t *natures,
-                               uint32_t *made) {
+                               struct made *made) {
   const struct topology *topology = layout->topology;
   unsigned wanted = layout->options->edges & face_natures;
   for (uint32_t e = 0; e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
-    made[e] = SHEET_NONE;
+    if (e % 64 == 0)
+      made->before[e / 64] = (uint32_t)layout->sheet->edge.count;
     unsigned edge_class = 0;
     if (natures)
       edge_class =
@@ -85,7 +113,7 @@ static recto_status make_edges(struct layout *layout, const uint8_t *natures,
       return status;
     if (!edge_class && !layout->outlines)
       continue;
-    made[e] = (uint32_t)layout->sheet->edge.count;
+    made->bits[e / 64] |= UINT64_C(1) << e % 64;
     if (!add_edge(layout, ends, e,
                   layout->scene->face_group.item[edge->face[0]], edge_class, 0))
       return error_memory(layout->error);
@@ -95,14 +123,14 @@ static recto_status make_edges(struct layout *layout, const uint8_t *natures,
 
 /* The sides of the triangles name sheet edges from now on, and the edges their
  * first two triangles. */
-static void name_sides(struct layout *layout, const uint32_t *made) {
+static void name_sides(struct layout *layout, const struct made *made) {
   struct sheet *sheet = layout->sheet;
   for (size_t t = 0; t < sheet->triangle.count; t++) {
     uint32_t *side = sheet->triangle.item[t].side;
     for (int k = 0; k < 3; k++) {
       if (side[k] == SHEET_NONE)
         continue;
-      side[k] = made[side[k]];
+      side[k] = made_of(made, side[k]);
       if (side[k] == SHEET_NONE)
         continue;
       uint32_t *of = sheet->edge.item[side[k]].triangle;
@@ -117,9 +145,9 @@ static void name_sides(struct layout *layout, const uint32_t *made) {
 recto_status layout_edges(struct layout *layout) {
   size_t edges = layout->topology->edge.count;
   recto_status status;
-  uint32_t *made = mem_alloc(edges, sizeof *made);
+  struct made made;
   uint8_t *natures = NULL;
-  if (!made)
+  if (!made_init(&made, edges))
     goto no_memory;
   if (layout->options->edges & face_natures) {
     natures = mem_alloc(edges, sizeof *natures);
@@ -129,14 +157,14 @@ recto_status layout_edges(struct layout *layout) {
   }
   if (layout->outlines && !ARRAY_RESERVE(&layout->sheet->edge, edges))
     goto no_memory;
-  status = make_edges(layout, natures, made);
+  status = make_edges(layout, natures, &made);
   if (status == RECTO_OK)
-    name_sides(layout, made);
+    name_sides(layout, &made);
   goto end;
 no_memory:
   status = error_memory(layout->error);
 end:
-  mem_free(made);
+  made_fini(&made);
   mem_free(natures);
   return status;
 }

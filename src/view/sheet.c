@@ -18,7 +18,7 @@ static void free_layout(struct layout *layout) {
 }
 
 recto_status sheet_init(struct sheet *sheet, const struct scene *scene,
-                        const struct topology *topology,
+                        struct topology *topology,
                         const struct camera *camera,
                         const recto_options *options, bool outlines,
                         recto_error *error) {
@@ -40,6 +40,8 @@ recto_status sheet_init(struct sheet *sheet, const struct scene *scene,
   recto_status status = layout_points(&layout);
   if (status == RECTO_OK)
     status = layout_triangles(&layout);
+  if (topology->brief)
+    topology_drop_corners(topology);
   if (status == RECTO_OK)
     status = layout_edges(&layout);
   if (status == RECTO_OK)

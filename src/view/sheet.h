@@ -90,7 +90,7 @@ struct sheet {
  * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_LIMIT (2^31 points). */
 USE_RESULT recto_status sheet_init(struct sheet *sheet,
                                    const struct scene *scene,
-                                   const struct topology *topology,
+                                   struct topology *topology,
                                    const struct camera *camera,
                                    const recto_options *options, bool outlines,
                                    recto_error *error);
