@@ -27,6 +27,7 @@ static void add_bit(struct runs *runs, int kind, double u0, double u1,
                     int cuts) {
   struct run_bit bit = {.u0 = u0,
                         .u1 = u1,
+                        .width_mm = 1,
                         .blank = kind == BLANK,
                         .cut0 = cuts & 1,
                         .cut1 = cuts & 2};
@@ -332,6 +333,33 @@ static void lines_run_over_many_faces(void **state) {
   }
 }
 
+/* ---- The stability list ----------------------------------------------------
+ */
+
+static void every_scene_is_hatched_on_its_page(void **state) {
+  (void)state;
+  for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
+    struct scene scene;
+    struct pipeline p;
+    recto_options options;
+    scene_init(&scene);
+    pipeline_fill(&scene, &options, entry);
+    options.edges = RECTO_EDGES_NONE;
+    options.fill = RECTO_FILL_HATCH;
+    options.light[0] = -0.3;
+    options.light[2] = 1;
+    options.pen_mm = options.page_width_mm / 400;
+    pipeline_run(&p, &scene, &options, &solver_tiles);
+    for (size_t i = 0; p.status == RECTO_OK && i < p.drawing.point.count; i++) {
+      struct drawing_point q = p.drawing.point.item[i];
+      assert_true(q.x >= 0 && q.x <= options.page_width_mm);
+      assert_true(q.y >= 0 && q.y <= options.page_height_mm);
+    }
+    pipeline_fini(&p);
+    scene_fini(&scene);
+  }
+}
+
 /* ---- Memory ---------------------------------------------------------------
  */
 
@@ -381,6 +409,7 @@ int main(void) {
       cmocka_unit_test(each_pen_hatches_its_groups),
       cmocka_unit_test(lines_over_a_ball_cover_what_its_tone_asks_for),
       cmocka_unit_test(lines_run_over_many_faces),
+      cmocka_unit_test(every_scene_is_hatched_on_its_page),
       cmocka_unit_test(hatching_fails_cleanly_when_memory_runs_out),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -46,7 +46,7 @@ struct engraving {
   const recto_options *options;
   struct tones tones;
   struct ruling ruling[LAYERS];
-  double pen, pitch; /* of a whole layer */
+  double pen; /* its width, for the face at hand, mm */
   double shortest;
   struct runs runs;
   struct tone tone; /* of the face at hand */
@@ -96,12 +96,13 @@ static bool add_bit(struct engraving *e, int cross,
                         .line = span->left.line,
                         .u0 = u0,
                         .u1 = u1,
+                        .width_mm = e->pen,
                         .blank = blank,
                         .cut0 = u0 > span->left.u,
                         .cut1 = u1 < span->right.u};
   if (e->tone.even)
     bit.step = (uint32_t)lround(e->tone.most * TONE_STEPS);
-  if (u0 >= u1 || (blank && u1 - u0 >= e->runs.speck))
+  if (u0 >= u1 || (blank && u1 - u0 >= SPECK_PENS * e->pen))
     return true;
   return ARRAY_PUSH(&e->runs.bit, bit);
 }
@@ -170,7 +171,7 @@ static bool take_curved(struct engraving *e, const struct map *map,
     struct ruling *r = &e->ruling[k];
     if (e->tone.most <= threshold(k, 0))
       break;
-    r->pitch = e->pitch;
+    r->pitch = e->pen / FULL;
     ruling_clear(r);
     if (!ruling_take(r, map, fragment) || !ruling_find_spans(r))
       return false;
@@ -207,12 +208,10 @@ static bool add_stroke(struct engraving *e, const struct run_bit *bit,
   if (!(u1 - u0 >= e->shortest) || u1 <= u0)
     return true;
   struct ruling *r = &e->ruling[bit->cross];
-  r->pitch = e->pitch;
-  if (bit->step > 0) {
-    double each;
+  double each = FULL;
+  if (bit->step > 0)
     (void)share_out((double)bit->step / TONE_STEPS, &each);
-    r->pitch = e->pen / each;
-  }
+  r->pitch = bit->width_mm / each;
   double v = ruling_height(r, bit->line);
   /* To and fro, as the lines come. */
   bool back = bit->line & 1;
@@ -230,7 +229,7 @@ static bool add_stroke(struct engraving *e, const struct run_bit *bit,
 /* With ids a stroke is of one face; without, it is the whole run. */
 static bool add_run(struct engraving *e, const struct run *run) {
   const struct run_bit *bit = e->runs.bit.item;
-  double inset = acos(-1.0) / 8 * e->pen;
+  double inset = acos(-1.0) / 8 * bit[run->first].width_mm;
   double u0 = run->u0 + inset, u1 = run->u1 - inset;
   if (!e->options->ids)
     return add_stroke(e, &bit[run->first], u0, u1);
@@ -259,6 +258,7 @@ static bool take_fragments(struct engraving *e, const struct map *map) {
     uint32_t group = e->tones.scene->face_group.item[fragment->face];
     e->face = fragment->face;
     e->layer = layers_pen_of_group(e->options, group);
+    e->pen = e->drawing->layer.item[e->layer].width_mm;
     e->tone = tones_of_face(&e->tones, fragment->face);
     if (!(e->tone.even ? take_even : take_curved)(e, map, fragment))
       return false;
@@ -269,16 +269,13 @@ static bool take_fragments(struct engraving *e, const struct map *map) {
 bool engrave_add(struct drawing *drawing, const struct sheet *sheet,
                  const struct scene *scene, const struct map *map,
                  const recto_options *options, double shortest_mm) {
-  struct engraving e = {.drawing = drawing,
-                        .options = options,
-                        .pen = options->pen_mm,
-                        .shortest = shortest_mm};
-  e.pitch = e.pen / FULL;
+  struct engraving e = {
+      .drawing = drawing, .options = options, .shortest = shortest_mm};
   /* What is less than an eighth of the pen apart, the ink would join. */
-  e.runs.touch = e.pen / 8;
-  e.runs.speck = SPECK_PENS * e.pen;
+  e.runs.touch = 1.0 / 8;
+  e.runs.speck = SPECK_PENS;
   for (int k = 0; k < LAYERS; k++)
-    ruling_init(&e.ruling[k], sheet, e.pitch,
+    ruling_init(&e.ruling[k], sheet, options->pen_mm,
                 options->hatch_angle_deg + LAYER_DEG * k);
   bool good = tones_init(&e.tones, sheet, scene, options) &&
               take_fragments(&e, map) && add_runs(&e);

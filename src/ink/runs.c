@@ -32,20 +32,22 @@ bool runs_sort(struct runs *runs) {
 static bool extend(const struct runs *runs, struct run *run) {
   const struct run_bit *bit = runs->bit.item, *first = &bit[run->first];
   double blank = first->u1; /* how far the face is known to run on */
+  double touch = runs->touch * first->width_mm;
+  double speck = runs->speck * first->width_mm;
   bool cut = first->cut1;
   run->end = run->first + 1;
   run->u0 = first->u0;
   run->u1 = first->u1;
   for (size_t i = run->end;
        i < runs->bit.count && compare_lines(first, &bit[i]) == 0; i++) {
-    if (bit[i].u0 > blank + runs->touch)
+    if (bit[i].u0 > blank + touch)
       break;
     if (bit[i].blank) {
       blank = bit[i].u1 > blank ? bit[i].u1 : blank;
       continue;
     }
-    if (bit[i].u0 > run->u1 + runs->touch &&
-        !(cut && bit[i].cut0 && bit[i].u0 - run->u1 < runs->speck))
+    if (bit[i].u0 > run->u1 + touch &&
+        !(cut && bit[i].cut0 && bit[i].u0 - run->u1 < speck))
       break;
     run->end = i + 1;
     if (bit[i].u1 > run->u1) {
@@ -65,7 +67,7 @@ bool runs_next(struct runs *runs, struct run *run) {
       continue;
     bool cut = extend(runs, run);
     runs->next = run->end;
-    if (!(bit->cut0 && cut && run->u1 - run->u0 < runs->speck))
+    if (!(bit->cut0 && cut && run->u1 - run->u0 < runs->speck * bit->width_mm))
       return true;
   }
   return false;

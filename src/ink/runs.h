@@ -11,15 +11,17 @@ struct run_bit {
   uint32_t face;
   int64_t line;
   double u0, u1;   /* mm along the line, u0 < u1 */
+  double width_mm; /* of the pen */
   bool blank;      /* no longer than runs.speck: others say nothing */
   bool cut0, cut1; /* begins, ends because of the tone, not of the face */
 };
 
 struct runs {
   ARRAY(struct run_bit) bit;
-  double touch; /* mm: bits less than that apart meet */
-  double speck; /* mm: shorter runs, and shorter gaps, between two changes of
-                   the tone are left out: they are noise of the surface */
+  double touch; /* pen widths: bits less than that apart meet */
+  double speck; /* pen widths: shorter runs, and shorter gaps, between two
+                   changes of the tone are left out: they are noise of the
+                   surface */
   size_t next;  /* bit */
 };
 
