@@ -58,8 +58,10 @@ unit_tests += %D%/test_hpgl %D%/test_device
 %C%_test_hpgl_SOURCES = %D%/test_hpgl.c $(plotting)
 %C%_test_device_SOURCES = %D%/test_device.c $(plotting)
 if HAVE_CAIRO
-unit_tests += %D%/test_cairo
+unit_tests += %D%/test_cairo %D%/test_failures_fills
 endif
+%C%_test_failures_fills_SOURCES = %D%/test_failures_fills.c
+%C%_test_failures_fills_LDADD = %D%/scenes/libscenes.la $(LDADD)
 %C%_test_cairo_SOURCES = %D%/test_cairo.c %D%/maker.c %D%/maker.h
 check_PROGRAMS += %D%/paper_tool
 %C%_paper_tool_SOURCES = %D%/paper_tool.c %D%/maker.c %D%/maker.h

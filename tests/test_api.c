@@ -183,6 +183,8 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
   REFUSED(order, (recto_order)2);
   REFUSED(simplify_mm, -1);
   REFUSED(min_stroke_mm, (double)NAN);
+  REFUSED(seam_mm, -0.1);
+  REFUSED(seam_mm, 11);
   REFUSED(precision, 10);
   REFUSED(precision, -1);
   REFUSED(dpi, -1);

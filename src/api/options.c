@@ -81,6 +81,7 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the way with hidden lines", o->hidden, 0, RECTO_HIDDEN_LAYER},
       {"the number of layers that hide", o->hidden_layers, 0, INT_MAX},
       {"the kind of fill", o->fill, 0, RECTO_FILL_HATCH},
+      {"the seam", o->seam_mm, 0, 10},
       {"the hatch pitch", o->hatch_pitch_mm, RECTO_FINEST_MM, huge},
       {"the hatch angle", o->hatch_angle_deg, -huge, huge},
       {"the light", o->light[0], -huge, huge},

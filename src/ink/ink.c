@@ -157,6 +157,7 @@ static bool start_drawing(struct ink *ink) {
   ink->drawing->width_mm = ink->sheet->camera.page_mm[0];
   ink->drawing->height_mm = ink->sheet->camera.page_mm[1];
   ink->drawing->ids = ink->options->ids;
+  ink->drawing->seam_mm = ink->options->seam_mm;
   return layers_add(ink->drawing, ink->scene, ink->options) &&
          (!ink->options->ids || copy_group_names(ink));
 }
