@@ -71,6 +71,28 @@ static void areas_are_told_by_what_is_wrong(void **state) {
   map_fini(&map);
 }
 
+/* What is given twice is not missing elsewhere. */
+static void overlaps_are_told_apart(void **state) {
+  struct sheet sheet;
+  struct map exact, map;
+  struct measure m;
+  (void)state;
+  empty_sheet(&sheet);
+  map_init(&exact);
+  map_init(&map);
+  add_box(&exact, 0, 0, 0, 10, 10);
+  add_box(&exact, 1, 10, 0, 20, 10);
+  add_box(&map, 0, 0, 0, 12, 8);
+  add_box(&map, 1, 9, 0, 20, 8);
+  assert_true(measure_map(&m, &sheet, &exact, &map));
+  assert_near(m.twice_area, 3 * 8);
+  assert_near(m.wrong_face, 3 * 8);
+  assert_near(m.missing_area, 20 * 2);
+  assert_near(m.false_area, 0);
+  map_fini(&exact);
+  map_fini(&map);
+}
+
 /* A frame with a hole, and an L: neither is convex. */
 static void holes_and_corners_that_turn_in_are_kept_out(void **state) {
   static const double outer[] = {-9, -9, 9, -9, 9, 9, -9, 9};
@@ -194,6 +216,7 @@ static void ink_is_compared_interval_by_interval(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(areas_are_told_by_what_is_wrong),
+      cmocka_unit_test(overlaps_are_told_apart),
       cmocka_unit_test(holes_and_corners_that_turn_in_are_kept_out),
       cmocka_unit_test(one_map_has_no_error_against_itself),
       cmocka_unit_test(ink_is_compared_interval_by_interval),

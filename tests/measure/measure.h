@@ -14,8 +14,9 @@
 
 struct measure {
   /* mm^2: that the exact map covers; of these, that the other gives to another
-   * face, to none; that the other covers and the exact one does not. */
-  double true_area, wrong_face, missing_area, false_area;
+   * face, to none; that the other covers and the exact one does not; that the
+   * other gives to a second fragment, taken to be within the exact map. */
+  double true_area, wrong_face, missing_area, false_area, twice_area;
   /* mm: that the exact map shows; of these, that the other does not show; that
    * the other shows and the exact one does not. */
   double true_ink, missing_ink, false_ink;
