@@ -18,8 +18,13 @@
 
 #include "base/sort.h"
 
-/* A key of 64 bits: 20 for the line, the rest for x. */
-#define KEY_X_BITS 44
+/* A key of 44 bits, four passes of the sort: 20 for the line, the rest for x.
+ * A unit of it is 2^-24 of the range of x; slack is below 2^-30 of it, with
+ * the 2^20 lines that are the most. */
+#define KEY_X_BITS 24
+
+/* So many edges with one key are sorted by insertion. */
+#define FEW_EQUAL 8
 
 /* ---- Points and edges --------------------------------------------------- */
 
@@ -92,22 +97,17 @@ int32_t scan_edge_column_exact(const struct scan_edge *edge,
   return near + (at < edge_at || (at == edge_at && !on));
 }
 
-int scan_edge_compare_x(const struct scan_edge *a, const struct scan_edge *b,
-                        const struct scan_grid *grid) {
-  double apart = a->x - b->x, slack = a->slack + b->slack;
-  if (apart < -slack)
-    return -1;
-  if (apart > slack)
-    return 1;
-  return ratio_compare(
+int scan_edge_compare_exact(const struct scan_edge *a,
+                            const struct scan_edge *b,
+                            const struct scan_grid *grid, bool dx) {
+  int order;
+  /* The common side of two neighbours. */
+  if (a->x0 == b->x0 && a->y0 == b->y0 && a->x1 == b->x1 && a->y1 == b->y1)
+    return 0;
+  order = ratio_compare(
       (struct ratio){exact_x(a, grid, a->line), a->y1 - a->y0},
       (struct ratio){exact_x(b, grid, b->line), b->y1 - b->y0});
-}
-
-int scan_edge_compare(const struct scan_edge *a, const struct scan_edge *b,
-                      const struct scan_grid *grid) {
-  int order = scan_edge_compare_x(a, b, grid);
-  if (order == 0) {
+  if (order == 0 && dx) {
     int128 turn = (int128)(a->x1 - a->x0) * (b->y1 - b->y0) -
                   (int128)(b->x1 - b->x0) * (a->y1 - a->y0);
     order = (turn > 0) - (turn < 0);
@@ -264,13 +264,13 @@ static bool insert_last(const struct scan_table *table, uint32_t *index,
 }
 
 /* Puts the keys' order right where they could not tell: first edges with the
- * same key, which may be many, then neighbours within a bucket. */
+ * same key where these are many, then neighbours within a bucket. */
 static bool refine_order(struct scan_table *table, const struct sort_key *key) {
   size_t count = table->edge.count, bucket = 0;
   for (size_t i = 0, past; i < count; i = past) {
     for (past = i; past < count && key[past].key == key[i].key; past++)
       table->order[past] = key[past].value;
-    if (past - i > 1 &&
+    if (past - i > FEW_EQUAL &&
         !sort_stable(table->order + i, past - i, sizeof *table->order,
                      compare_indices, table))
       return false;
@@ -278,7 +278,9 @@ static bool refine_order(struct scan_table *table, const struct sort_key *key) {
   for (size_t i = 0; i < count; i++) {
     if (key[i].key >> KEY_X_BITS != key[bucket].key >> KEY_X_BITS)
       bucket = i;
-    insert_last(table, table->order + bucket, i + 1 - bucket);
+    /* Further apart, keys tell: a unit of them is more than any slack. */
+    else if (key[i].key - key[i - 1].key <= 1)
+      insert_last(table, table->order + bucket, i + 1 - bucket);
   }
   return true;
 }

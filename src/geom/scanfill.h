@@ -129,14 +129,35 @@ static inline int32_t scan_edge_column_past(const struct scan_edge *edge,
   return scan_edge_column_at(edge, grid, edge->line, edge->x, false);
 }
 
+/* See scan_edge_compare, for edges that doubles cannot tell apart.
+ * dx  compare where they go, too */
+int scan_edge_compare_exact(const struct scan_edge *a,
+                            const struct scan_edge *b,
+                            const struct scan_grid *grid, bool dx);
+
+static inline int scan_edge_find_order(const struct scan_edge *a,
+                                       const struct scan_edge *b,
+                                       const struct scan_grid *grid, bool dx) {
+  double apart = a->x - b->x, slack = a->slack + b->slack;
+  if (apart < -slack)
+    return -1;
+  return apart > slack ? 1 : scan_edge_compare_exact(a, b, grid, dx);
+}
+
 /* Orders two edges at the same line by x: <0, 0, >0.  Exact. */
-int scan_edge_compare_x(const struct scan_edge *a, const struct scan_edge *b,
-                        const struct scan_grid *grid);
+static inline int scan_edge_compare_x(const struct scan_edge *a,
+                                      const struct scan_edge *b,
+                                      const struct scan_grid *grid) {
+  return scan_edge_find_order(a, b, grid, false);
+}
 
 /* Orders two edges at the same line by x, then by which will be left on the
  * next line: <0, 0, >0.  Exact. */
-int scan_edge_compare(const struct scan_edge *a, const struct scan_edge *b,
-                      const struct scan_grid *grid);
+static inline int scan_edge_compare(const struct scan_edge *a,
+                                    const struct scan_edge *b,
+                                    const struct scan_grid *grid) {
+  return scan_edge_find_order(a, b, grid, true);
+}
 
 /* ---- Convex polygons ---------------------------------------------------- */
 

@@ -69,7 +69,8 @@ typedef ARRAY(struct watkins_record) watkins_records;
 typedef ARRAY(uint32_t) watkins_list;
 
 struct watkins_counts {
-  int64_t intervals, coherent, splits, comparisons;
+  int64_t intervals, coherent, splits;
+  int64_t comparisons; /* of depths at a place */
 };
 
 struct watkins {

@@ -1,6 +1,7 @@
 /* watkins_interval.c - what is seen in an interval between two edges.
  *
- * Rules    one facet: that; several: the nearest at the middle (at the ends
+ * Rules    one facet: that; one whose corners are all nearer than all of the
+ *          others': that; several: the nearest at the middle (at the ends
  *          they may touch), unless it pierces another inside the interval.
  * Piercing the signs of the difference in depth at the two ends tell: if they
  *          differ, the two cross inside.  The interval is split there, the
@@ -29,6 +30,10 @@
 
 #include "visibility/watkins.h"
 
+/* Parts of an interval are no narrower, so that splitting ends whatever steep
+ * facets' depths are rounded to: a corner of the map is a multiple of it. */
+#define NARROWEST 0x1p-8
+
 /* ---- Depth -------------------------------------------------------------- */
 
 double watkins_depth(const struct watkins *watkins, uint32_t facet, double x) {
@@ -51,6 +56,12 @@ int watkins_compare(struct watkins *watkins, uint32_t f, uint32_t g, double x) {
   double slack = tolerance(watkins, f, g);
   watkins->counts.comparisons++;
   return (apart > slack) - (apart < -slack);
+}
+
+/* Is all of f nearer than all of g, beyond any doubt? */
+static bool is_clear(const struct watkins *watkins, uint32_t f, uint32_t g) {
+  return watkins->facet.item[f].z_low - watkins->facet.item[g].z_high >
+         2 * tolerance(watkins, f, g);
 }
 
 /* ---- Order -------------------------------------------------------------- */
@@ -93,19 +104,23 @@ static void settle_ties(struct watkins *watkins) {
   in[0] = first;
 }
 
-/* Where the facet in front crosses another strictly between x0 and x1: the
- * first crossing found in the order of depth. */
+/* Where the facet in front crosses another between x0 and x1, and no nearer to
+ * them than corners are rounded: the first crossing found in the order of
+ * depth. */
 static bool find_crossing(struct watkins *watkins, double x0, double x1,
                           double *at) {
   const uint32_t *in = watkins->in.item;
   for (size_t i = 1; i < watkins->in.count; i++) {
-    int left = watkins_compare(watkins, in[0], in[i], x0);
-    int right = watkins_compare(watkins, in[0], in[i], x1);
+    int left, right;
+    if (is_clear(watkins, in[0], in[i]))
+      continue;
+    left = watkins_compare(watkins, in[0], in[i], x0);
+    right = watkins_compare(watkins, in[0], in[i], x1);
     if (left * right < 0) {
       double d0 = difference(watkins, in[0], in[i], x0);
       double d1 = difference(watkins, in[0], in[i], x1);
       *at = x0 + (x1 - x0) * d0 / (d0 - d1);
-      if (x0 < *at && *at < x1)
+      if (*at - x0 > NARROWEST && x1 - *at > NARROWEST)
         return true;
     }
   }
@@ -179,9 +194,10 @@ static double change_along(const struct watkins *watkins, uint32_t f,
 }
 
 /* For how many lines the order in depth stands: at the middle against the
- * nearest there, at both ends against the one in front.  Steep facets, whose
- * depths are kept within those of their corners and so are not linear, have
- * none. */
+ * nearest there, at both ends against the one in front.  Facets whose depths
+ * overlap and that are steep have none: their depths are kept within those of
+ * their corners and so are not linear; nor has a crossing too near to an end.
+ */
 static double order_kept(const struct watkins *watkins, uint32_t left,
                          uint32_t right, uint32_t nearest) {
   const struct scan_edge *l = &watkins->table.edge.item[left];
@@ -191,17 +207,21 @@ static double order_kept(const struct watkins *watkins, uint32_t left,
   } at[3] = {{l->x, l->dx},
              {r->x, r->dx},
              {l->x + (r->x - l->x) / 2, l->dx + (r->dx - l->dx) / 2}};
+  const struct watkins_facet *facet = watkins->facet.item;
   double kept = INFINITY;
   for (size_t i = 0; i < watkins->in.count; i++) {
     uint32_t g = watkins->in.item[i];
-    if (!watkins->facet.item[g].gentle)
-      return 0;
     for (int k = 0; k < 3; k++) {
       uint32_t f = k == 2 ? nearest : watkins->in.item[0];
-      if (f != g)
-        kept = fmin(kept, lines_kept(difference(watkins, f, g, at[k].x),
-                                     change_along(watkins, f, g, at[k].dx),
-                                     tolerance(watkins, f, g)));
+      double apart;
+      if (f == g || is_clear(watkins, f, g))
+        continue;
+      apart = difference(watkins, f, g, at[k].x);
+      if (!facet[f].gentle || !facet[g].gentle ||
+          (k < 2 && apart < -tolerance(watkins, f, g)))
+        return 0;
+      kept = fmin(kept, lines_kept(apart, change_along(watkins, f, g, at[k].dx),
+                                   tolerance(watkins, f, g)));
     }
   }
   return kept;
@@ -209,13 +229,21 @@ static double order_kept(const struct watkins *watkins, uint32_t left,
 
 static int parity_of(int32_t line) { return line & 1; }
 
-/* Files the order of H for the next line. */
+static bool ends_here(const struct watkins *watkins, uint32_t left,
+                      uint32_t right) {
+  const struct scan_edge *edge = watkins->table.edge.item;
+  return edge[left].dy == 0 || edge[right].dy == 0;
+}
+
+/* Files the order of H for the next line, if both edges go on to it. */
 static bool keep_record(struct watkins *watkins, uint32_t left, uint32_t right,
                         int32_t until) {
   int here = parity_of(watkins->table.line);
   watkins_list *order = &watkins->order[here];
   struct watkins_record record = {until, left, right, (uint32_t)order->count,
                                   (uint32_t)watkins->in.count};
+  if (ends_here(watkins, left, right))
+    return true;
   watkins->edge.item[left].record = (uint32_t)watkins->record[here].count;
   if (!ARRAY_RESERVE(order, watkins->in.count))
     return false;
@@ -253,11 +281,30 @@ static bool decide_anew(struct watkins *watkins, uint32_t left,
   if (!ARRAY_RESERVE(&watkins->depth, watkins->in.count) ||
       !cut_interval(watkins, left, right, &nearest))
     return false;
-  if (nearest == WATKINS_NONE || !watkins->coherence)
+  if (nearest == WATKINS_NONE || !watkins->coherence ||
+      ends_here(watkins, left, right))
     return true;
   kept = order_kept(watkins, left, right, nearest);
   return !(kept >= 1) || keep_record(watkins, left, right,
                                      kept < line ? line - (int32_t)kept : 0);
+}
+
+/* Puts a facet that is clearly nearer than all others to the front of H;
+ * false: there is none.  No depth is computed. */
+static bool find_clear(struct watkins *watkins) {
+  const struct watkins_facet *facet = watkins->facet.item;
+  uint32_t *in = watkins->in.item, front;
+  size_t best = 0;
+  for (size_t i = 1; i < watkins->in.count; i++)
+    if (facet[in[i]].z_low > facet[in[best]].z_low)
+      best = i;
+  front = in[best];
+  for (size_t i = 0; i < watkins->in.count; i++)
+    if (i != best && !is_clear(watkins, front, in[i]))
+      return false;
+  in[best] = in[0];
+  in[0] = front;
+  return true;
 }
 
 bool watkins_decide(struct watkins *watkins, uint32_t left, uint32_t right) {
@@ -265,7 +312,7 @@ bool watkins_decide(struct watkins *watkins, uint32_t left, uint32_t right) {
   struct watkins_piece piece = {edge[left].x, edge[right].x, 0, left, right};
   const struct watkins_record *record;
   watkins->counts.intervals++;
-  if (watkins->in.count > 1) {
+  if (watkins->in.count > 1 && !find_clear(watkins)) {
     record = find_record(watkins, left, right);
     if (record == NULL)
       return decide_anew(watkins, left, right);

@@ -220,9 +220,12 @@ static bool pass_end(struct watkins *watkins, size_t first, size_t past,
   const uint32_t *active = watkins->table.active;
   size_t piece = watkins->piece.count;
   uint32_t seen = WATKINS_NONE;
-  for (size_t i = first; i < past; i++)
+  bool drawn = false;
+  for (size_t i = first; i < past; i++) {
+    drawn |= watkins->edge.item[active[i]].drawn;
     if (!pass_edge(watkins, active[i]))
       return false;
+  }
   if (left != WATKINS_NONE)
     watkins->piece.item[piece - 1].right =
         choose_edge(watkins, first, past, left);
@@ -235,7 +238,7 @@ static bool pass_end(struct watkins *watkins, size_t first, size_t past,
     watkins->piece.item[piece].left = choose_edge(watkins, first, past, seen);
     *right = watkins->piece.item[watkins->piece.count - 1].facet;
   }
-  return watkins_show_ends(watkins, first, past, left, seen);
+  return !drawn || watkins_show_ends(watkins, first, past, left, seen);
 }
 
 bool watkins_next(struct watkins *watkins, bool *more) {
