@@ -331,6 +331,24 @@ double recto_output_unit_mm(const char *path, const char *format,
 /* The output format at `index`, such as "svg"; NULL past the last. */
 const char *recto_output_format_name(size_t index);
 
+/* What a drawing has too much and what it lacks, in mm of its page. */
+typedef struct recto_verdict {
+  double drawn_mm, false_mm;     /* lines; of these hidden, or of no edge */
+  double visible_mm, missing_mm; /* edges asked for; of these not drawn */
+  double unsure_mm;              /* too close to call: counted as right */
+  double false_at_mm[2], missing_at_mm[2]; /* the first of each: x, y */
+} recto_verdict;
+
+/* Judges somebody's drawing of the scene, an SVG file, by an independent ray
+ * caster: as seen by the camera of the options, on the file's own page, of the
+ * options' edges.  Lines may be off by a quarter of the options' pen; dashed
+ * ones, and those of layers labelled hidden, are not judged. */
+RECTO_USE_RESULT recto_status recto_scene_check(const recto_scene *scene,
+                                                const char *path,
+                                                const recto_options *options,
+                                                recto_verdict *verdict,
+                                                recto_error *error);
+
 /* What verification found, a sentence; NULL where it was not asked for: what
  * it finds wrong is an error of recto_scene_render.  Lends. */
 const char *recto_drawing_verdict(const recto_drawing *drawing);

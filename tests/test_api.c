@@ -408,6 +408,48 @@ static void an_eye_beyond_numbers_is_refused(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* A drawing of a scene of any size is right, and one from elsewhere wrong. */
+static void somebodys_drawing_is_judged(void **state) {
+  (void)state;
+  recto_options options;
+  recto_options_init(&options);
+  options.page_width_mm = 100;
+  const char *path = path_of("own.svg");
+  recto_scene *scene = make_scaled_cube(1, 0.5);
+  recto_drawing *drawing = draw(scene, &options);
+  assert_int_equal(recto_drawing_write(drawing, path, NULL, NULL, NULL),
+                   RECTO_OK);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+  recto_options_init(&options); /* of another page: the file's counts */
+  for (int e = -1040; e <= 1000; e += 510) {
+    recto_verdict verdict;
+    scene = make_scaled_cube(ldexp(1, e), 0.5);
+    options.azimuth_deg = 45;
+    assert_int_equal(recto_scene_check(scene, path, &options, &verdict, NULL),
+                     RECTO_OK);
+    assert_true(verdict.drawn_mm > 300 && verdict.visible_mm > 300);
+    assert_true(verdict.false_mm == 0 && verdict.missing_mm == 0);
+    options.azimuth_deg = 44;
+    assert_int_equal(recto_scene_check(scene, path, &options, &verdict, NULL),
+                     RECTO_OK);
+    assert_true(verdict.false_mm > 100 && verdict.missing_mm > 100);
+    assert_true(verdict.false_at_mm[0] > 0 && verdict.missing_at_mm[1] > 0);
+    recto_scene_destroy(scene);
+  }
+  scene = make_cube();
+  recto_verdict verdict;
+  recto_status status = RECTO_ERROR_MEMORY;
+  for (unsigned long n = 1; status == RECTO_ERROR_MEMORY; n++) {
+    mem_fail_after(n);
+    status = recto_scene_check(scene, path, NULL, &verdict, NULL);
+    mem_fail_after(0);
+  }
+  assert_true(status == RECTO_OK || status == RECTO_ERROR_FORMAT);
+  recto_scene_destroy(scene);
+  remove(path);
+}
+
 static void strokes_know_where_they_come_from(void **state) {
   (void)state;
   recto_scene *scene = make_cube();
@@ -714,6 +756,7 @@ int main(void) {
       cmocka_unit_test(a_cube_at_true_scale_shows_nine_edges),
       cmocka_unit_test(row_21_every_size_of_doubles_draws_the_same),
       cmocka_unit_test(an_eye_beyond_numbers_is_refused),
+      cmocka_unit_test(somebodys_drawing_is_judged),
       cmocka_unit_test(strokes_know_where_they_come_from),
       cmocka_unit_test(a_drawing_is_written_by_name_and_by_extension),
       cmocka_unit_test(formats_that_are_not_there_are_refused),

@@ -384,6 +384,33 @@ finds_wrong() {
 }
 claim "--verify finds a wrong one, and nothing is written" finds_wrong
 
+# ---- Somebody's drawing -----------------------------------------------------
+
+judges_its_own() {
+  run 0 cube.obj -o own.svg && run 0 cube.obj --check own.svg && silent &&
+    test "$(wc -l <out)" -eq 5 &&
+    grep -qE '^drawn +[0-9]{3}\.[0-9]{3} mm$' out &&
+    grep -qE '^false ink +0\.000 mm +0\.000 %$' out &&
+    grep -qE '^missing ink +0\.000 mm +0\.000 %$' out
+}
+claim "--check finds its own drawing right" judges_its_own
+# A cube from a corner shows nine edges of one length and hides three.
+judges_others() {
+  run 0 cube.obj -o hidden.svg --hidden layer &&
+    sed 's/hidden/other/' hidden.svg >other.svg &&
+    run 0 cube.obj --check other.svg &&
+    grep -qE '^false ink +[0-9.]+ mm +2[45]\.[0-9]+ %  first at [0-9.,]+ mm$' out &&
+    sed '/^<path/d' own.svg >empty.svg && run 0 cube.obj --check empty.svg &&
+    grep -qE '^missing ink +[0-9.]+ mm +100\.000 %  first at' out
+}
+claim "--check finds hidden lines drawn and visible ones missing" judges_others
+claim "--check draws nothing" refuses 'check draws nothing' \
+  cube.obj --check own.svg -o no.svg
+head -c 300 own.svg >cut.svg
+claim "--check of what is no drawing fails" run 1 cube.obj --check cut.svg
+claim "--check says why" says '^recto: cut.svg: the file stops'
+claim "--check of no file fails" run 1 cube.obj --check no.svg
+
 # An eye on its target is wrong usage that only the scene tells.
 claim "an eye on its target is refused" refuses '.' cube.obj -o no.svg \
   --camera 1,2,3 --lookat 1,2,3

@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -33,7 +34,8 @@ static void open_page(struct page *page) {
   write_text(page, "<?xml version=\"1.0\"?>\n"
                    "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100mm\""
                    " height=\"100mm\" viewBox=\"0 0 100 100\">\n"
-                   "<g inkscape:label=\"1 visible\" fill=\"none\">\n");
+                   "<g inkscape:label=\"1 visible\" fill=\"none\""
+                   " stroke=\"#000\">\n");
 }
 
 /* Draws a straight line between two spots, in the design's own words: a point
@@ -377,15 +379,19 @@ static const char *read_text(struct judge_drawing *drawing, const char *text) {
 
 #define ROOT "<svg width=\"20mm\" height=\"10mm\" viewBox=\"0 0 20 10\">"
 
+#define PEN "<g fill=\"none\" stroke=\"#000\">"
+
 static void paths_and_polylines_are_read(void **state) {
   (void)state;
   struct judge_drawing drawing;
   assert_null(read_text(
       &drawing,
-      ROOT "<g inkscape:label=\"1 visible\"><path d=\"M1 2L3 4.5L-.5 0Z\"/>"
-           "<path d=\"M1 1L2 2M3 3L4 4\"/></g>"
-           "<g inkscape:label=\"2 hidden\"><polyline points=\"0,0 5,5\"/></g>"
-           "<path fill=\"#808080\" d=\"M0 0L1 0L1 1Z\"/></svg>"));
+      "<?xml version=\"1.0\"?><!-- <g> --><!DOCTYPE svg [<!ENTITY a "
+      "\">\">]>" ROOT "<g inkscape:label=\"1 visible\" stroke='#000'>"
+      "<path d=\"M1 2L3 4.5L-.5 0Z\"/><path d=\"M1 1L2 2M3 3L4 4\"/></g>"
+      "<g inkscape:label=\"2 hidden\" stroke=\"#000\">"
+      "<polyline points=\"0,0 5,5\"/></g>"
+      "<path fill=\"#808080\" d=\"M0 0L1 0L1 1Z\"/></svg>"));
   assert_true(drawing.width_mm == 20 && drawing.height_mm == 10);
   assert_int_equal(drawing.stroke.count, 4);
   assert_int_equal(drawing.stroke.item[0].count, 4);
@@ -399,27 +405,245 @@ static void paths_and_polylines_are_read(void **state) {
   judge_drawing_fini(&drawing);
 }
 
+/* The points of the one stroke of a text, pairs x, y, y down as in the file. */
+static void assert_points(const char *text, const double *xy, uint32_t count) {
+  struct judge_drawing drawing;
+  const char *fault = read_text(&drawing, text);
+  if (fault != NULL)
+    fail_msg("%s: %s", text, fault);
+  if (drawing.stroke.count != 1 || drawing.stroke.item[0].count != count)
+    fail_msg("%s: %lu strokes", text, (unsigned long)drawing.stroke.count);
+  for (uint32_t i = 0; i < count; i++) {
+    struct judge_place p = drawing.point.item[i];
+    if (fabs(p.x - xy[2 * i]) > 1e-12 ||
+        fabs(drawing.height_mm - p.y - xy[2 * i + 1]) > 1e-12)
+      fail_msg("%s: point %u is %g %g", text, i, p.x, drawing.height_mm - p.y);
+  }
+  judge_drawing_fini(&drawing);
+}
+
+static void every_way_to_write_a_line_is_read(void **state) {
+  (void)state;
+  static const double square[] = {1, 1, 3, 1, 3, 4, 1, 4, 1, 1};
+  static const char *const way[] = {
+      "<path d=\"M1 1 3 1 3 4 1 4Z\"/>",
+      "<path d=\"m1,1l2,0 0,3-2,0z\"/>",
+      "<path d=\"M1 1H3V4H1Z\"/>",
+      "<path d=\"m1 1h2v3h-2v-3\"/>",
+      "<path d=\"M1e0 10E-1L.3e+1 1.0 3,4 1 4z\"/>",
+      "<path d=\"m.5.5m.5.5l2 0 0 3 -2 0 0 -3\"/>",
+      "<polygon points=\"1,1 3,1 3,4 1,4\"/>",
+      "<polyline points=\"1 1 3 1 3 4 1 4 1 1\"/>",
+      "<rect x=\"1\" y=\"1\" width=\"2\" height=\"3\"/>",
+      "<g transform=\"translate(1 1)\"><rect width=\"2\" height=\"3\"/></g>",
+      "<g transform=\"translate(1)\"><g transform=\"translate(0,1) scale(2 "
+      "3)\">"
+      "<path d=\"M0 0L1 0L1 1L0 1Z\"/></g></g>",
+  };
+  for (size_t i = 0; i < sizeof way / sizeof *way; i++) {
+    char text[400];
+    snprintf(text, sizeof text, ROOT PEN "%s</g></svg>", way[i]);
+    assert_points(text, square, 5);
+  }
+}
+
+static void pages_of_any_unit_are_read(void **state) {
+  (void)state;
+  static const double line[] = {1, 2, 5, 6};
+  static const char *const way[] = {
+      "<svg width=\"2cm\" height=\"1cm\" viewBox=\"0 0 20 10\">" PEN
+      "<line x1=\"1\" y1=\"2\" x2=\"5\" y2=\"6\"/></g></svg>",
+      "<svg width=\"20mm\" height=\"10mm\" viewBox=\"10 20 40 20\">" PEN
+      "<line x1=\"12\" y1=\"24\" x2=\"20\" y2=\"32\"/></g></svg>",
+      "<svg width=\"20mm\" height=\"30mm\" viewBox=\"0 -10 20 10\">" PEN
+      "<line x1=\"1\" y1=\"-18\" x2=\"5\" y2=\"-14\"/></g></svg>",
+      "<svg width=\"20mm\" height=\"30mm\" viewBox=\"0 0 10 10\""
+      " preserveAspectRatio=\"none\">" PEN
+      "<path d=\"M.5.66666666666666667L2.5 2\"/></g></svg>",
+      "<svg width=\"96\" height=\"192px\"><g style=\"stroke : red;fill:none\""
+      " transform=\"scale(3.7795275590551181)\"><path d=\"M1 2L5 "
+      "6\"/></g></svg>",
+  };
+  for (size_t i = 0; i < sizeof way / sizeof *way; i++)
+    assert_points(way[i], line, 2);
+}
+
+static void transforms_turn_and_skew(void **state) {
+  (void)state;
+  static const struct {
+    const char *transform;
+    double x, y; /* of 2, 1 */
+  } of[] = {{"rotate(90)", -1, 2},
+            {"rotate(90 1 1)", 1, 2},
+            {"rotate(-90)", 1, -2},
+            {"skewX(45)", 3, 1},
+            {"skewY(45)", 2, 3},
+            {"scale(3)", 6, 3},
+            {"matrix(1 2 3 4 5 6)", 10, 14},
+            {"translate(1,2)scale(2),rotate(180)", -3, 0}};
+  for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+    char text[300];
+    const double line[] = {of[i].x, of[i].y, of[i].x, of[i].y};
+    snprintf(text, sizeof text,
+             ROOT PEN "<path transform=\"%s\" d=\"M2 1L2 1\"/></g></svg>",
+             of[i].transform);
+    assert_points(text, line, 2);
+  }
+}
+
+/* The greatest distance of the points, and of the middles between them, from
+ * the circle of radius 3 about 5, 5, whose arc they are. */
+static double off_circle(const struct judge_drawing *drawing, double *length) {
+  double off = 0;
+  *length = 0;
+  for (size_t i = 1; i < drawing->point.count; i++) {
+    struct judge_place a = drawing->point.item[i - 1];
+    struct judge_place b = drawing->point.item[i];
+    off = fmax(off, fabs(hypot(a.x - 5, a.y - 5) - 3));
+    off = fmax(off, fabs(hypot((a.x + b.x) / 2 - 5, (a.y + b.y) / 2 - 5) - 3));
+    *length += hypot(b.x - a.x, b.y - a.y);
+  }
+  return off;
+}
+
+static void curves_are_followed(void **state) {
+  (void)state;
+  static const struct {
+    const char *element;
+    double turn; /* quarters of the circle */
+  } of[] = {
+      {"<circle cx=\"5\" cy=\"5\" r=\"3\"/>", 4},
+      {"<ellipse cx=\"5\" cy=\"5\" rx=\"3\" ry=\"3\"/>", 4},
+      {"<path d=\"M8 5A3 3 0 0 1 5 8\"/>", 1},
+      {"<path d=\"M8 5a3 3 0 01-3 3\"/>", 1},
+      {"<path d=\"M8 5A3 3 30 1 0 5 8\"/>", 3},
+      {"<path d=\"M2 5A1 1 0 0 1 8 5\"/>", 2}, /* grown */
+      {"<path d=\"M8 5C8 6.6568542 6.6568542 8 5 8S2 6.6568542 2 5\"/>", 2},
+      {"<path d=\"M8 5c0 1.6568542-1.3431458 3-3 3s-3-1.3431458-3-3\"/>", 2}};
+  for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+    char text[300];
+    struct judge_drawing drawing;
+    double length;
+    snprintf(text, sizeof text, ROOT PEN "%s</g></svg>", of[i].element);
+    assert_null(read_text(&drawing, text));
+    if (off_circle(&drawing, &length) > 0.002 ||
+        fabs(length - of[i].turn * 1.5 * acos(-1)) > 0.005)
+      fail_msg("%s: off by %g, %g long", text, off_circle(&drawing, &length),
+               length);
+    judge_drawing_fini(&drawing);
+  }
+  /* A parabola, and the same mirrored: y = x^2 / 4 about 4. */
+  struct judge_drawing drawing;
+  assert_null(read_text(&drawing,
+                        ROOT PEN "<path d=\"M0 0Q2 0 4 4T8 16\"/></g></svg>"));
+  for (size_t i = 0; i < drawing.point.count; i++) {
+    struct judge_place p = drawing.point.item[i];
+    double y = 10 - p.y;
+    assert_true(p.x > 4 ? y >= 4 - 1e-12 : fabs(y - p.x * p.x / 4) < 1e-12);
+  }
+  judge_drawing_fini(&drawing);
+}
+
+static void what_is_not_stroked_is_no_ink(void **state) {
+  (void)state;
+  struct judge_drawing drawing;
+  assert_null(read_text(
+      &drawing, ROOT
+      "<defs><g stroke=\"#000\"><path d=\"M1 1L2 2\"/></g></defs>"
+      "<clipPath><rect stroke=\"#000\" width=\"1\" height=\"1\"/></clipPath>"
+      "<path d=\"M1 1L2 2\"/><path stroke=\"none\" d=\"M1 1L2 2\"/>"
+      "<g stroke=\"#000\"><path style=\"stroke:none\" d=\"M1 1L2 2\"/>"
+      "<g display=\"none\"><path d=\"M1 1L2 2\"/></g>"
+      "<path visibility=\"hidden\" d=\"M1 1L2 2\"/><text>M1</text></g>"
+      "<g stroke=\"#000\"><path stroke-dasharray=\"1 1\" d=\"M1 1L2 2\"/>"
+      "</g></svg>"));
+  assert_int_equal(drawing.stroke.count, 1);
+  assert_int_equal(drawing.stroke.item[0].role, JUDGE_HIDDEN);
+  judge_drawing_fini(&drawing);
+  /* With a style sheet, which is not read, what says nothing may be ink. */
+  assert_null(read_text(&drawing,
+                        ROOT "<style>path { stroke: red }</style>"
+                             "<path d=\"M1 1L2 2\"/>"
+                             "<path fill=\"red\" d=\"M1 1L2 2\"/></svg>"));
+  assert_int_equal(drawing.stroke.count, 1);
+  judge_drawing_fini(&drawing);
+}
+
 static void what_is_not_such_a_file_is_refused(void **state) {
   (void)state;
   static const char *const wrong[] = {
       "",
       "no tags",
-      "<svg width=\"20\" height=\"10\" viewBox=\"0 0 20 10\"></svg>",
-      "<svg width=\"20mm\" height=\"10mm\"></svg>",
-      "<svg width=\"20mm\" height=\"10mm\" viewBox=\"0 0 40 20\"></svg>",
-      "<path d=\"M0 0\"/>" ROOT,
-      ROOT "<path d=\"M0 0C1 1 2 2 3 3\"/></svg>",
-      ROOT "<path d=\"L1 1\"/></svg>",
-      ROOT "<path d=\"M1\"/></svg>",
-      ROOT "<path d=\"M1 x\"/></svg>",
-      ROOT "<path/></svg>",
-      ROOT "<polyline points=\"1,\"/></svg>",
+      "<svg width=\"100%\" height=\"10\" viewBox=\"0 0 20 10\"></svg>",
+      "<svg height=\"10mm\" viewBox=\"0 0 20 10\"></svg>",
+      "<svg width=\"20mm\" height=\"10mm\" viewBox=\"0 0 20\"></svg>",
+      "<svg width=\"20mm\" height=\"10mm\" viewBox=\"0 0 20 0\"></svg>",
+      "<path d=\"M0 0\"/>" ROOT "</svg>",
+      ROOT,
+      ROOT PEN "</svg>",
+      ROOT PEN "<path d=\"M0 0L1 1",
+      ROOT "<!-- </svg>",
+      ROOT "</svg></svg>",
+      ROOT ROOT "</svg></svg>",
+      ROOT PEN "<path d=\"M0 0C1 1 2 2 3\"/></g></svg>",
+      ROOT PEN "<path d=\"M0 0A1 1 0 2 0 3 3\"/></g></svg>",
+      ROOT PEN "<path d=\"M0 0Z1 1\"/></g></svg>",
+      ROOT PEN "<path d=\"M0 0B1 1\"/></g></svg>",
+      ROOT PEN "<path d=\"L1 1\"/></g></svg>",
+      ROOT PEN "<path d=\"M1\"/></g></svg>",
+      ROOT PEN "<path d=\"M1 x\"/></g></svg>",
+      ROOT PEN "<path/></g></svg>",
+      ROOT PEN "<polyline points=\"1,\"/></g></svg>",
+      ROOT PEN "<polyline/></g></svg>",
+      ROOT PEN "<use href=\"#a\"/></g></svg>",
+      ROOT PEN "<path transform=\"turn(1)\" d=\"M1 1\"/></g></svg>",
+      ROOT PEN "<path transform=\"scale(1 2 3)\" d=\"M1 1\"/></g></svg>",
+      ROOT PEN "<path transform=\"scale(1\" d=\"M1 1\"/></g></svg>",
   };
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     struct judge_drawing drawing;
-    assert_non_null(read_text(&drawing, wrong[i]));
+    if (read_text(&drawing, wrong[i]) == NULL)
+      fail_msg("was read: %s", wrong[i]);
     judge_drawing_fini(&drawing);
   }
+}
+
+/* Whatever bytes a file is cut to or has changed: it ends, and memory that
+ * runs out is told. */
+static void any_bytes_and_no_memory_are_survived(void **state) {
+  (void)state;
+  static const char text[] = ROOT
+      "<!-- c --><g transform=\"rotate(3 1 2) skewX(2)\" stroke=\"#000\">"
+      "<path d=\"M1 2C3 4 5 6 7 8S1 1 2 2Q4 4 1 1T3 3A2 1 20 0 1 4 4Z\"/>"
+      "<circle cx=\"5\" cy=\"5\" r=\"3\"/><polygon points=\"1,1 2,3 4,5\"/>"
+      "</g></svg>";
+  char copy[sizeof text];
+  struct judge_drawing drawing;
+  for (size_t cut = 0; cut < sizeof text - 1; cut++) {
+    char *part = malloc(cut + 1); /* no more, for the checkers of memory */
+    assert_non_null(part);
+    memcpy(part, text, cut);
+    assert_non_null(judge_read_svg(&drawing, part, cut));
+    judge_drawing_fini(&drawing);
+    free(part);
+    for (int c = 1; c < 128; c += 3) {
+      memcpy(copy, text, sizeof text);
+      copy[cut] = (char)c;
+      (void)judge_read_svg(&drawing, copy, sizeof text - 1);
+      judge_drawing_fini(&drawing);
+    }
+  }
+  const char *fault = "";
+  unsigned long n = 0;
+  while (fault != NULL) {
+    mem_fail_after(++n);
+    fault = read_text(&drawing, text);
+    mem_fail_after(0);
+    if (fault != NULL)
+      assert_string_equal(fault, "memory ran out");
+    judge_drawing_fini(&drawing);
+  }
+  assert_true(n > 3);
 }
 
 int main(void) {
@@ -436,6 +660,12 @@ int main(void) {
       cmocka_unit_test(contact_does_not_hide),
       cmocka_unit_test(smooth_edges_are_asked_for_by_all_alone),
       cmocka_unit_test(paths_and_polylines_are_read),
+      cmocka_unit_test(every_way_to_write_a_line_is_read),
+      cmocka_unit_test(pages_of_any_unit_are_read),
+      cmocka_unit_test(transforms_turn_and_skew),
+      cmocka_unit_test(curves_are_followed),
+      cmocka_unit_test(what_is_not_stroked_is_no_ink),
+      cmocka_unit_test(any_bytes_and_no_memory_are_survived),
       cmocka_unit_test(what_is_not_such_a_file_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,8 @@
 # src/api/local.mk - the facade behind recto.h.
 librecto_core_la_SOURCES += \
   src/recto.h \
+  %D%/asked.c %D%/asked.h \
+  %D%/check.c \
   %D%/handle.h \
   %D%/model.c \
   %D%/options.c \

@@ -1,8 +1,7 @@
 /* verify.c - asks the judge about a drawing that was just made.
  *
  * Phases
- *   scene    the points are counted from one of their own, so that a far
- *            origin costs the judge's doubles no digits.
+ *   scene    as the judge is to see it: asked.h.
  *   strokes  the lines of the drawing; and of those that would be there if no
  *            line were too short, the short ones: nothing is missing there.
  *   verdict  the judge's, as a report, a summary or an error. */
@@ -13,48 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "api/asked.h"
 #include "ink/ink.h"
 #include "ink/stroke.h"
-
-/* ---- The scene ------------------------------------------------------------
- */
-
-static uint32_t first_used_point(const struct scene *scene) {
-  return scene->corner.count > 0 ? scene->corner.item[0]
-                                 : scene->wire_corner.item[0];
-}
-
-/* Lends all of the scene but its points.  Returns false when memory ran out. */
-static bool move_scene(const struct scene *scene, struct scene_point origin,
-                       struct scene *moved) {
-  size_t count = scene->point.count;
-  const struct scene_point *from = scene->point.item;
-  struct scene_point *to = mem_alloc(count, sizeof *to);
-  if (to == NULL)
-    return false;
-  for (size_t i = 0; i < count; i++)
-    to[i] = (struct scene_point){from[i].x - origin.x, from[i].y - origin.y,
-                                 from[i].z - origin.z};
-  *moved = *scene;
-  moved->point.item = to;
-  return true;
-}
-
-static struct judge_camera camera_of(const struct verify *verify,
-                                     struct scene_point origin) {
-  const struct camera *c = verify->camera;
-  const recto_options *o = verify->options;
-  const double eye[3] = {c->eye[0] - origin.x, c->eye[1] - origin.y,
-                         c->eye[2] - origin.z};
-  struct judge_camera camera;
-  judge_camera_axes(&camera, c->right, c->up, c->back, eye, c->perspective,
-                    c->s, c->middle_mm, c->page_mm);
-  /* An orthographic view that was not cut begins at its nearest point. */
-  if (c->perspective || o->has_section || o->near_distance > 0)
-    camera.near_d = c->near_d;
-  camera.depth_step = 1 / verify->sheet->z_scale;
-  return camera;
-}
 
 /* ---- The strokes ----------------------------------------------------------
  */
@@ -195,20 +155,17 @@ static void report_verdict(struct report *report,
 }
 
 static recto_status judge(const struct verify *verify,
-                          const struct scene *moved, struct scene_point origin,
+                          const struct asked *asked,
                           const struct judge_drawing *drawing,
                           struct judge_verdict *verdict, recto_error *error) {
   const recto_options *o = verify->options;
-  struct judge_camera camera = camera_of(verify, origin);
-  struct judge_options options;
-  judge_options_init(&options);
+  struct judge_camera camera = asked_camera(asked, verify->camera, o);
+  struct judge_options options = asked_options(verify->camera, o);
+  camera.depth_step = 1 / verify->sheet->z_scale;
   options.samples = (size_t)o->verify;
   options.reach_mm += o->simplify_mm + o->unit_mm;
   options.lateral_mm += o->simplify_mm + o->unit_mm;
-  options.contact = verify->camera->contact;
-  options.crease_deg = o->crease_deg;
-  options.edges = o->edges;
-  return judge_drawing(verdict, drawing, moved, &camera, &options)
+  return judge_drawing(verdict, drawing, &asked->scene, &camera, &options)
              ? RECTO_OK
              : error_memory(error);
 }
@@ -218,23 +175,21 @@ recto_status verify_drawing(const struct verify *verify, struct report *report,
                             recto_error *error) {
   struct judge_drawing drawing = {0};
   struct judge_verdict verdict;
-  struct scene moved;
-  struct scene_point origin =
-      verify->scene->point.item[first_used_point(verify->scene)];
-  if (!move_scene(verify->scene, origin, &moved))
+  struct asked asked;
+  if (!asked_init(&asked, verify->scene))
     return error_memory(error);
   recto_status status = take_drawn(&drawing, verify->drawing)
                             ? take_dropped(&drawing, verify, error)
                             : error_memory(error);
   if (status == RECTO_OK)
-    status = judge(verify, &moved, origin, &drawing, &verdict, error);
+    status = judge(verify, &asked, &drawing, &verdict, error);
   judge_drawing_fini(&drawing);
-  mem_free(moved.point.item);
+  asked_fini(&asked);
   if (status != RECTO_OK)
     return status;
   report_verdict(report, &verdict);
   if (verdict.false_ink.samples > 0 || verdict.missing.samples > 0)
-    return tell(verify, &verdict, origin, error);
+    return tell(verify, &verdict, asked.origin, error);
   snprintf(summary, VERIFY_SUMMARY_SIZE,
            "verified: %zu drawn points visible, %zu others hidden, %zu too "
            "close to call",

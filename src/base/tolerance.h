@@ -118,6 +118,13 @@
  * Ten times   nothing that could be seen. */
 #define TOLERANCE_JUDGE_NEAR_SHARE 1e-9
 
+/* Curves of a drawing that is judged are as straight pieces off by no more.
+ * Unit        mm
+ * Derivation  what three decimals of a millimetre round.
+ * Users       judge/svg_path.c
+ * Ten times   a third as many pieces; still a tenth of a fine pen. */
+#define TOLERANCE_CURVE_MM 1e-3
+
 /* A change of the pen's way in the air is made where it gains more.
  * Unit        mm
  * Derivation  sums of distances up to 2 m are rounded to 1e-12 mm; a gain

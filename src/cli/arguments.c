@@ -171,7 +171,11 @@ static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
 static const char *judge_files(const struct arguments *a) {
   if (a->model_count == 0)
     return "no model: see recto --help";
-  if (a->output == NULL)
+  if (a->check_file != NULL && (a->output != NULL || a->stats ||
+                                a->options.verify > 0 || a->format != NULL))
+    return "--check draws nothing: leave out --output, --format, --stats and "
+           "--verify";
+  if (a->output == NULL && a->check_file == NULL)
     return "no output: say -o FILE";
   for (int i = 0; i < a->model_count && a->from == NULL; i++)
     if (strcmp(a->model[i], "-") == 0)
@@ -185,6 +189,8 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
     snprintf(message, MESSAGE_SIZE, "%s", wrong);
     return false;
   }
+  if (a->output == NULL)
+    return true;
   if (a->format == NULL && strcmp(a->output, "-") == 0)
     a->format = "svg";
   if (recto_output_format(a->output, a->format) == NULL) {

@@ -12,10 +12,11 @@ struct arguments {
   char **model; /* part of argv */
   int model_count;
   const char *from;       /* model format; NULL: by extension */
-  const char *output;     /* never NULL where a drawing is to be made */
+  const char *output;     /* NULL: no drawing is to be made */
   const char *format;     /* output format; NULL: by extension */
   const char *stats_file; /* NULL: standard output, or where the drawing goes
                              there, standard error */
+  const char *check_file; /* a drawing to judge; NULL: none */
   bool stats, progress, quiet, help, version;
 
   /* What was said, for what depends on other options. */

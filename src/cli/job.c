@@ -96,7 +96,56 @@ static recto_status read_models(const struct arguments *arguments,
   return status;
 }
 
-static recto_status work(const struct arguments *arguments,
+static double percent(double part, double whole) {
+  return whole > 0 ? 100 * part / whole : 0;
+}
+
+/* Says what somebody's drawing has too much and what it lacks. */
+static recto_status tell_verdict(const recto_verdict *v, recto_error *error) {
+  char text[512];
+  struct stream *stream;
+  recto_status status = stream_open(&stream, "-", error);
+  if (status != RECTO_OK)
+    return status;
+  int length =
+      snprintf(text, sizeof text,
+               "drawn        %11.3f mm\n"
+               "false ink    %11.3f mm  %7.3f %%",
+               v->drawn_mm, v->false_mm, percent(v->false_mm, v->drawn_mm));
+  if (v->false_mm > 0)
+    length += snprintf(text + length, sizeof text - (size_t)length,
+                       "  first at %.3f,%.3f mm", v->false_at_mm[0],
+                       v->false_at_mm[1]);
+  length += snprintf(text + length, sizeof text - (size_t)length,
+                     "\nvisible      %11.3f mm\n"
+                     "missing ink  %11.3f mm  %7.3f %%",
+                     v->visible_mm, v->missing_mm,
+                     percent(v->missing_mm, v->visible_mm));
+  if (v->missing_mm > 0)
+    length += snprintf(text + length, sizeof text - (size_t)length,
+                       "  first at %.3f,%.3f mm", v->missing_at_mm[0],
+                       v->missing_at_mm[1]);
+  snprintf(text + length, sizeof text - (size_t)length,
+           "\nundecided    %11.3f mm\n", v->unsure_mm);
+  stream_text(stream, text);
+  return stream_finish(stream, error);
+}
+
+static recto_status check(const struct arguments *arguments,
+                          recto_error *error) {
+  recto_scene *scene = NULL;
+  recto_verdict verdict;
+  recto_status status = recto_scene_create(&scene, error);
+  if (status == RECTO_OK)
+    status = read_models(arguments, scene, error);
+  if (status == RECTO_OK)
+    status = recto_scene_check(scene, arguments->check_file,
+                               &arguments->options, &verdict, error);
+  recto_scene_destroy(scene);
+  return status == RECTO_OK ? tell_verdict(&verdict, error) : status;
+}
+
+static recto_status draw(const struct arguments *arguments,
                          recto_error *error) {
   recto_scene *scene = NULL;
   recto_drawing *drawing = NULL;
@@ -134,7 +183,8 @@ int job_run(struct arguments *arguments) {
   arguments->options.progress = pass_progress;
   if (!arguments->quiet)
     arguments->options.warning = pass_warning;
-  switch (work(arguments, &error)) {
+  switch (arguments->check_file != NULL ? check(arguments, &error)
+                                        : draw(arguments, &error)) {
   case RECTO_OK:
     return EXIT_DONE;
   case RECTO_ERROR_ARGUMENT:

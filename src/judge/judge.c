@@ -207,8 +207,17 @@ static enum judge_sight explain(const struct court *court,
   return best;
 }
 
+/* What is off the page is not drawn. */
+static bool is_on_page(const struct court *court, struct judge_place at) {
+  double slack = court->options.lateral_mm;
+  return at.x >= -slack && at.x <= court->camera->width_mm + slack &&
+         at.y >= -slack && at.y <= court->camera->height_mm + slack;
+}
+
 static void try_ink(struct court *court, struct judge_place at, double mm) {
   struct judge_verdict *verdict = court->verdict;
+  if (!is_on_page(court, at))
+    return;
   struct judge_witness witness = {.at = at, .blocker = SCENE_NONE};
   count_sample(&verdict->drawn, mm);
   switch (explain(court, &witness)) {

@@ -7,4 +7,6 @@ librecto_core_la_SOURCES += \
   %D%/judge.c %D%/judge.h \
   %D%/pierced.c \
   %D%/svg.c \
+  %D%/svg_path.c %D%/svg_path.h \
+  %D%/svg_scan.c %D%/svg_scan.h \
   %D%/triangles.c %D%/triangles.h

@@ -1,219 +1,262 @@
-/* svg.c - reads the SVG that recto writes, and little else.
+/* svg.c - reads the lines of an SVG file: what is stroked, on its page in mm.
  *
- * Numbers are read by a reader of its own, not by the house's, so that a
- * fault in writing them is not undone by the same fault in reading. */
+ * Groups, transforms, styles and a viewBox are followed; shapes are taken by
+ * their outlines.  What would need a browser is refused rather than misread:
+ * references (use), and a viewBox within another.  Style sheets are not read:
+ * where there is one, what has no stroke or fill of its own counts as drawn.
+ */
+#include <math.h>
 #include <string.h>
 
 #include "judge/judge.h"
+#include "judge/svg_path.h"
+#include "judge/svg_scan.h"
 
-struct source {
-  const char *at, *end;
+enum paint { PAINT_UNSAID, PAINT_NONE, PAINT_SOME };
+
+/* What an element hands down to those within it. */
+struct style {
+  struct svg_matrix to_page; /* mm, y up */
+  enum paint stroke, fill;
+  bool dashed, hidden; /* a hidden line: by its dashes, by its layer's label */
+  bool unseen;         /* not displayed, or a definition */
 };
 
-static bool is_space(char c) {
-  return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == ',';
+struct svg_reader {
+  struct judge_drawing *drawing;
+  ARRAY(struct style) open; /* the elements that are open */
+  bool sheet;               /* there is a style sheet */
+  bool root;
+  bool starved;
+};
+
+/* ---- Style ----------------------------------------------------------------
+ */
+
+static void take_paint(const struct svg_tag *tag, const char *name,
+                       enum paint *paint) {
+  struct svg_text value;
+  if (svg_property(tag, name, &value) && !svg_is(value, "inherit"))
+    *paint = svg_is(value, "none") || svg_is(value, "transparent") ? PAINT_NONE
+                                                                   : PAINT_SOME;
 }
 
-static void skip_spaces(struct source *source) {
-  while (source->at < source->end && is_space(*source->at))
-    source->at++;
-}
-
-/* Reads [-]digits[.digits]; false where there is none. */
-static bool read_number(struct source *source, double *value) {
-  skip_spaces(source);
-  const char *at = source->at;
-  bool minus = at < source->end && *at == '-';
-  double sum = 0, share = 1;
-  unsigned digits = 0;
-  at += minus;
-  for (; at < source->end && *at >= '0' && *at <= '9'; at++, digits++)
-    sum = 10 * sum + (*at - '0');
-  if (at < source->end && *at == '.')
-    for (at++; at < source->end && *at >= '0' && *at <= '9'; at++, digits++) {
-      sum = 10 * sum + (*at - '0');
-      share *= 10;
-    }
-  if (digits == 0)
-    return false;
-  source->at = at;
-  *value = (minus ? -sum : sum) / share;
-  return true;
-}
-
-/* Finds ` name="..."` within a tag. */
-static bool find_attribute(struct source tag, const char *name,
-                           struct source *value) {
-  size_t length = strlen(name);
-  bool quoted = false;
-  for (const char *at = tag.at; at + length + 2 < tag.end; at++) {
-    if (*at == '"')
-      quoted = !quoted;
-    if (quoted || !is_space(*at) || strncmp(at + 1, name, length) != 0 ||
-        at[length + 1] != '=' || at[length + 2] != '"')
-      continue;
-    value->at = at + length + 3;
-    value->end = memchr(value->at, '"', (size_t)(tag.end - value->at));
-    return value->end != NULL;
-  }
-  return false;
-}
-
-static bool has_word(struct source text, const char *word) {
-  size_t length = strlen(word);
-  for (; text.at + length <= text.end; text.at++)
-    if (memcmp(text.at, word, length) == 0)
+static bool is_definition(const struct svg_tag *tag) {
+  static const char *const name[] = {
+      "defs",     "clipPath", "mask",  "marker", "pattern", "symbol",
+      "metadata", "style",    "title", "desc",   "text",    "foreignObject"};
+  for (size_t i = 0; i < sizeof name / sizeof name[0]; i++)
+    if (svg_is(tag->name, name[i]))
       return true;
   return false;
 }
 
-/* ---- Strokes --------------------------------------------------------------
- */
-
-struct svg_reader {
-  struct judge_drawing *drawing;
-  bool hidden;  /* the layer at hand */
-  bool root;    /* seen */
-  bool starved; /* memory ran out */
-};
-
-static void start_stroke(struct svg_reader *reader) {
-  struct judge_stroke stroke = {(uint32_t)reader->drawing->point.count, 0,
-                                reader->hidden ? JUDGE_HIDDEN : JUDGE_INK};
-  if (!ARRAY_PUSH(&reader->drawing->stroke, stroke))
-    reader->starved = true;
+/* What the element makes of what it was handed.  Returns NULL, or what is
+ * wrong. */
+static const char *take_style(const struct svg_tag *tag, struct style *style) {
+  struct svg_text value;
+  struct svg_matrix matrix;
+  take_paint(tag, "stroke", &style->stroke);
+  take_paint(tag, "fill", &style->fill);
+  if (svg_property(tag, "stroke-dasharray", &value))
+    style->dashed = !svg_is(value, "none") && value.at < value.end;
+  if (svg_attribute(tag, "inkscape:label", &value) && svg_has(value, "hidden"))
+    style->hidden = true;
+  if ((svg_property(tag, "display", &value) && svg_is(value, "none")) ||
+      (svg_property(tag, "visibility", &value) && svg_is(value, "hidden")) ||
+      is_definition(tag))
+    style->unseen = true;
+  if (!svg_attribute(tag, "transform", &value))
+    return NULL;
+  if (!svg_transform(value, &matrix))
+    return "a transform that makes no sense";
+  style->to_page = svg_product(&style->to_page, &matrix);
+  return NULL;
 }
 
-static struct judge_stroke *last_stroke(struct svg_reader *reader) {
-  size_t count = reader->drawing->stroke.count;
-  return count > 0 ? &reader->drawing->stroke.item[count - 1] : NULL;
-}
-
-static bool add_place(struct svg_reader *reader, struct source *source) {
-  struct judge_place at;
-  if (!read_number(source, &at.x) || !read_number(source, &at.y))
+static bool is_ink(const struct svg_reader *reader, const struct style *style) {
+  if (style->unseen)
     return false;
-  at.y = reader->drawing->height_mm - at.y;
-  if (!ARRAY_PUSH(&reader->drawing->point, at))
-    reader->starved = true;
-  else if (!reader->starved)
-    last_stroke(reader)->count++;
-  return true;
+  return style->stroke == PAINT_SOME ||
+         (style->stroke == PAINT_UNSAID && style->fill == PAINT_UNSAID &&
+          reader->sheet);
 }
 
-static void close_stroke(struct svg_reader *reader) {
-  struct judge_stroke *stroke = last_stroke(reader);
-  struct judge_place first = reader->drawing->point.item[stroke->point];
-  if (!ARRAY_PUSH(&reader->drawing->point, first))
-    reader->starved = true;
-  else
-    stroke->count++;
-}
-
-static const char *read_path(struct svg_reader *reader, struct source data) {
-  for (skip_spaces(&data); data.at < data.end; skip_spaces(&data)) {
-    char command = *data.at;
-    bool number = command == '-' || (command >= '0' && command <= '9');
-    data.at += !number;
-    if (command == 'M')
-      start_stroke(reader);
-    else if (command != 'L' && command != 'Z' && !number)
-      return "a path command that is not M, L or Z";
-    else if (last_stroke(reader) == NULL)
-      return "a path that does not start with M";
-    if (command == 'Z')
-      close_stroke(reader);
-    else if (!add_place(reader, &data))
-      return "a path with a broken number";
-  }
-  return NULL;
-}
-
-static const char *read_points(struct svg_reader *reader, struct source data,
-                               bool closed) {
-  start_stroke(reader);
-  for (skip_spaces(&data); data.at < data.end; skip_spaces(&data))
-    if (!add_place(reader, &data))
-      return "a polyline with a broken number";
-  if (closed && last_stroke(reader)->count > 0)
-    close_stroke(reader);
-  return NULL;
-}
-
-/* ---- Tags -----------------------------------------------------------------
+/* ---- The root -------------------------------------------------------------
  */
 
-static const char *read_root(struct svg_reader *reader, struct source tag) {
-  struct source width, height, box;
-  double x, y, w, h, width_mm, height_mm;
-  if (!find_attribute(tag, "width", &width) ||
-      !find_attribute(tag, "height", &height) ||
-      !find_attribute(tag, "viewBox", &box))
-    return "a root without width, height and viewBox";
-  if (!read_number(&width, &width_mm) || !read_number(&height, &height_mm) ||
-      !has_word(width, "mm") || !has_word(height, "mm"))
-    return "a root that is not in mm";
-  if (!read_number(&box, &x) || !read_number(&box, &y) ||
-      !read_number(&box, &w) || !read_number(&box, &h) || x != 0 || y != 0 ||
-      w != width_mm || h != height_mm)
-    return "a viewBox that is not the page";
-  reader->drawing->width_mm = width_mm;
-  reader->drawing->height_mm = height_mm;
-  reader->root = true;
+/* Fits the viewBox into the page: whole and in its middle, as SVG does unless
+ * told otherwise; flips y. */
+static const char *fit_view(const struct svg_tag *tag, double width,
+                            double height, struct svg_matrix *to_page) {
+  struct svg_text box, aspect;
+  const double px = 25.4 / 96;
+  double v[4] = {0, 0, width / px, height / px};
+  if (svg_attribute(tag, "viewBox", &box))
+    for (int i = 0; i < 4; i++)
+      if (!svg_number(&box, &v[i]))
+        return "a viewBox that is not four numbers";
+  if (!(v[2] > 0 && v[3] > 0))
+    return "a viewBox without area";
+  double sx = width / v[2], sy = height / v[3];
+  bool stretch = svg_attribute(tag, "preserveAspectRatio", &aspect) &&
+                 svg_is(svg_trim(aspect), "none");
+  if (!stretch)
+    sx = sy = fmin(sx, sy);
+  double x = (width - sx * v[2]) / 2 - sx * v[0];
+  double y = (height - sy * v[3]) / 2 - sy * v[1];
+  *to_page = (struct svg_matrix){sx, 0, 0, -sy, x, height - y};
   return NULL;
 }
 
-static bool is_tag(struct source tag, const char *name) {
-  size_t length = strlen(name);
-  return (size_t)(tag.end - tag.at) > length &&
-         memcmp(tag.at, name, length) == 0 &&
-         (is_space(tag.at[length]) || tag.at[length] == '>' ||
-          tag.at[length] == '/');
+static const char *read_root(struct svg_reader *reader,
+                             const struct svg_tag *tag, struct style *style) {
+  struct svg_text width, height;
+  struct judge_drawing *drawing = reader->drawing;
+  if (reader->root)
+    return "a svg within the svg";
+  if (!svg_attribute(tag, "width", &width) ||
+      !svg_attribute(tag, "height", &height) ||
+      !svg_length_mm(width, &drawing->width_mm) ||
+      !svg_length_mm(height, &drawing->height_mm))
+    return "a page without a width and a height";
+  reader->root = true;
+  return fit_view(tag, drawing->width_mm, drawing->height_mm, &style->to_page);
 }
 
-static const char *read_tag(struct svg_reader *reader, struct source tag) {
-  struct source value;
-  if (is_tag(tag, "svg"))
-    return read_root(reader, tag);
-  if (is_tag(tag, "g")) {
-    if (find_attribute(tag, "inkscape:label", &value))
-      reader->hidden = has_word(value, "hidden");
-    return NULL;
+/* ---- Shapes ---------------------------------------------------------------
+ */
+
+/* A number of a shape; 0 where it does not say. */
+static double number_of(const struct svg_tag *tag, const char *name) {
+  struct svg_text value;
+  double number = 0;
+  if (svg_attribute(tag, name, &value))
+    (void)svg_number(&value, &number);
+  return number;
+}
+
+static const char *draw_points(struct svg_pen *pen, const struct svg_tag *tag,
+                               bool closed) {
+  struct svg_text data;
+  double x, y;
+  if (!svg_attribute(tag, "points", &data))
+    return "a polyline without points";
+  bool first = true;
+  for (svg_skip_spaces(&data); data.at < data.end; svg_skip_spaces(&data)) {
+    if (!svg_number(&data, &x) || !svg_number(&data, &y))
+      return "a polyline with a broken number";
+    if (first)
+      svg_pen_move(pen, x, y);
+    else
+      svg_pen_line(pen, x, y);
+    first = false;
   }
-  bool path = is_tag(tag, "path");
-  bool closed = is_tag(tag, "polygon");
-  if (!path && !closed && !is_tag(tag, "polyline"))
-    return NULL;
-  if (!reader->root)
-    return "ink before the root";
-  /* A region has a colour of its own; a stroke has its layer's. */
-  if (find_attribute(tag, "fill", &value) && !has_word(value, "none"))
-    return NULL;
-  if (path)
-    return find_attribute(tag, "d", &value) ? read_path(reader, value)
-                                            : "a path without data";
-  return find_attribute(tag, "points", &value)
-             ? read_points(reader, value, closed)
-             : "a polyline without points";
+  if (closed && !first)
+    svg_pen_close(pen);
+  return NULL;
+}
+
+static void draw_rectangle(struct svg_pen *pen, const struct svg_tag *tag) {
+  double x = number_of(tag, "x"), y = number_of(tag, "y");
+  double width = number_of(tag, "width"), height = number_of(tag, "height");
+  svg_pen_move(pen, x, y);
+  svg_pen_line(pen, x + width, y);
+  svg_pen_line(pen, x + width, y + height);
+  svg_pen_line(pen, x, y + height);
+  svg_pen_close(pen);
+}
+
+static void draw_ellipse(struct svg_pen *pen, const struct svg_tag *tag,
+                         double rx, double ry) {
+  double x = number_of(tag, "cx"), y = number_of(tag, "cy");
+  svg_pen_move(pen, x + rx, y);
+  svg_pen_arc(pen, rx, ry, 0, false, true, (struct judge_place){x - rx, y});
+  svg_pen_arc(pen, rx, ry, 0, false, true, (struct judge_place){x + rx, y});
+}
+
+static const char *draw_element(struct svg_pen *pen,
+                                const struct svg_tag *tag) {
+  struct svg_text data;
+  if (svg_is(tag->name, "path"))
+    return svg_attribute(tag, "d", &data) ? svg_path(pen, data)
+                                          : "a path without data";
+  if (svg_is(tag->name, "polyline") || svg_is(tag->name, "polygon"))
+    return draw_points(pen, tag, svg_is(tag->name, "polygon"));
+  if (svg_is(tag->name, "line")) {
+    svg_pen_move(pen, number_of(tag, "x1"), number_of(tag, "y1"));
+    svg_pen_line(pen, number_of(tag, "x2"), number_of(tag, "y2"));
+  } else if (svg_is(tag->name, "rect")) {
+    draw_rectangle(pen, tag);
+  } else if (svg_is(tag->name, "circle")) {
+    draw_ellipse(pen, tag, number_of(tag, "r"), number_of(tag, "r"));
+  } else if (svg_is(tag->name, "ellipse")) {
+    draw_ellipse(pen, tag, number_of(tag, "rx"), number_of(tag, "ry"));
+  }
+  return NULL;
+}
+
+/* ---- Elements -------------------------------------------------------------
+ */
+
+static const char *open_element(struct svg_reader *reader,
+                                const struct svg_tag *tag) {
+  size_t depth = reader->open.count;
+  struct style style = {.to_page = {1, 0, 0, 1, 0, 0}};
+  if (depth > 0)
+    style = reader->open.item[depth - 1];
+  bool is_root = svg_is(tag->name, "svg");
+  if (!is_root && !reader->root)
+    return "something before the svg";
+  const char *fault = is_root ? read_root(reader, tag, &style) : NULL;
+  if (fault == NULL)
+    fault = take_style(tag, &style);
+  reader->sheet = reader->sheet || svg_is(tag->name, "style");
+  if (fault != NULL)
+    return fault;
+  if (svg_is(tag->name, "use") && !style.unseen)
+    return "a reference (use), which is not followed";
+  if (is_ink(reader, &style)) {
+    struct svg_pen pen = {.drawing = reader->drawing,
+                          .to_page = style.to_page,
+                          .role = style.hidden || style.dashed ? JUDGE_HIDDEN
+                                                               : JUDGE_INK};
+    fault = draw_element(&pen, tag);
+    reader->starved = reader->starved || pen.starved;
+  }
+  if (tag->kind == SVG_TAG_OPEN && !ARRAY_PUSH(&reader->open, style))
+    reader->starved = true;
+  return fault;
+}
+
+static const char *read_tags(struct svg_reader *reader, struct svg_text file) {
+  const char *fault = NULL;
+  struct svg_tag tag;
+  bool broken;
+  while (fault == NULL && !reader->starved &&
+         svg_next_tag(&file, &tag, &broken)) {
+    if (tag.kind != SVG_TAG_CLOSE)
+      fault = open_element(reader, &tag);
+    else if (reader->open.count == 0)
+      fault = "an end without its beginning";
+    else
+      reader->open.count--;
+  }
+  if (fault != NULL || reader->starved)
+    return fault != NULL ? fault : "memory ran out";
+  if (broken || reader->open.count > 0)
+    return "the file stops in the middle";
+  return reader->root ? NULL : "no svg in it";
 }
 
 const char *judge_read_svg(struct judge_drawing *drawing, const char *text,
                            size_t length) {
   struct svg_reader reader = {.drawing = drawing};
-  const char *end = text + length, *fault = NULL;
   memset(drawing, 0, sizeof *drawing);
-  while (fault == NULL && text < end) {
-    const char *open = memchr(text, '<', (size_t)(end - text));
-    const char *close =
-        open == NULL ? NULL : memchr(open, '>', (size_t)(end - open));
-    if (close == NULL)
-      break;
-    fault = read_tag(&reader, (struct source){open + 1, close + 1});
-    text = close + 1;
-  }
-  if (reader.starved)
-    return "memory ran out";
-  return fault != NULL ? fault : reader.root ? NULL : "no svg in it";
+  const char *fault =
+      read_tags(&reader, (struct svg_text){text, text + length});
+  ARRAY_FREE(&reader.open);
+  return fault;
 }
 
 void judge_drawing_fini(struct judge_drawing *drawing) {

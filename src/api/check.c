@@ -1,0 +1,85 @@
+/* check.c - judges somebody's drawing of a scene.
+ *
+ * The page is the file's own.  Lines may be off by a quarter of the pen, along
+ * and across: nobody sees that. */
+#include "api/asked.h"
+#include "api/handle.h"
+#include "api/rescale.h"
+#include "base/input.h"
+
+/* Samples of the drawing, and as many of the edges. */
+enum { SAMPLES = 200000 };
+
+static recto_status read_drawing(struct judge_drawing *drawing,
+                                 const char *path, recto_error *error) {
+  struct input input;
+  recto_status status = input_load(&input, path, error);
+  if (status == RECTO_OK) {
+    const char *fault = judge_read_svg(drawing, input.bytes, input.count);
+    if (fault != NULL)
+      status = error_set(error, RECTO_ERROR_FORMAT, path, 0, "%s", fault);
+  }
+  input_unload(&input);
+  return status;
+}
+
+static void fill_verdict(recto_verdict *to, const struct judge_verdict *from) {
+  *to = (recto_verdict){
+      .drawn_mm = from->drawn.mm,
+      .false_mm = from->false_ink.mm,
+      .visible_mm = from->visible.mm,
+      .missing_mm = from->missing.mm,
+      .unsure_mm = from->unsure_ink.mm + from->unsure.mm,
+      .false_at_mm = {from->false_at.at.x, from->false_at.at.y},
+      .missing_at_mm = {from->missing_at.at.x, from->missing_at.at.y},
+  };
+}
+
+static recto_status judge(const struct rescaled *rescaled,
+                          const struct judge_drawing *drawing,
+                          struct judge_verdict *verdict, recto_error *error) {
+  const recto_options *o = &rescaled->options;
+  struct camera camera;
+  struct asked asked;
+  recto_status status = camera_aim(&camera, &rescaled->scene, o, error);
+  if (status != RECTO_OK)
+    return status;
+  if (!asked_init(&asked, &rescaled->scene))
+    return error_memory(error);
+  struct judge_camera seen = asked_camera(&asked, &camera, o);
+  struct judge_options options = asked_options(&camera, o);
+  options.samples = SAMPLES;
+  options.reach_mm = options.lateral_mm = o->pen_mm / 4;
+  if (!judge_drawing(verdict, drawing, &asked.scene, &seen, &options))
+    status = error_memory(error);
+  asked_fini(&asked);
+  return status;
+}
+
+recto_status recto_scene_check(const recto_scene *scene, const char *path,
+                               const recto_options *options,
+                               recto_verdict *verdict, recto_error *error) {
+  struct judge_drawing drawing = {0};
+  struct judge_verdict found;
+  recto_options asked;
+  recto_options_init(&asked);
+  if (options != NULL)
+    asked = *options;
+  *verdict = (recto_verdict){0};
+  recto_status status = options_check(&asked, error);
+  if (status == RECTO_OK)
+    status = read_drawing(&drawing, path, error);
+  if (status == RECTO_OK) {
+    struct rescaled rescaled;
+    asked.page_width_mm = drawing.width_mm;
+    asked.page_height_mm = drawing.height_mm;
+    status = rescale(&rescaled, &scene->scene, &asked, error);
+    if (status == RECTO_OK)
+      status = judge(&rescaled, &drawing, &found, error);
+    rescale_fini(&rescaled);
+  }
+  if (status == RECTO_OK)
+    fill_verdict(verdict, &found);
+  judge_drawing_fini(&drawing);
+  return status;
+}

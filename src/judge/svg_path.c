@@ -1,0 +1,324 @@
+/* svg_path.c - the outlines of an SVG file's elements, as straight strokes.
+ *
+ * Curves are taken to the page before they are cut into pieces, so that these
+ * are as fine there as they must be.  An arc becomes cubic curves of a quarter
+ * of a turn at most, off by 3/10000 of its radius at most.
+ * Source  SVG 1.1, appendix F.6, for the arc's centre. */
+#include "judge/svg_path.h"
+
+#include <math.h>
+
+#include "base/tolerance.h"
+
+/* ---- The pen --------------------------------------------------------------
+ */
+
+static struct judge_stroke *stroke_of(const struct svg_pen *pen) {
+  return &pen->drawing->stroke.item[pen->drawing->stroke.count - 1];
+}
+
+static void put(struct svg_pen *pen, struct judge_place at) {
+  if (pen->starved)
+    return;
+  pen->starved = !ARRAY_PUSH(&pen->drawing->point, at);
+  if (!pen->starved)
+    stroke_of(pen)->count++;
+}
+
+/* Begins a stroke at the pen's place, unless one goes on there. */
+static void put_down(struct svg_pen *pen) {
+  if (pen->down || pen->starved)
+    return;
+  struct judge_stroke stroke = {(uint32_t)pen->drawing->point.count, 0,
+                                pen->role};
+  pen->starved = !ARRAY_PUSH(&pen->drawing->stroke, stroke);
+  pen->down = !pen->starved;
+  put(pen, svg_apply(&pen->to_page, pen->here.x, pen->here.y));
+}
+
+void svg_pen_move(struct svg_pen *pen, double x, double y) {
+  pen->start = pen->here = (struct judge_place){x, y};
+  pen->down = false;
+}
+
+void svg_pen_line(struct svg_pen *pen, double x, double y) {
+  put_down(pen);
+  pen->here = (struct judge_place){x, y};
+  put(pen, svg_apply(&pen->to_page, x, y));
+}
+
+void svg_pen_close(struct svg_pen *pen) {
+  put_down(pen);
+  pen->here = pen->start;
+  put(pen, svg_apply(&pen->to_page, pen->here.x, pen->here.y));
+  pen->down = false;
+}
+
+/* How far the middle of three is from where it would be on a straight line at
+ * an even pace. */
+static double bend(struct judge_place a, struct judge_place b,
+                   struct judge_place c) {
+  return hypot(a.x - 2 * b.x + c.x, a.y - 2 * b.y + c.y);
+}
+
+static double bernstein(double a, double b, double c, double d, double t) {
+  double s = 1 - t;
+  return s * s * s * a + 3 * s * s * t * b + 3 * s * t * t * c + t * t * t * d;
+}
+
+/* A chord over 1 / n of a curve is off by at most max |curve''| / (8 n^2), and
+ * curve'' by at most 6 bends. */
+void svg_pen_curve(struct svg_pen *pen, struct judge_place b,
+                   struct judge_place c, struct judge_place d) {
+  enum { MOST = 1000 };
+  put_down(pen);
+  struct judge_place p0 = svg_apply(&pen->to_page, pen->here.x, pen->here.y);
+  struct judge_place p1 = svg_apply(&pen->to_page, b.x, b.y);
+  struct judge_place p2 = svg_apply(&pen->to_page, c.x, c.y);
+  struct judge_place p3 = svg_apply(&pen->to_page, d.x, d.y);
+  double bent = fmax(bend(p0, p1, p2), bend(p1, p2, p3));
+  double pieces = ceil(sqrt(bent * 6 / (8 * TOLERANCE_CURVE_MM)));
+  int n = pieces < MOST ? pieces > 1 ? (int)pieces : 1 : MOST;
+  for (int i = 1; i < n; i++) {
+    double t = (double)i / n;
+    put(pen, (struct judge_place){bernstein(p0.x, p1.x, p2.x, p3.x, t),
+                                  bernstein(p0.y, p1.y, p2.y, p3.y, t)});
+  }
+  pen->here = d;
+  put(pen, p3);
+}
+
+/* ---- Arcs -----------------------------------------------------------------
+ */
+
+/* An ellipse: its middle, its radii, and its x axis. */
+struct ellipse {
+  double x, y, rx, ry, cosine, sine;
+};
+
+static struct judge_place on_ellipse(const struct ellipse *e, double u,
+                                     double v) {
+  u *= e->rx;
+  v *= e->ry;
+  return (struct judge_place){e->x + e->cosine * u - e->sine * v,
+                              e->y + e->sine * u + e->cosine * v};
+}
+
+/* Draws from angle `from` by `turn`, in the ellipse's own circle. */
+static void draw_arc(struct svg_pen *pen, const struct ellipse *e, double from,
+                     double turn, struct judge_place to) {
+  int n = (int)ceil(fabs(turn) / (acos(-1) / 2));
+  n = n < 1 ? 1 : n;
+  double step = turn / n, handle = 4.0 / 3 * tan(step / 4);
+  for (int i = 0; i < n; i++) {
+    double a = from + i * step, b = a + step;
+    struct judge_place first =
+        on_ellipse(e, cos(a) - handle * sin(a), sin(a) + handle * cos(a));
+    struct judge_place second =
+        on_ellipse(e, cos(b) + handle * sin(b), sin(b) - handle * cos(b));
+    svg_pen_curve(pen, first, second,
+                  i + 1 < n ? on_ellipse(e, cos(b), sin(b)) : to);
+  }
+}
+
+void svg_pen_arc(struct svg_pen *pen, double rx, double ry, double angle_deg,
+                 bool large, bool sweep, struct judge_place to) {
+  double angle = angle_deg / 180 * acos(-1);
+  struct ellipse e = {0, 0, fabs(rx), fabs(ry), cos(angle), sin(angle)};
+  struct judge_place from = pen->here;
+  /* Half of the chord, in the ellipse's axes and then in its circle. */
+  double hx = (from.x - to.x) / 2, hy = (from.y - to.y) / 2;
+  double u = (e.cosine * hx + e.sine * hy) / e.rx;
+  double v = (e.cosine * hy - e.sine * hx) / e.ry;
+  double square = u * u + v * v;
+  if (!(e.rx > 0 && e.ry > 0 && square > 0)) {
+    svg_pen_line(pen, to.x, to.y);
+    return;
+  }
+  if (square > 1) { /* too small to reach: grown */
+    e.rx *= sqrt(square);
+    e.ry *= sqrt(square);
+    u /= sqrt(square);
+    v /= sqrt(square);
+    square = 1;
+  }
+  /* The middle is beside the chord's, at right angles to it. */
+  double aside = sqrt((1 - square) / square) * (large != sweep ? 1 : -1);
+  double cu = aside * v, cv = -aside * u;
+  struct judge_place offset = on_ellipse(&e, cu, cv);
+  e.x = (from.x + to.x) / 2 + offset.x;
+  e.y = (from.y + to.y) / 2 + offset.y;
+  double first = atan2(v - cv, u - cu), last = atan2(-v - cv, -u - cu);
+  double turn = last - first;
+  if (sweep && turn < 0)
+    turn += 2 * acos(-1);
+  else if (!sweep && turn > 0)
+    turn -= 2 * acos(-1);
+  draw_arc(pen, &e, first, turn, to);
+}
+
+/* ---- Path data ------------------------------------------------------------
+ */
+
+struct path {
+  struct svg_pen *pen;
+  struct svg_text data;
+  char command; /* in capitals */
+  bool relative;
+  char before;                /* the command before, in capitals */
+  struct judge_place control; /* the last one of a curve before */
+};
+
+/* Reads numbers of a command. */
+static bool numbers(struct path *path, double *value, int count) {
+  for (int i = 0; i < count; i++)
+    if (!svg_number(&path->data, &value[i]))
+      return false;
+  return true;
+}
+
+/* A flag of an arc is one digit, with or without a space behind it. */
+static bool flag(struct path *path, bool *value) {
+  svg_skip_spaces(&path->data);
+  if (path->data.at == path->data.end ||
+      (*path->data.at != '0' && *path->data.at != '1'))
+    return false;
+  *value = *path->data.at++ == '1';
+  return true;
+}
+
+static struct judge_place place(const struct path *path, double x, double y) {
+  struct judge_place here = path->pen->here;
+  return path->relative ? (struct judge_place){here.x + x, here.y + y}
+                        : (struct judge_place){x, y};
+}
+
+/* The control point of the curve before, mirrored at the pen; the pen's own
+ * place where the command before was no such curve. */
+static struct judge_place mirrored(const struct path *path, char one,
+                                   char other) {
+  struct judge_place here = path->pen->here, c = path->control;
+  if (path->before != one && path->before != other)
+    return here;
+  return (struct judge_place){2 * here.x - c.x, 2 * here.y - c.y};
+}
+
+static void cubic(struct path *path, struct judge_place b, struct judge_place c,
+                  struct judge_place d) {
+  path->control = c;
+  svg_pen_curve(path->pen, b, c, d);
+}
+
+/* A quadratic curve is the cubic one with its control point taken twice, a
+ * third nearer to either end. */
+static void quadratic(struct path *path, struct judge_place b,
+                      struct judge_place c) {
+  struct judge_place a = path->pen->here;
+  svg_pen_curve(
+      path->pen, (struct judge_place){(a.x + 2 * b.x) / 3, (a.y + 2 * b.y) / 3},
+      (struct judge_place){(c.x + 2 * b.x) / 3, (c.y + 2 * b.y) / 3}, c);
+  path->control = b;
+}
+
+static bool draw_line(struct path *path) {
+  double v[2] = {0, 0};
+  struct judge_place here = path->pen->here, to;
+  bool across = path->command == 'H', along = path->command == 'V';
+  if (!numbers(path, along ? &v[1] : v, across || along ? 1 : 2))
+    return false;
+  to = place(path, v[0], v[1]);
+  svg_pen_line(path->pen, along ? here.x : to.x, across ? here.y : to.y);
+  return true;
+}
+
+static bool draw_curve(struct path *path) {
+  double v[6];
+  int count = path->command == 'C' ? 6 : path->command == 'T' ? 2 : 4;
+  if (!numbers(path, v, count))
+    return false;
+  struct judge_place end = place(path, v[count - 2], v[count - 1]);
+  struct judge_place first = place(path, v[0], v[1]);
+  if (path->command == 'C')
+    cubic(path, first, place(path, v[2], v[3]), end);
+  else if (path->command == 'S')
+    cubic(path, mirrored(path, 'C', 'S'), first, end);
+  else
+    quadratic(path, path->command == 'Q' ? first : mirrored(path, 'Q', 'T'),
+              end);
+  return true;
+}
+
+static bool draw_arc_to(struct path *path) {
+  double v[3], to[2];
+  bool large, sweep;
+  if (!numbers(path, v, 3) || !flag(path, &large) || !flag(path, &sweep) ||
+      !numbers(path, to, 2))
+    return false;
+  svg_pen_arc(path->pen, v[0], v[1], v[2], large, sweep,
+              place(path, to[0], to[1]));
+  return true;
+}
+
+/* A move; pairs behind it are lines. */
+static bool move(struct path *path) {
+  double v[2];
+  if (!numbers(path, v, 2))
+    return false;
+  struct judge_place to = place(path, v[0], v[1]);
+  svg_pen_move(path->pen, to.x, to.y);
+  return true;
+}
+
+/* Draws one command with one set of numbers. */
+static bool draw(struct path *path) {
+  switch (path->command) {
+  case 'M':
+    return move(path);
+  case 'L':
+  case 'H':
+  case 'V':
+    return draw_line(path);
+  case 'C':
+  case 'S':
+  case 'Q':
+  case 'T':
+    return draw_curve(path);
+  case 'A':
+    return draw_arc_to(path);
+  case 'Z':
+    svg_pen_close(path->pen);
+    return true;
+  default:
+    return false;
+  }
+}
+
+/* Takes the next command, or the one before again where numbers follow. */
+static void next_command(struct path *path) {
+  char c = *path->data.at;
+  path->before = path->command;
+  if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')) {
+    path->relative = c >= 'a';
+    path->command = path->relative ? (char)(c - 'a' + 'A') : c;
+    path->data.at++;
+  } else if (path->command == 'M') {
+    path->command = 'L';
+  } else if (path->command == 'Z') {
+    path->command = '\0'; /* numbers have no meaning there */
+  }
+}
+
+const char *svg_path(struct svg_pen *pen, struct svg_text data) {
+  struct path path = {.pen = pen, .data = data};
+  pen->here = pen->start = (struct judge_place){0, 0};
+  pen->down = false;
+  for (svg_skip_spaces(&path.data); path.data.at < path.data.end;
+       svg_skip_spaces(&path.data)) {
+    next_command(&path);
+    if (path.before == '\0' && path.command != 'M')
+      return "a path that does not start with M";
+    if (!draw(&path))
+      return "a path with a broken command or number";
+  }
+  return NULL;
+}
