@@ -228,7 +228,9 @@ bool hide_edge_by(const struct sheet *sheet, uint32_t triangle,
   struct stance_plane plane;
   int at_p, at_q;
   counts->pairs++;
-  if (!hide_by_outline(corner, p, q, part)) return false;
+  if (!hide_by_outline(corner, p, q, part) ||
+      (sheet->triangle_flags[triangle] & SHEET_FLAT))
+    return false;
   counts->depth++;
   plane = stance_plane_of(sheet, triangle);
   at_p = stance_hides(&plane, p);

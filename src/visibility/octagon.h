@@ -95,6 +95,11 @@ static inline uint64_t octagon_question(const struct octagon_frame *f,
   return word;
 }
 
+/* The nearest depth of a word, in steps. */
+static inline int octagon_nearest(uint64_t word) {
+  return (int)(word >> (8 * OCTAGON_LANE)) & OCTAGON_MOST;
+}
+
 static inline bool octagon_meets(uint64_t word, uint64_t question) {
   return (((word | OCTAGON_GUARDS) - question) & OCTAGON_GUARDS) ==
          OCTAGON_GUARDS;

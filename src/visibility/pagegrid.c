@@ -8,7 +8,6 @@
 
 enum {
   SPREAD = 8, /* cells a triangle, on average, for lists of pairs */
-  CROWD = 1024, /* triangles in one cell that are worth parting */
   MAX_SHIFT = 31,
   SAMPLE = 1 << 16 /* triangles that are looked at to choose the cells */
 };
@@ -105,7 +104,7 @@ static bool part_crowds(struct pagegrid *grid) {
   size_t cells = pagegrid_cell_count(grid);
   for (size_t c = 0; c < cells; c++) {
     size_t count = grid->start[c + 1] - grid->start[c];
-    if (count < CROWD) continue;
+    if (count < PAGEGRID_CROWD) continue;
     if (grid->crowd == NULL) {
       grid->crowd = mem_calloc(1, sizeof *grid->crowd);
       grid->crowd_root = mem_alloc(cells, sizeof *grid->crowd_root);

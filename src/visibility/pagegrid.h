@@ -73,6 +73,8 @@ static inline int pagegrid_cell(int32_t v, int32_t v0, int shift, int count) {
   return cell < 0 ? 0 : cell >= count ? count - 1 : (int)cell;
 }
 
+enum { PAGEGRID_CROWD = 1024 }; /* lists from here on are parted */
+
 /* The root of a cell's list in grid->crowd; SHEET_NONE: it was not parted. */
 static inline uint32_t pagegrid_crowd(const struct pagegrid *grid,
                                       size_t cell) {

@@ -11,6 +11,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/sort.h"
 #include "visibility/hide.h"
 #include "visibility/surround.h"
 
@@ -60,13 +61,26 @@ static bool is_steep(const struct sheet *sheet, const struct hide_bound *all,
   return !(hide_tolerance_bound(sheet, p[0], nx, ny, nz) < room);
 }
 
-/* Where a tile is sampled: off the middle, so that regular meshes whose edges
- * run along the grid are not met on an edge again and again. */
-static int64_t sample_x(const struct pagegrid *grid) {
-  return (INT64_C(1) << grid->shift) * 37 / 64 + grid->x0;
+/* What is asked for every triangle, held by value: what is written to the
+ * tiles does not change it. */
+struct gathering {
+  struct pagegrid grid;
+  struct tile *tile;
+  /* Where the first tile is sampled: off the middle, so that regular meshes
+   * whose edges run along the grid are not met on an edge again and again. */
+  int64_t sample_x, sample_y;
+};
+
+static inline struct tile *gathering_tile(const struct gathering *g, int x,
+                                          int y) {
+  return &g->tile[(size_t)y * (size_t)g->grid.columns + (size_t)x];
 }
-static int64_t sample_y(const struct pagegrid *grid) {
-  return (INT64_C(1) << grid->shift) * 29 / 64 + grid->y0;
+
+static struct gathering gathering_of(const struct tilemap *map) {
+  const struct pagegrid *grid = &map->grid;
+  int64_t side = INT64_C(1) << grid->shift;
+  return (struct gathering){*grid, map->tile, grid->x0 + side * 37 / 64,
+                            grid->y0 + side * 29 / 64};
 }
 
 /* The columns, or rows, whose samples are in [low, high]; *past <= *first:
@@ -103,19 +117,20 @@ static inline void ask_sample(struct tile *tile, const struct corners *corners,
   }
 }
 
-static void ask_samples(struct tilemap *map, const struct corners *corners,
-                        struct page_box box, uint8_t note) {
-  const struct pagegrid *grid = &map->grid;
-  int64_t ox = sample_x(grid), oy = sample_y(grid);
+static inline void ask_samples(const struct gathering *g,
+                               const struct corners *corners,
+                               struct page_box box, uint8_t note) {
+  const struct pagegrid *grid = &g->grid;
   int x0, x1, y0, y1;
-  find_samples(box.x0, box.x1, ox, grid->shift, grid->columns, &x0, &x1);
-  find_samples(box.y0, box.y1, oy, grid->shift, grid->rows, &y0, &y1);
+  find_samples(box.x0, box.x1, g->sample_x, grid->shift, grid->columns, &x0,
+               &x1);
+  find_samples(box.y0, box.y1, g->sample_y, grid->shift, grid->rows, &y0, &y1);
   for (int y = y0; y < y1; y++)
     for (int x = x0; x < x1; x++) {
       struct geom_point sample = {
-          (int32_t)(ox + ((int64_t)x << grid->shift)),
-          (int32_t)(oy + ((int64_t)y << grid->shift)), 0};
-      ask_sample(tile_at(map, x, y), corners, sample, note);
+          (int32_t)(g->sample_x + ((int64_t)x << grid->shift)),
+          (int32_t)(g->sample_y + ((int64_t)y << grid->shift)), 0};
+      ask_sample(gathering_tile(g, x, y), corners, sample, note);
     }
 }
 
@@ -127,31 +142,46 @@ static inline struct page_box box_of(const struct corners *corners) {
                            page_most(p[0].y, page_most(p[1].y, p[2].y))};
 }
 
+/* The depths that a triangle is in, for all its tiles. */
+static inline void add_depths(const struct gathering *g, struct cell_range r,
+                              uint64_t mask) {
+  for (int y = r.y0; y <= r.y1; y++) {
+    struct tile *tile = gathering_tile(g, r.x0, y), *end = tile + r.x1 - r.x0;
+    for (; tile <= end; tile++) tile->depths |= mask;
+  }
+}
+
+static void add_bar(const struct gathering *g, struct cell_range r,
+                    uint8_t note) {
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++) note_bar(gathering_tile(g, x, y), note);
+}
+
 /* Streams the triangles: their cells and buckets, and what tiles note. */
 static void gather(struct tilemap *map, const struct sheet *sheet,
                    bool fragments) {
-  struct hide_bound all = hide_tolerance_bound_all(sheet);
-  for (size_t t = 0; t < sheet->triangle.count; t++) {
-    struct corners corners = corners_of(sheet, t);
+  const struct hide_bound all = hide_tolerance_bound_all(sheet);
+  const struct gathering g = gathering_of(map);
+  const struct sheet_triangle *triangle = sheet->triangle.item;
+  const struct geom_point *point = sheet->point.item;
+  const uint8_t *flags = sheet->triangle_flags;
+  struct footprint *print = map->print;
+  for (size_t t = 0, n = sheet->triangle.count; t < n; t++) {
+    const uint32_t *p = triangle[t].point;
+    const struct corners corners = {{point[p[0]], point[p[1]], point[p[2]]}};
     struct page_box box = box_of(&corners);
-    struct cell_range r = pagegrid_cells(&map->grid, box);
+    struct cell_range r = pagegrid_cells(&g.grid, box);
     int64_t z0 = corners.p[0].z, z1 = corners.p[1].z, z2 = corners.p[2].z;
     int64_t least = z0 < z1 ? z0 : z1, most = z0 > z1 ? z0 : z1;
     int low = tile_bucket(z2 < least ? z2 : least),
         high = tile_bucket(z2 > most ? z2 : most);
-    uint64_t mask = bucket_mask(low, high);
-    bool flat = sheet->triangle_flags[t] & SHEET_FLAT;
-    uint8_t note = (uint8_t)(low + 1);
-    map->print[t] = footprint_of(r, low, high);
-    if (!flat && is_steep(sheet, &all, &corners)) {
-      note = fragments ? UINT8_MAX : note;
-      for (int y = r.y0; y <= r.y1; y++)
-        for (int x = r.x0; x <= r.x1; x++) note_bar(tile_at(map, x, y), note);
-      flat = true;
-    }
-    for (int y = r.y0; y <= r.y1; y++)
-      for (int x = r.x0; x <= r.x1; x++) tile_at(map, x, y)->depths |= mask;
-    if (!flat) ask_samples(map, &corners, box, note);
+    print[t] = footprint_of(r, low, high);
+    add_depths(&g, r, bucket_mask(low, high));
+    if (flags[t] & SHEET_FLAT) continue;
+    if (is_steep(sheet, &all, &corners))
+      add_bar(&g, r, fragments ? UINT8_MAX : (uint8_t)(low + 1));
+    else
+      ask_samples(&g, &corners, box, (uint8_t)(low + 1));
   }
 }
 
@@ -330,6 +360,7 @@ struct octagon_frame tilemap_frame(const struct tilemap *map, int x, int y) {
                                 TILE_BUCKET_SHIFT + bits - 6};
 }
 
+/* Writes the words of a tile's list. */
 static void write_words(struct tilemap *map, const struct sheet *sheet, int x,
                         int y, size_t from, size_t to) {
   struct octagon_frame frame = tilemap_frame(map, x, y);
@@ -342,9 +373,35 @@ static void write_words(struct tilemap *map, const struct sheet *sheet, int x,
   }
 }
 
+/* Puts the nearest triangles of a tile's list first: what is hidden is found
+ * to be so by few of them.
+ * scratch  room for the list */
+static void sort_list(struct tilemap *map, size_t from, size_t to,
+                      struct sort_key scratch[PAGEGRID_CROWD]) {
+  uint32_t start[OCTAGON_MOST + 1] = {0}, sum = 0;
+  uint32_t *item = map->grid.item + from;
+  uint64_t *word = map->word + from;
+  size_t n = to - from;
+  for (size_t i = 0; i < n; i++) {
+    scratch[i] = (struct sort_key){word[i], item[i]};
+    start[octagon_nearest(word[i])]++;
+  }
+  for (int depth = OCTAGON_MOST; depth >= 0; depth--) {
+    uint32_t here = start[depth];
+    start[depth] = sum;
+    sum += here;
+  }
+  for (size_t i = 0; i < n; i++) {
+    uint32_t to_place = start[octagon_nearest(scratch[i].key)]++;
+    word[to_place] = scratch[i].key;
+    item[to_place] = scratch[i].value;
+  }
+}
+
 bool tilemap_list(struct tilemap *map, const struct sheet *sheet,
                   const uint8_t *wanted) {
   const struct pagegrid *grid = &map->grid;
+  struct sort_key scratch[PAGEGRID_CROWD];
   size_t cell = 0;
   pagegrid_fini(&map->grid);
   mem_free(map->word);
@@ -356,7 +413,10 @@ bool tilemap_list(struct tilemap *map, const struct sheet *sheet,
   if (map->word == NULL) return false;
   for (int y = 0; y < grid->rows; y++)
     for (int x = 0; x < grid->columns; x++, cell++)
-      if (grid->start[cell] < grid->start[cell + 1])
-        write_words(map, sheet, x, y, grid->start[cell], grid->start[cell + 1]);
+      if (grid->start[cell] < grid->start[cell + 1]) {
+        size_t from = grid->start[cell], to = grid->start[cell + 1];
+        write_words(map, sheet, x, y, from, to);
+        if (to - from < PAGEGRID_CROWD) sort_list(map, from, to, scratch);
+      }
   return true;
 }

@@ -107,6 +107,33 @@ static enum map_state ask_along(struct tiles_work *work, struct geom_point p,
   return state < 0 ? MAP_MIXED : (enum map_state)state;
 }
 
+/* What all tiles of a small range agree on; MAP_MIXED where they do not. */
+static enum map_state ask_range(const struct tilemap *map, struct cell_range r,
+                                int low, int high, bool wire) {
+  const struct tile *row = map->tile + (size_t)r.y0 * (size_t)map->grid.columns;
+  enum map_state state = ask_tile(&row[r.x0], low, high, wire);
+  for (int y = r.y0; y <= r.y1; y++, row += map->grid.columns)
+    for (int x = r.x0; x <= r.x1; x++)
+      if (ask_tile(&row[x], low, high, wire) != state) return MAP_MIXED;
+  return state;
+}
+
+/* The state of an edge: mostly all tiles about it agree, and which of them it
+ * meets need not be known. */
+static enum map_state ask_edge(struct tiles_work *work, struct geom_point p,
+                               struct geom_point q, bool wire) {
+  struct cell_range r =
+      pagegrid_cells(&work->tiles.grid, page_box_of_segment(p, q));
+  enum map_state state;
+  if (work->tiles.horizon != NULL || r.x1 - r.x0 + r.y1 - r.y0 > 2)
+    return ask_along(work, p, q, wire, false);
+  state = ask_range(&work->tiles, r, least_bucket(p.z, q.z),
+                    most_bucket(p.z, q.z), wire);
+  return state == MAP_MIXED && r.x0 < r.x1 && r.y0 < r.y1
+             ? ask_along(work, p, q, wire, false)
+             : state;
+}
+
 /* Classifies the edges from number `from` on. */
 static bool classify_edges(struct tiles_work *work, size_t from,
                            struct map *map) {
@@ -119,7 +146,7 @@ static bool classify_edges(struct tiles_work *work, size_t from,
     bool wire = edge->triangle[0] == SHEET_NONE ||
                 edge->edge_class == RECTO_EDGE_INTERSECTION;
     if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y)) continue;
-    map->edge_state[e] = (uint8_t)ask_along(work, p, q, wire, false);
+    map->edge_state[e] = (uint8_t)ask_edge(work, p, q, wire);
     if (map->edge_state[e] != MAP_MIXED) continue;
     if (!ARRAY_PUSH(&work->edge, (uint32_t)e)) return false;
     (void)ask_along(work, p, q, wire, true);
@@ -196,12 +223,11 @@ struct edge_task {
   struct hide_counts *counts;
 };
 
-/* Asks what triangle t hides of the edge. */
+/* Asks what triangle t hides of the edge, which it may meet. */
 static bool ask_triangle(const struct tiles_work *work, struct edge_task *task,
                          uint32_t t) {
   struct hidden_part part;
   if (t == task->triangle[0] || t == task->triangle[1] ||
-      !hide_may(work->sheet, t, task->p, task->q, task->box) ||
       (task->several && !pagegrid_query_first(task->query, t)))
     return true;
   return !hide_edge_by(work->sheet, t, task->p, task->q, &part, task->counts) ||
