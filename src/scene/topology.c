@@ -1,13 +1,15 @@
 /* topology.c - finds the edges of a scene and the faces that meet there.
  *
  * Phases
+ *   number   the sides are walked in file order.  A side looks for its edge
+ *            among those of its lower point; one that finds none makes it.
+ * Where a point has too many for that, all is done in another way:
  *   count    the sides of all faces are counted at the lower of their points.
  *   name     where a point has many sides (a fan of a hundred thousand
  *            triangles), these are told apart through a table by upper point:
  *            each is named by the first side in the file between its points.
- *   number   the sides are walked in file order.  A side looks for its edge
- *            among the few of its lower point, or by its name; one that finds
- *            none makes it.
+ *   number   the sides are walked again, and look for their edges by their
+ *            names too.
  *   weld     where points of border edges coincide (weld.h), all is done again
  *            with those points made one.
  * Invariants  Edges stand in the order in which the file first uses them.
@@ -20,8 +22,9 @@
 
 #include "scene/weld.h"
 
-/* A point with more sides than this above it is a hub. */
-enum { FEW_SIDES = 24 };
+/* A point with more sides than this above it is a hub, where one has so many
+ * edges that a side has to pass by more than that. */
+enum { FEW_SIDES = 24, MANY_EDGES = 48 };
 
 /* ---- The sides of all faces, in file order ------------------------------- */
 
@@ -131,12 +134,13 @@ static bool name_hubs(const struct scene *scene, const uint32_t *weld,
 struct lists {
   uint32_t *head; /* one a point: an edge, SCENE_NONE, or HUB */
   uint32_t *next; /* one an edge */
+  bool crowded;   /* a list was too long: no edge is asked for any more */
 };
 
 #define HUB (SCENE_NONE - 1)
 
 static bool is_new(const struct topology *topology, const struct walk *walk,
-                   const struct lists *lists, uint32_t *found) {
+                   struct lists *lists, uint32_t *found) {
   uint32_t e = lists->head[lower(walk)];
   if (e == HUB) {
     /* A name is a corner no later than the side's own: if it is not its own,
@@ -145,8 +149,13 @@ static bool is_new(const struct topology *topology, const struct walk *walk,
     *found = name == walk->corner ? SCENE_NONE : topology->corner_edge[name];
     return name == walk->corner;
   }
-  while (e != SCENE_NONE && topology->edge.item[e].point[1] != upper(walk))
+  int passed = 0;
+  while (e != SCENE_NONE && topology->edge.item[e].point[1] != upper(walk)) {
     e = lists->next[e];
+    passed++;
+  }
+  if (passed > MANY_EDGES)
+    lists->crowded = true;
   *found = e;
   return e == SCENE_NONE;
 }
@@ -183,7 +192,7 @@ static void use_edge(struct topology_edge *edge, const struct walk *walk) {
 static bool number_edges(struct topology *topology, const struct scene *scene,
                          struct lists *lists) {
   for (struct walk walk = walk_sides(scene, topology->weld);
-       next_side(&walk);) {
+       !lists->crowded && next_side(&walk);) {
     uint32_t e;
     if (is_new(topology, &walk, lists, &e)) {
       if (!add_edge(topology, &walk, lists))
@@ -207,26 +216,41 @@ static size_t count_sides(const struct scene *scene, const uint32_t *weld,
   return at_hubs;
 }
 
+/* Tells hubs from other points, and names their sides. */
+static bool mark_hubs(struct topology *topology, const struct scene *scene,
+                      struct lists *lists) {
+  size_t points = scene->point.count;
+  memset(lists->head, 0, points * sizeof *lists->head);
+  size_t at_hubs = count_sides(scene, topology->weld, lists->head);
+  if (at_hubs > 0 && !name_hubs(scene, topology->weld, lists->head, at_hubs,
+                                topology->corner_edge))
+    return false;
+  for (size_t p = 0; p < points; p++)
+    lists->head[p] = lists->head[p] > FEW_SIDES ? HUB : SCENE_NONE;
+  return true;
+}
+
 /* Builds corner_edge and the edges with the points as they are welded. */
 static bool build_edges(struct topology *topology, const struct scene *scene) {
   size_t points = scene->point.count, corners = scene->corner.count;
   struct lists lists = {0};
   bool done = false;
   topology->edge.count = 0;
-  /* Head is made of the counts; of next no more is ever touched than there
-   * are edges: half of the corners in a closed mesh. */
-  lists.head = mem_calloc(points, sizeof *lists.head);
+  /* Of next no more is ever touched than there are edges: half of the corners
+   * in a closed mesh. */
+  lists.head = mem_alloc(points, sizeof *lists.head);
   lists.next = mem_alloc(corners, sizeof *lists.next);
   if (!lists.head || !lists.next ||
       !ARRAY_RESERVE(&topology->edge, corners / 2 + corners / 8))
     goto end;
-  size_t at_hubs = count_sides(scene, topology->weld, lists.head);
-  if (at_hubs > 0 && !name_hubs(scene, topology->weld, lists.head, at_hubs,
-                                topology->corner_edge))
-    goto end;
-  for (size_t p = 0; p < points; p++)
-    lists.head[p] = lists.head[p] > FEW_SIDES ? HUB : SCENE_NONE;
+  memset(lists.head, 0xff, points * sizeof *lists.head);
   done = number_edges(topology, scene, &lists);
+  if (done && lists.crowded) {
+    lists.crowded = false;
+    topology->edge.count = 0;
+    done = mark_hubs(topology, scene, &lists) &&
+           number_edges(topology, scene, &lists);
+  }
 end:
   mem_free(lists.head);
   mem_free(lists.next);
