@@ -217,6 +217,55 @@ static void print_yardstick(const struct bench *bench,
          median_of(peak, runs));
 }
 
+/* The median CPU seconds of the solver by a method with a knob, drawing these
+ * edges; *pixels gets how many pixels are covered, where the method says.  NAN
+ * where a run failed. */
+static double take_solver(const struct bench *bench, const struct model *model,
+                          const char *method, const char *knob,
+                          const char *edges, double *pixels) {
+  char stats[100], report[90], output[90];
+  double cpu[RUNS_MAX];
+  snprintf(report, sizeof report, "%s/report.json", bench->folder);
+  snprintf(stats, sizeof stats, "--stats=%s", report);
+  snprintf(output, sizeof output, "%s/drawing.svg", bench->folder);
+  const char *const argv[] = {bench->recto, model->path, "-m",   method,
+                              knob,         "-e",        edges,  "-p",
+                              "200x200mm",  "--margin",  "5mm",  "-q",
+                              stats,        "--azimuth", "15",   "--elevation",
+                              "30",         "-o",        output, NULL};
+  for (size_t i = 0; i < runs; i++) {
+    struct run run;
+    run_program(&run, argv, limit_s);
+    char *text = read_file(report, NULL);
+    cpu[i] = run.status == 0 ? report_number(text, "solve_cpu_s") : NAN;
+    *pixels = report_number(text, "pixels_covered");
+    free(text);
+  }
+  return median_of(cpu, runs);
+}
+
+/* The z-buffers' frame alone, and lines by Watkins and by a z-buffer of as many
+ * lines, each beside the yardstick that it is held to. */
+static void print_scans(const struct bench *bench, const struct model *model) {
+  double pixels, none;
+  double frame = take_solver(bench, model, "zbuffer", "--resolution=4096",
+                             "none", &pixels);
+  double allowed = 2e-9 * pixels + 100e-9 * model->triangles;
+  double line = take_solver(bench, model, "scanline-zbuffer",
+                            "--resolution=4096", "none", &none);
+  double same = take_solver(bench, model, "zbuffer", "--resolution=667",
+                            "silhouette", &none);
+  double watkins = take_solver(bench, model, "watkins", "--pitch=0.3mm",
+                               "silhouette", &none);
+  printf("%-16s %9.0f zbuffer at 4096: %.3f s, %.1f times 2 ns a covered pixel "
+         "and 100 ns a triangle; scanline-zbuffer: %.3f s, %.1f times that\n",
+         model->name, model->triangles, frame, frame / allowed, line,
+         line / frame);
+  printf("%-16s %9.0f outlines by watkins at 0.3 mm: %.3f s, %.1f times a "
+         "zbuffer of as many lines (%.3f s)\n",
+         model->name, model->triangles, watkins, watkins / same, same);
+}
+
 /* How fast a file is read by itself: in MB a second of CPU time. */
 static void print_reading(const char *path, const char *what) {
   double cpu[RUNS_MAX], bytes = 0;
@@ -259,6 +308,7 @@ static void print_growth(const struct bench *bench, struct model *model,
   char stl[100];
   snprintf(stl, sizeof stl, "%s/model.stl", bench->folder);
   print_yardstick(bench, model);
+  print_scans(bench, model);
   for (size_t i = 0; i < 2; i++) {
     struct scene finer;
     scene_init(&finer);
@@ -274,6 +324,7 @@ static void print_growth(const struct bench *bench, struct model *model,
     }
     print_model(bench, model);
     print_yardstick(bench, model);
+    print_scans(bench, model);
   }
   printf("\nReading alone\n");
   print_reading(model->path, "OBJ");
