@@ -31,21 +31,6 @@ static void draw_facet(struct raster *raster, const struct facets *facets,
   }
 }
 
-/* Facets of a band lie anywhere in memory: what is drawn soon is sent for. */
-static void fetch(const struct raster *raster, const struct sort_key *key,
-                  size_t count, size_t i) {
-  enum { SOON = 8, LATER = 16 };
-  const struct sheet *sheet = raster->sheet;
-  if (i + LATER < count)
-    __builtin_prefetch(&sheet->triangle.item[key[i + LATER].value]);
-  if (i + SOON < count)
-    for (int k = 0; k < 3; k++) {
-      uint32_t point = sheet->triangle.item[key[i + SOON].value].point[k];
-      __builtin_prefetch(&raster->point[point]);
-      __builtin_prefetch(&sheet->point.item[point]);
-    }
-}
-
 recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
                           const struct solver_request *request,
                           int64_t *covered, recto_error *error) {
@@ -56,7 +41,6 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
   if (key == NULL)
     return error_memory(error);
   for (size_t i = 0; i < count && status == RECTO_OK; i++) {
-    fetch(raster, key, count, i);
     draw_facet(raster, facets, key[i].value, covered);
     if (request->progress != NULL && i % ASK_EVERY == 0 &&
         !request->progress(request->user, (double)i / (double)count,
