@@ -376,21 +376,8 @@ static void hatching_fails_cleanly_when_memory_runs_out(void **state) {
   build_ball(&scene, 6);
   p.sheet.face_group = scene.face_group.item;
   for (int lit = 0; lit < 2; lit++) {
-    bool done = false;
     options.light[2] = lit;
-    for (unsigned long n = 1; !done; n++) {
-      struct drawing drawing;
-      drawing_init(&drawing);
-      mem_fail_after(n);
-      recto_status status =
-          ink_draw(&drawing, &p.sheet, &scene, &p.map, &options, NULL);
-      mem_fail_after(0);
-      done = status == RECTO_OK;
-      if (!done)
-        assert_int_equal(status, RECTO_ERROR_MEMORY);
-      assert_true(n < 10000);
-      drawing_fini(&drawing);
-    }
+    pipeline_starve_ink(&p, &scene, &options);
   }
   scene_fini(&scene);
   pipeline_fini(&p);

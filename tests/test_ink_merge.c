@@ -273,26 +273,13 @@ static void merging_fails_cleanly_when_memory_runs_out(void **state) {
   struct scene scene;
   recto_options options;
   struct pipeline p;
-  bool done = false;
   (void)state;
   start(&scene, &options);
   scenes_box_on_table(&scene, &options, SCENES_CONTACT_EXACT, 0.1);
   options.crease_deg = 100;
   pipeline_run(&p, &scene, &options, solver_by_name("tiles"));
   assert_int_equal(p.status, RECTO_OK);
-  for (unsigned long n = 1; !done; n++) {
-    struct drawing drawing;
-    drawing_init(&drawing);
-    mem_fail_after(n);
-    recto_status status =
-        ink_draw(&drawing, &p.sheet, &scene, &p.map, &options, NULL);
-    mem_fail_after(0);
-    done = status == RECTO_OK;
-    if (!done)
-      assert_int_equal(status, RECTO_ERROR_MEMORY);
-    assert_true(n < 10000);
-    drawing_fini(&drawing);
-  }
+  pipeline_starve_ink(&p, &scene, &options);
   scene_fini(&scene);
   pipeline_fini(&p);
 }

@@ -14,6 +14,7 @@
 
 #include <string.h>
 
+#include "base/sets.h"
 #include "base/sort.h"
 #include "ink/outline.h"
 
@@ -45,18 +46,8 @@ static struct outline_place place_of(const struct merge *merge,
   return (struct outline_place){c->x, c->y};
 }
 
-static uint32_t find_root(uint32_t *root, uint32_t i) {
-  while (root[i] != i) {
-    root[i] = root[root[i]];
-    i = root[i];
-  }
-  return i;
-}
-
 static void join(struct merge *merge, uint32_t first, uint32_t second) {
-  uint32_t a = find_root(merge->root, first);
-  uint32_t b = find_root(merge->root, second);
-  merge->root[a > b ? a : b] = a > b ? b : a;
+  sets_join(merge->root, first, second);
   merge->merged[first] = merge->merged[second] = 1;
 }
 
@@ -332,7 +323,7 @@ static void key_by_root(struct merge *merge, struct sort_key *key,
                         const struct outline_piece *piece, size_t count) {
   for (uint32_t i = 0; i < count; i++)
     key[i] = (struct sort_key){
-        find_root(merge->root, piece ? piece[i].fragment : i), i};
+        sets_root(merge->root, piece ? piece[i].fragment : i), i};
   sort_keys(key, key + count, count);
 }
 
@@ -385,12 +376,10 @@ bool merge_fills(struct drawing *drawing, const struct sheet *sheet,
       .map = map,
       .like = like,
       .crease_deg = options->crease_deg,
-      .root = mem_alloc(count, sizeof *merge.root),
+      .root = sets_create(count),
       .merged = mem_calloc(count, sizeof *merge.merged),
       .dropped = mem_calloc(map->corner.count, sizeof *merge.dropped)};
   bool good = merge.root && merge.merged && merge.dropped;
-  for (uint32_t f = 0; good && f < count; f++)
-    merge.root[f] = f;
   if (!options->ids)
     good = good && gather_sides(&merge) && cancel_sides(&merge);
   good = good && add_fills(&merge);

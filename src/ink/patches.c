@@ -1,6 +1,7 @@
 /* patches.c - fragments that no drawn line parts. */
 #include "ink/patches.h"
 
+#include "base/sets.h"
 #include "base/sort.h"
 #include "ink/layers.h"
 
@@ -26,22 +27,6 @@ bool patches_is_inked(const struct patches *patches,
   }
 }
 
-static uint32_t find_root(uint32_t *root, uint32_t i) {
-  while (root[i] != i) {
-    root[i] = root[root[i]];
-    i = root[i];
-  }
-  return i;
-}
-
-/* Joins a fragment to the one that was met first at an edge. */
-static void join_at(const struct patches *patches, uint32_t *seen,
-                    uint32_t fragment) {
-  uint32_t a = find_root(patches->root, fragment);
-  uint32_t b = find_root(patches->root, *seen);
-  patches->root[a > b ? a : b] = a > b ? b : a;
-}
-
 /* seen  one a sheet edge: a fragment beside it, SHEET_NONE for not yet */
 static void join_all(const struct patches *patches, const struct scene *scene,
                      const struct map *map, const recto_options *options,
@@ -61,7 +46,7 @@ static void join_all(const struct patches *patches, const struct scene *scene,
           seen[edge] = f;
         uint32_t other = map->fragment.item[seen[edge]].face;
         if (layers_pen_of_group(options, scene->face_group.item[other]) == pen)
-          join_at(patches, &seen[edge], f);
+          sets_join(patches->root, seen[edge], f);
       }
     }
   }
@@ -73,7 +58,7 @@ static bool list(struct patches *patches) {
   if (key == NULL)
     return false;
   for (uint32_t f = 0; f < patches->count; f++) {
-    patches->root[f] = find_root(patches->root, f);
+    patches->root[f] = sets_root(patches->root, f);
     key[f] = (struct sort_key){patches->root[f], f};
   }
   sort_keys(key, key + patches->count, patches->count);
@@ -92,11 +77,9 @@ bool patches_init(struct patches *patches, const struct sheet *sheet,
       .intersections = (options->edges & RECTO_EDGE_INTERSECTION) != 0,
       .count = map->fragment.count};
   uint32_t *seen = mem_alloc(edges, sizeof *seen);
-  patches->root = mem_alloc(patches->count, sizeof *patches->root);
+  patches->root = sets_create(patches->count);
   patches->fragment = mem_alloc(patches->count, sizeof *patches->fragment);
   bool good = seen && patches->root && patches->fragment;
-  for (uint32_t f = 0; good && f < patches->count; f++)
-    patches->root[f] = f;
   for (size_t e = 0; good && e < edges; e++)
     seen[e] = SHEET_NONE;
   if (good && !options->ids)

@@ -3,7 +3,7 @@
  * Phases
  *   1 normals   of the faces, as long as their areas
  *   2 joints    corners of faces that meet smoothly become one set, faces that
- *               do one region (union-find)
+ *               do one region
  *   3 corners   the normal of a set is the sum of its faces'; its angle to the
  *               light is the tone
  *   4 regions   even ones get their mean tone */
@@ -11,6 +11,7 @@
 
 #include <math.h>
 
+#include "base/sets.h"
 #include "ink/light.h"
 #include "view/project.h"
 #include "view/vector.h"
@@ -29,37 +30,12 @@ struct work {
   double crease_cosine;
   struct normal *face;   /* of each face */
   struct normal *sum;    /* of each set of corners, at its root */
-  uint32_t *corner_root; /* union-find over corners, and over faces */
+  uint32_t *corner_root; /* sets of corners, and of faces */
   uint32_t *face_root;
   uint32_t *first_use; /* of each edge: a corner and its face */
   uint32_t *first_face;
   float *least, *most; /* tones of each region, at its root */
 };
-
-/* ---- Sets -----------------------------------------------------------------
- */
-
-static uint32_t find_root(uint32_t *parent, uint32_t i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
-/* The lower root stays one: no set depends on the order of joining. */
-static void join(uint32_t *parent, uint32_t a, uint32_t b) {
-  a = find_root(parent, a);
-  b = find_root(parent, b);
-  parent[a > b ? a : b] = a > b ? b : a;
-}
-
-static uint32_t *make_sets(size_t count) {
-  uint32_t *parent = mem_alloc(count, sizeof *parent);
-  for (size_t i = 0; parent != NULL && i < count; i++)
-    parent[i] = (uint32_t)i;
-  return parent;
-}
 
 /* ---- 2 Joints -------------------------------------------------------------
  */
@@ -83,9 +59,9 @@ static void join_faces(struct work *w, uint32_t f, uint32_t a, uint32_t g,
                        uint32_t b) {
   if (!is_smooth(w, f, g))
     return;
-  join(w->face_root, f, g);
-  join(w->corner_root, a, next_corner(w->scene, g, b));
-  join(w->corner_root, next_corner(w->scene, f, a), b);
+  sets_join(w->face_root, f, g);
+  sets_join(w->corner_root, a, next_corner(w->scene, g, b));
+  sets_join(w->corner_root, next_corner(w->scene, f, a), b);
 }
 
 static void join_all(struct work *w) {
@@ -115,14 +91,14 @@ static void sum_normals(struct work *w) {
   for (uint32_t f = 0; f < scene_face_count(w->scene); f++)
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++) {
-      double *sum = w->sum[find_root(w->corner_root, c)].xyz;
+      double *sum = w->sum[sets_root(w->corner_root, c)].xyz;
       for (int k = 0; k < 3; k++)
         sum[k] += w->face[f].xyz[k];
     }
 }
 
 static float tone_of_corner(struct work *w, uint32_t corner, bool away) {
-  struct normal n = w->sum[find_root(w->corner_root, corner)];
+  struct normal n = w->sum[sets_root(w->corner_root, corner)];
   for (int k = 0; away && k < 3; k++)
     n.xyz[k] = -n.xyz[k];
   if (!vector_normalise(n.xyz))
@@ -145,7 +121,7 @@ static struct drawing_point place_corner(const struct work *w,
 
 static void set_corners(struct work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene); f++) {
-    uint32_t region = find_root(w->face_root, f);
+    uint32_t region = sets_root(w->face_root, f);
     bool away =
         light_is_turned_away(w->scene, f, &w->sheet->camera, w->face[f].xyz);
     for (uint32_t c = w->scene->face_start.item[f];
@@ -164,7 +140,7 @@ static void set_corners(struct work *w, struct tones *tones) {
 
 static void set_regions(struct work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene); f++) {
-    uint32_t region = find_root(w->face_root, f);
+    uint32_t region = sets_root(w->face_root, f);
     double least = w->least[region], most = w->most[region];
     tones->even[f] = most - least < EVEN_TONE;
     if (!tones->even[f])
@@ -185,8 +161,8 @@ static bool prepare(struct work *w) {
   size_t edges = w->sheet->topology ? w->sheet->topology->edge.count : 0;
   w->face = mem_alloc(faces, sizeof *w->face);
   w->sum = mem_calloc(corners, sizeof *w->sum);
-  w->corner_root = make_sets(corners);
-  w->face_root = make_sets(faces);
+  w->corner_root = sets_create(corners);
+  w->face_root = sets_create(faces);
   w->first_use = mem_alloc(edges, sizeof *w->first_use);
   w->first_face = mem_alloc(edges, sizeof *w->first_face);
   w->least = mem_alloc(faces, sizeof *w->least);
@@ -224,7 +200,7 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
   tones->even = mem_alloc(scene_face_count(scene), sizeof *tones->even);
   bool good = tones->corner && tones->place && tones->even && prepare(&w);
   if (good) {
-    if (sheet->topology)
+    if (sheet->topology && sheet->topology->corner_edge)
       join_all(&w);
     sum_normals(&w);
     set_corners(&w, tones);

@@ -25,6 +25,12 @@ void pipeline_run(struct pipeline *pipeline, const struct scene *scene,
                   const recto_options *options, const struct solver *solver);
 void pipeline_fini(struct pipeline *pipeline);
 
+/* Draws what was solved again and again, each allocation failing in turn: all
+ * attempts but the last must say so. */
+void pipeline_starve_ink(const struct pipeline *pipeline,
+                         const struct scene *scene,
+                         const recto_options *options);
+
 /* The drawing as SVG text, NUL-terminated; where a stage failed, the name of
  * its status.  Free with mem_free. */
 char *pipeline_svg(const struct pipeline *pipeline,
