@@ -20,8 +20,7 @@
  *          each other, and a move of a list of a active edges, one copy.
  *          Memory linear in n + k; it is asked for before it is taken, and
  *          beyond the limits below the sweep stops.
- * Source   [Watkins1970]; finding crossings among neighbours: [BentleyOttmann
- *          1979].
+ * Source   [Watkins1970]; crossings among neighbours: [BentleyOttmann1979].
  */
 #ifndef VISIBILITY_WATKINS_SWEEP_H
 #define VISIBILITY_WATKINS_SWEEP_H
