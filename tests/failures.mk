@@ -24,3 +24,6 @@ dist_check_SCRIPTS += %D%/test_failures_compilers.sh
 unit_tests += %D%/test_ink_repeats
 %C%_test_ink_repeats_SOURCES = %D%/test_ink_repeats.c %D%/inked.c %D%/inked.h
 %C%_test_ink_repeats_LDADD = $(failures_libs)
+unit_tests += %D%/test_contact
+%C%_test_contact_SOURCES = %D%/test_contact.c
+%C%_test_contact_LDADD = $(failures_libs)

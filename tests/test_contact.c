@@ -1,0 +1,154 @@
+/* test_contact.c - what touches hides nothing, however it is turned: the drawn
+ * length of scenes in contact changes as little as the angle does. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "tests/scenes/build.h"
+#include "tests/scenes/pipeline.h"
+
+enum { ANGLES = 200, SIDES = 24 };
+
+/* ---- Scenes --------------------------------------------------------------- */
+
+static void add_box_on_table(struct scene *scene) {
+  build_box(scene, vector_of(-5, -4, -0.25), vector_of(5, 4, 0));
+  build_box(scene, vector_of(-1, -1.5, 0), vector_of(1.5, 1, 2));
+}
+
+static void add_cube_stack(struct scene *scene) {
+  double low = 0, size = 3;
+  for (int i = 0; i < 5; i++) {
+    build_box(scene, vector_of(-size / 2, -size / 2, low),
+              vector_of(size / 2, size / 2, low + size));
+    low += size;
+    size *= 0.75;
+  }
+}
+
+/* A prism that has sides right and left of its axis, which is upright. */
+static void add_cylinder(struct scene *scene, double x, double low,
+                         double high) {
+  const double pi = 3.14159265358979323846;
+  uint32_t ring[2][SIDES];
+  for (int k = 0; k < SIDES; k++) {
+    double angle = pi * (2 * k + 1) / SIDES;
+    /* The radius to a side's middle is 1: neighbours' walls agree exactly. */
+    double across = k == 0 || k == SIDES - 1                ? 1
+                    : k == SIDES / 2 || k == SIDES / 2 - 1 ? -1
+                                            : cos(angle) / cos(pi / SIDES);
+    double along = sin(angle) / cos(pi / SIDES);
+    ring[0][k] = build_point(scene, x + across, along, low);
+    ring[1][k] = build_point(scene, x + across, along, high);
+  }
+  for (int k = 0; k < SIDES; k++) {
+    int next = (k + 1) % SIDES;
+    build_quad(scene, ring[0][k], ring[0][next], ring[1][next], ring[1][k]);
+  }
+  build_face(scene, ring[1], SIDES);
+  for (int k = 0; k < SIDES / 2; k++) {
+    uint32_t swap = ring[0][k];
+    ring[0][k] = ring[0][SIDES - 1 - k];
+    ring[0][SIDES - 1 - k] = swap;
+  }
+  build_face(scene, ring[0], SIDES);
+}
+
+/* Two side by side, wall on wall, and one that stands on the first. */
+static void add_cylinders(struct scene *scene) {
+  add_cylinder(scene, 0, 0, 3);
+  add_cylinder(scene, 2, 0.5, 2.5);
+  add_cylinder(scene, 0, 3, 4);
+}
+
+/* ---- Turning -------------------------------------------------------------- */
+
+/* Turns all points about an axis of no meaning. */
+static void turn(struct scene *scene, double radians, bool rounded) {
+  const struct vector axis = vector_scale(vector_of(2, 3, 6), 1.0 / 7);
+  double sine = sin(radians), rest = 2 * sin(radians / 2) * sin(radians / 2);
+  for (size_t i = 0; i < scene->point.count; i++) {
+    struct scene_point *p = &scene->point.item[i];
+    struct vector at = vector_of(p->x, p->y, p->z);
+    struct vector aside = vector_cross(axis, at);
+    struct vector back = vector_cross(axis, aside);
+    at = vector_add(at, vector_add(vector_scale(aside, sine),
+                                   vector_scale(back, rest)));
+    *p = (struct scene_point){at.x, at.y, at.z};
+    if (rounded)
+      *p = (struct scene_point){(float)at.x, (float)at.y, (float)at.z};
+  }
+}
+
+static double length_of(void (*add)(struct scene *), double radians,
+                        bool rounded) {
+  struct scene scene;
+  struct pipeline pipeline;
+  recto_options options;
+  recto_options_init(&options);
+  options.min_stroke_mm = 0;
+  options.azimuth_deg = 37; /* no wall of a cylinder is seen edge-on */
+  options.elevation_deg = 31;
+  scene_init(&scene);
+  scene.up[1] = 0;
+  scene.up[2] = 1;
+  add(&scene);
+  turn(&scene, radians, rounded);
+  pipeline_run(&pipeline, &scene, &options, &solver_tiles);
+  assert_int_equal(pipeline.status, RECTO_OK);
+  double length = pipeline_length(&pipeline, RECTO_EDGES_ALL, false);
+  pipeline_fini(&pipeline);
+  scene_fini(&scene);
+  return length;
+}
+
+/* Relative to its length the drawing changes by less than the angle, in
+ * radians, and what the page's grid and the points' roundings explain; both
+ * from where it stood and from one angle to the next. */
+static void assert_steady(void (*add)(struct scene *), bool rounded) {
+  const double noise = 2e-8;
+  double still = length_of(add, 0, rounded), last = still, last_angle = 0;
+  assert_true(still > 500);
+  for (int i = 0; i < ANGLES; i++) {
+    double angle = 1e-9 * pow(10, 5.0 * i / (ANGLES - 1));
+    double length = length_of(add, angle, rounded);
+    double change = fabs(length - still) / still;
+    double step = fabs(length - last) / still;
+    if (!(change < angle + noise && step < angle - last_angle + noise))
+      fail_msg("turned by %g: %g mm for %g, and %g before", angle, length,
+               still, last);
+    assert_true(angle > 1e-7 || change < 1e-4);
+    last = length;
+    last_angle = angle;
+  }
+}
+
+static void a_box_on_a_table_is_steady(void **state) {
+  (void)state;
+  assert_steady(add_box_on_table, false);
+  assert_steady(add_box_on_table, true);
+}
+
+static void a_stack_of_cubes_is_steady(void **state) {
+  (void)state;
+  assert_steady(add_cube_stack, false);
+  assert_steady(add_cube_stack, true);
+}
+
+static void touching_cylinders_are_steady(void **state) {
+  (void)state;
+  assert_steady(add_cylinders, false);
+  assert_steady(add_cylinders, true);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_box_on_a_table_is_steady),
+      cmocka_unit_test(a_stack_of_cubes_is_steady),
+      cmocka_unit_test(touching_cylinders_are_steady),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
