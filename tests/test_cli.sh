@@ -438,7 +438,8 @@ claim "an interrupt leaves nothing behind" interrupt_cleans_up
 # ---- Locale ---------------------------------------------------------------
 
 comma_locale() {
-  # The tool is there on every machine; the sources of locales may not be.
+  # Of one category alone: it needs no more than a character map, which comes
+  # with the package locales, as the tool does with the C library.
   {
     printf 'LC_NUMERIC\ndecimal_point ","\nthousands_sep "."\n'
     printf 'grouping 3;3\nEND LC_NUMERIC\n'
@@ -468,6 +469,7 @@ if comma_locale; then
     fi
   done
 else
-  skip "a locale with decimal commas changes nothing" "no localedef"
+  skip "a locale with decimal commas changes nothing" \
+    "no locale can be made: is locales installed?"
 fi
 finish
