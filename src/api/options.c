@@ -97,7 +97,7 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the pen speed", o->velocity_cm_s, 0, 1000},
       {"the speed with the pen up", o->velocity_up_cm_s, 0, 1000},
       {"the way to divide", o->divide, 0, RECTO_DIVIDE_BOX},
-      {"the number of points to verify", o->verify, 0, 100000000},
+      {"the number of points to verify", o->verify, 0, 10000000},
       {"the number of sub-pixels", o->subpixels, 0, 16},
       {"the number of depth bits", o->depth_bits, 0, 32},
       {"the output's unit", o->unit_mm, 0, 100},

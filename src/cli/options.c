@@ -123,7 +123,7 @@ static bool take_verify(struct arguments *arguments, const char *text) {
   arguments->options.verify = usual;
   return text == NULL || (value_int(text, &arguments->options.verify) &&
                           arguments->options.verify > 0 &&
-                          arguments->options.verify <= 100000000);
+                          arguments->options.verify <= 10000000);
 }
 
 /* ---- The table ----------------------------------------------------------- */
@@ -293,7 +293,7 @@ const struct option_entry option_table[] = {
     {OPTION_TEXT, "stats", 0, "[=FILE]", "a file",
      "counts, times and choices as JSON", .offset = AT(stats_file),
      .given = AT(stats)},
-    {OPTION_TAKE, "verify", 0, "[=N]", "a number from 1 to 100000000",
+    {OPTION_TAKE, "verify", 0, "[=N]", "a number from 1 to 10000000",
      "ask a ray caster about N points, 4000; fail if wrong",
      .take = take_verify},
     {OPTION_TEXT, "check", 0, "FILE", "a file",
