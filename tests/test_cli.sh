@@ -205,6 +205,22 @@ else
   skip "the drawing is well-formed XML" "no xmllint"
 fi
 
+# What the pixels' options do is told in --stats and seen in the drawing.
+raster_stats() {
+  run 0 cube.obj -o raster.svg -m "$1" --resolution 60 --fill paint \
+    --stats=raster.json "${@:3}" && grep -q "$2" raster.json
+}
+for method in zbuffer scanline-zbuffer; do
+  claim "$method takes depth bits" \
+    raster_stats "$method" '"depth_bits": 16' --depth-bits 16
+  claim "$method is exact in double precision" \
+    raster_stats "$method" '"depth_bits": 0' --depth-bits 64
+  claim "$method averages sub-pixels" \
+    raster_stats "$method" '"subpixels": 3' --subpixels 3
+  claim "$method removes backs, which a closed body hides anyway" \
+    raster_stats "$method" '"lines": 60' --remove-backs
+done
+
 same_again() { run 0 cube.obj -o again.svg && cmp -s cube.svg again.svg; }
 claim "the same call gives the same bytes" same_again
 

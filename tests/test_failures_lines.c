@@ -188,6 +188,40 @@ static void row_30_exact_methods_see_the_thinnest(void **state) {
   scene_fini(&scene);
 }
 
+/* ---- Sections ----------------------------------------------------------- */
+
+/* A plate that rises from z = 0 to 10 across the page, before one at -1; what
+ * is above z = 4 is cut away: 40 of its 100 mm stay. */
+static void a_section_cuts_away_what_is_nearer(void **state) {
+  static const char *const name[] = {"zbuffer", "scanline-zbuffer", "warnock",
+                                     "watkins", "tiles"};
+  struct scene scene;
+  recto_options options;
+  (void)state;
+  recto_options_init(&options);
+  scene_init(&scene);
+  build_parallelogram(&scene, vector_of(0, 0, 0), vector_of(100, 0, 10),
+                      vector_of(0, 100, 0));
+  build_parallelogram(&scene, vector_of(0, 0, -1), vector_of(100, 0, 0),
+                      vector_of(0, 100, 0));
+  scenes_view_page(&options, 100, 100);
+  options.has_section = true;
+  options.section = 1000 - 4; /* from the eye */
+  for (size_t m = 0; m < sizeof name / sizeof *name; m++) {
+    const struct solver *solver = solver_by_name(name[m]);
+    struct trial trial;
+    trial_run(&trial, &scene, &options, solver, solver->exact ? 0 : 100,
+              TRIAL_FRAGMENTS);
+    assert_int_equal(trial.status, RECTO_OK);
+    if (!(fabs(area_of(&trial.map, 0) - 4000) < 1e-3 &&
+          fabs(area_of(&trial.map, 1) - 6000) < 1e-3))
+      fail_msg("%s: %g and %g mm2", name[m], area_of(&trial.map, 0),
+               area_of(&trial.map, 1));
+    trial_fini(&trial);
+  }
+  scene_fini(&scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(row_28_exact_methods_tell_near_sheets_apart),
@@ -196,6 +230,7 @@ int main(void) {
       cmocka_unit_test(
           row_30_what_is_thinner_than_the_pitch_is_missed_and_only_that),
       cmocka_unit_test(row_30_exact_methods_see_the_thinnest),
+      cmocka_unit_test(a_section_cuts_away_what_is_nearer),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
