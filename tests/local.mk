@@ -109,6 +109,9 @@ unit_tests += %D%/test_obj
 unit_tests += %D%/test_stl
 %C%_test_stl_SOURCES = %D%/test_stl.c %D%/reading.c %D%/reading.h \
   %D%/comma.c %D%/comma.h
+unit_tests += %D%/test_material
+%C%_test_material_SOURCES = %D%/test_material.c \
+  %D%/reading.c %D%/reading.h %D%/temporary.c %D%/temporary.h
 unit_tests += %D%/test_read
 %C%_test_read_SOURCES = %D%/test_read.c %D%/reading.c %D%/reading.h \
   %D%/temporary.c %D%/temporary.h

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "scene/material.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
 
@@ -178,6 +179,42 @@ static void binary_stl_files_of_any_bytes_are_survived(void **state) {
   fuzz(&reader_stl, make_binary_stl, 40000);
 }
 
+static void make_library(struct file *file) {
+  put(file, "# seed\nnewmtl red\nKa 0 0 0\nKd 1 0.5 0\n\tmap_Kd a b.png\n"
+            "newmtl two words\r\n  Kd 0.25\r\nnewmtl red\nKd nan 0 0\nd 1\n"
+            "newmtl last\nKd 1e999 -1e-999 .5");
+}
+
+/* No bytes are an error in a material library; its colours are colours. */
+static void libraries_of_any_bytes_are_survived(void **state) {
+  size_t colours = 0;
+  (void)state;
+  for (int seed = 0; seed < rounds(40000); seed++) {
+    static struct file file;
+    struct random random = {(uint64_t)seed};
+    memset(&file, 0, sizeof file);
+    make_library(&file);
+    for (int n = random_int(&random, 0, 8); n > 0; n--)
+      mutate(&random, &file);
+    struct reading r;
+    reading_init(&r);
+    /* A block of just this size, with nothing behind it. */
+    char *bytes = malloc(file.count ? file.count : 1);
+    assert_non_null(bytes);
+    memcpy(bytes, file.bytes, file.count);
+    assert_int_equal(material_read(&r.scene, bytes, file.count, &r.diagnostics,
+                                   &r.error),
+                     RECTO_OK);
+    free(bytes);
+    for (size_t i = 0; i < r.scene.group.count; i++) {
+      assert_true(r.scene.group.item[i].colour <= 0xffffff);
+      colours += r.scene.group.item[i].has_colour;
+    }
+    reading_fini(&r);
+  }
+  assert_true(colours > (size_t)rounds(40000));
+}
+
 /* Each reader is given the files of the others as well. */
 static void files_of_another_format_are_survived(void **state) {
   (void)state;
@@ -198,6 +235,7 @@ int main(void) {
       cmocka_unit_test(obj_files_of_any_bytes_are_survived),
       cmocka_unit_test(text_stl_files_of_any_bytes_are_survived),
       cmocka_unit_test(binary_stl_files_of_any_bytes_are_survived),
+      cmocka_unit_test(libraries_of_any_bytes_are_survived),
       cmocka_unit_test(files_of_another_format_are_survived),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -35,6 +35,8 @@ recto_status recto_scene_read(recto_scene *scene, const char *path,
     diagnostics.warning = options->warning;
     diagnostics.user = options->user;
   }
+  scene->scene.wants_colours =
+      options != NULL && options->fill == RECTO_FILL_PAINT;
   double cpu = clock_cpu(), wall = clock_wall();
   recto_status status =
       scene_read(&scene->scene, path, format, &diagnostics, error);

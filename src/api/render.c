@@ -222,6 +222,7 @@ static void report_scene(struct report *report, const recto_scene *model) {
       [SCENE_FAULT_BOW_TIE] = "bow_tie",
       [SCENE_FAULT_WARPED] = "warped",
       [SCENE_FAULT_SYNTAX] = "syntax",
+      [SCENE_FAULT_MATERIAL] = "material",
   };
   for (int i = 0; i < SCENE_FAULT_COUNT; i++)
     report_int(report, "faults", name[i], (int64_t)model->fault[i]);

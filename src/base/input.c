@@ -80,6 +80,26 @@ recto_status input_load(struct input *input, const char *path,
   return status;
 }
 
+recto_status input_load_named(struct input *input, const char *path,
+                              recto_error *error) {
+  *input = (struct input){.bytes = NULL};
+  int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+  if (descriptor < 0)
+    return error_set(error, RECTO_ERROR_IO, path, 0, "cannot open: %s",
+                     strerror(errno));
+  recto_status status = RECTO_OK;
+  struct stat about;
+  if (fstat(descriptor, &about) != 0 || !S_ISREG(about.st_mode))
+    status = error_set(error, RECTO_ERROR_IO, path, 0, "no file");
+  else if (about.st_size > INPUT_NAMED_MOST)
+    status = error_set(error, RECTO_ERROR_LIMIT, path, 0, "too large");
+  else if (about.st_size > 0 &&
+           !map_file(descriptor, (size_t)about.st_size, input))
+    status = slurp(descriptor, path, input, error);
+  close(descriptor);
+  return status;
+}
+
 void input_unload(struct input *input) {
   /* Only what mmap gave is given back to it: the const is ours. */
   if (input->mapped)

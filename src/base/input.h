@@ -18,6 +18,14 @@ struct input {
  * Errors  RECTO_ERROR_IO, RECTO_ERROR_MEMORY; input_unload it in any case. */
 USE_RESULT recto_status input_load(struct input *input, const char *path,
                                    recto_error *error);
+
+/* Loads a file whose name stands in another one, which may name anything:
+ * only files proper of at most INPUT_NAMED_MOST bytes are read.
+ * Errors  as input_load, RECTO_ERROR_LIMIT */
+#define INPUT_NAMED_MOST (INT64_C(16) << 20)
+USE_RESULT recto_status input_load_named(struct input *input, const char *path,
+                                         recto_error *error);
+
 void input_unload(struct input *input);
 
 #endif

@@ -23,6 +23,8 @@ static const char *describe(enum scene_fault fault) {
     return "corners not in one plane";
   case SCENE_FAULT_SYNTAX:
     return "statements that cannot be parsed";
+  case SCENE_FAULT_MATERIAL:
+    return "materials that are missing or broken";
   case SCENE_FAULT_COUNT:
     break;
   }

@@ -7,10 +7,12 @@ librecto_core_la_SOURCES += \
   %D%/face.c \
   %D%/limit.h \
   %D%/mark.h \
+  %D%/material.c %D%/material.h \
   %D%/name.c %D%/name.h \
   %D%/nature.c \
   %D%/positions.c %D%/positions.h \
   %D%/read.c \
+  %D%/reader_mtl.c \
   %D%/reader_obj.c \
   %D%/reader_stl.c \
   %D%/scene.c \

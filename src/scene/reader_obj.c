@@ -22,15 +22,11 @@
 #include "base/number.h"
 #include "scene/exact.h"
 #include "scene/limit.h"
+#include "scene/material.h"
 
 enum { DIGITS_MAX = 12 }; /* of an index that may be in range */
 
 enum name_kind { NAME_OBJECT, NAME_GROUP, NAME_MATERIAL, NAME_COUNT };
-
-struct name {
-  const char *start; /* in the file's bytes */
-  size_t length;
-};
 
 struct parser {
   struct scene *scene;
@@ -46,8 +42,9 @@ struct parser {
   unsigned long strange; /* line of the first that was not; 0 */
   ARRAY(uint32_t) bad;   /* points that cannot be used, ascending */
   ARRAY(uint32_t) corner;
-  struct name name[NAME_COUNT];
+  struct material_name name[NAME_COUNT];
   bool renamed; /* since the current group was chosen */
+  struct materials materials;
   ARRAY(char) group;
 };
 
@@ -230,24 +227,38 @@ static bool is_bad(const struct parser *p, uint32_t point) {
 
 /* ---- Names --------------------------------------------------------------- */
 
-/* o, g or usemtl: the rest of the line. */
-static recto_status read_name(struct parser *p, enum name_kind kind,
+/* The rest of the line after a keyword of that length. */
+static recto_status read_rest(struct parser *p, struct material_name *name,
                               size_t keyword) {
   p->known = true;
   p->at += keyword;
   skip_blanks(p);
-  struct name *name = &p->name[kind];
   name->start = p->at;
+  name->line = p->line;
   const char *stop = memchr(p->at, '\n', (size_t)(p->end - p->at));
   if (!stop)
     stop = p->end;
   while (stop > p->at && is_blank(stop[-1]))
     stop--;
   name->length = (size_t)(stop - p->at);
-  p->renamed = true;
   recto_status status = check_text(p, p->at, p->line);
   skip_line(p, true);
   return status;
+}
+
+/* o, g or usemtl. */
+static recto_status read_name(struct parser *p, enum name_kind kind,
+                              size_t keyword) {
+  p->renamed = true;
+  return read_rest(p, &p->name[kind], keyword);
+}
+
+static recto_status read_library(struct parser *p, size_t keyword) {
+  struct material_name name;
+  recto_status status = read_rest(p, &name, keyword);
+  if (status != RECTO_OK || name.length == 0 || !p->scene->wants_colours)
+    return status;
+  return materials_add_library(&p->materials, name, p->error);
 }
 
 /* The current group is named by those of object, group and material that
@@ -255,7 +266,7 @@ static recto_status read_name(struct parser *p, enum name_kind kind,
 static recto_status use_group(struct parser *p) {
   p->group.count = 0;
   for (int i = 0; i < NAME_COUNT; i++) {
-    const struct name *name = &p->name[i];
+    const struct material_name *name = &p->name[i];
     if (name->length == 0)
       continue;
     if (!ARRAY_RESERVE(&p->group, name->length + 1))
@@ -266,7 +277,12 @@ static recto_status use_group(struct parser *p) {
     p->group.count += name->length;
   }
   p->renamed = false;
-  return scene_use_group(p->scene, p->group.item, p->group.count, p->error);
+  recto_status status =
+      scene_use_group(p->scene, p->group.item, p->group.count, p->error);
+  if (status == RECTO_OK && p->scene->wants_colours)
+    status = materials_add_use(&p->materials, p->scene->current_group,
+                               p->name[NAME_MATERIAL], p->error);
+  return status;
 }
 
 /* ---- Faces and polylines ------------------------------------------------- */
@@ -549,11 +565,16 @@ static recto_status read_plain_faces(struct parser *p) {
 
 /* ---- Statements ---------------------------------------------------------- */
 
+static bool is_keyword(const struct parser *p, const char *word,
+                       size_t length) {
+  return strncmp(p->at, word, length) == 0 && ends_word(p->at[length]);
+}
+
 static recto_status read_unknown(struct parser *p) {
-  static const char material[] = "usemtl";
-  static const size_t length = sizeof material - 1;
-  if (strncmp(p->at, material, length) == 0 && ends_word(p->at[length]))
-    return read_name(p, NAME_MATERIAL, length);
+  if (is_keyword(p, "usemtl", 6))
+    return read_name(p, NAME_MATERIAL, 6);
+  if (is_keyword(p, "mtllib", 6))
+    return read_library(p, 6);
   if (!p->strange)
     p->strange = p->line;
   recto_status status = check_text(p, p->at, p->line);
@@ -640,12 +661,16 @@ static recto_status read_obj(struct scene *scene, const char *bytes,
     return error_set(error, RECTO_ERROR_FORMAT, path, 1,
                      "its lines end in a carriage return alone; a line feed "
                      "must end them");
+  materials_init(&p.materials);
   recto_status status = read_statements(&p, false);
   if (status == RECTO_OK && !p.known && p.strange)
     status = error_set(error, RECTO_ERROR_FORMAT, path, p.strange,
                        "no statement of an OBJ file");
+  if (status == RECTO_OK && scene->wants_colours)
+    status = materials_colour(&p.materials, scene, path, diagnostics, error);
   if (status == RECTO_OK)
     place_bad_points(&p);
+  materials_fini(&p.materials);
   ARRAY_FREE(&p.bad);
   ARRAY_FREE(&p.corner);
   ARRAY_FREE(&p.group);

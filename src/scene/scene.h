@@ -42,6 +42,7 @@ struct scene {
   uint32_t *group_slot;            /* finds groups by name: see scene.c */
   size_t group_slot_count;
   double up[3]; /* what the format means by up */
+  bool wants_colours; /* readers look for colours of groups in other files */
 };
 
 void scene_init(struct scene *scene);
@@ -69,6 +70,7 @@ enum scene_fault {
   SCENE_FAULT_BOW_TIE,     /* sides of a polygon cross (kept, warned) */
   SCENE_FAULT_WARPED,      /* not planar (kept, counted, not warned) */
   SCENE_FAULT_SYNTAX,      /* an element that cannot be parsed */
+  SCENE_FAULT_MATERIAL,    /* a colour that is not there or makes no sense */
   SCENE_FAULT_COUNT
 };
 

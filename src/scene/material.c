@@ -1,0 +1,214 @@
+/* material.c - finds the libraries that an OBJ file names and colours its
+ * groups.
+ *
+ * Robustness  Names come from a file that may be hostile: each library is read
+ * once, at most LIBRARY_MOST of them, and none but plain files. */
+#include "scene/material.h"
+
+#include <string.h>
+
+#include "base/input.h"
+
+enum { LIBRARY_MOST = 100 };
+
+void materials_init(struct materials *materials) {
+  *materials = (struct materials){0};
+  scene_init(&materials->libraries);
+}
+
+void materials_fini(struct materials *materials) {
+  scene_fini(&materials->libraries);
+  ARRAY_FREE(&materials->library);
+  ARRAY_FREE(&materials->use);
+}
+
+recto_status materials_add_library(struct materials *materials,
+                                   struct material_name name,
+                                   recto_error *error) {
+  size_t before = materials->libraries.group.count;
+  recto_status status =
+      scene_use_group(&materials->libraries, name.start, name.length, error);
+  if (status == RECTO_OK && materials->libraries.group.count > before &&
+      !ARRAY_PUSH(&materials->library, name))
+    status = error_memory(error);
+  return status;
+}
+
+recto_status materials_add_use(struct materials *materials, uint32_t group,
+                               struct material_name name, recto_error *error) {
+  const struct material_name none = {NULL, 0, 0};
+  while (materials->use.count <= group)
+    if (!ARRAY_PUSH(&materials->use, none))
+      return error_memory(error);
+  if (materials->use.item[group].length == 0)
+    materials->use.item[group] = name;
+  return RECTO_OK;
+}
+
+/* ---- Libraries ----------------------------------------------------------- */
+
+struct shelf {
+  struct scene palette; /* a group for each material */
+  const char *model;    /* path */
+  struct diagnostics *diagnostics;
+  recto_error *error;
+};
+
+/* Passes a library's faults on under its own name, and counts them with the
+ * model's. */
+static recto_status read_library(struct shelf *shelf, const char *path,
+                                 const struct input *input) {
+  struct diagnostics own = {.file = path};
+  if (shelf->diagnostics) {
+    own.warning = shelf->diagnostics->warning;
+    own.user = shelf->diagnostics->user;
+  }
+  recto_status status = material_read(&shelf->palette, input->bytes,
+                                      input->count, &own, shelf->error);
+  diagnostics_finish(&own);
+  if (shelf->diagnostics) {
+    unsigned long count = own.count[SCENE_FAULT_MATERIAL];
+    shelf->diagnostics->count[SCENE_FAULT_MATERIAL] += count;
+    shelf->diagnostics->settled[SCENE_FAULT_MATERIAL] += count;
+  }
+  return status;
+}
+
+/* Reads a library of that name beside the model; *found where there is one,
+ * else `why` tells what is wrong with it. */
+static recto_status try_library(struct shelf *shelf, const char *name,
+                                size_t length, bool *found, recto_error *why) {
+  const char *slash = strrchr(shelf->model, '/');
+  size_t folder =
+      slash && *name != '/' ? (size_t)(slash + 1 - shelf->model) : 0;
+  char *path = length < PTRDIFF_MAX / 2 - folder
+                   ? mem_alloc(folder + length + 1, 1)
+                   : NULL;
+  if (!path)
+    return error_memory(shelf->error);
+  memcpy(path, shelf->model, folder);
+  memcpy(path + folder, name, length);
+  path[folder + length] = '\0';
+  struct input input;
+  recto_status status = input_load_named(&input, path, why);
+  *found = status == RECTO_OK;
+  if (*found && input.count > 0)
+    status = read_library(shelf, path, &input);
+  else if (status == RECTO_ERROR_MEMORY)
+    (void)error_memory(shelf->error);
+  else
+    status = RECTO_OK;
+  input_unload(&input);
+  mem_free(path);
+  return status;
+}
+
+static void tell_missing(struct shelf *shelf, const struct material_name *name,
+                         size_t length, const char *at,
+                         const recto_error *why) {
+  diagnostics_fault(shelf->diagnostics, SCENE_FAULT_MATERIAL, name->line,
+                    "material library %.*s: %s", length < 80 ? (int)length : 80,
+                    at, why->text);
+}
+
+/* The rest of the line is one name, in which there may be blanks, or, where
+ * there is no such file, several with blanks between them. */
+static recto_status read_libraries(struct shelf *shelf,
+                                   const struct material_name *name) {
+  bool found = false;
+  recto_error why;
+  recto_status status =
+      try_library(shelf, name->start, name->length, &found, &why);
+  if (status != RECTO_OK || found)
+    return status;
+  const char *at = name->start, *end = at + name->length;
+  int tried = 0;
+  while (status == RECTO_OK && at < end && tried++ < LIBRARY_MOST) {
+    const char *stop = at;
+    while (stop < end && *stop != ' ' && *stop != '\t')
+      stop++;
+    found = false;
+    if (stop == end && at == name->start) /* has been tried */
+      tell_missing(shelf, name, name->length, at, &why);
+    else if (stop > at) {
+      status = try_library(shelf, at, (size_t)(stop - at), &found, &why);
+      if (status == RECTO_OK && !found)
+        tell_missing(shelf, name, (size_t)(stop - at), at, &why);
+    }
+    at = stop < end ? stop + 1 : end;
+  }
+  return status;
+}
+
+static recto_status fill_shelf(struct shelf *shelf,
+                               const struct materials *materials) {
+  recto_status status = RECTO_OK;
+  size_t count = materials->library.count;
+  if (count > LIBRARY_MOST)
+    diagnostics_fault(shelf->diagnostics, SCENE_FAULT_MATERIAL,
+                      materials->library.item[LIBRARY_MOST].line,
+                      "more than %d material libraries, not read",
+                      LIBRARY_MOST);
+  for (size_t i = 0; status == RECTO_OK && i < count && i < LIBRARY_MOST; i++)
+    status = read_libraries(shelf, &materials->library.item[i]);
+  return status;
+}
+
+/* ---- Colours ------------------------------------------------------------- */
+
+/* The palette's number of each group's material, SCENE_NONE where it has none,
+ * to material[]. */
+static recto_status look_up(struct shelf *shelf,
+                            const struct materials *materials,
+                            uint32_t *material) {
+  for (size_t g = 0; g < materials->use.count; g++) {
+    const struct material_name *name = &materials->use.item[g];
+    size_t known = shelf->palette.group.count;
+    material[g] = SCENE_NONE;
+    if (name->length == 0)
+      continue;
+    recto_status status = scene_use_group(&shelf->palette, name->start,
+                                          name->length, shelf->error);
+    if (status != RECTO_OK)
+      return status;
+    material[g] = shelf->palette.current_group;
+    /* One that is not known is added here, and so told of once. */
+    if (shelf->palette.group.count > known)
+      diagnostics_fault(shelf->diagnostics, SCENE_FAULT_MATERIAL, name->line,
+                        "material %.80s is in no library",
+                        shelf->palette.group.item[known].name);
+  }
+  return RECTO_OK;
+}
+
+static void colour_groups(struct scene *scene, const struct shelf *shelf,
+                          const uint32_t *material, size_t count) {
+  for (size_t g = 0; g < count; g++) {
+    struct scene_group *group = &scene->group.item[g];
+    if (material[g] == SCENE_NONE || group->has_colour)
+      continue;
+    group->colour = shelf->palette.group.item[material[g]].colour;
+    group->has_colour = shelf->palette.group.item[material[g]].has_colour;
+  }
+}
+
+recto_status materials_colour(const struct materials *materials,
+                              struct scene *scene, const char *path,
+                              struct diagnostics *diagnostics,
+                              recto_error *error) {
+  struct shelf shelf = {
+      .model = path, .diagnostics = diagnostics, .error = error};
+  size_t count = materials->use.count;
+  scene_init(&shelf.palette);
+  uint32_t *material = mem_alloc(count, sizeof *material);
+  recto_status status = material ? RECTO_OK : error_memory(error);
+  if (status == RECTO_OK)
+    status = fill_shelf(&shelf, materials);
+  if (status == RECTO_OK)
+    status = look_up(&shelf, materials, material);
+  if (status == RECTO_OK)
+    colour_groups(scene, &shelf, material, count);
+  mem_free(material);
+  scene_fini(&shelf.palette);
+  return status;
+}

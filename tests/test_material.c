@@ -1,0 +1,274 @@
+/* test_material.c - material libraries give groups their colours; what is
+ * missing or broken in them is told and never an error. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "scene/material.h"
+#include "tests/reading.h"
+#include "tests/temporary.h"
+
+#define POINTS "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+#define FACE "f 1 2 3\n"
+
+static const char *write_text(void **state, const char *name,
+                              const char *text) {
+  return temporary_file(state, name, text, strlen(text));
+}
+
+/* Reads a model of that text as a drawing in colour would. */
+static void read_model(struct reading *r, void **state, const char *text) {
+  reading_init(r);
+  r->scene.wants_colours = true;
+  r->status = scene_read(&r->scene, write_text(state, "m.obj", text), NULL,
+                         &r->diagnostics, &r->error);
+  assert_int_equal(r->status, RECTO_OK);
+}
+
+static void assert_colour(const struct reading *r, const char *name,
+                          uint32_t colour) {
+  for (size_t i = 0; i < r->scene.group.count; i++)
+    if (strcmp(r->scene.group.item[i].name, name) == 0) {
+      assert_true(r->scene.group.item[i].has_colour);
+      assert_int_equal(r->scene.group.item[i].colour, colour);
+      return;
+    }
+  fail_msg("no group %s", name);
+}
+
+static void assert_no_colour(const struct reading *r) {
+  for (size_t i = 0; i < r->scene.group.count; i++)
+    assert_false(r->scene.group.item[i].has_colour);
+}
+
+/* ---- Colours --------------------------------------------------------------
+ */
+
+static void groups_have_the_colour_of_their_material(void **state) {
+  struct reading r;
+  write_text(state, "a.mtl",
+             "# two\r\nnewmtl red\r\nKa 0 0 0\r\nKd 1 0 0\r\n"
+             "\tnewmtl\tdark  green \n  Kd 0.0 0.5 0 # half\nnewmtl grey\n"
+             "Kd 0.2");
+  read_model(&r, state,
+             "mtllib a.mtl\n" POINTS "g box\nusemtl red\n" FACE
+             "usemtl dark  green\n" FACE "g lid\n" FACE "usemtl grey\n" FACE);
+  assert_int_equal(r.warnings, 0);
+  assert_int_equal(r.scene.group.count, 4);
+  assert_colour(&r, "box/red", 0xff0000);
+  assert_colour(&r, "box/dark  green", 0x008000);
+  assert_colour(&r, "lid/dark  green", 0x008000);
+  assert_colour(&r, "lid/grey", 0x333333);
+  reading_fini(&r);
+}
+
+static void a_library_may_come_after_its_materials_are_used(void **state) {
+  struct reading r;
+  write_text(state, "a.mtl", "newmtl red\nKd 1 0 0\n");
+  read_model(&r, state, POINTS "usemtl red\n" FACE "mtllib a.mtl\n");
+  assert_colour(&r, "red", 0xff0000);
+  reading_fini(&r);
+}
+
+static void names_of_libraries_may_hold_blanks_or_be_several(void **state) {
+  struct reading r;
+  write_text(state, "a b.mtl", "newmtl red\nKd 1 0 0\n");
+  write_text(state, "a", "newmtl green\nKd 0 1 0\nnewmtl blue\nKd 0 0 1\n");
+  write_text(state, "c", "newmtl red\nKd 0 0 0\nnewmtl blue\nKd 1 1 1\n");
+  read_model(&r, state,
+             "mtllib a b.mtl\nmtllib a  c\n" POINTS "usemtl red\n" FACE
+             "usemtl green\n" FACE "usemtl blue\n" FACE);
+  assert_int_equal(r.warnings, 0);
+  /* The first that has a material holds. */
+  assert_colour(&r, "red", 0xff0000);
+  assert_colour(&r, "green", 0x00ff00);
+  assert_colour(&r, "blue", 0x0000ff);
+  reading_fini(&r);
+}
+
+static void values_beyond_the_range_are_clamped(void **state) {
+  struct reading r;
+  write_text(state, "a.mtl", "newmtl m\nKd 7 -3 inf\n");
+  read_model(&r, state, "mtllib a.mtl\n" POINTS "usemtl m\n" FACE);
+  assert_colour(&r, "m", 0xff00ff);
+  reading_fini(&r);
+}
+
+static void only_drawings_in_colour_ask_for_libraries(void **state) {
+  struct reading r;
+  const char *path =
+      write_text(state, "m.obj", "mtllib no.mtl\n" POINTS "usemtl red\n" FACE);
+  reading_init(&r);
+  assert_int_equal(scene_read(&r.scene, path, NULL, &r.diagnostics, &r.error),
+                   RECTO_OK);
+  assert_int_equal(r.warnings, 0);
+  assert_no_colour(&r);
+  reading_fini(&r);
+}
+
+static void a_group_of_two_files_keeps_its_first_colour(void **state) {
+  struct reading r;
+  write_text(state, "a.mtl", "newmtl m\nKd 1 0 0\n");
+  read_model(&r, state, "mtllib a.mtl\n" POINTS "usemtl m\n" FACE);
+  write_text(state, "a.mtl", "newmtl m\nKd 0 1 0\n");
+  assert_int_equal(scene_read(&r.scene, temporary_path(state, "m.obj"), NULL,
+                              &r.diagnostics, &r.error),
+                   RECTO_OK);
+  assert_int_equal(r.scene.group.count, 1);
+  assert_colour(&r, "m", 0xff0000);
+  reading_fini(&r);
+}
+
+/* ---- What is wrong ---------------------------------------------------------
+ */
+
+static void what_is_missing_is_told_with_its_line(void **state) {
+  struct reading r;
+  write_text(state, "a.mtl", "newmtl known\nKd 1 1 1\nnewmtl plain\nNs 3\n");
+  read_model(&r, state,
+             "mtllib no.mtl\nmtllib a.mtl b.mtl\n" POINTS "usemtl lost\n" FACE
+             "g x\n" FACE "usemtl known\n" FACE "usemtl plain\n" FACE);
+  assert_int_equal(r.warnings, 3);
+  assert_non_null(strstr(r.warning[0], "1: material library no.mtl: cannot"));
+  assert_non_null(strstr(r.warning[1], "2: material library b.mtl: cannot"));
+  assert_string_equal(r.warning[2], "6: material lost is in no library");
+  assert_colour(&r, "x/known", 0xffffff);
+  assert_int_equal(r.diagnostics.count[SCENE_FAULT_MATERIAL], 3);
+  reading_fini(&r);
+}
+
+struct heard {
+  char file[300];
+  unsigned long line;
+  int count;
+};
+
+static void hear(void *user, const char *file, unsigned long line,
+                 const char *text) {
+  struct heard *heard = user;
+  (void)text;
+  if (heard->count++ == 0) {
+    snprintf(heard->file, sizeof heard->file, "%s", file);
+    heard->line = line;
+  }
+}
+
+static void a_bad_colour_is_told_with_the_librarys_name_and_line(void **state) {
+  static const char *const bad[] = {"nan 0 0",   "1 0",     "1 0 0 0",
+                                    "1 0 0x",    "red",     "spectral a.rfl",
+                                    "xyz 1 1 1", "0.5,0,0", "1 1 \x01"};
+  for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+    struct reading r;
+    struct heard heard = {.count = 0};
+    char text[100];
+    snprintf(text, sizeof text, "\nnewmtl m\nKd %s\nKd 0 0 1\n", bad[i]);
+    write_text(state, "a.mtl", text);
+    reading_init(&r);
+    r.scene.wants_colours = true;
+    r.diagnostics.warning = hear;
+    r.diagnostics.user = &heard;
+    const char *path =
+        write_text(state, "m.obj", "mtllib a.mtl\n" POINTS "usemtl m\n" FACE);
+    assert_int_equal(scene_read(&r.scene, path, NULL, &r.diagnostics, NULL),
+                     RECTO_OK);
+    if (heard.count != 1)
+      fail_msg("Kd %s: %d warnings", bad[i], heard.count);
+    assert_string_equal(heard.file, temporary_path(state, "a.mtl"));
+    assert_int_equal(heard.line, 3);
+    assert_colour(&r, "m", 0x0000ff);
+    assert_int_equal(r.diagnostics.count[SCENE_FAULT_MATERIAL], 1);
+    reading_fini(&r);
+  }
+}
+
+/* Neither a folder, nor a pipe that nobody writes to, nor a device without an
+ * end is read. */
+static void only_plain_files_are_libraries(void **state) {
+  struct reading r;
+  assert_int_equal(mkfifo(temporary_path(state, "pipe"), 0600), 0);
+  read_model(&r, state,
+             "mtllib pipe\nmtllib .\nmtllib /dev/zero\n" POINTS FACE);
+  assert_int_equal(r.warnings, 3);
+  reading_fini(&r);
+}
+
+static void a_library_too_large_is_not_read(void **state) {
+  struct reading r;
+  const char *path = write_text(state, "a.mtl", "newmtl m\nKd 1 0 0\n");
+  if (truncate(path, (off_t)1 << 40) != 0) {
+    print_message("no sparse files here\n");
+    skip();
+  }
+  read_model(&r, state, "mtllib a.mtl\n" POINTS "usemtl m\n" FACE);
+  assert_int_equal(r.warnings, 2);
+  assert_non_null(strstr(r.warning[0], "too large"));
+  assert_no_colour(&r);
+  reading_fini(&r);
+}
+
+static void no_more_than_a_hundred_libraries_are_read(void **state) {
+  static char text[16000];
+  struct reading r;
+  size_t length = 0;
+  for (int i = 0; i < 1000; i++)
+    length += (size_t)snprintf(text + length, sizeof text - length,
+                               "mtllib %d\n", i % 101);
+  snprintf(text + length, sizeof text - length, POINTS "usemtl m\n" FACE);
+  write_text(state, "99", "newmtl m\nKd 1 0 0\n");
+  write_text(state, "100", "newmtl m\nKd 0 1 0\n");
+  read_model(&r, state, text);
+  assert_colour(&r, "m", 0xff0000);
+  assert_non_null(strstr(r.warning[0], "101: more than 100"));
+  assert_int_equal(r.diagnostics.count[SCENE_FAULT_MATERIAL], 100);
+  reading_fini(&r);
+}
+
+static void running_out_of_memory_leaves_groups_as_they_were(void **state) {
+  write_text(state, "a.mtl", "newmtl m\nKd 1 0 0\n");
+  const char *path =
+      write_text(state, "m.obj", "mtllib a.mtl b\n" POINTS "usemtl m\n" FACE);
+  recto_status status = RECTO_ERROR_MEMORY;
+  unsigned long n = 0;
+  while (status == RECTO_ERROR_MEMORY) {
+    struct reading r;
+    reading_init(&r);
+    assert_int_equal(scene_use_group(&r.scene, "m", 1, NULL), RECTO_OK);
+    r.scene.wants_colours = true;
+    mem_fail_after(++n);
+    status = scene_read(&r.scene, path, NULL, NULL, &r.error);
+    mem_fail_after(0);
+    assert_int_equal(r.scene.group.count, 1);
+    assert_int_equal(r.scene.group.item[0].has_colour, status == RECTO_OK);
+    reading_fini(&r);
+  }
+  assert_int_equal(status, RECTO_OK);
+  assert_true(n > 5);
+}
+
+#define T(name)                                                                \
+  cmocka_unit_test_setup_teardown(name, temporary_set_up, temporary_tear_down)
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      T(groups_have_the_colour_of_their_material),
+      T(a_library_may_come_after_its_materials_are_used),
+      T(names_of_libraries_may_hold_blanks_or_be_several),
+      T(values_beyond_the_range_are_clamped),
+      T(only_drawings_in_colour_ask_for_libraries),
+      T(a_group_of_two_files_keeps_its_first_colour),
+      T(what_is_missing_is_told_with_its_line),
+      T(a_bad_colour_is_told_with_the_librarys_name_and_line),
+      T(only_plain_files_are_libraries),
+      T(a_library_too_large_is_not_read),
+      T(no_more_than_a_hundred_libraries_are_read),
+      T(running_out_of_memory_leaves_groups_as_they_were),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
