@@ -321,7 +321,7 @@ static void check_soup(uint64_t seed, int faces, bool thin) {
 static void solvers_agree_on_deep_soups(void **state) {
   (void)state;
   for (uint64_t seed = 1; seed <= 2; seed++) {
-    check_soup(seed, 160, false);
+    check_soup(seed, 400, false);
     check_soup(seed, 60, true);
   }
 }
