@@ -20,7 +20,8 @@ unit_tests += %D%/test_measure
   $(LDADD)
 measure_libs = %D%/measure/libmeasure.la %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_accuracy
-%C%_test_accuracy_SOURCES = %D%/test_accuracy.c
+%C%_test_accuracy_SOURCES = %D%/test_accuracy.c $(hand_sheet)
+%C%_test_accuracy_CPPFLAGS = $(hand_cppflags)
 %C%_test_accuracy_LDADD = $(measure_libs)
 unit_tests += %D%/test_failures_lines
 %C%_test_failures_lines_SOURCES = %D%/test_failures_lines.c

@@ -15,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "hand/sheet.h"
 #include "tests/scenes/pipeline.h"
 
 /* Methods with a number of lines or a pitch; those there are are tried. */
@@ -154,28 +155,6 @@ static void wrong_ink_falls_in_first_order_where_pixels_are_fine(void **state) {
 
 /* ---- Both z-buffers ----------------------------------------------------- */
 
-static void assert_same_fragments(const struct map *a, const struct map *b) {
-  assert_int_equal(a->fragment.count, b->fragment.count);
-  for (size_t f = 0; f < a->fragment.count; f++)
-    if (a->fragment.item[f].face != b->fragment.item[f].face)
-      fail_msg("fragment %zu", f);
-  assert_int_equal(a->corner.count, b->corner.count);
-  for (size_t c = 0; c < a->corner.count; c++)
-    if (a->corner.item[c].x != b->corner.item[c].x ||
-        a->corner.item[c].y != b->corner.item[c].y)
-      fail_msg("corner %zu", c);
-}
-
-static void assert_same_strokes(const struct map *a, const struct map *b) {
-  assert_int_equal(a->edge_count, b->edge_count);
-  assert_memory_equal(a->edge_state, b->edge_state, a->edge_count);
-  assert_int_equal(a->interval.count, b->interval.count);
-  for (size_t i = 0; i < a->interval.count; i++)
-    if (ratio_compare(a->interval.item[i].t0, b->interval.item[i].t0) != 0 ||
-        ratio_compare(a->interval.item[i].t1, b->interval.item[i].t1) != 0)
-      fail_msg("interval %zu", i);
-}
-
 static void check_agreement(const struct scene *scene,
                             const recto_options *options, int lines) {
   struct trial whole, line;
@@ -184,8 +163,7 @@ static void check_agreement(const struct scene *scene,
   assert_int_equal(whole.status, RECTO_OK);
   assert_int_equal(line.status, RECTO_OK);
   assert_true(whole.map.fragment.count > 1000);
-  assert_same_fragments(&whole.map, &line.map);
-  assert_same_strokes(&whole.map, &line.map);
+  hand_assert_same_map(&whole.map, &line.map, "z-buffers");
   trial_fini(&whole);
   trial_fini(&line);
 }

@@ -187,10 +187,11 @@ static void running_out_of_memory_is_told(void **state) {
   static const struct {
     recto_hidden hidden;
     recto_fill fill;
-    bool ids;
-  } cases[] = {{RECTO_HIDDEN_DASHED, RECTO_FILL_HATCH, false},
-               {RECTO_HIDDEN_LAYER, RECTO_FILL_PAINT, true},
-               {RECTO_HIDDEN_NONE, RECTO_FILL_SHADE, false}};
+    bool ids, inset;
+  } cases[] = {{RECTO_HIDDEN_DASHED, RECTO_FILL_HATCH, false, false},
+               {RECTO_HIDDEN_NONE, RECTO_FILL_HATCH, false, true},
+               {RECTO_HIDDEN_LAYER, RECTO_FILL_PAINT, true, false},
+               {RECTO_HIDDEN_NONE, RECTO_FILL_SHADE, false, false}};
   (void)state;
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     struct inked k;
@@ -199,6 +200,7 @@ static void running_out_of_memory_is_told(void **state) {
     k.options.hidden = cases[i].hidden;
     k.options.fill = cases[i].fill;
     k.options.ids = cases[i].ids;
+    k.options.hatch_inset = cases[i].inset;
     unsigned long n = 1, step = is_under_valgrind() ? 7 : 1;
     recto_status status;
     do {

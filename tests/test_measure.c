@@ -44,6 +44,20 @@ static void add_box(struct map *map, uint32_t face, double x0, double y0,
   add_fragment(map, face, 1);
 }
 
+/* An empty page and two maps of it. */
+static void start(struct sheet *sheet, struct map *exact, struct map *map) {
+  empty_sheet(sheet);
+  map_init(exact);
+  map_init(map);
+}
+
+/* Two faces of 10 x 10 mm beside each other, as they truly are. */
+static void start_two(struct sheet *sheet, struct map *exact, struct map *map) {
+  start(sheet, exact, map);
+  add_box(exact, 0, 0, 0, 10, 10);
+  add_box(exact, 1, 10, 0, 20, 10);
+}
+
 static void assert_near(double got, double want) {
   if (!(fabs(got - want) < 0x1p-30))
     fail_msg("%.12g, not %.12g", got, want);
@@ -54,11 +68,7 @@ static void areas_are_told_by_what_is_wrong(void **state) {
   struct map exact, map;
   struct measure m;
   (void)state;
-  empty_sheet(&sheet);
-  map_init(&exact);
-  map_init(&map);
-  add_box(&exact, 0, 0, 0, 10, 10);
-  add_box(&exact, 1, 10, 0, 20, 10);
+  start_two(&sheet, &exact, &map);
   add_box(&map, 0, 2, 1, 13, 10);  /* 2 and 1 short, 3 too far */
   add_box(&map, 1, 13, 1, 20, 12); /* 3 and 1 short, 2 too high */
   assert_true(measure_map(&m, &sheet, &exact, &map));
@@ -77,11 +87,7 @@ static void overlaps_are_told_apart(void **state) {
   struct map exact, map;
   struct measure m;
   (void)state;
-  empty_sheet(&sheet);
-  map_init(&exact);
-  map_init(&map);
-  add_box(&exact, 0, 0, 0, 10, 10);
-  add_box(&exact, 1, 10, 0, 20, 10);
+  start_two(&sheet, &exact, &map);
   add_box(&map, 0, 0, 0, 12, 8);
   add_box(&map, 1, 9, 0, 20, 8);
   assert_true(measure_map(&m, &sheet, &exact, &map));
@@ -102,9 +108,7 @@ static void holes_and_corners_that_turn_in_are_kept_out(void **state) {
   struct map frame, bend;
   struct measure m;
   (void)state;
-  empty_sheet(&sheet);
-  map_init(&frame);
-  map_init(&bend);
+  start(&sheet, &frame, &bend);
   add_loop(&frame, outer, 4);
   add_loop(&frame, hole, 4);
   add_fragment(&frame, 7, 2);

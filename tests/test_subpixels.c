@@ -27,23 +27,6 @@ static void solve(const struct solver *solver, const struct pixels_scene *scene,
   hand_sheet_fini(&sheet);
 }
 
-static void assert_same_map(const struct map *a, const struct map *b) {
-  assert_int_equal(a->edge_count, b->edge_count);
-  assert_memory_equal(a->edge_state, b->edge_state, a->edge_count);
-  assert_int_equal(a->interval.count, b->interval.count);
-  for (size_t i = 0; i < a->interval.count; i++)
-    assert_true(
-        ratio_compare(a->interval.item[i].t0, b->interval.item[i].t0) == 0 &&
-        ratio_compare(a->interval.item[i].t1, b->interval.item[i].t1) == 0);
-  assert_int_equal(a->fragment.count, b->fragment.count);
-  assert_int_equal(a->corner.count, b->corner.count);
-  for (size_t f = 0; f < a->fragment.count; f++)
-    assert_int_equal(a->fragment.item[f].face, b->fragment.item[f].face);
-  for (size_t c = 0; c < a->corner.count; c++)
-    assert_true(a->corner.item[c].x == b->corner.item[c].x &&
-                a->corner.item[c].y == b->corner.item[c].y);
-}
-
 /* Warnock finds its sub-pixels in a way of its own. */
 static void averaged_pixels_are_those_of_warnock(void **state) {
   (void)state;
@@ -59,7 +42,7 @@ static void averaged_pixels_are_those_of_warnock(void **state) {
     solve(&solver_warnock, &scene, &request, &want, NULL);
     for (int s = 0; s < 2; s++) {
       solve(both[s], &scene, &request, &got, NULL);
-      assert_same_map(&want, &got);
+      hand_assert_same_map(&want, &got, both[s]->name);
       map_fini(&got);
     }
     map_fini(&want);

@@ -104,9 +104,9 @@ int scan_edge_compare_exact(const struct scan_edge *a,
   /* The common side of two neighbours. */
   if (a->x0 == b->x0 && a->y0 == b->y0 && a->x1 == b->x1 && a->y1 == b->y1)
     return 0;
-  order = ratio_compare(
-      (struct ratio){exact_x(a, grid, a->line), a->y1 - a->y0},
-      (struct ratio){exact_x(b, grid, b->line), b->y1 - b->y0});
+  order =
+      ratio_compare((struct ratio){exact_x(a, grid, a->line), a->y1 - a->y0},
+                    (struct ratio){exact_x(b, grid, b->line), b->y1 - b->y0});
   if (order == 0 && dx) {
     int128 turn = (int128)(a->x1 - a->x0) * (b->y1 - b->y0) -
                   (int128)(b->x1 - b->x0) * (a->y1 - a->y0);
