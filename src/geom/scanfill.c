@@ -275,7 +275,7 @@ static bool refine_order(struct scan_table *table, const struct sort_key *key) {
                      compare_indices, table))
       return false;
   }
-  for (size_t i = 0; i < count; i++) {
+  for (size_t i = 1; i < count; i++) {
     if (key[i].key >> KEY_X_BITS != key[bucket].key >> KEY_X_BITS)
       bucket = i;
     /* Further apart, keys tell: a unit of them is more than any slack. */

@@ -85,6 +85,7 @@ struct watkins {
   watkins_list shown;        /* edges drawn at this line's interval ends */
   watkins_records record[2]; /* of this line and the one before, by */
   watkins_list order[2];     /* the parity of the line */
+  double low, pitch; /* of the lines, grid units of the sheet */
   bool coherence;
   struct watkins_counts counts;
 };

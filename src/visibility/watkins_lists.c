@@ -32,10 +32,6 @@ recto_status watkins_grid(struct scan_grid *grid, const struct sheet *sheet,
 
 /* ---- S ------------------------------------------------------------------ */
 
-static double line_height(const struct scan_grid *grid, int64_t y) {
-  return (double)(y * grid->den - grid->y_first) / (double)grid->y_step;
-}
-
 /* A facet is gentle where its plane's depth changes by no more than this over
  * the page and its lines. */
 #define GENTLE 0x1p48
@@ -66,8 +62,10 @@ static void set_facet(const struct watkins *watkins, uint32_t triangle,
   facet->z_high = -INFINITY;
   for (uint32_t k = 0; k < count; k++) {
     double z = (double)sheet->point.item[corner[k]].z;
-    facet->z_low = fmin(facet->z_low, z);
-    facet->z_high = fmax(facet->z_high, z);
+    if (z < facet->z_low)
+      facet->z_low = z;
+    if (z > facet->z_high)
+      facet->z_high = z;
   }
   raster_slopes(sheet, &watkins->table.grid, triangle, &facet->per_x, &up);
   facet->per_line = -up;
@@ -77,22 +75,20 @@ static void set_facet(const struct watkins *watkins, uint32_t triangle,
 /* Adds the side from sheet point p to q, with its depth along it. */
 static bool add_edge(struct watkins *watkins, const struct scan_point *point,
                      uint32_t p, uint32_t q, uint32_t side) {
-  const struct scan_grid *grid = &watkins->table.grid;
   const struct geom_point *at = watkins->sheet->point.item;
   size_t before = watkins->table.edge.count;
   const struct scan_edge *added;
   struct watkins_edge edge;
-  double rise, low;
+  double rise, above;
   if (!scan_table_add(&watkins->table, &point[p], &point[q], side))
     return false;
   if (watkins->table.edge.count == before)
     return true;
   added = &watkins->table.edge.item[before];
-  rise = (double)(at[q].z - at[p].z) /
-         (line_height(grid, at[q].y) - line_height(grid, at[p].y));
-  low = added->line + 0.5 - line_height(grid, at[p].y);
-  edge = (struct watkins_edge){.z = (double)at[p].z + low * rise,
-                               .dz = -rise,
+  rise = (double)(at[q].z - at[p].z) / ((double)at[q].y - at[p].y);
+  above = watkins->low + (added->line + 0.5) * watkins->pitch - at[p].y;
+  edge = (struct watkins_edge){.z = (double)at[p].z + above * rise,
+                               .dz = -rise * watkins->pitch,
                                .lines = added->dy,
                                .facet = (uint32_t)watkins->facet.count,
                                .side = side,
@@ -133,6 +129,8 @@ bool watkins_init(struct watkins *watkins, const struct sheet *sheet,
   memset(watkins, 0, sizeof *watkins);
   watkins->sheet = sheet;
   watkins->coherence = true;
+  watkins->low = scan_plane_y(grid, 0);
+  watkins->pitch = scan_plane_y(grid, 1) - watkins->low;
   scan_table_init(&watkins->table, grid);
   if (point == NULL)
     return false;
