@@ -169,7 +169,7 @@ static void assert_active(const struct walk *walk,
     assert_int_equal(table->edge.item[e].dy, want[i].lines_left);
     assert_near(watkins_edge_depth(watkins, e) / PIXELS_UNIT, want[i].z);
     assert_near(watkins->edge.item[e].dz / PIXELS_UNIT, want[i].dz);
-    assert_int_equal(watkins->facet.item[watkins->edge.item[e].facet].face,
+    assert_int_equal(watkins->facet.item[watkins->edge.item[e].facet[0]].face,
                      want[i].face);
   }
 }

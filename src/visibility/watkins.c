@@ -159,6 +159,13 @@ static double between(double value, int64_t a, int64_t b) {
   return value < low ? low : value > high ? high : value;
 }
 
+static bool has_face(const struct watkins *watkins,
+                     const struct watkins_edge *edge, uint32_t face) {
+  const struct watkins_facet *facet = watkins->facet.item;
+  return facet[edge->facet[0]].face == face ||
+         (edge->facet[1] != WATKINS_NONE && facet[edge->facet[1]].face == face);
+}
+
 /* The side of a span at x: along an edge of the table, or where `face` and
  * `other` pierce each other. */
 static struct span_side side_at(const struct watkins *watkins, uint32_t e,
@@ -179,7 +186,7 @@ static struct span_side side_at(const struct watkins *watkins, uint32_t e,
   side.id = edge->side;
   if (edge->side == SHEET_NONE)
     side.side = MAP_SIDE_CUT;
-  else if (watkins->facet.item[edge->facet].face == face)
+  else if (has_face(watkins, edge, face))
     side.side = MAP_SIDE_EDGE;
   else
     side.side = MAP_SIDE_OUTLINE;

@@ -29,12 +29,13 @@
 /* What an edge knows beside x, dx and the lines left (the edge of the same
  * index in the scan table). */
 struct watkins_edge {
-  double z, dz;    /* depth on its first line; change a line down */
-  int32_t lines;   /* left after its first line */
-  uint32_t facet;  /* index of its facet */
-  uint32_t side;   /* the sheet's edge; SHEET_NONE */
-  bool drawn;      /* that edge is drawable and followed from line to line */
-  uint32_t record; /* of the interval that it began last; WATKINS_NONE */
+  double z, dz;      /* depth on its first line; change a line down */
+  int32_t lines;     /* left after its first line */
+  uint32_t facet[2]; /* indices of its facets: two that share a side share its
+                        edge; WATKINS_NONE */
+  uint32_t side;     /* the sheet's edge; SHEET_NONE */
+  bool drawn;        /* that edge is drawable and followed from line to line */
+  uint32_t record;   /* of the interval that it began last; WATKINS_NONE */
 };
 
 struct watkins_facet {
@@ -64,6 +65,11 @@ struct watkins_piece {
                            facet's own; WATKINS_NONE: a piercing */
 };
 
+static inline bool watkins_borders(const struct watkins_edge *edge,
+                                   uint32_t facet) {
+  return edge->facet[0] == facet || edge->facet[1] == facet;
+}
+
 typedef ARRAY(struct watkins_piece) watkins_pieces;
 typedef ARRAY(struct watkins_record) watkins_records;
 typedef ARRAY(uint32_t) watkins_list;
@@ -85,7 +91,7 @@ struct watkins {
   watkins_list shown;        /* edges drawn at this line's interval ends */
   watkins_records record[2]; /* of this line and the one before, by */
   watkins_list order[2];     /* the parity of the line */
-  double low, pitch; /* of the lines, grid units of the sheet */
+  double low, pitch;         /* of the lines, grid units of the sheet */
   bool coherence;
   struct watkins_counts counts;
 };

@@ -18,7 +18,8 @@ bool watkins_is_steep(const struct sheet *sheet, uint32_t side) {
 
 /* Is it the background or the edge's own facet? */
 static bool shows(const struct watkins *watkins, uint32_t seen, uint32_t edge) {
-  return seen == WATKINS_NONE || seen == watkins->edge.item[edge].facet;
+  return seen == WATKINS_NONE ||
+         watkins_borders(&watkins->edge.item[edge], seen);
 }
 
 /* Is a facet seen beside the edge nearer by more than contact explains? */

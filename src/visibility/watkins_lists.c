@@ -72,47 +72,88 @@ static void set_facet(const struct watkins *watkins, uint32_t triangle,
   set_slack(facet, &watkins->table.grid);
 }
 
-/* Adds the side from sheet point p to q, with its depth along it. */
-static bool add_edge(struct watkins *watkins, const struct scan_point *point,
-                     uint32_t p, uint32_t q, uint32_t side) {
+/* What is at hand while edges are gathered.  The edges of a point, to points
+ * of higher numbers, are a list. */
+struct gathering {
+  struct scan_point *point; /* the sheet's */
+  uint32_t *first;          /* one a point: an edge; WATKINS_NONE */
+  ARRAY(struct seam) seam;  /* one an edge */
+};
+
+struct seam {
+  uint32_t to, next;
+};
+
+/* The edge between p < q of one facet alone that has that side; WATKINS_NONE.
+ */
+static uint32_t find_edge(const struct watkins *watkins,
+                          const struct gathering *g, uint32_t p, uint32_t q,
+                          uint32_t side) {
+  uint32_t e = g->first[p];
+  while (e != WATKINS_NONE &&
+         (g->seam.item[e].to != q || watkins->edge.item[e].side != side ||
+          watkins->edge.item[e].facet[1] != WATKINS_NONE))
+    e = g->seam.item[e].next;
+  return e;
+}
+
+/* Adds an edge from sheet point p to q, with its depth along it. */
+static bool new_edge(struct watkins *watkins, struct gathering *g, uint32_t p,
+                     uint32_t q, uint32_t side) {
   const struct geom_point *at = watkins->sheet->point.item;
-  size_t before = watkins->table.edge.count;
+  uint32_t e = (uint32_t)watkins->table.edge.count;
+  const struct seam seam = {q, g->first[p]};
   const struct scan_edge *added;
   struct watkins_edge edge;
   double rise, above;
-  if (!scan_table_add(&watkins->table, &point[p], &point[q], side))
+  if (!scan_table_add(&watkins->table, &g->point[p], &g->point[q], side))
     return false;
-  if (watkins->table.edge.count == before)
-    return true;
-  added = &watkins->table.edge.item[before];
+  added = &watkins->table.edge.item[e];
   rise = (double)(at[q].z - at[p].z) / ((double)at[q].y - at[p].y);
   above = watkins->low + (added->line + 0.5) * watkins->pitch - at[p].y;
-  edge = (struct watkins_edge){.z = (double)at[p].z + above * rise,
-                               .dz = -rise * watkins->pitch,
-                               .lines = added->dy,
-                               .facet = (uint32_t)watkins->facet.count,
-                               .side = side,
-                               .drawn = watkins_is_steep(watkins->sheet, side),
-                               .record = WATKINS_NONE};
-  return ARRAY_PUSH(&watkins->edge, edge);
+  edge = (struct watkins_edge){
+      .z = (double)at[p].z + above * rise,
+      .dz = -rise * watkins->pitch,
+      .lines = added->dy,
+      .facet = {(uint32_t)watkins->facet.count, WATKINS_NONE},
+      .side = side,
+      .drawn = watkins_is_steep(watkins->sheet, side),
+      .record = WATKINS_NONE};
+  g->first[p] = e;
+  return ARRAY_PUSH(&watkins->edge, edge) && ARRAY_PUSH(&g->seam, seam);
 }
 
-static bool add_facets(struct watkins *watkins, const struct facets *facets,
-                       const struct scan_point *point) {
+/* Adds the side between sheet points p and q to the facet at hand, if it
+ * covers a line. */
+static bool add_side(struct watkins *watkins, struct gathering *g, uint32_t p,
+                     uint32_t q, uint32_t side, bool *covers) {
+  uint32_t low = p < q ? p : q, high = p < q ? q : p, e;
+  if (g->point[p].line == g->point[q].line)
+    return true;
+  *covers = true;
+  e = find_edge(watkins, g, low, high, side);
+  if (e == WATKINS_NONE)
+    return new_edge(watkins, g, low, high, side);
+  watkins->edge.item[e].facet[1] = (uint32_t)watkins->facet.count;
+  return true;
+}
+
+static bool add_facets(struct watkins *watkins, struct gathering *g,
+                       const struct facets *facets) {
   const struct sheet *sheet = watkins->sheet;
   for (uint32_t t = 0; t < sheet->triangle.count; t++) {
     const uint32_t *corner, *side;
-    size_t before = watkins->edge.count;
     struct watkins_facet facet;
+    bool covers = false;
     uint32_t count;
     if ((sheet->triangle_flags[t] & SHEET_FLAT) || facet_of(facets, t) != t)
       continue;
     count = facet_outline(facets, sheet, t, &corner, &side);
     for (uint32_t k = 0; k < count; k++)
-      if (!add_edge(watkins, point, corner[k],
-                    corner[k + 1 == count ? 0 : k + 1], side[k]))
+      if (!add_side(watkins, g, corner[k], corner[k + 1 == count ? 0 : k + 1],
+                    side[k], &covers))
         return false;
-    if (watkins->edge.count == before)
+    if (!covers)
       continue;
     set_facet(watkins, t, corner, count, &facet);
     if (!ARRAY_PUSH(&watkins->facet, facet))
@@ -121,26 +162,36 @@ static bool add_facets(struct watkins *watkins, const struct facets *facets,
   return true;
 }
 
+/* Gathers the edges of all facets. */
+static bool add_edges(struct watkins *watkins, const struct facets *facets) {
+  const struct sheet *sheet = watkins->sheet;
+  size_t points = sheet->point.count;
+  struct gathering g = {
+      .point = mem_alloc(points, sizeof *g.point),
+      .first = mem_alloc(points, sizeof *g.first),
+  };
+  bool good = g.point != NULL && g.first != NULL;
+  for (size_t i = 0; good && i < points; i++) {
+    g.point[i] = scan_point_of(&watkins->table.grid, sheet->point.item[i].x,
+                               sheet->point.item[i].y);
+    g.first[i] = WATKINS_NONE;
+  }
+  good = good && add_facets(watkins, &g, facets);
+  mem_free(g.point);
+  mem_free(g.first);
+  ARRAY_FREE(&g.seam);
+  return good;
+}
+
 bool watkins_init(struct watkins *watkins, const struct sheet *sheet,
                   const struct facets *facets, const struct scan_grid *grid) {
-  size_t points = sheet->point.count;
-  struct scan_point *point = mem_alloc(points, sizeof *point);
-  bool good;
   memset(watkins, 0, sizeof *watkins);
   watkins->sheet = sheet;
   watkins->coherence = true;
   watkins->low = scan_plane_y(grid, 0);
   watkins->pitch = scan_plane_y(grid, 1) - watkins->low;
   scan_table_init(&watkins->table, grid);
-  if (point == NULL)
-    return false;
-  for (size_t i = 0; i < points; i++)
-    point[i] =
-        scan_point_of(grid, sheet->point.item[i].x, sheet->point.item[i].y);
-  good =
-      add_facets(watkins, facets, point) && scan_table_start(&watkins->table);
-  mem_free(point);
-  return good;
+  return add_edges(watkins, facets) && scan_table_start(&watkins->table);
 }
 
 void watkins_fini(struct watkins *watkins) {
@@ -165,9 +216,8 @@ double watkins_edge_depth(const struct watkins *watkins, uint32_t edge) {
   return e->z + (e->lines - watkins->table.edge.item[edge].dy) * e->dz;
 }
 
-/* The flag of the edge's facet flips. */
-static bool pass_edge(struct watkins *watkins, uint32_t edge) {
-  uint32_t f = watkins->edge.item[edge].facet;
+/* The flag of a facet flips at the edge. */
+static bool flip_facet(struct watkins *watkins, uint32_t f, uint32_t edge) {
   struct watkins_facet *facet = &watkins->facet.item[f];
   size_t i = 0;
   facet->in = !facet->in;
@@ -184,6 +234,12 @@ static bool pass_edge(struct watkins *watkins, uint32_t edge) {
   return true;
 }
 
+static bool pass_edge(struct watkins *watkins, uint32_t edge) {
+  const uint32_t *facet = watkins->edge.item[edge].facet;
+  return flip_facet(watkins, facet[0], edge) &&
+         (facet[1] == WATKINS_NONE || flip_facet(watkins, facet[1], edge));
+}
+
 /* Of the edges active[first..past), which are at one x, the facet's own; else
  * the first that is an edge of the sheet, else the first. */
 static uint32_t choose_edge(const struct watkins *watkins, size_t first,
@@ -191,7 +247,7 @@ static uint32_t choose_edge(const struct watkins *watkins, size_t first,
   uint32_t chosen = watkins->table.active[first];
   for (size_t i = first; i < past; i++) {
     uint32_t e = watkins->table.active[i];
-    if (watkins->edge.item[e].facet == facet)
+    if (watkins_borders(&watkins->edge.item[e], facet))
       return e;
     if (watkins->edge.item[chosen].side == SHEET_NONE)
       chosen = e;
