@@ -289,6 +289,7 @@ static recto_status run_scan(struct scan *scan, const struct sheet *sheet,
        !spans_init(&scan->spans, sheet, grid, scan->watkins.edge.count)))
     return error_memory(error);
   scan->watkins.coherence = !request->no_coherence;
+  scan->watkins.sides = request->fragments;
   scan->row.watkins = scan->above.watkins = &scan->watkins;
   status = walk_lines(scan, error);
   if (status != RECTO_OK)

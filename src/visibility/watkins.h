@@ -92,7 +92,8 @@ struct watkins {
   watkins_records record[2]; /* of this line and the one before, by */
   watkins_list order[2];     /* the parity of the line */
   double low, pitch;         /* of the lines, grid units of the sheet */
-  bool coherence;
+  bool coherence;            /* orders are kept from line to line */
+  bool sides;                /* pieces tell their facet's own edges */
   struct watkins_counts counts;
 };
 

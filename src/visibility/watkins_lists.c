@@ -187,7 +187,7 @@ bool watkins_init(struct watkins *watkins, const struct sheet *sheet,
                   const struct facets *facets, const struct scan_grid *grid) {
   memset(watkins, 0, sizeof *watkins);
   watkins->sheet = sheet;
-  watkins->coherence = true;
+  watkins->coherence = watkins->sides = true;
   watkins->low = scan_plane_y(grid, 0);
   watkins->pitch = scan_plane_y(grid, 1) - watkins->low;
   scan_table_init(&watkins->table, grid);
@@ -280,7 +280,7 @@ static bool pass_end(struct watkins *watkins, size_t first, size_t past,
     if (!pass_edge(watkins, active[i]))
       return false;
   }
-  if (left != WATKINS_NONE)
+  if (left != WATKINS_NONE && watkins->sides)
     watkins->piece.item[piece - 1].right =
         choose_edge(watkins, first, past, left);
   *right = WATKINS_NONE;
@@ -289,7 +289,8 @@ static bool pass_end(struct watkins *watkins, size_t first, size_t past,
     if (!watkins_decide(watkins, active[first], active[past]))
       return false;
     seen = watkins->piece.item[piece].facet;
-    watkins->piece.item[piece].left = choose_edge(watkins, first, past, seen);
+    if (watkins->sides)
+      watkins->piece.item[piece].left = choose_edge(watkins, first, past, seen);
     *right = watkins->piece.item[watkins->piece.count - 1].facet;
   }
   return !drawn || watkins_show_ends(watkins, first, past, left, seen);
