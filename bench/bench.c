@@ -6,7 +6,6 @@
  *
  * RECTO_MODELS in the environment names the folder of the real meshes.  Each
  * figure is the median of several runs of the whole program, file to SVG. */
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,12 +13,9 @@
 #include <unistd.h>
 
 #include "base/report.h"
-#include "base/stream.h"
-#include "bench/table.h"
-#include "tests/scenes/build.h"
-#include "tests/scenes/subdivide.h"
+#include "bench/model.h"
 
-enum { runs = 3, limit_s = 120, path_size = PATH_MAX };
+enum { runs = 3, limit_s = 120 };
 
 struct bench {
   const char *recto, *zraster;
@@ -27,69 +23,8 @@ struct bench {
   const char *const *method; /* methods to try, ended by NULL */
 };
 
-struct model {
-  const char *name;
-  char path[path_size];
-  double triangles, bytes;
-  double eye[3], middle[3];
-};
-
 /* ---- Models
  * ------------------------------------------------------------------ */
-
-/* Looks from three radii away, along a direction without meaning. */
-static void choose_view(struct model *model, const struct scene *scene) {
-  const double direction[3] = {0.6, 0.5, 0.62};
-  double low[3] = {INFINITY, INFINITY, INFINITY};
-  double high[3] = {-INFINITY, -INFINITY, -INFINITY};
-  for (size_t i = 0; i < scene->point.count; i++) {
-    const struct scene_point *p = &scene->point.item[i];
-    const double at[3] = {p->x, p->y, p->z};
-    for (int k = 0; k < 3; k++) {
-      low[k] = fmin(low[k], at[k]);
-      high[k] = fmax(high[k], at[k]);
-    }
-  }
-  double radius =
-      hypot(hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]) / 2;
-  for (int k = 0; k < 3; k++) {
-    model->middle[k] = (low[k] + high[k]) / 2;
-    model->eye[k] = model->middle[k] + 3 * radius * direction[k];
-  }
-}
-
-static double count_triangles(const struct scene *scene) {
-  double corners = (double)scene->corner.count;
-  return corners - 2 * (double)scene_face_count(scene);
-}
-
-/* Reads a model to learn its size; false where it is not there. */
-static bool open_model(struct model *model, struct scene *scene,
-                       const char *folder, const char *name) {
-  struct diagnostics silent = {.file = model->path};
-  size_t length;
-  model->name = name;
-  snprintf(model->path, sizeof model->path, "%s/%s.obj", folder, name);
-  char *text = read_file(model->path, &length);
-  if (text == NULL)
-    return false;
-  free(text);
-  scene_init(scene);
-  if (scene_read(scene, model->path, NULL, &silent, NULL) != RECTO_OK)
-    return false;
-  model->bytes = (double)length;
-  model->triangles = count_triangles(scene);
-  choose_view(model, scene);
-  return true;
-}
-
-static bool write_obj(struct model *model, const struct scene *scene) {
-  struct stream *stream = NULL;
-  if (stream_open(&stream, model->path, NULL) != RECTO_OK)
-    return false;
-  scene_write_obj(scene, stream);
-  return stream_finish(stream, NULL) == RECTO_OK;
-}
 
 static void put_float(unsigned char **at, double value) {
   float number = (float)value;
@@ -124,42 +59,27 @@ static bool write_stl(const char *path, const struct scene *scene) {
 /* ---- Measuring
  * ------------------------------------------------------------------ */
 
-/* The stages of the report, in their order, and the columns they go to. */
-static const char *const stage[] = {"read_cpu_s",  "topology_cpu_s",
-                                    "sheet_cpu_s", "solve_cpu_s",
-                                    "ink_cpu_s",   "write_cpu_s"};
-enum { stages = sizeof stage / sizeof *stage, columns = stages + 3 };
+enum { columns = MODEL_STAGES + 3 };
 
 /* The medians of a row: the stages, CPU, wall, peak.  False where a run
  * failed or took too long. */
 static bool measure(const struct bench *bench, const struct model *model,
                     const char *method, const char *edges,
                     double row[columns]) {
-  char camera[200], target[200], stats[100], report[90], output[90];
   double cell[columns][RUNS_MAX];
-  snprintf(camera, sizeof camera, "%.17g,%.17g,%.17g", model->eye[0],
-           model->eye[1], model->eye[2]);
-  snprintf(target, sizeof target, "%.17g,%.17g,%.17g", model->middle[0],
-           model->middle[1], model->middle[2]);
-  snprintf(report, sizeof report, "%s/report.json", bench->folder);
-  snprintf(stats, sizeof stats, "--stats=%s", report);
-  snprintf(output, sizeof output, "%s/drawing.svg", bench->folder);
-  const char *const argv[] = {
-      bench->recto, model->path, "-m", method, "-e", edges,   "-c", camera,
-      "-l",         target,      "-F", "30",   "-u", "0,1,0", "-p", "200x200mm",
-      "--margin",   "5mm",       "-q", stats,  "-o", output,  NULL};
+  const struct model_job job = {bench->recto, bench->folder, method, edges,
+                                "0", limit_s};
   for (size_t i = 0; i < runs; i++) {
     struct run run;
-    run_program(&run, argv, limit_s);
+    double stage[MODEL_STAGES];
+    model_draw(&run, stage, model, &job);
     if (run.status != 0)
       return false;
-    char *text = read_file(report, NULL);
-    for (size_t k = 0; k < stages; k++)
-      cell[k][i] = report_number(text, stage[k]);
-    free(text);
-    cell[stages][i] = run.cpu_s;
-    cell[stages + 1][i] = run.wall_s;
-    cell[stages + 2][i] = run.peak_mb;
+    for (size_t k = 0; k < MODEL_STAGES; k++)
+      cell[k][i] = stage[k];
+    cell[MODEL_STAGES][i] = run.cpu_s;
+    cell[MODEL_STAGES + 1][i] = run.wall_s;
+    cell[MODEL_STAGES + 2][i] = run.peak_mb;
   }
   for (size_t k = 0; k < columns; k++)
     row[k] = median_of(cell[k], runs);
@@ -167,9 +87,10 @@ static bool measure(const struct bench *bench, const struct model *model,
 }
 
 static void print_heading(void) {
-  printf("\n%-16s %9s %-8s %-8s %7s %7s %7s %7s %7s %7s %8s %7s %6s %5s\n",
-         "model", "triangles", "method", "lines", "read", "edges", "sheet",
-         "solve", "ink", "write", "CPU", "wall", "MB", "B/tri");
+  printf("\n%-16s %9s %-8s %-8s", "model", "triangles", "method", "lines");
+  for (size_t k = 0; k < MODEL_STAGES; k++)
+    printf(" %7s", model_stage_name[k]);
+  printf(" %8s %7s %6s %5s\n", "CPU", "wall", "MB", "B/tri");
 }
 
 static void print_row(const struct bench *bench, const struct model *model,
@@ -181,33 +102,27 @@ static void print_row(const struct bench *bench, const struct model *model,
     printf(" failed, or over %d s\n", limit_s);
     return;
   }
-  for (size_t k = 0; k < stages; k++)
+  for (size_t k = 0; k < MODEL_STAGES; k++)
     printf(" %7.3f", row[k]);
-  printf(" %8.3f %7.3f %6.0f %5.0f\n", row[stages], row[stages + 1],
-         row[stages + 2], 1e6 * row[stages + 2] / model->triangles);
+  printf(" %8.3f %7.3f %6.0f %5.0f\n", row[MODEL_STAGES],
+         row[MODEL_STAGES + 1], row[MODEL_STAGES + 2],
+         1e6 * row[MODEL_STAGES + 2] / model->triangles);
   fflush(stdout);
 }
 
 static void print_model(const struct bench *bench, const struct model *model) {
-  static const char features[] =
-      "silhouette,border,crease,group,intersection,wire";
   for (size_t i = 0; bench->method[i] != NULL; i++) {
-    print_row(bench, model, bench->method[i], features);
+    print_row(bench, model, bench->method[i], model_features);
     print_row(bench, model, bench->method[i], "all");
   }
 }
 
 static void print_yardstick(const struct bench *bench,
                             const struct model *model) {
-  char eye[3][40];
   double cpu[RUNS_MAX], peak[RUNS_MAX];
-  for (int k = 0; k < 3; k++)
-    snprintf(eye[k], sizeof eye[k], "%.17g", model->eye[k]);
-  const char *const argv[] = {bench->zraster, model->path, eye[0],
-                              eye[1],         eye[2],      NULL};
   for (size_t i = 0; i < runs; i++) {
     struct run run;
-    run_program(&run, argv, limit_s);
+    model_raster(&run, model, bench->zraster, limit_s);
     cpu[i] = run.status == 0 ? run.cpu_s : NAN;
     peak[i] = run.peak_mb;
   }
@@ -294,7 +209,7 @@ static void print_folder(const struct bench *bench, const char *folder,
   for (size_t i = 0; name[i] != NULL; i++) {
     struct model model;
     struct scene scene;
-    if (!open_model(&model, &scene, folder, name[i]))
+    if (!model_open(&model, &scene, folder, name[i]))
       continue;
     print_model(bench, &model);
     scene_fini(&scene);
@@ -310,15 +225,7 @@ static void print_growth(const struct bench *bench, struct model *model,
   print_yardstick(bench, model);
   print_scans(bench, model);
   for (size_t i = 0; i < 2; i++) {
-    struct scene finer;
-    scene_init(&finer);
-    scenes_subdivide(&finer, scene, SUBDIVIDE_LOOP);
-    scene_fini(scene);
-    *scene = finer;
-    model->name = level[i];
-    snprintf(model->path, sizeof model->path, "%s/model.obj", bench->folder);
-    model->triangles = count_triangles(scene);
-    if (!write_obj(model, scene)) {
+    if (!model_refine(model, scene, bench->folder, level[i])) {
       fputs("bench: cannot write the finer model\n", stderr);
       break;
     }
@@ -346,8 +253,8 @@ static void print_all(const struct bench *bench, const char *examples,
   if (models != NULL)
     print_folder(bench, models, real);
   /* The bunny grows, where it is; else the knot does. */
-  if (models == NULL || !open_model(&model, &scene, models, "stanford-bunny")) {
-    if (!open_model(&model, &scene, examples, "knot"))
+  if (models == NULL || !model_open(&model, &scene, models, "stanford-bunny")) {
+    if (!model_open(&model, &scene, examples, "knot"))
       return;
   }
   print_model(bench, &model);

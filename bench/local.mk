@@ -1,8 +1,12 @@
 # bench/local.mk - make bench: how long things take, what memory, and how far
 # from the truth.
-EXTRA_PROGRAMS = %D%/bench %D%/zraster %D%/accuracy %D%/order
-%C%_bench_SOURCES = %D%/bench.c %D%/table.c %D%/table.h
+EXTRA_PROGRAMS = %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/order
+%C%_bench_SOURCES = %D%/bench.c %D%/model.c %D%/model.h %D%/table.c \
+  %D%/table.h
 %C%_bench_LDADD = tests/scenes/libscenes.la librecto_core.la
+%C%_dense_SOURCES = %D%/dense.c %D%/model.c %D%/model.h %D%/table.c \
+  %D%/table.h
+%C%_dense_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
 %C%_zraster_SOURCES = %D%/zraster.c
 %C%_zraster_LDADD = librecto_core.la -lm
 %C%_accuracy_SOURCES = %D%/accuracy.c %D%/chart.c %D%/chart.h \
@@ -14,7 +18,8 @@ EXTRA_PROGRAMS = %D%/bench %D%/zraster %D%/accuracy %D%/order
 CLEANFILES += $(EXTRA_PROGRAMS) %D%/accuracy.svg
 
 # BENCH_METHODS  the methods to measure; else newell and auto
-bench: recto$(EXEEXT) $(EXTRA_PROGRAMS) bench-accuracy bench-order
+bench: recto$(EXEEXT) $(EXTRA_PROGRAMS) bench-accuracy bench-order \
+  bench-dense
 	$(AM_TESTS_ENVIRONMENT) %D%/bench$(EXEEXT) ./recto$(EXEEXT) \
 	  %D%/zraster$(EXEEXT) $(srcdir)/examples/models $(BENCH_METHODS)
 
@@ -25,4 +30,10 @@ bench-accuracy: %D%/accuracy$(EXEEXT)
 # What --order near gains, and what it costs.
 bench-order: %D%/order$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) %D%/order$(EXEEXT) $(srcdir)/examples/models
-.PHONY: bench bench-accuracy bench-order
+
+# A million triangles beside a depth buffer.  BENCH_LEVELS  how many times the
+# mesh is made four times as fine; else 2: 3 is four million triangles
+bench-dense: recto$(EXEEXT) %D%/dense$(EXEEXT) %D%/zraster$(EXEEXT)
+	$(AM_TESTS_ENVIRONMENT) %D%/dense$(EXEEXT) ./recto$(EXEEXT) \
+	  %D%/zraster$(EXEEXT) $(srcdir)/examples/models $(BENCH_LEVELS)
+.PHONY: bench bench-accuracy bench-order bench-dense
