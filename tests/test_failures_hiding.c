@@ -47,8 +47,8 @@ static void check_convex(const struct scene *scene,
     const struct sheet_edge *edge = &pipeline.sheet.edge.item[i];
     const struct topology_edge *source =
         &pipeline.topology.edge.item[edge->source];
-    bool seen = facing(&pipeline, scene, source->face[0]) > 0 ||
-                facing(&pipeline, scene, source->face[1]) > 0;
+    bool seen = facing(&pipeline, scene, source->first) > 0 ||
+                facing(&pipeline, scene, source->second) > 0;
     assert_int_equal(pipeline.map.edge_state[i],
                      seen ? MAP_VISIBLE : MAP_HIDDEN);
   }

@@ -56,23 +56,23 @@ static void check(const struct scene *scene, const struct topology *topology) {
       assert_int_equal(e, search(topology, a, b));
       if (e == next) { /* first used: in this order */
         next++;
-        seen[e].face[0] = f;
-        seen[e].face[1] = SCENE_NONE;
+        seen[e].first = f & 0x3fffffff;
+        seen[e].second = TOPOLOGY_NONE;
         forward[e] = a < b;
       } else if (seen[e].uses == 1) {
-        seen[e].face[1] = f;
+        seen[e].second = f & 0x3fffffff;
         seen[e].same_way = forward[e] == (a < b);
       }
       assert_true(e < next);
-      seen[e].uses = (uint8_t)(seen[e].uses < 3 ? seen[e].uses + 1 : 3);
+      seen[e].uses = seen[e].uses < 3 ? (seen[e].uses + 1) & 3 : 3;
     }
   }
   assert_int_equal(next, edges);
   for (uint32_t e = 0; e < edges; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
     assert_true(edge->point[0] < edge->point[1]);
-    assert_int_equal(edge->face[0], seen[e].face[0]);
-    assert_int_equal(edge->face[1], seen[e].face[1]);
+    assert_int_equal(edge->first, seen[e].first);
+    assert_int_equal(edge->second, seen[e].second);
     assert_int_equal(edge->uses, seen[e].uses);
     if (edge->uses == 2)
       assert_int_equal(edge->same_way, seen[e].same_way);
@@ -273,8 +273,8 @@ edges_that_only_the_weld_makes_whole_are_counted_once(void **state) {
   assert_int_equal(topology.edge.count, 4);
   for (size_t e = 0; e < 4; e++) {
     assert_int_equal(topology.edge.item[e].uses, 3);
-    assert_int_equal(topology.edge.item[e].face[0], 0);
-    assert_int_equal(topology.edge.item[e].face[1], 1);
+    assert_int_equal(topology.edge.item[e].first, 0);
+    assert_int_equal(topology.edge.item[e].second, 1);
   }
   topology_fini(&topology);
   scene_fini(&scene);

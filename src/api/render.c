@@ -157,6 +157,10 @@ static recto_status solve(struct render *render, recto_error *error) {
 }
 
 static recto_status ink(struct render *render, recto_error *error) {
+  report_int(render->report, "sheet", "triangles",
+             (int64_t)render->sheet.triangle.count);
+  if (!has_fills(render) && render->options->verify == 0)
+    sheet_drop_triangles(&render->sheet);
   return ink_draw(render->drawing, &render->sheet, &render->rescaled.scene,
                   &render->map, render->options, error);
 }
@@ -232,7 +236,6 @@ static void report_sheet(struct report *report, const struct render *render) {
   const struct sheet *sheet = &render->sheet;
   report_add(report, "faults", "warped", (int64_t)sheet->warped);
   report_int(report, "sheet", "points", (int64_t)sheet->point.count);
-  report_int(report, "sheet", "triangles", (int64_t)sheet->triangle.count);
   report_int(report, "sheet", "edges", (int64_t)sheet->edge.count);
   report_int(report, "sheet", "faces_clipped_near",
              (int64_t)sheet->clipped_near);
@@ -259,7 +262,8 @@ static void warn_of_empty_page(const struct render *render) {
       o->warning == NULL)
     return;
   const char *why = "no line of the classes that were asked for is visible";
-  if (render->sheet.triangle.count == 0 && render->sheet.edge.count == 0)
+  if (report_get(render->report, "sheet", "triangles", 0) == 0 &&
+      render->sheet.edge.count == 0)
     why = "all of the scene is outside of the page";
   else if (report_get(render->report, "ink", "too_short", 0) > 0)
     why = "every line is shorter than the shortest that is drawn";

@@ -72,14 +72,11 @@ static recto_status make_paths(struct ink *ink, struct ink_paths *paths,
 static struct drawing_stroke stroke_like(const struct ink *ink,
                                          const struct ink_path *path) {
   const struct sheet_edge *edge = &ink->sheet->edge.item[path->edge];
-  uint32_t face = DRAWING_NONE;
-  if (edge->triangle[0] != SHEET_NONE)
-    face = ink->sheet->triangle.item[edge->triangle[0]].face;
   uint32_t layer = layers_pen_of_group(ink->options, edge->group);
   if (path->hidden && ink->options->hidden == RECTO_HIDDEN_LAYER)
     layer = layers_pen_count(ink->scene, ink->options);
   return (struct drawing_stroke){.layer = layer,
-                                 .face = face,
+                                 .face = sheet_edge_face(ink->sheet, edge),
                                  .edge = edge->source,
                                  .group = edge->group,
                                  .edge_class = edge->edge_class,

@@ -125,7 +125,7 @@ static unsigned plain_natures(const struct topology_edge *edge,
   if (edge->uses != 2)
     return RECTO_EDGE_BORDER;
   const uint32_t *group = scene->face_group.item;
-  return group[edge->face[0]] != group[edge->face[1]] ? RECTO_EDGE_GROUP : 0;
+  return group[edge->first] != group[edge->second] ? RECTO_EDGE_GROUP : 0;
 }
 
 unsigned topology_natures(const struct topology *topology,
@@ -133,8 +133,8 @@ unsigned topology_natures(const struct topology *topology,
                           double crease_deg) {
   const struct topology_edge *e = &topology->edge.item[edge];
   unsigned natures = plain_natures(e, scene);
-  if (e->uses == 2 && is_crease(normal_of_face(scene, e->face[0]),
-                                normal_of_face(scene, e->face[1]), e->same_way,
+  if (e->uses == 2 && is_crease(normal_of_face(scene, e->first),
+                                normal_of_face(scene, e->second), e->same_way,
                                 crease_cosine_of(crease_deg)))
     natures |= RECTO_EDGE_CREASE;
   return natures ? natures : RECTO_EDGE_SMOOTH;
@@ -177,15 +177,15 @@ static const double filter_error = 0x1p-14;
 
 static bool bends(const struct topology_edge *edge, const struct scene *scene,
                   const struct direction *direction, double crease_cosine) {
-  struct direction a = direction[edge->face[0]];
-  struct direction b = direction[edge->face[1]];
+  struct direction a = direction[edge->first];
+  struct direction b = direction[edge->second];
   int dot = a.x * b.x + a.y * b.y + a.z * b.z;
   double cosine = (edge->same_way ? -dot : dot) *
                   (1.0 / ((double)DIRECTION_ONE * DIRECTION_ONE));
   if (cosine > crease_cosine + filter_error)
     return false;
-  return is_crease(normal_of_face(scene, edge->face[0]),
-                   normal_of_face(scene, edge->face[1]), edge->same_way,
+  return is_crease(normal_of_face(scene, edge->first),
+                   normal_of_face(scene, edge->second), edge->same_way,
                    crease_cosine);
 }
 

@@ -130,6 +130,9 @@ static bool name_hubs(const struct scene *scene, const uint32_t *weld,
 
 /* ---- Edges --------------------------------------------------------------- */
 
+/* Faces have numbers within these. */
+enum { FACE_BITS = (1 << 30) - 1 };
+
 /* The edges of a point that is no hub hang on it as a list. */
 struct lists {
   uint32_t *head; /* one a point: an edge, SCENE_NONE, or HUB */
@@ -164,8 +167,9 @@ static bool add_edge(struct topology *topology, const struct walk *walk,
                      struct lists *lists) {
   struct topology_edge edge = {
       .point = {lower(walk), upper(walk)},
-      .face = {walk->face, SCENE_NONE},
+      .first = walk->face & FACE_BITS,
       .uses = 1,
+      .second = TOPOLOGY_NONE,
       .same_way = walk->from < walk->to, /* the first face's way, until */
   };                                     /* a second one comes */
   uint32_t e = (uint32_t)topology->edge.count;
@@ -182,7 +186,7 @@ static bool add_edge(struct topology *topology, const struct walk *walk,
 
 static void use_edge(struct topology_edge *edge, const struct walk *walk) {
   if (edge->uses == 1) {
-    edge->face[1] = walk->face;
+    edge->second = walk->face & FACE_BITS;
     edge->same_way = edge->same_way == (walk->from < walk->to);
   }
   if (edge->uses < 3)

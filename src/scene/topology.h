@@ -11,11 +11,16 @@
 
 struct topology_edge {
   uint32_t point[2]; /* scene points, welded, point[0] < point[1] */
-  uint32_t face[2];  /* the first two faces in file order; SCENE_NONE */
-  uint8_t uses;      /* how many faces, capped at 3 */
-  bool same_way;     /* of two faces: both run along it in one direction, so
-                        their windings disagree */
+  /* The first two faces in file order; they fit, as each has three corners at
+   * least (limit.h). */
+  uint32_t first : 30;
+  uint32_t uses : 2;     /* how many faces, capped at 3 */
+  uint32_t second : 31;  /* TOPOLOGY_NONE: there is but one */
+  uint32_t same_way : 1; /* of two faces: both run along it in one direction,
+                            so their windings disagree */
 };
+
+enum { TOPOLOGY_NONE = 0x7fffffff };
 
 struct topology {
   ARRAY(struct topology_edge) edge; /* in order of first use by a face */

@@ -20,7 +20,7 @@ static bool is_silhouette(uint8_t sides) {
  * still  those that do not depend on the camera */
 static unsigned natures_of(const struct topology_edge *edge, unsigned still,
                            uint8_t sides) {
-  if (edge->uses != 2 || edge->face[0] == edge->face[1] ||
+  if (edge->uses != 2 || edge->first == edge->second ||
       !is_silhouette(sides))
     return still;
   return (still & ~(unsigned)RECTO_EDGE_SMOOTH) | RECTO_EDGE_SILHOUETTE;
@@ -115,7 +115,7 @@ static recto_status make_edges(struct layout *layout, const uint8_t *natures,
       continue;
     made->bits[e / 64] |= UINT64_C(1) << e % 64;
     if (!add_edge(layout, ends, e,
-                  layout->scene->face_group.item[edge->face[0]], edge_class, 0))
+                  layout->scene->face_group.item[edge->first], edge_class, 0))
       return error_memory(layout->error);
   }
   return RECTO_OK;

@@ -62,6 +62,8 @@ struct sheet {
   ARRAY(struct geom_point) point; /* x, y in grid units, z in depth units */
   ARRAY(struct sheet_triangle) triangle;
   uint8_t *triangle_flags;    /* one a triangle */
+  bool edges_of_faces; /* the triangles were given up: where edges name one
+                          they name its scene face */
   const uint32_t *face_group; /* the scene's, lent */
   const struct topology *topology; /* the scene's, lent; NULL: unknown */
   /* Mesh edges in topology order, then wires, then intersections once they
@@ -95,6 +97,19 @@ USE_RESULT recto_status sheet_init(struct sheet *sheet,
                                    const recto_options *options, bool outlines,
                                    recto_error *error);
 void sheet_fini(struct sheet *sheet);
+
+/* Gives up the triangles, where of all that is asked of them only the faces of
+ * edges are left to be asked. */
+void sheet_drop_triangles(struct sheet *sheet);
+
+/* The scene face of an edge's first triangle; SHEET_NONE. */
+static inline uint32_t sheet_edge_face(const struct sheet *sheet,
+                                       const struct sheet_edge *edge) {
+  uint32_t first = edge->triangle[0];
+  return first == SHEET_NONE || sheet->edges_of_faces
+             ? first
+             : sheet->triangle.item[first].face;
+}
 
 /* Grid units from the middle of the page to mm from its lower left corner. */
 static inline double sheet_x_mm(const struct sheet *sheet, double x) {
