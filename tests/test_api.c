@@ -606,14 +606,14 @@ static void an_empty_page_says_why(void **state) {
   assert_warns(scene, options, "");
   options.edges = RECTO_EDGE_INTERSECTION;
   assert_warns(scene, options,
-               "the drawing is empty: no line of the classes that were asked "
-               "for is visible");
+               "the drawing is empty: nothing that was asked for is visible "
+               "and long enough");
   options.edges = RECTO_EDGES_DEFAULT;
   options.fit = RECTO_FIT_SCALE;
-  options.scale = 0.01;
-  assert_warns(scene, options,
-               "the drawing is empty: every line is shorter than the shortest "
-               "that is drawn");
+  for (options.scale = 0.01; options.scale > 1e-300; options.scale *= 1e-99)
+    assert_warns(scene, options,
+                 "the drawing is empty: nothing that was asked for is visible "
+                 "and long enough");
   options.scale = 100;
   options.has_target = true;
   options.target[0] = 50;

@@ -431,6 +431,13 @@ claim "--check of no file fails" run 1 cube.obj --check no.svg
 claim "an eye on its target is refused" refuses '.' cube.obj -o no.svg \
   --camera 1,2,3 --lookat 1,2,3
 
+# A link that is no path.
+to_dev_stdout() {
+  "$recto" cube.obj -o plain.svg --stats=/dev/stdout | grep -q '"ink"' &&
+    "$recto" cube.obj --format svg -o /dev/stdout | cmp - plain.svg
+}
+claim "/dev/stdout is a place to write to" to_dev_stdout
+
 # ---- Interrupts -----------------------------------------------------------
 
 # A sheet of 20,000 squares, which brute force needs long for.

@@ -190,6 +190,19 @@ static void a_warped_face_hides_what_both_ways_do(void **state) {
   end(&asked);
 }
 
+/* With no face there is nothing to hide it. */
+static void a_wire_alone_passes(void **state) {
+  (void)state;
+  struct asked asked;
+  start(&asked);
+  build_segment(&asked.scene, build_point(&asked.scene, 0, 0, 0),
+                build_point(&asked.scene, 1, 2, 4));
+  draw(&asked);
+  assert_right(&asked, "wire");
+  assert_int_equal(count_of(&asked, "drawn"), 2000);
+  end(&asked);
+}
+
 static void nothing_drawn_of_nothing_asked_for_passes(void **state) {
   (void)state;
   struct asked asked;
@@ -347,6 +360,7 @@ int main(void) {
       cmocka_unit_test(random_small_scenes_pass),
       cmocka_unit_test(cuts_and_far_origins_pass),
       cmocka_unit_test(a_warped_face_hides_what_both_ways_do),
+      cmocka_unit_test(a_wire_alone_passes),
       cmocka_unit_test(nothing_drawn_of_nothing_asked_for_passes),
       cmocka_unit_test(a_hidden_line_that_is_drawn_is_found),
       cmocka_unit_test(a_visible_line_that_is_missing_is_found),

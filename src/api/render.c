@@ -261,12 +261,10 @@ static void warn_of_empty_page(const struct render *render) {
   if (drawing->stroke.count > 0 || drawing->fill.count > 0 || !asked ||
       o->warning == NULL)
     return;
-  const char *why = "no line of the classes that were asked for is visible";
+  const char *why = "nothing that was asked for is visible and long enough";
   if (report_get(render->report, "sheet", "triangles", 0) == 0 &&
       render->sheet.edge.count == 0)
     why = "all of the scene is outside of the page";
-  else if (report_get(render->report, "ink", "too_short", 0) > 0)
-    why = "every line is shorter than the shortest that is drawn";
   char text[128];
   snprintf(text, sizeof text, "the drawing is empty: %s", why);
   o->warning(o->user, "", 0, text);

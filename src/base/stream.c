@@ -104,9 +104,13 @@ static char *read_link(const char *path, bool *failed) {
 
 /* The path with its symbolic links followed, so that a link is kept and the
  * file behind it is replaced, or made where there is none.  A ring of links is
- * left for the system to complain of. */
+ * left for the system to complain of; so is what is no path, as the links of
+ * /dev/stdout may be: what is behind it is opened by its own name. */
 static char *follow_links(const char *path) {
   enum { MOST_LINKS = 40 };
+  struct stat about;
+  if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
+    return copy_text(path);
   char *here = copy_text(path);
   bool failed = here == NULL;
   for (int i = 0; i < MOST_LINKS && !failed; i++) {

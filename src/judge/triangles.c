@@ -90,6 +90,8 @@ static bool build_tree(struct judge_triangles *all) {
   all->node = mem_alloc(2 * (size_t)total + 1, sizeof *all->node);
   if (all->node == NULL)
     return false;
+  if (total == 0) /* a node without triangles would be one with children */
+    return true;
   all->nodes = 1;
   all->node[0] = (struct judge_node){.first = 0, .count = total};
   /* Children come after their parent: one pass serves as the stack. */
@@ -317,7 +319,8 @@ enum judge_sight judge_look(const struct judge_triangles *all,
   unsigned depth = 0;
   struct doubts doubts = {.count = 0};
   enum judge_sight sight = JUDGE_CLEAR;
-  stack[depth++] = 0;
+  if (all->nodes > 0)
+    stack[depth++] = 0;
   while (depth > 0) {
     const struct judge_node *node = &all->node[stack[--depth]];
     if (!ray_meets_box(&ray, &node->box))
@@ -355,7 +358,8 @@ bool judge_triangles_near(const struct judge_triangles *all,
                           void *user) {
   uint32_t stack[STACK_SIZE];
   unsigned depth = 0;
-  stack[depth++] = 0;
+  if (all->nodes > 0)
+    stack[depth++] = 0;
   while (depth > 0) {
     const struct judge_node *node = &all->node[stack[--depth]];
     if (!boxes_meet(&node->box, box))

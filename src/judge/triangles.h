@@ -71,7 +71,7 @@ struct judge_triangles {
     uint32_t first; /* of its triangles, or its left child; right follows */
     uint32_t count; /* of its triangles; 0: a node with two children */
   } * node;
-  size_t nodes;
+  size_t nodes; /* none where there are no triangles */
   double size; /* diagonal of the box of all points that faces use */
 };
 
