@@ -26,8 +26,8 @@
 
 enum {
   CUT_MARGIN = 4 * TOLERANCE_COINCIDENT_UNITS,
-  SAMPLE = 64, /* triangles by which cuts are judged */
-  CANDIDATES = 6
+  SAMPLE = 48, /* triangles by which cuts are judged */
+  CANDIDATES = 8
 };
 
 /* Steeper than so many times the middling triangle is on both sides. */
@@ -36,7 +36,7 @@ enum {
 /* Shares of the pairs: a cut must leave fewer than the first; one that leaves
  * no more than the other needs no better. */
 #define MOST_LEFT 0.85
-#define GOOD 0.55
+#define GOOD 0.6
 
 static int side_of_line(const struct cut *cut, struct geom_point p) {
   int64_t value = cut->dx * ((int64_t)p.y - cut->apex.y) -
