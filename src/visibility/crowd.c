@@ -171,6 +171,8 @@ static int sides_of(const struct cut *cut, const struct crowd_shape *shape) {
                                   {b.x1, b.y0, 0},
                                   {b.x1, b.y1, 0}},
                           q[3] = {{b.x0, b.y1, 0}, p[0], p[2]};
+  if (cut->is_plane && shape->kind == CROWD_BOX)
+    return CUT_BOTH;
   switch (shape->kind) {
   case CROWD_SEGMENT:
     return cut_side_of_segment(cut, shape->p[0], shape->p[1]);
@@ -192,6 +194,9 @@ const struct crowd_node *crowd_next(const struct crowd *crowd,
     if (node->child[0] == SHEET_NONE)
       return node;
     sides = sides_of(&node->cut, shape);
+    /* What is before a plane is not hidden from behind it; what is behind may
+     * be hidden from anywhere. */
+    if (node->cut.is_plane && (sides & CUT_RIGHT)) sides = CUT_BOTH;
     if (sides & CUT_RIGHT)
       walk->stack[walk->depth++] = node->child[1];
     if (sides & CUT_LEFT)

@@ -38,7 +38,8 @@ static inline void crowd_clear(struct crowd *crowd) {
 }
 
 /* Adds a list.
- * planes  cut by planes too: good for what pierces, not for what hides
+ * planes  cut by planes too: a walk is then about what may hide the shape, not
+ *         about what it may hide
  * root    its node; SHEET_NONE: nothing parts it
  * Returns false when memory ran out.
  * Cost: n log n and memory linear in the list, whatever it is. */

@@ -16,7 +16,10 @@
  *   share on the page is a wedge at the apex, and their depths part from there
  *   on at a steady rate: at the other end of the edge, which must touch too, it
  *   is off by more than the thickness, since it is off the plane by more.
- *   Hiding is not a matter of planes: what is far behind may be hidden.
+ *   Hiding.  What is before a plane, the apex aside, is nowhere farther than
+ *   what is behind it.  (It may be hidden the other way round.)  An end of it
+ *   that was rounded to the grid is off the plane by less than the thickness,
+ *   since planes that are steeper than that are not taken.
  */
 #include "visibility/cut.h"
 
@@ -217,7 +220,8 @@ struct choice {
 static void consider(struct choice *choice, const struct sample *sample,
                      const struct cut *cut) {
   double left;
-  if (cut->is_plane ? !(cut->plane.nz > 0) : cut->dx == 0 && cut->dy == 0)
+  if (cut->is_plane ? !(thickness_of(&cut->plane) <= cut->thickness)
+                    : cut->dx == 0 && cut->dy == 0)
     return;
   left = pairs_left(sample, cut);
   if (left >= choice->left)

@@ -100,7 +100,7 @@ static void fill_cells(const struct filling *filling, bool place) {
 }
 
 /* Parts the long lists. */
-static bool part_crowds(struct pagegrid *grid) {
+static bool part_crowds(struct pagegrid *grid, bool planes) {
   size_t cells = pagegrid_cell_count(grid);
   for (size_t c = 0; c < cells; c++) {
     size_t count = grid->start[c + 1] - grid->start[c];
@@ -112,7 +112,7 @@ static bool part_crowds(struct pagegrid *grid) {
       memset(grid->crowd_root, 0xff, cells * sizeof *grid->crowd_root);
     }
     if (!crowd_add(grid->crowd, grid->sheet, grid->item + grid->start[c], count,
-                   false, &grid->crowd_root[c]))
+                   planes, &grid->crowd_root[c]))
       return false;
   }
   return true;
@@ -132,7 +132,7 @@ static bool fill(const struct filling *filling) {
   }
   fill_cells(filling, true);
   grid->sheet = filling->sheet;
-  if (!part_crowds(grid)) {
+  if (!part_crowds(grid, filling->print != NULL)) {
     pagegrid_fini(grid);
     return false;
   }

@@ -56,7 +56,8 @@ void pagegrid_fini(struct pagegrid *grid);
  * triangle.  The second makes the lists.
  * print   the triangles' footprints
  * wanted  the cells that get a list, the others' stay empty
- * horizon one a cell: triangles wholly behind it are left out; NULL: none */
+ * horizon one a cell: triangles wholly behind it are left out; NULL: none
+ * Questions to such a grid are about what may hide something. */
 void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
                     unsigned spread, unsigned cells);
 struct footprint;

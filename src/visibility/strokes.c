@@ -51,6 +51,17 @@ bool strokes_hide(struct strokes *strokes, struct hidden_part part) {
   return true;
 }
 
+struct hidden_part strokes_rest(const struct strokes *strokes) {
+  const stroke_parts *both = &strokes->both;
+  struct hidden_part rest = {ZERO, ONE, HIDE_BOTH};
+  if (both->count > 0 && both->item[0].from.num == 0)
+    rest.from = both->item[0].to;
+  if (both->count > 0 &&
+      both->item[both->count - 1].to.num == both->item[both->count - 1].to.den)
+    rest.to = both->item[both->count - 1].from;
+  return rest;
+}
+
 bool strokes_open_map(struct map *map, size_t edge_count) {
   uint8_t *state = mem_resize(map->edge_state, edge_count, 1);
   if (state == NULL) return false;

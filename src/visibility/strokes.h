@@ -29,6 +29,10 @@ static inline void strokes_start(struct strokes *strokes) {
 /* Adds a hidden part; false when memory ran out. */
 USE_RESULT bool strokes_hide(struct strokes *strokes, struct hidden_part part);
 
+/* The stretch of the edge, from end to end, beyond which all is known to be
+ * hidden. */
+struct hidden_part strokes_rest(const struct strokes *strokes);
+
 /* Room in the map for the edges of the sheet; those it had no room for yet
  * are hidden at first. */
 USE_RESULT bool strokes_open_map(struct map *map, size_t edge_count);

@@ -215,41 +215,88 @@ struct edge_run {
 struct edge_task {
   uint32_t triangle[2]; /* its own */
   struct geom_point p, q;
-  struct page_box box;
+  /* What is not known to be hidden of it, and is still asked about. */
+  struct geom_point end[2];
   struct octagon octagon;
+  double share; /* of its length */
   bool several; /* it meets several tiles, and may meet a triangle in each */
   struct pagegrid_query *query;
   struct strokes *strokes;
   struct hide_counts *counts;
 };
 
+static struct geom_point point_of_edge(const struct edge_task *task,
+                                       struct ratio t) {
+  return (struct geom_point){(int32_t)ratio_lerp(t, task->p.x, task->q.x),
+                             (int32_t)ratio_lerp(t, task->p.y, task->q.y),
+                             ratio_lerp(t, task->p.z, task->q.z)};
+}
+
+/* Asks no more about what is hidden at the ends of the edge, where that makes
+ * it much shorter.  The new ends were rounded, by less than a unit. */
+static void shorten(struct edge_task *task) {
+  struct hidden_part rest = strokes_rest(task->strokes);
+  double share = (double)rest.to.num / (double)rest.to.den -
+                 (double)rest.from.num / (double)rest.from.den;
+  if (!(share < 0.75 * task->share)) return;
+  task->share = share;
+  task->end[0] = point_of_edge(task, rest.from);
+  task->end[1] = point_of_edge(task, rest.to);
+  task->octagon = octagon_of_point(task->end[0]);
+  octagon_add(&task->octagon, task->end[1]);
+  for (int k = 0; k < 4; k++) {
+    task->octagon.least[k] -= 2;
+    task->octagon.most[k] += 2;
+  }
+  task->octagon.low--;
+}
+
 /* Asks what triangle t hides of the edge, which it may meet. */
 static bool ask_triangle(const struct tiles_work *work, struct edge_task *task,
                          uint32_t t) {
   struct hidden_part part;
   if (t == task->triangle[0] || t == task->triangle[1] ||
-      (task->several && !pagegrid_query_first(task->query, t)))
+      (task->several && !pagegrid_query_first(task->query, t)) ||
+      !hide_edge_by(work->sheet, t, task->p, task->q, &part, task->counts))
     return true;
-  return !hide_edge_by(work->sheet, t, task->p, task->q, &part, task->counts) ||
-         strokes_hide(task->strokes, part);
+  if (!strokes_hide(task->strokes, part)) return false;
+  if (!task->strokes->whole) shorten(task);
+  return true;
+}
+
+/* The cell at hand, and the question that the edge is there. */
+struct cell_task {
+  size_t cell;
+  struct octagon_frame frame;
+  uint64_t question;
+  double share; /* of the edge when the question was put */
+};
+
+static void put_question(struct cell_task *at, const struct edge_task *task) {
+  if (at->share == task->share) return;
+  at->share = task->share;
+  at->question = octagon_question(&at->frame, &task->octagon);
 }
 
 /* Asks the triangles of a tile's list that was parted. */
 static bool ask_crowd(const struct tiles_work *work, struct edge_task *task,
-                      size_t cell, uint64_t question) {
+                      struct cell_task *at) {
   const struct pagegrid *grid = &work->tiles.grid;
-  const struct crowd_shape shape = {.kind = CROWD_SEGMENT,
-                                    .p = {task->p, task->q}};
-  struct crowd_walk walk = crowd_walk_from(pagegrid_crowd(grid, cell));
-  const uint64_t *word = work->tiles.word + grid->start[cell];
+  struct crowd_shape shape = {.kind = CROWD_SEGMENT,
+                              .p = {task->end[0], task->end[1]}};
+  struct crowd_walk walk = crowd_walk_from(pagegrid_crowd(grid, at->cell));
+  const uint64_t *word = work->tiles.word + grid->start[at->cell];
   const struct crowd_node *node;
   while ((node = crowd_next(grid->crowd, &walk, &shape)) != NULL) {
     const struct crowd_member *member = grid->crowd->member.item + node->from;
-    for (uint32_t i = 0; i < node->count && !task->strokes->whole; i++)
-      if (octagon_meets(word[member[i].place], question) &&
-          !ask_triangle(work, task, member[i].triangle))
-        return false;
-    if (task->strokes->whole) return true;
+    for (uint32_t i = 0; i < node->count; i++) {
+      if (!octagon_meets(word[member[i].place], at->question)) continue;
+      if (!ask_triangle(work, task, member[i].triangle)) return false;
+      if (task->strokes->whole) return true;
+      put_question(at, task);
+    }
+    shape.p[0] = task->end[0];
+    shape.p[1] = task->end[1];
   }
   return true;
 }
@@ -260,17 +307,17 @@ static bool ask_list(const struct tiles_work *work, struct edge_task *task,
   const struct tilemap *map = &work->tiles;
   size_t cell = (size_t)y * (size_t)map->grid.columns + (size_t)x;
   uint32_t i = map->grid.start[cell], end = map->grid.start[cell + 1];
-  struct octagon_frame frame;
-  uint64_t question;
+  struct cell_task at = {.cell = cell, .share = -1};
   if (i == end) return true;
-  frame = tilemap_frame(map, x, y);
-  question = octagon_question(&frame, &task->octagon);
+  at.frame = tilemap_frame(map, x, y);
+  put_question(&at, task);
   if (pagegrid_crowd(&map->grid, cell) != SHEET_NONE)
-    return ask_crowd(work, task, cell, question);
+    return ask_crowd(work, task, &at);
   for (;; i++) {
-    while (i < end && !octagon_meets(map->word[i], question)) i++;
+    while (i < end && !octagon_meets(map->word[i], at.question)) i++;
     if (i == end || task->strokes->whole) return true;
     if (!ask_triangle(work, task, map->grid.item[i])) return false;
+    put_question(&at, task);
   }
 }
 
@@ -283,13 +330,15 @@ static bool solve_edge(const struct tiles_work *work, uint32_t e,
   task->triangle[1] = edge->triangle[1];
   task->p = work->sheet->point.item[edge->point[0]];
   task->q = work->sheet->point.item[edge->point[1]];
-  task->box = page_box_of_segment(task->p, task->q);
   task->octagon = octagon_of_point(task->p);
   octagon_add(&task->octagon, task->q);
-  r = pagegrid_cells(grid, task->box);
+  r = pagegrid_cells(grid, page_box_of_segment(task->p, task->q));
   task->several = r.x0 < r.x1 || r.y0 < r.y1;
   if (task->several) pagegrid_query_start(grid, task->query);
   strokes_start(task->strokes);
+  task->share = 1;
+  task->end[0] = task->p;
+  task->end[1] = task->q;
   for (int y = r.y0; y <= r.y1; y++) {
     int x0, x1;
     pagegrid_row(grid, task->p, task->q, r, y, &x0, &x1);
