@@ -165,6 +165,20 @@ void scenes_pipe(struct scene *scene, recto_options *options, unsigned n,
                  unsigned rings);
 /* A fan of n triangles about one vertex, up and down like a bellows. */
 void scenes_fan(struct scene *scene, recto_options *options, unsigned n);
+enum scenes_crowd {
+  SCENES_CROWD_DISC,     /* polygons of n corners: a convex one, ... */
+  SCENES_CROWD_COMB,     /* ... long teeth, ... */
+  SCENES_CROWD_SPIRAL,   /* ... a strip rolled up, ... */
+  SCENES_CROWD_SPIKES,   /* ... a star with spikes at random */
+  SCENES_CROWD_FLAT_FAN, /* n triangles about one vertex: in a plane, ... */
+  SCENES_CROWD_CONE,     /* ... a cone, ... */
+  SCENES_CROWD_UMBRELLA, /* ... a cone with a torn rim */
+  SCENES_CROWD_COUNT
+};
+
+/* Very many needles in one place (less than four corners may be left out). */
+void scenes_crowd(struct scene *scene, recto_options *options,
+                  enum scenes_crowd crowd, unsigned n, uint64_t seed);
 /* n triangles at random that pierce each other. */
 void scenes_soup(struct scene *scene, recto_options *options, unsigned n,
                  uint64_t seed);

@@ -1,0 +1,104 @@
+/* test_failures_crowds.c - many needles in one place (rows 16 and 29): it ends,
+ * with the right drawing, and pairs are not met all with all. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/scenes/pipeline.h"
+
+static void fill_crowd(struct scene *scene, recto_options *options,
+                       enum scenes_crowd crowd, unsigned n) {
+  recto_options_init(options);
+  scene_init(scene);
+  scenes_crowd(scene, options, crowd, n, 7 + crowd);
+  options->edges = RECTO_EDGES_ALL;
+  options->min_stroke_mm = 0;
+  options->precision = 6;
+  options->threads = 1;
+}
+
+/* All pairs of whatever that were looked at. */
+static int64_t count_pairs(enum scenes_crowd crowd, unsigned n,
+                           const struct solver *solver) {
+  struct scene scene;
+  recto_options options;
+  struct pipeline pipeline;
+  fill_crowd(&scene, &options, crowd, n);
+  pipeline_run(&pipeline, &scene, &options, solver);
+  assert_int_equal(pipeline.status, RECTO_OK);
+  int64_t pairs = report_get(pipeline.report, "hide", "pairs", 0) +
+                  report_get(pipeline.report, "pierce", "pairs_met", 0);
+  pipeline_fini(&pipeline);
+  scene_fini(&scene);
+  return pairs;
+}
+
+static void row_29_pairs_grow_as_the_corners_do(void **state) {
+  (void)state;
+  /* But for the umbrella, whose needles truly cover one another. */
+  for (int crowd = 0; crowd < SCENES_CROWD_UMBRELLA; crowd++) {
+    const unsigned n = 16000;
+    int64_t pairs = count_pairs((enum scenes_crowd)crowd, n, &solver_tiles);
+    /* All with all would be 8000 times n. */
+    if (pairs > 500 * (int64_t)n)
+      fail_msg("crowd %d: %ld pairs", crowd, (long)pairs);
+  }
+}
+
+/* A crowd must be large enough to be parted; then it is parted rightly. */
+static void row_29_solvers_agree_about_crowds(void **state) {
+  (void)state;
+  const struct solver *other[] = {&solver_tiles, &solver_warnock,
+                                  &solver_newell};
+  for (int crowd = 0; crowd < SCENES_CROWD_COUNT; crowd++) {
+    struct scene scene;
+    recto_options options;
+    size_t length;
+    fill_crowd(&scene, &options, (enum scenes_crowd)crowd, 1300);
+    char *right = pipeline_draw(&scene, &options, &solver_brute, &length);
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++) {
+      char *text = pipeline_draw(&scene, &options, other[i], &length);
+      if (strcmp(right, text) != 0)
+        fail_msg("crowd %d by %s", crowd, other[i]->name);
+      mem_free(text);
+    }
+    mem_free(right);
+    scene_fini(&scene);
+  }
+}
+
+static void row_29_a_bellows_of_1300_is_the_same_by_all(void **state) {
+  (void)state;
+  struct scene scene;
+  recto_options options;
+  size_t length;
+  recto_options_init(&options);
+  scene_init(&scene);
+  scenes_fan(&scene, &options, 1300);
+  options.threads = 1;
+  char *tiles = pipeline_draw(&scene, &options, &solver_tiles, &length);
+  char *brute = pipeline_draw(&scene, &options, &solver_brute, &length);
+  assert_string_equal(tiles, brute);
+  mem_free(tiles);
+  mem_free(brute);
+  scene_fini(&scene);
+}
+
+static void row_29_100000_triangles_on_one_vertex_end(void **state) {
+  (void)state;
+  (void)count_pairs(SCENES_CROWD_CONE, 100000, &solver_tiles);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(row_29_pairs_grow_as_the_corners_do),
+      cmocka_unit_test(row_29_solvers_agree_about_crowds),
+      cmocka_unit_test(row_29_a_bellows_of_1300_is_the_same_by_all),
+      cmocka_unit_test(row_29_100000_triangles_on_one_vertex_end),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
