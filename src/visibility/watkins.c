@@ -9,8 +9,8 @@
  *            an edge that is drawn on one line and on the next is drawn in
  *            between.
  *   Strokes  a line stands for half a pitch up and down, and an edge that ends
- *            between two lines is drawn to its end.  Edges that run more along
- *            the lines than across them, wires, and lines where faces pierce
+ *            between two lines is drawn to its end.  Edges that run along the
+ *            lines rather than across, wires, and lines where faces pierce
  *            each other are followed through the spans of the lines above and
  *            below (trace.h).
  *   Cost     linear in the edges' lines and the intervals; memory linear in

@@ -130,8 +130,9 @@ int watkins_compare(struct watkins *watkins, uint32_t f, uint32_t g, double x);
 
 /* ---- Ends of intervals -------------------------------------------------- */
 
-/* An edge that runs more along the lines than across them is not drawn from
- * interval ends, which would be further apart than the lines are. */
+/* Is the edge drawn from the ends of intervals?  Not one that runs along the
+ * lines rather than across: its ends would be much further apart than the
+ * lines are. */
 bool watkins_is_steep(const struct sheet *sheet, uint32_t side);
 
 /* Of the edges active[first..past), which are at one x, appends those that are

@@ -5,6 +5,10 @@
 
 #include "visibility/watkins.h"
 
+/* What a steep edge may advance along a line, in pitches.  On a soup of 1,000
+ * triangles 1 makes more false ink, 4 misses more; their sum is least at 2. */
+#define STEEP 2
+
 bool watkins_is_steep(const struct sheet *sheet, uint32_t side) {
   const struct sheet_edge *edge;
   const struct geom_point *p, *q;
@@ -13,7 +17,7 @@ bool watkins_is_steep(const struct sheet *sheet, uint32_t side) {
   edge = &sheet->edge.item[side];
   p = &sheet->point.item[edge->point[0]];
   q = &sheet->point.item[edge->point[1]];
-  return llabs((int64_t)q->x - p->x) <= llabs((int64_t)q->y - p->y);
+  return llabs((int64_t)q->x - p->x) <= STEEP * llabs((int64_t)q->y - p->y);
 }
 
 /* Is it the background or the edge's own facet? */
