@@ -190,28 +190,35 @@ static void trace(cairo_t *cr, const struct drawing_point *point,
   cairo_new_sub_path(cr);
 }
 
+/* A fill, or the stroke that closes its seams. */
 static void draw_fill(cairo_t *cr, const struct drawing *drawing,
-                      const struct drawing_fill *fill) {
+                      const struct drawing_fill *fill, bool seam) {
   set_colour(cr, fill->colour);
   for (uint32_t i = 0; i < fill->loops; i++) {
     const struct drawing_loop *loop = &drawing->loop.item[fill->loop + i];
     trace(cr, drawing->point.item + loop->point, loop->count, true);
   }
-  if (drawing->seam_mm > 0) {
-    cairo_fill_preserve(cr);
-    cairo_set_line_width(cr, drawing->seam_mm);
+  if (seam)
     cairo_stroke(cr);
-  } else {
+  else
     cairo_fill(cr);
-  }
+}
+
+/* The strokes that close seams come below all fills of the layer, so that
+ * nothing is painted over. */
+static void draw_fills(cairo_t *cr, const struct drawing *drawing,
+                       uint32_t layer) {
+  cairo_set_line_width(cr, drawing->seam_mm);
+  for (int seam = drawing->seam_mm > 0; seam >= 0; seam--)
+    for (size_t i = 0; i < drawing->fill.count; i++)
+      if (drawing->fill.item[i].layer == layer)
+        draw_fill(cr, drawing, &drawing->fill.item[i], seam);
 }
 
 static void draw_layer(cairo_t *cr, const struct drawing *drawing,
                        uint32_t index) {
   const struct drawing_layer *layer = &drawing->layer.item[index];
-  for (size_t i = 0; i < drawing->fill.count; i++)
-    if (drawing->fill.item[i].layer == index)
-      draw_fill(cr, drawing, &drawing->fill.item[i]);
+  draw_fills(cr, drawing, index);
   set_colour(cr, layer->colour);
   cairo_set_line_width(cr, layer->width_mm);
   for (size_t i = 0; i < drawing->stroke.count; i++) {

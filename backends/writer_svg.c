@@ -210,8 +210,24 @@ static bool write_stroke(struct svg *svg, const struct drawing_stroke *stroke) {
   return true;
 }
 
-static bool write_fill(struct svg *svg, const struct drawing_fill *fill) {
+/* Begins the element of a fill, or of the stroke that closes its seams, which
+ * takes all but its colour from around it. */
+static void open_fill(const struct svg *svg, const struct drawing_fill *fill,
+                      bool seam) {
   struct stream *out = svg->out;
+  stream_text(out, "<path");
+  if (svg->drawing->ids && !seam) {
+    write_id(svg, " data-face=\"", fill->face);
+    write_group_name(svg, fill->group);
+  }
+  stream_text(out, seam ? " stroke=\"" : " fill=\"");
+  write_colour(out, fill->colour);
+  stream_text(out, seam ? "\" d=\""
+                        : "\" fill-rule=\"evenodd\" stroke=\"none\" d=\"");
+}
+
+static bool write_fill(struct svg *svg, const struct drawing_fill *fill,
+                       bool seam) {
   bool open = false;
   for (uint32_t i = 0; i < fill->loops; i++) {
     const struct drawing_loop *loop = &svg->drawing->loop.item[fill->loop + i];
@@ -219,29 +235,35 @@ static bool write_fill(struct svg *svg, const struct drawing_fill *fill) {
       return false;
     if (svg->point.count < 3)
       continue;
-    if (!open) {
-      stream_text(out, "<path");
-      if (svg->drawing->ids) {
-        write_id(svg, " data-face=\"", fill->face);
-        write_group_name(svg, fill->group);
-      }
-      stream_text(out, " fill=\"");
-      write_colour(out, fill->colour);
-      stream_text(out, "\" fill-rule=\"evenodd\" stroke=\"");
-      if (svg->drawing->seam_mm > 0) {
-        write_colour(out, fill->colour);
-        stream_text(out, "\" stroke-width=\"");
-        write_length(svg, svg->drawing->seam_mm);
-      } else {
-        stream_text(out, "none");
-      }
-      stream_text(out, "\" d=\"");
-      open = true;
-    }
+    if (!open)
+      open_fill(svg, fill, seam);
+    open = true;
     write_path_data(svg, true);
   }
   if (open)
-    stream_text(out, "\"/>\n");
+    stream_text(svg->out, "\"/>\n");
+  return true;
+}
+
+/* The strokes that close the seams of a layer's fills: below them all, so that
+ * nothing is painted over. */
+static bool write_seams(struct svg *svg, uint32_t layer) {
+  const struct drawing *drawing = svg->drawing;
+  bool open = false;
+  for (size_t i = 0; drawing->seam_mm > 0 && i < drawing->fill.count; i++) {
+    if (drawing->fill.item[i].layer != layer)
+      continue;
+    if (!open) {
+      stream_text(svg->out, "<g class=\"seam\" stroke-width=\"");
+      write_length(svg, drawing->seam_mm);
+      stream_text(svg->out, "\">\n");
+      open = true;
+    }
+    if (!write_fill(svg, &drawing->fill.item[i], true))
+      return false;
+  }
+  if (open)
+    stream_text(svg->out, "</g>\n");
   return true;
 }
 
@@ -258,9 +280,11 @@ static bool write_layer(struct svg *svg, uint32_t index) {
   stream_text(out, "\" stroke-width=\"");
   write_length(svg, layer->width_mm);
   stream_text(out, "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
+  if (!write_seams(svg, index))
+    return false;
   for (size_t i = 0; i < drawing->fill.count; i++)
     if (drawing->fill.item[i].layer == index &&
-        !write_fill(svg, &drawing->fill.item[i]))
+        !write_fill(svg, &drawing->fill.item[i], false))
       return false;
   for (size_t i = 0; i < drawing->stroke.count; i++)
     if (drawing->stroke.item[i].layer == index &&

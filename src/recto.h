@@ -227,8 +227,8 @@ typedef struct recto_options {
 
   /* Ink. */
   int hidden_layers; /* hidden parts behind at most so many faces; 0: all */
-  double seam_mm;    /* fills reach over their borders by half of this, so that
-                        viewers show no hairlines; 0 to 10 */
+  double seam_mm;    /* below all fills, each reaches over its borders by half
+                        of this, so that viewers show no hairlines; 0 to 10 */
 
   /* The output's finest step, see recto_output_unit_mm: lines that it cannot
    * tell apart are drawn once.  0: only those on the same place of the page */

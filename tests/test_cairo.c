@@ -338,8 +338,9 @@ static bool shows_a_seam(double seam_mm) {
   struct fixture f;
   bool seam = false;
   begin(&f, 100, 50);
-  uint32_t layer = maker_layer(&f.drawing, 1, 1, 0);
-  maker_fill(&f.drawing, layer, 0, (double[]){10, 10, 41, 10, 41, 43, 10, 43},
+  uint32_t below = maker_layer(&f.drawing, 1, 1, 0);
+  uint32_t layer = maker_layer(&f.drawing, 2, 1, 0);
+  maker_fill(&f.drawing, below, 0, (double[]){10, 10, 41, 10, 41, 43, 10, 43},
              4);
   maker_fill(&f.drawing, layer, 0xffffff, (double[]){10, 10, 41, 10, 41, 43},
              3);
@@ -360,6 +361,25 @@ static void a_seam_closes_the_hairline(void **state) {
   (void)state;
   assert_true(shows_a_seam(0));
   assert_false(shows_a_seam(0.2));
+}
+
+/* Neither the fill drawn first nor the last reaches over the other. */
+static void a_seam_paints_nothing_over(void **state) {
+  struct fixture f;
+  (void)state;
+  begin(&f, 100, 50);
+  uint32_t layer = maker_layer(&f.drawing, 1, 1, 0);
+  maker_fill(&f.drawing, layer, 0xff0000,
+             (double[]){10, 10, 20, 10, 20, 40, 10, 40}, 4);
+  maker_fill(&f.drawing, layer, 0x00ff00,
+             (double[]){20, 10, 30, 10, 30, 40, 20, 40}, 4);
+  f.drawing.seam_mm = 2;
+  f.options.dpi = 254;
+  paint(&f);
+  assert_int_equal(colour_at(&f, 19.85, 25.05), 0xff0000);
+  assert_int_equal(colour_at(&f, 20.15, 25.05), 0x00ff00);
+  assert_int_equal(colour_at(&f, 30.85, 25.05), 0x00ff00);
+  end(&f);
 }
 
 /* ---- Files --------------------------------------------------------------- */
@@ -442,6 +462,7 @@ int main(void) {
       cmocka_unit_test(holes_stay_white_and_strokes_lie_on_fills),
       cmocka_unit_test(a_later_layer_covers_an_earlier_one),
       cmocka_unit_test(a_seam_closes_the_hairline),
+      cmocka_unit_test(a_seam_paints_nothing_over),
       cmocka_unit_test(the_same_drawing_gives_the_same_bytes),
       cmocka_unit_test(a_full_disk_leaves_no_file),
   };

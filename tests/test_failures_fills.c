@@ -71,7 +71,7 @@ static bool is_white(const struct picture *picture, int x, int y) {
   return (pixel & 0xffffff) == 0xffffff;
 }
 
-/* All fills white, and before them one of the whole page, black. */
+/* All fills white, and on a layer below them one of the whole page, black. */
 static void blacken_page(struct drawing *drawing) {
   const double w = drawing->width_mm, h = drawing->height_mm;
   const struct drawing_point corner[] = {{0, 0}, {w, 0}, {w, h}, {0, h}};
@@ -81,8 +81,11 @@ static void blacken_page(struct drawing *drawing) {
   assert_true(ARRAY_PUSH(&drawing->loop, loop));
   for (int i = 0; i < 4; i++)
     assert_true(ARRAY_PUSH(&drawing->point, corner[i]));
-  for (size_t i = 0; i < drawing->fill.count; i++)
+  assert_true(ARRAY_PUSH(&drawing->layer, drawing->layer.item[0]));
+  for (size_t i = 0; i < drawing->fill.count; i++) {
     drawing->fill.item[i].colour = 0xffffff;
+    drawing->fill.item[i].layer++;
+  }
   assert_true(ARRAY_PUSH(&drawing->fill, page));
   memmove(drawing->fill.item + 1, drawing->fill.item,
           (drawing->fill.count - 1) * sizeof *drawing->fill.item);

@@ -279,12 +279,20 @@ static void a_fill_without_area_is_not_written(void **state) {
   assert_lacks(write_it(f), "<path");
 }
 
-static void a_seam_is_a_stroke_of_the_fill_s_colour(void **state) {
+static void seams_are_strokes_below_all_fills(void **state) {
   struct fixture *f = *state;
   f->drawing.seam_mm = 0.05;
-  add_fill(f, 1);
-  add_loop(f, (double[]){0, 100, 10, 100, 10, 90}, 3);
-  assert_has(write_it(f), "stroke=\"#aa5500\" stroke-width=\"0.05\"");
+  for (uint32_t i = 0; i < 2; i++) {
+    add_fill(f, 1);
+    add_loop(f, (double[]){0, 100, 10, 100, 10, 90}, 3);
+  }
+  assert_has(write_it(f), "<g class=\"seam\" stroke-width=\"0.05\">\n"
+                          "<path stroke=\"#aa5500\" d=\"M0 0L10 0L10 10Z\"/>\n"
+                          "<path stroke=\"#aa5500\" d=\"M0 0L10 0L10 10Z\"/>\n"
+                          "</g>\n");
+  const char *seams_end = strstr(f->svg, "</g>");
+  assert_null(strstr(seams_end, "stroke=\"#aa5500\""));
+  assert_non_null(strstr(seams_end, "<path fill=\"#aa5500\""));
 }
 
 /* ---- Ids and names ------------------------------------------------------- */
@@ -432,7 +440,7 @@ int main(void) {
       T(fills_come_before_strokes),
       T(holes_are_loops_of_one_path),
       T(a_fill_without_area_is_not_written),
-      T(a_seam_is_a_stroke_of_the_fill_s_colour),
+      T(seams_are_strokes_below_all_fills),
       T(ids_are_written_only_when_asked_for),
       T(ids_that_are_not_there_are_left_out),
       T(names_are_escaped),

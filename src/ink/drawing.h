@@ -46,7 +46,7 @@ struct drawing_layer {
 
 struct drawing {
   double width_mm, height_mm; /* the page */
-  double seam_mm;             /* > 0: fills get a stroke of their colour */
+  double seam_mm;             /* > 0: below the fills, strokes of their colours */
   ARRAY(struct drawing_layer) layer;
   ARRAY(struct drawing_stroke) stroke; /* in drawing order within a layer */
   ARRAY(struct drawing_fill) fill;
