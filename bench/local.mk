@@ -1,6 +1,7 @@
 # bench/local.mk - make bench: how long things take, what memory, and how far
 # from the truth.
-EXTRA_PROGRAMS = %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/order
+EXTRA_PROGRAMS = %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/order \
+  %D%/hard
 %C%_bench_SOURCES = %D%/bench.c %D%/model.c %D%/model.h %D%/table.c \
   %D%/table.h
 %C%_bench_LDADD = tests/scenes/libscenes.la librecto_core.la
@@ -15,11 +16,13 @@ EXTRA_PROGRAMS = %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/order
   librecto_core.la -lm
 %C%_order_SOURCES = %D%/order.c
 %C%_order_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
+%C%_hard_SOURCES = %D%/hard.c %D%/table.c %D%/table.h
+%C%_hard_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
 CLEANFILES += $(EXTRA_PROGRAMS) %D%/accuracy.svg
 
 # BENCH_METHODS  the methods to measure; else newell and auto
 bench: recto$(EXEEXT) $(EXTRA_PROGRAMS) bench-accuracy bench-order \
-  bench-dense
+  bench-dense bench-hard
 	$(AM_TESTS_ENVIRONMENT) %D%/bench$(EXEEXT) ./recto$(EXEEXT) \
 	  %D%/zraster$(EXEEXT) $(srcdir)/examples/models $(BENCH_METHODS)
 
@@ -36,4 +39,9 @@ bench-order: %D%/order$(EXEEXT)
 bench-dense: recto$(EXEEXT) %D%/dense$(EXEEXT) %D%/zraster$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) %D%/dense$(EXEEXT) ./recto$(EXEEXT) \
 	  %D%/zraster$(EXEEXT) $(srcdir)/examples/models $(BENCH_LEVELS)
-.PHONY: bench bench-accuracy bench-order bench-dense
+# What such programs never end with, by every exact method and by auto.
+bench-hard: %D%/hard$(EXEEXT)
+	$(AM_TESTS_ENVIRONMENT) %D%/hard$(EXEEXT)
+
+.PHONY: bench bench-accuracy bench-order bench-dense \
+  bench-hard
