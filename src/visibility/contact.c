@@ -11,6 +11,28 @@ struct triangle_plane triangle_plane_of(const struct sheet *sheet,
   return t;
 }
 
+/* Does some side of f have all of g on its right, or on it? */
+static bool is_parted_by_side(const struct geom_point f[3],
+                              const struct geom_point g[3]) {
+  for (int k = 0; k < 3; k++) {
+    struct geom_point a = f[k], b = f[k == 2 ? 0 : k + 1];
+    if (geom_orient2d(a, b, g[0]) <= 0 && geom_orient2d(a, b, g[1]) <= 0 &&
+        geom_orient2d(a, b, g[2]) <= 0)
+      return true;
+  }
+  return false;
+}
+
+/* Two convex figures that part do so along a side of one of them. */
+bool triangles_part(const struct sheet *sheet, uint32_t f, uint32_t g) {
+  const uint32_t *i = sheet->triangle.item[f].point,
+                 *j = sheet->triangle.item[g].point;
+  const struct geom_point *point = sheet->point.item;
+  const struct geom_point p[3] = {point[i[0]], point[i[1]], point[i[2]]},
+                          q[3] = {point[j[0]], point[j[1]], point[j[2]]};
+  return is_parted_by_side(p, q) || is_parted_by_side(q, p);
+}
+
 void triangle_lines(const struct sheet *sheet, uint32_t triangle,
                     struct geom_line line[3], struct geom_line back[3]) {
   const uint32_t *p = sheet->triangle.item[triangle].point;

@@ -20,6 +20,11 @@ struct triangle_plane {
 struct triangle_plane triangle_plane_of(const struct sheet *sheet,
                                         uint32_t triangle);
 
+/* Do two triangles, counter-clockwise and not flat, share no inner point of the
+ * page?  Neighbours do not, and most of what is about a face are neighbours.
+ * Exact. */
+bool triangles_part(const struct sheet *sheet, uint32_t f, uint32_t g);
+
 /* The three lines of a triangle's sides, and the same turned round. */
 void triangle_lines(const struct sheet *sheet, uint32_t triangle,
                               struct geom_line line[3],

@@ -102,7 +102,8 @@ bool cover_take_nearer(struct cover *cover, uint32_t g) {
   struct geom_line line[4], back[4];
   struct triangle_plane plane;
   enum nearness nearness;
-  if (page_boxes_apart(cover->box, page_box_of_triangle(cover->sheet, g)))
+  if (page_boxes_apart(cover->box, page_box_of_triangle(cover->sheet, g)) ||
+      triangles_part(cover->sheet, cover->triangle, g))
     return true;
   plane = triangle_plane_of(cover->sheet, g);
   nearness = triangle_nearness(&cover->plane, cover->triangle, &plane, g,

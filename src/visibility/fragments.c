@@ -48,6 +48,7 @@ static bool find_touching(struct fragments *f, uint32_t triangle) {
     if (g < triangle && !(sheet->triangle_flags[g] & SHEET_FLAT) &&
         sheet->triangle.item[g].face != sheet->triangle.item[triangle].face &&
         !page_boxes_apart(box, page_box_of_triangle(sheet, g)) &&
+        !triangles_part(sheet, triangle, g) &&
         triangles_touch(sheet, triangle, g))
       f->query.found.item[kept++] = g;
   }
