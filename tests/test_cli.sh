@@ -168,6 +168,16 @@ draws_in_silence() {
 }
 claim "a drawing is made in silence" draws_in_silence
 
+# No pitch is no pitch, said or not; with one there are lines.
+pitch_may_be_exact() {
+  run 0 cube.obj -o said.svg --method watkins --pitch exact &&
+    run 0 cube.obj -o unsaid.svg --method watkins &&
+    cmp -s said.svg unsaid.svg &&
+    run 0 cube.obj -o lines.svg --method watkins --pitch 3 --stats=pitch.json &&
+    grep -q '"lines": 99' pitch.json
+}
+claim "--pitch exact is watkins without lines" pitch_may_be_exact
+
 # time_adds_up DOWN UP [OPTION]... - the time of --stats is that of these speeds
 # in cm/s, and 0.2 s for every pen lift.
 time_adds_up() {

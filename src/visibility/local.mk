@@ -38,6 +38,7 @@ librecto_core_la_SOURCES += \
   %D%/warnock_window.c %D%/warnock_window.h \
   %D%/watkins.c %D%/watkins.h \
   %D%/watkins_cells.c %D%/watkins_cells.h \
+  %D%/watkins_edges.c \
   %D%/watkins_ends.c \
   %D%/watkins_exact.c %D%/watkins_exact.h \
   %D%/watkins_interval.c \
