@@ -93,12 +93,53 @@ static void row_29_100000_triangles_on_one_vertex_end(void **state) {
   (void)count_pairs(SCENES_CROWD_CONE, 100000, &solver_tiles);
 }
 
+static void check_soup(unsigned n, const struct solver *const *solver) {
+  struct scene scene;
+  recto_options options;
+  char *first = NULL;
+  size_t length;
+  recto_options_init(&options);
+  scene_init(&scene);
+  scenes_soup(&scene, &options, n, 3);
+  options.edges = RECTO_EDGES_ALL;
+  options.min_stroke_mm = 0;
+  options.precision = 6;
+  options.threads = 1;
+  for (; *solver != NULL; solver++) {
+    char *text = pipeline_draw(&scene, &options, *solver, &length);
+    if (first == NULL)
+      first = text;
+    else if (strcmp(first, text) != 0)
+      fail_msg("soup of %u by %s", n, (*solver)->name);
+    if (first != text)
+      mem_free(text);
+  }
+  mem_free(first);
+  scene_fini(&scene);
+}
+
+static void soups_that_pierce_are_the_same_by_all(void **state) {
+  (void)state;
+  const struct solver *const all[] = {&solver_brute, &solver_tiles,
+                                      &solver_warnock, &solver_newell, NULL};
+  check_soup(100, all);
+  check_soup(1000, all);
+}
+
+static void a_soup_of_10000_is_the_same_by_tiles_and_warnock(void **state) {
+  (void)state;
+  const struct solver *const two[] = {&solver_tiles, &solver_warnock, NULL};
+  check_soup(10000, two);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(row_29_pairs_grow_as_the_corners_do),
       cmocka_unit_test(row_29_solvers_agree_about_crowds),
       cmocka_unit_test(row_29_a_bellows_of_1300_is_the_same_by_all),
       cmocka_unit_test(row_29_100000_triangles_on_one_vertex_end),
+      cmocka_unit_test(soups_that_pierce_are_the_same_by_all),
+      cmocka_unit_test(a_soup_of_10000_is_the_same_by_tiles_and_warnock),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
