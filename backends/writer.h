@@ -25,6 +25,7 @@ struct writer {
   const char *extensions; /* "svg", space-separated */
   /* The step in mm to which it rounds the points of strokes. */
   double (*unit_mm)(const struct writer_options *options);
+  bool one_width; /* all lines of a pen are as wide: weights are nothing */
   recto_status (*write)(const struct drawing *drawing,
                         const struct writer_options *options,
                         struct stream *stream, recto_error *error);

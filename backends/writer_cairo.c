@@ -161,7 +161,7 @@ static struct window find_window(const struct drawing *drawing, bool tight) {
   for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     include_points(&ink, drawing->point.item + stroke->point, stroke->count,
-                   drawing->layer.item[stroke->layer].width_mm / 2);
+                   drawing_width_mm(drawing, stroke) / 2);
   }
   for (size_t i = 0; i < drawing->fill.count; i++) {
     const struct drawing_fill *fill = &drawing->fill.item[i];
@@ -220,11 +220,11 @@ static void draw_layer(cairo_t *cr, const struct drawing *drawing,
   const struct drawing_layer *layer = &drawing->layer.item[index];
   draw_fills(cr, drawing, index);
   set_colour(cr, layer->colour);
-  cairo_set_line_width(cr, layer->width_mm);
   for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     if (stroke->layer != index)
       continue;
+    cairo_set_line_width(cr, drawing_width_mm(drawing, stroke));
     trace(cr, drawing->point.item + stroke->point, stroke->count,
           stroke->closed);
     cairo_stroke(cr);

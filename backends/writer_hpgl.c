@@ -278,4 +278,5 @@ static double find_unit(const struct writer_options *options) {
 const struct writer writer_hpgl = {.name = "hpgl",
                                    .extensions = "hpgl plt",
                                    .unit_mm = find_unit,
+                                   .one_width = true,
                                    .write = write_hpgl};

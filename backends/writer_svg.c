@@ -267,9 +267,69 @@ static bool write_seams(struct svg *svg, uint32_t layer) {
   return true;
 }
 
-static bool write_layer(struct svg *svg, uint32_t index) {
+/* What stands between <g> and </g> within a layer: lines or fills of one
+ * class, for style sheets; one class costs a group, not a word a line. */
+struct style {
+  const char *word; /* NULL: none is open */
+  double width_mm;
+};
+
+static const char *class_of(const struct drawing_stroke *stroke) {
+  return stroke->hidden            ? "hidden"
+         : stroke->edge_class == 0 ? "hatch"
+                                   : recto_edge_class_name(
+                                         (recto_edge_class)stroke->edge_class);
+}
+
+static void close_style(const struct svg *svg, struct style *style) {
+  if (style->word)
+    stream_text(svg->out, "</g>\n");
+  style->word = NULL;
+}
+
+/* Opens a group of that class unless it is open; its width is told where it
+ * is not the layer's. */
+static void open_style(const struct svg *svg, struct style *style,
+                       const char *word, double width_mm, double usual_mm) {
+  if (style->word && strcmp(style->word, word) == 0 &&
+      style->width_mm == width_mm)
+    return;
+  close_style(svg, style);
+  stream_text(svg->out, "<g class=\"");
+  stream_text(svg->out, word);
+  if (width_mm != usual_mm) {
+    stream_text(svg->out, "\" stroke-width=\"");
+    write_length(svg, width_mm);
+  }
+  stream_text(svg->out, "\">\n");
+  *style = (struct style){word, width_mm};
+}
+
+/* The fills of a layer, then its strokes. */
+static bool write_contents(struct svg *svg, uint32_t index) {
   const struct drawing *drawing = svg->drawing;
-  const struct drawing_layer *layer = &drawing->layer.item[index];
+  double width_mm = drawing->layer.item[index].width_mm;
+  struct style style = {NULL, 0};
+  bool done = write_seams(svg, index);
+  for (size_t i = 0; i < drawing->fill.count && done; i++)
+    if (drawing->fill.item[i].layer == index) {
+      open_style(svg, &style, "fill", width_mm, width_mm);
+      done = write_fill(svg, &drawing->fill.item[i], false);
+    }
+  for (size_t i = 0; i < drawing->stroke.count && done; i++) {
+    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    if (stroke->layer != index)
+      continue;
+    open_style(svg, &style, class_of(stroke), drawing_width_mm(drawing, stroke),
+               width_mm);
+    done = write_stroke(svg, stroke);
+  }
+  close_style(svg, &style);
+  return done;
+}
+
+static bool write_layer(struct svg *svg, uint32_t index) {
+  const struct drawing_layer *layer = &svg->drawing->layer.item[index];
   struct stream *out = svg->out;
   stream_text(out, "<g id=\"layer");
   stream_int(out, (int64_t)index + 1);
@@ -280,16 +340,8 @@ static bool write_layer(struct svg *svg, uint32_t index) {
   stream_text(out, "\" stroke-width=\"");
   write_length(svg, layer->width_mm);
   stream_text(out, "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
-  if (!write_seams(svg, index))
+  if (!write_contents(svg, index))
     return false;
-  for (size_t i = 0; i < drawing->fill.count; i++)
-    if (drawing->fill.item[i].layer == index &&
-        !write_fill(svg, &drawing->fill.item[i], false))
-      return false;
-  for (size_t i = 0; i < drawing->stroke.count; i++)
-    if (drawing->stroke.item[i].layer == index &&
-        !write_stroke(svg, &drawing->stroke.item[i]))
-      return false;
   stream_text(out, "</g>\n");
   return true;
 }

@@ -244,6 +244,21 @@ typedef struct recto_options {
 
   bool hatch_inset; /* without a light: hatching ends half a pen inside, so that
                        no ink lies beyond what is visible */
+
+  /* Pens: lists such as "silhouette=2,hidden=3"; NULL: none.  The keys of the
+   * first are hidden, hatch, a class's word or a group's name (or its part
+   * between two of the strokes that join object, group and material), its
+   * values pens, 1 to 1000.  Of what holds for a line the first counts, in
+   * that order; what is not named is as `pens` says. */
+  const char *pen_for;
+  const char *pen_widths;  /* pens and their width, "2=0.5mm,3=0.7" */
+  const char *pen_colours; /* pens and their colour, "2=#c00,3=00ff00" */
+
+  /* How many pens wide the visible lines of a class are in SVG, PDF, EPS, PS
+   * and PNG, such as "silhouette=2,wire=0.5"; lines of different weight are
+   * different strokes.  "none": all are one pen wide; NULL: silhouettes and
+   * borders are 2 wide unless there are several pens. */
+  const char *weights;
 } recto_options;
 
 /* Fills `options` with the defaults: auto, isometric, A4 portrait with a
@@ -328,6 +343,11 @@ const char *recto_output_format(const char *path, const char *format);
  * format. */
 double recto_output_unit_mm(const char *path, const char *format,
                             const recto_options *options);
+
+/* Sets what the drawing should know of its output: unit_mm, and where weights
+ * is NULL and the format is for plotters, whose pens have one width, "none". */
+void recto_options_suit(recto_options *options, const char *path,
+                        const char *format);
 
 /* The output format at `index`, such as "svg"; NULL past the last. */
 const char *recto_output_format_name(size_t index);

@@ -20,6 +20,7 @@ void inked_start(struct inked *k) {
   drawing_init(&k->drawing);
   recto_options_init(&k->options);
   k->options.min_stroke_mm = 0;
+  k->options.weights = "none";
   k->sheet.camera.page_mm[0] = k->sheet.camera.page_mm[1] = PAGE_MM;
   k->sheet.camera.right[0] = k->sheet.camera.up[1] = 1;
   k->sheet.camera.back[2] = 1;

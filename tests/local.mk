@@ -137,7 +137,8 @@ unit_tests += %D%/test_api
 # Ink, on sheets and maps made by hand.
 unit_tests += %D%/test_ink_net %D%/test_ink_chain %D%/test_ink_clean \
   %D%/test_ink_fill %D%/test_ink_engrave %D%/test_ink_order \
-  %D%/test_ink_draw %D%/test_ink_merge
+  %D%/test_ink_draw %D%/test_ink_merge %D%/test_pens
+%C%_test_pens_SOURCES = %D%/test_pens.c %D%/inked.c %D%/inked.h
 %C%_test_ink_merge_SOURCES = %D%/test_ink_merge.c
 %C%_test_ink_merge_LDADD = %D%/scenes/libscenes.la $(LDADD)
 %C%_test_ink_net_SOURCES = %D%/test_ink_net.c %D%/inked.c %D%/inked.h

@@ -138,7 +138,9 @@ static void a_whole_file_is_as_promised(void **state) {
       " inkscape:label=\"1 visible\" fill=\"none\" stroke=\"#000000\""
       " stroke-width=\"0.3\" stroke-linecap=\"round\""
       " stroke-linejoin=\"round\">\n"
+      "<g class=\"crease\">\n"
       "<path d=\"M10 10L20.5 10L20.5 19.75\"/>\n"
+      "</g>\n"
       "</g>\n"
       "</svg>\n");
 }
@@ -258,8 +260,32 @@ static void fills_come_before_strokes(void **state) {
   add_fill(f, 1);
   add_loop(f, (double[]){0, 100, 10, 100, 10, 90}, 3);
   write_it(f);
-  assert_has(f->svg, "<path fill=\"#aa5500\" fill-rule=\"evenodd\" "
-                     "stroke=\"none\" d=\"M0 0L10 0L10 10Z\"/>\n<path d=\"M3");
+  assert_has(f->svg, "<g class=\"fill\">\n"
+                     "<path fill=\"#aa5500\" fill-rule=\"evenodd\" "
+                     "stroke=\"none\" d=\"M0 0L10 0L10 10Z\"/>\n</g>\n"
+                     "<g class=\"crease\">\n<path d=\"M3");
+}
+
+static void lines_that_follow_each_other_share_the_group_of_their_class(
+    void **state) {
+  struct fixture *f = *state;
+  static const unsigned edge_class[] = {
+      RECTO_EDGE_CREASE, RECTO_EDGE_CREASE, RECTO_EDGE_SILHOUETTE, 0,
+      RECTO_EDGE_SILHOUETTE};
+  f->drawing.weight[0] = 2;
+  for (int i = 0; i < 5; i++) {
+    struct drawing_stroke *stroke =
+        add_stroke(f, (double[]){i, 100, i, 90}, 2, false);
+    stroke->edge_class = (uint16_t)edge_class[i];
+    stroke->hidden = i == 4;
+  }
+  assert_has(write_it(f),
+             "<g class=\"crease\">\n<path d=\"M0 0L0 10\"/>\n"
+             "<path d=\"M1 0L1 10\"/>\n</g>\n"
+             "<g class=\"silhouette\" stroke-width=\"0.6\">\n"
+             "<path d=\"M2 0L2 10\"/>\n</g>\n<g class=\"hatch\">\n"
+             "<path d=\"M3 0L3 10\"/>\n</g>\n<g class=\"hidden\">\n"
+             "<path d=\"M4 0L4 10\"/>\n</g>\n</g>\n</svg>");
 }
 
 static void holes_are_loops_of_one_path(void **state) {
@@ -438,6 +464,7 @@ int main(void) {
       T(polylines_are_there_for_the_asking),
       T(strokes_stand_in_their_layers),
       T(fills_come_before_strokes),
+      T(lines_that_follow_each_other_share_the_group_of_their_class),
       T(holes_are_loops_of_one_path),
       T(a_fill_without_area_is_not_written),
       T(seams_are_strokes_below_all_fills),

@@ -82,6 +82,14 @@ double recto_output_unit_mm(const char *path, const char *format,
   return writer != NULL ? writer->unit_mm(&how) : 0;
 }
 
+void recto_options_suit(recto_options *options, const char *path,
+                        const char *format) {
+  const struct writer *writer = find_writer(path, format);
+  options->unit_mm = recto_output_unit_mm(path, format, options);
+  if (options->weights == NULL && writer != NULL && writer->one_width)
+    options->weights = "none";
+}
+
 /* Says why find_writer found none. */
 static recto_status refuse(const char *path, const char *format,
                            recto_error *error) {
@@ -140,7 +148,7 @@ recto_status recto_draw_file(const char *model, const char *from,
     fitting = *options;
   else
     recto_options_init(&fitting);
-  fitting.unit_mm = recto_output_unit_mm(output, to, &fitting);
+  recto_options_suit(&fitting, output, to);
   options = &fitting;
   recto_status status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)

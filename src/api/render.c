@@ -11,6 +11,7 @@
 #include "backends/device.h"
 #include "api/rescale.h"
 #include "ink/ink.h"
+#include "ink/pens.h"
 #include "scene/topology.h"
 #include "view/camera.h"
 #include "view/sheet.h"
@@ -295,8 +296,20 @@ static void report_plotting(struct report *report,
 
 /* ---- All of it ----------------------------------------------------------- */
 
+/* A list of pens that makes no sense is told before the work. */
+static recto_status check_pens(const struct render *render,
+                               recto_error *error) {
+  struct pens pens;
+  recto_status status =
+      pens_init(&pens, &render->model->scene, render->options, error);
+  pens_fini(&pens);
+  return status;
+}
+
 static recto_status run(struct render *render, recto_error *error) {
   recto_status status = check_method(render->options, error);
+  if (status == RECTO_OK)
+    status = check_pens(render, error);
   if (status != RECTO_OK)
     return status;
   report_scene(render->report, render->model);

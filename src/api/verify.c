@@ -62,7 +62,7 @@ static recto_status take_dropped(struct judge_drawing *to,
                                  const struct verify *verify,
                                  recto_error *error) {
   recto_options all = *verify->options;
-  double shortest = all.min_stroke_mm < 0 ? all.pen_mm / 2 : all.min_stroke_mm;
+  double shortest = all.min_stroke_mm;
   if (shortest == 0)
     return RECTO_OK;
   all.min_stroke_mm = 0;
@@ -73,10 +73,13 @@ static recto_status take_dropped(struct judge_drawing *to,
   drawing_init(&drawing);
   recto_status status = ink_draw(&drawing, verify->sheet, verify->scene,
                                  verify->map, &all, error);
-  for (size_t i = 0; status == RECTO_OK && i < drawing.stroke.count; i++)
-    if (length_of(&drawing, &drawing.stroke.item[i]) < shortest &&
-        !take_stroke(to, &drawing, &drawing.stroke.item[i], JUDGE_DROPPED))
+  for (size_t i = 0; status == RECTO_OK && i < drawing.stroke.count; i++) {
+    const struct drawing_stroke *stroke = &drawing.stroke.item[i];
+    double half_pen = drawing.layer.item[stroke->layer].width_mm / 2;
+    if (length_of(&drawing, stroke) < (shortest < 0 ? half_pen : shortest) &&
+        !take_stroke(to, &drawing, stroke, JUDGE_DROPPED))
       status = error_memory(error);
+  }
   drawing_fini(&drawing);
   return status;
 }

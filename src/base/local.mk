@@ -3,6 +3,7 @@ librecto_core_la_SOURCES += \
   %D%/decimal.c %D%/decimal.h \
   %D%/digits.h \
   %D%/input.c %D%/input.h \
+  %D%/length.c %D%/length.h \
   %D%/memory.c %D%/memory.h \
   %D%/number.c %D%/number.h %D%/number_format.c \
   %D%/report.c %D%/report.h \

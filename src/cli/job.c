@@ -151,8 +151,7 @@ static recto_status draw(const struct arguments *arguments,
   recto_drawing *drawing = NULL;
   struct stream *stats;
   recto_options options = arguments->options;
-  options.unit_mm =
-      recto_output_unit_mm(arguments->output, arguments->format, &options);
+  recto_options_suit(&options, arguments->output, arguments->format);
   recto_status status = open_stats(arguments, &stats, error);
   if (status == RECTO_OK)
     status = recto_scene_create(&scene, error);

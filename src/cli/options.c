@@ -118,6 +118,11 @@ static bool take_hidden(struct arguments *arguments, const char *text) {
   return true;
 }
 
+static bool take_path(struct arguments *arguments, const char *text) {
+  arguments->options.polyline = strcmp(text, "polyline") == 0;
+  return arguments->options.polyline || strcmp(text, "path") == 0;
+}
+
 static bool take_verify(struct arguments *arguments, const char *text) {
   const int usual = 4000;
   arguments->options.verify = usual;
@@ -249,6 +254,18 @@ const struct option_entry option_table[] = {
     {OPTION_INT, "pens", 0, "N", "a number from 1 to 1000",
      "deal the groups to so many pens (1)", .offset = AT(options.pens),
      .least = 1, .most = 1000},
+    {OPTION_TEXT, "pen-for", 0, "LIST", "a list such as crease=2",
+     "silhouette=2,hidden=3,hatch=4,GROUP=5: their pens",
+     .offset = AT(options.pen_for)},
+    {OPTION_TEXT, "pen-width", 0, "LIST", "a list such as 2=0.5mm",
+     "2=0.5mm,3=0.7: widths of pens (--pen)",
+     .offset = AT(options.pen_widths)},
+    {OPTION_TEXT, "pen-colour", 0, "LIST", "a list such as 2=#c00",
+     "2=#c00,3=00ff00: colours of pens (black)",
+     .offset = AT(options.pen_colours)},
+    {OPTION_TEXT, "weights", 0, "LIST", "a list such as silhouette=2, or none",
+     "widths of classes in pens (silhouette=2,border=2)",
+     .offset = AT(options.weights)},
     {OPTION_WORD, "order", 0, "HOW", "none or near",
      "near: short ways with the pen up", .offset = AT(options.order),
      .words = "none near"},
@@ -266,8 +283,8 @@ const struct option_entry option_table[] = {
     {OPTION_INT, "precision", 0, "DIGITS", "a number from 0 to 9",
      "SVG: decimals of a millimetre (3)", .offset = AT(options.precision),
      .least = 0, .most = 9},
-    {OPTION_FLAG, "polyline", 0, NULL, NULL,
-     "SVG: polyline elements instead of paths", .offset = AT(options.polyline)},
+    {OPTION_TAKE, "path", 0, "HOW", "path or polyline",
+     "SVG: path (default) or polyline elements", .take = take_path},
     {OPTION_TEXT, "device", 0, "NAME", "a plotter",
      "HPGL: generic (default) drum hp7475a hp7550a dxy",
      .offset = AT(options.device)},

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/length.h"
 #include "base/number.h"
 #include "recto.h"
 
@@ -36,26 +37,11 @@ bool value_int(const char *text, int *number) {
 
 /* ---- Lengths ------------------------------------------------------------- */
 
-/* Millimetres of the unit [text, end), of which nothing is mm; 0 where there
- * is no such unit. */
-static double unit_mm(const char *text, const char *end) {
-  static const struct {
-    const char *name;
-    double mm;
-  } unit[] = {{"", 1}, {"mm", 1}, {"cm", 10}, {"in", 25.4}, {"pt", 25.4 / 72}};
-  size_t length = (size_t)(end - text);
-  for (size_t i = 0; i < sizeof unit / sizeof unit[0]; i++)
-    if (strlen(unit[i].name) == length &&
-        memcmp(unit[i].name, text, length) == 0)
-      return unit[i].mm;
-  return 0;
-}
-
 bool value_length(const char *text, double *mm) {
   const char *end = text + strlen(text);
   double number;
   const char *stop = read_number(text, end, &number);
-  double unit = stop != NULL ? unit_mm(stop, end) : 0;
+  double unit = stop != NULL ? length_unit_mm(stop, end) : 0;
   if (!(unit > 0) || !isfinite(number * unit))
     return false;
   *mm = number * unit;
@@ -121,8 +107,8 @@ bool value_page(const char *text, double *width_mm, double *height_mm) {
   const char *second = read_number(cross + 1, end, &height);
   if (first == NULL || second == NULL)
     return false;
-  double unit = unit_mm(second, end);
-  double first_unit = first == cross ? unit : unit_mm(first, cross);
+  double unit = length_unit_mm(second, end);
+  double first_unit = first == cross ? unit : length_unit_mm(first, cross);
   if (!(width > 0 && height > 0 && unit > 0 && first_unit > 0))
     return false;
   *width_mm = width * first_unit;

@@ -18,6 +18,17 @@ void drawing_fini(struct drawing *drawing) {
   drawing->report = NULL;
 }
 
+double drawing_width_mm(const struct drawing *drawing,
+                        const struct drawing_stroke *stroke) {
+  double width = drawing->layer.item[stroke->layer].width_mm;
+  if (stroke->hidden)
+    return width;
+  for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
+    if (stroke->edge_class == 1u << i && drawing->weight[i] > 0)
+      return width * drawing->weight[i];
+  return width;
+}
+
 static double distance(struct drawing_point a, struct drawing_point b) {
   double dx = b.x - a.x, dy = b.y - a.y;
   return sqrt(dx * dx + dy * dy);

@@ -47,6 +47,9 @@ struct drawing_layer {
 struct drawing {
   double width_mm, height_mm; /* the page */
   double seam_mm;             /* > 0: below the fills, strokes of their colours */
+  /* Widths of a class's visible lines in those of their pen, by place of the
+   * class's bit; 0: 1. */
+  double weight[RECTO_EDGE_CLASS_COUNT];
   ARRAY(struct drawing_layer) layer;
   ARRAY(struct drawing_stroke) stroke; /* in drawing order within a layer */
   ARRAY(struct drawing_fill) fill;
@@ -59,6 +62,10 @@ struct drawing {
 
 void drawing_init(struct drawing *drawing);
 void drawing_fini(struct drawing *drawing);
+
+/* The stroke's width in mm: its layer's, where visible times its weight. */
+double drawing_width_mm(const struct drawing *drawing,
+                        const struct drawing_stroke *stroke);
 
 /* Drawn length in mm; pen-up travel in mm in drawing order, from the lower
  * left corner, over all layers. */

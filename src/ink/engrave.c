@@ -24,7 +24,6 @@
 #include <math.h>
 
 #include "ink/fill.h"
-#include "ink/layers.h"
 #include "ink/light.h"
 #include "ink/ruling.h"
 #include "ink/runs.h"
@@ -44,10 +43,10 @@ static const double covered[LAYERS + 1] = {0, FULL, 0.6, 1 - LIGHT_DARKEST};
 struct engraving {
   struct drawing *drawing;
   const recto_options *options;
+  const struct pens *pens;
   struct tones tones;
   struct ruling ruling[LAYERS];
   double pen; /* its width, for the face at hand, mm */
-  double shortest;
   struct runs runs;
   struct tone tone; /* of the face at hand */
   uint32_t face, layer;
@@ -205,7 +204,7 @@ static bool take_even(struct engraving *e, const struct map *map,
 
 static bool add_stroke(struct engraving *e, const struct run_bit *bit,
                        double u0, double u1) {
-  if (!(u1 - u0 >= e->shortest) || u1 <= u0)
+  if (!(u1 - u0 >= pens_shortest_mm(e->pens, bit->pen)) || u1 <= u0)
     return true;
   struct ruling *r = &e->ruling[bit->cross];
   double each = FULL;
@@ -257,8 +256,8 @@ static bool take_fragments(struct engraving *e, const struct map *map) {
     const struct map_fragment *fragment = &map->fragment.item[i];
     uint32_t group = e->tones.scene->face_group.item[fragment->face];
     e->face = fragment->face;
-    e->layer = layers_pen_of_group(e->options, group);
-    e->pen = e->drawing->layer.item[e->layer].width_mm;
+    e->layer = pens_of_hatch(e->pens, group);
+    e->pen = pens_width_mm(e->pens, e->layer);
     e->tone = tones_of_face(&e->tones, fragment->face);
     if (!(e->tone.even ? take_even : take_curved)(e, map, fragment))
       return false;
@@ -268,9 +267,9 @@ static bool take_fragments(struct engraving *e, const struct map *map) {
 
 bool engrave_add(struct drawing *drawing, const struct sheet *sheet,
                  const struct scene *scene, const struct map *map,
-                 const recto_options *options, double shortest_mm) {
+                 const struct pens *pens, const recto_options *options) {
   struct engraving e = {
-      .drawing = drawing, .options = options, .shortest = shortest_mm};
+      .drawing = drawing, .options = options, .pens = pens};
   /* What is less than an eighth of the pen apart, the ink would join. */
   e.runs.touch = 1.0 / 8;
   e.runs.speck = SPECK_PENS;

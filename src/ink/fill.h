@@ -2,7 +2,7 @@
 #ifndef INK_FILL_H
 #define INK_FILL_H
 
-#include "ink/drawing.h"
+#include "ink/pens.h"
 #include "visibility/map.h"
 
 /* The colour of a group: its own, or one of a palette, by its number. */
@@ -14,22 +14,24 @@ uint32_t fill_colour(const struct scene *scene, uint32_t group);
  *                   a face alike */
 USE_RESULT bool fill_add(struct drawing *drawing, const struct sheet *sheet,
                          const struct scene *scene, const struct map *map,
-                         const recto_options *options);
+                         const struct pens *pens, const recto_options *options);
 
 /* Adds strokes of class 0 along parallel lines, hatch_pitch_mm apart and
  * turned by hatch_angle_deg from the x axis, over every fragment.  The lines
  * are the page's: over neighbours they meet.  A stroke goes to and fro while
  * the move to the next line stays inside the fragment, between sides that are
- * drawn as lines; shorter ones than shortest_mm are left out. */
+ * drawn as lines; those too short for their pen are left out. */
 USE_RESULT bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
                           const struct scene *scene, const struct map *map,
-                          const recto_options *options, double shortest_mm);
+                          const struct pens *pens,
+                          const recto_options *options);
 
 /* Adds strokes of class 0 along parallel lines in up to three directions, the
  * first at hatch_angle_deg, so that the ink of a pen pen_mm wide covers the
  * share of the paper that options->light leaves dark (tone.h). */
 USE_RESULT bool engrave_add(struct drawing *drawing, const struct sheet *sheet,
                             const struct scene *scene, const struct map *map,
-                            const recto_options *options, double shortest_mm);
+                            const struct pens *pens,
+                            const recto_options *options);
 
 #endif

@@ -13,7 +13,6 @@
 #include "base/sort.h"
 #include "ink/fill.h"
 #include "ink/inset.h"
-#include "ink/layers.h"
 #include "ink/patches.h"
 #include "ink/ruling.h"
 #include "ink/stroke.h"
@@ -276,23 +275,20 @@ static bool hatch_patch(struct hatch *h) {
 
 bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
                const struct scene *scene, const struct map *map,
-               const recto_options *options, double shortest_mm) {
-  struct hatch h = {.drawing = drawing,
-                    .sheet = sheet,
-                    .shortest = shortest_mm,
-                    .inset = options->hatch_inset ? options->pen_mm / 2 : 0};
+               const struct pens *pens, const recto_options *options) {
+  struct hatch h = {.drawing = drawing, .sheet = sheet};
   ruling_init(&h.ruling, sheet, options->hatch_pitch_mm,
               options->hatch_angle_deg);
-  bool good = patches_init(&h.patches, sheet, scene, map, options);
+  bool good = patches_init(&h.patches, sheet, scene, map, pens, options);
   for (size_t i = 0, end; good && i < map->fragment.count; i = end) {
     end = patches_end(&h.patches, i);
     uint32_t face = map->fragment.item[h.patches.fragment[i]].face;
     uint32_t group = scene->face_group.item[face];
-    h.like =
-        (struct drawing_stroke){.layer = layers_pen_of_group(options, group),
-                                .face = face,
-                                .edge = DRAWING_NONE,
-                                .group = group};
+    uint32_t pen = pens_of_hatch(pens, group);
+    h.inset = options->hatch_inset ? pens_width_mm(pens, pen) / 2 : 0;
+    h.shortest = pens_shortest_mm(pens, pen);
+    h.like = (struct drawing_stroke){
+        .layer = pen, .face = face, .edge = DRAWING_NONE, .group = group};
     good = take_sides(&h, map, i, end) && hatch_patch(&h);
   }
   ruling_fini(&h.ruling);

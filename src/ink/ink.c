@@ -20,7 +20,7 @@ struct ink {
   const struct scene *scene;
   const struct map *map;
   const recto_options *options;
-  double shortest_mm;
+  const struct pens *pens;
   int64_t too_short;
 };
 
@@ -33,7 +33,7 @@ static recto_status make_net(struct ink *ink, struct net *net,
   struct report *report = ink->drawing->report;
   struct net_rows rows = {0};
   recto_status status =
-      net_collect(net, ink->sheet, ink->map, ink->options, error);
+      net_collect(net, ink->sheet, ink->map, ink->pens, ink->options, error);
   report_int(report, "ink", "segments", (int64_t)net->segment.count);
   if (!status)
     status = net_unite(net, &rows, error);
@@ -72,9 +72,10 @@ static recto_status make_paths(struct ink *ink, struct ink_paths *paths,
 static struct drawing_stroke stroke_like(const struct ink *ink,
                                          const struct ink_path *path) {
   const struct sheet_edge *edge = &ink->sheet->edge.item[path->edge];
-  uint32_t layer = layers_pen_of_group(ink->options, edge->group);
-  if (path->hidden && ink->options->hidden == RECTO_HIDDEN_LAYER)
-    layer = layers_pen_count(ink->scene, ink->options);
+  uint32_t layer =
+      path->hidden ? pens_of_hidden(ink->pens, ink->options, edge->edge_class,
+                                    edge->group)
+                   : pens_of_line(ink->pens, edge->edge_class, edge->group);
   return (struct drawing_stroke){.layer = layer,
                                  .face = sheet_edge_face(ink->sheet, edge),
                                  .edge = edge->source,
@@ -100,8 +101,8 @@ static bool take_points(const struct ink *ink, const struct ink_paths *paths,
 static bool add_path(struct ink *ink, const struct ink_path *path,
                      const struct stroke_line *line) {
   struct drawing_stroke like = stroke_like(ink, path);
-  double pen = ink->options->pen_mm;
-  if (stroke_line_length(line) < ink->shortest_mm) {
+  double pen = pens_width_mm(ink->pens, like.layer);
+  if (stroke_line_length(line) < pens_shortest_mm(ink->pens, like.layer)) {
     ink->too_short++;
     return true;
   }
@@ -155,7 +156,8 @@ static bool start_drawing(struct ink *ink) {
   ink->drawing->height_mm = ink->sheet->camera.page_mm[1];
   ink->drawing->ids = ink->options->ids;
   ink->drawing->seam_mm = ink->options->seam_mm;
-  return layers_add(ink->drawing, ink->scene, ink->options) &&
+  memcpy(ink->drawing->weight, ink->pens->weight, sizeof ink->pens->weight);
+  return layers_add(ink->drawing, ink->pens, ink->scene, ink->options) &&
          (!ink->options->ids || copy_group_names(ink));
 }
 
@@ -168,12 +170,12 @@ static bool add_fills(struct ink *ink) {
   switch (ink->options->fill) {
   case RECTO_FILL_PAINT:
   case RECTO_FILL_SHADE:
-    return fill_add(ink->drawing, ink->sheet, ink->scene, ink->map,
+    return fill_add(ink->drawing, ink->sheet, ink->scene, ink->map, ink->pens,
                     ink->options);
   case RECTO_FILL_HATCH:
     return (is_lit(ink->options) ? engrave_add : hatch_add)(
-        ink->drawing, ink->sheet, ink->scene, ink->map, ink->options,
-        ink->shortest_mm);
+        ink->drawing, ink->sheet, ink->scene, ink->map, ink->pens,
+        ink->options);
   case RECTO_FILL_NONE:
     break;
   }
@@ -199,18 +201,20 @@ static bool finish_drawing(struct ink *ink) {
 recto_status ink_draw(struct drawing *drawing, const struct sheet *sheet,
                       const struct scene *scene, const struct map *map,
                       const recto_options *options, recto_error *error) {
+  struct pens pens;
   struct ink ink = {.drawing = drawing,
                     .sheet = sheet,
                     .scene = scene,
                     .map = map,
                     .options = options,
-                    .shortest_mm = options->min_stroke_mm < 0
-                                       ? options->pen_mm / 2
-                                       : options->min_stroke_mm};
-  if (!start_drawing(&ink))
-    return error_memory(error);
-  recto_status status = draw_lines(&ink, error);
+                    .pens = &pens};
+  recto_status status = pens_init(&pens, scene, options, error);
+  if (!status && !start_drawing(&ink))
+    status = error_memory(error);
+  if (!status)
+    status = draw_lines(&ink, error);
   if (!status && !(add_fills(&ink) && finish_drawing(&ink)))
     status = error_memory(error);
+  pens_fini(&pens);
   return status;
 }

@@ -7,8 +7,9 @@
 #include "base/sort.h"
 
 #define BLACK 0x000000u
-#define GREY 0x808080u /* hidden lines on a screen; a pen has its own colour   \
-                        */
+#define GREY                                                                   \
+  0x808080u /* hidden lines on a screen; a pen has its own colour              \
+             */
 
 /* Appends to a label what fits of `text`, never half a character. */
 static void append(char label[], size_t size, const char *text) {
@@ -22,45 +23,79 @@ static void append(char label[], size_t size, const char *text) {
   label[used + length] = '\0';
 }
 
-/* "2 wheel, axle": the pen's number and the groups it draws. */
-static void label_pen(struct drawing_layer *layer, const struct scene *scene,
-                      const recto_options *options) {
-  bool first = true;
-  for (size_t g = layer->pen - 1; g < scene->group.count;
-       g += (size_t)options->pens) {
-    const char *name = scene->group.item[g].name;
-    if (!name || !*name)
-      continue;
-    append(layer->label, sizeof layer->label, first ? " " : ", ");
-    append(layer->label, sizeof layer->label, name);
-    first = false;
-  }
-  if (first)
-    append(layer->label, sizeof layer->label, " unnamed");
+struct label {
+  struct drawing_layer *layer;
+  bool first;
+};
+
+static void add_word(struct label *label, const char *word) {
+  append(label->layer->label, sizeof label->layer->label,
+         label->first ? " " : ", ");
+  append(label->layer->label, sizeof label->layer->label, word);
+  label->first = false;
 }
 
-static bool add_layer(struct drawing *drawing, const char *words,
-                      uint32_t colour, double width_mm) {
-  struct drawing_layer layer = {.pen = (unsigned)drawing->layer.count + 1,
-                                .colour = colour,
-                                .width_mm = width_mm};
-  (void)snprintf(layer.label, sizeof layer.label, "%u%s", layer.pen, words);
+static void add_groups(struct label *label, const struct pens *pens,
+                       const struct scene *scene) {
+  for (size_t g = 0; g < scene->group.count; g++) {
+    const char *name = scene->group.item[g].name;
+    if (pens->of_group[g] == label->layer->pen - 1 && name && *name)
+      add_word(label, name);
+  }
+}
+
+/* "2 crease, wheel, axle": the pen's number, then what it draws. */
+static void label_pen(struct drawing_layer *layer, const struct pens *pens,
+                      const struct scene *scene, const recto_options *options) {
+  struct label label = {layer, true};
+  uint32_t pen = layer->pen - 1;
+  bool has_rest = options->pens <= 1 && pen == 0;
+  if (has_rest)
+    add_word(&label, "visible");
+  for (unsigned i = 0; !has_rest && i < RECTO_EDGE_CLASS_COUNT; i++)
+    if (pens->of_class[i] == pen)
+      add_word(&label, recto_edge_class_name((recto_edge_class)(1u << i)));
+  if (pens->of_hidden == pen ||
+      (pens->of_hidden == PENS_NONE && pen == pens->count))
+    add_word(&label, "hidden");
+  if (pens->of_hatch == pen)
+    add_word(&label, "hatch");
+  if (!has_rest)
+    add_groups(&label, pens, scene);
+  if (label.first)
+    add_word(&label, "unnamed");
+}
+
+static bool add_layer(struct drawing *drawing, const struct pens *pens,
+                      uint32_t usual_colour) {
+  uint32_t pen = (uint32_t)drawing->layer.count, own = pens->own[pen].colour;
+  struct drawing_layer layer = {.pen = pen + 1,
+                                .colour = own != PENS_NONE ? own : usual_colour,
+                                .width_mm = pens_width_mm(pens, pen)};
+  (void)snprintf(layer.label, sizeof layer.label, "%u", layer.pen);
   return ARRAY_PUSH(&drawing->layer, layer);
 }
 
-bool layers_add(struct drawing *drawing, const struct scene *scene,
-                const recto_options *options) {
-  uint32_t pens = layers_pen_count(scene, options);
-  if (options->pens <= 1 &&
-      !add_layer(drawing, " visible", BLACK, options->pen_mm))
-    return false;
-  for (uint32_t i = 0; options->pens > 1 && i < pens; i++) {
-    if (!add_layer(drawing, "", BLACK, options->pen_mm))
+/* Whether nothing but hidden lines is on the pen. */
+static bool is_for_hidden(const struct pens *pens, uint32_t pen) {
+  bool alone = pens->of_hidden == pen && pens->of_hatch != pen;
+  for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
+    alone = alone && pens->of_class[i] != pen;
+  for (size_t g = 0; alone && g < pens->group_count; g++)
+    alone = pens->of_group[g] != pen;
+  return alone || pen == pens->count;
+}
+
+bool layers_add(struct drawing *drawing, const struct pens *pens,
+                const struct scene *scene, const recto_options *options) {
+  bool one_more =
+      options->hidden == RECTO_HIDDEN_LAYER && pens->of_hidden == PENS_NONE;
+  for (uint32_t pen = 0; pen < pens->count + one_more; pen++) {
+    if (!add_layer(drawing, pens, is_for_hidden(pens, pen) ? GREY : BLACK))
       return false;
-    label_pen(&drawing->layer.item[i], scene, options);
+    label_pen(&drawing->layer.item[pen], pens, scene, options);
   }
-  return options->hidden != RECTO_HIDDEN_LAYER ||
-         add_layer(drawing, " hidden", GREY, options->pen_mm);
+  return true;
 }
 
 /* ---- Packing --------------------------------------------------------------

@@ -34,6 +34,8 @@ struct net_segment {
                     several could be joined, those alike in this go first */
 };
 
+struct pens;
+
 struct net {
   ARRAY(struct ink_point) node;
   ARRAY(struct net_segment) segment;
@@ -68,6 +70,7 @@ void net_rows_fini(struct net_rows *rows);
  * Errors  RECTO_ERROR_MEMORY; RECTO_ERROR_LIMIT: 2^31 segments. */
 USE_RESULT recto_status net_collect(struct net *net, const struct sheet *sheet,
                                     const struct map *map,
+                                    const struct pens *pens,
                                     const recto_options *options,
                                     recto_error *error);
 

@@ -3,7 +3,6 @@
 
 #include "base/sets.h"
 #include "base/sort.h"
-#include "ink/layers.h"
 
 /* The mesh edge that a side is a piece of; SHEET_NONE where there is none. */
 static uint32_t own_edge(const struct patches *patches,
@@ -29,12 +28,12 @@ bool patches_is_inked(const struct patches *patches,
 
 /* seen  one a sheet edge: a fragment beside it, SHEET_NONE for not yet */
 static void join_all(const struct patches *patches, const struct scene *scene,
-                     const struct map *map, const recto_options *options,
+                     const struct map *map, const struct pens *pens,
                      uint32_t *seen) {
   for (uint32_t f = 0; f < patches->count; f++) {
     const struct map_fragment *fragment = &map->fragment.item[f];
     uint32_t pen =
-        layers_pen_of_group(options, scene->face_group.item[fragment->face]);
+        pens_of_hatch(pens, scene->face_group.item[fragment->face]);
     for (uint32_t l = 0; l < fragment->loops; l++) {
       const struct map_loop *loop = &map->loop.item[fragment->loop + l];
       for (uint32_t i = 0; i < loop->count; i++) {
@@ -45,7 +44,7 @@ static void join_all(const struct patches *patches, const struct scene *scene,
         if (seen[edge] == SHEET_NONE)
           seen[edge] = f;
         uint32_t other = map->fragment.item[seen[edge]].face;
-        if (layers_pen_of_group(options, scene->face_group.item[other]) == pen)
+        if (pens_of_hatch(pens, scene->face_group.item[other]) == pen)
           sets_join(patches->root, seen[edge], f);
       }
     }
@@ -70,7 +69,7 @@ static bool list(struct patches *patches) {
 
 bool patches_init(struct patches *patches, const struct sheet *sheet,
                   const struct scene *scene, const struct map *map,
-                  const recto_options *options) {
+                  const struct pens *pens, const recto_options *options) {
   size_t edges = options->ids ? 0 : sheet->edge.count;
   *patches = (struct patches){
       .sheet = sheet,
@@ -83,7 +82,7 @@ bool patches_init(struct patches *patches, const struct sheet *sheet,
   for (size_t e = 0; good && e < edges; e++)
     seen[e] = SHEET_NONE;
   if (good && !options->ids)
-    join_all(patches, scene, map, options, seen);
+    join_all(patches, scene, map, pens, seen);
   good = good && list(patches);
   mem_free(seen);
   if (!good)

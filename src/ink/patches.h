@@ -2,6 +2,7 @@
 #ifndef INK_PATCHES_H
 #define INK_PATCHES_H
 
+#include "ink/pens.h"
 #include "visibility/map.h"
 
 struct patches {
@@ -16,6 +17,7 @@ struct patches {
  * where one pen draws both; with options->ids every fragment is one. */
 USE_RESULT bool patches_init(struct patches *patches, const struct sheet *sheet,
                              const struct scene *scene, const struct map *map,
+                             const struct pens *pens,
                              const recto_options *options);
 void patches_fini(struct patches *patches);
 

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "ink/layers.h"
+#include "ink/pens.h"
 
 /* An end is numbered twice its segment, in 32 bits. */
 #define SEGMENT_LIMIT (UINT32_MAX / 2)
@@ -13,6 +13,7 @@ struct collector {
   struct net *net;
   const struct sheet *sheet;
   const struct map *map;
+  const struct pens *pens;
   const recto_options *options;
   uint32_t *node_of_point; /* sheet point -> node, NET_NONE: not yet one */
   uint32_t bond;           /* of the edge at hand */
@@ -70,13 +71,17 @@ static bool is_same_wire(const struct sheet_edge *a,
          a->source == b->source;
 }
 
-/* Without ids whatever is of one pen may be joined.  With ids a stroke names
- * its source, so it is joined from pieces of that source alone: one mesh
- * edge, one intersection, one polyline of the user's. */
+/* Without ids whatever one pen draws as heavily may be joined.  With ids a
+ * stroke names its source, so it is joined from pieces of that source alone:
+ * one mesh edge, one intersection, one polyline of the user's. */
 static uint32_t bond_of(struct collector *c, uint32_t edge, bool hidden) {
   const struct sheet_edge *e = &c->sheet->edge.item[edge];
+  if (!c->options->ids && hidden)
+    return 2 * pens_of_hidden(c->pens, c->options, e->edge_class, e->group) + 1;
   if (!c->options->ids)
-    return 2 * layers_pen_of_group(c->options, e->group) + hidden;
+    return 2 * (pens_of_line(c->pens, e->edge_class, e->group) *
+                    RECTO_EDGE_CLASS_COUNT +
+                pens_weight_rank(c->pens, e->edge_class));
   if (edge > 0 && is_same_wire(e - 1, e))
     return c->bond;
   return 2 * edge + hidden;
@@ -175,13 +180,13 @@ static bool add_all(struct collector *c, bool hidden) {
 }
 
 recto_status net_collect(struct net *net, const struct sheet *sheet,
-                         const struct map *map, const recto_options *options,
-                         recto_error *error) {
+                         const struct map *map, const struct pens *pens,
+                         const recto_options *options, recto_error *error) {
   if (!map->edge_state)
     return RECTO_OK;
   size_t points = sheet->point.count;
   struct collector c = {
-      .net = net, .sheet = sheet, .map = map, .options = options};
+      .net = net, .sheet = sheet, .map = map, .pens = pens, .options = options};
   c.node_of_point = mem_alloc(points, sizeof *c.node_of_point);
   if (!c.node_of_point)
     return error_memory(error);

@@ -18,7 +18,8 @@ enum paint { PAINT_UNSAID, PAINT_NONE, PAINT_SOME };
 struct style {
   struct svg_matrix to_page; /* mm, y up */
   enum paint stroke, fill;
-  bool dashed, hidden; /* a hidden line: by its dashes, by its layer's label */
+  bool dashed, hidden; /* a hidden line: by its dashes; by its class, or the
+                          label of a layer that has nothing else */
   bool unseen;         /* not displayed, or a definition */
 };
 
@@ -60,7 +61,10 @@ static const char *take_style(const struct svg_tag *tag, struct style *style) {
   take_paint(tag, "fill", &style->fill);
   if (svg_property(tag, "stroke-dasharray", &value))
     style->dashed = !svg_is(value, "none") && value.at < value.end;
-  if (svg_attribute(tag, "inkscape:label", &value) && svg_has(value, "hidden"))
+  if (svg_attribute(tag, "inkscape:label", &value) &&
+      svg_has(value, "hidden") && !svg_has(value, ","))
+    style->hidden = true;
+  if (svg_attribute(tag, "class", &value) && svg_is(value, "hidden"))
     style->hidden = true;
   if ((svg_property(tag, "display", &value) && svg_is(value, "none")) ||
       (svg_property(tag, "visibility", &value) && svg_is(value, "hidden")) ||

@@ -1,0 +1,237 @@
+/* test_pens.c - which pen draws what, as the options' lists say. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "ink/pens.h"
+#include "tests/inked.h"
+
+enum {
+  CREASE = RECTO_EDGE_CREASE,
+  SILHOUETTE = RECTO_EDGE_SILHOUETTE,
+  BORDER = RECTO_EDGE_BORDER
+};
+
+/* A silhouette, a crease and a hidden crease of the group "thing", and a crease
+ * of "car/wheel/red". */
+static void start_scene(struct inked *k) {
+  inked_start(k);
+  uint32_t wheel = inked_group(k, "car/wheel/red");
+  inked_line(k, 10, 10, 50, 10, SILHOUETTE);
+  inked_line(k, 10, 20, 50, 20, CREASE);
+  inked_hide(k, inked_line(k, 10, 30, 50, 30, CREASE));
+  uint32_t edge = inked_line(k, 10, 40, 50, 40, CREASE);
+  k->sheet.edge.item[edge].group = wheel;
+}
+
+/* The pen of the stroke that begins at height y. */
+static unsigned pen_at(const struct inked *k, double y) {
+  for (size_t i = 0; i < k->drawing.stroke.count; i++) {
+    const struct drawing_stroke *s = &k->drawing.stroke.item[i];
+    double there = k->drawing.point.item[s->point].y;
+    if (there > y - 0.5 && there < y + 0.5)
+      return k->drawing.layer.item[s->layer].pen;
+  }
+  fail_msg("no stroke at %g", y);
+  return 0;
+}
+
+static void assert_pens(const char *list, recto_hidden hidden,
+                        const unsigned pen[4]) {
+  struct inked k;
+  start_scene(&k);
+  k.options.pen_for = list;
+  k.options.hidden = hidden;
+  inked_draw(&k);
+  for (int i = 0; i < 4; i++)
+    if (pen[i] != 0)
+      assert_int_equal(pen_at(&k, 10 * (i + 1)), pen[i]);
+  for (size_t i = 1; i < k.drawing.layer.count; i++)
+    assert_true(k.drawing.layer.item[i - 1].pen < k.drawing.layer.item[i].pen);
+  inked_end(&k);
+}
+
+static void hidden_goes_before_class_and_class_before_group(void **state) {
+  const recto_hidden layer = RECTO_HIDDEN_LAYER, dashed = RECTO_HIDDEN_DASHED;
+  (void)state;
+  assert_pens(NULL, layer, (unsigned[]){1, 1, 2, 1});
+  assert_pens("silhouette=3", layer, (unsigned[]){3, 1, 4, 1});
+  assert_pens("wheel=2", dashed, (unsigned[]){1, 1, 1, 2});
+  assert_pens("wheel=2,crease=5", dashed, (unsigned[]){1, 5, 5, 5});
+  assert_pens("crease=5,hidden=4,silhouette=2,wheel=7", dashed,
+              (unsigned[]){2, 5, 4, 5});
+  assert_pens("hidden=1000,thing=999", layer, (unsigned[]){999, 999, 1000, 1});
+}
+
+static void groups_go_by_their_whole_name_or_a_part(void **state) {
+  static const char *const names[] = {"car/wheel/red=2", "car=2",
+                                      "wheel=2",         "red=2",
+                                      "wheel/red=2",     "car/wheel=2"};
+  (void)state;
+  for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+    assert_pens(names[i], RECTO_HIDDEN_NONE, (unsigned[]){1, 1, 0, 2});
+}
+
+static void layers_say_what_is_on_their_pen(void **state) {
+  struct inked k;
+  (void)state;
+  start_scene(&k);
+  k.options.pen_for = "silhouette=3,hidden=2,wheel=3,hatch=3";
+  k.options.hidden = RECTO_HIDDEN_LAYER;
+  k.options.pen_widths = "3=0.1cm,2=0.7";
+  k.options.pen_colours = "3=#c00,1=0012Ff";
+  inked_draw(&k);
+  assert_int_equal(k.drawing.layer.count, 3);
+  const struct drawing_layer *layer = k.drawing.layer.item;
+  assert_string_equal(layer[0].label, "1 visible");
+  assert_string_equal(layer[1].label, "2 hidden");
+  assert_string_equal(layer[2].label, "3 silhouette, hatch, car/wheel/red");
+  assert_true(layer[0].width_mm == k.options.pen_mm);
+  assert_true(layer[1].width_mm == 0.7);
+  assert_true(layer[2].width_mm == 1);
+  assert_int_equal(layer[0].colour, 0x0012ff);
+  assert_int_equal(layer[1].colour, 0x808080);
+  assert_int_equal(layer[2].colour, 0xcc0000);
+  inked_end(&k);
+}
+
+static void half_the_strokes_own_pen_is_the_shortest(void **state) {
+  (void)state;
+  for (int wide = 0; wide < 2; wide++) {
+    struct inked k;
+    inked_start(&k);
+    k.options.min_stroke_mm = -1;
+    k.options.pen_for = "crease=2";
+    k.options.pen_widths = wide ? "2=3mm" : "1=3mm";
+    inked_line(&k, 10, 10, 11, 10, SILHOUETTE);
+    inked_line(&k, 10, 20, 11, 20, CREASE);
+    inked_draw(&k);
+    assert_int_equal(k.drawing.stroke.count, 1);
+    assert_int_equal(k.drawing.stroke.item[0].edge_class,
+                     wide ? SILHOUETTE : CREASE);
+    inked_end(&k);
+  }
+}
+
+static void strokes_of_pens_that_meet_are_not_joined(void **state) {
+  (void)state;
+  for (int two = 0; two < 2; two++) {
+    struct inked k;
+    inked_start(&k);
+    k.options.pen_for = two ? "crease=2" : "crease=1";
+    inked_line(&k, 10, 10, 50, 10, SILHOUETTE);
+    inked_line(&k, 50, 10, 50, 50, CREASE);
+    inked_draw(&k);
+    assert_int_equal(k.drawing.stroke.count, two + 1);
+    inked_end(&k);
+  }
+}
+
+/* ---- Weights --------------------------------------------------------------
+ */
+
+/* How wide the crease, the silhouette and the border come out, which meet. */
+static void find_widths(const char *weights, int pens, double width[3],
+                        size_t *strokes) {
+  struct inked k;
+  inked_start(&k);
+  k.options.weights = weights;
+  k.options.pens = pens;
+  inked_line(&k, 10, 10, 50, 10, CREASE);
+  inked_line(&k, 50, 10, 50, 50, SILHOUETTE);
+  inked_line(&k, 50, 50, 10, 50, BORDER);
+  inked_draw(&k);
+  *strokes = k.drawing.stroke.count;
+  width[0] = width[1] = width[2] = 0;
+  for (size_t i = 0; i < k.drawing.stroke.count; i++) {
+    const struct drawing_stroke *s = &k.drawing.stroke.item[i];
+    int place = s->edge_class == CREASE ? 0 : s->edge_class == BORDER ? 2 : 1;
+    width[place] = drawing_width_mm(&k.drawing, s) / k.options.pen_mm;
+  }
+  inked_end(&k);
+}
+
+static void outlines_are_twice_as_wide_unless_told_otherwise(void **state) {
+  double width[3];
+  size_t strokes;
+  (void)state;
+  find_widths(NULL, 1, width, &strokes);
+  assert_int_equal(strokes, 2); /* silhouette and border are one */
+  assert_true(width[0] == 1 && width[1] + width[2] == 2);
+  find_widths("none", 1, width, &strokes);
+  assert_int_equal(strokes, 1);
+  find_widths("border=3,crease=0.5", 1, width, &strokes);
+  assert_int_equal(strokes, 3);
+  assert_true(width[0] == 0.5 && width[1] == 1 && width[2] == 3);
+  find_widths(NULL, 2, width, &strokes);
+  assert_int_equal(strokes, 1);
+}
+
+static void hidden_lines_weigh_nothing_extra(void **state) {
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  k.options.weights = NULL;
+  k.options.hidden = RECTO_HIDDEN_LAYER;
+  inked_hide(&k, inked_line(&k, 10, 10, 50, 10, SILHOUETTE));
+  inked_draw(&k);
+  assert_true(drawing_width_mm(&k.drawing, &k.drawing.stroke.item[0]) ==
+              k.options.pen_mm);
+  inked_end(&k);
+}
+
+/* ---- Lists that make no sense ---------------------------------------------
+ */
+
+static void assert_refused(const char **list, struct inked *k, const char *text,
+                           const char *part) {
+  struct pens pens;
+  recto_error error = {0};
+  *list = text;
+  recto_status status = pens_init(&pens, &k->scene, &k->options, &error);
+  pens_fini(&pens);
+  if (status != RECTO_ERROR_ARGUMENT || !strstr(error.text, part))
+    fail_msg("%s: %d, %s", text, status, error.text);
+  *list = NULL;
+}
+
+static void lists_that_make_no_sense_are_refused(void **state) {
+  static const char *const pens[] = {"",         "crease",      "=2",
+                                     "crease=0", "crease=1001", "crease=2x",
+                                     "crease=",  "crease=2,",   "crease=2,,"};
+  static const char *const widths[] = {"2=0",  "2=-1", "2=nan",   "0=1",
+                                       "2=1x", "2=",   "2=101mm", "x=1"};
+  static const char *const colours[] = {"2=#12", "2=red",   "2=#1234567",
+                                        "2=",    "2=##c00", "1001=#000"};
+  static const char *const weights[] = {"x=2", "crease=0", "crease=nan",
+                                        "none,crease=1"};
+  struct inked k;
+  (void)state;
+  inked_start(&k);
+  for (size_t i = 0; i < sizeof pens / sizeof pens[0]; i++)
+    assert_refused(&k.options.pen_for, &k, pens[i], "pens: ");
+  for (size_t i = 0; i < sizeof widths / sizeof widths[0]; i++)
+    assert_refused(&k.options.pen_widths, &k, widths[i], "widths of pens: ");
+  for (size_t i = 0; i < sizeof colours / sizeof colours[0]; i++)
+    assert_refused(&k.options.pen_colours, &k, colours[i], "colours of pens: ");
+  for (size_t i = 0; i < sizeof weights / sizeof weights[0]; i++)
+    assert_refused(&k.options.weights, &k, weights[i], "weights: ");
+  assert_refused(&k.options.pen_for, &k, "thing=2,thin=3", "\"thin\"");
+  inked_end(&k);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(hidden_goes_before_class_and_class_before_group),
+      cmocka_unit_test(groups_go_by_their_whole_name_or_a_part),
+      cmocka_unit_test(layers_say_what_is_on_their_pen),
+      cmocka_unit_test(half_the_strokes_own_pen_is_the_shortest),
+      cmocka_unit_test(strokes_of_pens_that_meet_are_not_joined),
+      cmocka_unit_test(outlines_are_twice_as_wide_unless_told_otherwise),
+      cmocka_unit_test(hidden_lines_weigh_nothing_extra),
+      cmocka_unit_test(lists_that_make_no_sense_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
