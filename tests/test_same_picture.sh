@@ -23,7 +23,8 @@ pixels() {
   echo $((($1 * 2000 + 127) / 254))
 }
 
-# Scenes that recto itself draws: their options.  No dashes: where a hidden line
+# Scenes that recto itself draws: their options.  No weights, which HPGL does not
+# have.  No dashes: where a hidden line
 # is as good as on a visible one in a plotter's units, but not in SVG's finer
 # ones, they are spread over what is left of it.
 models=$srcdir/examples/models
@@ -42,7 +43,8 @@ write() {
     # Options without spaces in them.
     # shellcheck disable=SC2086
     (cd "$models" &&
-      "$recto" --quiet --pen 0.5 --dpi 200 ${scene[$1]} -o "$scratch/page.$2")
+      "$recto" --quiet --pen 0.5 --weights none --dpi 200 ${scene[$1]} \
+        -o "$scratch/page.$2")
   else
     "$tool" write "$1" "$2" "page.$2" dpi=200
   fi
