@@ -120,7 +120,23 @@ static uint32_t number_used(const struct drawing *drawing, uint32_t *number) {
   return used;
 }
 
+/* Where lines of several weights are drawn, those of a class stand together,
+ * the lightest classes first, so that the heavy ones lie on top. */
 static int compare_strokes(const void *first, const void *second, void *user) {
+  const struct drawing_stroke *a = first, *b = second;
+  const struct drawing *drawing = user;
+  if (a->layer != b->layer)
+    return a->layer > b->layer ? 1 : -1;
+  double a_mm = drawing_width_mm(drawing, a),
+         b_mm = drawing_width_mm(drawing, b);
+  if (a_mm != b_mm)
+    return a_mm > b_mm ? 1 : -1;
+  if (a->hidden != b->hidden)
+    return a->hidden ? -1 : 1;
+  return (a->edge_class < b->edge_class) - (a->edge_class > b->edge_class);
+}
+
+static int compare_layers(const void *first, const void *second, void *user) {
   const struct drawing_stroke *a = first, *b = second;
   (void)user;
   return (a->layer > b->layer) - (a->layer < b->layer);
@@ -130,6 +146,13 @@ static int compare_fills(const void *first, const void *second, void *user) {
   const struct drawing_fill *a = first, *b = second;
   (void)user;
   return (a->layer > b->layer) - (a->layer < b->layer);
+}
+
+static bool has_weights(const struct drawing *drawing) {
+  bool any = false;
+  for (int i = 1; i < RECTO_EDGE_CLASS_COUNT; i++)
+    any = any || drawing->weight[i] != drawing->weight[0];
+  return any;
 }
 
 bool layers_pack(struct drawing *drawing) {
@@ -146,10 +169,12 @@ bool layers_pack(struct drawing *drawing) {
   for (size_t i = 0; i < drawing->fill.count; i++)
     drawing->fill.item[i].layer = number[drawing->fill.item[i].layer];
   mem_free(number);
-  if (used < 2)
+  bool weighted = has_weights(drawing);
+  if (used < 2 && !weighted)
     return true;
   return sort_stable(drawing->stroke.item, drawing->stroke.count,
-                     sizeof *drawing->stroke.item, compare_strokes, NULL) &&
+                     sizeof *drawing->stroke.item,
+                     weighted ? compare_strokes : compare_layers, drawing) &&
          sort_stable(drawing->fill.item, drawing->fill.count,
                      sizeof *drawing->fill.item, compare_fills, NULL);
 }

@@ -18,8 +18,9 @@ USE_RESULT bool layers_add(struct drawing *drawing, const struct pens *pens,
                            const struct scene *scene,
                            const recto_options *options);
 
-/* Puts strokes and fills in the order of their layers, else keeping theirs,
- * and leaves out the layers that are empty. */
+/* Puts strokes and fills in the order of their layers, and within one, where
+ * there are weights, strokes in that of their weights and classes, else keeping
+ * theirs, and leaves out the layers that are empty. */
 USE_RESULT bool layers_pack(struct drawing *drawing);
 
 #endif
