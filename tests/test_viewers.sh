@@ -80,9 +80,12 @@ shown_otherwise() {
 claim "lines are drawn" draw lines castle
 claim "hidden lines too" draw hidden castle --hidden layer
 claim "pens and ids" draw pens gears --pens 2 --ids
+claim "pens by class" draw classes castle \
+  --pen-for crease=3,silhouette=2,hidden=4 --hidden layer \
+  --pen-width 2=0.8mm --pen-colour 3=#c00
 claim "painted faces" draw painted gears --fill paint --seam 0.1
 claim "shaded faces, no line" draw shaded castle --fill shade --seam 0.3 -e none
-names="lines hidden pens painted shaded"
+names="lines hidden pens classes painted shaded"
 
 if command -v xmllint >/dev/null; then
   for name in $names; do
@@ -95,6 +98,7 @@ if command -v xmllint >/dev/null; then
   claim "its label opens with the pen" labels_open_with lines 1
   claim "hidden lines come after" labels_open_with hidden "1 2"
   claim "pens come in order" labels_open_with pens "1 2"
+  claim "pens of classes too" labels_open_with classes "1 2 3 4"
 else
   skip "layers and XML" "no xmllint"
 fi
