@@ -157,6 +157,19 @@ static void tight_leaves_the_box_of_the_ink(void **state) {
   end(&f);
 }
 
+static void tight_counts_the_weight_of_lines(void **state) {
+  (void)state;
+  struct fixture f;
+  begin(&f, 210, 297);
+  maker_line(&f.drawing, maker_layer(&f.drawing, 1, 1, 0), 50, 50, 60, 50);
+  f.drawing.stroke.item[0].edge_class = RECTO_EDGE_SILHOUETTE;
+  f.drawing.weight[0] = 2;
+  f.options.tight = true;
+  write_as(&f, &writer_eps);
+  assert_true(has(&f, "\n%%HiResBoundingBox: 0 0 34.016 5.669\n"));
+  end(&f);
+}
+
 static void tight_counts_fills_and_their_seams(void **state) {
   (void)state;
   struct fixture f;
@@ -451,6 +464,7 @@ int main(void) {
       cmocka_unit_test(postscript_bears_no_date),
       cmocka_unit_test(an_eps_file_says_the_page_is_its_box),
       cmocka_unit_test(tight_leaves_the_box_of_the_ink),
+      cmocka_unit_test(tight_counts_the_weight_of_lines),
       cmocka_unit_test(tight_counts_fills_and_their_seams),
       cmocka_unit_test(without_ink_tight_is_the_page),
       cmocka_unit_test(a_png_has_the_pixels_that_its_page_asks_for),
