@@ -48,8 +48,8 @@ static void assert_zbuffer_sees_the_same(const struct warnock_frame *frame,
   assert_int_equal(
       raster_init(&raster, sheet, frame->raster.grid.lines, 0, true, NULL),
       RECTO_OK);
-  assert_int_equal(zbuffer_draw(&raster, &facets, &request, &covered, NULL),
-                   RECTO_OK);
+  assert_int_equal(
+      zbuffer_draw(&raster, &facets, &request, NULL, &covered, NULL), RECTO_OK);
   for (size_t i = 0; i < pixels_of(&raster); i++)
     if (raster.seen[i] != frame->raster.seen[i])
       fail_msg("%s: pixel %zu %zu: facet %d, not %d", what,

@@ -58,7 +58,7 @@ static void draw_frames(struct frames *frames, const struct sheet *sheet,
   assert_int_equal(raster_init(&frames->whole, sheet, lines, bits, true, NULL),
                    RECTO_OK);
   assert_int_equal(
-      zbuffer_draw(&frames->whole, &facets, &plain, &covered, NULL), RECTO_OK);
+      zbuffer_draw(&frames->whole, &facets, &plain, NULL, &covered, NULL), RECTO_OK);
   frames->pixels = (size_t)lines * (size_t)frames->whole.grid.columns;
   frames->scanned = mem_alloc(frames->pixels, sizeof *frames->scanned);
   scan_frame(frames, sheet, &facets, lines, bits);
@@ -884,6 +884,27 @@ static void bad_knobs_are_refused(void **state) {
     }
 }
 
+/* Between two lines of a folded frame that share memory lie as many as asked;
+ * a frame with fewer lines stays as it is. */
+static void a_folded_frame_uses_lines_again(void **state) {
+  struct sheet sheet;
+  struct raster raster;
+  (void)state;
+  pixels_sheet(&sheet, &pixels_pierced_rectangle);
+  assert_int_equal(raster_init(&raster, &sheet, 100, 0, true, NULL), RECTO_OK);
+  raster_fold(&raster, 101);
+  assert_int_equal(raster_row(&raster, 99), 99 * (size_t)raster.grid.columns);
+  raster_fold(&raster, 17);
+  for (int32_t line = 0; line < 68; line++) {
+    assert_int_equal(raster_row(&raster, line + 32), raster_row(&raster, line));
+    for (int32_t other = 1; other < 17; other++)
+      assert_int_not_equal(raster_row(&raster, line + other),
+                           raster_row(&raster, line));
+  }
+  raster_fini(&raster);
+  hand_sheet_fini(&sheet);
+}
+
 static bool stop_at_once(void *user, double share, const char *stage) {
   int *asked = user;
   assert_true(share >= 0 && share <= 1);
@@ -986,6 +1007,7 @@ int main(void) {
       cmocka_unit_test(intersections_are_drawn_where_asked_for),
       cmocka_unit_test(bad_knobs_are_refused),
       cmocka_unit_test(cancelling_ends_the_work),
+      cmocka_unit_test(a_folded_frame_uses_lines_again),
       cmocka_unit_test(running_out_of_memory_is_told),
       cmocka_unit_test(scan_line_holds_one_line),
   };

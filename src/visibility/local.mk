@@ -17,6 +17,7 @@ librecto_core_la_SOURCES += \
   %D%/pagegrid.c %D%/pagegrid.h \
   %D%/painter.c \
   %D%/pair.c %D%/pair.h \
+  %D%/pieces.c %D%/pieces.h \
   %D%/pierce.c %D%/pierce.h \
   %D%/pierce_pairs.c %D%/pierce_pairs.h \
   %D%/pixels.c %D%/pixels.h \
@@ -47,4 +48,5 @@ librecto_core_la_SOURCES += \
   %D%/watkins_sweep.c %D%/watkins_sweep.h \
   %D%/window.c %D%/window.h \
   %D%/zbuffer.c %D%/zbuffer.h \
-  %D%/zfill.c %D%/zfill.h
+  %D%/zfill.c %D%/zfill.h \
+  %D%/zsmall.c %D%/zsmall.h

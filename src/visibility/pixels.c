@@ -27,7 +27,7 @@ static int32_t top_line(const struct raster *raster,
 
 struct sort_key *pixels_buckets(const struct raster *raster,
                                 const struct facets *facets,
-                                const struct solver_request *request, int shift,
+                                const struct solver_request *request,
                                 size_t *count) {
   const struct sheet *sheet = raster->sheet;
   uint32_t all = (uint32_t)sheet->triangle.count;
@@ -42,8 +42,8 @@ struct sort_key *pixels_buckets(const struct raster *raster,
       continue;
     top = top_line(raster, facets, t);
     if (top >= 0)
-      key[(*count)++] = (struct sort_key){
-          (uint64_t)(raster->grid.lines - 1 - top) >> shift, t};
+      key[(*count)++] =
+          (struct sort_key){(uint64_t)(raster->grid.lines - 1 - top), t};
   }
   sort_keys(key, key + *count, *count);
   return key;

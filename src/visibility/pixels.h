@@ -21,12 +21,12 @@ struct pixels {
 };
 
 /* The facets that are drawn (with area, their backs not removed) and cover a
- * line, by the band of 2^shift lines, from the top, in which their top line is,
- * then by their order: the value is the facet, the key the band.
+ * line, by their top line, counted from the top, then by their order: the value
+ * is the facet, the key the line.
  * Returns NULL when memory ran out. */
 struct sort_key *pixels_buckets(const struct raster *raster,
                                 const struct facets *facets,
-                                const struct solver_request *request, int shift,
+                                const struct solver_request *request,
                                 size_t *count);
 
 /* subpixels  K: a pixel is made of K x K of the raster's; 1: of one */

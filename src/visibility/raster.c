@@ -82,6 +82,7 @@ recto_status raster_init(struct raster *raster, const struct sheet *sheet,
   raster->doubt = 2 * DBL_EPSILON * RASTER_GENTLE *
                   (raster->grid.lines + raster->grid.columns + 64);
   raster->kept = whole ? lines : 1;
+  raster->place = whole ? UINT32_MAX : 0;
   if (!allocate(raster)) {
     raster_fini(raster);
     return error_memory(error);
@@ -98,6 +99,14 @@ void raster_fini(struct raster *raster) {
   mem_free(raster->depth);
   mem_free(raster->level);
   memset(raster, 0, sizeof *raster);
+}
+
+void raster_fold(struct raster *raster, int32_t lines) {
+  uint32_t place = 0;
+  while (place < (uint32_t)lines - 1)
+    place = 2 * place + 1;
+  if (place < (uint32_t)raster->kept)
+    raster->place = place;
 }
 
 void raster_clear_line(struct raster *raster, int32_t line) {

@@ -42,6 +42,8 @@ struct raster {
   double doubt;       /* float64: doubles this near are compared exactly */
   struct scan_point *point; /* the sheet's points */
   int32_t kept;             /* lines held: all of them, or one at a time */
+  uint32_t
+      place; /* mask: which bits of a line's number tell where it is held */
   /* kept x columns.  All are 0 where nothing is seen, so that the system lends
    * a page of zeros to what is never written to. */
   uint32_t *seen;  /* the facet seen, plus 1 */
@@ -69,8 +71,12 @@ void raster_fini(struct raster *raster);
 
 /* The index of a line's first pixel. */
 static inline size_t raster_row(const struct raster *raster, int32_t line) {
-  return raster->kept == 1 ? 0 : (size_t)line * (size_t)raster->grid.columns;
+  return ((uint32_t)line & raster->place) * (size_t)raster->grid.columns;
 }
+
+/* Folds an empty frame that holds all lines: from now on lines share memory,
+ * with at least `lines` lines between any two that do. */
+void raster_fold(struct raster *raster, int32_t lines);
 
 /* Makes a line that is held background. */
 void raster_clear_line(struct raster *raster, int32_t line);

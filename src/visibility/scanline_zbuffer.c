@@ -26,7 +26,7 @@ bool scanline_init(struct scanline *scanline, struct raster *raster,
   scanline->raster = raster;
   scanline->facets = facets;
   scanline->bucket =
-      pixels_buckets(raster, facets, request, 0, &scanline->bucket_count);
+      pixels_buckets(raster, facets, request, &scanline->bucket_count);
   return scanline->bucket != NULL;
 }
 

@@ -1,0 +1,97 @@
+/* pieces.c - the facets that a z-buffer draws, dealt out to tiles. */
+#include "visibility/pieces.h"
+
+#include <string.h>
+
+#define TILE_COLUMNS 64
+#define NO_TILE SIZE_MAX
+
+struct dealing {
+  const struct raster *raster;
+  const struct facets *facets;
+  int left_out;  /* flags of triangles that are not drawn */
+  size_t across; /* tiles of a band */
+  int32_t tallest;
+};
+
+/* The tile of a triangle's facet; NO_TILE where it stands for none, or for one
+ * that is not drawn. */
+static size_t find_tile(struct dealing *dealing, uint32_t triangle) {
+  const struct raster *raster = dealing->raster;
+  const struct sheet *sheet = raster->sheet;
+  const uint32_t *corner, *side;
+  int32_t low = INT32_MAX, high = 0;
+  uint32_t count;
+  double column;
+  if ((sheet->triangle_flags[triangle] & dealing->left_out) ||
+      facet_of(dealing->facets, triangle) != triangle)
+    return NO_TILE;
+  count = facet_outline(dealing->facets, sheet, triangle, &corner, &side);
+  for (uint32_t k = 0; k < count; k++) {
+    int32_t line = raster->point[corner[k]].line;
+    low = line < low ? line : low;
+    high = line > high ? line : high;
+  }
+  if (low == high)
+    return NO_TILE;
+  if (high - low > dealing->tallest)
+    dealing->tallest = high - low;
+  column = raster->point[corner[0]].column;
+  return (size_t)(raster->grid.lines - high) / PIECES_BAND * dealing->across +
+         (column > 0 ? (size_t)column / TILE_COLUMNS : 0);
+}
+
+/* Deals out the facets, `start` of each tile being where its first one goes;
+ * afterwards it is where the next tile's does. */
+static void deal(struct dealing *dealing, size_t *start, struct piece *item) {
+  const struct sheet *sheet = dealing->raster->sheet;
+  for (uint32_t t = 0; t < sheet->triangle.count; t++) {
+    const uint32_t *p = sheet->triangle.item[t].point;
+    size_t tile = find_tile(dealing, t);
+    if (tile != NO_TILE)
+      item[start[tile]++] = (struct piece){t, {p[0], p[1], p[2]}};
+  }
+}
+
+bool pieces_init(struct pieces *pieces, const struct raster *raster,
+                 const struct facets *facets,
+                 const struct solver_request *request) {
+  const struct scan_grid *grid = &raster->grid;
+  size_t count = raster->sheet->triangle.count, sum = 0, tiles;
+  struct dealing dealing = {
+      raster, facets, SHEET_FLAT | (request->remove_backs ? SHEET_FLIPPED : 0),
+      (size_t)grid->columns / TILE_COLUMNS + 1, 0};
+  size_t *start;
+  pieces->bands = ((size_t)grid->lines + PIECES_BAND - 1) / PIECES_BAND;
+  tiles = pieces->bands * dealing.across;
+  start = mem_calloc(tiles, sizeof *start);
+  pieces->item = mem_alloc(count, sizeof *pieces->item);
+  pieces->past = mem_alloc(pieces->bands, sizeof *pieces->past);
+  if (start == NULL || pieces->item == NULL || pieces->past == NULL) {
+    mem_free(start);
+    pieces_fini(pieces);
+    return false;
+  }
+  for (uint32_t t = 0; t < count; t++) {
+    size_t tile = find_tile(&dealing, t);
+    if (tile != NO_TILE)
+      start[tile]++;
+  }
+  for (size_t tile = 0; tile < tiles; tile++) {
+    size_t here = start[tile];
+    start[tile] = sum;
+    sum += here;
+  }
+  deal(&dealing, start, pieces->item);
+  for (size_t band = 0; band < pieces->bands; band++)
+    pieces->past[band] = start[(band + 1) * dealing.across - 1];
+  pieces->tallest = dealing.tallest;
+  mem_free(start);
+  return true;
+}
+
+void pieces_fini(struct pieces *pieces) {
+  mem_free(pieces->item);
+  mem_free(pieces->past);
+  memset(pieces, 0, sizeof *pieces);
+}
