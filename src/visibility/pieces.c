@@ -4,7 +4,7 @@
 #include <string.h>
 
 #define TILE_COLUMNS 64
-#define NO_TILE SIZE_MAX
+#define NO_TILE UINT32_MAX /* of 2^27 at most */
 
 struct dealing {
   const struct raster *raster;
@@ -16,7 +16,7 @@ struct dealing {
 
 /* The tile of a triangle's facet; NO_TILE where it stands for none, or for one
  * that is not drawn. */
-static size_t find_tile(struct dealing *dealing, uint32_t triangle) {
+static uint32_t find_tile(struct dealing *dealing, uint32_t triangle) {
   const struct raster *raster = dealing->raster;
   const struct sheet *sheet = raster->sheet;
   const uint32_t *corner, *side;
@@ -37,19 +37,36 @@ static size_t find_tile(struct dealing *dealing, uint32_t triangle) {
   if (high - low > dealing->tallest)
     dealing->tallest = high - low;
   column = raster->point[corner[0]].column;
-  return (size_t)(raster->grid.lines - high) / PIECES_BAND * dealing->across +
-         (column > 0 ? (size_t)column / TILE_COLUMNS : 0);
+  return (uint32_t)((size_t)(raster->grid.lines - high) / PIECES_BAND *
+                        dealing->across +
+                    (column > 0 ? (size_t)column / TILE_COLUMNS : 0));
+}
+
+/* Finds each triangle's tile, and where in the order each tile's facets start.
+ * start  0 of each tile */
+static void find_tiles(struct dealing *dealing, uint32_t *tile_of,
+                       size_t *start, size_t tiles) {
+  size_t sum = 0;
+  for (uint32_t t = 0; t < dealing->raster->sheet->triangle.count; t++) {
+    tile_of[t] = find_tile(dealing, t);
+    if (tile_of[t] != NO_TILE)
+      start[tile_of[t]]++;
+  }
+  for (size_t tile = 0; tile < tiles; tile++) {
+    size_t here = start[tile];
+    start[tile] = sum;
+    sum += here;
+  }
 }
 
 /* Deals out the facets, `start` of each tile being where its first one goes;
  * afterwards it is where the next tile's does. */
-static void deal(struct dealing *dealing, size_t *start, struct piece *item) {
-  const struct sheet *sheet = dealing->raster->sheet;
+static void deal(const struct sheet *sheet, const uint32_t *tile_of,
+                 size_t *start, struct piece *item) {
   for (uint32_t t = 0; t < sheet->triangle.count; t++) {
     const uint32_t *p = sheet->triangle.item[t].point;
-    size_t tile = find_tile(dealing, t);
-    if (tile != NO_TILE)
-      item[start[tile]++] = (struct piece){t, {p[0], p[1], p[2]}};
+    if (tile_of[t] != NO_TILE)
+      item[start[tile_of[t]]++] = (struct piece){t, {p[0], p[1], p[2]}};
   }
 }
 
@@ -57,35 +74,30 @@ bool pieces_init(struct pieces *pieces, const struct raster *raster,
                  const struct facets *facets,
                  const struct solver_request *request) {
   const struct scan_grid *grid = &raster->grid;
-  size_t count = raster->sheet->triangle.count, sum = 0, tiles;
+  size_t count = raster->sheet->triangle.count, tiles;
   struct dealing dealing = {
       raster, facets, SHEET_FLAT | (request->remove_backs ? SHEET_FLIPPED : 0),
       (size_t)grid->columns / TILE_COLUMNS + 1, 0};
   size_t *start;
+  uint32_t *tile_of = mem_alloc(count, sizeof *tile_of);
   pieces->bands = ((size_t)grid->lines + PIECES_BAND - 1) / PIECES_BAND;
   tiles = pieces->bands * dealing.across;
   start = mem_calloc(tiles, sizeof *start);
   pieces->item = mem_alloc(count, sizeof *pieces->item);
   pieces->past = mem_alloc(pieces->bands, sizeof *pieces->past);
-  if (start == NULL || pieces->item == NULL || pieces->past == NULL) {
+  if (tile_of == NULL || start == NULL || pieces->item == NULL ||
+      pieces->past == NULL) {
+    mem_free(tile_of);
     mem_free(start);
     pieces_fini(pieces);
     return false;
   }
-  for (uint32_t t = 0; t < count; t++) {
-    size_t tile = find_tile(&dealing, t);
-    if (tile != NO_TILE)
-      start[tile]++;
-  }
-  for (size_t tile = 0; tile < tiles; tile++) {
-    size_t here = start[tile];
-    start[tile] = sum;
-    sum += here;
-  }
-  deal(&dealing, start, pieces->item);
+  find_tiles(&dealing, tile_of, start, tiles);
+  deal(raster->sheet, tile_of, start, pieces->item);
   for (size_t band = 0; band < pieces->bands; band++)
     pieces->past[band] = start[(band + 1) * dealing.across - 1];
   pieces->tallest = dealing.tallest;
+  mem_free(tile_of);
   mem_free(start);
   return true;
 }
