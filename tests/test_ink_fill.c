@@ -203,7 +203,7 @@ groups_are_painted_in_their_colour_or_one_of_their_own(void **state) {
   assert_int_not_equal(fill[0].colour, fill[2].colour);
   for (uint32_t g = 0; g < 3; g++) {
     assert_int_equal(fill[g].group, g);
-    assert_int_equal(fill[g].layer, g);
+    assert_int_equal(fill[g].layer, 0);
   }
   inked_end(&k);
 }

@@ -97,6 +97,27 @@ static void layers_say_what_is_on_their_pen(void **state) {
   inked_end(&k);
 }
 
+static void fills_lie_below_the_lines_of_all_pens(void **state) {
+  static const double flat[] = {0, 0, 0, 1, 0, 0, 1, 1, 0};
+  static const double outline[] = {10, 10, 90, 10, 90, 80};
+  (void)state;
+  for (int pens = 1; pens <= 2; pens++) {
+    struct inked k;
+    start_scene(&k);
+    k.options.fill = RECTO_FILL_PAINT;
+    k.options.pen_for = pens == 1 ? NULL : "silhouette=2";
+    inked_fragment(&k, inked_face(&k, 1, flat, 3), INKED_XY(outline));
+    inked_draw(&k);
+    const struct drawing_layer *layer = k.drawing.layer.item;
+    assert_int_equal(k.drawing.layer.count, pens == 1 ? 1 : 3);
+    assert_int_equal(k.drawing.fill.item[0].layer, 0);
+    assert_string_equal(layer[0].label, pens == 1 ? "1 visible" : "% fills");
+    for (size_t i = 0; i < k.drawing.stroke.count; i++)
+      assert_int_equal(k.drawing.stroke.item[i].layer == 0, pens == 1);
+    inked_end(&k);
+  }
+}
+
 static void half_the_strokes_own_pen_is_the_shortest(void **state) {
   (void)state;
   for (int wide = 0; wide < 2; wide++) {
@@ -227,6 +248,7 @@ int main(void) {
       cmocka_unit_test(hidden_goes_before_class_and_class_before_group),
       cmocka_unit_test(groups_go_by_their_whole_name_or_a_part),
       cmocka_unit_test(layers_say_what_is_on_their_pen),
+      cmocka_unit_test(fills_lie_below_the_lines_of_all_pens),
       cmocka_unit_test(half_the_strokes_own_pen_is_the_shortest),
       cmocka_unit_test(strokes_of_pens_that_meet_are_not_joined),
       cmocka_unit_test(outlines_are_twice_as_wide_unless_told_otherwise),

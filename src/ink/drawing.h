@@ -38,7 +38,7 @@ struct drawing_loop {
 
 /* Layers are written in their order; within one, fills before strokes. */
 struct drawing_layer {
-  unsigned pen;    /* 1 is the first */
+  unsigned pen;    /* 1 is the first; 0: no pen, a layer of fills alone */
   char label[48];  /* "1 visible": the pen's number, then words */
   uint32_t colour; /* 0xRRGGBB, of its strokes */
   double width_mm;

@@ -39,11 +39,9 @@ static uint32_t grey_of(const struct scene *scene, uint32_t face,
 static struct drawing_fill fill_like(const struct sheet *sheet,
                                      const struct scene *scene, uint32_t face,
                                      const double light[3],
-                                     const struct pens *pens,
                                      const recto_options *options) {
   uint32_t group = scene->face_group.item[face];
   return (struct drawing_fill){
-      .layer = pens_of_group(pens, group),
       .colour = options->fill == RECTO_FILL_SHADE
                     ? grey_of(scene, face, &sheet->camera, light)
                     : fill_colour(scene, group),
@@ -53,7 +51,7 @@ static struct drawing_fill fill_like(const struct sheet *sheet,
 
 bool fill_add(struct drawing *drawing, const struct sheet *sheet,
               const struct scene *scene, const struct map *map,
-              const struct pens *pens, const recto_options *options) {
+              const recto_options *options) {
   struct drawing_fill *like = mem_alloc(map->fragment.count, sizeof *like);
   double light[3];
   if (!like)
@@ -61,8 +59,7 @@ bool fill_add(struct drawing *drawing, const struct sheet *sheet,
   light_direction(&sheet->camera, options, light);
   for (size_t i = 0; i < map->fragment.count; i++)
     like[i] =
-        fill_like(sheet, scene, map->fragment.item[i].face, light, pens,
-                        options);
+        fill_like(sheet, scene, map->fragment.item[i].face, light, options);
   bool good = merge_fills(drawing, sheet, scene, map, like, options);
   mem_free(like);
   return good;

@@ -14,7 +14,7 @@ uint32_t fill_colour(const struct scene *scene, uint32_t group);
  *                   a face alike */
 USE_RESULT bool fill_add(struct drawing *drawing, const struct sheet *sheet,
                          const struct scene *scene, const struct map *map,
-                         const struct pens *pens, const recto_options *options);
+                         const recto_options *options);
 
 /* Adds strokes of class 0 along parallel lines, hatch_pitch_mm apart and
  * turned by hatch_angle_deg from the x axis, over every fragment.  The lines

@@ -72,10 +72,10 @@ static recto_status make_paths(struct ink *ink, struct ink_paths *paths,
 static struct drawing_stroke stroke_like(const struct ink *ink,
                                          const struct ink_path *path) {
   const struct sheet_edge *edge = &ink->sheet->edge.item[path->edge];
-  uint32_t layer =
-      path->hidden ? pens_of_hidden(ink->pens, ink->options, edge->edge_class,
-                                    edge->group)
-                   : pens_of_line(ink->pens, edge->edge_class, edge->group);
+  uint32_t layer = path->hidden
+                       ? pens_of_hidden(ink->pens, ink->options,
+                                        edge->edge_class, edge->group)
+                       : pens_of_line(ink->pens, edge->edge_class, edge->group);
   return (struct drawing_stroke){.layer = layer,
                                  .face = sheet_edge_face(ink->sheet, edge),
                                  .edge = edge->source,
@@ -170,7 +170,7 @@ static bool add_fills(struct ink *ink) {
   switch (ink->options->fill) {
   case RECTO_FILL_PAINT:
   case RECTO_FILL_SHADE:
-    return fill_add(ink->drawing, ink->sheet, ink->scene, ink->map, ink->pens,
+    return fill_add(ink->drawing, ink->sheet, ink->scene, ink->map,
                     ink->options);
   case RECTO_FILL_HATCH:
     return (is_lit(ink->options) ? engrave_add : hatch_add)(

@@ -101,23 +101,49 @@ bool layers_add(struct drawing *drawing, const struct pens *pens,
 /* ---- Packing --------------------------------------------------------------
  */
 
-/* Numbers the layers in use anew: number[old] is the new one.  Returns how
- * many there are. */
+/* Numbers the layers with strokes on them anew: number[old] is
+ * the new one.  Returns how many there are. */
 static uint32_t number_used(const struct drawing *drawing, uint32_t *number) {
   size_t layers = drawing->layer.count;
   uint32_t used = 0;
   memset(number, 0, layers * sizeof *number);
   for (size_t i = 0; i < drawing->stroke.count; i++)
     number[drawing->stroke.item[i].layer] = 1;
-  for (size_t i = 0; i < drawing->fill.count; i++)
-    number[drawing->fill.item[i].layer] = 1;
   for (size_t i = 0; i < layers; i++)
-    used += number[i];
-  if (used == 0 && layers > 0)
-    used = number[0] = 1;
-  for (size_t i = 0, next = 0; i < layers; i++)
-    number[i] = number[i] ? (uint32_t)next++ : DRAWING_NONE;
+    number[i] = number[i] ? used++ : DRAWING_NONE;
   return used;
+}
+
+/* Puts a layer for fills below all others. */
+static bool add_fill_layer(struct drawing *drawing) {
+  struct drawing_layer layer = drawing->layer.item[0];
+  layer.pen = 0;
+  (void)snprintf(layer.label, sizeof layer.label, "%% fills");
+  if (!ARRAY_PUSH(&drawing->layer, layer))
+    return false;
+  memmove(drawing->layer.item + 1, drawing->layer.item,
+          (drawing->layer.count - 1) * sizeof layer);
+  drawing->layer.item[0] = layer;
+  for (size_t i = 0; i < drawing->stroke.count; i++)
+    drawing->stroke.item[i].layer++;
+  return true;
+}
+
+/* Leaves out the layers on which nothing is. */
+static bool drop_empty(struct drawing *drawing) {
+  uint32_t *number = mem_alloc(drawing->layer.count, sizeof *number);
+  if (!number)
+    return false;
+  uint32_t used = number_used(drawing, number);
+  for (size_t i = 0; i < drawing->layer.count; i++)
+    if (number[i] != DRAWING_NONE)
+      drawing->layer.item[number[i]] = drawing->layer.item[i];
+  for (size_t i = 0; i < drawing->stroke.count; i++)
+    drawing->stroke.item[i].layer = number[drawing->stroke.item[i].layer];
+  mem_free(number);
+  if (drawing->layer.count > used)
+    drawing->layer.count = used > 0 ? used : 1;
+  return true;
 }
 
 /* Where lines of several weights are drawn, those of a class stand together,
@@ -142,12 +168,6 @@ static int compare_layers(const void *first, const void *second, void *user) {
   return (a->layer > b->layer) - (a->layer < b->layer);
 }
 
-static int compare_fills(const void *first, const void *second, void *user) {
-  const struct drawing_fill *a = first, *b = second;
-  (void)user;
-  return (a->layer > b->layer) - (a->layer < b->layer);
-}
-
 static bool has_weights(const struct drawing *drawing) {
   bool any = false;
   for (int i = 1; i < RECTO_EDGE_CLASS_COUNT; i++)
@@ -156,25 +176,14 @@ static bool has_weights(const struct drawing *drawing) {
 }
 
 bool layers_pack(struct drawing *drawing) {
-  uint32_t *number = mem_alloc(drawing->layer.count, sizeof *number);
-  if (!number)
+  if (!drop_empty(drawing) ||
+      (drawing->layer.count > 1 && drawing->fill.count > 0 &&
+       !add_fill_layer(drawing)))
     return false;
-  uint32_t used = number_used(drawing, number);
-  for (size_t i = 0; i < drawing->layer.count; i++)
-    if (number[i] != DRAWING_NONE)
-      drawing->layer.item[number[i]] = drawing->layer.item[i];
-  drawing->layer.count = used;
-  for (size_t i = 0; i < drawing->stroke.count; i++)
-    drawing->stroke.item[i].layer = number[drawing->stroke.item[i].layer];
-  for (size_t i = 0; i < drawing->fill.count; i++)
-    drawing->fill.item[i].layer = number[drawing->fill.item[i].layer];
-  mem_free(number);
   bool weighted = has_weights(drawing);
-  if (used < 2 && !weighted)
+  if (drawing->layer.count < 2 && !weighted)
     return true;
   return sort_stable(drawing->stroke.item, drawing->stroke.count,
                      sizeof *drawing->stroke.item,
-                     weighted ? compare_strokes : compare_layers, drawing) &&
-         sort_stable(drawing->fill.item, drawing->fill.count,
-                     sizeof *drawing->fill.item, compare_fills, NULL);
+                     weighted ? compare_strokes : compare_layers, drawing);
 }

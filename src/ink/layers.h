@@ -5,8 +5,10 @@
  * more: groups are dealt to the pens in turn         "2 wheel, axle"
  * what was given a pen by its name                   "3 crease, hatch, wheel"
  * RECTO_HIDDEN_LAYER, and no pen said: one more      "4 hidden"
- * Layers on which nothing is drawn are left out, but for the first where
- * there is nothing at all; their pens keep their numbers. */
+ * fills, where strokes are on more than one           "% fills", the lowest
+ * Layers on which no stroke is drawn are left out, but for the first where
+ * there is none at all; their pens keep their numbers.  A plotter's software
+ * never plots a layer whose name begins with %. */
 #ifndef INK_LAYERS_H
 #define INK_LAYERS_H
 
@@ -18,9 +20,10 @@ USE_RESULT bool layers_add(struct drawing *drawing, const struct pens *pens,
                            const struct scene *scene,
                            const recto_options *options);
 
-/* Puts strokes and fills in the order of their layers, and within one, where
- * there are weights, strokes in that of their weights and classes, else keeping
- * theirs, and leaves out the layers that are empty. */
+/* Puts strokes in the order of their layers, and within one, where there are
+ * weights, in that of their weights and classes, else keeping theirs; leaves
+ * out the layers that are empty, and adds that of fills.  Fills are on the
+ * first layer, before it and after it. */
 USE_RESULT bool layers_pack(struct drawing *drawing);
 
 #endif

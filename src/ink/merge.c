@@ -126,7 +126,7 @@ static bool gather_sides(struct merge *merge) {
 
 static bool is_of_one_style(const struct merge *merge, uint32_t f, uint32_t g) {
   const struct drawing_fill *a = &merge->like[f], *b = &merge->like[g];
-  return a->colour == b->colour && a->layer == b->layer;
+  return a->colour == b->colour;
 }
 
 static bool is_reverse(const struct merge *merge, const struct side *a,

@@ -6,8 +6,8 @@
 #include "visibility/map.h"
 
 /* Adds the fills of all fragments.  Fragments on either side of an edge that
- * is smooth, whatever classes are drawn, are of one fill where their colour and
- * layer agree; so a flat or smoothly bent surface is one fill, as far as it is
+ * is smooth, whatever classes are drawn, are of one fill where their colours
+ * agree; so a flat or smoothly bent surface is one fill, as far as it is
  * seen in one piece.  A fill stands where its first fragment does.
  * like     one a fragment: the fill it would be, without its loops
  * options  crease_deg: faces that meet at more are not smooth; ids: every
