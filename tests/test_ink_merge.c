@@ -145,6 +145,31 @@ static void random_scenes_are_painted_as_their_fragments_are(void **state) {
   }
 }
 
+/* Spans at a pitch overlap a little, their sides leave their edges' lines, and
+ * end where no side of a neighbour does. */
+static void spans_at_a_pitch_keep_their_area(void **state) {
+  (void)state;
+  for (unsigned rings = 20; rings <= 60; rings += 20) {
+    struct scene scene;
+    recto_options options;
+    struct both both;
+    scene_init(&scene);
+    recto_options_init(&options);
+    scenes_globe(&scene, &options, rings);
+    options.fill = RECTO_FILL_PAINT;
+    options.pitch_mm = 0.37;
+    assert_true(draw_both(&both, &scene, &options, "watkins"));
+    for (size_t i = 0; i < both.merged.drawing.fill.count; i++) {
+      uint32_t colour = both.merged.drawing.fill.item[i].colour;
+      assert_true(fabs(area_in(&both.merged.drawing, colour) -
+                       area_in(&both.apart.drawing, colour)) < 1e-2);
+    }
+    assert_true(both.merged.drawing.fill.count < both.apart.drawing.fill.count);
+    end_both(&both);
+    scene_fini(&scene);
+  }
+}
+
 /* ---- How many -------------------------------------------------------------
  */
 
@@ -288,6 +313,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(scenes_are_painted_as_their_fragments_are),
       cmocka_unit_test(random_scenes_are_painted_as_their_fragments_are),
+      cmocka_unit_test(spans_at_a_pitch_keep_their_area),
       cmocka_unit_test(a_cube_is_three_polygons),
       cmocka_unit_test(so_is_one_whose_sides_are_divided),
       cmocka_unit_test(a_ball_is_one_polygon_whatever_lines_are_drawn),

@@ -6,16 +6,19 @@
  *     side of it, and note that they are of one fill
  *   3 join what is left of each fill's outline end to end
  * Invariants
- *   Corners of two fragments at one exact point have the same coordinates, so
- *   what is left still has as many sides that come to a point as leave it, and
- *   joins to closed loops.  A fill is even-odd: which loops they are makes no
- *   difference to it. */
+ *   As many sides come to a point as leave it, for what goes from a stretch of
+ *   an edge are two sides that run along it one each way; so what is left
+ *   joins to closed loops, be the map exact or not.  A fill is even-odd: which
+ *   loops they are makes no difference to it.
+ */
 #include "ink/merge.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/sets.h"
 #include "base/sort.h"
+#include "base/tolerance.h"
 #include "ink/outline.h"
 
 /* A side of a fragment on a smooth edge. */
@@ -161,21 +164,55 @@ static bool add_rest(struct merge *merge, struct outline_place low,
   return ARRAY_PUSH(&merge->rest.piece, piece);
 }
 
-/* The stretch between two neighbouring events: beside[1] is the fragment whose
- * side runs forwards along it, beside[0] the one whose runs backwards. */
+/* A side that runs along the stretch at hand. */
+struct running {
+  uint32_t fragment;
+  bool forward;
+  bool gone; /* from this stretch */
+};
+
+typedef ARRAY(struct running) runners;
+
+/* Lets sides that run both ways along a stretch go by twos, where they are of
+ * one style. */
+static void cancel_stretch(struct merge *merge, runners *running) {
+  struct running *r = running->item;
+  for (size_t i = 0; i < running->count; i++)
+    r[i].gone = false;
+  for (size_t i = 0; i < running->count; i++)
+    for (size_t j = i + 1; !r[i].gone && j < running->count; j++)
+      if (r[i].forward != r[j].forward && !r[j].gone &&
+          is_of_one_style(merge, r[i].fragment, r[j].fragment)) {
+        r[i].gone = r[j].gone = true;
+        join(merge, r[i].fragment, r[j].fragment);
+      }
+}
+
+/* The stretch between two neighbouring events: what does not go stays.  Maps
+ * that are not exact may have several sides each way there. */
 static bool settle(struct merge *merge, struct outline_place low,
-                   struct outline_place high, const uint32_t beside[2]) {
+                   struct outline_place high, runners *running) {
   if (outline_compare(low, high) == 0)
     return true;
-  if (beside[0] != DRAWING_NONE && beside[1] != DRAWING_NONE &&
-      is_of_one_style(merge, beside[0], beside[1])) {
-    join(merge, beside[0], beside[1]);
-    return true;
-  }
-  for (int way = 0; way < 2; way++)
-    if (beside[way] != DRAWING_NONE &&
-        !add_rest(merge, low, high, way != 0, beside[way]))
+  cancel_stretch(merge, running);
+  for (size_t i = 0; i < running->count; i++) {
+    const struct running *r = &running->item[i];
+    if (!r->gone && !add_rest(merge, low, high, r->forward, r->fragment))
       return false;
+  }
+  return true;
+}
+
+static bool take_event(runners *running, const struct event *event) {
+  struct running begun = {event->fragment, event->forward, false};
+  if (event->begins)
+    return ARRAY_PUSH(running, begun);
+  for (size_t i = 0; i < running->count; i++)
+    if (running->item[i].fragment == event->fragment &&
+        running->item[i].forward == event->forward) {
+      running->item[i] = running->item[--running->count];
+      break;
+    }
   return true;
 }
 
@@ -193,19 +230,15 @@ static void add_events(struct merge *merge, const struct side *side,
 /* Goes along an edge from event to event. */
 static bool sweep_edge(struct merge *merge, const struct side *side,
                        size_t count, struct event *event) {
-  uint32_t beside[2] = {DRAWING_NONE, DRAWING_NONE};
+  runners running = {0};
   for (size_t i = 0; i < count; i++)
     add_events(merge, &side[i], &event[2 * i]);
   bool good =
       sort_stable(event, 2 * count, sizeof *event, compare_events, NULL);
-  for (size_t i = 0; good && i < 2 * count; i++) {
-    if (i > 0)
-      good = settle(merge, event[i - 1].at, event[i].at, beside);
-    if (event[i].begins)
-      beside[event[i].forward] = event[i].fragment;
-    else if (beside[event[i].forward] == event[i].fragment)
-      beside[event[i].forward] = DRAWING_NONE;
-  }
+  for (size_t i = 0; good && i < 2 * count; i++)
+    good = (i == 0 || settle(merge, event[i - 1].at, event[i].at, &running)) &&
+           take_event(&running, &event[i]);
+  ARRAY_FREE(&running);
   return good;
 }
 
@@ -219,13 +252,46 @@ static bool can_cancel(const struct merge *merge, const struct side *side,
   return false;
 }
 
-static bool cancel_edge(struct merge *merge, const struct side *side,
-                        size_t count) {
+/* Whether all sides are on the edge's line, up to rounding.  Spans have sides
+ * that cut across it. */
+static bool are_on_line(const struct merge *merge, uint32_t edge,
+                        const struct side *side, size_t count) {
+  const struct sheet *sheet = merge->sheet;
+  const struct geom_point *p =
+      &sheet->point.item[sheet->edge.item[edge].point[0]];
+  const struct geom_point *q =
+      &sheet->point.item[sheet->edge.item[edge].point[1]];
+  double dx = (double)q->x - p->x, dy = (double)q->y - p->y;
+  double most = TOLERANCE_COINCIDENT_UNITS * hypot(dx, dy);
+  for (size_t i = 0; i < 2 * count; i++) {
+    struct outline_place at =
+        place_of(merge, i % 2 == 0 ? side[i / 2].corner : side[i / 2].next);
+    if (fabs(dx * (at.y - p->y) - dy * (at.x - p->x)) > most)
+      return false;
+  }
+  return true;
+}
+
+/* Cancels the sides that are one another's reverse. */
+static void cancel_reverses(struct merge *merge, const struct side *side,
+                            size_t count) {
+  for (size_t i = 0; i < count; i++)
+    for (size_t j = i + 1; j < count && !merge->dropped[side[i].corner]; j++)
+      if (!merge->dropped[side[j].corner] &&
+          is_reverse(merge, &side[i], &side[j]) &&
+          is_of_one_style(merge, side[i].fragment, side[j].fragment)) {
+        merge->dropped[side[i].corner] = merge->dropped[side[j].corner] = 1;
+        join(merge, side[i].fragment, side[j].fragment);
+      }
+}
+
+static bool cancel_edge(struct merge *merge, uint32_t edge,
+                        const struct side *side, size_t count) {
   if (count < 2 || (count == 2 && !can_cancel(merge, side, count)))
     return true;
-  if (count == 2 && is_reverse(merge, &side[0], &side[1])) {
-    merge->dropped[side[0].corner] = merge->dropped[side[1].corner] = 1;
-    join(merge, side[0].fragment, side[1].fragment);
+  if (!are_on_line(merge, edge, side, count) ||
+      (count == 2 && is_reverse(merge, &side[0], &side[1]))) {
+    cancel_reverses(merge, side, count);
     return true;
   }
   struct event *event = mem_alloc(2 * count, sizeof *event);
@@ -244,7 +310,7 @@ static bool cancel_sides(struct merge *merge) {
     for (j = i + 1; j < merge->side.count &&
                     merge->map->corner.item[side[j].corner].id == edge;)
       j++;
-    if (!cancel_edge(merge, &side[i], j - i))
+    if (!cancel_edge(merge, edge, &side[i], j - i))
       return false;
   }
   return true;
