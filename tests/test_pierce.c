@@ -19,7 +19,7 @@ static size_t pierce(struct sheet *sheet) {
   struct pagegrid grid;
   recto_error error;
   assert_true(pagegrid_init(&grid, sheet));
-  assert_int_equal(pierce_all(sheet, &grid, NULL, NULL, &error), RECTO_OK);
+  assert_int_equal(pierce_all(sheet, &grid, NULL, NULL, NULL, &error), RECTO_OK);
   pagegrid_fini(&grid);
   for (size_t e = before; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];

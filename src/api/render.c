@@ -31,6 +31,7 @@ struct render {
   struct report *report;
   char *verdict; /* VERIFY_SUMMARY_SIZE */
   double share;  /* of all the work, done when the stage at hand began */
+  double passed; /* the most that was handed on */
 };
 
 /* ---- The method ---------------------------------------------------------- */
@@ -122,13 +123,16 @@ static recto_status project(struct render *render, recto_error *error) {
   return status;
 }
 
-/* Hands the share of the stage on as a share of the whole. */
+/* Hands the share of a solver's phase on as a share of the whole, which never
+ * falls. */
 static bool pass_progress(void *user, double share, const char *stage) {
-  const struct render *render = user;
+  struct render *render = user;
   const double most = 0.9;
-  return render->options->progress(
-      render->options->user, render->share + share * (most - render->share),
-      stage);
+  double whole = render->share + share * (most - render->share);
+  if (whole > render->passed)
+    render->passed = whole;
+  return render->options->progress(render->options->user, render->passed,
+                                   stage);
 }
 
 static recto_status solve(struct render *render, recto_error *error) {

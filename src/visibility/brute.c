@@ -78,7 +78,7 @@ static recto_status solve(struct sheet *sheet,
   recto_status status = RECTO_OK;
   if (!pagegrid_init(&grid, sheet)) return error_memory(error);
   if (request->intersections)
-    status = pierce_all(sheet, &grid, NULL, report, error);
+    status = pierce_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK && request->strokes &&
       !solve_strokes(sheet, map, &counts))
     status = error_memory(error);

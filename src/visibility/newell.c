@@ -174,7 +174,7 @@ static recto_status solve(struct sheet *sheet,
   if (!pagegrid_init(&grid, sheet)) return error_memory(error);
   status = newell_order_init(&order, sheet, &grid, request, error);
   if (status == RECTO_OK && request->intersections)
-    status = pierce_all(sheet, &grid, NULL, report, error);
+    status = pierce_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK && request->strokes &&
       !solve_strokes(sheet, &order, map, report))
     status = error_memory(error);

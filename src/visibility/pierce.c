@@ -25,8 +25,13 @@ struct seam {
 
 enum { SEAM_BEHIND = 1, SEAM_BEFORE = 2 };
 
+enum { ASK_EVERY = 1 << 18 }; /* pairs met between two calls of progress */
+
 struct pierce {
   const struct sheet *sheet;
+  const struct solver_request *request; /* NULL: nobody is asked */
+  uint64_t asked;                       /* pairs met when it was asked last */
+  bool cancelled;
   ARRAY(struct pierce_segment) segment;
   ARRAY(struct seam) seam;
   struct hider hider; /* of triangle `prepared` */
@@ -322,6 +327,18 @@ static bool ask_pair(void *user, uint32_t f, uint32_t g) {
          ARRAY_PUSH(&pierce->segment, segment);
 }
 
+/* Asks now and then whether to go on. */
+static bool go_on(void *user) {
+  struct pierce *pierce = user;
+  const struct solver_request *request = pierce->request;
+  if (request == NULL || request->progress == NULL ||
+      pierce->counts.met - pierce->asked < ASK_EVERY)
+    return true;
+  pierce->asked = pierce->counts.met;
+  pierce->cancelled = !request->progress(request->user, 0, "piercing");
+  return !pierce->cancelled;
+}
+
 /* ---- Edges of the sheet ---------------------------------------------------- */
 
 static int compare_segments(const void *a, const void *b, void *user) {
@@ -394,10 +411,12 @@ static bool add_edges(struct sheet *sheet, struct pierce *pierce) {
 }
 
 recto_status pierce_all(struct sheet *sheet, const struct pagegrid *grid,
-                        const uint8_t *cells, struct report *report,
-                        recto_error *error) {
-  struct pierce pierce = {.sheet = sheet, .prepared = SHEET_NONE};
-  bool done = pierce_pairs(sheet, grid, cells, ask_pair, &pierce,
+                        const uint8_t *cells,
+                        const struct solver_request *request,
+                        struct report *report, recto_error *error) {
+  struct pierce pierce = {
+      .sheet = sheet, .request = request, .prepared = SHEET_NONE};
+  bool done = pierce_pairs(sheet, grid, cells, ask_pair, go_on, &pierce,
                            &pierce.counts.met) &&
               join_seams(&pierce) && add_edges(sheet, &pierce);
   report_int(report, "pierce", "pairs_met", (int64_t)pierce.counts.met);
@@ -407,5 +426,7 @@ recto_status pierce_all(struct sheet *sheet, const struct pagegrid *grid,
   report_int(report, "pierce", "segments", (int64_t)pierce.segment.count);
   ARRAY_FREE(&pierce.segment);
   ARRAY_FREE(&pierce.seam);
+  if (pierce.cancelled)
+    return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
   return done ? RECTO_OK : error_memory(error);
 }

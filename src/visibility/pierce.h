@@ -19,13 +19,17 @@
 
 #include "base/report.h"
 #include "visibility/pagegrid.h"
+#include "visibility/solver.h"
 
 /* Finds the piercing pairs that share a listed cell of the grid, and adds
  * their edges.
- * cells  one a cell: where to look; NULL: everywhere */
+ * cells    one a cell: where to look; NULL: everywhere
+ * request  who is to be asked whether to go on; NULL: nobody
+ * Errors   RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED. */
 USE_RESULT recto_status pierce_all(struct sheet *sheet,
                                    const struct pagegrid *grid,
                                    const uint8_t *cells,
+                                   const struct solver_request *request,
                                    struct report *report, recto_error *error);
 
 #endif

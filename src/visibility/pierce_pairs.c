@@ -29,6 +29,7 @@ struct sweep {
   const struct pagegrid *grid;
   const uint8_t *cells;
   bool (*visit)(void *user, uint32_t f, uint32_t g);
+  bool (*go_on)(void *user);
   void *user;
   int x, y; /* the cell at hand */
   ARRAY(struct summary) summary;
@@ -185,6 +186,7 @@ static bool sweep_list(struct sweep *sweep) {
   sort_keys(key, key + n, n);
   for (size_t i = 0; i < n; i++) {
     struct summary *f = &summary[key[i].value];
+    if (!sweep->go_on(sweep->user)) return false;
     for (size_t j = i + 1; j < n && key[j].key <= (uint64_t)f->high; j++) {
       (*sweep->met)++;
       if (!meet(sweep, f, &summary[key[j].value])) return false;
@@ -222,11 +224,12 @@ static bool sweep_cell(struct sweep *sweep, const uint32_t *item, size_t n) {
 bool pierce_pairs(const struct sheet *sheet, const struct pagegrid *grid,
                   const uint8_t *cells,
                   bool (*visit)(void *user, uint32_t f, uint32_t g),
-                  void *user, uint64_t *met) {
+                  bool (*go_on)(void *user), void *user, uint64_t *met) {
   struct sweep sweep = {.sheet = sheet,
                         .grid = grid,
                         .cells = cells,
                         .visit = visit,
+                        .go_on = go_on,
                         .user = user,
                         .met = met};
   bool done = true;

@@ -9,11 +9,13 @@
  * meet on the page and in depth, they share less than an edge, and neither is
  * surely apart from the other's plane.
  * cells  one a cell; NULL: all
+ * go_on  asked before each triangle's pairs
  * met    counts the pairs of triangles in one list whose depths overlap
- * Returns false when memory ran out, or as soon as visit does. */
+ * Returns false when memory ran out, or as soon as visit or go_on does. */
 USE_RESULT bool pierce_pairs(const struct sheet *sheet,
                              const struct pagegrid *grid, const uint8_t *cells,
                              bool (*visit)(void *user, uint32_t f, uint32_t g),
-                             void *user, uint64_t *met);
+                             bool (*go_on)(void *user), void *user,
+                             uint64_t *met);
 
 #endif

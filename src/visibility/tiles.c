@@ -11,7 +11,11 @@
  *
  * Invariant: a decision in phase 2 is the one that pairs would have made.
  */
+#include <stdatomic.h>
 #include <string.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 #include "visibility/cover.h"
 #include "visibility/crowd.h"
@@ -35,7 +39,25 @@ struct tiles_work {
   struct hide_counts hide;
   struct report *report;
   double phase_start; /* of the phase at hand */
+  atomic_bool *cancelled;
 };
+
+enum { ASK_EVERY = 16 }; /* edges or faces between two calls of progress */
+
+/* Asks whether to go on, in the caller's own thread and not too often. */
+static bool may_go_on(const struct tiles_work *work, size_t done, size_t all,
+                      const char *stage) {
+  const struct solver_request *request = work->request;
+  bool callers = true;
+#ifdef _OPENMP
+  callers = omp_get_thread_num() == 0;
+#endif
+  if (callers && done % ASK_EVERY == 0 && request->progress != NULL &&
+      !atomic_load(work->cancelled) &&
+      !request->progress(request->user, (double)done / (double)all, stage))
+    atomic_store(work->cancelled, true);
+  return !atomic_load(work->cancelled);
+}
 
 /* ---- 3, 4. Lists and piercing --------------------------------------------------------------- */
 
@@ -356,7 +378,8 @@ static void solve_run(const struct tiles_work *work, size_t from,
   run->done = true;
   task->counts = &run->counts;
   for (size_t i = from; run->done && i < to; i++)
-    run->done = solve_edge(work, work->edge.item[i], task) &&
+    run->done = may_go_on(work, i, work->edge.count, "edges") &&
+                solve_edge(work, work->edge.item[i], task) &&
                 strokes_file(task->strokes, work->edge.item[i], &run->map);
 }
 
@@ -432,7 +455,7 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
   struct fragments fragments;
   struct pagegrid_query query = {0};
   struct cover cover;
-  size_t n = work->sheet->triangle.count;
+  size_t n = work->sheet->triangle.count, left_over = 0;
   bool done = fragments_init(&fragments, work->sheet, &work->tiles.grid, true);
   cover_init(&cover, work->sheet);
   done = done && pagegrid_query_init(&query, &work->tiles.grid);
@@ -440,7 +463,8 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
     if (work->face_state[t] == MAP_VISIBLE)
       done = fragments_add_alone(&fragments, (uint32_t)t);
     else if (work->face_state[t] == MAP_MIXED)
-      done = cover_face(work, (uint32_t)t, &query, &cover) &&
+      done = may_go_on(work, left_over++, n, "faces") &&
+             cover_face(work, (uint32_t)t, &query, &cover) &&
              cover_file(&cover, &fragments);
   }
   done = done && fragments_finish(&fragments, work->request->areas, map);
@@ -489,7 +513,7 @@ static bool find_piercing(struct tiles_work *work, struct map *map,
                           recto_status *status, recto_error *error) {
   size_t mesh_edges = work->sheet->edge.count;
   *status = pierce_all(work->sheet, &work->tiles.grid, work->pierced,
-                       work->report, error);
+                       work->request, work->report, error);
   if (*status != RECTO_OK) return false;
   if (work->request->strokes && !classify_edges(work, mesh_edges, map))
     return false;
@@ -517,11 +541,16 @@ static recto_status solve(struct sheet *sheet,
                           const struct solver_request *request,
                           struct map *map, struct report *report,
                           recto_error *error) {
-  struct tiles_work work = {
-      .sheet = sheet, .request = request, .report = report};
+  atomic_bool cancelled = false;
+  struct tiles_work work = {.sheet = sheet,
+                            .request = request,
+                            .report = report,
+                            .cancelled = &cancelled};
   recto_status status = RECTO_OK;
   if (!solve_all(&work, map, &status, error) && status == RECTO_OK)
-    status = error_memory(error);
+    status = cancelled ? error_set(error, RECTO_ERROR_CANCELLED, NULL, 0,
+                                   "cancelled")
+                       : error_memory(error);
   report_tiles(&work, report);
   tilemap_fini(&work.tiles);
   mem_free(work.wanted);

@@ -21,7 +21,7 @@ recto_status trace_find_intersections(struct sheet *sheet,
     return RECTO_OK;
   if (!pagegrid_init(&grid, sheet))
     return error_memory(error);
-  status = pierce_all(sheet, &grid, NULL, report, error);
+  status = pierce_all(sheet, &grid, NULL, request, report, error);
   pagegrid_fini(&grid);
   return status;
 }

@@ -480,7 +480,7 @@ static recto_status solve(struct sheet *sheet,
   if (!pagegrid_init(&grid, sheet))
     return error_memory(error);
   if (request->intersections)
-    status = pierce_all(sheet, &grid, NULL, report, error);
+    status = pierce_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK) {
     cover_init(&w.cover, sheet);
     done = run(&w, &status, error) &&

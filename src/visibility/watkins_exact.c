@@ -208,7 +208,7 @@ recto_status watkins_solve_exactly(struct sheet *sheet,
   if (!pagegrid_init(&grid, sheet))
     return error_memory(error);
   if (request->intersections)
-    status = pierce_all(sheet, &grid, NULL, report, error);
+    status = pierce_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK)
     status = solve_on(&exact, sheet, &grid, request, map, report, error);
   ARRAY_FREE(&exact.meetings.pair);
