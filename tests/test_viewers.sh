@@ -4,7 +4,7 @@
 # shows what librsvg shows.
 . "$(dirname "$0")/tap.sh"
 tool=$builddir/tests/paper_tool
-models=$builddir/examples/models
+models=$srcdir/examples/models
 cd "$scratch" || exit 1
 
 chromium=
