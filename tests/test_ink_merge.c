@@ -258,6 +258,10 @@ static void groups_are_not_merged(void **state) {
   (void)state;
   start(&scene, &options);
   scenes_two_colours(&scene, &options);
+  for (size_t g = 0; g < scene.group.count; g++) {
+    scene.group.item[g].has_colour = true; /* the groups alone differ */
+    scene.group.item[g].colour = 0xc00000;
+  }
   draw(&p, &scene, &options);
   for (size_t i = 0; i < p.drawing.fill.count; i++)
     for (size_t j = 0; j < i; j++)
