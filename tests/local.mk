@@ -49,7 +49,8 @@ dist_check_SCRIPTS += \
   %D%/test_bootstrap.sh \
   %D%/test_cli.sh \
   %D%/test_documents.sh \
-  %D%/test_structure.sh
+  %D%/test_structure.sh \
+  %D%/test_uses.sh
 
 # Drawings made by hand, for the writers.
 plotting = %D%/plotting.c %D%/plotting.h \

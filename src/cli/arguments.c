@@ -7,11 +7,11 @@
 
 #include "cli/value.h"
 
-enum { FIRST_LONG = 256, MAX_OPTIONS = 80 };
+enum { FIRST_LONG = 256 };
 
 /* ---- The table, as getopt_long wants it ---------------------------------- */
 
-static bool is_end(const struct option_entry *entry) {
+bool option_is_end(const struct option_entry *entry) {
   return entry->name == NULL && entry->help == NULL;
 }
 
@@ -27,7 +27,7 @@ static void fill_getopt(struct option longs[MAX_OPTIONS],
                         char letters[3 * MAX_OPTIONS]) {
   size_t count = 0, length = 0;
   letters[length++] = ':';
-  for (int i = 0; !is_end(&option_table[i]); i++) {
+  for (int i = 0; !option_is_end(&option_table[i]); i++) {
     const struct option_entry *entry = &option_table[i];
     if (entry->kind == OPTION_HEADING)
       continue;
@@ -47,7 +47,7 @@ static void fill_getopt(struct option longs[MAX_OPTIONS],
 static const struct option_entry *find_entry(int code) {
   if (code >= FIRST_LONG)
     return &option_table[code - FIRST_LONG];
-  for (const struct option_entry *entry = option_table; !is_end(entry); entry++)
+  for (const struct option_entry *entry = option_table; !option_is_end(entry); entry++)
     if (entry->letter == code && code != 0)
       return entry;
   return NULL;
@@ -124,6 +124,7 @@ static bool take_option(struct arguments *arguments,
              entry->name, entry->expected, text);
     return false;
   }
+  arguments->said[entry - option_table] = true;
   if (entry->given != 0)
     *((bool *)((char *)arguments + entry->given)) = true;
   return true;

@@ -7,6 +7,8 @@
 
 #include "recto.h"
 
+enum { MESSAGE_SIZE = 256, MAX_OPTIONS = 80, OPTION_USES = 2 };
+
 struct arguments {
   recto_options options;
   char **model; /* part of argv */
@@ -22,9 +24,8 @@ struct arguments {
   /* What was said, for what depends on other options. */
   bool view_given, direction_given, eye_given, fov_given;
   bool ortho, landscape;
+  bool said[MAX_OPTIONS]; /* by the option's place in the table */
 };
-
-enum { MESSAGE_SIZE = 256 };
 
 /* Reads the command line.
  * argv     is permuted: models last
@@ -60,10 +61,15 @@ struct option_entry {
   double least, most;
   const char *words;
   bool (*take)(struct arguments *arguments, const char *text);
+  /* What has to be asked for with it, or it changes nothing: all of them. */
+  const struct option_use *use[OPTION_USES];
 };
 
-/* The table, ended by an entry without help and name. */
+/* The table, of less than MAX_OPTIONS, ended by an entry without help and
+ * name. */
 extern const struct option_entry option_table[];
+
+bool option_is_end(const struct option_entry *entry);
 
 /* Prints --help to standard output. */
 void help_print(void);

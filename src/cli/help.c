@@ -52,8 +52,8 @@ void help_print(void) {
   printf("Usage: recto [OPTION]... MODEL... -o FILE\n"
          "Draws the exact visible lines of 3D models on paper.  MODEL: a mesh "
          "file,\nor - for standard input, with --from.\n\n");
-  for (const struct option_entry *entry = option_table;
-       entry->name != NULL || entry->help != NULL; entry++) {
+  for (const struct option_entry *entry = option_table; !option_is_end(entry);
+       entry++) {
     if (entry->kind == OPTION_HEADING)
       printf("%s\n", entry->help);
     else if (entry->kind != OPTION_ABSENT)

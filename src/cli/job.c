@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/stream.h"
+#include "cli/uses.h"
 
 static volatile sig_atomic_t interrupted;
 
@@ -180,8 +181,10 @@ int job_run(struct arguments *arguments) {
   catch_interrupts();
   arguments->options.user = &talk;
   arguments->options.progress = pass_progress;
-  if (!arguments->quiet)
+  if (!arguments->quiet) {
     arguments->options.warning = pass_warning;
+    uses_warn(arguments, job_complain);
+  }
   switch (arguments->check_file != NULL ? check(arguments, &error)
                                         : draw(arguments, &error)) {
   case RECTO_OK:

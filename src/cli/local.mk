@@ -5,5 +5,6 @@ recto_SOURCES += \
   %D%/job.c %D%/job.h \
   %D%/main.c \
   %D%/options.c \
+  %D%/uses.c %D%/uses.h \
   %D%/value.c %D%/value.h \
   %D%/waiting.c

@@ -1,0 +1,150 @@
+#!/bin/bash
+# test_uses.sh - an option that what was asked for does not use is told of, in
+# one line; one that is used is not.
+. "$(dirname "$0")/tap.sh"
+cd "$scratch" || exit 1
+
+cat >wedge.obj <<'OBJ'
+v 0 0 0
+v 2 0 0
+v 0 2 0
+v 0 0 2
+f 1 3 2
+f 1 2 4
+f 1 4 3
+f 2 3 4
+OBJ
+"$recto" wedge.obj -o own.svg || exit 1
+"$recto" --help >help.txt
+: >told
+
+# draw FILE ARGUMENT... - draws to the file, its messages in err.
+draw() {
+  local file=$1
+  shift
+  "$recto" wedge.obj -o "$file" "$@" >out 2>err </dev/null ||
+    { say "exit $?: $(head -n 3 err)" && false; }
+}
+
+# Anything but that an option has no use may be said.
+is_used() {
+  draw "$@" && ! grep ' does not use it$' err >unused && return 0
+  say "$(cat unused)" && false
+}
+
+is_told() { # LINE FILE ARGUMENT...
+  local line=$1
+  shift
+  draw "$@" && test "$(grep -c ' does not use it$' err)" -eq 1 &&
+    grep -qxF -- "recto: $line does not use it" err && return 0
+  say "not so: $(cat err)" && false
+}
+
+has_cairo() { grep -q -- '--dpi' help.txt; }
+
+# What is used with FILE and OPTIONS, and not with FILE and OPTIONS, and who
+# says so.
+while IFS='|' read -r option used unused line; do
+  case $option in --tight | --dpi*) has_cairo || continue ;; esac
+  # shellcheck disable=SC2086 # words of options
+  claim "$option is used by $used" is_used $used $option
+  # What is said later wins.
+  # shellcheck disable=SC2086
+  claim "$option is not by $unused" is_told "${option%%[= ]*} is for $line" \
+    ${unused%% *} $option ${unused#"${unused%% *}"}
+  grep -qxF -e "${option%%[= ]*}" told || echo "${option%%[= ]*}" >>told
+done <<'END_OF_ROWS'
+--pitch 3|a.svg -m watkins|a.svg -m tiles|watkins; tiles
+--pitch exact|a.svg -m watkins|a.svg|watkins; auto
+--resolution 99|a.svg -m zbuffer|a.svg -m newell|zbuffer, scanline-zbuffer and warnock; newell
+--resolution 99|a.svg -m warnock|a.svg -m watkins|zbuffer, scanline-zbuffer and warnock; watkins
+--divide box|a.svg -m warnock|a.svg -m zbuffer|warnock; zbuffer
+--depth-bits 16|a.svg -m scanline-zbuffer|a.svg -m warnock|zbuffer and scanline-zbuffer; warnock
+--subpixels 2|a.svg -m zbuffer|a.svg -m brute|zbuffer, scanline-zbuffer and warnock with --resolution; brute
+--remove-backs|a.svg -m warnock --resolution 99|a.svg -m warnock|zbuffer, scanline-zbuffer and warnock with --resolution; warnock
+--contact 0|a.svg|a.svg -m painter|methods that compare depths; painter
+--lookat 0,0,1|a.svg --fov 20|a.svg|--camera, --fov, --no-fit and --scale; --fit
+--scale 1:2|a.svg|a.svg --no-fit|true scale; --no-fit
+--margin 3|a.svg|a.svg --scale 1:2|--fit, and --no-fit with --fov; --scale
+--margin 3|a.svg --no-fit --fov 20|a.svg --no-fit|--fit, and --no-fit with --fov; --no-fit
+--crease 20|a.svg|a.svg -e silhouette|edges of the classes crease and smooth and for fills; this --edges
+--crease 20|a.svg -e none --fill shade|a.svg -e border|edges of the classes crease and smooth and for fills; this --edges
+--hidden layer|a.svg|a.svg -e none --fill paint|lines; --edges none
+--weights none|a.svg|a.svg -e none --fill paint|lines; --edges none
+--weights none|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
+--simplify 1|a.svg|a.svg -e none --fill hatch|lines; --edges none
+--pen 1|a.svg -e none --fill hatch|a.svg -e none --fill paint|lines and hatching; --edges none
+--pens 2|a.svg|a.svg -e none --fill paint|lines and hatching; --edges none
+--pen-for hatch=2|a.svg --fill hatch|a.svg -e none --fill paint|lines and hatching; --edges none
+--pen-width 1=1|a.hpgl|a.svg -e none --fill paint|lines and hatching; --edges none
+--pen-colour 1=00f|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
+--order near|a.svg|a.svg -e none --fill paint|lines and hatching; --edges none
+--min-stroke 1|a.svg|a.svg -e none --fill paint|lines and hatching; --edges none
+--seam 0.1|a.svg --fill shade|a.svg --fill hatch|--fill paint and --fill shade; --fill hatch
+--hatch-pitch 2|a.svg --fill hatch|a.svg --fill paint|--fill hatch; --fill paint
+--hatch-pitch 2|a.svg --fill hatch|a.svg --fill hatch --light 1,1,1|hatching of one pitch; hatching by --light
+--hatch-angle 2|a.svg --fill hatch --light 1,1,1|a.svg|--fill hatch; --fill none
+--hatch-inset|a.svg --fill hatch|a.svg --fill hatch --light 1,1,1|hatching of one pitch; hatching by --light
+--light 1,1,1|a.svg --fill shade|a.svg --fill paint|--fill shade and --fill hatch; --fill paint
+--ids|a.svg|a.hpgl|svg; hpgl
+--precision 2|a.svg|a.hpgl|svg; hpgl
+--path polyline|a.plt --format svg|a.svg --format hpgl|svg; hpgl
+--device drum|a.hpgl|a.svg|hpgl and --stats; svg
+--device drum|a.svg --stats|a.svg|hpgl and --stats; svg
+--velocity 3|a.hpgl|a.svg|hpgl and --stats; svg
+--velocity-up 3|a.svg --stats|a.hpgl|the time in --stats; a run without --stats
+--tight|a.pdf|a.svg|pdf, eps, ps and png; svg
+--dpi 30|a.png|a.pdf|png; pdf
+END_OF_ROWS
+
+# judges ARGUMENT... - has own.svg judged, the messages in err.
+judges() { "$recto" wedge.obj --check own.svg "$@" >out 2>err; }
+
+# What --check draws with is not used; what it looks with is.
+check_tells() {
+  judges "$@" && grep -qxF -- "recto: $1 is for $line; --check does not use it" err
+}
+while IFS='|' read -r option line; do
+  # shellcheck disable=SC2086
+  claim "$option is not used by --check" check_tells $option
+done <<'END_OF_ROWS'
+--method newell|drawings
+--page A5|drawings
+--landscape|drawings
+--threads 1|drawings
+--progress|drawings
+--fill paint|drawings
+--hidden layer|lines
+--order near|lines and hatching
+--precision 2|svg
+--pitch 3|watkins
+END_OF_ROWS
+check_uses() { judges "$@" && test ! -s err; }
+claim "--check looks with the same camera, edges and tolerances" \
+  check_uses --view iso --lookat 0,0,1 --fov 20 --no-fit --margin 5 \
+  -e all --crease 20 --contact 0 --pen 0.3
+
+all_are_quiet() {
+  draw a.svg -q --pitch 3 --seam 1 --dpi 30 && test ! -s err
+}
+claim "--quiet says nothing of it" all_are_quiet
+draws_the_same() {
+  draw plain.svg && draw a.svg --pitch 3 --seam 1 && cmp -s plain.svg a.svg &&
+    test "$(wc -l <err)" -eq 2
+}
+claim "the drawing is the same, a line an option" draws_the_same
+
+# Those that always do something, or that refuse what they do not go with.
+always='--output --format --from --method --view --azimuth --elevation --camera
+--up --fov --ortho --fit --no-fit --near --section --page --landscape --edges
+--fill --stats --verify --check --threads --progress --quiet --version --help'
+every_option_has_its_row() {
+  grep -oE -- '^ +(-.,)? *--[a-z-]+' help.txt | grep -oE -- '--[a-z-]+' |
+    LC_ALL=C sort -u >offered
+  tr ' ' '\n' <<<"$always" | LC_ALL=C sort -u - told >known
+  LC_ALL=C comm -23 offered known >rowless
+  test ! -s rowless || { say "no row: $(cat rowless)" && false; }
+}
+claim "every option of --help has its row or always does something" \
+  every_option_has_its_row
+finish
