@@ -92,7 +92,7 @@ claim "standard input needs its format" refuses 'needs --from' - -o no.svg
 claim "an unknown model format is wrong usage" \
   refuses '.' cube.obj -o no.svg --from nonsense
 claim "an unknown plotter is wrong usage, whatever the output" \
-  refuses 'no plotter "foo"' cube.obj -o no.svg --device foo
+  refuses 'no plotter "foo"' -q cube.obj -o no.svg --device foo
 claim "eye and view exclude each other" refuses 'exclude' \
   cube.obj -o no.svg --camera 1,2,3 --view top
 claim "--ortho and --fov exclude each other" refuses 'exclude' \
