@@ -5,9 +5,10 @@
  * the middles of those frames.  Of the 7550A we take the middle of its area.
  * On the DXY the area is the whole sheet.
  *
- * Speeds are nominal and serve the estimate of --stats alone: what the plotter
- * draws at unless told otherwise, and its fastest with the pen up.  The generic
- * ones are those of a careful hobby machine. */
+ * Speeds are nominal: what the plotter draws at unless told otherwise and its
+ * fastest with the pen up, for the estimate of --stats, and its fastest with
+ * the pen down, which it keeps to whatever it is told.  The generic ones are
+ * those of a careful hobby machine, and HPGL's own limit. */
 #include "backends/device.h"
 
 #include <math.h>
@@ -18,30 +19,30 @@
 #define PAPER_SLACK_MM 0.5
 
 static const struct device_paper hp7475a[] = {
-    {279.4, 215.9, 0, 0, 10365, 7962, 5250, 4196},  /* A */
-    {297, 210, 0, 0, 11040, 7721, 5603, 4121},      /* A4 */
-    {431.8, 279.4, 0, 0, 16640, 10365, 8122, 5259}, /* B */
-    {420, 297, 0, 0, 16158, 11040, 7770, 5602},     /* A3 */
+    {"A", 279.4, 215.9, 0, 0, 10365, 7962, 5250, 4196},  /* A */
+    {"A4", 297, 210, 0, 0, 11040, 7721, 5603, 4121},     /* A4 */
+    {"B", 431.8, 279.4, 0, 0, 16640, 10365, 8122, 5259}, /* B */
+    {"A3", 420, 297, 0, 0, 16158, 11040, 7770, 5602},    /* A3 */
 };
 
 static const struct device_paper hp7550a[] = {
-    {297, 210, 0, 0, 10870, 7600, 5435, 3800},  /* A4 */
-    {420, 297, 0, 0, 15970, 10870, 7985, 5435}, /* A3 */
+    {"A4", 297, 210, 0, 0, 10870, 7600, 5435, 3800},  /* A4 */
+    {"A3", 420, 297, 0, 0, 15970, 10870, 7985, 5435}, /* A3 */
 };
 
 static const struct device_paper dxy[] = {
-    {297, 210, 0, 0, 11880, 8400, 5940, 4200},  /* A4 */
-    {420, 297, 0, 0, 16800, 11880, 8400, 5940}, /* A3 */
+    {"A4", 297, 210, 0, 0, 11880, 8400, 5940, 4200},  /* A4 */
+    {"A3", 420, 297, 0, 0, 16800, 11880, 8400, 5940}, /* A3 */
 };
 
 #define PAPERS(table) table, sizeof(table) / sizeof *(table)
 
 static const struct device devices[] = {
-    {"generic", 0.025, 0, false, NULL, 0, 10, 20},
-    {"drum", 0.025, 8, true, NULL, 0, 40, 60},
-    {"hp7475a", 0.02488, 6, false, PAPERS(hp7475a), 38.1, 50.8},
-    {"hp7550a", 0.02488, 8, false, PAPERS(hp7550a), 50, 80},
-    {"dxy", 0.025, 8, false, PAPERS(dxy), 20, 42},
+    {"generic", 0.025, 0, false, NULL, 0, 10, 20, 127},
+    {"drum", 0.025, 8, true, NULL, 0, 40, 60, 60},
+    {"hp7475a", 0.02488, 6, false, PAPERS(hp7475a), 38.1, 50.8, 38.1},
+    {"hp7550a", 0.02488, 8, false, PAPERS(hp7550a), 50, 80, 80},
+    {"dxy", 0.025, 8, false, PAPERS(dxy), 20, 42, 42},
 };
 
 const struct device *device_by_name(const char *name) {
@@ -59,6 +60,12 @@ static double area_of(const struct device_paper *paper) {
   return paper->width_mm * paper->height_mm;
 }
 
+static bool is_held(const struct device_paper *paper, double long_mm,
+                    double short_mm) {
+  return paper->width_mm + PAPER_SLACK_MM >= long_mm &&
+         paper->height_mm + PAPER_SLACK_MM >= short_mm;
+}
+
 /* The smallest paper that holds a page of these sides, or the largest. */
 static const struct device_paper *
 choose_paper(const struct device *device, double long_mm, double short_mm) {
@@ -67,8 +74,7 @@ choose_paper(const struct device *device, double long_mm, double short_mm) {
     const struct device_paper *paper = &device->paper[i];
     if (area_of(paper) > area_of(largest))
       largest = paper;
-    if (paper->width_mm + PAPER_SLACK_MM >= long_mm &&
-        paper->height_mm + PAPER_SLACK_MM >= short_mm &&
+    if (is_held(paper, long_mm, short_mm) &&
         (!best || area_of(paper) < area_of(best)))
       best = paper;
   }
@@ -89,24 +95,49 @@ static void place_freely(const struct device *device, double width_mm,
   placement->y1 = (int32_t)lround(placement->origin_y + height);
 }
 
+/* Where a side of the page, in units, begins along an axis of the device. */
+static double place_side(double length, int32_t low, int32_t high,
+                         double centre) {
+  return length <= high - low ? low : centre - length / 2;
+}
+
 void device_place(const struct device *device, double width_mm,
                   double height_mm, struct device_placement *placement) {
-  placement->unit_mm = device->unit_mm;
-  placement->height_mm = height_mm;
+  *placement = (struct device_placement){
+      .unit_mm = device->unit_mm, .width_mm = width_mm, .height_mm = height_mm};
   if (!device->paper) {
     place_freely(device, width_mm, height_mm, placement);
     return;
   }
-  const struct device_paper *paper = choose_paper(
-      device, fmax(width_mm, height_mm), fmin(width_mm, height_mm));
+  double along = fmax(width_mm, height_mm), across = fmin(width_mm, height_mm);
+  const struct device_paper *paper = choose_paper(device, along, across);
+  placement->paper = paper;
+  placement->too_large = !is_held(paper, along, across);
   placement->turned = height_mm > width_mm;
-  placement->origin_x = paper->centre_x - paper->width_mm / 2 / device->unit_mm;
-  placement->origin_y =
-      paper->centre_y - paper->height_mm / 2 / device->unit_mm;
+  placement->origin_x = place_side(along / device->unit_mm, paper->x0,
+                                   paper->x1, paper->centre_x);
+  placement->origin_y = place_side(across / device->unit_mm, paper->y0,
+                                   paper->y1, paper->centre_y);
   placement->x0 = paper->x0;
   placement->y0 = paper->y0;
   placement->x1 = paper->x1;
   placement->y1 = paper->y1;
+}
+
+double device_margin_mm(const struct device_placement *placement) {
+  const struct device_placement *p = placement;
+  double far_x =
+      p->origin_x + (p->turned ? p->height_mm : p->width_mm) / p->unit_mm;
+  double far_y =
+      p->origin_y + (p->turned ? p->width_mm : p->height_mm) / p->unit_mm;
+  double low = fmax(p->x0 - p->origin_x, p->y0 - p->origin_y);
+  double high = fmax(far_x - p->x1, far_y - p->y1);
+  return p->paper ? fmax(0, fmax(low, high)) * p->unit_mm : 0;
+}
+
+double device_velocity(const struct device *device, double asked_cm_s) {
+  return asked_cm_s > 0 ? fmin(asked_cm_s, device->most_cm_s)
+                        : device->down_cm_s;
 }
 
 void device_point(const struct device_placement *placement, double x_mm,

@@ -9,6 +9,7 @@
 
 /* A sheet as it lies on the device, its long side along x. */
 struct device_paper {
+  const char *name;
   double width_mm, height_mm;
   int32_t x0, y0, x1, y1;    /* hard-clip area in units, ends included */
   double centre_x, centre_y; /* the sheet's centre, in units */
@@ -23,6 +24,7 @@ struct device {
   const struct device_paper *paper; /* NULL: takes every page as it is */
   size_t papers;
   double down_cm_s, up_cm_s; /* speeds, where the user names none */
+  double most_cm_s;          /* with the pen down it is never faster */
 };
 
 /* From pen up to pen down and back: an estimate for all of them, as the makers
@@ -33,9 +35,11 @@ struct device {
  * origin + (x, y) / unit, or, where the page is turned,
  * origin + (page height - y, x) / unit. */
 struct device_placement {
+  const struct device_paper *paper; /* NULL: the page itself */
+  bool too_large;                   /* for it and every other */
   double unit_mm;
-  double origin_x, origin_y; /* units */
-  double height_mm;          /* the page's */
+  double origin_x, origin_y;  /* units */
+  double width_mm, height_mm; /* the page's */
   bool turned;
   int32_t x0, y0, x1, y1; /* never to be left; units, ends included */
 };
@@ -47,11 +51,19 @@ const struct device *device_by_name(const char *name);
 const char *device_name(size_t index);
 
 /* Lays a page on the device: on the smallest paper that holds it, or the
- * largest there is, its lower left corner (once turned) on the paper's; a page
- * higher than wide is turned by a quarter, left side down, since papers lie
- * with their long side along x. */
+ * largest there is; a page higher than wide is turned by a quarter, left side
+ * down, since papers lie with their long side along x.  In x and in y, a page
+ * that fits into the hard-clip area begins where the area does; any other has
+ * its middle on the paper's: a page as large as the paper is the paper. */
 void device_place(const struct device *device, double width_mm,
                   double height_mm, struct device_placement *placement);
+
+/* How far from its edges, in mm, all of the page is within reach. */
+double device_margin_mm(const struct device_placement *placement);
+
+/* The speed with the pen down, in cm/s, where that much is asked for; 0: none
+ * is. */
+double device_velocity(const struct device *device, double asked_cm_s);
 
 /* Where a page point, in mm, is on the device, in units, not rounded. */
 void device_point(const struct device_placement *placement, double x_mm,

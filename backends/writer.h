@@ -25,6 +25,9 @@ struct writer {
   const char *extensions; /* "svg", space-separated */
   /* The step in mm to which it rounds the points of strokes. */
   double (*unit_mm)(const struct writer_options *options);
+  /* How far from the edges of a page all of it can be drawn; NULL: 0. */
+  double (*margin_mm)(const struct writer_options *options, double width_mm,
+                      double height_mm);
   bool one_width; /* all lines of a pen are as wide: weights are nothing */
   recto_status (*write)(const struct drawing *drawing,
                         const struct writer_options *options,

@@ -180,22 +180,59 @@ static void plot_stroke(struct plot *plot, const struct drawing *drawing,
   plot->clipped += whole ? 0 : 1;
 }
 
+/* The pen that the device has for a layer: those past its last are dealt from
+ * its first again. */
+static unsigned find_pen(const struct device *device,
+                         const struct drawing_layer *layer) {
+  unsigned most = device->pens;
+  return most > 0 && layer->pen > most ? (layer->pen - 1) % most + 1
+                                       : layer->pen;
+}
+
 static void plot_layer(struct plot *plot, const struct drawing *drawing,
-                       const struct device *device, uint32_t layer) {
-  unsigned pen = drawing->layer.item[layer].pen;
-  bool has_ink = false;
+                       uint32_t layer) {
   for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
-    if (stroke->layer != layer || stroke->count < 2)
-      continue;
-    if (!has_ink && device->pens > 0 && pen > device->pens) {
-      pen = (pen - 1) % device->pens + 1;
-      plot->folded++;
-    }
-    has_ink = true;
-    take_pen(plot, pen);
-    plot_stroke(plot, drawing, stroke);
+    if (stroke->layer == layer && stroke->count >= 2)
+      plot_stroke(plot, drawing, stroke);
   }
+}
+
+/* Marks the layers that have strokes. */
+static void find_inked(const struct drawing *drawing, bool *inked) {
+  for (size_t i = 0; i < drawing->stroke.count; i++)
+    if (drawing->stroke.item[i].count >= 2)
+      inked[drawing->stroke.item[i].layer] = true;
+}
+
+/* Takes the pen of the layer `first`, and plots all layers on it that wait. */
+static void plot_pen(struct plot *plot, const struct drawing *drawing,
+                     const struct device *device, uint32_t first,
+                     bool *waiting) {
+  const struct drawing_layer *layer = drawing->layer.item;
+  unsigned pen = find_pen(device, &layer[first]);
+  take_pen(plot, pen);
+  for (uint32_t i = first; i < drawing->layer.count; i++) {
+    if (!waiting[i] || find_pen(device, &layer[i]) != pen)
+      continue;
+    plot->folded += pen != layer[i].pen;
+    plot_layer(plot, drawing, i);
+    waiting[i] = false;
+  }
+}
+
+/* Layers in their order, but that each pen is taken once. */
+static bool plot_layers(struct plot *plot, const struct drawing *drawing,
+                        const struct device *device) {
+  bool *waiting = mem_calloc(drawing->layer.count, sizeof *waiting);
+  if (!waiting)
+    return false;
+  find_inked(drawing, waiting);
+  for (uint32_t i = 0; i < drawing->layer.count; i++)
+    if (waiting[i])
+      plot_pen(plot, drawing, device, i, waiting);
+  mem_free(waiting);
+  return true;
 }
 
 /* ---- The file ------------------------------------------------------------ */
@@ -203,7 +240,7 @@ static void plot_layer(struct plot *plot, const struct drawing *drawing,
 PRINTF_LIKE(2, 3)
 static void warn(const struct writer_options *options, const char *format,
                  ...) {
-  char text[160];
+  char text[200];
   va_list list;
   if (!options->warning)
     return;
@@ -213,21 +250,50 @@ static void warn(const struct writer_options *options, const char *format,
   options->warning(options->user, "", 0, text);
 }
 
+static const char *plural(uint64_t count) { return count == 1 ? "" : "s"; }
+
+/* The area in mm, and the sheet, so that another page, margin or sheet can be
+ * chosen. */
+static void warn_of_clipping(const struct plot *plot,
+                             const struct device *device,
+                             const struct writer_options *options) {
+  const struct device_placement *place = &plot->place;
+  unsigned long long clipped = plot->clipped;
+  if (!place->paper)
+    warn(options, "%llu stroke%s clipped to the page", clipped,
+         plural(clipped));
+  else if (place->too_large)
+    warn(options,
+         "%llu stroke%s clipped: the page is larger than the largest sheet of "
+         "%s, %s, of which it reaches %.0f x %.0f mm",
+         clipped, plural(clipped), device->name, place->paper->name,
+         floor((place->x1 - place->x0) * place->unit_mm),
+         floor((place->y1 - place->y0) * place->unit_mm));
+  else
+    warn(options,
+         "%llu stroke%s clipped: %s does not reach all of the outer %.0f mm of "
+         "this page on an %s sheet",
+         clipped, plural(clipped), device->name, ceil(device_margin_mm(place)),
+         place->paper->name);
+}
+
 static void warn_of_losses(const struct plot *plot,
                            const struct drawing *drawing,
                            const struct device *device,
                            const struct writer_options *options) {
   if (plot->clipped > 0)
-    warn(options, "%llu stroke%s clipped to the area that %s reaches",
-         (unsigned long long)plot->clipped, plot->clipped == 1 ? "" : "s",
-         device->name);
+    warn_of_clipping(plot, device, options);
   if (plot->folded > 0)
-    warn(options, "%llu layer%s on pens past the %u that %s has: dealt anew",
-         (unsigned long long)plot->folded, plot->folded == 1 ? "" : "s",
-         device->pens, device->name);
+    warn(options,
+         "%llu layer%s on pens past the %u that %s has: dealt anew from pen 1",
+         (unsigned long long)plot->folded, plural(plot->folded), device->pens,
+         device->name);
+  if (options->velocity > device->most_cm_s)
+    warn(options, "%s draws at no more than %g cm/s: not at %g", device->name,
+         device->most_cm_s, options->velocity);
   if (drawing->fill.count > 0)
     warn(options, "%zu fill%s left out: a pen cannot fill, but it can hatch",
-         drawing->fill.count, drawing->fill.count == 1 ? "" : "s");
+         drawing->fill.count, plural(drawing->fill.count));
 }
 
 static recto_status refuse_device(const char *name, recto_error *error) {
@@ -257,15 +323,27 @@ static recto_status write_hpgl(const struct drawing *drawing,
   stream_text(stream, "IN;\nDF;\n");
   if (options->velocity > 0) {
     stream_text(stream, "VS");
-    stream_int(stream, lround(options->velocity));
+    stream_int(stream, lround(device_velocity(device, options->velocity)));
     stream_text(stream, ";\n");
   }
-  for (uint32_t i = 0; i < drawing->layer.count; i++)
-    plot_layer(&plot, drawing, device, i);
+  if (!plot_layers(&plot, drawing, device))
+    return error_memory(error);
   stream_text(stream, "PU;\nSP0;\nIN;\n");
   if (stream_status(stream) == RECTO_OK)
     warn_of_losses(&plot, drawing, device, options);
   return RECTO_OK;
+}
+
+/* In whole millimetres; nothing helps a page that is too large. */
+static double find_margin(const struct writer_options *options, double width_mm,
+                          double height_mm) {
+  const struct device *device =
+      device_by_name(options->device ? options->device : DEFAULT_DEVICE);
+  if (!device)
+    return 0;
+  struct device_placement place;
+  device_place(device, width_mm, height_mm, &place);
+  return place.too_large ? 0 : ceil(device_margin_mm(&place));
 }
 
 /* 0 for a device that is not known: write_hpgl refuses it. */
@@ -278,5 +356,6 @@ static double find_unit(const struct writer_options *options) {
 const struct writer writer_hpgl = {.name = "hpgl",
                                    .extensions = "hpgl plt",
                                    .unit_mm = find_unit,
+                                   .margin_mm = find_margin,
                                    .one_width = true,
                                    .write = write_hpgl};

@@ -160,6 +160,8 @@ typedef bool (*recto_progress_fn)(void *user, double share, const char *stage);
 typedef void (*recto_warning_fn)(void *user, const char *file,
                                  unsigned long line, const char *text);
 
+#define RECTO_USUAL_MARGIN_MM 10
+
 typedef struct recto_options {
   /* Method. */
   recto_method method;
@@ -187,7 +189,9 @@ typedef struct recto_options {
                      a direction: what is nearer is cut */
 
   /* Page. */
-  double page_width_mm, page_height_mm, margin_mm;
+  double page_width_mm, page_height_mm;
+  double margin_mm; /* on every side; negative: RECTO_USUAL_MARGIN_MM, or as
+                       much more as a plotter needs, see recto_options_suit */
 
   /* Ink. */
   unsigned edges; /* mask of recto_edge_class */
@@ -344,8 +348,9 @@ const char *recto_output_format(const char *path, const char *format);
 double recto_output_unit_mm(const char *path, const char *format,
                             const recto_options *options);
 
-/* Sets what the drawing should know of its output: unit_mm, and where weights
- * is NULL and the format is for plotters, whose pens have one width, "none". */
+/* Sets what the drawing should know of its output: unit_mm; and where the
+ * format is for plotters, a margin_mm that is negative, so that all inside is
+ * within reach, and weights that are NULL to "none": pens have one width. */
 void recto_options_suit(recto_options *options, const char *path,
                         const char *format);
 

@@ -169,7 +169,7 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
   REFUSED(page_width_mm, 0);
   REFUSED(page_height_mm, -297);
   REFUSED(page_width_mm, 2001);
-  REFUSED(margin_mm, -1);
+  REFUSED(margin_mm, (double)NAN);
   REFUSED(margin_mm, 105);
   REFUSED(edges, 0x80);
   REFUSED(crease_deg, 181);
@@ -730,6 +730,25 @@ static void every_allocation_may_fail(void **state) {
   unlink(path_of("svg"));
 }
 
+/* A margin that is left open suits the plotter; one that is named is kept. */
+static void a_plotter_gets_the_margin_that_it_needs(void **state) {
+  (void)state;
+  static const struct {
+    const char *format, *device;
+    double named, found;
+  } row[] = {{"hpgl", "hp7475a", -1, 16}, {"hpgl", "hp7475a", 2, 2},
+             {"hpgl", "dxy", -1, 10},     {"hpgl", NULL, -1, 10},
+             {"svg", "hp7475a", -1, -1},  {"svg", "hp7475a", 3, 3}};
+  for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+    recto_options o;
+    recto_options_init(&o);
+    o.device = row[i].device;
+    o.margin_mm = row[i].named;
+    recto_options_suit(&o, "-", row[i].format);
+    assert_true(o.margin_mm == row[i].found);
+  }
+}
+
 static void every_write_may_fail(void **state) {
   (void)state;
   stream_fail_after(1);
@@ -766,6 +785,7 @@ int main(void) {
       cmocka_unit_test(a_bad_job_leaves_nothing),
       cmocka_unit_test(progress_rises_and_may_cancel_at_every_step),
       cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(a_plotter_gets_the_margin_that_it_needs),
       cmocka_unit_test(every_write_may_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -524,7 +524,6 @@ static void what_makes_no_sense_is_refused(void **state) {
   REFUSED(o.page_height_mm = -1);
   REFUSED(o.page_width_mm = NAN);
   REFUSED(o.page_height_mm = 2000.5);
-  REFUSED(o.margin_mm = -1);
   REFUSED(o.margin_mm = 50);
   REFUSED(o.margin_mm = NAN);
   REFUSED(o.fov_deg = 180);

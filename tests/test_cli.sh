@@ -129,7 +129,7 @@ hatch-pitch 0 1e-9 x
 pitch 0 1e-9 exactly
 light 0,0,0 x
 pens 0 1001 1.5 x
-velocity 0 0.5 1001 x
+velocity 0 0.5 128 x
 velocity-up 0 0.5 1001 x
 simplify -1
 min-stroke -1
@@ -194,8 +194,20 @@ time_adds_up() {
 }
 claim "the time that plotting takes adds up" time_adds_up 10 20
 claim "at a plotter's speeds" time_adds_up 38.1 50.8 --device hp7475a
+claim "at no more than its fastest" \
+  time_adds_up 38.1 50.8 --device hp7475a --velocity 100
 claim "at the speeds asked for" \
   time_adds_up 5 7 --device hp7475a --velocity 5 --velocity-up 7
+
+# fits_a_sheet SHEET PLOTTER - by default nothing is clipped; with a margin that
+# is asked for it is kept.
+fits_a_sheet() {
+  run 0 cube.obj --view front -p "$1" -o out.hpgl --device "$2" && silent &&
+    run 0 cube.obj --view front -p "$1" -o out.hpgl --device "$2" --margin 2 &&
+    says "strokes? clipped: $2 does not reach"
+}
+claim "a drawing fits what a plotter reaches" fits_a_sheet A4 hp7475a
+claim "on any of its sheets" fits_a_sheet A3 hp7550a
 
 # same_drawing OPTION OPTION - both draw the cube alike.
 same_drawing() {

@@ -91,31 +91,112 @@ static void the_smallest_paper_that_holds_the_page_is_taken(void **state) {
   plotting_end(&f);
 }
 
-/* Letter paper rounded up to whole millimetres is still letter paper. */
+/* Letter paper rounded up to whole millimetres is still letter paper, and its
+ * middle the middle. */
 static void a_page_a_touch_too_large_keeps_its_paper(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 279.8, 216);
   f.options.device = "hp7475a";
   uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
-  maker_line(&f.drawing, layer, 50, 60, 139.7, 107.95);
+  maker_line(&f.drawing, layer, 50, 60, 139.9, 108);
   plotting_run(&f);
-  plotting_assert_point(&f, 0, 0, 1645, 2269);
+  plotting_assert_point(&f, 0, 0, 1637, 2267);
   plotting_assert_point(&f, 0, 1, 5250, 4196);
   plotting_end(&f);
 }
 
+/* Its middle is seen, and the sheet and its reach are named. */
 static void a_page_that_no_paper_holds_is_clipped_on_the_largest(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 1189, 841);
   f.options.device = "dxy";
   uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
-  maker_line(&f.drawing, layer, 0, 100, 1189, 100);
+  maker_line(&f.drawing, layer, 0, 420.5, 1189, 420.5);
   plotting_run(&f);
-  plotting_assert_point(&f, 0, 1, 16800, 4000);
+  plotting_assert_point(&f, 0, 0, 0, 5940);
+  plotting_assert_point(&f, 0, 1, 16800, 5940);
   assert_int_equal(f.warnings, 1);
+  assert_non_null(strstr(f.warning, "1 stroke clipped: "));
+  assert_non_null(strstr(f.warning, "largest sheet of dxy, A3"));
+  assert_non_null(strstr(f.warning, "420 x 297 mm"));
   plotting_end(&f);
+}
+
+/* Its frame is all there, and begins where the pen's reach does. */
+static void a_small_page_lies_where_the_pen_reaches(void **state) {
+  (void)state;
+  static const double size[][2] = {{20, 30}, {30, 20}, {100, 100}, {148, 105}};
+  for (size_t d = 0; device_name(d); d++)
+    for (size_t i = 0; device_by_name(device_name(d))->paper && i < 4; i++) {
+      struct plotting f;
+      plotting_begin(&f, size[i][0], size[i][1]);
+      f.options.device = device_name(d);
+      maker_box(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), 0, 0,
+                size[i][0], size[i][1]);
+      plotting_run(&f);
+      assert_int_equal(f.warnings, 0);
+      assert_int_equal(f.back.stroke.count, 1);
+      assert_int_equal(f.back.stroke.item[0].count, 5);
+      int32_t low_x = INT32_MAX, low_y = INT32_MAX;
+      for (size_t k = 0; k < 5; k++) {
+        low_x = f.back.point.item[k].x < low_x ? f.back.point.item[k].x : low_x;
+        low_y = f.back.point.item[k].y < low_y ? f.back.point.item[k].y : low_y;
+      }
+      assert_int_equal(low_x, 0);
+      assert_int_equal(low_y, 0);
+      plotting_end(&f);
+    }
+}
+
+/* Half a millimetre less, and something is. */
+static void nothing_is_clipped_inside_the_margin_that_is_told(void **state) {
+  (void)state;
+  struct random random = {5};
+  int needed = 0;
+  for (int i = 0; i < 400; i++) {
+    static const char *const name[] = {"hp7475a", "hp7550a", "dxy"};
+    struct device_placement place;
+    double width = random_int(&random, 50, 420);
+    double height = random_int(&random, 50, 297);
+    const char *device = name[i % 3];
+    if (i % 2 == 0) { /* a sheet that all three have */
+      width = i % 4 ? 420 : 210;
+      height = 297;
+    }
+    device_place(device_by_name(device), width, height, &place);
+    double margin = device_margin_mm(&place);
+    assert_true(margin >= 0);
+    for (int less = 0; less <= (margin > 0.5); less++) {
+      struct plotting f;
+      double inset = margin - 0.5 * less;
+      plotting_begin(&f, width, height);
+      f.options.device = device;
+      maker_box(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), inset, inset,
+                width - inset, height - inset);
+      plotting_run(&f);
+      assert_int_equal(f.warnings, less);
+      char words[40];
+      snprintf(words, sizeof words, "all of the outer %.0f mm", ceil(margin));
+      assert_true(!less || strstr(f.warning, words));
+      needed += less;
+      plotting_end(&f);
+    }
+  }
+  assert_in_range(needed, 100, 399);
+}
+
+static void the_margin_that_a_writer_asks_for_is_the_device_s(void **state) {
+  (void)state;
+  struct writer_options options = {.device = "hp7475a"};
+  assert_true(writer_hpgl.margin_mm(&options, 210, 297) == 16);
+  assert_true(writer_hpgl.margin_mm(&options, 100, 100) == 0);
+  assert_true(writer_hpgl.margin_mm(&options, 841, 1189) == 0);
+  options.device = "generic";
+  assert_true(writer_hpgl.margin_mm(&options, 210, 297) == 0);
+  options.device = "no such";
+  assert_true(writer_hpgl.margin_mm(&options, 210, 297) == 0);
 }
 
 static void a_drum_has_its_origin_in_the_middle(void **state) {
@@ -364,6 +445,9 @@ int main(void) {
       cmocka_unit_test(the_smallest_paper_that_holds_the_page_is_taken),
       cmocka_unit_test(a_page_a_touch_too_large_keeps_its_paper),
       cmocka_unit_test(a_page_that_no_paper_holds_is_clipped_on_the_largest),
+      cmocka_unit_test(a_small_page_lies_where_the_pen_reaches),
+      cmocka_unit_test(nothing_is_clipped_inside_the_margin_that_is_told),
+      cmocka_unit_test(the_margin_that_a_writer_asks_for_is_the_device_s),
       cmocka_unit_test(a_drum_has_its_origin_in_the_middle),
       cmocka_unit_test(a_stroke_that_leaves_and_returns_is_two),
       cmocka_unit_test(a_clipped_loop_is_not_cut_where_it_begins),

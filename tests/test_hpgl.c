@@ -91,6 +91,7 @@ static void points_that_repeat_and_strokes_that_vanish_go(void **state) {
 
 /* ---- Pens ---------------------------------------------------------------- */
 
+/* Each pen is taken once; on one pen layers keep their order. */
 static void pens_change_only_where_they_must(void **state) {
   (void)state;
   struct plotting f;
@@ -99,13 +100,16 @@ static void pens_change_only_where_they_must(void **state) {
   for (size_t i = 0; i < 6; i++) {
     uint32_t layer = maker_layer(&f.drawing, pens[i], 0.3, 0);
     if (pens[i] != 3)
-      maker_line(&f.drawing, layer, 10, 10, 20, 20);
+      maker_line(&f.drawing, layer, 10 + (double)i, 10, 20, 20);
   }
   plotting_run(&f);
-  assert_int_equal(f.back.pen.count, 3);
+  assert_int_equal(f.back.pen.count, 2);
   assert_int_equal(f.back.pen.item[0], 1);
   assert_int_equal(f.back.pen.item[1], 2);
-  assert_int_equal(f.back.pen.item[2], 1);
+  assert_int_equal(f.back.stroke.count, 5);
+  static const int x[] = {0, 1, 5, 3, 4};
+  for (size_t i = 0; i < 5; i++)
+    plotting_assert_point(&f, i, 0, 400 + 40 * x[i], 400);
   plotting_end(&f);
 }
 
@@ -141,6 +145,26 @@ static void pens_past_the_carousel_are_dealt_anew_with_a_word(void **state) {
   assert_int_equal(f.back.pen.item[2], 2);
   assert_int_equal(f.warnings, 1);
   assert_non_null(strstr(f.warning, "2 layers"));
+  plotting_end(&f);
+}
+
+/* Pen 7 of 6 is pen 1, and comes with it. */
+static void a_pen_that_is_dealt_anew_is_not_fetched_twice(void **state) {
+  (void)state;
+  struct plotting f;
+  plotting_begin(&f, 297, 210);
+  f.options.device = "hp7475a";
+  static const unsigned pens[] = {1, 3, 7};
+  for (size_t i = 0; i < 3; i++)
+    maker_line(&f.drawing, maker_layer(&f.drawing, pens[i], 0.3, 0), 50, 50, 60,
+               60);
+  plotting_run(&f);
+  assert_int_equal(f.back.pen.count, 2);
+  assert_int_equal(f.back.pen.item[0], 1);
+  assert_int_equal(f.back.pen.item[1], 3);
+  assert_int_equal(f.back.stroke.count, 3);
+  assert_int_equal(f.back.stroke.item[1].pen, 1);
+  assert_non_null(strstr(f.warning, "1 layer on"));
   plotting_end(&f);
 }
 
@@ -180,6 +204,31 @@ static void a_speed_that_makes_no_sense_is_refused(void **state) {
     assert_refused(&f, "cm/s");
   }
   plotting_end(&f);
+}
+
+static void a_plotter_is_told_no_more_than_its_fastest(void **state) {
+  (void)state;
+  static const struct {
+    const char *device;
+    double asked;
+    int told, warnings;
+  } speed[] = {{"hp7475a", 60, 38, 1},
+               {"hp7475a", 20, 20, 0},
+               {"hp7550a", 127, 80, 1},
+               {"dxy", 42, 42, 0},
+               {"generic", 127, 127, 0}};
+  for (size_t i = 0; i < sizeof speed / sizeof speed[0]; i++) {
+    struct plotting f;
+    plotting_begin(&f, 297, 210);
+    f.options.device = speed[i].device;
+    f.options.velocity = speed[i].asked;
+    maker_line(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), 50, 50, 60, 60);
+    plotting_run(&f);
+    assert_int_equal(f.back.velocity, speed[i].told);
+    assert_int_equal(f.warnings, speed[i].warnings);
+    assert_true(f.warnings == 0 || strstr(f.warning, "cm/s"));
+    plotting_end(&f);
+  }
 }
 
 static void nobody_needs_to_listen_to_warnings(void **state) {
@@ -239,9 +288,11 @@ int main(void) {
       cmocka_unit_test(pens_change_only_where_they_must),
       cmocka_unit_test(layers_come_in_their_order_whatever_the_strokes),
       cmocka_unit_test(pens_past_the_carousel_are_dealt_anew_with_a_word),
+      cmocka_unit_test(a_pen_that_is_dealt_anew_is_not_fetched_twice),
       cmocka_unit_test(fills_are_left_out_with_a_word),
       cmocka_unit_test(an_unknown_device_is_refused_with_the_known_ones),
       cmocka_unit_test(a_speed_that_makes_no_sense_is_refused),
+      cmocka_unit_test(a_plotter_is_told_no_more_than_its_fastest),
       cmocka_unit_test(nobody_needs_to_listen_to_warnings),
       cmocka_unit_test(a_full_disk_leaves_no_plot),
   };

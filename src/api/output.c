@@ -1,6 +1,7 @@
 /* output.c - the drawing's handle: writing it and looking into it; and the
  * whole job in one call. */
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 #include "api/handle.h"
@@ -86,6 +87,12 @@ void recto_options_suit(recto_options *options, const char *path,
                         const char *format) {
   const struct writer *writer = find_writer(path, format);
   options->unit_mm = recto_output_unit_mm(path, format, options);
+  if (options->margin_mm < 0 && writer != NULL && writer->margin_mm != NULL) {
+    struct writer_options how = writer_options_of(options);
+    options->margin_mm = fmax(RECTO_USUAL_MARGIN_MM,
+                              writer->margin_mm(&how, options->page_width_mm,
+                                                options->page_height_mm));
+  }
   if (options->weights == NULL && writer != NULL && writer->one_width)
     options->weights = "none";
 }

@@ -284,11 +284,15 @@ static void report_plotting(struct report *report,
   const struct device *device = device_by_name(name);
   if (device == NULL)
     return;
-  double down = options->velocity_cm_s, up = options->velocity_up_cm_s;
-  down = down > 0 ? down : device->down_cm_s;
+  double down = device_velocity(device, options->velocity_cm_s);
+  double up = options->velocity_up_cm_s;
   up = up > 0 ? up : device->up_cm_s;
   double lifts = (double)report_get(report, "ink", "pen_lifts", 0);
+  struct device_placement place;
+  device_place(device, drawing->width_mm, drawing->height_mm, &place);
   report_text(report, "plotting", "device", device->name);
+  report_text(report, "plotting", "sheet",
+              place.paper != NULL ? place.paper->name : "as the page");
   report_double(report, "plotting", "velocity_cm_s", down);
   report_double(report, "plotting", "velocity_up_cm_s", up);
   report_double(report, "plotting", "lift_s", DEVICE_LIFT_S);

@@ -50,6 +50,10 @@ static recto_status refuse(const struct aim *aim, const char *words) {
 
 /* ---- Options ------------------------------------------------------------- */
 
+static double margin_of(const recto_options *options) {
+  return options->margin_mm < 0 ? RECTO_USUAL_MARGIN_MM : options->margin_mm;
+}
+
 static recto_status check_page(const struct aim *aim) {
   const recto_options *o = aim->options;
   if (!(o->page_width_mm > 0 && o->page_height_mm > 0))
@@ -57,10 +61,8 @@ static recto_status check_page(const struct aim *aim) {
   if (!(o->page_width_mm <= page_limit_mm &&
         o->page_height_mm <= page_limit_mm))
     return refuse(aim, "the page is larger than 2 m");
-  if (!(o->margin_mm >= 0))
-    return refuse(aim, "the margin is negative");
-  if (!(2 * o->margin_mm < o->page_width_mm &&
-        2 * o->margin_mm < o->page_height_mm))
+  double margins = 2 * margin_of(o);
+  if (!(margins < o->page_width_mm && margins < o->page_height_mm))
     return refuse(aim, "the margins leave no room on the page");
   return RECTO_OK;
 }
@@ -286,7 +288,7 @@ static void fit_page(struct aim *aim) {
   camera->s = INFINITY;
   double least_room = INFINITY;
   for (int k = 0; k < 2; k++) {
-    double room = camera->page_mm[k] - 2 * aim->options->margin_mm;
+    double room = camera->page_mm[k] - 2 * margin_of(aim->options);
     double extent = e.high[k] - e.low[k];
     least_room = fmin(least_room, room);
     if (extent > size * TOLERANCE_EXTENT_SHARE)
@@ -325,7 +327,7 @@ static void set_scale(struct aim *aim) {
       camera->s *= aim->target_d / aim->centre_d;
   } else if (camera->perspective || aim->far) {
     struct angle half = angle_of_degrees(o->fov_deg / 2);
-    camera->s = (o->page_height_mm - 2 * o->margin_mm) /
+    camera->s = (o->page_height_mm - 2 * margin_of(o)) /
                 (2 * (half.sine / half.cosine));
     if (aim->far)
       camera->s /= aim->centre_d;
