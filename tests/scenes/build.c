@@ -146,10 +146,17 @@ void scenes_turn(struct scene *scene, struct vector axis, double radians) {
   }
 }
 
+/* To single precision and back, through memory: gcc 12 at -O2 drops the pair
+ * of conversions where three of them stand side by side. */
+static double to_float(double value) {
+  volatile float rounded = (float)value;
+  return rounded;
+}
+
 void scenes_round_to_float(struct scene *scene) {
   for (size_t i = 0; i < scene->point.count; i++) {
     struct scene_point *p = &scene->point.item[i];
-    *p = (struct scene_point){(float)p->x, (float)p->y, (float)p->z};
+    *p = (struct scene_point){to_float(p->x), to_float(p->y), to_float(p->z)};
   }
 }
 
