@@ -452,6 +452,111 @@ static void pairs_pierce_where_rationals_say(void **state) {
   assert_true(pierced > 5000);
 }
 
+/* ---- Surfaces that meet along an edge ------------------------------------- */
+
+/* Eight ways from an upright line of the page, in order round it. */
+static const int way[8][2] = {{7, 2},   {4, 7},   {-2, 7}, {-7, 4},
+                              {-7, -2}, {-4, -7}, {2, -7}, {7, -4}};
+
+/* A triangle on the line's part between two heights, `off` units of depth and
+ * of x beside it. */
+static void add_wing(struct sheet *sheet, const int to[2], int low, int high,
+                     const int off[2]) {
+  const int k = SCALE, x = 16 * k + off[0], z = 16 * k + off[1];
+  const int corner[3][3] = {{x, low * k, z},
+                            {x, high * k, z},
+                            {x + to[0] * k, 8 * k, z + to[1] * k}};
+  hand_add_face(sheet, corner, 3, 1);
+}
+
+/* Do b's ways stand on both sides of a's, and on neither of them? */
+static bool are_between(const int a[2], const int b[2]) {
+  int low = a[0] < a[1] ? a[0] : a[1], high = a[0] < a[1] ? a[1] : a[0];
+  for (int k = 0; k < 2; k++)
+    if (b[k] == low || b[k] == high) return false;
+  return (low < b[0] && b[0] < high) != (low < b[1] && b[1] < high);
+}
+
+static void assert_upright(const struct sheet *sheet, int low, int high) {
+  struct geom_point p = end_of(sheet, sheet->edge.count - 1, 0),
+                    q = end_of(sheet, sheet->edge.count - 1, 1);
+  assert_in_range(p.x, 16 * SCALE - 1, 16 * SCALE + 1);
+  assert_in_range(q.x, 16 * SCALE - 1, 16 * SCALE + 1);
+  assert_int_equal(p.y < q.y ? p.y : q.y, low * SCALE);
+  assert_int_equal(p.y < q.y ? q.y : p.y, high * SCALE);
+}
+
+/* Two folded sheets, edge on edge, each of any two ways: they cross where the
+ * ways alternate, and touch otherwise. */
+static void check_folds(const int off[2], int *crossed) {
+  static const int none[2] = {0, 0};
+  for (int i = 0; i < 8 * 8 * 8 * 8; i++) {
+    const int a[2] = {i % 8, i / 8 % 8}, b[2] = {i / 64 % 8, i / 512};
+    struct sheet sheet;
+    size_t lines;
+    if (a[0] >= a[1] || b[0] == b[1]) continue;
+    hand_sheet_init(&sheet);
+    for (int k = 0; k < 2; k++)
+      add_wing(&sheet, way[a[k]], 2, 12, none);
+    for (int k = 0; k < 2; k++)
+      add_wing(&sheet, way[b[k]], 14, 6, off);
+    lines = pierce(&sheet);
+    if (lines != are_between(a, b))
+      fail_msg("%zu lines: %d %d and %d %d, off by %d %d", lines, a[0], a[1],
+               b[0], b[1], off[0], off[1]);
+    if (lines == 1) assert_upright(&sheet, 6, 12);
+    *crossed += lines == 1;
+    hand_sheet_fini(&sheet);
+  }
+}
+
+static void folds_cross_where_their_ways_alternate(void **state) {
+  int crossed = 0;
+  (void)state;
+  for (int i = 0; i < 9; i++) {
+    const int off[2] = {i % 3 - 1, i / 3 - 1};
+    check_folds(off, &crossed);
+  }
+  assert_int_equal(crossed, 9 * 2 * 2 * 70);
+}
+
+/* A fold with its edge on a face, or off it by a unit of depth. */
+static void a_fold_goes_through_a_face_it_lies_on(void **state) {
+  static const int face[][3] = {{2, 0, 16}, {30, 0, 16}, {30, 16, 16},
+                                {2, 16, 16}};
+  (void)state;
+  for (int i = 0; i < 3 * 64; i++) {
+    const int off[2] = {0, i / 64 - 1}, a[2] = {i % 8, i / 8 % 8};
+    bool through = a[0] / 4 != a[1] / 4 && way[a[0]][1] * way[a[1]][1] < 0;
+    struct sheet sheet;
+    hand_sheet_init(&sheet);
+    hand_add_face(&sheet, face, 4, SCALE);
+    for (int k = 0; k < 2; k++)
+      add_wing(&sheet, way[a[k]], 2, 12, off);
+    assert_int_equal(pierce(&sheet) > 0, through);
+    hand_sheet_fini(&sheet);
+  }
+}
+
+/* An edge that is all but upright may lean to one side, and the one that lies
+ * on it to the other. */
+static void edges_that_lean_apart_by_a_unit_are_joined(void **state) {
+  static const int none[2] = {0, 0};
+  (void)state;
+  for (int lean = -1; lean <= 1; lean++) {
+    struct sheet sheet;
+    hand_sheet_init(&sheet);
+    add_wing(&sheet, way[0], 2, 12, none);
+    add_wing(&sheet, way[4], 2, 12, none);
+    add_wing(&sheet, way[2], 6, 14, none);
+    add_wing(&sheet, way[6], 6, 14, none);
+    sheet.point.item[1].x += lean;
+    assert_int_equal(pierce(&sheet), 1);
+    assert_upright(&sheet, 6, 12);
+    hand_sheet_fini(&sheet);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(crossed_sheets_have_a_line),
@@ -463,6 +568,9 @@ int main(void) {
       cmocka_unit_test(a_shared_vertex_alone_is_no_piercing),
       cmocka_unit_test(from_a_shared_vertex_the_line_runs_inwards),
       cmocka_unit_test(neighbours_get_the_same_end),
+      cmocka_unit_test(folds_cross_where_their_ways_alternate),
+      cmocka_unit_test(a_fold_goes_through_a_face_it_lies_on),
+      cmocka_unit_test(edges_that_lean_apart_by_a_unit_are_joined),
       cmocka_unit_test(pairs_pierce_where_rationals_say),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -63,4 +63,12 @@ static inline bool geom_same_point(struct geom_point a, struct geom_point b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
+/* An order of points: by x, then by y, then by z. */
+static inline int geom_compare_points(struct geom_point a,
+                                      struct geom_point b) {
+  if (a.x != b.x) return a.x < b.x ? -1 : 1;
+  if (a.y != b.y) return a.y < b.y ? -1 : 1;
+  return (a.z > b.z) - (a.z < b.z);
+}
+
 #endif

@@ -23,6 +23,7 @@ librecto_core_la_SOURCES += \
   %D%/pixels.c %D%/pixels.h \
   %D%/raster.c %D%/raster.h \
   %D%/scanline_zbuffer.c %D%/scanline_zbuffer.h \
+  %D%/seams.c %D%/seams.h \
   %D%/sidelabel.c %D%/sidelabel.h \
   %D%/solver.c %D%/solver.h \
   %D%/spans.c %D%/spans.h \

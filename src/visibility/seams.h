@@ -1,0 +1,72 @@
+/* seams.h - where surfaces cross along an edge.
+ *
+ * A surface that has an edge on a face's plane, and goes on behind the plane
+ * on one side of the edge and before it on the other, passes through the face
+ * there though none of its triangles does.  Each of them ends on the plane:
+ * two corners touch it (hide.h), the third does not.
+ *
+ * Where edge lies on edge four triangles meet, or more.  The two surfaces
+ * cross where, going round the edge, one meets a triangle of the one, of the
+ * other, of the one and of the other again.  Triangles that touch one another
+ * on the same side of the edge are one sheet there and no crossing: two
+ * prisms that stand wall on wall do not pierce each other along the walls'
+ * sides.
+ */
+#ifndef VISIBILITY_SEAMS_H
+#define VISIBILITY_SEAMS_H
+
+#include "base/memory.h"
+#include "visibility/hide.h"
+
+/* How a triangle's corners lie to a plane, beyond contact or touching it. */
+struct stance {
+  int behind, before; /* how many corners */
+  int apart;          /* the last corner that does not touch */
+};
+
+struct stance stance_of(const struct hider *plane,
+                        const struct geom_point p[3]);
+
+/* Two corners touch the plane: the triangle ends there, along a side. */
+static inline bool ends_there(struct stance s) {
+  return s.behind + s.before == 1;
+}
+
+struct seam_side {
+  uint32_t i, j; /* ends of an edge, i < j; or i: a triangle, j: none */
+};
+
+/* An edge whose triangle ends on another's plane; or two edges, each of which
+ * is on a plane of the other's triangles. */
+struct seam {
+  struct seam_side side[2]; /* the lower first */
+};
+
+struct seams {
+  ARRAY(struct seam) list;
+};
+
+/* Two triangles and the line in which their surfaces meet. */
+struct pierce_segment {
+  uint32_t triangle[2]; /* the lower first */
+  struct geom_point end[2];
+};
+
+struct pierce_segments {
+  ARRAY(struct pierce_segment) list;
+};
+
+/* Notes that triangle f ends on the plane of g, which straddles that of f or
+ * ends on it.  Returns false when memory ran out. */
+USE_RESULT bool seams_note(struct seams *seams, const struct sheet *sheet,
+                           uint32_t f, struct stance sf, uint32_t g,
+                           struct stance sg);
+
+/* Adds the crossings, and counts them.  It is enough that one pair of the
+ * triangles about an edge was noted: the sheet is asked for the others, which
+ * may be apart by a rounding.  Sorts the seams.  Returns false when memory ran
+ * out. */
+USE_RESULT bool seams_join(struct seams *seams, const struct sheet *sheet,
+                           struct pierce_segments *segments, uint64_t *count);
+
+#endif
