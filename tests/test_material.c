@@ -95,7 +95,7 @@ static void names_of_libraries_may_hold_blanks_or_be_several(void **state) {
 
 static void values_beyond_the_range_are_clamped(void **state) {
   struct reading r;
-  write_text(state, "a.mtl", "newmtl m\nKd 7 -3 inf\n");
+  write_text(state, "a.mtl", "newmtl m\nKd 7 -3 1e300\n");
   read_model(&r, state, "mtllib a.mtl\n" POINTS "usemtl m\n" FACE);
   assert_colour(&r, "m", 0xff00ff);
   reading_fini(&r);
@@ -160,24 +160,32 @@ static void hear(void *user, const char *file, unsigned long line,
   }
 }
 
+/* Reads a model whose only material is m of a library of these bytes. */
+static void read_library(struct reading *r, struct heard *heard, void **state,
+                         const char *bytes, size_t count) {
+  temporary_file(state, "a.mtl", bytes, count);
+  *heard = (struct heard){.count = 0};
+  reading_init(r);
+  r->scene.wants_colours = true;
+  r->diagnostics.warning = hear;
+  r->diagnostics.user = heard;
+  const char *path =
+      write_text(state, "m.obj", "mtllib a.mtl\n" POINTS "usemtl m\n" FACE);
+  assert_int_equal(scene_read(&r->scene, path, NULL, &r->diagnostics, NULL),
+                   RECTO_OK);
+}
+
 static void a_bad_colour_is_told_with_the_librarys_name_and_line(void **state) {
-  static const char *const bad[] = {"nan 0 0",   "1 0",     "1 0 0 0",
-                                    "1 0 0x",    "red",     "spectral a.rfl",
-                                    "xyz 1 1 1", "0.5,0,0", "1 1 \x01"};
+  static const char *const bad[] = {
+      "nan 0 0", "1 0 inf",  "-infinity", "1e999",          "1 0",
+      "1 0 0 0", "1 0 0x",   "red",       "spectral a.rfl", "xyz 1 1 1",
+      "0.5,0,0", "1 1 \xff", ""};
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
     struct reading r;
-    struct heard heard = {.count = 0};
+    struct heard heard;
     char text[100];
     snprintf(text, sizeof text, "\nnewmtl m\nKd %s\nKd 0 0 1\n", bad[i]);
-    write_text(state, "a.mtl", text);
-    reading_init(&r);
-    r.scene.wants_colours = true;
-    r.diagnostics.warning = hear;
-    r.diagnostics.user = &heard;
-    const char *path =
-        write_text(state, "m.obj", "mtllib a.mtl\n" POINTS "usemtl m\n" FACE);
-    assert_int_equal(scene_read(&r.scene, path, NULL, &r.diagnostics, NULL),
-                     RECTO_OK);
+    read_library(&r, &heard, state, text, strlen(text));
     if (heard.count != 1)
       fail_msg("Kd %s: %d warnings", bad[i], heard.count);
     assert_string_equal(heard.file, temporary_path(state, "a.mtl"));
@@ -186,6 +194,55 @@ static void a_bad_colour_is_told_with_the_librarys_name_and_line(void **state) {
     assert_int_equal(r.diagnostics.count[SCENE_FAULT_MATERIAL], 1);
     reading_fini(&r);
   }
+}
+
+static void libraries_with_a_mistake_are_told_of_once(void **state) {
+  static const struct {
+    const char *text;
+    int count;
+    unsigned long line;
+  } row[] = {
+      {"\xef\xbb\xbfnewmtl m\nKd 0 0 1\n", 0, 0},
+      {"newmtl m\nKd 0 0 1\nnewmtl n\nnewmtl m\nKd 1 0 0\n", 1, 4},
+      {"newmtl m\nKd 0 0 1\nnewmtl\nKd 1 0 0\n", 2, 3},
+      {"newmtl m\nKd 0 0 1\nnewmtl \nNs 3\nnewmtl n\n", 1, 3},
+      {"Kd 1 0 0\nnewmtl m\nKd 0 0 1\n", 1, 1},
+      {"newmtl m\nKd 0 0 1\nnewmtl n\nKd\nKdiffuse 3\n", 1, 4},
+  };
+  for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+    struct reading r;
+    struct heard heard;
+    read_library(&r, &heard, state, row[i].text, strlen(row[i].text));
+    assert_int_equal(heard.count, row[i].count);
+    assert_int_equal(heard.line, row[i].line);
+    assert_colour(&r, "m", 0x0000ff);
+    reading_fini(&r);
+  }
+}
+
+/* What came before holds. */
+static void a_library_is_read_as_far_as_it_is_text(void **state) {
+  static const char bytes[] = "newmtl m\nKd 0 0 1\n\x01\x7f\0q\nnewmtl "
+                              "m\nKd x\n\0\n\x02\n\x03\n\x04";
+  struct reading r;
+  struct heard heard;
+  read_library(&r, &heard, state, bytes, sizeof bytes - 1);
+  assert_int_equal(heard.count, 1);
+  assert_int_equal(heard.line, 3);
+  assert_colour(&r, "m", 0x0000ff);
+  reading_fini(&r);
+}
+
+/* No line of one library is about a material of another. */
+static void a_library_begins_without_a_material(void **state) {
+  struct reading r;
+  write_text(state, "a.mtl", "newmtl m\n");
+  write_text(state, "b.mtl", "Kd 1 0 0\nnewmtl m\n");
+  read_model(&r, state,
+             "mtllib a.mtl\nmtllib b.mtl\n" POINTS "usemtl m\n" FACE);
+  assert_no_colour(&r);
+  assert_int_equal(r.warnings, 1);
+  reading_fini(&r);
 }
 
 /* Neither a folder, nor a pipe that nobody writes to, nor a device without an
@@ -265,6 +322,9 @@ int main(void) {
       T(a_group_of_two_files_keeps_its_first_colour),
       T(what_is_missing_is_told_with_its_line),
       T(a_bad_colour_is_told_with_the_librarys_name_and_line),
+      T(libraries_with_a_mistake_are_told_of_once),
+      T(a_library_is_read_as_far_as_it_is_text),
+      T(a_library_begins_without_a_material),
       T(only_plain_files_are_libraries),
       T(a_library_too_large_is_not_read),
       T(no_more_than_a_hundred_libraries_are_read),

@@ -45,7 +45,8 @@ USE_RESULT recto_status materials_colour(const struct materials *materials,
                                          recto_error *error);
 
 /* Reads a material library: adds a group to `palette` for each material; the
- * first Kd of a name is its colour, each part times 255 as it stands.
+ * first Kd of a name is its colour, each part times 255 as it stands.  Reads no
+ * further than to a line that is not text.
  * bytes  `count` of them, any */
 USE_RESULT recto_status material_read(struct scene *palette, const char *bytes,
                                       size_t count,

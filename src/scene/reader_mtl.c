@@ -17,13 +17,13 @@ static const char *skip_blanks(const char *at, const char *end) {
   return at;
 }
 
-/* What follows the keyword where the statement [at, end) opens with it; else
- * NULL. */
+/* What follows the keyword, which may be nothing, where the statement [at, end)
+ * opens with it; else NULL. */
 static const char *follow_keyword(const char *at, const char *end,
                                   const char *keyword) {
-  size_t length = strlen(keyword);
-  if ((size_t)(end - at) <= length || memcmp(at, keyword, length) != 0 ||
-      !is_blank(at[length]))
+  size_t length = strlen(keyword), count = (size_t)(end - at);
+  if (count < length || memcmp(at, keyword, length) != 0 ||
+      (count > length && !is_blank(at[length])))
     return NULL;
   return skip_blanks(at + length, end);
 }
@@ -34,7 +34,7 @@ static bool parse_colour(const char *at, const char *end, uint32_t *colour) {
   int parts = 0;
   for (; parts < 3 && at < end && *at != '#'; parts++) {
     const char *stop = number_parse_double(at, end, &part[parts]);
-    if (!stop || (stop < end && !is_blank(*stop)) || isnan(part[parts]))
+    if (!stop || (stop < end && !is_blank(*stop)) || !isfinite(part[parts]))
       return false;
     at = skip_blanks(stop, end);
   }
@@ -48,42 +48,102 @@ static bool parse_colour(const char *at, const char *end, uint32_t *colour) {
   return true;
 }
 
-/* Takes one statement, without the blanks around it. */
-static recto_status read_statement(struct scene *palette, const char *at,
-                                   const char *end, unsigned long line,
-                                   struct diagnostics *diagnostics,
-                                   recto_error *error) {
-  const char *rest = follow_keyword(at, end, "newmtl");
-  if (rest)
-    return scene_use_group(palette, rest, (size_t)(end - rest), error);
-  rest = follow_keyword(at, end, "Kd");
-  if (!rest || palette->group.count == 0)
+/* A library as it is read. */
+struct library {
+  struct scene *palette;
+  uint32_t first;    /* of its own materials in the palette */
+  uint32_t material; /* that statements are about; SCENE_NONE */
+  unsigned long line;
+  struct diagnostics *diagnostics;
+  recto_error *error;
+};
+
+static void tell(const struct library *library, const char *text) {
+  diagnostics_fault(library->diagnostics, SCENE_FAULT_MATERIAL, library->line,
+                    "%s", text);
+}
+
+/* What several libraries have, the first gives; within one it is a mistake. */
+static recto_status begin_material(struct library *library, const char *name,
+                                   const char *end) {
+  struct scene *palette = library->palette;
+  size_t known = palette->group.count;
+  library->material = SCENE_NONE;
+  if (name == end) {
+    tell(library, "newmtl without a name, skipped");
     return RECTO_OK;
-  struct scene_group *material = &palette->group.item[palette->current_group];
+  }
+  recto_status status =
+      scene_use_group(palette, name, (size_t)(end - name), library->error);
+  if (status != RECTO_OK)
+    return status;
+  library->material = palette->current_group;
+  if (palette->group.count == known && library->material >= library->first)
+    diagnostics_fault(library->diagnostics, SCENE_FAULT_MATERIAL, library->line,
+                      "newmtl %.80s once more: its first Kd holds",
+                      palette->group.item[library->material].name);
+  return RECTO_OK;
+}
+
+static void take_colour(const struct library *library, const char *at,
+                        const char *end) {
   uint32_t colour;
-  if (!parse_colour(rest, end, &colour)) {
-    diagnostics_fault(diagnostics, SCENE_FAULT_MATERIAL, line,
-                      "Kd that is no colour, skipped");
+  if (library->material == SCENE_NONE) {
+    tell(library, "Kd of no material, skipped");
+    return;
+  }
+  struct scene_group *material =
+      &library->palette->group.item[library->material];
+  if (!parse_colour(at, end, &colour)) {
+    tell(library, "Kd that is no colour, skipped");
   } else if (!material->has_colour) {
     material->colour = colour;
     material->has_colour = true;
   }
+}
+
+/* Takes one statement, without the blanks around it. */
+static recto_status read_statement(struct library *library, const char *at,
+                                   const char *end) {
+  const char *rest = follow_keyword(at, end, "newmtl");
+  if (rest)
+    return begin_material(library, rest, end);
+  rest = follow_keyword(at, end, "Kd");
+  if (rest)
+    take_colour(library, rest, end);
   return RECTO_OK;
+}
+
+static bool is_text(const char *at, const char *end) {
+  for (; at < end; at++)
+    if ((unsigned char)*at < ' ' && !is_blank(*at))
+      return false;
+  return true;
 }
 
 recto_status material_read(struct scene *palette, const char *bytes,
                            size_t count, struct diagnostics *diagnostics,
                            recto_error *error) {
+  static const char byte_order_mark[] = "\xef\xbb\xbf";
+  struct library library = {palette,     (uint32_t)palette->group.count,
+                            SCENE_NONE,  1,
+                            diagnostics, error};
   const char *at = bytes, *end = bytes + count;
   recto_status status = RECTO_OK;
-  for (unsigned long line = 1; status == RECTO_OK && at < end; line++) {
+  if (count >= 3 && memcmp(at, byte_order_mark, 3) == 0)
+    at += 3;
+  for (; status == RECTO_OK && at < end; library.line++) {
     const char *stop = memchr(at, '\n', (size_t)(end - at));
     const char *next = stop ? stop + 1 : end;
     stop = stop ? stop : end;
     at = skip_blanks(at, stop);
     while (stop > at && is_blank(stop[-1]))
       stop--;
-    status = read_statement(palette, at, stop, line, diagnostics, error);
+    if (!is_text(at, stop)) {
+      tell(&library, "not text: the rest of the library is not read");
+      return RECTO_OK;
+    }
+    status = read_statement(&library, at, stop);
     at = next;
   }
   return status;
