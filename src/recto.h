@@ -368,7 +368,8 @@ typedef struct recto_verdict {
 /* Judges somebody's drawing of the scene, an SVG file, by an independent ray
  * caster: as seen by the camera of the options, on the file's own page, of the
  * options' edges.  Lines may be off by a quarter of the options' pen; dashed
- * ones, and those of layers labelled hidden, are not judged. */
+ * ones, those of the class hidden or of a layer labelled so, and hatching of
+ * the class hatch are not judged. */
 RECTO_USE_RESULT recto_status recto_scene_check(const recto_scene *scene,
                                                 const char *path,
                                                 const recto_options *options,

@@ -432,6 +432,14 @@ judges_its_own() {
     grep -qE '^missing ink +0\.000 mm +0\.000 %$' out
 }
 claim "--check finds its own drawing right" judges_its_own
+judges_lines_alone() {
+  run 0 cube.obj -o filled.svg --fill "$1" "${@:2}" &&
+    run 0 cube.obj --check filled.svg &&
+    grep -qE '^false ink +0\.000 mm +0\.000 %$' out
+}
+claim "--check leaves hatching alone" judges_lines_alone hatch
+claim "--check leaves fills and their seams alone" \
+  judges_lines_alone paint --seam 0.2
 # A cube from a corner shows nine edges of one length and hides three.
 judges_others() {
   run 0 cube.obj -o hidden.svg --hidden layer &&

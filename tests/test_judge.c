@@ -405,6 +405,50 @@ static void paths_and_polylines_are_read(void **state) {
   judge_drawing_fini(&drawing);
 }
 
+/* By its class, or by a layer's name that says no more; what has the class of a
+ * visible line is one, whatever the user calls his groups. */
+static void a_group_called_hidden_is_none_of_hidden_lines(void **state) {
+  (void)state;
+  static const struct {
+    const char *label, *words;
+    enum judge_role role;
+  } row[] = {{"2 hidden", "", JUDGE_HIDDEN},
+             {"hidden", "", JUDGE_HIDDEN},
+             {"2 other", " class=\"hidden\"", JUDGE_HIDDEN},
+             {"2 other", " class=\"thin hidden\"", JUDGE_HIDDEN},
+             {"2 hidden", " class=\"crease\"", JUDGE_INK},
+             {"2 crease, hidden", " class=\"crease\"", JUDGE_INK},
+             {"2 hidden door", "", JUDGE_INK},
+             {"2 unhidden", "", JUDGE_INK},
+             {"2 wall", " class=\"hiddenwall\"", JUDGE_INK}};
+  for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+    struct judge_drawing drawing;
+    char text[400];
+    snprintf(text, sizeof text,
+             ROOT "<g inkscape:label=\"%s\" stroke=\"#000\">"
+                  "<g%s><path d=\"M0 0L1 1\"/></g></g></svg>",
+             row[i].label, row[i].words);
+    assert_null(read_text(&drawing, text));
+    assert_int_equal(drawing.stroke.count, 1);
+    if (drawing.stroke.item[0].role != row[i].role)
+      fail_msg("%s, %s", row[i].label, row[i].words);
+    judge_drawing_fini(&drawing);
+  }
+}
+
+static void hatching_and_seams_are_no_lines_of_the_scene(void **state) {
+  (void)state;
+  struct judge_drawing drawing;
+  assert_null(read_text(&drawing,
+                        ROOT PEN "<g class=\"seam\"><path d=\"M0 0L1 1\"/></g>"
+                                 "<g class=\"hatch\"><path d=\"M0 0L1 1\"/></g>"
+                                 "<g class=\"wire\"><path d=\"M1 1L2 2\"/></g>"
+                                 "</g></svg>"));
+  assert_int_equal(drawing.stroke.count, 1);
+  assert_true(drawing.point.item[0].x == 1);
+  judge_drawing_fini(&drawing);
+}
+
 /* The points of the one stroke of a text, pairs x, y, y down as in the file. */
 static void assert_points(const char *text, const double *xy, uint32_t count) {
   struct judge_drawing drawing;
@@ -660,6 +704,8 @@ int main(void) {
       cmocka_unit_test(contact_does_not_hide),
       cmocka_unit_test(smooth_edges_are_asked_for_by_all_alone),
       cmocka_unit_test(paths_and_polylines_are_read),
+      cmocka_unit_test(a_group_called_hidden_is_none_of_hidden_lines),
+      cmocka_unit_test(hatching_and_seams_are_no_lines_of_the_scene),
       cmocka_unit_test(every_way_to_write_a_line_is_read),
       cmocka_unit_test(pages_of_any_unit_are_read),
       cmocka_unit_test(transforms_turn_and_skew),

@@ -42,7 +42,8 @@ struct judge_drawing {
 
 /* Reads an SVG file such as recto writes: a root in mm with a viewBox in the
  * same, paths of M, L, Z with absolute numbers, polylines and polygons.
- * Strokes on a layer whose label speaks of hidden are JUDGE_HIDDEN.
+ * Strokes of the class hidden are JUDGE_HIDDEN, and without a class those on a
+ * layer labelled "hidden" or "2 hidden"; hatching and seams are left out.
  * Returns NULL, or what is wrong with it. */
 const char *judge_read_svg(struct judge_drawing *drawing, const char *text,
                            size_t length);

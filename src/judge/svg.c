@@ -18,8 +18,9 @@ enum paint { PAINT_UNSAID, PAINT_NONE, PAINT_SOME };
 struct style {
   struct svg_matrix to_page; /* mm, y up */
   enum paint stroke, fill;
-  bool dashed, hidden; /* a hidden line: by its dashes; by its class, or the
-                          label of a layer that has nothing else */
+  bool dashed, hidden; /* a hidden line: by its dashes; by its class, or where
+                          it has none by the name of its layer */
+  bool filling;        /* hatching, or what closes the seams of fills */
   bool unseen;         /* not displayed, or a definition */
 };
 
@@ -52,6 +53,29 @@ static bool is_definition(const struct svg_tag *tag) {
   return false;
 }
 
+/* "hidden", or a pen's number and that word: no more, as the name of a layer
+ * may hold those of the user's groups. */
+static bool is_layer_of_hidden(struct svg_text label) {
+  while (label.at < label.end && *label.at >= '0' && *label.at <= '9')
+    label.at++;
+  return svg_is(svg_trim(label), "hidden");
+}
+
+/* The classes of our own files say what a line is, whatever its layer's
+ * name. */
+static void take_class(struct svg_text list, struct style *style) {
+  struct svg_text word;
+  while (svg_next_word(&list, &word)) {
+    if (svg_is(word, "hidden"))
+      style->hidden = true;
+    else if (svg_is(word, "hatch") || svg_is(word, "seam"))
+      style->filling = true;
+    for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
+      if (svg_is(word, recto_edge_class_name((recto_edge_class)(1u << i))))
+        style->hidden = false;
+  }
+}
+
 /* What the element makes of what it was handed.  Returns NULL, or what is
  * wrong. */
 static const char *take_style(const struct svg_tag *tag, struct style *style) {
@@ -61,11 +85,10 @@ static const char *take_style(const struct svg_tag *tag, struct style *style) {
   take_paint(tag, "fill", &style->fill);
   if (svg_property(tag, "stroke-dasharray", &value))
     style->dashed = !svg_is(value, "none") && value.at < value.end;
-  if (svg_attribute(tag, "inkscape:label", &value) &&
-      svg_has(value, "hidden") && !svg_has(value, ","))
+  if (svg_attribute(tag, "inkscape:label", &value) && is_layer_of_hidden(value))
     style->hidden = true;
-  if (svg_attribute(tag, "class", &value) && svg_is(value, "hidden"))
-    style->hidden = true;
+  if (svg_attribute(tag, "class", &value))
+    take_class(value, style);
   if ((svg_property(tag, "display", &value) && svg_is(value, "none")) ||
       (svg_property(tag, "visibility", &value) && svg_is(value, "hidden")) ||
       is_definition(tag))
@@ -79,7 +102,7 @@ static const char *take_style(const struct svg_tag *tag, struct style *style) {
 }
 
 static bool is_ink(const struct svg_reader *reader, const struct style *style) {
-  if (style->unseen)
+  if (style->unseen || style->filling)
     return false;
   return style->stroke == PAINT_SOME ||
          (style->stroke == PAINT_UNSAID && style->fill == PAINT_UNSAID &&

@@ -29,16 +29,21 @@ static const char *find(struct svg_text text, const char *word) {
   return NULL;
 }
 
-bool svg_has(struct svg_text text, const char *word) {
-  return find(text, word) != NULL;
-}
-
 struct svg_text svg_trim(struct svg_text text) {
   while (text.at < text.end && is_space(*text.at))
     text.at++;
   while (text.end > text.at && is_space(text.end[-1]))
     text.end--;
   return text;
+}
+
+bool svg_next_word(struct svg_text *list, struct svg_text *word) {
+  *list = svg_trim(*list);
+  word->at = list->at;
+  while (list->at < list->end && !is_space(*list->at))
+    list->at++;
+  word->end = list->at;
+  return word->at < word->end;
 }
 
 void svg_skip_spaces(struct svg_text *text) {

@@ -28,8 +28,9 @@ struct svg_tag {
 bool svg_next_tag(struct svg_text *file, struct svg_tag *tag, bool *broken);
 
 bool svg_is(struct svg_text text, const char *word);
-bool svg_has(struct svg_text text, const char *word);
 struct svg_text svg_trim(struct svg_text text);
+/* The next word of a list with blanks between; false where there is none. */
+bool svg_next_word(struct svg_text *list, struct svg_text *word);
 
 /* The attribute of that name. */
 bool svg_attribute(const struct svg_tag *tag, const char *name,
