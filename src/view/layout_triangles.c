@@ -3,6 +3,8 @@
  *
  * Until layout_edges is done, the sides of the triangles name topology edges.
  */
+#include <math.h>
+
 #include "view/layout_facet.h"
 
 static inline void set_side(const struct layout *layout,
@@ -94,16 +96,70 @@ static recto_status cut_polygon_face(struct layout *layout, uint32_t face,
   return RECTO_OK;
 }
 
-/* The sign that all triangles from `first` on have which have an area; 0 where
- * they differ or none has any. */
-static int common_sign(const struct layout *layout, size_t first) {
+/* How far contact moves a point that is at this depth on the page, and the
+ * grid's rounding with it. */
+static double contact_units(const struct sheet *sheet, int64_t z) {
+  const struct camera *camera = &sheet->camera;
+  double nearness =
+      camera->perspective ? (double)z / sheet->z_scale + 1 / camera->d_max : 1;
+  return camera->contact * sheet->units_per_view * nearness + 1;
+}
+
+static const struct geom_point *corner_point(const struct layout *layout,
+                                             uint32_t corner) {
+  uint32_t point = layout_weld(layout, layout->scene->corner.item[corner]);
+  return &layout->sheet->point.item[layout->point_map[point]];
+}
+
+static uint32_t farthest_corner(const struct layout *layout, uint32_t start,
+                                uint32_t count, uint32_t from) {
+  const struct geom_point *a = corner_point(layout, from);
+  double most = -1;
+  for (uint32_t c = start; c < start + count; c++) {
+    const struct geom_point *p = corner_point(layout, c);
+    double x = (double)p->x - a->x, y = (double)p->y - a->y;
+    if (x * x + y * y > most) {
+      most = x * x + y * y;
+      from = c;
+    }
+  }
+  return from;
+}
+
+/* Is the face seen edge-on, but for what contact allows?  All of its corners
+ * are about as near to the line through two that lie far apart. */
+static bool is_edge_on(const struct layout *layout, uint32_t start,
+                       uint32_t count) {
+  uint32_t from = farthest_corner(layout, start, count, start);
+  const struct geom_point
+      *a = corner_point(layout, from),
+      *b = corner_point(layout, farthest_corner(layout, start, count, from));
+  double length = hypot((double)b->x - a->x, (double)b->y - a->y);
+  for (uint32_t c = start; c < start + count; c++) {
+    const struct geom_point *p = corner_point(layout, c);
+    double off = fabs((double)geom_orient2d(*a, *b, *p));
+    if (off > length * contact_units(layout->sheet, p->z))
+      return false;
+  }
+  return true;
+}
+
+/* Where a face lies whose triangles start at `first`: the sign of all of them
+ * that have an area.  Where the signs differ the face folds over, and each
+ * triangle has its own; but of a face that is flat and seen edge-on, whose
+ * corners rounding moved, no two triangles must part the front from the back,
+ * or the outline would run along their diagonal: that face has none at all.
+ * Returns false where each has its own. */
+static bool face_sign(const struct layout *layout, size_t first,
+                      uint32_t start, uint32_t count, int *sign) {
   bool plus = false, minus = false;
   for (size_t t = first; t < layout->flags.count; t++) {
     uint8_t flags = layout->flags.item[t];
     plus = plus || flags == 0;
     minus = minus || flags == SHEET_FLIPPED;
   }
-  return plus - minus;
+  *sign = plus - minus;
+  return *sign != 0 || (plus && is_edge_on(layout, start, count));
 }
 
 /* Adds a face that is all on the sheet.  Its triangles that the grid, or a
@@ -117,13 +173,14 @@ static recto_status add_whole_face(struct layout *layout, uint32_t face,
     struct layout_facet facet = nth_facet(layout, face, start, count, t);
     layout_add_facet(layout, &facet);
   }
-  int common = common_sign(layout, first);
+  int common;
+  bool is_common = face_sign(layout, first, start, count, &common);
   recto_status status = RECTO_OK;
   for (size_t t = 0; t < triangles; t++) {
     struct layout_facet facet = nth_facet(layout, face, start, count, t);
     uint8_t flags = layout->flags.item[first + t];
     int own = flags & SHEET_FLAT ? 0 : flags & SHEET_FLIPPED ? -1 : 1;
-    int sign = common ? common : own;
+    int sign = is_common ? common : own;
     layout_learn_sides(layout, &facet, sign);
     const uint32_t *p = layout->sheet->triangle.item[first + t].point;
     for (int k = 0; status == RECTO_OK && sign != own && k < 3; k++)
