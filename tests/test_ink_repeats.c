@@ -138,6 +138,29 @@ static void a_slit_wider_than_a_unit_stays_two_lines(void **state) {
     }
 }
 
+/* A slit a few units long: straightened by as much as a unit, both ways round
+ * it would be its diagonal. */
+static void a_short_slit_does_not_close(void **state) {
+  (void)state;
+  const int x = 1045 * UNIT / 1000, y = 443 * UNIT / 100,
+            slant = 35 * UNIT / 100;
+  const int p[5][2] = {{0, 0}, {0, y}, {x, y + slant}, {x, slant}, {0, 0}};
+  struct inked k;
+  start(&k);
+  for (int twice = 0; twice < 2; twice++)
+    for (int i = 0; i < 4; i++) {
+      int off = twice * UNIT / 10;
+      inked_line_at(&k, p[i][0] + off, p[i][1] + off, p[i + 1][0] + off,
+                    p[i + 1][1] + off, CREASE);
+    }
+  inked_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 1);
+  assert_int_equal(k.drawing.stroke.item[0].count, 4);
+  assert_true(k.drawing.stroke.item[0].closed);
+  assert_true(most_shared(&k.drawing, UNIT_MM) == 0);
+  inked_end(&k);
+}
+
 static void without_a_unit_all_lines_stay(void **state) {
   (void)state;
   struct inked k;
@@ -220,7 +243,7 @@ static void what_is_beyond_a_near_line_goes_on_from_it(void **state) {
   struct inked k;
   start(&k);
   inked_line_at(&k, -BIG, 0, BIG / 2, 0, CREASE);
-  inked_line_at(&k, -BIG / 2, 700, BIG, 700, CREASE);
+  inked_line_at(&k, -BIG / 2, 600, BIG, 600, CREASE);
   inked_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 1);
   assert_int_equal(k.drawing.stroke.item[0].count, 2);
@@ -407,6 +430,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lines_within_a_unit_are_one),
       cmocka_unit_test(a_slit_wider_than_a_unit_stays_two_lines),
+      cmocka_unit_test(a_short_slit_does_not_close),
       cmocka_unit_test(without_a_unit_all_lines_stay),
       cmocka_unit_test(nothing_moves_where_nothing_repeats),
       cmocka_unit_test(hidden_lines_near_visible_ones_go),

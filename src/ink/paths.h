@@ -33,9 +33,9 @@ void paths_fini(struct ink_paths *paths);
 USE_RESULT recto_status paths_chain(struct ink_paths *paths,
                                     const struct net *net, recto_error *error);
 
-/* Drops points within TOLERANCE_COLLINEAR_UNITS (loose ones: within `unit`
- * grid units, if that is more) of the straight line that is left when they are
- * gone, and on the way along it.  Ends stay. */
+/* Drops points within TOLERANCE_COLLINEAR_UNITS (loose ones: within half of
+ * `unit` grid units, if that is more) of the straight line that is left when
+ * they are gone, and on the way along it.  Ends stay. */
 void paths_straighten(struct ink_paths *paths, double unit);
 
 /* Douglas-Peucker: drops points so that no part of a line moves by more than

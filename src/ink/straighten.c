@@ -5,6 +5,9 @@
  * point lies in the intersection of these wedges, and farther off than the
  * one before, a straight line to it passes all of them.  Otherwise the point
  * before it is a corner, and the next anchor.
+ * Loose points have half the output's unit: two lines that meet by that had no
+ * more than a unit between them, and were one before.  With the whole unit the
+ * two ways round a slit a few units long became its diagonal, twice.
  * Cost  linear; most points of a curve are found to be corners by one cross
  *   product. */
 #include "ink/paths.h"
@@ -69,7 +72,7 @@ static bool is_corner(struct vector passed, struct vector next,
  * Returns how many are left. */
 static uint32_t straighten_line(struct ink_point *point, uint8_t *loose,
                                 uint32_t count, struct ink_point last,
-                                double unit) {
+                                double wide) {
   struct ink_point anchor = point[0];
   struct wedge wedge = {.open = true};
   uint32_t kept = 1;
@@ -78,8 +81,8 @@ static uint32_t straighten_line(struct ink_point *point, uint8_t *loose,
     struct ink_point after = i + 1 < count ? point[i + 1] : last;
     struct vector next = from_to(anchor, after);
     struct vector passed = from_to(anchor, here);
-    bool wide = loose && (loose[i] || loose[kept - 1]);
-    double tolerance = wide ? unit : TOLERANCE_COLLINEAR_UNITS;
+    bool is_loose = loose && (loose[i] || loose[kept - 1]);
+    double tolerance = is_loose ? wide : TOLERANCE_COLLINEAR_UNITS;
     bool straight = !is_corner(passed, next, tolerance) &&
                     dot(next, next) > dot(passed, passed);
     if (straight) {
@@ -110,10 +113,10 @@ static void reverse(struct ink_point *point, uint8_t *loose, uint32_t count) {
 
 /* The same for an open line with its end. */
 static uint32_t straighten_open(struct ink_point *point, uint8_t *loose,
-                                uint32_t count, double unit) {
+                                uint32_t count, double wide) {
   struct ink_point last = point[count - 1];
   uint8_t last_loose = loose ? loose[count - 1] : 0;
-  uint32_t kept = straighten_line(point, loose, count - 1, last, unit);
+  uint32_t kept = straighten_line(point, loose, count - 1, last, wide);
   if (loose)
     loose[kept] = last_loose;
   point[kept++] = last;
@@ -122,13 +125,13 @@ static uint32_t straighten_open(struct ink_point *point, uint8_t *loose,
 
 /* Both ways, so that a loose point is one to the points before it too. */
 static uint32_t straighten_path(struct ink_point *point, uint8_t *loose,
-                                const struct ink_path *path, double unit) {
+                                const struct ink_path *path, double wide) {
   if (path->closed)
-    return straighten_line(point, loose, path->count, point[0], unit);
-  uint32_t kept = straighten_open(point, loose, path->count, unit);
+    return straighten_line(point, loose, path->count, point[0], wide);
+  uint32_t kept = straighten_open(point, loose, path->count, wide);
   if (loose && kept > 2) {
     reverse(point, loose, kept);
-    kept = straighten_open(point, loose, kept, unit);
+    kept = straighten_open(point, loose, kept, wide);
     reverse(point, loose, kept);
   }
   return kept;
@@ -137,12 +140,12 @@ static uint32_t straighten_path(struct ink_point *point, uint8_t *loose,
 void paths_straighten(struct ink_paths *paths, double unit) {
   struct ink_point *point = paths->point.item;
   uint32_t to = 0;
-  unit = fmax(unit, TOLERANCE_COLLINEAR_UNITS);
+  double wide = fmax(unit / 2, TOLERANCE_COLLINEAR_UNITS);
   for (size_t i = 0; i < paths->path.count; i++) {
     struct ink_path *path = &paths->path.item[i];
     struct ink_point *from = point + path->point;
     uint8_t *loose = paths->loose ? paths->loose + path->point : NULL;
-    uint32_t kept = straighten_path(from, loose, path, unit);
+    uint32_t kept = straighten_path(from, loose, path, wide);
     if (path->closed && kept < 3) /* so thin a loop is a line, there and back */
       path->closed = false;
     memmove(point + to, from, kept * sizeof *from);
