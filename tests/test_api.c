@@ -603,7 +603,8 @@ static void an_empty_page_says_why(void **state) {
   recto_options_init(&options);
   assert_warns(scene, options, "");
   options.edges = RECTO_EDGES_NONE;
-  assert_warns(scene, options, "");
+  assert_warns(scene, options,
+               "the drawing is empty: neither lines nor fills are asked for");
   options.edges = RECTO_EDGE_INTERSECTION;
   assert_warns(scene, options,
                "the drawing is empty: nothing that was asked for is visible "

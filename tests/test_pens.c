@@ -2,6 +2,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
+#include <stdio.h>
 #include <string.h>
 #include <cmocka.h>
 
@@ -79,6 +80,7 @@ static void layers_say_what_is_on_their_pen(void **state) {
   (void)state;
   start_scene(&k);
   k.options.pen_for = "silhouette=3,hidden=2,wheel=3,hatch=3";
+  k.options.fill = RECTO_FILL_HATCH;
   k.options.hidden = RECTO_HIDDEN_LAYER;
   k.options.pen_widths = "3=0.1cm,2=0.7";
   k.options.pen_colours = "3=#c00,1=0012Ff";
@@ -95,6 +97,90 @@ static void layers_say_what_is_on_their_pen(void **state) {
   assert_int_equal(layer[1].colour, 0x808080);
   assert_int_equal(layer[2].colour, 0xcc0000);
   inked_end(&k);
+}
+
+/* What is not asked for is not on the layer's label. */
+static void layers_say_nothing_of_what_is_not_asked_for(void **state) {
+  struct inked k;
+  (void)state;
+  start_scene(&k);
+  k.options.pen_for = "hidden=2,hatch=2,wire=2,crease=2,silhouette=1";
+  k.options.edges &= ~(unsigned)RECTO_EDGE_WIRE;
+  inked_draw(&k);
+  assert_int_equal(k.drawing.layer.count, 2);
+  assert_string_equal(k.drawing.layer.item[0].label, "1 visible");
+  assert_string_equal(k.drawing.layer.item[1].label, "2 crease");
+  inked_end(&k);
+}
+
+/* ---- Idle pens ------------------------------------------------------------
+ */
+
+struct heard {
+  int count;
+  char text[3][128];
+};
+
+static void hear(void *user, const char *file, unsigned long line,
+                 const char *text) {
+  struct heard *heard = user;
+  assert_string_equal(file, "");
+  assert_int_equal(line, 0);
+  assert_true(heard->count < 3);
+  snprintf(heard->text[heard->count++], sizeof heard->text[0], "%s", text);
+}
+
+static void pens_with_nothing_to_draw_are_told(void **state) {
+  static const struct {
+    const char *pens, *widths, *colours;
+    recto_hidden hidden;
+    recto_fill fill;
+    unsigned edges;
+    const char *said; /* how it begins; NULL: nothing is */
+  } row[] = {
+      {"hidden=2", NULL, NULL, RECTO_HIDDEN_NONE, RECTO_FILL_NONE, CREASE,
+       "pen 2 is for hidden lines"},
+      {"hidden=2", "2=1", NULL, RECTO_HIDDEN_LAYER, RECTO_FILL_NONE, CREASE,
+       NULL},
+      {"hatch=7", NULL, NULL, RECTO_HIDDEN_NONE, RECTO_FILL_PAINT, CREASE,
+       "pen 7 is for hatching"},
+      {"hatch=7", NULL, "7=fff", RECTO_HIDDEN_NONE, RECTO_FILL_HATCH, CREASE,
+       NULL},
+      {"crease=2", NULL, NULL, RECTO_HIDDEN_NONE, RECTO_FILL_NONE, SILHOUETTE,
+       "pen 2 is for crease lines"},
+      {"wheel=5", "5=1", "1=f00", RECTO_HIDDEN_NONE, RECTO_FILL_NONE, CREASE,
+       NULL},
+      {NULL, "2=1", NULL, RECTO_HIDDEN_LAYER, RECTO_FILL_NONE, CREASE, NULL},
+      {NULL, "2=1", NULL, RECTO_HIDDEN_DASHED, RECTO_FILL_NONE, CREASE,
+       "pen 2 has"},
+      {NULL, "2=1,900=1", "3=f00,2=000", RECTO_HIDDEN_NONE, RECTO_FILL_NONE,
+       CREASE, "pen 2 and 2 more have"},
+      {NULL, "1000=1", NULL, RECTO_HIDDEN_NONE, RECTO_FILL_NONE, CREASE,
+       "pen 1000 has"},
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+    struct inked k;
+    struct pens pens;
+    struct heard heard = {.count = 0};
+    start_scene(&k);
+    k.options.pen_for = row[i].pens;
+    k.options.pen_widths = row[i].widths;
+    k.options.pen_colours = row[i].colours;
+    k.options.hidden = row[i].hidden;
+    k.options.fill = row[i].fill;
+    k.options.edges = row[i].edges;
+    assert_int_equal(pens_init(&pens, &k.scene, &k.options, NULL), RECTO_OK);
+    pens_tell_idle(&pens, &k.options); /* nobody listens */
+    k.options.warning = hear;
+    k.options.user = &heard;
+    pens_tell_idle(&pens, &k.options);
+    assert_int_equal(heard.count, row[i].said != NULL);
+    if (row[i].said)
+      assert_memory_equal(heard.text[0], row[i].said, strlen(row[i].said));
+    pens_fini(&pens);
+    inked_end(&k);
+  }
 }
 
 static void fills_lie_below_the_lines_of_all_pens(void **state) {
@@ -248,6 +334,8 @@ int main(void) {
       cmocka_unit_test(hidden_goes_before_class_and_class_before_group),
       cmocka_unit_test(groups_go_by_their_whole_name_or_a_part),
       cmocka_unit_test(layers_say_what_is_on_their_pen),
+      cmocka_unit_test(layers_say_nothing_of_what_is_not_asked_for),
+      cmocka_unit_test(pens_with_nothing_to_draw_are_told),
       cmocka_unit_test(fills_lie_below_the_lines_of_all_pens),
       cmocka_unit_test(half_the_strokes_own_pen_is_the_shortest),
       cmocka_unit_test(strokes_of_pens_that_meet_are_not_joined),

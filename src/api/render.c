@@ -262,12 +262,13 @@ static void report_drawing(struct report *report,
 static void warn_of_empty_page(const struct render *render) {
   const recto_options *o = render->options;
   const struct drawing *drawing = render->drawing;
-  bool asked = o->edges != RECTO_EDGES_NONE || o->fill != RECTO_FILL_NONE;
-  if (drawing->stroke.count > 0 || drawing->fill.count > 0 || !asked ||
+  if (drawing->stroke.count > 0 || drawing->fill.count > 0 ||
       o->warning == NULL)
     return;
   const char *why = "nothing that was asked for is visible and long enough";
-  if (report_get(render->report, "sheet", "triangles", 0) == 0 &&
+  if (o->edges == RECTO_EDGES_NONE && o->fill == RECTO_FILL_NONE)
+    why = "neither lines nor fills are asked for";
+  else if (report_get(render->report, "sheet", "triangles", 0) == 0 &&
       render->sheet.edge.count == 0)
     why = "all of the scene is outside of the page";
   char text[128];
@@ -304,12 +305,15 @@ static void report_plotting(struct report *report,
 
 /* ---- All of it ----------------------------------------------------------- */
 
-/* A list of pens that makes no sense is told before the work. */
+/* A list of pens that makes no sense is told before the work, and pens that
+ * are idle once. */
 static recto_status check_pens(const struct render *render,
                                recto_error *error) {
   struct pens pens;
   recto_status status =
       pens_init(&pens, &render->model->scene, render->options, error);
+  if (status == RECTO_OK)
+    pens_tell_idle(&pens, render->options);
   pens_fini(&pens);
   return status;
 }

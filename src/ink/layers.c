@@ -53,12 +53,12 @@ static void label_pen(struct drawing_layer *layer, const struct pens *pens,
   if (has_rest)
     add_word(&label, "visible");
   for (unsigned i = 0; !has_rest && i < RECTO_EDGE_CLASS_COUNT; i++)
-    if (pens->of_class[i] == pen)
+    if (pens->of_class[i] == pen && pens_is_drawn(options, i))
       add_word(&label, recto_edge_class_name((recto_edge_class)(1u << i)));
-  if (pens->of_hidden == pen ||
+  if ((pens->of_hidden == pen && options->hidden != RECTO_HIDDEN_NONE) ||
       (pens->of_hidden == PENS_NONE && pen == pens->count))
     add_word(&label, "hidden");
-  if (pens->of_hatch == pen)
+  if (pens->of_hatch == pen && options->fill == RECTO_FILL_HATCH)
     add_word(&label, "hatch");
   if (!has_rest)
     add_groups(&label, pens, scene);

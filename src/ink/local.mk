@@ -20,7 +20,7 @@ librecto_core_la_SOURCES += \
   %D%/pairing.c %D%/pairing.h \
   %D%/patches.c %D%/patches.h \
   %D%/paths.h \
-  %D%/pens.c %D%/pens.h \
+  %D%/pens.c %D%/pens.h %D%/pens_idle.c \
   %D%/repeats.c \
   %D%/ruling.c %D%/ruling.h \
   %D%/runs.c %D%/runs.h \

@@ -39,6 +39,13 @@ USE_RESULT recto_status pens_init(struct pens *pens, const struct scene *scene,
                                   recto_error *error);
 void pens_fini(struct pens *pens);
 
+/* Whether lines of the class at that place are asked for. */
+bool pens_is_drawn(const recto_options *options, unsigned place);
+
+/* Warns of what was said about pens that have nothing to draw by the options.
+ */
+void pens_tell_idle(const struct pens *pens, const recto_options *options);
+
 /* The pen of visible lines of a class, of hidden ones, of hatching, of fills.
  */
 uint32_t pens_of_line(const struct pens *pens, unsigned edge_class,
