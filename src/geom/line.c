@@ -6,6 +6,9 @@
  * so the value of a third line there has the sign of det(l1, l2, l3) times
  * the sign of the last component.
  *
+ * Of narrow lines that is 127 bits at most, so machine words decide where
+ * doubles cannot; GMP is for wide ones.
+ *
  * Filter: the nine inputs are within 2^-52 of the true coefficients (GMP cuts
  * the digits off); each of the six triple products gathers at most 3 such
  * errors and 5 roundings in all, so the sum is off by less than 16 * 2^-53
@@ -165,13 +168,59 @@ static void exact_corner(mpz_t h[3], const struct geom_corner *corner) {
     for (int k = 0; k < 3; k++) mpz_neg(h[k], h[k]);
 }
 
+/* ---- The same of narrow lines, in machine words ---------------------------- */
+
+/* a, b < 2^31, c < 2^62 */
+struct narrow_line {
+  int64_t a, b, c;
+};
+
+/* x, y < 2^94, 0 < w < 2^63 */
+struct narrow_corner {
+  int128 x, y;
+  int64_t w;
+};
+
+static struct narrow_line narrow_of(const struct geom_line *line) {
+  int64_t a = (int64_t)line->y0 - line->y1, b = (int64_t)line->x1 - line->x0;
+  return (struct narrow_line){a, b, -(a * line->x0 + b * line->y0)};
+}
+
+/* The corner as homogeneous integers; false where one of its lines is wide. */
+static bool narrow_meet(struct narrow_corner *h,
+                        const struct geom_corner *corner) {
+  struct narrow_line p, q;
+  if (corner->l1 == NULL) {
+    *h = (struct narrow_corner){corner->ix, corner->iy, 1};
+    return true;
+  }
+  if (!corner->l1->narrow || !corner->l2->narrow) return false;
+  p = narrow_of(corner->l1);
+  q = narrow_of(corner->l2);
+  h->x = (int128)p.b * q.c - (int128)q.b * p.c;
+  h->y = (int128)p.c * q.a - (int128)q.c * p.a;
+  h->w = p.a * q.b - q.a * p.b;
+  if (h->w < 0) {
+    h->x = -h->x;
+    h->y = -h->y;
+    h->w = -h->w;
+  }
+  return true;
+}
+
 /* ---- Questions ------------------------------------------------------------ */
 
 static int side_exact(const struct geom_line *line,
                       const struct geom_corner *corner) {
+  struct narrow_corner narrow;
   struct exact_line l;
   mpz_t h[3], value;
   int sign;
+  if (line->narrow && narrow_meet(&narrow, corner)) {
+    struct narrow_line n = narrow_of(line); /* 2^125 each: the sum fits */
+    return geom_sign128(n.a * narrow.x + n.b * narrow.y +
+                        (int128)n.c * narrow.w);
+  }
   mpz_inits(h[0], h[1], h[2], value, NULL);
   exact_init(&l, line);
   exact_corner(h, corner);
@@ -235,6 +284,10 @@ static int product_exact(const struct geom_line *l1,
   struct exact_line p, q;
   mpz_t value;
   int sign;
+  if (l1->narrow && l2->narrow) {
+    struct narrow_line m = narrow_of(l1), n = narrow_of(l2);
+    return geom_sign64(dot ? m.a * n.a + m.b * n.b : m.a * n.b - n.a * m.b);
+  }
   mpz_init(value);
   exact_init(&p, l1);
   exact_init(&q, l2);
@@ -299,8 +352,15 @@ struct geom_corner geom_corner_of(const struct geom_line *l1,
 
 static int compare_exact(const struct geom_corner *p,
                          const struct geom_corner *q) {
+  struct narrow_corner m, n;
   mpz_t g[3], h[3], value;
   int order = 0;
+  if (narrow_meet(&m, p) && narrow_meet(&n, q)) {
+    order = ratio_compare((struct ratio){m.x, m.w}, (struct ratio){n.x, n.w});
+    return order != 0 ? order
+                      : ratio_compare((struct ratio){m.y, m.w},
+                                      (struct ratio){n.y, n.w});
+  }
   mpz_inits(g[0], g[1], g[2], h[0], h[1], h[2], value, NULL);
   exact_corner(g, p);
   exact_corner(h, q);
@@ -350,12 +410,20 @@ static int64_t round_quotient(mpz_t num, const mpz_t den, int bits,
   return mpz_get_si(num);
 }
 
+/* The same of num < 2^94. */
+static int64_t round_narrow(int128 num, int64_t den, int bits) {
+  int128 twice = num * ((int128)2 << bits) + den, whole = twice / den / 2;
+  if (whole * 2 * den > twice) whole--;
+  return (int64_t)whole;
+}
+
 void geom_corner_round(const struct geom_corner *corner, int bits, int64_t *x,
                        int64_t *y) {
+  struct narrow_corner narrow;
   mpz_t h[3], scratch;
-  if (corner->l1 == NULL) {
-    *x = (int64_t)corner->ix * (INT64_C(1) << bits);
-    *y = (int64_t)corner->iy * (INT64_C(1) << bits);
+  if (narrow_meet(&narrow, corner)) {
+    *x = round_narrow(narrow.x, narrow.w, bits);
+    *y = round_narrow(narrow.y, narrow.w, bits);
     return;
   }
   mpz_inits(h[0], h[1], h[2], scratch, NULL);
