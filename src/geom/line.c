@@ -258,11 +258,38 @@ static int side_of_point(const struct geom_line *line,
   return side_exact(line, corner);
 }
 
+/* How far a corner's doubles may be from the truth: see CORNER_SINE; nearer to
+ * parallel they are rounded to 2^-9. */
+#define CORNER_ERROR 0x1p-2
+
+/* The side where the corner's doubles are far enough from the line to tell,
+ * else 0: all but the corners next to it. */
+static int side_of_doubles(const struct geom_line *line,
+                           const struct geom_corner *corner) {
+  double ax, by, c, value, bound;
+  if (line->narrow) {
+    ax = line->a * (corner->x - line->x0);
+    by = line->b * (corner->y - line->y0);
+    c = 0;
+  } else {
+    ax = line->a * corner->x;
+    by = line->b * corner->y;
+    c = line->c;
+  }
+  value = ax + by + c;
+  bound = CORNER_ERROR * (fabs(line->a) + fabs(line->b)) +
+          FILTER * (fabs(ax) + fabs(by) + fabs(c));
+  return (value > bound) - (value < -bound);
+}
+
 int geom_line_side(const struct geom_line *line,
                    const struct geom_corner *corner) {
   const struct geom_line *p = corner->l1, *q = corner->l2;
   double x1, x2, y1, y2, w1, w2, w, det, size;
+  int side;
   if (p == NULL) return side_of_point(line, corner);
+  side = side_of_doubles(line, corner);
+  if (side != 0) return side;
   if (same_line(line, p) || same_line(line, q)) return 0;
   x1 = p->b * q->c, x2 = q->b * p->c;
   y1 = p->c * q->a, y2 = q->c * p->a;
@@ -371,10 +398,6 @@ static int compare_exact(const struct geom_corner *p,
   mpz_clears(g[0], g[1], g[2], h[0], h[1], h[2], value, NULL);
   return order;
 }
-
-/* How far a corner's doubles may be from the truth: see CORNER_SINE; nearer to
- * parallel they are rounded to 2^-9. */
-#define CORNER_ERROR 0x1p-2
 
 int geom_corner_compare(const struct geom_corner *p,
                         const struct geom_corner *q) {
