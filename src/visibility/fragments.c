@@ -7,6 +7,7 @@
 #include "geom/region.h"
 #include "visibility/contact.h"
 #include "visibility/sidelabel.h"
+#include "visibility/stance.h"
 
 /* Corners leave the house rounded to this many bits below the grid's unit. */
 enum { CORNER_BITS = 8 };
@@ -24,6 +25,7 @@ void fragments_fini(struct fragments *fragments) {
   pagegrid_query_fini(&fragments->query);
   arena_fini(&fragments->arena);
   arena_fini(&fragments->scratch);
+  ARRAY_FREE(&fragments->touching);
   ARRAY_FREE(&fragments->piece);
 }
 
@@ -35,26 +37,40 @@ static int compare_ids(const void *a, const void *b, void *user) {
   return (p > q) - (p < q);
 }
 
-/* Leaves in query.found the earlier triangles that touch this one, in order. */
-static bool find_touching(struct fragments *f, uint32_t triangle) {
+/* May two triangles touch (contact.h)?  A no is certain.
+ * plane, p  of the first */
+static bool may_touch(const struct sheet *sheet,
+                      const struct stance_plane *plane,
+                      const struct geom_point p[3], uint32_t g) {
+  const uint32_t *point = sheet->triangle.item[g].point;
+  const struct geom_point q[3] = {sheet->point.item[point[0]],
+                                  sheet->point.item[point[1]],
+                                  sheet->point.item[point[2]]};
+  struct stance_plane other;
+  if (stance_may_touch(plane, q)) return true;
+  other = stance_plane_of(sheet, g);
+  return stance_may_touch(&other, p);
+}
+
+/* Finds the earlier triangles among `about` that touch this one. */
+static bool find_touching(struct fragments *f, uint32_t triangle,
+                          const uint32_t *about, size_t count) {
   const struct sheet *sheet = f->sheet;
   struct page_box box = page_box_of_triangle(sheet, triangle);
-  size_t kept = 0;
-  f->query.found.count = 0;
-  if (!f->contact) return true;
-  if (!pagegrid_find_about(f->grid, triangle, &f->query)) return false;
-  for (size_t i = 0; i < f->query.found.count; i++) {
-    uint32_t g = f->query.found.item[i];
+  struct triangle_plane at = triangle_plane_of(sheet, triangle);
+  struct stance_plane plane = stance_plane_of(sheet, triangle);
+  for (size_t i = 0; i < count; i++) {
+    uint32_t g = about[i];
     if (g < triangle && !(sheet->triangle_flags[g] & SHEET_FLAT) &&
         sheet->triangle.item[g].face != sheet->triangle.item[triangle].face &&
         !page_boxes_apart(box, page_box_of_triangle(sheet, g)) &&
+        may_touch(sheet, &plane, at.p, g) &&
         !triangles_part(sheet, triangle, g) &&
-        triangles_touch(sheet, triangle, g))
-      f->query.found.item[kept++] = g;
+        triangles_touch(sheet, triangle, g) && !ARRAY_PUSH(&f->touching, g))
+      return false;
   }
-  f->query.found.count = kept;
-  return sort_stable(f->query.found.item, kept, sizeof *f->query.found.item,
-                     compare_ids, NULL);
+  return sort_stable(f->touching.item, f->touching.count,
+                     sizeof *f->touching.item, compare_ids, NULL);
 }
 
 static bool keep_piece(struct fragments *f, uint32_t triangle,
@@ -78,8 +94,8 @@ static bool deal_pieces(struct fragments *f, uint32_t triangle,
   bool done = false;
   for (size_t i = 0; i < count; i++)
     if (!ARRAY_PUSH(&now, piece[i])) goto end;
-  for (size_t i = 0; i < f->query.found.count; i++) {
-    uint32_t g = f->query.found.item[i];
+  for (size_t i = 0; i < f->touching.count; i++) {
+    uint32_t g = f->touching.item[i];
     struct geom_line *line = arena_alloc(&f->scratch, 6, sizeof *line);
     if (line == NULL) goto end;
     triangle_lines(f->sheet, g, line, line + 3);
@@ -116,22 +132,44 @@ static bool triangle_piece(struct fragments *f, uint32_t triangle,
   return geom_convex_triangle(piece, p, line, arena);
 }
 
-bool fragments_add_whole(struct fragments *f, uint32_t triangle) {
-  struct geom_convex piece;
-  if (!find_touching(f, triangle)) return false;
-  if (f->query.found.count == 0) return keep_piece(f, triangle, NULL);
-  return triangle_piece(f, triangle, &piece, &f->scratch) &&
-         deal_pieces(f, triangle, &piece, 1);
-}
-
 bool fragments_add_alone(struct fragments *f, uint32_t triangle) {
   return keep_piece(f, triangle, NULL);
 }
 
+bool fragments_add_among(struct fragments *f, uint32_t triangle,
+                         const struct geom_convex *piece, size_t count,
+                         const uint32_t *about, size_t about_count) {
+  struct geom_convex whole;
+  if (piece != NULL && count == 0) return true;
+  f->touching.count = 0;
+  if (f->contact && !find_touching(f, triangle, about, about_count))
+    return false;
+  if (piece == NULL) {
+    if (f->touching.count == 0) return keep_piece(f, triangle, NULL);
+    if (!triangle_piece(f, triangle, &whole, &f->scratch)) return false;
+    piece = &whole;
+    count = 1;
+  }
+  return deal_pieces(f, triangle, piece, count);
+}
+
+/* The same, of all that the grid has about it. */
+static bool add_piece(struct fragments *f, uint32_t triangle,
+                      const struct geom_convex *piece, size_t count) {
+  f->query.found.count = 0;
+  if (f->contact && !pagegrid_find_about(f->grid, triangle, &f->query))
+    return false;
+  return fragments_add_among(f, triangle, piece, count, f->query.found.item,
+                             f->query.found.count);
+}
+
+bool fragments_add_whole(struct fragments *f, uint32_t triangle) {
+  return add_piece(f, triangle, NULL, 0);
+}
+
 bool fragments_add(struct fragments *f, uint32_t triangle,
                    const struct geom_convex *piece, size_t count) {
-  return count == 0 ||
-         (find_touching(f, triangle) && deal_pieces(f, triangle, piece, count));
+  return count == 0 || add_piece(f, triangle, piece, count);
 }
 
 /* ---- Uniting what belongs to a face -------------------------------------------- */

@@ -29,6 +29,8 @@ struct fragments {
   const struct pagegrid *grid;
   struct pagegrid_query query;
   bool contact;
+  ARRAY(uint32_t) touching; /* earlier triangles in contact with the one at
+                               hand, in order */
   struct arena arena, scratch;
   ARRAY(struct fragment_piece) piece;
 };
@@ -50,6 +52,15 @@ USE_RESULT bool fragments_add_alone(struct fragments *fragments,
 /* The triangle is the nearest over these disjoint pieces; they are copied. */
 USE_RESULT bool fragments_add(struct fragments *fragments, uint32_t triangle,
                               const struct geom_convex *piece, size_t count);
+
+/* The same of what the grid need not be asked about.
+ * piece  NULL: it is the nearest over all of its outline
+ * about  triangles, each once: all among them that may overlap it */
+USE_RESULT bool fragments_add_among(struct fragments *fragments,
+                                    uint32_t triangle,
+                                    const struct geom_convex *piece,
+                                    size_t count, const uint32_t *about,
+                                    size_t about_count);
 
 /* Writes all fragments to the map, ordered by face.
  * areas  the exact areas too */

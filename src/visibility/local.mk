@@ -9,6 +9,7 @@ librecto_core_la_SOURCES += \
   %D%/facet.c %D%/facet.h \
   %D%/fragments.c %D%/fragments.h \
   %D%/hide.c %D%/hide.h \
+  %D%/leftover.c %D%/leftover.h \
   %D%/map.c %D%/map.h \
   %D%/newell.c \
   %D%/newell_order.c %D%/newell_order.h \
@@ -22,6 +23,7 @@ librecto_core_la_SOURCES += \
   %D%/pierce_pairs.c %D%/pierce_pairs.h \
   %D%/pixels.c %D%/pixels.h \
   %D%/raster.c %D%/raster.h \
+  %D%/rivals.c %D%/rivals.h \
   %D%/scanline_zbuffer.c %D%/scanline_zbuffer.h \
   %D%/seams.c %D%/seams.h \
   %D%/sidelabel.c %D%/sidelabel.h \

@@ -100,6 +100,15 @@ bool stance_may_pierce(const struct stance_plane *plane,
   return (behind > 0 && before > 0) || behind + before == 1;
 }
 
+bool stance_may_touch(const struct stance_plane *plane,
+                      const struct geom_point corner[3]) {
+  for (int k = 0; k < 3; k++) {
+    struct reading at = read_at(plane, corner[k]);
+    if (fabs(at.value) > at.most) return false;
+  }
+  return true;
+}
+
 int stance_hides(const struct stance_plane *plane, struct geom_point p) {
   struct reading at = read_at(plane, p);
   return (at.value > -at.least) - (at.value < -at.most);

@@ -8,6 +8,8 @@
 #ifndef VISIBILITY_STANCE_H
 #define VISIBILITY_STANCE_H
 
+#include <math.h>
+
 #include "view/sheet.h"
 
 /* A plane as hide.h has it, value(p) against the tolerance T(p) / 2^16, with
@@ -31,8 +33,22 @@ struct stance_plane stance_plane_of(const struct sheet *sheet,
 bool stance_may_pierce(const struct stance_plane *plane,
                        const struct geom_point corner[3]);
 
+/* May all three corners touch the plane?  A no is certain. */
+bool stance_may_touch(const struct stance_plane *plane,
+                      const struct geom_point corner[3]);
+
 /* The sign of value + tolerance: -1 where the triangle is in front of the
  * point by more than contact explains, so that it hides it; 0: not known. */
 int stance_hides(const struct stance_plane *plane, struct geom_point p);
+
+/* The sign of the value alone: before the plane or behind it; 0: not known. */
+static inline int stance_sign(const struct stance_plane *plane,
+                              struct geom_point p) {
+  double dx = p.x - plane->x, dy = p.y - plane->y, dz = (double)p.z - plane->z;
+  double value = plane->nx * dx + plane->ny * dy + plane->nz * dz;
+  double off = plane->ex * fabs(dx) + plane->ey * fabs(dy) +
+               plane->ez * fabs(dz);
+  return (value > off) - (value < -off);
+}
 
 #endif

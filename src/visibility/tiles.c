@@ -17,8 +17,8 @@
 #include <omp.h>
 #endif
 
-#include "visibility/cover.h"
 #include "visibility/crowd.h"
+#include "visibility/leftover.h"
 #include "visibility/pierce.h"
 #include "visibility/solver.h"
 #include "visibility/strokes.h"
@@ -436,40 +436,22 @@ static bool solve_edges(struct tiles_work *work, struct map *map) {
   return done;
 }
 
-/* Takes from the triangle at hand what nearer ones cover of it. */
-static bool cover_face(const struct tiles_work *work, uint32_t t,
-                       struct pagegrid_query *query, struct cover *cover) {
-  if (!cover_start(cover, t, NULL) ||
-      !pagegrid_find_about(&work->tiles.grid, t, query))
-    return false;
-  for (size_t i = 0; i < query->found.count && !cover_is_empty(cover); i++) {
-    uint32_t g = query->found.item[i];
-    if (g != t && !(work->sheet->triangle_flags[g] & SHEET_FLAT) &&
-        !cover_take_nearer(cover, g))
-      return false;
-  }
-  return true;
-}
-
 static bool solve_faces(struct tiles_work *work, struct map *map) {
   struct fragments fragments;
-  struct pagegrid_query query = {0};
-  struct cover cover;
+  struct leftover leftover;
   size_t n = work->sheet->triangle.count, left_over = 0;
   bool done = fragments_init(&fragments, work->sheet, &work->tiles.grid, true);
-  cover_init(&cover, work->sheet);
-  done = done && pagegrid_query_init(&query, &work->tiles.grid);
+  done &= leftover_init(&leftover, work->sheet, &work->tiles, work->wanted);
   for (size_t t = 0; done && t < n; t++) {
     if (work->face_state[t] == MAP_VISIBLE)
       done = fragments_add_alone(&fragments, (uint32_t)t);
     else if (work->face_state[t] == MAP_MIXED)
-      done = may_go_on(work, left_over++, n, "faces") &&
-             cover_face(work, (uint32_t)t, &query, &cover) &&
-             cover_file(&cover, &fragments);
+      done = may_go_on(work, left_over++, work->face.count, "faces") &&
+             leftover_solve(&leftover, (uint32_t)t, &fragments);
   }
   done = done && fragments_finish(&fragments, work->request->areas, map);
-  cover_fini(&cover);
-  pagegrid_query_fini(&query);
+  leftover_report(&leftover, work->report);
+  leftover_fini(&leftover);
   fragments_fini(&fragments);
   return done;
 }
