@@ -8,7 +8,9 @@
 /* Adds the fills of all fragments.  Fragments on either side of an edge that
  * is smooth, whatever classes are drawn, are of one fill where their colours
  * agree; so a flat or smoothly bent surface is one fill, as far as it is
- * seen in one piece.  A fill stands where its first fragment does.
+ * seen in one piece.  Borders of groups stay though both be of one colour: a
+ * line may be drawn there, and a fill is what the user's editor takes hold of
+ * to give one group another colour.  A fill stands where its first fragment does.
  * like     one a fragment: the fill it would be, without its loops
  * options  crease_deg: faces that meet at more are not smooth; ids: every
  *          fragment is a fill of its own
