@@ -3,6 +3,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -65,11 +66,101 @@ static void row_16_tiles_end_among_faces(void **state) {
   stop_tiles("faces", 3, 2, 1500);
 }
 
+/* ---- How soon it is heard ------------------------------------------------ */
+
+/* Stops after a share of a second of the process's time. */
+struct patience {
+  double start, last, longest;
+  bool stopped;
+};
+
+static void note_time(struct patience *patience) {
+  double now = clock_cpu();
+  if (now - patience->last > patience->longest)
+    patience->longest = now - patience->last;
+  patience->last = now;
+}
+
+static bool wait_a_little(void *user, double share, const char *stage) {
+  struct patience *patience = user;
+  (void)share;
+  (void)stage;
+  assert_false(patience->stopped);
+  note_time(patience);
+  patience->stopped = patience->last - patience->start > 0.1;
+  return !patience->stopped;
+}
+
+/* Every question, the first and the end within a second of each other. */
+static bool is_heard(const struct solver *solver, struct laid *laid,
+                     const struct solver_request *what) {
+  struct patience patience = {.start = clock_cpu(), .last = clock_cpu()};
+  struct solver_request request = *what;
+  struct report *report = report_create();
+  recto_status status;
+  struct map map;
+  recto_error error;
+  size_t edges = laid->sheet.edge.count;
+  request.progress = wait_a_little;
+  request.user = &patience;
+  map_init(&map);
+  status = solver->solve(&laid->sheet, &request, &map, report, &error);
+  note_time(&patience);
+  map_fini(&map);
+  report_destroy(report);
+  laid->sheet.edge.count = edges;
+  assert_int_equal(status,
+                   patience.stopped ? RECTO_ERROR_CANCELLED : RECTO_OK);
+  if (patience.longest >= 1)
+    print_message("%s: %.2f s\n", solver->name, patience.longest);
+  return patience.longest < (getenv("RECTO_VALGRIND") != NULL ? 60 : 1);
+}
+
+static void hear_all(struct laid *laid) {
+  const struct solver_request lines = {.strokes = true, .threads = 1},
+                              faces = {.fragments = true, .threads = 1},
+                              all = {.strokes = true,
+                                     .fragments = true,
+                                     .intersections = true,
+                                     .threads = 1},
+                              pixels = {.strokes = true,
+                                        .fragments = true,
+                                        .threads = 1,
+                                        .resolution = 1000,
+                                        .pitch_mm = 0.1};
+  laid_out(laid, true);
+  for (const struct solver *const *s = solvers(); *s != NULL; s++) {
+    assert_true(is_heard(*s, laid, &lines));
+    assert_true(is_heard(*s, laid, &faces));
+    assert_true(is_heard(*s, laid, &all));
+    assert_true(is_heard(*s, laid, &pixels));
+  }
+  laid_fini(laid);
+}
+
+static void row_16_every_method_is_ended_in_a_pile_of_faces(void **state) {
+  struct laid laid;
+  (void)state;
+  laid_start(&laid);
+  scenes_copies(&laid.scene, &laid.options, 10000, false, 1e-8);
+  hear_all(&laid);
+}
+
+static void row_16_every_method_is_ended_in_a_soup(void **state) {
+  struct laid laid;
+  (void)state;
+  laid_start(&laid);
+  scenes_soup(&laid.scene, &laid.options, 4000, 9);
+  hear_all(&laid);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(row_16_tiles_end_while_they_look_for_piercings),
       cmocka_unit_test(row_16_tiles_end_among_edges),
       cmocka_unit_test(row_16_tiles_end_among_faces),
+      cmocka_unit_test(row_16_every_method_is_ended_in_a_pile_of_faces),
+      cmocka_unit_test(row_16_every_method_is_ended_in_a_soup),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

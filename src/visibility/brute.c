@@ -6,6 +6,7 @@
  */
 #include "visibility/cover.h"
 #include "visibility/pierce.h"
+#include "visibility/pulse.h"
 #include "visibility/solver.h"
 #include "visibility/strokes.h"
 
@@ -14,7 +15,7 @@ static bool is_flat(const struct sheet *sheet, size_t triangle) {
 }
 
 static bool solve_strokes(const struct sheet *sheet, struct map *map,
-                          struct hide_counts *counts) {
+                          struct hide_counts *counts, struct pulse *pulse) {
   size_t n = sheet->triangle.count;
   struct hider *hider = mem_alloc(n, sizeof *hider);
   struct strokes strokes = {0};
@@ -26,6 +27,7 @@ static bool solve_strokes(const struct sheet *sheet, struct map *map,
     struct geom_point p = sheet->point.item[edge->point[0]],
                       q = sheet->point.item[edge->point[1]];
     if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y)) continue;
+    if (!pulse_beat_at(pulse, n, e, sheet->edge.count)) goto end;
     strokes_start(&strokes);
     for (size_t t = 0; t < n; t++) {
       struct hidden_part part;
@@ -46,19 +48,21 @@ end:
 
 static bool solve_fragments(const struct sheet *sheet,
                             const struct pagegrid *grid, bool areas,
-                            struct map *map) {
+                            struct map *map, struct pulse *pulse) {
   size_t n = sheet->triangle.count;
   struct fragments fragments;
   struct cover cover;
   bool done = false;
   cover_init(&cover, sheet);
   if (!fragments_init(&fragments, sheet, grid, true)) return false;
+  fragments.pulse = pulse;
   for (size_t f = 0; f < n; f++) {
     if (is_flat(sheet, f)) continue;
     if (!cover_start(&cover, (uint32_t)f, NULL)) goto end;
     for (size_t g = 0; g < n; g++)
       if (g != f && !is_flat(sheet, g) &&
-          !cover_take_nearer(&cover, (uint32_t)g))
+          (!pulse_beat_at(pulse, 1 + cover.left.count, f, n) ||
+           !cover_take_nearer(&cover, (uint32_t)g)))
         goto end;
     if (!cover_file(&cover, &fragments)) goto end;
   }
@@ -74,17 +78,19 @@ static recto_status solve(struct sheet *sheet,
                           struct map *map, struct report *report,
                           recto_error *error) {
   struct hide_counts counts = {0};
+  struct pulse pulse = pulse_of(request, "edges");
   struct pagegrid grid;
   recto_status status = RECTO_OK;
   if (!pagegrid_init(&grid, sheet)) return error_memory(error);
   if (request->intersections)
     status = pierce_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK && request->strokes &&
-      !solve_strokes(sheet, map, &counts))
-    status = error_memory(error);
+      !solve_strokes(sheet, map, &counts, &pulse))
+    status = pulse_error(&pulse, error);
+  pulse.stage = "faces";
   if (status == RECTO_OK && request->fragments &&
-      !solve_fragments(sheet, &grid, request->areas, map))
-    status = error_memory(error);
+      !solve_fragments(sheet, &grid, request->areas, map, &pulse))
+    status = pulse_error(&pulse, error);
   hide_report(&counts, report);
   pagegrid_fini(&grid);
   return status;

@@ -7,9 +7,7 @@
 
 #include "base/sort.h"
 #include "visibility/hide.h"
-
-/* Edges between two calls of the progress function. */
-enum { PROGRESS_EDGES = 4096 };
+#include "visibility/pulse.h"
 
 /* A place where the counts change. */
 struct change {
@@ -100,11 +98,11 @@ static bool is_asked_for(const struct depths *d, size_t e) {
 static recto_status find_all(struct depths *d,
                              const struct solver_request *request,
                              recto_error *error) {
+  struct pulse pulse = pulse_of(request, "depths");
   size_t edges = d->map->edge_count;
   for (size_t e = 0; e < edges; e++) {
-    if (e % PROGRESS_EDGES == 0 && request->progress != NULL &&
-        !request->progress(request->user, (double)e / (double)edges, "depths"))
-      return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+    if (!pulse_beat_at(&pulse, 1 + d->query.found.count, e, edges))
+      return pulse_error(&pulse, error);
     if (is_asked_for(d, e) && !(find_changes(d, &d->sheet->edge.item[e]) &&
                                 file_deep(d, (uint32_t)e)))
       return error_memory(error);

@@ -12,6 +12,9 @@
 /* Corners leave the house rounded to this many bits below the grid's unit. */
 enum { CORNER_BITS = 8 };
 
+/* Of a piece, in units of a pulse. */
+enum { FACE_WORK = 32 };
+
 bool fragments_init(struct fragments *fragments, const struct sheet *sheet,
                     const struct pagegrid *grid, bool contact) {
   memset(fragments, 0, sizeof *fragments);
@@ -374,7 +377,8 @@ bool fragments_finish(struct fragments *fragments, bool areas,
                           compare_faces, NULL);
   for (size_t i = 0, j; done && i < n; i = j) {
     for (j = i + 1; j < n && piece[j].face == piece[i].face;) j++;
-    done = file_face(&work, &piece[i], j - i);
+    done = pulse_beat(fragments->pulse, FACE_WORK * (j - i)) &&
+           file_face(&work, &piece[i], j - i);
   }
   ARRAY_FREE(&work.own);
   ARRAY_FREE(&work.piece);

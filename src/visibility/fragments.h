@@ -18,6 +18,7 @@
 #include "geom/convex.h"
 #include "visibility/map.h"
 #include "visibility/pagegrid.h"
+#include "visibility/pulse.h"
 
 struct fragment_piece {
   uint32_t face, triangle; /* whose it is: scene face, its triangle */
@@ -31,6 +32,7 @@ struct fragments {
   bool contact;
   ARRAY(uint32_t) touching; /* earlier triangles in contact with the one at
                                hand, in order */
+  struct pulse *pulse; /* lent; NULL, as at first: nobody is asked */
   struct arena arena, scratch;
   ARRAY(struct fragment_piece) piece;
 };

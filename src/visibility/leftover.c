@@ -176,7 +176,8 @@ static bool find_about(struct leftover *leftover) {
 static bool ask_about(struct leftover *leftover) {
   struct rivals *rivals = &leftover->rivals;
   for (size_t i = 0; i < leftover->query.found.count && !rivals->covered; i++)
-    if (!rivals_ask(rivals, leftover->query.found.item[i]))
+    if (!pulse_beat(rivals->pulse, 1) ||
+        !rivals_ask(rivals, leftover->query.found.item[i]))
       return false;
   return true;
 }

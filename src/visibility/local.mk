@@ -22,6 +22,7 @@ librecto_core_la_SOURCES += \
   %D%/pierce.c %D%/pierce.h \
   %D%/pierce_pairs.c %D%/pierce_pairs.h \
   %D%/pixels.c %D%/pixels.h \
+  %D%/pulse.c %D%/pulse.h \
   %D%/raster.c %D%/raster.h \
   %D%/rivals.c %D%/rivals.h \
   %D%/scanline_zbuffer.c %D%/scanline_zbuffer.h \

@@ -24,6 +24,7 @@ struct stroke_work {
   struct strokes strokes;
   struct hide_counts counts;
   uint64_t by_order; /* pairs the order settled */
+  struct pulse *pulse;
 };
 
 /* The rank of the edge's own face where it is one whole piece, else 0: also
@@ -78,9 +79,10 @@ static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
 }
 
 static bool solve_strokes(const struct sheet *sheet,
-                          const struct newell_order *order, struct map *map,
+                          struct newell_order *order, struct map *map,
                           struct report *report) {
-  struct stroke_work work = {.sheet = sheet, .order = order};
+  struct stroke_work work = {
+      .sheet = sheet, .order = order, .pulse = &order->pulse};
   bool done = pagegrid_query_init(&work.query, order->grid) &&
               strokes_open_map(map, sheet->edge.count);
   for (size_t e = 0; done && e < sheet->edge.count; e++) {
@@ -89,6 +91,8 @@ static bool solve_strokes(const struct sheet *sheet,
                       q = sheet->point.item[edge->point[1]];
     if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y)) continue;
     done = solve_edge(&work, edge, p, q) &&
+           pulse_beat_at(work.pulse, work.query.found.count, e,
+                         sheet->edge.count) &&
            strokes_file(&work.strokes, (uint32_t)e, map);
   }
   hide_report(&work.counts, report);
@@ -102,7 +106,7 @@ static bool solve_strokes(const struct sheet *sheet,
 /* ---- Fragments ---------------------------------------------------------------- */
 
 /* Takes from the cover of piece p all that is painted after it. */
-static bool take_later(const struct newell_order *order, uint32_t p,
+static bool take_later(struct newell_order *order, uint32_t p,
                        struct pagegrid_query *query, struct cover *cover) {
   const struct newell_piece *piece = &order->piece.item[p];
   if (!pagegrid_find_about(order->grid, piece->triangle, query)) return false;
@@ -113,6 +117,7 @@ static bool take_later(const struct newell_order *order, uint32_t p,
       const struct newell_piece *other = &order->piece.item[q];
       struct geom_line *line;
       int count;
+      if (!pulse_beat(&order->pulse, 1 + cover->left.count)) return false;
       if (other->state != NEWELL_PAINTED || other->rank < piece->rank ||
           page_boxes_apart(piece->box, other->box))
         continue;
@@ -124,7 +129,7 @@ static bool take_later(const struct newell_order *order, uint32_t p,
   return true;
 }
 
-static bool solve_fragments(const struct newell_order *order, bool areas,
+static bool solve_fragments(struct newell_order *order, bool areas,
                             struct map *map) {
   struct fragments fragments;
   struct pagegrid_query query = {0};
@@ -133,6 +138,7 @@ static bool solve_fragments(const struct newell_order *order, bool areas,
   cover_init(&cover, order->sheet);
   done = fragments_init(&fragments, order->sheet, order->grid, true) &&
          pagegrid_query_init(&query, order->grid);
+  fragments.pulse = &order->pulse;
   for (size_t i = order->painted.count; done && i-- > 0;) {
     uint32_t p = order->painted.item[i];
     const struct newell_piece *piece = &order->piece.item[p];
@@ -175,12 +181,14 @@ static recto_status solve(struct sheet *sheet,
   status = newell_order_init(&order, sheet, &grid, request, error);
   if (status == RECTO_OK && request->intersections)
     status = pierce_all(sheet, &grid, NULL, request, report, error);
+  order.pulse.stage = "edges";
   if (status == RECTO_OK && request->strokes &&
       !solve_strokes(sheet, &order, map, report))
-    status = error_memory(error);
+    status = pulse_error(&order.pulse, error);
+  order.pulse.stage = "faces";
   if (status == RECTO_OK && request->fragments &&
       !solve_fragments(&order, request->areas, map))
-    status = error_memory(error);
+    status = pulse_error(&order.pulse, error);
   report_order(&order, report);
   newell_order_fini(&order);
   pagegrid_fini(&grid);

@@ -28,6 +28,9 @@
 #include "base/sort.h"
 #include "visibility/newell_tests.h"
 
+/* Of a pair of pieces, in units of a pulse. */
+enum { PAIR_WORK = 128 };
+
 /* ---- Pieces ------------------------------------------------------------------ */
 
 static bool add_triangles(struct newell_order *order) {
@@ -215,10 +218,12 @@ static enum step test_candidate(struct newell_order *order, uint32_t p) {
     return STEP_FAILED;
   for (size_t i = 0; i < order->query.found.count; i++) {
     uint32_t t = order->query.found.item[i];
+    if (!pulse_beat(&order->pulse, 1)) return STEP_FAILED;
     if (t == triangle) continue;
     for (uint32_t q = order->open[t]; q != NEWELL_NONE;
          q = order->piece.item[q].next_open) {
       enum step step;
+      if (!pulse_beat(&order->pulse, PAIR_WORK)) return STEP_FAILED;
       step = test_pair(order, p, q);
       arena_reset(&order->scratch);
       if (step == STEP_FAILED || step == STEP_SPLIT) return step;
@@ -267,14 +272,6 @@ static struct sort_key *sort_by_depth(const struct newell_order *order,
   return key;
 }
 
-static bool cancelled(const struct solver_request *request, size_t done,
-                      size_t all) {
-  enum { ASK_EVERY = 1024 };
-  return request->progress != NULL && done % ASK_EVERY == 0 &&
-         !request->progress(request->user, (double)done / (double)all,
-                            "ordering");
-}
-
 recto_status newell_order_init(struct newell_order *order,
                                const struct sheet *sheet,
                                const struct pagegrid *grid,
@@ -286,16 +283,17 @@ recto_status newell_order_init(struct newell_order *order,
   memset(order, 0, sizeof *order);
   order->sheet = sheet;
   order->grid = grid;
+  order->pulse = pulse_of(request, "ordering");
   if (!pagegrid_query_init(&order->query, grid) || !add_triangles(order))
     return error_memory(error);
   s = sort_by_depth(order, n);
   if (s == NULL) return error_memory(error);
   for (size_t i = 0; i < n && status == RECTO_OK; i++) {
     uint32_t p = s[i].value;
-    if (cancelled(request, i, n))
-      status = error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+    order->pulse.share = (double)i / (double)n;
     while (status == RECTO_OK && order->open[p] != NEWELL_NONE)
-      if (!paint(order, order->open[p])) status = error_memory(error);
+      if (!paint(order, order->open[p]))
+        status = pulse_error(&order->pulse, error);
   }
   mem_free(s);
   return status;

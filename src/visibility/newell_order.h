@@ -6,7 +6,7 @@
 #include "geom/convex.h"
 #include "visibility/contact.h"
 #include "visibility/pagegrid.h"
-#include "visibility/solver.h"
+#include "visibility/pulse.h"
 
 #define NEWELL_NONE UINT32_MAX
 
@@ -47,6 +47,7 @@ struct newell_order {
                               under it */
   struct arena arena, scratch;
   struct newell_counts counts;
+  struct pulse pulse;
 };
 
 /* Orders all triangles of the sheet.

@@ -10,6 +10,7 @@
 #include "base/sort.h"
 #include "visibility/cover.h"
 #include "visibility/pierce.h"
+#include "visibility/pulse.h"
 #include "visibility/solver.h"
 #include "visibility/strokes.h"
 
@@ -18,6 +19,7 @@ struct painting {
   const struct pagegrid *grid;
   struct pagegrid_query query;
   uint32_t *rank; /* of each triangle; 0 is painted first */
+  struct pulse pulse;
 };
 
 /* The mean depth of each triangle's face, times three. */
@@ -91,6 +93,8 @@ static bool solve_strokes(struct painting *painting, struct map *map) {
                             *q = &sheet->point.item[edge->point[1]];
     if (edge->edge_class == 0 || (p->x == q->x && p->y == q->y)) continue;
     done = solve_edge(painting, edge, &strokes) &&
+           pulse_beat_at(&painting->pulse, painting->query.found.count, e,
+                         sheet->edge.count) &&
            strokes_file(&strokes, (uint32_t)e, map);
   }
   strokes_fini(&strokes);
@@ -111,6 +115,7 @@ static bool take_later(struct painting *painting, uint32_t f,
                          page_box_of_triangle(painting->sheet, g)))
       continue;
     triangle_lines(painting->sheet, g, line, back);
+    if (!pulse_beat(&painting->pulse, 1 + cover->left.count)) return false;
     if (!cover_take(cover, line, back, 3)) return false;
   }
   return true;
@@ -122,6 +127,7 @@ static bool solve_fragments(struct painting *painting, bool areas,
   struct cover cover;
   bool done =
       fragments_init(&fragments, painting->sheet, painting->grid, false);
+  fragments.pulse = &painting->pulse;
   cover_init(&cover, painting->sheet);
   for (size_t f = 0; done && f < painting->sheet->triangle.count; f++)
     if (!(painting->sheet->triangle_flags[f] & SHEET_FLAT))
@@ -138,7 +144,8 @@ static recto_status paint(struct sheet *sheet,
                           const struct solver_request *request, bool given,
                           struct map *map, recto_error *error) {
   struct pagegrid grid;
-  struct painting painting = {.sheet = sheet, .grid = &grid};
+  struct painting painting = {
+      .sheet = sheet, .grid = &grid, .pulse = pulse_of(request, "painting")};
   bool done;
   if (!pagegrid_init(&grid, sheet)) return error_memory(error);
   painting.rank = mem_alloc(sheet->triangle.count, sizeof *painting.rank);
@@ -153,7 +160,7 @@ static recto_status paint(struct sheet *sheet,
   mem_free(painting.rank);
   pagegrid_query_fini(&painting.query);
   pagegrid_fini(&grid);
-  return done ? RECTO_OK : error_memory(error);
+  return done ? RECTO_OK : pulse_error(&painting.pulse, error);
 }
 
 static recto_status solve_by_centroid(struct sheet *sheet,

@@ -4,15 +4,15 @@
 #include "base/sort.h"
 #include "visibility/hide.h"
 #include "visibility/pierce_pairs.h"
+#include "visibility/pulse.h"
 #include "visibility/seams.h"
 
-enum { ASK_EVERY = 1 << 18 }; /* pairs met between two calls of progress */
+/* Of a pair in exact numbers, in units of a pulse. */
+enum { PAIR_WORK = 16 };
 
 struct pierce {
   const struct sheet *sheet;
-  const struct solver_request *request; /* NULL: nobody is asked */
-  uint64_t asked;                       /* pairs met when it was asked last */
-  bool cancelled;
+  struct pulse pulse;
   struct pierce_segments segment;
   struct seams seams;
   struct hider hider; /* of triangle `prepared` */
@@ -128,6 +128,7 @@ static bool ask_pair(void *user, uint32_t f, uint32_t g) {
   if (sheet->triangle.item[f].face == sheet->triangle.item[g].face)
     return true;
   pierce->counts.pairs++;
+  if (!pulse_beat(&pierce->pulse, PAIR_WORK)) return false;
   hf = prepare(pierce, f);
   for (int k = 0; k < 3; k++)
     p[k] = sheet->point.item[sheet->triangle.item[g].point[k]];
@@ -143,18 +144,6 @@ static bool ask_pair(void *user, uint32_t f, uint32_t g) {
     return seams_note(&pierce->seams, sheet, g, sg, f, sf);
   return !find_segment(sheet, f, g, hf, &hg, &segment) ||
          ARRAY_PUSH(&pierce->segment.list, segment);
-}
-
-/* Asks now and then whether to go on. */
-static bool go_on(void *user) {
-  struct pierce *pierce = user;
-  const struct solver_request *request = pierce->request;
-  if (request == NULL || request->progress == NULL ||
-      pierce->counts.met - pierce->asked < ASK_EVERY)
-    return true;
-  pierce->asked = pierce->counts.met;
-  pierce->cancelled = !request->progress(request->user, 0, "piercing");
-  return !pierce->cancelled;
 }
 
 /* ---- Edges of the sheet ---------------------------------------------------- */
@@ -232,10 +221,11 @@ recto_status pierce_all(struct sheet *sheet, const struct pagegrid *grid,
                         const uint8_t *cells,
                         const struct solver_request *request,
                         struct report *report, recto_error *error) {
-  struct pierce pierce = {
-      .sheet = sheet, .request = request, .prepared = SHEET_NONE};
-  bool done = pierce_pairs(sheet, grid, cells, ask_pair, go_on, &pierce,
-                           &pierce.counts.met) &&
+  struct pierce pierce = {.sheet = sheet,
+                          .pulse = pulse_of(request, "piercing"),
+                          .prepared = SHEET_NONE};
+  bool done = pierce_pairs(sheet, grid, cells, ask_pair, &pierce,
+                           &pierce.pulse, &pierce.counts.met) &&
               seams_join(&pierce.seams, sheet, &pierce.segment,
                          &pierce.counts.seams) &&
               add_edges(sheet, &pierce);
@@ -246,7 +236,5 @@ recto_status pierce_all(struct sheet *sheet, const struct pagegrid *grid,
   report_int(report, "pierce", "segments", (int64_t)pierce.segment.list.count);
   ARRAY_FREE(&pierce.segment.list);
   ARRAY_FREE(&pierce.seams.list);
-  if (pierce.cancelled)
-    return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
-  return done ? RECTO_OK : error_memory(error);
+  return done ? RECTO_OK : pulse_error(&pierce.pulse, error);
 }

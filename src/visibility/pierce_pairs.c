@@ -29,8 +29,8 @@ struct sweep {
   const struct pagegrid *grid;
   const uint8_t *cells;
   bool (*visit)(void *user, uint32_t f, uint32_t g);
-  bool (*go_on)(void *user);
   void *user;
+  struct pulse *pulse;
   int x, y; /* the cell at hand */
   ARRAY(struct summary) summary;
   ARRAY(struct sort_key) key; /* twice as many: by depth, and to sort in */
@@ -186,11 +186,11 @@ static bool sweep_list(struct sweep *sweep) {
   sort_keys(key, key + n, n);
   for (size_t i = 0; i < n; i++) {
     struct summary *f = &summary[key[i].value];
-    if (!sweep->go_on(sweep->user)) return false;
-    for (size_t j = i + 1; j < n && key[j].key <= (uint64_t)f->high; j++) {
-      (*sweep->met)++;
+    size_t j = i + 1;
+    for (; j < n && key[j].key <= (uint64_t)f->high; j++)
       if (!meet(sweep, f, &summary[key[j].value])) return false;
-    }
+    *sweep->met += j - i - 1;
+    if (!pulse_beat(sweep->pulse, j - i)) return false;
   }
   return true;
 }
@@ -224,13 +224,13 @@ static bool sweep_cell(struct sweep *sweep, const uint32_t *item, size_t n) {
 bool pierce_pairs(const struct sheet *sheet, const struct pagegrid *grid,
                   const uint8_t *cells,
                   bool (*visit)(void *user, uint32_t f, uint32_t g),
-                  bool (*go_on)(void *user), void *user, uint64_t *met) {
+                  void *user, struct pulse *pulse, uint64_t *met) {
   struct sweep sweep = {.sheet = sheet,
                         .grid = grid,
                         .cells = cells,
                         .visit = visit,
-                        .go_on = go_on,
                         .user = user,
+                        .pulse = pulse,
                         .met = met};
   bool done = true;
   size_t cell = 0;

@@ -3,19 +3,19 @@
 #define VISIBILITY_PIERCE_PAIRS_H
 
 #include "visibility/pagegrid.h"
+#include "visibility/pulse.h"
 
 /* Calls visit(user, f, g), f < g, once for every pair that shares a cell of
  * the grid which has a list and is among `cells`, and may pierce: the boxes
  * meet on the page and in depth, they share less than an edge, and neither is
  * surely apart from the other's plane.
  * cells  one a cell; NULL: all
- * go_on  asked before each triangle's pairs
+ * pulse  of the work
  * met    counts the pairs of triangles in one list whose depths overlap
- * Returns false when memory ran out, or as soon as visit or go_on does. */
+ * Returns false when memory ran out, or as soon as visit or the pulse does. */
 USE_RESULT bool pierce_pairs(const struct sheet *sheet,
                              const struct pagegrid *grid, const uint8_t *cells,
                              bool (*visit)(void *user, uint32_t f, uint32_t g),
-                             bool (*go_on)(void *user), void *user,
-                             uint64_t *met);
+                             void *user, struct pulse *pulse, uint64_t *met);
 
 #endif

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#define ASK_EVERY 64 /* lines between two questions whether to go on */
+#define LINES_A_QUESTION 64 /* whether to go on, at most */
 
 /* The line a facet starts at from the top, or -1 where it covers none. */
 static int32_t top_line(const struct raster *raster,
@@ -83,6 +83,7 @@ recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
   memset(pixels, 0, sizeof *pixels);
   pixels->raster = raster;
   pixels->request = request;
+  pixels->pulse = pulse_of(request, "visibility");
   pixels->grid = raster_grid(sheet, raster->grid.lines / subpixels);
   pixels->subpixels.k = subpixels;
   pixels->above =
@@ -178,11 +179,10 @@ recto_status pixels_line(struct pixels *pixels, int32_t line,
   if (whole && ((request->strokes && !trace_edges(pixels, line, &row)) ||
                 (request->fragments && !add_spans(pixels, line, &row))))
     return error_memory(error);
-  if (request->progress != NULL && done % ASK_EVERY == 0 &&
-      !request->progress(request->user, (double)done / raster->grid.lines,
-                         "visibility"))
-    return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
-  return RECTO_OK;
+  return pulse_beat_at(&pixels->pulse, PULSE_WORK / LINES_A_QUESTION,
+                       (size_t)done, (size_t)raster->grid.lines)
+             ? RECTO_OK
+             : pulse_error(&pixels->pulse, error);
 }
 
 /* The share of the frame's sub-pixels that see a face. */

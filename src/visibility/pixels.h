@@ -4,6 +4,7 @@
 #define VISIBILITY_PIXELS_H
 
 #include "base/sort.h"
+#include "visibility/pulse.h"
 #include "visibility/raster.h"
 #include "visibility/solver.h"
 #include "visibility/spans.h"
@@ -14,6 +15,7 @@ struct pixels {
   const struct raster *raster;
   const struct solver_request *request;
   struct scan_grid grid;      /* of the pixels */
+  struct pulse pulse;
   struct subpixels subpixels; /* k > 1: the raster's pixels are sub-pixels */
   struct trace trace;
   struct spans spans;

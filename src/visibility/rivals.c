@@ -550,6 +550,9 @@ static bool solve_part(struct rivals *rivals) {
   return true;
 }
 
+/* Of a part that may be parted again, in units of a pulse. */
+enum { PART_WORK = 256 };
+
 bool rivals_take_all(struct rivals *rivals) {
   struct geom_convex piece;
   struct geom_line *line = arena_alloc(&rivals->arena, 6, sizeof *line);
@@ -567,7 +570,7 @@ bool rivals_take_all(struct rivals *rivals) {
       return false;
   }
   while (rivals->part.count > 0)
-    if (!solve_part(rivals))
+    if (!pulse_beat(rivals->pulse, PART_WORK) || !solve_part(rivals))
       return false;
   return true;
 }

@@ -108,14 +108,17 @@ bool scanline_step(struct scanline *scanline) {
 static recto_status walk_lines(struct scanline *scanline, struct pixels *pixels,
                                recto_error *error) {
   recto_status status = RECTO_OK;
+  int64_t before;
   for (int32_t line = scanline->raster->grid.lines;
        line-- > 0 && status == RECTO_OK;) {
     raster_clear_line(scanline->raster, line);
     if (!scanline_enter(scanline, line))
       return error_memory(error);
+    before = scanline->covered;
     scanline_draw(scanline);
     if (!scanline_step(scanline))
       return error_memory(error);
+    pixels->pulse.left -= (scanline->covered - before) / PULSE_PIXELS;
     status = pixels_line(pixels, line, error);
   }
   return status;

@@ -28,6 +28,7 @@
 #include "base/sort.h"
 #include "visibility/cover.h"
 #include "visibility/pierce.h"
+#include "visibility/pulse.h"
 #include "visibility/solver.h"
 #include "visibility/strokes.h"
 #include "visibility/surround.h"
@@ -60,6 +61,7 @@ struct face_piece {
 struct warnock {
   const struct sheet *sheet;
   const struct solver_request *request;
+  struct pulse pulse;
   ARRAY(struct warnock_window) stack;
   ARRAY(uint32_t) faces, surrounders, edges; /* the pools */
   ARRAY(struct edge_part) part;
@@ -234,7 +236,8 @@ static bool solve_face(struct warnock *w, const struct warnock_window *win,
       if (cover_is_empty(&w->cover))
         return true;
       if (g != t && !(w->sheet->triangle_flags[g] & SHEET_FLAT) &&
-          !cover_take_nearer(&w->cover, g))
+          (!pulse_beat(&w->pulse, 1 + w->cover.left.count) ||
+           !cover_take_nearer(&w->cover, g)))
         return false;
     }
   }
@@ -251,6 +254,9 @@ static bool solve_face(struct warnock *w, const struct warnock_window *win,
 static bool solve_window(struct warnock *w, const struct warnock_window *win) {
   for (size_t i = win->edges.from; i < win->edges.to; i++) {
     uint32_t e = w->edges.item[i];
+    if (!pulse_beat(&w->pulse, win->surrounders.to - win->surrounders.from +
+                                   win->faces.to - win->faces.from))
+      return false;
     for (size_t k = win->surrounders.from; k < win->surrounders.to; k++)
       if (!solve_pair(w, &win->window, e, w->surrounders.item[k]))
         return false;
@@ -314,6 +320,10 @@ static bool take_window(struct warnock *w) {
   struct front front;
   size_t faces;
   w->windows.all++;
+  if (!pulse_beat(&w->pulse, win.faces.to - win.faces.from +
+                                 win.surrounders.to - win.surrounders.from +
+                                 win.edges.to - win.edges.from))
+    return false;
   w->faces.count = win.faces.to;
   w->surrounders.count = win.surrounders.to;
   w->edges.count = win.edges.to;
@@ -383,6 +393,7 @@ static bool file_fragments(struct warnock *w, const struct pagegrid *grid,
   bool done = fragments_init(&fragments, w->sheet, grid, true) &&
               sort_stable(w->piece.item, n, sizeof *w->piece.item,
                           compare_pieces, NULL);
+  fragments.pulse = &w->pulse;
   for (size_t i = 0, j; done && i < n; i = j) {
     piece.count = 0;
     for (j = i; done && j < n &&
@@ -422,8 +433,7 @@ static bool fill_pools(struct warnock *w) {
   return done;
 }
 
-static bool run(struct warnock *w, recto_status *status, recto_error *error) {
-  enum { ASK_EVERY = 4096 };
+static bool run(struct warnock *w) {
   struct warnock_window page;
   if (!fill_pools(w))
     return false;
@@ -438,11 +448,6 @@ static bool run(struct warnock *w, recto_status *status, recto_error *error) {
   while (w->stack.count > 0) {
     if (!take_window(w))
       return false;
-    if (w->request->progress != NULL && w->windows.all % ASK_EVERY == 0 &&
-        !w->request->progress(w->request->user, 0.5, "subdividing")) {
-      *status = error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
-      return false;
-    }
   }
   return true;
 }
@@ -471,7 +476,9 @@ static void report_windows(const struct warnock *w, struct report *report) {
 static recto_status solve(struct sheet *sheet,
                           const struct solver_request *request, struct map *map,
                           struct report *report, recto_error *error) {
-  struct warnock w = {.sheet = sheet, .request = request};
+  struct warnock w = {.sheet = sheet,
+                      .request = request,
+                      .pulse = pulse_of(request, "subdividing")};
   struct pagegrid grid;
   recto_status status = RECTO_OK;
   bool done;
@@ -483,11 +490,11 @@ static recto_status solve(struct sheet *sheet,
     status = pierce_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK) {
     cover_init(&w.cover, sheet);
-    done = run(&w, &status, error) &&
+    done = run(&w) &&
            (!request->strokes || file_strokes(&w, map)) &&
            (!request->fragments || file_fragments(&w, &grid, map));
-    if (!done && status == RECTO_OK)
-      status = error_memory(error);
+    if (!done)
+      status = pulse_error(&w.pulse, error);
     cover_fini(&w.cover);
   }
   report_windows(&w, report);

@@ -28,6 +28,7 @@
 #include "base/sort.h"
 #include "visibility/pagegrid.h"
 #include "visibility/pixels.h"
+#include "visibility/pulse.h"
 #include "visibility/subpixels.h"
 #include "visibility/warnock_sample.h"
 #include "visibility/window.h"
@@ -52,6 +53,7 @@ struct subdivision {
   const struct facets *facets;
   const struct solver_request *request;
   struct warnock_frame *frame;
+  struct pulse pulse;
   struct warnock_sample sample;
   ARRAY(struct pixel_window) stack;
   ARRAY(uint32_t) faces, surrounders, edges; /* the pools */
@@ -412,6 +414,9 @@ static bool take_window(struct subdivision *s) {
   return !s->frame->keep_records || ARRAY_PUSH(&s->frame->record, record);
 }
 
+/* Of a face in a window, in units of a pulse. */
+enum { WINDOW_WORK = 8 };
+
 /* ---- The frame -------------------------------------------------------------
  */
 
@@ -468,9 +473,7 @@ static bool fill_pools(struct subdivision *s) {
   return done;
 }
 
-/* Sets *cancelled and returns false where the caller wants no more. */
-static bool run(struct subdivision *s, bool *cancelled) {
-  enum { ASK_EVERY = 4096 };
+static bool run(struct subdivision *s) {
   const struct scan_grid *g = &s->frame->raster.grid;
   double pixels = (double)g->columns * g->lines;
   struct pixel_window page = {0};
@@ -485,14 +488,12 @@ static bool run(struct subdivision *s, bool *cancelled) {
   if (!ARRAY_PUSH(&s->stack, page))
     return false;
   s->frame->stack_most = 1;
-  for (uint64_t taken = 0; s->stack.count > 0; taken++) {
-    if (s->request->progress != NULL && taken % ASK_EVERY == 0 &&
-        !s->request->progress(s->request->user, (double)s->pixels_done / pixels,
-                              "subdividing")) {
-      *cancelled = true;
-      return false;
-    }
-    if (!take_window(s))
+  while (s->stack.count > 0) {
+    const struct pixel_window *next = &s->stack.item[s->stack.count - 1];
+    size_t work = WINDOW_WORK * (1 + next->faces.to - next->faces.from +
+                                 next->surrounders.to - next->surrounders.from);
+    s->pulse.share = (double)s->pixels_done / pixels;
+    if (!pulse_beat(&s->pulse, work) || !take_window(s))
       return false;
   }
   return true;
@@ -505,23 +506,22 @@ recto_status warnock_frame_draw(struct warnock_frame *frame,
   struct subdivision s = {.sheet = frame->raster.sheet,
                           .facets = facets,
                           .request = request,
-                          .frame = frame};
+                          .frame = frame,
+                          .pulse = pulse_of(request, "subdividing")};
   struct scan_grid fine =
       raster_grid(s.sheet, frame->raster.grid.lines * frame->subpixels);
-  bool cancelled = false, done;
+  bool done;
   s.count = mem_alloc((size_t)frame->raster.grid.columns, sizeof *s.count);
   done = s.count != NULL &&
          warnock_sample_init(&s.sample, s.sheet, facets, &fine) &&
-         run(&s, &cancelled);
+         run(&s);
   warnock_sample_fini(&s.sample);
   mem_free(s.count);
   ARRAY_FREE(&s.stack);
   ARRAY_FREE(&s.faces);
   ARRAY_FREE(&s.surrounders);
   ARRAY_FREE(&s.edges);
-  if (cancelled)
-    return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
-  return done ? RECTO_OK : error_memory(error);
+  return done ? RECTO_OK : pulse_error(&s.pulse, error);
 }
 
 /* ---- The solver ------------------------------------------------------------

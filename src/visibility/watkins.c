@@ -27,7 +27,7 @@
 
 #include "visibility/watkins_exact.h"
 
-#define ASK_EVERY 64 /* lines between two questions whether to go on */
+#define LINES_A_QUESTION 64 /* whether to go on, at most */
 #define OPEN_NONE (-1)
 
 /* ---- Strokes ------------------------------------------------------------ */
@@ -244,20 +244,20 @@ static bool take_line(struct scan *scan, int32_t line, bool here) {
 }
 
 static recto_status walk_lines(struct scan *scan, recto_error *error) {
-  const struct solver_request *request = scan->request;
+  struct pulse pulse = pulse_of(scan->request, "visibility");
   struct watkins *watkins = &scan->watkins;
   int32_t lines = watkins->table.grid.lines;
   bool more;
+  watkins->pulse = &pulse;
   if (!watkins_next(watkins, &more))
-    return error_memory(error);
+    return pulse_error(&pulse, error);
   for (int32_t line = lines; line-- > 0;) {
     bool here = more && watkins->table.line == line;
     if (!take_line(scan, line, here) || (here && !watkins_next(watkins, &more)))
-      return error_memory(error);
-    if (request->progress != NULL && line % ASK_EVERY == 0 &&
-        !request->progress(request->user, 1 - (double)line / lines,
-                           "visibility"))
-      return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+      return pulse_error(&pulse, error);
+    pulse.share = 1 - (double)line / lines;
+    if (!pulse_beat(&pulse, PULSE_WORK / LINES_A_QUESTION))
+      return pulse_error(&pulse, error);
   }
   return RECTO_OK;
 }

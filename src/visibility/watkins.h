@@ -19,6 +19,7 @@
 
 #include "geom/scanfill.h"
 #include "visibility/facet.h"
+#include "visibility/pulse.h"
 #include "visibility/solver.h"
 #include "visibility/spans.h"
 #include "visibility/trace.h"
@@ -81,6 +82,7 @@ struct watkins_counts {
 
 struct watkins {
   const struct sheet *sheet;
+  struct pulse *pulse; /* lent; NULL, as at first: nobody is asked */
   struct scan_table table;         /* S and A */
   ARRAY(struct watkins_edge) edge; /* one an edge of the table */
   ARRAY(struct watkins_facet) facet;

@@ -169,6 +169,9 @@ bool cells_take(void *user, const struct sweep *sweep,
   return true;
 }
 
+/* Of a trapezoid, in units of a pulse. */
+enum { PART_WORK = 32 };
+
 /* ---- Fragments ---------------------------------------------------------- */
 
 /* The pieces of one triangle at a time. */
@@ -311,11 +314,12 @@ recto_status cells_finish(struct cells *cells, const struct sweep *sweep,
   for (size_t i = 0, past; good && i < count; i = past) {
     for (past = i + 1; past < count && key[past].key == key[i].key;)
       past++;
-    good = file_triangle(&work, &key[i], past - i);
+    good = pulse_beat(fragments->pulse, PART_WORK * (past - i)) &&
+           file_triangle(&work, &key[i], past - i);
   }
   mem_free(key);
   cover_fini(&work.cover);
   arena_fini(&work.arena);
   ARRAY_FREE(&work.piece);
-  return good ? RECTO_OK : error_memory(error);
+  return good ? RECTO_OK : pulse_error(fragments->pulse, error);
 }

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "visibility/pierce.h"
+#include "visibility/pulse.h"
 #include "visibility/strokes.h"
 #include "visibility/watkins_cells.h"
 
@@ -90,11 +91,14 @@ static bool file_edge(const struct sheet *sheet, uint32_t e,
 }
 
 static recto_status file_strokes(const struct sheet *sheet,
-                                 struct meetings *meetings, struct map *map,
+                                 struct meetings *meetings,
+                                 const struct solver_request *request,
+                                 struct map *map,
                                  struct report *report, recto_error *error) {
   const struct sort_key *pair;
   struct strokes strokes = {0};
   struct hide_counts counts = {0};
+  struct pulse pulse = pulse_of(request, "edges");
   size_t i = 0, count;
   bool good =
       settle_pairs(meetings) && strokes_open_map(map, sheet->edge.count);
@@ -114,12 +118,13 @@ static recto_status file_strokes(const struct sheet *sheet,
       i++;
     if (edge->edge_class != 0 && (p->x != q->x || p->y != q->y))
       good =
+          pulse_beat(&pulse, i - first) &&
           file_edge(sheet, e, pair + first, i - first, &strokes, &counts, map);
   }
   hide_report(&counts, report);
   report_int(report, "watkins", "faces_beside_lines", (int64_t)count);
   strokes_fini(&strokes);
-  return good ? RECTO_OK : error_memory(error);
+  return good ? RECTO_OK : pulse_error(&pulse, error);
 }
 
 /* ---- Fragments ---------------------------------------------------------- */
@@ -135,9 +140,11 @@ static recto_status solve_fragments(struct exact *exact,
   struct fragments fragments;
   struct sweep sweep;
   recto_status status = RECTO_OK;
+  struct pulse pulse = pulse_of(request, "faces");
   bool ready = fragments_init(&fragments, sheet, grid, true);
   if (!sweep_init(&sweep, sheet, cells->seen, false) || !ready)
     status = error_memory(error);
+  fragments.pulse = &pulse;
   sweep.cell = take_cell;
   sweep.user = exact;
   cells->keep = true;
@@ -147,7 +154,7 @@ static recto_status solve_fragments(struct exact *exact,
   if (status == RECTO_OK)
     status = cells_finish(cells, &sweep, &fragments, error);
   if (status == RECTO_OK && !fragments_finish(&fragments, request->areas, map))
-    status = error_memory(error);
+    status = pulse_error(&pulse, error);
   report_int(report, "watkins", "trapezoids_of_seen", (int64_t)cells->count);
   report_int(report, "watkins", "not_told_by_doubles", (int64_t)cells->asked);
   sweep_fini(&sweep);
@@ -191,7 +198,8 @@ static recto_status solve_on(struct exact *exact, const struct sheet *sheet,
   if (status == RECTO_OK)
     status = sweep_all(exact, sheet, request, report, error);
   if (status == RECTO_OK && request->strokes)
-    status = file_strokes(sheet, &exact->meetings, map, report, error);
+    status = file_strokes(sheet, &exact->meetings, request, map, report,
+                          error);
   if (status == RECTO_OK && request->fragments)
     status = solve_fragments(exact, sheet, grid, request, map, report, error);
   return status;

@@ -143,10 +143,14 @@ static bool cut_interval(struct watkins *watkins, uint32_t left, uint32_t right,
   if (!ARRAY_PUSH(&watkins->stack, edge[right].x))
     return false;
   while (watkins->stack.count > 0) {
+    int64_t before = watkins->counts.comparisons;
     double at;
     piece.x1 = watkins->stack.item[watkins->stack.count - 1];
     sort_in(watkins, piece.x0 + (piece.x1 - piece.x0) / 2);
     *nearest = watkins->in.item[0];
+    if (!pulse_beat(watkins->pulse,
+                    (size_t)(watkins->counts.comparisons - before)))
+      return false;
     settle_ties(watkins);
     if (find_crossing(watkins, piece.x0, piece.x1, &at)) {
       whole = false;
@@ -312,6 +316,8 @@ bool watkins_decide(struct watkins *watkins, uint32_t left, uint32_t right) {
   struct watkins_piece piece = {edge[left].x, edge[right].x, 0, left, right};
   const struct watkins_record *record;
   watkins->counts.intervals++;
+  if (!pulse_beat(watkins->pulse, 1 + watkins->in.count))
+    return false;
   if (watkins->in.count > 1 && !find_clear(watkins)) {
     record = find_record(watkins, left, right);
     if (record == NULL)

@@ -3,7 +3,9 @@
 
 #include <string.h>
 
-#define ASK_EVERY 4096 /* places between two questions whether to go on */
+#include "visibility/pulse.h"
+
+#define PLACE_WORK 8   /* in units of a pulse */
 #define FEW 16         /* edges at a place that are sorted by insertion */
 
 /* ---- A place ------------------------------------------------------------ */
@@ -218,7 +220,8 @@ static bool meet_triangles(struct sweep *sweep, size_t low) {
 
 /* ---- The walk ----------------------------------------------------------- */
 
-static bool pass_place(struct sweep *sweep, const struct sweep_place *place) {
+static bool pass_place(struct sweep *sweep, const struct sweep_place *place,
+                       struct pulse *pulse) {
   size_t low, high, past;
   uint32_t height;
   if (!reach_height(sweep, place))
@@ -238,7 +241,8 @@ static bool pass_place(struct sweep *sweep, const struct sweep_place *place) {
   past = low + sweep->out.count;
   height = (uint32_t)sweep->height.count - 1;
   for (size_t i = low; i < past; i++)
-    if (!set_in(sweep, i))
+    if (!set_in(sweep, i) ||
+        !pulse_beat(pulse, sweep->edge.item[sweep->active.item[i]].in.count))
       return false;
   for (size_t i = low > 0 ? low - 1 : low; i < past; i++)
     sweep->edge.item[sweep->active.item[i]].top = height;
@@ -263,6 +267,7 @@ static recto_status refuse(const struct sweep *sweep, recto_error *error) {
 recto_status sweep_run(struct sweep *sweep,
                        const struct solver_request *request, double from,
                        double to, recto_error *error) {
+  struct pulse pulse = pulse_of(request, "visibility");
   for (;;) {
     struct sweep_place place;
     bool more;
@@ -270,16 +275,12 @@ recto_status sweep_run(struct sweep *sweep,
       return error_memory(error);
     if (!more)
       return RECTO_OK;
-    if (!pass_place(sweep, &place))
-      return error_memory(error);
+    if (!pulse_beat(&pulse, PLACE_WORK) || !pass_place(sweep, &place, &pulse))
+      return pulse_error(&pulse, error);
     sweep->places++;
     if (sweep->places > sweep->most_places || sweep->in > sweep->most_in)
       return refuse(sweep, error);
-    if (request->progress != NULL && sweep->places % ASK_EVERY == 0 &&
-        !request->progress(request->user,
-                           from + (to - from) * (double)sweep->met /
-                                      (double)sweep->ends,
-                           "visibility"))
-      return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+    pulse.share =
+        from + (to - from) * (double)sweep->met / (double)sweep->ends;
   }
 }

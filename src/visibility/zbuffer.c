@@ -16,6 +16,7 @@
 
 #include "visibility/pair.h"
 #include "visibility/pieces.h"
+#include "visibility/pulse.h"
 #include "visibility/zfill.h"
 #include "visibility/zsmall.h"
 
@@ -53,6 +54,7 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
                           const struct solver_request *request,
                           struct pixels *pixels, int64_t *covered,
                           recto_error *error) {
+  struct pulse pulse = pulse_of(request, "visibility");
   recto_status status = RECTO_OK;
   struct pieces pieces;
   size_t i = 0;
@@ -61,9 +63,13 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
   if (pixels != NULL)
     raster_fold(raster, PIECES_BAND + pieces.tallest);
   for (size_t band = 0; band < pieces.bands && status == RECTO_OK; band++) {
-    for (; i < pieces.past[band]; i++)
+    for (; i < pieces.past[band] && status == RECTO_OK; i++) {
+      int64_t before = *covered;
       draw_piece(raster, facets, &pieces.item[i], covered);
-    if (pixels != NULL)
+      if (!pulse_beat(&pulse, 1 + (size_t)(*covered - before) / PULSE_PIXELS))
+        status = pulse_error(&pulse, error);
+    }
+    if (status == RECTO_OK && pixels != NULL)
       status = finish_band(raster, pixels, band, error);
   }
   pieces_fini(&pieces);

@@ -179,6 +179,14 @@ enum scenes_crowd {
 /* Very many needles in one place (less than four corners may be left out). */
 void scenes_crowd(struct scene *scene, recto_options *options,
                   enum scenes_crowd crowd, unsigned n, uint64_t seed);
+/* n triangles in one place, each corner moved at random by as much as `by`:
+ * some seen from behind; where `pierced`, every other one goes through the
+ * rest. */
+void scenes_copies(struct scene *scene, recto_options *options, unsigned n,
+                   bool pierced, double by);
+/* n pages on one edge, over so many turns. */
+void scenes_book(struct scene *scene, recto_options *options, unsigned n,
+                 double turns);
 /* n triangles at random that pierce each other. */
 void scenes_soup(struct scene *scene, recto_options *options, unsigned n,
                  uint64_t seed);
