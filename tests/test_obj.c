@@ -125,6 +125,25 @@ static void faces_may_come_before_their_points(void **state) {
   reading_fini(&r);
 }
 
+static void a_missing_index_is_told_as_the_file_has_it(void **state) {
+  (void)state;
+  struct reading r;
+  read_text(&r, POINTS "f 1 2 9999999999999999999\nf 1 2 -00000000000000005/1\n"
+                       "l 1 123456789012345678901234567\n");
+  static const char *const index[] = {"9999999999999999999",
+                                      "-00000000000000005",
+                                      "123456789012345678901234..."};
+  assert_int_equal(r.warnings, 3);
+  for (int i = 0; i < 3; i++) {
+    char told[100];
+    snprintf(told, sizeof told,
+             "%d: %s with index %s where there are 4 points, skipped", i + 5,
+             i < 2 ? "face" : "polyline", index[i]);
+    assert_string_equal(r.warning[i], told);
+  }
+  reading_fini(&r);
+}
+
 static void polygons_may_have_any_number_of_corners(void **state) {
   (void)state;
   enum { COUNT = 20000 };
@@ -225,10 +244,15 @@ static char *put_statement(char *at, const char *statement, const char *blank) {
  * `blank` for each space. */
 static char *write_mixture(const char *blank) {
   enum { HOW_MANY_POINTS = 5000, HOW_MANY_FACES = 9000, LONGEST = 80 };
-  static const char *const odd[] = {
-      "f 1 2 2\n",       "f 1 2 99999\n",   "f -1 -2 -3\n",
-      "f 1//3 2//4 3//5\n", "f 1/2/3 4/5/6 7\n", "f 1 2 x\n",
-      "f 7 8 12 \r\n",   "v 1e1 -0 .5\n",   "v 0.123456789 1 1234567890\n"};
+  static const char *const odd[] = {"f 1 2 2\n",
+                                    "f 1 2 99999\n",
+                                    "f -1 -2 -3\n",
+                                    "f 1//3 2//4 3//5\n",
+                                    "f 1/2/3 4/5/6 7\n",
+                                    "f 1 2 x\n",
+                                    "f 7 8 12 \r\n",
+                                    "v 1e1 -0 .5\n",
+                                    "v 0.123456789 1 1234567890\n"};
   enum { ODD = sizeof odd / sizeof *odd };
   char *text = malloc((HOW_MANY_POINTS + HOW_MANY_FACES) * LONGEST), *at = text;
   char statement[LONGEST];
@@ -589,6 +613,7 @@ int main(void) {
       T(faces_are_read_in_every_index_form),
       T(negative_indices_count_from_the_statement),
       T(faces_may_come_before_their_points),
+      T(a_missing_index_is_told_as_the_file_has_it),
       T(polygons_may_have_any_number_of_corners),
       T(polylines_are_read),
       T(what_else_there_is_is_passed_over),

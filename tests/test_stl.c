@@ -296,6 +296,38 @@ static void words_may_stand_anywhere_in_any_case(void **state) {
   reading_fini(&r);
 }
 
+static void lines_may_end_as_on_any_system(void **state) {
+  (void)state;
+  static const char *const end_of_line[] = {"\n", "\r\n", "\r"};
+  static const char *const lines[] = {
+      "solid left part", "facet outer loop", "vertex 0 0 0", "vertex 1 0 0",
+      "vertex 1 1 0",    "endloop endfacet", "facet",        "outer loop",
+      "vertex 1 x 2",    "endloop endfacet", "endsolid"};
+  for (int i = 0; i < 3; i++) {
+    struct reading r;
+    char text[1000] = "";
+    for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++) {
+      strcat(text, lines[k]);
+      strcat(text, end_of_line[i]);
+    }
+    read_text(&r, text);
+    assert_int_equal(scene_face_count(&r.scene), 1);
+    assert_string_equal(r.scene.group.item[0].name, "left part");
+    assert_string_equal(r.warning[0], "7: facet with a coordinate that is no "
+                                      "number, skipped");
+    reading_fini(&r);
+  }
+}
+
+static void a_byte_order_mark_may_stand_before_text(void **state) {
+  (void)state;
+  struct reading r;
+  read_text(&r, "\xef\xbb\xbfsolid left\n" SQUARE "endsolid left\n");
+  assert_int_equal(scene_face_count(&r.scene), 2);
+  assert_string_equal(r.scene.group.item[0].name, "left");
+  reading_fini(&r);
+}
+
 static void row_19_bad_facets_are_skipped(void **state) {
   (void)state;
   struct reading r;
@@ -436,6 +468,8 @@ int main(void) {
       T(text_is_welded_by_position),
       T(each_solid_is_a_group),
       T(words_may_stand_anywhere_in_any_case),
+      T(lines_may_end_as_on_any_system),
+      T(a_byte_order_mark_may_stand_before_text),
       T(row_19_bad_facets_are_skipped),
       T(text_that_stops_is_an_error),
       T(text_out_of_order_is_an_error),

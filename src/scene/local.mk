@@ -10,6 +10,8 @@ librecto_core_la_SOURCES += \
   %D%/material.c %D%/material.h \
   %D%/name.c %D%/name.h \
   %D%/nature.c \
+  %D%/obj_parser.c %D%/obj_parser.h \
+  %D%/obj_run.c \
   %D%/positions.c %D%/positions.h \
   %D%/read.c \
   %D%/reader_mtl.c \

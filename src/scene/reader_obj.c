@@ -13,138 +13,19 @@
  * bytes that no text holds, and a last line that stops in the middle of a
  * statement, mean that the file itself is broken.
  */
-#include "scene/scene.h"
+#include "scene/obj_parser.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/digits.h"
 #include "base/number.h"
-#include "scene/exact.h"
 #include "scene/limit.h"
-#include "scene/material.h"
 
 enum { DIGITS_MAX = 12 }; /* of an index that may be in range */
 
-enum name_kind { NAME_OBJECT, NAME_GROUP, NAME_MATERIAL, NAME_COUNT };
-
-struct parser {
-  struct scene *scene;
-  const char *at, *end; /* *end is NUL */
-  unsigned long line;   /* of `at` */
-  const char *path;
-  struct diagnostics *diagnostics;
-  recto_error *error;
-  size_t first;          /* scene point of the file's first */
-  size_t seen;           /* v statements so far */
-  bool ahead;            /* the points to come are in the scene already */
-  bool known;            /* a statement was understood */
-  unsigned long strange; /* line of the first that was not; 0 */
-  ARRAY(uint32_t) bad;   /* points that cannot be used, ascending */
-  ARRAY(uint32_t) corner;
-  struct material_name name[NAME_COUNT];
-  bool renamed; /* since the current group was chosen */
-  struct materials materials;
-  ARRAY(char) group;
-};
-
-/* ---- Characters ---------------------------------------------------------- */
-
-static inline bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
-/* Whether a word may end before this character. */
-static inline bool ends_word(char c) {
-  return (unsigned char)c <= ' ' || c == '\\' || c == '#';
-}
-
-/* Passes over a backslash at the end of a line. */
-static bool pass_continuation(struct parser *p, const char **at) {
-  const char *q = *at + 1;
-  if (*q == '\r')
-    q++;
-  if (*q != '\n')
-    return false;
-  p->line++;
-  *at = q + 1;
-  return true;
-}
-
-static inline void skip_blanks(struct parser *p) {
-  const char *at = p->at;
-  do {
-    while (is_blank(*at))
-      at++;
-  } while (*at == '\\' && pass_continuation(p, &at));
-  p->at = at;
-}
-
-/* To the start of the next line, or of the one after it where the line is
- * continued.  A comment never is: it may end in a path of one system. */
-static void skip_line(struct parser *p, bool may_continue) {
-  for (;;) {
-    const char *start = p->at;
-    const char *stop = memchr(start, '\n', (size_t)(p->end - start));
-    if (!stop) {
-      p->at = p->end;
-      return;
-    }
-    p->line++;
-    p->at = stop + 1;
-    if (stop > start && stop[-1] == '\r')
-      stop--;
-    if (!may_continue || stop == start || stop[-1] != '\\' ||
-        memchr(start, '#', (size_t)(stop - start)))
-      return;
-  }
-}
-
-static bool is_at_end_of_line(const struct parser *p) {
-  return *p->at == '\n' || p->at == p->end || *p->at == '#';
-}
-
-static void finish_statement(struct parser *p) {
-  if (*p->at == '\n') {
-    p->at++;
-    p->line++;
-  } else {
-    skip_line(p, *p->at != '#');
-  }
-}
-
-/* ---- What is broken ------------------------------------------------------ */
-
-/* Fails where the line that starts at `start` holds a byte that no text
- * does. */
-static recto_status check_text(struct parser *p, const char *start,
-                               unsigned long line) {
-  for (; start < p->end && *start != '\n'; start++)
-    if ((unsigned char)*start < ' ' && !is_blank(*start))
-      return error_set(p->error, RECTO_ERROR_FORMAT, p->path, line,
-                       "not text: a byte 0x%02x", (unsigned char)*start);
-  return RECTO_OK;
-}
-
-/* Fails where the file stops in the line of `start`, and where it is not
- * text; else the statement is just skipped. */
-static recto_status skip_broken(struct parser *p, const char *start,
-                                unsigned long line, const char *what) {
-  if (!memchr(start, '\n', (size_t)(p->end - start)))
-    return error_set(p->error, RECTO_ERROR_FORMAT, p->path, line,
-                     "the file ends in the middle of a %s", what);
-  recto_status status = check_text(p, start, line);
-  if (status != RECTO_OK)
-    return status;
-  diagnostics_fault(p->diagnostics, SCENE_FAULT_SYNTAX, line,
-                    "%s that cannot be parsed, skipped", what);
-  skip_line(p, true);
-  return RECTO_OK;
-}
-
 /* ---- Points -------------------------------------------------------------- */
 
-static recto_status add_point(struct parser *p, const double xyz[3],
+static recto_status add_point(struct obj_parser *p, const double xyz[3],
                               bool usable) {
   struct scene *scene = p->scene;
   struct scene_point point = {0, 0, 0};
@@ -162,16 +43,16 @@ static recto_status add_point(struct parser *p, const double xyz[3],
 }
 
 /* v x y z, then whatever: a weight and colours are nothing to us. */
-static recto_status read_point(struct parser *p) {
+static recto_status read_point(struct obj_parser *p) {
   const char *start = p->at;
   unsigned long line = p->line;
   double xyz[3] = {0, 0, 0};
   p->at++;
   for (int k = 0; k < 3; k++) {
-    skip_blanks(p);
+    obj_skip_blanks(p);
     const char *stop = number_parse_double(p->at, p->end, &xyz[k]);
-    if (!stop || !ends_word(*stop)) {
-      recto_status status = skip_broken(p, start, line, "point");
+    if (!stop || !obj_ends_word(*stop)) {
+      recto_status status = obj_skip_broken(p, start, line, "point");
       return status == RECTO_OK ? add_point(p, xyz, false) : status;
     }
     p->at = stop;
@@ -180,18 +61,18 @@ static recto_status read_point(struct parser *p) {
   if (!finite)
     diagnostics_fault(p->diagnostics, SCENE_FAULT_NOT_FINITE, line,
                       "point that is not finite; its faces are skipped");
-  finish_statement(p);
+  obj_finish_statement(p);
   return add_point(p, xyz, finite);
 }
 
-static recto_status read_statements(struct parser *p, bool points_only);
+static recto_status read_statements(struct obj_parser *p, bool points_only);
 
 /* Reads the points of all lines after this one. */
-static recto_status read_points_ahead(struct parser *p) {
+static recto_status read_points_ahead(struct obj_parser *p) {
   const char *at = p->at;
   unsigned long line = p->line;
   size_t seen = p->seen;
-  skip_line(p, true);
+  obj_skip_line(p, true);
   recto_status status = read_statements(p, true);
   p->at = at;
   p->line = line;
@@ -202,7 +83,7 @@ static recto_status read_points_ahead(struct parser *p) {
 
 /* Points that cannot be used still have a position: that of another point of
  * the file, so that the scene grows no larger by them. */
-static void place_bad_points(struct parser *p) {
+static void place_bad_points(struct obj_parser *p) {
   struct scene *scene = p->scene;
   size_t good = p->first, i = 0;
   for (; i < p->bad.count && p->bad.item[i] == good; i++)
@@ -213,7 +94,7 @@ static void place_bad_points(struct parser *p) {
     scene->point.item[p->bad.item[i]] = scene->point.item[good];
 }
 
-static bool is_bad(const struct parser *p, uint32_t point) {
+static bool is_bad(const struct obj_parser *p, uint32_t point) {
   size_t low = 0, high = p->bad.count;
   while (low < high) {
     size_t middle = low + (high - low) / 2;
@@ -228,32 +109,32 @@ static bool is_bad(const struct parser *p, uint32_t point) {
 /* ---- Names --------------------------------------------------------------- */
 
 /* The rest of the line after a keyword of that length. */
-static recto_status read_rest(struct parser *p, struct material_name *name,
+static recto_status read_rest(struct obj_parser *p, struct material_name *name,
                               size_t keyword) {
   p->known = true;
   p->at += keyword;
-  skip_blanks(p);
+  obj_skip_blanks(p);
   name->start = p->at;
   name->line = p->line;
   const char *stop = memchr(p->at, '\n', (size_t)(p->end - p->at));
   if (!stop)
     stop = p->end;
-  while (stop > p->at && is_blank(stop[-1]))
+  while (stop > p->at && obj_is_blank(stop[-1]))
     stop--;
   name->length = (size_t)(stop - p->at);
-  recto_status status = check_text(p, p->at, p->line);
-  skip_line(p, true);
+  recto_status status = obj_check_text(p, p->at, p->line);
+  obj_skip_line(p, true);
   return status;
 }
 
 /* o, g or usemtl. */
-static recto_status read_name(struct parser *p, enum name_kind kind,
+static recto_status read_name(struct obj_parser *p, enum name_kind kind,
                               size_t keyword) {
   p->renamed = true;
   return read_rest(p, &p->name[kind], keyword);
 }
 
-static recto_status read_library(struct parser *p, size_t keyword) {
+static recto_status read_library(struct obj_parser *p, size_t keyword) {
   struct material_name name;
   recto_status status = read_rest(p, &name, keyword);
   if (status != RECTO_OK || name.length == 0 || !p->scene->wants_colours)
@@ -263,7 +144,7 @@ static recto_status read_library(struct parser *p, size_t keyword) {
 
 /* The current group is named by those of object, group and material that
  * there are, with strokes between them: each combination is a group. */
-static recto_status use_group(struct parser *p) {
+static recto_status use_group(struct obj_parser *p) {
   p->group.count = 0;
   for (int i = 0; i < NAME_COUNT; i++) {
     const struct material_name *name = &p->name[i];
@@ -302,21 +183,9 @@ static inline const char *parse_index(const char *at, const char *end,
   return stop > at ? stop : NULL;
 }
 
-/* Passes over the texture and normal indices, /n or //n or /n/n. */
-static inline const char *skip_other_indices(const char *at) {
-  for (int slash = 0; slash < 2 && *at == '/'; slash++) {
-    at++;
-    if (*at == '-' || *at == '+')
-      at++;
-    while (digits_is_one(*at))
-      at++;
-  }
-  return at;
-}
-
 /* The scene point of an index that is not one of a point seen so far counted
  * from the first; SCENE_NONE where there is no such point. */
-static recto_status resolve_rare_index(struct parser *p, int64_t index,
+static recto_status resolve_rare_index(struct obj_parser *p, int64_t index,
                                        uint32_t *point) {
   *point = SCENE_NONE;
   if (index > 0 && !p->ahead) {
@@ -335,7 +204,7 @@ static recto_status resolve_rare_index(struct parser *p, int64_t index,
 /* Reads corners for as long as they are plain: a point seen so far counted
  * from the first, blanks, no faults, all on one line.  Nearly all are; what
  * follows is left to read_corners. */
-static bool read_plain_corners(struct parser *p) {
+static bool read_plain_corners(struct obj_parser *p) {
   const char *at = p->at;
   uint64_t seen = p->seen;
   uint32_t before = (uint32_t)p->first - 1;
@@ -347,8 +216,8 @@ static bool read_plain_corners(struct parser *p) {
     if (stop - at > DIGITS_MAX || index - 1 >= seen)
       break;
     if (*stop == '/')
-      stop = skip_other_indices(stop);
-    if (!ends_word(*stop))
+      stop = obj_skip_other_indices(stop);
+    if (!obj_ends_word(*stop))
       break;
     if (!ARRAY_PUSH(&p->corner, before + (uint32_t)index))
       return false;
@@ -359,21 +228,21 @@ static bool read_plain_corners(struct parser *p) {
 }
 
 /* The corners of the statement into p->corner; *broken where they cannot be
- * parsed, *missing where a point is not there: *first_missing is then its
- * index. */
-static recto_status read_corners(struct parser *p, bool *broken, bool *missing,
-                                 int64_t *first_missing) {
+ * parsed; *missing: the index of the first point that is not there, as the file
+ * has it, or NULL. */
+static recto_status read_corners(struct obj_parser *p, bool *broken,
+                                 const char **missing) {
   *broken = false;
-  *missing = false;
+  *missing = NULL;
   p->corner.count = 0;
   if (!read_plain_corners(p))
     return error_memory(p->error);
-  for (skip_blanks(p); !is_at_end_of_line(p); skip_blanks(p)) {
+  for (obj_skip_blanks(p); !obj_is_at_end_of_line(p); obj_skip_blanks(p)) {
     int64_t index;
     const char *stop = parse_index(p->at, p->end, &index);
     if (stop && *stop == '/')
-      stop = skip_other_indices(stop);
-    *broken = !stop || !ends_word(*stop);
+      stop = obj_skip_other_indices(stop);
+    *broken = !stop || !obj_ends_word(*stop);
     if (*broken)
       break;
     uint32_t point = (uint32_t)(p->first + (size_t)index - 1);
@@ -381,10 +250,8 @@ static recto_status read_corners(struct parser *p, bool *broken, bool *missing,
       recto_status status = resolve_rare_index(p, index, &point);
       if (status != RECTO_OK)
         return status;
-      if (point == SCENE_NONE && !*missing) {
-        *missing = true;
-        *first_missing = index;
-      }
+      if (point == SCENE_NONE && *missing == NULL)
+        *missing = p->at;
     }
     p->at = stop;
     if (!ARRAY_PUSH(&p->corner, point))
@@ -394,7 +261,7 @@ static recto_status read_corners(struct parser *p, bool *broken, bool *missing,
 }
 
 /* Whether all points of the statement can be used; tells where not. */
-static bool has_good_points(struct parser *p, unsigned long line,
+static bool has_good_points(struct obj_parser *p, unsigned long line,
                             const char *what) {
   for (size_t i = 0; p->bad.count && i < p->corner.count; i++)
     if (is_bad(p, p->corner.item[i])) {
@@ -405,33 +272,38 @@ static bool has_good_points(struct parser *p, unsigned long line,
   return true;
 }
 
-static void tell_missing(struct parser *p, unsigned long line, const char *what,
-                         int64_t index) {
+static void tell_missing(struct obj_parser *p, unsigned long line,
+                         const char *what, const char *index) {
+  enum { SHOWN = 24 };
   size_t points = p->ahead ? p->scene->point.count - p->first : p->seen;
+  int length = 0;
+  while (!obj_ends_word(index[length]) && index[length] != '/')
+    length++;
   diagnostics_fault(p->diagnostics, SCENE_FAULT_INDEX, line,
-                    "%s with index %lld where there are %zu points, skipped",
-                    what, (long long)index, points);
+                    "%s with index %.*s%s where there are %zu points, skipped",
+                    what, length < SHOWN ? length : SHOWN, index,
+                    length < SHOWN ? "" : "...", points);
 }
 
 /* f or l. */
-static recto_status read_element(struct parser *p, bool is_face) {
+static recto_status read_element(struct obj_parser *p, bool is_face) {
   const char *start = p->at;
   unsigned long line = p->line;
   const char *what = is_face ? "face" : "polyline";
   p->known = true;
-  bool broken, missing;
-  int64_t index = 0;
+  bool broken;
+  const char *missing;
   p->at++;
-  recto_status status = read_corners(p, &broken, &missing, &index);
+  recto_status status = read_corners(p, &broken, &missing);
   if (status != RECTO_OK)
     return status;
   bool cut_off = p->at == p->end && p->corner.count < (is_face ? 3 : 2);
   if (broken || cut_off)
-    return skip_broken(p, start, line, what);
-  finish_statement(p);
-  if (missing)
-    tell_missing(p, line, what, index);
-  if (missing || !has_good_points(p, line, what))
+    return obj_skip_broken(p, start, line, what);
+  obj_finish_statement(p);
+  if (missing != NULL)
+    tell_missing(p, line, what, missing);
+  if (missing != NULL || !has_good_points(p, line, what))
     return RECTO_OK;
   if (p->renamed && (status = use_group(p)) != RECTO_OK)
     return status;
@@ -441,166 +313,44 @@ static recto_status read_element(struct parser *p, bool is_face) {
                                   line, p->diagnostics, p->error);
 }
 
-/* ---- Runs of plain points and faces -------------------------------------- */
-
-#if DIGITS_WINDOWS
-
-/* Nearly all statements are like the one before them, and plain: they are read
- * without a question that only others need. */
-enum {
-  PLAIN_ROOM = 128, /* bytes, more than a plain statement has */
-  PLAIN_RUN = 4096  /* statements that room is made for */
-};
-
-/* Is the next statement one of that letter, with room to look at? */
-static inline bool is_plain(const struct parser *p, char keyword) {
-  return p->end - p->at > PLAIN_ROOM && p->at[0] == keyword && p->at[1] == ' ';
-}
-
-/* Reads "v x y z" for as long as the numbers are short decimals: all points
- * that are so are finite. */
-static recto_status read_plain_points(struct parser *p) {
-  struct scene *scene = p->scene;
-  if (scene->point.count > SCENE_LIMIT - PLAIN_RUN)
-    return RECTO_OK;
-  if (!ARRAY_RESERVE(&scene->point, PLAIN_RUN))
-    return error_memory(p->error);
-  for (int i = 0; i < PLAIN_RUN && is_plain(p, 'v'); i++) {
-    struct scene_point point;
-    const char *at = number_parse_plain(p->at + 2, &point.x);
-    if (at && *at == ' ')
-      at = number_parse_plain(at + 1, &point.y);
-    else
-      break;
-    if (at && *at == ' ')
-      at = number_parse_plain(at + 1, &point.z);
-    else
-      break;
-    if (!at || *at != '\n')
-      break;
-    p->at = at + 1;
-    p->line++;
-    p->seen++;
-    scene->point.item[scene->point.count++] = point;
-  }
-  return RECTO_OK;
-}
-
-/* Reads " index" or " index/other/other" of up to seven digits, of a point
- * seen so far; NULL where it is something else. */
-static inline const char *read_plain_index(const struct parser *p,
-                                           const char *at, uint32_t *point) {
-  uint64_t window;
-  if (*at != ' ')
-    return NULL;
-  int count = digits_count(++at, &window);
-  if (count == 0 || count == 8)
-    return NULL;
-  uint64_t index = digits_sum(window, count) - 1;
-  if (index >= p->seen)
-    return NULL;
-  *point = (uint32_t)(p->first + index);
-  return at[count] == '/' ? skip_other_indices(at + count) : at + count;
-}
-
-/* Reads "f a b c" to its end; NULL where it is something else, or where a
- * closer look is needed. */
-static inline const char *read_plain_face(const struct parser *p,
-                                          uint32_t corner[3]) {
-  const char *at = p->at + 1;
-  for (int k = 0; k < 3; k++) {
-    at = read_plain_index(p, at, &corner[k]);
-    if (!at || at - p->at > PLAIN_ROOM / 2)
-      return NULL;
-  }
-  const struct scene_point *point = p->scene->point.item;
-  const struct scene_point *a = &point[corner[0]], *b = &point[corner[1]],
-                           *c = &point[corner[2]];
-  bool bent = exact_surely_turns(a->x, a->y, b->x, b->y, c->x, c->y) ||
-              exact_surely_turns(a->y, a->z, b->y, b->z, c->y, c->z);
-  return bent && *at == '\n' ? at + 1 : NULL;
-}
-
-/* Reads faces for as long as they are triangles without fault, a line each,
- * of points and a group that are there: nearly all are.  What follows is left
- * to read_element. */
-static recto_status read_plain_faces(struct parser *p) {
-  struct scene *scene = p->scene;
-  if (p->bad.count || p->renamed || scene->face_start.count == 0)
-    return RECTO_OK;
-  if (scene->corner.count > SCENE_LIMIT - 3 * PLAIN_RUN)
-    return RECTO_OK;
-  if (!ARRAY_RESERVE(&scene->corner, 3 * PLAIN_RUN) ||
-      !ARRAY_RESERVE(&scene->face_start, PLAIN_RUN) ||
-      !ARRAY_RESERVE(&scene->face_group, PLAIN_RUN))
-    return error_memory(p->error);
-  for (int i = 0; i < PLAIN_RUN && is_plain(p, 'f'); i++) {
-    uint32_t *corner = scene->corner.item + scene->corner.count;
-    const char *past = read_plain_face(p, corner);
-    if (!past)
-      break;
-    p->at = past;
-    p->line++;
-    scene->corner.count += 3;
-    scene->face_start.item[scene->face_start.count++] =
-        (uint32_t)scene->corner.count;
-    scene->face_group.item[scene->face_group.count++] = scene->current_group;
-  }
-  return RECTO_OK;
-}
-
-#else
-
-static recto_status read_plain_points(struct parser *p) {
-  (void)p;
-  return RECTO_OK;
-}
-
-static recto_status read_plain_faces(struct parser *p) {
-  (void)p;
-  return RECTO_OK;
-}
-
-#endif
-
 /* ---- Statements ---------------------------------------------------------- */
 
-static bool is_keyword(const struct parser *p, const char *word,
+static bool is_keyword(const struct obj_parser *p, const char *word,
                        size_t length) {
-  return strncmp(p->at, word, length) == 0 && ends_word(p->at[length]);
+  return strncmp(p->at, word, length) == 0 && obj_ends_word(p->at[length]);
 }
 
-static recto_status read_unknown(struct parser *p) {
+static recto_status read_unknown(struct obj_parser *p) {
   if (is_keyword(p, "usemtl", 6))
     return read_name(p, NAME_MATERIAL, 6);
   if (is_keyword(p, "mtllib", 6))
     return read_library(p, 6);
   if (!p->strange)
     p->strange = p->line;
-  recto_status status = check_text(p, p->at, p->line);
-  skip_line(p, true);
+  recto_status status = obj_check_text(p, p->at, p->line);
+  obj_skip_line(p, true);
   return status;
 }
 
-static recto_status read_v(struct parser *p) {
+static recto_status read_v(struct obj_parser *p) {
   p->known = true;
   if (!p->ahead) {
     recto_status status = read_point(p);
-    return status == RECTO_OK ? read_plain_points(p) : status;
+    return status == RECTO_OK ? obj_run_points(p) : status;
   }
   p->seen++;
-  skip_line(p, true);
+  obj_skip_line(p, true);
   return RECTO_OK;
 }
 
 /* A statement by its first letter, where the keyword is no longer. */
-static recto_status read_statement(struct parser *p, char keyword) {
+static recto_status read_statement(struct obj_parser *p, char keyword) {
   switch (keyword) {
   case 'v':
     return read_v(p);
   case 'f': {
     recto_status status = read_element(p, true);
-    return status == RECTO_OK ? read_plain_faces(p) : status;
+    return status == RECTO_OK ? obj_run_faces(p) : status;
   }
   case 'l':
     return read_element(p, false);
@@ -615,24 +365,24 @@ static recto_status read_statement(struct parser *p, char keyword) {
 
 /* Whether a statement is passed over without a look at what follows. */
 static bool is_ignored(char keyword, char next, bool points_only) {
-  bool is_point = keyword == 'v' && ends_word(next);
+  bool is_point = keyword == 'v' && obj_ends_word(next);
   bool is_other_v =
       keyword == 'v' && (next == 't' || next == 'n' || next == 'p');
   return is_other_v || (points_only && !is_point);
 }
 
-static recto_status read_statements(struct parser *p, bool points_only) {
+static recto_status read_statements(struct obj_parser *p, bool points_only) {
   recto_status status = RECTO_OK;
   while (status == RECTO_OK) {
-    skip_blanks(p);
+    obj_skip_blanks(p);
     if (p->at == p->end)
       break;
     char keyword = *p->at, next = p->at[1];
     if (keyword == '\n' || keyword == '#')
-      finish_statement(p);
+      obj_finish_statement(p);
     else if (is_ignored(keyword, next, points_only))
-      skip_line(p, true);
-    else if (ends_word(next))
+      obj_skip_line(p, true);
+    else if (obj_ends_word(next))
       status = read_statement(p, keyword);
     else
       status = read_unknown(p);
@@ -646,15 +396,15 @@ static recto_status read_obj(struct scene *scene, const char *bytes,
                              recto_error *error) {
   static const char byte_order_mark[] = "\xef\xbb\xbf";
   (void)format;
-  struct parser p = {.scene = scene,
-                     .at = bytes,
-                     .end = bytes + count,
-                     .line = 1,
-                     .path = path,
-                     .diagnostics = diagnostics,
-                     .error = error,
-                     .first = scene->point.count,
-                     .renamed = true};
+  struct obj_parser p = {.scene = scene,
+                         .at = bytes,
+                         .end = bytes + count,
+                         .line = 1,
+                         .path = path,
+                         .diagnostics = diagnostics,
+                         .error = error,
+                         .first = scene->point.count,
+                         .renamed = true};
   if (strncmp(bytes, byte_order_mark, 3) == 0)
     p.at += 3;
   if (!memchr(bytes, '\n', count) && memchr(bytes, '\r', count))

@@ -6,7 +6,8 @@
  * it begins with, for many a binary header says "solid".
  *
  * Text: solid NAME, facets of one loop each, endsolid.  Its words may stand
- * on any lines; only the name ends with its line.
+ * on any lines, which end as they do on any system; only the name ends with
+ * its line.  A byte order mark may stand before it.
  */
 #include "scene/scene.h"
 
@@ -159,7 +160,7 @@ struct parser {
 
 static struct word next_word(struct parser *p) {
   for (; is_space(*p->at); p->at++)
-    p->line += *p->at == '\n';
+    p->line += *p->at == '\n' || (*p->at == '\r' && p->at[1] != '\n');
   struct word word = {p->at, 0, p->line};
   while (p->at < p->end && !is_space(*p->at))
     p->at++;
@@ -268,9 +269,9 @@ static recto_status read_facet(struct parser *p, unsigned long line) {
 /* The rest of the line, less the blanks around it. */
 static struct word rest_of_line(struct parser *p) {
   struct word word = {p->at, 0, p->line};
-  const char *stop = memchr(p->at, '\n', (size_t)(p->end - p->at));
-  p->at = stop ? stop : p->end;
-  stop = p->at;
+  while (p->at < p->end && *p->at != '\n' && *p->at != '\r')
+    p->at++;
+  const char *stop = p->at;
   while (word.start < stop && is_space(*word.start))
     word.start++;
   while (stop > word.start && is_space(stop[-1]))
@@ -309,10 +310,16 @@ static recto_status read_text(struct parser *p) {
 
 /* ---- Which of the two ---------------------------------------------------- */
 
+/* How long the byte order mark before a text is. */
+static size_t mark_length(const char *bytes) {
+  static const char mark[] = "\xef\xbb\xbf";
+  return strncmp(bytes, mark, 3) == 0 ? 3 : 0;
+}
+
 /* Whether it begins with "solid" and goes on, where a binary header would
  * stand, without the bytes that no text holds. */
 static bool looks_like_text(const char *bytes, size_t count) {
-  size_t start = 0;
+  size_t start = mark_length(bytes);
   while (start < count && is_space(bytes[start]))
     start++;
   struct word word = {bytes + start, 0, 1};
@@ -338,7 +345,7 @@ static recto_status read_stl(struct scene *scene, const char *bytes,
                      "neither a text STL, which begins with 'solid', nor a "
                      "binary one");
   struct parser p = {.scene = scene,
-                     .at = bytes,
+                     .at = bytes + mark_length(bytes),
                      .end = bytes + count,
                      .line = 1,
                      .path = path,
