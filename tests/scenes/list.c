@@ -55,6 +55,9 @@ FILL(near_3, scenes_near_sheets(scene, options, 1e-3))
 FILL(near_6, scenes_near_sheets(scene, options, 1e-6))
 FILL(near_9, scenes_near_sheets(scene, options, 1e-9))
 FILL(fan, scenes_fan(scene, options, 40))
+FILL(plates, scenes_plates(scene, options, 9, false))
+FILL(plates_above, scenes_plates(scene, options, 9, true))
+FILL(shells, scenes_shells(scene, options, 3, 5))
 FILL(thin_bars, scenes_thin_bars(scene, options, 12))
 FILL(soup, scenes_soup(scene, options, 40, 1))
 FILL(white_square, scenes_white_square(scene, options, 4))
@@ -121,6 +124,9 @@ const struct scenes_entry scene_list[] = {
     {"sheets 1e-6 apart", 28, fill_near_6},
     {"sheets 1e-9 apart", 28, fill_near_9},
     {"fan", 29, fill_fan},
+    {"plates", 16, fill_plates},
+    {"plates from above", 16, fill_plates_above},
+    {"shells", 16, fill_shells},
     {"thin bars", 30, fill_thin_bars},
     {"soup", 5, fill_soup},
     {NULL, 0, NULL},

@@ -19,5 +19,6 @@ check_LTLIBRARIES += %D%/libscenes.la
   %D%/scenes.h \
   %D%/small.c \
   %D%/solids.c \
+  %D%/stacks.c \
   %D%/subdivide.c %D%/subdivide.h \
   %D%/surfaces.c

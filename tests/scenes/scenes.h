@@ -187,6 +187,12 @@ void scenes_copies(struct scene *scene, recto_options *options, unsigned n,
 /* n pages on one edge, over so many turns. */
 void scenes_book(struct scene *scene, recto_options *options, unsigned n,
                  double turns);
+/* n large plates over each other, seen slantwise or from above. */
+void scenes_plates(struct scene *scene, recto_options *options, unsigned n,
+                   bool above);
+/* n globes in each other: only the outermost shows. */
+void scenes_shells(struct scene *scene, recto_options *options, unsigned n,
+                   unsigned rings);
 /* n triangles at random that pierce each other. */
 void scenes_soup(struct scene *scene, recto_options *options, unsigned n,
                  uint64_t seed);
