@@ -108,6 +108,29 @@ static void bytes_do_not_depend_on_the_threads(void **state) {
     }
 }
 
+/* Where a deep pile hides them, faces still pierce each other, and hidden lines
+ * show it. */
+static void hidden_piercings_are_not_behind_a_horizon(void **state) {
+  struct scene scene;
+  recto_options options;
+  (void)state;
+  recto_options_init(&options);
+  scene_init(&scene);
+  scenes_plates(&scene, &options, 200, true);
+  build_group(&scene, "hidden");
+  for (int i = 0; i < 9; i++) {
+    double x = 3 + 2 * (i % 3), y = 2.5 + 1.7 * (i / 3);
+    build_parallelogram(&scene, vector_of(x, y, -4), vector_of(0.2, 0, 0),
+                        vector_of(0, 0.2, 0));
+    build_parallelogram(&scene, vector_of(x + 0.05, y, -5),
+                        vector_of(0.1, 0, 0), vector_of(0, 0.2, 2));
+  }
+  options.hidden = RECTO_HIDDEN_DASHED;
+  options.edges = RECTO_EDGE_INTERSECTION;
+  assert_solvers_agree(&scene, &options, "pile", 0);
+  scene_fini(&scene);
+}
+
 /* No two pictures are the same, so the views are what they say. */
 static void views_differ(void **state) {
   char *text[DEGENERATE_VIEWS];
@@ -134,6 +157,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(views_differ),
       cmocka_unit_test(solvers_agree_on_degenerate_views),
+      cmocka_unit_test(hidden_piercings_are_not_behind_a_horizon),
       cmocka_unit_test(bytes_do_not_depend_on_the_threads),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

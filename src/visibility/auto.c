@@ -3,7 +3,7 @@
 
 /* Up to so many pairs of edge and face, asking all of them is quicker than
  * finding out which to ask. */
-#define FEW_PAIRS 20000
+#define FEW_PAIRS 2000
 
 static size_t count_drawn(const struct sheet *sheet) {
   size_t drawn = 0;

@@ -25,10 +25,7 @@
 
 #include <math.h>
 
-#include "base/tolerance.h"
-
 enum {
-  CUT_MARGIN = 4 * TOLERANCE_COINCIDENT_UNITS,
   SAMPLE = 48, /* triangles by which cuts are judged */
   CANDIDATES = 8
 };

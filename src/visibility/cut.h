@@ -16,8 +16,12 @@
 #ifndef VISIBILITY_CUT_H
 #define VISIBILITY_CUT_H
 
+#include "base/tolerance.h"
 #include "visibility/pagegrid.h"
 #include "visibility/stance.h"
+
+/* Units: so far off a line on the page a point counts as beside it. */
+enum { CUT_MARGIN = 4 * TOLERANCE_COINCIDENT_UNITS };
 
 enum { CUT_LEFT = 1, CUT_RIGHT = 2, CUT_BOTH = 3 };
 

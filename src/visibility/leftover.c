@@ -22,7 +22,7 @@
 static void visit_contours(struct leftover *leftover, const uint8_t *wanted,
                            bool filling) {
   const struct sheet *sheet = leftover->sheet;
-  const struct pagegrid *grid = &leftover->map->grid;
+  const struct pagegrid *grid = &leftover->lists->map->grid;
   for (size_t i = sheet->contour.count; i-- > 0;) {
     const uint32_t *point = sheet->contour.item[i].point;
     struct geom_point p = sheet->point.item[point[0]],
@@ -45,15 +45,15 @@ static void visit_contours(struct leftover *leftover, const uint8_t *wanted,
 }
 
 bool leftover_init(struct leftover *leftover, const struct sheet *sheet,
-                   const struct tilemap *map, const uint8_t *wanted) {
-  size_t cells = pagegrid_cell_count(&map->grid);
+                   const struct tilelist *lists, const uint8_t *wanted) {
+  size_t cells = pagegrid_cell_count(&lists->map->grid);
   memset(leftover, 0, sizeof *leftover);
   leftover->sheet = sheet;
-  leftover->map = map;
+  leftover->lists = lists;
   rivals_init(&leftover->rivals, sheet);
   leftover->start = mem_calloc(cells + 1, sizeof *leftover->start);
   if (leftover->start == NULL ||
-      !pagegrid_query_init(&leftover->query, &map->grid))
+      !pagegrid_query_init(&leftover->query, &lists->grid))
     return false;
   visit_contours(leftover, wanted, false);
   for (size_t i = 0; i < cells; i++)
@@ -91,7 +91,7 @@ static bool may_enter(const struct geom_point f[3], struct geom_point p,
 /* May a contour that is not behind the triangle at hand cross it? */
 static bool is_crossed(const struct leftover *leftover) {
   const struct sheet *sheet = leftover->sheet;
-  const struct pagegrid *grid = &leftover->map->grid;
+  const struct pagegrid *grid = &leftover->lists->map->grid;
   const struct rivals *rivals = &leftover->rivals;
   struct cell_range r = pagegrid_cells(grid, rivals->box);
   for (int y = r.y0; y <= r.y1; y++)
@@ -121,7 +121,7 @@ static bool add_found(struct leftover *leftover, uint32_t g) {
 }
 
 static bool find_in_crowd(struct leftover *leftover, uint32_t root) {
-  const struct crowd *crowd = leftover->map->grid.crowd;
+  const struct crowd *crowd = leftover->lists->grid.crowd;
   const struct crowd_shape shape = {.kind = CROWD_TRIANGLE,
                                     .triangle = leftover->rivals.triangle,
                                     .sheet = leftover->sheet,
@@ -138,8 +138,8 @@ static bool find_in_crowd(struct leftover *leftover, uint32_t root) {
 /* Finds what may overlap the triangle at hand on the page, at any depth: what
  * is behind it may touch it. */
 static bool find_about(struct leftover *leftover) {
-  const struct tilemap *map = leftover->map;
-  const struct pagegrid *grid = &map->grid;
+  const struct tilelist *lists = leftover->lists;
+  const struct pagegrid *grid = &lists->grid;
   const struct rivals *rivals = &leftover->rivals;
   struct cell_range r = pagegrid_cells(grid, rivals->box);
   struct octagon octagon = octagon_of_point(rivals->plane.p[0]);
@@ -159,11 +159,11 @@ static bool find_about(struct leftover *leftover) {
           return false;
         continue;
       }
-      frame = tilemap_frame(map, x, y);
+      frame = tilelist_frame(lists, x, y);
       octagon.low = frame.z0;
       question = octagon_question(&frame, &octagon);
       for (; i < end; i++)
-        if (octagon_meets(map->word[i], question) &&
+        if (octagon_meets(lists->word[i], question) &&
             !add_found(leftover, grid->item[i]))
           return false;
     }

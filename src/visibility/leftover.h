@@ -10,7 +10,7 @@
 #define VISIBILITY_LEFTOVER_H
 
 #include "visibility/rivals.h"
-#include "visibility/tilemap.h"
+#include "visibility/tilelist.h"
 
 struct leftover_counts {
   uint64_t hidden, whole, mixed; /* triangles, as it turned out */
@@ -19,7 +19,7 @@ struct leftover_counts {
 
 struct leftover {
   const struct sheet *sheet;
-  const struct tilemap *map;
+  const struct tilelist *lists; /* lent */
   uint32_t *start, *contour; /* of tile i: contour[start[i] .. start[i + 1]) */
   struct pagegrid_query query;
   struct rivals rivals;
@@ -29,7 +29,7 @@ struct leftover {
 /* wanted  the tiles that have lists */
 USE_RESULT bool leftover_init(struct leftover *leftover,
                               const struct sheet *sheet,
-                              const struct tilemap *map,
+                              const struct tilelist *lists,
                               const uint8_t *wanted);
 void leftover_fini(struct leftover *leftover);
 

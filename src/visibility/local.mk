@@ -34,6 +34,7 @@ librecto_core_la_SOURCES += \
   %D%/strokes.c %D%/strokes.h \
   %D%/subpixels.c %D%/subpixels.h \
   %D%/surround.c %D%/surround.h \
+  %D%/tilelist.c %D%/tilelist.h \
   %D%/tilemap.c %D%/tilemap.h \
   %D%/tiles.c \
   %D%/trace.c %D%/trace.h \

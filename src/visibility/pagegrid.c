@@ -39,23 +39,79 @@ static bool is_spread(const struct sheet *sheet, int shift, unsigned spread) {
   return cells <= limit;
 }
 
+/* The cells of 2^shift units that a box has from side to side. */
+static uint64_t cells_across(int32_t from, int32_t to, int shift) {
+  return (((uint64_t)((int64_t)to - from) + 1) >> shift) + 1;
+}
+
+static void shape(struct pagegrid *grid, const struct sheet *sheet,
+                  struct page_box all, int shift) {
+  memset(grid, 0, sizeof *grid);
+  grid->triangle_count = sheet->triangle.count;
+  grid->x0 = all.x0;
+  grid->y0 = all.y0;
+  grid->shift = shift;
+  grid->columns = (int)cells_across(all.x0, all.x1, shift);
+  grid->rows = (int)cells_across(all.y0, all.y1, shift);
+}
+
 void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
                     unsigned spread, unsigned most) {
   struct page_box all = box_of_sheet(sheet);
-  uint64_t n = sheet->triangle.count, width, height;
-  memset(grid, 0, sizeof *grid);
-  grid->triangle_count = n;
-  grid->x0 = all.x0;
-  grid->y0 = all.y0;
-  width = (uint64_t)((int64_t)all.x1 - all.x0) + 1;
-  height = (uint64_t)((int64_t)all.y1 - all.y0) + 1;
-  for (grid->shift = 0; grid->shift < MAX_SHIFT; grid->shift++) {
-    uint64_t cells =
-        ((width >> grid->shift) + 1) * ((height >> grid->shift) + 1);
-    if (cells <= most * n + 16 && is_spread(sheet, grid->shift, spread)) break;
+  uint64_t room = (uint64_t)most * sheet->triangle.count + 16;
+  int shift = 0;
+  while (shift < MAX_SHIFT &&
+         (cells_across(all.x0, all.x1, shift) *
+                  cells_across(all.y0, all.y1, shift) >
+              room ||
+          !is_spread(sheet, shift, spread)))
+    shift++;
+  shape(grid, sheet, all, shift);
+}
+
+/* The pairs that share a list of the grid, were its lists of these triangles,
+ * and the lists' length.
+ * count  one a cell: scratch */
+static double cost_of_pairs(const struct pagegrid *grid,
+                            const struct sheet *sheet, const uint32_t *some,
+                            size_t n, uint32_t *count) {
+  size_t cells = pagegrid_cell_count(grid);
+  double cost = 0;
+  memset(count, 0, cells * sizeof *count);
+  for (size_t i = 0; i < n; i++) {
+    struct cell_range r =
+        pagegrid_cells(grid, page_box_of_triangle(sheet, some[i]));
+    for (int y = r.y0; y <= r.y1; y++)
+      for (int x = r.x0; x <= r.x1; x++)
+        count[(size_t)y * (size_t)grid->columns + (size_t)x]++;
   }
-  grid->columns = (int)(width >> grid->shift) + 1;
-  grid->rows = (int)(height >> grid->shift) + 1;
+  for (size_t c = 0; c < cells; c++)
+    cost += pagegrid_cost_of_list(count[c]);
+  return cost;
+}
+
+bool pagegrid_enlarge(struct pagegrid *grid, const struct sheet *sheet,
+                      const uint32_t *some, size_t n, double *cost) {
+  struct page_box all = box_of_sheet(sheet);
+  struct pagegrid next;
+  int shift = grid->shift;
+  uint32_t *count = mem_alloc(pagegrid_cell_count(grid), sizeof *count);
+  double now = *cost;
+  if (count == NULL) return false;
+  /* From one cell on they become smaller as long as that is of use. */
+  while (shift < MAX_SHIFT && cells_across(all.x0, all.x1, shift) *
+                                      cells_across(all.y0, all.y1, shift) >
+                                  1)
+    shift++;
+  for (; shift > grid->shift && now < 2 * *cost; shift--) {
+    shape(&next, sheet, all, shift);
+    now = cost_of_pairs(&next, sheet, some, n, count);
+    if (now >= *cost) continue;
+    *cost = now;
+    *grid = next;
+  }
+  mem_free(count);
+  return true;
 }
 
 /* What the lists are made of. */
@@ -99,8 +155,7 @@ static void fill_cells(const struct filling *filling, bool place) {
                   place);
 }
 
-/* Parts the long lists. */
-static bool part_crowds(struct pagegrid *grid, bool planes) {
+bool pagegrid_part(struct pagegrid *grid, bool planes) {
   size_t cells = pagegrid_cell_count(grid);
   for (size_t c = 0; c < cells; c++) {
     size_t count = grid->start[c + 1] - grid->start[c];
@@ -132,10 +187,6 @@ static bool fill(const struct filling *filling) {
   }
   fill_cells(filling, true);
   grid->sheet = filling->sheet;
-  if (!part_crowds(grid, filling->print != NULL)) {
-    pagegrid_fini(grid);
-    return false;
-  }
   return true;
 }
 
@@ -181,9 +232,19 @@ bool pagegrid_fill(struct pagegrid *grid, const struct sheet *sheet,
 
 bool pagegrid_init(struct pagegrid *grid, const struct sheet *sheet) {
   pagegrid_shape(grid, sheet, SPREAD, 2);
-  return fill(&(struct filling){.grid = grid,
-                                .sheet = sheet,
-                                .count = sheet->triangle.count});
+  if (fill(&(struct filling){.grid = grid,
+                             .sheet = sheet,
+                             .count = sheet->triangle.count}) &&
+      pagegrid_part(grid, false))
+    return true;
+  pagegrid_fini(grid);
+  return false;
+}
+
+bool pagegrid_fill_some(struct pagegrid *grid, const struct sheet *sheet,
+                        const uint32_t *some, size_t count) {
+  return fill(&(struct filling){
+      .grid = grid, .sheet = sheet, .some = some, .count = count});
 }
 
 void pagegrid_fini(struct pagegrid *grid) {

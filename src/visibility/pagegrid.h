@@ -56,14 +56,38 @@ void pagegrid_fini(struct pagegrid *grid);
  * triangle.  The second makes the lists.
  * print   the triangles' footprints
  * wanted  the cells that get a list, the others' stay empty
- * horizon one a cell: triangles wholly behind it are left out; NULL: none
- * Questions to such a grid are about what may hide something. */
+ * horizon one a cell: triangles wholly behind it are left out; NULL: none */
 void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
                     unsigned spread, unsigned cells);
 struct footprint;
 USE_RESULT bool pagegrid_fill(struct pagegrid *grid, const struct sheet *sheet,
                               const struct footprint *print,
                               const uint8_t *wanted, const double *horizon);
+
+/* What a list costs those who look at all pairs in it, in pairs: it is worth a
+ * few to be in a list at all. */
+static inline double pagegrid_cost_of_list(uint32_t count) {
+  return (0.5 * count + 4) * count;
+}
+
+/* Takes larger cells where these cost less, for lists of some triangles: large
+ * ones are in many cells, and any two of them meet in each.
+ * grid  a shape without lists
+ * cost  of the lists there would be else; becomes what larger cells cost
+ * Returns false when memory ran out. */
+USE_RESULT bool pagegrid_enlarge(struct pagegrid *grid,
+                                 const struct sheet *sheet,
+                                 const uint32_t *some, size_t n, double *cost);
+
+/* Makes such lists, ascending. */
+USE_RESULT bool pagegrid_fill_some(struct pagegrid *grid,
+                                   const struct sheet *sheet,
+                                   const uint32_t *some, size_t count);
+
+/* Parts the long lists of such a grid.
+ * planes  by planes too: questions are then about what may hide something
+ * Returns false when memory ran out. */
+USE_RESULT bool pagegrid_part(struct pagegrid *grid, bool planes);
 
 static inline size_t pagegrid_cell_count(const struct pagegrid *grid) {
   return (size_t)grid->columns * (size_t)grid->rows;

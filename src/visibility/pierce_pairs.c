@@ -1,8 +1,9 @@
 /* pierce_pairs.c - pairs of triangles that may pierce each other.
  *
  * Cell by cell, a sweep from the deepest triangle to the nearest meets every
- * pair whose depths overlap; boxes, shared corners and planes in doubles
- * (stance.h) settle most of them.  A long list is parted before (crowd.h).
+ * pair whose depths overlap; boxes, shared corners, planes in doubles
+ * (stance.h) and sides on the page settle most of them.  A long list is parted
+ * before (crowd.h).
  */
 #include "visibility/pierce_pairs.h"
 
@@ -153,12 +154,32 @@ static bool may_pierce(const struct sheet *sheet, const struct summary *f,
   return stance_may_pierce(&g->plane, corner);
 }
 
+/* Is all of g to the right of a side of f, by more than what counts as one
+ * line? */
+static bool is_beyond_side(const struct sheet *sheet, uint32_t f, uint32_t g) {
+  const uint32_t *p = sheet->triangle.item[f].point,
+                 *q = sheet->triangle.item[g].point;
+  const struct geom_point *point = sheet->point.item;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point a = point[p[k]], b = point[p[k == 2 ? 0 : k + 1]];
+    int64_t dx = (int64_t)b.x - a.x, dy = (int64_t)b.y - a.y;
+    int64_t near = CUT_MARGIN * ((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
+    if (geom_orient2d(a, b, point[q[0]]) < -near &&
+        geom_orient2d(a, b, point[q[1]]) < -near &&
+        geom_orient2d(a, b, point[q[2]]) < -near)
+      return true;
+  }
+  return false;
+}
+
 static bool meet(const struct sweep *sweep, struct summary *f,
                  struct summary *g) {
   if (page_boxes_apart(f->box, g->box) || (f->seen & g->seen) != 0 ||
       !is_cell_of_pair(sweep, f, g) ||
       are_neighbours(sweep->sheet, f->triangle, g->triangle) ||
-      !may_pierce(sweep->sheet, f, g) || !may_pierce(sweep->sheet, g, f))
+      !may_pierce(sweep->sheet, f, g) || !may_pierce(sweep->sheet, g, f) ||
+      is_beyond_side(sweep->sheet, f->triangle, g->triangle) ||
+      is_beyond_side(sweep->sheet, g->triangle, f->triangle))
     return true;
   return f->triangle < g->triangle
              ? sweep->visit(sweep->user, f->triangle, g->triangle)

@@ -12,13 +12,31 @@ struct plane_depth {
   double z, error;
 };
 
+static struct surround_plane plane_of(const struct hider *h) {
+  return (struct surround_plane){(double)h->p[0].x, (double)h->p[0].y,
+                                 (double)h->p[0].z, h->nx / h->nz,
+                                 h->ny / h->nz,     0};
+}
+
+struct surround_plane surround_plane_of(const struct sheet *sheet,
+                                        uint32_t triangle) {
+  struct surround_plane plane;
+  struct hider h;
+  hider_init(&h, sheet, triangle);
+  plane = plane_of(&h);
+  /* The tolerance of hide.h in depth units, at its largest. */
+  plane.contact =
+      (h.t0_near + h.t1_near * (double)SHEET_Z_MAX) / 0x1p16 / h.nz *
+      (1 + SLACK);
+  return plane;
+}
+
 /* The depth of a plane at (x, y), and how far the doubles may be off. */
-static struct plane_depth depth_at(const struct hider *h, int32_t x,
+static struct plane_depth depth_at(const struct surround_plane *p, int32_t x,
                                    int32_t y) {
-  double dx = h->nx / h->nz * ((double)x - h->p[0].x),
-         dy = h->ny / h->nz * ((double)y - h->p[0].y), z = (double)h->p[0].z;
-  return (struct plane_depth){z - dx - dy,
-                              SLACK * (fabs(z) + fabs(dx) + fabs(dy)) + 1};
+  double dx = p->gx * ((double)x - p->x), dy = p->gy * ((double)y - p->y);
+  return (struct plane_depth){p->z - dx - dy,
+                              SLACK * (fabs(p->z) + fabs(dx) + fabs(dy)) + 1};
 }
 
 static void corner_of(const struct window *window, int k, int32_t *x,
@@ -27,21 +45,24 @@ static void corner_of(const struct window *window, int k, int32_t *x,
   *y = k == 1 || k == 2 ? window->y1 : window->y0;
 }
 
+double surround_low(const struct surround_plane *plane,
+                    const struct window *window) {
+  struct plane_depth d = depth_at(plane, plane->gx > 0 ? window->x1 : window->x0,
+                                  plane->gy > 0 ? window->y1 : window->y0);
+  return d.z - d.error - plane->contact;
+}
+
 void surround_depths_of(const struct sheet *sheet, uint32_t triangle,
                         const struct window *window,
                         struct surround_depths *depth) {
-  struct hider h;
-  double contact;
-  hider_init(&h, sheet, triangle);
-  /* The tolerance of hide.h in depth units, at its largest. */
-  contact = (h.t0_near + h.t1_near * (double)SHEET_Z_MAX) / 0x1p16 / h.nz;
+  struct surround_plane plane = surround_plane_of(sheet, triangle);
   depth->low = INFINITY;
   for (int k = 0; k < 4; k++) {
     int32_t x, y;
     struct plane_depth d;
     corner_of(window, k, &x, &y);
-    d = depth_at(&h, x, y);
-    depth->at[k] = d.z - d.error - contact * (1 + SLACK);
+    d = depth_at(&plane, x, y);
+    depth->at[k] = d.z - d.error - plane.contact;
     if (depth->at[k] < depth->low) depth->low = depth->at[k];
   }
 }
@@ -50,6 +71,7 @@ bool surround_hides(const struct sheet *sheet,
                     const struct surround_depths *front,
                     const struct window *window, uint32_t triangle) {
   const uint32_t *p = sheet->triangle.item[triangle].point;
+  struct surround_plane plane;
   struct hider h;
   if ((double)triangle_nearest(sheet, triangle) < front->low) return true;
   for (int k = 0; k < 3; k++) h.p[k] = sheet->point.item[p[k]];
@@ -57,11 +79,12 @@ bool surround_hides(const struct sheet *sheet,
   h.nx = (double)h.plane.nx;
   h.ny = (double)h.plane.ny;
   h.nz = (double)h.plane.nz;
+  plane = plane_of(&h);
   for (int k = 0; k < 4; k++) {
     int32_t x, y;
     struct plane_depth d;
     corner_of(window, k, &x, &y);
-    d = depth_at(&h, x, y);
+    d = depth_at(&plane, x, y);
     if (!(d.z + d.error < front->at[k])) return false;
   }
   return true;

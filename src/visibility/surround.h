@@ -14,6 +14,22 @@ struct surround_depths {
   double low;   /* the least of them */
 };
 
+/* A triangle's plane moved back by what contact explains at most, in doubles:
+ * for its depths over many windows. */
+struct surround_plane {
+  double x, y, z;   /* of a corner */
+  double gx, gy;    /* depth lost per unit of x and of y */
+  double contact;
+};
+
+/* The plane of a triangle that is not flat. */
+struct surround_plane surround_plane_of(const struct sheet *sheet,
+                                        uint32_t triangle);
+
+/* The least depth that the plane surely has over the window. */
+double surround_low(const struct surround_plane *plane,
+                    const struct window *window);
+
 /* Depths that a triangle, not flat, surely reaches over the window. */
 void surround_depths_of(const struct sheet *sheet, uint32_t triangle,
                         const struct window *window,

@@ -11,7 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/sort.h"
 #include "visibility/hide.h"
 #include "visibility/surround.h"
 
@@ -19,7 +18,9 @@ enum {
   SPREAD = 2, /* cells a triangle is in, on average: a tile is about an edge */
   SOUP = 32,            /* faces over a point, on average, that make a soup */
   SOUP_CELLS = 1 << 22, /* cells of all triangles of a soup together */
-  SOUP_SPREAD = 256,    /* but no more of each: pairs are met cell by cell */
+  SOUP_SPREAD = 256,    /* but no more of each */
+  SOUP_QUESTIONS = 8,   /* cells cost a tenth of asking so many edges */
+  SOUP_FACE = 16,       /* edges that a face counts for */
   BOX_PER_AREA = 4, /* a common triangle's box has so many times its area */
   SAMPLE = 1 << 12
 };
@@ -42,6 +43,44 @@ static inline struct corners corners_of(const struct sheet *sheet, size_t t) {
   const uint32_t *p = sheet->triangle.item[t].point;
   return (struct corners){{sheet->point.item[p[0]], sheet->point.item[p[1]],
                            sheet->point.item[p[2]]}};
+}
+
+/* The line functions of a triangle's sides, positive within it, at places a
+ * tile's side apart.  Within the triangle's box they are below 2^62; one step
+ * beyond they may wrap, unread. */
+struct walk {
+  uint64_t at[3], right[3], up[3];
+};
+
+/* Starts at (x, y); or, with `least`, has the least values over the tile whose
+ * lower left corner that is. */
+static inline struct walk walk_of(const struct corners *corners, int64_t x,
+                                  int64_t y, int shift, bool least) {
+  struct walk walk;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point a = corners->p[k], b = corners->p[k == 2 ? 0 : k + 1];
+    int64_t dx = (int64_t)b.x - a.x, dy = (int64_t)b.y - a.y;
+    int64_t side = least ? INT64_C(1) << shift : 0;
+    walk.at[k] = (uint64_t)(dx * (y + (dx < 0 ? side : 0) - a.y) -
+                            dy * (x + (dy > 0 ? side : 0) - a.x));
+    walk.right[k] = (uint64_t)-dy << shift;
+    walk.up[k] = (uint64_t)dx << shift;
+  }
+  return walk;
+}
+
+static inline void walk_right(struct walk *walk) {
+  for (int k = 0; k < 3; k++) walk->at[k] += walk->right[k];
+}
+
+static inline void walk_up(struct walk *walk) {
+  for (int k = 0; k < 3; k++) walk->at[k] += walk->up[k];
+}
+
+/* Are all three values positive? */
+static inline bool walk_is_inside(const struct walk *walk) {
+  return (((walk->at[0] - 1) | (walk->at[1] - 1) | (walk->at[2] - 1)) >> 63) ==
+         0;
 }
 
 /* May the triangle hide, or touch, across an empty bucket?  Its contact
@@ -202,6 +241,7 @@ static void judge(struct tilemap *map) {
   for (size_t i = 0; i < n; i++) {
     struct tile *tile = &map->tile[i];
     if (tile->depths == 0) continue;
+    map->depths |= tile->depths;
     int front = bottom_of_front(tile->depths);
     bool simple =
         tile->over[0] > front && tile->over[1] <= front && tile->bar <= front;
@@ -253,26 +293,32 @@ static double mean_layers(const struct sheet *sheet,
   return sum / (side * side * grid->columns * grid->rows);
 }
 
-/* The horizons of the tiles that the triangle surrounds. */
+/* The horizons of the tiles that the triangle surrounds: of a row, those in one
+ * stretch. */
 static void raise_horizons(struct tilemap *map, const struct sheet *sheet,
                            size_t t) {
-  struct cell_range r = footprint_cells(&map->grid, sheet, t, map->print[t]);
-  struct geom_point p[3];
+  const struct pagegrid *grid = &map->grid;
+  struct cell_range r = footprint_cells(grid, sheet, t, map->print[t]);
   if (r.x1 - r.x0 < 2 || r.y1 - r.y0 < 2) return;
-  for (int k = 0; k < 3; k++)
-    p[k] = sheet->point.item[sheet->triangle.item[t].point[k]];
-  for (int y = r.y0 + 1; y < r.y1; y++)
-    for (int x = r.x0 + 1; x < r.x1; x++) {
-      struct window window = tile_window(&map->grid, x, y);
-      struct window_counts counts;
-      struct surround_depths depth;
-      double *horizon = &map->horizon[(size_t)y * (size_t)map->grid.columns +
-                                      (size_t)x];
-      if (window_classify(&window, p, 3, &counts) != WINDOW_SURROUNDING)
+  struct corners corners = corners_of(sheet, t);
+  struct window first = tile_window(grid, r.x0 + 1, r.y0 + 1);
+  struct walk walk = walk_of(&corners, first.x0, first.y0, grid->shift, true);
+  struct surround_plane plane = surround_plane_of(sheet, (uint32_t)t);
+  for (int y = r.y0 + 1; y < r.y1; y++, walk_up(&walk)) {
+    struct walk row = walk;
+    double *horizon = &map->horizon[(size_t)y * (size_t)grid->columns];
+    bool inside = false;
+    for (int x = r.x0 + 1; x < r.x1; x++, walk_right(&row)) {
+      if (!walk_is_inside(&row)) {
+        if (inside) break;
         continue;
-      surround_depths_of(sheet, (uint32_t)t, &window, &depth);
-      if (depth.low > *horizon) *horizon = depth.low;
+      }
+      inside = true;
+      struct window window = tile_window(grid, x, y);
+      double low = surround_low(&plane, &window);
+      if (low > horizon[x]) horizon[x] = low;
     }
+  }
 }
 
 /* Fragments ask which faces touch, and a steep one may touch across a
@@ -307,18 +353,35 @@ static bool find_horizons(struct tilemap *map, const struct sheet *sheet,
   return true;
 }
 
-bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
+/* Edges and faces that are asked about; a face takes a good deal longer. */
+static uint64_t count_questions(const struct sheet *sheet, bool strokes,
+                                bool fragments) {
+  uint64_t count = fragments ? SOUP_FACE * sheet->triangle.count : 0;
+  for (size_t e = 0; strokes && e < sheet->edge.count; e++)
+    count += sheet->edge.item[e].edge_class != 0;
+  return count;
+}
+
+/* The cells of a soup: so many that horizons are found well, so few that
+ * they cost little beside asking everything. */
+static void shape_soup(struct tilemap *map, const struct sheet *sheet,
+                       bool strokes, bool fragments) {
+  uint64_t spread = SOUP_CELLS / sheet->triangle.count + SPREAD;
+  uint64_t most =
+      count_questions(sheet, strokes, fragments) / SOUP_QUESTIONS + SPREAD;
+  if (spread > most) spread = most;
+  if (spread > SOUP_SPREAD) spread = SOUP_SPREAD;
+  pagegrid_shape(&map->grid, sheet, (unsigned)spread, (unsigned)spread);
+}
+
+bool tilemap_init(struct tilemap *map, const struct sheet *sheet, bool strokes,
                   bool fragments) {
   size_t n;
   bool soup;
   memset(map, 0, sizeof *map);
   pagegrid_shape(&map->grid, sheet, SPREAD, 2);
   soup = mean_layers(sheet, &map->grid) > SOUP;
-  if (soup) {
-    unsigned spread = (unsigned)(SOUP_CELLS / sheet->triangle.count + SPREAD);
-    if (spread > SOUP_SPREAD) spread = SOUP_SPREAD;
-    pagegrid_shape(&map->grid, sheet, spread, spread);
-  }
+  if (soup) shape_soup(map, sheet, strokes, fragments);
   n = pagegrid_cell_count(&map->grid);
   map->tile = mem_calloc(n, sizeof *map->tile);
   map->print = mem_alloc(sheet->triangle.count, sizeof *map->print);
@@ -337,86 +400,10 @@ bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
 }
 
 void tilemap_fini(struct tilemap *map) {
-  pagegrid_fini(&map->grid);
   mem_free(map->tile);
   mem_free(map->print);
   mem_free(map->horizon);
-  mem_free(map->word);
   map->tile = NULL;
   map->print = NULL;
   map->horizon = NULL;
-  map->word = NULL;
-}
-
-/* ---- Lists ---------------------------------------------------------------- */
-
-struct octagon_frame tilemap_frame(const struct tilemap *map, int x, int y) {
-  struct window window = tile_window(&map->grid, x, y);
-  uint64_t depths = tile_at(map, x, y)->depths;
-  int low = __builtin_ctzll(depths), buckets = 64 - __builtin_clzll(depths) - low;
-  int bits = buckets > 1 ? 32 - __builtin_clz((unsigned)buckets - 1) : 0;
-  return (struct octagon_frame){window.x0, window.y0, map->grid.shift,
-                                (int64_t)low << TILE_BUCKET_SHIFT,
-                                TILE_BUCKET_SHIFT + bits - 6};
-}
-
-/* Writes the words of a tile's list. */
-static void write_words(struct tilemap *map, const struct sheet *sheet, int x,
-                        int y, size_t from, size_t to) {
-  struct octagon_frame frame = tilemap_frame(map, x, y);
-  for (size_t i = from; i < to; i++) {
-    struct corners corners = corners_of(sheet, map->grid.item[i]);
-    struct octagon octagon = octagon_of_point(corners.p[0]);
-    octagon_add(&octagon, corners.p[1]);
-    octagon_add(&octagon, corners.p[2]);
-    map->word[i] = octagon_word(&frame, &octagon);
-  }
-}
-
-/* Puts the nearest triangles of a tile's list first: what is hidden is found
- * to be so by few of them.
- * scratch  room for the list */
-static void sort_list(struct tilemap *map, size_t from, size_t to,
-                      struct sort_key scratch[PAGEGRID_CROWD]) {
-  uint32_t start[OCTAGON_MOST + 1] = {0}, sum = 0;
-  uint32_t *item = map->grid.item + from;
-  uint64_t *word = map->word + from;
-  size_t n = to - from;
-  for (size_t i = 0; i < n; i++) {
-    scratch[i] = (struct sort_key){word[i], item[i]};
-    start[octagon_nearest(word[i])]++;
-  }
-  for (int depth = OCTAGON_MOST; depth >= 0; depth--) {
-    uint32_t here = start[depth];
-    start[depth] = sum;
-    sum += here;
-  }
-  for (size_t i = 0; i < n; i++) {
-    uint32_t to_place = start[octagon_nearest(scratch[i].key)]++;
-    word[to_place] = scratch[i].key;
-    item[to_place] = scratch[i].value;
-  }
-}
-
-bool tilemap_list(struct tilemap *map, const struct sheet *sheet,
-                  const uint8_t *wanted) {
-  const struct pagegrid *grid = &map->grid;
-  struct sort_key scratch[PAGEGRID_CROWD];
-  size_t cell = 0;
-  pagegrid_fini(&map->grid);
-  mem_free(map->word);
-  map->word = NULL;
-  if (!pagegrid_fill(&map->grid, sheet, map->print, wanted, map->horizon))
-    return false;
-  map->word =
-      mem_alloc(grid->start[pagegrid_cell_count(grid)], sizeof *map->word);
-  if (map->word == NULL) return false;
-  for (int y = 0; y < grid->rows; y++)
-    for (int x = 0; x < grid->columns; x++, cell++)
-      if (grid->start[cell] < grid->start[cell + 1]) {
-        size_t from = grid->start[cell], to = grid->start[cell + 1];
-        write_words(map, sheet, x, y, from, to);
-        if (to - from < PAGEGRID_CROWD) sort_list(map, from, to, scratch);
-      }
-  return true;
 }

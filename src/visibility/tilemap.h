@@ -26,7 +26,6 @@
 #ifndef VISIBILITY_TILEMAP_H
 #define VISIBILITY_TILEMAP_H
 
-#include "visibility/octagon.h"
 #include "visibility/pagegrid.h"
 
 enum tile_state {
@@ -47,11 +46,11 @@ struct tile {
 };
 
 struct tilemap {
-  struct pagegrid grid; /* its shape; lists only where they were filled */
+  struct pagegrid grid; /* its shape; no lists */
   struct tile *tile;
   struct footprint *print; /* one a triangle */
-  uint64_t *word;          /* one a listed triangle: see octagon.h */
   double *horizon;         /* one a tile; NULL: no soup */
+  uint64_t depths;         /* of all tiles */
   uint64_t simple, mixed, empty;
 };
 
@@ -62,19 +61,12 @@ static inline bool tilemap_is_beyond(const struct tilemap *map, size_t tile,
 }
 
 /* Classifies the tiles of the sheet.
+ * strokes    will be asked for
  * fragments  will be asked for: faces that touch must be told too, so tiles
  *            with steep faces in any layer are refused */
 USE_RESULT bool tilemap_init(struct tilemap *map, const struct sheet *sheet,
-                             bool fragments);
+                             bool strokes, bool fragments);
 void tilemap_fini(struct tilemap *map);
-
-/* What the words of a tile's list are relative to; it has a face. */
-struct octagon_frame tilemap_frame(const struct tilemap *map, int x, int y);
-
-/* Lists the triangles of the wanted tiles that are not beyond their horizons,
- * in place of the lists before. */
-USE_RESULT bool tilemap_list(struct tilemap *map, const struct sheet *sheet,
-                             const uint8_t *wanted);
 
 static inline int tile_bucket(int64_t z) {
   return (int)(z >> TILE_BUCKET_SHIFT);

@@ -23,12 +23,13 @@
 #include "visibility/solver.h"
 #include "visibility/strokes.h"
 #include "visibility/surround.h"
-#include "visibility/tilemap.h"
+#include "visibility/tilelist.h"
 
 struct tiles_work {
   struct sheet *sheet;
   const struct solver_request *request;
   struct tilemap tiles;
+  struct tilelist lists;
   uint8_t *wanted;         /* tiles whose faces are to be listed */
   uint8_t *pierced;        /* tiles where faces may be seen to pierce */
   bool wants_more;         /* than are listed */
@@ -61,14 +62,16 @@ static bool may_go_on(const struct tiles_work *work, size_t done, size_t all,
 
 /* ---- 3, 4. Lists and piercing --------------------------------------------------------------- */
 
-/* Faces that pierce each other where they can be seen do so in mixed tiles. */
+/* Faces that pierce each other where they can be seen do so in mixed tiles.
+ * Where hidden lines are drawn too, they are looked for everywhere, in a grid
+ * of their own: lists of tiles leave out what is behind a horizon. */
 static bool want_for_piercing(struct tiles_work *work) {
   size_t n = pagegrid_cell_count(&work->tiles.grid);
+  if (work->request->hidden) return true;
   work->pierced = mem_alloc(n, 1);
   if (work->pierced == NULL) return false;
   for (size_t i = 0; i < n; i++) {
-    work->pierced[i] =
-        work->request->hidden || work->tiles.tile[i].state == TILE_MIXED;
+    work->pierced[i] = work->tiles.tile[i].state == TILE_MIXED;
     work->wanted[i] |= work->pierced[i];
   }
   return true;
@@ -77,7 +80,7 @@ static bool want_for_piercing(struct tiles_work *work) {
 /* Lists the faces of the wanted tiles, again where more became wanted. */
 static bool list_faces(struct tiles_work *work) {
   work->wants_more = false;
-  return tilemap_list(&work->tiles, work->sheet, work->wanted);
+  return tilelist_fill(&work->lists, &work->tiles, work->sheet, work->wanted);
 }
 
 /* ---- 2. Classifying -------------------------------------------------------------- */
@@ -240,6 +243,7 @@ struct edge_task {
   /* What is not known to be hidden of it, and is still asked about. */
   struct geom_point end[2];
   struct octagon octagon;
+  struct hidden_part rest; /* the stretch between them */
   double share; /* of its length */
   bool several; /* it meets several tiles, and may meet a triangle in each */
   struct pagegrid_query *query;
@@ -258,8 +262,11 @@ static struct geom_point point_of_edge(const struct edge_task *task,
  * it much shorter.  The new ends were rounded, by less than a unit. */
 static void shorten(struct edge_task *task) {
   struct hidden_part rest = strokes_rest(task->strokes);
-  double share = (double)rest.to.num / (double)rest.to.den -
-                 (double)rest.from.num / (double)rest.from.den;
+  double share;
+  if (rest.from.num == task->rest.from.num && rest.to.num == task->rest.to.num)
+    return; /* the same place, or one that shortens by nothing much */
+  task->rest = rest;
+  share = ratio_to_double(rest.to) - ratio_to_double(rest.from);
   if (!(share < 0.75 * task->share)) return;
   task->share = share;
   task->end[0] = point_of_edge(task, rest.from);
@@ -273,16 +280,26 @@ static void shorten(struct edge_task *task) {
   task->octagon.low--;
 }
 
-/* Asks what triangle t hides of the edge, which it may meet. */
+/* What triangle t hides of the edge. */
+static bool ask_hider(const struct tiles_work *work, struct edge_task *task,
+                      uint32_t t, struct hidden_part *part) {
+  const struct hider *hider = work->lists.hider;
+  if (hider == NULL)
+    return hide_edge_by(work->sheet, t, task->p, task->q, part, task->counts);
+  return !(work->sheet->triangle_flags[t] & SHEET_FLAT) &&
+         hide_edge(&hider[t], task->p, task->q, part, task->counts);
+}
+
+/* Asks triangle t, which may meet the edge. */
 static bool ask_triangle(const struct tiles_work *work, struct edge_task *task,
                          uint32_t t) {
   struct hidden_part part;
   if (t == task->triangle[0] || t == task->triangle[1] ||
       (task->several && !pagegrid_query_first(task->query, t)) ||
-      !hide_edge_by(work->sheet, t, task->p, task->q, &part, task->counts))
+      !ask_hider(work, task, t, &part))
     return true;
   if (!strokes_hide(task->strokes, part)) return false;
-  if (!task->strokes->whole) shorten(task);
+  if (part.sides == HIDE_BOTH && !task->strokes->whole) shorten(task);
   return true;
 }
 
@@ -303,11 +320,11 @@ static void put_question(struct cell_task *at, const struct edge_task *task) {
 /* Asks the triangles of a tile's list that was parted. */
 static bool ask_crowd(const struct tiles_work *work, struct edge_task *task,
                       struct cell_task *at) {
-  const struct pagegrid *grid = &work->tiles.grid;
+  const struct pagegrid *grid = &work->lists.grid;
   struct crowd_shape shape = {.kind = CROWD_SEGMENT,
                               .p = {task->end[0], task->end[1]}};
   struct crowd_walk walk = crowd_walk_from(pagegrid_crowd(grid, at->cell));
-  const uint64_t *word = work->tiles.word + grid->start[at->cell];
+  const uint64_t *word = work->lists.word + grid->start[at->cell];
   const struct crowd_node *node;
   while ((node = crowd_next(grid->crowd, &walk, &shape)) != NULL) {
     const struct crowd_member *member = grid->crowd->member.item + node->from;
@@ -326,26 +343,26 @@ static bool ask_crowd(const struct tiles_work *work, struct edge_task *task,
 /* Asks the triangles listed in a tile that may meet the edge. */
 static bool ask_list(const struct tiles_work *work, struct edge_task *task,
                      int x, int y) {
-  const struct tilemap *map = &work->tiles;
-  size_t cell = (size_t)y * (size_t)map->grid.columns + (size_t)x;
-  uint32_t i = map->grid.start[cell], end = map->grid.start[cell + 1];
+  const struct tilelist *list = &work->lists;
+  size_t cell = (size_t)y * (size_t)list->grid.columns + (size_t)x;
+  uint32_t i = list->grid.start[cell], end = list->grid.start[cell + 1];
   struct cell_task at = {.cell = cell, .share = -1};
   if (i == end) return true;
-  at.frame = tilemap_frame(map, x, y);
+  at.frame = tilelist_frame(list, x, y);
   put_question(&at, task);
-  if (pagegrid_crowd(&map->grid, cell) != SHEET_NONE)
+  if (pagegrid_crowd(&list->grid, cell) != SHEET_NONE)
     return ask_crowd(work, task, &at);
   for (;; i++) {
-    while (i < end && !octagon_meets(map->word[i], at.question)) i++;
+    while (i < end && !octagon_meets(list->word[i], at.question)) i++;
     if (i == end || task->strokes->whole) return true;
-    if (!ask_triangle(work, task, map->grid.item[i])) return false;
+    if (!ask_triangle(work, task, list->grid.item[i])) return false;
     put_question(&at, task);
   }
 }
 
 static bool solve_edge(const struct tiles_work *work, uint32_t e,
                        struct edge_task *task) {
-  const struct pagegrid *grid = &work->tiles.grid;
+  const struct pagegrid *grid = &work->lists.grid;
   const struct sheet_edge *edge = &work->sheet->edge.item[e];
   struct cell_range r;
   task->triangle[0] = edge->triangle[0];
@@ -358,6 +375,7 @@ static bool solve_edge(const struct tiles_work *work, uint32_t e,
   task->several = r.x0 < r.x1 || r.y0 < r.y1;
   if (task->several) pagegrid_query_start(grid, task->query);
   strokes_start(task->strokes);
+  task->rest = strokes_rest(task->strokes);
   task->share = 1;
   task->end[0] = task->p;
   task->end[1] = task->q;
@@ -392,7 +410,7 @@ static void solve_runs(const struct tiles_work *work, struct edge_run *run,
     struct pagegrid_query query;
     struct strokes strokes = {0};
     struct edge_task task = {.query = &query, .strokes = &strokes};
-    bool ready = pagegrid_query_init(&query, &work->tiles.grid);
+    bool ready = pagegrid_query_init(&query, &work->lists.grid);
 #ifdef _OPENMP
 #pragma omp for schedule(dynamic)
 #endif
@@ -441,8 +459,8 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
   struct leftover leftover;
   size_t n = work->sheet->triangle.count, left_over = 0;
   struct pulse pulse = pulse_of(work->request, "faces");
-  bool done = fragments_init(&fragments, work->sheet, &work->tiles.grid, true);
-  done &= leftover_init(&leftover, work->sheet, &work->tiles, work->wanted);
+  bool done = fragments_init(&fragments, work->sheet, &work->lists.grid, true);
+  done &= leftover_init(&leftover, work->sheet, &work->lists, work->wanted);
   fragments.pulse = leftover.rivals.pulse = &pulse;
   for (size_t t = 0; done && t < n; t++) {
     if (work->face_state[t] == MAP_VISIBLE)
@@ -482,7 +500,8 @@ static void end_phase(struct tiles_work *work, const char *name) {
 static bool classify(struct tiles_work *work, struct map *map) {
   const struct solver_request *request = work->request;
   work->phase_start = clock_cpu();
-  if (!tilemap_init(&work->tiles, work->sheet, request->fragments))
+  if (!tilemap_init(&work->tiles, work->sheet, request->strokes,
+                    request->fragments))
     return false;
   end_phase(work, "tiles_cpu_s");
   work->wanted = mem_calloc(pagegrid_cell_count(&work->tiles.grid), 1);
@@ -493,13 +512,31 @@ static bool classify(struct tiles_work *work, struct map *map) {
   return true;
 }
 
+static bool pierce_anywhere(struct tiles_work *work, recto_status *status,
+                            recto_error *error) {
+  struct pagegrid grid;
+  if (!pagegrid_init(&grid, work->sheet)) return false;
+  *status = pierce_all(work->sheet, &grid, NULL, work->request, work->report,
+                       error);
+  pagegrid_fini(&grid);
+  return *status == RECTO_OK;
+}
+
+static bool pierce_in_lists(struct tiles_work *work, recto_status *status,
+                            recto_error *error) {
+  *status = pierce_all(work->sheet, &work->lists.grid,
+                       work->lists.of_tiles ? work->pierced : NULL,
+                       work->request, work->report, error);
+  return *status == RECTO_OK;
+}
+
 /* Finds the piercing pairs, and what they add to the edges. */
 static bool find_piercing(struct tiles_work *work, struct map *map,
                           recto_status *status, recto_error *error) {
   size_t mesh_edges = work->sheet->edge.count;
-  *status = pierce_all(work->sheet, &work->tiles.grid, work->pierced,
-                       work->request, work->report, error);
-  if (*status != RECTO_OK) return false;
+  if (!(work->request->hidden ? pierce_anywhere(work, status, error)
+                              : pierce_in_lists(work, status, error)))
+    return false;
   if (work->request->strokes && !classify_edges(work, mesh_edges, map))
     return false;
   end_phase(work, "piercing_cpu_s");
@@ -537,6 +574,7 @@ static recto_status solve(struct sheet *sheet,
                                    "cancelled")
                        : error_memory(error);
   report_tiles(&work, report);
+  tilelist_fini(&work.lists);
   tilemap_fini(&work.tiles);
   mem_free(work.wanted);
   mem_free(work.pierced);
