@@ -151,7 +151,8 @@ typedef enum recto_divide {
 #define RECTO_FINEST_MM 0.01
 
 /* Called now and then with the share of the work done, 0 to 1, and the name
- * of the stage.  Returns false to cancel: the call then ends with
+ * of the stage; by recto_scene_render and, while it writes, by
+ * recto_drawing_write.  Returns false to cancel: the call then ends with
  * RECTO_ERROR_CANCELLED and no output. */
 typedef bool (*recto_progress_fn)(void *user, double share, const char *stage);
 
@@ -276,7 +277,9 @@ void recto_options_init(recto_options *options);
  * from    format name such as "obj"; NULL: by extension
  * output  path, or "-" for standard output
  * to      format name such as "svg"; NULL: by extension
- * options NULL: the defaults */
+ * options NULL: the defaults
+ * Errors  as the calls below; RECTO_ERROR_ARGUMENT where the output would
+ *         replace the model */
 RECTO_USE_RESULT recto_status recto_draw_file(
     const char *model, const char *from, const char *output, const char *to,
     const recto_options *options, recto_error *error);

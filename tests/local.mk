@@ -130,7 +130,8 @@ unit_tests += %D%/test_sheet
 %C%_test_sheet_SOURCES = %D%/test_sheet.c %D%/laid.c %D%/laid.h
 %C%_test_sheet_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_cancelling
-%C%_test_cancelling_SOURCES = %D%/test_cancelling.c %D%/laid.c %D%/laid.h
+%C%_test_cancelling_SOURCES = %D%/test_cancelling.c %D%/laid.c %D%/laid.h \
+  %D%/temporary.c %D%/temporary.h
 %C%_test_cancelling_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_silhouette
 %C%_test_silhouette_SOURCES = %D%/test_silhouette.c %D%/laid.c %D%/laid.h

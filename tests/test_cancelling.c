@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "tests/laid.h"
+#include "tests/temporary.h"
 #include "visibility/solver.h"
 
 struct listener {
@@ -109,8 +110,7 @@ static bool is_heard(const struct solver *solver, struct laid *laid,
   map_fini(&map);
   report_destroy(report);
   laid->sheet.edge.count = edges;
-  assert_int_equal(status,
-                   patience.stopped ? RECTO_ERROR_CANCELLED : RECTO_OK);
+  assert_int_equal(status, patience.stopped ? RECTO_ERROR_CANCELLED : RECTO_OK);
   if (patience.longest >= 1)
     print_message("%s: %.2f s\n", solver->name, patience.longest);
   return patience.longest < (getenv("RECTO_VALGRIND") != NULL ? 60 : 1);
@@ -154,6 +154,60 @@ static void row_16_every_method_is_ended_in_a_soup(void **state) {
   hear_all(&laid);
 }
 
+/* ---- Writing ------------------------------------------------------------- */
+
+static recto_scene *make_square(void) {
+  static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  uint32_t corner[4];
+  recto_scene *scene;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  for (int i = 0; i < 4; i++)
+    assert_int_equal(recto_scene_add_point(scene, xyz[i], &corner[i], NULL),
+                     RECTO_OK);
+  assert_int_equal(recto_scene_add_face(scene, corner, 4, NULL), RECTO_OK);
+  return scene;
+}
+
+/* Stops after so many calls of the stage "write". */
+static bool stop_writing(void *user, double share, const char *stage) {
+  int *calls = user;
+  assert_true(share >= 0 && share <= 1);
+  return strcmp(stage, "write") != 0 || --*calls > 0;
+}
+
+static void writing_may_be_cancelled_and_leaves_what_was(void **state) {
+  (void)state;
+  static const char before[] = "as it was";
+  recto_scene *scene = make_square();
+  recto_options options;
+  recto_options_init(&options);
+  int calls = 1000;
+  options.progress = stop_writing;
+  options.user = &calls;
+  options.fill = RECTO_FILL_HATCH; /* more than one buffer of it */
+  options.hatch_pitch_mm = 0.02;
+  recto_drawing *drawing;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_OK);
+  const char *path = temporary_file(state, "kept.svg", before, strlen(before));
+  size_t files = temporary_count(state);
+  for (int i = 1; i <= 2; i++) {
+    recto_error error = {0};
+    size_t count;
+    calls = i;
+    assert_int_equal(recto_drawing_write(drawing, path, NULL, &options, &error),
+                     RECTO_ERROR_CANCELLED);
+    assert_int_equal(calls, 0);
+    assert_string_equal(error.text, "cancelled");
+    char *kept = temporary_read(path, &count);
+    assert_string_equal(kept, before);
+    free(kept);
+    assert_int_equal(temporary_count(state), files);
+  }
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(row_16_tiles_end_while_they_look_for_piercings),
@@ -161,6 +215,9 @@ int main(void) {
       cmocka_unit_test(row_16_tiles_end_among_faces),
       cmocka_unit_test(row_16_every_method_is_ended_in_a_pile_of_faces),
       cmocka_unit_test(row_16_every_method_is_ended_in_a_soup),
+      cmocka_unit_test_setup_teardown(
+          writing_may_be_cancelled_and_leaves_what_was, temporary_set_up,
+          temporary_tear_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

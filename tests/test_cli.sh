@@ -480,13 +480,62 @@ awk 'BEGIN {
     printf "f %d %d %d %d\n", a, a + 1, a + n + 1, a + n
   }
 }' >sheet.obj
-interrupt_cleans_up() {
+interrupt_cleans_up() { # SIGNAL
   echo "as it was" >kept.svg
-  timeout --preserve-status -s INT 0.5 \
+  timeout --preserve-status -s "$1" 0.5 \
+    env --default-signal="$1" \
     "$recto" sheet.obj -m brute -e all -o kept.svg 2>err
-  test $? -ne 0 && test "$(cat kept.svg)" = "as it was" && none_left
+  test $? -eq 1 && says 'cancelled' && test "$(cat kept.svg)" = "as it was" &&
+    none_left
 }
-claim "an interrupt leaves nothing behind" interrupt_cleans_up
+for signal in INT TERM HUP; do
+  claim "an interrupt leaves nothing behind: $signal" \
+    interrupt_cleans_up "$signal"
+done
+nohup_is_heeded() {
+  (
+    trap '' HUP
+    exec timeout --preserve-status -k 60 -s HUP 0.1 "$recto" cube.obj \
+      -o hatched.svg --fill hatch --hatch-pitch 0.01 -m brute 2>err
+  ) && test -s hatched.svg
+}
+claim "a hang-up that is ignored stays so" nohup_is_heeded
+
+# ---- What is too large, and what is read ------------------------------------
+
+too_large() {
+  echo "as it was" >kept.svg
+  (
+    ulimit -f 16
+    exec "$recto" sheet.obj -e all -o kept.svg --ids 2>err
+  )
+  test $? -eq 1 && says '^recto: kept.svg: cannot write: ' &&
+    test "$(cat kept.svg)" = "as it was" && none_left
+}
+claim "a file larger than is allowed fails and leaves nothing" too_large
+
+# replaces_nothing WHAT FILE ARGUMENT... - refused, the file kept.
+replaces_nothing() {
+  local what=$1 file=$2
+  cp "$file" before
+  run 2 "${@:3}" && says "^recto: .*: $what would replace the" &&
+    cmp -s before "$file" && none_left
+}
+cp cube.obj model.obj
+ln -s model.obj link.svg
+ln model.obj hard.svg
+for output in ./model.obj link.svg hard.svg; do
+  claim "the drawing does not replace the model: $output" \
+    replaces_nothing "the drawing" model.obj cube.obj model.obj \
+    -o "$output" --format svg
+done
+claim "nor does what --stats tells" \
+  replaces_nothing "what --stats tells" model.obj model.obj -o some.svg \
+  --stats=link.svg
+claim "which does not replace the drawing either" \
+  replaces_nothing "what --stats tells" cube.svg cube.obj -o new.svg \
+  --stats=new.svg
+claim "one model may be named twice" run 0 cube.obj cube.obj -o twice.svg
 
 # ---- Locale ---------------------------------------------------------------
 

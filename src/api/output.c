@@ -6,6 +6,7 @@
 
 #include "api/handle.h"
 #include "backends/writer.h"
+#include "base/path.h"
 
 void recto_drawing_destroy(recto_drawing *drawing) {
   if (drawing == NULL)
@@ -110,6 +111,13 @@ static recto_status refuse(const char *path, const char *format,
                    "there is no output format of that extension");
 }
 
+/* The progress function hears of writing too, and may end it. */
+static bool ask_progress(void *user) {
+  const recto_options *options = user;
+  const double share = 0.98;
+  return options->progress(options->user, share, "write");
+}
+
 recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
                                  const char *format,
                                  const recto_options *options,
@@ -130,6 +138,9 @@ recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
   status = stream_open(&stream, path, error);
   if (status != RECTO_OK)
     return status;
+  recto_options asked = *options;
+  if (options->progress != NULL)
+    stream_ask(stream, ask_progress, &asked);
   struct writer_options how = writer_options_of(options);
   status = writer->write(&drawing->drawing, &how, stream, error);
   if (status != RECTO_OK) {
@@ -151,6 +162,9 @@ recto_status recto_draw_file(const char *model, const char *from,
   /* Known before the work: a format that is not there. */
   if (find_writer(output, to) == NULL)
     return refuse(output, to, error);
+  if (path_is_same(model, output))
+    return error_set(error, RECTO_ERROR_ARGUMENT, output, 0,
+                     "the drawing would replace the model");
   if (options != NULL)
     fitting = *options;
   else

@@ -31,6 +31,8 @@ struct stream {
   char *path;      /* KIND_FILE: where the file is to appear */
   char *temporary; /* KIND_FILE: where it is being written */
   ARRAY(char) buffer;
+  bool (*go_on)(void *user); /* NULL: nobody is asked */
+  void *user;
 };
 
 /* For tests alone: see stream_fail_after. */
@@ -49,6 +51,10 @@ static void fail(struct stream *stream, recto_status status, int fault) {
 static void write_physically(struct stream *stream, const char *bytes,
                              size_t count) {
   while (count > 0 && stream->status == RECTO_OK) {
+    if (stream->go_on != NULL && !stream->go_on(stream->user)) {
+      fail(stream, RECTO_ERROR_CANCELLED, 0);
+      return;
+    }
     if (writes_to_failure && --writes_to_failure == 0) {
       fail(stream, RECTO_ERROR_IO, ENOSPC);
       return;
@@ -238,6 +244,11 @@ recto_status stream_open_memory(struct stream **stream, recto_error *error) {
 
 /* ---- Writing ------------------------------------------------------------- */
 
+void stream_ask(struct stream *stream, bool (*go_on)(void *user), void *user) {
+  stream->go_on = go_on;
+  stream->user = user;
+}
+
 void stream_write(struct stream *stream, const void *bytes, size_t count) {
   if (stream->status != RECTO_OK || count == 0)
     return;
@@ -319,6 +330,8 @@ recto_status stream_finish(struct stream *stream, recto_error *error) {
   recto_status status = stream->status;
   if (status == RECTO_ERROR_MEMORY)
     error_memory(error);
+  else if (status == RECTO_ERROR_CANCELLED)
+    error_set(error, status, NULL, 0, "cancelled");
   else if (status != RECTO_OK)
     error_set(error, status, stream->name, 0, "cannot write: %s",
               strerror(stream->fault));

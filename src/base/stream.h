@@ -7,6 +7,7 @@
 #ifndef BASE_STREAM_H
 #define BASE_STREAM_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -20,6 +21,10 @@ USE_RESULT recto_status stream_open(struct stream **stream, const char *path,
 /* Opens a stream to memory: see stream_memory. */
 USE_RESULT recto_status stream_open_memory(struct stream **stream,
                                            recto_error *error);
+
+/* Asks before every write to the system whether to go on; where not, the
+ * status is RECTO_ERROR_CANCELLED. */
+void stream_ask(struct stream *stream, bool (*go_on)(void *user), void *user);
 
 void stream_write(struct stream *stream, const void *bytes, size_t count);
 void stream_text(struct stream *stream, const char *text);

@@ -1,13 +1,14 @@
 /* job.c - the work of one run: read, draw, write, report.
  *
- * An interrupt (^C, SIGTERM) cancels through the progress function, so that
- * nothing half-written is left; a second one ends the process at once. */
+ * An interrupt (^C, SIGTERM, SIGHUP) cancels through the progress function, so
+ * that nothing half-written is left; a second one ends the process at once. */
 #include "cli/job.h"
 
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "base/stream.h"
 #include "cli/uses.h"
 
@@ -15,12 +16,19 @@ static volatile sig_atomic_t interrupted;
 
 static void note_interrupt(int signal_number) { interrupted = signal_number; }
 
+/* What is ignored already stays so: nohup means it. */
 static void catch_interrupts(void) {
+  static const int number[] = {SIGINT, SIGTERM, SIGHUP};
   struct sigaction action = {.sa_handler = note_interrupt,
-                             .sa_flags = (int)SA_RESETHAND};
+                             .sa_flags = (int)SA_RESETHAND},
+                   before;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, NULL);
-  sigaction(SIGTERM, &action, NULL);
+  for (size_t i = 0; i < sizeof number / sizeof number[0]; i++)
+    if (sigaction(number[i], NULL, &before) == 0 &&
+        before.sa_handler != SIG_IGN)
+      sigaction(number[i], &action, NULL);
+  /* A file larger than is allowed is a write that fails. */
+  (void)signal(SIGXFSZ, SIG_IGN);
 }
 
 /* ---- Conversation -------------------------------------------------------- */
@@ -88,6 +96,24 @@ static recto_status write_stats(const struct arguments *arguments,
   return stream_finish(stream, error);
 }
 
+/* Nothing that is written may replace what is read, or each other. */
+static recto_status check_outputs(const struct arguments *arguments,
+                                  recto_error *error) {
+  const char *output[] = {arguments->output, arguments->stats_file};
+  static const char *const what[] = {"the drawing", "what --stats tells"};
+  for (int k = 0; k < 2; k++)
+    for (int i = 0; output[k] != NULL && i < arguments->model_count; i++)
+      if (path_is_same(output[k], arguments->model[i]))
+        return error_set(error, RECTO_ERROR_ARGUMENT, output[k], 0,
+                         "%s would replace the model", what[k]);
+  bool both = output[1] != NULL && strcmp(output[1], "-") != 0;
+  if (both &&
+      (strcmp(output[0], output[1]) == 0 || path_is_same(output[0], output[1])))
+    return error_set(error, RECTO_ERROR_ARGUMENT, output[1], 0,
+                     "%s would replace the drawing", what[1]);
+  return RECTO_OK;
+}
+
 static recto_status read_models(const struct arguments *arguments,
                                 recto_scene *scene, recto_error *error) {
   recto_status status = RECTO_OK;
@@ -150,10 +176,12 @@ static recto_status draw(const struct arguments *arguments,
                          recto_error *error) {
   recto_scene *scene = NULL;
   recto_drawing *drawing = NULL;
-  struct stream *stats;
+  struct stream *stats = NULL;
   recto_options options = arguments->options;
   recto_options_suit(&options, arguments->output, arguments->format);
-  recto_status status = open_stats(arguments, &stats, error);
+  recto_status status = check_outputs(arguments, error);
+  if (status == RECTO_OK)
+    status = open_stats(arguments, &stats, error);
   if (status == RECTO_OK)
     status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)
