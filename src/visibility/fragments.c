@@ -183,7 +183,10 @@ struct face_work {
   struct map *map;
   bool areas;
   uint32_t face;
-  ARRAY(uint32_t) own; /* the face's triangles that have area */
+  ARRAY(uint32_t) own;  /* the face's triangles that have area */
+  ARRAY(uint32_t) seen; /* those with pieces, ascending */
+  struct side_labels labels;
+  struct sidegrid sides;
   geom_pieces piece;
   struct geom_region region;
 };
@@ -225,7 +228,6 @@ static bool file_area(struct map *map, const struct geom_region *region,
 
 static bool file_loop(struct face_work *work,
                       const struct geom_region_loop *loop) {
-  struct fragments *f = work->fragments;
   const struct geom_region_side *side = work->region.side.item + loop->side;
   struct map_loop filed = {(uint32_t)work->map->corner.count, loop->count};
   for (uint32_t k = 0; k < loop->count; k++) {
@@ -234,8 +236,7 @@ static bool file_loop(struct face_work *work,
     geom_corner_round(&side[k].corner, CORNER_BITS, &x, &y);
     corner.x = (double)x / (1 << CORNER_BITS);
     corner.y = (double)y / (1 << CORNER_BITS);
-    if (!side_label(f->sheet, f->grid, &f->query, work->own.item,
-                    work->own.count, side[k].line, &side[k].corner,
+    if (!side_label(&work->labels, side[k].line, &side[k].corner,
                     &side[(k + 1) % loop->count].corner, &corner.side,
                     &corner.id) ||
         !ARRAY_PUSH(&work->map->corner, corner))
@@ -335,6 +336,27 @@ static bool is_whole(const struct face_work *work,
   return count == work->own.count;
 }
 
+/* Finds which of the face's triangles are seen, for its labels. */
+static bool find_seen(struct face_work *work,
+                      const struct fragment_piece *piece, size_t count) {
+  size_t kept = 0;
+  work->seen.count = 0;
+  for (size_t i = 0; i < count; i++)
+    if ((i == 0 || piece[i].triangle != piece[i - 1].triangle) &&
+        !ARRAY_PUSH(&work->seen, piece[i].triangle))
+      return false;
+  if (!sort_stable(work->seen.item, work->seen.count, sizeof *work->seen.item,
+                   compare_ids, NULL))
+    return false;
+  for (size_t i = 0; i < work->seen.count; i++)
+    if (i == 0 || work->seen.item[i] != work->seen.item[i - 1])
+      work->seen.item[kept++] = work->seen.item[i];
+  work->seen.count = kept;
+  work->labels.own = work->seen.item;
+  work->labels.own_count = kept;
+  return true;
+}
+
 static bool file_face(struct face_work *work, const struct fragment_piece *piece,
                       size_t count) {
   struct fragments *f = work->fragments;
@@ -355,7 +377,8 @@ static bool file_face(struct face_work *work, const struct fragment_piece *piece
                     piece[i].piece != NULL ? *piece[i].piece : whole))
       return false;
   }
-  if (!geom_region_unite(&work->region, work->piece.item, count) ||
+  if (!find_seen(work, piece, count) ||
+      !geom_region_unite(&work->region, work->piece.item, count) ||
       !file_region(work))
     return false;
   arena_reset(&f->scratch);
@@ -368,20 +391,107 @@ static int compare_faces(const void *a, const void *b, void *user) {
   return (p->face > q->face) - (p->face < q->face);
 }
 
+/* ---- Sides that labels ask about -------------------------------------------- */
+
+/* Lists this long are longer than the sides of a sidegrid's cell. */
+enum { LONG_LIST = 48 };
+
+/* How many of the pieces, from the first, are of the same face. */
+static size_t count_pieces(const struct fragment_piece *piece, size_t count) {
+  size_t n = 1;
+  while (n < count && piece[n].face == piece->face) n++;
+  return n;
+}
+
+/* Will the face's sides be asked about?  A no may be wrong. */
+static bool is_cut(const struct fragment_piece *piece, size_t count) {
+  return piece->piece != NULL || count > 2 ||
+         (count == 2 && piece[1].piece != NULL);
+}
+
+/* Is an index better than to ask the grid? */
+static bool wants_index(const struct fragments *f) {
+  const struct fragment_piece *piece = f->piece.item;
+  uint64_t listed = 0, asked = 0;
+  for (size_t i = 0, n; i < f->piece.count; i += n) {
+    struct cell_range r;
+    n = count_pieces(&piece[i], f->piece.count - i);
+    if (!is_cut(&piece[i], n)) continue;
+    if (n > SIDE_LABELS_FEW) return true;
+    r = pagegrid_cells(f->grid,
+                       page_box_of_triangle(f->sheet, piece[i].triangle));
+    asked++;
+    listed += f->grid->start[(size_t)r.y0 * (size_t)f->grid->columns +
+                             (size_t)r.x0 + 1] -
+              f->grid->start[(size_t)r.y0 * (size_t)f->grid->columns +
+                             (size_t)r.x0];
+  }
+  return listed > LONG_LIST * asked;
+}
+
+/* Adds the triangles of the cells that a triangle is in, and the triangle. */
+static bool add_about(struct fragments *f, uint32_t triangle, uint8_t *done) {
+  const struct pagegrid *grid = f->grid;
+  struct cell_range r =
+      pagegrid_cells(grid, page_box_of_triangle(f->sheet, triangle));
+  if (pagegrid_query_first(&f->query, triangle) &&
+      !ARRAY_PUSH(&f->query.found, triangle))
+    return false;
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++) {
+      size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+      if (done[cell]) continue;
+      done[cell] = 1;
+      for (uint32_t i = grid->start[cell]; i < grid->start[cell + 1]; i++)
+        if (pagegrid_query_first(&f->query, grid->item[i]) &&
+            !ARRAY_PUSH(&f->query.found, grid->item[i]))
+          return false;
+    }
+  return true;
+}
+
+/* Indexes the sides of all that is about faces whose sides will be asked
+ * about, and of these faces. */
+static bool index_sides(struct face_work *work) {
+  struct fragments *f = work->fragments;
+  const struct fragment_piece *piece = f->piece.item;
+  uint8_t *cell_done;
+  bool done = true;
+  if (!wants_index(f)) return true;
+  cell_done = mem_calloc(pagegrid_cell_count(f->grid), 1);
+  if (cell_done == NULL) return false;
+  pagegrid_query_start(f->grid, &f->query);
+  for (size_t i = 0; done && i < f->piece.count; i++)
+    done = add_about(f, piece[i].triangle, cell_done);
+  mem_free(cell_done);
+  work->labels.sides = &work->sides;
+  return done && sidegrid_init(&work->sides, f->sheet, f->query.found.item,
+                               f->query.found.count);
+}
+
 bool fragments_finish(struct fragments *fragments, bool areas,
                       struct map *map) {
-  struct face_work work = {.fragments = fragments, .map = map, .areas = areas};
+  struct face_work work = {.fragments = fragments,
+                           .map = map,
+                           .areas = areas,
+                           .labels = {.sheet = fragments->sheet,
+                                      .grid = fragments->grid,
+                                      .query = &fragments->query}};
   const struct fragment_piece *piece = fragments->piece.item;
   size_t n = fragments->piece.count;
   bool done = sort_stable(fragments->piece.item, n, sizeof *piece,
-                          compare_faces, NULL);
-  for (size_t i = 0, j; done && i < n; i = j) {
-    for (j = i + 1; j < n && piece[j].face == piece[i].face;) j++;
-    done = pulse_beat(fragments->pulse, FACE_WORK * (j - i)) &&
-           file_face(&work, &piece[i], j - i);
+                          compare_faces, NULL) &&
+              index_sides(&work);
+  for (size_t i = 0, count; done && i < n; i += count) {
+    count = count_pieces(&piece[i], n - i);
+    done = pulse_beat(fragments->pulse, FACE_WORK * count) &&
+           file_face(&work, &piece[i], count);
   }
   ARRAY_FREE(&work.own);
+  ARRAY_FREE(&work.seen);
   ARRAY_FREE(&work.piece);
+  side_labels_fini(&work.labels);
+  sidegrid_fini(&work.sides);
   geom_region_fini(&work.region);
   return done;
 }

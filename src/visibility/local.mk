@@ -27,6 +27,7 @@ librecto_core_la_SOURCES += \
   %D%/rivals.c %D%/rivals.h \
   %D%/scanline_zbuffer.c %D%/scanline_zbuffer.h \
   %D%/seams.c %D%/seams.h \
+  %D%/sidegrid.c %D%/sidegrid.h \
   %D%/sidelabel.c %D%/sidelabel.h \
   %D%/solver.c %D%/solver.h \
   %D%/spans.c %D%/spans.h \

@@ -35,17 +35,23 @@ static bool runs_along(struct geom_point a, struct geom_point b,
   return geom_corner_compare(from, to) < 0;
 }
 
+/* Does side k of a triangle run along the stretch?  See runs_along. */
+static bool side_runs_along(const struct sheet *sheet, uint32_t triangle,
+                            uint32_t k, const struct stretch *s,
+                            struct geom_corner *from, struct geom_corner *to) {
+  const uint32_t *point = sheet->triangle.item[triangle].point;
+  return runs_along(sheet->point.item[point[k]],
+                    sheet->point.item[point[k == 2 ? 0 : k + 1]], s, from, to);
+}
+
 /* The lowest edge of a triangle along the stretch, if below `best`. */
 static uint32_t edge_along(const struct sheet *sheet, uint32_t triangle,
-                           const struct stretch *s, uint32_t best,
-                           struct geom_corner *from, struct geom_corner *to) {
-  const struct sheet_triangle *t = &sheet->triangle.item[triangle];
-  for (int k = 0; k < 3; k++)
-    if (t->side[k] < best &&
-        runs_along(sheet->point.item[t->point[k]],
-                   sheet->point.item[t->point[k == 2 ? 0 : k + 1]], s, from,
-                   to))
-      best = t->side[k];
+                           const struct stretch *s, uint32_t best) {
+  const uint32_t *side = sheet->triangle.item[triangle].side;
+  struct geom_corner from, to;
+  for (uint32_t k = 0; k < 3; k++)
+    if (side[k] < best && side_runs_along(sheet, triangle, k, s, &from, &to))
+      best = side[k];
   return best;
 }
 
@@ -113,68 +119,66 @@ static bool crosses_along(const struct sheet *sheet, uint32_t f, uint32_t g,
          geom_line_side(&line, s->high) == 0;
 }
 
-/* The same of g and those of `own` that are beside the stretch. */
-static bool is_nearer_than_own(const struct sheet *sheet, const uint32_t *own,
-                               size_t count, uint32_t g,
-                               const struct stretch *s,
-                               const struct geom_corner *from,
-                               const struct geom_corner *to) {
-  for (size_t i = 0; i < count; i++)
-    if (is_beside(sheet, own[i], s, from, to) &&
-        is_nearer(sheet, own[i], g, s, from, to))
-      return true;
-  return false;
-}
-
-/* Does the plane of one of `own` cross g's along the stretch? */
-static bool own_crosses_along(const struct sheet *sheet, const uint32_t *own,
-                              size_t count, uint32_t g,
-                              const struct stretch *s) {
-  for (size_t i = 0; i < count; i++)
-    if (crosses_along(sheet, own[i], g, s)) return true;
-  return false;
-}
-
-static bool is_candidate(const struct sheet *sheet, uint32_t g, uint32_t face,
-                         struct page_box box) {
-  return sheet->triangle.item[g].face != face &&
-         !(sheet->triangle_flags[g] & SHEET_FLAT) &&
-         !page_boxes_apart(box, page_box_of_triangle(sheet, g));
-}
-
-/* What is asked about: a stretch of a face's boundary, the face's triangles,
- * and the triangles that may lie along it. */
+/* What is asked about: a stretch of a face's boundary, the face's triangles
+ * that may be beside it, and the triangles and sides that may lie along it. */
 struct question {
   const struct sheet *sheet;
   struct stretch stretch;
   struct page_box box;
-  const uint32_t *own, *found;
-  size_t own_count, found_count;
+  uint32_t face;
+  const uint32_t *own, *found, *side;
+  size_t own_count, found_count, side_count;
 };
 
+/* The same of g and those of its own that are beside the stretch. */
+static bool is_nearer_than_own(const struct question *q, uint32_t g,
+                               const struct geom_corner *from,
+                               const struct geom_corner *to) {
+  for (size_t i = 0; i < q->own_count; i++)
+    if (is_beside(q->sheet, q->own[i], &q->stretch, from, to) &&
+        is_nearer(q->sheet, q->own[i], g, &q->stretch, from, to))
+      return true;
+  return false;
+}
+
+/* Has this one of its own area beside the stretch, all along? */
+static bool is_own_beside(const struct question *q, size_t i) {
+  return is_beside(q->sheet, q->own[i], &q->stretch, q->stretch.low,
+                   q->stretch.high);
+}
+
+/* Does the plane of one of its own cross g's along the stretch? */
+static bool own_crosses_along(const struct question *q, uint32_t g) {
+  for (size_t i = 0; i < q->own_count; i++)
+    if (is_own_beside(q, i) &&
+        crosses_along(q->sheet, q->own[i], g, &q->stretch))
+      return true;
+  return false;
+}
+
 static bool may_answer(const struct question *q, uint32_t g) {
-  return is_candidate(q->sheet, g, q->sheet->triangle.item[q->own[0]].face,
-                      q->box);
+  return q->sheet->triangle.item[g].face != q->face &&
+         !(q->sheet->triangle_flags[g] & SHEET_FLAT) &&
+         !page_boxes_apart(q->box, page_box_of_triangle(q->sheet, g));
 }
 
 static uint32_t own_edge(const struct question *q) {
   uint32_t id = SHEET_NONE;
-  struct geom_corner from, to;
   for (size_t i = 0; i < q->own_count; i++)
-    id = edge_along(q->sheet, q->own[i], &q->stretch, id, &from, &to);
+    id = edge_along(q->sheet, q->own[i], &q->stretch, id);
   return id;
 }
 
 static uint32_t nearer_edge(const struct question *q) {
   uint32_t id = SHEET_NONE;
   struct geom_corner from, to;
-  for (size_t i = 0; i < q->found_count; i++) {
-    uint32_t g = q->found[i], edge;
-    if (!may_answer(q, g)) continue;
-    edge = edge_along(q->sheet, g, &q->stretch, id, &from, &to);
-    if (edge < id && is_nearer_than_own(q->sheet, q->own, q->own_count, g,
-                                        &q->stretch, &from, &to))
-      id = edge;
+  for (size_t i = 0; i < q->side_count; i++) {
+    uint32_t g = q->side[i] / 3, k = q->side[i] % 3;
+    const struct sheet_triangle *triangle = &q->sheet->triangle.item[g];
+    if (triangle->side[k] < id && triangle->face != q->face &&
+        side_runs_along(q->sheet, g, k, &q->stretch, &from, &to) &&
+        is_nearer_than_own(q, g, &from, &to))
+      id = triangle->side[k];
   }
   return id;
 }
@@ -183,8 +187,7 @@ static uint32_t crossing_face(const struct question *q) {
   uint32_t face = SHEET_NONE;
   for (size_t i = 0; i < q->found_count; i++) {
     uint32_t g = q->found[i], other = q->sheet->triangle.item[g].face;
-    if (other < face && may_answer(q, g) &&
-        own_crosses_along(q->sheet, q->own, q->own_count, g, &q->stretch))
+    if (other < face && may_answer(q, g) && own_crosses_along(q, g))
       face = other;
   }
   return face;
@@ -198,6 +201,15 @@ static uint8_t ask_others(const struct question *q, uint32_t *id) {
   return *id != SHEET_NONE ? MAP_SIDE_INTERSECTION : MAP_SIDE_CUT;
 }
 
+/* Is f a later triangle in contact with one of its own beside the stretch? */
+static bool touches_own(const struct question *q, uint32_t f) {
+  for (size_t i = 0; i < q->own_count; i++)
+    if (q->own[i] < f && is_own_beside(q, i) && may_answer(q, f) &&
+        triangles_touch(q->sheet, q->own[i], f))
+      return true;
+  return false;
+}
+
 /* What is seen of later triangles in contact with the face was given to it
  * (fragments.h), with the boundary it had. */
 static uint8_t ask_contacts(const struct question *q, uint32_t *id) {
@@ -207,13 +219,10 @@ static uint8_t ask_contacts(const struct question *q, uint32_t *id) {
     struct question other = *q;
     uint32_t f = q->found[i], other_id;
     uint8_t side = MAP_SIDE_OUTLINE;
-    bool touches = false;
-    for (size_t k = 0; k < q->own_count && !touches; k++)
-      touches = q->own[k] < f && may_answer(q, f) &&
-                triangles_touch(q->sheet, q->own[k], f);
-    if (!touches) continue;
+    if (!touches_own(q, f)) continue;
     other.own = &f;
     other.own_count = 1;
+    other.face = q->sheet->triangle.item[f].face;
     other_id = own_edge(&other);
     if (other_id == SHEET_NONE) side = ask_others(&other, &other_id);
     if (side < best || (side == best && other_id < *id)) {
@@ -224,24 +233,109 @@ static uint8_t ask_contacts(const struct question *q, uint32_t *id) {
   return best;
 }
 
-bool side_label(const struct sheet *sheet, const struct pagegrid *grid,
-                struct pagegrid_query *query, const uint32_t *own,
-                size_t count, const struct geom_line *line,
+/* ---- What may lie along a stretch ------------------------------------------- */
+
+void side_labels_fini(struct side_labels *labels) {
+  ARRAY_FREE(&labels->found);
+  ARRAY_FREE(&labels->about);
+}
+
+/* Finds the triangles about the stretch, where that was not done yet. */
+static bool find_triangles(struct side_labels *labels, struct question *q) {
+  if (q->found != NULL) return true;
+  if (!pagegrid_find(labels->grid, q->box, labels->query)) return false;
+  if (labels->query->found.count == 0) return true;
+  q->found = labels->query->found.item;
+  q->found_count = labels->query->found.count;
+  return true;
+}
+
+static bool find_sides(struct side_labels *labels, struct question *q) {
+  labels->found.count = 0;
+  if (labels->sides != NULL) {
+    if (!sidegrid_find(labels->sides, q->stretch.low, q->stretch.high,
+                       &labels->found))
+      return false;
+  } else {
+    if (!find_triangles(labels, q)) return false;
+    for (size_t i = 0; i < q->found_count; i++)
+      for (uint32_t k = 0; k < 3 && may_answer(q, q->found[i]); k++)
+        if (!ARRAY_PUSH(&labels->found, 3 * q->found[i] + k)) return false;
+  }
+  q->side = labels->found.item;
+  q->side_count = labels->found.count;
+  return true;
+}
+
+/* The lowest edge among the sides found that is the face's own. */
+static uint32_t own_edge_found(const struct question *q) {
+  uint32_t id = SHEET_NONE;
+  struct geom_corner from, to;
+  for (size_t i = 0; i < q->side_count; i++) {
+    uint32_t t = q->side[i] / 3, k = q->side[i] % 3;
+    const struct sheet_triangle *triangle = &q->sheet->triangle.item[t];
+    if (triangle->face == q->face && triangle->side[k] < id &&
+        side_runs_along(q->sheet, t, k, &q->stretch, &from, &to))
+      id = triangle->side[k];
+  }
+  return id;
+}
+
+static bool is_among(const uint32_t *item, size_t count, uint32_t wanted) {
+  while (count > 0) {
+    size_t half = count / 2;
+    if (item[half] == wanted) return true;
+    if (item[half] < wanted) {
+      item += half + 1;
+      count -= half + 1;
+    } else {
+      count = half;
+    }
+  }
+  return false;
+}
+
+/* Of many own triangles leaves those about the stretch. */
+static bool find_own_about(struct side_labels *labels, struct question *q) {
+  labels->about.count = 0;
+  for (size_t i = 0; i < q->found_count; i++)
+    if (is_among(labels->own, labels->own_count, q->found[i]) &&
+        !ARRAY_PUSH(&labels->about, q->found[i]))
+      return false;
+  q->own = labels->about.item;
+  q->own_count = labels->about.count;
+  return true;
+}
+
+bool side_label(struct side_labels *labels, const struct geom_line *line,
                 const struct geom_corner *p, const struct geom_corner *q,
                 uint8_t *side, uint32_t *id) {
-  bool forward = geom_corner_compare(p, q) < 0;
-  struct question question = {sheet,
-                              {line, forward ? p : q, forward ? q : p},
-                              .own = own,
-                              .own_count = count};
-  question.box = box_of(&question.stretch);
+  bool forward = geom_corner_compare(p, q) < 0,
+       few = labels->own_count <= SIDE_LABELS_FEW;
+  struct question question = {
+      .sheet = labels->sheet,
+      .stretch = {line, forward ? p : q, forward ? q : p},
+      .face = labels->sheet->triangle.item[labels->own[0]].face,
+      .own = labels->own,
+      .own_count = labels->own_count};
   *side = MAP_SIDE_EDGE;
-  *id = own_edge(&question);
+  *id = few ? own_edge(&question) : SHEET_NONE;
   if (*id != SHEET_NONE) return true;
-  if (!pagegrid_find(grid, question.box, query)) return false;
-  question.found = query->found.item;
-  question.found_count = query->found.count;
-  *side = ask_others(&question, id);
-  if (*side == MAP_SIDE_CUT) *side = ask_contacts(&question, id);
+  question.box = box_of(&question.stretch);
+  if (!find_sides(labels, &question)) return false;
+  if (!few) {
+    *id = own_edge_found(&question);
+    if (*id != SHEET_NONE) return true;
+    if (!find_triangles(labels, &question) ||
+        !find_own_about(labels, &question))
+      return false;
+  }
+  *side = MAP_SIDE_OUTLINE;
+  *id = nearer_edge(&question);
+  if (*id != SHEET_NONE) return true;
+  if (!find_triangles(labels, &question)) return false;
+  *side = MAP_SIDE_INTERSECTION;
+  *id = crossing_face(&question);
+  if (*id == SHEET_NONE) *side = ask_contacts(&question, id);
   return true;
 }

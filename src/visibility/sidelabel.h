@@ -5,20 +5,37 @@
 #include "visibility/contact.h"
 #include "visibility/map.h"
 #include "visibility/pagegrid.h"
+#include "visibility/sidegrid.h"
 
-/* Labels the side of a fragment of `face` that runs on `line` from p to q.
+/* What is at hand while sides are labelled. */
+struct side_labels {
+  const struct sheet *sheet;
+  const struct pagegrid *grid;
+  struct pagegrid_query *query;
+  const struct sidegrid *sides; /* of all triangles that may be asked about;
+                                   NULL: the grid is asked for them */
+  /* The face at hand: its triangles that are seen, ascending. */
+  const uint32_t *own;
+  size_t own_count;
+  side_list found;       /* sides that may run along the stretch at hand */
+  ARRAY(uint32_t) about; /* the face's triangles there */
+};
+
+enum { SIDE_LABELS_FEW = 8 }; /* triangles of a face, that need no index */
+
+void side_labels_fini(struct side_labels *labels);
+
+/* Labels the side of a fragment of the face at hand that runs on `line` from p
+ * to q.
  * The first that holds of: an edge of the face itself lies along it; an edge
  * of a nearer face does; a face crosses this one's plane along it; any of
  * these of a later face in contact, whose pieces this one was given; a cut.
  * Of several the lowest number.  A face's triangles may each have a plane of
  * their own: those beside the stretch are asked.
- * own, count  the face's triangles that have area on the page
  * side, id    as in struct map_corner
  * Returns false when memory ran out. */
-USE_RESULT bool side_label(const struct sheet *sheet,
-                           const struct pagegrid *grid,
-                           struct pagegrid_query *query, const uint32_t *own,
-                           size_t count, const struct geom_line *line,
+USE_RESULT bool side_label(struct side_labels *labels,
+                           const struct geom_line *line,
                            const struct geom_corner *p,
                            const struct geom_corner *q, uint8_t *side,
                            uint32_t *id);

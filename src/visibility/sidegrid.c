@@ -1,0 +1,165 @@
+/* sidegrid.c - which sides of triangles run where on the page. */
+#include "visibility/sidegrid.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+  SPREAD = 4,    /* cells a side is in, on average, at most ... */
+  ROOM = 1 << 20 /* ... but so many places are always there */
+};
+
+/* A corner's doubles are off by less (line.c). */
+#define MARGIN 2.0
+
+/* What is to be indexed. */
+struct sides {
+  const struct sheet *sheet;
+  const uint32_t *triangle;
+  size_t count;
+};
+
+static bool is_edge(const struct sheet *sheet, uint32_t t, int k,
+                    struct geom_point end[2]) {
+  const struct sheet_triangle *triangle = &sheet->triangle.item[t];
+  end[0] = sheet->point.item[triangle->point[k]];
+  end[1] = sheet->point.item[triangle->point[k == 2 ? 0 : k + 1]];
+  return triangle->side[k] != SHEET_NONE &&
+         !(sheet->triangle_flags[t] & SHEET_FLAT);
+}
+
+/* The smallest cells for which there is room. */
+static void choose_shape(struct sidegrid *grid, const struct sides *sides) {
+  struct page_box box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+  double length = 0, count = 3 * (double)sides->count;
+  double most = fmax(SPREAD * count, ROOM), width, height;
+  int shift = 30;
+  for (size_t i = 0; i < sides->count; i++)
+    for (int k = 0; k < 3; k++) {
+      struct geom_point end[2];
+      struct page_box b;
+      if (!is_edge(sides->sheet, sides->triangle[i], k, end))
+        continue;
+      b = page_box_of_segment(end[0], end[1]);
+      length += ((double)b.x1 - b.x0) + ((double)b.y1 - b.y0);
+      box.x0 = page_least(box.x0, b.x0);
+      box.y0 = page_least(box.y0, b.y0);
+      box.x1 = page_most(box.x1, b.x1);
+      box.y1 = page_most(box.y1, b.y1);
+    }
+  if (box.x0 > box.x1)
+    box = (struct page_box){0, 0, 0, 0};
+  width = (double)box.x1 - box.x0;
+  height = (double)box.y1 - box.y0;
+  while (shift > 0) {
+    double side = (double)(INT64_C(1) << (shift - 1));
+    if (count + length / side > most ||
+        (width / side + 1) * (height / side + 1) > most)
+      break;
+    shift--;
+  }
+  grid->shape = (struct pagegrid){
+      .shift = shift,
+      .x0 = box.x0,
+      .y0 = box.y0,
+      .columns = (int)(((int64_t)box.x1 - box.x0) >> shift) + 1,
+      .rows = (int)(((int64_t)box.y1 - box.y0) >> shift) + 1};
+}
+
+/* Counts the cells' sides, or with `filling` lists them. */
+static void visit_sides(struct sidegrid *grid, const struct sides *sides,
+                        bool filling) {
+  const struct pagegrid *shape = &grid->shape;
+  for (size_t i = sides->count; i-- > 0;)
+    for (int k = 0; k < 3; k++) {
+      uint32_t t = sides->triangle[i];
+      struct geom_point end[2];
+      struct cell_range r;
+      if (!is_edge(sides->sheet, t, k, end))
+        continue;
+      r = pagegrid_cells(shape, page_box_of_segment(end[0], end[1]));
+      for (int y = r.y0; y <= r.y1; y++) {
+        int x0, x1;
+        pagegrid_row(shape, end[0], end[1], r, y, &x0, &x1);
+        for (int x = x0; x <= x1; x++) {
+          size_t cell = (size_t)y * (size_t)shape->columns + (size_t)x;
+          if (filling)
+            grid->item[--grid->start[cell]] = 3 * t + (uint32_t)k;
+          else
+            grid->start[cell]++;
+        }
+      }
+    }
+}
+
+bool sidegrid_init(struct sidegrid *grid, const struct sheet *sheet,
+                   const uint32_t *triangle, size_t count) {
+  const struct sides sides = {sheet, triangle, count};
+  size_t cells;
+  memset(grid, 0, sizeof *grid);
+  choose_shape(grid, &sides);
+  cells = pagegrid_cell_count(&grid->shape);
+  grid->start = mem_calloc(cells + 1, sizeof *grid->start);
+  if (grid->start == NULL)
+    return false;
+  visit_sides(grid, &sides, false);
+  for (size_t i = 0; i < cells; i++)
+    grid->start[i + 1] += grid->start[i];
+  grid->item = mem_alloc(grid->start[cells], sizeof *grid->item);
+  if (grid->item == NULL)
+    return false;
+  visit_sides(grid, &sides, true);
+  return true;
+}
+
+void sidegrid_fini(struct sidegrid *grid) {
+  mem_free(grid->start);
+  mem_free(grid->item);
+  grid->start = grid->item = NULL;
+}
+
+static int cell_of(double v, int32_t v0, int shift, int count) {
+  double cell = floor((v - v0) / (double)(INT64_C(1) << shift));
+  return cell < 0 ? 0 : cell >= count ? count - 1 : (int)cell;
+}
+
+/* Of row y the columns where the segment may be. */
+static void find_columns(const struct pagegrid *shape,
+                         const struct geom_corner *p,
+                         const struct geom_corner *q, int y, int *x0, int *x1) {
+  double low = shape->y0 + ldexp(y, shape->shift) - MARGIN;
+  double high = shape->y0 + ldexp(y + 1, shape->shift) + MARGIN;
+  double dy = q->y - p->y, from = 0, to = 1, a, b;
+  if (fabs(dy) > MARGIN) {
+    double s = (low - p->y) / dy, t = (high - p->y) / dy;
+    from = fmax(from, fmin(s, t));
+    to = fmin(to, fmax(s, t));
+  }
+  a = p->x + from * (q->x - p->x);
+  b = p->x + to * (q->x - p->x);
+  *x0 = cell_of(fmin(a, b) - MARGIN, shape->x0, shape->shift, shape->columns);
+  *x1 = cell_of(fmax(a, b) + MARGIN, shape->x0, shape->shift, shape->columns);
+}
+
+bool sidegrid_find(const struct sidegrid *grid, const struct geom_corner *p,
+                   const struct geom_corner *q, side_list *found) {
+  const struct pagegrid *shape = &grid->shape;
+  int y0 = cell_of(fmin(p->y, q->y) - MARGIN, shape->y0, shape->shift,
+                   shape->rows);
+  int y1 = cell_of(fmax(p->y, q->y) + MARGIN, shape->y0, shape->shift,
+                   shape->rows);
+  for (int y = y0; y <= y1; y++) {
+    int x0, x1;
+    find_columns(shape, p, q, y, &x0, &x1);
+    for (int x = x0; x <= x1; x++) {
+      size_t cell = (size_t)y * (size_t)shape->columns + (size_t)x;
+      uint32_t from = grid->start[cell], count = grid->start[cell + 1] - from;
+      if (!ARRAY_RESERVE(found, count))
+        return false;
+      memcpy(found->item + found->count, grid->item + from,
+             count * sizeof *found->item);
+      found->count += count;
+    }
+  }
+  return true;
+}

@@ -1,0 +1,31 @@
+/* sidegrid.h - which sides of triangles run where on the page.
+ *
+ * Triangles long and thin are about everywhere; their sides are not.
+ */
+#ifndef VISIBILITY_SIDEGRID_H
+#define VISIBILITY_SIDEGRID_H
+
+#include "geom/line.h"
+#include "visibility/pagegrid.h"
+
+/* Side k of triangle t is number 3 t + k. */
+typedef ARRAY(uint32_t) side_list;
+
+struct sidegrid {
+  struct pagegrid shape; /* of its cells; it has no lists */
+  uint32_t *start, *item; /* of cell c: item[start[c] .. start[c + 1]) */
+};
+
+/* Indexes the sides that are edges of the sheet.
+ * triangle  `count` of the sheet's, each once; flat ones are left out */
+USE_RESULT bool sidegrid_init(struct sidegrid *grid, const struct sheet *sheet,
+                              const uint32_t *triangle, size_t count);
+void sidegrid_fini(struct sidegrid *grid);
+
+/* Appends every side that shares a stretch with the one from p to q, and more;
+ * some of them several times.  False when memory ran out. */
+USE_RESULT bool sidegrid_find(const struct sidegrid *grid,
+                              const struct geom_corner *p,
+                              const struct geom_corner *q, side_list *found);
+
+#endif
