@@ -12,6 +12,7 @@
 #include "backends/device.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* How much larger than the paper a page may be and still be meant for it, so
@@ -54,6 +55,13 @@ const struct device *device_by_name(const char *name) {
 
 const char *device_name(size_t index) {
   return index < sizeof devices / sizeof *devices ? devices[index].name : NULL;
+}
+
+void device_list(char text[DEVICE_LIST_SIZE]) {
+  size_t length = 0;
+  for (size_t i = 0; device_name(i) && length < DEVICE_LIST_SIZE; i++)
+    length += (size_t)snprintf(text + length, DEVICE_LIST_SIZE - length, "%s%s",
+                               i > 0 ? " " : "", device_name(i));
 }
 
 static double area_of(const struct device_paper *paper) {

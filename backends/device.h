@@ -50,6 +50,10 @@ const struct device *device_by_name(const char *name);
 /* The name at `index`, or NULL past the last. */
 const char *device_name(size_t index);
 
+/* The names of all, for messages. */
+enum { DEVICE_LIST_SIZE = 128 };
+void device_list(char text[DEVICE_LIST_SIZE]);
+
 /* Lays a page on the device: on the smallest paper that holds it, or the
  * largest there is; a page higher than wide is turned by a quarter, left side
  * down, since papers lie with their long side along x.  In x and in y, a page

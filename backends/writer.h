@@ -28,7 +28,8 @@ struct writer {
   /* How far from the edges of a page all of it can be drawn; NULL: 0. */
   double (*margin_mm)(const struct writer_options *options, double width_mm,
                       double height_mm);
-  bool one_width; /* all lines of a pen are as wide: weights are nothing */
+  bool by_pens; /* whose lines are all as wide, and whose way from line to line
+                   takes time */
   recto_status (*write)(const struct drawing *drawing,
                         const struct writer_options *options,
                         struct stream *stream, recto_error *error);

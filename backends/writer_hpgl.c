@@ -297,13 +297,10 @@ static void warn_of_losses(const struct plot *plot,
 }
 
 static recto_status refuse_device(const char *name, recto_error *error) {
-  char known[128] = "";
-  size_t length = 0;
-  for (size_t i = 0; device_name(i) && length < sizeof known; i++)
-    length += (size_t)snprintf(known + length, sizeof known - length, " %s",
-                               device_name(i));
+  char known[DEVICE_LIST_SIZE];
+  device_list(known);
   return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                   "no device is called '%s'; known are:%s", name, known);
+                   "no device is called '%.60s'; known are: %s", name, known);
 }
 
 static recto_status write_hpgl(const struct drawing *drawing,
@@ -357,5 +354,5 @@ const struct writer writer_hpgl = {.name = "hpgl",
                                    .extensions = "hpgl plt",
                                    .unit_mm = find_unit,
                                    .margin_mm = find_margin,
-                                   .one_width = true,
+                                   .by_pens = true,
                                    .write = write_hpgl};

@@ -125,7 +125,8 @@ typedef enum recto_fill {
 
 typedef enum recto_order {
   RECTO_ORDER_NONE = 0, /* by layer, then as the edges come */
-  RECTO_ORDER_NEAR      /* short pen-up travel */
+  RECTO_ORDER_NEAR,     /* short pen-up travel */
+  RECTO_ORDER_AUTO      /* near for plotters, see recto_options_suit; none */
 } recto_order;
 
 typedef enum recto_fit {
@@ -353,7 +354,8 @@ double recto_output_unit_mm(const char *path, const char *format,
 
 /* Sets what the drawing should know of its output: unit_mm; and where the
  * format is for plotters, a margin_mm that is negative, so that all inside is
- * within reach, and weights that are NULL to "none": pens have one width. */
+ * within reach, an order that is RECTO_ORDER_AUTO to near, and weights that are
+ * NULL to "none": pens have one width. */
 void recto_options_suit(recto_options *options, const char *path,
                         const char *format);
 

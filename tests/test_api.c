@@ -180,7 +180,7 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
   REFUSED(pen_mm, 0);
   REFUSED(pen_mm, (double)NAN);
   REFUSED(pens, 0);
-  REFUSED(order, (recto_order)2);
+  REFUSED(order, (recto_order)3);
   REFUSED(simplify_mm, -1);
   REFUSED(min_stroke_mm, (double)NAN);
   REFUSED(seam_mm, -0.1);
@@ -731,6 +731,25 @@ static void every_allocation_may_fail(void **state) {
   unlink(path_of("svg"));
 }
 
+static void a_plotter_s_way_is_short_unless_told_otherwise(void **state) {
+  (void)state;
+  static const struct {
+    const char *format;
+    recto_order asked, found;
+  } row[] = {{"hpgl", RECTO_ORDER_AUTO, RECTO_ORDER_NEAR},
+             {"hpgl", RECTO_ORDER_NONE, RECTO_ORDER_NONE},
+             {"svg", RECTO_ORDER_AUTO, RECTO_ORDER_AUTO},
+             {"svg", RECTO_ORDER_NEAR, RECTO_ORDER_NEAR}};
+  for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+    recto_options o;
+    recto_options_init(&o);
+    assert_int_equal(o.order, RECTO_ORDER_AUTO);
+    o.order = row[i].asked;
+    recto_options_suit(&o, "-", row[i].format);
+    assert_int_equal(o.order, row[i].found);
+  }
+}
+
 /* A margin that is left open suits the plotter; one that is named is kept. */
 static void a_plotter_gets_the_margin_that_it_needs(void **state) {
   (void)state;
@@ -786,6 +805,7 @@ int main(void) {
       cmocka_unit_test(a_bad_job_leaves_nothing),
       cmocka_unit_test(progress_rises_and_may_cancel_at_every_step),
       cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(a_plotter_s_way_is_short_unless_told_otherwise),
       cmocka_unit_test(a_plotter_gets_the_margin_that_it_needs),
       cmocka_unit_test(every_write_may_fail),
   };

@@ -92,7 +92,7 @@ claim "standard input needs its format" refuses 'needs --from' - -o no.svg
 claim "an unknown model format is wrong usage" \
   refuses '.' cube.obj -o no.svg --from nonsense
 claim "an unknown plotter is wrong usage, whatever the output" \
-  refuses 'no plotter "foo"' -q cube.obj -o no.svg --device foo
+  refuses 'no plotter "foo".*hp7475a' -q cube.obj -o no.svg --device foo
 claim "eye and view exclude each other" refuses 'exclude' \
   cube.obj -o no.svg --camera 1,2,3 --view top
 claim "--ortho and --fov exclude each other" refuses 'exclude' \
@@ -206,6 +206,15 @@ fits_a_sheet() {
     run 0 cube.obj --view front -p "$1" -o out.hpgl --device "$2" --margin 2 &&
     says "strokes? clipped: $2 does not reach"
 }
+# orders_like HOW FORMAT - what is drawn where no order is asked for.
+orders_like() {
+  local hatch=(--view front --fill hatch)
+  run 0 cube.obj -o "said.$2" --order "$1" "${hatch[@]}" --hidden layer &&
+    run 0 cube.obj -o "unsaid.$2" "${hatch[@]}" --hidden layer &&
+    cmp -s "said.$2" "unsaid.$2"
+}
+claim "HPGL is ordered for a short way" orders_like near hpgl
+claim "SVG comes as it does" orders_like none svg
 claim "a drawing fits what a plotter reaches" fits_a_sheet A4 hp7475a
 claim "on any of its sheets" fits_a_sheet A3 hp7550a
 

@@ -25,7 +25,7 @@ void recto_options_init(recto_options *options) {
       .hatch_angle_deg = 45,
       .pen_mm = 0.3,
       .pens = 1,
-      .order = RECTO_ORDER_NONE,
+      .order = RECTO_ORDER_AUTO,
       .min_stroke_mm = -1,
       .precision = 3,
   };
@@ -89,7 +89,7 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the light", o->light[2], -huge, huge},
       {"the pen width", o->pen_mm, RECTO_FINEST_MM, 100},
       {"the number of pens", o->pens, 1, 1000},
-      {"the order", o->order, 0, RECTO_ORDER_NEAR},
+      {"the order", o->order, 0, RECTO_ORDER_AUTO},
       {"the simplification", o->simplify_mm, 0, huge},
       {"the shortest stroke", o->min_stroke_mm, -huge, huge},
       {"the precision", o->precision, 0, 9},
@@ -102,8 +102,12 @@ recto_status options_check(const recto_options *o, recto_error *error) {
       {"the number of depth bits", o->depth_bits, 0, 32},
       {"the output's unit", o->unit_mm, 0, 100},
   };
-  if (o->device != NULL && device_by_name(o->device) == NULL)
+  if (o->device != NULL && device_by_name(o->device) == NULL) {
+    char known[DEVICE_LIST_SIZE];
+    device_list(known);
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                     "there is no plotter \"%.60s\"", o->device);
+                     "there is no plotter \"%.60s\"; known are: %s", o->device,
+                     known);
+  }
   return check_ranges(range, sizeof range / sizeof range[0], error);
 }

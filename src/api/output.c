@@ -94,7 +94,9 @@ void recto_options_suit(recto_options *options, const char *path,
                               writer->margin_mm(&how, options->page_width_mm,
                                                 options->page_height_mm));
   }
-  if (options->weights == NULL && writer != NULL && writer->one_width)
+  if (options->order == RECTO_ORDER_AUTO && writer != NULL && writer->by_pens)
+    options->order = RECTO_ORDER_NEAR;
+  if (options->weights == NULL && writer != NULL && writer->by_pens)
     options->weights = "none";
 }
 

@@ -280,7 +280,7 @@ const struct option_entry option_table[] = {
      "widths of classes in pens (silhouette=2,border=2)",
      .offset = AT(options.weights), .use = {&used_by_lines, &used_by_screens}},
     {OPTION_WORD, "order", 0, "HOW", "none or near",
-     "near: short ways with the pen up", .offset = AT(options.order),
+     "near (default for HPGL): short ways with the pen up", .offset = AT(options.order),
      .words = "none near", .use = {&used_by_strokes}},
     {OPTION_LENGTH, "simplify", 0, "LENGTH", "a length, 0 or more",
      "move no point of a line by more (0)", .offset = AT(options.simplify_mm),
