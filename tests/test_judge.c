@@ -19,6 +19,7 @@
 struct page {
   char text[60000];
   size_t length;
+  double contact; /* as in judge_options */
   struct judge_camera camera;
 };
 
@@ -31,6 +32,7 @@ static void write_text(struct page *page, const char *text) {
 
 static void open_page(struct page *page) {
   page->length = 0;
+  page->contact = -1;
   write_text(page, "<?xml version=\"1.0\"?>\n"
                    "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100mm\""
                    " height=\"100mm\" viewBox=\"0 0 100 100\">\n"
@@ -63,6 +65,7 @@ judge_page(struct page *page, const struct scene *scene, unsigned edges) {
   struct judge_options options;
   judge_options_init(&options);
   options.edges = edges;
+  options.contact = page->contact;
   write_text(page, "</g>\n</svg>\n");
   assert_null(judge_read_svg(&drawing, page->text, page->length));
   assert_true(
@@ -344,6 +347,41 @@ static void contact_does_not_hide(void **state) {
   assert_in_range(verdict.missing.samples, 1900, 2100);
   assert_true(fabs(verdict.missing_at.at.y - 40) < 0.01);
   scene_fini(&scene);
+}
+
+/* A wire from a triangle's corner runs behind it, to a depth; drawn is a share
+ * of it. */
+static struct judge_verdict judge_wire(double depth, double share) {
+  struct page page;
+  struct scene scene;
+  scene_init(&scene);
+  static const double triangle[9] = {-3, -3, 0, 3, -3, 0, 0, 3, 0};
+  build_polygon(&scene, triangle, 3);
+  build_segment(&scene, 0, build_point(&scene, 0, 0, -depth));
+  open_page(&page);
+  page.contact = 0.05;
+  look_square_on(&page);
+  draw_loop(&page, triangle, 3);
+  if (share > 0)
+    draw_line(&page, vector_of(-3, -3, 0),
+              vector_of(3 * share - 3, 3 * share - 3, -depth * share));
+  struct judge_verdict verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+  scene_fini(&scene);
+  return verdict;
+}
+
+static void from_a_corner_contact_counts_at_the_far_end(void **state) {
+  (void)state;
+  struct judge_verdict verdict = judge_wire(0.2, 0);
+  assert_int_equal(verdict.missing.samples, 0);
+  assert_int_equal(verdict.unsure.samples, 0);
+  assert_in_range(verdict.hidden.samples, 2000, 2200);
+  verdict = judge_wire(0.2, 0.1);
+  assert_in_range(verdict.false_ink.samples, 200, 220);
+  verdict = judge_wire(0.01, 1);
+  assert_int_equal(verdict.false_ink.samples, 0);
+  verdict = judge_wire(0.01, 0.5);
+  assert_in_range(verdict.missing.samples, 1000, 1100);
 }
 
 static void smooth_edges_are_asked_for_by_all_alone(void **state) {
@@ -702,6 +740,7 @@ int main(void) {
       cmocka_unit_test(a_spike_covers_nothing),
       cmocka_unit_test(lines_where_faces_pierce_are_asked_for),
       cmocka_unit_test(contact_does_not_hide),
+      cmocka_unit_test(from_a_corner_contact_counts_at_the_far_end),
       cmocka_unit_test(smooth_edges_are_asked_for_by_all_alone),
       cmocka_unit_test(paths_and_polylines_are_read),
       cmocka_unit_test(a_group_called_hidden_is_none_of_hidden_lines),

@@ -191,6 +191,60 @@ static void a_warped_face_hides_what_both_ways_do(void **state) {
 }
 
 /* With no face there is nothing to hide it. */
+/* Reported: near a corner that an edge and a face share their distance is
+ * within contact, and yet the edge is hidden from its start. */
+static const struct fold {
+  double eye[3], target[3], fov_deg, contact;
+  unsigned edges;
+  double point[6][3];
+  uint32_t face[3][3]; /* 0, 0, 0: none */
+} fold[] = {
+    {{-0.441162, 0.248532, 0.0782144},
+     {0.577148, 0.173153, 0.1},
+     90,
+     1e-3,
+     RECTO_EDGES_DEFAULT,
+     {{.6, -.6, -.0406}, {.6, -.4, .0046}, {.8, -.4, .0051}, {.8, -.2, -.1678}},
+     {{0, 2, 1}, {1, 2, 3}}},
+    {{-0.412029, 0.122889, 0.385318},
+     {0.71675, 0.759295, 0.1},
+     20,
+     -1,
+     RECTO_EDGE_INTERSECTION,
+     {{-0.2579787685354503, -0.5, -0.09658882036288081},
+      {-0.2579787685354503, -0.33333333333333337, 0.0460088887835439},
+      {-0.21258516948190986, -0.5, -0.02993339651469695},
+      {-0.21258516948190986, -0.33333333333333337, -0.005476783056814668},
+      {-0.21258516948190986, -0.16666666666666663, 0.04002789687530874},
+      {-0.5846720048359203, -0.33333333333333337, -0.04840114247540268}},
+     {{0, 3, 1}, {1, 3, 4}, {2, 5, 3}}},
+};
+
+static void what_shares_a_corner_with_a_face_passes(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof fold / sizeof fold[0]; i++) {
+    struct asked asked;
+    start(&asked);
+    recto_options *o = &asked.options;
+    for (int k = 0; k < 6; k++)
+      build_point(&asked.scene, fold[i].point[k][0], fold[i].point[k][1],
+                  fold[i].point[k][2]);
+    for (int k = 0; k < 3; k++)
+      if (fold[i].face[k][0] != fold[i].face[k][1])
+        build_face(&asked.scene, fold[i].face[k], 3);
+    o->camera = RECTO_CAMERA_EYE;
+    memcpy(o->eye, fold[i].eye, sizeof o->eye);
+    memcpy(o->target, fold[i].target, sizeof o->target);
+    o->has_target = true;
+    o->fov_deg = fold[i].fov_deg;
+    o->contact = fold[i].contact;
+    o->edges = fold[i].edges;
+    draw(&asked);
+    assert_right(&asked, i == 0 ? "a fold" : "a tip");
+    end(&asked);
+  }
+}
+
 static void a_wire_alone_passes(void **state) {
   (void)state;
   struct asked asked;
@@ -360,6 +414,7 @@ int main(void) {
       cmocka_unit_test(random_small_scenes_pass),
       cmocka_unit_test(cuts_and_far_origins_pass),
       cmocka_unit_test(a_warped_face_hides_what_both_ways_do),
+      cmocka_unit_test(what_shares_a_corner_with_a_face_passes),
       cmocka_unit_test(a_wire_alone_passes),
       cmocka_unit_test(nothing_drawn_of_nothing_asked_for_passes),
       cmocka_unit_test(a_hidden_line_that_is_drawn_is_found),

@@ -5,6 +5,7 @@
 
 #include "base/tolerance.h"
 #include "judge/edges.h"
+#include "judge/gaze.h"
 #include "judge/grid.h"
 
 struct court {
@@ -12,6 +13,7 @@ struct court {
   const struct judge_camera *camera;
   struct judge_options options;
   struct judge_triangles all;
+  struct judge_gazer gazer;
   struct judge_edges edges;
   struct judge_segment *image, *ink; /* of the edges; of the strokes */
   uint32_t inks, drops; /* of ink; of what was dropped, behind it */
@@ -27,61 +29,6 @@ void judge_options_init(struct judge_options *options) {
                                     .contact = -1,
                                     .crease_deg = 30,
                                     .edges = RECTO_EDGES_DEFAULT};
-}
-
-/* ---- Sight ----------------------------------------------------------------
- */
-
-/* What a spot sees towards the eye.  Planes nearer than half the contact
- * block nothing, beyond one and a half times they do; the hair by which rays
- * are moved aside, and the rounding of depths, are added.
- * aside  the spot is off its edge by a hair, and so off the edge's own faces */
-static enum judge_sight look(const struct court *court, struct judge_spot from,
-                             bool aside, uint32_t *blocker) {
-  const struct judge_camera *camera = court->camera;
-  double depth = judge_depth(camera, from);
-  double per_mm = spot_length(
-      spot_sub(judge_shift(camera, from, court->options.hair_mm, 0), from));
-  double rounding = per_mm + camera->depth_step * depth * depth;
-  double touch =
-      0.5 * court->options.contact +
-      (aside ? 2 * rounding : court->all.size * TOLERANCE_EXTENT_SHARE);
-  double beyond = 1.5 * court->options.contact + 4 * rounding;
-  double near = judge_near(camera);
-  if (!camera->perspective)
-    return judge_look(&court->all, from, camera->back,
-                      judge_ahead(camera, from) - near, touch, beyond, blocker);
-  return judge_look(&court->all, from, spot_sub(camera->eye, from),
-                    1 - near / depth, touch, beyond, blocker);
-}
-
-/* What a point of an edge sees: by itself and a hair to either side, as long
- * as the answers are `expected`; the first other one is the answer. */
-static enum judge_sight look_around(const struct court *court,
-                                    const struct judge_edge *edge,
-                                    struct judge_spot from,
-                                    enum judge_sight expected,
-                                    uint32_t *blocker) {
-  double dx = edge->at[1].x - edge->at[0].x;
-  double dy = edge->at[1].y - edge->at[0].y;
-  double length = hypot(dx, dy), hair = court->options.hair_mm;
-  double x = length > 0 ? -dy / length * hair : hair;
-  double y = length > 0 ? dx / length * hair : 0;
-  enum judge_sight sight = look(court, from, false, blocker);
-  if (sight != expected)
-    return sight;
-  sight = look(court, judge_shift(court->camera, from, x, y), true, blocker);
-  if (sight != expected)
-    return sight;
-  return look(court, judge_shift(court->camera, from, -x, -y), true, blocker);
-}
-
-/* The spot of an edge whose image is at t of the way along its image. */
-static struct judge_spot spot_of_image(const struct judge_edge *edge,
-                                       double t) {
-  double one = (1 - t) * edge->depth[1], two = t * edge->depth[0];
-  return spot_along(edge->p[0], two / (one + two),
-                    spot_sub(edge->p[1], edge->p[0]));
 }
 
 /* ---- Samples --------------------------------------------------------------
@@ -174,8 +121,9 @@ static enum judge_sight sight_of(const struct court *court,
   double slack = length > 0 ? court->options.lateral_mm / length : 0;
   const double where[3] = {t, fmin(t + slack, 1), fmax(t - slack, 0)};
   for (int k = 0; k < 3; k++) {
-    enum judge_sight sight = look_around(
-        court, edge, spot_of_image(edge, where[k]), JUDGE_BLOCKED, blocker);
+    enum judge_sight sight = judge_look_around(
+        &court->gazer, edge, judge_spot_of_image(edge, where[k]), JUDGE_BLOCKED,
+        blocker);
     if (sight != JUDGE_BLOCKED)
       return sight;
   }
@@ -201,7 +149,7 @@ static enum judge_sight explain(const struct court *court,
     best = sight < best ? sight : best;
     if (sight == JUDGE_BLOCKED && away < nearest) {
       nearest = away;
-      name_edge(witness, edge, spot_of_image(edge, t), blocker);
+      name_edge(witness, edge, judge_spot_of_image(edge, t), blocker);
     }
   }
   return best;
@@ -263,15 +211,15 @@ static bool has_ink(const struct court *court, struct judge_place at) {
 static void try_edge(struct court *court, const struct judge_edge *edge,
                      struct judge_place at, double t, double mm) {
   struct judge_verdict *verdict = court->verdict;
-  struct judge_spot from = spot_of_image(edge, t);
+  struct judge_spot from = judge_spot_of_image(edge, t);
   /* Where there is ink the sight is asked for only to count the samples; one
    * ray is enough for that. */
   if (has_ink(court, at)) {
-    if (look(court, from, false, NULL) == JUDGE_CLEAR)
+    if (judge_look_from(&court->gazer, edge, from) == JUDGE_CLEAR)
       count_sample(&verdict->visible, mm);
     return;
   }
-  switch (look_around(court, edge, from, JUDGE_CLEAR, NULL)) {
+  switch (judge_look_around(&court->gazer, edge, from, JUDGE_CLEAR, NULL)) {
   case JUDGE_CLEAR:
     if (verdict->missing.samples == 0) {
       verdict->missing_at.at = at;
@@ -295,32 +243,13 @@ static bool is_asked_for(const struct court *court,
          (source->exists && (asked & RECTO_EDGES_ALL) == RECTO_EDGES_ALL);
 }
 
-/* Cuts a segment to the page, from *t0 to *t1. */
-static bool cut_to_page(const struct court *court,
-                        const struct judge_segment *s, double *t0, double *t1) {
-  const double a[2] = {s->a.x, s->a.y}, b[2] = {s->b.x, s->b.y};
-  const double high[2] = {court->camera->width_mm, court->camera->height_mm};
-  *t0 = 0;
-  *t1 = 1;
-  for (int k = 0; k < 2; k++) {
-    double d = b[k] - a[k];
-    if (d == 0 && (a[k] < 0 || a[k] > high[k]))
-      return false;
-    if (d == 0)
-      continue;
-    double in = (0 - a[k]) / d, out = (high[k] - a[k]) / d;
-    *t0 = fmax(*t0, fmin(in, out));
-    *t1 = fmin(*t1, fmax(in, out));
-  }
-  return *t0 <= *t1;
-}
-
 /* The part of an edge's image that is on the page; false where it need not be
  * drawn, as what is seen as a point. */
 static bool find_part(const struct court *court, size_t edge,
                       struct judge_segment *part, double *t0, double *t1) {
   if (!is_asked_for(court, &court->edges.edge.item[edge].source) ||
-      !cut_to_page(court, &court->image[edge], t0, t1))
+      !judge_cut_to_page(court->camera, court->image[edge].a,
+                         court->image[edge].b, t0, t1))
     return false;
   part->a = place_on(&court->image[edge], *t0);
   part->b = place_on(&court->image[edge], *t1);
@@ -392,6 +321,8 @@ static bool open_court(struct court *court, const struct scene *scene) {
     return false;
   if (court->options.contact < 0)
     court->options.contact = TOLERANCE_CONTACT_SHARE * court->all.size;
+  court->gazer = (struct judge_gazer){
+      &court->all, camera, court->options.contact, court->options.hair_mm};
   return judge_edges_init(&court->edges, scene, &court->all, camera,
                           &court->options) &&
          collect_images(court) && collect_ink(court) &&

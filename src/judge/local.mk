@@ -3,9 +3,11 @@ librecto_core_la_SOURCES += \
   %D%/camera.c \
   %D%/ears.c %D%/ears.h \
   %D%/edges.c %D%/edges.h \
+  %D%/gaze.c %D%/gaze.h \
   %D%/grid.c %D%/grid.h \
   %D%/judge.c %D%/judge.h \
   %D%/pierced.c \
+  %D%/sight.c %D%/sight.h \
   %D%/svg.c \
   %D%/svg_path.c %D%/svg_path.h \
   %D%/svg_scan.c %D%/svg_scan.h \

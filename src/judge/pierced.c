@@ -11,22 +11,82 @@ struct piercer {
   uint32_t current; /* the triangle whose neighbours are looked up */
 };
 
+/* ---- On the page -----------------------------------------------------------
+ */
+
+/* A triangle cut by five planes has at most eight corners. */
+struct outline {
+  struct judge_spot p[8];
+  unsigned count;
+};
+
+/* Keeps of the outline what is not below zero; where[] is linear in space. */
+static struct outline keep(const struct outline *from, const double where[8]) {
+  struct outline kept = {.count = 0};
+  for (unsigned i = 0; i < from->count; i++) {
+    unsigned k = i + 1 == from->count ? 0 : i + 1;
+    if (where[i] >= 0)
+      kept.p[kept.count++] = from->p[i];
+    if ((where[i] >= 0) != (where[k] >= 0))
+      kept.p[kept.count++] =
+          spot_along(from->p[i], where[i] / (where[i] - where[k]),
+                     spot_sub(from->p[k], from->p[i]));
+  }
+  return kept;
+}
+
+/* What is on the page of a triangle.  A place is on it where the depth times
+ * its coordinates, which are linear in space, lies between 0 and the depth
+ * times the page's size. */
+static struct outline outline_of(const struct judge_camera *camera,
+                                 const struct judge_triangle *t) {
+  struct outline outline = {{t->p[0], t->p[1], t->p[2]}, 3};
+  for (int side = 0; side < 5; side++) {
+    double where[8];
+    for (unsigned i = 0; i < outline.count; i++) {
+      double depth = judge_depth(camera, outline.p[i]);
+      struct judge_place at = judge_project(camera, outline.p[i]);
+      const double inside[5] = {
+          judge_ahead(camera, outline.p[i]) - judge_near(camera), at.x * depth,
+          (camera->width_mm - at.x) * depth, at.y * depth,
+          (camera->height_mm - at.y) * depth};
+      where[i] = inside[side];
+    }
+    outline = keep(&outline, where);
+  }
+  return outline;
+}
+
+/* How far what is on the page of a triangle reaches beyond a plane, on the side
+ * where it reaches less. */
+static double reach_beyond(const struct judge_camera *camera,
+                           const struct judge_triangle *t,
+                           const struct judge_triangle *plane) {
+  struct outline outline = outline_of(camera, t);
+  double before = 0, behind = 0;
+  for (unsigned i = 0; i < outline.count; i++) {
+    double away = spot_dot(plane->normal, spot_sub(outline.p[i], plane->p[0]));
+    before = fmax(before, away);
+    behind = fmax(behind, -away);
+  }
+  return fmin(before, behind);
+}
+
+/* ---- In space --------------------------------------------------------------
+ */
+
 /* Where a triangle's sides cross a plane: at most two spots. */
 struct cut {
   struct judge_spot end[2];
   unsigned count;
-  double before, behind; /* how far it reaches to either side of the plane */
 };
 
 static struct cut cut_by_plane(const struct judge_triangle *t,
                                const struct judge_triangle *plane) {
   struct cut cut = {.count = 0};
   double away[3];
-  for (int k = 0; k < 3; k++) {
+  for (int k = 0; k < 3; k++)
     away[k] = spot_dot(plane->normal, spot_sub(t->p[k], plane->p[0]));
-    cut.before = fmax(cut.before, away[k]);
-    cut.behind = fmax(cut.behind, -away[k]);
-  }
   for (int k = 0; k < 3; k++) {
     int l = (k + 1) % 3;
     if ((away[k] > 0) == (away[l] > 0) || cut.count == 2)
@@ -37,14 +97,31 @@ static struct cut cut_by_plane(const struct judge_triangle *t,
   return cut;
 }
 
+/* How many corners they share; the last of them to *corner. */
 static unsigned shared_corners(const struct judge_triangle *s,
-                               const struct judge_triangle *t) {
+                               const struct judge_triangle *t,
+                               struct judge_spot *corner) {
   unsigned shared = 0;
   for (int i = 0; i < 3; i++)
     for (int k = 0; k < 3; k++)
-      shared += s->p[i].x == t->p[k].x && s->p[i].y == t->p[k].y &&
-                s->p[i].z == t->p[k].z;
+      if (s->p[i].x == t->p[k].x && s->p[i].y == t->p[k].y &&
+          s->p[i].z == t->p[k].z) {
+        *corner = s->p[i];
+        shared++;
+      }
   return shared;
+}
+
+/* The line of two triangles that share a corner ends there, to the last bit. */
+static void put_on_corner(const struct judge_triangle *s,
+                          const struct judge_triangle *t, struct judge_spot *a,
+                          struct judge_spot *b) {
+  struct judge_spot corner;
+  if (shared_corners(s, t, &corner) == 0)
+    return;
+  bool is_first =
+      spot_length(spot_sub(*a, corner)) < spot_length(spot_sub(*b, corner));
+  *(is_first ? a : b) = corner;
 }
 
 /* Adds what two triangles' cuts by each other's planes have in common; both
@@ -60,18 +137,20 @@ static bool add_common(struct piercer *piercer, const struct cut *s,
     return true;
   struct judge_spot a = spot_along(s->end[0], low - s0, along);
   struct judge_spot b = spot_along(s->end[0], high - s0, along);
-  /* Sure where all four reaches are well beyond what counts as contact, and
-   * there is one way to cut both faces. */
-  double reach = fmin(fmin(s->before, s->behind), fmin(t->before, t->behind));
-  const struct judge_triangle *triangle = piercer->all->triangle.item;
-  bool sure = reach > 10 * piercer->contact &&
-              triangle[piercer->current].cut == JUDGE_PLANAR &&
-              triangle[other].cut == JUDGE_PLANAR;
-  const struct judge_source source = {
-      {SCENE_NONE, SCENE_NONE},
-      {triangle[piercer->current].face, triangle[other].face},
-      sure ? RECTO_EDGE_INTERSECTION : 0,
-      false};
+  const struct judge_triangle *one = &piercer->all->triangle
+                                          .item[piercer->current],
+                              *two = &piercer->all->triangle.item[other];
+  put_on_corner(one, two, &a, &b);
+  const struct judge_camera *camera = piercer->camera;
+  /* Sure where all four reaches are well beyond what counts as contact, on the
+   * page, and there is one way to cut both faces. */
+  bool sure = one->cut == JUDGE_PLANAR && two->cut == JUDGE_PLANAR &&
+              reach_beyond(camera, one, two) > 10 * piercer->contact &&
+              reach_beyond(camera, two, one) > 10 * piercer->contact;
+  const struct judge_source source = {{SCENE_NONE, SCENE_NONE},
+                                      {one->face, two->face},
+                                      sure ? RECTO_EDGE_INTERSECTION : 0,
+                                      false};
   return judge_edges_add(piercer->edges, piercer->camera, a, b, &source);
 }
 
@@ -82,7 +161,8 @@ static bool pierce(void *user, uint32_t other) {
   const struct judge_triangle *s =
       &piercer->all->triangle.item[piercer->current];
   const struct judge_triangle *t = &piercer->all->triangle.item[other];
-  if (s->face == t->face || shared_corners(s, t) >= 2)
+  struct judge_spot corner;
+  if (s->face == t->face || shared_corners(s, t, &corner) >= 2)
     return true;
   struct judge_spot along = spot_cross(s->normal, t->normal);
   if (!(spot_length(along) > 0))

@@ -1,4 +1,4 @@
-/* triangles.c - the judge's triangles, their tree of boxes, and its rays.
+/* triangles.c - the judge's triangles and their tree of boxes.
  *
  * The tree is built from the top: a node's triangles are parted at the middle
  * of their centroids' longest extent, which suits meshes of even density, or
@@ -13,7 +13,7 @@
 #include "base/tolerance.h"
 #include "judge/ears.h"
 
-enum { LEAF_SIZE = 4, STACK_SIZE = 192, FEWEST_SHARE = 8 };
+enum { LEAF_SIZE = 4, FEWEST_SHARE = 8 };
 
 void judge_sort(void *item, size_t count, size_t size,
                 int (*compare)(const void *, const void *)) {
@@ -207,6 +207,7 @@ bool judge_triangles_init(struct judge_triangles *all,
   struct judge_ears ears = {0};
   bool good = true;
   memset(all, 0, sizeof *all);
+  all->scene = scene;
   all->size = measure(scene);
   if (contact < 0)
     contact = TOLERANCE_CONTACT_SHARE * all->size;
@@ -226,124 +227,7 @@ void judge_triangles_fini(struct judge_triangles *all) {
   all->nodes = 0;
 }
 
-/* ---- Rays
- * ------------------------------------------------------------------------ */
-
-struct ray {
-  double from[3], inverse[3]; /* 1 / direction */
-  bool parallel[3];           /* direction 0 */
-  struct judge_spot origin, towards;
-  double reach;
-};
-
-static bool ray_meets_box(const struct ray *ray, const struct judge_box *box) {
-  double t0 = 0, t1 = ray->reach;
-  for (int k = 0; k < 3; k++) {
-    if (ray->parallel[k]) {
-      if (ray->from[k] < box->low[k] || ray->from[k] > box->high[k])
-        return false;
-      continue;
-    }
-    double a = (box->low[k] - ray->from[k]) * ray->inverse[k];
-    double b = (box->high[k] - ray->from[k]) * ray->inverse[k];
-    double first = a < b ? a : b, last = a < b ? b : a;
-    t0 = first > t0 ? first : t0;
-    t1 = last < t1 ? last : t1;
-  }
-  return t0 <= t1;
-}
-
-/* Whether the ray meets the triangle: it has all three sides on one hand
- * (signed volumes with the ray's direction).  A ray along a side meets it, so
- * that none slips through between two triangles. */
-static bool ray_meets_triangle(const struct ray *ray,
-                               const struct judge_triangle *t) {
-  struct judge_spot a = spot_sub(t->p[0], ray->origin);
-  struct judge_spot b = spot_sub(t->p[1], ray->origin);
-  struct judge_spot c = spot_sub(t->p[2], ray->origin);
-  double u = spot_dot(ray->towards, spot_cross(a, b));
-  double v = spot_dot(ray->towards, spot_cross(b, c));
-  double w = spot_dot(ray->towards, spot_cross(c, a));
-  if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)))
-    return false;
-  double along = spot_dot(t->normal, ray->towards);
-  double at = spot_dot(t->normal, a) / along;
-  return at > 0 && at < ray->reach;
-}
-
-static enum judge_sight look_at(const struct ray *ray,
-                                const struct judge_triangle *t, double touch,
-                                double beyond) {
-  double away = fabs(spot_dot(t->normal, spot_sub(t->p[0], ray->origin)));
-  if (away <= touch || !ray_meets_triangle(ray, t))
-    return JUDGE_CLEAR;
-  return away > beyond ? JUDGE_BLOCKED : JUDGE_UNSURE;
-}
-
-/* Faces that are not planar, as far as a ray has met them. */
-struct doubts {
-  struct doubt {
-    uint32_t face;
-    enum judge_cut cut;
-  } item[16];
-  unsigned count;
-};
-
-/* A face that is cut in two ways blocks where it does in both.  Where there
- * are too many to keep in mind it stays unsure. */
-static enum judge_sight weigh(struct doubts *doubts,
-                              const struct judge_triangle *t,
-                              enum judge_sight sight) {
-  if (t->cut == JUDGE_PLANAR || sight != JUDGE_BLOCKED)
-    return sight;
-  for (unsigned i = 0; i < doubts->count; i++)
-    if (doubts->item[i].face == t->face && doubts->item[i].cut != t->cut)
-      return JUDGE_BLOCKED;
-  if (t->cut != JUDGE_ANY_WAY &&
-      doubts->count < sizeof doubts->item / sizeof doubts->item[0])
-    doubts->item[doubts->count++] = (struct doubt){t->face, t->cut};
-  return JUDGE_UNSURE;
-}
-
-enum judge_sight judge_look(const struct judge_triangles *all,
-                            struct judge_spot from, struct judge_spot towards,
-                            double reach, double touch, double beyond,
-                            uint32_t *face) {
-  struct ray ray = {{from.x, from.y, from.z},
-                    {1 / towards.x, 1 / towards.y, 1 / towards.z},
-                    {towards.x == 0, towards.y == 0, towards.z == 0},
-                    from,
-                    towards,
-                    reach};
-  uint32_t stack[STACK_SIZE];
-  unsigned depth = 0;
-  struct doubts doubts = {.count = 0};
-  enum judge_sight sight = JUDGE_CLEAR;
-  if (all->nodes > 0)
-    stack[depth++] = 0;
-  while (depth > 0) {
-    const struct judge_node *node = &all->node[stack[--depth]];
-    if (!ray_meets_box(&ray, &node->box))
-      continue;
-    if (node->count == 0) {
-      stack[depth++] = node->first;
-      stack[depth++] = node->first + 1;
-      continue;
-    }
-    for (uint32_t i = 0; i < node->count; i++) {
-      const struct judge_triangle *t = &all->triangle.item[node->first + i];
-      enum judge_sight seen =
-          weigh(&doubts, t, look_at(&ray, t, touch, beyond));
-      if (seen == JUDGE_BLOCKED) {
-        if (face != NULL)
-          *face = t->face;
-        return seen;
-      }
-      sight = seen == JUDGE_UNSURE ? seen : sight;
-    }
-  }
-  return sight;
-}
+/* ---- Neighbours --------------------------------------------------------- */
 
 static bool boxes_meet(const struct judge_box *a, const struct judge_box *b) {
   for (int k = 0; k < 3; k++)
@@ -356,7 +240,7 @@ bool judge_triangles_near(const struct judge_triangles *all,
                           const struct judge_box *box,
                           bool (*found)(void *user, uint32_t triangle),
                           void *user) {
-  uint32_t stack[STACK_SIZE];
+  uint32_t stack[JUDGE_STACK_SIZE];
   unsigned depth = 0;
   if (all->nodes > 0)
     stack[depth++] = 0;

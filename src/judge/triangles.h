@@ -1,4 +1,4 @@
-/* triangles.h - the judge's triangles, their bounding volumes and rays. */
+/* triangles.h - the judge's triangles and their bounding volumes. */
 #ifndef JUDGE_TRIANGLES_H
 #define JUDGE_TRIANGLES_H
 
@@ -73,7 +73,11 @@ struct judge_triangles {
   } * node;
   size_t nodes; /* none where there are no triangles */
   double size; /* diagonal of the box of all points that faces use */
+  const struct scene *scene;
 };
+
+/* Room for the nodes on the way down the tree, see triangles.c. */
+enum { JUDGE_STACK_SIZE = 192 };
 
 /* Cuts faces into triangles and builds the tree.  Cost: n log n.
  * contact  as in judge_options
@@ -88,17 +92,6 @@ struct judge_spot judge_area(const struct scene *scene, uint32_t face);
  * is cut. */
 bool judge_is_warped(const struct scene *scene, uint32_t face, double contact);
 void judge_triangles_fini(struct judge_triangles *all);
-
-enum judge_sight { JUDGE_CLEAR, JUDGE_UNSURE, JUDGE_BLOCKED };
-
-/* What a point sees along a direction, for 0 < t < reach.
- * touch   planes no farther than this from the point block nothing
- * beyond  planes farther than this from it do
- * face    of what blocks it, set where something does; NULL: not wanted */
-enum judge_sight judge_look(const struct judge_triangles *all,
-                            struct judge_spot from, struct judge_spot towards,
-                            double reach, double touch, double beyond,
-                            uint32_t *face);
 
 /* Calls found(user, i) for the triangles whose boxes meet `box`, until it
  * returns false: that is then returned. */

@@ -1,0 +1,133 @@
+/* gaze.c - what the judge makes of a point of an edge: which rays go from it,
+ * and how far a plane must be to hide it. */
+#include "judge/gaze.h"
+
+#include "base/tolerance.h"
+
+/* ---- On the page -----------------------------------------------------------
+ */
+
+bool judge_cut_to_page(const struct judge_camera *camera, struct judge_place a,
+                       struct judge_place b, double *t0, double *t1) {
+  const double from[2] = {a.x, a.y}, to[2] = {b.x, b.y};
+  const double high[2] = {camera->width_mm, camera->height_mm};
+  *t0 = 0;
+  *t1 = 1;
+  for (int k = 0; k < 2; k++) {
+    double d = to[k] - from[k];
+    if (d == 0 && (from[k] < 0 || from[k] > high[k]))
+      return false;
+    if (d == 0)
+      continue;
+    double in = (0 - from[k]) / d, out = (high[k] - from[k]) / d;
+    *t0 = fmax(*t0, fmin(in, out));
+    *t1 = fmin(*t1, fmax(in, out));
+  }
+  return *t0 <= *t1;
+}
+
+struct judge_spot judge_spot_of_image(const struct judge_edge *edge, double t) {
+  double one = (1 - t) * edge->depth[1], two = t * edge->depth[0];
+  return spot_along(edge->p[0], two / (one + two),
+                    spot_sub(edge->p[1], edge->p[0]));
+}
+
+/* ---- Margins ---------------------------------------------------------------
+ */
+
+/* What the hair by which rays are moved aside, and the rounding of depths, are
+ * at a spot, in scene units. */
+static double rounding_at(const struct judge_gazer *gazer,
+                          struct judge_spot at) {
+  const struct judge_camera *camera = gazer->camera;
+  double depth = judge_depth(camera, at);
+  double hair =
+      spot_length(spot_sub(judge_shift(camera, at, gazer->hair_mm, 0), at));
+  return hair + camera->depth_step * depth * depth;
+}
+
+/* Planes nearer than half the contact block nothing, beyond one and a half
+ * times they do; rounding is added.
+ * blur  what may be the matter with a spot that should lie on the plane */
+static struct judge_margin margin_at(const struct judge_gazer *gazer,
+                                     double rounding, double blur) {
+  return (struct judge_margin){0.5 * gazer->contact + blur,
+                               1.5 * gazer->contact + 4 * rounding};
+}
+
+static void find_ends(const struct judge_gazer *gazer,
+                      const struct judge_edge *edge, struct judge_end end[2]) {
+  double t[2];
+  bool seen =
+      judge_cut_to_page(gazer->camera, edge->at[0], edge->at[1], &t[0], &t[1]);
+  for (int k = 0; k < 2; k++) {
+    end[k].spot = end[k].cut = edge->p[k];
+    end[k].is_cut = seen && t[k] != k;
+    if (end[k].is_cut)
+      end[k].cut = judge_spot_of_image(edge, t[k]);
+    double rounding = rounding_at(gazer, end[k].spot);
+    end[k].near = 4 * rounding;
+    end[k].margin = margin_at(gazer, rounding, 2 * rounding);
+    rounding = rounding_at(gazer, end[k].cut);
+    end[k].cut_margin = margin_at(gazer, rounding, 2 * rounding);
+  }
+}
+
+/* What a spot sees towards the eye.
+ * aside  it is off the edge by a hair, and so off the edge's own faces */
+static enum judge_sight look(const struct judge_gazer *gazer,
+                             const struct judge_end end[2],
+                             struct judge_spot from, bool aside,
+                             uint32_t *blocker) {
+  const struct judge_camera *camera = gazer->camera;
+  double rounding = rounding_at(gazer, from);
+  double blur =
+      aside ? 2 * rounding : gazer->all->size * TOLERANCE_EXTENT_SHARE;
+  double near = judge_near(camera);
+  struct judge_gaze gaze = {.camera = camera,
+                            .from = from,
+                            .margin = margin_at(gazer, rounding, blur),
+                            .blur = blur,
+                            .end = {end[0], end[1]}};
+  if (camera->perspective) {
+    gaze.towards = spot_sub(camera->eye, from);
+    gaze.reach = 1 - near / judge_depth(camera, from);
+  } else {
+    gaze.towards = camera->back;
+    gaze.reach = judge_ahead(camera, from) - near;
+  }
+  return judge_look(gazer->all, &gaze, blocker);
+}
+
+/* What a point of an edge sees: by itself and a hair to either side, as long
+ * as the answers are `expected`; the first other one is the answer. */
+enum judge_sight judge_look_around(const struct judge_gazer *gazer,
+                                   const struct judge_edge *edge,
+                                   struct judge_spot from,
+                                   enum judge_sight expected,
+                                   uint32_t *blocker) {
+  double dx = edge->at[1].x - edge->at[0].x;
+  double dy = edge->at[1].y - edge->at[0].y;
+  double length = hypot(dx, dy), hair = gazer->hair_mm;
+  double x = length > 0 ? -dy / length * hair : hair;
+  double y = length > 0 ? dx / length * hair : 0;
+  struct judge_end end[2];
+  find_ends(gazer, edge, end);
+  enum judge_sight sight = look(gazer, end, from, false, blocker);
+  if (sight != expected)
+    return sight;
+  sight =
+      look(gazer, end, judge_shift(gazer->camera, from, x, y), true, blocker);
+  if (sight != expected)
+    return sight;
+  return look(gazer, end, judge_shift(gazer->camera, from, -x, -y), true,
+              blocker);
+}
+
+enum judge_sight judge_look_from(const struct judge_gazer *gazer,
+                                 const struct judge_edge *edge,
+                                 struct judge_spot from) {
+  struct judge_end end[2];
+  find_ends(gazer, edge, end);
+  return look(gazer, end, from, false, NULL);
+}

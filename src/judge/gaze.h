@@ -1,0 +1,35 @@
+/* gaze.h - what the judge makes of a point of an edge. */
+#ifndef JUDGE_GAZE_H
+#define JUDGE_GAZE_H
+
+#include "judge/edges.h"
+#include "judge/sight.h"
+
+struct judge_gazer {
+  const struct judge_triangles *all;
+  const struct judge_camera *camera;
+  double contact, hair_mm; /* as in judge_options */
+};
+
+/* Cuts a segment to the page, from *t0 to *t1 of its way; false where nothing
+ * is left. */
+bool judge_cut_to_page(const struct judge_camera *camera, struct judge_place a,
+                       struct judge_place b, double *t0, double *t1);
+
+/* The spot of an edge whose image is at t of the way along its image. */
+struct judge_spot judge_spot_of_image(const struct judge_edge *edge, double t);
+
+/* What a point of an edge sees, by itself alone. */
+enum judge_sight judge_look_from(const struct judge_gazer *gazer,
+                                 const struct judge_edge *edge,
+                                 struct judge_spot from);
+
+/* What it sees by itself and a hair to either side, as long as the answers are
+ * `expected`; the first other one is the answer. */
+enum judge_sight judge_look_around(const struct judge_gazer *gazer,
+                                   const struct judge_edge *edge,
+                                   struct judge_spot from,
+                                   enum judge_sight expected,
+                                   uint32_t *blocker);
+
+#endif

@@ -1,0 +1,233 @@
+/* sight.c - what a point of an edge sees: the judge's rays. */
+#include "judge/sight.h"
+
+#include "judge/edges.h"
+
+/* ---- Rays ------------------------------------------------------------------
+ */
+
+struct ray {
+  double from[3], inverse[3]; /* 1 / direction */
+  bool parallel[3];           /* direction 0 */
+  const struct judge_gaze *gaze;
+};
+
+static struct ray ray_of(const struct judge_gaze *gaze) {
+  struct judge_spot from = gaze->from, towards = gaze->towards;
+  return (struct ray){{from.x, from.y, from.z},
+                      {1 / towards.x, 1 / towards.y, 1 / towards.z},
+                      {towards.x == 0, towards.y == 0, towards.z == 0},
+                      gaze};
+}
+
+static bool ray_meets_box(const struct ray *ray, const struct judge_box *box) {
+  double t0 = 0, t1 = ray->gaze->reach;
+  for (int k = 0; k < 3; k++) {
+    if (ray->parallel[k]) {
+      if (ray->from[k] < box->low[k] || ray->from[k] > box->high[k])
+        return false;
+      continue;
+    }
+    double a = (box->low[k] - ray->from[k]) * ray->inverse[k];
+    double b = (box->high[k] - ray->from[k]) * ray->inverse[k];
+    double first = a < b ? a : b, last = a < b ? b : a;
+    t0 = first > t0 ? first : t0;
+    t1 = last < t1 ? last : t1;
+  }
+  return t0 <= t1;
+}
+
+/* Whether the ray's line meets the triangle: it has all three sides on one
+ * hand (signed volumes with the ray's direction).  A line along a side meets
+ * it, so that none slips through between two triangles. */
+static bool line_meets_triangle(const struct judge_gaze *gaze,
+                                const struct judge_triangle *t) {
+  struct judge_spot a = spot_sub(t->p[0], gaze->from);
+  struct judge_spot b = spot_sub(t->p[1], gaze->from);
+  struct judge_spot c = spot_sub(t->p[2], gaze->from);
+  double u = spot_dot(gaze->towards, spot_cross(a, b));
+  double v = spot_dot(gaze->towards, spot_cross(b, c));
+  double w = spot_dot(gaze->towards, spot_cross(c, a));
+  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
+/* Whether the triangle's plane is met on the way. */
+static bool ray_meets_plane(const struct judge_gaze *gaze,
+                            const struct judge_triangle *t) {
+  double at = spot_dot(t->normal, spot_sub(t->p[0], gaze->from)) /
+              spot_dot(t->normal, gaze->towards);
+  return at > 0 && at < gaze->reach;
+}
+
+/* ---- Planes ----------------------------------------------------------------
+ */
+
+static double distance(const struct judge_triangle *t, struct judge_spot from) {
+  return fabs(spot_dot(t->normal, spot_sub(t->p[0], from)));
+}
+
+static enum judge_sight weigh_distance(double away,
+                                       const struct judge_margin *margin) {
+  return away <= margin->touch    ? JUDGE_CLEAR
+         : away <= margin->beyond ? JUDGE_UNSURE
+                                  : JUDGE_BLOCKED;
+}
+
+/* How sure it is that a spot is a corner of a triangle. */
+enum shared { SHARED_NO, SHARED_PERHAPS, SHARED };
+
+static enum shared corner_is_at(struct judge_spot corner,
+                                const struct judge_end *end) {
+  struct judge_spot away = spot_sub(corner, end->spot);
+  if (away.x == 0 && away.y == 0 && away.z == 0)
+    return SHARED;
+  return fabs(away.x) + fabs(away.y) + fabs(away.z) <= end->near
+             ? SHARED_PERHAPS
+             : SHARED_NO;
+}
+
+/* Whether all of a face has its image on the page. */
+static bool is_whole(const struct scene *scene,
+                     const struct judge_camera *camera, uint32_t start,
+                     uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) {
+    struct judge_spot at = judge_spot_at(scene, scene->corner.item[start + i]);
+    if (!(judge_ahead(camera, at) > camera->near_d))
+      return false;
+    struct judge_place on = judge_project(camera, at);
+    if (!(on.x >= 0 && on.x <= camera->width_mm && on.y >= 0 &&
+          on.y <= camera->height_mm))
+      return false;
+  }
+  return true;
+}
+
+/* Whether the triangle has that end for a corner.  How faces of more corners
+ * are cut into triangles is not the judge's to say, nor how those are which the
+ * page or the near plane cuts. */
+static enum shared triangle_shares(const struct judge_gaze *gaze,
+                                   const struct judge_triangles *all,
+                                   const struct judge_triangle *t,
+                                   const struct judge_end *end) {
+  const struct scene *scene = all->scene;
+  uint32_t start = scene->face_start.item[t->face];
+  uint32_t count = scene->face_start.item[t->face + 1] - start;
+  enum shared most = SHARED_NO;
+  for (uint32_t i = 0; i < count && most != SHARED; i++) {
+    enum shared here =
+        corner_is_at(judge_spot_at(scene, scene->corner.item[start + i]), end);
+    most = here > most ? here : most;
+  }
+  bool sure = most == SHARED && count == 3 && !end->is_cut &&
+              is_whole(scene, gaze->camera, start, count);
+  return most == SHARED && !sure ? SHARED_PERHAPS : most;
+}
+
+/* How far the plane is at the edge's other end. */
+static enum judge_sight weigh_end(const struct judge_end *end,
+                                  const struct judge_triangle *t) {
+  enum judge_sight sight = weigh_distance(distance(t, end->spot), &end->margin);
+  return sight == weigh_distance(distance(t, end->cut), &end->cut_margin)
+             ? sight
+             : JUDGE_UNSURE;
+}
+
+/* How far the plane is, where that counts. */
+static enum judge_sight weigh_plane(const struct judge_triangles *all,
+                                    const struct judge_gaze *gaze,
+                                    const struct judge_triangle *t) {
+  enum judge_sight here =
+      weigh_distance(distance(t, gaze->from), &gaze->margin);
+  enum judge_sight there[2];
+  enum shared shared[2];
+  for (int k = 0; k < 2; k++) {
+    there[k] = weigh_end(&gaze->end[1 - k], t);
+    shared[k] = here == JUDGE_BLOCKED || there[k] == here
+                    ? SHARED_NO
+                    : triangle_shares(gaze, all, t, &gaze->end[k]);
+  }
+  /* One that has both ends has all of the edge in its plane. */
+  if (shared[0] == SHARED_NO && shared[1] == SHARED_NO)
+    return here;
+  if (shared[0] == SHARED && shared[1] == SHARED_NO)
+    return there[0];
+  if (shared[1] == SHARED && shared[0] == SHARED_NO)
+    return there[1];
+  return JUDGE_UNSURE;
+}
+
+static enum judge_sight look_at(const struct judge_triangles *all,
+                                const struct judge_gaze *gaze,
+                                const struct judge_triangle *t) {
+  if (!line_meets_triangle(gaze, t))
+    return JUDGE_CLEAR;
+  enum judge_sight sight = weigh_plane(all, gaze, t);
+  if (sight == JUDGE_CLEAR)
+    return sight;
+  if (distance(t, gaze->from) <= gaze->blur)
+    return JUDGE_UNSURE;
+  return ray_meets_plane(gaze, t) ? sight : JUDGE_CLEAR;
+}
+
+/* ---- Faces that are not planar ---------------------------------------------
+ */
+
+/* Faces that are not planar, as far as a ray has met them. */
+struct doubts {
+  struct doubt {
+    uint32_t face;
+    enum judge_cut cut;
+  } item[16];
+  unsigned count;
+};
+
+/* A face that is cut in two ways blocks where it does in both.  Where there
+ * are too many to keep in mind it stays unsure. */
+static enum judge_sight weigh(struct doubts *doubts,
+                              const struct judge_triangle *t,
+                              enum judge_sight sight) {
+  if (t->cut == JUDGE_PLANAR || sight != JUDGE_BLOCKED)
+    return sight;
+  for (unsigned i = 0; i < doubts->count; i++)
+    if (doubts->item[i].face == t->face && doubts->item[i].cut != t->cut)
+      return JUDGE_BLOCKED;
+  if (t->cut != JUDGE_ANY_WAY &&
+      doubts->count < sizeof doubts->item / sizeof doubts->item[0])
+    doubts->item[doubts->count++] = (struct doubt){t->face, t->cut};
+  return JUDGE_UNSURE;
+}
+
+/* ---- All of them -----------------------------------------------------------
+ */
+
+enum judge_sight judge_look(const struct judge_triangles *all,
+                            const struct judge_gaze *gaze, uint32_t *face) {
+  const struct ray ray = ray_of(gaze);
+  uint32_t stack[JUDGE_STACK_SIZE];
+  unsigned depth = 0;
+  struct doubts doubts = {.count = 0};
+  enum judge_sight sight = JUDGE_CLEAR;
+  if (all->nodes > 0)
+    stack[depth++] = 0;
+  while (depth > 0) {
+    const struct judge_node *node = &all->node[stack[--depth]];
+    if (!ray_meets_box(&ray, &node->box))
+      continue;
+    if (node->count == 0) {
+      stack[depth++] = node->first;
+      stack[depth++] = node->first + 1;
+      continue;
+    }
+    for (uint32_t i = 0; i < node->count; i++) {
+      const struct judge_triangle *t = &all->triangle.item[node->first + i];
+      enum judge_sight seen = weigh(&doubts, t, look_at(all, gaze, t));
+      if (seen == JUDGE_BLOCKED) {
+        if (face != NULL)
+          *face = t->face;
+        return seen;
+      }
+      sight = seen == JUDGE_UNSURE ? seen : sight;
+    }
+  }
+  return sight;
+}

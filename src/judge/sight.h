@@ -1,0 +1,45 @@
+/* sight.h - what a point of an edge sees: the judge's rays.
+ *
+ * A triangle hides the point where a ray from there to the eye meets it and
+ * its plane is far enough from the point.  Where the triangle has an end of
+ * the edge for a corner, its plane goes through that end, and points close to
+ * it would see past the triangle however the edge runs.  Such a triangle hides
+ * as much of the edge as it covers, or nothing: how far its plane is counts at
+ * the edge's other end. */
+#ifndef JUDGE_SIGHT_H
+#define JUDGE_SIGHT_H
+
+#include "judge/judge.h"
+
+enum judge_sight { JUDGE_CLEAR, JUDGE_UNSURE, JUDGE_BLOCKED };
+
+/* How far a plane is from a spot, in scene units. */
+struct judge_margin {
+  double touch;  /* up to this it blocks nothing */
+  double beyond; /* farther than this it does */
+};
+
+/* An end of an edge. */
+struct judge_end {
+  struct judge_spot spot; /* a corner of the scene to the last bit, or none */
+  struct judge_spot cut;  /* the same, or where the page ends before */
+  bool is_cut;
+  double near; /* how far rounding may move it */
+  struct judge_margin margin, cut_margin;
+};
+
+struct judge_gaze {
+  const struct judge_camera *camera;
+  struct judge_spot from, towards;
+  double reach; /* seen is from + t towards, 0 < t < reach */
+  struct judge_margin margin;
+  double blur; /* planes this near to `from` may be on either side of it */
+  struct judge_end end[2];
+};
+
+/* What is seen.
+ * face  of what blocks, set where something does; NULL: not wanted */
+enum judge_sight judge_look(const struct judge_triangles *all,
+                            const struct judge_gaze *gaze, uint32_t *face);
+
+#endif
