@@ -384,6 +384,38 @@ static void from_a_corner_contact_counts_at_the_far_end(void **state) {
   assert_in_range(verdict.missing.samples, 1000, 1100);
 }
 
+/* Two plates, of which one is turned about the middle by so little that only
+ * the page's grid says where they pierce each other, or whether. */
+static void without_contact_the_grid_may_pierce_what_touches(void **state) {
+  (void)state;
+  for (int deep = 0; deep < 2; deep++) {
+    double tilt = deep ? 1e-2 : 1e-7;
+    struct page page;
+    struct scene scene;
+    struct judge_verdict verdict;
+    scene_init(&scene);
+    static const double flat[12] = {-3, -3, 0, 3, -3, 0, 3, 3, 0, -3, 3, 0};
+    build_polygon(&scene, flat, 4);
+    const double tilted[12] = {-1, -2, tilt,  1,  -2, -tilt,
+                               1,  2,  -tilt, -1, 2,  tilt};
+    build_polygon(&scene, tilted, 4);
+    for (int drawn = 0; drawn < 3; drawn++) {
+      open_page(&page);
+      page.contact = 0;
+      look_square_on(&page);
+      draw_loop(&page, flat, 4);
+      draw_loop(&page, tilted, 4);
+      if (drawn > 0) /* where they cross, and where they do not */
+        draw_line(&page, vector_of(drawn - 1, -2, 0),
+                  vector_of(drawn - 1, 2, 0));
+      verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+      assert_int_equal(verdict.missing.samples > 0, deep && drawn != 1);
+      assert_int_equal(verdict.false_ink.samples > 0, deep);
+    }
+    scene_fini(&scene);
+  }
+}
+
 static void smooth_edges_are_asked_for_by_all_alone(void **state) {
   (void)state;
   struct page page;
@@ -741,6 +773,7 @@ int main(void) {
       cmocka_unit_test(lines_where_faces_pierce_are_asked_for),
       cmocka_unit_test(contact_does_not_hide),
       cmocka_unit_test(from_a_corner_contact_counts_at_the_far_end),
+      cmocka_unit_test(without_contact_the_grid_may_pierce_what_touches),
       cmocka_unit_test(smooth_edges_are_asked_for_by_all_alone),
       cmocka_unit_test(paths_and_polylines_are_read),
       cmocka_unit_test(a_group_called_hidden_is_none_of_hidden_lines),

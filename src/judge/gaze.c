@@ -35,10 +35,8 @@ struct judge_spot judge_spot_of_image(const struct judge_edge *edge, double t) {
 /* ---- Margins ---------------------------------------------------------------
  */
 
-/* What the hair by which rays are moved aside, and the rounding of depths, are
- * at a spot, in scene units. */
-static double rounding_at(const struct judge_gazer *gazer,
-                          struct judge_spot at) {
+double judge_rounding_at(const struct judge_gazer *gazer,
+                         struct judge_spot at) {
   const struct judge_camera *camera = gazer->camera;
   double depth = judge_depth(camera, at);
   double hair =
@@ -47,12 +45,14 @@ static double rounding_at(const struct judge_gazer *gazer,
 }
 
 /* Planes nearer than half the contact block nothing, beyond one and a half
- * times they do; rounding is added.
+ * times they do; rounding is added, though no plane beyond contact is passed
+ * over: without contact the page's grid decides, and that is not asked here.
  * blur  what may be the matter with a spot that should lie on the plane */
 static struct judge_margin margin_at(const struct judge_gazer *gazer,
                                      double rounding, double blur) {
-  return (struct judge_margin){0.5 * gazer->contact + blur,
-                               1.5 * gazer->contact + 4 * rounding};
+  return (struct judge_margin){
+      fmin(0.5 * gazer->contact + blur, gazer->contact),
+      1.5 * gazer->contact + 4 * rounding};
 }
 
 static void find_ends(const struct judge_gazer *gazer,
@@ -65,10 +65,10 @@ static void find_ends(const struct judge_gazer *gazer,
     end[k].is_cut = seen && t[k] != k;
     if (end[k].is_cut)
       end[k].cut = judge_spot_of_image(edge, t[k]);
-    double rounding = rounding_at(gazer, end[k].spot);
+    double rounding = judge_rounding_at(gazer, end[k].spot);
     end[k].near = 4 * rounding;
     end[k].margin = margin_at(gazer, rounding, 2 * rounding);
-    rounding = rounding_at(gazer, end[k].cut);
+    rounding = judge_rounding_at(gazer, end[k].cut);
     end[k].cut_margin = margin_at(gazer, rounding, 2 * rounding);
   }
 }
@@ -76,11 +76,12 @@ static void find_ends(const struct judge_gazer *gazer,
 /* What a spot sees towards the eye.
  * aside  it is off the edge by a hair, and so off the edge's own faces */
 static enum judge_sight look(const struct judge_gazer *gazer,
+                             const struct judge_edge *edge,
                              const struct judge_end end[2],
                              struct judge_spot from, bool aside,
                              uint32_t *blocker) {
   const struct judge_camera *camera = gazer->camera;
-  double rounding = rounding_at(gazer, from);
+  double rounding = judge_rounding_at(gazer, from);
   double blur =
       aside ? 2 * rounding : gazer->all->size * TOLERANCE_EXTENT_SHARE;
   double near = judge_near(camera);
@@ -88,6 +89,8 @@ static enum judge_sight look(const struct judge_gazer *gazer,
                             .from = from,
                             .margin = margin_at(gazer, rounding, blur),
                             .blur = blur,
+                            .own = {edge->source.face[0], edge->source.face[1]},
+                            .own_touch = 0.5 * gazer->contact + blur,
                             .end = {end[0], end[1]}};
   if (camera->perspective) {
     gaze.towards = spot_sub(camera->eye, from);
@@ -113,14 +116,14 @@ enum judge_sight judge_look_around(const struct judge_gazer *gazer,
   double y = length > 0 ? dx / length * hair : 0;
   struct judge_end end[2];
   find_ends(gazer, edge, end);
-  enum judge_sight sight = look(gazer, end, from, false, blocker);
+  enum judge_sight sight = look(gazer, edge, end, from, false, blocker);
   if (sight != expected)
     return sight;
-  sight =
-      look(gazer, end, judge_shift(gazer->camera, from, x, y), true, blocker);
+  sight = look(gazer, edge, end, judge_shift(gazer->camera, from, x, y), true,
+               blocker);
   if (sight != expected)
     return sight;
-  return look(gazer, end, judge_shift(gazer->camera, from, -x, -y), true,
+  return look(gazer, edge, end, judge_shift(gazer->camera, from, -x, -y), true,
               blocker);
 }
 
@@ -129,5 +132,5 @@ enum judge_sight judge_look_from(const struct judge_gazer *gazer,
                                  struct judge_spot from) {
   struct judge_end end[2];
   find_ends(gazer, edge, end);
-  return look(gazer, end, from, false, NULL);
+  return look(gazer, edge, end, from, false, NULL);
 }

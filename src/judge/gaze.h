@@ -11,6 +11,10 @@ struct judge_gazer {
   double contact, hair_mm; /* as in judge_options */
 };
 
+/* What the hair by which rays are moved aside, and the rounding of depths, are
+ * at a spot, in scene units. */
+double judge_rounding_at(const struct judge_gazer *gazer, struct judge_spot at);
+
 /* Cuts a segment to the page, from *t0 to *t1 of its way; false where nothing
  * is left. */
 bool judge_cut_to_page(const struct judge_camera *camera, struct judge_place a,

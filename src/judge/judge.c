@@ -17,6 +17,7 @@ struct court {
   struct judge_edges edges;
   struct judge_segment *image, *ink; /* of the edges; of the strokes */
   uint32_t inks, drops; /* of ink; of what was dropped, behind it */
+  double grid; /* scene units that the page's grid may explain, at most */
   struct judge_grid by_image, by_ink;
   struct judge_verdict *verdict;
 };
@@ -130,8 +131,15 @@ static enum judge_sight sight_of(const struct court *court,
   return JUDGE_BLOCKED;
 }
 
+/* Where faces pierce each other so little that they may not on the grid, the
+ * line is somewhere there, and at some depth. */
+static bool is_doubtful(const struct judge_edge *edge) {
+  return edge->source.point[0] == SCENE_NONE && edge->source.natures == 0;
+}
+
 /* Whether an edge explains the ink at a place.  The nearest of those that do
- * not is the witness. */
+ * not is the witness.  Where contact allows for less than the grid rounds,
+ * faces that touch may pierce each other on the grid, anywhere. */
 static enum judge_sight explain(const struct court *court,
                                 struct judge_witness *witness) {
   uint32_t count;
@@ -146,13 +154,17 @@ static enum judge_sight explain(const struct court *court,
     const struct judge_edge *edge = &court->edges.edge.item[near[i]];
     uint32_t blocker = SCENE_NONE;
     enum judge_sight sight = sight_of(court, edge, t, &blocker);
+    if (sight == JUDGE_BLOCKED && is_doubtful(edge))
+      sight = JUDGE_UNSURE;
     best = sight < best ? sight : best;
     if (sight == JUDGE_BLOCKED && away < nearest) {
       nearest = away;
       name_edge(witness, edge, judge_spot_of_image(edge, t), blocker);
     }
   }
-  return best;
+  bool may_pierce = court->options.contact < court->grid;
+  return best == JUDGE_BLOCKED && !witness->on_edge && may_pierce ? JUDGE_UNSURE
+                                                                  : best;
 }
 
 /* What is off the page is not drawn. */
@@ -311,6 +323,19 @@ static bool collect_images(struct court *court) {
   return true;
 }
 
+/* The most that rounding is at a corner of the scene. */
+static double grid_of(const struct court *court) {
+  double most = 0;
+  for (int corner = 0; court->all.nodes > 0 && corner < 8; corner++) {
+    const struct judge_box *box = &court->all.node[0].box;
+    struct judge_spot at = {(corner & 1 ? box->high : box->low)[0],
+                            (corner & 2 ? box->high : box->low)[1],
+                            (corner & 4 ? box->high : box->low)[2]};
+    most = fmax(most, judge_rounding_at(&court->gazer, at));
+  }
+  return most;
+}
+
 /* Finds all that the questions need; false when memory ran out. */
 static bool open_court(struct court *court, const struct scene *scene) {
   const struct judge_camera *camera = court->camera;
@@ -323,8 +348,11 @@ static bool open_court(struct court *court, const struct scene *scene) {
     court->options.contact = TOLERANCE_CONTACT_SHARE * court->all.size;
   court->gazer = (struct judge_gazer){
       &court->all, camera, court->options.contact, court->options.hair_mm};
-  return judge_edges_init(&court->edges, scene, &court->all, camera,
-                          &court->options) &&
+  court->grid = grid_of(court);
+  /* Faces that pierce each other less deeply than that may not on the grid. */
+  struct judge_options how = court->options;
+  how.contact = fmax(how.contact, court->grid);
+  return judge_edges_init(&court->edges, scene, &court->all, camera, &how) &&
          collect_images(court) && collect_ink(court) &&
          judge_grid_init(&court->by_image, court->image,
                          (uint32_t)court->edges.edge.count, width, height, cell,

@@ -156,10 +156,16 @@ static enum judge_sight weigh_plane(const struct judge_triangles *all,
   return JUDGE_UNSURE;
 }
 
+static bool is_own(const struct judge_gaze *gaze,
+                   const struct judge_triangle *t) {
+  return (t->face == gaze->own[0] || t->face == gaze->own[1]) &&
+         distance(t, gaze->from) <= gaze->own_touch;
+}
+
 static enum judge_sight look_at(const struct judge_triangles *all,
                                 const struct judge_gaze *gaze,
                                 const struct judge_triangle *t) {
-  if (!line_meets_triangle(gaze, t))
+  if (!line_meets_triangle(gaze, t) || is_own(gaze, t))
     return JUDGE_CLEAR;
   enum judge_sight sight = weigh_plane(all, gaze, t);
   if (sight == JUDGE_CLEAR)

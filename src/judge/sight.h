@@ -34,6 +34,8 @@ struct judge_gaze {
   double reach; /* seen is from + t towards, 0 < t < reach */
   struct judge_margin margin;
   double blur; /* planes this near to `from` may be on either side of it */
+  uint32_t own[2]; /* faces of the edge, and up to where they hide nothing */
+  double own_touch;
   struct judge_end end[2];
 };
 
