@@ -16,6 +16,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/sort.h"
+
 enum {
   FEW = 6,     /* rivals that need no parting */
   LINES = 8,   /* rivals of a part whose sides it may be parted by */
@@ -114,14 +116,22 @@ static bool holds_all(const struct geom_point g[3],
   return true;
 }
 
+/* Of two boxes that meet. */
+static double shared_area(struct page_box a, struct page_box b) {
+  double width = (double)page_least(a.x1, b.x1) - page_most(a.x0, b.x0);
+  double height = (double)page_least(a.y1, b.y1) - page_most(a.y0, b.y0);
+  return width * height;
+}
+
 bool rivals_ask(struct rivals *rivals, uint32_t g) {
   const struct sheet *sheet = rivals->sheet;
   struct triangle_plane plane;
-  struct rival rival = {g, 3, NULL};
+  struct page_box box = page_box_of_triangle(sheet, g);
+  struct rival rival = {g, shared_area(rivals->box, box), 3, NULL};
   struct geom_line line, back;
   enum nearness nearness = NEARER_ALWAYS;
   int64_t low, high;
-  if (page_boxes_apart(rivals->box, page_box_of_triangle(sheet, g)))
+  if (page_boxes_apart(rivals->box, box))
     return true;
   rivals->counts.pairs++;
   for (int k = 0; k < 3; k++)
@@ -553,6 +563,13 @@ static bool solve_part(struct rivals *rivals) {
 /* Of a part that may be parted again, in units of a pulse. */
 enum { PART_WORK = 256 };
 
+static int compare_shares(const void *a, const void *b, void *user) {
+  double p = ((const struct rival *)a)->share,
+         q = ((const struct rival *)b)->share;
+  (void)user;
+  return (q > p) - (q < p);
+}
+
 bool rivals_take_all(struct rivals *rivals) {
   struct geom_convex piece;
   struct geom_line *line = arena_alloc(&rivals->arena, 6, sizeof *line);
@@ -561,6 +578,10 @@ bool rivals_take_all(struct rivals *rivals) {
   triangle_lines(rivals->sheet, rivals->triangle, line, line + 3);
   rivals->left.count = rivals->part.count = rivals->reach.count = 0;
   rivals->whole = true;
+  /* What may cover most comes first: what it takes is not cut again. */
+  if (!sort_stable(rivals->rival.item, rivals->rival.count,
+                   sizeof *rivals->rival.item, compare_shares, NULL))
+    return false;
   if (!geom_convex_triangle(&piece, rivals->plane.p, line, &rivals->arena) ||
       !push_part(rivals, &piece))
     return false;

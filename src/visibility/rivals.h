@@ -16,6 +16,7 @@
 /* A triangle that is nearer than the one at hand, somewhere or all over. */
 struct rival {
   uint32_t triangle;
+  double share;           /* of the page that the two boxes share */
   int lines;              /* 3, or 4: nearer on the left of the fourth */
   struct geom_line *line; /* these, then the same turned round; NULL while
                              nobody asked */
