@@ -1,7 +1,7 @@
 /* auto.c - the least method that is exact for what was asked. */
 #include "visibility/solver.h"
 
-/* Up to so many pairs of edge and face, asking all of them is quicker than
+/* Up to so many pairs of edge and face, or of two faces, asking all of them is quicker than
  * finding out which to ask. */
 #define FEW_PAIRS 2000
 
@@ -16,8 +16,11 @@ const struct solver *solver_choose(const struct sheet *sheet,
                                    const struct solver_request *request,
                                    const char **why) {
   size_t triangles = sheet->triangle.count;
-  if (!request->fragments && triangles < FEW_PAIRS &&
-      triangles * count_drawn(sheet) <= FEW_PAIRS) {
+  size_t asked = request->strokes ? count_drawn(sheet) : 0;
+  if (request->fragments)
+    asked += triangles;
+  if (triangles <= FEW_PAIRS && asked <= FEW_PAIRS &&
+      triangles * asked <= FEW_PAIRS) {
     *why = "few edges and faces: every pair is quickest";
     return &solver_brute;
   }
