@@ -41,7 +41,7 @@ static void scan_frame(struct frames *frames, const struct sheet *sheet,
     raster_clear_line(&one, line);
     assert_true(scanline_enter(&scanline, line));
     scanline_draw(&scanline);
-    assert_true(scanline_step(&scanline));
+    scanline_step(&scanline);
     memcpy(frames->scanned + (size_t)line * columns, one.seen,
            columns * sizeof *one.seen);
   }
@@ -58,7 +58,8 @@ static void draw_frames(struct frames *frames, const struct sheet *sheet,
   assert_int_equal(raster_init(&frames->whole, sheet, lines, bits, true, NULL),
                    RECTO_OK);
   assert_int_equal(
-      zbuffer_draw(&frames->whole, &facets, &plain, NULL, &covered, NULL), RECTO_OK);
+      zbuffer_draw(&frames->whole, &facets, &plain, NULL, &covered, NULL),
+      RECTO_OK);
   frames->pixels = (size_t)lines * (size_t)frames->whole.grid.columns;
   frames->scanned = mem_alloc(frames->pixels, sizeof *frames->scanned);
   scan_frame(frames, sheet, &facets, lines, bits);
@@ -214,34 +215,30 @@ static void active_pairs_are_as_listed(void **state) {
   assert_int_equal(raster_init(&raster, &sheet, 32, 0, false, NULL), RECTO_OK);
   assert_true(scanline_init(&scanline, &raster, &facets, &plain));
   for (int32_t line = 31; line >= 0; line--) {
-    const struct pair *pair = scanline.pair.item;
+    const struct pair *pair;
     raster_clear_line(&raster, line);
     assert_true(scanline_enter(&scanline, line));
+    pair = scanline.active.item;
     /* The rectangle is one polygon of four corners, from line 24 to 5; the
      * triangle's lines are 24 to 10. */
     assert_int_equal(scanline.active.count, line > 24 || line < 5 ? 0
                                             : line < 10           ? 1
                                                                   : 2);
     if (line == 24) {
-      pair = scanline.pair.item;
-      assert_pair(&pair[scanline.active.item[0]],
-                  (struct listed){10, 0, 19, 25, 0, 19, 10, 0, 0});
-      assert_pair(&pair[scanline.active.item[1]],
-                  (struct listed){24.5, -1, 9, 25 + 1 / 6., 1 / 3., 14, 5.5,
-                                  0.75, 0.25});
+      assert_pair(&pair[0], (struct listed){10, 0, 19, 25, 0, 19, 10, 0, 0});
+      assert_pair(&pair[1], (struct listed){24.5, -1, 9, 25 + 1 / 6., 1 / 3.,
+                                            14, 5.5, 0.75, 0.25});
     }
     if (line == 15) {
-      assert_pair(&pair[scanline.active.item[0]],
-                  (struct listed){10, 0, 10, 25, 0, 10, 10, 0, 0});
-      assert_pair(&pair[scanline.active.item[1]],
-                  (struct listed){15.5, -1, 0, 28 + 1 / 6., 1 / 3., 5, 14.5,
-                                  0.75, 0.25});
+      assert_pair(&pair[0], (struct listed){10, 0, 10, 25, 0, 10, 10, 0, 0});
+      assert_pair(&pair[1], (struct listed){15.5, -1, 0, 28 + 1 / 6., 1 / 3., 5,
+                                            14.5, 0.75, 0.25});
     }
     if (line == 14)
-      assert_pair(&pair[scanline.active.item[1]],
+      assert_pair(&pair[1],
                   (struct listed){16.5, 3, 4, 28.5, 1 / 3., 4, 14, 0.75, 0.25});
     scanline_draw(&scanline);
-    assert_true(scanline_step(&scanline));
+    scanline_step(&scanline);
   }
   scanline_fini(&scanline);
   raster_fini(&raster);

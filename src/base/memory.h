@@ -17,6 +17,14 @@ void *mem_calloc(size_t count, size_t size);
 void *mem_resize(void *block, size_t count, size_t size);
 void mem_free(void *block);
 
+/* Fetches into the cache what will be read soon.  A macro: calls of a function
+ * that does no more are left out by compilers. */
+#if defined __GNUC__
+#define MEM_FETCH(address) __builtin_prefetch(address)
+#else
+#define MEM_FETCH(address) ((void)(address))
+#endif
+
 /* For tests: the n-th allocation from now (1-based) fails, once; 0 switches
  * this off.  Not thread safe. */
 void mem_fail_after(unsigned long n);

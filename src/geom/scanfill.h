@@ -178,8 +178,15 @@ struct scan_convex {
 bool scan_convex_start(struct scan_convex *walk, const struct scan_grid *grid,
                        const struct scan_point *point, uint32_t count);
 
+/* Is the polygon's last corner reached: is this surely its last line? */
+static inline bool scan_convex_ends(const struct scan_convex *walk) {
+  return (walk->left.dy == 0 && walk->left_at == walk->end) ||
+         (walk->right.dy == 0 && walk->right_at == walk->end);
+}
+
 /* Goes to the next line; false past the last.
- * point  the same corners as at the start */
+ * point  the same corners as at the start; not looked at while both edges
+ *        have lines left */
 bool scan_convex_next(struct scan_convex *walk, const struct scan_grid *grid,
                       const struct scan_point *point);
 

@@ -11,28 +11,34 @@ static double depth_on_left(const struct pair *pair,
   const struct scan_grid *grid = &raster->grid;
   const struct scan_edge *left = &pair->edges.left;
   uint32_t k = pair->edges.left_at;
-  const struct scan_point *corner = &pair->point[k];
+  const struct scan_point corner = raster_point(raster, pair->corner[k]);
   int64_t y = grid->y_first + left->line * grid->y_step + grid->y_step / 2;
-  double up = (double)(y - corner->y * grid->den) / (double)grid->y_step;
+  double up = (double)(y - corner.y * grid->den) / (double)grid->y_step;
   return (double)raster->sheet->point.item[pair->corner[k]].z -
-         pair->dz_x * (left->x - corner->column) - pair->dz_y * up;
+         pair->dz_x * (left->x - corner.column) - pair->dz_y * up;
+}
+
+static void set_points(const struct pair *pair, const struct raster *raster,
+                       struct scan_point point[FACET_CORNERS_MAX]) {
+  for (uint32_t k = 0; k < pair->count; k++)
+    point[k] = raster_point(raster, pair->corner[k]);
 }
 
 bool pair_start(struct pair *pair, const struct raster *raster,
                 const struct facets *facets, uint32_t facet) {
   const struct sheet *sheet = raster->sheet;
   const struct scan_grid *grid = &raster->grid;
+  struct scan_point point[FACET_CORNERS_MAX];
   const uint32_t *side;
   double per_column, per_line;
-  uint32_t count = facet_outline(facets, sheet, facet, &pair->corner, &side);
-  for (uint32_t k = 0; k < count; k++)
-    pair->point[k] = raster->point[pair->corner[k]];
-  if (!scan_convex_start(&pair->edges, grid, pair->point, count))
+  pair->count = facet_outline(facets, sheet, facet, &pair->corner, &side);
+  set_points(pair, raster, point);
+  if (!scan_convex_start(&pair->edges, grid, point, pair->count))
     return false;
   pair->facet = facet;
   pair->z_low = INFINITY;
   pair->z_high = -INFINITY;
-  for (uint32_t k = 0; k < count; k++) {
+  for (uint32_t k = 0; k < pair->count; k++) {
     double z = (double)sheet->point.item[pair->corner[k]].z;
     if (z < pair->z_low)
       pair->z_low = z;
@@ -51,7 +57,12 @@ bool pair_start(struct pair *pair, const struct raster *raster,
 
 bool pair_next(struct pair *pair, const struct raster *raster) {
   double dx_left = pair->edges.left.dx;
-  if (!scan_convex_next(&pair->edges, &raster->grid, pair->point))
+  struct scan_point point[FACET_CORNERS_MAX], *asked = NULL;
+  if (scan_convex_ends(&pair->edges))
+    return false;
+  if (pair->edges.left.dy == 0 || pair->edges.right.dy == 0)
+    set_points(pair, raster, asked = point);
+  if (!scan_convex_next(&pair->edges, &raster->grid, asked))
     return false;
   if (pair->edges.left_new)
     pair->z_left = depth_on_left(pair, raster);

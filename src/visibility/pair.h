@@ -17,12 +17,12 @@
 
 struct pair {
   uint32_t facet;
-  const uint32_t *corner; /* lent: the facet's sheet points */
+  uint32_t count;
+  const uint32_t *corner; /* lent: the facet's `count` sheet points */
   struct scan_convex edges;
   double z_left, dz_x, dz_y;
   double z_low, z_high; /* of the facet's corners */
   bool gentle;          /* see RASTER_GENTLE */
-  struct scan_point point[FACET_CORNERS_MAX];
 };
 
 /* Starts a facet at its first line, the topmost.  Returns false where it

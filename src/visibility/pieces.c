@@ -22,13 +22,13 @@ static uint32_t find_tile(struct dealing *dealing, uint32_t triangle) {
   const uint32_t *corner, *side;
   int32_t low = INT32_MAX, high = 0;
   uint32_t count;
-  double column;
+  int32_t column;
   if ((sheet->triangle_flags[triangle] & dealing->left_out) ||
       facet_of(dealing->facets, triangle) != triangle)
     return NO_TILE;
   count = facet_outline(dealing->facets, sheet, triangle, &corner, &side);
   for (uint32_t k = 0; k < count; k++) {
-    int32_t line = raster->point[corner[k]].line;
+    int32_t line = raster->place_of[corner[k]].line;
     low = line < low ? line : low;
     high = line > high ? line : high;
   }
@@ -36,10 +36,10 @@ static uint32_t find_tile(struct dealing *dealing, uint32_t triangle) {
     return NO_TILE;
   if (high - low > dealing->tallest)
     dealing->tallest = high - low;
-  column = raster->point[corner[0]].column;
+  column = raster->place_of[corner[0]].column;
   return (uint32_t)((size_t)(raster->grid.lines - high) / PIECES_BAND *
                         dealing->across +
-                    (column > 0 ? (size_t)column / TILE_COLUMNS : 0));
+                    (size_t)column / TILE_COLUMNS);
 }
 
 /* Finds each triangle's tile, and where in the order each tile's facets start.

@@ -15,7 +15,7 @@
  * Doubt.  Let a gentle facet's depth change by G = RASTER_GENTLE over the
  * frame and u = 2^-53.  The x of its left edge is off by at most
  * 2 u columns (lines + 12) (scanfill.c), which moves its depth by 2 u G
- * (lines + 12); the slopes, each within 3 u of themselves, and the steps,
+ * (lines + 12); the slopes, each within 6 u of themselves, and the steps,
  * each rounded to u of at most 2^40, add less than 20 u G.  Two such depths
  * differ by less than 4 u G (lines + 22) from the truth.
  */
@@ -45,16 +45,39 @@ struct scan_grid raster_grid(const struct sheet *sheet, int32_t lines) {
 }
 
 static bool allocate(struct raster *raster) {
-  size_t pixels = (size_t)raster->grid.columns * (size_t)raster->kept;
+  size_t pixels =
+      (size_t)raster->grid.columns * (size_t)raster->kept + RASTER_SPARE;
   size_t points = raster->sheet->point.count;
-  raster->point = mem_alloc(points, sizeof *raster->point);
+  raster->place_of = mem_alloc(points, sizeof *raster->place_of);
   raster->seen = mem_calloc(pixels, sizeof *raster->seen);
   if (raster->depth_bits > 0)
     raster->level = mem_calloc(pixels, sizeof *raster->level);
   else
     raster->depth = mem_calloc(pixels, sizeof *raster->depth);
-  return raster->point != NULL && raster->seen != NULL &&
+  return raster->place_of != NULL && raster->seen != NULL &&
          (raster->level != NULL || raster->depth != NULL);
+}
+
+static double within(double value, double most) {
+  return value < 0 ? 0 : value > most ? most : value;
+}
+
+/* Numerators are below 2^53 and whole, steps up to 2^32 (a page of 2 m) and
+ * quotients below 2^17: one that is not whole is 2^-32 away from being so and
+ * its rounding below 2^-36, so the first line is found exactly. */
+static void find_places(struct raster *raster) {
+  const struct scan_grid *grid = &raster->grid;
+  const struct geom_point *at = raster->sheet->point.item;
+  double first = (double)(grid->y_first + grid->y_step / 2);
+  for (size_t i = 0; i < raster->sheet->point.count; i++) {
+    double x = (double)at[i].x * (double)grid->den - (double)grid->x_first;
+    double y = (double)at[i].y * (double)grid->den - first;
+    double column = within(x / (double)grid->x_step, grid->columns - 1);
+    double line = within(y / (double)grid->y_step, grid->lines);
+    int32_t below = (int32_t)line;
+    raster->place_of[i] =
+        (struct raster_place){below + (below < line), (int32_t)column};
+  }
 }
 
 recto_status raster_init(struct raster *raster, const struct sheet *sheet,
@@ -87,14 +110,12 @@ recto_status raster_init(struct raster *raster, const struct sheet *sheet,
     raster_fini(raster);
     return error_memory(error);
   }
-  for (size_t i = 0; i < sheet->point.count; i++)
-    raster->point[i] = scan_point_of(&raster->grid, sheet->point.item[i].x,
-                                     sheet->point.item[i].y);
+  find_places(raster);
   return RECTO_OK;
 }
 
 void raster_fini(struct raster *raster) {
-  mem_free(raster->point);
+  mem_free(raster->place_of);
   mem_free(raster->seen);
   mem_free(raster->depth);
   mem_free(raster->level);
@@ -150,10 +171,16 @@ double raster_depth(const struct raster *raster, uint32_t facet, int32_t column,
   return ratio_to_double(exact_depth(raster, facet, column, line));
 }
 
+/* Most are small, and then quickly converted. */
+static double to_double(int128 value) {
+  int64_t low = (int64_t)value;
+  return low == value ? (double)low : (double)value;
+}
+
 void raster_slopes(const struct sheet *sheet, const struct scan_grid *grid,
                    uint32_t facet, double *per_column, double *per_line) {
   struct geom_plane plane = facet_plane(sheet, facet);
-  double scale = (double)plane.nz * (double)grid->den;
-  *per_column = -((double)plane.nx * (double)grid->x_step) / scale;
-  *per_line = -((double)plane.ny * (double)grid->y_step) / scale;
+  double scale = 1 / ((double)plane.nz * (double)grid->den);
+  *per_column = -to_double(plane.nx) * (double)grid->x_step * scale;
+  *per_line = -to_double(plane.ny) * (double)grid->y_step * scale;
 }

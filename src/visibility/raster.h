@@ -26,6 +26,7 @@
 #define RASTER_LINES_DEFAULT 2048 /* on A4, two lines within a 0.3 mm pen */
 #define RASTER_COLUMNS_MAX (1 << 20)
 #define RASTER_DEPTH_BITS_MAX 32
+#define RASTER_SPARE 4 /* pixels past the last, written to and not seen */
 
 /* A facet is gentle where its plane's depth changes by no more than this over
  * the columns and lines of the frame; others, within a part in 256 of edge-on
@@ -34,14 +35,20 @@
  * and columns and off by less than `doubt`. */
 #define RASTER_GENTLE 0x1p48
 
+/* Where a point of the sheet is in the frame: `line` as in struct scan_point,
+ * and the column about it. */
+struct raster_place {
+  int32_t line, column;
+};
+
 struct raster {
   const struct sheet *sheet;
   struct scan_grid grid;
   int depth_bits;     /* 0: float64 */
   double level_scale; /* levels a depth unit */
   double doubt;       /* float64: doubles this near are compared exactly */
-  struct scan_point *point; /* the sheet's points */
-  int32_t kept;             /* lines held: all of them, or one at a time */
+  struct raster_place *place_of; /* one a point of the sheet */
+  int32_t kept;                  /* lines held: all of them, or one at a time */
   uint32_t
       place; /* mask: which bits of a line's number tell where it is held */
   /* kept x columns.  All are 0 where nothing is seen, so that the system lends
@@ -73,6 +80,22 @@ void raster_fini(struct raster *raster);
 static inline size_t raster_row(const struct raster *raster, int32_t line) {
   return ((uint32_t)line & raster->place) * (size_t)raster->grid.columns;
 }
+
+/* A point of the sheet, as scan_point_of has it. */
+static inline struct scan_point raster_point(const struct raster *raster,
+                                             uint32_t point) {
+  const struct scan_grid *grid = &raster->grid;
+  const struct geom_point *at = &raster->sheet->point.item[point];
+  double x = (double)(at->x * grid->den - grid->x_first);
+  return (struct scan_point){at->x, at->y, x / (double)grid->x_step,
+                             raster->place_of[point].line};
+}
+
+/* Fetches into the cache what is asked of a point: they lie all over the
+ * sheet. */
+#define RASTER_FETCH(raster, at)                                               \
+  (MEM_FETCH(&(raster)->sheet->point.item[at]),                                \
+   MEM_FETCH(&(raster)->place_of[at]))
 
 /* Folds an empty frame that holds all lines: from now on lines share memory,
  * with at least `lines` lines between any two that do. */

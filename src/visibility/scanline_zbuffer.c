@@ -3,10 +3,8 @@
  * Phases   facets lie in buckets by their top line; line by line from the top
  *          the bucket joins the active polygons, whose pairs of active edges
  *          are drawn into one line's buffers and stepped (pair.h); the line
- *          becomes strokes and fragments (pixels.h) and is forgotten.
- * Invariants  active polygons stand in the order of the file, so that a line
- *          is drawn as the whole frame's would be: the same answer as
- *          zbuffer's to the pixel.
+ *          becomes strokes and fragments (pixels.h) and is forgotten: the same
+ *          answer as zbuffer's to the pixel.
  * Cost     as zbuffer; memory a line, the active pairs and a key per facet,
  *          whatever the number of lines.
  * Source   Rogers ch. 4; Foley, van Dam, Feiner & Hughes 15.6.
@@ -16,6 +14,8 @@
 #include <string.h>
 
 #include "visibility/pixels.h"
+
+#define AHEAD 8 /* facets of a bucket whose corners are fetched */
 
 /* ---- Lists -------------------------------------------------------------- */
 
@@ -32,75 +32,48 @@ bool scanline_init(struct scanline *scanline, struct raster *raster,
 
 void scanline_fini(struct scanline *scanline) {
   mem_free(scanline->bucket);
-  ARRAY_FREE(&scanline->pair);
-  ARRAY_FREE(&scanline->free);
   ARRAY_FREE(&scanline->active);
-  ARRAY_FREE(&scanline->scratch);
   memset(scanline, 0, sizeof *scanline);
 }
 
-/* A pair that is not in use; its index, or SHEET_NONE when memory ran out. */
-static uint32_t take_pair(struct scanline *scanline) {
-  if (scanline->free.count > 0)
-    return scanline->free.item[--scanline->free.count];
-  if (!ARRAY_RESERVE(&scanline->pair, 1))
-    return SHEET_NONE;
-  return (uint32_t)scanline->pair.count++;
-}
-
 bool scanline_enter(struct scanline *scanline, int32_t line) {
-  uint64_t key = (uint64_t)(scanline->raster->grid.lines - 1 - line);
-  scanline_list merged = scanline->scratch, *active = &scanline->active;
-  size_t i = 0;
-  merged.count = 0;
-  for (; scanline->entered < scanline->bucket_count &&
-         scanline->bucket[scanline->entered].key == key;
-       scanline->entered++) {
-    uint32_t facet = scanline->bucket[scanline->entered].value;
-    uint32_t slot = take_pair(scanline);
-    bool room = ARRAY_RESERVE(&merged, active->count + 1);
-    scanline->scratch = merged;
-    if (slot == SHEET_NONE || !room)
+  const struct raster *raster = scanline->raster;
+  uint64_t key = (uint64_t)(raster->grid.lines - 1 - line);
+  const struct sheet_triangle *triangle = raster->sheet->triangle.item;
+  const struct sort_key *bucket = scanline->bucket;
+  size_t i = scanline->entered, count = scanline->bucket_count;
+  for (; i < count && bucket[i].key == key; i++) {
+    if (i + 2 * AHEAD < count) {
+      MEM_FETCH(&triangle[bucket[i + 2 * AHEAD].value]);
+      for (int k = 0; k < 3; k++)
+        RASTER_FETCH(raster, triangle[bucket[i + AHEAD].value].point[k]);
+    }
+    if (!ARRAY_RESERVE(&scanline->active, 1))
       return false;
     /* It covers a line, or it would not lie in a bucket. */
-    pair_start(&scanline->pair.item[slot], scanline->raster, scanline->facets,
-               facet);
-    while (i < active->count &&
-           scanline->pair.item[active->item[i]].facet < facet)
-      merged.item[merged.count++] = active->item[i++];
-    merged.item[merged.count++] = slot;
+    pair_start(&scanline->active.item[scanline->active.count++], raster,
+               scanline->facets, bucket[i].value);
   }
-  if (merged.count == 0)
-    return true;
-  while (i < active->count)
-    merged.item[merged.count++] = active->item[i++];
-  scanline->scratch = *active;
-  *active = merged;
-  if (active->count > scanline->most_active)
-    scanline->most_active = active->count;
+  scanline->entered = i;
+  if (scanline->active.count > scanline->most_active)
+    scanline->most_active = scanline->active.count;
   return true;
 }
 
 void scanline_draw(struct scanline *scanline) {
   for (size_t i = 0; i < scanline->active.count; i++)
-    scanline->covered += (int64_t)pair_draw(
-        &scanline->pair.item[scanline->active.item[i]], scanline->raster);
+    scanline->covered +=
+        (int64_t)pair_draw(&scanline->active.item[i], scanline->raster);
 }
 
-bool scanline_step(struct scanline *scanline) {
-  scanline_list *active = &scanline->active;
-  size_t kept = 0;
-  if (!ARRAY_RESERVE(&scanline->free, active->count))
-    return false;
-  for (size_t i = 0; i < active->count; i++) {
-    uint32_t slot = active->item[i];
-    if (pair_next(&scanline->pair.item[slot], scanline->raster))
-      active->item[kept++] = slot;
+void scanline_step(struct scanline *scanline) {
+  struct pair *pair = scanline->active.item;
+  for (size_t i = 0; i < scanline->active.count;) {
+    if (pair_next(&pair[i], scanline->raster))
+      i++;
     else
-      scanline->free.item[scanline->free.count++] = slot;
+      pair[i] = pair[--scanline->active.count];
   }
-  active->count = kept;
-  return true;
 }
 
 /* ---- The solver --------------------------------------------------------- */
@@ -116,8 +89,7 @@ static recto_status walk_lines(struct scanline *scanline, struct pixels *pixels,
       return error_memory(error);
     before = scanline->covered;
     scanline_draw(scanline);
-    if (!scanline_step(scanline))
-      return error_memory(error);
+    scanline_step(scanline);
     pixels->pulse.left -= (scanline->covered - before) / PULSE_PIXELS;
     status = pixels_line(pixels, line, error);
   }

@@ -6,17 +6,14 @@
 #include "visibility/pair.h"
 #include "visibility/solver.h"
 
-typedef ARRAY(uint32_t) scanline_list;
-
 struct scanline {
   struct raster *raster; /* holds one line */
   const struct facets *facets;
   struct sort_key *bucket; /* facets by first line from the top, then order */
   size_t bucket_count, entered;
-  ARRAY(struct pair) pair; /* room for the active facets */
-  scanline_list free;      /* pairs that are not in use */
-  scanline_list active;    /* pairs in use, ascending by facet */
-  scanline_list scratch;
+  ARRAY(struct pair)
+  active; /* in no order: of equally near facets the earlier
+             in the file is kept whichever comes first */
   size_t most_active;
   int64_t covered;
 };
@@ -34,6 +31,6 @@ USE_RESULT bool scanline_enter(struct scanline *scanline, int32_t line);
 void scanline_draw(struct scanline *scanline);
 
 /* Moves the active pairs to the next line; those that end leave. */
-USE_RESULT bool scanline_step(struct scanline *scanline);
+void scanline_step(struct scanline *scanline);
 
 #endif

@@ -20,6 +20,8 @@
 #include "visibility/zfill.h"
 #include "visibility/zsmall.h"
 
+#define AHEAD 8 /* pieces whose corners are fetched */
+
 static void draw_piece(struct raster *raster, const struct facets *facets,
                        const struct piece *piece, int64_t *covered) {
   uint32_t facet = piece->facet;
@@ -33,6 +35,21 @@ static void draw_piece(struct raster *raster, const struct facets *facets,
   more = pair_start(&pair, raster, facets, facet);
   for (; more; more = pair_next(&pair, raster))
     *covered += (int64_t)pair_draw(&pair, raster);
+}
+
+/* Returns false where the caller wants no more. */
+static bool draw_pieces(struct raster *raster, const struct facets *facets,
+                        const struct piece *piece, size_t count,
+                        struct pulse *pulse, int64_t *covered) {
+  for (size_t i = 0; i < count; i++) {
+    int64_t before = *covered;
+    for (int k = 0; k < 3 && i + AHEAD < count; k++)
+      RASTER_FETCH(raster, piece[i + AHEAD].corner[k]);
+    draw_piece(raster, facets, &piece[i], covered);
+    if (!pulse_beat(pulse, 1 + (size_t)(*covered - before) / PULSE_PIXELS))
+      return false;
+  }
+  return true;
 }
 
 /* Hands over the lines of a band that is finished, and makes their memory
@@ -57,18 +74,16 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
   struct pulse pulse = pulse_of(request, "visibility");
   recto_status status = RECTO_OK;
   struct pieces pieces;
-  size_t i = 0;
+  size_t first = 0;
   if (!pieces_init(&pieces, raster, facets, request))
     return error_memory(error);
   if (pixels != NULL)
     raster_fold(raster, PIECES_BAND + pieces.tallest);
   for (size_t band = 0; band < pieces.bands && status == RECTO_OK; band++) {
-    for (; i < pieces.past[band] && status == RECTO_OK; i++) {
-      int64_t before = *covered;
-      draw_piece(raster, facets, &pieces.item[i], covered);
-      if (!pulse_beat(&pulse, 1 + (size_t)(*covered - before) / PULSE_PIXELS))
-        status = pulse_error(&pulse, error);
-    }
+    if (!draw_pieces(raster, facets, pieces.item + first,
+                     pieces.past[band] - first, &pulse, covered))
+      status = pulse_error(&pulse, error);
+    first = pieces.past[band];
     if (status == RECTO_OK && pixels != NULL)
       status = finish_band(raster, pixels, band, error);
   }

@@ -8,25 +8,17 @@
 
 #include <math.h>
 
-/* Most are small, and then quickly converted. */
-static double to_double(int128 value) {
-  int64_t low = (int64_t)value;
-  return low == value ? (double)low : (double)value;
-}
-
 void zfill_plane_init(struct zfill_plane *plane, const struct raster *raster,
-                      const uint32_t point[3]) {
+                      uint32_t triangle) {
   const struct scan_grid *grid = &raster->grid;
-  const struct geom_point *at = raster->sheet->point.item;
-  struct geom_plane p = geom_plane_of(at[point[0]], at[point[1]], at[point[2]]);
-  const struct scan_point *corner = &raster->point[point[0]];
-  double scale = 1 / ((double)p.nz * (double)grid->den);
+  uint32_t point = raster->sheet->triangle.item[triangle].point[0];
+  const struct scan_point corner = raster_point(raster, point);
   double y =
-      (double)(corner->y * grid->den - grid->y_first) / (double)grid->y_step;
-  plane->per_column = -to_double(p.nx) * (double)grid->x_step * scale;
-  plane->per_line = -to_double(p.ny) * (double)grid->y_step * scale;
-  plane->z =
-      (double)p.a.z - plane->per_column * corner->column - plane->per_line * y;
+      (double)(corner.y * grid->den - grid->y_first) / (double)grid->y_step;
+  raster_slopes(raster->sheet, grid, triangle, &plane->per_column,
+                &plane->per_line);
+  plane->z = (double)raster->sheet->point.item[point].z -
+             plane->per_column * corner.column - plane->per_line * y;
   plane->gentle = fabs(plane->per_column) * grid->columns +
                       fabs(plane->per_line) * grid->lines <=
                   RASTER_GENTLE;
@@ -47,7 +39,8 @@ void zfill_settle(struct raster *raster, uint32_t facet, int32_t line,
   for (int32_t c = first; c < past; c++, z += per_column) {
     double *depth = &raster->depth[row + (size_t)c];
     uint32_t *seen = &raster->seen[row + (size_t)c];
-    if (fabs(z - *depth) < raster->doubt && *seen != raster_seen(facet) &&
+    /* The depth here may be rounded otherwise than it was then. */
+    if (fabs(z - *depth) < 2 * raster->doubt && *seen != raster_seen(facet) &&
         zfill_is_nearer(raster, facet, raster_facet(*seen), c, line)) {
       *depth = z;
       *seen = raster_seen(facet);
@@ -131,23 +124,23 @@ bool zfill_triangle(struct raster *raster, uint32_t triangle,
                     int64_t *covered) {
   const struct scan_grid *grid = &raster->grid;
   const uint32_t *corner = raster->sheet->triangle.item[triangle].point;
-  const struct scan_point *p[3] = {&raster->point[corner[0]],
-                                   &raster->point[corner[1]],
-                                   &raster->point[corner[2]]};
+  const struct scan_point p[3] = {raster_point(raster, corner[0]),
+                                  raster_point(raster, corner[1]),
+                                  raster_point(raster, corner[2])};
   struct zfill_plane plane;
   struct falling longest, side;
   /* The highest corner, then counter-clockwise. */
-  int top = p[0]->y > p[1]->y ? (p[0]->y > p[2]->y ? 0 : 2)
-                              : (p[1]->y > p[2]->y ? 1 : 2);
-  const struct scan_point *high = p[top], *next = p[top == 2 ? 0 : top + 1],
-                          *last = p[top == 0 ? 2 : top - 1];
+  int top =
+      p[0].y > p[1].y ? (p[0].y > p[2].y ? 0 : 2) : (p[1].y > p[2].y ? 1 : 2);
+  const struct scan_point *high = &p[top], *next = &p[top == 2 ? 0 : top + 1],
+                          *last = &p[top == 0 ? 2 : top - 1];
   /* Counter-clockwise from the highest leads down on the left. */
   bool left = next->y > last->y;
   const struct scan_point *middle = left ? next : last;
   const struct scan_point *low = left ? last : next;
   if (high->line == low->line)
     return true;
-  zfill_plane_init(&plane, raster, corner);
+  zfill_plane_init(&plane, raster, triangle);
   if (!plane.gentle)
     return false;
   if (!start(&longest, grid, high, low))

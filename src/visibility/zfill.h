@@ -9,7 +9,7 @@
 #ifndef VISIBILITY_ZFILL_H
 #define VISIBILITY_ZFILL_H
 
-#include <math.h>
+#include <string.h>
 
 #include "visibility/raster.h"
 
@@ -20,41 +20,115 @@ struct zfill_plane {
   bool gentle; /* see RASTER_GENTLE */
 };
 
-/* Sets the plane through three points of the sheet. */
+/* Sets the plane of a triangle of the sheet that is not flat. */
 void zfill_plane_init(struct zfill_plane *plane, const struct raster *raster,
-                      const uint32_t point[3]);
+                      uint32_t triangle);
 
 /* Is the facet nearer than the one that is there, SHEET_NONE where there is
  * none, or as near and earlier, at the pixel's centre?  Exact. */
 bool zfill_is_nearer(const struct raster *raster, uint32_t facet,
                      uint32_t there, int32_t column, int32_t line);
 
-/* zfill_span's second pass: asks exactly about the pixels where doubles could
- * not tell. */
+/* ---- Spans -------------------------------------------------------------- */
+
+#define ZFILL_LANES 4 /* pixels put into the frame at once, needed or not */
+_Static_assert(ZFILL_LANES - 1 <= RASTER_SPARE, "lanes end within the frame");
+
+typedef double zfill_pair __attribute__((vector_size(16)));
+typedef int64_t zfill_mask __attribute__((vector_size(16)));
+typedef uint32_t zfill_seen __attribute__((vector_size(16)));
+
+/* What all pixels of a facet share. */
+struct zfill_stamp {
+  zfill_pair step[2]; /* depths of the lanes less that of the first */
+  double doubt;
+  uint32_t own;
+};
+
+static inline struct zfill_stamp
+zfill_stamp_of(const struct raster *raster, uint32_t facet, double per_column) {
+  return (struct zfill_stamp){
+      {{0, per_column}, (zfill_pair){2, 3} * per_column},
+      raster->doubt,
+      raster_seen(facet)};
+}
+
+/* Puts two depths into the frame where they are nearer and `kept`.
+ * close  gets where doubles cannot tell, too
+ * Returns where they are nearer. */
+static inline zfill_mask zfill_put_pair(double *depth, zfill_pair here,
+                                        zfill_mask kept, double doubt,
+                                        zfill_mask *close) {
+  zfill_pair there, gap, size;
+  zfill_mask nearer;
+  memcpy(&there, depth, sizeof there);
+  gap = here - there;
+  size = (zfill_pair)((zfill_mask)gap & INT64_MAX);
+  nearer = (gap >= doubt) & kept;
+  *close |= (size < doubt) & kept;
+  there = (zfill_pair)((zfill_mask)there ^
+                       (((zfill_mask)there ^ (zfill_mask)here) & nearer));
+  memcpy(depth, &there, sizeof there);
+  return nearer;
+}
+
+/* Puts the first `count` lanes into the frame. */
+static inline void zfill_put_lanes(const struct zfill_stamp *stamp,
+                                   double *depth, uint32_t *seen, double z,
+                                   double count, zfill_mask *close) {
+  const zfill_pair lane[2] = {{0, 1}, {2, 3}};
+  zfill_seen there;
+  zfill_seen a = (zfill_seen)zfill_put_pair(
+      depth, z + stamp->step[0], lane[0] < count, stamp->doubt, close);
+  zfill_seen b = (zfill_seen)zfill_put_pair(
+      depth + 2, z + stamp->step[1], lane[1] < count, stamp->doubt, close);
+#if defined __clang__
+  a = __builtin_shufflevector(a, b, 0, 2, 4, 6);
+#else
+  a = __builtin_shuffle(a, b, (zfill_seen){0, 2, 4, 6});
+#endif
+  memcpy(&there, seen, sizeof there);
+  there ^= (there ^ stamp->own) & a;
+  memcpy(seen, &there, sizeof there);
+}
+
+/* Puts `count` pixels into a frame of float64 depths where the facet is nearer
+ * than what is there.  Which of two is nearer is as good as random, and most
+ * spans are short: no jump depends on the one, few on the other.
+ * z      at the first pixel's centre
+ * count  nothing is done where it is not above 0
+ * close  gets not 0 where doubles cannot tell, for zfill_settle */
+static inline void zfill_put(const struct zfill_stamp *stamp, double *depth,
+                             uint32_t *seen, double z, double count,
+                             zfill_mask *close) {
+  zfill_put_lanes(stamp, depth, seen, z, count, close);
+  while (count > ZFILL_LANES) {
+    count -= ZFILL_LANES;
+    z += ZFILL_LANES / 2 * stamp->step[1][0];
+    zfill_put_lanes(stamp, depth += ZFILL_LANES, seen += ZFILL_LANES, z, count,
+                    close);
+  }
+}
+
+/* The second pass over a span: asks exactly about the pixels where doubles
+ * could not tell. */
 void zfill_settle(struct raster *raster, uint32_t facet, int32_t line,
                   int32_t first, int32_t past, double z, double per_column);
 
-/* Puts the columns [first, past) of a line into a frame of float64 depths where
- * the facet is nearer than what is there.  Which of two is nearer is as good as
- * random: no jump depends on it.
- * z  at the first column's centre */
+/* Both passes over the columns [first, past) of a line. */
 static inline void zfill_span(struct raster *raster, uint32_t facet,
                               int32_t line, int32_t first, int32_t past,
                               double z, double per_column) {
-  size_t row = raster_row(raster, line);
-  double *depth = raster->depth + row, doubt = raster->doubt, here = z;
-  uint32_t *seen = raster->seen + row, own = raster_seen(facet);
-  bool close = false;
-  for (int32_t c = first; c < past; c++, here += per_column) {
-    double there = depth[c], gap = here - there;
-    uint32_t nearer = 0u - (uint32_t)(gap >= doubt);
-    close |= fabs(gap) < doubt;
-    depth[c] = gap >= doubt ? here : there;
-    seen[c] ^= (seen[c] ^ own) & nearer;
-  }
-  if (close)
+  size_t at = raster_row(raster, line) + (size_t)first;
+  struct zfill_stamp stamp = zfill_stamp_of(raster, facet, per_column);
+  zfill_mask close = {0, 0};
+  zfill_put(&stamp, raster->depth + at, raster->seen + at, z, past - first,
+            &close);
+  if ((close[0] | close[1]) != 0)
     zfill_settle(raster, facet, line, first, past, z, per_column);
 }
+
+/* ---- Triangles ---------------------------------------------------------- */
 
 /* Puts a triangle of the sheet that is not flat into a frame of float64 depths
  * that holds all lines.
