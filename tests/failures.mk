@@ -19,6 +19,9 @@ unit_tests += %D%/test_failures_numbers
 %C%_test_failures_numbers_SOURCES = %D%/test_failures_numbers.c $(failures) \
   %D%/comma.c %D%/comma.h
 %C%_test_failures_numbers_LDADD = $(failures_libs)
+unit_tests += %D%/test_failures_piles
+%C%_test_failures_piles_SOURCES = %D%/test_failures_piles.c
+%C%_test_failures_piles_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_judged
 %C%_test_judged_SOURCES = %D%/test_judged.c $(failures) \
   %D%/temporary.c %D%/temporary.h

@@ -2,6 +2,7 @@ librecto_core_la_SOURCES += \
   %D%/auto.c \
   %D%/brute.c \
   %D%/contact.c %D%/contact.h \
+  %D%/copies.c %D%/copies.h \
   %D%/cover.c %D%/cover.h \
   %D%/crowd.c %D%/crowd.h \
   %D%/cut.c %D%/cut.h \

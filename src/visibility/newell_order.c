@@ -46,8 +46,10 @@ static bool add_triangles(struct newell_order *order) {
         .last_open = NEWELL_NONE,
         .box = page_box_of_triangle(sheet, (uint32_t)t),
         .rank = NEWELL_NONE,
-        .state = sheet->triangle_flags[t] & SHEET_FLAT ? NEWELL_UNSEEN
-                                                       : NEWELL_WAITING};
+        .state = (sheet->triangle_flags[t] & SHEET_FLAT) ||
+                         pagegrid_leaves_out(order->grid, (uint32_t)t)
+                     ? NEWELL_UNSEEN
+                     : NEWELL_WAITING};
     piece.z_low = INT64_MAX;
     piece.z_high = INT64_MIN;
     for (int k = 0; k < 3; k++) {

@@ -15,7 +15,7 @@ enum newell_state {
   NEWELL_MARKED,   /* moved ahead of another and not painted yet */
   NEWELL_PAINTED,  /* has its rank */
   NEWELL_SPLIT,    /* gone: others stand for it */
-  NEWELL_UNSEEN    /* flat, or behind one other piece entirely */
+  NEWELL_UNSEEN    /* flat, a copy, or behind one other piece entirely */
 };
 
 /* Piece t < triangle count is the whole triangle t; later ones are parts. */

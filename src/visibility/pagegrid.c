@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "visibility/copies.h"
 #include "visibility/crowd.h"
 #include "visibility/surround.h"
 
@@ -155,6 +156,38 @@ static void fill_cells(const struct filling *filling, bool place) {
                   place);
 }
 
+/* Drops the triangles that others stand for from the lists. */
+static void shorten_lists(struct pagegrid *grid) {
+  size_t cells = pagegrid_cell_count(grid);
+  uint32_t kept = 0, i = 0;
+  for (size_t c = 0; c < cells; c++) {
+    uint32_t end = grid->start[c + 1];
+    grid->start[c] = kept;
+    for (; i < end; i++)
+      if (!grid->left_out[grid->item[i]])
+        grid->item[kept++] = grid->item[i];
+  }
+  grid->start[cells] = kept;
+}
+
+/* Looks for copies where the longest list is a pile of them. */
+static bool leave_out_copies(struct pagegrid *grid) {
+  size_t cells = pagegrid_cell_count(grid), longest = 0;
+  const uint32_t *start = grid->start;
+  bool abound;
+  for (size_t c = 1; c < cells; c++)
+    if (start[c + 1] - start[c] > start[longest + 1] - start[longest])
+      longest = c;
+  size_t count = start[longest + 1] - start[longest];
+  if (count < PAGEGRID_PILE) return true;
+  if (!copies_abound(grid->sheet, grid->item + start[longest], count, &abound))
+    return false;
+  if (!abound) return true;
+  if (!copies_find(grid->sheet, &grid->left_out)) return false;
+  shorten_lists(grid);
+  return true;
+}
+
 bool pagegrid_part(struct pagegrid *grid, bool planes) {
   size_t cells = pagegrid_cell_count(grid);
   for (size_t c = 0; c < cells; c++) {
@@ -187,6 +220,10 @@ static bool fill(const struct filling *filling) {
   }
   fill_cells(filling, true);
   grid->sheet = filling->sheet;
+  if (!leave_out_copies(grid)) {
+    pagegrid_fini(grid);
+    return false;
+  }
   return true;
 }
 
@@ -253,7 +290,9 @@ void pagegrid_fini(struct pagegrid *grid) {
   if (grid->crowd != NULL) crowd_fini(grid->crowd);
   mem_free(grid->crowd);
   mem_free(grid->crowd_root);
+  mem_free(grid->left_out);
   grid->start = grid->item = grid->crowd_root = NULL;
+  grid->left_out = NULL;
   grid->crowd = NULL;
 }
 

@@ -34,11 +34,13 @@ static inline bool page_boxes_apart(struct page_box a, struct page_box b) {
 }
 
 /* Cells are squares of 2^shift units; the triangles of cell c are
- * item[start[c] .. start[c + 1]), ascending. */
+ * item[start[c] .. start[c + 1]), ascending.  In a pile of copies those that
+ * others stand for are not listed (copies.h). */
 struct pagegrid {
   int shift, columns, rows;
   int32_t x0, y0; /* lower left corner */
   uint32_t *start, *item;
+  uint8_t *left_out; /* one a triangle: not listed; NULL: all are */
   size_t triangle_count;
   const struct sheet *sheet; /* lent */
   struct crowd *crowd;       /* the long lists, parted; NULL: none is */
@@ -98,7 +100,16 @@ static inline int pagegrid_cell(int32_t v, int32_t v0, int shift, int count) {
   return cell < 0 ? 0 : cell >= count ? count - 1 : (int)cell;
 }
 
-enum { PAGEGRID_CROWD = 1024 }; /* lists from here on are parted */
+enum {
+  PAGEGRID_CROWD = 1024, /* lists from here on are parted */
+  PAGEGRID_PILE = 256    /* and from here on searched for copies */
+};
+
+/* Do others stand for the triangle? */
+static inline bool pagegrid_leaves_out(const struct pagegrid *grid,
+                                       uint32_t triangle) {
+  return grid->left_out != NULL && grid->left_out[triangle] != 0;
+}
 
 /* The root of a cell's list in grid->crowd; SHEET_NONE: it was not parted. */
 static inline uint32_t pagegrid_crowd(const struct pagegrid *grid,

@@ -157,6 +157,36 @@ static int compare_segments(const void *a, const void *b, void *user) {
   return 0;
 }
 
+static int compare_places(const struct pierce_segment *s,
+                          const struct pierce_segment *t) {
+  bool turn_s = geom_compare_points(s->end[0], s->end[1]) > 0,
+       turn_t = geom_compare_points(t->end[0], t->end[1]) > 0;
+  int order = geom_compare_points(s->end[turn_s], t->end[turn_t]);
+  return order != 0
+             ? order
+             : geom_compare_points(s->end[!turn_s], t->end[!turn_t]);
+}
+
+static int compare_by_place(const void *a, const void *b, void *user) {
+  int order = compare_places(a, b);
+  return order != 0 ? order : compare_segments(a, b, user);
+}
+
+/* Where several pairs have one line in common it is one edge, of the first of
+ * them, and in order of the triangles: so lists and cells of the grid, in which
+ * pairs were met, leave no trace. */
+static bool settle_segments(struct pierce_segments *segments) {
+  struct pierce_segment *item = segments->list.item;
+  size_t n = segments->list.count, kept = 0;
+  if (!sort_stable(item, n, sizeof *item, compare_by_place, NULL))
+    return false;
+  for (size_t i = 0; i < n; i++)
+    if (kept == 0 || compare_places(&item[kept - 1], &item[i]) != 0)
+      item[kept++] = item[i];
+  segments->list.count = kept;
+  return sort_stable(item, kept, sizeof *item, compare_segments, NULL);
+}
+
 struct loose_end {
   struct geom_point point;
   uint32_t segment, end;
@@ -192,16 +222,14 @@ end:
   return done;
 }
 
-/* Adds the segments to the sheet as drawable edges, ordered by their
- * triangles; ends at the same place become one point. */
+/* Adds the segments to the sheet as drawable edges; ends at the same place become one point. */
 static bool add_edges(struct sheet *sheet, struct pierce *pierce) {
-  size_t n = pierce->segment.list.count;
+  size_t n;
   struct sheet_edge *edge;
-  if (n == 0) return true;
-  if (!sort_stable(pierce->segment.list.item, n, sizeof *pierce->segment.list.item,
-                   compare_segments, NULL) ||
-      !ARRAY_RESERVE(&sheet->edge, n))
-    return false;
+  if (pierce->segment.list.count == 0) return true;
+  if (!settle_segments(&pierce->segment)) return false;
+  n = pierce->segment.list.count;
+  if (!ARRAY_RESERVE(&sheet->edge, n)) return false;
   edge = sheet->edge.item + sheet->edge.count;
   for (size_t i = 0; i < n; i++) {
     const struct pierce_segment *s = &pierce->segment.list.item[i];

@@ -413,7 +413,7 @@ static bool file_fragments(struct warnock *w, const struct pagegrid *grid,
  * -------------------------------------------------------------------------- */
 
 /* All faces, nearest first, and all drawable edges. */
-static bool fill_pools(struct warnock *w) {
+static bool fill_pools(struct warnock *w, const struct pagegrid *grid) {
   const struct sheet *sheet = w->sheet;
   size_t n = sheet->triangle.count;
   struct sort_key *key = mem_alloc(2 * n, sizeof *key);
@@ -424,7 +424,8 @@ static bool fill_pools(struct warnock *w) {
   if (done)
     sort_keys(key, key + n, n);
   for (size_t t = 0; done && t < n; t++)
-    if (!(sheet->triangle_flags[key[t].value] & SHEET_FLAT))
+    if (!(sheet->triangle_flags[key[t].value] & SHEET_FLAT) &&
+        !pagegrid_leaves_out(grid, key[t].value))
       w->faces.item[w->faces.count++] = key[t].value;
   mem_free(key);
   for (size_t e = 0; done && w->request->strokes && e < sheet->edge.count; e++)
@@ -433,9 +434,9 @@ static bool fill_pools(struct warnock *w) {
   return done;
 }
 
-static bool run(struct warnock *w) {
+static bool run(struct warnock *w, const struct pagegrid *grid) {
   struct warnock_window page;
-  if (!fill_pools(w))
+  if (!fill_pools(w, grid))
     return false;
   page = (struct warnock_window){warnock_page_window(w->sheet),
                                  0,
@@ -490,7 +491,7 @@ static recto_status solve(struct sheet *sheet,
     status = pierce_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK) {
     cover_init(&w.cover, sheet);
-    done = run(&w) &&
+    done = run(&w, &grid) &&
            (!request->strokes || file_strokes(&w, map)) &&
            (!request->fragments || file_fragments(&w, &grid, map));
     if (!done)

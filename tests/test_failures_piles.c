@@ -1,0 +1,142 @@
+/* test_failures_piles.c - very many faces in nearly one place (rows 8 and 16):
+ * it ends, with the right drawing. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/scenes/pipeline.h"
+#include "tests/scenes/random.h"
+
+static const struct solver *const quick[] = {&solver_tiles, &solver_newell,
+                                             &solver_warnock, NULL};
+
+static void start(struct scene *scene, recto_options *options) {
+  recto_options_init(options);
+  scene_init(scene);
+  options->edges = RECTO_EDGES_ALL;
+  options->min_stroke_mm = 0;
+  options->precision = 6;
+  options->threads = 1;
+  options->ids = true;
+}
+
+/* Draws by every method what brute draws, lines and faces, and ends the
+ * scene. */
+static void agree(struct scene *scene, recto_options *options,
+                  const char *what) {
+  size_t length;
+  for (int fill = 0; fill < 2; fill++) {
+    options->fill = fill ? RECTO_FILL_PAINT : RECTO_FILL_NONE;
+    char *right = pipeline_draw(scene, options, &solver_brute, &length);
+    for (const struct solver *const *s = quick; *s != NULL; s++) {
+      char *text = pipeline_draw(scene, options, *s, &length);
+      if (strcmp(right, text) != 0)
+        fail_msg("%s by %s, fill %d", what, (*s)->name, fill);
+      mem_free(text);
+    }
+    mem_free(right);
+  }
+  scene_fini(scene);
+}
+
+static void row_8_copies_are_drawn_as_by_brute(void **state) {
+  struct scene scene;
+  recto_options options;
+  (void)state;
+  for (int eye = 0; eye < 2; eye++) {
+    start(&scene, &options);
+    scenes_copies(&scene, &options, 400, true, 0);
+    options.fov_deg = eye ? 40 : 0;
+    agree(&scene, &options, "copies");
+  }
+}
+
+static void row_8_near_copies_are_drawn_as_by_brute(void **state) {
+  struct scene scene;
+  recto_options options;
+  (void)state;
+  start(&scene, &options);
+  scenes_copies(&scene, &options, 40, false, 1e-8);
+  agree(&scene, &options, "near copies");
+}
+
+/* Boxes and loose walls at the same places: their edges are not copies though
+ * their walls are. */
+static void add_boxes(struct scene *scene, struct random *random, unsigned n) {
+  for (unsigned i = 0; i < n; i++) {
+    double at = 0.25 * random_below(random, 2);
+    if (random_below(random, 3) > 0)
+      build_parallelepiped(scene, vector_of(at, 0, 0), vector_of(1, 0, 0),
+                           vector_of(0, 1, 0), vector_of(0, 0, 1));
+    else
+      build_parallelogram(scene, vector_of(at, 0, 0), vector_of(1, 0, 0),
+                          vector_of(0, 0, 1));
+  }
+  build_parallelogram(scene, vector_of(-1, -1, 0.5), vector_of(3, 0, 0),
+                      vector_of(0, 3, 0.1));
+}
+
+static void row_8_copies_of_boxes_are_drawn_as_by_brute(void **state) {
+  struct scene scene;
+  recto_options options;
+  struct random random = {5};
+  (void)state;
+  start(&scene, &options);
+  add_boxes(&scene, &random, 100);
+  agree(&scene, &options, "boxes");
+}
+
+static void row_8_pages_are_drawn_as_by_brute(void **state) {
+  struct scene scene;
+  recto_options options;
+  (void)state;
+  for (int turns = 1; turns <= 4; turns++) {
+    start(&scene, &options);
+    scenes_book(&scene, &options, 400, 0.25 * turns);
+    agree(&scene, &options, "pages");
+  }
+}
+
+/* ---- Time --------------------------------------------------------------- */
+
+static double most_s(double seconds) {
+  return getenv("RECTO_VALGRIND") != NULL ? 100 * seconds : seconds;
+}
+
+static void draw_in_time(struct scene *scene, const recto_options *options,
+                         double seconds) {
+  for (const struct solver *const *s = quick; *s != NULL; s++) {
+    double before = clock_cpu();
+    size_t length;
+    mem_free(pipeline_draw(scene, options, *s, &length));
+    if (clock_cpu() - before > most_s(seconds))
+      fail_msg("%s: %.1f s", (*s)->name, clock_cpu() - before);
+  }
+  scene_fini(scene);
+}
+
+static void row_16_20000_copies_end_at_once(void **state) {
+  struct scene scene;
+  recto_options options;
+  (void)state;
+  for (int pierced = 0; pierced < 2; pierced++) {
+    start(&scene, &options);
+    scenes_copies(&scene, &options, 20000, pierced != 0, 0);
+    draw_in_time(&scene, &options, 3);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(row_8_copies_are_drawn_as_by_brute),
+      cmocka_unit_test(row_8_near_copies_are_drawn_as_by_brute),
+      cmocka_unit_test(row_8_copies_of_boxes_are_drawn_as_by_brute),
+      cmocka_unit_test(row_8_pages_are_drawn_as_by_brute),
+      cmocka_unit_test(row_16_20000_copies_end_at_once),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
