@@ -5,8 +5,9 @@
 #include <string.h>
 
 enum {
-  SPREAD = 4,    /* cells a side is in, on average, at most ... */
-  ROOM = 1 << 20 /* ... but so many places are always there */
+  SPREAD = 4,       /* cells a side is in, on average, at most ... */
+  ROOM = 1 << 20,   /* ... but so many places are always there ... */
+  SPREAD_MOST = 16 /* ... for as many more of each */
 };
 
 /* A corner's doubles are off by less (line.c). */
@@ -32,7 +33,8 @@ static bool is_edge(const struct sheet *sheet, uint32_t t, int k,
 static void choose_shape(struct sidegrid *grid, const struct sides *sides) {
   struct page_box box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
   double length = 0, count = 3 * (double)sides->count;
-  double most = fmax(SPREAD * count, ROOM), width, height;
+  double most = fmax(SPREAD * count, fmin(SPREAD_MOST * count, ROOM)), width,
+         height;
   int shift = 30;
   for (size_t i = 0; i < sides->count; i++)
     for (int k = 0; k < 3; k++) {
