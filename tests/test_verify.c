@@ -136,6 +136,23 @@ static void what_ink_does_is_no_fault(void **state) {
   }
 }
 
+/* Nor what it makes of lines that a coarse output cannot tell apart. */
+static void coarse_outputs_pass(void **state) {
+  static const double unit_mm[] = {0.1, 1};
+  (void)state;
+  for (const struct scenes_entry *entry = scene_list; entry->name; entry++)
+    for (int i = 0; i < 2; i++) {
+      struct asked asked;
+      memset(&asked, 0, sizeof asked);
+      pipeline_fill(&asked.scene, &asked.options, entry);
+      asked.options.verify = 20000;
+      asked.options.unit_mm = unit_mm[i];
+      draw(&asked);
+      assert_right(&asked, entry->name);
+      end(&asked);
+    }
+}
+
 static void random_small_scenes_pass(void **state) {
   (void)state;
   for (uint64_t seed = 1000; seed < 1200; seed++) {
@@ -411,6 +428,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_stability_list_passes),
       cmocka_unit_test(what_ink_does_is_no_fault),
+      cmocka_unit_test(coarse_outputs_pass),
       cmocka_unit_test(random_small_scenes_pass),
       cmocka_unit_test(cuts_and_far_origins_pass),
       cmocka_unit_test(a_warped_face_hides_what_both_ways_do),

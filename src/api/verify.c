@@ -166,8 +166,8 @@ static recto_status judge(const struct verify *verify,
   struct judge_options options = asked_options(verify->camera, o);
   camera.depth_step = 1 / verify->sheet->z_scale;
   options.samples = (size_t)o->verify;
-  options.reach_mm += o->simplify_mm + o->unit_mm;
-  options.lateral_mm += o->simplify_mm + o->unit_mm;
+  options.reach_mm += ink_drift_mm(o);
+  options.lateral_mm += ink_drift_mm(o);
   return judge_drawing(verdict, drawing, &asked->scene, &camera, &options)
              ? RECTO_OK
              : error_memory(error);

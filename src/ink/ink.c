@@ -1,6 +1,7 @@
 /* ink.c - from the visible map to a drawing, phase by phase. */
 #include "ink/ink.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "ink/fill.h"
@@ -63,6 +64,12 @@ static recto_status make_paths(struct ink *ink, struct ink_paths *paths,
     status = paths_simplify(
         paths, ink->options->simplify_mm * SHEET_UNITS_PER_MM, error);
   return status;
+}
+
+/* In each round of net_drop_repeats a line moves by a unit at most in x and in
+ * y, in paths_straighten by half a unit. */
+double ink_drift_mm(const recto_options *options) {
+  return options->simplify_mm + (NET_ROUNDS * sqrt(2) + 0.5) * options->unit_mm;
 }
 
 /* ---- Strokes --------------------------------------------------------------

@@ -5,6 +5,10 @@
 #include "ink/drawing.h"
 #include "visibility/map.h"
 
+/* How far a line may be drawn from what it is the line of, mm: by simplifying,
+ * and for the sake of an output that knows no less than unit_mm. */
+double ink_drift_mm(const recto_options *options);
+
 /* Makes the drawing of a solved sheet.
  * Phases: visible (and, where asked, hidden) intervals become segments;
  * segments that coincide are kept once; the rest is chained into the longest

@@ -91,11 +91,17 @@ USE_RESULT recto_status net_drop_coincident(struct net *net,
                                             const struct net_rows *rows,
                                             recto_error *error);
 
+/* How often lines that the output cannot tell apart are looked for.  What has
+ * moved by a unit may be near something else: one round leaves lines twice, two
+ * have left none in thousands of random drawings.  Models drawn to whole
+ * millimetres have a little more to lose in a third; in later ones what they
+ * lose they have again. */
+#define NET_ROUNDS 3
+
 /* Of lines that the output cannot tell apart keeps one, by the same rank, and
- * shrinks what has no length in it where that crowds.  Afterwards a node may have no ends.
- * Leaves the ends indexed.
- * unit    the output's finest step, in grid units; up to the tolerance of
- *         net_drop_coincident there is nothing to do
+ * shrinks what has no length in it where that crowds.  Afterwards a node may
+ * have no ends. Leaves the ends indexed. unit    the output's finest step, in
+ * grid units; up to the tolerance of net_drop_coincident there is nothing to do
  * Cost    near linear in the segments where few repeat */
 USE_RESULT recto_status net_drop_repeats(struct net *net,
                                          const struct net_rows *rows,

@@ -27,12 +27,6 @@
 #include "ink/overlap.h"
 #include "ink/walk.h"
 
-/* What has moved by a unit may be near something else: one round leaves lines
- * twice, two have left none in thousands of random drawings.  Models drawn to
- * whole millimetres have a little more to lose in a third; in later ones what
- * they lose they have again. */
-enum { MOST_ROUNDS = 3 };
-
 /* A segment as numbers. */
 struct run {
   struct ink_point from, to;
@@ -373,7 +367,7 @@ recto_status net_drop_repeats(struct net *net, const struct net_rows *rows,
   if (!net->loose)
     return error_memory(error);
   bool changed = true;
-  for (int round = 0; changed && round < MOST_ROUNDS; round++) {
+  for (int round = 0; changed && round < NET_ROUNDS; round++) {
     if (!drop_once(net, rows, whole, &changed))
       return error_memory(error);
     if (changed) {
