@@ -64,6 +64,8 @@ done <<'END_OF_ROWS'
 --remove-backs|a.svg -m warnock --resolution 99|a.svg -m warnock|zbuffer, scanline-zbuffer and warnock with --resolution; warnock
 --contact 0|a.svg|a.svg -m painter|methods that compare depths; painter
 --lookat 0,0,1|a.svg --fov 20|a.svg|--camera, --fov, --no-fit and --scale; --fit
+--fov 20|a.svg --view top|a.svg -c 5,4,3|named views and for --no-fit; --fit
+--fov 20|a.svg -c 5,4,3 --no-fit|a.svg -c 5,4,3 --scale 1:2|named views and for --no-fit; --scale
 --scale 1:2|a.svg|a.svg --no-fit|true scale; --no-fit
 --margin 3|a.svg|a.svg --scale 1:2|--fit, and --no-fit with --fov; --scale
 --margin 3|a.svg --no-fit --fov 20|a.svg --no-fit|--fit, and --no-fit with --fov; --no-fit
@@ -136,7 +138,7 @@ claim "the drawing is the same, a line an option" draws_the_same
 
 # Those that always do something, or that refuse what they do not go with.
 always='--output --format --from --method --view --azimuth --elevation --camera
---up --fov --ortho --fit --no-fit --near --section --page --landscape --edges
+--up --ortho --fit --no-fit --near --section --page --landscape --edges
 --fill --stats --verify --check --threads --progress --quiet --version --help'
 every_option_has_its_row() {
   grep -oE -- '^ +(-.,)? *--[a-z-]+' help.txt | grep -oE -- '--[a-z-]+' |

@@ -197,7 +197,7 @@ const struct option_entry option_table[] = {
     {OPTION_NUMBER, "fov", 'F', "DEG", "an angle above 0, at most 179",
      "perspective; vertical angle (30 with --camera)",
      .offset = AT(options.fov_deg), .given = AT(fov_given), .least = DBL_MIN,
-     .most = 179},
+     .most = 179, .use = {&used_by_fov}},
     {OPTION_FLAG, "ortho", 0, NULL, NULL,
      "no perspective (default with --view)", .offset = AT(ortho)},
     {OPTION_TAKE, "fit", 0, NULL, NULL,

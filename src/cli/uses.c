@@ -97,6 +97,12 @@ static bool aims(const struct arguments *a) {
          a->options.fit != RECTO_FIT_PAGE;
 }
 
+/* Elsewhere it only says that the view is a perspective. */
+static bool has_angle(const struct arguments *a) {
+  return a->options.camera == RECTO_CAMERA_DIRECTION ||
+         a->options.fit == RECTO_FIT_NONE;
+}
+
 static bool has_scale(const struct arguments *a) {
   return a->options.fit == RECTO_FIT_SCALE;
 }
@@ -108,6 +114,8 @@ static bool spans_page(const struct arguments *a) {
 
 const struct option_use used_by_target = {
     "--camera, --fov, --no-fit and --scale", aims, name_fit, true};
+const struct option_use used_by_fov = {"named views and for --no-fit",
+                                       has_angle, name_fit, true};
 const struct option_use used_by_scale = {"true scale", has_scale, name_fit,
                                          true};
 const struct option_use used_by_margin = {"--fit, and --no-fit with --fov",
