@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "judge/ears.h"
 #include "judge/judge.h"
 #include "tests/scenes/scenes.h"
 
@@ -416,6 +417,50 @@ static void without_contact_the_grid_may_pierce_what_touches(void **state) {
   }
 }
 
+static double area_of(const struct scene *scene, const uint32_t *corner,
+                      const uint32_t *number, uint32_t count) {
+  double area = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    uint32_t a = number != NULL ? number[i] : i;
+    uint32_t b = number != NULL ? number[(i + 1) % count] : (i + 1) % count;
+    const struct scene_point *p = &scene->point.item[corner[a]];
+    const struct scene_point *q = &scene->point.item[corner[b]];
+    area += (p->x * q->y - q->x * p->y) / 2;
+  }
+  return area;
+}
+
+/* Points and notches of all sizes: as many triangles as there must be, none of
+ * them turned round, and of the same area. */
+static void ears_cover_a_face_of_any_number_of_corners(void **state) {
+  (void)state;
+  enum { MOST = 2000 };
+  struct judge_ears ears = {0};
+  for (uint32_t count = 3; count <= MOST; count = count * 3 / 2) {
+    struct scene scene;
+    uint32_t corner[MOST], random = count;
+    scene_init(&scene);
+    for (uint32_t i = 0; i < count; i++) {
+      double angle = 2 * acos(-1) * i / count;
+      random = random * 1664525 + 1013904223;
+      double radius = 1 + (random >> 16) / 65536.0 * (i % 3);
+      corner[i] =
+          build_point(&scene, radius * cos(angle), radius * sin(angle), 0);
+    }
+    assert_true(judge_cut_ears(&ears, &scene, corner, count, count % 2));
+    assert_int_equal(ears.ear.count, count - 2);
+    double sum = 0;
+    for (size_t i = 0; i < ears.ear.count; i++) {
+      double area = area_of(&scene, corner, ears.ear.item[i].corner, 3);
+      assert_true(area > 0);
+      sum += area;
+    }
+    assert_true(fabs(sum - area_of(&scene, corner, NULL, count)) < 1e-9);
+    scene_fini(&scene);
+  }
+  judge_ears_fini(&ears);
+}
+
 static void smooth_edges_are_asked_for_by_all_alone(void **state) {
   (void)state;
   struct page page;
@@ -774,6 +819,7 @@ int main(void) {
       cmocka_unit_test(contact_does_not_hide),
       cmocka_unit_test(from_a_corner_contact_counts_at_the_far_end),
       cmocka_unit_test(without_contact_the_grid_may_pierce_what_touches),
+      cmocka_unit_test(ears_cover_a_face_of_any_number_of_corners),
       cmocka_unit_test(smooth_edges_are_asked_for_by_all_alone),
       cmocka_unit_test(paths_and_polylines_are_read),
       cmocka_unit_test(a_group_called_hidden_is_none_of_hidden_lines),

@@ -62,23 +62,109 @@ static void tidy(struct outline *outline) {
     }
     drop(outline, (i + 1) % outline->count);
     /* What is now beside it may repeat, too. */
-    i = 0;
+    i = i < 2 ? 0 : i - 2;
   }
 }
 
-/* Whether the corner at `i` of those left can be cut off. */
-static bool is_ear(const struct outline *outline, uint32_t i) {
+/* ---- What is near ----------------------------------------------------------
+ */
+
+enum { FEW = 32 }; /* so many corners are asked one by one */
+
+/* What is left of the polygon as a ring, and its corners in order. */
+struct ring {
+  const struct judge_place *at;
+  uint32_t *next, *before; /* of a corner that is gone: itself */
+  const struct judge_rank *by[2];
+  uint32_t count; /* of the ranks */
+};
+
+static int compare_ranks(const void *a, const void *b) {
+  const struct judge_rank *s = a, *t = b;
+  if (s->at != t->at)
+    return s->at < t->at ? -1 : 1;
+  return s->corner < t->corner ? -1 : s->corner > t->corner;
+}
+
+static bool make_ring(struct judge_ears *ears, const struct outline *outline,
+                      uint32_t corners, struct ring *ring) {
   uint32_t n = outline->count;
-  uint32_t before = outline->left[(i + n - 1) % n];
-  uint32_t here = outline->left[i], after = outline->left[(i + 1) % n];
-  struct judge_place a = outline->at[before], b = outline->at[here];
-  struct judge_place c = outline->at[after];
+  if (!ARRAY_RESERVE(&ears->next, corners) ||
+      !ARRAY_RESERVE(&ears->before, corners) ||
+      !ARRAY_RESERVE(&ears->by[0], n) || !ARRAY_RESERVE(&ears->by[1], n))
+    return false;
+  *ring = (struct ring){outline->at,
+                        ears->next.item,
+                        ears->before.item,
+                        {ears->by[0].item, ears->by[1].item},
+                        n};
+  for (uint32_t i = 0; i < n; i++) {
+    uint32_t here = outline->left[i];
+    ring->next[here] = outline->left[(i + 1) % n];
+    ring->before[here] = outline->left[(i + n - 1) % n];
+    ears->by[0].item[i] = (struct judge_rank){outline->at[here].x, here};
+    ears->by[1].item[i] = (struct judge_rank){outline->at[here].y, here};
+  }
+  for (int k = 0; k < 2 && n > FEW; k++)
+    judge_sort(ears->by[k].item, n, sizeof *ears->by[k].item, compare_ranks);
+  return true;
+}
+
+/* How many ranks lie before a place. */
+static uint32_t rank_of(const struct judge_rank *by, uint32_t count,
+                        double at) {
+  uint32_t low = 0, high = count;
+  while (low < high) {
+    uint32_t middle = low + (high - low) / 2;
+    if (by[middle].at < at)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+/* The ranks from *from to *to have all corners that may lie in a triangle. */
+static const struct judge_rank *
+find_near(const struct ring *ring, struct judge_place a, struct judge_place b,
+          struct judge_place c, uint32_t *from, uint32_t *to) {
+  const struct judge_rank *best = ring->by[0];
+  *from = 0;
+  *to = ring->count;
+  if (ring->count <= FEW)
+    return best;
+  const double low[2] = {fmin(a.x, fmin(b.x, c.x)), fmin(a.y, fmin(b.y, c.y))};
+  const double high[2] = {fmax(a.x, fmax(b.x, c.x)), fmax(a.y, fmax(b.y, c.y))};
+  for (int k = 0; k < 2; k++) {
+    uint32_t first = rank_of(ring->by[k], ring->count, low[k]);
+    uint32_t last =
+        rank_of(ring->by[k], ring->count, nextafter(high[k], INFINITY));
+    if (last - first < *to - *from) {
+      best = ring->by[k];
+      *from = first;
+      *to = last;
+    }
+  }
+  return best;
+}
+
+/* ---- Ears ------------------------------------------------------------------
+ */
+
+/* Whether a corner can be cut off. */
+static bool is_ear(const struct ring *ring, uint32_t here) {
+  uint32_t before = ring->before[here], after = ring->next[here];
+  struct judge_place a = ring->at[before], b = ring->at[here];
+  struct judge_place c = ring->at[after];
   if (turn(a, b, c) <= 0)
     return false;
-  for (uint32_t k = 0; k < n; k++) {
-    uint32_t other = outline->left[k];
-    struct judge_place p = outline->at[other];
-    if (other == before || other == here || other == after)
+  uint32_t from, to;
+  const struct judge_rank *near = find_near(ring, a, b, c, &from, &to);
+  for (uint32_t k = from; k < to; k++) {
+    uint32_t other = near[k].corner;
+    struct judge_place p = ring->at[other];
+    if (other == before || other == here || other == after ||
+        ring->next[other] == other)
       continue;
     if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0)
       return false;
@@ -86,12 +172,16 @@ static bool is_ear(const struct outline *outline, uint32_t i) {
   return true;
 }
 
-static void cut(struct judge_ears *ears, const struct outline *outline,
-                uint32_t i) {
-  uint32_t n = outline->count;
-  ears->ear.item[ears->ear.count++] =
-      (struct judge_ear){{outline->left[(i + n - 1) % n], outline->left[i],
-                          outline->left[(i + 1) % n]}};
+/* Cuts a corner off; returns the one to try next: not the one after it, which
+ * of a round polygon would get a fan of long triangles. */
+static uint32_t cut(struct judge_ears *ears, const struct ring *ring,
+                    uint32_t here) {
+  uint32_t before = ring->before[here], after = ring->next[here];
+  ears->ear.item[ears->ear.count++] = (struct judge_ear){{before, here, after}};
+  ring->next[before] = after;
+  ring->before[after] = before;
+  ring->next[here] = here;
+  return ring->next[after];
 }
 
 bool judge_cut_ears(struct judge_ears *ears, const struct scene *scene,
@@ -101,18 +191,22 @@ bool judge_cut_ears(struct judge_ears *ears, const struct scene *scene,
       !ARRAY_RESERVE(&ears->left, count))
     return false;
   struct outline outline = {ears->at.item, ears->left.item, 0};
+  struct ring ring;
   flatten(&outline, scene, corner, count);
   tidy(&outline);
-  /* The search goes on where the last ear was. */
-  for (uint32_t i = first; outline.count >= 3;) {
-    uint32_t n = outline.count, tried = 0;
-    while (tried < n && !is_ear(&outline, (i + tried) % n))
+  if (outline.count < 3)
+    return true;
+  if (!make_ring(ears, &outline, count, &ring))
+    return false;
+  uint32_t here = outline.left[first];
+  for (uint32_t n = outline.count; n >= 3; n--) {
+    uint32_t tried = 0;
+    while (tried < n && !is_ear(&ring, here)) {
+      here = ring.next[here];
       tried++;
+    }
     /* No ear: what is left has no area, or crosses itself. */
-    i = tried == n ? i % n : (i + tried) % n;
-    cut(ears, &outline, i);
-    drop(&outline, i);
-    i = i < outline.count ? i : 0;
+    here = cut(ears, &ring, here);
   }
   return true;
 }
@@ -121,4 +215,8 @@ void judge_ears_fini(struct judge_ears *ears) {
   ARRAY_FREE(&ears->ear);
   ARRAY_FREE(&ears->at);
   ARRAY_FREE(&ears->left);
+  ARRAY_FREE(&ears->next);
+  ARRAY_FREE(&ears->before);
+  ARRAY_FREE(&ears->by[0]);
+  ARRAY_FREE(&ears->by[1]);
 }
