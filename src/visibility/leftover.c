@@ -9,12 +9,15 @@
  *   Lists leave out what is behind the horizon of a tile: but where the face is
  * nearer than that, so are they, and elsewhere it is covered by what made the
  * horizon, which is listed.
+ *   What is hidden is not asked about: but where it ends cover, what is nearest
+ * there covers too, is not hidden, and overlaps the face.
  */
 #include "visibility/leftover.h"
 
 #include <string.h>
 
 #include "visibility/crowd.h"
+#include "visibility/surround.h"
 
 /* ---- Contours by tile --------------------------------------------------------- */
 
@@ -45,11 +48,13 @@ static void visit_contours(struct leftover *leftover, const uint8_t *wanted,
 }
 
 bool leftover_init(struct leftover *leftover, const struct sheet *sheet,
-                   const struct tilelist *lists, const uint8_t *wanted) {
+                   const struct tilelist *lists, const uint8_t *wanted,
+                   uint8_t *state) {
   size_t cells = pagegrid_cell_count(&lists->map->grid);
   memset(leftover, 0, sizeof *leftover);
   leftover->sheet = sheet;
   leftover->lists = lists;
+  leftover->state = state;
   rivals_init(&leftover->rivals, sheet);
   leftover->start = mem_calloc(cells + 1, sizeof *leftover->start);
   if (leftover->start == NULL ||
@@ -71,6 +76,30 @@ void leftover_fini(struct leftover *leftover) {
   mem_free(leftover->contour);
   pagegrid_query_fini(&leftover->query);
   rivals_fini(&leftover->rivals);
+}
+
+/* By depth buckets, so that what is near on the page stays near in memory. */
+bool leftover_sort(const struct leftover *leftover, uint32_t *triangle,
+                   size_t count) {
+  uint32_t start[TILE_BUCKETS] = {0}, sum = 0;
+  uint32_t *copy = mem_alloc(count, sizeof *copy);
+  if (copy == NULL)
+    return false;
+  for (size_t i = 0; i < count; i++) {
+    copy[i] = triangle[i];
+    start[tile_bucket(triangle_nearest(leftover->sheet, copy[i]))]++;
+  }
+  for (int bucket = TILE_BUCKETS - 1; bucket >= 0; bucket--) {
+    uint32_t here = start[bucket];
+    start[bucket] = sum;
+    sum += here;
+  }
+  for (size_t i = 0; i < count; i++) {
+    int bucket = tile_bucket(triangle_nearest(leftover->sheet, copy[i]));
+    triangle[start[bucket]++] = copy[i];
+  }
+  mem_free(copy);
+  return true;
 }
 
 /* May the segment have a point inside the triangle?  A no is certain. */
@@ -175,10 +204,19 @@ static bool find_about(struct leftover *leftover) {
 /* Asks all that is about, or until one hides the triangle at hand. */
 static bool ask_about(struct leftover *leftover) {
   struct rivals *rivals = &leftover->rivals;
+  const uint32_t *about = leftover->query.found.item;
+  if (!pulse_beat(rivals->pulse, leftover->query.found.count))
+    return false;
   for (size_t i = 0; i < leftover->query.found.count && !rivals->covered; i++)
-    if (!pulse_beat(rivals->pulse, 1) ||
-        !rivals_ask(rivals, leftover->query.found.item[i]))
+    if (leftover->state[about[i]] != MAP_HIDDEN &&
+        !rivals_ask(rivals, about[i]))
       return false;
+  return true;
+}
+
+static bool note_hidden(struct leftover *leftover, uint32_t triangle) {
+  leftover->state[triangle] = MAP_HIDDEN;
+  leftover->counts.hidden++;
   return true;
 }
 
@@ -193,25 +231,20 @@ bool leftover_solve(struct leftover *leftover, uint32_t triangle,
     return false;
   about = leftover->query.found.item;
   count = leftover->query.found.count;
-  if (rivals->covered) {
-    counts->hidden++;
-    return true;
-  }
+  if (rivals->covered)
+    return note_hidden(leftover, triangle);
   if (rivals->rival.count == 0) {
     counts->whole++;
     return fragments_add_among(fragments, triangle, NULL, 0, about, count);
   }
   if (!rivals->mingled && !is_crossed(leftover)) {
-    counts->hidden++;
     counts->uncrossed++;
-    return true;
+    return note_hidden(leftover, triangle);
   }
   if (!rivals_take_all(rivals))
     return false;
-  if (rivals->left.count == 0) {
-    counts->hidden++;
-    return true;
-  }
+  if (rivals->left.count == 0)
+    return note_hidden(leftover, triangle);
   if (rivals->whole) {
     counts->whole++;
     return fragments_add_among(fragments, triangle, NULL, 0, about, count);

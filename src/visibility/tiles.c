@@ -457,18 +457,19 @@ static bool solve_edges(struct tiles_work *work, struct map *map) {
 static bool solve_faces(struct tiles_work *work, struct map *map) {
   struct fragments fragments;
   struct leftover leftover;
-  size_t n = work->sheet->triangle.count, left_over = 0;
+  size_t n = work->sheet->triangle.count;
   struct pulse pulse = pulse_of(work->request, "faces");
   bool done = fragments_init(&fragments, work->sheet, &work->lists.grid, true);
-  done &= leftover_init(&leftover, work->sheet, &work->lists, work->wanted);
+  done &= leftover_init(&leftover, work->sheet, &work->lists, work->wanted,
+                        work->face_state);
   fragments.pulse = leftover.rivals.pulse = &pulse;
-  for (size_t t = 0; done && t < n; t++) {
+  for (size_t t = 0; done && t < n; t++)
     if (work->face_state[t] == MAP_VISIBLE)
       done = fragments_add_alone(&fragments, (uint32_t)t);
-    else if (work->face_state[t] == MAP_MIXED)
-      done = pulse_beat_at(&pulse, 1, left_over++, work->face.count) &&
-             leftover_solve(&leftover, (uint32_t)t, &fragments);
-  }
+  done = done && leftover_sort(&leftover, work->face.item, work->face.count);
+  for (size_t i = 0; done && i < work->face.count; i++)
+    done = pulse_beat_at(&pulse, 1, i, work->face.count) &&
+           leftover_solve(&leftover, work->face.item[i], &fragments);
   done = done && fragments_finish(&fragments, work->request->areas, map);
   if (pulse.cancelled) atomic_store(work->cancelled, true);
   leftover_report(&leftover, work->report);
