@@ -187,6 +187,7 @@ struct face_work {
   ARRAY(uint32_t) seen; /* those with pieces, ascending */
   struct side_labels labels;
   struct sidegrid sides;
+  bool indexed; /* what is about faces that are cut */
   geom_pieces piece;
   struct geom_region region;
 };
@@ -336,6 +337,19 @@ static bool is_whole(const struct face_work *work,
   return count == work->own.count;
 }
 
+/* How many of the pieces, from the first, are of the same face. */
+static size_t count_pieces(const struct fragment_piece *piece, size_t count) {
+  size_t n = 1;
+  while (n < count && piece[n].face == piece->face) n++;
+  return n;
+}
+
+/* Is the face more than can be filed as it stands? */
+static bool is_cut(const struct fragment_piece *piece, size_t count) {
+  return piece->piece != NULL || count > 2 ||
+         (count == 2 && piece[1].piece != NULL);
+}
+
 /* Finds which of the face's triangles are seen, for its labels. */
 static bool find_seen(struct face_work *work,
                       const struct fragment_piece *piece, size_t count) {
@@ -352,6 +366,8 @@ static bool find_seen(struct face_work *work,
     if (i == 0 || work->seen.item[i] != work->seen.item[i - 1])
       work->seen.item[kept++] = work->seen.item[i];
   work->seen.count = kept;
+  work->labels.sides =
+      work->indexed && is_cut(piece, count) ? &work->sides : NULL;
   work->labels.own = work->seen.item;
   work->labels.own_count = kept;
   return true;
@@ -396,35 +412,37 @@ static int compare_faces(const void *a, const void *b, void *user) {
 /* Lists this long are longer than the sides of a sidegrid's cell. */
 enum { LONG_LIST = 48 };
 
-/* How many of the pieces, from the first, are of the same face. */
-static size_t count_pieces(const struct fragment_piece *piece, size_t count) {
-  size_t n = 1;
-  while (n < count && piece[n].face == piece->face) n++;
-  return n;
+/* Has the triangle's face more triangles than need no index? */
+static bool has_many(const struct sheet *sheet, uint32_t triangle) {
+  const struct sheet_triangle *all = sheet->triangle.item;
+  uint32_t face = all[triangle].face, first = triangle, last = triangle;
+  while (last - first < SIDE_LABELS_FEW && first > 0 &&
+         all[first - 1].face == face)
+    first--;
+  while (last - first < SIDE_LABELS_FEW && last + 1 < sheet->triangle.count &&
+         all[last + 1].face == face)
+    last++;
+  return last - first >= SIDE_LABELS_FEW;
 }
 
-/* Will the face's sides be asked about?  A no may be wrong. */
-static bool is_cut(const struct fragment_piece *piece, size_t count) {
-  return piece->piece != NULL || count > 2 ||
-         (count == 2 && piece[1].piece != NULL);
+static uint32_t list_length(const struct pagegrid *grid, size_t cell) {
+  return grid->start[cell + 1] - grid->start[cell];
 }
 
 /* Is an index better than to ask the grid? */
 static bool wants_index(const struct fragments *f) {
   const struct fragment_piece *piece = f->piece.item;
+  const struct pagegrid *grid = f->grid;
   uint64_t listed = 0, asked = 0;
   for (size_t i = 0, n; i < f->piece.count; i += n) {
     struct cell_range r;
     n = count_pieces(&piece[i], f->piece.count - i);
     if (!is_cut(&piece[i], n)) continue;
-    if (n > SIDE_LABELS_FEW) return true;
-    r = pagegrid_cells(f->grid,
-                       page_box_of_triangle(f->sheet, piece[i].triangle));
+    if (has_many(f->sheet, piece[i].triangle)) return true;
+    r = pagegrid_cells(grid, page_box_of_triangle(f->sheet, piece[i].triangle));
+    listed += list_length(grid, (size_t)r.y0 * (size_t)grid->columns +
+                                    (size_t)r.x0);
     asked++;
-    listed += f->grid->start[(size_t)r.y0 * (size_t)f->grid->columns +
-                             (size_t)r.x0 + 1] -
-              f->grid->start[(size_t)r.y0 * (size_t)f->grid->columns +
-                             (size_t)r.x0];
   }
   return listed > LONG_LIST * asked;
 }
@@ -450,8 +468,8 @@ static bool add_about(struct fragments *f, uint32_t triangle, uint8_t *done) {
   return true;
 }
 
-/* Indexes the sides of all that is about faces whose sides will be asked
- * about, and of these faces. */
+/* Indexes the sides of all that is about faces that are cut, and of these
+ * faces. */
 static bool index_sides(struct face_work *work) {
   struct fragments *f = work->fragments;
   const struct fragment_piece *piece = f->piece.item;
@@ -461,10 +479,13 @@ static bool index_sides(struct face_work *work) {
   cell_done = mem_calloc(pagegrid_cell_count(f->grid), 1);
   if (cell_done == NULL) return false;
   pagegrid_query_start(f->grid, &f->query);
-  for (size_t i = 0; done && i < f->piece.count; i++)
-    done = add_about(f, piece[i].triangle, cell_done);
+  for (size_t i = 0, n; done && i < f->piece.count; i += n) {
+    n = count_pieces(&piece[i], f->piece.count - i);
+    for (size_t k = 0; done && is_cut(&piece[i], n) && k < n; k++)
+      done = add_about(f, piece[i + k].triangle, cell_done);
+  }
   mem_free(cell_done);
-  work->labels.sides = &work->sides;
+  work->indexed = true;
   return done && sidegrid_init(&work->sides, f->sheet, f->query.found.item,
                                f->query.found.count);
 }

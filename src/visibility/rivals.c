@@ -20,13 +20,15 @@
 
 enum {
   FEW = 6,     /* rivals that need no parting */
-  LINES = 8,   /* rivals of a part whose sides it may be parted by */
-  SAMPLE = 48, /* rivals by which that is judged */
+  LINES = 6,   /* rivals of a part whose sides it may be parted by */
+  SAMPLE = 24, /* rivals by which that is judged */
 };
 
 /* A parting must leave no more than this share of the pairs: as the sample has
  * it, and truly, so that there is an end. */
 #define MOST_LEFT 0.8
+/* One that leaves no more than this needs no better. */
+#define GOOD 0.55
 #define MOST_DIVIDED 0.9
 
 /* Reaches are in doubles of corners that are off by 1/4 unit or less (line.c):
@@ -418,7 +420,7 @@ static bool choose_parting(const struct rivals *rivals,
       rivals->reach.item + (rivals->reach.count - count);
   double least = MOST_LEFT;
   *best = (struct parting){0};
-  for (size_t i = 0; i < LINES; i++) {
+  for (size_t i = 0; i < LINES && least > GOOD; i++) {
     struct parting now = {.rival = reach[(2 * i + 1) * count / (2 * LINES)]
                                        .rival};
     for (now.side = 0; now.side < 3; now.side++) {
