@@ -31,9 +31,22 @@ enum {
 #define GOOD 0.55
 #define MOST_DIVIDED 0.9
 
+/* A rival that is along at least this share of a part is in most parts that
+ * others would part it into: it is taken first. */
+#define LONG 0.6
+
+/* Partings of a part after which its axis is found anew: reaches along one that
+ * is not its own may be too long. */
+enum { AXIS_AGE = 3 };
+static const struct rivals_axis no_axis = {.age = AXIS_AGE};
+
 /* Reaches are in doubles of corners that are off by 1/4 unit or less (line.c):
  * this is room enough. */
 #define REACH_MARGIN 2.0
+
+/* The library's are calls, for the sake of what is no number. */
+static inline double least(double a, double b) { return a < b ? a : b; }
+static inline double most_of(double a, double b) { return a > b ? a : b; }
 
 void rivals_init(struct rivals *rivals, const struct sheet *sheet) {
   memset(rivals, 0, sizeof *rivals);
@@ -203,6 +216,27 @@ static enum meeting meeting_of(const struct rival *rival,
   return all ? MEETING_ALL : MEETING_PART;
 }
 
+/* Appends to rivals->next what a rival leaves of a part. */
+static bool subtract(struct rivals *rivals, const struct geom_convex *piece,
+                     struct rival *rival) {
+  struct geom_convex inside = {0};
+  enum meeting meeting;
+  if (!make_lines(rivals, rival))
+    return false;
+  meeting = meeting_of(rival, piece);
+  if (meeting == MEETING_NONE)
+    return ARRAY_PUSH(&rivals->next, *piece);
+  if (meeting == MEETING_PART &&
+      !geom_convex_subtract(piece, rival->line, rival->line + rival->lines,
+                            rival->lines, &rivals->next, &inside,
+                            &rivals->arena))
+    return false;
+  rivals->counts.cuts++;
+  if (meeting == MEETING_ALL || inside.count > 0)
+    rivals->whole = false;
+  return true;
+}
+
 /* Takes the last `count` reaches' rivals from a part. */
 static bool take_few(struct rivals *rivals, const struct geom_convex *piece,
                      size_t count) {
@@ -213,28 +247,11 @@ static bool take_few(struct rivals *rivals, const struct geom_convex *piece,
   if (!ARRAY_PUSH(&rivals->rest, *piece))
     return false;
   for (size_t i = 0; i < count && rivals->rest.count > 0; i++) {
-    struct rival *rival = &rivals->rival.item[reach[i].rival];
-    if (!make_lines(rivals, rival))
-      return false;
     rivals->next.count = 0;
-    for (size_t k = 0; k < rivals->rest.count; k++) {
-      const struct geom_convex *now = &rivals->rest.item[k];
-      enum meeting meeting = meeting_of(rival, now);
-      struct geom_convex inside = {0};
-      if (meeting == MEETING_NONE) {
-        if (!ARRAY_PUSH(&rivals->next, *now))
-          return false;
-        continue;
-      }
-      if (meeting == MEETING_PART &&
-          !geom_convex_subtract(now, rival->line, rival->line + rival->lines,
-                                rival->lines, &rivals->next, &inside,
-                                &rivals->arena))
+    for (size_t k = 0; k < rivals->rest.count; k++)
+      if (!subtract(rivals, &rivals->rest.item[k],
+                    &rivals->rival.item[reach[i].rival]))
         return false;
-      rivals->counts.cuts++;
-      if (meeting == MEETING_ALL || inside.count > 0)
-        rivals->whole = false;
-    }
     swap = rivals->rest;
     rivals->rest = rivals->next;
     rivals->next = swap;
@@ -247,23 +264,17 @@ static bool take_few(struct rivals *rivals, const struct geom_convex *piece,
 
 /* ---- 2. Parting ---------------------------------------------------------------- */
 
-/* The long axis of a part: u along it, v across it, about its first corner. */
-struct axis {
-  double x, y, dx, dy;
-  double u0, u1, v0, v1; /* the part's extent, with a margin */
-};
-
-static double along(const struct axis *axis, double x, double y) {
+static double along(const struct rivals_axis *axis, double x, double y) {
   return (x - axis->x) * axis->dx + (y - axis->y) * axis->dy;
 }
 
-static double across(const struct axis *axis, double x, double y) {
+static double across(const struct rivals_axis *axis, double x, double y) {
   return (y - axis->y) * axis->dx - (x - axis->x) * axis->dy;
 }
 
-static struct axis axis_of(const struct geom_convex *piece) {
+static struct rivals_axis axis_of(const struct geom_convex *piece) {
   const struct geom_corner *c = piece->corner;
-  struct axis axis = {.x = c[0].x, .y = c[0].y, .dx = 1};
+  struct rivals_axis axis = {.x = c[0].x, .y = c[0].y, .dx = 1};
   double most = 0;
   for (uint32_t k = 1; k < piece->count; k++) {
     /* The longest way from the first corner, or along a side. */
@@ -281,10 +292,10 @@ static struct axis axis_of(const struct geom_convex *piece) {
   axis.u1 = axis.v1 = -INFINITY;
   for (uint32_t k = 0; k < piece->count; k++) {
     double u = along(&axis, c[k].x, c[k].y), v = across(&axis, c[k].x, c[k].y);
-    axis.u0 = fmin(axis.u0, u - REACH_MARGIN);
-    axis.u1 = fmax(axis.u1, u + REACH_MARGIN);
-    axis.v0 = fmin(axis.v0, v - REACH_MARGIN);
-    axis.v1 = fmax(axis.v1, v + REACH_MARGIN);
+    axis.u0 = least(axis.u0, u - REACH_MARGIN);
+    axis.u1 = most_of(axis.u1, u + REACH_MARGIN);
+    axis.v0 = least(axis.v0, v - REACH_MARGIN);
+    axis.v1 = most_of(axis.v1, v + REACH_MARGIN);
   }
   return axis;
 }
@@ -296,13 +307,13 @@ static void reach_crossing(struct rival_reach *reach, const double p[2],
   if ((p[1] < at) == (q[1] < at))
     return;
   u = p[0] + (q[0] - p[0]) * ((at - p[1]) / (q[1] - p[1]));
-  reach->from = fmin(reach->from, u);
-  reach->to = fmax(reach->to, u);
+  reach->from = least(reach->from, u);
+  reach->to = most_of(reach->to, u);
 }
 
 /* Where a rival may be along the axis, within the part's breadth; false:
  * nowhere. */
-static bool find_reach(const struct rivals *rivals, const struct axis *axis,
+static bool find_reach(const struct rivals *rivals, const struct rivals_axis *axis,
                        struct rival_reach *reach) {
   const struct sheet *sheet = rivals->sheet;
   const uint32_t *point =
@@ -315,8 +326,8 @@ static bool find_reach(const struct rivals *rivals, const struct axis *axis,
     p[k][0] = along(axis, at->x, at->y);
     p[k][1] = across(axis, at->x, at->y);
     if (p[k][1] >= axis->v0 && p[k][1] <= axis->v1) {
-      reach->from = fmin(reach->from, p[k][0]);
-      reach->to = fmax(reach->to, p[k][0]);
+      reach->from = least(reach->from, p[k][0]);
+      reach->to = most_of(reach->to, p[k][0]);
     }
   }
   for (int k = 0; k < 3; k++) {
@@ -331,7 +342,7 @@ static bool find_reach(const struct rivals *rivals, const struct axis *axis,
 
 /* Keeps those of the last `count` reaches that meet the part; returns how
  * many.  The list ends with them. */
-static size_t sift(struct rivals *rivals, const struct axis *axis,
+static size_t sift(struct rivals *rivals, const struct rivals_axis *axis,
                    size_t count) {
   size_t from = rivals->reach.count - count, kept = from;
   for (size_t i = from; i < rivals->reach.count; i++) {
@@ -351,8 +362,8 @@ struct stretch {
 static const struct stretch no_stretch = {INFINITY, -INFINITY};
 
 static void widen(struct stretch *stretch, double u) {
-  stretch->from = fmin(stretch->from, u);
-  stretch->to = fmax(stretch->to, u);
+  stretch->from = least(stretch->from, u);
+  stretch->to = most_of(stretch->to, u);
 }
 
 static bool is_along(const struct stretch *stretch,
@@ -371,7 +382,7 @@ struct parting {
 /* Does the line of that side cross the part, and how? */
 static bool find_crossing(const struct rivals *rivals,
                           const struct geom_convex *piece,
-                          const struct axis *axis, struct parting *parting) {
+                          const struct rivals_axis *axis, struct parting *parting) {
   const struct sheet *sheet = rivals->sheet;
   const uint32_t *point =
       sheet->triangle.item[rivals->rival.item[parting->rival].triangle].point;
@@ -414,7 +425,7 @@ static double pairs_left(const struct rival_reach *reach, size_t count,
 
 static bool choose_parting(const struct rivals *rivals,
                            const struct geom_convex *piece,
-                           const struct axis *axis, size_t count,
+                           const struct rivals_axis *axis, size_t count,
                            struct parting *best) {
   const struct rival_reach *reach =
       rivals->reach.item + (rivals->reach.count - count);
@@ -438,7 +449,7 @@ static bool choose_parting(const struct rivals *rivals,
 }
 
 /* Where a half is along the axis, with a margin. */
-static struct stretch stretch_of(const struct axis *axis,
+static struct stretch stretch_of(const struct rivals_axis *axis,
                                  const struct geom_convex *piece) {
   struct stretch stretch = no_stretch;
   for (uint32_t k = 0; k < piece->count; k++)
@@ -448,8 +459,11 @@ static struct stretch stretch_of(const struct axis *axis,
   return stretch;
 }
 
-static bool push_part(struct rivals *rivals, const struct geom_convex *piece) {
-  struct rivals_part part = {*piece, rivals->reach.count};
+/* Puts a part on the stack, without its reaches.
+ * axis  what these are along */
+static bool push_part(struct rivals *rivals, const struct geom_convex *piece,
+                      const struct rivals_axis *axis) {
+  struct rivals_part part = {*piece, rivals->reach.count, *axis};
   return ARRAY_PUSH(&rivals->part, part);
 }
 
@@ -458,7 +472,7 @@ static bool push_part(struct rivals *rivals, const struct geom_convex *piece) {
  * divided  false: the parting was no good, for the sample was wrong; nothing
  *          was done */
 static bool divide(struct rivals *rivals, const struct geom_convex *piece,
-                   const struct axis *axis, size_t count,
+                   const struct rivals_axis *axis, size_t count,
                    const struct parting *parting, bool *divided) {
   struct rival *rival = &rivals->rival.item[parting->rival];
   struct geom_convex half[2];
@@ -483,7 +497,11 @@ static bool divide(struct rivals *rivals, const struct geom_convex *piece,
          count * sizeof *rivals->scratch.item);
   rivals->reach.count = own;
   for (int h = 0; h < 2; h++) {
-    if (!push_part(rivals, &half[h]))
+    struct rivals_axis own_axis = *axis;
+    own_axis.age++;
+    own_axis.u0 = stretch[h].from;
+    own_axis.u1 = stretch[h].to;
+    if (!push_part(rivals, &half[h], &own_axis))
       return false;
     for (size_t i = 0; i < count; i++)
       if (is_along(&stretch[h], &rivals->scratch.item[i]))
@@ -529,13 +547,67 @@ static bool find_cover(struct rivals *rivals, size_t count,
   return true;
 }
 
+/* The one of the last `count` reaches that is longest along the part, where it
+ * is long; else `count`. */
+static size_t find_long(const struct rivals *rivals, const struct rivals_axis *axis,
+                        size_t count) {
+  const struct rival_reach *reach =
+      rivals->reach.item + (rivals->reach.count - count);
+  double most = LONG * (axis->u1 - axis->u0);
+  size_t longest = count;
+  for (size_t i = 0; i < count; i++) {
+    double length =
+        least(reach[i].to, axis->u1) - most_of(reach[i].from, axis->u0);
+    if (length <= most)
+      continue;
+    most = length;
+    longest = i;
+  }
+  return longest;
+}
+
+/* Takes one of the last `count` reaches' rivals from the part, and puts what is
+ * left of it on the stack with the others. */
+static bool take_one(struct rivals *rivals, const struct geom_convex *piece,
+                     size_t count, size_t which) {
+  size_t own = rivals->reach.count - count, others = count - 1;
+  struct rival *rival =
+      &rivals->rival.item[rivals->reach.item[own + which].rival];
+  rivals->next.count = 0;
+  if (!subtract(rivals, piece, rival))
+    return false;
+  rivals->reach.item[own + which] = rivals->reach.item[own + others];
+  rivals->reach.count = own + others;
+  if (rivals->next.count == 0)
+    rivals->reach.count = own;
+  for (size_t i = 0; i < rivals->next.count; i++) {
+    struct rivals_part part = {rivals->next.item[i],
+                               rivals->reach.count - others, no_axis};
+    if (!ARRAY_PUSH(&rivals->part, part))
+      return false;
+    if (i + 1 == rivals->next.count)
+      break;
+    if (!ARRAY_RESERVE(&rivals->reach, others))
+      return false;
+    memcpy(rivals->reach.item + rivals->reach.count,
+           rivals->reach.item + (rivals->reach.count - others),
+           others * sizeof *rivals->reach.item);
+    rivals->reach.count += others;
+  }
+  return true;
+}
+
 /* Divides the part on top of the stack, which has been taken off it, or drops
  * it where it is hidden, or leaves the last *count reaches to be taken. */
-static bool part_further(struct rivals *rivals, const struct geom_convex *piece,
+static bool part_further(struct rivals *rivals, struct rivals_part *part,
                          size_t *count, bool *done) {
-  struct axis axis = axis_of(piece);
+  const struct geom_convex *piece = &part->piece;
   struct parting parting;
-  *count = sift(rivals, &axis, *count);
+  size_t longest;
+  if (part->axis.age >= AXIS_AGE) {
+    part->axis = axis_of(piece);
+    *count = sift(rivals, &part->axis, *count);
+  }
   if (!find_cover(rivals, *count, piece, done))
     return false;
   if (*done) {
@@ -543,16 +615,28 @@ static bool part_further(struct rivals *rivals, const struct geom_convex *piece,
     rivals->reach.count -= *count;
     return true;
   }
-  return *count <= FEW ||
-         !choose_parting(rivals, piece, &axis, *count, &parting) ||
-         divide(rivals, piece, &axis, *count, &parting, done);
+  if (*count <= FEW)
+    return true;
+  longest = find_long(rivals, &part->axis, *count);
+  if (longest < *count) {
+    *done = true;
+    return take_one(rivals, piece, *count, longest);
+  }
+  if (!choose_parting(rivals, piece, &part->axis, *count, &parting)) {
+    if (part->axis.age == 0)
+      return true;
+    part->axis = no_axis; /* once more, along its own */
+    *done = true;
+    return ARRAY_PUSH(&rivals->part, *part);
+  }
+  return divide(rivals, piece, &part->axis, *count, &parting, done);
 }
 
 static bool solve_part(struct rivals *rivals) {
   struct rivals_part part = rivals->part.item[--rivals->part.count];
   size_t count = rivals->reach.count - part.from;
   bool done = false;
-  if (count > FEW && !part_further(rivals, &part.piece, &count, &done))
+  if (count > FEW && !part_further(rivals, &part, &count, &done))
     return false;
   if (done)
     return true;
@@ -585,7 +669,7 @@ bool rivals_take_all(struct rivals *rivals) {
                    sizeof *rivals->rival.item, compare_shares, NULL))
     return false;
   if (!geom_convex_triangle(&piece, rivals->plane.p, line, &rivals->arena) ||
-      !push_part(rivals, &piece))
+      !push_part(rivals, &piece, &no_axis))
     return false;
   for (size_t i = 0; i < rivals->rival.count; i++) {
     struct rival_reach reach = {-INFINITY, INFINITY, (uint32_t)i};

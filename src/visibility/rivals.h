@@ -28,11 +28,19 @@ struct rival_reach {
   uint32_t rival;
 };
 
+/* The long axis of a part: u along it, v across it, about a corner. */
+struct rivals_axis {
+  double x, y, dx, dy;
+  double u0, u1, v0, v1; /* the part's extent, with a margin */
+  int age;               /* partings since it was the axis of all */
+};
+
 /* A part of the triangle; its rivals' reaches stand at the end of the list
  * once it is on top of the stack. */
 struct rivals_part {
   struct geom_convex piece;
   size_t from;
+  struct rivals_axis axis; /* what the reaches are along */
 };
 
 /* Counts for --stats, each of them monotone. */
