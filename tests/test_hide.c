@@ -172,24 +172,29 @@ static void an_edge_that_dives_is_hidden_beyond_the_tolerance(void **state) {
   hand_sheet_fini(&sheet);
 }
 
-/* From a corner shared, hidden from its very start or not at all. */
-static void
-an_edge_from_a_shared_corner_is_asked_at_its_other_end(void **state) {
+/* From a corner shared, hidden from its very start or not at all: as it is
+ * where it ends, or leaves the triangle at a quarter of its way. */
+static void an_edge_from_a_shared_corner_is_asked_once(void **state) {
   struct hide_counts counts = {0};
   struct hidden_part part;
   struct sheet sheet;
   struct hider hider = one_triangle(&sheet, right_angle);
   const struct geom_point corner = {0, 0, 1000};
   (void)state;
-  for (int64_t z = 995; z <= 1005; z++) {
-    const struct geom_point q = {200, 200, z};
-    bool hidden = hide_edge(&hider, corner, q, &part, &counts);
-    assert_int_equal(hidden, z < 999);
-    if (hidden)
-      assert_true(is_ratio(part.from, 0, 1) && is_ratio(part.to, 1, 1));
-    assert_int_equal(hide_edge(&hider, q, corner, &part, &counts), hidden);
-    if (hidden)
-      assert_true(is_ratio(part.from, 0, 1) && is_ratio(part.to, 1, 1));
+  for (int far = 0; far < 2; far++) {
+    int size = far ? 2000 : 200, steps = far ? 4 : 1;
+    for (int64_t z = 985; z <= 1005; z++) {
+      const struct geom_point q = {size, size, z};
+      bool hidden = hide_edge(&hider, corner, q, &part, &counts);
+      assert_int_equal(hidden, 1000 - z > steps);
+      if (hidden)
+        assert_true(is_ratio(part.from, 0, 1) &&
+                    is_ratio(part.to, 1, (uint64_t)steps));
+      assert_int_equal(hide_edge(&hider, q, corner, &part, &counts), hidden);
+      if (hidden)
+        assert_true(is_ratio(part.from, (uint64_t)(steps - 1), (uint64_t)steps) &&
+                    is_ratio(part.to, 1, 1));
+    }
   }
   /* The same place at another depth is not the corner. */
   assert_true(hide_edge(&hider, (struct geom_point){0, 0, 1001},
@@ -418,7 +423,7 @@ int main(void) {
       cmocka_unit_test(one_unit_of_depth_is_contact_and_two_are_not),
       cmocka_unit_test(a_unit_of_x_and_y_is_contact_too),
       cmocka_unit_test(an_edge_that_dives_is_hidden_beyond_the_tolerance),
-      cmocka_unit_test(an_edge_from_a_shared_corner_is_asked_at_its_other_end),
+      cmocka_unit_test(an_edge_from_a_shared_corner_is_asked_once),
       cmocka_unit_test(a_triangle_does_not_hide_its_own_sides),
       cmocka_unit_test(contact_is_a_length_of_the_scene),
       cmocka_unit_test(intervals_are_those_of_the_oracle),

@@ -11,8 +11,8 @@
  *
  * A point P of an edge is hidden where a ray from P to the eye meets a face
  * whose plane lies more than `contact` in front of P; or where an end of the
- * edge is a corner of that face, in front of its other end: it is hidden from
- * its start or not at all.  Doubles cannot decide cases on the border, so there
+ * edge is a corner of that face, in front of where it leaves the face or ends:
+ * it is hidden from its start or not at all.  Doubles cannot decide cases on the border, so there
  * are three answers: clear, blocked, unsure.
  * Rays start from P itself and from a hair (judge_options.hair_mm) to the left
  * and right of the edge on the page.  A point counts as false ink only if all

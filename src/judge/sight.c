@@ -123,11 +123,39 @@ static enum shared triangle_shares(const struct judge_gaze *gaze,
   return most == SHARED && !sure ? SHARED_PERHAPS : most;
 }
 
-/* How far the plane is at the edge's other end. */
-static enum judge_sight weigh_end(const struct judge_end *end,
-                                  const struct judge_triangle *t) {
-  enum judge_sight sight = weigh_distance(distance(t, end->spot), &end->margin);
-  return sight == weigh_distance(distance(t, end->cut), &end->cut_margin)
+/* Where the way from a triangle's corner to a spot leaves the triangle's image:
+ * there the plane through its far side and the eye is crossed, or nowhere. */
+static struct judge_spot leave(const struct judge_gaze *gaze,
+                               const struct judge_triangle *t,
+                               struct judge_spot corner, struct judge_spot to) {
+  const struct judge_camera *camera = gaze->camera;
+  int k = 0;
+  while (k < 3 && spot_length(spot_sub(t->p[k], corner)) > 0)
+    k++;
+  if (k == 3)
+    return to;
+  struct judge_spot a = t->p[(k + 1) % 3], b = t->p[(k + 2) % 3];
+  struct judge_spot towards =
+      camera->perspective ? spot_sub(camera->eye, a) : camera->back;
+  struct judge_spot normal = spot_cross(spot_sub(b, a), towards);
+  double from = spot_dot(normal, spot_sub(corner, a));
+  double past = spot_dot(normal, spot_sub(to, a));
+  return (from > 0) == (past > 0) || from == 0
+             ? to
+             : spot_along(corner, from / (from - past), spot_sub(to, corner));
+}
+
+/* How far the plane is where the edge, from one end, ends or leaves the
+ * triangle. */
+static enum judge_sight weigh_exit(const struct judge_gaze *gaze,
+                                   const struct judge_triangle *t,
+                                   struct judge_spot corner,
+                                   const struct judge_end *end) {
+  enum judge_sight sight = weigh_distance(
+      distance(t, leave(gaze, t, corner, end->spot)), &end->margin);
+  return sight ==
+                 weigh_distance(distance(t, leave(gaze, t, corner, end->cut)),
+                                &end->cut_margin)
              ? sight
              : JUDGE_UNSURE;
 }
@@ -141,7 +169,7 @@ static enum judge_sight weigh_plane(const struct judge_triangles *all,
   enum judge_sight there[2];
   enum shared shared[2];
   for (int k = 0; k < 2; k++) {
-    there[k] = weigh_end(&gaze->end[1 - k], t);
+    there[k] = weigh_exit(gaze, t, gaze->end[k].spot, &gaze->end[1 - k]);
     shared[k] = here == JUDGE_BLOCKED || there[k] == here
                     ? SHARED_NO
                     : triangle_shares(gaze, all, t, &gaze->end[k]);

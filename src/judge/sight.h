@@ -5,7 +5,7 @@
  * the edge for a corner, its plane goes through that end, and points close to
  * it would see past the triangle however the edge runs.  Such a triangle hides
  * as much of the edge as it covers, or nothing: how far its plane is counts at
- * the edge's other end. */
+ * the edge's other end, or where it leaves the triangle. */
 #ifndef JUDGE_SIGHT_H
 #define JUDGE_SIGHT_H
 

@@ -171,6 +171,18 @@ static bool cut_to_outline(const struct geom_point corner[3],
   return ratio_compare(part->from, part->to) < 0;
 }
 
+/* Where an edge is hidden that starts on a corner, with depth gp there, and has
+ * gq at its other end: all of the part, or none.  It has to be behind the plane
+ * where it leaves the outline: farther on, the plane says nothing, and its
+ * rounding is beyond what contact allows for. */
+static bool is_behind_at_exit(const struct hidden_part *part, bool p_shared,
+                              int128 gp, int128 gq) {
+  if (p_shared)
+    return gq < 0 &&
+           ratio_compare((struct ratio){gp, gp - gq}, part->to) < 0;
+  return gp < 0 && ratio_compare(part->from, (struct ratio){-gp, gq - gp}) < 0;
+}
+
 /* Cuts the part to where the edge is behind the plane, contact allowed. */
 static bool cut_to_depth(const struct hider *hider, struct geom_point p,
                          struct geom_point q, struct hidden_part *part,
@@ -187,7 +199,7 @@ static bool cut_to_depth(const struct hider *hider, struct geom_point p,
   counts->exact++;
   gp = hider_depth(hider, p);
   gq = hider_depth(hider, q);
-  if (p_shared != q_shared) return p_shared ? gq < 0 : gp < 0;
+  if (p_shared != q_shared) return is_behind_at_exit(part, p_shared, gp, gq);
   if (gp >= 0 && gq >= 0) return false;
   if (gp < 0 && gq < 0) return true;
   counts->crossings++;

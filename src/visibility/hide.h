@@ -21,8 +21,8 @@
  *   then on it is an integer and part of the definition.
  *
  * Corners shared.  An edge that starts on a corner of the triangle has value
- * 0 there; whether it is hidden is asked once, at its other end, so that it
- * is hidden from its very start or not at all.
+ * 0 there; whether it is hidden is asked once, where it ends or leaves the
+ * outline, so that it is hidden from its very start or not at all.
  *
  * An edge along a side of the triangle is covered on one side of itself only;
  * it is hidden where both of its sides are covered (strokes.h).

@@ -277,17 +277,11 @@ static int sides_covered(const struct geom_point corner[3], struct geom_point p,
   return covered;
 }
 
-/* Is the edge behind the triangle's plane there, contact allowed? */
-static bool is_behind(const struct hider *hider, struct geom_point p,
-                      struct geom_point q, const mpq_t t) {
+/* Is the edge behind the triangle's plane at t, contact allowed? */
+static bool is_behind_at(const struct hider *hider, struct geom_point p,
+                         struct geom_point q, const mpq_t t) {
   mpq_t from, to;
-  bool p_shared = false, q_shared = false, behind;
-  for (int k = 0; k < 3; k++) {
-    p_shared |= geom_same_point(hider->p[k], p);
-    q_shared |= geom_same_point(hider->p[k], q);
-  }
-  if (p_shared != q_shared)
-    return hider_depth(hider, p_shared ? q : p) < 0;
+  bool behind;
   mpq_inits(from, to, NULL);
   rational_set_int128(mpq_numref(from), hider_depth(hider, p));
   rational_set_int128(mpq_numref(to), hider_depth(hider, q));
@@ -297,6 +291,38 @@ static bool is_behind(const struct hider *hider, struct geom_point p,
   behind = mpq_sgn(to) < 0;
   mpq_clears(from, to, NULL);
   return behind;
+}
+
+/* The same for an edge from corner k, p, wherever on it: as it is where it
+ * crosses the line of the side across, or ends. */
+static bool is_behind_at_exit(const struct hider *hider, int k,
+                              struct geom_point p, struct geom_point q) {
+  struct geom_point a = hider->p[(k + 1) % 3], b = hider->p[(k + 2) % 3];
+  int64_t at_p = geom_orient2d(a, b, p), at_q = geom_orient2d(a, b, q);
+  mpq_t t;
+  bool behind;
+  mpq_init(t);
+  rational_set_int128(mpq_numref(t), at_q < 0 ? at_p : 1);
+  rational_set_int128(mpq_denref(t), at_q < 0 ? (int128)at_p - at_q : 1);
+  mpq_canonicalize(t);
+  behind = is_behind_at(hider, p, q, t);
+  mpq_clear(t);
+  return behind;
+}
+
+/* Is the edge behind the triangle's plane there, contact allowed? */
+static bool is_behind(const struct hider *hider, struct geom_point p,
+                      struct geom_point q, const mpq_t t) {
+  int p_is = -1, q_is = -1; /* corners */
+  for (int k = 0; k < 3; k++) {
+    p_is = geom_same_point(hider->p[k], p) ? k : p_is;
+    q_is = geom_same_point(hider->p[k], q) ? k : q_is;
+  }
+  if (p_is >= 0 && q_is < 0)
+    return is_behind_at_exit(hider, p_is, p, q);
+  if (q_is >= 0 && p_is < 0)
+    return is_behind_at_exit(hider, q_is, q, p);
+  return is_behind_at(hider, p, q, t);
 }
 
 bool oracle_is_hidden(const struct sheet *sheet, uint32_t e, const mpq_t t) {
