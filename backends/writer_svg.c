@@ -275,10 +275,10 @@ struct style {
 };
 
 static const char *class_of(const struct drawing_stroke *stroke) {
-  return stroke->hidden            ? "hidden"
-         : stroke->edge_class == 0 ? "hatch"
-                                   : recto_edge_class_name(
-                                         (recto_edge_class)stroke->edge_class);
+  return stroke->hidden ? "hidden"
+         : stroke->edge_class == 0
+             ? "hatch"
+             : recto_edge_class_name((recto_edge_class)stroke->edge_class);
 }
 
 static void close_style(const struct svg *svg, struct style *style) {

@@ -218,6 +218,16 @@ claim "SVG comes as it does" orders_like none svg
 claim "a drawing fits what a plotter reaches" fits_a_sheet A4 hp7475a
 claim "on any of its sheets" fits_a_sheet A3 hp7550a
 
+# A cube from a corner: nine edges of one length are seen, three are hidden.
+tells_what_pens_draw() {
+  run 0 cube.obj -o out.svg --stats=stats.json --hidden layer \
+    --pen-for hidden=3 &&
+    grep -q '"layer_pen": \[1, 3\]' stats.json &&
+    sed -n 's/.*"layer_length_mm": \[\(.*\), \(.*\)\].*/\1 \2/p' stats.json |
+    awk '{ off = $1 - 3 * $2; exit !($2 > 100 && off * off < 1e-6) }'
+}
+claim "--stats tells how much each pen draws" tells_what_pens_draw
+
 # same_drawing OPTION OPTION - both draw the cube alike.
 same_drawing() {
   run 0 cube.obj -o one.svg "$1" && run 0 cube.obj -o other.svg "$2" &&

@@ -248,9 +248,30 @@ static void report_sheet(struct report *report, const struct render *render) {
              (int64_t)sheet->clipped_page);
 }
 
+/* What each layer's pen draws, so that it is known which to load, and that
+ * their ink lasts. */
+static void report_layers(struct report *report,
+                          const struct drawing *drawing) {
+  size_t count = drawing->layer.count;
+  double *pen = mem_calloc(count, 2 * sizeof *pen);
+  if (pen == NULL)
+    return;
+  double *length = pen + count;
+  for (size_t i = 0; i < count; i++)
+    pen[i] = drawing->layer.item[i].pen;
+  for (size_t i = 0; i < drawing->stroke.count; i++) {
+    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    length[stroke->layer] += drawing_stroke_mm(drawing, stroke);
+  }
+  report_doubles(report, "drawing", "layer_pen", pen, count);
+  report_doubles(report, "drawing", "layer_length_mm", length, count);
+  mem_free(pen);
+}
+
 static void report_drawing(struct report *report,
                            const struct drawing *drawing) {
   report_int(report, "drawing", "layers", (int64_t)drawing->layer.count);
+  report_layers(report, drawing);
   report_int(report, "drawing", "strokes", (int64_t)drawing->stroke.count);
   report_int(report, "drawing", "fills", (int64_t)drawing->fill.count);
   report_int(report, "drawing", "points", (int64_t)drawing->point.count);
@@ -269,7 +290,7 @@ static void warn_of_empty_page(const struct render *render) {
   if (o->edges == RECTO_EDGES_NONE && o->fill == RECTO_FILL_NONE)
     why = "neither lines nor fills are asked for";
   else if (report_get(render->report, "sheet", "triangles", 0) == 0 &&
-      render->sheet.edge.count == 0)
+           render->sheet.edge.count == 0)
     why = "all of the scene is outside of the page";
   char text[128];
   snprintf(text, sizeof text, "the drawing is empty: %s", why);

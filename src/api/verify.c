@@ -14,7 +14,6 @@
 
 #include "api/asked.h"
 #include "ink/ink.h"
-#include "ink/stroke.h"
 
 /* ---- The strokes ----------------------------------------------------------
  */
@@ -48,15 +47,6 @@ static bool take_drawn(struct judge_drawing *to,
   return true;
 }
 
-static double length_of(const struct drawing *drawing,
-                        const struct drawing_stroke *stroke) {
-  const struct drawing_point *p = drawing->point.item + stroke->point;
-  double length = 0;
-  for (uint32_t i = 1; i < stroke->count + stroke->closed; i++)
-    length += stroke_distance(p[i - 1], p[i < stroke->count ? i : 0]);
-  return length;
-}
-
 /* What would be drawn if nothing were too short, the short lines of it. */
 static recto_status take_dropped(struct judge_drawing *to,
                                  const struct verify *verify,
@@ -76,7 +66,8 @@ static recto_status take_dropped(struct judge_drawing *to,
   for (size_t i = 0; status == RECTO_OK && i < drawing.stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing.stroke.item[i];
     double half_pen = drawing.layer.item[stroke->layer].width_mm / 2;
-    if (length_of(&drawing, stroke) < (shortest < 0 ? half_pen : shortest) &&
+    if (drawing_stroke_mm(&drawing, stroke) <
+            (shortest < 0 ? half_pen : shortest) &&
         !take_stroke(to, &drawing, stroke, JUDGE_DROPPED))
       status = error_memory(error);
   }

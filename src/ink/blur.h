@@ -28,9 +28,8 @@ bool blur_is_near(const struct blur *blur, uint32_t a, uint32_t b);
  * unit. */
 bool blur_unite(struct blur *blur, uint32_t from, uint32_t to);
 
-/* Shrinks the segments whose ends are near many others, and keeps of those whose ends are
- * near each other's the best one.
- * Cost  near linear */
+/* Shrinks the segments whose ends are near many others, and keeps of those
+ * whose ends are near each other's the best one. Cost  near linear */
 USE_RESULT bool blur_drop_twins(struct blur *blur, const struct net_rows *rows);
 
 static inline struct ink_point blur_at(const struct blur *blur, uint32_t node) {

@@ -34,16 +34,21 @@ static double distance(struct drawing_point a, struct drawing_point b) {
   return sqrt(dx * dx + dy * dy);
 }
 
+double drawing_stroke_mm(const struct drawing *drawing,
+                         const struct drawing_stroke *stroke) {
+  const struct drawing_point *point = drawing->point.item + stroke->point;
+  double length = 0;
+  for (uint32_t k = 1; k < stroke->count; k++)
+    length += distance(point[k - 1], point[k]);
+  if (stroke->closed && stroke->count > 0)
+    length += distance(point[stroke->count - 1], point[0]);
+  return length;
+}
+
 double drawing_length_mm(const struct drawing *drawing) {
   double length = 0;
-  for (size_t i = 0; i < drawing->stroke.count; i++) {
-    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
-    const struct drawing_point *point = drawing->point.item + stroke->point;
-    for (uint32_t k = 1; k < stroke->count; k++)
-      length += distance(point[k - 1], point[k]);
-    if (stroke->closed && stroke->count > 0)
-      length += distance(point[stroke->count - 1], point[0]);
-  }
+  for (size_t i = 0; i < drawing->stroke.count; i++)
+    length += drawing_stroke_mm(drawing, &drawing->stroke.item[i]);
   return length;
 }
 

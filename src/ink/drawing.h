@@ -46,7 +46,7 @@ struct drawing_layer {
 
 struct drawing {
   double width_mm, height_mm; /* the page */
-  double seam_mm;             /* > 0: below the fills, strokes of their colours */
+  double seam_mm; /* > 0: below the fills, strokes of their colours */
   /* Widths of a class's visible lines in those of their pen, by place of the
    * class's bit; 0: 1. */
   double weight[RECTO_EDGE_CLASS_COUNT];
@@ -66,6 +66,10 @@ void drawing_fini(struct drawing *drawing);
 /* The stroke's width in mm: its layer's, where visible times its weight. */
 double drawing_width_mm(const struct drawing *drawing,
                         const struct drawing_stroke *stroke);
+
+/* The stroke's length in mm, its closing side included. */
+double drawing_stroke_mm(const struct drawing *drawing,
+                         const struct drawing_stroke *stroke);
 
 /* Drawn length in mm; pen-up travel in mm in drawing order, from the lower
  * left corner, over all layers. */

@@ -268,8 +268,7 @@ static bool take_fragments(struct engraving *e, const struct map *map) {
 bool engrave_add(struct drawing *drawing, const struct sheet *sheet,
                  const struct scene *scene, const struct map *map,
                  const struct pens *pens, const recto_options *options) {
-  struct engraving e = {
-      .drawing = drawing, .options = options, .pens = pens};
+  struct engraving e = {.drawing = drawing, .options = options, .pens = pens};
   /* What is less than an eighth of the pen apart, the ink would join. */
   e.runs.touch = 1.0 / 8;
   e.runs.speck = SPECK_PENS;

@@ -10,8 +10,8 @@
  * agree; so a flat or smoothly bent surface is one fill, as far as it is
  * seen in one piece.  Borders of groups stay though both be of one colour: a
  * line may be drawn there, and a fill is what the user's editor takes hold of
- * to give one group another colour.  A fill stands where its first fragment does.
- * like     one a fragment: the fill it would be, without its loops
+ * to give one group another colour.  A fill stands where its first fragment
+ * does. like     one a fragment: the fill it would be, without its loops
  * options  crease_deg: faces that meet at more are not smooth; ids: every
  *          fragment is a fill of its own
  * Cost     linear in the corners, n log n in those of merged outlines.

@@ -32,8 +32,7 @@ static void join_all(const struct patches *patches, const struct scene *scene,
                      uint32_t *seen) {
   for (uint32_t f = 0; f < patches->count; f++) {
     const struct map_fragment *fragment = &map->fragment.item[f];
-    uint32_t pen =
-        pens_of_hatch(pens, scene->face_group.item[fragment->face]);
+    uint32_t pen = pens_of_hatch(pens, scene->face_group.item[fragment->face]);
     for (uint32_t l = 0; l < fragment->loops; l++) {
       const struct map_loop *loop = &map->loop.item[fragment->loop + l];
       for (uint32_t i = 0; i < loop->count; i++) {
