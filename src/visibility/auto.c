@@ -1,8 +1,9 @@
 /* auto.c - the least method that is exact for what was asked. */
+#include "visibility/outline.h"
 #include "visibility/solver.h"
 
-/* Up to so many pairs of edge and face, or of two faces, asking all of them is quicker than
- * finding out which to ask. */
+/* Up to so many pairs of edge and face, or of two faces, asking all of them is
+ * quicker than finding out which to ask. */
 #define FEW_PAIRS 2000
 
 static size_t count_drawn(const struct sheet *sheet) {
@@ -23,6 +24,10 @@ const struct solver *solver_choose(const struct sheet *sheet,
       triangles * asked <= FEW_PAIRS) {
     *why = "few edges and faces: every pair is quickest";
     return &solver_brute;
+  }
+  if (outline_tells(sheet, request)) {
+    *why = "one outline, behind which nothing that is asked for can hide";
+    return &solver_outline;
   }
   *why = "tiles leave the fewest pairs to ask";
   return &solver_tiles;

@@ -16,6 +16,7 @@ librecto_core_la_SOURCES += \
   %D%/newell_order.c %D%/newell_order.h \
   %D%/newell_tests.c %D%/newell_tests.h \
   %D%/octagon.h \
+  %D%/outline.c %D%/outline.h \
   %D%/pagegrid.c %D%/pagegrid.h \
   %D%/painter.c \
   %D%/pair.c %D%/pair.h \
