@@ -34,6 +34,10 @@ FILL(cube, scenes_cube(scene, options, 0))
 FILL(globe, scenes_globe(scene, options, 10))
 FILL(fine_globe, scenes_globe(scene, options, 150))
 FILL(sinc, scenes_sinc(scene, options, 200))
+FILL(sinc_above, scenes_sinc(scene, options, 200);
+     scenes_view_above(options))
+FILL(globe_outline, scenes_globe(scene, options, 150);
+     options->edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_CREASE)
 FILL(stack, scenes_cube_stack(scene, options, 30, 0))
 FILL(table, scenes_large_table(scene, options))
 FILL(cycles, scenes_cycle_field(scene, options, 12))
@@ -70,7 +74,9 @@ static const struct hard_scene {
     {"cube", fill_cube, true},
     {"globe-10", fill_globe, true},
     {"globe-150", fill_fine_globe, true},
+    {"globe-outline", fill_globe_outline, false},
     {"sinc-200", fill_sinc, true},
+    {"sinc-above", fill_sinc_above, true},
     {"cube-stack-30", fill_stack, true},
     {"table", fill_table, true},
     {"cycles-12x12", fill_cycles, true},
