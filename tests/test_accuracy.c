@@ -153,6 +153,39 @@ static void wrong_ink_falls_in_first_order_where_pixels_are_fine(void **state) {
   scene_fini(&scene);
 }
 
+/* No place of the page is given to two fragments, but for corners being
+ * rounded. */
+static void check_disjoint(const struct scene *scene,
+                           const recto_options *options, const char *name) {
+  for (int lines = 20; lines <= 500; lines *= 5) {
+    struct trial trial;
+    struct measure measure;
+    trial_run(&trial, scene, options, solver_by_name("watkins"), lines,
+              TRIAL_FRAGMENTS);
+    assert_int_equal(trial.status, RECTO_OK);
+    assert_true(measure_map(&measure, &trial.sheet, &trial.map, &trial.map));
+    if (!(measure.twice_area < 1e-6 * measure.true_area))
+      fail_msg("%s at %d lines: %g of %g mm2 twice", name, lines,
+               measure.twice_area, measure.true_area);
+    trial_fini(&trial);
+  }
+}
+
+static void fragments_between_scan_lines_are_disjoint(void **state) {
+  static const char *const name[] = {"spot", "fandisk"};
+  struct scene scene;
+  recto_options options;
+  (void)state;
+  open_soup(&scene, &options);
+  check_disjoint(&scene, &options, "a soup of 1,000");
+  scene_fini(&scene);
+  for (size_t i = 0; i < 2; i++) {
+    if (open_real(&scene, &options, name[i]))
+      check_disjoint(&scene, &options, name[i]);
+    scene_fini(&scene);
+  }
+}
+
 /* ---- Both z-buffers ----------------------------------------------------- */
 
 static void check_agreement(const struct scene *scene,
@@ -247,6 +280,7 @@ int main(void) {
       cmocka_unit_test(scan_line_memory_does_not_grow_with_the_lines),
       cmocka_unit_test(errors_fall_with_the_lines_on_a_soup),
       cmocka_unit_test(errors_fall_with_the_lines_on_meshes),
+      cmocka_unit_test(fragments_between_scan_lines_are_disjoint),
       cmocka_unit_test(wrong_ink_falls_in_first_order_where_pixels_are_fine),
       cmocka_unit_test(z_buffers_agree_on_every_model),
   };

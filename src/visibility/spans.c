@@ -25,39 +25,129 @@ bool spans_init(struct spans *spans, const struct sheet *sheet,
 }
 
 void spans_fini(struct spans *spans) {
+  ARRAY_FREE(&spans->row);
+  ARRAY_FREE(&spans->border);
+  ARRAY_FREE(&spans->side);
   ARRAY_FREE(&spans->trapezoid);
   mem_free(spans->at);
   memset(spans, 0, sizeof *spans);
 }
 
+/* ---- Borders ------------------------------------------------------------ */
+
+static bool list_borders(struct spans *spans) {
+  struct span *row = spans->row.item;
+  size_t count = spans->row.count;
+  spans->side.count = 0;
+  if (!ARRAY_RESERVE(&spans->side, 4 * count) ||
+      !ARRAY_RESERVE(&spans->border, 4 * count))
+    return false;
+  for (size_t i = 0; i < count; i++) {
+    bool meets = i > 0 && row[i - 1].right.x == row[i].left.x;
+    struct span_side **side = spans->side.item + spans->side.count;
+    side[0] = meets ? &row[i - 1].right : NULL;
+    side[1] = &row[i].left;
+    spans->side.count += 2;
+    if (i + 1 < count && row[i].right.x == row[i + 1].left.x)
+      continue;
+    side[2] = &row[i].right;
+    side[3] = NULL;
+    spans->side.count += 2;
+  }
+  return true;
+}
+
+/* Makes values ascend: those that do not are replaced by their mean, as few as
+ * will do.  (Adjacent violators are pooled.) */
+static void make_ascend(double *value, size_t count) {
+  for (size_t i = 1; i < count; i++) {
+    size_t first = i;
+    double sum = value[i];
+    if (value[i] >= value[i - 1])
+      continue;
+    while (first > 0 && value[first - 1] > sum / (double)(i + 1 - first))
+      sum += value[--first];
+    for (size_t k = first; k <= i; k++)
+      value[k] = sum / (double)(i + 1 - first);
+  }
+}
+
+/* Settles the upper or the lower x of all borders. */
+static void settle_borders(struct spans *spans, bool upper) {
+  struct span_side **side = spans->side.item;
+  size_t count = spans->side.count / 2;
+  double *value = spans->border.item;
+  for (size_t i = 0; i < count; i++) {
+    double sum = 0, sides = 0;
+    for (size_t k = 2 * i; k < 2 * i + 2; k++)
+      if (side[k] != NULL) {
+        sum += upper ? side[k]->upper : side[k]->lower;
+        sides++;
+      }
+    value[i] = sum / sides;
+  }
+  make_ascend(value, count);
+  for (size_t k = 0; k < 2 * count; k++)
+    if (side[k] != NULL) {
+      double *x = upper ? &side[k]->upper : &side[k]->lower;
+      side[k]->straight &= *x == value[k / 2];
+      *x = value[k / 2];
+    }
+}
+
+/* ---- Lines -------------------------------------------------------------- */
+
 /* The trapezoid of the line above that the span makes longer, or NULL. */
-static struct trapezoid *find_above(const struct spans *spans, int32_t line,
+static struct trapezoid *find_above(const struct spans *spans,
                                     const struct span *span) {
-  uint32_t at =
-      span->left.key == SPAN_ALONE ? SPAN_ALONE : spans->at[span->left.key];
+  uint32_t at = span->left.straight && span->right.straight
+                    ? spans->at[span->left.key]
+                    : SPAN_ALONE;
   struct trapezoid *above;
-  if (at == SPAN_ALONE || span->right.key == SPAN_ALONE)
+  if (at == SPAN_ALONE)
     return NULL;
   above = &spans->trapezoid.item[at];
-  return above->last == line + 1 && above->span.face == span->face &&
-                 above->span.right.key == span->right.key
+  return above->last == spans->line + 1 && above->span.face == span->face &&
+                 above->span.right.key == span->right.key &&
+                 above->span.left.straight && above->span.right.straight
              ? above
              : NULL;
 }
 
-bool spans_add(struct spans *spans, int32_t line, const struct span *span) {
-  struct trapezoid *above = find_above(spans, line, span);
-  spans->count++;
+static bool join_span(struct spans *spans, const struct span *span) {
+  struct trapezoid *above = find_above(spans, span);
   if (above != NULL) {
-    above->last = line;
+    above->last = spans->line;
     above->span.left.lower = span->left.lower;
     above->span.right.lower = span->right.lower;
     return true;
   }
   if (span->left.key != SPAN_ALONE)
     spans->at[span->left.key] = (uint32_t)spans->trapezoid.count;
-  struct trapezoid next = {*span, line, line};
+  struct trapezoid next = {*span, spans->line, spans->line};
   return ARRAY_PUSH(&spans->trapezoid, next);
+}
+
+static bool end_line(struct spans *spans) {
+  if (spans->row.count == 0)
+    return true;
+  if (!list_borders(spans))
+    return false;
+  settle_borders(spans, true);
+  settle_borders(spans, false);
+  for (size_t i = 0; i < spans->row.count; i++)
+    if (!join_span(spans, &spans->row.item[i]))
+      return false;
+  spans->row.count = 0;
+  return true;
+}
+
+bool spans_add(struct spans *spans, int32_t line, const struct span *span) {
+  if (line != spans->line && !end_line(spans))
+    return false;
+  spans->line = line;
+  spans->count++;
+  return ARRAY_PUSH(&spans->row, *span);
 }
 
 /* ---- Filing ------------------------------------------------------------- */
@@ -70,8 +160,7 @@ static double round_corner(double value) {
   return nearbyint(value * CORNER_SCALE) / CORNER_SCALE;
 }
 
-/* The trapezoid's corners, counter-clockwise from the lower left.  Sides that
- * cross within the half line beyond their last centre meet in the middle. */
+/* The trapezoid's corners, counter-clockwise from the lower left. */
 static void make_corners(const struct spans *spans,
                          const struct trapezoid *trapezoid,
                          struct map_corner corner[4]) {
@@ -80,10 +169,6 @@ static void make_corners(const struct spans *spans,
   double x[4] = {left->lower, right->lower, right->upper, left->upper};
   double low = scan_plane_y(&spans->grid, trapezoid->last);
   double high = scan_plane_y(&spans->grid, trapezoid->first + 1);
-  if (x[0] > x[1])
-    x[0] = x[1] = (x[0] + x[1]) / 2;
-  if (x[3] > x[2])
-    x[3] = x[2] = (x[3] + x[2]) / 2;
   for (int k = 0; k < 4; k++) {
     corner[k] = (struct map_corner){.side = MAP_SIDE_CUT, .id = SHEET_NONE};
     corner[k].x = round_corner(clamp(x[k], spans->x_low, spans->x_high));
@@ -121,9 +206,10 @@ static bool file_loop(const struct map_corner corner[4], uint32_t face,
 }
 
 bool spans_finish(struct spans *spans, struct map *map) {
+  bool good = end_line(spans);
   size_t count = spans->trapezoid.count;
   struct sort_key *key = mem_alloc(2 * count, sizeof *key);
-  bool good = key != NULL;
+  good = good && key != NULL;
   for (size_t i = 0; good && i < count; i++)
     key[i] = (struct sort_key){spans->trapezoid.item[i].span.face, (uint32_t)i};
   if (good)

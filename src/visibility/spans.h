@@ -4,6 +4,10 @@
  * Spans of neighbouring lines over the same face, with the same left and the
  * same right edge, are joined to one trapezoid.  Upper and lower sides are the
  * scan's own cuts.
+ *
+ * Spans of a line that meet share the border between them, and borders that
+ * would cross within the band (edges that cross or end there) meet in their
+ * middle instead: so fragments are disjoint.
  */
 #ifndef VISIBILITY_SPANS_H
 #define VISIBILITY_SPANS_H
@@ -14,8 +18,10 @@
 #define SPAN_ALONE UINT32_MAX
 
 struct span_side {
-  double upper, lower; /* x at the upper and lower border of the band, plane
+  double x;            /* on the line; of spans that meet the same */
+  double upper, lower; /* at the upper and lower border of the band, plane
                           units */
+  bool straight;       /* all three are on one line, that of the key */
   uint32_t key;        /* what it runs along: equal for the same edge on the
                           next line; SPAN_ALONE: never the same */
   uint32_t id;         /* as in struct map_corner */
@@ -37,6 +43,12 @@ struct trapezoid {
 struct spans {
   struct scan_grid grid;
   double x_low, x_high, y_low, y_high; /* the page, plane units */
+  ARRAY(struct span) row;              /* of the line at hand */
+  int32_t line;
+  ARRAY(double) border; /* room for x of the row's borders, left to right */
+  ARRAY(struct span_side *)
+  side; /* two a border: that of the span before it
+           and of the one after; NULL: none */
   ARRAY(struct trapezoid) trapezoid;
   uint32_t *at; /* for each key of a left side, the last trapezoid on it */
   size_t keys;

@@ -175,13 +175,17 @@ static struct span_side side_at(const struct watkins *watkins, uint32_t e,
       .key = SPAN_ALONE, .id = other, .side = MAP_SIDE_INTERSECTION};
   const struct watkins_edge *edge;
   const struct scan_edge *at;
-  side.upper = side.lower = scan_plane_x(grid, x);
+  double upper, lower;
+  side.x = side.upper = side.lower = scan_plane_x(grid, x);
   if (e == WATKINS_NONE)
     return side;
   edge = &watkins->edge.item[e];
   at = &watkins->table.edge.item[e];
-  side.upper = between(scan_plane_x(grid, x - at->dx / 2), at->x0, at->x1);
-  side.lower = between(scan_plane_x(grid, x + at->dx / 2), at->x0, at->x1);
+  upper = scan_plane_x(grid, x - at->dx / 2);
+  lower = scan_plane_x(grid, x + at->dx / 2);
+  side.upper = between(upper, at->x0, at->x1);
+  side.lower = between(lower, at->x0, at->x1);
+  side.straight = side.upper == upper && side.lower == lower;
   side.key = e;
   side.id = edge->side;
   if (edge->side == SHEET_NONE)
