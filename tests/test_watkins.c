@@ -437,6 +437,29 @@ static void whole_edges_are_visible_from_end_to_end(void **state) {
   }
 }
 
+/* Row 30: what lies between two lines behind what the nearer one sees is not
+ * drawn, whatever the other sees; one line is the page's middle. */
+static void what_no_line_meets_is_not_drawn_where_it_is_hidden(void **state) {
+  static const struct {
+    double pitch;
+    int low, high;
+  } row[] = {{1000, 6, 10}, {1000, 20, 24}, {16, 10, 14}, {12, 20, 23}};
+  (void)state;
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    int y0 = row[i].low, y1 = row[i].high;
+    const struct pixels_scene scene = {
+        2,
+        {{4, {{4, 4, 9}, {4, 28, 9}, {28, 28, 9}, {28, 4, 9}}},
+         {4, {{8, y0, 1}, {8, y1, 1}, {12, y1, 1}, {12, y0, 1}}}}};
+    struct map map;
+    solve_scene(&scene, true, row[i].pitch, &map, NULL);
+    assert_int_equal(map.edge_count, 8);
+    for (size_t e = 0; e < 8; e++)
+      assert_int_equal(map.edge_state[e], e < 4 ? MAP_VISIBLE : MAP_HIDDEN);
+    map_fini(&map);
+  }
+}
+
 /* The sum of the visible shares of all edges. */
 static double visible_share(const struct map *map) {
   double share = 0;
@@ -499,6 +522,7 @@ int main(void) {
       cmocka_unit_test(no_depth_is_computed_of_faces_clearly_apart),
       cmocka_unit_test(equal_sides_make_one_trapezoid),
       cmocka_unit_test(whole_edges_are_visible_from_end_to_end),
+      cmocka_unit_test(what_no_line_meets_is_not_drawn_where_it_is_hidden),
       cmocka_unit_test(strokes_end_where_faces_pierce_within_a_pitch),
       cmocka_unit_test(lines_are_refused_where_there_are_too_many),
   };

@@ -79,6 +79,7 @@ static void set_edge(const struct trace *trace, uint32_t e,
   to->dz = (double)(q.z - p.z);
   to->bits = cell_bits(&trace->grid, to->dx, to->dy);
   to->turned = to->dy > 0;
+  to->between = floor(to->y0 - 0.5) == floor(to->y0 + to->dy - 0.5);
   to->cell = 0;
   to->start = TRACE_HIDDEN;
 }
@@ -204,8 +205,11 @@ static bool is_visible(const struct trace *trace, const struct trace_edge *edge,
   bool upper = edge->y0 + t * edge->dy > sight->line + 1;
   double near = trace->reach_x > 0 ? floor(x) + 0.5 : x;
   double far = x < near ? near - 1 : near + 1;
-  if (lets_be_seen(trace, sight, upper, near, z) ||
-      lets_be_seen(trace, sight, !upper, near, z))
+  if (lets_be_seen(trace, sight, upper, near, z))
+    return true;
+  if (trace->reach_x == 0 && edge->between)
+    return false;
+  if (lets_be_seen(trace, sight, !upper, near, z))
     return true;
   return trace->reach_x > 0 && (lets_be_seen(trace, sight, upper, far, z) ||
                                 lets_be_seen(trace, sight, !upper, far, z));

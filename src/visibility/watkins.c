@@ -148,7 +148,7 @@ static bool finish_strokes(struct scan *scan, struct map *map) {
   for (size_t e = 0; e < count; e++)
     if (!close_run(scan, (uint32_t)e))
       return false;
-  return trace_line(&scan->trace, -1, seen_at, &scan->above, NULL) &&
+  return trace_line(&scan->trace, -1, seen_at, &scan->row, NULL) &&
          trace_finish(&scan->trace, map);
 }
 
