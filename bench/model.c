@@ -1,11 +1,11 @@
 /* model.c - the models of the bench, and one run of a program over them. */
 #include "bench/model.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "base/stream.h"
+#include "bench/box.h"
 #include "tests/scenes/subdivide.h"
 
 const char *const model_stage_name[MODEL_STAGES] = {
@@ -21,22 +21,9 @@ const char model_features[] =
 /* Looks from three radii away, along a direction without meaning. */
 static void choose_view(struct model *model, const struct scene *scene) {
   const double direction[3] = {0.6, 0.5, 0.62};
-  double low[3] = {INFINITY, INFINITY, INFINITY};
-  double high[3] = {-INFINITY, -INFINITY, -INFINITY};
-  for (size_t i = 0; i < scene->point.count; i++) {
-    const struct scene_point *p = &scene->point.item[i];
-    const double at[3] = {p->x, p->y, p->z};
-    for (int k = 0; k < 3; k++) {
-      low[k] = fmin(low[k], at[k]);
-      high[k] = fmax(high[k], at[k]);
-    }
-  }
-  double radius =
-      hypot(hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]) / 2;
-  for (int k = 0; k < 3; k++) {
-    model->middle[k] = (low[k] + high[k]) / 2;
+  double radius = box_measure(scene, model->middle);
+  for (int k = 0; k < 3; k++)
     model->eye[k] = model->middle[k] + 3 * radius * direction[k];
-  }
 }
 
 static double count_triangles(const struct scene *scene) {

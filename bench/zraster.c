@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "base/report.h"
+#include "bench/box.h"
 #include "scene/scene.h"
 
 enum { side = 4096 };
@@ -38,25 +39,10 @@ static void make_unit(double a[3]) {
     a[k] /= length;
 }
 
-static void find_middle(const struct scene *scene, double middle[3]) {
-  double low[3] = {INFINITY, INFINITY, INFINITY};
-  double high[3] = {-INFINITY, -INFINITY, -INFINITY};
-  for (size_t i = 0; i < scene->point.count; i++) {
-    const struct scene_point *p = &scene->point.item[i];
-    const double at[3] = {p->x, p->y, p->z};
-    for (int k = 0; k < 3; k++) {
-      low[k] = fmin(low[k], at[k]);
-      high[k] = fmax(high[k], at[k]);
-    }
-  }
-  for (int k = 0; k < 3; k++)
-    middle[k] = (low[k] + high[k]) / 2;
-}
-
 static void aim(struct frame *frame, const struct scene *scene,
                 char **argument) {
   double middle[3];
-  find_middle(scene, middle);
+  (void)box_measure(scene, middle);
   for (int k = 0; k < 3; k++) {
     frame->eye[k] = strtod(argument[k], NULL);
     frame->back[k] = frame->eye[k] - middle[k];

@@ -186,39 +186,36 @@ static void draw(struct pipeline *p, struct scene *scene,
   scene_fini(scene);
 }
 
-/* Every fill has one loop of so many points. */
-static void assert_fills(const struct pipeline *p, size_t fills,
-                         uint32_t points) {
-  assert_int_equal(p->drawing.fill.count, fills);
+/* The scene is so many fills, of one loop of so many points each. */
+static void assert_fills(struct scene *scene, const recto_options *options,
+                         size_t fills, uint32_t points) {
+  struct pipeline p;
+  draw(&p, scene, options);
+  assert_int_equal(p.drawing.fill.count, fills);
   for (size_t i = 0; i < fills; i++) {
-    assert_int_equal(p->drawing.fill.item[i].loops, 1);
-    assert_int_equal(p->drawing.loop.item[p->drawing.fill.item[i].loop].count,
-                     points);
+    const struct drawing_fill *fill = &p.drawing.fill.item[i];
+    assert_int_equal(fill->loops, 1);
+    assert_int_equal(p.drawing.loop.item[fill->loop].count, points);
   }
+  pipeline_fini(&p);
 }
 
 static void a_cube_is_three_polygons(void **state) {
   struct scene scene;
   recto_options options;
-  struct pipeline p;
   (void)state;
   start(&scene, &options);
   scenes_cube(&scene, &options, 0);
-  draw(&p, &scene, &options);
-  assert_fills(&p, 3, 4);
-  pipeline_fini(&p);
+  assert_fills(&scene, &options, 3, 4);
 }
 
 static void so_is_one_whose_sides_are_divided(void **state) {
   struct scene scene;
   recto_options options;
-  struct pipeline p;
   (void)state;
   start(&scene, &options);
   scenes_collinear_edges(&scene, &options, 5);
-  draw(&p, &scene, &options);
-  assert_fills(&p, 3, 4);
-  pipeline_fini(&p);
+  assert_fills(&scene, &options, 3, 4);
 }
 
 static void a_ball_is_one_polygon_whatever_lines_are_drawn(void **state) {
@@ -241,14 +238,11 @@ static void a_ball_is_one_polygon_whatever_lines_are_drawn(void **state) {
 static void the_crease_angle_parts_fills(void **state) {
   struct scene scene;
   recto_options options;
-  struct pipeline p;
   (void)state;
   start(&scene, &options);
   scenes_cube(&scene, &options, 0);
   options.crease_deg = 100;
-  draw(&p, &scene, &options);
-  assert_fills(&p, 1, 6);
-  pipeline_fini(&p);
+  assert_fills(&scene, &options, 1, 6);
 }
 
 static void groups_are_not_merged(void **state) {
