@@ -62,11 +62,8 @@ recto_status recto_scene_check(const recto_scene *scene, const char *path,
   struct judge_drawing drawing = {0};
   struct judge_verdict found;
   recto_options asked;
-  recto_options_init(&asked);
-  if (options != NULL)
-    asked = *options;
   *verdict = (recto_verdict){0};
-  recto_status status = options_check(&asked, error);
+  recto_status status = options_take(&asked, options, error);
   if (status == RECTO_OK)
     status = read_drawing(&drawing, path, error);
   if (status == RECTO_OK) {

@@ -19,9 +19,11 @@ struct recto_drawing {
   char verdict[VERIFY_SUMMARY_SIZE]; /* "": not verified */
 };
 
-/* Checks what can be checked of the options alone: finite, in range. */
-USE_RESULT recto_status options_check(const recto_options *options,
-                                      recto_error *error);
+/* Copies the options, or the defaults where they are NULL, and checks what can
+ * be checked of them alone: finite, in range. */
+USE_RESULT recto_status options_take(recto_options *own,
+                                     const recto_options *options,
+                                     recto_error *error);
 
 /* Reports a time, to the microsecond, in the section "time". */
 static inline void report_seconds(struct report *report, const char *name,

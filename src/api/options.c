@@ -48,7 +48,7 @@ static recto_status check_ranges(const struct range *range, size_t count,
   return RECTO_OK;
 }
 
-recto_status options_check(const recto_options *o, recto_error *error) {
+static recto_status check(const recto_options *o, recto_error *error) {
   const double huge = DBL_MAX, small = DBL_MIN;
   const struct range range[] = {
       {"the method", o->method, 0, RECTO_METHOD_COUNT - 1},
@@ -110,4 +110,13 @@ recto_status options_check(const recto_options *o, recto_error *error) {
                      known);
   }
   return check_ranges(range, sizeof range / sizeof range[0], error);
+}
+
+recto_status options_take(recto_options *own, const recto_options *options,
+                          recto_error *error) {
+  if (options != NULL)
+    *own = *options;
+  else
+    recto_options_init(own);
+  return check(own, error);
 }

@@ -124,12 +124,8 @@ recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
                                  const char *format,
                                  const recto_options *options,
                                  recto_error *error) {
-  recto_options defaults;
-  if (options == NULL) {
-    recto_options_init(&defaults);
-    options = &defaults;
-  }
-  recto_status status = options_check(options, error);
+  recto_options own;
+  recto_status status = options_take(&own, options, error);
   if (status != RECTO_OK)
     return status;
   const struct writer *writer = find_writer(path, format);
@@ -140,10 +136,9 @@ recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
   status = stream_open(&stream, path, error);
   if (status != RECTO_OK)
     return status;
-  recto_options asked = *options;
-  if (options->progress != NULL)
-    stream_ask(stream, ask_progress, &asked);
-  struct writer_options how = writer_options_of(options);
+  if (own.progress != NULL)
+    stream_ask(stream, ask_progress, &own);
+  struct writer_options how = writer_options_of(&own);
   status = writer->write(&drawing->drawing, &how, stream, error);
   if (status != RECTO_OK) {
     stream_discard(stream);

@@ -374,13 +374,9 @@ static recto_status run(struct render *render, recto_error *error) {
 recto_status recto_scene_render(const recto_scene *scene,
                                 const recto_options *options,
                                 recto_drawing **drawing, recto_error *error) {
-  recto_options defaults;
-  if (options == NULL) {
-    recto_options_init(&defaults);
-    options = &defaults;
-  }
+  recto_options own;
   *drawing = NULL;
-  recto_status status = options_check(options, error);
+  recto_status status = options_take(&own, options, error);
   if (status != RECTO_OK)
     return status;
   recto_drawing *made = mem_calloc(1, sizeof *made);
@@ -389,7 +385,7 @@ recto_status recto_scene_render(const recto_scene *scene,
   drawing_init(&made->drawing);
   made->drawing.report = report_create();
   struct render render = {.model = scene,
-                          .options = options,
+                          .options = &own,
                           .drawing = &made->drawing,
                           .report = made->drawing.report,
                           .verdict = made->verdict};
