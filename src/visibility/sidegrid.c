@@ -156,6 +156,8 @@ bool sidegrid_find(const struct sidegrid *grid, const struct geom_corner *p,
     for (int x = x0; x <= x1; x++) {
       size_t cell = (size_t)y * (size_t)shape->columns + (size_t)x;
       uint32_t from = grid->start[cell], count = grid->start[cell + 1] - from;
+      if (count == 0) /* memcpy takes no NULL, be it of nothing */
+        continue;
       if (!ARRAY_RESERVE(found, count))
         return false;
       memcpy(found->item + found->count, grid->item + from,
