@@ -16,6 +16,9 @@
  *   share on the page is a wedge at the apex, and their depths part from there
  *   on at a steady rate: at the other end of the edge, which must touch too, it
  *   is off by more than the thickness, since it is off the plane by more.
+ *   Of two that have the side from the apex to the hinge the same is true of
+ * all along that side, and such two share an edge, so that they are not asked
+ * about touching along it.
  *   Hiding.  What is before a plane, the apex aside, is nowhere farther than
  *   what is behind it.  (It may be hidden the other way round.)  An end of it
  *   that was rounded to the grid is off the plane by less than the thickness,
@@ -76,10 +79,36 @@ static int side_of_points(const struct cut *cut, const struct geom_point *p,
   return apexes > 1 ? CUT_BOTH : sides;
 }
 
+/* A segment that starts on the hinge is on the side that it leads to. */
 int cut_side_of_segment(const struct cut *cut, struct geom_point p,
                         struct geom_point q) {
   const struct geom_point end[2] = {p, q};
-  return side_of_points(cut, end, 2);
+  int sides = 0;
+  for (int k = 0; k < 2; k++)
+    if (cut->is_plane && geom_same_point(end[k], cut->hinge))
+      sides |= is_apex(cut, end[1 - k]) ? CUT_BOTH
+                                        : side_of_point(cut, end[1 - k]);
+  return sides != 0 ? sides : side_of_points(cut, end, 2);
+}
+
+/* The corner of a triangle that has the side from the apex to the hinge, which
+ * is not on it; -1: it has no such side. */
+static int corner_off_hinge(const struct cut *cut, const struct sheet *sheet,
+                            uint32_t triangle) {
+  const uint32_t *point = sheet->triangle.item[triangle].point;
+  for (int k = 0; cut->is_plane && k < 3; k++) {
+    uint32_t a = point[k == 2 ? 0 : k + 1], b = point[k == 0 ? 2 : k - 1];
+    if ((a == cut->point[0] && b == cut->point[1]) ||
+        (a == cut->point[1] && b == cut->point[0]))
+      return k;
+  }
+  return -1;
+}
+
+static int side_of_corners(const struct cut *cut, const struct sheet *sheet,
+                           uint32_t triangle, const struct geom_point p[3]) {
+  int off = corner_off_hinge(cut, sheet, triangle);
+  return off < 0 ? side_of_points(cut, p, 3) : side_of_point(cut, p[off]);
 }
 
 int cut_side_of_corners(const struct cut *cut, const struct geom_point p[3]) {
@@ -106,7 +135,7 @@ int cut_side_of_triangle(const struct cut *cut, const struct sheet *sheet,
   struct geom_point p[3];
   int sides;
   corners_of(sheet, triangle, p);
-  sides = side_of_points(cut, p, 3);
+  sides = side_of_corners(cut, sheet, triangle, p);
   if (cut->is_plane && sides != CUT_BOTH) {
     struct stance_plane plane = stance_plane_of(sheet, triangle);
     if (!(thickness_of(&plane) <= cut->thickness))
@@ -126,12 +155,21 @@ struct sample {
   int count;
 };
 
+/* Places in as many equal parts of the crowd, each anywhere in its part: faces
+ * of two triangles each alternate. */
+static size_t place_of_sample(int i, size_t count, size_t parts) {
+  size_t from = (size_t)i * count / parts,
+         past = ((size_t)i + 1) * count / parts;
+  uint32_t stirred = (uint32_t)i * UINT32_C(2654435761);
+  return from + (stirred >> 16) % (past - from);
+}
+
 static void take_sample(struct sample *sample, const struct sheet *sheet,
                         const uint32_t *triangle, size_t count, bool planes) {
   sample->sheet = sheet;
   sample->count = count < SAMPLE ? (int)count : SAMPLE;
   for (int i = 0; i < sample->count; i++) {
-    uint32_t t = triangle[(size_t)i * count / (size_t)sample->count];
+    uint32_t t = triangle[place_of_sample(i, count, (size_t)sample->count)];
     sample->triangle[i] = t;
     corners_of(sheet, t, sample->p[i]);
     if (planes) {
@@ -166,7 +204,8 @@ static int count_sharing(const struct sample *sample, struct geom_point apex) {
 static double pairs_left(const struct sample *sample, const struct cut *cut) {
   double left = 0, right = 0, all = sample->count;
   for (int i = 0; i < sample->count; i++) {
-    int sides = side_of_points(cut, sample->p[i], 3);
+    int sides = side_of_corners(cut, sample->sheet, sample->triangle[i],
+                                sample->p[i]);
     if (cut->is_plane && !(sample->thickness[i] <= cut->thickness))
       sides = CUT_BOTH;
     left += (sides & CUT_LEFT) != 0;
@@ -187,17 +226,22 @@ static struct cut line_along(const struct geom_point p[3], int k, int apex) {
 }
 
 static struct cut plane_of(const struct sheet *sheet, uint32_t triangle,
-                           struct geom_point apex, double thickness) {
-  return (struct cut){.apex = apex,
+                           int apex, int hinge, double thickness) {
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  return (struct cut){.apex = sheet->point.item[p[apex]],
+                      .hinge = sheet->point.item[p[hinge]],
+                      .point = {p[apex], p[hinge]},
                       .is_plane = true,
                       .thickness = thickness,
                       .plane = stance_plane_of(sheet, triangle)};
 }
 
-/* The corner of a triangle of the sample that most others share. */
-static int choose_apex(const struct sample *sample, int i) {
-  int best = 0, most = -1;
+/* The corner of a triangle of the sample that most others share.
+ * but  a corner that it is not to be; 3: any */
+static int choose_apex(const struct sample *sample, int i, int but) {
+  int best = but == 0, most = -1;
   for (int k = 0; k < 3; k++) {
+    if (k == but) continue;
     int sharing = count_sharing(sample, sample->p[i][k]);
     if (sharing > most) {
       most = sharing;
@@ -238,14 +282,15 @@ bool cut_choose(struct cut *cut, const struct sheet *sheet,
     thickness = greatest_thickness(&sample);
   for (int c = 0; c < CANDIDATES && choice.left > GOOD; c++) {
     int i = (2 * c + 1) * sample.count / (2 * CANDIDATES);
-    int apex = choose_apex(&sample, i);
+    int apex = choose_apex(&sample, i, 3);
     struct cut now;
     for (int k = 0; k < 3; k++) {
       now = line_along(sample.p[i], k, apex);
       consider(&choice, &sample, &now);
     }
     if (planes) {
-      now = plane_of(sheet, sample.triangle[i], sample.p[i][apex], thickness);
+      now = plane_of(sheet, sample.triangle[i], apex,
+                     choose_apex(&sample, i, apex), thickness);
       consider(&choice, &sample, &now);
     }
   }

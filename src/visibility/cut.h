@@ -5,7 +5,9 @@
  * that it might as well be; one with corners on both is on both.  The cut's
  * apex, a point that many triangles share, does not count: of two triangles
  * that share it, one on each side, nothing else meets.  So a fan about one
- * vertex falls into halves, and these into quarters.
+ * vertex falls into halves, and these into quarters.  A plane also has a hinge:
+ * triangles that share the side from the apex to there, like the pages of a
+ * book, are on the side of their third corner.
  *
  * Near, of a line: within CUT_MARGIN units, more than any two lines may be
  * apart that count as one.  Of a plane: what is before or behind it by no more
@@ -27,6 +29,8 @@ enum { CUT_LEFT = 1, CUT_RIGHT = 2, CUT_BOTH = 3 };
 
 struct cut {
   struct geom_point apex;
+  struct geom_point hinge; /* of a plane: another corner of its triangle */
+  uint32_t point[2];       /* apex and hinge, in the sheet */
   int64_t dx, dy, margin; /* of a line: its direction, what is near to it */
   bool is_plane;
   struct stance_plane plane;
