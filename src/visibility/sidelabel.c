@@ -141,18 +141,10 @@ static bool is_nearer_than_own(const struct question *q, uint32_t g,
   return false;
 }
 
-/* Has this one of its own area beside the stretch, all along? */
-static bool is_own_beside(const struct question *q, size_t i) {
-  return is_beside(q->sheet, q->own[i], &q->stretch, q->stretch.low,
-                   q->stretch.high);
-}
-
 /* Does the plane of one of its own cross g's along the stretch? */
 static bool own_crosses_along(const struct question *q, uint32_t g) {
   for (size_t i = 0; i < q->own_count; i++)
-    if (is_own_beside(q, i) &&
-        crosses_along(q->sheet, q->own[i], g, &q->stretch))
-      return true;
+    if (crosses_along(q->sheet, q->own[i], g, &q->stretch)) return true;
   return false;
 }
 
@@ -201,12 +193,11 @@ static uint8_t ask_others(const struct question *q, uint32_t *id) {
   return *id != SHEET_NONE ? MAP_SIDE_INTERSECTION : MAP_SIDE_CUT;
 }
 
-/* Is f a later triangle in contact with one of its own beside the stretch? */
+/* Is f a later triangle in contact with one of its own? */
 static bool touches_own(const struct question *q, uint32_t f) {
+  if (!may_answer(q, f)) return false;
   for (size_t i = 0; i < q->own_count; i++)
-    if (q->own[i] < f && is_own_beside(q, i) && may_answer(q, f) &&
-        triangles_touch(q->sheet, q->own[i], f))
-      return true;
+    if (q->own[i] < f && triangles_touch(q->sheet, q->own[i], f)) return true;
   return false;
 }
 
@@ -238,6 +229,7 @@ static uint8_t ask_contacts(const struct question *q, uint32_t *id) {
 void side_labels_fini(struct side_labels *labels) {
   ARRAY_FREE(&labels->found);
   ARRAY_FREE(&labels->about);
+  ARRAY_FREE(&labels->beside);
 }
 
 /* Finds the triangles about the stretch, where that was not done yet. */
@@ -307,6 +299,19 @@ static bool find_own_about(struct side_labels *labels, struct question *q) {
   return true;
 }
 
+/* Leaves of its own those that have area beside the stretch. */
+static bool keep_own_beside(struct side_labels *labels, struct question *q) {
+  size_t kept = 0;
+  if (!ARRAY_RESERVE(&labels->beside, q->own_count)) return false;
+  for (size_t i = 0; i < q->own_count; i++)
+    if (is_beside(q->sheet, q->own[i], &q->stretch, q->stretch.low,
+                  q->stretch.high))
+      labels->beside.item[kept++] = q->own[i];
+  q->own = labels->beside.item;
+  q->own_count = kept;
+  return true;
+}
+
 bool side_label(struct side_labels *labels, const struct geom_line *line,
                 const struct geom_corner *p, const struct geom_corner *q,
                 uint8_t *side, uint32_t *id) {
@@ -333,7 +338,9 @@ bool side_label(struct side_labels *labels, const struct geom_line *line,
   *side = MAP_SIDE_OUTLINE;
   *id = nearer_edge(&question);
   if (*id != SHEET_NONE) return true;
-  if (!find_triangles(labels, &question)) return false;
+  if (!find_triangles(labels, &question) ||
+      !keep_own_beside(labels, &question))
+    return false;
   *side = MAP_SIDE_INTERSECTION;
   *id = crossing_face(&question);
   if (*id == SHEET_NONE) *side = ask_contacts(&question, id);

@@ -18,7 +18,7 @@ struct side_labels {
   const uint32_t *own;
   size_t own_count;
   side_list found;       /* sides that may run along the stretch at hand */
-  ARRAY(uint32_t) about; /* the face's triangles there */
+  ARRAY(uint32_t) about, beside; /* the face's triangles there */
 };
 
 enum { SIDE_LABELS_FEW = 8 }; /* triangles of a face, that need no index */
