@@ -208,6 +208,74 @@ static bool narrow_meet(struct narrow_corner *h,
   return true;
 }
 
+/* ---- Lines by number ------------------------------------------------------ */
+
+static uint64_t common_divisor(uint64_t a, uint64_t b) {
+  while (b != 0) {
+    uint64_t rest = a % b;
+    a = b;
+    b = rest;
+  }
+  return a;
+}
+
+static uint64_t magnitude(int64_t a) {
+  return a < 0 ? (uint64_t)-a : (uint64_t)a;
+}
+
+/* Mixes the coefficients, which have no common divisor, so that few lines share
+ * a number that are different. */
+static uint64_t mix(struct narrow_line l) {
+  const uint64_t odd = UINT64_C(0x9e3779b97f4a7c15); /* 2^64 / golden ratio */
+  bool turned = l.a < 0 || (l.a == 0 && l.b < 0);
+  const uint64_t part[3] = {(uint64_t)l.a, (uint64_t)l.b, (uint64_t)l.c};
+  uint64_t sum = 0;
+  for (int k = 0; k < 3; k++) {
+    sum = (sum ^ (turned ? 0 - part[k] : part[k])) * odd;
+    sum ^= sum >> 32;
+  }
+  return sum;
+}
+
+/* The same integers for a wide line; false where they are too large. */
+static bool reduce_wide(const struct geom_line *line, struct narrow_line *to) {
+  struct exact_line exact;
+  mpz_t divisor;
+  bool fits;
+  exact_init(&exact, line);
+  mpz_init(divisor);
+  mpz_gcd(divisor, exact.c[0], exact.c[1]);
+  mpz_gcd(divisor, divisor, exact.c[2]);
+  for (int k = 0; k < 3; k++)
+    mpz_divexact(exact.c[k], exact.c[k], divisor);
+  fits = mpz_fits_slong_p(exact.c[0]) && mpz_fits_slong_p(exact.c[1]) &&
+         mpz_fits_slong_p(exact.c[2]);
+  if (fits)
+    *to = (struct narrow_line){mpz_get_si(exact.c[0]), mpz_get_si(exact.c[1]),
+                               mpz_get_si(exact.c[2])};
+  mpz_clear(divisor);
+  exact_fini(&exact);
+  return fits;
+}
+
+bool geom_line_number(const struct geom_line *line, uint64_t *number) {
+  struct narrow_line reduced;
+  if (line->narrow) {
+    int64_t divisor;
+    reduced = narrow_of(line);
+    /* It divides c too. */
+    divisor = (int64_t)common_divisor(magnitude(reduced.a),
+                                      magnitude(reduced.b));
+    reduced.a /= divisor;
+    reduced.b /= divisor;
+    reduced.c /= divisor;
+  } else if (!reduce_wide(line, &reduced)) {
+    return false;
+  }
+  *number = mix(reduced);
+  return true;
+}
+
 /* ---- Questions ------------------------------------------------------------ */
 
 static int side_exact(const struct geom_line *line,

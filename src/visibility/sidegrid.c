@@ -1,8 +1,11 @@
-/* sidegrid.c - which sides of triangles run where on the page. */
+/* sidegrid.c - which sides of triangles run where on the page, and on which
+ * line. */
 #include "visibility/sidegrid.h"
 
 #include <math.h>
 #include <string.h>
+
+#include "base/sort.h"
 
 enum {
   SPREAD = 4,       /* cells a side is in, on average, at most ... */
@@ -68,56 +71,93 @@ static void choose_shape(struct sidegrid *grid, const struct sides *sides) {
       .rows = (int)(((int64_t)box.y1 - box.y0) >> shift) + 1};
 }
 
-/* Counts the cells' sides, or with `filling` lists them. */
-static void visit_sides(struct sidegrid *grid, const struct sides *sides,
-                        bool filling) {
+/* What is sorted: a cell and, below it, a line's number; and the side. */
+typedef ARRAY(struct sort_key) side_keys;
+
+static uint32_t number_of(const struct geom_point end[2]) {
+  struct geom_line line;
+  uint64_t number = 0;
+  geom_line_through(&line, end[0], end[1]);
+  (void)geom_line_number(&line, &number);
+  return (uint32_t)number;
+}
+
+static bool add_side(const struct sidegrid *grid, const struct geom_point end[2],
+                     uint32_t side, side_keys *keys) {
   const struct pagegrid *shape = &grid->shape;
-  for (size_t i = sides->count; i-- > 0;)
+  struct cell_range r =
+      pagegrid_cells(shape, page_box_of_segment(end[0], end[1]));
+  uint32_t number = number_of(end);
+  for (int y = r.y0; y <= r.y1; y++) {
+    int x0, x1;
+    pagegrid_row(shape, end[0], end[1], r, y, &x0, &x1);
+    for (int x = x0; x <= x1; x++) {
+      uint64_t cell = (uint64_t)y * (uint64_t)shape->columns + (uint64_t)x;
+      struct sort_key key = {cell << 32 | number, side};
+      if (!ARRAY_PUSH(keys, key))
+        return false;
+    }
+  }
+  return true;
+}
+
+static bool gather_keys(const struct sidegrid *grid, const struct sides *sides,
+                        side_keys *keys) {
+  for (size_t i = 0; i < sides->count; i++)
     for (int k = 0; k < 3; k++) {
       uint32_t t = sides->triangle[i];
       struct geom_point end[2];
-      struct cell_range r;
-      if (!is_edge(sides->sheet, t, k, end))
-        continue;
-      r = pagegrid_cells(shape, page_box_of_segment(end[0], end[1]));
-      for (int y = r.y0; y <= r.y1; y++) {
-        int x0, x1;
-        pagegrid_row(shape, end[0], end[1], r, y, &x0, &x1);
-        for (int x = x0; x <= x1; x++) {
-          size_t cell = (size_t)y * (size_t)shape->columns + (size_t)x;
-          if (filling)
-            grid->item[--grid->start[cell]] = 3 * t + (uint32_t)k;
-          else
-            grid->start[cell]++;
-        }
-      }
+      if (is_edge(sides->sheet, t, k, end) &&
+          !add_side(grid, end, 3 * t + (uint32_t)k, keys))
+        return false;
     }
+  return true;
+}
+
+/* Makes the cells' lists of the sorted keys. */
+static bool make_lists(struct sidegrid *grid, const side_keys *keys) {
+  size_t cells = pagegrid_cell_count(&grid->shape);
+  grid->start = mem_calloc(cells + 1, sizeof *grid->start);
+  grid->item = mem_alloc(keys->count, sizeof *grid->item);
+  grid->number = mem_alloc(keys->count, sizeof *grid->number);
+  if (grid->start == NULL || grid->item == NULL || grid->number == NULL)
+    return false;
+  for (size_t i = 0; i < keys->count; i++) {
+    grid->start[(keys->item[i].key >> 32) + 1]++;
+    grid->item[i] = keys->item[i].value;
+    grid->number[i] = (uint32_t)keys->item[i].key;
+  }
+  for (size_t i = 0; i < cells; i++)
+    grid->start[i + 1] += grid->start[i];
+  return true;
 }
 
 bool sidegrid_init(struct sidegrid *grid, const struct sheet *sheet,
                    const uint32_t *triangle, size_t count) {
   const struct sides sides = {sheet, triangle, count};
-  size_t cells;
+  side_keys keys = {0};
+  struct sort_key *scratch = NULL;
+  bool done = false;
   memset(grid, 0, sizeof *grid);
   choose_shape(grid, &sides);
-  cells = pagegrid_cell_count(&grid->shape);
-  grid->start = mem_calloc(cells + 1, sizeof *grid->start);
-  if (grid->start == NULL)
-    return false;
-  visit_sides(grid, &sides, false);
-  for (size_t i = 0; i < cells; i++)
-    grid->start[i + 1] += grid->start[i];
-  grid->item = mem_alloc(grid->start[cells], sizeof *grid->item);
-  if (grid->item == NULL)
-    return false;
-  visit_sides(grid, &sides, true);
-  return true;
+  if (!gather_keys(grid, &sides, &keys))
+    goto end;
+  scratch = mem_alloc(keys.count, sizeof *scratch);
+  if (scratch == NULL)
+    goto end;
+  sort_keys(keys.item, scratch, keys.count);
+  done = make_lists(grid, &keys);
+end:
+  mem_free(scratch);
+  ARRAY_FREE(&keys);
+  return done;
 }
 
 void sidegrid_fini(struct sidegrid *grid) {
   mem_free(grid->start);
   mem_free(grid->item);
-  grid->start = grid->item = NULL;
+  mem_free(grid->number);
+  grid->start = grid->item = grid->number = NULL;
 }
 
 static int cell_of(double v, int32_t v0, int shift, int count) {
@@ -143,27 +183,42 @@ static void find_columns(const struct pagegrid *shape,
   *x1 = cell_of(fmax(a, b) + MARGIN, shape->x0, shape->shift, shape->columns);
 }
 
-bool sidegrid_find(const struct sidegrid *grid, const struct geom_corner *p,
-                   const struct geom_corner *q, side_list *found) {
+/* Appends those of a cell whose line has that number. */
+static bool find_in_cell(const struct sidegrid *grid, size_t cell,
+                         uint32_t number, side_list *found) {
+  uint32_t low = grid->start[cell], high = grid->start[cell + 1];
+  uint32_t end = high;
+  while (low < high) {
+    uint32_t middle = low + (high - low) / 2;
+    if (grid->number[middle] < number)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  for (; low < end && grid->number[low] == number; low++)
+    if (!ARRAY_PUSH(found, grid->item[low]))
+      return false;
+  return true;
+}
+
+bool sidegrid_find(const struct sidegrid *grid, const struct geom_line *line,
+                   const struct geom_corner *p, const struct geom_corner *q,
+                   side_list *found) {
   const struct pagegrid *shape = &grid->shape;
   int y0 = cell_of(fmin(p->y, q->y) - MARGIN, shape->y0, shape->shift,
                    shape->rows);
   int y1 = cell_of(fmax(p->y, q->y) + MARGIN, shape->y0, shape->shift,
                    shape->rows);
+  uint64_t number;
+  if (!geom_line_number(line, &number))
+    return true;
   for (int y = y0; y <= y1; y++) {
     int x0, x1;
     find_columns(shape, p, q, y, &x0, &x1);
-    for (int x = x0; x <= x1; x++) {
-      size_t cell = (size_t)y * (size_t)shape->columns + (size_t)x;
-      uint32_t from = grid->start[cell], count = grid->start[cell + 1] - from;
-      if (count == 0) /* memcpy takes no NULL, be it of nothing */
-        continue;
-      if (!ARRAY_RESERVE(found, count))
+    for (int x = x0; x <= x1; x++)
+      if (!find_in_cell(grid, (size_t)y * (size_t)shape->columns + (size_t)x,
+                        (uint32_t)number, found))
         return false;
-      memcpy(found->item + found->count, grid->item + from,
-             count * sizeof *found->item);
-      found->count += count;
-    }
   }
   return true;
 }

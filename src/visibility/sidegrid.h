@@ -1,6 +1,9 @@
-/* sidegrid.h - which sides of triangles run where on the page.
+/* sidegrid.h - which sides of triangles run where on the page, and on which
+ * line.
  *
- * Triangles long and thin are about everywhere; their sides are not.
+ * Triangles long and thin are about everywhere; their sides are not.  In each
+ * cell sides are found by the number of their line (geom/line.h), so that only
+ * those on one line are met.
  */
 #ifndef VISIBILITY_SIDEGRID_H
 #define VISIBILITY_SIDEGRID_H
@@ -14,6 +17,7 @@ typedef ARRAY(uint32_t) side_list;
 struct sidegrid {
   struct pagegrid shape; /* of its cells; it has no lists */
   uint32_t *start, *item; /* of cell c: item[start[c] .. start[c + 1]) */
+  uint32_t *number; /* one an item, ascending in each cell: of its line */
 };
 
 /* Indexes the sides that are edges of the sheet.
@@ -22,9 +26,10 @@ USE_RESULT bool sidegrid_init(struct sidegrid *grid, const struct sheet *sheet,
                               const uint32_t *triangle, size_t count);
 void sidegrid_fini(struct sidegrid *grid);
 
-/* Appends every side that shares a stretch with the one from p to q, and more;
- * some of them several times.  False when memory ran out. */
+/* Appends every side that shares a stretch of the line with the one from p to
+ * q, and a few more; some of them several times.  False when memory ran out. */
 USE_RESULT bool sidegrid_find(const struct sidegrid *grid,
+                              const struct geom_line *line,
                               const struct geom_corner *p,
                               const struct geom_corner *q, side_list *found);
 

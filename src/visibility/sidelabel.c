@@ -245,8 +245,8 @@ static bool find_triangles(struct side_labels *labels, struct question *q) {
 static bool find_sides(struct side_labels *labels, struct question *q) {
   labels->found.count = 0;
   if (labels->sides != NULL) {
-    if (!sidegrid_find(labels->sides, q->stretch.low, q->stretch.high,
-                       &labels->found))
+    if (!sidegrid_find(labels->sides, q->stretch.line, q->stretch.low,
+                       q->stretch.high, &labels->found))
       return false;
   } else {
     if (!find_triangles(labels, q)) return false;
