@@ -610,6 +610,47 @@ static void a_line_turned_round_has_its_sides_swapped(void **state) {
   corners_clear(c);
 }
 
+/* A line through two places k and l steps from a point. */
+static struct geom_line stepped(struct geom_point p, int dx, int dy, int k,
+                                int l) {
+  struct geom_line line;
+  geom_line_through(
+      &line, (struct geom_point){p.x + k * dx, p.y + k * dy, 0},
+      (struct geom_point){p.x + l * dx, p.y + l * dy, 0});
+  return line;
+}
+
+static void lines_have_one_number_however_they_are_given(void **state) {
+  uint64_t r = 3;
+  int alike = 0;
+  (void)state;
+  for (int i = 0; i < 2000; i++) {
+    struct geom_point p = {hand_below(&r, 1 << 28), hand_below(&r, 1 << 28), 0};
+    int dx = hand_below(&r, 2001) - 1000, dy = hand_below(&r, 2001) - 1000;
+    uint64_t a, b, c, d;
+    if (dx == 0 && dy == 0)
+      continue;
+    struct geom_line line = stepped(p, dx, dy, -3, 4);
+    assert_true(geom_line_number(&line, &a));
+    line = stepped(p, dx, dy, 1000, 1000 - 7 * (1 + i % 5));
+    assert_true(geom_line_number(&line, &b));
+    assert_true(a == b);
+    /* Two planes that cross above it. */
+    const struct geom_point
+        f[3] = {{p.x, p.y, 900}, {p.x + dx, p.y + dy, 905}, {p.x - dy, p.y + dx, 0}},
+        g[3] = {{p.x, p.y, 900}, {p.x + dx, p.y + dy, 905}, {p.x - dy, p.y + dx, 7}};
+    struct geom_plane front = plane_of(g), back = plane_of(f);
+    assert_int_equal(geom_line_between(&line, &front, &back), 0);
+    assert_true(geom_line_number(&line, &c));
+    assert_true(a == c);
+    p.x++;
+    line = stepped(p, dx, dy, 0, 1);
+    assert_true(geom_line_number(&line, &d));
+    alike += a == d && dy != 0;
+  }
+  assert_int_equal(alike, 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(turn_and_along_are_the_signs_of_the_products),
@@ -623,6 +664,7 @@ int main(void) {
       cmocka_unit_test(three_planes_meet_in_one_corner),
       cmocka_unit_test(parallel_planes_have_no_line_but_an_order),
       cmocka_unit_test(a_line_turned_round_has_its_sides_swapped),
+      cmocka_unit_test(lines_have_one_number_however_they_are_given),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

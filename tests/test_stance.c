@@ -74,7 +74,7 @@ static bool stance_of_sides(const int side[3]) {
 
 /* All doubts and certainties of one triangle; counts the certain ones. */
 static void compare_with_exact(bool perspective, int bits, int depth_bits,
-                               int certain[3]) {
+                               int certain[5]) {
   struct sheet sheet;
   struct hider hider;
   start(&sheet, perspective, bits, depth_bits);
@@ -93,17 +93,24 @@ static void compare_with_exact(bool perspective, int bits, int depth_bits,
       int exact = geom_sign128(hider_depth(&hider, p[k]));
       assert_true(sign == 0 || sign == exact);
       certain[1] += sign != 0;
+      sign = stance_sign(&plane, p[k]);
+      exact = geom_sign128(geom_plane_value(&hider.plane, p[k]));
+      assert_true(sign == 0 || sign == exact);
+      certain[3] += sign != 0;
     }
     bool may = stance_may_pierce(&plane, p);
     assert_true(may || !stance_of_sides(side));
     certain[0] += !may;
     certain[2] += may && stance_of_sides(side);
+    bool touches = side[0] == 0 && side[1] == 0 && side[2] == 0;
+    assert_true(stance_may_touch(&plane, p) || !touches);
+    certain[4] += !stance_may_touch(&plane, p);
   }
   hand_sheet_fini(&sheet);
 }
 
 static void doubles_are_right_or_do_not_know(void **state) {
-  int certain[3] = {0, 0, 0};
+  int certain[5] = {0, 0, 0, 0, 0};
   (void)state;
   for (int i = 0; i < 300; i++) {
     int bits = 4 + i % 26, depth_bits = 4 + i % 36;
@@ -113,6 +120,8 @@ static void doubles_are_right_or_do_not_know(void **state) {
   assert_true(certain[0] > 15000);
   assert_true(certain[1] > 150000);
   assert_true(certain[2] > 1000);
+  assert_true(certain[3] > 150000);
+  assert_true(certain[4] > 10000);
 }
 
 /* ---- Octagons ------------------------------------------------------------- */
