@@ -757,7 +757,7 @@ static void a_plotter_gets_the_margin_that_it_needs(void **state) {
     const char *format, *device;
     double named, found;
   } row[] = {{"hpgl", "hp7475a", -1, 16}, {"hpgl", "hp7475a", 2, 2},
-             {"hpgl", "dxy", -1, 10},     {"hpgl", NULL, -1, 10},
+             {"hpgl", "dxy", -1, -1},     {"hpgl", NULL, -1, -1},
              {"svg", "hp7475a", -1, -1},  {"svg", "hp7475a", 3, 3}};
   for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
     recto_options o;

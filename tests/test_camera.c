@@ -287,6 +287,23 @@ static void assert_fits(const struct camera *camera, const struct scene *scene,
   assert_true(touches);
 }
 
+static void a_margin_left_open_leaves_room_on_any_page(void **state) {
+  static const double side[][3] = {
+      {210, 297, 10}, {40, 200, 10}, {20, 30, 5}, {100, 1, 0.25}};
+  (void)state;
+  for (int i = 0; i < 4; i++) {
+    struct scene scene;
+    fill_box(&scene);
+    recto_options options = plain_options();
+    options.page_width_mm = side[i][0];
+    options.page_height_mm = side[i][1];
+    options.margin_mm = -1;
+    struct camera camera = aim(&scene, &options);
+    assert_fits(&camera, &scene, side[i][2]);
+    scene_fini(&scene);
+  }
+}
+
 static void the_drawing_fills_the_page_inside_the_margins(void **state) {
   (void)state;
   struct random random = {7};
@@ -856,6 +873,7 @@ int main(void) {
       cmocka_unit_test(a_little_tilt_of_up_turns_the_frame_a_little),
       cmocka_unit_test(the_scene_says_what_up_is_unless_told),
       cmocka_unit_test(an_eye_along_an_axis_is_exact),
+      cmocka_unit_test(a_margin_left_open_leaves_room_on_any_page),
       cmocka_unit_test(the_drawing_fills_the_page_inside_the_margins),
       cmocka_unit_test(points_that_nothing_uses_do_not_count),
       cmocka_unit_test(without_fit_fov_spans_the_printable_height),

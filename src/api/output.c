@@ -84,16 +84,22 @@ double recto_output_unit_mm(const char *path, const char *format,
   return writer != NULL ? writer->unit_mm(&how) : 0;
 }
 
+/* The usual margin stays where it is enough, and where the page is so small
+ * that what is needed leaves no room. */
+static void suit_margin(recto_options *o, const struct writer *writer) {
+  struct writer_options how = writer_options_of(o);
+  double needed = writer->margin_mm(&how, o->page_width_mm, o->page_height_mm);
+  if (needed > RECTO_USUAL_MARGIN_MM &&
+      2 * needed < fmin(o->page_width_mm, o->page_height_mm))
+    o->margin_mm = needed;
+}
+
 void recto_options_suit(recto_options *options, const char *path,
                         const char *format) {
   const struct writer *writer = find_writer(path, format);
   options->unit_mm = recto_output_unit_mm(path, format, options);
-  if (options->margin_mm < 0 && writer != NULL && writer->margin_mm != NULL) {
-    struct writer_options how = writer_options_of(options);
-    options->margin_mm = fmax(RECTO_USUAL_MARGIN_MM,
-                              writer->margin_mm(&how, options->page_width_mm,
-                                                options->page_height_mm));
-  }
+  if (options->margin_mm < 0 && writer != NULL && writer->margin_mm != NULL)
+    suit_margin(options, writer);
   if (options->order == RECTO_ORDER_AUTO && writer != NULL && writer->by_pens)
     options->order = RECTO_ORDER_NEAR;
   if (options->weights == NULL && writer != NULL && writer->by_pens)

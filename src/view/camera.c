@@ -50,8 +50,12 @@ static recto_status refuse(const struct aim *aim, const char *words) {
 
 /* ---- Options ------------------------------------------------------------- */
 
-static double margin_of(const recto_options *options) {
-  return options->margin_mm < 0 ? RECTO_USUAL_MARGIN_MM : options->margin_mm;
+/* One that was left open leaves room on a small page too. */
+static double margin_of(const recto_options *o) {
+  return o->margin_mm >= 0
+             ? o->margin_mm
+             : fmin(RECTO_USUAL_MARGIN_MM,
+                    fmin(o->page_width_mm, o->page_height_mm) / 4);
 }
 
 static recto_status check_page(const struct aim *aim) {
@@ -61,6 +65,8 @@ static recto_status check_page(const struct aim *aim) {
   if (!(o->page_width_mm <= page_limit_mm &&
         o->page_height_mm <= page_limit_mm))
     return refuse(aim, "the page is larger than 2 m");
+  if (isnan(o->margin_mm))
+    return refuse(aim, "the margin is no number");
   double margins = 2 * margin_of(o);
   if (!(margins < o->page_width_mm && margins < o->page_height_mm))
     return refuse(aim, "the margins leave no room on the page");
