@@ -168,9 +168,61 @@ static void the_angle_of_hatching_changes_no_length(void **state) {
   scene_fini(&scene);
 }
 
+/* The strokes of a model that is drawn with its lines, and how long they are
+ * without the moves from line to line. */
+static size_t count_strokes(const struct scene *scene, double pitch_mm,
+                            double *length) {
+  struct pipeline pipeline;
+  recto_options options;
+  size_t count = 0;
+  recto_options_init(&options);
+  options.fill = RECTO_FILL_HATCH;
+  options.pitch_mm = pitch_mm;
+  pipeline_run(&pipeline, scene, &options, &solver_watkins);
+  assert_int_equal(pipeline.status, RECTO_OK);
+  *length = 0;
+  for (size_t s = 0; s < pipeline.drawing.stroke.count; s++) {
+    const struct drawing_stroke *stroke = &pipeline.drawing.stroke.item[s];
+    const struct drawing_point *p = pipeline.drawing.point.item + stroke->point;
+    if (stroke->edge_class != 0)
+      continue;
+    count++;
+    for (uint32_t i = 0; i + 1 < stroke->count; i += 2)
+      *length += hypot(p[i + 1].x - p[i].x, p[i + 1].y - p[i].y);
+  }
+  pipeline_fini(&pipeline);
+  return count;
+}
+
+/* The lines of the scan leave no more pieces than a few times what there are
+ * without them. */
+static void scan_lines_do_not_cut_hatching_up(void **state) {
+  const char *source = getenv("srcdir"), *real = getenv("RECTO_MODELS");
+  char path[2][600];
+  (void)state;
+  snprintf(path[0], sizeof path[0], "%.500s/examples/models/gears.obj",
+           source != NULL ? source : ".");
+  snprintf(path[1], sizeof path[1], "%.500s/spot.obj", real ? real : "none");
+  for (int k = 0; k < 2; k++) {
+    struct scene scene;
+    struct diagnostics silent = {.file = path[k]};
+    double exact, length;
+    scene_init(&scene);
+    if (scene_read(&scene, path[k], NULL, &silent, NULL) == RECTO_OK) {
+      size_t few = count_strokes(&scene, 0, &exact);
+      size_t count = count_strokes(&scene, 0.3, &length);
+      if (!(count < 4 * few && fabs(length / exact - 1) < 0.02))
+        fail_msg("%s: %zu strokes and %.0f mm, not %zu and %.0f", path[k],
+                 count, length, few, exact);
+    }
+    scene_fini(&scene);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(hatched_length_is_area_over_pitch),
+      cmocka_unit_test(scan_lines_do_not_cut_hatching_up),
       cmocka_unit_test(the_angle_of_hatching_changes_no_length),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

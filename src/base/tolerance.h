@@ -13,7 +13,7 @@
  *             0.71 across any line; of two pieces of one line, each end lies
  *             within 2 * 0.71 = 1.41 of the other piece: rounded up.
  * Users       ink/nodes.c, ink/coincident.c, ink/overlap.c, ink/ruling.c,
- *             visibility/pierce.c
+ *             ink/hatch.c, visibility/pierce.c
  * Ten times   lines 20 nm apart, such as two models side by side, become one:
  *             still far below what a pen can show. */
 #define TOLERANCE_COINCIDENT_UNITS 2

@@ -11,6 +11,8 @@
 #include <math.h>
 
 #include "base/sort.h"
+#include "base/tolerance.h"
+#include "ink/cuts.h"
 #include "ink/fill.h"
 #include "ink/inset.h"
 #include "ink/patches.h"
@@ -30,6 +32,9 @@ struct hatch {
   int64_t first, strips;
   ARRAY(uint32_t) strip;
   ARRAY(uint32_t) strip_side;
+  cuts cut; /* sides that may be shared, and these sides */
+  ARRAY(struct ruling_side) cut_side;
+  bool good;               /* memory did not run out */
   struct stroke_line line; /* the stroke at hand */
 };
 
@@ -64,6 +69,68 @@ static int compare_sides(const void *first, const void *second, void *user) {
   return low ? low : compare_places(a[1], b[1]);
 }
 
+/* Puts what is left of a side up to a place of it back. */
+static bool put_back(struct hatch *h, const struct cut *cut,
+                     struct cut_place past) {
+  struct ruling *r = &h->ruling;
+  struct ruling_side side = h->cut_side.item[cut->item];
+  struct ruling_place low = ruling_place_at(r, cut->from.x, cut->from.y);
+  struct ruling_place high = ruling_place_at(r, past.x, past.y);
+  side.from = cut->turned ? high : low;
+  side.to = cut->turned ? low : high;
+  return (cut->from.x == past.x && cut->from.y == past.y) ||
+         ARRAY_PUSH(&r->side, side);
+}
+
+/* Is the place on the side, but for rounding? */
+static bool is_on(const struct cut *cut, struct cut_place at) {
+  double dx = cut->to.x - cut->from.x, dy = cut->to.y - cut->from.y;
+  double off = (at.x - cut->from.x) * dy - (at.y - cut->from.y) * dx;
+  return fabs(off) <= TOLERANCE_COINCIDENT_UNITS * hypot(dx, dy);
+}
+
+/* Takes out what two sides have in common.  Where it starts and ends one of
+ * them has a corner, which the other gets, too. */
+static void take_out(void *user, struct cut *ahead, struct cut *turned) {
+  struct hatch *h = user;
+  bool later = ahead->low > turned->low, sooner = ahead->high < turned->high;
+  struct cut_place low = later ? ahead->from : turned->from;
+  struct cut_place high = sooner ? ahead->to : turned->to;
+  if (!is_on(ahead, low) || !is_on(turned, low) || !is_on(ahead, high) ||
+      !is_on(turned, high))
+    return;
+  h->good = put_back(h, ahead, low) && put_back(h, turned, low) && h->good;
+  ahead->from = turned->from = high;
+  ahead->low = turned->low = sooner ? ahead->high : turned->high;
+}
+
+/* Takes out of the sides what those of two fragments have in common, level cuts
+ * and pieces of edges that are not drawn: the pen may cross there. */
+static bool take_shared_out(struct hatch *h) {
+  struct ruling *r = &h->ruling;
+  size_t kept = 0;
+  h->cut.count = h->cut_side.count = 0;
+  h->good = true;
+  for (uint32_t i = 0; i < r->side.count; i++) {
+    const struct ruling_side side = r->side.item[i];
+    uint32_t item = (uint32_t)h->cut.count;
+    if (!cuts_add_level(&h->cut, side.corner, side.next, item) ||
+        (!is_inked(h, i) &&
+         !cuts_add_edge(&h->cut, side.corner, side.next, item)))
+      return false;
+    if (h->cut.count == item)
+      r->side.item[kept++] = side;
+    else if (!ARRAY_PUSH(&h->cut_side, side))
+      return false;
+  }
+  r->side.count = kept;
+  if (!cuts_meet(&h->cut, take_out, h))
+    return false;
+  for (size_t i = 0; i < h->cut.count && h->good; i++)
+    h->good = put_back(h, &h->cut.item[i], h->cut.item[i].to);
+  return h->good;
+}
+
 /* Takes the sides of fragments [begin, end) of the patches, but for those that
  * two of them share and no line is drawn along: the pen may cross these. */
 static bool take_sides(struct hatch *h, const struct map *map, size_t begin,
@@ -88,7 +155,7 @@ static bool take_sides(struct hatch *h, const struct map *map, size_t begin,
       r->side.item[kept++] = *side;
   }
   r->side.count = kept;
-  return true;
+  return take_shared_out(h);
 }
 
 /* ---- 3 Strips -------------------------------------------------------------
@@ -295,6 +362,8 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
   patches_fini(&h.patches);
   ARRAY_FREE(&h.strip);
   ARRAY_FREE(&h.strip_side);
+  ARRAY_FREE(&h.cut);
+  ARRAY_FREE(&h.cut_side);
   ARRAY_FREE(&h.line.point);
   return good;
 }

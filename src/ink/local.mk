@@ -2,6 +2,7 @@
 librecto_core_la_SOURCES += \
   %D%/blur.c %D%/blur.h \
   %D%/chain.c \
+  %D%/cuts.c %D%/cuts.h \
   %D%/coincident.c \
   %D%/dash.c \
   %D%/drawing.c %D%/drawing.h \

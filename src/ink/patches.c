@@ -3,6 +3,12 @@
 
 #include "base/sets.h"
 #include "base/sort.h"
+#include "ink/cuts.h"
+
+struct joining {
+  const struct map *map;
+  uint32_t *root; /* of each fragment */
+};
 
 /* The mesh edge that a side is a piece of; SHEET_NONE where there is none. */
 static uint32_t own_edge(const struct patches *patches,
@@ -50,6 +56,33 @@ static void join_all(const struct patches *patches, const struct scene *scene,
   }
 }
 
+static void join_at_cut(void *user, struct cut *ahead, struct cut *turned) {
+  const struct joining *joining = user;
+  const struct map_fragment *fragment = joining->map->fragment.item;
+  if (fragment[ahead->item].face == fragment[turned->item].face)
+    sets_join(joining->root, ahead->item, turned->item);
+}
+
+/* Joins fragments of one face that only a cut of the method parts. */
+static bool join_at_cuts(const struct patches *patches, const struct map *map) {
+  struct joining joining = {map, patches->root};
+  cuts all = {0};
+  bool good = true;
+  for (uint32_t f = 0; f < patches->count; f++) {
+    const struct map_fragment *fragment = &map->fragment.item[f];
+    for (uint32_t l = 0; l < fragment->loops; l++) {
+      const struct map_loop *loop = &map->loop.item[fragment->loop + l];
+      const struct map_corner *corner = map->corner.item + loop->corner;
+      for (uint32_t i = 0; good && i < loop->count; i++)
+        good = cuts_add_level(&all, &corner[i],
+                              &corner[i + 1 < loop->count ? i + 1 : 0], f);
+    }
+  }
+  good = good && cuts_meet(&all, join_at_cut, &joining);
+  ARRAY_FREE(&all);
+  return good;
+}
+
 /* Lists the fragments by patch. */
 static bool list(struct patches *patches) {
   struct sort_key *key = mem_alloc(patches->count, 2 * sizeof *key);
@@ -80,8 +113,10 @@ bool patches_init(struct patches *patches, const struct sheet *sheet,
   bool good = seen && patches->root && patches->fragment;
   for (size_t e = 0; good && e < edges; e++)
     seen[e] = SHEET_NONE;
-  if (good && !options->ids)
+  if (good && !options->ids) {
     join_all(patches, scene, map, pens, seen);
+    good = join_at_cuts(patches, map);
+  }
   good = good && list(patches);
   mem_free(seen);
   if (!good)

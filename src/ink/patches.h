@@ -14,7 +14,8 @@ struct patches {
 };
 
 /* Fragments on either side of a mesh edge that is not drawn are of one patch,
- * where one pen draws both; with options->ids every fragment is one. */
+ * where one pen draws both; so are those of one face that only a level cut of
+ * the method parts.  With options->ids every fragment is one. */
 USE_RESULT bool patches_init(struct patches *patches, const struct sheet *sheet,
                              const struct scene *scene, const struct map *map,
                              const struct pens *pens,

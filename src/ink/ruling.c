@@ -48,11 +48,11 @@ struct drawing_point ruling_turn_back(const struct ruling *ruling,
 /* ---- Sides ----------------------------------------------------------------
  */
 
-static struct ruling_place turn_corner(const struct ruling *ruling,
-                                       const struct map_corner *c) {
+struct ruling_place ruling_place_at(const struct ruling *ruling, double x,
+                                    double y) {
   return ruling_turn(ruling,
-                     (struct drawing_point){sheet_x_mm(ruling->sheet, c->x),
-                                            sheet_y_mm(ruling->sheet, c->y)});
+                     (struct drawing_point){sheet_x_mm(ruling->sheet, x),
+                                            sheet_y_mm(ruling->sheet, y)});
 }
 
 void ruling_clear(struct ruling *ruling) { ruling->side.count = 0; }
@@ -64,9 +64,10 @@ bool ruling_take(struct ruling *ruling, const struct map *map,
     const struct map_corner *corner = map->corner.item + loop->corner;
     for (uint32_t i = 0; i < loop->count; i++) {
       uint32_t next = i + 1 < loop->count ? i + 1 : 0;
-      struct ruling_side side = {turn_corner(ruling, &corner[i]),
-                                 turn_corner(ruling, &corner[next]),
-                                 &corner[i]};
+      struct ruling_side side = {
+          ruling_place_at(ruling, corner[i].x, corner[i].y),
+          ruling_place_at(ruling, corner[next].x, corner[next].y), &corner[i],
+          &corner[next]};
       if (!ARRAY_PUSH(&ruling->side, side))
         return false;
     }

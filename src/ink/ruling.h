@@ -14,7 +14,7 @@ struct ruling_place {
 
 struct ruling_side {
   struct ruling_place from, to;
-  const struct map_corner *corner; /* that it leaves */
+  const struct map_corner *corner, *next; /* that it leaves, it leads to */
 };
 
 struct ruling_crossing {
@@ -51,6 +51,9 @@ double ruling_height(const struct ruling *ruling, int64_t line);
 
 struct ruling_place ruling_turn(const struct ruling *ruling,
                                 struct drawing_point p);
+/* Of a place of the sheet, grid units. */
+struct ruling_place ruling_place_at(const struct ruling *ruling, double x,
+                                    double y);
 struct drawing_point ruling_turn_back(const struct ruling *ruling,
                                       struct ruling_place p);
 
