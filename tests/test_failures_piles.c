@@ -130,6 +130,22 @@ static void row_16_20000_copies_end_at_once(void **state) {
   }
 }
 
+/* Edge and triangle are met 48 million times where each window asks of every
+ * edge all that its faces hide. */
+static void row_16_warnock_asks_no_more_of_what_is_hidden(void **state) {
+  struct scene scene;
+  recto_options options;
+  struct pipeline pipeline;
+  (void)state;
+  start(&scene, &options);
+  scenes_soup(&scene, &options, 1000, 3);
+  pipeline_run(&pipeline, &scene, &options, &solver_warnock);
+  assert_int_equal(pipeline.status, RECTO_OK);
+  assert_in_range(report_get(pipeline.report, "hide", "pairs", 0), 1, 5000000);
+  pipeline_fini(&pipeline);
+  scene_fini(&scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(row_8_copies_are_drawn_as_by_brute),
@@ -137,6 +153,7 @@ int main(void) {
       cmocka_unit_test(row_8_copies_of_boxes_are_drawn_as_by_brute),
       cmocka_unit_test(row_8_pages_are_drawn_as_by_brute),
       cmocka_unit_test(row_16_20000_copies_end_at_once),
+      cmocka_unit_test(row_16_warnock_asks_no_more_of_what_is_hidden),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -193,29 +193,103 @@ static bool list_edges(struct warnock *w, struct warnock_window *win) {
   return true;
 }
 
+/* The edge at hand, and the part of it inside the window. */
+struct edge_task {
+  uint32_t number;
+  const struct sheet_edge *edge;
+  struct geom_point p, q;
+  struct page_box box;
+  struct ratio from, to;
+  bool hidden; /* all of that part, by one triangle */
+};
+
+/* False: no more than a point of the edge is inside the window. */
+static bool start_edge(const struct warnock *w, const struct window *window,
+                       uint32_t e, struct edge_task *task) {
+  const struct sheet_edge *edge = &w->sheet->edge.item[e];
+  task->number = e;
+  task->edge = edge;
+  task->p = w->sheet->point.item[edge->point[0]];
+  task->q = w->sheet->point.item[edge->point[1]];
+  task->box = page_box_of_segment(task->p, task->q);
+  task->hidden = false;
+  return window_clip(window, task->p, task->q, &task->from, &task->to) &&
+         ratio_compare(task->from, task->to) < 0;
+}
+
+/* Is all of the edge behind the front, and inside its outline where it is
+ * inside the window?  On the window's border it might run along a side. */
+static bool is_behind(const struct warnock *w, const struct front *front,
+                      uint32_t e) {
+  const uint32_t *point = w->sheet->edge.item[e].point;
+  struct geom_point p = w->sheet->point.item[point[0]],
+                    q = w->sheet->point.item[point[1]];
+  return (double)p.z < front->depth.low && (double)q.z < front->depth.low &&
+         p.x != q.x && p.y != q.y;
+}
+
+/* Files the edges behind the front as hidden in the window, and drops them. */
+static bool drop_hidden_edges(struct warnock *w, struct warnock_window *win,
+                              const struct front *front) {
+  size_t kept = win->edges.from;
+  if (front->triangle == SHEET_NONE)
+    return true;
+  for (size_t i = win->edges.from; i < win->edges.to; i++) {
+    uint32_t e = w->edges.item[i];
+    struct edge_task task;
+    struct edge_part part = {.edge = e, .part.sides = HIDE_BOTH};
+    if (!is_behind(w, front, e)) {
+      w->edges.item[kept++] = e;
+      continue;
+    }
+    if (!start_edge(w, &win->window, e, &task))
+      continue;
+    part.part.from = task.from;
+    part.part.to = task.to;
+    if (!ARRAY_PUSH(&w->part, part))
+      return false;
+  }
+  win->edges.to = w->edges.count = kept;
+  return true;
+}
+
 /* ---- Finished windows
  * -------------------------------------------------------------- */
 
-/* What one triangle hides of one edge inside the window. */
-static bool solve_pair(struct warnock *w, const struct window *window,
-                       uint32_t e, uint32_t t) {
-  const struct sheet *sheet = w->sheet;
-  const struct sheet_edge *edge = &sheet->edge.item[e];
-  struct geom_point p = sheet->point.item[edge->point[0]],
-                    q = sheet->point.item[edge->point[1]];
-  struct edge_part part = {.edge = e};
-  struct ratio from, to;
-  if (t == edge->triangle[0] || t == edge->triangle[1] ||
-      !hide_may(sheet, t, p, q, page_box_of_segment(p, q)) ||
-      !hide_edge_by(sheet, t, p, q, &part.part, &w->hide) ||
-      !window_clip(window, p, q, &from, &to))
+/* What one triangle hides of the edge at hand inside the window. */
+static bool solve_pair(struct warnock *w, struct edge_task *task, uint32_t t) {
+  struct edge_part part = {.edge = task->number};
+  if (t == task->edge->triangle[0] || t == task->edge->triangle[1] ||
+      !hide_may(w->sheet, t, task->p, task->q, task->box) ||
+      !hide_edge_by(w->sheet, t, task->p, task->q, &part.part, &w->hide))
     return true;
-  if (ratio_compare(part.part.from, from) < 0)
-    part.part.from = from;
-  if (ratio_compare(to, part.part.to) < 0)
-    part.part.to = to;
-  return ratio_compare(part.part.from, part.part.to) >= 0 ||
-         ARRAY_PUSH(&w->part, part);
+  if (ratio_compare(part.part.from, task->from) < 0)
+    part.part.from = task->from;
+  if (ratio_compare(task->to, part.part.to) < 0)
+    part.part.to = task->to;
+  if (ratio_compare(part.part.from, part.part.to) >= 0)
+    return true;
+  task->hidden = part.part.sides == HIDE_BOTH &&
+                 ratio_compare(part.part.from, task->from) == 0 &&
+                 ratio_compare(part.part.to, task->to) == 0;
+  return ARRAY_PUSH(&w->part, part);
+}
+
+/* Asks what hides the edge inside the window, the nearest first, until all of
+ * it is hidden there by one. */
+static bool solve_edge(struct warnock *w, const struct warnock_window *win,
+                       uint32_t e) {
+  struct edge_task task;
+  if (!start_edge(w, &win->window, e, &task))
+    return true;
+  for (size_t k = win->surrounders.from;
+       k < win->surrounders.to && !task.hidden; k++)
+    if (!solve_pair(w, &task, w->surrounders.item[k]))
+      return false;
+  for (size_t k = win->faces.from; k < win->faces.to && !task.hidden; k++)
+    if (!solve_pair(w, &task, w->faces.item[k]))
+      return false;
+  return true;
 }
 
 /* Each face of the window, clipped to it, less what is nearer. */
@@ -257,12 +331,8 @@ static bool solve_window(struct warnock *w, const struct warnock_window *win) {
     if (!pulse_beat(&w->pulse, win->surrounders.to - win->surrounders.from +
                                    win->faces.to - win->faces.from))
       return false;
-    for (size_t k = win->surrounders.from; k < win->surrounders.to; k++)
-      if (!solve_pair(w, &win->window, e, w->surrounders.item[k]))
-        return false;
-    for (size_t k = win->faces.from; k < win->faces.to; k++)
-      if (!solve_pair(w, &win->window, e, w->faces.item[k]))
-        return false;
+    if (!solve_edge(w, win, e))
+      return false;
   }
   if (!w->request->fragments)
     return true;
@@ -336,6 +406,12 @@ static bool take_window(struct warnock *w) {
   if (!list_faces(w, &win, &front))
     return false;
   drop_hidden(w, &win, &front);
+  if (!drop_hidden_edges(w, &win, &front))
+    return false;
+  if (win.edges.from == win.edges.to && !w->request->fragments) {
+    w->windows.no_edge++;
+    return true;
+  }
   faces =
       win.faces.to - win.faces.from + win.surrounders.to - win.surrounders.from;
   if (faces == 0) {
