@@ -40,37 +40,23 @@ static int compare_ids(const void *a, const void *b, void *user) {
   return (p > q) - (p < q);
 }
 
-/* May two triangles touch (contact.h)?  A no is certain.
- * plane, p  of the first */
-static bool may_touch(const struct sheet *sheet,
-                      const struct stance_plane *plane,
-                      const struct geom_point p[3], uint32_t g) {
-  const uint32_t *point = sheet->triangle.item[g].point;
-  const struct geom_point q[3] = {sheet->point.item[point[0]],
-                                  sheet->point.item[point[1]],
-                                  sheet->point.item[point[2]]};
-  struct stance_plane other;
-  if (stance_may_touch(plane, q)) return true;
-  other = stance_plane_of(sheet, g);
-  return stance_may_touch(&other, p);
-}
-
 /* Finds the earlier triangles among `about` that touch this one. */
 static bool find_touching(struct fragments *f, uint32_t triangle,
                           const uint32_t *about, size_t count) {
   const struct sheet *sheet = f->sheet;
   struct page_box box = page_box_of_triangle(sheet, triangle);
-  struct triangle_plane at = triangle_plane_of(sheet, triangle);
-  struct stance_plane plane = stance_plane_of(sheet, triangle);
+  struct stance_plane plane = stance_plane_of(sheet, triangle), other;
   for (size_t i = 0; i < count; i++) {
     uint32_t g = about[i];
     if (g < triangle && !(sheet->triangle_flags[g] & SHEET_FLAT) &&
         sheet->triangle.item[g].face != sheet->triangle.item[triangle].face &&
-        !page_boxes_apart(box, page_box_of_triangle(sheet, g)) &&
-        may_touch(sheet, &plane, at.p, g) &&
-        !triangles_part(sheet, triangle, g) &&
-        triangles_touch(sheet, triangle, g) && !ARRAY_PUSH(&f->touching, g))
-      return false;
+        !page_boxes_apart(box, page_box_of_triangle(sheet, g))) {
+      other = stance_plane_of(sheet, g);
+      if (stances_may_touch(sheet, &plane, triangle, &other, g) &&
+          !triangles_part(sheet, triangle, g) &&
+          triangles_touch(sheet, triangle, g) && !ARRAY_PUSH(&f->touching, g))
+        return false;
+    }
   }
   return sort_stable(f->touching.item, f->touching.count,
                      sizeof *f->touching.item, compare_ids, NULL);

@@ -142,8 +142,11 @@ static bool is_crossed(const struct leftover *leftover) {
 
 /* ---- Triangles about one -------------------------------------------------------- */
 
+/* What is hidden is no rival; only an earlier triangle may have to be given
+ * what it touches. */
 static bool add_found(struct leftover *leftover, uint32_t g) {
   return g == leftover->rivals.triangle ||
+         (g > leftover->rivals.triangle && leftover->state[g] == MAP_HIDDEN) ||
          (leftover->sheet->triangle_flags[g] & SHEET_FLAT) ||
          !pagegrid_query_first(&leftover->query, g) ||
          ARRAY_PUSH(&leftover->query.found, g);

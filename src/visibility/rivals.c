@@ -142,7 +142,7 @@ bool rivals_ask(struct rivals *rivals, uint32_t g) {
   const struct sheet *sheet = rivals->sheet;
   struct triangle_plane plane;
   struct page_box box = page_box_of_triangle(sheet, g);
-  struct rival rival = {g, shared_area(rivals->box, box), 3, NULL};
+  struct rival rival = {g, shared_area(rivals->box, box), 3, NULL, false};
   struct geom_line line, back;
   enum nearness nearness = NEARER_ALWAYS;
   int64_t low, high;
@@ -176,44 +176,86 @@ bool rivals_ask(struct rivals *rivals, uint32_t g) {
 
 /* ---- Rivals and parts, exactly ----------------------------------------------- */
 
-/* Makes a rival's lines, if they were not. */
+/* Makes a rival's lines, if they were not; but the fourth. */
 static bool make_lines(struct rivals *rivals, struct rival *rival) {
-  struct triangle_plane plane;
-  struct geom_line *line, *back;
+  struct geom_line *line;
   if (rival->line != NULL)
     return true;
   line = arena_alloc(&rivals->arena, 2 * (size_t)rival->lines, sizeof *line);
   if (line == NULL)
     return false;
-  back = line + rival->lines;
-  triangle_lines(rivals->sheet, rival->triangle, line, back);
-  if (rival->lines == 4) {
-    plane = triangle_plane_of(rivals->sheet, rival->triangle);
-    (void)geom_line_between(&line[3], &plane.plane, &rivals->plane.plane);
-    back[3] = line[3];
-    geom_line_reverse(&back[3]);
-  }
+  triangle_lines(rivals->sheet, rival->triangle, line, line + rival->lines);
   rival->line = line;
   return true;
 }
 
+/* Makes the fourth line, if it was not. */
+static void make_crossing(const struct rivals *rivals, struct rival *rival) {
+  struct triangle_plane plane;
+  struct geom_line *line = &rival->line[3], *back = &rival->line[7];
+  if (rival->crossing)
+    return;
+  plane = triangle_plane_of(rivals->sheet, rival->triangle);
+  (void)geom_line_between(line, &plane.plane, &rivals->plane.plane);
+  *back = *line;
+  geom_line_reverse(back);
+  rival->crossing = true;
+}
+
 enum meeting { MEETING_NONE, MEETING_PART, MEETING_ALL };
 
-/* How much of a part a rival may cover: a NONE and an ALL are certain. */
-static enum meeting meeting_of(const struct rival *rival,
-                               const struct geom_convex *piece) {
-  bool all = true;
-  for (int k = 0; k < rival->lines; k++) {
-    bool left = false;
-    for (uint32_t c = 0; c < piece->count; c++) {
-      int side = geom_line_side(&rival->line[k], &piece->corner[c]);
-      left |= side > 0;
-      all &= side >= 0;
-    }
-    if (!left)
-      return MEETING_NONE;
+/* How much of a part is left of a line. */
+static enum meeting side_of_line(const struct geom_line *line,
+                                 const struct geom_convex *piece) {
+  bool left = false, all = true;
+  for (uint32_t c = 0; c < piece->count; c++) {
+    int side = geom_line_side(line, &piece->corner[c]);
+    left |= side > 0;
+    all &= side >= 0;
   }
-  return all ? MEETING_ALL : MEETING_PART;
+  return !left ? MEETING_NONE : all ? MEETING_ALL : MEETING_PART;
+}
+
+/* The same of the fourth line, which need not be made where doubles can tell
+ * all corners' sides. */
+static enum meeting side_of_crossing(const struct rivals *rivals,
+                                     struct rival *rival,
+                                     const struct geom_convex *piece) {
+  struct stance_plane plane;
+  int sum = 0, count = (int)piece->count;
+  if (rival->crossing)
+    return side_of_line(&rival->line[3], piece);
+  plane = stance_plane_of(rivals->sheet, rival->triangle);
+  for (uint32_t c = 0; c < piece->count; c++)
+    sum += stance_nearer(&rivals->stance, &plane, piece->corner[c].x,
+                         piece->corner[c].y);
+  if (sum == count || sum == -count)
+    return sum > 0 ? MEETING_ALL : MEETING_NONE;
+  make_crossing(rivals, rival);
+  return side_of_line(&rival->line[3], piece);
+}
+
+/* How much of a part a rival may cover: a NONE and an ALL are certain.  With a
+ * PART, `lines` of its lines count. */
+static enum meeting meeting_of(const struct rivals *rivals, struct rival *rival,
+                               const struct geom_convex *piece, int *lines) {
+  enum meeting meeting = MEETING_ALL;
+  *lines = 3;
+  for (int k = 0; k < 3; k++) {
+    enum meeting now = side_of_line(&rival->line[k], piece);
+    if (now < meeting)
+      meeting = now;
+    if (now == MEETING_NONE)
+      return now;
+  }
+  if (rival->lines == 4) {
+    enum meeting now = side_of_crossing(rivals, rival, piece);
+    if (now < meeting)
+      meeting = now;
+    if (now == MEETING_PART)
+      *lines = 4;
+  }
+  return meeting;
 }
 
 /* Appends to rivals->next what a rival leaves of a part. */
@@ -221,15 +263,15 @@ static bool subtract(struct rivals *rivals, const struct geom_convex *piece,
                      struct rival *rival) {
   struct geom_convex inside = {0};
   enum meeting meeting;
+  int lines;
   if (!make_lines(rivals, rival))
     return false;
-  meeting = meeting_of(rival, piece);
+  meeting = meeting_of(rivals, rival, piece, &lines);
   if (meeting == MEETING_NONE)
     return ARRAY_PUSH(&rivals->next, *piece);
   if (meeting == MEETING_PART &&
       !geom_convex_subtract(piece, rival->line, rival->line + rival->lines,
-                            rival->lines, &rivals->next, &inside,
-                            &rivals->arena))
+                            lines, &rivals->next, &inside, &rivals->arena))
     return false;
   rivals->counts.cuts++;
   if (meeting == MEETING_ALL || inside.count > 0)
@@ -535,6 +577,7 @@ static bool find_cover(struct rivals *rivals, size_t count,
                        const struct geom_convex *piece, bool *covered) {
   const struct rival_reach *reach =
       rivals->reach.item + (rivals->reach.count - count);
+  int lines;
   *covered = false;
   for (size_t i = 0; i < count && !*covered; i++) {
     struct rival *rival = &rivals->rival.item[reach[i].rival];
@@ -542,7 +585,7 @@ static bool find_cover(struct rivals *rivals, size_t count,
       continue;
     if (!make_lines(rivals, rival))
       return false;
-    *covered = meeting_of(rival, piece) == MEETING_ALL;
+    *covered = meeting_of(rivals, rival, piece, &lines) == MEETING_ALL;
   }
   return true;
 }

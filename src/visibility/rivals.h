@@ -20,6 +20,7 @@ struct rival {
   int lines;              /* 3, or 4: nearer on the left of the fourth */
   struct geom_line *line; /* these, then the same turned round; NULL while
                              nobody asked */
+  bool crossing;          /* the fourth is set */
 };
 
 /* Where a rival may be along an axis of the part at hand. */

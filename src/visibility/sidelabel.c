@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "visibility/stance.h"
+
 /* A stretch of the boundary, low before high in (x, y). */
 struct stretch {
   const struct geom_line *line;
@@ -88,15 +90,32 @@ static bool is_beyond(const struct sheet *sheet, uint32_t triangle,
   return false;
 }
 
+/* Is_nearer, where doubles can tell: not where the two may touch, or meet at an
+ * end. */
+static bool tell_nearer(const struct sheet *sheet, uint32_t f, uint32_t g,
+                        const struct geom_corner *from,
+                        const struct geom_corner *to, bool *nearer) {
+  struct stance_plane sf = stance_plane_of(sheet, f),
+                      sg = stance_plane_of(sheet, g);
+  int at_from = stance_nearer(&sf, &sg, from->x, from->y),
+      at_to = stance_nearer(&sf, &sg, to->x, to->y);
+  if (at_from == 0 || at_to == 0) return false;
+  *nearer = at_from > 0 || at_to > 0;
+  return !stances_may_touch(sheet, &sf, f, &sg, g);
+}
+
 /* Is g nearer than f somewhere from `from` to `to`, or, where it stands on f
  * all along, beyond the stretch? */
 static bool is_nearer(const struct sheet *sheet, uint32_t f, uint32_t g,
                       const struct stretch *s, const struct geom_corner *from,
                       const struct geom_corner *to) {
-  struct triangle_plane tf = triangle_plane_of(sheet, f),
-                        tg = triangle_plane_of(sheet, g);
+  struct triangle_plane tf, tg;
   struct geom_line line;
   int parallel, at_from, at_to;
+  bool nearer;
+  if (tell_nearer(sheet, f, g, from, to, &nearer)) return nearer;
+  tf = triangle_plane_of(sheet, f);
+  tg = triangle_plane_of(sheet, g);
   if (triangles_touch(sheet, f, g)) return g < f;
   parallel = geom_line_between(&line, &tg.plane, &tf.plane);
   if (parallel == GEOM_SAME_PLANE) return g < f;

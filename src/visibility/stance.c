@@ -109,7 +109,52 @@ bool stance_may_touch(const struct stance_plane *plane,
   return true;
 }
 
+/* May the triangle's corners touch the plane? */
+static bool may_touch(const struct stance_plane *plane,
+                      const struct sheet *sheet, uint32_t triangle) {
+  const uint32_t *point = sheet->triangle.item[triangle].point;
+  const struct geom_point corner[3] = {sheet->point.item[point[0]],
+                                       sheet->point.item[point[1]],
+                                       sheet->point.item[point[2]]};
+  return stance_may_touch(plane, corner);
+}
+
+bool stances_may_touch(const struct sheet *sheet, const struct stance_plane *sf,
+                       uint32_t f, const struct stance_plane *sg, uint32_t g) {
+  return may_touch(sf, sheet, g) || may_touch(sg, sheet, f);
+}
+
 int stance_hides(const struct stance_plane *plane, struct geom_point p) {
   struct reading at = read_at(plane, p);
   return (at.value > -at.least) - (at.value < -at.most);
+}
+
+/* How much farther than its corner a plane is at a place, and by how much that
+ * may be off.  The normal's parts are off by less than e, and the place by less
+ * than PLACE. */
+#define PLACE 0.25
+
+struct fall {
+  double depth, off;
+};
+
+static struct fall fall_at(const struct stance_plane *plane, double x,
+                           double y) {
+  double dx = x - plane->x, dy = y - plane->y, room = plane->nz - plane->ez;
+  double depth = (plane->nx * dx + plane->ny * dy) / plane->nz;
+  double off = plane->ex * (fabs(dx) + PLACE) + plane->ey * (fabs(dy) + PLACE) +
+               PLACE * (fabs(plane->nx) + fabs(plane->ny)) +
+               plane->ez * fabs(depth);
+  if (!(room > 0)) return (struct fall){0, INFINITY};
+  return (struct fall){depth, off / room + SLACK * fabs(depth)};
+}
+
+int stance_nearer(const struct stance_plane *f, const struct stance_plane *g,
+                  double x, double y) {
+  struct fall of_f = fall_at(f, x, y), of_g = fall_at(g, x, y);
+  double apart = (g->z - f->z) - (of_g.depth - of_f.depth);
+  double off = of_f.off + of_g.off +
+               SLACK * (fabs(g->z - f->z) + fabs(of_g.depth) +
+                        fabs(of_f.depth));
+  return (apart > off) - (apart < -off);
 }

@@ -37,9 +37,19 @@ bool stance_may_pierce(const struct stance_plane *plane,
 bool stance_may_touch(const struct stance_plane *plane,
                       const struct geom_point corner[3]);
 
+/* May two triangles touch (contact.h)?  A no is certain.
+ * sf, sg  their planes */
+bool stances_may_touch(const struct sheet *sheet, const struct stance_plane *sf,
+                       uint32_t f, const struct stance_plane *sg, uint32_t g);
+
 /* The sign of value + tolerance: -1 where the triangle is in front of the
  * point by more than contact explains, so that it hides it; 0: not known. */
 int stance_hides(const struct stance_plane *plane, struct geom_point p);
+
+/* Which of two planes is nearer at a place of the page, known to a quarter of a
+ * unit: +1 the second one, -1 the first one, strictly; 0: not known. */
+int stance_nearer(const struct stance_plane *f, const struct stance_plane *g,
+                  double x, double y);
 
 /* The sign of the value alone: before the plane or behind it; 0: not known. */
 static inline int stance_sign(const struct stance_plane *plane,
