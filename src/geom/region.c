@@ -63,7 +63,8 @@ static int turn_forward(const struct segment *p, const struct segment *q) {
 /* Orders sides by the direction of their line, then by its place, then by
  * where they begin. */
 static int compare_sides(const void *a, const void *b, void *user) {
-  const struct segment *p = a, *q = b;
+  const struct segment *p = *(const struct segment *const *)a,
+                       *q = *(const struct segment *const *)b;
   int order = -turn_forward(p, q);
   (void)user;
   if (order == 0) {
@@ -90,22 +91,22 @@ static int compare_events(const void *a, const void *b, void *user) {
                              &((const struct event *)b)->at);
 }
 
-static const struct geom_line *line_running(const struct segment *side,
-                                            size_t count, bool forward) {
+static const struct geom_line *
+line_running(const struct segment *const *side, size_t count, bool forward) {
   for (size_t i = 0; i < count; i++)
-    if (side[i].forward == forward) return side[i].line;
+    if (side[i]->forward == forward) return side[i]->line;
   return NULL;
 }
 
 /* The boundary on the one line that `count` sides lie on. */
-static bool sweep_line(const struct segment *side, size_t count,
+static bool sweep_line(const struct segment *const *side, size_t count,
                        struct event *event, segments *boundary) {
   struct geom_corner from = {0};
   int net = 0;
   for (size_t i = 0; i < count; i++) {
-    int change = side[i].forward ? 1 : -1;
-    event[2 * i] = (struct event){side[i].low, change};
-    event[2 * i + 1] = (struct event){side[i].high, -change};
+    int change = side[i]->forward ? 1 : -1;
+    event[2 * i] = (struct event){side[i]->low, change};
+    event[2 * i + 1] = (struct event){side[i]->high, -change};
   }
   if (!sort_stable(event, 2 * count, sizeof *event, compare_events, NULL))
     return false;
@@ -126,19 +127,21 @@ static bool sweep_line(const struct segment *side, size_t count,
   return true;
 }
 
-static bool find_boundary(segments *sides, segments *boundary) {
-  struct event *event = mem_alloc(2 * sides->count, sizeof *event);
-  bool done = event != NULL;
-  if (done)
-    done = sort_stable(sides->item, sides->count, sizeof *sides->item,
-                       compare_sides, NULL);
-  for (size_t i = 0, j; done && i < sides->count; i = j) {
-    for (j = i + 1; j < sides->count &&
-                    on_same_line(&sides->item[i], &sides->item[j]);)
+static bool find_boundary(const segments *sides, segments *boundary) {
+  size_t n = sides->count;
+  struct event *event = mem_alloc(2 * n, sizeof *event);
+  const struct segment **side = mem_alloc(n, sizeof *side);
+  bool done = event != NULL && side != NULL;
+  for (size_t i = 0; done && i < n; i++)
+    side[i] = &sides->item[i];
+  done = done && sort_stable(side, n, sizeof *side, compare_sides, NULL);
+  for (size_t i = 0, j; done && i < n; i = j) {
+    for (j = i + 1; j < n && on_same_line(side[i], side[j]);)
       j++;
-    done = sweep_line(&sides->item[i], j - i, event, boundary);
+    done = sweep_line(&side[i], j - i, event, boundary);
   }
   mem_free(event);
+  mem_free(side);
   return done;
 }
 

@@ -16,8 +16,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/sort.h"
-
 enum {
   FEW = 6,     /* rivals that need no parting */
   LINES = 6,   /* rivals of a part whose sides it may be parted by */
@@ -61,6 +59,7 @@ void rivals_fini(struct rivals *rivals) {
   ARRAY_FREE(&rivals->part);
   ARRAY_FREE(&rivals->reach);
   ARRAY_FREE(&rivals->scratch);
+  ARRAY_FREE(&rivals->key);
   arena_fini(&rivals->arena);
 }
 
@@ -692,11 +691,25 @@ static bool solve_part(struct rivals *rivals) {
 /* Of a part that may be parted again, in units of a pulse. */
 enum { PART_WORK = 256 };
 
-static int compare_shares(const void *a, const void *b, void *user) {
-  double p = ((const struct rival *)a)->share,
-         q = ((const struct rival *)b)->share;
-  (void)user;
-  return (q > p) - (q < p);
+/* Lists all rivals.  What may cover most comes first: what it takes is not cut
+ * again. */
+static bool list_all(struct rivals *rivals) {
+  size_t n = rivals->rival.count;
+  rivals->reach.count = rivals->key.count = 0;
+  if (!ARRAY_RESERVE(&rivals->reach, n) || !ARRAY_RESERVE(&rivals->key, 2 * n))
+    return false;
+  for (size_t i = 0; i < n; i++) {
+    uint64_t bits; /* order as the numbers do, which are not negative */
+    memcpy(&bits, &rivals->rival.item[i].share, sizeof bits);
+    rivals->key.item[i] =
+        (struct sort_key){UINT32_MAX - (bits >> 32), (uint32_t)i};
+  }
+  sort_keys(rivals->key.item, rivals->key.item + n, n);
+  for (size_t i = 0; i < n; i++)
+    rivals->reach.item[i] = (struct rival_reach){-INFINITY, INFINITY,
+                                                 rivals->key.item[i].value};
+  rivals->reach.count = n;
+  return true;
 }
 
 bool rivals_take_all(struct rivals *rivals) {
@@ -707,18 +720,9 @@ bool rivals_take_all(struct rivals *rivals) {
   triangle_lines(rivals->sheet, rivals->triangle, line, line + 3);
   rivals->left.count = rivals->part.count = rivals->reach.count = 0;
   rivals->whole = true;
-  /* What may cover most comes first: what it takes is not cut again. */
-  if (!sort_stable(rivals->rival.item, rivals->rival.count,
-                   sizeof *rivals->rival.item, compare_shares, NULL))
-    return false;
   if (!geom_convex_triangle(&piece, rivals->plane.p, line, &rivals->arena) ||
-      !push_part(rivals, &piece, &no_axis))
+      !push_part(rivals, &piece, &no_axis) || !list_all(rivals))
     return false;
-  for (size_t i = 0; i < rivals->rival.count; i++) {
-    struct rival_reach reach = {-INFINITY, INFINITY, (uint32_t)i};
-    if (!ARRAY_PUSH(&rivals->reach, reach))
-      return false;
-  }
   while (rivals->part.count > 0)
     if (!pulse_beat(rivals->pulse, PART_WORK) || !solve_part(rivals))
       return false;

@@ -9,6 +9,7 @@
 #define VISIBILITY_RIVALS_H
 
 #include "base/report.h"
+#include "base/sort.h"
 #include "visibility/contact.h"
 #include "visibility/fragments.h"
 #include "visibility/stance.h"
@@ -72,6 +73,7 @@ struct rivals {
   bool whole; /* nothing was taken */
   ARRAY(struct rivals_part) part;
   ARRAY(struct rival_reach) reach, scratch;
+  ARRAY(struct sort_key) key;
   struct arena arena;
 };
 
