@@ -177,9 +177,10 @@ bool judge_edges_pierced(struct judge_edges *edges,
                          const struct judge_camera *camera, double contact) {
   struct piercer piercer = {edges, all, camera, contact, 0};
   for (uint32_t i = 0; i < all->triangle.count; i++) {
-    struct judge_box box = judge_triangle_box(&all->triangle.item[i]);
+    const struct judge_triangle *triangle = &all->triangle.item[i];
+    struct judge_box box = judge_triangle_box(triangle);
     piercer.current = i;
-    if (!judge_triangles_near(all, &box, pierce, &piercer))
+    if (!judge_triangles_near(all, &box, triangle->face, pierce, &piercer))
       return false;
   }
   return true;

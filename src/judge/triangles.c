@@ -99,9 +99,13 @@ static bool build_tree(struct judge_triangles *all) {
     struct judge_node *node = &all->node[i];
     struct judge_triangle *t = all->triangle.item + node->first;
     node->box = empty_box();
-    for (uint32_t k = 0; k < node->count; k++)
+    node->face = t->face;
+    for (uint32_t k = 0; k < node->count; k++) {
       for (int j = 0; j < 3; j++)
         grow_box(&node->box, t[k].p[j]);
+      if (t[k].face != t->face)
+        node->face = SCENE_NONE;
+    }
     if (node->count <= LEAF_SIZE)
       continue;
     uint32_t low = part_triangles(t, node->count);
@@ -237,7 +241,7 @@ static bool boxes_meet(const struct judge_box *a, const struct judge_box *b) {
 }
 
 bool judge_triangles_near(const struct judge_triangles *all,
-                          const struct judge_box *box,
+                          const struct judge_box *box, uint32_t but,
                           bool (*found)(void *user, uint32_t triangle),
                           void *user) {
   uint32_t stack[JUDGE_STACK_SIZE];
@@ -246,7 +250,7 @@ bool judge_triangles_near(const struct judge_triangles *all,
     stack[depth++] = 0;
   while (depth > 0) {
     const struct judge_node *node = &all->node[stack[--depth]];
-    if (!boxes_meet(&node->box, box))
+    if (node->face == but || !boxes_meet(&node->box, box))
       continue;
     if (node->count == 0) {
       stack[depth++] = node->first;

@@ -70,6 +70,7 @@ struct judge_triangles {
     struct judge_box box;
     uint32_t first; /* of its triangles, or its left child; right follows */
     uint32_t count; /* of its triangles; 0: a node with two children */
+    uint32_t face;  /* of all its triangles; SCENE_NONE: of several */
   } * node;
   size_t nodes; /* none where there are no triangles */
   double size; /* diagonal of the box of all points that faces use */
@@ -94,9 +95,10 @@ bool judge_is_warped(const struct scene *scene, uint32_t face, double contact);
 void judge_triangles_fini(struct judge_triangles *all);
 
 /* Calls found(user, i) for the triangles whose boxes meet `box`, until it
- * returns false: that is then returned. */
+ * returns false: that is then returned.
+ * but  of this face some may be left out: a large one has very many */
 bool judge_triangles_near(const struct judge_triangles *all,
-                          const struct judge_box *box,
+                          const struct judge_box *box, uint32_t but,
                           bool (*found)(void *user, uint32_t triangle),
                           void *user);
 
