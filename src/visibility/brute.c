@@ -48,7 +48,8 @@ end:
 
 static bool solve_fragments(const struct sheet *sheet,
                             const struct pagegrid *grid, bool areas,
-                            struct map *map, struct pulse *pulse) {
+                            struct map *map, struct report *report,
+                            struct pulse *pulse) {
   size_t n = sheet->triangle.count;
   struct fragments fragments;
   struct cover cover;
@@ -56,6 +57,7 @@ static bool solve_fragments(const struct sheet *sheet,
   cover_init(&cover, sheet);
   if (!fragments_init(&fragments, sheet, grid, true)) return false;
   fragments.pulse = pulse;
+  fragments.report = report;
   for (size_t f = 0; f < n; f++) {
     if (is_flat(sheet, f)) continue;
     if (!cover_start(&cover, (uint32_t)f, NULL)) goto end;
@@ -68,6 +70,7 @@ static bool solve_fragments(const struct sheet *sheet,
   }
   done = fragments_finish(&fragments, areas, map);
 end:
+  cover_report(&cover, report);
   cover_fini(&cover);
   fragments_fini(&fragments);
   return done;
@@ -89,7 +92,7 @@ static recto_status solve(struct sheet *sheet,
     status = pulse_error(&pulse, error);
   pulse.stage = "faces";
   if (status == RECTO_OK && request->fragments &&
-      !solve_fragments(sheet, &grid, request->areas, map, &pulse))
+      !solve_fragments(sheet, &grid, request->areas, map, report, &pulse))
     status = pulse_error(&pulse, error);
   hide_report(&counts, report);
   pagegrid_fini(&grid);

@@ -102,13 +102,16 @@ bool cover_take_nearer(struct cover *cover, uint32_t g) {
   struct geom_line line[4], back[4];
   struct triangle_plane plane;
   enum nearness nearness;
-  if (page_boxes_apart(cover->box, page_box_of_triangle(cover->sheet, g)) ||
-      triangles_part(cover->sheet, cover->triangle, g))
+  if (page_boxes_apart(cover->box, page_box_of_triangle(cover->sheet, g)))
     return true;
+  cover->pairs++;
+  if (triangles_part(cover->sheet, cover->triangle, g)) return true;
+  cover->overlapping++;
   plane = triangle_plane_of(cover->sheet, g);
   nearness = triangle_nearness(&cover->plane, cover->triangle, &plane, g,
                                &line[3], &back[3]);
   if (nearness == NEARER_NEVER) return true;
+  cover->crossings += nearness == NEARER_BEYOND;
   triangle_lines(cover->sheet, g, line, back);
   return cover_take(cover, line, back, nearness == NEARER_ALWAYS ? 3 : 4);
 }
@@ -117,4 +120,10 @@ bool cover_file(struct cover *cover, struct fragments *fragments) {
   if (cover->whole) return fragments_add_whole(fragments, cover->triangle);
   return fragments_add(fragments, cover->triangle, cover->left.item,
                        cover->left.count);
+}
+
+void cover_report(const struct cover *cover, struct report *report) {
+  report_add(report, "faces", "pairs", (int64_t)cover->pairs);
+  report_add(report, "faces", "overlapping", (int64_t)cover->overlapping);
+  report_add(report, "faces", "depth_crossings", (int64_t)cover->crossings);
 }

@@ -12,6 +12,9 @@ struct cover {
   struct page_box box;
   geom_pieces left, scratch; /* what is left of it, in disjoint pieces */
   bool whole;                /* nothing was taken yet */
+  /* Counts for --stats: pairs whose boxes meet; of these, depth had to be
+   * asked; of these, the planes cross. */
+  uint64_t pairs, overlapping, crossings;
   struct arena arena;
 };
 
@@ -40,5 +43,8 @@ static inline bool cover_is_empty(const struct cover *cover) {
 
 /* Hands what is left to the fragments. */
 USE_RESULT bool cover_file(struct cover *cover, struct fragments *fragments);
+
+/* Adds the counts. */
+void cover_report(const struct cover *cover, struct report *report);
 
 #endif

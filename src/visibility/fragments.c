@@ -51,13 +51,17 @@ static bool find_touching(struct fragments *f, uint32_t triangle,
     if (g < triangle && !(sheet->triangle_flags[g] & SHEET_FLAT) &&
         sheet->triangle.item[g].face != sheet->triangle.item[triangle].face &&
         !page_boxes_apart(box, page_box_of_triangle(sheet, g))) {
+      f->counts.contact_pairs++;
       other = stance_plane_of(sheet, g);
-      if (stances_may_touch(sheet, &plane, triangle, &other, g) &&
-          !triangles_part(sheet, triangle, g) &&
-          triangles_touch(sheet, triangle, g) && !ARRAY_PUSH(&f->touching, g))
+      if (!stances_may_touch(sheet, &plane, triangle, &other, g) ||
+          triangles_part(sheet, triangle, g))
+        continue;
+      f->counts.contact_exact++;
+      if (triangles_touch(sheet, triangle, g) && !ARRAY_PUSH(&f->touching, g))
         return false;
     }
   }
+  f->counts.contacts += f->touching.count;
   return sort_stable(f->touching.item, f->touching.count,
                      sizeof *f->touching.item, compare_ids, NULL);
 }
@@ -122,6 +126,7 @@ static bool triangle_piece(struct fragments *f, uint32_t triangle,
 }
 
 bool fragments_add_alone(struct fragments *f, uint32_t triangle) {
+  f->counts.whole++;
   return keep_piece(f, triangle, NULL);
 }
 
@@ -130,6 +135,8 @@ bool fragments_add_among(struct fragments *f, uint32_t triangle,
                          const uint32_t *about, size_t about_count) {
   struct geom_convex whole;
   if (piece != NULL && count == 0) return true;
+  f->counts.whole += piece == NULL;
+  f->counts.cut += piece != NULL;
   f->touching.count = 0;
   if (f->contact && !find_touching(f, triangle, about, about_count))
     return false;
@@ -228,6 +235,7 @@ static bool file_loop(struct face_work *work,
                     &corner.id) ||
         !ARRAY_PUSH(&work->map->corner, corner))
       return false;
+    work->fragments->counts.side[corner.side]++;
   }
   return ARRAY_PUSH(&work->map->loop, filed);
 }
@@ -368,6 +376,7 @@ static bool file_face(struct face_work *work, const struct fragment_piece *piece
   if (is_whole(work, piece, count)) {
     bool filed;
     if (!file_outline(work, &filed)) return false;
+    f->counts.outlines += filed;
     if (filed) return true;
   }
   for (size_t i = 0; i < count; i++) {
@@ -379,6 +388,8 @@ static bool file_face(struct face_work *work, const struct fragment_piece *piece
                     piece[i].piece != NULL ? *piece[i].piece : whole))
       return false;
   }
+  f->counts.united++;
+  f->counts.pieces += count;
   if (!find_seen(work, piece, count) ||
       !geom_region_unite(&work->region, work->piece.item, count) ||
       !file_region(work))
@@ -476,6 +487,24 @@ static bool index_sides(struct face_work *work) {
                                f->query.found.count);
 }
 
+static void report_counts(const struct fragments *fragments) {
+  const struct fragments_counts *c = &fragments->counts;
+  struct report *report = fragments->report;
+  static const char *const side[] = {"sides_of_edges", "sides_of_outlines",
+                                     "sides_of_intersections", "sides_cut"};
+  report_int(report, "fragments", "triangles_whole", (int64_t)c->whole);
+  report_int(report, "fragments", "triangles_cut", (int64_t)c->cut);
+  report_int(report, "fragments", "contact_pairs", (int64_t)c->contact_pairs);
+  report_int(report, "fragments", "contact_filter_failures",
+             (int64_t)c->contact_exact);
+  report_int(report, "fragments", "contacts", (int64_t)c->contacts);
+  report_int(report, "fragments", "faces_as_they_stand", (int64_t)c->outlines);
+  report_int(report, "fragments", "faces_united", (int64_t)c->united);
+  report_int(report, "fragments", "pieces_united", (int64_t)c->pieces);
+  for (int k = 0; k <= MAP_SIDE_CUT; k++)
+    report_int(report, "fragments", side[k], (int64_t)c->side[k]);
+}
+
 bool fragments_finish(struct fragments *fragments, bool areas,
                       struct map *map) {
   struct face_work work = {.fragments = fragments,
@@ -500,5 +529,6 @@ bool fragments_finish(struct fragments *fragments, bool areas,
   side_labels_fini(&work.labels);
   sidegrid_fini(&work.sides);
   geom_region_fini(&work.region);
+  report_counts(fragments);
   return done;
 }

@@ -15,6 +15,7 @@
 #ifndef VISIBILITY_FRAGMENTS_H
 #define VISIBILITY_FRAGMENTS_H
 
+#include "base/report.h"
 #include "geom/convex.h"
 #include "visibility/map.h"
 #include "visibility/pagegrid.h"
@@ -23,6 +24,17 @@
 struct fragment_piece {
   uint32_t face, triangle; /* whose it is: scene face, its triangle */
   struct geom_convex *piece; /* NULL: the whole triangle */
+};
+
+/* Counts for --stats. */
+struct fragments_counts {
+  uint64_t whole, cut;       /* triangles handed in whole, or in pieces */
+  uint64_t contact_pairs;    /* of a triangle and an earlier one, boxes meet */
+  uint64_t contact_exact;    /* of these, asked of exact numbers */
+  uint64_t contacts;         /* of these, in contact */
+  uint64_t outlines, united; /* faces filed as they stand, or united */
+  uint64_t pieces;           /* of the latter */
+  uint64_t side[MAP_SIDE_CUT + 1]; /* labelled, by kind */
 };
 
 struct fragments {
@@ -35,6 +47,8 @@ struct fragments {
   struct pulse *pulse; /* lent; NULL, as at first: nobody is asked */
   struct arena arena, scratch;
   ARRAY(struct fragment_piece) piece;
+  struct fragments_counts counts;
+  struct report *report; /* lent, as the pulse is: where the counts go */
 };
 
 /* contact  pass pieces on to earlier faces in contact */
@@ -64,7 +78,8 @@ USE_RESULT bool fragments_add_among(struct fragments *fragments,
                                     size_t count, const uint32_t *about,
                                     size_t about_count);
 
-/* Writes all fragments to the map, ordered by face.
+/* Writes all fragments to the map, ordered by face, and the counts to the
+ * report.
  * areas  the exact areas too */
 USE_RESULT bool fragments_finish(struct fragments *fragments, bool areas,
                                  struct map *map);

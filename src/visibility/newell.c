@@ -130,7 +130,7 @@ static bool take_later(struct newell_order *order, uint32_t p,
 }
 
 static bool solve_fragments(struct newell_order *order, bool areas,
-                            struct map *map) {
+                            struct map *map, struct report *report) {
   struct fragments fragments;
   struct pagegrid_query query = {0};
   struct cover cover;
@@ -139,6 +139,7 @@ static bool solve_fragments(struct newell_order *order, bool areas,
   done = fragments_init(&fragments, order->sheet, order->grid, true) &&
          pagegrid_query_init(&query, order->grid);
   fragments.pulse = &order->pulse;
+  fragments.report = report;
   for (size_t i = order->painted.count; done && i-- > 0;) {
     uint32_t p = order->painted.item[i];
     const struct newell_piece *piece = &order->piece.item[p];
@@ -187,7 +188,7 @@ static recto_status solve(struct sheet *sheet,
     status = pulse_error(&order.pulse, error);
   order.pulse.stage = "faces";
   if (status == RECTO_OK && request->fragments &&
-      !solve_fragments(&order, request->areas, map))
+      !solve_fragments(&order, request->areas, map, report))
     status = pulse_error(&order.pulse, error);
   report_order(&order, report);
   newell_order_fini(&order);

@@ -273,14 +273,15 @@ static bool show_edges(const struct sheet *sheet, struct map *map) {
   return true;
 }
 
-static bool show_faces(const struct sheet *sheet, bool areas,
-                       struct map *map) {
+static bool show_faces(const struct sheet *sheet, bool areas, struct map *map,
+                       struct report *report) {
   struct fragments fragments;
   struct pagegrid grid;
   bool done;
   if (!pagegrid_init(&grid, sheet))
     return false;
   done = fragments_init(&fragments, sheet, &grid, true);
+  fragments.report = report;
   for (size_t t = 0; done && t < sheet->triangle.count; t++)
     done = fragments_add_alone(&fragments, (uint32_t)t);
   done = done && fragments_finish(&fragments, areas, map);
@@ -292,9 +293,8 @@ static bool show_faces(const struct sheet *sheet, bool areas,
 static recto_status solve(struct sheet *sheet,
                           const struct solver_request *request, struct map *map,
                           struct report *report, recto_error *error) {
-  (void)report;
   if ((request->strokes && !show_edges(sheet, map)) ||
-      (request->fragments && !show_faces(sheet, request->areas, map)))
+      (request->fragments && !show_faces(sheet, request->areas, map, report)))
     return error_memory(error);
   return RECTO_OK;
 }

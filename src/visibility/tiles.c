@@ -463,6 +463,7 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
   done &= leftover_init(&leftover, work->sheet, &work->lists, work->wanted,
                         work->face_state);
   fragments.pulse = leftover.rivals.pulse = &pulse;
+  fragments.report = work->report;
   for (size_t t = 0; done && t < n; t++)
     if (work->face_state[t] == MAP_VISIBLE)
       done = fragments_add_alone(&fragments, (uint32_t)t);

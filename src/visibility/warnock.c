@@ -462,7 +462,7 @@ static int compare_pieces(const void *a, const void *b, void *user) {
 }
 
 static bool file_fragments(struct warnock *w, const struct pagegrid *grid,
-                           struct map *map) {
+                           struct map *map, struct report *report) {
   struct fragments fragments;
   geom_pieces piece = {0};
   size_t n = w->piece.count;
@@ -470,6 +470,7 @@ static bool file_fragments(struct warnock *w, const struct pagegrid *grid,
               sort_stable(w->piece.item, n, sizeof *w->piece.item,
                           compare_pieces, NULL);
   fragments.pulse = &w->pulse;
+  fragments.report = report;
   for (size_t i = 0, j; done && i < n; i = j) {
     piece.count = 0;
     for (j = i; done && j < n &&
@@ -569,9 +570,11 @@ static recto_status solve(struct sheet *sheet,
     cover_init(&w.cover, sheet);
     done = run(&w, &grid) &&
            (!request->strokes || file_strokes(&w, map)) &&
-           (!request->fragments || file_fragments(&w, &grid, map));
+           (!request->fragments || file_fragments(&w, &grid, map, report));
     if (!done)
       status = pulse_error(&w.pulse, error);
+    if (request->fragments)
+      cover_report(&w.cover, report);
     cover_fini(&w.cover);
   }
   report_windows(&w, report);

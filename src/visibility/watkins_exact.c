@@ -145,6 +145,7 @@ static recto_status solve_fragments(struct exact *exact,
   if (!sweep_init(&sweep, sheet, cells->seen, false) || !ready)
     status = error_memory(error);
   fragments.pulse = &pulse;
+  fragments.report = report;
   sweep.cell = take_cell;
   sweep.user = exact;
   cells->keep = true;
