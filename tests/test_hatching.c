@@ -131,8 +131,24 @@ static void hatched_length_is_area_over_pitch(void **state) {
   }
 }
 
-/* The lines of the page turned by some angle: the strokes' own lengths, moves
- * from line to line left out. */
+/* How many strokes of hatching there are; their length along the lines of the
+ * page, moves from line to line left out. */
+static size_t find_lines(const struct drawing *drawing, double *length) {
+  size_t count = 0;
+  *length = 0;
+  for (size_t s = 0; s < drawing->stroke.count; s++) {
+    const struct drawing_stroke *stroke = &drawing->stroke.item[s];
+    const struct drawing_point *p = drawing->point.item + stroke->point;
+    if (stroke->edge_class != 0)
+      continue;
+    count++;
+    for (uint32_t i = 0; i + 1 < stroke->count; i += 2)
+      *length += hypot(p[i + 1].x - p[i].x, p[i + 1].y - p[i].y);
+  }
+  return count;
+}
+
+/* The lines of the page turned by some angle. */
 static void the_angle_of_hatching_changes_no_length(void **state) {
   const char *source = getenv("srcdir");
   char path[600];
@@ -146,20 +162,14 @@ static void the_angle_of_hatching_changes_no_length(void **state) {
   for (double angle = -80; angle < 90; angle += 62) {
     struct pipeline pipeline;
     recto_options options;
-    double along = 0;
+    double along;
     recto_options_init(&options);
     options.fill = RECTO_FILL_HATCH;
     options.edges = RECTO_EDGES_NONE;
     options.hatch_angle_deg = angle;
     options.min_stroke_mm = 0;
     pipeline_run(&pipeline, &scene, &options, &solver_tiles);
-    for (size_t s = 0; s < pipeline.drawing.stroke.count; s++) {
-      const struct drawing_stroke *stroke = &pipeline.drawing.stroke.item[s];
-      const struct drawing_point *p =
-          pipeline.drawing.point.item + stroke->point;
-      for (uint32_t i = 0; i + 1 < stroke->count; i += 2)
-        along += hypot(p[i + 1].x - p[i].x, p[i + 1].y - p[i].y);
-    }
+    find_lines(&pipeline.drawing, &along);
     double want = visible_area(&pipeline.map) / options.hatch_pitch_mm;
     if (!(fabs(along / want - 1) < 0.01))
       fail_msg("%g degrees: %.1f mm, not %.1f", angle, along, want);
@@ -174,22 +184,13 @@ static size_t count_strokes(const struct scene *scene, double pitch_mm,
                             double *length) {
   struct pipeline pipeline;
   recto_options options;
-  size_t count = 0;
+  size_t count;
   recto_options_init(&options);
   options.fill = RECTO_FILL_HATCH;
   options.pitch_mm = pitch_mm;
   pipeline_run(&pipeline, scene, &options, &solver_watkins);
   assert_int_equal(pipeline.status, RECTO_OK);
-  *length = 0;
-  for (size_t s = 0; s < pipeline.drawing.stroke.count; s++) {
-    const struct drawing_stroke *stroke = &pipeline.drawing.stroke.item[s];
-    const struct drawing_point *p = pipeline.drawing.point.item + stroke->point;
-    if (stroke->edge_class != 0)
-      continue;
-    count++;
-    for (uint32_t i = 0; i + 1 < stroke->count; i += 2)
-      *length += hypot(p[i + 1].x - p[i].x, p[i + 1].y - p[i].y);
-  }
+  count = find_lines(&pipeline.drawing, length);
   pipeline_fini(&pipeline);
   return count;
 }
