@@ -72,6 +72,8 @@ static void set_facet(const struct watkins *watkins, uint32_t triangle,
   set_slack(facet, &watkins->table.grid);
 }
 
+#define AHEAD 8 /* triangles whose corners are fetched */
+
 /* What is at hand while edges are gathered.  The edges of a point, to points
  * of higher numbers, are a list. */
 struct gathering {
@@ -141,11 +143,24 @@ static bool add_side(struct watkins *watkins, struct gathering *g, uint32_t p,
 static bool add_facets(struct watkins *watkins, struct gathering *g,
                        const struct facets *facets) {
   const struct sheet *sheet = watkins->sheet;
+  /* Of a closed mesh three edges to two triangles. */
+  size_t most = sheet->triangle.count, edges = most + most / 2;
+  if (!ARRAY_RESERVE(&watkins->facet, most) ||
+      !ARRAY_RESERVE(&watkins->edge, edges) ||
+      !ARRAY_RESERVE(&watkins->table.edge, edges) ||
+      !ARRAY_RESERVE(&g->seam, edges))
+    return false;
   for (uint32_t t = 0; t < sheet->triangle.count; t++) {
     const uint32_t *corner, *side;
     struct watkins_facet facet;
     bool covers = false;
     uint32_t count;
+    for (int k = 0; k < 3 && t + AHEAD < most; k++) {
+      uint32_t p = sheet->triangle.item[t + AHEAD].point[k];
+      MEM_FETCH(&sheet->point.item[p]);
+      MEM_FETCH(&g->point[p]);
+      MEM_FETCH(&g->first[p]);
+    }
     if ((sheet->triangle_flags[t] & SHEET_FLAT) || facet_of(facets, t) != t)
       continue;
     count = facet_outline(facets, sheet, t, &corner, &side);
