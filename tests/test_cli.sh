@@ -514,9 +514,11 @@ done
 nohup_is_heeded() {
   (
     trap '' HUP
-    exec timeout --preserve-status -k 60 -s HUP 0.1 "$recto" cube.obj \
-      -o hatched.svg --fill hatch --hatch-pitch 0.01 -m brute 2>err
-  ) && test -s hatched.svg
+    exec "$recto" sheet.obj -e all --fill hatch --hatch-pitch 0.03 \
+      -o hatched.svg 2>err
+  ) &
+  sleep 0.2
+  kill -HUP $! && wait $! && test -s hatched.svg
 }
 claim "a hang-up that is ignored stays so" nohup_is_heeded
 
