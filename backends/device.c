@@ -121,6 +121,10 @@ void device_place(const struct device *device, double width_mm,
   const struct device_paper *paper = choose_paper(device, along, across);
   placement->paper = paper;
   placement->too_large = !is_held(paper, along, across);
+  placement->between = !placement->too_large &&
+                       paper != choose_paper(device, 0, 0) &&
+                       (along < paper->width_mm - PAPER_SLACK_MM ||
+                        across < paper->height_mm - PAPER_SLACK_MM);
   placement->turned = height_mm > width_mm;
   placement->origin_x = place_side(along / device->unit_mm, paper->x0,
                                    paper->x1, paper->centre_x);

@@ -37,6 +37,8 @@ struct device {
 struct device_placement {
   const struct device_paper *paper; /* NULL: the page itself */
   bool too_large;                   /* for it and every other */
+  bool between; /* smaller than it, but too large for the smallest: likely a
+                   sheet that the table does not have */
   double unit_mm;
   double origin_x, origin_y;  /* units */
   double width_mm, height_mm; /* the page's */

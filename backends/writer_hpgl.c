@@ -281,6 +281,9 @@ static void warn_of_losses(const struct plot *plot,
                            const struct drawing *drawing,
                            const struct device *device,
                            const struct writer_options *options) {
+  if (plot->place.between)
+    warn(options, "no sheet of %s is as large as the page: it lies on %s",
+         device->name, plot->place.paper->name);
   if (plot->clipped > 0)
     warn_of_clipping(plot, device, options);
   if (plot->folded > 0)
