@@ -99,16 +99,20 @@ struct octagon_frame tilelist_frame(const struct tilelist *list, int x, int y) {
       (int64_t)low << TILE_BUCKET_SHIFT, TILE_BUCKET_SHIFT + bits - 6};
 }
 
-/* Writes the words of a cell's list. */
+/* Writes the words of a cell's list: none for what is seen edge-on and hides
+ * nothing, so that next to no question meets it. */
 static void write_words(struct tilelist *list, const struct sheet *sheet, int x,
                         int y, size_t from, size_t to) {
   struct octagon_frame frame = tilelist_frame(list, x, y);
   for (size_t i = from; i < to; i++) {
-    const uint32_t *p = sheet->triangle.item[list->grid.item[i]].point;
+    uint32_t t = list->grid.item[i];
+    const uint32_t *p = sheet->triangle.item[t].point;
     struct octagon octagon = octagon_of_point(sheet->point.item[p[0]]);
     octagon_add(&octagon, sheet->point.item[p[1]]);
     octagon_add(&octagon, sheet->point.item[p[2]]);
-    list->word[i] = octagon_word(&frame, &octagon);
+    list->word[i] = sheet->triangle_flags[t] & SHEET_FLAT
+                        ? 0
+                        : octagon_word(&frame, &octagon);
   }
 }
 

@@ -18,8 +18,9 @@
  * also has a horizon: the nearest depth that some surrounding face surely
  * reaches all over it; what is behind the horizon is hidden in the tile, and
  * left out of its list.
- *  All of this is decided by integers; a tile that is
- * refused for caution costs time, never truth.
+ *
+ * All of this is decided by integers; a tile that is refused for caution costs
+ * time, never truth.
  *
  * Source  Warnock's surrounder [Warnock1969], with a layer for the face.
  */
