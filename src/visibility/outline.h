@@ -13,7 +13,7 @@
  * second, one over the triangles.
  *
  * A convex body is of this kind, but two of its faces lie over every point, and
- * the page cannot tell which is in front: see doc/decisions/0017.
+ * the page cannot tell which is in front: see doc/decisions/0018.
  */
 #ifndef VISIBILITY_OUTLINE_H
 #define VISIBILITY_OUTLINE_H
