@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -177,7 +178,7 @@ static struct cost draw_again(const struct hard_scene *what, bool painted) {
   return (struct cost){median_of(whole, n), median_of(solver, n)};
 }
 
-/* One round in a process of its own, which an alarm ends.
+/* One round in a process of its own, which ends when its time is up.
  * solver  NULL: auto */
 static struct cost measure(const struct hard_scene *what, bool painted,
                            const struct solver *solver) {
@@ -188,7 +189,7 @@ static struct cost measure(const struct hard_scene *what, bool painted,
     return cost;
   pid_t child = fork();
   if (child == 0) {
-    alarm(LIMIT_S);
+    setrlimit(RLIMIT_CPU, &(struct rlimit){LIMIT_S, LIMIT_S});
     timed = solver;
     cost = draw_again(what, painted);
     _exit(write(ends[1], &cost, sizeof cost) != (ssize_t)sizeof cost);
