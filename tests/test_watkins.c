@@ -460,6 +460,20 @@ static void what_no_line_meets_is_not_drawn_where_it_is_hidden(void **state) {
   }
 }
 
+/* However steep the face is that the line sees: it reaches there itself. */
+static void a_face_hides_as_far_as_it_reaches(void **state) {
+  const struct pixels_scene scene = {
+      2,
+      {{3, {{4, 4, 0}, {28, 4, 0}, {16, 28, 24}}},
+       {4, {{15, 18, 4}, {17, 18, 4}, {17, 20, 4}, {15, 20, 4}}}}};
+  struct map map;
+  (void)state;
+  solve_scene(&scene, true, 1000, &map, NULL);
+  for (size_t e = 0; e < 7; e++)
+    assert_int_equal(map.edge_state[e], e < 3 ? MAP_VISIBLE : MAP_HIDDEN);
+  map_fini(&map);
+}
+
 /* The sum of the visible shares of all edges. */
 static double visible_share(const struct map *map) {
   double share = 0;
@@ -523,6 +537,7 @@ int main(void) {
       cmocka_unit_test(equal_sides_make_one_trapezoid),
       cmocka_unit_test(whole_edges_are_visible_from_end_to_end),
       cmocka_unit_test(what_no_line_meets_is_not_drawn_where_it_is_hidden),
+      cmocka_unit_test(a_face_hides_as_far_as_it_reaches),
       cmocka_unit_test(strokes_end_where_faces_pierce_within_a_pitch),
       cmocka_unit_test(lines_are_refused_where_there_are_too_many),
   };

@@ -197,6 +197,36 @@ static bool lets_be_seen(const struct trace *trace, const struct sight *sight,
                   trace_contact(trace->sheet, z);
 }
 
+/* Does the facet that a line sees above or below a place of an edge reach as
+ * far as that place, and is it nearer there? */
+static bool is_covered(const struct trace *trace, const struct trace_edge *edge,
+                       const struct sight *sight, bool upper, double t) {
+  const struct sheet *sheet = trace->sheet;
+  const struct sheet_edge *own = &sheet->edge.item[edge->edge];
+  double x = edge->x0 + t * edge->dx, y = edge->y0 + t * edge->dy;
+  double z = edge->z0 + t * edge->dz, at[3][2], per_column, per_line;
+  const void *line = upper ? sight->upper : sight->lower;
+  uint32_t facet = line != NULL ? sight->seen(line, x) : SHEET_NONE;
+  if (facet == SHEET_NONE || facet == own->triangle[0] ||
+      facet == own->triangle[1])
+    return false;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point p =
+        sheet->point.item[sheet->triangle.item[facet].point[k]];
+    at[k][0] = frame_x(&trace->grid, p.x) - x;
+    at[k][1] = frame_y(&trace->grid, p.y) - y;
+  }
+  for (int k = 0; k < 3; k++) {
+    const double *p = at[k], *q = at[(k + 1) % 3];
+    if (p[0] * q[1] - p[1] * q[0] < 0)
+      return false;
+  }
+  raster_slopes(sheet, &trace->grid, facet, &per_column, &per_line);
+  return z + trace->step + trace_contact(sheet, z) <
+         (double)sheet->point.item[sheet->triangle.item[facet].point[0]].z -
+             per_column * at[0][0] - per_line * at[0][1];
+}
+
 /* Asks the centres about the middle of the cell, the nearest ones first. */
 static bool is_visible(const struct trace *trace, const struct trace_edge *edge,
                        const struct sight *sight) {
@@ -205,10 +235,11 @@ static bool is_visible(const struct trace *trace, const struct trace_edge *edge,
   bool upper = edge->y0 + t * edge->dy > sight->line + 1;
   double near = trace->reach_x > 0 ? floor(x) + 0.5 : x;
   double far = x < near ? near - 1 : near + 1;
+  if (trace->reach_x == 0 && edge->between)
+    return lets_be_seen(trace, sight, upper, near, z) &&
+           !is_covered(trace, edge, sight, upper, t);
   if (lets_be_seen(trace, sight, upper, near, z))
     return true;
-  if (trace->reach_x == 0 && edge->between)
-    return false;
   if (lets_be_seen(trace, sight, !upper, near, z))
     return true;
   return trace->reach_x > 0 && (lets_be_seen(trace, sight, upper, far, z) ||

@@ -11,8 +11,9 @@
  * it, though the others may see a facet further in that is nearer.  But of an
  * edge that lies between two lines of exact x they tell no more than that, and
  * it may be much shorter than they are apart: it is visible where the nearer
- * one lets it.  (On fandisk at 64 lines 56 mm of ink are wrong so, and 67 where
- * either line may let it; on a soup of 1,000 at 16 lines 8,965 and 10,111.)
+ * one lets it, unless the facet seen there reaches to the edge itself and is
+ * nearer.  (On fandisk at 64 lines 56 mm of ink are wrong so, and 67 where
+ * either line may let it; on a soup of 1,000 at 16 lines 8,753 and 10,111.)
  *
  * Bias.  A centre lets the cell be seen where it sees nothing, or where the
  * edge lies no deeper than
