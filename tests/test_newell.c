@@ -19,8 +19,10 @@ struct ordered {
   struct newell_order order;
 };
 
+/* In the order in which faces can be painted. */
 static recto_status put_in_order(struct ordered *o, recto_progress_fn ask) {
-  const struct solver_request request = {.threads = 1, .progress = ask};
+  const struct solver_request request = {
+      .fragments = true, .threads = 1, .progress = ask};
   recto_error error;
   assert_true(pagegrid_init(&o->grid, &o->sheet));
   return newell_order_init(&o->order, &o->sheet, &o->grid, &request, &error);
@@ -197,6 +199,29 @@ static void equal_planes_are_painted_latest_first(void **state) {
                                     {{1, 1, 1}, {9, 1, 9}, {1, 9, 1}}};
   (void)state;
   assert_tally(face, (struct tally){.full = 1, .moved = 1, .behind = 1}, 1, 0);
+}
+
+/* Contact hides no line: two that pierce each other by less are left whole,
+ * where lines are all that is asked for. */
+static void lines_alone_need_no_order_of_what_touches(void **state) {
+  static const int face[2][3][3] = {{{0, 0, 0}, {20, 0, 20}, {0, 20, 0}},
+                                    {{1, 1, 2}, {15, 1, 14}, {1, 15, 1}}};
+  (void)state;
+  for (int fragments = 0; fragments < 2; fragments++) {
+    const struct solver_request request = {.fragments = fragments != 0,
+                                           .threads = 1};
+    struct ordered o;
+    recto_error error;
+    hand_sheet_init(&o.sheet);
+    for (int f = 0; f < 2; f++)
+      hand_add_face(&o.sheet, face[f], 3, 1);
+    assert_true(pagegrid_init(&o.grid, &o.sheet));
+    assert_int_equal(
+        newell_order_init(&o.order, &o.sheet, &o.grid, &request, &error),
+        RECTO_OK);
+    assert_int_equal(o.order.counts.split_pierce, fragments);
+    ordered_fini(&o);
+  }
 }
 
 /* ---- Any order is a painter's order
@@ -401,6 +426,7 @@ int main(void) {
       cmocka_unit_test(test_d_settles_what_only_seems_to_overlap),
       cmocka_unit_test(a_face_behind_is_moved_ahead),
       cmocka_unit_test(equal_planes_are_painted_latest_first),
+      cmocka_unit_test(lines_alone_need_no_order_of_what_touches),
       cmocka_unit_test(nothing_painted_later_is_behind),
       cmocka_unit_test(long_cycles_are_broken),
       cmocka_unit_test(progress_may_say_stop),

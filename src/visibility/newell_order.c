@@ -286,6 +286,8 @@ recto_status newell_order_init(struct newell_order *order,
   order->sheet = sheet;
   order->grid = grid;
   order->pulse = pulse_of(request, "ordering");
+  order->lines_only = !request->fragments;
+  order->prepared = NEWELL_NONE;
   if (!pagegrid_query_init(&order->query, grid) || !add_triangles(order))
     return error_memory(error);
   s = sort_by_depth(order, n);

@@ -7,6 +7,7 @@
 #include "visibility/contact.h"
 #include "visibility/pagegrid.h"
 #include "visibility/pulse.h"
+#include "visibility/stance.h"
 
 #define NEWELL_NONE UINT32_MAX
 
@@ -48,6 +49,10 @@ struct newell_order {
   struct arena arena, scratch;
   struct newell_counts counts;
   struct pulse pulse;
+  bool lines_only; /* what touches needs no order: contact never hides lines */
+  struct triangle_plane plane; /* of triangle `prepared`, the candidate's */
+  struct stance_plane stance;
+  uint32_t prepared;
 };
 
 /* Orders all triangles of the sheet.

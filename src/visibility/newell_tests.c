@@ -73,12 +73,29 @@ static enum newell_result test_full(struct newell_order *order, uint32_t p,
   return q_in_front ? NEWELL_PIERCE : NEWELL_Q_FIRST;
 }
 
+/* Prepares the plane of the candidate. */
+static void prepare(struct newell_order *order, uint32_t triangle) {
+  if (order->prepared == triangle) return;
+  order->prepared = triangle;
+  order->plane = triangle_plane_of(order->sheet, triangle);
+  order->stance = stance_plane_of(order->sheet, triangle);
+}
+
+/* Does the candidate surely hide nothing of the edges of triangle t? */
+static bool hides_nothing(const struct newell_order *order, uint32_t t) {
+  const uint32_t *point = order->sheet->triangle.item[t].point;
+  for (int k = 0; k < 3; k++)
+    if (stance_hides(&order->stance, order->sheet->point.item[point[k]]) <= 0)
+      return false;
+  return true;
+}
+
 enum newell_result newell_test(struct newell_order *order, uint32_t p,
                                uint32_t q) {
   const struct newell_piece *pp = &order->piece.item[p],
                             *pq = &order->piece.item[q];
   struct newell_counts *counts = &order->counts;
-  struct triangle_plane tp, tq;
+  struct triangle_plane tq;
   struct geom_line line;
   int p_sides, q_sides;
   if (pq->z_low > pp->z_high) {
@@ -89,20 +106,24 @@ enum newell_result newell_test(struct newell_order *order, uint32_t p,
     counts->minimax++;
     return NEWELL_P_FIRST;
   }
-  tp = triangle_plane_of(order->sheet, pp->triangle);
+  prepare(order, pp->triangle);
+  if (order->lines_only && hides_nothing(order, pq->triangle)) {
+    counts->before++;
+    return NEWELL_P_FIRST;
+  }
   tq = triangle_plane_of(order->sheet, pq->triangle);
-  p_sides = plane_sides(&tq.plane, tp.p);
+  p_sides = plane_sides(&tq.plane, order->plane.p);
   if (p_sides == PLANE_BEHIND || (p_sides == 0 && pq->triangle < pp->triangle)) {
     counts->behind++;
     return NEWELL_P_FIRST;
   }
-  q_sides = plane_sides(&tp.plane, tq.p);
+  q_sides = plane_sides(&order->plane.plane, tq.p);
   if (q_sides == PLANE_BEFORE) {
     counts->before++;
     return NEWELL_P_FIRST;
   }
   if (p_sides == PLANE_BEFORE || q_sides == PLANE_BEHIND || q_sides == 0)
     return test_full(order, p, q, NULL);
-  (void)geom_line_between(&line, &tq.plane, &tp.plane);
+  (void)geom_line_between(&line, &tq.plane, &order->plane.plane);
   return test_full(order, p, q, &line);
 }
