@@ -28,15 +28,15 @@ static struct counts paint(const struct scene *scene, recto_options *options) {
   pipeline_run(&pipeline, scene, options, &solver_tiles);
   assert_int_equal(pipeline.status, RECTO_OK);
   const struct report *report = pipeline.report;
-  counts = (struct counts){
-      report_get(report, "faces", "hidden", -1),
-      report_get(report, "faces", "whole", -1),
-      report_get(report, "faces", "mixed", -1),
-      report_get(report, "faces", "hidden_by_contours", -1),
-      report_get(report, "tiles", "triangles_left_over", -1),
-      report_get(report, "faces", "pairs", -1),
-      report_get(report, "faces", "cuts", -1),
-      report_get(report, "fragments", "faces_united", -1)};
+  counts =
+      (struct counts){report_get(report, "faces", "hidden", -1),
+                      report_get(report, "faces", "whole", -1),
+                      report_get(report, "faces", "mixed", -1),
+                      report_get(report, "faces", "hidden_by_contours", -1),
+                      report_get(report, "tiles", "triangles_left_over", -1),
+                      report_get(report, "faces", "pairs", -1),
+                      report_get(report, "faces", "cuts", -1),
+                      report_get(report, "fragments", "faces_united", -1)};
   pipeline_fini(&pipeline);
   /* Each of them is one of the three. */
   assert_int_equal(counts.hidden + counts.whole + counts.mixed,

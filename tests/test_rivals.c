@@ -44,9 +44,8 @@ static void assert_same_union(const geom_pieces *a, const geom_pieces *b) {
     assert_int_equal(p.loop.item[i].hole, q.loop.item[i].hole);
   }
   for (size_t i = 0; i < p.side.count; i++)
-    assert_int_equal(geom_corner_compare(&p.side.item[i].corner,
-                                         &q.side.item[i].corner),
-                     0);
+    assert_int_equal(
+        geom_corner_compare(&p.side.item[i].corner, &q.side.item[i].corner), 0);
   geom_region_fini(&p);
   geom_region_fini(&q);
 }

@@ -19,7 +19,8 @@
 #include "visibility/crowd.h"
 #include "visibility/surround.h"
 
-/* ---- Contours by tile --------------------------------------------------------- */
+/* ---- Contours by tile
+ * --------------------------------------------------------- */
 
 /* Counts the contours of wanted tiles, or with `filling` lists them. */
 static void visit_contours(struct leftover *leftover, const uint8_t *wanted,
@@ -128,8 +129,7 @@ static bool is_crossed(const struct leftover *leftover) {
       size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
       for (uint32_t i = leftover->start[cell]; i < leftover->start[cell + 1];
            i++) {
-        const uint32_t *point =
-            sheet->contour.item[leftover->contour[i]].point;
+        const uint32_t *point = sheet->contour.item[leftover->contour[i]].point;
         struct geom_point p = sheet->point.item[point[0]],
                           q = sheet->point.item[point[1]];
         if ((p.z >= rivals->low || q.z >= rivals->low) &&
@@ -140,7 +140,8 @@ static bool is_crossed(const struct leftover *leftover) {
   return false;
 }
 
-/* ---- Triangles about one -------------------------------------------------------- */
+/* ---- Triangles about one
+ * -------------------------------------------------------- */
 
 /* What is hidden is no rival; only an earlier triangle may have to be given
  * what it touches. */
@@ -202,7 +203,8 @@ static bool find_about(struct leftover *leftover) {
   return true;
 }
 
-/* ---- Solving -------------------------------------------------------------------- */
+/* ---- Solving
+ * -------------------------------------------------------------------- */
 
 /* Asks all that is about, or until one hides the triangle at hand. */
 static bool ask_about(struct leftover *leftover) {

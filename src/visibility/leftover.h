@@ -23,7 +23,7 @@ struct leftover_counts {
 struct leftover {
   const struct sheet *sheet;
   const struct tilelist *lists; /* lent */
-  uint8_t *state; /* lent: one a triangle, enum map_state */
+  uint8_t *state;               /* lent: one a triangle, enum map_state */
   uint32_t *start, *contour; /* of tile i: contour[start[i] .. start[i + 1]) */
   struct pagegrid_query query;
   struct rivals rivals;

@@ -85,7 +85,8 @@ void rivals_start(struct rivals *rivals, uint32_t triangle) {
   rivals->rival.count = 0;
 }
 
-/* ---- 1. Gathering ------------------------------------------------------------ */
+/* ---- 1. Gathering
+ * ------------------------------------------------------------ */
 
 /* A mask as of plane_sides; -1 where doubles cannot tell. */
 static int near_sides(const struct stance_plane *plane,
@@ -173,7 +174,8 @@ bool rivals_ask(struct rivals *rivals, uint32_t g) {
   return ARRAY_PUSH(&rivals->rival, rival);
 }
 
-/* ---- Rivals and parts, exactly ----------------------------------------------- */
+/* ---- Rivals and parts, exactly
+ * ----------------------------------------------- */
 
 /* Makes a rival's lines, if they were not; but the fourth. */
 static bool make_lines(struct rivals *rivals, struct rival *rival) {
@@ -303,7 +305,8 @@ static bool take_few(struct rivals *rivals, const struct geom_convex *piece,
   return true;
 }
 
-/* ---- 2. Parting ---------------------------------------------------------------- */
+/* ---- 2. Parting
+ * ---------------------------------------------------------------- */
 
 static double along(const struct rivals_axis *axis, double x, double y) {
   return (x - axis->x) * axis->dx + (y - axis->y) * axis->dy;
@@ -354,7 +357,8 @@ static void reach_crossing(struct rival_reach *reach, const double p[2],
 
 /* Where a rival may be along the axis, within the part's breadth; false:
  * nowhere. */
-static bool find_reach(const struct rivals *rivals, const struct rivals_axis *axis,
+static bool find_reach(const struct rivals *rivals,
+                       const struct rivals_axis *axis,
                        struct rival_reach *reach) {
   const struct sheet *sheet = rivals->sheet;
   const uint32_t *point =
@@ -423,13 +427,14 @@ struct parting {
 /* Does the line of that side cross the part, and how? */
 static bool find_crossing(const struct rivals *rivals,
                           const struct geom_convex *piece,
-                          const struct rivals_axis *axis, struct parting *parting) {
+                          const struct rivals_axis *axis,
+                          struct parting *parting) {
   const struct sheet *sheet = rivals->sheet;
   const uint32_t *point =
       sheet->triangle.item[rivals->rival.item[parting->rival].triangle].point;
   const struct geom_point *a = &sheet->point.item[point[parting->side]],
-                          *b = &sheet->point.item[point[(parting->side + 1) %
-                                                        3]];
+                          *b = &sheet->point
+                                    .item[point[(parting->side + 1) % 3]];
   double dx = (double)b->x - a->x, dy = (double)b->y - a->y;
   const struct geom_corner *last = &piece->corner[piece->count - 1];
   double before = dx * (last->y - a->y) - dy * (last->x - a->x);
@@ -473,8 +478,8 @@ static bool choose_parting(const struct rivals *rivals,
   double least = MOST_LEFT;
   *best = (struct parting){0};
   for (size_t i = 0; i < LINES && least > GOOD; i++) {
-    struct parting now = {.rival = reach[(2 * i + 1) * count / (2 * LINES)]
-                                       .rival};
+    struct parting now = {.rival =
+                              reach[(2 * i + 1) * count / (2 * LINES)].rival};
     for (now.side = 0; now.side < 3; now.side++) {
       double left;
       if (!find_crossing(rivals, piece, axis, &now))
@@ -591,8 +596,8 @@ static bool find_cover(struct rivals *rivals, size_t count,
 
 /* The one of the last `count` reaches that is longest along the part, where it
  * is long; else `count`. */
-static size_t find_long(const struct rivals *rivals, const struct rivals_axis *axis,
-                        size_t count) {
+static size_t find_long(const struct rivals *rivals,
+                        const struct rivals_axis *axis, size_t count) {
   const struct rival_reach *reach =
       rivals->reach.item + (rivals->reach.count - count);
   double most = LONG * (axis->u1 - axis->u0);
@@ -706,8 +711,8 @@ static bool list_all(struct rivals *rivals) {
   }
   sort_keys(rivals->key.item, rivals->key.item + n, n);
   for (size_t i = 0; i < n; i++)
-    rivals->reach.item[i] = (struct rival_reach){-INFINITY, INFINITY,
-                                                 rivals->key.item[i].value};
+    rivals->reach.item[i] =
+        (struct rival_reach){-INFINITY, INFINITY, rivals->key.item[i].value};
   rivals->reach.count = n;
   return true;
 }

@@ -58,7 +58,7 @@ struct rivals_counts {
 struct rivals {
   const struct sheet *sheet;
   struct pulse *pulse; /* lent; NULL, as at first: nobody is asked */
-  uint32_t triangle; /* the one at hand */
+  uint32_t triangle;   /* the one at hand */
   struct triangle_plane plane;
   struct stance_plane stance;
   struct page_box box;

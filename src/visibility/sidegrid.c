@@ -8,8 +8,8 @@
 #include "base/sort.h"
 
 enum {
-  SPREAD = 4,       /* cells a side is in, on average, at most ... */
-  ROOM = 1 << 20,   /* ... but so many places are always there ... */
+  SPREAD = 4,      /* cells a side is in, on average, at most ... */
+  ROOM = 1 << 20,  /* ... but so many places are always there ... */
   SPREAD_MOST = 16 /* ... for as many more of each */
 };
 
@@ -82,8 +82,9 @@ static uint32_t number_of(const struct geom_point end[2]) {
   return (uint32_t)number;
 }
 
-static bool add_side(const struct sidegrid *grid, const struct geom_point end[2],
-                     uint32_t side, side_keys *keys) {
+static bool add_side(const struct sidegrid *grid,
+                     const struct geom_point end[2], uint32_t side,
+                     side_keys *keys) {
   const struct pagegrid *shape = &grid->shape;
   struct cell_range r =
       pagegrid_cells(shape, page_box_of_segment(end[0], end[1]));
@@ -205,10 +206,10 @@ bool sidegrid_find(const struct sidegrid *grid, const struct geom_line *line,
                    const struct geom_corner *p, const struct geom_corner *q,
                    side_list *found) {
   const struct pagegrid *shape = &grid->shape;
-  int y0 = cell_of(fmin(p->y, q->y) - MARGIN, shape->y0, shape->shift,
-                   shape->rows);
-  int y1 = cell_of(fmax(p->y, q->y) + MARGIN, shape->y0, shape->shift,
-                   shape->rows);
+  int y0 =
+      cell_of(fmin(p->y, q->y) - MARGIN, shape->y0, shape->shift, shape->rows);
+  int y1 =
+      cell_of(fmax(p->y, q->y) + MARGIN, shape->y0, shape->shift, shape->rows);
   uint64_t number;
   if (!geom_line_number(line, &number))
     return true;

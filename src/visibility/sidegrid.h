@@ -15,9 +15,9 @@
 typedef ARRAY(uint32_t) side_list;
 
 struct sidegrid {
-  struct pagegrid shape; /* of its cells; it has no lists */
+  struct pagegrid shape;  /* of its cells; it has no lists */
   uint32_t *start, *item; /* of cell c: item[start[c] .. start[c + 1]) */
-  uint32_t *number; /* one an item, ascending in each cell: of its line */
+  uint32_t *number;       /* one an item, ascending in each cell: of its line */
 };
 
 /* Indexes the sides that are edges of the sheet.

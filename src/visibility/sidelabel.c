@@ -180,15 +180,17 @@ static uint32_t own_edge(const struct question *q) {
   return id;
 }
 
-static uint32_t nearer_edge(const struct question *q) {
+/* The lowest edge along the stretch among the sides found: of the face's own,
+ * or of those that are nearer. */
+static uint32_t edge_found(const struct question *q, bool own) {
   uint32_t id = SHEET_NONE;
   struct geom_corner from, to;
   for (size_t i = 0; i < q->side_count; i++) {
     uint32_t g = q->side[i] / 3, k = q->side[i] % 3;
     const struct sheet_triangle *triangle = &q->sheet->triangle.item[g];
-    if (triangle->side[k] < id && triangle->face != q->face &&
+    if (triangle->side[k] < id && (triangle->face == q->face) == own &&
         side_runs_along(q->sheet, g, k, &q->stretch, &from, &to) &&
-        is_nearer_than_own(q, g, &from, &to))
+        (own || is_nearer_than_own(q, g, &from, &to)))
       id = triangle->side[k];
   }
   return id;
@@ -206,7 +208,7 @@ static uint32_t crossing_face(const struct question *q) {
 
 /* What other faces have along the stretch. */
 static uint8_t ask_others(const struct question *q, uint32_t *id) {
-  *id = nearer_edge(q);
+  *id = edge_found(q, false);
   if (*id != SHEET_NONE) return MAP_SIDE_OUTLINE;
   *id = crossing_face(q);
   return *id != SHEET_NONE ? MAP_SIDE_INTERSECTION : MAP_SIDE_CUT;
@@ -278,20 +280,6 @@ static bool find_sides(struct side_labels *labels, struct question *q) {
   return true;
 }
 
-/* The lowest edge among the sides found that is the face's own. */
-static uint32_t own_edge_found(const struct question *q) {
-  uint32_t id = SHEET_NONE;
-  struct geom_corner from, to;
-  for (size_t i = 0; i < q->side_count; i++) {
-    uint32_t t = q->side[i] / 3, k = q->side[i] % 3;
-    const struct sheet_triangle *triangle = &q->sheet->triangle.item[t];
-    if (triangle->face == q->face && triangle->side[k] < id &&
-        side_runs_along(q->sheet, t, k, &q->stretch, &from, &to))
-      id = triangle->side[k];
-  }
-  return id;
-}
-
 static bool is_among(const uint32_t *item, size_t count, uint32_t wanted) {
   while (count > 0) {
     size_t half = count / 2;
@@ -348,14 +336,14 @@ bool side_label(struct side_labels *labels, const struct geom_line *line,
   question.box = box_of(&question.stretch);
   if (!find_sides(labels, &question)) return false;
   if (!few) {
-    *id = own_edge_found(&question);
+    *id = edge_found(&question, true);
     if (*id != SHEET_NONE) return true;
     if (!find_triangles(labels, &question) ||
         !find_own_about(labels, &question))
       return false;
   }
   *side = MAP_SIDE_OUTLINE;
-  *id = nearer_edge(&question);
+  *id = edge_found(&question, false);
   if (*id != SHEET_NONE) return true;
   if (!find_triangles(labels, &question) ||
       !keep_own_beside(labels, &question))
