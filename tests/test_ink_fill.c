@@ -312,7 +312,8 @@ static void draw_hatch(struct inked *k, const struct polygon *p, double pitch,
   inked_draw(k);
 }
 
-/* Every stroke stays inside and its long runs are on the page's lines; the
+/* Every stroke stays inside, its long runs are on the page's lines, and between
+ * them it is on the ink of a side, up to what three places of a move tell; the
  * runs add up to the area.  Returns how many strokes there are. */
 static size_t assert_hatch(const struct polygon *p, double pitch,
                            double angle_deg, double area_slack) {
@@ -332,6 +333,8 @@ static size_t assert_hatch(const struct polygon *p, double pitch,
         double x = q[i].x + (q[i + 1].x - q[i].x) * t / SAMPLES;
         double y = q[i].y + (q[i + 1].y - q[i].y) * t / SAMPLES;
         assert_true(depth_in(p, x, y) > -1e-6);
+        assert_true(i % 2 == 0 ||
+                    depth_in(p, x, y) < 1.25 * k.options.pen_mm / 2);
       }
       double across = q[i].y * cos(turn) - q[i].x * sin(turn);
       double line = across / pitch - 0.5;
@@ -352,13 +355,28 @@ static struct polygon polygon_of(const double *xy, uint32_t count) {
   return p;
 }
 
-static void rectangle_is_hatched_in_one_stroke(void **state) {
+static void rectangle_is_hatched_in_few_strokes(void **state) {
   struct polygon p = polygon_of(INKED_XY(outer));
   (void)state;
   assert_int_equal(assert_hatch(&p, 2, 0, 1e-6), 1);
   assert_int_equal(assert_hatch(&p, 2, 90, 1e-6), 1);
   assert_int_equal(assert_hatch(&p, 2.5, 45, 100), 1);
-  assert_int_equal(assert_hatch(&p, 1, -30, 40), 1);
+  /* At a corner the way would be off the ink. */
+  assert_int_equal(assert_hatch(&p, 1, -30, 40), 2);
+}
+
+static void hatching_of_another_pen_leaves_the_lines_alone(void **state) {
+  struct inked k;
+  struct polygon p = polygon_of(INKED_XY(outer));
+  (void)state;
+  draw_hatch(&k, &p, 2, 0);
+  assert_int_equal(k.drawing.stroke.count, 1);
+  k.options.pen_for = "hatch=2";
+  inked_draw(&k);
+  assert_true(k.drawing.stroke.count > 10);
+  for (size_t s = 0; s < k.drawing.stroke.count; s++)
+    assert_int_equal(k.drawing.stroke.item[s].count, 2);
+  inked_end(&k);
 }
 
 static void pen_goes_to_the_next_line_along_ink_alone(void **state) {
@@ -586,9 +604,9 @@ static void hatching_runs_on_over_edges_that_are_not_drawn(void **state) {
   assert_int_equal(count_strokes_over(0, false, 1), 1);
   assert_int_equal(count_strokes_over(CREASE, false, 1), 2);
   /* Spans end at the diagonal, which bears no ink: 20 lines over each face, in
-   * pairs. */
+   * pairs, but for those of the face whose sides another pen draws. */
   assert_int_equal(count_strokes_over(0, true, 1), 20);
-  assert_int_equal(count_strokes_over(0, false, 2), 20);
+  assert_int_equal(count_strokes_over(0, false, 2), 30);
 }
 
 static void fragment_between_two_lines_is_left_alone(void **state) {
@@ -640,7 +658,8 @@ int main(void) {
       cmocka_unit_test(groups_are_painted_in_their_colour_or_one_of_their_own),
       cmocka_unit_test(shade_is_by_the_angle_to_the_light),
       cmocka_unit_test(perspective_shades_the_side_that_the_eye_sees),
-      cmocka_unit_test(rectangle_is_hatched_in_one_stroke),
+      cmocka_unit_test(rectangle_is_hatched_in_few_strokes),
+      cmocka_unit_test(hatching_of_another_pen_leaves_the_lines_alone),
       cmocka_unit_test(pen_goes_to_the_next_line_along_ink_alone),
       cmocka_unit_test(lines_through_corners_count_once),
       cmocka_unit_test(hole_is_left_white),

@@ -19,8 +19,8 @@ USE_RESULT bool fill_add(struct drawing *drawing, const struct sheet *sheet,
 /* Adds strokes of class 0 along parallel lines, hatch_pitch_mm apart and
  * turned by hatch_angle_deg from the x axis, over every fragment.  The lines
  * are the page's: over neighbours they meet.  A stroke goes to and fro while
- * the move to the next line stays inside the fragment, between sides that are
- * drawn as lines; those too short for their pen are left out. */
+ * the move to the next line stays inside the fragment and on the ink of sides
+ * that its pen draws; those too short for their pen are left out. */
 USE_RESULT bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
                           const struct scene *scene, const struct map *map,
                           const struct pens *pens,

@@ -7,7 +7,7 @@
  *   2 spans     of the ruling's lines within it, inset where asked (inset.h)
  *   3 strips    its sides listed by the strips they reach into
  *   4 strokes   from a span to one of the next line, at the end where the pen
- *               stands, while the move stays inside and near inked sides */
+ *               stands, while the move stays inside and on ink of this pen */
 #include <math.h>
 
 #include "base/sort.h"
@@ -24,7 +24,10 @@ struct hatch {
   const struct sheet *sheet;
   struct ruling ruling;
   struct patches patches;
+  const struct pens *pens;
+  uint32_t pen; /* that hatches the patch at hand */
   double shortest;
+  double reach; /* mm from a side within which a move is on its ink */
   double inset; /* mm that the pen keeps from all sides; 0: it does not */
   struct drawing_stroke like;
   /* Sides that reach into strip first + k: strip_side[strip[k] ..
@@ -244,13 +247,58 @@ static bool is_clear(const struct hatch *h, const struct ruling_crossing *from,
   return true;
 }
 
+/* Whether a side is drawn as a line with the pen that hatches: along another
+ * pen's line a move would be seen. */
+static bool is_of_pen(const struct hatch *h, uint32_t side) {
+  const struct map_corner *corner = h->ruling.side.item[side].corner;
+  const struct sheet *sheet = h->sheet;
+  if (!is_inked(h, side))
+    return false;
+  if (corner->side == MAP_SIDE_INTERSECTION || corner->id >= sheet->edge.count)
+    return !h->pens->several && h->pens->of_hatch == PENS_NONE;
+  const struct sheet_edge *edge = &sheet->edge.item[corner->id];
+  return pens_of_line(h->pens, edge->edge_class, edge->group) == h->pen;
+}
+
+/* Whether lines of this pen, among sides [begin, end) of the strips, cover a
+ * place. */
+static bool is_covered(const struct hatch *h, uint32_t begin, uint32_t end,
+                       struct ruling_place p) {
+  for (uint32_t i = begin; i < end; i++) {
+    uint32_t s = h->strip_side.item[i];
+    const struct ruling_side *side = &h->ruling.side.item[s];
+    if (ruling_distance(p, side->from, side->to) <= h->reach && is_of_pen(h, s))
+      return true;
+  }
+  return false;
+}
+
+/* Whether a move is on ink all the way, as told by three places of it: one that
+ * cuts a corner off is not. */
+static bool is_along_ink(const struct hatch *h,
+                         const struct ruling_crossing *from,
+                         const struct ruling_crossing *to) {
+  struct ruling_place a = {from->u, ruling_height(&h->ruling, from->line)};
+  struct ruling_place b = {to->u, ruling_height(&h->ruling, to->line)};
+  const uint32_t *start = h->strip.item + (to->line - h->first);
+  bool along = true;
+  for (int quarter = 1; quarter < 4 && along; quarter++) {
+    double t = quarter / 4.0;
+    struct ruling_place p = {a.u + t * (b.u - a.u), a.v + t * (b.v - a.v)};
+    along = is_covered(h, start[0], start[1], p);
+  }
+  return along;
+}
+
 /* Whether the pen may go from one crossing to one on the next line.
  * beside  asks no more than whether both are on one side */
 static bool may_go(const struct hatch *h, const struct ruling_crossing *from,
                    const struct ruling_crossing *to, bool beside) {
   if (h->inset > 0)
-    return !beside && is_inside(h, from, to) && is_clear(h, from, to);
-  return beside ? from->side == to->side : is_inside(h, from, to);
+    return !beside && is_inside(h, from, to) && is_clear(h, from, to) &&
+           is_along_ink(h, from, to);
+  return beside ? from->side == to->side
+                : is_inside(h, from, to) && is_along_ink(h, from, to);
 }
 
 /* The first span, from span `i` on, of a later line than that or of that line
@@ -272,8 +320,8 @@ static size_t find_span(const struct hatch *h, size_t i, int64_t line,
 /* The free span of the next line that the pen can go to; NULL where there is
  * none.  Those above the span are tried, and one more on either side; first
  * those along the same side, as it costs nothing to see that they do.  From
- * sides and to sides that bear no ink there is no way: the move would be seen
- * as a line between two faces that has no business there.
+ * sides and to sides that bear no ink of this pen there is no way: the move
+ * would be seen as a line that has no business there.
  * right  whether the pen stands at the right end */
 static struct ruling_span *
 find_next(struct hatch *h, const struct ruling_span *span, bool right) {
@@ -283,13 +331,13 @@ find_next(struct hatch *h, const struct ruling_span *span, bool right) {
   size_t low = find_span(h, here, line, span->left.u);
   size_t high = find_span(h, low, line, span->right.u);
   low -= low > here + 1;
-  if (!is_inked(h, from->side))
+  if (!is_of_pen(h, from->side))
     return NULL;
   for (int tests = 0; tests < 2; tests++) {
     for (size_t i = low; i < h->ruling.span.count && i <= high; i++) {
       struct ruling_span *next = &h->ruling.span.item[i];
       const struct ruling_crossing *to = right ? &next->right : &next->left;
-      if (to->line == line && !next->used && is_inked(h, to->side) &&
+      if (to->line == line && !next->used && is_of_pen(h, to->side) &&
           may_go(h, from, to, tests == 0))
         return next;
     }
@@ -343,7 +391,7 @@ static bool hatch_patch(struct hatch *h) {
 bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
                const struct scene *scene, const struct map *map,
                const struct pens *pens, const recto_options *options) {
-  struct hatch h = {.drawing = drawing, .sheet = sheet};
+  struct hatch h = {.drawing = drawing, .sheet = sheet, .pens = pens};
   ruling_init(&h.ruling, sheet, options->hatch_pitch_mm,
               options->hatch_angle_deg);
   bool good = patches_init(&h.patches, sheet, scene, map, pens, options);
@@ -351,11 +399,12 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
     end = patches_end(&h.patches, i);
     uint32_t face = map->fragment.item[h.patches.fragment[i]].face;
     uint32_t group = scene->face_group.item[face];
-    uint32_t pen = pens_of_hatch(pens, group);
-    h.inset = options->hatch_inset ? pens_width_mm(pens, pen) / 2 : 0;
-    h.shortest = pens_shortest_mm(pens, pen);
+    h.pen = pens_of_hatch(pens, group);
+    h.inset = options->hatch_inset ? pens_width_mm(pens, h.pen) / 2 : 0;
+    h.reach = h.inset + pens_width_mm(pens, h.pen) / 2;
+    h.shortest = pens_shortest_mm(pens, h.pen);
     h.like = (struct drawing_stroke){
-        .layer = pen, .face = face, .edge = DRAWING_NONE, .group = group};
+        .layer = h.pen, .face = face, .edge = DRAWING_NONE, .group = group};
     good = take_sides(&h, map, i, end) && hatch_patch(&h);
   }
   ruling_fini(&h.ruling);

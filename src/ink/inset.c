@@ -140,19 +140,11 @@ bool inset_spans(struct ruling *ruling, double distance) {
 
 /* ---- Moves -------------------------------------------------------------- */
 
-static double distance_to(struct ruling_place p, struct ruling_place a,
-                          struct ruling_place b) {
-  double du = b.u - a.u, dv = b.v - a.v, length2 = du * du + dv * dv;
-  double t = length2 > 0 ? ((p.u - a.u) * du + (p.v - a.v) * dv) / length2 : 0;
-  t = fmin(fmax(t, 0), 1);
-  return hypot(p.u - a.u - t * du, p.v - a.v - t * dv);
-}
-
 bool inset_is_clear(const struct ruling_side *side, struct ruling_place a,
                     struct ruling_place b, double distance) {
   /* Its ends are clear, so that where it does not cross the side it is
    * nearest at one of the side's. */
   double least = distance - TOLERANCE_COINCIDENT_UNITS / SHEET_UNITS_PER_MM;
-  return distance_to(side->from, a, b) >= least &&
-         distance_to(side->to, a, b) >= least;
+  return ruling_distance(side->from, a, b) >= least &&
+         ruling_distance(side->to, a, b) >= least;
 }

@@ -55,6 +55,14 @@ struct ruling_place ruling_place_at(const struct ruling *ruling, double x,
                                             sheet_y_mm(ruling->sheet, y)});
 }
 
+double ruling_distance(struct ruling_place p, struct ruling_place a,
+                       struct ruling_place b) {
+  double du = b.u - a.u, dv = b.v - a.v, length2 = du * du + dv * dv;
+  double t = length2 > 0 ? ((p.u - a.u) * du + (p.v - a.v) * dv) / length2 : 0;
+  t = fmin(fmax(t, 0), 1);
+  return hypot(p.u - a.u - t * du, p.v - a.v - t * dv);
+}
+
 void ruling_clear(struct ruling *ruling) { ruling->side.count = 0; }
 
 bool ruling_take(struct ruling *ruling, const struct map *map,

@@ -66,6 +66,10 @@ void ruling_find_lines(const struct ruling *ruling,
 /* Where a side that is not level is at height v. */
 double ruling_u_at(const struct ruling_side *side, double v);
 
+/* From a place to the nearest one between two others. */
+double ruling_distance(struct ruling_place p, struct ruling_place a,
+                       struct ruling_place b);
+
 /* Forgets all sides; takes those of one more fragment; finds the spans, which
  * have a length each. */
 void ruling_clear(struct ruling *ruling);
