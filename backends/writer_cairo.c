@@ -17,6 +17,9 @@
 
 #define MM_PER_INCH 25.4
 #define POINTS_PER_INCH 72.0
+/* Pages are whole numbers of these, so that rounding makes none a point larger:
+ * a third of a nanometre. */
+#define PAGE_STEPS_PER_POINT 0x1p20
 #define DEFAULT_DPI 150.0
 /* The largest picture: a side is cairo's limit, the area a gigabyte of it. */
 #define MAX_PIXELS_A_SIDE 32767.0
@@ -276,6 +279,11 @@ static recto_status judge(cairo_status_t status, const struct stream *stream,
 
 typedef cairo_surface_t *open_surface(struct sink *sink);
 
+static double page_points(double length_mm) {
+  double points = length_mm * (POINTS_PER_INCH / MM_PER_INCH);
+  return round(points * PAGE_STEPS_PER_POINT) / PAGE_STEPS_PER_POINT;
+}
+
 static recto_status write_vector(const struct drawing *drawing,
                                  const struct writer_options *options,
                                  struct stream *stream, recto_error *error,
@@ -284,8 +292,8 @@ static recto_status write_vector(const struct drawing *drawing,
   struct window window = find_window(drawing, options->tight);
   struct sink sink = {.stream = stream,
                       .in_header = true,
-                      .width_pt = (window.x1 - window.x0) * scale,
-                      .height_pt = (window.y1 - window.y0) * scale};
+                      .width_pt = page_points(window.x1 - window.x0),
+                      .height_pt = page_points(window.y1 - window.y0)};
   sink.foot_pt = sink.height_pt;
   cairo_surface_t *surface = open(&sink);
   cairo_status_t status =

@@ -136,6 +136,18 @@ static void an_eps_file_says_the_page_is_its_box(void **state) {
 }
 
 /* 10 mm and a pen of 2 mm are 12 mm by 2 mm: 34.016 by 5.669 points. */
+/* 215.9 mm are 612 points, rounding or not. */
+static void whole_points_are_not_rounded_up(void **state) {
+  (void)state;
+  struct fixture f;
+  begin(&f, 215.9, 76.2);
+  write_as(&f, &writer_eps);
+  assert_true(has(&f, "\n%%BoundingBox: 0 0 612 216\n"));
+  write_as(&f, &writer_ps);
+  assert_true(has(&f, " 612 216 0 () ()\n"));
+  end(&f);
+}
+
 static void tight_leaves_the_box_of_the_ink(void **state) {
   (void)state;
   struct fixture f;
@@ -463,6 +475,7 @@ int main(void) {
       cmocka_unit_test(a_pdf_bears_a_fixed_date),
       cmocka_unit_test(postscript_bears_no_date),
       cmocka_unit_test(an_eps_file_says_the_page_is_its_box),
+      cmocka_unit_test(whole_points_are_not_rounded_up),
       cmocka_unit_test(tight_leaves_the_box_of_the_ink),
       cmocka_unit_test(tight_counts_the_weight_of_lines),
       cmocka_unit_test(tight_counts_fills_and_their_seams),
