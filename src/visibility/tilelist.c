@@ -8,6 +8,9 @@
 /* Lists this long on average are worth thinking of larger cells. */
 enum { LONG_LIST = 32 };
 
+/* And so are triangles of which two are in so many tiles, on average. */
+enum { TILES_OF_TWO = 5 };
+
 /* Of a sheet of more triangles none is prepared: memory. */
 enum { PREPARED_MOST = 1 << 16 };
 
@@ -64,12 +67,14 @@ static bool prepare(struct tilelist *list, const struct sheet *sheet,
 static bool enlarge(struct tilelist *list, const struct sheet *sheet) {
   struct pagegrid large = list->map->grid, *tiles = &list->grid;
   double cost = cost_of_lists(tiles);
-  size_t count, cells = pagegrid_cell_count(tiles);
+  size_t count, entries = tiles->start[pagegrid_cell_count(tiles)];
   uint32_t *all;
   bool done;
-  if (cost < LONG_LIST / 2 * (double)tiles->start[cells]) return true;
+  if (cost < LONG_LIST / 2 * (double)entries) return true;
   all = list_all(tiles, &count);
-  done = all != NULL && pagegrid_enlarge(&large, sheet, all, count, &cost);
+  done = all != NULL;
+  if (done && 2 * entries >= TILES_OF_TWO * count)
+    done = pagegrid_enlarge(&large, sheet, all, count, &cost);
   if (done && large.shift > tiles->shift) {
     pagegrid_fini(tiles);
     list->grid = large;
