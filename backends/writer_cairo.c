@@ -6,6 +6,7 @@
  * does not offer: PS without the time of day, EPS with the page's box, PNG that
  * knows its resolution.  cairo keeps path points to 1/256 of a point (1.4 um).
  */
+#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -262,12 +263,14 @@ static cairo_status_t draw(cairo_surface_t *surface,
 }
 
 /* A failed write is not told here: stream_finish does, which knows the path
- * and the reason. */
-static recto_status judge(cairo_status_t status, const struct stream *stream,
-                          recto_error *error) {
-  if (stream_status(stream) != RECTO_OK)
-    return RECTO_OK;
-  if (status == CAIRO_STATUS_SUCCESS)
+ * and the reason.  Where the stream knows of none, it was cairo's own, to the
+ * file where PS waits for its page's end.
+ * fault  errno of it */
+static recto_status judge(cairo_status_t status, int fault,
+                          struct stream *stream, recto_error *error) {
+  if (stream_status(stream) == RECTO_OK && status == CAIRO_STATUS_WRITE_ERROR)
+    stream_fault(stream, fault);
+  if (stream_status(stream) != RECTO_OK || status == CAIRO_STATUS_SUCCESS)
     return RECTO_OK;
   if (status == CAIRO_STATUS_NO_MEMORY)
     return error_memory(error);
@@ -295,14 +298,16 @@ static recto_status write_vector(const struct drawing *drawing,
                       .width_pt = page_points(window.x1 - window.x0),
                       .height_pt = page_points(window.y1 - window.y0)};
   sink.foot_pt = sink.height_pt;
+  errno = 0;
   cairo_surface_t *surface = open(&sink);
   cairo_status_t status =
       draw(surface, drawing, &window, scale, sink.foot_pt, false);
   cairo_surface_finish(surface);
+  int fault = errno;
   if (status == CAIRO_STATUS_SUCCESS)
     status = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
-  return judge(status, stream, error);
+  return judge(status, fault, stream, error);
 }
 
 /* Version 1.5 is what LaTeX takes without a word. */
@@ -385,7 +390,7 @@ static recto_status write_png(const struct drawing *drawing,
   if (status == CAIRO_STATUS_SUCCESS)
     status = cairo_surface_write_to_png_stream(surface, pass_png, &sink);
   cairo_surface_destroy(surface);
-  return judge(status, stream, error);
+  return judge(status, 0, stream, error);
 }
 
 /* cairo keeps the points of paths in steps of 1/256 of the surface's unit: a

@@ -1,10 +1,13 @@
 /* test_cairo.c - what the PDF, EPS, PS and PNG writers promise. */
+#include <errno.h>
 #include <math.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -470,6 +473,37 @@ static void a_full_disk_leaves_no_file(void **state) {
   end(&f);
 }
 
+/* cairo fails first where it keeps a page of PS in a file of its own. */
+static void a_file_too_large_is_told_by_its_name(void **state) {
+  (void)state;
+  static const char path[] = "test_cairo_large.tmp";
+  struct fixture f;
+  begin(&f, 120, 120);
+  make_large(&f.drawing);
+  signal(SIGXFSZ, SIG_IGN);
+  for (size_t i = 0; i < 4; i++) {
+    recto_error error = {.code = RECTO_OK};
+    struct stream *stream;
+    struct rlimit before, small;
+    assert_int_equal(stream_open(&stream, path, &error), RECTO_OK);
+    getrlimit(RLIMIT_FSIZE, &before);
+    small = before;
+    small.rlim_cur = 4096;
+    setrlimit(RLIMIT_FSIZE, &small);
+    recto_status written =
+        formats[i]->write(&f.drawing, &f.options, stream, &error);
+    recto_status status = stream_finish(stream, &error);
+    setrlimit(RLIMIT_FSIZE, &before);
+    assert_int_equal(written, RECTO_OK);
+    assert_int_equal(status, RECTO_ERROR_IO);
+    assert_string_equal(error.file, path);
+    assert_non_null(strstr(error.text, strerror(EFBIG)));
+    assert_int_equal(access(path, F_OK), -1);
+  }
+  signal(SIGXFSZ, SIG_DFL);
+  end(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_pdf_bears_a_fixed_date),
@@ -492,6 +526,7 @@ int main(void) {
       cmocka_unit_test(a_seam_paints_nothing_over),
       cmocka_unit_test(the_same_drawing_gives_the_same_bytes),
       cmocka_unit_test(a_full_disk_leaves_no_file),
+      cmocka_unit_test(a_file_too_large_is_told_by_its_name),
   };
   return cmocka_run_group_tests_name("cairo", tests, NULL, NULL);
 }

@@ -281,6 +281,10 @@ void stream_int(struct stream *stream, int64_t value) {
   stream_write(stream, text, number_format_int(text, value));
 }
 
+void stream_fault(struct stream *stream, int fault) {
+  fail(stream, RECTO_ERROR_IO, fault != 0 ? fault : EIO);
+}
+
 recto_status stream_status(const struct stream *stream) {
   return stream->status;
 }

@@ -32,6 +32,11 @@ void stream_text(struct stream *stream, const char *text);
 void stream_number(struct stream *stream, double value, int decimals);
 void stream_int(struct stream *stream, int64_t value);
 
+/* Lets the stream fail for what its writer could not write elsewhere on the
+ * way.
+ * fault  errno; 0: not known */
+void stream_fault(struct stream *stream, int fault);
+
 /* RECTO_OK while all went well so far. */
 recto_status stream_status(const struct stream *stream);
 
