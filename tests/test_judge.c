@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "judge/ears.h"
+#include "judge/grid.h"
 #include "judge/judge.h"
 #include "tests/scenes/scenes.h"
 
@@ -805,6 +806,41 @@ static void any_bytes_and_no_memory_are_survived(void **state) {
   assert_true(n > 3);
 }
 
+/* ---- The grid of segments --------------------------------------------------
+ */
+
+/* However far it is asked to see, all that is within reach of a place is found
+ * there, in a space that grows with the segments alone. */
+static void a_wide_reach_takes_no_more_space(void **state) {
+  enum { SEGMENTS = 300 };
+  const double page = 100, reach[] = {0.01, 1, 30, 300, 1e9};
+  struct judge_segment segment[SEGMENTS];
+  (void)state;
+  for (uint32_t i = 0; i < SEGMENTS; i++) {
+    double x = i * 37 % 100, y = i * 61 % 100;
+    segment[i] = (struct judge_segment){{x, y}, {x + 0.3, y + 0.2}};
+  }
+  for (size_t r = 0; r < sizeof reach / sizeof reach[0]; r++) {
+    struct judge_grid grid;
+    assert_true(judge_grid_init(&grid, segment, SEGMENTS, page, page,
+                                page / 400, reach[r]));
+    uint32_t cells = grid.columns * grid.rows;
+    assert_true(grid.start[cells] <= 25 * SEGMENTS);
+    for (uint32_t i = 0; i < SEGMENTS; i++) {
+      struct judge_place at = {i * 17 % 101, i * 29 % 101};
+      uint32_t count, within = 0, found = 0;
+      double t;
+      for (uint32_t k = 0; k < SEGMENTS; k++)
+        within += judge_distance(&segment[k], at, &t) <= reach[r];
+      const uint32_t *near = judge_grid_near(&grid, at, &count);
+      for (uint32_t k = 0; k < count; k++)
+        found += judge_distance(&segment[near[k]], at, &t) <= reach[r];
+      assert_int_equal(found, within);
+    }
+    judge_grid_fini(&grid);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_right_drawing_of_a_cube_is_accepted),
@@ -831,6 +867,7 @@ int main(void) {
       cmocka_unit_test(what_is_not_stroked_is_no_ink),
       cmocka_unit_test(any_bytes_and_no_memory_are_survived),
       cmocka_unit_test(what_is_not_such_a_file_is_refused),
+      cmocka_unit_test(a_wide_reach_takes_no_more_space),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,6 +60,7 @@ bool judge_grid_init(struct judge_grid *grid,
                      const struct judge_segment *segment, uint32_t count,
                      double width_mm, double height_mm, double cell_mm,
                      double reach_mm) {
+  cell_mm = fmax(cell_mm, reach_mm);
   *grid = (struct judge_grid){.segment = segment,
                               .cell_mm = cell_mm,
                               .reach_mm = reach_mm,

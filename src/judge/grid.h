@@ -16,6 +16,8 @@ struct judge_grid {
 };
 
 /* Sorts segments into the cells of a page that are within reach of them.
+ * cell_mm  the side of a cell, no less than the reach: else each segment were
+ *          in all the cells of a wide neighbourhood
  * What lies beyond the page is left out.
  * Returns false when memory ran out. */
 USE_RESULT bool judge_grid_init(struct judge_grid *grid,
