@@ -183,6 +183,40 @@ static void pens_with_nothing_to_draw_are_told(void **state) {
   }
 }
 
+static void weights_of_lines_not_asked_for_are_told(void **state) {
+  static const struct {
+    const char *weights;
+    unsigned edges;
+    const char *said; /* NULL: nothing is */
+  } row[] = {
+      {"crease=2", SILHOUETTE,
+       "a weight is for crease lines, which are not asked for"},
+      {"crease=1,silhouette=2", SILHOUETTE,
+       "a weight is for crease lines, which are not asked for"},
+      {"crease=2", CREASE, NULL},
+      {"none", CREASE, NULL},
+      {NULL, CREASE, NULL},
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+    struct inked k;
+    struct pens pens;
+    struct heard heard = {.count = 0};
+    start_scene(&k);
+    k.options.weights = row[i].weights;
+    k.options.edges = row[i].edges;
+    k.options.warning = hear;
+    k.options.user = &heard;
+    assert_int_equal(pens_init(&pens, &k.scene, &k.options, NULL), RECTO_OK);
+    pens_tell_idle(&pens, &k.options);
+    assert_int_equal(heard.count, row[i].said != NULL);
+    if (row[i].said)
+      assert_string_equal(heard.text[0], row[i].said);
+    pens_fini(&pens);
+    inked_end(&k);
+  }
+}
+
 static void fills_lie_below_the_lines_of_all_pens(void **state) {
   static const double flat[] = {0, 0, 0, 1, 0, 0, 1, 1, 0};
   static const double outline[] = {10, 10, 90, 10, 90, 80};
@@ -329,6 +363,30 @@ static void lists_that_make_no_sense_are_refused(void **state) {
   inked_end(&k);
 }
 
+static void one_name_has_one_value(void **state) {
+  struct inked k;
+  struct pens pens;
+  (void)state;
+  inked_start(&k);
+  assert_refused(&k.options.pen_for, &k, "thing=2,thing=3",
+                 "pens: two values for one name: \"thing=2\" and \"thing=3\"");
+  assert_refused(&k.options.pen_for, &k, "crease=2,hatch=1,crease=22",
+                 "\"crease=2\" and \"crease=22\"");
+  assert_refused(&k.options.pen_widths, &k, "1=1,2=1,1=0.5",
+                 "widths of pens: two values for one name");
+  assert_refused(&k.options.pen_colours, &k, "1=fff,1=000",
+                 "colours of pens: two values for one name");
+  assert_refused(&k.options.weights, &k, "crease=2,crease=3",
+                 "weights: two values for one name");
+  inked_group(&k, "a");
+  inked_group(&k, "a=b");
+  k.options.pen_for = "a=b=2,a=3,hidden=4,hatch=5,a=b=2";
+  k.options.pen_widths = "1=1,11=2,111=3,1=1";
+  assert_int_equal(pens_init(&pens, &k.scene, &k.options, NULL), RECTO_OK);
+  pens_fini(&pens);
+  inked_end(&k);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(hidden_goes_before_class_and_class_before_group),
@@ -336,12 +394,14 @@ int main(void) {
       cmocka_unit_test(layers_say_what_is_on_their_pen),
       cmocka_unit_test(layers_say_nothing_of_what_is_not_asked_for),
       cmocka_unit_test(pens_with_nothing_to_draw_are_told),
+      cmocka_unit_test(weights_of_lines_not_asked_for_are_told),
       cmocka_unit_test(fills_lie_below_the_lines_of_all_pens),
       cmocka_unit_test(half_the_strokes_own_pen_is_the_shortest),
       cmocka_unit_test(strokes_of_pens_that_meet_are_not_joined),
       cmocka_unit_test(outlines_are_twice_as_wide_unless_told_otherwise),
       cmocka_unit_test(hidden_lines_weigh_nothing_extra),
       cmocka_unit_test(lists_that_make_no_sense_are_refused),
+      cmocka_unit_test(one_name_has_one_value),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

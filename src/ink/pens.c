@@ -33,10 +33,31 @@ static recto_status refuse(const struct item *item, const char *expected) {
                    clip(item->end - item->key), item->key, expected);
 }
 
+/* Refuses an item that has another value for a name than an earlier one of the
+ * list, which begins at `first`. */
+static recto_status check_earlier(const struct item *item, const char *first) {
+  size_t whole = (size_t)(item->end - item->key);
+  while (first < item->key) {
+    size_t length = strcspn(first, ",");
+    bool same_name =
+        length > item->length &&
+        memcmp(first, item->key, item->length + 1) == 0 &&
+        !memchr(first + item->length + 1, '=', length - item->length - 1);
+    if (same_name && (length != whole || memcmp(first, item->key, whole) != 0))
+      return error_set(item->error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                       "%s: two values for one name: \"%.*s\" and \"%.*s\"",
+                       item->list, clip((ptrdiff_t)length), first,
+                       clip((ptrdiff_t)whole), item->key);
+    first += length + 1;
+  }
+  return RECTO_OK;
+}
+
 /* Hands over each item of a comma-separated list; NULL: there is none. */
 static recto_status read_list(struct pens *pens, const struct scene *scene,
                               const char *name, const char *list, take_fn take,
                               recto_error *error) {
+  const char *first = list;
   recto_status status = RECTO_OK;
   while (list && status == RECTO_OK) {
     size_t length = strcspn(list, ",");
@@ -48,6 +69,8 @@ static recto_status read_list(struct pens *pens, const struct scene *scene,
       return refuse(&item, "of the form NAME=VALUE");
     item.length = (size_t)(item.value - 1 - list);
     status = take(pens, scene, &item);
+    if (status == RECTO_OK)
+      status = check_earlier(&item, first);
     list = list[length] == ',' ? list + length + 1 : NULL;
   }
   return status;
@@ -169,6 +192,7 @@ static recto_status take_weight(struct pens *pens, const struct scene *scene,
       !(weight >= 1 / WEIGHT_MOST && weight <= WEIGHT_MOST))
     return refuse(item, "a class of lines and its weight, 0.01 to 100");
   pens->weight[place] = weight;
+  pens->weighed |= 1u << place;
   return RECTO_OK;
 }
 

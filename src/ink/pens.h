@@ -27,13 +27,14 @@ struct pens {
   bool several;         /* visible lines may be on more than one */
   struct pens_own *own; /* PENS_MOST + 1 of them */
   double weight[RECTO_EDGE_CLASS_COUNT]; /* pen widths, by place of the bit */
-  double width_mm, shortest_mm;          /* of the options */
+  unsigned weighed;             /* classes that the list gives a weight */
+  double width_mm, shortest_mm; /* of the options */
 };
 
 /* Reads the lists.
- * Errors  RECTO_ERROR_ARGUMENT: a list that makes no sense, a name that is
- *         neither a class nor a group's; RECTO_ERROR_MEMORY.  pens_fini it in
- *         any case. */
+ * Errors  RECTO_ERROR_ARGUMENT: a list that makes no sense or has two values
+ *         for one name, a name that is neither a class nor a group's;
+ *         RECTO_ERROR_MEMORY.  pens_fini it in any case. */
 USE_RESULT recto_status pens_init(struct pens *pens, const struct scene *scene,
                                   const recto_options *options,
                                   recto_error *error);
@@ -42,8 +43,8 @@ void pens_fini(struct pens *pens);
 /* Whether lines of the class at that place are asked for. */
 bool pens_is_drawn(const recto_options *options, unsigned place);
 
-/* Warns of what was said about pens that have nothing to draw by the options.
- */
+/* Warns of what was said about pens that have nothing to draw by the options,
+ * and about weights of lines that are not asked for. */
 void pens_tell_idle(const struct pens *pens, const recto_options *options);
 
 /* The pen of visible lines of a class, of hidden ones, of hatching, of fills.

@@ -1,4 +1,5 @@
-/* pens_idle.c - a word about pens that have nothing to draw, whatever is seen.
+/* pens_idle.c - a word about pens and weights that have nothing to draw,
+ * whatever is seen.
  *
  * It is told, not refused: scripts name the same pens for every drawing. */
 #include <stdarg.h>
@@ -73,6 +74,10 @@ void pens_tell_idle(const struct pens *pens, const recto_options *options) {
     if (pens->of_class[i] != PENS_NONE && !pens_is_drawn(options, i))
       warn(options, "pen %u is for %s lines, which are not asked for",
            pens->of_class[i] + 1,
+           recto_edge_class_name((recto_edge_class)(1u << i)));
+  for (unsigned i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
+    if (pens->weighed >> i & 1 && !pens_is_drawn(options, i))
+      warn(options, "a weight is for %s lines, which are not asked for",
            recto_edge_class_name((recto_edge_class)(1u << i)));
   tell_of_looks(pens, options);
 }
