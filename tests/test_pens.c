@@ -130,6 +130,21 @@ static void hear(void *user, const char *file, unsigned long line,
   snprintf(heard->text[heard->count++], sizeof heard->text[0], "%s", text);
 }
 
+/* said  how the one warning begins; NULL: there is none */
+static void assert_told(struct inked *k, const char *said) {
+  struct pens pens;
+  struct heard heard = {.count = 0};
+  assert_int_equal(pens_init(&pens, &k->scene, &k->options, NULL), RECTO_OK);
+  pens_tell_idle(&pens, &k->options); /* nobody listens */
+  k->options.warning = hear;
+  k->options.user = &heard;
+  pens_tell_idle(&pens, &k->options);
+  assert_int_equal(heard.count, said != NULL);
+  if (said)
+    assert_memory_equal(heard.text[0], said, strlen(said));
+  pens_fini(&pens);
+}
+
 static void pens_with_nothing_to_draw_are_told(void **state) {
   static const struct {
     const char *pens, *widths, *colours;
@@ -161,8 +176,6 @@ static void pens_with_nothing_to_draw_are_told(void **state) {
   (void)state;
   for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
     struct inked k;
-    struct pens pens;
-    struct heard heard = {.count = 0};
     start_scene(&k);
     k.options.pen_for = row[i].pens;
     k.options.pen_widths = row[i].widths;
@@ -170,15 +183,7 @@ static void pens_with_nothing_to_draw_are_told(void **state) {
     k.options.hidden = row[i].hidden;
     k.options.fill = row[i].fill;
     k.options.edges = row[i].edges;
-    assert_int_equal(pens_init(&pens, &k.scene, &k.options, NULL), RECTO_OK);
-    pens_tell_idle(&pens, &k.options); /* nobody listens */
-    k.options.warning = hear;
-    k.options.user = &heard;
-    pens_tell_idle(&pens, &k.options);
-    assert_int_equal(heard.count, row[i].said != NULL);
-    if (row[i].said)
-      assert_memory_equal(heard.text[0], row[i].said, strlen(row[i].said));
-    pens_fini(&pens);
+    assert_told(&k, row[i].said);
     inked_end(&k);
   }
 }
@@ -200,19 +205,10 @@ static void weights_of_lines_not_asked_for_are_told(void **state) {
   (void)state;
   for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
     struct inked k;
-    struct pens pens;
-    struct heard heard = {.count = 0};
     start_scene(&k);
     k.options.weights = row[i].weights;
     k.options.edges = row[i].edges;
-    k.options.warning = hear;
-    k.options.user = &heard;
-    assert_int_equal(pens_init(&pens, &k.scene, &k.options, NULL), RECTO_OK);
-    pens_tell_idle(&pens, &k.options);
-    assert_int_equal(heard.count, row[i].said != NULL);
-    if (row[i].said)
-      assert_string_equal(heard.text[0], row[i].said);
-    pens_fini(&pens);
+    assert_told(&k, row[i].said);
     inked_end(&k);
   }
 }
