@@ -418,6 +418,30 @@ claim "an eye right above needs no --up" run 0 cube.obj -o above.svg \
 claim "--up along the view is refused" refuses 'up points along the view' \
   cube.obj -o no.svg --camera 0,10,0 --up 0,1,0
 
+# A square, and a plate before it that goes on beyond the page: the square's
+# sides are on the page's very border.
+cat >behind.obj <<'END'
+v -200 -200 10
+v 200 -200 10
+v 200 200 10
+v -200 200 10
+v -100 -100 0
+v 100 -100 0
+v 100 100 0
+v -100 100 0
+f 1 2 3 4
+f 5 6 7 8
+END
+nothing_on_the_border() {
+  for method in brute tiles newell warnock; do
+    run 0 behind.obj -o border.svg -m "$method" --view front --scale 1:1 \
+      --page 200x200mm && ! grep -q '<path' border.svg || return 1
+  done
+  run 0 behind.obj -o border.svg --page 200x200mm --margin 0 --no-fit \
+    --camera 0,0,100 --lookat 0,0,0 --fov 90 && ! grep -q '<path' border.svg
+}
+claim "what is hidden is hidden on the page's border" nothing_on_the_border
+
 # ---- Verification ----------------------------------------------------------
 
 verifies() {

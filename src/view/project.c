@@ -4,11 +4,12 @@
 #include <math.h>
 
 #include "base/tolerance.h"
+#include "view/sheet.h"
 
 /* Half of the paper, up to a whole grid unit, so that what touches the
- * paper's border is on the paper. */
+ * paper's border is on the paper, and its rim. */
 static double half_of_page(double mm) {
-  return ceil(mm / 2 * SHEET_UNITS_PER_MM);
+  return ceil(mm / 2 * SHEET_UNITS_PER_MM) + SHEET_RIM;
 }
 
 struct projection projection_of(const struct camera *camera) {

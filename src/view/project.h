@@ -25,7 +25,8 @@ struct projection {
   bool perspective;
   double units;     /* grid units for one of x / d, or of x */
   double offset[2]; /* grid units from the page's middle to the view axis */
-  double half[2];   /* the paper ends at +-half, whole grid units */
+  double half[2];   /* the paper and its rim end at +-half, whole grid
+                       units */
   double near_d, d_max;
   double z_factor; /* orthographic z = z_factor (d_max - d); perspective
                       z = z_factor (d_max - d) / d */

@@ -28,6 +28,11 @@
 #define SHEET_Z_MAX ((INT64_C(1) << SHEET_Z_BITS) - 1)
 #define SHEET_NONE UINT32_MAX
 
+/* What leaves the page is cut so many units beyond its border: 4 nm.  The side
+ * of a cut hides nothing on its outer side; on the very border it would let a
+ * line there be seen that is behind a face which goes on. */
+#define SHEET_RIM 4
+
 /* A side k of a triangle runs from point[k] to point[(k + 1) % 3]. */
 struct sheet_triangle {
   uint32_t point[3];
