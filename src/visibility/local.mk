@@ -27,6 +27,7 @@ librecto_core_la_SOURCES += \
   %D%/pulse.c %D%/pulse.h \
   %D%/raster.c %D%/raster.h \
   %D%/rivals.c %D%/rivals.h \
+  %D%/rivals_part.c \
   %D%/scanline_zbuffer.c %D%/scanline_zbuffer.h \
   %D%/seams.c %D%/seams.h \
   %D%/sidegrid.c %D%/sidegrid.h \

@@ -86,7 +86,25 @@ void rivals_start(struct rivals *rivals, uint32_t triangle);
 /* Asks how triangle g, not flat and another, lies to the one at hand. */
 USE_RESULT bool rivals_ask(struct rivals *rivals, uint32_t g);
 
-/* Finds what the rivals leave: rivals->left, or all where `whole`. */
+/* Makes a rival's lines, if they were not; but the fourth. */
+USE_RESULT bool rivals_make_lines(struct rivals *rivals, struct rival *rival);
+
+/* Does a rival that has lines surely cover a part, all of it? */
+bool rivals_cover(const struct rivals *rivals, struct rival *rival,
+                  const struct geom_convex *piece);
+
+/* Appends to rivals->next what a rival leaves of a part. */
+USE_RESULT bool rivals_subtract(struct rivals *rivals,
+                                const struct geom_convex *piece,
+                                struct rival *rival);
+
+/* Takes the last `count` reaches' rivals from a part; adds what they leave to
+ * rivals->left. */
+USE_RESULT bool rivals_take_few(struct rivals *rivals,
+                                const struct geom_convex *piece, size_t count);
+
+/* Finds what the rivals leave: rivals->left, or all where `whole`
+ * (rivals_part.c). */
 USE_RESULT bool rivals_take_all(struct rivals *rivals);
 
 void rivals_report(const struct rivals_counts *counts, struct report *report);

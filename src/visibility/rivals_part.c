@@ -315,7 +315,6 @@ static bool find_cover(struct rivals *rivals, size_t count,
                        const struct geom_convex *piece, bool *covered) {
   const struct rival_reach *reach =
       rivals->reach.item + (rivals->reach.count - count);
-  int lines;
   *covered = false;
   for (size_t i = 0; i < count && !*covered; i++) {
     struct rival *rival = &rivals->rival.item[reach[i].rival];
@@ -323,7 +322,7 @@ static bool find_cover(struct rivals *rivals, size_t count,
       continue;
     if (!rivals_make_lines(rivals, rival))
       return false;
-    *covered = meeting_of(rivals, rival, piece, &lines) == MEETING_ALL;
+    *covered = rivals_cover(rivals, rival, piece);
   }
   return true;
 }
