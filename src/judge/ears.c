@@ -3,6 +3,8 @@
 
 /* The polygon in the plane, counter-clockwise, and who is left of it. */
 struct outline {
+  const struct scene *scene;
+  const uint32_t *corner; /* in space */
   struct judge_place *at;
   uint32_t *left; /* numbers of corners still there */
   uint32_t count;
@@ -37,13 +39,21 @@ static void flatten(struct outline *outline, const struct scene *scene,
     outline->at[i] = at;
     outline->left[i] = i;
   }
+  outline->scene = scene;
+  outline->corner = corner;
   outline->count = count;
 }
 
+static const struct scene_point *nth_left(const struct outline *outline,
+                                          uint32_t i) {
+  uint32_t corner = outline->corner[outline->left[i % outline->count]];
+  return &outline->scene->point.item[corner];
+}
+
+/* In space: two corners of a face that is not planar may lie on one place. */
 static bool is_same(const struct outline *outline, uint32_t i, uint32_t k) {
-  struct judge_place a = outline->at[outline->left[i % outline->count]];
-  struct judge_place b = outline->at[outline->left[k % outline->count]];
-  return a.x == b.x && a.y == b.y;
+  const struct scene_point *a = nth_left(outline, i), *b = nth_left(outline, k);
+  return a->x == b->x && a->y == b->y && a->z == b->z;
 }
 
 static void drop(struct outline *outline, uint32_t i) {
@@ -190,7 +200,7 @@ bool judge_cut_ears(struct judge_ears *ears, const struct scene *scene,
   if (!ARRAY_RESERVE(&ears->ear, count) || !ARRAY_RESERVE(&ears->at, count) ||
       !ARRAY_RESERVE(&ears->left, count))
     return false;
-  struct outline outline = {ears->at.item, ears->left.item, 0};
+  struct outline outline = {.at = ears->at.item, .left = ears->left.item};
   struct ring ring;
   flatten(&outline, scene, corner, count);
   tidy(&outline);
