@@ -464,6 +464,19 @@ finds_wrong() {
     test ! -e no.svg && run 0 nested.obj -o right.svg --verify
 }
 claim "--verify finds a wrong one, and nothing is written" finds_wrong
+# Two corners of the face lie on one place when it is seen along its normal.
+cat >warped.obj <<'END'
+v -0.38268343236508973 0.92387953251128674 0.3125
+v 0 0 0.375
+v -0.70710678118654746 0.70710678118654757 0.375
+v 0 0 0.4375
+v -0.92387953251128674 0.38268343236508989 0.4375
+f 2 3 5 4
+l 1 3
+END
+claim "--verify keeps all corners of a warped face" run 0 warped.obj \
+  -o warped.svg --up 0,1,0 --camera 3.56166494,-5.67820342,0.93747118 \
+  -e all --verify
 
 # ---- Somebody's drawing -----------------------------------------------------
 
@@ -524,10 +537,15 @@ awk 'BEGIN {
   }
 }' >sheet.obj
 interrupt_cleans_up() { # SIGNAL
+  local process
   echo "as it was" >kept.svg
-  timeout --preserve-status -s "$1" 0.5 \
-    env --default-signal="$1" \
-    "$recto" sheet.obj -m brute -e all -o kept.svg 2>err
+  rm -f err
+  env --default-signal="$1" "$recto" sheet.obj -m brute -e all --progress \
+    -o kept.svg 2>err &
+  process=$!
+  while kill -0 "$process" 2>/dev/null && ! test -s err; do sleep 0.02; done
+  kill -s "$1" "$process"
+  wait "$process"
   test $? -eq 1 && says 'cancelled' && test "$(cat kept.svg)" = "as it was" &&
     none_left
 }
@@ -535,6 +553,20 @@ for signal in INT TERM HUP; do
   claim "an interrupt leaves nothing behind: $signal" \
     interrupt_cleans_up "$signal"
 done
+# While it waits for a model there is nothing to clean up, and nobody to ask.
+a_wait_is_ended() {
+  local writer status
+  mkfifo model.pipe
+  sleep 60 >model.pipe &
+  writer=$!
+  timeout --preserve-status -k 10 -s INT 1 env --default-signal=INT \
+    "$recto" --from obj - -o kept.svg <model.pipe
+  status=$?
+  kill "$writer"
+  test "$status" -eq $((128 + 2)) && test "$(cat kept.svg)" = "as it was" &&
+    none_left
+}
+claim "one interrupt ends the wait for a model" a_wait_is_ended
 nohup_is_heeded() {
   (
     trap '' HUP

@@ -1,7 +1,9 @@
 /* job.c - the work of one run: read, draw, write, report.
  *
- * An interrupt (^C, SIGTERM, SIGHUP) cancels through the progress function, so
- * that nothing half-written is left; a second one ends the process at once. */
+ * Once there may be something to leave behind, an interrupt (^C, SIGTERM, SIGHUP)
+ * cancels through the progress function, so that nothing half-written is left;
+ * a second one ends the process at once.  So does the first while models are
+ * read: that may wait for ever, for somebody at a keyboard. */
 #include "cli/job.h"
 
 #include <signal.h>
@@ -27,8 +29,6 @@ static void catch_interrupts(void) {
     if (sigaction(number[i], NULL, &before) == 0 &&
         before.sa_handler != SIG_IGN)
       sigaction(number[i], &action, NULL);
-  /* A file larger than is allowed is a write that fails. */
-  (void)signal(SIGXFSZ, SIG_IGN);
 }
 
 /* ---- Conversation -------------------------------------------------------- */
@@ -181,11 +181,12 @@ static recto_status draw(const struct arguments *arguments,
   recto_options_suit(&options, arguments->output, arguments->format);
   recto_status status = check_outputs(arguments, error);
   if (status == RECTO_OK)
-    status = open_stats(arguments, &stats, error);
-  if (status == RECTO_OK)
     status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)
     status = read_models(arguments, scene, error);
+  catch_interrupts();
+  if (status == RECTO_OK)
+    status = open_stats(arguments, &stats, error);
   if (status == RECTO_OK)
     status = recto_scene_render(scene, &options, &drawing, error);
   if (status == RECTO_OK && !arguments->quiet &&
@@ -206,7 +207,8 @@ static recto_status draw(const struct arguments *arguments,
 int job_run(struct arguments *arguments) {
   struct talk talk = {.progress = arguments->progress};
   recto_error error = {0};
-  catch_interrupts();
+  /* A file larger than is allowed is a write that fails. */
+  (void)signal(SIGXFSZ, SIG_IGN);
   arguments->options.user = &talk;
   arguments->options.progress = pass_progress;
   if (!arguments->quiet) {
