@@ -70,6 +70,10 @@ dist_check_SCRIPTS += %D%/test_paper.sh %D%/test_same_picture.sh \
   %D%/test_tone.sh %D%/test_viewers.sh
 
 # Layer 0.
+unit_tests += %D%/test_input
+%C%_test_input_SOURCES = %D%/test_input.c %D%/reading.c %D%/reading.h \
+  %D%/temporary.c %D%/temporary.h
+%C%_test_input_LDADD = $(LDADD) $(ZLIB_LIBS)
 unit_tests += %D%/test_memory
 %C%_test_memory_SOURCES = %D%/test_memory.c
 unit_tests += %D%/test_number

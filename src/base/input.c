@@ -1,6 +1,8 @@
 /* input.c - brings a whole file into memory.
  *
- * A file is mapped, a pipe is read to its end. */
+ * Robustness  Files are read, never mapped: another process may cut a file
+ * short at any time, and touching a mapped page that is gone ends the process
+ * with SIGBUS, which a library may neither cause nor catch. */
 #include "base/input.h"
 
 #include <errno.h>
@@ -10,48 +12,86 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Maps a file of `count` bytes over the start of a mapping of zeros that is
- * at least one byte longer.  The pages of the file itself are not written to,
- * so they cost no memory of our own. */
-static bool map_file(int descriptor, size_t count, struct input *input) {
-  long page = sysconf(_SC_PAGESIZE);
-  if (page <= 0 || count > PTRDIFF_MAX - 2 * (size_t)page)
-    return false;
-  size_t length = (count / (size_t)page + 1) * (size_t)page;
-  void *zeros = mmap(NULL, length, PROT_READ,
-                     MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (zeros == MAP_FAILED)
-    return false;
-  void *bytes =
-      mmap(zeros, count, PROT_READ, MAP_PRIVATE | MAP_FIXED, descriptor, 0);
-  if (bytes == MAP_FAILED) {
-    munmap(zeros, length);
-    return false;
-  }
-  (void)madvise(bytes, count, MADV_SEQUENTIAL);
-  input->bytes = bytes;
-  input->count = count;
-  input->mapped = length;
-  return true;
+#include "base/gunzip.h"
+
+size_t input_most(void) {
+  static const size_t most = (size_t)1 << 36;
+  long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || size <= 0 || (size_t)pages / 2 > most / (size_t)size)
+    return most;
+  return (size_t)pages / 2 * (size_t)size;
 }
 
-static recto_status slurp(int descriptor, const char *path, struct input *input,
+/* Asks for large pages for what a file is about to be read into: the system
+ * then has fewer of them to clear and to find. */
+static void advise_large_pages(char *block, size_t size) {
+#ifdef MADV_HUGEPAGE
+  static const uintptr_t large = (uintptr_t)1 << 21;
+  uintptr_t start = ((uintptr_t)block + large - 1) & ~(large - 1);
+  uintptr_t end = ((uintptr_t)block + size) & ~(large - 1);
+  if (start < end)
+    (void)madvise((void *)start, end - start, MADV_HUGEPAGE);
+#else
+  (void)block;
+  (void)size;
+#endif
+}
+
+/* Where bytes come from. */
+struct source {
+  int descriptor;
+  const char *path;
+  size_t size; /* of a file proper, from where it is read; 0: not known */
+  size_t most; /* bytes that are taken */
+};
+
+static recto_status refuse_size(const struct source *source,
+                                recto_error *error) {
+  return error_set(error, RECTO_ERROR_LIMIT, source->path, 0,
+                   "larger than %zu MB, which is the most that is read here",
+                   source->most >> 20);
+}
+
+/* Whether a file that ended before its size says has another size by now.
+ * Some file systems do not know the sizes of their files. */
+static bool was_cut_short(const struct source *source, size_t count) {
+  struct stat about;
+  return count < source->size && fstat(source->descriptor, &about) == 0 &&
+         (size_t)about.st_size < source->size;
+}
+
+/* Reads to the end of the source. */
+static recto_status slurp(const struct source *source, struct input *input,
                           recto_error *error) {
   enum { CHUNK = 1 << 16 };
+  if (source->size > source->most)
+    return refuse_size(source, error);
+  /* One byte more than there are shows that the end is reached. */
+  size_t room = source->size > 0 ? source->size + 2 : CHUNK;
+  if (!ARRAY_RESERVE(&input->slurped, room))
+    return error_memory(error);
+  advise_large_pages(input->slurped.item, room);
   for (;;) {
-    if (!ARRAY_RESERVE(&input->slurped, CHUNK + 1))
+    if (input->slurped.capacity - input->slurped.count < 2 &&
+        !ARRAY_RESERVE(&input->slurped, CHUNK))
       return error_memory(error);
-    ssize_t got = read(descriptor, input->slurped.item + input->slurped.count,
-                       input->slurped.capacity - input->slurped.count - 1);
+    ssize_t got =
+        read(source->descriptor, input->slurped.item + input->slurped.count,
+             input->slurped.capacity - input->slurped.count - 1);
     if (got < 0 && errno == EINTR)
       continue;
     if (got < 0)
-      return error_set(error, RECTO_ERROR_IO, path, 0, "cannot read: %s",
-                       strerror(errno));
+      return error_set(error, RECTO_ERROR_IO, source->path, 0,
+                       "cannot read: %s", strerror(errno));
+    input->slurped.count += (size_t)got;
+    if (input->slurped.count > source->most)
+      return refuse_size(source, error);
     if (got == 0)
       break;
-    input->slurped.count += (size_t)got;
   }
+  if (was_cut_short(source, input->slurped.count))
+    return error_set(error, RECTO_ERROR_IO, source->path, 0,
+                     "was cut short while it was read");
   input->slurped.item[input->slurped.count] = '\0';
   input->bytes = input->slurped.item;
   input->count = input->slurped.count;
@@ -59,6 +99,21 @@ static recto_status slurp(int descriptor, const char *path, struct input *input,
 }
 
 /* Standard input may be a file too, and one that was read from already. */
+static struct source describe(int descriptor, const char *path) {
+  struct source source = {descriptor, path, 0, input_most()};
+  struct stat about;
+  if (fstat(descriptor, &about) != 0)
+    return source;
+  if (S_ISCHR(about.st_mode))
+    source.most = INPUT_DEVICE_MOST;
+  if (!S_ISREG(about.st_mode) || about.st_size <= 0)
+    return source;
+  off_t at = lseek(descriptor, 0, SEEK_CUR);
+  if (at >= 0 && at < about.st_size)
+    source.size = (size_t)(about.st_size - at);
+  return source;
+}
+
 recto_status input_load(struct input *input, const char *path,
                         recto_error *error) {
   *input = (struct input){.bytes = NULL};
@@ -68,15 +123,12 @@ recto_status input_load(struct input *input, const char *path,
   if (descriptor < 0)
     return error_set(error, RECTO_ERROR_IO, path, 0, "cannot open: %s",
                      strerror(errno));
-  recto_status status = RECTO_OK;
-  struct stat about;
-  bool from_start = !standard || lseek(descriptor, 0, SEEK_CUR) == 0;
-  if (fstat(descriptor, &about) != 0 || !S_ISREG(about.st_mode) ||
-      about.st_size <= 0 || !from_start ||
-      !map_file(descriptor, (size_t)about.st_size, input))
-    status = slurp(descriptor, path, input, error);
+  struct source source = describe(descriptor, path);
+  recto_status status = slurp(&source, input, error);
   if (!standard)
     close(descriptor);
+  if (status == RECTO_OK && gunzip_is_wanted(input->bytes, input->count))
+    status = gunzip(input, path, source.most, error);
   return status;
 }
 
@@ -89,20 +141,16 @@ recto_status input_load_named(struct input *input, const char *path,
                      strerror(errno));
   recto_status status = RECTO_OK;
   struct stat about;
+  struct source source = describe(descriptor, path);
+  source.most = INPUT_NAMED_MOST;
   if (fstat(descriptor, &about) != 0 || !S_ISREG(about.st_mode))
     status = error_set(error, RECTO_ERROR_IO, path, 0, "no file");
   else if (about.st_size > INPUT_NAMED_MOST)
     status = error_set(error, RECTO_ERROR_LIMIT, path, 0, "too large");
-  else if (about.st_size > 0 &&
-           !map_file(descriptor, (size_t)about.st_size, input))
-    status = slurp(descriptor, path, input, error);
+  else if (about.st_size > 0)
+    status = slurp(&source, input, error);
   close(descriptor);
   return status;
 }
 
-void input_unload(struct input *input) {
-  /* Only what mmap gave is given back to it: the const is ours. */
-  if (input->mapped)
-    munmap((void *)(uintptr_t)input->bytes, input->mapped);
-  ARRAY_FREE(&input->slurped);
-}
+void input_unload(struct input *input) { ARRAY_FREE(&input->slurped); }

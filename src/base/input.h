@@ -10,18 +10,29 @@
 struct input {
   const char *bytes; /* a NUL stands behind the last */
   size_t count;
-  size_t mapped; /* length of the mapping; 0: the bytes are in `slurped` */
-  ARRAY(char) slurped;
+  ARRAY(char) slurped; /* what `bytes` points to */
 };
 
-/* Loads a file; "-" is standard input.
- * Errors  RECTO_ERROR_IO, RECTO_ERROR_MEMORY; input_unload it in any case. */
+/* How many bytes a file may have: half of the machine's memory, at most
+ * 64 GiB.  More could not be read and drawn in any case, and an endless stream
+ * must end somewhere. */
+size_t input_most(void);
+
+/* The same for a character device, such as a terminal: most are endless. */
+#define INPUT_DEVICE_MOST (INT64_C(64) << 20)
+
+/* Loads a file; "-" is standard input.  What is compressed with gzip, by its
+ * first bytes, is expanded.
+ * Errors  RECTO_ERROR_IO, also where the file is cut short in the meantime,
+ *         RECTO_ERROR_LIMIT (too large), RECTO_ERROR_FORMAT (broken gzip data),
+ *         RECTO_ERROR_UNSUPPORTED (gzip data in a build without zlib),
+ *         RECTO_ERROR_MEMORY; input_unload it in any case. */
 USE_RESULT recto_status input_load(struct input *input, const char *path,
                                    recto_error *error);
 
 /* Loads a file whose name stands in another one, which may name anything:
- * only files proper of at most INPUT_NAMED_MOST bytes are read.
- * Errors  as input_load, RECTO_ERROR_LIMIT */
+ * only files proper of at most INPUT_NAMED_MOST bytes are read, as they are.
+ * Errors  RECTO_ERROR_IO, RECTO_ERROR_LIMIT, RECTO_ERROR_MEMORY */
 #define INPUT_NAMED_MOST (INT64_C(16) << 20)
 USE_RESULT recto_status input_load_named(struct input *input, const char *path,
                                          recto_error *error);

@@ -2,6 +2,7 @@
 librecto_core_la_SOURCES += \
   %D%/decimal.c %D%/decimal.h \
   %D%/digits.h \
+  %D%/gunzip.c %D%/gunzip.h \
   %D%/input.c %D%/input.h \
   %D%/length.c %D%/length.h \
   %D%/memory.c %D%/memory.h \

@@ -39,21 +39,43 @@ static bool is_listed(const char *word, const char *list) {
   return false;
 }
 
-/* What follows the last point of the path's last part; "" where none does. */
-static const char *extension_of(const char *path) {
+enum { EXTENSION_SIZE = 32 };
+
+/* Copies what follows the last point of the name of that length; "" where
+ * nothing does or it is longer than any extension.  Returns the length of what
+ * stands before. */
+static size_t copy_extension(const char *name, size_t length,
+                             char to[EXTENSION_SIZE]) {
+  size_t point = length;
+  to[0] = '\0';
+  while (point > 0 && name[point - 1] != '.')
+    point--;
+  if (point <= 1 || length - point >= EXTENSION_SIZE)
+    return length;
+  memcpy(to, name + point, length - point);
+  to[length - point] = '\0';
+  return point - 1;
+}
+
+/* The extension of the path's last part; of "a.obj.gz" it is "obj". */
+static void find_extension(const char *path, char to[EXTENSION_SIZE]) {
   const char *slash = strrchr(path, '/');
   const char *name = slash ? slash + 1 : path;
-  const char *point = strrchr(name, '.');
-  return point && point > name ? point + 1 : "";
+  size_t rest = copy_extension(name, strlen(name), to);
+  if (is_listed(to, "gz"))
+    (void)copy_extension(name, rest, to);
 }
 
 /* The reader of a file, and in *format what it was chosen by; NULL where there
- * is none. */
+ * is none.
+ * extension  room for what is chosen by where *format is NULL */
 static const struct reader *choose_reader(const char *path,
+                                          char extension[EXTENSION_SIZE],
                                           const char **format) {
   bool named = *format != NULL;
+  find_extension(path, extension);
   if (!named)
-    *format = extension_of(path);
+    *format = extension;
   for (int i = 0; i < READER_COUNT; i++)
     if (is_listed(*format, named ? readers[i]->name : readers[i]->extensions))
       return readers[i];
@@ -78,7 +100,8 @@ static recto_status refuse(const char *path, const char *format,
 recto_status scene_read(struct scene *scene, const char *path,
                         const char *format, struct diagnostics *diagnostics,
                         recto_error *error) {
-  const struct reader *reader = choose_reader(path, &format);
+  char extension[EXTENSION_SIZE];
+  const struct reader *reader = choose_reader(path, extension, &format);
   if (!reader)
     return refuse(path, format, error);
   struct input input;

@@ -1,0 +1,157 @@
+/* gunzip.c - expands data compressed with gzip, through zlib. */
+#include "base/gunzip.h"
+
+bool gunzip_is_wanted(const char *bytes, size_t count) {
+  const unsigned char *b = (const unsigned char *)bytes;
+  /* The signature, the only method that there is, no reserved flags. */
+  return count >= 4 && b[0] == 0x1f && b[1] == 0x8b && b[2] == 8 &&
+         (b[3] & 0xe0) == 0;
+}
+
+#ifdef HAVE_ZLIB
+
+#include <zlib.h>
+
+struct expansion {
+  z_stream stream;
+  const char *bytes; /* compressed, `count` of them */
+  size_t count, taken, most;
+  ARRAY(char) to;
+  const char *path;
+  recto_error *error;
+};
+
+static void *allocate(void *user, unsigned count, unsigned size) {
+  (void)user;
+  return mem_alloc(count, size);
+}
+
+static void release(void *user, void *block) {
+  (void)user;
+  mem_free(block);
+}
+
+/* The most that the data may expand to. */
+static size_t limit_of(size_t count, size_t most) {
+  size_t limit = (size_t)GUNZIP_ANYWAY;
+  if (count > limit / GUNZIP_RATIO)
+    limit = count > most / GUNZIP_RATIO ? most : count * GUNZIP_RATIO;
+  return limit < most ? limit : most;
+}
+
+/* A first guess at the expanded size: the last four bytes tell it, modulo
+ * 2^32, where there is one member.  Deflated data are at best a thousandth. */
+static size_t guess_size(const struct expansion *x) {
+  const unsigned char *b = (const unsigned char *)x->bytes + x->count - 4;
+  size_t size =
+      b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
+  size_t probable = x->count < x->most / 16 ? 16 * x->count : x->most;
+  return (size < probable ? size : probable) + 2;
+}
+
+static recto_status fail(const struct expansion *x, int result) {
+  if (result == Z_MEM_ERROR)
+    return error_memory(x->error);
+  if (result == Z_BUF_ERROR)
+    return error_set(x->error, RECTO_ERROR_FORMAT, x->path, 0,
+                     "gzip data cut short");
+  return error_set(x->error, RECTO_ERROR_FORMAT, x->path, 0,
+                   "broken gzip data%s%s", x->stream.msg ? ": " : "",
+                   x->stream.msg ? x->stream.msg : "");
+}
+
+/* Expands some more into the room that there is, which is one byte at least
+ * besides that of the NUL.
+ * Returns zlib's code: Z_BUF_ERROR where there are no data left. */
+static int expand_some(struct expansion *x) {
+  enum { MOST_AT_ONCE = 1 << 30 };
+  size_t left = x->count - x->taken;
+  size_t room = x->to.capacity - x->to.count - 1;
+  uInt in = left < MOST_AT_ONCE ? (uInt)left : MOST_AT_ONCE;
+  uInt out = room < MOST_AT_ONCE ? (uInt)room : MOST_AT_ONCE;
+  x->stream.next_in = (z_const Bytef *)(uintptr_t)(x->bytes + x->taken);
+  x->stream.avail_in = in;
+  x->stream.next_out = (Bytef *)(x->to.item + x->to.count);
+  x->stream.avail_out = out;
+  int result = inflate(&x->stream, Z_NO_FLUSH);
+  x->taken += in - x->stream.avail_in;
+  x->to.count += out - x->stream.avail_out;
+  return result;
+}
+
+/* Expands one member. */
+static recto_status expand_member(struct expansion *x) {
+  int result = Z_OK;
+  while (result == Z_OK) {
+    if (x->to.count > x->most)
+      return error_set(x->error, RECTO_ERROR_LIMIT, x->path, 0,
+                       "gzip data that expand to more than %zu MB",
+                       x->most >> 20);
+    if (x->to.capacity - x->to.count < 2 &&
+        !ARRAY_RESERVE(&x->to, (size_t)1 << 16))
+      return error_memory(x->error);
+    result = expand_some(x);
+  }
+  return result == Z_STREAM_END ? RECTO_OK : fail(x, result);
+}
+
+static bool is_padding(const char *bytes, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    if (bytes[i] != 0)
+      return false;
+  return true;
+}
+
+static recto_status expand(struct expansion *x) {
+  enum { GZIP_ALONE = 16 + MAX_WBITS };
+  int result = inflateInit2(&x->stream, GZIP_ALONE);
+  if (result != Z_OK)
+    return error_memory(x->error);
+  recto_status status = RECTO_OK;
+  while (status == RECTO_OK) {
+    status = expand_member(x);
+    if (status != RECTO_OK ||
+        is_padding(x->bytes + x->taken, x->count - x->taken))
+      break;
+    if (inflateReset(&x->stream) != Z_OK)
+      status = error_memory(x->error);
+  }
+  inflateEnd(&x->stream);
+  return status;
+}
+
+recto_status gunzip(struct input *input, const char *path, size_t most,
+                    recto_error *error) {
+  struct expansion x = {.stream = {.zalloc = allocate, .zfree = release},
+                        .bytes = input->bytes,
+                        .count = input->count,
+                        .most = limit_of(input->count, most),
+                        .path = path,
+                        .error = error};
+  recto_status status =
+      ARRAY_RESERVE(&x.to, guess_size(&x)) ? expand(&x) : error_memory(error);
+  if (status != RECTO_OK) {
+    ARRAY_FREE(&x.to);
+    return status;
+  }
+  ARRAY_FREE(&input->slurped);
+  x.to.item[x.to.count] = '\0';
+  input->slurped.item = x.to.item;
+  input->slurped.count = x.to.count;
+  input->slurped.capacity = x.to.capacity;
+  input->bytes = x.to.item;
+  input->count = x.to.count;
+  return RECTO_OK;
+}
+
+#else
+
+recto_status gunzip(struct input *input, const char *path, size_t most,
+                    recto_error *error) {
+  (void)input;
+  (void)most;
+  return error_set(error, RECTO_ERROR_UNSUPPORTED, path, 0,
+                   "compressed with gzip, and this build is without zlib");
+}
+
+#endif

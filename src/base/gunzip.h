@@ -1,0 +1,25 @@
+/* gunzip.h - expands data compressed with gzip. */
+#ifndef BASE_GUNZIP_H
+#define BASE_GUNZIP_H
+
+#include "base/input.h"
+
+/* Expanded data may have so many bytes whatever it was made from; beyond, at
+ * most GUNZIP_RATIO for each compressed one.  Models are compressed to a third
+ * or a tenth; a hundredth is a file made to fill the memory. */
+#define GUNZIP_ANYWAY (INT64_C(256) << 20)
+#define GUNZIP_RATIO 100
+
+/* Whether the bytes begin as those of a gzip file do [RFC 1952 2.3.1]. */
+bool gunzip_is_wanted(const char *bytes, size_t count);
+
+/* Puts what the gzip data in `input` expands to in its place; several members
+ * are joined, zeros after the last are passed over.
+ * path    for messages
+ * most    bytes that it may expand to
+ * Errors  RECTO_ERROR_FORMAT (broken or cut short), RECTO_ERROR_LIMIT,
+ *         RECTO_ERROR_MEMORY; RECTO_ERROR_UNSUPPORTED without zlib */
+USE_RESULT recto_status gunzip(struct input *input, const char *path,
+                               size_t most, recto_error *error);
+
+#endif
