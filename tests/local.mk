@@ -44,10 +44,14 @@ unit_tests += %D%/test_verify
 %C%_test_verify_SOURCES = %D%/test_verify.c
 %C%_test_verify_LDADD = %D%/scenes/libscenes.la $(LDADD)
 
-EXTRA_DIST += %D%/tap.sh %D%/unit.sh
+EXTRA_DIST += %D%/tap.sh %D%/unit.sh %D%/cli.sh
 dist_check_SCRIPTS += \
   %D%/test_bootstrap.sh \
   %D%/test_cli.sh \
+  %D%/test_cli_check.sh \
+  %D%/test_cli_descriptors.sh \
+  %D%/test_cli_messages.sh \
+  %D%/test_cli_signals.sh \
   %D%/test_documents.sh \
   %D%/test_structure.sh \
   %D%/test_uses.sh

@@ -2,57 +2,7 @@
 # test_cli.sh - what the program promises to a user and to scripts: exit
 # codes, messages, streams, and files that appear whole or not at all.
 . "$(dirname "$0")/tap.sh"
-cd "$scratch" || exit 1
-
-cat >cube.obj <<'END'
-v -1 -1 -1
-v 1 -1 -1
-v 1 1 -1
-v -1 1 -1
-v -1 -1 1
-v 1 -1 1
-v 1 1 1
-v -1 1 1
-f 4 3 2 1
-f 5 6 7 8
-f 1 2 6 5
-f 2 3 7 6
-f 3 4 8 7
-f 4 1 5 8
-END
-
-# run STATUS ARGUMENT... - whether the program exits so; what it says is kept
-# in the files out and err.
-run() {
-  local expected=$1 status
-  shift
-  "$recto" "$@" >out 2>err </dev/null
-  status=$?
-  test "$status" -eq "$expected" && return 0
-  say "recto $*: exit $status, not $expected: $(head -n 3 err)"
-  return 1
-}
-
-# says PATTERN - whether the last run's messages have a line like that.
-says() {
-  grep -qE -- "$1" err && return 0
-  say "no line like $1 in: $(head -n 5 err)"
-  return 1
-}
-
-silent() { test ! -s err || { say "said: $(head -n 3 err)" && false; }; }
-
-# refuses PATTERN ARGUMENT... - wrong usage, said in one line, nothing drawn.
-refuses() {
-  local pattern=$1
-  shift
-  rm -f no.svg
-  run 2 "$@" && says "^recto: .*$pattern" && test "$(wc -l <err)" -eq 1 &&
-    test ! -s out && test ! -e no.svg
-}
-
-# only FILE... - whether the folder has no other hidden or new file.
-none_left() { test -z "$(find . -name '.*' -type f)"; }
+. "$(dirname "$0")/cli.sh"
 
 # ---- Help and version -----------------------------------------------------
 
@@ -478,41 +428,6 @@ claim "--verify keeps all corners of a warped face" run 0 warped.obj \
   -o warped.svg --up 0,1,0 --camera 3.56166494,-5.67820342,0.93747118 \
   -e all --verify
 
-# ---- Somebody's drawing -----------------------------------------------------
-
-judges_its_own() {
-  run 0 cube.obj -o own.svg && run 0 cube.obj --check own.svg && silent &&
-    test "$(wc -l <out)" -eq 5 &&
-    grep -qE '^drawn +[0-9]{3}\.[0-9]{3} mm$' out &&
-    grep -qE '^false ink +0\.000 mm +0\.000 %$' out &&
-    grep -qE '^missing ink +0\.000 mm +0\.000 %$' out
-}
-claim "--check finds its own drawing right" judges_its_own
-judges_lines_alone() {
-  run 0 cube.obj -o filled.svg --fill "$1" "${@:2}" &&
-    run 0 cube.obj --check filled.svg &&
-    grep -qE '^false ink +0\.000 mm +0\.000 %$' out
-}
-claim "--check leaves hatching alone" judges_lines_alone hatch
-claim "--check leaves fills and their seams alone" \
-  judges_lines_alone paint --seam 0.2
-# A cube from a corner shows nine edges of one length and hides three.
-judges_others() {
-  run 0 cube.obj -o hidden.svg --hidden layer &&
-    sed 's/hidden/other/' hidden.svg >other.svg &&
-    run 0 cube.obj --check other.svg &&
-    grep -qE '^false ink +[0-9.]+ mm +2[45]\.[0-9]+ %  first at [0-9.,]+ mm$' out &&
-    sed '/^<path/d' own.svg >empty.svg && run 0 cube.obj --check empty.svg &&
-    grep -qE '^missing ink +[0-9.]+ mm +100\.000 %  first at' out
-}
-claim "--check finds hidden lines drawn and visible ones missing" judges_others
-claim "--check draws nothing" refuses 'check draws nothing' \
-  cube.obj --check own.svg -o no.svg
-head -c 300 own.svg >cut.svg
-claim "--check of what is no drawing fails" run 1 cube.obj --check cut.svg
-claim "--check says why" says '^recto: cut.svg: the file stops'
-claim "--check of no file fails" run 1 cube.obj --check no.svg
-
 # An eye on its target is wrong usage that only the scene tells.
 claim "an eye on its target is refused" refuses '.' cube.obj -o no.svg \
   --camera 1,2,3 --lookat 1,2,3
@@ -524,9 +439,8 @@ to_dev_stdout() {
 }
 claim "/dev/stdout is a place to write to" to_dev_stdout
 
-# ---- Interrupts -----------------------------------------------------------
+# ---- What is too large, and what is read ------------------------------------
 
-# A sheet of 20,000 squares, which brute force needs long for.
 awk 'BEGIN {
   n = 141
   for (i = 0; i < n; i++) for (k = 0; k < n; k++)
@@ -536,50 +450,6 @@ awk 'BEGIN {
     printf "f %d %d %d %d\n", a, a + 1, a + n + 1, a + n
   }
 }' >sheet.obj
-interrupt_cleans_up() { # SIGNAL
-  local process
-  echo "as it was" >kept.svg
-  rm -f err
-  env --default-signal="$1" "$recto" sheet.obj -m brute -e all --progress \
-    -o kept.svg 2>err &
-  process=$!
-  while kill -0 "$process" 2>/dev/null && ! test -s err; do sleep 0.02; done
-  kill -s "$1" "$process"
-  wait "$process"
-  test $? -eq 1 && says 'cancelled' && test "$(cat kept.svg)" = "as it was" &&
-    none_left
-}
-for signal in INT TERM HUP; do
-  claim "an interrupt leaves nothing behind: $signal" \
-    interrupt_cleans_up "$signal"
-done
-# While it waits for a model there is nothing to clean up, and nobody to ask.
-a_wait_is_ended() {
-  local writer status
-  mkfifo model.pipe
-  sleep 60 >model.pipe &
-  writer=$!
-  timeout --preserve-status -k 10 -s INT 1 env --default-signal=INT \
-    "$recto" --from obj - -o kept.svg <model.pipe
-  status=$?
-  kill "$writer"
-  test "$status" -eq $((128 + 2)) && test "$(cat kept.svg)" = "as it was" &&
-    none_left
-}
-claim "one interrupt ends the wait for a model" a_wait_is_ended
-nohup_is_heeded() {
-  (
-    trap '' HUP
-    exec "$recto" sheet.obj -e all --fill hatch --hatch-pitch 0.03 \
-      -o hatched.svg 2>err
-  ) &
-  sleep 0.2
-  kill -HUP $! && wait $! && test -s hatched.svg
-}
-claim "a hang-up that is ignored stays so" nohup_is_heeded
-
-# ---- What is too large, and what is read ------------------------------------
-
 too_large() {
   echo "as it was" >kept.svg
   (

@@ -100,7 +100,11 @@ done <<'END_OF_ROWS'
 END_OF_ROWS
 
 # judges ARGUMENT... - has own.svg judged, the messages in err.
-judges() { "$recto" wedge.obj --check own.svg "$@" >out 2>err; }
+# Right or wrong: both are an answer.
+judges() {
+  "$recto" wedge.obj --check own.svg "$@" >out 2>err
+  test $? -le 1
+}
 
 # What --check draws with is not used; what it looks with is.
 check_tells() {
@@ -126,6 +130,8 @@ claim "--check looks with the same camera, edges and tolerances" \
   check_uses --view iso --lookat 0,0,1 --fov 20 --no-fit --margin 5 \
   -e all --crease 20 --contact 0 --pen 0.3
 
+claim "a tolerance is used by --check" check_uses --tolerance 1%
+
 all_are_quiet() {
   draw a.svg -q --pitch 3 --seam 1 --dpi 30 && test ! -s err
 }
@@ -139,7 +145,7 @@ claim "the drawing is the same, a line an option" draws_the_same
 # Those that always do something, or that refuse what they do not go with.
 always='--output --format --from --method --view --azimuth --elevation --camera
 --up --ortho --fit --no-fit --near --section --page --landscape --edges
---fill --stats --verify --check --threads --progress --quiet --version --help'
+--fill --stats --verify --check --tolerance --threads --progress --quiet --version --help'
 every_option_has_its_row() {
   grep -oE -- '^ +(-.,)? *--[a-z-]+' help.txt | grep -oE -- '--[a-z-]+' |
     LC_ALL=C sort -u >offered

@@ -19,6 +19,9 @@ struct arguments {
   const char *stats_file; /* NULL: standard output, or where the drawing goes
                              there, standard error */
   const char *check_file; /* a drawing to judge; NULL: none */
+  /* How much of a drawing may be false, and how much missing, for it to be
+   * right: the greater of both, the second of what is drawn or visible. */
+  double tolerance_mm, tolerance_share;
   bool stats, progress, quiet, help, version;
 
   /* What was said, for what depends on other options. */

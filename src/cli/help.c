@@ -63,5 +63,6 @@ void help_print(void) {
   print_classes();
   print_methods();
   print_formats();
-  printf("Exit status: 0 done, 1 failed, 2 wrong usage.\n");
+  printf("Exit status: 0 done, 1 failed, 2 wrong usage; --check: 0 right, "
+         "1 wrong,\n2 trouble.\n");
 }

@@ -1,51 +1,27 @@
 /* job.c - the work of one run: read, draw, write, report.
  *
- * Once there may be something to leave behind, an interrupt (^C, SIGTERM, SIGHUP)
- * cancels through the progress function, so that nothing half-written is left;
- * a second one ends the process at once.  So does the first while models are
- * read: that may wait for ever, for somebody at a keyboard. */
+ * Once there may be something to leave behind, a signal cancels through the
+ * progress function: see signals.h.  While models are read it ends the process
+ * at once: that may wait for ever, for somebody at a keyboard. */
 #include "cli/job.h"
 
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/path.h"
 #include "base/stream.h"
+#include "cli/message.h"
+#include "cli/signals.h"
 #include "cli/uses.h"
 
-static volatile sig_atomic_t interrupted;
-
-static void note_interrupt(int signal_number) { interrupted = signal_number; }
-
-/* What is ignored already stays so: nohup means it. */
-static void catch_interrupts(void) {
-  static const int number[] = {SIGINT, SIGTERM, SIGHUP};
-  struct sigaction action = {.sa_handler = note_interrupt,
-                             .sa_flags = (int)SA_RESETHAND},
-                   before;
-  sigemptyset(&action.sa_mask);
-  for (size_t i = 0; i < sizeof number / sizeof number[0]; i++)
-    if (sigaction(number[i], NULL, &before) == 0 &&
-        before.sa_handler != SIG_IGN)
-      sigaction(number[i], &action, NULL);
-}
-
 /* ---- Conversation -------------------------------------------------------- */
-
-void job_complain(const char *file, unsigned long line, const char *text) {
-  fprintf(stderr, "recto: ");
-  if (file[0] != '\0')
-    fprintf(stderr, "%s:", file);
-  if (line != 0)
-    fprintf(stderr, "%lu:", line);
-  fprintf(stderr, "%s%s\n", file[0] != '\0' || line != 0 ? " " : "", text);
-}
 
 static void pass_warning(void *user, const char *file, unsigned long line,
                          const char *text) {
   (void)user;
-  job_complain(file, line, text);
+  message_print(file, line, text);
 }
 
 struct talk {
@@ -64,7 +40,7 @@ static bool pass_progress(void *user, double share, const char *stage) {
     talk->stage = stage;
     talk->percent = percent;
   }
-  return interrupted == 0;
+  return !signals_arrived();
 }
 
 /* ---- The work ------------------------------------------------------------ */
@@ -158,7 +134,14 @@ static recto_status tell_verdict(const recto_verdict *v, recto_error *error) {
   return stream_finish(stream, error);
 }
 
-static recto_status check(const struct arguments *arguments,
+/* Whether so much of a drawing is no more than the user tolerates. */
+static bool is_tolerable(const struct arguments *arguments, double part_mm,
+                         double whole_mm) {
+  return part_mm <= fmax(arguments->tolerance_mm,
+                         arguments->tolerance_share * whole_mm);
+}
+
+static recto_status check(const struct arguments *arguments, bool *is_right,
                           recto_error *error) {
   recto_scene *scene = NULL;
   recto_verdict verdict;
@@ -169,7 +152,12 @@ static recto_status check(const struct arguments *arguments,
     status = recto_scene_check(scene, arguments->check_file,
                                &arguments->options, &verdict, error);
   recto_scene_destroy(scene);
-  return status == RECTO_OK ? tell_verdict(&verdict, error) : status;
+  if (status != RECTO_OK)
+    return status;
+  *is_right =
+      is_tolerable(arguments, verdict.false_mm, verdict.drawn_mm) &&
+      is_tolerable(arguments, verdict.missing_mm, verdict.visible_mm);
+  return tell_verdict(&verdict, error);
 }
 
 static recto_status draw(const struct arguments *arguments,
@@ -184,14 +172,14 @@ static recto_status draw(const struct arguments *arguments,
     status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)
     status = read_models(arguments, scene, error);
-  catch_interrupts();
+  signals_catch();
   if (status == RECTO_OK)
     status = open_stats(arguments, &stats, error);
   if (status == RECTO_OK)
     status = recto_scene_render(scene, &options, &drawing, error);
   if (status == RECTO_OK && !arguments->quiet &&
       recto_drawing_verdict(drawing) != NULL)
-    job_complain("", 0, recto_drawing_verdict(drawing));
+    message_print("", 0, recto_drawing_verdict(drawing));
   if (status == RECTO_OK)
     status = recto_drawing_write(drawing, arguments->output, arguments->format,
                                  &options, error);
@@ -204,27 +192,33 @@ static recto_status draw(const struct arguments *arguments,
   return status;
 }
 
+/* What an error means for the exit status of a run that draws. */
+static int status_of(recto_status status) {
+  return status == RECTO_OK ? EXIT_DONE
+         : status == RECTO_ERROR_ARGUMENT || status == RECTO_ERROR_UNSUPPORTED
+             ? EXIT_USAGE
+             : EXIT_FAILED;
+}
+
 int job_run(struct arguments *arguments) {
   struct talk talk = {.progress = arguments->progress};
   recto_error error = {0};
+  bool is_right = true;
   /* A file larger than is allowed is a write that fails. */
   (void)signal(SIGXFSZ, SIG_IGN);
   arguments->options.user = &talk;
   arguments->options.progress = pass_progress;
   if (!arguments->quiet) {
     arguments->options.warning = pass_warning;
-    uses_warn(arguments, job_complain);
+    uses_warn(arguments, message_print);
   }
-  switch (arguments->check_file != NULL ? check(arguments, &error)
-                                        : draw(arguments, &error)) {
-  case RECTO_OK:
-    return EXIT_DONE;
-  case RECTO_ERROR_ARGUMENT:
-  case RECTO_ERROR_UNSUPPORTED:
-    job_complain(error.file, error.line, error.text);
-    return EXIT_USAGE;
-  default:
-    job_complain(error.file, error.line, error.text);
-    return EXIT_FAILED;
-  }
+  bool checks = arguments->check_file != NULL;
+  recto_status status = checks ? check(arguments, &is_right, &error)
+                               : draw(arguments, &error);
+  if (status != RECTO_OK && !signals_are_of_a_pipe())
+    message_print(error.file, error.line, error.text);
+  signals_die();
+  if (!checks)
+    return status_of(status);
+  return status != RECTO_OK ? EXIT_USAGE : is_right ? EXIT_DONE : EXIT_FAILED;
 }

@@ -4,13 +4,12 @@
 
 #include "cli/arguments.h"
 
+/* As diff has it where a drawing is checked: right, wrong, and trouble of any
+ * kind. */
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2 };
 
-/* Prints `recto: FILE:LINE: text` on standard error, leaving out what is not
- * known. */
-void job_complain(const char *file, unsigned long line, const char *text);
-
-/* Reads, draws, writes, reports.  Returns the exit status. */
+/* Reads, draws, writes, reports.  Returns the exit status; after a signal that
+ * asked for the end, ends the process by it. */
 int job_run(struct arguments *arguments);
 
 #endif

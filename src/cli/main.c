@@ -1,13 +1,17 @@
 /* main.c - the program: exit 0 done, 1 failed, 2 wrong usage. */
 #include <stdio.h>
 
+#include "cli/descriptors.h"
 #include "cli/job.h"
+#include "cli/message.h"
 
 int main(int argc, char **argv) {
   struct arguments arguments;
   char message[MESSAGE_SIZE];
+  if (!descriptors_reserve())
+    return EXIT_FAILED; /* and there is nowhere to say so */
   if (!arguments_parse(&arguments, argc, argv, message)) {
-    job_complain("", 0, message);
+    message_print("", 0, message);
     return EXIT_USAGE;
   }
   if (!arguments.help && !arguments.version)
@@ -17,7 +21,7 @@ int main(int argc, char **argv) {
   else
     printf("recto %s\n", recto_version());
   if (fflush(stdout) != 0) {
-    job_complain("", 0, "cannot write to standard output");
+    message_print("", 0, "cannot write to standard output");
     return EXIT_FAILED;
   }
   return EXIT_DONE;

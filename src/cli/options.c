@@ -124,6 +124,11 @@ static bool take_path(struct arguments *arguments, const char *text) {
   return arguments->options.polyline || strcmp(text, "path") == 0;
 }
 
+static bool take_tolerance(struct arguments *arguments, const char *text) {
+  return value_tolerance(text, &arguments->tolerance_mm,
+                         &arguments->tolerance_share);
+}
+
 static bool take_verify(struct arguments *arguments, const char *text) {
   const int usual = 4000;
   arguments->options.verify = usual;
@@ -330,6 +335,9 @@ const struct option_entry option_table[] = {
      .take = take_verify},
     {OPTION_TEXT, "check", 0, "FILE", "a file",
      "judge this SVG drawing of the model", .offset = AT(check_file)},
+    {OPTION_TAKE, "tolerance", 0, "LENGTH", "a length or a share such as 0.5%",
+     "--check: so much false, or missing, is right (0)",
+     .take = take_tolerance, .use = {&used_by_check}},
     {OPTION_INT, "threads", 0, "N", "a number from 1 to 1024",
      "at most so many threads (all there are)", .offset = AT(options.threads),
      .least = 1, .most = 1024, .use = {&used_by_drawing}},

@@ -39,6 +39,11 @@ static const char *name_light(const struct arguments *a) {
   return "hatching by --light";
 }
 
+static const char *name_check(const struct arguments *a) {
+  (void)a;
+  return "a run without --check";
+}
+
 static const char *name_run(const struct arguments *a) {
   (void)a;
   return "a run without --stats";
@@ -189,6 +194,10 @@ static bool is_cairo(const struct arguments *a) {
   return !is_svg(a) && is_screen(a);
 }
 
+static bool has_check(const struct arguments *a) {
+  return a->check_file != NULL;
+}
+
 static bool has_stats(const struct arguments *a) { return a->stats; }
 
 static bool is_plotted(const struct arguments *a) {
@@ -205,6 +214,9 @@ const struct option_use used_by_plotter = {"hpgl and --stats", is_plotted,
                                            name_format, false};
 const struct option_use used_by_stats = {"the time in --stats", has_stats,
                                          name_run, false};
+
+const struct option_use used_by_check = {"--check", has_check, name_check,
+                                         true};
 
 /* ---- Telling ------------------------------------------------------------- */
 

@@ -27,9 +27,9 @@ extern const struct option_use used_by_lines, used_by_strokes, used_by_pen,
     used_by_light;
 /* Files and reports. */
 extern const struct option_use used_by_svg, used_by_screens, used_by_cairo,
-    used_by_png, used_by_plotter, used_by_stats;
+    used_by_png, used_by_plotter, used_by_stats, used_by_check;
 
-/* Told of every option that was said and that nothing uses, as job_complain
+/* Told of every option that was said and that nothing uses, as message_print
  * is. */
 typedef void (*uses_tell_fn)(const char *file, unsigned long line,
                              const char *text);

@@ -48,6 +48,20 @@ bool value_length(const char *text, double *mm) {
   return true;
 }
 
+bool value_tolerance(const char *text, double *mm, double *share) {
+  const char *end = text + strlen(text);
+  double number;
+  const char *stop = read_number(text, end, &number);
+  bool is_share = stop != NULL && strcmp(stop, "%") == 0;
+  if (!is_share && !value_length(text, &number))
+    return false;
+  if (number < 0)
+    return false;
+  *mm = is_share ? 0 : number;
+  *share = is_share ? number / 100 : 0;
+  return true;
+}
+
 /* ---- Vectors ------------------------------------------------------------- */
 
 bool value_vector(const char *text, double vector[3]) {

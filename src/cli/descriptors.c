@@ -1,0 +1,22 @@
+/* descriptors.c - the standard descriptors are open, whatever the caller did.
+ */
+#include "cli/descriptors.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+/* A descriptor is opened for the contrary of what it is for, so that whoever
+ * reads or writes it is told. */
+static bool reserve(int number) {
+  if (fcntl(number, F_GETFD) != -1 || errno != EBADF)
+    return true;
+  int opened =
+      open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  return opened == number; /* the lowest that is free, and those below are not */
+}
+
+bool descriptors_reserve(void) {
+  return reserve(STDIN_FILENO) && reserve(STDOUT_FILENO) &&
+         reserve(STDERR_FILENO);
+}

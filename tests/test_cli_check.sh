@@ -1,0 +1,69 @@
+#!/bin/bash
+# test_cli_check.sh - somebody's drawing is judged, and the exit status says
+# what was found, as that of diff does.
+. "$(dirname "$0")/tap.sh"
+. "$(dirname "$0")/cli.sh"
+
+judges_its_own() {
+  run 0 cube.obj -o own.svg && run 0 cube.obj --check own.svg && silent &&
+    test "$(wc -l <out)" -eq 5 &&
+    grep -qE '^drawn +[0-9]{3}\.[0-9]{3} mm$' out &&
+    grep -qE '^false ink +0\.000 mm +0\.000 %$' out &&
+    grep -qE '^missing ink +0\.000 mm +0\.000 %$' out
+}
+claim "--check finds its own drawing right" judges_its_own
+judges_lines_alone() {
+  run 0 cube.obj -o filled.svg --fill "$1" "${@:2}" &&
+    run 0 cube.obj --check filled.svg &&
+    grep -qE '^false ink +0\.000 mm +0\.000 %$' out
+}
+claim "--check leaves hatching alone" judges_lines_alone hatch
+claim "--check leaves fills and their seams alone" \
+  judges_lines_alone paint --seam 0.2
+# A cube from a corner shows nine edges of one length and hides three.
+judges_others() {
+  run 0 cube.obj -o hidden.svg --hidden layer &&
+    sed 's/hidden/other/' hidden.svg >other.svg &&
+    run 1 cube.obj --check other.svg &&
+    grep -qE '^false ink +[0-9.]+ mm +2[45]\.[0-9]+ %  first at [0-9.,]+ mm$' out &&
+    sed '/^<path/d' own.svg >empty.svg && run 1 cube.obj --check empty.svg &&
+    grep -qE '^missing ink +[0-9.]+ mm +100\.000 %  first at' out
+}
+claim "--check finds hidden lines drawn and visible ones missing" judges_others
+claim "--check draws nothing" refuses 'check draws nothing' \
+  cube.obj --check own.svg -o no.svg
+head -c 300 own.svg >cut.svg
+claim "--check of what is no drawing is trouble" run 2 cube.obj --check cut.svg
+claim "--check says why" says '^recto: cut.svg: the file stops'
+claim "--check of no file is trouble" run 2 cube.obj --check no.svg
+claim "--check of a model that is not there is trouble" \
+  run 2 none.obj --check own.svg
+claim "--check of an unknown option is trouble" \
+  run 2 cube.obj --check own.svg --colour
+verdict_on_a_full_disk() {
+  "$recto" cube.obj --check own.svg >/dev/full 2>err
+  test $? -eq 2 && says '^recto: '
+}
+claim "--check that cannot say what it found is trouble" verdict_on_a_full_disk
+
+tolerates() { # STATUS TOLERANCE FILE
+  run "$1" cube.obj --check "$3" --tolerance "$2"
+}
+# The hidden lines drawn as visible ones are a quarter of all ink.
+claim "a share of false ink below --tolerance is right" \
+  tolerates 0 25.5% other.svg
+claim "one above it is wrong" tolerates 1 24% other.svg
+false_mm() { awk '/^false/ { print $3 }' out; }
+run 1 cube.obj --check other.svg
+mm=$(false_mm)
+claim "a length of false ink below --tolerance is right" \
+  tolerates 0 "$(awk "BEGIN { print $mm + 0.1 }")mm" other.svg
+claim "a longer one is wrong" \
+  tolerates 1 "$(awk "BEGIN { print ($mm - 0.1) / 10 }")cm" other.svg
+claim "missing ink is tolerated alike" tolerates 0 100% empty.svg
+claim "and no more of it" tolerates 1 99% empty.svg
+for value in -1 x % 5%% -3% 1e999% nan; do
+  claim "--tolerance=$value is refused" refuses '--tolerance: expected' \
+    cube.obj --check own.svg "--tolerance=$value"
+done
+finish
