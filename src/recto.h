@@ -266,6 +266,11 @@ typedef struct recto_options {
    * different strokes.  "none": all are one pen wide; NULL: silhouettes and
    * borders are 2 wide unless there are several pens. */
   const char *weights;
+
+  /* Significant bits of the coordinates given to recto_scene_add_point, 1 to
+   * 53, which are off by half of the last one; 0: 24, single precision; 53:
+   * exact.  What is in a file tells its own precision. */
+  int coordinate_bits;
 } recto_options;
 
 /* Fills `options` with the defaults: auto, isometric, A4 portrait with a

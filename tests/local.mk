@@ -115,6 +115,9 @@ unit_tests += %D%/test_obj
 %C%_test_obj_SOURCES = %D%/test_obj.c %D%/reading.c %D%/reading.h \
   %D%/comma.c %D%/comma.h
 %C%_test_obj_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_precision
+%C%_test_precision_SOURCES = %D%/test_precision.c \
+  %D%/reading.c %D%/reading.h
 unit_tests += %D%/test_stl
 %C%_test_stl_SOURCES = %D%/test_stl.c %D%/reading.c %D%/reading.h \
   %D%/comma.c %D%/comma.h

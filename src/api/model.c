@@ -54,6 +54,10 @@ recto_status recto_scene_add_point(recto_scene *scene, const double xyz[3],
                      "a point is not finite");
   if (scene->scene.point.count >= SCENE_LIMIT)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0, "too many points");
+  recto_status status =
+      scene_leave_precision(&scene->scene, scene->scene.point.count, error);
+  if (status != RECTO_OK)
+    return status;
   struct scene_point point = {xyz[0], xyz[1], xyz[2]};
   if (!ARRAY_PUSH(&scene->scene.point, point))
     return error_memory(error);

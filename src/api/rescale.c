@@ -72,6 +72,23 @@ static recto_status scale_points(struct rescaled *rescaled,
   return RECTO_OK;
 }
 
+static recto_status scale_precision(struct rescaled *rescaled,
+                                    recto_error *error) {
+  struct scene *scene = &rescaled->scene;
+  size_t count = scene->precision.count;
+  const struct precision_range *from = scene->precision.item;
+  struct precision_range *to = mem_alloc(count, sizeof *to);
+  scene->precision.item = to;
+  if (to == NULL)
+    return error_memory(error);
+  for (size_t i = 0; i < count; i++) {
+    to[i] = from[i];
+    to[i].precision.absolute =
+        ldexp(from[i].precision.absolute, -rescaled->exponent);
+  }
+  return RECTO_OK;
+}
+
 /* Returns whether the lengths are still finite that must be. */
 static bool scale_lengths(recto_options *o, int exponent) {
   double *const length[] = {&o->eye[0],    &o->eye[1],       &o->eye[2],
@@ -95,6 +112,9 @@ recto_status rescale(struct rescaled *rescaled, const struct scene *scene,
   if (rescaled->exponent == 0)
     return RECTO_OK;
   recto_status status = scale_points(rescaled, error);
+  recto_status other = scale_precision(rescaled, error);
+  if (status == RECTO_OK)
+    status = other;
   if (status == RECTO_OK &&
       !scale_lengths(&rescaled->options, rescaled->exponent))
     status = error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
@@ -104,8 +124,10 @@ recto_status rescale(struct rescaled *rescaled, const struct scene *scene,
 }
 
 void rescale_fini(struct rescaled *rescaled) {
-  if (rescaled->exponent != 0)
+  if (rescaled->exponent != 0) {
     mem_free(rescaled->scene.point.item);
+    mem_free(rescaled->scene.precision.item);
+  }
   rescaled->exponent = 0;
 }
 

@@ -7,7 +7,8 @@
 
 /* A scene and options that are those of the user times 2^-exponent. */
 struct rescaled {
-  struct scene scene; /* all but its points are lent */
+  struct scene scene; /* all but its points and their precision
+                          are lent */
   recto_options options;
   int exponent; /* 0: the points are lent too */
 };

@@ -13,6 +13,7 @@ librecto_core_la_SOURCES += \
   %D%/obj_parser.c %D%/obj_parser.h \
   %D%/obj_run.c \
   %D%/positions.c %D%/positions.h \
+  %D%/precision.c %D%/precision.h \
   %D%/read.c \
   %D%/reader_mtl.c \
   %D%/reader_obj.c \

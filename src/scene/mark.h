@@ -5,7 +5,7 @@
 #include "scene/scene.h"
 
 struct scene_mark {
-  size_t points, faces, corners, wires, wire_corners, groups;
+  size_t points, faces, corners, wires, wire_corners, precisions, groups;
   uint32_t current_group;
 };
 

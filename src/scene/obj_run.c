@@ -21,6 +21,19 @@ static inline bool is_plain(const struct obj_parser *p, char keyword) {
   return p->end - p->at > PLAIN_ROOM && p->at[0] == keyword && p->at[1] == ' ';
 }
 
+/* Looks at the numbers of "v x y z", which are plain. */
+static void sample_point(struct obj_parser *p,
+                         const struct scene_point *point) {
+  const double xyz[3] = {point->x, point->y, point->z};
+  const char *at = p->at + 2;
+  for (int k = 0; k < 3; k++) {
+    const char *start = at;
+    while (*at > ' ')
+      at++;
+    precision_look(&p->sample, start, at++, xyz[k]);
+  }
+}
+
 recto_status obj_run_points(struct obj_parser *p) {
   struct scene *scene = p->scene;
   if (scene->point.count > SCENE_LIMIT - PLAIN_RUN)
@@ -40,6 +53,8 @@ recto_status obj_run_points(struct obj_parser *p) {
       break;
     if (!at || *at != '\n')
       break;
+    if (precision_asks(&p->sample, p->seen))
+      sample_point(p, &point);
     p->at = at + 1;
     p->line++;
     p->seen++;

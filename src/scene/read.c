@@ -114,6 +114,8 @@ recto_status scene_read(struct scene *scene, const char *path,
   if (status == RECTO_OK)
     status = reader->read(scene, input.bytes, input.count, path, format,
                           diagnostics, error);
+  if (status == RECTO_OK && scene->precision.count == mark.precisions)
+    status = scene_leave_precision(scene, mark.points, error);
   input_unload(&input);
   if (status != RECTO_OK) {
     scene_return(scene, &mark);

@@ -238,7 +238,11 @@ static recto_status read_assimp(struct scene *scene, const char *bytes,
   }
   struct import import = {
       .scene = scene, .from = from, .diagnostics = diagnostics, .error = error};
+  size_t first = scene->point.count;
   recto_status status = add_nodes(&import);
+  if (status == RECTO_OK)
+    status = scene_state_precision(
+        scene, first, (struct precision){0, PRECISION_SINGLE}, error);
   ARRAY_FREE(&import.stack);
   ARRAY_FREE(&import.corner);
   ARRAY_FREE(&import.bad);

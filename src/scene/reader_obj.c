@@ -47,6 +47,7 @@ static recto_status read_point(struct obj_parser *p) {
   const char *start = p->at;
   unsigned long line = p->line;
   double xyz[3] = {0, 0, 0};
+  bool asked = precision_asks(&p->sample, p->seen);
   p->at++;
   for (int k = 0; k < 3; k++) {
     obj_skip_blanks(p);
@@ -55,6 +56,8 @@ static recto_status read_point(struct obj_parser *p) {
       recto_status status = obj_skip_broken(p, start, line, "point");
       return status == RECTO_OK ? add_point(p, xyz, false) : status;
     }
+    if (asked && isfinite(xyz[k]))
+      precision_look(&p->sample, p->at, stop, xyz[k]);
     p->at = stop;
   }
   bool finite = isfinite(xyz[0]) && isfinite(xyz[1]) && isfinite(xyz[2]);
@@ -420,6 +423,9 @@ static recto_status read_obj(struct scene *scene, const char *bytes,
     status = materials_colour(&p.materials, scene, path, diagnostics, error);
   if (status == RECTO_OK)
     place_bad_points(&p);
+  if (status == RECTO_OK)
+    status = scene_state_precision(scene, p.first,
+                                   precision_conclude(&p.sample), error);
   materials_fini(&p.materials);
   ARRAY_FREE(&p.bad);
   ARRAY_FREE(&p.corner);

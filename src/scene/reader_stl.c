@@ -126,6 +126,7 @@ static recto_status read_binary(struct scene *scene, const char *bytes,
     return error_memory(error);
   /* Closed surfaces have half as many points as triangles. */
   struct positions positions;
+  size_t first = scene->point.count;
   positions_init(&positions, scene);
   status = positions_reserve(&positions, scene, triangles / 2, error);
   for (size_t i = 0; i < triangles && status == RECTO_OK; i += BATCH) {
@@ -136,7 +137,10 @@ static recto_status read_binary(struct scene *scene, const char *bytes,
                           i + 1, &positions, diagnostics, error);
   }
   positions_fini(&positions);
-  return status;
+  if (status != RECTO_OK)
+    return status;
+  return scene_state_precision(scene, first,
+                               (struct precision){0, PRECISION_SINGLE}, error);
 }
 
 /* ---- Text ---------------------------------------------------------------- */
@@ -153,6 +157,8 @@ struct parser {
   unsigned long line;
   const char *path;
   struct positions positions;
+  struct precision_sample sample;
+  size_t corners; /* so far */
   ARRAY(uint32_t) corner;
   struct diagnostics *diagnostics;
   recto_error *error;
@@ -196,6 +202,7 @@ static recto_status read_coordinates(struct parser *p,
                                      struct scene_point *point,
                                      enum scene_fault *fault) {
   double xyz[3];
+  bool asked = precision_asks(&p->sample, p->corners++);
   for (int k = 0; k < 3; k++) {
     struct word word = next_word(p);
     const char *end = word.start + word.length;
@@ -206,6 +213,8 @@ static recto_status read_coordinates(struct parser *p,
       xyz[k] = 0;
     } else if (!isfinite(xyz[k]) && *fault == SCENE_FAULT_COUNT) {
       *fault = SCENE_FAULT_NOT_FINITE;
+    } else if (asked) {
+      precision_look(&p->sample, word.start, end, xyz[k]);
     }
   }
   *point = (struct scene_point){xyz[0] + 0.0, xyz[1] + 0.0, xyz[2] + 0.0};
@@ -352,7 +361,11 @@ static recto_status read_stl(struct scene *scene, const char *bytes,
                      .diagnostics = diagnostics,
                      .error = error};
   positions_init(&p.positions, scene);
+  size_t first = scene->point.count;
   recto_status status = read_text(&p);
+  if (status == RECTO_OK)
+    status = scene_state_precision(scene, first, precision_conclude(&p.sample),
+                                   error);
   positions_fini(&p.positions);
   ARRAY_FREE(&p.corner);
   return status;

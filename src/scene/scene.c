@@ -31,6 +31,7 @@ void scene_fini(struct scene *scene) {
   ARRAY_FREE(&scene->wire_start);
   ARRAY_FREE(&scene->wire_corner);
   ARRAY_FREE(&scene->wire_group);
+  ARRAY_FREE(&scene->precision);
   ARRAY_FREE(&scene->group);
   mem_free(scene->group_slot);
   scene->group_slot = NULL;
@@ -125,6 +126,7 @@ void scene_mark(const struct scene *scene, struct scene_mark *mark) {
   mark->corners = scene->corner.count;
   mark->wires = scene->wire_group.count;
   mark->wire_corners = scene->wire_corner.count;
+  mark->precisions = scene->precision.count;
   mark->groups = scene->group.count;
   mark->current_group = scene->current_group;
 }
@@ -137,6 +139,7 @@ void scene_return(struct scene *scene, const struct scene_mark *mark) {
   scene->wire_group.count = mark->wires;
   scene->wire_start.count = mark->wires ? mark->wires + 1 : 0;
   scene->wire_corner.count = mark->wire_corners;
+  scene->precision.count = mark->precisions;
   drop_groups(scene, mark->groups);
   scene->current_group = mark->current_group;
   if (scene->group_slot)

@@ -12,6 +12,7 @@
 
 #include "base/memory.h"
 #include "base/status.h"
+#include "scene/precision.h"
 
 #define SCENE_NONE UINT32_MAX
 
@@ -37,11 +38,14 @@ struct scene {
   ARRAY(uint32_t) wire_start;
   ARRAY(uint32_t) wire_corner;
   ARRAY(uint32_t) wire_group;
+  /* How exact the points are, one range a file, ascending; points before the
+   * first range were added without a word about it. */
+  ARRAY(struct precision_range) precision;
   ARRAY(struct scene_group) group; /* group 0 is there once anything is */
   uint32_t current_group;          /* what scene_add_* add to */
   uint32_t *group_slot;            /* finds groups by name: see scene.c */
   size_t group_slot_count;
-  double up[3]; /* what the format means by up */
+  double up[3];       /* what the format means by up */
   bool wants_colours; /* readers look for colours of groups in other files */
 };
 
@@ -112,7 +116,9 @@ USE_RESULT recto_status scene_add_wire(struct scene *scene,
 /* One reader per format, each a file reader_*.c.  The whole input is handed
  * over in memory (mapped, or read from a pipe), NUL-terminated past its end.
  * path    as the user wrote it, for messages
- * format  the reader's name, or the extension it was chosen by */
+ * format  the reader's name, or the extension it was chosen by
+ * A reader states the precision of its points; where it does not, the options
+ * do, as for points that were added one by one. */
 struct reader {
   const char *name;       /* "obj" */
   const char *extensions; /* "obj", space-separated */
