@@ -167,7 +167,7 @@ typedef void (*recto_warning_fn)(void *user, const char *file,
 typedef struct recto_options {
   /* Method. */
   recto_method method;
-  int threads;     /* 0: as many as the machine offers */
+  int threads;     /* at most as many as there are processors; 0: so many */
   double contact;  /* scene units; negative: a millionth of the size */
   double pitch_mm; /* watkins: between scan lines; 0: exact sweep, else at
                       least RECTO_FINEST_MM */

@@ -78,6 +78,10 @@ unit_tests += %D%/test_input
 %C%_test_input_SOURCES = %D%/test_input.c %D%/reading.c %D%/reading.h \
   %D%/temporary.c %D%/temporary.h
 %C%_test_input_LDADD = $(LDADD) $(ZLIB_LIBS)
+unit_tests += %D%/test_parallel
+%C%_test_parallel_SOURCES = %D%/test_parallel.c %D%/laid.c %D%/laid.h
+%C%_test_parallel_LDADD = %D%/scenes/libscenes.la $(LDADD)
+
 unit_tests += %D%/test_memory
 %C%_test_memory_SOURCES = %D%/test_memory.c
 unit_tests += %D%/test_number

@@ -5,11 +5,11 @@
  * is asked for verify. */
 #include <math.h>
 #include <stdio.h>
-#include <unistd.h>
 
 #include "api/handle.h"
 #include "backends/device.h"
 #include "api/rescale.h"
+#include "base/parallel.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
 #include "scene/topology.h"
@@ -69,16 +69,11 @@ choose_method(struct render *render, const struct solver_request *request) {
   return solver;
 }
 
+/* More threads than processors would only wait for each other. */
 static int count_threads(const recto_options *options) {
-#ifdef _OPENMP
-  if (options->threads > 0)
-    return options->threads;
-  long there = sysconf(_SC_NPROCESSORS_ONLN);
-  return there > 0 && there < 1024 ? (int)there : 1;
-#else
-  (void)options;
-  return 1;
-#endif
+  int there = parallel_processors();
+  return 0 < options->threads && options->threads < there ? options->threads
+                                                          : there;
 }
 
 /* ---- Stages -------------------------------------------------------------- */

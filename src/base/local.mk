@@ -7,6 +7,7 @@ librecto_core_la_SOURCES += \
   %D%/length.c %D%/length.h \
   %D%/memory.c %D%/memory.h \
   %D%/number.c %D%/number.h %D%/number_format.c \
+  %D%/parallel.c %D%/parallel.h \
   %D%/path.c %D%/path.h \
   %D%/report.c %D%/report.h \
   %D%/sets.h \

@@ -2,18 +2,28 @@
 #include "base/memory.h"
 
 #include <stdalign.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 
 /* For tests alone: see mem_fail_after. */
-static unsigned long allocations_to_failure;
+static atomic_ulong allocations_to_failure;
 
 /* Whether this allocation is the one that a test wants to fail. */
 static bool is_made_to_fail(void) {
-  return allocations_to_failure && --allocations_to_failure == 0;
+  unsigned long left =
+      atomic_load_explicit(&allocations_to_failure, memory_order_relaxed);
+  while (left > 0)
+    if (atomic_compare_exchange_weak(&allocations_to_failure, &left, left - 1))
+      return left == 1;
+  return false;
 }
 
-void mem_fail_after(unsigned long n) { allocations_to_failure = n; }
+void mem_fail_after(unsigned long n) {
+  atomic_store(&allocations_to_failure, n);
+}
+
+bool mem_is_to_fail(void) { return atomic_load(&allocations_to_failure) > 0; }
 
 /* The size of a block; false where it does not fit.  Never zero, so that an
  * empty array has an address of its own. */

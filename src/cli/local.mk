@@ -9,5 +9,4 @@ recto_SOURCES += \
   %D%/options.c \
   %D%/signals.c %D%/signals.h \
   %D%/uses.c %D%/uses.h \
-  %D%/value.c %D%/value.h \
-  %D%/waiting.c
+  %D%/value.c %D%/value.h

@@ -13,10 +13,8 @@
  */
 #include <stdatomic.h>
 #include <string.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
+#include "base/parallel.h"
 #include "visibility/crowd.h"
 #include "visibility/leftover.h"
 #include "visibility/pierce.h"
@@ -47,12 +45,8 @@ enum { ASK_EVERY = 16 }; /* edges or faces between two calls of progress */
 
 /* Asks whether to go on, in the caller's own thread and not too often. */
 static bool may_go_on(const struct tiles_work *work, size_t done, size_t all,
-                      const char *stage) {
+                      const char *stage, bool callers) {
   const struct solver_request *request = work->request;
-  bool callers = true;
-#ifdef _OPENMP
-  callers = omp_get_thread_num() == 0;
-#endif
   if (callers && done % ASK_EVERY == 0 && request->progress != NULL &&
       !atomic_load(work->cancelled) &&
       !request->progress(request->user, (double)done / (double)all, stage))
@@ -249,6 +243,7 @@ struct edge_task {
   struct pagegrid_query *query;
   struct strokes *strokes;
   struct hide_counts *counts;
+  bool callers; /* asked in the caller's own thread */
 };
 
 static struct geom_point point_of_edge(const struct edge_task *task,
@@ -396,29 +391,32 @@ static void solve_run(const struct tiles_work *work, size_t from,
   run->done = true;
   task->counts = &run->counts;
   for (size_t i = from; run->done && i < to; i++)
-    run->done = may_go_on(work, i, work->edge.count, "edges") &&
+    run->done = may_go_on(work, i, work->edge.count, "edges", task->callers) &&
                 solve_edge(work, work->edge.item[i], task) &&
                 strokes_file(task->strokes, work->edge.item[i], &run->map);
 }
 
-static void solve_runs(const struct tiles_work *work, struct edge_run *run,
-                       size_t runs) {
-#ifdef _OPENMP
-#pragma omp parallel num_threads(work->request->threads) if (runs > 1)
-#endif
-  {
-    struct pagegrid_query query;
-    struct strokes strokes = {0};
-    struct edge_task task = {.query = &query, .strokes = &strokes};
-    bool ready = pagegrid_query_init(&query, &work->lists.grid);
-#ifdef _OPENMP
-#pragma omp for schedule(dynamic)
-#endif
-    for (size_t i = 0; i < runs; i++)
-      if (ready) solve_run(work, i * RUN, &task, &run[i]);
-    strokes_fini(&strokes);
-    pagegrid_query_fini(&query);
+/* The runs, which the threads share. */
+struct runs {
+  const struct tiles_work *work;
+  struct edge_run *run;
+  size_t count;
+  atomic_size_t next; /* not yet taken by any thread */
+};
+
+static void solve_some(void *user, bool callers) {
+  struct runs *runs = user;
+  struct pagegrid_query query;
+  struct strokes strokes = {0};
+  struct edge_task task = {
+      .query = &query, .strokes = &strokes, .callers = callers};
+  if (pagegrid_query_init(&query, &runs->work->lists.grid)) {
+    size_t i;
+    while ((i = atomic_fetch_add(&runs->next, 1)) < runs->count)
+      solve_run(runs->work, i * RUN, &task, &runs->run[i]);
   }
+  strokes_fini(&strokes);
+  pagegrid_query_fini(&query);
 }
 
 /* Appends a run's intervals to the map's; runs come in the edges' order. */
@@ -443,7 +441,8 @@ static bool solve_edges(struct tiles_work *work, struct map *map) {
   bool done = run != NULL;
   if (!done) return false;
   for (size_t i = 0; i < runs; i++) run[i].map.edge_state = map->edge_state;
-  solve_runs(work, run, runs);
+  parallel_run(runs > 1 ? work->request->threads : 1, solve_some,
+               &(struct runs){.work = work, .run = run, .count = runs});
   for (size_t i = 0; i < runs; i++) {
     done = done && run[i].done && join_run(map, &run[i]);
     hide_counts_add(&work->hide, &run[i].counts);

@@ -1,0 +1,68 @@
+/* parallel.c - a few threads for one loop, and as many as can be had.
+ *
+ * Threads are started for the loop and joined at its end: nothing remains that
+ * a fork could break, no environment variable is read, no thread spins.  Where
+ * pthread_create fails, the work is done by the threads that are there. */
+#ifdef __linux__
+#define _GNU_SOURCE /* sched_getaffinity */
+#endif
+#include "base/parallel.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sched.h>
+#endif
+
+enum { MOST_THREADS = 1024 };
+
+struct others {
+  parallel_worker *worker;
+  void *user;
+};
+
+static void *start(void *argument) {
+  const struct others *others = argument;
+  others->worker(others->user, false);
+  return NULL;
+}
+
+/* Starts up to `wanted` threads; returns how many there are.  They inherit a
+ * mask that blocks all signals, so that the host's handlers run in the host's
+ * own threads. */
+static int start_others(pthread_t *thread, int wanted, struct others *others) {
+  sigset_t all, before;
+  int count = 0;
+  if (sigfillset(&all) != 0 || pthread_sigmask(SIG_SETMASK, &all, &before) != 0)
+    return 0;
+  while (count < wanted &&
+         pthread_create(&thread[count], NULL, start, others) == 0)
+    count++;
+  (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
+  return count;
+}
+
+void parallel_run(int threads, parallel_worker *worker, void *user) {
+  pthread_t thread[MOST_THREADS];
+  struct others others = {worker, user};
+  int wanted = threads <= MOST_THREADS ? threads - 1 : MOST_THREADS - 1;
+  int count = wanted > 0 ? start_others(thread, wanted, &others) : 0;
+  worker(user, true);
+  for (int i = 0; i < count; i++)
+    (void)pthread_join(thread[i], NULL);
+}
+
+int parallel_processors(void) {
+  long there = 0;
+#ifdef __linux__
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0)
+    there = CPU_COUNT(&set);
+#endif
+  if (there < 1)
+    there = sysconf(_SC_NPROCESSORS_ONLN);
+  if (there < 1)
+    return 1;
+  return there < MOST_THREADS ? (int)there : MOST_THREADS;
+}

@@ -1,0 +1,183 @@
+/* test_parallel.c - a loop is done by as many threads as can be had. */
+#define _GNU_SOURCE /* RTLD_NEXT */
+#include <dlfcn.h>
+#include <errno.h>
+#include <pthread.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "tests/laid.h"
+#include "visibility/solver.h"
+
+/* ---- A system that starts no more threads --------------------------------- */
+
+static int to_start = 10000; /* so many threads can still be had */
+static int started;
+
+typedef int creator(pthread_t *thread, const pthread_attr_t *attributes,
+                    void *(*start)(void *), void *argument);
+
+/* Stands before the system's own, for all of this program. */
+int pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
+                   void *(*start)(void *), void *argument) {
+  creator *real;
+  *(void **)&real = dlsym(RTLD_NEXT, "pthread_create");
+  if (to_start-- <= 0)
+    return EAGAIN;
+  started++;
+  return real(thread, attributes, start, argument);
+}
+
+static int reset(void **state) {
+  (void)state;
+  to_start = 10000;
+  started = 0;
+  return 0;
+}
+
+/* ---- The loop ------------------------------------------------------------- */
+
+enum { THINGS = 5000 };
+
+struct work {
+  atomic_size_t next;
+  atomic_uchar done[THINGS];
+  atomic_int workers, callers, awake; /* awake: with a signal not blocked */
+};
+
+static void do_some(void *user, bool callers) {
+  struct work *work = user;
+  sigset_t mask;
+  size_t i;
+  atomic_fetch_add(&work->workers, 1);
+  atomic_fetch_add(&work->callers, callers);
+  assert_int_equal(pthread_sigmask(SIG_SETMASK, NULL, &mask), 0);
+  atomic_fetch_add(&work->awake, sigismember(&mask, SIGINT) == 0);
+  while ((i = atomic_fetch_add(&work->next, 1)) < THINGS)
+    atomic_fetch_add(&work->done[i], 1);
+}
+
+/* Runs the loop; how many threads took part. */
+static int run(int threads) {
+  static struct work work;
+  memset((void *)&work, 0, sizeof work);
+  parallel_run(threads, do_some, &work);
+  for (size_t i = 0; i < THINGS; i++)
+    assert_int_equal(work.done[i], 1);
+  assert_int_equal(work.callers, 1);
+  assert_int_equal(work.awake, 1); /* signals reach the caller's thread alone */
+  return work.workers;
+}
+
+static void all_is_done_once_by_any_number_of_threads(void **state) {
+  static const int threads[] = {-1, 0, 1, 2, 3, 16, 100};
+  (void)state;
+  for (size_t k = 0; k < sizeof threads / sizeof *threads; k++) {
+    started = 0;
+    assert_int_equal(run(threads[k]), threads[k] > 1 ? threads[k] : 1);
+    assert_int_equal(started, threads[k] > 1 ? threads[k] - 1 : 0);
+  }
+}
+
+static void one_thread_starts_no_other(void **state) {
+  (void)state;
+  to_start = 0;
+  assert_int_equal(run(1), 1);
+  assert_int_equal(to_start, 0); /* nobody asked */
+}
+
+static void threads_that_cannot_start_are_done_without(void **state) {
+  (void)state;
+  for (int there = 0; there < 5; there++) {
+    to_start = there;
+    assert_int_equal(run(8), 1 + there);
+  }
+}
+
+static void a_forked_process_has_threads_too(void **state) {
+  int status;
+  (void)state;
+  assert_int_equal(run(3), 3);
+  pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0)
+    _exit(run(3) == 3 ? 0 : 1);
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+}
+
+static void there_is_a_processor(void **state) {
+  (void)state;
+  assert_in_range(parallel_processors(), 1, 1024);
+}
+
+/* ---- The solver that has threads ------------------------------------------ */
+
+static void solve(struct laid *laid, struct map *map, int threads,
+                  recto_status expected) {
+  const struct solver_request request = {.strokes = true,
+                                         .intersections = true,
+                                         .threads = threads};
+  struct report *report = report_create();
+  recto_error error;
+  assert_non_null(report);
+  map_init(map);
+  laid_start(laid);
+  scenes_soup(&laid->scene, &laid->options, 1500, 3);
+  laid_out(laid, true);
+  assert_int_equal(
+      solver_tiles.solve(&laid->sheet, &request, map, report, &error),
+      expected);
+  mem_fail_after(0);
+  report_destroy(report);
+}
+
+static void assert_same(const struct map *a, const struct map *b) {
+  assert_int_equal(a->edge_count, b->edge_count);
+  assert_memory_equal(a->edge_state, b->edge_state, a->edge_count);
+  assert_int_equal(a->interval.count, b->interval.count);
+  assert_memory_equal(a->interval.item, b->interval.item,
+                      a->interval.count * sizeof *a->interval.item);
+}
+
+static void lines_do_not_depend_on_what_threads_there_are(void **state) {
+  struct laid laid;
+  struct map alone, map;
+  (void)state;
+  solve(&laid, &alone, 1, RECTO_OK);
+  laid_fini(&laid);
+  assert_int_equal(started, 0);
+  for (int there = 0; there < 3; there++) {
+    to_start = 3 * there;
+    started = 0;
+    solve(&laid, &map, 8, RECTO_OK);
+    assert_int_equal(started, 3 * there);
+    assert_same(&alone, &map);
+    map_fini(&map);
+    laid_fini(&laid);
+  }
+  map_fini(&alone);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup(all_is_done_once_by_any_number_of_threads, reset),
+      cmocka_unit_test_setup(one_thread_starts_no_other, reset),
+      cmocka_unit_test_setup(threads_that_cannot_start_are_done_without, reset),
+      cmocka_unit_test_setup(a_forked_process_has_threads_too, reset),
+      cmocka_unit_test_setup(there_is_a_processor, reset),
+      cmocka_unit_test_setup(lines_do_not_depend_on_what_threads_there_are,
+                             reset),
+  };
+  return cmocka_run_group_tests_name("parallel", tests, NULL, NULL);
+}
