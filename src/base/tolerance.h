@@ -121,7 +121,7 @@
 /* Curves of a drawing that is judged are as straight pieces off by no more.
  * Unit        mm
  * Derivation  what three decimals of a millimetre round.
- * Users       judge/svg_path.c
+ * Users       judge/svg_pen.c
  * Ten times   a third as many pieces; still a tenth of a fine pen. */
 #define TOLERANCE_CURVE_MM 1e-3
 

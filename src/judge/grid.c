@@ -3,6 +3,12 @@
 
 #include <string.h>
 
+/* A segment across the page is in as many cells as there are in a row and a
+ * column of them.  Where there are more of these than so many for each segment
+ * and 4 for each cell, cells are taken twice as wide: memory grows with the
+ * number of segments, not with their length. */
+enum { BY_SEGMENT = 256, FEWEST = 9 };
+
 static uint32_t cell_of(double mm, double cell_mm, uint32_t count) {
   double cell = floor(mm / cell_mm);
   return cell < 0 ? 0 : cell >= count ? count - 1 : (uint32_t)cell;
@@ -29,15 +35,16 @@ static bool cut_to_row(const struct judge_segment *s, double low, double high,
 }
 
 /* Visits the cells within reach of segment i: counts them where `item` is
- * not there yet, else enters the segment. */
-static void enter(struct judge_grid *grid, uint32_t i, uint32_t *fill) {
+ * not there yet, else enters the segment.  Returns how many there are. */
+static size_t enter(struct judge_grid *grid, uint32_t i, uint32_t *fill) {
+  size_t visited = 0;
   const struct judge_segment *s = &grid->segment[i];
   double reach = grid->reach_mm, cell = grid->cell_mm;
   double low = fmin(s->a.y, s->b.y) - reach;
   double high = fmax(s->a.y, s->b.y) + reach;
   double height = grid->rows * cell, width = grid->columns * cell;
   if (!(low <= height && high >= 0))
-    return;
+    return 0;
   uint32_t last = cell_of(high, cell, grid->rows);
   for (uint32_t row = cell_of(low, cell, grid->rows); row <= last; row++) {
     double x0, x1;
@@ -52,27 +59,46 @@ static void enter(struct judge_grid *grid, uint32_t i, uint32_t *fill) {
       if (grid->item != NULL)
         grid->item[*place] = i;
       ++*place;
+      visited++;
     }
   }
+  return visited;
+}
+
+/* Counts what goes into each cell; false where that is more than may be. */
+static bool count_items(struct judge_grid *grid, uint32_t count,
+                        uint32_t *fill) {
+  size_t cells = (size_t)grid->columns * grid->rows, items = 0;
+  size_t most = (size_t)BY_SEGMENT * count + 4 * cells;
+  most = most < UINT32_MAX ? most : UINT32_MAX;
+  memset(fill, 0, (cells + 1) * sizeof *fill);
+  for (uint32_t i = 0; i < count && items <= most; i++)
+    items += enter(grid, i, fill);
+  return items <= most;
+}
+
+static void set_cells(struct judge_grid *grid, double width_mm,
+                      double height_mm, double cell_mm) {
+  grid->cell_mm = cell_mm;
+  grid->columns = (uint32_t)ceil(width_mm / cell_mm) + 1;
+  grid->rows = (uint32_t)ceil(height_mm / cell_mm) + 1;
 }
 
 bool judge_grid_init(struct judge_grid *grid,
                      const struct judge_segment *segment, uint32_t count,
                      double width_mm, double height_mm, double cell_mm,
                      double reach_mm) {
-  cell_mm = fmax(cell_mm, reach_mm);
-  *grid = (struct judge_grid){.segment = segment,
-                              .cell_mm = cell_mm,
-                              .reach_mm = reach_mm,
-                              .columns = (uint32_t)ceil(width_mm / cell_mm) + 1,
-                              .rows = (uint32_t)ceil(height_mm / cell_mm) + 1};
+  *grid = (struct judge_grid){.segment = segment, .reach_mm = reach_mm};
+  set_cells(grid, width_mm, height_mm, fmax(cell_mm, reach_mm));
   size_t cells = (size_t)grid->columns * grid->rows;
   grid->start = mem_calloc(cells + 1, sizeof *grid->start);
   uint32_t *fill = mem_calloc(cells + 1, sizeof *fill);
   if (grid->start == NULL || fill == NULL)
     goto end;
-  for (uint32_t i = 0; i < count; i++)
-    enter(grid, i, fill);
+  while (!count_items(grid, count, fill) && cells > FEWEST) {
+    set_cells(grid, width_mm, height_mm, 2 * grid->cell_mm);
+    cells = (size_t)grid->columns * grid->rows;
+  }
   for (size_t i = 0; i < cells; i++)
     grid->start[i + 1] = grid->start[i] + fill[i];
   grid->item = mem_alloc(grid->start[cells], sizeof *grid->item);
@@ -80,7 +106,7 @@ bool judge_grid_init(struct judge_grid *grid,
     goto end;
   memcpy(fill, grid->start, cells * sizeof *fill);
   for (uint32_t i = 0; i < count; i++)
-    enter(grid, i, fill);
+    (void)enter(grid, i, fill);
 end:
   mem_free(fill);
   if (grid->item == NULL)
@@ -111,4 +137,18 @@ double judge_distance(const struct judge_segment *segment,
   *t = square > 0 ? (px * dx + py * dy) / square : 0;
   *t = fmin(fmax(*t, 0), 1);
   return hypot(px - *t * dx, py - *t * dy);
+}
+
+/* The distance to the line through it says no for most, without a division;
+ * its square is reckoned to far better than the factor. */
+bool judge_is_within(const struct judge_segment *segment, struct judge_place at,
+                     double reach) {
+  double dx = segment->b.x - segment->a.x, dy = segment->b.y - segment->a.y;
+  double px = at.x - segment->a.x, py = at.y - segment->a.y;
+  double area = dx * py - dy * px, t;
+  double size = fabs(dx * py) + fabs(dy * px);
+  double off = fabs(area) - 0x1p-50 * size;
+  if (off > 0 && off * off > 1.0001 * reach * reach * (dx * dx + dy * dy))
+    return false;
+  return judge_distance(segment, at, &t) <= reach;
 }

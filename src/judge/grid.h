@@ -35,4 +35,8 @@ const uint32_t *judge_grid_near(const struct judge_grid *grid,
 double judge_distance(const struct judge_segment *segment,
                       struct judge_place at, double *t);
 
+/* Whether that distance is at most `reach`. */
+bool judge_is_within(const struct judge_segment *segment, struct judge_place at,
+                     double reach);
+
 #endif

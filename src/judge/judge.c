@@ -213,8 +213,7 @@ static bool has_ink(const struct court *court, struct judge_place at) {
   uint32_t count;
   const uint32_t *near = judge_grid_near(&court->by_ink, at, &count);
   for (uint32_t i = 0; i < count; i++) {
-    double t;
-    if (judge_distance(&court->ink[near[i]], at, &t) <= court->options.reach_mm)
+    if (judge_is_within(&court->ink[near[i]], at, court->options.reach_mm))
       return true;
   }
   return false;

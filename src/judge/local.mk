@@ -10,5 +10,6 @@ librecto_core_la_SOURCES += \
   %D%/sight.c %D%/sight.h \
   %D%/svg.c \
   %D%/svg_path.c %D%/svg_path.h \
+  %D%/svg_pen.c %D%/svg_pen.h \
   %D%/svg_scan.c %D%/svg_scan.h \
   %D%/triangles.c %D%/triangles.h

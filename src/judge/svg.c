@@ -12,6 +12,11 @@
 #include "judge/svg_path.h"
 #include "judge/svg_scan.h"
 
+/* A curve across the page takes hundreds of pieces and a dozen bytes.  So that
+ * a file takes memory in proportion to its size, there may be so many pieces,
+ * and so many more for each byte of it: several times what drawings have. */
+enum { PIECES = 1 << 20, PIECES_BY_BYTE = 4 };
+
 enum paint { PAINT_UNSAID, PAINT_NONE, PAINT_SOME };
 
 /* What an element hands down to those within it. */
@@ -30,6 +35,7 @@ struct svg_reader {
   bool sheet;               /* there is a style sheet */
   bool root;
   bool starved;
+  size_t pieces; /* of curves that may still be stored */
 };
 
 /* ---- Style ----------------------------------------------------------------
@@ -170,7 +176,8 @@ static const char *draw_points(struct svg_pen *pen, const struct svg_tag *tag,
   if (!svg_attribute(tag, "points", &data))
     return "a polyline without points";
   bool first = true;
-  for (svg_skip_spaces(&data); data.at < data.end; svg_skip_spaces(&data)) {
+  for (svg_skip_spaces(&data); data.at < data.end && pen->fault == NULL;
+       svg_skip_spaces(&data)) {
     if (!svg_number(&data, &x) || !svg_number(&data, &y))
       return "a polyline with a broken number";
     if (first)
@@ -246,9 +253,11 @@ static const char *open_element(struct svg_reader *reader,
   if (is_ink(reader, &style)) {
     struct svg_pen pen = {.drawing = reader->drawing,
                           .to_page = style.to_page,
+                          .pieces = &reader->pieces,
                           .role = style.hidden || style.dashed ? JUDGE_HIDDEN
                                                                : JUDGE_INK};
     fault = draw_element(&pen, tag);
+    fault = fault != NULL ? fault : pen.fault;
     reader->starved = reader->starved || pen.starved;
   }
   if (tag->kind == SVG_TAG_OPEN && !ARRAY_PUSH(&reader->open, style))
@@ -278,7 +287,8 @@ static const char *read_tags(struct svg_reader *reader, struct svg_text file) {
 
 const char *judge_read_svg(struct judge_drawing *drawing, const char *text,
                            size_t length) {
-  struct svg_reader reader = {.drawing = drawing};
+  struct svg_reader reader = {.drawing = drawing,
+                              .pieces = PIECES + PIECES_BY_BYTE * length};
   memset(drawing, 0, sizeof *drawing);
   const char *fault =
       read_tags(&reader, (struct svg_text){text, text + length});

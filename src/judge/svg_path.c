@@ -1,92 +1,11 @@
 /* svg_path.c - the outlines of an SVG file's elements, as straight strokes.
  *
- * Curves are taken to the page before they are cut into pieces, so that these
- * are as fine there as they must be.  An arc becomes cubic curves of a quarter
- * of a turn at most, off by 3/10000 of its radius at most.
+ * An arc becomes cubic curves of a quarter of a turn at most, off by 3/10000
+ * of its radius at most.
  * Source  SVG 1.1, appendix F.6, for the arc's centre. */
 #include "judge/svg_path.h"
 
 #include <math.h>
-
-#include "base/tolerance.h"
-
-/* ---- The pen --------------------------------------------------------------
- */
-
-static struct judge_stroke *stroke_of(const struct svg_pen *pen) {
-  return &pen->drawing->stroke.item[pen->drawing->stroke.count - 1];
-}
-
-static void put(struct svg_pen *pen, struct judge_place at) {
-  if (pen->starved)
-    return;
-  pen->starved = !ARRAY_PUSH(&pen->drawing->point, at);
-  if (!pen->starved)
-    stroke_of(pen)->count++;
-}
-
-/* Begins a stroke at the pen's place, unless one goes on there. */
-static void put_down(struct svg_pen *pen) {
-  if (pen->down || pen->starved)
-    return;
-  struct judge_stroke stroke = {(uint32_t)pen->drawing->point.count, 0,
-                                pen->role};
-  pen->starved = !ARRAY_PUSH(&pen->drawing->stroke, stroke);
-  pen->down = !pen->starved;
-  put(pen, svg_apply(&pen->to_page, pen->here.x, pen->here.y));
-}
-
-void svg_pen_move(struct svg_pen *pen, double x, double y) {
-  pen->start = pen->here = (struct judge_place){x, y};
-  pen->down = false;
-}
-
-void svg_pen_line(struct svg_pen *pen, double x, double y) {
-  put_down(pen);
-  pen->here = (struct judge_place){x, y};
-  put(pen, svg_apply(&pen->to_page, x, y));
-}
-
-void svg_pen_close(struct svg_pen *pen) {
-  put_down(pen);
-  pen->here = pen->start;
-  put(pen, svg_apply(&pen->to_page, pen->here.x, pen->here.y));
-  pen->down = false;
-}
-
-/* How far the middle of three is from where it would be on a straight line at
- * an even pace. */
-static double bend(struct judge_place a, struct judge_place b,
-                   struct judge_place c) {
-  return hypot(a.x - 2 * b.x + c.x, a.y - 2 * b.y + c.y);
-}
-
-static double bernstein(double a, double b, double c, double d, double t) {
-  double s = 1 - t;
-  return s * s * s * a + 3 * s * s * t * b + 3 * s * t * t * c + t * t * t * d;
-}
-
-/* A chord over 1 / n of a curve is off by at most max |curve''| / (8 n^2), and
- * curve'' by at most 6 bends. */
-void svg_pen_curve(struct svg_pen *pen, struct judge_place b,
-                   struct judge_place c, struct judge_place d) {
-  enum { MOST = 1000 };
-  put_down(pen);
-  struct judge_place p0 = svg_apply(&pen->to_page, pen->here.x, pen->here.y);
-  struct judge_place p1 = svg_apply(&pen->to_page, b.x, b.y);
-  struct judge_place p2 = svg_apply(&pen->to_page, c.x, c.y);
-  struct judge_place p3 = svg_apply(&pen->to_page, d.x, d.y);
-  double bent = fmax(bend(p0, p1, p2), bend(p1, p2, p3));
-  double pieces = ceil(sqrt(bent * 6 / (8 * TOLERANCE_CURVE_MM)));
-  int n = pieces < MOST ? pieces > 1 ? (int)pieces : 1 : MOST;
-  for (int i = 1; i < n; i++) {
-    double t = (double)i / n;
-    put(pen, (struct judge_place){bernstein(p0.x, p1.x, p2.x, p3.x, t),
-                                  bernstein(p0.y, p1.y, p2.y, p3.y, t)});
-  }
-  pen->here = d;
-  put(pen, p3);
-}
 
 /* ---- Arcs -----------------------------------------------------------------
  */
@@ -104,7 +23,8 @@ static struct judge_place on_ellipse(const struct ellipse *e, double u,
                               e->y + e->sine * u + e->cosine * v};
 }
 
-/* Draws from angle `from` by `turn`, in the ellipse's own circle. */
+/* Draws from angle `from` by `turn`, |turn| <= 2 pi, in the ellipse's own
+ * circle. */
 static void draw_arc(struct svg_pen *pen, const struct ellipse *e, double from,
                      double turn, struct judge_place to) {
   int n = (int)ceil(fabs(turn) / (acos(-1) / 2));
@@ -121,6 +41,12 @@ static void draw_arc(struct svg_pen *pen, const struct ellipse *e, double from,
   }
 }
 
+/* An arc whose radii are 2^19 times as long as its chord and more is straight:
+ * on a page of 2 m it is off by less than TOLERANCE_CURVE_MM, and its middle is
+ * too far away for doubles.  This is the square of half the chord by the
+ * radius. */
+#define STRAIGHT 0x1p-40
+
 void svg_pen_arc(struct svg_pen *pen, double rx, double ry, double angle_deg,
                  bool large, bool sweep, struct judge_place to) {
   double angle = angle_deg / 180 * acos(-1);
@@ -131,15 +57,17 @@ void svg_pen_arc(struct svg_pen *pen, double rx, double ry, double angle_deg,
   double u = (e.cosine * hx + e.sine * hy) / e.rx;
   double v = (e.cosine * hy - e.sine * hx) / e.ry;
   double square = u * u + v * v;
-  if (!(e.rx > 0 && e.ry > 0 && square > 0)) {
+  double times = isfinite(square) ? sqrt(square) : hypot(u, v);
+  if (!(e.rx > 0 && e.ry > 0 && square > (large ? 0 : STRAIGHT) &&
+        isfinite(times))) {
     svg_pen_line(pen, to.x, to.y);
     return;
   }
   if (square > 1) { /* too small to reach: grown */
-    e.rx *= sqrt(square);
-    e.ry *= sqrt(square);
-    u /= sqrt(square);
-    v /= sqrt(square);
+    e.rx *= times;
+    e.ry *= times;
+    u /= times;
+    v /= times;
     square = 1;
   }
   /* The middle is beside the chord's, at right angles to it. */
@@ -150,6 +78,10 @@ void svg_pen_arc(struct svg_pen *pen, double rx, double ry, double angle_deg,
   e.y = (from.y + to.y) / 2 + offset.y;
   double first = atan2(v - cv, u - cu), last = atan2(-v - cv, -u - cu);
   double turn = last - first;
+  if (!isfinite(turn)) {
+    svg_pen_line(pen, to.x, to.y);
+    return;
+  }
   if (sweep && turn < 0)
     turn += 2 * acos(-1);
   else if (!sweep && turn > 0)
@@ -314,11 +246,13 @@ const char *svg_path(struct svg_pen *pen, struct svg_text data) {
   pen->down = false;
   for (svg_skip_spaces(&path.data); path.data.at < path.data.end;
        svg_skip_spaces(&path.data)) {
+    if (pen->fault != NULL || pen->starved)
+      break;
     next_command(&path);
     if (path.before == '\0' && path.command != 'M')
       return "a path that does not start with M";
     if (!draw(&path))
       return "a path with a broken command or number";
   }
-  return NULL;
+  return pen->fault;
 }

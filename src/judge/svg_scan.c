@@ -269,7 +269,7 @@ bool svg_number(struct svg_text *text, double *value) {
   double size =
       scale_by_ten((double)d.sum, exponent + d.dropped - (d.count - whole));
   *value = minus ? -size : size;
-  return true;
+  return isfinite(size);
 }
 
 bool svg_length_mm(struct svg_text text, double *mm) {

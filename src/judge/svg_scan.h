@@ -40,7 +40,8 @@ bool svg_property(const struct svg_tag *tag, const char *name,
                   struct svg_text *value);
 
 void svg_skip_spaces(struct svg_text *text); /* and commas */
-/* Reads a number, after spaces; false where there is none. */
+/* Reads a number, after spaces; false where there is none, or one that is too
+ * large for a double. */
 bool svg_number(struct svg_text *text, double *value);
 /* A length in mm; of one without a unit, 96 are an inch.  False for shares and
  * what is no length. */
