@@ -114,7 +114,7 @@ static bool round_points(struct svg *svg, uint32_t first, uint32_t count,
     struct svg_point p = {
         llround(from[i].x * svg->scale),
         llround((svg->drawing->height_mm - from[i].y) * svg->scale)};
-    const struct svg_point *last = svg->point.item + svg->point.count;
+    const struct svg_point *last = ARRAY_AT(&svg->point, svg->point.count);
     if (svg->point.count > 0 && last[-1].x == p.x && last[-1].y == p.y)
       continue;
     if (!ARRAY_PUSH(&svg->point, p))

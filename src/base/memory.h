@@ -64,6 +64,11 @@ size_t mem_peak_bytes(void);
     (array)->count = (array)->capacity = 0;                                    \
   } while (0)
 
+/* The address of item `index`, up to one past the last; NULL where there is no
+ * block yet: C knows no sum of NULL and 0. */
+#define ARRAY_AT(array, index)                                                 \
+  ((array)->item != NULL ? (array)->item + (index) : NULL)
+
 USE_RESULT bool array_grow(void **item, size_t *capacity, size_t count,
                            size_t extra, size_t size);
 

@@ -155,8 +155,8 @@ static struct intervals take_intervals(const struct map_mixed **mixed,
 static bool add_all(struct collector *c, bool hidden) {
   const struct map *map = c->map;
   const struct map_mixed *mixed = map->mixed.item, *deep = map->deep.item;
-  const struct map_mixed *mixed_end = mixed + map->mixed.count;
-  const struct map_mixed *deep_end = deep + map->deep.count;
+  const struct map_mixed *mixed_end = ARRAY_AT(&map->mixed, map->mixed.count);
+  const struct map_mixed *deep_end = ARRAY_AT(&map->deep, map->deep.count);
   for (uint32_t i = 0; i < map->edge_count; i++) {
     struct intervals visible =
         take_intervals(&mixed, mixed_end, map->interval.item, i);

@@ -146,7 +146,7 @@ recto_status scene_add_face(struct scene *scene, const uint32_t *corner,
       !ARRAY_RESERVE(&scene->face_start, 2) ||
       !ARRAY_RESERVE(&scene->face_group, 1))
     return error_memory(error);
-  uint32_t *to = scene->corner.item + scene->corner.count;
+  uint32_t *to = ARRAY_AT(&scene->corner, scene->corner.count);
   if (is_plain(scene, corner, count)) {
     for (size_t i = 0; i < count; i++)
       to[i] = corner[i];

@@ -110,6 +110,7 @@ static recto_status file_strokes(const struct sheet *sheet,
   pair = meetings->pair.item;
   count = meetings->pair.count;
   for (uint32_t e = 0; good && e < sheet->edge.count; e++) {
+    const struct sort_key *own = count > 0 ? pair + i : NULL;
     const struct sheet_edge *edge = &sheet->edge.item[e];
     const struct geom_point *p = &sheet->point.item[edge->point[0]];
     const struct geom_point *q = &sheet->point.item[edge->point[1]];
@@ -119,7 +120,7 @@ static recto_status file_strokes(const struct sheet *sheet,
     if (edge->edge_class != 0 && (p->x != q->x || p->y != q->y))
       good =
           pulse_beat(&pulse, i - first) &&
-          file_edge(sheet, e, pair + first, i - first, &strokes, &counts, map);
+          file_edge(sheet, e, own, i - first, &strokes, &counts, map);
   }
   hide_report(&counts, report);
   report_int(report, "watkins", "faces_beside_lines", (int64_t)count);

@@ -262,10 +262,12 @@ static const struct watkins_record *find_record(const struct watkins *watkins,
                                                 uint32_t left, uint32_t right) {
   int above = parity_of(watkins->table.line + 1);
   uint32_t index = watkins->edge.item[left].record;
-  const struct watkins_record *record = &watkins->record[above].item[index];
+  const struct watkins_record *record;
   const uint32_t *order;
-  if (!watkins->coherence || index >= watkins->record[above].count ||
-      record->left != left || record->right != right ||
+  if (!watkins->coherence || index >= watkins->record[above].count)
+    return NULL;
+  record = &watkins->record[above].item[index];
+  if (record->left != left || record->right != right ||
       record->until > watkins->table.line || record->count != watkins->in.count)
     return NULL;
   order = watkins->order[above].item + record->order;
