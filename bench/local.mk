@@ -1,6 +1,6 @@
 # bench/local.mk - make bench: how long things take, what memory, and how far
 # from the truth.
-EXTRA_PROGRAMS = %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/order \
+EXTRA_PROGRAMS += %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/order \
   %D%/hard
 %C%_bench_SOURCES = %D%/bench.c %D%/model.c %D%/model.h %D%/box.c \
   %D%/box.h %D%/table.c %D%/table.h

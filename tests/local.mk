@@ -28,6 +28,7 @@ check_LTLIBRARIES =
 include tests/scenes/local.mk
 include tests/judge/local.mk
 include tests/measure/local.mk
+include tests/fuzz/local.mk
 
 unit_tests += %D%/test_scenes
 %C%_test_scenes_SOURCES = %D%/test_scenes.c

@@ -1,0 +1,232 @@
+/* decode.c - see decode.h. */
+#include "tests/fuzz/decode.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+struct source {
+  const uint8_t *at, *end;
+};
+
+static unsigned next(struct source *source) {
+  return source->at < source->end ? *source->at++ : 0;
+}
+
+static const char *choose(struct source *source, const char *const *from,
+                          size_t count) {
+  return from[next(source) % count];
+}
+
+/* ---- Options -------------------------------------------------------------
+ * Words of one alternative are parted by spaces; "" says nothing. */
+
+enum { MAX_ALTERNATIVES = 10 };
+
+/* No row may be removed or moved: the corpus would say something else.  New
+ * rows go to the end, of OPTION_BYTES at most. */
+enum { OPTION_BYTES = 24 };
+static const char *const alternatives[][MAX_ALTERNATIVES] = {
+    {"", "--edges=all", "--edges=silhouette,border", "--edges=intersection",
+     "--edges=smooth,crease", "--edges=none", "--edges=group,wire,border",
+     "--edges=all"},
+    {"", "--fill=paint", "--fill=shade", "--fill=hatch",
+     "--fill=hatch --light=1,2,3", "--fill=hatch --hatch-inset",
+     "--fill=paint"},
+    {"", "--hidden=dashed", "--hidden=layer", "--hidden=1", "--hidden=layer,2",
+     "--hidden=2"},
+    {"", "--contact=0", "--contact=0.001", "--contact=0.1", "--contact=0.5",
+     "--contact=1e-9", "--contact=0"},
+    {"", "--section=1", "--section=0.5", "--section=2", "--section=-1",
+     "--section=0"},
+    {"", "--near=0.5", "--near=1", "--near=1.5", "--near=0.001"},
+    {"", "--crease=0", "--crease=90", "--crease=180", "--crease=45",
+     "--crease=60"},
+    {"", "--no-fit", "--scale=10", "--scale=100", "--fit", "--scale=1:2"},
+    {"", "--page=20x20", "--page=A4 --landscape", "--page=50x200", "--margin=0",
+     "--margin=3cm"},
+    {"", "--seam=0.5", "--pens=2", "--weights=none", "--pen=2",
+     "--pen-for=crease=2,hidden=3", "--ids", "--path=polyline"},
+    {"", "--hatch-pitch=3", "--hatch-angle=0", "--hatch-angle=90 --pen=0.5",
+     "--hatch-pitch=0.5"},
+    {"", "--order=near", "--simplify=0.1", "--simplify=3 --order=near",
+     "--min-stroke=0", "--min-stroke=5"},
+    {"", "--precision=9", "--precision=6 --min-stroke=0", "--precision=0"},
+    {"", "--up=0,0,1", "--up=1,0,0", "--up=1,1,1"},
+    {"--threads=1", "--threads=2"},
+    {"", "--divide=box"},
+};
+
+/* ---- Words --------------------------------------------------------------- */
+
+static void add_word(struct decoded *d, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+static void add_word(struct decoded *d, const char *format, ...) {
+  char *word = d->words + d->words_length;
+  size_t room = sizeof d->words - d->words_length;
+  va_list arguments;
+  va_start(arguments, format);
+  int length = vsnprintf(word, room, format, arguments);
+  va_end(arguments);
+  if (length < 0 || (size_t)length >= room || d->argc + 1 >= DECODE_MAX_WORDS)
+    return;
+  d->argv[d->argc++] = word;
+  d->words_length += (size_t)length + 1;
+}
+
+static void add_words(struct decoded *d, const char *text) {
+  while (*text != '\0') {
+    size_t length = strcspn(text, " ");
+    add_word(d, "%.*s", (int)length, text);
+    text += length + (text[length] == ' ');
+  }
+}
+
+static void add_options(struct decoded *d, struct source *source) {
+  for (size_t i = 0; i < COUNT(alternatives); i++) {
+    size_t count = 0;
+    while (count < MAX_ALTERNATIVES && alternatives[i][count] != NULL)
+      count++;
+    add_words(d, choose(source, alternatives[i], count));
+  }
+  for (size_t i = COUNT(alternatives); i < OPTION_BYTES; i++)
+    (void)next(source);
+}
+
+/* ---- The camera ---------------------------------------------------------- */
+
+static const char *const views[] = {"--view=iso",
+                                    "--view=front",
+                                    "--view=top",
+                                    "--view=right",
+                                    "--view=left",
+                                    "--view=back",
+                                    "--view=bottom",
+                                    "--view=dimetric",
+                                    "--view=trimetric",
+                                    "--azimuth=45 --elevation=0",
+                                    "--azimuth=26.56505117707799 --elevation=0",
+                                    "--azimuth=0 --elevation=45",
+                                    "--azimuth=0.0001",
+                                    "--azimuth=89.9999999 --elevation=1e-7"};
+
+/* Places of the eye: the lattice of the points and some that are farther. */
+static const char *const places[] = {
+    "0",  "1", "-1", "2",  "-2",  "0.5",  "-0.5", "1.5",     "3",
+    "-3", "5", "-5", "10", "-10", "0.25", "100",  "0.333333"};
+
+static void add_place(struct decoded *d, struct source *source,
+                      const char *option) {
+  const char *x = choose(source, places, COUNT(places));
+  const char *y = choose(source, places, COUNT(places));
+  const char *z = choose(source, places, COUNT(places));
+  add_word(d, "--%s=%s,%s,%s", option, x, y, z);
+}
+
+/* A named view, alone or in perspective, or an eye on the lattice. */
+static void add_camera(struct decoded *d, struct source *source) {
+  static const char *const angles[] = {"--fov=30", "--fov=60", "--fov=90",
+                                       "--fov=150", "--fov=1"};
+  unsigned kind = next(source) % 8;
+  if (kind < 4) {
+    add_words(d, choose(source, views, COUNT(views)));
+    if (kind == 3)
+      add_words(d, choose(source, angles, COUNT(angles)));
+    return;
+  }
+  add_place(d, source, "camera");
+  if (kind >= 6)
+    add_place(d, source, "lookat");
+  if (kind == 5)
+    add_words(d, "--ortho");
+  else
+    add_words(d, choose(source, angles, COUNT(angles)));
+}
+
+/* ---- The scene ----------------------------------------------------------- */
+
+/* Three in four coordinates are on the lattice, the others off it: thirds and
+ * tenths, a hair beside, and far out. */
+static const char *const lattice[] = {"0",   "1",   "2",    "-1",  "-2",
+                                      "0.5", "1.5", "-0.5", "-1.5"};
+static const char *const beside[] = {"0.333333",
+                                     "0.6666666666666666",
+                                     "0.1",
+                                     "0.3",
+                                     "1.7",
+                                     "1.0000001",
+                                     "0.9999999",
+                                     "1e-7",
+                                     "1.0000000000000002",
+                                     "-1e-16",
+                                     "1.001",
+                                     "0.25",
+                                     "0.50000006",
+                                     "0.3333333333333333",
+                                     "3",
+                                     "4",
+                                     "5",
+                                     "7",
+                                     "3.5",
+                                     "1000",
+                                     "0.0001"};
+
+static const char *choose_coordinate(struct source *source) {
+  unsigned byte = next(source);
+  return byte < 192 ? lattice[byte % COUNT(lattice)]
+                    : beside[byte % COUNT(beside)];
+}
+
+static void add_text(struct decoded *d, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+static void add_text(struct decoded *d, const char *format, ...) {
+  size_t room = sizeof d->obj - d->obj_length;
+  va_list arguments;
+  va_start(arguments, format);
+  int length = vsnprintf(d->obj + d->obj_length, room, format, arguments);
+  va_end(arguments);
+  if (length > 0 && (size_t)length < room)
+    d->obj_length += (size_t)length;
+}
+
+static unsigned add_points(struct decoded *d, struct source *source) {
+  unsigned count = 3 + next(source) % 14;
+  for (unsigned i = 0; i < count; i++) {
+    const char *x = choose_coordinate(source);
+    const char *y = choose_coordinate(source);
+    const char *z = choose_coordinate(source);
+    add_text(d, "v %s %s %s\n", x, y, z);
+  }
+  return count;
+}
+
+/* Corners are any points, the same one again too; one element in sixteen is a
+ * polyline. */
+static void add_faces(struct decoded *d, struct source *source,
+                      unsigned points) {
+  unsigned count = 2 + next(source) % 7;
+  for (unsigned i = 0; i < count; i++) {
+    unsigned kind = next(source), corners = 3 + kind % 4;
+    if (kind / 4 % 4 > 0)
+      add_text(d, "g %c\n", "abc"[kind / 4 % 4 - 1]);
+    add_text(d, "%s", kind / 16 == 15 ? "l" : "f");
+    for (unsigned k = 0; k < corners; k++)
+      add_text(d, " %u", 1 + next(source) % points);
+    add_text(d, "\n");
+  }
+}
+
+void decode_scene(struct decoded *decoded, const uint8_t *bytes, size_t count) {
+  struct source source = {bytes, bytes + count};
+  decoded->obj_length = decoded->words_length = 0;
+  decoded->argc = 0;
+  decoded->obj[0] = '\0';
+  add_word(decoded, "recto");
+  add_options(decoded, &source);
+  add_camera(decoded, &source);
+  add_faces(decoded, &source, add_points(decoded, &source));
+  add_words(decoded, "-o out.svg model.obj");
+  decoded->argv[decoded->argc] = NULL;
+}
