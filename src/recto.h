@@ -301,7 +301,7 @@ RECTO_USE_RESULT recto_status recto_scene_create(recto_scene **scene,
 void recto_scene_destroy(recto_scene *scene);
 
 /* Reads a model file and adds it to `scene`.  Warnings go to the options'
- * warning function; the colours of an OBJ file's material libraries are read
+ * warning function; colours, which OBJ has in its material libraries, are read
  * where the options' fill is RECTO_FILL_PAINT; `options` may be NULL. */
 RECTO_USE_RESULT recto_status recto_scene_read(recto_scene *scene,
                                                const char *path,

@@ -128,6 +128,9 @@ unit_tests += %D%/test_precision
 unit_tests += %D%/test_stl
 %C%_test_stl_SOURCES = %D%/test_stl.c %D%/reading.c %D%/reading.h \
   %D%/comma.c %D%/comma.h
+unit_tests += %D%/test_ply
+%C%_test_ply_SOURCES = %D%/test_ply.c %D%/reading.c %D%/reading.h \
+  %D%/temporary.c %D%/temporary.h
 unit_tests += %D%/test_material
 %C%_test_material_SOURCES = %D%/test_material.c \
   %D%/reading.c %D%/reading.h %D%/temporary.c %D%/temporary.h

@@ -12,11 +12,10 @@
 #include "tests/reading.h"
 #include "tests/temporary.h"
 
-static const char ply[] =
-    "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\n"
-    "property float y\nproperty float z\nelement face 3\n"
-    "property list uchar int vertex_indices\nend_header\n"
-    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.5 -2\n0.5 0 0\n"
+/* A pyramid's base, the same with a corner more in a side, and three corners
+ * on one line. */
+static const char off[] =
+    "OFF\n6 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.5 -2\n0.5 0 0\n"
     "4 0 1 2 3\n5 0 5 1 2 3\n3 0 5 1\n";
 
 static void read_file(struct reading *r, const char *path, const char *format) {
@@ -32,7 +31,7 @@ static void assert_read(const struct reading *r) {
 
 static void polygons_stay_polygons(void **state) {
   struct reading r;
-  read_file(&r, temporary_file(state, "a.ply", ply, sizeof ply - 1), NULL);
+  read_file(&r, temporary_file(state, "a.off", off, sizeof off - 1), NULL);
   assert_read(&r);
   assert_int_equal(scene_face_count(&r.scene), 2);
   assert_int_equal(r.scene.face_start.item[1], 4);
@@ -45,7 +44,7 @@ static void polygons_stay_polygons(void **state) {
 
 static void bytes_come_through_a_pipe_too(void **state) {
   struct reading r;
-  read_file(&r, temporary_file(state, "plain", ply, sizeof ply - 1), "ply");
+  read_file(&r, temporary_file(state, "plain", off, sizeof off - 1), "off");
   assert_read(&r);
   assert_int_equal(scene_face_count(&r.scene), 2);
   reading_fini(&r);
@@ -108,10 +107,10 @@ static void row_19_what_is_not_finite_is_skipped(void **state) {
 static void a_broken_file_is_an_error(void **state) {
   struct reading r;
   static const char text[] = "not a polygon file";
-  read_file(&r, temporary_file(state, "a.ply", text, sizeof text - 1), NULL);
+  read_file(&r, temporary_file(state, "a.dae", text, sizeof text - 1), NULL);
   assert_int_equal(r.status, RECTO_ERROR_FORMAT);
   assert_int_equal(r.error.code, RECTO_ERROR_FORMAT);
-  assert_non_null(strstr(r.error.file, "a.ply"));
+  assert_non_null(strstr(r.error.file, "a.dae"));
   assert_true(*r.error.text);
   assert_int_equal(r.scene.point.count, 0);
   reading_fini(&r);

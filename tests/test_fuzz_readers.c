@@ -60,15 +60,78 @@ static void make_binary_stl(struct file *file) {
     }
 }
 
+static void make_text_ply(struct file *file) {
+  put(file, "ply\nformat ascii 1.0\ncomment seed\nelement vertex 4\n"
+            "property float x\nproperty double y\nproperty float z\n"
+            "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+            "element odd 1\nproperty list uchar int values\nelement face 2\n"
+            "property list uchar int vertex_indices\nelement edge 1\n"
+            "property int vertex1\nproperty int vertex2\n"
+            "element tristrips 1\nproperty list int int vertex_indices\n"
+            "end_header\n0 0 0 1 2 3\n1 0.5 0 4 5 6\n1 1e0 0 7 8 9\n"
+            "-0 1 0 255 0 0\n2 7 8\n4 0 1 2 3\n3 0 1 2\n0 2\n"
+            "6 0 1 2 -1 3 0\n");
+}
+
+static void make_binary_ply(struct file *file) {
+  struct random random = {9};
+  put(file, "ply\nformat binary_little_endian 1.0\nelement vertex 8\n"
+            "property float x\nproperty float y\nproperty float z\n"
+            "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+            "element face 6\nproperty list uchar int vertex_indices\n"
+            "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+            "end_header\n");
+  for (int i = 0; i < 8; i++, file->count += 15)
+    for (int k = 0; k < 3; k++) {
+      float value = (float)random_int(&random, -2, 2);
+      memcpy(file->bytes + file->count + 4 * k, &value, sizeof value);
+    }
+  for (int i = 0; i < 6; i++, file->count += 16) {
+    file->bytes[file->count] = 3;
+    for (int k = 0; k < 3; k++)
+      file->bytes[file->count + 1 + 4 * (size_t)k] =
+          (char)random_below(&random, 8);
+  }
+}
+
 /* ---- Mutations ------------------------------------------------------------
  */
 
-static const char *const words[] = {
-    "nan",         "inf",    "-",          "1e999",    "1e-999", "4294967296",
-    "\\\n",        "\\\r\n", "\n",         "/",        "//",     "v ",
-    "f ",          "l ",     "usemtl x\n", "vertex",   "facet",  "endloop",
-    "endfacet",    "solid",  "endsolid",   "\0",       " ",      "#",
-    "-2147483649", "0",      "0.5",        "\xff\xfe", "\r",     "\x80\x3f"};
+static const char *const words[] = {"nan",
+                                    "inf",
+                                    "-",
+                                    "1e999",
+                                    "1e-999",
+                                    "4294967296",
+                                    "\\\n",
+                                    "\\\r\n",
+                                    "\n",
+                                    "/",
+                                    "//",
+                                    "v ",
+                                    "f ",
+                                    "l ",
+                                    "usemtl x\n",
+                                    "vertex",
+                                    "facet",
+                                    "endloop",
+                                    "endfacet",
+                                    "solid",
+                                    "endsolid",
+                                    "\0",
+                                    " ",
+                                    "#",
+                                    "element face 9\n",
+                                    "property float x\n",
+                                    "list ",
+                                    "ascii",
+                                    "end_header\n",
+                                    "-2147483649",
+                                    "0",
+                                    "0.5",
+                                    "\xff\xfe",
+                                    "\r",
+                                    "\x80\x3f"};
 
 static void insert(struct file *file, size_t at, const char *bytes,
                    size_t count) {
@@ -133,6 +196,7 @@ static void assert_survives(const struct reader *reader,
                             unsigned count[2]) {
   struct reading r;
   reading_init(&r);
+  r.scene.wants_colours = seed % 2 != 0;
   recto_status status = reading_bytes(&r, reader, file->bytes, file->count);
   if (status == RECTO_OK) {
     const char *fault = reading_fault(&r.scene);
@@ -179,6 +243,16 @@ static void binary_stl_files_of_any_bytes_are_survived(void **state) {
   fuzz(&reader_stl, make_binary_stl, 40000);
 }
 
+static void text_ply_files_of_any_bytes_are_survived(void **state) {
+  (void)state;
+  fuzz(&reader_ply, make_text_ply, 40000);
+}
+
+static void binary_ply_files_of_any_bytes_are_survived(void **state) {
+  (void)state;
+  fuzz(&reader_ply, make_binary_ply, 40000);
+}
+
 static void make_library(struct file *file) {
   put(file, "# seed\nnewmtl red\nKa 0 0 0\nKd 1 0.5 0\n\tmap_Kd a b.png\n"
             "newmtl two words\r\n  Kd 0.25\r\nnewmtl red\nKd nan 0 0\nd 1\n"
@@ -202,9 +276,9 @@ static void libraries_of_any_bytes_are_survived(void **state) {
     char *bytes = malloc(file.count ? file.count : 1);
     assert_non_null(bytes);
     memcpy(bytes, file.bytes, file.count);
-    assert_int_equal(material_read(&r.scene, bytes, file.count, &r.diagnostics,
-                                   &r.error),
-                     RECTO_OK);
+    assert_int_equal(
+        material_read(&r.scene, bytes, file.count, &r.diagnostics, &r.error),
+        RECTO_OK);
     free(bytes);
     for (size_t i = 0; i < r.scene.group.count; i++) {
       assert_true(r.scene.group.item[i].colour <= 0xffffff);
@@ -218,15 +292,18 @@ static void libraries_of_any_bytes_are_survived(void **state) {
 /* Each reader is given the files of the others as well. */
 static void files_of_another_format_are_survived(void **state) {
   (void)state;
-  static struct file files[3];
+  static struct file files[5];
   unsigned count[2] = {0, 0};
   memset(files, 0, sizeof files);
   make_obj(&files[0]);
   make_text_stl(&files[1]);
   make_binary_stl(&files[2]);
-  for (int i = 0; i < 3; i++) {
-    assert_survives(&reader_obj, &files[i], i, count);
-    assert_survives(&reader_stl, &files[i], i, count);
+  make_text_ply(&files[3]);
+  make_binary_ply(&files[4]);
+  for (int i = 0; i < 5; i++) {
+    assert_survives(&reader_obj, &files[i], 0, count);
+    assert_survives(&reader_ply, &files[i], 0, count);
+    assert_survives(&reader_stl, &files[i], 0, count);
   }
 }
 
@@ -235,6 +312,8 @@ int main(void) {
       cmocka_unit_test(obj_files_of_any_bytes_are_survived),
       cmocka_unit_test(text_stl_files_of_any_bytes_are_survived),
       cmocka_unit_test(binary_stl_files_of_any_bytes_are_survived),
+      cmocka_unit_test(text_ply_files_of_any_bytes_are_survived),
+      cmocka_unit_test(binary_ply_files_of_any_bytes_are_survived),
       cmocka_unit_test(libraries_of_any_bytes_are_survived),
       cmocka_unit_test(files_of_another_format_are_survived),
   };

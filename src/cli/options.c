@@ -198,7 +198,7 @@ const struct option_entry option_table[] = {
      "what the eye looks at (the middle)", .offset = AT(options.target),
      .given = AT(options.has_target), .use = {&used_by_target}},
     {OPTION_VECTOR, "up", 'u', "X,Y,Z", "a direction such as 0,0,1",
-     "up (+Y in .obj, +Z in .stl)", .offset = AT(options.up), .least = DBL_MIN},
+     "up (+Z in .stl, else +Y)", .offset = AT(options.up), .least = DBL_MIN},
     {OPTION_NUMBER, "fov", 'F', "DEG", "an angle above 0, at most 179",
      "perspective; vertical angle (30 with --camera)",
      .offset = AT(options.fov_deg), .given = AT(fov_given), .least = DBL_MIN,

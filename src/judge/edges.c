@@ -104,8 +104,9 @@ static unsigned natures_of_pair(const struct finder *finder,
   const struct facing *g = &finder->facing[t->face];
   struct judge_spot at = judge_spot_at(finder->scene, s->a);
   unsigned natures = 0;
-  if (finder->scene->face_group.item[s->face] !=
-      finder->scene->face_group.item[t->face])
+  if (scene_groups_differ(finder->scene,
+                          finder->scene->face_group.item[s->face],
+                          finder->scene->face_group.item[t->face]))
     natures |= RECTO_EDGE_GROUP;
   if (f->flat || g->flat)
     return natures;

@@ -142,7 +142,8 @@ recto_status scene_add_face(struct scene *scene, const uint32_t *corner,
   recto_status status = prepare(scene, scene->corner.count, count, error);
   if (status != RECTO_OK)
     return status;
-  if (!ARRAY_RESERVE(&scene->corner, count) ||
+  /* One more, so that there is an address where there are no corners. */
+  if (!ARRAY_RESERVE(&scene->corner, count + 1) ||
       !ARRAY_RESERVE(&scene->face_start, 2) ||
       !ARRAY_RESERVE(&scene->face_group, 1))
     return error_memory(error);
@@ -173,7 +174,7 @@ recto_status scene_add_wire(struct scene *scene, const uint32_t *corner,
   recto_status status = prepare(scene, scene->wire_corner.count, count, error);
   if (status != RECTO_OK)
     return status;
-  if (!ARRAY_RESERVE(&scene->wire_corner, count) ||
+  if (!ARRAY_RESERVE(&scene->wire_corner, count + 1) ||
       !ARRAY_RESERVE(&scene->wire_start, 2) ||
       !ARRAY_RESERVE(&scene->wire_group, 1))
     return error_memory(error);

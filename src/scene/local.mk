@@ -12,15 +12,21 @@ librecto_core_la_SOURCES += \
   %D%/nature.c \
   %D%/obj_parser.c %D%/obj_parser.h \
   %D%/obj_run.c \
+  %D%/ply_colour.c %D%/ply_colour.h \
+  %D%/ply_header.c %D%/ply_header.h \
+  %D%/ply_parser.c %D%/ply_parser.h \
+  %D%/ply_value.h \
   %D%/positions.c %D%/positions.h \
   %D%/precision.c %D%/precision.h \
   %D%/read.c \
   %D%/reader_mtl.c \
   %D%/reader_obj.c \
+  %D%/reader_ply.c \
   %D%/reader_stl.c \
   %D%/scene.c \
   %D%/scene.h \
   %D%/topology.c %D%/topology.h \
+  %D%/unusable.c %D%/unusable.h \
   %D%/weld.c %D%/weld.h \
   %D%/write_obj.c
 

@@ -125,7 +125,9 @@ static unsigned plain_natures(const struct topology_edge *edge,
   if (edge->uses != 2)
     return RECTO_EDGE_BORDER;
   const uint32_t *group = scene->face_group.item;
-  return group[edge->first] != group[edge->second] ? RECTO_EDGE_GROUP : 0;
+  return scene_groups_differ(scene, group[edge->first], group[edge->second])
+             ? RECTO_EDGE_GROUP
+             : 0;
 }
 
 unsigned topology_natures(const struct topology *topology,

@@ -12,7 +12,8 @@
 
 /* ---- The reader ---------------------------------------------------------- */
 
-static const struct reader *const readers[] = {&reader_obj, &reader_stl};
+static const struct reader *const readers[] = {&reader_obj, &reader_ply,
+                                               &reader_stl};
 enum { READER_COUNT = sizeof readers / sizeof readers[0] };
 
 #ifdef HAVE_ASSIMP

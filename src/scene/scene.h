@@ -24,6 +24,9 @@ struct scene_group {
   char *name;      /* owned, UTF-8 as it was in the file */
   uint32_t colour; /* 0xRRGGBB */
   bool has_colour;
+  /* One of the colours of a surface: where it meets another such group there
+   * is no line. */
+  bool is_shade;
 };
 
 struct scene {
@@ -57,6 +60,13 @@ static inline uint32_t scene_face_count(const struct scene *scene) {
 }
 static inline uint32_t scene_wire_count(const struct scene *scene) {
   return (uint32_t)scene->wire_group.count;
+}
+
+/* Whether there is a line of the class group where faces of the two meet. */
+static inline bool scene_groups_differ(const struct scene *scene, uint32_t a,
+                                       uint32_t b) {
+  const struct scene_group *group = scene->group.item;
+  return a != b && !(group[a].is_shade && group[b].is_shade);
 }
 
 /* Makes the group of that name the current one, adding it where it is new.
@@ -129,6 +139,7 @@ struct reader {
 };
 
 extern const struct reader reader_obj;
+extern const struct reader reader_ply;
 extern const struct reader reader_stl;
 extern const struct reader reader_assimp; /* only where built with it */
 
