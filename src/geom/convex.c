@@ -132,13 +132,29 @@ struct line_map {
   uint32_t count;
 };
 
+static uint32_t number_of_line(struct line_map *map,
+                               const struct geom_line *line) {
+  uint32_t k = 0;
+  while (k < map->count && map->from[k] != line) k++;
+  if (k == map->count) map->from[map->count++] = line;
+  return k;
+}
+
+/* Numbers the lines of a piece. */
+static void number_lines(struct line_map *map,
+                         const struct geom_convex *piece) {
+  for (uint32_t k = 0; k < piece->count; k++) {
+    if (piece->corner[k].l1 != NULL) {
+      (void)number_of_line(map, piece->corner[k].l1);
+      (void)number_of_line(map, piece->corner[k].l2);
+    }
+    (void)number_of_line(map, piece->side[k]);
+  }
+}
+
 static const struct geom_line *map_line(struct line_map *map,
                                         const struct geom_line *line) {
-  for (uint32_t k = 0; k < map->count; k++)
-    if (map->from[k] == line) return &map->to[k];
-  map->from[map->count] = line;
-  map->to[map->count] = *line;
-  return &map->to[map->count++];
+  return &map->to[number_of_line(map, line)];
 }
 
 /* An upper bound for how many lines a piece names. */
@@ -152,10 +168,13 @@ static uint32_t line_bound(const struct geom_convex *piece) {
 bool geom_convex_copy(struct geom_convex *to, const struct geom_convex *from,
                       struct arena *arena) {
   uint32_t n = from->count, bound = line_bound(from);
-  struct line_map map = {mem_alloc(bound, sizeof *map.from),
-                         arena_alloc(arena, bound, sizeof *map.to), 0};
+  struct line_map map = {mem_alloc(bound, sizeof *map.from), NULL, 0};
   bool done = false;
-  if (map.from == NULL || map.to == NULL || !allocate(to, n, arena)) goto end;
+  if (map.from == NULL) goto end;
+  number_lines(&map, from); /* before there are copies: half the bound */
+  map.to = arena_alloc(arena, map.count, sizeof *map.to);
+  if (map.to == NULL || !allocate(to, n, arena)) goto end;
+  for (uint32_t k = 0; k < map.count; k++) map.to[k] = *map.from[k];
   for (uint32_t k = 0; k < n; k++) {
     struct geom_corner corner = from->corner[k];
     if (corner.l1 != NULL) {
