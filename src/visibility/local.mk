@@ -7,6 +7,7 @@ librecto_core_la_SOURCES += \
   %D%/crowd.c %D%/crowd.h \
   %D%/cut.c %D%/cut.h \
   %D%/depths.c %D%/depths.h \
+  %D%/edge_query.c %D%/edge_query.h \
   %D%/facet.c %D%/facet.h \
   %D%/fragments.c %D%/fragments.h \
   %D%/hide.c %D%/hide.h \

@@ -15,11 +15,10 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "visibility/crowd.h"
+#include "visibility/edge_query.h"
 #include "visibility/leftover.h"
 #include "visibility/pierce.h"
 #include "visibility/solver.h"
-#include "visibility/strokes.h"
 #include "visibility/surround.h"
 #include "visibility/tilelist.h"
 
@@ -230,170 +229,19 @@ struct edge_run {
   bool done;
 };
 
-/* The edge at hand and who works on it. */
-struct edge_task {
-  uint32_t triangle[2]; /* its own */
-  struct geom_point p, q;
-  /* What is not known to be hidden of it, and is still asked about. */
-  struct geom_point end[2];
-  struct octagon octagon;
-  struct hidden_part rest; /* the stretch between them */
-  double share; /* of its length */
-  bool several; /* it meets several tiles, and may meet a triangle in each */
-  struct pagegrid_query *query;
-  struct strokes *strokes;
-  struct hide_counts *counts;
-  bool callers; /* asked in the caller's own thread */
-};
-
-static struct geom_point point_of_edge(const struct edge_task *task,
-                                       struct ratio t) {
-  return (struct geom_point){(int32_t)ratio_lerp(t, task->p.x, task->q.x),
-                             (int32_t)ratio_lerp(t, task->p.y, task->q.y),
-                             ratio_lerp(t, task->p.z, task->q.z)};
-}
-
-/* Asks no more about what is hidden at the ends of the edge, where that makes
- * it much shorter.  The new ends were rounded, by less than a unit. */
-static void shorten(struct edge_task *task) {
-  struct hidden_part rest = strokes_rest(task->strokes);
-  double share;
-  if (rest.from.num == task->rest.from.num && rest.to.num == task->rest.to.num)
-    return; /* the same place, or one that shortens by nothing much */
-  task->rest = rest;
-  share = ratio_to_double(rest.to) - ratio_to_double(rest.from);
-  if (!(share < 0.75 * task->share)) return;
-  task->share = share;
-  task->end[0] = point_of_edge(task, rest.from);
-  task->end[1] = point_of_edge(task, rest.to);
-  task->octagon = octagon_of_point(task->end[0]);
-  octagon_add(&task->octagon, task->end[1]);
-  for (int k = 0; k < 4; k++) {
-    task->octagon.least[k] -= 2;
-    task->octagon.most[k] += 2;
-  }
-  task->octagon.low--;
-}
-
-/* What triangle t hides of the edge. */
-static bool ask_hider(const struct tiles_work *work, struct edge_task *task,
-                      uint32_t t, struct hidden_part *part) {
-  const struct hider *hider = work->lists.hider;
-  if (hider == NULL)
-    return hide_edge_by(work->sheet, t, task->p, task->q, part, task->counts);
-  return !(work->sheet->triangle_flags[t] & SHEET_FLAT) &&
-         hide_edge(&hider[t], task->p, task->q, part, task->counts);
-}
-
-/* Asks triangle t, which may meet the edge. */
-static bool ask_triangle(const struct tiles_work *work, struct edge_task *task,
-                         uint32_t t) {
-  struct hidden_part part;
-  if (t == task->triangle[0] || t == task->triangle[1] ||
-      (task->several && !pagegrid_query_first(task->query, t)) ||
-      !ask_hider(work, task, t, &part))
-    return true;
-  if (!strokes_hide(task->strokes, part)) return false;
-  if (part.sides == HIDE_BOTH && !task->strokes->whole) shorten(task);
-  return true;
-}
-
-/* The cell at hand, and the question that the edge is there. */
-struct cell_task {
-  size_t cell;
-  struct octagon_frame frame;
-  uint64_t question;
-  double share; /* of the edge when the question was put */
-};
-
-static void put_question(struct cell_task *at, const struct edge_task *task) {
-  if (at->share == task->share) return;
-  at->share = task->share;
-  at->question = octagon_question(&at->frame, &task->octagon);
-}
-
-/* Asks the triangles of a tile's list that was parted. */
-static bool ask_crowd(const struct tiles_work *work, struct edge_task *task,
-                      struct cell_task *at) {
-  const struct pagegrid *grid = &work->lists.grid;
-  struct crowd_shape shape = {.kind = CROWD_SEGMENT,
-                              .p = {task->end[0], task->end[1]}};
-  struct crowd_walk walk = crowd_walk_from(pagegrid_crowd(grid, at->cell));
-  const uint64_t *word = work->lists.word + grid->start[at->cell];
-  const struct crowd_node *node;
-  while ((node = crowd_next(grid->crowd, &walk, &shape)) != NULL) {
-    const struct crowd_member *member = grid->crowd->member.item + node->from;
-    for (uint32_t i = 0; i < node->count; i++) {
-      if (!octagon_meets(word[member[i].place], at->question)) continue;
-      if (!ask_triangle(work, task, member[i].triangle)) return false;
-      if (task->strokes->whole) return true;
-      put_question(at, task);
-    }
-    shape.p[0] = task->end[0];
-    shape.p[1] = task->end[1];
-  }
-  return true;
-}
-
-/* Asks the triangles listed in a tile that may meet the edge. */
-static bool ask_list(const struct tiles_work *work, struct edge_task *task,
-                     int x, int y) {
-  const struct tilelist *list = &work->lists;
-  size_t cell = (size_t)y * (size_t)list->grid.columns + (size_t)x;
-  uint32_t i = list->grid.start[cell], end = list->grid.start[cell + 1];
-  struct cell_task at = {.cell = cell, .share = -1};
-  if (i == end) return true;
-  at.frame = tilelist_frame(list, x, y);
-  put_question(&at, task);
-  if (pagegrid_crowd(&list->grid, cell) != SHEET_NONE)
-    return ask_crowd(work, task, &at);
-  for (;; i++) {
-    while (i < end && !octagon_meets(list->word[i], at.question)) i++;
-    if (i == end || task->strokes->whole) return true;
-    if (!ask_triangle(work, task, list->grid.item[i])) return false;
-    put_question(&at, task);
-  }
-}
-
-static bool solve_edge(const struct tiles_work *work, uint32_t e,
-                       struct edge_task *task) {
-  const struct pagegrid *grid = &work->lists.grid;
-  const struct sheet_edge *edge = &work->sheet->edge.item[e];
-  struct cell_range r;
-  task->triangle[0] = edge->triangle[0];
-  task->triangle[1] = edge->triangle[1];
-  task->p = work->sheet->point.item[edge->point[0]];
-  task->q = work->sheet->point.item[edge->point[1]];
-  task->octagon = octagon_of_point(task->p);
-  octagon_add(&task->octagon, task->q);
-  r = pagegrid_cells(grid, page_box_of_segment(task->p, task->q));
-  task->several = r.x0 < r.x1 || r.y0 < r.y1;
-  if (task->several) pagegrid_query_start(grid, task->query);
-  strokes_start(task->strokes);
-  task->rest = strokes_rest(task->strokes);
-  task->share = 1;
-  task->end[0] = task->p;
-  task->end[1] = task->q;
-  for (int y = r.y0; y <= r.y1; y++) {
-    int x0, x1;
-    pagegrid_row(grid, task->p, task->q, r, y, &x0, &x1);
-    for (int x = x0; x <= x1; x++)
-      if (!ask_list(work, task, x, y)) return false;
-  }
-  return true;
-}
-
 enum { RUN = 1024 };
 
 static void solve_run(const struct tiles_work *work, size_t from,
-                      struct edge_task *task, struct edge_run *run) {
+                      struct edge_query *query, bool callers,
+                      struct edge_run *run) {
   size_t to = work->edge.count - from < RUN ? work->edge.count : from + RUN;
   run->done = true;
-  task->counts = &run->counts;
   for (size_t i = from; run->done && i < to; i++)
-    run->done = may_go_on(work, i, work->edge.count, "edges", task->callers) &&
-                solve_edge(work, work->edge.item[i], task) &&
-                strokes_file(task->strokes, work->edge.item[i], &run->map);
+    run->done = may_go_on(work, i, work->edge.count, "edges", callers) &&
+                edge_query_solve(query, work->edge.item[i]) &&
+                strokes_file(&query->strokes, work->edge.item[i], &run->map);
+  run->counts = query->counts;
+  query->counts = (struct hide_counts){0};
 }
 
 /* The runs, which the threads share. */
@@ -406,17 +254,14 @@ struct runs {
 
 static void solve_some(void *user, bool callers) {
   struct runs *runs = user;
-  struct pagegrid_query query;
-  struct strokes strokes = {0};
-  struct edge_task task = {
-      .query = &query, .strokes = &strokes, .callers = callers};
-  if (pagegrid_query_init(&query, &runs->work->lists.grid)) {
+  const struct tiles_work *work = runs->work;
+  struct edge_query query;
+  if (edge_query_init(&query, work->sheet, &work->lists)) {
     size_t i;
     while ((i = atomic_fetch_add(&runs->next, 1)) < runs->count)
-      solve_run(runs->work, i * RUN, &task, &runs->run[i]);
+      solve_run(work, i * RUN, &query, callers, &runs->run[i]);
   }
-  strokes_fini(&strokes);
-  pagegrid_query_fini(&query);
+  edge_query_fini(&query);
 }
 
 /* Appends a run's intervals to the map's; runs come in the edges' order. */
