@@ -43,6 +43,7 @@ librecto_core_la_SOURCES += \
   %D%/tilemap.c %D%/tilemap.h \
   %D%/tiles.c \
   %D%/trace.c %D%/trace.h \
+  %D%/undecided.c %D%/undecided.h \
   %D%/warnock.c \
   %D%/warnock_raster.c %D%/warnock_raster.h \
   %D%/warnock_sample.c %D%/warnock_sample.h \

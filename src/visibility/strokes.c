@@ -104,6 +104,29 @@ static bool unite(const struct strokes *strokes, int side,
   return true;
 }
 
+const stroke_parts *strokes_unite(struct strokes *strokes) {
+  stroke_parts *left = &strokes->left, *right = &strokes->right;
+  int both = HIDE_BOTH;
+  if (strokes->part.count == 0)
+    return &strokes->both;
+  for (size_t i = 0; i < strokes->part.count; i++)
+    both &= strokes->part.item[i].sides;
+  if (!unite(strokes, HIDE_LEFT, left))
+    return NULL;
+  for (size_t i = 0; i < left->count; i++)
+    left->item[i].sides = both == HIDE_BOTH ? HIDE_BOTH : HIDE_LEFT;
+  if (both == HIDE_BOTH)
+    return left;
+  if (!unite(strokes, HIDE_RIGHT, right))
+    return NULL;
+  for (size_t i = 0; i < right->count; i++) {
+    right->item[i].sides = HIDE_RIGHT;
+    if (!ARRAY_PUSH(left, right->item[i]))
+      return NULL;
+  }
+  return left;
+}
+
 /* common = left and right, all three in order and apart. */
 static bool intersect(const stroke_parts *left, const stroke_parts *right,
                       stroke_parts *common) {

@@ -29,6 +29,10 @@ static inline void strokes_start(struct strokes *strokes) {
 /* Adds a hidden part; false when memory ran out. */
 USE_RESULT bool strokes_hide(struct strokes *strokes, struct hidden_part part);
 
+/* The hidden parts united: those of one side in order and apart.  They are valid
+ * until the next call.  Returns NULL when memory ran out. */
+const stroke_parts *strokes_unite(struct strokes *strokes);
+
 /* The stretch of the edge, from end to end, beyond which all is known to be
  * hidden. */
 struct hidden_part strokes_rest(const struct strokes *strokes);

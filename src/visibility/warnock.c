@@ -8,6 +8,8 @@
  *   - no face is in it,
  *   - few faces are in it, or it is about as small as an edge is long: then
  *     its own list is solved by pairs, exactly;
+ *   - division is of no use, because the parts hold nearly what the whole did:
+ *     its edges and faces are left to undecided.h;
  * otherwise it is divided.  A surrounder takes from its list whatever is
  * behind it by more than contact explains, at every corner of the window; a
  * face that surrounds a window is never asked again about its outline below.
@@ -18,11 +20,15 @@
  *   uniting (region.h), so borders are never drawn;
  *   what is dropped from a window's list is hidden there by what stays.
  *
+ * Memory: of an edge hidden parts are kept, one for each window at first.  They
+ * are united each time that there are twice as many of them.
+ *
  * An explicit stack: the lists of a window stand above its parent's and are
  * forgotten when the stack falls back to it.
  *
  * Source  [Warnock1969]; [Rogers1985] ch. 4.
  */
+#include <math.h>
 #include <string.h>
 
 #include "base/sort.h"
@@ -32,6 +38,7 @@
 #include "visibility/solver.h"
 #include "visibility/strokes.h"
 #include "visibility/surround.h"
+#include "visibility/undecided.h"
 #include "visibility/warnock_raster.h"
 #include "visibility/warnock_window.h"
 
@@ -42,7 +49,8 @@ struct range {
 
 struct warnock_window {
   struct window window;
-  int level;
+  double pairs; /* of the parent: see count_pairs */
+  int vain;     /* divisions before that left most of the pairs in one part */
   struct range faces, surrounders, edges; /* of the parent */
 };
 
@@ -52,11 +60,14 @@ struct edge_part {
   struct hidden_part part;
 };
 
+typedef ARRAY(struct edge_part) edge_parts;
+
 /* A visible piece of a triangle inside one window. */
 struct face_piece {
   uint32_t triangle;
   struct geom_convex piece;
 };
+typedef ARRAY(struct face_piece) face_pieces;
 
 struct warnock {
   const struct sheet *sheet;
@@ -64,8 +75,14 @@ struct warnock {
   struct pulse pulse;
   ARRAY(struct warnock_window) stack;
   ARRAY(uint32_t) faces, surrounders, edges; /* the pools */
-  ARRAY(struct edge_part) part;
-  ARRAY(struct face_piece) piece;
+  edge_parts part;
+  size_t room; /* parts are united when there are so many */
+  face_pieces piece;
+  size_t piece_room; /* pieces are thinned out when there are so many */
+  struct strokes strokes; /* of the edge at hand */
+  uint64_t listed, listed_most; /* faces and edges, over all windows */
+  uint8_t *left_edge, *left_face; /* one each: left to undecided.h */
+  bool any_left;
   struct arena arena; /* of the pieces */
   struct cover cover;
   int64_t floor; /* no smaller window is divided */
@@ -74,12 +91,30 @@ struct warnock {
   uint64_t dropped;   /* faces behind it at every corner of a window */
   struct hide_counts hide;
   struct {
-    uint64_t all, no_edge, no_face, one_surrounder, few, floor, divided;
+    uint64_t all, no_edge, no_face, one_surrounder, few, floor, left, divided;
   } windows;
 };
 
 /* At most so many faces, surrounders included, are solved by pairs. */
 enum { FEW = 12 };
+
+/* Up to so many pairs are solved by pairs where the window is small. */
+enum { CROWDED = 1 << 12 };
+
+/* Divisions in vain, one after the other, after which a crowded window is no
+ * longer divided; one that is small is not after the first. */
+enum { VAIN_MOST = 4 };
+
+/* Faces and edges in the lists of all windows, for each that there is: when
+ * there are more, no crowded window is divided. */
+enum { LISTED_MOST = 256 };
+
+/* Hidden parts that need not be united. */
+enum { PARTS_FEW = 1 << 16 };
+
+/* Pieces of faces that need not be thinned out, and the pieces that a face may
+ * have after that. */
+enum { PIECES_FEW = 1 << 15, PIECES_OF_FACE = 8 };
 
 /* Is the edge to be drawn, and not seen end-on? */
 static bool is_drawn(const struct sheet *sheet, uint32_t e) {
@@ -184,6 +219,8 @@ static bool list_edges(struct warnock *w, struct warnock_window *win) {
   for (size_t i = edges.from; i < edges.to; i++) {
     uint32_t e = w->edges.item[i];
     const uint32_t *point = w->sheet->edge.item[e].point;
+    if (w->left_edge[e])
+      continue;
     if (window_meets_edge(&win->window, w->sheet->point.item[point[0]],
                           w->sheet->point.item[point[1]]) &&
         !ARRAY_PUSH(&w->edges, e))
@@ -200,7 +237,7 @@ struct edge_task {
   struct geom_point p, q;
   struct page_box box;
   struct ratio from, to;
-  bool hidden; /* all of that part, by one triangle */
+  bool hidden; /* all of that part */
 };
 
 /* False: no more than a point of the edge is inside the window. */
@@ -228,6 +265,49 @@ static bool is_behind(const struct warnock *w, const struct front *front,
          p.x != q.x && p.y != q.y;
 }
 
+/* The parts, by their edges; NULL when memory ran out. */
+static struct sort_key *sort_parts(const struct warnock *w) {
+  size_t n = w->part.count;
+  struct sort_key *key = mem_alloc(2 * n, sizeof *key);
+  for (size_t i = 0; key != NULL && i < n; i++)
+    key[i] = (struct sort_key){w->part.item[i].edge, (uint32_t)i};
+  if (key != NULL)
+    sort_keys(key, key + n, n);
+  return key;
+}
+
+/* Unites the parts of each edge, and drops those of edges left over. */
+static bool unite_parts(struct warnock *w) {
+  struct sort_key *key = sort_parts(w);
+  size_t n = w->part.count;
+  edge_parts united = {0};
+  bool done = key != NULL;
+  for (size_t i = 0, past; done && i < n; i = past) {
+    uint32_t e = (uint32_t)key[i].key;
+    const stroke_parts *parts;
+    strokes_start(&w->strokes);
+    for (past = i; done && past < n && key[past].key == e; past++)
+      done = w->left_edge[e] ||
+             strokes_hide(&w->strokes, w->part.item[key[past].value].part);
+    parts = strokes_unite(&w->strokes);
+    done = done && parts != NULL;
+    for (size_t k = 0; done && k < parts->count; k++) {
+      struct edge_part part = {e, parts->item[k]};
+      done = ARRAY_PUSH(&united, part);
+    }
+  }
+  mem_free(key);
+  ARRAY_FREE(&w->part);
+  w->part = united;
+  w->room = 2 * united.count + PARTS_FEW;
+  return done;
+}
+
+static bool add_part(struct warnock *w, struct edge_part part) {
+  return (w->part.count < w->room || unite_parts(w)) &&
+         ARRAY_PUSH(&w->part, part);
+}
+
 /* Files the edges behind the front as hidden in the window, and drops them. */
 static bool drop_hidden_edges(struct warnock *w, struct warnock_window *win,
                               const struct front *front) {
@@ -246,7 +326,7 @@ static bool drop_hidden_edges(struct warnock *w, struct warnock_window *win,
       continue;
     part.part.from = task.from;
     part.part.to = task.to;
-    if (!ARRAY_PUSH(&w->part, part))
+    if (!add_part(w, part))
       return false;
   }
   win->edges.to = w->edges.count = kept;
@@ -256,32 +336,42 @@ static bool drop_hidden_edges(struct warnock *w, struct warnock_window *win,
 /* ---- Finished windows
  * -------------------------------------------------------------- */
 
-/* What one triangle hides of the edge at hand inside the window. */
+/* Do the parts found so far hide all of the edge inside the window? */
+static bool is_hidden(const struct warnock *w, const struct edge_task *task) {
+  const stroke_parts *both = &w->strokes.both;
+  return both->count == 1 &&
+         ratio_compare(both->item[0].from, task->from) == 0 &&
+         ratio_compare(both->item[0].to, task->to) == 0;
+}
+
+/* Adds what one triangle hides of the edge at hand inside the window. */
 static bool solve_pair(struct warnock *w, struct edge_task *task, uint32_t t) {
-  struct edge_part part = {.edge = task->number};
+  struct hidden_part part;
   if (t == task->edge->triangle[0] || t == task->edge->triangle[1] ||
       !hide_may(w->sheet, t, task->p, task->q, task->box) ||
-      !hide_edge_by(w->sheet, t, task->p, task->q, &part.part, &w->hide))
+      !hide_edge_by(w->sheet, t, task->p, task->q, &part, &w->hide))
     return true;
-  if (ratio_compare(part.part.from, task->from) < 0)
-    part.part.from = task->from;
-  if (ratio_compare(task->to, part.part.to) < 0)
-    part.part.to = task->to;
-  if (ratio_compare(part.part.from, part.part.to) >= 0)
+  if (ratio_compare(part.from, task->from) < 0)
+    part.from = task->from;
+  if (ratio_compare(task->to, part.to) < 0)
+    part.to = task->to;
+  if (ratio_compare(part.from, part.to) >= 0)
     return true;
-  task->hidden = part.part.sides == HIDE_BOTH &&
-                 ratio_compare(part.part.from, task->from) == 0 &&
-                 ratio_compare(part.part.to, task->to) == 0;
-  return ARRAY_PUSH(&w->part, part);
+  if (!strokes_hide(&w->strokes, part))
+    return false;
+  task->hidden = is_hidden(w, task);
+  return true;
 }
 
 /* Asks what hides the edge inside the window, the nearest first, until all of
- * it is hidden there by one. */
+ * it is hidden there. */
 static bool solve_edge(struct warnock *w, const struct warnock_window *win,
                        uint32_t e) {
   struct edge_task task;
+  const stroke_parts *parts;
   if (!start_edge(w, &win->window, e, &task))
     return true;
+  strokes_start(&w->strokes);
   for (size_t k = win->surrounders.from;
        k < win->surrounders.to && !task.hidden; k++)
     if (!solve_pair(w, &task, w->surrounders.item[k]))
@@ -289,7 +379,50 @@ static bool solve_edge(struct warnock *w, const struct warnock_window *win,
   for (size_t k = win->faces.from; k < win->faces.to && !task.hidden; k++)
     if (!solve_pair(w, &task, w->faces.item[k]))
       return false;
-  return true;
+  parts = strokes_unite(&w->strokes);
+  for (size_t i = 0; parts != NULL && i < parts->count; i++) {
+    struct edge_part part = {e, parts->item[i]};
+    if (!ARRAY_PUSH(&w->part, part))
+      return false;
+  }
+  return parts != NULL && (w->part.count < w->room || unite_parts(w));
+}
+
+static int compare_pieces(const void *a, const void *b, void *user) {
+  const struct face_piece *p = a, *q = b;
+  (void)user;
+  return (p->triangle > q->triangle) - (p->triangle < q->triangle);
+}
+
+/* Sorts the pieces by their faces. */
+static bool sort_pieces(struct warnock *w) {
+  return sort_stable(w->piece.item, w->piece.count, sizeof *w->piece.item,
+                     compare_pieces, NULL);
+}
+
+/* Leaves the faces of many pieces to undecided.h, and drops their pieces. */
+static bool thin_out_pieces(struct warnock *w) {
+  struct face_piece *piece = w->piece.item;
+  size_t n = w->piece.count, kept = 0;
+  struct arena arena = {0};
+  bool done = sort_pieces(w);
+  for (size_t i = 0, past; done && i < n; i = past) {
+    uint32_t t = piece[i].triangle;
+    for (past = i; past < n && piece[past].triangle == t;)
+      past++;
+    if (past - i > PIECES_OF_FACE)
+      w->left_face[t] = w->any_left = true;
+    for (size_t k = i; done && k < past && !w->left_face[t]; k++) {
+      struct face_piece copy = {.triangle = t};
+      done = geom_convex_copy(&copy.piece, &piece[k].piece, &arena);
+      piece[kept++] = copy;
+    }
+  }
+  arena_fini(&w->arena);
+  w->arena = arena;
+  w->piece.count = kept;
+  w->piece_room = 2 * kept + PIECES_FEW;
+  return done;
 }
 
 /* Each face of the window, clipped to it, less what is nearer. */
@@ -297,7 +430,7 @@ static bool solve_face(struct warnock *w, const struct warnock_window *win,
                        uint32_t t) {
   struct geom_line border[8];
   const struct range *list[2] = {&win->surrounders, &win->faces};
-  if (w->sheet->triangle_flags[t] & SHEET_FLAT)
+  if ((w->sheet->triangle_flags[t] & SHEET_FLAT) || w->left_face[t])
     return true;
   warnock_window_lines(&win->window, border, border + 4);
   if (!cover_start(&w->cover, t, NULL) ||
@@ -321,7 +454,7 @@ static bool solve_face(struct warnock *w, const struct warnock_window *win,
         !ARRAY_PUSH(&w->piece, piece))
       return false;
   }
-  return true;
+  return w->piece.count < w->piece_room || thin_out_pieces(w);
 }
 
 /* Solves the window's own lists by pairs. */
@@ -342,6 +475,19 @@ static bool solve_window(struct warnock *w, const struct warnock_window *win) {
   for (size_t k = win->faces.from; k < win->faces.to; k++)
     if (!solve_face(w, win, w->faces.item[k]))
       return false;
+  return true;
+}
+
+/* Leaves all that is in the window to undecided.h. */
+static bool leave_window(struct warnock *w, const struct warnock_window *win) {
+  for (size_t i = win->edges.from; i < win->edges.to; i++)
+    w->left_edge[w->edges.item[i]] = 1;
+  for (size_t i = win->surrounders.from; i < win->surrounders.to; i++)
+    w->left_face[w->surrounders.item[i]] = w->request->fragments;
+  for (size_t i = win->faces.from; i < win->faces.to; i++)
+    w->left_face[w->faces.item[i]] = w->request->fragments;
+  w->any_left = true;
+  w->windows.left++;
   return true;
 }
 
@@ -372,7 +518,6 @@ static bool divide(struct warnock *w, const struct warnock_window *win) {
     struct warnock_window part = *win;
     part.window = (struct window){k & 1 ? x : v->x0, k & 2 ? y : v->y0,
                                   k & 1 ? v->x1 : x, k & 2 ? v->y1 : y};
-    part.level = win->level + 1;
     if (!ARRAY_PUSH(&w->stack, part))
       return false;
   }
@@ -383,6 +528,45 @@ static bool divide(struct warnock *w, const struct warnock_window *win) {
 static bool is_small(const struct warnock *w, const struct window *v) {
   int64_t width = (int64_t)v->x1 - v->x0, height = (int64_t)v->y1 - v->y0;
   return width < 2 || height < 2 || (width <= w->floor && height <= w->floor);
+}
+
+/* The edges and faces of the window about which something is to be found. */
+static size_t count_asked(const struct warnock *w,
+                          const struct warnock_window *win) {
+  size_t asked = win->edges.to - win->edges.from;
+  if (!w->request->fragments)
+    return asked;
+  for (size_t i = win->surrounders.from; i < win->surrounders.to; i++)
+    asked += !w->left_face[w->surrounders.item[i]];
+  for (size_t i = win->faces.from; i < win->faces.to; i++)
+    asked += !w->left_face[w->faces.item[i]];
+  return asked;
+}
+
+/* Divides a window of many faces, or finishes it where that is of no use. */
+static bool take_crowd(struct warnock *w, struct warnock_window *win,
+                       size_t faces) {
+  double pairs = (double)count_asked(w, win) * (double)faces;
+  bool small = is_small(w, &win->window);
+  if (pairs == 0) {
+    w->windows.left++;
+    return true;
+  }
+  if (w->listed > w->listed_most)
+    return leave_window(w, win);
+  win->vain = pairs > win->pairs / 2 ? win->vain + 1 : 0;
+  win->pairs = pairs;
+  if (pairs > CROWDED) {
+    bool is_point = win->window.x1 - (int64_t)win->window.x0 < 2 ||
+                    win->window.y1 - (int64_t)win->window.y0 < 2;
+    return is_point || win->vain >= (small ? 1 : VAIN_MOST)
+               ? leave_window(w, win)
+               : divide(w, win);
+  }
+  if (!small)
+    return divide(w, win);
+  w->windows.floor++;
+  return solve_window(w, win);
 }
 
 static bool take_window(struct warnock *w) {
@@ -414,6 +598,7 @@ static bool take_window(struct warnock *w) {
   }
   faces =
       win.faces.to - win.faces.from + win.surrounders.to - win.surrounders.from;
+  w->listed += faces + win.edges.to - win.edges.from;
   if (faces == 0) {
     w->windows.no_face++;
     return true;
@@ -422,53 +607,59 @@ static bool take_window(struct warnock *w) {
     w->windows.one_surrounder++;
   else if (faces <= FEW)
     w->windows.few++;
-  else if (is_small(w, &win.window))
-    w->windows.floor++;
   else
-    return divide(w, &win);
+    return take_crowd(w, &win, faces);
   return solve_window(w, &win);
 }
 
 /* ---- What the windows gave
  * ------------------------------------------------------------- */
 
-static bool file_strokes(struct warnock *w, struct map *map) {
+static bool file_strokes(struct warnock *w, struct undecided *undecided,
+                         struct map *map) {
   const struct sheet *sheet = w->sheet;
   size_t n = w->part.count, i = 0;
-  struct sort_key *key = mem_alloc(2 * n, sizeof *key);
-  struct strokes strokes = {0};
+  struct sort_key *key = sort_parts(w);
   bool done = key != NULL && strokes_open_map(map, sheet->edge.count);
-  for (size_t k = 0; done && k < n; k++)
-    key[k] = (struct sort_key){w->part.item[k].edge, (uint32_t)k};
-  if (done)
-    sort_keys(key, key + n, n);
   for (uint32_t e = 0; done && e < sheet->edge.count; e++) {
+    struct strokes *strokes = &w->strokes;
+    strokes_start(strokes);
+    for (; done && i < n && key[i].key == e; i++)
+      done = strokes_hide(strokes, w->part.item[key[i].value].part);
     if (!is_drawn(sheet, e))
       continue;
-    strokes_start(&strokes);
-    for (; done && i < n && key[i].key == e; i++)
-      done = strokes_hide(&strokes, w->part.item[key[i].value].part);
-    done = done && strokes_file(&strokes, e, map);
+    if (done && w->left_edge[e]) {
+      strokes = undecided_edge(undecided, e);
+      done = strokes != NULL;
+    }
+    done = done && strokes_file(strokes, e, map);
   }
   mem_free(key);
-  strokes_fini(&strokes);
   return done;
 }
 
-static int compare_pieces(const void *a, const void *b, void *user) {
-  const struct face_piece *p = a, *q = b;
-  (void)user;
-  return (p->triangle > q->triangle) - (p->triangle < q->triangle);
+/* Hands in the faces that were left over. */
+static bool file_left_faces(struct warnock *w, struct undecided *undecided,
+                            struct fragments *fragments) {
+  ARRAY(uint32_t) left = {0};
+  bool done = true;
+  for (uint32_t t = 0; done && t < w->sheet->triangle.count; t++)
+    if (w->left_face[t])
+      done = ARRAY_PUSH(&left, t);
+  done = done &&
+         undecided_faces(undecided, left.item, left.count, fragments);
+  ARRAY_FREE(&left);
+  return done;
 }
 
-static bool file_fragments(struct warnock *w, const struct pagegrid *grid,
-                           struct map *map, struct report *report) {
+static bool file_fragments(struct warnock *w, struct undecided *undecided,
+                           const struct pagegrid *grid, struct map *map,
+                           struct report *report) {
   struct fragments fragments;
   geom_pieces piece = {0};
   size_t n = w->piece.count;
   bool done = fragments_init(&fragments, w->sheet, grid, true) &&
-              sort_stable(w->piece.item, n, sizeof *w->piece.item,
-                          compare_pieces, NULL);
+              sort_pieces(w);
   fragments.pulse = &w->pulse;
   fragments.report = report;
   for (size_t i = 0, j; done && i < n; i = j) {
@@ -477,9 +668,12 @@ static bool file_fragments(struct warnock *w, const struct pagegrid *grid,
                 w->piece.item[j].triangle == w->piece.item[i].triangle;
          j++)
       done = ARRAY_PUSH(&piece, w->piece.item[j].piece);
-    done = done && fragments_add(&fragments, w->piece.item[i].triangle,
-                                 piece.item, piece.count);
+    done = done && (w->left_face[w->piece.item[i].triangle] ||
+                    fragments_add(&fragments, w->piece.item[i].triangle,
+                                  piece.item, piece.count));
   }
+  if (w->any_left)
+    done = done && file_left_faces(w, undecided, &fragments);
   done = done && fragments_finish(&fragments, w->request->areas, map);
   ARRAY_FREE(&piece);
   fragments_fini(&fragments);
@@ -513,14 +707,21 @@ static bool fill_pools(struct warnock *w, const struct pagegrid *grid) {
 
 static bool run(struct warnock *w, const struct pagegrid *grid) {
   struct warnock_window page;
-  if (!fill_pools(w, grid))
+  w->left_edge = mem_calloc(w->sheet->edge.count, 1);
+  w->left_face = mem_calloc(w->sheet->triangle.count, 1);
+  w->room = PARTS_FEW;
+  w->piece_room = PIECES_FEW;
+  if (w->left_edge == NULL || w->left_face == NULL || !fill_pools(w, grid))
     return false;
   page = (struct warnock_window){warnock_page_window(w->sheet),
+                                 INFINITY,
                                  0,
                                  {0, w->faces.count},
                                  {0, 0},
                                  {0, w->edges.count}};
   w->floor = warnock_edge_length(w->sheet);
+  w->listed_most =
+      LISTED_MOST * (uint64_t)(w->faces.count + w->edges.count + 1024);
   if (!ARRAY_PUSH(&w->stack, page))
     return false;
   while (w->stack.count > 0) {
@@ -538,6 +739,7 @@ static void report_windows(const struct warnock *w, struct report *report) {
              (int64_t)w->windows.one_surrounder);
   report_int(report, "warnock", "few_faces", (int64_t)w->windows.few);
   report_int(report, "warnock", "at_the_floor", (int64_t)w->windows.floor);
+  report_int(report, "warnock", "left_over", (int64_t)w->windows.left);
   report_int(report, "warnock", "divided", (int64_t)w->windows.divided);
   report_text(report, "warnock", "division",
               w->request->divide_by_box ? "box" : "four");
@@ -549,6 +751,23 @@ static void report_windows(const struct warnock *w, struct report *report) {
   report_int(report, "warnock", "dropped_by_corner_depths",
              (int64_t)w->dropped);
   hide_report(&w->hide, report);
+}
+
+/* Writes what was found to the map. */
+static bool file_all(struct warnock *w, const struct pagegrid *grid,
+                     struct map *map, struct report *report) {
+  struct undecided undecided = {0};
+  bool done = !w->any_left ||
+              undecided_init(&undecided, w->sheet, w->request->fragments,
+                             &w->pulse);
+  w->pulse.stage = "edges";
+  done = done &&
+         (!w->request->strokes || file_strokes(w, &undecided, map));
+  w->pulse.stage = "faces";
+  done = done && (!w->request->fragments ||
+                  file_fragments(w, &undecided, grid, map, report));
+  undecided_fini(&undecided);
+  return done;
 }
 
 static recto_status solve(struct sheet *sheet,
@@ -568,9 +787,7 @@ static recto_status solve(struct sheet *sheet,
     status = pierce_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK) {
     cover_init(&w.cover, sheet);
-    done = run(&w, &grid) &&
-           (!request->strokes || file_strokes(&w, map)) &&
-           (!request->fragments || file_fragments(&w, &grid, map, report));
+    done = run(&w, &grid) && file_all(&w, &grid, map, report);
     if (!done)
       status = pulse_error(&w.pulse, error);
     if (request->fragments)
@@ -584,6 +801,9 @@ static recto_status solve(struct sheet *sheet,
   ARRAY_FREE(&w.edges);
   ARRAY_FREE(&w.part);
   ARRAY_FREE(&w.piece);
+  strokes_fini(&w.strokes);
+  mem_free(w.left_edge);
+  mem_free(w.left_face);
   arena_fini(&w.arena);
   pagegrid_fini(&grid);
   return status;
