@@ -7,6 +7,10 @@
  * one that runs along the side of a face does not overlap it, and is always
  * asked.  So is one that was rounded off its face.
  *
+ * Where the order has no place for a triangle, its edges, the intersections and
+ * what is seen of it are left to undecided.h; from others it takes where its
+ * plane is nearer.
+ *
  * Source  [Newell1972].
  */
 #include "visibility/cover.h"
@@ -14,6 +18,7 @@
 #include "visibility/pierce.h"
 #include "visibility/solver.h"
 #include "visibility/strokes.h"
+#include "visibility/undecided.h"
 
 /* ---- Strokes ------------------------------------------------------------------ */
 
@@ -25,6 +30,7 @@ struct stroke_work {
   struct hide_counts counts;
   uint64_t by_order; /* pairs the order settled */
   struct pulse *pulse;
+  struct undecided *undecided; /* NULL: every triangle is in the order */
 };
 
 /* The rank of the edge's own face where it is one whole piece, else 0: also
@@ -78,11 +84,37 @@ static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
   return true;
 }
 
+/* Is it of no use to ask the order about the edge? */
+static bool is_undecided(const struct stroke_work *work,
+                         const struct sheet_edge *edge) {
+  uint32_t t = edge->triangle[0];
+  return work->undecided != NULL &&
+         (edge->edge_class == RECTO_EDGE_INTERSECTION ||
+          (t != SHEET_NONE && newell_is_unordered(work->order, t)));
+}
+
+/* The answer about an edge; NULL when memory ran out, or the caller wants no
+ * more. */
+static struct strokes *strokes_of(struct stroke_work *work, uint32_t e) {
+  const struct sheet_edge *edge = &work->sheet->edge.item[e];
+  struct geom_point p = work->sheet->point.item[edge->point[0]],
+                    q = work->sheet->point.item[edge->point[1]];
+  if (is_undecided(work, edge)) return undecided_edge(work->undecided, e);
+  return solve_edge(work, edge, p, q) &&
+                 pulse_beat(work->pulse, work->query.found.count)
+             ? &work->strokes
+             : NULL;
+}
+
 static bool solve_strokes(const struct sheet *sheet,
-                          struct newell_order *order, struct map *map,
+                          struct newell_order *order,
+                          struct undecided *undecided, struct map *map,
                           struct report *report) {
   struct stroke_work work = {
-      .sheet = sheet, .order = order, .pulse = &order->pulse};
+      .sheet = sheet,
+      .order = order,
+      .pulse = &order->pulse,
+      .undecided = order->counts.unordered > 0 ? undecided : NULL};
   bool done = pagegrid_query_init(&work.query, order->grid) &&
               strokes_open_map(map, sheet->edge.count);
   for (size_t e = 0; done && e < sheet->edge.count; e++) {
@@ -90,10 +122,9 @@ static bool solve_strokes(const struct sheet *sheet,
     struct geom_point p = sheet->point.item[edge->point[0]],
                       q = sheet->point.item[edge->point[1]];
     if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y)) continue;
-    done = solve_edge(&work, edge, p, q) &&
-           pulse_beat_at(work.pulse, work.query.found.count, e,
-                         sheet->edge.count) &&
-           strokes_file(&work.strokes, (uint32_t)e, map);
+    work.pulse->share = (double)e / (double)sheet->edge.count;
+    struct strokes *strokes = strokes_of(&work, (uint32_t)e);
+    done = strokes != NULL && strokes_file(strokes, (uint32_t)e, map);
   }
   hide_report(&work.counts, report);
   report_int(report, "newell", "pairs_settled_by_order",
@@ -113,6 +144,12 @@ static bool take_later(struct newell_order *order, uint32_t p,
   for (size_t i = 0; i < query->found.count && !cover_is_empty(cover); i++) {
     uint32_t q = query->found.item[i];
     if (q == piece->triangle) continue;
+    if (newell_is_unordered(order, q)) {
+      if (!pulse_beat(&order->pulse, 1 + cover->left.count) ||
+          !cover_take_nearer(cover, q))
+        return false;
+      continue;
+    }
     for (; q != NEWELL_NONE; q = order->piece.item[q].next) {
       const struct newell_piece *other = &order->piece.item[q];
       struct geom_line *line;
@@ -129,7 +166,22 @@ static bool take_later(struct newell_order *order, uint32_t p,
   return true;
 }
 
-static bool solve_fragments(struct newell_order *order, bool areas,
+/* Hands in what is seen of the triangles without an order. */
+static bool file_unordered(struct newell_order *order,
+                           struct undecided *undecided,
+                           struct fragments *fragments) {
+  ARRAY(uint32_t) list = {0};
+  bool done = true;
+  for (uint32_t t = 0; done && t < order->sheet->triangle.count; t++)
+    if (newell_is_unordered(order, t)) done = ARRAY_PUSH(&list, t);
+  done = done && (list.count == 0 || undecided_faces(undecided, list.item,
+                                                     list.count, fragments));
+  ARRAY_FREE(&list);
+  return done;
+}
+
+static bool solve_fragments(struct newell_order *order,
+                            struct undecided *undecided, bool areas,
                             struct map *map, struct report *report) {
   struct fragments fragments;
   struct pagegrid_query query = {0};
@@ -143,11 +195,13 @@ static bool solve_fragments(struct newell_order *order, bool areas,
   for (size_t i = order->painted.count; done && i-- > 0;) {
     uint32_t p = order->painted.item[i];
     const struct newell_piece *piece = &order->piece.item[p];
+    if (newell_is_unordered(order, piece->triangle)) continue;
     done = cover_start(&cover, piece->triangle, piece->shape) &&
            take_later(order, p, &query, &cover) &&
            cover_file(&cover, &fragments);
   }
-  done = done && fragments_finish(&fragments, areas, map);
+  done = done && file_unordered(order, undecided, &fragments) &&
+         fragments_finish(&fragments, areas, map);
   cover_fini(&cover);
   pagegrid_query_fini(&query);
   fragments_fini(&fragments);
@@ -168,7 +222,27 @@ static void report_order(const struct newell_order *order,
   report_int(report, "newell", "cycles", (int64_t)c->cycles);
   report_int(report, "newell", "splits_by_cycle", (int64_t)c->split_cycle);
   report_int(report, "newell", "splits_by_piercing", (int64_t)c->split_pierce);
+  report_int(report, "newell", "without_order", (int64_t)c->unordered);
   report_int(report, "newell", "pieces", (int64_t)order->painted.count);
+}
+
+/* Writes what is seen to the map, the faces being in order. */
+static bool solve_in_order(struct newell_order *order, struct sheet *sheet,
+                           const struct solver_request *request,
+                           struct map *map, struct report *report) {
+  struct undecided undecided = {0};
+  bool done = order->counts.unordered == 0 ||
+              undecided_init(&undecided, sheet, request->fragments,
+                             &order->pulse);
+  order->pulse.stage = "edges";
+  done = done && (!request->strokes ||
+                  solve_strokes(sheet, order, &undecided, map, report));
+  order->pulse.stage = "faces";
+  done = done && (!request->fragments ||
+                  solve_fragments(order, &undecided, request->areas, map,
+                                  report));
+  undecided_fini(&undecided);
+  return done;
 }
 
 static recto_status solve(struct sheet *sheet,
@@ -182,13 +256,8 @@ static recto_status solve(struct sheet *sheet,
   status = newell_order_init(&order, sheet, &grid, request, error);
   if (status == RECTO_OK && request->intersections)
     status = pierce_all(sheet, &grid, NULL, request, report, error);
-  order.pulse.stage = "edges";
-  if (status == RECTO_OK && request->strokes &&
-      !solve_strokes(sheet, &order, map, report))
-    status = pulse_error(&order.pulse, error);
-  order.pulse.stage = "faces";
-  if (status == RECTO_OK && request->fragments &&
-      !solve_fragments(&order, request->areas, map, report))
+  if (status == RECTO_OK &&
+      !solve_in_order(&order, sheet, request, map, report))
     status = pulse_error(&order.pulse, error);
   report_order(&order, report);
   newell_order_fini(&order);

@@ -15,6 +15,11 @@
  *   whatever is painted is in front of nothing that is not painted yet;
  *   the pieces of a triangle tile it, those unseen included.
  *
+ * Not without bounds: n triangles that pierce each other have some n^3 pieces.
+ * So a triangle that was split SPLITS_MOST times is taken out of the order, and
+ * where there were too many tests all that wait are.  Nothing is known about
+ * such a triangle and the others; whoever uses the order asks the planes.
+ *
  * It ends: each split follows one of finitely many lines (sides and crossings
  * of planes) and leaves two proper parts; without a split the marked faces
  * form a path, which is no longer than there are pieces.
@@ -31,13 +36,17 @@
 /* Of a pair of pieces, in units of a pulse. */
 enum { PAIR_WORK = 128 };
 
+/* Splits of one triangle, and tests for each triangle and in any case. */
+enum { SPLITS_MOST = 16, TESTS_MOST = 1 << 12, TESTS_FEW = 1 << 22 };
+
 /* ---- Pieces ------------------------------------------------------------------ */
 
 static bool add_triangles(struct newell_order *order) {
   const struct sheet *sheet = order->sheet;
   size_t n = sheet->triangle.count;
   order->open = mem_alloc(n, sizeof *order->open);
-  if (order->open == NULL || !ARRAY_RESERVE(&order->piece, n)) return false;
+  order->splits = mem_calloc(n, sizeof *order->splits);
+  if (order->open == NULL || order->splits == NULL || !ARRAY_RESERVE(&order->piece, n)) return false;
   for (size_t t = 0; t < n; t++) {
     struct newell_piece piece = {
         .triangle = (uint32_t)t,
@@ -103,6 +112,19 @@ static void close_piece(struct newell_order *order, uint32_t piece,
     order->piece.item[p->next_open].last_open = p->last_open;
 }
 
+/* Takes a triangle out of the order. */
+static void leave_order(struct newell_order *order, uint32_t triangle) {
+  while (order->open[triangle] != NEWELL_NONE)
+    close_piece(order, order->open[triangle], NEWELL_UNSEEN);
+  order->splits[triangle] = NEWELL_UNORDERED;
+  order->counts.unordered++;
+}
+
+/* Notes that a triangle was split once more. */
+static void count_split(struct newell_order *order, uint32_t triangle) {
+  if (++order->splits[triangle] > SPLITS_MOST) leave_order(order, triangle);
+}
+
 struct geom_line *newell_piece_lines(const struct newell_order *order,
                                      uint32_t piece, int *count,
                                      struct arena *arena) {
@@ -148,6 +170,7 @@ static bool split_piercing(struct newell_order *order, uint32_t p, uint32_t q) {
       !split_by(order, p, &shape, &line, &back, &split))
     return false;
   order->counts.split_pierce++;
+  count_split(order, order->piece.item[p].triangle);
   return true;
 }
 
@@ -169,6 +192,7 @@ static bool split_cycle(struct newell_order *order, uint32_t p, uint32_t q) {
       return false;
   if (split) {
     order->counts.split_cycle++;
+    count_split(order, order->piece.item[q].triangle);
   } else { /* Q is inside the outline of P, which is in front of it */
     close_piece(order, q, NEWELL_UNSEEN);
     order->counts.unseen++;
@@ -193,6 +217,7 @@ enum step { STEP_FAILED, STEP_PAINT, STEP_MOVED, STEP_SPLIT };
 /* Tests candidate P against piece Q. */
 static enum step test_pair(struct newell_order *order, uint32_t p,
                            uint32_t q) {
+  order->counts.tests++;
   switch (newell_test(order, p, q)) {
   case NEWELL_FAILED:
     return STEP_FAILED;
@@ -280,6 +305,7 @@ recto_status newell_order_init(struct newell_order *order,
                                const struct solver_request *request,
                                recto_error *error) {
   size_t n = sheet->triangle.count;
+  uint64_t most = TESTS_FEW + (uint64_t)TESTS_MOST * n;
   struct sort_key *s;
   recto_status status = RECTO_OK;
   memset(order, 0, sizeof *order);
@@ -296,7 +322,9 @@ recto_status newell_order_init(struct newell_order *order,
     uint32_t p = s[i].value;
     order->pulse.share = (double)i / (double)n;
     while (status == RECTO_OK && order->open[p] != NEWELL_NONE)
-      if (!paint(order, order->open[p]))
+      if (order->counts.tests > most)
+        leave_order(order, p);
+      else if (!paint(order, order->open[p]))
         status = pulse_error(&order->pulse, error);
   }
   mem_free(s);
@@ -307,6 +335,7 @@ void newell_order_fini(struct newell_order *order) {
   pagegrid_query_fini(&order->query);
   ARRAY_FREE(&order->piece);
   mem_free(order->open);
+  mem_free(order->splits);
   ARRAY_FREE(&order->painted);
   ARRAY_FREE(&order->stack);
   arena_fini(&order->arena);

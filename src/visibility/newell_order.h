@@ -16,7 +16,8 @@ enum newell_state {
   NEWELL_MARKED,   /* moved ahead of another and not painted yet */
   NEWELL_PAINTED,  /* has its rank */
   NEWELL_SPLIT,    /* gone: others stand for it */
-  NEWELL_UNSEEN    /* flat, a copy, or behind one other piece entirely */
+  NEWELL_UNSEEN    /* flat, a copy, behind one other piece entirely, or of a
+                      face without an order */
 };
 
 /* Piece t < triangle count is the whole triangle t; later ones are parts. */
@@ -35,6 +36,8 @@ struct newell_piece {
 struct newell_counts {
   uint64_t depth, minimax, behind, before, full; /* z, tests A, B, C, D */
   uint64_t moved, cycles, split_cycle, split_pierce, unseen;
+  uint64_t tests;     /* pairs of a candidate and another */
+  uint64_t unordered; /* triangles without an order */
 };
 
 struct newell_order {
@@ -43,6 +46,8 @@ struct newell_order {
   struct pagegrid_query query;
   ARRAY(struct newell_piece) piece;
   uint32_t *open;          /* a triangle's first piece not painted yet */
+  uint8_t *splits; /* of a triangle so far; NEWELL_UNORDERED: it has no order,
+                      and its pieces are of no account */
   ARRAY(uint32_t) painted; /* pieces, back to front */
   ARRAY(uint32_t) stack;   /* candidates: each is to be painted before those
                               under it */
@@ -55,7 +60,15 @@ struct newell_order {
   uint32_t prepared;
 };
 
-/* Orders all triangles of the sheet.
+enum { NEWELL_UNORDERED = UINT8_MAX };
+
+/* Was the triangle taken out of the order? */
+static inline bool newell_is_unordered(const struct newell_order *order,
+                                       uint32_t triangle) {
+  return order->splits[triangle] == NEWELL_UNORDERED;
+}
+
+/* Orders all triangles of the sheet but those that would be split too often.
  * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED. */
 USE_RESULT recto_status newell_order_init(struct newell_order *order,
                                           const struct sheet *sheet,
