@@ -33,3 +33,6 @@ unit_tests += %D%/test_ink_repeats
 unit_tests += %D%/test_contact
 %C%_test_contact_SOURCES = %D%/test_contact.c
 %C%_test_contact_LDADD = $(failures_libs)
+unit_tests += %D%/test_undecided
+%C%_test_undecided_SOURCES = %D%/test_undecided.c %D%/laid.c %D%/laid.h
+%C%_test_undecided_LDADD = $(failures_libs)

@@ -36,7 +36,9 @@ bool cells_init(struct cells *cells, const struct sheet *sheet) {
   cells->plane = mem_alloc(count, sizeof *cells->plane);
   cells->seen = mem_calloc(count, 1);
   cells->covered = mem_calloc(count, 1);
-  if (cells->plane == NULL || cells->seen == NULL || cells->covered == NULL)
+  cells->ties = mem_calloc(count, 1);
+  if (cells->plane == NULL || cells->seen == NULL || cells->covered == NULL ||
+      cells->ties == NULL)
     return false;
   for (size_t t = 0; t < count; t++) {
     struct geom_plane plane = triangle_plane_of(sheet, (uint32_t)t).plane;
@@ -53,6 +55,7 @@ void cells_fini(struct cells *cells) {
   mem_free(cells->plane);
   mem_free(cells->seen);
   mem_free(cells->covered);
+  mem_free(cells->ties);
   ARRAY_FREE(&cells->part);
   ARRAY_FREE(&cells->tied);
   ARRAY_FREE(&cells->candidate);
@@ -124,6 +127,18 @@ static bool find_candidates(struct cells *cells, const struct sweep *sweep,
   return true;
 }
 
+/* Counts the candidates' ties; are all of them left over? */
+static bool count_ties(struct cells *cells) {
+  bool all = true;
+  for (size_t i = 0; i < cells->candidate.count; i++) {
+    uint32_t t = cells->candidate.item[i];
+    if (!cells_leave(cells, t))
+      cells->ties[t]++;
+    all &= cells_leave(cells, t);
+  }
+  return all;
+}
+
 static bool keep_parts(struct cells *cells, const struct sweep_cell *cell) {
   const sweep_list *candidate = &cells->candidate;
   struct cell_part part = {.left = cell->left,
@@ -131,7 +146,7 @@ static bool keep_parts(struct cells *cells, const struct sweep_cell *cell) {
                            .top = cell->top,
                            .bottom = cell->bottom,
                            .tied = (uint32_t)cells->tied.count};
-  if (candidate->count > 1) {
+  if (candidate->count > 1 && !count_ties(cells)) {
     part.count = (uint32_t)candidate->count;
     if (!ARRAY_RESERVE(&cells->tied, part.count))
       return false;
@@ -141,7 +156,7 @@ static bool keep_parts(struct cells *cells, const struct sweep_cell *cell) {
   }
   for (size_t i = 0; i < candidate->count; i++) {
     part.triangle = candidate->item[i];
-    if (!ARRAY_PUSH(&cells->part, part))
+    if (!cells_leave(cells, part.triangle) && !ARRAY_PUSH(&cells->part, part))
       return false;
   }
   for (size_t i = 0; i < cell->count; i++)
@@ -262,6 +277,8 @@ static bool file_triangle(struct piece_work *work, const struct sort_key *key,
   const struct cell_part *all = work->cells->part.item;
   uint32_t triangle = all[key->value].triangle;
   bool good = true;
+  if (cells_leave(work->cells, triangle))
+    return true;
   if (!work->cells->covered[triangle])
     return fragments_add_whole(work->fragments, triangle);
   work->piece.count = 0;
@@ -306,7 +323,8 @@ recto_status cells_finish(struct cells *cells, const struct sweep *sweep,
   if (has_too_many(cells))
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "too much for watkins without a pitch: faces are cut "
-                     "into more than %zu trapezoids",
+                     "into more than %zu trapezoids; -m auto has no such "
+                     "limit",
                      cells->most_pieces);
   key = sort_parts(cells);
   good = key != NULL;

@@ -33,6 +33,7 @@ struct cells {
   uint8_t *covered;         /* another may be seen somewhere before it */
   bool keep;                /* parts are kept, not only noted as seen */
   bool too_many;            /* a limit was met */
+  uint8_t *ties; /* one a triangle: parts it shares with others, so far */
   size_t most_pieces;       /* CELLS_PIECES_MAX */
   ARRAY(struct cell_part) part;
   sweep_list tied;
@@ -48,7 +49,15 @@ void cells_fini(struct cells *cells);
 bool cells_take(void *user, const struct sweep *sweep,
                 const struct sweep_cell *cell);
 
-/* Hands what was kept to the fragments.
+/* Trapezoids that a triangle may share with others that pierce or touch it
+ * there: what is seen of it in so many, and more, is left to undecided.h. */
+enum { CELLS_TIES_MOST = 64 };
+
+static inline bool cells_leave(const struct cells *cells, uint32_t triangle) {
+  return cells->ties[triangle] > CELLS_TIES_MOST;
+}
+
+/* Hands what was kept to the fragments, but for triangles that are left over.
  * Errors  RECTO_ERROR_LIMIT, RECTO_ERROR_MEMORY. */
 USE_RESULT recto_status cells_finish(struct cells *cells,
                                      const struct sweep *sweep,

@@ -13,11 +13,13 @@ static uint64_t key_of(uint32_t p, uint32_t q) {
   return p < q ? (uint64_t)p << 32 | q : (uint64_t)q << 32 | p;
 }
 
-static bool is_drawn(const struct sheet *sheet, size_t e) {
+bool sweep_takes_line(const struct sheet *sheet, size_t e) {
   const struct sheet_edge *edge = &sheet->edge.item[e];
   const struct geom_point *p = &sheet->point.item[edge->point[0]];
   const struct geom_point *q = &sheet->point.item[edge->point[1]];
-  return edge->edge_class != 0 && (p->x != q->x || p->y != q->y);
+  return edge->edge_class != 0 && edge->triangle[0] != SHEET_NONE &&
+         edge->edge_class != RECTO_EDGE_INTERSECTION &&
+         (p->x != q->x || p->y != q->y);
 }
 
 /* The value of a key: of triangle t's side k 3 t + k, of a drawn line e
@@ -34,7 +36,7 @@ static void list_keys(struct gathering *g, const struct sheet *sheet,
           key_of(point[k], point[k == 2 ? 0 : k + 1]), 3 * t + k};
   }
   for (uint32_t e = 0; drawn && e < sheet->edge.count; e++)
-    if (is_drawn(sheet, e))
+    if (sweep_takes_line(sheet, e))
       g->key[g->count++] = (struct sort_key){
           key_of(sheet->edge.item[e].point[0], sheet->edge.item[e].point[1]),
           3 * triangles + e};

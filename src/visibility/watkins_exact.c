@@ -3,6 +3,7 @@
  * Strokes    while a line is active, the sweep lists the triangles that are in
  *            beside it; each is asked once what it hides of the line (hide.h).
  *            No triangle that is never in beside it can hide anything of it.
+ *            Lines that are no face's edge are left to undecided.h.
  * Fragments  see watkins_cells.c: trapezoids, each with the triangle that is
  *            seen in it, are joined by fragments.h.
  */
@@ -13,6 +14,7 @@
 #include "visibility/pierce.h"
 #include "visibility/pulse.h"
 #include "visibility/strokes.h"
+#include "visibility/undecided.h"
 #include "visibility/watkins_cells.h"
 
 /* At most so many lines and triangles that may hide something of them. */
@@ -31,7 +33,21 @@ struct meetings {
 struct exact {
   struct cells cells;
   struct meetings meetings;
+  struct pulse pulse;
+  struct undecided undecided;
+  bool ready; /* the latter is */
 };
+
+/* Makes `undecided` ready, if it is not; false when memory ran out. */
+static bool need_undecided(struct exact *exact, const struct sheet *sheet,
+                           const struct solver_request *request) {
+  if (exact->ready)
+    return true;
+  exact->pulse = pulse_of(request, "edges");
+  exact->ready = true;
+  return undecided_init(&exact->undecided, sheet, request->fragments,
+                        &exact->pulse);
+}
 
 /* Sorts the pairs and drops those that are there twice. */
 static bool settle_pairs(struct meetings *meetings) {
@@ -90,11 +106,22 @@ static bool file_edge(const struct sheet *sheet, uint32_t e,
   return strokes_file(strokes, e, map);
 }
 
-static recto_status file_strokes(const struct sheet *sheet,
-                                 struct meetings *meetings,
+/* The same of a line that is no face's edge. */
+static bool file_line(struct exact *exact, const struct sheet *sheet,
+                      const struct solver_request *request, uint32_t e,
+                      struct map *map) {
+  struct strokes *strokes = NULL;
+  if (need_undecided(exact, sheet, request))
+    strokes = undecided_edge(&exact->undecided, e);
+  return strokes != NULL && strokes_file(strokes, e, map);
+}
+
+static recto_status file_strokes(struct exact *exact,
+                                 const struct sheet *sheet,
                                  const struct solver_request *request,
                                  struct map *map,
                                  struct report *report, recto_error *error) {
+  struct meetings *meetings = &exact->meetings;
   const struct sort_key *pair;
   struct strokes strokes = {0};
   struct hide_counts counts = {0};
@@ -105,7 +132,8 @@ static recto_status file_strokes(const struct sheet *sheet,
   if (good && meetings->too_many)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "too much for watkins without a pitch: lines have faces "
-                     "beside them in more than %d pairs",
+                     "beside them in more than %d pairs; -m auto has no such "
+                     "limit",
                      MEETINGS_MAX);
   pair = meetings->pair.item;
   count = meetings->pair.count;
@@ -117,7 +145,11 @@ static recto_status file_strokes(const struct sheet *sheet,
     size_t first = i;
     while (i < count && pair[i].key >> 32 == e)
       i++;
-    if (edge->edge_class != 0 && (p->x != q->x || p->y != q->y))
+    if (edge->edge_class == 0 || (p->x == q->x && p->y == q->y))
+      continue;
+    if (!sweep_takes_line(sheet, e))
+      good = file_line(exact, sheet, request, e, map);
+    else
       good =
           pulse_beat(&pulse, i - first) &&
           file_edge(sheet, e, own, i - first, &strokes, &counts, map);
@@ -125,10 +157,30 @@ static recto_status file_strokes(const struct sheet *sheet,
   hide_report(&counts, report);
   report_int(report, "watkins", "faces_beside_lines", (int64_t)count);
   strokes_fini(&strokes);
+  pulse.cancelled |= exact->pulse.cancelled;
   return good ? RECTO_OK : pulse_error(&pulse, error);
 }
 
 /* ---- Fragments ---------------------------------------------------------- */
+
+/* Hands in what is seen of the triangles left over. */
+static recto_status file_left_over(struct exact *exact,
+                                   const struct sheet *sheet,
+                                   const struct solver_request *request,
+                                   struct fragments *fragments,
+                                   struct report *report, recto_error *error) {
+  ARRAY(uint32_t) list = {0};
+  bool done = true;
+  for (uint32_t t = 0; done && t < sheet->triangle.count; t++)
+    if (cells_leave(&exact->cells, t))
+      done = ARRAY_PUSH(&list, t);
+  report_int(report, "watkins", "left_over", (int64_t)list.count);
+  if (list.count > 0)
+    done = done && need_undecided(exact, sheet, request) &&
+           undecided_faces(&exact->undecided, list.item, list.count, fragments);
+  ARRAY_FREE(&list);
+  return done ? RECTO_OK : pulse_error(&exact->pulse, error);
+}
 
 /* Sweeps the triangles that were seen once more. */
 static recto_status solve_fragments(struct exact *exact,
@@ -155,6 +207,9 @@ static recto_status solve_fragments(struct exact *exact,
     status = sweep_run(&sweep, request, 0.5, 0.7, error);
   if (status == RECTO_OK)
     status = cells_finish(cells, &sweep, &fragments, error);
+  exact->pulse.stage = "faces";
+  if (status == RECTO_OK)
+    status = file_left_over(exact, sheet, request, &fragments, report, error);
   if (status == RECTO_OK && !fragments_finish(&fragments, request->areas, map))
     status = pulse_error(&pulse, error);
   report_int(report, "watkins", "trapezoids_of_seen", (int64_t)cells->count);
@@ -169,11 +224,12 @@ static recto_status solve_fragments(struct exact *exact,
 
 /* Sweeps all triangles and lines. */
 static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
+                              const uint8_t *kept,
                               const struct solver_request *request,
                               struct report *report, recto_error *error) {
   struct sweep sweep;
   recto_status status = RECTO_OK;
-  if (!sweep_init(&sweep, sheet, NULL, request->strokes))
+  if (!sweep_init(&sweep, sheet, kept, request->strokes))
     status = error_memory(error);
   sweep.cell = request->fragments ? take_cell : NULL;
   sweep.meet = request->strokes ? take_meeting : NULL;
@@ -189,19 +245,35 @@ static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
   return status;
 }
 
+/* One byte a triangle: is it in the lists of the grid, so that it is there?
+ * NULL: all are. */
+static recto_status list_kept(const struct sheet *sheet,
+                              const struct pagegrid *grid, uint8_t **kept,
+                              recto_error *error) {
+  *kept = NULL;
+  if (grid->left_out == NULL)
+    return RECTO_OK;
+  *kept = mem_alloc(sheet->triangle.count, 1);
+  for (uint32_t t = 0; *kept != NULL && t < sheet->triangle.count; t++)
+    (*kept)[t] = !pagegrid_leaves_out(grid, t);
+  return *kept != NULL ? RECTO_OK : error_memory(error);
+}
+
 static recto_status solve_on(struct exact *exact, const struct sheet *sheet,
                              const struct pagegrid *grid,
                              const struct solver_request *request,
                              struct map *map, struct report *report,
                              recto_error *error) {
-  recto_status status = RECTO_OK;
-  if (request->fragments && !cells_init(&exact->cells, sheet))
+  uint8_t *kept;
+  recto_status status = list_kept(sheet, grid, &kept, error);
+  if (status == RECTO_OK && request->fragments &&
+      !cells_init(&exact->cells, sheet))
     status = error_memory(error);
   if (status == RECTO_OK)
-    status = sweep_all(exact, sheet, request, report, error);
+    status = sweep_all(exact, sheet, kept, request, report, error);
+  mem_free(kept);
   if (status == RECTO_OK && request->strokes)
-    status = file_strokes(sheet, &exact->meetings, request, map, report,
-                          error);
+    status = file_strokes(exact, sheet, request, map, report, error);
   if (status == RECTO_OK && request->fragments)
     status = solve_fragments(exact, sheet, grid, request, map, report, error);
   return status;
@@ -223,6 +295,7 @@ recto_status watkins_solve_exactly(struct sheet *sheet,
     status = solve_on(&exact, sheet, &grid, request, map, report, error);
   ARRAY_FREE(&exact.meetings.pair);
   cells_fini(&exact.cells);
+  undecided_fini(&exact.undecided);
   pagegrid_fini(&grid);
   return status;
 }

@@ -138,32 +138,32 @@ static bool replace_active(struct sweep *sweep, size_t low, size_t high) {
   return true;
 }
 
-static void toggle_triangle(sweep_list *in, uint32_t triangle) {
-  for (size_t i = 0; i < in->count; i++)
-    if (in->item[i] == triangle) {
-      in->item[i] = in->item[--in->count];
-      return;
-    }
-  in->item[in->count++] = triangle;
-}
-
 /* Finds the triangles that are in after the active edge of that rank, from
- * those before it. */
+ * those before it: those that are in just one of two ascending lists, for the
+ * triangles of an edge begin or end there. */
 static bool set_in(struct sweep *sweep, size_t rank) {
   struct sweep_edge *edge = &sweep->edge.item[sweep->active.item[rank]];
   const sweep_list *before =
       rank > 0 ? &sweep->edge.item[sweep->active.item[rank - 1]].in : NULL;
-  size_t count = before != NULL ? before->count : 0;
+  size_t i = 0, k = 0, n = before != NULL ? before->count : 0, in = 0;
   sweep->in -= edge->in.count;
   edge->in.count = 0;
-  if (!ARRAY_RESERVE(&edge->in, count + edge->toggles))
+  if (!ARRAY_RESERVE(&edge->in, n + edge->toggles))
     return false;
-  if (count > 0)
-    memcpy(edge->in.item, before->item, count * sizeof *before->item);
-  edge->in.count = count;
-  for (uint32_t i = 0; i < edge->toggles; i++)
-    toggle_triangle(&edge->in, sweep->toggle.item[edge->toggle + i]);
-  sweep->in += edge->in.count;
+  while (i < n && k < edge->toggles) {
+    uint32_t old = before->item[i],
+             toggle = sweep->toggle.item[edge->toggle + k];
+    if (old != toggle)
+      edge->in.item[in++] = old < toggle ? old : toggle;
+    i += old <= toggle;
+    k += toggle <= old;
+  }
+  for (; i < n; i++)
+    edge->in.item[in++] = before->item[i];
+  for (; k < edge->toggles; k++)
+    edge->in.item[in++] = sweep->toggle.item[edge->toggle + k];
+  edge->in.count = in;
+  sweep->in += in;
   return true;
 }
 
@@ -256,11 +256,12 @@ static recto_status refuse(const struct sweep *sweep, recto_error *error) {
   if (sweep->in > sweep->most_in)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "too much for watkins without a pitch: more than %zu "
-                     "faces over each other, counted in every interval",
+                     "faces over each other, counted in every interval; "
+                     "-m auto has no such limit",
                      sweep->most_in);
   return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                    "too much for watkins without a pitch: edges end or cross "
-                   "in more than %zu places",
+                   "in more than %zu places; -m auto has no such limit",
                    sweep->most_places);
 }
 

@@ -3,7 +3,7 @@
  *
  * Places   where an edge starts or ends and where two cross, from the top, on
  *          one height from the left.  A place is never rounded.
- * Edges    sides of triangles that have area, and lines to be drawn.  What
+ * Edges    sides of triangles that have area, and faces' edges to be drawn.  What
  *          lies level is met from its left end to its right one, as if the
  *          page were turned a hair clockwise; what coincides stands side by
  *          side.
@@ -31,9 +31,9 @@
 #define SWEEP_NONE UINT32_MAX
 
 /* Places met at most, and triangles in, counted over all active edges: about
- * half a gigabyte each. */
-#define SWEEP_PLACES_MAX (1 << 23)
-#define SWEEP_IN_MAX (1 << 26)
+ * a quarter of a gigabyte each. */
+#define SWEEP_PLACES_MAX (1 << 22)
+#define SWEEP_IN_MAX (1 << 25)
 
 /* (x / den, y / den): |x|, |y| < 2^95, 0 < den < 2^63. */
 struct sweep_place {
@@ -84,9 +84,14 @@ struct sweep {
   void *user;
 };
 
+/* Is it a line to be drawn that is a face's edge?  Others bound no interval,
+ * and may cross each other far more often than faces' edges do: intersections
+ * of n faces in some n^4 places. */
+bool sweep_takes_line(const struct sheet *sheet, size_t edge);
+
 /* Gathers the edges.
  * kept   one a triangle: is it there?  NULL: all are.  Flat ones are not.
- * drawn  lines to be drawn are there too
+ * drawn  lines to be drawn are there too, if the sweep takes them
  * False when memory ran out; ends with sweep_fini in either case. */
 USE_RESULT bool sweep_init(struct sweep *sweep, const struct sheet *sheet,
                            const uint8_t *kept, bool drawn);
