@@ -178,7 +178,7 @@ recto_status scene_add_wire(struct scene *scene, const uint32_t *corner,
       !ARRAY_RESERVE(&scene->wire_start, 2) ||
       !ARRAY_RESERVE(&scene->wire_group, 1))
     return error_memory(error);
-  uint32_t *to = scene->wire_corner.item + scene->wire_corner.count;
+  uint32_t *to = ARRAY_AT(&scene->wire_corner, scene->wire_corner.count);
   count = copy_distinct(scene, corner, count, false, to);
   if (count < 2) {
     diagnostics_fault(diagnostics, SCENE_FAULT_FEW_CORNERS, line,
