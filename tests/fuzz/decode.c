@@ -191,42 +191,94 @@ static void add_text(struct decoded *d, const char *format, ...) {
     d->obj_length += (size_t)length;
 }
 
-static unsigned add_points(struct decoded *d, struct source *source) {
-  unsigned count = 3 + next(source) % 14;
-  for (unsigned i = 0; i < count; i++) {
-    const char *x = choose_coordinate(source);
-    const char *y = choose_coordinate(source);
-    const char *z = choose_coordinate(source);
-    add_text(d, "v %s %s %s\n", x, y, z);
+enum { MAX_POINTS = 16 };
+
+struct points {
+  const char *item[MAX_POINTS][3];
+  unsigned count;
+};
+
+static void add_points(struct decoded *d, struct source *source,
+                       struct points *points) {
+  points->count = 3 + next(source) % (MAX_POINTS - 2);
+  for (unsigned i = 0; i < points->count; i++) {
+    const char **point = points->item[i];
+    for (int k = 0; k < 3; k++)
+      point[k] = choose_coordinate(source);
+    add_text(d, "v %s %s %s\n", point[0], point[1], point[2]);
   }
-  return count;
 }
 
-/* Corners are any points, the same one again too; one element in sixteen is a
- * polyline. */
-static void add_faces(struct decoded *d, struct source *source,
-                      unsigned points) {
+/* Adds the corner of the box between two points: bit k of `which` tells whose
+ * coordinate k is. */
+static void add_corner(struct decoded *d, const char *const *a,
+                       const char *const *b, unsigned which) {
+  add_text(d, "v %s %s %s\n", which & 1 ? b[0] : a[0], which & 2 ? b[1] : a[1],
+           which & 4 ? b[2] : a[2]);
+}
+
+/* A side of the box between two points, which is planar whatever they are. */
+static void add_rectangle(struct decoded *d, const char *const *a,
+                          const char *const *b, unsigned axis) {
+  unsigned u = 1U << (axis + 1) % 3, v = 1U << (axis + 2) % 3;
+  add_corner(d, a, b, 0);
+  add_corner(d, a, b, u);
+  add_corner(d, a, b, u | v);
+  add_corner(d, a, b, v);
+  add_text(d, "f -4 -3 -2 -1\n");
+}
+
+static void add_box(struct decoded *d, const char *const *a,
+                    const char *const *b) {
+  for (unsigned which = 0; which < 8; which++)
+    add_corner(d, a, b, which);
+  add_text(d, "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\n"
+              "f -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3\n");
+}
+
+/* Corners are any points, the same one again too. */
+static void add_polygon(struct decoded *d, struct source *source,
+                        const struct points *points, const char *word,
+                        unsigned corners) {
+  add_text(d, "%s", word);
+  for (unsigned k = 0; k < corners; k++)
+    add_text(d, " %u", 1 + next(source) % points->count);
+  add_text(d, "\n");
+}
+
+/* Of sixteen elements ten are polygons, three rectangles, two boxes and one is
+ * a polyline. */
+static void add_elements(struct decoded *d, struct source *source,
+                         const struct points *points) {
   unsigned count = 2 + next(source) % 7;
   for (unsigned i = 0; i < count; i++) {
-    unsigned kind = next(source), corners = 3 + kind % 4;
-    if (kind / 4 % 4 > 0)
-      add_text(d, "g %c\n", "abc"[kind / 4 % 4 - 1]);
-    add_text(d, "%s", kind / 16 == 15 ? "l" : "f");
-    for (unsigned k = 0; k < corners; k++)
-      add_text(d, " %u", 1 + next(source) % points);
-    add_text(d, "\n");
+    unsigned byte = next(source), kind = byte / 16;
+    if (byte / 4 % 4 > 0)
+      add_text(d, "g %c\n", "abc"[byte / 4 % 4 - 1]);
+    if (kind < 10 || kind == 15) {
+      add_polygon(d, source, points, kind == 15 ? "l" : "f", 3 + byte % 4);
+      continue;
+    }
+    const char *const *a = points->item[next(source) % points->count];
+    const char *const *b = points->item[next(source) % points->count];
+    if (kind < 13)
+      add_rectangle(d, a, b, byte % 4);
+    else
+      add_box(d, a, b);
   }
 }
 
 void decode_scene(struct decoded *decoded, const uint8_t *bytes, size_t count) {
   struct source source = {bytes, bytes + count};
+  struct points points;
   decoded->obj_length = decoded->words_length = 0;
   decoded->argc = 0;
   decoded->obj[0] = '\0';
   add_word(decoded, "recto");
   add_options(decoded, &source);
   add_camera(decoded, &source);
-  add_faces(decoded, &source, add_points(decoded, &source));
+  add_points(decoded, &source, &points);
+  add_elements(decoded, &source, &points);
   add_words(decoded, "-o out.svg model.obj");
   decoded->argv[decoded->argc] = NULL;
 }

@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 enum {
-  DECODE_OBJ_SIZE = 4096,
+  DECODE_OBJ_SIZE = 8192,
   DECODE_WORDS_SIZE = 2048,
   DECODE_MAX_WORDS = 64
 };
@@ -30,8 +30,8 @@ struct decoded {
  *   options  a byte for each row of a table of alternatives
  *   camera   a kind and, as it needs, an eye and a target on the lattice
  *   points   their number, then three bytes each
- *   faces    their number, then for each a byte of kind, corners and group, and
- *            a byte for each corner */
+ *   elements their number, then for each a byte of kind, corners and group, and
+ *            a byte for each point that it is made of */
 void decode_scene(struct decoded *decoded, const uint8_t *bytes, size_t count);
 
 #endif

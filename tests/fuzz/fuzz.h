@@ -29,6 +29,7 @@ struct fuzz_target {
 extern const struct fuzz_target fuzz_target_cli;
 extern const struct fuzz_target fuzz_target_mtl;
 extern const struct fuzz_target fuzz_target_obj;
+extern const struct fuzz_target fuzz_target_ply;
 extern const struct fuzz_target fuzz_target_scene;
 extern const struct fuzz_target fuzz_target_stl;
 extern const struct fuzz_target fuzz_target_svg;

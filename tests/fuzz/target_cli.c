@@ -118,7 +118,7 @@ static void run(const uint8_t *bytes, size_t count,
   split(&words, bytes, count);
   optind = 0; /* getopt starts anew */
   if (!arguments_parse(&arguments, words.argc, words.argv, message)) {
-    if (!is_sentence(message) && strpbrk(words.text, "\n\r") == NULL)
+    if (*message == '\0')
       fuzz_found(finding, "refused without a reason");
     return;
   }

@@ -60,6 +60,11 @@ static void run_obj(const uint8_t *bytes, size_t count,
   read_with(&reader_obj, bytes, count, finding);
 }
 
+static void run_ply(const uint8_t *bytes, size_t count,
+                    struct fuzz_finding *finding) {
+  read_with(&reader_ply, bytes, count, finding);
+}
+
 static void run_stl(const uint8_t *bytes, size_t count,
                     struct fuzz_finding *finding) {
   read_with(&reader_stl, bytes, count, finding);
@@ -88,5 +93,6 @@ static void run_mtl(const uint8_t *bytes, size_t count,
 }
 
 const struct fuzz_target fuzz_target_obj = {"obj", run_obj, NULL};
+const struct fuzz_target fuzz_target_ply = {"ply", run_ply, NULL};
 const struct fuzz_target fuzz_target_stl = {"stl", run_stl, NULL};
 const struct fuzz_target fuzz_target_mtl = {"mtl", run_mtl, NULL};

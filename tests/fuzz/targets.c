@@ -6,13 +6,9 @@
 #include "cli/arguments.h"
 #include "tests/fuzz/fuzz.h"
 
-const struct fuzz_target *const fuzz_targets[] = {&fuzz_target_scene,
-                                                  &fuzz_target_cli,
-                                                  &fuzz_target_obj,
-                                                  &fuzz_target_mtl,
-                                                  &fuzz_target_stl,
-                                                  &fuzz_target_svg,
-                                                  NULL};
+const struct fuzz_target *const fuzz_targets[] = {
+    &fuzz_target_scene, &fuzz_target_cli, &fuzz_target_obj, &fuzz_target_mtl,
+    &fuzz_target_ply,   &fuzz_target_stl, &fuzz_target_svg, NULL};
 
 const struct fuzz_target *fuzz_find(const char *name) {
   for (int i = 0; fuzz_targets[i] != NULL; i++)
@@ -61,6 +57,11 @@ static const struct {
     {"mtl", "newmtl  Kd  Ka  map_Kd  d  nan 1e999 -1e-999 1 0.5"},
     {"stl", "solid facet normal outer loop vertex endloop endfacet endsolid "
             "nan inf 1e999"},
+    {"ply", "ply\n format  ascii binary_little_endian binary_big_endian 1.0 "
+            "comment  element  vertex face edge tristrips property  list "
+            "float double char uchar short ushort int uint int8 uint16 "
+            "float64 x y z red green blue vertex_indices vertex_index "
+            "vertex1 vertex2 end_header\n nan 1e999 4294967295"},
     {"svg", "<svg <path <polyline <polygon <line <rect <circle <ellipse <g "
             "</g> /> <!-- --> viewBox=\" width=\" height=\" transform=\" "
             "matrix( rotate( scale( translate( d=\" points=\" style=\" fill: "
@@ -75,8 +76,11 @@ static const struct {
 
 static void print_word(const char *word, size_t length, FILE *file) {
   fputc('"', file);
-  for (size_t i = 0; i < length; i++)
-    fprintf(file, word[i] == '"' || word[i] == '\\' ? "\\%c" : "%c", word[i]);
+  for (size_t i = 0; i < length; i++) {
+    if (word[i] == '"' || word[i] == '\\')
+      fputc('\\', file);
+    fputs(word[i] == '\n' ? "\\x0a" : (char[]){word[i], '\0'}, file);
+  }
   fputs("\"\n", file);
 }
 
