@@ -271,6 +271,11 @@ typedef struct recto_options {
    * 53, which are off by half of the last one; 0: 24, single precision; 53:
    * exact.  What is in a file tells its own precision. */
   int coordinate_bits;
+
+  /* Corners of borders that are no farther apart count as one, scene units;
+   * negative: as far as rounding of the coordinates explains; 0: only those at
+   * equal positions. */
+  double weld;
 } recto_options;
 
 /* Fills `options` with the defaults: auto, isometric, A4 portrait with a

@@ -56,6 +56,7 @@ while read -r option values; do
 done <<'END'
 method nonsense NEWELL
 contact -1 nan inf x 1mm
+weld -1 nan inf x 1mm
 view north
 azimuth nan 1e999 30deg
 elevation 91 -91 x
@@ -508,6 +509,34 @@ commas_change_nothing() {
   in_comma_locale "$recto" cube.obj -o comma.svg --margin 7.5 &&
     "$recto" cube.obj -o point.svg --margin 7.5 && cmp -s comma.svg point.svg
 }
+# A grid whose squares have corners of their own, off by up to 1e-4.
+awk 'BEGIN {
+  for (i = 0; i < 12; i++)
+    for (j = 0; j < 12; j++) {
+      for (k = 0; k < 4; k++)
+        printf "v %.6f %.6f %.6f\n", i + (k == 1 || k == 2) + 1e-4 * sin(++n),
+          j + (k > 1) + 1e-4 * sin(7 * n), 1e-4 * sin(3 * n)
+      printf "f %d %d %d %d\n", n - 3, n - 2, n - 1, n
+    }
+}' >torn.obj
+warns_of_borders() {
+  run 0 torn.obj -o torn.svg --view front &&
+    says '^recto: 100 % of the edges are borders; --weld LENGTH joins'
+}
+claim "a torn surface is warned of, and how to join it" warns_of_borders
+joins_corners() {
+  run 0 torn.obj -o joined.svg --view front --weld 1e-3 && silent &&
+    ! grep -q 'class="crease"' joined.svg &&
+    test "$(wc -c <joined.svg)" -lt "$(($(wc -c <torn.svg) / 4))"
+}
+claim "--weld joins its corners, and nothing is said" joins_corners
+checks_joined() {
+  run 0 torn.obj --check joined.svg --view front --weld 1e-3
+}
+claim "--check joins them too" checks_joined
+claim "--weld 0 is taken at its word" eval \
+  'run 0 torn.obj -o torn.svg --view front --weld 0 && silent'
+
 if comma_locale; then
   claim "a locale with decimal commas changes nothing" commas_change_nothing
   # The library too, in a program that has set its locale.

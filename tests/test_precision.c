@@ -41,9 +41,18 @@ static void assert_precision(struct precision precision, double absolute,
 
 enum rounding { AS_DOUBLE, AS_SINGLE };
 
-/* POINTS points as statements of OBJ, each coordinate printed by that format.
+/* Writes the number as %f, %g or %e with so many digits does. */
+static size_t put_number(char *text, char style, int digits, double x) {
+  enum { ROOM = 64 };
+  int length = style == 'f'   ? snprintf(text, ROOM, "%.*f", digits, x)
+               : style == 'g' ? snprintf(text, ROOM, "%.*g", digits, x)
+                              : snprintf(text, ROOM, "%.*e", digits, x);
+  return (size_t)length;
+}
+
+/* POINTS points as statements of OBJ, each coordinate printed in that style.
  * Numbers lie within `size` of `middle`. */
-static const char *make_obj(const char *format, enum rounding rounding,
+static const char *make_obj(char style, int digits, enum rounding rounding,
                             double middle, double size) {
   static char text[TEXT_SIZE];
   struct random random = {5};
@@ -55,7 +64,7 @@ static const char *make_obj(const char *format, enum rounding rounding,
       if (rounding == AS_SINGLE)
         x = (double)(float)x;
       text[length++] = ' ';
-      length += (size_t)snprintf(text + length, 64, format, x);
+      length += put_number(text + length, style, digits, x);
     }
     text[length++] = '\n';
   }
@@ -88,27 +97,27 @@ static const char *make_shortest_obj(double size) {
 
 static void six_decimals_round_by_half_of_the_sixth(void **state) {
   (void)state;
-  const char *text = make_obj("%.6f", AS_DOUBLE, 0, 100);
+  const char *text = make_obj('f', 6, AS_DOUBLE, 0, 100);
   assert_precision(read_text(&reader_obj, text), 0.5e-6, PRECISION_DOUBLE);
 }
 
 static void a_small_model_of_six_decimals_is_rounded_too(void **state) {
   (void)state;
   struct precision found =
-      read_text(&reader_obj, make_obj("%.6f", AS_DOUBLE, 0, 0.01));
+      read_text(&reader_obj, make_obj('f', 6, AS_DOUBLE, 0, 0.01));
   assert_precision((struct precision){found.absolute, 0}, 0.5e-6, 0);
 }
 
 static void three_decimals_round_by_half_of_the_third(void **state) {
   (void)state;
-  const char *text = make_obj("%.3f", AS_DOUBLE, 0, 2000);
+  const char *text = make_obj('f', 3, AS_DOUBLE, 0, 2000);
   struct precision found = read_text(&reader_obj, text);
   assert_precision((struct precision){found.absolute, 0}, 0.5e-3, 0);
 }
 
 static void integers_are_exact(void **state) {
   (void)state;
-  assert_precision(read_text(&reader_obj, make_obj("%.0f", AS_DOUBLE, 0, 1e7)),
+  assert_precision(read_text(&reader_obj, make_obj('f', 0, AS_DOUBLE, 0, 1e7)),
                    0, 0);
 }
 
@@ -147,15 +156,15 @@ static void a_few_long_numbers_among_authored_ones_do_not_count(void **state) {
 
 static void general_notation_rounds_to_its_digits(void **state) {
   (void)state;
-  assert_precision(read_text(&reader_obj, make_obj("%g", AS_DOUBLE, 0, 1)), 0,
+  assert_precision(read_text(&reader_obj, make_obj('g', 6, AS_DOUBLE, 0, 1)), 0,
                    0.5e-5);
-  assert_precision(read_text(&reader_obj, make_obj("%.9g", AS_DOUBLE, 0, 1)), 0,
+  assert_precision(read_text(&reader_obj, make_obj('g', 9, AS_DOUBLE, 0, 1)), 0,
                    0.5e-8);
 }
 
 static void exponents_round_to_their_digits(void **state) {
   (void)state;
-  assert_precision(read_text(&reader_obj, make_obj("%e", AS_DOUBLE, 0, 1)), 0,
+  assert_precision(read_text(&reader_obj, make_obj('e', 6, AS_DOUBLE, 0, 1)), 0,
                    0.5e-6);
 }
 
@@ -163,7 +172,7 @@ static void tiny_residues_do_not_make_fine_places(void **state) {
   (void)state;
   static char text[TEXT_SIZE + 100];
   snprintf(text, sizeof text, "v -4.371139e-08 1.224647e-16 1\n%s",
-           make_obj("%.7g", AS_SINGLE, 0, 1));
+           make_obj('g', 7, AS_SINGLE, 0, 1));
   struct precision found = read_text(&reader_obj, text);
   assert_precision((struct precision){found.absolute, 0}, 0, 0);
   assert_precision(found, 0, 0.5e-6);
@@ -178,7 +187,7 @@ static void shortest_singles_are_singles(void **state) {
 
 static void singles_moved_far_are_known(void **state) {
   (void)state;
-  const char *text = make_obj("%.6f", AS_SINGLE, 1e6, 10);
+  const char *text = make_obj('f', 6, AS_SINGLE, 1e6, 10);
   struct precision found = read_text(&reader_obj, text);
   assert_precision(found, 0.5e-6, PRECISION_SINGLE);
   double error = precision_error(found, 1e6);
@@ -187,7 +196,7 @@ static void singles_moved_far_are_known(void **state) {
 
 static void doubles_far_away_stay_precise(void **state) {
   (void)state;
-  const char *text = make_obj("%.3f", AS_DOUBLE, 500000.123, 100);
+  const char *text = make_obj('f', 3, AS_DOUBLE, 500000.123, 100);
   assert_precision(read_text(&reader_obj, text), 0.5e-3, PRECISION_DOUBLE);
 }
 
@@ -198,7 +207,7 @@ static void the_end_of_a_file_counts_as_its_beginning(void **state) {
   for (int i = 0; i < 3 * POINTS; i++)
     length += (size_t)snprintf(text + length, 64, "v %d.5 0.5 1.5\n", i % 7);
   snprintf(text + length, sizeof text - length, "%s",
-           make_obj("%.6f", AS_DOUBLE, 0, 100));
+           make_obj('f', 6, AS_DOUBLE, 0, 100));
   assert_precision(read_text(&reader_obj, text), 0.5e-6, PRECISION_DOUBLE);
 }
 
@@ -224,13 +233,13 @@ static const char *make_stl(const char *obj) {
 static void a_text_stl_tells_as_an_obj_does(void **state) {
   (void)state;
   assert_precision(
-      read_text(&reader_stl, make_stl(make_obj("%.6f", AS_DOUBLE, 0, 100))),
+      read_text(&reader_stl, make_stl(make_obj('f', 6, AS_DOUBLE, 0, 100))),
       0.5e-6, PRECISION_DOUBLE);
   assert_precision(
-      read_text(&reader_stl, make_stl(make_obj("%e", AS_DOUBLE, 0, 100))), 0,
+      read_text(&reader_stl, make_stl(make_obj('e', 6, AS_DOUBLE, 0, 100))), 0,
       0.5e-6);
   assert_precision(
-      read_text(&reader_stl, make_stl(make_obj("%.0f", AS_DOUBLE, 0, 100))), 0,
+      read_text(&reader_stl, make_stl(make_obj('f', 0, AS_DOUBLE, 0, 100))), 0,
       0);
 }
 

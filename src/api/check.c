@@ -6,6 +6,7 @@
 #include "api/handle.h"
 #include "api/rescale.h"
 #include "base/input.h"
+#include "scene/welded.h"
 
 /* Samples of the drawing, and as many of the edges. */
 enum { SAMPLES = 200000 };
@@ -35,16 +36,30 @@ static void fill_verdict(recto_verdict *to, const struct judge_verdict *from) {
   };
 }
 
+/* The scene with its corners joined as a drawing of ours would have them. */
+static recto_status weld(struct welded *welded, const struct rescaled *rescaled,
+                         recto_error *error) {
+  const recto_options *o = &rescaled->options;
+  const struct weld_request request = {o->weld,
+                                       precision_of_bits(o->coordinate_bits)};
+  struct topology topology;
+  recto_status status =
+      welded_init(welded, &topology, &rescaled->scene, &request, error);
+  topology_fini(&topology);
+  return status;
+}
+
 static recto_status judge(const struct rescaled *rescaled,
+                          const struct scene *scene,
                           const struct judge_drawing *drawing,
                           struct judge_verdict *verdict, recto_error *error) {
   const recto_options *o = &rescaled->options;
   struct camera camera;
   struct asked asked;
-  recto_status status = camera_aim(&camera, &rescaled->scene, o, error);
+  recto_status status = camera_aim(&camera, scene, o, error);
   if (status != RECTO_OK)
     return status;
-  if (!asked_init(&asked, &rescaled->scene))
+  if (!asked_init(&asked, scene))
     return error_memory(error);
   struct judge_camera seen = asked_camera(&asked, &camera, o);
   struct judge_options options = asked_options(&camera, o);
@@ -68,11 +83,15 @@ recto_status recto_scene_check(const recto_scene *scene, const char *path,
     status = read_drawing(&drawing, path, error);
   if (status == RECTO_OK) {
     struct rescaled rescaled;
+    struct welded welded = {.joined = 0};
     asked.page_width_mm = drawing.width_mm;
     asked.page_height_mm = drawing.height_mm;
     status = rescale(&rescaled, &scene->scene, &asked, error);
     if (status == RECTO_OK)
-      status = judge(&rescaled, &drawing, &found, error);
+      status = weld(&welded, &rescaled, error);
+    if (status == RECTO_OK)
+      status = judge(&rescaled, &welded.scene, &drawing, &found, error);
+    welded_fini(&welded);
     rescale_fini(&rescaled);
   }
   if (status == RECTO_OK)

@@ -28,6 +28,7 @@ void recto_options_init(recto_options *options) {
       .order = RECTO_ORDER_AUTO,
       .min_stroke_mm = -1,
       .precision = 3,
+      .weld = -1,
   };
 }
 
@@ -101,6 +102,7 @@ static recto_status check(const recto_options *o, recto_error *error) {
       {"the number of sub-pixels", o->subpixels, 0, 16},
       {"the number of depth bits", o->depth_bits, 0, 32},
       {"the output's unit", o->unit_mm, 0, 100},
+      {"the weld length", o->weld, -huge, huge},
       {"the number of bits of coordinates", o->coordinate_bits, 0, 53},
   };
   if (o->device != NULL && device_by_name(o->device) == NULL) {

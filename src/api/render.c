@@ -1,8 +1,8 @@
 /* render.c - from scene to drawing: one stage after the other, each timed.
  *
- * Phases: check the options, scale what is too large or small, find the edges,
- * aim the camera, build the sheet, choose the method, solve, ink, and where it
- * is asked for verify. */
+ * Phases: check the options, scale what is too large or small, find the edges
+ * and join the corners of borders, aim the camera, build the sheet, choose the
+ * method, solve, ink, and where it is asked for verify. */
 #include <math.h>
 #include <stdio.h>
 
@@ -12,7 +12,7 @@
 #include "base/parallel.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
-#include "scene/topology.h"
+#include "scene/welded.h"
 #include "view/camera.h"
 #include "view/sheet.h"
 #include "visibility/depths.h"
@@ -23,6 +23,7 @@ struct render {
   const recto_scene *model;
   const recto_options *options;
   struct rescaled rescaled; /* scene and options as the stages see them */
+  struct welded welded; /* the scene that is drawn */
   struct topology topology;
   struct camera camera;
   struct sheet sheet;
@@ -82,9 +83,39 @@ static bool has_fills(const struct render *render) {
   return render->options->fill != RECTO_FILL_NONE;
 }
 
+/* Corners that were one before something moved them apart make borders of all
+ * edges. */
+static void warn_of_borders(const struct render *render) {
+  const recto_options *o = render->options;
+  const struct topology *topology = &render->topology;
+  if (o->warning == NULL || o->weld == 0 ||
+      !welded_is_suspicious(&render->welded, topology))
+    return;
+  char text[128];
+  snprintf(text, sizeof text,
+           "%.0f %% of the edges are borders; --weld LENGTH joins corners that "
+           "lie apart",
+           100.0 * (double)welded_count_borders(topology) /
+               (double)topology->edge.count);
+  o->warning(o->user, "", 0, text);
+}
+
 static recto_status find_edges(struct render *render, recto_error *error) {
+  const recto_options *o = &render->rescaled.options;
+  const struct weld_request request = {o->weld,
+                                       precision_of_bits(o->coordinate_bits)};
   recto_status status =
-      topology_init(&render->topology, &render->rescaled.scene, error);
+      welded_init(&render->welded, &render->topology, &render->rescaled.scene,
+                  &request, error);
+  if (status != RECTO_OK)
+    return status;
+  report_double(render->report, "scene", "weld",
+                ldexp(render->welded.length, render->rescaled.exponent));
+  report_int(render->report, "scene", "welded_points",
+             (int64_t)render->welded.joined);
+  report_int(render->report, "scene", "welded_faces",
+             (int64_t)render->welded.lost);
+  warn_of_borders(render);
   render->topology.brief = !has_fills(render);
   report_int(render->report, "scene", "edges",
              (int64_t)render->topology.edge.count);
@@ -92,7 +123,7 @@ static recto_status find_edges(struct render *render, recto_error *error) {
 }
 
 static recto_status aim(struct render *render, recto_error *error) {
-  recto_status status = camera_aim(&render->camera, &render->rescaled.scene,
+  recto_status status = camera_aim(&render->camera, &render->welded.scene,
                                    &render->rescaled.options, error);
   if (status != RECTO_OK)
     return status;
@@ -107,7 +138,7 @@ static recto_status aim(struct render *render, recto_error *error) {
 
 static recto_status project(struct render *render, recto_error *error) {
   recto_status status = sheet_init(
-      &render->sheet, &render->rescaled.scene, &render->topology,
+      &render->sheet, &render->welded.scene, &render->topology,
       &render->camera, &render->rescaled.options, has_fills(render), error);
   /* On a fine mesh it is a quarter of all memory, and lines alone never ask
    * it again. */
@@ -161,14 +192,14 @@ static recto_status ink(struct render *render, recto_error *error) {
              (int64_t)render->sheet.triangle.count);
   if (!has_fills(render) && render->options->verify == 0)
     sheet_drop_triangles(&render->sheet);
-  return ink_draw(render->drawing, &render->sheet, &render->rescaled.scene,
+  return ink_draw(render->drawing, &render->sheet, &render->welded.scene,
                   &render->map, render->options, error);
 }
 
 static recto_status verify(struct render *render, recto_error *error) {
   if (render->options->verify == 0)
     return RECTO_OK;
-  const struct verify what = {.scene = &render->rescaled.scene,
+  const struct verify what = {.scene = &render->welded.scene,
                               .exponent = render->rescaled.exponent,
                               .camera = &render->camera,
                               .sheet = &render->sheet,
@@ -362,6 +393,7 @@ static recto_status run(struct render *render, recto_error *error) {
   map_fini(&render->map);
   sheet_fini(&render->sheet);
   topology_fini(&render->topology);
+  welded_fini(&render->welded);
   rescale_fini(&render->rescaled);
   return status;
 }

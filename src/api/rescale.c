@@ -99,9 +99,12 @@ static bool scale_lengths(recto_options *o, int exponent) {
     *length[i] = ldexp(*length[i], -exponent);
     finite = finite && isfinite(*length[i]);
   }
-  /* A contact that was not 0 must not become it, nor a chosen one asked for. */
+  /* A contact or weld that was not 0 must not become it, nor a chosen one asked
+   * for. */
   if (o->contact > 0)
     o->contact = fmin(fmax(ldexp(o->contact, -exponent), DBL_MIN), DBL_MAX);
+  if (o->weld > 0)
+    o->weld = fmin(fmax(ldexp(o->weld, -exponent), DBL_MIN), DBL_MAX);
   o->scale = fmin(fmax(ldexp(o->scale, exponent), DBL_MIN), DBL_MAX);
   return finite;
 }

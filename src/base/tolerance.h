@@ -92,6 +92,32 @@
  * Ten times   fewer faces are counted as warped. */
 #define TOLERANCE_WARP_SHARE 1e-6
 
+/* Corners of borders are joined, where the user does not say, over so many
+ * times what rounding moved a coordinate ...
+ * Unit        1
+ * Derivation  two corners that should be one were computed in several ways: a
+ *             chain of some ten operations in the file's precision, each off
+ *             by half a unit in the last place, at either corner.
+ * Users       scene/welded.c
+ * Ten times   of %.6f, gaps of 1.6e-4 units: see the next. */
+#define TOLERANCE_WELD_ERRORS 32
+
+/* ... but only over four times that where it is more than this share of the
+ * model.
+ * Unit        share of the common scale of the coordinates
+ * Derivation  2^-18 of a sheet of A4 is 1 um, a hundredth of a fine pen.
+ * Users       scene/welded.c
+ * Ten times   gaps of 10 um on the page are closed; still a tenth of a pen. */
+#define TOLERANCE_WELD_SHARE 0x1p-18
+
+/* ... and never over more than this share of the smallest face about a corner.
+ * Unit        share of the face's longest side
+ * Derivation  parts of a face that are so thin are not seen, even where the
+ *             face is as large as the page: a millimetre by 297 mm.
+ * Users       scene/welded.c
+ * Ten times   gaps of a tenth of a face are closed, which can be seen. */
+#define TOLERANCE_WELD_FACE_SHARE 0x1p-8
+
 /* How far the judge's rays are moved to either side of an edge.
  * Unit        mm
  * Derivation  20 grid units: what the page grid rounds, and doubles do in a

@@ -2,6 +2,7 @@
 librecto_core_la_SOURCES += \
   %D%/angle.c %D%/angle.h \
   %D%/bowtie.c %D%/bowtie.h \
+  %D%/cluster.c %D%/cluster.h \
   %D%/diagnostics.c \
   %D%/exact.c %D%/exact.h \
   %D%/face.c \
@@ -28,6 +29,7 @@ librecto_core_la_SOURCES += \
   %D%/topology.c %D%/topology.h \
   %D%/unusable.c %D%/unusable.h \
   %D%/weld.c %D%/weld.h \
+  %D%/welded.c %D%/welded.h \
   %D%/write_obj.c
 
 if HAVE_ASSIMP

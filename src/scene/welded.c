@@ -1,0 +1,433 @@
+/* welded.c - a scene in which the corners of borders that lie close together
+ * are one.
+ *
+ * Phases
+ *   candidates  the points of edges that only one face has, once those at equal
+ *               positions are one (weld.h).
+ *   radius      of each, the length asked for; or where none is, what rounding
+ *               explains: see below.
+ *   join        into clusters (cluster.h); one member's position stands for
+ *               all, none is made up.
+ *   rewrite     faces and polylines use the points that stand for theirs.
+ *
+ * What rounding explains.  A file's coordinates have a common scale S, the
+ * power of two below which nine in ten of the candidates' coordinates lie: one
+ * far corner does not widen it, and near x = 0 it is no less, for noise is not
+ * either.  Of it rounding moved them by E (precision.h).  Two roundings of one
+ * point are up to 2 sqrt(3) E apart; coordinates that were computed in several
+ * ways more, so up to 32 E are joined where nobody can see that,
+ * TOLERANCE_WELD_SHARE.  No point joins another over more than a small share
+ * of its smallest face, TOLERANCE_WELD_FACE_SHARE: where S is too large for a
+ * part of the model, that keeps its parts.  The longest side of a face is
+ * taken for its size, because rounding makes needles of faces without area,
+ * and the short sides of those are what should be joined.
+ */
+#include "scene/welded.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/tolerance.h"
+#include "scene/cluster.h"
+
+/* Lengths beyond these are as good as these: coordinates are within. */
+#define LENGTH_MOST 0x1p200
+#define LENGTH_LEAST 0x1p-900
+
+/* The points that may be joined. */
+struct candidates {
+  ARRAY(struct cluster_member) member; /* ascending points */
+  uint32_t *number;                    /* point -> its member + 1; 0: none */
+  double *size; /* one a member: of its smallest face, squared */
+};
+
+static void candidates_fini(struct candidates *candidates) {
+  ARRAY_FREE(&candidates->member);
+  mem_free(candidates->number);
+  mem_free(candidates->size);
+}
+
+static bool is_border(const struct topology_edge *edge) {
+  return edge->uses == 1;
+}
+
+size_t welded_count_borders(const struct topology *topology) {
+  size_t count = 0;
+  for (size_t e = 0; e < topology->edge.count; e++)
+    count += is_border(&topology->edge.item[e]);
+  return count;
+}
+
+/* ---- Candidates ---------------------------------------------------------- */
+
+static bool find_candidates(struct candidates *candidates,
+                            const struct scene *scene,
+                            const struct topology *topology) {
+  size_t points = scene->point.count;
+  candidates->number = mem_calloc(points, sizeof *candidates->number);
+  if (!candidates->number)
+    return false;
+  size_t count = 0;
+  for (size_t e = 0; e < topology->edge.count; e++) {
+    const struct topology_edge *edge = &topology->edge.item[e];
+    for (int k = 0; k < 2 && is_border(edge); k++) {
+      count += candidates->number[edge->point[k]] == 0;
+      candidates->number[edge->point[k]] = 1;
+    }
+  }
+  if (!ARRAY_RESERVE(&candidates->member, count))
+    return false;
+  for (size_t p = 0; p < points; p++)
+    if (candidates->number[p]) {
+      struct cluster_member member = {.point = (uint32_t)p};
+      candidates->member.item[candidates->member.count++] = member;
+      candidates->number[p] = (uint32_t)candidates->member.count;
+    }
+  return true;
+}
+
+static uint32_t point_of(const struct topology *topology, uint32_t point) {
+  return topology->weld ? topology->weld[point] : point;
+}
+
+static double square_between(const struct scene_point *a,
+                             const struct scene_point *b) {
+  double x = b->x - a->x, y = b->y - a->y, z = b->z - a->z;
+  return x * x + y * y + z * z;
+}
+
+/* The square of the longest side. */
+static double face_size(const struct scene *scene, uint32_t face) {
+  const struct scene_point *point = scene->point.item;
+  uint32_t start = scene->face_start.item[face];
+  uint32_t end = scene->face_start.item[face + 1];
+  double most = 0;
+  uint32_t before = scene->corner.item[end - 1];
+  for (uint32_t c = start; c < end; c++) {
+    most = fmax(most,
+                square_between(&point[before], &point[scene->corner.item[c]]));
+    before = scene->corner.item[c];
+  }
+  return most;
+}
+
+static bool measure_faces(struct candidates *candidates,
+                          const struct scene *scene,
+                          const struct topology *topology) {
+  size_t count = candidates->member.count;
+  candidates->size = mem_alloc(count, sizeof *candidates->size);
+  if (!candidates->size)
+    return false;
+  for (size_t i = 0; i < count; i++)
+    candidates->size[i] = INFINITY;
+  for (uint32_t f = 0; f < scene_face_count(scene); f++) {
+    double size = -1;
+    for (uint32_t c = scene->face_start.item[f];
+         c < scene->face_start.item[f + 1]; c++) {
+      uint32_t point = point_of(topology, scene->corner.item[c]);
+      uint32_t number = candidates->number[point];
+      if (number == 0)
+        continue;
+      if (size < 0)
+        size = face_size(scene, f);
+      double *least = &candidates->size[number - 1];
+      *least = fmin(*least, size);
+    }
+  }
+  return true;
+}
+
+/* ---- Radii --------------------------------------------------------------- */
+
+/* The power of two below which nine in ten of the members' largest coordinates
+ * lie. */
+static double common_scale(const struct scene *scene,
+                           const struct cluster_member *member, size_t count) {
+  enum { LEAST = -1100, COUNT = 2200, ONE_IN = 10 };
+  uint32_t histogram[COUNT] = {0};
+  for (size_t i = 0; i < count; i++) {
+    const struct scene_point *p = &scene->point.item[member[i].point];
+    double size = fmax(fabs(p->x), fmax(fabs(p->y), fabs(p->z)));
+    int exponent = LEAST;
+    if (size > 0)
+      frexp(size, &exponent);
+    histogram[exponent - LEAST]++;
+  }
+  size_t sum = 0;
+  int slot = COUNT;
+  while (slot > 0 && ONE_IN * sum <= count)
+    sum += histogram[--slot];
+  return ldexp(1, slot + LEAST);
+}
+
+/* What rounding explains of points with a common scale. */
+static double explained_length(double scale, struct precision precision) {
+  const double certain = 4; /* 2 sqrt(3), rounded up */
+  double error = precision_error(precision, scale);
+  return fmax(certain * error, fmin(TOLERANCE_WELD_ERRORS * error,
+                                    TOLERANCE_WELD_SHARE * scale));
+}
+
+/* Sets how often each radius is the length halved; it never is longer. */
+static void set_radius(struct cluster_member *member, double length,
+                       double radius) {
+  int halvings = 0;
+  while (halvings < CLUSTER_LEVELS && ldexp(length, -halvings) > radius)
+    halvings++;
+  member->halvings =
+      halvings < CLUSTER_LEVELS ? (uint8_t)halvings : CLUSTER_ALONE;
+}
+
+/* The members from `first` on whose points are of one range of precision. */
+static size_t range_end(const struct scene *scene,
+                        const struct candidates *candidates, size_t first) {
+  uint32_t limit = SCENE_NONE;
+  uint32_t point = candidates->member.item[first].point;
+  for (size_t r = scene->precision.count; r > 0; r--)
+    if (scene->precision.item[r - 1].first_point > point)
+      limit = scene->precision.item[r - 1].first_point;
+  size_t end = first;
+  while (end < candidates->member.count &&
+         candidates->member.item[end].point < limit)
+    end++;
+  return end;
+}
+
+/* The length that rounding explains, of each range; to `each`, one a member,
+ * what it is there.  Returns the longest. */
+static double explain(const struct scene *scene,
+                      const struct candidates *candidates,
+                      struct precision unstated, double *each) {
+  double most = 0;
+  const struct cluster_member *member = candidates->member.item;
+  for (size_t i = 0, end; i < candidates->member.count; i = end) {
+    end = range_end(scene, candidates, i);
+    double scale = common_scale(scene, member + i, end - i);
+    double length = explained_length(
+        scale, scene_point_precision(scene, member[i].point, unstated));
+    for (size_t k = i; k < end; k++)
+      each[k] = length;
+    most = fmax(most, length);
+  }
+  return most;
+}
+
+/* Sets the radii that rounding explains; returns the longest length, or less
+ * than 0 when memory ran out. */
+static double set_explained_radii(struct candidates *candidates,
+                                  const struct scene *scene,
+                                  const struct topology *topology,
+                                  struct precision unstated) {
+  size_t count = candidates->member.count;
+  double *each = mem_alloc(count, sizeof *each);
+  double length = -1;
+  if (!each)
+    return length;
+  length = explain(scene, candidates, unstated, each);
+  if (length > 0 && !measure_faces(candidates, scene, topology))
+    length = -1;
+  for (size_t i = 0; i < count && length > 0; i++) {
+    double face = sqrt(candidates->size[i]) * TOLERANCE_WELD_FACE_SHARE;
+    set_radius(&candidates->member.item[i], length, fmin(each[i], face));
+  }
+  mem_free(each);
+  return length;
+}
+
+/* ---- Rewriting ----------------------------------------------------------- */
+
+/* Makes `number` the map from each point to the one that stands for it.  The
+ * point that stands for others at its position is the lowest of them. */
+static uint32_t *make_map(struct candidates *candidates,
+                          const struct scene *scene,
+                          const struct topology *topology) {
+  const struct cluster_member *member = candidates->member.item;
+  uint32_t *map = candidates->number;
+  for (size_t p = 0; p < scene->point.count; p++) {
+    uint32_t same = point_of(topology, (uint32_t)p);
+    if (same != p)
+      map[p] = map[same];
+    else
+      map[p] = map[p] ? member[member[map[p] - 1].stands].point : (uint32_t)p;
+  }
+  return map;
+}
+
+/* The corners as the map has them; returns whether one is another. */
+static bool map_corners(const uint32_t *corner, size_t count,
+                        const uint32_t *map, uint32_t *to) {
+  bool changed = false;
+  for (size_t i = 0; i < count; i++) {
+    to[i] = map[corner[i]];
+    changed = changed || to[i] != corner[i];
+  }
+  return changed;
+}
+
+/* Adds the faces of `from` with their corners mapped.  Those that keep theirs
+ * are without fault; the others are examined as if they were new. */
+static recto_status map_faces(struct scene *to, const struct scene *from,
+                              const uint32_t *map, uint32_t *corner,
+                              recto_error *error) {
+  recto_status status = RECTO_OK;
+  uint32_t faces = scene_face_count(from);
+  if (!ARRAY_RESERVE(&to->corner, from->corner.count) ||
+      !ARRAY_RESERVE(&to->face_start, (size_t)faces + 1) ||
+      !ARRAY_RESERVE(&to->face_group, faces))
+    return error_memory(error);
+  if (faces > 0)
+    to->face_start.item[to->face_start.count++] = 0;
+  for (uint32_t f = 0; f < faces && status == RECTO_OK; f++) {
+    uint32_t start = from->face_start.item[f];
+    uint32_t count = from->face_start.item[f + 1] - start;
+    to->current_group = from->face_group.item[f];
+    if (map_corners(from->corner.item + start, count, map, corner)) {
+      status = scene_add_face(to, corner, count, 0, NULL, error);
+      continue;
+    }
+    memcpy(to->corner.item + to->corner.count, corner, count * sizeof *corner);
+    to->corner.count += count;
+    to->face_start.item[to->face_start.count++] = (uint32_t)to->corner.count;
+    to->face_group.item[to->face_group.count++] = to->current_group;
+  }
+  return status;
+}
+
+static recto_status map_wires(struct scene *to, const struct scene *from,
+                              const uint32_t *map, uint32_t *corner,
+                              recto_error *error) {
+  recto_status status = RECTO_OK;
+  for (uint32_t w = 0; w < scene_wire_count(from) && status == RECTO_OK; w++) {
+    uint32_t start = from->wire_start.item[w];
+    uint32_t count = from->wire_start.item[w + 1] - start;
+    to->current_group = from->wire_group.item[w];
+    map_corners(from->wire_corner.item + start, count, map, corner);
+    status = scene_add_wire(to, corner, count, 0, NULL, error);
+  }
+  return status;
+}
+
+/* Has the welded scene lend all of the scene but faces and polylines. */
+static void borrow(struct welded *welded, const struct scene *scene) {
+  struct scene *own = &welded->scene;
+  *own = *scene;
+  memset(&own->corner, 0, sizeof own->corner);
+  memset(&own->face_start, 0, sizeof own->face_start);
+  memset(&own->face_group, 0, sizeof own->face_group);
+  memset(&own->wire_corner, 0, sizeof own->wire_corner);
+  memset(&own->wire_start, 0, sizeof own->wire_start);
+  memset(&own->wire_group, 0, sizeof own->wire_group);
+}
+
+static recto_status rewrite(struct welded *welded, const struct scene *scene,
+                            const uint32_t *map, recto_error *error) {
+  size_t most = scene->corner.count > scene->wire_corner.count
+                    ? scene->corner.count
+                    : scene->wire_corner.count;
+  uint32_t *corner = mem_alloc(most, sizeof *corner);
+  borrow(welded, scene);
+  recto_status status =
+      corner ? map_faces(&welded->scene, scene, map, corner, error)
+             : error_memory(error);
+  if (status == RECTO_OK)
+    status = map_wires(&welded->scene, scene, map, corner, error);
+  mem_free(corner);
+  welded->scene.current_group = scene->current_group;
+  welded->lost = scene_face_count(scene) - scene_face_count(&welded->scene);
+  return status;
+}
+
+/* ---- All of it ----------------------------------------------------------- */
+
+/* Sets the radii and joins; false when memory ran out. */
+static bool join(struct welded *welded, struct candidates *candidates,
+                 const struct topology *topology,
+                 const struct weld_request *request) {
+  const struct scene *scene = &welded->scene;
+  if (!find_candidates(candidates, scene, topology))
+    return false;
+  if (candidates->member.count == 0)
+    return true;
+  welded->length = fmin(request->length, LENGTH_MOST);
+  if (request->length < 0)
+    welded->length =
+        set_explained_radii(candidates, scene, topology, request->unstated);
+  if (welded->length < 0)
+    return false;
+  if (welded->length < LENGTH_LEAST)
+    return true;
+  welded->joined = cluster_join(scene, welded->length, candidates->member.item,
+                                candidates->member.count);
+  return welded->joined != SIZE_MAX;
+}
+
+recto_status welded_init(struct welded *welded, struct topology *topology,
+                         const struct scene *scene,
+                         const struct weld_request *request,
+                         recto_error *error) {
+  struct candidates candidates = {.number = NULL};
+  *welded = (struct welded){.scene = *scene};
+  recto_status status = topology_init(topology, scene, error);
+  if (status != RECTO_OK || request->length == 0 ||
+      welded_count_borders(topology) == 0)
+    return status;
+  if (!join(welded, &candidates, topology, request)) {
+    welded->joined = 0;
+    status = error_memory(error);
+  } else if (welded->joined > 0) {
+    const uint32_t *map = make_map(&candidates, scene, topology);
+    topology_fini(topology);
+    status = rewrite(welded, scene, map, error);
+    if (status == RECTO_OK)
+      status = topology_init(topology, &welded->scene, error);
+  }
+  candidates_fini(&candidates);
+  if (status != RECTO_OK) {
+    topology_fini(topology);
+    welded_fini(welded);
+  }
+  return status;
+}
+
+void welded_fini(struct welded *welded) {
+  struct scene *own = &welded->scene;
+  if (welded->joined > 0) {
+    ARRAY_FREE(&own->corner);
+    ARRAY_FREE(&own->face_start);
+    ARRAY_FREE(&own->face_group);
+    ARRAY_FREE(&own->wire_corner);
+    ARRAY_FREE(&own->wire_start);
+    ARRAY_FREE(&own->wire_group);
+  }
+  memset(welded, 0, sizeof *welded);
+}
+
+/* ---- Suspicion ----------------------------------------------------------- */
+
+bool welded_is_suspicious(const struct welded *welded,
+                          const struct topology *topology) {
+  enum { FEWEST_FACES = 100, TENTHS_OF_EDGES = 3, ONE_POINT_IN = 4 };
+  const double share = 0x1p-6; /* of a face: what lies so close is no gap */
+  const struct scene *scene = &welded->scene;
+  struct candidates candidates = {.number = NULL};
+  size_t joined = 0, count = 0;
+  if (scene_face_count(scene) < FEWEST_FACES ||
+      10 * welded_count_borders(topology) <=
+          TENTHS_OF_EDGES * topology->edge.count)
+    return false;
+  if (find_candidates(&candidates, scene, topology) &&
+      measure_faces(&candidates, scene, topology)) {
+    double length = 0;
+    count = candidates.member.count;
+    for (size_t i = 0; i < count; i++)
+      length = fmax(length, share * sqrt(candidates.size[i]));
+    for (size_t i = 0; i < count; i++)
+      set_radius(&candidates.member.item[i], length,
+                 share * sqrt(candidates.size[i]));
+    if (length >= LENGTH_LEAST)
+      joined = cluster_join(scene, length, candidates.member.item, count);
+  }
+  candidates_fini(&candidates);
+  return joined != SIZE_MAX && joined > 0 && ONE_POINT_IN * joined >= count;
+}
