@@ -4,6 +4,10 @@ hand_sheet = %D%/hand/sheet.c %D%/hand/sheet.h
 hand_rational = %D%/hand/rational.c %D%/hand/rational.h $(hand_sheet)
 hand_cppflags = $(AM_CPPFLAGS) -I$(srcdir)/%D%
 
+unit_tests += %D%/test_wide
+%C%_test_wide_SOURCES = %D%/test_wide.c $(hand_rational)
+%C%_test_wide_CPPFLAGS = $(hand_cppflags)
+
 unit_tests += %D%/test_line
 %C%_test_line_SOURCES = %D%/test_line.c $(hand_rational)
 %C%_test_line_CPPFLAGS = $(hand_cppflags)

@@ -118,7 +118,7 @@ unit_tests += %D%/test_camera
 # Layer 2.
 unit_tests += %D%/test_exact
 %C%_test_exact_SOURCES = %D%/test_exact.c
-%C%_test_exact_LDADD = $(LDADD) $(GMP_LIBS)
+%C%_test_exact_LDADD = $(LDADD)
 unit_tests += %D%/test_scene
 %C%_test_scene_SOURCES = %D%/test_scene.c %D%/reading.c %D%/reading.h
 unit_tests += %D%/test_obj

@@ -138,10 +138,12 @@ static struct geom_convex random_piece(uint64_t *r, int size,
  * ------------------------------------------------- */
 
 static void check_piece(const struct geom_convex *piece) {
-  mpq_t bound, x, y;
+  struct rational_point p;
+  mpq_t bound;
   if (piece->count == 0)
     return;
-  mpq_inits(bound, x, y, NULL);
+  mpq_init(bound);
+  rational_point_init(&p);
   assert_true(piece->count >= 3);
   for (uint32_t k = 0; k < piece->count; k++) {
     uint32_t next = (k + 1) % piece->count;
@@ -154,17 +156,18 @@ static void check_piece(const struct geom_convex *piece) {
       assert_int_equal(geom_line_side(piece->side[k], &piece->corner[i]),
                        i == k || i == next ? 0 : 1);
     /* The box is around it. */
-    geom_corner_exact(c, x, y);
+    rational_point_at_corner(&p, c);
     mpq_set_d(bound, piece->x0);
-    assert_true(mpq_cmp(bound, x) <= 0);
+    assert_true(mpq_cmp(bound, p.x) <= 0);
     mpq_set_d(bound, piece->x1);
-    assert_true(mpq_cmp(x, bound) <= 0);
+    assert_true(mpq_cmp(p.x, bound) <= 0);
     mpq_set_d(bound, piece->y0);
-    assert_true(mpq_cmp(bound, y) <= 0);
+    assert_true(mpq_cmp(bound, p.y) <= 0);
     mpq_set_d(bound, piece->y1);
-    assert_true(mpq_cmp(y, bound) <= 0);
+    assert_true(mpq_cmp(p.y, bound) <= 0);
   }
-  mpq_clears(bound, x, y, NULL);
+  mpq_clear(bound);
+  rational_point_clear(&p);
 }
 
 /* Are all corners left of the line or on it (way 1), or right of it (-1)? */

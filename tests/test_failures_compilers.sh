@@ -17,7 +17,7 @@ build() {
   mapfile -d '' -t sources < <(find "$srcdir/src" "$srcdir/backends" \
     -name '*.c' ! -name '*assimp*' ! -name '*cairo*' -print0)
   "$@" -std=gnu17 -ffp-contract=off -w -DPACKAGE_VERSION='"0"' \
-    -I"$srcdir/src" -I"$srcdir" -o "$output" "${sources[@]}" -lgmp -lm \
+    -I"$srcdir/src" -I"$srcdir" -o "$output" "${sources[@]}" -lm \
     2>"$scratch/errors" ||
     { say "$(head -n 5 "$scratch/errors")" && false; }
 }

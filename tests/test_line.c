@@ -367,7 +367,7 @@ static void corners_round_to_the_nearest_halves_up(void **state) {
         geom_corner_round(&c[k].corner, bits, &x, &y);
         assert_true(x == round_half_up(c[k].exact.x, bits));
         assert_true(y == round_half_up(c[k].exact.y, bits));
-        geom_corner_exact(&c[k].corner, exact.x, exact.y);
+        rational_point_at_corner(&exact, &c[k].corner);
         assert_int_equal(compare_places(&exact, &c[k].exact), 0);
       }
   }
@@ -402,9 +402,9 @@ static void a_half_is_rounded_up_also_below_zero(void **state) {
 
 /* All that tells these lines apart is their c, which doubles round. */
 static void lines_nearly_level_cross_where_they_should(void **state) {
-  mpq_t x, y;
+  struct rational_point exact;
   (void)state;
-  mpq_inits(x, y, NULL);
+  rational_point_init(&exact);
   for (int k = 1; k < 99; k++) {
     struct geom_line rising, falling;
     struct geom_corner corner;
@@ -415,17 +415,17 @@ static void lines_nearly_level_cross_where_they_should(void **state) {
     geom_line_through(&falling, (struct geom_point){left, top + 1, 0},
                       (struct geom_point){right + k, top, 0});
     corner = geom_corner_of(&rising, &falling);
-    geom_corner_exact(&corner, x, y);
-    assert_true(fabs(corner.x - mpq_get_d(x)) <= 0.25);
+    rational_point_at_corner(&exact, &corner);
+    assert_true(fabs(corner.x - mpq_get_d(exact.x)) <= 0.25);
     geom_line_through(&rising, (struct geom_point){top, left, 0},
                       (struct geom_point){top + 1, right, 0});
     geom_line_through(&falling, (struct geom_point){top + 1, left, 0},
                       (struct geom_point){top, right + k, 0});
     corner = geom_corner_of(&rising, &falling);
-    geom_corner_exact(&corner, x, y);
-    assert_true(fabs(corner.y - mpq_get_d(y)) <= 0.25);
+    rational_point_at_corner(&exact, &corner);
+    assert_true(fabs(corner.y - mpq_get_d(exact.y)) <= 0.25);
   }
-  mpq_clears(x, y, NULL);
+  rational_point_clear(&exact);
 }
 
 /* The boxes and filters of convex.c and region.c rely on this. */

@@ -287,7 +287,7 @@ static void check_pair(const struct newell_order *order, uint32_t p, uint32_t q,
   rational_point_init(&at);
   mpq_inits(zp, zq, NULL);
   for (uint32_t k = 0; k < common.count; k++) {
-    geom_corner_exact(&common.corner[k], at.x, at.y);
+    rational_point_at_corner(&at, &common.corner[k]);
     rational_depth(zp, fp, &at);
     rational_depth(zq, fq, &at);
     if (mpq_cmp(zp, zq) > 0)

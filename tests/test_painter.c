@@ -95,7 +95,7 @@ static void a_cycle_cannot_be_painted(void **state) {
       for (int i = 0; i < 2; i++)
         for (size_t k = 0; k < both[i]->fragment.count; k++)
           if (both[i]->fragment.item[k].face == f)
-            mpq_add(area[i], area[i], both[i]->area2.item[k]);
+            hand_add_area2(area[i], both[i], k);
       wrong += !mpq_equal(area[0], area[1]);
       mpq_clears(area[0], area[1], NULL);
     }
@@ -149,7 +149,7 @@ static void what_is_painted_covers_all_there_is(void **state) {
                  NULL);
       mpq_set_ui(sum, 0, 1);
       for (size_t f = 0; f < map.fragment.count; f++)
-        mpq_add(sum, sum, map.area2.item[f]);
+        hand_add_area2(sum, &map, f);
       assert_true(mpq_equal(sum, covered));
       map_fini(&map);
     }

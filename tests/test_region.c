@@ -108,7 +108,7 @@ static void check_loop(const struct geom_region *region, size_t l) {
       assert_true(geom_corner_compare(&side[1].corner, &next->corner) < 0);
   }
   mpq_init(area2);
-  geom_region_area2(region, l, area2);
+  rational_add_loop(area2, region, l);
   assert_int_equal(mpq_sgn(area2), region->loop.item[l].hole ? -1 : 1);
   mpq_clear(area2);
 }
@@ -145,10 +145,10 @@ static int winding(const struct geom_region *region, size_t l,
   mpq_inits(x, slope, NULL);
   rational_point_init(&from);
   rational_point_init(&to);
-  geom_corner_exact(&side[n - 1].corner, from.x, from.y);
+  rational_point_at_corner(&from, &side[n - 1].corner);
   for (uint32_t k = 0; k < n; k++) {
     bool above, next_above;
-    geom_corner_exact(&side[k].corner, to.x, to.y);
+    rational_point_at_corner(&to, &side[k].corner);
     above = mpq_cmp(from.y, p->y) > 0;
     next_above = mpq_cmp(to.y, p->y) > 0;
     if (above != next_above) { /* does it cross right of p? */
@@ -220,14 +220,9 @@ static void check_samples(const struct geom_region *region,
 }
 
 static void sum_loops(const struct geom_region *region, mpq_t sum) {
-  mpq_t area2;
-  mpq_init(area2);
   mpq_set_ui(sum, 0, 1);
-  for (size_t l = 0; l < region->loop.count; l++) {
-    geom_region_area2(region, l, area2);
-    mpq_add(sum, sum, area2);
-  }
-  mpq_clear(area2);
+  for (size_t l = 0; l < region->loop.count; l++)
+    rational_add_loop(sum, region, l);
 }
 
 static void check_area(const struct geom_region *region,

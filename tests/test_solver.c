@@ -155,7 +155,7 @@ static void check_parts(const struct solver *solver, bool strokes,
                    RECTO_OK);
   assert_int_equal(map.edge_state != NULL, strokes);
   assert_int_equal(map.fragment.count > 0, fragments);
-  assert_int_equal(map.area2.count, 0);
+  assert_int_equal(map.place.count, 0);
   assert_int_equal(sheet.edge.count, edges); /* no intersections */
   map_fini(&map);
   hand_sheet_fini(&sheet);

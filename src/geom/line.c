@@ -7,10 +7,10 @@
  * the sign of the last component.
  *
  * Of narrow lines that is 127 bits at most, so machine words decide where
- * doubles cannot; GMP is for wide ones.
+ * doubles cannot; wide.h is for wide ones.
  *
- * Filter: the nine inputs are within 2^-52 of the true coefficients (GMP cuts
- * the digits off); each of the six triple products gathers at most 3 such
+ * Filter: the nine inputs are within 2^-52 of the true coefficients (the
+ * digits are cut off); each of the six triple products gathers at most 3 such
  * errors and 5 roundings in all, so the sum is off by less than 16 * 2^-53
  * times the sum of magnitudes.
  */
@@ -37,58 +37,48 @@ void geom_line_through(struct geom_line *line, struct geom_point p,
   line->c = (double)-(a * p.x + b * p.y);
 }
 
-static void store(struct geom_line *line, int k, const mpz_t value,
+static void store(struct geom_line *line, int k, const struct wide *value,
                   double *nearest) {
-  size_t count = mpz_size(value);
-  line->sign[k] = (int8_t)mpz_sgn(value);
-  for (size_t i = 0; i < GEOM_LINE_LIMBS; i++)
-    line->limb[k][i] = i < count ? mpz_getlimbn(value, (mp_size_t)i) : 0;
-  *nearest = mpz_get_d(value);
+  line->sign[k] = (int8_t)value->sign;
+  for (int i = 0; i < GEOM_LINE_LIMBS; i++)
+    line->limb[k][i] = i < value->count ? value->limb[i] : 0;
+  *nearest = wide_to_double(value);
+}
+
+/* nx a.x + ny a.y + nz a.z: below 2^105, as predicate.h derives. */
+static int128 constant_of(const struct geom_plane *plane) {
+  return plane->nx * plane->a.x + plane->ny * plane->a.y +
+         (int128)plane->nz * plane->a.z;
 }
 
 /* plane: nx x + ny y + nz z = K. */
-static void load_plane(mpz_t n[3], mpz_t k, const struct geom_plane *plane) {
-  wide_set_int128(n[0], plane->nx);
-  wide_set_int128(n[1], plane->ny);
-  mpz_set_si(n[2], plane->nz);
-  mpz_mul_si(k, n[0], plane->a.x);
-  if (plane->a.y >= 0)
-    mpz_addmul_ui(k, n[1], (unsigned long)plane->a.y);
-  else
-    mpz_submul_ui(k, n[1], (unsigned long)-(int64_t)plane->a.y);
-  mpz_addmul_ui(k, n[2], (unsigned long)plane->a.z);
-}
-
-/* to = p q - r s */
-static void cross(mpz_t to, const mpz_t p, const mpz_t q, const mpz_t r,
-                  const mpz_t s) {
-  mpz_mul(to, p, q);
-  mpz_submul(to, r, s);
+static void load_plane(struct wide n[3], struct wide *k,
+                       const struct geom_plane *plane) {
+  n[0] = wide_of_int128(plane->nx);
+  n[1] = wide_of_int128(plane->ny);
+  n[2] = wide_of_int128(plane->nz);
+  *k = wide_of_int128(constant_of(plane));
 }
 
 int geom_line_between(struct geom_line *line, const struct geom_plane *front,
                       const struct geom_plane *back) {
-  mpz_t g[3], f[3], kg, kf, value;
-  int parallel = 0;
-  mpz_inits(g[0], g[1], g[2], f[0], f[1], f[2], kg, kf, value, NULL);
-  load_plane(g, kg, front);
-  load_plane(f, kf, back);
+  struct wide g[3], f[3], kg, kf, value;
+  load_plane(g, &kg, front);
+  load_plane(f, &kf, back);
   memset(line, 0, sizeof *line);
   /* z = (K - nx x - ny y) / nz for both; their difference times both nz. */
-  cross(value, f[0], g[2], g[0], f[2]);
-  store(line, 0, value, &line->a);
-  cross(value, f[1], g[2], g[1], f[2]);
-  store(line, 1, value, &line->b);
-  cross(value, kg, f[2], kf, g[2]);
-  store(line, 2, value, &line->c);
-  if (line->sign[0] == 0 && line->sign[1] == 0)
-    parallel = line->sign[2] == 0 ? GEOM_SAME_PLANE : line->sign[2];
-  mpz_clears(g[0], g[1], g[2], f[0], f[1], f[2], kg, kf, value, NULL);
-  return parallel;
+  wide_cross(&value, &f[0], &g[2], &g[0], &f[2]);
+  store(line, 0, &value, &line->a);
+  wide_cross(&value, &f[1], &g[2], &g[1], &f[2]);
+  store(line, 1, &value, &line->b);
+  wide_cross(&value, &kg, &f[2], &kf, &g[2]);
+  store(line, 2, &value, &line->c);
+  if (line->sign[0] != 0 || line->sign[1] != 0) return 0;
+  return line->sign[2] == 0 ? GEOM_SAME_PLANE : line->sign[2];
 }
 
 void geom_line_level(struct geom_line *line, struct ratio height) {
-  mpz_t value;
+  struct wide value;
   if (height.num % height.den == 0) {
     int32_t y = (int32_t)(height.num / height.den);
     geom_line_through(line, (struct geom_point){0, y, 0},
@@ -96,12 +86,10 @@ void geom_line_level(struct geom_line *line, struct ratio height) {
     return;
   }
   memset(line, 0, sizeof *line);
-  mpz_init(value);
-  wide_set_int128(value, height.den);
-  store(line, 1, value, &line->b);
-  wide_set_int128(value, -height.num);
-  store(line, 2, value, &line->c);
-  mpz_clear(value);
+  value = wide_of_int128(height.den);
+  store(line, 1, &value, &line->b);
+  value = wide_of_int128(-height.num);
+  store(line, 2, &value, &line->c);
 }
 
 void geom_line_reverse(struct geom_line *line) {
@@ -118,54 +106,33 @@ void geom_line_reverse(struct geom_line *line) {
 
 /* ---- Exact coefficients -------------------------------------------------- */
 
-struct exact_line {
-  mpz_t c[3];
-};
-
-static void exact_init(struct exact_line *exact, const struct geom_line *line) {
-  mpz_inits(exact->c[0], exact->c[1], exact->c[2], NULL);
+static void exact_line(struct wide l[3], const struct geom_line *line) {
   if (line->narrow) {
     int64_t a = (int64_t)line->y0 - line->y1, b = (int64_t)line->x1 - line->x0;
-    mpz_set_si(exact->c[0], a);
-    mpz_set_si(exact->c[1], b);
-    mpz_set_si(exact->c[2], -(a * line->x0 + b * line->y0));
+    l[0] = wide_of_int128(a);
+    l[1] = wide_of_int128(b);
+    l[2] = wide_of_int128(-(a * line->x0 + b * line->y0));
     return;
   }
-  for (int k = 0; k < 3; k++) {
-    mpz_import(exact->c[k], GEOM_LINE_LIMBS, -1, sizeof(mp_limb_t), 0, 0,
-               line->limb[k]);
-    if (line->sign[k] < 0) mpz_neg(exact->c[k], exact->c[k]);
-  }
+  for (int k = 0; k < 3; k++)
+    l[k] = wide_of_limbs(line->limb[k], GEOM_LINE_LIMBS, line->sign[k]);
 }
 
-static void exact_fini(struct exact_line *exact) {
-  mpz_clears(exact->c[0], exact->c[1], exact->c[2], NULL);
-}
-
-/* h = the homogeneous crossing of two lines. */
-static void exact_meet(mpz_t h[3], const struct geom_line *l1,
-                       const struct geom_line *l2) {
-  struct exact_line p, q;
-  exact_init(&p, l1);
-  exact_init(&q, l2);
-  cross(h[0], p.c[1], q.c[2], q.c[1], p.c[2]);
-  cross(h[1], p.c[2], q.c[0], q.c[2], p.c[0]);
-  cross(h[2], p.c[0], q.c[1], q.c[0], p.c[1]);
-  exact_fini(&p);
-  exact_fini(&q);
-}
-
-/* The corner as homogeneous integers, the last one positive. */
-static void exact_corner(mpz_t h[3], const struct geom_corner *corner) {
+void geom_corner_exact(const struct geom_corner *corner, struct wide h[3]) {
+  struct wide p[3], q[3];
   if (corner->l1 == NULL) {
-    mpz_set_si(h[0], corner->ix);
-    mpz_set_si(h[1], corner->iy);
-    mpz_set_si(h[2], 1);
+    h[0] = wide_of_int128(corner->ix);
+    h[1] = wide_of_int128(corner->iy);
+    h[2] = wide_of_int128(1);
     return;
   }
-  exact_meet(h, corner->l1, corner->l2);
-  if (mpz_sgn(h[2]) < 0)
-    for (int k = 0; k < 3; k++) mpz_neg(h[k], h[k]);
+  exact_line(p, corner->l1);
+  exact_line(q, corner->l2);
+  wide_cross(&h[0], &p[1], &q[2], &q[1], &p[2]);
+  wide_cross(&h[1], &p[2], &q[0], &q[2], &p[0]);
+  wide_cross(&h[2], &p[0], &q[1], &q[0], &p[1]);
+  if (h[2].sign < 0)
+    for (int k = 0; k < 3; k++) wide_negate(&h[k]);
 }
 
 /* ---- The same of narrow lines, in machine words ---------------------------- */
@@ -239,23 +206,12 @@ static uint64_t mix(struct narrow_line l) {
 
 /* The same integers for a wide line; false where they are too large. */
 static bool reduce_wide(const struct geom_line *line, struct narrow_line *to) {
-  struct exact_line exact;
-  mpz_t divisor;
-  bool fits;
-  exact_init(&exact, line);
-  mpz_init(divisor);
-  mpz_gcd(divisor, exact.c[0], exact.c[1]);
-  mpz_gcd(divisor, divisor, exact.c[2]);
-  for (int k = 0; k < 3; k++)
-    mpz_divexact(exact.c[k], exact.c[k], divisor);
-  fits = mpz_fits_slong_p(exact.c[0]) && mpz_fits_slong_p(exact.c[1]) &&
-         mpz_fits_slong_p(exact.c[2]);
-  if (fits)
-    *to = (struct narrow_line){mpz_get_si(exact.c[0]), mpz_get_si(exact.c[1]),
-                               mpz_get_si(exact.c[2])};
-  mpz_clear(divisor);
-  exact_fini(&exact);
-  return fits;
+  struct wide exact[3];
+  int64_t reduced[3];
+  exact_line(exact, line);
+  if (!wide_reduce(exact, reduced)) return false;
+  *to = (struct narrow_line){reduced[0], reduced[1], reduced[2]};
+  return true;
 }
 
 bool geom_line_number(const struct geom_line *line, uint64_t *number) {
@@ -281,24 +237,20 @@ bool geom_line_number(const struct geom_line *line, uint64_t *number) {
 static int side_exact(const struct geom_line *line,
                       const struct geom_corner *corner) {
   struct narrow_corner narrow;
-  struct exact_line l;
-  mpz_t h[3], value;
-  int sign;
+  struct wide l[3], h[3], ax, by, sum, value;
   if (line->narrow && narrow_meet(&narrow, corner)) {
     struct narrow_line n = narrow_of(line); /* 2^125 each: the sum fits */
     return geom_sign128(n.a * narrow.x + n.b * narrow.y +
                         (int128)n.c * narrow.w);
   }
-  mpz_inits(h[0], h[1], h[2], value, NULL);
-  exact_init(&l, line);
-  exact_corner(h, corner);
-  mpz_mul(value, l.c[0], h[0]);
-  mpz_addmul(value, l.c[1], h[1]);
-  mpz_addmul(value, l.c[2], h[2]);
-  sign = mpz_sgn(value);
-  exact_fini(&l);
-  mpz_clears(h[0], h[1], h[2], value, NULL);
-  return sign;
+  exact_line(l, line);
+  geom_corner_exact(corner, h);
+  wide_multiply(&ax, &l[0], &h[0]);
+  wide_multiply(&by, &l[1], &h[1]);
+  wide_add(&sum, &ax, &by);
+  wide_multiply(&ax, &l[2], &h[2]);
+  wide_add(&value, &sum, &ax);
+  return value.sign;
 }
 
 static bool same_line(const struct geom_line *l, const struct geom_line *m) {
@@ -376,27 +328,20 @@ int geom_line_side(const struct geom_line *line,
  * same, or of a1 a2 + b1 b2. */
 static int product_exact(const struct geom_line *l1,
                          const struct geom_line *l2, bool dot) {
-  struct exact_line p, q;
-  mpz_t value;
-  int sign;
+  struct wide p[3], q[3], value;
   if (l1->narrow && l2->narrow) {
     struct narrow_line m = narrow_of(l1), n = narrow_of(l2);
     return geom_sign64(dot ? m.a * n.a + m.b * n.b : m.a * n.b - n.a * m.b);
   }
-  mpz_init(value);
-  exact_init(&p, l1);
-  exact_init(&q, l2);
+  exact_line(p, l1);
+  exact_line(q, l2);
   if (dot) {
-    mpz_mul(value, p.c[0], q.c[0]);
-    mpz_addmul(value, p.c[1], q.c[1]);
+    wide_negate(&q[1]);
+    wide_cross(&value, &p[0], &q[0], &p[1], &q[1]);
   } else {
-    cross(value, p.c[0], q.c[1], q.c[0], p.c[1]);
+    wide_cross(&value, &p[0], &q[1], &q[0], &p[1]);
   }
-  sign = mpz_sgn(value);
-  exact_fini(&p);
-  exact_fini(&q);
-  mpz_clear(value);
-  return sign;
+  return value.sign;
 }
 
 int geom_line_turn(const struct geom_line *l1, const struct geom_line *l2) {
@@ -448,7 +393,7 @@ struct geom_corner geom_corner_of(const struct geom_line *l1,
 static int compare_exact(const struct geom_corner *p,
                          const struct geom_corner *q) {
   struct narrow_corner m, n;
-  mpz_t g[3], h[3], value;
+  struct wide g[3], h[3], value;
   int order = 0;
   if (narrow_meet(&m, p) && narrow_meet(&n, q)) {
     order = ratio_compare((struct ratio){m.x, m.w}, (struct ratio){n.x, n.w});
@@ -456,14 +401,12 @@ static int compare_exact(const struct geom_corner *p,
                       : ratio_compare((struct ratio){m.y, m.w},
                                       (struct ratio){n.y, n.w});
   }
-  mpz_inits(g[0], g[1], g[2], h[0], h[1], h[2], value, NULL);
-  exact_corner(g, p);
-  exact_corner(h, q);
+  geom_corner_exact(p, g);
+  geom_corner_exact(q, h);
   for (int k = 0; k < 2 && order == 0; k++) {
-    cross(value, g[k], h[2], h[k], g[2]);
-    order = mpz_sgn(value);
+    wide_cross(&value, &g[k], &h[2], &h[k], &g[2]);
+    order = value.sign;
   }
-  mpz_clears(g[0], g[1], g[2], h[0], h[1], h[2], value, NULL);
   return order;
 }
 
@@ -478,30 +421,7 @@ int geom_corner_compare(const struct geom_corner *p,
   return compare_exact(p, q);
 }
 
-void geom_corner_exact(const struct geom_corner *corner, mpq_t x, mpq_t y) {
-  mpz_t h[3];
-  mpz_inits(h[0], h[1], h[2], NULL);
-  exact_corner(h, corner);
-  mpq_set_num(x, h[0]);
-  mpq_set_den(x, h[2]);
-  mpq_set_num(y, h[1]);
-  mpq_set_den(y, h[2]);
-  mpq_canonicalize(x);
-  mpq_canonicalize(y);
-  mpz_clears(h[0], h[1], h[2], NULL);
-}
-
-/* floor(2^bits num / den + 1/2) */
-static int64_t round_quotient(mpz_t num, const mpz_t den, int bits,
-                              mpz_t scratch) {
-  mpz_mul_2exp(num, num, (mp_bitcnt_t)bits + 1);
-  mpz_add(num, num, den);
-  mpz_mul_2exp(scratch, den, 1);
-  mpz_fdiv_q(num, num, scratch);
-  return mpz_get_si(num);
-}
-
-/* The same of num < 2^94. */
+/* floor(2^bits num / den + 1/2), num < 2^94 */
 static int64_t round_narrow(int128 num, int64_t den, int bits) {
   int128 twice = num * ((int128)2 << bits) + den, whole = twice / den / 2;
   if (whole * 2 * den > twice) whole--;
@@ -511,15 +431,13 @@ static int64_t round_narrow(int128 num, int64_t den, int bits) {
 void geom_corner_round(const struct geom_corner *corner, int bits, int64_t *x,
                        int64_t *y) {
   struct narrow_corner narrow;
-  mpz_t h[3], scratch;
+  struct wide h[3];
   if (narrow_meet(&narrow, corner)) {
     *x = round_narrow(narrow.x, narrow.w, bits);
     *y = round_narrow(narrow.y, narrow.w, bits);
     return;
   }
-  mpz_inits(h[0], h[1], h[2], scratch, NULL);
-  exact_corner(h, corner);
-  *x = round_quotient(h[0], h[2], bits, scratch);
-  *y = round_quotient(h[1], h[2], bits, scratch);
-  mpz_clears(h[0], h[1], h[2], scratch, NULL);
+  geom_corner_exact(corner, h);
+  *x = wide_round_quotient(&h[0], &h[2], bits);
+  *y = wide_round_quotient(&h[1], &h[2], bits);
 }

@@ -11,16 +11,15 @@
  * |c| < 2^170: with normals below 2^72 and 2^63 and plane constants below
  * 2^105 (predicate.h), a = nFx nGz - nGx nFz and c = KG nFz - KF nGz.
  *
- * Robustness: signs of 3 x 3 determinants, doubles first, GMP where they
+ * Robustness: signs of 3 x 3 determinants, doubles first, wide.h where they
  * cannot tell.  Cost of the wide path is about a microsecond.
  */
 #ifndef GEOM_LINE_H
 #define GEOM_LINE_H
 
-#include <gmp.h>
-
 #include "base/memory.h"
 #include "geom/predicate.h"
+#include "geom/wide.h"
 
 #define GEOM_LINE_LIMBS 3
 
@@ -29,7 +28,7 @@ struct geom_line {
   bool narrow;
   int32_t x0, y0, x1, y1; /* narrow: from, to; the left side is positive */
   int8_t sign[3];         /* wide: of a, b, c */
-  mp_limb_t limb[3][GEOM_LINE_LIMBS];
+  uint64_t limb[3][GEOM_LINE_LIMBS];
 };
 
 /* The line from p to q, p != q on the page. */
@@ -82,8 +81,8 @@ int geom_line_along(const struct geom_line *l1, const struct geom_line *l2);
 int geom_corner_compare(const struct geom_corner *p,
                         const struct geom_corner *q);
 
-/* The corner's coordinates as rationals (canonical mpq). */
-void geom_corner_exact(const struct geom_corner *corner, mpq_t x, mpq_t y);
+/* The corner as homogeneous integers x, y, w; w > 0. */
+void geom_corner_exact(const struct geom_corner *corner, struct wide h[3]);
 
 /* The coordinates times 2^bits rounded to the nearest integer, halves up;
  * depends only on the corner's place. */

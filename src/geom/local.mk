@@ -5,4 +5,4 @@ librecto_core_la_SOURCES += \
   %D%/region.c %D%/region.h \
   %D%/ratio.c %D%/ratio.h \
   %D%/scanfill.c %D%/scanfill.h \
-  %D%/wide.h
+  %D%/wide.c %D%/wide.h

@@ -5,8 +5,6 @@
  */
 #include "geom/ratio.h"
 
-#include <gmp.h>
-
 #include "geom/wide.h"
 
 /* An unsigned 256-bit product, most significant half first. */
@@ -56,21 +54,12 @@ int ratio_compare(struct ratio a, struct ratio b) {
 
 double ratio_to_double(struct ratio a) { return (double)a.num / (double)a.den; }
 
-/* floor((2 num d + den) / (2 den)), the products in GMP. */
+/* floor(num d / den + 1/2), the product of 169 bits. */
 static int64_t round_wide(struct ratio t, int64_t d) {
-  mpz_t num, den;
-  int64_t rounded;
-  mpz_inits(num, den, NULL);
-  wide_set_int128(num, t.num);
-  wide_set_int128(den, t.den);
-  mpz_mul_si(num, num, d);
-  mpz_mul_2exp(num, num, 1);
-  mpz_add(num, num, den);
-  mpz_mul_2exp(den, den, 1);
-  mpz_fdiv_q(num, num, den);
-  rounded = mpz_get_si(num);
-  mpz_clears(num, den, NULL);
-  return rounded;
+  struct wide num = wide_of_int128(t.num), den = wide_of_int128(t.den);
+  struct wide by = wide_of_int128(d), product;
+  wide_multiply(&product, &num, &by);
+  return wide_round_quotient(&product, &den, 0);
 }
 
 int64_t ratio_lerp(struct ratio t, int64_t p0, int64_t p1) {

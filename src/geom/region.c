@@ -273,39 +273,49 @@ static int inside_loop(const struct geom_region *region,
   return inside ? 1 : -1;
 }
 
-static void add_area2(const struct geom_region *region,
-                      const struct geom_region_loop *loop, mpq_t area2) {
-  const struct geom_region_side *side = region->side.item + loop->side;
-  mpq_t x0, y0, x1, y1, term;
-  mpq_inits(x0, y0, x1, y1, term, NULL);
-  for (uint32_t k = 0; k < loop->count; k++) {
-    geom_corner_exact(&side[k].corner, x0, y0);
-    geom_corner_exact(&side[(k + 1) % loop->count].corner, x1, y1);
-    mpq_mul(term, x0, y1);
-    mpq_add(area2, area2, term);
-    mpq_mul(term, x1, y0);
-    mpq_sub(area2, area2, term);
-  }
-  mpq_clears(x0, y0, x1, y1, term, NULL);
+/* A direction away from a corner: a line's, or the opposite one. */
+struct ray {
+  const struct geom_line *line;
+  int sign;
+};
+
+/* Whether p is to the right of q; both are in the right half plane. */
+static bool is_lower(struct ray p, struct ray q) {
+  return geom_line_turn(p.line, q.line) * p.sign * q.sign > 0;
 }
 
+/* The lowest of a loop's directions away from its first corner.  Nothing of it
+ * is to the left of that, nor below it. */
+static struct ray lowest_ray(const struct geom_region_side *side,
+                             uint32_t count) {
+  struct ray lowest = {side[0].line, 1};
+  const struct geom_line *before = side[count - 1].line;
+  for (uint32_t k = 0; k < count; k++) {
+    struct ray in = {before, -1}, out = {side[k].line, 1};
+    before = side[k].line;
+    if (geom_corner_compare(&side[k].corner, &side[0].corner) != 0) continue;
+    if (is_lower(in, lowest)) lowest = in;
+    if (is_lower(out, lowest)) lowest = out;
+  }
+  return lowest;
+}
+
+/* The outer loop does not begin after the hole. */
 static bool holds(const struct geom_region *region,
                   const struct geom_region_loop *outer,
                   const struct geom_region_loop *hole) {
-  const struct geom_region_side *side = region->side.item + hole->side;
-  mpq_t difference;
-  bool larger;
+  const struct geom_region_side *side = region->side.item + hole->side,
+                                *round = region->side.item + outer->side;
   for (uint32_t k = 0; k < hole->count; k++) {
     int inside = inside_loop(region, outer, &side[k].corner);
     if (inside != 0) return inside > 0;
   }
-  /* Touches it with every corner: a hole of it, or around it. */
-  mpq_init(difference);
-  add_area2(region, outer, difference);
-  add_area2(region, hole, difference);
-  larger = mpq_sgn(difference) > 0;
-  mpq_clear(difference);
-  return larger;
+  /* Touches it with every corner: a hole of it, or around it.  The one that is
+   * around the other begins first, or else its sides are the outermost of
+   * those that begin there. */
+  if (geom_corner_compare(&round[0].corner, &side[0].corner) != 0) return true;
+  return is_lower(lowest_ray(round, outer->count),
+                  lowest_ray(side, hole->count));
 }
 
 struct placed_loop {
@@ -385,10 +395,4 @@ end:
   ARRAY_FREE(&sides);
   ARRAY_FREE(&boundary);
   return done;
-}
-
-void geom_region_area2(const struct geom_region *region, size_t loop,
-                       mpq_t area2) {
-  mpq_set_ui(area2, 0, 1);
-  add_area2(region, &region->loop.item[loop], area2);
 }

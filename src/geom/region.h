@@ -41,8 +41,4 @@ USE_RESULT bool geom_region_unite(struct geom_region *region,
                                   const struct geom_convex *piece,
                                   size_t count);
 
-/* Twice the exact area of a loop, positive counter-clockwise. */
-void geom_region_area2(const struct geom_region *region, size_t loop,
-                       mpq_t area2);
-
 #endif

@@ -201,23 +201,10 @@ static bool find_own(struct face_work *work, uint32_t triangle) {
   return true;
 }
 
-static bool file_area(struct map *map, const struct geom_region *region,
-                      const struct map_fragment *fragment, size_t first) {
-  mpq_t term;
-  mpq_ptr sum = mem_alloc(1, sizeof *sum);
-  bool done = sum != NULL && ARRAY_PUSH(&map->area2, sum);
-  if (!done) {
-    mem_free(sum);
-    return false;
-  }
-  mpq_init(sum);
-  mpq_init(term);
-  for (size_t l = first; l < first + fragment->loops; l++) {
-    geom_region_area2(region, l, term);
-    mpq_add(sum, sum, term);
-  }
-  mpq_clear(term);
-  return true;
+static bool file_place(struct map *map, const struct geom_corner *corner) {
+  struct map_place place;
+  geom_corner_exact(corner, place.h);
+  return ARRAY_PUSH(&map->place, place);
 }
 
 static bool file_loop(struct face_work *work,
@@ -233,7 +220,8 @@ static bool file_loop(struct face_work *work,
     if (!side_label(&work->labels, side[k].line, &side[k].corner,
                     &side[(k + 1) % loop->count].corner, &corner.side,
                     &corner.id) ||
-        !ARRAY_PUSH(&work->map->corner, corner))
+        !ARRAY_PUSH(&work->map->corner, corner) ||
+        (work->areas && !file_place(work->map, &side[k].corner)))
       return false;
     work->fragments->counts.side[corner.side]++;
   }
@@ -244,15 +232,11 @@ static bool file_region(struct face_work *work) {
   struct map *map = work->map;
   for (size_t l = 0; l < work->region.loop.count;) {
     struct map_fragment fragment = {work->face, (uint32_t)map->loop.count, 0};
-    size_t first = l;
     do {
       if (!file_loop(work, &work->region.loop.item[l++])) return false;
       fragment.loops++;
     } while (l < work->region.loop.count && work->region.loop.item[l].hole);
-    if (!ARRAY_PUSH(&map->fragment, fragment) ||
-        (work->areas &&
-         !file_area(map, &work->region, &fragment, first)))
-      return false;
+    if (!ARRAY_PUSH(&map->fragment, fragment)) return false;
   }
   return true;
 }

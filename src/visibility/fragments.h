@@ -80,7 +80,7 @@ USE_RESULT bool fragments_add_among(struct fragments *fragments,
 
 /* Writes all fragments to the map, ordered by face, and the counts to the
  * report.
- * areas  the exact areas too */
+ * areas  the exact places of their corners too */
 USE_RESULT bool fragments_finish(struct fragments *fragments, bool areas,
                                  struct map *map);
 

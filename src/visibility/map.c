@@ -14,10 +14,6 @@ void map_fini(struct map *map) {
   ARRAY_FREE(&map->fragment);
   ARRAY_FREE(&map->loop);
   ARRAY_FREE(&map->corner);
-  for (size_t i = 0; i < map->area2.count; i++) {
-    mpq_clear(map->area2.item[i]);
-    mem_free(map->area2.item[i]);
-  }
-  ARRAY_FREE(&map->area2);
+  ARRAY_FREE(&map->place);
   map_init(map);
 }

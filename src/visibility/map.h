@@ -3,10 +3,9 @@
 #ifndef VISIBILITY_MAP_H
 #define VISIBILITY_MAP_H
 
-#include <gmp.h>
-
 #include "base/memory.h"
 #include "geom/ratio.h"
+#include "geom/wide.h"
 #include "view/sheet.h"
 
 /* ---- Strokes ------------------------------------------------------------- */
@@ -60,6 +59,11 @@ struct map_fragment {
   uint32_t loop, loops; /* the first is the outer one */
 };
 
+/* The same corner before it was rounded: homogeneous integers x, y, w. */
+struct map_place {
+  struct wide h[3];
+};
+
 struct map {
   uint8_t *edge_state; /* one a drawable edge; NULL without strokes */
   size_t edge_count;
@@ -73,8 +77,8 @@ struct map {
   ARRAY(struct map_fragment) fragment;
   ARRAY(struct map_loop) loop;
   ARRAY(struct map_corner) corner;
-  /* Twice the exact area of each fragment, where it was asked for. */
-  ARRAY(mpq_ptr) area2;
+  /* The exact place of each corner, where it was asked for. */
+  ARRAY(struct map_place) place;
 };
 
 void map_init(struct map *map);

@@ -9,7 +9,8 @@
 struct solver_request {
   bool strokes;       /* intervals of the sheet's drawable edges */
   bool fragments;     /* visible fragments of its faces */
-  bool areas;         /* with fragments: their exact areas, for tests */
+  bool areas;         /* with fragments: the exact places of their corners,
+                         for tests of areas */
   bool hidden;        /* hidden parts of intersections will be drawn too */
   bool intersections; /* edges where faces pierce each other are drawable */
   int threads;        /* at least 1 */

@@ -13,6 +13,13 @@ void rational_set_ratio(mpq_t to, struct ratio ratio) {
   mpq_canonicalize(to);
 }
 
+void rational_set_wide(mpz_t to, const struct wide *value) {
+  mpz_import(to, (size_t)value->count, -1, sizeof value->limb[0], 0, 0,
+             value->limb);
+  if (value->sign < 0)
+    mpz_neg(to, to);
+}
+
 void rational_point_init(struct rational_point *p) {
   mpq_inits(p->x, p->y, NULL);
 }
@@ -32,6 +39,22 @@ void rational_line_clear(struct rational_line *l) {
 void rational_point_at(struct rational_point *to, struct geom_point p) {
   mpq_set_si(to->x, p.x, 1);
   mpq_set_si(to->y, p.y, 1);
+}
+
+void rational_point_of(struct rational_point *to, const struct wide h[3]) {
+  for (int k = 0; k < 2; k++) {
+    mpq_ptr coordinate = k == 0 ? to->x : to->y;
+    rational_set_wide(mpq_numref(coordinate), &h[k]);
+    rational_set_wide(mpq_denref(coordinate), &h[2]);
+    mpq_canonicalize(coordinate);
+  }
+}
+
+void rational_point_at_corner(struct rational_point *to,
+                              const struct geom_corner *corner) {
+  struct wide h[3];
+  geom_corner_exact(corner, h);
+  rational_point_of(to, h);
 }
 
 /* to = p q - r s */
@@ -148,21 +171,42 @@ void rational_depth(mpq_t to, const struct geom_point f[3],
   rational_line_clear(&plane);
 }
 
-void rational_add_area2(mpq_t sum, const struct geom_convex *piece) {
-  struct rational_point p, q;
+void rational_add_side(mpq_t sum, const struct rational_point *p,
+                       const struct rational_point *q) {
   mpq_t term;
   mpq_init(term);
+  cross(term, p->x, q->y, q->x, p->y);
+  mpq_add(sum, sum, term);
+  mpq_clear(term);
+}
+
+void rational_add_loop(mpq_t sum, const struct geom_region *region,
+                       size_t loop) {
+  const struct geom_region_loop *l = &region->loop.item[loop];
+  const struct geom_region_side *side = region->side.item + l->side;
+  struct rational_point p, q;
   rational_point_init(&p);
   rational_point_init(&q);
-  for (uint32_t k = 0; k < piece->count; k++) {
-    geom_corner_exact(&piece->corner[k], p.x, p.y);
-    geom_corner_exact(&piece->corner[(k + 1) % piece->count], q.x, q.y);
-    cross(term, p.x, q.y, q.x, p.y);
-    mpq_add(sum, sum, term);
+  for (uint32_t k = 0; k < l->count; k++) {
+    rational_point_at_corner(&p, &side[k].corner);
+    rational_point_at_corner(&q, &side[(k + 1) % l->count].corner);
+    rational_add_side(sum, &p, &q);
   }
   rational_point_clear(&p);
   rational_point_clear(&q);
-  mpq_clear(term);
+}
+
+void rational_add_area2(mpq_t sum, const struct geom_convex *piece) {
+  struct rational_point p, q;
+  rational_point_init(&p);
+  rational_point_init(&q);
+  for (uint32_t k = 0; k < piece->count; k++) {
+    rational_point_at_corner(&p, &piece->corner[k]);
+    rational_point_at_corner(&q, &piece->corner[(k + 1) % piece->count]);
+    rational_add_side(sum, &p, &q);
+  }
+  rational_point_clear(&p);
+  rational_point_clear(&q);
 }
 
 void rational_area2(mpq_t to, const struct geom_convex *piece) {

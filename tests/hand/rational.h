@@ -4,10 +4,14 @@
 #ifndef TESTS_HAND_RATIONAL_H
 #define TESTS_HAND_RATIONAL_H
 
+#include <gmp.h>
+
 #include "geom/convex.h"
+#include "geom/region.h"
 
 void rational_set_int128(mpz_t to, int128 value);
 void rational_set_ratio(mpq_t to, struct ratio ratio);
+void rational_set_wide(mpz_t to, const struct wide *value);
 
 /* A point of the page. */
 struct rational_point {
@@ -25,6 +29,10 @@ void rational_line_init(struct rational_line *l);
 void rational_line_clear(struct rational_line *l);
 
 void rational_point_at(struct rational_point *to, struct geom_point p);
+/* From homogeneous integers x, y, w. */
+void rational_point_of(struct rational_point *to, const struct wide h[3]);
+void rational_point_at_corner(struct rational_point *to,
+                              const struct geom_corner *corner);
 /* Where two lines meet; false: they are parallel. */
 bool rational_point_meet(struct rational_point *to,
                          const struct rational_line *l,
@@ -46,6 +54,13 @@ int rational_line_side(const struct rational_line *l,
 /* The depth of a triangle's plane at a point. */
 void rational_depth(mpq_t to, const struct geom_point f[3],
                     const struct rational_point *p);
+
+/* Adds x0 y1 - x1 y0 to `sum`: over all sides of a loop twice its area. */
+void rational_add_side(mpq_t sum, const struct rational_point *p,
+                       const struct rational_point *q);
+/* Adds twice the area of a loop of a region. */
+void rational_add_loop(mpq_t sum, const struct geom_region *region,
+                       size_t loop);
 
 /* Twice the area of a convex piece. */
 void rational_area2(mpq_t to, const struct geom_convex *piece);

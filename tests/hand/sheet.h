@@ -3,6 +3,8 @@
 #ifndef TESTS_HAND_SHEET_H
 #define TESTS_HAND_SHEET_H
 
+#include <gmp.h>
+
 #include "visibility/solver.h"
 
 /* An empty orthographic sheet whose only contact is the grid's. */
@@ -37,6 +39,10 @@ void hand_assert_visible_same(const struct map *a, const struct sheet *sa,
 
 /* The area of all fragments of a face over scale^2, as a fraction in lowest
  * terms: asserts that it is num / den. */
+/* Adds twice the exact area of a fragment to `sum`. */
+void hand_add_area2(mpq_t sum, const struct map *map, size_t fragment);
+/* Are two fragments of the same area? */
+bool hand_same_area(const struct map *a, const struct map *b, size_t fragment);
 void hand_assert_area(const struct map *map, uint32_t face, int scale,
                       long num, unsigned long den);
 
