@@ -418,6 +418,22 @@ static void every_allocation_may_fail(void **state) {
   end(&asked);
 }
 
+/* The plane of the cut passes an edge nearer than doubles tell. */
+static void an_edge_along_the_cut_may_be_missing(void **state) {
+  struct asked asked;
+  (void)state;
+  start(&asked);
+  build_polygon(&asked.scene, (const double[]){2, 0, 0, 0, 0, 0, 0, 0, 1}, 3);
+  asked.options.up[1] = 1;
+  asked.options.azimuth_deg = 89.9999999;
+  asked.options.elevation_deg = 1e-7;
+  asked.options.has_section = true;
+  asked.options.section = 2;
+  draw(&asked);
+  assert_right(&asked, "an edge along the cut");
+  end(&asked);
+}
+
 static int tear_down(void **state) {
   (void)state;
   mem_fail_after(0);
@@ -435,6 +451,7 @@ int main(void) {
       cmocka_unit_test(what_shares_a_corner_with_a_face_passes),
       cmocka_unit_test(a_wire_alone_passes),
       cmocka_unit_test(nothing_drawn_of_nothing_asked_for_passes),
+      cmocka_unit_test(an_edge_along_the_cut_may_be_missing),
       cmocka_unit_test(a_hidden_line_that_is_drawn_is_found),
       cmocka_unit_test(a_visible_line_that_is_missing_is_found),
       cmocka_unit_test(a_line_where_no_edge_is_is_found),

@@ -219,6 +219,14 @@ static bool has_ink(const struct court *court, struct judge_place at) {
   return false;
 }
 
+/* Whether a spot is so close behind the near plane that rounding may have cut
+ * it off. */
+static bool is_at_near_plane(const struct judge_camera *camera,
+                             struct judge_spot spot) {
+  double slack = camera->near_d - judge_near(camera);
+  return judge_ahead(camera, spot) <= camera->near_d + slack;
+}
+
 static void try_edge(struct court *court, const struct judge_edge *edge,
                      struct judge_place at, double t, double mm) {
   struct judge_verdict *verdict = court->verdict;
@@ -228,6 +236,10 @@ static void try_edge(struct court *court, const struct judge_edge *edge,
   if (has_ink(court, at)) {
     if (judge_look_from(&court->gazer, edge, from) == JUDGE_CLEAR)
       count_sample(&verdict->visible, mm);
+    return;
+  }
+  if (is_at_near_plane(court->camera, from)) {
+    count_sample(&verdict->unsure, mm);
     return;
   }
   switch (judge_look_around(&court->gazer, edge, from, JUDGE_CLEAR, NULL)) {
