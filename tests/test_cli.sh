@@ -534,6 +534,8 @@ checks_joined() {
   run 0 torn.obj --check joined.svg --view front --weld 1e-3
 }
 claim "--check joins them too" checks_joined
+claim "a length that leaves nothing is an error that says so" eval \
+  'run 1 torn.obj -o torn.svg --weld 99 && says "the weld length is larger"'
 claim "--weld 0 is taken at its word" eval \
   'run 0 torn.obj -o torn.svg --view front --weld 0 && silent'
 

@@ -23,7 +23,7 @@ struct render {
   const recto_scene *model;
   const recto_options *options;
   struct rescaled rescaled; /* scene and options as the stages see them */
-  struct welded welded; /* the scene that is drawn */
+  struct welded welded;     /* the scene that is drawn */
   struct topology topology;
   struct camera camera;
   struct sheet sheet;
@@ -95,7 +95,7 @@ static void warn_of_borders(const struct render *render) {
   snprintf(text, sizeof text,
            "%.0f %% of the edges are borders; --weld LENGTH joins corners that "
            "lie apart",
-           100.0 * (double)welded_count_borders(topology) /
+           100.0 * (double)render->welded.borders /
                (double)topology->edge.count);
   o->warning(o->user, "", 0, text);
 }
@@ -104,9 +104,8 @@ static recto_status find_edges(struct render *render, recto_error *error) {
   const recto_options *o = &render->rescaled.options;
   const struct weld_request request = {o->weld,
                                        precision_of_bits(o->coordinate_bits)};
-  recto_status status =
-      welded_init(&render->welded, &render->topology, &render->rescaled.scene,
-                  &request, error);
+  recto_status status = welded_init(&render->welded, &render->topology,
+                                    &render->rescaled.scene, &request, error);
   if (status != RECTO_OK)
     return status;
   report_double(render->report, "scene", "weld",
@@ -116,6 +115,11 @@ static recto_status find_edges(struct render *render, recto_error *error) {
   report_int(render->report, "scene", "welded_faces",
              (int64_t)render->welded.lost);
   warn_of_borders(render);
+  if (render->welded.lost > 0 && scene_face_count(&render->welded.scene) == 0 &&
+      scene_wire_count(&render->welded.scene) == 0)
+    return error_set(error, RECTO_ERROR_EMPTY, NULL, 0,
+                     "there is nothing to draw: the weld length is larger than "
+                     "all faces");
   render->topology.brief = !has_fills(render);
   report_int(render->report, "scene", "edges",
              (int64_t)render->topology.edge.count);
@@ -138,8 +142,8 @@ static recto_status aim(struct render *render, recto_error *error) {
 
 static recto_status project(struct render *render, recto_error *error) {
   recto_status status = sheet_init(
-      &render->sheet, &render->welded.scene, &render->topology,
-      &render->camera, &render->rescaled.options, has_fills(render), error);
+      &render->sheet, &render->welded.scene, &render->topology, &render->camera,
+      &render->rescaled.options, has_fills(render), error);
   /* On a fine mesh it is a quarter of all memory, and lines alone never ask
    * it again. */
   if (!has_fills(render)) {

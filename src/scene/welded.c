@@ -52,7 +52,7 @@ static bool is_border(const struct topology_edge *edge) {
   return edge->uses == 1;
 }
 
-size_t welded_count_borders(const struct topology *topology) {
+static size_t count_borders(const struct topology *topology) {
   size_t count = 0;
   for (size_t e = 0; e < topology->edge.count; e++)
     count += is_border(&topology->edge.item[e]);
@@ -112,6 +112,7 @@ static double face_size(const struct scene *scene, uint32_t face) {
   return most;
 }
 
+/* Of the faces whose border edges meet at a point, the smallest counts. */
 static bool measure_faces(struct candidates *candidates,
                           const struct scene *scene,
                           const struct topology *topology) {
@@ -121,16 +122,13 @@ static bool measure_faces(struct candidates *candidates,
     return false;
   for (size_t i = 0; i < count; i++)
     candidates->size[i] = INFINITY;
-  for (uint32_t f = 0; f < scene_face_count(scene); f++) {
-    double size = -1;
-    for (uint32_t c = scene->face_start.item[f];
-         c < scene->face_start.item[f + 1]; c++) {
-      uint32_t point = point_of(topology, scene->corner.item[c]);
-      uint32_t number = candidates->number[point];
-      if (number == 0)
-        continue;
-      if (size < 0)
-        size = face_size(scene, f);
+  for (size_t e = 0; e < topology->edge.count; e++) {
+    const struct topology_edge *edge = &topology->edge.item[e];
+    if (!is_border(edge))
+      continue;
+    double size = face_size(scene, edge->first);
+    for (int k = 0; k < 2; k++) {
+      uint32_t number = candidates->number[edge->point[k]];
       double *least = &candidates->size[number - 1];
       *least = fmin(*least, size);
     }
@@ -369,8 +367,10 @@ recto_status welded_init(struct welded *welded, struct topology *topology,
   struct candidates candidates = {.number = NULL};
   *welded = (struct welded){.scene = *scene};
   recto_status status = topology_init(topology, scene, error);
-  if (status != RECTO_OK || request->length == 0 ||
-      welded_count_borders(topology) == 0)
+  if (status != RECTO_OK)
+    return status;
+  welded->borders = count_borders(topology);
+  if (request->length == 0 || welded->borders == 0)
     return status;
   if (!join(welded, &candidates, topology, request)) {
     welded->joined = 0;
@@ -381,6 +381,8 @@ recto_status welded_init(struct welded *welded, struct topology *topology,
     status = rewrite(welded, scene, map, error);
     if (status == RECTO_OK)
       status = topology_init(topology, &welded->scene, error);
+    if (status == RECTO_OK)
+      welded->borders = count_borders(topology);
   }
   candidates_fini(&candidates);
   if (status != RECTO_OK) {
@@ -413,8 +415,7 @@ bool welded_is_suspicious(const struct welded *welded,
   struct candidates candidates = {.number = NULL};
   size_t joined = 0, count = 0;
   if (scene_face_count(scene) < FEWEST_FACES ||
-      10 * welded_count_borders(topology) <=
-          TENTHS_OF_EDGES * topology->edge.count)
+      10 * welded->borders <= TENTHS_OF_EDGES * topology->edge.count)
     return false;
   if (find_candidates(&candidates, scene, topology) &&
       measure_faces(&candidates, scene, topology)) {

@@ -17,6 +17,7 @@ struct welded {
   double length;      /* the longest that was used, scene units */
   size_t joined;      /* points that another one stands for */
   size_t lost;        /* faces that have no area any more */
+  size_t borders;     /* edges that have one face, in the end */
 };
 
 /* Builds the edges of a scene, joins the points of its borders that lie close
@@ -35,9 +36,6 @@ USE_RESULT recto_status welded_init(struct welded *welded,
                                     const struct weld_request *request,
                                     recto_error *error);
 void welded_fini(struct welded *welded);
-
-/* How many edges have one face only. */
-size_t welded_count_borders(const struct topology *topology);
 
 /* Whether so many edges are borders, of corners so close to others, that these
  * were one before something moved them apart: of a hundred faces at least,
