@@ -168,7 +168,8 @@ typedef struct recto_options {
   /* Method. */
   recto_method method;
   int threads;     /* at most as many as there are processors; 0: so many */
-  double contact;  /* scene units; negative: a millionth of the size */
+  double contact;  /* scene units; negative: what rounding of the coordinates
+                      explains, face by face */
   double pitch_mm; /* watkins: between scan lines; 0: exact sweep, else at
                       least RECTO_FINEST_MM */
   int resolution;  /* raster methods: lines over the page height; warnock:
@@ -184,7 +185,8 @@ typedef struct recto_options {
   double fov_deg;                    /* vertical; 0: orthographic */
   recto_fit fit;
   double scale;         /* with RECTO_FIT_SCALE */
-  double near_distance; /* scene units; 0: chosen */
+  double near_distance; /* scene units; 0: as near as anything drawn, but at
+                           least a 16384th of the way to the target */
   bool has_section;
   double section; /* scene units in front of the eye, or
                      behind the scene's nearest point for
@@ -268,8 +270,9 @@ typedef struct recto_options {
   const char *weights;
 
   /* Significant bits of the coordinates given to recto_scene_add_point, 1 to
-   * 53, which are off by half of the last one; 0: 24, single precision; 53:
-   * exact.  What is in a file tells its own precision. */
+   * 53, which are off by half of the last one; 53: exact; 0: 24 where all of
+   * them are numbers of single precision, else 53.  What is in a file tells its
+   * own precision. */
   int coordinate_bits;
 
   /* Corners of borders that are no farther apart count as one, scene units;

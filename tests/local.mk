@@ -180,3 +180,6 @@ unit_tests += %D%/test_ink_net %D%/test_ink_chain %D%/test_ink_clean \
 %C%_test_ink_order_SOURCES = %D%/test_ink_order.c %D%/inked.c %D%/inked.h
 %C%_test_ink_draw_SOURCES = %D%/test_ink_draw.c %D%/inked.c %D%/inked.h
 %C%_test_ink_draw_LDADD = %D%/scenes/libscenes.la $(LDADD)
+
+unit_tests += %D%/test_far
+%C%_test_far_SOURCES = %D%/test_far.c

@@ -703,15 +703,18 @@ static void an_eye_right_above_sees_the_view_from_the_top(void **state) {
 
 /* ---- Contact ------------------------------------------------------------- */
 
-static void contact_is_a_millionth_of_the_size_unless_told(void **state) {
+static void contact_follows_the_precision_unless_told(void **state) {
   (void)state;
   struct scene scene;
   fill_box(&scene);
   recto_options options = plain_options();
-  double diagonal = sqrt(9 + 36 + 6.5 * 6.5);
   struct camera camera = aim(&scene, &options);
-  assert_near(camera.size, diagonal, 1e-14);
-  assert_near(camera.contact, diagonal / 1000000, 1e-20);
+  assert_near(camera.size, sqrt(9 + 36 + 6.5 * 6.5), 1e-14);
+  assert_true(camera.contact < 0);
+  assert_true(camera.unstated.relative == 0x1p-24);
+  assert_true(camera.contact_most > 0 && camera.contact_most < 1e-5);
+  options.coordinate_bits = 53;
+  assert_true(aim(&scene, &options).contact_most == 0);
   options.contact = 0;
   assert_true(aim(&scene, &options).contact == 0);
   options.contact = 0.25;
@@ -892,7 +895,7 @@ int main(void) {
       cmocka_unit_test(a_far_eye_keeps_scale_and_distances),
       cmocka_unit_test(a_far_eye_must_look_at_the_scene),
       cmocka_unit_test(an_eye_right_above_sees_the_view_from_the_top),
-      cmocka_unit_test(contact_is_a_millionth_of_the_size_unless_told),
+      cmocka_unit_test(contact_follows_the_precision_unless_told),
       cmocka_unit_test(a_single_wire_fits_from_wherever_it_is_seen),
       cmocka_unit_test(a_plate_seen_edge_on_fits_by_its_other_extent),
       cmocka_unit_test(powers_of_two_change_no_bit_of_the_page),

@@ -342,6 +342,7 @@ static void contact_does_not_hide(void **state) {
   build_segment(&scene, build_point(&scene, -2, 1, -1e-3),
                 build_point(&scene, 2, 1, -1e-3));
   open_page(&page);
+  page.contact = 8.5e-6;
   look_square_on(&page);
   draw_loop(&page, plate, 4);
   struct judge_verdict verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);

@@ -186,6 +186,7 @@ static void cuts_and_far_origins_pass(void **state) {
         asked.options.fov_deg = perspective * 40;
         asked.options.has_section = section;
         asked.options.section = 5;
+        asked.options.coordinate_bits = 53;
         draw(&asked);
         assert_right(&asked, "boxes");
         assert_true(count_of(&asked, "not_drawn_hidden") > 300);

@@ -36,11 +36,15 @@ struct judge_camera asked_camera(const struct asked *asked,
   return made;
 }
 
-struct judge_options asked_options(const struct camera *camera,
+struct judge_options asked_options(const struct asked *asked,
+                                   const struct camera *camera,
                                    const recto_options *options) {
   struct judge_options made;
   judge_options_init(&made);
   made.contact = camera->contact;
+  made.unstated = camera->unstated;
+  made.origin =
+      judge_spot_of(asked->origin.x, asked->origin.y, asked->origin.z);
   made.crease_deg = options->crease_deg;
   made.edges = options->edges;
   return made;

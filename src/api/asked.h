@@ -21,7 +21,8 @@ struct judge_camera asked_camera(const struct asked *asked,
                                  const recto_options *options);
 
 /* The judge's own, with contact, crease and classes as the drawing's. */
-struct judge_options asked_options(const struct camera *camera,
+struct judge_options asked_options(const struct asked *asked,
+                                   const struct camera *camera,
                                    const recto_options *options);
 
 #endif

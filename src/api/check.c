@@ -62,7 +62,7 @@ static recto_status judge(const struct rescaled *rescaled,
   if (!asked_init(&asked, scene))
     return error_memory(error);
   struct judge_camera seen = asked_camera(&asked, &camera, o);
-  struct judge_options options = asked_options(&camera, o);
+  struct judge_options options = asked_options(&asked, &camera, o);
   options.samples = SAMPLES;
   options.reach_mm = options.lateral_mm = o->pen_mm / 4;
   if (!judge_drawing(verdict, drawing, &asked.scene, &seen, &options))

@@ -135,8 +135,8 @@ static recto_status aim(struct render *render, recto_error *error) {
   camera_matrix(&render->camera, matrix);
   rescale_matrix(&render->rescaled, matrix);
   report_doubles(render->report, "camera", "model_to_page_mm", matrix, 12);
-  report_double(render->report, "camera", "contact",
-                ldexp(render->camera.contact, render->rescaled.exponent));
+  report_double(render->report, "camera", "contact_most",
+                ldexp(render->camera.contact_most, render->rescaled.exponent));
   return RECTO_OK;
 }
 
@@ -274,6 +274,7 @@ static void report_sheet(struct report *report, const struct render *render) {
   report_int(report, "sheet", "edges", (int64_t)sheet->edge.count);
   report_int(report, "sheet", "faces_clipped_near",
              (int64_t)sheet->clipped_near);
+  report_int(report, "sheet", "faces_cut_near", (int64_t)sheet->cut_near);
   report_int(report, "sheet", "faces_clipped_page",
              (int64_t)sheet->clipped_page);
 }
@@ -324,6 +325,22 @@ static void warn_of_empty_page(const struct render *render) {
     why = "all of the scene is outside of the page";
   char text[128];
   snprintf(text, sizeof text, "the drawing is empty: %s", why);
+  o->warning(o->user, "", 0, text);
+}
+
+/* What the eye touches is cut where depths would become too coarse. */
+static void warn_of_near_plane(const struct render *render) {
+  const recto_options *o = render->options;
+  unsigned long cut = (unsigned long)render->sheet.cut_near;
+  if (cut == 0 || o->warning == NULL)
+    return;
+  char text[160];
+  snprintf(text, sizeof text,
+           "%lu %s nearer to the eye than %.3g and %s cut there; --near takes a "
+           "smaller distance",
+           cut, cut == 1 ? "face comes" : "faces come",
+           ldexp(render->camera.near_d, render->rescaled.exponent),
+           cut == 1 ? "is" : "are");
   o->warning(o->user, "", 0, text);
 }
 
@@ -388,6 +405,7 @@ static recto_status run(struct render *render, recto_error *error) {
     report_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
     report_seconds(render->report, "render_wall_s", clock_wall() - wall);
     warn_of_empty_page(render);
+    warn_of_near_plane(render);
     report_sheet(render->report, render);
     report_drawing(render->report, render->drawing);
     report_plotting(render->report, render->drawing, render->options);

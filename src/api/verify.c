@@ -154,7 +154,7 @@ static recto_status judge(const struct verify *verify,
                           struct judge_verdict *verdict, recto_error *error) {
   const recto_options *o = verify->options;
   struct judge_camera camera = asked_camera(asked, verify->camera, o);
-  struct judge_options options = asked_options(verify->camera, o);
+  struct judge_options options = asked_options(asked, verify->camera, o);
   camera.depth_step = 1 / verify->sheet->z_scale;
   options.samples = (size_t)o->verify;
   options.reach_mm += ink_drift_mm(o);

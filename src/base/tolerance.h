@@ -60,21 +60,36 @@
 #define TOLERANCE_FAR_EYE 0x1p27
 
 /* Nearest that a perspective view comes to the eye where no near distance is
- * given and the scene is not safely in front of it.
- * Unit        share of the scene's diagonal
- * Derivation  depths on the page go as 1 / d in 40 bits: at this share of it
- *             the far end of the scene is still resolved to 1e-8 of its size.
+ * given and something is drawn still nearer.
+ * Unit        share of the distance from the eye to its target
+ * Derivation  depths on the page go as 1 / d in 40 bits, so with a near plane
+ *             at n a grid unit of depth at distance d is d^2 / (2^40 n) long:
+ *             2^-26 of d at the target, and a thousandth of d sixty thousand
+ *             times as far away.
  * Users       view/camera.c
- * Ten times   the near plane cuts more of a room's wall seen from within. */
-#define TOLERANCE_NEAR_SHARE 1e-4
+ * Ten times   the near plane cuts more of a wall that the eye touches; depths
+ *             beyond it are ten times finer. */
+#define TOLERANCE_NEAR_SHARE 0x1p-14
 
-/* Contact, where the user does not say.
- * Unit        share of the scene's diagonal
- * Derivation  single precision and six digits round a point by 1e-7 of its
- *             size; sums of a few of those stay below.
- * Users       view/camera.c
- * Ten times   things hover visibly before they hide one another. */
-#define TOLERANCE_CONTACT_SHARE 1e-6
+/* How much of what two roundings may do, to a plane and to a point that touches
+ * it, is taken to be contact.
+ * Unit        1
+ * Derivation  all of it; a little less, so that level faces which are meant to
+ *             lie one unit of the last place apart do.
+ * Users       view/coordinate_error.c, judge/contact.c
+ * Ten times   walls as thick as ten units of the last place are seen
+ *             through. */
+#define TOLERANCE_ROUNDING_SHARE (63 / 64.0)
+
+/* Contact on the page's grid, where the user gives no length.
+ * Unit        page grid units (2^-20 mm), and units of depth
+ * Derivation  one explains what rounding to the grid does to a point over a
+ *             triangle; beyond the triangle, where the corners of another one
+ *             are asked about, it grows with the distance over the
+ *             triangle's width.
+ * Users       visibility/hide.c, visibility/stance.c
+ * Ten times   faces 0.15 um apart on paper count as touching. */
+#define TOLERANCE_CONTACT_GRID_UNITS 16
 
 /* Extents of the drawing and of its depth below this are rounding noise: a
  * wire seen end-on, a plate seen square-on.
@@ -87,7 +102,8 @@
 
 /* A face is counted as warped where a corner is off its plane by more.
  * Unit        share of the face's own extent
- * Derivation  as TOLERANCE_CONTACT_SHARE: rounding of the input.
+ * Derivation  single precision and six digits round a point by 1e-7 of its
+ *             size; sums of a few of those stay below.
  * Users       view/triangulate.c (for a count alone: nothing is decided)
  * Ten times   fewer faces are counted as warped. */
 #define TOLERANCE_WARP_SHARE 1e-6

@@ -335,7 +335,7 @@ bool judge_edges_init(struct judge_edges *edges, const struct scene *scene,
               list_sides(scene, &sides) &&
               pair_sides(&finder, &sides, &single) &&
               pair_singles(&finder, &single) && add_wires(&finder) &&
-              judge_edges_pierced(edges, all, camera, options->contact);
+              judge_edges_pierced(edges, all, camera, options->hair_mm);
   ARRAY_FREE(&sides.side);
   ARRAY_FREE(&single.side);
   mem_free(finder.facing);

@@ -42,7 +42,7 @@ USE_RESULT bool judge_edges_add(struct judge_edges *edges,
 USE_RESULT bool judge_edges_pierced(struct judge_edges *edges,
                                     const struct judge_triangles *all,
                                     const struct judge_camera *camera,
-                                    double contact);
+                                    double hair_mm);
 
 /* ---- Projection (camera.c) ----------------------------------------------- */
 

@@ -35,24 +35,11 @@ struct judge_spot judge_spot_of_image(const struct judge_edge *edge, double t) {
 /* ---- Margins ---------------------------------------------------------------
  */
 
-double judge_rounding_at(const struct judge_gazer *gazer,
+double judge_rounding_at(const struct judge_camera *camera, double hair_mm,
                          struct judge_spot at) {
-  const struct judge_camera *camera = gazer->camera;
   double depth = judge_depth(camera, at);
-  double hair =
-      spot_length(spot_sub(judge_shift(camera, at, gazer->hair_mm, 0), at));
+  double hair = spot_length(spot_sub(judge_shift(camera, at, hair_mm, 0), at));
   return hair + camera->depth_step * depth * depth;
-}
-
-/* Planes nearer than half the contact block nothing, beyond one and a half
- * times they do; rounding is added, though no plane beyond contact is passed
- * over: without contact the page's grid decides, and that is not asked here.
- * blur  what may be the matter with a spot that should lie on the plane */
-static struct judge_margin margin_at(const struct judge_gazer *gazer,
-                                     double rounding, double blur) {
-  return (struct judge_margin){
-      fmin(0.5 * gazer->contact + blur, gazer->contact),
-      1.5 * gazer->contact + 4 * rounding};
 }
 
 static void find_ends(const struct judge_gazer *gazer,
@@ -65,11 +52,12 @@ static void find_ends(const struct judge_gazer *gazer,
     end[k].is_cut = seen && t[k] != k;
     if (end[k].is_cut)
       end[k].cut = judge_spot_of_image(edge, t[k]);
-    double rounding = judge_rounding_at(gazer, end[k].spot);
+    double rounding =
+        judge_rounding_at(gazer->camera, gazer->hair_mm, end[k].spot);
     end[k].near = 4 * rounding;
-    end[k].margin = margin_at(gazer, rounding, 2 * rounding);
-    rounding = judge_rounding_at(gazer, end[k].cut);
-    end[k].cut_margin = margin_at(gazer, rounding, 2 * rounding);
+    end[k].margin = (struct judge_margin){rounding, 2 * rounding};
+    rounding = judge_rounding_at(gazer->camera, gazer->hair_mm, end[k].cut);
+    end[k].cut_margin = (struct judge_margin){rounding, 2 * rounding};
   }
 }
 
@@ -81,16 +69,14 @@ static enum judge_sight look(const struct judge_gazer *gazer,
                              struct judge_spot from, bool aside,
                              uint32_t *blocker) {
   const struct judge_camera *camera = gazer->camera;
-  double rounding = judge_rounding_at(gazer, from);
+  double rounding = judge_rounding_at(camera, gazer->hair_mm, from);
   double blur =
       aside ? 2 * rounding : gazer->all->size * TOLERANCE_EXTENT_SHARE;
   double near = judge_near(camera);
   struct judge_gaze gaze = {.camera = camera,
                             .from = from,
-                            .margin = margin_at(gazer, rounding, blur),
-                            .blur = blur,
+                            .margin = {rounding, blur},
                             .own = {edge->source.face[0], edge->source.face[1]},
-                            .own_touch = 0.5 * gazer->contact + blur,
                             .end = {end[0], end[1]}};
   if (camera->perspective) {
     gaze.towards = spot_sub(camera->eye, from);

@@ -8,12 +8,13 @@
 struct judge_gazer {
   const struct judge_triangles *all;
   const struct judge_camera *camera;
-  double contact, hair_mm; /* as in judge_options */
+  double hair_mm; /* as in judge_options */
 };
 
 /* What the hair by which rays are moved aside, and the rounding of depths, are
  * at a spot, in scene units. */
-double judge_rounding_at(const struct judge_gazer *gazer, struct judge_spot at);
+double judge_rounding_at(const struct judge_camera *camera, double hair_mm,
+                         struct judge_spot at);
 
 /* Cuts a segment to the page, from *t0 to *t1 of its way; false where nothing
  * is left. */

@@ -6,6 +6,7 @@
 #include "base/tolerance.h"
 #include "judge/edges.h"
 #include "judge/gaze.h"
+#include "judge/contact.h"
 #include "judge/grid.h"
 
 struct court {
@@ -162,7 +163,8 @@ static enum judge_sight explain(const struct court *court,
       name_edge(witness, edge, judge_spot_of_image(edge, t), blocker);
     }
   }
-  bool may_pierce = court->options.contact < court->grid;
+  bool may_pierce = court->options.contact >= 0 &&
+                    court->options.contact < court->grid;
   return best == JUDGE_BLOCKED && !witness->on_edge && may_pierce ? JUDGE_UNSURE
                                                                   : best;
 }
@@ -342,7 +344,8 @@ static double grid_of(const struct court *court) {
     struct judge_spot at = {(corner & 1 ? box->high : box->low)[0],
                             (corner & 2 ? box->high : box->low)[1],
                             (corner & 4 ? box->high : box->low)[2]};
-    most = fmax(most, judge_rounding_at(&court->gazer, at));
+    most = fmax(most, judge_rounding_at(court->camera, court->gazer.hair_mm,
+                                        at));
   }
   return most;
 }
@@ -355,15 +358,12 @@ static bool open_court(struct court *court, const struct scene *scene) {
   double cell = fmax(width, height) / cells;
   if (!judge_triangles_init(&court->all, scene, court->options.contact))
     return false;
-  if (court->options.contact < 0)
-    court->options.contact = TOLERANCE_CONTACT_SHARE * court->all.size;
-  court->gazer = (struct judge_gazer){
-      &court->all, camera, court->options.contact, court->options.hair_mm};
+  judge_contact_set(&court->all, &court->options);
+  court->gazer =
+      (struct judge_gazer){&court->all, camera, court->options.hair_mm};
   court->grid = grid_of(court);
-  /* Faces that pierce each other less deeply than that may not on the grid. */
-  struct judge_options how = court->options;
-  how.contact = fmax(how.contact, court->grid);
-  return judge_edges_init(&court->edges, scene, &court->all, camera, &how) &&
+  return judge_edges_init(&court->edges, scene, &court->all, camera,
+                          &court->options) &&
          collect_images(court) && collect_ink(court) &&
          judge_grid_init(&court->by_image, court->image,
                          (uint32_t)court->edges.edge.count, width, height, cell,

@@ -10,16 +10,17 @@
  *                asked for?
  *
  * A point P of an edge is hidden where a ray from P to the eye meets a face
- * whose plane lies more than `contact` in front of P; or where an end of the
+ * whose plane lies more than contact in front of P; or where an end of the
  * edge is a corner of that face, in front of where it leaves the face or ends:
- * it is hidden from its start or not at all.  Doubles cannot decide cases on the border, so there
- * are three answers: clear, blocked, unsure.
+ * it is hidden from its start or not at all.  Doubles cannot decide cases on
+ * the border, so there are three answers: clear, blocked, unsure.
  * Rays start from P itself and from a hair (judge_options.hair_mm) to the left
  * and right of the edge on the page.  A point counts as false ink only if all
  * three are blocked, as missing only if all three are clear. */
 #ifndef JUDGE_JUDGE_H
 #define JUDGE_JUDGE_H
 
+#include "scene/precision.h"
 #include "scene/scene.h"
 #include "judge/triangles.h"
 
@@ -95,7 +96,10 @@ struct judge_options {
                         own rounding and a little */
   double hair_mm;    /* see above: well above the page grid */
   double contact;    /* scene units, as the drawing was made with; negative:
-                        a millionth of the scene's diagonal */
+                        what rounding of the coordinates explains of a face */
+  struct precision unstated; /* of points whose precision nobody stated */
+  struct judge_spot origin;  /* what was subtracted from all points, so that
+                                their precision is known */
   double crease_deg;
   unsigned edges; /* classes asked for, a mask of recto_edge_class */
 };

@@ -2,12 +2,13 @@
 #include <string.h>
 
 #include "judge/edges.h"
+#include "judge/gaze.h"
 
 struct piercer {
   struct judge_edges *edges;
   const struct judge_triangles *all;
   const struct judge_camera *camera;
-  double contact;
+  double hair_mm;
   uint32_t current; /* the triangle whose neighbours are looked up */
 };
 
@@ -142,11 +143,14 @@ static bool add_common(struct piercer *piercer, const struct cut *s,
                               *two = &piercer->all->triangle.item[other];
   put_on_corner(one, two, &a, &b);
   const struct judge_camera *camera = piercer->camera;
-  /* Sure where all four reaches are well beyond what counts as contact, on the
-   * page, and there is one way to cut both faces. */
-  bool sure = one->cut == JUDGE_PLANAR && two->cut == JUDGE_PLANAR &&
-              reach_beyond(camera, one, two) > 10 * piercer->contact &&
-              reach_beyond(camera, two, one) > 10 * piercer->contact;
+  /* Sure where all four reaches are well beyond what counts as contact, or as
+   * rounding, on the page, and there is one way to cut both faces. */
+  double rounding = fmax(judge_rounding_at(camera, piercer->hair_mm, a),
+                         judge_rounding_at(camera, piercer->hair_mm, b));
+  bool sure =
+      one->cut == JUDGE_PLANAR && two->cut == JUDGE_PLANAR &&
+      reach_beyond(camera, one, two) > 10 * fmax(two->contact, rounding) &&
+      reach_beyond(camera, two, one) > 10 * fmax(one->contact, rounding);
   const struct judge_source source = {{SCENE_NONE, SCENE_NONE},
                                       {one->face, two->face},
                                       sure ? RECTO_EDGE_INTERSECTION : 0,
@@ -174,8 +178,8 @@ static bool pierce(void *user, uint32_t other) {
 
 bool judge_edges_pierced(struct judge_edges *edges,
                          const struct judge_triangles *all,
-                         const struct judge_camera *camera, double contact) {
-  struct piercer piercer = {edges, all, camera, contact, 0};
+                         const struct judge_camera *camera, double hair_mm) {
+  struct piercer piercer = {edges, all, camera, hair_mm, 0};
   for (uint32_t i = 0; i < all->triangle.count; i++) {
     const struct judge_triangle *triangle = &all->triangle.item[i];
     struct judge_box box = judge_triangle_box(triangle);

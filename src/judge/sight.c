@@ -66,11 +66,17 @@ static double distance(const struct judge_triangle *t, struct judge_spot from) {
   return fabs(spot_dot(t->normal, spot_sub(t->p[0], from)));
 }
 
-static enum judge_sight weigh_distance(double away,
+/* Planes nearer than half the contact block nothing, beyond one and a half
+ * times they do; rounding is added, though no plane beyond contact is passed
+ * over: without contact the page's grid decides, and that is not asked here. */
+static enum judge_sight weigh_distance(const struct judge_triangle *t,
+                                       struct judge_spot from,
                                        const struct judge_margin *margin) {
-  return away <= margin->touch    ? JUDGE_CLEAR
-         : away <= margin->beyond ? JUDGE_UNSURE
-                                  : JUDGE_BLOCKED;
+  double away = distance(t, from);
+  if (away <= fmin(0.5 * t->contact + margin->blur, t->contact))
+    return JUDGE_CLEAR;
+  return away <= 1.5 * t->contact + 4 * margin->rounding ? JUDGE_UNSURE
+                                                         : JUDGE_BLOCKED;
 }
 
 /* How sure it is that a spot is a corner of a triangle. */
@@ -151,11 +157,10 @@ static enum judge_sight weigh_exit(const struct judge_gaze *gaze,
                                    const struct judge_triangle *t,
                                    struct judge_spot corner,
                                    const struct judge_end *end) {
-  enum judge_sight sight = weigh_distance(
-      distance(t, leave(gaze, t, corner, end->spot)), &end->margin);
-  return sight ==
-                 weigh_distance(distance(t, leave(gaze, t, corner, end->cut)),
-                                &end->cut_margin)
+  enum judge_sight sight =
+      weigh_distance(t, leave(gaze, t, corner, end->spot), &end->margin);
+  return sight == weigh_distance(t, leave(gaze, t, corner, end->cut),
+                                 &end->cut_margin)
              ? sight
              : JUDGE_UNSURE;
 }
@@ -164,8 +169,7 @@ static enum judge_sight weigh_exit(const struct judge_gaze *gaze,
 static enum judge_sight weigh_plane(const struct judge_triangles *all,
                                     const struct judge_gaze *gaze,
                                     const struct judge_triangle *t) {
-  enum judge_sight here =
-      weigh_distance(distance(t, gaze->from), &gaze->margin);
+  enum judge_sight here = weigh_distance(t, gaze->from, &gaze->margin);
   enum judge_sight there[2];
   enum shared shared[2];
   for (int k = 0; k < 2; k++) {
@@ -187,7 +191,7 @@ static enum judge_sight weigh_plane(const struct judge_triangles *all,
 static bool is_own(const struct judge_gaze *gaze,
                    const struct judge_triangle *t) {
   return (t->face == gaze->own[0] || t->face == gaze->own[1]) &&
-         distance(t, gaze->from) <= gaze->own_touch;
+         distance(t, gaze->from) <= 0.5 * t->contact + gaze->margin.blur;
 }
 
 static enum judge_sight look_at(const struct judge_triangles *all,
@@ -198,7 +202,7 @@ static enum judge_sight look_at(const struct judge_triangles *all,
   enum judge_sight sight = weigh_plane(all, gaze, t);
   if (sight == JUDGE_CLEAR)
     return sight;
-  if (distance(t, gaze->from) <= gaze->blur)
+  if (distance(t, gaze->from) <= gaze->margin.blur)
     return JUDGE_UNSURE;
   return ray_meets_plane(gaze, t) ? sight : JUDGE_CLEAR;
 }

@@ -13,10 +13,11 @@
 
 enum judge_sight { JUDGE_CLEAR, JUDGE_UNSURE, JUDGE_BLOCKED };
 
-/* How far a plane is from a spot, in scene units. */
+/* What may be the matter with how far a plane is from a spot, scene units. */
 struct judge_margin {
-  double touch;  /* up to this it blocks nothing */
-  double beyond; /* farther than this it does */
+  double rounding; /* of the spot, on the page and in depth */
+  double blur;     /* where the spot should lie on the plane: planes this near
+                      may be on either side of it */
 };
 
 /* An end of an edge. */
@@ -33,9 +34,7 @@ struct judge_gaze {
   struct judge_spot from, towards;
   double reach; /* seen is from + t towards, 0 < t < reach */
   struct judge_margin margin;
-  double blur; /* planes this near to `from` may be on either side of it */
-  uint32_t own[2]; /* faces of the edge, and up to where they hide nothing */
-  double own_touch;
+  uint32_t own[2]; /* faces of the edge */
   struct judge_end end[2];
 };
 

@@ -167,7 +167,8 @@ bool judge_is_warped(const struct scene *scene, uint32_t face, double contact) {
     off = fmax(off, fabs(spot_dot(normal, away)));
     extent = fmax(extent, spot_length(away));
   }
-  return off > fmax(contact / 4, extent * TOLERANCE_EXTENT_SHARE);
+  double flat = contact < 0 ? extent * TOLERANCE_WARP_SHARE : contact / 4;
+  return off > fmax(flat, extent * TOLERANCE_EXTENT_SHARE);
 }
 
 /* Cuts one face in a way; `ears` is kept from face to face. */
@@ -199,8 +200,10 @@ static bool add_face(struct judge_triangles *all, const struct scene *scene,
 
 static double measure(const struct scene *scene) {
   struct judge_box box = empty_box();
-  for (size_t i = 0; i < scene->point.count; i++)
-    grow_box(&box, judge_spot_at(scene, (uint32_t)i));
+  for (size_t c = 0; c < scene->corner.count; c++)
+    grow_box(&box, judge_spot_at(scene, scene->corner.item[c]));
+  for (size_t c = 0; c < scene->wire_corner.count; c++)
+    grow_box(&box, judge_spot_at(scene, scene->wire_corner.item[c]));
   return spot_length(judge_spot_of(box.high[0] - box.low[0],
                                    box.high[1] - box.low[1],
                                    box.high[2] - box.low[2]));
@@ -213,8 +216,6 @@ bool judge_triangles_init(struct judge_triangles *all,
   memset(all, 0, sizeof *all);
   all->scene = scene;
   all->size = measure(scene);
-  if (contact < 0)
-    contact = TOLERANCE_CONTACT_SHARE * all->size;
   for (uint32_t i = 0; good && i < scene_face_count(scene); i++)
     good = add_face(all, scene, i, contact, &ears);
   judge_ears_fini(&ears);

@@ -56,6 +56,8 @@ struct judge_triangle {
   struct judge_spot normal; /* unit; 0 where the triangle has no area */
   uint32_t point[3];        /* scene points */
   uint32_t face;            /* scene face */
+  double contact;           /* what touches it may be so far off its plane,
+                               scene units: contact.h */
   enum judge_cut cut;
 };
 

@@ -68,6 +68,28 @@ recto_status scene_leave_precision(struct scene *scene, size_t first,
   return add_range(scene, range, error);
 }
 
+static bool holds_single(double x) { return (double)(float)x == x; }
+
+struct precision scene_unstated_precision(const struct scene *scene, int bits) {
+  bool singles = true;
+  size_t ranges = scene->precision.count;
+  if (bits > 0)
+    return precision_of_bits(bits);
+  for (size_t i = 0; i <= ranges; i++) {
+    const struct precision_range *range = scene->precision.item;
+    size_t first = i == 0 ? 0 : range[i - 1].first_point;
+    size_t past = i < ranges ? range[i].first_point : scene->point.count;
+    if (i > 0 && range[i - 1].stated)
+      continue;
+    for (size_t p = first; p < past && singles; p++) {
+      const struct scene_point *point = &scene->point.item[p];
+      singles = holds_single(point->x) && holds_single(point->y) &&
+                holds_single(point->z);
+    }
+  }
+  return precision_of_bits(singles ? FLT_MANT_DIG : DBL_MANT_DIG);
+}
+
 struct precision scene_point_precision(const struct scene *scene,
                                        uint32_t point,
                                        struct precision unstated) {

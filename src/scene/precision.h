@@ -54,6 +54,12 @@ USE_RESULT recto_status scene_state_precision(struct scene *scene, size_t first,
 USE_RESULT recto_status scene_leave_precision(struct scene *scene, size_t first,
                                               recto_error *error);
 
+/* The precision of the points of which nobody stated it: that of `bits`, or for
+ * 0 what the points themselves tell: where all their coordinates are numbers of
+ * single precision they were rounded to it; others are of double precision,
+ * which counts as exact. */
+struct precision scene_unstated_precision(const struct scene *scene, int bits);
+
 /* The precision of one point.
  * unstated  of points that were added without a word about it */
 struct precision scene_point_precision(const struct scene *scene,

@@ -19,6 +19,7 @@
 
 #include "base/tolerance.h"
 #include "scene/angle.h"
+#include "view/coordinate_error.h"
 #include "view/extent.h"
 #include "view/frame.h"
 #include "view/project.h"
@@ -119,7 +120,15 @@ static recto_status measure_scene(struct aim *aim) {
     aim->centre[k] = low[k] / 2 + high[k] / 2;
     extent[k] = high[k] - low[k];
   }
-  aim->camera->size = vector_length(extent);
+  struct camera *camera = aim->camera;
+  const recto_options *o = aim->options;
+  camera->size = vector_length(extent);
+  camera->unstated = scene_unstated_precision(aim->scene, o->coordinate_bits);
+  camera->contact = o->contact;
+  camera->contact_most =
+      o->contact >= 0 ? o->contact
+                      : coordinate_error_most(aim->scene, camera->unstated,
+                                              low, high);
   return RECTO_OK;
 }
 
@@ -247,7 +256,7 @@ static void measure_depth(struct aim *aim) {
 
 /* The near plane where the user does not say. */
 static double choose_near(const struct aim *aim) {
-  double least = aim->camera->size * TOLERANCE_NEAR_SHARE;
+  double least = view_of(aim, aim->target).d * TOLERANCE_NEAR_SHARE;
   if (!aim->camera->perspective || (aim->d_low >= least && aim->d_low > 0))
     return aim->d_low;
   return least;
@@ -266,6 +275,7 @@ static recto_status set_reach(struct aim *aim) {
   const recto_options *o = aim->options;
   struct camera *camera = aim->camera;
   measure_depth(aim);
+  camera->near_chosen = !(o->near_distance > 0) && !o->has_section;
   camera->near_d = o->near_distance > 0
                        ? depth_of_eye(aim, false) + o->near_distance
                        : choose_near(aim);
@@ -323,6 +333,7 @@ static void set_scale(struct aim *aim) {
   struct camera *camera = aim->camera;
   if (o->fit == RECTO_FIT_PAGE) {
     fit_page(aim);
+    camera->all_on_page = aim->d_low >= camera->near_d;
     return;
   }
   if (o->fit == RECTO_FIT_SCALE) {
@@ -364,8 +375,6 @@ static recto_status aim_and_fit(struct aim *aim) {
   camera->perspective = o->fov_deg > 0;
   camera->page_mm[0] = o->page_width_mm;
   camera->page_mm[1] = o->page_height_mm;
-  camera->contact =
-      o->contact >= 0 ? o->contact : camera->size * TOLERANCE_CONTACT_SHARE;
   memcpy(aim->target, o->has_target ? o->target : aim->centre,
          sizeof aim->target);
   status = set_axes(aim);

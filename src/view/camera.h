@@ -2,6 +2,7 @@
 #ifndef VIEW_CAMERA_H
 #define VIEW_CAMERA_H
 
+#include "scene/precision.h"
 #include "scene/scene.h"
 
 /* View coordinates: x right, y up, the viewer looks along -z; the depth of a
@@ -16,10 +17,16 @@ struct camera {
   double middle_mm[2]; /* where the view axis meets the page */
   double near_d;       /* nothing with d < near_d is drawn; > 0 in
                           perspective */
-  double d_min, d_max; /* depth range of what is drawn, near_d <= d_min */
+  double d_min, d_max; /* depth range of the scene, near_d <= d_min; in a sheet
+                          of what is on its page */
   double page_mm[2];   /* width, height */
   double size;         /* diagonal of the scene's bounding box */
-  double contact;      /* scene units */
+  double contact;      /* scene units; negative: what rounding explains of
+                          each face (coordinate_error.h) */
+  double contact_most; /* no face's contact tolerance exceeds it */
+  struct precision unstated; /* of points whose precision nobody stated */
+  bool near_chosen; /* nobody gave near_d: it is as near as depths allow */
+  bool all_on_page; /* nothing drawn leaves the page or the depth range */
 };
 
 /* Aims the camera at the scene as the options ask (view, fit, near, section).

@@ -1,6 +1,8 @@
 /* layout.h - what the phases of laying out a sheet share.
  *
  * Phases, in this order
+ *   range      the depths of what is on the paper, which the sheet's depths are
+ *              spread over.
  *   points     every used scene point on the paper becomes a sheet point.
  *   triangles  faces are triangulated, clipped, turned counter-clockwise; their
  *              sides name topology edges, and each edge learns on which of its
@@ -92,6 +94,11 @@ USE_RESULT recto_status layout_points(struct layout *layout);
 USE_RESULT recto_status layout_triangles(struct layout *layout);
 USE_RESULT recto_status layout_edges(struct layout *layout);
 USE_RESULT recto_status layout_wires(struct layout *layout);
+
+/* Narrows the camera's depths to what is on the paper; a part of layout_points.
+ * used  one a point */
+USE_RESULT recto_status layout_range(struct layout *layout,
+                                     const uint8_t *used);
 
 /* Adds the sheet point of a point that clipping made. */
 USE_RESULT recto_status layout_new_point(struct layout *layout,

@@ -55,7 +55,12 @@ recto_status layout_points(struct layout *layout) {
   else if (!ARRAY_RESERVE(&layout->sheet->point, count))
     status = error_memory(layout->error);
   else
+    status = layout_range(layout, used);
+  if (status == RECTO_OK) {
+    layout->sheet->z_scale = layout->projection.z_scale;
+    layout->sheet->units_per_view = layout->projection.units;
     place_points(layout, used);
+  }
 end:
   mem_free(used);
   return status;

@@ -5,6 +5,7 @@
  */
 #include <math.h>
 
+#include "view/coordinate_error.h"
 #include "view/layout_facet.h"
 
 static inline void set_side(const struct layout *layout,
@@ -98,11 +99,14 @@ static recto_status cut_polygon_face(struct layout *layout, uint32_t face,
 
 /* How far contact moves a point that is at this depth on the page, and the
  * grid's rounding with it. */
-static double contact_units(const struct sheet *sheet, int64_t z) {
+static double contact_units(const struct sheet *sheet, uint32_t face,
+                            int64_t z) {
   const struct camera *camera = &sheet->camera;
   double nearness =
       camera->perspective ? (double)z / sheet->z_scale + 1 / camera->d_max : 1;
-  return camera->contact * sheet->units_per_view * nearness + 1;
+  return coordinate_error_contact(sheet, face) * sheet->units_per_view *
+             nearness +
+         1;
 }
 
 static const struct geom_point *corner_point(const struct layout *layout,
@@ -128,8 +132,8 @@ static uint32_t farthest_corner(const struct layout *layout, uint32_t start,
 
 /* Is the face seen edge-on, but for what contact allows?  All of its corners
  * are about as near to the line through two that lie far apart. */
-static bool is_edge_on(const struct layout *layout, uint32_t start,
-                       uint32_t count) {
+static bool is_edge_on(const struct layout *layout, uint32_t face,
+                       uint32_t start, uint32_t count) {
   uint32_t from = farthest_corner(layout, start, count, start);
   const struct geom_point
       *a = corner_point(layout, from),
@@ -138,7 +142,7 @@ static bool is_edge_on(const struct layout *layout, uint32_t start,
   for (uint32_t c = start; c < start + count; c++) {
     const struct geom_point *p = corner_point(layout, c);
     double off = fabs((double)geom_orient2d(*a, *b, *p));
-    if (off > length * contact_units(layout->sheet, p->z))
+    if (off > length * contact_units(layout->sheet, face, p->z))
       return false;
   }
   return true;
@@ -150,7 +154,7 @@ static bool is_edge_on(const struct layout *layout, uint32_t start,
  * corners rounding moved, no two triangles must part the front from the back,
  * or the outline would run along their diagonal: that face has none at all.
  * Returns false where each has its own. */
-static bool face_sign(const struct layout *layout, size_t first,
+static bool face_sign(const struct layout *layout, uint32_t face, size_t first,
                       uint32_t start, uint32_t count, int *sign) {
   bool plus = false, minus = false;
   for (size_t t = first; t < layout->flags.count; t++) {
@@ -159,7 +163,7 @@ static bool face_sign(const struct layout *layout, size_t first,
     minus = minus || flags == SHEET_FLIPPED;
   }
   *sign = plus - minus;
-  return *sign != 0 || (plus && is_edge_on(layout, start, count));
+  return *sign != 0 || (plus && is_edge_on(layout, face, start, count));
 }
 
 /* Adds a face that is all on the sheet.  Its triangles that the grid, or a
@@ -174,7 +178,7 @@ static recto_status add_whole_face(struct layout *layout, uint32_t face,
     layout_add_facet(layout, &facet);
   }
   int common;
-  bool is_common = face_sign(layout, first, start, count, &common);
+  bool is_common = face_sign(layout, face, first, start, count, &common);
   recto_status status = RECTO_OK;
   for (size_t t = 0; t < triangles; t++) {
     struct layout_facet facet = nth_facet(layout, face, start, count, t);

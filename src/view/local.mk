@@ -3,10 +3,12 @@ librecto_core_la_SOURCES += \
   %D%/blockers.c %D%/blockers.h \
   %D%/camera.c %D%/camera.h \
   %D%/clip.c %D%/clip.h \
+  %D%/coordinate_error.c %D%/coordinate_error.h \
   %D%/extent.c %D%/extent.h \
   %D%/frame.c %D%/frame.h \
   %D%/layout.h \
-  %D%/layout_edges.c %D%/layout_points.c %D%/layout_triangles.c \
+  %D%/layout_edges.c %D%/layout_points.c %D%/layout_range.c \
+  %D%/layout_triangles.c \
   %D%/layout_facet.c %D%/layout_facet.h \
   %D%/project.c %D%/project.h \
   %D%/sheet.c %D%/sheet.h \

@@ -24,6 +24,7 @@ recto_status sheet_init(struct sheet *sheet, const struct scene *scene,
                         recto_error *error) {
   memset(sheet, 0, sizeof *sheet);
   sheet->camera = *camera;
+  sheet->scene = scene;
   sheet->face_group = scene->face_group.item;
   sheet->topology = topology;
   struct layout layout = {
@@ -35,8 +36,6 @@ recto_status sheet_init(struct sheet *sheet, const struct scene *scene,
       .projection = projection_of(camera),
       .error = error,
   };
-  sheet->z_scale = layout.projection.z_scale;
-  sheet->units_per_view = layout.projection.units;
   recto_status status = layout_points(&layout);
   if (status == RECTO_OK)
     status = layout_triangles(&layout);

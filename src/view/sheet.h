@@ -4,8 +4,9 @@
  * the page, x right and y up.  z is an integer that grows towards the viewer:
  *   orthographic  z = z_scale * (d_max - d)
  *   perspective   z = z_scale * (1 / d - 1 / d_max)
- * so planes stay planes.  The scale lets the range from d_min to d_max fill all
- * of z, but for ranges that are no more than rounding noise.  After the sheet
+ * so planes stay planes.  The scale lets the range from d_min to d_max, the
+ * depths of what is on the page, fill all of z, but for ranges that are no more
+ * than rounding noise.  After the sheet
  * is built no decision is rounded.
  *
  * Invariants
@@ -69,6 +70,8 @@ struct sheet {
   uint8_t *triangle_flags;    /* one a triangle */
   bool edges_of_faces; /* the triangles were given up: where edges name one
                           they name its scene face */
+  const struct scene *scene;  /* lent, for how precise its coordinates are;
+                                 NULL: exact */
   const uint32_t *face_group; /* the scene's, lent */
   const struct topology *topology; /* the scene's, lent; NULL: unknown */
   /* Mesh edges in topology order, then wires, then intersections once they
@@ -87,6 +90,9 @@ struct sheet {
   /* Faces that reach before the near plane, or beyond the page, wholly or in
    * part; faces that are not planar. */
   uint64_t clipped_near, clipped_page, warped;
+  /* Faces of which a near plane that nobody asked for cuts what could be
+   * seen. */
+  uint64_t cut_near;
 };
 
 /* Projects the scene: classes, clipping to the near plane and the page,

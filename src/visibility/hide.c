@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "base/tolerance.h"
+#include "view/coordinate_error.h"
 #include "visibility/stance.h"
 
 #define FIXED_ONE 65536 /* 2^16: T has 16 bits below the value's unit */
@@ -18,11 +20,32 @@ static int128 round_up(double value) {
 
 static int128 absolute(int128 a) { return a < 0 ? -a : a; }
 
+double hide_grid_units(const struct sheet *sheet) {
+  return sheet->camera.contact < 0 ? TOLERANCE_CONTACT_GRID_UNITS : 1;
+}
+
+/* The contact tolerance times the length L of the plane's normal in the scene,
+ * (s nx, s ny, third) along the camera's axes (see hide.h). */
+static double contact_times_length(const struct sheet *sheet,
+                                   uint32_t triangle, double nx, double ny,
+                                   double third) {
+  const struct camera *camera = &sheet->camera;
+  double x = sheet->units_per_view * nx, y = sheet->units_per_view * ny;
+  double error[3], sum = 0;
+  if (camera->contact >= 0)
+    return sqrt(x * x + y * y + third * third) * camera->contact;
+  coordinate_error_of_face(sheet, sheet->triangle.item[triangle].face, error);
+  for (int k = 0; k < 3; k++)
+    sum += error[k] * fabs(x * camera->right[k] + y * camera->up[k] +
+                           third * camera->back[k]);
+  return sum;
+}
+
 void hider_init(struct hider *hider, const struct sheet *sheet,
                 uint32_t triangle) {
   const uint32_t *p = sheet->triangle.item[triangle].point;
   const struct camera *camera = &sheet->camera;
-  double s = sheet->units_per_view, third, length;
+  double third, length;
   for (int k = 0; k < 3; k++) hider->p[k] = sheet->point.item[p[k]];
   hider->plane = geom_plane_of(hider->p[0], hider->p[1], hider->p[2]);
   hider->nx = (double)hider->plane.nx;
@@ -37,12 +60,11 @@ void hider_init(struct hider *hider, const struct sheet *sheet,
   } else {
     third = sheet->z_scale * hider->nz;
   }
-  length = sqrt(s * hider->nx * (s * hider->nx) +
-                s * hider->ny * (s * hider->ny) + third * third) *
-           camera->contact * FIXED_ONE;
+  length = contact_times_length(sheet, triangle, hider->nx, hider->ny, third) *
+           FIXED_ONE;
   hider->t0 = (absolute(hider->plane.nx) + absolute(hider->plane.ny) +
                hider->plane.nz) *
-              FIXED_ONE;
+              (int128)(hide_grid_units(sheet) * FIXED_ONE);
   hider->t1 = 0;
   if (camera->perspective) {
     hider->t0 += round_up(length / camera->d_max);
@@ -59,10 +81,13 @@ void hider_init(struct hider *hider, const struct sheet *sheet,
   hider->box = page_box_of_triangle(sheet, triangle);
 }
 
-double hide_tolerance_bound(const struct sheet *sheet, struct geom_point a,
-                            double nx, double ny, double nz) {
+double hide_tolerance_bound(const struct sheet *sheet, uint32_t triangle,
+                            struct geom_point a, double nx, double ny,
+                            double nz) {
   const struct camera *camera = &sheet->camera;
   double third = sheet->z_scale * nz, nearest = 1, length;
+  double contact = coordinate_error_contact(
+      sheet, sheet->triangle.item[triangle].face);
   if (camera->perspective) {
     struct sheet_axis axis = sheet_view_axis(sheet);
     third = nz * (sheet->z_scale / camera->d_max) -
@@ -70,15 +95,16 @@ double hide_tolerance_bound(const struct sheet *sheet, struct geom_point a,
     nearest = 1 / camera->d_min;
   }
   length = sheet->units_per_view * (fabs(nx) + fabs(ny)) + fabs(third);
-  return (fabs(nx) + fabs(ny) + fabs(nz) +
-          length * camera->contact * nearest) *
+  return ((fabs(nx) + fabs(ny) + fabs(nz)) * hide_grid_units(sheet) +
+          length * contact * nearest) *
              (1 + 0x1p-20) +
          1;
 }
 
 struct hide_bound hide_tolerance_bound_all(const struct sheet *sheet) {
   const struct camera *camera = &sheet->camera;
-  double level = sheet->z_scale, slope = 0, share = camera->contact;
+  double level = sheet->z_scale, slope = 0, share = camera->contact_most;
+  double grid = hide_grid_units(sheet);
   if (camera->perspective) {
     struct sheet_axis axis = sheet_view_axis(sheet);
     level = sheet->z_scale / camera->d_max + (double)SHEET_Z_MAX;
@@ -86,8 +112,8 @@ struct hide_bound hide_tolerance_bound_all(const struct sheet *sheet) {
     share /= camera->d_min;
   }
   slope += sheet->units_per_view;
-  return (struct hide_bound){(1 + level * share) * (1 + 0x1p-19),
-                             (1 + slope * share) * (1 + 0x1p-19)};
+  return (struct hide_bound){(grid + level * share) * (1 + 0x1p-19),
+                             (grid + slope * share) * (1 + 0x1p-19)};
 }
 
 int128 hider_depth(const struct hider *hider, struct geom_point p) {

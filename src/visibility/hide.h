@@ -7,8 +7,13 @@
  *     where value is that of the triangle's plane (predicate.h).
  *
  * T gathers what rounding can explain and what the user calls contact:
- *   - the grid's: one unit in each of x, y and z, |nx| + |ny| + |nz|;
- *   - the scene's: the plane moved back by `contact` scene units.  In view
+ *   - the grid's: G units in each of x, y and z, G (|nx| + |ny| + |nz|).  One
+ *     unit is what rounding to the grid explains of a point over a triangle;
+ *     where no contact length is given, G is
+ *     TOLERANCE_CONTACT_GRID_UNITS;
+ *   - the scene's: the plane moved back by `contact` scene units, the length
+ *     that was given, or what rounding of the input explains of this plane
+ *     (view/coordinate_error.h).  In view
  *     space that turns N.X + D into N.X + D + contact (N of unit length); the
  *     sheet's value is (N.X + D) / d times a factor L, so T is L contact / d,
  *     which is linear in z because z is in 1 / d.  Orthographic: L contact.
@@ -49,6 +54,9 @@ struct hider {
   int64_t z_max; /* its nearest corner's */
   struct page_box box;
 };
+
+/* How many grid units in x, y and z count as contact: G above. */
+double hide_grid_units(const struct sheet *sheet);
 
 /* Prepares a triangle that is not SHEET_FLAT. */
 void hider_init(struct hider *hider, const struct sheet *sheet,
@@ -107,8 +115,9 @@ bool hide_by_outline(const struct geom_point corner[3], struct geom_point p,
 
 /* An upper bound of T, in units of value, for the plane with this normal
  * (doubles of the integer one) through a point; at any depth of the sheet. */
-double hide_tolerance_bound(const struct sheet *sheet, struct geom_point a,
-                            double nx, double ny, double nz);
+double hide_tolerance_bound(const struct sheet *sheet, uint32_t triangle,
+                            struct geom_point a, double nx, double ny,
+                            double nz);
 
 /* The same for any point of the sheet, coarser: the bound is at most
  * 1 + level * nz + slope * (|nx| + |ny|). */

@@ -13,6 +13,9 @@
 
 #include <math.h>
 
+#include "view/coordinate_error.h"
+#include "visibility/hide.h"
+
 #define SLACK (32 * 0x1p-53)
 
 /* From here on hide.h may cap its numbers. */
@@ -21,6 +24,30 @@
 
 /* T(p) has 16 bits below the value's unit. */
 #define T_UNIT 0x1p-16
+
+/* The contact tolerance times the length of a plane's normal, and the sum of
+ * the magnitudes in it (hide.c).
+ * n, m  the normal along the camera's axes; magnitudes that bound it */
+static double contact_times_length(const struct sheet *sheet,
+                                   uint32_t triangle, const double n[3],
+                                   const double m[3], double *most) {
+  const struct camera *camera = &sheet->camera;
+  double error[3], sum = 0;
+  if (camera->contact >= 0) {
+    *most = camera->contact * (m[0] + m[1] + m[2]);
+    return camera->contact * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  }
+  coordinate_error_of_face(sheet, sheet->triangle.item[triangle].face, error);
+  *most = 0;
+  for (int k = 0; k < 3; k++) {
+    const double axis[3] = {camera->right[k], camera->up[k], camera->back[k]};
+    sum += error[k] *
+           fabs(n[0] * axis[0] + n[1] * axis[1] + n[2] * axis[2]);
+    *most += error[k] * (m[0] * fabs(axis[0]) + m[1] * fabs(axis[1]) +
+                         m[2] * fabs(axis[2]));
+  }
+  return sum;
+}
 
 struct stance_plane stance_plane_of(const struct sheet *sheet,
                                     uint32_t triangle) {
@@ -45,9 +72,10 @@ struct stance_plane stance_plane_of(const struct sheet *sheet,
     by_near = 1 / camera->d_max;
     by_z = 1 / sheet->z_scale;
   }
-  double length = camera->contact * sqrt(s * nx * (s * nx) + s * ny * (s * ny) +
-                                         third * third);
-  double length_most = camera->contact * (s * (mx + my) + third_most);
+  const double n[3] = {s * nx, s * ny, third},
+               m[3] = {s * mx, s * my, third_most};
+  double grid = hide_grid_units(sheet), length_most;
+  double length = contact_times_length(sheet, triangle, n, m, &length_most);
   struct stance_plane plane = {
       .x = a.x,
       .y = a.y,
@@ -58,11 +86,11 @@ struct stance_plane stance_plane_of(const struct sheet *sheet,
       .ex = SLACK * mx,
       .ey = SLACK * my,
       .ez = SLACK * mz,
-      .t0 = fabs(nx) + fabs(ny) + fabs(nz) + length * by_near,
+      .t0 = (fabs(nx) + fabs(ny) + fabs(nz)) * grid + length * by_near,
       .t1 = length * by_z,
       .t0_more = T_UNIT,
       .t1_more = camera->perspective ? T_UNIT : 0,
-      .t_off = SLACK * (mx + my + mz +
+      .t_off = SLACK * ((mx + my + mz) * grid +
                         length_most * (by_near + by_z * (double)SHEET_Z_MAX))};
   if (!(length_most * by_near < T0_LARGE && length_most * by_z < T1_LARGE))
     plane.t_off = INFINITY;

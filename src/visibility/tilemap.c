@@ -88,7 +88,7 @@ static inline bool walk_is_inside(const struct walk *walk) {
  * it is room enough for the roundings.
  * all  what bounds the tolerances of all triangles: asked first */
 static bool is_steep(const struct sheet *sheet, const struct hide_bound *all,
-                     const struct corners *corners) {
+                     uint32_t triangle, const struct corners *corners) {
   const struct geom_point *p = corners->p;
   double ux = (double)p[1].x - p[0].x, uy = (double)p[1].y - p[0].y,
          uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
@@ -97,7 +97,7 @@ static bool is_steep(const struct sheet *sheet, const struct hide_bound *all,
   double room = nz * (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1));
   if (1 + all->level * nz + all->slope * (fabs(nx) + fabs(ny)) < room)
     return false;
-  return !(hide_tolerance_bound(sheet, p[0], nx, ny, nz) < room);
+  return !(hide_tolerance_bound(sheet, triangle, p[0], nx, ny, nz) < room);
 }
 
 /* What is asked for every triangle, held by value: what is written to the
@@ -217,7 +217,7 @@ static void gather(struct tilemap *map, const struct sheet *sheet,
     print[t] = footprint_of(r, low, high);
     add_depths(&g, r, bucket_mask(low, high));
     if (flags[t] & SHEET_FLAT) continue;
-    if (is_steep(sheet, &all, &corners))
+    if (is_steep(sheet, &all, (uint32_t)t, &corners))
       add_bar(&g, r, fragments ? UINT8_MAX : (uint8_t)(low + 1));
     else
       ask_samples(&g, &corners, box, (uint8_t)(low + 1));
@@ -327,7 +327,7 @@ static void drop_horizons(struct tilemap *map, const struct sheet *sheet,
                           const struct hide_bound *all, size_t t) {
   struct corners corners = corners_of(sheet, t);
   struct cell_range r;
-  if (!is_steep(sheet, all, &corners)) return;
+  if (!is_steep(sheet, all, (uint32_t)t, &corners)) return;
   r = footprint_cells(&map->grid, sheet, t, map->print[t]);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/sort.h"
+#include "view/coordinate_error.h"
 #include "visibility/pierce.h"
 #include "visibility/raster.h"
 #include "visibility/strokes.h"
@@ -167,14 +168,14 @@ static double deepest(const struct trace *trace, uint32_t facet, double x,
 
 /* Orthographic z = Z (d_max - d); perspective z = Z (1 / d - 1 / d_max), where
  * dz = Z / d^2. */
-double trace_contact(const struct sheet *sheet, double z) {
+double trace_contact(const struct sheet *sheet, uint32_t face, double z) {
   const struct camera *camera = &sheet->camera;
   double per_unit = sheet->z_scale;
   if (camera->perspective) {
     double inverse = z / sheet->z_scale + 1 / camera->d_max;
     per_unit *= inverse * inverse;
   }
-  return camera->contact * per_unit;
+  return coordinate_error_contact(sheet, face) * per_unit;
 }
 
 /* What a scan sees at the two lines about the cells at hand. */
@@ -194,7 +195,8 @@ static bool lets_be_seen(const struct trace *trace, const struct sight *sight,
   facet = sight->seen(line, x);
   return facet == SHEET_NONE ||
          z >= deepest(trace, facet, x, sight->line + upper) - trace->step -
-                  trace_contact(trace->sheet, z);
+                  trace_contact(trace->sheet,
+                                trace->sheet->triangle.item[facet].face, z);
 }
 
 /* Does the facet that a line sees above or below a place of an edge reach as
@@ -222,7 +224,7 @@ static bool is_covered(const struct trace *trace, const struct trace_edge *edge,
       return false;
   }
   raster_slopes(sheet, &trace->grid, facet, &per_column, &per_line);
-  return z + trace->step + trace_contact(sheet, z) <
+  return z + trace->step + trace_contact(sheet, sheet->triangle.item[facet].face, z) <
          (double)sheet->point.item[sheet->triangle.item[facet].point[0]].z -
              per_column * at[0][0] - per_line * at[0][1];
 }

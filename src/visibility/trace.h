@@ -74,8 +74,8 @@ USE_RESULT recto_status trace_find_intersections(
     struct sheet *sheet, const struct solver_request *request,
     struct report *report, recto_error *error);
 
-/* The depth units that the scene's contact is at depth z. */
-double trace_contact(const struct sheet *sheet, double z);
+/* The depth units that contact with a face of the scene is at depth z. */
+double trace_contact(const struct sheet *sheet, uint32_t face, double z);
 
 /* Takes the edges that are to be drawn and for which `skip` (one a sheet edge;
  * NULL: none) is not set.

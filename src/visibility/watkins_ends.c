@@ -32,7 +32,8 @@ static bool is_before(struct watkins *watkins, uint32_t seen, uint32_t edge) {
   double z = watkins_edge_depth(watkins, edge);
   watkins->counts.comparisons++;
   return watkins_depth(watkins, seen, x) >
-         z + watkins->facet.item[seen].slack + trace_contact(watkins->sheet, z);
+         z + watkins->facet.item[seen].slack +
+             trace_contact(watkins->sheet, watkins->facet.item[seen].face, z);
 }
 
 bool watkins_show_ends(struct watkins *watkins, size_t first, size_t past,

@@ -1,0 +1,55 @@
+/* coordinate_error.c - how far rounding of the input may have moved a face and
+ * what touches it. */
+#include "view/coordinate_error.h"
+
+#include "base/tolerance.h"
+#include "view/vector.h"
+
+/* What a plane and a point that touches it may be apart where both were
+ * rounded. */
+static double apart(struct precision precision, double coordinate) {
+  return 2 * TOLERANCE_ROUNDING_SHARE * precision_error(precision, coordinate);
+}
+
+void coordinate_error_of_face(const struct sheet *sheet, uint32_t face,
+                              double error[3]) {
+  const struct scene *scene = sheet->scene;
+  error[0] = error[1] = error[2] = 0;
+  if (scene == NULL)
+    return;
+  for (uint32_t c = scene->face_start.item[face];
+       c < scene->face_start.item[face + 1]; c++) {
+    uint32_t point = scene->corner.item[c];
+    const struct scene_point *p = &scene->point.item[point];
+    struct precision precision =
+        scene_point_precision(scene, point, sheet->camera.unstated);
+    error[0] = upper_bound(error[0], apart(precision, p->x));
+    error[1] = upper_bound(error[1], apart(precision, p->y));
+    error[2] = upper_bound(error[2], apart(precision, p->z));
+  }
+}
+
+double coordinate_error_contact(const struct sheet *sheet, uint32_t face) {
+  if (sheet->camera.contact >= 0)
+    return sheet->camera.contact;
+  double error[3];
+  coordinate_error_of_face(sheet, face, error);
+  return vector_length(error);
+}
+
+double coordinate_error_most(const struct scene *scene,
+                             struct precision unstated, const double low[3],
+                             const double high[3]) {
+  double most = 0;
+  for (size_t i = 0; i <= scene->precision.count; i++) {
+    struct precision precision =
+        i < scene->precision.count && scene->precision.item[i].stated
+            ? scene->precision.item[i].precision
+            : unstated;
+    double error[3];
+    for (int k = 0; k < 3; k++)
+      error[k] = apart(precision, fmax(fabs(low[k]), fabs(high[k])));
+    most = fmax(most, vector_length(error));
+  }
+  return most;
+}

@@ -1,0 +1,204 @@
+/* layout_range.c - the depths that are drawn.
+ *
+ * The sheet's depths are integers over a range.  What lies off the page, or
+ * before the near plane, takes no part in it: a ground plane that reaches to
+ * the horizon, or a far corner of a face that is cut at the page's border, must
+ * not make the depths of what is drawn coarser.  So faces that leave the page
+ * are clipped twice: here for their depths, in layout_triangles.c for good.
+ *
+ * A face that is seen edge-on hides nothing, so the depths of what is left of
+ * it matter only against those of the others: of a floor in a front view, the
+ * near edge is before all of them and the far edge behind.  Where a side of
+ * such a face, or a polyline, lies wholly beyond the range it is set to the end
+ * of the range (project_point); where it reaches into the range, the range
+ * grows to hold it, so that it stays straight.
+ */
+#include "view/layout.h"
+#include "view/vector.h"
+
+/* Depths before the near plane that was chosen are looked at down to this share
+ * of its distance, to tell whether it cuts anything that could be seen. */
+#define NEARER 0x1p-20
+
+struct range {
+  double low, high;
+};
+
+/* So often the range grows by lines that reach into it, before all of them are
+ * taken in. */
+enum { ROUNDS = 8 };
+
+static void grow(struct range *range, double d) {
+  range->low = lower_bound(range->low, d);
+  range->high = upper_bound(range->high, d);
+}
+
+/* Whether the page's grid leaves an area of a convex polygon. */
+static bool has_area(const struct projection *projection,
+                     const struct clip_polygon *polygon) {
+  struct geom_point first = project_point(projection, polygon->corner[0].at);
+  struct geom_point last = project_point(projection, polygon->corner[1].at);
+  for (int k = 2; k < polygon->count; k++) {
+    struct geom_point next = project_point(projection, polygon->corner[k].at);
+    if (geom_orient2d(first, last, next) != 0)
+      return true;
+    last = next;
+  }
+  return false;
+}
+
+/* Adds the depths of what the page leaves of a triangle, if it has an area
+ * there. */
+static void grow_by_triangle(struct range *range, const struct layout *layout,
+                             const struct projection *projection,
+                             const uint32_t point[3]) {
+  const bool forward[3] = {true, true, true};
+  struct view_point corner[3];
+  struct clip_polygon polygon;
+  for (int k = 0; k < 3; k++)
+    corner[k] = layout_view(layout, layout_weld(layout, point[k]));
+  if (!clip_triangle(projection, corner, forward, &polygon) ||
+      !has_area(projection, &polygon))
+    return;
+  for (int k = 0; k < polygon.count; k++)
+    grow(range, polygon.corner[k].at.d);
+}
+
+/* The same for a face.  Returns false when memory ran out. */
+static bool grow_by_face(struct range *range, struct layout *layout,
+                         const struct projection *projection, uint32_t face) {
+  uint32_t start = layout->scene->face_start.item[face];
+  uint32_t count = layout->scene->face_start.item[face + 1] - start;
+  const uint32_t *corner = layout->scene->corner.item + start;
+  if (count == 3) {
+    grow_by_triangle(range, layout, projection, corner);
+    return true;
+  }
+  if (!triangulate(&layout->triangulation, layout->scene->point.item, corner,
+                   count))
+    return false;
+  for (size_t t = 0; t < layout->triangulation.triangle.count; t++) {
+    const uint32_t *own = layout->triangulation.triangle.item[t].corner;
+    const uint32_t point[3] = {corner[own[0]], corner[own[1]], corner[own[2]]};
+    grow_by_triangle(range, layout, projection, point);
+  }
+  return true;
+}
+
+/* Whether a near plane that nobody asked for cuts what the page would show of a
+ * face. */
+static bool is_cut_near(struct layout *layout, uint32_t face, bool *cut) {
+  struct projection nearer = layout->projection;
+  struct range range = {INFINITY, -INFINITY};
+  nearer.near_d *= NEARER;
+  bool done = grow_by_face(&range, layout, &nearer, face);
+  *cut = range.low < layout->projection.near_d;
+  return done;
+}
+
+static bool grow_by_faces(struct range *range, struct layout *layout) {
+  bool look = layout->projection.perspective && layout->sheet->camera.near_chosen;
+  for (uint32_t face = 0; face < scene_face_count(layout->scene); face++) {
+    unsigned any = 0, all = ~0u;
+    for (uint32_t c = layout->scene->face_start.item[face];
+         c < layout->scene->face_start.item[face + 1]; c++) {
+      uint8_t code =
+          layout->outcode[layout_weld(layout, layout->scene->corner.item[c])];
+      any |= code;
+      all &= code;
+    }
+    bool cut = false;
+    if (look && (any & CLIP_NEAR_BIT) && !is_cut_near(layout, face, &cut))
+      return false;
+    layout->sheet->cut_near += cut;
+    if (any && !all && !grow_by_face(range, layout, &layout->projection, face))
+      return false;
+  }
+  return true;
+}
+
+/* Adds the depths of what the page leaves of a segment, if some but not all of
+ * them are in the range, or whatever they are.  Returns whether it grew. */
+static bool grow_by_segment(struct range *range, const struct layout *layout,
+                            uint32_t from, uint32_t to, bool whatever) {
+  struct view_point end[2] = {layout_view(layout, layout_weld(layout, from)),
+                              layout_view(layout, layout_weld(layout, to))};
+  bool moved[2];
+  if (!clip_segment(&layout->projection, end, moved))
+    return false;
+  double low = fmin(end[0].d, end[1].d), high = fmax(end[0].d, end[1].d);
+  if (!whatever && (high < range->low || low > range->high))
+    return false;
+  bool grows = low < range->low || high > range->high;
+  grow(range, low);
+  grow(range, high);
+  return grows;
+}
+
+/* The same for the segments between consecutive corners.
+ * closed  whether the last corner stands before the first */
+static bool grow_by_lines(struct range *range, const struct layout *layout,
+                          const uint32_t *corner, uint32_t count, bool closed,
+                          bool whatever) {
+  unsigned any = 0;
+  bool grew = false;
+  for (uint32_t c = 0; c < count; c++)
+    any |= layout->outcode[layout_weld(layout, corner[c])];
+  for (uint32_t c = closed ? 0 : 1; any && c < count; c++)
+    grew |= grow_by_segment(range, layout, corner[c == 0 ? count - 1 : c - 1],
+                            corner[c], whatever);
+  return grew;
+}
+
+/* One round over all lines that leave the page; returns whether the range
+ * grew. */
+static bool grow_by_all_lines(struct range *range, const struct layout *layout,
+                              bool whatever) {
+  const struct scene *scene = layout->scene;
+  bool grew = false;
+  for (uint32_t face = 0; face < scene_face_count(scene); face++) {
+    uint32_t start = scene->face_start.item[face];
+    grew |= grow_by_lines(range, layout, scene->corner.item + start,
+                          scene->face_start.item[face + 1] - start, true,
+                          whatever);
+  }
+  for (uint32_t w = 0; w < scene_wire_count(scene); w++) {
+    uint32_t start = scene->wire_start.item[w];
+    grew |= grow_by_lines(range, layout, scene->wire_corner.item + start,
+                          scene->wire_start.item[w + 1] - start, false,
+                          whatever);
+  }
+  return grew;
+}
+
+/* The outcodes of the used points, and the depths of those on the page. */
+static void grow_by_points(struct range *range, struct layout *layout,
+                           const uint8_t *used) {
+  for (size_t p = 0; p < layout->scene->point.count; p++) {
+    if (!used[p])
+      continue;
+    struct view_point at = layout_view(layout, (uint32_t)p);
+    layout->outcode[p] = clip_outcode(&layout->projection, at);
+    if (layout->outcode[p] == 0)
+      grow(range, at.d);
+  }
+}
+
+recto_status layout_range(struct layout *layout, const uint8_t *used) {
+  struct camera *camera = &layout->sheet->camera;
+  struct range range = {INFINITY, -INFINITY};
+  if (camera->all_on_page)
+    return RECTO_OK;
+  grow_by_points(&range, layout, used);
+  if (!grow_by_faces(&range, layout))
+    return error_memory(layout->error);
+  bool none = range.low > range.high, grew = true;
+  for (int round = 1; grew && round <= ROUNDS; round++)
+    grew = grow_by_all_lines(&range, layout, none || round == ROUNDS);
+  if (range.low > range.high)
+    return RECTO_OK;
+  camera->d_min = range.low;
+  camera->d_max = range.high;
+  layout->projection = projection_of(camera);
+  return RECTO_OK;
+}
