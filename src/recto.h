@@ -152,7 +152,8 @@ typedef enum recto_divide {
 #define RECTO_FINEST_MM 0.01
 
 /* Called now and then with the share of the work done, 0 to 1, and the name
- * of the stage; by recto_scene_render and, while it writes, by
+ * of the stage; by recto_scene_render, by recto_scene_read while another
+ * process reads the model for it, and, while it writes, by
  * recto_drawing_write.  Returns false to cancel: the call then ends with
  * RECTO_ERROR_CANCELLED and no output. */
 typedef bool (*recto_progress_fn)(void *user, double share, const char *stage);

@@ -144,10 +144,13 @@ unit_tests += %D%/test_fuzz_readers
 %C%_test_fuzz_readers_SOURCES = %D%/test_fuzz_readers.c \
   %D%/reading.c %D%/reading.h
 if HAVE_ASSIMP
-unit_tests += %D%/test_assimp
+unit_tests += %D%/test_assimp %D%/test_importer
 endif
 %C%_test_assimp_SOURCES = %D%/test_assimp.c %D%/reading.c %D%/reading.h \
   %D%/temporary.c %D%/temporary.h
+
+%C%_test_importer_SOURCES = %D%/test_importer.c \
+  %D%/reading.c %D%/reading.h %D%/temporary.c %D%/temporary.h
 
 include tests/failures.mk
 unit_tests += %D%/test_sheet

@@ -17,7 +17,7 @@ check_includes() {
   (cd "$1" && sources . | xargs grep -n '^ *# *include *"' /dev/null) |
     awk -F: '
       BEGIN {
-        split("base geom scene view visibility ink backends judge api cli",
+        split("base geom scene view visibility ink backends judge api cli import",
               name, " ")
         for (i in name)
           layer[name[i]] = i - 1

@@ -33,6 +33,7 @@ recto_status recto_scene_read(recto_scene *scene, const char *path,
   struct diagnostics diagnostics = {.file = path};
   if (options != NULL) {
     diagnostics.warning = options->warning;
+    diagnostics.progress = options->progress;
     diagnostics.user = options->user;
   }
   scene->scene.wants_colours =

@@ -6,6 +6,7 @@ librecto_core_la_SOURCES += \
   %D%/diagnostics.c \
   %D%/exact.c %D%/exact.h \
   %D%/face.c \
+  %D%/import_form.c %D%/import_form.h \
   %D%/limit.h \
   %D%/mark.h \
   %D%/material.c %D%/material.h \
@@ -20,6 +21,7 @@ librecto_core_la_SOURCES += \
   %D%/positions.c %D%/positions.h \
   %D%/precision.c %D%/precision.h \
   %D%/read.c \
+  %D%/reader_import.c \
   %D%/reader_mtl.c \
   %D%/reader_obj.c \
   %D%/reader_ply.c \
@@ -31,7 +33,3 @@ librecto_core_la_SOURCES += \
   %D%/weld.c %D%/weld.h \
   %D%/welded.c %D%/welded.h \
   %D%/write_obj.c
-
-if HAVE_ASSIMP
-librecto_core_la_SOURCES += %D%/reader_assimp.c
-endif

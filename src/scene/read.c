@@ -17,7 +17,7 @@ static const struct reader *const readers[] = {&reader_obj, &reader_ply,
 enum { READER_COUNT = sizeof readers / sizeof readers[0] };
 
 #ifdef HAVE_ASSIMP
-static const struct reader *const reader_of_the_rest = &reader_assimp;
+static const struct reader *const reader_of_the_rest = &reader_import;
 #else
 static const struct reader *const reader_of_the_rest = NULL;
 #endif

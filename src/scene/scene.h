@@ -91,6 +91,7 @@ enum scene_fault {
 struct diagnostics {
   const char *file;         /* as the user wrote it, "-" for stdin */
   recto_warning_fn warning; /* NULL: silent */
+  recto_progress_fn progress; /* asked while the importer runs; NULL: nobody */
   void *user;
   unsigned long count[SCENE_FAULT_COUNT];
   unsigned long settled[SCENE_FAULT_COUNT]; /* count at the last _finish */
@@ -141,7 +142,7 @@ struct reader {
 extern const struct reader reader_obj;
 extern const struct reader reader_ply;
 extern const struct reader reader_stl;
-extern const struct reader reader_assimp; /* only where built with it */
+extern const struct reader reader_import; /* all other formats */
 
 /* Reads `path` ("-": standard input) and adds it to the scene; the first file
  * of a scene says what up means.

@@ -1,0 +1,253 @@
+/* importer.c - the program that reads a model through Assimp for the library,
+ * under limits of time and memory, so that a broken file ends no one else.
+ *
+ *   recto-import SECONDS MB FORMAT [PATH]
+ *
+ * Without a path it reads standard input.  It writes to descriptor 3 what
+ * scene/import_form.h describes.
+ *
+ * The file is imported as it is, without any of Assimp's own improvements:
+ * polygons stay polygons.  The tree of nodes is walked with a stack of our
+ * own, and each node's meshes are moved to where the node's transformations
+ * put them. */
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* closefrom */
+#endif
+#include <assimp/cimport.h>
+#include <assimp/material.h>
+#include <assimp/scene.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <signal.h>
+#include <sys/prctl.h>
+#endif
+
+#include "base/child.h"
+#include "base/input.h"
+#include "scene/import_form.h"
+
+/* The sanitizers reserve more addresses than any limit allows. */
+#if defined __SANITIZE_ADDRESS__
+#define LIMITS_MEMORY 0
+#elif defined __has_feature
+#if __has_feature(address_sanitizer)
+#define LIMITS_MEMORY 0
+#endif
+#endif
+#ifndef LIMITS_MEMORY
+#define LIMITS_MEMORY 1
+#endif
+
+/* From a node's own coordinates to the scene's: rows of a 3 x 4 matrix. */
+struct placement {
+  double row[3][4];
+};
+
+struct visit {
+  const struct aiNode *node;
+  struct placement parent;
+};
+
+struct import {
+  FILE *to;
+  const struct aiScene *from;
+  ARRAY(struct visit) stack;
+};
+
+/* ---- Writing ------------------------------------------------------------- */
+
+/* Nobody may be left to read: then there is nothing to do. */
+static void put(FILE *to, const void *bytes, size_t count) {
+  if (count > 0 && fwrite(bytes, count, 1, to) != 1)
+    _exit(1);
+}
+
+/* Ends the process, and so frees what Assimp holds. */
+static _Noreturn void finish(FILE *to) {
+  struct import_record record = {.kind = IMPORT_DONE};
+  put(to, &record, sizeof record);
+  _exit(fflush(to) != 0);
+}
+
+static _Noreturn void fail(FILE *to, enum import_why why, const char *text) {
+  struct import_record record = {
+      .kind = IMPORT_FAILED, .why = why, .name_length = strlen(text)};
+  put(to, &record, sizeof record);
+  put(to, text, strlen(text));
+  finish(to);
+}
+
+/* ---- Meshes -------------------------------------------------------------- */
+
+static struct placement place_node(const struct placement *parent,
+                                   const struct aiMatrix4x4 *own) {
+  const double rows[3][4] = {{own->a1, own->a2, own->a3, own->a4},
+                             {own->b1, own->b2, own->b3, own->b4},
+                             {own->c1, own->c2, own->c3, own->c4}};
+  struct placement placed;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 4; j++) {
+      double sum = j == 3 ? parent->row[i][3] : 0;
+      for (int k = 0; k < 3; k++)
+        sum += parent->row[i][k] * rows[k][j];
+      placed.row[i][j] = sum;
+    }
+  return placed;
+}
+
+/* The diffuse colour of the mesh's material, if it has one. */
+static void find_colour(const struct import *import, const struct aiMesh *mesh,
+                        struct import_record *record) {
+  struct aiColor4D colour;
+  if (mesh->mMaterialIndex >= import->from->mNumMaterials ||
+      aiGetMaterialColor(import->from->mMaterials[mesh->mMaterialIndex],
+                         AI_MATKEY_COLOR_DIFFUSE, &colour) != aiReturn_SUCCESS)
+    return;
+  const double part[3] = {colour.r, colour.g, colour.b};
+  record->has_colour = 1;
+  for (int k = 0; k < 3; k++)
+    record->colour =
+        record->colour << 8 | (uint32_t)(fmin(fmax(part[k], 0), 1) * 255 + 0.5);
+}
+
+static void put_points(FILE *to, const struct aiMesh *mesh,
+                       const struct placement *placed) {
+  for (unsigned i = 0; i < mesh->mNumVertices; i++) {
+    const struct aiVector3D *v = &mesh->mVertices[i];
+    double at[3];
+    for (int k = 0; k < 3; k++) {
+      const double *row = placed->row[k];
+      at[k] = row[0] * v->x + row[1] * v->y + row[2] * v->z + row[3];
+    }
+    put(to, at, sizeof at);
+  }
+}
+
+/* The group of a mesh is named by its node, and by the mesh itself where that
+ * has another name. */
+static void put_mesh(struct import *import, const struct aiNode *node,
+                     const struct aiMesh *mesh,
+                     const struct placement *placed) {
+  char name[2 * sizeof node->mName.data + 2];
+  const char *first = node->mName.data, *second = mesh->mName.data;
+  bool both = *first && *second && strcmp(first, second) != 0;
+  int length = snprintf(name, sizeof name, "%s%s%s", *first ? first : second,
+                        both ? "/" : "", both ? second : "");
+  struct import_record record = {.kind = IMPORT_MESH,
+                                 .name_length = length > 0 ? (size_t)length : 0,
+                                 .points = mesh->mNumVertices,
+                                 .elements = mesh->mNumFaces};
+  find_colour(import, mesh, &record);
+  for (unsigned i = 0; i < mesh->mNumFaces; i++)
+    record.corners += mesh->mFaces[i].mNumIndices;
+  put(import->to, &record, sizeof record);
+  put(import->to, name, (size_t)record.name_length);
+  put_points(import->to, mesh, placed);
+  for (unsigned i = 0; i < mesh->mNumFaces; i++) {
+    uint32_t count = mesh->mFaces[i].mNumIndices;
+    put(import->to, &count, sizeof count);
+  }
+  for (unsigned i = 0; i < mesh->mNumFaces; i++)
+    put(import->to, mesh->mFaces[i].mIndices,
+        mesh->mFaces[i].mNumIndices * sizeof *mesh->mFaces[i].mIndices);
+}
+
+/* ---- Nodes --------------------------------------------------------------- */
+
+static void push(struct import *import, struct visit visit) {
+  if (!ARRAY_PUSH(&import->stack, visit))
+    fail(import->to, IMPORT_NO_MEMORY, "");
+}
+
+/* Walks the tree, each node before its children and those in their order. */
+static void put_nodes(struct import *import) {
+  push(import, (struct visit){import->from->mRootNode,
+                              {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}});
+  while (import->stack.count > 0) {
+    struct visit visit = import->stack.item[--import->stack.count];
+    const struct aiNode *node = visit.node;
+    visit.parent = place_node(&visit.parent, &node->mTransformation);
+    for (unsigned i = 0; i < node->mNumMeshes; i++)
+      if (node->mMeshes[i] < import->from->mNumMeshes)
+        put_mesh(import, node, import->from->mMeshes[node->mMeshes[i]],
+                 &visit.parent);
+    for (unsigned i = node->mNumChildren; i > 0; i--) {
+      visit.node = node->mChildren[i - 1];
+      push(import, visit);
+    }
+  }
+}
+
+/* ---- The program --------------------------------------------------------- */
+
+static void set_limit(int which, rlim_t most) {
+  struct rlimit limit;
+  if (getrlimit((__rlimit_resource_t)which, &limit) != 0)
+    return;
+  if (limit.rlim_max == RLIM_INFINITY || most < limit.rlim_max)
+    limit.rlim_max = most;
+  limit.rlim_cur = limit.rlim_max;
+  (void)setrlimit((__rlimit_resource_t)which, &limit);
+}
+
+/* No core, no more time of the processor and no more memory than allowed, and
+ * no longer a life than the host's. */
+static void limit_self(long seconds, long mb) {
+#ifdef __linux__
+  (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+#ifdef HAVE_CLOSEFROM
+  closefrom(CHILD_OUTPUT + 1);
+#endif
+  set_limit(RLIMIT_CORE, 0);
+  set_limit(RLIMIT_CPU, (rlim_t)seconds + 1);
+  if (LIMITS_MEMORY)
+    set_limit(RLIMIT_AS, (rlim_t)mb << 20);
+}
+
+static const struct aiScene *import_file(FILE *to, const char *format,
+                                         const char *path) {
+  struct input input;
+  if (path)
+    return aiImportFile(path, 0);
+  recto_status status = input_load(&input, "-", NULL);
+  if (status == RECTO_ERROR_MEMORY)
+    fail(to, IMPORT_NO_MEMORY, "");
+  if (status != RECTO_OK || input.count > UINT32_MAX)
+    fail(to, IMPORT_BROKEN, "too large");
+  return aiImportFileFromMemory(input.bytes, (unsigned)input.count, 0, format);
+}
+
+static bool is_supported(const char *format) {
+  char extension[32];
+  int length = snprintf(extension, sizeof extension, ".%s", format);
+  return length > 1 && (size_t)length < sizeof extension &&
+         aiIsExtensionSupported(extension);
+}
+
+int main(int argc, char **argv) {
+  if (argc != 4 && argc != 5) {
+    fputs("recto-import: runs for recto alone\n", stderr);
+    return 2;
+  }
+  limit_self(strtol(argv[1], NULL, 10), strtol(argv[2], NULL, 10));
+  struct import import = {.to = fdopen(CHILD_OUTPUT, "wb")};
+  if (!import.to)
+    return 2;
+  put(import.to, IMPORT_MAGIC, sizeof IMPORT_MAGIC - 1);
+  if (!is_supported(argv[3]))
+    fail(import.to, IMPORT_UNKNOWN_FORMAT, "");
+  import.from = import_file(import.to, argv[3], argc == 5 ? argv[4] : NULL);
+  const char *text = import.from ? "nothing in it" : aiGetErrorString();
+  if (strstr(text, "bad_alloc"))
+    fail(import.to, IMPORT_NO_MEMORY, "");
+  if (!import.from || !import.from->mRootNode)
+    fail(import.to, IMPORT_BROKEN, text);
+  put_nodes(&import);
+  finish(import.to);
+}

@@ -1,0 +1,189 @@
+/* reader_import.c - every other format, through Assimp in a process of its own.
+ *
+ * Assimp reads some fifty formats, and broken files make it crash, loop or take
+ * all memory; a library may not end its host.  So a program of ours, the
+ * importer (src/import), reads the file under limits of time and memory and
+ * hands over what import_form.h describes.
+ *
+ * Robustness  A file that keeps its extension is opened by the importer itself,
+ * since formats such as glTF have their data in other files beside it; any
+ * other is handed over as bytes. */
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* secure_getenv */
+#endif
+#include "scene/scene.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/child.h"
+#include "base/input.h"
+#include "scene/import_form.h"
+
+/* Where it is installed; configure's prefix says so. */
+#ifndef RECTO_IMPORT_PATH
+#define RECTO_IMPORT_PATH "/usr/local/libexec/recto/recto-import"
+#endif
+
+enum { PATH_SIZE = 4096, USUAL_SECONDS = 120 };
+
+struct import {
+  char program[PATH_SIZE];
+  long seconds, mb;
+  const char *path, *format;
+  recto_error *error;
+};
+
+/* ---- The importer -------------------------------------------------------- */
+
+/* The name of the importer in the folder of the program that runs; false where
+ * there is none. */
+static bool find_beside(char path[PATH_SIZE]) {
+  static const char name[] = "recto-import";
+  ssize_t length = readlink("/proc/self/exe", path, PATH_SIZE - sizeof name);
+  while (length > 0 && path[length - 1] != '/')
+    length--;
+  if (length <= 0)
+    return false;
+  memcpy(path + length, name, sizeof name);
+  return access(path, X_OK) == 0;
+}
+
+/* RECTO_IMPORT, beside the program as where it was built, or where it is
+ * installed. */
+static void find_importer(char path[PATH_SIZE]) {
+  const char *own = secure_getenv("RECTO_IMPORT");
+  if (own && *own)
+    snprintf(path, PATH_SIZE, "%s", own);
+  else if (!find_beside(path))
+    snprintf(path, PATH_SIZE, "%s", RECTO_IMPORT_PATH);
+}
+
+/* A whole number above 0 from the environment, else the usual one. */
+static long limit_of(const char *name, long usual) {
+  const char *text = secure_getenv(name);
+  long value = text ? strtol(text, NULL, 10) : 0;
+  return value > 0 && value < 1000000000 ? value : usual;
+}
+
+/* ---- What came of it ----------------------------------------------------- */
+
+static recto_status fail_to_start(const struct import *import, int code) {
+  if (code == ENOMEM)
+    return error_memory(import->error);
+  return error_set(import->error, RECTO_ERROR_UNSUPPORTED, import->path, 0,
+                   "no reader for the format '%s': cannot start the importer "
+                   "%s: %s",
+                   import->format, import->program, strerror(code));
+}
+
+/* Tells of an importer that did not come to its end. */
+static recto_status tell_end(const struct import *import,
+                             const struct child_result *result) {
+  recto_error *error = import->error;
+  switch (result->end) {
+  case CHILD_NOT_STARTED:
+    return fail_to_start(import, result->code);
+  case CHILD_NO_MEMORY:
+    return error_memory(error);
+  case CHILD_CANCELLED:
+    return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+  case CHILD_TOO_LONG:
+    return error_set(error, RECTO_ERROR_LIMIT, import->path, 0,
+                     "the importer took longer than %ld s", import->seconds);
+  case CHILD_TOO_MUCH:
+    return error_set(error, RECTO_ERROR_LIMIT, import->path, 0,
+                     "the model takes more than %zu MB", input_most() >> 20);
+  case CHILD_SIGNALLED:
+    if (result->code == SIGXCPU)
+      return error_set(error, RECTO_ERROR_LIMIT, import->path, 0,
+                       "the importer took longer than %ld s", import->seconds);
+    return error_set(error, RECTO_ERROR_FORMAT, import->path, 0,
+                     "the importer crashed (signal %d)", result->code);
+  case CHILD_EXITED:
+    break;
+  }
+  return error_set(error, RECTO_ERROR_FORMAT, import->path, 0,
+                   "the importer failed (status %d)", result->code);
+}
+
+/* ---- Reading ------------------------------------------------------------- */
+
+/* Whether the path still leads to these bytes, under the format's own
+ * extension. */
+static bool is_by_path(const char *path, const char *format, size_t count) {
+  const char *point = strrchr(path, '.');
+  struct stat about;
+  return point && strcasecmp(point + 1, format) == 0 &&
+         stat(path, &about) == 0 && S_ISREG(about.st_mode) &&
+         (uintmax_t)about.st_size == count;
+}
+
+static recto_status run_importer(const struct import *import, const char *bytes,
+                                 size_t count, struct diagnostics *diagnostics,
+                                 struct child_result *result) {
+  char seconds[24], mb[24];
+  bool by_path = is_by_path(import->path, import->format, count);
+  snprintf(seconds, sizeof seconds, "%ld", import->seconds);
+  snprintf(mb, sizeof mb, "%ld", import->mb);
+  const char *argument[] = {import->program,
+                            seconds,
+                            mb,
+                            import->format,
+                            by_path ? import->path : NULL,
+                            NULL};
+  struct child child = {.argument = argument,
+                        .input = -1,
+                        .seconds = (int)import->seconds,
+                        .most = input_most()};
+  if (diagnostics) {
+    child.progress = diagnostics->progress;
+    child.user = diagnostics->user;
+  }
+  if (!by_path && (child.input = child_input_of(bytes, count)) < 0)
+    return error_set(import->error, RECTO_ERROR_IO, import->path, 0,
+                     "cannot hand it to the importer: %s", strerror(errno));
+  child_run(&child, result);
+  if (child.input >= 0)
+    close(child.input);
+  return RECTO_OK;
+}
+
+static recto_status read_import(struct scene *scene, const char *bytes,
+                                size_t count, const char *path,
+                                const char *format,
+                                struct diagnostics *diagnostics,
+                                recto_error *error) {
+  struct import import = {
+      .seconds = limit_of("RECTO_IMPORT_SECONDS", USUAL_SECONDS),
+      .mb = limit_of("RECTO_IMPORT_MB", (long)(input_most() >> 20)),
+      .path = path,
+      .format = format,
+      .error = error};
+  find_importer(import.program);
+  struct child_result result = {.end = CHILD_EXITED};
+  size_t first = scene->point.count;
+  recto_status status =
+      run_importer(&import, bytes, count, diagnostics, &result);
+  if (status == RECTO_OK) {
+    bool ended = result.end == CHILD_EXITED || result.end == CHILD_SIGNALLED;
+    if (ended && import_form_is_whole(result.output.item, result.output.count))
+      status = import_form_read(scene, result.output.item, result.output.count,
+                                path, format, import.mb, diagnostics, error);
+    else
+      status = tell_end(&import, &result);
+  }
+  ARRAY_FREE(&result.output);
+  if (status == RECTO_OK && scene->point.count > first)
+    status = scene_state_precision(
+        scene, first, (struct precision){0, PRECISION_SINGLE}, error);
+  return status;
+}
+
+const struct reader reader_import = {"assimp", "", {0, 1, 0}, read_import};
