@@ -36,3 +36,7 @@ unit_tests += %D%/test_contact
 unit_tests += %D%/test_undecided
 %C%_test_undecided_SOURCES = %D%/test_undecided.c %D%/laid.c %D%/laid.h
 %C%_test_undecided_LDADD = $(failures_libs)
+unit_tests += %D%/test_intersections
+%C%_test_intersections_SOURCES = %D%/test_intersections.c %D%/laid.c \
+  %D%/laid.h
+%C%_test_intersections_LDADD = $(failures_libs)

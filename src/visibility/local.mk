@@ -24,6 +24,7 @@ librecto_core_la_SOURCES += \
   %D%/pieces.c %D%/pieces.h \
   %D%/pierce.c %D%/pierce.h \
   %D%/pierce_pairs.c %D%/pierce_pairs.h \
+  %D%/pierce_segment.c %D%/pierce_segment.h \
   %D%/pixels.c %D%/pixels.h \
   %D%/pulse.c %D%/pulse.h \
   %D%/raster.c %D%/raster.h \

@@ -335,6 +335,35 @@ static bool goes_through(const struct sheet *sheet, const struct rims *rims,
   return behind && before;
 }
 
+/* Do the triangles that end along an edge meet triangle g along it?  Adds the
+ * segments in which they meet it elsewhere.
+ * Returns false when memory ran out. */
+static bool meet_along(const struct sheet *sheet, const struct rims *rims,
+                       struct seam_side edge, uint32_t g,
+                       struct pierce_segments *segments, bool *along) {
+  const struct rim *end, *rim = rims_find(rims, edge, &end);
+  struct geom_point p = sheet->point.item[edge.i],
+                    q = sheet->point.item[edge.j];
+  struct hider hf, hg;
+  hider_init(&hg, sheet, g);
+  *along = false;
+  for (; rim < end; rim++) {
+    struct pierce_segment segment;
+    hider_init(&hf, sheet, rim->triangle);
+    if (!ends_there(stance_of(&hg, hf.p)) ||
+        !pierce_segment_find(sheet, rim->triangle, g, &hf, &hg, &segment))
+      continue;
+    /* Of a triangle seen edge-on all is near the line on the page. */
+    if (!(sheet->triangle_flags[rim->triangle] & SHEET_FLAT) &&
+        is_near_line(p, q, segment.end[0]) &&
+        is_near_line(p, q, segment.end[1]))
+      *along = true;
+    else if (!ARRAY_PUSH(&segments->list, segment))
+      return false;
+  }
+  return true;
+}
+
 /* ---- Joining ------------------------------------------------------------ */
 
 static int compare_seams(const void *a, const void *b, void *user) {
@@ -353,6 +382,7 @@ static uint32_t first_triangle(const struct rims *rims, struct seam_side side) {
 /* Does a seam make a crossing, and where? */
 static bool join(const struct sheet *sheet, const struct rims *rims,
                  const struct seam *seam, struct wings scratch[3],
+                 struct pierce_segments *segments,
                  struct pierce_segment *segment, bool *cross) {
   const struct seam_side *side = seam->side;
   uint32_t first[2] = {first_triangle(rims, side[0]),
@@ -363,7 +393,10 @@ static bool join(const struct sheet *sheet, const struct rims *rims,
     if (!clip_to_edge(sheet, side[0], side[1], segment->end)) return true;
     if (!do_cross(sheet, rims, seam, scratch, cross)) return false;
   } else {
-    *cross = goes_through(sheet, rims, side[1 - g], side[g].i) &&
+    if (goes_through(sheet, rims, side[1 - g], side[g].i) &&
+        !meet_along(sheet, rims, side[1 - g], side[g].i, segments, cross))
+      return false;
+    *cross = *cross &&
              clip_to_triangle(sheet, side[1 - g], side[g].i, segment->end);
   }
   *cross = *cross && (segment->end[0].x != segment->end[1].x ||
@@ -388,7 +421,8 @@ bool seams_join(struct seams *seams, const struct sheet *sheet,
     struct pierce_segment segment;
     bool cross;
     if (i > 0 && compare_seams(&seam[i - 1], &seam[i], NULL) == 0) continue;
-    if (!join(sheet, &rims, &seam[i], scratch, &segment, &cross)) goto end;
+    if (!join(sheet, &rims, &seam[i], scratch, segments, &segment, &cross))
+      goto end;
     if (!cross) continue;
     ++*count;
     if (!ARRAY_PUSH(&segments->list, segment)) goto end;

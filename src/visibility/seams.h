@@ -5,6 +5,10 @@
  * there though none of its triangles does.  Each of them ends on the plane:
  * two corners touch it (hide.h), the third does not.
  *
+ * Touching is a matter of contact, which may be large.  So the edge makes a line
+ * only where the triangles about it meet the face along the edge; where they
+ * meet it elsewhere, the line is there, and where they do not there is none.
+ *
  * Where edge lies on edge four triangles meet, or more.  The two surfaces
  * cross where, going round the edge, one meets a triangle of the one, of the
  * other, of the one and of the other again.  Triangles that touch one another
@@ -16,7 +20,7 @@
 #define VISIBILITY_SEAMS_H
 
 #include "base/memory.h"
-#include "visibility/hide.h"
+#include "visibility/pierce_segment.h"
 
 /* How a triangle's corners lie to a plane, beyond contact or touching it. */
 struct stance {
@@ -44,16 +48,6 @@ struct seam {
 
 struct seams {
   ARRAY(struct seam) list;
-};
-
-/* Two triangles and the line in which their surfaces meet. */
-struct pierce_segment {
-  uint32_t triangle[2]; /* the lower first */
-  struct geom_point end[2];
-};
-
-struct pierce_segments {
-  ARRAY(struct pierce_segment) list;
 };
 
 /* Notes that triangle f ends on the plane of g, which straddles that of f or
