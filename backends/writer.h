@@ -23,6 +23,8 @@ struct writer_options {
 struct writer {
   const char *name;       /* "svg" */
   const char *extensions; /* "svg", space-separated */
+  const char *compressed; /* extensions of such a file in the format of gzip;
+                             NULL: none */
   /* The step in mm to which it rounds the points of strokes. */
   double (*unit_mm)(const struct writer_options *options);
   /* How far from the edges of a page all of it can be drawn; NULL: 0. */
@@ -43,6 +45,9 @@ extern const struct writer writer_pdf, writer_eps, writer_ps, writer_png;
 /* The writer of that name, or NULL; by the path's extension, or NULL. */
 const struct writer *writer_by_name(const char *name);
 const struct writer *writer_by_path(const char *path);
+/* Whether the name, or the path's extension, stands for a compressed file. */
+bool writer_name_is_compressed(const char *name);
+bool writer_path_is_compressed(const char *path);
 /* The writers, ended by NULL. */
 const struct writer *const *writers(void);
 

@@ -354,7 +354,7 @@ static double find_unit(const struct writer_options *options) {
 }
 
 const struct writer writer_hpgl = {.name = "hpgl",
-                                   .extensions = "hpgl plt",
+                                   .extensions = "hpgl plt hpg",
                                    .unit_mm = find_unit,
                                    .margin_mm = find_margin,
                                    .by_pens = true,

@@ -386,5 +386,6 @@ static double find_unit(const struct writer_options *options) {
 
 const struct writer writer_svg = {.name = "svg",
                                   .extensions = "svg",
+                                  .compressed = "svgz svg.gz",
                                   .unit_mm = find_unit,
                                   .write = write_svg};

@@ -23,12 +23,15 @@ static bool same_word(const char *a, const char *b, size_t length) {
   return true;
 }
 
-/* Whether `word` is one of the space-separated words of `list`. */
-static bool is_among(const char *word, const char *list) {
+/* Whether `word` is one of the space-separated words of `list`, or where
+ * `as_extension` is set, ends in one of them behind a dot. */
+static bool is_among(const char *word, const char *list, bool as_extension) {
   size_t length = strlen(word);
-  while (*list != '\0') {
+  while (list != NULL && *list != '\0') {
     size_t here = strcspn(list, " ");
-    if (here == length && same_word(word, list, length))
+    const char *end = word + length - (here < length ? here : length);
+    bool fits = as_extension ? end > word && end[-1] == '.' : end == word;
+    if (fits && strlen(end) == here && same_word(end, list, here))
       return true;
     list += here;
     list += strspn(list, " ");
@@ -38,18 +41,32 @@ static bool is_among(const char *word, const char *list) {
 
 const struct writer *writer_by_name(const char *name) {
   for (const struct writer *const *w = table; *w != NULL; w++)
-    if (is_among(name, (*w)->name) || is_among(name, (*w)->extensions))
+    if (is_among(name, (*w)->name, false) ||
+        is_among(name, (*w)->extensions, false) ||
+        is_among(name, (*w)->compressed, false))
       return *w;
   return NULL;
 }
 
 const struct writer *writer_by_path(const char *path) {
-  const char *slash = strrchr(path, '/');
-  const char *dot = strrchr(slash != NULL ? slash : path, '.');
-  if (dot == NULL)
-    return NULL;
   for (const struct writer *const *w = table; *w != NULL; w++)
-    if (is_among(dot + 1, (*w)->extensions))
+    if (is_among(path, (*w)->extensions, true) ||
+        is_among(path, (*w)->compressed, true))
       return *w;
   return NULL;
+}
+
+static bool is_compressed(const char *word, bool as_extension) {
+  for (const struct writer *const *w = table; *w != NULL; w++)
+    if (is_among(word, (*w)->compressed, as_extension))
+      return true;
+  return false;
+}
+
+bool writer_name_is_compressed(const char *name) {
+  return is_compressed(name, false);
+}
+
+bool writer_path_is_compressed(const char *path) {
+  return is_compressed(path, true);
 }

@@ -349,13 +349,33 @@ RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
                                                  recto_error *error);
 void recto_drawing_destroy(recto_drawing *drawing);
 
-/* Writes the drawing; whole or not at all.  Path "-" is standard output;
- * format NULL: by the path's extension; options NULL: the defaults. */
+/* Whether an output can be written, to be asked before the work: it can be
+ * made or replaced, and is none of the files that the scene was read from.
+ * Errors  RECTO_ERROR_IO; RECTO_ERROR_ARGUMENT: it is one of these */
+RECTO_USE_RESULT recto_status recto_scene_try_output(const recto_scene *scene,
+                                                     const char *path,
+                                                     recto_error *error);
+
+/* Writes the drawing; whole or not at all.  Path "-" is standard output, and
+ * so are /dev/stdout and the like; format NULL: by the path's extension, of
+ * which svgz and svg.gz stand for a compressed one; options NULL: the defaults.
+ * A file that is there is replaced by a new one with its owner, mode, access
+ * list and attributes; where it has several names, or where these cannot be
+ * kept, its bytes are replaced once all of them are known.
+ * Errors  RECTO_ERROR_ARGUMENT also where a file that the scene was read from
+ *         would be replaced */
 RECTO_USE_RESULT recto_status recto_drawing_write(const recto_drawing *drawing,
                                                   const char *path,
                                                   const char *format,
                                                   const recto_options *options,
                                                   recto_error *error);
+
+/* The same, and writes what recto_drawing_stats tells: both or neither.
+ * stats   a path as above; NULL: none
+ * Errors  RECTO_ERROR_ARGUMENT also where both are one file */
+RECTO_USE_RESULT recto_status recto_drawing_write_with_stats(
+    const recto_drawing *drawing, const char *path, const char *format,
+    const char *stats, const recto_options *options, recto_error *error);
 
 /* The name of the output format that recto_drawing_write would take for this
  * path and format, which may be NULL; NULL where there is none. */

@@ -478,10 +478,10 @@ for output in ./model.obj link.svg hard.svg; do
     -o "$output" --format svg
 done
 claim "nor does what --stats tells" \
-  replaces_nothing "what --stats tells" model.obj model.obj -o some.svg \
+  replaces_nothing "the stats" model.obj model.obj -o some.svg \
   --stats=link.svg
 claim "which does not replace the drawing either" \
-  replaces_nothing "what --stats tells" cube.svg cube.obj -o new.svg \
+  replaces_nothing "the stats" cube.svg cube.obj -o new.svg \
   --stats=new.svg
 claim "one model may be named twice" run 0 cube.obj cube.obj -o twice.svg
 

@@ -42,6 +42,15 @@ for closed in none 0 1 2 01 02 12 012; do
   done
 done 2>/dev/null
 
+stats_have_nowhere_to_go() { # DESCRIPTORS
+  rm -f no.svg
+  with_closed "$1" "$recto" cube.obj -o no.svg --stats
+  test $? -eq 1 && test ! -e no.svg && none_left
+}
+for closed in 1 01 12 012; do
+  claim "--stats that have nowhere to go are a failure: $closed closed" \
+    stats_have_nowhere_to_go "$closed"
+done 2>/dev/null
 stats_go_to_their_file() {
   with_closed "$1" "$recto" cube.obj -o with.svg --stats=stats.json &&
     cmp expected.svg with.svg && grep -q '"faces": 6' stats.json

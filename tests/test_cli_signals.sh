@@ -97,6 +97,12 @@ closed_pipe_is_the_end() {
 }
 claim "a closed pipe ends the run by its signal, without a word" \
   closed_pipe_is_the_end
+closed_pipe_for_stats() {
+  rm -f new.svg
+  pipe_is_closed cube.obj -o new.svg --stats &&
+    test "$(cat status)" -eq $((128 + 13)) && test ! -e new.svg && none_left
+}
+claim "a closed pipe for --stats leaves nothing behind" closed_pipe_for_stats
 ignored_pipe_is_told() {
   {
     env --ignore-signal=PIPE "$recto" cube.obj -o - 2>err

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "base/input.h"
 #include "base/memory.h"
 #include "base/stream.h"
 #include "tests/temporary.h"
@@ -245,6 +246,131 @@ static void places_that_cannot_be_written_are_told(void **state) {
   assert_int_equal(stream_open(&stream, path, &error), RECTO_ERROR_IO);
 }
 
+/* ---- Several streams ------------------------------------------------------
+ */
+
+static void several_appear_together(void **state) {
+  const char *a = temporary_path(state, "a"), *b = temporary_path(state, "b");
+  struct stream *both[] = {open_stream(a), NULL, open_stream(b)};
+  stream_text(both[0], "first");
+  stream_text(both[2], "second");
+  assert_int_equal(stream_finish_all(both, 3, NULL), RECTO_OK);
+  assert_file(a, "first");
+  assert_file(b, "second");
+}
+
+static void of_several_one_that_fails_keeps_back_all(void **state) {
+  const char *a = temporary_path(state, "a");
+  for (unsigned long n = 1; n <= 2; n++) {
+    const char *b = temporary_file(state, "b", "old", 3);
+    recto_error error;
+    struct stream *both[] = {open_stream(a), open_stream(b)};
+    stream_text(both[0], "first");
+    stream_text(both[1], "second");
+    stream_fail_after(n);
+    assert_int_equal(stream_finish_all(both, 2, &error), RECTO_ERROR_IO);
+    stream_fail_after(0);
+    assert_string_equal(error.file, n == 1 ? a : b);
+    assert_false(exists(a));
+    assert_file(b, "old");
+    assert_int_equal(temporary_count(state), 1);
+  }
+}
+
+/* As names may be that differ in nothing that the file system knows. */
+static void one_place_taken_twice_is_nobodys(void **state) {
+  const char *a = temporary_path(state, "a");
+  recto_error error;
+  struct stream *both[] = {open_stream(a), open_stream(a)};
+  assert_true(stream_is_same(both[0], both[1]));
+  stream_text(both[0], "first");
+  stream_text(both[1], "second");
+  assert_int_equal(stream_finish_all(both, 2, &error), RECTO_ERROR_ARGUMENT);
+  assert_int_equal(temporary_count(state), 0);
+}
+
+static void a_file_of_two_names_is_written_in_place(void **state) {
+  const char *a = temporary_file(state, "a", "old and long", 12);
+  const char *b = temporary_path(state, "b");
+  assert_int_equal(link(a, b), 0);
+  struct stream *stream = open_stream(a);
+  for (int i = 0; i < 100000; i++)
+    stream_text(stream, "much text");
+  assert_file(b, "old and long");
+  stream_discard(stream);
+  assert_file(b, "old and long");
+  stream = open_stream(a);
+  stream_text(stream, "new");
+  assert_int_equal(stream_finish(stream, NULL), RECTO_OK);
+  assert_file(a, "new");
+  assert_file(b, "new");
+}
+
+/* ---- Descriptors ----------------------------------------------------------
+ */
+
+/* What a host writes to a standard stream that it has closed must not land in a
+ * file of ours. */
+static void a_closed_standard_descriptor_stays_closed(void **state) {
+  const char *path = temporary_path(state, "out.txt");
+  const char *old = temporary_file(state, "old.txt", "old", 3);
+  for (int number = 0; number <= 2; number++) {
+    int kept = dup(number);
+    assert_true(kept > 2);
+    close(number);
+    struct stream *fresh = NULL, *replacing = NULL;
+    struct input input;
+    recto_status opened = stream_open(&fresh, path, NULL);
+    recto_status reopened = stream_open(&replacing, old, NULL);
+    recto_status loaded = input_load(&input, old, NULL);
+    bool closed = write(number, "host", 4) < 0;
+    recto_status status = opened;
+    if (opened == RECTO_OK) {
+      stream_text(fresh, "ours");
+      status = stream_finish(fresh, NULL);
+    }
+    stream_discard(replacing);
+    dup2(kept, number);
+    close(kept);
+    assert_int_equal(opened, RECTO_OK);
+    assert_int_equal(reopened, RECTO_OK);
+    assert_int_equal(loaded, RECTO_OK);
+    assert_string_equal(input.bytes, "old");
+    input_unload(&input);
+    assert_true(closed);
+    assert_int_equal(status, RECTO_OK);
+    assert_file(path, "ours");
+  }
+}
+
+/* ---- Compressed ----------------------------------------------------------- */
+
+static void what_is_compressed_is_read_again(void **state) {
+  const char *path = temporary_path(state, "out.gz");
+  struct stream *stream = open_stream(path);
+  recto_error error;
+  recto_status status = stream_compress(stream, &error);
+  if (status == RECTO_ERROR_UNSUPPORTED) {
+    stream_discard(stream);
+    skip();
+  }
+  assert_int_equal(status, RECTO_OK);
+  for (int i = 0; i < 300000; i++)
+    stream_int(stream, (int64_t)i * i);
+  assert_int_equal(stream_finish(stream, NULL), RECTO_OK);
+  struct input input;
+  assert_int_equal(input_load(&input, path, NULL), RECTO_OK);
+  const char *at = input.bytes;
+  for (int i = 0; i < 300000; i++) {
+    char expected[32];
+    int length = snprintf(expected, sizeof expected, "%lld", (long long)i * i);
+    assert_memory_equal(at, expected, (size_t)length);
+    at += length;
+  }
+  assert_ptr_equal(at, input.bytes + input.count);
+  input_unload(&input);
+}
+
 /* ---- Standard output ------------------------------------------------------
  */
 
@@ -349,6 +475,12 @@ int main(void) {
       T(a_ring_of_links_is_an_error),
       T(two_streams_in_one_folder_do_not_mix),
       T(places_that_cannot_be_written_are_told),
+      T(several_appear_together),
+      T(of_several_one_that_fails_keeps_back_all),
+      T(one_place_taken_twice_is_nobodys),
+      T(a_file_of_two_names_is_written_in_place),
+      T(a_closed_standard_descriptor_stays_closed),
+      T(what_is_compressed_is_read_again),
       T(standard_output_is_held_back_until_the_end),
       T(a_memory_stream_lends_what_was_written),
       T(the_first_fault_sticks),

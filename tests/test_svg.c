@@ -411,8 +411,14 @@ static void writers_are_found_by_name_and_by_path(void **state) {
   assert_ptr_equal(writer_by_path("C.SVG"), &writer_svg);
   assert_null(writer_by_path("a.svg/c"));
   assert_null(writer_by_path("svg"));
-  assert_null(writer_by_path("c.svgz"));
+  assert_null(writer_by_path("c.gz"));
+  assert_null(writer_by_path("svg.gz"));
   assert_null(writer_by_path("c."));
+  assert_ptr_equal(writer_by_path("c.svgz"), &writer_svg);
+  assert_ptr_equal(writer_by_path("c.svg.GZ"), &writer_svg);
+  assert_true(writer_path_is_compressed("c.svgz"));
+  assert_true(writer_name_is_compressed("svgz"));
+  assert_false(writer_path_is_compressed("c.svg"));
 }
 
 static void every_writer_in_the_table_is_found_by_its_name(void **state) {

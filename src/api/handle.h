@@ -17,6 +17,7 @@ struct recto_scene {
 struct recto_drawing {
   struct drawing drawing;
   char verdict[VERIFY_SUMMARY_SIZE]; /* "": not verified */
+  ARRAY(struct file_identity) file;  /* what it was made of */
 };
 
 /* Copies the options, or the defaults where they are NULL, and checks what can

@@ -3,15 +3,18 @@
 #include <assert.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "api/handle.h"
 #include "backends/writer.h"
 #include "base/path.h"
+#include "base/target.h"
 
 void recto_drawing_destroy(recto_drawing *drawing) {
   if (drawing == NULL)
     return;
   drawing_fini(&drawing->drawing);
+  ARRAY_FREE(&drawing->file);
   mem_free(drawing);
 }
 
@@ -126,34 +129,111 @@ static bool ask_progress(void *user) {
   return options->progress(options->user, share, "write");
 }
 
-recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
-                                 const char *format,
+static bool is_compressed(const char *path, const char *format) {
+  return format != NULL ? writer_name_is_compressed(format)
+                        : writer_path_is_compressed(path);
+}
+
+static recto_status refuse_place(const char *path, const char *what,
+                                 recto_error *error) {
+  return error_set(error, RECTO_ERROR_ARGUMENT, path, 0, "%s", what);
+}
+
+/* Opens an output, which must not be one of the files that were read. */
+static recto_status open_output(const recto_drawing *drawing, const char *path,
+                                const char *refusal, struct stream **stream,
+                                recto_error *error) {
+  recto_status status = stream_open(stream, path, error);
+  for (size_t i = 0; status == RECTO_OK && i < drawing->file.count; i++)
+    if (stream_replaces(*stream, drawing->file.item[i]))
+      status = refuse_place(path, refusal, error);
+  return status;
+}
+
+/* The streams of a drawing and of its stats. */
+struct outputs {
+  struct stream *drawing, *stats; /* NULL: none */
+};
+
+static recto_status open_outputs(struct outputs *outputs,
+                                 const recto_drawing *drawing, const char *path,
+                                 const char *format, const char *stats,
+                                 recto_error *error) {
+  recto_status status =
+      open_output(drawing, path, "the drawing would replace the model",
+                  &outputs->drawing, error);
+  if (status == RECTO_OK && stats != NULL)
+    status = open_output(drawing, stats, "the stats would replace the model",
+                         &outputs->stats, error);
+  if (status == RECTO_OK && outputs->stats != NULL &&
+      stream_is_same(outputs->drawing, outputs->stats))
+    status = refuse_place(stats, "the stats would replace the drawing", error);
+  if (status == RECTO_OK && is_compressed(path, format))
+    status = stream_compress(outputs->drawing, error);
+  return status;
+}
+
+static recto_status fill_outputs(struct outputs *outputs,
+                                 const recto_drawing *drawing,
+                                 const struct writer *writer,
                                  const recto_options *options,
                                  recto_error *error) {
+  double cpu = clock_cpu(), wall = clock_wall();
+  struct writer_options how = writer_options_of(options);
+  recto_status status =
+      writer->write(&drawing->drawing, &how, outputs->drawing, error);
+  report_seconds(drawing->drawing.report, "write_cpu_s", clock_cpu() - cpu);
+  report_seconds(drawing->drawing.report, "write_wall_s", clock_wall() - wall);
+  if (status == RECTO_OK && outputs->stats != NULL)
+    stream_text(outputs->stats, recto_drawing_stats(drawing));
+  return status;
+}
+
+recto_status
+recto_drawing_write_with_stats(const recto_drawing *drawing, const char *path,
+                               const char *format, const char *stats,
+                               const recto_options *options,
+                               recto_error *error) {
   recto_options own;
+  struct outputs outputs = {NULL, NULL};
   recto_status status = options_take(&own, options, error);
   if (status != RECTO_OK)
     return status;
   const struct writer *writer = find_writer(path, format);
   if (writer == NULL)
     return refuse(path, format, error);
-  double cpu = clock_cpu(), wall = clock_wall();
-  struct stream *stream;
-  status = stream_open(&stream, path, error);
-  if (status != RECTO_OK)
-    return status;
-  if (own.progress != NULL)
-    stream_ask(stream, ask_progress, &own);
-  struct writer_options how = writer_options_of(&own);
-  status = writer->write(&drawing->drawing, &how, stream, error);
+  status = open_outputs(&outputs, drawing, path, format, stats, error);
+  if (status == RECTO_OK && own.progress != NULL)
+    stream_ask(outputs.drawing, ask_progress, &own);
+  if (status == RECTO_OK)
+    status = fill_outputs(&outputs, drawing, writer, &own, error);
   if (status != RECTO_OK) {
-    stream_discard(stream);
+    stream_discard(outputs.drawing);
+    stream_discard(outputs.stats);
     return status;
   }
-  status = stream_finish(stream, error);
-  report_seconds(drawing->drawing.report, "write_cpu_s", clock_cpu() - cpu);
-  report_seconds(drawing->drawing.report, "write_wall_s", clock_wall() - wall);
-  return status;
+  struct stream *const both[] = {outputs.drawing, outputs.stats};
+  return stream_finish_all(both, 2, error);
+}
+
+recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
+                                 const char *format,
+                                 const recto_options *options,
+                                 recto_error *error) {
+  return recto_drawing_write_with_stats(drawing, path, format, NULL, options,
+                                        error);
+}
+
+recto_status recto_scene_try_output(const recto_scene *scene, const char *path,
+                                    recto_error *error) {
+  struct file_identity there;
+  bool is_file = path_is_standard_output(path)
+                     ? path_identity_of_descriptor(STDOUT_FILENO, &there)
+                     : path_identity(path, &there);
+  for (size_t i = 0; is_file && i < scene->scene.file.count; i++)
+    if (file_identity_is_same(there, scene->scene.file.item[i]))
+      return refuse_place(path, "this would replace the model", error);
+  return target_try(path, error);
 }
 
 recto_status recto_draw_file(const char *model, const char *from,
@@ -177,6 +257,8 @@ recto_status recto_draw_file(const char *model, const char *from,
   recto_status status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)
     status = recto_scene_read(scene, model, from, options, error);
+  if (status == RECTO_OK)
+    status = recto_scene_try_output(scene, output, error);
   if (status == RECTO_OK)
     status = recto_scene_render(scene, options, &drawing, error);
   if (status == RECTO_OK)

@@ -420,6 +420,14 @@ static recto_status run(struct render *render, recto_error *error) {
   return status;
 }
 
+/* What the drawing is made of is not to be replaced by it. */
+static bool keep_files(recto_drawing *drawing, const struct scene *scene) {
+  for (size_t i = 0; i < scene->file.count; i++)
+    if (!ARRAY_PUSH(&drawing->file, scene->file.item[i]))
+      return false;
+  return true;
+}
+
 recto_status recto_scene_render(const recto_scene *scene,
                                 const recto_options *options,
                                 recto_drawing **drawing, recto_error *error) {
@@ -439,6 +447,8 @@ recto_status recto_scene_render(const recto_scene *scene,
                           .report = made->drawing.report,
                           .verdict = made->verdict};
   status = run(&render, error);
+  if (status == RECTO_OK && !keep_files(made, &scene->scene))
+    status = error_memory(error);
   if (status != RECTO_OK) {
     recto_drawing_destroy(made);
     return status;

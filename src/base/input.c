@@ -119,11 +119,14 @@ recto_status input_load(struct input *input, const char *path,
   *input = (struct input){.bytes = NULL};
   bool standard = strcmp(path, "-") == 0;
   int descriptor =
-      standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY);
+      standard ? STDIN_FILENO
+               : path_above_standard(
+                     open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY));
   if (descriptor < 0)
     return error_set(error, RECTO_ERROR_IO, path, 0, "cannot open: %s",
                      strerror(errno));
   struct source source = describe(descriptor, path);
+  input->is_file = path_identity_of_descriptor(descriptor, &input->file);
   recto_status status = slurp(&source, input, error);
   if (!standard)
     close(descriptor);
@@ -135,13 +138,15 @@ recto_status input_load(struct input *input, const char *path,
 recto_status input_load_named(struct input *input, const char *path,
                               recto_error *error) {
   *input = (struct input){.bytes = NULL};
-  int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+  int descriptor = path_above_standard(
+      open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
   if (descriptor < 0)
     return error_set(error, RECTO_ERROR_IO, path, 0, "cannot open: %s",
                      strerror(errno));
   recto_status status = RECTO_OK;
   struct stat about;
   struct source source = describe(descriptor, path);
+  input->is_file = path_identity_of_descriptor(descriptor, &input->file);
   source.most = INPUT_NAMED_MOST;
   if (fstat(descriptor, &about) != 0 || !S_ISREG(about.st_mode))
     status = error_set(error, RECTO_ERROR_IO, path, 0, "no file");

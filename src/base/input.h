@@ -5,12 +5,15 @@
 #include <stddef.h>
 
 #include "base/memory.h"
+#include "base/path.h"
 #include "base/status.h"
 
 struct input {
   const char *bytes; /* a NUL stands behind the last */
   size_t count;
   ARRAY(char) slurped; /* what `bytes` points to */
+  bool is_file;        /* it was a file proper, and this one */
+  struct file_identity file;
 };
 
 /* How many bytes a file may have: half of the machine's memory, at most

@@ -4,6 +4,7 @@ librecto_core_la_SOURCES += \
   %D%/decimal.c %D%/decimal.h \
   %D%/digits.h \
   %D%/gunzip.c %D%/gunzip.h \
+  %D%/gzip.c %D%/gzip.h \
   %D%/input.c %D%/input.h \
   %D%/length.c %D%/length.h \
   %D%/memory.c %D%/memory.h \
@@ -15,5 +16,6 @@ librecto_core_la_SOURCES += \
   %D%/sort.c %D%/sort.h \
   %D%/status.c %D%/status.h \
   %D%/stream.c %D%/stream.h \
+  %D%/target.c %D%/target.h \
   %D%/tolerance.h \
   %D%/vocabulary.c

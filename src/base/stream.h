@@ -1,9 +1,10 @@
 /* stream.h - buffered output that appears whole or not at all.
  *
- * A stream writes to a temporary file beside its path and renames it when it
- * is finished without a fault; or to standard output, where bytes are held
- * back until then; or to memory.  Its status is sticky: after the first fault
- * every write is ignored and stream_finish tells. */
+ * A stream writes to a new file that is put in its place when it is finished
+ * without a fault; or to a pipe, a device or a file that must be written in
+ * place, for which bytes are held back until then; or to memory.  Its status is
+ * sticky: after the first fault every write is ignored and stream_finish
+ * tells. */
 #ifndef BASE_STREAM_H
 #define BASE_STREAM_H
 
@@ -11,16 +12,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/path.h"
 #include "base/status.h"
 
 struct stream;
 
-/* Opens a stream to `path`; "-" is standard output. */
+/* Opens a stream to `path`; "-" is standard output: see target.h. */
 USE_RESULT recto_status stream_open(struct stream **stream, const char *path,
                                     recto_error *error);
 /* Opens a stream to memory: see stream_memory. */
 USE_RESULT recto_status stream_open_memory(struct stream **stream,
                                            recto_error *error);
+
+/* Whether both streams would write to one place, there already or not. */
+bool stream_is_same(const struct stream *a, const struct stream *b);
+
+/* Whether the stream would replace this file. */
+bool stream_replaces(const struct stream *stream, struct file_identity it);
+
+/* Compresses all that is written from now on, in the format of gzip, with no
+ * name or time in it.  RECTO_ERROR_UNSUPPORTED, RECTO_ERROR_MEMORY. */
+USE_RESULT recto_status stream_compress(struct stream *stream,
+                                        recto_error *error);
 
 /* Asks before every write to the system whether to go on; where not, the
  * status is RECTO_ERROR_CANCELLED. */
@@ -48,6 +61,12 @@ const char *stream_memory(const struct stream *stream, size_t *count);
  * the stream in either case. */
 USE_RESULT recto_status stream_finish(struct stream *stream,
                                       recto_error *error);
+/* Finishes several streams, all of them or none: what goes to pipes and devices
+ * cannot be taken back and comes first, the last stream's before the others',
+ * and then each file is put in its place.
+ * stream  some may be NULL */
+USE_RESULT recto_status stream_finish_all(struct stream *const *stream,
+                                          size_t count, recto_error *error);
 /* Closes and removes what was written; frees the stream.  Accepts NULL. */
 void stream_discard(struct stream *stream);
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "cli/value.h"
 
 enum { FIRST_LONG = 256 };
@@ -192,7 +193,8 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
   }
   if (a->output == NULL)
     return true;
-  if (a->format == NULL && strcmp(a->output, "-") == 0)
+  if (a->format == NULL && (path_is_standard_output(a->output) ||
+                            path_descriptor(a->output) >= 0))
     a->format = "svg";
   if (recto_output_format(a->output, a->format) == NULL) {
     snprintf(message, MESSAGE_SIZE, "there is no output format for \"%.100s\"",

@@ -12,6 +12,7 @@
 
 #include "base/path.h"
 #include "base/stream.h"
+#include "base/target.h"
 #include "cli/message.h"
 #include "cli/signals.h"
 #include "cli/uses.h"
@@ -45,46 +46,39 @@ static bool pass_progress(void *user, double share, const char *stage) {
 
 /* ---- The work ------------------------------------------------------------ */
 
-/* Opens what the stats go to, before any of the work: a drawing whose stats
- * cannot be written is not to be written either.
- * stream  NULL: to standard error, or nowhere */
-static recto_status open_stats(const struct arguments *arguments,
-                               struct stream **stream, recto_error *error) {
-  const char *file = arguments->stats_file;
-  *stream = NULL;
-  if (!arguments->stats ||
-      (file == NULL && strcmp(arguments->output, "-") == 0))
-    return RECTO_OK;
-  return stream_open(stream, file != NULL ? file : "-", error);
+/* Whether what --stats tells goes to standard error, since the drawing has
+ * standard output. */
+static bool stats_stand_aside(const struct arguments *arguments) {
+  return arguments->stats && arguments->stats_file == NULL &&
+         path_is_standard_output(arguments->output);
 }
 
-/* Finishes the stream, if there is one. */
-static recto_status write_stats(const struct arguments *arguments,
-                                const recto_drawing *drawing,
-                                struct stream *stream, recto_error *error) {
-  const char *json = recto_drawing_stats(drawing);
-  if (stream == NULL) {
-    if (arguments->stats)
-      fputs(json, stderr);
-    return RECTO_OK;
-  }
-  stream_text(stream, json);
-  return stream_finish(stream, error);
+/* Where the stats go to; NULL: nowhere, or to standard error. */
+static const char *find_stats(const struct arguments *arguments) {
+  if (!arguments->stats || stats_stand_aside(arguments))
+    return NULL;
+  return arguments->stats_file != NULL ? arguments->stats_file : "-";
 }
 
-/* Nothing that is written may replace what is read, or each other. */
+/* Whether all that is to be written can be.  Nothing may replace a model that
+ * is named, or has been read, or each other. */
 static recto_status check_outputs(const struct arguments *arguments,
+                                  const recto_scene *scene,
                                   recto_error *error) {
-  const char *output[] = {arguments->output, arguments->stats_file};
-  static const char *const what[] = {"the drawing", "what --stats tells"};
-  for (int k = 0; k < 2; k++)
+  const char *output[] = {arguments->output, find_stats(arguments)};
+  static const char *const what[] = {"the drawing", "the stats"};
+  for (int k = 0; k < 2; k++) {
     for (int i = 0; output[k] != NULL && i < arguments->model_count; i++)
       if (path_is_same(output[k], arguments->model[i]))
         return error_set(error, RECTO_ERROR_ARGUMENT, output[k], 0,
                          "%s would replace the model", what[k]);
-  bool both = output[1] != NULL && strcmp(output[1], "-") != 0;
-  if (both &&
-      (strcmp(output[0], output[1]) == 0 || path_is_same(output[0], output[1])))
+    recto_status status = output[k] != NULL
+                              ? recto_scene_try_output(scene, output[k], error)
+                              : RECTO_OK;
+    if (status != RECTO_OK)
+      return status;
+  }
+  if (output[1] != NULL && target_paths_are_same(output[0], output[1]))
     return error_set(error, RECTO_ERROR_ARGUMENT, output[1], 0,
                      "%s would replace the drawing", what[1]);
   return RECTO_OK;
@@ -160,33 +154,37 @@ static recto_status check(const struct arguments *arguments, bool *is_right,
   return tell_verdict(&verdict, error);
 }
 
+static recto_status write_all(const struct arguments *arguments,
+                          const recto_drawing *drawing,
+                          const recto_options *options, recto_error *error) {
+  if (!arguments->quiet && recto_drawing_verdict(drawing) != NULL)
+    message_print("", 0, recto_drawing_verdict(drawing));
+  recto_status status = recto_drawing_write_with_stats(
+      drawing, arguments->output, arguments->format, find_stats(arguments),
+      options, error);
+  if (status == RECTO_OK && stats_stand_aside(arguments))
+    fputs(recto_drawing_stats(drawing), stderr);
+  return status;
+}
+
 static recto_status draw(const struct arguments *arguments,
                          recto_error *error) {
   recto_scene *scene = NULL;
   recto_drawing *drawing = NULL;
-  struct stream *stats = NULL;
   recto_options options = arguments->options;
   recto_options_suit(&options, arguments->output, arguments->format);
-  recto_status status = check_outputs(arguments, error);
+  recto_status status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)
-    status = recto_scene_create(&scene, error);
+    status = check_outputs(arguments, scene, error);
   if (status == RECTO_OK)
     status = read_models(arguments, scene, error);
+  if (status == RECTO_OK)
+    status = check_outputs(arguments, scene, error);
   signals_catch();
   if (status == RECTO_OK)
-    status = open_stats(arguments, &stats, error);
-  if (status == RECTO_OK)
     status = recto_scene_render(scene, &options, &drawing, error);
-  if (status == RECTO_OK && !arguments->quiet &&
-      recto_drawing_verdict(drawing) != NULL)
-    message_print("", 0, recto_drawing_verdict(drawing));
   if (status == RECTO_OK)
-    status = recto_drawing_write(drawing, arguments->output, arguments->format,
-                                 &options, error);
-  if (status == RECTO_OK)
-    status = write_stats(arguments, drawing, stats, error);
-  else
-    stream_discard(stats);
+    status = write_all(arguments, drawing, &options, error);
   recto_drawing_destroy(drawing);
   recto_scene_destroy(scene);
   return status;

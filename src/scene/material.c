@@ -48,6 +48,7 @@ recto_status materials_add_use(struct materials *materials, uint32_t group,
 /* ---- Libraries ----------------------------------------------------------- */
 
 struct shelf {
+  struct scene *scene;  /* whose groups are coloured */
   struct scene palette; /* a group for each material */
   const char *model;    /* path */
   struct diagnostics *diagnostics;
@@ -92,7 +93,9 @@ static recto_status try_library(struct shelf *shelf, const char *name,
   struct input input;
   recto_status status = input_load_named(&input, path, why);
   *found = status == RECTO_OK;
-  if (*found && input.count > 0)
+  if (*found && !scene_note_file(shelf->scene, &input))
+    status = error_memory(shelf->error);
+  else if (*found && input.count > 0)
     status = read_library(shelf, path, &input);
   else if (status == RECTO_ERROR_MEMORY)
     (void)error_memory(shelf->error);
@@ -196,8 +199,10 @@ recto_status materials_colour(const struct materials *materials,
                               struct scene *scene, const char *path,
                               struct diagnostics *diagnostics,
                               recto_error *error) {
-  struct shelf shelf = {
-      .model = path, .diagnostics = diagnostics, .error = error};
+  struct shelf shelf = {.scene = scene,
+                        .model = path,
+                        .diagnostics = diagnostics,
+                        .error = error};
   size_t count = materials->use.count;
   scene_init(&shelf.palette);
   uint32_t *material = mem_alloc(count, sizeof *material);

@@ -110,6 +110,8 @@ recto_status scene_read(struct scene *scene, const char *path,
   bool first = scene->point.count == 0;
   scene_mark(scene, &mark);
   recto_status status = input_load(&input, path, error);
+  if (status == RECTO_OK && !scene_note_file(scene, &input))
+    status = error_memory(error);
   if (status == RECTO_OK && input.count == 0)
     status = error_set(error, RECTO_ERROR_FORMAT, path, 1, "the file is empty");
   if (status == RECTO_OK)

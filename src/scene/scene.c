@@ -33,9 +33,14 @@ void scene_fini(struct scene *scene) {
   ARRAY_FREE(&scene->wire_group);
   ARRAY_FREE(&scene->precision);
   ARRAY_FREE(&scene->group);
+  ARRAY_FREE(&scene->file);
   mem_free(scene->group_slot);
   scene->group_slot = NULL;
   scene->group_slot_count = 0;
+}
+
+bool scene_note_file(struct scene *scene, const struct input *input) {
+  return !input->is_file || ARRAY_PUSH(&scene->file, input->file);
 }
 
 /* ---- Groups -------------------------------------------------------------- */

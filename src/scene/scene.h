@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/input.h"
 #include "base/memory.h"
 #include "base/status.h"
 #include "scene/precision.h"
@@ -50,6 +51,7 @@ struct scene {
   size_t group_slot_count;
   double up[3];       /* what the format means by up */
   bool wants_colours; /* readers look for colours of groups in other files */
+  ARRAY(struct file_identity) file; /* what it was read from */
 };
 
 void scene_init(struct scene *scene);
@@ -68,6 +70,10 @@ static inline bool scene_groups_differ(const struct scene *scene, uint32_t a,
   const struct scene_group *group = scene->group.item;
   return a != b && !(group[a].is_shade && group[b].is_shade);
 }
+
+/* Notes what was read, so that no output replaces it; false when memory ran
+ * out. */
+USE_RESULT bool scene_note_file(struct scene *scene, const struct input *input);
 
 /* Makes the group of that name the current one, adding it where it is new.
  * name  of `length` bytes, need not be NUL-terminated; none: "default" */

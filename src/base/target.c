@@ -1,0 +1,485 @@
+/* target.c - where a file is to appear, and how it gets there.
+ *
+ * A new file has no name while it is written, where the file system can do
+ * that (O_TMPFILE): whatever ends the process, nothing is left.  Elsewhere it
+ * has a name in the folder where it is to appear. */
+#define _GNU_SOURCE /* O_TMPFILE, fallocate */
+#include "base/target.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/xattr.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+
+enum { NAME_SIZE = 64, DESCRIPTOR_NAME_SIZE = 32 };
+
+/* ---- Paths --------------------------------------------------------------- */
+
+static char *copy_text(const char *text, size_t room) {
+  size_t size = strlen(text) + 1;
+  char *copy = mem_alloc(size + room, 1);
+  if (copy)
+    memcpy(copy, text, size);
+  return copy;
+}
+
+/* The length of the path's folder, the last slash included. */
+static size_t folder_length(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? (size_t)(slash + 1 - path) : 0;
+}
+
+/* What the link at `path` says, as seen from here; NULL with *failed false
+ * where there is no link. */
+static char *read_link(const char *path, bool *failed) {
+  struct stat about;
+  *failed = false;
+  if (lstat(path, &about) != 0 || !S_ISLNK(about.st_mode))
+    return NULL;
+  size_t folder = folder_length(path);
+  char *to = mem_alloc(folder + PATH_MAX, 1);
+  ssize_t length = to ? readlink(path, to + folder, PATH_MAX - 1) : -1;
+  *failed = length <= 0;
+  if (*failed) {
+    mem_free(to);
+    return NULL;
+  }
+  to[folder + (size_t)length] = '\0';
+  if (to[folder] == '/')
+    memmove(to, to + folder, (size_t)length + 1);
+  else
+    memcpy(to, path, folder);
+  return to;
+}
+
+/* The path with its symbolic links followed, so that a link is kept and the
+ * file behind it is replaced, or made where there is none.  A ring of links is
+ * left for the system to complain of.  Names of descriptors are links too, to
+ * what may have no path. */
+static char *follow_links(const char *path) {
+  enum { MOST_LINKS = 40 };
+  char *here = copy_text(path, 0);
+  bool failed = here == NULL;
+  for (int i = 0; i < MOST_LINKS && !failed && path_descriptor(here) < 0; i++) {
+    char *to = read_link(here, &failed);
+    if (to == NULL)
+      break;
+    mem_free(here);
+    here = to;
+  }
+  if (failed) {
+    mem_free(here);
+    return NULL;
+  }
+  return here;
+}
+
+/* The folder that the file is to appear in, as a path. */
+static char *folder_of(const char *path) {
+  size_t length = folder_length(path);
+  char *folder = copy_text(length > 0 ? path : ".", 0);
+  if (folder && length > 0)
+    folder[length] = '\0';
+  return folder;
+}
+
+static recto_status cannot(const struct target *target, const char *what,
+                           recto_error *error) {
+  return error_set(error, RECTO_ERROR_IO, target->name, 0, "cannot %s: %s",
+                   what, strerror(errno));
+}
+
+/* ---- A new file ---------------------------------------------------------- */
+
+/* A file without a name is given one through this link. */
+static void name_descriptor(int descriptor, char name[DESCRIPTOR_NAME_SIZE]) {
+  snprintf(name, DESCRIPTOR_NAME_SIZE, "/proc/self/fd/%d", descriptor);
+}
+
+static bool create_nameless(struct target *target, const char *folder) {
+#ifdef O_TMPFILE
+  char name[DESCRIPTOR_NAME_SIZE];
+  target->descriptor =
+      path_above_standard(open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666));
+  if (target->descriptor < 0)
+    return false;
+  name_descriptor(target->descriptor, name);
+  if (access(name, F_OK) == 0)
+    return true;
+  close(target->descriptor);
+  target->descriptor = -1;
+#else
+  (void)target;
+  (void)folder;
+#endif
+  return false;
+}
+
+/* Tries names beside the path until one is free.
+ * make  makes a file of that name; false with errno EEXIST: the next */
+static bool try_names(struct target *target,
+                      bool (*make)(struct target *target, const char *name)) {
+  enum { TRIES = 1000 };
+  size_t folder = folder_length(target->path);
+  char *name = mem_alloc(folder + NAME_SIZE, 1);
+  if (!name) {
+    errno = ENOMEM;
+    return false;
+  }
+  memcpy(name, target->path, folder);
+  for (int i = 0; i < TRIES; i++) {
+    snprintf(name + folder, NAME_SIZE, ".recto-%ld-%d.tmp", (long)getpid(), i);
+    if (make(target, name)) {
+      target->temporary = name;
+      return true;
+    }
+    if (errno != EEXIST)
+      break;
+  }
+  int fault = errno;
+  mem_free(name);
+  errno = fault;
+  return false;
+}
+
+static bool make_named(struct target *target, const char *name) {
+  target->descriptor = path_above_standard(
+      open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  return target->descriptor >= 0;
+}
+
+static bool make_link(struct target *target, const char *name) {
+  char from[DESCRIPTOR_NAME_SIZE];
+  name_descriptor(target->descriptor, from);
+  return linkat(AT_FDCWD, from, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
+}
+
+static recto_status create(struct target *target, recto_error *error) {
+  char *folder = folder_of(target->path);
+  if (!folder)
+    return error_memory(error);
+  bool there = stat(folder, &target->folder) == 0;
+  bool made = there && (create_nameless(target, folder) ||
+                        try_names(target, make_named));
+  int fault = errno;
+  mem_free(folder);
+  errno = fault;
+  if (made)
+    return RECTO_OK;
+  return errno == ENOMEM ? error_memory(error)
+                         : cannot(target, "create", error);
+}
+
+static void remove_temporary(struct target *target) {
+  if (target->temporary)
+    unlink(target->temporary);
+  mem_free(target->temporary);
+  target->temporary = NULL;
+}
+
+/* ---- What belongs to a file ---------------------------------------------- */
+
+/* Attributes that only the system may set are its own affair. */
+static bool is_users(const char *attribute) {
+  return strncmp(attribute, "user.", 5) == 0 ||
+         strcmp(attribute, "system.posix_acl_access") == 0;
+}
+
+static bool copy_attribute(int from, int to, const char *name) {
+  enum { MOST = 1 << 16 }; /* of the system */
+  char *value = mem_alloc(MOST, 1);
+  ssize_t size = value ? fgetxattr(from, name, value, MOST) : -1;
+  bool good = size >= 0 && fsetxattr(to, name, value, (size_t)size, 0) == 0;
+  mem_free(value);
+  return good || !is_users(name);
+}
+
+/* Access lists are such attributes. */
+static bool copy_attributes(int from, int to) {
+  ssize_t size = flistxattr(from, NULL, 0);
+  if (size <= 0)
+    return size == 0 || errno == ENOTSUP;
+  char *names = mem_alloc((size_t)size, 1);
+  size = names ? flistxattr(from, names, (size_t)size) : -1;
+  bool good = size >= 0;
+  for (ssize_t at = 0; good && at < size; at += (ssize_t)strlen(names + at) + 1)
+    good = copy_attribute(from, to, names + at);
+  mem_free(names);
+  return good;
+}
+
+/* Gives the new file what belongs to the old one; false where it cannot. */
+static bool inherit(struct target *target) {
+  struct stat made;
+  int to = target->descriptor;
+  const struct stat *old = &target->old;
+  if (fstat(to, &made) != 0)
+    return false;
+  bool is_owned = made.st_uid == old->st_uid && made.st_gid == old->st_gid;
+  if (!is_owned && fchown(to, old->st_uid, old->st_gid) != 0)
+    return false;
+  int from = path_above_standard(
+      open(target->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  bool good = from < 0 || copy_attributes(from, to);
+  if (from >= 0)
+    close(from);
+  return good && fchmod(to, old->st_mode & 07777) == 0;
+}
+
+/* ---- Opening ------------------------------------------------------------- */
+
+static recto_status open_in_place(struct target *target, recto_error *error) {
+  target->kind = S_ISREG(target->old.st_mode) ? TARGET_IN_PLACE
+                                              : TARGET_DESCRIPTOR;
+  target->descriptor = path_above_standard(
+      open(target->path, O_WRONLY | O_CLOEXEC | O_NOCTTY));
+  return target->descriptor >= 0 ? RECTO_OK : cannot(target, "open", error);
+}
+
+static recto_status open_descriptor(struct target *target, int descriptor,
+                                    recto_error *error) {
+  target->kind = TARGET_DESCRIPTOR;
+  mem_free(target->path);
+  target->path = NULL;
+  target->descriptor = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  return target->descriptor >= 0 ? RECTO_OK : cannot(target, "write", error);
+}
+
+static recto_status replace(struct target *target, recto_error *error) {
+  recto_error why;
+  if (target->old.st_nlink > 1)
+    return open_in_place(target, error);
+  recto_status status = create(target, &why);
+  if (status == RECTO_OK && inherit(target))
+    return RECTO_OK;
+  if (status == RECTO_OK) {
+    close(target->descriptor);
+    target->descriptor = -1;
+    remove_temporary(target);
+  } else if (status != RECTO_ERROR_IO) {
+    return error_memory(error);
+  }
+  return open_in_place(target, error);
+}
+
+/* Finds out what is there; target->path is set. */
+static recto_status look(struct target *target, recto_error *error) {
+  target->existed = stat(target->path, &target->old) == 0;
+  if (!target->existed && errno != ENOENT)
+    return cannot(target, "create", error);
+  if (target->existed && S_ISDIR(target->old.st_mode))
+    return error_set(error, RECTO_ERROR_IO, target->name, 0, "is a directory");
+  if (target->existed && access(target->path, W_OK) != 0)
+    return cannot(target, "write", error);
+  return RECTO_OK;
+}
+
+static recto_status open_path(struct target *target, recto_error *error) {
+  target->path = follow_links(target->name);
+  if (!target->path)
+    return error_memory(error);
+  int descriptor = path_descriptor(target->path);
+  if (descriptor >= 0)
+    return open_descriptor(target, descriptor, error);
+  recto_status status = look(target, error);
+  if (status != RECTO_OK)
+    return status;
+  if (!target->existed)
+    return create(target, error);
+  return S_ISREG(target->old.st_mode) ? replace(target, error)
+                                      : open_in_place(target, error);
+}
+
+recto_status target_open(struct target *target, const char *path,
+                         recto_error *error) {
+  *target = (struct target){.descriptor = -1, .name = copy_text(path, 0)};
+  recto_status status =
+      !target->name            ? error_memory(error)
+      : strcmp(path, "-") == 0 ? open_descriptor(target, STDOUT_FILENO, error)
+                               : open_path(target, error);
+  if (status != RECTO_OK)
+    (void)target_close(target);
+  return status;
+}
+
+/* Whether something other than a file or a folder stands there, which opening
+ * may wake. */
+static bool is_special(const char *path) {
+  struct stat about;
+  return strcmp(path, "-") != 0 && path_descriptor(path) < 0 &&
+         stat(path, &about) == 0 && !S_ISREG(about.st_mode) &&
+         !S_ISDIR(about.st_mode);
+}
+
+recto_status target_try(const char *path, recto_error *error) {
+  struct target target;
+  if (is_special(path))
+    return RECTO_OK;
+  recto_status status = target_open(&target, path, error);
+  if (status == RECTO_OK)
+    (void)target_close(&target);
+  return status;
+}
+
+/* ---- Telling targets apart ----------------------------------------------- */
+
+static bool is_same_stat(const struct stat *a, const struct stat *b) {
+  return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+}
+
+/* What is there now, by whatever it is known. */
+static bool find_old(const struct target *target, struct stat *old) {
+  *old = target->old;
+  return target->existed || (target->kind == TARGET_DESCRIPTOR &&
+                             fstat(target->descriptor, old) == 0);
+}
+
+bool target_is_same(const struct target *a, const struct target *b) {
+  struct stat one, two;
+  bool there = find_old(a, &one), other_there = find_old(b, &two);
+  if (there && other_there) /* much may well go to one terminal */
+    return is_same_stat(&one, &two) && !S_ISCHR(one.st_mode);
+  return !there && !other_there && is_same_stat(&a->folder, &b->folder) &&
+         strcmp(a->path + folder_length(a->path),
+                b->path + folder_length(b->path)) == 0;
+}
+
+bool target_paths_are_same(const char *a, const char *b) {
+  struct target one, other;
+  if (is_special(a) || is_special(b) || target_open(&one, a, NULL) != RECTO_OK)
+    return false;
+  bool same = target_open(&other, b, NULL) == RECTO_OK;
+  same = same && target_is_same(&one, &other);
+  (void)target_close(&one);
+  (void)target_close(&other);
+  return same;
+}
+
+bool target_is(const struct target *target, struct file_identity it) {
+  struct stat old;
+  return find_old(target, &old) && S_ISREG(old.st_mode) &&
+         (uint64_t)old.st_dev == it.device && (uint64_t)old.st_ino == it.number;
+}
+
+/* ---- Putting in place ---------------------------------------------------- */
+
+static bool write_all(int descriptor, const char *bytes, size_t count) {
+  while (count > 0) {
+    ssize_t written = write(descriptor, bytes, count);
+    if (written < 0 && errno == EINTR)
+      continue;
+    if (written <= 0) {
+      errno = written == 0 ? EIO : errno;
+      return false;
+    }
+    bytes += written;
+    count -= (size_t)written;
+  }
+  return true;
+}
+
+/* Makes sure that there is room before a byte is changed, where the file system
+ * can. */
+static bool reserve_room(int descriptor, size_t count) {
+#ifdef FALLOC_FL_KEEP_SIZE
+  if (count > 0 &&
+      fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, (off_t)count) != 0)
+    return errno != ENOSPC && errno != EDQUOT && errno != EFBIG;
+#else
+  (void)descriptor;
+  (void)count;
+#endif
+  return true;
+}
+
+bool target_replace(struct target *target, const char *bytes, size_t count) {
+  int to = target->descriptor;
+  return reserve_room(to, count) && write_all(to, bytes, count) &&
+         ftruncate(to, (off_t)count) == 0;
+}
+
+/* Where the folder's entry cannot be changed, as that of a file that is mounted
+ * by itself, its bytes can. */
+static bool copy_in_place(struct target *target) {
+  enum { CHUNK = 1 << 16 };
+  struct stat about;
+  int to = path_above_standard(open(target->path, O_WRONLY | O_CLOEXEC));
+  char *chunk = mem_alloc(CHUNK, 1);
+  off_t at = 0;
+  bool good = to >= 0 && chunk && fstat(target->descriptor, &about) == 0 &&
+              reserve_room(to, (size_t)about.st_size);
+  while (good && at < about.st_size) {
+    ssize_t got = pread(target->descriptor, chunk, CHUNK, at);
+    good = got > 0 && write_all(to, chunk, (size_t)got);
+    at += got;
+  }
+  good = good && ftruncate(to, at) == 0;
+  if (to >= 0)
+    good = close(to) == 0 && good;
+  mem_free(chunk);
+  return good;
+}
+
+static bool put_in_place(struct target *target) {
+  bool is_nameless = target->temporary == NULL;
+  if (is_nameless && !target->existed && make_link(target, target->path))
+    return true;
+  if (is_nameless && !try_names(target, make_link))
+    return false;
+  if (rename(target->temporary, target->path) == 0) {
+    mem_free(target->temporary);
+    target->temporary = NULL;
+    return true;
+  }
+  int fault = errno;
+  remove_temporary(target);
+  errno = fault;
+  return target->existed && (errno == EBUSY || errno == EPERM) &&
+         copy_in_place(target);
+}
+
+/* Some file systems tell of a failed write only when a descriptor is closed;
+ * the file's own stays open, to know it by. */
+static bool is_written(int descriptor) {
+  int copy = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  return copy < 0 || close(copy) == 0 || errno == EINTR;
+}
+
+/* No signal comes between giving the file a name and putting it in place. */
+bool target_place(struct target *target) {
+  sigset_t all, before;
+  sigfillset(&all);
+  (void)pthread_sigmask(SIG_SETMASK, &all, &before);
+  target->is_in_place =
+      is_written(target->descriptor) && put_in_place(target);
+  int fault = errno;
+  (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
+  errno = fault;
+  return target->is_in_place;
+}
+
+void target_withdraw(struct target *target) {
+  struct stat there, own;
+  if (target->is_in_place && !target->existed &&
+      lstat(target->path, &there) == 0 &&
+      fstat(target->descriptor, &own) == 0 && is_same_stat(&there, &own))
+    unlink(target->path);
+}
+
+bool target_close(struct target *target) {
+  bool good = target->descriptor < 0 || close(target->descriptor) == 0 ||
+              errno == EINTR;
+  int fault = errno;
+  remove_temporary(target);
+  mem_free(target->path);
+  mem_free(target->name);
+  *target = (struct target){.descriptor = -1};
+  errno = fault;
+  return good;
+}

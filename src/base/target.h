@@ -1,0 +1,70 @@
+/* target.h - where a file is to appear, and how it gets there. */
+#ifndef BASE_TARGET_H
+#define BASE_TARGET_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <sys/stat.h>
+
+#include "base/path.h"
+#include "base/status.h"
+
+enum target_kind {
+  TARGET_NEW,       /* written aside, then put in its place */
+  TARGET_IN_PLACE,  /* a file whose bytes are replaced, in one go */
+  TARGET_DESCRIPTOR /* a pipe, a device, or what was open already */
+};
+
+struct target {
+  enum target_kind kind;
+  int descriptor;  /* what is written to */
+  char *name;      /* as the user wrote it, for messages */
+  char *path;      /* with links followed; NULL for what was open already */
+  char *temporary; /* TARGET_NEW: the name that it has until it is put in its
+                      place; NULL: it has none */
+  bool existed;    /* a file proper is there, and this is what it is */
+  struct stat old;
+  struct stat folder; /* TARGET_NEW: where it is to appear */
+  bool is_in_place;   /* it was put there */
+};
+
+/* Opens a path for writing; "-" is standard output.  A descriptor of its own
+ * is above the standard ones.
+ *   A file that is there and has one name is replaced by a new one, which gets
+ * its owner, mode, access list and attributes.  Where it has several names, or
+ * where what belongs to it cannot be given to another file, or where its folder
+ * may not be written to, it is the file itself that is written to.
+ * Errors  RECTO_ERROR_IO, RECTO_ERROR_MEMORY */
+USE_RESULT recto_status target_open(struct target *target, const char *path,
+                                    recto_error *error);
+
+/* Whether target_open is likely to succeed, without a trace; what waits at a
+ * pipe is not disturbed. */
+USE_RESULT recto_status target_try(const char *path, recto_error *error);
+
+/* Whether two targets are one file, there already or not, or one pipe. */
+bool target_is_same(const struct target *a, const struct target *b);
+
+/* Whether two paths, opened as targets, would be the same.  What waits at a
+ * pipe is not disturbed: a pipe's or a device's path is no other's. */
+bool target_paths_are_same(const char *a, const char *b);
+
+/* Whether it is this file that is replaced or written to. */
+bool target_is(const struct target *target, struct file_identity it);
+
+/* Puts a TARGET_NEW, which has been written to its end, in its place.
+ * Returns false, with errno set, where that cannot be done. */
+USE_RESULT bool target_place(struct target *target);
+
+/* Takes back what was put in its place where nothing was there before. */
+void target_withdraw(struct target *target);
+
+/* Replaces the bytes of a TARGET_IN_PLACE. */
+USE_RESULT bool target_replace(struct target *target, const char *bytes,
+                               size_t count);
+
+/* Closes the target, and removes what has not been put in its place.
+ * Returns false, with errno set, where closing finds that a write failed. */
+bool target_close(struct target *target);
+
+#endif
