@@ -29,6 +29,7 @@ struct plot {
   bool down;        /* it has ink already */
   int points;       /* in the open PD */
   uint64_t clipped; /* strokes */
+  double lost;      /* of them, in units */
   uint64_t folded;  /* layers whose pen the device does not have */
 };
 
@@ -168,8 +169,12 @@ static void plot_stroke(struct plot *plot, const struct drawing *drawing,
     struct spot b = spot_of(plot, &point[(start + i + 1) % stroke->count]);
     bool a_inside = is_inside(place, a), b_inside = is_inside(place, b);
     whole = whole && a_inside && b_inside;
-    if ((!a_inside || !b_inside) && !clip_line(place, &a, &b))
+    double length = hypot(b.x - a.x, b.y - a.y);
+    if ((!a_inside || !b_inside) && !clip_line(place, &a, &b)) {
+      plot->lost += length;
       continue;
+    }
+    plot->lost += length - hypot(b.x - a.x, b.y - a.y);
     if (i == 0 || !a_inside)
       begin_stroke(plot, round_into(a.x, place->x0, place->x1),
                    round_into(a.y, place->y0, place->y1));
@@ -240,7 +245,7 @@ static bool plot_layers(struct plot *plot, const struct drawing *drawing,
 PRINTF_LIKE(2, 3)
 static void warn(const struct writer_options *options, const char *format,
                  ...) {
-  char text[200];
+  char text[300];
   va_list list;
   if (!options->warning)
     return;
@@ -259,22 +264,25 @@ static void warn_of_clipping(const struct plot *plot,
                              const struct writer_options *options) {
   const struct device_placement *place = &plot->place;
   unsigned long long clipped = plot->clipped;
+  double lost_mm = plot->lost * place->unit_mm;
   if (!place->paper)
-    warn(options, "%llu stroke%s clipped to the page", clipped,
-         plural(clipped));
+    warn(options, "%llu stroke%s clipped to the page, %.1f mm left out",
+         clipped, plural(clipped), lost_mm);
   else if (place->too_large)
     warn(options,
          "%llu stroke%s clipped: the page is larger than the largest sheet of "
-         "%s, %s, of which it reaches %.0f x %.0f mm",
+         "%s, %s, of which it reaches %.0f x %.0f mm; %.1f mm are left out: a "
+         "smaller --page helps",
          clipped, plural(clipped), device->name, place->paper->name,
          floor((place->x1 - place->x0) * place->unit_mm),
-         floor((place->y1 - place->y0) * place->unit_mm));
+         floor((place->y1 - place->y0) * place->unit_mm), lost_mm);
   else
     warn(options,
          "%llu stroke%s clipped: %s does not reach all of the outer %.0f mm of "
-         "this page on an %s sheet",
+         "this page on an %s sheet; %.1f mm are left out: a larger --margin "
+         "helps",
          clipped, plural(clipped), device->name, ceil(device_margin_mm(place)),
-         place->paper->name);
+         place->paper->name, lost_mm);
 }
 
 static void warn_of_losses(const struct plot *plot,

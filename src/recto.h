@@ -195,7 +195,7 @@ typedef struct recto_options {
 
   /* Page. */
   double page_width_mm, page_height_mm;
-  double margin_mm; /* on every side; negative: RECTO_USUAL_MARGIN_MM or, if
+  double margin_mm; /* on every side, and nothing is drawn there; negative: RECTO_USUAL_MARGIN_MM or, if
                        that is less, a quarter of the shorter side; as much
                        more as a plotter needs: see recto_options_suit */
 

@@ -51,6 +51,7 @@ void failures_camera(struct judge_camera *camera,
   double matrix[12];
   camera_matrix(used, matrix);
   judge_camera_matrix(camera, matrix, used->page_mm[0], used->page_mm[1]);
+  camera->margin_mm = used->margin_mm;
   if (used->perspective)
     camera->near_d = used->near_d;
 }

@@ -38,8 +38,8 @@ void laid_fini(struct laid *laid) {
 }
 
 int32_t laid_half(const struct laid *laid, int axis) {
-  return (int32_t)ceil(laid->camera.page_mm[axis] / 2 * SHEET_UNITS_PER_MM) +
-         SHEET_RIM;
+  double half_mm = laid->camera.page_mm[axis] / 2 - laid->camera.margin_mm;
+  return (int32_t)ceil(half_mm * SHEET_UNITS_PER_MM) + SHEET_RIM;
 }
 
 bool laid_on_border(const struct laid *laid, uint32_t a, uint32_t b) {

@@ -53,6 +53,7 @@ dist_check_SCRIPTS += \
   %D%/test_cli.sh \
   %D%/test_cli_check.sh \
   %D%/test_cli_descriptors.sh \
+  %D%/test_cli_margins.sh \
   %D%/test_cli_messages.sh \
   %D%/test_cli_outputs.sh \
   %D%/test_cli_signals.sh \

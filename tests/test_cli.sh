@@ -386,7 +386,7 @@ END
 nothing_on_the_border() {
   for method in brute tiles newell warnock; do
     run 0 behind.obj -o border.svg -m "$method" --view front --scale 1:1 \
-      --page 200x200mm && ! grep -q '<path' border.svg || return 1
+      --page 200x200mm --margin 0 && ! grep -q '<path' border.svg || return 1
   done
   run 0 behind.obj -o border.svg --page 200x200mm --margin 0 --no-fit \
     --camera 0,0,100 --lookat 0,0,0 --fov 90 && ! grep -q '<path' border.svg

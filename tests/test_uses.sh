@@ -67,8 +67,6 @@ done <<'END_OF_ROWS'
 --fov 20|a.svg --view top|a.svg -c 5,4,3|named views and for --no-fit; --fit
 --fov 20|a.svg -c 5,4,3 --no-fit|a.svg -c 5,4,3 --scale 1:2|named views and for --no-fit; --scale
 --scale 1:2|a.svg|a.svg --no-fit|true scale; --no-fit
---margin 3|a.svg|a.svg --scale 1:2|--fit, and --no-fit with --fov; --scale
---margin 3|a.svg --no-fit --fov 20|a.svg --no-fit|--fit, and --no-fit with --fov; --no-fit
 --crease 20|a.svg|a.svg -e silhouette|edges of the classes crease and smooth and for fills; this --edges
 --crease 20|a.svg -e none --fill shade|a.svg -e border|edges of the classes crease and smooth and for fills; this --edges
 --hidden layer|a.svg|a.svg -e none --fill paint|lines; --edges none
@@ -144,7 +142,7 @@ claim "the drawing is the same, a line an option" draws_the_same
 
 # Those that always do something, or that refuse what they do not go with.
 always='--output --format --from --method --view --azimuth --elevation --camera
---up --ortho --fit --no-fit --near --section --page --landscape --edges
+--up --ortho --fit --no-fit --near --section --page --landscape --margin --edges
 --weld --fill --stats --verify --check --tolerance --threads --progress --quiet --version --help'
 every_option_has_its_row() {
   grep -oE -- '^ +(-.,)? *--[a-z-]+' help.txt | grep -oE -- '--[a-z-]+' |

@@ -30,6 +30,7 @@ struct judge_camera asked_camera(const struct asked *asked,
   judge_camera_axes(&made, camera->right, camera->up, camera->back, eye,
                     camera->perspective, camera->s, camera->middle_mm,
                     camera->page_mm);
+  made.margin_mm = camera->margin_mm;
   /* An orthographic view that was not cut begins at its nearest point. */
   if (camera->perspective || options->has_section || options->near_distance > 0)
     made.near_d = camera->near_d;

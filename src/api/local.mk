@@ -3,6 +3,7 @@ librecto_core_la_SOURCES += \
   src/recto.h \
   %D%/asked.c %D%/asked.h \
   %D%/check.c \
+  %D%/clipped.c %D%/clipped.h \
   %D%/handle.h \
   %D%/model.c \
   %D%/options.c \

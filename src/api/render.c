@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "api/clipped.h"
 #include "api/handle.h"
 #include "backends/device.h"
 #include "api/rescale.h"
@@ -27,6 +28,7 @@ struct render {
   struct topology topology;
   struct camera camera;
   struct sheet sheet;
+  struct beyond beyond;
   struct map map;
   struct drawing *drawing;
   struct report *report;
@@ -142,8 +144,14 @@ static recto_status aim(struct render *render, recto_error *error) {
 
 static recto_status project(struct render *render, recto_error *error) {
   recto_status status = sheet_init(
-      &render->sheet, &render->welded.scene, &render->topology, &render->camera,
-      &render->rescaled.options, has_fills(render), error);
+      &render->sheet, &render->welded.scene, &render->topology,
+      &render->camera, &render->rescaled.options, has_fills(render), error);
+  if (status == RECTO_OK &&
+      (render->sheet.clipped_page > 0 ||
+       scene_wire_count(&render->welded.scene) > 0))
+    status = beyond_measure(&render->beyond, &render->welded.scene,
+                            &render->topology, &render->camera,
+                            &render->rescaled.options, error);
   /* On a fine mesh it is a quarter of all memory, and lines alone never ask
    * it again. */
   if (!has_fills(render)) {
@@ -310,6 +318,12 @@ static void report_drawing(struct report *report,
   report_double(report, "drawing", "travel_mm", drawing_travel_mm(drawing));
 }
 
+/* Whether nothing at all is inside the page's margins. */
+static bool is_outside(const struct render *render) {
+  return report_get(render->report, "sheet", "triangles", 0) == 0 &&
+         render->sheet.edge.count == 0;
+}
+
 /* An empty page is an answer, but seldom the one that was wanted. */
 static void warn_of_empty_page(const struct render *render) {
   const recto_options *o = render->options;
@@ -320,9 +334,8 @@ static void warn_of_empty_page(const struct render *render) {
   const char *why = "nothing that was asked for is visible and long enough";
   if (o->edges == RECTO_EDGES_NONE && o->fill == RECTO_FILL_NONE)
     why = "neither lines nor fills are asked for";
-  else if (report_get(render->report, "sheet", "triangles", 0) == 0 &&
-           render->sheet.edge.count == 0)
-    why = "all of the scene is outside of the page";
+  else if (is_outside(render))
+    why = "all of the scene is outside of the page's margins";
   char text[128];
   snprintf(text, sizeof text, "the drawing is empty: %s", why);
   o->warning(o->user, "", 0, text);
@@ -406,6 +419,11 @@ static recto_status run(struct render *render, recto_error *error) {
     report_seconds(render->report, "render_wall_s", clock_wall() - wall);
     warn_of_empty_page(render);
     warn_of_near_plane(render);
+    clipped_report(&render->beyond, render->report);
+    if (!is_outside(render))
+      clipped_warn(&render->beyond,
+                   has_fills(render) ? render->sheet.clipped_page : 0,
+                   render->camera.margin_mm, render->options);
     report_sheet(render->report, render);
     report_drawing(render->report, render->drawing);
     report_plotting(render->report, render->drawing, render->options);

@@ -231,8 +231,7 @@ const struct option_entry option_table[] = {
      .offset = AT(landscape), .use = {&used_by_drawing}},
     {OPTION_LENGTH, "margin", 0, "LENGTH", "a length, 0 or more",
      "left free on every side (10mm; a plotter: its own)",
-     .offset = AT(options.margin_mm), .least = 0, .most = DBL_MAX,
-     .use = {&used_by_margin}},
+     .offset = AT(options.margin_mm), .least = 0, .most = DBL_MAX},
 
     HEADING("Ink"),
     {OPTION_TAKE, "edges", 'e', "LIST",

@@ -112,19 +112,12 @@ static bool has_scale(const struct arguments *a) {
   return a->options.fit == RECTO_FIT_SCALE;
 }
 
-static bool spans_page(const struct arguments *a) {
-  return a->options.fit == RECTO_FIT_PAGE ||
-         (a->options.fit == RECTO_FIT_NONE && a->options.fov_deg > 0);
-}
-
 const struct option_use used_by_target = {
     "--camera, --fov, --no-fit and --scale", aims, name_fit, true};
 const struct option_use used_by_fov = {"named views and for --no-fit",
                                        has_angle, name_fit, true};
 const struct option_use used_by_scale = {"true scale", has_scale, name_fit,
                                          true};
-const struct option_use used_by_margin = {"--fit, and --no-fit with --fov",
-                                          spans_page, name_fit, true};
 
 /* ---- Ink ----------------------------------------------------------------- */
 

@@ -19,8 +19,7 @@ extern const struct option_use used_by_drawing, used_by_watkins,
     used_by_warnock, used_by_lines_of_pixels, used_by_pixels, used_by_depths,
     used_by_contact;
 /* Camera and page. */
-extern const struct option_use used_by_target, used_by_fov, used_by_scale,
-    used_by_margin;
+extern const struct option_use used_by_target, used_by_fov, used_by_scale;
 /* Ink. */
 extern const struct option_use used_by_lines, used_by_strokes, used_by_pen,
     used_by_crease, used_by_seam, used_by_hatch, used_by_one_pitch,

@@ -10,16 +10,17 @@
 bool judge_cut_to_page(const struct judge_camera *camera, struct judge_place a,
                        struct judge_place b, double *t0, double *t1) {
   const double from[2] = {a.x, a.y}, to[2] = {b.x, b.y};
-  const double high[2] = {camera->width_mm, camera->height_mm};
+  const double low = camera->margin_mm;
+  const double high[2] = {camera->width_mm - low, camera->height_mm - low};
   *t0 = 0;
   *t1 = 1;
   for (int k = 0; k < 2; k++) {
     double d = to[k] - from[k];
-    if (d == 0 && (from[k] < 0 || from[k] > high[k]))
+    if (d == 0 && (from[k] < low || from[k] > high[k]))
       return false;
     if (d == 0)
       continue;
-    double in = (0 - from[k]) / d, out = (high[k] - from[k]) / d;
+    double in = (low - from[k]) / d, out = (high[k] - from[k]) / d;
     *t0 = fmax(*t0, fmin(in, out));
     *t1 = fmin(*t1, fmax(in, out));
   }

@@ -16,7 +16,7 @@ struct judge_gazer {
 double judge_rounding_at(const struct judge_camera *camera, double hair_mm,
                          struct judge_spot at);
 
-/* Cuts a segment to the page, from *t0 to *t1 of its way; false where nothing
+/* Cuts a segment to the page inside its margins, from *t0 to *t1 of its way; false where nothing
  * is left. */
 bool judge_cut_to_page(const struct judge_camera *camera, struct judge_place a,
                        struct judge_place b, double *t0, double *t1);

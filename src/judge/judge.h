@@ -65,6 +65,7 @@ struct judge_camera {
   double depth_step;      /* what rounding does to depths: scene units, in
                              perspective those of 1 / d; 0: nothing */
   double width_mm, height_mm;
+  double margin_mm; /* edges are drawn inside of it alone */
 };
 
 /* As the design says of --no-fit: camera coordinates (x, y, -d) fall on the

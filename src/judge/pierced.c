@@ -36,21 +36,23 @@ static struct outline keep(const struct outline *from, const double where[8]) {
   return kept;
 }
 
-/* What is on the page of a triangle.  A place is on it where the depth times
- * its coordinates, which are linear in space, lies between 0 and the depth
- * times the page's size. */
+/* What is inside the page's margins of a triangle.  A place is there where the
+ * depth times its coordinates, which are linear in space, lies between the depth
+ * times the borders'. */
 static struct outline outline_of(const struct judge_camera *camera,
                                  const struct judge_triangle *t) {
   struct outline outline = {{t->p[0], t->p[1], t->p[2]}, 3};
+  double low = camera->margin_mm;
+  double right = camera->width_mm - low, top = camera->height_mm - low;
   for (int side = 0; side < 5; side++) {
     double where[8];
     for (unsigned i = 0; i < outline.count; i++) {
       double depth = judge_depth(camera, outline.p[i]);
       struct judge_place at = judge_project(camera, outline.p[i]);
       const double inside[5] = {
-          judge_ahead(camera, outline.p[i]) - judge_near(camera), at.x * depth,
-          (camera->width_mm - at.x) * depth, at.y * depth,
-          (camera->height_mm - at.y) * depth};
+          judge_ahead(camera, outline.p[i]) - judge_near(camera),
+          (at.x - low) * depth, (right - at.x) * depth, (at.y - low) * depth,
+          (top - at.y) * depth};
       where[i] = inside[side];
     }
     outline = keep(&outline, where);

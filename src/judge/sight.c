@@ -92,7 +92,7 @@ static enum shared corner_is_at(struct judge_spot corner,
              : SHARED_NO;
 }
 
-/* Whether all of a face has its image on the page. */
+/* Whether all of a face has its image inside the margins. */
 static bool is_whole(const struct scene *scene,
                      const struct judge_camera *camera, uint32_t start,
                      uint32_t count) {
@@ -101,8 +101,9 @@ static bool is_whole(const struct scene *scene,
     if (!(judge_ahead(camera, at) > camera->near_d))
       return false;
     struct judge_place on = judge_project(camera, at);
-    if (!(on.x >= 0 && on.x <= camera->width_mm && on.y >= 0 &&
-          on.y <= camera->height_mm))
+    double low = camera->margin_mm;
+    if (!(on.x >= low && on.x <= camera->width_mm - low && on.y >= low &&
+          on.y <= camera->height_mm - low))
       return false;
   }
   return true;

@@ -375,6 +375,7 @@ static recto_status aim_and_fit(struct aim *aim) {
   camera->perspective = o->fov_deg > 0;
   camera->page_mm[0] = o->page_width_mm;
   camera->page_mm[1] = o->page_height_mm;
+  camera->margin_mm = margin_of(o);
   memcpy(aim->target, o->has_target ? o->target : aim->centre,
          sizeof aim->target);
   status = set_axes(aim);

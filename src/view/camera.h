@@ -20,6 +20,7 @@ struct camera {
   double d_min, d_max; /* depth range of the scene, near_d <= d_min; in a sheet
                           of what is on its page */
   double page_mm[2];   /* width, height */
+  double margin_mm;    /* on every side of it; nothing is drawn there */
   double size;         /* diagonal of the scene's bounding box */
   double contact;      /* scene units; negative: what rounding explains of
                           each face (coordinate_error.h) */

@@ -1,5 +1,6 @@
 # src/view/local.mk - the sources of this layer.
 librecto_core_la_SOURCES += \
+  %D%/beyond.c %D%/beyond.h \
   %D%/blockers.c %D%/blockers.h \
   %D%/camera.c %D%/camera.h \
   %D%/clip.c %D%/clip.h \

@@ -6,10 +6,10 @@
 #include "base/tolerance.h"
 #include "view/sheet.h"
 
-/* Half of the paper, up to a whole grid unit, so that what touches the
- * paper's border is on the paper, and its rim. */
-static double half_of_page(double mm) {
-  return ceil(mm / 2 * SHEET_UNITS_PER_MM) + SHEET_RIM;
+/* Half of the paper inside the margins, up to a whole grid unit, so that what
+ * touches their border is inside, and its rim. */
+static double half_of_paper(double mm, double margin_mm) {
+  return ceil((mm / 2 - margin_mm) * SHEET_UNITS_PER_MM) + SHEET_RIM;
 }
 
 struct projection projection_of(const struct camera *camera) {
@@ -20,7 +20,8 @@ struct projection projection_of(const struct camera *camera) {
       .d_max = camera->d_max,
   };
   for (int k = 0; k < 2; k++) {
-    projection.half[k] = half_of_page(camera->page_mm[k]);
+    projection.half[k] = 
+        half_of_paper(camera->page_mm[k], camera->margin_mm);
     projection.offset[k] =
         (camera->middle_mm[k] - camera->page_mm[k] / 2) * SHEET_UNITS_PER_MM;
   }

@@ -20,7 +20,8 @@ static inline struct view_point camera_view(const struct camera *camera,
                              -(b[0] * p[0] + b[1] * p[1] + b[2] * p[2])};
 }
 
-/* The second half of the way, and the limits of the page. */
+/* The second half of the way, and the limits of the paper: the page inside its
+ * margins. */
 struct projection {
   bool perspective;
   double units;     /* grid units for one of x / d, or of x */

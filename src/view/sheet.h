@@ -29,7 +29,8 @@
 #define SHEET_Z_MAX ((INT64_C(1) << SHEET_Z_BITS) - 1)
 #define SHEET_NONE UINT32_MAX
 
-/* What leaves the page is cut so many units beyond its border: 4 nm.  The side
+/* What leaves the page inside its margins is cut so many units beyond their
+ * border: 4 nm.  The side
  * of a cut hides nothing on its outer side; on the very border it would let a
  * line there be seen that is behind a face which goes on. */
 #define SHEET_RIM 4
@@ -87,8 +88,8 @@ struct sheet {
   double z_scale;        /* see above */
   double units_per_view; /* grid units of x for one of X/d (perspective) or
                             X (orthographic) */
-  /* Faces that reach before the near plane, or beyond the page, wholly or in
-   * part; faces that are not planar. */
+  /* Faces that reach before the near plane, or into the page's margins, wholly
+   * or in part; faces that are not planar. */
   uint64_t clipped_near, clipped_page, warped;
   /* Faces of which a near plane that nobody asked for cuts what could be
    * seen. */
@@ -122,12 +123,20 @@ static inline uint32_t sheet_edge_face(const struct sheet *sheet,
              : sheet->triangle.item[first].face;
 }
 
-/* Grid units from the middle of the page to mm from its lower left corner. */
+/* Grid units from the middle of the page to mm from its lower left corner;
+ * what is on the rim comes to lie on the border that it surrounds. */
+static inline double sheet_place_mm(const struct sheet *sheet, int axis,
+                                    double units) {
+  const struct camera *camera = &sheet->camera;
+  double low = camera->margin_mm, high = camera->page_mm[axis] - low;
+  double mm = camera->page_mm[axis] / 2 + units / SHEET_UNITS_PER_MM;
+  return mm < low ? low : mm > high ? high : mm;
+}
 static inline double sheet_x_mm(const struct sheet *sheet, double x) {
-  return sheet->camera.page_mm[0] / 2 + x / SHEET_UNITS_PER_MM;
+  return sheet_place_mm(sheet, 0, x);
 }
 static inline double sheet_y_mm(const struct sheet *sheet, double y) {
-  return sheet->camera.page_mm[1] / 2 + y / SHEET_UNITS_PER_MM;
+  return sheet_place_mm(sheet, 1, y);
 }
 
 /* Where the view axis meets the page, in grid units. */
