@@ -10,5 +10,6 @@ librecto_core_la_SOURCES += \
   %D%/output.c \
   %D%/render.c \
   %D%/rescale.c %D%/rescale.h \
+  %D%/shares.c %D%/shares.h \
   %D%/verify.c %D%/verify.h \
   %D%/version.c

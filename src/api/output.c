@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "api/handle.h"
+#include "api/shares.h"
 #include "backends/writer.h"
 #include "base/path.h"
 #include "base/target.h"
@@ -125,8 +126,9 @@ static recto_status refuse(const char *path, const char *format,
 /* The progress function hears of writing too, and may end it. */
 static bool ask_progress(void *user) {
   const recto_options *options = user;
-  const double share = 0.98;
-  return options->progress(options->user, share, "write");
+  double begin[SHARE_STAGES + 1];
+  shares_plan(begin, options);
+  return options->progress(options->user, begin[SHARE_WRITE], "write");
 }
 
 static bool is_compressed(const char *path, const char *format) {

@@ -10,6 +10,7 @@
 #include "api/handle.h"
 #include "backends/device.h"
 #include "api/rescale.h"
+#include "api/shares.h"
 #include "base/parallel.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
@@ -33,8 +34,8 @@ struct render {
   struct drawing *drawing;
   struct report *report;
   char *verdict; /* VERIFY_SUMMARY_SIZE */
-  double share;  /* of all the work, done when the stage at hand began */
-  double passed; /* the most that was handed on */
+  double begin[SHARE_STAGES + 1]; /* shares of the work: see shares.h */
+  double passed;                  /* the most that was handed on */
 };
 
 /* ---- The method ---------------------------------------------------------- */
@@ -165,8 +166,10 @@ static recto_status project(struct render *render, recto_error *error) {
  * falls. */
 static bool pass_progress(void *user, double share, const char *stage) {
   struct render *render = user;
-  const double most = 0.9;
-  double whole = render->share + share * (most - render->share);
+  const double *begin = render->begin;
+  double within = shares_of_phase(stage, share, has_fills(render));
+  double whole = begin[SHARE_SOLVE] +
+                 within * (begin[SHARE_SOLVE + 1] - begin[SHARE_SOLVE]);
   if (whole > render->passed)
     render->passed = whole;
   return render->options->progress(render->options->user, render->passed,
@@ -224,24 +227,25 @@ static recto_status verify(struct render *render, recto_error *error) {
 static const struct stage {
   const char *name;
   const char *cpu, *wall; /* names in the report */
-  double share;           /* of all the work, done before it, as a guess */
+  enum share_stage stage;
   recto_status (*run)(struct render *render, recto_error *error);
 } stages[] = {
-    {"topology", "topology_cpu_s", "topology_wall_s", 0.05, find_edges},
-    {"camera", "camera_cpu_s", "camera_wall_s", 0.1, aim},
-    {"sheet", "sheet_cpu_s", "sheet_wall_s", 0.1, project},
-    {"solve", "solve_cpu_s", "solve_wall_s", 0.2, solve},
-    {"ink", "ink_cpu_s", "ink_wall_s", 0.9, ink},
-    {"verify", "verify_cpu_s", "verify_wall_s", 0.95, verify},
+    {"topology", "topology_cpu_s", "topology_wall_s", SHARE_TOPOLOGY, find_edges},
+    {"camera", "camera_cpu_s", "camera_wall_s", SHARE_CAMERA, aim},
+    {"sheet", "sheet_cpu_s", "sheet_wall_s", SHARE_SHEET, project},
+    {"solve", "solve_cpu_s", "solve_wall_s", SHARE_SOLVE, solve},
+    {"ink", "ink_cpu_s", "ink_wall_s", SHARE_INK, ink},
+    {"verify", "verify_cpu_s", "verify_wall_s", SHARE_VERIFY, verify},
 };
 
 static recto_status run_stages(struct render *render, recto_error *error) {
   const recto_options *options = render->options;
+  shares_plan(render->begin, options);
   for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++) {
     const struct stage *stage = &stages[i];
-    render->share = stage->share;
     if (options->progress != NULL &&
-        !options->progress(options->user, stage->share, stage->name))
+        !options->progress(options->user, render->begin[stage->stage],
+                           stage->name))
       return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
     double cpu = clock_cpu(), wall = clock_wall();
     recto_status status = stage->run(render, error);

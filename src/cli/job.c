@@ -9,11 +9,13 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/path.h"
 #include "base/stream.h"
 #include "base/target.h"
 #include "cli/message.h"
+#include "cli/progress.h"
 #include "cli/signals.h"
 #include "cli/uses.h"
 
@@ -25,22 +27,9 @@ static void pass_warning(void *user, const char *file, unsigned long line,
   message_print(file, line, text);
 }
 
-struct talk {
-  bool progress;
-  int percent; /* last told */
-  const char *stage;
-};
-
 static bool pass_progress(void *user, double share, const char *stage) {
-  struct talk *talk = user;
-  int percent = (int)(share * 100);
-  if (talk->progress &&
-      (talk->stage == NULL || strcmp(stage, talk->stage) != 0 ||
-       percent >= talk->percent + 5)) {
-    fprintf(stderr, "recto: %3d%% %s\n", percent, stage);
-    talk->stage = stage;
-    talk->percent = percent;
-  }
+  (void)user;
+  progress_note(share, stage);
   return !signals_arrived();
 }
 
@@ -146,6 +135,7 @@ static recto_status check(const struct arguments *arguments, bool *is_right,
     status = recto_scene_check(scene, arguments->check_file,
                                &arguments->options, &verdict, error);
   recto_scene_destroy(scene);
+  progress_end();
   if (status != RECTO_OK)
     return status;
   *is_right =
@@ -159,9 +149,13 @@ static recto_status write_all(const struct arguments *arguments,
                           const recto_options *options, recto_error *error) {
   if (!arguments->quiet && recto_drawing_verdict(drawing) != NULL)
     message_print("", 0, recto_drawing_verdict(drawing));
+  /* What goes to the terminal goes there without the bar. */
+  if (isatty(STDOUT_FILENO))
+    progress_end();
   recto_status status = recto_drawing_write_with_stats(
       drawing, arguments->output, arguments->format, find_stats(arguments),
       options, error);
+  progress_end();
   if (status == RECTO_OK && stats_stand_aside(arguments))
     fputs(recto_drawing_stats(drawing), stderr);
   return status;
@@ -199,20 +193,21 @@ static int status_of(recto_status status) {
 }
 
 int job_run(struct arguments *arguments) {
-  struct talk talk = {.progress = arguments->progress};
   recto_error error = {0};
   bool is_right = true;
   /* A file larger than is allowed is a write that fails. */
   (void)signal(SIGXFSZ, SIG_IGN);
-  arguments->options.user = &talk;
   arguments->options.progress = pass_progress;
   if (!arguments->quiet) {
     arguments->options.warning = pass_warning;
     uses_warn(arguments, message_print);
   }
   bool checks = arguments->check_file != NULL;
+  if (!arguments->quiet)
+    progress_start(arguments->progress);
   recto_status status = checks ? check(arguments, &is_right, &error)
                                : draw(arguments, &error);
+  progress_end();
   if (status != RECTO_OK && !signals_are_of_a_pipe())
     message_print(error.file, error.line, error.text);
   signals_die();

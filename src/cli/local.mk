@@ -7,6 +7,7 @@ recto_SOURCES += \
   %D%/main.c \
   %D%/message.c %D%/message.h \
   %D%/options.c \
+  %D%/progress.c %D%/progress.h \
   %D%/signals.c %D%/signals.h \
   %D%/uses.c %D%/uses.h \
   %D%/value.c %D%/value.h

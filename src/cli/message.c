@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/progress.h"
+
 /* ---- A line, written in one piece ---------------------------------------- */
 
 struct line {
@@ -95,5 +97,7 @@ void message_print(const char *file, unsigned long line, const char *text) {
     put(&whole, " ", 1);
   put_visibly(&whole, text);
   put(&whole, "\n", 1);
+  progress_hide();
   flush_line(&whole);
+  progress_go_on();
 }

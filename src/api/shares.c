@@ -1,0 +1,60 @@
+/* shares.c - how much of a render's work lies behind each of its stages.
+ *
+ * The weights are hundredths of what lines of a scanned model take with the
+ * automatic method; see bench/ for the times by stage. */
+#include "api/shares.h"
+
+#include <string.h>
+
+static double weigh_solving(const recto_options *o) {
+  bool fast = o->method == RECTO_METHOD_AUTO || o->method == RECTO_METHOD_TILES;
+  return (fast ? 60 : 400) * (o->fill != RECTO_FILL_NONE ? 3 : 1);
+}
+
+static double weigh_ink(const recto_options *o) {
+  return 3 + (o->fill == RECTO_FILL_HATCH ? 80 : 0) +
+         (o->fill != RECTO_FILL_NONE ? 20 : 0) +
+         (o->order == RECTO_ORDER_NEAR ? 30 : 0);
+}
+
+/* A part of it is spent before the first point is asked about. */
+static double weigh_verifying(const recto_options *o) {
+  const double usual = 4000;
+  return o->verify > 0 ? 150 + 250 * (o->verify / usual) : 0;
+}
+
+void shares_plan(double begin[SHARE_STAGES + 1], const recto_options *options) {
+  const double weight[SHARE_STAGES] = {
+      [SHARE_TOPOLOGY] = 6,
+      [SHARE_CAMERA] = 1,
+      [SHARE_SHEET] = 12,
+      [SHARE_SOLVE] = weigh_solving(options),
+      [SHARE_INK] = weigh_ink(options),
+      [SHARE_VERIFY] = weigh_verifying(options),
+      [SHARE_WRITE] = 5,
+  };
+  double sum = 0;
+  for (int i = 0; i < SHARE_STAGES; i++)
+    sum += weight[i];
+  begin[0] = 0;
+  for (int i = 0; i < SHARE_STAGES; i++)
+    begin[i + 1] = begin[i] + weight[i] / sum;
+}
+
+double shares_of_phase(const char *phase, double share, bool fragments) {
+  static const struct {
+    const char *name;
+    double from, to, to_with_fragments;
+  } known[] = {
+      {"piercing", 0, 0.15, 0.1},     {"ordering", 0.15, 0.92, 0.6},
+      {"visibility", 0.2, 1, 0.9},    {"subdividing", 0.2, 1, 0.9},
+      {"painting", 0.2, 1, 0.9},      {"edges", 0.15, 1, 0.4},
+      {"faces", 0.4, 1, 1},           {"depths", 0.9, 1, 1},
+  };
+  for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+    if (strcmp(phase, known[i].name) == 0) {
+      double to = fragments ? known[i].to_with_fragments : known[i].to;
+      return known[i].from + share * (to - known[i].from);
+    }
+  return share;
+}
