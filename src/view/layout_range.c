@@ -47,16 +47,29 @@ static bool has_area(const struct projection *projection,
   return false;
 }
 
+static void order(uint32_t *a, uint32_t *b) {
+  uint32_t low = *a < *b ? *a : *b;
+  *b = *a < *b ? *b : *a;
+  *a = low;
+}
+
 /* Adds the depths of what the page leaves of a triangle, if it has an area
- * there. */
+ * there.  Its corners are taken in one order, whatever the face's: to the last
+ * bit, the range must not depend on that. */
 static void grow_by_triangle(struct range *range, const struct layout *layout,
                              const struct projection *projection,
                              const uint32_t point[3]) {
-  const bool forward[3] = {true, true, true};
+  const bool forward[3] = {true, true, false};
   struct view_point corner[3];
   struct clip_polygon polygon;
+  uint32_t own[3];
   for (int k = 0; k < 3; k++)
-    corner[k] = layout_view(layout, layout_weld(layout, point[k]));
+    own[k] = layout_weld(layout, point[k]);
+  order(&own[0], &own[1]);
+  order(&own[1], &own[2]);
+  order(&own[0], &own[1]);
+  for (int k = 0; k < 3; k++)
+    corner[k] = layout_view(layout, own[k]);
   if (!clip_triangle(projection, corner, forward, &polygon) ||
       !has_area(projection, &polygon))
     return;
@@ -121,8 +134,10 @@ static bool grow_by_faces(struct range *range, struct layout *layout) {
  * them are in the range, or whatever they are.  Returns whether it grew. */
 static bool grow_by_segment(struct range *range, const struct layout *layout,
                             uint32_t from, uint32_t to, bool whatever) {
-  struct view_point end[2] = {layout_view(layout, layout_weld(layout, from)),
-                              layout_view(layout, layout_weld(layout, to))};
+  uint32_t own[2] = {layout_weld(layout, from), layout_weld(layout, to)};
+  order(&own[0], &own[1]);
+  struct view_point end[2] = {layout_view(layout, own[0]),
+                              layout_view(layout, own[1])};
   bool moved[2];
   if (!clip_segment(&layout->projection, end, moved))
     return false;
