@@ -6,7 +6,9 @@
  *          Angles are degrees.
  * Errors   Every fallible call returns a recto_status and, when given one,
  *          fills a recto_error with the code, the file and line at fault and
- *          a sentence.  A failed call leaves its outputs NULL.
+ *          a sentence.  A failed call leaves its outputs NULL.  A pointer that
+ *          is NULL, where that has no meaning, is RECTO_ERROR_ARGUMENT; calls
+ *          without a status then do nothing and return 0, NULL or the like.
  * Owner    The library copies what it is given.  You own what a _create,
  *          _read or _render returns and free it with the matching _destroy,
  *          which accepts NULL.  Getters lend until the object is changed or
@@ -437,7 +439,8 @@ typedef struct recto_stroke {
 /* How many strokes the drawing has, in drawing order. */
 size_t recto_drawing_stroke_count(const recto_drawing *drawing);
 
-/* The stroke at `index` < recto_drawing_stroke_count.  Lends. */
+/* The stroke at `index` < recto_drawing_stroke_count; past the last an empty
+ * one.  Lends. */
 recto_stroke recto_drawing_stroke(const recto_drawing *drawing, size_t index);
 
 #if defined __GNUC__

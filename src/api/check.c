@@ -77,7 +77,11 @@ recto_status recto_scene_check(const recto_scene *scene, const char *path,
   struct judge_drawing drawing = {0};
   struct judge_verdict found;
   recto_options asked;
+  if (verdict == NULL)
+    return error_null(error, "the place for the verdict");
   *verdict = (recto_verdict){0};
+  if (scene == NULL || path == NULL)
+    return error_null(error, scene == NULL ? "the scene" : "the path");
   recto_status status = options_take(&asked, options, error);
   if (status == RECTO_OK)
     status = read_drawing(&drawing, path, error);

@@ -7,6 +7,8 @@
 #include "scene/limit.h"
 
 recto_status recto_scene_create(recto_scene **scene, recto_error *error) {
+  if (scene == NULL)
+    return error_null(error, "the place for the scene");
   *scene = mem_calloc(1, sizeof **scene);
   if (*scene == NULL)
     return error_memory(error);
@@ -31,6 +33,8 @@ recto_status recto_scene_read(recto_scene *scene, const char *path,
                               const char *format, const recto_options *options,
                               recto_error *error) {
   struct diagnostics diagnostics = {.file = path};
+  if (scene == NULL || path == NULL)
+    return error_null(error, scene == NULL ? "the scene" : "the path");
   if (options != NULL) {
     diagnostics.warning = options->warning;
     diagnostics.progress = options->progress;
@@ -44,12 +48,15 @@ recto_status recto_scene_read(recto_scene *scene, const char *path,
   scene->read_cpu += clock_cpu() - cpu;
   scene->read_wall += clock_wall() - wall;
   if (status == RECTO_OK)
+    if (status == RECTO_OK)
     keep_faults(scene, &diagnostics);
   return status;
 }
 
 recto_status recto_scene_add_point(recto_scene *scene, const double xyz[3],
                                    uint32_t *index, recto_error *error) {
+  if (scene == NULL || xyz == NULL)
+    return error_null(error, scene == NULL ? "the scene" : "the point");
   if (!isfinite(xyz[0]) || !isfinite(xyz[1]) || !isfinite(xyz[2]))
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "a point is not finite");
@@ -69,6 +76,8 @@ recto_status recto_scene_add_point(recto_scene *scene, const double xyz[3],
 
 recto_status recto_scene_add_group(recto_scene *scene, const char *name,
                                    recto_error *error) {
+  if (scene == NULL || name == NULL)
+    return error_null(error, scene == NULL ? "the scene" : "the name");
   return scene_use_group(&scene->scene, name, strlen(name), error);
 }
 
@@ -76,6 +85,8 @@ recto_status recto_scene_add_group(recto_scene *scene, const char *name,
 static recto_status check_corners(const recto_scene *scene,
                                   const uint32_t *corner, size_t count,
                                   size_t least, recto_error *error) {
+  if (scene == NULL || corner == NULL)
+    return error_null(error, scene == NULL ? "the scene" : "the corners");
   if (count < least)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "too few corners: %zu, not %zu", count, least);
@@ -93,7 +104,8 @@ recto_status recto_scene_add_face(recto_scene *scene, const uint32_t *corner,
   if (status == RECTO_OK)
     status =
         scene_add_face(&scene->scene, corner, count, 0, &diagnostics, error);
-  keep_faults(scene, &diagnostics);
+  if (status == RECTO_OK)
+    keep_faults(scene, &diagnostics);
   return status;
 }
 
@@ -105,6 +117,7 @@ recto_status recto_scene_add_polyline(recto_scene *scene,
   if (status == RECTO_OK)
     status =
         scene_add_wire(&scene->scene, corner, count, 0, &diagnostics, error);
-  keep_faults(scene, &diagnostics);
+  if (status == RECTO_OK)
+    keep_faults(scene, &diagnostics);
   return status;
 }

@@ -6,6 +6,8 @@
 #include "backends/device.h"
 
 void recto_options_init(recto_options *options) {
+  if (options == NULL)
+    return;
   *options = (recto_options){
       .method = RECTO_METHOD_AUTO,
       .contact = -1,

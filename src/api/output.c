@@ -20,22 +20,26 @@ void recto_drawing_destroy(recto_drawing *drawing) {
 }
 
 const char *recto_drawing_verdict(const recto_drawing *drawing) {
-  return drawing->verdict[0] != '\0' ? drawing->verdict : NULL;
+  return drawing != NULL && drawing->verdict[0] != '\0' ? drawing->verdict
+                                                        : NULL;
 }
 
 const char *recto_drawing_stats(const recto_drawing *drawing) {
-  const char *json = drawing->drawing.report != NULL
+  const char *json = drawing != NULL && drawing->drawing.report != NULL
                          ? report_json(drawing->drawing.report)
                          : NULL;
   return json != NULL ? json : "{}\n";
 }
 
 size_t recto_drawing_stroke_count(const recto_drawing *drawing) {
-  return drawing->drawing.stroke.count;
+  return drawing != NULL ? drawing->drawing.stroke.count : 0;
 }
 
 recto_stroke recto_drawing_stroke(const recto_drawing *drawing, size_t index) {
-  assert(index < drawing->drawing.stroke.count);
+  if (index >= recto_drawing_stroke_count(drawing))
+    return (recto_stroke){.face = UINT32_MAX,
+                          .edge = UINT32_MAX,
+                          .group = UINT32_MAX};
   const struct drawing_stroke *stroke = &drawing->drawing.stroke.item[index];
   /* A drawing's point is exactly a pair of doubles. */
   static_assert(sizeof(struct drawing_point) == 2 * sizeof(double), "pairs");
@@ -54,7 +58,9 @@ recto_stroke recto_drawing_stroke(const recto_drawing *drawing, size_t index) {
 /* ---- Writing ------------------------------------------------------------- */
 
 static const struct writer *find_writer(const char *path, const char *format) {
-  return format != NULL ? writer_by_name(format) : writer_by_path(path);
+  if (format != NULL)
+    return writer_by_name(format);
+  return path != NULL ? writer_by_path(path) : NULL;
 }
 
 const char *recto_output_format(const char *path, const char *format) {
@@ -84,7 +90,10 @@ static struct writer_options writer_options_of(const recto_options *options) {
 double recto_output_unit_mm(const char *path, const char *format,
                             const recto_options *options) {
   const struct writer *writer = find_writer(path, format);
-  struct writer_options how = writer_options_of(options);
+  recto_options usual;
+  recto_options_init(&usual);
+  struct writer_options how =
+      writer_options_of(options != NULL ? options : &usual);
   return writer != NULL ? writer->unit_mm(&how) : 0;
 }
 
@@ -101,6 +110,8 @@ static void suit_margin(recto_options *o, const struct writer *writer) {
 void recto_options_suit(recto_options *options, const char *path,
                         const char *format) {
   const struct writer *writer = find_writer(path, format);
+  if (options == NULL)
+    return;
   options->unit_mm = recto_output_unit_mm(path, format, options);
   if (options->margin_mm < 0 && writer != NULL && writer->margin_mm != NULL)
     suit_margin(options, writer);
@@ -198,6 +209,8 @@ recto_drawing_write_with_stats(const recto_drawing *drawing, const char *path,
                                recto_error *error) {
   recto_options own;
   struct outputs outputs = {NULL, NULL};
+  if (drawing == NULL || path == NULL)
+    return error_null(error, drawing == NULL ? "the drawing" : "the path");
   recto_status status = options_take(&own, options, error);
   if (status != RECTO_OK)
     return status;
@@ -244,6 +257,8 @@ recto_status recto_draw_file(const char *model, const char *from,
   recto_scene *scene = NULL;
   recto_drawing *drawing = NULL;
   recto_options fitting;
+  if (model == NULL || output == NULL)
+    return error_null(error, model == NULL ? "the model" : "the output");
   /* Known before the work: a format that is not there. */
   if (find_writer(output, to) == NULL)
     return refuse(output, to, error);

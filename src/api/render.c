@@ -454,7 +454,11 @@ recto_status recto_scene_render(const recto_scene *scene,
                                 const recto_options *options,
                                 recto_drawing **drawing, recto_error *error) {
   recto_options own;
+  if (drawing == NULL)
+    return error_null(error, "the place for the drawing");
   *drawing = NULL;
+  if (scene == NULL)
+    return error_null(error, "the scene");
   recto_status status = options_take(&own, options, error);
   if (status != RECTO_OK)
     return status;

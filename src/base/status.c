@@ -85,3 +85,7 @@ recto_status error_set(recto_error *error, recto_status code, const char *file,
 recto_status error_memory(recto_error *error) {
   return error_set(error, RECTO_ERROR_MEMORY, NULL, 0, "out of memory");
 }
+
+recto_status error_null(recto_error *error, const char *name) {
+  return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0, "%s is NULL", name);
+}

@@ -21,6 +21,10 @@ recto_status error_set(recto_error *error, recto_status code, const char *file,
                        unsigned long line, const char *format, ...)
     PRINTF_LIKE(5, 6);
 
+/* error_set(error, RECTO_ERROR_ARGUMENT, ...): `name` says which argument may
+ * not be NULL. */
+recto_status error_null(recto_error *error, const char *name);
+
 /* error_set(error, RECTO_ERROR_MEMORY, ...) with its usual words. */
 recto_status error_memory(recto_error *error);
 
