@@ -166,6 +166,9 @@ unit_tests += %D%/test_cancelling
 unit_tests += %D%/test_silhouette
 %C%_test_silhouette_SOURCES = %D%/test_silhouette.c %D%/laid.c %D%/laid.h
 %C%_test_silhouette_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_memory_faults
+%C%_test_memory_faults_SOURCES = %D%/test_memory_faults.c \
+  %D%/temporary.c %D%/temporary.h
 unit_tests += %D%/test_null
 %C%_test_null_SOURCES = %D%/test_null.c
 unit_tests += %D%/test_api

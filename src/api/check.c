@@ -17,7 +17,9 @@ static recto_status read_drawing(struct judge_drawing *drawing,
   recto_status status = input_load(&input, path, error);
   if (status == RECTO_OK) {
     const char *fault = judge_read_svg(drawing, input.bytes, input.count);
-    if (fault != NULL)
+    if (fault == JUDGE_NO_MEMORY)
+      status = error_memory(error);
+    else if (fault != NULL)
       status = error_set(error, RECTO_ERROR_FORMAT, path, 0, "%s", fault);
   }
   input_unload(&input);

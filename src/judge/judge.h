@@ -47,9 +47,11 @@ struct judge_drawing {
  * same, paths of M, L, Z with absolute numbers, polylines and polygons.
  * Strokes of the class hidden are JUDGE_HIDDEN, and without a class those on a
  * layer labelled "hidden" or "2 hidden"; hatching and seams are left out.
- * Returns NULL, or what is wrong with it. */
+ * Returns NULL, or what is wrong with it: JUDGE_NO_MEMORY itself where memory
+ * ran out. */
 const char *judge_read_svg(struct judge_drawing *drawing, const char *text,
                            size_t length);
+extern const char JUDGE_NO_MEMORY[];
 void judge_drawing_fini(struct judge_drawing *drawing);
 
 /* ---- Where it is seen from ----------------------------------------------- */

@@ -265,6 +265,8 @@ static const char *open_element(struct svg_reader *reader,
   return fault;
 }
 
+const char JUDGE_NO_MEMORY[] = "memory ran out";
+
 static const char *read_tags(struct svg_reader *reader, struct svg_text file) {
   const char *fault = NULL;
   struct svg_tag tag;
@@ -279,7 +281,7 @@ static const char *read_tags(struct svg_reader *reader, struct svg_text file) {
       reader->open.count--;
   }
   if (fault != NULL || reader->starved)
-    return fault != NULL ? fault : "memory ran out";
+    return fault != NULL ? fault : JUDGE_NO_MEMORY;
   if (broken || reader->open.count > 0)
     return "the file stops in the middle";
   return reader->root ? NULL : "no svg in it";
