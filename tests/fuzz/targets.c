@@ -85,6 +85,8 @@ static void print_word(const char *word, size_t length, FILE *file) {
 }
 
 void fuzz_print_dictionary(const struct fuzz_target *target, FILE *file) {
+  /* libFuzzer refuses a dictionary that is empty. */
+  fprintf(file, "# words of %s\n", target->name);
   for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
     if (strcmp(known[i].target, target->name) == 0)
       for (const char *word = known[i].words; *word != '\0';) {
