@@ -232,7 +232,7 @@ static bool pass_place(struct sweep *sweep, const struct sweep_place *place,
       return false;
   sweep->around.count = 0;
   if ((sweep->meet != NULL &&
-       !list_around(sweep, sweep->active.item + low, high - low)) ||
+       !list_around(sweep, ARRAY_AT(&sweep->active, low), high - low)) ||
       !list_out(sweep, place, low, high) ||
       (sweep->meet != NULL &&
        !list_around(sweep, sweep->starting.item, sweep->starting.count)) ||
