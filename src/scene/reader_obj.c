@@ -419,13 +419,15 @@ static recto_status read_obj(struct scene *scene, const char *bytes,
   if (status == RECTO_OK && !p.known && p.strange)
     status = error_set(error, RECTO_ERROR_FORMAT, path, p.strange,
                        "no statement of an OBJ file");
-  if (status == RECTO_OK && scene->wants_colours)
-    status = materials_colour(&p.materials, scene, path, diagnostics, error);
   if (status == RECTO_OK)
     place_bad_points(&p);
   if (status == RECTO_OK)
     status = scene_state_precision(scene, p.first,
                                    precision_conclude(&p.sample), error);
+  /* The colour of a group that was there before is not taken back, so nothing
+   * that may fail comes after this. */
+  if (status == RECTO_OK && scene->wants_colours)
+    status = materials_colour(&p.materials, scene, path, diagnostics, error);
   materials_fini(&p.materials);
   ARRAY_FREE(&p.bad);
   ARRAY_FREE(&p.corner);
