@@ -104,7 +104,7 @@
  * Unit        share of the face's own extent
  * Derivation  single precision and six digits round a point by 1e-7 of its
  *             size; sums of a few of those stay below.
- * Users       view/triangulate.c (for a count alone: nothing is decided)
+ * Users       view/polygon.c (for a count alone: nothing is decided)
  * Ten times   fewer faces are counted as warped. */
 #define TOLERANCE_WARP_SHARE 1e-6
 
@@ -133,6 +133,16 @@
  * Users       scene/welded.c
  * Ten times   gaps of a tenth of a face are closed, which can be seen. */
 #define TOLERANCE_WELD_FACE_SHARE 0x1p-8
+
+/* A polygon shows no area along an axis where it is no more than this.
+ * Unit        share of the square of the polygon's extent
+ * Derivation  the areas of lobes that cancel add up to rounding noise, 2^-53 of
+ *             the square for each of the corners: this leaves room for
+ *             thousands.
+ * Users       view/polygon.c, judge/cuts.c
+ * Ten times   needles a hundred times thinner than they are wide today are
+ *             seen along their thinnest extent; they are cut otherwise. */
+#define TOLERANCE_NO_AREA_SHARE 0x1p-40
 
 /* How far the judge's rays are moved to either side of an edge.
  * Unit        mm

@@ -11,6 +11,7 @@ librecto_core_la_SOURCES += \
   %D%/layout_edges.c %D%/layout_points.c %D%/layout_range.c \
   %D%/layout_triangles.c \
   %D%/layout_facet.c %D%/layout_facet.h \
+  %D%/polygon.c %D%/polygon.h \
   %D%/project.c %D%/project.h \
   %D%/sheet.c %D%/sheet.h \
   %D%/triangulate.c %D%/triangulate.h \

@@ -1,0 +1,145 @@
+/* polygon.c - a polygon of the scene, and its image along a coordinate axis. */
+#include "view/polygon.h"
+
+#include <string.h>
+
+#include "base/tolerance.h"
+#include "scene/exact.h"
+#include "view/vector.h"
+
+static void offset(const struct polygon *polygon, uint32_t c,
+                   const double origin[3], double to[3]) {
+  polygon_place(polygon, c, to);
+  for (int k = 0; k < 3; k++)
+    to[k] -= origin[k];
+}
+
+/* The nearest number of 24 significant bits, as of a float, but of any size. */
+static double round_to_single(double value) {
+  const uint64_t half = UINT64_C(1) << 28;
+  uint64_t bits;
+  if (!isfinite(value))
+    return value;
+  memcpy(&bits, &value, sizeof bits);
+  bits = (bits + half) & ~(2 * half - 1);
+  memcpy(&value, &bits, sizeof bits);
+  return value;
+}
+
+double polygon_distance(const struct polygon *polygon, uint32_t c, uint32_t d) {
+  double origin[3], to[3];
+  polygon_place(polygon, c, origin);
+  offset(polygon, d, origin, to);
+  return round_to_single(vector_dot(to, to));
+}
+
+/* ---- Areas --------------------------------------------------------------- */
+
+static void find_box(const struct polygon *polygon, double low[3],
+                     double high[3]) {
+  double at[3];
+  polygon_place(polygon, 0, low);
+  polygon_place(polygon, 0, high);
+  for (uint32_t c = 1; c < polygon->count; c++) {
+    polygon_place(polygon, c, at);
+    for (int k = 0; k < 3; k++) {
+      low[k] = lower_bound(low[k], at[k]);
+      high[k] = upper_bound(high[k], at[k]);
+    }
+  }
+}
+
+struct polygon_areas polygon_measure(const struct polygon *polygon) {
+  struct polygon_areas areas = {{0, 0, 0}, 0};
+  double origin[3], a[3], b[3], more[3];
+  polygon_place(polygon, 0, origin);
+  offset(polygon, 1, origin, a);
+  for (uint32_t c = 2; c < polygon->count; c++) {
+    offset(polygon, c, origin, b);
+    vector_cross(a, b, more);
+    for (int k = 0; k < 3; k++) {
+      areas.value[k] += more[k];
+      a[k] = b[k];
+    }
+  }
+  find_box(polygon, a, b);
+  for (int k = 0; k < 3; k++)
+    areas.extent = upper_bound(areas.extent, b[k] - a[k]);
+  return areas;
+}
+
+bool polygon_is_warped(const struct polygon *polygon,
+                       const struct polygon_areas *areas) {
+  double length = vector_length(areas->value), origin[3], to[3];
+  double most = length * areas->extent * TOLERANCE_WARP_SHARE;
+  polygon_place(polygon, 0, origin);
+  for (uint32_t c = 1; polygon->count > 3 && c < polygon->count; c++) {
+    offset(polygon, c, origin, to);
+    if (fabs(vector_dot(areas->value, to)) > most)
+      return true;
+  }
+  return false;
+}
+
+/* ---- The image ----------------------------------------------------------- */
+
+/* Of three sizes the largest, or the smallest, z before x before y. */
+static int choose(const double size[3], double sign) {
+  int axis = sign * size[0] > sign * size[2] ? 0 : 2;
+  return sign * size[1] > sign * size[axis] ? 1 : axis;
+}
+
+/* The axis to look along; *shows: the polygon has an area along it. */
+static int choose_axis(const struct polygon *polygon,
+                       const struct polygon_areas *areas, bool *shows) {
+  double size[3], low[3], high[3];
+  for (int k = 0; k < 3; k++)
+    size[k] = round_to_single(fabs(areas->value[k]));
+  int axis = choose(size, 1);
+  *shows = size[axis] > areas->extent * areas->extent * TOLERANCE_NO_AREA_SHARE;
+  if (*shows)
+    return axis;
+  find_box(polygon, low, high);
+  for (int k = 0; k < 3; k++)
+    size[k] = round_to_single(high[k] - low[k]);
+  return choose(size, -1);
+}
+
+static double *image(void *at, size_t stride, uint32_t c) {
+  return (double *)(void *)((char *)at + stride * c);
+}
+
+static bool is_before(const double a[2], const double b[2]) {
+  return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
+}
+
+/* Whether the first corner from the left turns right. */
+static bool is_clockwise(void *at, size_t stride, uint32_t count) {
+  uint32_t low = 0;
+  for (uint32_t c = 1; c < count; c++)
+    if (is_before(image(at, stride, c), image(at, stride, low)))
+      low = c;
+  return exact_turn(image(at, stride, low > 0 ? low - 1 : count - 1),
+                    image(at, stride, low),
+                    image(at, stride, low + 1 < count ? low + 1 : 0)) < 0;
+}
+
+void polygon_flatten(const struct polygon *polygon,
+                     const struct polygon_areas *areas, void *at,
+                     size_t stride) {
+  bool shows;
+  int axis = choose_axis(polygon, areas, &shows);
+  for (uint32_t c = 0; c < polygon->count; c++) {
+    double place[3], *to = image(at, stride, c);
+    polygon_place(polygon, c, place);
+    to[0] = place[(axis + 1) % 3];
+    to[1] = place[(axis + 2) % 3];
+  }
+  bool flip =
+      shows ? areas->value[axis] < 0 : is_clockwise(at, stride, polygon->count);
+  for (uint32_t c = 0; flip && c < polygon->count; c++) {
+    double *to = image(at, stride, c), swap = to[0];
+    to[0] = to[1];
+    to[1] = swap;
+  }
+}
