@@ -165,6 +165,31 @@ static void fewer_than_three_distinct_corners_are_no_face(void **state) {
   assert_int_equal(scene_face_count(&r->scene), 0);
 }
 
+/* Reported: such a face has three corners and no line goes through them. */
+static void a_way_there_and_back_is_no_face(void **state) {
+  struct reading *r = *state;
+  POLYGON(r, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}});
+  POLYGON(r, {{1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  POLYGON(r,
+          {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 9, 9}, {1, 1, 0}, {1, 0, 0}});
+  POLYGON(r,
+          {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, 1}});
+  assert_fault(r, SCENE_FAULT_ZERO_AREA, 4);
+  assert_int_equal(scene_face_count(&r->scene), 0);
+  /* Something is left of these. */
+  POLYGON(r, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}});
+  POLYGON(r, {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {0, 0, 0}, {1, 0, 0}});
+  assert_int_equal(scene_face_count(&r->scene), 2);
+}
+
+static void corners_of_a_face_at_one_place_are_one_point(void **state) {
+  struct reading *r = *state;
+  POLYGON(r, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}});
+  static const uint32_t kept[5] = {0, 1, 2, 1, 4};
+  assert_int_equal(r->scene.corner.count, 5);
+  assert_memory_equal(r->scene.corner.item, kept, sizeof kept);
+}
+
 static void corners_on_one_line_are_no_face(void **state) {
   struct reading *r = *state;
   POLYGON(r, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
@@ -544,6 +569,8 @@ int main(void) {
       T(a_sound_face_is_kept_as_it_is),
       T(repeated_corners_are_left_out),
       T(fewer_than_three_distinct_corners_are_no_face),
+      T(a_way_there_and_back_is_no_face),
+      T(corners_of_a_face_at_one_place_are_one_point),
       T(corners_on_one_line_are_no_face),
       T(a_face_with_area_is_kept),
       T(an_index_out_of_range_is_no_face),

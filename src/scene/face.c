@@ -6,6 +6,7 @@
  */
 #include "scene/scene.h"
 
+#include "base/sort.h"
 #include "scene/bowtie.h"
 #include "scene/exact.h"
 #include "scene/limit.h"
@@ -86,10 +87,33 @@ static bool all_on_one_line(const struct scene *scene, const uint32_t *corner,
   return true;
 }
 
-/* Tells the fault of a face, if it has one.  Returns whether it is kept. */
+/* Whether something is left of the face where it goes there and back.
+ * left  room for its corners */
+static bool has_inside(const struct scene *scene, const uint32_t *corner,
+                       size_t count, uint32_t *left) {
+  size_t first = 0, past = 0;
+  for (size_t i = 0; i < count; i++) {
+    if (past > 1 && same_position(scene, left[past - 2], corner[i]))
+      past--; /* the tip: the corner before it is this one */
+    else if (past == 0 || !same_position(scene, left[past - 1], corner[i]))
+      left[past++] = corner[i];
+  }
+  for (; past - first > 2; past--) {
+    if (same_position(scene, left[first], left[past - 1]) ||
+        same_position(scene, left[first], left[past - 2]))
+      continue;
+    if (!same_position(scene, left[first + 1], left[past - 1]))
+      return true;
+    first++;
+  }
+  return false;
+}
+
+/* Tells the fault of a face, if it has one.  Returns whether it is kept.
+ * room  for its corners */
 static bool examine_face(const struct scene *scene, const uint32_t *corner,
                          size_t count, unsigned long line,
-                         struct diagnostics *diagnostics) {
+                         struct diagnostics *diagnostics, uint32_t *room) {
   if (!has_three_positions(scene, corner, count)) {
     diagnostics_fault(diagnostics, SCENE_FAULT_FEW_CORNERS, line,
                       "face with fewer than three distinct corners, skipped");
@@ -99,6 +123,11 @@ static bool examine_face(const struct scene *scene, const uint32_t *corner,
     diagnostics_fault(diagnostics, SCENE_FAULT_ZERO_AREA, line,
                       "face without area, its corners are on one line, "
                       "skipped");
+    return false;
+  }
+  if (count > 3 && !has_inside(scene, corner, count, room)) {
+    diagnostics_fault(diagnostics, SCENE_FAULT_ZERO_AREA, line,
+                      "face without area, it goes there and back, skipped");
     return false;
   }
   if (count > 3 && bowtie_has_crossing(scene, corner, count))
@@ -118,6 +147,49 @@ static bool has_its_points(const struct scene *scene, const uint32_t *corner,
       return false;
     }
   return true;
+}
+
+/* ---- Corners at one place ------------------------------------------------ */
+
+/* A corner on its way through the sort. */
+struct placed {
+  struct scene_point at;
+  uint32_t *corner;
+};
+
+static int compare_placed(const void *a, const void *b, void *user) {
+  const struct scene_point *p = &((const struct placed *)a)->at;
+  const struct scene_point *q = &((const struct placed *)b)->at;
+  (void)user;
+  if (p->x != q->x)
+    return p->x < q->x ? -1 : 1;
+  if (p->y != q->y)
+    return p->y < q->y ? -1 : 1;
+  return p->z != q->z ? (p->z < q->z ? -1 : 1) : 0;
+}
+
+enum { FEW_CORNERS = 32 };
+
+/* Makes corners of one face that are at one place one point: the first of them
+ * that the face has.  So a way there and back runs along the same edges, even
+ * where the file has a point for each corner.
+ * Returns false when memory ran out. */
+static bool unite_corners(const struct scene *scene, uint32_t *corner,
+                          size_t count) {
+  struct placed few[FEW_CORNERS];
+  struct placed *placed =
+      count <= FEW_CORNERS ? few : mem_alloc(count, sizeof *placed);
+  if (!placed)
+    return false;
+  for (size_t i = 0; i < count; i++)
+    placed[i] = (struct placed){scene->point.item[corner[i]], &corner[i]};
+  bool good = sort_stable(placed, count, sizeof *placed, compare_placed, NULL);
+  for (size_t i = 1; good && i < count; i++)
+    if (compare_placed(&placed[i - 1], &placed[i], NULL) == 0)
+      *placed[i].corner = *placed[i - 1].corner;
+  if (placed != few)
+    mem_free(placed);
+  return good;
 }
 
 /* ---- Adding -------------------------------------------------------------- */
@@ -152,9 +224,14 @@ recto_status scene_add_face(struct scene *scene, const uint32_t *corner,
     for (size_t i = 0; i < count; i++)
       to[i] = corner[i];
   } else {
+    if (!ARRAY_RESERVE(&scene->corner, 2 * count))
+      return error_memory(error);
+    to = scene->corner.item + scene->corner.count;
     count = copy_distinct(scene, corner, count, true, to);
-    if (!examine_face(scene, to, count, line, diagnostics))
+    if (!examine_face(scene, to, count, line, diagnostics, to + count))
       return RECTO_OK;
+    if (count > 3 && !unite_corners(scene, to, count))
+      return error_memory(error);
   }
   if (scene->face_start.count == 0)
     scene->face_start.item[scene->face_start.count++] = 0;
