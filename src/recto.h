@@ -94,7 +94,8 @@ bool recto_method_is_available(recto_method method);
 
 /* Edge classes, as bits of a mask.  An edge has exactly one. */
 typedef enum recto_edge_class {
-  RECTO_EDGE_SILHOUETTE = 1 << 0,   /* both faces on one side of it */
+  RECTO_EDGE_SILHOUETTE = 1 << 0,   /* both faces on one side of it; also where
+                                       a face that is not planar folds */
   RECTO_EDGE_BORDER = 1 << 1,       /* one face, or more than two */
   RECTO_EDGE_CREASE = 1 << 2,       /* dihedral beyond the crease angle */
   RECTO_EDGE_GROUP = 1 << 3,        /* two groups meet */
@@ -331,8 +332,9 @@ RECTO_USE_RESULT recto_status recto_scene_add_group(recto_scene *scene,
                                                     const char *name,
                                                     recto_error *error);
 
-/* Adds a planar face of `count` >= 3 corners, indices of points.  One without
- * area is skipped and counted in the stats, as in a file. */
+/* Adds a face of `count` >= 3 corners, indices of points; it need not be
+ * planar. One without area is skipped and counted in the stats, as in a file.
+ */
 RECTO_USE_RESULT recto_status recto_scene_add_face(recto_scene *scene,
                                                    const uint32_t *corner,
                                                    size_t count,

@@ -119,9 +119,22 @@ static void check_edge(const struct laid *laid, const struct sheet_edge *edge) {
   assert_true(edge->edge_class & laid->options.edges);
 }
 
+/* A diagonal with both of its triangles on one side of it; clipping may leave
+ * some of these more than one piece. */
+static void check_fold(const struct laid *laid, const struct sheet_edge *edge) {
+  const struct sheet *sheet = &laid->sheet;
+  assert_true(edge->edge_class == 0 ||
+              edge->edge_class == RECTO_EDGE_SILHOUETTE);
+  assert_int_not_equal(edge->triangle[1], SHEET_NONE);
+  const struct sheet_triangle *one = &sheet->triangle.item[edge->triangle[0]];
+  const struct sheet_triangle *two = &sheet->triangle.item[edge->triangle[1]];
+  assert_int_equal(one->face, two->face);
+  assert_int_equal(edge->group, laid->scene.face_group.item[one->face]);
+}
+
 static void check_edges(const struct laid *laid) {
   const struct sheet *sheet = &laid->sheet;
-  bool wires = false;
+  bool wires = false, folds = false;
   for (size_t e = 0; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
     check_edge(laid, edge);
@@ -134,6 +147,12 @@ static void check_edges(const struct laid *laid) {
       continue;
     }
     assert_false(wires);
+    if (edge->source == SHEET_NONE) {
+      check_fold(laid, edge);
+      folds = true;
+      continue;
+    }
+    assert_false(folds);
     assert_true(edge->source < laid->topology.edge.count);
     assert_true(e == 0 || edge->source > edge[-1].source);
     if (edge->triangle[1] != SHEET_NONE)

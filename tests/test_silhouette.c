@@ -287,30 +287,84 @@ static void outlines_add_edges_that_are_not_drawn(void **state) {
   }
 }
 
-/* A warped face folds at its diagonal, which is no edge. */
-static void a_fold_at_a_diagonal_is_a_contour(void **state) {
+/* How many drawn or undrawn edges are diagonals. */
+static size_t count_folds(const struct sheet *sheet) {
+  size_t folds = 0;
+  for (size_t e = 0; e < sheet->edge.count; e++)
+    folds += sheet->edge.item[e].source == SHEET_NONE;
+  return folds;
+}
+
+/* A warped face folds at its diagonal: that is a silhouette then and a contour,
+ * and else it is no edge at all. */
+static void a_fold_at_a_diagonal_is_a_silhouette(void **state) {
   (void)state;
   struct laid laid;
   start_in_front(&laid);
-  laid.options.azimuth_deg = 80;
   const double xyz[] = {0, 0, 0, 3, 0, 0, 3, 3, 2, 0, 3, 0};
   build_polygon(&laid.scene, xyz, 4);
-  bool folded = false;
-  for (double azimuth = 0; azimuth < 180; azimuth += 7) {
+  int folded = 0;
+  for (int turn = 0; turn < 4 * 26; turn++) {
     struct laid turned = laid;
-    turned.options.azimuth_deg = azimuth;
-    laid_out(&turned, true);
-    laid_check(&turned);
-    uint8_t both =
-        turned.sheet.triangle_flags[0] ^ turned.sheet.triangle_flags[1];
-    if (both & SHEET_FLIPPED) {
-      folded = true;
-      assert_int_equal(turned.sheet.contour.count, 5);
-    }
+    bool asked = turn & 1, outlines = turn & 2;
+    turned.options.azimuth_deg = 7 * (turn / 4);
+    turned.options.edges =
+        RECTO_EDGE_BORDER | (asked ? RECTO_EDGE_SILHOUETTE : 0);
+    laid_out(&turned, outlines);
+    if (outlines)
+      laid_check(&turned);
+    const struct sheet *sheet = &turned.sheet;
+    bool fold =
+        (sheet->triangle_flags[0] ^ sheet->triangle_flags[1]) & SHEET_FLIPPED;
+    folded += fold;
+    assert_int_equal(sheet->contour.count, 4 + fold);
+    assert_int_equal(count_folds(sheet), fold && (asked || outlines));
+    assert_int_equal(laid_count(&turned, RECTO_EDGE_SILHOUETTE), fold && asked);
     sheet_fini(&turned.sheet);
     topology_fini(&turned.topology);
   }
-  assert_true(folded);
+  assert_in_range(folded, 1, 4 * 26 - 1);
+  laid_fini(&laid);
+}
+
+/* A wall of which rounding moved the corners, seen from its edge: no two of
+ * its triangles part the front from the back. */
+static void rounding_makes_no_fold(void **state) {
+  (void)state;
+  const double off = 1e-7;
+  struct laid laid;
+  start_in_front(&laid);
+  const double xyz[] = {0, 0, 0,    0, 3, off, 0, 5,   1,    off, 5,
+                        3, 0, -off, 4, 0, -1,  2, off, -0.5, 1};
+  build_polygon(&laid.scene, xyz, 7);
+  build_parallelogram(&laid.scene, vector_of(2, 0, 0), vector_of(1, 0, 0),
+                      vector_of(0, 0, 1));
+  laid_out(&laid, true);
+  laid_check(&laid);
+  assert_int_equal(count_folds(&laid.sheet), 0);
+  laid_fini(&laid);
+}
+
+/* The sides of a warped face are silhouettes by the triangles that meet there,
+ * and creases by the faces' normals on the whole: a surface of gently warped
+ * quadrilaterals has no creases, and every point of its outline lies on a
+ * silhouette or a border. */
+static void warp_alone_makes_no_crease(void **state) {
+  (void)state;
+  struct laid laid;
+  start_from_corner(&laid);
+  build_group(&laid.scene, "saddle");
+  for (int row = 0; row <= 12; row++)
+    for (int column = 0; column <= 12; column++)
+      build_point(&laid.scene, column - 6, row - 6,
+                  0.03 * (column - 6) * (row - 6) +
+                      ((row + column) % 2 ? 0.12 : -0.12));
+  build_grid(&laid.scene, 0, 12, 12, false);
+  laid.options.crease_deg = 20;
+  laid_out(&laid, true);
+  laid_check(&laid);
+  assert_int_equal(laid.sheet.warped, 144);
+  assert_int_equal(laid_count(&laid, RECTO_EDGE_CREASE), 0);
   laid_fini(&laid);
 }
 
@@ -346,7 +400,9 @@ int main(void) {
       cmocka_unit_test(a_lone_face_has_borders),
       cmocka_unit_test(where_groups_meet_is_an_edge_of_the_first_face_s_group),
       cmocka_unit_test(outlines_add_edges_that_are_not_drawn),
-      cmocka_unit_test(a_fold_at_a_diagonal_is_a_contour),
+      cmocka_unit_test(a_fold_at_a_diagonal_is_a_silhouette),
+      cmocka_unit_test(rounding_makes_no_fold),
+      cmocka_unit_test(warp_alone_makes_no_crease),
       cmocka_unit_test(clipping_makes_no_silhouettes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

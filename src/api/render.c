@@ -282,6 +282,7 @@ static void report_scene(struct report *report, const recto_scene *model) {
 static void report_sheet(struct report *report, const struct render *render) {
   const struct sheet *sheet = &render->sheet;
   report_add(report, "faults", "warped", (int64_t)sheet->warped);
+  report_add(report, "faults", "zero_area", (int64_t)sheet->empty);
   report_int(report, "sheet", "points", (int64_t)sheet->point.count);
   report_int(report, "sheet", "edges", (int64_t)sheet->edge.count);
   report_int(report, "sheet", "faces_clipped_near",

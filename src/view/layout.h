@@ -5,10 +5,10 @@
  *              spread over.
  *   points     every used scene point on the paper becomes a sheet point.
  *   triangles  faces are triangulated, clipped, turned counter-clockwise; their
- *              sides name topology edges, and each edge learns on which of its
- *              sides its faces lie.
- *   edges      edges are classed, and where they are wanted made; then the
- *              sides of the triangles name sheet edges.
+ *              sides name topology edges, or folds counted on from these, and
+ *              each edge learns on which of its sides its faces lie.
+ *   edges      edges are classed, and where they are wanted made, then the
+ *              folds; then the sides of the triangles name sheet edges.
  *   wires      polylines become edges.
  * Invariants  A topology edge is cut once, by whichever phase asks first, from
  *   its lower to its upper point; all others take the points it got.
@@ -49,11 +49,25 @@ static inline void layout_learn(uint8_t *sides, bool forward, int sign) {
     *sides = (uint8_t)(*sides + LAYOUT_ONE_FACE);
 }
 
+/* Both faces of a line lie on one side of it on the page, or one of them is
+ * seen edge-on.  A line that lost a face to clipping is no silhouette. */
+static inline bool layout_is_silhouette(uint8_t sides) {
+  bool left = sides & LAYOUT_LEFT, right = sides & LAYOUT_RIGHT;
+  return sides / LAYOUT_ONE_FACE == 2 && left != right;
+}
+
 /* A diagonal of the face at hand. */
 struct layout_diagonal {
-  uint32_t from, to; /* welded scene points, in the order of its corners */
+  uint32_t from, to; /* welded scene points, the lower first */
   uint32_t cut;      /* as edge_cut */
+  uint32_t fold;     /* its number; SHEET_NONE: it is not drawn */
   uint8_t sides;     /* LAYOUT_... */
+};
+
+/* A diagonal that is a silhouette. */
+struct layout_fold {
+  struct layout_cut ends;
+  uint32_t face;
 };
 
 struct layout {
@@ -73,6 +87,8 @@ struct layout {
   ARRAY(uint8_t) flags; /* one a triangle, the sheet's in the end */
   struct triangulation triangulation;
   ARRAY(struct layout_diagonal) diagonal; /* of one face */
+  ARRAY(struct layout_fold) fold;
+  ARRAY(uint32_t) corner; /* of one face, welded */
   recto_error *error;
 };
 

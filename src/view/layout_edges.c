@@ -6,22 +6,13 @@
 static const unsigned face_natures =
     RECTO_EDGES_ALL & ~(unsigned)(RECTO_EDGE_WIRE | RECTO_EDGE_INTERSECTION);
 
-/* Both of its faces on one side of it on the page, or one of them seen
- * edge-on.  An edge that lost a face to clipping is none. */
-static bool is_silhouette(uint8_t sides) {
-  if (sides / LAYOUT_ONE_FACE != 2)
-    return false;
-  bool left = sides & LAYOUT_LEFT, right = sides & LAYOUT_RIGHT;
-  return left != right;
-}
-
 /* The natures of an edge as it is seen.  One that a face has twice, a bridge to
  * a hole or a spike, lies within that face.
  * still  those that do not depend on the camera */
 static unsigned natures_of(const struct topology_edge *edge, unsigned still,
                            uint8_t sides) {
   if (edge->uses != 2 || edge->first == edge->second ||
-      !is_silhouette(sides))
+      !layout_is_silhouette(sides))
     return still;
   return (still & ~(unsigned)RECTO_EDGE_SMOOTH) | RECTO_EDGE_SILHOUETTE;
 }
@@ -121,16 +112,31 @@ static recto_status make_edges(struct layout *layout, const uint8_t *natures,
   return RECTO_OK;
 }
 
+/* Makes the folds; whoever found them saw to it that they are wanted. */
+static bool make_folds(struct layout *layout) {
+  unsigned wanted = layout->options->edges & RECTO_EDGE_SILHOUETTE;
+  for (size_t f = 0; f < layout->fold.count; f++) {
+    const struct layout_fold *fold = &layout->fold.item[f];
+    uint32_t group = layout->scene->face_group.item[fold->face];
+    if (!add_edge(layout, fold->ends, SHEET_NONE, group, wanted, 0))
+      return false;
+  }
+  return true;
+}
+
 /* The sides of the triangles name sheet edges from now on, and the edges their
  * first two triangles. */
 static void name_sides(struct layout *layout, const struct made *made) {
   struct sheet *sheet = layout->sheet;
+  uint32_t edges = (uint32_t)layout->topology->edge.count;
+  uint32_t first_fold = (uint32_t)(sheet->edge.count - layout->fold.count);
   for (size_t t = 0; t < sheet->triangle.count; t++) {
     uint32_t *side = sheet->triangle.item[t].side;
     for (int k = 0; k < 3; k++) {
       if (side[k] == SHEET_NONE)
         continue;
-      side[k] = made_of(made, side[k]);
+      side[k] = side[k] < edges ? made_of(made, side[k])
+                                : first_fold + (side[k] - edges);
       if (side[k] == SHEET_NONE)
         continue;
       uint32_t *of = sheet->edge.item[side[k]].triangle;
@@ -158,6 +164,8 @@ recto_status layout_edges(struct layout *layout) {
   if (layout->outlines && !ARRAY_RESERVE(&layout->sheet->edge, edges))
     goto no_memory;
   status = make_edges(layout, natures, &made);
+  if (status == RECTO_OK && !make_folds(layout))
+    goto no_memory;
   if (status == RECTO_OK)
     name_sides(layout, &made);
   goto end;

@@ -57,10 +57,11 @@ static recto_status find_corner(struct layout *layout,
                               : RECTO_OK;
 }
 
-static uint32_t edge_of(const struct layout_facet *facet,
+static uint32_t edge_of(const struct layout *layout,
+                        const struct layout_facet *facet,
                         const struct clip_polygon *polygon, int i) {
   int side = polygon->corner[i].side;
-  return side == CLIP_CUT ? SHEET_NONE : facet->side[side];
+  return side == CLIP_CUT ? SHEET_NONE : layout_name_of(layout, facet, side);
 }
 
 /* Adds what is left of a facet as a fan.  Where the grid folded a sliver of it
@@ -78,10 +79,10 @@ static recto_status add_fan(struct layout *layout,
   for (int i = 1; i + 1 < polygon->count; i++) {
     bool last = i + 2 == polygon->count;
     const uint32_t corner[3] = {point[0], point[i], point[i + 1]};
-    const uint32_t side[3] = {i == 1 ? edge_of(facet, polygon, 0) : SHEET_NONE,
-                              edge_of(facet, polygon, i),
-                              last ? edge_of(facet, polygon, i + 1)
-                                   : SHEET_NONE};
+    const uint32_t side[3] = {
+        i == 1 ? edge_of(layout, facet, polygon, 0) : SHEET_NONE,
+        edge_of(layout, facet, polygon, i),
+        last ? edge_of(layout, facet, polygon, i + 1) : SHEET_NONE};
     area[i] = layout_add_triangle(layout, facet->face, corner, side);
     whole += area[i];
   }

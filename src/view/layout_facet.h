@@ -14,6 +14,17 @@ struct layout_facet {
   uint32_t diagonal[3]; /* where the side is one: its number in the face */
 };
 
+/* What a side is called until it is known which diagonals are folds: as a
+ * topology edge, or where it is the face's n-th diagonal as n folds on from
+ * those that there are. */
+static inline uint32_t layout_name_of(const struct layout *layout,
+                                      const struct layout_facet *facet, int k) {
+  return facet->side[k] != SHEET_NONE
+             ? facet->side[k]
+             : (uint32_t)layout->topology->edge.count +
+                   (uint32_t)layout->fold.count + facet->diagonal[k];
+}
+
 /* The side of a facet that is a diagonal, or an edge, learns where it lies. */
 static inline void layout_learn_side(struct layout *layout,
                                      const struct layout_facet *facet, int k,
@@ -90,8 +101,10 @@ static inline int layout_add_facet(struct layout *layout,
   const uint32_t *map = layout->point_map;
   const uint32_t point[3] = {map[facet->point[0]], map[facet->point[1]],
                              map[facet->point[2]]};
-  return geom_sign64(
-      layout_add_triangle(layout, facet->face, point, facet->side));
+  const uint32_t side[3] = {layout_name_of(layout, facet, 0),
+                            layout_name_of(layout, facet, 1),
+                            layout_name_of(layout, facet, 2)};
+  return geom_sign64(layout_add_triangle(layout, facet->face, point, side));
 }
 
 /* The sides of a facet learn where it lies. */

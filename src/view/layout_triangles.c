@@ -43,11 +43,11 @@ facet_of_triangle(struct layout *layout, uint32_t face, uint32_t start,
     facet.side[k] = SHEET_NONE;
     struct layout_diagonal *diagonal =
         &layout->diagonal.item[t->side[k] - count];
-    int next = k == 2 ? 0 : k + 1;
+    uint32_t from = facet.point[k], to = facet.point[k == 2 ? 0 : k + 1];
     facet.diagonal[k] = t->side[k] - count;
-    facet.forward[k] = t->corner[k] < t->corner[next];
-    diagonal->from = facet.point[facet.forward[k] ? k : next];
-    diagonal->to = facet.point[facet.forward[k] ? next : k];
+    facet.forward[k] = from < to;
+    diagonal->from = facet.forward[k] ? from : to;
+    diagonal->to = facet.forward[k] ? to : from;
   }
   return facet;
 }
@@ -59,24 +59,54 @@ static bool start_diagonals(struct layout *layout, uint32_t count) {
     return false;
   layout->diagonal.count = count;
   for (uint32_t d = 0; d < count; d++)
-    layout->diagonal.item[d] =
-        (struct layout_diagonal){SHEET_NONE, SHEET_NONE, SHEET_NONE, 0};
+    layout->diagonal.item[d] = (struct layout_diagonal){
+        SHEET_NONE, SHEET_NONE, SHEET_NONE, SHEET_NONE, 0};
   return true;
 }
 
-/* A face that is not flat may fold at its diagonals. */
-static recto_status add_folds(struct layout *layout) {
-  for (size_t d = 0; d < layout->diagonal.count; d++) {
-    struct layout_diagonal *diagonal = &layout->diagonal.item[d];
-    if (diagonal->sides == LAYOUT_PLAIN)
-      continue;
-    struct layout_cut cut;
-    recto_status status = layout_diagonal_cut(layout, diagonal, &cut);
-    if (status == RECTO_OK && cut.point[0] != SHEET_NONE)
-      status = layout_contour(layout, cut.point[0], cut.point[1]);
+/* A diagonal that is no fold, or one that is. */
+static recto_status add_fold(struct layout *layout, uint32_t face,
+                             struct layout_diagonal *diagonal) {
+  bool wanted =
+      layout->outlines || (layout->options->edges & RECTO_EDGE_SILHOUETTE);
+  uint32_t fold = SHEET_NONE;
+  struct layout_fold made = {.face = face};
+  if (diagonal->sides != LAYOUT_PLAIN && diagonal->from != SHEET_NONE) {
+    recto_status status = layout_diagonal_cut(layout, diagonal, &made.ends);
+    if (status == RECTO_OK && made.ends.point[0] != SHEET_NONE) {
+      status = layout_contour(layout, made.ends.point[0], made.ends.point[1]);
+      if (wanted && layout_is_silhouette(diagonal->sides))
+        fold = (uint32_t)layout->fold.count;
+    }
     if (status != RECTO_OK)
       return status;
   }
+  diagonal->fold = fold;
+  return fold == SHEET_NONE || ARRAY_PUSH(&layout->fold, made)
+             ? RECTO_OK
+             : error_memory(layout->error);
+}
+
+/* A face that is not planar may fold at its diagonals, and these are edges
+ * then: the sides of its triangles, from `first` on, learn their names.
+ * folds  how many there were before this face */
+static recto_status add_folds(struct layout *layout, uint32_t face,
+                              size_t first, uint32_t folds) {
+  struct sheet *sheet = layout->sheet;
+  uint32_t named = (uint32_t)layout->topology->edge.count + folds;
+  for (size_t d = 0; d < layout->diagonal.count; d++) {
+    recto_status status = add_fold(layout, face, &layout->diagonal.item[d]);
+    if (status != RECTO_OK)
+      return status;
+  }
+  for (size_t t = first; t < sheet->triangle.count; t++)
+    for (int k = 0; k < 3; k++) {
+      uint32_t *side = &sheet->triangle.item[t].side[k];
+      if (*side < named || *side == SHEET_NONE)
+        continue;
+      uint32_t fold = layout->diagonal.item[*side - named].fold;
+      *side = fold == SHEET_NONE ? SHEET_NONE : named - folds + fold;
+    }
   return RECTO_OK;
 }
 
@@ -193,19 +223,37 @@ static recto_status add_whole_face(struct layout *layout, uint32_t face,
   return status;
 }
 
+/* The corners of a face as they are welded; NULL when memory ran out. */
+static const uint32_t *welded_corners(struct layout *layout, uint32_t start,
+                                      uint32_t count) {
+  const uint32_t *corner = layout->scene->corner.item + start;
+  if (!layout->topology->weld)
+    return corner;
+  layout->corner.count = 0;
+  if (!ARRAY_RESERVE(&layout->corner, count))
+    return NULL;
+  for (uint32_t c = 0; c < count; c++)
+    layout->corner.item[c] = layout->topology->weld[corner[c]];
+  return layout->corner.item;
+}
+
 static recto_status add_polygon_face(struct layout *layout, uint32_t face,
                                      uint32_t start, uint32_t count,
                                      bool clipped) {
   struct triangulation *triangulation = &layout->triangulation;
-  if (!triangulate(triangulation, layout->scene->point.item,
-                   layout->scene->corner.item + start, count) ||
+  const uint32_t *corner = welded_corners(layout, start, count);
+  size_t first = layout->sheet->triangle.count;
+  uint32_t folds = (uint32_t)layout->fold.count;
+  if (!corner ||
+      !triangulate(triangulation, layout->scene->point.item, corner, count) ||
       !layout_reserve(layout, triangulation->triangle.count) ||
       !start_diagonals(layout, count - 3))
     return error_memory(layout->error);
   layout->sheet->warped += triangulation->warped;
+  layout->sheet->empty += triangulation->triangle.count == 0;
   recto_status status = clipped ? cut_polygon_face(layout, face, start, count)
                                 : add_whole_face(layout, face, start, count);
-  return status == RECTO_OK ? add_folds(layout) : status;
+  return status == RECTO_OK ? add_folds(layout, face, first, folds) : status;
 }
 
 /* Adds faces of three corners that are all on the sheet, from `face` on, up to
@@ -229,6 +277,8 @@ static uint32_t add_plain_faces(struct layout *layout, uint32_t face) {
       a = weld[a];
       b = weld[b];
       d = weld[d];
+      if (a == b || b == d || d == a)
+        break;
     }
     const uint32_t point[3] = {map[a], map[b], map[d]};
     if (point[0] == SHEET_NONE || point[1] == SHEET_NONE ||
@@ -262,6 +312,11 @@ static recto_status add_face(struct layout *layout, uint32_t face) {
   if (count != 3)
     return add_polygon_face(layout, face, start, count, any != 0);
   struct layout_facet facet = facet_of_face(layout, face, start);
+  const uint32_t *p = facet.point;
+  if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) {
+    layout->sheet->empty++;
+    return RECTO_OK;
+  }
   if (any)
     return layout_cut_facet(layout, &facet);
   if (!layout_reserve(layout, 1))

@@ -14,6 +14,8 @@ static void free_layout(struct layout *layout) {
   ARRAY_FREE(&layout->cut);
   ARRAY_FREE(&layout->flags);
   ARRAY_FREE(&layout->diagonal);
+  ARRAY_FREE(&layout->fold);
+  ARRAY_FREE(&layout->corner);
   triangulation_fini(&layout->triangulation);
 }
 

@@ -13,6 +13,7 @@
  *   |x|, |y| <= SHEET_XY_MAX;  0 <= z <= SHEET_Z_MAX.
  *   A triangle runs counter-clockwise on the page or has no area there.
  *   Triangles stand in the order of their faces in the scene.
+ *   The corners of a triangle were at three places in the scene.
  *   An edge's end points are the very points its triangles use.
  *   Where clipping cuts a shared edge, both faces get the same new point.
  */
@@ -38,8 +39,8 @@
 /* A side k of a triangle runs from point[k] to point[(k + 1) % 3]. */
 struct sheet_triangle {
   uint32_t point[3];
-  uint32_t side[3]; /* sheet edge of that side; SHEET_NONE: a diagonal or a
-                       cut, never drawn */
+  uint32_t side[3]; /* sheet edge of that side; SHEET_NONE: a cut, or a
+                       diagonal that is no silhouette: never drawn */
   uint32_t face;    /* scene face */
 };
 
@@ -53,7 +54,7 @@ struct sheet_edge {
   uint32_t triangle[2]; /* its first two; SHEET_NONE.  Intersections: the two
                            that pierce each other, the lower first */
   uint32_t source;      /* topology edge; wires: the wire's index; SHEET_NONE
-                           for intersections */
+                           for intersections and diagonals */
   uint32_t group;       /* of its first face, or of the wire */
   uint16_t edge_class;  /* one recto_edge_class: of its natures that were
                            asked for, the first in that enumeration; 0: an
@@ -75,8 +76,9 @@ struct sheet {
                                  NULL: exact */
   const uint32_t *face_group; /* the scene's, lent */
   const struct topology *topology; /* the scene's, lent; NULL: unknown */
-  /* Mesh edges in topology order, then wires, then intersections once they
-   * were found.  Edges of class 0 are there as outlines, not to be drawn. */
+  /* Mesh edges in topology order, then diagonals that are silhouettes, then
+   * wires, then intersections once they were found.  Edges of class 0 are there
+   * as outlines, not to be drawn. */
   ARRAY(struct sheet_edge) edge;
   /* The contours, whether drawn or not: edges of one face or more than two,
    * silhouettes, sides of a triangle that is SHEET_FLAT, diagonals at which a
@@ -89,8 +91,9 @@ struct sheet {
   double units_per_view; /* grid units of x for one of X/d (perspective) or
                             X (orthographic) */
   /* Faces that reach before the near plane, or into the page's margins, wholly
-   * or in part; faces that are not planar. */
-  uint64_t clipped_near, clipped_page, warped;
+   * or in part; faces that are not planar; faces of which welding left
+   * nothing. */
+  uint64_t clipped_near, clipped_page, warped, empty;
   /* Faces of which a near plane that nobody asked for cuts what could be
    * seen. */
   uint64_t cut_near;
