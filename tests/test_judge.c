@@ -449,7 +449,7 @@ static void ears_cover_a_face_of_any_number_of_corners(void **state) {
       corner[i] =
           build_point(&scene, radius * cos(angle), radius * sin(angle), 0);
     }
-    assert_true(judge_cut_ears(&ears, &scene, corner, count, count % 2));
+    assert_true(judge_cut_ears(&ears, &scene, corner, count));
     assert_int_equal(ears.ear.count, count - 2);
     double sum = 0;
     for (size_t i = 0; i < ears.ear.count; i++) {

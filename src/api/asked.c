@@ -7,6 +7,7 @@ bool asked_init(struct asked *asked, const struct scene *scene) {
   struct scene_point *to = mem_alloc(count, sizeof *to);
   asked->scene = *scene;
   asked->scene.point.item = to;
+  asked->given = from;
   if (to == NULL)
     return false;
   asked->origin = from[scene->corner.count > 0 ? scene->corner.item[0]
@@ -48,5 +49,6 @@ struct judge_options asked_options(const struct asked *asked,
       judge_spot_of(asked->origin.x, asked->origin.y, asked->origin.z);
   made.crease_deg = options->crease_deg;
   made.edges = options->edges;
+  made.given = asked->given;
   return made;
 }

@@ -10,6 +10,7 @@
 struct asked {
   struct scene scene; /* all but its points are lent */
   struct scene_point origin;
+  const struct scene_point *given; /* the points as they were, lent */
 };
 
 /* The scene has a face or a polyline.  Returns false when memory ran out. */

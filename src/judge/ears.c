@@ -1,4 +1,5 @@
-/* ears.c - cutting a polygon into triangles, for the judge. */
+/* ears.c - cutting a polygon of very many corners into triangles, for the
+ * judge. */
 #include "judge/ears.h"
 
 /* The polygon in the plane, counter-clockwise, and who is left of it. */
@@ -195,7 +196,7 @@ static uint32_t cut(struct judge_ears *ears, const struct ring *ring,
 }
 
 bool judge_cut_ears(struct judge_ears *ears, const struct scene *scene,
-                    const uint32_t *corner, uint32_t count, uint32_t first) {
+                    const uint32_t *corner, uint32_t count) {
   ears->ear.count = 0;
   if (!ARRAY_RESERVE(&ears->ear, count) || !ARRAY_RESERVE(&ears->at, count) ||
       !ARRAY_RESERVE(&ears->left, count))
@@ -208,7 +209,7 @@ bool judge_cut_ears(struct judge_ears *ears, const struct scene *scene,
     return true;
   if (!make_ring(ears, &outline, count, &ring))
     return false;
-  uint32_t here = outline.left[first];
+  uint32_t here = outline.left[0];
   for (uint32_t n = outline.count; n >= 3; n--) {
     uint32_t tried = 0;
     while (tried < n && !is_ear(&ring, here)) {

@@ -1,4 +1,5 @@
-/* ears.h - cutting a polygon into triangles, for the judge. */
+/* ears.h - cutting a polygon of very many corners into triangles, for the
+ * judge. */
 #ifndef JUDGE_EARS_H
 #define JUDGE_EARS_H
 
@@ -23,13 +24,13 @@ struct judge_ears {
 
 /* Cuts a face into at most count - 2 triangles.  Works in doubles in the plane
  * of the face's own normal; a face that crosses itself gives some triangles
- * that cover it.  Returns false when memory ran out.
- * first  the corner to try first
+ * that cover it.  How it is cut is not the rule of cuts.h, which takes too long
+ * for so many: of a planar face it makes no difference.
+ * Returns false when memory ran out.
  * Cost: of many corners each ear asks those beside it alone, in x or in y. */
 USE_RESULT bool judge_cut_ears(struct judge_ears *ears,
                                const struct scene *scene,
-                               const uint32_t *corner, uint32_t count,
-                               uint32_t first);
+                               const uint32_t *corner, uint32_t count);
 void judge_ears_fini(struct judge_ears *ears);
 
 #endif

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/tolerance.h"
+#include "judge/cuts.h"
 
 /* A face's side, its ends in a fixed order. */
 struct side {
@@ -22,11 +23,13 @@ struct sides {
 struct facing {
   struct judge_spot normal; /* unit */
   bool flat;                /* no area */
-  bool warped;              /* which way it faces hangs on how it is cut */
+  bool thin; /* on the page no thicker than contact: rounding may decide */
+  bool open; /* not planar, and it is not known how it is cut */
 };
 
 struct finder {
   struct judge_edges *edges;
+  const struct judge_triangles *all;
   const struct scene *scene;
   const struct judge_camera *camera;
   const struct judge_options *options;
@@ -76,23 +79,129 @@ static uint32_t *find_places(const struct scene *scene) {
 /* ---- Natures
  * ------------------------------------------------------------------ */
 
-static struct facing facing_of(const struct scene *scene, uint32_t face,
+/* The corner of a face whose image is farthest from a place. */
+static struct judge_place farthest_image(const struct finder *finder,
+                                         uint32_t start, uint32_t count,
+                                         struct judge_place from) {
+  struct judge_place best = from;
+  double most = 0;
+  for (uint32_t c = start; c < start + count; c++) {
+    struct judge_place at = judge_project(
+        finder->camera,
+        judge_spot_at(finder->scene, finder->scene->corner.item[c]));
+    double away = hypot(at.x - from.x, at.y - from.y);
+    if (away > most) {
+      most = away;
+      best = at;
+    }
+  }
+  return best;
+}
+
+/* How far from a line a place may be that contact and rounding moved, mm. */
+static double thickness_at(const struct finder *finder, double contact,
+                           struct judge_spot at) {
+  struct judge_spot aside = judge_shift(finder->camera, at, 1, 0);
+  double unit = spot_length(spot_sub(aside, at)); /* a mm there */
+  return finder->options->hair_mm + 2 * contact / unit;
+}
+
+/* Whether all corners of a face lie about on one line on the page. */
+static bool is_thin(const struct finder *finder, uint32_t face,
+                    double contact) {
+  const struct scene *scene = finder->scene;
+  const struct judge_camera *camera = finder->camera;
+  uint32_t start = scene->face_start.item[face];
+  uint32_t count = scene->face_start.item[face + 1] - start;
+  for (uint32_t c = start; c < start + count; c++)
+    if (!(judge_ahead(camera, judge_spot_at(scene, scene->corner.item[c])) >
+          judge_near(camera)))
+      return false;
+  struct judge_place first =
+      judge_project(camera, judge_spot_at(scene, scene->corner.item[start]));
+  struct judge_place a = farthest_image(finder, start, count, first);
+  struct judge_place b = farthest_image(finder, start, count, a);
+  double length = hypot(b.x - a.x, b.y - a.y);
+  for (uint32_t c = start; c < start + count; c++) {
+    struct judge_spot spot = judge_spot_at(scene, scene->corner.item[c]);
+    struct judge_place p = judge_project(camera, spot);
+    double off = fabs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x));
+    if (off > length * thickness_at(finder, contact, spot))
+      return false;
+  }
+  return true;
+}
+
+static struct facing facing_of(const struct finder *finder, uint32_t face,
                                double contact) {
-  struct judge_spot sum = judge_area(scene, face);
-  struct facing facing = {.flat = !(spot_length(sum) > 0),
-                          .warped = judge_is_warped(scene, face, contact)};
+  struct judge_spot sum = judge_area(finder->scene, face);
+  struct facing facing = {.flat = !(spot_length(sum) > 0)};
   if (!facing.flat)
     facing.normal = spot_unit(sum);
+  const uint32_t *start = finder->scene->face_start.item + face;
+  facing.open = start[1] - start[0] > JUDGE_CUTS_MOST &&
+                judge_is_warped(finder->scene, face, finder->options->contact);
+  if (finder->all->wing.count > 0)
+    facing.thin = is_thin(finder, face, contact);
   return facing;
 }
 
-/* The sine of the angle between a face and the view to one of its points. */
-static double slope(const struct finder *finder, uint32_t face,
+/* The sine of the angle between a plane and the view to one of its points. */
+static double slope(const struct finder *finder, struct judge_spot normal,
                     struct judge_spot at) {
   const struct judge_camera *camera = finder->camera;
   struct judge_spot view =
       camera->perspective ? spot_unit(spot_sub(camera->eye, at)) : camera->back;
-  return spot_dot(finder->facing[face].normal, view);
+  return spot_dot(normal, view);
+}
+
+/* Whether rounding does not turn a triangle over: its image is thicker. */
+static bool is_thick(const struct finder *finder,
+                     const struct judge_triangle *t) {
+  struct judge_place p[3];
+  double longest = 0;
+  for (int k = 0; k < 3; k++) {
+    if (!(judge_ahead(finder->camera, t->p[k]) > judge_near(finder->camera)))
+      return true;
+    p[k] = judge_project(finder->camera, t->p[k]);
+  }
+  for (int k = 0; k < 3; k++)
+    longest = fmax(longest,
+                   hypot(p[(k + 1) % 3].x - p[k].x, p[(k + 1) % 3].y - p[k].y));
+  return fabs((p[1].x - p[0].x) * (p[2].y - p[0].y) -
+              (p[1].y - p[0].y) * (p[2].x - p[0].x)) >
+         longest * finder->options->hair_mm;
+}
+
+static double wing_slope(const struct finder *finder,
+                         const struct judge_wing *wing, struct judge_spot at) {
+  bool sure =
+      !finder->facing[wing->face].thin && is_thick(finder, &wing->triangle);
+  return sure ? slope(finder, wing->triangle.normal, at) : 0;
+}
+
+/* How a face faces the view at a side of it, by the triangle that meets there
+ * where it bends; 0 where that is not sure. */
+static double slope_at_side(const struct finder *finder,
+                            const struct side *side) {
+  struct judge_spot at = judge_spot_at(finder->scene, side->a);
+  const struct facing *facing = &finder->facing[side->face];
+  size_t wings;
+  const struct judge_wing *wing =
+      judge_wings_along(finder->all, side->face, side->a, side->b, &wings);
+  if (wings > 0)
+    return wings == 1 ? wing_slope(finder, wing, at) : 0;
+  return facing->flat || facing->open ? 0 : slope(finder, facing->normal, at);
+}
+
+static bool is_silhouette(double one, double two) {
+  return (one > TOLERANCE_JUDGE_ANGLE && two < -TOLERANCE_JUDGE_ANGLE) ||
+         (one < -TOLERANCE_JUDGE_ANGLE && two > TOLERANCE_JUDGE_ANGLE);
+}
+
+static bool is_sure(double one, double two) {
+  return fabs(one) >= TOLERANCE_JUDGE_ANGLE &&
+         fabs(two) >= TOLERANCE_JUDGE_ANGLE;
 }
 
 /* The natures of a side between two faces that run along it in the given
@@ -102,12 +211,14 @@ static unsigned natures_of_pair(const struct finder *finder,
                                 bool against) {
   const struct facing *f = &finder->facing[s->face];
   const struct facing *g = &finder->facing[t->face];
-  struct judge_spot at = judge_spot_at(finder->scene, s->a);
   unsigned natures = 0;
   if (scene_groups_differ(finder->scene,
                           finder->scene->face_group.item[s->face],
                           finder->scene->face_group.item[t->face]))
     natures |= RECTO_EDGE_GROUP;
+  double one = slope_at_side(finder, s), two = slope_at_side(finder, t);
+  if (is_silhouette(one, against ? two : -two))
+    natures |= RECTO_EDGE_SILHOUETTE;
   if (f->flat || g->flat)
     return natures;
   double cosine = spot_dot(f->normal, g->normal);
@@ -115,18 +226,60 @@ static unsigned natures_of_pair(const struct finder *finder,
   double crease = cos(finder->options->crease_deg / 180 * acos(-1));
   if (cosine < crease - TOLERANCE_JUDGE_ANGLE)
     natures |= RECTO_EDGE_CREASE;
-  if (f->warped || g->warped)
-    return natures;
-  double one = slope(finder, s->face, at), two = slope(finder, t->face, at);
-  two = against ? two : -two;
-  if ((one > TOLERANCE_JUDGE_ANGLE && two < -TOLERANCE_JUDGE_ANGLE) ||
-      (one < -TOLERANCE_JUDGE_ANGLE && two > TOLERANCE_JUDGE_ANGLE))
-    natures |= RECTO_EDGE_SILHOUETTE;
-  bool folded =
-      fabs(one) < TOLERANCE_JUDGE_ANGLE || fabs(two) < TOLERANCE_JUDGE_ANGLE;
-  if (natures == 0 && cosine > crease + TOLERANCE_JUDGE_ANGLE && !folded)
+  if (natures == 0 && cosine > crease + TOLERANCE_JUDGE_ANGLE &&
+      is_sure(one, two))
     natures = RECTO_EDGE_SMOOTH;
   return natures;
+}
+
+/* Whether two neighbouring corners of a face are these. */
+static bool is_side(const struct scene *scene, uint32_t face, uint32_t a,
+                    uint32_t b) {
+  uint32_t start = scene->face_start.item[face];
+  uint32_t count = scene->face_start.item[face + 1] - start;
+  for (uint32_t i = 0; i < count; i++) {
+    uint32_t p = scene->corner.item[start + i];
+    uint32_t q = scene->corner.item[start + (i + 1) % count];
+    if ((p == a && q == b) || (p == b && q == a))
+      return true;
+  }
+  return false;
+}
+
+/* Adds the diagonal of a face that bends, where its two triangles lie on one
+ * side of it on the page, or may.  Where more of them meet between the same two
+ * points, or a side of the face runs there too, it is not sure which belong
+ * together. */
+static bool add_fold(struct finder *finder, const struct judge_wing *wing,
+                     size_t count) {
+  struct judge_spot at = judge_spot_at(finder->scene, wing->low);
+  bool alone =
+      count == 2 && !is_side(finder->scene, wing->face, wing->low, wing->high);
+  double one = alone ? wing_slope(finder, &wing[0], at) : 0;
+  double two = alone ? wing_slope(finder, &wing[1], at) : 0;
+  bool silhouette = is_silhouette(one, two);
+  if (!silhouette && is_sure(one, two))
+    return true;
+  const struct judge_source source = {{wing->low, wing->high},
+                                      {wing->face, wing->face},
+                                      silhouette ? RECTO_EDGE_SILHOUETTE : 0,
+                                      false};
+  return judge_edges_add(finder->edges, finder->camera, at,
+                         judge_spot_at(finder->scene, wing->high), &source);
+}
+
+static bool add_folds(struct finder *finder) {
+  const struct judge_wing *wing = finder->all->wing.item;
+  size_t count = finder->all->wing.count;
+  for (size_t i = 0, next; i < count; i = next) {
+    for (next = i + 1; next < count && wing[next].face == wing[i].face &&
+                       wing[next].low == wing[i].low &&
+                       wing[next].high == wing[i].high;)
+      next++;
+    if (next > i + 1 && !add_fold(finder, &wing[i], next - i))
+      return false;
+  }
+  return true;
 }
 
 /* Adds the edge of two sides; of a spike of one face, which goes out and comes
@@ -298,13 +451,22 @@ bool judge_edges_add(struct judge_edges *edges,
   return ARRAY_PUSH(&edges->edge, edge);
 }
 
+/* Of each face the contact is the largest of its triangles. */
 static bool find_facings(struct finder *finder) {
   uint32_t faces = scene_face_count(finder->scene);
   finder->facing = mem_alloc(faces, sizeof *finder->facing);
   if (finder->facing == NULL)
     return false;
+  double *contact = mem_calloc(faces, sizeof *contact);
+  if (contact == NULL)
+    return false;
+  for (size_t t = 0; t < finder->all->triangle.count; t++) {
+    const struct judge_triangle *triangle = &finder->all->triangle.item[t];
+    contact[triangle->face] = fmax(contact[triangle->face], triangle->contact);
+  }
   for (uint32_t i = 0; i < faces; i++)
-    finder->facing[i] = facing_of(finder->scene, i, finder->options->contact);
+    finder->facing[i] = facing_of(finder, i, contact[i]);
+  mem_free(contact);
   return true;
 }
 
@@ -327,14 +489,15 @@ bool judge_edges_init(struct judge_edges *edges, const struct scene *scene,
                       const struct judge_triangles *all,
                       const struct judge_camera *camera,
                       const struct judge_options *options) {
-  struct finder finder = {edges, scene, camera, options, NULL, NULL};
+  struct finder finder = {edges, all, scene, camera, options, NULL, NULL};
   struct sides sides = {{0}}, single = {{0}};
   memset(edges, 0, sizeof *edges);
   finder.place = find_places(scene);
   bool good = finder.place != NULL && find_facings(&finder) &&
               list_sides(scene, &sides) &&
               pair_sides(&finder, &sides, &single) &&
-              pair_singles(&finder, &single) && add_wires(&finder) &&
+              pair_singles(&finder, &single) && add_folds(&finder) &&
+              add_wires(&finder) &&
               judge_edges_pierced(edges, all, camera, options->hair_mm);
   ARRAY_FREE(&sides.side);
   ARRAY_FREE(&single.side);

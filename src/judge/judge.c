@@ -356,7 +356,8 @@ static bool open_court(struct court *court, const struct scene *scene) {
   double width = camera->width_mm, height = camera->height_mm;
   const double cells = 400;
   double cell = fmax(width, height) / cells;
-  if (!judge_triangles_init(&court->all, scene, court->options.contact))
+  if (!judge_triangles_init(&court->all, scene, court->options.given,
+                            court->options.contact))
     return false;
   judge_contact_set(&court->all, &court->options);
   court->gazer =

@@ -105,6 +105,8 @@ struct judge_options {
                                 their precision is known */
   double crease_deg;
   unsigned edges; /* classes asked for, a mask of recto_edge_class */
+  const struct scene_point *given; /* the points to the last digit, where the
+                                      scene's were moved; NULL: its own */
 };
 
 /* 0.02 mm steps and reach, 30 degrees, the default classes. */

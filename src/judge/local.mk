@@ -1,6 +1,7 @@
 # src/judge/local.mk - the independent judge: sees the scene alone.
 librecto_core_la_SOURCES += \
   %D%/camera.c %D%/contact.c %D%/contact.h \
+  %D%/cuts.c %D%/cuts.h \
   %D%/ears.c %D%/ears.h \
   %D%/edges.c %D%/edges.h \
   %D%/gaze.c %D%/gaze.h \

@@ -146,11 +146,11 @@ static bool add_common(struct piercer *piercer, const struct cut *s,
   put_on_corner(one, two, &a, &b);
   const struct judge_camera *camera = piercer->camera;
   /* Sure where all four reaches are well beyond what counts as contact, or as
-   * rounding, on the page, and there is one way to cut both faces. */
+   * rounding, on the page, and it is known how both faces are cut. */
   double rounding = fmax(judge_rounding_at(camera, piercer->hair_mm, a),
                          judge_rounding_at(camera, piercer->hair_mm, b));
   bool sure =
-      one->cut == JUDGE_PLANAR && two->cut == JUDGE_PLANAR &&
+      !one->open && !two->open &&
       reach_beyond(camera, one, two) > 10 * fmax(two->contact, rounding) &&
       reach_beyond(camera, two, one) > 10 * fmax(one->contact, rounding);
   const struct judge_source source = {{SCENE_NONE, SCENE_NONE},

@@ -189,10 +189,22 @@ static enum judge_sight weigh_plane(const struct judge_triangles *all,
   return JUDGE_UNSURE;
 }
 
+static bool is_corner(const struct judge_triangle *t, struct judge_spot spot) {
+  for (int k = 0; k < 3; k++)
+    if (t->p[k].x == spot.x && t->p[k].y == spot.y && t->p[k].z == spot.z)
+      return true;
+  return false;
+}
+
+/* Whether the edge lies in the triangle's plane, as it does in that of its own
+ * face; of one that bends, in those of the triangles alone that it is a side
+ * of. */
 static bool is_own(const struct judge_gaze *gaze,
                    const struct judge_triangle *t) {
   return (t->face == gaze->own[0] || t->face == gaze->own[1]) &&
-         distance(t, gaze->from) <= 0.5 * t->contact + gaze->margin.blur;
+         distance(t, gaze->from) <= 0.5 * t->contact + gaze->margin.blur &&
+         (!t->bent ||
+          (is_corner(t, gaze->end[0].spot) && is_corner(t, gaze->end[1].spot)));
 }
 
 static enum judge_sight look_at(const struct judge_triangles *all,
@@ -208,34 +220,6 @@ static enum judge_sight look_at(const struct judge_triangles *all,
   return ray_meets_plane(gaze, t) ? sight : JUDGE_CLEAR;
 }
 
-/* ---- Faces that are not planar ---------------------------------------------
- */
-
-/* Faces that are not planar, as far as a ray has met them. */
-struct doubts {
-  struct doubt {
-    uint32_t face;
-    enum judge_cut cut;
-  } item[16];
-  unsigned count;
-};
-
-/* A face that is cut in two ways blocks where it does in both.  Where there
- * are too many to keep in mind it stays unsure. */
-static enum judge_sight weigh(struct doubts *doubts,
-                              const struct judge_triangle *t,
-                              enum judge_sight sight) {
-  if (t->cut == JUDGE_PLANAR || sight != JUDGE_BLOCKED)
-    return sight;
-  for (unsigned i = 0; i < doubts->count; i++)
-    if (doubts->item[i].face == t->face && doubts->item[i].cut != t->cut)
-      return JUDGE_BLOCKED;
-  if (t->cut != JUDGE_ANY_WAY &&
-      doubts->count < sizeof doubts->item / sizeof doubts->item[0])
-    doubts->item[doubts->count++] = (struct doubt){t->face, t->cut};
-  return JUDGE_UNSURE;
-}
-
 /* ---- All of them -----------------------------------------------------------
  */
 
@@ -244,7 +228,6 @@ enum judge_sight judge_look(const struct judge_triangles *all,
   const struct ray ray = ray_of(gaze);
   uint32_t stack[JUDGE_STACK_SIZE];
   unsigned depth = 0;
-  struct doubts doubts = {.count = 0};
   enum judge_sight sight = JUDGE_CLEAR;
   if (all->nodes > 0)
     stack[depth++] = 0;
@@ -259,7 +242,9 @@ enum judge_sight judge_look(const struct judge_triangles *all,
     }
     for (uint32_t i = 0; i < node->count; i++) {
       const struct judge_triangle *t = &all->triangle.item[node->first + i];
-      enum judge_sight seen = weigh(&doubts, t, look_at(all, gaze, t));
+      enum judge_sight seen = look_at(all, gaze, t);
+      if (seen == JUDGE_BLOCKED && t->open)
+        seen = JUDGE_UNSURE;
       if (seen == JUDGE_BLOCKED) {
         if (face != NULL)
           *face = t->face;

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/tolerance.h"
+#include "judge/cuts.h"
 #include "judge/ears.h"
 
 enum { LEAF_SIZE = 4, FEWEST_SHARE = 8 };
@@ -123,10 +124,10 @@ static bool build_tree(struct judge_triangles *all) {
 /* ---- Triangles
  * ----------------------------------------------------------------- */
 
-static bool add_triangle(struct judge_triangles *all, const struct scene *scene,
-                         const uint32_t *corner, const uint32_t ear[3],
-                         uint32_t face, enum judge_cut cut) {
-  struct judge_triangle t = {.face = face, .cut = cut};
+static struct judge_triangle triangle_of(const struct scene *scene,
+                                         const uint32_t *corner,
+                                         const uint32_t ear[3], uint32_t face) {
+  struct judge_triangle t = {.face = face};
   for (int k = 0; k < 3; k++) {
     t.point[k] = corner[ear[k]];
     t.p[k] = judge_spot_at(scene, t.point[k]);
@@ -135,7 +136,7 @@ static bool add_triangle(struct judge_triangles *all, const struct scene *scene,
       spot_cross(spot_sub(t.p[1], t.p[0]), spot_sub(t.p[2], t.p[0]));
   if (spot_length(normal) > 0)
     t.normal = spot_unit(normal);
-  return ARRAY_PUSH(&all->triangle, t);
+  return t;
 }
 
 struct judge_spot judge_area(const struct scene *scene, uint32_t face) {
@@ -171,31 +172,112 @@ bool judge_is_warped(const struct scene *scene, uint32_t face, double contact) {
   return off > fmax(flat, extent * TOLERANCE_EXTENT_SHARE);
 }
 
-/* Cuts one face in a way; `ears` is kept from face to face. */
-static bool add_cut(struct judge_triangles *all, const struct scene *scene,
-                    uint32_t face, struct judge_ears *ears,
-                    enum judge_cut cut) {
-  uint32_t start = scene->face_start.item[face];
-  uint32_t count = scene->face_start.item[face + 1] - start;
-  const uint32_t *corner = scene->corner.item + start;
-  if (!judge_cut_ears(ears, scene, corner, count, cut == JUDGE_OTHER_WAY))
-    return false;
-  for (size_t k = 0; k < ears->ear.count; k++)
-    if (!add_triangle(all, scene, corner, ears->ear.item[k].corner, face, cut))
-      return false;
+/* ---- Faces ---------------------------------------------------------------
+ */
+
+/* Room that is kept from face to face, and what is asked of all. */
+struct cutter {
+  struct judge_triangles *all;
+  const struct scene *scene;
+  const struct scene_point *given;
+  double contact;
+  struct judge_cuts cuts;
+  struct judge_ears ears;
+};
+
+/* Whether some triangle of the face, from `first` on, runs the other way than
+ * the face on the whole. */
+static bool is_folded(const struct cutter *cutter, uint32_t face,
+                      size_t first) {
+  const struct judge_triangles *all = cutter->all;
+  struct judge_spot normal = judge_area(cutter->scene, face);
+  for (size_t t = first; t < all->triangle.count; t++)
+    if (!(spot_dot(all->triangle.item[t].normal, normal) > 0))
+      return true;
+  return false;
+}
+
+static bool add_wings(struct judge_triangles *all, size_t first) {
+  for (size_t t = first; t < all->triangle.count; t++) {
+    struct judge_triangle *triangle = &all->triangle.item[t];
+    triangle->bent = true;
+    for (int k = 0; k < 3; k++) {
+      uint32_t a = triangle->point[k], b = triangle->point[(k + 1) % 3];
+      struct judge_wing wing = {triangle->face, a < b ? a : b, a < b ? b : a,
+                                *triangle};
+      if (!ARRAY_PUSH(&all->wing, wing))
+        return false;
+    }
+  }
   return true;
 }
 
-static bool add_face(struct judge_triangles *all, const struct scene *scene,
-                     uint32_t face, double contact, struct judge_ears *ears) {
-  uint32_t count =
-      scene->face_start.item[face + 1] - scene->face_start.item[face];
-  if (!judge_is_warped(scene, face, contact))
-    return add_cut(all, scene, face, ears, JUDGE_PLANAR);
-  if (count > 4)
-    return add_cut(all, scene, face, ears, JUDGE_ANY_WAY);
-  return add_cut(all, scene, face, ears, JUDGE_ONE_WAY) &&
-         add_cut(all, scene, face, ears, JUDGE_OTHER_WAY);
+/* A face of more corners than the rule is followed for. */
+static bool add_large_face(struct cutter *cutter, uint32_t face,
+                           const uint32_t *corner, uint32_t count) {
+  struct judge_triangles *all = cutter->all;
+  bool open = judge_is_warped(cutter->scene, face, cutter->contact);
+  if (!judge_cut_ears(&cutter->ears, cutter->scene, corner, count))
+    return false;
+  for (size_t k = 0; k < cutter->ears.ear.count; k++) {
+    struct judge_triangle t = triangle_of(
+        cutter->scene, corner, cutter->ears.ear.item[k].corner, face);
+    t.open = open;
+    if (!ARRAY_PUSH(&all->triangle, t))
+      return false;
+  }
+  return true;
+}
+
+static bool add_face(struct cutter *cutter, uint32_t face) {
+  const struct scene *scene = cutter->scene;
+  struct judge_triangles *all = cutter->all;
+  uint32_t start = scene->face_start.item[face];
+  uint32_t count = scene->face_start.item[face + 1] - start;
+  const uint32_t *corner = scene->corner.item + start;
+  size_t first = all->triangle.count;
+  if (count > JUDGE_CUTS_MOST)
+    return add_large_face(cutter, face, corner, count);
+  if (!judge_cuts_make(&cutter->cuts, cutter->given, corner, count))
+    return false;
+  for (size_t k = 0; k < cutter->cuts.piece.count; k++)
+    if (!ARRAY_PUSH(&all->triangle,
+                    triangle_of(scene, corner,
+                                cutter->cuts.piece.item[k].corner, face)))
+      return false;
+  return count == 3 || (!judge_is_warped(scene, face, cutter->contact) &&
+                        !is_folded(cutter, face, first))
+             ? true
+             : add_wings(all, first);
+}
+
+static int compare_wings(const void *a, const void *b) {
+  const struct judge_wing *s = a, *t = b;
+  if (s->face != t->face)
+    return s->face < t->face ? -1 : 1;
+  if (s->low != t->low)
+    return s->low < t->low ? -1 : 1;
+  return s->high < t->high ? -1 : s->high > t->high;
+}
+
+const struct judge_wing *judge_wings_along(const struct judge_triangles *all,
+                                           uint32_t face, uint32_t a,
+                                           uint32_t b, size_t *count) {
+  const struct judge_wing wanted = {
+      .face = face, .low = a < b ? a : b, .high = a < b ? b : a};
+  const struct judge_wing *wing = all->wing.item;
+  size_t low = 0, high = all->wing.count;
+  while (low < high) {
+    size_t middle = low + (high - low) / 2;
+    if (compare_wings(&wing[middle], &wanted) < 0)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  for (*count = 0; low + *count < all->wing.count &&
+                   compare_wings(&wing[low + *count], &wanted) == 0;)
+    ++*count;
+  return wing + low;
 }
 
 static double measure(const struct scene *scene) {
@@ -210,15 +292,22 @@ static double measure(const struct scene *scene) {
 }
 
 bool judge_triangles_init(struct judge_triangles *all,
-                          const struct scene *scene, double contact) {
-  struct judge_ears ears = {0};
-  bool good = true;
+                          const struct scene *scene,
+                          const struct scene_point *given, double contact) {
   memset(all, 0, sizeof *all);
   all->scene = scene;
   all->size = measure(scene);
+  struct cutter cutter = {.all = all,
+                          .scene = scene,
+                          .given = given ? given : scene->point.item,
+                          .contact = contact};
+  bool good = true;
   for (uint32_t i = 0; good && i < scene_face_count(scene); i++)
-    good = add_face(all, scene, i, contact, &ears);
-  judge_ears_fini(&ears);
+    good = add_face(&cutter, i);
+  judge_sort(all->wing.item, all->wing.count, sizeof *all->wing.item,
+             compare_wings);
+  judge_cuts_fini(&cutter.cuts);
+  judge_ears_fini(&cutter.ears);
   if (good && build_tree(all))
     return true;
   judge_triangles_fini(all);
@@ -227,6 +316,7 @@ bool judge_triangles_init(struct judge_triangles *all,
 
 void judge_triangles_fini(struct judge_triangles *all) {
   ARRAY_FREE(&all->triangle);
+  ARRAY_FREE(&all->wing);
   mem_free(all->node);
   all->node = NULL;
   all->nodes = 0;

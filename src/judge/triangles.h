@@ -46,11 +46,6 @@ static inline struct judge_spot spot_unit(struct judge_spot a) {
   return spot_along(judge_spot_of(0, 0, 0), 1 / spot_length(a), a);
 }
 
-/* A face that is not planar is what its diagonals make of it, and those are
- * not the judge's to choose: of four corners it is cut in both ways, and hides
- * for sure what both of them do. */
-enum judge_cut { JUDGE_PLANAR, JUDGE_ONE_WAY, JUDGE_OTHER_WAY, JUDGE_ANY_WAY };
-
 struct judge_triangle {
   struct judge_spot p[3];
   struct judge_spot normal; /* unit; 0 where the triangle has no area */
@@ -58,7 +53,16 @@ struct judge_triangle {
   uint32_t face;            /* scene face */
   double contact;           /* what touches it may be so far off its plane,
                                scene units: contact.h */
-  enum judge_cut cut;
+  bool bent; /* the face is not planar, or its sides cross: its triangles do
+                not lie in one plane, or lie on one another */
+  bool open; /* the face is not planar, and has so many corners that the judge
+                does not know how it is cut: what it hides is not sure */
+};
+
+/* A side of a triangle of a face that bends. */
+struct judge_wing {
+  uint32_t face, low, high; /* scene points, low < high */
+  struct judge_triangle triangle;
 };
 
 struct judge_box {
@@ -75,6 +79,7 @@ struct judge_triangles {
     uint32_t face;  /* of all its triangles; SCENE_NONE: of several */
   } * node;
   size_t nodes; /* none where there are no triangles */
+  ARRAY(struct judge_wing) wing; /* by face, low, high */
   double size; /* diagonal of the box of all points that faces use */
   const struct scene *scene;
 };
@@ -83,10 +88,14 @@ struct judge_triangles {
 enum { JUDGE_STACK_SIZE = 192 };
 
 /* Cuts faces into triangles and builds the tree.  Cost: n log n.
+ * given    the points to the last digit, where the scene's were moved; NULL:
+ *          the scene's own.  How faces are cut is asked of them
  * contact  as in judge_options
  * Returns false when memory ran out. */
 USE_RESULT bool judge_triangles_init(struct judge_triangles *all,
-                                     const struct scene *scene, double contact);
+                                     const struct scene *scene,
+                                     const struct scene_point *given,
+                                     double contact);
 
 /* The face's normal, as long as twice its area. */
 struct judge_spot judge_area(const struct scene *scene, uint32_t face);
@@ -94,6 +103,12 @@ struct judge_spot judge_area(const struct scene *scene, uint32_t face);
 /* Whether a corner of the face is so far off its plane that it matters how it
  * is cut. */
 bool judge_is_warped(const struct scene *scene, uint32_t face, double contact);
+
+/* The wings of a face along the side between two points; none where it does
+ * not bend. */
+const struct judge_wing *judge_wings_along(const struct judge_triangles *all,
+                                           uint32_t face, uint32_t a,
+                                           uint32_t b, size_t *count);
 void judge_triangles_fini(struct judge_triangles *all);
 
 /* Calls found(user, i) for the triangles whose boxes meet `box`, until it

@@ -112,7 +112,7 @@ void judge_raster_scene(struct judge_raster *raster, const struct scene *scene,
   require(depth != NULL);
   for (size_t i = 0; i < pixels; i++)
     depth[i] = -INFINITY;
-  require(judge_triangles_init(&all, scene, INFINITY));
+  require(judge_triangles_init(&all, scene, NULL, INFINITY));
   /* The tree has mixed them; earlier faces come first again. */
   judge_sort(all.triangle.item, all.triangle.count, sizeof *all.triangle.item,
              compare_faces);
