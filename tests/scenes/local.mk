@@ -3,6 +3,7 @@ check_LTLIBRARIES += %D%/libscenes.la
 %C%_libscenes_la_SOURCES = \
   %D%/build.c %D%/build.h \
   %D%/camera.c \
+  %D%/catmull_clark.c %D%/catmull_clark.h \
   %D%/copies.c \
   %D%/crowds.c \
   %D%/cycles.c \
