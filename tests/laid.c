@@ -87,7 +87,8 @@ static void check_triangles(const struct laid *laid) {
   for (size_t t = 0; t < sheet->triangle.count; t++) {
     const struct sheet_triangle *one = &sheet->triangle.item[t];
     for (int k = 0; k < 3; k++)
-      assert_true(one->point[k] < sheet->point.count);
+      assert_true(one->point[k] < sheet->point.count &&
+                  one->point[k] != one->point[(k + 1) % 3]);
     assert_true(one->face < scene_face_count(&laid->scene));
     if (t > 0)
       assert_true(one->face >= one[-1].face);

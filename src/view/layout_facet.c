@@ -113,18 +113,32 @@ static bool is_all_on_border(const struct layout *layout, const uint32_t *point,
   return false;
 }
 
+/* Leaves out corners that came to the point of the next one. */
+static void drop_repeats(struct clip_polygon *polygon, uint32_t *point) {
+  uint32_t first = point[0];
+  int kept = 0;
+  for (int i = 0; i < polygon->count; i++) {
+    if (point[i] == (i + 1 < polygon->count ? point[i + 1] : first))
+      continue;
+    point[kept] = point[i];
+    polygon->corner[kept++] = polygon->corner[i];
+  }
+  polygon->count = kept;
+}
+
 /* Adds what is left of a facet; its sides learn where it lies, and its cuts at
  * the near plane are contours. */
 static recto_status add_polygon(struct layout *layout,
                                 const struct layout_facet *facet,
-                                const struct clip_polygon *polygon) {
+                                struct clip_polygon *polygon) {
   uint32_t point[CLIP_MOST];
   for (int i = 0; i < polygon->count; i++) {
     recto_status status = find_corner(layout, facet, polygon, i, &point[i]);
     if (status != RECTO_OK)
       return status;
   }
-  if (is_all_on_border(layout, point, polygon->count))
+  drop_repeats(polygon, point);
+  if (polygon->count < 3 || is_all_on_border(layout, point, polygon->count))
     return RECTO_OK;
   int sign = 0;
   recto_status status = add_fan(layout, facet, polygon, point, &sign);
