@@ -277,7 +277,7 @@ const struct judge_wing *judge_wings_along(const struct judge_triangles *all,
   for (*count = 0; low + *count < all->wing.count &&
                    compare_wings(&wing[low + *count], &wanted) == 0;)
     ++*count;
-  return wing + low;
+  return ARRAY_AT(&all->wing, low);
 }
 
 static double measure(const struct scene *scene) {
