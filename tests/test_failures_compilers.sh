@@ -15,7 +15,7 @@ build() {
   local output=$1
   shift
   mapfile -d '' -t sources < <(find "$srcdir/src" "$srcdir/backends" \
-    -name '*.c' ! -name '*assimp*' ! -name '*cairo*' -print0)
+    -name '*.c' ! -path '*/import/*' ! -name '*cairo*' -print0)
   "$@" -std=gnu17 -ffp-contract=off -w -DPACKAGE_VERSION='"0"' \
     -I"$srcdir/src" -I"$srcdir" -o "$output" "${sources[@]}" -lm \
     2>"$scratch/errors" ||
