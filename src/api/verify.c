@@ -8,11 +8,11 @@
 #include "api/verify.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "api/asked.h"
+#include "base/sentence.h"
 #include "ink/ink.h"
 
 /* ---- The strokes ----------------------------------------------------------
@@ -78,38 +78,21 @@ static recto_status take_dropped(struct judge_drawing *to,
 /* ---- The verdict ----------------------------------------------------------
  */
 
-/* Words of the parts of a witness that it has, one after the other. */
-struct words {
-  char text[200];
-  size_t length;
-};
-
-static void say(struct words *words, const char *format, ...) PRINTF_LIKE(2, 3);
-static void say(struct words *words, const char *format, ...) {
-  va_list arguments;
-  size_t room = sizeof words->text - words->length;
-  va_start(arguments, format);
-  int length = vsnprintf(words->text + words->length, room, format, arguments);
-  va_end(arguments);
-  if (length > 0)
-    words->length += (size_t)length < room ? (size_t)length : room - 1;
-}
-
-static void say_edge(struct words *words, const struct verify *verify,
+static void say_edge(struct sentence *words, const struct verify *verify,
                      const struct judge_witness *w, struct scene_point origin) {
-  say(words, "point %.9g,%.9g,%.9g of ",
-      ldexp(w->spot.x + origin.x, verify->exponent),
-      ldexp(w->spot.y + origin.y, verify->exponent),
-      ldexp(w->spot.z + origin.z, verify->exponent));
+  sentence_add(words, "point %.9g,%.9g,%.9g of ",
+               ldexp(w->spot.x + origin.x, verify->exponent),
+               ldexp(w->spot.y + origin.y, verify->exponent),
+               ldexp(w->spot.z + origin.z, verify->exponent));
   if (w->point[0] == SCENE_NONE)
-    say(words, "the intersection");
+    sentence_add(words, "the intersection");
   else
-    say(words, "the edge from %lu to %lu", (unsigned long)w->point[0],
-        (unsigned long)w->point[1]);
+    sentence_add(words, "the edge from %lu to %lu", (unsigned long)w->point[0],
+                 (unsigned long)w->point[1]);
   if (w->face[0] != SCENE_NONE)
-    say(words, " of face %lu", (unsigned long)w->face[0]);
+    sentence_add(words, " of face %lu", (unsigned long)w->face[0]);
   if (w->face[1] != SCENE_NONE)
-    say(words, " and %lu", (unsigned long)w->face[1]);
+    sentence_add(words, " and %lu", (unsigned long)w->face[1]);
 }
 
 static recto_status tell(const struct verify *verify,
@@ -118,19 +101,19 @@ static recto_status tell(const struct verify *verify,
   bool is_false = verdict->false_ink.samples > 0;
   const struct judge_witness *w =
       is_false ? &verdict->false_at : &verdict->missing_at;
-  struct words words = {.length = 0};
+  struct sentence words = {.length = 0};
   if (is_false && !w->on_edge)
-    say(&words, "there is a line and no edge");
+    sentence_add(&words, "there is a line and no edge");
   else if (is_false)
-    say(&words, "a line is drawn and ");
+    sentence_add(&words, "a line is drawn and ");
   else
-    say(&words, "no line is drawn and ");
+    sentence_add(&words, "no line is drawn and ");
   if (w->on_edge)
     say_edge(&words, verify, w, origin);
   if (w->on_edge && is_false)
-    say(&words, " is hidden by face %lu", (unsigned long)w->blocker);
+    sentence_add(&words, " is hidden by face %lu", (unsigned long)w->blocker);
   else if (w->on_edge)
-    say(&words, " is visible");
+    sentence_add(&words, " is visible");
   return error_set(error, RECTO_ERROR_VERIFY, NULL, 0,
                    "the drawing is wrong: at %.4f,%.4f mm %s", w->at.x, w->at.y,
                    words.text);

@@ -13,6 +13,7 @@ librecto_core_la_SOURCES += \
   %D%/path.c %D%/path.h \
   %D%/report.c %D%/report.h \
   %D%/sets.h \
+  %D%/sentence.c %D%/sentence.h \
   %D%/sort.c %D%/sort.h \
   %D%/status.c %D%/status.h \
   %D%/stream.c %D%/stream.h \

@@ -1,0 +1,16 @@
+/* sentence.c - a message that is put together part by part. */
+#include "base/sentence.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+void sentence_add(struct sentence *sentence, const char *format, ...) {
+  va_list arguments;
+  size_t room = sizeof sentence->text - sentence->length;
+  va_start(arguments, format);
+  int length =
+      vsnprintf(sentence->text + sentence->length, room, format, arguments);
+  va_end(arguments);
+  if (length > 0)
+    sentence->length += (size_t)length < room ? (size_t)length : room - 1;
+}
