@@ -10,6 +10,9 @@
 #include <unistd.h>
 
 #include <cmocka.h>
+#ifdef HAVE_ZLIB
+#include <zlib.h>
+#endif
 
 #include "scene/material.h"
 #include "tests/reading.h"
@@ -125,6 +128,77 @@ static void a_group_of_two_files_keeps_its_first_colour(void **state) {
   assert_colour(&r, "m", 0xff0000);
   reading_fini(&r);
 }
+
+/* ---- gzip ---------------------------------------------------------------- */
+
+#ifdef HAVE_ZLIB
+
+static void write_compressed(void **state, const char *name, const char *text,
+                             size_t count) {
+  gzFile file = gzopen(temporary_path(state, name), "wb");
+  assert_non_null(file);
+  assert_int_equal(gzwrite(file, text, (unsigned)count), count);
+  assert_int_equal(gzclose(file), Z_OK);
+}
+
+static void a_compressed_library_is_expanded(void **state) {
+  static const char text[] = "newmtl m\nKd 1 0 0\n";
+  static const char *const name[] = {"a.mtl", "b.mtl.gz"};
+  for (size_t i = 0; i < sizeof name / sizeof *name; i++) {
+    struct reading r;
+    char model[200];
+    write_compressed(state, name[i], text, sizeof text - 1);
+    snprintf(model, sizeof model, "mtllib %s\n" POINTS "usemtl m\n" FACE,
+             name[i]);
+    read_model(&r, state, model);
+    assert_int_equal(r.warnings, 0);
+    assert_colour(&r, "m", 0xff0000);
+    reading_fini(&r);
+  }
+}
+
+/* As gzip -r leaves a folder of models. */
+static void
+where_there_is_no_library_its_compressed_form_is_read(void **state) {
+  static const char red[] = "newmtl m\nKd 1 0 0\nKd odd\n",
+                    blue[] = "newmtl m\nKd 0 0 1\n";
+  struct reading r;
+  write_compressed(state, "a b.mtl.gz", red, sizeof red - 1);
+  read_model(&r, state, "mtllib a b.mtl\n" POINTS "usemtl m\n" FACE);
+  assert_int_equal(r.warnings, 1);
+  assert_non_null(strstr(r.warning[0], "3: "));
+  assert_colour(&r, "m", 0xff0000);
+  reading_fini(&r);
+  write_text(state, "a b.mtl", blue);
+  read_model(&r, state, "mtllib a b.mtl\n" POINTS "usemtl m\n" FACE);
+  assert_colour(&r, "m", 0x0000ff);
+  reading_fini(&r);
+}
+
+static void a_library_that_expands_too_far_is_not_read(void **state) {
+  enum { SIZE = (16 << 20) + 1 };
+  struct reading r;
+  char *blanks = malloc(SIZE);
+  assert_non_null(blanks);
+  memset(blanks, '\n', SIZE);
+  write_compressed(state, "a.mtl.gz", blanks, SIZE);
+  free(blanks);
+  read_model(&r, state, "mtllib a.mtl\n" POINTS FACE);
+  assert_int_equal(r.warnings, 1);
+  assert_non_null(strstr(r.warning[0], "expand to more than 16 MB"));
+  reading_fini(&r);
+}
+
+static void a_broken_compressed_library_is_told(void **state) {
+  struct reading r;
+  temporary_file(state, "a.mtl.gz", "\x1f\x8b\x08\0odd", 7);
+  read_model(&r, state, "mtllib a.mtl\n" POINTS FACE);
+  assert_int_equal(r.warnings, 1);
+  assert_non_null(strstr(r.warning[0], "1: material library a.mtl: gzip data"));
+  reading_fini(&r);
+}
+
+#endif
 
 /* ---- What is wrong ---------------------------------------------------------
  */
@@ -320,6 +394,12 @@ int main(void) {
       T(values_beyond_the_range_are_clamped),
       T(only_drawings_in_colour_ask_for_libraries),
       T(a_group_of_two_files_keeps_its_first_colour),
+#ifdef HAVE_ZLIB
+      T(a_compressed_library_is_expanded),
+      T(where_there_is_no_library_its_compressed_form_is_read),
+      T(a_library_that_expands_too_far_is_not_read),
+      T(a_broken_compressed_library_is_told),
+#endif
       T(what_is_missing_is_told_with_its_line),
       T(a_bad_colour_is_told_with_the_librarys_name_and_line),
       T(libraries_with_a_mistake_are_told_of_once),

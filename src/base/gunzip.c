@@ -83,14 +83,14 @@ static int expand_some(struct expansion *x) {
 static recto_status expand_member(struct expansion *x) {
   int result = Z_OK;
   while (result == Z_OK) {
-    if (x->to.count > x->most)
-      return error_set(x->error, RECTO_ERROR_LIMIT, x->path, 0,
-                       "gzip data that expand to more than %zu MB",
-                       x->most >> 20);
     if (x->to.capacity - x->to.count < 2 &&
         !ARRAY_RESERVE(&x->to, (size_t)1 << 16))
       return error_memory(x->error);
     result = expand_some(x);
+    if (x->to.count > x->most)
+      return error_set(x->error, RECTO_ERROR_LIMIT, x->path, 0,
+                       "gzip data that expand to more than %zu MB",
+                       x->most >> 20);
   }
   return result == Z_STREAM_END ? RECTO_OK : fail(x, result);
 }

@@ -155,6 +155,8 @@ recto_status input_load_named(struct input *input, const char *path,
   else if (about.st_size > 0)
     status = slurp(&source, input, error);
   close(descriptor);
+  if (status == RECTO_OK && gunzip_is_wanted(input->bytes, input->count))
+    status = gunzip(input, path, source.most, error);
   return status;
 }
 

@@ -34,8 +34,9 @@ USE_RESULT recto_status input_load(struct input *input, const char *path,
                                    recto_error *error);
 
 /* Loads a file whose name stands in another one, which may name anything:
- * only files proper of at most INPUT_NAMED_MOST bytes are read, as they are.
- * Errors  RECTO_ERROR_IO, RECTO_ERROR_LIMIT, RECTO_ERROR_MEMORY */
+ * only files proper of at most INPUT_NAMED_MOST bytes are read, and gzip data
+ * are expanded to no more than that.
+ * Errors  as of input_load */
 #define INPUT_NAMED_MOST (INT64_C(16) << 20)
 USE_RESULT recto_status input_load_named(struct input *input, const char *path,
                                          recto_error *error);

@@ -11,6 +11,8 @@
 
 enum { LIBRARY_MOST = 100 };
 
+static const char GZIP[] = ".gz";
+
 void materials_init(struct materials *materials) {
   *materials = (struct materials){0};
   scene_init(&materials->libraries);
@@ -75,6 +77,28 @@ static recto_status read_library(struct shelf *shelf, const char *path,
   return status;
 }
 
+/* Loads the library at that path, which has room for GZIP after it: where
+ * there is no such file, one that gzip has compressed, as models are.  The path
+ * becomes that of the file that was taken. */
+static recto_status load_library(struct input *input, char *path,
+                                 recto_error *why) {
+  size_t length = strlen(path);
+  recto_error of_other;
+  recto_status status = input_load_named(input, path, why);
+  if (status != RECTO_ERROR_IO)
+    return status;
+  input_unload(input);
+  memcpy(path + length, GZIP, sizeof GZIP);
+  recto_status other = input_load_named(input, path, &of_other);
+  if (other == RECTO_ERROR_IO) {
+    path[length] = '\0'; /* the name in the model is the one to tell of */
+    return status;
+  }
+  if (other != RECTO_OK)
+    *why = of_other;
+  return other;
+}
+
 /* Reads a library of that name beside the model; *found where there is one,
  * else `why` tells what is wrong with it. */
 static recto_status try_library(struct shelf *shelf, const char *name,
@@ -83,7 +107,7 @@ static recto_status try_library(struct shelf *shelf, const char *name,
   size_t folder =
       slash && *name != '/' ? (size_t)(slash + 1 - shelf->model) : 0;
   char *path = length < PTRDIFF_MAX / 2 - folder
-                   ? mem_alloc(folder + length + 1, 1)
+                   ? mem_alloc(folder + length + sizeof GZIP, 1)
                    : NULL;
   if (!path)
     return error_memory(shelf->error);
@@ -91,7 +115,7 @@ static recto_status try_library(struct shelf *shelf, const char *name,
   memcpy(path + folder, name, length);
   path[folder + length] = '\0';
   struct input input;
-  recto_status status = input_load_named(&input, path, why);
+  recto_status status = load_library(&input, path, why);
   *found = status == RECTO_OK;
   if (*found && !scene_note_file(shelf->scene, &input))
     status = error_memory(shelf->error);
