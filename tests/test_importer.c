@@ -1,14 +1,17 @@
 /* test_importer.c - whatever becomes of the importer, a process of its own, is
  * an error of ours and no more. */
 #include <dirent.h>
+#include <dlfcn.h>
 #include <errno.h>
 #include <setjmp.h>
 #include <signal.h>
+#include <spawn.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -190,6 +193,60 @@ static void no_descriptor_is_left_open(void **state) {
   setenv("RECTO_IMPORT", "/none", 1);
   assert_refused(path, RECTO_ERROR_UNSUPPORTED, "cannot start");
   assert_int_equal(count_descriptors(), before);
+}
+
+static void without_descriptors_it_is_an_error(void **state) {
+  const char *path = model(state);
+  const char *plain = temporary_file(state, "b", off, sizeof off - 1);
+  struct rlimit usual;
+  int refused = 0, before = count_descriptors();
+  assert_int_equal(getrlimit(RLIMIT_NOFILE, &usual), 0);
+  for (rlim_t most = 3; most < 20; most++)
+    for (int by_path = 0; by_path < 2; by_path++) {
+      struct rlimit few = {most, usual.rlim_max};
+      struct reading r;
+      reading_init(&r);
+      assert_int_equal(setrlimit(RLIMIT_NOFILE, &few), 0);
+      r.status = scene_read(&r.scene, by_path ? path : plain, "off",
+                            &r.diagnostics, &r.error);
+      assert_int_equal(setrlimit(RLIMIT_NOFILE, &usual), 0);
+      if (r.status != RECTO_OK && r.status != RECTO_ERROR_IO)
+        fail_msg("%d descriptors: %s", (int)most, r.error.text);
+      refused += strstr(r.error.text, "importer") != NULL;
+      reading_fini(&r);
+    }
+  assert_true(refused > 0);
+  assert_int_equal(count_descriptors(), before);
+  assert_alone();
+}
+
+static int spawn_fails; /* with this errno; 0: it does not */
+
+/* Defined before the C library's. */
+int posix_spawn(pid_t *process, const char *path,
+                const posix_spawn_file_actions_t *actions,
+                const posix_spawnattr_t *attributes, char *const argument[],
+                char *const environment[]) {
+  union {
+    void *object;
+    int (*call)(pid_t *, const char *, const posix_spawn_file_actions_t *,
+                const posix_spawnattr_t *, char *const[], char *const[]);
+  } usual = {dlsym(RTLD_NEXT, "posix_spawn")};
+  return spawn_fails ? spawn_fails
+                     : usual.call(process, path, actions, attributes, argument,
+                                  environment);
+}
+
+static void without_processes_it_is_an_error(void **state) {
+  const char *path = model(state);
+  int before = count_descriptors();
+  spawn_fails = EAGAIN;
+  assert_refused(path, RECTO_ERROR_IO, "cannot start the importer: ");
+  spawn_fails = ENOMEM;
+  assert_refused(path, RECTO_ERROR_MEMORY, "out of memory");
+  spawn_fails = 0;
+  assert_int_equal(count_descriptors(), before);
+  assert_alone();
 }
 
 /* Nobody can be asked then how the importer ended. */
@@ -380,6 +437,8 @@ int main(void) {
       T(an_importer_that_is_not_there_is_told),
       T(cancelling_ends_the_importer),
       T(no_descriptor_is_left_open),
+      T(without_descriptors_it_is_an_error),
+      T(without_processes_it_is_an_error),
       T(a_host_may_ignore_its_children),
       T(standard_streams_may_be_closed),
       T(a_named_pipe_is_read_once),

@@ -4,6 +4,7 @@
  * malloc and its like are defined here, before the C library's: cairo and zlib
  * come by as well. */
 #include <errno.h>
+#include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -11,11 +12,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 
 #include <cmocka.h>
 
 #include "recto.h"
 #include "tests/temporary.h"
+
+#ifdef HAVE_ZLIB
+#include <zlib.h>
+#endif
 
 /* ---- An allocation that fails ----------------------------------------------
  */
@@ -91,8 +97,13 @@ static const char ply[] =
     "property list uchar int vertex_indices\nend_header\n"
     "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n";
 
+#ifdef HAVE_ASSIMP
+static const char off[] = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+                          "3 0 1 2\n3 0 2 3\n";
+#endif
+
 struct job {
-  const char *model, *format;
+  const char *model, *from, *format;
   recto_method method;
   recto_fill fill;
   recto_hidden hidden;
@@ -114,6 +125,17 @@ static void write_text(const char *name, const char *text) {
   fputs(text, file);
   assert_int_equal(fclose(file), 0);
 }
+
+#ifdef HAVE_ZLIB
+static void write_compressed(const char *name, const char *text) {
+  char path[300];
+  path_of(path, name);
+  gzFile file = gzopen(path, "wb");
+  assert_non_null(file);
+  assert_true(gzputs(file, text) > 0);
+  assert_int_equal(gzclose(file), Z_OK);
+}
+#endif
 
 static recto_status check(const char *model, const recto_options *options,
                           recto_error *error) {
@@ -143,7 +165,8 @@ static recto_status run(const struct job *job, const char *output,
   path_of(model, job->model);
   if (job->checks)
     return check(model, &options, error);
-  return recto_draw_file(model, NULL, output, job->format, &options, error);
+  return recto_draw_file(model, job->from, output, job->format, &options,
+                         error);
 }
 
 /* Runs the job with its n-th allocation failing; false where it has fewer. */
@@ -216,6 +239,36 @@ static void readers_survive_it(void **state) {
       {.model = "m.stl", .format = "svg"}, {.model = "m.ply", .format = "svg"});
 }
 
+#ifdef HAVE_ZLIB
+static void readers_of_gzip_survive_it(void **state) {
+  (void)state;
+  TRY({.model = "m.stl.gz", .format = "svg"},
+      {.model = "z.obj", .format = "svg", .fill = RECTO_FILL_PAINT});
+}
+#endif
+
+#ifdef HAVE_ASSIMP
+static int count_descriptors(void) {
+  enum { MOST = 1024 };
+  int count = 0;
+  for (int i = 0; i < MOST; i++)
+    count += fcntl(i, F_GETFD) >= 0;
+  return count;
+}
+
+/* The process that starts the importer; neither the importer nor a pipe nor a
+ * file of ours is left. */
+static void the_host_of_the_importer_survives_it(void **state) {
+  (void)state;
+  int before = count_descriptors();
+  TRY({.model = "m.off", .format = "svg"},
+      {.model = "off", .from = "off", .format = "svg"});
+  assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
+  assert_int_equal(errno, ECHILD);
+  assert_int_equal(count_descriptors(), before);
+}
+#endif
+
 static void writers_survive_it(void **state) {
   (void)state;
   TRY({.model = "m.obj", .format = "hpgl"},
@@ -283,6 +336,16 @@ static int start(void **state) {
   write_text("m.mtl", mtl);
   write_text("m.stl", stl);
   write_text("m.ply", ply);
+#ifdef HAVE_ZLIB
+  write_compressed("m.stl.gz", stl);
+  write_compressed("z.mtl.gz", mtl);
+  write_text("z.obj", "mtllib z.mtl\nv 0 0 0\nv 2 0 0\nv 2 2 0\n"
+                      "usemtl red\nf 1 2 3\n");
+#endif
+#ifdef HAVE_ASSIMP
+  write_text("m.off", off);
+  write_text("off", off);
+#endif
   write_text("judged.svg",
              "<svg width=\"100mm\" height=\"100mm\" viewBox=\"0 0 100 100\">"
              "<path stroke=\"#000\" d=\"M1 1L90 90C1 1 50 9 3 3\"/></svg>");
@@ -292,6 +355,12 @@ static int start(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(readers_survive_it),
+#ifdef HAVE_ZLIB
+      cmocka_unit_test(readers_of_gzip_survive_it),
+#endif
+#ifdef HAVE_ASSIMP
+      cmocka_unit_test(the_host_of_the_importer_survives_it),
+#endif
       cmocka_unit_test(writers_survive_it),
       cmocka_unit_test(methods_survive_it),
       cmocka_unit_test(judges_survive_it),

@@ -77,6 +77,11 @@ static long limit_of(const char *name, long usual) {
 static recto_status fail_to_start(const struct import *import, int code) {
   if (code == ENOMEM)
     return error_memory(import->error);
+  if (code == EAGAIN || code == EMFILE || code == ENFILE || code == EINVAL)
+    return error_set(import->error, RECTO_ERROR_IO, import->path, 0,
+                     "cannot start the importer: %s",
+                     /* What is said of a number beyond the limit. */
+                     strerror(code == EINVAL ? EMFILE : code));
   return error_set(import->error, RECTO_ERROR_UNSUPPORTED, import->path, 0,
                    "no reader for the format '%s': cannot start the importer "
                    "%s: %s",
