@@ -84,7 +84,7 @@ endif
 check_PROGRAMS += %D%/paper_tool
 %C%_paper_tool_SOURCES = %D%/paper_tool.c %D%/maker.c %D%/maker.h
 dist_check_SCRIPTS += %D%/test_paper.sh %D%/test_same_picture.sh \
-  %D%/test_tone.sh %D%/test_viewers.sh
+  %D%/test_tone.sh %D%/test_verify_rounding.sh %D%/test_viewers.sh
 
 # Layer 0.
 unit_tests += %D%/test_input

@@ -114,8 +114,18 @@ double judge_ahead(const struct judge_camera *camera, struct judge_spot p) {
                              : spot_dot(camera->back, spot_sub(camera->eye, p));
 }
 
+/* Depths that the near plane cuts are rounded as all others are: at either end
+ * of what is cut, and once more where a plane goes through the rounded ends. */
+double judge_near_slack(const struct judge_camera *camera) {
+  if (!isfinite(camera->near_d))
+    return 0;
+  double unit = camera->perspective ? camera->near_d * camera->near_d : 1;
+  return fabs(camera->near_d) * TOLERANCE_JUDGE_NEAR_SHARE +
+         4 * camera->depth_step * unit;
+}
+
 double judge_near(const struct judge_camera *camera) {
-  return camera->near_d - fabs(camera->near_d) * TOLERANCE_JUDGE_NEAR_SHARE;
+  return camera->near_d - judge_near_slack(camera);
 }
 
 struct judge_place judge_project(const struct judge_camera *camera,

@@ -246,6 +246,20 @@ static bool is_side(const struct scene *scene, uint32_t face, uint32_t a,
   return false;
 }
 
+/* Whether a side lies in the near plane, but for rounding: what the plane leaves
+ * of the triangles beside it is then a sliver that may lie either way. */
+static bool is_in_near_plane(const struct finder *finder,
+                             const struct judge_wing *wing) {
+  const struct judge_camera *camera = finder->camera;
+  double slack = judge_near_slack(camera);
+  const uint32_t end[2] = {wing->low, wing->high};
+  for (int k = 0; k < 2; k++)
+    if (!(fabs(judge_ahead(camera, judge_spot_at(finder->scene, end[k])) -
+               camera->near_d) <= slack))
+      return false;
+  return true;
+}
+
 /* Adds the diagonal of a face that bends, where its two triangles lie on one
  * side of it on the page, or may.  Where more of them meet between the same two
  * points, or a side of the face runs there too, it is not sure which belong
@@ -258,7 +272,7 @@ static bool add_fold(struct finder *finder, const struct judge_wing *wing,
   double one = alone ? wing_slope(finder, &wing[0], at) : 0;
   double two = alone ? wing_slope(finder, &wing[1], at) : 0;
   bool silhouette = is_silhouette(one, two);
-  if (!silhouette && is_sure(one, two))
+  if (!silhouette && is_sure(one, two) && !is_in_near_plane(finder, wing))
     return true;
   const struct judge_source source = {{wing->low, wing->high},
                                       {wing->face, wing->face},

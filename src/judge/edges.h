@@ -51,7 +51,10 @@ double judge_ahead(const struct judge_camera *camera, struct judge_spot p);
 /* What the image is divided by: that in perspective; 1 in an orthographic
  * view. */
 double judge_depth(const struct judge_camera *camera, struct judge_spot p);
-/* The near distance, less what rounding does: what stands on it is drawn. */
+/* How far rounding may move what the near plane cuts; 0 where it cuts nothing.
+ */
+double judge_near_slack(const struct judge_camera *camera);
+/* The near distance, less that: what stands on it is drawn. */
 double judge_near(const struct judge_camera *camera);
 struct judge_place judge_project(const struct judge_camera *camera,
                                  struct judge_spot p);

@@ -73,7 +73,8 @@ static enum judge_sight look(const struct judge_gazer *gazer,
   double rounding = judge_rounding_at(camera, gazer->hair_mm, from);
   double blur =
       aside ? 2 * rounding : gazer->all->size * TOLERANCE_EXTENT_SHARE;
-  double near = judge_near(camera);
+  double slack = judge_near_slack(camera);
+  double near = judge_near(camera), sure = camera->near_d + slack;
   struct judge_gaze gaze = {.camera = camera,
                             .from = from,
                             .margin = {rounding, blur},
@@ -82,9 +83,11 @@ static enum judge_sight look(const struct judge_gazer *gazer,
   if (camera->perspective) {
     gaze.towards = spot_sub(camera->eye, from);
     gaze.reach = 1 - near / judge_depth(camera, from);
+    gaze.sure = 1 - sure / judge_depth(camera, from);
   } else {
     gaze.towards = camera->back;
     gaze.reach = judge_ahead(camera, from) - near;
+    gaze.sure = judge_ahead(camera, from) - sure;
   }
   return judge_look(gazer->all, &gaze, blocker);
 }

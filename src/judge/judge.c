@@ -225,8 +225,8 @@ static bool has_ink(const struct court *court, struct judge_place at) {
  * it off. */
 static bool is_at_near_plane(const struct judge_camera *camera,
                              struct judge_spot spot) {
-  double slack = camera->near_d - judge_near(camera);
-  return judge_ahead(camera, spot) <= camera->near_d + slack;
+  return judge_ahead(camera, spot) <=
+         camera->near_d + judge_near_slack(camera);
 }
 
 static void try_edge(struct court *court, const struct judge_edge *edge,

@@ -100,18 +100,22 @@ static struct cut cut_by_plane(const struct judge_triangle *t,
   return cut;
 }
 
-/* How many corners they share; the last of them to *corner. */
+static bool is_same(struct judge_spot a, struct judge_spot b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* How many corners they share, and which. */
 static unsigned shared_corners(const struct judge_triangle *s,
                                const struct judge_triangle *t,
-                               struct judge_spot *corner) {
+                               struct judge_spot corner[3]) {
   unsigned shared = 0;
-  for (int i = 0; i < 3; i++)
-    for (int k = 0; k < 3; k++)
-      if (s->p[i].x == t->p[k].x && s->p[i].y == t->p[k].y &&
-          s->p[i].z == t->p[k].z) {
-        *corner = s->p[i];
-        shared++;
-      }
+  for (int i = 0; i < 3; i++) {
+    int k = 0;
+    while (k < 3 && !is_same(s->p[i], t->p[k]))
+      k++;
+    if (k < 3)
+      corner[shared++] = s->p[i];
+  }
   return shared;
 }
 
@@ -119,12 +123,43 @@ static unsigned shared_corners(const struct judge_triangle *s,
 static void put_on_corner(const struct judge_triangle *s,
                           const struct judge_triangle *t, struct judge_spot *a,
                           struct judge_spot *b) {
-  struct judge_spot corner;
-  if (shared_corners(s, t, &corner) == 0)
+  struct judge_spot corner[3];
+  if (shared_corners(s, t, corner) == 0)
     return;
-  bool is_first =
-      spot_length(spot_sub(*a, corner)) < spot_length(spot_sub(*b, corner));
-  *(is_first ? a : b) = corner;
+  bool is_first = spot_length(spot_sub(*a, corner[0])) <
+                  spot_length(spot_sub(*b, corner[0]));
+  *(is_first ? a : b) = corner[0];
+}
+
+/* Whether a face has a side between two corners. */
+static bool has_side(const struct scene *scene, uint32_t face,
+                     const struct judge_spot end[2]) {
+  uint32_t start = scene->face_start.item[face];
+  uint32_t count = scene->face_start.item[face + 1] - start;
+  const uint32_t *corner = scene->corner.item + start;
+  for (uint32_t i = 0; i < count; i++) {
+    struct judge_spot p = judge_spot_at(scene, corner[i]);
+    struct judge_spot q = judge_spot_at(scene, corner[(i + 1) % count]);
+    if ((is_same(p, end[0]) && is_same(q, end[1])) ||
+        (is_same(p, end[1]) && is_same(q, end[0])))
+      return true;
+  }
+  return false;
+}
+
+/* Adds the side that two triangles share where it is a diagonal of both their
+ * faces: these go on beyond it, and pierce each other in it.  That they do is
+ * left open. */
+static bool add_shared(struct piercer *piercer, const struct judge_triangle *s,
+                       const struct judge_triangle *t,
+                       const struct judge_spot corner[2]) {
+  const struct scene *scene = piercer->all->scene;
+  const struct judge_source source = {
+      {SCENE_NONE, SCENE_NONE}, {s->face, t->face}, 0, false};
+  if (has_side(scene, s->face, corner) || has_side(scene, t->face, corner))
+    return true;
+  return judge_edges_add(piercer->edges, piercer->camera, corner[0], corner[1],
+                         &source);
 }
 
 /* Adds what two triangles' cuts by each other's planes have in common; both
@@ -167,12 +202,12 @@ static bool pierce(void *user, uint32_t other) {
   const struct judge_triangle *s =
       &piercer->all->triangle.item[piercer->current];
   const struct judge_triangle *t = &piercer->all->triangle.item[other];
-  struct judge_spot corner;
-  if (s->face == t->face || shared_corners(s, t, &corner) >= 2)
+  struct judge_spot along = spot_cross(s->normal, t->normal), corner[3];
+  if (s->face == t->face || !(spot_length(along) > 0))
     return true;
-  struct judge_spot along = spot_cross(s->normal, t->normal);
-  if (!(spot_length(along) > 0))
-    return true;
+  unsigned shared = shared_corners(s, t, corner);
+  if (shared >= 2)
+    return add_shared(piercer, s, t, corner);
   struct cut cs = cut_by_plane(s, t), ct = cut_by_plane(t, s);
   return cs.count != 2 || ct.count != 2 ||
          add_common(piercer, &cs, &ct, spot_unit(along), other);

@@ -51,12 +51,14 @@ static bool line_meets_triangle(const struct judge_gaze *gaze,
   return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
-/* Whether the triangle's plane is met on the way. */
-static bool ray_meets_plane(const struct judge_gaze *gaze,
-                            const struct judge_triangle *t) {
+/* Whether the triangle's plane is met on the way: if it is, it blocks. */
+static enum judge_sight ray_meets_plane(const struct judge_gaze *gaze,
+                                        const struct judge_triangle *t) {
   double at = spot_dot(t->normal, spot_sub(t->p[0], gaze->from)) /
               spot_dot(t->normal, gaze->towards);
-  return at > 0 && at < gaze->reach;
+  if (!(at > 0 && at < gaze->reach))
+    return JUDGE_CLEAR;
+  return at < gaze->sure ? JUDGE_BLOCKED : JUDGE_UNSURE;
 }
 
 /* ---- Planes ----------------------------------------------------------------
@@ -217,7 +219,8 @@ static enum judge_sight look_at(const struct judge_triangles *all,
     return sight;
   if (distance(t, gaze->from) <= gaze->margin.blur)
     return JUDGE_UNSURE;
-  return ray_meets_plane(gaze, t) ? sight : JUDGE_CLEAR;
+  enum judge_sight met = ray_meets_plane(gaze, t);
+  return met < sight ? met : sight;
 }
 
 /* ---- All of them -----------------------------------------------------------

@@ -33,6 +33,7 @@ struct judge_gaze {
   const struct judge_camera *camera;
   struct judge_spot from, towards;
   double reach; /* seen is from + t towards, 0 < t < reach */
+  double sure;  /* beyond it the near plane may have cut off what is met */
   struct judge_margin margin;
   uint32_t own[2]; /* faces of the edge */
   struct judge_end end[2];

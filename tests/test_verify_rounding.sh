@@ -1,0 +1,85 @@
+#!/bin/bash
+# test_verify_rounding.sh - --verify does not refuse what doubles cannot decide:
+# scenes that structured fuzzing found, each as small as it goes.
+. "$(dirname "$0")/tap.sh"
+. "$(dirname "$0")/cli.sh"
+
+# passes OPTION ...: the model on standard input is drawn and found right.
+passes() {
+  cat >model.obj
+  "$recto" "$@" --verify=300 -q -o out.svg model.obj 2>err && return 0
+  say "$(cat err)"
+  return 1
+}
+
+claim "faces that pierce each other in a diagonal of both, cut by a section" \
+  passes --view=iso --section=1 <<'END_OF_MODEL'
+v 0 1 0
+v 0 0 0
+v 1 2 0
+v 0 2 0
+v 0 0 1
+v 0 2 -1
+f 1 2 3 4
+f 5 3 6 1
+END_OF_MODEL
+
+grazing='--azimuth=89.9999999 --elevation=1e-7'
+claim "a warped face within a billionth of the section plane" \
+  passes --section=2 $grazing <<'END_OF_MODEL'
+v 0 0 0
+v 0 0 1
+v -1 1 0
+v 1 1 1
+f 4 3 2 1
+END_OF_MODEL
+
+claim "a box within a billionth of the near plane" \
+  passes --near=1 $grazing <<'END_OF_MODEL'
+v 1 0 0
+v 0 1 1
+v 1 1 1
+v 0 0 1
+v 1 0 1
+v 0 1 0
+v 1 1 0
+v 0 0 0
+v 2 0 0
+f 1 9 8
+f 2 4 5 3
+f 6 7 1 8
+f 2 3 7 6
+f 4 8 1 5
+f 2 6 8 4
+f 3 5 1 7
+END_OF_MODEL
+
+claim "the diagonal of a warped face in the section plane" \
+  passes --section=1 $grazing <<'END_OF_MODEL'
+v 0 -1 1
+v 0 -1 0
+v 1 0 0
+v 0 0 1
+f 4 3 2 1
+END_OF_MODEL
+
+# All of that lets nothing pass that is wrong: a line more, where faces meet in
+# diagonals and a plane cuts them, is still found.
+a_line_more_is_found() {
+  cat >model.obj
+  "$recto" --view=iso --section=1 --margin=10 -q -o out.svg model.obj 2>err &&
+    sed 's|</svg>|<path d="M40 40L60 45" fill="none" stroke="#000"/></svg>|' \
+      out.svg >more.svg && run 0 -q model.obj --check out.svg --view=iso \
+    --section=1 && run 1 -q model.obj --check more.svg --view=iso --section=1
+}
+claim "a line too many is found all the same" a_line_more_is_found <<'END_OF_MODEL'
+v 0 1 0
+v 0 0 0
+v 1 2 0
+v 0 2 0
+v 0 0 1
+v 0 2 -1
+f 1 2 3 4
+f 5 3 6 1
+END_OF_MODEL
+finish
