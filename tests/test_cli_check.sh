@@ -3,6 +3,7 @@
 # what was found, as that of diff does.
 . "$(dirname "$0")/tap.sh"
 . "$(dirname "$0")/cli.sh"
+models=$srcdir/examples/models
 
 judges_its_own() {
   run 0 cube.obj -o own.svg && run 0 cube.obj --check own.svg && silent &&
@@ -45,6 +46,53 @@ verdict_on_a_full_disk() {
   test $? -eq 2 && says '^recto: '
 }
 claim "--check that cannot say what it found is trouble" verdict_on_a_full_disk
+
+# What is shorter than half a pen is not drawn, and so not missing.
+judges_model() { # MODEL ARGUMENT...
+  run 0 "$models/$1.obj" "${@:2}" -o model.svg &&
+    run 0 "$models/$1.obj" "${@:2}" --check model.svg
+}
+while read -r model arguments; do
+  # shellcheck disable=SC2086 # words of options
+  claim "$model $arguments is found right" judges_model "$model" $arguments
+done <<'END_OF_ROWS'
+castle --azimuth 30 --elevation 20 --fov 40 --pen 2
+castle --view iso -e all --pen 1.4
+castle --azimuth 200 --elevation -20 --fov 60 --pen 1
+castle --view front --pen 0.35 --pen-width 2=3
+gears --view iso
+gears --view front -e all --pen 2
+knot --view top --pen 5
+knot --view iso -e all --pen 3
+END_OF_ROWS
+lacks_a_stroke() {
+  run 0 "$models/castle.obj" -o model.svg --pen 1 &&
+    awk '/^<path/ && length > most { most = length; which = NR }
+         { line[NR] = $0 }
+         END { for (i = 1; i <= NR; i++) if (i != which) print line[i] }' \
+      model.svg >less.svg && run 1 "$models/castle.obj" --check less.svg --pen 1
+}
+claim "a drawing that lacks a stroke is found wrong" lacks_a_stroke
+
+# Every edge is shorter than a quarter of the pen, the outline is not.
+awk 'BEGIN { n = 120; pi = atan2(0, -1); print "v 0 0 1"
+  for (i = 1; i < n / 2; i++) for (k = 0; k < n; k++) {
+    r = sin(2 * pi * i / n); a = 2 * pi * k / n
+    printf "v %.9f %.9f %.9f\n", r * cos(a), r * sin(a), cos(2 * pi * i / n) }
+  for (i = 0; i + 2 < n / 2; i++) for (k = 0; k < n; k++) {
+    a = 2 + i * n; b = (k + 1) % n
+    print "f", a + k, a + n + k, a + n + b, a + b }
+  for (k = 0; k < n; k++) print "f", 1, 2 + k, 2 + (k + 1) % n }' >fine.obj
+fine_outline() { # ARGUMENT...
+  run 0 fine.obj --page 40x40mm --margin 5 --pen 4 "$@" -o fine.svg &&
+    run 0 fine.obj --margin 5 --pen 4 "$@" --check fine.svg &&
+    sed '/^<path/d' fine.svg >none.svg &&
+    run 1 fine.obj --margin 5 --pen 4 "$@" --check none.svg &&
+    awk '/^missing/ { exit !($5 > 95) }' out
+}
+claim "a fine mesh that lacks its outline is found wrong" fine_outline
+claim "in perspective too" fine_outline --azimuth 33 --elevation 21 --fov 40
+claim "and one that lacks all its edges" fine_outline --view front -e all
 
 tolerates() { # STATUS TOLERANCE FILE
   run "$1" cube.obj --check "$3" --tolerance "$2"

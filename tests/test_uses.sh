@@ -126,7 +126,7 @@ END_OF_ROWS
 check_uses() { judges "$@" && test ! -s err; }
 claim "--check looks with the same camera, edges and tolerances" \
   check_uses --view iso --lookat 0,0,1 --fov 20 --no-fit --margin 5 \
-  -e all --crease 20 --contact 0 --pen 0.3
+  -e all --crease 20 --contact 0 --pen 0.3 --min-stroke 0.1 --pen-width 2=0.5
 
 claim "a tolerance is used by --check" check_uses --tolerance 1%
 

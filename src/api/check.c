@@ -6,6 +6,7 @@
 #include "api/handle.h"
 #include "api/rescale.h"
 #include "base/input.h"
+#include "ink/pens.h"
 #include "scene/welded.h"
 
 /* Samples of the drawing, and as many of the edges. */
@@ -51,6 +52,19 @@ static recto_status weld(struct welded *welded, const struct rescaled *rescaled,
   return status;
 }
 
+/* The length below which one of the pens leaves strokes out: which of them drew
+ * what is not known of somebody's drawing. */
+static recto_status find_shortest(double *mm, const struct scene *scene,
+                                  const recto_options *o, recto_error *error) {
+  struct pens pens;
+  recto_status status = pens_init(&pens, scene, o, error);
+  *mm = 0;
+  for (uint32_t pen = 0; status == RECTO_OK && pen <= PENS_MOST; pen++)
+    *mm = fmax(*mm, pens_shortest_mm(&pens, pen));
+  pens_fini(&pens);
+  return status;
+}
+
 static recto_status judge(const struct rescaled *rescaled,
                           const struct scene *scene,
                           const struct judge_drawing *drawing,
@@ -67,7 +81,9 @@ static recto_status judge(const struct rescaled *rescaled,
   struct judge_options options = asked_options(&asked, &camera, o);
   options.samples = SAMPLES;
   options.reach_mm = options.lateral_mm = o->pen_mm / 4;
-  if (!judge_drawing(verdict, drawing, &asked.scene, &seen, &options))
+  status = find_shortest(&options.shortest_mm, scene, o, error);
+  if (status == RECTO_OK &&
+      !judge_drawing(verdict, drawing, &asked.scene, &seen, &options))
     status = error_memory(error);
   asked_fini(&asked);
   return status;

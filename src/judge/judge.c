@@ -8,6 +8,7 @@
 #include "judge/gaze.h"
 #include "judge/contact.h"
 #include "judge/grid.h"
+#include "judge/missing_run.h"
 
 struct court {
   const struct judge_drawing *drawing;
@@ -20,6 +21,8 @@ struct court {
   uint32_t inks, drops; /* of ink; of what was dropped, behind it */
   double grid; /* scene units that the page's grid may explain, at most */
   struct judge_grid by_image, by_ink;
+  uint32_t long_edge; /* the last sample was of this edge, and on a line without
+                         ink that is long; SCENE_NONE */
   struct judge_verdict *verdict;
 };
 
@@ -211,7 +214,8 @@ static void try_all_ink(struct court *court) {
 /* ---- Missing ink ----------------------------------------------------------
  */
 
-static bool has_ink(const struct court *court, struct judge_place at) {
+static bool has_ink(const void *user, struct judge_place at) {
+  const struct court *court = user;
   uint32_t count;
   const uint32_t *near = judge_grid_near(&court->by_ink, at, &count);
   for (uint32_t i = 0; i < count; i++) {
@@ -229,13 +233,41 @@ static bool is_at_near_plane(const struct judge_camera *camera,
          camera->near_d + judge_near_slack(camera);
 }
 
-static void try_edge(struct court *court, const struct judge_edge *edge,
+static bool is_asked_for(const void *user, uint32_t edge) {
+  const struct court *court = user;
+  const struct judge_source *source = &court->edges.edge.item[edge].source;
+  unsigned asked = court->options.edges;
+  return (source->natures & asked) != 0 ||
+         (source->exists && (asked & RECTO_EDGES_ALL) == RECTO_EDGES_ALL);
+}
+
+/* Whether a visible line without ink is one that may be left out.  The samples
+ * of an edge that lack their ink one after the other are on one line. */
+static bool may_be_too_short(struct court *court, uint32_t edge, double t) {
+  const struct judge_missing_run run = {
+      .gazer = &court->gazer,
+      .edges = &court->edges,
+      .by_image = &court->by_image,
+      .shortest_mm = court->options.shortest_mm,
+      .is_asked_for = is_asked_for,
+      .has_ink = has_ink,
+      .user = court};
+  if (run.shortest_mm == 0)
+    return false;
+  if (court->long_edge != edge && judge_is_long_run(&run, edge, t))
+    court->long_edge = edge;
+  return court->long_edge != edge;
+}
+
+static void try_edge(struct court *court, uint32_t number,
                      struct judge_place at, double t, double mm) {
+  const struct judge_edge *edge = &court->edges.edge.item[number];
   struct judge_verdict *verdict = court->verdict;
   struct judge_spot from = judge_spot_of_image(edge, t);
   /* Where there is ink the sight is asked for only to count the samples; one
    * ray is enough for that. */
   if (has_ink(court, at)) {
+    court->long_edge = SCENE_NONE;
     if (judge_look_from(&court->gazer, edge, from) == JUDGE_CLEAR)
       count_sample(&verdict->visible, mm);
     return;
@@ -244,7 +276,13 @@ static void try_edge(struct court *court, const struct judge_edge *edge,
     count_sample(&verdict->unsure, mm);
     return;
   }
-  switch (judge_look_around(&court->gazer, edge, from, JUDGE_CLEAR, NULL)) {
+  enum judge_sight sight =
+      judge_look_around(&court->gazer, edge, from, JUDGE_CLEAR, NULL);
+  if (sight == JUDGE_CLEAR && may_be_too_short(court, number, t))
+    sight = JUDGE_UNSURE;
+  if (sight != JUDGE_CLEAR)
+    court->long_edge = SCENE_NONE;
+  switch (sight) {
   case JUDGE_CLEAR:
     if (verdict->missing.samples == 0) {
       verdict->missing_at.at = at;
@@ -261,40 +299,35 @@ static void try_edge(struct court *court, const struct judge_edge *edge,
   }
 }
 
-static bool is_asked_for(const struct court *court,
-                         const struct judge_source *source) {
-  unsigned asked = court->options.edges;
-  return (source->natures & asked) != 0 ||
-         (source->exists && (asked & RECTO_EDGES_ALL) == RECTO_EDGES_ALL);
-}
-
 /* The part of an edge's image that is on the page; false where it need not be
- * drawn, as what is seen as a point. */
-static bool find_part(const struct court *court, size_t edge,
+ * drawn, as what is seen as a point.  A short part of a longer line is found
+ * where the length of the line is asked for. */
+static bool find_part(const struct court *court, uint32_t edge,
                       struct judge_segment *part, double *t0, double *t1) {
-  if (!is_asked_for(court, &court->edges.edge.item[edge].source) ||
+  if (!is_asked_for(court, edge) ||
       !judge_cut_to_page(court->camera, court->image[edge].a,
                          court->image[edge].b, t0, t1))
     return false;
   part->a = place_on(&court->image[edge], *t0);
   part->b = place_on(&court->image[edge], *t1);
-  return length_of(part) > court->options.reach_mm;
+  return length_of(part) > (court->options.shortest_mm > 0
+                                ? court->options.hair_mm
+                                : court->options.reach_mm);
 }
 
 static void try_all_edges(struct court *court) {
   struct judge_segment part;
   double t0, t1, all = 0;
-  for (size_t i = 0; i < court->edges.edge.count; i++)
+  for (uint32_t i = 0; i < court->edges.edge.count; i++)
     all += find_part(court, i, &part, &t0, &t1) ? length_of(&part) : 0;
   struct sampler sampler = sampler_of(&court->options, all);
-  for (size_t i = 0; i < court->edges.edge.count; i++) {
+  for (uint32_t i = 0; i < court->edges.edge.count; i++) {
     double t, mm;
     if (!find_part(court, i, &part, &t0, &t1))
       continue;
     start_piece(&sampler, length_of(&part));
     while (next_sample(&sampler, &t, &mm))
-      try_edge(court, &court->edges.edge.item[i], place_on(&part, t),
-               t0 + (t1 - t0) * t, mm);
+      try_edge(court, i, place_on(&part, t), t0 + (t1 - t0) * t, mm);
   }
 }
 
@@ -380,6 +413,7 @@ bool judge_drawing(struct judge_verdict *verdict,
   struct court court = {.drawing = drawing,
                         .camera = camera,
                         .options = *options,
+                        .long_edge = SCENE_NONE,
                         .verdict = verdict};
   memset(verdict, 0, sizeof *verdict);
   bool good = open_court(&court, scene);

@@ -107,6 +107,9 @@ struct judge_options {
   unsigned edges; /* classes asked for, a mask of recto_edge_class */
   const struct scene_point *given; /* the points to the last digit, where the
                                       scene's were moved; NULL: its own */
+  double shortest_mm; /* strokes that are shorter need not be drawn: a visible
+                         line without ink that is not surely so long is left
+                         open; 0: none is too short */
 };
 
 /* 0.02 mm steps and reach, 30 degrees, the default classes. */

@@ -7,6 +7,7 @@ librecto_core_la_SOURCES += \
   %D%/gaze.c %D%/gaze.h \
   %D%/grid.c %D%/grid.h \
   %D%/judge.c %D%/judge.h \
+  %D%/missing_run.c %D%/missing_run.h \
   %D%/pierced.c \
   %D%/sight.c %D%/sight.h \
   %D%/svg.c \

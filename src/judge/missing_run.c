@@ -1,0 +1,229 @@
+/* missing_run.c - how long a visible line is that has no ink.
+ *
+ * A drawing leaves out strokes that are shorter than a length.  A stroke is
+ * made of the edges that follow each other, so what one edge lacks says
+ * nothing by itself: all edges of a fine mesh are short, and its outline is
+ * long.
+ *
+ * Phases
+ *   1 from the point both ways along its edge, as far as it is visible
+ *   2 over the edge's end to the edge that is drawn in one stroke with it, as
+ *     far as that is visible and without ink; and so on
+ * The walk stops as soon as the length is reached.
+ * Cost  at most STEPS points in each way are looked at, and at every end the
+ *   edges that meet there. */
+#include "judge/missing_run.h"
+
+#include "base/tolerance.h"
+
+enum {
+  PARTS = 8,   /* the shortest stroke is looked at so many times */
+  STEPS = 512, /* a run is looked at in so many points at most */
+  FAN_MOST = 16
+};
+
+/* An end of an edge that leaves a place. */
+struct fan_end {
+  uint32_t edge;
+  int side;                /* which of the edge's ends is there */
+  struct judge_place away; /* unit */
+};
+
+struct fan {
+  struct fan_end end[FAN_MOST];
+  uint32_t count;
+};
+
+/* Where a walk is. */
+struct walk {
+  const struct judge_missing_run *run;
+  double length;
+  int steps;
+  bool is_loop;
+};
+
+static const struct judge_segment *image_of(const struct judge_missing_run *run,
+                                            uint32_t edge) {
+  return &run->by_image->segment[edge];
+}
+
+static double image_length(const struct judge_segment *s) {
+  return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
+}
+
+static bool is_visible(const struct judge_missing_run *run, uint32_t number,
+                       double t, enum judge_sight *sight) {
+  const struct judge_edge *edge = &run->edges->edge.item[number];
+  *sight = judge_look_around(run->gazer, edge, judge_spot_of_image(edge, t),
+                             JUDGE_CLEAR, NULL);
+  return *sight == JUDGE_CLEAR;
+}
+
+/* ---- From edge to edge ----------------------------------------------------
+ */
+
+/* Edges of one class and of one group go before others. */
+static bool is_alike(const struct judge_missing_run *run, uint32_t a,
+                     uint32_t b) {
+  const struct judge_source *s = &run->edges->edge.item[a].source;
+  const struct judge_source *t = &run->edges->edge.item[b].source;
+  const struct scene *scene = run->gazer->all->scene;
+  if ((s->natures & -s->natures) != (t->natures & -t->natures))
+    return false;
+  return s->face[0] == SCENE_NONE || t->face[0] == SCENE_NONE ||
+         scene->face_group.item[s->face[0]] ==
+             scene->face_group.item[t->face[0]];
+}
+
+/* Whether another end of the fan leaves in the same direction: of edges with
+ * one image one is drawn. */
+static bool is_double(const struct fan *fan, struct judge_place away) {
+  for (uint32_t i = 0; i < fan->count; i++) {
+    const struct judge_place *other = &fan->end[i].away;
+    if (fabs(away.x * other->y - away.y * other->x) < TOLERANCE_JUDGE_ANGLE &&
+        away.x * other->x + away.y * other->y > 0)
+      return true;
+  }
+  return false;
+}
+
+/* Adds an end to the fan where it is visible; false where that is not sure, or
+ * there are too many. */
+static bool add_end(const struct judge_missing_run *run, struct fan *fan,
+                    uint32_t edge, int side, bool is_first) {
+  const struct judge_segment *s = image_of(run, edge);
+  double length = image_length(s), sign = (side ? -1 : 1) / length;
+  const struct judge_place away = {(s->b.x - s->a.x) * sign,
+                                   (s->b.y - s->a.y) * sign};
+  if (!(length > 0) || is_double(fan, away))
+    return true;
+  double in = fmin(0.5, run->shortest_mm / PARTS / length);
+  enum judge_sight sight;
+  if (!is_first && !is_visible(run, edge, side ? 1 - in : in, &sight))
+    return sight == JUDGE_BLOCKED;
+  if (fan->count == FAN_MOST)
+    return false;
+  fan->end[fan->count++] = (struct fan_end){edge, side, away};
+  return true;
+}
+
+/* Finds the ends of asked-for edges that are where this one is, itself the
+ * first; false where they are not sure. */
+static bool find_fan(const struct judge_missing_run *run, struct fan *fan,
+                     uint32_t edge, int side) {
+  struct judge_place at =
+      side ? image_of(run, edge)->b : image_of(run, edge)->a;
+  uint32_t count;
+  const uint32_t *near = judge_grid_near(run->by_image, at, &count);
+  fan->count = 0;
+  bool good = add_end(run, fan, edge, side, true);
+  for (uint32_t i = 0; good && i < count; i++) {
+    const struct judge_segment *s = image_of(run, near[i]);
+    for (int k = 0; good && k < 2; k++) {
+      struct judge_place end = k ? s->b : s->a;
+      if (hypot(end.x - at.x, end.y - at.y) <= run->gazer->hair_mm &&
+          near[i] != edge && run->is_asked_for(run->user, near[i]) &&
+          is_alike(run, edge, near[i]))
+        good = add_end(run, fan, near[i], k, false);
+    }
+  }
+  return good;
+}
+
+/* Takes the straightest pair out of the fan; its second end, where the first
+ * end of all is in it.  Returns false where nothing is left to be paired. */
+static bool take_pair(struct fan *fan, struct fan_end *mate) {
+  uint32_t a = 0, b = 0;
+  double best = INFINITY;
+  for (uint32_t i = 0; i + 1 < fan->count; i++)
+    for (uint32_t k = i + 1; k < fan->count; k++) {
+      const struct fan_end *p = &fan->end[i], *q = &fan->end[k];
+      double bend = p->away.x * q->away.x + p->away.y * q->away.y;
+      if (bend < best) {
+        best = bend;
+        a = i;
+        b = k;
+      }
+    }
+  if (fan->count < 2)
+    return false;
+  *mate = fan->end[b];
+  if (a == 0)
+    return true;
+  fan->end[b] = fan->end[--fan->count];
+  fan->end[a] = fan->end[--fan->count];
+  mate->edge = SCENE_NONE;
+  return true;
+}
+
+/* The end that is drawn in one stroke with this one; false: there is none. */
+static bool find_next(const struct judge_missing_run *run, uint32_t edge,
+                      int side, struct fan_end *next) {
+  struct fan fan;
+  if (!find_fan(run, &fan, edge, side) || fan.count == 0 ||
+      fan.end[0].edge != edge)
+    return false;
+  while (take_pair(&fan, next))
+    if (next->edge != SCENE_NONE)
+      return true;
+  return false;
+}
+
+/* ---- Along edges ----------------------------------------------------------
+ */
+
+static bool is_done(const struct walk *walk) {
+  return walk->length >= walk->run->shortest_mm || walk->steps >= STEPS;
+}
+
+/* Goes from t to an end of the edge; false where it stops before: the line
+ * ends, or is long enough.
+ * bare  only where there is no ink */
+static bool walk_edge(struct walk *walk, uint32_t edge, double t, int side,
+                      bool bare) {
+  const struct judge_missing_run *run = walk->run;
+  const struct judge_segment *s = image_of(run, edge);
+  double part[2];
+  if (!judge_cut_to_page(run->gazer->camera, s->a, s->b, &part[0], &part[1]))
+    return false;
+  double way = part[side] - t, mm = fabs(way) * image_length(s);
+  double count = fmax(1, ceil(mm * PARTS / run->shortest_mm));
+  for (double i = 0; i < count && !is_done(walk); i++) {
+    double at = t + (i + 0.5) / count * way;
+    struct judge_place place = {s->a.x + at * (s->b.x - s->a.x),
+                                s->a.y + at * (s->b.y - s->a.y)};
+    enum judge_sight sight;
+    walk->steps++;
+    if ((bare && run->has_ink(run->user, place)) ||
+        !is_visible(run, edge, at, &sight))
+      return false;
+    walk->length += mm / count;
+  }
+  return !is_done(walk) && part[side] == side;
+}
+
+/* Goes on from a point of an edge towards an end of it. */
+static void walk_on(struct walk *walk, uint32_t start, double t, int side) {
+  struct fan_end next;
+  if (!walk_edge(walk, start, t, side, false))
+    return;
+  uint32_t edge = start;
+  while (find_next(walk->run, edge, side, &next)) {
+    edge = next.edge;
+    side = !next.side;
+    walk->is_loop = edge == start;
+    if (walk->is_loop || !walk_edge(walk, edge, next.side, side, true))
+      return;
+  }
+}
+
+bool judge_is_long_run(const struct judge_missing_run *run, uint32_t edge,
+                       double t) {
+  struct walk walk = {.run = run};
+  walk_on(&walk, edge, t, 1);
+  if (walk.is_loop)
+    (void)walk_edge(&walk, edge, t, 0, false);
+  else
+    walk_on(&walk, edge, t, 0);
+  return walk.length >= run->shortest_mm;
+}
