@@ -110,7 +110,7 @@ claim "a longer one is wrong" \
   tolerates 1 "$(awk "BEGIN { print ($mm - 0.1) / 10 }")cm" other.svg
 claim "missing ink is tolerated alike" tolerates 0 100% empty.svg
 claim "and no more of it" tolerates 1 99% empty.svg
-for value in -1 x % 5%% -3% 1e999% nan; do
+for value in -1 x % 5%% -3% 101% 100.5% 1e999% nan; do
   claim "--tolerance=$value is refused" refuses '--tolerance: expected' \
     cube.obj --check own.svg "--tolerance=$value"
 done

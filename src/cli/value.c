@@ -55,7 +55,7 @@ bool value_tolerance(const char *text, double *mm, double *share) {
   bool is_share = stop != NULL && strcmp(stop, "%") == 0;
   if (!is_share && !value_length(text, &number))
     return false;
-  if (number < 0)
+  if (number < 0 || (is_share && number > 100))
     return false;
   *mm = is_share ? 0 : number;
   *share = is_share ? number / 100 : 0;
