@@ -521,7 +521,7 @@ awk 'BEGIN {
 }' >torn.obj
 warns_of_borders() {
   run 0 torn.obj -o torn.svg --view front &&
-    says '^recto: 100 % of the edges are borders; --weld LENGTH joins'
+    says '^recto: torn.obj: 100 % of the edges are borders; --weld LENGTH'
 }
 claim "a torn surface is warned of, and how to join it" warns_of_borders
 joins_corners() {

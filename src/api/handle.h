@@ -12,6 +12,8 @@ struct recto_scene {
   struct scene scene;
   unsigned long fault[SCENE_FAULT_COUNT]; /* of everything added so far */
   double read_cpu, read_wall;             /* seconds spent on reading files */
+  char *path; /* of the one file that was read; NULL: none or several were */
+  bool read_before;
 };
 
 struct recto_drawing {

@@ -20,6 +20,7 @@ void recto_scene_destroy(recto_scene *scene) {
   if (scene == NULL)
     return;
   scene_fini(&scene->scene);
+  mem_free(scene->path);
   mem_free(scene);
 }
 
@@ -27,6 +28,23 @@ static void keep_faults(recto_scene *scene,
                         const struct diagnostics *diagnostics) {
   for (int i = 0; i < SCENE_FAULT_COUNT; i++)
     scene->fault[i] += diagnostics->count[i];
+}
+
+/* Notes whose file the scene is, for warnings about all of it; false when
+ * memory ran out. */
+static bool keep_path(recto_scene *scene, const char *path) {
+  size_t size = strlen(path) + 1;
+  if (scene->read_before) {
+    mem_free(scene->path);
+    scene->path = NULL;
+    return true;
+  }
+  scene->read_before = true;
+  scene->path = mem_alloc(size, 1);
+  if (scene->path == NULL)
+    return false;
+  memcpy(scene->path, path, size);
+  return true;
 }
 
 recto_status recto_scene_read(recto_scene *scene, const char *path,
@@ -48,8 +66,9 @@ recto_status recto_scene_read(recto_scene *scene, const char *path,
   scene->read_cpu += clock_cpu() - cpu;
   scene->read_wall += clock_wall() - wall;
   if (status == RECTO_OK)
-    if (status == RECTO_OK)
     keep_faults(scene, &diagnostics);
+  if (status == RECTO_OK && !keep_path(scene, path))
+    status = error_memory(error);
   return status;
 }
 

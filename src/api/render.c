@@ -100,7 +100,8 @@ static void warn_of_borders(const struct render *render) {
            "lie apart",
            100.0 * (double)render->welded.borders /
                (double)topology->edge.count);
-  o->warning(o->user, "", 0, text);
+  const char *path = render->model->path;
+  o->warning(o->user, path != NULL ? path : "", 0, text);
 }
 
 static recto_status find_edges(struct render *render, recto_error *error) {

@@ -17,8 +17,8 @@ bool value_int(const char *text, int *number);
  * pt. */
 bool value_length(const char *text, double *mm);
 
-/* A length on paper of at least 0, or a share of at most 100%, such as 0.5%; the
- * other is 0. */
+/* A length on paper of at least 0, or a share of at most 100%, such as 0.5%;
+ * the other is 0. */
 bool value_tolerance(const char *text, double *mm, double *share);
 
 /* X,Y,Z: three plain numbers. */
