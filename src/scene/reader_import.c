@@ -42,26 +42,28 @@ struct import {
 
 /* ---- The importer -------------------------------------------------------- */
 
-/* The name of the importer in the folder of the program that runs; false where
- * there is none. */
-static bool find_beside(char path[PATH_SIZE]) {
-  static const char name[] = "recto-import";
-  ssize_t length = readlink("/proc/self/exe", path, PATH_SIZE - sizeof name);
+/* Looks for the importer at that place from the folder of the program that
+ * runs; false where there is none. */
+static bool find_from_program(char path[PATH_SIZE], const char *place) {
+  size_t size = strlen(place) + 1;
+  ssize_t length = readlink("/proc/self/exe", path, PATH_SIZE - size);
   while (length > 0 && path[length - 1] != '/')
     length--;
   if (length <= 0)
     return false;
-  memcpy(path + length, name, sizeof name);
+  memcpy(path + length, place, size);
   return access(path, X_OK) == 0;
 }
 
-/* RECTO_IMPORT, beside the program as where it was built, or where it is
- * installed. */
+/* RECTO_IMPORT, beside the program as where it was built, in libexec beside its
+ * folder as where what was installed has been moved, or where configure's
+ * prefix says. */
 static void find_importer(char path[PATH_SIZE]) {
   const char *own = secure_getenv("RECTO_IMPORT");
   if (own && *own)
     snprintf(path, PATH_SIZE, "%s", own);
-  else if (!find_beside(path))
+  else if (!find_from_program(path, "recto-import") &&
+           !find_from_program(path, "../libexec/recto/recto-import"))
     snprintf(path, PATH_SIZE, "%s", RECTO_IMPORT_PATH);
 }
 
