@@ -213,6 +213,50 @@ static void half_an_edge_is_half_missing(void **state) {
   scene_fini(&scene);
 }
 
+/* What a caller hears, and after how many questions it wants no more. */
+struct caller {
+  unsigned asked, most;
+  double share;
+};
+
+static bool hear(void *user, double share) {
+  struct caller *caller = user;
+  assert_true(share >= caller->share && share <= 1);
+  caller->share = share;
+  return ++caller->asked < caller->most;
+}
+
+static void the_caller_hears_shares_that_grow_and_may_stop(void **state) {
+  (void)state;
+  struct page page;
+  struct scene scene;
+  struct judge_drawing drawing;
+  fill_cube(&scene);
+  open_page(&page);
+  look_from(&page, 5, 6, 4);
+  draw_cube(&page, want_seen);
+  write_text(&page, "</g>\n</svg>\n");
+  assert_null(judge_read_svg(&drawing, page.text, page.length));
+  for (unsigned most = 2; most < 1000; most += 996) {
+    struct caller caller = {.most = most};
+    struct judge_options options;
+    struct judge_verdict verdict;
+    judge_options_init(&options);
+    options.step_mm = 0.01;
+    options.progress = hear;
+    options.user = &caller;
+    assert_true(
+        judge_drawing(&verdict, &drawing, &scene, &page.camera, &options));
+    assert_int_equal(verdict.cancelled, most == 2);
+    if (most == 2)
+      assert_int_equal(caller.asked, 2);
+    else
+      assert_true(caller.asked > 100 && caller.share > 0.9);
+  }
+  judge_drawing_fini(&drawing);
+  scene_fini(&scene);
+}
+
 static void a_matrix_says_the_same_as_a_camera(void **state) {
   (void)state;
   struct page page;
@@ -849,6 +893,7 @@ int main(void) {
       cmocka_unit_test(any_visible_edge_left_out_is_missing_ink),
       cmocka_unit_test(ink_where_no_edge_is_is_false),
       cmocka_unit_test(half_an_edge_is_half_missing),
+      cmocka_unit_test(the_caller_hears_shares_that_grow_and_may_stop),
       cmocka_unit_test(a_matrix_says_the_same_as_a_camera),
       cmocka_unit_test(what_lies_in_a_notch_is_seen),
       cmocka_unit_test(a_spike_covers_nothing),

@@ -65,6 +65,11 @@ static recto_status find_shortest(double *mm, const struct scene *scene,
   return status;
 }
 
+static bool go_on(void *user, double share) {
+  const recto_options *options = user;
+  return options->progress(options->user, share, "check");
+}
+
 static recto_status judge(const struct rescaled *rescaled,
                           const struct scene *scene,
                           const struct judge_drawing *drawing,
@@ -72,6 +77,7 @@ static recto_status judge(const struct rescaled *rescaled,
   const recto_options *o = &rescaled->options;
   struct camera camera;
   struct asked asked;
+  recto_options asking = *o;
   recto_status status = camera_aim(&camera, scene, o, error);
   if (status != RECTO_OK)
     return status;
@@ -81,10 +87,14 @@ static recto_status judge(const struct rescaled *rescaled,
   struct judge_options options = asked_options(&asked, &camera, o);
   options.samples = SAMPLES;
   options.reach_mm = options.lateral_mm = o->pen_mm / 4;
+  options.progress = o->progress != NULL ? go_on : NULL;
+  options.user = &asking;
   status = find_shortest(&options.shortest_mm, scene, o, error);
   if (status == RECTO_OK &&
       !judge_drawing(verdict, drawing, &asked.scene, &seen, &options))
     status = error_memory(error);
+  if (status == RECTO_OK && verdict->cancelled)
+    status = error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
   asked_fini(&asked);
   return status;
 }

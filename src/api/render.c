@@ -212,6 +212,15 @@ static recto_status ink(struct render *render, recto_error *error) {
                   &render->map, render->options, error);
 }
 
+/* Hands the judge's share on as one of the whole. */
+static bool pass_verifying(void *user, double share) {
+  struct render *render = user;
+  const double *begin = &render->begin[SHARE_VERIFY];
+  return render->options->progress(render->options->user,
+                                   begin[0] + share * (begin[1] - begin[0]),
+                                   "verify");
+}
+
 static recto_status verify(struct render *render, recto_error *error) {
   if (render->options->verify == 0)
     return RECTO_OK;
@@ -221,7 +230,11 @@ static recto_status verify(struct render *render, recto_error *error) {
                               .sheet = &render->sheet,
                               .map = &render->map,
                               .drawing = render->drawing,
-                              .options = &render->rescaled.options};
+                              .options = &render->rescaled.options,
+                              .progress = render->options->progress != NULL
+                                              ? pass_verifying
+                                              : NULL,
+                              .user = render};
   return verify_drawing(&what, render->report, render->verdict, error);
 }
 

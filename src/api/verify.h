@@ -16,6 +16,8 @@ struct verify {
   const struct map *map;     /* and the step of its depths */
   const struct drawing *drawing;
   const recto_options *options;
+  bool (*progress)(void *user, double share); /* NULL: nobody is asked */
+  void *user;
 };
 
 enum { VERIFY_SUMMARY_SIZE = 160 };
@@ -25,7 +27,7 @@ enum { VERIFY_SUMMARY_SIZE = 160 };
  * hidden.  Points too close to call are counted and pass.
  * summary  one sentence, where all is well
  * Errors   RECTO_ERROR_VERIFY: the drawing is wrong, and where;
- *          RECTO_ERROR_MEMORY. */
+ *          RECTO_ERROR_MEMORY; RECTO_ERROR_CANCELLED. */
 USE_RESULT recto_status verify_drawing(const struct verify *verify,
                                        struct report *report,
                                        char summary[VERIFY_SUMMARY_SIZE],

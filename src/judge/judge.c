@@ -23,6 +23,8 @@ struct court {
   struct judge_grid by_image, by_ink;
   uint32_t long_edge; /* the last sample was of this edge, and on a line without
                          ink that is long; SCENE_NONE */
+  double work, work_done; /* mm to be sampled, and those that were */
+  unsigned samples; /* since the caller was last asked whether to go on */
   struct judge_verdict *verdict;
 };
 
@@ -111,6 +113,21 @@ static void name_edge(struct judge_witness *witness,
       .at = witness->at, .on_edge = true, .spot = spot, .blocker = blocker};
   memcpy(witness->point, edge->source.point, sizeof witness->point);
   memcpy(witness->face, edge->source.face, sizeof witness->face);
+}
+
+/* Notes that samples for so much of a length were taken; false where the
+ * caller wants no more.  It is asked a few hundred times a second. */
+static bool goes_on(struct court *court, double mm) {
+  enum { SAMPLES = 256 };
+  struct judge_verdict *verdict = court->verdict;
+  court->work_done += mm;
+  if (++court->samples < SAMPLES || court->options.progress == NULL)
+    return !verdict->cancelled;
+  court->samples = 0;
+  double share = court->work > 0 ? fmin(court->work_done / court->work, 1) : 0;
+  verdict->cancelled =
+      !court->options.progress(court->options.user, share);
+  return !verdict->cancelled;
 }
 
 /* ---- False ink ------------------------------------------------------------
@@ -203,10 +220,11 @@ static void try_all_ink(struct court *court) {
   for (uint32_t i = 0; i < court->inks; i++)
     all += length_of(&court->ink[i]);
   struct sampler sampler = sampler_of(&court->options, all);
-  for (uint32_t i = 0; i < court->inks; i++) {
+  court->work = 2 * all; /* the edges take as long again */
+  for (uint32_t i = 0; i < court->inks && !court->verdict->cancelled; i++) {
     double t, mm;
     start_piece(&sampler, length_of(&court->ink[i]));
-    while (next_sample(&sampler, &t, &mm))
+    while (next_sample(&sampler, &t, &mm) && goes_on(court, mm))
       try_ink(court, place_on(&court->ink[i], t), mm);
   }
 }
@@ -321,12 +339,16 @@ static void try_all_edges(struct court *court) {
   for (uint32_t i = 0; i < court->edges.edge.count; i++)
     all += find_part(court, i, &part, &t0, &t1) ? length_of(&part) : 0;
   struct sampler sampler = sampler_of(&court->options, all);
-  for (uint32_t i = 0; i < court->edges.edge.count; i++) {
+  /* Half of the work lies behind. */
+  court->work = 2 * all;
+  court->work_done = all;
+  for (uint32_t i = 0;
+       i < court->edges.edge.count && !court->verdict->cancelled; i++) {
     double t, mm;
     if (!find_part(court, i, &part, &t0, &t1))
       continue;
     start_piece(&sampler, length_of(&part));
-    while (next_sample(&sampler, &t, &mm))
+    while (next_sample(&sampler, &t, &mm) && goes_on(court, mm))
       try_edge(court, i, place_on(&part, t), t0 + (t1 - t0) * t, mm);
   }
 }

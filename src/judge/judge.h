@@ -110,6 +110,9 @@ struct judge_options {
   double shortest_mm; /* strokes that are shorter need not be drawn: a visible
                          line without ink that is not surely so long is left
                          open; 0: none is too short */
+  bool (*progress)(void *user, double share); /* false: no more is wanted;
+                                                 NULL: nobody is asked */
+  void *user;
 };
 
 /* 0.02 mm steps and reach, 30 degrees, the default classes. */
@@ -137,6 +140,7 @@ struct judge_verdict {
   struct judge_count visible, missing;       /* of edges that were asked for */
   struct judge_count hidden, unsure;         /* of these without ink */
   struct judge_witness false_at, missing_at; /* the first of each */
+  bool cancelled; /* the caller wanted no more: the rest is not known */
 };
 
 /* Judges the strokes that are ink.
