@@ -132,4 +132,18 @@ claim "which finds what lacks on the page when there is no margin" eval \
 claim "lines in the margins of somebody else are not false" eval \
   'run 0 wide.obj -q -o a.svg ${large[@]} --margin 0 &&
    run 0 wide.obj --check a.svg --view front --scale 1:1'
+# Fills are cut at the margins like lines, and reach them to the last digit.
+fills_end_at() {
+  local margin=$1
+  "$recto" "$srcdir/examples/models/castle.obj" --no-fit --fov 10 \
+    --fill paint --precision 9 --margin "$margin" -q -o fills.svg &&
+    grep -o ' d="[^"]*"' fills.svg | grep -oE '[0-9.-]+ [0-9.-]+' |
+    awk -v m="$margin" '
+      { x = $1 - m; y = $2 - m; r = 210 - m - $1; b = 297 - m - $2
+        if (x < 0 || y < 0 || r < 0 || b < 0) exit bad = 1
+        touched += x == 0 || y == 0 || r == 0 || b == 0 }
+      END { exit bad || touched == 0 }'
+}
+claim "fills end at the page's border, not beyond" fills_end_at 0
+claim "fills end at the margins, not beyond" fills_end_at 10
 finish
