@@ -63,6 +63,18 @@ v 0 0 1
 f 4 3 2 1
 END_OF_MODEL
 
+claim "a pair of faces and a third one whose points are others at their places" \
+  passes --view=iso --edges=smooth,crease <<'END_OF_MODEL'
+v 0 1 0
+v 0 -2 0.5
+v 0 0 0
+v 2 1.5 0.5
+v 2 1.5 0.5
+f 1 2 4
+f 4 3 1 1
+f 5 1 2
+END_OF_MODEL
+
 # All of that lets nothing pass that is wrong: a line more, where faces meet in
 # diagonals and a plane cuts them, is still found.
 a_line_more_is_found() {

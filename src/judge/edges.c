@@ -27,6 +27,12 @@ struct facing {
   bool open; /* not planar, and it is not known how it is cut */
 };
 
+/* A side with the places of its ends. */
+struct placed_side {
+  uint32_t low, high;
+  struct side side;
+};
+
 struct finder {
   struct judge_edges *edges;
   const struct judge_triangles *all;
@@ -35,6 +41,8 @@ struct finder {
   const struct judge_options *options;
   struct facing *facing;
   uint32_t *place; /* point -> the first point at its position */
+  struct placed_side *single; /* sides alone between two points, by places */
+  size_t singles;
 };
 
 /* ---- Points at one place ---------------------------------------------------
@@ -296,15 +304,35 @@ static bool add_folds(struct finder *finder) {
   return true;
 }
 
+/* Whether a side that is alone between its points lies there too.  Where points
+ * at one place are joined it makes a border of what was a pair. */
+static bool has_single(const struct finder *finder, const struct side *side) {
+  uint32_t a = finder->place[side->a], b = finder->place[side->b];
+  uint32_t low_end = a < b ? a : b, high_end = a < b ? b : a;
+  const struct placed_side *single = finder->single;
+  size_t low = 0, high = finder->singles;
+  while (low < high) {
+    size_t middle = low + (high - low) / 2;
+    if (single[middle].low < low_end ||
+        (single[middle].low == low_end && single[middle].high < high_end))
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < finder->singles && single[low].low == low_end &&
+         single[low].high == high_end;
+}
+
 /* Adds the edge of two sides; of a spike of one face, which goes out and comes
- * back, nothing is sure. */
+ * back, nothing is sure.
+ * alone  no other sides lie there */
 static bool add_pair(struct finder *finder, const struct side *side,
-                     const struct side *other, bool against) {
+                     const struct side *other, bool against, bool alone) {
   bool spike = side->face == other->face;
   const struct judge_source source = {
       {side->a, side->b},
       {side->face, other->face},
-      spike ? 0 : natures_of_pair(finder, side, other, against),
+      spike || !alone ? 0 : natures_of_pair(finder, side, other, against),
       !spike};
   return judge_edges_add(finder->edges, finder->camera,
                          judge_spot_at(finder->scene, side->a),
@@ -365,24 +393,16 @@ static bool list_sides(const struct scene *scene, struct sides *sides) {
   return true;
 }
 
-/* Gives the sides of one pair of points their edge; a single one is kept for
- * a second round by position. */
+/* Gives two sides or more of one pair of points their edge. */
 static bool pair_group(struct finder *finder, const struct side *side,
-                       size_t count, struct sides *single) {
-  if (count == 1)
-    return ARRAY_PUSH(&single->side, side[0]);
+                       size_t count) {
   if (count == 2)
     return add_pair(finder, &side[0], &side[1],
                     runs_from(finder, &side[0], side->a, NULL) !=
-                        runs_from(finder, &side[1], side->a, NULL));
+                        runs_from(finder, &side[1], side->a, NULL),
+                    !has_single(finder, side));
   return add_border(finder, side);
 }
-
-/* A side with the places of its ends. */
-struct placed_side {
-  uint32_t low, high;
-  struct side side;
-};
 
 static int compare_placed(const void *a, const void *b) {
   const struct placed_side *s = a, *t = b;
@@ -393,19 +413,29 @@ static int compare_placed(const void *a, const void *b) {
   return compare_sides(&s->side, &t->side);
 }
 
-static bool pair_singles(struct finder *finder, const struct sides *single) {
+/* Gives single sides their places, in the order of these. */
+static bool place_singles(struct finder *finder, const struct sides *single) {
   size_t count = single->side.count;
   const uint32_t *place = finder->place;
   struct placed_side *placed = mem_alloc(count, sizeof *placed);
   if (placed == NULL)
     return false;
-  bool good = true;
   for (size_t i = 0; i < count; i++) {
     const struct side *side = &single->side.item[i];
     uint32_t a = place[side->a], b = place[side->b];
     placed[i] = (struct placed_side){a < b ? a : b, a < b ? b : a, *side};
   }
   judge_sort(placed, count, sizeof *placed, compare_placed);
+  finder->single = placed;
+  finder->singles = count;
+  return true;
+}
+
+static bool pair_singles(struct finder *finder) {
+  const struct placed_side *placed = finder->single;
+  const uint32_t *place = finder->place;
+  bool good = true;
+  size_t count = finder->singles;
   for (size_t i = 0, next; good && i < count; i = next) {
     for (next = i + 1; next < count && placed[next].low == placed[i].low &&
                        placed[next].high == placed[i].high;)
@@ -415,11 +445,11 @@ static bool pair_singles(struct finder *finder, const struct sides *single) {
       good = add_pair(
           finder, side, &placed[i + 1].side,
           runs_from(finder, side, placed[i].low, place) !=
-              runs_from(finder, &placed[i + 1].side, placed[i].low, place));
+              runs_from(finder, &placed[i + 1].side, placed[i].low, place),
+          true);
     else
       good = add_border(finder, side);
   }
-  mem_free(placed);
   return good;
 }
 
@@ -484,7 +514,9 @@ static bool find_facings(struct finder *finder) {
   return true;
 }
 
-/* Pairs the sides that have the same two points. */
+/* Pairs the sides that have the same two points; those alone between theirs
+ * are put aside.
+ * single  where to; NULL: they are, and the others get their edges */
 static bool pair_sides(struct finder *finder, const struct sides *sides,
                        struct sides *single) {
   bool good = true;
@@ -494,7 +526,10 @@ static bool pair_sides(struct finder *finder, const struct sides *sides,
     for (next = i + 1; next < count && sides->side.item[next].a == side->a &&
                        sides->side.item[next].b == side->b;)
       next++;
-    good = pair_group(finder, side, next - i, single);
+    if (next == i + 1 && single != NULL)
+      good = ARRAY_PUSH(&single->side, *side);
+    else if (next > i + 1 && single == NULL)
+      good = pair_group(finder, side, next - i);
   }
   return good;
 }
@@ -503,19 +538,21 @@ bool judge_edges_init(struct judge_edges *edges, const struct scene *scene,
                       const struct judge_triangles *all,
                       const struct judge_camera *camera,
                       const struct judge_options *options) {
-  struct finder finder = {edges, all, scene, camera, options, NULL, NULL};
+  struct finder finder = {edges, all, scene, camera, options, .facing = NULL};
   struct sides sides = {{0}}, single = {{0}};
   memset(edges, 0, sizeof *edges);
   finder.place = find_places(scene);
   bool good = finder.place != NULL && find_facings(&finder) &&
               list_sides(scene, &sides) &&
               pair_sides(&finder, &sides, &single) &&
-              pair_singles(&finder, &single) && add_folds(&finder) &&
-              add_wires(&finder) &&
+              place_singles(&finder, &single) &&
+              pair_sides(&finder, &sides, NULL) && pair_singles(&finder) &&
+              add_folds(&finder) && add_wires(&finder) &&
               judge_edges_pierced(edges, all, camera, options->hair_mm);
   ARRAY_FREE(&sides.side);
   ARRAY_FREE(&single.side);
   mem_free(finder.facing);
+  mem_free(finder.single);
   mem_free(finder.place);
   if (!good)
     judge_edges_fini(edges);
