@@ -42,7 +42,9 @@ static recto_status ask(struct asked *asked, int exponent) {
   struct pipeline *p = &asked->pipeline;
   const struct verify verify = {&asked->scene,  exponent, &p->camera,
                                 &p->sheet,      &p->map,  &p->drawing,
-                                &asked->options};
+                                &asked->options,
+                                NULL,
+                                NULL};
   asked->summary[0] = '\0';
   return verify_drawing(&verify, p->report, asked->summary, &asked->error);
 }
