@@ -310,22 +310,22 @@ static bool write_contents(struct svg *svg, uint32_t index) {
   const struct drawing *drawing = svg->drawing;
   double width_mm = drawing->layer.item[index].width_mm;
   struct style style = {NULL, 0};
-  bool done = write_seams(svg, index);
-  for (size_t i = 0; i < drawing->fill.count && done; i++)
+  bool ok = write_seams(svg, index);
+  for (size_t i = 0; i < drawing->fill.count && ok; i++)
     if (drawing->fill.item[i].layer == index) {
       open_style(svg, &style, "fill", width_mm, width_mm);
-      done = write_fill(svg, &drawing->fill.item[i], false);
+      ok = write_fill(svg, &drawing->fill.item[i], false);
     }
-  for (size_t i = 0; i < drawing->stroke.count && done; i++) {
+  for (size_t i = 0; i < drawing->stroke.count && ok; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     if (stroke->layer != index)
       continue;
     open_style(svg, &style, class_of(stroke), drawing_width_mm(drawing, stroke),
                width_mm);
-    done = write_stroke(svg, stroke);
+    ok = write_stroke(svg, stroke);
   }
   close_style(svg, &style);
-  return done;
+  return ok;
 }
 
 static bool write_layer(struct svg *svg, uint32_t index) {
@@ -368,13 +368,13 @@ static recto_status write_svg(const struct drawing *drawing,
   struct svg svg = {drawing, options, stream, 1, {0}};
   for (int i = 0; i < options->precision; i++)
     svg.scale *= 10;
-  bool done = true;
+  bool ok = true;
   write_head(&svg);
-  for (uint32_t i = 0; i < drawing->layer.count && done; i++)
-    done = write_layer(&svg, i);
+  for (uint32_t i = 0; i < drawing->layer.count && ok; i++)
+    ok = write_layer(&svg, i);
   stream_text(stream, "</svg>\n");
   ARRAY_FREE(&svg.point);
-  return done ? RECTO_OK : error_memory(error);
+  return ok ? RECTO_OK : error_memory(error);
 }
 
 static double find_unit(const struct writer_options *options) {

@@ -31,7 +31,7 @@ static const char *const exact[] = {"tiles", "newell", "warnock", "watkins",
 struct row {
   struct measure measure;
   double fragments_s, strokes_s; /* CPU of the solver, medians */
-  bool good;
+  bool ok;
 };
 
 static void set_view(recto_options *options) {
@@ -64,11 +64,11 @@ static void take_row(struct row *row, const struct scene *scene,
                      const recto_options *options, const struct solver *solver,
                      int count, const struct trial truth[2]) {
   struct measure ink = {0};
-  row->good = true;
+  row->ok = true;
   row->fragments_s = take_part(scene, options, solver, count, TRIAL_FRAGMENTS,
-                               &truth[0].map, &row->measure, &row->good);
+                               &truth[0].map, &row->measure, &row->ok);
   row->strokes_s = take_part(scene, options, solver, count, TRIAL_STROKES,
-                             &truth[1].map, &ink, &row->good);
+                             &truth[1].map, &ink, &row->ok);
   row->measure.true_ink = ink.true_ink;
   row->measure.missing_ink = ink.missing_ink;
   row->measure.false_ink = ink.false_ink;
@@ -88,7 +88,7 @@ static double clean(double area) { return fabs(area) < 0.0005 ? 0 : area; }
 static void print_row(const char *method, int count, const struct row *row) {
   const struct measure *m = &row->measure;
   printf("%-17s ", method);
-  if (!row->good) {
+  if (!row->ok) {
     printf("failed\n");
     return;
   }
@@ -115,7 +115,7 @@ static void take_method(struct chart *chart, const struct scene *scene,
     struct row row;
     take_row(&row, scene, options, solver, count, truth);
     print_row(name, count, &row);
-    if (!row.good)
+    if (!row.ok)
       continue;
     chart_add(chart, CHART_AREA, name, row.fragments_s,
               clean(measure_area_share(&row.measure) * row.measure.true_area) /
@@ -134,7 +134,7 @@ static void take_exact(struct chart *chart, const struct scene *scene,
     return;
   take_row(&row, scene, options, solver, 0, truth);
   print_row(name, 0, &row);
-  if (row.good) {
+  if (row.ok) {
     chart_add(chart, CHART_AREA, name, row.fragments_s, 0);
     chart_add(chart, CHART_INK, name, row.strokes_s, 0);
   }
@@ -201,9 +201,9 @@ int main(int argc, char **argv) {
     take_model(&chart, folder, "fandisk");
   }
   take_soup(&chart);
-  bool good = chart_write(&chart, argv[1]);
+  bool ok = chart_write(&chart, argv[1]);
   chart_fini(&chart);
-  if (!good)
+  if (!ok)
     fprintf(stderr, "accuracy: cannot write %s\n", argv[1]);
-  return good ? 0 : 1;
+  return ok ? 0 : 1;
 }

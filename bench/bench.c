@@ -23,8 +23,7 @@ struct bench {
   const char *const *method; /* methods to try, ended by NULL */
 };
 
-/* ---- Models
- * ------------------------------------------------------------------ */
+/* ---- Models -------------------------------------------------------------- */
 
 static void put_float(unsigned char **at, double value) {
   float number = (float)value;
@@ -52,12 +51,11 @@ static bool write_stl(const char *path, const struct scene *scene) {
     }
     fwrite(facet, sizeof facet, 1, file);
   }
-  bool good = !ferror(file);
-  return fclose(file) == 0 && good;
+  bool ok = !ferror(file);
+  return fclose(file) == 0 && ok;
 }
 
-/* ---- Measuring
- * ------------------------------------------------------------------ */
+/* ---- Measuring ----------------------------------------------------------- */
 
 enum { columns = MODEL_STAGES + 3 };
 
@@ -67,8 +65,8 @@ static bool measure(const struct bench *bench, const struct model *model,
                     const char *method, const char *edges,
                     double row[columns]) {
   double cell[columns][RUNS_MAX];
-  const struct model_job job = {bench->recto, bench->folder, method, edges,
-                                "0", limit_s};
+  const struct model_job job = {bench->recto, bench->folder, method,
+                                edges,        "0",           limit_s};
   for (size_t i = 0; i < runs; i++) {
     struct run run;
     double stage[MODEL_STAGES];
@@ -104,9 +102,8 @@ static void print_row(const struct bench *bench, const struct model *model,
   }
   for (size_t k = 0; k < MODEL_STAGES; k++)
     printf(" %7.3f", row[k]);
-  printf(" %8.3f %7.3f %6.0f %5.0f\n", row[MODEL_STAGES],
-         row[MODEL_STAGES + 1], row[MODEL_STAGES + 2],
-         1e6 * row[MODEL_STAGES + 2] / model->triangles);
+  printf(" %8.3f %7.3f %6.0f %5.0f\n", row[MODEL_STAGES], row[MODEL_STAGES + 1],
+         row[MODEL_STAGES + 2], 1e6 * row[MODEL_STAGES + 2] / model->triangles);
   fflush(stdout);
 }
 
@@ -192,8 +189,8 @@ static void print_reading(const char *path, const char *what) {
     bytes = (double)length;
     scene_init(&scene);
     double start = clock_cpu();
-    bool good = scene_read(&scene, path, NULL, &silent, NULL) == RECTO_OK;
-    cpu[i] = good ? clock_cpu() - start : NAN;
+    bool ok = scene_read(&scene, path, NULL, &silent, NULL) == RECTO_OK;
+    cpu[i] = ok ? clock_cpu() - start : NAN;
     scene_fini(&scene);
   }
   double median = median_of(cpu, runs);
@@ -201,8 +198,7 @@ static void print_reading(const char *path, const char *what) {
          bytes / 1e6 / median);
 }
 
-/* ---- All of it
- * --------------------------------------------------------------------- */
+/* ---- All of it ----------------------------------------------------------- */
 
 static void print_folder(const struct bench *bench, const char *folder,
                          const char *const *name) {

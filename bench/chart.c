@@ -60,7 +60,7 @@ void chart_add(struct chart *chart, enum chart_kind kind, const char *method,
         chart->scenes - 1, (int)kind, index, fmax(seconds, 1e-5), share};
 }
 
-/* ---- Axes --------------------------------------------------------------- */
+/* ---- Axes ---------------------------------------------------------------- */
 
 static void widen(struct axis *axis, double value) {
   int low = (int)floor(log10(value)), high = (int)ceil(log10(value));
@@ -86,7 +86,7 @@ static double place(const struct axis *axis, double value, double length) {
   return (log10(value) - axis->low) / (axis->high - axis->low) * length;
 }
 
-/* ---- Drawing ------------------------------------------------------------ */
+/* ---- Drawing ------------------------------------------------------------- */
 
 static void put_text(FILE *file, double x, double y, const char *anchor,
                      int size, const char *text) {
@@ -208,6 +208,6 @@ bool chart_write(const struct chart *chart, const char *path) {
   put_legend(file, chart);
   put_panels(file, chart);
   fputs("</svg>\n", file);
-  bool good = !ferror(file);
-  return fclose(file) == 0 && good;
+  bool ok = !ferror(file);
+  return fclose(file) == 0 && ok;
 }

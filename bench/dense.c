@@ -36,10 +36,10 @@ static void print_heading(void) {
 }
 
 static void keep(struct series *series, size_t i, const struct run *run) {
-  bool good = run->status == 0;
-  series->cpu[i] = good ? run->cpu_s : NAN;
-  series->wall[i] = good ? run->wall_s : NAN;
-  series->peak[i] = good ? run->peak_mb : NAN;
+  bool ok = run->status == 0;
+  series->cpu[i] = ok ? run->cpu_s : NAN;
+  series->wall[i] = ok ? run->wall_s : NAN;
+  series->peak[i] = ok ? run->peak_mb : NAN;
 }
 
 static void draw(const struct dense *dense, const struct model *model,
@@ -79,8 +79,8 @@ static void print_level(struct dense *dense, const struct model *model) {
     draw(dense, model, "all", &all, i);
   }
   double seconds = median_of(raster.cpu, RUNS);
-  printf("%9.0f depth buffer: CPU %.3f s, %.0f MB\n", model->triangles,
-         seconds, median_of(raster.peak, RUNS));
+  printf("%9.0f depth buffer: CPU %.3f s, %.0f MB\n", model->triangles, seconds,
+         median_of(raster.peak, RUNS));
   print_row(model, "features", &features, seconds, &dense->coarse[0]);
   print_row(model, "all", &all, seconds, &dense->coarse[1]);
   fflush(stdout);
@@ -128,10 +128,11 @@ int main(int argc, char **argv) {
     fputs("dense: no temporary folder\n", stderr);
     return 1;
   }
-  printf("Dense meshes, one thread, CPU seconds, medians of %d runs; ratio: the "
-         "whole\nprocess over a depth buffer of 4096 x 4096; growth: CPU a "
-         "triangle over that of\nthe first mesh.\n",
-         RUNS);
+  printf(
+      "Dense meshes, one thread, CPU seconds, medians of %d runs; ratio: the "
+      "whole\nprocess over a depth buffer of 4096 x 4096; growth: CPU a "
+      "triangle over that of\nthe first mesh.\n",
+      RUNS);
   int status = measure(&dense, argv[3], levels);
   for (size_t i = 0; i < 2; i++) {
     char path[100];

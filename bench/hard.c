@@ -37,8 +37,7 @@ FILL(cube, scenes_cube(scene, options, 0))
 FILL(globe, scenes_globe(scene, options, 10))
 FILL(fine_globe, scenes_globe(scene, options, 150))
 FILL(sinc, scenes_sinc(scene, options, 200))
-FILL(sinc_above, scenes_sinc(scene, options, 200);
-     scenes_view_above(options))
+FILL(sinc_above, scenes_sinc(scene, options, 200); scenes_view_above(options))
 FILL(globe_outline, scenes_globe(scene, options, 150);
      options->edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_CREASE)
 FILL(stack, scenes_cube_stack(scene, options, 30, 0))
@@ -144,11 +143,11 @@ static bool draw(const struct scene *scene, const recto_options *options,
   struct pipeline pipeline;
   double start = clock_cpu();
   pipeline_run(&pipeline, scene, options, &solver_timed);
-  bool good = pipeline.status == RECTO_OK;
+  bool ok = pipeline.status == RECTO_OK;
   pipeline_fini(&pipeline);
   cost->whole = clock_cpu() - start;
   cost->solver = timed_s;
-  return good;
+  return ok;
 }
 
 static void fill_scene(const struct hard_scene *what, bool painted,
@@ -296,9 +295,9 @@ static int draw_one(const char *name, const char *method) {
   if (k == SCENES || (timed == NULL && strcmp(method, "auto") != 0))
     return 2;
   fill_scene(&hard_scenes[k], false, &scene, &options);
-  bool good = draw(&scene, &options, &cost);
+  bool ok = draw(&scene, &options, &cost);
   scene_fini(&scene);
-  return !good;
+  return !ok;
 }
 
 static bool is_named(const char *name, int argc, char **argv) {

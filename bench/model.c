@@ -86,11 +86,11 @@ void model_draw(struct run *run, double stage[MODEL_STAGES],
   snprintf(stats, sizeof stats, "--stats=%s", report);
   snprintf(output, sizeof output, "%s/drawing.svg", job->folder);
   const char *const argv[] = {
-      job->recto, model->path, "-m",        job->method, "-e",
-      job->edges, "-c",        camera,      "-l",        target,
-      "-F",       "30",        "-u",        "0,1,0",     "-p",
-      "200x200mm", "--margin", "5mm",       "-q",        "--threads",
-      job->threads, stats,     "-o",        output,      NULL};
+      job->recto,   model->path, "-m",   job->method, "-e",
+      job->edges,   "-c",        camera, "-l",        target,
+      "-F",         "30",        "-u",   "0,1,0",     "-p",
+      "200x200mm",  "--margin",  "5mm",  "-q",        "--threads",
+      job->threads, stats,       "-o",   output,      NULL};
   run_program(run, argv, job->limit_s);
   char *text = read_file(report, NULL);
   for (size_t k = 0; k < MODEL_STAGES; k++)

@@ -32,8 +32,8 @@ extern const char *const model_stage_name[MODEL_STAGES];
 extern const char model_features[];
 
 struct model_job {
-  const char *recto;   /* the program */
-  const char *folder;  /* for what it writes */
+  const char *recto;  /* the program */
+  const char *folder; /* for what it writes */
   const char *method, *edges, *threads;
   unsigned limit_s;
 };

@@ -42,18 +42,18 @@ static bool draw_plot(const void *how, struct drawing *drawing) {
     options.light[1] = options.light[2] = 1;
   }
   scene_init(&scene);
-  bool good = scene_read(&scene, plot->path, NULL, &silent, NULL) == RECTO_OK;
-  if (good) {
+  bool ok = scene_read(&scene, plot->path, NULL, &silent, NULL) == RECTO_OK;
+  if (ok) {
     pipeline_run(&pipeline, &scene, &options, &solver_tiles);
-    good = pipeline.status == RECTO_OK;
-    if (good) {
+    ok = pipeline.status == RECTO_OK;
+    if (ok) {
       *drawing = pipeline.drawing;
       drawing_init(&pipeline.drawing);
     }
     pipeline_fini(&pipeline);
   }
   scene_fini(&scene);
-  return good;
+  return ok;
 }
 
 struct scatter {
@@ -65,18 +65,18 @@ struct scatter {
 static bool draw_scatter(const void *how, struct drawing *drawing) {
   const struct scatter *scatter = how;
   struct random random = {1};
-  bool good = ARRAY_PUSH(&drawing->layer, ((struct drawing_layer){.pen = 1}));
-  for (uint32_t i = 0; good && i < scatter->count; i++) {
+  bool ok = ARRAY_PUSH(&drawing->layer, ((struct drawing_layer){.pen = 1}));
+  for (uint32_t i = 0; ok && i < scatter->count; i++) {
     struct drawing_stroke stroke = {.point = 2 * i, .count = 2};
     double turn = random_between(&random, 0, 2 * acos(-1.0));
     struct drawing_point p = {random_between(&random, 10, 200),
                               random_between(&random, 10, 287)};
     struct drawing_point q = {p.x + scatter->length * cos(turn),
                               p.y + scatter->length * sin(turn)};
-    good = ARRAY_PUSH(&drawing->stroke, stroke) &&
-           ARRAY_PUSH(&drawing->point, p) && ARRAY_PUSH(&drawing->point, q);
+    ok = ARRAY_PUSH(&drawing->stroke, stroke) &&
+         ARRAY_PUSH(&drawing->point, p) && ARRAY_PUSH(&drawing->point, q);
   }
-  return good;
+  return ok;
 }
 
 /* ---- The table ----------------------------------------------------------- */
@@ -97,8 +97,8 @@ static void print_row(const char *name, const char *what, draw_fn draw,
       printf("%-16s %-14s %8zu %10.0f", name, what, drawing.stroke.count,
              drawing_travel_mm(&drawing));
     double start = clock_cpu();
-    bool good = order_near(&drawing, effort[i]);
-    seconds[i] = good ? clock_cpu() - start : NAN;
+    bool ok = order_near(&drawing, effort[i]);
+    seconds[i] = ok ? clock_cpu() - start : NAN;
     after[i] = drawing_travel_mm(&drawing);
     drawing_fini(&drawing);
   }

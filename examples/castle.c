@@ -8,8 +8,7 @@ enum { stations_max = 64 };
 
 static const double pi = 3.14159265358979323846;
 
-/* ---- Towers ----------------------------------------------------------------
- */
+/* ---- Towers -------------------------------------------------------------- */
 
 /* A tower is rings of stations about its middle: its wall, the parapet that
  * stands out over it, and the parapet's inside. */
@@ -198,8 +197,7 @@ static void add_flag(struct shape *shape, const char *name, struct spot foot,
   shape_prism(shape, turned, 5, spot_of(0, 0.08, 0));
 }
 
-/* ---- Walls
- * ------------------------------------------------------------------- */
+/* ---- Walls --------------------------------------------------------------- */
 
 /* A wall's side view: its length and height, notched between merlons, and an
  * arch of a gate where gate > 0.  Along the wall, then up. */
@@ -277,8 +275,7 @@ static void add_portcullis(struct shape *shape, double x, double y) {
   }
 }
 
-/* ---- The rest
- * ------------------------------------------------------------------- */
+/* ---- The rest ------------------------------------------------------------ */
 
 static void add_house(struct shape *shape, const char *name, struct spot at,
                       double width, double length, double height) {

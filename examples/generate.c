@@ -19,9 +19,9 @@ int main(int argc, char **argv) {
       continue;
     struct shape shape = {0};
     models[i].make(&shape);
-    bool good = shape_write(&shape, models[i].title, stdout);
+    bool ok = shape_write(&shape, models[i].title, stdout);
     shape_free(&shape);
-    if (fflush(stdout) != 0 || !good) {
+    if (fflush(stdout) != 0 || !ok) {
       fputs("generate: cannot write\n", stderr);
       return 1;
     }

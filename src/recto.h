@@ -40,7 +40,7 @@ extern "C" {
 #define RECTO_USE_RESULT
 #endif
 
-/* ---- Status and errors ------------------------------------------------ */
+/* ---- Status and errors --------------------------------------------------- */
 
 typedef enum recto_status {
   RECTO_OK = 0,
@@ -69,7 +69,7 @@ const char *recto_status_name(recto_status status);
 /* The library's version, "MAJOR.MINOR.PATCH". */
 const char *recto_version(void);
 
-/* ---- Vocabulary -------------------------------------------------------- */
+/* ---- Vocabulary ---------------------------------------------------------- */
 
 typedef enum recto_method {
   RECTO_METHOD_AUTO = 0,
@@ -148,7 +148,7 @@ typedef enum recto_divide {
   RECTO_DIVIDE_BOX       /* around the box of their nearest face */
 } recto_divide;
 
-/* ---- Options ------------------------------------------------------------ */
+/* ---- Options ------------------------------------------------------------- */
 
 /* Pens, the pitches of hatching and of scan lines are no finer than this: on
  * the largest page, 2 m, that is 200,000 lines. */
@@ -198,9 +198,10 @@ typedef struct recto_options {
 
   /* Page. */
   double page_width_mm, page_height_mm;
-  double margin_mm; /* on every side, and nothing is drawn there; negative: RECTO_USUAL_MARGIN_MM or, if
-                       that is less, a quarter of the shorter side; as much
-                       more as a plotter needs: see recto_options_suit */
+  double margin_mm; /* on every side, and nothing is drawn there; negative:
+                       RECTO_USUAL_MARGIN_MM or, if that is less, a quarter of
+                       the shorter side; as much more as a plotter needs: see
+                       recto_options_suit */
 
   /* Ink. */
   unsigned edges; /* mask of recto_edge_class */
@@ -210,8 +211,8 @@ typedef struct recto_options {
   double hatch_pitch_mm, hatch_angle_deg; /* at least RECTO_FINEST_MM */
   double light[3]; /* direction towards the light; 0,0,0: the viewer's
                       upper left */
-  double pen_mm; /* RECTO_FINEST_MM to 100 */
-  int pens; /* pens to deal the groups to; 1: all on one */
+  double pen_mm;   /* RECTO_FINEST_MM to 100 */
+  int pens;        /* pens to deal the groups to; 1: all on one */
   recto_order order;
   double simplify_mm;   /* no point of a line moves by more */
   double min_stroke_mm; /* shorter strokes are dropped; negative: half a pen */
@@ -289,7 +290,7 @@ typedef struct recto_options {
  * 10 mm margin, a 0.3 mm pen, every class of edge but the smooth ones. */
 void recto_options_init(recto_options *options);
 
-/* ---- Ring 1: one call for the whole job --------------------------------- */
+/* ---- Ring 1: one call for the whole job ---------------------------------- */
 
 /* Reads `model`, draws it and writes `output`.
  * model   path; its format by extension, or "-" for standard input
@@ -303,7 +304,7 @@ RECTO_USE_RESULT recto_status recto_draw_file(
     const char *model, const char *from, const char *output, const char *to,
     const recto_options *options, recto_error *error);
 
-/* ---- Ring 2: scene, drawing --------------------------------------------- */
+/* ---- Ring 2: scene, drawing ---------------------------------------------- */
 
 typedef struct recto_scene recto_scene;
 typedef struct recto_drawing recto_drawing;

@@ -79,11 +79,13 @@ void failures_assert_judged(const struct scene *scene,
   if (verdict.false_ink.samples > 0)
     fail_msg("%s: false ink at %.4f %.4f and in %lu of %lu samples", name,
              verdict.false_at.at.x, verdict.false_at.at.y,
-             (unsigned long)verdict.false_ink.samples, (unsigned long)verdict.drawn.samples);
+             (unsigned long)verdict.false_ink.samples,
+             (unsigned long)verdict.drawn.samples);
   if (verdict.missing.samples > 0)
     fail_msg("%s: missing ink at %.4f %.4f and in %lu of %lu samples", name,
              verdict.missing_at.at.x, verdict.missing_at.at.y,
-             (unsigned long)verdict.missing.samples, (unsigned long)verdict.visible.samples);
+             (unsigned long)verdict.missing.samples,
+             (unsigned long)verdict.visible.samples);
   judge_drawing_fini(&drawing);
   mem_free(text);
   pipeline_fini(&pipeline);

@@ -23,8 +23,8 @@ static void complain(struct reader *reader, const char *what) {
              reader->at);
 }
 
-static void need(bool done) {
-  if (!done)
+static void need(bool ok) {
+  if (!ok)
     abort();
 }
 

@@ -161,8 +161,7 @@ recto_status inked_try(struct inked *k) {
 
 void inked_draw(struct inked *k) { assert_int_equal(inked_try(k), RECTO_OK); }
 
-/* ---- Asserting ------------------------------------------------------------
- */
+/* ---- Asserting ----------------------------------------------------------- */
 
 static bool is_point(const struct inked *k, const struct drawing_stroke *stroke,
                      uint32_t i, const double *xy) {

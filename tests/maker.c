@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void need(bool done) {
-  if (done)
+static void need(bool ok) {
+  if (ok)
     return;
   fputs("maker: out of memory\n", stderr);
   abort();

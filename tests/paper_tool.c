@@ -201,12 +201,12 @@ static int measure_picture(const char *path, double dpi, double limit_mm,
                       picture.width};
   struct probe column = {&picture, true, (int)(105 / mm), picture.height};
   double shift = from_foot ? 0 : HEIGHT_MM - picture.height * mm;
-  bool done = size_is_right && measure(row, mm, 0, 200, 23, limit_mm, &worst) &&
-              measure(column, mm, shift, 280, 33, limit_mm, &worst);
-  if (done)
+  bool ok = size_is_right && measure(row, mm, 0, 200, 23, limit_mm, &worst) &&
+            measure(column, mm, shift, 280, 33, limit_mm, &worst);
+  if (ok)
     printf("52 lines, worst %.4f mm off\n", worst);
   free(picture.ink);
-  return done ? YES : NO;
+  return ok ? YES : NO;
 }
 
 /* ---- Comparing ----------------------------------------------------------- */

@@ -46,8 +46,7 @@ void reading_of(struct reading *reading, const struct reader *reader,
   (void)reading_bytes(reading, reader, text, strlen(text));
 }
 
-/* ---- Invariants -----------------------------------------------------------
- */
+/* ---- Invariants ---------------------------------------------------------- */
 
 static bool same_place(const struct scene_point *a,
                        const struct scene_point *b) {

@@ -53,7 +53,7 @@ static void open_soup(struct scene *scene, recto_options *options) {
   options->page_width_mm = options->page_height_mm = 200;
 }
 
-/* ---- Errors ------------------------------------------------------------- */
+/* ---- Errors -------------------------------------------------------------- */
 
 /* The share that a method gets wrong of the area and of the ink. */
 static void measure_errors(const struct scene *scene,
@@ -186,7 +186,7 @@ static void fragments_between_scan_lines_are_disjoint(void **state) {
   }
 }
 
-/* ---- Both z-buffers ----------------------------------------------------- */
+/* ---- Both z-buffers ------------------------------------------------------ */
 
 static void check_agreement(const struct scene *scene,
                             const recto_options *options, int lines) {
@@ -231,7 +231,7 @@ static void z_buffers_agree_on_every_model(void **state) {
     check_agreement_on(getenv("RECTO_MODELS"), real[i]);
 }
 
-/* ---- Memory ------------------------------------------------------------- */
+/* ---- Memory -------------------------------------------------------------- */
 
 /* The peak in bytes of a process that puts a face over all of a page that is
  * `lines` high and 512 pixels wide, with nothing to write down. */

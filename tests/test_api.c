@@ -618,13 +618,15 @@ static void an_empty_page_says_why(void **state) {
   options.scale = 100;
   options.has_target = true;
   options.target[0] = 50;
-  assert_warns(scene, options,
-               "the drawing is empty: all of the scene is outside of the page's "
-               "margins");
+  assert_warns(
+      scene, options,
+      "the drawing is empty: all of the scene is outside of the page's "
+      "margins");
   options.fill = RECTO_FILL_PAINT;
-  assert_warns(scene, options,
-               "the drawing is empty: all of the scene is outside of the page's "
-               "margins");
+  assert_warns(
+      scene, options,
+      "the drawing is empty: all of the scene is outside of the page's "
+      "margins");
   recto_scene_destroy(scene);
 }
 

@@ -594,8 +594,7 @@ static void a_scene_beyond_numbers_is_refused(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Far eyes -------------------------------------------------------------
- */
+/* ---- Far eyes ------------------------------------------------------------ */
 
 /* The extent of x over that of y of the whole drawing. */
 static double shape_of(const struct camera *camera, const struct scene *scene) {

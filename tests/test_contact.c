@@ -12,7 +12,7 @@
 
 enum { ANGLES = 200, SIDES = 24 };
 
-/* ---- Scenes --------------------------------------------------------------- */
+/* ---- Scenes -------------------------------------------------------------- */
 
 static void add_box_on_table(struct scene *scene) {
   build_box(scene, vector_of(-5, -4, -0.25), vector_of(5, 4, 0));
@@ -37,9 +37,10 @@ static void add_cylinder(struct scene *scene, double x, double low,
   for (int k = 0; k < SIDES; k++) {
     double angle = pi * (2 * k + 1) / SIDES;
     /* The radius to a side's middle is 1: neighbours' walls agree exactly. */
-    double across = k == 0 || k == SIDES - 1                ? 1
-                    : k == SIDES / 2 || k == SIDES / 2 - 1 ? -1
-                                            : cos(angle) / cos(pi / SIDES);
+    double across = k == 0 || k == SIDES - 1 ? 1
+                    : k == SIDES / 2 || k == SIDES / 2 - 1
+                        ? -1
+                        : cos(angle) / cos(pi / SIDES);
     double along = sin(angle) / cos(pi / SIDES);
     ring[0][k] = build_point(scene, x + across, along, low);
     ring[1][k] = build_point(scene, x + across, along, high);
@@ -64,10 +65,12 @@ static void add_cylinders(struct scene *scene) {
   add_cylinder(scene, 0, 3, 4);
 }
 
-/* ---- Turning -------------------------------------------------------------- */
+/* ---- Turning ------------------------------------------------------------- */
 
-enum { FROM_ASIDE = 37, /* no wall of a cylinder is seen edge-on */
-       EDGE_ON = 45 };  /* one on either side is */
+enum {
+  FROM_ASIDE = 37, /* no wall of a cylinder is seen edge-on */
+  EDGE_ON = 45
+}; /* one on either side is */
 
 enum rounding {
   EXACT,  /* double precision */
@@ -79,8 +82,8 @@ enum rounding {
 static void move_far(struct scene *scene) {
   for (size_t i = 0; i < scene->point.count; i++) {
     struct scene_point *p = &scene->point.item[i];
-    *p = (struct scene_point){1e6 + 20 * p->x, 1e6 + 20 * p->y,
-                              20 * p->z - 1e6};
+    *p =
+        (struct scene_point){1e6 + 20 * p->x, 1e6 + 20 * p->y, 20 * p->z - 1e6};
   }
 }
 
@@ -118,12 +121,12 @@ static double length_of(void (*add)(struct scene *), int azimuth,
  * add up to more than ten times as much, each moved at both ends but none like
  * the next, that is less than 1e-7. */
 static void assert_steady(void (*add)(struct scene *), int azimuth,
-                          double least, double most,
-                          enum rounding rounding) {
+                          double least, double most, enum rounding rounding) {
   const double noise = rounding == FAR      ? 1e-2
                        : rounding == SINGLE ? 1e-7
                                             : 2e-8;
-  double still = length_of(add, azimuth, 0, rounding), last = still, last_angle = 0;
+  double still = length_of(add, azimuth, 0, rounding), last = still,
+         last_angle = 0;
   assert_true(still > 500);
   for (int i = 0; i < ANGLES; i++) {
     double angle = least * pow(most / least, i / (ANGLES - 1.0));

@@ -13,8 +13,7 @@
 
 enum { ROUNDS = 10000 };
 
-/* ---- Random input -----------------------------------------------------------
- */
+/* ---- Random input -------------------------------------------------------- */
 
 static struct geom_point point(uint64_t *r, int size) {
   struct geom_point p = {hand_below(r, size) * 2 - size,
@@ -134,8 +133,7 @@ static struct geom_convex random_piece(uint64_t *r, int size,
   return piece;
 }
 
-/* ---- What holds of every piece
- * ------------------------------------------------- */
+/* ---- What holds of every piece ------------------------------------------- */
 
 static void check_piece(const struct geom_convex *piece) {
   struct rational_point p;
@@ -211,8 +209,7 @@ static bool is_same_piece(const struct geom_convex *p,
   return p->count == q->count && p->corner == q->corner && p->side == q->side;
 }
 
-/* ---- Splitting
- * ------------------------------------------------------------------ */
+/* ---- Splitting ----------------------------------------------------------- */
 
 static void parts_of_a_split_make_up_the_whole(void **state) {
   uint64_t r = 1;
@@ -329,8 +326,7 @@ static void a_piece_may_have_many_corners(void **state) {
   arena_fini(&arena);
 }
 
-/* ---- Subtracting
- * ------------------------------------------------------------------ */
+/* ---- Subtracting --------------------------------------------------------- */
 
 static void what_is_left_and_what_is_common_make_up_the_whole(void **state) {
   uint64_t r = 3;
@@ -424,8 +420,7 @@ static void neighbours_take_nothing_from_each_other(void **state) {
   arena_fini(&arena);
 }
 
-/* ---- Copying
- * ------------------------------------------------------------------------ */
+/* ---- Copying ------------------------------------------------------------- */
 
 static void a_copy_stands_alone(void **state) {
   uint64_t r = 4;

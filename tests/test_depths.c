@@ -34,8 +34,7 @@ static bool is_deep(const struct map *map, uint32_t edge, struct ratio t) {
   return false;
 }
 
-/* ---- By hand --------------------------------------------------------------
- */
+/* ---- By hand ------------------------------------------------------------- */
 
 /* Plates one before the other, each reaching further to the right over a line
  * behind them all: 0 to 100 at height 5. */
@@ -82,8 +81,7 @@ static void nothing_is_deep_where_enough_is_allowed(void **state) {
   hand_sheet_fini(&sheet);
 }
 
-/* ---- Against brute force --------------------------------------------------
- */
+/* ---- Against brute force ------------------------------------------------- */
 
 /* How many triangles hide the edge at t, on its less covered side. */
 static int count_at(const struct sheet *sheet, uint32_t e, struct ratio t) {
@@ -132,8 +130,7 @@ static void counts_are_brute_force_ones_on_hard_sheets(void **state) {
   }
 }
 
-/* ---- Against the map ------------------------------------------------------
- */
+/* ---- Against the map ----------------------------------------------------- */
 
 /* What more than no face hides is what is not visible, to the last bit. */
 static void assert_complement(const struct map *map, const char *name) {
@@ -191,8 +188,7 @@ static void what_any_face_hides_is_what_is_not_visible(void **state) {
   }
 }
 
-/* ---- In ink ---------------------------------------------------------------
- */
+/* ---- In ink -------------------------------------------------------------- */
 
 /* How long the hidden lines of three boxes in one another are on paper. */
 static double hidden_length(int layers, recto_method method) {
@@ -261,8 +257,7 @@ static void all_methods_draw_the_same_layers(void **state) {
                   hidden_length(layers, RECTO_METHOD_BRUTE));
 }
 
-/* ---- Failing --------------------------------------------------------------
- */
+/* ---- Failing ------------------------------------------------------------- */
 
 static bool refuse(void *user, double share, const char *stage) {
   (void)user, (void)share, (void)stage;

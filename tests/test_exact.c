@@ -108,8 +108,7 @@ static void the_ends_of_the_range_turn_the_right_way(void **state) {
   }
 }
 
-/* ---- In space -------------------------------------------------------------
- */
+/* ---- In space ------------------------------------------------------------ */
 
 static bool on_one_line(const double p[3][3]) {
   struct scene_point point[3];

@@ -200,11 +200,11 @@ static void running_out_of_memory_is_told(void **state) {
   (void)state;
   add_grid(&sheet, 4);
   for (unsigned long n = 1;; n++) {
-    bool good;
+    bool ok;
     mem_fail_after(n);
-    good = facets_init(&facets, &sheet);
+    ok = facets_init(&facets, &sheet);
     mem_fail_after(0);
-    if (good)
+    if (ok)
       break;
     assert_null(facets.part);
     fails++;

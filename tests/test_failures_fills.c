@@ -19,8 +19,7 @@
 /* Fills reach over their borders by half of it, a pixel's diagonal. */
 #define SEAM_MM (3 * PIXEL_MM)
 
-/* ---- White fragments on black ---------------------------------------------
- */
+/* ---- White fragments on black -------------------------------------------- */
 
 struct picture {
   cairo_surface_t *surface;
@@ -92,8 +91,7 @@ static void blacken_page(struct drawing *drawing) {
   drawing->fill.item[0] = page;
 }
 
-/* ---- What is inside -------------------------------------------------------
- */
+/* ---- What is inside ------------------------------------------------------ */
 
 static int compare_doubles(const void *a, const void *b) {
   double p = *(const double *)a, q = *(const double *)b;
@@ -176,8 +174,7 @@ static size_t count_dark(struct drawing *drawing, double seam_mm,
   return dark;
 }
 
-/* ---- Claims ---------------------------------------------------------------
- */
+/* ---- Claims -------------------------------------------------------------- */
 
 static void row_11_no_seam_shows_between_fills(void **state) {
   size_t with = 0, without = 0, white = 0, scenes = 0;

@@ -20,8 +20,7 @@ static void run(struct pipeline *pipeline, const struct scene *scene,
     fail_msg("%s", pipeline->error.text);
 }
 
-/* ---- Row 1 ------------------------------------------------------------------
- */
+/* ---- Row 1 --------------------------------------------------------------- */
 
 /* The cosine between a triangle's normal and the way back to the viewer. */
 static double facing(const struct pipeline *pipeline, const struct scene *scene,
@@ -85,8 +84,7 @@ static void row_01_no_face_hides_its_own_edge(void **state) {
   }
 }
 
-/* ---- Row 3 ------------------------------------------------------------------
- */
+/* ---- Row 3 --------------------------------------------------------------- */
 
 static void row_03_a_corner_view_of_a_cube_has_nine_edges(void **state) {
   (void)state;
@@ -131,8 +129,7 @@ static void row_03_a_cube_seen_square_on_keeps_its_outline(void **state) {
   }
 }
 
-/* ---- Row 5 ------------------------------------------------------------------
- */
+/* ---- Row 5 --------------------------------------------------------------- */
 
 static void row_05_pierced_scenes_have_their_exact_areas(void **state) {
   (void)state;
@@ -175,8 +172,7 @@ static void row_05_lines_where_faces_pierce_are_drawn(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Row 6 ------------------------------------------------------------------
- */
+/* ---- Row 6 --------------------------------------------------------------- */
 
 static void count_fragments(const struct pipeline *pipeline,
                             unsigned *fragments, uint32_t faces) {
@@ -239,8 +235,7 @@ static void row_06_a_field_of_100_cycles_is_100_times_one(void **state) {
   scene_fini(&scene_field);
 }
 
-/* ---- Areas against a scan of the page
- * ------------------------------------------ */
+/* ---- Areas against a scan of the page ------------------------------------ */
 
 struct span {
   double from, to;
@@ -306,8 +301,7 @@ static void row_06_areas_of_1000_sticks_add_up_to_their_union(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Row 7 ------------------------------------------------------------------
- */
+/* ---- Row 7 --------------------------------------------------------------- */
 
 /* Fills the raster with the map's fragments. */
 static void raster_fragments(struct judge_raster *raster,
@@ -373,8 +367,7 @@ static void row_07_other_scenes_are_as_a_depth_buffer_sees_them(void **state) {
     check_against_raster(name[i], 512);
 }
 
-/* ---- Row 8 ------------------------------------------------------------------
- */
+/* ---- Row 8 --------------------------------------------------------------- */
 
 static void row_08_a_doubled_mesh_is_drawn_once(void **state) {
   (void)state;

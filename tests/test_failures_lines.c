@@ -21,7 +21,7 @@ static double area_of(const struct map *map, uint32_t face) {
   return area;
 }
 
-/* ---- Row 28 ------------------------------------------------------------- */
+/* ---- Row 28 -------------------------------------------------------------- */
 
 /* The near sheet covers 2.5 x 1.5 of the far one's 3 x 2. */
 enum { FAR = 2, NEAR = 3 };
@@ -102,7 +102,7 @@ static void row_28_depths_fight_where_the_bits_say_so(void **state) {
     }
 }
 
-/* ---- Row 30 ------------------------------------------------------------- */
+/* ---- Row 30 -------------------------------------------------------------- */
 
 enum { LINES = 100, BARS = 60 };
 
@@ -122,12 +122,12 @@ static int centres_in(struct bar bar) {
 }
 
 /* fine  down to 1 / 32768 mm thick, all at their low sides */
-static void fill_bars(struct scene *scene, recto_options *options, bool fine) {
+static void fill_bars(struct scene *scene, recto_options *options, bool ok) {
   recto_options_init(options);
   scene_init(scene);
   for (int i = 0; i < BARS; i++) {
     struct bar bar = bar_at(i);
-    double thick = fine ? ldexp(1, -i % 16) : bar.high - bar.low;
+    double thick = ok ? ldexp(1, -i % 16) : bar.high - bar.low;
     build_parallelogram(scene, vector_of(20, bar.low, 0), vector_of(50, 0, 0),
                         vector_of(0, thick, 0));
   }
@@ -188,7 +188,7 @@ static void row_30_exact_methods_see_the_thinnest(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Sections ----------------------------------------------------------- */
+/* ---- Sections ------------------------------------------------------------ */
 
 /* A plate that rises from z = 0 to 10 across the page, before one at -1; what
  * is above z = 4 is cut away: 40 of its 100 mm stay. */

@@ -30,8 +30,7 @@ static void end(struct pipeline *pipeline, struct scene *scene) {
   scene_fini(scene);
 }
 
-/* ---- Row 4 ------------------------------------------------------------------
- */
+/* ---- Row 4 --------------------------------------------------------------- */
 
 static void row_04_faces_without_area_change_nothing(void **state) {
   (void)state;
@@ -87,8 +86,7 @@ static void row_04_flawed_faces_are_drawn_as_the_judge_sees_them(void **state) {
   }
 }
 
-/* ---- Row 9 ------------------------------------------------------------------
- */
+/* ---- Row 9 --------------------------------------------------------------- */
 
 static void row_09_a_seam_with_hanging_vertices_is_drawn_once(void **state) {
   (void)state;
@@ -126,8 +124,7 @@ static void row_09_unwelded_is_drawn_as_welded(void **state) {
   end(&two, &unwelded);
 }
 
-/* ---- Row 10
- * ------------------------------------------------------------------ */
+/* ---- Row 10 -------------------------------------------------------------- */
 
 static void row_10_a_face_in_pieces_shows_no_line_inside(void **state) {
   (void)state;
@@ -163,8 +160,7 @@ static void row_10_no_split_is_drawn(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Rows 13 and 15
- * ------------------------------------------------------------ */
+/* ---- Rows 13 and 15 ------------------------------------------------------ */
 
 static void row_13_a_box_seen_square_on_is_one_rectangle(void **state) {
   (void)state;
@@ -283,8 +279,7 @@ static void row_15_no_stroke_has_a_point_within_a_straight(void **state) {
   }
 }
 
-/* ---- Row 19
- * ------------------------------------------------------------------- */
+/* ---- Row 19 -------------------------------------------------------------- */
 
 struct heard {
   unsigned count;

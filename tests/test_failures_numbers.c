@@ -20,8 +20,7 @@ static char *draw(const struct scene *scene, const recto_options *options) {
   return pipeline_draw(scene, options, &solver_newell, &length);
 }
 
-/* ---- Row 18 -----------------------------------------------------------------
- */
+/* ---- Row 18 -------------------------------------------------------------- */
 
 /* The peak memory in bytes of a process that fills a scene and solves it. */
 static double measure(void (*fill)(struct scene *, recto_options *, unsigned),
@@ -77,8 +76,7 @@ static void row_18_memory_grows_with_the_faces_and_no_faster(void **state) {
   }
 }
 
-/* ---- Row 21
- * ------------------------------------------------------------------ */
+/* ---- Row 21 -------------------------------------------------------------- */
 
 /* Scenes that are seen from a direction and fitted to the page: their unit
  * must not matter.  Those whose contact is set in units are left out. */
@@ -170,8 +168,7 @@ static void row_21_a_far_origin_does_not_matter(void **state) {
     check_scaled(generic[i], 1, 1e7, 2e-5);
 }
 
-/* ---- Row 22
- * ------------------------------------------------------------------ */
+/* ---- Row 22 -------------------------------------------------------------- */
 
 static void row_22_a_decimal_comma_changes_no_byte(void **state) {
   (void)state;
@@ -189,8 +186,7 @@ static void row_22_a_decimal_comma_changes_no_byte(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Row 23
- * ------------------------------------------------------------------ */
+/* ---- Row 23 -------------------------------------------------------------- */
 
 static void row_23_drawing_twice_gives_the_same_bytes(void **state) {
   (void)state;

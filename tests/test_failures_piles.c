@@ -100,7 +100,7 @@ static void row_8_pages_are_drawn_as_by_brute(void **state) {
   }
 }
 
-/* ---- Work --------------------------------------------------------------- */
+/* ---- Work ---------------------------------------------------------------- */
 
 /* Pairs that were met: of edge and triangle, and of two triangles. */
 static int64_t pairs_met(const struct report *report) {

@@ -127,8 +127,7 @@ static uint32_t count_groups(recto_scene *scene) {
                    RECTO_OK);
   const char *groups = strstr(recto_drawing_stats(drawing), "\"groups\":");
   assert_non_null(groups);
-  uint32_t count =
-      (uint32_t)strtoul(groups + strlen("\"groups\":"), NULL, 10);
+  uint32_t count = (uint32_t)strtoul(groups + strlen("\"groups\":"), NULL, 10);
   recto_drawing_destroy(drawing);
   return count;
 }

@@ -19,8 +19,7 @@ enum { SCALE = 1024 };
 static const struct solver *const exact[] = {&solver_brute, &solver_newell};
 enum { EXACT_COUNT = sizeof exact / sizeof *exact };
 
-/* ---- Areas against the oracle
- * -------------------------------------------------- */
+/* ---- Areas against the oracle -------------------------------------------- */
 
 static mpq_t *new_areas(size_t count) {
   mpq_t *area2 = malloc((count + 1) * sizeof *area2);
@@ -83,8 +82,7 @@ static void areas_are_those_of_the_oracle(void **state) {
     }
 }
 
-/* ---- The form
- * --------------------------------------------------------------------- */
+/* ---- The form ------------------------------------------------------------ */
 
 /* Twice the area of a loop as its rounded corners have it, and how much
  * rounding them by 1/512 may have changed it. */
@@ -148,8 +146,7 @@ static void loops_are_in_their_one_form(void **state) {
   }
 }
 
-/* ---- Pieces cut in any way
- * ---------------------------------------------------------- */
+/* ---- Pieces cut in any way ----------------------------------------------- */
 
 /* Hands in what is visible of each triangle, split by `cuts` random lines. */
 static void solve_in_pieces(const struct sheet *sheet, int cuts, uint64_t *r,
@@ -231,8 +228,7 @@ static void how_pieces_were_cut_does_not_show(void **state) {
   }
 }
 
-/* ---- Contact
- * ------------------------------------------------------------------------- */
+/* ---- Contact ------------------------------------------------------------- */
 
 static const int table[][3] = {{0, 0, 8}, {16, 0, 8}, {16, 16, 8}, {0, 16, 8}};
 static const int decal[][3] = {{4, 4, 8}, {12, 4, 8}, {12, 12, 8}, {4, 12, 8}};

@@ -94,8 +94,7 @@ static void make_binary_ply(struct file *file) {
   }
 }
 
-/* ---- Mutations ------------------------------------------------------------
- */
+/* ---- Mutations ----------------------------------------------------------- */
 
 static const char *const words[] = {"nan",
                                     "inf",
@@ -188,8 +187,7 @@ static void mutate(struct random *random, struct file *file) {
   }
 }
 
-/* ---- The claim ------------------------------------------------------------
- */
+/* ---- The claim ----------------------------------------------------------- */
 
 static void assert_survives(const struct reader *reader,
                             const struct file *file, int seed,

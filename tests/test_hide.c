@@ -30,8 +30,7 @@ static bool is_ratio(struct ratio t, int64_t num, int64_t den) {
   return ratio_compare(t, ratio_of(num, den)) == 0;
 }
 
-/* ---- The outline
- * ------------------------------------------------------------------ */
+/* ---- The outline --------------------------------------------------------- */
 
 static void an_edge_is_hidden_between_the_sides_it_crosses(void **state) {
   struct hide_counts counts = {0};
@@ -124,8 +123,7 @@ static void outlines_at_the_ends_of_the_range_do_not_overflow(void **state) {
   hand_sheet_fini(&sheet);
 }
 
-/* ---- Contact
- * -------------------------------------------------------------------------- */
+/* ---- Contact ------------------------------------------------------------- */
 
 /* A flat triangle's T is nz alone: one unit of depth. */
 static void one_unit_of_depth_is_contact_and_two_are_not(void **state) {
@@ -192,8 +190,9 @@ static void an_edge_from_a_shared_corner_is_asked_once(void **state) {
                     is_ratio(part.to, 1, (uint64_t)steps));
       assert_int_equal(hide_edge(&hider, q, corner, &part, &counts), hidden);
       if (hidden)
-        assert_true(is_ratio(part.from, (uint64_t)(steps - 1), (uint64_t)steps) &&
-                    is_ratio(part.to, 1, 1));
+        assert_true(
+            is_ratio(part.from, (uint64_t)(steps - 1), (uint64_t)steps) &&
+            is_ratio(part.to, 1, 1));
     }
   }
   /* The same place at another depth is not the corner. */
@@ -226,8 +225,7 @@ static void a_triangle_does_not_hide_its_own_sides(void **state) {
   }
 }
 
-/* ---- Contact in scene units
- * ------------------------------------------------------------ */
+/* ---- Contact in scene units ---------------------------------------------- */
 
 /* A camera of our own: what it does to a point of view space. */
 struct view {
@@ -340,8 +338,7 @@ static void contact_is_a_length_of_the_scene(void **state) {
   }
 }
 
-/* ---- Against the oracle
- * ---------------------------------------------------------------- */
+/* ---- Against the oracle -------------------------------------------------- */
 
 static void check_edge(const struct sheet *sheet, const struct map *map,
                        uint32_t e, const mpq_t t, const char *what) {

@@ -75,8 +75,7 @@ static const char *model(void *const *state) {
   return temporary_file(state, "a.off", off, sizeof off - 1);
 }
 
-/* ---- Importers that fail --------------------------------------------------
- */
+/* ---- Importers that fail ------------------------------------------------- */
 
 static char *usual_importer;
 
@@ -170,8 +169,7 @@ static void cancelling_ends_the_importer(void **state) {
   reading_fini(&r);
 }
 
-/* ---- The host -------------------------------------------------------------
- */
+/* ---- The host ------------------------------------------------------------ */
 
 static int count_descriptors(void) {
   DIR *folder = opendir("/proc/self/fd");
@@ -289,8 +287,7 @@ static void a_named_pipe_is_read_once(void **state) {
   assert_int_equal(waitpid(child, NULL, 0), child);
 }
 
-/* ---- Models that break Assimp ---------------------------------------------
- */
+/* ---- Models that break Assimp -------------------------------------------- */
 
 static void a_model_that_crashes_assimp_is_an_error(void **state) {
   const char *good =
@@ -344,8 +341,7 @@ static void mutated_models_are_survived(void **state) {
   print_message("%d of %d were read\n", read, count);
 }
 
-/* ---- The form -------------------------------------------------------------
- */
+/* ---- The form ------------------------------------------------------------ */
 
 static size_t make_form(char *bytes) {
   static const double point[4][3] = {

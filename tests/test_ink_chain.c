@@ -34,8 +34,7 @@ static size_t count_closed(const struct inked *k) {
   return closed;
 }
 
-/* ---- Outlines -------------------------------------------------------------
- */
+/* ---- Outlines ------------------------------------------------------------ */
 
 static const double square[] = {20, 20, 60, 20, 60, 50, 20, 50};
 
@@ -133,8 +132,7 @@ static void circle_is_one_closed_stroke(void **state) {
   inked_end(&k);
 }
 
-/* ---- What is joined -------------------------------------------------------
- */
+/* ---- What is joined ------------------------------------------------------ */
 
 static void straightest_pair_goes_on(void **state) {
   struct inked k;
@@ -210,8 +208,7 @@ static void strokes_of_two_pens_are_not_joined(void **state) {
   }
 }
 
-/* ---- Ids ------------------------------------------------------------------
- */
+/* ---- Ids ----------------------------------------------------------------- */
 
 static void stroke_has_the_ids_of_its_first_segment(void **state) {
   struct inked k;
@@ -280,8 +277,7 @@ static void with_ids_a_polyline_of_the_users_is_one_stroke(void **state) {
   inked_end(&k);
 }
 
-/* ---- Any graph ------------------------------------------------------------
- */
+/* ---- Any graph ----------------------------------------------------------- */
 
 /* An open stroke starts at its lower end, a closed one goes to the lower
  * neighbour of its start. */

@@ -19,8 +19,7 @@ enum { CREASE = RECTO_EDGE_CREASE };
 
 static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
 
-/* ---- Paths on their own ---------------------------------------------------
- */
+/* ---- Paths on their own -------------------------------------------------- */
 
 static void add_path(struct ink_paths *paths, const struct ink_point *point,
                      uint32_t count, bool closed) {
@@ -111,8 +110,7 @@ static struct line random_line(struct random *random, bool closed) {
   return line;
 }
 
-/* ---- Straight lines -------------------------------------------------------
- */
+/* ---- Straight lines ------------------------------------------------------ */
 
 /* Row 15 of the list of failures. */
 static void row_15_straight_edge_is_two_points(void **state) {
@@ -222,8 +220,7 @@ static void loop_without_width_becomes_a_line(void **state) {
   paths_fini(&paths);
 }
 
-/* ---- Simplifying ----------------------------------------------------------
- */
+/* ---- Simplifying --------------------------------------------------------- */
 
 static void simplifying_keeps_within_the_tolerance(void **state) {
   struct random random = {47};
@@ -295,8 +292,7 @@ static void simplify_option_is_in_mm(void **state) {
   }
 }
 
-/* ---- Short strokes --------------------------------------------------------
- */
+/* ---- Short strokes ------------------------------------------------------- */
 
 /* Row 14 of the list of failures. */
 static void row_14_strokes_below_half_a_pen_are_dropped(void **state) {
@@ -334,8 +330,7 @@ static void short_pieces_of_a_long_chain_stay(void **state) {
   inked_end(&k);
 }
 
-/* ---- Dashes ---------------------------------------------------------------
- */
+/* ---- Dashes -------------------------------------------------------------- */
 
 /* How far along the line through `count` pairs the point is; fails when it is
  * off it. */

@@ -16,8 +16,7 @@
 
 static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
 
-/* ---- The stability list ---------------------------------------------------
- */
+/* ---- The stability list -------------------------------------------------- */
 
 struct side {
   struct drawing_point a, b;
@@ -148,8 +147,7 @@ static void box_seen_square_on_draws_four_edges(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Memory ---------------------------------------------------------------
- */
+/* ---- Memory -------------------------------------------------------------- */
 
 /* Something of everything: lines on each other, a fan, loops, hidden lines,
  * groups, fragments. */

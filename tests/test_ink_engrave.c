@@ -17,8 +17,7 @@
 
 static double pi(void) { return acos(-1); }
 
-/* ---- Runs -----------------------------------------------------------------
- */
+/* ---- Runs ---------------------------------------------------------------- */
 
 enum { INK, BLANK };
 
@@ -116,8 +115,7 @@ static void short_gaps_in_a_face_are_closed(void **state) {
   assert_no_run(&runs);
 }
 
-/* ---- Tones ----------------------------------------------------------------
- */
+/* ---- Tones --------------------------------------------------------------- */
 
 static const double square[] = {10, 10, 90, 10, 90, 90, 10, 90};
 static const double facing[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
@@ -239,8 +237,7 @@ static void each_pen_hatches_its_groups(void **state) {
   inked_end(&k);
 }
 
-/* ---- Curved ---------------------------------------------------------------
- */
+/* ---- Curved -------------------------------------------------------------- */
 
 /* A ball of radius 1 in n rings of 2 n quadrangles. */
 static void build_ball(struct scene *scene, unsigned n) {
@@ -333,8 +330,7 @@ static void lines_run_over_many_faces(void **state) {
   }
 }
 
-/* ---- The stability list ----------------------------------------------------
- */
+/* ---- The stability list -------------------------------------------------- */
 
 static void every_scene_is_hatched_on_its_page(void **state) {
   (void)state;
@@ -360,8 +356,7 @@ static void every_scene_is_hatched_on_its_page(void **state) {
   }
 }
 
-/* ---- Memory ---------------------------------------------------------------
- */
+/* ---- Memory -------------------------------------------------------------- */
 
 static void hatching_fails_cleanly_when_memory_runs_out(void **state) {
   struct pipeline p;

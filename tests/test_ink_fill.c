@@ -16,8 +16,7 @@ enum { CREASE = RECTO_EDGE_CREASE };
 
 static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
 
-/* ---- Layers ---------------------------------------------------------------
- */
+/* ---- Layers -------------------------------------------------------------- */
 
 static void assert_layer(const struct inked *k, size_t layer, unsigned pen,
                          const char *label) {
@@ -150,8 +149,7 @@ static void group_without_name_has_a_label(void **state) {
   inked_end(&k);
 }
 
-/* ---- Fills ----------------------------------------------------------------
- */
+/* ---- Fills --------------------------------------------------------------- */
 
 static const double flat[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 static const double outer[] = {10, 10, 90, 10, 90, 80, 10, 80};
@@ -259,8 +257,7 @@ static void perspective_shades_the_side_that_the_eye_sees(void **state) {
   inked_end(&k);
 }
 
-/* ---- Hatching -------------------------------------------------------------
- */
+/* ---- Hatching ------------------------------------------------------------ */
 
 struct polygon {
   double xy[2][400];

@@ -14,8 +14,7 @@
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 
-/* ---- Merged against not merged --------------------------------------------
- */
+/* ---- Merged against not merged ------------------------------------------- */
 
 struct both {
   struct pipeline merged, apart; /* the latter with ids: a fill a fragment */
@@ -170,8 +169,7 @@ static void spans_at_a_pitch_keep_their_area(void **state) {
   }
 }
 
-/* ---- How many -------------------------------------------------------------
- */
+/* ---- How many ------------------------------------------------------------ */
 
 static void start(struct scene *scene, recto_options *options) {
   scene_init(scene);
@@ -289,8 +287,7 @@ static void fandisk_has_fewer_than_60_polygons(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Memory ---------------------------------------------------------------
- */
+/* ---- Memory -------------------------------------------------------------- */
 
 static void merging_fails_cleanly_when_memory_runs_out(void **state) {
   struct scene scene;

@@ -21,8 +21,7 @@ enum {
 
 static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
 
-/* ---- Intervals ------------------------------------------------------------
- */
+/* ---- Intervals ----------------------------------------------------------- */
 
 static void visible_edge_is_a_stroke(void **state) {
   struct inked k;
@@ -102,8 +101,8 @@ static void visible_and_hidden_make_the_edge_whole(void **state) {
     inked_start(&k);
     k.options.hidden = RECTO_HIDDEN_LAYER;
     uint32_t edge = inked_line_at(
-        &k, random_int(&random, -50000000, 0),
-        random_int(&random, -9000, 9000), random_int(&random, 10000, 50000000),
+        &k, random_int(&random, -50000000, 0), random_int(&random, -9000, 9000),
+        random_int(&random, 10000, 50000000),
         random_int(&random, -50000000, 50000000), CREASE);
     double whole =
         hypot((double)k.sheet.point.item[1].x - k.sheet.point.item[0].x,
@@ -159,8 +158,7 @@ static void counts_are_reported(void **state) {
   inked_end(&k);
 }
 
-/* ---- Joints ---------------------------------------------------------------
- */
+/* ---- Joints -------------------------------------------------------------- */
 
 static void interval_ends_join_at_one_grid_point(void **state) {
   struct inked k;
@@ -246,8 +244,7 @@ static void ends_farther_apart_stay_apart(void **state) {
   }
 }
 
-/* ---- Lines on each other --------------------------------------------------
- */
+/* ---- Lines on each other ------------------------------------------------- */
 
 static void line_drawn_twice_is_drawn_once(void **state) {
   const double line[] = {10, 10, 40, 30};
@@ -423,8 +420,7 @@ static void sharp_angle_is_two_lines(void **state) {
   inked_end(&k);
 }
 
-/* ---- Many of them ---------------------------------------------------------
- */
+/* ---- Many of them -------------------------------------------------------- */
 
 struct piece {
   int from, to; /* along the line, in steps */

@@ -15,8 +15,7 @@
 
 static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
 
-/* ---- Drawings -------------------------------------------------------------
- */
+/* ---- Drawings ------------------------------------------------------------ */
 
 static void add_layer(struct drawing *drawing) {
   struct drawing_layer layer = {.pen = (unsigned)drawing->layer.count + 1};
@@ -127,8 +126,7 @@ static double order(struct drawing *drawing, const struct tour_effort *effort) {
   return after;
 }
 
-/* ---- Small ones -----------------------------------------------------------
- */
+/* ---- Small ones ---------------------------------------------------------- */
 
 static void strokes_in_a_row_are_drawn_one_after_the_other(void **state) {
   static const int place[] = {3, 7, 1, 0, 9, 5, 2, 8, 4, 6};
@@ -267,8 +265,7 @@ static void few_strokes_are_ordered_nearly_best(void **state) {
   assert_true(sum < 1.08 * least);
 }
 
-/* ---- Many -----------------------------------------------------------------
- */
+/* ---- Many ---------------------------------------------------------------- */
 
 static void random_strokes_stay_what_they_were(void **state) {
   struct random random = {71};
@@ -382,8 +379,7 @@ static void improved_tour_is_never_longer(void **state) {
   }
 }
 
-/* ---- The nearest ----------------------------------------------------------
- */
+/* ---- The nearest --------------------------------------------------------- */
 
 static void nearest_is_what_a_look_at_all_finds(void **state) {
   enum { MOST = 300 };
@@ -449,8 +445,7 @@ static void lists_of_the_nearest_are_complete_and_in_order(void **state) {
   nearest_fini(&nearest);
 }
 
-/* ---- Lifts, options -------------------------------------------------------
- */
+/* ---- Lifts, options ------------------------------------------------------ */
 
 static void pen_is_not_lifted_between_strokes_that_meet(void **state) {
   const double a[] = {0, 0, 10, 0}, b[] = {10, 0, 20, 5}, c[] = {50, 5, 60, 5};

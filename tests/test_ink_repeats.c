@@ -23,8 +23,7 @@ static void start(struct inked *k) {
   k->options.unit_mm = UNIT_MM;
 }
 
-/* ---- What a drawing is once it is rounded ---------------------------------
- */
+/* ---- What a drawing is once it is rounded -------------------------------- */
 
 struct spot {
   int64_t x, y; /* output units */
@@ -94,8 +93,7 @@ static double most_shared(const struct drawing *drawing, double unit) {
   return most;
 }
 
-/* ---- By hand --------------------------------------------------------------
- */
+/* ---- By hand ------------------------------------------------------------- */
 
 static void lines_within_a_unit_are_one(void **state) {
   (void)state;
@@ -290,8 +288,7 @@ static void with_ids_the_lower_rank_stays(void **state) {
   inked_end(&k);
 }
 
-/* ---- Many -----------------------------------------------------------------
- */
+/* ---- Many ---------------------------------------------------------------- */
 
 /* Lines between few places, each a little beside its place. */
 static void add_hay(struct inked *k, struct random *random, int count) {
@@ -376,8 +373,7 @@ static void thousands_of_near_rings_end_soon(void **state) {
   inked_end(&k);
 }
 
-/* ---- Rows 12, 13: scenes, turned by a little ------------------------------
- */
+/* ---- Rows 12, 13: scenes, turned by a little ----------------------------- */
 
 static double drawn_length(const char *name, double turn_deg, double unit) {
   struct scene scene;

@@ -82,8 +82,7 @@ static void look_from(struct page *page, double x, double y, double z) {
                     100, 0);
 }
 
-/* ---- A cube ----------------------------------------------------------------
- */
+/* ---- A cube -------------------------------------------------------------- */
 
 static struct vector corner_of(unsigned i) {
   return vector_of(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
@@ -272,8 +271,7 @@ static void a_matrix_says_the_same_as_a_camera(void **state) {
   assert_true(fabs(again.eye.z - 4) < 1e-9);
 }
 
-/* ---- Other scenes
- * ------------------------------------------------------------ */
+/* ---- Other scenes -------------------------------------------------------- */
 
 static void look_square_on(struct page *page) {
   /* Page mm = 50 + 10 x, 50 + 10 y, seen along -z. */
@@ -531,8 +529,7 @@ static void smooth_edges_are_asked_for_by_all_alone(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- The reader
- * ----------------------------------------------------------------- */
+/* ---- The reader ---------------------------------------------------------- */
 
 static const char *read_text(struct judge_drawing *drawing, const char *text) {
   return judge_read_svg(drawing, text, strlen(text));
@@ -851,8 +848,7 @@ static void any_bytes_and_no_memory_are_survived(void **state) {
   assert_true(n > 3);
 }
 
-/* ---- The grid of segments --------------------------------------------------
- */
+/* ---- The grid of segments ------------------------------------------------ */
 
 /* However far it is asked to see, all that is within reach of a place is found
  * there, in a space that grows with the segments alone. */

@@ -16,8 +16,7 @@
 /* The page, and how far beyond it ink is kept. */
 enum { WIDTH = 200, HEIGHT = 100, MARGIN = 25 };
 
-#define ROOT                                                                   \
-  "<svg width=\"200mm\" height=\"100mm\" viewBox=\"0 0 200 100\">"
+#define ROOT "<svg width=\"200mm\" height=\"100mm\" viewBox=\"0 0 200 100\">"
 
 #define PATH "<path stroke=\"#000\" d=\""
 
@@ -65,7 +64,7 @@ static void assert_near(double a, double b, double off) {
     fail_msg("%.17g is not %.17g", a, b);
 }
 
-/* ---- Places far away ------------------------------------------------------ */
+/* ---- Places far away ----------------------------------------------------- */
 
 static void lines_are_cut_to_the_page(void **state) {
   (void)state;
@@ -127,7 +126,7 @@ static void what_no_double_holds_is_refused(void **state) {
   }
 }
 
-/* ---- Memory --------------------------------------------------------------- */
+/* ---- Memory -------------------------------------------------------------- */
 
 /* A drawing of `count` times the same piece of data; its length is in *size. */
 static char *repeat(const char *piece, size_t count, size_t *size) {
@@ -190,7 +189,8 @@ static void a_grid_grows_with_the_segments_alone(void **state) {
   struct judge_grid grid;
   assert_non_null(segment);
   for (int i = 0; i < COUNT; i++)
-    segment[i] = (struct judge_segment){{0, i * 0.005}, {WIDTH, 100 - i * 0.005}};
+    segment[i] =
+        (struct judge_segment){{0, i * 0.005}, {WIDTH, 100 - i * 0.005}};
   assert_true(judge_grid_init(&grid, segment, COUNT, WIDTH, HEIGHT,
                               (double)WIDTH / CELLS, 0.1));
   size_t cells = (size_t)grid.columns * grid.rows;

@@ -95,8 +95,7 @@ static void random_small_scenes_are_drawn_right(void **state) {
   }
 }
 
-/* ---- Real meshes
- * -------------------------------------------------------------- */
+/* ---- Real meshes --------------------------------------------------------- */
 
 /* Reads a model; false where it is not there. */
 static bool read_model(struct scene *scene, char *path, size_t room,

@@ -47,8 +47,7 @@ static void twin_reverse(struct twin *t) {
   mpq_neg(t->exact.c, t->exact.c);
 }
 
-/* ---- Random input -----------------------------------------------------------
- */
+/* ---- Random input -------------------------------------------------------- */
 
 /* A whole number of at most `bits` bits, often at the ends of its range. */
 static int64_t number(uint64_t *r, int bits) {
@@ -174,8 +173,7 @@ static void draw_lines(uint64_t *r, struct twin t[LINES]) {
       narrow(r, bits, &t[k], family[0], family[1]);
 }
 
-/* ---- Questions
- * ---------------------------------------------------------------- */
+/* ---- Questions ----------------------------------------------------------- */
 
 static int sign_of_products(const struct twin *p, const struct twin *q,
                             bool dot) {
@@ -453,8 +451,7 @@ static void corners_doubles_are_within_a_quarter_unit(void **state) {
   corners_clear(c);
 }
 
-/* ---- Wide lines
- * ------------------------------------------------------------------ */
+/* ---- Wide lines ---------------------------------------------------------- */
 
 /* All corners of the range's box, and next to them. */
 static struct geom_point extreme(uint64_t *r) {
@@ -614,9 +611,8 @@ static void a_line_turned_round_has_its_sides_swapped(void **state) {
 static struct geom_line stepped(struct geom_point p, int dx, int dy, int k,
                                 int l) {
   struct geom_line line;
-  geom_line_through(
-      &line, (struct geom_point){p.x + k * dx, p.y + k * dy, 0},
-      (struct geom_point){p.x + l * dx, p.y + l * dy, 0});
+  geom_line_through(&line, (struct geom_point){p.x + k * dx, p.y + k * dy, 0},
+                    (struct geom_point){p.x + l * dx, p.y + l * dy, 0});
   return line;
 }
 
@@ -636,9 +632,12 @@ static void lines_have_one_number_however_they_are_given(void **state) {
     assert_true(geom_line_number(&line, &b));
     assert_true(a == b);
     /* Two planes that cross above it. */
-    const struct geom_point
-        f[3] = {{p.x, p.y, 900}, {p.x + dx, p.y + dy, 905}, {p.x - dy, p.y + dx, 0}},
-        g[3] = {{p.x, p.y, 900}, {p.x + dx, p.y + dy, 905}, {p.x - dy, p.y + dx, 7}};
+    const struct geom_point f[3] = {{p.x, p.y, 900},
+                                    {p.x + dx, p.y + dy, 905},
+                                    {p.x - dy, p.y + dx, 0}},
+                            g[3] = {{p.x, p.y, 900},
+                                    {p.x + dx, p.y + dy, 905},
+                                    {p.x - dy, p.y + dx, 7}};
     struct geom_plane front = plane_of(g), back = plane_of(f);
     assert_int_equal(geom_line_between(&line, &front, &back), 0);
     assert_true(geom_line_number(&line, &c));

@@ -51,8 +51,7 @@ static void assert_no_colour(const struct reading *r) {
     assert_false(r->scene.group.item[i].has_colour);
 }
 
-/* ---- Colours --------------------------------------------------------------
- */
+/* ---- Colours ------------------------------------------------------------- */
 
 static void groups_have_the_colour_of_their_material(void **state) {
   struct reading r;
@@ -200,8 +199,7 @@ static void a_broken_compressed_library_is_told(void **state) {
 
 #endif
 
-/* ---- What is wrong ---------------------------------------------------------
- */
+/* ---- What is wrong ------------------------------------------------------- */
 
 static void what_is_missing_is_told_with_its_line(void **state) {
   struct reading r;

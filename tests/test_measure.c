@@ -155,7 +155,7 @@ static void one_map_has_no_error_against_itself(void **state) {
   }
 }
 
-/* ---- Ink ---------------------------------------------------------------- */
+/* ---- Ink ----------------------------------------------------------------- */
 
 /* A sheet of three edges of 10 mm. */
 static void three_edges(struct sheet *sheet) {

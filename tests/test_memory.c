@@ -12,8 +12,7 @@
 
 typedef ARRAY(int) int_array;
 
-/* ---- Allocation -----------------------------------------------------------
- */
+/* ---- Allocation ---------------------------------------------------------- */
 
 static void a_size_that_overflows_is_refused(void **state) {
   (void)state;
@@ -85,8 +84,7 @@ static void the_peak_rises_with_what_is_held(void **state) {
   assert_true(mem_peak_bytes() >= size);
 }
 
-/* ---- Arrays ---------------------------------------------------------------
- */
+/* ---- Arrays -------------------------------------------------------------- */
 
 static void an_array_keeps_what_was_pushed(void **state) {
   (void)state;
@@ -149,8 +147,7 @@ static void an_array_that_cannot_grow_is_as_it_was(void **state) {
   ARRAY_FREE(&array);
 }
 
-/* ---- Arena ----------------------------------------------------------------
- */
+/* ---- Arena --------------------------------------------------------------- */
 
 static void arena_blocks_are_aligned_and_apart(void **state) {
   (void)state;

@@ -23,8 +23,7 @@
 #include <zlib.h>
 #endif
 
-/* ---- An allocation that fails ----------------------------------------------
- */
+/* ---- An allocation that fails -------------------------------------------- */
 
 static atomic_ulong counted;   /* allocations since the start of the job */
 static atomic_ulong to_fail;   /* the one that fails; 0: none */
@@ -80,8 +79,7 @@ void free(void *block) {
 static atomic_long held;
 #endif
 
-/* ---- Jobs ------------------------------------------------------------------
- */
+/* ---- Jobs ---------------------------------------------------------------- */
 
 static const char obj[] =
     "mtllib m.mtl\no a\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 -1\n"

@@ -62,8 +62,7 @@ static void assert_painted(const struct ordered *o, const uint32_t *triangle,
     assert_painted(o, want, sizeof want / sizeof *want);                       \
   } while (0)
 
-/* ---- Worked orders
- * ----------------------------------------------------------------- */
+/* ---- Worked orders ------------------------------------------------------- */
 
 /* Bars as needles, B over A, C over B and the other end of A over C. */
 static const int bars[3][3][3] = {{{0, 0, 10}, {2, 0, 10}, {12, 20, 30}},
@@ -124,8 +123,7 @@ static void planes_that_cross_beside_the_faces_split_nothing(void **state) {
   ordered_fini(&o);
 }
 
-/* ---- The tests, one by one
- * ------------------------------------------------------------ */
+/* ---- The tests, one by one ----------------------------------------------- */
 
 struct tally {
   uint64_t depth, minimax, behind, before, full, moved;
@@ -224,8 +222,7 @@ static void lines_alone_need_no_order_of_what_touches(void **state) {
   }
 }
 
-/* ---- Any order is a painter's order
- * ----------------------------------------------------- */
+/* ---- Any order is a painter's order -------------------------------------- */
 
 static void lines_to(const struct newell_order *order, uint32_t piece,
                      struct geom_convex *shape, struct arena *arena) {
@@ -394,9 +391,7 @@ static void long_cycles_are_broken(void **state) {
   }
 }
 
-/* ---- Stopping
- * ------------------------------------------------------------------------------
- */
+/* ---- Stopping ------------------------------------------------------------ */
 
 static bool say_stop(void *user, double share, const char *stage) {
   (void)user;

@@ -44,8 +44,7 @@ static double random_finite(struct random *random) {
   return value;
 }
 
-/* ---- Reading --------------------------------------------------------------
- */
+/* ---- Reading ------------------------------------------------------------- */
 
 static double parse(const char *text) {
   double value = -12345;
@@ -385,8 +384,7 @@ static void integers_are_read_up_to_their_limits(void **state) {
     assert_null(number_parse_int(bad[i], bad[i] + strlen(bad[i]), &value));
 }
 
-/* ---- Writing --------------------------------------------------------------
- */
+/* ---- Writing ------------------------------------------------------------- */
 
 static void assert_format(double value, int decimals, const char *expected) {
   char text[NUMBER_TEXT_SIZE];
@@ -556,27 +554,27 @@ static void row_22_a_decimal_comma_changes_nothing(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_million_numbers_are_read_as_strtod_reads_them),
-      cmocka_unit_test(halfway_goes_to_even_and_a_hair_beside_it_does_not),
-      cmocka_unit_test(short_halfway_numbers_go_to_even),
-      cmocka_unit_test(the_ends_of_the_range_are_exact),
-      cmocka_unit_test(exponents_of_any_length_are_read),
-      cmocka_unit_test(digits_of_any_number_are_read),
-      cmocka_unit_test(reading_stops_where_the_number_does),
-      cmocka_unit_test(nothing_is_read_past_the_end),
+    cmocka_unit_test(a_million_numbers_are_read_as_strtod_reads_them),
+    cmocka_unit_test(halfway_goes_to_even_and_a_hair_beside_it_does_not),
+    cmocka_unit_test(short_halfway_numbers_go_to_even),
+    cmocka_unit_test(the_ends_of_the_range_are_exact),
+    cmocka_unit_test(exponents_of_any_length_are_read),
+    cmocka_unit_test(digits_of_any_number_are_read),
+    cmocka_unit_test(reading_stops_where_the_number_does),
+    cmocka_unit_test(nothing_is_read_past_the_end),
 #if DIGITS_WINDOWS
-      cmocka_unit_test(plain_numbers_are_read_as_all_others),
+    cmocka_unit_test(plain_numbers_are_read_as_all_others),
 #endif
-      cmocka_unit_test(words_for_what_is_not_finite_are_read),
-      cmocka_unit_test(a_whole_string_must_be_a_number),
-      cmocka_unit_test(integers_are_read_up_to_their_limits),
-      cmocka_unit_test(decimals_are_rounded_half_away_from_zero),
-      cmocka_unit_test(there_are_no_needless_characters),
-      cmocka_unit_test(numbers_are_written_as_printf_writes_them),
-      cmocka_unit_test(exact_text_is_plain_where_that_is_short),
-      cmocka_unit_test(exact_text_reads_back_and_is_shortest),
-      cmocka_unit_test(integers_are_written_whole),
-      cmocka_unit_test(row_22_a_decimal_comma_changes_nothing),
+    cmocka_unit_test(words_for_what_is_not_finite_are_read),
+    cmocka_unit_test(a_whole_string_must_be_a_number),
+    cmocka_unit_test(integers_are_read_up_to_their_limits),
+    cmocka_unit_test(decimals_are_rounded_half_away_from_zero),
+    cmocka_unit_test(there_are_no_needless_characters),
+    cmocka_unit_test(numbers_are_written_as_printf_writes_them),
+    cmocka_unit_test(exact_text_is_plain_where_that_is_short),
+    cmocka_unit_test(exact_text_reads_back_and_is_shortest),
+    cmocka_unit_test(integers_are_written_whole),
+    cmocka_unit_test(row_22_a_decimal_comma_changes_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

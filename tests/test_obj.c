@@ -58,8 +58,7 @@ static void assert_broken(const char *bytes, size_t count, unsigned long line,
 
 #define POINTS "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 
-/* ---- Statements -----------------------------------------------------------
- */
+/* ---- Statements ---------------------------------------------------------- */
 
 static void points_are_read_in_every_form(void **state) {
   (void)state;
@@ -299,8 +298,7 @@ static void the_last_line_needs_no_end(void **state) {
   assert_same("\xef\xbb\xbf" POINTS "f 1 2 3\n", POINTS "f 1 2 3\n");
 }
 
-/* ---- Groups ---------------------------------------------------------------
- */
+/* ---- Groups -------------------------------------------------------------- */
 
 static void assert_group(const struct reading *r, uint32_t face,
                          const char *name) {
@@ -363,8 +361,7 @@ static void the_next_file_starts_anew(void **state) {
   reading_fini(&r);
 }
 
-/* ---- Bad elements ---------------------------------------------------------
- */
+/* ---- Bad elements -------------------------------------------------------- */
 
 static void assert_faulty(const struct scenes_faulty *faulty) {
   struct reading r;
@@ -466,8 +463,7 @@ static void huge_indices_are_out_of_range(void **state) {
   }
 }
 
-/* ---- Broken files ---------------------------------------------------------
- */
+/* ---- Broken files -------------------------------------------------------- */
 
 static void bytes_that_no_text_holds_are_an_error(void **state) {
   (void)state;
@@ -502,8 +498,7 @@ static void a_file_that_stops_in_a_statement_is_an_error(void **state) {
                 "the file ends in the middle of a point");
 }
 
-/* ---- Numbers, memory, models ----------------------------------------------
- */
+/* ---- Numbers, memory, models --------------------------------------------- */
 
 static void row_22_a_decimal_comma_changes_nothing(void **state) {
   (void)state;

@@ -96,7 +96,7 @@ static void assert_as_by_brute(struct drawn *drawn,
   report_destroy(report);
 }
 
-/* ---- One layer ------------------------------------------------------------ */
+/* ---- One layer ----------------------------------------------------------- */
 
 static void one_layer_is_all_visible(void **state) {
   const struct solver_request request = everything();
@@ -192,7 +192,7 @@ static void cut(struct drawn *drawn) {
 }
 
 static void other_sheets_are_not_told(void **state) {
-  static spoil_fn *const spoil[] = {add_lid, add_beside, add_wire, add_wall,
+  static spoil_fn *const spoil[] = {add_lid, add_beside, add_wire,    add_wall,
                                     add_fin, fold,       fold_the_rim};
   (void)state;
   assert_true(tells_of_spoilt(leave));
@@ -206,7 +206,7 @@ static void clipped_sheets_are_not_told(void **state) {
   assert_false(tells_of_spoilt(cut));
 }
 
-/* ---- Two layers ----------------------------------------------------------- */
+/* ---- Two layers ---------------------------------------------------------- */
 
 static void a_convex_body_has_its_outline(void **state) {
   struct solver_request request = lines_alone();
@@ -273,7 +273,7 @@ static void the_page_cannot_tell_front_from_back(void **state) {
   assert_int_equal(contours[1], 4);
 }
 
-/* ---- Memory --------------------------------------------------------------- */
+/* ---- Memory -------------------------------------------------------------- */
 
 static void without_memory_it_does_not_tell(void **state) {
   const struct solver_request request = everything();

@@ -12,8 +12,7 @@
 
 #define XY_MAX ((1 << 30) - 1)
 
-/* ---- Sheets with many triangles
- * ------------------------------------------------ */
+/* ---- Sheets with many triangles ------------------------------------------ */
 
 enum crowding {
   CROWD_SMALL, /* small triangles all over the page */
@@ -63,8 +62,7 @@ static void check_memory(const struct pagegrid *grid, size_t triangles) {
   assert_true(grid->start[cells] <= 4 * (8 * triangles + 64));
 }
 
-/* ---- Queries
- * ---------------------------------------------------------------------- */
+/* ---- Queries ------------------------------------------------------------- */
 
 /* Each triangle was found at most once; returns which, one byte each. */
 static uint8_t *found_flags(const struct pagegrid_query *query, size_t count) {

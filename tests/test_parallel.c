@@ -19,7 +19,7 @@
 #include "tests/laid.h"
 #include "visibility/solver.h"
 
-/* ---- A system that starts no more threads --------------------------------- */
+/* ---- A system that starts no more threads -------------------------------- */
 
 static int to_start = 10000; /* so many threads can still be had */
 static int started;
@@ -45,7 +45,7 @@ static int reset(void **state) {
   return 0;
 }
 
-/* ---- The loop ------------------------------------------------------------- */
+/* ---- The loop ------------------------------------------------------------ */
 
 enum { THINGS = 5000 };
 
@@ -121,13 +121,12 @@ static void there_is_a_processor(void **state) {
   assert_in_range(parallel_processors(), 1, 1024);
 }
 
-/* ---- The solver that has threads ------------------------------------------ */
+/* ---- The solver that has threads ----------------------------------------- */
 
 static void solve(struct laid *laid, struct map *map, int threads,
                   recto_status expected) {
-  const struct solver_request request = {.strokes = true,
-                                         .intersections = true,
-                                         .threads = threads};
+  const struct solver_request request = {
+      .strokes = true, .intersections = true, .threads = threads};
   struct report *report = report_create();
   recto_error error;
   assert_non_null(report);

@@ -113,8 +113,7 @@ static void layers_say_nothing_of_what_is_not_asked_for(void **state) {
   inked_end(&k);
 }
 
-/* ---- Idle pens ------------------------------------------------------------
- */
+/* ---- Idle pens ----------------------------------------------------------- */
 
 struct heard {
   int count;
@@ -266,8 +265,7 @@ static void strokes_of_pens_that_meet_are_not_joined(void **state) {
   }
 }
 
-/* ---- Weights --------------------------------------------------------------
- */
+/* ---- Weights ------------------------------------------------------------- */
 
 /* How wide the crease, the silhouette and the border come out, which meet. */
 static void find_widths(const char *weights, int pens, double width[3],
@@ -319,8 +317,7 @@ static void hidden_lines_weigh_nothing_extra(void **state) {
   inked_end(&k);
 }
 
-/* ---- Lists that make no sense ---------------------------------------------
- */
+/* ---- Lists that make no sense -------------------------------------------- */
 
 static void assert_refused(const char **list, struct inked *k, const char *text,
                            const char *part) {

@@ -19,7 +19,8 @@ static size_t pierce(struct sheet *sheet) {
   struct pagegrid grid;
   recto_error error;
   assert_true(pagegrid_init(&grid, sheet));
-  assert_int_equal(pierce_all(sheet, &grid, NULL, NULL, NULL, &error), RECTO_OK);
+  assert_int_equal(pierce_all(sheet, &grid, NULL, NULL, NULL, &error),
+                   RECTO_OK);
   pagegrid_fini(&grid);
   for (size_t e = before; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
@@ -56,8 +57,7 @@ static bool has_line(const struct sheet *sheet, struct geom_point a,
   return false;
 }
 
-/* ---- Known scenes
- * ------------------------------------------------------------------ */
+/* ---- Known scenes -------------------------------------------------------- */
 
 static const int table[][3] = {{0, 0, 8}, {16, 0, 8}, {0, 16, 8}};
 
@@ -292,8 +292,7 @@ static void neighbours_get_the_same_end(void **state) {
   assert_true(met > 400);
 }
 
-/* ---- Pairs, in rationals
- * ---------------------------------------------------------- */
+/* ---- Pairs, in rationals ------------------------------------------------- */
 
 /* floor(v + 1/2) */
 static int64_t round_half_up(const mpq_t v) {
@@ -452,7 +451,7 @@ static void pairs_pierce_where_rationals_say(void **state) {
   assert_true(pierced > 5000);
 }
 
-/* ---- Surfaces that meet along an edge ------------------------------------- */
+/* ---- Surfaces that meet along an edge ------------------------------------ */
 
 /* Eight ways from an upright line of the page, in order round it. */
 static const int way[8][2] = {{7, 2},   {4, 7},   {-2, 7}, {-7, 4},
@@ -463,9 +462,8 @@ static const int way[8][2] = {{7, 2},   {4, 7},   {-2, 7}, {-7, 4},
 static void add_wing(struct sheet *sheet, const int to[2], int low, int high,
                      const int off[2]) {
   const int k = SCALE, x = 16 * k + off[0], z = 16 * k + off[1];
-  const int corner[3][3] = {{x, low * k, z},
-                            {x, high * k, z},
-                            {x + to[0] * k, 8 * k, z + to[1] * k}};
+  const int corner[3][3] = {
+      {x, low * k, z}, {x, high * k, z}, {x + to[0] * k, 8 * k, z + to[1] * k}};
   hand_add_face(sheet, corner, 3, 1);
 }
 
@@ -473,7 +471,8 @@ static void add_wing(struct sheet *sheet, const int to[2], int low, int high,
 static bool are_between(const int a[2], const int b[2]) {
   int low = a[0] < a[1] ? a[0] : a[1], high = a[0] < a[1] ? a[1] : a[0];
   for (int k = 0; k < 2; k++)
-    if (b[k] == low || b[k] == high) return false;
+    if (b[k] == low || b[k] == high)
+      return false;
   return (low < b[0] && b[0] < high) != (low < b[1] && b[1] < high);
 }
 
@@ -494,7 +493,8 @@ static void check_folds(const int off[2], int *crossed) {
     const int a[2] = {i % 8, i / 8 % 8}, b[2] = {i / 64 % 8, i / 512};
     struct sheet sheet;
     size_t lines;
-    if (a[0] >= a[1] || b[0] == b[1]) continue;
+    if (a[0] >= a[1] || b[0] == b[1])
+      continue;
     hand_sheet_init(&sheet);
     for (int k = 0; k < 2; k++)
       add_wing(&sheet, way[a[k]], 2, 12, none);
@@ -504,7 +504,8 @@ static void check_folds(const int off[2], int *crossed) {
     if (lines != are_between(a, b))
       fail_msg("%zu lines: %d %d and %d %d, off by %d %d", lines, a[0], a[1],
                b[0], b[1], off[0], off[1]);
-    if (lines == 1) assert_upright(&sheet, 6, 12);
+    if (lines == 1)
+      assert_upright(&sheet, 6, 12);
     *crossed += lines == 1;
     hand_sheet_fini(&sheet);
   }
@@ -522,8 +523,8 @@ static void folds_cross_where_their_ways_alternate(void **state) {
 
 /* A fold with its edge on a face, or off it by a unit of depth. */
 static void a_fold_goes_through_a_face_it_lies_on(void **state) {
-  static const int face[][3] = {{2, 0, 16}, {30, 0, 16}, {30, 16, 16},
-                                {2, 16, 16}};
+  static const int face[][3] = {
+      {2, 0, 16}, {30, 0, 16}, {30, 16, 16}, {2, 16, 16}};
   (void)state;
   for (int i = 0; i < 3 * 64; i++) {
     const int off[2] = {0, i / 64 - 1}, a[2] = {i % 8, i / 8 % 8};

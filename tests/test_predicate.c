@@ -38,8 +38,7 @@ static struct geom_point draw(uint64_t *r) {
   }
 }
 
-/* ---- By GMP
- * -------------------------------------------------------------------- */
+/* ---- By GMP -------------------------------------------------------------- */
 
 static void set_row(mpz_t row[3], struct geom_point from,
                     struct geom_point to) {

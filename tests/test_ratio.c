@@ -118,8 +118,7 @@ static void comparing_is_transitive(void **state) {
   }
 }
 
-/* ---- ratio_lerp
- * ---------------------------------------------------------------- */
+/* ---- ratio_lerp ---------------------------------------------------------- */
 
 /* A parameter in [0, 1]. */
 static struct ratio draw_share(uint64_t *r) {
@@ -208,8 +207,7 @@ static void lerp_meets_both_ends(void **state) {
   }
 }
 
-/* ---- ratio_to_double
- * ------------------------------------------------------------- */
+/* ---- ratio_to_double ----------------------------------------------------- */
 
 static void the_double_is_within_two_units_in_the_last_place(void **state) {
   uint64_t r = 7;

@@ -51,8 +51,7 @@ static void assert_refused(const char *path, const char *format,
   reading_fini(&r);
 }
 
-/* ---- The reader -----------------------------------------------------------
- */
+/* ---- The reader ---------------------------------------------------------- */
 
 static void the_extension_chooses_the_reader(void **state) {
   size_t size = sizeof triangle - 1;
@@ -106,8 +105,7 @@ static void the_first_file_says_what_up_is(void **state) {
   reading_fini(&r);
 }
 
-/* ---- The bytes ------------------------------------------------------------
- */
+/* ---- The bytes ----------------------------------------------------------- */
 
 static void files_that_cannot_be_read_are_told(void **state) {
   assert_refused(temporary_path(state, "none.obj"), NULL, RECTO_ERROR_IO,
@@ -198,8 +196,7 @@ static void standard_input_may_be_a_file(void **state) {
   close(file);
 }
 
-/* ---- Failures -------------------------------------------------------------
- */
+/* ---- Failures ------------------------------------------------------------ */
 
 static void fill(struct reading *r, void **state) {
   reading_init(r);

@@ -76,8 +76,7 @@ static void add_box_around(struct mosaic *m, int x0, int y0, int x1, int y1,
                                    &m->arena));
 }
 
-/* ---- What holds of every region
- * ------------------------------------------------ */
+/* ---- What holds of every region ------------------------------------------ */
 
 static const struct geom_region_side *sides(const struct geom_region *region,
                                             size_t loop) {
@@ -265,8 +264,7 @@ static void assert_same_region(const struct geom_region *a,
   }
 }
 
-/* ---- Cutting up
- * ------------------------------------------------------------------ */
+/* ---- Cutting up ---------------------------------------------------------- */
 
 /* Splits all pieces by a line. */
 static void cut_by(struct mosaic *m, const struct geom_line *cut) {
@@ -386,8 +384,7 @@ static void the_form_depends_on_the_union_alone(void **state) {
   }
 }
 
-/* ---- Known regions
- * ---------------------------------------------------------------- */
+/* ---- Known regions ------------------------------------------------------- */
 
 /* Asserts the corners of a loop. */
 static void assert_corners(const struct geom_region *region, size_t l,

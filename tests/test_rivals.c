@@ -151,21 +151,21 @@ static void what_is_behind_is_no_rival(void **state) {
 
 static void memory_may_run_out_anywhere(void **state) {
   struct sheet sheet;
-  bool done = false;
+  bool ok = false;
   (void)state;
   lay_bars(&sheet, 40, 80);
-  for (unsigned long n = 1; !done; n++) {
+  for (unsigned long n = 1; !ok; n++) {
     struct rivals rivals;
     assert_true(n < 1000);
     rivals_init(&rivals, &sheet);
     rivals_start(&rivals, 0);
     mem_fail_after(n);
-    done = true;
-    for (uint32_t g = 2; done && g < sheet.triangle.count; g++)
-      done = rivals_ask(&rivals, g);
-    done = done && rivals_take_all(&rivals);
+    ok = true;
+    for (uint32_t g = 2; ok && g < sheet.triangle.count; g++)
+      ok = rivals_ask(&rivals, g);
+    ok = ok && rivals_take_all(&rivals);
     mem_fail_after(0);
-    assert_true(!done || n > 5);
+    assert_true(!ok || n > 5);
     rivals_fini(&rivals);
   }
   hand_sheet_fini(&sheet);

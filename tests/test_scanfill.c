@@ -26,7 +26,7 @@ static struct scan_grid plain_grid(bool down) {
   return make_grid(2, 2, 0, 0, down);
 }
 
-/* ---- The judge: half-open crossings counted in whole numbers ------------ */
+/* ---- The judge: half-open crossings counted in whole numbers ------------- */
 
 /* Does the side from p to q count at the pixel's centre: is the centre's
  * height in [low, high) and the side not right of it?  0, +1 or -1. */
@@ -71,7 +71,7 @@ static bool judge_pixel(const struct scan_grid *grid, const struct loops *loops,
   return rule == SCAN_EVEN_ODD ? crossings % 2 == 1 : winding != 0;
 }
 
-/* ---- The fill at work --------------------------------------------------- */
+/* ---- The fill at work ---------------------------------------------------- */
 
 static void fill(const struct scan_grid *grid, const struct loops *loops,
                  enum scan_rule rule, unsigned char pixel[SIDE][SIDE]) {
@@ -165,7 +165,7 @@ static void both_ways(const struct loops *loops) {
   assert_fill_is_judged(&down, loops);
 }
 
-/* ---- Claims ------------------------------------------------------------- */
+/* ---- Claims -------------------------------------------------------------- */
 
 static void convex_polygon_is_filled(void **state) {
   const int64_t square[] = {10, 5, 25, 5, 25, 25, 10, 25};
@@ -312,7 +312,7 @@ static void neighbours_share_no_pixel_and_leave_none(void **state) {
   }
 }
 
-/* ---- Lists -------------------------------------------------------------- */
+/* ---- Lists --------------------------------------------------------------- */
 
 static void active_edges_stay_in_order_and_end_in_time(void **state) {
   struct random random = {8};
@@ -412,7 +412,7 @@ static void worked_crossings_come_in_steps_of_a_third(void **state) {
   }
 }
 
-/* ---- Convex polygons ---------------------------------------------------- */
+/* ---- Convex polygons ----------------------------------------------------- */
 
 static void fill_convex(const struct scan_grid *grid, const int64_t *xy,
                         uint32_t count, unsigned char pixel[SIDE][SIDE]) {
@@ -482,7 +482,7 @@ static void flat_polygon_covers_no_line(void **state) {
   assert_false(scan_convex_start(&walk, &grid, p, 3));
 }
 
-/* ---- Hatching, memory --------------------------------------------------- */
+/* ---- Hatching, memory ---------------------------------------------------- */
 
 /* Spans keep x unrounded, so that a turned square's hatch adds up to its
  * area: 30 by 30 units turned by the angle of a 3-4-5 triangle. */
@@ -511,14 +511,13 @@ static void running_out_of_memory_is_told(void **state) {
   (void)state;
   for (unsigned long n = 1;; n++) {
     struct scan_table table;
-    bool good;
+    bool ok;
     scan_table_init(&table, &grid);
     mem_fail_after(n);
-    good =
-        scan_table_add_loop(&table, square, 4, 0) && scan_table_start(&table);
+    ok = scan_table_add_loop(&table, square, 4, 0) && scan_table_start(&table);
     mem_fail_after(0);
     scan_table_fini(&table);
-    if (good)
+    if (ok)
       break;
     fails++;
   }

@@ -64,8 +64,7 @@ static void assert_fault(const struct reading *r, enum scene_fault fault,
     assert_int_equal(r->diagnostics.count[i], i == (int)fault ? count : 0);
 }
 
-/* ---- Groups ---------------------------------------------------------------
- */
+/* ---- Groups -------------------------------------------------------------- */
 
 static void a_face_without_a_group_gets_one(void **state) {
   struct reading *r = *state;
@@ -116,8 +115,7 @@ static void names_become_clean_utf_8(void **state) {
   clean("cut \xe2\x82", "cut \xc3\xa2?");
 }
 
-/* ---- Faces ----------------------------------------------------------------
- */
+/* ---- Faces --------------------------------------------------------------- */
 
 static void a_sound_face_is_kept_as_it_is(void **state) {
   struct reading *r = *state;
@@ -227,8 +225,7 @@ static void an_index_out_of_range_is_no_face(void **state) {
   assert_int_equal(scene_wire_count(&r->scene), 0);
 }
 
-/* ---- Bow-ties -------------------------------------------------------------
- */
+/* ---- Bow-ties ------------------------------------------------------------ */
 
 static void a_bow_tie_is_kept_with_a_warning(void **state) {
   struct reading *r = *state;
@@ -375,8 +372,7 @@ static void a_huge_comb_ends_soon(void **state) {
   assert_fault(r, SCENE_FAULT_COUNT, 0);
 }
 
-/* ---- Polylines ------------------------------------------------------------
- */
+/* ---- Polylines ----------------------------------------------------------- */
 
 static void polylines_keep_two_distinct_points_at_least(void **state) {
   struct reading *r = *state;
@@ -399,8 +395,7 @@ static void polylines_keep_two_distinct_points_at_least(void **state) {
   assert_memory_equal(r->scene.wire_corner.item, corner, sizeof corner);
 }
 
-/* ---- Diagnostics ----------------------------------------------------------
- */
+/* ---- Diagnostics --------------------------------------------------------- */
 
 static void three_of_a_kind_are_told_and_the_rest_counted(void **state) {
   struct reading *r = *state;
@@ -435,8 +430,7 @@ static void the_next_file_is_told_anew(void **state) {
   diagnostics_finish(NULL);
 }
 
-/* ---- Going back -----------------------------------------------------------
- */
+/* ---- Going back ---------------------------------------------------------- */
 
 static void a_mark_brings_the_scene_back(void **state) {
   struct reading *r = *state;
@@ -466,8 +460,7 @@ static void a_mark_brings_the_scene_back(void **state) {
   }
 }
 
-/* ---- Memory ---------------------------------------------------------------
- */
+/* ---- Memory -------------------------------------------------------------- */
 
 static recto_status build(struct scene *scene, recto_error *error) {
   static const uint32_t face[] = {0, 1, 2, 3}, line[] = {0, 2};
@@ -508,8 +501,7 @@ static void running_out_of_memory_leaves_a_sound_scene(void **state) {
   assert_true(n > 50);
 }
 
-/* ---- Writing --------------------------------------------------------------
- */
+/* ---- Writing ------------------------------------------------------------- */
 
 static void what_is_written_reads_back_the_same(void **state) {
   struct reading *r = *state;

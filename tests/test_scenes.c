@@ -95,8 +95,7 @@ static void a_seed_names_one_small_scene(void **state) {
   assert_true(different > 190);
 }
 
-/* ---- Shape -----------------------------------------------------------------
- */
+/* ---- Shape --------------------------------------------------------------- */
 
 /* How many directed sides a -> b the scene has. */
 static unsigned count_sides(const struct scene *scene, uint32_t a, uint32_t b) {
@@ -190,8 +189,7 @@ static void a_menger_sponge_has_the_faces_it_should(void **state) {
   }
 }
 
-/* ---- Whole scenes
- * ------------------------------------------------------------ */
+/* ---- Whole scenes -------------------------------------------------------- */
 
 static void assert_near(double a, double b, double within) {
   if (!(fabs(a - b) <= within))

@@ -48,9 +48,9 @@ static bool index_all(struct sidegrid *grid, const struct sheet *sheet) {
   assert_non_null(all);
   for (size_t t = 0; t < n; t++)
     all[t] = (uint32_t)t;
-  bool done = sidegrid_init(grid, sheet, all, n);
+  bool ok = sidegrid_init(grid, sheet, all, n);
   free(all);
-  return done;
+  return ok;
 }
 
 /* Asks about one side; counts those found that share a stretch, and others. */
@@ -103,15 +103,15 @@ static void what_runs_along_a_side_is_found(void **state) {
 static void memory_may_run_out(void **state) {
   uint64_t r = 7;
   struct sheet sheet;
-  bool done = false;
+  bool ok = false;
   unsigned long n = 1;
   (void)state;
   hand_random_sheet(&sheet, HAND_MESH, 40, &r);
-  for (; !done; n++) {
+  for (; !ok; n++) {
     struct sidegrid grid;
     assert_true(n < 100);
     mem_fail_after(n);
-    done = index_all(&grid, &sheet);
+    ok = index_all(&grid, &sheet);
     mem_fail_after(0);
     sidegrid_fini(&grid);
   }

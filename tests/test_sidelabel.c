@@ -104,8 +104,7 @@ static void assert_labels(const quad *one, const quad *two,
 #define ASSERT_LABELS(one, two, label)                                         \
   assert_labels(&(one), &(two), label, sizeof(label) / sizeof *(label))
 
-/* ---- Edges and outlines ---------------------------------------------------
- */
+/* ---- Edges and outlines -------------------------------------------------- */
 
 static void a_face_s_own_sides_are_its_edges(void **state) {
   (void)state;
@@ -194,8 +193,7 @@ static void of_several_edges_the_lowest_is_named(void **state) {
   }
 }
 
-/* ---- Other sides ----------------------------------------------------------
- */
+/* ---- Other sides --------------------------------------------------------- */
 
 static void where_faces_pierce_is_an_intersection(void **state) {
   (void)state;

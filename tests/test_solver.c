@@ -10,8 +10,7 @@
 
 #include <cmocka.h>
 
-/* ---- The table
- * ----------------------------------------------------------------- */
+/* ---- The table ----------------------------------------------------------- */
 
 static void a_solver_is_found_by_its_method_and_its_name(void **state) {
   int count = 0;
@@ -32,8 +31,7 @@ static void a_solver_is_found_by_its_method_and_its_name(void **state) {
   assert_false(solver_painter.exact || solver_painter_given.exact);
 }
 
-/* ---- Each allocation failing
- * ----------------------------------------------------- */
+/* ---- Each allocation failing --------------------------------------------- */
 
 /* Bars in a cycle, a sheet that pierces them, a decal on that and a needle
  * edge-on: all that solvers have room to fail at. */
@@ -135,8 +133,7 @@ static void running_out_of_memory_is_a_status_and_leaks_nothing(void **state) {
     }
 }
 
-/* ---- No more than was asked
- * ------------------------------------------------------- */
+/* ---- No more than was asked ---------------------------------------------- */
 
 static void check_parts(const struct solver *solver, bool strokes,
                         bool fragments) {

@@ -25,9 +25,9 @@ static const struct solver warnock_by_box = {
     RECTO_METHOD_WARNOCK, "warnock by box", true, divide_by_box};
 
 /* The oracle comes first. */
-static const struct solver *const exact[] = {&solver_brute, &solver_newell,
+static const struct solver *const exact[] = {&solver_brute,   &solver_newell,
                                              &solver_warnock, &warnock_by_box,
-                                             &solver_tiles, &solver_watkins};
+                                             &solver_tiles,   &solver_watkins};
 
 static void assert_same_text(const char *text, size_t length, const char *want,
                              size_t want_length, const char *what, int view,

@@ -11,8 +11,7 @@
 #include "base/sort.h"
 #include "tests/scenes/random.h"
 
-/* ---- Keys -----------------------------------------------------------------
- */
+/* ---- Keys ---------------------------------------------------------------- */
 
 /* Each value is the item's place before sorting. */
 static void assert_sorted_stably(const struct sort_key *item, size_t count) {
@@ -93,8 +92,7 @@ static void keys_of_signed_numbers_keep_their_order(void **state) {
                 sort_key_of_int64(number[i]));
 }
 
-/* ---- Merging --------------------------------------------------------------
- */
+/* ---- Merging ------------------------------------------------------------- */
 
 struct record {
   int key;

@@ -46,7 +46,8 @@ static void start(struct sheet *sheet, bool perspective, int bits,
   while (geom_orient2d(p[0], p[1], p[2]) <= 0);
   for (int k = 0; k < 3; k++)
     assert_true(ARRAY_PUSH(&sheet->point, p[k]));
-  struct sheet_triangle t = {{0, 1, 2}, {SHEET_NONE, SHEET_NONE, SHEET_NONE}, 0};
+  struct sheet_triangle t = {
+      {0, 1, 2}, {SHEET_NONE, SHEET_NONE, SHEET_NONE}, 0};
   assert_true(ARRAY_PUSH(&sheet->triangle, t));
 }
 
@@ -54,13 +55,13 @@ static void start(struct sheet *sheet, bool perspective, int bits,
 static struct geom_point near_plane(const struct hider *h, int64_t off) {
   double u = (double)number(20) / 0x1p20, v = (double)number(20) / 0x1p20;
   const struct geom_point *p = h->p;
-  return (struct geom_point){
-      (int32_t)(p[0].x + u * ((double)p[1].x - p[0].x) +
-                v * ((double)p[2].x - p[0].x)),
-      (int32_t)(p[0].y + u * ((double)p[1].y - p[0].y) +
-                v * ((double)p[2].y - p[0].y)),
-      off + (int64_t)((double)p[0].z + u * (double)(p[1].z - p[0].z) +
-                      v * (double)(p[2].z - p[0].z))};
+  return (struct geom_point){(int32_t)(p[0].x + u * ((double)p[1].x - p[0].x) +
+                                       v * ((double)p[2].x - p[0].x)),
+                             (int32_t)(p[0].y + u * ((double)p[1].y - p[0].y) +
+                                       v * ((double)p[2].y - p[0].y)),
+                             off + (int64_t)((double)p[0].z +
+                                             u * (double)(p[1].z - p[0].z) +
+                                             v * (double)(p[2].z - p[0].z))};
 }
 
 static bool stance_of_sides(const int side[3]) {
@@ -124,7 +125,7 @@ static void doubles_are_right_or_do_not_know(void **state) {
   assert_true(certain[4] > 10000);
 }
 
-/* ---- Octagons ------------------------------------------------------------- */
+/* ---- Octagons ------------------------------------------------------------ */
 
 static struct octagon octagon_of(const struct geom_point p[3], int count) {
   struct octagon octagon = octagon_of_point(p[0]);
@@ -154,8 +155,8 @@ static void words_deny_only_what_does_not_meet(void **state) {
       q[k].y = q[0].y + number(8);
     }
     struct octagon a = octagon_of(p, 3), b = octagon_of(q, 2);
-    bool may = octagon_meets(octagon_word(&frame, &a),
-                             octagon_question(&frame, &b));
+    bool may =
+        octagon_meets(octagon_word(&frame, &a), octagon_question(&frame, &b));
     assert_true(may || !overlap(&a, &b));
     denied += !may;
     met += overlap(&a, &b);

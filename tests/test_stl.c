@@ -45,8 +45,7 @@ static void assert_broken(const char *bytes, size_t count, unsigned long line,
 #define NEITHER                                                                \
   "neither a text STL, which begins with 'solid', nor a binary one"
 
-/* ---- Binary ---------------------------------------------------------------
- */
+/* ---- Binary -------------------------------------------------------------- */
 
 enum { TRIANGLES_MAX = 3000 };
 
@@ -242,8 +241,7 @@ static void a_size_is_checked_before_memory_is_taken(void **state) {
                 "0");
 }
 
-/* ---- Text -----------------------------------------------------------------
- */
+/* ---- Text ---------------------------------------------------------------- */
 
 #define FACET(a, b, c)                                                         \
   " facet normal 0 0 1\n  outer loop\n   vertex " a "\n   vertex " b           \
@@ -417,8 +415,7 @@ static void row_22_a_decimal_comma_changes_nothing(void **state) {
   reading_fini(&r);
 }
 
-/* ---- Memory ---------------------------------------------------------------
- */
+/* ---- Memory -------------------------------------------------------------- */
 
 static void run_out_of_memory(const char *bytes, size_t count) {
   recto_status status = RECTO_ERROR_MEMORY;

@@ -38,8 +38,7 @@ static bool exists(const char *path) {
   return stat(path, &about) == 0;
 }
 
-/* ---- Files ----------------------------------------------------------------
- */
+/* ---- Files --------------------------------------------------------------- */
 
 static void a_file_appears_when_it_is_finished(void **state) {
   const char *path = temporary_path(state, "out.txt");
@@ -246,8 +245,7 @@ static void places_that_cannot_be_written_are_told(void **state) {
   assert_int_equal(stream_open(&stream, path, &error), RECTO_ERROR_IO);
 }
 
-/* ---- Several streams ------------------------------------------------------
- */
+/* ---- Several streams ----------------------------------------------------- */
 
 static void several_appear_together(void **state) {
   const char *a = temporary_path(state, "a"), *b = temporary_path(state, "b");
@@ -306,8 +304,7 @@ static void a_file_of_two_names_is_written_in_place(void **state) {
   assert_file(b, "new");
 }
 
-/* ---- Descriptors ----------------------------------------------------------
- */
+/* ---- Descriptors --------------------------------------------------------- */
 
 /* What a host writes to a standard stream that it has closed must not land in a
  * file of ours. */
@@ -343,7 +340,7 @@ static void a_closed_standard_descriptor_stays_closed(void **state) {
   }
 }
 
-/* ---- Compressed ----------------------------------------------------------- */
+/* ---- Compressed ---------------------------------------------------------- */
 
 static void what_is_compressed_is_read_again(void **state) {
   const char *path = temporary_path(state, "out.gz");
@@ -371,8 +368,7 @@ static void what_is_compressed_is_read_again(void **state) {
   input_unload(&input);
 }
 
-/* ---- Standard output ------------------------------------------------------
- */
+/* ---- Standard output ----------------------------------------------------- */
 
 static void standard_output_is_held_back_until_the_end(void **state) {
   const char *path = temporary_file(state, "stdout.txt", "", 0);
@@ -399,8 +395,7 @@ static void standard_output_is_held_back_until_the_end(void **state) {
   assert_int_equal(size, 500000);
 }
 
-/* ---- Memory ---------------------------------------------------------------
- */
+/* ---- Memory -------------------------------------------------------------- */
 
 static void a_memory_stream_lends_what_was_written(void **state) {
   (void)state;

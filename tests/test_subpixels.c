@@ -160,7 +160,7 @@ static void running_out_of_memory_is_told(void **state) {
   }
 }
 
-/* ---- Backs -------------------------------------------------------------- */
+/* ---- Backs --------------------------------------------------------------- */
 
 /* A back face before a front face, apart: what is removed takes its lines
  * with it, wherever they are. */

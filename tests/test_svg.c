@@ -266,12 +266,12 @@ static void fills_come_before_strokes(void **state) {
                      "<g class=\"crease\">\n<path d=\"M3");
 }
 
-static void lines_that_follow_each_other_share_the_group_of_their_class(
-    void **state) {
+static void
+lines_that_follow_each_other_share_the_group_of_their_class(void **state) {
   struct fixture *f = *state;
-  static const unsigned edge_class[] = {
-      RECTO_EDGE_CREASE, RECTO_EDGE_CREASE, RECTO_EDGE_SILHOUETTE, 0,
-      RECTO_EDGE_SILHOUETTE};
+  static const unsigned edge_class[] = {RECTO_EDGE_CREASE, RECTO_EDGE_CREASE,
+                                        RECTO_EDGE_SILHOUETTE, 0,
+                                        RECTO_EDGE_SILHOUETTE};
   f->drawing.weight[0] = 2;
   for (int i = 0; i < 5; i++) {
     struct drawing_stroke *stroke =

@@ -740,10 +740,10 @@ static void a_failed_allocation_is_told(void **state) {
   struct random random = {17};
   grow(p, &random, 40, 30);
   unsigned long n = 0;
-  for (bool done = false; !done; assert_true(n < 10)) {
+  for (bool ok = false; !ok; assert_true(n < 10)) {
     struct triangulation t = {0};
     mem_fail_after(++n);
-    done = cut(&t, p, POSE_XY);
+    ok = cut(&t, p, POSE_XY);
     mem_fail_after(0);
     triangulation_fini(&t);
   }

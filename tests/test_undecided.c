@@ -27,7 +27,7 @@ static void start(struct scene *scene, recto_options *options) {
   options->threads = 1;
 }
 
-/* ---- Scenes ------------------------------------------------------------- */
+/* ---- Scenes -------------------------------------------------------------- */
 
 /* Large triangles about one place, nearly all of which pierce each other.
  * lattice  corners have small whole numbers, and coincide */
@@ -99,7 +99,7 @@ static void add_scene(struct scene *scene, int kind) {
   }
 }
 
-/* ---- The same drawing --------------------------------------------------- */
+/* ---- The same drawing ---------------------------------------------------- */
 
 static void crowds_are_drawn_as_by_brute(void **state) {
   (void)state;
@@ -147,7 +147,7 @@ static void what_pierces_too_much_is_left_over(void **state) {
   assert_true(left_over(&solver_watkins, RECTO_FILL_PAINT, "left_over") > 0);
 }
 
-/* ---- Memory ------------------------------------------------------------- */
+/* ---- Memory -------------------------------------------------------------- */
 
 /* The peak in bytes of a process that draws n triangles. */
 static size_t peak_of(const struct solver *solver, unsigned n) {
@@ -186,7 +186,7 @@ static void two_hundred_piercing_triangles_take_little_memory(void **state) {
 #endif
 }
 
-/* ---- Ends --------------------------------------------------------------- */
+/* ---- Ends ---------------------------------------------------------------- */
 
 struct patience {
   int asked, most;

@@ -40,11 +40,9 @@ static void draw(struct asked *asked) {
 
 static recto_status ask(struct asked *asked, int exponent) {
   struct pipeline *p = &asked->pipeline;
-  const struct verify verify = {&asked->scene,  exponent, &p->camera,
-                                &p->sheet,      &p->map,  &p->drawing,
-                                &asked->options,
-                                NULL,
-                                NULL};
+  const struct verify verify = {&asked->scene,   exponent, &p->camera,
+                                &p->sheet,       &p->map,  &p->drawing,
+                                &asked->options, NULL,     NULL};
   asked->summary[0] = '\0';
   return verify_drawing(&verify, p->report, asked->summary, &asked->error);
 }
@@ -102,8 +100,7 @@ static uint32_t edge_between(const struct asked *asked, uint32_t a,
   return 0;
 }
 
-/* ---- Right drawings -------------------------------------------------------
- */
+/* ---- Right drawings ------------------------------------------------------ */
 
 static void the_stability_list_passes(void **state) {
   (void)state;
@@ -289,8 +286,7 @@ static void nothing_drawn_of_nothing_asked_for_passes(void **state) {
   end(&asked);
 }
 
-/* ---- Wrong drawings -------------------------------------------------------
- */
+/* ---- Wrong drawings ------------------------------------------------------ */
 
 /* The place that the message names. */
 static void read_place(const struct asked *asked, double at[2]) {
@@ -399,8 +395,7 @@ static void every_part_of_a_drawing_is_asked_about(void **state) {
   }
 }
 
-/* ---- Faults ---------------------------------------------------------------
- */
+/* ---- Faults -------------------------------------------------------------- */
 
 static void every_allocation_may_fail(void **state) {
   (void)state;

@@ -21,7 +21,7 @@ static struct solver_request request_of(bool fragments, bool by_box) {
                                  .divide_by_box = by_box};
 }
 
-/* ---- Scenes ------------------------------------------------------------- */
+/* ---- Scenes -------------------------------------------------------------- */
 
 /* Triangles all over a lattice of which about `size` steps each are covered. */
 static void random_scene(struct sheet *sheet, uint64_t seed, int faces,
@@ -60,7 +60,7 @@ static void tents_and_a_wall(struct sheet *sheet, int n, int wall_z,
     }
 }
 
-/* ---- The exact map ------------------------------------------------------ */
+/* ---- The exact map ------------------------------------------------------- */
 
 static void assert_brute_says_the_same(void (*fill)(struct sheet *, uint64_t),
                                        uint64_t seed, bool fragments) {
@@ -121,7 +121,7 @@ static void walls_at_any_depth_have_the_map_of_brute(void **state) {
     assert_brute_says_the_same(tents, seed, seed % 2 == 0);
 }
 
-/* ---- Windows ------------------------------------------------------------ */
+/* ---- Windows ------------------------------------------------------------- */
 
 static int64_t count_of(const struct report *report, const char *name) {
   int64_t count = report_get(report, "warnock", name, -1);
@@ -265,7 +265,7 @@ static void row_29_a_fan_ends_in_fewer_windows_than_faces(void **state) {
   }
 }
 
-/* ---- Conversation ------------------------------------------------------- */
+/* ---- Conversation -------------------------------------------------------- */
 
 static bool stop_in_a_while(void *user, double share, const char *stage) {
   int *asked = user;

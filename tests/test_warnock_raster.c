@@ -13,7 +13,7 @@
 #include "visibility/warnock_raster.h"
 #include "visibility/zbuffer.h"
 
-/* ---- Frames ------------------------------------------------------------- */
+/* ---- Frames -------------------------------------------------------------- */
 
 static void draw_frame(struct warnock_frame *frame, const struct sheet *sheet,
                        const struct solver_request *request) {
@@ -94,7 +94,7 @@ static size_t stack_bound(const struct scan_grid *grid) {
   return n == 0 ? 5 : 3 * (n - 1) + 5;
 }
 
-/* ---- The worked frames -------------------------------------------------- */
+/* ---- The worked frames --------------------------------------------------- */
 
 static void assert_worked_frame(const struct pixels_scene *scene,
                                 int (*seen)(int, int), bool by_box) {
@@ -149,7 +149,7 @@ static void the_lower_left_window_is_finished_undivided(void **state) {
   hand_sheet_fini(&sheet);
 }
 
-/* ---- The rules ---------------------------------------------------------- */
+/* ---- The rules ----------------------------------------------------------- */
 
 static void assert_first_rule(const struct pixels_scene *scene,
                               enum warnock_rule rule) {
@@ -232,7 +232,7 @@ static void a_surrounder_is_classified_once(void **state) {
   hand_sheet_fini(&sheet);
 }
 
-/* ---- The z-buffer's pixels ---------------------------------------------- */
+/* ---- The z-buffer's pixels ----------------------------------------------- */
 
 static void random_scenes_are_right_in_every_pixel(void **state) {
   static const int lines[] = {1, 7, 32, 45, 64, 100};
@@ -380,7 +380,7 @@ static void maps_are_those_of_the_zbuffer(void **state) {
   }
 }
 
-/* ---- The stack ---------------------------------------------------------- */
+/* ---- The stack ----------------------------------------------------------- */
 
 /* Two walls that cross in a diagonal plane, so that there is something to
  * divide down to the pixels in the corner that is taken first. */
@@ -406,7 +406,7 @@ static void the_stack_reaches_its_bound_and_no_more(void **state) {
     }
 }
 
-/* ---- Sub-pixels --------------------------------------------------------- */
+/* ---- Sub-pixels ---------------------------------------------------------- */
 
 /* How many of a pixel's sub-pixels see a facet, by a finer frame. */
 static uint32_t count_in(const struct raster *fine, int32_t k, size_t column,
@@ -487,7 +487,7 @@ static void averaging_comes_nearer_to_the_area(void **state) {
   assert_true(covered_share(10, 1) == covered_share(10, 0));
 }
 
-/* ---- Conversation ------------------------------------------------------- */
+/* ---- Conversation -------------------------------------------------------- */
 
 static void bad_knobs_are_refused(void **state) {
   const struct solver_request bad[] = {{.resolution = 65537},

@@ -94,9 +94,9 @@ static void check_methods(const struct scene *scene,
 static recto_status ask(const struct pipeline *p, const struct scene *scene,
                         const recto_options *options, recto_error *error) {
   char summary[VERIFY_SUMMARY_SIZE];
-  const struct verify verify = {scene,   0,           &p->camera, &p->sheet,
-                                &p->map, &p->drawing, options,
-                                NULL,    NULL};
+  const struct verify verify = {scene,     0,       &p->camera,
+                                &p->sheet, &p->map, &p->drawing,
+                                options,   NULL,    NULL};
   return verify_drawing(&verify, p->report, summary, error);
 }
 

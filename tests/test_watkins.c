@@ -52,7 +52,7 @@ static void assert_near(double got, double want) {
     fail_msg("%.12g, not %.12g", got, want);
 }
 
-/* ---- Frames ------------------------------------------------------------- */
+/* ---- Frames -------------------------------------------------------------- */
 
 /* Is the facet's depth at x above that of another by more than rounding? */
 static bool is_nearer(const struct walk *walk, uint32_t f, uint32_t g,
@@ -148,7 +148,7 @@ static void random_scenes_are_right_in_every_pixel(void **state) {
   }
 }
 
-/* ---- Worked lists ------------------------------------------------------- */
+/* ---- Worked lists -------------------------------------------------------- */
 
 struct listed_edge {
   double x, dx;
@@ -318,7 +318,7 @@ static void an_interval_is_split_wherever_two_seen_faces_pierce(void **state) {
   assert_frame_is_judged(&fan, 32);
 }
 
-/* ---- Coherence ---------------------------------------------------------- */
+/* ---- Coherence ----------------------------------------------------------- */
 
 static void solve_scene(const struct pixels_scene *scene, bool coherent,
                         double pitch_mm, struct map *map,
@@ -398,7 +398,7 @@ static void no_depth_is_computed_of_faces_clearly_apart(void **state) {
   assert_int_equal(without, 0);
 }
 
-/* ---- What it draws ------------------------------------------------------ */
+/* ---- What it draws ------------------------------------------------------- */
 
 static void equal_sides_make_one_trapezoid(void **state) {
   const struct pixels_scene square = {

@@ -20,7 +20,7 @@ static void make_sheet(struct sheet *sheet, uint64_t seed) {
                     2 + hand_below(&r, 10), &r);
 }
 
-/* ---- Places ------------------------------------------------------------- */
+/* ---- Places -------------------------------------------------------------- */
 
 /* Distinct points of the page. */
 struct point_set {
@@ -151,7 +151,7 @@ static void a_crossing_lies_on_both_edges(void **state) {
   assert_true(crossings > 2000);
 }
 
-/* ---- Trapezoids --------------------------------------------------------- */
+/* ---- Trapezoids ---------------------------------------------------------- */
 
 struct areas {
   mpq_t *sum; /* one a triangle: twice its area */
@@ -234,7 +234,7 @@ static void trapezoids_tile_every_triangle(void **state) {
   assert_true(cells > 2000);
 }
 
-/* ---- Depth -------------------------------------------------------------- */
+/* ---- Depth --------------------------------------------------------------- */
 
 /* Two squares that pierce each other, and one behind both. */
 static void piercing_squares(struct sheet *sheet) {
@@ -273,7 +273,7 @@ static void doubles_leave_only_what_pierces_to_exact_planes(void **state) {
   hand_sheet_fini(&sheet);
 }
 
-/* ---- Limits ------------------------------------------------------------- */
+/* ---- Limits -------------------------------------------------------------- */
 
 static void a_scene_beyond_the_limits_is_refused(void **state) {
   struct sheet sheet;

@@ -21,7 +21,7 @@ static enum window_class classify(const struct window *window,
   return class;
 }
 
-/* ---- Worked numbers ----------------------------------------------------- */
+/* ---- Worked numbers ------------------------------------------------------ */
 
 static void a_box_contains_or_is_disjoint_as_listed(void **state) {
   const struct window window = {0, 0, 32, 32};
@@ -117,7 +117,7 @@ static void octants_run_counter_clockwise_from_the_right(void **state) {
   assert_int_equal(window_octant(&window, 32, 33), 2);
 }
 
-/* ---- The ambiguous case ------------------------------------------------- */
+/* ---- The ambiguous case -------------------------------------------------- */
 
 /* A point turned about the window's middle by quarters, for a window that is a
  * square about the origin. */
@@ -179,7 +179,7 @@ static void long_edges_past_small_windows_are_split_often(void **state) {
   }
 }
 
-/* ---- Other ways of asking ----------------------------------------------- */
+/* ---- Other ways of asking ------------------------------------------------ */
 
 static bool is_inside(const struct window *w, struct geom_point p) {
   return p.x >= w->x0 && p.x <= w->x1 && p.y >= w->y0 && p.y <= w->y1;
@@ -352,7 +352,7 @@ static void what_touches_the_window_intersects_it(void **state) {
   assert_int_equal(classify(&window, same, 4), WINDOW_CONTAINED);
 }
 
-/* ---- Clipping ----------------------------------------------------------- */
+/* ---- Clipping ------------------------------------------------------------ */
 
 /* Is the point p + t (q - p) inside? */
 static bool is_inside_at(const struct window *w, struct geom_point p,
@@ -396,7 +396,7 @@ static void clipping_keeps_what_is_inside_and_no_less(void **state) {
   }
 }
 
-/* ---- Cutting ------------------------------------------------------------ */
+/* ---- Cutting ------------------------------------------------------------- */
 
 static void cuts_are_at_a_box_but_cut_no_slivers_off(void **state) {
   (void)state;
@@ -416,7 +416,7 @@ static void cuts_are_at_a_box_but_cut_no_slivers_off(void **state) {
       }
 }
 
-/* ---- Range -------------------------------------------------------------- */
+/* ---- Range --------------------------------------------------------------- */
 
 static void the_ends_of_the_grid_are_no_harder(void **state) {
   const struct window page = {-FAR_OFF, -FAR_OFF, FAR_OFF, FAR_OFF};

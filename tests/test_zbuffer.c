@@ -18,7 +18,7 @@ enum { FINE = 2048 }; /* lines where the answer should be nearly exact */
 static const struct solver *const both[] = {&solver_zbuffer,
                                             &solver_scanline_zbuffer};
 
-/* ---- Frames ------------------------------------------------------------- */
+/* ---- Frames -------------------------------------------------------------- */
 
 static const struct solver_request plain = {.threads = 1};
 
@@ -180,7 +180,7 @@ static void ties_of_rounded_depths_keep_the_earlier_face(void **state) {
   }
 }
 
-/* ---- Worked numbers ----------------------------------------------------- */
+/* ---- Worked numbers ------------------------------------------------------ */
 
 static void assert_near(double got, double want) {
   if (!(fabs(got - want) < 0x1p-30))
@@ -270,7 +270,7 @@ static void depths_of_line_15_fall_by_three_quarters(void **state) {
   hand_sheet_fini(&sheet);
 }
 
-/* ---- Depth -------------------------------------------------------------- */
+/* ---- Depth --------------------------------------------------------------- */
 
 /* Two sheets over the page's middle at depth z and z + gap. */
 static void near_sheets(struct sheet *sheet, int64_t z, int64_t gap) {
@@ -494,7 +494,7 @@ static void needles_cover_the_pixels_whose_centres_they_hold(void **state) {
     assert_frames_are_judged(&scene, lines);
 }
 
-/* ---- Back faces --------------------------------------------------------- */
+/* ---- Back faces ---------------------------------------------------------- */
 
 static void removed_backs_leave_what_is_behind(void **state) {
   /* A back face before a front face. */
@@ -521,7 +521,7 @@ static void removed_backs_leave_what_is_behind(void **state) {
     }
 }
 
-/* ---- Maps --------------------------------------------------------------- */
+/* ---- Maps ---------------------------------------------------------------- */
 
 static void solve_scene(const struct solver *solver,
                         const struct pixels_scene *scene, int lines, int bits,
@@ -615,7 +615,7 @@ static void scan_line_draws_the_same_map(void **state) {
   }
 }
 
-/* ---- Strokes ------------------------------------------------------------ */
+/* ---- Strokes ------------------------------------------------------------- */
 
 /* The visible part of an edge between two parameters, 0 to 1. */
 static double visible_share(const struct map *map, uint32_t edge, double from,
@@ -858,7 +858,7 @@ static void intersections_are_drawn_where_asked_for(void **state) {
   hand_sheet_fini(&sheet);
 }
 
-/* ---- Conversation ------------------------------------------------------- */
+/* ---- Conversation -------------------------------------------------------- */
 
 static void bad_knobs_are_refused(void **state) {
   const struct solver_request bad[] = {{.resolution = -5},

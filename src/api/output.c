@@ -37,9 +37,8 @@ size_t recto_drawing_stroke_count(const recto_drawing *drawing) {
 
 recto_stroke recto_drawing_stroke(const recto_drawing *drawing, size_t index) {
   if (index >= recto_drawing_stroke_count(drawing))
-    return (recto_stroke){.face = UINT32_MAX,
-                          .edge = UINT32_MAX,
-                          .group = UINT32_MAX};
+    return (recto_stroke){
+        .face = UINT32_MAX, .edge = UINT32_MAX, .group = UINT32_MAX};
   const struct drawing_stroke *stroke = &drawing->drawing.stroke.item[index];
   /* A drawing's point is exactly a pair of doubles. */
   static_assert(sizeof(struct drawing_point) == 2 * sizeof(double), "pairs");
@@ -202,11 +201,9 @@ static recto_status fill_outputs(struct outputs *outputs,
   return status;
 }
 
-recto_status
-recto_drawing_write_with_stats(const recto_drawing *drawing, const char *path,
-                               const char *format, const char *stats,
-                               const recto_options *options,
-                               recto_error *error) {
+recto_status recto_drawing_write_with_stats(
+    const recto_drawing *drawing, const char *path, const char *format,
+    const char *stats, const recto_options *options, recto_error *error) {
   recto_options own;
   struct outputs outputs = {NULL, NULL};
   if (drawing == NULL || path == NULL)

@@ -33,7 +33,7 @@ struct render {
   struct map map;
   struct drawing *drawing;
   struct report *report;
-  char *verdict; /* VERIFY_SUMMARY_SIZE */
+  char *verdict;                  /* VERIFY_SUMMARY_SIZE */
   double begin[SHARE_STAGES + 1]; /* shares of the work: see shares.h */
   double passed;                  /* the most that was handed on */
 };
@@ -146,11 +146,10 @@ static recto_status aim(struct render *render, recto_error *error) {
 
 static recto_status project(struct render *render, recto_error *error) {
   recto_status status = sheet_init(
-      &render->sheet, &render->welded.scene, &render->topology,
-      &render->camera, &render->rescaled.options, has_fills(render), error);
-  if (status == RECTO_OK &&
-      (render->sheet.clipped_page > 0 ||
-       scene_wire_count(&render->welded.scene) > 0))
+      &render->sheet, &render->welded.scene, &render->topology, &render->camera,
+      &render->rescaled.options, has_fills(render), error);
+  if (status == RECTO_OK && (render->sheet.clipped_page > 0 ||
+                             scene_wire_count(&render->welded.scene) > 0))
     status = beyond_measure(&render->beyond, &render->welded.scene,
                             &render->topology, &render->camera,
                             &render->rescaled.options, error);
@@ -224,17 +223,16 @@ static bool pass_verifying(void *user, double share) {
 static recto_status verify(struct render *render, recto_error *error) {
   if (render->options->verify == 0)
     return RECTO_OK;
-  const struct verify what = {.scene = &render->welded.scene,
-                              .exponent = render->rescaled.exponent,
-                              .camera = &render->camera,
-                              .sheet = &render->sheet,
-                              .map = &render->map,
-                              .drawing = render->drawing,
-                              .options = &render->rescaled.options,
-                              .progress = render->options->progress != NULL
-                                              ? pass_verifying
-                                              : NULL,
-                              .user = render};
+  const struct verify what = {
+      .scene = &render->welded.scene,
+      .exponent = render->rescaled.exponent,
+      .camera = &render->camera,
+      .sheet = &render->sheet,
+      .map = &render->map,
+      .drawing = render->drawing,
+      .options = &render->rescaled.options,
+      .progress = render->options->progress != NULL ? pass_verifying : NULL,
+      .user = render};
   return verify_drawing(&what, render->report, render->verdict, error);
 }
 
@@ -244,7 +242,8 @@ static const struct stage {
   enum share_stage stage;
   recto_status (*run)(struct render *render, recto_error *error);
 } stages[] = {
-    {"topology", "topology_cpu_s", "topology_wall_s", SHARE_TOPOLOGY, find_edges},
+    {"topology", "topology_cpu_s", "topology_wall_s", SHARE_TOPOLOGY,
+     find_edges},
     {"camera", "camera_cpu_s", "camera_wall_s", SHARE_CAMERA, aim},
     {"sheet", "sheet_cpu_s", "sheet_wall_s", SHARE_SHEET, project},
     {"solve", "solve_cpu_s", "solve_wall_s", SHARE_SOLVE, solve},
@@ -367,12 +366,13 @@ static void warn_of_near_plane(const struct render *render) {
   if (cut == 0 || o->warning == NULL)
     return;
   char text[160];
-  snprintf(text, sizeof text,
-           "%lu %s nearer to the eye than %.3g and %s cut there; --near takes a "
-           "smaller distance",
-           cut, cut == 1 ? "face comes" : "faces come",
-           ldexp(render->camera.near_d, render->rescaled.exponent),
-           cut == 1 ? "is" : "are");
+  snprintf(
+      text, sizeof text,
+      "%lu %s nearer to the eye than %.3g and %s cut there; --near takes a "
+      "smaller distance",
+      cut, cut == 1 ? "face comes" : "faces come",
+      ldexp(render->camera.near_d, render->rescaled.exponent),
+      cut == 1 ? "is" : "are");
   o->warning(o->user, "", 0, text);
 }
 

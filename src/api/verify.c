@@ -15,8 +15,7 @@
 #include "base/sentence.h"
 #include "ink/ink.h"
 
-/* ---- The strokes ----------------------------------------------------------
- */
+/* ---- The strokes --------------------------------------------------------- */
 
 static bool take_stroke(struct judge_drawing *to, const struct drawing *drawing,
                         const struct drawing_stroke *stroke,
@@ -75,8 +74,7 @@ static recto_status take_dropped(struct judge_drawing *to,
   return status;
 }
 
-/* ---- The verdict ----------------------------------------------------------
- */
+/* ---- The verdict --------------------------------------------------------- */
 
 static void say_edge(struct sentence *words, const struct verify *verify,
                      const struct judge_witness *w, struct scene_point origin) {

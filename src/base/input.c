@@ -119,9 +119,9 @@ recto_status input_load(struct input *input, const char *path,
   *input = (struct input){.bytes = NULL};
   bool standard = strcmp(path, "-") == 0;
   int descriptor =
-      standard ? STDIN_FILENO
-               : path_above_standard(
-                     open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY));
+      standard
+          ? STDIN_FILENO
+          : path_above_standard(open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY));
   if (descriptor < 0)
     return error_set(error, RECTO_ERROR_IO, path, 0, "cannot open: %s",
                      strerror(errno));

@@ -72,7 +72,7 @@ size_t mem_peak_bytes(void);
 USE_RESULT bool array_grow(void **item, size_t *capacity, size_t count,
                            size_t extra, size_t size);
 
-/* ---- Arena: many small blocks, freed at once ---------------------------- */
+/* ---- Arena: many small blocks, freed at once ----------------------------- */
 struct arena {
   struct arena_block *block; /* newest first */
   size_t used;               /* bytes of the newest block */

@@ -214,12 +214,12 @@ static void place(struct stream *stream) {
   struct target *target = &stream->target;
   if (stream->is_memory || stream->status != RECTO_OK)
     return;
-  bool good = target->kind == TARGET_NEW ? target_place(target)
-              : target->kind == TARGET_IN_PLACE
-                  ? target_replace(target, stream->buffer.item,
-                                   stream->buffer.count)
-                  : true;
-  if (!good)
+  bool ok =
+      target->kind == TARGET_NEW ? target_place(target)
+      : target->kind == TARGET_IN_PLACE
+          ? target_replace(target, stream->buffer.item, stream->buffer.count)
+          : true;
+  if (!ok)
     fail(stream, RECTO_ERROR_IO, errno);
 }
 

@@ -195,9 +195,9 @@ static bool copy_attribute(int from, int to, const char *name) {
   enum { MOST = 1 << 16 }; /* of the system */
   char *value = mem_alloc(MOST, 1);
   ssize_t size = value ? fgetxattr(from, name, value, MOST) : -1;
-  bool good = size >= 0 && fsetxattr(to, name, value, (size_t)size, 0) == 0;
+  bool ok = size >= 0 && fsetxattr(to, name, value, (size_t)size, 0) == 0;
   mem_free(value);
-  return good || !is_users(name);
+  return ok || !is_users(name);
 }
 
 /* Access lists are such attributes. */
@@ -207,11 +207,11 @@ static bool copy_attributes(int from, int to) {
     return size == 0 || errno == ENOTSUP;
   char *names = mem_alloc((size_t)size, 1);
   size = names ? flistxattr(from, names, (size_t)size) : -1;
-  bool good = size >= 0;
-  for (ssize_t at = 0; good && at < size; at += (ssize_t)strlen(names + at) + 1)
-    good = copy_attribute(from, to, names + at);
+  bool ok = size >= 0;
+  for (ssize_t at = 0; ok && at < size; at += (ssize_t)strlen(names + at) + 1)
+    ok = copy_attribute(from, to, names + at);
   mem_free(names);
-  return good;
+  return ok;
 }
 
 /* Gives the new file what belongs to the old one; false where it cannot. */
@@ -226,19 +226,19 @@ static bool inherit(struct target *target) {
     return false;
   int from = path_above_standard(
       open(target->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-  bool good = from < 0 || copy_attributes(from, to);
+  bool ok = from < 0 || copy_attributes(from, to);
   if (from >= 0)
     close(from);
-  return good && fchmod(to, old->st_mode & 07777) == 0;
+  return ok && fchmod(to, old->st_mode & 07777) == 0;
 }
 
 /* ---- Opening ------------------------------------------------------------- */
 
 static recto_status open_in_place(struct target *target, recto_error *error) {
-  target->kind = S_ISREG(target->old.st_mode) ? TARGET_IN_PLACE
-                                              : TARGET_DESCRIPTOR;
-  target->descriptor = path_above_standard(
-      open(target->path, O_WRONLY | O_CLOEXEC | O_NOCTTY));
+  target->kind =
+      S_ISREG(target->old.st_mode) ? TARGET_IN_PLACE : TARGET_DESCRIPTOR;
+  target->descriptor =
+      path_above_standard(open(target->path, O_WRONLY | O_CLOEXEC | O_NOCTTY));
   return target->descriptor >= 0 ? RECTO_OK : cannot(target, "open", error);
 }
 
@@ -299,10 +299,10 @@ static recto_status open_path(struct target *target, recto_error *error) {
 recto_status target_open(struct target *target, const char *path,
                          recto_error *error) {
   *target = (struct target){.descriptor = -1, .name = copy_text(path, 0)};
-  recto_status status =
-      !target->name            ? error_memory(error)
-      : strcmp(path, "-") == 0 ? open_descriptor(target, STDOUT_FILENO, error)
-                               : open_path(target, error);
+  recto_status status = !target->name ? error_memory(error)
+                        : strcmp(path, "-") == 0
+                            ? open_descriptor(target, STDOUT_FILENO, error)
+                            : open_path(target, error);
   if (status != RECTO_OK)
     (void)target_close(target);
   return status;
@@ -412,18 +412,18 @@ static bool copy_in_place(struct target *target) {
   int to = path_above_standard(open(target->path, O_WRONLY | O_CLOEXEC));
   char *chunk = mem_alloc(CHUNK, 1);
   off_t at = 0;
-  bool good = to >= 0 && chunk && fstat(target->descriptor, &about) == 0 &&
-              reserve_room(to, (size_t)about.st_size);
-  while (good && at < about.st_size) {
+  bool ok = to >= 0 && chunk && fstat(target->descriptor, &about) == 0 &&
+            reserve_room(to, (size_t)about.st_size);
+  while (ok && at < about.st_size) {
     ssize_t got = pread(target->descriptor, chunk, CHUNK, at);
-    good = got > 0 && write_all(to, chunk, (size_t)got);
+    ok = got > 0 && write_all(to, chunk, (size_t)got);
     at += got;
   }
-  good = good && ftruncate(to, at) == 0;
+  ok = ok && ftruncate(to, at) == 0;
   if (to >= 0)
-    good = close(to) == 0 && good;
+    ok = close(to) == 0 && ok;
   mem_free(chunk);
-  return good;
+  return ok;
 }
 
 static bool put_in_place(struct target *target) {
@@ -456,8 +456,7 @@ bool target_place(struct target *target) {
   sigset_t all, before;
   sigfillset(&all);
   (void)pthread_sigmask(SIG_SETMASK, &all, &before);
-  target->is_in_place =
-      is_written(target->descriptor) && put_in_place(target);
+  target->is_in_place = is_written(target->descriptor) && put_in_place(target);
   int fault = errno;
   (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
   errno = fault;
@@ -473,13 +472,13 @@ void target_withdraw(struct target *target) {
 }
 
 bool target_close(struct target *target) {
-  bool good = target->descriptor < 0 || close(target->descriptor) == 0 ||
-              errno == EINTR;
+  bool ok = target->descriptor < 0 || close(target->descriptor) == 0 ||
+            errno == EINTR;
   int fault = errno;
   remove_temporary(target);
   mem_free(target->path);
   mem_free(target->name);
   *target = (struct target){.descriptor = -1};
   errno = fault;
-  return good;
+  return ok;
 }

@@ -48,7 +48,8 @@ static void fill_getopt(struct option longs[MAX_OPTIONS],
 static const struct option_entry *find_entry(int code) {
   if (code >= FIRST_LONG)
     return &option_table[code - FIRST_LONG];
-  for (const struct option_entry *entry = option_table; !option_is_end(entry); entry++)
+  for (const struct option_entry *entry = option_table; !option_is_end(entry);
+       entry++)
     if (entry->letter == code && code != 0)
       return entry;
   return NULL;
@@ -193,8 +194,8 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
   }
   if (a->output == NULL)
     return true;
-  if (a->format == NULL && (path_is_standard_output(a->output) ||
-                            path_descriptor(a->output) >= 0))
+  if (a->format == NULL &&
+      (path_is_standard_output(a->output) || path_descriptor(a->output) >= 0))
     a->format = "svg";
   if (recto_output_format(a->output, a->format) == NULL) {
     snprintf(message, MESSAGE_SIZE, "there is no output format for \"%.100s\"",

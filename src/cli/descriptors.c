@@ -11,9 +11,9 @@
 static bool reserve(int number) {
   if (fcntl(number, F_GETFD) != -1 || errno != EBADF)
     return true;
-  int opened =
-      open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-  return opened == number; /* the lowest that is free, and those below are not */
+  int opened = open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  return opened ==
+         number; /* the lowest that is free, and those below are not */
 }
 
 bool descriptors_reserve(void) {

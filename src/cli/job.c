@@ -120,8 +120,8 @@ static recto_status tell_verdict(const recto_verdict *v, recto_error *error) {
 /* Whether so much of a drawing is no more than the user tolerates. */
 static bool is_tolerable(const struct arguments *arguments, double part_mm,
                          double whole_mm) {
-  return part_mm <= fmax(arguments->tolerance_mm,
-                         arguments->tolerance_share * whole_mm);
+  return part_mm <=
+         fmax(arguments->tolerance_mm, arguments->tolerance_share * whole_mm);
 }
 
 static recto_status check(const struct arguments *arguments, bool *is_right,
@@ -138,15 +138,15 @@ static recto_status check(const struct arguments *arguments, bool *is_right,
   progress_end();
   if (status != RECTO_OK)
     return status;
-  *is_right =
-      is_tolerable(arguments, verdict.false_mm, verdict.drawn_mm) &&
-      is_tolerable(arguments, verdict.missing_mm, verdict.visible_mm);
+  *is_right = is_tolerable(arguments, verdict.false_mm, verdict.drawn_mm) &&
+              is_tolerable(arguments, verdict.missing_mm, verdict.visible_mm);
   return tell_verdict(&verdict, error);
 }
 
 static recto_status write_all(const struct arguments *arguments,
-                          const recto_drawing *drawing,
-                          const recto_options *options, recto_error *error) {
+                              const recto_drawing *drawing,
+                              const recto_options *options,
+                              recto_error *error) {
   if (!arguments->quiet && recto_drawing_verdict(drawing) != NULL)
     message_print("", 0, recto_drawing_verdict(drawing));
   /* What goes to the terminal goes there without the bar. */
@@ -205,8 +205,8 @@ int job_run(struct arguments *arguments) {
   bool checks = arguments->check_file != NULL;
   if (!arguments->quiet)
     progress_start(arguments->progress);
-  recto_status status = checks ? check(arguments, &is_right, &error)
-                               : draw(arguments, &error);
+  recto_status status =
+      checks ? check(arguments, &is_right, &error) : draw(arguments, &error);
   progress_end();
   if (status != RECTO_OK && !signals_are_of_a_pipe())
     message_print(error.file, error.line, error.text);

@@ -37,7 +37,7 @@ static void put(struct line *line, const char *bytes, size_t count) {
  * *code its number; 0 where there is none. */
 static size_t read_character(const unsigned char *text, uint32_t *code) {
   static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-  size_t length = text[0] < 0x80            ? 1
+  size_t length = text[0] < 0x80             ? 1
                   : (text[0] & 0xe0) == 0xc0 ? 2
                   : (text[0] & 0xf0) == 0xe0 ? 3
                   : (text[0] & 0xf8) == 0xf0 ? 4
@@ -91,8 +91,7 @@ void message_print(const char *file, unsigned long line, const char *text) {
   if (file[0] != '\0')
     put(&whole, ":", 1);
   if (line != 0)
-    put(&whole, number,
-        (size_t)snprintf(number, sizeof number, "%lu:", line));
+    put(&whole, number, (size_t)snprintf(number, sizeof number, "%lu:", line));
   if (file[0] != '\0' || line != 0)
     put(&whole, " ", 1);
   put_visibly(&whole, text);

@@ -23,11 +23,11 @@ static struct {
   pthread_mutex_t lock;
   pthread_cond_t wake;
   pthread_t thread;
-  bool runs;    /* the thread does */
-  bool ends;    /* and is to end */
-  bool lines;   /* lines are asked for, where there is no terminal */
-  int told;     /* the last share in percent that a line told */
-  int columns;  /* of the bar that is on the screen; 0: none is */
+  bool runs;      /* the thread does */
+  bool ends;      /* and is to end */
+  bool lines;     /* lines are asked for, where there is no terminal */
+  int told;       /* the last share in percent that a line told */
+  int columns;    /* of the bar that is on the screen; 0: none is */
   double share;   /* never falls */
   double share_s; /* when it was last heard of, from the start */
   const char *stage;
@@ -131,7 +131,7 @@ static void *run(void *unused) {
   return NULL;
 }
 
-/* ---- What is seen from outside -------------------------------------------- */
+/* ---- What is seen from outside ------------------------------------------- */
 
 static bool is_terminal(void) {
   const char *kind = getenv("TERM");

@@ -21,8 +21,7 @@ static void note(int number) {
 }
 
 void signals_catch(void) {
-  struct sigaction action = {.sa_handler = note,
-                             .sa_flags = (int)SA_RESETHAND};
+  struct sigaction action = {.sa_handler = note, .sa_flags = (int)SA_RESETHAND};
   struct sigaction before;
   sigemptyset(&action.sa_mask);
   for (int i = 0; i < CAUGHT; i++)

@@ -26,10 +26,14 @@ static void set_box(struct geom_convex *piece) {
   piece->x1 = piece->y1 = -INFINITY;
   for (uint32_t k = 0; k < piece->count; k++) {
     const struct geom_corner *c = &piece->corner[k];
-    if (c->x < piece->x0) piece->x0 = c->x;
-    if (c->x > piece->x1) piece->x1 = c->x;
-    if (c->y < piece->y0) piece->y0 = c->y;
-    if (c->y > piece->y1) piece->y1 = c->y;
+    if (c->x < piece->x0)
+      piece->x0 = c->x;
+    if (c->x > piece->x1)
+      piece->x1 = c->x;
+    if (c->y < piece->y0)
+      piece->y0 = c->y;
+    if (c->y > piece->y1)
+      piece->y1 = c->y;
   }
   piece->x0 -= BOX_MARGIN;
   piece->y0 -= BOX_MARGIN;
@@ -39,10 +43,11 @@ static void set_box(struct geom_convex *piece) {
 
 bool geom_convex_triangle(struct geom_convex *piece,
                           const struct geom_point p[3],
-                          const struct geom_line line[3],
-                          struct arena *arena) {
-  if (!allocate(piece, 3, arena)) return false;
-  for (int k = 0; k < 3; k++) append(piece, geom_corner_at(p[k]), &line[k]);
+                          const struct geom_line line[3], struct arena *arena) {
+  if (!allocate(piece, 3, arena))
+    return false;
+  for (int k = 0; k < 3; k++)
+    append(piece, geom_corner_at(p[k]), &line[k]);
   set_box(piece);
   return true;
 }
@@ -53,13 +58,15 @@ static bool take_part(const struct geom_convex *piece, const signed char *sign,
                       int keep, const struct geom_line *cut,
                       struct geom_convex *part, struct arena *arena) {
   uint32_t n = piece->count;
-  if (!allocate(part, n + 1, arena)) return false;
+  if (!allocate(part, n + 1, arena))
+    return false;
   for (uint32_t k = 0; k < n; k++) {
     uint32_t next = k + 1 == n ? 0 : k + 1;
     int s = sign[k] * keep, t = sign[next] * keep;
     if (s > 0) {
       append(part, piece->corner[k], piece->side[k]);
-      if (t < 0) append(part, geom_corner_of(piece->side[k], cut), cut);
+      if (t < 0)
+        append(part, geom_corner_of(piece->side[k], cut), cut);
     } else if (s == 0) {
       /* On the line: the boundary either enters, leaves or touches here. */
       if (t > 0)
@@ -76,24 +83,27 @@ static bool take_part(const struct geom_convex *piece, const signed char *sign,
 
 bool geom_convex_split(const struct geom_convex *piece,
                        const struct geom_line *line,
-                       const struct geom_line *back,
-                       struct geom_convex *inside, struct geom_convex *outside,
-                       struct arena *arena) {
+                       const struct geom_line *back, struct geom_convex *inside,
+                       struct geom_convex *outside, struct arena *arena) {
   static const struct geom_convex none;
   signed char few[32], *sign = few;
   bool left = false, right = false;
   if (piece->count > sizeof few) {
     sign = arena_alloc(arena, piece->count, 1);
-    if (sign == NULL) return false;
+    if (sign == NULL)
+      return false;
   }
   for (uint32_t k = 0; k < piece->count; k++) {
     sign[k] = (signed char)geom_line_side(line, &piece->corner[k]);
     left |= sign[k] > 0;
     right |= sign[k] < 0;
   }
-  if (inside != NULL) *inside = left ? *piece : none;
-  if (outside != NULL) *outside = left ? none : *piece;
-  if (!left || !right) return true;
+  if (inside != NULL)
+    *inside = left ? *piece : none;
+  if (outside != NULL)
+    *outside = left ? none : *piece;
+  if (!left || !right)
+    return true;
   if (inside != NULL && !take_part(piece, sign, 1, line, inside, arena))
     return false;
   return outside == NULL || take_part(piece, sign, -1, back, outside, arena);
@@ -107,23 +117,28 @@ bool geom_convex_subtract(const struct geom_convex *piece,
   struct geom_convex part = *piece, few[4], *cut = few;
   if (count > (int)(sizeof few / sizeof *few)) {
     cut = arena_alloc(arena, (size_t)count, sizeof *cut);
-    if (cut == NULL) return false;
+    if (cut == NULL)
+      return false;
   }
   for (int k = 0; k < count; k++) {
     struct geom_convex left;
     if (!geom_convex_split(&part, &line[k], &back[k], &left, &cut[k], arena))
       return false;
     part = left;
-    if (part.count == 0) break;
+    if (part.count == 0)
+      break;
   }
-  if (inside != NULL) *inside = part;
-  if (part.count == 0) return ARRAY_PUSH(rest, *piece);
+  if (inside != NULL)
+    *inside = part;
+  if (part.count == 0)
+    return ARRAY_PUSH(rest, *piece);
   for (int k = 0; k < count; k++)
-    if (cut[k].count > 0 && !ARRAY_PUSH(rest, cut[k])) return false;
+    if (cut[k].count > 0 && !ARRAY_PUSH(rest, cut[k]))
+      return false;
   return true;
 }
 
-/* ---- Copying -------------------------------------------------------------- */
+/* ---- Copying ------------------------------------------------------------- */
 
 /* Where a line's copy is: lines of one piece are few. */
 struct line_map {
@@ -135,8 +150,10 @@ struct line_map {
 static uint32_t number_of_line(struct line_map *map,
                                const struct geom_line *line) {
   uint32_t k = 0;
-  while (k < map->count && map->from[k] != line) k++;
-  if (k == map->count) map->from[map->count++] = line;
+  while (k < map->count && map->from[k] != line)
+    k++;
+  if (k == map->count)
+    map->from[map->count++] = line;
   return k;
 }
 
@@ -161,7 +178,8 @@ static const struct geom_line *map_line(struct line_map *map,
 static uint32_t line_bound(const struct geom_convex *piece) {
   uint32_t bound = piece->count;
   for (uint32_t k = 0; k < piece->count; k++)
-    if (piece->corner[k].l1 != NULL) bound += 2;
+    if (piece->corner[k].l1 != NULL)
+      bound += 2;
   return bound;
 }
 
@@ -169,12 +187,15 @@ bool geom_convex_copy(struct geom_convex *to, const struct geom_convex *from,
                       struct arena *arena) {
   uint32_t n = from->count, bound = line_bound(from);
   struct line_map map = {mem_alloc(bound, sizeof *map.from), NULL, 0};
-  bool done = false;
-  if (map.from == NULL) goto end;
+  bool ok = false;
+  if (map.from == NULL)
+    goto end;
   number_lines(&map, from); /* before there are copies: half the bound */
   map.to = arena_alloc(arena, map.count, sizeof *map.to);
-  if (map.to == NULL || !allocate(to, n, arena)) goto end;
-  for (uint32_t k = 0; k < map.count; k++) map.to[k] = *map.from[k];
+  if (map.to == NULL || !allocate(to, n, arena))
+    goto end;
+  for (uint32_t k = 0; k < map.count; k++)
+    map.to[k] = *map.from[k];
   for (uint32_t k = 0; k < n; k++) {
     struct geom_corner corner = from->corner[k];
     if (corner.l1 != NULL) {
@@ -187,8 +208,8 @@ bool geom_convex_copy(struct geom_convex *to, const struct geom_convex *from,
   to->y0 = from->y0;
   to->x1 = from->x1;
   to->y1 = from->y1;
-  done = true;
+  ok = true;
 end:
   mem_free(map.from);
-  return done;
+  return ok;
 }

@@ -23,12 +23,10 @@ USE_RESULT bool geom_convex_triangle(struct geom_convex *piece,
  * either may be empty, and each may be NULL where it is not wanted.
  * back  the same line turned round
  * Exact.  Returns false when memory ran out. */
-USE_RESULT bool geom_convex_split(const struct geom_convex *piece,
-                                  const struct geom_line *line,
-                                  const struct geom_line *back,
-                                  struct geom_convex *inside,
-                                  struct geom_convex *outside,
-                                  struct arena *arena);
+USE_RESULT bool
+geom_convex_split(const struct geom_convex *piece, const struct geom_line *line,
+                  const struct geom_line *back, struct geom_convex *inside,
+                  struct geom_convex *outside, struct arena *arena);
 
 typedef ARRAY(struct geom_convex) geom_pieces;
 

@@ -73,7 +73,8 @@ int geom_line_between(struct geom_line *line, const struct geom_plane *front,
   store(line, 1, &value, &line->b);
   wide_cross(&value, &kg, &f[2], &kf, &g[2]);
   store(line, 2, &value, &line->c);
-  if (line->sign[0] != 0 || line->sign[1] != 0) return 0;
+  if (line->sign[0] != 0 || line->sign[1] != 0)
+    return 0;
   return line->sign[2] == 0 ? GEOM_SAME_PLANE : line->sign[2];
 }
 
@@ -101,7 +102,8 @@ void geom_line_reverse(struct geom_line *line) {
   line->a = -line->a;
   line->b = -line->b;
   line->c = -line->c;
-  for (int k = 0; k < 3; k++) line->sign[k] = (int8_t)-line->sign[k];
+  for (int k = 0; k < 3; k++)
+    line->sign[k] = (int8_t)-line->sign[k];
 }
 
 /* ---- Exact coefficients -------------------------------------------------- */
@@ -132,10 +134,11 @@ void geom_corner_exact(const struct geom_corner *corner, struct wide h[3]) {
   wide_cross(&h[1], &p[2], &q[0], &q[2], &p[0]);
   wide_cross(&h[2], &p[0], &q[1], &q[0], &p[1]);
   if (h[2].sign < 0)
-    for (int k = 0; k < 3; k++) wide_negate(&h[k]);
+    for (int k = 0; k < 3; k++)
+      wide_negate(&h[k]);
 }
 
-/* ---- The same of narrow lines, in machine words ---------------------------- */
+/* ---- The same of narrow lines, in machine words -------------------------- */
 
 /* a, b < 2^31, c < 2^62 */
 struct narrow_line {
@@ -161,7 +164,8 @@ static bool narrow_meet(struct narrow_corner *h,
     *h = (struct narrow_corner){corner->ix, corner->iy, 1};
     return true;
   }
-  if (!corner->l1->narrow || !corner->l2->narrow) return false;
+  if (!corner->l1->narrow || !corner->l2->narrow)
+    return false;
   p = narrow_of(corner->l1);
   q = narrow_of(corner->l2);
   h->x = (int128)p.b * q.c - (int128)q.b * p.c;
@@ -175,7 +179,7 @@ static bool narrow_meet(struct narrow_corner *h,
   return true;
 }
 
-/* ---- Lines by number ------------------------------------------------------ */
+/* ---- Lines by number ----------------------------------------------------- */
 
 static uint64_t common_divisor(uint64_t a, uint64_t b) {
   while (b != 0) {
@@ -209,7 +213,8 @@ static bool reduce_wide(const struct geom_line *line, struct narrow_line *to) {
   struct wide exact[3];
   int64_t reduced[3];
   exact_line(exact, line);
-  if (!wide_reduce(exact, reduced)) return false;
+  if (!wide_reduce(exact, reduced))
+    return false;
   *to = (struct narrow_line){reduced[0], reduced[1], reduced[2]};
   return true;
 }
@@ -220,8 +225,8 @@ bool geom_line_number(const struct geom_line *line, uint64_t *number) {
     int64_t divisor;
     reduced = narrow_of(line);
     /* It divides c too. */
-    divisor = (int64_t)common_divisor(magnitude(reduced.a),
-                                      magnitude(reduced.b));
+    divisor =
+        (int64_t)common_divisor(magnitude(reduced.a), magnitude(reduced.b));
     reduced.a /= divisor;
     reduced.b /= divisor;
     reduced.c /= divisor;
@@ -232,7 +237,7 @@ bool geom_line_number(const struct geom_line *line, uint64_t *number) {
   return true;
 }
 
-/* ---- Questions ------------------------------------------------------------ */
+/* ---- Questions ----------------------------------------------------------- */
 
 static int side_exact(const struct geom_line *line,
                       const struct geom_corner *corner) {
@@ -254,8 +259,10 @@ static int side_exact(const struct geom_line *line,
 }
 
 static bool same_line(const struct geom_line *l, const struct geom_line *m) {
-  if (l == m) return true;
-  if (!l->narrow || !m->narrow) return false;
+  if (l == m)
+    return true;
+  if (!l->narrow || !m->narrow)
+    return false;
   return (l->x0 == m->x0 && l->y0 == m->y0 && l->x1 == m->x1 &&
           l->y1 == m->y1) ||
          (l->x0 == m->x1 && l->y0 == m->y1 && l->x1 == m->x0 && l->y1 == m->y0);
@@ -265,16 +272,19 @@ static int side_of_point(const struct geom_line *line,
                          const struct geom_corner *corner) {
   double value, size;
   if (line->narrow) {
-    int64_t dx = (int64_t)line->x1 - line->x0, dy = (int64_t)line->y1 - line->y0;
+    int64_t dx = (int64_t)line->x1 - line->x0,
+            dy = (int64_t)line->y1 - line->y0;
     int64_t ex = (int64_t)corner->ix - line->x0,
             ey = (int64_t)corner->iy - line->y0;
     return geom_sign64(dx * ey - dy * ex);
   }
   value = line->a * corner->ix + line->b * corner->iy + line->c;
-  size = fabs(line->a * corner->ix) + fabs(line->b * corner->iy) +
-         fabs(line->c);
-  if (value > FILTER * size) return 1;
-  if (value < -FILTER * size) return -1;
+  size =
+      fabs(line->a * corner->ix) + fabs(line->b * corner->iy) + fabs(line->c);
+  if (value > FILTER * size)
+    return 1;
+  if (value < -FILTER * size)
+    return -1;
   return side_exact(line, corner);
 }
 
@@ -307,10 +317,13 @@ int geom_line_side(const struct geom_line *line,
   const struct geom_line *p = corner->l1, *q = corner->l2;
   double x1, x2, y1, y2, w1, w2, w, det, size;
   int side;
-  if (p == NULL) return side_of_point(line, corner);
+  if (p == NULL)
+    return side_of_point(line, corner);
   side = side_of_doubles(line, corner);
-  if (side != 0) return side;
-  if (same_line(line, p) || same_line(line, q)) return 0;
+  if (side != 0)
+    return side;
+  if (same_line(line, p) || same_line(line, q))
+    return 0;
   x1 = p->b * q->c, x2 = q->b * p->c;
   y1 = p->c * q->a, y2 = q->c * p->a;
   w1 = p->a * q->b, w2 = q->a * p->b;
@@ -326,8 +339,8 @@ int geom_line_side(const struct geom_line *line,
 
 /* The sign of a1 b2 - a2 b1, of which the directions' cross product is the
  * same, or of a1 a2 + b1 b2. */
-static int product_exact(const struct geom_line *l1,
-                         const struct geom_line *l2, bool dot) {
+static int product_exact(const struct geom_line *l1, const struct geom_line *l2,
+                         bool dot) {
   struct wide p[3], q[3], value;
   if (l1->narrow && l2->narrow) {
     struct narrow_line m = narrow_of(l1), n = narrow_of(l2);
@@ -346,18 +359,21 @@ static int product_exact(const struct geom_line *l1,
 
 int geom_line_turn(const struct geom_line *l1, const struct geom_line *l2) {
   double w1 = l1->a * l2->b, w2 = l2->a * l1->b, w = w1 - w2;
-  if (fabs(w) > FILTER * (fabs(w1) + fabs(w2))) return w > 0 ? 1 : -1;
-  if (same_line(l1, l2)) return 0;
+  if (fabs(w) > FILTER * (fabs(w1) + fabs(w2)))
+    return w > 0 ? 1 : -1;
+  if (same_line(l1, l2))
+    return 0;
   return product_exact(l1, l2, false);
 }
 
 int geom_line_along(const struct geom_line *l1, const struct geom_line *l2) {
   double w1 = l1->a * l2->a, w2 = l1->b * l2->b, w = w1 + w2;
-  if (fabs(w) > FILTER * (fabs(w1) + fabs(w2))) return w > 0 ? 1 : -1;
+  if (fabs(w) > FILTER * (fabs(w1) + fabs(w2)))
+    return w > 0 ? 1 : -1;
   return product_exact(l1, l2, true);
 }
 
-/* ---- Corners -------------------------------------------------------------- */
+/* ---- Corners ------------------------------------------------------------- */
 
 struct geom_corner geom_corner_at(struct geom_point p) {
   return (struct geom_corner){(double)p.x, (double)p.y, NULL, NULL, p.x, p.y};
@@ -413,18 +429,22 @@ static int compare_exact(const struct geom_corner *p,
 int geom_corner_compare(const struct geom_corner *p,
                         const struct geom_corner *q) {
   if (p->l1 == NULL && q->l1 == NULL) {
-    if (p->ix != q->ix) return p->ix < q->ix ? -1 : 1;
+    if (p->ix != q->ix)
+      return p->ix < q->ix ? -1 : 1;
     return (p->iy > q->iy) - (p->iy < q->iy);
   }
-  if (fabs(p->x - q->x) > 2 * CORNER_ERROR) return p->x < q->x ? -1 : 1;
-  if (p->l1 != NULL && p->l1 == q->l1 && p->l2 == q->l2) return 0;
+  if (fabs(p->x - q->x) > 2 * CORNER_ERROR)
+    return p->x < q->x ? -1 : 1;
+  if (p->l1 != NULL && p->l1 == q->l1 && p->l2 == q->l2)
+    return 0;
   return compare_exact(p, q);
 }
 
 /* floor(2^bits num / den + 1/2), num < 2^94 */
 static int64_t round_narrow(int128 num, int64_t den, int bits) {
   int128 twice = num * ((int128)2 << bits) + den, whole = twice / den / 2;
-  if (whole * 2 * den > twice) whole--;
+  if (whole * 2 * den > twice)
+    whole--;
   return (int64_t)whole;
 }
 

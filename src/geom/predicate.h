@@ -39,9 +39,8 @@ struct geom_plane {
   struct geom_point a;
 };
 
-static inline struct geom_plane geom_plane_of(struct geom_point a,
-                                              struct geom_point b,
-                                              struct geom_point c) {
+static inline struct geom_plane
+geom_plane_of(struct geom_point a, struct geom_point b, struct geom_point c) {
   int64_t ux = (int64_t)b.x - a.x, uy = (int64_t)b.y - a.y, uz = b.z - a.z;
   int64_t vx = (int64_t)c.x - a.x, vy = (int64_t)c.y - a.y, vz = c.z - a.z;
   struct geom_plane plane;
@@ -66,8 +65,10 @@ static inline bool geom_same_point(struct geom_point a, struct geom_point b) {
 /* An order of points: by x, then by y, then by z. */
 static inline int geom_compare_points(struct geom_point a,
                                       struct geom_point b) {
-  if (a.x != b.x) return a.x < b.x ? -1 : 1;
-  if (a.y != b.y) return a.y < b.y ? -1 : 1;
+  if (a.x != b.x)
+    return a.x < b.x ? -1 : 1;
+  if (a.y != b.y)
+    return a.y < b.y ? -1 : 1;
   return (a.z > b.z) - (a.z < b.z);
 }
 

@@ -25,8 +25,10 @@ static struct product multiply(uint128 a, uint128 b) {
 }
 
 static int compare_products(struct product a, struct product b) {
-  if (a.high != b.high) return a.high < b.high ? -1 : 1;
-  if (a.low != b.low) return a.low < b.low ? -1 : 1;
+  if (a.high != b.high)
+    return a.high < b.high ? -1 : 1;
+  if (a.low != b.low)
+    return a.low < b.low ? -1 : 1;
   return 0;
 }
 
@@ -40,8 +42,10 @@ static bool fits_63_bits(int128 a) {
 
 int ratio_compare(struct ratio a, struct ratio b) {
   int sa = sign_of(a.num), sb = sign_of(b.num), order;
-  if (sa != sb) return sa < sb ? -1 : 1;
-  if (sa == 0) return 0;
+  if (sa != sb)
+    return sa < sb ? -1 : 1;
+  if (sa == 0)
+    return 0;
   if (fits_63_bits(a.num) && fits_63_bits(a.den) && fits_63_bits(b.num) &&
       fits_63_bits(b.den)) {
     int128 left = a.num * b.den, right = b.num * a.den;
@@ -68,7 +72,8 @@ int64_t ratio_lerp(struct ratio t, int64_t p0, int64_t p1) {
   if (-narrow < t.num && t.num < narrow && t.den < narrow) {
     int128 num = 2 * t.num * d + t.den, den = 2 * t.den;
     int128 q = num / den;
-    if (num % den < 0) q--;
+    if (num % den < 0)
+      q--;
     return p0 + (int64_t)q;
   }
   return p0 + round_wide(t, d);

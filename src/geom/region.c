@@ -37,19 +37,19 @@ void geom_region_fini(struct geom_region *region) {
   ARRAY_FREE(&region->loop);
 }
 
-/* ---- 1. Sides by line ------------------------------------------------------- */
+/* ---- 1. Sides by line ---------------------------------------------------- */
 
 static bool gather_sides(const struct geom_convex *piece, size_t count,
                          segments *sides) {
   for (size_t i = 0; i < count; i++)
     for (uint32_t k = 0; k < piece[i].count; k++) {
       const struct geom_corner *p = &piece[i].corner[k],
-                               *q =
-                                   &piece[i].corner[(k + 1) % piece[i].count];
+                               *q = &piece[i].corner[(k + 1) % piece[i].count];
       int order = geom_corner_compare(p, q);
       struct segment side = {order < 0 ? *p : *q, order < 0 ? *q : *p,
                              piece[i].side[k], order < 0, false};
-      if (order != 0 && !ARRAY_PUSH(sides, side)) return false;
+      if (order != 0 && !ARRAY_PUSH(sides, side))
+        return false;
     }
   return true;
 }
@@ -69,7 +69,8 @@ static int compare_sides(const void *a, const void *b, void *user) {
   (void)user;
   if (order == 0) {
     order = -geom_line_side(p->line, &q->low);
-    if (!p->forward) order = -order;
+    if (!p->forward)
+      order = -order;
   }
   return order != 0 ? order : geom_corner_compare(&p->low, &q->low);
 }
@@ -78,7 +79,7 @@ static bool on_same_line(const struct segment *p, const struct segment *q) {
   return turn_forward(p, q) == 0 && geom_line_side(p->line, &q->low) == 0;
 }
 
-/* ---- 2. Boundary along a line ----------------------------------------------- */
+/* ---- 2. Boundary along a line -------------------------------------------- */
 
 struct event {
   struct geom_corner at;
@@ -91,10 +92,11 @@ static int compare_events(const void *a, const void *b, void *user) {
                              &((const struct event *)b)->at);
 }
 
-static const struct geom_line *
-line_running(const struct segment *const *side, size_t count, bool forward) {
+static const struct geom_line *line_running(const struct segment *const *side,
+                                            size_t count, bool forward) {
   for (size_t i = 0; i < count; i++)
-    if (side[i]->forward == forward) return side[i]->line;
+    if (side[i]->forward == forward)
+      return side[i]->line;
   return NULL;
 }
 
@@ -113,13 +115,15 @@ static bool sweep_line(const struct segment *const *side, size_t count,
   for (size_t i = 0; i < 2 * count;) {
     size_t j = i;
     int before = net;
-    while (j < 2 * count && geom_corner_compare(&event[i].at, &event[j].at) == 0)
+    while (j < 2 * count &&
+           geom_corner_compare(&event[i].at, &event[j].at) == 0)
       net += event[j++].change;
     if (before != 0) {
       struct segment s = {from, event[i].at,
                           line_running(side, count, before > 0), before > 0,
                           false};
-      if (!ARRAY_PUSH(boundary, s)) return false;
+      if (!ARRAY_PUSH(boundary, s))
+        return false;
     }
     from = event[i].at;
     i = j;
@@ -131,21 +135,21 @@ static bool find_boundary(const segments *sides, segments *boundary) {
   size_t n = sides->count;
   struct event *event = mem_alloc(2 * n, sizeof *event);
   const struct segment **side = mem_alloc(n, sizeof *side);
-  bool done = event != NULL && side != NULL;
-  for (size_t i = 0; done && i < n; i++)
+  bool ok = event != NULL && side != NULL;
+  for (size_t i = 0; ok && i < n; i++)
     side[i] = &sides->item[i];
-  done = done && sort_stable(side, n, sizeof *side, compare_sides, NULL);
-  for (size_t i = 0, j; done && i < n; i = j) {
+  ok = ok && sort_stable(side, n, sizeof *side, compare_sides, NULL);
+  for (size_t i = 0, j; ok && i < n; i = j) {
     for (j = i + 1; j < n && on_same_line(side[i], side[j]);)
       j++;
-    done = sweep_line(&side[i], j - i, event, boundary);
+    ok = sweep_line(&side[i], j - i, event, boundary);
   }
   mem_free(event);
   mem_free(side);
-  return done;
+  return ok;
 }
 
-/* ---- 3. Loops ----------------------------------------------------------------- */
+/* ---- 3. Loops ------------------------------------------------------------ */
 
 static const struct geom_corner *start_of(const struct segment *s) {
   return s->forward ? &s->low : &s->high;
@@ -164,7 +168,8 @@ static int compare_starts(const void *a, const void *b, void *user) {
 static bool sharper_left(const struct geom_line *in, const struct geom_line *u,
                          const struct geom_line *v) {
   int tu = geom_line_turn(in, u), tv = geom_line_turn(in, v);
-  if (tu != tv) return tu > tv;
+  if (tu != tv)
+    return tu > tv;
   return geom_line_turn(v, u) > 0;
 }
 
@@ -183,8 +188,10 @@ static struct segment *next_segment(segments *boundary,
   }
   for (; low < boundary->count; low++) {
     struct segment *s = &boundary->item[low];
-    if (geom_corner_compare(start_of(s), end) != 0) break;
-    if (best == NULL || sharper_left(in->line, s->line, best->line)) best = s;
+    if (geom_corner_compare(start_of(s), end) != 0)
+      break;
+    if (best == NULL || sharper_left(in->line, s->line, best->line))
+      best = s;
   }
   return best;
 }
@@ -193,15 +200,18 @@ static struct segment *next_segment(segments *boundary,
 static bool rotate_loop(struct geom_region_side *side, uint32_t count) {
   struct geom_region_side *copy = mem_alloc(count, sizeof *copy);
   uint32_t first = 0;
-  if (copy == NULL) return false;
+  if (copy == NULL)
+    return false;
   for (uint32_t k = 1; k < count; k++) {
     int order = geom_corner_compare(&side[k].corner, &side[first].corner);
     if (order == 0)
       order = geom_corner_compare(&side[(k + 1) % count].corner,
                                   &side[(first + 1) % count].corner);
-    if (order < 0) first = k;
+    if (order < 0)
+      first = k;
   }
-  for (uint32_t k = 0; k < count; k++) copy[k] = side[(first + k) % count];
+  for (uint32_t k = 0; k < count; k++)
+    copy[k] = side[(first + k) % count];
   memcpy(side, copy, count * sizeof *copy);
   mem_free(copy);
   return true;
@@ -213,7 +223,8 @@ static uint32_t drop_straight(struct geom_region_side *side, uint32_t count) {
   uint32_t kept = 0;
   for (uint32_t k = 0; k < count; k++) {
     const struct geom_line *line = side[k].line;
-    if (geom_line_turn(before, line) != 0) side[kept++] = side[k];
+    if (geom_line_turn(before, line) != 0)
+      side[kept++] = side[k];
     before = line;
   }
   return kept;
@@ -239,18 +250,20 @@ static bool trace_loop(segments *boundary, struct segment *start,
   for (struct segment *s = start; !s->used; s = next_segment(boundary, s)) {
     struct geom_region_side next = {*start_of(s), s->line};
     s->used = true;
-    if (!ARRAY_PUSH(&region->side, next)) return false;
+    if (!ARRAY_PUSH(&region->side, next))
+      return false;
     loop.count++;
   }
   side = region->side.item + loop.side;
   loop.count = drop_straight(side, loop.count);
   region->side.count = loop.side + loop.count;
-  if (!rotate_loop(side, loop.count)) return false;
+  if (!rotate_loop(side, loop.count))
+    return false;
   loop.hole = is_hole(side, loop.count);
   return ARRAY_PUSH(&region->loop, loop);
 }
 
-/* ---- 4. Outer loops and holes ---------------------------------------------------- */
+/* ---- 4. Outer loops and holes -------------------------------------------- */
 
 /* +1 where p is inside the loop, -1 outside, 0 on it. */
 static int inside_loop(const struct geom_region *region,
@@ -262,13 +275,17 @@ static int inside_loop(const struct geom_region *region,
     const struct geom_corner *u = &side[k].corner,
                              *v = &side[(k + 1) % loop->count].corner;
     int cu = geom_corner_compare(u, p), cv = geom_corner_compare(v, p), s;
-    if (cu == 0 || cv == 0) return 0;
-    if ((cu < 0) == (cv < 0)) continue;
+    if (cu == 0 || cv == 0)
+      return 0;
+    if ((cu < 0) == (cv < 0))
+      continue;
     s = geom_line_side(side[k].line, p);
-    if (s == 0) return 0;
+    if (s == 0)
+      return 0;
     /* The side crosses the vertical through p; below p where p is left of it
      * and it runs to the right, or right of it and it runs to the left. */
-    if ((s > 0) == (cu < 0)) inside = !inside;
+    if ((s > 0) == (cu < 0))
+      inside = !inside;
   }
   return inside ? 1 : -1;
 }
@@ -293,9 +310,12 @@ static struct ray lowest_ray(const struct geom_region_side *side,
   for (uint32_t k = 0; k < count; k++) {
     struct ray in = {before, -1}, out = {side[k].line, 1};
     before = side[k].line;
-    if (geom_corner_compare(&side[k].corner, &side[0].corner) != 0) continue;
-    if (is_lower(in, lowest)) lowest = in;
-    if (is_lower(out, lowest)) lowest = out;
+    if (geom_corner_compare(&side[k].corner, &side[0].corner) != 0)
+      continue;
+    if (is_lower(in, lowest))
+      lowest = in;
+    if (is_lower(out, lowest))
+      lowest = out;
   }
   return lowest;
 }
@@ -308,12 +328,14 @@ static bool holds(const struct geom_region *region,
                                 *round = region->side.item + outer->side;
   for (uint32_t k = 0; k < hole->count; k++) {
     int inside = inside_loop(region, outer, &side[k].corner);
-    if (inside != 0) return inside > 0;
+    if (inside != 0)
+      return inside > 0;
   }
   /* Touches it with every corner: a hole of it, or around it.  The one that is
    * around the other begins first, or else its sides are the outermost of
    * those that begin there. */
-  if (geom_corner_compare(&round[0].corner, &side[0].corner) != 0) return true;
+  if (geom_corner_compare(&round[0].corner, &side[0].corner) != 0)
+    return true;
   return is_lower(lowest_ray(round, outer->count),
                   lowest_ray(side, hole->count));
 }
@@ -330,35 +352,40 @@ static const struct geom_region_side *first_side(const struct placed_loop *p) {
 
 static int compare_first(const void *a, const void *b, void *user) {
   const struct placed_loop *p = a, *q = b;
-  int order = geom_corner_compare(&first_side(p)->corner,
-                                  &first_side(q)->corner);
+  int order =
+      geom_corner_compare(&first_side(p)->corner, &first_side(q)->corner);
   (void)user;
   if (order == 0)
-    order = geom_corner_compare(&first_side(p)[1].corner,
-                                &first_side(q)[1].corner);
+    order =
+        geom_corner_compare(&first_side(p)[1].corner, &first_side(q)[1].corner);
   return order;
 }
 
 static int compare_places(const void *a, const void *b, void *user) {
   const struct placed_loop *p = a, *q = b;
   (void)user;
-  if (p->outer != q->outer) return p->outer < q->outer ? -1 : 1;
+  if (p->outer != q->outer)
+    return p->outer < q->outer ? -1 : 1;
   return (int)p->loop.hole - (int)q->loop.hole;
 }
 
 static bool place_loops(struct geom_region *region) {
   size_t n = region->loop.count;
   struct placed_loop *placed;
-  bool done = false;
-  if (n < 2) return true;
+  bool ok = false;
+  if (n < 2)
+    return true;
   placed = mem_alloc(n, sizeof *placed);
-  if (placed == NULL) return false;
+  if (placed == NULL)
+    return false;
   for (size_t i = 0; i < n; i++)
     placed[i] = (struct placed_loop){region->loop.item[i], region, i};
-  if (!sort_stable(placed, n, sizeof *placed, compare_first, NULL)) goto end;
+  if (!sort_stable(placed, n, sizeof *placed, compare_first, NULL))
+    goto end;
   for (size_t i = 0; i < n; i++) {
     placed[i].outer = i;
-    if (!placed[i].loop.hole) continue;
+    if (!placed[i].loop.hole)
+      continue;
     /* The innermost outer loop around it is the last that holds it. */
     for (size_t j = i; j-- > 0;)
       if (!placed[j].loop.hole &&
@@ -367,18 +394,20 @@ static bool place_loops(struct geom_region *region) {
         break;
       }
   }
-  if (!sort_stable(placed, n, sizeof *placed, compare_places, NULL)) goto end;
-  for (size_t i = 0; i < n; i++) region->loop.item[i] = placed[i].loop;
-  done = true;
+  if (!sort_stable(placed, n, sizeof *placed, compare_places, NULL))
+    goto end;
+  for (size_t i = 0; i < n; i++)
+    region->loop.item[i] = placed[i].loop;
+  ok = true;
 end:
   mem_free(placed);
-  return done;
+  return ok;
 }
 
 bool geom_region_unite(struct geom_region *region,
                        const struct geom_convex *piece, size_t count) {
   segments sides = {0}, boundary = {0};
-  bool done = false;
+  bool ok = false;
   region->side.count = 0;
   region->loop.count = 0;
   if (!gather_sides(piece, count, &sides) ||
@@ -390,9 +419,9 @@ bool geom_region_unite(struct geom_region *region,
     if (!boundary.item[i].used &&
         !trace_loop(&boundary, &boundary.item[i], region))
       goto end;
-  done = place_loops(region);
+  ok = place_loops(region);
 end:
   ARRAY_FREE(&sides);
   ARRAY_FREE(&boundary);
-  return done;
+  return ok;
 }

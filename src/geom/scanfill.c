@@ -26,7 +26,7 @@
 /* So many edges with one key are sorted by insertion. */
 #define FEW_EQUAL 8
 
-/* ---- Points and edges --------------------------------------------------- */
+/* ---- Points and edges ---------------------------------------------------- */
 
 static int64_t centre(const struct scan_grid *grid, int32_t line) {
   return grid->y_first + line * grid->y_step + grid->y_step / 2;
@@ -117,7 +117,7 @@ int scan_edge_compare_exact(const struct scan_edge *a,
   return order;
 }
 
-/* ---- Convex polygons ---------------------------------------------------- */
+/* ---- Convex polygons ----------------------------------------------------- */
 
 static uint32_t corner_after(const struct scan_convex *walk, uint32_t corner) {
   return corner + 1 == walk->count ? 0 : corner + 1;
@@ -179,7 +179,7 @@ bool scan_convex_next(struct scan_convex *walk, const struct scan_grid *grid,
   return take_edge(walk, grid, point, false);
 }
 
-/* ---- Any polygons ------------------------------------------------------- */
+/* ---- Any polygons -------------------------------------------------------- */
 
 void scan_table_init(struct scan_table *table, const struct scan_grid *grid) {
   memset(table, 0, sizeof *table);
@@ -288,7 +288,7 @@ static bool refine_order(struct scan_table *table, const struct sort_key *key) {
 bool scan_table_start(struct scan_table *table) {
   size_t count = table->edge.count;
   struct sort_key *key = mem_alloc(2 * count, sizeof *key);
-  bool good = false;
+  bool ok = false;
   table->order = mem_alloc(count, sizeof *table->order);
   table->active = mem_alloc(count, sizeof *table->active);
   table->scratch = mem_alloc(count, sizeof *table->scratch);
@@ -296,10 +296,10 @@ bool scan_table_start(struct scan_table *table) {
       table->scratch != NULL) {
     make_keys(table, key);
     sort_keys(key, key + count, count);
-    good = refine_order(table, key);
+    ok = refine_order(table, key);
   }
   mem_free(key);
-  return good;
+  return ok;
 }
 
 /* Drops the edges that ended and moves the rest to the next line. */

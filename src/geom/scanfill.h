@@ -64,7 +64,7 @@ static inline double scan_plane_y(const struct scan_grid *grid, double y) {
   return (y * (double)grid->y_step + (double)grid->y_first) / (double)grid->den;
 }
 
-/* ---- Edges -------------------------------------------------------------- */
+/* ---- Edges --------------------------------------------------------------- */
 
 struct scan_edge {
   double x, dx;    /* where it is on its line, frame units; change to the next
@@ -159,7 +159,7 @@ static inline int scan_edge_compare(const struct scan_edge *a,
   return scan_edge_find_order(a, b, grid, true);
 }
 
-/* ---- Convex polygons ---------------------------------------------------- */
+/* ---- Convex polygons ----------------------------------------------------- */
 
 /* A convex polygon walked line by line: one edge on its left, one on its
  * right.  Where an edge ends the next corner's takes over; for a triangle
@@ -190,7 +190,7 @@ static inline bool scan_convex_ends(const struct scan_convex *walk) {
 bool scan_convex_next(struct scan_convex *walk, const struct scan_grid *grid,
                       const struct scan_point *point);
 
-/* ---- Any polygons ------------------------------------------------------- */
+/* ---- Any polygons -------------------------------------------------------- */
 
 enum scan_rule { SCAN_EVEN_ODD, SCAN_NON_ZERO };
 

@@ -7,11 +7,13 @@
 
 #include <math.h>
 
-/* ---- To and from ---------------------------------------------------------- */
+/* ---- To and from --------------------------------------------------------- */
 
 static void trim(struct wide *a) {
-  while (a->count > 0 && a->limb[a->count - 1] == 0) a->count--;
-  if (a->count == 0) a->sign = 0;
+  while (a->count > 0 && a->limb[a->count - 1] == 0)
+    a->count--;
+  if (a->count == 0)
+    a->sign = 0;
 }
 
 struct wide wide_of_int128(int128 value) {
@@ -28,7 +30,8 @@ struct wide wide_of_limbs(const uint64_t *limb, int count, int sign) {
   struct wide a;
   a.sign = sign;
   a.count = count;
-  for (int i = 0; i < count; i++) a.limb[i] = limb[i];
+  for (int i = 0; i < count; i++)
+    a.limb[i] = limb[i];
   trim(&a);
   return a;
 }
@@ -36,29 +39,33 @@ struct wide wide_of_limbs(const uint64_t *limb, int count, int sign) {
 static int bits_of_limb(uint64_t a) { return 64 - __builtin_clzll(a); }
 
 static int bits_of(const struct wide *a) {
-  return a->count == 0 ? 0
-                       : 64 * (a->count - 1) +
-                             bits_of_limb(a->limb[a->count - 1]);
+  return a->count == 0
+             ? 0
+             : 64 * (a->count - 1) + bits_of_limb(a->limb[a->count - 1]);
 }
 
 double wide_to_double(const struct wide *a) {
   enum { DIGITS = 53 };
   int bits = bits_of(a), below = bits - DIGITS;
   uint64_t top;
-  if (bits == 0) return 0;
-  if (below <= 0) return (double)a->limb[0] * a->sign;
+  if (bits == 0)
+    return 0;
+  if (below <= 0)
+    return (double)a->limb[0] * a->sign;
   top = a->limb[below / 64] >> below % 64;
   if (below % 64 > 64 - DIGITS)
     top |= a->limb[below / 64 + 1] << (64 - below % 64);
   return a->sign * ldexp((double)top, below);
 }
 
-/* ---- Sums ----------------------------------------------------------------- */
+/* ---- Sums ---------------------------------------------------------------- */
 
 static int compare_sizes(const struct wide *a, const struct wide *b) {
-  if (a->count != b->count) return a->count < b->count ? -1 : 1;
+  if (a->count != b->count)
+    return a->count < b->count ? -1 : 1;
   for (int i = a->count - 1; i >= 0; i--)
-    if (a->limb[i] != b->limb[i]) return a->limb[i] < b->limb[i] ? -1 : 1;
+    if (a->limb[i] != b->limb[i])
+      return a->limb[i] < b->limb[i] ? -1 : 1;
   return 0;
 }
 
@@ -72,7 +79,8 @@ static void add_sizes(struct wide *to, const struct wide *a,
     sum >>= 64;
   }
   to->count = a->count;
-  if (sum != 0) to->limb[to->count++] = (uint64_t)sum;
+  if (sum != 0)
+    to->limb[to->count++] = (uint64_t)sum;
 }
 
 /* to = |a| - |b|, |a| >= |b|; to may be one of them */
@@ -80,8 +88,8 @@ static void subtract_sizes(struct wide *to, const struct wide *a,
                            const struct wide *b) {
   uint64_t borrow = 0;
   for (int i = 0; i < a->count; i++) {
-    uint128 left = (uint128)a->limb[i] - (i < b->count ? b->limb[i] : 0) -
-                   borrow;
+    uint128 left =
+        (uint128)a->limb[i] - (i < b->count ? b->limb[i] : 0) - borrow;
     to->limb[i] = (uint64_t)left;
     borrow = (uint64_t)(left >> 64) & 1;
   }
@@ -95,7 +103,8 @@ static void add_signed(struct wide *to, const struct wide *a,
                        const struct wide *b, int sign) {
   if (sign == 0 || a->sign == 0) {
     *to = sign == 0 ? *a : *b;
-    if (sign != 0) to->sign = sign;
+    if (sign != 0)
+      to->sign = sign;
   } else if (a->sign == sign) {
     bool first = a->count >= b->count;
     add_sizes(to, first ? a : b, first ? b : a);
@@ -112,15 +121,17 @@ void wide_add(struct wide *to, const struct wide *a, const struct wide *b) {
   add_signed(to, a, b, b->sign);
 }
 
-/* ---- Products ------------------------------------------------------------- */
+/* ---- Products ------------------------------------------------------------ */
 
 void wide_multiply(struct wide *to, const struct wide *a,
                    const struct wide *b) {
   to->sign = a->sign * b->sign;
   to->count = 0;
-  if (to->sign == 0) return;
+  if (to->sign == 0)
+    return;
   to->count = a->count + b->count;
-  for (int i = 0; i < to->count; i++) to->limb[i] = 0;
+  for (int i = 0; i < to->count; i++)
+    to->limb[i] = 0;
   for (int i = 0; i < a->count; i++) {
     uint64_t carry = 0;
     for (int k = 0; k < b->count; k++) {
@@ -130,7 +141,8 @@ void wide_multiply(struct wide *to, const struct wide *a,
     }
     to->limb[i + b->count] = carry;
   }
-  if (to->limb[to->count - 1] == 0) to->count--;
+  if (to->limb[to->count - 1] == 0)
+    to->count--;
 }
 
 void wide_cross(struct wide *to, const struct wide *p, const struct wide *q,
@@ -141,18 +153,20 @@ void wide_cross(struct wide *to, const struct wide *p, const struct wide *q,
   add_signed(to, &left, &right, -right.sign);
 }
 
-/* ---- Quotients ------------------------------------------------------------ */
+/* ---- Quotients ----------------------------------------------------------- */
 
 /* a = 2^bits a */
 static void shift_up(struct wide *a, int bits) {
   int limbs = bits / 64, rest = bits % 64;
-  if (a->sign == 0 || bits == 0) return;
+  if (a->sign == 0 || bits == 0)
+    return;
   a->limb[a->count] = 0;
   for (int i = a->count; i >= 0; i--) {
     uint64_t below = rest > 0 && i > 0 ? a->limb[i - 1] >> (64 - rest) : 0;
     a->limb[i + limbs] = a->limb[i] << rest | below;
   }
-  for (int i = 0; i < limbs; i++) a->limb[i] = 0;
+  for (int i = 0; i < limbs; i++)
+    a->limb[i] = 0;
   a->count += limbs + 1;
   trim(a);
 }
@@ -180,7 +194,8 @@ static uint64_t divide_sizes(struct wide *a, const struct wide *b) {
   while (compare_sizes(a, b) >= 0) {
     double about = wide_to_double(a) / by * (1 - 0x1p-50);
     uint64_t q = about < 0x1p64 ? (uint64_t)about : UINT64_MAX;
-    if (q == 0) q = 1;
+    if (q == 0)
+      q = 1;
     subtract_times(a, b, q);
     quotient += q;
   }
@@ -194,17 +209,20 @@ int64_t wide_round_quotient(const struct wide *num, const struct wide *den,
   shift_up(&shifted, bits + 1);
   shift_up(&twice, 1);
   wide_add(&sum, &shifted, den);
-  if (sum.sign >= 0) return (int64_t)divide_sizes(&sum, &twice);
+  if (sum.sign >= 0)
+    return (int64_t)divide_sizes(&sum, &twice);
   quotient = divide_sizes(&sum, &twice);
-  if (sum.sign != 0) quotient++;
+  if (sum.sign != 0)
+    quotient++;
   return (int64_t)-quotient;
 }
 
-/* ---- Common divisors ------------------------------------------------------- */
+/* ---- Common divisors ----------------------------------------------------- */
 
 static int low_zeros(const struct wide *a) {
   int i = 0;
-  while (a->limb[i] == 0) i++;
+  while (a->limb[i] == 0)
+    i++;
   return 64 * i + __builtin_ctzll(a->limb[i]);
 }
 
@@ -223,7 +241,8 @@ static void shift_down(struct wide *a, int bits) {
  * lost. */
 static void divide_common(struct wide *a, struct wide *b) {
   int twos, of_a, of_b;
-  if (b->sign == 0) return;
+  if (b->sign == 0)
+    return;
   if (a->sign == 0) {
     *a = *b;
     return;
@@ -235,7 +254,8 @@ static void divide_common(struct wide *a, struct wide *b) {
   shift_down(b, of_b);
   for (;;) {
     int order = compare_sizes(a, b);
-    if (order == 0) break;
+    if (order == 0)
+      break;
     if (order < 0) {
       subtract_sizes(b, b, a);
       trim(b);
@@ -252,22 +272,26 @@ static void divide_common(struct wide *a, struct wide *b) {
 /* Whether all are below 2^64 once they are divided: no more is certain. */
 static bool may_fit(const struct wide v[3], const struct wide *divisor) {
   for (int k = 0; k < 3; k++)
-    if (bits_of(&v[k]) - bits_of(divisor) >= 64) return false;
+    if (bits_of(&v[k]) - bits_of(divisor) >= 64)
+      return false;
   return true;
 }
 
 bool wide_reduce(const struct wide v[3], int64_t reduced[3]) {
   struct wide divisor = v[0], other = v[1];
   divide_common(&divisor, &other);
-  if (divisor.sign != 0 && !may_fit(v, &divisor)) return false;
+  if (divisor.sign != 0 && !may_fit(v, &divisor))
+    return false;
   other = v[2];
   divide_common(&divisor, &other);
-  if (!may_fit(v, &divisor)) return false;
+  if (!may_fit(v, &divisor))
+    return false;
   for (int k = 0; k < 3; k++) {
     const uint64_t most = (uint64_t)INT64_MAX + (v[k].sign < 0);
     struct wide rest = v[k];
     uint64_t size = divide_sizes(&rest, &divisor);
-    if (size > most) return false;
+    if (size > most)
+      return false;
     reduced[k] = v[k].sign < 0 ? (int64_t)(0 - size) : (int64_t)size;
   }
   return true;

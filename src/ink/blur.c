@@ -135,10 +135,10 @@ static void settle(struct blur *blur, const struct sort_key *twin, size_t count,
                    uint32_t *kept) {
   size_t keeps = 0;
   for (size_t i = 0; i < count; i++) {
-    bool good = true;
-    for (size_t k = 0; good && k < keeps; k++)
-      good = !unite_twins(blur, kept[k], twin[i].value);
-    if (good)
+    bool ok = true;
+    for (size_t k = 0; ok && k < keeps; k++)
+      ok = !unite_twins(blur, kept[k], twin[i].value);
+    if (ok)
       kept[keeps++] = twin[i].value;
     else
       drop(blur, twin[i].value);
@@ -188,8 +188,8 @@ bool blur_drop_twins(struct blur *blur, const struct net_rows *rows) {
   uint8_t *company = mem_calloc(nodes, sizeof *company);
   struct sort_key *twin = NULL, *scratch = NULL;
   uint32_t *kept = NULL;
-  bool good = crowd && company;
-  if (good && nodes > 0) {
+  bool ok = crowd && company;
+  if (ok && nodes > 0) {
     gather_crowds(blur, crowd, rows);
     for (uint32_t i = 0; i < nodes; i++)
       if (crowd[i] != i) {
@@ -198,14 +198,14 @@ bool blur_drop_twins(struct blur *blur, const struct net_rows *rows) {
         count++;
       }
   }
-  if (good && count > 0) {
+  if (ok && count > 0) {
     count = blur->net->segment.count;
     twin = mem_alloc(count, sizeof *twin);
     scratch = mem_alloc(count, sizeof *scratch);
     kept = mem_alloc(count, sizeof *kept);
-    good = twin && scratch && kept;
+    ok = twin && scratch && kept;
   }
-  if (good && count > 0) {
+  if (ok && count > 0) {
     count = list_twins(blur, crowd, company, twin);
     settle_all(blur, twin, scratch, count, kept);
   }
@@ -214,5 +214,5 @@ bool blur_drop_twins(struct blur *blur, const struct net_rows *rows) {
   mem_free(twin);
   mem_free(scratch);
   mem_free(kept);
-  return good;
+  return ok;
 }

@@ -65,8 +65,7 @@ static bool add_path(struct chain *c, size_t from, uint32_t first,
   return ARRAY_PUSH(&c->paths->path, path);
 }
 
-/* ---- Open paths -----------------------------------------------------------
- */
+/* ---- Open paths ---------------------------------------------------------- */
 
 static bool walk_open(struct chain *c, uint32_t end) {
   size_t from = c->end.count;
@@ -88,8 +87,7 @@ static bool walk_open(struct chain *c, uint32_t end) {
   return add_path(c, from, first >> 1, false);
 }
 
-/* ---- Loops ----------------------------------------------------------------
- */
+/* ---- Loops --------------------------------------------------------------- */
 
 /* Which of a loop's ends is to be its first: see paths_chain. */
 static size_t choose_start(const struct chain *c, const uint32_t *end,
@@ -155,16 +153,15 @@ static bool walk_all(struct chain *c) {
   return true;
 }
 
-/* ---- In order -------------------------------------------------------------
- */
+/* ---- In order ------------------------------------------------------------ */
 
 static bool sort_paths(struct ink_paths *paths) {
   size_t count = paths->path.count;
   struct sort_key *key = mem_alloc(count, sizeof *key);
   struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
   struct ink_path *sorted = mem_alloc(count, sizeof *sorted);
-  bool good = key && scratch && sorted;
-  if (good) {
+  bool ok = key && scratch && sorted;
+  if (ok) {
     for (size_t i = 0; i < count; i++) {
       const struct ink_path *path = &paths->path.item[i];
       key[i].key = (uint64_t)path->hidden << 32 | path->edge;
@@ -181,7 +178,7 @@ static bool sort_paths(struct ink_paths *paths) {
   mem_free(key);
   mem_free(scratch);
   mem_free(sorted);
-  return good;
+  return ok;
 }
 
 static bool place_points(struct chain *c) {
@@ -214,10 +211,10 @@ recto_status paths_chain(struct ink_paths *paths, const struct net *net,
   struct chain c = {.net = net, .paths = paths};
   c.mate = mem_alloc(count, 2 * sizeof *c.mate);
   c.used = mem_calloc(count, sizeof *c.used);
-  bool good = c.mate && c.used && pairing_find(c.mate, net) && walk_all(&c) &&
-              sort_paths(paths) && place_points(&c);
+  bool ok = c.mate && c.used && pairing_find(c.mate, net) && walk_all(&c) &&
+            sort_paths(paths) && place_points(&c);
   mem_free(c.mate);
   mem_free(c.used);
   ARRAY_FREE(&c.end);
-  return good ? RECTO_OK : error_memory(error);
+  return ok ? RECTO_OK : error_memory(error);
 }

@@ -45,8 +45,7 @@ recto_status net_index_ends(struct net *net, recto_error *error) {
   return RECTO_OK;
 }
 
-/* ---- 1 Twins --------------------------------------------------------------
- */
+/* ---- 1 Twins ------------------------------------------------------------- */
 
 static void drop_twins(struct finder *w) {
   const struct net_segment *s = w->net->segment.item;
@@ -65,8 +64,7 @@ static void drop_twins(struct finder *w) {
   }
 }
 
-/* ---- 2 Walk ---------------------------------------------------------------
- */
+/* ---- 2 Walk -------------------------------------------------------------- */
 
 static uint32_t root_of(uint32_t *parent, uint32_t segment) {
   while (parent[segment]) {
@@ -100,8 +98,7 @@ static bool look_at(void *user, uint32_t segment, uint32_t k) {
   return true;
 }
 
-/* ---- 3 Resolve ------------------------------------------------------------
- */
+/* ---- 3 Resolve ----------------------------------------------------------- */
 
 /* Sorts the members by cluster and drops those named twice. */
 static bool gather_members(struct finder *w) {
@@ -120,10 +117,10 @@ static bool gather_members(struct finder *w) {
         w->member.item[kept++] = key[i].value;
     w->member.count = kept;
   }
-  bool good = key && scratch;
+  bool ok = key && scratch;
   mem_free(key);
   mem_free(scratch);
-  return good;
+  return ok;
 }
 
 static bool resolve_clusters(struct finder *w, struct overlap *overlap) {
@@ -142,8 +139,7 @@ static bool resolve_clusters(struct finder *w, struct overlap *overlap) {
   return true;
 }
 
-/* ---- 4 Rebuild ------------------------------------------------------------
- */
+/* ---- 4 Rebuild ----------------------------------------------------------- */
 
 static void drop_gone(struct finder *w) {
   struct net *net = w->net;
@@ -163,14 +159,14 @@ static bool add_pieces(struct net *net, const struct overlap *overlap) {
 
 static bool replace_clusters(struct finder *w) {
   struct overlap overlap;
-  bool good = overlap_init(&overlap, w->member.count) && gather_members(w) &&
-              resolve_clusters(w, &overlap);
-  if (good) {
+  bool ok = overlap_init(&overlap, w->member.count) && gather_members(w) &&
+            resolve_clusters(w, &overlap);
+  if (ok) {
     drop_gone(w);
-    good = add_pieces(w->net, &overlap);
+    ok = add_pieces(w->net, &overlap);
   }
   overlap_fini(&overlap);
-  return good;
+  return ok;
 }
 
 recto_status net_drop_coincident(struct net *net, const struct net_rows *rows,
@@ -183,20 +179,20 @@ recto_status net_drop_coincident(struct net *net, const struct net_rows *rows,
     return status;
   w.gone = mem_calloc(count, sizeof *w.gone);
   w.parent = mem_calloc(count, sizeof *w.parent);
-  bool good = w.gone && w.parent;
-  if (good)
+  bool ok = w.gone && w.parent;
+  if (ok)
     drop_twins(&w);
-  for (uint32_t i = 0; good && i < count; i++)
-    good = w.gone[i] || walk_along(&walk, i);
-  if (good && w.member.count)
-    good = replace_clusters(&w);
-  else if (good && w.gone_count)
+  for (uint32_t i = 0; ok && i < count; i++)
+    ok = w.gone[i] || walk_along(&walk, i);
+  if (ok && w.member.count)
+    ok = replace_clusters(&w);
+  else if (ok && w.gone_count)
     drop_gone(&w);
   net->doubled = w.gone_count;
   mem_free(w.gone);
   mem_free(w.parent);
   ARRAY_FREE(&w.member);
-  if (!good)
+  if (!ok)
     return error_memory(error);
   return w.gone_count ? net_index_ends(net, error) : RECTO_OK;
 }

@@ -86,22 +86,21 @@ static bool add_dashes(struct drawing *drawing,
   struct cursor cursor = {.line = line};
   struct stroke_line piece = {0};
   double n = count_dashes(period, dash, gap);
-  bool good = true;
-  for (double i = 0; good && i < n; i++) {
+  bool ok = true;
+  for (double i = 0; ok && i < n; i++) {
     double from = i * period / n, to = (i + 1) * period / n - gap;
-    good = cut(&cursor, from, to, &piece);
-    if (good && !line->closed && i + 1 == n) /* the very end, unrounded */
+    ok = cut(&cursor, from, to, &piece);
+    if (ok && !line->closed && i + 1 == n) /* the very end, unrounded */
       piece.point.item[piece.point.count - 1] =
           line->point.item[line->point.count - 1];
-    good = good && stroke_add(drawing, like, piece.point.item,
-                              piece.point.count, false);
+    ok = ok &&
+         stroke_add(drawing, like, piece.point.item, piece.point.count, false);
   }
   ARRAY_FREE(&piece.point);
-  return good;
+  return ok;
 }
 
-/* ---- Corners --------------------------------------------------------------
- */
+/* ---- Corners ------------------------------------------------------------- */
 
 /* A line that turns by more, cosine of 30 degrees, has a corner there: a box
  * has, a circle of 16 sides has none. */
@@ -138,14 +137,14 @@ bool stroke_add_dashed(struct drawing *drawing,
     end = first + count;
   }
   struct stroke_line piece = {0};
-  bool good = true;
-  for (size_t i = first, next; good && i < end; i = next) {
+  bool ok = true;
+  for (size_t i = first, next; ok && i < end; i = next) {
     next = find_corner(line, i, end);
     piece.point.count = 0;
-    for (size_t k = i; good && k <= next; k++)
-      good = ARRAY_PUSH(&piece.point, line->point.item[k % count]);
-    good = good && add_dashes(drawing, like, &piece, dash, gap);
+    for (size_t k = i; ok && k <= next; k++)
+      ok = ARRAY_PUSH(&piece.point, line->point.item[k % count]);
+    ok = ok && add_dashes(drawing, like, &piece, dash, gap);
   }
   ARRAY_FREE(&piece.point);
-  return good;
+  return ok;
 }

@@ -52,8 +52,7 @@ struct engraving {
   uint32_t face, layer;
 };
 
-/* ---- Coverage -------------------------------------------------------------
- */
+/* ---- Coverage ------------------------------------------------------------ */
 
 /* The tone from which on line `line` of a layer is drawn. */
 static double threshold(int cross, int64_t line) {
@@ -82,8 +81,7 @@ static int share_out(double tone, double *each) {
   return 3;
 }
 
-/* ---- 1 Spans --------------------------------------------------------------
- */
+/* ---- 1 Spans ------------------------------------------------------------- */
 
 /* Adds [u0, u1] of the span, with ink or without. */
 static bool add_bit(struct engraving *e, int cross,
@@ -199,8 +197,7 @@ static bool take_even(struct engraving *e, const struct map *map,
   return true;
 }
 
-/* ---- 3 Strokes ------------------------------------------------------------
- */
+/* ---- 3 Strokes ----------------------------------------------------------- */
 
 static bool add_stroke(struct engraving *e, const struct run_bit *bit,
                        double u0, double u1) {
@@ -248,8 +245,7 @@ static bool add_runs(struct engraving *e) {
   return true;
 }
 
-/* ---- All ------------------------------------------------------------------
- */
+/* ---- All ----------------------------------------------------------------- */
 
 static bool take_fragments(struct engraving *e, const struct map *map) {
   for (size_t i = 0; i < map->fragment.count; i++) {
@@ -275,11 +271,11 @@ bool engrave_add(struct drawing *drawing, const struct sheet *sheet,
   for (int k = 0; k < LAYERS; k++)
     ruling_init(&e.ruling[k], sheet, options->pen_mm,
                 options->hatch_angle_deg + LAYER_DEG * k);
-  bool good = tones_init(&e.tones, sheet, scene, options) &&
-              take_fragments(&e, map) && add_runs(&e);
+  bool ok = tones_init(&e.tones, sheet, scene, options) &&
+            take_fragments(&e, map) && add_runs(&e);
   tones_fini(&e.tones);
   for (int k = 0; k < LAYERS; k++)
     ruling_fini(&e.ruling[k]);
   ARRAY_FREE(&e.runs.bit);
-  return good;
+  return ok;
 }

@@ -17,8 +17,7 @@ uint32_t fill_colour(const struct scene *scene, uint32_t group) {
   return palette[group % (sizeof palette / sizeof palette[0])];
 }
 
-/* ---- Shade ----------------------------------------------------------------
- */
+/* ---- Shade --------------------------------------------------------------- */
 
 static uint32_t grey_of(const struct scene *scene, uint32_t face,
                         const struct camera *camera, const double light[3]) {
@@ -32,8 +31,7 @@ static uint32_t grey_of(const struct scene *scene, uint32_t face,
   return level << 16 | level << 8 | level;
 }
 
-/* ---- Fills ----------------------------------------------------------------
- */
+/* ---- Fills --------------------------------------------------------------- */
 
 /* The fill that a fragment would be, without its loops. */
 static struct drawing_fill fill_like(const struct sheet *sheet,
@@ -60,7 +58,7 @@ bool fill_add(struct drawing *drawing, const struct sheet *sheet,
   for (size_t i = 0; i < map->fragment.count; i++)
     like[i] =
         fill_like(sheet, scene, map->fragment.item[i].face, light, options);
-  bool good = merge_fills(drawing, sheet, scene, map, like, options);
+  bool ok = merge_fills(drawing, sheet, scene, map, like, options);
   mem_free(like);
-  return good;
+  return ok;
 }

@@ -37,12 +37,11 @@ struct hatch {
   ARRAY(uint32_t) strip_side;
   cuts cut; /* sides that may be shared, and these sides */
   ARRAY(struct ruling_side) cut_side;
-  bool good;               /* memory did not run out */
+  bool ok;                 /* memory did not run out */
   struct stroke_line line; /* the stroke at hand */
 };
 
-/* ---- 1 Sides --------------------------------------------------------------
- */
+/* ---- 1 Sides ------------------------------------------------------------- */
 
 /* Whether a side is drawn as a line. */
 static bool is_inked(const struct hatch *h, uint32_t side) {
@@ -102,7 +101,7 @@ static void take_out(void *user, struct cut *ahead, struct cut *turned) {
   if (!is_on(ahead, low) || !is_on(turned, low) || !is_on(ahead, high) ||
       !is_on(turned, high))
     return;
-  h->good = put_back(h, ahead, low) && put_back(h, turned, low) && h->good;
+  h->ok = put_back(h, ahead, low) && put_back(h, turned, low) && h->ok;
   ahead->from = turned->from = high;
   ahead->low = turned->low = sooner ? ahead->high : turned->high;
 }
@@ -113,7 +112,7 @@ static bool take_shared_out(struct hatch *h) {
   struct ruling *r = &h->ruling;
   size_t kept = 0;
   h->cut.count = h->cut_side.count = 0;
-  h->good = true;
+  h->ok = true;
   for (uint32_t i = 0; i < r->side.count; i++) {
     const struct ruling_side side = r->side.item[i];
     uint32_t item = (uint32_t)h->cut.count;
@@ -129,9 +128,9 @@ static bool take_shared_out(struct hatch *h) {
   r->side.count = kept;
   if (!cuts_meet(&h->cut, take_out, h))
     return false;
-  for (size_t i = 0; i < h->cut.count && h->good; i++)
-    h->good = put_back(h, &h->cut.item[i], h->cut.item[i].to);
-  return h->good;
+  for (size_t i = 0; i < h->cut.count && h->ok; i++)
+    h->ok = put_back(h, &h->cut.item[i], h->cut.item[i].to);
+  return h->ok;
 }
 
 /* Takes the sides of fragments [begin, end) of the patches, but for those that
@@ -161,8 +160,7 @@ static bool take_sides(struct hatch *h, const struct map *map, size_t begin,
   return take_shared_out(h);
 }
 
-/* ---- 3 Strips -------------------------------------------------------------
- */
+/* ---- 3 Strips ------------------------------------------------------------ */
 
 /* Lists the sides by strip, the patch's lines being [first, last). */
 static bool list_strips(struct hatch *h, int64_t first, int64_t last) {
@@ -195,8 +193,7 @@ static bool list_strips(struct hatch *h, int64_t first, int64_t last) {
   return true;
 }
 
-/* ---- 4 Strokes ------------------------------------------------------------
- */
+/* ---- 4 Strokes ----------------------------------------------------------- */
 
 static double cross(struct ruling_place a, struct ruling_place b,
                     struct ruling_place c) {
@@ -394,8 +391,8 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
   struct hatch h = {.drawing = drawing, .sheet = sheet, .pens = pens};
   ruling_init(&h.ruling, sheet, options->hatch_pitch_mm,
               options->hatch_angle_deg);
-  bool good = patches_init(&h.patches, sheet, scene, map, pens, options);
-  for (size_t i = 0, end; good && i < map->fragment.count; i = end) {
+  bool ok = patches_init(&h.patches, sheet, scene, map, pens, options);
+  for (size_t i = 0, end; ok && i < map->fragment.count; i = end) {
     end = patches_end(&h.patches, i);
     uint32_t face = map->fragment.item[h.patches.fragment[i]].face;
     uint32_t group = scene->face_group.item[face];
@@ -405,7 +402,7 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
     h.shortest = pens_shortest_mm(pens, h.pen);
     h.like = (struct drawing_stroke){
         .layer = h.pen, .face = face, .edge = DRAWING_NONE, .group = group};
-    good = take_sides(&h, map, i, end) && hatch_patch(&h);
+    ok = take_sides(&h, map, i, end) && hatch_patch(&h);
   }
   ruling_fini(&h.ruling);
   patches_fini(&h.patches);
@@ -414,5 +411,5 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
   ARRAY_FREE(&h.cut);
   ARRAY_FREE(&h.cut_side);
   ARRAY_FREE(&h.line.point);
-  return good;
+  return ok;
 }

@@ -25,8 +25,7 @@ struct ink {
   int64_t too_short;
 };
 
-/* ---- Paths ----------------------------------------------------------------
- */
+/* ---- Paths --------------------------------------------------------------- */
 
 /* What is drawn once, as a net, its ends indexed. */
 static recto_status make_net(struct ink *ink, struct net *net,
@@ -72,8 +71,7 @@ double ink_drift_mm(const recto_options *options) {
   return options->simplify_mm + (NET_ROUNDS * sqrt(2) + 0.5) * options->unit_mm;
 }
 
-/* ---- Strokes --------------------------------------------------------------
- */
+/* ---- Strokes ------------------------------------------------------------- */
 
 /* A stroke of that path without its points. */
 static struct drawing_stroke stroke_like(const struct ink *ink,
@@ -122,14 +120,14 @@ static bool add_path(struct ink *ink, const struct ink_path *path,
 
 static bool add_paths(struct ink *ink, const struct ink_paths *paths) {
   struct stroke_line line = {0};
-  bool good = ARRAY_RESERVE(&ink->drawing->point, paths->point.count) &&
-              ARRAY_RESERVE(&ink->drawing->stroke, paths->path.count);
-  for (size_t i = 0; good && i < paths->path.count; i++) {
+  bool ok = ARRAY_RESERVE(&ink->drawing->point, paths->point.count) &&
+            ARRAY_RESERVE(&ink->drawing->stroke, paths->path.count);
+  for (size_t i = 0; ok && i < paths->path.count; i++) {
     const struct ink_path *path = &paths->path.item[i];
-    good = take_points(ink, paths, path, &line) && add_path(ink, path, &line);
+    ok = take_points(ink, paths, path, &line) && add_path(ink, path, &line);
   }
   ARRAY_FREE(&line.point);
-  return good;
+  return ok;
 }
 
 static recto_status draw_lines(struct ink *ink, recto_error *error) {
@@ -141,8 +139,7 @@ static recto_status draw_lines(struct ink *ink, recto_error *error) {
   return status;
 }
 
-/* ---- The drawing ----------------------------------------------------------
- */
+/* ---- The drawing --------------------------------------------------------- */
 
 static bool copy_group_names(struct ink *ink) {
   for (size_t i = 0; i < ink->scene->group.count; i++) {

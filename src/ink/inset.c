@@ -20,7 +20,7 @@ struct cut {
 typedef ARRAY(struct cut) cut_list;
 typedef ARRAY(struct ruling_span) span_list;
 
-/* ---- Cuts --------------------------------------------------------------- */
+/* ---- Cuts ---------------------------------------------------------------- */
 
 static void widen(struct cut *cut, double u0, double u1) {
   cut->u0 = fmin(cut->u0, u0);
@@ -91,7 +91,7 @@ static int compare_cuts(const void *first, const void *second, void *user) {
   return (a->u0 > b->u0) - (a->u0 < b->u0);
 }
 
-/* ---- Spans -------------------------------------------------------------- */
+/* ---- Spans --------------------------------------------------------------- */
 
 /* Keeps what is left of a span; *at is the first cut of its line or of a later
  * one. */
@@ -119,26 +119,26 @@ bool inset_spans(struct ruling *ruling, double distance) {
   cut_list cuts = {0};
   span_list kept = {0};
   size_t at = 0;
-  bool good = true;
-  for (uint32_t i = 0; good && i < ruling->side.count; i++)
-    good = cut_by_side(ruling, i, distance, &cuts);
-  good = good && sort_stable(cuts.item, cuts.count, sizeof *cuts.item,
-                             compare_cuts, NULL);
-  for (size_t i = 0; good && i < ruling->span.count; i++) {
+  bool ok = true;
+  for (uint32_t i = 0; ok && i < ruling->side.count; i++)
+    ok = cut_by_side(ruling, i, distance, &cuts);
+  ok = ok && sort_stable(cuts.item, cuts.count, sizeof *cuts.item, compare_cuts,
+                         NULL);
+  for (size_t i = 0; ok && i < ruling->span.count; i++) {
     const struct ruling_span *span = &ruling->span.item[i];
     while (at < cuts.count && cuts.item[at].line < span->left.line)
       at++;
-    good = keep(span, &cuts, at, &kept);
+    ok = keep(span, &cuts, at, &kept);
   }
   ruling->span.count = 0;
-  for (size_t i = 0; good && i < kept.count; i++)
-    good = ARRAY_PUSH(&ruling->span, kept.item[i]);
+  for (size_t i = 0; ok && i < kept.count; i++)
+    ok = ARRAY_PUSH(&ruling->span, kept.item[i]);
   ARRAY_FREE(&cuts);
   ARRAY_FREE(&kept);
-  return good;
+  return ok;
 }
 
-/* ---- Moves -------------------------------------------------------------- */
+/* ---- Moves --------------------------------------------------------------- */
 
 bool inset_is_clear(const struct ruling_side *side, struct ruling_place a,
                     struct ruling_place b, double distance) {

@@ -98,8 +98,7 @@ bool layers_add(struct drawing *drawing, const struct pens *pens,
   return true;
 }
 
-/* ---- Packing --------------------------------------------------------------
- */
+/* ---- Packing ------------------------------------------------------------- */
 
 /* Numbers the layers with strokes on them anew: number[old] is
  * the new one.  Returns how many there are. */

@@ -54,8 +54,7 @@ static void join(struct merge *merge, uint32_t first, uint32_t second) {
   merge->merged[first] = merge->merged[second] = 1;
 }
 
-/* ---- 1. Sides by edge -----------------------------------------------------
- */
+/* ---- 1. Sides by edge ---------------------------------------------------- */
 
 static bool is_smooth(const struct merge *merge, uint32_t id) {
   const struct sheet_edge *edge = &merge->sheet->edge.item[id];
@@ -96,11 +95,11 @@ static bool sort_sides(struct merge *merge) {
   size_t count = merge->side.count;
   struct sort_key *key = mem_alloc(count, 2 * sizeof *key);
   struct side *sorted = mem_alloc(count, sizeof *sorted);
-  bool good = key != NULL && sorted != NULL;
-  for (uint32_t i = 0; good && i < count; i++)
+  bool ok = key != NULL && sorted != NULL;
+  for (uint32_t i = 0; ok && i < count; i++)
     key[i] = (struct sort_key){
         merge->map->corner.item[merge->side.item[i].corner].id, i};
-  if (good) {
+  if (ok) {
     sort_keys(key, key + count, count);
     for (size_t i = 0; i < count; i++)
       sorted[i] = merge->side.item[key[i].value];
@@ -108,24 +107,23 @@ static bool sort_sides(struct merge *merge) {
   }
   mem_free(sorted);
   mem_free(key);
-  return good;
+  return ok;
 }
 
 static bool gather_sides(struct merge *merge) {
   const struct map *map = merge->map;
   uint8_t *smooth = mem_calloc(merge->sheet->edge.count, sizeof *smooth);
-  bool good = smooth != NULL;
-  for (uint32_t f = 0; good && f < map->fragment.count; f++) {
+  bool ok = smooth != NULL;
+  for (uint32_t f = 0; ok && f < map->fragment.count; f++) {
     const struct map_fragment *fragment = &map->fragment.item[f];
-    for (uint32_t l = 0; good && l < fragment->loops; l++)
-      good = gather_loop(merge, f, &map->loop.item[fragment->loop + l], smooth);
+    for (uint32_t l = 0; ok && l < fragment->loops; l++)
+      ok = gather_loop(merge, f, &map->loop.item[fragment->loop + l], smooth);
   }
   mem_free(smooth);
-  return good && (merge->side.count == 0 || sort_sides(merge));
+  return ok && (merge->side.count == 0 || sort_sides(merge));
 }
 
-/* ---- 2. What two fragments have on either side of an edge -----------------
- */
+/* ---- 2. What two fragments have on either side of an edge ---------------- */
 
 static bool is_of_one_style(const struct merge *merge, uint32_t f, uint32_t g) {
   const struct drawing_fill *a = &merge->like[f], *b = &merge->like[g];
@@ -233,13 +231,12 @@ static bool sweep_edge(struct merge *merge, const struct side *side,
   runners running = {0};
   for (size_t i = 0; i < count; i++)
     add_events(merge, &side[i], &event[2 * i]);
-  bool good =
-      sort_stable(event, 2 * count, sizeof *event, compare_events, NULL);
-  for (size_t i = 0; good && i < 2 * count; i++)
-    good = (i == 0 || settle(merge, event[i - 1].at, event[i].at, &running)) &&
-           take_event(&running, &event[i]);
+  bool ok = sort_stable(event, 2 * count, sizeof *event, compare_events, NULL);
+  for (size_t i = 0; ok && i < 2 * count; i++)
+    ok = (i == 0 || settle(merge, event[i - 1].at, event[i].at, &running)) &&
+         take_event(&running, &event[i]);
   ARRAY_FREE(&running);
-  return good;
+  return ok;
 }
 
 /* Whether two sides of the run may cancel at all. */
@@ -295,12 +292,12 @@ static bool cancel_edge(struct merge *merge, uint32_t edge,
     return true;
   }
   struct event *event = mem_alloc(2 * count, sizeof *event);
-  bool good = event != NULL && sweep_edge(merge, side, count, event);
+  bool ok = event != NULL && sweep_edge(merge, side, count, event);
   mem_free(event);
   /* Its fragments are traced anew, whatever became of it. */
   for (size_t i = 0; i < count; i++)
     merge->merged[side[i].fragment] = 1;
-  return good;
+  return ok;
 }
 
 static bool cancel_sides(struct merge *merge) {
@@ -316,9 +313,7 @@ static bool cancel_sides(struct merge *merge) {
   return true;
 }
 
-/* ---- 3. Fills
- * ----------------------------------------------------------------
- */
+/* ---- 3. Fills ------------------------------------------------------------ */
 
 static bool add_loop(struct merge *merge, const struct ink_point *point,
                      uint32_t count) {
@@ -373,15 +368,14 @@ static bool take_sides(struct merge *merge, uint32_t f) {
 static bool take_loops(struct merge *merge, uint32_t f) {
   const struct map *map = merge->map;
   const struct map_fragment *fragment = &map->fragment.item[f];
-  bool good = true;
-  for (uint32_t l = 0; good && l < fragment->loops; l++) {
+  bool ok = true;
+  for (uint32_t l = 0; ok && l < fragment->loops; l++) {
     const struct map_loop *loop = &map->loop.item[fragment->loop + l];
-    good = outline_begin_loop(&merge->loops);
-    for (uint32_t i = 0; good && i < loop->count; i++)
-      good =
-          outline_add_point(&merge->loops, place_of(merge, loop->corner + i));
+    ok = outline_begin_loop(&merge->loops);
+    for (uint32_t i = 0; ok && i < loop->count; i++)
+      ok = outline_add_point(&merge->loops, place_of(merge, loop->corner + i));
   }
-  return good;
+  return ok;
 }
 
 /* Keys that order fragments, or what is left of them, by their fills. */
@@ -395,39 +389,39 @@ static void key_by_root(struct merge *merge, struct sort_key *key,
 
 static bool join_rest(struct merge *merge, const struct sort_key *fragment,
                       size_t count, const struct sort_key *rest, size_t rests) {
-  bool good = true;
+  bool ok = true;
   merge->outline.piece.count = 0;
-  for (size_t i = 0; good && i < count; i++)
-    good = take_sides(merge, fragment[i].value);
-  for (size_t i = 0; good && i < rests; i++)
-    good = ARRAY_PUSH(&merge->outline.piece,
-                      merge->rest.piece.item[rest[i].value]);
-  return good && outline_trace(&merge->outline, &merge->loops);
+  for (size_t i = 0; ok && i < count; i++)
+    ok = take_sides(merge, fragment[i].value);
+  for (size_t i = 0; ok && i < rests; i++)
+    ok = ARRAY_PUSH(&merge->outline.piece,
+                    merge->rest.piece.item[rest[i].value]);
+  return ok && outline_trace(&merge->outline, &merge->loops);
 }
 
 static bool add_fills(struct merge *merge) {
   size_t count = merge->map->fragment.count, rests = merge->rest.piece.count;
   struct sort_key *fragment = mem_alloc(count, 2 * sizeof *fragment);
   struct sort_key *rest = mem_alloc(rests, 2 * sizeof *rest);
-  bool good = fragment != NULL && rest != NULL;
-  if (good) {
+  bool ok = fragment != NULL && rest != NULL;
+  if (ok) {
     key_by_root(merge, fragment, NULL, count);
     key_by_root(merge, rest, merge->rest.piece.item, rests);
   }
-  for (size_t i = 0, j, r = 0, s; good && i < count; i = j, r = s) {
+  for (size_t i = 0, j, r = 0, s; ok && i < count; i = j, r = s) {
     for (j = i + 1; j < count && fragment[j].key == fragment[i].key;)
       j++;
     for (s = r; s < rests && rest[s].key == fragment[i].key;)
       s++;
     merge->loops.path.count = merge->loops.point.count = 0;
-    good = (merge->merged[fragment[i].value]
-                ? join_rest(merge, &fragment[i], j - i, &rest[r], s - r)
-                : take_loops(merge, fragment[i].value)) &&
-           add_fill(merge, fragment[i].value, &merge->loops);
+    ok = (merge->merged[fragment[i].value]
+              ? join_rest(merge, &fragment[i], j - i, &rest[r], s - r)
+              : take_loops(merge, fragment[i].value)) &&
+         add_fill(merge, fragment[i].value, &merge->loops);
   }
   mem_free(rest);
   mem_free(fragment);
-  return good;
+  return ok;
 }
 
 bool merge_fills(struct drawing *drawing, const struct sheet *sheet,
@@ -445,10 +439,10 @@ bool merge_fills(struct drawing *drawing, const struct sheet *sheet,
       .root = sets_create(count),
       .merged = mem_calloc(count, sizeof *merge.merged),
       .dropped = mem_calloc(map->corner.count, sizeof *merge.dropped)};
-  bool good = merge.root && merge.merged && merge.dropped;
+  bool ok = merge.root && merge.merged && merge.dropped;
   if (!options->ids)
-    good = good && gather_sides(&merge) && cancel_sides(&merge);
-  good = good && add_fills(&merge);
+    ok = ok && gather_sides(&merge) && cancel_sides(&merge);
+  ok = ok && add_fills(&merge);
   mem_free(merge.root);
   mem_free(merge.merged);
   mem_free(merge.dropped);
@@ -456,5 +450,5 @@ bool merge_fills(struct drawing *drawing, const struct sheet *sheet,
   ARRAY_FREE(&merge.rest.piece);
   ARRAY_FREE(&merge.outline.piece);
   paths_fini(&merge.loops);
-  return good;
+  return ok;
 }

@@ -23,8 +23,7 @@ struct nearest_box {
   uint32_t left;
 };
 
-/* ---- Building -------------------------------------------------------------
- */
+/* ---- Building ------------------------------------------------------------ */
 
 static uint32_t start_of(const struct nearest *t, int level, uint32_t j) {
   return (uint32_t)(((uint64_t)t->count * j) >> level);
@@ -117,7 +116,7 @@ bool nearest_init(struct nearest *t, const struct drawing_point *point,
   t->item = mem_alloc(count, sizeof *t->item);
   t->place = mem_alloc(count, sizeof *t->place);
   t->box = mem_alloc((size_t)2 << t->levels, sizeof *t->box);
-  if (!t->item || !t->place || !t->box)
+  if (t->item == NULL || t->place == NULL || t->box == NULL)
     return false;
   for (uint32_t i = 0; i < count; i++)
     t->item[i] = (struct nearest_item){point[i], i, false};
@@ -147,8 +146,7 @@ void nearest_remove(struct nearest *t, uint32_t point) {
     t->box[i] = unite(&t->box[2 * i], &t->box[2 * i + 1]);
 }
 
-/* ---- Searching ------------------------------------------------------------
- */
+/* ---- Searching ----------------------------------------------------------- */
 
 /* The best so far, nearest first, and what is looked for. */
 struct search {

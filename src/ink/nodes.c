@@ -42,8 +42,7 @@ void net_rows_fini(struct net_rows *rows) {
   *rows = (struct net_rows){0};
 }
 
-/* ---- 1 Sort ---------------------------------------------------------------
- */
+/* ---- 1 Sort -------------------------------------------------------------- */
 
 static int bit_width(uint64_t value) {
   int width = 0;
@@ -83,8 +82,7 @@ static struct sort_key *sort_nodes(struct unite *u) {
   return key;
 }
 
-/* ---- 2 Rows ---------------------------------------------------------------
- */
+/* ---- 2 Rows -------------------------------------------------------------- */
 
 static size_t bucket_of(const struct unite *u, int32_t y) {
   return (size_t)(((int64_t)y - u->y_low) >> u->shift);
@@ -138,8 +136,7 @@ static bool make_rows(struct unite *u) {
   return true;
 }
 
-/* ---- 3 Unite --------------------------------------------------------------
- */
+/* ---- 3 Unite ------------------------------------------------------------- */
 
 /* The first place in [low, high) that is not before (x, y). */
 static uint32_t find_place(const struct ink_point *at, uint32_t low,
@@ -185,8 +182,7 @@ static void unite_near(struct unite *u) {
   }
 }
 
-/* ---- 4 Renumber -----------------------------------------------------------
- */
+/* ---- 4 Renumber ---------------------------------------------------------- */
 
 static void renumber_nodes(struct unite *u) {
   struct net_rows *rows = u->rows;
@@ -267,8 +263,8 @@ bool net_sort_segments(struct net *net) {
   size_t count = net->segment.count;
   struct net_segment *sorted = mem_alloc(count, sizeof *sorted);
   uint32_t *start = mem_calloc(net->node.count + 1, sizeof *start);
-  bool good = sorted && start && sort_into(sorted, start, net);
-  if (good) {
+  bool ok = sorted && start && sort_into(sorted, start, net);
+  if (ok) {
     mem_free(net->segment.item);
     net->segment.item = sorted;
     net->segment.capacity = count;
@@ -276,14 +272,14 @@ bool net_sort_segments(struct net *net) {
   }
   mem_free(sorted);
   mem_free(start);
-  return good;
+  return ok;
 }
 
 recto_status net_unite(struct net *net, struct net_rows *rows,
                        recto_error *error) {
   size_t count = net->node.count;
   struct unite u = {.net = net, .rows = rows, .count = count};
-  bool good = false;
+  bool ok = false;
   u.at = mem_alloc(count, sizeof *u.at);
   u.order = mem_alloc(count, sizeof *u.order);
   u.root = mem_alloc(count, sizeof *u.root);
@@ -304,12 +300,12 @@ recto_status net_unite(struct net *net, struct net_rows *rows,
     renumber_nodes(&u);
     renumber_segments(&u);
   }
-  good = net_sort_segments(net);
+  ok = net_sort_segments(net);
 done:
   mem_free(u.at);
   mem_free(u.order);
   mem_free(u.root);
   mem_free(u.renumber);
   mem_free(u.bucket);
-  return good ? RECTO_OK : error_memory(error);
+  return ok ? RECTO_OK : error_memory(error);
 }

@@ -44,8 +44,7 @@ static struct drawing_point corner_of(const struct order *o, uint32_t stroke,
   return o->drawing->point.item[o->stroke[stroke].point + corner];
 }
 
-/* ---- 1 Greedy -------------------------------------------------------------
- */
+/* ---- 1 Greedy ------------------------------------------------------------ */
 
 static bool add_entries(struct order *o) {
   for (uint32_t i = 0; i < o->count; i++) {
@@ -80,9 +79,9 @@ static struct drawing_point take_stroke(struct order *o, struct entry entry) {
 static bool go_to_nearest(struct order *o) {
   struct nearest nearest = {0};
   struct drawing_point pen = o->start;
-  bool good = add_entries(o) &&
-              nearest_init(&nearest, o->place.item, (uint32_t)o->entry.count);
-  while (good && o->tour.count < o->count) {
+  bool ok = add_entries(o) &&
+            nearest_init(&nearest, o->place.item, (uint32_t)o->entry.count);
+  while (ok && o->tour.count < o->count) {
     struct entry entry = o->entry.item[nearest_find(&nearest, pen)];
     pen = take_stroke(o, entry);
     for (uint32_t i = o->first_entry[entry.stroke];
@@ -90,11 +89,10 @@ static bool go_to_nearest(struct order *o) {
       nearest_remove(&nearest, i);
   }
   nearest_fini(&nearest);
-  return good;
+  return ok;
 }
 
-/* ---- 3 Loops --------------------------------------------------------------
- */
+/* ---- 3 Loops ------------------------------------------------------------- */
 
 /* Begins the loop at place k of the tour where it is least out of the way. */
 static void start_loop_best(struct order *o, uint32_t k) {
@@ -128,8 +126,7 @@ static void start_loops_best(struct order *o) {
         start_loop_best(o, k);
 }
 
-/* ---- 4 Apply --------------------------------------------------------------
- */
+/* ---- 4 Apply ------------------------------------------------------------- */
 
 static void reverse(struct drawing_point *point, uint32_t count) {
   for (uint32_t i = 0; i < count / 2; i++) {
@@ -177,8 +174,7 @@ static double given_travel(const struct order *o) {
   return travel;
 }
 
-/* ---- Layers ---------------------------------------------------------------
- */
+/* ---- Layers -------------------------------------------------------------- */
 
 static bool order_layer(struct order *o, const struct tour_effort *effort) {
   size_t count = o->count;
@@ -189,13 +185,13 @@ static bool order_layer(struct order *o, const struct tour_effort *effort) {
   o->tour.turned = mem_alloc(count, sizeof *o->tour.turned);
   o->tour.end = o->end;
   o->tour.start = o->start;
-  bool good = o->first_entry && o->corner && o->end && o->tour.stroke &&
-              o->tour.turned && go_to_nearest(o) &&
-              tour_improve(&o->tour, effort);
-  if (good) {
+  bool ok = o->first_entry && o->corner && o->end && o->tour.stroke &&
+            o->tour.turned && go_to_nearest(o) &&
+            tour_improve(&o->tour, effort);
+  if (ok) {
     start_loops_best(o);
     if (tour_travel(&o->tour) < given_travel(o))
-      good = apply(o);
+      ok = apply(o);
   }
   ARRAY_FREE(&o->entry);
   ARRAY_FREE(&o->place);
@@ -204,7 +200,7 @@ static bool order_layer(struct order *o, const struct tour_effort *effort) {
   mem_free(o->end);
   mem_free(o->tour.stroke);
   mem_free(o->tour.turned);
-  return good;
+  return ok;
 }
 
 static struct drawing_point pen_after(const struct drawing *drawing,
@@ -215,8 +211,8 @@ static struct drawing_point pen_after(const struct drawing *drawing,
 
 bool order_near(struct drawing *drawing, const struct tour_effort *effort) {
   struct drawing_point pen = {0, 0};
-  bool good = true;
-  for (size_t i = 0, end; good && i < drawing->stroke.count; i = end) {
+  bool ok = true;
+  for (size_t i = 0, end; ok && i < drawing->stroke.count; i = end) {
     struct drawing_stroke *stroke = drawing->stroke.item + i;
     for (end = i; end < drawing->stroke.count &&
                   drawing->stroke.item[end].layer == stroke->layer;
@@ -226,10 +222,10 @@ bool order_near(struct drawing *drawing, const struct tour_effort *effort) {
                           .stroke = stroke,
                           .count = (uint32_t)(end - i),
                           .start = pen};
-    good = order_layer(&order, effort);
+    ok = order_layer(&order, effort);
     pen = pen_after(drawing, &drawing->stroke.item[end - 1]);
   }
-  return good;
+  return ok;
 }
 
 size_t order_pen_lifts(const struct drawing *drawing) {

@@ -68,20 +68,20 @@ bool outline_begin_loop(struct ink_paths *paths) {
 
 static bool trace(struct outline *outline, struct outline_piece *first,
                   struct ink_paths *paths) {
-  bool good = outline_begin_loop(paths);
-  for (struct outline_piece *p = first; good && p; p = next_piece(outline, p)) {
+  bool ok = outline_begin_loop(paths);
+  for (struct outline_piece *p = first; ok && p; p = next_piece(outline, p)) {
     p->used = true;
-    good = outline_add_point(paths, p->from);
+    ok = outline_add_point(paths, p->from);
   }
-  return good;
+  return ok;
 }
 
 bool outline_trace(struct outline *outline, struct ink_paths *loops) {
   struct outline_piece *piece = outline->piece.item;
-  bool good = sort_stable(piece, outline->piece.count, sizeof *piece,
-                          compare_starts, NULL);
-  for (size_t i = 0; good && i < outline->piece.count; i++)
+  bool ok = sort_stable(piece, outline->piece.count, sizeof *piece,
+                        compare_starts, NULL);
+  for (size_t i = 0; ok && i < outline->piece.count; i++)
     if (!piece[i].used)
-      good = trace(outline, &piece[i], loops);
-  return good;
+      ok = trace(outline, &piece[i], loops);
+  return ok;
 }

@@ -68,8 +68,7 @@ bool overlap_is_along(const struct net *net, uint32_t a, uint32_t b) {
   return high - low > NEAR * on_a.length;
 }
 
-/* ---- Work space -----------------------------------------------------------
- */
+/* ---- Work space ---------------------------------------------------------- */
 
 bool overlap_init(struct overlap *o, size_t segments) {
   *o = (struct overlap){0};
@@ -98,8 +97,7 @@ void overlap_fini(struct overlap *o) {
   *o = (struct overlap){0};
 }
 
-/* ---- 1 The line -----------------------------------------------------------
- */
+/* ---- 1 The line ---------------------------------------------------------- */
 
 static struct line choose_line(const struct net *net, const uint32_t *member,
                                size_t count) {
@@ -126,8 +124,7 @@ static bool is_member_near(const struct net *net, const struct line *line,
          distance_from(line, net->node.item[node[1]]) <= 2 * NEAR;
 }
 
-/* ---- 2 Breakpoints --------------------------------------------------------
- */
+/* ---- 2 Breakpoints ------------------------------------------------------- */
 
 /* Fills slot[2 i + k] with the breakpoint of end k of near[i], node[] with
  * the node of each breakpoint.  Returns how many there are. */
@@ -152,8 +149,7 @@ static uint32_t find_breakpoints(struct overlap *o, const struct net *net,
   return points;
 }
 
-/* ---- 3 Owners -------------------------------------------------------------
- */
+/* ---- 3 Owners ------------------------------------------------------------ */
 
 /* The first free slot from `slot` on; halves the path behind it. */
 static uint32_t next_free(uint32_t *next, uint32_t slot) {
@@ -184,8 +180,7 @@ static void take_slots(struct overlap *o, const struct net *net, uint32_t count,
   }
 }
 
-/* ---- 4 Pieces -------------------------------------------------------------
- */
+/* ---- 4 Pieces ------------------------------------------------------------ */
 
 static bool add_pieces(struct overlap *o, const struct net *net,
                        uint32_t points) {

@@ -61,8 +61,7 @@ static void join(struct pairing *p, uint32_t a, uint32_t b) {
   p->mate[b] = a;
 }
 
-/* ---- Few ends -------------------------------------------------------------
- */
+/* ---- Few ends ------------------------------------------------------------ */
 
 static void pair_few(struct pairing *p, const uint32_t *end, uint32_t count) {
   enum { NO_PAIR = 4 }; /* beyond any sum of a cosine and a penalty */
@@ -97,8 +96,7 @@ static void pair_few(struct pairing *p, const uint32_t *end, uint32_t count) {
   }
 }
 
-/* ---- Many ends ------------------------------------------------------------
- */
+/* ---- Many ends ----------------------------------------------------------- */
 
 /* Grows with the angle from 0 up to 4. */
 static float turn_of(struct direction d) {
@@ -164,8 +162,7 @@ static bool pair_many(struct pairing *p, const uint32_t *end, uint32_t count) {
   return true;
 }
 
-/* ---- All nodes ------------------------------------------------------------
- */
+/* ---- All nodes ----------------------------------------------------------- */
 
 static bool pair_all(struct pairing *p) {
   const struct net *net = p->net;
@@ -190,13 +187,13 @@ bool pairing_find(uint32_t *mate, const struct net *net) {
   struct pairing p = {.net = net, .mate = mate};
   size_t count = net->segment.count;
   p.along = mem_alloc(count, sizeof *p.along);
-  bool good = p.along != NULL;
-  if (good) {
+  bool ok = p.along != NULL;
+  if (ok) {
     memset(mate, 0xff, 2 * count * sizeof *mate);
     find_directions(&p);
-    good = pair_all(&p);
+    ok = pair_all(&p);
   }
   mem_free(p.along);
   ARRAY_FREE(&p.fan);
-  return good;
+  return ok;
 }

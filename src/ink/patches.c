@@ -67,20 +67,20 @@ static void join_at_cut(void *user, struct cut *ahead, struct cut *turned) {
 static bool join_at_cuts(const struct patches *patches, const struct map *map) {
   struct joining joining = {map, patches->root};
   cuts all = {0};
-  bool good = true;
+  bool ok = true;
   for (uint32_t f = 0; f < patches->count; f++) {
     const struct map_fragment *fragment = &map->fragment.item[f];
     for (uint32_t l = 0; l < fragment->loops; l++) {
       const struct map_loop *loop = &map->loop.item[fragment->loop + l];
       const struct map_corner *corner = map->corner.item + loop->corner;
-      for (uint32_t i = 0; good && i < loop->count; i++)
-        good = cuts_add_level(&all, &corner[i],
-                              &corner[i + 1 < loop->count ? i + 1 : 0], f);
+      for (uint32_t i = 0; ok && i < loop->count; i++)
+        ok = cuts_add_level(&all, &corner[i],
+                            &corner[i + 1 < loop->count ? i + 1 : 0], f);
     }
   }
-  good = good && cuts_meet(&all, join_at_cut, &joining);
+  ok = ok && cuts_meet(&all, join_at_cut, &joining);
   ARRAY_FREE(&all);
-  return good;
+  return ok;
 }
 
 /* Lists the fragments by patch. */
@@ -110,18 +110,18 @@ bool patches_init(struct patches *patches, const struct sheet *sheet,
   uint32_t *seen = mem_alloc(edges, sizeof *seen);
   patches->root = sets_create(patches->count);
   patches->fragment = mem_alloc(patches->count, sizeof *patches->fragment);
-  bool good = seen && patches->root && patches->fragment;
-  for (size_t e = 0; good && e < edges; e++)
+  bool ok = seen && patches->root && patches->fragment;
+  for (size_t e = 0; ok && e < edges; e++)
     seen[e] = SHEET_NONE;
-  if (good && !options->ids) {
+  if (ok && !options->ids) {
     join_all(patches, scene, map, pens, seen);
-    good = join_at_cuts(patches, map);
+    ok = join_at_cuts(patches, map);
   }
-  good = good && list(patches);
+  ok = ok && list(patches);
   mem_free(seen);
-  if (!good)
+  if (!ok)
     patches_fini(patches);
-  return good;
+  return ok;
 }
 
 void patches_fini(struct patches *patches) {

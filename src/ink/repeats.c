@@ -341,13 +341,13 @@ static bool rebuild(struct repeats *r) {
 static bool drop_once(struct net *net, const struct net_rows *rows,
                       int32_t unit, bool *changed) {
   struct repeats r = {0};
-  bool good = blur_init(&r.blur, net, unit) && blur_drop_twins(&r.blur, rows) &&
-              find_pairs(&r, rows);
-  if (good && r.pair.count > 0)
-    good = settle_members(&r);
+  bool ok = blur_init(&r.blur, net, unit) && blur_drop_twins(&r.blur, rows) &&
+            find_pairs(&r, rows);
+  if (ok && r.pair.count > 0)
+    ok = settle_members(&r);
   *changed = r.cut > 0 || r.blur.gone_count > 0;
-  if (good && *changed)
-    good = rebuild(&r);
+  if (ok && *changed)
+    ok = rebuild(&r);
   net->doubled += r.cut + r.blur.gone_count;
   blur_fini(&r.blur);
   ARRAY_FREE(&r.pair);
@@ -355,7 +355,7 @@ static bool drop_once(struct net *net, const struct net_rows *rows,
   ARRAY_FREE(&r.start);
   ARRAY_FREE(&r.piece);
   ARRAY_FREE(&r.cover);
-  return good;
+  return ok;
 }
 
 recto_status net_drop_repeats(struct net *net, const struct net_rows *rows,

@@ -45,8 +45,7 @@ struct drawing_point ruling_turn_back(const struct ruling *ruling,
                                 p.u * ruling->sine + p.v * ruling->cosine};
 }
 
-/* ---- Sides ----------------------------------------------------------------
- */
+/* ---- Sides --------------------------------------------------------------- */
 
 struct ruling_place ruling_place_at(const struct ruling *ruling, double x,
                                     double y) {
@@ -83,8 +82,7 @@ bool ruling_take(struct ruling *ruling, const struct map *map,
   return true;
 }
 
-/* ---- Spans ----------------------------------------------------------------
- */
+/* ---- Spans --------------------------------------------------------------- */
 
 /* Lines all over the page, in units of 2^-28 mm. */
 static void set_grid(struct ruling *ruling) {
@@ -168,7 +166,7 @@ bool ruling_find_spans(struct ruling *ruling) {
   ruling->span.count = 0;
   set_grid(ruling);
   scan_table_init(&table, &ruling->grid);
-  bool good = scan_sides(ruling, &table);
+  bool ok = scan_sides(ruling, &table);
   scan_table_fini(&table);
-  return good;
+  return ok;
 }

@@ -163,17 +163,17 @@ static bool add_all(struct collector *c, bool hidden) {
     struct intervals too_deep =
         take_intervals(&deep, deep_end, map->deep_interval.item, i);
     uint8_t state = map->edge_state[i];
-    bool good = true;
+    bool ok = true;
     if (c->sheet->edge.item[i].edge_class == 0)
       continue;
     c->bond = bond_of(c, i, hidden);
     if (hidden && state != MAP_VISIBLE)
-      good = add_hidden_intervals(c, i, visible, too_deep);
+      ok = add_hidden_intervals(c, i, visible, too_deep);
     else if (!hidden && state == MAP_VISIBLE)
-      good = add_segment(c, i, ratio_of(0, 1), ratio_of(1, 1));
+      ok = add_segment(c, i, ratio_of(0, 1), ratio_of(1, 1));
     else if (!hidden)
-      good = add_visible_intervals(c, i, visible);
-    if (!good)
+      ok = add_visible_intervals(c, i, visible);
+    if (!ok)
       return false;
   }
   return true;
@@ -192,11 +192,11 @@ recto_status net_collect(struct net *net, const struct sheet *sheet,
     return error_memory(error);
   memset(c.node_of_point, 0xff, points * sizeof *c.node_of_point);
 
-  bool good = add_all(&c, false);
-  if (good && options->hidden != RECTO_HIDDEN_NONE)
-    good = add_all(&c, true);
+  bool ok = add_all(&c, false);
+  if (ok && options->hidden != RECTO_HIDDEN_NONE)
+    ok = add_all(&c, true);
   mem_free(c.node_of_point);
-  if (!good)
+  if (!ok)
     return error_memory(error);
   if (net->segment.count >= SEGMENT_LIMIT || net->node.count >= SEGMENT_LIMIT)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,

@@ -124,21 +124,21 @@ recto_status paths_simplify(struct ink_paths *paths, double tolerance,
     if (paths->path.item[i].count > longest)
       longest = paths->path.item[i].count;
   s.keep = mem_alloc(longest, 1);
-  bool good = s.keep != NULL;
-  for (size_t i = 0; good && i < paths->path.count; i++) {
+  bool ok = s.keep != NULL;
+  for (size_t i = 0; ok && i < paths->path.count; i++) {
     struct ink_path *path = &paths->path.item[i];
-    good = simplify_path(&s, paths, path, tolerance * tolerance);
+    ok = simplify_path(&s, paths, path, tolerance * tolerance);
     uint32_t kept = 0;
-    for (uint32_t k = 0; good && k < path->count; k++)
+    for (uint32_t k = 0; ok && k < path->count; k++)
       if (s.keep[k])
         paths->point.item[to + kept++] = paths->point.item[path->point + k];
     path->point = to;
     path->count = kept;
     to += kept;
   }
-  if (good)
+  if (ok)
     paths->point.count = to;
   mem_free(s.keep);
   ARRAY_FREE(&s.stack);
-  return good ? RECTO_OK : error_memory(error);
+  return ok ? RECTO_OK : error_memory(error);
 }

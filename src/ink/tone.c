@@ -37,8 +37,7 @@ struct work {
   float *least, *most; /* tones of each region, at its root */
 };
 
-/* ---- 2 Joints -------------------------------------------------------------
- */
+/* ---- 2 Joints ------------------------------------------------------------ */
 
 static bool is_smooth(const struct work *w, uint32_t f, uint32_t g) {
   const double *a = w->face[f].xyz, *b = w->face[g].xyz;
@@ -84,8 +83,7 @@ static void join_all(struct work *w) {
     }
 }
 
-/* ---- 3 Corners ------------------------------------------------------------
- */
+/* ---- 3 Corners ----------------------------------------------------------- */
 
 static void sum_normals(struct work *w) {
   for (uint32_t f = 0; f < scene_face_count(w->scene); f++)
@@ -135,8 +133,7 @@ static void set_corners(struct work *w, struct tones *tones) {
   }
 }
 
-/* ---- 4 Regions ------------------------------------------------------------
- */
+/* ---- 4 Regions ----------------------------------------------------------- */
 
 static void set_regions(struct work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene); f++) {
@@ -152,8 +149,7 @@ static void set_regions(struct work *w, struct tones *tones) {
   }
 }
 
-/* ---- All ------------------------------------------------------------------
- */
+/* ---- All ----------------------------------------------------------------- */
 
 static bool prepare(struct work *w) {
   size_t faces = scene_face_count(w->scene);
@@ -198,8 +194,8 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
   tones->corner = mem_alloc(scene->corner.count, sizeof *tones->corner);
   tones->place = mem_alloc(scene->corner.count, sizeof *tones->place);
   tones->even = mem_alloc(scene_face_count(scene), sizeof *tones->even);
-  bool good = tones->corner && tones->place && tones->even && prepare(&w);
-  if (good) {
+  bool ok = tones->corner && tones->place && tones->even && prepare(&w);
+  if (ok) {
     if (sheet->topology && sheet->topology->corner_edge)
       join_all(&w);
     sum_normals(&w);
@@ -207,9 +203,9 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
     set_regions(&w, tones);
   }
   finish(&w);
-  if (!good)
+  if (!ok)
     tones_fini(tones);
-  return good;
+  return ok;
 }
 
 void tones_fini(struct tones *tones) {
@@ -219,8 +215,7 @@ void tones_fini(struct tones *tones) {
   *tones = (struct tones){0};
 }
 
-/* ---- Over a face ----------------------------------------------------------
- */
+/* ---- Over a face --------------------------------------------------------- */
 
 /* The plane through the tones of three corners, from the place of the first
  * on; false where they are in line on the page. */

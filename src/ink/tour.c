@@ -49,8 +49,7 @@ double tour_travel(const struct tour *tour) {
   return travel;
 }
 
-/* ---- The ring -------------------------------------------------------------
- */
+/* ---- The ring ------------------------------------------------------------ */
 
 static uint32_t after(const struct ring *r, uint32_t stop) {
   uint32_t p = r->place[stop];
@@ -183,8 +182,7 @@ static void wake(struct ring *r, uint32_t stop) {
   r->queued[stop] = true;
 }
 
-/* ---- Moves ----------------------------------------------------------------
- */
+/* ---- Moves --------------------------------------------------------------- */
 
 /* The gap at hand: from stop c on to d, so wide; and the end of x that is
  * nearer to c's. */
@@ -278,16 +276,15 @@ static void improve(struct ring *r) {
   r->back = false;
 }
 
-/* ---- From tour to ring and back -------------------------------------------
- */
+/* ---- From tour to ring and back ------------------------------------------ */
 
 /* Fills the lists of all ends, stop by stop in the ring's order: so one search
  * is near the last one, and what it needs at hand. */
 static bool find_neighbours(struct ring *r) {
   uint32_t home_in = 2 * (r->count - 1);
   struct nearest nearest;
-  bool good = nearest_init(&nearest, r->end, home_in);
-  for (uint32_t i = 0; good && i < 2 * r->count; i++) {
+  bool ok = nearest_init(&nearest, r->end, home_in);
+  for (uint32_t i = 0; ok && i < 2 * r->count; i++) {
     uint32_t e = 2 * r->stop[i / 2] + i % 2, count = 0;
     uint32_t *found = r->neighbour + (size_t)e * NEIGHBOURS;
     if (e != home_in)
@@ -297,7 +294,7 @@ static bool find_neighbours(struct ring *r) {
       found[count] = NEAREST_NONE;
   }
   nearest_fini(&nearest);
-  return good;
+  return ok;
 }
 
 static void take_tour(struct ring *r, const struct tour *tour) {
@@ -333,13 +330,12 @@ bool tour_improve(struct tour *tour, const struct tour_effort *effort) {
   r.neighbour = mem_alloc(count, 2 * NEIGHBOURS * sizeof *r.neighbour);
   r.queue = mem_alloc(count, sizeof *r.queue);
   r.queued = mem_calloc(count, sizeof *r.queued);
-  bool good =
-      r.stop && r.place && r.turned && r.neighbour && r.queue && r.queued;
-  if (good) {
+  bool ok = r.stop && r.place && r.turned && r.neighbour && r.queue && r.queued;
+  if (ok) {
     take_tour(&r, tour);
-    good = find_neighbours(&r);
+    ok = find_neighbours(&r);
   }
-  if (good) {
+  if (ok) {
     improve(&r);
     give_tour(&r, tour);
   }
@@ -349,5 +345,5 @@ bool tour_improve(struct tour *tour, const struct tour_effort *effort) {
   mem_free(r.neighbour);
   mem_free(r.queue);
   mem_free(r.queued);
-  return good;
+  return ok;
 }

@@ -41,8 +41,7 @@ static double blunt(double value) {
   return ldexp(floor(ldexp(fraction, 24) + 0.5), exponent - 24);
 }
 
-/* ---- The image -----------------------------------------------------------
- */
+/* ---- The image ----------------------------------------------------------- */
 
 static double part(const struct scene_point *p, int axis) {
   return axis == 0 ? p->x : axis == 1 ? p->y : p->z;
@@ -115,8 +114,7 @@ static void make_image(struct work *work) {
   }
 }
 
-/* ---- Corners at one place ------------------------------------------------
- */
+/* ---- Corners at one place ------------------------------------------------ */
 
 static void leave_out(struct work *work, uint32_t i) {
   struct judge_cut_corner *c = work->c;
@@ -149,8 +147,7 @@ static uint32_t tidy(struct work *work, uint32_t i) {
   return i;
 }
 
-/* ---- Ears ----------------------------------------------------------------
- */
+/* ---- Ears ---------------------------------------------------------------- */
 
 static void look(struct work *work, uint32_t i) {
   struct judge_cut_corner *c = work->c;

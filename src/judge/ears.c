@@ -77,8 +77,7 @@ static void tidy(struct outline *outline) {
   }
 }
 
-/* ---- What is near ----------------------------------------------------------
- */
+/* ---- What is near -------------------------------------------------------- */
 
 enum { FEW = 32 }; /* so many corners are asked one by one */
 
@@ -159,8 +158,7 @@ find_near(const struct ring *ring, struct judge_place a, struct judge_place b,
   return best;
 }
 
-/* ---- Ears ------------------------------------------------------------------
- */
+/* ---- Ears ---------------------------------------------------------------- */
 
 /* Whether a corner can be cut off. */
 static bool is_ear(const struct ring *ring, uint32_t here) {

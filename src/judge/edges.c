@@ -40,13 +40,12 @@ struct finder {
   const struct judge_camera *camera;
   const struct judge_options *options;
   struct facing *facing;
-  uint32_t *place; /* point -> the first point at its position */
+  uint32_t *place;            /* point -> the first point at its position */
   struct placed_side *single; /* sides alone between two points, by places */
   size_t singles;
 };
 
-/* ---- Points at one place ---------------------------------------------------
- */
+/* ---- Points at one place ------------------------------------------------- */
 
 static int compare_positions(const void *a, const void *b) {
   const struct scene_point *p = *(const struct scene_point *const *)a;
@@ -84,8 +83,7 @@ static uint32_t *find_places(const struct scene *scene) {
   return place;
 }
 
-/* ---- Natures
- * ------------------------------------------------------------------ */
+/* ---- Natures ------------------------------------------------------------- */
 
 /* The corner of a face whose image is farthest from a place. */
 static struct judge_place farthest_image(const struct finder *finder,
@@ -364,8 +362,7 @@ static bool runs_from(const struct finder *finder, const struct side *side,
   return false;
 }
 
-/* ---- Pairing
- * -------------------------------------------------------------------- */
+/* ---- Pairing ------------------------------------------------------------- */
 
 static int compare_sides(const void *a, const void *b) {
   const struct side *s = a, *t = b;
@@ -434,23 +431,23 @@ static bool place_singles(struct finder *finder, const struct sides *single) {
 static bool pair_singles(struct finder *finder) {
   const struct placed_side *placed = finder->single;
   const uint32_t *place = finder->place;
-  bool good = true;
+  bool ok = true;
   size_t count = finder->singles;
-  for (size_t i = 0, next; good && i < count; i = next) {
+  for (size_t i = 0, next; ok && i < count; i = next) {
     for (next = i + 1; next < count && placed[next].low == placed[i].low &&
                        placed[next].high == placed[i].high;)
       next++;
     const struct side *side = &placed[i].side;
     if (next == i + 2)
-      good = add_pair(
+      ok = add_pair(
           finder, side, &placed[i + 1].side,
           runs_from(finder, side, placed[i].low, place) !=
               runs_from(finder, &placed[i + 1].side, placed[i].low, place),
           true);
     else
-      good = add_border(finder, side);
+      ok = add_border(finder, side);
   }
-  return good;
+  return ok;
 }
 
 static bool add_wires(struct finder *finder) {
@@ -519,19 +516,19 @@ static bool find_facings(struct finder *finder) {
  * single  where to; NULL: they are, and the others get their edges */
 static bool pair_sides(struct finder *finder, const struct sides *sides,
                        struct sides *single) {
-  bool good = true;
+  bool ok = true;
   size_t count = sides->side.count;
-  for (size_t i = 0, next; good && i < count; i = next) {
+  for (size_t i = 0, next; ok && i < count; i = next) {
     const struct side *side = sides->side.item + i;
     for (next = i + 1; next < count && sides->side.item[next].a == side->a &&
                        sides->side.item[next].b == side->b;)
       next++;
     if (next == i + 1 && single != NULL)
-      good = ARRAY_PUSH(&single->side, *side);
+      ok = ARRAY_PUSH(&single->side, *side);
     else if (next > i + 1 && single == NULL)
-      good = pair_group(finder, side, next - i);
+      ok = pair_group(finder, side, next - i);
   }
-  return good;
+  return ok;
 }
 
 bool judge_edges_init(struct judge_edges *edges, const struct scene *scene,
@@ -542,21 +539,20 @@ bool judge_edges_init(struct judge_edges *edges, const struct scene *scene,
   struct sides sides = {{0}}, single = {{0}};
   memset(edges, 0, sizeof *edges);
   finder.place = find_places(scene);
-  bool good = finder.place != NULL && find_facings(&finder) &&
-              list_sides(scene, &sides) &&
-              pair_sides(&finder, &sides, &single) &&
-              place_singles(&finder, &single) &&
-              pair_sides(&finder, &sides, NULL) && pair_singles(&finder) &&
-              add_folds(&finder) && add_wires(&finder) &&
-              judge_edges_pierced(edges, all, camera, options->hair_mm);
+  bool ok = finder.place != NULL && find_facings(&finder) &&
+            list_sides(scene, &sides) && pair_sides(&finder, &sides, &single) &&
+            place_singles(&finder, &single) &&
+            pair_sides(&finder, &sides, NULL) && pair_singles(&finder) &&
+            add_folds(&finder) && add_wires(&finder) &&
+            judge_edges_pierced(edges, all, camera, options->hair_mm);
   ARRAY_FREE(&sides.side);
   ARRAY_FREE(&single.side);
   mem_free(finder.facing);
   mem_free(finder.single);
   mem_free(finder.place);
-  if (!good)
+  if (!ok)
     judge_edges_fini(edges);
-  return good;
+  return ok;
 }
 
 void judge_edges_fini(struct judge_edges *edges) { ARRAY_FREE(&edges->edge); }

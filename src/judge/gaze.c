@@ -4,8 +4,7 @@
 
 #include "base/tolerance.h"
 
-/* ---- On the page -----------------------------------------------------------
- */
+/* ---- On the page --------------------------------------------------------- */
 
 bool judge_cut_to_page(const struct judge_camera *camera, struct judge_place a,
                        struct judge_place b, double *t0, double *t1) {
@@ -33,8 +32,7 @@ struct judge_spot judge_spot_of_image(const struct judge_edge *edge, double t) {
                     spot_sub(edge->p[1], edge->p[0]));
 }
 
-/* ---- Margins ---------------------------------------------------------------
- */
+/* ---- Margins ------------------------------------------------------------- */
 
 double judge_rounding_at(const struct judge_camera *camera, double hair_mm,
                          struct judge_spot at) {

@@ -24,7 +24,7 @@ struct court {
   uint32_t long_edge; /* the last sample was of this edge, and on a line without
                          ink that is long; SCENE_NONE */
   double work, work_done; /* mm to be sampled, and those that were */
-  unsigned samples; /* since the caller was last asked whether to go on */
+  unsigned samples;       /* since the caller was last asked whether to go on */
   struct judge_verdict *verdict;
 };
 
@@ -38,8 +38,7 @@ void judge_options_init(struct judge_options *options) {
                                     .edges = RECTO_EDGES_DEFAULT};
 }
 
-/* ---- Samples --------------------------------------------------------------
- */
+/* ---- Samples ------------------------------------------------------------- */
 
 /* Goes along pieces laid end to end. */
 struct sampler {
@@ -125,13 +124,11 @@ static bool goes_on(struct court *court, double mm) {
     return !verdict->cancelled;
   court->samples = 0;
   double share = court->work > 0 ? fmin(court->work_done / court->work, 1) : 0;
-  verdict->cancelled =
-      !court->options.progress(court->options.user, share);
+  verdict->cancelled = !court->options.progress(court->options.user, share);
   return !verdict->cancelled;
 }
 
-/* ---- False ink ------------------------------------------------------------
- */
+/* ---- False ink ----------------------------------------------------------- */
 
 /* What an edge sees at t, or as little before or after it as the file's
  * rounding moves the end of a stroke: blocked where it is at all of them. */
@@ -183,8 +180,8 @@ static enum judge_sight explain(const struct court *court,
       name_edge(witness, edge, judge_spot_of_image(edge, t), blocker);
     }
   }
-  bool may_pierce = court->options.contact >= 0 &&
-                    court->options.contact < court->grid;
+  bool may_pierce =
+      court->options.contact >= 0 && court->options.contact < court->grid;
   return best == JUDGE_BLOCKED && !witness->on_edge && may_pierce ? JUDGE_UNSURE
                                                                   : best;
 }
@@ -229,8 +226,7 @@ static void try_all_ink(struct court *court) {
   }
 }
 
-/* ---- Missing ink ----------------------------------------------------------
- */
+/* ---- Missing ink --------------------------------------------------------- */
 
 static bool has_ink(const void *user, struct judge_place at) {
   const struct court *court = user;
@@ -247,8 +243,7 @@ static bool has_ink(const void *user, struct judge_place at) {
  * it off. */
 static bool is_at_near_plane(const struct judge_camera *camera,
                              struct judge_spot spot) {
-  return judge_ahead(camera, spot) <=
-         camera->near_d + judge_near_slack(camera);
+  return judge_ahead(camera, spot) <= camera->near_d + judge_near_slack(camera);
 }
 
 static bool is_asked_for(const void *user, uint32_t edge) {
@@ -262,14 +257,14 @@ static bool is_asked_for(const void *user, uint32_t edge) {
 /* Whether a visible line without ink is one that may be left out.  The samples
  * of an edge that lack their ink one after the other are on one line. */
 static bool may_be_too_short(struct court *court, uint32_t edge, double t) {
-  const struct judge_missing_run run = {
-      .gazer = &court->gazer,
-      .edges = &court->edges,
-      .by_image = &court->by_image,
-      .shortest_mm = court->options.shortest_mm,
-      .is_asked_for = is_asked_for,
-      .has_ink = has_ink,
-      .user = court};
+  const struct judge_missing_run run = {.gazer = &court->gazer,
+                                        .edges = &court->edges,
+                                        .by_image = &court->by_image,
+                                        .shortest_mm =
+                                            court->options.shortest_mm,
+                                        .is_asked_for = is_asked_for,
+                                        .has_ink = has_ink,
+                                        .user = court};
   if (run.shortest_mm == 0)
     return false;
   if (court->long_edge != edge && judge_is_long_run(&run, edge, t))
@@ -353,8 +348,7 @@ static void try_all_edges(struct court *court) {
   }
 }
 
-/* ---- The court ------------------------------------------------------------
- */
+/* ---- The court ----------------------------------------------------------- */
 
 static void collect_strokes(struct court *court, enum judge_role role,
                             uint32_t *count) {
@@ -399,8 +393,8 @@ static double grid_of(const struct court *court) {
     struct judge_spot at = {(corner & 1 ? box->high : box->low)[0],
                             (corner & 2 ? box->high : box->low)[1],
                             (corner & 4 ? box->high : box->low)[2]};
-    most = fmax(most, judge_rounding_at(court->camera, court->gazer.hair_mm,
-                                        at));
+    most =
+        fmax(most, judge_rounding_at(court->camera, court->gazer.hair_mm, at));
   }
   return most;
 }
@@ -438,8 +432,8 @@ bool judge_drawing(struct judge_verdict *verdict,
                         .long_edge = SCENE_NONE,
                         .verdict = verdict};
   memset(verdict, 0, sizeof *verdict);
-  bool good = open_court(&court, scene);
-  if (good) {
+  bool ok = open_court(&court, scene);
+  if (ok) {
     try_all_ink(&court);
     try_all_edges(&court);
   }
@@ -449,5 +443,5 @@ bool judge_drawing(struct judge_verdict *verdict,
   mem_free(court.ink);
   judge_edges_fini(&court.edges);
   judge_triangles_fini(&court.all);
-  return good;
+  return ok;
 }

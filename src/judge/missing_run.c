@@ -59,8 +59,7 @@ static bool is_visible(const struct judge_missing_run *run, uint32_t number,
   return *sight == JUDGE_CLEAR;
 }
 
-/* ---- From edge to edge ----------------------------------------------------
- */
+/* ---- From edge to edge --------------------------------------------------- */
 
 /* Edges of one class and of one group go before others. */
 static bool is_alike(const struct judge_missing_run *run, uint32_t a,
@@ -116,18 +115,18 @@ static bool find_fan(const struct judge_missing_run *run, struct fan *fan,
   uint32_t count;
   const uint32_t *near = judge_grid_near(run->by_image, at, &count);
   fan->count = 0;
-  bool good = add_end(run, fan, edge, side, true);
-  for (uint32_t i = 0; good && i < count; i++) {
+  bool ok = add_end(run, fan, edge, side, true);
+  for (uint32_t i = 0; ok && i < count; i++) {
     const struct judge_segment *s = image_of(run, near[i]);
-    for (int k = 0; good && k < 2; k++) {
+    for (int k = 0; ok && k < 2; k++) {
       struct judge_place end = k ? s->b : s->a;
       if (hypot(end.x - at.x, end.y - at.y) <= run->gazer->hair_mm &&
           near[i] != edge && run->is_asked_for(run->user, near[i]) &&
           is_alike(run, edge, near[i]))
-        good = add_end(run, fan, near[i], k, false);
+        ok = add_end(run, fan, near[i], k, false);
     }
   }
-  return good;
+  return ok;
 }
 
 /* Takes the straightest pair out of the fan; its second end, where the first
@@ -169,8 +168,7 @@ static bool find_next(const struct judge_missing_run *run, uint32_t edge,
   return false;
 }
 
-/* ---- Along edges ----------------------------------------------------------
- */
+/* ---- Along edges --------------------------------------------------------- */
 
 static bool is_done(const struct walk *walk) {
   return walk->length >= walk->run->shortest_mm || walk->steps >= STEPS;

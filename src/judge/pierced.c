@@ -12,8 +12,7 @@ struct piercer {
   uint32_t current; /* the triangle whose neighbours are looked up */
 };
 
-/* ---- On the page -----------------------------------------------------------
- */
+/* ---- On the page --------------------------------------------------------- */
 
 /* A triangle cut by five planes has at most eight corners. */
 struct outline {
@@ -49,10 +48,10 @@ static struct outline outline_of(const struct judge_camera *camera,
     for (unsigned i = 0; i < outline.count; i++) {
       double depth = judge_depth(camera, outline.p[i]);
       struct judge_place at = judge_project(camera, outline.p[i]);
-      const double inside[5] = {
-          judge_ahead(camera, outline.p[i]) - judge_near(camera),
-          (at.x - low) * depth, (right - at.x) * depth, (at.y - low) * depth,
-          (top - at.y) * depth};
+      const double inside[5] = {judge_ahead(camera, outline.p[i]) -
+                                    judge_near(camera),
+                                (at.x - low) * depth, (right - at.x) * depth,
+                                (at.y - low) * depth, (top - at.y) * depth};
       where[i] = inside[side];
     }
     outline = keep(&outline, where);
@@ -75,8 +74,7 @@ static double reach_beyond(const struct judge_camera *camera,
   return fmin(before, behind);
 }
 
-/* ---- In space --------------------------------------------------------------
- */
+/* ---- In space ------------------------------------------------------------ */
 
 /* Where a triangle's sides cross a plane: at most two spots. */
 struct cut {

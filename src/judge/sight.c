@@ -3,8 +3,7 @@
 
 #include "judge/edges.h"
 
-/* ---- Rays ------------------------------------------------------------------
- */
+/* ---- Rays ---------------------------------------------------------------- */
 
 struct ray {
   double from[3], inverse[3]; /* 1 / direction */
@@ -61,8 +60,7 @@ static enum judge_sight ray_meets_plane(const struct judge_gaze *gaze,
   return at < gaze->sure ? JUDGE_BLOCKED : JUDGE_UNSURE;
 }
 
-/* ---- Planes ----------------------------------------------------------------
- */
+/* ---- Planes -------------------------------------------------------------- */
 
 static double distance(const struct judge_triangle *t, struct judge_spot from) {
   return fabs(spot_dot(t->normal, spot_sub(t->p[0], from)));
@@ -223,8 +221,7 @@ static enum judge_sight look_at(const struct judge_triangles *all,
   return met < sight ? met : sight;
 }
 
-/* ---- All of them -----------------------------------------------------------
- */
+/* ---- All of them --------------------------------------------------------- */
 
 enum judge_sight judge_look(const struct judge_triangles *all,
                             const struct judge_gaze *gaze, uint32_t *face) {

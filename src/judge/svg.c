@@ -38,8 +38,7 @@ struct svg_reader {
   size_t pieces; /* of curves that may still be stored */
 };
 
-/* ---- Style ----------------------------------------------------------------
- */
+/* ---- Style --------------------------------------------------------------- */
 
 static void take_paint(const struct svg_tag *tag, const char *name,
                        enum paint *paint) {
@@ -115,8 +114,7 @@ static bool is_ink(const struct svg_reader *reader, const struct style *style) {
           reader->sheet);
 }
 
-/* ---- The root -------------------------------------------------------------
- */
+/* ---- The root ------------------------------------------------------------ */
 
 /* Fits the viewBox into the page: whole and in its middle, as SVG does unless
  * told otherwise; flips y. */
@@ -157,8 +155,7 @@ static const char *read_root(struct svg_reader *reader,
   return fit_view(tag, drawing->width_mm, drawing->height_mm, &style->to_page);
 }
 
-/* ---- Shapes ---------------------------------------------------------------
- */
+/* ---- Shapes -------------------------------------------------------------- */
 
 /* A number of a shape; 0 where it does not say. */
 static double number_of(const struct svg_tag *tag, const char *name) {
@@ -230,8 +227,7 @@ static const char *draw_element(struct svg_pen *pen,
   return NULL;
 }
 
-/* ---- Elements -------------------------------------------------------------
- */
+/* ---- Elements ------------------------------------------------------------ */
 
 static const char *open_element(struct svg_reader *reader,
                                 const struct svg_tag *tag) {

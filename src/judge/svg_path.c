@@ -7,8 +7,7 @@
 
 #include <math.h>
 
-/* ---- Arcs -----------------------------------------------------------------
- */
+/* ---- Arcs ---------------------------------------------------------------- */
 
 /* An ellipse: its middle, its radii, and its x axis. */
 struct ellipse {
@@ -89,8 +88,7 @@ void svg_pen_arc(struct svg_pen *pen, double rx, double ry, double angle_deg,
   draw_arc(pen, &e, first, turn, to);
 }
 
-/* ---- Path data ------------------------------------------------------------
- */
+/* ---- Path data ----------------------------------------------------------- */
 
 struct path {
   struct svg_pen *pen;

@@ -14,8 +14,7 @@
 /* A quarter of the widest pen that the options allow. */
 #define MARGIN_MM 25
 
-/* ---- Lines ----------------------------------------------------------------
- */
+/* ---- Lines --------------------------------------------------------------- */
 
 static void put(struct svg_pen *pen, struct judge_place at) {
   struct judge_drawing *drawing = pen->drawing;
@@ -43,14 +42,15 @@ static void put_first(struct svg_pen *pen, struct judge_place at) {
  * far away as doubles go. */
 static bool cut_at(double limit, double sign, double *ax, double *ay,
                    double *bx, double *by) {
-  bool a_beyond = sign * *ax > sign * limit, b_beyond = sign * *bx > sign * limit;
+  bool a_beyond = sign * *ax > sign * limit,
+       b_beyond = sign * *bx > sign * limit;
   if (!a_beyond || !b_beyond) {
     if (a_beyond == b_beyond)
       return true;
     double slope = (*by / 2 - *ay / 2) / (*bx / 2 - *ax / 2);
     bool from_a = fabs(limit - *ax) < fabs(limit - *bx);
-    double y = from_a ? *ay + (limit - *ax) * slope
-                      : *by + (limit - *bx) * slope;
+    double y =
+        from_a ? *ay + (limit - *ax) * slope : *by + (limit - *bx) * slope;
     y = fmin(fmax(y, fmin(*ay, *by)), fmax(*ay, *by));
     *(a_beyond ? ax : bx) = limit;
     *(a_beyond ? ay : by) = y;
@@ -123,8 +123,7 @@ void svg_pen_close(struct svg_pen *pen) {
   pen->down = false;
 }
 
-/* ---- Curves ---------------------------------------------------------------
- */
+/* ---- Curves -------------------------------------------------------------- */
 
 struct cubic {
   struct judge_place p[4]; /* on the page */
@@ -184,9 +183,9 @@ static void draw_pieces(struct svg_pen *pen, const struct cubic *c, int n) {
   size_t before = pen->drawing->point.count, stored;
   for (int i = 1; i < n && pen->fault == NULL; i++) {
     double t = (double)i / n;
-    draw_to(pen, (struct judge_place){
-                     bernstein(p[0].x, p[1].x, p[2].x, p[3].x, t),
-                     bernstein(p[0].y, p[1].y, p[2].y, p[3].y, t)});
+    draw_to(pen,
+            (struct judge_place){bernstein(p[0].x, p[1].x, p[2].x, p[3].x, t),
+                                 bernstein(p[0].y, p[1].y, p[2].y, p[3].y, t)});
   }
   if (pen->fault == NULL)
     draw_to(pen, p[3]);

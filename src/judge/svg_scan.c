@@ -5,8 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* ---- Words ----------------------------------------------------------------
- */
+/* ---- Words --------------------------------------------------------------- */
 
 static bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
@@ -51,8 +50,7 @@ void svg_skip_spaces(struct svg_text *text) {
     text->at++;
 }
 
-/* ---- Tags -----------------------------------------------------------------
- */
+/* ---- Tags ---------------------------------------------------------------- */
 
 /* Passes over a comment, a declaration or the like that begins at `file`;
  * false where it does not end. */
@@ -141,8 +139,7 @@ bool svg_next_tag(struct svg_text *file, struct svg_tag *tag, bool *broken) {
   return true;
 }
 
-/* ---- Attributes -----------------------------------------------------------
- */
+/* ---- Attributes ---------------------------------------------------------- */
 
 /* Reads name="value" or name='value'; false where there is none. */
 static bool next_attribute(struct svg_text *rest, struct svg_text *name,
@@ -204,8 +201,7 @@ bool svg_property(const struct svg_tag *tag, const char *name,
   return true;
 }
 
-/* ---- Numbers --------------------------------------------------------------
- */
+/* ---- Numbers ------------------------------------------------------------- */
 
 /* Digits, of which the first 18 count, and how many others there were. */
 struct digits {
@@ -290,8 +286,7 @@ bool svg_length_mm(struct svg_text text, double *mm) {
   return false;
 }
 
-/* ---- Transforms -----------------------------------------------------------
- */
+/* ---- Transforms ---------------------------------------------------------- */
 
 struct judge_place svg_apply(const struct svg_matrix *m, double x, double y) {
   return (struct judge_place){m->a * x + m->c * y + m->e,

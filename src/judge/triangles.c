@@ -22,8 +22,7 @@ void judge_sort(void *item, size_t count, size_t size,
     qsort(item, count, size, compare);
 }
 
-/* ---- Boxes -----------------------------------------------------------------
- */
+/* ---- Boxes --------------------------------------------------------------- */
 
 static struct judge_box empty_box(void) {
   struct judge_box box;
@@ -57,8 +56,7 @@ static double centroid_3(const struct judge_triangle *t, int axis) {
   return t->p[0].z + t->p[1].z + t->p[2].z;
 }
 
-/* ---- The tree
- * ---------------------------------------------------------------- */
+/* ---- The tree ------------------------------------------------------------ */
 
 /* Parts triangles by the middle of their longest extent, or by number; returns
  * how many come first. */
@@ -121,8 +119,7 @@ static bool build_tree(struct judge_triangles *all) {
   return true;
 }
 
-/* ---- Triangles
- * ----------------------------------------------------------------- */
+/* ---- Triangles ----------------------------------------------------------- */
 
 static struct judge_triangle triangle_of(const struct scene *scene,
                                          const uint32_t *corner,
@@ -172,8 +169,7 @@ bool judge_is_warped(const struct scene *scene, uint32_t face, double contact) {
   return off > fmax(flat, extent * TOLERANCE_EXTENT_SHARE);
 }
 
-/* ---- Faces ---------------------------------------------------------------
- */
+/* ---- Faces --------------------------------------------------------------- */
 
 /* Room that is kept from face to face, and what is asked of all. */
 struct cutter {
@@ -301,14 +297,14 @@ bool judge_triangles_init(struct judge_triangles *all,
                           .scene = scene,
                           .given = given ? given : scene->point.item,
                           .contact = contact};
-  bool good = true;
-  for (uint32_t i = 0; good && i < scene_face_count(scene); i++)
-    good = add_face(&cutter, i);
+  bool ok = true;
+  for (uint32_t i = 0; ok && i < scene_face_count(scene); i++)
+    ok = add_face(&cutter, i);
   judge_sort(all->wing.item, all->wing.count, sizeof *all->wing.item,
              compare_wings);
   judge_cuts_fini(&cutter.cuts);
   judge_ears_fini(&cutter.ears);
-  if (good && build_tree(all))
+  if (ok && build_tree(all))
     return true;
   judge_triangles_fini(all);
   return false;
@@ -322,7 +318,7 @@ void judge_triangles_fini(struct judge_triangles *all) {
   all->nodes = 0;
 }
 
-/* ---- Neighbours --------------------------------------------------------- */
+/* ---- Neighbours ---------------------------------------------------------- */
 
 static bool boxes_meet(const struct judge_box *a, const struct judge_box *b) {
   for (int k = 0; k < 3; k++)

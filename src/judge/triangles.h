@@ -78,7 +78,7 @@ struct judge_triangles {
     uint32_t count; /* of its triangles; 0: a node with two children */
     uint32_t face;  /* of all its triangles; SCENE_NONE: of several */
   } * node;
-  size_t nodes; /* none where there are no triangles */
+  size_t nodes;                  /* none where there are no triangles */
   ARRAY(struct judge_wing) wing; /* by face, low, high */
   double size; /* diagonal of the box of all points that faces use */
   const struct scene *scene;

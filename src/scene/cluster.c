@@ -214,13 +214,13 @@ static size_t name_members(const struct clusters *clusters,
 size_t cluster_join(const struct scene *scene, double length,
                     struct cluster_member *member, size_t count) {
   struct clusters clusters = {.chain = NULL};
-  bool done = prepare(&clusters, length, count);
-  for (size_t i = 0; i < count && done; i++) {
+  bool ok = prepare(&clusters, length, count);
+  for (size_t i = 0; i < count && ok; i++) {
     member[i].stands = (uint32_t)i;
     if (member[i].halvings != CLUSTER_ALONE)
-      done = join(&clusters, scene, member, (uint32_t)i);
+      ok = join(&clusters, scene, member, (uint32_t)i);
   }
-  size_t joined = done ? name_members(&clusters, member, count) : SIZE_MAX;
+  size_t joined = ok ? name_members(&clusters, member, count) : SIZE_MAX;
   mem_free(clusters.chain);
   ARRAY_FREE(&clusters.cluster);
   return joined;

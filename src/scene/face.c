@@ -183,13 +183,13 @@ static bool unite_corners(const struct scene *scene, uint32_t *corner,
     return false;
   for (size_t i = 0; i < count; i++)
     placed[i] = (struct placed){scene->point.item[corner[i]], &corner[i]};
-  bool good = sort_stable(placed, count, sizeof *placed, compare_placed, NULL);
-  for (size_t i = 1; good && i < count; i++)
+  bool ok = sort_stable(placed, count, sizeof *placed, compare_placed, NULL);
+  for (size_t i = 1; ok && i < count; i++)
     if (compare_placed(&placed[i - 1], &placed[i], NULL) == 0)
       *placed[i].corner = *placed[i - 1].corner;
   if (placed != few)
     mem_free(placed);
-  return good;
+  return ok;
 }
 
 /* ---- Adding -------------------------------------------------------------- */

@@ -166,10 +166,10 @@ recto_status import_form_read(struct scene *scene, const char *bytes,
                    .error = error};
   const char *magic = take(&f, sizeof IMPORT_MAGIC - 1, 1);
   recto_status status = RECTO_OK;
-  bool done = false;
+  bool ok = false;
   if (!magic || memcmp(magic, IMPORT_MAGIC, sizeof IMPORT_MAGIC - 1) != 0)
     status = fail(&f);
-  while (status == RECTO_OK && !done) {
+  while (status == RECTO_OK && !ok) {
     if (!next_record(&f))
       status = fail(&f);
     else if (f.record.kind == IMPORT_MESH)
@@ -177,7 +177,7 @@ recto_status import_form_read(struct scene *scene, const char *bytes,
     else if (f.record.kind == IMPORT_FAILED)
       status = tell_failure(&f);
     else if (f.record.kind == IMPORT_DONE)
-      done = true;
+      ok = true;
     else
       status = fail(&f);
   }

@@ -21,7 +21,7 @@ struct obj_parser {
   bool known;            /* a statement was understood */
   unsigned long strange; /* line of the first that was not; 0 */
   struct precision_sample sample;
-  ARRAY(uint32_t) bad;   /* points that cannot be used, ascending */
+  ARRAY(uint32_t) bad; /* points that cannot be used, ascending */
   ARRAY(uint32_t) corner;
   struct material_name name[NAME_COUNT];
   bool renamed; /* since the current group was chosen */

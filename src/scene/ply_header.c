@@ -285,10 +285,10 @@ recto_status ply_header_read(struct ply_header *header, const char *bytes,
     return error_set(error, RECTO_ERROR_FORMAT, path, 1,
                      "no PLY file: its first line is not 'ply'");
   recto_status status = RECTO_OK;
-  for (bool done = false; status == RECTO_OK && !done;) {
+  for (bool ok = false; status == RECTO_OK && !ok;) {
     p.at = p.stop + 1;
     p.line++;
-    status = find_line(&p) ? read_line(&p, &done)
+    status = find_line(&p) ? read_line(&p, &ok)
                            : fail_with(&p, "no line says end_header");
   }
   if (status == RECTO_OK)

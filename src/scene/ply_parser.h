@@ -14,9 +14,9 @@ struct ply_parser {
   const char *path;
   struct diagnostics *diagnostics;
   recto_error *error;
-  size_t first;             /* scene point of the file's first */
-  size_t points;            /* how many of the file there are so far */
-  struct unusable unusable; /* of these */
+  size_t first;                   /* scene point of the file's first */
+  size_t points;                  /* how many of the file there are so far */
+  struct unusable unusable;       /* of these */
   struct precision_sample sample; /* of a text's coordinates */
 
   /* The element that was taken last: its line in a text, else its number. */

@@ -72,15 +72,15 @@ static size_t most_of(const struct ply_parser *p,
 /* ---- Vertices ------------------------------------------------------------ */
 
 /* Whether the vertex that was taken last has a position that can be used. */
-static bool place_vertex(struct ply_parser *p, bool good,
+static bool place_vertex(struct ply_parser *p, bool ok,
                          struct scene_point *point) {
   const double *value = p->value;
-  bool finite = good && isfinite(value[PLY_X]) && isfinite(value[PLY_Y]) &&
+  bool finite = ok && isfinite(value[PLY_X]) && isfinite(value[PLY_Y]) &&
                 isfinite(value[PLY_Z]);
   *point = (struct scene_point){0, 0, 0};
   if (finite)
     *point = (struct scene_point){value[PLY_X], value[PLY_Y], value[PLY_Z]};
-  else if (good)
+  else if (ok)
     diagnostics_fault(p->diagnostics, SCENE_FAULT_NOT_FINITE, p->last,
                       "vertex that is not finite; its faces are skipped");
   return finite;
@@ -89,17 +89,17 @@ static bool place_vertex(struct ply_parser *p, bool good,
 static recto_status read_vertex(struct ply_parser *p,
                                 const struct ply_element *element,
                                 size_t number) {
-  bool good;
+  bool ok;
   struct scene_point point;
-  recto_status status = take(p, element, number, &good);
+  recto_status status = take(p, element, number, &ok);
   if (status != RECTO_OK)
     return status;
   bool colour = p->scene->wants_colours && ply_has_colour(element);
-  bool placed = place_vertex(p, good, &point);
+  bool placed = place_vertex(p, ok, &point);
   if ((!placed &&
        !ARRAY_PUSH(&p->unusable.point, (uint32_t)p->scene->point.count)) ||
       (colour &&
-       !ARRAY_PUSH(&p->vertex_colour, good ? ply_colour_of(p, element) : 0)) ||
+       !ARRAY_PUSH(&p->vertex_colour, ok ? ply_colour_of(p, element) : 0)) ||
       !ARRAY_PUSH(&p->scene->point, point))
     return error_memory(p->error);
   return RECTO_OK;
@@ -241,9 +241,9 @@ static recto_status read_others(struct ply_parser *p,
                                 const struct ply_element *element) {
   recto_status status = RECTO_OK;
   for (size_t i = 0; i < element->count && status == RECTO_OK; i++) {
-    bool good;
-    status = take(p, element, i, &good);
-    if (status != RECTO_OK || !good)
+    bool ok;
+    status = take(p, element, i, &ok);
+    if (status != RECTO_OK || !ok)
       continue;
     if (element->kind == PLY_FACE)
       status = read_face(p, element);

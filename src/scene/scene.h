@@ -95,8 +95,8 @@ enum scene_fault {
 };
 
 struct diagnostics {
-  const char *file;         /* as the user wrote it, "-" for stdin */
-  recto_warning_fn warning; /* NULL: silent */
+  const char *file;           /* as the user wrote it, "-" for stdin */
+  recto_warning_fn warning;   /* NULL: silent */
   recto_progress_fn progress; /* asked while the importer runs; NULL: nobody */
   void *user;
   unsigned long count[SCENE_FAULT_COUNT];

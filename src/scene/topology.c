@@ -114,8 +114,8 @@ static bool name_hubs(const struct scene *scene, const uint32_t *weld,
   uint32_t *end = mem_alloc(points, sizeof *end);
   uint32_t *first = mem_alloc(points, sizeof *first);
   struct side *side = mem_alloc(sides, sizeof *side);
-  bool done = end && first && side;
-  if (done) {
+  bool ok = end && first && side;
+  if (ok) {
     memset(first, 0xff, points * sizeof *first);
     deal_sides(scene, weld, count, end, side);
     for (size_t p = 0; p < points; p++)
@@ -125,7 +125,7 @@ static bool name_hubs(const struct scene *scene, const uint32_t *weld,
   mem_free(end);
   mem_free(first);
   mem_free(side);
-  return done;
+  return ok;
 }
 
 /* ---- Edges --------------------------------------------------------------- */
@@ -238,7 +238,7 @@ static bool mark_hubs(struct topology *topology, const struct scene *scene,
 static bool build_edges(struct topology *topology, const struct scene *scene) {
   size_t points = scene->point.count, corners = scene->corner.count;
   struct lists lists = {0};
-  bool done = false;
+  bool ok = false;
   topology->edge.count = 0;
   /* Of next no more is ever touched than there are edges: half of the corners
    * in a closed mesh. */
@@ -248,17 +248,17 @@ static bool build_edges(struct topology *topology, const struct scene *scene) {
       !ARRAY_RESERVE(&topology->edge, corners / 2 + corners / 8))
     goto end;
   memset(lists.head, 0xff, points * sizeof *lists.head);
-  done = number_edges(topology, scene, &lists);
-  if (done && lists.crowded) {
+  ok = number_edges(topology, scene, &lists);
+  if (ok && lists.crowded) {
     lists.crowded = false;
     topology->edge.count = 0;
-    done = mark_hubs(topology, scene, &lists) &&
-           number_edges(topology, scene, &lists);
+    ok = mark_hubs(topology, scene, &lists) &&
+         number_edges(topology, scene, &lists);
   }
 end:
   mem_free(lists.head);
   mem_free(lists.next);
-  return done;
+  return ok;
 }
 
 recto_status topology_init(struct topology *topology, const struct scene *scene,

@@ -82,13 +82,13 @@ bool weld_borders(const struct topology *topology, const struct scene *scene,
   uint8_t *marked = mem_calloc(points, sizeof *marked);
   uint32_t *map = NULL;
   struct sort_key *key = NULL;
-  bool done = false;
+  bool ok = false;
   *weld = NULL;
   if (!marked)
     goto end;
   size_t border = mark_border(topology, marked);
   if (border == 0) {
-    done = true;
+    ok = true;
     goto end;
   }
   key = mem_alloc(2 * border, sizeof *key);
@@ -106,10 +106,10 @@ bool weld_borders(const struct topology *topology, const struct scene *scene,
     *weld = map;
     map = NULL;
   }
-  done = true;
+  ok = true;
 end:
   mem_free(marked);
   mem_free(key);
   mem_free(map);
-  return done;
+  return ok;
 }

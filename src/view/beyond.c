@@ -28,8 +28,8 @@ static struct view_point view_of(const struct measure *measure,
 
 static struct place place_of(const struct camera *camera, struct view_point p) {
   double scale = camera->perspective ? camera->s / p.d : camera->s;
-  return (struct place){{camera->middle_mm[0] + scale * p.x,
-                         camera->middle_mm[1] + scale * p.y}};
+  return (struct place){
+      {camera->middle_mm[0] + scale * p.x, camera->middle_mm[1] + scale * p.y}};
 }
 
 /* Cuts off what is before the near plane; false where nothing is left. */
@@ -41,9 +41,9 @@ static bool cut_near(const struct camera *camera, struct view_point end[2]) {
     return true;
   int outside = b < 0;
   double t = a / (a - b);
-  end[outside] = (struct view_point){end[0].x + t * (end[1].x - end[0].x),
-                                     end[0].y + t * (end[1].y - end[0].y),
-                                     camera->near_d};
+  end[outside] =
+      (struct view_point){end[0].x + t * (end[1].x - end[0].x),
+                          end[0].y + t * (end[1].y - end[0].y), camera->near_d};
   return true;
 }
 
@@ -135,10 +135,10 @@ static recto_status measure_edges(struct measure *measure,
                                   recto_error *error) {
   const struct topology *topology = measure->topology;
   uint8_t *natures = mem_alloc(topology->edge.count, sizeof *natures);
-  bool good = natures != NULL &&
-              topology_natures_all(topology, measure->scene,
-                                   options->crease_deg, natures);
-  for (size_t e = 0; good && e < topology->edge.count; e++) {
+  bool ok =
+      natures != NULL && topology_natures_all(topology, measure->scene,
+                                              options->crease_deg, natures);
+  for (size_t e = 0; ok && e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
     if ((natures[e] & options->edges) != 0 ||
         ((options->edges & RECTO_EDGE_SILHOUETTE) != 0 &&
@@ -146,7 +146,7 @@ static recto_status measure_edges(struct measure *measure,
       measure_line(measure, edge->point[0], edge->point[1]);
   }
   mem_free(natures);
-  return good ? RECTO_OK : error_memory(error);
+  return ok ? RECTO_OK : error_memory(error);
 }
 
 static void measure_polylines(struct measure *measure) {

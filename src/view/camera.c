@@ -126,9 +126,9 @@ static recto_status measure_scene(struct aim *aim) {
   camera->unstated = scene_unstated_precision(aim->scene, o->coordinate_bits);
   camera->contact = o->contact;
   camera->contact_most =
-      o->contact >= 0 ? o->contact
-                      : coordinate_error_most(aim->scene, camera->unstated,
-                                              low, high);
+      o->contact >= 0
+          ? o->contact
+          : coordinate_error_most(aim->scene, camera->unstated, low, high);
   return RECTO_OK;
 }
 

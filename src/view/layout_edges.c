@@ -105,8 +105,8 @@ static recto_status make_edges(struct layout *layout, const uint8_t *natures,
     if (!edge_class && !layout->outlines)
       continue;
     made->bits[e / 64] |= UINT64_C(1) << e % 64;
-    if (!add_edge(layout, ends, e,
-                  layout->scene->face_group.item[edge->first], edge_class, 0))
+    if (!add_edge(layout, ends, e, layout->scene->face_group.item[edge->first],
+                  edge_class, 0))
       return error_memory(layout->error);
   }
   return RECTO_OK;

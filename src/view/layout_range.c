@@ -104,13 +104,14 @@ static bool is_cut_near(struct layout *layout, uint32_t face, bool *cut) {
   struct projection nearer = layout->projection;
   struct range range = {INFINITY, -INFINITY};
   nearer.near_d *= NEARER;
-  bool done = grow_by_face(&range, layout, &nearer, face);
+  bool ok = grow_by_face(&range, layout, &nearer, face);
   *cut = range.low < layout->projection.near_d;
-  return done;
+  return ok;
 }
 
 static bool grow_by_faces(struct range *range, struct layout *layout) {
-  bool look = layout->projection.perspective && layout->sheet->camera.near_chosen;
+  bool look =
+      layout->projection.perspective && layout->sheet->camera.near_chosen;
   for (uint32_t face = 0; face < scene_face_count(layout->scene); face++) {
     unsigned any = 0, all = ~0u;
     for (uint32_t c = layout->scene->face_start.item[face];
@@ -173,15 +174,15 @@ static bool grow_by_all_lines(struct range *range, const struct layout *layout,
   bool grew = false;
   for (uint32_t face = 0; face < scene_face_count(scene); face++) {
     uint32_t start = scene->face_start.item[face];
-    grew |= grow_by_lines(range, layout, scene->corner.item + start,
-                          scene->face_start.item[face + 1] - start, true,
-                          whatever);
+    grew |=
+        grow_by_lines(range, layout, scene->corner.item + start,
+                      scene->face_start.item[face + 1] - start, true, whatever);
   }
   for (uint32_t w = 0; w < scene_wire_count(scene); w++) {
     uint32_t start = scene->wire_start.item[w];
-    grew |= grow_by_lines(range, layout, scene->wire_corner.item + start,
-                          scene->wire_start.item[w + 1] - start, false,
-                          whatever);
+    grew |=
+        grow_by_lines(range, layout, scene->wire_corner.item + start,
+                      scene->wire_start.item[w + 1] - start, false, whatever);
   }
   return grew;
 }

@@ -165,9 +165,10 @@ static uint32_t farthest_corner(const struct layout *layout, uint32_t start,
 static bool is_edge_on(const struct layout *layout, uint32_t face,
                        uint32_t start, uint32_t count) {
   uint32_t from = farthest_corner(layout, start, count, start);
-  const struct geom_point
-      *a = corner_point(layout, from),
-      *b = corner_point(layout, farthest_corner(layout, start, count, from));
+  const struct geom_point *a = corner_point(layout, from),
+                          *b = corner_point(
+                              layout,
+                              farthest_corner(layout, start, count, from));
   double length = hypot((double)b->x - a->x, (double)b->y - a->y);
   for (uint32_t c = start; c < start + count; c++) {
     const struct geom_point *p = corner_point(layout, c);

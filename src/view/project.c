@@ -20,8 +20,7 @@ struct projection projection_of(const struct camera *camera) {
       .d_max = camera->d_max,
   };
   for (int k = 0; k < 2; k++) {
-    projection.half[k] = 
-        half_of_paper(camera->page_mm[k], camera->margin_mm);
+    projection.half[k] = half_of_paper(camera->page_mm[k], camera->margin_mm);
     projection.offset[k] =
         (camera->middle_mm[k] - camera->page_mm[k] / 2) * SHEET_UNITS_PER_MM;
   }

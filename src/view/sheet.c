@@ -20,8 +20,7 @@ static void free_layout(struct layout *layout) {
 }
 
 recto_status sheet_init(struct sheet *sheet, const struct scene *scene,
-                        struct topology *topology,
-                        const struct camera *camera,
+                        struct topology *topology, const struct camera *camera,
                         const recto_options *options, bool outlines,
                         recto_error *error) {
   memset(sheet, 0, sizeof *sheet);

@@ -69,12 +69,12 @@ struct sheet_contour {
 struct sheet {
   ARRAY(struct geom_point) point; /* x, y in grid units, z in depth units */
   ARRAY(struct sheet_triangle) triangle;
-  uint8_t *triangle_flags;    /* one a triangle */
-  bool edges_of_faces; /* the triangles were given up: where edges name one
+  uint8_t *triangle_flags; /* one a triangle */
+  bool edges_of_faces;     /* the triangles were given up: where edges name one
                           they name its scene face */
-  const struct scene *scene;  /* lent, for how precise its coordinates are;
+  const struct scene *scene;       /* lent, for how precise its coordinates are;
                                  NULL: exact */
-  const uint32_t *face_group; /* the scene's, lent */
+  const uint32_t *face_group;      /* the scene's, lent */
   const struct topology *topology; /* the scene's, lent; NULL: unknown */
   /* Mesh edges in topology order, then diagonals that are silhouettes, then
    * wires, then intersections once they were found.  Edges of class 0 are there

@@ -5,8 +5,7 @@ struct triangle_plane triangle_plane_of(const struct sheet *sheet,
                                         uint32_t triangle) {
   struct triangle_plane t;
   for (int k = 0; k < 3; k++)
-    t.p[k] =
-        sheet->point.item[sheet->triangle.item[triangle].point[k]];
+    t.p[k] = sheet->point.item[sheet->triangle.item[triangle].point[k]];
   t.plane = geom_plane_of(t.p[0], t.p[1], t.p[2]);
   return t;
 }
@@ -48,7 +47,8 @@ int plane_sides(const struct geom_plane *plane, const struct geom_point p[3]) {
   int sides = 0;
   for (int k = 0; k < 3; k++) {
     int sign = geom_sign128(geom_plane_value(plane, p[k]));
-    if (sign != 0) sides |= sign < 0 ? PLANE_BEHIND : PLANE_BEFORE;
+    if (sign != 0)
+      sides |= sign < 0 ? PLANE_BEHIND : PLANE_BEFORE;
   }
   return sides;
 }
@@ -58,12 +58,17 @@ enum nearness triangle_nearness(const struct triangle_plane *f, uint32_t f_id,
                                 struct geom_line *line,
                                 struct geom_line *back) {
   int sides = plane_sides(&f->plane, g->p);
-  if (sides == 0) return g_id < f_id ? NEARER_ALWAYS : NEARER_NEVER;
-  if (sides == PLANE_BEHIND) return NEARER_NEVER;
-  if (sides == PLANE_BEFORE) return NEARER_ALWAYS;
+  if (sides == 0)
+    return g_id < f_id ? NEARER_ALWAYS : NEARER_NEVER;
+  if (sides == PLANE_BEHIND)
+    return NEARER_NEVER;
+  if (sides == PLANE_BEFORE)
+    return NEARER_ALWAYS;
   sides = plane_sides(&g->plane, f->p);
-  if (sides == PLANE_BEHIND) return NEARER_ALWAYS;
-  if (sides == PLANE_BEFORE) return NEARER_NEVER;
+  if (sides == PLANE_BEHIND)
+    return NEARER_ALWAYS;
+  if (sides == PLANE_BEFORE)
+    return NEARER_NEVER;
   /* Each is on both sides of the other's plane: the planes cross. */
   (void)geom_line_between(line, &g->plane, &f->plane);
   *back = *line;
@@ -73,7 +78,8 @@ enum nearness triangle_nearness(const struct triangle_plane *f, uint32_t f_id,
 
 static bool touches(const struct hider *plane, const struct geom_point p[3]) {
   for (int k = 0; k < 3; k++)
-    if (hider_side(plane, p[k]) != 0) return false;
+    if (hider_side(plane, p[k]) != 0)
+      return false;
   return true;
 }
 

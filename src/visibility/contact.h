@@ -27,8 +27,7 @@ bool triangles_part(const struct sheet *sheet, uint32_t f, uint32_t g);
 
 /* The three lines of a triangle's sides, and the same turned round. */
 void triangle_lines(const struct sheet *sheet, uint32_t triangle,
-                              struct geom_line line[3],
-                              struct geom_line back[3]);
+                    struct geom_line line[3], struct geom_line back[3]);
 
 /* Where three corners lie to a plane.  Exact. */
 enum { PLANE_BEHIND = 1, PLANE_BEFORE = 2 }; /* a mask; 0: all on it */
@@ -39,8 +38,7 @@ int plane_sides(const struct geom_plane *plane, const struct geom_point p[3]);
  *             back is the same line turned round */
 enum nearness triangle_nearness(const struct triangle_plane *f, uint32_t f_id,
                                 const struct triangle_plane *g, uint32_t g_id,
-                                struct geom_line *line,
-                                struct geom_line *back);
+                                struct geom_line *line, struct geom_line *back);
 
 /* True where all corners of one touch the plane of the other. */
 bool triangles_touch(const struct sheet *sheet, uint32_t f, uint32_t g);

@@ -19,7 +19,7 @@ enum {
   MANY = 4  /* one in so many members of a list that are copies are many */
 };
 
-/* ---- 1 Classes ---------------------------------------------------------- */
+/* ---- 1 Classes ----------------------------------------------------------- */
 
 static uint64_t stir(uint64_t hash, uint64_t value) {
   hash = (hash ^ value) * UINT64_C(0x9e3779b97f4a7c15);
@@ -48,7 +48,8 @@ static int compare_places(const void *a, const void *b, void *user) {
   for (int k = 0; k < 3; k++) {
     int order = geom_compare_points(*corner_of(sheet, s->value, k),
                                     *corner_of(sheet, t->value, k));
-    if (order != 0) return order;
+    if (order != 0)
+      return order;
   }
   return 0;
 }
@@ -59,19 +60,22 @@ static int compare_places(const void *a, const void *b, void *user) {
 static struct sort_key *sort_by_places(const struct sheet *sheet,
                                        const uint32_t *triangle, size_t n) {
   struct sort_key *key = mem_alloc(2 * n, sizeof *key);
-  bool done = key != NULL;
-  if (!done) return NULL;
+  bool ok = key != NULL;
+  if (!ok)
+    return NULL;
   for (size_t i = 0; i < n; i++) {
     uint32_t t = triangle != NULL ? triangle[i] : (uint32_t)i;
     key[i] = (struct sort_key){hash_of(sheet, t), t};
   }
   sort_keys(key, key + n, n);
-  for (size_t i = 0, past; done && i < n; i = past) {
-    for (past = i + 1; past < n && key[past].key == key[i].key;) past++;
-    done = sort_stable(&key[i], past - i, sizeof *key, compare_places,
-                       (void *)(uintptr_t)sheet);
+  for (size_t i = 0, past; ok && i < n; i = past) {
+    for (past = i + 1; past < n && key[past].key == key[i].key;)
+      past++;
+    ok = sort_stable(&key[i], past - i, sizeof *key, compare_places,
+                     (void *)(uintptr_t)sheet);
   }
-  if (done) return key;
+  if (ok)
+    return key;
   mem_free(key);
   return NULL;
 }
@@ -86,7 +90,8 @@ bool copies_abound(const struct sheet *sheet, const uint32_t *triangle,
                    size_t count, bool *abound) {
   struct sort_key *key = sort_by_places(sheet, triangle, count);
   size_t copies = 0;
-  if (key == NULL) return false;
+  if (key == NULL)
+    return false;
   for (size_t i = 1; i < count; i++)
     copies += is_same(sheet, &key[i - 1], &key[i]);
   *abound = copies > count / MANY;
@@ -96,10 +101,10 @@ bool copies_abound(const struct sheet *sheet, const uint32_t *triangle,
 
 struct finder {
   const struct sheet *sheet;
-  uint32_t *class;  /* of each triangle */
-  uint32_t *size;   /* of the class known by a triangle */
-  uint8_t *marked;  /* points of triangles that may be copies */
-  uint32_t *kind;   /* of each side: 3 * triangle + k; SHEET_NONE: alone */
+  uint32_t *class; /* of each triangle */
+  uint32_t *size;  /* of the class known by a triangle */
+  uint8_t *marked; /* points of triangles that may be copies */
+  uint32_t *kind;  /* of each side: 3 * triangle + k; SHEET_NONE: alone */
   uint8_t *left_out;
 };
 
@@ -110,7 +115,8 @@ static bool may_be_copy(const struct finder *f, uint32_t triangle) {
 static bool find_classes(struct finder *f) {
   size_t n = f->sheet->triangle.count;
   struct sort_key *key = sort_by_places(f->sheet, NULL, n);
-  if (key == NULL) return false;
+  if (key == NULL)
+    return false;
   for (size_t i = 0; i < n; i++) {
     uint32_t t = key[i].value;
     bool same = i > 0 && is_same(f->sheet, &key[i - 1], &key[i]);
@@ -124,7 +130,7 @@ static bool find_classes(struct finder *f) {
   return true;
 }
 
-/* ---- 2 Kinds of edges --------------------------------------------------- */
+/* ---- 2 Kinds of edges ---------------------------------------------------- */
 
 /* A side of a triangle, its ends ordered by place, then by number. */
 struct copies_side {
@@ -142,15 +148,14 @@ struct copies_sides {
   ARRAY(struct copies_edge) edge;
 };
 
-static int compare_numbers(uint32_t a, uint32_t b) {
-  return (a > b) - (a < b);
-}
+static int compare_numbers(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
 
 static int compare_sides(const void *a, const void *b, void *user) {
   const struct copies_side *s = a, *t = b;
   int order = compare_numbers(s->point[0], t->point[0]);
   (void)user;
-  if (order == 0) order = compare_numbers(s->point[1], t->point[1]);
+  if (order == 0)
+    order = compare_numbers(s->point[1], t->point[1]);
   return order != 0 ? order : compare_numbers(s->class, t->class);
 }
 
@@ -163,7 +168,8 @@ static int compare_edges(const void *a, const void *b, void *user) {
   int order = 0;
   for (int k = 0; k < 2 && order == 0; k++)
     order = geom_compare_points(point[s->point[k]], point[t->point[k]]);
-  if (order == 0 && e->count != f->count) return e->count < f->count ? -1 : 1;
+  if (order == 0 && e->count != f->count)
+    return e->count < f->count ? -1 : 1;
   for (size_t i = 0; i < e->count && order == 0; i++)
     order = compare_numbers(s[i].class, t[i].class);
   return order;
@@ -196,7 +202,8 @@ static bool find_edges(struct copies_sides *all) {
                    side[past].point[1] == side[i].point[1];)
       past++;
     edge.count = past - i;
-    if (!ARRAY_PUSH(&all->edge, edge)) return false;
+    if (!ARRAY_PUSH(&all->edge, edge))
+      return false;
   }
   return true;
 }
@@ -204,32 +211,33 @@ static bool find_edges(struct copies_sides *all) {
 static bool find_kinds(struct finder *f) {
   struct copies_sides all = {.sheet = f->sheet};
   uint32_t kind = 0;
-  bool done = true;
-  for (uint32_t t = 0; done && t < f->sheet->triangle.count; t++)
-    done = add_sides(&all, f, t);
-  done = done &&
-         sort_stable(all.side.item, all.side.count, sizeof *all.side.item,
-                     compare_sides, NULL) &&
-         find_edges(&all) &&
-         sort_stable(all.edge.item, all.edge.count, sizeof *all.edge.item,
-                     compare_edges, &all);
-  for (size_t e = 0; done && e < all.edge.count; e++) {
+  bool ok = true;
+  for (uint32_t t = 0; ok && t < f->sheet->triangle.count; t++)
+    ok = add_sides(&all, f, t);
+  ok = ok &&
+       sort_stable(all.side.item, all.side.count, sizeof *all.side.item,
+                   compare_sides, NULL) &&
+       find_edges(&all) &&
+       sort_stable(all.edge.item, all.edge.count, sizeof *all.edge.item,
+                   compare_edges, &all);
+  for (size_t e = 0; ok && e < all.edge.count; e++) {
     const struct copies_edge *edge = &all.edge.item[e];
-    if (e > 0 && compare_edges(edge - 1, edge, &all) != 0) kind++;
+    if (e > 0 && compare_edges(edge - 1, edge, &all) != 0)
+      kind++;
     for (size_t i = 0; i < edge->count; i++)
       f->kind[all.side.item[edge->from + i].side] = kind;
   }
   ARRAY_FREE(&all.side);
   ARRAY_FREE(&all.edge);
-  return done;
+  return ok;
 }
 
-/* ---- 3 Copies ----------------------------------------------------------- */
+/* ---- 3 Copies ------------------------------------------------------------ */
 
 static int compare_triangles(const void *a, const void *b, void *user) {
   const struct finder *f = user;
   uint32_t s = *(const uint32_t *)a, t = *(const uint32_t *)b;
-  int order = compare_numbers(f->class[s], f->class[t]);
+  int order = compare_numbers(f->class[s], f -> class[t]);
   for (uint32_t k = 0; k < 3 && order == 0; k++)
     order = compare_numbers(f->kind[3 * s + k], f->kind[3 * t + k]);
   return order;
@@ -248,10 +256,10 @@ static bool names_first(const struct sheet *sheet, uint32_t first,
 static void leave_out(struct finder *f, const uint32_t *copy, size_t count) {
   const struct sheet_triangle *triangle = f->sheet->triangle.item;
   size_t other = 1;
-  while (other < count &&
-         triangle[copy[other]].face == triangle[copy[0]].face)
+  while (other < count && triangle[copy[other]].face == triangle[copy[0]].face)
     other++;
-  if (other == count) other = 1;
+  if (other == count)
+    other = 1;
   for (size_t i = 1; i < count; i++)
     f->left_out[copy[i]] =
         i != other && names_first(f->sheet, copy[0], copy[i]);
@@ -259,12 +267,13 @@ static void leave_out(struct finder *f, const uint32_t *copy, size_t count) {
 
 static bool find_copies(struct finder *f) {
   ARRAY(uint32_t) copy = {0};
-  bool done = true;
-  for (uint32_t t = 0; done && t < f->sheet->triangle.count; t++)
-    if (may_be_copy(f, t)) done = ARRAY_PUSH(&copy, t);
-  done = done && sort_stable(copy.item, copy.count, sizeof *copy.item,
-                             compare_triangles, f);
-  for (size_t i = 0, past; done && i < copy.count; i = past) {
+  bool ok = true;
+  for (uint32_t t = 0; ok && t < f->sheet->triangle.count; t++)
+    if (may_be_copy(f, t))
+      ok = ARRAY_PUSH(&copy, t);
+  ok = ok && sort_stable(copy.item, copy.count, sizeof *copy.item,
+                         compare_triangles, f);
+  for (size_t i = 0, past; ok && i < copy.count; i = past) {
     for (past = i + 1;
          past < copy.count &&
          compare_triangles(&copy.item[i], &copy.item[past], f) == 0;)
@@ -272,28 +281,29 @@ static bool find_copies(struct finder *f) {
     leave_out(f, &copy.item[i], past - i);
   }
   ARRAY_FREE(&copy);
-  return done;
+  return ok;
 }
 
 bool copies_find(const struct sheet *sheet, uint8_t **left_out) {
   size_t n = sheet->triangle.count;
   struct finder f = {.sheet = sheet};
-  bool done = false;
+  bool ok = false;
   f.class = mem_alloc(n, sizeof *f.class);
   f.size = mem_calloc(n, sizeof *f.size);
   f.marked = mem_calloc(sheet->point.count, sizeof *f.marked);
   f.kind = mem_alloc(3 * n, sizeof *f.kind);
   f.left_out = mem_calloc(n, sizeof *f.left_out);
-  if (f.class != NULL && f.size != NULL && f.marked != NULL &&
-      f.kind != NULL && f.left_out != NULL) {
+  if (f.class != NULL && f.size != NULL && f.marked != NULL && f.kind != NULL &&
+      f.left_out != NULL) {
     memset(f.kind, 0xff, 3 * n * sizeof *f.kind);
-    done = find_classes(&f) && find_kinds(&f) && find_copies(&f);
+    ok = find_classes(&f) && find_kinds(&f) && find_copies(&f);
   }
   mem_free(f.class);
   mem_free(f.size);
   mem_free(f.marked);
   mem_free(f.kind);
-  if (!done) mem_free(f.left_out);
-  *left_out = done ? f.left_out : NULL;
-  return done;
+  if (!ok)
+    mem_free(f.left_out);
+  *left_out = ok ? f.left_out : NULL;
+  return ok;
 }

@@ -144,17 +144,17 @@ bool crowd_add(struct crowd *crowd, const struct sheet *sheet,
                uint32_t *root) {
   struct parting parting = {.crowd = crowd, .sheet = sheet, .planes = planes};
   size_t nodes = crowd->node.count, members = crowd->member.count;
-  bool done;
+  bool ok;
   *root = SHEET_NONE;
   parting.most = members + MOST_GROWN * count;
   crowd->pool.count = 0;
-  done = ARRAY_RESERVE(&crowd->pool, count) && add_node(crowd, root);
-  for (size_t i = 0; done && i < count; i++)
+  ok = ARRAY_RESERVE(&crowd->pool, count) && add_node(crowd, root);
+  for (size_t i = 0; ok && i < count; i++)
     crowd->pool.item[crowd->pool.count++] =
         (struct crowd_member){0, triangle[i], (uint32_t)i};
   parting.stack[parting.depth++] = (struct pending){*root, 0, 0};
-  done = done && part_all(&parting);
-  if (done && crowd->node.item[*root].child[0] == SHEET_NONE) {
+  ok = ok && part_all(&parting);
+  if (ok && crowd->node.item[*root].child[0] == SHEET_NONE) {
     crowd->node.count = nodes;
     crowd->member.count = members;
     *root = SHEET_NONE;
@@ -162,7 +162,7 @@ bool crowd_add(struct crowd *crowd, const struct sheet *sheet,
   ARRAY_FREE(&parting.triangle);
   ARRAY_FREE(&parting.scratch);
   ARRAY_FREE(&parting.left);
-  return done;
+  return ok;
 }
 
 static int sides_of(const struct cut *cut, const struct crowd_shape *shape) {
@@ -196,7 +196,8 @@ const struct crowd_node *crowd_next(const struct crowd *crowd,
     sides = sides_of(&node->cut, shape);
     /* What is before a plane is not hidden from behind it; what is behind may
      * be hidden from anywhere. */
-    if (node->cut.is_plane && (sides & CUT_RIGHT)) sides = CUT_BOTH;
+    if (node->cut.is_plane && (sides & CUT_RIGHT))
+      sides = CUT_BOTH;
     if (sides & CUT_RIGHT)
       walk->stack[walk->depth++] = node->child[1];
     if (sides & CUT_LEFT)

@@ -86,8 +86,8 @@ int cut_side_of_segment(const struct cut *cut, struct geom_point p,
   int sides = 0;
   for (int k = 0; k < 2; k++)
     if (cut->is_plane && geom_same_point(end[k], cut->hinge))
-      sides |= is_apex(cut, end[1 - k]) ? CUT_BOTH
-                                        : side_of_point(cut, end[1 - k]);
+      sides |=
+          is_apex(cut, end[1 - k]) ? CUT_BOTH : side_of_point(cut, end[1 - k]);
   return sides != 0 ? sides : side_of_points(cut, end, 2);
 }
 
@@ -204,8 +204,8 @@ static int count_sharing(const struct sample *sample, struct geom_point apex) {
 static double pairs_left(const struct sample *sample, const struct cut *cut) {
   double left = 0, right = 0, all = sample->count;
   for (int i = 0; i < sample->count; i++) {
-    int sides = side_of_corners(cut, sample->sheet, sample->triangle[i],
-                                sample->p[i]);
+    int sides =
+        side_of_corners(cut, sample->sheet, sample->triangle[i], sample->p[i]);
     if (cut->is_plane && !(sample->thickness[i] <= cut->thickness))
       sides = CUT_BOTH;
     left += (sides & CUT_LEFT) != 0;
@@ -241,7 +241,8 @@ static struct cut plane_of(const struct sheet *sheet, uint32_t triangle,
 static int choose_apex(const struct sample *sample, int i, int but) {
   int best = but == 0, most = -1;
   for (int k = 0; k < 3; k++) {
-    if (k == but) continue;
+    if (k == but)
+      continue;
     int sharing = count_sharing(sample, sample->p[i][k]);
     if (sharing > most) {
       most = sharing;

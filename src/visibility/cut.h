@@ -31,7 +31,7 @@ struct cut {
   struct geom_point apex;
   struct geom_point hinge; /* of a plane: another corner of its triangle */
   uint32_t point[2];       /* apex and hinge, in the sheet */
-  int64_t dx, dy, margin; /* of a line: its direction, what is near to it */
+  int64_t dx, dy, margin;  /* of a line: its direction, what is near to it */
   bool is_plane;
   struct stance_plane plane;
   double thickness; /* depth units: the most that a triangle may be thick */

@@ -172,7 +172,7 @@ bool facets_init(struct facets *facets, const struct sheet *sheet) {
   struct joining joining = {.sheet = sheet, .facets = facets};
   uint32_t count = (uint32_t)sheet->triangle.count, t = 0;
   const struct sheet_triangle *triangle = sheet->triangle.item;
-  bool good = true;
+  bool ok = true;
   memset(facets, 0, sizeof *facets);
   while (t + 1 < count && triangle[t].face != triangle[t + 1].face)
     t++;
@@ -182,18 +182,18 @@ bool facets_init(struct facets *facets, const struct sheet *sheet) {
   if (facets->part == NULL)
     return false;
   memset(facets->part, 0xff, count * sizeof *facets->part);
-  for (; t < count && good; t = joining.past) {
+  for (; t < count && ok; t = joining.past) {
     joining.first = t;
     joining.past = t + 1;
     while (joining.past < count &&
            triangle[joining.past].face == triangle[t].face)
       joining.past++;
-    good = joining.past - t == 1 || join_face(&joining);
+    ok = joining.past - t == 1 || join_face(&joining);
   }
   mem_free(joining.diagonal);
-  if (!good)
+  if (!ok)
     facets_fini(facets);
-  return good;
+  return ok;
 }
 
 void facets_fini(struct facets *facets) {

@@ -32,7 +32,7 @@ void fragments_fini(struct fragments *fragments) {
   ARRAY_FREE(&fragments->piece);
 }
 
-/* ---- Contact: passing pieces on to earlier faces ----------------------------- */
+/* ---- Contact: passing pieces on to earlier faces ------------------------- */
 
 static int compare_ids(const void *a, const void *b, void *user) {
   uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
@@ -72,8 +72,7 @@ static bool keep_piece(struct fragments *f, uint32_t triangle,
                                 triangle, NULL};
   if (piece != NULL) {
     kept.piece = arena_alloc(&f->arena, 1, sizeof *kept.piece);
-    if (kept.piece == NULL ||
-        !geom_convex_copy(kept.piece, piece, &f->arena))
+    if (kept.piece == NULL || !geom_convex_copy(kept.piece, piece, &f->arena))
       return false;
   }
   return ARRAY_PUSH(&f->piece, kept);
@@ -84,13 +83,15 @@ static bool keep_piece(struct fragments *f, uint32_t triangle,
 static bool deal_pieces(struct fragments *f, uint32_t triangle,
                         const struct geom_convex *piece, size_t count) {
   geom_pieces now = {0}, rest = {0}, swap;
-  bool done = false;
+  bool ok = false;
   for (size_t i = 0; i < count; i++)
-    if (!ARRAY_PUSH(&now, piece[i])) goto end;
+    if (!ARRAY_PUSH(&now, piece[i]))
+      goto end;
   for (size_t i = 0; i < f->touching.count; i++) {
     uint32_t g = f->touching.item[i];
     struct geom_line *line = arena_alloc(&f->scratch, 6, sizeof *line);
-    if (line == NULL) goto end;
+    if (line == NULL)
+      goto end;
     triangle_lines(f->sheet, g, line, line + 3);
     rest.count = 0;
     for (size_t k = 0; k < now.count; k++) {
@@ -105,20 +106,22 @@ static bool deal_pieces(struct fragments *f, uint32_t triangle,
     rest = swap;
   }
   for (size_t k = 0; k < now.count; k++)
-    if (!keep_piece(f, triangle, &now.item[k])) goto end;
-  done = true;
+    if (!keep_piece(f, triangle, &now.item[k]))
+      goto end;
+  ok = true;
 end:
   ARRAY_FREE(&now);
   ARRAY_FREE(&rest);
   arena_reset(&f->scratch);
-  return done;
+  return ok;
 }
 
 static bool triangle_piece(struct fragments *f, uint32_t triangle,
                            struct geom_convex *piece, struct arena *arena) {
   struct geom_line *line = arena_alloc(arena, 6, sizeof *line);
   struct geom_point p[3];
-  if (line == NULL) return false;
+  if (line == NULL)
+    return false;
   for (int k = 0; k < 3; k++)
     p[k] = f->sheet->point.item[f->sheet->triangle.item[triangle].point[k]];
   triangle_lines(f->sheet, triangle, line, line + 3);
@@ -134,15 +137,18 @@ bool fragments_add_among(struct fragments *f, uint32_t triangle,
                          const struct geom_convex *piece, size_t count,
                          const uint32_t *about, size_t about_count) {
   struct geom_convex whole;
-  if (piece != NULL && count == 0) return true;
+  if (piece != NULL && count == 0)
+    return true;
   f->counts.whole += piece == NULL;
   f->counts.cut += piece != NULL;
   f->touching.count = 0;
   if (f->contact && !find_touching(f, triangle, about, about_count))
     return false;
   if (piece == NULL) {
-    if (f->touching.count == 0) return keep_piece(f, triangle, NULL);
-    if (!triangle_piece(f, triangle, &whole, &f->scratch)) return false;
+    if (f->touching.count == 0)
+      return keep_piece(f, triangle, NULL);
+    if (!triangle_piece(f, triangle, &whole, &f->scratch))
+      return false;
     piece = &whole;
     count = 1;
   }
@@ -168,7 +174,7 @@ bool fragments_add(struct fragments *f, uint32_t triangle,
   return count == 0 || add_piece(f, triangle, piece, count);
 }
 
-/* ---- Uniting what belongs to a face -------------------------------------------- */
+/* ---- Uniting what belongs to a face -------------------------------------- */
 
 /* What is at hand while the pieces of one face become its fragments. */
 struct face_work {
@@ -192,11 +198,10 @@ static bool find_own(struct face_work *work, uint32_t triangle) {
   work->own.count = 0;
   while (first > 0 && sheet->triangle.item[first - 1].face == work->face)
     first--;
-  for (uint32_t t = first; t < sheet->triangle.count &&
-                           sheet->triangle.item[t].face == work->face;
+  for (uint32_t t = first;
+       t < sheet->triangle.count && sheet->triangle.item[t].face == work->face;
        t++)
-    if (!(sheet->triangle_flags[t] & SHEET_FLAT) &&
-        !ARRAY_PUSH(&work->own, t))
+    if (!(sheet->triangle_flags[t] & SHEET_FLAT) && !ARRAY_PUSH(&work->own, t))
       return false;
   return true;
 }
@@ -233,15 +238,17 @@ static bool file_region(struct face_work *work) {
   for (size_t l = 0; l < work->region.loop.count;) {
     struct map_fragment fragment = {work->face, (uint32_t)map->loop.count, 0};
     do {
-      if (!file_loop(work, &work->region.loop.item[l++])) return false;
+      if (!file_loop(work, &work->region.loop.item[l++]))
+        return false;
       fragment.loops++;
     } while (l < work->region.loop.count && work->region.loop.item[l].hole);
-    if (!ARRAY_PUSH(&map->fragment, fragment)) return false;
+    if (!ARRAY_PUSH(&map->fragment, fragment))
+      return false;
   }
   return true;
 }
 
-/* ---- Faces that are wholly visible ---------------------------------------------- */
+/* ---- Faces that are wholly visible --------------------------------------- */
 
 /* A side of a face's outline: from its point, along its edge. */
 struct outline_side {
@@ -267,7 +274,8 @@ static int find_outline(const struct face_work *work,
     side[0] = (struct outline_side){a->point[0], a->side[0]};
     return 1 + append_sides(a, 0, side + 1);
   }
-  if (work->own.count != 2) return 0;
+  if (work->own.count != 2)
+    return 0;
   b = &all[work->own.item[1]];
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
@@ -290,18 +298,22 @@ static bool file_outline(struct face_work *work, bool *filed) {
   int n = find_outline(work, side), first = 0;
   *filed = false;
   for (int k = 0; k < n; k++) {
-    if (side[k].edge == SHEET_NONE) return true;
+    if (side[k].edge == SHEET_NONE)
+      return true;
     p[k] = sheet->point.item[side[k].point];
     if (p[k].x < p[first].x || (p[k].x == p[first].x && p[k].y < p[first].y))
       first = k;
   }
   for (int k = 0; k < n; k++)
-    if (geom_orient2d(p[k], p[(k + 1) % n], p[(k + 2) % n]) == 0) return true;
-  if (n == 0 || work->areas) return true;
+    if (geom_orient2d(p[k], p[(k + 1) % n], p[(k + 2) % n]) == 0)
+      return true;
+  if (n == 0 || work->areas)
+    return true;
   for (int k = 0; k < n; k++) {
     int i = (first + k) % n;
     struct map_corner corner = {p[i].x, p[i].y, MAP_SIDE_EDGE, side[i].edge};
-    if (!ARRAY_PUSH(&map->corner, corner)) return false;
+    if (!ARRAY_PUSH(&map->corner, corner))
+      return false;
     loop.count++;
   }
   *filed = true;
@@ -311,14 +323,16 @@ static bool file_outline(struct face_work *work, bool *filed) {
 static bool is_whole(const struct face_work *work,
                      const struct fragment_piece *piece, size_t count) {
   for (size_t i = 0; i < count; i++)
-    if (piece[i].piece != NULL) return false;
+    if (piece[i].piece != NULL)
+      return false;
   return count == work->own.count;
 }
 
 /* How many of the pieces, from the first, are of the same face. */
 static size_t count_pieces(const struct fragment_piece *piece, size_t count) {
   size_t n = 1;
-  while (n < count && piece[n].face == piece->face) n++;
+  while (n < count && piece[n].face == piece->face)
+    n++;
   return n;
 }
 
@@ -351,17 +365,20 @@ static bool find_seen(struct face_work *work,
   return true;
 }
 
-static bool file_face(struct face_work *work, const struct fragment_piece *piece,
-                      size_t count) {
+static bool file_face(struct face_work *work,
+                      const struct fragment_piece *piece, size_t count) {
   struct fragments *f = work->fragments;
   work->face = piece->face;
   work->piece.count = 0;
-  if (!find_own(work, piece->triangle)) return false;
+  if (!find_own(work, piece->triangle))
+    return false;
   if (is_whole(work, piece, count)) {
     bool filed;
-    if (!file_outline(work, &filed)) return false;
+    if (!file_outline(work, &filed))
+      return false;
     f->counts.outlines += filed;
-    if (filed) return true;
+    if (filed)
+      return true;
   }
   for (size_t i = 0; i < count; i++) {
     struct geom_convex whole;
@@ -388,7 +405,7 @@ static int compare_faces(const void *a, const void *b, void *user) {
   return (p->face > q->face) - (p->face < q->face);
 }
 
-/* ---- Sides that labels ask about -------------------------------------------- */
+/* ---- Sides that labels ask about ----------------------------------------- */
 
 /* Lists this long are longer than the sides of a sidegrid's cell. */
 enum { LONG_LIST = 48 };
@@ -418,11 +435,13 @@ static bool wants_index(const struct fragments *f) {
   for (size_t i = 0, n; i < f->piece.count; i += n) {
     struct cell_range r;
     n = count_pieces(&piece[i], f->piece.count - i);
-    if (!is_cut(&piece[i], n)) continue;
-    if (has_many(f->sheet, piece[i].triangle)) return true;
+    if (!is_cut(&piece[i], n))
+      continue;
+    if (has_many(f->sheet, piece[i].triangle))
+      return true;
     r = pagegrid_cells(grid, page_box_of_triangle(f->sheet, piece[i].triangle));
-    listed += list_length(grid, (size_t)r.y0 * (size_t)grid->columns +
-                                    (size_t)r.x0);
+    listed +=
+        list_length(grid, (size_t)r.y0 * (size_t)grid->columns + (size_t)r.x0);
     asked++;
   }
   return listed > LONG_LIST * asked;
@@ -439,7 +458,8 @@ static bool add_about(struct fragments *f, uint32_t triangle, uint8_t *done) {
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
-      if (done[cell]) continue;
+      if (done[cell])
+        continue;
       done[cell] = 1;
       for (uint32_t i = grid->start[cell]; i < grid->start[cell + 1]; i++)
         if (pagegrid_query_first(&f->query, grid->item[i]) &&
@@ -455,20 +475,22 @@ static bool index_sides(struct face_work *work) {
   struct fragments *f = work->fragments;
   const struct fragment_piece *piece = f->piece.item;
   uint8_t *cell_done;
-  bool done = true;
-  if (!wants_index(f)) return true;
+  bool ok = true;
+  if (!wants_index(f))
+    return true;
   cell_done = mem_calloc(pagegrid_cell_count(f->grid), 1);
-  if (cell_done == NULL) return false;
+  if (cell_done == NULL)
+    return false;
   pagegrid_query_start(f->grid, &f->query);
-  for (size_t i = 0, n; done && i < f->piece.count; i += n) {
+  for (size_t i = 0, n; ok && i < f->piece.count; i += n) {
     n = count_pieces(&piece[i], f->piece.count - i);
-    for (size_t k = 0; done && is_cut(&piece[i], n) && k < n; k++)
-      done = add_about(f, piece[i + k].triangle, cell_done);
+    for (size_t k = 0; ok && is_cut(&piece[i], n) && k < n; k++)
+      ok = add_about(f, piece[i + k].triangle, cell_done);
   }
   mem_free(cell_done);
   work->indexed = true;
-  return done && sidegrid_init(&work->sides, f->sheet, f->query.found.item,
-                               f->query.found.count);
+  return ok && sidegrid_init(&work->sides, f->sheet, f->query.found.item,
+                             f->query.found.count);
 }
 
 static void report_counts(const struct fragments *fragments) {
@@ -499,13 +521,13 @@ bool fragments_finish(struct fragments *fragments, bool areas,
                                       .query = &fragments->query}};
   const struct fragment_piece *piece = fragments->piece.item;
   size_t n = fragments->piece.count;
-  bool done = sort_stable(fragments->piece.item, n, sizeof *piece,
-                          compare_faces, NULL) &&
-              index_sides(&work);
-  for (size_t i = 0, count; done && i < n; i += count) {
+  bool ok = sort_stable(fragments->piece.item, n, sizeof *piece, compare_faces,
+                        NULL) &&
+            index_sides(&work);
+  for (size_t i = 0, count; ok && i < n; i += count) {
     count = count_pieces(&piece[i], n - i);
-    done = pulse_beat(fragments->pulse, FACE_WORK * count) &&
-           file_face(&work, &piece[i], count);
+    ok = pulse_beat(fragments->pulse, FACE_WORK * count) &&
+         file_face(&work, &piece[i], count);
   }
   ARRAY_FREE(&work.own);
   ARRAY_FREE(&work.seen);
@@ -514,5 +536,5 @@ bool fragments_finish(struct fragments *fragments, bool areas,
   sidegrid_fini(&work.sides);
   geom_region_fini(&work.region);
   report_counts(fragments);
-  return done;
+  return ok;
 }

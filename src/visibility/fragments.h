@@ -22,7 +22,7 @@
 #include "visibility/pulse.h"
 
 struct fragment_piece {
-  uint32_t face, triangle; /* whose it is: scene face, its triangle */
+  uint32_t face, triangle;   /* whose it is: scene face, its triangle */
   struct geom_convex *piece; /* NULL: the whole triangle */
 };
 
@@ -44,7 +44,7 @@ struct fragments {
   bool contact;
   ARRAY(uint32_t) touching; /* earlier triangles in contact with the one at
                                hand, in order */
-  struct pulse *pulse; /* lent; NULL, as at first: nobody is asked */
+  struct pulse *pulse;      /* lent; NULL, as at first: nobody is asked */
   struct arena arena, scratch;
   ARRAY(struct fragment_piece) piece;
   struct fragments_counts counts;

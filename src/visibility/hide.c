@@ -26,9 +26,8 @@ double hide_grid_units(const struct sheet *sheet) {
 
 /* The contact tolerance times the length L of the plane's normal in the scene,
  * (s nx, s ny, third) along the camera's axes (see hide.h). */
-static double contact_times_length(const struct sheet *sheet,
-                                   uint32_t triangle, double nx, double ny,
-                                   double third) {
+static double contact_times_length(const struct sheet *sheet, uint32_t triangle,
+                                   double nx, double ny, double third) {
   const struct camera *camera = &sheet->camera;
   double x = sheet->units_per_view * nx, y = sheet->units_per_view * ny;
   double error[3], sum = 0;
@@ -46,7 +45,8 @@ void hider_init(struct hider *hider, const struct sheet *sheet,
   const uint32_t *p = sheet->triangle.item[triangle].point;
   const struct camera *camera = &sheet->camera;
   double third, length;
-  for (int k = 0; k < 3; k++) hider->p[k] = sheet->point.item[p[k]];
+  for (int k = 0; k < 3; k++)
+    hider->p[k] = sheet->point.item[p[k]];
   hider->plane = geom_plane_of(hider->p[0], hider->p[1], hider->p[2]);
   hider->nx = (double)hider->plane.nx;
   hider->ny = (double)hider->plane.ny;
@@ -69,7 +69,8 @@ void hider_init(struct hider *hider, const struct sheet *sheet,
   if (camera->perspective) {
     hider->t0 += round_up(length / camera->d_max);
     hider->t1 = round_up(length / sheet->z_scale);
-    if (hider->t1 > (int128)1 << 81) hider->t1 = (int128)1 << 81;
+    if (hider->t1 > (int128)1 << 81)
+      hider->t1 = (int128)1 << 81;
   } else {
     hider->t0 += round_up(length);
   }
@@ -77,7 +78,8 @@ void hider_init(struct hider *hider, const struct sheet *sheet,
   hider->t1_near = (double)hider->t1;
   hider->z_max = hider->p[0].z;
   for (int k = 1; k < 3; k++)
-    if (hider->p[k].z > hider->z_max) hider->z_max = hider->p[k].z;
+    if (hider->p[k].z > hider->z_max)
+      hider->z_max = hider->p[k].z;
   hider->box = page_box_of_triangle(sheet, triangle);
 }
 
@@ -86,8 +88,8 @@ double hide_tolerance_bound(const struct sheet *sheet, uint32_t triangle,
                             double nz) {
   const struct camera *camera = &sheet->camera;
   double third = sheet->z_scale * nz, nearest = 1, length;
-  double contact = coordinate_error_contact(
-      sheet, sheet->triangle.item[triangle].face);
+  double contact =
+      coordinate_error_contact(sheet, sheet->triangle.item[triangle].face);
   if (camera->perspective) {
     struct sheet_axis axis = sheet_view_axis(sheet);
     third = nz * (sheet->z_scale / camera->d_max) -
@@ -134,18 +136,21 @@ static int depth_filter(const struct hider *hider, struct geom_point p) {
 
 int hider_side(const struct hider *hider, struct geom_point p) {
   int128 tolerance, value;
-  if (depth_filter(hider, p) < 0) return -1;
+  if (depth_filter(hider, p) < 0)
+    return -1;
   tolerance = hider->t0 + hider->t1 * p.z;
   value = geom_plane_value(&hider->plane, p) * FIXED_ONE;
   return (value > tolerance) - (value < -tolerance);
 }
 
 static void raise_from(struct hidden_part *part, struct ratio t) {
-  if (ratio_compare(part->from, t) < 0) part->from = t;
+  if (ratio_compare(part->from, t) < 0)
+    part->from = t;
 }
 
 static void lower_to(struct hidden_part *part, struct ratio t) {
-  if (ratio_compare(t, part->to) < 0) part->to = t;
+  if (ratio_compare(t, part->to) < 0)
+    part->to = t;
 }
 
 /* Which side of itself an edge from p to q has covered that runs along the
@@ -178,13 +183,15 @@ static bool cut_to_outline(const struct geom_point corner[3],
     left += line[k] > 0;
     right += line[k] < 0;
   }
-  if ((left == 0 || right == 0) && left + right >= 2) return false;
+  if ((left == 0 || right == 0) && left + right >= 2)
+    return false;
   for (int k = 0; k < 3; k++) {
     int next = k == 2 ? 0 : k + 1;
     s[k] = x[k] * y[next] - y[k] * x[next];
     t[k] = (int64_t)((uint64_t)s[k] + (uint64_t)line[k] - (uint64_t)line[next]);
     if (s[k] <= 0 && t[k] <= 0) {
-      if (s[k] < 0 || t[k] < 0) return false;
+      if (s[k] < 0 || t[k] < 0)
+        return false;
       part->sides = covered_side(corner[k], corner[next], p, q);
     }
   }
@@ -204,8 +211,7 @@ static bool cut_to_outline(const struct geom_point corner[3],
 static bool is_behind_at_exit(const struct hidden_part *part, bool p_shared,
                               int128 gp, int128 gq) {
   if (p_shared)
-    return gq < 0 &&
-           ratio_compare((struct ratio){gp, gp - gq}, part->to) < 0;
+    return gq < 0 && ratio_compare((struct ratio){gp, gp - gq}, part->to) < 0;
   return gp < 0 && ratio_compare(part->from, (struct ratio){-gp, gq - gp}) < 0;
 }
 
@@ -216,18 +222,23 @@ static bool cut_to_depth(const struct hider *hider, struct geom_point p,
   int sp = depth_filter(hider, p), sq = depth_filter(hider, q);
   bool p_shared = false, q_shared = false;
   int128 gp, gq;
-  if (sp < 0 && sq < 0) return true;
+  if (sp < 0 && sq < 0)
+    return true;
   for (int k = 0; k < 3; k++) {
     p_shared |= geom_same_point(hider->p[k], p);
     q_shared |= geom_same_point(hider->p[k], q);
   }
-  if (sp > 0 && sq > 0) return false;
+  if (sp > 0 && sq > 0)
+    return false;
   counts->exact++;
   gp = hider_depth(hider, p);
   gq = hider_depth(hider, q);
-  if (p_shared != q_shared) return is_behind_at_exit(part, p_shared, gp, gq);
-  if (gp >= 0 && gq >= 0) return false;
-  if (gp < 0 && gq < 0) return true;
+  if (p_shared != q_shared)
+    return is_behind_at_exit(part, p_shared, gp, gq);
+  if (gp >= 0 && gq >= 0)
+    return false;
+  if (gp < 0 && gq < 0)
+    return true;
   counts->crossings++;
   if (gp >= 0)
     raise_from(part, (struct ratio){gp, gp - gq});
@@ -247,10 +258,13 @@ bool hide_by_outline(const struct geom_point corner[3], struct geom_point p,
 bool hide_edge(const struct hider *hider, struct geom_point p,
                struct geom_point q, struct hidden_part *part,
                struct hide_counts *counts) {
-  if (p.z > hider->z_max && q.z > hider->z_max) return false;
-  if (page_boxes_apart(hider->box, page_box_of_segment(p, q))) return false;
+  if (p.z > hider->z_max && q.z > hider->z_max)
+    return false;
+  if (page_boxes_apart(hider->box, page_box_of_segment(p, q)))
+    return false;
   counts->pairs++;
-  if (!hide_by_outline(hider->p, p, q, part)) return false;
+  if (!hide_by_outline(hider->p, p, q, part))
+    return false;
   counts->depth++;
   return cut_to_depth(hider, p, q, part, counts);
 }
@@ -273,7 +287,8 @@ bool hide_edge_by(const struct sheet *sheet, uint32_t triangle,
   plane = stance_plane_of(sheet, triangle);
   at_p = stance_hides(&plane, p);
   at_q = stance_hides(&plane, q);
-  if (at_p == at_q && at_p != 0) return at_p < 0;
+  if (at_p == at_q && at_p != 0)
+    return at_p < 0;
   hider_init(&hider, sheet, triangle);
   return cut_to_depth(&hider, p, q, part, counts);
 }

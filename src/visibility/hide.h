@@ -51,7 +51,7 @@ struct hider {
   struct geom_plane plane;
   int128 t0, t1;
   double nx, ny, nz, t0_near, t1_near; /* nearest doubles, for the filter */
-  int64_t z_max; /* its nearest corner's */
+  int64_t z_max;                       /* its nearest corner's */
   struct page_box box;
 };
 
@@ -69,7 +69,8 @@ static inline bool hide_may(const struct sheet *sheet, uint32_t triangle,
                             struct page_box box) {
   const uint32_t *point = sheet->triangle.item[triangle].point;
   int64_t low = p.z < q.z ? p.z : q.z;
-  if (sheet->triangle_flags[triangle] & SHEET_FLAT) return false;
+  if (sheet->triangle_flags[triangle] & SHEET_FLAT)
+    return false;
   if (sheet->point.item[point[0]].z < low &&
       sheet->point.item[point[1]].z < low &&
       sheet->point.item[point[2]].z < low)

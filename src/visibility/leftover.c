@@ -19,8 +19,7 @@
 #include "visibility/crowd.h"
 #include "visibility/surround.h"
 
-/* ---- Contours by tile
- * --------------------------------------------------------- */
+/* ---- Contours by tile ---------------------------------------------------- */
 
 /* Counts the contours of wanted tiles, or with `filling` lists them. */
 static void visit_contours(struct leftover *leftover, const uint8_t *wanted,
@@ -140,8 +139,7 @@ static bool is_crossed(const struct leftover *leftover) {
   return false;
 }
 
-/* ---- Triangles about one
- * -------------------------------------------------------- */
+/* ---- Triangles about one ------------------------------------------------- */
 
 /* What is hidden is no rival; only an earlier triangle may have to be given
  * what it touches. */
@@ -203,8 +201,7 @@ static bool find_about(struct leftover *leftover) {
   return true;
 }
 
-/* ---- Solving
- * -------------------------------------------------------------------- */
+/* ---- Solving ------------------------------------------------------------- */
 
 /* Asks all that is about, or until one hides the triangle at hand. */
 static bool ask_about(struct leftover *leftover) {

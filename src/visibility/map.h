@@ -28,7 +28,7 @@ struct map_mixed {
   uint32_t count;    /* at least one */
 };
 
-/* ---- Fragments ------------------------------------------------------------ */
+/* ---- Fragments ----------------------------------------------------------- */
 
 enum map_side {
   MAP_SIDE_EDGE,         /* a piece of the face's own edge */
@@ -39,10 +39,10 @@ enum map_side {
 
 /* A corner of a fragment and the side that leaves it. */
 struct map_corner {
-  double x, y;       /* grid units from the middle of the page, rounded from
+  double x, y;  /* grid units from the middle of the page, rounded from
                         the exact corner to the nearest 1/256 unit */
-  uint8_t side;      /* enum map_side */
-  uint32_t id;       /* EDGE, OUTLINE: the sheet's edge, the lowest where
+  uint8_t side; /* enum map_side */
+  uint32_t id;  /* EDGE, OUTLINE: the sheet's edge, the lowest where
                         several coincide; INTERSECTION: the other scene face */
 };
 

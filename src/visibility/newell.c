@@ -20,7 +20,7 @@
 #include "visibility/strokes.h"
 #include "visibility/undecided.h"
 
-/* ---- Strokes ------------------------------------------------------------------ */
+/* ---- Strokes ------------------------------------------------------------- */
 
 struct stroke_work {
   const struct sheet *sheet;
@@ -65,8 +65,7 @@ static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
   strokes_start(&work->strokes);
   if (!pagegrid_find_along(work->order->grid, p, q, &work->query))
     return false;
-  for (size_t i = 0; i < work->query.found.count && !work->strokes.whole;
-       i++) {
+  for (size_t i = 0; i < work->query.found.count && !work->strokes.whole; i++) {
     uint32_t t = work->query.found.item[i];
     struct hidden_part part;
     if (t == edge->triangle[0] || t == edge->triangle[1] ||
@@ -99,15 +98,15 @@ static struct strokes *strokes_of(struct stroke_work *work, uint32_t e) {
   const struct sheet_edge *edge = &work->sheet->edge.item[e];
   struct geom_point p = work->sheet->point.item[edge->point[0]],
                     q = work->sheet->point.item[edge->point[1]];
-  if (is_undecided(work, edge)) return undecided_edge(work->undecided, e);
+  if (is_undecided(work, edge))
+    return undecided_edge(work->undecided, e);
   return solve_edge(work, edge, p, q) &&
                  pulse_beat(work->pulse, work->query.found.count)
              ? &work->strokes
              : NULL;
 }
 
-static bool solve_strokes(const struct sheet *sheet,
-                          struct newell_order *order,
+static bool solve_strokes(const struct sheet *sheet, struct newell_order *order,
                           struct undecided *undecided, struct map *map,
                           struct report *report) {
   struct stroke_work work = {
@@ -115,35 +114,38 @@ static bool solve_strokes(const struct sheet *sheet,
       .order = order,
       .pulse = &order->pulse,
       .undecided = order->counts.unordered > 0 ? undecided : NULL};
-  bool done = pagegrid_query_init(&work.query, order->grid) &&
-              strokes_open_map(map, sheet->edge.count);
-  for (size_t e = 0; done && e < sheet->edge.count; e++) {
+  bool ok = pagegrid_query_init(&work.query, order->grid) &&
+            strokes_open_map(map, sheet->edge.count);
+  for (size_t e = 0; ok && e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
     struct geom_point p = sheet->point.item[edge->point[0]],
                       q = sheet->point.item[edge->point[1]];
-    if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y)) continue;
+    if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y))
+      continue;
     work.pulse->share = (double)e / (double)sheet->edge.count;
     struct strokes *strokes = strokes_of(&work, (uint32_t)e);
-    done = strokes != NULL && strokes_file(strokes, (uint32_t)e, map);
+    ok = strokes != NULL && strokes_file(strokes, (uint32_t)e, map);
   }
   hide_report(&work.counts, report);
   report_int(report, "newell", "pairs_settled_by_order",
              (int64_t)work.by_order);
   strokes_fini(&work.strokes);
   pagegrid_query_fini(&work.query);
-  return done;
+  return ok;
 }
 
-/* ---- Fragments ---------------------------------------------------------------- */
+/* ---- Fragments ----------------------------------------------------------- */
 
 /* Takes from the cover of piece p all that is painted after it. */
 static bool take_later(struct newell_order *order, uint32_t p,
                        struct pagegrid_query *query, struct cover *cover) {
   const struct newell_piece *piece = &order->piece.item[p];
-  if (!pagegrid_find_about(order->grid, piece->triangle, query)) return false;
+  if (!pagegrid_find_about(order->grid, piece->triangle, query))
+    return false;
   for (size_t i = 0; i < query->found.count && !cover_is_empty(cover); i++) {
     uint32_t q = query->found.item[i];
-    if (q == piece->triangle) continue;
+    if (q == piece->triangle)
+      continue;
     if (newell_is_unordered(order, q)) {
       if (!pulse_beat(&order->pulse, 1 + cover->left.count) ||
           !cover_take_nearer(cover, q))
@@ -154,7 +156,8 @@ static bool take_later(struct newell_order *order, uint32_t p,
       const struct newell_piece *other = &order->piece.item[q];
       struct geom_line *line;
       int count;
-      if (!pulse_beat(&order->pulse, 1 + cover->left.count)) return false;
+      if (!pulse_beat(&order->pulse, 1 + cover->left.count))
+        return false;
       if (other->state != NEWELL_PAINTED || other->rank < piece->rank ||
           page_boxes_apart(piece->box, other->box))
         continue;
@@ -171,13 +174,14 @@ static bool file_unordered(struct newell_order *order,
                            struct undecided *undecided,
                            struct fragments *fragments) {
   ARRAY(uint32_t) list = {0};
-  bool done = true;
-  for (uint32_t t = 0; done && t < order->sheet->triangle.count; t++)
-    if (newell_is_unordered(order, t)) done = ARRAY_PUSH(&list, t);
-  done = done && (list.count == 0 || undecided_faces(undecided, list.item,
-                                                     list.count, fragments));
+  bool ok = true;
+  for (uint32_t t = 0; ok && t < order->sheet->triangle.count; t++)
+    if (newell_is_unordered(order, t))
+      ok = ARRAY_PUSH(&list, t);
+  ok = ok && (list.count == 0 ||
+              undecided_faces(undecided, list.item, list.count, fragments));
   ARRAY_FREE(&list);
-  return done;
+  return ok;
 }
 
 static bool solve_fragments(struct newell_order *order,
@@ -186,29 +190,29 @@ static bool solve_fragments(struct newell_order *order,
   struct fragments fragments;
   struct pagegrid_query query = {0};
   struct cover cover;
-  bool done;
+  bool ok;
   cover_init(&cover, order->sheet);
-  done = fragments_init(&fragments, order->sheet, order->grid, true) &&
-         pagegrid_query_init(&query, order->grid);
+  ok = fragments_init(&fragments, order->sheet, order->grid, true) &&
+       pagegrid_query_init(&query, order->grid);
   fragments.pulse = &order->pulse;
   fragments.report = report;
-  for (size_t i = order->painted.count; done && i-- > 0;) {
+  for (size_t i = order->painted.count; ok && i-- > 0;) {
     uint32_t p = order->painted.item[i];
     const struct newell_piece *piece = &order->piece.item[p];
-    if (newell_is_unordered(order, piece->triangle)) continue;
-    done = cover_start(&cover, piece->triangle, piece->shape) &&
-           take_later(order, p, &query, &cover) &&
-           cover_file(&cover, &fragments);
+    if (newell_is_unordered(order, piece->triangle))
+      continue;
+    ok = cover_start(&cover, piece->triangle, piece->shape) &&
+         take_later(order, p, &query, &cover) && cover_file(&cover, &fragments);
   }
-  done = done && file_unordered(order, undecided, &fragments) &&
-         fragments_finish(&fragments, areas, map);
+  ok = ok && file_unordered(order, undecided, &fragments) &&
+       fragments_finish(&fragments, areas, map);
   cover_fini(&cover);
   pagegrid_query_fini(&query);
   fragments_fini(&fragments);
-  return done;
+  return ok;
 }
 
-/* ---- The solver ---------------------------------------------------------------- */
+/* ---- The solver ---------------------------------------------------------- */
 
 static void report_order(const struct newell_order *order,
                          struct report *report) {
@@ -231,28 +235,27 @@ static bool solve_in_order(struct newell_order *order, struct sheet *sheet,
                            const struct solver_request *request,
                            struct map *map, struct report *report) {
   struct undecided undecided = {0};
-  bool done = order->counts.unordered == 0 ||
-              undecided_init(&undecided, sheet, request->fragments,
-                             &order->pulse);
+  bool ok =
+      order->counts.unordered == 0 ||
+      undecided_init(&undecided, sheet, request->fragments, &order->pulse);
   order->pulse.stage = "edges";
-  done = done && (!request->strokes ||
-                  solve_strokes(sheet, order, &undecided, map, report));
+  ok = ok && (!request->strokes ||
+              solve_strokes(sheet, order, &undecided, map, report));
   order->pulse.stage = "faces";
-  done = done && (!request->fragments ||
-                  solve_fragments(order, &undecided, request->areas, map,
-                                  report));
+  ok = ok && (!request->fragments ||
+              solve_fragments(order, &undecided, request->areas, map, report));
   undecided_fini(&undecided);
-  return done;
+  return ok;
 }
 
 static recto_status solve(struct sheet *sheet,
-                          const struct solver_request *request,
-                          struct map *map, struct report *report,
-                          recto_error *error) {
+                          const struct solver_request *request, struct map *map,
+                          struct report *report, recto_error *error) {
   struct newell_order order;
   struct pagegrid grid;
   recto_status status;
-  if (!pagegrid_init(&grid, sheet)) return error_memory(error);
+  if (!pagegrid_init(&grid, sheet))
+    return error_memory(error);
   status = newell_order_init(&order, sheet, &grid, request, error);
   if (status == RECTO_OK && request->intersections)
     status = pierce_all(sheet, &grid, NULL, request, report, error);

@@ -39,14 +39,16 @@ enum { PAIR_WORK = 128 };
 /* Splits of one triangle, and tests for each triangle and in any case. */
 enum { SPLITS_MOST = 16, TESTS_MOST = 1 << 12, TESTS_FEW = 1 << 22 };
 
-/* ---- Pieces ------------------------------------------------------------------ */
+/* ---- Pieces -------------------------------------------------------------- */
 
 static bool add_triangles(struct newell_order *order) {
   const struct sheet *sheet = order->sheet;
   size_t n = sheet->triangle.count;
   order->open = mem_alloc(n, sizeof *order->open);
   order->splits = mem_calloc(n, sizeof *order->splits);
-  if (order->open == NULL || order->splits == NULL || !ARRAY_RESERVE(&order->piece, n)) return false;
+  if (order->open == NULL || order->splits == NULL ||
+      !ARRAY_RESERVE(&order->piece, n))
+    return false;
   for (size_t t = 0; t < n; t++) {
     struct newell_piece piece = {
         .triangle = (uint32_t)t,
@@ -63,11 +65,12 @@ static bool add_triangles(struct newell_order *order) {
     piece.z_high = INT64_MIN;
     for (int k = 0; k < 3; k++) {
       int64_t z = sheet->point.item[sheet->triangle.item[t].point[k]].z;
-      if (z < piece.z_low) piece.z_low = z;
-      if (z > piece.z_high) piece.z_high = z;
+      if (z < piece.z_low)
+        piece.z_low = z;
+      if (z > piece.z_high)
+        piece.z_high = z;
     }
-    order->open[t] =
-        piece.state == NEWELL_WAITING ? (uint32_t)t : NEWELL_NONE;
+    order->open[t] = piece.state == NEWELL_WAITING ? (uint32_t)t : NEWELL_NONE;
     order->piece.item[order->piece.count++] = piece;
   }
   return true;
@@ -122,7 +125,8 @@ static void leave_order(struct newell_order *order, uint32_t triangle) {
 
 /* Notes that a triangle was split once more. */
 static void count_split(struct newell_order *order, uint32_t triangle) {
-  if (++order->splits[triangle] > SPLITS_MOST) leave_order(order, triangle);
+  if (++order->splits[triangle] > SPLITS_MOST)
+    leave_order(order, triangle);
 }
 
 struct geom_line *newell_piece_lines(const struct newell_order *order,
@@ -132,7 +136,8 @@ struct geom_line *newell_piece_lines(const struct newell_order *order,
   size_t n = p->shape == NULL ? 3 : p->shape->count;
   struct geom_line *line = arena_alloc(arena, 2 * n, sizeof *line);
   *count = (int)n;
-  if (line == NULL) return NULL;
+  if (line == NULL)
+    return NULL;
   if (p->shape == NULL) {
     triangle_lines(order->sheet, p->triangle, line, line + n);
     return line;
@@ -144,18 +149,19 @@ struct geom_line *newell_piece_lines(const struct newell_order *order,
   return line;
 }
 
-/* ---- Splitting ----------------------------------------------------------------- */
+/* ---- Splitting ----------------------------------------------------------- */
 
 /* Splits a piece by a line into two proper parts, if it does. */
 static bool split_by(struct newell_order *order, uint32_t piece,
                      const struct geom_convex *shape,
-                     const struct geom_line *line,
-                     const struct geom_line *back, bool *split) {
+                     const struct geom_line *line, const struct geom_line *back,
+                     bool *split) {
   struct geom_convex left, right;
   if (!geom_convex_split(shape, line, back, &left, &right, &order->scratch))
     return false;
   *split = left.count > 0 && right.count > 0;
-  if (!*split) return true;
+  if (!*split)
+    return true;
   close_piece(order, piece, NEWELL_SPLIT);
   return add_part(order, piece, &left) && add_part(order, piece, &right);
 }
@@ -165,7 +171,8 @@ static bool split_piercing(struct newell_order *order, uint32_t p, uint32_t q) {
   struct geom_line line, back;
   struct geom_convex shape;
   bool split;
-  if (newell_crossing(order, p, q, &line, &back) != 0) return true;
+  if (newell_crossing(order, p, q, &line, &back) != 0)
+    return true;
   if (!newell_shape(order, p, &shape) ||
       !split_by(order, p, &shape, &line, &back, &split))
     return false;
@@ -181,12 +188,14 @@ static bool split_cycle(struct newell_order *order, uint32_t p, uint32_t q) {
   bool split = false;
   int count;
   order->counts.cycles++;
-  if (!newell_shape(order, q, &shape)) return false;
+  if (!newell_shape(order, q, &shape))
+    return false;
   if (newell_crossing(order, p, q, &line, &back) == 0 &&
       !split_by(order, q, &shape, &line, &back, &split))
     return false;
   side = newell_piece_lines(order, p, &count, &order->scratch);
-  if (side == NULL) return false;
+  if (side == NULL)
+    return false;
   for (int k = 0; k < count && !split; k++)
     if (!split_by(order, q, &shape, &side[k], &side[count + k], &split))
       return false;
@@ -200,7 +209,7 @@ static bool split_cycle(struct newell_order *order, uint32_t p, uint32_t q) {
   return true;
 }
 
-/* ---- The candidates ------------------------------------------------------------- */
+/* ---- The candidates ------------------------------------------------------ */
 
 /* Takes everything down to piece q off the stack and unmarks it. */
 static void unwind(struct newell_order *order, uint32_t q) {
@@ -215,8 +224,7 @@ static void unwind(struct newell_order *order, uint32_t q) {
 enum step { STEP_FAILED, STEP_PAINT, STEP_MOVED, STEP_SPLIT };
 
 /* Tests candidate P against piece Q. */
-static enum step test_pair(struct newell_order *order, uint32_t p,
-                           uint32_t q) {
+static enum step test_pair(struct newell_order *order, uint32_t p, uint32_t q) {
   order->counts.tests++;
   switch (newell_test(order, p, q)) {
   case NEWELL_FAILED:
@@ -245,16 +253,21 @@ static enum step test_candidate(struct newell_order *order, uint32_t p) {
     return STEP_FAILED;
   for (size_t i = 0; i < order->query.found.count; i++) {
     uint32_t t = order->query.found.item[i];
-    if (!pulse_beat(&order->pulse, 1)) return STEP_FAILED;
-    if (t == triangle) continue;
+    if (!pulse_beat(&order->pulse, 1))
+      return STEP_FAILED;
+    if (t == triangle)
+      continue;
     for (uint32_t q = order->open[t]; q != NEWELL_NONE;
          q = order->piece.item[q].next_open) {
       enum step step;
-      if (!pulse_beat(&order->pulse, PAIR_WORK)) return STEP_FAILED;
+      if (!pulse_beat(&order->pulse, PAIR_WORK))
+        return STEP_FAILED;
       step = test_pair(order, p, q);
       arena_reset(&order->scratch);
-      if (step == STEP_FAILED || step == STEP_SPLIT) return step;
-      if (step == STEP_MOVED) result = STEP_MOVED;
+      if (step == STEP_FAILED || step == STEP_SPLIT)
+        return step;
+      if (step == STEP_MOVED)
+        result = STEP_MOVED;
     }
   }
   return result;
@@ -262,7 +275,8 @@ static enum step test_candidate(struct newell_order *order, uint32_t p) {
 
 /* Paints piece `root` and all that must be painted before it. */
 static bool paint(struct newell_order *order, uint32_t root) {
-  if (!ARRAY_PUSH(&order->stack, root)) return false;
+  if (!ARRAY_PUSH(&order->stack, root))
+    return false;
   while (order->stack.count > 0) {
     uint32_t p = order->stack.item[order->stack.count - 1];
     struct newell_piece *piece = &order->piece.item[p];
@@ -278,7 +292,8 @@ static bool paint(struct newell_order *order, uint32_t root) {
       order->stack.count--;
       close_piece(order, p, NEWELL_PAINTED);
       piece->rank = (uint32_t)order->painted.count;
-      if (!ARRAY_PUSH(&order->painted, p)) return false;
+      if (!ARRAY_PUSH(&order->painted, p))
+        return false;
       break;
     case STEP_MOVED:
     case STEP_SPLIT:
@@ -291,10 +306,11 @@ static bool paint(struct newell_order *order, uint32_t root) {
 static struct sort_key *sort_by_depth(const struct newell_order *order,
                                       size_t n) {
   struct sort_key *key = mem_alloc(2 * n, sizeof *key);
-  if (key == NULL) return NULL;
+  if (key == NULL)
+    return NULL;
   for (size_t t = 0; t < n; t++)
-    key[t] = (struct sort_key){
-        sort_key_of_int64(order->piece.item[t].z_low), (uint32_t)t};
+    key[t] = (struct sort_key){sort_key_of_int64(order->piece.item[t].z_low),
+                               (uint32_t)t};
   sort_keys(key, key + n, n);
   return key;
 }
@@ -317,7 +333,8 @@ recto_status newell_order_init(struct newell_order *order,
   if (!pagegrid_query_init(&order->query, grid) || !add_triangles(order))
     return error_memory(error);
   s = sort_by_depth(order, n);
-  if (s == NULL) return error_memory(error);
+  if (s == NULL)
+    return error_memory(error);
   for (size_t i = 0; i < n && status == RECTO_OK; i++) {
     uint32_t p = s[i].value;
     order->pulse.share = (double)i / (double)n;

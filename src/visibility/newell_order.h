@@ -12,24 +12,24 @@
 #define NEWELL_NONE UINT32_MAX
 
 enum newell_state {
-  NEWELL_WAITING,  /* not painted yet */
-  NEWELL_MARKED,   /* moved ahead of another and not painted yet */
-  NEWELL_PAINTED,  /* has its rank */
-  NEWELL_SPLIT,    /* gone: others stand for it */
-  NEWELL_UNSEEN    /* flat, a copy, behind one other piece entirely, or of a
+  NEWELL_WAITING, /* not painted yet */
+  NEWELL_MARKED,  /* moved ahead of another and not painted yet */
+  NEWELL_PAINTED, /* has its rank */
+  NEWELL_SPLIT,   /* gone: others stand for it */
+  NEWELL_UNSEEN   /* flat, a copy, behind one other piece entirely, or of a
                       face without an order */
 };
 
 /* Piece t < triangle count is the whole triangle t; later ones are parts. */
 struct newell_piece {
   uint32_t triangle;
-  uint32_t next;             /* the triangle's next piece, NEWELL_NONE */
+  uint32_t next;                 /* the triangle's next piece, NEWELL_NONE */
   uint32_t next_open, last_open; /* the same among those not painted yet */
-  struct geom_convex *shape; /* NULL: the whole triangle */
+  struct geom_convex *shape;     /* NULL: the whole triangle */
   struct page_box box;
-  int64_t z_low, z_high;     /* of the triangle */
-  uint32_t rank;             /* 0 is rearmost */
-  uint8_t state;             /* enum newell_state */
+  int64_t z_low, z_high; /* of the triangle */
+  uint32_t rank;         /* 0 is rearmost */
+  uint8_t state;         /* enum newell_state */
 };
 
 /* How many pairs each test settled, and what became of the rest. */
@@ -45,7 +45,7 @@ struct newell_order {
   const struct pagegrid *grid;
   struct pagegrid_query query;
   ARRAY(struct newell_piece) piece;
-  uint32_t *open;          /* a triangle's first piece not painted yet */
+  uint32_t *open;  /* a triangle's first piece not painted yet */
   uint8_t *splits; /* of a triangle so far; NEWELL_UNORDERED: it has no order,
                       and its pieces are of no account */
   ARRAY(uint32_t) painted; /* pieces, back to front */

@@ -17,7 +17,8 @@ bool newell_shape(struct newell_order *order, uint32_t piece,
     *shape = *p->shape;
     return true;
   }
-  for (int k = 0; k < 3; k++) corner[k] = order->sheet->point.item[point[k]];
+  for (int k = 0; k < 3; k++)
+    corner[k] = order->sheet->point.item[point[k]];
   line = newell_piece_lines(order, piece, &count, &order->scratch);
   return line != NULL &&
          geom_convex_triangle(shape, corner, line, &order->scratch);
@@ -25,10 +26,10 @@ bool newell_shape(struct newell_order *order, uint32_t piece,
 
 int newell_crossing(const struct newell_order *order, uint32_t p, uint32_t q,
                     struct geom_line *line, struct geom_line *back) {
-  struct triangle_plane tp = triangle_plane_of(
-                            order->sheet, order->piece.item[p].triangle),
-                        tq = triangle_plane_of(
-                            order->sheet, order->piece.item[q].triangle);
+  struct triangle_plane tp = triangle_plane_of(order->sheet,
+                                               order->piece.item[p].triangle),
+                        tq = triangle_plane_of(order->sheet,
+                                               order->piece.item[q].triangle);
   int parallel = geom_line_between(line, &tp.plane, &tq.plane);
   *back = *line;
   geom_line_reverse(back);
@@ -41,7 +42,8 @@ static bool find_common(struct newell_order *order, uint32_t p, uint32_t q,
   int count;
   struct geom_line *line =
       newell_piece_lines(order, q, &count, &order->scratch);
-  if (line == NULL || !newell_shape(order, p, common)) return false;
+  if (line == NULL || !newell_shape(order, p, common))
+    return false;
   for (int k = 0; k < count && common->count > 0; k++) {
     struct geom_convex inside;
     if (!geom_convex_split(common, &line[k], &line[count + k], &inside, NULL,
@@ -61,21 +63,26 @@ static enum newell_result test_full(struct newell_order *order, uint32_t p,
   struct geom_convex common;
   bool p_in_front = false, q_in_front = false;
   order->counts.full++;
-  if (!find_common(order, p, q, &common)) return NEWELL_FAILED;
-  if (common.count == 0) return NEWELL_P_FIRST;
-  if (q_nearer == NULL) return NEWELL_Q_FIRST;
+  if (!find_common(order, p, q, &common))
+    return NEWELL_FAILED;
+  if (common.count == 0)
+    return NEWELL_P_FIRST;
+  if (q_nearer == NULL)
+    return NEWELL_Q_FIRST;
   for (uint32_t k = 0; k < common.count; k++) {
     int side = geom_line_side(q_nearer, &common.corner[k]);
     q_in_front |= side > 0;
     p_in_front |= side < 0;
   }
-  if (!p_in_front) return NEWELL_P_FIRST;
+  if (!p_in_front)
+    return NEWELL_P_FIRST;
   return q_in_front ? NEWELL_PIERCE : NEWELL_Q_FIRST;
 }
 
 /* Prepares the plane of the candidate. */
 static void prepare(struct newell_order *order, uint32_t triangle) {
-  if (order->prepared == triangle) return;
+  if (order->prepared == triangle)
+    return;
   order->prepared = triangle;
   order->plane = triangle_plane_of(order->sheet, triangle);
   order->stance = stance_plane_of(order->sheet, triangle);
@@ -113,7 +120,8 @@ enum newell_result newell_test(struct newell_order *order, uint32_t p,
   }
   tq = triangle_plane_of(order->sheet, pq->triangle);
   p_sides = plane_sides(&tq.plane, order->plane.p);
-  if (p_sides == PLANE_BEHIND || (p_sides == 0 && pq->triangle < pp->triangle)) {
+  if (p_sides == PLANE_BEHIND ||
+      (p_sides == 0 && pq->triangle < pp->triangle)) {
     counts->behind++;
     return NEWELL_P_FIRST;
   }

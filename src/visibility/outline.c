@@ -44,7 +44,7 @@ static void loop_fini(struct loop *loop) {
   mem_free(loop->key);
 }
 
-/* ---- 1. Doubt ------------------------------------------------------------- */
+/* ---- 1. Doubt ------------------------------------------------------------ */
 
 static int64_t area2_of(const struct sheet *sheet, size_t t) {
   const uint32_t *p = sheet->triangle.item[t].point;
@@ -69,19 +69,18 @@ static bool may_be_one_layer(const struct sheet *sheet) {
                           LAYERS_MOST * (x1 - x0) * (y1 - y0);
 }
 
-/* ---- 2. Walk -------------------------------------------------------------- */
+/* ---- 2. Walk ------------------------------------------------------------- */
 
 /* The ends of all contours by their points: end k of contour i is 2 i + k.
  * False where not every point has two. */
 static bool pair_ends(const struct sheet *sheet, struct sort_key *key) {
   size_t n = 2 * sheet->contour.count;
   for (size_t i = 0; i < n; i++)
-    key[i] = (struct sort_key){sheet->contour.item[i / 2].point[i % 2],
-                               (uint32_t)i};
+    key[i] =
+        (struct sort_key){sheet->contour.item[i / 2].point[i % 2], (uint32_t)i};
   sort_keys(key, key + n, n);
   for (size_t i = 0; i < n; i += 2)
-    if (key[i].key != key[i + 1].key ||
-        (i > 0 && key[i].key == key[i - 1].key))
+    if (key[i].key != key[i + 1].key || (i > 0 && key[i].key == key[i - 1].key))
       return false;
   return true;
 }
@@ -91,20 +90,20 @@ static bool walk(const struct sheet *sheet, struct loop *loop) {
   size_t n = sheet->contour.count;
   struct sort_key *key = mem_alloc(4 * n, sizeof *key);
   uint32_t *mate = mem_alloc(2 * n, sizeof *mate), end = 0;
-  bool done = key != NULL && mate != NULL && pair_ends(sheet, key);
-  for (size_t i = 0; done && i < 2 * n; i++)
+  bool ok = key != NULL && mate != NULL && pair_ends(sheet, key);
+  for (size_t i = 0; ok && i < 2 * n; i++)
     mate[key[i].value] = key[i ^ 1].value;
   loop->count = 0;
-  while (done && loop->count < n && (loop->count == 0 || end != 0)) {
+  while (ok && loop->count < n && (loop->count == 0 || end != 0)) {
     loop->point[loop->count++] = sheet->contour.item[end / 2].point[end % 2];
     end = mate[end ^ 1];
   }
   mem_free(key);
   mem_free(mate);
-  return done && loop->count == n && end == 0;
+  return ok && loop->count == n && end == 0;
 }
 
-/* ---- 3. See --------------------------------------------------------------- */
+/* ---- 3. See -------------------------------------------------------------- */
 
 static struct geom_point corner_of(const struct sheet *sheet,
                                    const struct loop *loop, size_t i) {
@@ -149,7 +148,7 @@ static bool see(const struct sheet *sheet, struct loop *loop) {
   return turns == 1;
 }
 
-/* ---- 4. Compare ----------------------------------------------------------- */
+/* ---- 4. Compare ---------------------------------------------------------- */
 
 /* A bound of what is within CUT_MARGIN of a line, as an area. */
 static int64_t near_line(struct geom_point p, struct geom_point q) {
@@ -206,9 +205,8 @@ static size_t find_place(const struct loop *loop, uint32_t point) {
     else
       high = middle;
   }
-  return low < loop->count && loop->key[low].key == point
-             ? loop->key[low].value
-             : loop->count;
+  return low < loop->count && loop->key[low].key == point ? loop->key[low].value
+                                                          : loop->count;
 }
 
 /* Are all drawn edges sides of the loop? */
@@ -258,7 +256,7 @@ bool outline_tells(const struct sheet *sheet,
   return told;
 }
 
-/* ---- The solver ----------------------------------------------------------- */
+/* ---- The solver ---------------------------------------------------------- */
 
 static bool show_edges(const struct sheet *sheet, struct map *map) {
   if (!strokes_open_map(map, sheet->edge.count))
@@ -277,17 +275,17 @@ static bool show_faces(const struct sheet *sheet, bool areas, struct map *map,
                        struct report *report) {
   struct fragments fragments;
   struct pagegrid grid;
-  bool done;
+  bool ok;
   if (!pagegrid_init(&grid, sheet))
     return false;
-  done = fragments_init(&fragments, sheet, &grid, true);
+  ok = fragments_init(&fragments, sheet, &grid, true);
   fragments.report = report;
-  for (size_t t = 0; done && t < sheet->triangle.count; t++)
-    done = fragments_add_alone(&fragments, (uint32_t)t);
-  done = done && fragments_finish(&fragments, areas, map);
+  for (size_t t = 0; ok && t < sheet->triangle.count; t++)
+    ok = fragments_add_alone(&fragments, (uint32_t)t);
+  ok = ok && fragments_finish(&fragments, areas, map);
   fragments_fini(&fragments);
   pagegrid_fini(&grid);
-  return done;
+  return ok;
 }
 
 static recto_status solve(struct sheet *sheet,

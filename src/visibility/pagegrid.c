@@ -61,11 +61,10 @@ void pagegrid_shape(struct pagegrid *grid, const struct sheet *sheet,
   struct page_box all = box_of_sheet(sheet);
   uint64_t room = (uint64_t)most * sheet->triangle.count + 16;
   int shift = 0;
-  while (shift < MAX_SHIFT &&
-         (cells_across(all.x0, all.x1, shift) *
-                  cells_across(all.y0, all.y1, shift) >
-              room ||
-          !is_spread(sheet, shift, spread)))
+  while (shift < MAX_SHIFT && (cells_across(all.x0, all.x1, shift) *
+                                       cells_across(all.y0, all.y1, shift) >
+                                   room ||
+                               !is_spread(sheet, shift, spread)))
     shift++;
   shape(grid, sheet, all, shift);
 }
@@ -98,7 +97,8 @@ bool pagegrid_enlarge(struct pagegrid *grid, const struct sheet *sheet,
   int shift = grid->shift;
   uint32_t *count = mem_alloc(pagegrid_cell_count(grid), sizeof *count);
   double now = *cost;
-  if (count == NULL) return false;
+  if (count == NULL)
+    return false;
   /* From one cell on they become smaller as long as that is of use. */
   while (shift < MAX_SHIFT && cells_across(all.x0, all.x1, shift) *
                                       cells_across(all.y0, all.y1, shift) >
@@ -107,7 +107,8 @@ bool pagegrid_enlarge(struct pagegrid *grid, const struct sheet *sheet,
   for (; shift > grid->shift && now < 2 * *cost; shift--) {
     shape(&next, sheet, all, shift);
     now = cost_of_pairs(&next, sheet, some, n, count);
-    if (now >= *cost) continue;
+    if (now >= *cost)
+      continue;
     *cost = now;
     *grid = next;
   }
@@ -139,8 +140,10 @@ static void fill_triangle(const struct filling *filling, uint32_t t,
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
       uint32_t *end = &grid->start[cell];
-      if (filling->wanted != NULL && !filling->wanted[cell]) continue;
-      if (grid->horizon != NULL && nearest < grid->horizon[cell]) continue;
+      if (filling->wanted != NULL && !filling->wanted[cell])
+        continue;
+      if (grid->horizon != NULL && nearest < grid->horizon[cell])
+        continue;
       if (place)
         grid->item[--*end] = t;
       else
@@ -151,9 +154,8 @@ static void fill_triangle(const struct filling *filling, uint32_t t,
 /* First pass: counts; second: places.  start[] ends as the lists' starts. */
 static void fill_cells(const struct filling *filling, bool place) {
   for (size_t i = filling->count; i-- > 0;)
-    fill_triangle(filling,
-                  filling->some != NULL ? filling->some[i] : (uint32_t)i,
-                  place);
+    fill_triangle(
+        filling, filling->some != NULL ? filling->some[i] : (uint32_t)i, place);
 }
 
 /* Drops the triangles that others stand for from the lists. */
@@ -179,11 +181,14 @@ static bool leave_out_copies(struct pagegrid *grid) {
     if (start[c + 1] - start[c] > start[longest + 1] - start[longest])
       longest = c;
   size_t count = start[longest + 1] - start[longest];
-  if (count < PAGEGRID_PILE) return true;
+  if (count < PAGEGRID_PILE)
+    return true;
   if (!copies_abound(grid->sheet, grid->item + start[longest], count, &abound))
     return false;
-  if (!abound) return true;
-  if (!copies_find(grid->sheet, &grid->left_out)) return false;
+  if (!abound)
+    return true;
+  if (!copies_find(grid->sheet, &grid->left_out))
+    return false;
   shorten_lists(grid);
   return true;
 }
@@ -192,11 +197,13 @@ bool pagegrid_part(struct pagegrid *grid, bool planes) {
   size_t cells = pagegrid_cell_count(grid);
   for (size_t c = 0; c < cells; c++) {
     size_t count = grid->start[c + 1] - grid->start[c];
-    if (count < PAGEGRID_CROWD) continue;
+    if (count < PAGEGRID_CROWD)
+      continue;
     if (grid->crowd == NULL) {
       grid->crowd = mem_calloc(1, sizeof *grid->crowd);
       grid->crowd_root = mem_alloc(cells, sizeof *grid->crowd_root);
-      if (grid->crowd == NULL || grid->crowd_root == NULL) return false;
+      if (grid->crowd == NULL || grid->crowd_root == NULL)
+        return false;
       memset(grid->crowd_root, 0xff, cells * sizeof *grid->crowd_root);
     }
     if (!crowd_add(grid->crowd, grid->sheet, grid->item + grid->start[c], count,
@@ -210,9 +217,11 @@ static bool fill(const struct filling *filling) {
   struct pagegrid *grid = filling->grid;
   size_t cells = pagegrid_cell_count(grid);
   grid->start = mem_calloc(cells + 1, sizeof *grid->start);
-  if (grid->start == NULL) return false;
+  if (grid->start == NULL)
+    return false;
   fill_cells(filling, false);
-  for (size_t c = 0; c < cells; c++) grid->start[c + 1] += grid->start[c];
+  for (size_t c = 0; c < cells; c++)
+    grid->start[c + 1] += grid->start[c];
   grid->item = mem_alloc(grid->start[cells], sizeof *grid->item);
   if (grid->item == NULL) {
     pagegrid_fini(grid);
@@ -232,10 +241,13 @@ static bool fill(const struct filling *filling) {
 static uint8_t *widen(const struct pagegrid *grid, const uint8_t *wanted) {
   size_t n = pagegrid_cell_count(grid), columns = (size_t)grid->columns;
   uint8_t *wide = mem_alloc(n, 1);
-  if (wide == NULL) return NULL;
-  for (size_t i = 0; i + 1 < n; i++) wide[i] = wanted[i] | wanted[i + 1];
+  if (wide == NULL)
+    return NULL;
+  for (size_t i = 0; i + 1 < n; i++)
+    wide[i] = wanted[i] | wanted[i + 1];
   wide[n - 1] = wanted[n - 1];
-  for (size_t i = 0; i + columns < n; i++) wide[i] |= wide[i + columns];
+  for (size_t i = 0; i + columns < n; i++)
+    wide[i] |= wide[i + columns];
   return wide;
 }
 
@@ -247,8 +259,10 @@ static bool choose_some(const struct pagegrid *grid,
     struct footprint f = print[t];
     size_t cell = (size_t)f.y * (size_t)grid->columns + f.x;
     bool small = f.width <= 1 && f.height <= 1;
-    if (small && !wide[cell]) continue;
-    if (!ARRAY_PUSH(some, (uint32_t)t)) return false;
+    if (small && !wide[cell])
+      continue;
+    if (!ARRAY_PUSH(some, (uint32_t)t))
+      return false;
   }
   return true;
 }
@@ -259,19 +273,18 @@ bool pagegrid_fill(struct pagegrid *grid, const struct sheet *sheet,
   triangle_list some = {0};
   uint8_t *wide = widen(grid, wanted);
   grid->horizon = horizon;
-  bool done = wide != NULL && choose_some(grid, print, wide, &some);
+  bool ok = wide != NULL && choose_some(grid, print, wide, &some);
   mem_free(wide);
-  done = done && fill(&(struct filling){grid, sheet, print, wanted, some.item,
-                                        some.count});
+  ok = ok && fill(&(struct filling){grid, sheet, print, wanted, some.item,
+                                    some.count});
   ARRAY_FREE(&some);
-  return done;
+  return ok;
 }
 
 bool pagegrid_init(struct pagegrid *grid, const struct sheet *sheet) {
   pagegrid_shape(grid, sheet, SPREAD, 2);
-  if (fill(&(struct filling){.grid = grid,
-                             .sheet = sheet,
-                             .count = sheet->triangle.count}) &&
+  if (fill(&(struct filling){
+          .grid = grid, .sheet = sheet, .count = sheet->triangle.count}) &&
       pagegrid_part(grid, false))
     return true;
   pagegrid_fini(grid);
@@ -287,7 +300,8 @@ bool pagegrid_fill_some(struct pagegrid *grid, const struct sheet *sheet,
 void pagegrid_fini(struct pagegrid *grid) {
   mem_free(grid->start);
   mem_free(grid->item);
-  if (grid->crowd != NULL) crowd_fini(grid->crowd);
+  if (grid->crowd != NULL)
+    crowd_fini(grid->crowd);
   mem_free(grid->crowd);
   mem_free(grid->crowd_root);
   mem_free(grid->left_out);
@@ -329,7 +343,8 @@ static bool visit_crowd(const struct pagegrid *grid, uint32_t root,
   const struct crowd_node *node;
   while ((node = crowd_next(grid->crowd, &walk, shape)) != NULL)
     for (uint32_t i = node->from; i < node->from + node->count; i++)
-      if (!visit(query, grid->crowd->member.item[i].triangle)) return false;
+      if (!visit(query, grid->crowd->member.item[i].triangle))
+        return false;
   return true;
 }
 
@@ -338,9 +353,11 @@ static bool visit_cell(const struct pagegrid *grid, int x, int y,
                        struct pagegrid_query *query) {
   size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
   uint32_t root = pagegrid_crowd(grid, cell);
-  if (root != SHEET_NONE) return visit_crowd(grid, root, shape, query);
+  if (root != SHEET_NONE)
+    return visit_crowd(grid, root, shape, query);
   for (uint32_t i = grid->start[cell]; i < grid->start[cell + 1]; i++)
-    if (!visit(query, grid->item[i])) return false;
+    if (!visit(query, grid->item[i]))
+      return false;
   return true;
 }
 
@@ -351,7 +368,8 @@ static bool find_in_box(const struct pagegrid *grid,
   pagegrid_query_start(grid, query);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++)
-      if (!visit_cell(grid, x, y, shape, query)) return false;
+      if (!visit_cell(grid, x, y, shape, query))
+        return false;
   return true;
 }
 
@@ -378,7 +396,8 @@ void pagegrid_row(const struct pagegrid *grid, struct geom_point p,
   double a, b, from, to;
   *x0 = range.x0;
   *x1 = range.x1;
-  if (range.y0 == range.y1 || range.x0 == range.x1) return;
+  if (range.y0 == range.y1 || range.x0 == range.x1)
+    return;
   /* Where the segment enters and leaves the row, rounded outwards. */
   low = grid->y0 + ((int64_t)y << grid->shift) - p.y;
   high = low + (INT64_C(1) << grid->shift);
@@ -387,12 +406,16 @@ void pagegrid_row(const struct pagegrid *grid, struct geom_point p,
   from = (a < b ? a : b) - 1;
   to = (a < b ? b : a) + 1;
   if (from > -0x1p30) {
-    int x = pagegrid_cell((int32_t)from - 1, grid->x0, grid->shift, grid->columns);
-    if (x > *x0) *x0 = x;
+    int x =
+        pagegrid_cell((int32_t)from - 1, grid->x0, grid->shift, grid->columns);
+    if (x > *x0)
+      *x0 = x;
   }
   if (to < 0x1p30) {
-    int x = pagegrid_cell((int32_t)to + 1, grid->x0, grid->shift, grid->columns);
-    if (x < *x1) *x1 = x;
+    int x =
+        pagegrid_cell((int32_t)to + 1, grid->x0, grid->shift, grid->columns);
+    if (x < *x1)
+      *x1 = x;
   }
 }
 
@@ -405,7 +428,8 @@ bool pagegrid_find_along(const struct pagegrid *grid, struct geom_point p,
     int x0, x1;
     pagegrid_row(grid, p, q, r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
-      if (!visit_cell(grid, x, y, &shape, query)) return false;
+      if (!visit_cell(grid, x, y, &shape, query))
+        return false;
   }
   return true;
 }

@@ -45,7 +45,7 @@ struct pagegrid {
   const struct sheet *sheet; /* lent */
   struct crowd *crowd;       /* the long lists, parted; NULL: none is */
   uint32_t *crowd_root;      /* one a cell; SHEET_NONE: not parted */
-  const double *horizon; /* what the lists were made with; lent */
+  const double *horizon;     /* what the lists were made with; lent */
 };
 
 /* Indexes the boxes of all triangles of the sheet. */
@@ -194,8 +194,7 @@ static inline bool pagegrid_query_first(struct pagegrid_query *query,
 
 /* Finds every triangle whose box meets `box` (and some more), each once, in
  * an order that depends on the grid alone.  False when memory ran out. */
-USE_RESULT bool pagegrid_find(const struct pagegrid *grid,
-                              struct page_box box,
+USE_RESULT bool pagegrid_find(const struct pagegrid *grid, struct page_box box,
                               struct pagegrid_query *query);
 
 /* The same along the segment from p to q: triangles of the cells it meets.

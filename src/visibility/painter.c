@@ -34,17 +34,20 @@ static void centroid_keys(const struct sheet *sheet, struct sort_key *key) {
         sum += sheet->point.item[sheet->triangle.item[end].point[k]].z;
     for (size_t t = first; t < end; t++)
       key[t] = (struct sort_key){
-          sort_key_of_int64((int64_t)(sum / (int128)(end - first))), (uint32_t)t};
+          sort_key_of_int64((int64_t)(sum / (int128)(end - first))),
+          (uint32_t)t};
   }
 }
 
 static bool rank_by_centroid(struct painting *painting) {
   size_t n = painting->sheet->triangle.count;
   struct sort_key *key = mem_alloc(2 * n, sizeof *key);
-  if (key == NULL) return false;
+  if (key == NULL)
+    return false;
   centroid_keys(painting->sheet, key);
   sort_keys(key, key + n, n);
-  for (size_t i = 0; i < n; i++) painting->rank[key[i].value] = (uint32_t)i;
+  for (size_t i = 0; i < n; i++)
+    painting->rank[key[i].value] = (uint32_t)i;
   mem_free(key);
   return true;
 }
@@ -55,8 +58,8 @@ static void rank_as_given(struct painting *painting) {
 }
 
 /* An edge is painted with the later of its faces; a wire before all. */
-static bool solve_edge(struct painting *painting,
-                       const struct sheet_edge *edge, struct strokes *strokes) {
+static bool solve_edge(struct painting *painting, const struct sheet_edge *edge,
+                       struct strokes *strokes) {
   const struct sheet *sheet = painting->sheet;
   struct geom_point p = sheet->point.item[edge->point[0]],
                     q = sheet->point.item[edge->point[1]];
@@ -86,19 +89,20 @@ static bool solve_edge(struct painting *painting,
 static bool solve_strokes(struct painting *painting, struct map *map) {
   const struct sheet *sheet = painting->sheet;
   struct strokes strokes = {0};
-  bool done = strokes_open_map(map, sheet->edge.count);
-  for (size_t e = 0; done && e < sheet->edge.count; e++) {
+  bool ok = strokes_open_map(map, sheet->edge.count);
+  for (size_t e = 0; ok && e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
     const struct geom_point *p = &sheet->point.item[edge->point[0]],
                             *q = &sheet->point.item[edge->point[1]];
-    if (edge->edge_class == 0 || (p->x == q->x && p->y == q->y)) continue;
-    done = solve_edge(painting, edge, &strokes) &&
-           pulse_beat_at(&painting->pulse, painting->query.found.count, e,
-                         sheet->edge.count) &&
-           strokes_file(&strokes, (uint32_t)e, map);
+    if (edge->edge_class == 0 || (p->x == q->x && p->y == q->y))
+      continue;
+    ok = solve_edge(painting, edge, &strokes) &&
+         pulse_beat_at(&painting->pulse, painting->query.found.count, e,
+                       sheet->edge.count) &&
+         strokes_file(&strokes, (uint32_t)e, map);
   }
   strokes_fini(&strokes);
-  return done;
+  return ok;
 }
 
 static bool take_later(struct painting *painting, uint32_t f,
@@ -106,17 +110,18 @@ static bool take_later(struct painting *painting, uint32_t f,
   struct geom_line line[3], back[3];
   if (!pagegrid_find_about(painting->grid, f, &painting->query))
     return false;
-  for (size_t i = 0;
-       i < painting->query.found.count && !cover_is_empty(cover); i++) {
+  for (size_t i = 0; i < painting->query.found.count && !cover_is_empty(cover);
+       i++) {
     uint32_t g = painting->query.found.item[i];
     if (painting->rank[g] <= painting->rank[f] ||
         (painting->sheet->triangle_flags[g] & SHEET_FLAT) ||
-        page_boxes_apart(cover->box,
-                         page_box_of_triangle(painting->sheet, g)))
+        page_boxes_apart(cover->box, page_box_of_triangle(painting->sheet, g)))
       continue;
     triangle_lines(painting->sheet, g, line, back);
-    if (!pulse_beat(&painting->pulse, 1 + cover->left.count)) return false;
-    if (!cover_take(cover, line, back, 3)) return false;
+    if (!pulse_beat(&painting->pulse, 1 + cover->left.count))
+      return false;
+    if (!cover_take(cover, line, back, 3))
+      return false;
   }
   return true;
 }
@@ -125,19 +130,18 @@ static bool solve_fragments(struct painting *painting, bool areas,
                             struct map *map) {
   struct fragments fragments;
   struct cover cover;
-  bool done =
-      fragments_init(&fragments, painting->sheet, painting->grid, false);
+  bool ok = fragments_init(&fragments, painting->sheet, painting->grid, false);
   fragments.pulse = &painting->pulse;
   cover_init(&cover, painting->sheet);
-  for (size_t f = 0; done && f < painting->sheet->triangle.count; f++)
+  for (size_t f = 0; ok && f < painting->sheet->triangle.count; f++)
     if (!(painting->sheet->triangle_flags[f] & SHEET_FLAT))
-      done = cover_start(&cover, (uint32_t)f, NULL) &&
-             take_later(painting, (uint32_t)f, &cover) &&
-             cover_file(&cover, &fragments);
-  done = done && fragments_finish(&fragments, areas, map);
+      ok = cover_start(&cover, (uint32_t)f, NULL) &&
+           take_later(painting, (uint32_t)f, &cover) &&
+           cover_file(&cover, &fragments);
+  ok = ok && fragments_finish(&fragments, areas, map);
   cover_fini(&cover);
   fragments_fini(&fragments);
-  return done;
+  return ok;
 }
 
 static recto_status paint(struct sheet *sheet,
@@ -146,21 +150,21 @@ static recto_status paint(struct sheet *sheet,
   struct pagegrid grid;
   struct painting painting = {
       .sheet = sheet, .grid = &grid, .pulse = pulse_of(request, "painting")};
-  bool done;
-  if (!pagegrid_init(&grid, sheet)) return error_memory(error);
+  bool ok;
+  if (!pagegrid_init(&grid, sheet))
+    return error_memory(error);
   painting.rank = mem_alloc(sheet->triangle.count, sizeof *painting.rank);
-  done = painting.rank != NULL && pagegrid_query_init(&painting.query, &grid);
-  if (done && given)
+  ok = painting.rank != NULL && pagegrid_query_init(&painting.query, &grid);
+  if (ok && given)
     rank_as_given(&painting);
-  else if (done)
-    done = rank_by_centroid(&painting);
-  done = done && (!request->strokes || solve_strokes(&painting, map)) &&
-         (!request->fragments ||
-          solve_fragments(&painting, request->areas, map));
+  else if (ok)
+    ok = rank_by_centroid(&painting);
+  ok = ok && (!request->strokes || solve_strokes(&painting, map)) &&
+       (!request->fragments || solve_fragments(&painting, request->areas, map));
   mem_free(painting.rank);
   pagegrid_query_fini(&painting.query);
   pagegrid_fini(&grid);
-  return done ? RECTO_OK : pulse_error(&painting.pulse, error);
+  return ok ? RECTO_OK : pulse_error(&painting.pulse, error);
 }
 
 static recto_status solve_by_centroid(struct sheet *sheet,
@@ -181,6 +185,5 @@ static recto_status solve_as_given(struct sheet *sheet,
 
 const struct solver solver_painter = {RECTO_METHOD_PAINTER, "painter", false,
                                       solve_by_centroid};
-const struct solver solver_painter_given = {RECTO_METHOD_PAINTER_GIVEN,
-                                            "painter-given", false,
-                                            solve_as_given};
+const struct solver solver_painter_given = {
+    RECTO_METHOD_PAINTER_GIVEN, "painter-given", false, solve_as_given};

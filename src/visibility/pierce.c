@@ -30,7 +30,8 @@ static bool straddles(struct stance s) { return s.behind > 0 && s.before > 0; }
 
 /* Triangle f, prepared; it often is the one of the last pair too. */
 static const struct hider *prepare(struct pierce *pierce, uint32_t f) {
-  if (pierce->prepared != f) hider_init(&pierce->hider, pierce->sheet, f);
+  if (pierce->prepared != f)
+    hider_init(&pierce->hider, pierce->sheet, f);
   pierce->prepared = f;
   return &pierce->hider;
 }
@@ -47,15 +48,18 @@ static bool ask_pair(void *user, uint32_t f, uint32_t g) {
   if (sheet->triangle.item[f].face == sheet->triangle.item[g].face)
     return true;
   pierce->counts.pairs++;
-  if (!pulse_beat(&pierce->pulse, PAIR_WORK)) return false;
+  if (!pulse_beat(&pierce->pulse, PAIR_WORK))
+    return false;
   hf = prepare(pierce, f);
   for (int k = 0; k < 3; k++)
     p[k] = sheet->point.item[sheet->triangle.item[g].point[k]];
   sg = stance_of(hf, p);
-  if (!straddles(sg) && !ends_there(sg)) return true;
+  if (!straddles(sg) && !ends_there(sg))
+    return true;
   hider_init(&hg, sheet, g);
   sf = stance_of(&hg, hf->p);
-  if (!straddles(sf) && !ends_there(sf)) return true;
+  if (!straddles(sf) && !ends_there(sf))
+    return true;
   pierce->counts.straddle++;
   if (ends_there(sf))
     return seams_note(&pierce->seams, sheet, f, sf, g, sg);
@@ -65,7 +69,7 @@ static bool ask_pair(void *user, uint32_t f, uint32_t g) {
          ARRAY_PUSH(&pierce->segment.list, segment);
 }
 
-/* ---- Edges of the sheet ---------------------------------------------------- */
+/* ---- Edges of the sheet -------------------------------------------------- */
 
 static int compare_segments(const void *a, const void *b, void *user) {
   const struct pierce_segment *s = a, *t = b;
@@ -81,9 +85,8 @@ static int compare_places(const struct pierce_segment *s,
   bool turn_s = geom_compare_points(s->end[0], s->end[1]) > 0,
        turn_t = geom_compare_points(t->end[0], t->end[1]) > 0;
   int order = geom_compare_points(s->end[turn_s], t->end[turn_t]);
-  return order != 0
-             ? order
-             : geom_compare_points(s->end[!turn_s], t->end[!turn_t]);
+  return order != 0 ? order
+                    : geom_compare_points(s->end[!turn_s], t->end[!turn_t]);
 }
 
 static int compare_by_place(const void *a, const void *b, void *user) {
@@ -114,7 +117,7 @@ struct loose_end {
 static int compare_ends(const void *a, const void *b, void *user) {
   (void)user;
   return geom_compare_points(((const struct loose_end *)a)->point,
-                        ((const struct loose_end *)b)->point);
+                             ((const struct loose_end *)b)->point);
 }
 
 /* Gives each end its point in the sheet, the same one for the same place. */
@@ -122,44 +125,48 @@ static bool add_points(struct sheet *sheet, const struct pierce *pierce,
                        struct sheet_edge *edge) {
   size_t n = 2 * pierce->segment.list.count;
   struct loose_end *end = mem_alloc(n, sizeof *end);
-  bool done = false;
-  if (end == NULL) return false;
+  bool ok = false;
+  if (end == NULL)
+    return false;
   for (size_t i = 0; i < n; i++)
     end[i] = (struct loose_end){pierce->segment.list.item[i / 2].end[i % 2],
                                 (uint32_t)(i / 2), (uint32_t)(i % 2)};
-  if (!sort_stable(end, n, sizeof *end, compare_ends, NULL)) goto end;
+  if (!sort_stable(end, n, sizeof *end, compare_ends, NULL))
+    goto end;
   for (size_t i = 0; i < n; i++) {
     if ((i == 0 || compare_ends(&end[i - 1], &end[i], NULL) != 0) &&
         !ARRAY_PUSH(&sheet->point, end[i].point))
       goto end;
-    edge[end[i].segment].point[end[i].end] =
-        (uint32_t)(sheet->point.count - 1);
+    edge[end[i].segment].point[end[i].end] = (uint32_t)(sheet->point.count - 1);
   }
-  done = true;
+  ok = true;
 end:
   mem_free(end);
-  return done;
+  return ok;
 }
 
 /* Adds the segments to the sheet as drawable edges; ends at the same place become one point. */
 static bool add_edges(struct sheet *sheet, struct pierce *pierce) {
   size_t n;
   struct sheet_edge *edge;
-  if (pierce->segment.list.count == 0) return true;
-  if (!settle_segments(&pierce->segment)) return false;
+  if (pierce->segment.list.count == 0)
+    return true;
+  if (!settle_segments(&pierce->segment))
+    return false;
   n = pierce->segment.list.count;
-  if (!ARRAY_RESERVE(&sheet->edge, n)) return false;
+  if (!ARRAY_RESERVE(&sheet->edge, n))
+    return false;
   edge = sheet->edge.item + sheet->edge.count;
   for (size_t i = 0; i < n; i++) {
     const struct pierce_segment *s = &pierce->segment.list.item[i];
     edge[i] = (struct sheet_edge){
         .triangle = {s->triangle[0], s->triangle[1]},
         .source = SHEET_NONE,
-        .group = sheet->face_group[
-            sheet->triangle.item[s->triangle[0]].face],
+        .group = sheet->face_group[sheet->triangle.item[s->triangle[0]].face],
         .edge_class = RECTO_EDGE_INTERSECTION};
   }
-  if (!add_points(sheet, pierce, edge)) return false;
+  if (!add_points(sheet, pierce, edge))
+    return false;
   sheet->edge.count += n;
   return true;
 }
@@ -171,11 +178,11 @@ recto_status pierce_all(struct sheet *sheet, const struct pagegrid *grid,
   struct pierce pierce = {.sheet = sheet,
                           .pulse = pulse_of(request, "piercing"),
                           .prepared = SHEET_NONE};
-  bool done = pierce_pairs(sheet, grid, cells, ask_pair, &pierce,
-                           &pierce.pulse, &pierce.counts.met) &&
-              seams_join(&pierce.seams, sheet, &pierce.segment,
-                         &pierce.counts.seams) &&
-              add_edges(sheet, &pierce);
+  bool ok =
+      pierce_pairs(sheet, grid, cells, ask_pair, &pierce, &pierce.pulse,
+                   &pierce.counts.met) &&
+      seams_join(&pierce.seams, sheet, &pierce.segment, &pierce.counts.seams) &&
+      add_edges(sheet, &pierce);
   report_int(report, "pierce", "pairs_met", (int64_t)pierce.counts.met);
   report_int(report, "pierce", "pairs", (int64_t)pierce.counts.pairs);
   report_int(report, "pierce", "straddling", (int64_t)pierce.counts.straddle);
@@ -183,5 +190,5 @@ recto_status pierce_all(struct sheet *sheet, const struct pagegrid *grid,
   report_int(report, "pierce", "segments", (int64_t)pierce.segment.list.count);
   ARRAY_FREE(&pierce.segment.list);
   ARRAY_FREE(&pierce.seams.list);
-  return done ? RECTO_OK : pulse_error(&pierce.pulse, error);
+  return ok ? RECTO_OK : pulse_error(&pierce.pulse, error);
 }

@@ -21,7 +21,7 @@ struct summary {
   int x0, y0;        /* the cell of the box's lower left corner */
   uint32_t triangle;
   uint64_t seen; /* crowd.h */
-  bool planned; /* the plane is there */
+  bool planned;  /* the plane is there */
   struct stance_plane plane;
 };
 
@@ -48,8 +48,10 @@ static void summarise(const struct sweep *sweep, uint32_t triangle,
   s->low = s->high = sheet->point.item[p[0]].z;
   for (int k = 1; k < 3; k++) {
     int64_t z = sheet->point.item[p[k]].z;
-    if (z < s->low) s->low = z;
-    if (z > s->high) s->high = z;
+    if (z < s->low)
+      s->low = z;
+    if (z > s->high)
+      s->high = z;
   }
   s->x0 = pagegrid_cell(s->box.x0, grid->x0, grid->shift, grid->columns);
   s->y0 = pagegrid_cell(s->box.y0, grid->y0, grid->shift, grid->rows);
@@ -62,7 +64,8 @@ static bool is_listed(const struct sweep *sweep, int x, int y,
                       const struct summary *f, const struct summary *g) {
   const struct pagegrid *grid = sweep->grid;
   size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
-  if (sweep->cells != NULL && !sweep->cells[cell]) return false;
+  if (sweep->cells != NULL && !sweep->cells[cell])
+    return false;
   return grid->start[cell] < grid->start[cell + 1] &&
          (grid->horizon == NULL || (!((double)f->high < grid->horizon[cell]) &&
                                     !((double)g->high < grid->horizon[cell])));
@@ -74,14 +77,17 @@ static bool is_cell_of_pair(const struct sweep *sweep, const struct summary *f,
                             const struct summary *g) {
   const struct pagegrid *grid = sweep->grid;
   int x0 = f->x0 > g->x0 ? f->x0 : g->x0, y0 = f->y0 > g->y0 ? f->y0 : g->y0;
-  if (x0 == sweep->x && y0 == sweep->y) return true;
-  if (is_listed(sweep, x0, y0, f, g)) return false;
+  if (x0 == sweep->x && y0 == sweep->y)
+    return true;
+  if (is_listed(sweep, x0, y0, f, g))
+    return false;
   int x1 = pagegrid_cell(page_least(f->box.x1, g->box.x1), grid->x0,
                          grid->shift, grid->columns);
   for (int y = y0; y <= sweep->y; y++) {
     int end = y < sweep->y ? x1 : sweep->x - 1;
     for (int x = x0; x <= end; x++)
-      if (is_listed(sweep, x, y, f, g)) return false;
+      if (is_listed(sweep, x, y, f, g))
+        return false;
   }
   return true;
 }
@@ -96,7 +102,8 @@ static struct shared shared_corners(const uint32_t f[3], const uint32_t g[3]) {
   struct shared shared = {0, 0, 0};
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
-      if (f[i] == g[j]) shared = (struct shared){shared.count + 1, i, j};
+      if (f[i] == g[j])
+        shared = (struct shared){shared.count + 1, i, j};
   return shared;
 }
 
@@ -149,7 +156,8 @@ static bool may_pierce(const struct sheet *sheet, const struct summary *f,
   const struct geom_point corner[3] = {sheet->point.item[p[0]],
                                        sheet->point.item[p[1]],
                                        sheet->point.item[p[2]]};
-  if (!g->planned) g->plane = stance_plane_of(sheet, g->triangle);
+  if (!g->planned)
+    g->plane = stance_plane_of(sheet, g->triangle);
   g->planned = true;
   return stance_may_pierce(&g->plane, corner);
 }
@@ -195,8 +203,8 @@ static bool start_list(struct sweep *sweep, size_t n) {
 static void add_to_list(struct sweep *sweep, uint32_t triangle, uint64_t seen) {
   size_t i = sweep->summary.count++;
   summarise(sweep, triangle, seen, &sweep->summary.item[i]);
-  sweep->key.item[i] = (struct sort_key){
-      (uint64_t)sweep->summary.item[i].low, (uint32_t)i};
+  sweep->key.item[i] =
+      (struct sort_key){(uint64_t)sweep->summary.item[i].low, (uint32_t)i};
 }
 
 /* Meets the pairs of the list that was added. */
@@ -209,9 +217,11 @@ static bool sweep_list(struct sweep *sweep) {
     struct summary *f = &summary[key[i].value];
     size_t j = i + 1;
     for (; j < n && key[j].key <= (uint64_t)f->high; j++)
-      if (!meet(sweep, f, &summary[key[j].value])) return false;
+      if (!meet(sweep, f, &summary[key[j].value]))
+        return false;
     *sweep->met += j - i - 1;
-    if (!pulse_beat(sweep->pulse, j - i)) return false;
+    if (!pulse_beat(sweep->pulse, j - i))
+      return false;
   }
   return true;
 }
@@ -220,12 +230,15 @@ static bool sweep_crowd(struct sweep *sweep) {
   const struct crowd *crowd = &sweep->crowd;
   for (size_t n = 0; n < crowd->node.count; n++) {
     const struct crowd_node *node = &crowd->node.item[n];
-    if (node->child[0] != SHEET_NONE) continue;
-    if (!start_list(sweep, node->count)) return false;
+    if (node->child[0] != SHEET_NONE)
+      continue;
+    if (!start_list(sweep, node->count))
+      return false;
     for (uint32_t i = node->from; i < node->from + node->count; i++)
       add_to_list(sweep, crowd->member.item[i].triangle,
                   crowd->member.item[i].seen);
-    if (!sweep_list(sweep)) return false;
+    if (!sweep_list(sweep))
+      return false;
   }
   return true;
 }
@@ -236,16 +249,19 @@ static bool sweep_cell(struct sweep *sweep, const uint32_t *item, size_t n) {
   if (n >= CROWD &&
       !crowd_add(&sweep->crowd, sweep->sheet, item, n, true, &root))
     return false;
-  if (root != SHEET_NONE) return sweep_crowd(sweep);
-  if (!start_list(sweep, n)) return false;
-  for (size_t i = 0; i < n; i++) add_to_list(sweep, item[i], 0);
+  if (root != SHEET_NONE)
+    return sweep_crowd(sweep);
+  if (!start_list(sweep, n))
+    return false;
+  for (size_t i = 0; i < n; i++)
+    add_to_list(sweep, item[i], 0);
   return sweep_list(sweep);
 }
 
 bool pierce_pairs(const struct sheet *sheet, const struct pagegrid *grid,
                   const uint8_t *cells,
-                  bool (*visit)(void *user, uint32_t f, uint32_t g),
-                  void *user, struct pulse *pulse, uint64_t *met) {
+                  bool (*visit)(void *user, uint32_t f, uint32_t g), void *user,
+                  struct pulse *pulse, uint64_t *met) {
   struct sweep sweep = {.sheet = sheet,
                         .grid = grid,
                         .cells = cells,
@@ -253,16 +269,16 @@ bool pierce_pairs(const struct sheet *sheet, const struct pagegrid *grid,
                         .user = user,
                         .pulse = pulse,
                         .met = met};
-  bool done = true;
+  bool ok = true;
   size_t cell = 0;
-  for (sweep.y = 0; done && sweep.y < grid->rows; sweep.y++)
-    for (sweep.x = 0; done && sweep.x < grid->columns; sweep.x++, cell++) {
+  for (sweep.y = 0; ok && sweep.y < grid->rows; sweep.y++)
+    for (sweep.x = 0; ok && sweep.x < grid->columns; sweep.x++, cell++) {
       size_t n = grid->start[cell + 1] - grid->start[cell];
       if (n > 1 && (cells == NULL || cells[cell]))
-        done = sweep_cell(&sweep, grid->item + grid->start[cell], n);
+        ok = sweep_cell(&sweep, grid->item + grid->start[cell], n);
     }
   ARRAY_FREE(&sweep.summary);
   ARRAY_FREE(&sweep.key);
   crowd_fini(&sweep.crowd);
-  return done;
+  return ok;
 }

@@ -26,8 +26,10 @@ struct ends {
 };
 
 static void add_end(struct ends *ends, struct geom_point p) {
-  if (ends->count == 0 || geom_compare_points(p, ends->low) < 0) ends->low = p;
-  if (ends->count == 0 || geom_compare_points(p, ends->high) > 0) ends->high = p;
+  if (ends->count == 0 || geom_compare_points(p, ends->low) < 0)
+    ends->low = p;
+  if (ends->count == 0 || geom_compare_points(p, ends->high) > 0)
+    ends->high = p;
   ends->count++;
 }
 
@@ -49,13 +51,14 @@ static void find_ends(const struct sheet *sheet, uint32_t f,
     b = sheet->point.item[j];
     va = geom_plane_value(&hg->plane, a);
     vb = geom_plane_value(&hg->plane, b);
-    if ((va > 0 && vb > 0) || (va < 0 && vb < 0) || va == vb) continue;
-    if (!line_meets(a, b, hg->p)) continue;
+    if ((va > 0 && vb > 0) || (va < 0 && vb < 0) || va == vb)
+      continue;
+    if (!line_meets(a, b, hg->p))
+      continue;
     t = va > vb ? (struct ratio){va, va - vb} : (struct ratio){-va, vb - va};
-    add_end(ends,
-            (struct geom_point){(int32_t)ratio_lerp(t, a.x, b.x),
-                                (int32_t)ratio_lerp(t, a.y, b.y),
-                                ratio_lerp(t, a.z, b.z)});
+    add_end(ends, (struct geom_point){(int32_t)ratio_lerp(t, a.x, b.x),
+                                      (int32_t)ratio_lerp(t, a.y, b.y),
+                                      ratio_lerp(t, a.z, b.z)});
   }
 }
 
@@ -63,7 +66,8 @@ static int shared_corners(const struct geom_point f[3],
                           const struct geom_point g[3]) {
   int shared = 0;
   for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) shared += geom_same_point(f[i], g[j]);
+    for (int j = 0; j < 3; j++)
+      shared += geom_same_point(f[i], g[j]);
   return shared;
 }
 
@@ -71,7 +75,8 @@ bool pierce_segment_find(const struct sheet *sheet, uint32_t f, uint32_t g,
                          const struct hider *hf, const struct hider *hg,
                          struct pierce_segment *segment) {
   struct ends ends = {0};
-  if (shared_corners(hf->p, hg->p) > 1) return false;
+  if (shared_corners(hf->p, hg->p) > 1)
+    return false;
   find_ends(sheet, f, hg, &ends);
   find_ends(sheet, g, hf, &ends);
   if (ends.count < 2 ||

@@ -67,13 +67,13 @@ static bool open_trace(struct pixels *pixels) {
   const struct raster *raster = pixels->raster;
   double step = raster->depth_bits > 0 ? 1 / raster->level_scale : 1;
   uint8_t *skip = NULL;
-  bool good = true;
+  bool ok = true;
   if (pixels->request->remove_backs)
-    good = (skip = find_backs(raster->sheet)) != NULL;
-  good = good && trace_init(&pixels->trace, raster->sheet, &pixels->grid, 0.5,
-                            step, skip);
+    ok = (skip = find_backs(raster->sheet)) != NULL;
+  ok = ok && trace_init(&pixels->trace, raster->sheet, &pixels->grid, 0.5, step,
+                        skip);
   mem_free(skip);
-  return good;
+  return ok;
 }
 
 recto_status pixels_init(struct pixels *pixels, const struct raster *raster,

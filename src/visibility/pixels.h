@@ -14,7 +14,7 @@
 struct pixels {
   const struct raster *raster;
   const struct solver_request *request;
-  struct scan_grid grid;      /* of the pixels */
+  struct scan_grid grid; /* of the pixels */
   struct pulse pulse;
   struct subpixels subpixels; /* k > 1: the raster's pixels are sub-pixels */
   struct trace trace;

@@ -12,7 +12,6 @@ bool pulse_ask(struct pulse *pulse) {
 
 recto_status pulse_error(const struct pulse *pulse, recto_error *error) {
   return pulse != NULL && pulse->cancelled
-             ? error_set(error, RECTO_ERROR_CANCELLED, NULL, 0,
-                                      "cancelled")
-                          : error_memory(error);
+             ? error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled")
+             : error_memory(error);
 }

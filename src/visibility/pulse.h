@@ -29,7 +29,8 @@ bool pulse_ask(struct pulse *pulse);
  * wants no more.
  * pulse  NULL: nobody is asked */
 static inline bool pulse_beat(struct pulse *pulse, size_t work) {
-  if (pulse == NULL) return true;
+  if (pulse == NULL)
+    return true;
   pulse->left -= (int64_t)work;
   return pulse->left > 0 ? !pulse->cancelled : pulse_ask(pulse);
 }

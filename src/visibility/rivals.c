@@ -48,8 +48,7 @@ void rivals_start(struct rivals *rivals, uint32_t triangle) {
   rivals->rival.count = 0;
 }
 
-/* ---- Gathering ------------------------------------------------------------
- */
+/* ---- Gathering ----------------------------------------------------------- */
 
 /* A mask as of plane_sides; -1 where doubles cannot tell. */
 static int near_sides(const struct stance_plane *plane,
@@ -137,8 +136,7 @@ bool rivals_ask(struct rivals *rivals, uint32_t g) {
   return ARRAY_PUSH(&rivals->rival, rival);
 }
 
-/* ---- Rivals and parts -----------------------------------------------------
- */
+/* ---- Rivals and parts ---------------------------------------------------- */
 
 bool rivals_make_lines(struct rivals *rivals, struct rival *rival) {
   struct geom_line *line;

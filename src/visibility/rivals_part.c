@@ -415,10 +415,10 @@ static bool part_further(struct rivals *rivals, struct rivals_part *part,
 static bool solve_part(struct rivals *rivals) {
   struct rivals_part part = rivals->part.item[--rivals->part.count];
   size_t count = rivals->reach.count - part.from;
-  bool done = false;
-  if (count > FEW && !part_further(rivals, &part, &count, &done))
+  bool ok = false;
+  if (count > FEW && !part_further(rivals, &part, &count, &ok))
     return false;
-  if (done)
+  if (ok)
     return true;
   if (!rivals_take_few(rivals, &part.piece, count))
     return false;

@@ -17,7 +17,7 @@
 
 #define AHEAD 8 /* facets of a bucket whose corners are fetched */
 
-/* ---- Lists -------------------------------------------------------------- */
+/* ---- Lists --------------------------------------------------------------- */
 
 bool scanline_init(struct scanline *scanline, struct raster *raster,
                    const struct facets *facets,
@@ -76,7 +76,7 @@ void scanline_step(struct scanline *scanline) {
   }
 }
 
-/* ---- The solver --------------------------------------------------------- */
+/* ---- The solver ---------------------------------------------------------- */
 
 static recto_status walk_lines(struct scanline *scanline, struct pixels *pixels,
                                recto_error *error) {

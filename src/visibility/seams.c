@@ -13,12 +13,13 @@ struct stance stance_of(const struct hider *plane,
     int side = hider_side(plane, p[k]);
     stance.behind += side < 0;
     stance.before += side > 0;
-    if (side != 0) stance.apart = k;
+    if (side != 0)
+      stance.apart = k;
   }
   return stance;
 }
 
-/* ---- Noting ------------------------------------------------------------- */
+/* ---- Noting -------------------------------------------------------------- */
 
 static struct seam_side edge_of(const struct sheet *sheet, uint32_t triangle,
                                 struct stance stance) {
@@ -28,14 +29,16 @@ static struct seam_side edge_of(const struct sheet *sheet, uint32_t triangle,
 }
 
 static int compare_sides(struct seam_side a, struct seam_side b) {
-  if (a.j != b.j) return a.j < b.j ? -1 : 1;
+  if (a.j != b.j)
+    return a.j < b.j ? -1 : 1;
   return (a.i > b.i) - (a.i < b.i);
 }
 
 bool seams_note(struct seams *seams, const struct sheet *sheet, uint32_t f,
                 struct stance sf, uint32_t g, struct stance sg) {
   struct seam seam = {{edge_of(sheet, f, sf), {g, SHEET_NONE}}};
-  if (ends_there(sg)) seam.side[1] = edge_of(sheet, g, sg);
+  if (ends_there(sg))
+    seam.side[1] = edge_of(sheet, g, sg);
   if (compare_sides(seam.side[0], seam.side[1]) > 0) {
     struct seam_side swap = seam.side[0];
     seam.side[0] = seam.side[1];
@@ -44,7 +47,7 @@ bool seams_note(struct seams *seams, const struct sheet *sheet, uint32_t f,
   return ARRAY_PUSH(&seams->list, seam);
 }
 
-/* ---- Which part of an edge ---------------------------------------------- */
+/* ---- Which part of an edge ----------------------------------------------- */
 
 /* The part of an edge that triangle g covers on the page. */
 static bool clip_to_triangle(const struct sheet *sheet, struct seam_side edge,
@@ -84,7 +87,8 @@ static bool is_steep(struct geom_point a, struct geom_point b) {
 /* An order along edges that are steep, or are not.  Their other coordinate may
  * run either way: rounding turns an upright edge by a unit. */
 static int compare_along(bool steep, struct geom_point a, struct geom_point b) {
-  if (steep && a.y != b.y) return a.y < b.y ? -1 : 1;
+  if (steep && a.y != b.y)
+    return a.y < b.y ? -1 : 1;
   return geom_compare_points(a, b);
 }
 
@@ -115,7 +119,7 @@ static bool clip_to_edge(const struct sheet *sheet, struct seam_side e,
   return compare_along(steep, end[0], end[1]) < 0;
 }
 
-/* ---- The triangles of the edges ----------------------------------------- */
+/* ---- The triangles of the edges ------------------------------------------ */
 
 struct rim {
   struct seam_side edge;
@@ -147,8 +151,8 @@ static const struct rim *rims_find(const struct rims *rims,
     else
       high = middle;
   }
-  for (high = low; high < rims->list.count &&
-                   compare_sides(rim[high].edge, edge) == 0;)
+  for (high = low;
+       high < rims->list.count && compare_sides(rim[high].edge, edge) == 0;)
     high++;
   *end = rim + high;
   return rim + low;
@@ -161,7 +165,8 @@ static bool add_rims(struct rims *rims, const struct sheet *sheet,
   for (int k = 0; k < 3; k++) {
     uint32_t i = p[k], j = p[k == 2 ? 0 : k + 1];
     struct rim rim = {{i < j ? i : j, i < j ? j : i}, triangle};
-    if (marked[i] && marked[j] && !ARRAY_PUSH(&rims->list, rim)) return false;
+    if (marked[i] && marked[j] && !ARRAY_PUSH(&rims->list, rim))
+      return false;
   }
   return true;
 }
@@ -170,24 +175,27 @@ static bool add_rims(struct rims *rims, const struct sheet *sheet,
 static bool rims_init(struct rims *rims, const struct sheet *sheet,
                       const struct seam *seam, size_t n) {
   uint8_t *marked = mem_calloc(sheet->point.count, sizeof *marked);
-  bool done = false;
-  if (marked == NULL) return false;
+  bool ok = false;
+  if (marked == NULL)
+    return false;
   for (size_t s = 0; s < 2 * n; s++) {
     struct seam_side side = seam[s / 2].side[s % 2];
-    if (side.j != SHEET_NONE) marked[side.i] = marked[side.j] = 1;
+    if (side.j != SHEET_NONE)
+      marked[side.i] = marked[side.j] = 1;
   }
   for (uint32_t t = 0; t < sheet->triangle.count; t++)
-    if (!add_rims(rims, sheet, marked, t)) goto end;
-  done = sort_stable(rims->list.item, rims->list.count,
-                     sizeof *rims->list.item, compare_rims, NULL);
+    if (!add_rims(rims, sheet, marked, t))
+      goto end;
+  ok = sort_stable(rims->list.item, rims->list.count, sizeof *rims->list.item,
+                   compare_rims, NULL);
 end:
   mem_free(marked);
-  return done;
+  return ok;
 }
 
 static void rims_fini(struct rims *rims) { ARRAY_FREE(&rims->list); }
 
-/* ---- Round an edge ------------------------------------------------------ */
+/* ---- Round an edge ------------------------------------------------------- */
 
 /* A triangle as seen along an edge: from the edge, the way of the other
  * triangles' edges, to its third corner. */
@@ -201,7 +209,8 @@ static struct wing wing_of(const struct sheet *sheet, struct seam_side edge,
   const struct geom_point *point = sheet->point.item;
   const uint32_t *p = sheet->triangle.item[triangle].point;
   int k = 0;
-  while (p[k] == edge.i || p[k] == edge.j) k++;
+  while (p[k] == edge.i || p[k] == edge.j)
+    k++;
   return (struct wing){point[turned ? edge.j : edge.i],
                        point[turned ? edge.i : edge.j], point[p[k]], triangle};
 }
@@ -226,10 +235,10 @@ static bool is_between(const struct wing *a, const struct wing *b,
 static int side_of_edge(const struct wing *w, bool across) {
   bool steep = is_steep(w->from, w->to);
   int64_t dx, dz, x, z;
-  if (!across) return geom_sign64(geom_orient2d(w->from, w->to, w->apart));
+  if (!across)
+    return geom_sign64(geom_orient2d(w->from, w->to, w->apart));
   dx = steep ? (int64_t)w->to.y - w->from.y : (int64_t)w->to.x - w->from.x;
-  x = steep ? (int64_t)w->apart.y - w->from.y
-            : (int64_t)w->apart.x - w->from.x;
+  x = steep ? (int64_t)w->apart.y - w->from.y : (int64_t)w->apart.x - w->from.x;
   dz = w->to.z - w->from.z;
   z = w->apart.z - w->from.z;
   return geom_sign128((int128)dx * z - (int128)dz * x);
@@ -242,7 +251,8 @@ static bool are_one(const struct sheet *sheet, const struct wing *a,
   struct hider plane[2];
   struct stance stance[2];
   int sign = side_of_edge(a, across) * side_of_edge(b, across);
-  if (sign < 0) return false;
+  if (sign < 0)
+    return false;
   hider_init(&plane[0], sheet, a->triangle);
   hider_init(&plane[1], sheet, b->triangle);
   for (int k = 0; k < 2; k++)
@@ -276,7 +286,8 @@ static void drop_touching(const struct sheet *sheet, struct wings *wings,
     bool touches = false;
     for (size_t j = 0; j < others->list.count && !touches; j++)
       touches = are_one(sheet, &w[i], &others->list.item[j]);
-    if (!touches) w[kept++] = w[i];
+    if (!touches)
+      w[kept++] = w[i];
   }
   wings->list.count = kept;
 }
@@ -364,7 +375,7 @@ static bool meet_along(const struct sheet *sheet, const struct rims *rims,
   return true;
 }
 
-/* ---- Joining ------------------------------------------------------------ */
+/* ---- Joining ------------------------------------------------------------- */
 
 static int compare_seams(const void *a, const void *b, void *user) {
   const struct seam *s = a, *t = b;
@@ -390,14 +401,16 @@ static bool join(const struct sheet *sheet, const struct rims *rims,
   int g = side[0].j == SHEET_NONE ? 0 : 1; /* the triangle, if one is */
   *cross = false;
   if (side[g].j != SHEET_NONE) {
-    if (!clip_to_edge(sheet, side[0], side[1], segment->end)) return true;
-    if (!do_cross(sheet, rims, seam, scratch, cross)) return false;
+    if (!clip_to_edge(sheet, side[0], side[1], segment->end))
+      return true;
+    if (!do_cross(sheet, rims, seam, scratch, cross))
+      return false;
   } else {
     if (goes_through(sheet, rims, side[1 - g], side[g].i) &&
         !meet_along(sheet, rims, side[1 - g], side[g].i, segments, cross))
       return false;
-    *cross = *cross &&
-             clip_to_triangle(sheet, side[1 - g], side[g].i, segment->end);
+    *cross =
+        *cross && clip_to_triangle(sheet, side[1 - g], side[g].i, segment->end);
   }
   *cross = *cross && (segment->end[0].x != segment->end[1].x ||
                       segment->end[0].y != segment->end[1].y);
@@ -412,24 +425,29 @@ bool seams_join(struct seams *seams, const struct sheet *sheet,
   struct seam *seam = seams->list.item;
   struct wings scratch[3] = {0};
   struct rims rims = {0};
-  bool done = false;
-  if (n == 0) return true;
+  bool ok = false;
+  if (n == 0)
+    return true;
   if (!sort_stable(seam, n, sizeof *seam, compare_seams, NULL) ||
       !rims_init(&rims, sheet, seam, n))
     goto end;
   for (size_t i = 0; i < n; i++) {
     struct pierce_segment segment;
     bool cross;
-    if (i > 0 && compare_seams(&seam[i - 1], &seam[i], NULL) == 0) continue;
+    if (i > 0 && compare_seams(&seam[i - 1], &seam[i], NULL) == 0)
+      continue;
     if (!join(sheet, &rims, &seam[i], scratch, segments, &segment, &cross))
       goto end;
-    if (!cross) continue;
+    if (!cross)
+      continue;
     ++*count;
-    if (!ARRAY_PUSH(&segments->list, segment)) goto end;
+    if (!ARRAY_PUSH(&segments->list, segment))
+      goto end;
   }
-  done = true;
+  ok = true;
 end:
-  for (int k = 0; k < 3; k++) ARRAY_FREE(&scratch[k].list);
+  for (int k = 0; k < 3; k++)
+    ARRAY_FREE(&scratch[k].list);
   rims_fini(&rims);
-  return done;
+  return ok;
 }

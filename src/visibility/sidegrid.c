@@ -138,7 +138,7 @@ bool sidegrid_init(struct sidegrid *grid, const struct sheet *sheet,
   const struct sides sides = {sheet, triangle, count};
   side_keys keys = {0};
   struct sort_key *scratch = NULL;
-  bool done = false;
+  bool ok = false;
   memset(grid, 0, sizeof *grid);
   choose_shape(grid, &sides);
   if (!gather_keys(grid, &sides, &keys))
@@ -147,11 +147,11 @@ bool sidegrid_init(struct sidegrid *grid, const struct sheet *sheet,
   if (scratch == NULL)
     goto end;
   sort_keys(keys.item, scratch, keys.count);
-  done = make_lists(grid, &keys);
+  ok = make_lists(grid, &keys);
 end:
   mem_free(scratch);
   ARRAY_FREE(&keys);
-  return done;
+  return ok;
 }
 
 void sidegrid_fini(struct sidegrid *grid) {

@@ -24,7 +24,8 @@ static bool runs_along(struct geom_point a, struct geom_point b,
                        const struct stretch *s, struct geom_corner *from,
                        struct geom_corner *to) {
   struct geom_corner ca = geom_corner_at(a), cb = geom_corner_at(b);
-  if (a.x == b.x && a.y == b.y) return false;
+  if (a.x == b.x && a.y == b.y)
+    return false;
   if (geom_line_side(s->line, &ca) != 0 || geom_line_side(s->line, &cb) != 0)
     return false;
   if (geom_corner_compare(&ca, &cb) > 0) {
@@ -74,7 +75,8 @@ static bool is_beside(const struct sheet *sheet, uint32_t triangle,
     geom_line_through(&side, a, b);
     at_from = geom_line_side(&side, from);
     at_to = geom_line_side(&side, to);
-    if (at_from <= 0 && at_to <= 0 && at_from + at_to < 0) return false;
+    if (at_from <= 0 && at_to <= 0 && at_from + at_to < 0)
+      return false;
   }
   return left;
 }
@@ -85,7 +87,8 @@ static bool is_beyond(const struct sheet *sheet, uint32_t triangle,
   const uint32_t *point = sheet->triangle.item[triangle].point;
   for (int k = 0; k < 3; k++) {
     struct geom_corner corner = geom_corner_at(sheet->point.item[point[k]]);
-    if (geom_line_side(s->line, &corner) < 0) return true;
+    if (geom_line_side(s->line, &corner) < 0)
+      return true;
   }
   return false;
 }
@@ -99,7 +102,8 @@ static bool tell_nearer(const struct sheet *sheet, uint32_t f, uint32_t g,
                       sg = stance_plane_of(sheet, g);
   int at_from = stance_nearer(&sf, &sg, from->x, from->y),
       at_to = stance_nearer(&sf, &sg, to->x, to->y);
-  if (at_from == 0 || at_to == 0) return false;
+  if (at_from == 0 || at_to == 0)
+    return false;
   *nearer = at_from > 0 || at_to > 0;
   return !stances_may_touch(sheet, &sf, f, &sg, g);
 }
@@ -113,16 +117,21 @@ static bool is_nearer(const struct sheet *sheet, uint32_t f, uint32_t g,
   struct geom_line line;
   int parallel, at_from, at_to;
   bool nearer;
-  if (tell_nearer(sheet, f, g, from, to, &nearer)) return nearer;
+  if (tell_nearer(sheet, f, g, from, to, &nearer))
+    return nearer;
   tf = triangle_plane_of(sheet, f);
   tg = triangle_plane_of(sheet, g);
-  if (triangles_touch(sheet, f, g)) return g < f;
+  if (triangles_touch(sheet, f, g))
+    return g < f;
   parallel = geom_line_between(&line, &tg.plane, &tf.plane);
-  if (parallel == GEOM_SAME_PLANE) return g < f;
-  if (parallel != 0) return parallel > 0;
+  if (parallel == GEOM_SAME_PLANE)
+    return g < f;
+  if (parallel != 0)
+    return parallel > 0;
   at_from = geom_line_side(&line, from);
   at_to = geom_line_side(&line, to);
-  if (at_from != 0 || at_to != 0) return at_from > 0 || at_to > 0;
+  if (at_from != 0 || at_to != 0)
+    return at_from > 0 || at_to > 0;
   return geom_line_along(&line, s->line) < 0 && is_beyond(sheet, g, s);
 }
 
@@ -163,7 +172,8 @@ static bool is_nearer_than_own(const struct question *q, uint32_t g,
 /* Does the plane of one of its own cross g's along the stretch? */
 static bool own_crosses_along(const struct question *q, uint32_t g) {
   for (size_t i = 0; i < q->own_count; i++)
-    if (crosses_along(q->sheet, q->own[i], g, &q->stretch)) return true;
+    if (crosses_along(q->sheet, q->own[i], g, &q->stretch))
+      return true;
   return false;
 }
 
@@ -209,16 +219,19 @@ static uint32_t crossing_face(const struct question *q) {
 /* What other faces have along the stretch. */
 static uint8_t ask_others(const struct question *q, uint32_t *id) {
   *id = edge_found(q, false);
-  if (*id != SHEET_NONE) return MAP_SIDE_OUTLINE;
+  if (*id != SHEET_NONE)
+    return MAP_SIDE_OUTLINE;
   *id = crossing_face(q);
   return *id != SHEET_NONE ? MAP_SIDE_INTERSECTION : MAP_SIDE_CUT;
 }
 
 /* Is f a later triangle in contact with one of its own? */
 static bool touches_own(const struct question *q, uint32_t f) {
-  if (!may_answer(q, f)) return false;
+  if (!may_answer(q, f))
+    return false;
   for (size_t i = 0; i < q->own_count; i++)
-    if (q->own[i] < f && triangles_touch(q->sheet, q->own[i], f)) return true;
+    if (q->own[i] < f && triangles_touch(q->sheet, q->own[i], f))
+      return true;
   return false;
 }
 
@@ -231,12 +244,14 @@ static uint8_t ask_contacts(const struct question *q, uint32_t *id) {
     struct question other = *q;
     uint32_t f = q->found[i], other_id;
     uint8_t side = MAP_SIDE_OUTLINE;
-    if (!touches_own(q, f)) continue;
+    if (!touches_own(q, f))
+      continue;
     other.own = &f;
     other.own_count = 1;
     other.face = q->sheet->triangle.item[f].face;
     other_id = own_edge(&other);
-    if (other_id == SHEET_NONE) side = ask_others(&other, &other_id);
+    if (other_id == SHEET_NONE)
+      side = ask_others(&other, &other_id);
     if (side < best || (side == best && other_id < *id)) {
       best = side;
       *id = other_id;
@@ -245,7 +260,7 @@ static uint8_t ask_contacts(const struct question *q, uint32_t *id) {
   return best;
 }
 
-/* ---- What may lie along a stretch ------------------------------------------- */
+/* ---- What may lie along a stretch ---------------------------------------- */
 
 void side_labels_fini(struct side_labels *labels) {
   ARRAY_FREE(&labels->found);
@@ -255,9 +270,12 @@ void side_labels_fini(struct side_labels *labels) {
 
 /* Finds the triangles about the stretch, where that was not done yet. */
 static bool find_triangles(struct side_labels *labels, struct question *q) {
-  if (q->found != NULL) return true;
-  if (!pagegrid_find(labels->grid, q->box, labels->query)) return false;
-  if (labels->query->found.count == 0) return true;
+  if (q->found != NULL)
+    return true;
+  if (!pagegrid_find(labels->grid, q->box, labels->query))
+    return false;
+  if (labels->query->found.count == 0)
+    return true;
   q->found = labels->query->found.item;
   q->found_count = labels->query->found.count;
   return true;
@@ -270,10 +288,12 @@ static bool find_sides(struct side_labels *labels, struct question *q) {
                        q->stretch.high, &labels->found))
       return false;
   } else {
-    if (!find_triangles(labels, q)) return false;
+    if (!find_triangles(labels, q))
+      return false;
     for (size_t i = 0; i < q->found_count; i++)
       for (uint32_t k = 0; k < 3 && may_answer(q, q->found[i]); k++)
-        if (!ARRAY_PUSH(&labels->found, 3 * q->found[i] + k)) return false;
+        if (!ARRAY_PUSH(&labels->found, 3 * q->found[i] + k))
+          return false;
   }
   q->side = labels->found.item;
   q->side_count = labels->found.count;
@@ -283,7 +303,8 @@ static bool find_sides(struct side_labels *labels, struct question *q) {
 static bool is_among(const uint32_t *item, size_t count, uint32_t wanted) {
   while (count > 0) {
     size_t half = count / 2;
-    if (item[half] == wanted) return true;
+    if (item[half] == wanted)
+      return true;
     if (item[half] < wanted) {
       item += half + 1;
       count -= half + 1;
@@ -309,7 +330,8 @@ static bool find_own_about(struct side_labels *labels, struct question *q) {
 /* Leaves of its own those that have area beside the stretch. */
 static bool keep_own_beside(struct side_labels *labels, struct question *q) {
   size_t kept = 0;
-  if (!ARRAY_RESERVE(&labels->beside, q->own_count)) return false;
+  if (!ARRAY_RESERVE(&labels->beside, q->own_count))
+    return false;
   for (size_t i = 0; i < q->own_count; i++)
     if (is_beside(q->sheet, q->own[i], &q->stretch, q->stretch.low,
                   q->stretch.high))
@@ -332,24 +354,28 @@ bool side_label(struct side_labels *labels, const struct geom_line *line,
       .own_count = labels->own_count};
   *side = MAP_SIDE_EDGE;
   *id = few ? own_edge(&question) : SHEET_NONE;
-  if (*id != SHEET_NONE) return true;
+  if (*id != SHEET_NONE)
+    return true;
   question.box = box_of(&question.stretch);
-  if (!find_sides(labels, &question)) return false;
+  if (!find_sides(labels, &question))
+    return false;
   if (!few) {
     *id = edge_found(&question, true);
-    if (*id != SHEET_NONE) return true;
+    if (*id != SHEET_NONE)
+      return true;
     if (!find_triangles(labels, &question) ||
         !find_own_about(labels, &question))
       return false;
   }
   *side = MAP_SIDE_OUTLINE;
   *id = edge_found(&question, false);
-  if (*id != SHEET_NONE) return true;
-  if (!find_triangles(labels, &question) ||
-      !keep_own_beside(labels, &question))
+  if (*id != SHEET_NONE)
+    return true;
+  if (!find_triangles(labels, &question) || !keep_own_beside(labels, &question))
     return false;
   *side = MAP_SIDE_INTERSECTION;
   *id = crossing_face(&question);
-  if (*id == SHEET_NONE) *side = ask_contacts(&question, id);
+  if (*id == SHEET_NONE)
+    *side = ask_contacts(&question, id);
   return true;
 }

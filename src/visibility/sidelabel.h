@@ -17,7 +17,7 @@ struct side_labels {
   /* The face at hand: its triangles that are seen, ascending. */
   const uint32_t *own;
   size_t own_count;
-  side_list found;       /* sides that may run along the stretch at hand */
+  side_list found; /* sides that may run along the stretch at hand */
   ARRAY(uint32_t) about, beside; /* the face's triangles there */
 };
 

@@ -3,16 +3,12 @@
 
 #include <string.h>
 
-static const struct solver *const table[] = {&solver_newell,
-                                             &solver_warnock,
-                                             &solver_watkins,
-                                             &solver_tiles,
-                                             &solver_zbuffer,
-                                             &solver_scanline_zbuffer,
-                                             &solver_painter,
-                                             &solver_painter_given,
-                                             &solver_brute,
-                                             NULL};
+static const struct solver *const table[] = {
+    &solver_newell,  &solver_warnock,
+    &solver_watkins, &solver_tiles,
+    &solver_zbuffer, &solver_scanline_zbuffer,
+    &solver_painter, &solver_painter_given,
+    &solver_brute,   NULL};
 
 const struct solver *const *solvers(void) { return table; }
 

@@ -28,7 +28,7 @@ struct solver_request {
 struct solver {
   recto_method method;
   const char *name;
-  bool exact;        /* gives the visible map itself, not an approximation */
+  bool exact; /* gives the visible map itself, not an approximation */
   /* Solves `sheet`.  Where intersections are asked for, their edges are
    * appended to the sheet's drawable ones (see pierce.h).
    * map  initialised, empty
@@ -46,7 +46,7 @@ extern const struct solver solver_painter;       /* by centroid */
 extern const struct solver solver_painter_given; /* the file's order */
 extern const struct solver solver_zbuffer;
 extern const struct solver solver_scanline_zbuffer;
-extern const struct solver solver_watkins;       /* at a pitch */
+extern const struct solver solver_watkins; /* at a pitch */
 
 /* What auto takes: the least exact method for this sheet and this request.
  * why  a phrase for --stats */

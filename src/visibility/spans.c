@@ -33,7 +33,7 @@ void spans_fini(struct spans *spans) {
   memset(spans, 0, sizeof *spans);
 }
 
-/* ---- Borders ------------------------------------------------------------ */
+/* ---- Borders ------------------------------------------------------------- */
 
 static bool list_borders(struct spans *spans) {
   struct span *row = spans->row.item;
@@ -95,7 +95,7 @@ static void settle_borders(struct spans *spans, bool upper) {
     }
 }
 
-/* ---- Lines -------------------------------------------------------------- */
+/* ---- Lines --------------------------------------------------------------- */
 
 /* The trapezoid of the line above that the span makes longer, or NULL. */
 static struct trapezoid *find_above(const struct spans *spans,
@@ -150,7 +150,7 @@ bool spans_add(struct spans *spans, int32_t line, const struct span *span) {
   return ARRAY_PUSH(&spans->row, *span);
 }
 
-/* ---- Filing ------------------------------------------------------------- */
+/* ---- Filing -------------------------------------------------------------- */
 
 static double clamp(double value, double low, double high) {
   return value < low ? low : value > high ? high : value;
@@ -206,20 +206,20 @@ static bool file_loop(const struct map_corner corner[4], uint32_t face,
 }
 
 bool spans_finish(struct spans *spans, struct map *map) {
-  bool good = end_line(spans);
+  bool ok = end_line(spans);
   size_t count = spans->trapezoid.count;
   struct sort_key *key = mem_alloc(2 * count, sizeof *key);
-  good = good && key != NULL;
-  for (size_t i = 0; good && i < count; i++)
+  ok = ok && key != NULL;
+  for (size_t i = 0; ok && i < count; i++)
     key[i] = (struct sort_key){spans->trapezoid.item[i].span.face, (uint32_t)i};
-  if (good)
+  if (ok)
     sort_keys(key, key + count, count);
-  for (size_t i = 0; good && i < count; i++) {
+  for (size_t i = 0; ok && i < count; i++) {
     const struct trapezoid *trapezoid = &spans->trapezoid.item[key[i].value];
     struct map_corner corner[4];
     make_corners(spans, trapezoid, corner);
-    good = file_loop(corner, trapezoid->span.face, map);
+    ok = file_loop(corner, trapezoid->span.face, map);
   }
   mem_free(key);
-  return good;
+  return ok;
 }

@@ -28,9 +28,9 @@
 /* The contact tolerance times the length of a plane's normal, and the sum of
  * the magnitudes in it (hide.c).
  * n, m  the normal along the camera's axes; magnitudes that bound it */
-static double contact_times_length(const struct sheet *sheet,
-                                   uint32_t triangle, const double n[3],
-                                   const double m[3], double *most) {
+static double contact_times_length(const struct sheet *sheet, uint32_t triangle,
+                                   const double n[3], const double m[3],
+                                   double *most) {
   const struct camera *camera = &sheet->camera;
   double error[3], sum = 0;
   if (camera->contact >= 0) {
@@ -41,8 +41,7 @@ static double contact_times_length(const struct sheet *sheet,
   *most = 0;
   for (int k = 0; k < 3; k++) {
     const double axis[3] = {camera->right[k], camera->up[k], camera->back[k]};
-    sum += error[k] *
-           fabs(n[0] * axis[0] + n[1] * axis[1] + n[2] * axis[2]);
+    sum += error[k] * fabs(n[0] * axis[0] + n[1] * axis[1] + n[2] * axis[2]);
     *most += error[k] * (m[0] * fabs(axis[0]) + m[1] * fabs(axis[1]) +
                          m[2] * fabs(axis[2]));
   }
@@ -110,9 +109,9 @@ static inline struct reading read_at(const struct stance_plane *plane,
   double off = plane->ex * fabs(dx) + plane->ey * fabs(dy) +
                plane->ez * fabs(dz) + plane->t_off;
   double least = plane->t0 + plane->t1 * z;
-  return (struct reading){
-      plane->nx * dx + plane->ny * dy + plane->nz * dz, least - off,
-      least + plane->t0_more + plane->t1_more * z + off};
+  return (struct reading){plane->nx * dx + plane->ny * dy + plane->nz * dz,
+                          least - off,
+                          least + plane->t0_more + plane->t1_more * z + off};
 }
 
 bool stance_may_pierce(const struct stance_plane *plane,
@@ -120,8 +119,9 @@ bool stance_may_pierce(const struct stance_plane *plane,
   int behind = 0, before = 0;
   for (int k = 0; k < 3; k++) {
     struct reading at = read_at(plane, corner[k]);
-    bool is_behind = at.value < -at.most, is_before = at.value > at.most;
-    if (!is_behind && !is_before && !(fabs(at.value) < at.least)) return true;
+    bool is_behind = at.value<-at.most, is_before = at.value> at.most;
+    if (!is_behind && !is_before && !(fabs(at.value) < at.least))
+      return true;
     behind += is_behind;
     before += is_before;
   }
@@ -132,7 +132,8 @@ bool stance_may_touch(const struct stance_plane *plane,
                       const struct geom_point corner[3]) {
   for (int k = 0; k < 3; k++) {
     struct reading at = read_at(plane, corner[k]);
-    if (fabs(at.value) > at.most) return false;
+    if (fabs(at.value) > at.most)
+      return false;
   }
   return true;
 }
@@ -173,7 +174,8 @@ static struct fall fall_at(const struct stance_plane *plane, double x,
   double off = plane->ex * (fabs(dx) + PLACE) + plane->ey * (fabs(dy) + PLACE) +
                PLACE * (fabs(plane->nx) + fabs(plane->ny)) +
                plane->ez * fabs(depth);
-  if (!(room > 0)) return (struct fall){0, INFINITY};
+  if (!(room > 0))
+    return (struct fall){0, INFINITY};
   return (struct fall){depth, off / room + SLACK * fabs(depth)};
 }
 
@@ -181,8 +183,8 @@ int stance_nearer(const struct stance_plane *f, const struct stance_plane *g,
                   double x, double y) {
   struct fall of_f = fall_at(f, x, y), of_g = fall_at(g, x, y);
   double apart = (g->z - f->z) - (of_g.depth - of_f.depth);
-  double off = of_f.off + of_g.off +
-               SLACK * (fabs(g->z - f->z) + fabs(of_g.depth) +
-                        fabs(of_f.depth));
+  double off =
+      of_f.off + of_g.off +
+      SLACK * (fabs(g->z - f->z) + fabs(of_g.depth) + fabs(of_f.depth));
   return (apart > off) - (apart < -off);
 }

@@ -56,8 +56,8 @@ static inline int stance_sign(const struct stance_plane *plane,
                               struct geom_point p) {
   double dx = p.x - plane->x, dy = p.y - plane->y, dz = (double)p.z - plane->z;
   double value = plane->nx * dx + plane->ny * dy + plane->nz * dz;
-  double off = plane->ex * fabs(dx) + plane->ey * fabs(dy) +
-               plane->ez * fabs(dz);
+  double off =
+      plane->ex * fabs(dx) + plane->ey * fabs(dy) + plane->ez * fabs(dz);
   return (value > off) - (value < -off);
 }
 

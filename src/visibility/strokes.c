@@ -23,15 +23,15 @@ enum { UNITED_MOST = 32 };
 static void put(stroke_parts *united, struct hidden_part part) {
   struct hidden_part *item = united->item;
   size_t first = 0, past;
-  while (first < united->count &&
-         ratio_compare(item[first].to, part.from) < 0)
+  while (first < united->count && ratio_compare(item[first].to, part.from) < 0)
     first++;
-  for (past = first; past < united->count &&
-                     ratio_compare(item[past].from, part.to) <= 0;
+  for (past = first;
+       past < united->count && ratio_compare(item[past].from, part.to) <= 0;
        past++) {
     if (ratio_compare(item[past].from, part.from) < 0)
       part.from = item[past].from;
-    if (ratio_compare(part.to, item[past].to) < 0) part.to = item[past].to;
+    if (ratio_compare(part.to, item[past].to) < 0)
+      part.to = item[past].to;
   }
   if (past != first + 1)
     memmove(item + first + 1, item + past,
@@ -44,7 +44,8 @@ bool strokes_hide(struct strokes *strokes, struct hidden_part part) {
   stroke_parts *both = &strokes->both;
   if (part.sides != HIDE_BOTH || both->count == UNITED_MOST)
     return ARRAY_PUSH(&strokes->part, part);
-  if (!ARRAY_RESERVE(both, 1)) return false;
+  if (!ARRAY_RESERVE(both, 1))
+    return false;
   put(both, part);
   strokes->whole = both->count == 1 && both->item[0].from.num == 0 &&
                    both->item[0].to.num == both->item[0].to.den;
@@ -64,7 +65,8 @@ struct hidden_part strokes_rest(const struct strokes *strokes) {
 
 bool strokes_open_map(struct map *map, size_t edge_count) {
   uint8_t *state = mem_resize(map->edge_state, edge_count, 1);
-  if (state == NULL) return false;
+  if (state == NULL)
+    return false;
   memset(state + map->edge_count, MAP_HIDDEN, edge_count - map->edge_count);
   map->edge_state = state;
   map->edge_count = edge_count;
@@ -84,11 +86,13 @@ static bool unite(const struct strokes *strokes, int side,
   size_t last = 0;
   united->count = 0;
   for (size_t i = 0; i < both->count; i++)
-    if (!ARRAY_PUSH(united, both->item[i])) return false;
+    if (!ARRAY_PUSH(united, both->item[i]))
+      return false;
   for (size_t i = 0; i < part->count; i++)
     if ((part->item[i].sides & side) && !ARRAY_PUSH(united, part->item[i]))
       return false;
-  if (united->count == 0) return true;
+  if (united->count == 0)
+    return true;
   if (!sort_stable(united->item, united->count, sizeof *united->item,
                    compare_from, NULL))
     return false;
@@ -156,10 +160,12 @@ static bool file_visible(const stroke_parts *hidden, uint32_t edge,
     struct ratio to = i < hidden->count ? hidden->item[i].from : ONE;
     if (ratio_compare(from, to) < 0) {
       struct map_interval visible = {from, to};
-      if (!ARRAY_PUSH(&map->interval, visible)) return false;
+      if (!ARRAY_PUSH(&map->interval, visible))
+        return false;
       mixed.count++;
     }
-    if (i < hidden->count) from = hidden->item[i].to;
+    if (i < hidden->count)
+      from = hidden->item[i].to;
   }
   map->edge_state[edge] = mixed.count > 0 ? MAP_MIXED : MAP_HIDDEN;
   return mixed.count == 0 || ARRAY_PUSH(&map->mixed, mixed);
@@ -169,7 +175,8 @@ bool strokes_file(struct strokes *strokes, uint32_t edge, struct map *map) {
   const stroke_parts *part = &strokes->part;
   const stroke_parts *hidden = &strokes->both;
   map->edge_state[edge] = MAP_HIDDEN;
-  if (strokes->whole) return true;
+  if (strokes->whole)
+    return true;
   if (part->count > 0) {
     if (!unite(strokes, HIDE_LEFT, &strokes->left) ||
         !unite(strokes, HIDE_RIGHT, &strokes->right) ||

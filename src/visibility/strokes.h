@@ -13,7 +13,7 @@ struct strokes {
                         few at most */
   stroke_parts part; /* the others, as they came */
   stroke_parts left, right; /* scratch: united, by side */
-  bool whole; /* hidden from end to end: no more need be asked */
+  bool whole;               /* hidden from end to end: no more need be asked */
 };
 
 /* Zero-initialised is empty. */

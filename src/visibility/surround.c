@@ -25,9 +25,8 @@ struct surround_plane surround_plane_of(const struct sheet *sheet,
   hider_init(&h, sheet, triangle);
   plane = plane_of(&h);
   /* The tolerance of hide.h in depth units, at its largest. */
-  plane.contact =
-      (h.t0_near + h.t1_near * (double)SHEET_Z_MAX) / 0x1p16 / h.nz *
-      (1 + SLACK);
+  plane.contact = (h.t0_near + h.t1_near * (double)SHEET_Z_MAX) / 0x1p16 /
+                  h.nz * (1 + SLACK);
   return plane;
 }
 
@@ -47,8 +46,9 @@ static void corner_of(const struct window *window, int k, int32_t *x,
 
 double surround_low(const struct surround_plane *plane,
                     const struct window *window) {
-  struct plane_depth d = depth_at(plane, plane->gx > 0 ? window->x1 : window->x0,
-                                  plane->gy > 0 ? window->y1 : window->y0);
+  struct plane_depth d =
+      depth_at(plane, plane->gx > 0 ? window->x1 : window->x0,
+               plane->gy > 0 ? window->y1 : window->y0);
   return d.z - d.error - plane->contact;
 }
 
@@ -63,7 +63,8 @@ void surround_depths_of(const struct sheet *sheet, uint32_t triangle,
     corner_of(window, k, &x, &y);
     d = depth_at(&plane, x, y);
     depth->at[k] = d.z - d.error - plane.contact;
-    if (depth->at[k] < depth->low) depth->low = depth->at[k];
+    if (depth->at[k] < depth->low)
+      depth->low = depth->at[k];
   }
 }
 
@@ -73,8 +74,10 @@ bool surround_hides(const struct sheet *sheet,
   const uint32_t *p = sheet->triangle.item[triangle].point;
   struct surround_plane plane;
   struct hider h;
-  if ((double)triangle_nearest(sheet, triangle) < front->low) return true;
-  for (int k = 0; k < 3; k++) h.p[k] = sheet->point.item[p[k]];
+  if ((double)triangle_nearest(sheet, triangle) < front->low)
+    return true;
+  for (int k = 0; k < 3; k++)
+    h.p[k] = sheet->point.item[p[k]];
   h.plane = geom_plane_of(h.p[0], h.p[1], h.p[2]);
   h.nx = (double)h.plane.nx;
   h.ny = (double)h.plane.ny;
@@ -85,7 +88,8 @@ bool surround_hides(const struct sheet *sheet,
     struct plane_depth d;
     corner_of(window, k, &x, &y);
     d = depth_at(&plane, x, y);
-    if (!(d.z + d.error < front->at[k])) return false;
+    if (!(d.z + d.error < front->at[k]))
+      return false;
   }
   return true;
 }

@@ -17,8 +17,8 @@ struct surround_depths {
 /* A triangle's plane moved back by what contact explains at most, in doubles:
  * for its depths over many windows. */
 struct surround_plane {
-  double x, y, z;   /* of a corner */
-  double gx, gy;    /* depth lost per unit of x and of y */
+  double x, y, z; /* of a corner */
+  double gx, gy;  /* depth lost per unit of x and of y */
   double contact;
 };
 

@@ -22,7 +22,7 @@ void tilelist_fini(struct tilelist *list) {
   list->hider = NULL;
 }
 
-/* ---- Cells ---------------------------------------------------------------- */
+/* ---- Cells --------------------------------------------------------------- */
 
 static double cost_of_lists(const struct pagegrid *grid) {
   size_t cells = pagegrid_cell_count(grid);
@@ -42,7 +42,8 @@ static uint32_t *list_all(const struct pagegrid *grid, size_t *count) {
   for (size_t i = 0; all != NULL && listed != NULL && i < entries; i++)
     listed[grid->item[i]] = 1;
   for (size_t t = 0; all != NULL && listed != NULL && t < n; t++)
-    if (listed[t]) all[(*count)++] = (uint32_t)t;
+    if (listed[t])
+      all[(*count)++] = (uint32_t)t;
   if (listed == NULL) {
     mem_free(all);
     all = NULL;
@@ -54,9 +55,11 @@ static uint32_t *list_all(const struct pagegrid *grid, size_t *count) {
 /* Prepares the triangles that are listed and may hide something. */
 static bool prepare(struct tilelist *list, const struct sheet *sheet,
                     const uint32_t *all, size_t count) {
-  if (sheet->triangle.count > PREPARED_MOST) return true;
+  if (sheet->triangle.count > PREPARED_MOST)
+    return true;
   list->hider = mem_alloc(sheet->triangle.count, sizeof *list->hider);
-  if (list->hider == NULL) return false;
+  if (list->hider == NULL)
+    return false;
   for (size_t i = 0; i < count; i++)
     if (!(sheet->triangle_flags[all[i]] & SHEET_FLAT))
       hider_init(&list->hider[all[i]], sheet, all[i]);
@@ -69,24 +72,25 @@ static bool enlarge(struct tilelist *list, const struct sheet *sheet) {
   double cost = cost_of_lists(tiles);
   size_t count, entries = tiles->start[pagegrid_cell_count(tiles)];
   uint32_t *all;
-  bool done;
-  if (cost < LONG_LIST / 2 * (double)entries) return true;
+  bool ok;
+  if (cost < LONG_LIST / 2 * (double)entries)
+    return true;
   all = list_all(tiles, &count);
-  done = all != NULL;
-  if (done && 2 * entries >= TILES_OF_TWO * count)
-    done = pagegrid_enlarge(&large, sheet, all, count, &cost);
-  if (done && large.shift > tiles->shift) {
+  ok = all != NULL;
+  if (ok && 2 * entries >= TILES_OF_TWO * count)
+    ok = pagegrid_enlarge(&large, sheet, all, count, &cost);
+  if (ok && large.shift > tiles->shift) {
     pagegrid_fini(tiles);
     list->grid = large;
     list->of_tiles = false;
-    done = pagegrid_fill_some(&list->grid, sheet, all, count) &&
-           prepare(list, sheet, all, count);
+    ok = pagegrid_fill_some(&list->grid, sheet, all, count) &&
+         prepare(list, sheet, all, count);
   }
   mem_free(all);
-  return done;
+  return ok;
 }
 
-/* ---- Words ---------------------------------------------------------------- */
+/* ---- Words --------------------------------------------------------------- */
 
 /* Depths of a tile, or for larger cells all of the sheet's, in 64 steps. */
 struct octagon_frame tilelist_frame(const struct tilelist *list, int x, int y) {
@@ -96,7 +100,8 @@ struct octagon_frame tilelist_frame(const struct tilelist *list, int x, int y) {
       list->of_tiles
           ? map->tile[(size_t)y * (size_t)grid->columns + (size_t)x].depths
           : map->depths;
-  int low = __builtin_ctzll(depths), buckets = 64 - __builtin_clzll(depths) - low;
+  int low = __builtin_ctzll(depths),
+      buckets = 64 - __builtin_clzll(depths) - low;
   int bits = buckets > 1 ? 32 - __builtin_clz((unsigned)buckets - 1) : 0;
   return (struct octagon_frame){
       (int32_t)(grid->x0 + ((int64_t)x << grid->shift)),
@@ -152,13 +157,15 @@ static bool add_words(struct tilelist *list, const struct sheet *sheet) {
   size_t cell = 0;
   list->word =
       mem_alloc(grid->start[pagegrid_cell_count(grid)], sizeof *list->word);
-  if (list->word == NULL) return false;
+  if (list->word == NULL)
+    return false;
   for (int y = 0; y < grid->rows; y++)
     for (int x = 0; x < grid->columns; x++, cell++)
       if (grid->start[cell] < grid->start[cell + 1]) {
         size_t from = grid->start[cell], to = grid->start[cell + 1];
         write_words(list, sheet, x, y, from, to);
-        if (to - from < PAGEGRID_CROWD) sort_list(list, from, to, scratch);
+        if (to - from < PAGEGRID_CROWD)
+          sort_list(list, from, to, scratch);
       }
   return true;
 }

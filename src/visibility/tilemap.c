@@ -16,12 +16,12 @@
 
 enum {
   SPREAD = 2, /* cells a triangle is in, on average: a tile is about an edge */
-  SOUP = 32,            /* faces over a point, on average, that make a soup */
+  SOUP = 32,  /* faces over a point, on average, that make a soup */
   SOUP_CELLS = 1 << 22, /* cells of all triangles of a soup together */
   SOUP_SPREAD = 256,    /* but no more of each */
   SOUP_QUESTIONS = 8,   /* cells cost a tenth of asking so many edges */
   SOUP_FACE = 16,       /* edges that a face counts for */
-  BOX_PER_AREA = 4, /* a common triangle's box has so many times its area */
+  BOX_PER_AREA = 4,     /* a common triangle's box has so many times its area */
   SAMPLE = 1 << 12
 };
 
@@ -33,7 +33,7 @@ static struct tile *tile_at(const struct tilemap *map, int x, int y) {
   return &map->tile[(size_t)y * (size_t)map->grid.columns + (size_t)x];
 }
 
-/* ---- Gathering ------------------------------------------------------------ */
+/* ---- Gathering ----------------------------------------------------------- */
 
 struct corners {
   struct geom_point p[3];
@@ -70,11 +70,13 @@ static inline struct walk walk_of(const struct corners *corners, int64_t x,
 }
 
 static inline void walk_right(struct walk *walk) {
-  for (int k = 0; k < 3; k++) walk->at[k] += walk->right[k];
+  for (int k = 0; k < 3; k++)
+    walk->at[k] += walk->right[k];
 }
 
 static inline void walk_up(struct walk *walk) {
-  for (int k = 0; k < 3; k++) walk->at[k] += walk->up[k];
+  for (int k = 0; k < 3; k++)
+    walk->at[k] += walk->up[k];
 }
 
 /* Are all three values positive? */
@@ -134,7 +136,8 @@ static inline void find_samples(int32_t low, int32_t high, int64_t origin,
 }
 
 static inline void note_bar(struct tile *tile, uint8_t note) {
-  if (tile->bar < note) tile->bar = note;
+  if (tile->bar < note)
+    tile->bar = note;
 }
 
 /* Notes the triangle where it is over the tile's sample; where the sample is
@@ -145,7 +148,8 @@ static inline void ask_sample(struct tile *tile, const struct corners *corners,
   int64_t a = geom_orient2d(p[0], p[1], sample),
           b = geom_orient2d(p[1], p[2], sample),
           c = geom_orient2d(p[2], p[0], sample);
-  if ((a | b | c) < 0) return;
+  if ((a | b | c) < 0)
+    return;
   if (a == 0 || b == 0 || c == 0) {
     note_bar(tile, note);
   } else if (note > tile->over[0]) {
@@ -186,14 +190,16 @@ static inline void add_depths(const struct gathering *g, struct cell_range r,
                               uint64_t mask) {
   for (int y = r.y0; y <= r.y1; y++) {
     struct tile *tile = gathering_tile(g, r.x0, y), *end = tile + r.x1 - r.x0;
-    for (; tile <= end; tile++) tile->depths |= mask;
+    for (; tile <= end; tile++)
+      tile->depths |= mask;
   }
 }
 
 static void add_bar(const struct gathering *g, struct cell_range r,
                     uint8_t note) {
   for (int y = r.y0; y <= r.y1; y++)
-    for (int x = r.x0; x <= r.x1; x++) note_bar(gathering_tile(g, x, y), note);
+    for (int x = r.x0; x <= r.x1; x++)
+      note_bar(gathering_tile(g, x, y), note);
 }
 
 /* Streams the triangles: their cells and buckets, and what tiles note. */
@@ -216,7 +222,8 @@ static void gather(struct tilemap *map, const struct sheet *sheet,
         high = tile_bucket(z2 > most ? z2 : most);
     print[t] = footprint_of(r, low, high);
     add_depths(&g, r, bucket_mask(low, high));
-    if (flags[t] & SHEET_FLAT) continue;
+    if (flags[t] & SHEET_FLAT)
+      continue;
     if (is_steep(sheet, &all, (uint32_t)t, &corners))
       add_bar(&g, r, fragments ? UINT8_MAX : (uint8_t)(low + 1));
     else
@@ -224,7 +231,7 @@ static void gather(struct tilemap *map, const struct sheet *sheet,
   }
 }
 
-/* ---- Judging -------------------------------------------------------------- */
+/* ---- Judging ------------------------------------------------------------- */
 
 /* The lowest bit of the topmost run of ones; depths != 0. */
 static int bottom_of_front(uint64_t depths) {
@@ -240,7 +247,8 @@ static void judge(struct tilemap *map) {
   size_t n = pagegrid_cell_count(&map->grid);
   for (size_t i = 0; i < n; i++) {
     struct tile *tile = &map->tile[i];
-    if (tile->depths == 0) continue;
+    if (tile->depths == 0)
+      continue;
     map->depths |= tile->depths;
     int front = bottom_of_front(tile->depths);
     bool simple =
@@ -254,15 +262,15 @@ static void refuse_contours(struct tilemap *map, const struct sheet *sheet) {
   for (size_t i = 0; i < sheet->contour.count; i++) {
     struct geom_point p = sheet->point.item[sheet->contour.item[i].point[0]],
                       q = sheet->point.item[sheet->contour.item[i].point[1]];
-    struct cell_range r =
-        pagegrid_cells(&map->grid, page_box_of_segment(p, q));
+    struct cell_range r = pagegrid_cells(&map->grid, page_box_of_segment(p, q));
     int high = tile_bucket(p.z > q.z ? p.z : q.z);
     for (int y = r.y0; y <= r.y1; y++) {
       int x0, x1;
       pagegrid_row(&map->grid, p, q, r, y, &x0, &x1);
       for (int x = x0; x <= x1; x++) {
         struct tile *tile = tile_at(map, x, y);
-        if (high >= tile->front) tile->state = TILE_MIXED;
+        if (high >= tile->front)
+          tile->state = TILE_MIXED;
       }
     }
   }
@@ -299,7 +307,8 @@ static void raise_horizons(struct tilemap *map, const struct sheet *sheet,
                            size_t t) {
   const struct pagegrid *grid = &map->grid;
   struct cell_range r = footprint_cells(grid, sheet, t, map->print[t]);
-  if (r.x1 - r.x0 < 2 || r.y1 - r.y0 < 2) return;
+  if (r.x1 - r.x0 < 2 || r.y1 - r.y0 < 2)
+    return;
   struct corners corners = corners_of(sheet, t);
   struct window first = tile_window(grid, r.x0 + 1, r.y0 + 1);
   struct walk walk = walk_of(&corners, first.x0, first.y0, grid->shift, true);
@@ -310,13 +319,15 @@ static void raise_horizons(struct tilemap *map, const struct sheet *sheet,
     bool inside = false;
     for (int x = r.x0 + 1; x < r.x1; x++, walk_right(&row)) {
       if (!walk_is_inside(&row)) {
-        if (inside) break;
+        if (inside)
+          break;
         continue;
       }
       inside = true;
       struct window window = tile_window(grid, x, y);
       double low = surround_low(&plane, &window);
-      if (low > horizon[x]) horizon[x] = low;
+      if (low > horizon[x])
+        horizon[x] = low;
     }
   }
 }
@@ -327,7 +338,8 @@ static void drop_horizons(struct tilemap *map, const struct sheet *sheet,
                           const struct hide_bound *all, size_t t) {
   struct corners corners = corners_of(sheet, t);
   struct cell_range r;
-  if (!is_steep(sheet, all, (uint32_t)t, &corners)) return;
+  if (!is_steep(sheet, all, (uint32_t)t, &corners))
+    return;
   r = footprint_cells(&map->grid, sheet, t, map->print[t]);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++)
@@ -339,12 +351,15 @@ static bool find_horizons(struct tilemap *map, const struct sheet *sheet,
   struct hide_bound all = hide_tolerance_bound_all(sheet);
   size_t n = pagegrid_cell_count(&map->grid);
   map->horizon = mem_alloc(n, sizeof *map->horizon);
-  if (map->horizon == NULL) return false;
-  for (size_t i = 0; i < n; i++) map->horizon[i] = -1;
+  if (map->horizon == NULL)
+    return false;
+  for (size_t i = 0; i < n; i++)
+    map->horizon[i] = -1;
   for (size_t t = 0; t < sheet->triangle.count; t++)
     if (!(sheet->triangle_flags[t] & SHEET_FLAT))
       raise_horizons(map, sheet, t);
-  if (!fragments) return true;
+  if (!fragments)
+    return true;
   for (size_t i = 0; i < n; i++)
     map->horizon[i] -= (double)(INT64_C(1) << TILE_BUCKET_SHIFT);
   for (size_t t = 0; t < sheet->triangle.count; t++)
@@ -369,8 +384,10 @@ static void shape_soup(struct tilemap *map, const struct sheet *sheet,
   uint64_t spread = SOUP_CELLS / sheet->triangle.count + SPREAD;
   uint64_t most =
       count_questions(sheet, strokes, fragments) / SOUP_QUESTIONS + SPREAD;
-  if (spread > most) spread = most;
-  if (spread > SOUP_SPREAD) spread = SOUP_SPREAD;
+  if (spread > most)
+    spread = most;
+  if (spread > SOUP_SPREAD)
+    spread = SOUP_SPREAD;
   pagegrid_shape(&map->grid, sheet, (unsigned)spread, (unsigned)spread);
 }
 
@@ -381,13 +398,16 @@ bool tilemap_init(struct tilemap *map, const struct sheet *sheet, bool strokes,
   memset(map, 0, sizeof *map);
   pagegrid_shape(&map->grid, sheet, SPREAD, 2);
   soup = mean_layers(sheet, &map->grid) > SOUP;
-  if (soup) shape_soup(map, sheet, strokes, fragments);
+  if (soup)
+    shape_soup(map, sheet, strokes, fragments);
   n = pagegrid_cell_count(&map->grid);
   map->tile = mem_calloc(n, sizeof *map->tile);
   map->print = mem_alloc(sheet->triangle.count, sizeof *map->print);
-  if (map->tile == NULL || map->print == NULL) return false;
+  if (map->tile == NULL || map->print == NULL)
+    return false;
   gather(map, sheet, fragments);
-  if (soup && !find_horizons(map, sheet, fragments)) return false;
+  if (soup && !find_horizons(map, sheet, fragments))
+    return false;
   judge(map);
   refuse_contours(map, sheet);
   for (size_t i = 0; i < n; i++) {

@@ -30,9 +30,9 @@
 #include "visibility/pagegrid.h"
 
 enum tile_state {
-  TILE_EMPTY,  /* no face */
-  TILE_MIXED,  /* must be solved by pairs */
-  TILE_SIMPLE  /* covered by one layer in front */
+  TILE_EMPTY, /* no face */
+  TILE_MIXED, /* must be solved by pairs */
+  TILE_SIMPLE /* covered by one layer in front */
 };
 
 enum { TILE_BUCKETS = 64, TILE_BUCKET_SHIFT = SHEET_Z_BITS - 6 };

@@ -27,12 +27,12 @@ struct tiles_work {
   const struct solver_request *request;
   struct tilemap tiles;
   struct tilelist lists;
-  uint8_t *wanted;         /* tiles whose faces are to be listed */
-  uint8_t *pierced;        /* tiles where faces may be seen to pierce */
-  bool wants_more;         /* than are listed */
-  ARRAY(uint32_t) edge;    /* left over, ascending */
-  ARRAY(uint32_t) face;    /* triangles left over, ascending */
-  uint8_t *face_state;     /* one a triangle: enum map_state; MAP_MIXED is
+  uint8_t *wanted;      /* tiles whose faces are to be listed */
+  uint8_t *pierced;     /* tiles where faces may be seen to pierce */
+  bool wants_more;      /* than are listed */
+  ARRAY(uint32_t) edge; /* left over, ascending */
+  ARRAY(uint32_t) face; /* triangles left over, ascending */
+  uint8_t *face_state;  /* one a triangle: enum map_state; MAP_MIXED is
                               left over */
   struct hide_counts hide;
   struct report *report;
@@ -53,16 +53,18 @@ static bool may_go_on(const struct tiles_work *work, size_t done, size_t all,
   return !atomic_load(work->cancelled);
 }
 
-/* ---- 3, 4. Lists and piercing --------------------------------------------------------------- */
+/* ---- 3, 4. Lists and piercing -------------------------------------------- */
 
 /* Faces that pierce each other where they can be seen do so in mixed tiles.
  * Where hidden lines are drawn too, they are looked for everywhere, in a grid
  * of their own: lists of tiles leave out what is behind a horizon. */
 static bool want_for_piercing(struct tiles_work *work) {
   size_t n = pagegrid_cell_count(&work->tiles.grid);
-  if (work->request->hidden) return true;
+  if (work->request->hidden)
+    return true;
   work->pierced = mem_alloc(n, 1);
-  if (work->pierced == NULL) return false;
+  if (work->pierced == NULL)
+    return false;
   for (size_t i = 0; i < n; i++) {
     work->pierced[i] = work->tiles.tile[i].state == TILE_MIXED;
     work->wanted[i] |= work->pierced[i];
@@ -76,15 +78,18 @@ static bool list_faces(struct tiles_work *work) {
   return tilelist_fill(&work->lists, &work->tiles, work->sheet, work->wanted);
 }
 
-/* ---- 2. Classifying -------------------------------------------------------------- */
+/* ---- 2. Classifying ------------------------------------------------------ */
 
 /* What a tile says of something with depths in these buckets: MAP_MIXED where
  * it does not say.  Of a wire it is not known that it lies in a layer. */
 static enum map_state ask_tile(const struct tile *tile, int low, int high,
                                bool wire) {
-  if (tile->state == TILE_MIXED) return MAP_MIXED;
-  if (tile->state == TILE_EMPTY) return MAP_VISIBLE;
-  if (wire) return high < tile->front - 1 ? MAP_HIDDEN : MAP_MIXED;
+  if (tile->state == TILE_MIXED)
+    return MAP_MIXED;
+  if (tile->state == TILE_EMPTY)
+    return MAP_VISIBLE;
+  if (wire)
+    return high < tile->front - 1 ? MAP_HIDDEN : MAP_MIXED;
   return low >= tile->front ? MAP_VISIBLE : MAP_HIDDEN;
 }
 
@@ -117,7 +122,8 @@ static enum map_state ask_along(struct tiles_work *work, struct geom_point p,
         work->wants_more |= !work->wanted[i];
         work->wanted[i] = 1;
       } else {
-        if (now == MAP_MIXED || (state >= 0 && state != now)) return MAP_MIXED;
+        if (now == MAP_MIXED || (state >= 0 && state != now))
+          return MAP_MIXED;
         state = now;
       }
     }
@@ -132,7 +138,8 @@ static enum map_state ask_range(const struct tilemap *map, struct cell_range r,
   enum map_state state = ask_tile(&row[r.x0], low, high, wire);
   for (int y = r.y0; y <= r.y1; y++, row += map->grid.columns)
     for (int x = r.x0; x <= r.x1; x++)
-      if (ask_tile(&row[x], low, high, wire) != state) return MAP_MIXED;
+      if (ask_tile(&row[x], low, high, wire) != state)
+        return MAP_MIXED;
   return state;
 }
 
@@ -156,17 +163,21 @@ static enum map_state ask_edge(struct tiles_work *work, struct geom_point p,
 static bool classify_edges(struct tiles_work *work, size_t from,
                            struct map *map) {
   const struct sheet *sheet = work->sheet;
-  if (!strokes_open_map(map, sheet->edge.count)) return false;
+  if (!strokes_open_map(map, sheet->edge.count))
+    return false;
   for (size_t e = from; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
     struct geom_point p = sheet->point.item[edge->point[0]],
                       q = sheet->point.item[edge->point[1]];
     bool wire = edge->triangle[0] == SHEET_NONE ||
                 edge->edge_class == RECTO_EDGE_INTERSECTION;
-    if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y)) continue;
+    if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y))
+      continue;
     map->edge_state[e] = (uint8_t)ask_edge(work, p, q, wire);
-    if (map->edge_state[e] != MAP_MIXED) continue;
-    if (!ARRAY_PUSH(&work->edge, (uint32_t)e)) return false;
+    if (map->edge_state[e] != MAP_MIXED)
+      continue;
+    if (!ARRAY_PUSH(&work->edge, (uint32_t)e))
+      return false;
     (void)ask_along(work, p, q, wire, true);
   }
   return true;
@@ -181,8 +192,10 @@ static enum map_state ask_face(const struct tiles_work *work, uint32_t t) {
   int64_t nearest = triangle_nearest(sheet, t);
   for (int k = 0; k < 3; k++) {
     int bucket = tile_bucket(sheet->point.item[point[k]].z);
-    if (bucket < low) low = bucket;
-    if (bucket > high) high = bucket;
+    if (bucket < low)
+      low = bucket;
+    if (bucket > high)
+      high = bucket;
   }
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
@@ -190,7 +203,8 @@ static enum map_state ask_face(const struct tiles_work *work, uint32_t t) {
       int now = tilemap_is_beyond(&work->tiles, i, nearest)
                     ? MAP_HIDDEN
                     : (int)ask_tile(&work->tiles.tile[i], low, high, false);
-      if (now == MAP_MIXED || (state >= 0 && state != now)) return MAP_MIXED;
+      if (now == MAP_MIXED || (state >= 0 && state != now))
+        return MAP_MIXED;
       state = now;
     }
   return (enum map_state)state;
@@ -208,19 +222,23 @@ static void want_face(struct tiles_work *work, uint32_t t) {
 static bool classify_faces(struct tiles_work *work) {
   size_t n = work->sheet->triangle.count;
   work->face_state = mem_alloc(n, 1);
-  if (work->face_state == NULL) return false;
+  if (work->face_state == NULL)
+    return false;
   for (size_t t = 0; t < n; t++) {
     work->face_state[t] = MAP_HIDDEN;
-    if (work->sheet->triangle_flags[t] & SHEET_FLAT) continue;
+    if (work->sheet->triangle_flags[t] & SHEET_FLAT)
+      continue;
     work->face_state[t] = (uint8_t)ask_face(work, (uint32_t)t);
-    if (work->face_state[t] != MAP_MIXED) continue;
-    if (!ARRAY_PUSH(&work->face, (uint32_t)t)) return false;
+    if (work->face_state[t] != MAP_MIXED)
+      continue;
+    if (!ARRAY_PUSH(&work->face, (uint32_t)t))
+      return false;
     want_face(work, (uint32_t)t);
   }
   return true;
 }
 
-/* ---- 5. Pairs ------------------------------------------------------------------- */
+/* ---- 5. Pairs ------------------------------------------------------------ */
 
 /* A run of left-over edges, solved by one thread. */
 struct edge_run {
@@ -283,19 +301,21 @@ static bool join_run(struct map *map, const struct edge_run *run) {
 static bool solve_edges(struct tiles_work *work, struct map *map) {
   size_t n = work->edge.count, runs = (n + RUN - 1) / RUN;
   struct edge_run *run = mem_calloc(runs, sizeof *run);
-  bool done = run != NULL;
-  if (!done) return false;
-  for (size_t i = 0; i < runs; i++) run[i].map.edge_state = map->edge_state;
+  bool ok = run != NULL;
+  if (!ok)
+    return false;
+  for (size_t i = 0; i < runs; i++)
+    run[i].map.edge_state = map->edge_state;
   parallel_run(runs > 1 ? work->request->threads : 1, solve_some,
                &(struct runs){.work = work, .run = run, .count = runs});
   for (size_t i = 0; i < runs; i++) {
-    done = done && run[i].done && join_run(map, &run[i]);
+    ok = ok && run[i].done && join_run(map, &run[i]);
     hide_counts_add(&work->hide, &run[i].counts);
     run[i].map.edge_state = NULL;
     map_fini(&run[i].map);
   }
   mem_free(run);
-  return done;
+  return ok;
 }
 
 static bool solve_faces(struct tiles_work *work, struct map *map) {
@@ -303,27 +323,28 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
   struct leftover leftover;
   size_t n = work->sheet->triangle.count;
   struct pulse pulse = pulse_of(work->request, "faces");
-  bool done = fragments_init(&fragments, work->sheet, &work->lists.grid, true);
-  done &= leftover_init(&leftover, work->sheet, &work->lists, work->wanted,
-                        work->face_state);
+  bool ok = fragments_init(&fragments, work->sheet, &work->lists.grid, true);
+  ok &= leftover_init(&leftover, work->sheet, &work->lists, work->wanted,
+                      work->face_state);
   fragments.pulse = leftover.rivals.pulse = &pulse;
   fragments.report = work->report;
-  for (size_t t = 0; done && t < n; t++)
+  for (size_t t = 0; ok && t < n; t++)
     if (work->face_state[t] == MAP_VISIBLE)
-      done = fragments_add_alone(&fragments, (uint32_t)t);
-  done = done && leftover_sort(&leftover, work->face.item, work->face.count);
-  for (size_t i = 0; done && i < work->face.count; i++)
-    done = pulse_beat_at(&pulse, 1, i, work->face.count) &&
-           leftover_solve(&leftover, work->face.item[i], &fragments);
-  done = done && fragments_finish(&fragments, work->request->areas, map);
-  if (pulse.cancelled) atomic_store(work->cancelled, true);
+      ok = fragments_add_alone(&fragments, (uint32_t)t);
+  ok = ok && leftover_sort(&leftover, work->face.item, work->face.count);
+  for (size_t i = 0; ok && i < work->face.count; i++)
+    ok = pulse_beat_at(&pulse, 1, i, work->face.count) &&
+         leftover_solve(&leftover, work->face.item[i], &fragments);
+  ok = ok && fragments_finish(&fragments, work->request->areas, map);
+  if (pulse.cancelled)
+    atomic_store(work->cancelled, true);
   leftover_report(&leftover, work->report);
   leftover_fini(&leftover);
   fragments_fini(&fragments);
-  return done;
+  return ok;
 }
 
-/* ---- The solver ------------------------------------------------------------------ */
+/* ---- The solver ---------------------------------------------------------- */
 
 static void report_tiles(const struct tiles_work *work, struct report *report) {
   report_int(report, "tiles", "simple", (int64_t)work->tiles.simple);
@@ -331,8 +352,7 @@ static void report_tiles(const struct tiles_work *work, struct report *report) {
   report_int(report, "tiles", "empty", (int64_t)work->tiles.empty);
   report_int(report, "tiles", "with_horizons", work->tiles.horizon != NULL);
   report_int(report, "tiles", "edges_left_over", (int64_t)work->edge.count);
-  report_int(report, "tiles", "triangles_left_over",
-             (int64_t)work->face.count);
+  report_int(report, "tiles", "triangles_left_over", (int64_t)work->face.count);
   hide_report(&work->hide, report);
 }
 
@@ -351,9 +371,12 @@ static bool classify(struct tiles_work *work, struct map *map) {
     return false;
   end_phase(work, "tiles_cpu_s");
   work->wanted = mem_calloc(pagegrid_cell_count(&work->tiles.grid), 1);
-  if (work->wanted == NULL) return false;
-  if (request->strokes && !classify_edges(work, 0, map)) return false;
-  if (request->fragments && !classify_faces(work)) return false;
+  if (work->wanted == NULL)
+    return false;
+  if (request->strokes && !classify_edges(work, 0, map))
+    return false;
+  if (request->fragments && !classify_faces(work))
+    return false;
   end_phase(work, "classes_cpu_s");
   return true;
 }
@@ -361,9 +384,10 @@ static bool classify(struct tiles_work *work, struct map *map) {
 static bool pierce_anywhere(struct tiles_work *work, recto_status *status,
                             recto_error *error) {
   struct pagegrid grid;
-  if (!pagegrid_init(&grid, work->sheet)) return false;
-  *status = pierce_all(work->sheet, &grid, NULL, work->request, work->report,
-                       error);
+  if (!pagegrid_init(&grid, work->sheet))
+    return false;
+  *status =
+      pierce_all(work->sheet, &grid, NULL, work->request, work->report, error);
   pagegrid_fini(&grid);
   return *status == RECTO_OK;
 }
@@ -392,23 +416,27 @@ static bool find_piercing(struct tiles_work *work, struct map *map,
 static bool solve_all(struct tiles_work *work, struct map *map,
                       recto_status *status, recto_error *error) {
   const struct solver_request *request = work->request;
-  if (!classify(work, map)) return false;
-  if (request->intersections && !want_for_piercing(work)) return false;
-  if (!list_faces(work)) return false;
+  if (!classify(work, map))
+    return false;
+  if (request->intersections && !want_for_piercing(work))
+    return false;
+  if (!list_faces(work))
+    return false;
   end_phase(work, "lists_cpu_s");
   if (request->intersections && !find_piercing(work, map, status, error))
     return false;
-  if (request->strokes && !solve_edges(work, map)) return false;
+  if (request->strokes && !solve_edges(work, map))
+    return false;
   end_phase(work, "edges_cpu_s");
-  if (request->fragments && !solve_faces(work, map)) return false;
+  if (request->fragments && !solve_faces(work, map))
+    return false;
   end_phase(work, "faces_cpu_s");
   return true;
 }
 
 static recto_status solve(struct sheet *sheet,
-                          const struct solver_request *request,
-                          struct map *map, struct report *report,
-                          recto_error *error) {
+                          const struct solver_request *request, struct map *map,
+                          struct report *report, recto_error *error) {
   atomic_bool cancelled = false;
   struct tiles_work work = {.sheet = sheet,
                             .request = request,
@@ -416,9 +444,9 @@ static recto_status solve(struct sheet *sheet,
                             .cancelled = &cancelled};
   recto_status status = RECTO_OK;
   if (!solve_all(&work, map, &status, error) && status == RECTO_OK)
-    status = cancelled ? error_set(error, RECTO_ERROR_CANCELLED, NULL, 0,
-                                   "cancelled")
-                       : error_memory(error);
+    status = cancelled
+                 ? error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled")
+                 : error_memory(error);
   report_tiles(&work, report);
   tilelist_fini(&work.lists);
   tilemap_fini(&work.tiles);

@@ -27,7 +27,7 @@ recto_status trace_find_intersections(struct sheet *sheet,
   return status;
 }
 
-/* ---- Setting out -------------------------------------------------------- */
+/* ---- Setting out --------------------------------------------------------- */
 
 static double frame_of(int64_t at, int64_t den, int64_t first, int64_t step) {
   return (double)(at * den - first) / (double)step;
@@ -114,7 +114,7 @@ bool trace_init(struct trace *trace, const struct sheet *sheet,
                 const struct scan_grid *grid, double reach_x, double step,
                 const uint8_t *skip) {
   struct trace_edge *edge;
-  bool good = false;
+  bool ok = false;
   memset(trace, 0, sizeof *trace);
   trace->sheet = sheet;
   trace->grid = *grid;
@@ -134,12 +134,12 @@ bool trace_init(struct trace *trace, const struct sheet *sheet,
         set_edge(trace, (uint32_t)e, &edge[i]);
         trace->bits[e] = (uint8_t)edge[i++].bits;
       }
-    good = sort_edges(trace, edge);
+    ok = sort_edges(trace, edge);
   }
   mem_free(edge);
-  if (!good)
+  if (!ok)
     trace_fini(trace);
-  return good;
+  return ok;
 }
 
 void trace_fini(struct trace *trace) {
@@ -150,7 +150,7 @@ void trace_fini(struct trace *trace) {
   memset(trace, 0, sizeof *trace);
 }
 
-/* ---- Following ---------------------------------------------------------- */
+/* ---- Following ----------------------------------------------------------- */
 
 /* The least depth a facet's plane has where the scan's answer, given at
  * (x, line + 1/2), stands. */
@@ -224,7 +224,8 @@ static bool is_covered(const struct trace *trace, const struct trace_edge *edge,
       return false;
   }
   raster_slopes(sheet, &trace->grid, facet, &per_column, &per_line);
-  return z + trace->step + trace_contact(sheet, sheet->triangle.item[facet].face, z) <
+  return z + trace->step +
+             trace_contact(sheet, sheet->triangle.item[facet].face, z) <
          (double)sheet->point.item[sheet->triangle.item[facet].point[0]].z -
              per_column * at[0][0] - per_line * at[0][1];
 }
@@ -295,7 +296,7 @@ bool trace_line(struct trace *trace, int32_t line, trace_seen_fn seen,
   return true;
 }
 
-/* ---- Filing ------------------------------------------------------------- */
+/* ---- Filing -------------------------------------------------------------- */
 
 bool trace_add(struct trace *trace, struct trace_run run, int bits) {
   trace->bits[run.edge] = (uint8_t)bits;
@@ -330,21 +331,21 @@ static bool file_runs(const struct trace *trace, const struct sort_key *key,
 bool trace_finish(struct trace *trace, struct map *map) {
   size_t count = trace->run.count;
   struct sort_key *key = mem_alloc(2 * count, sizeof *key);
-  bool good = key != NULL && strokes_open_map(map, trace->sheet->edge.count);
-  for (size_t i = 0; good && i < count; i++) {
+  bool ok = key != NULL && strokes_open_map(map, trace->sheet->edge.count);
+  for (size_t i = 0; ok && i < count; i++) {
     const struct trace_run *run = &trace->run.item[i];
     key[i] = (struct sort_key){((uint64_t)run->edge << 32) | run->first,
                                (uint32_t)i};
   }
-  if (good)
+  if (ok)
     sort_keys(key, key + count, count);
-  for (size_t i = 0, past; good && i < count; i = past) {
+  for (size_t i = 0, past; ok && i < count; i = past) {
     uint32_t edge = trace->run.item[key[i].value].edge;
     past = i + 1;
     while (past < count && trace->run.item[key[past].value].edge == edge)
       past++;
-    good = file_runs(trace, key + i, past - i, map);
+    ok = file_runs(trace, key + i, past - i, map);
   }
   mem_free(key);
-  return good;
+  return ok;
 }

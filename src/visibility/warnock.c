@@ -78,9 +78,9 @@ struct warnock {
   edge_parts part;
   size_t room; /* parts are united when there are so many */
   face_pieces piece;
-  size_t piece_room; /* pieces are thinned out when there are so many */
+  size_t piece_room;      /* pieces are thinned out when there are so many */
   struct strokes strokes; /* of the edge at hand */
-  uint64_t listed, listed_most; /* faces and edges, over all windows */
+  uint64_t listed, listed_most;   /* faces and edges, over all windows */
   uint8_t *left_edge, *left_face; /* one each: left to undecided.h */
   bool any_left;
   struct arena arena; /* of the pieces */
@@ -124,8 +124,7 @@ static bool is_drawn(const struct sheet *sheet, uint32_t e) {
   return edge->edge_class != 0 && (p.x != q.x || p.y != q.y);
 }
 
-/* ---- Lists
- * ------------------------------------------------------------------------ */
+/* ---- Lists --------------------------------------------------------------- */
 
 /* The surrounder whose farthest depth in the window is nearest: the front. */
 struct front {
@@ -281,26 +280,26 @@ static bool unite_parts(struct warnock *w) {
   struct sort_key *key = sort_parts(w);
   size_t n = w->part.count;
   edge_parts united = {0};
-  bool done = key != NULL;
-  for (size_t i = 0, past; done && i < n; i = past) {
+  bool ok = key != NULL;
+  for (size_t i = 0, past; ok && i < n; i = past) {
     uint32_t e = (uint32_t)key[i].key;
     const stroke_parts *parts;
     strokes_start(&w->strokes);
-    for (past = i; done && past < n && key[past].key == e; past++)
-      done = w->left_edge[e] ||
-             strokes_hide(&w->strokes, w->part.item[key[past].value].part);
+    for (past = i; ok && past < n && key[past].key == e; past++)
+      ok = w->left_edge[e] ||
+           strokes_hide(&w->strokes, w->part.item[key[past].value].part);
     parts = strokes_unite(&w->strokes);
-    done = done && parts != NULL;
-    for (size_t k = 0; done && k < parts->count; k++) {
+    ok = ok && parts != NULL;
+    for (size_t k = 0; ok && k < parts->count; k++) {
       struct edge_part part = {e, parts->item[k]};
-      done = ARRAY_PUSH(&united, part);
+      ok = ARRAY_PUSH(&united, part);
     }
   }
   mem_free(key);
   ARRAY_FREE(&w->part);
   w->part = united;
   w->room = 2 * united.count + PARTS_FEW;
-  return done;
+  return ok;
 }
 
 static bool add_part(struct warnock *w, struct edge_part part) {
@@ -333,8 +332,7 @@ static bool drop_hidden_edges(struct warnock *w, struct warnock_window *win,
   return true;
 }
 
-/* ---- Finished windows
- * -------------------------------------------------------------- */
+/* ---- Finished windows ---------------------------------------------------- */
 
 /* Do the parts found so far hide all of the edge inside the window? */
 static bool is_hidden(const struct warnock *w, const struct edge_task *task) {
@@ -405,16 +403,16 @@ static bool thin_out_pieces(struct warnock *w) {
   struct face_piece *piece = w->piece.item;
   size_t n = w->piece.count, kept = 0;
   struct arena arena = {0};
-  bool done = sort_pieces(w);
-  for (size_t i = 0, past; done && i < n; i = past) {
+  bool ok = sort_pieces(w);
+  for (size_t i = 0, past; ok && i < n; i = past) {
     uint32_t t = piece[i].triangle;
     for (past = i; past < n && piece[past].triangle == t;)
       past++;
     if (past - i > PIECES_OF_FACE)
       w->left_face[t] = w->any_left = true;
-    for (size_t k = i; done && k < past && !w->left_face[t]; k++) {
+    for (size_t k = i; ok && k < past && !w->left_face[t]; k++) {
       struct face_piece copy = {.triangle = t};
-      done = geom_convex_copy(&copy.piece, &piece[k].piece, &arena);
+      ok = geom_convex_copy(&copy.piece, &piece[k].piece, &arena);
       piece[kept++] = copy;
     }
   }
@@ -422,7 +420,7 @@ static bool thin_out_pieces(struct warnock *w) {
   w->arena = arena;
   w->piece.count = kept;
   w->piece_room = 2 * kept + PIECES_FEW;
-  return done;
+  return ok;
 }
 
 /* Each face of the window, clipped to it, less what is nearer. */
@@ -491,8 +489,7 @@ static bool leave_window(struct warnock *w, const struct warnock_window *win) {
   return true;
 }
 
-/* ---- Division
- * ------------------------------------------------------------------------ */
+/* ---- Division ------------------------------------------------------------ */
 
 /* Where to divide: in the middle, or at a side of the box of the window's
  * nearest face. */
@@ -612,44 +609,42 @@ static bool take_window(struct warnock *w) {
   return solve_window(w, &win);
 }
 
-/* ---- What the windows gave
- * ------------------------------------------------------------- */
+/* ---- What the windows gave ----------------------------------------------- */
 
 static bool file_strokes(struct warnock *w, struct undecided *undecided,
                          struct map *map) {
   const struct sheet *sheet = w->sheet;
   size_t n = w->part.count, i = 0;
   struct sort_key *key = sort_parts(w);
-  bool done = key != NULL && strokes_open_map(map, sheet->edge.count);
-  for (uint32_t e = 0; done && e < sheet->edge.count; e++) {
+  bool ok = key != NULL && strokes_open_map(map, sheet->edge.count);
+  for (uint32_t e = 0; ok && e < sheet->edge.count; e++) {
     struct strokes *strokes = &w->strokes;
     strokes_start(strokes);
-    for (; done && i < n && key[i].key == e; i++)
-      done = strokes_hide(strokes, w->part.item[key[i].value].part);
+    for (; ok && i < n && key[i].key == e; i++)
+      ok = strokes_hide(strokes, w->part.item[key[i].value].part);
     if (!is_drawn(sheet, e))
       continue;
-    if (done && w->left_edge[e]) {
+    if (ok && w->left_edge[e]) {
       strokes = undecided_edge(undecided, e);
-      done = strokes != NULL;
+      ok = strokes != NULL;
     }
-    done = done && strokes_file(strokes, e, map);
+    ok = ok && strokes_file(strokes, e, map);
   }
   mem_free(key);
-  return done;
+  return ok;
 }
 
 /* Hands in the faces that were left over. */
 static bool file_left_faces(struct warnock *w, struct undecided *undecided,
                             struct fragments *fragments) {
   ARRAY(uint32_t) left = {0};
-  bool done = true;
-  for (uint32_t t = 0; done && t < w->sheet->triangle.count; t++)
+  bool ok = true;
+  for (uint32_t t = 0; ok && t < w->sheet->triangle.count; t++)
     if (w->left_face[t])
-      done = ARRAY_PUSH(&left, t);
-  done = done &&
-         undecided_faces(undecided, left.item, left.count, fragments);
+      ok = ARRAY_PUSH(&left, t);
+  ok = ok && undecided_faces(undecided, left.item, left.count, fragments);
   ARRAY_FREE(&left);
-  return done;
+  return ok;
 }
 
 static bool file_fragments(struct warnock *w, struct undecided *undecided,
@@ -658,51 +653,49 @@ static bool file_fragments(struct warnock *w, struct undecided *undecided,
   struct fragments fragments;
   geom_pieces piece = {0};
   size_t n = w->piece.count;
-  bool done = fragments_init(&fragments, w->sheet, grid, true) &&
-              sort_pieces(w);
+  bool ok = fragments_init(&fragments, w->sheet, grid, true) && sort_pieces(w);
   fragments.pulse = &w->pulse;
   fragments.report = report;
-  for (size_t i = 0, j; done && i < n; i = j) {
+  for (size_t i = 0, j; ok && i < n; i = j) {
     piece.count = 0;
-    for (j = i; done && j < n &&
-                w->piece.item[j].triangle == w->piece.item[i].triangle;
+    for (j = i;
+         ok && j < n && w->piece.item[j].triangle == w->piece.item[i].triangle;
          j++)
-      done = ARRAY_PUSH(&piece, w->piece.item[j].piece);
-    done = done && (w->left_face[w->piece.item[i].triangle] ||
-                    fragments_add(&fragments, w->piece.item[i].triangle,
-                                  piece.item, piece.count));
+      ok = ARRAY_PUSH(&piece, w->piece.item[j].piece);
+    ok = ok && (w->left_face[w->piece.item[i].triangle] ||
+                fragments_add(&fragments, w->piece.item[i].triangle, piece.item,
+                              piece.count));
   }
   if (w->any_left)
-    done = done && file_left_faces(w, undecided, &fragments);
-  done = done && fragments_finish(&fragments, w->request->areas, map);
+    ok = ok && file_left_faces(w, undecided, &fragments);
+  ok = ok && fragments_finish(&fragments, w->request->areas, map);
   ARRAY_FREE(&piece);
   fragments_fini(&fragments);
-  return done;
+  return ok;
 }
 
-/* ---- The solver
- * -------------------------------------------------------------------------- */
+/* ---- The solver ---------------------------------------------------------- */
 
 /* All faces, nearest first, and all drawable edges. */
 static bool fill_pools(struct warnock *w, const struct pagegrid *grid) {
   const struct sheet *sheet = w->sheet;
   size_t n = sheet->triangle.count;
   struct sort_key *key = mem_alloc(2 * n, sizeof *key);
-  bool done = key != NULL && ARRAY_RESERVE(&w->faces, n);
-  for (size_t t = 0; done && t < n; t++)
+  bool ok = key != NULL && ARRAY_RESERVE(&w->faces, n);
+  for (size_t t = 0; ok && t < n; t++)
     key[t] = (struct sort_key){
         ~sort_key_of_int64(triangle_nearest(sheet, (uint32_t)t)), (uint32_t)t};
-  if (done)
+  if (ok)
     sort_keys(key, key + n, n);
-  for (size_t t = 0; done && t < n; t++)
+  for (size_t t = 0; ok && t < n; t++)
     if (!(sheet->triangle_flags[key[t].value] & SHEET_FLAT) &&
         !pagegrid_leaves_out(grid, key[t].value))
       w->faces.item[w->faces.count++] = key[t].value;
   mem_free(key);
-  for (size_t e = 0; done && w->request->strokes && e < sheet->edge.count; e++)
+  for (size_t e = 0; ok && w->request->strokes && e < sheet->edge.count; e++)
     if (is_drawn(sheet, (uint32_t)e))
-      done = ARRAY_PUSH(&w->edges, (uint32_t)e);
-  return done;
+      ok = ARRAY_PUSH(&w->edges, (uint32_t)e);
+  return ok;
 }
 
 static bool run(struct warnock *w, const struct pagegrid *grid) {
@@ -713,12 +706,9 @@ static bool run(struct warnock *w, const struct pagegrid *grid) {
   w->piece_room = PIECES_FEW;
   if (w->left_edge == NULL || w->left_face == NULL || !fill_pools(w, grid))
     return false;
-  page = (struct warnock_window){warnock_page_window(w->sheet),
-                                 INFINITY,
-                                 0,
-                                 {0, w->faces.count},
-                                 {0, 0},
-                                 {0, w->edges.count}};
+  page = (struct warnock_window){
+      warnock_page_window(w->sheet), INFINITY, 0,
+      {0, w->faces.count},           {0, 0},   {0, w->edges.count}};
   w->floor = warnock_edge_length(w->sheet);
   w->listed_most =
       LISTED_MOST * (uint64_t)(w->faces.count + w->edges.count + 1024);
@@ -757,17 +747,15 @@ static void report_windows(const struct warnock *w, struct report *report) {
 static bool file_all(struct warnock *w, const struct pagegrid *grid,
                      struct map *map, struct report *report) {
   struct undecided undecided = {0};
-  bool done = !w->any_left ||
-              undecided_init(&undecided, w->sheet, w->request->fragments,
-                             &w->pulse);
+  bool ok = !w->any_left || undecided_init(&undecided, w->sheet,
+                                           w->request->fragments, &w->pulse);
   w->pulse.stage = "edges";
-  done = done &&
-         (!w->request->strokes || file_strokes(w, &undecided, map));
+  ok = ok && (!w->request->strokes || file_strokes(w, &undecided, map));
   w->pulse.stage = "faces";
-  done = done && (!w->request->fragments ||
-                  file_fragments(w, &undecided, grid, map, report));
+  ok = ok && (!w->request->fragments ||
+              file_fragments(w, &undecided, grid, map, report));
   undecided_fini(&undecided);
-  return done;
+  return ok;
 }
 
 static recto_status solve(struct sheet *sheet,
@@ -778,7 +766,7 @@ static recto_status solve(struct sheet *sheet,
                       .pulse = pulse_of(request, "subdividing")};
   struct pagegrid grid;
   recto_status status = RECTO_OK;
-  bool done;
+  bool ok;
   if (request->resolution > 0)
     return warnock_raster_solve(sheet, request, map, report, error);
   if (!pagegrid_init(&grid, sheet))
@@ -787,8 +775,8 @@ static recto_status solve(struct sheet *sheet,
     status = pierce_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK) {
     cover_init(&w.cover, sheet);
-    done = run(&w, &grid) && file_all(&w, &grid, map, report);
-    if (!done)
+    ok = run(&w, &grid) && file_all(&w, &grid, map, report);
+    if (!ok)
       status = pulse_error(&w.pulse, error);
     if (request->fragments)
       cover_report(&w.cover, report);

@@ -62,8 +62,7 @@ struct subdivision {
   uint64_t pixels_done;
 };
 
-/* ---- Windows ---------------------------------------------------------------
- */
+/* ---- Windows ------------------------------------------------------------- */
 
 static struct block block_of(const struct subdivision *s,
                              const struct pixel_window *win) {
@@ -102,8 +101,7 @@ static struct window window_of(const struct subdivision *s,
                          clamp_to_grid(-floor_divide(-y1, g->den))};
 }
 
-/* ---- Pixels ----------------------------------------------------------------
- */
+/* ---- Pixels -------------------------------------------------------------- */
 
 static size_t pixel_at(const struct subdivision *s, int32_t column,
                        int32_t line) {
@@ -203,8 +201,7 @@ static void draw_pixel(struct subdivision *s, const struct pixel_window *win) {
   set_pixel(s, pixel_at(s, win->column, win->line), facet, covered);
 }
 
-/* ---- Lists -----------------------------------------------------------------
- */
+/* ---- Lists --------------------------------------------------------------- */
 
 /* Is facet a seen rather than b wherever both cover the block? */
 static bool beats_all_over(const struct subdivision *s, const struct block *b,
@@ -315,8 +312,7 @@ static bool list_edges(struct subdivision *s, const struct block *b,
   return true;
 }
 
-/* ---- Division --------------------------------------------------------------
- */
+/* ---- Division ------------------------------------------------------------ */
 
 /* The pixel in which a sheet coordinate lies. */
 static int32_t pixel_of(int64_t value, int64_t first, int64_t step,
@@ -417,8 +413,7 @@ static bool take_window(struct subdivision *s) {
 /* Of a face in a window, in units of a pulse. */
 enum { WINDOW_WORK = 8 };
 
-/* ---- The frame -------------------------------------------------------------
- */
+/* ---- The frame ----------------------------------------------------------- */
 
 recto_status warnock_frame_init(struct warnock_frame *frame,
                                 const struct sheet *sheet,
@@ -455,22 +450,22 @@ static bool fill_pools(struct subdivision *s) {
   int left_out = SHEET_FLAT | (s->request->remove_backs ? SHEET_FLIPPED : 0);
   size_t n = sheet->triangle.count, count = 0;
   struct sort_key *key = mem_alloc(2 * n, sizeof *key);
-  bool done = key != NULL && ARRAY_RESERVE(&s->faces, n);
-  for (uint32_t t = 0; done && t < n; t++)
+  bool ok = key != NULL && ARRAY_RESERVE(&s->faces, n);
+  for (uint32_t t = 0; ok && t < n; t++)
     if ((sheet->triangle_flags[t] & left_out) == 0 &&
         facet_of(s->facets, t) == t)
       key[count++] = (struct sort_key){
           ~sort_key_of_int64((int64_t)s->sample.plane[t].nearest), t};
-  if (done)
+  if (ok)
     sort_keys(key, key + n, count);
-  for (size_t i = 0; done && i < count; i++)
+  for (size_t i = 0; ok && i < count; i++)
     s->faces.item[s->faces.count++] = key[i].value;
   mem_free(key);
-  for (uint32_t e = 0; done && !s->request->fragments && e < sheet->edge.count;
+  for (uint32_t e = 0; ok && !s->request->fragments && e < sheet->edge.count;
        e++)
     if (sheet->edge.item[e].edge_class != 0)
-      done = ARRAY_PUSH(&s->edges, e);
-  return done;
+      ok = ARRAY_PUSH(&s->edges, e);
+  return ok;
 }
 
 static bool run(struct subdivision *s) {
@@ -510,22 +505,20 @@ recto_status warnock_frame_draw(struct warnock_frame *frame,
                           .pulse = pulse_of(request, "subdividing")};
   struct scan_grid fine =
       raster_grid(s.sheet, frame->raster.grid.lines * frame->subpixels);
-  bool done;
+  bool ok;
   s.count = mem_alloc((size_t)frame->raster.grid.columns, sizeof *s.count);
-  done = s.count != NULL &&
-         warnock_sample_init(&s.sample, s.sheet, facets, &fine) &&
-         run(&s);
+  ok = s.count != NULL &&
+       warnock_sample_init(&s.sample, s.sheet, facets, &fine) && run(&s);
   warnock_sample_fini(&s.sample);
   mem_free(s.count);
   ARRAY_FREE(&s.stack);
   ARRAY_FREE(&s.faces);
   ARRAY_FREE(&s.surrounders);
   ARRAY_FREE(&s.edges);
-  return done ? RECTO_OK : pulse_error(&s.pulse, error);
+  return ok ? RECTO_OK : pulse_error(&s.pulse, error);
 }
 
-/* ---- The solver ------------------------------------------------------------
- */
+/* ---- The solver ---------------------------------------------------------- */
 
 /* The share of the frame that its pixels or sub-pixels see covered. */
 static double covered_share(const struct warnock_frame *frame) {

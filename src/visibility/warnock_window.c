@@ -21,18 +21,27 @@ struct window warnock_page_window(const struct sheet *sheet) {
   struct window window;
   for (size_t i = 0; i < sheet->point.count; i++) {
     struct geom_point p = sheet->point.item[i];
-    if (p.x < x0) x0 = p.x;
-    if (p.x > x1) x1 = p.x;
-    if (p.y < y0) y0 = p.y;
-    if (p.y > y1) y1 = p.y;
+    if (p.x < x0)
+      x0 = p.x;
+    if (p.x > x1)
+      x1 = p.x;
+    if (p.y < y0)
+      y0 = p.y;
+    if (p.y > y1)
+      y1 = p.y;
   }
   side = x1 - x0 > y1 - y0 ? x1 - x0 : y1 - y0;
-  if (side < 2) side = 2;
+  if (side < 2)
+    side = 2;
   /* A square about the scene, one that does not leave the grid's range. */
-  if (x0 + side > SHEET_XY_MAX) x0 = SHEET_XY_MAX - side;
-  if (y0 + side > SHEET_XY_MAX) y0 = SHEET_XY_MAX - side;
-  if (x0 < -SHEET_XY_MAX) x0 = -SHEET_XY_MAX;
-  if (y0 < -SHEET_XY_MAX) y0 = -SHEET_XY_MAX;
+  if (x0 + side > SHEET_XY_MAX)
+    x0 = SHEET_XY_MAX - side;
+  if (y0 + side > SHEET_XY_MAX)
+    y0 = SHEET_XY_MAX - side;
+  if (x0 < -SHEET_XY_MAX)
+    x0 = -SHEET_XY_MAX;
+  if (y0 < -SHEET_XY_MAX)
+    y0 = -SHEET_XY_MAX;
   window = (struct window){(int32_t)x0, (int32_t)y0, (int32_t)(x0 + side),
                            (int32_t)(y0 + side)};
   return window;

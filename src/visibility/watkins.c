@@ -30,7 +30,7 @@
 #define LINES_A_QUESTION 64 /* whether to go on, at most */
 #define OPEN_NONE (-1)
 
-/* ---- Strokes ------------------------------------------------------------ */
+/* ---- Strokes ------------------------------------------------------------- */
 
 /* The lines [last, first] on which an edge of the sheet was seen, from the
  * top. */
@@ -129,18 +129,18 @@ static bool open_strokes(struct scan *scan) {
   const struct watkins *watkins = &scan->watkins;
   size_t count = watkins->sheet->edge.count;
   uint8_t *followed = mem_calloc(count, 1);
-  bool good;
+  bool ok;
   scan->run = mem_alloc(count, sizeof *scan->run);
-  good = scan->run != NULL && followed != NULL;
-  for (size_t e = 0; good && e < count; e++)
+  ok = scan->run != NULL && followed != NULL;
+  for (size_t e = 0; ok && e < count; e++)
     scan->run[e].first = OPEN_NONE;
-  for (size_t e = 0; good && e < watkins->edge.count; e++)
+  for (size_t e = 0; ok && e < watkins->edge.count; e++)
     if (watkins->edge.item[e].drawn)
       followed[watkins->edge.item[e].side] = 1;
-  good = good && trace_init(&scan->trace, watkins->sheet, &watkins->table.grid,
-                            0, 1, followed);
+  ok = ok && trace_init(&scan->trace, watkins->sheet, &watkins->table.grid, 0,
+                        1, followed);
   mem_free(followed);
-  return good;
+  return ok;
 }
 
 static bool finish_strokes(struct scan *scan, struct map *map) {
@@ -152,7 +152,7 @@ static bool finish_strokes(struct scan *scan, struct map *map) {
          trace_finish(&scan->trace, map);
 }
 
-/* ---- Fragments ---------------------------------------------------------- */
+/* ---- Fragments ----------------------------------------------------------- */
 
 static double between(double value, int64_t a, int64_t b) {
   double low = (double)(a < b ? a : b), high = (double)(a < b ? b : a);
@@ -224,7 +224,7 @@ static bool take_spans(struct scan *scan) {
   return true;
 }
 
-/* ---- The walk ----------------------------------------------------------- */
+/* ---- The walk ------------------------------------------------------------ */
 
 /* Takes a line; `here` tells whether any edge crosses it. */
 static bool take_line(struct scan *scan, int32_t line, bool here) {

@@ -82,8 +82,8 @@ struct watkins_counts {
 
 struct watkins {
   const struct sheet *sheet;
-  struct pulse *pulse; /* lent; NULL, as at first: nobody is asked */
-  struct scan_table table;         /* S and A */
+  struct pulse *pulse;     /* lent; NULL, as at first: nobody is asked */
+  struct scan_table table; /* S and A */
   ARRAY(struct watkins_edge) edge; /* one an edge of the table */
   ARRAY(struct watkins_facet) facet;
   watkins_list in;           /* H */
@@ -118,7 +118,7 @@ void watkins_fini(struct watkins *watkins);
  * Returns false when memory ran out. */
 USE_RESULT bool watkins_next(struct watkins *watkins, bool *more);
 
-/* ---- Depth -------------------------------------------------------------- */
+/* ---- Depth --------------------------------------------------------------- */
 
 /* The depth of an edge of A on the line. */
 double watkins_edge_depth(const struct watkins *watkins, uint32_t edge);
@@ -130,7 +130,7 @@ double watkins_depth(const struct watkins *watkins, uint32_t facet, double x);
  * than doubles can tell. */
 int watkins_compare(struct watkins *watkins, uint32_t f, uint32_t g, double x);
 
-/* ---- Ends of intervals -------------------------------------------------- */
+/* ---- Ends of intervals --------------------------------------------------- */
 
 /* Is the edge drawn from the ends of intervals?  Not one that runs along the
  * lines rather than across: its ends would be much further apart than the
@@ -144,7 +144,7 @@ bool watkins_is_steep(const struct sheet *sheet, uint32_t side);
 USE_RESULT bool watkins_show_ends(struct watkins *watkins, size_t first,
                                   size_t past, uint32_t left, uint32_t right);
 
-/* ---- An interval -------------------------------------------------------- */
+/* ---- An interval --------------------------------------------------------- */
 
 /* Decides what is seen between two edges of A, left strictly before right, of
  * the facets in H, and appends the pieces.  False when memory ran out. */

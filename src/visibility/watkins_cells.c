@@ -62,7 +62,7 @@ void cells_fini(struct cells *cells) {
   memset(cells, 0, sizeof *cells);
 }
 
-/* ---- Who may be seen ---------------------------------------------------- */
+/* ---- Who may be seen ----------------------------------------------------- */
 
 static struct cell_corner corner_at(const struct sweep_edge *edge, double y) {
   double slope = ((double)edge->x1 - edge->x0) / ((double)edge->y1 - edge->y0);
@@ -187,7 +187,7 @@ bool cells_take(void *user, const struct sweep *sweep,
 /* Of a trapezoid, in units of a pulse. */
 enum { PART_WORK = 32 };
 
-/* ---- Fragments ---------------------------------------------------------- */
+/* ---- Fragments ----------------------------------------------------------- */
 
 /* The pieces of one triangle at a time. */
 struct piece_work {
@@ -276,23 +276,23 @@ static bool file_triangle(struct piece_work *work, const struct sort_key *key,
                           size_t count) {
   const struct cell_part *all = work->cells->part.item;
   uint32_t triangle = all[key->value].triangle;
-  bool good = true;
+  bool ok = true;
   if (cells_leave(work->cells, triangle))
     return true;
   if (!work->cells->covered[triangle])
     return fragments_add_whole(work->fragments, triangle);
   work->piece.count = 0;
-  for (size_t i = 0; good && i < count; i++) {
+  for (size_t i = 0; ok && i < count; i++) {
     const struct cell_part *part = &all[key[i].value];
     struct geom_convex piece;
-    good = make_piece(work->sweep, part, &work->arena, &piece) &&
-           (part->count > 0 ? cut_part(work, part, &piece)
-                            : ARRAY_PUSH(&work->piece, piece));
+    ok = make_piece(work->sweep, part, &work->arena, &piece) &&
+         (part->count > 0 ? cut_part(work, part, &piece)
+                          : ARRAY_PUSH(&work->piece, piece));
   }
-  good = good && fragments_add(work->fragments, triangle, work->piece.item,
-                               work->piece.count);
+  ok = ok && fragments_add(work->fragments, triangle, work->piece.item,
+                           work->piece.count);
   arena_reset(&work->arena);
-  return good;
+  return ok;
 }
 
 /* The parts by their triangles; NULL when memory ran out. */
@@ -319,7 +319,7 @@ recto_status cells_finish(struct cells *cells, const struct sweep *sweep,
       .cells = cells, .sweep = sweep, .fragments = fragments};
   size_t count = cells->part.count;
   struct sort_key *key;
-  bool good;
+  bool ok;
   if (has_too_many(cells))
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "too much for watkins without a pitch: faces are cut "
@@ -327,17 +327,17 @@ recto_status cells_finish(struct cells *cells, const struct sweep *sweep,
                      "limit",
                      cells->most_pieces);
   key = sort_parts(cells);
-  good = key != NULL;
+  ok = key != NULL;
   cover_init(&work.cover, cells->sheet);
-  for (size_t i = 0, past; good && i < count; i = past) {
+  for (size_t i = 0, past; ok && i < count; i = past) {
     for (past = i + 1; past < count && key[past].key == key[i].key;)
       past++;
-    good = pulse_beat(fragments->pulse, PART_WORK * (past - i)) &&
-           file_triangle(&work, &key[i], past - i);
+    ok = pulse_beat(fragments->pulse, PART_WORK * (past - i)) &&
+         file_triangle(&work, &key[i], past - i);
   }
   mem_free(key);
   cover_fini(&work.cover);
   arena_fini(&work.arena);
   ARRAY_FREE(&work.piece);
-  return good ? RECTO_OK : pulse_error(fragments->pulse, error);
+  return ok ? RECTO_OK : pulse_error(fragments->pulse, error);
 }

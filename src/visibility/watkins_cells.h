@@ -33,8 +33,8 @@ struct cells {
   uint8_t *covered;         /* another may be seen somewhere before it */
   bool keep;                /* parts are kept, not only noted as seen */
   bool too_many;            /* a limit was met */
-  uint8_t *ties; /* one a triangle: parts it shares with others, so far */
-  size_t most_pieces;       /* CELLS_PIECES_MAX */
+  uint8_t *ties;      /* one a triangle: parts it shares with others, so far */
+  size_t most_pieces; /* CELLS_PIECES_MAX */
   ARRAY(struct cell_part) part;
   sweep_list tied;
   sweep_list candidate; /* scratch */

@@ -112,22 +112,22 @@ bool sweep_init(struct sweep *sweep, const struct sheet *sheet,
                 const uint8_t *kept, bool drawn) {
   size_t most = 3 * sheet->triangle.count + (drawn ? sheet->edge.count : 0);
   struct gathering g = {mem_alloc(2 * most, sizeof *g.key), 0};
-  bool good = g.key != NULL;
+  bool ok = g.key != NULL;
   memset(sweep, 0, sizeof *sweep);
   sweep->sheet = sheet;
   sweep->most_in = SWEEP_IN_MAX;
   sweep->most_places = SWEEP_PLACES_MAX;
-  if (good) {
+  if (ok) {
     list_keys(&g, sheet, kept, drawn);
     sort_keys(g.key, g.key + most, g.count);
   }
-  for (size_t i = 0, past; good && i < g.count; i = past) {
+  for (size_t i = 0, past; ok && i < g.count; i = past) {
     for (past = i + 1; past < g.count && g.key[past].key == g.key[i].key;)
       past++;
-    good = add_edges(sweep, &g.key[i], past - i);
+    ok = add_edges(sweep, &g.key[i], past - i);
   }
   mem_free(g.key);
-  return good && sort_ends(sweep);
+  return ok && sort_ends(sweep);
 }
 
 void sweep_fini(struct sweep *sweep) {

@@ -20,7 +20,7 @@
 /* At most so many lines and triangles that may hide something of them. */
 #define MEETINGS_MAX (1 << 24)
 
-/* ---- Meetings ----------------------------------------------------------- */
+/* ---- Meetings ------------------------------------------------------------ */
 
 /* Pairs of a line and a triangle beside it. */
 struct meetings {
@@ -84,7 +84,7 @@ static bool take_cell(void *user, const struct sweep *sweep,
   return cells_take(&((struct exact *)user)->cells, sweep, cell);
 }
 
-/* ---- Strokes ------------------------------------------------------------ */
+/* ---- Strokes ------------------------------------------------------------- */
 
 static bool file_edge(const struct sheet *sheet, uint32_t e,
                       const struct sort_key *pair, size_t count,
@@ -116,20 +116,18 @@ static bool file_line(struct exact *exact, const struct sheet *sheet,
   return strokes != NULL && strokes_file(strokes, e, map);
 }
 
-static recto_status file_strokes(struct exact *exact,
-                                 const struct sheet *sheet,
+static recto_status file_strokes(struct exact *exact, const struct sheet *sheet,
                                  const struct solver_request *request,
-                                 struct map *map,
-                                 struct report *report, recto_error *error) {
+                                 struct map *map, struct report *report,
+                                 recto_error *error) {
   struct meetings *meetings = &exact->meetings;
   const struct sort_key *pair;
   struct strokes strokes = {0};
   struct hide_counts counts = {0};
   struct pulse pulse = pulse_of(request, "edges");
   size_t i = 0, count;
-  bool good =
-      settle_pairs(meetings) && strokes_open_map(map, sheet->edge.count);
-  if (good && meetings->too_many)
+  bool ok = settle_pairs(meetings) && strokes_open_map(map, sheet->edge.count);
+  if (ok && meetings->too_many)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "too much for watkins without a pitch: lines have faces "
                      "beside them in more than %d pairs; -m auto has no such "
@@ -137,7 +135,7 @@ static recto_status file_strokes(struct exact *exact,
                      MEETINGS_MAX);
   pair = meetings->pair.item;
   count = meetings->pair.count;
-  for (uint32_t e = 0; good && e < sheet->edge.count; e++) {
+  for (uint32_t e = 0; ok && e < sheet->edge.count; e++) {
     const struct sort_key *own = count > 0 ? pair + i : NULL;
     const struct sheet_edge *edge = &sheet->edge.item[e];
     const struct geom_point *p = &sheet->point.item[edge->point[0]];
@@ -148,20 +146,19 @@ static recto_status file_strokes(struct exact *exact,
     if (edge->edge_class == 0 || (p->x == q->x && p->y == q->y))
       continue;
     if (!sweep_takes_line(sheet, e))
-      good = file_line(exact, sheet, request, e, map);
+      ok = file_line(exact, sheet, request, e, map);
     else
-      good =
-          pulse_beat(&pulse, i - first) &&
-          file_edge(sheet, e, own, i - first, &strokes, &counts, map);
+      ok = pulse_beat(&pulse, i - first) &&
+           file_edge(sheet, e, own, i - first, &strokes, &counts, map);
   }
   hide_report(&counts, report);
   report_int(report, "watkins", "faces_beside_lines", (int64_t)count);
   strokes_fini(&strokes);
   pulse.cancelled |= exact->pulse.cancelled;
-  return good ? RECTO_OK : pulse_error(&pulse, error);
+  return ok ? RECTO_OK : pulse_error(&pulse, error);
 }
 
-/* ---- Fragments ---------------------------------------------------------- */
+/* ---- Fragments ----------------------------------------------------------- */
 
 /* Hands in what is seen of the triangles left over. */
 static recto_status file_left_over(struct exact *exact,
@@ -170,16 +167,16 @@ static recto_status file_left_over(struct exact *exact,
                                    struct fragments *fragments,
                                    struct report *report, recto_error *error) {
   ARRAY(uint32_t) list = {0};
-  bool done = true;
-  for (uint32_t t = 0; done && t < sheet->triangle.count; t++)
+  bool ok = true;
+  for (uint32_t t = 0; ok && t < sheet->triangle.count; t++)
     if (cells_leave(&exact->cells, t))
-      done = ARRAY_PUSH(&list, t);
+      ok = ARRAY_PUSH(&list, t);
   report_int(report, "watkins", "left_over", (int64_t)list.count);
   if (list.count > 0)
-    done = done && need_undecided(exact, sheet, request) &&
-           undecided_faces(&exact->undecided, list.item, list.count, fragments);
+    ok = ok && need_undecided(exact, sheet, request) &&
+         undecided_faces(&exact->undecided, list.item, list.count, fragments);
   ARRAY_FREE(&list);
-  return done ? RECTO_OK : pulse_error(&exact->pulse, error);
+  return ok ? RECTO_OK : pulse_error(&exact->pulse, error);
 }
 
 /* Sweeps the triangles that were seen once more. */
@@ -220,7 +217,7 @@ static recto_status solve_fragments(struct exact *exact,
   return status;
 }
 
-/* ---- The solver --------------------------------------------------------- */
+/* ---- The solver ---------------------------------------------------------- */
 
 /* Sweeps all triangles and lines. */
 static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,

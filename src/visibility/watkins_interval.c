@@ -34,7 +34,7 @@
  * facets' depths are rounded to: a corner of the map is a multiple of it. */
 #define NARROWEST 0x1p-8
 
-/* ---- Depth -------------------------------------------------------------- */
+/* ---- Depth --------------------------------------------------------------- */
 
 double watkins_depth(const struct watkins *watkins, uint32_t facet, double x) {
   const struct watkins_facet *f = &watkins->facet.item[facet];
@@ -64,7 +64,7 @@ static bool is_clear(const struct watkins *watkins, uint32_t f, uint32_t g) {
          2 * tolerance(watkins, f, g);
 }
 
-/* ---- Order -------------------------------------------------------------- */
+/* ---- Order --------------------------------------------------------------- */
 
 /* Puts H into the order of depth at x, nearest first, exact ties by index; the
  * result does not depend on the order before. */
@@ -172,7 +172,7 @@ static bool cut_interval(struct watkins *watkins, uint32_t left, uint32_t right,
   return true;
 }
 
-/* ---- Coherence ---------------------------------------------------------- */
+/* ---- Coherence ----------------------------------------------------------- */
 
 /* For how many lines a difference that is `apart` now and changes by `change`
  * a line keeps its sign, with a margin: below half the tolerance it stays a
@@ -277,7 +277,7 @@ static const struct watkins_record *find_record(const struct watkins *watkins,
   return record;
 }
 
-/* ---- The interval ------------------------------------------------------- */
+/* ---- The interval -------------------------------------------------------- */
 
 static bool decide_anew(struct watkins *watkins, uint32_t left,
                         uint32_t right) {

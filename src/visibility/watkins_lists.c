@@ -30,7 +30,7 @@ recto_status watkins_grid(struct scan_grid *grid, const struct sheet *sheet,
   return RECTO_OK;
 }
 
-/* ---- S ------------------------------------------------------------------ */
+/* ---- S ------------------------------------------------------------------- */
 
 /* A facet is gentle where its plane's depth changes by no more than this over
  * the page and its lines. */
@@ -185,17 +185,17 @@ static bool add_edges(struct watkins *watkins, const struct facets *facets) {
       .point = mem_alloc(points, sizeof *g.point),
       .first = mem_alloc(points, sizeof *g.first),
   };
-  bool good = g.point != NULL && g.first != NULL;
-  for (size_t i = 0; good && i < points; i++) {
+  bool ok = g.point != NULL && g.first != NULL;
+  for (size_t i = 0; ok && i < points; i++) {
     g.point[i] = scan_point_of(&watkins->table.grid, sheet->point.item[i].x,
                                sheet->point.item[i].y);
     g.first[i] = WATKINS_NONE;
   }
-  good = good && add_facets(watkins, &g, facets);
+  ok = ok && add_facets(watkins, &g, facets);
   mem_free(g.point);
   mem_free(g.first);
   ARRAY_FREE(&g.seam);
-  return good;
+  return ok;
 }
 
 bool watkins_init(struct watkins *watkins, const struct sheet *sheet,
@@ -224,7 +224,7 @@ void watkins_fini(struct watkins *watkins) {
   }
 }
 
-/* ---- A line ------------------------------------------------------------- */
+/* ---- A line -------------------------------------------------------------- */
 
 double watkins_edge_depth(const struct watkins *watkins, uint32_t edge) {
   const struct watkins_edge *e = &watkins->edge.item[edge];

@@ -82,7 +82,7 @@ bool sweep_crossing(const struct sweep_edge *a, const struct sweep_edge *b,
   return true;
 }
 
-/* ---- The crossings ahead ------------------------------------------------ */
+/* ---- The crossings ahead ------------------------------------------------- */
 
 bool sweep_add_crossing(struct sweep *sweep, const struct sweep_place *place) {
   size_t at = sweep->crossing.count;

@@ -5,10 +5,10 @@
 
 #include "visibility/pulse.h"
 
-#define PLACE_WORK 8   /* in units of a pulse */
-#define FEW 16         /* edges at a place that are sorted by insertion */
+#define PLACE_WORK 8 /* in units of a pulse */
+#define FEW 16       /* edges at a place that are sorted by insertion */
 
-/* ---- A place ------------------------------------------------------------ */
+/* ---- A place ------------------------------------------------------------- */
 
 /* Takes the first of the places ahead; the edges that start there are
  * `starting`.  False: there is none, or memory ran out. */
@@ -178,7 +178,7 @@ static bool watch_neighbours(struct sweep *sweep, size_t left) {
   return sweep_add_crossing(sweep, &place);
 }
 
-/* ---- What may hide a line ----------------------------------------------- */
+/* ---- What may hide a line ------------------------------------------------ */
 
 /* Adds the triangles that begin or end at some of the edges to `around`. */
 static bool list_around(struct sweep *sweep, const uint32_t *edge,
@@ -218,7 +218,7 @@ static bool meet_triangles(struct sweep *sweep, size_t low) {
   return true;
 }
 
-/* ---- The walk ----------------------------------------------------------- */
+/* ---- The walk ------------------------------------------------------------ */
 
 static bool pass_place(struct sweep *sweep, const struct sweep_place *place,
                        struct pulse *pulse) {
@@ -281,7 +281,6 @@ recto_status sweep_run(struct sweep *sweep,
     sweep->places++;
     if (sweep->places > sweep->most_places || sweep->in > sweep->most_in)
       return refuse(sweep, error);
-    pulse.share =
-        from + (to - from) * (double)sweep->met / (double)sweep->ends;
+    pulse.share = from + (to - from) * (double)sweep->met / (double)sweep->ends;
   }
 }

@@ -104,7 +104,7 @@ USE_RESULT recto_status sweep_run(struct sweep *sweep,
                                   const struct solver_request *request,
                                   double from, double to, recto_error *error);
 
-/* ---- Places ------------------------------------------------------------- */
+/* ---- Places -------------------------------------------------------------- */
 
 struct sweep_place sweep_place_at(int32_t x, int32_t y);
 

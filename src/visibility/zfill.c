@@ -48,7 +48,7 @@ void zfill_settle(struct raster *raster, uint32_t facet, int32_t line,
   }
 }
 
-/* ---- Triangles ---------------------------------------------------------- */
+/* ---- Triangles ----------------------------------------------------------- */
 
 enum { LINES = 32 }; /* walked at a time */
 

@@ -29,7 +29,7 @@ void zfill_plane_init(struct zfill_plane *plane, const struct raster *raster,
 bool zfill_is_nearer(const struct raster *raster, uint32_t facet,
                      uint32_t there, int32_t column, int32_t line);
 
-/* ---- Spans -------------------------------------------------------------- */
+/* ---- Spans --------------------------------------------------------------- */
 
 #define ZFILL_LANES 4 /* pixels put into the frame at once, needed or not */
 _Static_assert(ZFILL_LANES - 1 <= RASTER_SPARE, "lanes end within the frame");
@@ -128,7 +128,7 @@ static inline void zfill_span(struct raster *raster, uint32_t facet,
     zfill_settle(raster, facet, line, first, past, z, per_column);
 }
 
-/* ---- Triangles ---------------------------------------------------------- */
+/* ---- Triangles ----------------------------------------------------------- */
 
 /* Puts a triangle of the sheet that is not flat into a frame of float64 depths
  * that holds all lines.

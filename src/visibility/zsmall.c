@@ -173,7 +173,7 @@ static double find_rows(struct rows *rows, const struct sides *sides,
   return unclear;
 }
 
-/* ---- Pixels ------------------------------------------------------------- */
+/* ---- Pixels -------------------------------------------------------------- */
 
 /* Puts all lines into the frame.
  * close    gets whether doubles could not tell somewhere

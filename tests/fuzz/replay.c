@@ -162,7 +162,7 @@ static bool still_found(const struct fuzz_target *target,
 static bool cut(const struct fuzz_target *target, struct bytes *bytes,
                 size_t count, const char *kind) {
   static struct bytes trial;
-  bool done = false;
+  bool ok = false;
   for (size_t at = bytes->count; at >= count; at--) {
     trial.count = bytes->count - count;
     memcpy(trial.item, bytes->item, at - count);
@@ -170,28 +170,28 @@ static bool cut(const struct fuzz_target *target, struct bytes *bytes,
     if (!still_found(target, &trial, kind))
       continue;
     *bytes = trial;
-    done = true;
+    ok = true;
     at = at > bytes->count ? bytes->count + 1 : at;
   }
-  return done;
+  return ok;
 }
 
 /* Sets bytes to 0, or else lowers them; whether any could be. */
 static bool lower(const struct fuzz_target *target, struct bytes *bytes,
                   const char *kind) {
-  bool done = false;
+  bool ok = false;
   for (size_t i = 0; i < bytes->count; i++)
     for (unsigned value = 0; value < bytes->item[i]; value++) {
       uint8_t old = bytes->item[i];
       bytes->item[i] = (uint8_t)value;
       if (still_found(target, bytes, kind)) {
-        done = true;
+        ok = true;
         break;
       }
       bytes->item[i] = old;
       value = value < 32 ? value : old;
     }
-  return done;
+  return ok;
 }
 
 static int minimise(const struct fuzz_target *target, const char *from,
@@ -203,13 +203,13 @@ static int minimise(const struct fuzz_target *target, const char *from,
   snprintf(kind, sizeof kind, "%s", find(target, &bytes));
   if (*kind == '\0')
     fail("nothing is found", from);
-  bool done;
+  bool ok;
   do {
-    done = false;
+    ok = false;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
-      done |= cut(target, &bytes, sizes[i], kind);
-    done |= lower(target, &bytes, kind);
-  } while (done);
+      ok |= cut(target, &bytes, sizes[i], kind);
+    ok |= lower(target, &bytes, kind);
+  } while (ok);
   save(&bytes, to);
   printf("%s: %zu bytes: %s\n", to, bytes.count, find(target, &bytes));
   return 0;

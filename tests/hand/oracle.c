@@ -68,8 +68,7 @@ static uint32_t owner_of(const struct sheet *sheet, bool contact,
   return nearest;
 }
 
-/* ---- Areas: slabs between all crossings
- * -------------------------------------- */
+/* ---- Areas: slabs between all crossings ---------------------------------- */
 
 struct lines {
   struct rational_line *item;
@@ -230,8 +229,7 @@ void oracle_areas(const struct sheet *sheet, bool contact, mpq_t *area2,
   free(lines.item);
 }
 
-/* ---- Edges
- * ---------------------------------------------------------------------- */
+/* ---- Edges --------------------------------------------------------------- */
 
 static void point_on_edge(struct rational_point *to, struct geom_point p,
                           struct geom_point q, const mpq_t t) {

@@ -18,7 +18,7 @@ const struct pixels_scene pixels_two_rectangles = {
      {4, {{5, 12, 10}, {5, 20, 10}, {27, 20, 10}, {27, 12, 10}}},
      {3, {{15, 15, 25}, {25, 25, 5}, {30, 10, 5}}}}};
 
-/* ---- Random scenes ------------------------------------------------------ */
+/* ---- Random scenes ------------------------------------------------------- */
 
 static bool has_area(const struct pixels_face *face) {
   const int(*c)[3] = face->corner;
@@ -63,7 +63,7 @@ void pixels_sheet(struct sheet *sheet, const struct pixels_scene *scene) {
   }
 }
 
-/* ---- What is seen ------------------------------------------------------- */
+/* ---- What is seen -------------------------------------------------------- */
 
 /* Lengths are in units of 1 / (2 lines), in which centres are whole. */
 struct place {
@@ -135,7 +135,7 @@ int pixels_seen(const struct pixels_scene *scene, int lines, int column,
   return seen;
 }
 
-/* ---- The worked frames -------------------------------------------------- */
+/* ---- The worked frames --------------------------------------------------- */
 
 /* Runs of pixels as pairs (how many, which), line by line from line `top`
  * down; outside them nothing is seen. */

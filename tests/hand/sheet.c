@@ -27,7 +27,8 @@ void hand_sheet_fini(struct sheet *sheet) {
 
 static uint32_t add_point(struct sheet *sheet, struct geom_point p) {
   for (size_t i = 0; i < sheet->point.count; i++)
-    if (geom_same_point(sheet->point.item[i], p)) return (uint32_t)i;
+    if (geom_same_point(sheet->point.item[i], p))
+      return (uint32_t)i;
   assert_true(ARRAY_PUSH(&sheet->point, p));
   return (uint32_t)sheet->point.count - 1;
 }
@@ -41,7 +42,8 @@ static uint32_t add_edge(struct sheet *sheet, uint32_t a, uint32_t b,
     struct sheet_edge *e = &sheet->edge.item[i];
     if ((e->point[0] == a && e->point[1] == b) ||
         (e->point[0] == b && e->point[1] == a)) {
-      if (e->triangle[1] == SHEET_NONE) e->triangle[1] = triangle;
+      if (e->triangle[1] == SHEET_NONE)
+        e->triangle[1] = triangle;
       e->edge_class = RECTO_EDGE_SMOOTH;
       e->part++; /* how many more faces use it */
       return (uint32_t)i;
@@ -61,22 +63,23 @@ static void add_triangle(struct sheet *sheet, const uint32_t p[3],
   for (int k = 0; k < 3; k++) {
     int from = area < 0 ? (3 - k) % 3 : k, side = area < 0 ? 2 - k : k;
     t.point[k] = p[from];
-    t.side[k] = own[side]
-                    ? add_edge(sheet, p[side], p[(side + 1) % 3], id)
-                    : SHEET_NONE;
+    t.side[k] = own[side] ? add_edge(sheet, p[side], p[(side + 1) % 3], id)
+                          : SHEET_NONE;
   }
   assert_true(ARRAY_PUSH(&sheet->triangle, t));
   sheet->triangle_flags =
       mem_resize(sheet->triangle_flags, sheet->triangle.count, 1);
-  sheet->triangle_flags[id] =
-      (uint8_t)(area == 0 ? SHEET_FLAT : area < 0 ? SHEET_FLIPPED : 0);
+  sheet->triangle_flags[id] = (uint8_t)(area == 0  ? SHEET_FLAT
+                                        : area < 0 ? SHEET_FLIPPED
+                                                   : 0);
 }
 
 void hand_add_face(struct sheet *sheet, const int corner[][3], int count,
                    int scale) {
-  uint32_t face = sheet->triangle.count == 0
-                      ? 0
-                      : sheet->triangle.item[sheet->triangle.count - 1].face + 1;
+  uint32_t face =
+      sheet->triangle.count == 0
+          ? 0
+          : sheet->triangle.item[sheet->triangle.count - 1].face + 1;
   uint32_t point[16], *group;
   assert_true(count <= 16);
   for (int k = 0; k < count; k++)
@@ -111,7 +114,8 @@ static void find_contours(struct sheet *sheet) {
     if (e->part == 1) {
       int64_t a = third_side(sheet, e->point, e->triangle[0]),
               b = third_side(sheet, e->point, e->triangle[1]);
-      if ((a < 0 && b > 0) || (a > 0 && b < 0)) continue;
+      if ((a < 0 && b > 0) || (a > 0 && b < 0))
+        continue;
     }
     assert_true(ARRAY_PUSH(&sheet->contour, contour));
   }
@@ -125,8 +129,7 @@ void hand_solve(const struct solver *solver, struct sheet *sheet,
                                          .intersections = true,
                                          .threads = 1,
                                          .pitch_mm = solver->exact ? 0 : 1,
-                                         .resolution =
-                                             solver->exact ? 0 : 256};
+                                         .resolution = solver->exact ? 0 : 256};
   assert_int_equal(hand_solve_as(solver, &request, sheet, map, report),
                    RECTO_OK);
 }
@@ -143,7 +146,8 @@ recto_status hand_solve_as(const struct solver *solver,
 
 #define ASSERT_SAME(a, b, what)                                                \
   do {                                                                         \
-    if ((a) != (b)) fail_msg("%s: %s differ", what, #a);                       \
+    if ((a) != (b))                                                            \
+      fail_msg("%s: %s differ", what, #a);                                     \
   } while (0)
 
 static void assert_same_strokes(const struct map *a, const struct map *b,
@@ -156,9 +160,9 @@ static void assert_same_strokes(const struct map *a, const struct map *b,
   ASSERT_SAME(a->mixed.count, b->mixed.count, what);
   ASSERT_SAME(a->interval.count, b->interval.count, what);
   for (size_t m = 0; m < a->mixed.count; m++)
-    ASSERT_SAME(memcmp(&a->mixed.item[m], &b->mixed.item[m],
-                       sizeof a->mixed.item[m]),
-                0, what);
+    ASSERT_SAME(
+        memcmp(&a->mixed.item[m], &b->mixed.item[m], sizeof a->mixed.item[m]),
+        0, what);
   for (size_t i = 0; i < a->interval.count; i++) {
     const struct map_interval *p = &a->interval.item[i],
                               *q = &b->interval.item[i];
@@ -205,8 +209,7 @@ void hand_add_area2(mpq_t sum, const struct map *map, size_t fragment) {
     add_loop(sum, map, &map->loop.item[l]);
 }
 
-bool hand_same_area(const struct map *a, const struct map *b,
-                    size_t fragment) {
+bool hand_same_area(const struct map *a, const struct map *b, size_t fragment) {
   mpq_t p, q;
   bool same;
   mpq_inits(p, q, NULL);
@@ -247,7 +250,8 @@ void hand_assert_same_map(const struct map *a, const struct map *b,
 
 /* The next edge from `e` on that is seen somewhere. */
 static size_t next_seen(const struct map *map, size_t e) {
-  while (e < map->edge_count && map->edge_state[e] == MAP_HIDDEN) e++;
+  while (e < map->edge_count && map->edge_state[e] == MAP_HIDDEN)
+    e++;
   return e;
 }
 
@@ -285,8 +289,8 @@ void hand_assert_visible_same(const struct map *a, const struct sheet *sa,
   assert_same_fragments(a, b, what);
 }
 
-void hand_assert_area(const struct map *map, uint32_t face, int scale,
-                      long num, unsigned long den) {
+void hand_assert_area(const struct map *map, uint32_t face, int scale, long num,
+                      unsigned long den) {
   mpq_t sum, want;
   mpq_inits(sum, want, NULL);
   for (size_t f = 0; f < map->fragment.count; f++)

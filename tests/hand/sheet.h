@@ -43,8 +43,8 @@ void hand_assert_visible_same(const struct map *a, const struct sheet *sa,
 void hand_add_area2(mpq_t sum, const struct map *map, size_t fragment);
 /* Are two fragments of the same area? */
 bool hand_same_area(const struct map *a, const struct map *b, size_t fragment);
-void hand_assert_area(const struct map *map, uint32_t face, int scale,
-                      long num, unsigned long den);
+void hand_assert_area(const struct map *map, uint32_t face, int scale, long num,
+                      unsigned long den);
 
 /* A reproducible sequence (splitmix64). */
 uint64_t hand_random(uint64_t *state);

@@ -6,8 +6,8 @@
 
 #include "judge/edges.h"
 
-static void require(bool good) {
-  if (!good) {
+static void require(bool ok) {
+  if (!ok) {
     fputs("raster: out of memory\n", stderr);
     abort();
   }
@@ -124,8 +124,7 @@ void judge_raster_scene(struct judge_raster *raster, const struct scene *scene,
   mem_free(depth);
 }
 
-/* ---- Regions ---------------------------------------------------------------
- */
+/* ---- Regions ------------------------------------------------------------- */
 
 static int compare_numbers(const void *a, const void *b) {
   const double *x = a, *y = b;

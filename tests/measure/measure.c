@@ -38,7 +38,7 @@ struct cells {
   uint32_t now;
 };
 
-/* ---- Areas -------------------------------------------------------------- */
+/* ---- Areas --------------------------------------------------------------- */
 
 static double loop_area(const struct place *p, size_t count) {
   double twice = 0;
@@ -117,7 +117,7 @@ static bool add_common(struct clipper *clipper, uint32_t fragment,
   return true;
 }
 
-/* ---- Pairs -------------------------------------------------------------- */
+/* ---- Pairs --------------------------------------------------------------- */
 
 static struct box box_of(const struct map *map, size_t fragment) {
   const struct map_loop *loop =
@@ -170,16 +170,16 @@ static struct cells *make_cells(const struct sheet *sheet,
   cells->page.y0 = -cells->page.y1;
   cells->box = mem_alloc(count, sizeof *cells->box);
   cells->asked = mem_calloc(count, sizeof *cells->asked);
-  bool good = cells->box != NULL && cells->asked != NULL;
-  for (size_t f = 0; good && f < count; f++) {
+  bool ok = cells->box != NULL && cells->asked != NULL;
+  for (size_t f = 0; ok && f < count; f++) {
     int range[4];
     cells->box[f] = box_of(map, f);
     find_cells(cells, &cells->box[f], range);
     for (int y = range[1]; y <= range[3]; y++)
       for (int x = range[0]; x <= range[2]; x++)
-        good = good && ARRAY_PUSH(&cells->list[y * CELLS + x], (uint32_t)f);
+        ok = ok && ARRAY_PUSH(&cells->list[y * CELLS + x], (uint32_t)f);
   }
-  if (!good) {
+  if (!ok) {
     free_cells(cells);
     return NULL;
   }
@@ -268,11 +268,11 @@ static bool meet_maps(const struct sheet *sheet, const struct map *map,
                       double *both) {
   struct clipper clipper = {.map = map, .other = other};
   clipper.cells = make_cells(sheet, other);
-  bool good = clipper.cells != NULL;
+  bool ok = clipper.cells != NULL;
   *right = *both = 0;
-  for (size_t f = 0; good && f < map->fragment.count; f++) {
+  for (size_t f = 0; ok && f < map->fragment.count; f++) {
     clipper.from = later ? (uint32_t)f + 1 : 0;
-    good = meet_fragment(&clipper, f, right, both);
+    ok = meet_fragment(&clipper, f, right, both);
   }
   ARRAY_FREE(&clipper.convex);
   ARRAY_FREE(&clipper.loop);
@@ -280,7 +280,7 @@ static bool meet_maps(const struct sheet *sheet, const struct map *map,
   free_cells(clipper.cells);
   *right /= mm2;
   *both /= mm2;
-  return good;
+  return ok;
 }
 
 double measure_fragment_area(const struct map *map, size_t fragment) {
@@ -318,7 +318,7 @@ static bool measure_areas(struct measure *measure, const struct sheet *sheet,
   return true;
 }
 
-/* ---- Ink ---------------------------------------------------------------- */
+/* ---- Ink ----------------------------------------------------------------- */
 
 static const struct map_interval whole = {{0, 1}, {1, 1}};
 
@@ -382,7 +382,7 @@ static void measure_ink(struct measure *measure, const struct sheet *sheet,
   }
 }
 
-/* ---- Both --------------------------------------------------------------- */
+/* ---- Both ---------------------------------------------------------------- */
 
 double measure_area_share(const struct measure *measure) {
   return (measure->wrong_face + measure->missing_area + measure->false_area) /

@@ -8,8 +8,8 @@
 
 #include "tests/scenes/random.h"
 
-void build_require(bool good) {
-  if (good)
+void build_require(bool ok) {
+  if (ok)
     return;
   fputs("scenes: out of memory\n", stderr);
   abort();

@@ -30,7 +30,7 @@ static inline double vector_dot(struct vector a, struct vector b) {
 }
 
 /* Ends the program unless `good`: memory ran out. */
-void build_require(bool good);
+void build_require(bool ok);
 
 /* Starts (or goes on with) the group `name`. */
 void build_group(struct scene *scene, const char *name);

@@ -5,8 +5,7 @@
 #include "tests/scenes/random.h"
 #include "tests/scenes/scenes.h"
 
-static struct vector moved(struct vector at, double by,
-                           struct random *random) {
+static struct vector moved(struct vector at, double by, struct random *random) {
   return vector_of(at.x + random_between(random, -by, by),
                    at.y + random_between(random, -by, by),
                    at.z + random_between(random, -by, by));
@@ -14,8 +13,9 @@ static struct vector moved(struct vector at, double by,
 
 void scenes_copies(struct scene *scene, recto_options *options, unsigned n,
                    bool pierced, double by) {
-  const struct vector at[2][3] = {{{0, 0, 0}, {1, 0, 0.3}, {0.2, 1, 0.7}},
-                                  {{0.2, 0.1, 1}, {0.7, 0.1, -1}, {0.5, 0.8, 0.1}}};
+  const struct vector at[2][3] = {
+      {{0, 0, 0}, {1, 0, 0.3}, {0.2, 1, 0.7}},
+      {{0.2, 0.1, 1}, {0.7, 0.1, -1}, {0.5, 0.8, 0.1}}};
   struct random random = {n};
   for (unsigned i = 0; i < n; i++) {
     const struct vector *corner = at[pierced && i % 2];

@@ -5,8 +5,7 @@
 #include "tests/scenes/random.h"
 #include "tests/scenes/scenes.h"
 
-/* ---- Honeycomb ------------------------------------------------------------
- */
+/* ---- Honeycomb ----------------------------------------------------------- */
 
 /* Corners of hexagons lie on a lattice of half a width by half a side; both
  * layers of it, and the corners of the holes, are found by number. */
@@ -109,8 +108,7 @@ void scenes_honeycomb(struct scene *scene, recto_options *options, unsigned n) {
   scenes_view_direction(options, 27, 41);
 }
 
-/* ---- Menger sponge
- * ----------------------------------------------------------- */
+/* ---- Menger sponge ------------------------------------------------------- */
 
 /* Whether the small cube at x y z of 3^level a side is part of the sponge. */
 static bool is_solid(int x, int y, int z, int side) {
@@ -176,8 +174,7 @@ void scenes_menger(struct scene *scene, recto_options *options,
   scenes_view_direction(options, 33, 29);
 }
 
-/* ---- The others
- * ----------------------------------------------------------------- */
+/* ---- The others ---------------------------------------------------------- */
 
 void scenes_lattice(struct scene *scene, recto_options *options, unsigned n) {
   build_group(scene, "under");

@@ -39,8 +39,7 @@ void scenes_view_above(recto_options *options);
 void scenes_view_page(recto_options *options, double width_mm,
                       double height_mm);
 
-/* ---- Solids and contact (rows 1, 3 and contact) ---------------------------
- */
+/* ---- Solids and contact (rows 1, 3 and contact) -------------------------- */
 
 /* The unit cube, turned about z by `radians`; seen from a generic corner. */
 void scenes_cube(struct scene *scene, recto_options *options, double radians);
@@ -61,8 +60,7 @@ void scenes_cube_stack(struct scene *scene, recto_options *options, unsigned n,
 void scenes_touching_boxes(struct scene *scene, recto_options *options,
                            double radians);
 
-/* ---- Eyes in odd places (row 2) -------------------------------------------
- */
+/* ---- Eyes in odd places (row 2) ------------------------------------------ */
 
 enum scenes_eye {
   SCENES_EYE_INSIDE,   /* in the middle of the room */
@@ -77,8 +75,7 @@ enum scenes_eye {
 void scenes_room(struct scene *scene, recto_options *options,
                  enum scenes_eye eye);
 
-/* ---- Degenerate faces (row 4, 30) ------------------------------------------
- */
+/* ---- Degenerate faces (row 4, 30) ---------------------------------------- */
 
 enum scenes_flaw {
   SCENES_FLAW_EDGE_ON,
@@ -95,8 +92,7 @@ void scenes_flaw(struct scene *scene, recto_options *options,
 /* n bars, each thinner than the one before by a third. */
 void scenes_thin_bars(struct scene *scene, recto_options *options, unsigned n);
 
-/* ---- Piercing (row 5) -------------------------------------------------------
- */
+/* ---- Piercing (row 5) ---------------------------------------------------- */
 
 void scenes_crossed_boxes(struct scene *scene, recto_options *options);
 void scenes_three_sheets(struct scene *scene, recto_options *options);
@@ -107,8 +103,7 @@ void scenes_pierced_along_diagonal(struct scene *scene, recto_options *options);
 /* A closed tube bent so that it runs through itself. */
 void scenes_self_intersecting(struct scene *scene, recto_options *options);
 
-/* ---- Cycles (row 6)
- * ---------------------------------------------------------- */
+/* ---- Cycles (row 6) ------------------------------------------------------ */
 
 /* n >= 3 flat bars that overlap in a ring, none of them rearmost. */
 void scenes_cycle(struct scene *scene, recto_options *options, unsigned n);
@@ -122,8 +117,7 @@ void scenes_cycle_field(struct scene *scene, recto_options *options,
 void scenes_sticks(struct scene *scene, recto_options *options, unsigned n,
                    uint64_t seed);
 
-/* ---- Large under small, coplanar, doubled (rows 7, 8)
- * ------------------------- */
+/* ---- Large under small, coplanar, doubled (rows 7, 8) -------------------- */
 
 void scenes_large_table(struct scene *scene, recto_options *options);
 /* Overlapping faces in one plane, in three groups. */
@@ -133,8 +127,7 @@ void scenes_doubled(struct scene *scene, recto_options *options);
 /* One plane in two colours that meet along a line, as a checked board. */
 void scenes_two_colours(struct scene *scene, recto_options *options);
 
-/* ---- Meshes as they come (rows 9, 10, 12, 13, 15)
- * ------------------------------ */
+/* ---- Meshes as they come (rows 9, 10, 12, 13, 15) ------------------------ */
 
 /* n x n quads beside one row of quads half as wide: hanging vertices. */
 void scenes_t_junctions(struct scene *scene, recto_options *options,
@@ -151,8 +144,7 @@ void scenes_box_square_on(struct scene *scene, recto_options *options);
 void scenes_collinear_edges(struct scene *scene, recto_options *options,
                             unsigned n);
 
-/* ---- Size (rows 16, 17, 18, 29)
- * ------------------------------------------------- */
+/* ---- Size (rows 16, 17, 18, 29) ------------------------------------------ */
 
 /* A plate with n x n hexagonal holes. */
 void scenes_honeycomb(struct scene *scene, recto_options *options, unsigned n);
@@ -197,8 +189,7 @@ void scenes_shells(struct scene *scene, recto_options *options, unsigned n,
 void scenes_soup(struct scene *scene, recto_options *options, unsigned n,
                  uint64_t seed);
 
-/* ---- Surfaces and nearness (rows 20, 21, 27, 28)
- * ---------------------------------- */
+/* ---- Surfaces and nearness (rows 20, 21, 27, 28) ------------------------- */
 
 /* z = x^2 + y^2 over n x n cells. */
 void scenes_paraboloid(struct scene *scene, recto_options *options, unsigned n);
@@ -210,8 +201,7 @@ void scenes_near_sheets(struct scene *scene, recto_options *options,
 /* Two plates a slit of `width_mm` apart before a long edge; true scale. */
 void scenes_slit(struct scene *scene, recto_options *options, double width_mm);
 
-/* ---- True scale (rows 11, 24)
- * ------------------------------------------------------ */
+/* ---- True scale (rows 11, 24) -------------------------------------------- */
 
 /* A square of 100 mm as a wire, on A4. */
 void scenes_calibration_square(struct scene *scene, recto_options *options);
@@ -221,8 +211,7 @@ void scenes_calibration_grid(struct scene *scene, recto_options *options);
 void scenes_white_square(struct scene *scene, recto_options *options,
                          unsigned n);
 
-/* ---- Worked examples
- * ------------------------------------------------------------------ */
+/* ---- Worked examples ----------------------------------------------------- */
 
 /* Each on a page of 32 x 32 mm, page mm = scene x and y, depth = scene z.
  * Faces in order: the rectangle, the triangle. */
@@ -230,15 +219,13 @@ void scenes_pierced_rectangle(struct scene *scene, recto_options *options);
 /* Faces in order: 1, 2 (rectangles), 3 (triangle). */
 void scenes_two_rectangles(struct scene *scene, recto_options *options);
 
-/* ---- Random small scenes
- * ----------------------------------------------------------------- */
+/* ---- Random small scenes ------------------------------------------------- */
 
 /* 2 to 12 faces on small whole coordinates: touching, coplanar, piercing,
  * cyclic and edge-on, from an axis or a generic camera. */
 void scenes_small(struct scene *scene, recto_options *options, uint64_t seed);
 
-/* ---- Faulty files (row 19)
- * ------------------------------------------------------------------ */
+/* ---- Faulty files (row 19) ----------------------------------------------- */
 
 struct scenes_faulty {
   const char *name;

@@ -87,8 +87,7 @@ static struct vector at(const struct subdivision *sub, uint32_t point) {
   return vector_of(p->x, p->y, p->z);
 }
 
-/* ---- New places ------------------------------------------------------------
- */
+/* ---- New places ---------------------------------------------------------- */
 
 static void add_middles(struct subdivision *sub, enum subdivide_rule rule) {
   for (size_t i = 0; i < sub->edges; i++) {
