@@ -7,7 +7,7 @@
 #define BACKENDS_WRITER_H
 
 #include "base/stream.h"
-#include "ink/drawing.h"
+#include "drawing/drawing.h"
 
 struct writer_options {
   int precision;            /* decimals of a millimetre in text formats */

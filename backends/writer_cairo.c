@@ -142,11 +142,11 @@ static cairo_status_t pass_png(void *closure, const unsigned char *bytes,
 
 /* ---- What of the page is shown ------------------------------------------- */
 
-struct window {
+struct crop_window {
   double x0, y0, x1, y1; /* page mm */
 };
 
-static void include_points(struct window *window,
+static void include_points(struct crop_window *window,
                            const struct drawing_point *point, uint32_t count,
                            double reach) {
   for (uint32_t i = 0; i < count; i++) {
@@ -159,9 +159,10 @@ static void include_points(struct window *window,
 
 /* The box of the ink: with round caps and joins, half a pen around the points
  * is exact. */
-static struct window find_window(const struct drawing *drawing, bool tight) {
-  struct window page = {0, 0, drawing->width_mm, drawing->height_mm};
-  struct window ink = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+static struct crop_window find_window(const struct drawing *drawing,
+                                      bool tight) {
+  struct crop_window page = {0, 0, drawing->width_mm, drawing->height_mm};
+  struct crop_window ink = {INFINITY, INFINITY, -INFINITY, -INFINITY};
   for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     include_points(&ink, drawing->point.item + stroke->point, stroke->count,
@@ -239,7 +240,7 @@ static void draw_layer(cairo_t *cr, const struct drawing *drawing,
  * lower left corner at 0, `foot`. */
 static cairo_status_t draw(cairo_surface_t *surface,
                            const struct drawing *drawing,
-                           const struct window *window, double scale,
+                           const struct crop_window *window, double scale,
                            double foot, bool on_white) {
   cairo_t *cr = cairo_create(surface);
   cairo_matrix_t matrix;
@@ -292,7 +293,7 @@ static recto_status write_vector(const struct drawing *drawing,
                                  struct stream *stream, recto_error *error,
                                  open_surface *open) {
   const double scale = POINTS_PER_INCH / MM_PER_INCH;
-  struct window window = find_window(drawing, options->tight);
+  struct crop_window window = find_window(drawing, options->tight);
   struct sink sink = {.stream = stream,
                       .in_header = true,
                       .width_pt = page_points(window.x1 - window.x0),
@@ -370,7 +371,7 @@ static recto_status write_png(const struct drawing *drawing,
   if (!(dpi > 0 && dpi < INFINITY))
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "a resolution is more than 0 dots per inch");
-  struct window window = find_window(drawing, options->tight);
+  struct crop_window window = find_window(drawing, options->tight);
   double width = pixels(window.x1 - window.x0, dpi, options->tight);
   double height = pixels(window.y1 - window.y0, dpi, options->tight);
   if (width > MAX_PIXELS_A_SIDE || height > MAX_PIXELS_A_SIDE ||

@@ -269,7 +269,7 @@ static bool write_seams(struct svg *svg, uint32_t layer) {
 
 /* What stands between <g> and </g> within a layer: lines or fills of one
  * class, for style sheets; one class costs a group, not a word a line. */
-struct style {
+struct svg_stroke_style {
   const char *word; /* NULL: none is open */
   double width_mm;
 };
@@ -281,7 +281,7 @@ static const char *class_of(const struct drawing_stroke *stroke) {
              : recto_edge_class_name((recto_edge_class)stroke->edge_class);
 }
 
-static void close_style(const struct svg *svg, struct style *style) {
+static void close_style(const struct svg *svg, struct svg_stroke_style *style) {
   if (style->word)
     stream_text(svg->out, "</g>\n");
   style->word = NULL;
@@ -289,7 +289,7 @@ static void close_style(const struct svg *svg, struct style *style) {
 
 /* Opens a group of that class unless it is open; its width is told where it
  * is not the layer's. */
-static void open_style(const struct svg *svg, struct style *style,
+static void open_style(const struct svg *svg, struct svg_stroke_style *style,
                        const char *word, double width_mm, double usual_mm) {
   if (style->word && strcmp(style->word, word) == 0 &&
       style->width_mm == width_mm)
@@ -302,14 +302,14 @@ static void open_style(const struct svg *svg, struct style *style,
     write_length(svg, width_mm);
   }
   stream_text(svg->out, "\">\n");
-  *style = (struct style){word, width_mm};
+  *style = (struct svg_stroke_style){word, width_mm};
 }
 
 /* The fills of a layer, then its strokes. */
 static bool write_contents(struct svg *svg, uint32_t index) {
   const struct drawing *drawing = svg->drawing;
   double width_mm = drawing->layer.item[index].width_mm;
-  struct style style = {NULL, 0};
+  struct svg_stroke_style style = {NULL, 0};
   bool ok = write_seams(svg, index);
   for (size_t i = 0; i < drawing->fill.count && ok; i++)
     if (drawing->fill.item[i].layer == index) {

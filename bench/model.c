@@ -7,6 +7,7 @@
 #include "base/stream.h"
 #include "bench/box.h"
 #include "tests/scenes/subdivide.h"
+#include "tests/scenes/write_obj.h"
 
 const char *const model_stage_name[MODEL_STAGES] = {
     "read", "edges", "camera", "sheet", "solve", "ink", "write"};

@@ -27,7 +27,7 @@ struct gear {
   struct spot foot;
   double thick; /* of the rim */
   double phase; /* angle of the middle of tooth 0 */
-  double bore, hub, rim;
+  double bore, hub, incidence;
 };
 
 static double involute(double cosine) {
@@ -96,7 +96,7 @@ static uint32_t add_outline(struct shape *shape, const struct gear *gear,
 
 /* Adds the flat faces of all teeth at one height, from the rim's ring. */
 static void add_teeth(struct shape *shape, const struct gear *gear,
-                      uint32_t outline, unsigned count, uint32_t rim,
+                      uint32_t outline, unsigned count, uint32_t incidence,
                       bool from_above) {
   uint32_t per_tooth = stations / gear->teeth, face[outline_max + stations];
   for (uint32_t i = 0; i < gear->teeth; i++) {
@@ -104,7 +104,7 @@ static void add_teeth(struct shape *shape, const struct gear *gear,
     for (uint32_t k = 0; k <= count; k++)
       face[n++] = outline + (i * count + k) % (gear->teeth * count);
     for (uint32_t k = 0; k <= per_tooth; k++)
-      face[n++] = rim + (i * per_tooth + per_tooth - k) % stations;
+      face[n++] = incidence + (i * per_tooth + per_tooth - k) % stations;
     for (unsigned k = 0; !from_above && k < n / 2; k++) {
       uint32_t swap = face[k];
       face[k] = face[n - 1 - k];
@@ -124,21 +124,26 @@ static bool is_open(const struct gear *gear, uint32_t station) {
 
 /* Adds the web between hub and rim: full, or spokes with their sides. */
 static void add_web(struct shape *shape, const struct gear *gear,
-                    const uint32_t hub[2], const uint32_t rim[2]) {
+                    const uint32_t hub[2], const uint32_t incidence[2]) {
   for (uint32_t i = 0; i < stations; i++) {
     uint32_t k = (i + 1) % stations;
     uint32_t before = (i + stations - 1) % stations;
     if (is_open(gear, i)) {
       shape_quad(shape, hub[0] + i, hub[0] + k, hub[1] + k, hub[1] + i);
-      shape_quad(shape, rim[0] + k, rim[0] + i, rim[1] + i, rim[1] + k);
+      shape_quad(shape, incidence[0] + k, incidence[0] + i, incidence[1] + i,
+                 incidence[1] + k);
     } else {
-      shape_quad(shape, hub[1] + i, rim[1] + i, rim[1] + k, hub[1] + k);
-      shape_quad(shape, hub[0] + k, rim[0] + k, rim[0] + i, hub[0] + i);
+      shape_quad(shape, hub[1] + i, incidence[1] + i, incidence[1] + k,
+                 hub[1] + k);
+      shape_quad(shape, hub[0] + k, incidence[0] + k, incidence[0] + i,
+                 hub[0] + i);
     }
     if (is_open(gear, i) && !is_open(gear, before))
-      shape_quad(shape, hub[0] + i, hub[1] + i, rim[1] + i, rim[0] + i);
+      shape_quad(shape, hub[0] + i, hub[1] + i, incidence[1] + i,
+                 incidence[0] + i);
     if (!is_open(gear, i) && is_open(gear, before))
-      shape_quad(shape, hub[0] + i, rim[0] + i, rim[1] + i, hub[1] + i);
+      shape_quad(shape, hub[0] + i, incidence[0] + i, incidence[1] + i,
+                 hub[1] + i);
   }
 }
 
@@ -151,10 +156,10 @@ static void add_gear(struct shape *shape, const struct gear *gear) {
   uint32_t outline = add_outline(shape, gear, polar, count, 0);
   uint32_t outline_high =
       shape_raise(shape, outline, gear->teeth * count, thick);
-  uint32_t rim_low = add_ring(shape, gear, gear->rim, 0);
-  uint32_t rim[2] = {add_ring(shape, gear, gear->rim, web[0]),
-                     add_ring(shape, gear, gear->rim, web[1])};
-  uint32_t rim_high = add_ring(shape, gear, gear->rim, thick);
+  uint32_t rim_low = add_ring(shape, gear, gear->incidence, 0);
+  uint32_t incidence[2] = {add_ring(shape, gear, gear->incidence, web[0]),
+                           add_ring(shape, gear, gear->incidence, web[1])};
+  uint32_t rim_high = add_ring(shape, gear, gear->incidence, thick);
   uint32_t hub_low = add_ring(shape, gear, gear->hub, -over);
   uint32_t hub[2] = {add_ring(shape, gear, gear->hub, web[0]),
                      add_ring(shape, gear, gear->hub, web[1])};
@@ -166,14 +171,14 @@ static void add_gear(struct shape *shape, const struct gear *gear) {
   add_teeth(shape, gear, outline_high, count, rim_high, true);
   add_teeth(shape, gear, outline, count, rim_low, false);
   /* Walls that look inward: the upper ring goes first. */
-  shape_band(shape, rim[0], rim_low, stations);
-  shape_band(shape, rim_high, rim[1], stations);
+  shape_band(shape, incidence[0], rim_low, stations);
+  shape_band(shape, rim_high, incidence[1], stations);
   shape_band(shape, bore_high, bore_low, stations);
   shape_band(shape, hub_low, hub[0], stations);
   shape_band(shape, hub[1], hub_high, stations);
   shape_band(shape, hub_high, bore_high, stations);
   shape_band(shape, bore_low, hub_low, stations);
-  add_web(shape, gear, hub, rim);
+  add_web(shape, gear, hub, incidence);
 }
 
 /* Places `gear` to mesh with `with`, in the direction `radians` from it. */

@@ -17,26 +17,26 @@ unit_tests += %D%/test_failures_meshes
 %C%_test_failures_meshes_LDADD = $(failures_libs)
 unit_tests += %D%/test_failures_numbers
 %C%_test_failures_numbers_SOURCES = %D%/test_failures_numbers.c $(failures) \
-  %D%/comma.c %D%/comma.h
+  %D%/comma_locale.c %D%/comma_locale.h
 %C%_test_failures_numbers_LDADD = $(failures_libs)
-unit_tests += %D%/test_failures_piles
-%C%_test_failures_piles_SOURCES = %D%/test_failures_piles.c
-%C%_test_failures_piles_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_failures_duplicates
+%C%_test_failures_duplicates_SOURCES = %D%/test_failures_duplicates.c
+%C%_test_failures_duplicates_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_judged
 %C%_test_judged_SOURCES = %D%/test_judged.c $(failures) \
   %D%/temporary.c %D%/temporary.h
 %C%_test_judged_LDADD = $(failures_libs)
 dist_check_SCRIPTS += %D%/test_failures_compilers.sh
-unit_tests += %D%/test_ink_repeats
-%C%_test_ink_repeats_SOURCES = %D%/test_ink_repeats.c %D%/inked.c %D%/inked.h
-%C%_test_ink_repeats_LDADD = $(failures_libs)
+unit_tests += %D%/test_ink_overlap_output
+%C%_test_ink_overlap_output_SOURCES = %D%/test_ink_overlap_output.c %D%/ink_fixture.c %D%/ink_fixture.h
+%C%_test_ink_overlap_output_LDADD = $(failures_libs)
 unit_tests += %D%/test_contact
 %C%_test_contact_SOURCES = %D%/test_contact.c
 %C%_test_contact_LDADD = $(failures_libs)
-unit_tests += %D%/test_undecided
-%C%_test_undecided_SOURCES = %D%/test_undecided.c %D%/laid.c %D%/laid.h
-%C%_test_undecided_LDADD = $(failures_libs)
+unit_tests += %D%/test_pairwise_fallback
+%C%_test_pairwise_fallback_SOURCES = %D%/test_pairwise_fallback.c %D%/sheet_fixture.c %D%/sheet_fixture.h
+%C%_test_pairwise_fallback_LDADD = $(failures_libs)
 unit_tests += %D%/test_intersections
-%C%_test_intersections_SOURCES = %D%/test_intersections.c %D%/laid.c \
-  %D%/laid.h
+%C%_test_intersections_SOURCES = %D%/test_intersections.c %D%/sheet_fixture.c \
+  %D%/sheet_fixture.h
 %C%_test_intersections_LDADD = $(failures_libs)

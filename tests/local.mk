@@ -21,7 +21,7 @@ dist_check_SCRIPTS += %D%/test_models.sh
 
 unit_tests += %D%/test_exact_map
 %C%_test_exact_map_SOURCES = %D%/test_exact_map.c \
-  %D%/hand/sheet.c %D%/hand/sheet.h
+  %D%/exact_fixture/sheet.c %D%/exact_fixture/sheet.h
 %C%_test_exact_map_CPPFLAGS = $(AM_CPPFLAGS) -I$(srcdir)/%D%
 
 check_LTLIBRARIES =
@@ -72,7 +72,7 @@ dist_check_SCRIPTS += \
 
 # Drawings made by hand, for the writers.
 plotting = %D%/plotting.c %D%/plotting.h \
-  %D%/hpgl_reader.c %D%/hpgl_reader.h %D%/maker.c %D%/maker.h
+  %D%/hpgl_reader.c %D%/hpgl_reader.h %D%/drawing_fixture.c %D%/drawing_fixture.h
 unit_tests += %D%/test_hpgl %D%/test_device
 %C%_test_hpgl_SOURCES = %D%/test_hpgl.c $(plotting)
 %C%_test_device_SOURCES = %D%/test_device.c $(plotting)
@@ -81,9 +81,9 @@ unit_tests += %D%/test_cairo %D%/test_failures_fills
 endif
 %C%_test_failures_fills_SOURCES = %D%/test_failures_fills.c
 %C%_test_failures_fills_LDADD = %D%/scenes/libscenes.la $(LDADD)
-%C%_test_cairo_SOURCES = %D%/test_cairo.c %D%/maker.c %D%/maker.h
+%C%_test_cairo_SOURCES = %D%/test_cairo.c %D%/drawing_fixture.c %D%/drawing_fixture.h
 check_PROGRAMS += %D%/paper_tool
-%C%_paper_tool_SOURCES = %D%/paper_tool.c %D%/maker.c %D%/maker.h
+%C%_paper_tool_SOURCES = %D%/paper_tool.c %D%/drawing_fixture.c %D%/drawing_fixture.h
 dist_check_SCRIPTS += %D%/test_paper.sh %D%/test_same_picture.sh \
   %D%/test_tone.sh %D%/test_verify_rounding.sh %D%/test_viewers.sh
 
@@ -93,15 +93,15 @@ unit_tests += %D%/test_input
   %D%/temporary.c %D%/temporary.h
 %C%_test_input_LDADD = $(LDADD) $(ZLIB_LIBS)
 unit_tests += %D%/test_parallel
-%C%_test_parallel_SOURCES = %D%/test_parallel.c %D%/laid.c %D%/laid.h
+%C%_test_parallel_SOURCES = %D%/test_parallel.c %D%/sheet_fixture.c %D%/sheet_fixture.h
 %C%_test_parallel_LDADD = %D%/scenes/libscenes.la $(LDADD)
 
 unit_tests += %D%/test_memory
 %C%_test_memory_SOURCES = %D%/test_memory.c
 unit_tests += %D%/test_number
-%C%_test_number_SOURCES = %D%/test_number.c %D%/comma.c %D%/comma.h
+%C%_test_number_SOURCES = %D%/test_number.c %D%/comma_locale.c %D%/comma_locale.h
 unit_tests += %D%/test_report
-%C%_test_report_SOURCES = %D%/test_report.c %D%/comma.c %D%/comma.h
+%C%_test_report_SOURCES = %D%/test_report.c %D%/comma_locale.c %D%/comma_locale.h
 unit_tests += %D%/test_sort
 %C%_test_sort_SOURCES = %D%/test_sort.c
 unit_tests += %D%/test_status
@@ -132,16 +132,17 @@ unit_tests += %D%/test_exact
 %C%_test_exact_LDADD = $(LDADD)
 unit_tests += %D%/test_scene
 %C%_test_scene_SOURCES = %D%/test_scene.c %D%/reading.c %D%/reading.h
+%C%_test_scene_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_obj
 %C%_test_obj_SOURCES = %D%/test_obj.c %D%/reading.c %D%/reading.h \
-  %D%/comma.c %D%/comma.h
+  %D%/comma_locale.c %D%/comma_locale.h
 %C%_test_obj_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_precision
 %C%_test_precision_SOURCES = %D%/test_precision.c \
   %D%/reading.c %D%/reading.h
 unit_tests += %D%/test_stl
 %C%_test_stl_SOURCES = %D%/test_stl.c %D%/reading.c %D%/reading.h \
-  %D%/comma.c %D%/comma.h
+  %D%/comma_locale.c %D%/comma_locale.h
 unit_tests += %D%/test_ply
 %C%_test_ply_SOURCES = %D%/test_ply.c %D%/reading.c %D%/reading.h \
   %D%/temporary.c %D%/temporary.h
@@ -165,14 +166,14 @@ endif
 
 include tests/failures.mk
 unit_tests += %D%/test_sheet
-%C%_test_sheet_SOURCES = %D%/test_sheet.c %D%/laid.c %D%/laid.h
+%C%_test_sheet_SOURCES = %D%/test_sheet.c %D%/sheet_fixture.c %D%/sheet_fixture.h
 %C%_test_sheet_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_cancelling
-%C%_test_cancelling_SOURCES = %D%/test_cancelling.c %D%/laid.c %D%/laid.h \
+%C%_test_cancelling_SOURCES = %D%/test_cancelling.c %D%/sheet_fixture.c %D%/sheet_fixture.h \
   %D%/temporary.c %D%/temporary.h
 %C%_test_cancelling_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_silhouette
-%C%_test_silhouette_SOURCES = %D%/test_silhouette.c %D%/laid.c %D%/laid.h
+%C%_test_silhouette_SOURCES = %D%/test_silhouette.c %D%/sheet_fixture.c %D%/sheet_fixture.h
 %C%_test_silhouette_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_memory_faults
 %C%_test_memory_faults_SOURCES = %D%/test_memory_faults.c \
@@ -183,21 +184,21 @@ unit_tests += %D%/test_api
 %C%_test_api_SOURCES = %D%/test_api.c
 
 # Ink, on sheets and maps made by hand.
-unit_tests += %D%/test_ink_net %D%/test_ink_chain %D%/test_ink_clean \
-  %D%/test_ink_fill %D%/test_ink_engrave %D%/test_ink_order \
+unit_tests += %D%/test_ink_segment_graph %D%/test_ink_chain %D%/test_ink_clean \
+  %D%/test_ink_fill %D%/test_ink_tone_hatch %D%/test_ink_pen_path \
   %D%/test_ink_draw %D%/test_ink_merge %D%/test_pens
-%C%_test_pens_SOURCES = %D%/test_pens.c %D%/inked.c %D%/inked.h
+%C%_test_pens_SOURCES = %D%/test_pens.c %D%/ink_fixture.c %D%/ink_fixture.h
 %C%_test_ink_merge_SOURCES = %D%/test_ink_merge.c
 %C%_test_ink_merge_LDADD = %D%/scenes/libscenes.la $(LDADD)
-%C%_test_ink_net_SOURCES = %D%/test_ink_net.c %D%/inked.c %D%/inked.h
-%C%_test_ink_chain_SOURCES = %D%/test_ink_chain.c %D%/inked.c %D%/inked.h
-%C%_test_ink_clean_SOURCES = %D%/test_ink_clean.c %D%/inked.c %D%/inked.h
-%C%_test_ink_fill_SOURCES = %D%/test_ink_fill.c %D%/inked.c %D%/inked.h
-%C%_test_ink_engrave_SOURCES = %D%/test_ink_engrave.c \
-  %D%/inked.c %D%/inked.h
-%C%_test_ink_engrave_LDADD = %D%/scenes/libscenes.la $(LDADD)
-%C%_test_ink_order_SOURCES = %D%/test_ink_order.c %D%/inked.c %D%/inked.h
-%C%_test_ink_draw_SOURCES = %D%/test_ink_draw.c %D%/inked.c %D%/inked.h
+%C%_test_ink_segment_graph_SOURCES = %D%/test_ink_segment_graph.c %D%/ink_fixture.c %D%/ink_fixture.h
+%C%_test_ink_chain_SOURCES = %D%/test_ink_chain.c %D%/ink_fixture.c %D%/ink_fixture.h
+%C%_test_ink_clean_SOURCES = %D%/test_ink_clean.c %D%/ink_fixture.c %D%/ink_fixture.h
+%C%_test_ink_fill_SOURCES = %D%/test_ink_fill.c %D%/ink_fixture.c %D%/ink_fixture.h
+%C%_test_ink_tone_hatch_SOURCES = %D%/test_ink_tone_hatch.c \
+  %D%/ink_fixture.c %D%/ink_fixture.h
+%C%_test_ink_tone_hatch_LDADD = %D%/scenes/libscenes.la $(LDADD)
+%C%_test_ink_pen_path_SOURCES = %D%/test_ink_pen_path.c %D%/ink_fixture.c %D%/ink_fixture.h
+%C%_test_ink_draw_SOURCES = %D%/test_ink_draw.c %D%/ink_fixture.c %D%/ink_fixture.h
 %C%_test_ink_draw_LDADD = %D%/scenes/libscenes.la $(LDADD)
 
 unit_tests += %D%/test_far

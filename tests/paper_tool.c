@@ -1,4 +1,4 @@
-/* paper_tool.c - writes the drawings of maker.h, and judges pictures of them:
+/* paper_tool.c - writes the drawings of drawing_fixture.h, and judges pictures of them:
  * the shell tests' hand and eye.
  *
  *   paper_tool names
@@ -21,7 +21,7 @@
 
 #include "backends/writer.h"
 #include "base/number.h"
-#include "tests/maker.h"
+#include "tests/drawing_fixture.h"
 
 #ifdef HAVE_CAIRO
 #include <cairo.h>
@@ -30,8 +30,8 @@
 enum { YES = 0, NO = 1, CANNOT = 77 };
 
 static int list_names(void) {
-  for (size_t i = 0; maker_name(i); i++)
-    puts(maker_name(i));
+  for (size_t i = 0; drawing_fixture_name(i); i++)
+    puts(drawing_fixture_name(i));
   return YES;
 }
 
@@ -60,7 +60,7 @@ static int write_drawing(const char *name, const char *format, const char *path,
   recto_error error = {.code = RECTO_OK};
   if (!writer)
     return CANNOT;
-  if (!maker_named(&drawing, name)) {
+  if (!drawing_fixture_named(&drawing, name)) {
     printf("no drawing is called %s\n", name);
     return NO;
   }
@@ -215,15 +215,15 @@ static int measure_picture(const char *path, double dpi, double limit_mm,
  * within `reach` pixels. */
 static long count_strangers(const struct picture *one,
                             const struct picture *other, int reach,
-                            long *inked) {
+                            long *fixture) {
   long strangers = 0;
-  *inked = 0;
+  *fixture = 0;
   for (int y = 0; y < one->height; y++) {
     for (int x = 0; x < one->width; x++) {
       float found = 0;
       if (ink_at(one, x, y) < 0.6f)
         continue;
-      ++*inked;
+      ++*fixture;
       for (int dy = -reach; dy <= reach; dy++)
         for (int dx = -reach; dx <= reach; dx++)
           found = fmaxf(found, ink_at(other, x + dx, y + dy));

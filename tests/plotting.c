@@ -19,7 +19,7 @@ static void take_warning(void *user, const char *file, unsigned long line,
 
 void plotting_begin(struct plotting *f, double width_mm, double height_mm) {
   *f = (struct plotting){.options = {.warning = take_warning, .user = f}};
-  maker_page(&f->drawing, width_mm, height_mm);
+  drawing_fixture_page(&f->drawing, width_mm, height_mm);
 }
 
 /* Writes the drawing and reads it back. */

@@ -5,7 +5,7 @@
 
 #include "backends/writer.h"
 #include "tests/hpgl_reader.h"
-#include "tests/maker.h"
+#include "tests/drawing_fixture.h"
 
 struct plotting {
   struct drawing drawing;

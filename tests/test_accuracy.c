@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-#include "hand/sheet.h"
+#include "exact_fixture/sheet.h"
 #include "tests/scenes/pipeline.h"
 
 /* Methods with a number of lines or a pitch; those there are are tried. */
@@ -196,7 +196,7 @@ static void check_agreement(const struct scene *scene,
   assert_int_equal(whole.status, RECTO_OK);
   assert_int_equal(line.status, RECTO_OK);
   assert_true(whole.map.fragment.count > 1000);
-  hand_assert_same_map(&whole.map, &line.map, "z-buffers");
+  exact_assert_same_map(&whole.map, &line.map, "z-buffers");
   trial_fini(&whole);
   trial_fini(&line);
 }

@@ -1,6 +1,6 @@
 /* test_agreement.c - every exact solver gives brute's map, on scenes made to
  * part them. */
-#include "hand/scene.h"
+#include "exact_fixture/scene.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,20 +19,20 @@ struct recipe {
 static void make(struct sheet *sheet, const struct recipe *recipe) {
   uint64_t r = recipe->seed;
   if (recipe->corner == NULL) {
-    hand_random_sheet(sheet, (enum hand_kind)(r % HAND_KINDS),
-                      2 + hand_below(&r, 12), &r);
+    exact_random_sheet(sheet, (enum exact_kind)(r % EXACT_KINDS),
+                       2 + exact_below(&r, 12), &r);
     return;
   }
-  hand_sheet_init(sheet);
+  exact_sheet_init(sheet);
   for (int f = 0; f < recipe->count; f++)
-    hand_add_face(sheet, recipe->corner[f], 3, 1);
+    exact_add_face(sheet, recipe->corner[f], 3, 1);
 }
 
 static void check(const struct recipe *recipe, const char *name) {
   struct sheet first;
   struct map map;
   make(&first, recipe);
-  hand_solve(&solver_brute, &first, &map, NULL);
+  exact_solve(&solver_brute, &first, &map, NULL);
   for (const struct solver *const *s = solvers(); *s != NULL; s++) {
     struct sheet sheet;
     struct map again;
@@ -41,13 +41,13 @@ static void check(const struct recipe *recipe, const char *name) {
       continue;
     snprintf(what, sizeof what, "%s by %s", name, (*s)->name);
     make(&sheet, recipe);
-    hand_solve(*s, &sheet, &again, NULL);
-    hand_assert_same_map(&map, &again, what);
+    exact_solve(*s, &sheet, &again, NULL);
+    exact_assert_same_map(&map, &again, what);
     map_fini(&again);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
   map_fini(&map);
-  hand_sheet_fini(&first);
+  exact_sheet_fini(&first);
 }
 
 static void exact_solvers_agree_on_hard_sheets(void **state) {
@@ -86,7 +86,7 @@ static void an_intersection_is_not_hidden_by_its_own_faces(void **state) {
   (void)state;
   check(&recipe, "a seam");
   make(&sheet, &recipe);
-  hand_solve(&solver_brute, &sheet, &map, NULL);
+  exact_solve(&solver_brute, &sheet, &map, NULL);
   for (size_t e = 0; e < sheet.edge.count; e++)
     if (sheet.edge.item[e].edge_class == RECTO_EDGE_INTERSECTION) {
       assert_int_equal(map.edge_state[e], MAP_VISIBLE);
@@ -94,7 +94,7 @@ static void an_intersection_is_not_hidden_by_its_own_faces(void **state) {
     }
   assert_true(found);
   map_fini(&map);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 int main(void) {

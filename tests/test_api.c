@@ -358,7 +358,7 @@ static void assert_same_drawing(const recto_drawing *a,
 
 /* Row 21: from the least double to the largest.  The eye, the contact and the
  * near distance scale with the model. */
-static void row_21_every_size_of_doubles_draws_the_same(void **state) {
+static void every_size_of_doubles_draws_the_same(void **state) {
   (void)state;
   recto_options options;
   recto_options_init(&options);
@@ -797,7 +797,7 @@ int main(void) {
       cmocka_unit_test(nothing_to_draw_is_said),
       cmocka_unit_test(a_scene_may_be_drawn_again),
       cmocka_unit_test(a_cube_at_true_scale_shows_nine_edges),
-      cmocka_unit_test(row_21_every_size_of_doubles_draws_the_same),
+      cmocka_unit_test(every_size_of_doubles_draws_the_same),
       cmocka_unit_test(an_eye_beyond_numbers_is_refused),
       cmocka_unit_test(somebodys_drawing_is_judged),
       cmocka_unit_test(strokes_know_where_they_come_from),

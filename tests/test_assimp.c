@@ -93,7 +93,7 @@ static void nodes_are_groups_in_their_places(void **state) {
   reading_fini(&r);
 }
 
-static void row_19_what_is_not_finite_is_skipped(void **state) {
+static void what_is_not_finite_is_skipped(void **state) {
   static const char text[] =
       "OFF\n4 2 0\nnan 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 1 2 3\n";
   struct reading r;
@@ -156,7 +156,7 @@ int main(void) {
       T(polygons_stay_polygons),
       T(bytes_come_through_a_pipe_too),
       T(nodes_are_groups_in_their_places),
-      T(row_19_what_is_not_finite_is_skipped),
+      T(what_is_not_finite_is_skipped),
       T(a_broken_file_is_an_error),
       T(our_own_readers_come_first),
       T(running_out_of_memory_is_an_error),

@@ -15,7 +15,7 @@
 #include <cairo.h>
 
 #include "backends/writer.h"
-#include "tests/maker.h"
+#include "tests/drawing_fixture.h"
 
 /* ---- A drawing, and what comes of it ------------------------------------- */
 
@@ -30,7 +30,7 @@ struct fixture {
 
 static void begin(struct fixture *f, double width_mm, double height_mm) {
   *f = (struct fixture){0};
-  maker_page(&f->drawing, width_mm, height_mm);
+  drawing_fixture_page(&f->drawing, width_mm, height_mm);
 }
 
 static void write_as(struct fixture *f, const struct writer *writer) {
@@ -131,7 +131,8 @@ static void an_eps_file_says_the_page_is_its_box(void **state) {
   (void)state;
   struct fixture f;
   begin(&f, 210, 297);
-  maker_line(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), 50, 50, 60, 60);
+  drawing_fixture_line(&f.drawing, drawing_fixture_layer(&f.drawing, 1, 0.3, 0),
+                       50, 50, 60, 60);
   write_as(&f, &writer_eps);
   assert_true(has(&f, "\n%%BoundingBox: 0 0 596 842\n"
                       "%%HiResBoundingBox: 0 0 595.276 841.89\n"));
@@ -155,7 +156,8 @@ static void tight_leaves_the_box_of_the_ink(void **state) {
   (void)state;
   struct fixture f;
   begin(&f, 210, 297);
-  maker_line(&f.drawing, maker_layer(&f.drawing, 1, 2, 0), 50, 50, 60, 50);
+  drawing_fixture_line(&f.drawing, drawing_fixture_layer(&f.drawing, 1, 2, 0),
+                       50, 50, 60, 50);
   f.options.tight = true;
   write_as(&f, &writer_eps);
   assert_true(has(&f, "\n%%HiResBoundingBox: 0 0 34.016 5.669\n"));
@@ -176,7 +178,8 @@ static void tight_counts_the_weight_of_lines(void **state) {
   (void)state;
   struct fixture f;
   begin(&f, 210, 297);
-  maker_line(&f.drawing, maker_layer(&f.drawing, 1, 1, 0), 50, 50, 60, 50);
+  drawing_fixture_line(&f.drawing, drawing_fixture_layer(&f.drawing, 1, 1, 0),
+                       50, 50, 60, 50);
   f.drawing.stroke.item[0].edge_class = RECTO_EDGE_SILHOUETTE;
   f.drawing.weight[0] = 2;
   f.options.tight = true;
@@ -189,9 +192,9 @@ static void tight_counts_fills_and_their_seams(void **state) {
   (void)state;
   struct fixture f;
   begin(&f, 210, 297);
-  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
-  maker_fill(&f.drawing, layer, 0, (double[]){50, 60, 60, 60, 60, 65, 50, 65},
-             4);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 0.3, 0);
+  drawing_fixture_fill(&f.drawing, layer, 0,
+                       (double[]){50, 60, 60, 60, 60, 65, 50, 65}, 4);
   f.drawing.seam_mm = 2;
   f.options.tight = true;
   write_as(&f, &writer_eps);
@@ -275,8 +278,8 @@ static void ink_is_where_it_belongs(void **state) {
   (void)state;
   struct fixture f;
   begin(&f, 100, 50);
-  uint32_t layer = maker_layer(&f.drawing, 1, 1, 0x204060);
-  maker_line(&f.drawing, layer, 10, 40, 30, 40);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 1, 0x204060);
+  drawing_fixture_line(&f.drawing, layer, 10, 40, 30, 40);
   f.options.dpi = 254;
   paint(&f);
   assert_int_equal(colour_at(&f, 20, 40.3), 0x204060);
@@ -292,9 +295,11 @@ static void caps_and_joins_are_round(void **state) {
   (void)state;
   struct fixture f;
   begin(&f, 100, 50);
-  uint32_t layer = maker_layer(&f.drawing, 1, 10, 0);
-  maker_stroke(&f.drawing, layer, (double[]){20, 40, 20, 20, 50, 20}, 3, false);
-  maker_stroke(&f.drawing, layer, (double[]){80, 20, 80, 20}, 2, false);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 10, 0);
+  drawing_fixture_stroke(&f.drawing, layer, (double[]){20, 40, 20, 20, 50, 20},
+                         3, false);
+  drawing_fixture_stroke(&f.drawing, layer, (double[]){80, 20, 80, 20}, 2,
+                         false);
   f.options.dpi = 254;
   paint(&f);
   /* Past the end, but not in the corners of a square cap. */
@@ -313,13 +318,13 @@ static void only_a_closed_stroke_closes(void **state) {
   (void)state;
   struct fixture f;
   begin(&f, 100, 50);
-  uint32_t layer = maker_layer(&f.drawing, 1, 1, 0);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 1, 0);
   static const double xy[] = {10, 10, 40, 10, 40, 40, 10, 40};
   double shifted[8];
   for (int i = 0; i < 8; i++)
     shifted[i] = xy[i] + (i % 2 == 0 ? 45 : 0);
-  maker_stroke(&f.drawing, layer, xy, 4, true);
-  maker_stroke(&f.drawing, layer, shifted, 4, false);
+  drawing_fixture_stroke(&f.drawing, layer, xy, 4, true);
+  drawing_fixture_stroke(&f.drawing, layer, shifted, 4, false);
   f.options.dpi = 254;
   paint(&f);
   assert_int_equal(colour_at(&f, 10, 25), 0);
@@ -332,12 +337,13 @@ static void holes_stay_white_and_strokes_lie_on_fills(void **state) {
   (void)state;
   struct fixture f;
   begin(&f, 100, 50);
-  uint32_t layer = maker_layer(&f.drawing, 1, 1, 0x0000ff);
-  maker_line(&f.drawing, layer, 5, 15, 45, 15);
-  maker_fill(&f.drawing, layer, 0xff8000,
-             (double[]){10, 10, 40, 10, 40, 40, 10, 40}, 4);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 1, 0x0000ff);
+  drawing_fixture_line(&f.drawing, layer, 5, 15, 45, 15);
+  drawing_fixture_fill(&f.drawing, layer, 0xff8000,
+                       (double[]){10, 10, 40, 10, 40, 40, 10, 40}, 4);
   /* The same way round as the outline: it is even-odd that makes the hole. */
-  maker_loop(&f.drawing, (double[]){20, 20, 30, 20, 30, 30, 20, 30}, 4);
+  drawing_fixture_loop(&f.drawing, (double[]){20, 20, 30, 20, 30, 30, 20, 30},
+                       4);
   f.options.dpi = 254;
   paint(&f);
   assert_int_equal(colour_at(&f, 12, 12), 0xff8000);
@@ -350,10 +356,10 @@ static void a_later_layer_covers_an_earlier_one(void **state) {
   (void)state;
   struct fixture f;
   begin(&f, 100, 50);
-  uint32_t first = maker_layer(&f.drawing, 1, 1, 0xff0000);
-  uint32_t second = maker_layer(&f.drawing, 2, 1, 0x00ff00);
-  maker_line(&f.drawing, second, 20, 10, 20, 40);
-  maker_line(&f.drawing, first, 10, 20, 40, 20);
+  uint32_t first = drawing_fixture_layer(&f.drawing, 1, 1, 0xff0000);
+  uint32_t second = drawing_fixture_layer(&f.drawing, 2, 1, 0x00ff00);
+  drawing_fixture_line(&f.drawing, second, 20, 10, 20, 40);
+  drawing_fixture_line(&f.drawing, first, 10, 20, 40, 20);
   f.options.dpi = 254;
   paint(&f);
   assert_int_equal(colour_at(&f, 20, 20), 0x00ff00);
@@ -366,14 +372,14 @@ static bool shows_a_seam(double seam_mm) {
   struct fixture f;
   bool seam = false;
   begin(&f, 100, 50);
-  uint32_t below = maker_layer(&f.drawing, 1, 1, 0);
-  uint32_t layer = maker_layer(&f.drawing, 2, 1, 0);
-  maker_fill(&f.drawing, below, 0, (double[]){10, 10, 41, 10, 41, 43, 10, 43},
-             4);
-  maker_fill(&f.drawing, layer, 0xffffff, (double[]){10, 10, 41, 10, 41, 43},
-             3);
-  maker_fill(&f.drawing, layer, 0xffffff, (double[]){10, 10, 41, 43, 10, 43},
-             3);
+  uint32_t below = drawing_fixture_layer(&f.drawing, 1, 1, 0);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 2, 1, 0);
+  drawing_fixture_fill(&f.drawing, below, 0,
+                       (double[]){10, 10, 41, 10, 41, 43, 10, 43}, 4);
+  drawing_fixture_fill(&f.drawing, layer, 0xffffff,
+                       (double[]){10, 10, 41, 10, 41, 43}, 3);
+  drawing_fixture_fill(&f.drawing, layer, 0xffffff,
+                       (double[]){10, 10, 41, 43, 10, 43}, 3);
   f.drawing.seam_mm = seam_mm;
   f.options.dpi = 254;
   paint(&f);
@@ -396,11 +402,11 @@ static void a_seam_paints_nothing_over(void **state) {
   struct fixture f;
   (void)state;
   begin(&f, 100, 50);
-  uint32_t layer = maker_layer(&f.drawing, 1, 1, 0);
-  maker_fill(&f.drawing, layer, 0xff0000,
-             (double[]){10, 10, 20, 10, 20, 40, 10, 40}, 4);
-  maker_fill(&f.drawing, layer, 0x00ff00,
-             (double[]){20, 10, 30, 10, 30, 40, 20, 40}, 4);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 1, 0);
+  drawing_fixture_fill(&f.drawing, layer, 0xff0000,
+                       (double[]){10, 10, 20, 10, 20, 40, 10, 40}, 4);
+  drawing_fixture_fill(&f.drawing, layer, 0x00ff00,
+                       (double[]){20, 10, 30, 10, 30, 40, 20, 40}, 4);
   f.drawing.seam_mm = 2;
   f.options.dpi = 254;
   paint(&f);
@@ -421,8 +427,8 @@ static void the_same_drawing_gives_the_same_bytes(void **state) {
     struct fixture f, g;
     begin(&f, 1, 1);
     begin(&g, 1, 1);
-    assert_true(maker_named(&f.drawing, "stars"));
-    assert_true(maker_named(&g.drawing, "stars"));
+    assert_true(drawing_fixture_named(&f.drawing, "stars"));
+    assert_true(drawing_fixture_named(&g.drawing, "stars"));
     write_as(&f, formats[i]);
     write_as(&g, formats[i]);
     assert_int_equal(f.count, g.count);
@@ -434,7 +440,7 @@ static void the_same_drawing_gives_the_same_bytes(void **state) {
 
 /* Strokes that no compression makes small. */
 static void make_large(struct drawing *drawing) {
-  uint32_t layer = maker_layer(drawing, 1, 0.1, 0);
+  uint32_t layer = drawing_fixture_layer(drawing, 1, 0.1, 0);
   uint32_t random = 1;
   for (int i = 0; i < 4500; i++) {
     double xy[6];
@@ -442,7 +448,7 @@ static void make_large(struct drawing *drawing) {
       random = random * 1664525u + 1013904223u;
       xy[k] = 5 + (random >> 12) / 10000.0;
     }
-    maker_stroke(drawing, layer, xy, 3, false);
+    drawing_fixture_stroke(drawing, layer, xy, 3, false);
   }
 }
 

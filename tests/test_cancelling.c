@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "tests/laid.h"
+#include "tests/sheet_fixture.h"
 #include "tests/temporary.h"
 #include "visibility/solver.h"
 
@@ -24,7 +24,7 @@ static bool listen(void *user, double share, const char *stage) {
 }
 
 static void stop_tiles(const char *stage, int after, int threads, unsigned n) {
-  struct laid laid;
+  struct sheet_fixture fixture;
   struct map map;
   struct listener listener = {stage, after};
   const struct solver_request request = {.strokes = true,
@@ -35,33 +35,33 @@ static void stop_tiles(const char *stage, int after, int threads, unsigned n) {
                                          .user = &listener};
   struct report *report = report_create();
   recto_error error;
-  laid_start(&laid);
-  scenes_soup(&laid.scene, &laid.options, n, 3);
-  laid_out(&laid, true);
+  sheet_fixture_start(&fixture);
+  scenes_soup(&fixture.scene, &fixture.options, n, 3);
+  sheet_fixture_out(&fixture, true);
   map_init(&map);
   assert_int_equal(
-      solver_tiles.solve(&laid.sheet, &request, &map, report, &error),
+      solver_tiles.solve(&fixture.sheet, &request, &map, report, &error),
       RECTO_ERROR_CANCELLED);
   assert_int_equal(error.code, RECTO_ERROR_CANCELLED);
   assert_int_equal(listener.after, -1); /* asked no more, once it refused */
   map_fini(&map);
   report_destroy(report);
-  laid_fini(&laid);
+  sheet_fixture_fini(&fixture);
 }
 
-static void row_16_tiles_end_while_they_look_for_piercings(void **state) {
+static void tiles_end_while_they_look_for_piercings(void **state) {
   (void)state;
   stop_tiles("piercing", 0, 1, 6000);
 }
 
-static void row_16_tiles_end_among_edges(void **state) {
+static void tiles_end_among_edges(void **state) {
   (void)state;
   stop_tiles("edges", 0, 1, 1500);
   stop_tiles("edges", 5, 1, 1500);
   stop_tiles("edges", 1, 3, 1500);
 }
 
-static void row_16_tiles_end_among_faces(void **state) {
+static void tiles_end_among_faces(void **state) {
   (void)state;
   stop_tiles("faces", 0, 1, 1500);
   stop_tiles("faces", 3, 2, 1500);
@@ -98,7 +98,7 @@ static bool wait_a_little(void *user, double share, const char *stage) {
 enum { SILENCE_S = 20 };
 
 /* Is the caller asked all the time, and heard? */
-static bool is_heard(const struct solver *solver, struct laid *laid,
+static bool is_heard(const struct solver *solver, struct sheet_fixture *fixture,
                      const struct solver_request *what) {
   struct patience patience = {.start = clock_cpu(), .last = clock_cpu()};
   struct solver_request request = *what;
@@ -106,15 +106,15 @@ static bool is_heard(const struct solver *solver, struct laid *laid,
   recto_status status;
   struct map map;
   recto_error error;
-  size_t edges = laid->sheet.edge.count;
+  size_t edges = fixture->sheet.edge.count;
   request.progress = wait_a_little;
   request.user = &patience;
   map_init(&map);
-  status = solver->solve(&laid->sheet, &request, &map, report, &error);
+  status = solver->solve(&fixture->sheet, &request, &map, report, &error);
   note_time(&patience);
   map_fini(&map);
   report_destroy(report);
-  laid->sheet.edge.count = edges;
+  fixture->sheet.edge.count = edges;
   assert_int_equal(status, patience.stopped ? RECTO_ERROR_CANCELLED : RECTO_OK);
   if (patience.longest >= 1)
     print_message("%s: %.2f s\n", solver->name, patience.longest);
@@ -122,7 +122,7 @@ static bool is_heard(const struct solver *solver, struct laid *laid,
          (getenv("RECTO_VALGRIND") != NULL ? 20 : 1) * SILENCE_S;
 }
 
-static void hear_all(struct laid *laid) {
+static void hear_all(struct sheet_fixture *fixture) {
   const struct solver_request lines = {.strokes = true, .threads = 1},
                               faces = {.fragments = true, .threads = 1},
                               all = {.strokes = true,
@@ -134,30 +134,30 @@ static void hear_all(struct laid *laid) {
                                         .threads = 1,
                                         .resolution = 1000,
                                         .pitch_mm = 0.1};
-  laid_out(laid, true);
+  sheet_fixture_out(fixture, true);
   for (const struct solver *const *s = solvers(); *s != NULL; s++) {
-    assert_true(is_heard(*s, laid, &lines));
-    assert_true(is_heard(*s, laid, &faces));
-    assert_true(is_heard(*s, laid, &all));
-    assert_true(is_heard(*s, laid, &pixels));
+    assert_true(is_heard(*s, fixture, &lines));
+    assert_true(is_heard(*s, fixture, &faces));
+    assert_true(is_heard(*s, fixture, &all));
+    assert_true(is_heard(*s, fixture, &pixels));
   }
-  laid_fini(laid);
+  sheet_fixture_fini(fixture);
 }
 
-static void row_16_every_method_is_ended_in_a_pile_of_faces(void **state) {
-  struct laid laid;
+static void every_method_is_ended_in_a_pile_of_faces(void **state) {
+  struct sheet_fixture fixture;
   (void)state;
-  laid_start(&laid);
-  scenes_copies(&laid.scene, &laid.options, 10000, false, 1e-8);
-  hear_all(&laid);
+  sheet_fixture_start(&fixture);
+  scenes_copies(&fixture.scene, &fixture.options, 10000, false, 1e-8);
+  hear_all(&fixture);
 }
 
-static void row_16_every_method_is_ended_in_a_soup(void **state) {
-  struct laid laid;
+static void every_method_is_ended_in_a_soup(void **state) {
+  struct sheet_fixture fixture;
   (void)state;
-  laid_start(&laid);
-  scenes_soup(&laid.scene, &laid.options, 4000, 9);
-  hear_all(&laid);
+  sheet_fixture_start(&fixture);
+  scenes_soup(&fixture.scene, &fixture.options, 4000, 9);
+  hear_all(&fixture);
 }
 
 /* ---- Writing ------------------------------------------------------------- */
@@ -221,11 +221,11 @@ static void writing_may_be_cancelled_and_leaves_what_was(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(row_16_tiles_end_while_they_look_for_piercings),
-      cmocka_unit_test(row_16_tiles_end_among_edges),
-      cmocka_unit_test(row_16_tiles_end_among_faces),
-      cmocka_unit_test(row_16_every_method_is_ended_in_a_pile_of_faces),
-      cmocka_unit_test(row_16_every_method_is_ended_in_a_soup),
+      cmocka_unit_test(tiles_end_while_they_look_for_piercings),
+      cmocka_unit_test(tiles_end_among_edges),
+      cmocka_unit_test(tiles_end_among_faces),
+      cmocka_unit_test(every_method_is_ended_in_a_pile_of_faces),
+      cmocka_unit_test(every_method_is_ended_in_a_soup),
       cmocka_unit_test_setup_teardown(
           writing_may_be_cancelled_and_leaves_what_was, temporary_set_up,
           temporary_tear_down),

@@ -21,9 +21,9 @@ static void a_length_is_true_on_every_device(void **state) {
     struct plotting f;
     plotting_begin(&f, 297, 210);
     f.options.device = device_name(i);
-    uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
-    maker_line(&f.drawing, layer, 60, 60, 160, 60);
-    maker_line(&f.drawing, layer, 60, 60, 60, 160);
+    uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 0.3, 0);
+    drawing_fixture_line(&f.drawing, layer, 60, 60, 160, 60);
+    drawing_fixture_line(&f.drawing, layer, 60, 60, 60, 160);
     plotting_run(&f);
     double unit = strncmp(device_name(i), "hp", 2) == 0 ? 0.02488 : 0.025;
     const struct hpgl_point *point = f.back.point.item;
@@ -53,8 +53,9 @@ static void the_hp7475a_draws_the_middle_in_the_middle(void **state) {
     struct plotting f;
     plotting_begin(&f, paper[i].width_mm, paper[i].height_mm);
     f.options.device = "hp7475a";
-    maker_line(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0),
-               paper[i].width_mm / 2, paper[i].height_mm / 2, 50, 50);
+    drawing_fixture_line(&f.drawing,
+                         drawing_fixture_layer(&f.drawing, 1, 0.3, 0),
+                         paper[i].width_mm / 2, paper[i].height_mm / 2, 50, 50);
     plotting_run(&f);
     plotting_assert_point(&f, 0, 0, paper[i].x, paper[i].y);
     plotting_end(&f);
@@ -67,8 +68,9 @@ static void a_portrait_page_is_turned_on_its_left_side(void **state) {
   struct plotting f;
   plotting_begin(&f, 210, 297);
   f.options.device = "dxy";
-  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
-  maker_stroke(&f.drawing, layer, (double[]){0, 297, 0, 0, 210, 0}, 3, false);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 0.3, 0);
+  drawing_fixture_stroke(&f.drawing, layer, (double[]){0, 297, 0, 0, 210, 0}, 3,
+                         false);
   plotting_run(&f);
   plotting_assert_point(&f, 0, 0, 0, 0);
   plotting_assert_point(&f, 0, 1, 11880, 0);
@@ -82,8 +84,8 @@ static void the_smallest_paper_that_holds_the_page_is_taken(void **state) {
   struct plotting f;
   plotting_begin(&f, 300, 200);
   f.options.device = "dxy";
-  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
-  maker_line(&f.drawing, layer, 0, 0, 300, 200);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 0.3, 0);
+  drawing_fixture_line(&f.drawing, layer, 0, 0, 300, 200);
   plotting_run(&f);
   plotting_assert_point(&f, 0, 0, 0, 0);
   plotting_assert_point(&f, 0, 1, 12000, 8000);
@@ -100,8 +102,8 @@ static void a_page_a_touch_too_large_keeps_its_paper(void **state) {
   struct plotting f;
   plotting_begin(&f, 279.8, 216);
   f.options.device = "hp7475a";
-  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
-  maker_line(&f.drawing, layer, 50, 60, 139.9, 108);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 0.3, 0);
+  drawing_fixture_line(&f.drawing, layer, 50, 60, 139.9, 108);
   plotting_run(&f);
   plotting_assert_point(&f, 0, 0, 1637, 2267);
   plotting_assert_point(&f, 0, 1, 5250, 4196);
@@ -114,8 +116,8 @@ static void a_page_that_no_paper_holds_is_clipped_on_the_largest(void **state) {
   struct plotting f;
   plotting_begin(&f, 1189, 841);
   f.options.device = "dxy";
-  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
-  maker_line(&f.drawing, layer, 0, 420.5, 1189, 420.5);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 0.3, 0);
+  drawing_fixture_line(&f.drawing, layer, 0, 420.5, 1189, 420.5);
   plotting_run(&f);
   plotting_assert_point(&f, 0, 0, 0, 5940);
   plotting_assert_point(&f, 0, 1, 16800, 5940);
@@ -135,8 +137,9 @@ static void a_small_page_lies_where_the_pen_reaches(void **state) {
       struct plotting f;
       plotting_begin(&f, size[i][0], size[i][1]);
       f.options.device = device_name(d);
-      maker_box(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), 0, 0,
-                size[i][0], size[i][1]);
+      drawing_fixture_box(&f.drawing,
+                          drawing_fixture_layer(&f.drawing, 1, 0.3, 0), 0, 0,
+                          size[i][0], size[i][1]);
       plotting_run(&f);
       assert_int_equal(f.warnings, 0);
       assert_int_equal(f.back.stroke.count, 1);
@@ -195,8 +198,9 @@ static void nothing_is_clipped_inside_the_margin_that_is_told(void **state) {
       double inset = margin - 0.5 * less;
       plotting_begin(&f, width, height);
       f.options.device = device;
-      maker_box(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), inset, inset,
-                width - inset, height - inset);
+      drawing_fixture_box(&f.drawing,
+                          drawing_fixture_layer(&f.drawing, 1, 0.3, 0), inset,
+                          inset, width - inset, height - inset);
       plotting_run(&f);
       char words[40];
       snprintf(words, sizeof words, "all of the outer %.0f mm", ceil(margin));
@@ -226,7 +230,8 @@ static void a_drum_has_its_origin_in_the_middle(void **state) {
   struct plotting f;
   plotting_begin(&f, 600, 400);
   f.options.device = "drum";
-  maker_line(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), 0, 0, 600, 400);
+  drawing_fixture_line(&f.drawing, drawing_fixture_layer(&f.drawing, 1, 0.3, 0),
+                       0, 0, 600, 400);
   plotting_run(&f);
   plotting_assert_point(&f, 0, 0, -12000, -8000);
   plotting_assert_point(&f, 0, 1, 12000, 8000);
@@ -239,11 +244,12 @@ static void a_stroke_that_leaves_and_returns_is_two(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 100, 100);
-  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
-  maker_stroke(&f.drawing, layer, (double[]){50, 10, 150, 10, 150, 30, 50, 30},
-               4, false);
-  maker_line(&f.drawing, layer, 110, 0, 110, 100);
-  maker_line(&f.drawing, layer, 10, 10, 20, 20);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 0.3, 0);
+  drawing_fixture_stroke(&f.drawing, layer,
+                         (double[]){50, 10, 150, 10, 150, 30, 50, 30}, 4,
+                         false);
+  drawing_fixture_line(&f.drawing, layer, 110, 0, 110, 100);
+  drawing_fixture_line(&f.drawing, layer, 10, 10, 20, 20);
   plotting_run(&f);
   assert_int_equal(f.back.stroke.count, 3);
   plotting_assert_point(&f, 0, 0, 2000, 400);
@@ -266,7 +272,8 @@ static void a_clipped_loop_is_not_cut_where_it_begins(void **state) {
     plotting_begin(&f, 100, 100);
     for (int i = 0; i < 8; i++)
       xy[i] = box[(i + 2 * turn) % 8];
-    maker_stroke(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), xy, 4, true);
+    drawing_fixture_stroke(
+        &f.drawing, drawing_fixture_layer(&f.drawing, 1, 0.3, 0), xy, 4, true);
     plotting_run(&f);
     assert_int_equal(f.back.stroke.count, 1);
     assert_int_equal(f.back.stroke.item[0].count, 4);
@@ -280,8 +287,8 @@ static void a_line_across_the_whole_area_keeps_its_middle(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 100, 100);
-  maker_line(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), -100, -100, 200,
-             200);
+  drawing_fixture_line(&f.drawing, drawing_fixture_layer(&f.drawing, 1, 0.3, 0),
+                       -100, -100, 200, 200);
   plotting_run(&f);
   assert_int_equal(f.back.stroke.count, 1);
   plotting_assert_point(&f, 0, 0, 0, 0);
@@ -294,8 +301,8 @@ static void a_frame_around_the_page_is_all_there(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 100.01, 100.01);
-  maker_box(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), 0, 0, 100.01,
-            100.01);
+  drawing_fixture_box(&f.drawing, drawing_fixture_layer(&f.drawing, 1, 0.3, 0),
+                      0, 0, 100.01, 100.01);
   plotting_run(&f);
   assert_int_equal(f.warnings, 0);
   assert_int_equal(f.back.stroke.count, 1);
@@ -340,7 +347,7 @@ static void make_random(struct plotting *f, struct random *random,
   double height = random_int(random, 40, 600);
   plotting_begin(f, width, height);
   for (unsigned pen = 1; pen <= 3; pen++)
-    maker_layer(&f->drawing, pen, 0.3, 0);
+    drawing_fixture_layer(&f->drawing, pen, 0.3, 0);
   int strokes = random_int(random, 1, 12);
   for (int i = 0; i < strokes; i++) {
     double xy[2 * 260];
@@ -351,8 +358,8 @@ static void make_random(struct plotting *f, struct random *random,
       xy[2 * k + 1] =
           random_between(random, -overhang_mm, height + overhang_mm);
     }
-    maker_stroke(&f->drawing, random_below(random, 3), xy, count,
-                 random_below(random, 2));
+    drawing_fixture_stroke(&f->drawing, random_below(random, 3), xy, count,
+                           random_below(random, 2));
   }
 }
 

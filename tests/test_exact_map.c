@@ -1,6 +1,6 @@
 /* test_exact_map.c - the exact solvers on scenes whose answer is known, and
  * against each other on random ones. */
-#include "hand/sheet.h"
+#include "exact_fixture/sheet.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,9 +22,9 @@ static void pierced_rectangle(struct sheet *sheet) {
   static const int one[][3] = {
       {10, 5, 10}, {10, 25, 10}, {25, 25, 10}, {25, 5, 10}};
   static const int two[][3] = {{15, 15, 15}, {25, 25, 5}, {30, 10, 5}};
-  hand_sheet_init(sheet);
-  hand_add_face(sheet, one, 4, SCALE);
-  hand_add_face(sheet, two, 3, SCALE);
+  exact_sheet_init(sheet);
+  exact_add_face(sheet, one, 4, SCALE);
+  exact_add_face(sheet, two, 3, SCALE);
 }
 
 static void pierced_rectangle_has_its_exact_areas(void **state) {
@@ -33,12 +33,12 @@ static void pierced_rectangle_has_its_exact_areas(void **state) {
     struct sheet sheet;
     struct map map;
     pierced_rectangle(&sheet);
-    hand_solve(exact[s], &sheet, &map, NULL);
-    hand_assert_area(&map, 0, SCALE, 275, 1);
-    hand_assert_area(&map, 1, SCALE, 175, 3);
+    exact_solve(exact[s], &sheet, &map, NULL);
+    exact_assert_area(&map, 0, SCALE, 275, 1);
+    exact_assert_area(&map, 1, SCALE, 175, 3);
     assert_int_equal(map.fragment.count, 3);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -54,7 +54,7 @@ static void pierced_rectangle_has_its_corners_and_sides(void **state) {
     const struct map_fragment *fragment;
     const struct map_loop *loop;
     pierced_rectangle(&sheet);
-    hand_solve(exact[s], &sheet, &map, NULL);
+    exact_solve(exact[s], &sheet, &map, NULL);
     fragment = &map.fragment.item[1];
     assert_int_equal(fragment->face, 1);
     assert_int_equal(fragment->loops, 1);
@@ -66,7 +66,7 @@ static void pierced_rectangle_has_its_corners_and_sides(void **state) {
       assert_int_equal(c->side, side[k]);
     }
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -80,16 +80,16 @@ static void two_rectangles_and_triangle_have_their_exact_areas(void **state) {
   for (int s = 0; s < EXACT_COUNT; s++) {
     struct sheet sheet;
     struct map map;
-    hand_sheet_init(&sheet);
-    hand_add_face(&sheet, one, 4, SCALE);
-    hand_add_face(&sheet, two, 4, SCALE);
-    hand_add_face(&sheet, three, 3, SCALE);
-    hand_solve(exact[s], &sheet, &map, NULL);
-    hand_assert_area(&map, 0, SCALE, 1175, 4);
-    hand_assert_area(&map, 1, SCALE, 178, 3);
-    hand_assert_area(&map, 2, SCALE, 661, 12);
+    exact_sheet_init(&sheet);
+    exact_add_face(&sheet, one, 4, SCALE);
+    exact_add_face(&sheet, two, 4, SCALE);
+    exact_add_face(&sheet, three, 3, SCALE);
+    exact_solve(exact[s], &sheet, &map, NULL);
+    exact_assert_area(&map, 0, SCALE, 1175, 4);
+    exact_assert_area(&map, 1, SCALE, 178, 3);
+    exact_assert_area(&map, 2, SCALE, 661, 12);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -105,10 +105,10 @@ static void a_crossing_along_a_diagonal_is_drawn(void **state) {
     struct sheet sheet;
     struct map map;
     int low = 99, high = 0, found = 0;
-    hand_sheet_init(&sheet);
-    hand_add_face(&sheet, floor, 4, SCALE);
-    hand_add_face(&sheet, wall, 4, SCALE);
-    hand_solve(exact[s], &sheet, &map, NULL);
+    exact_sheet_init(&sheet);
+    exact_add_face(&sheet, floor, 4, SCALE);
+    exact_add_face(&sheet, wall, 4, SCALE);
+    exact_solve(exact[s], &sheet, &map, NULL);
     for (size_t e = 0; e < sheet.edge.count; e++) {
       if (sheet.edge.item[e].edge_class != RECTO_EDGE_INTERSECTION)
         continue;
@@ -128,7 +128,7 @@ static void a_crossing_along_a_diagonal_is_drawn(void **state) {
     assert_int_equal(low, 6);
     assert_int_equal(high, 14);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -142,15 +142,15 @@ static void standing_on_a_diagonal_is_no_crossing(void **state) {
   for (int s = 0; s < EXACT_COUNT; s++) {
     struct sheet sheet;
     struct map map;
-    hand_sheet_init(&sheet);
-    hand_add_face(&sheet, floor, 4, SCALE);
-    hand_add_face(&sheet, wall, 4, SCALE);
-    hand_solve(exact[s], &sheet, &map, NULL);
+    exact_sheet_init(&sheet);
+    exact_add_face(&sheet, floor, 4, SCALE);
+    exact_add_face(&sheet, wall, 4, SCALE);
+    exact_solve(exact[s], &sheet, &map, NULL);
     for (size_t e = 0; e < sheet.edge.count; e++)
       assert_int_not_equal(sheet.edge.item[e].edge_class,
                            RECTO_EDGE_INTERSECTION);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -168,16 +168,16 @@ static void add_cycle(struct sheet *sheet, int x, int y) {
                       {x + 24, y + 6, 10},
                       {x - 2, y + 6, 30},
                       {x - 2, y + 4, 30}};
-  hand_add_face(sheet, a, 4, SCALE);
-  hand_add_face(sheet, b, 4, SCALE);
-  hand_add_face(sheet, c, 4, SCALE);
+  exact_add_face(sheet, a, 4, SCALE);
+  exact_add_face(sheet, b, 4, SCALE);
+  exact_add_face(sheet, c, 4, SCALE);
 }
 
 /* Visible areas of all faces, twice over, summed. */
 static void sum_areas(const struct map *map, mpq_t sum) {
   mpq_set_ui(sum, 0, 1);
   for (size_t f = 0; f < map->fragment.count; f++)
-    hand_add_area2(sum, map, f);
+    exact_add_area2(sum, map, f);
 }
 
 static void a_field_of_cycles_is_right(void **state) {
@@ -188,19 +188,19 @@ static void a_field_of_cycles_is_right(void **state) {
   mpq_inits(area_one, area_field, NULL);
   for (int s = 0; s < EXACT_COUNT; s++) {
     struct report *report = report_create();
-    hand_sheet_init(&sheet);
+    exact_sheet_init(&sheet);
     add_cycle(&sheet, 0, 0);
-    hand_solve(exact[s], &sheet, &one[s], report);
+    exact_solve(exact[s], &sheet, &one[s], report);
     if (exact[s] == &solver_newell)
       assert_true(report_get(report, "newell", "splits_by_cycle", 0) > 0);
     report_destroy(report);
-    hand_sheet_fini(&sheet);
-    hand_sheet_init(&sheet);
+    exact_sheet_fini(&sheet);
+    exact_sheet_init(&sheet);
     for (int y = 0; y < 10; y++)
       for (int x = 0; x < 10; x++)
         add_cycle(&sheet, 30 * x, 30 * y);
-    hand_solve(exact[s], &sheet, &field[s], NULL);
-    hand_sheet_fini(&sheet);
+    exact_solve(exact[s], &sheet, &field[s], NULL);
+    exact_sheet_fini(&sheet);
     sum_areas(&one[s], area_one);
     sum_areas(&field[s], area_field);
     mpz_mul_ui(mpq_numref(area_one), mpq_numref(area_one), 100);
@@ -208,8 +208,8 @@ static void a_field_of_cycles_is_right(void **state) {
     assert_true(mpq_equal(area_one, area_field));
   }
   for (int s = 1; s < EXACT_COUNT; s++) {
-    hand_assert_same_map(&one[0], &one[s], "a cycle");
-    hand_assert_same_map(&field[0], &field[s], "a field of cycles");
+    exact_assert_same_map(&one[0], &one[s], "a cycle");
+    exact_assert_same_map(&field[0], &field[s], "a field of cycles");
   }
   for (int s = 0; s < EXACT_COUNT; s++) {
     map_fini(&one[s]);
@@ -222,17 +222,17 @@ static void a_field_of_cycles_is_right(void **state) {
  * coinciding parts are common. */
 static void random_scene(struct sheet *sheet, uint64_t seed) {
   uint64_t r = seed;
-  int faces = 2 + hand_below(&r, 9), lattice = 2 + hand_below(&r, 8);
-  int scale = 1 << (4 + hand_below(&r, 10));
-  hand_sheet_init(sheet);
-  if (hand_below(&r, 3) == 0)
+  int faces = 2 + exact_below(&r, 9), lattice = 2 + exact_below(&r, 8);
+  int scale = 1 << (4 + exact_below(&r, 10));
+  exact_sheet_init(sheet);
+  if (exact_below(&r, 3) == 0)
     sheet->camera.contact = scale / 4;
   for (int f = 0; f < faces; f++) {
     int corner[4][3], count = 3;
     for (int k = 0; k < 3; k++)
       for (int i = 0; i < 3; i++)
-        corner[k][i] = hand_below(&r, lattice);
-    if (hand_below(&r, 3) == 0) { /* a parallelogram */
+        corner[k][i] = exact_below(&r, lattice);
+    if (exact_below(&r, 3) == 0) { /* a parallelogram */
       count = 4;
       for (int i = 0; i < 3; i++) {
         corner[3][i] = corner[2][i];
@@ -247,7 +247,7 @@ static void random_scene(struct sheet *sheet, uint64_t seed) {
     if (memcmp(corner[0], corner[1], sizeof corner[0]) != 0 &&
         memcmp(corner[1], corner[2], sizeof corner[0]) != 0 &&
         memcmp(corner[0], corner[2], sizeof corner[0]) != 0)
-      hand_add_face(sheet, (const int(*)[3])corner, count, scale);
+      exact_add_face(sheet, (const int(*)[3])corner, count, scale);
   }
 }
 
@@ -258,18 +258,18 @@ static void solvers_agree_on_random_scenes(void **state) {
     struct map map, again;
     char what[64];
     random_scene(&first, seed);
-    hand_solve(exact[0], &first, &map, NULL);
+    exact_solve(exact[0], &first, &map, NULL);
     for (int s = 1; s < EXACT_COUNT; s++) {
       random_scene(&other, seed);
       snprintf(what, sizeof what, "seed %u, %s", (unsigned)seed,
                exact[s]->name);
-      hand_solve(exact[s], &other, &again, NULL);
-      hand_assert_same_map(&map, &again, what);
+      exact_solve(exact[s], &other, &again, NULL);
+      exact_assert_same_map(&map, &again, what);
       map_fini(&again);
-      hand_sheet_fini(&other);
+      exact_sheet_fini(&other);
     }
     map_fini(&map);
-    hand_sheet_fini(&first);
+    exact_sheet_fini(&first);
   }
 }
 
@@ -277,19 +277,19 @@ static void solvers_agree_on_random_scenes(void **state) {
  * windows; a tenth of the corners at a lattice's coarse points. */
 static void deep_soup(struct sheet *sheet, uint64_t seed, int faces) {
   uint64_t r = seed;
-  hand_sheet_init(sheet);
+  exact_sheet_init(sheet);
   sheet->camera.contact = seed % 2 == 0 ? 0 : 500;
   for (int f = 0; f < faces; f++) {
     int corner[3][3];
     for (int k = 0; k < 3; k++)
       for (int i = 0; i < 3; i++) {
-        corner[k][i] = hand_below(&r, 3000);
-        if (hand_below(&r, 20) == 0)
-          corner[k][i] = hand_below(&r, 4) * 1000;
+        corner[k][i] = exact_below(&r, 3000);
+        if (exact_below(&r, 20) == 0)
+          corner[k][i] = exact_below(&r, 4) * 1000;
         if (i == 2)
           corner[k][i] *= 10;
       }
-    hand_add_face(sheet, (const int(*)[3])corner, 3, SCALE / 4);
+    exact_add_face(sheet, (const int(*)[3])corner, 3, SCALE / 4);
   }
 }
 
@@ -299,23 +299,23 @@ static void check_soup(uint64_t seed, int faces, bool thin) {
   struct sheet first, other;
   struct map map, again;
   deep_soup(&first, seed, faces);
-  hand_solve(exact[0], &first, &map, NULL);
+  exact_solve(exact[0], &first, &map, NULL);
   for (int s = 1; s < EXACT_COUNT; s++) {
     struct report *report;
     if (exact[s] == &solver_newell && !thin)
       continue;
     report = report_create();
     deep_soup(&other, seed, faces);
-    hand_solve(exact[s], &other, &again, report);
+    exact_solve(exact[s], &other, &again, report);
     if (exact[s] == &solver_tiles && !thin)
       assert_int_equal(report_get(report, "tiles", "with_horizons", 0), 1);
-    hand_assert_visible_same(&map, &first, &again, &other, exact[s]->name);
+    exact_assert_visible_same(&map, &first, &again, &other, exact[s]->name);
     report_destroy(report);
     map_fini(&again);
-    hand_sheet_fini(&other);
+    exact_sheet_fini(&other);
   }
   map_fini(&map);
-  hand_sheet_fini(&first);
+  exact_sheet_fini(&first);
 }
 
 static void solvers_agree_on_deep_soups(void **state) {

@@ -37,7 +37,7 @@ static int64_t count_pairs(enum scenes_crowd crowd, unsigned n,
   return pairs;
 }
 
-static void row_29_pairs_grow_as_the_corners_do(void **state) {
+static void pairs_grow_as_the_corners_do(void **state) {
   (void)state;
   /* But for the umbrella, whose needles truly cover one another. */
   for (int crowd = 0; crowd < SCENES_CROWD_UMBRELLA; crowd++) {
@@ -50,7 +50,7 @@ static void row_29_pairs_grow_as_the_corners_do(void **state) {
 }
 
 /* A crowd must be large enough to be parted; then it is parted rightly. */
-static void row_29_solvers_agree_about_crowds(void **state) {
+static void solvers_agree_about_crowds(void **state) {
   (void)state;
   const struct solver *other[] = {&solver_tiles, &solver_warnock,
                                   &solver_newell};
@@ -71,7 +71,7 @@ static void row_29_solvers_agree_about_crowds(void **state) {
   }
 }
 
-static void row_29_a_bellows_of_1300_is_the_same_by_all(void **state) {
+static void a_bellows_of_1300_is_the_same_by_all(void **state) {
   (void)state;
   struct scene scene;
   recto_options options;
@@ -88,7 +88,7 @@ static void row_29_a_bellows_of_1300_is_the_same_by_all(void **state) {
   scene_fini(&scene);
 }
 
-static void row_29_100000_triangles_on_one_vertex_end(void **state) {
+static void triangles_100000_on_one_vertex_end(void **state) {
   (void)state;
   (void)count_pairs(SCENES_CROWD_CONE, 100000, &solver_tiles);
 }
@@ -134,10 +134,10 @@ static void a_soup_of_10000_is_the_same_by_tiles_and_warnock(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(row_29_pairs_grow_as_the_corners_do),
-      cmocka_unit_test(row_29_solvers_agree_about_crowds),
-      cmocka_unit_test(row_29_a_bellows_of_1300_is_the_same_by_all),
-      cmocka_unit_test(row_29_100000_triangles_on_one_vertex_end),
+      cmocka_unit_test(pairs_grow_as_the_corners_do),
+      cmocka_unit_test(solvers_agree_about_crowds),
+      cmocka_unit_test(a_bellows_of_1300_is_the_same_by_all),
+      cmocka_unit_test(triangles_100000_on_one_vertex_end),
       cmocka_unit_test(soups_that_pierce_are_the_same_by_all),
       cmocka_unit_test(a_soup_of_10000_is_the_same_by_tiles_and_warnock),
   };

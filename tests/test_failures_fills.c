@@ -176,7 +176,7 @@ static size_t count_dark(struct drawing *drawing, double seam_mm,
 
 /* ---- Claims -------------------------------------------------------------- */
 
-static void row_11_no_seam_shows_between_fills(void **state) {
+static void no_seam_shows_between_fills(void **state) {
   size_t with = 0, without = 0, white = 0, scenes = 0;
   (void)state;
   for (const struct scenes_entry *e = scene_list; e->name; e++) {
@@ -207,7 +207,7 @@ static void row_11_no_seam_shows_between_fills(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(row_11_no_seam_shows_between_fills),
+      cmocka_unit_test(no_seam_shows_between_fills),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

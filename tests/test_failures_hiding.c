@@ -66,7 +66,7 @@ static void check_convex(const struct scene *scene,
   pipeline_fini(&pipeline);
 }
 
-static void row_01_no_face_hides_its_own_edge(void **state) {
+static void no_face_hides_its_own_edge(void **state) {
   static const char *const solid[] = {"cube", "icosahedron"};
   struct random random = {1};
   (void)state;
@@ -86,7 +86,7 @@ static void row_01_no_face_hides_its_own_edge(void **state) {
 
 /* ---- Row 3 --------------------------------------------------------------- */
 
-static void row_03_a_corner_view_of_a_cube_has_nine_edges(void **state) {
+static void a_corner_view_of_a_cube_has_nine_edges(void **state) {
   (void)state;
   for (double turn = 1e-12; turn < 2e-3; turn *= 10) {
     struct scene scene;
@@ -106,7 +106,7 @@ static void row_03_a_corner_view_of_a_cube_has_nine_edges(void **state) {
   }
 }
 
-static void row_03_a_cube_seen_square_on_keeps_its_outline(void **state) {
+static void a_cube_seen_square_on_keeps_its_outline(void **state) {
   (void)state;
   for (double turn = 1e-13; turn < 2e-3; turn *= 10) {
     struct scene scene;
@@ -131,7 +131,7 @@ static void row_03_a_cube_seen_square_on_keeps_its_outline(void **state) {
 
 /* ---- Row 5 --------------------------------------------------------------- */
 
-static void row_05_pierced_scenes_have_their_exact_areas(void **state) {
+static void pierced_scenes_have_their_exact_areas(void **state) {
   (void)state;
   struct scene scene;
   recto_options options;
@@ -153,7 +153,7 @@ static void row_05_pierced_scenes_have_their_exact_areas(void **state) {
   scene_fini(&scene);
 }
 
-static void row_05_lines_where_faces_pierce_are_drawn(void **state) {
+static void lines_where_faces_pierce_are_drawn(void **state) {
   (void)state;
   struct scene scene;
   recto_options options;
@@ -181,7 +181,7 @@ static void count_fragments(const struct pipeline *pipeline,
     fragments[pipeline->map.fragment.item[i].face]++;
 }
 
-static void row_06_each_bar_of_a_cycle_is_cut_in_two(void **state) {
+static void each_bar_of_a_cycle_is_cut_in_two(void **state) {
   (void)state;
   for (unsigned n = 3; n <= 9; n++) {
     struct scene scene;
@@ -209,7 +209,7 @@ static double sum_areas(const struct pipeline *pipeline,
   return sum;
 }
 
-static void row_06_a_field_of_100_cycles_is_100_times_one(void **state) {
+static void a_field_of_100_cycles_is_100_times_one(void **state) {
   (void)state;
   struct pipeline one, field;
   struct scene scene_one, scene_field;
@@ -247,14 +247,14 @@ static int compare_spans(const void *a, const void *b) {
 }
 
 /* How much of a row at y is covered by any face. */
-static double covered(const struct judge_place *at, uint32_t quads, double y,
+static double covered(const struct judge_point2 *at, uint32_t quads, double y,
                       struct span *span) {
   unsigned count = 0;
   for (uint32_t i = 0; i < quads; i++) {
     double x[2];
     unsigned found = 0;
     for (unsigned k = 0; k < 4 && found < 2; k++) {
-      struct judge_place a = at[4 * i + k], b = at[4 * i + (k + 1) % 4];
+      struct judge_point2 a = at[4 * i + k], b = at[4 * i + (k + 1) % 4];
       if ((a.y <= y) != (b.y <= y))
         x[found++] = a.x + (y - a.y) * (b.x - a.x) / (b.y - a.y);
     }
@@ -271,13 +271,13 @@ static double covered(const struct judge_place *at, uint32_t quads, double y,
   return sum;
 }
 
-static void row_06_areas_of_1000_sticks_add_up_to_their_union(void **state) {
+static void areas_of_1000_sticks_add_up_to_their_union(void **state) {
   enum { sticks = 1000, rows = 20000 };
   (void)state;
   struct scene scene;
   recto_options options;
   struct pipeline pipeline;
-  static struct judge_place at[4 * sticks];
+  static struct judge_point2 at[4 * sticks];
   static struct span span[sticks];
   recto_options_init(&options);
   scene_init(&scene);
@@ -307,7 +307,7 @@ static void row_06_areas_of_1000_sticks_add_up_to_their_union(void **state) {
 static void raster_fragments(struct judge_raster *raster,
                              const struct pipeline *pipeline) {
   const struct map *map = &pipeline->map;
-  ARRAY(struct judge_place) place = {0};
+  ARRAY(struct judge_point2) place = {0};
   ARRAY(uint32_t) count = {0};
   for (size_t i = 0; i < map->fragment.count; i++) {
     const struct map_fragment *fragment = &map->fragment.item[i];
@@ -317,8 +317,8 @@ static void raster_fragments(struct judge_raster *raster,
       build_require(ARRAY_PUSH(&count, loop->count));
       for (uint32_t k = 0; k < loop->count; k++) {
         const struct map_corner *corner = &map->corner.item[loop->corner + k];
-        struct judge_place at = {sheet_x_mm(&pipeline->sheet, corner->x),
-                                 sheet_y_mm(&pipeline->sheet, corner->y)};
+        struct judge_point2 at = {sheet_x_mm(&pipeline->sheet, corner->x),
+                                  sheet_y_mm(&pipeline->sheet, corner->y)};
         build_require(ARRAY_PUSH(&place, at));
       }
     }
@@ -352,12 +352,12 @@ static void check_against_raster(const char *name, unsigned n) {
   scene_fini(&scene);
 }
 
-static void row_07_a_large_table_is_as_a_depth_buffer_sees_it(void **state) {
+static void a_large_table_is_as_a_depth_buffer_sees_it(void **state) {
   (void)state;
   check_against_raster("large table", 4096);
 }
 
-static void row_07_other_scenes_are_as_a_depth_buffer_sees_them(void **state) {
+static void other_scenes_are_as_a_depth_buffer_sees_them(void **state) {
   static const char *const name[] = {
       "crossed boxes", "three sheets", "self-intersecting", "nested cycles",
       "sticks",        "honeycomb",    "Menger sponge",     "lattice",
@@ -369,7 +369,7 @@ static void row_07_other_scenes_are_as_a_depth_buffer_sees_them(void **state) {
 
 /* ---- Row 8 --------------------------------------------------------------- */
 
-static void row_08_a_doubled_mesh_is_drawn_once(void **state) {
+static void a_doubled_mesh_is_drawn_once(void **state) {
   (void)state;
   struct scene twice, once;
   recto_options options;
@@ -398,7 +398,7 @@ static void row_08_a_doubled_mesh_is_drawn_once(void **state) {
   scene_fini(&once);
 }
 
-static void row_08_two_colours_in_one_plane_keep_their_areas(void **state) {
+static void two_colours_in_one_plane_keep_their_areas(void **state) {
   (void)state;
   struct scene scene;
   recto_options options;
@@ -449,7 +449,7 @@ static void fill_on_table_float(struct scene *scene, recto_options *options,
   scenes_box_on_table(scene, options, SCENES_CONTACT_FLOAT, turn);
 }
 
-static void row_08_contact_hides_nothing_under_a_tiny_turn(void **state) {
+static void contact_hides_nothing_under_a_tiny_turn(void **state) {
   (void)state;
   check_turned(scenes_touching_boxes, "touching boxes");
   check_turned(fill_stack, "cube stack");
@@ -459,19 +459,19 @@ static void row_08_contact_hides_nothing_under_a_tiny_turn(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(row_01_no_face_hides_its_own_edge),
-      cmocka_unit_test(row_03_a_corner_view_of_a_cube_has_nine_edges),
-      cmocka_unit_test(row_03_a_cube_seen_square_on_keeps_its_outline),
-      cmocka_unit_test(row_05_pierced_scenes_have_their_exact_areas),
-      cmocka_unit_test(row_05_lines_where_faces_pierce_are_drawn),
-      cmocka_unit_test(row_06_each_bar_of_a_cycle_is_cut_in_two),
-      cmocka_unit_test(row_06_a_field_of_100_cycles_is_100_times_one),
-      cmocka_unit_test(row_06_areas_of_1000_sticks_add_up_to_their_union),
-      cmocka_unit_test(row_07_a_large_table_is_as_a_depth_buffer_sees_it),
-      cmocka_unit_test(row_07_other_scenes_are_as_a_depth_buffer_sees_them),
-      cmocka_unit_test(row_08_a_doubled_mesh_is_drawn_once),
-      cmocka_unit_test(row_08_two_colours_in_one_plane_keep_their_areas),
-      cmocka_unit_test(row_08_contact_hides_nothing_under_a_tiny_turn),
+      cmocka_unit_test(no_face_hides_its_own_edge),
+      cmocka_unit_test(a_corner_view_of_a_cube_has_nine_edges),
+      cmocka_unit_test(a_cube_seen_square_on_keeps_its_outline),
+      cmocka_unit_test(pierced_scenes_have_their_exact_areas),
+      cmocka_unit_test(lines_where_faces_pierce_are_drawn),
+      cmocka_unit_test(each_bar_of_a_cycle_is_cut_in_two),
+      cmocka_unit_test(a_field_of_100_cycles_is_100_times_one),
+      cmocka_unit_test(areas_of_1000_sticks_add_up_to_their_union),
+      cmocka_unit_test(a_large_table_is_as_a_depth_buffer_sees_it),
+      cmocka_unit_test(other_scenes_are_as_a_depth_buffer_sees_them),
+      cmocka_unit_test(a_doubled_mesh_is_drawn_once),
+      cmocka_unit_test(two_colours_in_one_plane_keep_their_areas),
+      cmocka_unit_test(contact_hides_nothing_under_a_tiny_turn),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

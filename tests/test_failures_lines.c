@@ -47,7 +47,7 @@ static double fighting_share(const struct solver *solver, int lines, int bits,
   return share;
 }
 
-static void row_28_exact_methods_tell_near_sheets_apart(void **state) {
+static void exact_methods_tell_near_sheets_apart(void **state) {
   (void)state;
   for (const struct solver *const *s = solvers(); *s != NULL; s++)
     for (double gap = 1e-3; (*s)->exact && gap > 0.9e-9; gap /= 10)
@@ -58,7 +58,7 @@ static void row_28_exact_methods_tell_near_sheets_apart(void **state) {
 
 /* What is seen of all outlines, in scene units: 2 of each mark, 10 of the near
  * sheet; of the far one's 10, 2.5 and 1.5 are behind the near one. */
-static void row_28_lines_behind_a_near_sheet_are_hidden(void **state) {
+static void lines_behind_a_near_sheet_are_hidden(void **state) {
   (void)state;
   for (const struct solver *const *s = solvers(); *s != NULL; s++)
     for (double gap = 1e-3; (*s)->exact && gap > 0.9e-9; gap /= 10) {
@@ -82,7 +82,7 @@ static void row_28_lines_behind_a_near_sheet_are_hidden(void **state) {
 /* Where the two are on one level the earlier one stays, which is the far one:
  * with levels 2^-B of the depth and the sheets aslant, 1 - gap 2^B of the
  * pixels, and none where the gap is a level or more. */
-static void row_28_depths_fight_where_the_bits_say_so(void **state) {
+static void depths_fight_where_the_bits_say_so(void **state) {
   static const struct solver *const both[] = {&solver_zbuffer,
                                               &solver_scanline_zbuffer};
   static const int bits[] = {16, 24, 32};
@@ -137,7 +137,7 @@ static void fill_bars(struct scene *scene, recto_options *options, bool ok) {
 /* Bars between two lines are missed, all others are seen on as many lines as
  * pass through them, and none that is a pitch thick is missed. */
 static void
-row_30_what_is_thinner_than_the_pitch_is_missed_and_only_that(void **state) {
+what_is_thinner_than_the_pitch_is_missed_and_only_that(void **state) {
   static const char *const name[] = {"zbuffer", "scanline-zbuffer", "warnock",
                                      "watkins"};
   struct scene scene;
@@ -170,7 +170,7 @@ row_30_what_is_thinner_than_the_pitch_is_missed_and_only_that(void **state) {
 }
 
 /* The exact methods miss none of them. */
-static void row_30_exact_methods_see_the_thinnest(void **state) {
+static void exact_methods_see_the_thinnest(void **state) {
   struct scene scene;
   recto_options options;
   (void)state;
@@ -224,12 +224,11 @@ static void a_section_cuts_away_what_is_nearer(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(row_28_exact_methods_tell_near_sheets_apart),
-      cmocka_unit_test(row_28_lines_behind_a_near_sheet_are_hidden),
-      cmocka_unit_test(row_28_depths_fight_where_the_bits_say_so),
-      cmocka_unit_test(
-          row_30_what_is_thinner_than_the_pitch_is_missed_and_only_that),
-      cmocka_unit_test(row_30_exact_methods_see_the_thinnest),
+      cmocka_unit_test(exact_methods_tell_near_sheets_apart),
+      cmocka_unit_test(lines_behind_a_near_sheet_are_hidden),
+      cmocka_unit_test(depths_fight_where_the_bits_say_so),
+      cmocka_unit_test(what_is_thinner_than_the_pitch_is_missed_and_only_that),
+      cmocka_unit_test(exact_methods_see_the_thinnest),
       cmocka_unit_test(a_section_cuts_away_what_is_nearer),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -32,7 +32,7 @@ static void end(struct pipeline *pipeline, struct scene *scene) {
 
 /* ---- Row 4 --------------------------------------------------------------- */
 
-static void row_04_faces_without_area_change_nothing(void **state) {
+static void faces_without_area_change_nothing(void **state) {
   (void)state;
   struct scene flawed, plain;
   recto_options options;
@@ -50,7 +50,7 @@ static void row_04_faces_without_area_change_nothing(void **state) {
   scene_fini(&plain);
 }
 
-static void row_04_faces_edge_on_hide_nothing(void **state) {
+static void faces_edge_on_hide_nothing(void **state) {
   (void)state;
   struct scene scene;
   recto_options options;
@@ -72,7 +72,7 @@ static void row_04_faces_edge_on_hide_nothing(void **state) {
   end(&pipeline, &scene);
 }
 
-static void row_04_flawed_faces_are_drawn_as_the_judge_sees_them(void **state) {
+static void flawed_faces_are_drawn_as_the_judge_sees_them(void **state) {
   static const char *const name[] = {"faces edge-on",     "needles",
                                      "zero area",         "collinear vertices",
                                      "repeated vertices", "flaws mixed"};
@@ -88,7 +88,7 @@ static void row_04_flawed_faces_are_drawn_as_the_judge_sees_them(void **state) {
 
 /* ---- Row 9 --------------------------------------------------------------- */
 
-static void row_09_a_seam_with_hanging_vertices_is_drawn_once(void **state) {
+static void a_seam_with_hanging_vertices_is_drawn_once(void **state) {
   (void)state;
   struct scene scene;
   recto_options options;
@@ -107,7 +107,7 @@ static void row_09_a_seam_with_hanging_vertices_is_drawn_once(void **state) {
   end(&pipeline, &scene);
 }
 
-static void row_09_unwelded_is_drawn_as_welded(void **state) {
+static void unwelded_is_drawn_as_welded(void **state) {
   (void)state;
   struct scene welded, unwelded;
   recto_options options;
@@ -126,7 +126,7 @@ static void row_09_unwelded_is_drawn_as_welded(void **state) {
 
 /* ---- Row 10 -------------------------------------------------------------- */
 
-static void row_10_a_face_in_pieces_shows_no_line_inside(void **state) {
+static void a_face_in_pieces_shows_no_line_inside(void **state) {
   (void)state;
   struct scene scene;
   recto_options options;
@@ -140,7 +140,7 @@ static void row_10_a_face_in_pieces_shows_no_line_inside(void **state) {
   end(&pipeline, &scene);
 }
 
-static void row_10_no_split_is_drawn(void **state) {
+static void no_split_is_drawn(void **state) {
   (void)state;
   struct scene scene;
   recto_options options;
@@ -162,7 +162,7 @@ static void row_10_no_split_is_drawn(void **state) {
 
 /* ---- Rows 13 and 15 ------------------------------------------------------ */
 
-static void row_13_a_box_seen_square_on_is_one_rectangle(void **state) {
+static void a_box_seen_square_on_is_one_rectangle(void **state) {
   (void)state;
   struct scene scene;
   recto_options options;
@@ -214,7 +214,7 @@ static size_t list_segments(const struct drawing *drawing,
   return count;
 }
 
-static void row_13_no_line_is_drawn_twice(void **state) {
+static void no_line_is_drawn_twice(void **state) {
   enum { room = 4000 };
   static struct segment segment[room];
   (void)state;
@@ -237,7 +237,7 @@ static void row_13_no_line_is_drawn_twice(void **state) {
   }
 }
 
-static void row_15_a_straight_edge_is_two_points(void **state) {
+static void a_straight_edge_is_two_points(void **state) {
   (void)state;
   struct scene scene;
   recto_options options;
@@ -255,7 +255,7 @@ static void row_15_a_straight_edge_is_two_points(void **state) {
   end(&plain, &box);
 }
 
-static void row_15_no_stroke_has_a_point_within_a_straight(void **state) {
+static void no_stroke_has_a_point_within_a_straight(void **state) {
   (void)state;
   for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
     struct scene scene;
@@ -297,7 +297,7 @@ static void hear(void *user, const char *file, unsigned long line,
   snprintf(heard->file, sizeof heard->file, "%s", file);
 }
 
-static void row_19_one_bad_element_spoils_nothing_else(void **state) {
+static void one_bad_element_spoils_nothing_else(void **state) {
   for (const struct scenes_faulty *faulty = scenes_faulty_list; faulty->name;
        faulty++) {
     struct scene scene;
@@ -333,20 +333,19 @@ static void row_19_one_bad_element_spoils_nothing_else(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(row_04_faces_without_area_change_nothing),
-      cmocka_unit_test(row_04_faces_edge_on_hide_nothing),
-      cmocka_unit_test(row_04_flawed_faces_are_drawn_as_the_judge_sees_them),
-      cmocka_unit_test(row_09_a_seam_with_hanging_vertices_is_drawn_once),
-      cmocka_unit_test(row_09_unwelded_is_drawn_as_welded),
-      cmocka_unit_test(row_10_a_face_in_pieces_shows_no_line_inside),
-      cmocka_unit_test(row_10_no_split_is_drawn),
-      cmocka_unit_test(row_13_a_box_seen_square_on_is_one_rectangle),
-      cmocka_unit_test(row_13_no_line_is_drawn_twice),
-      cmocka_unit_test(row_15_a_straight_edge_is_two_points),
-      cmocka_unit_test(row_15_no_stroke_has_a_point_within_a_straight),
-      cmocka_unit_test_setup_teardown(
-          row_19_one_bad_element_spoils_nothing_else, temporary_set_up,
-          temporary_tear_down),
+      cmocka_unit_test(faces_without_area_change_nothing),
+      cmocka_unit_test(faces_edge_on_hide_nothing),
+      cmocka_unit_test(flawed_faces_are_drawn_as_the_judge_sees_them),
+      cmocka_unit_test(a_seam_with_hanging_vertices_is_drawn_once),
+      cmocka_unit_test(unwelded_is_drawn_as_welded),
+      cmocka_unit_test(a_face_in_pieces_shows_no_line_inside),
+      cmocka_unit_test(no_split_is_drawn),
+      cmocka_unit_test(a_box_seen_square_on_is_one_rectangle),
+      cmocka_unit_test(no_line_is_drawn_twice),
+      cmocka_unit_test(a_straight_edge_is_two_points),
+      cmocka_unit_test(no_stroke_has_a_point_within_a_straight),
+      cmocka_unit_test_setup_teardown(one_bad_element_spoils_nothing_else,
+                                      temporary_set_up, temporary_tear_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "tests/comma.h"
+#include "tests/comma_locale.h"
 #include "tests/failures.h"
 
 static char *draw(const struct scene *scene, const recto_options *options) {
@@ -48,7 +48,7 @@ static void fill_soup(struct scene *scene, recto_options *options, unsigned n) {
   scenes_soup(scene, options, n, 1);
 }
 
-static void row_18_memory_grows_with_the_faces_and_no_faster(void **state) {
+static void memory_grows_with_the_faces_and_no_faster(void **state) {
   static const struct {
     const char *name;
     void (*fill)(struct scene *, recto_options *, unsigned);
@@ -85,7 +85,7 @@ static bool has_no_unit(const recto_options *options) {
          options->fit == RECTO_FIT_PAGE && options->contact < 0;
 }
 
-static void row_21_a_power_of_two_in_scale_changes_no_byte(void **state) {
+static void a_power_of_two_in_scale_changes_no_byte(void **state) {
   (void)state;
   unsigned tried = 0;
   for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
@@ -153,7 +153,7 @@ static const char *const generic[] = {
     "cube",        "icosahedron", "crossed boxes", "self-intersecting", "globe",
     "large table", "honeycomb",   "sinc",          "collinear edges"};
 
-static void row_21_scale_does_not_matter(void **state) {
+static void scale_does_not_matter(void **state) {
   (void)state;
   for (size_t i = 0; i < sizeof generic / sizeof *generic; i++) {
     check_scaled(generic[i], 1e-6, 0, 1e-5);
@@ -161,7 +161,7 @@ static void row_21_scale_does_not_matter(void **state) {
   }
 }
 
-static void row_21_a_far_origin_does_not_matter(void **state) {
+static void a_far_origin_does_not_matter(void **state) {
   (void)state;
   /* At 1e7 a coordinate of size 1 is rounded to 1e-9: on the page, 1e-7. */
   for (size_t i = 0; i < sizeof generic / sizeof *generic; i++)
@@ -170,16 +170,16 @@ static void row_21_a_far_origin_does_not_matter(void **state) {
 
 /* ---- Row 22 -------------------------------------------------------------- */
 
-static void row_22_a_decimal_comma_changes_no_byte(void **state) {
+static void a_decimal_comma_changes_no_byte(void **state) {
   (void)state;
   struct scene scene;
   recto_options options;
   pipeline_fill(&scene, &options, scenes_find("crossed boxes"));
   char *point = draw(&scene, &options);
-  if (!comma_on())
+  if (!comma_locale_on())
     skip();
   char *comma = draw(&scene, &options);
-  comma_off();
+  comma_locale_off();
   assert_string_equal(point, comma);
   mem_free(point);
   mem_free(comma);
@@ -188,7 +188,7 @@ static void row_22_a_decimal_comma_changes_no_byte(void **state) {
 
 /* ---- Row 23 -------------------------------------------------------------- */
 
-static void row_23_drawing_twice_gives_the_same_bytes(void **state) {
+static void drawing_twice_gives_the_same_bytes(void **state) {
   (void)state;
   for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
     struct scene scene;
@@ -203,7 +203,7 @@ static void row_23_drawing_twice_gives_the_same_bytes(void **state) {
   }
 }
 
-static void row_23_the_number_of_threads_changes_no_byte(void **state) {
+static void the_number_of_threads_changes_no_byte(void **state) {
   (void)state;
   for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
     struct scene scene;
@@ -267,7 +267,7 @@ static struct segment *list_visible(const struct pipeline *pipeline,
   return segment;
 }
 
-static void row_23_faces_in_any_order_give_the_same_set_of_lines(void **state) {
+static void faces_in_any_order_give_the_same_set_of_lines(void **state) {
   /* Scenes in which no two faces tie in depth. */
   static const char *const name[] = {"cube",
                                      "icosahedron",
@@ -317,14 +317,14 @@ static void row_23_faces_in_any_order_give_the_same_set_of_lines(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(row_18_memory_grows_with_the_faces_and_no_faster),
-      cmocka_unit_test(row_21_a_power_of_two_in_scale_changes_no_byte),
-      cmocka_unit_test(row_21_scale_does_not_matter),
-      cmocka_unit_test(row_21_a_far_origin_does_not_matter),
-      cmocka_unit_test(row_22_a_decimal_comma_changes_no_byte),
-      cmocka_unit_test(row_23_drawing_twice_gives_the_same_bytes),
-      cmocka_unit_test(row_23_the_number_of_threads_changes_no_byte),
-      cmocka_unit_test(row_23_faces_in_any_order_give_the_same_set_of_lines),
+      cmocka_unit_test(memory_grows_with_the_faces_and_no_faster),
+      cmocka_unit_test(a_power_of_two_in_scale_changes_no_byte),
+      cmocka_unit_test(scale_does_not_matter),
+      cmocka_unit_test(a_far_origin_does_not_matter),
+      cmocka_unit_test(a_decimal_comma_changes_no_byte),
+      cmocka_unit_test(drawing_twice_gives_the_same_bytes),
+      cmocka_unit_test(the_number_of_threads_changes_no_byte),
+      cmocka_unit_test(faces_in_any_order_give_the_same_set_of_lines),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

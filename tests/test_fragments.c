@@ -1,9 +1,9 @@
 /* test_fragments.c - visible fragments tile the page, and their sides say
  * what they are. */
-#include "visibility/fragments.h"
-#include "hand/oracle.h"
-#include "hand/scene.h"
-#include "visibility/cover.h"
+#include "visibility/fragments/fragments.h"
+#include "exact_fixture/oracle.h"
+#include "exact_fixture/scene.h"
+#include "visibility/fragments/occluder_subtraction.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -38,7 +38,7 @@ static void free_areas(mpq_t *area2, size_t count) {
 /* Twice the visible area of each face, as the map says. */
 static void sum_fragments(const struct map *map, mpq_t *area2) {
   for (size_t f = 0; f < map->fragment.count; f++)
-    hand_add_area2(area2[map->fragment.item[f].face], map, f);
+    exact_add_area2(area2[map->fragment.item[f].face], map, f);
 }
 
 static void check_areas(struct sheet *sheet, const char *what) {
@@ -49,7 +49,7 @@ static void check_areas(struct sheet *sheet, const char *what) {
   for (int s = 0; s < EXACT_COUNT; s++) {
     mpq_t *got = new_areas(faces);
     struct map map;
-    hand_solve(exact[s], sheet, &map, NULL);
+    exact_solve(exact[s], sheet, &map, NULL);
     sum_fragments(&map, got);
     mpq_set_ui(sum, 0, 1);
     for (size_t f = 0; f < faces; f++) {
@@ -70,15 +70,15 @@ static void check_areas(struct sheet *sheet, const char *what) {
 static void areas_are_those_of_the_oracle(void **state) {
   (void)state;
   for (uint64_t seed = 1; seed <= 30; seed++)
-    for (int kind = 0; kind < HAND_KINDS; kind++) {
-      uint64_t r = seed * HAND_KINDS + (uint64_t)kind;
+    for (int kind = 0; kind < EXACT_KINDS; kind++) {
+      uint64_t r = seed * EXACT_KINDS + (uint64_t)kind;
       struct sheet sheet;
       char what[64];
-      int faces = 2 + hand_below(&r, 3);
+      int faces = 2 + exact_below(&r, 3);
       snprintf(what, sizeof what, "kind %d, seed %u", kind, (unsigned)seed);
-      hand_random_sheet(&sheet, (enum hand_kind)kind, faces, &r);
+      exact_random_sheet(&sheet, (enum exact_kind)kind, faces, &r);
       check_areas(&sheet, what);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
     }
 }
 
@@ -122,7 +122,7 @@ static void check_form(const struct map *map) {
       sum += area2;
     }
     mpq_set_ui(area, 0, 1);
-    hand_add_area2(area, map, f);
+    exact_add_area2(area, map, f);
     assert_true(mpq_sgn(area) > 0);
     assert_true(fabs(sum - mpq_get_d(area)) < slack);
   }
@@ -135,14 +135,14 @@ static void loops_are_in_their_one_form(void **state) {
   (void)state;
   for (uint64_t seed = 1; seed <= 300; seed++) {
     uint64_t r = seed;
-    enum hand_kind kind = (enum hand_kind)(seed % HAND_EXTREME);
+    enum exact_kind kind = (enum exact_kind)(seed % EXACT_EXTREME);
     struct sheet sheet;
     struct map map;
-    hand_random_sheet(&sheet, kind, 3 + hand_below(&r, 8), &r);
-    hand_solve(&solver_brute, &sheet, &map, NULL);
+    exact_random_sheet(&sheet, kind, 3 + exact_below(&r, 8), &r);
+    exact_solve(&solver_brute, &sheet, &map, NULL);
     check_form(&map);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -152,26 +152,26 @@ static void loops_are_in_their_one_form(void **state) {
 static void solve_in_pieces(const struct sheet *sheet, int cuts, uint64_t *r,
                             struct map *map) {
   struct fragments fragments;
-  struct pagegrid grid;
-  struct cover cover;
+  struct triangle_grid grid;
+  struct occluder_subtraction subtraction;
   uint32_t n = (uint32_t)sheet->triangle.count;
   int points = (int)sheet->point.count;
   map_init(map);
-  assert_true(pagegrid_init(&grid, sheet));
+  assert_true(triangle_grid_init(&grid, sheet));
   assert_true(fragments_init(&fragments, sheet, &grid, true));
-  cover_init(&cover, sheet);
+  occluder_subtraction_init(&subtraction, sheet);
   for (uint32_t f = n; f-- > 0;) {
     if (sheet->triangle_flags[f] & SHEET_FLAT)
       continue;
-    assert_true(cover_start(&cover, f, NULL));
+    assert_true(occluder_subtraction_start(&subtraction, f, NULL));
     for (uint32_t g = 0; g < n; g++)
       if (g != f && !(sheet->triangle_flags[g] & SHEET_FLAT))
-        assert_true(cover_take_nearer(&cover, g));
+        assert_true(occluder_subtraction_take_nearer(&subtraction, g));
     for (int k = 0; k < cuts; k++) {
-      struct geom_point p = sheet->point.item[hand_below(r, points)],
-                        q = sheet->point.item[hand_below(r, points)];
-      struct geom_line *line = arena_alloc(&cover.arena, 2, sizeof *line);
-      size_t count = cover.left.count;
+      struct geom_point p = sheet->point.item[exact_below(r, points)],
+                        q = sheet->point.item[exact_below(r, points)];
+      struct geom_line *line = arena_alloc(&subtraction.arena, 2, sizeof *line);
+      size_t count = subtraction.left.count;
       assert_non_null(line);
       if (p.x == q.x && p.y == q.y)
         continue;
@@ -179,20 +179,21 @@ static void solve_in_pieces(const struct sheet *sheet, int cuts, uint64_t *r,
       geom_line_through(&line[1], q, p);
       for (size_t i = 0; i < count; i++) {
         struct geom_convex left, right;
-        assert_true(geom_convex_split(&cover.left.item[i], &line[0], &line[1],
-                                      &left, &right, &cover.arena));
-        cover.left.item[i] = left.count > 0 ? left : right;
+        assert_true(geom_convex_split(&subtraction.left.item[i], &line[0],
+                                      &line[1], &left, &right,
+                                      &subtraction.arena));
+        subtraction.left.item[i] = left.count > 0 ? left : right;
         if (left.count > 0 && right.count > 0)
-          assert_true(ARRAY_PUSH(&cover.left, right));
+          assert_true(ARRAY_PUSH(&subtraction.left, right));
       }
     }
-    assert_true(
-        fragments_add(&fragments, f, cover.left.item, cover.left.count));
+    assert_true(fragments_add(&fragments, f, subtraction.left.item,
+                              subtraction.left.count));
   }
   assert_true(fragments_finish(&fragments, true, map));
-  cover_fini(&cover);
+  occluder_subtraction_fini(&subtraction);
   fragments_fini(&fragments);
-  pagegrid_fini(&grid);
+  triangle_grid_fini(&grid);
 }
 
 static void assert_same_fragments(const struct map *a, const struct map *b) {
@@ -200,7 +201,7 @@ static void assert_same_fragments(const struct map *a, const struct map *b) {
   assert_int_equal(a->loop.count, b->loop.count);
   assert_int_equal(a->corner.count, b->corner.count);
   for (size_t f = 0; f < a->fragment.count; f++)
-    assert_true(hand_same_area(a, b, f));
+    assert_true(exact_same_area(a, b, f));
   for (size_t c = 0; c < a->corner.count; c++) {
     const struct map_corner *p = &a->corner.item[c], *q = &b->corner.item[c];
     assert_true(p->x == q->x && p->y == q->y);
@@ -213,18 +214,18 @@ static void how_pieces_were_cut_does_not_show(void **state) {
   (void)state;
   for (uint64_t seed = 1; seed <= 150; seed++) {
     uint64_t r = seed;
-    enum hand_kind kind = (enum hand_kind)(seed % HAND_KINDS);
+    enum exact_kind kind = (enum exact_kind)(seed % EXACT_KINDS);
     struct sheet sheet;
     struct map map, again;
-    hand_random_sheet(&sheet, kind, 2 + hand_below(&r, 5), &r);
+    exact_random_sheet(&sheet, kind, 2 + exact_below(&r, 5), &r);
     if (sheet.triangle.count > 0) {
       solve_in_pieces(&sheet, 0, &r, &map);
-      solve_in_pieces(&sheet, 1 + hand_below(&r, 4), &r, &again);
+      solve_in_pieces(&sheet, 1 + exact_below(&r, 4), &r, &again);
       assert_same_fragments(&map, &again);
       map_fini(&map);
       map_fini(&again);
     }
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -237,10 +238,10 @@ static const int decal[][3] = {{4, 4, 8}, {12, 4, 8}, {12, 12, 8}, {4, 12, 8}};
  * tilted, so that the plane's normal is no axis. */
 static void table_and_decal(struct sheet *sheet, bool table_first, int off,
                             double contact) {
-  hand_sheet_init(sheet);
+  exact_sheet_init(sheet);
   sheet->camera.contact = contact;
-  hand_add_face(sheet, table_first ? table : decal, 4, SCALE);
-  hand_add_face(sheet, table_first ? decal : table, 4, SCALE);
+  exact_add_face(sheet, table_first ? table : decal, 4, SCALE);
+  exact_add_face(sheet, table_first ? decal : table, 4, SCALE);
   for (size_t k = 0; k < 4; k++)
     sheet->point.item[(table_first ? 4 : 0) + k].z += off;
   for (size_t k = 0; k < sheet->point.count; k++)
@@ -254,16 +255,16 @@ static void a_decal_off_by_rounding_goes_to_the_earlier_face(void **state) {
       struct sheet sheet;
       struct map map;
       table_and_decal(&sheet, true, off, 0);
-      hand_solve(exact[s], &sheet, &map, NULL);
-      hand_assert_area(&map, 0, SCALE, 256, 1);
+      exact_solve(exact[s], &sheet, &map, NULL);
+      exact_assert_area(&map, 0, SCALE, 256, 1);
       assert_int_equal(map.fragment.count, 1);
       assert_int_equal(map.corner.count, 4);
       map_fini(&map);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
       table_and_decal(&sheet, false, off, 0);
-      hand_solve(exact[s], &sheet, &map, NULL);
-      hand_assert_area(&map, 0, SCALE, 64, 1);
-      hand_assert_area(&map, 1, SCALE, 192, 1);
+      exact_solve(exact[s], &sheet, &map, NULL);
+      exact_assert_area(&map, 0, SCALE, 64, 1);
+      exact_assert_area(&map, 1, SCALE, 192, 1);
       assert_int_equal(map.fragment.count, 2);
       assert_int_equal(map.fragment.item[1].loops, 2);
       for (uint32_t k = 8; k < 12; k++) { /* the hole is the decal's outline */
@@ -271,7 +272,7 @@ static void a_decal_off_by_rounding_goes_to_the_earlier_face(void **state) {
         assert_in_range(map.corner.item[k].id, 0, 3);
       }
       map_fini(&map);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
     }
 }
 
@@ -291,15 +292,15 @@ static void contact_ends_where_its_definition_says(void **state) {
       struct sheet sheet;
       struct map map;
       table_and_decal(&sheet, true, row[k].off, row[k].contact);
-      hand_solve(exact[s], &sheet, &map, NULL);
-      hand_assert_area(&map, 1, SCALE, row[k].touches ? 0 : 64, 1);
+      exact_solve(exact[s], &sheet, &map, NULL);
+      exact_assert_area(&map, 1, SCALE, row[k].touches ? 0 : 64, 1);
       map_fini(&map);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
       table_and_decal(&sheet, false, -row[k].off, row[k].contact);
-      hand_solve(exact[s], &sheet, &map, NULL);
-      hand_assert_area(&map, 0, SCALE, row[k].touches ? 64 : 0, 1);
+      exact_solve(exact[s], &sheet, &map, NULL);
+      exact_assert_area(&map, 0, SCALE, row[k].touches ? 64 : 0, 1);
       map_fini(&map);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
     }
 }
 

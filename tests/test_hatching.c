@@ -31,7 +31,7 @@ static double level_ink_in_svg(const struct pipeline *pipeline,
   assert_null(judge_read_svg(&drawing, text, length));
   for (size_t s = 0; s < drawing.stroke.count; s++) {
     const struct judge_stroke *stroke = &drawing.stroke.item[s];
-    const struct judge_place *p = drawing.point.item + stroke->point;
+    const struct judge_point2 *p = drawing.point.item + stroke->point;
     for (uint32_t i = 0; i + 1 < stroke->count; i++)
       if (p[i].y == p[i + 1].y)
         sum += fabs(p[i + 1].x - p[i].x);

@@ -29,10 +29,10 @@ static void a_plot_is_written_in_the_common_dialect(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 100, 100);
-  uint32_t first = maker_layer(&f.drawing, 1, 0.3, 0);
-  uint32_t second = maker_layer(&f.drawing, 2, 0.3, 0);
-  maker_line(&f.drawing, first, 1, 2, 3, 4);
-  maker_box(&f.drawing, second, 10, 10, 20, 20);
+  uint32_t first = drawing_fixture_layer(&f.drawing, 1, 0.3, 0);
+  uint32_t second = drawing_fixture_layer(&f.drawing, 2, 0.3, 0);
+  drawing_fixture_line(&f.drawing, first, 1, 2, 3, 4);
+  drawing_fixture_box(&f.drawing, second, 10, 10, 20, 20);
   f.options.velocity = 12;
   plotting_run(&f);
   assert_string_equal(f.text, "IN;\nDF;\nVS12;\nSP1;\nPU40,80;\nPD120,160;\n"
@@ -47,7 +47,7 @@ static void an_empty_drawing_takes_no_pen(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 100, 100);
-  maker_layer(&f.drawing, 1, 0.3, 0);
+  drawing_fixture_layer(&f.drawing, 1, 0.3, 0);
   plotting_run(&f);
   assert_string_equal(f.text, "IN;\nDF;\nPU;\nSP0;\nIN;\n");
   plotting_end(&f);
@@ -62,7 +62,9 @@ static void long_strokes_are_cut_into_commands_of_100_points(void **state) {
     xy[2 * i] = (double)i * 0.1;
     xy[2 * i + 1] = i % 2 ? 11 : 10;
   }
-  maker_stroke(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), xy, 1001, false);
+  drawing_fixture_stroke(&f.drawing,
+                         drawing_fixture_layer(&f.drawing, 1, 0.3, 0), xy, 1001,
+                         false);
   plotting_run(&f);
   assert_int_equal(f.back.longest, 100);
   assert_int_equal(f.back.stroke.count, 1);
@@ -74,12 +76,13 @@ static void points_that_repeat_and_strokes_that_vanish_go(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 100, 100);
-  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
-  maker_line(&f.drawing, layer, 5, 5, 5.001, 5.001);
-  maker_stroke(&f.drawing, layer, (double[]){7, 7, 7, 7}, 2, true);
-  maker_stroke(&f.drawing, layer, (double[]){7, 7}, 1, false);
-  maker_stroke(&f.drawing, layer,
-               (double[]){1, 1, 1.001, 1, 2, 2, 2, 2, 2.002, 2.003}, 5, false);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 0.3, 0);
+  drawing_fixture_line(&f.drawing, layer, 5, 5, 5.001, 5.001);
+  drawing_fixture_stroke(&f.drawing, layer, (double[]){7, 7, 7, 7}, 2, true);
+  drawing_fixture_stroke(&f.drawing, layer, (double[]){7, 7}, 1, false);
+  drawing_fixture_stroke(&f.drawing, layer,
+                         (double[]){1, 1, 1.001, 1, 2, 2, 2, 2, 2.002, 2.003},
+                         5, false);
   plotting_run(&f);
   assert_int_equal(f.back.stroke.count, 1);
   assert_int_equal(f.back.stroke.item[0].count, 2);
@@ -98,9 +101,9 @@ static void pens_change_only_where_they_must(void **state) {
   static const unsigned pens[] = {1, 1, 3, 2, 2, 1};
   plotting_begin(&f, 100, 100);
   for (size_t i = 0; i < 6; i++) {
-    uint32_t layer = maker_layer(&f.drawing, pens[i], 0.3, 0);
+    uint32_t layer = drawing_fixture_layer(&f.drawing, pens[i], 0.3, 0);
     if (pens[i] != 3)
-      maker_line(&f.drawing, layer, 10 + (double)i, 10, 20, 20);
+      drawing_fixture_line(&f.drawing, layer, 10 + (double)i, 10, 20, 20);
   }
   plotting_run(&f);
   assert_int_equal(f.back.pen.count, 2);
@@ -117,11 +120,11 @@ static void layers_come_in_their_order_whatever_the_strokes(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 100, 100);
-  uint32_t first = maker_layer(&f.drawing, 1, 0.3, 0);
-  uint32_t second = maker_layer(&f.drawing, 2, 0.3, 0);
-  maker_line(&f.drawing, second, 1, 1, 2, 2);
-  maker_line(&f.drawing, first, 3, 3, 4, 4);
-  maker_line(&f.drawing, second, 5, 5, 6, 6);
+  uint32_t first = drawing_fixture_layer(&f.drawing, 1, 0.3, 0);
+  uint32_t second = drawing_fixture_layer(&f.drawing, 2, 0.3, 0);
+  drawing_fixture_line(&f.drawing, second, 1, 1, 2, 2);
+  drawing_fixture_line(&f.drawing, first, 3, 3, 4, 4);
+  drawing_fixture_line(&f.drawing, second, 5, 5, 6, 6);
   plotting_run(&f);
   assert_int_equal(f.back.stroke.count, 3);
   assert_int_equal(f.back.stroke.item[0].pen, 1);
@@ -137,8 +140,9 @@ static void pens_past_the_carousel_are_dealt_anew_with_a_word(void **state) {
   plotting_begin(&f, 297, 210);
   f.options.device = "hp7475a";
   for (unsigned pen = 6; pen <= 8; pen++)
-    maker_line(&f.drawing, maker_layer(&f.drawing, pen, 0.3, 0), 50, 50, 60,
-               60);
+    drawing_fixture_line(&f.drawing,
+                         drawing_fixture_layer(&f.drawing, pen, 0.3, 0), 50, 50,
+                         60, 60);
   plotting_run(&f);
   assert_int_equal(f.back.pen.item[0], 6);
   assert_int_equal(f.back.pen.item[1], 1);
@@ -156,8 +160,9 @@ static void a_pen_that_is_dealt_anew_is_not_fetched_twice(void **state) {
   f.options.device = "hp7475a";
   static const unsigned pens[] = {1, 3, 7};
   for (size_t i = 0; i < 3; i++)
-    maker_line(&f.drawing, maker_layer(&f.drawing, pens[i], 0.3, 0), 50, 50, 60,
-               60);
+    drawing_fixture_line(&f.drawing,
+                         drawing_fixture_layer(&f.drawing, pens[i], 0.3, 0), 50,
+                         50, 60, 60);
   plotting_run(&f);
   assert_int_equal(f.back.pen.count, 2);
   assert_int_equal(f.back.pen.item[0], 1);
@@ -172,8 +177,9 @@ static void fills_are_left_out_with_a_word(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 100, 100);
-  uint32_t layer = maker_layer(&f.drawing, 1, 0.3, 0);
-  maker_fill(&f.drawing, layer, 0xff0000, (double[]){1, 1, 9, 1, 9, 9}, 3);
+  uint32_t layer = drawing_fixture_layer(&f.drawing, 1, 0.3, 0);
+  drawing_fixture_fill(&f.drawing, layer, 0xff0000,
+                       (double[]){1, 1, 9, 1, 9, 9}, 3);
   plotting_run(&f);
   assert_int_equal(f.back.stroke.count, 0);
   assert_int_equal(f.warnings, 1);
@@ -222,7 +228,9 @@ static void a_plotter_is_told_no_more_than_its_fastest(void **state) {
     plotting_begin(&f, 297, 210);
     f.options.device = speed[i].device;
     f.options.velocity = speed[i].asked;
-    maker_line(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), 50, 50, 60, 60);
+    drawing_fixture_line(&f.drawing,
+                         drawing_fixture_layer(&f.drawing, 1, 0.3, 0), 50, 50,
+                         60, 60);
     plotting_run(&f);
     assert_int_equal(f.back.velocity, speed[i].told);
     assert_int_equal(f.warnings, speed[i].warnings);
@@ -236,7 +244,8 @@ static void nobody_needs_to_listen_to_warnings(void **state) {
   struct plotting f;
   plotting_begin(&f, 100, 100);
   f.options.warning = NULL;
-  maker_line(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), 50, 50, 200, 50);
+  drawing_fixture_line(&f.drawing, drawing_fixture_layer(&f.drawing, 1, 0.3, 0),
+                       50, 50, 200, 50);
   plotting_run(&f);
   plotting_assert_point(&f, 0, 1, 4000, 2000);
   plotting_end(&f);
@@ -254,8 +263,9 @@ static void a_full_disk_leaves_no_plot(void **state) {
     xy[2 * i] = 10 + 0.013 * (double)i;
     xy[2 * i + 1] = 100 + (double)(i % 7);
   }
-  maker_stroke(&f.drawing, maker_layer(&f.drawing, 1, 0.3, 0), xy, 20000,
-               false);
+  drawing_fixture_stroke(&f.drawing,
+                         drawing_fixture_layer(&f.drawing, 1, 0.3, 0), xy,
+                         20000, false);
   recto_status status = RECTO_ERROR_IO;
   unsigned long n = 0;
   while (status != RECTO_OK && ++n < 100) {

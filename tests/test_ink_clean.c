@@ -9,8 +9,8 @@
 #include <cmocka.h>
 
 #include "base/tolerance.h"
-#include "ink/paths.h"
-#include "tests/inked.h"
+#include "ink/lines/paths.h"
+#include "tests/ink_fixture.h"
 #include "tests/scenes/random.h"
 
 enum { CREASE = RECTO_EDGE_CREASE };
@@ -113,28 +113,28 @@ static struct line random_line(struct random *random, bool closed) {
 /* ---- Straight lines ------------------------------------------------------ */
 
 /* Row 15 of the list of failures. */
-static void row_15_straight_edge_is_two_points(void **state) {
-  struct inked k;
+static void straight_edge_is_two_points(void **state) {
+  struct ink_fixture k;
   const double line[] = {5, 5, 95, 65};
   (void)state;
-  inked_start(&k);
-  uint32_t last = inked_point(&k, 5, 5);
+  ink_fixture_start(&k);
+  uint32_t last = ink_fixture_point(&k, 5, 5);
   for (int i = 1; i <= 900; i++) {
-    uint32_t here = inked_point(&k, 5 + i * 0.1, 5 + i * 60.0 / 900);
-    inked_edge(&k, last, here, CREASE);
+    uint32_t here = ink_fixture_point(&k, 5 + i * 0.1, 5 + i * 60.0 / 900);
+    ink_fixture_edge(&k, last, here, CREASE);
     last = here;
   }
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 1);
-  inked_assert_same_line(&k, 0, false, INKED_XY(line));
-  inked_end(&k);
+  ink_fixture_assert_same_line(&k, 0, false, INK_FIXTURE_XY(line));
+  ink_fixture_end(&k);
 }
 
 static void subdivided_box_is_four_points(void **state) {
   struct random random = {41};
   (void)state;
   for (int round = 0; round < 100; round++) {
-    struct inked k;
+    struct ink_fixture k;
     double angle = random_unit(&random) * 6.3;
     double x[4], y[4], box[8];
     for (int i = 0; i < 4; i++) {
@@ -142,19 +142,20 @@ static void subdivided_box_is_four_points(void **state) {
       box[2 * i] = x[i] = 50 + side * cos(angle) - top * sin(angle);
       box[2 * i + 1] = y[i] = 50 + side * sin(angle) + top * cos(angle);
     }
-    inked_start(&k);
+    ink_fixture_start(&k);
     for (int i = 0; i < 4; i++) {
       int j = (i + 1) % 4, parts = random_int(&random, 1, 50);
       for (int s = 0; s < parts; s++) {
         double t = (double)s / parts, u = (s + 1.0) / parts;
-        inked_line(&k, x[i] + t * (x[j] - x[i]), y[i] + t * (y[j] - y[i]),
-                   x[i] + u * (x[j] - x[i]), y[i] + u * (y[j] - y[i]), CREASE);
+        ink_fixture_line(&k, x[i] + t * (x[j] - x[i]), y[i] + t * (y[j] - y[i]),
+                         x[i] + u * (x[j] - x[i]), y[i] + u * (y[j] - y[i]),
+                         CREASE);
       }
     }
-    inked_draw(&k);
+    ink_fixture_draw(&k);
     assert_int_equal(k.drawing.stroke.count, 1);
-    inked_assert_same_line(&k, 0, true, INKED_XY(box));
-    inked_end(&k);
+    ink_fixture_assert_same_line(&k, 0, true, INK_FIXTURE_XY(box));
+    ink_fixture_end(&k);
   }
 }
 
@@ -281,21 +282,21 @@ static void long_zigzag_is_simplified_soon(void **state) {
 static void simplify_option_is_in_mm(void **state) {
   (void)state;
   for (int on = 0; on < 2; on++) {
-    struct inked k;
-    inked_start(&k);
+    struct ink_fixture k;
+    ink_fixture_start(&k);
     k.options.simplify_mm = on ? 0.5 : 0;
-    inked_line(&k, 10, 10, 50, 10.25, CREASE);
-    inked_line(&k, 50, 10.25, 90, 10, CREASE);
-    inked_draw(&k);
+    ink_fixture_line(&k, 10, 10, 50, 10.25, CREASE);
+    ink_fixture_line(&k, 50, 10.25, 90, 10, CREASE);
+    ink_fixture_draw(&k);
     assert_int_equal(k.drawing.stroke.item[0].count, on ? 2 : 3);
-    inked_end(&k);
+    ink_fixture_end(&k);
   }
 }
 
 /* ---- Short strokes ------------------------------------------------------- */
 
 /* Row 14 of the list of failures. */
-static void row_14_strokes_below_half_a_pen_are_dropped(void **state) {
+static void strokes_below_half_a_pen_are_dropped(void **state) {
   (void)state;
   static const struct {
     double asked, length;
@@ -306,28 +307,28 @@ static void row_14_strokes_below_half_a_pen_are_dropped(void **state) {
                {2, 1.9, false},
                {2, 2.1, true}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    struct inked k;
-    inked_start(&k);
+    struct ink_fixture k;
+    ink_fixture_start(&k);
     k.options.min_stroke_mm = cases[i].asked;
-    inked_line(&k, 10, 10, 10 + cases[i].length, 10, CREASE);
-    inked_draw(&k);
+    ink_fixture_line(&k, 10, 10, 10 + cases[i].length, 10, CREASE);
+    ink_fixture_draw(&k);
     assert_int_equal(k.drawing.stroke.count, cases[i].drawn);
-    inked_end(&k);
+    ink_fixture_end(&k);
   }
 }
 
 static void short_pieces_of_a_long_chain_stay(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   k.options.min_stroke_mm = 5;
   for (int i = 0; i < 100; i++)
-    inked_line(&k, 10 + 0.1 * i, 10 + (i % 2) * 0.1, 10.1 + 0.1 * i,
-               10 + (1 - i % 2) * 0.1, CREASE);
-  inked_draw(&k);
+    ink_fixture_line(&k, 10 + 0.1 * i, 10 + (i % 2) * 0.1, 10.1 + 0.1 * i,
+                     10 + (1 - i % 2) * 0.1, CREASE);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 1);
   assert_int_equal(k.drawing.stroke.item[0].count, 101);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 /* ---- Dashes -------------------------------------------------------------- */
@@ -360,20 +361,20 @@ static double length_of(const double *xy, uint32_t count, bool closed) {
   return length;
 }
 
-static void draw_hidden(struct inked *k, const double *xy, uint32_t count,
+static void draw_hidden(struct ink_fixture *k, const double *xy, uint32_t count,
                         bool closed) {
-  inked_start(k);
+  ink_fixture_start(k);
   k->options.hidden = RECTO_HIDDEN_DASHED;
   for (uint32_t i = 0; i + !closed < count; i++) {
     const double *a = xy + 2 * i, *b = xy + 2 * ((i + 1) % count);
-    inked_hide(k, inked_line(k, a[0], a[1], b[0], b[1], CREASE));
+    ink_fixture_hide(k, ink_fixture_line(k, a[0], a[1], b[0], b[1], CREASE));
   }
-  inked_draw(k);
+  ink_fixture_draw(k);
 }
 
 /* All dashes of an open line are as long, all gaps three pens wide, dashes near
  * twelve. */
-static void assert_dashes(const struct inked *k, const double *xy,
+static void assert_dashes(const struct ink_fixture *k, const double *xy,
                           uint32_t count) {
   const double gap = 0.9, dash = 3.6;
   size_t dashes = k->drawing.stroke.count;
@@ -387,7 +388,7 @@ static void assert_dashes(const struct inked *k, const double *xy,
     const struct drawing_point *p = k->drawing.point.item + s->point;
     double from = along(xy, count, p[0], end);
     assert_true(fabs(from - (i ? end + gap : 0)) < 1e-5);
-    assert_true(fabs(inked_stroke_length(k, i) - each) < 1e-5);
+    assert_true(fabs(ink_fixture_stroke_length(k, i) - each) < 1e-5);
     assert_false(s->closed);
     for (uint32_t c = 1; c < s->count; c++)
       end = along(xy, count, p[c], from);
@@ -399,11 +400,11 @@ static void assert_dashes(const struct inked *k, const double *xy,
 static void dashes_begin_and_end_with_ink(void **state) {
   (void)state;
   for (double x = 4; x < 90; x += 0.7) {
-    struct inked k;
+    struct ink_fixture k;
     const double line[] = {5, 10, 5 + x, 10};
-    draw_hidden(&k, INKED_XY(line), false);
-    assert_dashes(&k, INKED_XY(line));
-    inked_end(&k);
+    draw_hidden(&k, INK_FIXTURE_XY(line), false);
+    assert_dashes(&k, INK_FIXTURE_XY(line));
+    ink_fixture_end(&k);
   }
 }
 
@@ -420,7 +421,7 @@ static void dashes_go_round_bends(void **state) {
   size_t bends = 0;
   (void)state;
   for (uint32_t count = 9; count < 40; count++) {
-    struct inked k;
+    struct ink_fixture k;
     double line[2 * 40];
     make_round(line, count, false);
     draw_hidden(&k, line, count, false);
@@ -434,13 +435,13 @@ static void dashes_go_round_bends(void **state) {
     assert_dashes(&k, line, count);
     for (size_t i = 0; i < k.drawing.stroke.count; i++)
       bends += k.drawing.stroke.item[i].count - 2;
-    inked_end(&k);
+    ink_fixture_end(&k);
   }
   assert_in_range(bends, 400, 700); /* of 682 */
 }
 
 /* An end of a stroke is there. */
-static size_t count_ends(const struct inked *k, double x, double y) {
+static size_t count_ends(const struct ink_fixture *k, double x, double y) {
   size_t ends = 0;
   for (size_t i = 0; i < k->drawing.stroke.count; i++) {
     const struct drawing_stroke *s = &k->drawing.stroke.item[i];
@@ -457,26 +458,26 @@ static size_t count_ends(const struct inked *k, double x, double y) {
 static void dashes_begin_anew_at_corners(void **state) {
   const double line[] = {10, 10, 40, 10, 40, 18, 48, 18, 90, 50, 20, 40};
   const double loop[] = {80, 70, 20, 70, 20, 10, 80, 10};
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
-  draw_hidden(&k, INKED_XY(line), false);
+  draw_hidden(&k, INK_FIXTURE_XY(line), false);
   for (int i = 0; i < 6; i++)
     assert_int_equal(count_ends(&k, line[2 * i], line[2 * i + 1]),
                      i == 0 || i == 5 ? 1 : 2);
   for (size_t i = 0; i < k.drawing.stroke.count; i++)
     assert_int_equal(k.drawing.stroke.item[i].count, 2);
-  inked_end(&k);
-  draw_hidden(&k, INKED_XY(loop), true);
+  ink_fixture_end(&k);
+  draw_hidden(&k, INK_FIXTURE_XY(loop), true);
   for (int i = 0; i < 4; i++)
     assert_int_equal(count_ends(&k, loop[2 * i], loop[2 * i + 1]), 2);
   assert_int_equal(k.drawing.stroke.count % 4, 0);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 /* A bond of one corner is dashed from there to there. */
 static void loop_with_one_corner_begins_at_it(void **state) {
   enum { COUNT = 31 };
-  struct inked k;
+  struct ink_fixture k;
   double drop[2 * COUNT];
   (void)state;
   make_round(drop, COUNT - 1, false);
@@ -486,49 +487,49 @@ static void loop_with_one_corner_begins_at_it(void **state) {
   assert_int_equal(count_ends(&k, 50, 2), 2);
   for (size_t i = 0; i < k.drawing.stroke.count; i++)
     assert_false(k.drawing.stroke.item[i].closed);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void dashes_go_round_a_loop_evenly(void **state) {
   (void)state;
   for (uint32_t count = 14; count < 40; count += 2) {
-    struct inked k;
+    struct ink_fixture k;
     double loop[2 * 40];
     make_round(loop, count, true);
     draw_hidden(&k, loop, count, true);
-    const double gap = 0.9, each = inked_stroke_length(&k, 0);
+    const double gap = 0.9, each = ink_fixture_stroke_length(&k, 0);
     double whole = length_of(loop, count, true);
     for (size_t i = 1; i < k.drawing.stroke.count; i++)
-      assert_true(fabs(inked_stroke_length(&k, i) - each) < 1e-5);
+      assert_true(fabs(ink_fixture_stroke_length(&k, i) - each) < 1e-5);
     assert_true(fabs((each + gap) * (double)k.drawing.stroke.count - whole) <
                 1e-4);
-    inked_end(&k);
+    ink_fixture_end(&k);
   }
 }
 
 static void short_hidden_line_is_drawn_whole(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   const double line[] = {10, 10, 12.6, 10};
   (void)state;
-  draw_hidden(&k, INKED_XY(line), false);
+  draw_hidden(&k, INK_FIXTURE_XY(line), false);
   assert_int_equal(k.drawing.stroke.count, 1);
-  inked_assert_same_line(&k, 0, false, INKED_XY(line));
-  inked_end(&k);
+  ink_fixture_assert_same_line(&k, 0, false, INK_FIXTURE_XY(line));
+  ink_fixture_end(&k);
 }
 
 static void dashes_stand_on_the_layer_of_the_visible(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   const double line[] = {10, 10, 50, 10};
   (void)state;
-  draw_hidden(&k, INKED_XY(line), false);
+  draw_hidden(&k, INK_FIXTURE_XY(line), false);
   assert_int_equal(k.drawing.layer.count, 1);
   assert_string_equal(k.drawing.layer.item[0].label, "1 visible");
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(row_15_straight_edge_is_two_points),
+      cmocka_unit_test(straight_edge_is_two_points),
       cmocka_unit_test(subdivided_box_is_four_points),
       cmocka_unit_test(straightening_keeps_within_the_tolerance),
       cmocka_unit_test(fine_curve_does_not_drift),
@@ -538,7 +539,7 @@ int main(void) {
       cmocka_unit_test(simplifying_drops_what_it_may),
       cmocka_unit_test(long_zigzag_is_simplified_soon),
       cmocka_unit_test(simplify_option_is_in_mm),
-      cmocka_unit_test(row_14_strokes_below_half_a_pen_are_dropped),
+      cmocka_unit_test(strokes_below_half_a_pen_are_dropped),
       cmocka_unit_test(short_pieces_of_a_long_chain_stay),
       cmocka_unit_test(dashes_begin_and_end_with_ink),
       cmocka_unit_test(dashes_go_round_bends),

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "tests/inked.h"
+#include "tests/ink_fixture.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 
@@ -64,7 +64,7 @@ static double overlap(const struct side *s, const struct side *t) {
 }
 
 /* Rows 13 and 17 of the list of failures, on every scene of it. */
-static void row_13_no_scene_draws_a_line_twice(void **state) {
+static void no_scene_draws_a_line_twice(void **state) {
   enum { MOST = 3000 };
   (void)state;
   for (const struct scenes_entry *e = scene_list; e->name; e++) {
@@ -151,30 +151,32 @@ static void box_seen_square_on_draws_four_edges(void **state) {
 
 /* Something of everything: lines on each other, a fan, loops, hidden lines,
  * groups, fragments. */
-static void fill_all(struct inked *k) {
+static void fill_all(struct ink_fixture *k) {
   struct random random = {107};
   static const double flat[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
   static const double outer[] = {10, 10, 90, 10, 90, 80, 10, 80};
   static const double inner[] = {30, 30, 30, 50, 60, 50, 60, 30};
-  inked_group(k, "second");
+  ink_fixture_group(k, "second");
   for (int i = 0; i < 30; i++) {
     double x = random_int(&random, 1, 9) * 10,
            y = random_int(&random, 1, 9) * 10;
-    uint32_t edge = inked_line(k, x, y, random_int(&random, 1, 9) * 10, y,
-                               RECTO_EDGE_CREASE);
+    uint32_t edge = ink_fixture_line(k, x, y, random_int(&random, 1, 9) * 10, y,
+                                     RECTO_EDGE_CREASE);
     k->sheet.edge.item[edge].group = (uint32_t)i % 2;
-    edge = inked_line(k, x, y, x, y + 7, RECTO_EDGE_BORDER);
-    inked_show(k, edge, 0, 1, 3);
+    edge = ink_fixture_line(k, x, y, x, y + 7, RECTO_EDGE_BORDER);
+    ink_fixture_show(k, edge, 0, 1, 3);
   }
-  uint32_t hub = inked_point(k, 55, 55);
+  uint32_t hub = ink_fixture_point(k, 55, 55);
   for (int i = 0; i < 20; i++)
-    inked_edge(k, hub, inked_point(k, 55 + i, 90 - i % 3), RECTO_EDGE_SMOOTH);
+    ink_fixture_edge(k, hub, ink_fixture_point(k, 55 + i, 90 - i % 3),
+                     RECTO_EDGE_SMOOTH);
   for (int i = 0; i < 4; i++)
-    inked_line(k, inner[2 * i], inner[2 * i + 1], inner[(2 * i + 2) % 8],
-               inner[(2 * i + 3) % 8], RECTO_EDGE_SILHOUETTE);
-  inked_side(k);
-  inked_fragment(k, inked_face(k, 0, flat, 4), INKED_XY(outer));
-  inked_hole(k, INKED_XY(inner));
+    ink_fixture_line(k, inner[2 * i], inner[2 * i + 1], inner[(2 * i + 2) % 8],
+                     inner[(2 * i + 3) % 8], RECTO_EDGE_SILHOUETTE);
+  ink_fixture_side(k);
+  ink_fixture_fragment(k, ink_fixture_face(k, 0, flat, 4),
+                       INK_FIXTURE_XY(outer));
+  ink_fixture_hole(k, INK_FIXTURE_XY(inner));
   k->options.pens = 2;
   k->options.simplify_mm = 0.01;
   k->options.order = RECTO_ORDER_NEAR;
@@ -192,8 +194,8 @@ static void running_out_of_memory_is_told(void **state) {
                {RECTO_HIDDEN_NONE, RECTO_FILL_SHADE, false, false}};
   (void)state;
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    struct inked k;
-    inked_start(&k);
+    struct ink_fixture k;
+    ink_fixture_start(&k);
     fill_all(&k);
     k.options.hidden = cases[i].hidden;
     k.options.fill = cases[i].fill;
@@ -203,20 +205,20 @@ static void running_out_of_memory_is_told(void **state) {
     recto_status status;
     do {
       mem_fail_after(n);
-      status = inked_try(&k);
+      status = ink_fixture_try(&k);
       mem_fail_after(0);
       assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
       n += step;
     } while (status != RECTO_OK);
     assert_in_range(n, 40, 10000);
     assert_true(k.drawing.stroke.count > 20);
-    inked_end(&k);
+    ink_fixture_end(&k);
   }
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(row_13_no_scene_draws_a_line_twice),
+      cmocka_unit_test(no_scene_draws_a_line_twice),
       cmocka_unit_test(options_change_where_ink_goes_not_how_much),
       cmocka_unit_test(box_seen_square_on_draws_four_edges),
       cmocka_unit_test(running_out_of_memory_is_told),

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "ink/fill.h"
-#include "tests/inked.h"
+#include "ink/fill/fill.h"
+#include "tests/ink_fixture.h"
 #include "tests/scenes/random.h"
 
 enum { CREASE = RECTO_EDGE_CREASE };
@@ -18,8 +18,8 @@ static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
 
 /* ---- Layers -------------------------------------------------------------- */
 
-static void assert_layer(const struct inked *k, size_t layer, unsigned pen,
-                         const char *label) {
+static void assert_layer(const struct ink_fixture *k, size_t layer,
+                         unsigned pen, const char *label) {
   assert_in_range(layer + 1, 1, k->drawing.layer.count);
   assert_int_equal(k->drawing.layer.item[layer].pen, pen);
   assert_string_equal(k->drawing.layer.item[layer].label, label);
@@ -27,52 +27,52 @@ static void assert_layer(const struct inked *k, size_t layer, unsigned pen,
 }
 
 static void one_pen_draws_everything_visible(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   k.options.pen_mm = 0.7;
-  inked_group(&k, "other");
-  uint32_t edge = inked_line(&k, 10, 10, 50, 10, CREASE);
-  inked_line(&k, 10, 20, 50, 20, CREASE);
+  ink_fixture_group(&k, "other");
+  uint32_t edge = ink_fixture_line(&k, 10, 10, 50, 10, CREASE);
+  ink_fixture_line(&k, 10, 20, 50, 20, CREASE);
   k.sheet.edge.item[edge].group = 1;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 1);
   assert_layer(&k, 0, 1, "1 visible");
   assert_int_equal(k.drawing.layer.item[0].colour, 0x000000);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void hidden_lines_have_a_layer_of_their_own(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   k.options.hidden = RECTO_HIDDEN_LAYER;
-  inked_hide(&k, inked_line(&k, 10, 10, 50, 10, CREASE));
-  inked_line(&k, 10, 20, 50, 20, CREASE);
-  inked_draw(&k);
+  ink_fixture_hide(&k, ink_fixture_line(&k, 10, 10, 50, 10, CREASE));
+  ink_fixture_line(&k, 10, 20, 50, 20, CREASE);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 2);
   assert_layer(&k, 0, 1, "1 visible");
   assert_layer(&k, 1, 2, "2 hidden");
   assert_int_not_equal(k.drawing.layer.item[1].colour, 0x000000);
   assert_int_equal(k.drawing.stroke.item[0].layer, 0);
   assert_int_equal(k.drawing.stroke.item[1].layer, 1);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void groups_are_dealt_to_the_pens(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   k.options.pens = 2;
   k.options.hidden = RECTO_HIDDEN_LAYER;
-  inked_group(&k, "wheel");
-  inked_group(&k, "axle");
+  ink_fixture_group(&k, "wheel");
+  ink_fixture_group(&k, "axle");
   for (uint32_t g = 3; g-- > 0;) {
-    uint32_t edge = inked_line(&k, 10, 10 + g, 50, 10 + g, CREASE);
+    uint32_t edge = ink_fixture_line(&k, 10, 10 + g, 50, 10 + g, CREASE);
     k.sheet.edge.item[edge].group = g;
   }
-  inked_hide(&k, inked_line(&k, 10, 30, 50, 30, CREASE));
-  inked_draw(&k);
+  ink_fixture_hide(&k, ink_fixture_line(&k, 10, 30, 50, 30, CREASE));
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 3);
   assert_layer(&k, 0, 1, "1 thing, axle");
   assert_layer(&k, 1, 2, "2 wheel");
@@ -84,69 +84,69 @@ static void groups_are_dealt_to_the_pens(void **state) {
     assert_int_equal(k.drawing.stroke.item[i].group, group[i]);
     assert_int_equal(k.drawing.stroke.item[i].layer, layer[i]);
   }
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void
 empty_layers_are_left_out_and_pens_keep_their_numbers(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   k.options.pens = 9;
-  inked_group(&k, "wheel");
-  inked_group(&k, "axle");
-  uint32_t edge = inked_line(&k, 10, 10, 50, 10, CREASE);
+  ink_fixture_group(&k, "wheel");
+  ink_fixture_group(&k, "axle");
+  uint32_t edge = ink_fixture_line(&k, 10, 10, 50, 10, CREASE);
   k.sheet.edge.item[edge].group = 2;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 1);
   assert_layer(&k, 0, 3, "3 axle");
   assert_int_equal(k.drawing.stroke.item[0].layer, 0);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void empty_drawing_has_its_first_layer(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   k.options.hidden = RECTO_HIDDEN_LAYER;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 1);
   assert_layer(&k, 0, 1, "1 visible");
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void long_names_are_cut_between_characters(void **state) {
   (void)state;
   for (int pad = 0; pad < 4; pad++) {
-    struct inked k;
+    struct ink_fixture k;
     char name[200] = "";
-    inked_start(&k);
+    ink_fixture_start(&k);
     k.options.pens = 2;
     memset(name, 'a', (size_t)pad);
     for (int i = 0; i < 30; i++)
       strcat(name, "\xe2\x82\xac"); /* three bytes each */
-    uint32_t edge = inked_line(&k, 1, 1, 5, 5, CREASE);
-    k.sheet.edge.item[edge].group = inked_group(&k, name);
-    inked_draw(&k);
+    uint32_t edge = ink_fixture_line(&k, 1, 1, 5, 5, CREASE);
+    k.sheet.edge.item[edge].group = ink_fixture_group(&k, name);
+    ink_fixture_draw(&k);
     const char *label = k.drawing.layer.item[0].label;
     assert_in_range(strlen(label), 44,
                     sizeof k.drawing.layer.item[0].label - 1);
     assert_int_equal((strlen(label) - 2 - (size_t)pad) % 3, 0);
-    inked_end(&k);
+    ink_fixture_end(&k);
   }
 }
 
 static void group_without_name_has_a_label(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   k.options.pens = 2;
   mem_free(k.scene.group.item[0].name);
   k.scene.group.item[0].name = mem_calloc(1, 1);
-  inked_line(&k, 1, 1, 5, 5, CREASE);
-  inked_draw(&k);
+  ink_fixture_line(&k, 1, 1, 5, 5, CREASE);
+  ink_fixture_draw(&k);
   assert_layer(&k, 0, 1, "1 unnamed");
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 /* ---- Fills --------------------------------------------------------------- */
@@ -156,14 +156,14 @@ static const double outer[] = {10, 10, 90, 10, 90, 80, 10, 80};
 static const double inner[] = {30, 30, 30, 50, 60, 50, 60, 30};
 
 static void fragments_become_fills_with_their_holes(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   k.options.fill = RECTO_FILL_PAINT;
-  uint32_t face = inked_face(&k, 0, flat, 4);
-  inked_fragment(&k, face, INKED_XY(outer));
-  inked_hole(&k, INKED_XY(inner));
-  inked_draw(&k);
+  uint32_t face = ink_fixture_face(&k, 0, flat, 4);
+  ink_fixture_fragment(&k, face, INK_FIXTURE_XY(outer));
+  ink_fixture_hole(&k, INK_FIXTURE_XY(inner));
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.fill.count, 1);
   assert_int_equal(k.drawing.fill.item[0].loops, 2);
   assert_int_equal(k.drawing.fill.item[0].face, face);
@@ -178,23 +178,24 @@ static void fragments_become_fills_with_their_holes(void **state) {
       assert_true(p.x == xy[2 * i] && p.y == xy[2 * i + 1]);
     }
   }
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void
 groups_are_painted_in_their_colour_or_one_of_their_own(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   k.options.fill = RECTO_FILL_PAINT;
   k.options.pens = 3;
-  inked_group(&k, "red");
+  ink_fixture_group(&k, "red");
   k.scene.group.item[1].colour = 0xc00000;
   k.scene.group.item[1].has_colour = true;
-  inked_group(&k, "third");
+  ink_fixture_group(&k, "third");
   for (uint32_t g = 0; g < 3; g++)
-    inked_fragment(&k, inked_face(&k, g, flat, 4), INKED_XY(outer));
-  inked_draw(&k);
+    ink_fixture_fragment(&k, ink_fixture_face(&k, g, flat, 4),
+                         INK_FIXTURE_XY(outer));
+  ink_fixture_draw(&k);
   const struct drawing_fill *fill = k.drawing.fill.item;
   assert_int_equal(k.drawing.fill.count, 3);
   assert_int_equal(fill[1].colour, 0xc00000);
@@ -203,19 +204,20 @@ groups_are_painted_in_their_colour_or_one_of_their_own(void **state) {
     assert_int_equal(fill[g].group, g);
     assert_int_equal(fill[g].layer, 0);
   }
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static uint32_t shade(const double *face, uint32_t count,
                       const double light[3]) {
-  struct inked k;
-  inked_start(&k);
+  struct ink_fixture k;
+  ink_fixture_start(&k);
   k.options.fill = RECTO_FILL_SHADE;
   memcpy(k.options.light, light, sizeof k.options.light);
-  inked_fragment(&k, inked_face(&k, 0, face, count), INKED_XY(outer));
-  inked_draw(&k);
+  ink_fixture_fragment(&k, ink_fixture_face(&k, 0, face, count),
+                       INK_FIXTURE_XY(outer));
+  ink_fixture_draw(&k);
   uint32_t colour = k.drawing.fill.item[0].colour;
-  inked_end(&k);
+  ink_fixture_end(&k);
   assert_int_equal(colour >> 16, colour & 0xff);
   assert_int_equal(colour >> 8 & 0xff, colour & 0xff);
   return colour & 0xff;
@@ -239,22 +241,24 @@ static void shade_is_by_the_angle_to_the_light(void **state) {
 }
 
 static void perspective_shades_the_side_that_the_eye_sees(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   /* A floor below the axis and a ceiling above it, both seen. */
   const double floor_face[] = {0, -1, 0, 1, -1, 0, 1, -1, -1};
   const double ceiling[] = {0, 1, 0, 1, 1, 0, 1, 1, -1};
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   k.options.fill = RECTO_FILL_SHADE;
   k.options.light[1] = 1;
   k.sheet.camera.perspective = true;
   k.sheet.camera.eye[2] = 10;
-  inked_fragment(&k, inked_face(&k, 0, floor_face, 3), INKED_XY(outer));
-  inked_fragment(&k, inked_face(&k, 0, ceiling, 3), INKED_XY(outer));
-  inked_draw(&k);
+  ink_fixture_fragment(&k, ink_fixture_face(&k, 0, floor_face, 3),
+                       INK_FIXTURE_XY(outer));
+  ink_fixture_fragment(&k, ink_fixture_face(&k, 0, ceiling, 3),
+                       INK_FIXTURE_XY(outer));
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.fill.item[0].colour, 0xffffff);
   assert_true(k.drawing.fill.item[1].colour < 0x808080);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 /* ---- Hatching ------------------------------------------------------------ */
@@ -296,17 +300,18 @@ static double depth_in(const struct polygon *p, double x, double y) {
   return inside ? nearest : -nearest;
 }
 
-static void draw_hatch(struct inked *k, const struct polygon *p, double pitch,
-                       double angle_deg) {
-  inked_start(k);
-  inked_side(k);
+static void draw_hatch(struct ink_fixture *k, const struct polygon *p,
+                       double pitch, double angle_deg) {
+  ink_fixture_start(k);
+  ink_fixture_side(k);
   k->options.fill = RECTO_FILL_HATCH;
   k->options.hatch_pitch_mm = pitch;
   k->options.hatch_angle_deg = angle_deg;
-  inked_fragment(k, inked_face(k, 0, flat, 4), p->xy[0], p->count[0]);
+  ink_fixture_fragment(k, ink_fixture_face(k, 0, flat, 4), p->xy[0],
+                       p->count[0]);
   for (int l = 1; l < p->loops; l++)
-    inked_hole(k, p->xy[l], p->count[l]);
-  inked_draw(k);
+    ink_fixture_hole(k, p->xy[l], p->count[l]);
+  ink_fixture_draw(k);
 }
 
 /* Every stroke stays inside, its long runs are on the page's lines, and between
@@ -315,7 +320,7 @@ static void draw_hatch(struct inked *k, const struct polygon *p, double pitch,
 static size_t assert_hatch(const struct polygon *p, double pitch,
                            double angle_deg, double area_slack) {
   enum { SAMPLES = 9 };
-  struct inked k;
+  struct ink_fixture k;
   draw_hatch(&k, p, pitch, angle_deg);
   double turn = angle_deg * acos(-1) / 180, along = 0;
   for (size_t s = 0; s < k.drawing.stroke.count; s++) {
@@ -342,7 +347,7 @@ static size_t assert_hatch(const struct polygon *p, double pitch,
   }
   assert_true(fabs(along * pitch - area_of(p)) <= area_slack);
   size_t strokes = k.drawing.stroke.count;
-  inked_end(&k);
+  ink_fixture_end(&k);
   return strokes;
 }
 
@@ -353,7 +358,7 @@ static struct polygon polygon_of(const double *xy, uint32_t count) {
 }
 
 static void rectangle_is_hatched_in_few_strokes(void **state) {
-  struct polygon p = polygon_of(INKED_XY(outer));
+  struct polygon p = polygon_of(INK_FIXTURE_XY(outer));
   (void)state;
   assert_int_equal(assert_hatch(&p, 2, 0, 1e-6), 1);
   assert_int_equal(assert_hatch(&p, 2, 90, 1e-6), 1);
@@ -363,58 +368,58 @@ static void rectangle_is_hatched_in_few_strokes(void **state) {
 }
 
 static void hatching_of_another_pen_leaves_the_lines_alone(void **state) {
-  struct inked k;
-  struct polygon p = polygon_of(INKED_XY(outer));
+  struct ink_fixture k;
+  struct polygon p = polygon_of(INK_FIXTURE_XY(outer));
   (void)state;
   draw_hatch(&k, &p, 2, 0);
   assert_int_equal(k.drawing.stroke.count, 1);
   k.options.pen_for = "hatch=2";
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_true(k.drawing.stroke.count > 10);
   for (size_t s = 0; s < k.drawing.stroke.count; s++)
     assert_int_equal(k.drawing.stroke.item[s].count, 2);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void pen_goes_to_the_next_line_along_ink_alone(void **state) {
-  struct inked k;
-  struct polygon p = polygon_of(INKED_XY(outer));
+  struct ink_fixture k;
+  struct polygon p = polygon_of(INK_FIXTURE_XY(outer));
   (void)state;
   draw_hatch(&k, &p, 2, 0);
   assert_int_equal(k.drawing.stroke.count, 1);
   /* No ink on the right: 35 lines in strokes of two. */
   k.map.corner.item[1].id = SHEET_NONE;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 18);
   k.map.corner.item[1].side = MAP_SIDE_INTERSECTION;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 1);
   k.options.edges &= ~(unsigned)RECTO_EDGE_INTERSECTION;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 18);
   k.map.corner.item[1].side = MAP_SIDE_CUT;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 18);
   /* Nor on the left. */
   k.map.corner.item[3].id = SHEET_NONE;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 35);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void lines_through_corners_count_once(void **state) {
   /* Corners and horizontal sides exactly on hatch lines, at odd heights. */
   const double diamond[] = {50, 11, 90, 51, 50, 91, 10, 51};
   const double step[] = {10, 11, 90, 11, 90, 51, 50, 51, 50, 71, 10, 71};
-  struct polygon p = polygon_of(INKED_XY(diamond));
+  struct polygon p = polygon_of(INK_FIXTURE_XY(diamond));
   (void)state;
   assert_int_equal(assert_hatch(&p, 2, 0, 1e-6), 1);
-  p = polygon_of(INKED_XY(step));
+  p = polygon_of(INK_FIXTURE_XY(step));
   assert_int_equal(assert_hatch(&p, 2, 0, 1e-6), 1);
 }
 
 static void hole_is_left_white(void **state) {
-  struct polygon p = polygon_of(INKED_XY(outer));
+  struct polygon p = polygon_of(INK_FIXTURE_XY(outer));
   memcpy(p.xy[1], inner, sizeof inner);
   p.count[1] = 4;
   p.loops = 2;
@@ -429,13 +434,13 @@ static void hole_is_left_white(void **state) {
 static double assert_inset(const struct polygon *p, double pitch,
                            double angle_deg, double pen, size_t *strokes) {
   enum { SAMPLES = 19 };
-  struct inked k;
+  struct ink_fixture k;
   double along = 0;
   draw_hatch(&k, p, pitch, angle_deg);
   k.options.pen_mm = pen;
   k.options.hatch_inset = true;
   k.options.min_stroke_mm = 0;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   *strokes = k.drawing.stroke.count;
   for (size_t s = 0; s < k.drawing.stroke.count; s++) {
     const struct drawing_stroke *stroke = &k.drawing.stroke.item[s];
@@ -452,14 +457,14 @@ static double assert_inset(const struct polygon *p, double pitch,
         along += hypot(q[i + 1].x - q[i].x, q[i + 1].y - q[i].y);
     }
   }
-  inked_end(&k);
+  ink_fixture_end(&k);
   return along;
 }
 
 static void inset_hatching_keeps_half_a_pen_from_all_sides(void **state) {
   const double box[] = {10, 10, 90, 10, 90, 50, 10, 50};
   const double bent[] = {10, 10, 90, 10, 90, 30, 40, 30, 40, 90, 10, 70};
-  struct polygon p = polygon_of(INKED_XY(box));
+  struct polygon p = polygon_of(INK_FIXTURE_XY(box));
   size_t strokes;
   (void)state;
   /* Lines at 11, 13, ... 49: the pen of 3 mm keeps from the first and the
@@ -469,14 +474,14 @@ static void inset_hatching_keeps_half_a_pen_from_all_sides(void **state) {
   /* Wider than half the face: nothing is left. */
   assert_true(assert_inset(&p, 2, 0, 41, &strokes) == 0);
   for (double angle = 0; angle < 180; angle += 17) {
-    p = polygon_of(INKED_XY(box));
+    p = polygon_of(INK_FIXTURE_XY(box));
     /* The box less a border of half a pen, but for where lines end. */
     double want = (80 - 2.) * (40 - 2.) / 0.5;
     assert_true(fabs(assert_inset(&p, 0.5, angle, 2, &strokes) - want) < 80);
-    p = polygon_of(INKED_XY(bent));
+    p = polygon_of(INK_FIXTURE_XY(bent));
     assert_inset(&p, 1.3, angle, 2, &strokes);
     assert_inset(&p, 0.7, angle, 3, &strokes);
-    p = polygon_of(INKED_XY(outer));
+    p = polygon_of(INK_FIXTURE_XY(outer));
     memcpy(p.xy[1], inner, sizeof inner);
     p.count[1] = 4;
     p.loops = 2;
@@ -489,7 +494,7 @@ static void
 inset_hatching_leaves_out_what_is_narrower_than_the_pen(void **state) {
   const double neck[] = {10, 10, 90, 10, 90, 40, 51, 40, 51, 60, 90, 60,
                          90, 90, 10, 90, 10, 60, 49, 60, 49, 40, 10, 40};
-  struct polygon p = polygon_of(INKED_XY(neck));
+  struct polygon p = polygon_of(INK_FIXTURE_XY(neck));
   size_t strokes;
   (void)state;
   assert_inset(&p, 2, 0, 1, &strokes);
@@ -520,10 +525,10 @@ static void teeth_are_hatched_one_by_one(void **state) {
 static void leaning_strip_is_hatched_in_one_stroke(void **state) {
   const double right[] = {2, 10, 4, 10, 97, 30, 95, 30};
   const double left[] = {95, 10, 97, 10, 4, 30, 2, 30};
-  struct polygon p = polygon_of(INKED_XY(right));
+  struct polygon p = polygon_of(INK_FIXTURE_XY(right));
   (void)state;
   assert_int_equal(assert_hatch(&p, 1, 0, 1e-6), 1);
-  p = polygon_of(INKED_XY(left));
+  p = polygon_of(INK_FIXTURE_XY(left));
   assert_int_equal(assert_hatch(&p, 1, 0, 1e-6), 1);
 }
 
@@ -554,45 +559,47 @@ static void random_polygons_are_hatched_inside(void **state) {
 }
 
 static void neighbours_are_hatched_on_the_same_lines(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   const double left[] = {10, 10, 50, 10, 50, 50};
   const double right[] = {10, 10, 50, 50, 10, 50};
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   k.options.fill = RECTO_FILL_HATCH;
   k.options.hatch_angle_deg = 0;
   k.options.hatch_pitch_mm = 2;
-  uint32_t face = inked_face(&k, 0, flat, 4);
-  inked_fragment(&k, face, INKED_XY(left));
-  inked_fragment(&k, face, INKED_XY(right));
-  inked_draw(&k);
+  uint32_t face = ink_fixture_face(&k, 0, flat, 4);
+  ink_fixture_fragment(&k, face, INK_FIXTURE_XY(left));
+  ink_fixture_fragment(&k, face, INK_FIXTURE_XY(right));
+  ink_fixture_draw(&k);
   for (double y = 11; y < 50; y += 2)
     for (double x = 10.1; x < 50; x += 3.3)
-      assert_true(inked_distance(&k, x, y) < 1e-6);
-  inked_end(&k);
+      assert_true(ink_fixture_distance(&k, x, y) < 1e-6);
+  ink_fixture_end(&k);
 }
 
 /* Two triangles with ink all around, and an edge between them. */
 static size_t count_strokes_over(unsigned edge_class, bool ids, int pens) {
-  struct inked k;
+  struct ink_fixture k;
   const double lower[] = {10, 10, 50, 10, 50, 50};
   const double upper[] = {10, 10, 50, 50, 10, 50};
-  inked_start(&k);
-  inked_side(&k);
+  ink_fixture_start(&k);
+  ink_fixture_side(&k);
   k.options.fill = RECTO_FILL_HATCH;
   k.options.hatch_angle_deg = 0;
   k.options.hatch_pitch_mm = 2;
   k.options.ids = ids;
   k.options.pens = pens;
-  inked_group(&k, "other");
-  inked_fragment(&k, inked_face(&k, 0, flat, 4), INKED_XY(lower));
-  inked_fragment(&k, inked_face(&k, 1, flat, 4), INKED_XY(upper));
-  uint32_t edge = inked_line(&k, 10, 10, 50, 50, edge_class);
-  inked_hide(&k, edge);
+  ink_fixture_group(&k, "other");
+  ink_fixture_fragment(&k, ink_fixture_face(&k, 0, flat, 4),
+                       INK_FIXTURE_XY(lower));
+  ink_fixture_fragment(&k, ink_fixture_face(&k, 1, flat, 4),
+                       INK_FIXTURE_XY(upper));
+  uint32_t edge = ink_fixture_line(&k, 10, 10, 50, 50, edge_class);
+  ink_fixture_hide(&k, edge);
   k.map.corner.item[2].id = k.map.corner.item[3].id = edge;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   size_t strokes = k.drawing.stroke.count;
-  inked_end(&k);
+  ink_fixture_end(&k);
   return strokes;
 }
 
@@ -607,39 +614,39 @@ static void hatching_runs_on_over_edges_that_are_not_drawn(void **state) {
 }
 
 static void fragment_between_two_lines_is_left_alone(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   const double sliver[] = {10, 10.1, 60, 10.1, 60, 10.9};
-  struct polygon p = polygon_of(INKED_XY(sliver));
+  struct polygon p = polygon_of(INK_FIXTURE_XY(sliver));
   (void)state;
   draw_hatch(&k, &p, 2, 0);
   assert_int_equal(k.drawing.stroke.count, 0);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void short_hatch_strokes_are_dropped(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   const double small[] = {10, 10, 10.3, 10, 10, 12};
-  struct polygon p = polygon_of(INKED_XY(small));
+  struct polygon p = polygon_of(INK_FIXTURE_XY(small));
   (void)state;
   draw_hatch(&k, &p, 2, 0);
   assert_int_equal(k.drawing.stroke.count, 1);
   k.options.min_stroke_mm = 1;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 0);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void edges_come_before_the_hatching(void **state) {
-  struct inked k;
-  struct polygon p = polygon_of(INKED_XY(outer));
+  struct ink_fixture k;
+  struct polygon p = polygon_of(INK_FIXTURE_XY(outer));
   (void)state;
   draw_hatch(&k, &p, 2, 0);
-  inked_line(&k, 5, 5, 95, 5, CREASE);
-  inked_draw(&k);
+  ink_fixture_line(&k, 5, 5, 95, 5, CREASE);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 2);
   assert_int_equal(k.drawing.stroke.item[0].edge_class, CREASE);
   assert_int_equal(k.drawing.stroke.item[1].edge_class, 0);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 int main(void) {

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "tests/laid.h"
+#include "tests/sheet_fixture.h"
 #include "tests/scenes/scenes.h"
 #include "visibility/solver.h"
 
@@ -22,38 +22,38 @@ struct lines {
  * through  the triangle reaches the square */
 static void find_lines(double contact, bool through, double azimuth,
                        struct lines *lines) {
-  struct laid laid;
+  struct sheet_fixture fixture;
   struct map map;
   recto_error error;
   const struct solver_request request = {
       .strokes = true, .intersections = true, .threads = 1};
   struct report *report = report_create();
-  laid_start(&laid);
-  build_triangle(&laid.scene, build_point(&laid.scene, 4, 2, 1),
-                 build_point(&laid.scene, 2, 4, 4),
-                 through ? build_point(&laid.scene, 8, 8, 2)
-                         : build_point(&laid.scene, 1, 0, 2));
-  build_parallelogram(&laid.scene, vector_of(3, 3, 2), vector_of(2, 0, 0),
+  sheet_fixture_start(&fixture);
+  build_triangle(&fixture.scene, build_point(&fixture.scene, 4, 2, 1),
+                 build_point(&fixture.scene, 2, 4, 4),
+                 through ? build_point(&fixture.scene, 8, 8, 2)
+                         : build_point(&fixture.scene, 1, 0, 2));
+  build_parallelogram(&fixture.scene, vector_of(3, 3, 2), vector_of(2, 0, 0),
                       vector_of(0, 2, 0));
-  laid.options.contact = contact;
-  laid.options.azimuth_deg = azimuth;
-  laid.options.elevation_deg = 75;
-  laid_out(&laid, false);
-  size_t edges = laid.sheet.edge.count;
+  fixture.options.contact = contact;
+  fixture.options.azimuth_deg = azimuth;
+  fixture.options.elevation_deg = 75;
+  sheet_fixture_out(&fixture, false);
+  size_t edges = fixture.sheet.edge.count;
   map_init(&map);
   assert_int_equal(
-      solver_brute.solve(&laid.sheet, &request, &map, report, &error),
+      solver_brute.solve(&fixture.sheet, &request, &map, report, &error),
       RECTO_OK);
   lines->count = 0;
-  for (size_t e = edges; e < laid.sheet.edge.count; e++)
+  for (size_t e = edges; e < fixture.sheet.edge.count; e++)
     for (int k = 0; k < 2; k++) {
       assert_in_range(lines->count, 0, 15);
       lines->end[lines->count++] =
-          laid.sheet.point.item[laid.sheet.edge.item[e].point[k]];
+          fixture.sheet.point.item[fixture.sheet.edge.item[e].point[k]];
     }
   map_fini(&map);
   report_destroy(report);
-  laid_fini(&laid);
+  sheet_fixture_fini(&fixture);
 }
 
 /* The square's diagonal touches the plane, and the square goes on behind it and

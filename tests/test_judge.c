@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "judge/ears.h"
+#include "judge/ear_clipping.h"
 #include "judge/grid.h"
 #include "judge/judge.h"
 #include "tests/scenes/scenes.h"
@@ -45,7 +45,7 @@ static void open_page(struct page *page) {
 /* Draws a straight line between two spots, in the design's own words: a point
  * at camera coordinates (x, y, -d) falls on W/2 + s x/d, H/2 + s y/d. */
 static void draw_line(struct page *page, struct vector a, struct vector b) {
-  struct judge_place at[2];
+  struct judge_point2 at[2];
   const double *m = page->camera.matrix;
   const struct vector end[2] = {a, b};
   for (int i = 0; i < 2; i++) {
@@ -77,8 +77,8 @@ judge_page(struct page *page, const struct scene *scene, unsigned edges) {
 }
 
 static void look_from(struct page *page, double x, double y, double z) {
-  judge_camera_look(&page->camera, judge_spot_of(x, y, z),
-                    judge_spot_of(0, 0, 0), judge_spot_of(0, 0, 1), 30, 100,
+  judge_camera_look(&page->camera, judge_point3_of(x, y, z),
+                    judge_point3_of(0, 0, 0), judge_point3_of(0, 0, 1), 30, 100,
                     100, 0);
 }
 
@@ -491,7 +491,7 @@ static void ears_cover_a_face_of_any_number_of_corners(void **state) {
       corner[i] =
           build_point(&scene, radius * cos(angle), radius * sin(angle), 0);
     }
-    assert_true(judge_cut_ears(&ears, &scene, corner, count));
+    assert_true(judge_clip_ears(&ears, &scene, corner, count));
     assert_int_equal(ears.ear.count, count - 2);
     double sum = 0;
     for (size_t i = 0; i < ears.ear.count; i++) {
@@ -616,7 +616,7 @@ static void assert_points(const char *text, const double *xy, uint32_t count) {
   if (drawing.stroke.count != 1 || drawing.stroke.item[0].count != count)
     fail_msg("%s: %lu strokes", text, (unsigned long)drawing.stroke.count);
   for (uint32_t i = 0; i < count; i++) {
-    struct judge_place p = drawing.point.item[i];
+    struct judge_point2 p = drawing.point.item[i];
     if (fabs(p.x - xy[2 * i]) > 1e-12 ||
         fabs(drawing.height_mm - p.y - xy[2 * i + 1]) > 1e-12)
       fail_msg("%s: point %u is %g %g", text, i, p.x, drawing.height_mm - p.y);
@@ -699,8 +699,8 @@ static double off_circle(const struct judge_drawing *drawing, double *length) {
   double off = 0;
   *length = 0;
   for (size_t i = 1; i < drawing->point.count; i++) {
-    struct judge_place a = drawing->point.item[i - 1];
-    struct judge_place b = drawing->point.item[i];
+    struct judge_point2 a = drawing->point.item[i - 1];
+    struct judge_point2 b = drawing->point.item[i];
     off = fmax(off, fabs(hypot(a.x - 5, a.y - 5) - 3));
     off = fmax(off, fabs(hypot((a.x + b.x) / 2 - 5, (a.y + b.y) / 2 - 5) - 3));
     *length += hypot(b.x - a.x, b.y - a.y);
@@ -739,7 +739,7 @@ static void curves_are_followed(void **state) {
   assert_null(read_text(&drawing,
                         ROOT PEN "<path d=\"M0 0Q2 0 4 4T8 16\"/></g></svg>"));
   for (size_t i = 0; i < drawing.point.count; i++) {
-    struct judge_place p = drawing.point.item[i];
+    struct judge_point2 p = drawing.point.item[i];
     double y = 10 - p.y;
     assert_true(p.x > 4 ? y >= 4 - 1e-12 : fabs(y - p.x * p.x / 4) < 1e-12);
   }
@@ -868,7 +868,7 @@ static void a_wide_reach_takes_no_more_space(void **state) {
     uint32_t cells = grid.columns * grid.rows;
     assert_true(grid.start[cells] <= 25 * SEGMENTS);
     for (uint32_t i = 0; i < SEGMENTS; i++) {
-      struct judge_place at = {i * 17 % 101, i * 29 % 101};
+      struct judge_point2 at = {i * 17 % 101, i * 29 % 101};
       uint32_t count, within = 0, found = 0;
       double t;
       for (uint32_t k = 0; k < SEGMENTS; k++)

@@ -28,7 +28,7 @@ static double drawn_mm(const struct judge_drawing *drawing) {
   double sum = 0;
   for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct judge_stroke *stroke = &drawing->stroke.item[i];
-    const struct judge_place *at = &drawing->point.item[stroke->point];
+    const struct judge_point2 *at = &drawing->point.item[stroke->point];
     assert_true(stroke->count >= 2);
     assert_true(stroke->point + stroke->count <= drawing->point.count);
     for (uint32_t k = 1; k < stroke->count; k++)
@@ -39,7 +39,7 @@ static double drawn_mm(const struct judge_drawing *drawing) {
 
 static void assert_on_page(const struct judge_drawing *drawing) {
   for (size_t i = 0; i < drawing->point.count; i++) {
-    struct judge_place at = drawing->point.item[i];
+    struct judge_point2 at = drawing->point.item[i];
     assert_true(at.x >= -MARGIN && at.x <= WIDTH + MARGIN);
     assert_true(at.y >= -MARGIN && at.y <= HEIGHT + MARGIN);
   }
@@ -196,7 +196,7 @@ static void a_grid_grows_with_the_segments_alone(void **state) {
   size_t cells = (size_t)grid.columns * grid.rows;
   assert_true(grid.start[cells] < 260u * COUNT + 4 * cells);
   for (int k = 0; k < 50; k++) {
-    struct judge_place at = {k * 4.0, k * 2.0};
+    struct judge_point2 at = {k * 4.0, k * 2.0};
     uint32_t count, found = 0, there = 0;
     const uint32_t *near = judge_grid_near(&grid, at, &count);
     for (uint32_t i = 0; i < count; i++)

@@ -28,7 +28,7 @@ static void the_stability_list_is_drawn_right(void **state) {
   }
 }
 
-static void row_02_eyes_in_odd_places_see_all_there_is(void **state) {
+static void eyes_in_odd_places_see_all_there_is(void **state) {
   (void)state;
   for (int eye = SCENES_EYE_INSIDE; eye <= SCENES_EYE_ON_LINE; eye++) {
     struct scene scene;
@@ -50,7 +50,7 @@ static void row_02_eyes_in_odd_places_see_all_there_is(void **state) {
   }
 }
 
-static void row_20_surfaces_do_not_leak_at_any_step(void **state) {
+static void surfaces_do_not_leak_at_any_step(void **state) {
   (void)state;
   for (unsigned n = 5; n <= 26; n += 7) {
     static void (*const fill[])(struct scene *, recto_options *,
@@ -112,18 +112,18 @@ static bool read_model(struct scene *scene, char *path, size_t room,
 }
 
 /* The middle of the scene and the diagonal of its box. */
-static struct judge_spot middle_of(const struct scene *scene, double *size) {
-  struct judge_spot low = {INFINITY, INFINITY, INFINITY};
-  struct judge_spot high = {-INFINITY, -INFINITY, -INFINITY};
+static struct judge_point3 middle_of(const struct scene *scene, double *size) {
+  struct judge_point3 low = {INFINITY, INFINITY, INFINITY};
+  struct judge_point3 high = {-INFINITY, -INFINITY, -INFINITY};
   for (size_t i = 0; i < scene->point.count; i++) {
     const struct scene_point *p = &scene->point.item[i];
-    low =
-        judge_spot_of(fmin(low.x, p->x), fmin(low.y, p->y), fmin(low.z, p->z));
-    high = judge_spot_of(fmax(high.x, p->x), fmax(high.y, p->y),
-                         fmax(high.z, p->z));
+    low = judge_point3_of(fmin(low.x, p->x), fmin(low.y, p->y),
+                          fmin(low.z, p->z));
+    high = judge_point3_of(fmax(high.x, p->x), fmax(high.y, p->y),
+                           fmax(high.z, p->z));
   }
-  *size = spot_length(spot_sub(high, low));
-  return spot_along(low, 0.5, spot_sub(high, low));
+  *size = point3_length(point3_sub(high, low));
+  return spot_along(low, 0.5, point3_sub(high, low));
 }
 
 /* Draws the model as --no-fit --camera ... --lookat ... --fov 30 --page
@@ -137,9 +137,9 @@ static void check_model_of(void **state, const char *folder, const char *name,
       !read_model(&scene, path, sizeof path, folder, name))
     skip();
   double size;
-  struct judge_spot target = middle_of(&scene, &size);
-  struct judge_spot eye =
-      spot_along(target, 1.7 * size, judge_spot_of(0.6, 0.5, 0.62));
+  struct judge_point3 target = middle_of(&scene, &size);
+  struct judge_point3 eye =
+      spot_along(target, 1.7 * size, judge_point3_of(0.6, 0.5, 0.62));
   recto_options options;
   recto_options_init(&options);
   options.camera = RECTO_CAMERA_EYE;
@@ -164,8 +164,8 @@ static void check_model_of(void **state, const char *folder, const char *name,
   struct judge_verdict verdict;
   assert_non_null(text);
   assert_null(judge_read_svg(&drawing, text, length));
-  judge_camera_look(&camera, eye, target, judge_spot_of(0, 1, 0), 30, 200, 200,
-                    0);
+  judge_camera_look(&camera, eye, target, judge_point3_of(0, 1, 0), 30, 200,
+                    200, 0);
   judge_options_init(&judging);
   judging.edges = edges;
   assert_true(judge_drawing(&verdict, &drawing, &scene, &camera, &judging));
@@ -223,8 +223,8 @@ static void other_models_are_drawn_right(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_stability_list_is_drawn_right),
-      cmocka_unit_test(row_02_eyes_in_odd_places_see_all_there_is),
-      cmocka_unit_test(row_20_surfaces_do_not_leak_at_any_step),
+      cmocka_unit_test(eyes_in_odd_places_see_all_there_is),
+      cmocka_unit_test(surfaces_do_not_leak_at_any_step),
       cmocka_unit_test(random_small_scenes_are_drawn_right),
       WITH_FOLDER(the_example_models_are_drawn_right),
       WITH_FOLDER(spot_is_drawn_right),

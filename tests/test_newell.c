@@ -1,7 +1,7 @@
 /* test_newell.c - the painter's order of Newell, Newell and Sancha. */
-#include "hand/rational.h"
-#include "hand/scene.h"
-#include "visibility/newell_order.h"
+#include "exact_fixture/rational.h"
+#include "exact_fixture/scene.h"
+#include "visibility/newell/newell_order.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@ enum { SCALE = 1024 };
 /* A sheet put in order. */
 struct ordered {
   struct sheet sheet;
-  struct pagegrid grid;
+  struct triangle_grid grid;
   struct newell_order order;
 };
 
@@ -24,22 +24,22 @@ static recto_status put_in_order(struct ordered *o, recto_progress_fn ask) {
   const struct solver_request request = {
       .fragments = true, .threads = 1, .progress = ask};
   recto_error error;
-  assert_true(pagegrid_init(&o->grid, &o->sheet));
+  assert_true(triangle_grid_init(&o->grid, &o->sheet));
   return newell_order_init(&o->order, &o->sheet, &o->grid, &request, &error);
 }
 
 static void ordered_fini(struct ordered *o) {
   newell_order_fini(&o->order);
-  pagegrid_fini(&o->grid);
-  hand_sheet_fini(&o->sheet);
+  triangle_grid_fini(&o->grid);
+  exact_sheet_fini(&o->sheet);
 }
 
 /* Orders `count` triangles; times SCALE. */
 static void order_triangles(struct ordered *o, const int corner[][3][3],
                             int count) {
-  hand_sheet_init(&o->sheet);
+  exact_sheet_init(&o->sheet);
   for (int f = 0; f < count; f++)
-    hand_add_face(&o->sheet, corner[f], 3, SCALE);
+    exact_add_face(&o->sheet, corner[f], 3, SCALE);
   assert_int_equal(put_in_order(o, NULL), RECTO_OK);
 }
 
@@ -210,10 +210,10 @@ static void lines_alone_need_no_order_of_what_touches(void **state) {
                                            .threads = 1};
     struct ordered o;
     recto_error error;
-    hand_sheet_init(&o.sheet);
+    exact_sheet_init(&o.sheet);
     for (int f = 0; f < 2; f++)
-      hand_add_face(&o.sheet, face[f], 3, 1);
-    assert_true(pagegrid_init(&o.grid, &o.sheet));
+      exact_add_face(&o.sheet, face[f], 3, 1);
+    assert_true(triangle_grid_init(&o.grid, &o.sheet));
     assert_int_equal(
         newell_order_init(&o.order, &o.sheet, &o.grid, &request, &error),
         RECTO_OK);
@@ -348,8 +348,8 @@ static void nothing_painted_later_is_behind(void **state) {
     struct ordered o;
     char what[64];
     snprintf(what, sizeof what, "seed %u", (unsigned)seed);
-    hand_random_sheet(&o.sheet, (enum hand_kind)(seed % HAND_KINDS),
-                      2 + hand_below(&r, 9), &r);
+    exact_random_sheet(&o.sheet, (enum exact_kind)(seed % EXACT_KINDS),
+                       2 + exact_below(&r, 9), &r);
     assert_int_equal(put_in_order(&o, NULL), RECTO_OK);
     check_order(&o.order, what);
     cycles += o.order.counts.cycles;
@@ -371,7 +371,7 @@ static void long_cycles_are_broken(void **state) {
     int n = 12 / step;
     struct ordered o;
     char what[64];
-    hand_sheet_init(&o.sheet);
+    exact_sheet_init(&o.sheet);
     for (int k = 0; k < n; k++) {
       const int *p = star[k * step], *q = star[(k + 1) % n * step];
       int dx = q[0] - p[0], dy = q[1] - p[1];
@@ -379,7 +379,7 @@ static void long_cycles_are_broken(void **state) {
           {p[0] - dx / 4 - dy / 16, p[1] - dy / 4 + dx / 16, 100},
           {p[0] - dx / 4 + dy / 16, p[1] - dy / 4 - dx / 16, 100},
           {q[0] + dx / 4, q[1] + dy / 4, 300}};
-      hand_add_face(&o.sheet, bar, 3, SCALE);
+      exact_add_face(&o.sheet, bar, 3, SCALE);
     }
     assert_int_equal(put_in_order(&o, NULL), RECTO_OK);
     snprintf(what, sizeof what, "ring of %d", n);
@@ -402,8 +402,8 @@ static bool say_stop(void *user, double share, const char *stage) {
 static void progress_may_say_stop(void **state) {
   struct ordered o;
   (void)state;
-  hand_sheet_init(&o.sheet);
-  hand_add_face(&o.sheet, bars[0], 3, SCALE);
+  exact_sheet_init(&o.sheet);
+  exact_add_face(&o.sheet, bars[0], 3, SCALE);
   assert_int_equal(put_in_order(&o, say_stop), RECTO_ERROR_CANCELLED);
   ordered_fini(&o);
 }

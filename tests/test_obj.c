@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "tests/comma.h"
+#include "tests/comma_locale.h"
 #include "tests/reading.h"
 #include "tests/scenes/scenes.h"
 
@@ -380,7 +380,7 @@ static void assert_faulty(const struct scenes_faulty *faulty) {
   reading_fini(&r);
 }
 
-static void row_19_a_bad_element_spoils_nothing_else(void **state) {
+static void a_bad_element_spoils_nothing_else(void **state) {
   (void)state;
   assert_non_null(scenes_faulty_list[10].name);
   for (const struct scenes_faulty *f = scenes_faulty_list; f->name; f++)
@@ -500,9 +500,9 @@ static void a_file_that_stops_in_a_statement_is_an_error(void **state) {
 
 /* ---- Numbers, memory, models --------------------------------------------- */
 
-static void row_22_a_decimal_comma_changes_nothing(void **state) {
+static void a_decimal_comma_changes_nothing(void **state) {
   (void)state;
-  if (!comma_on()) {
+  if (!comma_locale_on()) {
     print_message("no locale with a decimal comma\n");
     skip();
   }
@@ -510,7 +510,7 @@ static void row_22_a_decimal_comma_changes_nothing(void **state) {
   reading_of(&r, &reader_obj,
              "v 0.5 1.25 -3.0000000000000000000001\nv 1 0 0\nv 0 1 0\n"
              "f 1 2 3\n");
-  comma_off();
+  comma_locale_off();
   assert_int_equal(r.status, RECTO_OK);
   assert_true(r.scene.point.item[0].x == 0.5);
   assert_true(r.scene.point.item[0].y == 1.25);
@@ -521,7 +521,7 @@ static void row_22_a_decimal_comma_changes_nothing(void **state) {
 
 /* A model times a power of two, from the smallest to the largest numbers, has
  * the same faces. */
-static void row_21_scale_decides_nothing(void **state) {
+static void scale_decides_nothing(void **state) {
   (void)state;
   static const double shape[7][3] = {
       {0, 0, 0},       {1, 0, 0},   {1, 1, 0},        {0, 1, 0},
@@ -622,7 +622,7 @@ int main(void) {
       T(objects_groups_and_materials_are_groups),
       T(groups_without_elements_are_none),
       T(the_next_file_starts_anew),
-      T(row_19_a_bad_element_spoils_nothing_else),
+      T(a_bad_element_spoils_nothing_else),
       T(a_point_that_is_not_finite_keeps_its_index),
       T(a_bad_point_stands_at_a_good_one),
       T(what_cannot_be_parsed_is_skipped),
@@ -630,8 +630,8 @@ int main(void) {
       T(bytes_that_no_text_holds_are_an_error),
       T(text_of_another_kind_is_an_error),
       T(a_file_that_stops_in_a_statement_is_an_error),
-      T(row_22_a_decimal_comma_changes_nothing),
-      T(row_21_scale_decides_nothing),
+      T(a_decimal_comma_changes_nothing),
+      T(scale_decides_nothing),
       T(running_out_of_memory_is_an_error),
       T(real_models_are_read_whole),
   };

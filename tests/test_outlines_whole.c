@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#include "api/asked.h"
+#include "api/judge_input.h"
 #include "tests/judge/raster.h"
 #include "tests/scenes/catmull_clark.h"
 #include "tests/scenes/pipeline.h"
@@ -89,12 +89,13 @@ static size_t count_bare(const struct picture *picture, size_t *outline) {
 static void draw_faces(struct picture *picture, const struct scene *scene,
                        const struct pipeline *pipeline,
                        const recto_options *options) {
-  struct asked asked;
-  assert_true(asked_init(&asked, scene));
-  struct judge_camera camera = asked_camera(&asked, &pipeline->camera, options);
+  struct judge_input asked;
+  assert_true(judge_input_init(&asked, scene));
+  struct judge_camera camera =
+      judge_input_camera(&asked, &pipeline->camera, options);
   judge_raster_init(&picture->faces, PIXELS, page_mm);
   judge_raster_scene(&picture->faces, &asked.scene, &camera);
-  asked_fini(&asked);
+  judge_input_fini(&asked);
 }
 
 /* ---- Checks -------------------------------------------------------------- */
@@ -108,7 +109,7 @@ static void check_fills(const struct picture *picture,
   for (size_t f = 0; f < drawing->fill.count; f++) {
     const struct drawing_fill *fill = &drawing->fill.item[f];
     uint32_t *count = calloc(fill->loops, sizeof *count);
-    struct judge_place *place = NULL;
+    struct judge_point2 *place = NULL;
     size_t places = 0;
     for (uint32_t l = 0; l < fill->loops; l++) {
       const struct drawing_loop *loop = &drawing->loop.item[fill->loop + l];
@@ -116,7 +117,7 @@ static void check_fills(const struct picture *picture,
       place = realloc(place, (places + loop->count) * sizeof *place);
       for (uint32_t i = 0; i < loop->count; i++) {
         struct drawing_point p = drawing->point.item[loop->point + i];
-        place[places++] = (struct judge_place){p.x, p.y};
+        place[places++] = (struct judge_point2){p.x, p.y};
       }
     }
     judge_raster_region(&painted, place, count, fill->loops, 0);

@@ -1,7 +1,7 @@
 /* test_painter.c - the painter's algorithms without tests: right where their
  * order is, and wrong where it must be. */
-#include "hand/oracle.h"
-#include "hand/scene.h"
+#include "exact_fixture/oracle.h"
+#include "exact_fixture/scene.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,12 +14,12 @@ enum { SCALE = 1024, STEPS = 8 };
 
 /* Level steps that overlap, the k-th at depth depth[k]. */
 static void staircase(struct sheet *sheet, const int depth[STEPS]) {
-  hand_sheet_init(sheet);
+  exact_sheet_init(sheet);
   for (int k = 0; k < STEPS; k++) {
     int x = 3 * k, y = k % 3, z = depth[k];
     const int step[][3] = {
         {x, y, z}, {x + 8, y, z}, {x + 8, y + 5, z}, {x, y + 5, z}};
-    hand_add_face(sheet, step, 4, SCALE);
+    exact_add_face(sheet, step, 4, SCALE);
   }
 }
 
@@ -28,11 +28,11 @@ static void solve_both(const struct solver *solver, const int depth[STEPS],
                        struct map *map, struct map *brute) {
   struct sheet sheet;
   staircase(&sheet, depth);
-  hand_solve(solver, &sheet, map, NULL);
-  hand_sheet_fini(&sheet);
+  exact_solve(solver, &sheet, map, NULL);
+  exact_sheet_fini(&sheet);
   staircase(&sheet, depth);
-  hand_solve(&solver_brute, &sheet, brute, NULL);
-  hand_sheet_fini(&sheet);
+  exact_solve(&solver_brute, &sheet, brute, NULL);
+  exact_sheet_fini(&sheet);
 }
 
 static void depth_sort_is_right_on_a_staircase(void **state) {
@@ -43,7 +43,7 @@ static void depth_sort_is_right_on_a_staircase(void **state) {
   for (size_t k = 0; k < sizeof depth / sizeof *depth; k++) {
     struct map map, brute;
     solve_both(&solver_painter, depth[k], &map, &brute);
-    hand_assert_same_map(&map, &brute, "staircase");
+    exact_assert_same_map(&map, &brute, "staircase");
     map_fini(&map);
     map_fini(&brute);
   }
@@ -54,7 +54,7 @@ static void the_given_order_is_right_from_back_to_front(void **state) {
   struct map map, brute;
   (void)state;
   solve_both(&solver_painter_given, depth, &map, &brute);
-  hand_assert_same_map(&map, &brute, "given order");
+  exact_assert_same_map(&map, &brute, "given order");
   map_fini(&map);
   map_fini(&brute);
 }
@@ -65,9 +65,9 @@ static void the_given_order_is_wrong_from_front_to_back(void **state) {
   (void)state;
   solve_both(&solver_painter_given, depth, &map, &brute);
   /* What should be seen whole is painted over, and the other way round. */
-  hand_assert_area(&brute, 0, SCALE, 40, 1);
-  hand_assert_area(&map, 0, SCALE, 40 - 5 * 4, 1);
-  hand_assert_area(&map, STEPS - 1, SCALE, 40, 1);
+  exact_assert_area(&brute, 0, SCALE, 40, 1);
+  exact_assert_area(&map, 0, SCALE, 40 - 5 * 4, 1);
+  exact_assert_area(&map, STEPS - 1, SCALE, 40, 1);
   map_fini(&map);
   map_fini(&brute);
 }
@@ -83,11 +83,11 @@ static void a_cycle_cannot_be_painted(void **state) {
     struct sheet sheet;
     struct map map, brute;
     int wrong = 0;
-    hand_sheet_init(&sheet);
+    exact_sheet_init(&sheet);
     for (int k = 0; k < 3; k++)
-      hand_add_face(&sheet, bars[k], 3, SCALE);
-    hand_solve(painter[s], &sheet, &map, NULL);
-    hand_solve(&solver_brute, &sheet, &brute, NULL);
+      exact_add_face(&sheet, bars[k], 3, SCALE);
+    exact_solve(painter[s], &sheet, &map, NULL);
+    exact_solve(&solver_brute, &sheet, &brute, NULL);
     for (uint32_t f = 0; f < 3; f++) {
       mpq_t area[2];
       const struct map *both[2] = {&map, &brute};
@@ -95,14 +95,14 @@ static void a_cycle_cannot_be_painted(void **state) {
       for (int i = 0; i < 2; i++)
         for (size_t k = 0; k < both[i]->fragment.count; k++)
           if (both[i]->fragment.item[k].face == f)
-            hand_add_area2(area[i], both[i], k);
+            exact_add_area2(area[i], both[i], k);
       wrong += !mpq_equal(area[0], area[1]);
       mpq_clears(area[0], area[1], NULL);
     }
     assert_true(wrong >= 2); /* one too large, one too small */
     map_fini(&map);
     map_fini(&brute);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -115,17 +115,17 @@ static void depth_sort_is_wrong_for_a_cup_on_a_long_table(void **state) {
   struct sheet sheet;
   struct map map, brute;
   (void)state;
-  hand_sheet_init(&sheet);
-  hand_add_face(&sheet, table, 4, SCALE);
-  hand_add_face(&sheet, cup, 4, SCALE);
-  hand_solve(&solver_painter, &sheet, &map, NULL);
-  hand_solve(&solver_brute, &sheet, &brute, NULL);
-  hand_assert_area(&brute, 1, SCALE, 25, 1);
-  hand_assert_area(&map, 1, SCALE, 0, 1);
-  hand_assert_area(&map, 0, SCALE, 2000, 1);
+  exact_sheet_init(&sheet);
+  exact_add_face(&sheet, table, 4, SCALE);
+  exact_add_face(&sheet, cup, 4, SCALE);
+  exact_solve(&solver_painter, &sheet, &map, NULL);
+  exact_solve(&solver_brute, &sheet, &brute, NULL);
+  exact_assert_area(&brute, 1, SCALE, 25, 1);
+  exact_assert_area(&map, 1, SCALE, 0, 1);
+  exact_assert_area(&map, 0, SCALE, 2000, 1);
   map_fini(&map);
   map_fini(&brute);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 /* Wrong or not, every point of the page is painted by one face. */
@@ -135,8 +135,8 @@ static void what_is_painted_covers_all_there_is(void **state) {
     uint64_t r = seed;
     struct sheet sheet;
     mpq_t *area2, covered, sum;
-    hand_random_sheet(&sheet, (enum hand_kind)(seed % HAND_KINDS),
-                      2 + hand_below(&r, 3), &r);
+    exact_random_sheet(&sheet, (enum exact_kind)(seed % EXACT_KINDS),
+                       2 + exact_below(&r, 3), &r);
     area2 = malloc((sheet.triangle.count + 1) * sizeof *area2);
     assert_non_null(area2);
     for (size_t t = 0; t < sheet.triangle.count; t++)
@@ -145,11 +145,11 @@ static void what_is_painted_covers_all_there_is(void **state) {
     oracle_areas(&sheet, false, area2, covered);
     for (int s = 0; s < 2; s++) {
       struct map map;
-      hand_solve(s == 0 ? &solver_painter : &solver_painter_given, &sheet, &map,
-                 NULL);
+      exact_solve(s == 0 ? &solver_painter : &solver_painter_given, &sheet,
+                  &map, NULL);
       mpq_set_ui(sum, 0, 1);
       for (size_t f = 0; f < map.fragment.count; f++)
-        hand_add_area2(sum, &map, f);
+        exact_add_area2(sum, &map, f);
       assert_true(mpq_equal(sum, covered));
       map_fini(&map);
     }
@@ -157,7 +157,7 @@ static void what_is_painted_covers_all_there_is(void **state) {
     for (size_t t = 0; t < sheet.triangle.count; t++)
       mpq_clear(area2[t]);
     free(area2);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 

@@ -16,7 +16,7 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "tests/laid.h"
+#include "tests/sheet_fixture.h"
 #include "visibility/solver.h"
 
 /* ---- A system that starts no more threads -------------------------------- */
@@ -123,7 +123,7 @@ static void there_is_a_processor(void **state) {
 
 /* ---- The solver that has threads ----------------------------------------- */
 
-static void solve(struct laid *laid, struct map *map, int threads,
+static void solve(struct sheet_fixture *fixture, struct map *map, int threads,
                   recto_status expected) {
   const struct solver_request request = {
       .strokes = true, .intersections = true, .threads = threads};
@@ -131,11 +131,11 @@ static void solve(struct laid *laid, struct map *map, int threads,
   recto_error error;
   assert_non_null(report);
   map_init(map);
-  laid_start(laid);
-  scenes_soup(&laid->scene, &laid->options, 1500, 3);
-  laid_out(laid, true);
+  sheet_fixture_start(fixture);
+  scenes_soup(&fixture->scene, &fixture->options, 1500, 3);
+  sheet_fixture_out(fixture, true);
   assert_int_equal(
-      solver_tiles.solve(&laid->sheet, &request, map, report, &error),
+      solver_tiles.solve(&fixture->sheet, &request, map, report, &error),
       expected);
   mem_fail_after(0);
   report_destroy(report);
@@ -150,20 +150,20 @@ static void assert_same(const struct map *a, const struct map *b) {
 }
 
 static void lines_do_not_depend_on_what_threads_there_are(void **state) {
-  struct laid laid;
+  struct sheet_fixture fixture;
   struct map alone, map;
   (void)state;
-  solve(&laid, &alone, 1, RECTO_OK);
-  laid_fini(&laid);
+  solve(&fixture, &alone, 1, RECTO_OK);
+  sheet_fixture_fini(&fixture);
   assert_int_equal(started, 0);
   for (int there = 0; there < 3; there++) {
     to_start = 3 * there;
     started = 0;
-    solve(&laid, &map, 8, RECTO_OK);
+    solve(&fixture, &map, 8, RECTO_OK);
     assert_int_equal(started, 3 * there);
     assert_same(&alone, &map);
     map_fini(&map);
-    laid_fini(&laid);
+    sheet_fixture_fini(&fixture);
   }
   map_fini(&alone);
 }

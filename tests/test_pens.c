@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "ink/pens.h"
-#include "tests/inked.h"
+#include "tests/ink_fixture.h"
 
 enum {
   CREASE = RECTO_EDGE_CREASE,
@@ -17,18 +17,18 @@ enum {
 
 /* A silhouette, a crease and a hidden crease of the group "thing", and a crease
  * of "car/wheel/red". */
-static void start_scene(struct inked *k) {
-  inked_start(k);
-  uint32_t wheel = inked_group(k, "car/wheel/red");
-  inked_line(k, 10, 10, 50, 10, SILHOUETTE);
-  inked_line(k, 10, 20, 50, 20, CREASE);
-  inked_hide(k, inked_line(k, 10, 30, 50, 30, CREASE));
-  uint32_t edge = inked_line(k, 10, 40, 50, 40, CREASE);
+static void start_scene(struct ink_fixture *k) {
+  ink_fixture_start(k);
+  uint32_t wheel = ink_fixture_group(k, "car/wheel/red");
+  ink_fixture_line(k, 10, 10, 50, 10, SILHOUETTE);
+  ink_fixture_line(k, 10, 20, 50, 20, CREASE);
+  ink_fixture_hide(k, ink_fixture_line(k, 10, 30, 50, 30, CREASE));
+  uint32_t edge = ink_fixture_line(k, 10, 40, 50, 40, CREASE);
   k->sheet.edge.item[edge].group = wheel;
 }
 
 /* The pen of the stroke that begins at height y. */
-static unsigned pen_at(const struct inked *k, double y) {
+static unsigned pen_at(const struct ink_fixture *k, double y) {
   for (size_t i = 0; i < k->drawing.stroke.count; i++) {
     const struct drawing_stroke *s = &k->drawing.stroke.item[i];
     double there = k->drawing.point.item[s->point].y;
@@ -41,17 +41,17 @@ static unsigned pen_at(const struct inked *k, double y) {
 
 static void assert_pens(const char *list, recto_hidden hidden,
                         const unsigned pen[4]) {
-  struct inked k;
+  struct ink_fixture k;
   start_scene(&k);
   k.options.pen_for = list;
   k.options.hidden = hidden;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   for (int i = 0; i < 4; i++)
     if (pen[i] != 0)
       assert_int_equal(pen_at(&k, 10 * (i + 1)), pen[i]);
   for (size_t i = 1; i < k.drawing.layer.count; i++)
     assert_true(k.drawing.layer.item[i - 1].pen < k.drawing.layer.item[i].pen);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void hidden_goes_before_class_and_class_before_group(void **state) {
@@ -76,7 +76,7 @@ static void groups_go_by_their_whole_name_or_a_part(void **state) {
 }
 
 static void layers_say_what_is_on_their_pen(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
   start_scene(&k);
   k.options.pen_for = "silhouette=3,hidden=2,wheel=3,hatch=3";
@@ -84,7 +84,7 @@ static void layers_say_what_is_on_their_pen(void **state) {
   k.options.hidden = RECTO_HIDDEN_LAYER;
   k.options.pen_widths = "3=0.1cm,2=0.7";
   k.options.pen_colours = "3=#c00,1=0012Ff";
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 3);
   const struct drawing_layer *layer = k.drawing.layer.item;
   assert_string_equal(layer[0].label, "1 visible");
@@ -96,21 +96,21 @@ static void layers_say_what_is_on_their_pen(void **state) {
   assert_int_equal(layer[0].colour, 0x0012ff);
   assert_int_equal(layer[1].colour, 0x808080);
   assert_int_equal(layer[2].colour, 0xcc0000);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 /* What is not asked for is not on the layer's label. */
 static void layers_say_nothing_of_what_is_not_asked_for(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
   start_scene(&k);
   k.options.pen_for = "hidden=2,hatch=2,wire=2,crease=2,silhouette=1";
   k.options.edges &= ~(unsigned)RECTO_EDGE_WIRE;
-  inked_draw(&k);
+  ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 2);
   assert_string_equal(k.drawing.layer.item[0].label, "1 visible");
   assert_string_equal(k.drawing.layer.item[1].label, "2 crease");
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 /* ---- Idle pens ----------------------------------------------------------- */
@@ -130,14 +130,14 @@ static void hear(void *user, const char *file, unsigned long line,
 }
 
 /* said  how the one warning begins; NULL: there is none */
-static void assert_told(struct inked *k, const char *said) {
+static void assert_told(struct ink_fixture *k, const char *said) {
   struct pens pens;
   struct heard heard = {.count = 0};
   assert_int_equal(pens_init(&pens, &k->scene, &k->options, NULL), RECTO_OK);
-  pens_tell_idle(&pens, &k->options); /* nobody listens */
+  pens_warn_unused(&pens, &k->options); /* nobody listens */
   k->options.warning = hear;
   k->options.user = &heard;
-  pens_tell_idle(&pens, &k->options);
+  pens_warn_unused(&pens, &k->options);
   assert_int_equal(heard.count, said != NULL);
   if (said)
     assert_memory_equal(heard.text[0], said, strlen(said));
@@ -174,7 +174,7 @@ static void pens_with_nothing_to_draw_are_told(void **state) {
   };
   (void)state;
   for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
-    struct inked k;
+    struct ink_fixture k;
     start_scene(&k);
     k.options.pen_for = row[i].pens;
     k.options.pen_widths = row[i].widths;
@@ -183,7 +183,7 @@ static void pens_with_nothing_to_draw_are_told(void **state) {
     k.options.fill = row[i].fill;
     k.options.edges = row[i].edges;
     assert_told(&k, row[i].said);
-    inked_end(&k);
+    ink_fixture_end(&k);
   }
 }
 
@@ -203,12 +203,12 @@ static void weights_of_lines_not_asked_for_are_told(void **state) {
   };
   (void)state;
   for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
-    struct inked k;
+    struct ink_fixture k;
     start_scene(&k);
     k.options.weights = row[i].weights;
     k.options.edges = row[i].edges;
     assert_told(&k, row[i].said);
-    inked_end(&k);
+    ink_fixture_end(&k);
   }
 }
 
@@ -217,51 +217,52 @@ static void fills_lie_below_the_lines_of_all_pens(void **state) {
   static const double outline[] = {10, 10, 90, 10, 90, 80};
   (void)state;
   for (int pens = 1; pens <= 2; pens++) {
-    struct inked k;
+    struct ink_fixture k;
     start_scene(&k);
     k.options.fill = RECTO_FILL_PAINT;
     k.options.pen_for = pens == 1 ? NULL : "silhouette=2";
-    inked_fragment(&k, inked_face(&k, 1, flat, 3), INKED_XY(outline));
-    inked_draw(&k);
+    ink_fixture_fragment(&k, ink_fixture_face(&k, 1, flat, 3),
+                         INK_FIXTURE_XY(outline));
+    ink_fixture_draw(&k);
     const struct drawing_layer *layer = k.drawing.layer.item;
     assert_int_equal(k.drawing.layer.count, pens == 1 ? 1 : 3);
     assert_int_equal(k.drawing.fill.item[0].layer, 0);
     assert_string_equal(layer[0].label, pens == 1 ? "1 visible" : "% fills");
     for (size_t i = 0; i < k.drawing.stroke.count; i++)
       assert_int_equal(k.drawing.stroke.item[i].layer == 0, pens == 1);
-    inked_end(&k);
+    ink_fixture_end(&k);
   }
 }
 
 static void half_the_strokes_own_pen_is_the_shortest(void **state) {
   (void)state;
   for (int wide = 0; wide < 2; wide++) {
-    struct inked k;
-    inked_start(&k);
+    struct ink_fixture k;
+    ink_fixture_start(&k);
     k.options.min_stroke_mm = -1;
     k.options.pen_for = "crease=2";
     k.options.pen_widths = wide ? "2=3mm" : "1=3mm";
-    inked_line(&k, 10, 10, 11, 10, SILHOUETTE);
-    inked_line(&k, 10, 20, 11, 20, CREASE);
-    inked_draw(&k);
+    ink_fixture_line(&k, 10, 10, 11, 10, SILHOUETTE);
+    ink_fixture_line(&k, 10, 20, 11, 20, CREASE);
+    ink_fixture_draw(&k);
     assert_int_equal(k.drawing.stroke.count, 1);
     assert_int_equal(k.drawing.stroke.item[0].edge_class,
                      wide ? SILHOUETTE : CREASE);
-    inked_end(&k);
+    ink_fixture_end(&k);
   }
 }
 
 static void strokes_of_pens_that_meet_are_not_joined(void **state) {
   (void)state;
   for (int two = 0; two < 2; two++) {
-    struct inked k;
-    inked_start(&k);
+    struct ink_fixture k;
+    ink_fixture_start(&k);
     k.options.pen_for = two ? "crease=2" : "crease=1";
-    inked_line(&k, 10, 10, 50, 10, SILHOUETTE);
-    inked_line(&k, 50, 10, 50, 50, CREASE);
-    inked_draw(&k);
+    ink_fixture_line(&k, 10, 10, 50, 10, SILHOUETTE);
+    ink_fixture_line(&k, 50, 10, 50, 50, CREASE);
+    ink_fixture_draw(&k);
     assert_int_equal(k.drawing.stroke.count, two + 1);
-    inked_end(&k);
+    ink_fixture_end(&k);
   }
 }
 
@@ -270,14 +271,14 @@ static void strokes_of_pens_that_meet_are_not_joined(void **state) {
 /* How wide the crease, the silhouette and the border come out, which meet. */
 static void find_widths(const char *weights, int pens, double width[3],
                         size_t *strokes) {
-  struct inked k;
-  inked_start(&k);
+  struct ink_fixture k;
+  ink_fixture_start(&k);
   k.options.weights = weights;
   k.options.pens = pens;
-  inked_line(&k, 10, 10, 50, 10, CREASE);
-  inked_line(&k, 50, 10, 50, 50, SILHOUETTE);
-  inked_line(&k, 50, 50, 10, 50, BORDER);
-  inked_draw(&k);
+  ink_fixture_line(&k, 10, 10, 50, 10, CREASE);
+  ink_fixture_line(&k, 50, 10, 50, 50, SILHOUETTE);
+  ink_fixture_line(&k, 50, 50, 10, 50, BORDER);
+  ink_fixture_draw(&k);
   *strokes = k.drawing.stroke.count;
   width[0] = width[1] = width[2] = 0;
   for (size_t i = 0; i < k.drawing.stroke.count; i++) {
@@ -285,7 +286,7 @@ static void find_widths(const char *weights, int pens, double width[3],
     int place = s->edge_class == CREASE ? 0 : s->edge_class == BORDER ? 2 : 1;
     width[place] = drawing_width_mm(&k.drawing, s) / k.options.pen_mm;
   }
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void outlines_are_twice_as_wide_unless_told_otherwise(void **state) {
@@ -305,22 +306,22 @@ static void outlines_are_twice_as_wide_unless_told_otherwise(void **state) {
 }
 
 static void hidden_lines_weigh_nothing_extra(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   k.options.weights = NULL;
   k.options.hidden = RECTO_HIDDEN_LAYER;
-  inked_hide(&k, inked_line(&k, 10, 10, 50, 10, SILHOUETTE));
-  inked_draw(&k);
+  ink_fixture_hide(&k, ink_fixture_line(&k, 10, 10, 50, 10, SILHOUETTE));
+  ink_fixture_draw(&k);
   assert_true(drawing_width_mm(&k.drawing, &k.drawing.stroke.item[0]) ==
               k.options.pen_mm);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 /* ---- Lists that make no sense -------------------------------------------- */
 
-static void assert_refused(const char **list, struct inked *k, const char *text,
-                           const char *part) {
+static void assert_refused(const char **list, struct ink_fixture *k,
+                           const char *text, const char *part) {
   struct pens pens;
   recto_error error = {0};
   *list = text;
@@ -341,9 +342,9 @@ static void lists_that_make_no_sense_are_refused(void **state) {
                                         "2=",    "2=##c00", "1001=#000"};
   static const char *const weights[] = {"x=2", "crease=0", "crease=nan",
                                         "none,crease=1"};
-  struct inked k;
+  struct ink_fixture k;
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   for (size_t i = 0; i < sizeof pens / sizeof pens[0]; i++)
     assert_refused(&k.options.pen_for, &k, pens[i], "pens: ");
   for (size_t i = 0; i < sizeof widths / sizeof widths[0]; i++)
@@ -353,14 +354,14 @@ static void lists_that_make_no_sense_are_refused(void **state) {
   for (size_t i = 0; i < sizeof weights / sizeof weights[0]; i++)
     assert_refused(&k.options.weights, &k, weights[i], "weights: ");
   assert_refused(&k.options.pen_for, &k, "thing=2,thin=3", "\"thin\"");
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 static void one_name_has_one_value(void **state) {
-  struct inked k;
+  struct ink_fixture k;
   struct pens pens;
   (void)state;
-  inked_start(&k);
+  ink_fixture_start(&k);
   assert_refused(&k.options.pen_for, &k, "thing=2,thing=3",
                  "pens: two values for one name: \"thing=2\" and \"thing=3\"");
   assert_refused(&k.options.pen_for, &k, "crease=2,hatch=1,crease=22",
@@ -371,13 +372,13 @@ static void one_name_has_one_value(void **state) {
                  "colours of pens: two values for one name");
   assert_refused(&k.options.weights, &k, "crease=2,crease=3",
                  "weights: two values for one name");
-  inked_group(&k, "a");
-  inked_group(&k, "a=b");
+  ink_fixture_group(&k, "a");
+  ink_fixture_group(&k, "a=b");
   k.options.pen_for = "a=b=2,a=3,hidden=4,hatch=5,a=b=2";
   k.options.pen_widths = "1=1,11=2,111=3,1=1";
   assert_int_equal(pens_init(&pens, &k.scene, &k.options, NULL), RECTO_OK);
   pens_fini(&pens);
-  inked_end(&k);
+  ink_fixture_end(&k);
 }
 
 int main(void) {

@@ -11,7 +11,7 @@
 
 #include "base/number.h"
 #include "recto.h"
-#include "scene/mark.h"
+#include "scene/snapshot.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
 
@@ -343,10 +343,10 @@ static void points_of_no_file_have_the_caller_s(void **state) {
 static void a_failed_read_leaves_the_ranges(void **state) {
   (void)state;
   struct reading reading;
-  struct scene_mark mark;
+  struct scene_snapshot mark;
   reading_init(&reading);
   add_binary_stl(&reading);
-  scene_mark(&reading.scene, &mark);
+  scene_snapshot(&reading.scene, &mark);
   add_file(&reading, &reader_obj, "v 1.234567 0 0\nv 2 0 0\n");
   assert_int_equal(reading.scene.precision.count, 2);
   scene_return(&reading.scene, &mark);

@@ -9,7 +9,7 @@
 
 #include "base/memory.h"
 #include "base/report.h"
-#include "tests/comma.h"
+#include "tests/comma_locale.h"
 
 static int set_up(void **state) {
   *state = report_create();
@@ -88,15 +88,15 @@ static void what_is_not_finite_is_null(void **state) {
                       "    \"c\": [null, null, 0]\n  }\n}\n");
 }
 
-static void row_22_a_decimal_comma_changes_nothing(void **state) {
+static void a_decimal_comma_changes_nothing(void **state) {
   struct report *report = *state;
-  if (!comma_on()) {
+  if (!comma_locale_on()) {
     print_message("no locale with a decimal comma\n");
     skip();
   }
   report_double(report, "a", "b", 0.5);
   const char *json = report_json(report);
-  comma_off();
+  comma_locale_off();
   assert_non_null(strstr(json, "0.5"));
 }
 
@@ -159,7 +159,7 @@ int main(void) {
       T(adding_starts_from_nought),
       T(text_of_any_bytes_is_quoted),
       T(what_is_not_finite_is_null),
-      T(row_22_a_decimal_comma_changes_nothing),
+      T(a_decimal_comma_changes_nothing),
       T(no_report_is_accepted_everywhere),
       T(running_out_of_memory_loses_entries_only),
       T(clocks_run_forward),

@@ -11,10 +11,11 @@
 
 #include "base/stream.h"
 #include "scene/bowtie.h"
-#include "scene/mark.h"
+#include "scene/snapshot.h"
 #include "scene/name.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
+#include "tests/scenes/write_obj.h"
 
 static int set_up(void **state) {
   static struct reading reading;
@@ -435,13 +436,13 @@ static void the_next_file_is_told_anew(void **state) {
 static void a_mark_brings_the_scene_back(void **state) {
   struct reading *r = *state;
   struct reading fresh;
-  struct scene_mark empty, mark;
-  scene_mark(&r->scene, &empty);
+  struct scene_snapshot empty, mark;
+  scene_snapshot(&r->scene, &empty);
   static const uint32_t line[] = {0, 1};
   for (int round = 0; round < 3; round++) {
     assert_int_equal(scene_use_group(&r->scene, "first", 5, NULL), RECTO_OK);
     POLYGON(r, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-    scene_mark(&r->scene, &mark);
+    scene_snapshot(&r->scene, &mark);
     assert_int_equal(scene_use_group(&r->scene, "second", 6, NULL), RECTO_OK);
     POLYGON(r, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
     assert_int_equal(scene_add_wire(&r->scene, line, 2, 1, NULL, NULL),

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "geom/predicate.h"
-#include "tests/laid.h"
+#include "tests/sheet_fixture.h"
 #include "tests/scenes/random.h"
 
 /* ---- Invariants ---------------------------------------------------------- */
@@ -18,43 +18,45 @@ static void the_scenes_keep_every_invariant(void **state) {
   (void)state;
   for (const struct scenes_entry *entry = scene_list; entry->name; entry++)
     for (int outlines = 0; outlines < 2; outlines++) {
-      struct laid laid;
-      laid_start(&laid);
-      entry->fill(&laid.scene, &laid.options);
-      laid.options.edges = RECTO_EDGES_ALL;
-      laid_out(&laid, outlines);
-      laid_check(&laid);
-      laid_fini(&laid);
+      struct sheet_fixture fixture;
+      sheet_fixture_start(&fixture);
+      entry->fill(&fixture.scene, &fixture.options);
+      fixture.options.edges = RECTO_EDGES_ALL;
+      sheet_fixture_out(&fixture, outlines);
+      sheet_fixture_check(&fixture);
+      sheet_fixture_fini(&fixture);
     }
 }
 
-static bool is_in_view(const struct laid *laid) {
+static bool is_in_view(const struct sheet_fixture *fixture) {
   struct camera camera;
-  return camera_aim(&camera, &laid->scene, &laid->options, NULL) == RECTO_OK;
+  return camera_aim(&camera, &fixture->scene, &fixture->options, NULL) ==
+         RECTO_OK;
 }
 
 static void random_scenes_keep_every_invariant(void **state) {
   (void)state;
   int checked = 0;
   for (uint64_t seed = 1; seed <= 600; seed++) {
-    struct laid laid;
-    laid_start(&laid);
-    scenes_small(&laid.scene, &laid.options, seed);
-    laid.options.edges = (unsigned)seed & RECTO_EDGES_ALL;
-    if (is_in_view(&laid)) {
-      laid_out(&laid, seed % 3 != 0);
-      laid_check(&laid);
+    struct sheet_fixture fixture;
+    sheet_fixture_start(&fixture);
+    scenes_small(&fixture.scene, &fixture.options, seed);
+    fixture.options.edges = (unsigned)seed & RECTO_EDGES_ALL;
+    if (is_in_view(&fixture)) {
+      sheet_fixture_out(&fixture, seed % 3 != 0);
+      sheet_fixture_check(&fixture);
       checked++;
     }
-    laid_fini(&laid);
+    sheet_fixture_fini(&fixture);
   }
   assert_true(checked > 500);
 }
 
 /* A camera somewhere in the scene, so that the near plane and the page both
  * cut it. */
-static void put_camera_inside(struct laid *laid, struct random *random) {
-  recto_options *o = &laid->options;
+static void put_camera_inside(struct sheet_fixture *fixture,
+                              struct random *random) {
+  recto_options *o = &fixture->options;
   o->camera = RECTO_CAMERA_EYE;
   o->has_target = true;
   do {
@@ -77,18 +79,18 @@ static void clipped_scenes_keep_every_invariant(void **state) {
   struct random random = {21};
   uint64_t near = 0, page = 0;
   for (uint64_t seed = 1; seed <= 1500; seed++) {
-    struct laid laid;
-    laid_start(&laid);
-    scenes_small(&laid.scene, &laid.options, seed);
-    put_camera_inside(&laid, &random);
-    laid.options.edges = RECTO_EDGES_ALL;
-    if (is_in_view(&laid)) {
-      laid_out(&laid, true);
-      laid_check(&laid);
-      near += laid.sheet.clipped_near;
-      page += laid.sheet.clipped_page;
+    struct sheet_fixture fixture;
+    sheet_fixture_start(&fixture);
+    scenes_small(&fixture.scene, &fixture.options, seed);
+    put_camera_inside(&fixture, &random);
+    fixture.options.edges = RECTO_EDGES_ALL;
+    if (is_in_view(&fixture)) {
+      sheet_fixture_out(&fixture, true);
+      sheet_fixture_check(&fixture);
+      near += fixture.sheet.clipped_near;
+      page += fixture.sheet.clipped_page;
     }
-    laid_fini(&laid);
+    sheet_fixture_fini(&fixture);
   }
   assert_true(near > 1000 && page > 1000); /* they were clipped indeed */
 }
@@ -97,51 +99,52 @@ static void an_eye_in_an_odd_place_is_no_trouble(void **state) {
   (void)state;
   for (int place = SCENES_EYE_INSIDE; place <= SCENES_EYE_ON_LINE; place++)
     for (int fit = RECTO_FIT_PAGE; fit <= RECTO_FIT_NONE; fit++) {
-      struct laid laid;
-      laid_start(&laid);
-      scenes_room(&laid.scene, &laid.options, (enum scenes_eye)place);
-      laid.options.fit = (recto_fit)fit;
-      laid.options.edges = RECTO_EDGES_ALL;
-      laid_out(&laid, true);
-      laid_check(&laid);
-      assert_true(laid.sheet.triangle.count > 0);
-      assert_true(laid.sheet.clipped_near > 0);
-      laid_fini(&laid);
+      struct sheet_fixture fixture;
+      sheet_fixture_start(&fixture);
+      scenes_room(&fixture.scene, &fixture.options, (enum scenes_eye)place);
+      fixture.options.fit = (recto_fit)fit;
+      fixture.options.edges = RECTO_EDGES_ALL;
+      sheet_fixture_out(&fixture, true);
+      sheet_fixture_check(&fixture);
+      assert_true(fixture.sheet.triangle.count > 0);
+      assert_true(fixture.sheet.clipped_near > 0);
+      sheet_fixture_fini(&fixture);
     }
 }
 
 /* ---- Where points fall --------------------------------------------------- */
 
 /* The sheet point of a scene point, found by walking an edge. */
-static struct geom_point where(const struct laid *laid, uint32_t point) {
-  for (size_t e = 0; e < laid->sheet.edge.count; e++) {
-    const struct sheet_edge *edge = &laid->sheet.edge.item[e];
-    const uint32_t *ends = laid->topology.edge.item[edge->source].point;
+static struct geom_point where(const struct sheet_fixture *fixture,
+                               uint32_t point) {
+  for (size_t e = 0; e < fixture->sheet.edge.count; e++) {
+    const struct sheet_edge *edge = &fixture->sheet.edge.item[e];
+    const uint32_t *ends = fixture->topology.edge.item[edge->source].point;
     for (int k = 0; k < 2; k++)
       if (ends[k] == point)
-        return laid->sheet.point.item[edge->point[k]];
+        return fixture->sheet.point.item[edge->point[k]];
   }
   fail_msg("point %u is not on the sheet", (unsigned)point);
   return (struct geom_point){0, 0, 0};
 }
 
-static void fill_box(struct laid *laid) {
-  laid_start(laid);
-  build_box(&laid->scene, vector_of(-3, -4, -5), vector_of(3, 4, 6));
+static void fill_box(struct sheet_fixture *fixture) {
+  sheet_fixture_start(fixture);
+  build_box(&fixture->scene, vector_of(-3, -4, -5), vector_of(3, 4, 6));
 }
 
 static void points_are_snapped_to_the_nearest_grid_unit(void **state) {
   (void)state;
   for (int perspective = 0; perspective < 2; perspective++) {
-    struct laid laid;
-    fill_box(&laid);
-    laid.options.fov_deg = perspective ? 40 : 0;
-    laid_out(&laid, true);
-    const struct camera *c = &laid.camera;
+    struct sheet_fixture fixture;
+    fill_box(&fixture);
+    fixture.options.fov_deg = perspective ? 40 : 0;
+    sheet_fixture_out(&fixture, true);
+    const struct camera *c = &fixture.camera;
     double m[12];
     camera_matrix(c, m);
     for (uint32_t p = 0; p < 8; p++) {
-      const struct scene_point *q = &laid.scene.point.item[p];
+      const struct scene_point *q = &fixture.scene.point.item[p];
       double h[3], view_d = 0;
       for (int r = 0; r < 3; r++)
         h[r] = m[4 * r] * q->x + m[4 * r + 1] * q->y + m[4 * r + 2] * q->z +
@@ -150,36 +153,37 @@ static void points_are_snapped_to_the_nearest_grid_unit(void **state) {
                             q->z - c->eye[2]};
       for (int k = 0; k < 3; k++)
         view_d -= c->back[k] * to[k];
-      struct geom_point at = where(&laid, p);
-      assert_true(fabs(sheet_x_mm(&laid.sheet, at.x) - h[0] / h[2]) <
+      struct geom_point at = where(&fixture, p);
+      assert_true(fabs(sheet_x_mm(&fixture.sheet, at.x) - h[0] / h[2]) <
                   0.5001 / SHEET_UNITS_PER_MM);
-      assert_true(fabs(sheet_y_mm(&laid.sheet, at.y) - h[1] / h[2]) <
+      assert_true(fabs(sheet_y_mm(&fixture.sheet, at.y) - h[1] / h[2]) <
                   0.5001 / SHEET_UNITS_PER_MM);
-      double z = perspective ? laid.sheet.z_scale * (1 / view_d - 1 / c->d_max)
-                             : laid.sheet.z_scale * (c->d_max - view_d);
+      double z = perspective
+                     ? fixture.sheet.z_scale * (1 / view_d - 1 / c->d_max)
+                     : fixture.sheet.z_scale * (c->d_max - view_d);
       assert_true(fabs((double)at.z - z) < 1);
     }
-    assert_true(laid.sheet.units_per_view == c->s * SHEET_UNITS_PER_MM);
-    laid_fini(&laid);
+    assert_true(fixture.sheet.units_per_view == c->s * SHEET_UNITS_PER_MM);
+    sheet_fixture_fini(&fixture);
   }
 }
 
 static void depth_fills_its_range(void **state) {
   (void)state;
   for (int perspective = 0; perspective < 2; perspective++) {
-    struct laid laid;
-    fill_box(&laid);
-    laid.options.fov_deg = perspective ? 40 : 0;
-    laid_out(&laid, false);
+    struct sheet_fixture fixture;
+    fill_box(&fixture);
+    fixture.options.fov_deg = perspective ? 40 : 0;
+    sheet_fixture_out(&fixture, false);
     int64_t low = SHEET_Z_MAX, high = 0;
-    for (size_t p = 0; p < laid.sheet.point.count; p++) {
-      int64_t z = laid.sheet.point.item[p].z;
+    for (size_t p = 0; p < fixture.sheet.point.count; p++) {
+      int64_t z = fixture.sheet.point.item[p].z;
       low = z < low ? z : low;
       high = z > high ? z : high;
     }
     assert_int_equal(low, 0);
     assert_int_equal(high, SHEET_Z_MAX);
-    laid_fini(&laid);
+    sheet_fixture_fini(&fixture);
   }
 }
 
@@ -188,123 +192,128 @@ static void depth_fills_its_range(void **state) {
 static void planes_stay_planes(void **state) {
   (void)state;
   for (int perspective = 0; perspective < 2; perspective++) {
-    struct laid laid;
-    fill_box(&laid);
-    laid.options.fov_deg = perspective ? 60 : 0;
-    laid_out(&laid, true);
+    struct sheet_fixture fixture;
+    fill_box(&fixture);
+    fixture.options.fov_deg = perspective ? 60 : 0;
+    sheet_fixture_out(&fixture, true);
     for (uint32_t f = 0; f < 6; f++) {
       const uint32_t *corner =
-          laid.scene.corner.item + laid.scene.face_start.item[f];
+          fixture.scene.corner.item + fixture.scene.face_start.item[f];
       struct geom_point p[4];
       for (int k = 0; k < 4; k++)
-        p[k] = where(&laid, corner[k]);
+        p[k] = where(&fixture, corner[k]);
       struct geom_plane plane = geom_plane_of(p[0], p[1], p[2]);
       double off = (double)geom_plane_value(&plane, p[3]) / (double)plane.nz;
       double slope = 1 + fabs((double)plane.nx / (double)plane.nz) +
                      fabs((double)plane.ny / (double)plane.nz);
       assert_true(fabs(off) <= 4 * slope);
     }
-    laid_fini(&laid);
+    sheet_fixture_fini(&fixture);
   }
 }
 
 static void a_flat_scene_square_on_is_fine(void **state) {
   (void)state;
   for (int perspective = 0; perspective < 2; perspective++) {
-    struct laid laid;
-    laid_start(&laid);
-    build_parallelogram(&laid.scene, vector_of(0, 0, 7), vector_of(3, 0, 0),
+    struct sheet_fixture fixture;
+    sheet_fixture_start(&fixture);
+    build_parallelogram(&fixture.scene, vector_of(0, 0, 7), vector_of(3, 0, 0),
                         vector_of(0, 2, 0));
-    laid.options.azimuth_deg = laid.options.elevation_deg = 0;
-    laid.options.fov_deg = perspective ? 40 : 0;
-    laid_out(&laid, true);
-    laid_check(&laid);
-    assert_true(isfinite(laid.sheet.z_scale) && laid.sheet.z_scale > 0);
-    assert_int_equal(laid.sheet.triangle.count, 2);
-    laid_fini(&laid);
+    fixture.options.azimuth_deg = fixture.options.elevation_deg = 0;
+    fixture.options.fov_deg = perspective ? 40 : 0;
+    sheet_fixture_out(&fixture, true);
+    sheet_fixture_check(&fixture);
+    assert_true(isfinite(fixture.sheet.z_scale) && fixture.sheet.z_scale > 0);
+    assert_int_equal(fixture.sheet.triangle.count, 2);
+    sheet_fixture_fini(&fixture);
   }
 }
 
 /* A contact length in depth units must be a number that int64 can hold. */
 static void a_noisy_flat_scene_does_not_blow_depth_up(void **state) {
   (void)state;
-  struct laid laid;
-  laid_start(&laid);
-  build_parallelogram(&laid.scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
+  struct sheet_fixture fixture;
+  sheet_fixture_start(&fixture);
+  build_parallelogram(&fixture.scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
                       vector_of(0, 2, 0));
-  scenes_turn(&laid.scene, vector_of(1, 2, 3), 1);
-  laid.options.azimuth_deg = 0;
-  laid.options.elevation_deg = 0;
-  struct scene_point *p = laid.scene.point.item;
+  scenes_turn(&fixture.scene, vector_of(1, 2, 3), 1);
+  fixture.options.azimuth_deg = 0;
+  fixture.options.elevation_deg = 0;
+  struct scene_point *p = fixture.scene.point.item;
   struct vector u =
       vector_of(p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z);
   struct vector v =
       vector_of(p[3].x - p[0].x, p[3].y - p[0].y, p[3].z - p[0].z);
   struct vector n = vector_cross(u, v);
-  laid.options.camera = RECTO_CAMERA_EYE;
-  laid.options.eye[0] = n.x;
-  laid.options.eye[1] = n.y;
-  laid.options.eye[2] = n.z;
-  laid.options.has_target = true;
-  laid.options.target[0] = laid.options.target[1] = laid.options.target[2] = 0;
-  laid_out(&laid, true);
-  laid_check(&laid);
-  assert_true(laid.camera.contact * laid.sheet.z_scale < 0x1p62);
-  laid_fini(&laid);
+  fixture.options.camera = RECTO_CAMERA_EYE;
+  fixture.options.eye[0] = n.x;
+  fixture.options.eye[1] = n.y;
+  fixture.options.eye[2] = n.z;
+  fixture.options.has_target = true;
+  fixture.options.target[0] = fixture.options.target[1] =
+      fixture.options.target[2] = 0;
+  sheet_fixture_out(&fixture, true);
+  sheet_fixture_check(&fixture);
+  assert_true(fixture.camera.contact * fixture.sheet.z_scale < 0x1p62);
+  sheet_fixture_fini(&fixture);
 }
 
 /* ---- Areas --------------------------------------------------------------- */
 
 /* A polygon's area from the corners that its edges have on the sheet. */
-static int64_t outline_area(const struct laid *laid, uint32_t face) {
-  const struct scene *scene = &laid->scene;
+static int64_t outline_area(const struct sheet_fixture *fixture,
+                            uint32_t face) {
+  const struct scene *scene = &fixture->scene;
   uint32_t start = scene->face_start.item[face];
   uint32_t count = scene->face_start.item[face + 1] - start;
   int64_t area = 0;
   for (uint32_t c = 1; c + 1 < count; c++)
-    area += geom_orient2d(where(laid, scene->corner.item[start]),
-                          where(laid, scene->corner.item[start + c]),
-                          where(laid, scene->corner.item[start + c + 1]));
+    area += geom_orient2d(where(fixture, scene->corner.item[start]),
+                          where(fixture, scene->corner.item[start + c]),
+                          where(fixture, scene->corner.item[start + c + 1]));
   return llabs(area);
 }
 
 static void triangles_of_a_polygon_have_its_area_exactly(void **state) {
   (void)state;
   for (int corners = 5; corners < 40; corners += 3) {
-    struct laid laid;
+    struct sheet_fixture fixture;
     double xyz[3 * 40];
-    laid_start(&laid);
+    sheet_fixture_start(&fixture);
     for (int c = 0; c < corners; c++) { /* a star, tilted */
       double r = c % 2 ? 3 : 7, angle = 2 * acos(-1) * c / corners;
       xyz[3 * c] = r * cos(angle);
       xyz[3 * c + 1] = r * sin(angle);
       xyz[3 * c + 2] = 0.5 * xyz[3 * c] - 0.25 * xyz[3 * c + 1];
     }
-    build_polygon(&laid.scene, xyz, (size_t)corners);
-    laid.options.azimuth_deg = laid.options.elevation_deg = 0;
-    laid_out(&laid, true);
-    laid_check(&laid);
-    assert_int_equal(laid.sheet.triangle.count, corners - 2);
-    assert_int_equal(laid_area(&laid, 0), outline_area(&laid, 0));
-    laid_fini(&laid);
+    build_polygon(&fixture.scene, xyz, (size_t)corners);
+    fixture.options.azimuth_deg = fixture.options.elevation_deg = 0;
+    sheet_fixture_out(&fixture, true);
+    sheet_fixture_check(&fixture);
+    assert_int_equal(fixture.sheet.triangle.count, corners - 2);
+    assert_int_equal(sheet_fixture_area(&fixture, 0),
+                     outline_area(&fixture, 0));
+    sheet_fixture_fini(&fixture);
   }
 }
 
-static int64_t page_area(const struct laid *laid) {
-  return 8 * (int64_t)laid_half(laid, 0) * laid_half(laid, 1);
+static int64_t page_area(const struct sheet_fixture *fixture) {
+  return 8 * (int64_t)sheet_fixture_half(fixture, 0) *
+         sheet_fixture_half(fixture, 1);
 }
 
 /* A sheet of n x n quads far larger than the page. */
-static void fill_large_grid(struct laid *laid, unsigned n, bool triangles) {
-  laid_start(laid);
-  build_group(&laid->scene, "grid");
+static void fill_large_grid(struct sheet_fixture *fixture, unsigned n,
+                            bool triangles) {
+  sheet_fixture_start(fixture);
+  build_group(&fixture->scene, "grid");
   for (unsigned row = 0; row <= n; row++)
     for (unsigned column = 0; column <= n; column++)
-      build_point(&laid->scene, 600.0 * column / n - 301.7,
+      build_point(&fixture->scene, 600.0 * column / n - 301.7,
                   600.0 * row / n - 297.1, 10 * sin(row) * cos(column));
-  build_grid(&laid->scene, 0, n, n, triangles);
-  laid->options.fit = RECTO_FIT_NONE;
-  laid->options.azimuth_deg = laid->options.elevation_deg = 0;
+  build_grid(&fixture->scene, 0, n, n, triangles);
+  fixture->options.fit = RECTO_FIT_NONE;
+  fixture->options.azimuth_deg = fixture->options.elevation_deg = 0;
 }
 
 /* Neither a gap nor an overlap of a single unit, however the page cuts. */
@@ -312,64 +321,66 @@ static void a_grid_beyond_the_page_fills_the_page_exactly(void **state) {
   (void)state;
   for (int triangles = 0; triangles < 2; triangles++)
     for (unsigned n = 1; n <= 41; n += 8) {
-      struct laid laid;
-      fill_large_grid(&laid, n, triangles);
-      laid_out(&laid, true);
-      laid_check(&laid);
-      assert_true(laid.sheet.clipped_page > 0);
+      struct sheet_fixture fixture;
+      fill_large_grid(&fixture, n, triangles);
+      sheet_fixture_out(&fixture, true);
+      sheet_fixture_check(&fixture);
+      assert_true(fixture.sheet.clipped_page > 0);
       if (n == 1)
-        assert_int_equal(laid.sheet.clipped_near, 0);
-      assert_int_equal(laid_area(&laid, SHEET_NONE), page_area(&laid));
-      laid_fini(&laid);
+        assert_int_equal(fixture.sheet.clipped_near, 0);
+      assert_int_equal(sheet_fixture_area(&fixture, SHEET_NONE),
+                       page_area(&fixture));
+      sheet_fixture_fini(&fixture);
     }
 }
 
 static void a_polygon_around_the_page_is_cut_to_the_page(void **state) {
   (void)state;
-  struct laid laid;
-  laid_start(&laid);
+  struct sheet_fixture fixture;
+  sheet_fixture_start(&fixture);
   const double xyz[] = {-900, -800, 1, 0, -500, 1, 900,  -700, 1, 800,  300, 1,
                         200,  900,  1, 0, 400,  1, -200, 900,  1, -700, 500, 1};
-  build_polygon(&laid.scene, xyz, 8);
-  laid.options.fit = RECTO_FIT_NONE;
-  laid.options.azimuth_deg = laid.options.elevation_deg = 0;
-  laid_out(&laid, true);
-  laid_check(&laid);
-  assert_int_equal(laid.sheet.clipped_page, 1);
-  assert_int_equal(laid_area(&laid, SHEET_NONE), page_area(&laid));
-  assert_int_equal(laid.sheet.edge.count, 0); /* they are all beyond it */
-  laid_fini(&laid);
+  build_polygon(&fixture.scene, xyz, 8);
+  fixture.options.fit = RECTO_FIT_NONE;
+  fixture.options.azimuth_deg = fixture.options.elevation_deg = 0;
+  sheet_fixture_out(&fixture, true);
+  sheet_fixture_check(&fixture);
+  assert_int_equal(fixture.sheet.clipped_page, 1);
+  assert_int_equal(sheet_fixture_area(&fixture, SHEET_NONE),
+                   page_area(&fixture));
+  assert_int_equal(fixture.sheet.edge.count, 0); /* they are all beyond it */
+  sheet_fixture_fini(&fixture);
 }
 
 static void a_floor_to_the_horizon_is_cut_by_both(void **state) {
   (void)state;
-  struct laid laid;
-  laid_start(&laid);
-  build_group(&laid.scene, "floor");
+  struct sheet_fixture fixture;
+  sheet_fixture_start(&fixture);
+  build_group(&fixture.scene, "floor");
   for (int row = 0; row <= 20; row++)
     for (int column = 0; column <= 20; column++)
-      build_point(&laid.scene, 20.0 * column - 200, 0, 10.0 * row - 100);
-  build_grid(&laid.scene, 0, 20, 20, false);
-  laid.options.camera = RECTO_CAMERA_EYE;
-  laid.options.eye[1] = 1.5;
-  laid.options.has_target = true;
-  laid.options.target[1] = 1.5;
-  laid.options.target[2] = -100;
-  laid.options.fov_deg = 60;
-  laid.options.fit = RECTO_FIT_NONE;
-  laid.options.near_distance = 1;
-  laid_out(&laid, true);
-  laid_check(&laid);
-  assert_true(laid.sheet.clipped_near > 0 && laid.sheet.clipped_page > 0);
-  for (size_t p = 0; p < laid.sheet.point.count; p++)
-    assert_true(laid.sheet.point.item[p].y < 0); /* below the horizon */
+      build_point(&fixture.scene, 20.0 * column - 200, 0, 10.0 * row - 100);
+  build_grid(&fixture.scene, 0, 20, 20, false);
+  fixture.options.camera = RECTO_CAMERA_EYE;
+  fixture.options.eye[1] = 1.5;
+  fixture.options.has_target = true;
+  fixture.options.target[1] = 1.5;
+  fixture.options.target[2] = -100;
+  fixture.options.fov_deg = 60;
+  fixture.options.fit = RECTO_FIT_NONE;
+  fixture.options.near_distance = 1;
+  sheet_fixture_out(&fixture, true);
+  sheet_fixture_check(&fixture);
+  assert_true(fixture.sheet.clipped_near > 0 && fixture.sheet.clipped_page > 0);
+  for (size_t p = 0; p < fixture.sheet.point.count; p++)
+    assert_true(fixture.sheet.point.item[p].y < 0); /* below the horizon */
   /* The floor's far border is 100 away, 1.5 down, and wider than the page. */
-  double s = laid.camera.s, half = laid_half(&laid, 1);
+  double s = fixture.camera.s, half = sheet_fixture_half(&fixture, 1);
   double border = s * 1.5 / 100 * SHEET_UNITS_PER_MM;
-  double area = 2 * (half - border) * 2 * laid_half(&laid, 0);
-  double found = (double)laid_area(&laid, SHEET_NONE);
+  double area = 2 * (half - border) * 2 * sheet_fixture_half(&fixture, 0);
+  double found = (double)sheet_fixture_area(&fixture, SHEET_NONE);
   assert_true(fabs(found - area) < 1e-6 * area);
-  laid_fini(&laid);
+  sheet_fixture_fini(&fixture);
 }
 
 /* ---- Clipping ------------------------------------------------------------ */
@@ -378,96 +389,98 @@ static void a_drawing_that_fits_the_page_is_never_cut(void **state) {
   (void)state;
   struct random random = {33};
   for (int i = 0; i < 300; i++) {
-    struct laid laid;
-    fill_box(&laid);
-    laid.options.margin_mm = 0;
-    laid.options.page_width_mm = random_int(&random, 10, 2000);
-    laid.options.page_height_mm = random_between(&random, 10, 2000);
-    laid.options.azimuth_deg = random_between(&random, 0, 360);
-    laid.options.elevation_deg = random_between(&random, -90, 90);
-    laid.options.fov_deg = i % 2 ? random_between(&random, 1, 150) : 0;
-    laid_out(&laid, true);
-    laid_check(&laid);
-    assert_int_equal(laid.sheet.clipped_page, 0);
-    assert_int_equal(laid.sheet.clipped_near, 0);
-    assert_int_equal(laid.sheet.triangle.count, 12);
-    assert_int_equal(laid.sheet.edge.count, 12);
-    laid_fini(&laid);
+    struct sheet_fixture fixture;
+    fill_box(&fixture);
+    fixture.options.margin_mm = 0;
+    fixture.options.page_width_mm = random_int(&random, 10, 2000);
+    fixture.options.page_height_mm = random_between(&random, 10, 2000);
+    fixture.options.azimuth_deg = random_between(&random, 0, 360);
+    fixture.options.elevation_deg = random_between(&random, -90, 90);
+    fixture.options.fov_deg = i % 2 ? random_between(&random, 1, 150) : 0;
+    sheet_fixture_out(&fixture, true);
+    sheet_fixture_check(&fixture);
+    assert_int_equal(fixture.sheet.clipped_page, 0);
+    assert_int_equal(fixture.sheet.clipped_near, 0);
+    assert_int_equal(fixture.sheet.triangle.count, 12);
+    assert_int_equal(fixture.sheet.edge.count, 12);
+    sheet_fixture_fini(&fixture);
   }
 }
 
 static void a_cut_edge_is_cut_once_for_all_who_use_it(void **state) {
   (void)state;
-  struct laid laid;
-  fill_large_grid(&laid, 29, true);
-  laid.options.edges = RECTO_EDGES_ALL;
-  laid_out(&laid, true);
+  struct sheet_fixture fixture;
+  fill_large_grid(&fixture, 29, true);
+  fixture.options.edges = RECTO_EDGES_ALL;
+  sheet_fixture_out(&fixture, true);
   size_t cut = 0;
-  for (size_t e = 0; e < laid.sheet.edge.count; e++) {
-    const struct sheet_edge *edge = &laid.sheet.edge.item[e];
-    const struct topology_edge *source = &laid.topology.edge.item[edge->source];
+  for (size_t e = 0; e < fixture.sheet.edge.count; e++) {
+    const struct sheet_edge *edge = &fixture.sheet.edge.item[e];
+    const struct topology_edge *source =
+        &fixture.topology.edge.item[edge->source];
     if (source->uses < 2)
       continue;
     assert_int_not_equal(edge->triangle[1], SHEET_NONE);
-    for (int k = 0; k < 2; k++) { /* see also check_sides in laid.c */
-      struct geom_point p = laid.sheet.point.item[edge->point[k]];
-      cut += abs(p.x) == laid_half(&laid, 0) || abs(p.y) == laid_half(&laid, 1);
+    for (int k = 0; k < 2; k++) { /* see also check_sides in sheet_fixture.c */
+      struct geom_point p = fixture.sheet.point.item[edge->point[k]];
+      cut += abs(p.x) == sheet_fixture_half(&fixture, 0) ||
+             abs(p.y) == sheet_fixture_half(&fixture, 1);
     }
   }
   assert_true(cut > 20);
-  laid_fini(&laid);
+  sheet_fixture_fini(&fixture);
 }
 
 static void a_section_cuts_and_leaves_no_line(void **state) {
   (void)state;
   for (int perspective = 0; perspective < 2; perspective++) {
-    struct laid laid;
-    fill_box(&laid);
-    laid.options.azimuth_deg = 20;
-    laid.options.elevation_deg = 0;
-    laid.options.fov_deg = perspective ? 30 : 0;
-    laid.options.has_section = true;
-    laid.options.section = 6;
-    laid.options.edges = RECTO_EDGES_ALL;
-    laid_out(&laid, true);
-    laid_check(&laid);
-    assert_true(laid.sheet.clipped_near >= 4);
-    assert_int_equal(laid.sheet.clipped_page, 0);
+    struct sheet_fixture fixture;
+    fill_box(&fixture);
+    fixture.options.azimuth_deg = 20;
+    fixture.options.elevation_deg = 0;
+    fixture.options.fov_deg = perspective ? 30 : 0;
+    fixture.options.has_section = true;
+    fixture.options.section = 6;
+    fixture.options.edges = RECTO_EDGES_ALL;
+    sheet_fixture_out(&fixture, true);
+    sheet_fixture_check(&fixture);
+    assert_true(fixture.sheet.clipped_near >= 4);
+    assert_int_equal(fixture.sheet.clipped_page, 0);
     size_t at_cut = 0;
-    for (size_t e = 0; e < laid.sheet.edge.count; e++) {
-      const uint32_t *p = laid.sheet.edge.item[e].point;
-      bool first = laid.sheet.point.item[p[0]].z == SHEET_Z_MAX;
-      bool second = laid.sheet.point.item[p[1]].z == SHEET_Z_MAX;
+    for (size_t e = 0; e < fixture.sheet.edge.count; e++) {
+      const uint32_t *p = fixture.sheet.edge.item[e].point;
+      bool first = fixture.sheet.point.item[p[0]].z == SHEET_Z_MAX;
+      bool second = fixture.sheet.point.item[p[1]].z == SHEET_Z_MAX;
       assert_false(first && second);
       at_cut += first || second;
     }
     assert_true(at_cut >= 3);
-    laid_fini(&laid);
+    sheet_fixture_fini(&fixture);
   }
 }
 
 /* The side of a box that lies in the section itself stays whole. */
 static void a_face_in_the_section_plane_stays(void **state) {
   (void)state;
-  struct laid laid;
-  laid_start(&laid);
-  build_box(&laid.scene, vector_of(0, 0, 0), vector_of(1, 1, 1));
-  build_box(&laid.scene, vector_of(2, 0, 0), vector_of(3, 1, 2));
-  laid.options.azimuth_deg = laid.options.elevation_deg = 0;
-  laid.options.has_section = true;
-  laid.options.section = 1; /* the nearest point is at z = 2 */
-  laid_out(&laid, true);
-  laid_check(&laid);
+  struct sheet_fixture fixture;
+  sheet_fixture_start(&fixture);
+  build_box(&fixture.scene, vector_of(0, 0, 0), vector_of(1, 1, 1));
+  build_box(&fixture.scene, vector_of(2, 0, 0), vector_of(3, 1, 2));
+  fixture.options.azimuth_deg = fixture.options.elevation_deg = 0;
+  fixture.options.has_section = true;
+  fixture.options.section = 1; /* the nearest point is at z = 2 */
+  sheet_fixture_out(&fixture, true);
+  sheet_fixture_check(&fixture);
   size_t front = 0;
-  for (size_t t = 0; t < laid.sheet.triangle.count; t++) {
-    const uint32_t *p = laid.sheet.triangle.item[t].point;
-    front += laid.sheet.point.item[p[0]].z == SHEET_Z_MAX &&
-             laid.sheet.point.item[p[1]].z == SHEET_Z_MAX &&
-             laid.sheet.point.item[p[2]].z == SHEET_Z_MAX &&
-             !(laid.sheet.triangle_flags[t] & SHEET_FLAT);
+  for (size_t t = 0; t < fixture.sheet.triangle.count; t++) {
+    const uint32_t *p = fixture.sheet.triangle.item[t].point;
+    front += fixture.sheet.point.item[p[0]].z == SHEET_Z_MAX &&
+             fixture.sheet.point.item[p[1]].z == SHEET_Z_MAX &&
+             fixture.sheet.point.item[p[2]].z == SHEET_Z_MAX &&
+             !(fixture.sheet.triangle_flags[t] & SHEET_FLAT);
   }
   assert_int_equal(front, 2); /* of the lower box: a quad */
-  laid_fini(&laid);
+  sheet_fixture_fini(&fixture);
 }
 
 /* Whether a face is cut by its first corner or by its last must not matter. */
@@ -475,13 +488,13 @@ static void the_order_of_corners_changes_no_point(void **state) {
   (void)state;
   struct random random = {41};
   for (int i = 0; i < 200; i++) {
-    struct laid laid[2];
+    struct sheet_fixture fixture[2];
     double xyz[9];
     for (int k = 0; k < 9; k++)
       xyz[k] = random_between(&random, -300, 300);
     for (int turn = 0; turn < 2; turn++) {
-      laid_start(&laid[turn]);
-      struct scene *scene = &laid[turn].scene;
+      sheet_fixture_start(&fixture[turn]);
+      struct scene *scene = &fixture[turn].scene;
       build_group(scene, "one");
       for (int c = 0; c < 3; c++)
         build_point(scene, xyz[3 * c], xyz[3 * c + 1], xyz[3 * c + 2]);
@@ -489,25 +502,26 @@ static void the_order_of_corners_changes_no_point(void **state) {
         build_triangle(scene, 2, 1, 0);
       else
         build_triangle(scene, 0, 1, 2);
-      laid[turn].options.fit = RECTO_FIT_NONE;
-      laid[turn].options.edges = RECTO_EDGES_ALL;
-      laid_out(&laid[turn], true);
+      fixture[turn].options.fit = RECTO_FIT_NONE;
+      fixture[turn].options.edges = RECTO_EDGES_ALL;
+      sheet_fixture_out(&fixture[turn], true);
     }
-    assert_int_equal(laid_area(&laid[0], 0), laid_area(&laid[1], 0));
-    for (size_t e = 0; e < laid[0].sheet.edge.count; e++)
-      for (size_t f = 0; f < laid[1].sheet.edge.count; f++) {
-        const struct sheet_edge *a = &laid[0].sheet.edge.item[e];
-        const struct sheet_edge *b = &laid[1].sheet.edge.item[f];
-        if (memcmp(laid[0].topology.edge.item[a->source].point,
-                   laid[1].topology.edge.item[b->source].point, 8) != 0)
+    assert_int_equal(sheet_fixture_area(&fixture[0], 0),
+                     sheet_fixture_area(&fixture[1], 0));
+    for (size_t e = 0; e < fixture[0].sheet.edge.count; e++)
+      for (size_t f = 0; f < fixture[1].sheet.edge.count; f++) {
+        const struct sheet_edge *a = &fixture[0].sheet.edge.item[e];
+        const struct sheet_edge *b = &fixture[1].sheet.edge.item[f];
+        if (memcmp(fixture[0].topology.edge.item[a->source].point,
+                   fixture[1].topology.edge.item[b->source].point, 8) != 0)
           continue;
         for (int k = 0; k < 2; k++)
-          assert_memory_equal(&laid[0].sheet.point.item[a->point[k]],
-                              &laid[1].sheet.point.item[b->point[k]],
+          assert_memory_equal(&fixture[0].sheet.point.item[a->point[k]],
+                              &fixture[1].sheet.point.item[b->point[k]],
                               sizeof(struct geom_point));
       }
-    laid_fini(&laid[0]);
-    laid_fini(&laid[1]);
+    sheet_fixture_fini(&fixture[0]);
+    sheet_fixture_fini(&fixture[1]);
   }
 }
 
@@ -515,111 +529,113 @@ static void the_order_of_corners_changes_no_point(void **state) {
 
 static void wires_are_edges_segment_by_segment(void **state) {
   (void)state;
-  struct laid laid;
-  laid_start(&laid);
-  build_group(&laid.scene, "wire");
+  struct sheet_fixture fixture;
+  sheet_fixture_start(&fixture);
+  build_group(&fixture.scene, "wire");
   uint32_t corner[5];
   for (uint32_t c = 0; c < 5; c++)
-    corner[c] = build_point(&laid.scene, c, c % 2, c % 3);
+    corner[c] = build_point(&fixture.scene, c, c % 2, c % 3);
   for (int w = 0; w < 2; w++)
-    assert_int_equal(scene_add_wire(&laid.scene, corner, 5, 0, NULL, NULL),
+    assert_int_equal(scene_add_wire(&fixture.scene, corner, 5, 0, NULL, NULL),
                      RECTO_OK);
-  laid_out(&laid, false);
-  laid_check(&laid);
-  assert_int_equal(laid.sheet.edge.count, 8);
+  sheet_fixture_out(&fixture, false);
+  sheet_fixture_check(&fixture);
+  assert_int_equal(fixture.sheet.edge.count, 8);
   for (uint32_t e = 0; e < 8; e++) {
-    const struct sheet_edge *edge = &laid.sheet.edge.item[e];
+    const struct sheet_edge *edge = &fixture.sheet.edge.item[e];
     assert_int_equal(edge->edge_class, RECTO_EDGE_WIRE);
     assert_int_equal(edge->source, e / 4);
     assert_int_equal(edge->part, e % 4);
     if (e % 4 > 0)
       assert_int_equal(edge->point[0], edge[-1].point[1]);
   }
-  laid_fini(&laid);
+  sheet_fixture_fini(&fixture);
 }
 
 static void wires_are_cut_at_the_page(void **state) {
   (void)state;
-  struct laid laid;
-  laid_start(&laid);
-  build_group(&laid.scene, "wire");
-  build_segment(&laid.scene, build_point(&laid.scene, -500, 0, 0),
-                build_point(&laid.scene, 500, 0, 0));
-  build_segment(&laid.scene, build_point(&laid.scene, -500, 400, 0),
-                build_point(&laid.scene, 500, 400, 0)); /* beyond it */
-  laid.options.fit = RECTO_FIT_NONE;
-  laid.options.has_target = true;
-  laid.options.azimuth_deg = laid.options.elevation_deg = 0;
-  laid_out(&laid, false);
-  laid_check(&laid);
-  assert_int_equal(laid.sheet.edge.count, 1);
-  const uint32_t *p = laid.sheet.edge.item[0].point;
-  assert_int_equal(laid.sheet.point.item[p[0]].x, -laid_half(&laid, 0));
-  assert_int_equal(laid.sheet.point.item[p[1]].x, laid_half(&laid, 0));
-  laid_fini(&laid);
+  struct sheet_fixture fixture;
+  sheet_fixture_start(&fixture);
+  build_group(&fixture.scene, "wire");
+  build_segment(&fixture.scene, build_point(&fixture.scene, -500, 0, 0),
+                build_point(&fixture.scene, 500, 0, 0));
+  build_segment(&fixture.scene, build_point(&fixture.scene, -500, 400, 0),
+                build_point(&fixture.scene, 500, 400, 0)); /* beyond it */
+  fixture.options.fit = RECTO_FIT_NONE;
+  fixture.options.has_target = true;
+  fixture.options.azimuth_deg = fixture.options.elevation_deg = 0;
+  sheet_fixture_out(&fixture, false);
+  sheet_fixture_check(&fixture);
+  assert_int_equal(fixture.sheet.edge.count, 1);
+  const uint32_t *p = fixture.sheet.edge.item[0].point;
+  assert_int_equal(fixture.sheet.point.item[p[0]].x,
+                   -sheet_fixture_half(&fixture, 0));
+  assert_int_equal(fixture.sheet.point.item[p[1]].x,
+                   sheet_fixture_half(&fixture, 0));
+  sheet_fixture_fini(&fixture);
 }
 
 static void wires_not_asked_for_are_not_there(void **state) {
   (void)state;
-  struct laid laid;
-  laid_start(&laid);
-  build_group(&laid.scene, "wire");
-  build_segment(&laid.scene, build_point(&laid.scene, 0, 0, 0),
-                build_point(&laid.scene, 1, 0, 0));
-  laid.options.edges = RECTO_EDGES_ALL & ~(unsigned)RECTO_EDGE_WIRE;
-  laid_out(&laid, true);
-  assert_int_equal(laid.sheet.edge.count, 0);
-  laid_fini(&laid);
+  struct sheet_fixture fixture;
+  sheet_fixture_start(&fixture);
+  build_group(&fixture.scene, "wire");
+  build_segment(&fixture.scene, build_point(&fixture.scene, 0, 0, 0),
+                build_point(&fixture.scene, 1, 0, 0));
+  fixture.options.edges = RECTO_EDGES_ALL & ~(unsigned)RECTO_EDGE_WIRE;
+  sheet_fixture_out(&fixture, true);
+  assert_int_equal(fixture.sheet.edge.count, 0);
+  sheet_fixture_fini(&fixture);
 }
 
 /* ---- Diagonals, welds, warps --------------------------------------------- */
 
 static void diagonals_are_no_edges(void **state) {
   (void)state;
-  struct laid laid;
-  laid_start(&laid);
-  build_parallelogram(&laid.scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
+  struct sheet_fixture fixture;
+  sheet_fixture_start(&fixture);
+  build_parallelogram(&fixture.scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
                       vector_of(0, 2, 0));
-  laid.options.edges = RECTO_EDGES_ALL;
-  laid_out(&laid, true);
-  laid_check(&laid);
-  assert_int_equal(laid.sheet.edge.count, 4);
-  assert_int_equal(laid.sheet.triangle.count, 2);
+  fixture.options.edges = RECTO_EDGES_ALL;
+  sheet_fixture_out(&fixture, true);
+  sheet_fixture_check(&fixture);
+  assert_int_equal(fixture.sheet.edge.count, 4);
+  assert_int_equal(fixture.sheet.triangle.count, 2);
   size_t without = 0;
   for (size_t t = 0; t < 2; t++)
     for (int k = 0; k < 3; k++)
-      without += laid.sheet.triangle.item[t].side[k] == SHEET_NONE;
+      without += fixture.sheet.triangle.item[t].side[k] == SHEET_NONE;
   assert_int_equal(without, 2);
-  laid_fini(&laid);
+  sheet_fixture_fini(&fixture);
 }
 
 static void welded_points_are_one_on_the_sheet(void **state) {
   (void)state;
-  struct laid laid;
-  laid_start(&laid);
-  scenes_unwelded(&laid.scene, &laid.options);
-  laid.options.edges = RECTO_EDGES_ALL;
-  laid_out(&laid, true);
-  laid_check(&laid);
+  struct sheet_fixture fixture;
+  sheet_fixture_start(&fixture);
+  scenes_unwelded(&fixture.scene, &fixture.options);
+  fixture.options.edges = RECTO_EDGES_ALL;
+  sheet_fixture_out(&fixture, true);
+  sheet_fixture_check(&fixture);
   size_t standing = 0;
-  for (uint32_t p = 0; p < laid.scene.point.count; p++)
-    standing += laid.topology.weld[p] == p;
-  assert_int_equal(laid.sheet.point.count, standing);
-  laid_fini(&laid);
+  for (uint32_t p = 0; p < fixture.scene.point.count; p++)
+    standing += fixture.topology.weld[p] == p;
+  assert_int_equal(fixture.sheet.point.count, standing);
+  sheet_fixture_fini(&fixture);
 }
 
 static void warped_faces_are_counted_and_drawn(void **state) {
   (void)state;
-  struct laid laid;
-  laid_start(&laid);
+  struct sheet_fixture fixture;
+  sheet_fixture_start(&fixture);
   const double xyz[] = {0, 0, 0, 1, 0, 0, 1, 1, 0.5, 0, 1, 0};
-  build_polygon(&laid.scene, xyz, 4);
-  laid_out(&laid, true);
-  laid_check(&laid);
-  assert_int_equal(laid.sheet.warped, 1);
-  assert_int_equal(laid.sheet.triangle.count, 2);
-  assert_int_equal(laid.sheet.edge.count, 4);
-  laid_fini(&laid);
+  build_polygon(&fixture.scene, xyz, 4);
+  sheet_fixture_out(&fixture, true);
+  sheet_fixture_check(&fixture);
+  assert_int_equal(fixture.sheet.warped, 1);
+  assert_int_equal(fixture.sheet.triangle.count, 2);
+  assert_int_equal(fixture.sheet.edge.count, 4);
+  sheet_fixture_fini(&fixture);
 }
 
 /* ---- Scale --------------------------------------------------------------- */
@@ -627,13 +643,13 @@ static void warped_faces_are_counted_and_drawn(void **state) {
 static void powers_of_two_change_no_bit_of_the_sheet(void **state) {
   (void)state;
   for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
-    struct laid laid[2];
+    struct sheet_fixture fixture[2];
     for (int i = 0; i < 2; i++) {
       const double factor = i ? 0x1p+30 : 1;
-      recto_options *o = &laid[i].options;
-      laid_start(&laid[i]);
-      entry->fill(&laid[i].scene, o);
-      scenes_scale(&laid[i].scene, factor, vector_of(0, 0, 0));
+      recto_options *o = &fixture[i].options;
+      sheet_fixture_start(&fixture[i]);
+      entry->fill(&fixture[i].scene, o);
+      scenes_scale(&fixture[i].scene, factor, vector_of(0, 0, 0));
       for (int k = 0; k < 3; k++) {
         o->eye[k] *= factor;
         o->target[k] *= factor;
@@ -642,9 +658,9 @@ static void powers_of_two_change_no_bit_of_the_sheet(void **state) {
       o->section *= factor;
       o->scale /= factor;
       o->fit = o->fit == RECTO_FIT_NONE ? RECTO_FIT_PAGE : o->fit;
-      laid_out(&laid[i], true);
+      sheet_fixture_out(&fixture[i], true);
     }
-    const struct sheet *a = &laid[0].sheet, *b = &laid[1].sheet;
+    const struct sheet *a = &fixture[0].sheet, *b = &fixture[1].sheet;
     assert_int_equal(a->point.count, b->point.count);
     assert_int_equal(a->triangle.count, b->triangle.count);
     assert_int_equal(a->edge.count, b->edge.count);
@@ -657,8 +673,8 @@ static void powers_of_two_change_no_bit_of_the_sheet(void **state) {
     if (a->edge.count > 0)
       assert_memory_equal(a->edge.item, b->edge.item,
                           a->edge.count * sizeof *a->edge.item);
-    laid_fini(&laid[0]);
-    laid_fini(&laid[1]);
+    sheet_fixture_fini(&fixture[0]);
+    sheet_fixture_fini(&fixture[1]);
   }
 }
 
@@ -666,18 +682,18 @@ static void powers_of_two_change_no_bit_of_the_sheet(void **state) {
 
 static void every_failed_allocation_is_told(void **state) {
   (void)state;
-  struct laid laid;
-  fill_large_grid(&laid, 5, false); /* clipped, and of quads */
-  build_segment(&laid.scene, 0, 35);
-  laid.options.edges = RECTO_EDGES_ALL;
-  laid_out(&laid, true);
+  struct sheet_fixture fixture;
+  fill_large_grid(&fixture, 5, false); /* clipped, and of quads */
+  build_segment(&fixture.scene, 0, 35);
+  fixture.options.edges = RECTO_EDGES_ALL;
+  sheet_fixture_out(&fixture, true);
   unsigned long n = 0;
   for (recto_status status = RECTO_ERROR_MEMORY; status != RECTO_OK;) {
     struct sheet sheet;
     recto_error error = {0};
     mem_fail_after(++n);
-    status = sheet_init(&sheet, &laid.scene, &laid.topology, &laid.camera,
-                        &laid.options, true, &error);
+    status = sheet_init(&sheet, &fixture.scene, &fixture.topology,
+                        &fixture.camera, &fixture.options, true, &error);
     mem_fail_after(0);
     if (status == RECTO_OK) {
       sheet_fini(&sheet);
@@ -690,7 +706,7 @@ static void every_failed_allocation_is_told(void **state) {
     assert_true(n < 200);
   }
   assert_true(n > 15);
-  laid_fini(&laid);
+  sheet_fixture_fini(&fixture);
 }
 
 int main(void) {

@@ -8,21 +8,21 @@
 
 #include <cmocka.h>
 
-#include "tests/laid.h"
+#include "tests/sheet_fixture.h"
 #include "tests/scenes/random.h"
 
 /* A camera in front: x right, y up, z towards the viewer. */
-static void start_in_front(struct laid *laid) {
-  laid_start(laid);
-  laid->options.azimuth_deg = laid->options.elevation_deg = 0;
-  laid->options.edges = RECTO_EDGES_ALL;
+static void start_in_front(struct sheet_fixture *fixture) {
+  sheet_fixture_start(fixture);
+  fixture->options.azimuth_deg = fixture->options.elevation_deg = 0;
+  fixture->options.edges = RECTO_EDGES_ALL;
 }
 
-static void start_from_corner(struct laid *laid) {
-  laid_start(laid);
-  laid->options.azimuth_deg = 33;
-  laid->options.elevation_deg = 21;
-  laid->options.edges = RECTO_EDGES_ALL;
+static void start_from_corner(struct sheet_fixture *fixture) {
+  sheet_fixture_start(fixture);
+  fixture->options.azimuth_deg = 33;
+  fixture->options.elevation_deg = 21;
+  fixture->options.edges = RECTO_EDGES_ALL;
 }
 
 /* ---- Solids -------------------------------------------------------------- */
@@ -30,30 +30,31 @@ static void start_from_corner(struct laid *laid) {
 static void a_box_from_a_corner_has_six_silhouettes(void **state) {
   (void)state;
   for (int perspective = 0; perspective < 2; perspective++) {
-    struct laid laid;
-    start_from_corner(&laid);
-    laid.options.fov_deg = perspective ? 30 : 0;
-    build_box(&laid.scene, vector_of(0, 0, 0), vector_of(1, 2, 3));
-    laid_out(&laid, true);
-    laid_check(&laid);
-    assert_int_equal(laid_count(&laid, RECTO_EDGE_SILHOUETTE), 6);
-    assert_int_equal(laid_count(&laid, RECTO_EDGE_CREASE), 6);
-    assert_int_equal(laid.sheet.contour.count, 6);
-    laid_fini(&laid);
+    struct sheet_fixture fixture;
+    start_from_corner(&fixture);
+    fixture.options.fov_deg = perspective ? 30 : 0;
+    build_box(&fixture.scene, vector_of(0, 0, 0), vector_of(1, 2, 3));
+    sheet_fixture_out(&fixture, true);
+    sheet_fixture_check(&fixture);
+    assert_int_equal(sheet_fixture_count(&fixture, RECTO_EDGE_SILHOUETTE), 6);
+    assert_int_equal(sheet_fixture_count(&fixture, RECTO_EDGE_CREASE), 6);
+    assert_int_equal(fixture.sheet.contour.count, 6);
+    sheet_fixture_fini(&fixture);
   }
 }
 
 /* Front and back are outlines, the four sides are seen edge-on. */
 static void a_box_square_on_has_the_outlines_of_its_ends(void **state) {
   (void)state;
-  struct laid laid;
-  start_in_front(&laid);
-  build_box(&laid.scene, vector_of(0, 0, 0), vector_of(1, 2, 3));
-  laid_out(&laid, true);
-  laid_check(&laid);
-  assert_int_equal(laid_count(&laid, RECTO_EDGE_SILHOUETTE), 8);
-  assert_int_equal(laid_count(&laid, RECTO_EDGE_CREASE), 4); /* end-on */
-  laid_fini(&laid);
+  struct sheet_fixture fixture;
+  start_in_front(&fixture);
+  build_box(&fixture.scene, vector_of(0, 0, 0), vector_of(1, 2, 3));
+  sheet_fixture_out(&fixture, true);
+  sheet_fixture_check(&fixture);
+  assert_int_equal(sheet_fixture_count(&fixture, RECTO_EDGE_SILHOUETTE), 8);
+  assert_int_equal(sheet_fixture_count(&fixture, RECTO_EDGE_CREASE),
+                   4); /* end-on */
+  sheet_fixture_fini(&fixture);
 }
 
 /* At every point of a closed surface without seams silhouettes come in pairs:
@@ -62,22 +63,22 @@ static void silhouettes_of_a_closed_surface_are_closed(void **state) {
   (void)state;
   for (unsigned rings = 4; rings <= 30; rings += 13)
     for (double azimuth = 0; azimuth < 360; azimuth += 41) {
-      struct laid laid;
-      start_from_corner(&laid);
-      scenes_globe(&laid.scene, &laid.options, rings);
-      laid.options.azimuth_deg = azimuth;
-      laid.options.edges = RECTO_EDGE_SILHOUETTE;
-      laid_out(&laid, false);
-      laid_check(&laid);
-      assert_true(laid.sheet.edge.count > 0);
-      uint8_t *degree = calloc(laid.sheet.point.count, 1);
-      for (size_t e = 0; e < laid.sheet.edge.count; e++)
+      struct sheet_fixture fixture;
+      start_from_corner(&fixture);
+      scenes_globe(&fixture.scene, &fixture.options, rings);
+      fixture.options.azimuth_deg = azimuth;
+      fixture.options.edges = RECTO_EDGE_SILHOUETTE;
+      sheet_fixture_out(&fixture, false);
+      sheet_fixture_check(&fixture);
+      assert_true(fixture.sheet.edge.count > 0);
+      uint8_t *degree = calloc(fixture.sheet.point.count, 1);
+      for (size_t e = 0; e < fixture.sheet.edge.count; e++)
         for (int k = 0; k < 2; k++)
-          degree[laid.sheet.edge.item[e].point[k]]++;
-      for (size_t p = 0; p < laid.sheet.point.count; p++)
+          degree[fixture.sheet.edge.item[e].point[k]]++;
+      for (size_t p = 0; p < fixture.sheet.point.count; p++)
         assert_int_equal(degree[p] % 2, 0);
       free(degree);
-      laid_fini(&laid);
+      sheet_fixture_fini(&fixture);
     }
 }
 
@@ -87,25 +88,25 @@ static void silhouettes_of_a_closed_surface_are_closed(void **state) {
  * where told; returns the class of that edge. */
 static unsigned class_of_hinge(struct vector left, struct vector right,
                                bool turned, unsigned edges) {
-  struct laid laid;
-  start_in_front(&laid);
-  laid.options.edges = edges;
-  build_group(&laid.scene, "hinge");
-  build_point(&laid.scene, 0, 0, 0);
-  build_point(&laid.scene, 0, 4, 0);
-  build_vector(&laid.scene, left);
-  build_vector(&laid.scene, right);
-  build_triangle(&laid.scene, 0, 1, 2);
+  struct sheet_fixture fixture;
+  start_in_front(&fixture);
+  fixture.options.edges = edges;
+  build_group(&fixture.scene, "hinge");
+  build_point(&fixture.scene, 0, 0, 0);
+  build_point(&fixture.scene, 0, 4, 0);
+  build_vector(&fixture.scene, left);
+  build_vector(&fixture.scene, right);
+  build_triangle(&fixture.scene, 0, 1, 2);
   if (turned)
-    build_triangle(&laid.scene, 0, 1, 3);
+    build_triangle(&fixture.scene, 0, 1, 3);
   else
-    build_triangle(&laid.scene, 1, 0, 3);
-  laid_out(&laid, true);
-  laid_check(&laid);
-  assert_int_equal(laid.topology.edge.item[0].uses, 2);
-  assert_int_equal(laid.sheet.edge.item[0].source, 0);
-  unsigned edge_class = laid.sheet.edge.item[0].edge_class;
-  laid_fini(&laid);
+    build_triangle(&fixture.scene, 1, 0, 3);
+  sheet_fixture_out(&fixture, true);
+  sheet_fixture_check(&fixture);
+  assert_int_equal(fixture.topology.edge.item[0].uses, 2);
+  assert_int_equal(fixture.sheet.edge.item[0].source, 0);
+  unsigned edge_class = fixture.sheet.edge.item[0].edge_class;
+  sheet_fixture_fini(&fixture);
   return edge_class;
 }
 
@@ -170,8 +171,8 @@ static int compare_known(const void *one, const void *other) {
   return memcmp(one, other, sizeof(struct known));
 }
 
-static struct known *list_known(const struct laid *laid) {
-  const struct sheet *sheet = &laid->sheet;
+static struct known *list_known(const struct sheet_fixture *fixture) {
+  const struct sheet *sheet = &fixture->sheet;
   struct known *known = calloc(sheet->edge.count + 1, sizeof *known);
   for (size_t e = 0; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
@@ -204,27 +205,27 @@ static void order_and_winding_of_faces_change_no_class(void **state) {
   (void)state;
   struct random random = {51};
   for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
-    struct laid laid[2];
+    struct sheet_fixture fixture[2];
     for (int i = 0; i < 2; i++) {
-      laid_start(&laid[i]);
+      sheet_fixture_start(&fixture[i]);
       if (i == 0) {
-        entry->fill(&laid[0].scene, &laid[0].options);
-        laid[0].options.edges = RECTO_EDGES_ALL;
+        entry->fill(&fixture[0].scene, &fixture[0].options);
+        fixture[0].options.edges = RECTO_EDGES_ALL;
       } else {
-        laid[1].options = laid[0].options;
-        scenes_copy(&laid[1].scene, &laid[0].scene, 99);
-        turn_faces(&laid[1].scene, &random);
+        fixture[1].options = fixture[0].options;
+        scenes_copy(&fixture[1].scene, &fixture[0].scene, 99);
+        turn_faces(&fixture[1].scene, &random);
       }
-      laid_out(&laid[i], false);
-      laid_check(&laid[i]);
+      sheet_fixture_out(&fixture[i], false);
+      sheet_fixture_check(&fixture[i]);
     }
-    struct known *a = list_known(&laid[0]), *b = list_known(&laid[1]);
-    assert_int_equal(laid[0].sheet.edge.count, laid[1].sheet.edge.count);
-    assert_memory_equal(a, b, (laid[0].sheet.edge.count + 1) * sizeof *a);
+    struct known *a = list_known(&fixture[0]), *b = list_known(&fixture[1]);
+    assert_int_equal(fixture[0].sheet.edge.count, fixture[1].sheet.edge.count);
+    assert_memory_equal(a, b, (fixture[0].sheet.edge.count + 1) * sizeof *a);
     free(a);
     free(b);
-    laid_fini(&laid[0]);
-    laid_fini(&laid[1]);
+    sheet_fixture_fini(&fixture[0]);
+    sheet_fixture_fini(&fixture[1]);
   }
 }
 
@@ -232,58 +233,61 @@ static void order_and_winding_of_faces_change_no_class(void **state) {
 
 static void a_lone_face_has_borders(void **state) {
   (void)state;
-  struct laid laid;
-  start_from_corner(&laid);
-  build_parallelogram(&laid.scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
+  struct sheet_fixture fixture;
+  start_from_corner(&fixture);
+  build_parallelogram(&fixture.scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
                       vector_of(0, 2, 0));
-  laid_out(&laid, true);
-  laid_check(&laid);
-  assert_int_equal(laid_count(&laid, RECTO_EDGE_BORDER), 4);
-  assert_int_equal(laid.sheet.contour.count, 4);
-  laid_fini(&laid);
+  sheet_fixture_out(&fixture, true);
+  sheet_fixture_check(&fixture);
+  assert_int_equal(sheet_fixture_count(&fixture, RECTO_EDGE_BORDER), 4);
+  assert_int_equal(fixture.sheet.contour.count, 4);
+  sheet_fixture_fini(&fixture);
 }
 
 static void
 where_groups_meet_is_an_edge_of_the_first_face_s_group(void **state) {
   (void)state;
-  struct laid laid;
-  start_from_corner(&laid);
-  build_group(&laid.scene, "one");
+  struct sheet_fixture fixture;
+  start_from_corner(&fixture);
+  build_group(&fixture.scene, "one");
   for (int p = 0; p < 6; p++)
-    build_point(&laid.scene, p / 2, p % 2, 0);
-  build_quad(&laid.scene, 0, 2, 3, 1);
-  build_group(&laid.scene, "two");
-  build_quad(&laid.scene, 2, 4, 5, 3);
-  laid.options.edges = RECTO_EDGE_GROUP;
-  laid_out(&laid, false);
-  laid_check(&laid);
-  assert_int_equal(laid.sheet.edge.count, 1);
-  assert_int_equal(laid.sheet.edge.item[0].edge_class, RECTO_EDGE_GROUP);
-  assert_int_equal(laid.sheet.edge.item[0].group, 0);
-  laid_fini(&laid);
+    build_point(&fixture.scene, p / 2, p % 2, 0);
+  build_quad(&fixture.scene, 0, 2, 3, 1);
+  build_group(&fixture.scene, "two");
+  build_quad(&fixture.scene, 2, 4, 5, 3);
+  fixture.options.edges = RECTO_EDGE_GROUP;
+  sheet_fixture_out(&fixture, false);
+  sheet_fixture_check(&fixture);
+  assert_int_equal(fixture.sheet.edge.count, 1);
+  assert_int_equal(fixture.sheet.edge.item[0].edge_class, RECTO_EDGE_GROUP);
+  assert_int_equal(fixture.sheet.edge.item[0].group, 0);
+  sheet_fixture_fini(&fixture);
 }
 
 /* Whatever is asked for, the same edges are drawn with outlines as without. */
 static void outlines_add_edges_that_are_not_drawn(void **state) {
   (void)state;
   for (unsigned edges = 0; edges <= RECTO_EDGES_ALL; edges += 5) {
-    struct laid laid[2];
+    struct sheet_fixture fixture[2];
     for (int outlines = 0; outlines < 2; outlines++) {
-      start_from_corner(&laid[outlines]);
-      build_box(&laid[outlines].scene, vector_of(0, 0, 0), vector_of(1, 2, 3));
-      build_parallelogram(&laid[outlines].scene, vector_of(4, 0, 0),
+      start_from_corner(&fixture[outlines]);
+      build_box(&fixture[outlines].scene, vector_of(0, 0, 0),
+                vector_of(1, 2, 3));
+      build_parallelogram(&fixture[outlines].scene, vector_of(4, 0, 0),
                           vector_of(1, 0, 0), vector_of(0, 1, 1));
-      laid[outlines].options.edges = edges;
-      laid_out(&laid[outlines], outlines);
-      laid_check(&laid[outlines]);
+      fixture[outlines].options.edges = edges;
+      sheet_fixture_out(&fixture[outlines], outlines);
+      sheet_fixture_check(&fixture[outlines]);
     }
-    assert_int_equal(laid_count(&laid[0], 0), 0);
-    assert_int_equal(laid[1].sheet.edge.count, 16);
+    assert_int_equal(sheet_fixture_count(&fixture[0], 0), 0);
+    assert_int_equal(fixture[1].sheet.edge.count, 16);
     for (unsigned bit = 1; bit <= RECTO_EDGE_SMOOTH; bit *= 2)
-      assert_int_equal(laid_count(&laid[0], bit), laid_count(&laid[1], bit));
-    assert_int_equal(laid[0].sheet.contour.count, laid[1].sheet.contour.count);
-    laid_fini(&laid[0]);
-    laid_fini(&laid[1]);
+      assert_int_equal(sheet_fixture_count(&fixture[0], bit),
+                       sheet_fixture_count(&fixture[1], bit));
+    assert_int_equal(fixture[0].sheet.contour.count,
+                     fixture[1].sheet.contour.count);
+    sheet_fixture_fini(&fixture[0]);
+    sheet_fixture_fini(&fixture[1]);
   }
 }
 
@@ -299,32 +303,33 @@ static size_t count_folds(const struct sheet *sheet) {
  * and else it is no edge at all. */
 static void a_fold_at_a_diagonal_is_a_silhouette(void **state) {
   (void)state;
-  struct laid laid;
-  start_in_front(&laid);
+  struct sheet_fixture fixture;
+  start_in_front(&fixture);
   const double xyz[] = {0, 0, 0, 3, 0, 0, 3, 3, 2, 0, 3, 0};
-  build_polygon(&laid.scene, xyz, 4);
+  build_polygon(&fixture.scene, xyz, 4);
   int folded = 0;
   for (int turn = 0; turn < 4 * 26; turn++) {
-    struct laid turned = laid;
+    struct sheet_fixture turned = fixture;
     bool asked = turn & 1, outlines = turn & 2;
     turned.options.azimuth_deg = 7 * (turn / 4);
     turned.options.edges =
         RECTO_EDGE_BORDER | (asked ? RECTO_EDGE_SILHOUETTE : 0);
-    laid_out(&turned, outlines);
+    sheet_fixture_out(&turned, outlines);
     if (outlines)
-      laid_check(&turned);
+      sheet_fixture_check(&turned);
     const struct sheet *sheet = &turned.sheet;
     bool fold =
         (sheet->triangle_flags[0] ^ sheet->triangle_flags[1]) & SHEET_FLIPPED;
     folded += fold;
     assert_int_equal(sheet->contour.count, 4 + fold);
     assert_int_equal(count_folds(sheet), fold && (asked || outlines));
-    assert_int_equal(laid_count(&turned, RECTO_EDGE_SILHOUETTE), fold && asked);
+    assert_int_equal(sheet_fixture_count(&turned, RECTO_EDGE_SILHOUETTE),
+                     fold && asked);
     sheet_fini(&turned.sheet);
     topology_fini(&turned.topology);
   }
   assert_in_range(folded, 1, 4 * 26 - 1);
-  laid_fini(&laid);
+  sheet_fixture_fini(&fixture);
 }
 
 /* A wall of which rounding moved the corners, seen from its edge: no two of
@@ -332,17 +337,17 @@ static void a_fold_at_a_diagonal_is_a_silhouette(void **state) {
 static void rounding_makes_no_fold(void **state) {
   (void)state;
   const double off = 1e-7;
-  struct laid laid;
-  start_in_front(&laid);
+  struct sheet_fixture fixture;
+  start_in_front(&fixture);
   const double xyz[] = {0, 0, 0,    0, 3, off, 0, 5,   1,    off, 5,
                         3, 0, -off, 4, 0, -1,  2, off, -0.5, 1};
-  build_polygon(&laid.scene, xyz, 7);
-  build_parallelogram(&laid.scene, vector_of(2, 0, 0), vector_of(1, 0, 0),
+  build_polygon(&fixture.scene, xyz, 7);
+  build_parallelogram(&fixture.scene, vector_of(2, 0, 0), vector_of(1, 0, 0),
                       vector_of(0, 0, 1));
-  laid_out(&laid, true);
-  laid_check(&laid);
-  assert_int_equal(count_folds(&laid.sheet), 0);
-  laid_fini(&laid);
+  sheet_fixture_out(&fixture, true);
+  sheet_fixture_check(&fixture);
+  assert_int_equal(count_folds(&fixture.sheet), 0);
+  sheet_fixture_fini(&fixture);
 }
 
 /* The sides of a warped face are silhouettes by the triangles that meet there,
@@ -351,42 +356,42 @@ static void rounding_makes_no_fold(void **state) {
  * silhouette or a border. */
 static void warp_alone_makes_no_crease(void **state) {
   (void)state;
-  struct laid laid;
-  start_from_corner(&laid);
-  build_group(&laid.scene, "saddle");
+  struct sheet_fixture fixture;
+  start_from_corner(&fixture);
+  build_group(&fixture.scene, "saddle");
   for (int row = 0; row <= 12; row++)
     for (int column = 0; column <= 12; column++)
-      build_point(&laid.scene, column - 6, row - 6,
+      build_point(&fixture.scene, column - 6, row - 6,
                   0.03 * (column - 6) * (row - 6) +
                       ((row + column) % 2 ? 0.12 : -0.12));
-  build_grid(&laid.scene, 0, 12, 12, false);
-  laid.options.crease_deg = 20;
-  laid_out(&laid, true);
-  laid_check(&laid);
-  assert_int_equal(laid.sheet.warped, 144);
-  assert_int_equal(laid_count(&laid, RECTO_EDGE_CREASE), 0);
-  laid_fini(&laid);
+  build_grid(&fixture.scene, 0, 12, 12, false);
+  fixture.options.crease_deg = 20;
+  sheet_fixture_out(&fixture, true);
+  sheet_fixture_check(&fixture);
+  assert_int_equal(fixture.sheet.warped, 144);
+  assert_int_equal(sheet_fixture_count(&fixture, RECTO_EDGE_CREASE), 0);
+  sheet_fixture_fini(&fixture);
 }
 
 /* Of a smooth surface that leaves the page, no edge becomes a silhouette
  * because its face does. */
 static void clipping_makes_no_silhouettes(void **state) {
   (void)state;
-  struct laid laid;
-  start_in_front(&laid);
-  build_group(&laid.scene, "grid");
+  struct sheet_fixture fixture;
+  start_in_front(&fixture);
+  build_group(&fixture.scene, "grid");
   for (int row = 0; row <= 30; row++)
     for (int column = 0; column <= 30; column++)
-      build_point(&laid.scene, 10 * column - 151.3, 10 * row - 147.9,
+      build_point(&fixture.scene, 10 * column - 151.3, 10 * row - 147.9,
                   0.01 * row * column);
-  build_grid(&laid.scene, 0, 30, 30, true);
-  laid.options.fit = RECTO_FIT_NONE;
-  laid.options.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_BORDER;
-  laid_out(&laid, false);
-  laid_check(&laid);
-  assert_true(laid.sheet.clipped_page > 0);
-  assert_int_equal(laid.sheet.edge.count, 0);
-  laid_fini(&laid);
+  build_grid(&fixture.scene, 0, 30, 30, true);
+  fixture.options.fit = RECTO_FIT_NONE;
+  fixture.options.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_BORDER;
+  sheet_fixture_out(&fixture, false);
+  sheet_fixture_check(&fixture);
+  assert_true(fixture.sheet.clipped_page > 0);
+  assert_int_equal(fixture.sheet.edge.count, 0);
+  sheet_fixture_fini(&fixture);
 }
 
 int main(void) {

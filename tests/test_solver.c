@@ -1,6 +1,6 @@
 /* test_solver.c - what holds of every visibility method: the table, and each
  * allocation failing in turn. */
-#include "hand/scene.h"
+#include "exact_fixture/scene.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -44,25 +44,25 @@ static void all_kinds(struct sheet *sheet) {
                                    {{3, 3, 0}, {9, 9, 20}, {6, 6, 40}}};
   static const int back[][3] = {
       {-9, -9, 1}, {30, -9, 1}, {30, 30, 1}, {-9, 30, 1}};
-  hand_sheet_init(sheet);
+  exact_sheet_init(sheet);
   for (size_t f = 0; f < sizeof face / sizeof *face; f++)
-    hand_add_face(sheet, face[f], 3, 1 << 20);
-  hand_add_face(sheet, back, 4, 1 << 20);
+    exact_add_face(sheet, face[f], 3, 1 << 20);
+  exact_add_face(sheet, back, 4, 1 << 20);
 }
 
 static void one_in_front(struct sheet *sheet) {
   static const int low[][3] = {{0, 0, 1}, {9, 0, 1}, {0, 9, 1}};
   static const int high[][3] = {{2, 2, 5}, {4, 2, 5}, {2, 4, 5}};
-  hand_sheet_init(sheet);
-  hand_add_face(sheet, low, 3, 1 << 20);
-  hand_add_face(sheet, high, 3, 1 << 20);
+  exact_sheet_init(sheet);
+  exact_add_face(sheet, low, 3, 1 << 20);
+  exact_add_face(sheet, high, 3, 1 << 20);
 }
 
-static void empty(struct sheet *sheet) { hand_sheet_init(sheet); }
+static void empty(struct sheet *sheet) { exact_sheet_init(sheet); }
 
 static void random_mesh(struct sheet *sheet) {
   uint64_t r = 7;
-  hand_random_sheet(sheet, HAND_MESH, 12, &r);
+  exact_random_sheet(sheet, EXACT_MESH, 12, &r);
 }
 
 typedef void make_fn(struct sheet *sheet);
@@ -89,7 +89,7 @@ static recto_status solve(const struct solver *solver, int lines, make_fn *make,
   mem_fail_after(0);
   if (status != RECTO_OK)
     assert_int_equal(error.code, status);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
   return status;
 }
 
@@ -111,7 +111,7 @@ static void fail_in_turn(const struct solver *solver, int lines,
     status = solve(solver, lines, make, n, &again);
     if (status == RECTO_OK) {
       if (lines == 0)
-        hand_assert_same_map(&map, &again, solver->name);
+        exact_assert_same_map(&map, &again, solver->name);
       succeeded++;
     } else {
       assert_int_equal(status, RECTO_ERROR_MEMORY);
@@ -155,7 +155,7 @@ static void check_parts(const struct solver *solver, bool strokes,
   assert_int_equal(map.place.count, 0);
   assert_int_equal(sheet.edge.count, edges); /* no intersections */
   map_fini(&map);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 static void a_solver_does_no_more_than_was_asked(void **state) {

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "tests/comma.h"
+#include "tests/comma_locale.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
 
@@ -163,7 +163,7 @@ static void many_triangles_are_welded_as_by_comparison(void **state) {
   reading_fini(&r);
 }
 
-static void row_19_bad_triangles_are_skipped(void **state) {
+static void bad_triangles_are_skipped(void **state) {
   (void)state;
   struct binary *binary = start_binary("");
   add_square(binary);
@@ -326,7 +326,7 @@ static void a_byte_order_mark_may_stand_before_text(void **state) {
   reading_fini(&r);
 }
 
-static void row_19_bad_facets_are_skipped(void **state) {
+static void bad_facets_are_skipped(void **state) {
   (void)state;
   struct reading r;
   read_text(&r, "solid\n" SQUARE FACET("0 0 0", "nan 0 0", "1 1 0")
@@ -399,16 +399,16 @@ static void long_text_is_not_taken_for_a_count(void **state) {
                 1, NEITHER);
 }
 
-static void row_22_a_decimal_comma_changes_nothing(void **state) {
+static void a_decimal_comma_changes_nothing(void **state) {
   (void)state;
-  if (!comma_on()) {
+  if (!comma_locale_on()) {
     print_message("no locale with a decimal comma\n");
     skip();
   }
   struct reading r;
   reading_of(&r, &reader_stl,
              "solid\n" FACET("0.5 0 0", "1.5 0 0", "1 1.25 0") "endsolid\n");
-  comma_off();
+  comma_locale_off();
   assert_read(&r);
   assert_true(r.scene.point.item[0].x == 0.5);
   assert_true(r.scene.point.item[2].y == 1.25);
@@ -457,7 +457,7 @@ int main(void) {
       T(triangles_are_welded_by_position),
       T(minus_nought_is_nought),
       T(many_triangles_are_welded_as_by_comparison),
-      T(row_19_bad_triangles_are_skipped),
+      T(bad_triangles_are_skipped),
       T(a_file_of_the_right_size_is_binary),
       T(a_binary_file_without_triangles_is_empty),
       T(a_truncated_binary_file_is_an_error),
@@ -467,12 +467,12 @@ int main(void) {
       T(words_may_stand_anywhere_in_any_case),
       T(lines_may_end_as_on_any_system),
       T(a_byte_order_mark_may_stand_before_text),
-      T(row_19_bad_facets_are_skipped),
+      T(bad_facets_are_skipped),
       T(text_that_stops_is_an_error),
       T(text_out_of_order_is_an_error),
       T(other_text_is_an_error),
       T(long_text_is_not_taken_for_a_count),
-      T(row_22_a_decimal_comma_changes_nothing),
+      T(a_decimal_comma_changes_nothing),
       T(running_out_of_memory_is_an_error),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

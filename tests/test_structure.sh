@@ -1,5 +1,5 @@
 #!/bin/bash
-# test_structure.sh - the house's order: who may include whom, where
+# test_structure.sh - the order of the code: who may include whom, where
 # tolerances live, what the library shows.  Each check is shown to fail on a
 # violation planted in a copy.
 . "$(dirname "$0")/tap.sh"
@@ -10,42 +10,71 @@ sources() {
   (cd "$1" && find src backends -name '*.[ch]' | LC_ALL=C sort)
 }
 
-# A file includes its own layer or a lower one; writers see base and the
-# drawing alone, the judge base and the scene, the program base and recto.h.  Solvers, writers and readers
-# never include each other: what belongs to one of them bears its name.
+# A file includes its own layer or a lower one.  Writers see base and the
+# drawing alone, the judge base and the scene, the program base and recto.h;
+# readers and writers never include each other.
+#
+# Within visibility and ink the folders have floors too: a folder includes
+# itself, lower floors, and the headers that lie in the layer itself, which
+# include no folder.  So no method of visibility includes another one.  The
+# sources that lie in the layer itself (the choice of a method, the phases of
+# ink) stand above all.
 check_includes() {
   (cd "$1" && sources . | xargs grep -n '^ *# *include *"' /dev/null) |
     awk -F: '
       BEGIN {
-        split("base geom scene view visibility ink backends judge api cli import",
-              name, " ")
+        split("base geom scene view visibility drawing ink backends judge api " \
+              "cli import", name, " ")
         for (i in name)
           layer[name[i]] = i - 1
+        place("visibility", 1, "predicate")
+        place("visibility", 2, "index")
+        place("visibility", 3, "intersection fragments")
+        place("visibility", 4, "pairwise scan")
+        place("visibility", 5, "raster")
+        place("visibility", 6, "brute newell scanline_zbuffer single_contour " \
+              "tiles warnock watkins zbuffer")
+        place("ink", 1, "lines")
+        place("ink", 2, "fill order")
+        place("ink", 3, "hatch")
+      }
+      function place(of, level, rooms, i, room, count) {
+        count = split(rooms, room, " ")
+        for (i = 1; i <= count; i++)
+          floor[of "/" room[i]] = level
       }
       # "src/view/sheet.c" -> "view", "backends/writer.c" -> "backends"
       function folder(path) {
         sub(/^src\//, "", path)
-        sub(/\/[^\/]*$/, "", path)
+        sub(/\/.*/, "", path)
         return path
+      }
+      # "src/visibility/watkins/pitch/watkins.c" -> "visibility/watkins"; "" for
+      # what lies in the layer itself.
+      function room(path, part, count) {
+        sub(/^src\//, "", path)
+        count = split(path, part, "/")
+        return count > 2 ? part[1] "/" part[2] : ""
       }
       function noun(path) {
         sub(/.*\//, "", path)
         sub(/\.[ch]$/, "", path)
         return path
       }
-      # The member of a family that a file belongs to: "newell" of
-      # "visibility/newell_order"; "" for what all members share.
-      function member(path, at, word) {
-        at = folder(path)
+      # The reader or writer that a file is.
+      function member(path, word) {
         word = noun(path)
-        if (at == "backends" && word ~ /^writer_/)
+        if (folder(path) == "backends" && word ~ /^writer_/ ||
+            folder(path) == "scene" && word ~ /^reader_/)
           return word
-        if (at == "scene" && word ~ /^reader_/)
-          return word
-        if (at == "visibility" &&
-            match(word, /^(brute|newell|painter|tiles|warnock|watkins|scanline|zbuffer)/))
-          return substr(word, RSTART, RLENGTH)
         return ""
+      }
+      function goes_up(from, to) {
+        if (to == from)
+          return 0
+        if (from == "")
+          return file ~ /\.h$/
+        return to != "" && floor[to] >= floor[from]
       }
       function wrong(why) {
         print file ": " why ": " included
@@ -61,12 +90,12 @@ check_includes() {
           wrong("the public header includes only standard ones")
         else if (included == "recto.h")
           next
-        else if (!(to in layer))
-          wrong("not from a folder of the house")
+        else if (!(to in layer) || included !~ /\//)
+          wrong("not from a folder of the project")
         else if (layer[to] > layer[from])
           wrong("a higher layer")
         else if (from == "backends" && to != "backends" && to != "base" &&
-                 included != "ink/drawing.h")
+                 included != "drawing/drawing.h")
           wrong("a writer sees base and the drawing alone")
         else if (from == "judge" && to != "judge" && to != "base" &&
                  to != "scene")
@@ -74,20 +103,40 @@ check_includes() {
         else if (from == "cli" && to != "cli" && to != "base")
           wrong("the program sees base and recto.h alone")
         else if (member(included) != "" && member(included) != member(file))
-          wrong("members of a family do not know each other")
+          wrong("readers and writers do not know each other")
+        else if (from == to && (from == "visibility" || from == "ink") &&
+                 goes_up(room(file), room(included)))
+          wrong("a folder that is not below")
+        else if (from != to && (to == "visibility" || to == "ink") &&
+                 room(included) != "")
+          wrong("a folder that is the own affair of its layer")
       }'
 }
 
-# Tolerances stand in one header, each with its reason.
-check_tolerances() {
-  local file
-  for file in $(sources "$1" | grep -v '^src/base/tolerance\.h$'); do
-    # Comments may speak of small numbers.  CC may be several words.
-    # shellcheck disable=SC2086
-    ${CC:-cc} -fpreprocessed -dD -E -P "$1/$file" 2>/dev/null |
-      grep -E '(^|[^A-Za-z0-9_])[0-9]*\.?[0-9]*[eE]-[0-9]' |
-      sed "s|^|$file: a tolerance: |"
+# Every folder within visibility and ink has a floor above.
+check_floors() {
+  local path
+  for path in "$1"/src/visibility/*/ "$1"/src/ink/*/; do
+    path=${path%/}
+    grep -qwF -e "${path##*/}" <(declare -f check_includes) ||
+      echo "${path#"$1"/}: has no floor"
   done
+}
+
+# Tolerances stand in one header, each with its reason.  Comments may speak of
+# small numbers: the preprocessor takes them out, all files at once, and its
+# line markers say which file it is in.
+check_tolerances() {
+  # CC may be several words, and the list of files is words.
+  # shellcheck disable=SC2046,SC2086
+  (cd "$1" &&
+    ${CC:-cc} -fpreprocessed -dD -E -x c \
+      $(sources . | grep -v '^src/base/tolerance\.h$') 2>/dev/null) |
+    awk '
+      /^# [0-9]+ "/ { file = $3; gsub(/"/, "", file); next }
+      /(^|[^A-Za-z0-9_])[0-9]*\.?[0-9]*[eE]-[0-9]/ {
+        print file ": a tolerance: " $0
+      }'
 }
 
 # Every file opens with its name and its job.
@@ -101,10 +150,12 @@ check_openings() {
 
 # Whatever is compiled is listed, and goes into a release.
 check_listed() {
-  local file
+  local file layer
   for file in $(sources "$1"); do
-    grep -qF -e "%D%/${file##*/}" -e "src/${file##*/}" \
-      "$1/$(dirname "$file")/local.mk" "$1/src/api/local.mk" 2>/dev/null ||
+    layer=$(cut -d / -f 1-2 <<<"$file")
+    test "${file%%/*}" = src || layer=${file%%/*}
+    grep -qF -e "%D%/${file#"$layer"/}" -e "src/${file##*/}" \
+      "$1/$layer/local.mk" "$1/src/api/local.mk" 2>/dev/null ||
       echo "$file: not in local.mk"
   done
 }
@@ -117,7 +168,7 @@ holds() {
   test -z "$found" || { say "$found" && false; }
 }
 claim "there are sources to check" test "$(sources "$srcdir" | wc -l)" -gt 50
-for check in includes tolerances openings listed; do
+for check in includes floors tolerances openings listed; do
   claim "check_$check finds nothing" holds check_$check "$srcdir"
 done
 
@@ -146,9 +197,16 @@ done <<'END'
 src/base/memory.c|#include "geom/ratio.h"
 src/scene/scene.c|#include "view/sheet.h"
 src/visibility/map.c|  #  include "ink/ink.h"
-src/visibility/newell.c|#include "visibility/painter.h"
-src/visibility/brute.c|#include "visibility/newell_order.h"
-src/visibility/pierce.c|#include "visibility/newell_order.h"
+src/visibility/newell/newell.c|#include "visibility/watkins/pitch/watkins.h"
+src/visibility/brute/brute.c|#include "visibility/newell/newell_order.h"
+src/visibility/zbuffer/zbuffer.c|#include "visibility/scanline_zbuffer/scanline_zbuffer.h"
+src/visibility/intersection/intersection.c|#include "visibility/newell/newell_order.h"
+src/visibility/intersection/intersection.c|#include "visibility/fragments/fragments.h"
+src/visibility/predicate/occlusion.h|#include "visibility/index/triangle_grid.h"
+src/visibility/solver.h|#include "visibility/predicate/occlusion.h"
+src/ink/lines/chain.c|#include "ink/hatch/tone.h"
+src/ink/ink.c|#include "visibility/predicate/occlusion.h"
+src/api/render.c|#include "ink/lines/stroke.h"
 src/scene/reader_obj.c|#include "scene/reader_stl.h"
 backends/writer_svg.c|#include "scene/scene.h"
 backends/writer_svg.c|#include "ink/ink.h"
@@ -157,7 +215,7 @@ src/judge/judge.c|#include "view/sheet.h"
 backends/writers.c|#include "api/handle.h"
 src/cli/main.c|#include "scene/scene.h"
 src/cli/main.c|#include "backends/writer.h"
-src/api/render.c|#include "cli/job.h"
+src/api/render.c|#include "cli/run.h"
 src/recto.h|#include "base/status.h"
 src/view/camera.c|#include "camera.h"
 src/view/camera.c|#include "../scene/scene.h"

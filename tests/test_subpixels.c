@@ -1,5 +1,5 @@
 /* test_subpixels.c - supersampling and back-face removal in the z-buffers. */
-#include "hand/pixels.h"
+#include "exact_fixture/pixels.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -12,7 +12,7 @@
 
 #include "base/report.h"
 #include "visibility/solver.h"
-#include "visibility/subpixels.h"
+#include "visibility/raster/subpixels.h"
 
 static const struct solver *const both[] = {&solver_zbuffer,
                                             &solver_scanline_zbuffer};
@@ -24,7 +24,7 @@ static void solve(const struct solver *solver, const struct pixels_scene *scene,
   pixels_sheet(&sheet, scene);
   map_init(map);
   assert_int_equal(solver->solve(&sheet, request, map, report, NULL), RECTO_OK);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 /* Warnock finds its sub-pixels in a way of its own. */
@@ -42,7 +42,7 @@ static void averaged_pixels_are_those_of_warnock(void **state) {
     solve(&solver_warnock, &scene, &request, &want, NULL);
     for (int s = 0; s < 2; s++) {
       solve(both[s], &scene, &request, &got, NULL);
-      hand_assert_same_map(&want, &got, both[s]->name);
+      exact_assert_same_map(&want, &got, both[s]->name);
       map_fini(&got);
     }
     map_fini(&want);
@@ -130,7 +130,7 @@ static void bad_numbers_of_sub_pixels_are_refused(void **state) {
       assert_int_equal(both[s]->solve(&sheet, &bad[i], &map, NULL, &error),
                        RECTO_ERROR_ARGUMENT);
       map_fini(&map);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
     }
 }
 
@@ -155,7 +155,7 @@ static void running_out_of_memory_is_told(void **state) {
       assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
       assert_true(n > 10 || status != RECTO_OK);
       map_fini(&map);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
     }
   }
 }

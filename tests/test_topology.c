@@ -158,17 +158,17 @@ static void no_faces_have_no_edges(void **state) {
 
 /* A fan of n triangles about the point that comes first or last. */
 static void fill_fan(struct scene *scene, uint32_t n, bool hub_first) {
-  uint32_t hub = 0, rim = 1;
+  uint32_t hub = 0, incidence = 1;
   build_group(scene, "fan");
   if (hub_first)
     hub = build_point(scene, 0, 0, 1);
-  rim = (uint32_t)scene->point.count;
+  incidence = (uint32_t)scene->point.count;
   for (uint32_t i = 0; i <= n; i++)
     build_point(scene, i, 1, i % 2);
   if (!hub_first)
     hub = build_point(scene, 0, 0, 1);
   for (uint32_t i = 0; i < n; i++)
-    build_triangle(scene, hub, rim + i, rim + i + 1);
+    build_triangle(scene, hub, incidence + i, incidence + i + 1);
 }
 
 static void a_fan_of_100000_triangles_is_no_trouble(void **state) {

@@ -1,6 +1,6 @@
 /* test_warnock.c - subdivision in lines: the exact map however windows are
  * divided, each kind of window, and no question asked twice. */
-#include "hand/sheet.h"
+#include "exact_fixture/sheet.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,18 +27,19 @@ static struct solver_request request_of(bool fragments, bool by_box) {
 static void random_scene(struct sheet *sheet, uint64_t seed, int faces,
                          int lattice, int size) {
   uint64_t r = seed;
-  hand_sheet_init(sheet);
+  exact_sheet_init(sheet);
   for (int f = 0; f < faces; f++) {
-    int corner[3][3], x = hand_below(&r, lattice), y = hand_below(&r, lattice);
+    int corner[3][3], x = exact_below(&r, lattice),
+                      y = exact_below(&r, lattice);
     for (int k = 0; k < 3; k++) {
-      corner[k][0] = x + hand_below(&r, size);
-      corner[k][1] = y + hand_below(&r, size);
-      corner[k][2] = hand_below(&r, lattice);
+      corner[k][0] = x + exact_below(&r, size);
+      corner[k][1] = y + exact_below(&r, size);
+      corner[k][2] = exact_below(&r, lattice);
     }
     if ((corner[0][0] != corner[1][0] || corner[0][1] != corner[1][1]) &&
         (corner[1][0] != corner[2][0] || corner[1][1] != corner[2][1]) &&
         (corner[2][0] != corner[0][0] || corner[2][1] != corner[0][1]))
-      hand_add_face(sheet, (const int(*)[3])corner, 3, SCALE);
+      exact_add_face(sheet, (const int(*)[3])corner, 3, SCALE);
   }
 }
 
@@ -48,15 +49,15 @@ static void tents_and_a_wall(struct sheet *sheet, int n, int wall_z,
   int far = 8 * n + 8, right = wall_z + slope * far, left = wall_z - slope * 8;
   const int wall[][3] = {
       {-8, -8, left}, {far, -8, right}, {far, far, right}, {-8, far, left}};
-  hand_sheet_init(sheet);
-  hand_add_face(sheet, wall, 4, SCALE);
+  exact_sheet_init(sheet);
+  exact_add_face(sheet, wall, 4, SCALE);
   for (int y = 0; y < n; y++)
     for (int x = 0; x < n; x++) {
       int z = slope * 8 * x;
       const int tent[][3] = {{8 * x, 8 * y, z + 10 + x},
                              {8 * x + 6, 8 * y + 1, z + 6 * slope + 12 + y},
                              {8 * x + 3, 8 * y + 7, z + 3 * slope + 20}};
-      hand_add_face(sheet, tent, 3, SCALE);
+      exact_add_face(sheet, tent, 3, SCALE);
     }
 }
 
@@ -68,7 +69,7 @@ static void assert_brute_says_the_same(void (*fill)(struct sheet *, uint64_t),
   struct sheet first;
   struct map want;
   fill(&first, seed);
-  assert_int_equal(hand_solve_as(&solver_brute, &request, &first, &want, NULL),
+  assert_int_equal(exact_solve_as(&solver_brute, &request, &first, &want, NULL),
                    RECTO_OK);
   for (int by_box = 0; by_box < 2; by_box++) {
     struct sheet sheet;
@@ -79,13 +80,14 @@ static void assert_brute_says_the_same(void (*fill)(struct sheet *, uint64_t),
              by_box ? "box" : "four");
     fill(&sheet, seed);
     assert_int_equal(
-        hand_solve_as(&solver_warnock, &request, &sheet, &map, NULL), RECTO_OK);
-    hand_assert_same_map(&want, &map, what);
+        exact_solve_as(&solver_warnock, &request, &sheet, &map, NULL),
+        RECTO_OK);
+    exact_assert_same_map(&want, &map, what);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
   map_fini(&want);
-  hand_sheet_fini(&first);
+  exact_sheet_fini(&first);
 }
 
 /* Few faces on a small lattice: all kinds of contact, one or two windows. */
@@ -135,7 +137,7 @@ static struct report *solve_and_report(struct sheet *sheet, bool fragments,
   struct report *report = report_create();
   struct map map;
   assert_int_equal(
-      hand_solve_as(&solver_warnock, &request, sheet, &map, report), RECTO_OK);
+      exact_solve_as(&solver_warnock, &request, sheet, &map, report), RECTO_OK);
   map_fini(&map);
   return report;
 }
@@ -159,7 +161,7 @@ static void windows_of_all_kinds_add_up(void **state) {
     assert_int_equal(count_of(report, "windows"),
                      1 + 4 * count_of(report, "divided"));
     report_destroy(report);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -172,21 +174,21 @@ static void a_surrounder_is_not_classified_again(void **state) {
   struct sheet sheet;
   struct report *report;
   (void)state;
-  hand_sheet_init(&sheet);
+  exact_sheet_init(&sheet);
   for (int y = 0; y < 16; y++)
     for (int x = 0; x < 16; x++) {
       const int tent[][3] = {{8 * x, 8 * y, 10},
                              {8 * x + 6, 8 * y + 1, 12},
                              {8 * x + 1, 8 * y + 6, 20}};
-      hand_add_face(&sheet, tent, 3, SCALE);
+      exact_add_face(&sheet, tent, 3, SCALE);
     }
-  hand_add_face(&sheet, wall, 3, SCALE);
+  exact_add_face(&sheet, wall, 3, SCALE);
   report = solve_and_report(&sheet, true, false);
   assert_true(count_of(report, "windows") > 100);
   assert_true(3 * count_of(report, "settled_by_angle") <
               count_of(report, "windows"));
   report_destroy(report);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 /* With the wall before the tents windows end where it surrounds them: by the
@@ -207,7 +209,7 @@ static void a_front_that_surrounds_drops_what_is_behind(void **state) {
         assert_int_equal(count_of(report, "dropped_by_corner_depths") > 0,
                          before);
       report_destroy(report);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
     }
 }
 
@@ -225,7 +227,7 @@ static void a_window_without_a_drawable_edge_is_finished_at_once(void **state) {
     for (size_t e = 0; e < sheet.edge.count - (drawn ? 1 : 0); e++)
       sheet.edge.item[e].edge_class = 0;
     assert_int_equal(
-        hand_solve_as(&solver_warnock, &request, &sheet, &map, report),
+        exact_solve_as(&solver_warnock, &request, &sheet, &map, report),
         RECTO_OK);
     if (drawn == 0) {
       assert_int_equal(count_of(report, "windows"), 1);
@@ -237,31 +239,31 @@ static void a_window_without_a_drawable_edge_is_finished_at_once(void **state) {
     }
     report_destroy(report);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
 /* Row 29 of the list of failures, on a small scale: many faces at one point are
  * more than a window may hold, at every size of window. */
-static void row_29_a_fan_ends_in_fewer_windows_than_faces(void **state) {
+static void a_fan_ends_in_fewer_windows_than_faces(void **state) {
   (void)state;
   for (int k = 0; k < 2; k++) {
     int count = k == 0 ? 200 : 800;
     int64_t windows;
     struct report *report;
     struct sheet sheet;
-    hand_sheet_init(&sheet);
+    exact_sheet_init(&sheet);
     for (int f = 0; f < count; f++) {
       const int blade[][3] = {{0, 0, 2000},
                               {2000 - 4 * f, 1600 - f, f % 7},
                               {2000 - 4 * f - 4, 1600 - f - 1, 5}};
-      hand_add_face(&sheet, blade, 3, 16);
+      exact_add_face(&sheet, blade, 3, 16);
     }
     report = solve_and_report(&sheet, false, false);
     windows = count_of(report, "windows");
     assert_in_range(windows, 2, count - 1);
     report_destroy(report);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -276,7 +278,7 @@ static bool stop_in_a_while(void *user, double share, const char *stage) {
 
 /* Triangles without edges, so many that there are windows by the thousand. */
 static void many_triangles(struct sheet *sheet, int n) {
-  hand_sheet_init(sheet);
+  exact_sheet_init(sheet);
   for (int i = 0; i < n * n; i++) {
     struct geom_point p = {i % n * 8 * SCALE, i / n * 8 * SCALE, i};
     struct sheet_triangle triangle = {
@@ -304,16 +306,16 @@ static void cancelling_ends_the_work(void **state) {
     struct map map;
     many_triangles(&sheet, 200);
     assert_int_equal(
-        hand_solve_as(&solver_warnock, &request, &sheet, &map, NULL),
+        exact_solve_as(&solver_warnock, &request, &sheet, &map, NULL),
         RECTO_ERROR_CANCELLED);
     assert_int_equal(left, 0);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
 static void running_out_of_memory_is_told(void **state) {
-  const struct solver_request strokes = {.strokes = true, .threads = 1};
+  const struct solver_request intervals = {.strokes = true, .threads = 1};
   unsigned long fails = 0;
   (void)state;
   for (unsigned long n = 1;; n++) {
@@ -324,13 +326,14 @@ static void running_out_of_memory_is_told(void **state) {
     tents_and_a_wall(&sheet, 3, 14, 1);
     /* Once without failures, so that the sheet's contours are there. */
     assert_int_equal(
-        hand_solve_as(&solver_warnock, &strokes, &sheet, &map, NULL), RECTO_OK);
+        exact_solve_as(&solver_warnock, &intervals, &sheet, &map, NULL),
+        RECTO_OK);
     map_fini(&map);
     mem_fail_after(n);
-    status = hand_solve_as(&solver_warnock, &request, &sheet, &map, NULL);
+    status = exact_solve_as(&solver_warnock, &request, &sheet, &map, NULL);
     mem_fail_after(0);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
     if (status == RECTO_OK)
       break;
     assert_int_equal(status, RECTO_ERROR_MEMORY);
@@ -348,7 +351,7 @@ int main(void) {
       cmocka_unit_test(a_surrounder_is_not_classified_again),
       cmocka_unit_test(a_front_that_surrounds_drops_what_is_behind),
       cmocka_unit_test(a_window_without_a_drawable_edge_is_finished_at_once),
-      cmocka_unit_test(row_29_a_fan_ends_in_fewer_windows_than_faces),
+      cmocka_unit_test(a_fan_ends_in_fewer_windows_than_faces),
       cmocka_unit_test(cancelling_ends_the_work),
       cmocka_unit_test(running_out_of_memory_is_told),
   };

@@ -1,6 +1,6 @@
 /* test_warnock_raster.c - subdivision of a pixel frame: the worked frames, the
  * z-buffer's pixels, the stack's bound, sub-pixels. */
-#include "hand/pixels.h"
+#include "exact_fixture/pixels.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "visibility/warnock_raster.h"
-#include "visibility/zbuffer.h"
+#include "visibility/warnock/warnock_raster.h"
+#include "visibility/zbuffer/zbuffer.h"
 
 /* ---- Frames -------------------------------------------------------------- */
 
@@ -111,7 +111,7 @@ static void assert_worked_frame(const struct pixels_scene *scene,
       assert_int_equal(face_at(&frame, x, y), seen(x, y));
   assert_windows_tile(&frame);
   warnock_frame_fini(&frame);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 static void the_worked_frames_are_right_in_every_pixel(void **state) {
@@ -146,7 +146,7 @@ static void the_lower_left_window_is_finished_undivided(void **state) {
   }
   assert_int_equal(found, 1);
   warnock_frame_fini(&frame);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 /* ---- The rules ----------------------------------------------------------- */
@@ -163,7 +163,7 @@ static void assert_first_rule(const struct pixels_scene *scene,
   assert_int_equal(frame.record.item[0].rule, rule);
   assert_zbuffer_sees_the_same(&frame, "a rule");
   warnock_frame_fini(&frame);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 #define ALL_ROUND(z)                                                           \
@@ -229,7 +229,7 @@ static void a_surrounder_is_classified_once(void **state) {
   assert_true(tested > 100);
   assert_true(frame.classified <= tested + 1);
   warnock_frame_fini(&frame);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 /* ---- The z-buffer's pixels ----------------------------------------------- */
@@ -257,7 +257,7 @@ static void random_scenes_are_right_in_every_pixel(void **state) {
     if (!request.divide_by_box)
       assert_true(frame.stack_most <= stack_bound(&frame.raster.grid));
     warnock_frame_fini(&frame);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -278,7 +278,7 @@ static void add_triangle(struct sheet *sheet, const struct geom_point p[3],
 
 static int32_t anywhere(uint64_t *seed, int bits) {
   int32_t half = (1 << bits) - 1;
-  return (int32_t)(hand_random(seed) % (2 * (uint64_t)half + 1)) - half;
+  return (int32_t)(exact_random(seed) % (2 * (uint64_t)half + 1)) - half;
 }
 
 /* Anything the grid can hold: needles, walls a unit thick, all depths. */
@@ -289,33 +289,33 @@ static void triangles_of_any_kind_give_the_pixels_of_the_zbuffer(void **state) {
     const struct solver_request request = {.fragments = true,
                                            .threads = 1,
                                            .resolution =
-                                               20 + hand_below(&seed, 100),
+                                               20 + exact_below(&seed, 100),
                                            .divide_by_box = round % 3 == 0};
     struct sheet sheet;
     struct warnock_frame frame;
-    hand_sheet_init(&sheet);
-    sheet.camera.page_mm[0] = 300 + hand_below(&seed, 1700);
-    sheet.camera.page_mm[1] = 300 + hand_below(&seed, 1700);
+    exact_sheet_init(&sheet);
+    sheet.camera.page_mm[0] = 300 + exact_below(&seed, 1700);
+    sheet.camera.page_mm[1] = 300 + exact_below(&seed, 1700);
     for (uint32_t t = 0; t < 14; t++) {
-      int bits = 2 + hand_below(&seed, 29);
+      int bits = 2 + exact_below(&seed, 29);
       struct geom_point p[3], at = {anywhere(&seed, 29), anywhere(&seed, 29),
-                                    (int64_t)(hand_random(&seed) >> 24)};
+                                    (int64_t)(exact_random(&seed) >> 24)};
       for (int k = 0; k < 3; k++) {
         p[k].x = bits > 29 ? anywhere(&seed, 30) : at.x + anywhere(&seed, bits);
         p[k].y = k == 2 || bits > 29 ? anywhere(&seed, 30)
                                      : at.y + anywhere(&seed, bits);
-        p[k].z = hand_below(&seed, 3) == 0
+        p[k].z = exact_below(&seed, 3) == 0
                      ? at.z
-                     : (int64_t)(hand_random(&seed) >> 24);
-        if (hand_below(&seed, 4) == 0)
-          p[k].z = hand_below(&seed, 2) == 0 ? 0 : SHEET_Z_MAX;
+                     : (int64_t)(exact_random(&seed) >> 24);
+        if (exact_below(&seed, 4) == 0)
+          p[k].z = exact_below(&seed, 2) == 0 ? 0 : SHEET_Z_MAX;
       }
       add_triangle(&sheet, p, t);
     }
     draw_frame(&frame, &sheet, &request);
     assert_zbuffer_sees_the_same(&frame, "any kind");
     warnock_frame_fini(&frame);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -375,7 +375,7 @@ static void maps_are_those_of_the_zbuffer(void **state) {
     report_destroy(report);
     for (int s = 0; s < 2; s++) {
       map_fini(&map[s]);
-      hand_sheet_fini(&sheet[s]);
+      exact_sheet_fini(&sheet[s]);
     }
   }
 }
@@ -402,7 +402,7 @@ static void the_stack_reaches_its_bound_and_no_more(void **state) {
       if (odd == 0)
         assert_int_equal(frame.stack_most + 1, stack_bound(&frame.raster.grid));
       warnock_frame_fini(&frame);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
     }
 }
 
@@ -450,7 +450,7 @@ static void sub_pixels_are_those_of_a_finer_frame(void **state) {
     }
     warnock_frame_fini(&frame);
     warnock_frame_fini(&fine);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -469,7 +469,7 @@ static double covered_share(int lines, int subpixels) {
     covered +=
         frame.coverage == NULL ? frame.raster.seen[i] != 0 : frame.coverage[i];
   warnock_frame_fini(&frame);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
   return (double)covered / (lines * lines) /
          (subpixels > 1 ? subpixels * subpixels : 1);
 }
@@ -505,7 +505,7 @@ static void bad_knobs_are_refused(void **state) {
                      RECTO_ERROR_ARGUMENT);
     assert_int_equal(error.code, RECTO_ERROR_ARGUMENT);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -534,7 +534,7 @@ static void cancelling_ends_the_work(void **state) {
                      RECTO_ERROR_CANCELLED);
     assert_int_equal(left, 0);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -557,7 +557,7 @@ static void running_out_of_memory_is_told(void **state) {
     status = solver_warnock.solve(&sheet, &request, &map, NULL, NULL);
     mem_fail_after(0);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
     if (status == RECTO_OK)
       break;
     assert_int_equal(status, RECTO_ERROR_MEMORY);

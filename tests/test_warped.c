@@ -13,7 +13,7 @@
 
 #include "api/verify.h"
 #include "ink/ink.h"
-#include "judge/cuts.h"
+#include "judge/triangulation.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 #include "view/triangulate.h"
@@ -308,12 +308,12 @@ enum { MOST = 12 };
 static size_t cut_both_ways(const struct scene_point *point, uint32_t count,
                             struct places *one, struct places *other) {
   struct triangulation t = {0};
-  struct judge_cuts cuts = {0};
+  struct judge_triangulation cuts = {0};
   uint32_t corner[MOST];
   for (uint32_t c = 0; c < count; c++)
     corner[c] = c;
   assert_true(triangulate(&t, point, corner, count));
-  assert_true(judge_cuts_make(&cuts, point, corner, count));
+  assert_true(judge_triangulation_make(&cuts, point, corner, count));
   assert_int_equal(t.triangle.count, cuts.piece.count);
   size_t triangles = t.triangle.count;
   for (size_t i = 0; i < triangles; i++) {
@@ -323,7 +323,7 @@ static size_t cut_both_ways(const struct scene_point *point, uint32_t count,
   qsort(one, triangles, sizeof *one, compare_places);
   qsort(other, triangles, sizeof *other, compare_places);
   triangulation_fini(&t);
-  judge_cuts_fini(&cuts);
+  judge_triangulation_fini(&cuts);
   return triangles;
 }
 

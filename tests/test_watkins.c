@@ -1,6 +1,6 @@
 /* test_watkins.c - the interval scan line: the worked frames and lists, its
  * coherence, and what it draws. */
-#include "hand/pixels.h"
+#include "exact_fixture/pixels.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "visibility/watkins.h"
+#include "visibility/watkins/pitch/watkins.h"
 
 /* A walk of the lists themselves. */
 struct walk {
@@ -31,7 +31,7 @@ static void start_walk(struct walk *walk, const struct pixels_scene *scene,
 static void end_walk(struct walk *walk) {
   watkins_fini(&walk->watkins);
   facets_fini(&walk->facets);
-  hand_sheet_fini(&walk->sheet);
+  exact_sheet_fini(&walk->sheet);
 }
 
 static bool next_line(struct walk *walk) {
@@ -333,7 +333,7 @@ static void solve_scene(const struct pixels_scene *scene, bool coherent,
   map_init(map);
   assert_int_equal(solver_watkins.solve(&sheet, &request, map, report, NULL),
                    RECTO_OK);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 /* Depth comparisons with coherence, and without; the maps are the same. */
@@ -343,7 +343,7 @@ static void compare_coherence(const struct pixels_scene *scene, double pitch_mm,
   struct map map[2];
   for (int k = 0; k < 2; k++)
     solve_scene(scene, k == 0, pitch_mm, &map[k], report[k]);
-  hand_assert_same_map(&map[0], &map[1], "coherence");
+  exact_assert_same_map(&map[0], &map[1], "coherence");
   *with = report_get(report[0], "watkins", "depth_comparisons", -1);
   *without = report_get(report[1], "watkins", "depth_comparisons", -1);
   assert_int_equal(report_get(report[1], "watkins", "kept_by_coherence", -1),
@@ -518,7 +518,7 @@ static void lines_are_refused_where_there_are_too_many(void **state) {
   assert_int_equal(grid.lines, 1);
   assert_int_equal(watkins_grid(&grid, &sheet, 0.3, &error), RECTO_OK);
   assert_int_equal(grid.lines, 107);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 int main(void) {

@@ -1,6 +1,6 @@
 /* test_window.c - Warnock's four classes and his tests of them: the worked
  * numbers, and against other ways of asking the same. */
-#include "hand/sheet.h"
+#include "exact_fixture/sheet.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "visibility/window.h"
+#include "visibility/predicate/window.h"
 
 enum { CORNERS_MAX = 8, FAR_OFF = (1 << 30) - 1 };
 
@@ -163,8 +163,8 @@ static void long_edges_past_small_windows_are_split_often(void **state) {
   uint64_t seed = 5;
   (void)state;
   for (int round = 0; round < 2000; round++) {
-    int quarter = round % 4, near = 2 + hand_below(&seed, 1 << (round % 29));
-    int far = FAR_OFF - 4 - hand_below(&seed, 1 << 28);
+    int quarter = round % 4, near = 2 + exact_below(&seed, 1 << (round % 29));
+    int far = FAR_OFF - 4 - exact_below(&seed, 1 << 28);
     const struct geom_point p =
         turn((struct geom_point){-far, -far - 3, 0}, quarter);
     const struct geom_point q =
@@ -240,19 +240,19 @@ static int winding(const struct window *w, const struct geom_point *corner,
  * small and in the middle, where polygons run round it. */
 static int random_case(uint64_t *seed, struct window *window,
                        struct geom_point *corner) {
-  int lattice = 4 + hand_below(seed, 40), count = 3 + hand_below(seed, 6);
-  if (hand_below(seed, 2) == 0) {
-    window->x0 = hand_below(seed, lattice) - 2;
-    window->y0 = hand_below(seed, lattice) - 2;
-    window->x1 = window->x0 + 1 + hand_below(seed, lattice);
-    window->y1 = window->y0 + 1 + hand_below(seed, lattice);
+  int lattice = 4 + exact_below(seed, 40), count = 3 + exact_below(seed, 6);
+  if (exact_below(seed, 2) == 0) {
+    window->x0 = exact_below(seed, lattice) - 2;
+    window->y0 = exact_below(seed, lattice) - 2;
+    window->x1 = window->x0 + 1 + exact_below(seed, lattice);
+    window->y1 = window->y0 + 1 + exact_below(seed, lattice);
   } else {
     window->x0 = window->y0 = lattice / 2 - 1;
     window->x1 = window->y1 = lattice / 2;
   }
   for (int k = 0; k < count; k++)
-    corner[k] = (struct geom_point){hand_below(seed, lattice),
-                                    hand_below(seed, lattice), 0};
+    corner[k] = (struct geom_point){exact_below(seed, lattice),
+                                    exact_below(seed, lattice), 0};
   return count;
 }
 

@@ -1,6 +1,6 @@
 /* test_zbuffer.c - the two z-buffers, pixel by pixel against rational
  * arithmetic, against each other, and as visible maps. */
-#include "hand/pixels.h"
+#include "exact_fixture/pixels.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "visibility/scanline_zbuffer.h"
-#include "visibility/zbuffer.h"
+#include "visibility/scanline_zbuffer/scanline_zbuffer.h"
+#include "visibility/zbuffer/zbuffer.h"
 
 enum { FINE = 2048 }; /* lines where the answer should be nearly exact */
 
@@ -97,7 +97,7 @@ static void assert_frames_are_judged(const struct pixels_scene *scene,
                  want);
     }
   free_frames(&frames);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 static void assert_worked_frame(const struct pixels_scene *scene,
@@ -154,7 +154,7 @@ static void scan_line_agrees_at_every_depth(void **state) {
     assert_memory_equal(frames.scanned, frames.whole.seen,
                         frames.pixels * sizeof *frames.scanned);
     free_frames(&frames);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -169,8 +169,8 @@ static void ties_of_rounded_depths_keep_the_earlier_face(void **state) {
       int(*c)[3] = scene.face[f].corner;
       scene.face[f].count = 3;
       for (int k = 0; k < 3; k++) {
-        c[k][1] = hand_below(&seed, 33);
-        c[k][0] = (3 * hand_below(&seed, 11) + c[k][1]) % 33;
+        c[k][1] = exact_below(&seed, 33);
+        c[k][0] = (3 * exact_below(&seed, 11) + c[k][1]) % 33;
         c[k][2] = (c[k][0] + 2 * c[k][1]) / 3;
       }
       f += (c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) !=
@@ -192,7 +192,8 @@ struct listed {
       dz_y;
 };
 
-static void assert_pair(const struct pair *pair, struct listed want) {
+static void assert_pair(const struct active_edge_pair *pair,
+                        struct listed want) {
   assert_near(pair->edges.left.x, want.x_left);
   assert_near(pair->edges.left.dx, want.dx_left);
   assert_near(pair->edges.left.dy, want.dy_left);
@@ -215,7 +216,7 @@ static void active_pairs_are_as_listed(void **state) {
   assert_int_equal(raster_init(&raster, &sheet, 32, 0, false, NULL), RECTO_OK);
   assert_true(scanline_init(&scanline, &raster, &facets, &plain));
   for (int32_t line = 31; line >= 0; line--) {
-    const struct pair *pair;
+    const struct active_edge_pair *pair;
     raster_clear_line(&raster, line);
     assert_true(scanline_enter(&scanline, line));
     pair = scanline.active.item;
@@ -243,7 +244,7 @@ static void active_pairs_are_as_listed(void **state) {
   scanline_fini(&scanline);
   raster_fini(&raster);
   facets_fini(&facets);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 static void depths_of_line_15_fall_by_three_quarters(void **state) {
@@ -251,15 +252,15 @@ static void depths_of_line_15_fall_by_three_quarters(void **state) {
   struct sheet sheet;
   struct facets facets;
   struct raster raster;
-  struct pair pair;
+  struct active_edge_pair pair;
   (void)state;
   pixels_sheet(&sheet, &pixels_pierced_rectangle);
   assert_true(facets_init(&facets, &sheet));
   assert_int_equal(raster_init(&raster, &sheet, 32, 0, true, NULL), RECTO_OK);
-  assert_true(pair_start(&pair, &raster, &facets, 2));
+  assert_true(active_edge_pair_start(&pair, &raster, &facets, 2));
   do
-    pair_draw(&pair, &raster);
-  while (pair_next(&pair, &raster));
+    active_edge_pair_draw(&pair, &raster);
+  while (active_edge_pair_next(&pair, &raster));
   for (int i = 0; i < 7; i++)
     assert_near(raster.depth[15 * 32 + 15 + i] / PIXELS_UNIT, depth[i]);
   assert_near(raster.depth[15 * 32 + 20] / PIXELS_UNIT, 43 / 4.);
@@ -267,7 +268,7 @@ static void depths_of_line_15_fall_by_three_quarters(void **state) {
   assert_int_equal(raster.seen[15 * 32 + 14], 0);
   raster_fini(&raster);
   facets_fini(&facets);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 /* ---- Depth --------------------------------------------------------------- */
@@ -276,9 +277,9 @@ static void depths_of_line_15_fall_by_three_quarters(void **state) {
 static void near_sheets(struct sheet *sheet, int64_t z, int64_t gap) {
   static const int square[][3] = {
       {-10, -10, 4}, {10, -10, 4}, {10, 10, 4}, {-10, 10, 4}};
-  hand_sheet_init(sheet);
+  exact_sheet_init(sheet);
   sheet->camera.page_mm[0] = sheet->camera.page_mm[1] = PIXELS_SIDE;
-  hand_add_face(sheet, square, 4, PIXELS_UNIT);
+  exact_add_face(sheet, square, 4, PIXELS_UNIT);
   for (size_t p = 0; p < 4; p++) {
     struct geom_point nearer = sheet->point.item[p];
     sheet->point.item[p].z = z;
@@ -309,13 +310,13 @@ static int face_in_the_middle(int64_t z, int64_t gap, int bits) {
     for (size_t x = 4; x < 12; x++)
       assert_int_equal(face_at(&sheet, frames.whole.seen, y * 16 + x), face);
   free_frames(&frames);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
   return face;
 }
 
 /* Row 28 of the list of failures: B bits tell sheets apart by 2^(40 - B) units
  * and no less. */
-static void row_28_integer_depths_fight_where_their_bits_say(void **state) {
+static void integer_depths_fight_where_their_bits_say(void **state) {
   static const int bits[] = {16, 24, 32};
   (void)state;
   for (int i = 0; i < 3; i++) {
@@ -363,9 +364,9 @@ static int32_t centre(int pixel) {
 static void add_needle(struct sheet *sheet, int x, int y, uint64_t *seed) {
   int32_t cx = centre(x), cy = centre(y);
   struct geom_point p[3] = {
-      {cx - 3 - hand_below(seed, 4), cy - 1 - hand_below(seed, 3), 0},
-      {cx + 2 + hand_below(seed, 5), cy - hand_below(seed, 3), SHEET_Z_MAX},
-      {cx + hand_below(seed, 3) - 1, (1 << 29) - 1, hand_below(seed, 1000)}};
+      {cx - 3 - exact_below(seed, 4), cy - 1 - exact_below(seed, 3), 0},
+      {cx + 2 + exact_below(seed, 5), cy - exact_below(seed, 3), SHEET_Z_MAX},
+      {cx + exact_below(seed, 3) - 1, (1 << 29) - 1, exact_below(seed, 1000)}};
   add_triangle(sheet, p, 0);
 }
 
@@ -400,12 +401,12 @@ static void steep_faces_are_decided_at_the_centre(void **state) {
   uint64_t seed = 99;
   (void)state;
   for (int round = 0; round < 200; round++) {
-    int x = 3 + hand_below(&seed, COARSE - 6), y = 3 + hand_below(&seed, 40);
+    int x = 3 + exact_below(&seed, COARSE - 6), y = 3 + exact_below(&seed, 40);
     struct sheet sheet;
     struct frames frames;
     bool exact;
     int64_t z;
-    hand_sheet_init(&sheet);
+    exact_sheet_init(&sheet);
     sheet.camera.page_mm[0] = sheet.camera.page_mm[1] = 1024;
     add_needle(&sheet, x, y, &seed);
     z = floor_depth(&sheet, x, y, &exact);
@@ -417,7 +418,7 @@ static void steep_faces_are_decided_at_the_centre(void **state) {
     assert_memory_equal(frames.scanned, frames.whole.seen,
                         frames.pixels * sizeof *frames.scanned);
     free_frames(&frames);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -427,11 +428,11 @@ static void steep_faces_meet_gentle_ones_exactly(void **state) {
   uint64_t seed = 97;
   (void)state;
   for (int round = 0; round < 400; round++) {
-    int x = 3 + hand_below(&seed, COARSE - 6), y = 3 + hand_below(&seed, 40);
+    int x = 3 + exact_below(&seed, COARSE - 6), y = 3 + exact_below(&seed, 40);
     int32_t cx = centre(x), cy = centre(y), half = 1 << 21;
-    int32_t ax = hand_below(&seed, half / 2), ay = hand_below(&seed, half);
-    int64_t z = INT64_C(1) << 39, a = hand_below(&seed, 1 << 30) * INT64_C(99),
-            b = hand_below(&seed, 1 << 30) * INT64_C(101);
+    int32_t ax = exact_below(&seed, half / 2), ay = exact_below(&seed, half);
+    int64_t z = INT64_C(1) << 39, a = exact_below(&seed, 1 << 30) * INT64_C(99),
+            b = exact_below(&seed, 1 << 30) * INT64_C(101);
     const struct geom_point slope[3] = {
         {cx - half, cy - half - ay, z + a},
         {cx + half - 2 * ax, cy - half + ay, z - a - 2 * b},
@@ -441,7 +442,7 @@ static void steep_faces_meet_gentle_ones_exactly(void **state) {
                                          {cx + 1, (1 << 29) - 1, 0}};
     struct sheet sheet;
     struct frames frames;
-    hand_sheet_init(&sheet);
+    exact_sheet_init(&sheet);
     sheet.camera.page_mm[0] = sheet.camera.page_mm[1] = 1024;
     add_triangle(&sheet, slope, 0);
     add_triangle(&sheet, needle, 1);
@@ -450,7 +451,7 @@ static void steep_faces_meet_gentle_ones_exactly(void **state) {
         face_at(&sheet, frames.whole.seen, (size_t)(y * COARSE + x)),
         round % 2);
     free_frames(&frames);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -460,16 +461,16 @@ static void steep_faces_keep_within_their_depths(void **state) {
   uint64_t seed = 98;
   (void)state;
   for (int round = 0; round < 400; round++) {
-    int x = 3 + hand_below(&seed, COARSE - 6), y = 3 + hand_below(&seed, 40);
+    int x = 3 + exact_below(&seed, COARSE - 6), y = 3 + exact_below(&seed, 40);
     int32_t cx = centre(x), cy = centre(y);
     int64_t low = round % 2 == 0 ? 0 : SHEET_Z_MAX, high = SHEET_Z_MAX - low;
     const struct geom_point needle[3] = {
         {cx, cy, low},
-        {cx + 1 + hand_below(&seed, 4), cy + 3 + hand_below(&seed, 4), high},
-        {cx + 1, (1 << 29) - hand_below(&seed, 1000), low}};
+        {cx + 1 + exact_below(&seed, 4), cy + 3 + exact_below(&seed, 4), high},
+        {cx + 1, (1 << 29) - exact_below(&seed, 1000), low}};
     struct sheet sheet;
     struct frames frames;
-    hand_sheet_init(&sheet);
+    exact_sheet_init(&sheet);
     sheet.camera.page_mm[0] = sheet.camera.page_mm[1] = 1024;
     add_triangle(&sheet, needle, 0);
     draw_frames(&frames, &sheet, COARSE, 32);
@@ -480,7 +481,7 @@ static void steep_faces_keep_within_their_depths(void **state) {
       assert_in_range(frames.whole.level[y * COARSE + x],
                       UINT32_MAX - (1 << 16), UINT32_MAX);
     free_frames(&frames);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -517,7 +518,7 @@ static void removed_backs_leave_what_is_behind(void **state) {
                        RECTO_OK);
       assert_int_equal(map.fragment.item[0].face, remove);
       map_fini(&map);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
     }
 }
 
@@ -569,7 +570,7 @@ static void fragments_cover_the_pixels_seen(void **state) {
     for (int f = 0; f < scene.count; f++)
       assert_near(face_area(&map, (uint32_t)f), pixels[f]);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -593,7 +594,7 @@ static void fragments_are_loops_in_canonical_order(void **state) {
     }
   }
   map_fini(&map);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 static void scan_line_draws_the_same_map(void **state) {
@@ -607,10 +608,10 @@ static void scan_line_draws_the_same_map(void **state) {
     for (int s = 0; s < 2; s++)
       solve_scene(both[s], &scene, 32 << (seed % 4), bits[seed % 3], &sheet[s],
                   &map[s]);
-    hand_assert_same_map(&map[0], &map[1], "scan line");
+    exact_assert_same_map(&map[0], &map[1], "scan line");
     for (int s = 0; s < 2; s++) {
       map_fini(&map[s]);
-      hand_sheet_fini(&sheet[s]);
+      exact_sheet_fini(&sheet[s]);
     }
   }
 }
@@ -672,7 +673,7 @@ static double wrong_strokes(int lines) {
                           : wrong_share(&map, e, 0, 0.5, 2 / 3., 1);
   }
   map_fini(&map);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
   return wrong;
 }
 
@@ -695,7 +696,7 @@ static void wrong_area_falls_with_the_lines(void **state) {
     assert_true(fabs(face_area(&map, 0) - 275) < bound[i]);
     assert_true(fabs(face_area(&map, 1) - 175 / 3.) < bound[i]);
     map_fini(&map);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -728,7 +729,7 @@ static void edges_are_seen_where_they_touch_and_not_behind(void **state) {
                      e >= 7 && e < 10 ? MAP_HIDDEN : MAP_VISIBLE);
   assert_null(map.fragment.item);
   map_fini(&map);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 static void outlines_and_points_are_not_followed(void **state) {
@@ -747,7 +748,7 @@ static void outlines_and_points_are_not_followed(void **state) {
   assert_int_equal(map.edge_state[1], MAP_HIDDEN);
   assert_int_equal(map.edge_state[2], MAP_HIDDEN);
   map_fini(&map);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 /* A dome of triangles, steeper and steeper towards its rim: near the rim the
@@ -757,7 +758,7 @@ static void outline_that_curves_away_has_no_gaps(void **state) {
   struct sheet sheet;
   int at[RINGS + 1][AROUND][3];
   (void)state;
-  hand_sheet_init(&sheet);
+  exact_sheet_init(&sheet);
   sheet.camera.page_mm[0] = sheet.camera.page_mm[1] = PIXELS_SIDE;
   for (int r = 0; r <= RINGS; r++)
     for (int a = 0; a < AROUND; a++) {
@@ -773,10 +774,10 @@ static void outline_that_curves_away_has_no_gaps(void **state) {
       memcpy(corner[1], at[r][next], sizeof corner[0]);
       memcpy(corner[2], at[r + 1][next], sizeof corner[0]);
       memcpy(corner[3], at[r + 1][a], sizeof corner[0]);
-      hand_add_face(&sheet, (const int(*)[3])corner, 3, 1);
+      exact_add_face(&sheet, (const int(*)[3])corner, 3, 1);
       memcpy(corner[1], corner[0], sizeof corner[0]);
       if (r + 1 < RINGS)
-        hand_add_face(&sheet, (const int(*)[3]) & corner[1], 3, 1);
+        exact_add_face(&sheet, (const int(*)[3]) & corner[1], 3, 1);
     }
   for (int lines = 16; lines <= 1024; lines *= 2) {
     const struct solver_request request = {
@@ -790,7 +791,7 @@ static void outline_that_curves_away_has_no_gaps(void **state) {
         assert_int_equal(map.edge_state[e], MAP_VISIBLE);
     map_fini(&map);
   }
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 /* The edges turned round in number: each keeps what is seen of it. */
@@ -827,7 +828,7 @@ static void order_of_the_edges_does_not_matter(void **state) {
     }
     map_fini(&map[0]);
     map_fini(&map[1]);
-    hand_sheet_fini(&sheet);
+    exact_sheet_fini(&sheet);
   }
 }
 
@@ -855,7 +856,7 @@ static void intersections_are_drawn_where_asked_for(void **state) {
   /* From (20, 20) to (45/2, 25/2), seen all along. */
   assert_true(fabs(length - hypot(2.5, 7.5)) < 0.01);
   map_fini(&map);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 /* ---- Conversation -------------------------------------------------------- */
@@ -877,7 +878,7 @@ static void bad_knobs_are_refused(void **state) {
                        RECTO_ERROR_ARGUMENT);
       assert_int_equal(error.code, RECTO_ERROR_ARGUMENT);
       map_fini(&map);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
     }
 }
 
@@ -899,7 +900,7 @@ static void a_folded_frame_uses_lines_again(void **state) {
                            raster_row(&raster, line));
   }
   raster_fini(&raster);
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 static bool stop_at_once(void *user, double share, const char *stage) {
@@ -927,7 +928,7 @@ static void cancelling_ends_the_work(void **state) {
                        RECTO_ERROR_CANCELLED);
       assert_int_equal(left, 0);
       map_fini(&map);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
     }
 }
 
@@ -950,7 +951,7 @@ static void running_out_of_memory_is_told(void **state) {
       status = both[s]->solve(&sheet, &request, &map, NULL, NULL);
       mem_fail_after(0);
       map_fini(&map);
-      hand_sheet_fini(&sheet);
+      exact_sheet_fini(&sheet);
       if (status == RECTO_OK)
         break;
       assert_int_equal(status, RECTO_ERROR_MEMORY);
@@ -973,7 +974,7 @@ static void scan_line_holds_one_line(void **state) {
       assert_int_equal(raster_row(&raster, line), 0);
     raster_fini(&raster);
   }
-  hand_sheet_fini(&sheet);
+  exact_sheet_fini(&sheet);
 }
 
 int main(void) {
@@ -985,7 +986,7 @@ int main(void) {
       cmocka_unit_test(ties_of_rounded_depths_keep_the_earlier_face),
       cmocka_unit_test(active_pairs_are_as_listed),
       cmocka_unit_test(depths_of_line_15_fall_by_three_quarters),
-      cmocka_unit_test(row_28_integer_depths_fight_where_their_bits_say),
+      cmocka_unit_test(integer_depths_fight_where_their_bits_say),
       cmocka_unit_test(float64_tells_single_units_apart),
       cmocka_unit_test(steep_faces_are_decided_at_the_centre),
       cmocka_unit_test(steep_faces_meet_gentle_ones_exactly),

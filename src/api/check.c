@@ -2,9 +2,9 @@
  *
  * The page is the file's own.  Lines may be off by a quarter of the pen, along
  * and across: nobody sees that. */
-#include "api/asked.h"
+#include "api/judge_input.h"
 #include "api/handle.h"
-#include "api/rescale.h"
+#include "view/rescale.h"
 #include "base/input.h"
 #include "ink/pens.h"
 #include "scene/welded.h"
@@ -76,15 +76,15 @@ static recto_status judge(const struct rescaled *rescaled,
                           struct judge_verdict *verdict, recto_error *error) {
   const recto_options *o = &rescaled->options;
   struct camera camera;
-  struct asked asked;
+  struct judge_input asked;
   recto_options asking = *o;
   recto_status status = camera_aim(&camera, scene, o, error);
   if (status != RECTO_OK)
     return status;
-  if (!asked_init(&asked, scene))
+  if (!judge_input_init(&asked, scene))
     return error_memory(error);
-  struct judge_camera seen = asked_camera(&asked, &camera, o);
-  struct judge_options options = asked_options(&asked, &camera, o);
+  struct judge_camera seen = judge_input_camera(&asked, &camera, o);
+  struct judge_options options = judge_input_options(&asked, &camera, o);
   options.samples = SAMPLES;
   options.reach_mm = options.lateral_mm = o->pen_mm / 4;
   options.progress = o->progress != NULL ? go_on : NULL;
@@ -95,7 +95,7 @@ static recto_status judge(const struct rescaled *rescaled,
     status = error_memory(error);
   if (status == RECTO_OK && verdict->cancelled)
     status = error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
-  asked_fini(&asked);
+  judge_input_fini(&asked);
   return status;
 }
 

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "api/verify.h"
-#include "ink/drawing.h"
+#include "drawing/drawing.h"
 #include "scene/scene.h"
 
 struct recto_scene {

@@ -1,15 +1,15 @@
 # src/api/local.mk - the facade behind recto.h.
 librecto_core_la_SOURCES += \
   src/recto.h \
-  %D%/asked.c %D%/asked.h \
   %D%/check.c \
-  %D%/clipped.c %D%/clipped.h \
+  %D%/clip_warning.c %D%/clip_warning.h \
   %D%/handle.h \
-  %D%/model.c \
+  %D%/judge_input.c %D%/judge_input.h \
   %D%/options.c \
   %D%/output.c \
   %D%/render.c \
-  %D%/rescale.c %D%/rescale.h \
+  %D%/scene.c \
   %D%/shares.c %D%/shares.h \
   %D%/verify.c %D%/verify.h \
-  %D%/version.c
+  %D%/version.c \
+  %D%/vocabulary.c

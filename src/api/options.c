@@ -35,13 +35,13 @@ void recto_options_init(recto_options *options) {
 }
 
 /* A number of the options and where it may lie. */
-struct range {
+struct option_range {
   const char *name;
   double value;
   double least, most;
 };
 
-static recto_status check_ranges(const struct range *range, size_t count,
+static recto_status check_ranges(const struct option_range *range, size_t count,
                                  recto_error *error) {
   for (size_t i = 0; i < count; i++)
     if (!(range[i].value >= range[i].least && range[i].value <= range[i].most))
@@ -53,7 +53,7 @@ static recto_status check_ranges(const struct range *range, size_t count,
 
 static recto_status check(const recto_options *o, recto_error *error) {
   const double huge = DBL_MAX, small = DBL_MIN;
-  const struct range range[] = {
+  const struct option_range range[] = {
       {"the method", o->method, 0, RECTO_METHOD_COUNT - 1},
       {"the number of threads", o->threads, 0, 1024},
       {"the contact length", o->contact, -huge, huge},

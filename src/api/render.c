@@ -6,10 +6,10 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "api/clipped.h"
+#include "api/clip_warning.h"
 #include "api/handle.h"
 #include "backends/device.h"
-#include "api/rescale.h"
+#include "view/rescale.h"
 #include "api/shares.h"
 #include "base/parallel.h"
 #include "ink/ink.h"
@@ -17,7 +17,7 @@
 #include "scene/welded.h"
 #include "view/camera.h"
 #include "view/sheet.h"
-#include "visibility/depths.h"
+#include "visibility/quantitative_invisibility.h"
 #include "visibility/solver.h"
 
 /* Everything a render makes on its way; zeroed is empty. */
@@ -197,8 +197,9 @@ static recto_status solve(struct render *render, recto_error *error) {
                             ->solve(&render->sheet, &request, &render->map,
                                     render->report, error);
   if (status == RECTO_OK && request.hidden && options->hidden_layers > 0)
-    status = depths_find(&render->map, &render->sheet, options->hidden_layers,
-                         &request, render->report, error);
+    status = quantitative_invisibility_find(&render->map, &render->sheet,
+                                            options->hidden_layers, &request,
+                                            render->report, error);
   return status;
 }
 
@@ -413,7 +414,7 @@ static recto_status check_pens(const struct render *render,
   recto_status status =
       pens_init(&pens, &render->model->scene, render->options, error);
   if (status == RECTO_OK)
-    pens_tell_idle(&pens, render->options);
+    pens_warn_unused(&pens, render->options);
   pens_fini(&pens);
   return status;
 }

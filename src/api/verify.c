@@ -1,7 +1,7 @@
 /* verify.c - asks the judge about a drawing that was just made.
  *
  * Phases
- *   scene    as the judge is to see it: asked.h.
+ *   scene    as the judge is to see it: judge_input.h.
  *   strokes  the lines of the drawing; and of those that would be there if no
  *            line were too short, the short ones: nothing is missing there.
  *   verdict  the judge's, as a report, a summary or an error. */
@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "api/asked.h"
+#include "api/judge_input.h"
 #include "base/sentence.h"
 #include "ink/ink.h"
 
@@ -28,7 +28,7 @@ static bool take_stroke(struct judge_drawing *to, const struct drawing *drawing,
     return false;
   for (uint32_t i = 0; i < taken.count; i++) {
     const struct drawing_point *p = &point[i < stroke->count ? i : 0];
-    to->point.item[to->point.count++] = (struct judge_place){p->x, p->y};
+    to->point.item[to->point.count++] = (struct judge_point2){p->x, p->y};
   }
   return true;
 }
@@ -79,9 +79,9 @@ static recto_status take_dropped(struct judge_drawing *to,
 static void say_edge(struct sentence *words, const struct verify *verify,
                      const struct judge_witness *w, struct scene_point origin) {
   sentence_add(words, "point %.9g,%.9g,%.9g of ",
-               ldexp(w->spot.x + origin.x, verify->exponent),
-               ldexp(w->spot.y + origin.y, verify->exponent),
-               ldexp(w->spot.z + origin.z, verify->exponent));
+               ldexp(w->position.x + origin.x, verify->exponent),
+               ldexp(w->position.y + origin.y, verify->exponent),
+               ldexp(w->position.z + origin.z, verify->exponent));
   if (w->point[0] == SCENE_NONE)
     sentence_add(words, "the intersection");
   else
@@ -130,19 +130,19 @@ static void report_verdict(struct report *report,
 }
 
 static recto_status judge(const struct verify *verify,
-                          const struct asked *asked,
+                          const struct judge_input *input,
                           const struct judge_drawing *drawing,
                           struct judge_verdict *verdict, recto_error *error) {
   const recto_options *o = verify->options;
-  struct judge_camera camera = asked_camera(asked, verify->camera, o);
-  struct judge_options options = asked_options(asked, verify->camera, o);
+  struct judge_camera camera = judge_input_camera(input, verify->camera, o);
+  struct judge_options options = judge_input_options(input, verify->camera, o);
   camera.depth_step = 1 / verify->sheet->z_scale;
   options.samples = (size_t)o->verify;
   options.reach_mm += ink_drift_mm(o);
   options.lateral_mm += ink_drift_mm(o);
   options.progress = verify->progress;
   options.user = verify->user;
-  if (!judge_drawing(verdict, drawing, &asked->scene, &camera, &options))
+  if (!judge_drawing(verdict, drawing, &input->scene, &camera, &options))
     return error_memory(error);
   return verdict->cancelled
              ? error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled")
@@ -154,21 +154,21 @@ recto_status verify_drawing(const struct verify *verify, struct report *report,
                             recto_error *error) {
   struct judge_drawing drawing = {0};
   struct judge_verdict verdict;
-  struct asked asked;
-  if (!asked_init(&asked, verify->scene))
+  struct judge_input input;
+  if (!judge_input_init(&input, verify->scene))
     return error_memory(error);
   recto_status status = take_drawn(&drawing, verify->drawing)
                             ? take_dropped(&drawing, verify, error)
                             : error_memory(error);
   if (status == RECTO_OK)
-    status = judge(verify, &asked, &drawing, &verdict, error);
+    status = judge(verify, &input, &drawing, &verdict, error);
   judge_drawing_fini(&drawing);
-  asked_fini(&asked);
+  judge_input_fini(&input);
   if (status != RECTO_OK)
     return status;
   report_verdict(report, &verdict);
   if (verdict.false_ink.samples > 0 || verdict.missing.samples > 0)
-    return tell(verify, &verdict, asked.origin, error);
+    return tell(verify, &verdict, input.origin, error);
   snprintf(summary, VERIFY_SUMMARY_SIZE,
            "verified: %zu drawn points visible, %zu others hidden, %zu too "
            "close to call",

@@ -2,7 +2,7 @@
 #ifndef API_VERIFY_H
 #define API_VERIFY_H
 
-#include "ink/drawing.h"
+#include "drawing/drawing.h"
 #include "judge/judge.h"
 #include "view/camera.h"
 #include "visibility/map.h"

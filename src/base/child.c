@@ -30,7 +30,7 @@ enum {
   TICK_MS = 100
 };
 
-struct run {
+struct child_run {
   const struct child *child;
   struct child_result *result;
   pid_t process;
@@ -115,7 +115,7 @@ static int set_descriptors(posix_spawn_file_actions_t *actions, int input,
 }
 
 /* Returns an errno, 0 where it is started. */
-static int spawn(struct run *run, int output) {
+static int spawn(struct child_run *run, int output) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   int error = posix_spawn_file_actions_init(&actions);
@@ -137,7 +137,7 @@ static int spawn(struct run *run, int output) {
   return error;
 }
 
-static int start(struct run *run) {
+static int start(struct child_run *run) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     return errno;
@@ -158,7 +158,7 @@ static int start(struct run *run) {
 /* ---- Listening ----------------------------------------------------------- */
 
 /* Whether the child may go on; else the result says why not. */
-static bool may_go_on(struct run *run) {
+static bool may_go_on(struct child_run *run) {
   const struct child *child = run->child;
   if (child->progress && !child->progress(child->user, 0, "import"))
     run->result->end = CHILD_CANCELLED;
@@ -171,7 +171,7 @@ static bool may_go_on(struct run *run) {
 
 /* Takes what the child has written; false at its end, or where it may not go
  * on. */
-static bool listen_once(struct run *run) {
+static bool listen_once(struct child_run *run) {
   enum { CHUNK = 1 << 16 };
   struct child_result *result = run->result;
   struct pollfd wait = {.fd = run->output, .events = POLLIN};
@@ -197,7 +197,7 @@ static bool listen_once(struct run *run) {
 
 /* Ends the child, if it is still there and ours: where the host ignores SIGCHLD
  * or waits for any child, its number may be another process's by now. */
-static void end_child(struct run *run) {
+static void end_child(struct child_run *run) {
   int status;
   pid_t found;
   while ((found = waitpid(run->process, &status, WNOHANG)) < 0 &&
@@ -211,7 +211,7 @@ static void end_child(struct run *run) {
 }
 
 /* Waits for the end of a child that writes no more: it may still hang. */
-static void await(struct run *run) {
+static void await(struct child_run *run) {
   static const struct timespec moment = {0, 1000000};
   struct child_result *result = run->result;
   int status;
@@ -234,7 +234,7 @@ static void await(struct run *run) {
 }
 
 void child_run(const struct child *child, struct child_result *result) {
-  struct run run = {
+  struct child_run run = {
       .child = child, .result = result, .deadline = now() + child->seconds};
   *result = (struct child_result){.end = CHILD_EXITED};
   result->code = start(&run);

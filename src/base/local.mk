@@ -8,15 +8,15 @@ librecto_core_la_SOURCES += \
   %D%/input.c %D%/input.h \
   %D%/length.c %D%/length.h \
   %D%/memory.c %D%/memory.h \
-  %D%/number.c %D%/number.h %D%/number_format.c \
+  %D%/number.c %D%/number.h \
+  %D%/number_format.c \
   %D%/parallel.c %D%/parallel.h \
   %D%/path.c %D%/path.h \
   %D%/report.c %D%/report.h \
-  %D%/sets.h \
   %D%/sentence.c %D%/sentence.h \
+  %D%/sets.h \
   %D%/sort.c %D%/sort.h \
   %D%/status.c %D%/status.h \
   %D%/stream.c %D%/stream.h \
   %D%/target.c %D%/target.h \
-  %D%/tolerance.h \
-  %D%/vocabulary.c
+  %D%/tolerance.h

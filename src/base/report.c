@@ -11,7 +11,7 @@
 
 enum kind { KIND_INT, KIND_DOUBLE, KIND_DOUBLES, KIND_TEXT };
 
-struct entry {
+struct report_entry {
   const char *section, *name; /* literals */
   enum kind kind;
   int64_t integer;
@@ -22,7 +22,7 @@ struct entry {
 };
 
 struct report {
-  ARRAY(struct entry) entry;
+  ARRAY(struct report_entry) entry;
   struct stream *json; /* NULL until it is asked for */
 };
 
@@ -30,7 +30,7 @@ struct report *report_create(void) {
   return mem_calloc(1, sizeof(struct report));
 }
 
-static void forget_value(struct entry *entry) {
+static void forget_value(struct report_entry *entry) {
   mem_free(entry->text);
   mem_free(entry->numbers);
   entry->text = NULL;
@@ -50,10 +50,10 @@ void report_destroy(struct report *report) {
 
 /* ---- Gathering ----------------------------------------------------------- */
 
-static struct entry *look_up(const struct report *report, const char *section,
-                             const char *name) {
+static struct report_entry *look_up(const struct report *report,
+                                    const char *section, const char *name) {
   for (size_t i = 0; i < report->entry.count; i++) {
-    struct entry *entry = &report->entry.item[i];
+    struct report_entry *entry = &report->entry.item[i];
     if (strcmp(entry->section, section) == 0 && strcmp(entry->name, name) == 0)
       return entry;
   }
@@ -62,13 +62,14 @@ static struct entry *look_up(const struct report *report, const char *section,
 
 /* The entry of that name without a value, added where it is new; NULL without
  * a report or memory. */
-static struct entry *make_entry(struct report *report, const char *section,
-                                const char *name, enum kind kind) {
+static struct report_entry *make_entry(struct report *report,
+                                       const char *section, const char *name,
+                                       enum kind kind) {
   if (!report)
     return NULL;
-  struct entry *entry = look_up(report, section, name);
+  struct report_entry *entry = look_up(report, section, name);
   if (!entry) {
-    struct entry fresh = {.section = section, .name = name};
+    struct report_entry fresh = {.section = section, .name = name};
     if (!ARRAY_PUSH(&report->entry, fresh))
       return NULL;
     entry = &report->entry.item[report->entry.count - 1];
@@ -80,7 +81,7 @@ static struct entry *make_entry(struct report *report, const char *section,
 
 void report_int(struct report *report, const char *section, const char *name,
                 int64_t value) {
-  struct entry *entry = make_entry(report, section, name, KIND_INT);
+  struct report_entry *entry = make_entry(report, section, name, KIND_INT);
   if (entry)
     entry->integer = value;
 }
@@ -93,14 +94,14 @@ void report_add(struct report *report, const char *section, const char *name,
 
 void report_double(struct report *report, const char *section, const char *name,
                    double value) {
-  struct entry *entry = make_entry(report, section, name, KIND_DOUBLE);
+  struct report_entry *entry = make_entry(report, section, name, KIND_DOUBLE);
   if (entry)
     entry->number = value;
 }
 
 void report_doubles(struct report *report, const char *section,
                     const char *name, const double *value, size_t count) {
-  struct entry *entry = make_entry(report, section, name, KIND_DOUBLES);
+  struct report_entry *entry = make_entry(report, section, name, KIND_DOUBLES);
   if (!entry)
     return;
   entry->numbers = mem_alloc(count, sizeof *value);
@@ -113,7 +114,7 @@ void report_doubles(struct report *report, const char *section,
 
 void report_text(struct report *report, const char *section, const char *name,
                  const char *value) {
-  struct entry *entry = make_entry(report, section, name, KIND_TEXT);
+  struct report_entry *entry = make_entry(report, section, name, KIND_TEXT);
   if (!entry)
     return;
   size_t size = strlen(value) + 1;
@@ -124,7 +125,8 @@ void report_text(struct report *report, const char *section, const char *name,
 
 int64_t report_get(const struct report *report, const char *section,
                    const char *name, int64_t otherwise) {
-  const struct entry *entry = report ? look_up(report, section, name) : NULL;
+  const struct report_entry *entry =
+      report ? look_up(report, section, name) : NULL;
   return entry && entry->kind == KIND_INT ? entry->integer : otherwise;
 }
 
@@ -166,7 +168,7 @@ static void put_doubles(struct stream *stream, const double *value,
   stream_text(stream, "]");
 }
 
-static void put_entry(struct stream *stream, const struct entry *entry) {
+static void put_entry(struct stream *stream, const struct report_entry *entry) {
   put_text(stream, entry->name);
   stream_text(stream, ": ");
   switch (entry->kind) {
@@ -194,7 +196,7 @@ static void put_section(struct stream *stream, const struct report *report,
   put_text(stream, section);
   stream_text(stream, ": {\n");
   for (size_t i = first; i < report->entry.count; i++) {
-    const struct entry *entry = &report->entry.item[i];
+    const struct report_entry *entry = &report->entry.item[i];
     if (strcmp(entry->section, section) != 0)
       continue;
     stream_text(stream, i > first ? ",\n    " : "    ");

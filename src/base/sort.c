@@ -69,7 +69,7 @@ void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count) {
 
 /* ---- Merge sort ---------------------------------------------------------- */
 
-struct order {
+struct sort_order {
   size_t size;
   int (*compare)(const void *, const void *, void *);
   void *user;
@@ -77,7 +77,7 @@ struct order {
 
 /* Merges [0, left) and [left, count) of `from` into `to`; of equal items the
  * left one comes first. */
-static void merge(const struct order *order, const char *from, char *to,
+static void merge(const struct sort_order *order, const char *from, char *to,
                   size_t left, size_t count) {
   size_t size = order->size;
   const char *a = from, *a_end = from + left * size;
@@ -108,7 +108,7 @@ bool sort_stable(void *item, size_t count, size_t size,
   char *scratch = mem_alloc(count, size);
   if (!scratch)
     return false;
-  struct order order = {size, compare, user};
+  struct sort_order order = {size, compare, user};
   char *from = item, *to = scratch;
   for (size_t width = 1; width < count; width *= 2) {
     for (size_t i = 0; i < count; i += 2 * width) {

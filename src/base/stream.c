@@ -205,7 +205,7 @@ static void complete(struct stream *stream) {
     empty_buffer(stream);
 }
 
-static void hand_over(struct stream *stream) {
+static void exact_over(struct stream *stream) {
   if (!stream->is_memory && stream->target.kind == TARGET_DESCRIPTOR)
     empty_buffer(stream);
 }
@@ -291,7 +291,7 @@ recto_status stream_finish_all(struct stream *const *stream, size_t count,
   for (size_t i = count; i-- > 0 && status == RECTO_OK;) {
     if (stream[i] == NULL)
       continue;
-    hand_over(stream[i]);
+    exact_over(stream[i]);
     status = first_fault(stream, count, error);
   }
   if (status == RECTO_OK)

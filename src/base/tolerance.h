@@ -12,8 +12,8 @@
  * Derivation  an end point is rounded by at most 1/2 unit in x and in y, so by
  *             0.71 across any line; of two pieces of one line, each end lies
  *             within 2 * 0.71 = 1.41 of the other piece: rounded up.
- * Users       ink/nodes.c, ink/coincident.c, ink/overlap.c, ink/ruling.c,
- *             ink/hatch.c, visibility/pierce.c
+ * Users       ink/lines/nodes.c, ink/lines/overlap_collinear.c, ink/lines/overlap.c, ink/hatch/hatch_lines.c,
+ *             ink/hatch/hatch.c, visibility/intersection/intersection.c
  * Ten times   lines 20 nm apart, such as two models side by side, become one:
  *             still far below what a pen can show. */
 #define TOLERANCE_COINCIDENT_UNITS 2
@@ -23,7 +23,7 @@
  * Derivation  the points of a subdivided straight edge are rounded like any
  *             other, 1.41 units as above; those that TOLERANCE_COINCIDENT_UNITS
  *             moved are off by as much again in either direction, rarely.
- * Users       ink/straighten.c
+ * Users       ink/lines/straighten.c
  * Ten times   a finely divided circle loses points where it bends by less
  *             than 20 nm: shorter files, no visible change. */
 #define TOLERANCE_COLLINEAR_UNITS 2.0
@@ -34,7 +34,7 @@
  * Derivation  each unit normal is off by about 2 units in the last place and
  *             their product by as many again: 8 * 2^-53, so that a flat or a
  *             square joint is not a crease by rounding.
- * Users       scene/nature.c
+ * Users       scene/edge_classes.c
  * Ten times   joints within 5e-8 rad of the crease angle count as within. */
 #define TOLERANCE_CREASE_COSINE (8 * 0x1p-53)
 
@@ -87,7 +87,7 @@
  *             triangle; beyond the triangle, where the corners of another one
  *             are asked about, it grows with the distance over the
  *             triangle's width.
- * Users       visibility/hide.c, visibility/stance.c
+ * Users       visibility/predicate/occlusion.c, visibility/predicate/plane_filter.c
  * Ten times   faces 0.15 um apart on paper count as touching. */
 #define TOLERANCE_CONTACT_GRID_UNITS 16
 
@@ -139,7 +139,7 @@
  * Derivation  the areas of lobes that cancel add up to rounding noise, 2^-53 of
  *             the square for each of the corners: this leaves room for
  *             thousands.
- * Users       view/polygon.c, judge/cuts.c
+ * Users       view/polygon.c, judge/triangulation.c
  * Ten times   needles a hundred times thinner than they are wide today are
  *             seen along their thinnest extent; they are cut otherwise. */
 #define TOLERANCE_NO_AREA_SHARE 0x1p-40
@@ -173,7 +173,7 @@
 /* Curves of a drawing that is judged are as straight pieces off by no more.
  * Unit        mm
  * Derivation  what three decimals of a millimetre round.
- * Users       judge/svg_pen.c
+ * Users       judge/svg/svg_pen.c
  * Ten times   a third as many pieces; still a tenth of a fine pen. */
 #define TOLERANCE_CURVE_MM 1e-3
 
@@ -182,7 +182,7 @@
  * Derivation  sums of distances up to 2 m are rounded to 1e-12 mm; a gain
  *             well above it is a real one, so no two moves can undo each
  *             other for ever.
- * Users       ink/tour.c
+ * Users       ink/order/tour.c
  * Ten times   nothing that could be measured. */
 #define TOLERANCE_TRAVEL_MM 1e-6
 

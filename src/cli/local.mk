@@ -3,11 +3,11 @@ recto_SOURCES += \
   %D%/arguments.c %D%/arguments.h \
   %D%/descriptors.c %D%/descriptors.h \
   %D%/help.c \
-  %D%/job.c %D%/job.h \
   %D%/main.c \
   %D%/message.c %D%/message.h \
   %D%/options.c \
+  %D%/option_scope.c %D%/option_scope.h \
   %D%/progress.c %D%/progress.h \
+  %D%/run.c %D%/run.h \
   %D%/signals.c %D%/signals.h \
-  %D%/uses.c %D%/uses.h \
   %D%/value.c %D%/value.h

@@ -2,7 +2,7 @@
 #include <stdio.h>
 
 #include "cli/descriptors.h"
-#include "cli/job.h"
+#include "cli/run.h"
 #include "cli/message.h"
 
 int main(int argc, char **argv) {
@@ -15,7 +15,7 @@ int main(int argc, char **argv) {
     return EXIT_USAGE;
   }
   if (!arguments.help && !arguments.version)
-    return job_run(&arguments);
+    return cli_run(&arguments);
   if (arguments.help)
     help_print();
   else

@@ -14,17 +14,17 @@
 
 /* ---- A line, written in one piece ---------------------------------------- */
 
-struct line {
+struct message_line {
   char text[4096];
   size_t length;
 };
 
-static void flush_line(struct line *line) {
+static void flush_line(struct message_line *line) {
   (void)!fwrite(line->text, 1, line->length, stderr);
   line->length = 0;
 }
 
-static void put(struct line *line, const char *bytes, size_t count) {
+static void put(struct message_line *line, const char *bytes, size_t count) {
   if (count > sizeof line->text - line->length)
     flush_line(line);
   memcpy(line->text + line->length, bytes, count);
@@ -59,7 +59,7 @@ static bool is_obeyed(uint32_t code) {
          (code >= 0x2066 && code <= 0x2069);
 }
 
-static void put_escaped(struct line *line, unsigned char byte) {
+static void put_escaped(struct message_line *line, unsigned char byte) {
   char escape[5];
   int length = byte == '\n'   ? snprintf(escape, sizeof escape, "\\n")
                : byte == '\t' ? snprintf(escape, sizeof escape, "\\t")
@@ -67,7 +67,7 @@ static void put_escaped(struct line *line, unsigned char byte) {
   put(line, escape, (size_t)length);
 }
 
-static void put_visibly(struct line *line, const char *text) {
+static void put_visibly(struct message_line *line, const char *text) {
   while (*text != '\0') {
     const unsigned char *at = (const unsigned char *)text;
     uint32_t code;
@@ -84,7 +84,7 @@ static void put_visibly(struct line *line, const char *text) {
 }
 
 void message_print(const char *file, unsigned long line, const char *text) {
-  struct line whole = {.length = 0};
+  struct message_line whole = {.length = 0};
   char number[32];
   put(&whole, "recto: ", 7);
   put_visibly(&whole, file);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "cli/arguments.h"
-#include "cli/uses.h"
+#include "cli/option_scope.h"
 #include "cli/value.h"
 
 #define AT(member) offsetof(struct arguments, member)

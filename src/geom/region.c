@@ -81,15 +81,15 @@ static bool on_same_line(const struct segment *p, const struct segment *q) {
 
 /* ---- 2. Boundary along a line -------------------------------------------- */
 
-struct event {
+struct region_event {
   struct geom_corner at;
   int change; /* of the count of forward less backward sides */
 };
 
 static int compare_events(const void *a, const void *b, void *user) {
   (void)user;
-  return geom_corner_compare(&((const struct event *)a)->at,
-                             &((const struct event *)b)->at);
+  return geom_corner_compare(&((const struct region_event *)a)->at,
+                             &((const struct region_event *)b)->at);
 }
 
 static const struct geom_line *line_running(const struct segment *const *side,
@@ -102,13 +102,13 @@ static const struct geom_line *line_running(const struct segment *const *side,
 
 /* The boundary on the one line that `count` sides lie on. */
 static bool sweep_line(const struct segment *const *side, size_t count,
-                       struct event *event, segments *boundary) {
+                       struct region_event *event, segments *boundary) {
   struct geom_corner from = {0};
   int net = 0;
   for (size_t i = 0; i < count; i++) {
     int change = side[i]->forward ? 1 : -1;
-    event[2 * i] = (struct event){side[i]->low, change};
-    event[2 * i + 1] = (struct event){side[i]->high, -change};
+    event[2 * i] = (struct region_event){side[i]->low, change};
+    event[2 * i + 1] = (struct region_event){side[i]->high, -change};
   }
   if (!sort_stable(event, 2 * count, sizeof *event, compare_events, NULL))
     return false;
@@ -133,7 +133,7 @@ static bool sweep_line(const struct segment *const *side, size_t count,
 
 static bool find_boundary(const segments *sides, segments *boundary) {
   size_t n = sides->count;
-  struct event *event = mem_alloc(2 * n, sizeof *event);
+  struct region_event *event = mem_alloc(2 * n, sizeof *event);
   const struct segment **side = mem_alloc(n, sizeof *side);
   bool ok = event != NULL && side != NULL;
   for (size_t i = 0; ok && i < n; i++)
@@ -291,24 +291,24 @@ static int inside_loop(const struct geom_region *region,
 }
 
 /* A direction away from a corner: a line's, or the opposite one. */
-struct ray {
+struct region_ray {
   const struct geom_line *line;
   int sign;
 };
 
 /* Whether p is to the right of q; both are in the right half plane. */
-static bool is_lower(struct ray p, struct ray q) {
+static bool is_lower(struct region_ray p, struct region_ray q) {
   return geom_line_turn(p.line, q.line) * p.sign * q.sign > 0;
 }
 
 /* The lowest of a loop's directions away from its first corner.  Nothing of it
  * is to the left of that, nor below it. */
-static struct ray lowest_ray(const struct geom_region_side *side,
-                             uint32_t count) {
-  struct ray lowest = {side[0].line, 1};
+static struct region_ray lowest_ray(const struct geom_region_side *side,
+                                    uint32_t count) {
+  struct region_ray lowest = {side[0].line, 1};
   const struct geom_line *before = side[count - 1].line;
   for (uint32_t k = 0; k < count; k++) {
-    struct ray in = {before, -1}, out = {side[k].line, 1};
+    struct region_ray in = {before, -1}, out = {side[k].line, 1};
     before = side[k].line;
     if (geom_corner_compare(&side[k].corner, &side[0].corner) != 0)
       continue;

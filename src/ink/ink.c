@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "ink/fill.h"
+#include "ink/fill/fill.h"
 #include "ink/layers.h"
-#include "ink/order.h"
-#include "ink/paths.h"
-#include "ink/stroke.h"
+#include "ink/order/pen_path.h"
+#include "ink/lines/paths.h"
+#include "ink/lines/stroke.h"
 
 /* Dashes and gaps in pen widths: those of ISO 128's dashed line.  Round ends
  * make dashes look one width longer and gaps one shorter. */
@@ -28,34 +28,34 @@ struct ink {
 /* ---- Paths --------------------------------------------------------------- */
 
 /* What is drawn once, as a net, its ends indexed. */
-static recto_status make_net(struct ink *ink, struct net *net,
-                             recto_error *error) {
+static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
+                               recto_error *error) {
   struct report *report = ink->drawing->report;
-  struct net_rows rows = {0};
-  recto_status status =
-      net_collect(net, ink->sheet, ink->map, ink->pens, ink->options, error);
-  report_int(report, "ink", "segments", (int64_t)net->segment.count);
+  struct node_rows rows = {0};
+  recto_status status = segment_graph_collect(graph, ink->sheet, ink->map,
+                                              ink->pens, ink->options, error);
+  report_int(report, "ink", "segments", (int64_t)graph->segment.count);
   if (!status)
-    status = net_unite(net, &rows, error);
+    status = segment_graph_unite(graph, &rows, error);
   if (!status)
-    status = net_drop_coincident(net, &rows, error);
+    status = segment_graph_drop_collinear(graph, &rows, error);
   if (!status)
-    status = net_drop_repeats(
-        net, &rows, ink->options->unit_mm * SHEET_UNITS_PER_MM, error);
-  net_rows_fini(&rows);
-  report_int(report, "ink", "without_length", (int64_t)net->dots);
-  report_int(report, "ink", "drawn_twice", (int64_t)net->doubled);
+    status = segment_graph_drop_repeats(
+        graph, &rows, ink->options->unit_mm * SHEET_UNITS_PER_MM, error);
+  node_rows_fini(&rows);
+  report_int(report, "ink", "without_length", (int64_t)graph->dots);
+  report_int(report, "ink", "drawn_twice", (int64_t)graph->doubled);
   return status;
 }
 
 static recto_status make_paths(struct ink *ink, struct ink_paths *paths,
                                recto_error *error) {
-  struct net net;
-  net_init(&net);
-  recto_status status = make_net(ink, &net, error);
+  struct segment_graph graph;
+  segment_graph_init(&graph);
+  recto_status status = make_graph(ink, &graph, error);
   if (!status)
-    status = paths_chain(paths, &net, error);
-  net_fini(&net);
+    status = paths_chain(paths, &graph, error);
+  segment_graph_fini(&graph);
   if (status)
     return status;
   paths_straighten(paths, ink->options->unit_mm * SHEET_UNITS_PER_MM);
@@ -65,10 +65,11 @@ static recto_status make_paths(struct ink *ink, struct ink_paths *paths,
   return status;
 }
 
-/* In each round of net_drop_repeats a line moves by a unit at most in x and in
+/* In each round of segment_graph_drop_repeats a line moves by a unit at most in x and in
  * y, in paths_straighten by half a unit. */
 double ink_drift_mm(const recto_options *options) {
-  return options->simplify_mm + (NET_ROUNDS * sqrt(2) + 0.5) * options->unit_mm;
+  return options->simplify_mm +
+         (SEGMENT_GRAPH_ROUNDS * sqrt(2) + 0.5) * options->unit_mm;
 }
 
 /* ---- Strokes ------------------------------------------------------------- */
@@ -177,7 +178,7 @@ static bool add_fills(struct ink *ink) {
     return fill_add(ink->drawing, ink->sheet, ink->scene, ink->map,
                     ink->options);
   case RECTO_FILL_HATCH:
-    return (is_lit(ink->options) ? engrave_add : hatch_add)(
+    return (is_lit(ink->options) ? tone_hatch_add : hatch_add)(
         ink->drawing, ink->sheet, ink->scene, ink->map, ink->pens,
         ink->options);
   case RECTO_FILL_NONE:
@@ -193,12 +194,12 @@ static bool finish_drawing(struct ink *ink) {
   report_double(report, "ink", "travel_before_mm",
                 drawing_travel_mm(ink->drawing));
   if (ink->options->order == RECTO_ORDER_NEAR &&
-      !order_near(ink->drawing, &order_usual_effort))
+      !pen_path_order(ink->drawing, &pen_path_usual_effort))
     return false;
   report_double(report, "ink", "travel_mm", drawing_travel_mm(ink->drawing));
   report_int(report, "ink", "too_short", ink->too_short);
   report_int(report, "ink", "pen_lifts",
-             (int64_t)order_pen_lifts(ink->drawing));
+             (int64_t)pen_path_pen_lifts(ink->drawing));
   return true;
 }
 

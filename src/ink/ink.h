@@ -2,7 +2,7 @@
 #ifndef INK_INK_H
 #define INK_INK_H
 
-#include "ink/drawing.h"
+#include "drawing/drawing.h"
 #include "visibility/map.h"
 
 /* How far a line may be drawn from what it is the line of, mm: by simplifying,

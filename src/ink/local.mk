@@ -1,34 +1,36 @@
-# src/ink/local.mk - the sources of this layer.
+# src/ink/local.mk - from the visible map to a drawing.
 librecto_core_la_SOURCES += \
-  %D%/blur.c %D%/blur.h \
-  %D%/chain.c \
-  %D%/cuts.c %D%/cuts.h \
-  %D%/coincident.c \
-  %D%/dash.c \
-  %D%/drawing.c %D%/drawing.h \
-  %D%/engrave.c \
-  %D%/fill.c %D%/fill.h %D%/hatch.c \
   %D%/ink.c %D%/ink.h \
-  %D%/inset.c %D%/inset.h \
   %D%/layers.c %D%/layers.h \
-  %D%/nearest.c %D%/nearest.h \
-  %D%/light.c %D%/light.h \
-  %D%/merge.c %D%/merge.h \
-  %D%/net.h %D%/nodes.c \
-  %D%/order.c %D%/order.h \
-  %D%/outline.c %D%/outline.h \
-  %D%/overlap.c %D%/overlap.h \
-  %D%/pairing.c %D%/pairing.h \
-  %D%/patches.c %D%/patches.h \
-  %D%/paths.h \
-  %D%/pens.c %D%/pens.h %D%/pens_idle.c \
-  %D%/repeats.c \
-  %D%/ruling.c %D%/ruling.h \
-  %D%/runs.c %D%/runs.h \
-  %D%/segments.c \
-  %D%/simplify.c \
-  %D%/straighten.c \
-  %D%/stroke.c %D%/stroke.h \
-  %D%/tone.c %D%/tone.h \
-  %D%/tour.c %D%/tour.h \
-  %D%/walk.c %D%/walk.h
+  %D%/pens.c %D%/pens.h \
+  %D%/pens_warn_unused.c \
+  %D%/fill/fill.c %D%/fill/fill.h \
+  %D%/fill/light.c %D%/fill/light.h \
+  %D%/fill/merge.c %D%/fill/merge.h \
+  %D%/fill/outline.c %D%/fill/outline.h \
+  %D%/hatch/hatch.c \
+  %D%/hatch/hatch_lines.c %D%/hatch/hatch_lines.h \
+  %D%/hatch/hatch_regions.c %D%/hatch/hatch_regions.h \
+  %D%/hatch/hatch_runs.c %D%/hatch/hatch_runs.h \
+  %D%/hatch/inset.c %D%/hatch/inset.h \
+  %D%/hatch/shared_sides.c %D%/hatch/shared_sides.h \
+  %D%/hatch/tone.c %D%/hatch/tone.h \
+  %D%/hatch/tone_hatch.c \
+  %D%/lines/chain.c \
+  %D%/lines/dash.c \
+  %D%/lines/nodes.c \
+  %D%/lines/nodes_near_segment.c %D%/lines/nodes_near_segment.h \
+  %D%/lines/overlap.c %D%/lines/overlap.h \
+  %D%/lines/overlap_collinear.c \
+  %D%/lines/overlap_output.c \
+  %D%/lines/pairing.c %D%/lines/pairing.h \
+  %D%/lines/paths.h \
+  %D%/lines/segment_graph.h \
+  %D%/lines/segments.c \
+  %D%/lines/simplify.c \
+  %D%/lines/straighten.c \
+  %D%/lines/stroke.c %D%/lines/stroke.h \
+  %D%/lines/vertex_snapping.c %D%/lines/vertex_snapping.h \
+  %D%/order/nearest.c %D%/order/nearest.h \
+  %D%/order/pen_path.c %D%/order/pen_path.h \
+  %D%/order/tour.c %D%/order/tour.h

@@ -6,7 +6,7 @@
 #ifndef INK_PENS_H
 #define INK_PENS_H
 
-#include "ink/drawing.h"
+#include "drawing/drawing.h"
 #include "scene/scene.h"
 
 #define PENS_MOST 1000
@@ -45,7 +45,7 @@ bool pens_is_drawn(const recto_options *options, unsigned place);
 
 /* Warns of what was said about pens that have nothing to draw by the options,
  * and about weights of lines that are not asked for. */
-void pens_tell_idle(const struct pens *pens, const recto_options *options);
+void pens_warn_unused(const struct pens *pens, const recto_options *options);
 
 /* The pen of visible lines of a class, of hidden ones, of hatching, of fills.
  */

@@ -5,32 +5,33 @@
 #include "judge/edges.h"
 
 /* Fills one row of the matrix: (direction, offset). */
-static void set_row(double row[4], struct judge_spot direction, double offset) {
+static void set_row(double row[4], struct judge_point3 direction,
+                    double offset) {
   row[0] = direction.x;
   row[1] = direction.y;
   row[2] = direction.z;
   row[3] = offset;
 }
 
-void judge_camera_look(struct judge_camera *camera, struct judge_spot eye,
-                       struct judge_spot target, struct judge_spot up,
+void judge_camera_look(struct judge_camera *camera, struct judge_point3 eye,
+                       struct judge_point3 target, struct judge_point3 up,
                        double fov_deg, double width_mm, double height_mm,
                        double margin_mm) {
   memset(camera, 0, sizeof *camera);
-  struct judge_spot zero = {0, 0, 0};
-  struct judge_spot ahead = spot_unit(spot_sub(target, eye));
-  struct judge_spot right = spot_unit(spot_cross(ahead, up));
-  struct judge_spot above = spot_cross(right, ahead);
+  struct judge_point3 zero = {0, 0, 0};
+  struct judge_point3 ahead = spot_unit(point3_sub(target, eye));
+  struct judge_point3 right = spot_unit(point3_cross(ahead, up));
+  struct judge_point3 above = point3_cross(right, ahead);
   double half_fov = fov_deg / 360 * acos(-1);
   double s = (height_mm - 2 * margin_mm) / (2 * tan(half_fov));
   /* page = middle + s (x, y) / d: row = middle d-row + s x-row. */
-  struct judge_spot x =
+  struct judge_point3 x =
       spot_along(spot_along(zero, s, right), width_mm / 2, ahead);
-  struct judge_spot y =
+  struct judge_point3 y =
       spot_along(spot_along(zero, s, above), height_mm / 2, ahead);
-  set_row(camera->matrix, x, -spot_dot(x, eye));
-  set_row(camera->matrix + 4, y, -spot_dot(y, eye));
-  set_row(camera->matrix + 8, ahead, -spot_dot(ahead, eye));
+  set_row(camera->matrix, x, -point3_dot(x, eye));
+  set_row(camera->matrix + 4, y, -point3_dot(y, eye));
+  set_row(camera->matrix + 8, ahead, -point3_dot(ahead, eye));
   camera->perspective = true;
   camera->eye = eye;
   camera->back = spot_along(zero, -1, ahead);
@@ -38,8 +39,8 @@ void judge_camera_look(struct judge_camera *camera, struct judge_spot eye,
   camera->height_mm = height_mm;
 }
 
-static struct judge_spot spot_of(const double xyz[3]) {
-  return judge_spot_of(xyz[0], xyz[1], xyz[2]);
+static struct judge_point3 spot_of(const double xyz[3]) {
+  return judge_point3_of(xyz[0], xyz[1], xyz[2]);
 }
 
 void judge_camera_axes(struct judge_camera *camera, const double right[3],
@@ -47,7 +48,7 @@ void judge_camera_axes(struct judge_camera *camera, const double right[3],
                        const double eye[3], bool perspective, double s,
                        const double middle_mm[2], const double page_mm[2]) {
   const double *axis[2] = {right, up};
-  const struct judge_spot zero = {0, 0, 0};
+  const struct judge_point3 zero = {0, 0, 0};
   memset(camera, 0, sizeof *camera);
   camera->perspective = perspective;
   camera->eye = spot_of(eye);
@@ -55,63 +56,66 @@ void judge_camera_axes(struct judge_camera *camera, const double right[3],
   camera->near_d = -INFINITY;
   camera->width_mm = page_mm[0];
   camera->height_mm = page_mm[1];
-  struct judge_spot ahead = spot_along(zero, -1, camera->back);
+  struct judge_point3 ahead = spot_along(zero, -1, camera->back);
   for (int k = 0; k < 2; k++) {
-    struct judge_spot row = spot_along(zero, s, spot_of(axis[k]));
+    struct judge_point3 row = spot_along(zero, s, spot_of(axis[k]));
     if (perspective)
       row = spot_along(row, middle_mm[k], ahead);
     set_row(camera->matrix + 4 * k, row,
-            (perspective ? 0 : middle_mm[k]) - spot_dot(row, camera->eye));
+            (perspective ? 0 : middle_mm[k]) - point3_dot(row, camera->eye));
   }
   if (perspective)
-    set_row(camera->matrix + 8, ahead, -spot_dot(ahead, camera->eye));
+    set_row(camera->matrix + 8, ahead, -point3_dot(ahead, camera->eye));
   else
     set_row(camera->matrix + 8, zero, 1);
 }
 
 /* The spot that the matrix maps to nothing: where its three planes meet. */
-static struct judge_spot common_spot(const double m[12]) {
-  struct judge_spot a = {m[0], m[1], m[2]}, b = {m[4], m[5], m[6]};
-  struct judge_spot c = {m[8], m[9], m[10]}, zero = {0, 0, 0};
-  double volume = spot_dot(a, spot_cross(b, c));
-  struct judge_spot spot = spot_along(zero, -m[3] / volume, spot_cross(b, c));
-  spot = spot_along(spot, -m[7] / volume, spot_cross(c, a));
-  return spot_along(spot, -m[11] / volume, spot_cross(a, b));
+static struct judge_point3 common_spot(const double m[12]) {
+  struct judge_point3 a = {m[0], m[1], m[2]}, b = {m[4], m[5], m[6]};
+  struct judge_point3 c = {m[8], m[9], m[10]}, zero = {0, 0, 0};
+  double volume = point3_dot(a, point3_cross(b, c));
+  struct judge_point3 position =
+      spot_along(zero, -m[3] / volume, point3_cross(b, c));
+  position = spot_along(position, -m[7] / volume, point3_cross(c, a));
+  return spot_along(position, -m[11] / volume, point3_cross(a, b));
 }
 
 void judge_camera_matrix(struct judge_camera *camera, const double matrix[12],
                          double width_mm, double height_mm) {
-  struct judge_spot third = {matrix[8], matrix[9], matrix[10]};
+  struct judge_point3 third = {matrix[8], matrix[9], matrix[10]};
   memset(camera, 0, sizeof *camera);
-  camera->perspective = spot_length(third) > 0;
+  camera->perspective = point3_length(third) > 0;
   /* A depth in scene units, or the plain 1 of an orthographic view. */
-  double scale = camera->perspective ? 1 / spot_length(third) : 1 / matrix[11];
+  double scale =
+      camera->perspective ? 1 / point3_length(third) : 1 / matrix[11];
   for (int i = 0; i < 12; i++)
     camera->matrix[i] = matrix[i] * scale;
   if (camera->perspective) {
     camera->eye = common_spot(camera->matrix);
-    camera->back = spot_unit(judge_spot_of(-third.x, -third.y, -third.z));
+    camera->back = spot_unit(judge_point3_of(-third.x, -third.y, -third.z));
   } else {
     camera->near_d = -INFINITY;
-    struct judge_spot x = {matrix[0], matrix[1], matrix[2]};
-    struct judge_spot y = {matrix[4], matrix[5], matrix[6]};
-    camera->back = spot_unit(spot_cross(x, y));
+    struct judge_point3 x = {matrix[0], matrix[1], matrix[2]};
+    struct judge_point3 y = {matrix[4], matrix[5], matrix[6]};
+    camera->back = spot_unit(point3_cross(x, y));
   }
   camera->width_mm = width_mm;
   camera->height_mm = height_mm;
 }
 
-static double apply_row(const double row[4], struct judge_spot p) {
+static double apply_row(const double row[4], struct judge_point3 p) {
   return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
 }
 
-double judge_depth(const struct judge_camera *camera, struct judge_spot p) {
+double judge_depth(const struct judge_camera *camera, struct judge_point3 p) {
   return apply_row(camera->matrix + 8, p);
 }
 
-double judge_ahead(const struct judge_camera *camera, struct judge_spot p) {
-  return camera->perspective ? judge_depth(camera, p)
-                             : spot_dot(camera->back, spot_sub(camera->eye, p));
+double judge_ahead(const struct judge_camera *camera, struct judge_point3 p) {
+  return camera->perspective
+             ? judge_depth(camera, p)
+             : point3_dot(camera->back, point3_sub(camera->eye, p));
 }
 
 /* Depths that the near plane cuts are rounded as all others are: at either end
@@ -128,23 +132,23 @@ double judge_near(const struct judge_camera *camera) {
   return camera->near_d - judge_near_slack(camera);
 }
 
-struct judge_place judge_project(const struct judge_camera *camera,
-                                 struct judge_spot p) {
+struct judge_point2 judge_project(const struct judge_camera *camera,
+                                  struct judge_point3 p) {
   double depth = judge_depth(camera, p);
-  return (struct judge_place){apply_row(camera->matrix, p) / depth,
-                              apply_row(camera->matrix + 4, p) / depth};
+  return (struct judge_point2){apply_row(camera->matrix, p) / depth,
+                               apply_row(camera->matrix + 4, p) / depth};
 }
 
 /* With P's image at m(P) / d(P), a step v that keeps the depth moves it by
  * (row_x . v, row_y . v) / d.  Of all such v the one wanted is a combination
  * of the rows' parts across the view direction. */
-struct judge_spot judge_shift(const struct judge_camera *camera,
-                              struct judge_spot p, double dx, double dy) {
+struct judge_point3 judge_shift(const struct judge_camera *camera,
+                                struct judge_point3 p, double dx, double dy) {
   const double *m = camera->matrix;
-  struct judge_spot x = {m[0], m[1], m[2]}, y = {m[4], m[5], m[6]};
-  x = spot_along(x, -spot_dot(x, camera->back), camera->back);
-  y = spot_along(y, -spot_dot(y, camera->back), camera->back);
+  struct judge_point3 x = {m[0], m[1], m[2]}, y = {m[4], m[5], m[6]};
+  x = spot_along(x, -point3_dot(x, camera->back), camera->back);
+  y = spot_along(y, -point3_dot(y, camera->back), camera->back);
   double depth = judge_depth(camera, p);
-  p = spot_along(p, dx * depth / spot_dot(x, x), x);
-  return spot_along(p, dy * depth / spot_dot(y, y), y);
+  p = spot_along(p, dx * depth / point3_dot(x, x), x);
+  return spot_along(p, dy * depth / point3_dot(y, y), y);
 }

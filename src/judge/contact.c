@@ -14,12 +14,12 @@ static double error_of(const struct judge_options *options,
 static double contact_of(const struct judge_options *options,
                          const struct scene *scene,
                          const struct judge_triangle *t) {
-  struct judge_spot error = {0, 0, 0};
+  struct judge_point3 error = {0, 0, 0};
   for (uint32_t c = scene->face_start.item[t->face];
        c < scene->face_start.item[t->face + 1]; c++) {
     uint32_t point = scene->corner.item[c];
-    struct judge_spot at =
-        spot_along(options->origin, 1, judge_spot_at(scene, point));
+    struct judge_point3 at =
+        spot_along(options->origin, 1, judge_point3_at(scene, point));
     error.x = fmax(error.x, error_of(options, scene, point, at.x));
     error.y = fmax(error.y, error_of(options, scene, point, at.y));
     error.z = fmax(error.z, error_of(options, scene, point, at.z));

@@ -13,8 +13,8 @@ struct judge_source {
 };
 
 struct judge_edge {
-  struct judge_spot p[2];   /* cut off before the eye */
-  struct judge_place at[2]; /* their images */
+  struct judge_point3 p[2];  /* cut off before the eye */
+  struct judge_point2 at[2]; /* their images */
   double depth[2];
   struct judge_source source;
 };
@@ -35,31 +35,31 @@ void judge_edges_fini(struct judge_edges *edges);
 /* Adds an edge between two spots, or the part of it before the eye. */
 USE_RESULT bool judge_edges_add(struct judge_edges *edges,
                                 const struct judge_camera *camera,
-                                struct judge_spot a, struct judge_spot b,
+                                struct judge_point3 a, struct judge_point3 b,
                                 const struct judge_source *source);
 
-/* Adds the lines where triangles pierce each other (pierced.c). */
-USE_RESULT bool judge_edges_pierced(struct judge_edges *edges,
-                                    const struct judge_triangles *all,
-                                    const struct judge_camera *camera,
-                                    double hair_mm);
+/* Adds the lines where triangles pierce each other (intersections.c). */
+USE_RESULT bool judge_edges_intersections(struct judge_edges *edges,
+                                          const struct judge_triangles *all,
+                                          const struct judge_camera *camera,
+                                          double hair_mm);
 
 /* ---- Projection (camera.c) ----------------------------------------------- */
 
 /* How far a spot is ahead of the eye. */
-double judge_ahead(const struct judge_camera *camera, struct judge_spot p);
+double judge_ahead(const struct judge_camera *camera, struct judge_point3 p);
 /* What the image is divided by: that in perspective; 1 in an orthographic
  * view. */
-double judge_depth(const struct judge_camera *camera, struct judge_spot p);
+double judge_depth(const struct judge_camera *camera, struct judge_point3 p);
 /* How far rounding may move what the near plane cuts; 0 where it cuts nothing.
  */
 double judge_near_slack(const struct judge_camera *camera);
 /* The near distance, less that: what stands on it is drawn. */
 double judge_near(const struct judge_camera *camera);
-struct judge_place judge_project(const struct judge_camera *camera,
-                                 struct judge_spot p);
+struct judge_point2 judge_project(const struct judge_camera *camera,
+                                  struct judge_point3 p);
 /* The spot of the same depth whose image is (dx, dy) mm away. */
-struct judge_spot judge_shift(const struct judge_camera *camera,
-                              struct judge_spot p, double dx, double dy);
+struct judge_point3 judge_shift(const struct judge_camera *camera,
+                                struct judge_point3 p, double dx, double dy);
 
 #endif

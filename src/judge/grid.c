@@ -55,10 +55,10 @@ static size_t enter(struct judge_grid *grid, uint32_t i, uint32_t *fill) {
     uint32_t end = cell_of(x1 + reach, cell, grid->columns);
     for (uint32_t column = cell_of(x0 - reach, cell, grid->columns);
          column <= end; column++) {
-      uint32_t *place = &fill[row * grid->columns + column];
+      uint32_t *page_point = &fill[row * grid->columns + column];
       if (grid->item != NULL)
-        grid->item[*place] = i;
-      ++*place;
+        grid->item[*page_point] = i;
+      ++*page_point;
       visited++;
     }
   }
@@ -121,7 +121,7 @@ void judge_grid_fini(struct judge_grid *grid) {
 }
 
 const uint32_t *judge_grid_near(const struct judge_grid *grid,
-                                struct judge_place at, uint32_t *count) {
+                                struct judge_point2 at, uint32_t *count) {
   uint32_t column = cell_of(at.x, grid->cell_mm, grid->columns);
   uint32_t row = cell_of(at.y, grid->cell_mm, grid->rows);
   size_t cell = (size_t)row * grid->columns + column;
@@ -130,7 +130,7 @@ const uint32_t *judge_grid_near(const struct judge_grid *grid,
 }
 
 double judge_distance(const struct judge_segment *segment,
-                      struct judge_place at, double *t) {
+                      struct judge_point2 at, double *t) {
   double dx = segment->b.x - segment->a.x, dy = segment->b.y - segment->a.y;
   double square = dx * dx + dy * dy;
   double px = at.x - segment->a.x, py = at.y - segment->a.y;
@@ -141,8 +141,8 @@ double judge_distance(const struct judge_segment *segment,
 
 /* The distance to the line through it says no for most, without a division;
  * its square is reckoned to far better than the factor. */
-bool judge_is_within(const struct judge_segment *segment, struct judge_place at,
-                     double reach) {
+bool judge_is_within(const struct judge_segment *segment,
+                     struct judge_point2 at, double reach) {
   double dx = segment->b.x - segment->a.x, dy = segment->b.y - segment->a.y;
   double px = at.x - segment->a.x, py = at.y - segment->a.y;
   double area = dx * py - dy * px, t;

@@ -5,7 +5,7 @@
 #include "judge/triangles.h"
 
 struct judge_segment {
-  struct judge_place a, b;
+  struct judge_point2 a, b;
 };
 
 struct judge_grid {
@@ -29,14 +29,14 @@ void judge_grid_fini(struct judge_grid *grid);
 
 /* The segments that may be within reach of a place; *count of them. */
 const uint32_t *judge_grid_near(const struct judge_grid *grid,
-                                struct judge_place at, uint32_t *count);
+                                struct judge_point2 at, uint32_t *count);
 
 /* The distance from a place to a segment; where along it, 0 to 1, in *t. */
 double judge_distance(const struct judge_segment *segment,
-                      struct judge_place at, double *t);
+                      struct judge_point2 at, double *t);
 
 /* Whether that distance is at most `reach`. */
-bool judge_is_within(const struct judge_segment *segment, struct judge_place at,
-                     double reach);
+bool judge_is_within(const struct judge_segment *segment,
+                     struct judge_point2 at, double reach);
 
 #endif

@@ -39,7 +39,7 @@ struct judge_stroke {
 
 struct judge_drawing {
   double width_mm, height_mm;
-  ARRAY(struct judge_place) point; /* mm, y up from the lower left corner */
+  ARRAY(struct judge_point2) point; /* mm, y up from the lower left corner */
   ARRAY(struct judge_stroke) stroke;
 };
 
@@ -60,11 +60,11 @@ struct judge_camera {
   double matrix[12]; /* model to page mm, homogeneous, row by row; the third
                         row is the depth in front of the eye (perspective) */
   bool perspective;
-  struct judge_spot eye;  /* orthographic: near_d counts from it */
-  struct judge_spot back; /* unit, towards the viewer */
-  double near_d;          /* nothing nearer to the eye is drawn; perspective:
+  struct judge_point3 eye;  /* orthographic: near_d counts from it */
+  struct judge_point3 back; /* unit, towards the viewer */
+  double near_d;            /* nothing nearer to the eye is drawn; perspective:
                              0 or more; orthographic: -INFINITY cuts nothing */
-  double depth_step;      /* what rounding does to depths: scene units, in
+  double depth_step;        /* what rounding does to depths: scene units, in
                              perspective those of 1 / d; 0: nothing */
   double width_mm, height_mm;
   double margin_mm; /* edges are drawn inside of it alone */
@@ -72,8 +72,8 @@ struct judge_camera {
 
 /* As the design says of --no-fit: camera coordinates (x, y, -d) fall on the
  * page at (W/2 + s x/d, H/2 + s y/d), s = (H - 2 margin) / (2 tan(fov/2)). */
-void judge_camera_look(struct judge_camera *camera, struct judge_spot eye,
-                       struct judge_spot target, struct judge_spot up,
+void judge_camera_look(struct judge_camera *camera, struct judge_point3 eye,
+                       struct judge_point3 target, struct judge_point3 up,
                        double fov_deg, double width_mm, double height_mm,
                        double margin_mm);
 
@@ -100,8 +100,8 @@ struct judge_options {
   double hair_mm;    /* see above: well above the page grid */
   double contact;    /* scene units, as the drawing was made with; negative:
                         what rounding of the coordinates explains of a face */
-  struct precision unstated; /* of points whose precision nobody stated */
-  struct judge_spot origin;  /* what was subtracted from all points, so that
+  struct precision unstated;  /* of points whose precision nobody stated */
+  struct judge_point3 origin; /* what was subtracted from all points, so that
                                 their precision is known */
   double crease_deg;
   unsigned edges; /* classes asked for, a mask of recto_edge_class */
@@ -120,12 +120,12 @@ void judge_options_init(struct judge_options *options);
 
 /* What shows a drawing to be wrong. */
 struct judge_witness {
-  struct judge_place at;
-  bool on_edge;           /* false: no edge is there, and so none of these */
-  struct judge_spot spot; /* of the edge, seen or hidden */
-  uint32_t point[2];      /* the edge's ends; SCENE_NONE: an intersection */
-  uint32_t face[2];       /* two of its faces; SCENE_NONE */
-  uint32_t blocker;       /* the face that hides it; SCENE_NONE */
+  struct judge_point2 at;
+  bool on_edge; /* false: no edge is there, and so none of these */
+  struct judge_point3 position; /* of the edge, seen or hidden */
+  uint32_t point[2]; /* the edge's ends; SCENE_NONE: an intersection */
+  uint32_t face[2];  /* two of its faces; SCENE_NONE */
+  uint32_t blocker;  /* the face that hides it; SCENE_NONE */
 };
 
 /* Samples, and the length in mm that they stand for. */

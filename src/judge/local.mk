@@ -1,17 +1,18 @@
 # src/judge/local.mk - the independent judge: sees the scene alone.
 librecto_core_la_SOURCES += \
-  %D%/camera.c %D%/contact.c %D%/contact.h \
-  %D%/cuts.c %D%/cuts.h \
-  %D%/ears.c %D%/ears.h \
+  %D%/camera.c \
+  %D%/contact.c %D%/contact.h \
+  %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/edges.c %D%/edges.h \
-  %D%/gaze.c %D%/gaze.h \
   %D%/grid.c %D%/grid.h \
+  %D%/intersections.c \
   %D%/judge.c %D%/judge.h \
   %D%/missing_run.c %D%/missing_run.h \
-  %D%/pierced.c \
-  %D%/sight.c %D%/sight.h \
-  %D%/svg.c \
-  %D%/svg_path.c %D%/svg_path.h \
-  %D%/svg_pen.c %D%/svg_pen.h \
-  %D%/svg_scan.c %D%/svg_scan.h \
-  %D%/triangles.c %D%/triangles.h
+  %D%/ray.c %D%/ray.h \
+  %D%/sampler.c %D%/sampler.h \
+  %D%/triangles.c %D%/triangles.h \
+  %D%/triangulation.c %D%/triangulation.h \
+  %D%/svg/svg.c \
+  %D%/svg/svg_path.c %D%/svg/svg_path.h \
+  %D%/svg/svg_pen.c %D%/svg/svg_pen.h \
+  %D%/svg/svg_scan.c %D%/svg/svg_scan.h

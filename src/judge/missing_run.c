@@ -25,8 +25,8 @@ enum {
 /* An end of an edge that leaves a place. */
 struct fan_end {
   uint32_t edge;
-  int side;                /* which of the edge's ends is there */
-  struct judge_place away; /* unit */
+  int side;                 /* which of the edge's ends is there */
+  struct judge_point2 away; /* unit */
 };
 
 struct fan {
@@ -52,11 +52,11 @@ static double image_length(const struct judge_segment *s) {
 }
 
 static bool is_visible(const struct judge_missing_run *run, uint32_t number,
-                       double t, enum judge_sight *sight) {
+                       double t, enum judge_visibility *visibility) {
   const struct judge_edge *edge = &run->edges->edge.item[number];
-  *sight = judge_look_around(run->gazer, edge, judge_spot_of_image(edge, t),
-                             JUDGE_CLEAR, NULL);
-  return *sight == JUDGE_CLEAR;
+  *visibility = judge_look_around(
+      run->sampler, edge, judge_point3_of_image(edge, t), JUDGE_CLEAR, NULL);
+  return *visibility == JUDGE_CLEAR;
 }
 
 /* ---- From edge to edge --------------------------------------------------- */
@@ -66,7 +66,7 @@ static bool is_alike(const struct judge_missing_run *run, uint32_t a,
                      uint32_t b) {
   const struct judge_source *s = &run->edges->edge.item[a].source;
   const struct judge_source *t = &run->edges->edge.item[b].source;
-  const struct scene *scene = run->gazer->all->scene;
+  const struct scene *scene = run->sampler->all->scene;
   if ((s->natures & -s->natures) != (t->natures & -t->natures))
     return false;
   return s->face[0] == SCENE_NONE || t->face[0] == SCENE_NONE ||
@@ -76,9 +76,9 @@ static bool is_alike(const struct judge_missing_run *run, uint32_t a,
 
 /* Whether another end of the fan leaves in the same direction: of edges with
  * one image one is drawn. */
-static bool is_double(const struct fan *fan, struct judge_place away) {
+static bool is_double(const struct fan *fan, struct judge_point2 away) {
   for (uint32_t i = 0; i < fan->count; i++) {
-    const struct judge_place *other = &fan->end[i].away;
+    const struct judge_point2 *other = &fan->end[i].away;
     if (fabs(away.x * other->y - away.y * other->x) < TOLERANCE_JUDGE_ANGLE &&
         away.x * other->x + away.y * other->y > 0)
       return true;
@@ -92,14 +92,14 @@ static bool add_end(const struct judge_missing_run *run, struct fan *fan,
                     uint32_t edge, int side, bool is_first) {
   const struct judge_segment *s = image_of(run, edge);
   double length = image_length(s), sign = (side ? -1 : 1) / length;
-  const struct judge_place away = {(s->b.x - s->a.x) * sign,
-                                   (s->b.y - s->a.y) * sign};
+  const struct judge_point2 away = {(s->b.x - s->a.x) * sign,
+                                    (s->b.y - s->a.y) * sign};
   if (!(length > 0) || is_double(fan, away))
     return true;
   double in = fmin(0.5, run->shortest_mm / PARTS / length);
-  enum judge_sight sight;
-  if (!is_first && !is_visible(run, edge, side ? 1 - in : in, &sight))
-    return sight == JUDGE_BLOCKED;
+  enum judge_visibility visibility;
+  if (!is_first && !is_visible(run, edge, side ? 1 - in : in, &visibility))
+    return visibility == JUDGE_BLOCKED;
   if (fan->count == FAN_MOST)
     return false;
   fan->end[fan->count++] = (struct fan_end){edge, side, away};
@@ -110,7 +110,7 @@ static bool add_end(const struct judge_missing_run *run, struct fan *fan,
  * first; false where they are not sure. */
 static bool find_fan(const struct judge_missing_run *run, struct fan *fan,
                      uint32_t edge, int side) {
-  struct judge_place at =
+  struct judge_point2 at =
       side ? image_of(run, edge)->b : image_of(run, edge)->a;
   uint32_t count;
   const uint32_t *near = judge_grid_near(run->by_image, at, &count);
@@ -119,8 +119,8 @@ static bool find_fan(const struct judge_missing_run *run, struct fan *fan,
   for (uint32_t i = 0; ok && i < count; i++) {
     const struct judge_segment *s = image_of(run, near[i]);
     for (int k = 0; ok && k < 2; k++) {
-      struct judge_place end = k ? s->b : s->a;
-      if (hypot(end.x - at.x, end.y - at.y) <= run->gazer->hair_mm &&
+      struct judge_point2 end = k ? s->b : s->a;
+      if (hypot(end.x - at.x, end.y - at.y) <= run->sampler->hair_mm &&
           near[i] != edge && run->is_asked_for(run->user, near[i]) &&
           is_alike(run, edge, near[i]))
         ok = add_end(run, fan, near[i], k, false);
@@ -182,18 +182,18 @@ static bool walk_edge(struct walk *walk, uint32_t edge, double t, int side,
   const struct judge_missing_run *run = walk->run;
   const struct judge_segment *s = image_of(run, edge);
   double part[2];
-  if (!judge_cut_to_page(run->gazer->camera, s->a, s->b, &part[0], &part[1]))
+  if (!judge_cut_to_page(run->sampler->camera, s->a, s->b, &part[0], &part[1]))
     return false;
   double way = part[side] - t, mm = fabs(way) * image_length(s);
   double count = fmax(1, ceil(mm * PARTS / run->shortest_mm));
   for (double i = 0; i < count && !is_done(walk); i++) {
     double at = t + (i + 0.5) / count * way;
-    struct judge_place place = {s->a.x + at * (s->b.x - s->a.x),
-                                s->a.y + at * (s->b.y - s->a.y)};
-    enum judge_sight sight;
+    struct judge_point2 page_point = {s->a.x + at * (s->b.x - s->a.x),
+                                      s->a.y + at * (s->b.y - s->a.y)};
+    enum judge_visibility visibility;
     walk->steps++;
-    if ((bare && run->has_ink(run->user, place)) ||
-        !is_visible(run, edge, at, &sight))
+    if ((bare && run->has_ink(run->user, page_point)) ||
+        !is_visible(run, edge, at, &visibility))
       return false;
     walk->length += mm / count;
   }

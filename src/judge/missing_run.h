@@ -2,17 +2,17 @@
 #ifndef JUDGE_MISSING_RUN_H
 #define JUDGE_MISSING_RUN_H
 
-#include "judge/gaze.h"
+#include "judge/sampler.h"
 #include "judge/grid.h"
 
 /* What a run is measured by; all but the length is lent. */
 struct judge_missing_run {
-  const struct judge_gazer *gazer;
+  const struct judge_sampler *sampler;
   const struct judge_edges *edges;
   const struct judge_grid *by_image; /* of the edges' images */
   double shortest_mm;                /* above 0 */
   bool (*is_asked_for)(const void *user, uint32_t edge);
-  bool (*has_ink)(const void *user, struct judge_place at);
+  bool (*has_ink)(const void *user, struct judge_point2 at);
   const void *user;
 };
 

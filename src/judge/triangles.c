@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "base/tolerance.h"
-#include "judge/cuts.h"
-#include "judge/ears.h"
+#include "judge/triangulation.h"
+#include "judge/ear_clipping.h"
 
 enum { LEAF_SIZE = 4, FEWEST_SHARE = 8 };
 
@@ -33,7 +33,7 @@ static struct judge_box empty_box(void) {
   return box;
 }
 
-static void grow_box(struct judge_box *box, struct judge_spot p) {
+static void grow_box(struct judge_box *box, struct judge_point3 p) {
   const double at[3] = {p.x, p.y, p.z};
   for (int k = 0; k < 3; k++) {
     box->low[k] = fmin(box->low[k], at[k]);
@@ -63,8 +63,8 @@ static double centroid_3(const struct judge_triangle *t, int axis) {
 static uint32_t part_triangles(struct judge_triangle *t, uint32_t count) {
   struct judge_box box = empty_box();
   for (uint32_t i = 0; i < count; i++)
-    grow_box(&box, judge_spot_of(centroid_3(&t[i], 0), centroid_3(&t[i], 1),
-                                 centroid_3(&t[i], 2)));
+    grow_box(&box, judge_point3_of(centroid_3(&t[i], 0), centroid_3(&t[i], 1),
+                                   centroid_3(&t[i], 2)));
   int axis = 0;
   for (int k = 1; k < 3; k++)
     if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis])
@@ -127,25 +127,27 @@ static struct judge_triangle triangle_of(const struct scene *scene,
   struct judge_triangle t = {.face = face};
   for (int k = 0; k < 3; k++) {
     t.point[k] = corner[ear[k]];
-    t.p[k] = judge_spot_at(scene, t.point[k]);
+    t.p[k] = judge_point3_at(scene, t.point[k]);
   }
-  struct judge_spot normal =
-      spot_cross(spot_sub(t.p[1], t.p[0]), spot_sub(t.p[2], t.p[0]));
-  if (spot_length(normal) > 0)
+  struct judge_point3 normal =
+      point3_cross(point3_sub(t.p[1], t.p[0]), point3_sub(t.p[2], t.p[0]));
+  if (point3_length(normal) > 0)
     t.normal = spot_unit(normal);
   return t;
 }
 
-struct judge_spot judge_area(const struct scene *scene, uint32_t face) {
+struct judge_point3 judge_area(const struct scene *scene, uint32_t face) {
   uint32_t start = scene->face_start.item[face];
   uint32_t count = scene->face_start.item[face + 1] - start;
-  struct judge_spot sum = {0, 0, 0};
-  struct judge_spot first = judge_spot_at(scene, scene->corner.item[start]);
+  struct judge_point3 sum = {0, 0, 0};
+  struct judge_point3 first = judge_point3_at(scene, scene->corner.item[start]);
   for (uint32_t i = 1; i + 1 < count; i++) {
     const uint32_t *corner = scene->corner.item + start + i;
-    struct judge_spot u = spot_sub(judge_spot_at(scene, corner[0]), first);
-    struct judge_spot v = spot_sub(judge_spot_at(scene, corner[1]), first);
-    sum = spot_along(sum, 1, spot_cross(u, v));
+    struct judge_point3 u =
+        point3_sub(judge_point3_at(scene, corner[0]), first);
+    struct judge_point3 v =
+        point3_sub(judge_point3_at(scene, corner[1]), first);
+    sum = spot_along(sum, 1, point3_cross(u, v));
   }
   return sum;
 }
@@ -153,17 +155,18 @@ struct judge_spot judge_area(const struct scene *scene, uint32_t face) {
 bool judge_is_warped(const struct scene *scene, uint32_t face, double contact) {
   uint32_t start = scene->face_start.item[face];
   uint32_t count = scene->face_start.item[face + 1] - start;
-  struct judge_spot normal = judge_area(scene, face);
-  if (count == 3 || !(spot_length(normal) > 0))
+  struct judge_point3 normal = judge_area(scene, face);
+  if (count == 3 || !(point3_length(normal) > 0))
     return false;
   normal = spot_unit(normal);
-  struct judge_spot first = judge_spot_at(scene, scene->corner.item[start]);
+  struct judge_point3 first = judge_point3_at(scene, scene->corner.item[start]);
   double off = 0, extent = 0;
   for (uint32_t i = 1; i < count; i++) {
-    struct judge_spot p = judge_spot_at(scene, scene->corner.item[start + i]);
-    struct judge_spot away = spot_sub(p, first);
-    off = fmax(off, fabs(spot_dot(normal, away)));
-    extent = fmax(extent, spot_length(away));
+    struct judge_point3 p =
+        judge_point3_at(scene, scene->corner.item[start + i]);
+    struct judge_point3 away = point3_sub(p, first);
+    off = fmax(off, fabs(point3_dot(normal, away)));
+    extent = fmax(extent, point3_length(away));
   }
   double flat = contact < 0 ? extent * TOLERANCE_WARP_SHARE : contact / 4;
   return off > fmax(flat, extent * TOLERANCE_EXTENT_SHARE);
@@ -177,7 +180,7 @@ struct cutter {
   const struct scene *scene;
   const struct scene_point *given;
   double contact;
-  struct judge_cuts cuts;
+  struct judge_triangulation cuts;
   struct judge_ears ears;
 };
 
@@ -186,22 +189,22 @@ struct cutter {
 static bool is_folded(const struct cutter *cutter, uint32_t face,
                       size_t first) {
   const struct judge_triangles *all = cutter->all;
-  struct judge_spot normal = judge_area(cutter->scene, face);
+  struct judge_point3 normal = judge_area(cutter->scene, face);
   for (size_t t = first; t < all->triangle.count; t++)
-    if (!(spot_dot(all->triangle.item[t].normal, normal) > 0))
+    if (!(point3_dot(all->triangle.item[t].normal, normal) > 0))
       return true;
   return false;
 }
 
-static bool add_wings(struct judge_triangles *all, size_t first) {
+static bool add_fan(struct judge_triangles *all, size_t first) {
   for (size_t t = first; t < all->triangle.count; t++) {
     struct judge_triangle *triangle = &all->triangle.item[t];
     triangle->bent = true;
     for (int k = 0; k < 3; k++) {
       uint32_t a = triangle->point[k], b = triangle->point[(k + 1) % 3];
-      struct judge_wing wing = {triangle->face, a < b ? a : b, a < b ? b : a,
-                                *triangle};
-      if (!ARRAY_PUSH(&all->wing, wing))
+      struct judge_fan_triangle fan_triangle = {triangle->face, a < b ? a : b,
+                                                a < b ? b : a, *triangle};
+      if (!ARRAY_PUSH(&all->fan_triangle, fan_triangle))
         return false;
     }
   }
@@ -213,7 +216,7 @@ static bool add_large_face(struct cutter *cutter, uint32_t face,
                            const uint32_t *corner, uint32_t count) {
   struct judge_triangles *all = cutter->all;
   bool open = judge_is_warped(cutter->scene, face, cutter->contact);
-  if (!judge_cut_ears(&cutter->ears, cutter->scene, corner, count))
+  if (!judge_clip_ears(&cutter->ears, cutter->scene, corner, count))
     return false;
   for (size_t k = 0; k < cutter->ears.ear.count; k++) {
     struct judge_triangle t = triangle_of(
@@ -232,9 +235,9 @@ static bool add_face(struct cutter *cutter, uint32_t face) {
   uint32_t count = scene->face_start.item[face + 1] - start;
   const uint32_t *corner = scene->corner.item + start;
   size_t first = all->triangle.count;
-  if (count > JUDGE_CUTS_MOST)
+  if (count > JUDGE_TRIANGULATION_MOST)
     return add_large_face(cutter, face, corner, count);
-  if (!judge_cuts_make(&cutter->cuts, cutter->given, corner, count))
+  if (!judge_triangulation_make(&cutter->cuts, cutter->given, corner, count))
     return false;
   for (size_t k = 0; k < cutter->cuts.piece.count; k++)
     if (!ARRAY_PUSH(&all->triangle,
@@ -244,11 +247,11 @@ static bool add_face(struct cutter *cutter, uint32_t face) {
   return count == 3 || (!judge_is_warped(scene, face, cutter->contact) &&
                         !is_folded(cutter, face, first))
              ? true
-             : add_wings(all, first);
+             : add_fan(all, first);
 }
 
-static int compare_wings(const void *a, const void *b) {
-  const struct judge_wing *s = a, *t = b;
+static int compare_fan_triangles(const void *a, const void *b) {
+  const struct judge_fan_triangle *s = a, *t = b;
   if (s->face != t->face)
     return s->face < t->face ? -1 : 1;
   if (s->low != t->low)
@@ -256,35 +259,36 @@ static int compare_wings(const void *a, const void *b) {
   return s->high < t->high ? -1 : s->high > t->high;
 }
 
-const struct judge_wing *judge_wings_along(const struct judge_triangles *all,
-                                           uint32_t face, uint32_t a,
-                                           uint32_t b, size_t *count) {
-  const struct judge_wing wanted = {
+const struct judge_fan_triangle *
+judge_fan_along(const struct judge_triangles *all, uint32_t face, uint32_t a,
+                uint32_t b, size_t *count) {
+  const struct judge_fan_triangle wanted = {
       .face = face, .low = a < b ? a : b, .high = a < b ? b : a};
-  const struct judge_wing *wing = all->wing.item;
-  size_t low = 0, high = all->wing.count;
+  const struct judge_fan_triangle *fan_triangle = all->fan_triangle.item;
+  size_t low = 0, high = all->fan_triangle.count;
   while (low < high) {
     size_t middle = low + (high - low) / 2;
-    if (compare_wings(&wing[middle], &wanted) < 0)
+    if (compare_fan_triangles(&fan_triangle[middle], &wanted) < 0)
       low = middle + 1;
     else
       high = middle;
   }
-  for (*count = 0; low + *count < all->wing.count &&
-                   compare_wings(&wing[low + *count], &wanted) == 0;)
+  for (*count = 0;
+       low + *count < all->fan_triangle.count &&
+       compare_fan_triangles(&fan_triangle[low + *count], &wanted) == 0;)
     ++*count;
-  return ARRAY_AT(&all->wing, low);
+  return ARRAY_AT(&all->fan_triangle, low);
 }
 
 static double measure(const struct scene *scene) {
   struct judge_box box = empty_box();
   for (size_t c = 0; c < scene->corner.count; c++)
-    grow_box(&box, judge_spot_at(scene, scene->corner.item[c]));
+    grow_box(&box, judge_point3_at(scene, scene->corner.item[c]));
   for (size_t c = 0; c < scene->wire_corner.count; c++)
-    grow_box(&box, judge_spot_at(scene, scene->wire_corner.item[c]));
-  return spot_length(judge_spot_of(box.high[0] - box.low[0],
-                                   box.high[1] - box.low[1],
-                                   box.high[2] - box.low[2]));
+    grow_box(&box, judge_point3_at(scene, scene->wire_corner.item[c]));
+  return point3_length(judge_point3_of(box.high[0] - box.low[0],
+                                       box.high[1] - box.low[1],
+                                       box.high[2] - box.low[2]));
 }
 
 bool judge_triangles_init(struct judge_triangles *all,
@@ -300,9 +304,9 @@ bool judge_triangles_init(struct judge_triangles *all,
   bool ok = true;
   for (uint32_t i = 0; ok && i < scene_face_count(scene); i++)
     ok = add_face(&cutter, i);
-  judge_sort(all->wing.item, all->wing.count, sizeof *all->wing.item,
-             compare_wings);
-  judge_cuts_fini(&cutter.cuts);
+  judge_sort(all->fan_triangle.item, all->fan_triangle.count,
+             sizeof *all->fan_triangle.item, compare_fan_triangles);
+  judge_triangulation_fini(&cutter.cuts);
   judge_ears_fini(&cutter.ears);
   if (ok && build_tree(all))
     return true;
@@ -312,7 +316,7 @@ bool judge_triangles_init(struct judge_triangles *all,
 
 void judge_triangles_fini(struct judge_triangles *all) {
   ARRAY_FREE(&all->triangle);
-  ARRAY_FREE(&all->wing);
+  ARRAY_FREE(&all->fan_triangle);
   mem_free(all->node);
   all->node = NULL;
   all->nodes = 0;

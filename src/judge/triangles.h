@@ -6,52 +6,53 @@
 
 #include "scene/scene.h"
 
-struct judge_place {
+struct judge_point2 {
   double x, y; /* page mm */
 };
 
-struct judge_spot {
+struct judge_point3 {
   double x, y, z; /* scene units */
 };
 
-static inline struct judge_spot judge_spot_of(double x, double y, double z) {
-  return (struct judge_spot){x, y, z};
+static inline struct judge_point3 judge_point3_of(double x, double y,
+                                                  double z) {
+  return (struct judge_point3){x, y, z};
 }
-static inline struct judge_spot judge_spot_at(const struct scene *scene,
-                                              uint32_t point) {
+static inline struct judge_point3 judge_point3_at(const struct scene *scene,
+                                                  uint32_t point) {
   const struct scene_point *p = &scene->point.item[point];
-  return judge_spot_of(p->x, p->y, p->z);
+  return judge_point3_of(p->x, p->y, p->z);
 }
-static inline struct judge_spot spot_sub(struct judge_spot a,
-                                         struct judge_spot b) {
-  return judge_spot_of(a.x - b.x, a.y - b.y, a.z - b.z);
+static inline struct judge_point3 point3_sub(struct judge_point3 a,
+                                             struct judge_point3 b) {
+  return judge_point3_of(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 /* a + t b */
-static inline struct judge_spot spot_along(struct judge_spot a, double t,
-                                           struct judge_spot b) {
-  return judge_spot_of(a.x + t * b.x, a.y + t * b.y, a.z + t * b.z);
+static inline struct judge_point3 spot_along(struct judge_point3 a, double t,
+                                             struct judge_point3 b) {
+  return judge_point3_of(a.x + t * b.x, a.y + t * b.y, a.z + t * b.z);
 }
-static inline struct judge_spot spot_cross(struct judge_spot a,
-                                           struct judge_spot b) {
-  return judge_spot_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
-                       a.x * b.y - a.y * b.x);
+static inline struct judge_point3 point3_cross(struct judge_point3 a,
+                                               struct judge_point3 b) {
+  return judge_point3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
+                         a.x * b.y - a.y * b.x);
 }
-static inline double spot_dot(struct judge_spot a, struct judge_spot b) {
+static inline double point3_dot(struct judge_point3 a, struct judge_point3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-static inline double spot_length(struct judge_spot a) {
-  return sqrt(spot_dot(a, a));
+static inline double point3_length(struct judge_point3 a) {
+  return sqrt(point3_dot(a, a));
 }
-static inline struct judge_spot spot_unit(struct judge_spot a) {
-  return spot_along(judge_spot_of(0, 0, 0), 1 / spot_length(a), a);
+static inline struct judge_point3 spot_unit(struct judge_point3 a) {
+  return spot_along(judge_point3_of(0, 0, 0), 1 / point3_length(a), a);
 }
 
 struct judge_triangle {
-  struct judge_spot p[3];
-  struct judge_spot normal; /* unit; 0 where the triangle has no area */
-  uint32_t point[3];        /* scene points */
-  uint32_t face;            /* scene face */
-  double contact;           /* what touches it may be so far off its plane,
+  struct judge_point3 p[3];
+  struct judge_point3 normal; /* unit; 0 where the triangle has no area */
+  uint32_t point[3];          /* scene points */
+  uint32_t face;              /* scene face */
+  double contact;             /* what touches it may be so far off its plane,
                                scene units: contact.h */
   bool bent; /* the face is not planar, or its sides cross: its triangles do
                 not lie in one plane, or lie on one another */
@@ -60,7 +61,7 @@ struct judge_triangle {
 };
 
 /* A side of a triangle of a face that bends. */
-struct judge_wing {
+struct judge_fan_triangle {
   uint32_t face, low, high; /* scene points, low < high */
   struct judge_triangle triangle;
 };
@@ -78,8 +79,8 @@ struct judge_triangles {
     uint32_t count; /* of its triangles; 0: a node with two children */
     uint32_t face;  /* of all its triangles; SCENE_NONE: of several */
   } * node;
-  size_t nodes;                  /* none where there are no triangles */
-  ARRAY(struct judge_wing) wing; /* by face, low, high */
+  size_t nodes; /* none where there are no triangles */
+  ARRAY(struct judge_fan_triangle) fan_triangle; /* by face, low, high */
   double size; /* diagonal of the box of all points that faces use */
   const struct scene *scene;
 };
@@ -98,7 +99,7 @@ USE_RESULT bool judge_triangles_init(struct judge_triangles *all,
                                      double contact);
 
 /* The face's normal, as long as twice its area. */
-struct judge_spot judge_area(const struct scene *scene, uint32_t face);
+struct judge_point3 judge_area(const struct scene *scene, uint32_t face);
 
 /* Whether a corner of the face is so far off its plane that it matters how it
  * is cut. */
@@ -106,9 +107,9 @@ bool judge_is_warped(const struct scene *scene, uint32_t face, double contact);
 
 /* The wings of a face along the side between two points; none where it does
  * not bend. */
-const struct judge_wing *judge_wings_along(const struct judge_triangles *all,
-                                           uint32_t face, uint32_t a,
-                                           uint32_t b, size_t *count);
+const struct judge_fan_triangle *
+judge_fan_along(const struct judge_triangles *all, uint32_t face, uint32_t a,
+                uint32_t b, size_t *count);
 void judge_triangles_fini(struct judge_triangles *all);
 
 /* Calls found(user, i) for the triangles whose boxes meet `box`, until it

@@ -15,16 +15,16 @@
 #include "base/sort.h"
 #include "scene/exact.h"
 
-struct side {
+struct bowtie_side {
   double left[2], right[2]; /* left[0] <= right[0] */
 };
 
 enum { FEW_SIDES = 32, TESTS_PER_SIDE = 256 };
 
 /* Room for the sweep, on the stack where the polygon is small. */
-struct sweep {
+struct bowtie_sweep {
   double (*flat)[2]; /* the corners, seen along the axis */
-  struct side *side;
+  struct bowtie_side *side;
   struct sort_key *order, *scratch;
   uint32_t *active;
 };
@@ -135,9 +135,9 @@ static bool is_convex(const double (*flat)[2], size_t count) {
 
 /* ---- The sweep ----------------------------------------------------------- */
 
-static void make_sides(const struct sweep *sweep, size_t count) {
+static void make_sides(const struct bowtie_sweep *sweep, size_t count) {
   for (size_t i = 0; i < count; i++) {
-    struct side *side = &sweep->side[i];
+    struct bowtie_side *side = &sweep->side[i];
     const double *from = sweep->flat[i];
     const double *to = sweep->flat[i + 1 < count ? i + 1 : 0];
     bool turned = to[0] < from[0];
@@ -149,7 +149,8 @@ static void make_sides(const struct sweep *sweep, size_t count) {
   sort_keys(sweep->order, sweep->scratch, count);
 }
 
-static bool sides_cross(const struct side *a, const struct side *b) {
+static bool sides_cross(const struct bowtie_side *a,
+                        const struct bowtie_side *b) {
   return smaller(a->left[1], a->right[1]) <= larger(b->left[1], b->right[1]) &&
          smaller(b->left[1], b->right[1]) <= larger(a->left[1], a->right[1]) &&
          exact_turn(a->left, a->right, b->left) *
@@ -160,14 +161,14 @@ static bool sides_cross(const struct side *a, const struct side *b) {
              0;
 }
 
-static bool find_crossing(const struct sweep *sweep, size_t count) {
+static bool find_crossing(const struct bowtie_sweep *sweep, size_t count) {
   size_t active = 0, tests = 0;
   make_sides(sweep, count);
   for (size_t i = 0; i < count; i++) {
-    const struct side *side = &sweep->side[sweep->order[i].value];
+    const struct bowtie_side *side = &sweep->side[sweep->order[i].value];
     size_t kept = 0;
     for (size_t k = 0; k < active; k++) {
-      const struct side *other = &sweep->side[sweep->active[k]];
+      const struct bowtie_side *other = &sweep->side[sweep->active[k]];
       if (other->right[0] < side->left[0])
         continue;
       if (sides_cross(side, other))
@@ -184,7 +185,7 @@ static bool find_crossing(const struct sweep *sweep, size_t count) {
 }
 
 static bool has_crossing(const struct scene *scene, const uint32_t *corner,
-                         size_t count, const struct sweep *sweep) {
+                         size_t count, const struct bowtie_sweep *sweep) {
   int axis = choose_axis(scene, corner, count);
   for (size_t i = 0; i < count; i++)
     project(&scene->point.item[corner[i]], axis, sweep->flat[i]);
@@ -196,18 +197,19 @@ bool bowtie_has_crossing(const struct scene *scene, const uint32_t *corner,
                          size_t count) {
   if (count <= FEW_SIDES) {
     double flat[FEW_SIDES][2];
-    struct side side[FEW_SIDES];
+    struct bowtie_side side[FEW_SIDES];
     struct sort_key order[FEW_SIDES], scratch[FEW_SIDES];
     uint32_t active[FEW_SIDES];
-    struct sweep sweep = {flat, side, order, scratch, active};
+    struct bowtie_sweep sweep = {flat, side, order, scratch, active};
     return has_crossing(scene, corner, count, &sweep);
   }
   struct arena arena = {NULL, 0};
-  struct sweep sweep = {arena_alloc(&arena, count, sizeof *sweep.flat),
-                        arena_alloc(&arena, count, sizeof *sweep.side),
-                        arena_alloc(&arena, count, sizeof *sweep.order),
-                        arena_alloc(&arena, count, sizeof *sweep.scratch),
-                        arena_alloc(&arena, count, sizeof *sweep.active)};
+  struct bowtie_sweep sweep = {
+      arena_alloc(&arena, count, sizeof *sweep.flat),
+      arena_alloc(&arena, count, sizeof *sweep.side),
+      arena_alloc(&arena, count, sizeof *sweep.order),
+      arena_alloc(&arena, count, sizeof *sweep.scratch),
+      arena_alloc(&arena, count, sizeof *sweep.active)};
   bool crossing = false;
   if (sweep.flat && sweep.side && sweep.order && sweep.scratch && sweep.active)
     crossing = has_crossing(scene, corner, count, &sweep);

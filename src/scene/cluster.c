@@ -75,7 +75,7 @@ static double farthest_square(const struct cluster *cluster,
   return sum;
 }
 
-struct choice {
+struct cluster_choice {
   int32_t cluster; /* NONE */
   double square;   /* of the distance to its first member */
 };
@@ -83,7 +83,7 @@ struct choice {
 /* Looks through a chain for a cluster to join that begins nearer. */
 static void look_through(const struct clusters *clusters, int32_t first,
                          const double at[3], int halvings,
-                         struct choice *choice) {
+                         struct cluster_choice *choice) {
   int passed = 0;
   for (int32_t c = first; c != NONE && passed < CHAIN_MOST; passed++) {
     const struct cluster *cluster = &clusters->cluster.item[c];
@@ -95,7 +95,7 @@ static void look_through(const struct clusters *clusters, int32_t first,
     int least = halvings > cluster->halvings ? halvings : cluster->halvings;
     double radius = clusters->radius[least];
     if (nearer && farthest_square(cluster, at) <= radius * radius)
-      *choice = (struct choice){c, square};
+      *choice = (struct cluster_choice){c, square};
     c = cluster->next;
   }
 }
@@ -103,7 +103,7 @@ static void look_through(const struct clusters *clusters, int32_t first,
 /* Looks through the cells of one grid that begin within the radius. */
 static void look_around(const struct clusters *clusters, int level,
                         const double at[3], int halvings,
-                        struct choice *choice) {
+                        struct cluster_choice *choice) {
   double side = clusters->side[level];
   double radius = clusters->radius[halvings > level ? halvings : level];
   double bound[3][2];
@@ -165,7 +165,7 @@ static bool join(struct clusters *clusters, const struct scene *scene,
   const struct scene_point *p = &point[member[number].point];
   const double at[3] = {p->x, p->y, p->z};
   uint8_t halvings = member[number].halvings;
-  struct choice choice = {NONE, 0};
+  struct cluster_choice choice = {NONE, 0};
   for (int level = 0; level < CLUSTER_LEVELS; level++)
     if (clusters->levels >> level & 1)
       look_around(clusters, level, at, halvings, &choice);

@@ -4,14 +4,13 @@ librecto_core_la_SOURCES += \
   %D%/bowtie.c %D%/bowtie.h \
   %D%/cluster.c %D%/cluster.h \
   %D%/diagnostics.c \
+  %D%/edge_classes.c \
   %D%/exact.c %D%/exact.h \
   %D%/face.c \
   %D%/import_form.c %D%/import_form.h \
   %D%/limit.h \
-  %D%/mark.h \
   %D%/material.c %D%/material.h \
   %D%/name.c %D%/name.h \
-  %D%/nature.c \
   %D%/obj_parser.c %D%/obj_parser.h \
   %D%/obj_run.c \
   %D%/ply_colour.c %D%/ply_colour.h \
@@ -26,10 +25,9 @@ librecto_core_la_SOURCES += \
   %D%/reader_obj.c \
   %D%/reader_ply.c \
   %D%/reader_stl.c \
-  %D%/scene.c \
-  %D%/scene.h \
+  %D%/scene.c %D%/scene.h \
+  %D%/snapshot.h \
   %D%/topology.c %D%/topology.h \
   %D%/unusable.c %D%/unusable.h \
   %D%/weld.c %D%/weld.h \
-  %D%/welded.c %D%/welded.h \
-  %D%/write_obj.c
+  %D%/welded.c %D%/welded.h

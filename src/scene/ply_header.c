@@ -11,7 +11,7 @@
 
 #include "base/number.h"
 
-struct word {
+struct header_word {
   const char *start;
   size_t length; /* 0: the line is at its end */
 };
@@ -37,23 +37,23 @@ static bool find_line(struct header_parser *p) {
   return p->stop != NULL;
 }
 
-static struct word next_word(struct header_parser *p) {
+static struct header_word next_word(struct header_parser *p) {
   while (p->at < p->stop && is_blank(*p->at))
     p->at++;
-  struct word word = {p->at, 0};
+  struct header_word word = {p->at, 0};
   while (p->at < p->stop && !is_blank(*p->at))
     p->at++;
   word.length = (size_t)(p->at - word.start);
   return word;
 }
 
-static bool is_word(struct word word, const char *text) {
+static bool is_word(struct header_word word, const char *text) {
   return strlen(text) == word.length &&
          memcmp(word.start, text, word.length) == 0;
 }
 
-static recto_status fail_at(const struct header_parser *p, struct word word,
-                            const char *wanted) {
+static recto_status fail_at(const struct header_parser *p,
+                            struct header_word word, const char *wanted) {
   if (word.length == 0)
     return error_set(p->error, RECTO_ERROR_FORMAT, p->path, p->line,
                      "PLY header: the line ends where %s should stand", wanted);
@@ -75,7 +75,7 @@ size_t ply_type_size(enum ply_type type) {
   return size[type];
 }
 
-static enum ply_type type_of(struct word word) {
+static enum ply_type type_of(struct header_word word) {
   static const char *const name[][2] = {
       {"char", "int8"},     {"uchar", "uint8"},   {"short", "int16"},
       {"ushort", "uint16"}, {"int", "int32"},     {"uint", "uint32"},
@@ -87,7 +87,7 @@ static enum ply_type type_of(struct word word) {
   return (enum ply_type)type;
 }
 
-static enum ply_kind kind_of(struct word word) {
+static enum ply_kind kind_of(struct header_word word) {
   static const char *const name[] = {"vertex", "face", "tristrips", "edge"};
   int kind = 0;
   while (kind < PLY_UNKNOWN && !is_word(word, name[kind]))
@@ -96,7 +96,7 @@ static enum ply_kind kind_of(struct word word) {
 }
 
 /* The role of a property in an element of that kind. */
-static enum ply_role role_of(enum ply_kind kind, struct word word) {
+static enum ply_role role_of(enum ply_kind kind, struct header_word word) {
   static const struct {
     const char *name;
     enum ply_role role;
@@ -127,7 +127,7 @@ static enum ply_role role_of(enum ply_kind kind, struct word word) {
 static recto_status read_format(struct header_parser *p) {
   static const char *const name[] = {"ascii", "binary_little_endian",
                                      "binary_big_endian"};
-  struct word word = next_word(p);
+  struct header_word word = next_word(p);
   int format = 0;
   while (format < PLY_NO_FORMAT && !is_word(word, name[format]))
     format++;
@@ -140,7 +140,7 @@ static recto_status read_format(struct header_parser *p) {
 
 static recto_status read_element(struct header_parser *p) {
   struct ply_header *header = p->header;
-  struct word name = next_word(p), word = next_word(p);
+  struct header_word name = next_word(p), word = next_word(p);
   int64_t count;
   if (name.length == 0)
     return fail_at(p, name, "the name of an element");
@@ -162,7 +162,7 @@ static recto_status read_element(struct header_parser *p) {
 
 /* Whether the property may have its role: a list must be one, and what each
  * element has once must not come twice.  A second colour has no role. */
-static recto_status check_role(struct header_parser *p, struct word name,
+static recto_status check_role(struct header_parser *p, struct header_word name,
                                const struct ply_element *element,
                                struct ply_property *property) {
   bool list = property->count_type != PLY_NO_TYPE;
@@ -194,7 +194,7 @@ static recto_status read_property(struct header_parser *p) {
   struct ply_element *element =
       &header->element.item[header->element.count - 1];
   struct ply_property property = {.count_type = PLY_NO_TYPE};
-  struct word word = next_word(p);
+  struct header_word word = next_word(p);
   if (is_word(word, "list")) {
     word = next_word(p);
     property.count_type = type_of(word);
@@ -247,7 +247,7 @@ static recto_status check_elements(const struct header_parser *p) {
 
 /* A line after the first; *done where it is the last. */
 static recto_status read_line(struct header_parser *p, bool *done) {
-  struct word word = next_word(p);
+  struct header_word word = next_word(p);
   if (word.length == 0 || is_word(word, "comment") || is_word(word, "obj_info"))
     return RECTO_OK;
   if (is_word(word, "format"))

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/input.h"
-#include "scene/mark.h"
+#include "scene/snapshot.h"
 
 /* ---- The reader ---------------------------------------------------------- */
 
@@ -106,9 +106,9 @@ recto_status scene_read(struct scene *scene, const char *path,
   if (!reader)
     return refuse(path, format, error);
   struct input input;
-  struct scene_mark mark;
+  struct scene_snapshot mark;
   bool first = scene->point.count == 0;
-  scene_mark(scene, &mark);
+  scene_snapshot(scene, &mark);
   recto_status status = input_load(&input, path, error);
   if (status == RECTO_OK && !scene_note_file(scene, &input))
     status = error_memory(error);

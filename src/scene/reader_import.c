@@ -33,7 +33,7 @@
 
 enum { PATH_SIZE = 4096, USUAL_SECONDS = 120 };
 
-struct import {
+struct import_child {
   char program[PATH_SIZE];
   long seconds, mb;
   const char *path, *format;
@@ -76,7 +76,7 @@ static long limit_of(const char *name, long usual) {
 
 /* ---- What came of it ----------------------------------------------------- */
 
-static recto_status fail_to_start(const struct import *import, int code) {
+static recto_status fail_to_start(const struct import_child *import, int code) {
   if (code == ENOMEM)
     return error_memory(import->error);
   if (code == EAGAIN || code == EMFILE || code == ENFILE || code == EINVAL)
@@ -91,7 +91,7 @@ static recto_status fail_to_start(const struct import *import, int code) {
 }
 
 /* Tells of an importer that did not come to its end. */
-static recto_status tell_end(const struct import *import,
+static recto_status tell_end(const struct import_child *import,
                              const struct child_result *result) {
   recto_error *error = import->error;
   switch (result->end) {
@@ -132,8 +132,9 @@ static bool is_by_path(const char *path, const char *format, size_t count) {
          (uintmax_t)about.st_size == count;
 }
 
-static recto_status run_importer(const struct import *import, const char *bytes,
-                                 size_t count, struct diagnostics *diagnostics,
+static recto_status run_importer(const struct import_child *import,
+                                 const char *bytes, size_t count,
+                                 struct diagnostics *diagnostics,
                                  struct child_result *result) {
   char seconds[24], mb[24];
   bool by_path = is_by_path(import->path, import->format, count);
@@ -167,7 +168,7 @@ static recto_status read_import(struct scene *scene, const char *bytes,
                                 const char *format,
                                 struct diagnostics *diagnostics,
                                 recto_error *error) {
-  struct import import = {
+  struct import_child import = {
       .seconds = limit_of("RECTO_IMPORT_SECONDS", USUAL_SECONDS),
       .mb = limit_of("RECTO_IMPORT_MB", (long)(input_most() >> 20)),
       .path = path,

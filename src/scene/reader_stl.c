@@ -145,7 +145,7 @@ static recto_status read_binary(struct scene *scene, const char *bytes,
 
 /* ---- Text ---------------------------------------------------------------- */
 
-struct word {
+struct stl_word {
   const char *start;
   size_t length; /* 0: the file is at its end */
   unsigned long line;
@@ -164,10 +164,10 @@ struct parser {
   recto_error *error;
 };
 
-static struct word next_word(struct parser *p) {
+static struct stl_word next_word(struct parser *p) {
   for (; is_space(*p->at); p->at++)
     p->line += *p->at == '\n' || (*p->at == '\r' && p->at[1] != '\n');
-  struct word word = {p->at, 0, p->line};
+  struct stl_word word = {p->at, 0, p->line};
   while (p->at < p->end && !is_space(*p->at))
     p->at++;
   word.length = (size_t)(p->at - word.start);
@@ -175,14 +175,14 @@ static struct word next_word(struct parser *p) {
 }
 
 /* Whether the word is `keyword`, in any case. */
-static bool is_word(struct word word, const char *keyword) {
+static bool is_word(struct stl_word word, const char *keyword) {
   size_t i = 0;
   while (i < word.length && keyword[i] && (word.start[i] | 0x20) == keyword[i])
     i++;
   return i == word.length && keyword[i] == '\0';
 }
 
-static recto_status fail_at(struct parser *p, struct word word,
+static recto_status fail_at(struct parser *p, struct stl_word word,
                             const char *wanted) {
   if (word.length == 0)
     return error_set(p->error, RECTO_ERROR_FORMAT, p->path, word.line,
@@ -193,7 +193,7 @@ static recto_status fail_at(struct parser *p, struct word word,
 }
 
 static recto_status expect(struct parser *p, const char *keyword) {
-  struct word word = next_word(p);
+  struct stl_word word = next_word(p);
   return is_word(word, keyword) ? RECTO_OK : fail_at(p, word, keyword);
 }
 
@@ -204,7 +204,7 @@ static recto_status read_coordinates(struct parser *p,
   double xyz[3];
   bool asked = precision_asks(&p->sample, p->corners++);
   for (int k = 0; k < 3; k++) {
-    struct word word = next_word(p);
+    struct stl_word word = next_word(p);
     const char *end = word.start + word.length;
     if (word.length == 0)
       return fail_at(p, word, "a coordinate");
@@ -227,7 +227,7 @@ static recto_status read_loop(struct parser *p, enum scene_fault *fault) {
   *fault = SCENE_FAULT_COUNT;
   p->corner.count = 0;
   for (;;) {
-    struct word word = next_word(p);
+    struct stl_word word = next_word(p);
     if (is_word(word, "endloop"))
       return RECTO_OK;
     if (!is_word(word, "vertex"))
@@ -251,7 +251,7 @@ static recto_status read_loop(struct parser *p, enum scene_fault *fault) {
  * over: it follows from the corners. */
 static recto_status read_facet(struct parser *p, unsigned long line) {
   enum { NORMAL_WORDS = 4 };
-  struct word word = next_word(p);
+  struct stl_word word = next_word(p);
   for (int i = 0; i < NORMAL_WORDS && !is_word(word, "outer"); i++)
     word = next_word(p);
   if (!is_word(word, "outer"))
@@ -276,8 +276,8 @@ static recto_status read_facet(struct parser *p, unsigned long line) {
 }
 
 /* The rest of the line, less the blanks around it. */
-static struct word rest_of_line(struct parser *p) {
-  struct word word = {p->at, 0, p->line};
+static struct stl_word rest_of_line(struct parser *p) {
+  struct stl_word word = {p->at, 0, p->line};
   while (p->at < p->end && *p->at != '\n' && *p->at != '\r')
     p->at++;
   const char *stop = p->at;
@@ -291,11 +291,11 @@ static struct word rest_of_line(struct parser *p) {
 
 /* The rest of a solid, up to and with the line of its endsolid. */
 static recto_status read_solid(struct parser *p) {
-  struct word name = rest_of_line(p);
+  struct stl_word name = rest_of_line(p);
   recto_status status =
       scene_use_group(p->scene, name.start, name.length, p->error);
   while (status == RECTO_OK) {
-    struct word word = next_word(p);
+    struct stl_word word = next_word(p);
     if (is_word(word, "endsolid")) {
       rest_of_line(p);
       return RECTO_OK;
@@ -309,7 +309,7 @@ static recto_status read_solid(struct parser *p) {
 static recto_status read_text(struct parser *p) {
   recto_status status = RECTO_OK;
   while (status == RECTO_OK) {
-    struct word word = next_word(p);
+    struct stl_word word = next_word(p);
     if (word.length == 0)
       break;
     status = is_word(word, "solid") ? read_solid(p) : fail_at(p, word, "solid");
@@ -331,7 +331,7 @@ static bool looks_like_text(const char *bytes, size_t count) {
   size_t start = mark_length(bytes);
   while (start < count && is_space(bytes[start]))
     start++;
-  struct word word = {bytes + start, 0, 1};
+  struct stl_word word = {bytes + start, 0, 1};
   while (word.length < 5 && start + word.length < count)
     word.length++;
   return is_word(word, "solid") && has_text_for_header(bytes, count);

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-#include "scene/mark.h"
+#include "scene/snapshot.h"
 #include "scene/name.h"
 
 void scene_init(struct scene *scene) {
@@ -125,7 +125,7 @@ recto_status scene_use_group(struct scene *scene, const char *name,
 
 /* ---- Going back ---------------------------------------------------------- */
 
-void scene_mark(const struct scene *scene, struct scene_mark *mark) {
+void scene_snapshot(const struct scene *scene, struct scene_snapshot *mark) {
   mark->points = scene->point.count;
   mark->faces = scene->face_group.count;
   mark->corners = scene->corner.count;
@@ -136,7 +136,7 @@ void scene_mark(const struct scene *scene, struct scene_mark *mark) {
   mark->current_group = scene->current_group;
 }
 
-void scene_return(struct scene *scene, const struct scene_mark *mark) {
+void scene_return(struct scene *scene, const struct scene_snapshot *mark) {
   scene->point.count = mark->points;
   scene->face_group.count = mark->faces;
   scene->face_start.count = mark->faces ? mark->faces + 1 : 0;

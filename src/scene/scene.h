@@ -161,9 +161,4 @@ USE_RESULT recto_status scene_read(struct scene *scene, const char *path,
                                    struct diagnostics *diagnostics,
                                    recto_error *error);
 
-/* Writes the scene as OBJ: v, g, f, l statements, numbers that read back the
- * same.  For generators and tests. */
-struct stream;
-void scene_write_obj(const struct scene *scene, struct stream *stream);
-
 #endif

@@ -28,23 +28,26 @@ enum { FEW_SIDES = 24, MANY_EDGES = 48 };
 
 /* ---- The sides of all faces, in file order ------------------------------- */
 
-struct walk {
+struct topology_walk {
   const struct scene *scene;
   const uint32_t *weld;       /* NULL: points as they are */
   uint32_t face, corner, end; /* the side leaves `corner` of `face` */
   uint32_t from, to;          /* welded points */
 };
 
-static struct walk walk_sides(const struct scene *scene, const uint32_t *weld) {
-  return (struct walk){.scene = scene, .weld = weld, .face = SCENE_NONE};
+static struct topology_walk walk_sides(const struct scene *scene,
+                                       const uint32_t *weld) {
+  return (struct topology_walk){
+      .scene = scene, .weld = weld, .face = SCENE_NONE};
 }
 
-static inline uint32_t point_of(const struct walk *walk, uint32_t corner) {
+static inline uint32_t point_of(const struct topology_walk *walk,
+                                uint32_t corner) {
   uint32_t point = walk->scene->corner.item[corner];
   return walk->weld ? walk->weld[point] : point;
 }
 
-static inline bool next_side(struct walk *walk) {
+static inline bool next_side(struct topology_walk *walk) {
   if (walk->corner + 1 >= walk->end) {
     uint32_t face = walk->face + 1; /* SCENE_NONE + 1 is 0 */
     if (face == scene_face_count(walk->scene))
@@ -64,17 +67,17 @@ static inline bool next_side(struct walk *walk) {
   return true;
 }
 
-static inline uint32_t lower(const struct walk *walk) {
+static inline uint32_t lower(const struct topology_walk *walk) {
   return walk->from < walk->to ? walk->from : walk->to;
 }
-static inline uint32_t upper(const struct walk *walk) {
+static inline uint32_t upper(const struct topology_walk *walk) {
   return walk->from < walk->to ? walk->to : walk->from;
 }
 
 /* ---- Hubs ---------------------------------------------------------------- */
 
 /* A side of a hub. */
-struct side {
+struct topology_side {
   uint32_t upper;
   uint32_t corner; /* where it starts */
 };
@@ -83,22 +86,23 @@ struct side {
  * end  one a point: the sides it has; then where its own end */
 static void deal_sides(const struct scene *scene, const uint32_t *weld,
                        const uint32_t *count, uint32_t *end,
-                       struct side *side) {
+                       struct topology_side *side) {
   uint32_t sum = 0;
   for (size_t p = 0; p < scene->point.count; p++) {
     end[p] = sum;
     sum += count[p] > FEW_SIDES ? count[p] : 0;
   }
-  for (struct walk walk = walk_sides(scene, weld); next_side(&walk);)
+  for (struct topology_walk walk = walk_sides(scene, weld); next_side(&walk);)
     if (count[lower(&walk)] > FEW_SIDES)
-      side[end[lower(&walk)]++] = (struct side){upper(&walk), walk.corner};
+      side[end[lower(&walk)]++] =
+          (struct topology_side){upper(&walk), walk.corner};
 }
 
 /* Names the sides of one hub: named[corner] is the first corner whose side has
  * the same two points.
  * first  by upper point; SCENE_NONE before and after */
-static void name_sides(const struct side *side, uint32_t count, uint32_t *first,
-                       uint32_t *named) {
+static void name_sides(const struct topology_side *side, uint32_t count,
+                       uint32_t *first, uint32_t *named) {
   for (uint32_t i = 0; i < count; i++) {
     if (first[side[i].upper] == SCENE_NONE)
       first[side[i].upper] = side[i].corner;
@@ -113,7 +117,7 @@ static bool name_hubs(const struct scene *scene, const uint32_t *weld,
   size_t points = scene->point.count;
   uint32_t *end = mem_alloc(points, sizeof *end);
   uint32_t *first = mem_alloc(points, sizeof *first);
-  struct side *side = mem_alloc(sides, sizeof *side);
+  struct topology_side *side = mem_alloc(sides, sizeof *side);
   bool ok = end && first && side;
   if (ok) {
     memset(first, 0xff, points * sizeof *first);
@@ -142,8 +146,9 @@ struct lists {
 
 #define HUB (SCENE_NONE - 1)
 
-static bool is_new(const struct topology *topology, const struct walk *walk,
-                   struct lists *lists, uint32_t *found) {
+static bool is_new(const struct topology *topology,
+                   const struct topology_walk *walk, struct lists *lists,
+                   uint32_t *found) {
   uint32_t e = lists->head[lower(walk)];
   if (e == HUB) {
     /* A name is a corner no later than the side's own: if it is not its own,
@@ -163,8 +168,8 @@ static bool is_new(const struct topology *topology, const struct walk *walk,
   return e == SCENE_NONE;
 }
 
-static bool add_edge(struct topology *topology, const struct walk *walk,
-                     struct lists *lists) {
+static bool add_edge(struct topology *topology,
+                     const struct topology_walk *walk, struct lists *lists) {
   struct topology_edge edge = {
       .point = {lower(walk), upper(walk)},
       .first = walk->face & FACE_BITS,
@@ -184,7 +189,8 @@ static bool add_edge(struct topology *topology, const struct walk *walk,
   return true;
 }
 
-static void use_edge(struct topology_edge *edge, const struct walk *walk) {
+static void use_edge(struct topology_edge *edge,
+                     const struct topology_walk *walk) {
   if (edge->uses == 1) {
     edge->second = walk->face & FACE_BITS;
     edge->same_way = edge->same_way == (walk->from < walk->to);
@@ -195,7 +201,7 @@ static void use_edge(struct topology_edge *edge, const struct walk *walk) {
 
 static bool number_edges(struct topology *topology, const struct scene *scene,
                          struct lists *lists) {
-  for (struct walk walk = walk_sides(scene, topology->weld);
+  for (struct topology_walk walk = walk_sides(scene, topology->weld);
        !lists->crowded && next_side(&walk);) {
     uint32_t e;
     if (is_new(topology, &walk, lists, &e)) {
@@ -213,7 +219,7 @@ static bool number_edges(struct topology *topology, const struct scene *scene,
 static size_t count_sides(const struct scene *scene, const uint32_t *weld,
                           uint32_t *count) {
   size_t at_hubs = 0;
-  for (struct walk walk = walk_sides(scene, weld); next_side(&walk);)
+  for (struct topology_walk walk = walk_sides(scene, weld); next_side(&walk);)
     count[lower(&walk)]++;
   for (size_t p = 0; p < scene->point.count; p++)
     at_hubs += count[p] > FEW_SIDES ? count[p] : 0;

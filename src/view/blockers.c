@@ -135,9 +135,9 @@ static bool may_meet(const struct blockers_node *box,
   return true;
 }
 
-static bool ask_run(const struct blockers *blockers, uint32_t run,
-                    bool (*blocks)(const void *user, uint32_t corner),
-                    const void *user) {
+static bool query_run(const struct blockers *blockers, uint32_t run,
+                      bool (*blocks)(const void *user, uint32_t corner),
+                      const void *user) {
   uint32_t from = run * RUN;
   uint32_t to = from + RUN < blockers->count ? from + RUN : blockers->count;
   for (uint32_t i = from; i < to; i++)
@@ -160,7 +160,7 @@ bool blockers_ask(const struct blockers *blockers, const double *triangle[3],
     if (k < blockers->leaves) {
       stack[depth++] = 2 * k + 1;
       stack[depth++] = 2 * k;
-    } else if (ask_run(blockers, k - blockers->leaves, blocks, user)) {
+    } else if (query_run(blockers, k - blockers->leaves, blocks, user)) {
       return true;
     }
   }

@@ -20,7 +20,7 @@
  * of its distance, to tell whether it cuts anything that could be seen. */
 #define NEARER 0x1p-20
 
-struct range {
+struct depth_range {
   double low, high;
 };
 
@@ -28,7 +28,7 @@ struct range {
  * taken in. */
 enum { ROUNDS = 8 };
 
-static void grow(struct range *range, double d) {
+static void grow(struct depth_range *range, double d) {
   range->low = lower_bound(range->low, d);
   range->high = upper_bound(range->high, d);
 }
@@ -56,7 +56,8 @@ static void order(uint32_t *a, uint32_t *b) {
 /* Adds the depths of what the page leaves of a triangle, if it has an area
  * there.  Its corners are taken in one order, whatever the face's: to the last
  * bit, the range must not depend on that. */
-static void grow_by_triangle(struct range *range, const struct layout *layout,
+static void grow_by_triangle(struct depth_range *range,
+                             const struct layout *layout,
                              const struct projection *projection,
                              const uint32_t point[3]) {
   const bool forward[3] = {true, true, false};
@@ -78,7 +79,7 @@ static void grow_by_triangle(struct range *range, const struct layout *layout,
 }
 
 /* The same for a face.  Returns false when memory ran out. */
-static bool grow_by_face(struct range *range, struct layout *layout,
+static bool grow_by_face(struct depth_range *range, struct layout *layout,
                          const struct projection *projection, uint32_t face) {
   uint32_t start = layout->scene->face_start.item[face];
   uint32_t count = layout->scene->face_start.item[face + 1] - start;
@@ -102,14 +103,14 @@ static bool grow_by_face(struct range *range, struct layout *layout,
  * face. */
 static bool is_cut_near(struct layout *layout, uint32_t face, bool *cut) {
   struct projection nearer = layout->projection;
-  struct range range = {INFINITY, -INFINITY};
+  struct depth_range range = {INFINITY, -INFINITY};
   nearer.near_d *= NEARER;
   bool ok = grow_by_face(&range, layout, &nearer, face);
   *cut = range.low < layout->projection.near_d;
   return ok;
 }
 
-static bool grow_by_faces(struct range *range, struct layout *layout) {
+static bool grow_by_faces(struct depth_range *range, struct layout *layout) {
   bool look =
       layout->projection.perspective && layout->sheet->camera.near_chosen;
   for (uint32_t face = 0; face < scene_face_count(layout->scene); face++) {
@@ -133,8 +134,9 @@ static bool grow_by_faces(struct range *range, struct layout *layout) {
 
 /* Adds the depths of what the page leaves of a segment, if some but not all of
  * them are in the range, or whatever they are.  Returns whether it grew. */
-static bool grow_by_segment(struct range *range, const struct layout *layout,
-                            uint32_t from, uint32_t to, bool whatever) {
+static bool grow_by_segment(struct depth_range *range,
+                            const struct layout *layout, uint32_t from,
+                            uint32_t to, bool whatever) {
   uint32_t own[2] = {layout_weld(layout, from), layout_weld(layout, to)};
   order(&own[0], &own[1]);
   struct view_point end[2] = {layout_view(layout, own[0]),
@@ -153,9 +155,9 @@ static bool grow_by_segment(struct range *range, const struct layout *layout,
 
 /* The same for the segments between consecutive corners.
  * closed  whether the last corner stands before the first */
-static bool grow_by_lines(struct range *range, const struct layout *layout,
-                          const uint32_t *corner, uint32_t count, bool closed,
-                          bool whatever) {
+static bool grow_by_lines(struct depth_range *range,
+                          const struct layout *layout, const uint32_t *corner,
+                          uint32_t count, bool closed, bool whatever) {
   unsigned any = 0;
   bool grew = false;
   for (uint32_t c = 0; c < count; c++)
@@ -168,8 +170,8 @@ static bool grow_by_lines(struct range *range, const struct layout *layout,
 
 /* One round over all lines that leave the page; returns whether the range
  * grew. */
-static bool grow_by_all_lines(struct range *range, const struct layout *layout,
-                              bool whatever) {
+static bool grow_by_all_lines(struct depth_range *range,
+                              const struct layout *layout, bool whatever) {
   const struct scene *scene = layout->scene;
   bool grew = false;
   for (uint32_t face = 0; face < scene_face_count(scene); face++) {
@@ -188,7 +190,7 @@ static bool grow_by_all_lines(struct range *range, const struct layout *layout,
 }
 
 /* The outcodes of the used points, and the depths of those on the page. */
-static void grow_by_points(struct range *range, struct layout *layout,
+static void grow_by_points(struct depth_range *range, struct layout *layout,
                            const uint8_t *used) {
   for (size_t p = 0; p < layout->scene->point.count; p++) {
     if (!used[p])
@@ -202,7 +204,7 @@ static void grow_by_points(struct range *range, struct layout *layout,
 
 recto_status layout_range(struct layout *layout, const uint8_t *used) {
   struct camera *camera = &layout->sheet->camera;
-  struct range range = {INFINITY, -INFINITY};
+  struct depth_range range = {INFINITY, -INFINITY};
   if (camera->all_on_page)
     return RECTO_OK;
   grow_by_points(&range, layout, used);

@@ -132,10 +132,10 @@ static recto_status cut_polygon_face(struct layout *layout, uint32_t face,
 static double contact_units(const struct sheet *sheet, uint32_t face,
                             int64_t z) {
   const struct camera *camera = &sheet->camera;
-  double nearness =
+  double depth_order =
       camera->perspective ? (double)z / sheet->z_scale + 1 / camera->d_max : 1;
   return coordinate_error_contact(sheet, face) * sheet->units_per_view *
-             nearness +
+             depth_order +
          1;
 }
 

@@ -8,11 +8,14 @@ librecto_core_la_SOURCES += \
   %D%/extent.c %D%/extent.h \
   %D%/frame.c %D%/frame.h \
   %D%/layout.h \
-  %D%/layout_edges.c %D%/layout_points.c %D%/layout_range.c \
-  %D%/layout_triangles.c \
+  %D%/layout_edges.c \
   %D%/layout_facet.c %D%/layout_facet.h \
+  %D%/layout_points.c \
+  %D%/layout_range.c \
+  %D%/layout_triangles.c \
   %D%/polygon.c %D%/polygon.h \
   %D%/project.c %D%/project.h \
+  %D%/rescale.c %D%/rescale.h \
   %D%/sheet.c %D%/sheet.h \
   %D%/triangulate.c %D%/triangulate.h \
   %D%/used.c %D%/used.h \

@@ -1,7 +1,7 @@
 /* triangulate.c - cuts a polygon into triangles without adding points.
  *
  * The rule, which decides where a polygon that is not planar folds, and so is
- * part of what is drawn; src/judge/ears.c follows it independently
+ * part of what is drawn; src/judge/ear_clipping.c follows it independently
  *   1 A corner at the place of the one before it is left out, and so is one
  *     whose neighbours are at one place: the polygon turns back there.
  *   2 The polygon is seen along the axis that shows most of it (polygon.h),
@@ -93,14 +93,14 @@ struct ears {
 };
 
 /* The ends of a diagonal, the first in space first. */
-struct ends {
+struct polygon_ends {
   uint32_t low, high;
 };
 
-static struct ends ends_past(const struct ears *ears, uint32_t b) {
+static struct polygon_ends ends_past(const struct ears *ears, uint32_t b) {
   uint32_t a = ears->corner[b].prev, c = ears->corner[b].next;
-  return polygon_compare(ears->polygon, a, c) < 0 ? (struct ends){a, c}
-                                                  : (struct ends){c, a};
+  return polygon_compare(ears->polygon, a, c) < 0 ? (struct polygon_ends){a, c}
+                                                  : (struct polygon_ends){c, a};
 }
 
 /* Compares the diagonals past two corners, at last by number: a quadrilateral
@@ -109,7 +109,7 @@ static int compare_diagonals(const struct ears *ears, uint32_t b, uint32_t d) {
   double one = ears->corner[b].length, two = ears->corner[d].length;
   if (one != two)
     return one < two ? -1 : 1;
-  struct ends e = ends_past(ears, b), f = ends_past(ears, d);
+  struct polygon_ends e = ends_past(ears, b), f = ends_past(ears, d);
   int order = polygon_compare(ears->polygon, e.low, f.low);
   if (order == 0)
     order = polygon_compare(ears->polygon, e.high, f.high);

@@ -1,5 +1,5 @@
 /* auto.c - the least method that is exact for what was asked. */
-#include "visibility/outline.h"
+#include "visibility/single_contour/single_contour.h"
 #include "visibility/solver.h"
 
 /* Up to so many pairs of edge and face, or of two faces, asking all of them is
@@ -25,9 +25,9 @@ const struct solver *solver_choose(const struct sheet *sheet,
     *why = "few edges and faces: every pair is quickest";
     return &solver_brute;
   }
-  if (outline_tells(sheet, request)) {
+  if (single_contour_suffices(sheet, request)) {
     *why = "one outline, behind which nothing that is asked for can hide";
-    return &solver_outline;
+    return &solver_single_contour;
   }
   *why = "tiles leave the fewest pairs to ask";
   return &solver_tiles;

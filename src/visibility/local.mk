@@ -1,64 +1,66 @@
+# src/visibility/local.mk - from the sheet to the visible map, a folder a method.
 librecto_core_la_SOURCES += \
   %D%/auto.c \
-  %D%/brute.c \
-  %D%/contact.c %D%/contact.h \
-  %D%/copies.c %D%/copies.h \
-  %D%/cover.c %D%/cover.h \
-  %D%/crowd.c %D%/crowd.h \
-  %D%/cut.c %D%/cut.h \
-  %D%/depths.c %D%/depths.h \
-  %D%/edge_query.c %D%/edge_query.h \
-  %D%/facet.c %D%/facet.h \
-  %D%/fragments.c %D%/fragments.h \
-  %D%/hide.c %D%/hide.h \
-  %D%/leftover.c %D%/leftover.h \
   %D%/map.c %D%/map.h \
-  %D%/newell.c \
-  %D%/newell_order.c %D%/newell_order.h \
-  %D%/newell_tests.c %D%/newell_tests.h \
-  %D%/octagon.h \
-  %D%/outline.c %D%/outline.h \
-  %D%/pagegrid.c %D%/pagegrid.h \
-  %D%/painter.c \
-  %D%/pair.c %D%/pair.h \
-  %D%/pieces.c %D%/pieces.h \
-  %D%/pierce.c %D%/pierce.h \
-  %D%/pierce_pairs.c %D%/pierce_pairs.h \
-  %D%/pierce_segment.c %D%/pierce_segment.h \
-  %D%/pixels.c %D%/pixels.h \
-  %D%/pulse.c %D%/pulse.h \
-  %D%/raster.c %D%/raster.h \
-  %D%/rivals.c %D%/rivals.h \
-  %D%/rivals_part.c \
-  %D%/scanline_zbuffer.c %D%/scanline_zbuffer.h \
-  %D%/seams.c %D%/seams.h \
-  %D%/sidegrid.c %D%/sidegrid.h \
-  %D%/sidelabel.c %D%/sidelabel.h \
+  %D%/progress.c %D%/progress.h \
+  %D%/quantitative_invisibility.c %D%/quantitative_invisibility.h \
   %D%/solver.c %D%/solver.h \
-  %D%/spans.c %D%/spans.h \
-  %D%/stance.c %D%/stance.h \
-  %D%/strokes.c %D%/strokes.h \
-  %D%/subpixels.c %D%/subpixels.h \
-  %D%/surround.c %D%/surround.h \
-  %D%/tilelist.c %D%/tilelist.h \
-  %D%/tilemap.c %D%/tilemap.h \
-  %D%/tiles.c \
-  %D%/trace.c %D%/trace.h \
-  %D%/undecided.c %D%/undecided.h \
-  %D%/warnock.c \
-  %D%/warnock_raster.c %D%/warnock_raster.h \
-  %D%/warnock_sample.c %D%/warnock_sample.h \
-  %D%/warnock_window.c %D%/warnock_window.h \
-  %D%/watkins.c %D%/watkins.h \
-  %D%/watkins_cells.c %D%/watkins_cells.h \
-  %D%/watkins_edges.c \
-  %D%/watkins_ends.c \
-  %D%/watkins_exact.c %D%/watkins_exact.h \
-  %D%/watkins_interval.c \
-  %D%/watkins_lists.c \
-  %D%/watkins_places.c \
-  %D%/watkins_sweep.c %D%/watkins_sweep.h \
-  %D%/window.c %D%/window.h \
-  %D%/zbuffer.c %D%/zbuffer.h \
-  %D%/zfill.c %D%/zfill.h \
-  %D%/zsmall.c %D%/zsmall.h
+  %D%/brute/brute.c \
+  %D%/fragments/face_occluders.c %D%/fragments/face_occluders.h \
+  %D%/fragments/fragments.c %D%/fragments/fragments.h \
+  %D%/fragments/line_index.c %D%/fragments/line_index.h \
+  %D%/fragments/occluder_subtraction.c %D%/fragments/occluder_subtraction.h \
+  %D%/fragments/region_split.c \
+  %D%/fragments/side_provenance.c %D%/fragments/side_provenance.h \
+  %D%/index/bsp.c %D%/index/bsp.h \
+  %D%/index/bsp_plane.c %D%/index/bsp_plane.h \
+  %D%/index/duplicate_triangles.c %D%/index/duplicate_triangles.h \
+  %D%/index/kdop8.h \
+  %D%/index/triangle_grid.c %D%/index/triangle_grid.h \
+  %D%/intersection/candidate_pairs.c %D%/intersection/candidate_pairs.h \
+  %D%/intersection/edge_crossing.c %D%/intersection/edge_crossing.h \
+  %D%/intersection/intersection.c %D%/intersection/intersection.h \
+  %D%/intersection/intersection_segment.c %D%/intersection/intersection_segment.h \
+  %D%/newell/newell.c \
+  %D%/newell/newell_order.c %D%/newell/newell_order.h \
+  %D%/newell/newell_tests.c %D%/newell/newell_tests.h \
+  %D%/newell/painter.c \
+  %D%/pairwise/edge_query.c %D%/pairwise/edge_query.h \
+  %D%/pairwise/pairwise_fallback.c %D%/pairwise/pairwise_fallback.h \
+  %D%/pairwise/tile_candidates.c %D%/pairwise/tile_candidates.h \
+  %D%/pairwise/tile_classification.c %D%/pairwise/tile_classification.h \
+  %D%/pairwise/undecided_faces.c %D%/pairwise/undecided_faces.h \
+  %D%/predicate/box2.h \
+  %D%/predicate/edge_intervals.c %D%/predicate/edge_intervals.h \
+  %D%/predicate/occlusion.c %D%/predicate/occlusion.h \
+  %D%/predicate/plane_filter.c %D%/predicate/plane_filter.h \
+  %D%/predicate/surrounder.c %D%/predicate/surrounder.h \
+  %D%/predicate/triangle_pair.c %D%/predicate/triangle_pair.h \
+  %D%/predicate/window.c %D%/predicate/window.h \
+  %D%/raster/active_edge_pair.c %D%/raster/active_edge_pair.h \
+  %D%/raster/pixels.c %D%/raster/pixels.h \
+  %D%/raster/raster.c %D%/raster/raster.h \
+  %D%/raster/span_fill.c %D%/raster/span_fill.h \
+  %D%/raster/subpixels.c %D%/raster/subpixels.h \
+  %D%/scan/edge_sampling.c %D%/scan/edge_sampling.h \
+  %D%/scan/facets.c %D%/scan/facets.h \
+  %D%/scan/trapezoids.c %D%/scan/trapezoids.h \
+  %D%/scanline_zbuffer/scanline_zbuffer.c %D%/scanline_zbuffer/scanline_zbuffer.h \
+  %D%/single_contour/single_contour.c %D%/single_contour/single_contour.h \
+  %D%/tiles/tiles.c \
+  %D%/warnock/warnock.c \
+  %D%/warnock/warnock_raster.c %D%/warnock/warnock_raster.h \
+  %D%/warnock/warnock_sample.c %D%/warnock/warnock_sample.h \
+  %D%/warnock/warnock_window.c %D%/warnock/warnock_window.h \
+  %D%/watkins/exact/sweep.c %D%/watkins/exact/sweep.h \
+  %D%/watkins/exact/sweep_edges.c \
+  %D%/watkins/exact/sweep_events.c \
+  %D%/watkins/exact/trapezoid_cells.c %D%/watkins/exact/trapezoid_cells.h \
+  %D%/watkins/exact/watkins_exact.c %D%/watkins/exact/watkins_exact.h \
+  %D%/watkins/pitch/watkins.c %D%/watkins/pitch/watkins.h \
+  %D%/watkins/pitch/watkins_edge_table.c \
+  %D%/watkins/pitch/watkins_interval.c \
+  %D%/watkins/pitch/watkins_interval_ends.c \
+  %D%/zbuffer/raster_small.c %D%/zbuffer/raster_small.h \
+  %D%/zbuffer/tile_order.c %D%/zbuffer/tile_order.h \
+  %D%/zbuffer/zbuffer.c %D%/zbuffer/zbuffer.h

@@ -9,8 +9,8 @@ void map_fini(struct map *map) {
   mem_free(map->edge_state);
   ARRAY_FREE(&map->mixed);
   ARRAY_FREE(&map->interval);
-  ARRAY_FREE(&map->deep);
-  ARRAY_FREE(&map->deep_interval);
+  ARRAY_FREE(&map->over_limit);
+  ARRAY_FREE(&map->over_limit_interval);
   ARRAY_FREE(&map->fragment);
   ARRAY_FREE(&map->loop);
   ARRAY_FREE(&map->corner);

@@ -70,9 +70,9 @@ struct map {
   ARRAY(struct map_mixed) mixed;
   ARRAY(struct map_interval) interval;
   /* Parts of edges behind more faces than are asked for, in the same form;
-   * empty where nobody asked (depths.h). */
-  ARRAY(struct map_mixed) deep;
-  ARRAY(struct map_interval) deep_interval;
+   * empty where nobody asked (quantitative_invisibility.h). */
+  ARRAY(struct map_mixed) over_limit;
+  ARRAY(struct map_interval) over_limit_interval;
 
   ARRAY(struct map_fragment) fragment;
   ARRAY(struct map_loop) loop;

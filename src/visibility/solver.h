@@ -30,7 +30,7 @@ struct solver {
   const char *name;
   bool exact; /* gives the visible map itself, not an approximation */
   /* Solves `sheet`.  Where intersections are asked for, their edges are
-   * appended to the sheet's drawable ones (see pierce.h).
+   * appended to the sheet's drawable ones (see intersection.h).
    * map  initialised, empty
    * Errors  RECTO_ERROR_MEMORY, _CANCELLED, _LIMIT, _UNSUPPORTED. */
   recto_status (*solve)(struct sheet *sheet,

@@ -7,7 +7,7 @@
 
 #include "base/report.h"
 #include "cli/arguments.h"
-#include "cli/uses.h"
+#include "cli/option_scope.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/render.h"
 
@@ -124,7 +124,7 @@ static void run(const uint8_t *bytes, size_t count,
   }
   if (arguments.help || arguments.version)
     return;
-  uses_warn(&arguments, take_use);
+  option_scope_warn(&arguments, take_use);
   if (arguments.check_file == NULL)
     draw(&arguments, finding);
 }

@@ -27,8 +27,8 @@ void judge_raster_fini(struct judge_raster *raster) { mem_free(raster->face); }
 
 /* A triangle's image with its nearness, which is linear on the page. */
 struct image {
-  struct judge_place at[3]; /* pixels */
-  double near[3];           /* grows towards the viewer */
+  struct judge_point2 at[3]; /* pixels */
+  double near[3];            /* grows towards the viewer */
 };
 
 static struct image image_of(const struct judge_raster *raster,
@@ -37,11 +37,11 @@ static struct image image_of(const struct judge_raster *raster,
   struct image image;
   double scale = raster->n / raster->page_mm;
   for (int k = 0; k < 3; k++) {
-    struct judge_place at = judge_project(camera, triangle->p[k]);
-    image.at[k] = (struct judge_place){at.x * scale, at.y * scale};
+    struct judge_point2 at = judge_project(camera, triangle->p[k]);
+    image.at[k] = (struct judge_point2){at.x * scale, at.y * scale};
     image.near[k] = camera->perspective
                         ? 1 / judge_depth(camera, triangle->p[k])
-                        : spot_dot(camera->back, triangle->p[k]);
+                        : point3_dot(camera->back, triangle->p[k]);
   }
   return image;
 }
@@ -50,7 +50,7 @@ static struct image image_of(const struct judge_raster *raster,
 static bool cross_row(const struct image *image, double y, double x[2]) {
   unsigned count = 0;
   for (int k = 0; k < 3 && count < 2; k++) {
-    struct judge_place a = image->at[k], b = image->at[(k + 1) % 3];
+    struct judge_point2 a = image->at[k], b = image->at[(k + 1) % 3];
     if ((a.y <= y) != (b.y <= y))
       x[count++] = a.x + (y - a.y) * (b.x - a.x) / (b.y - a.y);
   }
@@ -70,7 +70,7 @@ static unsigned first_pixel(const struct judge_raster *raster, double x) {
 
 static void draw_image(struct judge_raster *raster, double *depth,
                        const struct image *image, uint32_t face) {
-  const struct judge_place *p = image->at;
+  const struct judge_point2 *p = image->at;
   double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) -
                 (p[1].y - p[0].y) * (p[2].x - p[0].x);
   if (area == 0)
@@ -136,10 +136,10 @@ struct crossings {
 };
 
 static void cross_loop(struct crossings *crossings,
-                       const struct judge_place *at, uint32_t count,
+                       const struct judge_point2 *at, uint32_t count,
                        double scale, double y) {
   for (uint32_t k = 0; k < count; k++) {
-    struct judge_place a = at[k], b = at[(k + 1) % count];
+    struct judge_point2 a = at[k], b = at[(k + 1) % count];
     if ((a.y * scale <= y) == (b.y * scale <= y))
       continue;
     double x = a.x * scale + (y - a.y * scale) * (b.x - a.x) / (b.y - a.y);
@@ -148,18 +148,18 @@ static void cross_loop(struct crossings *crossings,
 }
 
 void judge_raster_region(struct judge_raster *raster,
-                         const struct judge_place *place, const uint32_t *count,
-                         uint32_t loops, uint32_t face) {
+                         const struct judge_point2 *page_point,
+                         const uint32_t *count, uint32_t loops, uint32_t face) {
   struct crossings crossings = {{0}};
   double scale = raster->n / raster->page_mm;
   double low = INFINITY, high = -INFINITY;
   for (uint32_t k = 0; k < count[0]; k++) {
-    low = fmin(low, place[k].y * scale);
-    high = fmax(high, place[k].y * scale);
+    low = fmin(low, page_point[k].y * scale);
+    high = fmax(high, page_point[k].y * scale);
   }
   unsigned end = first_pixel(raster, high);
   for (unsigned row = first_pixel(raster, low); row < end; row++) {
-    const struct judge_place *at = place;
+    const struct judge_point2 *at = page_point;
     crossings.x.count = 0;
     for (uint32_t i = 0; i < loops; at += count[i++])
       cross_loop(&crossings, at, count[i], scale, row + 0.5);

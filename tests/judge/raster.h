@@ -22,8 +22,8 @@ void judge_raster_scene(struct judge_raster *raster, const struct scene *scene,
 
 /* Fills a region of loops, even-odd, with a face. */
 void judge_raster_region(struct judge_raster *raster,
-                         const struct judge_place *place, const uint32_t *count,
-                         uint32_t loops, uint32_t face);
+                         const struct judge_point2 *page_point,
+                         const uint32_t *count, uint32_t loops, uint32_t face);
 
 /* How many pixels differ whose eight neighbours in `b` are all of one face:
  * those near an outline may fall to either side. */

@@ -22,4 +22,5 @@ check_LTLIBRARIES += %D%/libscenes.la
   %D%/solids.c \
   %D%/stacks.c \
   %D%/subdivide.c %D%/subdivide.h \
-  %D%/surfaces.c
+  %D%/surfaces.c \
+  %D%/write_obj.c %D%/write_obj.h

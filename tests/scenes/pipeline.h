@@ -2,7 +2,7 @@
 #ifndef SCENES_PIPELINE_H
 #define SCENES_PIPELINE_H
 
-#include "ink/drawing.h"
+#include "drawing/drawing.h"
 #include "tests/scenes/scenes.h"
 #include "visibility/solver.h"
 

@@ -1,0 +1,78 @@
+/* clip_warning.c - says what the page's margins cut away, and what helps. */
+#include "api/clip_warning.h"
+
+#include "base/sentence.h"
+
+/* What comes near to the eye is endlessly large on the page. */
+static void say_length(struct sentence *words, double mm) {
+  const double most_mm = 100000;
+  if (mm < most_mm)
+    sentence_add(words, "%.1f mm", mm);
+  else
+    sentence_add(words, "more than %.0f m", most_mm / 1000);
+}
+
+static const char *plural(uint64_t count) { return count == 1 ? "" : "s"; }
+
+static void say_what(struct sentence *words, const struct beyond *beyond,
+                     uint64_t faces) {
+  if (beyond->edges > 0) {
+    sentence_add(words, "%llu line%s (", (unsigned long long)beyond->edges,
+                 plural(beyond->edges));
+    say_length(words, beyond->mm);
+    sentence_add(words, ", hidden parts counted)");
+  }
+  if (beyond->edges > 0 && faces > 0)
+    sentence_add(words, " and ");
+  if (faces > 0)
+    sentence_add(words, "%llu filled face%s", (unsigned long long)faces,
+                 plural(faces));
+  if (beyond->edges > 0) {
+    sentence_add(words, ", as far as ");
+    say_length(words, beyond->reach_mm);
+    sentence_add(words, " beyond");
+  }
+}
+
+static void say_help(struct sentence *words, const struct beyond *beyond,
+                     double margin_mm, const recto_options *options) {
+  bool narrow = beyond->axis[0] && !beyond->axis[1] &&
+                options->page_width_mm < options->page_height_mm;
+  sentence_add(words, ": ");
+  switch (options->fit) {
+  case RECTO_FIT_SCALE:
+    sentence_add(words,
+                 "--fit or a smaller --scale shows all, a larger --page more");
+    break;
+  case RECTO_FIT_NONE:
+    sentence_add(words, options->fov_deg > 0
+                            ? "--fit shows all, a larger --fov or --page more"
+                            : "--fit or a smaller --scale shows all");
+    break;
+  case RECTO_FIT_PAGE:
+    sentence_add(words, "what is close to the eye is large: a larger --near or "
+                        "--section cuts it away");
+    break;
+  }
+  if (narrow && options->fit != RECTO_FIT_PAGE)
+    sentence_add(words, ", --landscape too");
+  if (beyond->reach_mm > 0 && beyond->reach_mm <= margin_mm + RECTO_FINEST_MM)
+    sentence_add(words, "; all is on the page itself, as --margin 0 shows");
+}
+
+void clipped_warn(const struct beyond *beyond, uint64_t faces, double margin_mm,
+                  const recto_options *options) {
+  struct sentence words = {.length = 0};
+  if (options->warning == NULL || (beyond->edges == 0 && faces == 0))
+    return;
+  sentence_add(&words, "clipped at the page's margins: ");
+  say_what(&words, beyond, faces);
+  say_help(&words, beyond, margin_mm, options);
+  options->warning(options->user, "", 0, words.text);
+}
+
+void clipped_report(const struct beyond *beyond, struct report *report) {
+  report_int(report, "clipped", "lines", (int64_t)beyond->edges);
+  report_double(report, "clipped", "length_mm", beyond->mm);
+  report_double(report, "clipped", "reach_mm", beyond->reach_mm);
+}

@@ -1,0 +1,56 @@
+/* judge_input.c - a scene and a camera as the judge is to see them. */
+#include "api/judge_input.h"
+
+bool judge_input_init(struct judge_input *input, const struct scene *scene) {
+  size_t count = scene->point.count;
+  const struct scene_point *from = scene->point.item;
+  struct scene_point *to = mem_alloc(count, sizeof *to);
+  input->scene = *scene;
+  input->scene.point.item = to;
+  input->given = from;
+  if (to == NULL)
+    return false;
+  input->origin = from[scene->corner.count > 0 ? scene->corner.item[0]
+                                               : scene->wire_corner.item[0]];
+  for (size_t i = 0; i < count; i++)
+    to[i] = (struct scene_point){from[i].x - input->origin.x,
+                                 from[i].y - input->origin.y,
+                                 from[i].z - input->origin.z};
+  return true;
+}
+
+void judge_input_fini(struct judge_input *input) {
+  mem_free(input->scene.point.item);
+}
+
+struct judge_camera judge_input_camera(const struct judge_input *input,
+                                       const struct camera *camera,
+                                       const recto_options *options) {
+  const double eye[3] = {camera->eye[0] - input->origin.x,
+                         camera->eye[1] - input->origin.y,
+                         camera->eye[2] - input->origin.z};
+  struct judge_camera made;
+  judge_camera_axes(&made, camera->right, camera->up, camera->back, eye,
+                    camera->perspective, camera->s, camera->middle_mm,
+                    camera->page_mm);
+  made.margin_mm = camera->margin_mm;
+  /* An orthographic view that was not cut begins at its nearest point. */
+  if (camera->perspective || options->has_section || options->near_distance > 0)
+    made.near_d = camera->near_d;
+  return made;
+}
+
+struct judge_options judge_input_options(const struct judge_input *input,
+                                         const struct camera *camera,
+                                         const recto_options *options) {
+  struct judge_options made;
+  judge_options_init(&made);
+  made.contact = camera->contact;
+  made.unstated = camera->unstated;
+  made.origin =
+      judge_point3_of(input->origin.x, input->origin.y, input->origin.z);
+  made.crease_deg = options->crease_deg;
+  made.edges = options->edges;
+  made.given = input->given;
+  return made;
+}

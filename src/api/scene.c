@@ -1,0 +1,142 @@
+/* scene.c - the scene's handle: made by hand or read from files. */
+#include <math.h>
+#include <string.h>
+
+#include "api/handle.h"
+#include "base/report.h"
+#include "scene/limit.h"
+
+recto_status recto_scene_create(recto_scene **scene, recto_error *error) {
+  if (scene == NULL)
+    return error_null(error, "the place for the scene");
+  *scene = mem_calloc(1, sizeof **scene);
+  if (*scene == NULL)
+    return error_memory(error);
+  scene_init(&(*scene)->scene);
+  return RECTO_OK;
+}
+
+void recto_scene_destroy(recto_scene *scene) {
+  if (scene == NULL)
+    return;
+  scene_fini(&scene->scene);
+  mem_free(scene->path);
+  mem_free(scene);
+}
+
+static void keep_faults(recto_scene *scene,
+                        const struct diagnostics *diagnostics) {
+  for (int i = 0; i < SCENE_FAULT_COUNT; i++)
+    scene->fault[i] += diagnostics->count[i];
+}
+
+/* Notes whose file the scene is, for warnings about all of it; false when
+ * memory ran out. */
+static bool keep_path(recto_scene *scene, const char *path) {
+  size_t size = strlen(path) + 1;
+  if (scene->read_before) {
+    mem_free(scene->path);
+    scene->path = NULL;
+    return true;
+  }
+  scene->read_before = true;
+  scene->path = mem_alloc(size, 1);
+  if (scene->path == NULL)
+    return false;
+  memcpy(scene->path, path, size);
+  return true;
+}
+
+recto_status recto_scene_read(recto_scene *scene, const char *path,
+                              const char *format, const recto_options *options,
+                              recto_error *error) {
+  struct diagnostics diagnostics = {.file = path};
+  if (scene == NULL || path == NULL)
+    return error_null(error, scene == NULL ? "the scene" : "the path");
+  if (options != NULL) {
+    diagnostics.warning = options->warning;
+    diagnostics.progress = options->progress;
+    diagnostics.user = options->user;
+  }
+  scene->scene.wants_colours =
+      options != NULL && options->fill == RECTO_FILL_PAINT;
+  double cpu = clock_cpu(), wall = clock_wall();
+  recto_status status =
+      scene_read(&scene->scene, path, format, &diagnostics, error);
+  scene->read_cpu += clock_cpu() - cpu;
+  scene->read_wall += clock_wall() - wall;
+  if (status == RECTO_OK)
+    keep_faults(scene, &diagnostics);
+  if (status == RECTO_OK && !keep_path(scene, path))
+    status = error_memory(error);
+  return status;
+}
+
+recto_status recto_scene_add_point(recto_scene *scene, const double xyz[3],
+                                   uint32_t *index, recto_error *error) {
+  if (scene == NULL || xyz == NULL)
+    return error_null(error, scene == NULL ? "the scene" : "the point");
+  if (!isfinite(xyz[0]) || !isfinite(xyz[1]) || !isfinite(xyz[2]))
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "a point is not finite");
+  if (scene->scene.point.count >= SCENE_LIMIT)
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0, "too many points");
+  recto_status status =
+      scene_leave_precision(&scene->scene, scene->scene.point.count, error);
+  if (status != RECTO_OK)
+    return status;
+  struct scene_point point = {xyz[0], xyz[1], xyz[2]};
+  if (!ARRAY_PUSH(&scene->scene.point, point))
+    return error_memory(error);
+  if (index != NULL)
+    *index = (uint32_t)(scene->scene.point.count - 1);
+  return RECTO_OK;
+}
+
+recto_status recto_scene_add_group(recto_scene *scene, const char *name,
+                                   recto_error *error) {
+  if (scene == NULL || name == NULL)
+    return error_null(error, scene == NULL ? "the scene" : "the name");
+  return scene_use_group(&scene->scene, name, strlen(name), error);
+}
+
+/* What is a bad element in a file is a wrong argument here. */
+static recto_status check_corners(const recto_scene *scene,
+                                  const uint32_t *corner, size_t count,
+                                  size_t least, recto_error *error) {
+  if (scene == NULL || corner == NULL)
+    return error_null(error, scene == NULL ? "the scene" : "the corners");
+  if (count < least)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "too few corners: %zu, not %zu", count, least);
+  for (size_t i = 0; i < count; i++)
+    if (corner[i] >= scene->scene.point.count)
+      return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                       "there is no point %lu", (unsigned long)corner[i]);
+  return RECTO_OK;
+}
+
+recto_status recto_scene_add_face(recto_scene *scene, const uint32_t *corner,
+                                  size_t count, recto_error *error) {
+  struct diagnostics diagnostics = {.file = ""};
+  recto_status status = check_corners(scene, corner, count, 3, error);
+  if (status == RECTO_OK)
+    status =
+        scene_add_face(&scene->scene, corner, count, 0, &diagnostics, error);
+  if (status == RECTO_OK)
+    keep_faults(scene, &diagnostics);
+  return status;
+}
+
+recto_status recto_scene_add_polyline(recto_scene *scene,
+                                      const uint32_t *corner, size_t count,
+                                      recto_error *error) {
+  struct diagnostics diagnostics = {.file = ""};
+  recto_status status = check_corners(scene, corner, count, 2, error);
+  if (status == RECTO_OK)
+    status =
+        scene_add_wire(&scene->scene, corner, count, 0, &diagnostics, error);
+  if (status == RECTO_OK)
+    keep_faults(scene, &diagnostics);
+  return status;
+}

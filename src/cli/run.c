@@ -1,0 +1,217 @@
+/* run.c - the work of one run: read, draw, write, report.
+ *
+ * Once there may be something to leave behind, a signal cancels through the
+ * progress function: see signals.h.  While models are read it ends the process
+ * at once: that may wait for ever, for somebody at a keyboard. */
+#include "cli/run.h"
+
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/path.h"
+#include "base/stream.h"
+#include "base/target.h"
+#include "cli/message.h"
+#include "cli/progress.h"
+#include "cli/signals.h"
+#include "cli/option_scope.h"
+
+/* ---- Conversation -------------------------------------------------------- */
+
+static void pass_warning(void *user, const char *file, unsigned long line,
+                         const char *text) {
+  (void)user;
+  message_print(file, line, text);
+}
+
+static bool pass_progress(void *user, double share, const char *stage) {
+  (void)user;
+  progress_note(share, stage);
+  return !signals_arrived();
+}
+
+/* ---- The work ------------------------------------------------------------ */
+
+/* Whether what --stats tells goes to standard error, since the drawing has
+ * standard output. */
+static bool stats_stand_aside(const struct arguments *arguments) {
+  return arguments->stats && arguments->stats_file == NULL &&
+         path_is_standard_output(arguments->output);
+}
+
+/* Where the stats go to; NULL: nowhere, or to standard error. */
+static const char *find_stats(const struct arguments *arguments) {
+  if (!arguments->stats || stats_stand_aside(arguments))
+    return NULL;
+  return arguments->stats_file != NULL ? arguments->stats_file : "-";
+}
+
+/* Whether all that is to be written can be.  Nothing may replace a model that
+ * is named, or has been read, or each other. */
+static recto_status check_outputs(const struct arguments *arguments,
+                                  const recto_scene *scene,
+                                  recto_error *error) {
+  const char *output[] = {arguments->output, find_stats(arguments)};
+  static const char *const what[] = {"the drawing", "the stats"};
+  for (int k = 0; k < 2; k++) {
+    for (int i = 0; output[k] != NULL && i < arguments->model_count; i++)
+      if (path_is_same(output[k], arguments->model[i]))
+        return error_set(error, RECTO_ERROR_ARGUMENT, output[k], 0,
+                         "%s would replace the model", what[k]);
+    recto_status status = output[k] != NULL
+                              ? recto_scene_try_output(scene, output[k], error)
+                              : RECTO_OK;
+    if (status != RECTO_OK)
+      return status;
+  }
+  if (output[1] != NULL && target_paths_are_same(output[0], output[1]))
+    return error_set(error, RECTO_ERROR_ARGUMENT, output[1], 0,
+                     "%s would replace the drawing", what[1]);
+  return RECTO_OK;
+}
+
+static recto_status read_models(const struct arguments *arguments,
+                                recto_scene *scene, recto_error *error) {
+  recto_status status = RECTO_OK;
+  for (int i = 0; i < arguments->model_count && status == RECTO_OK; i++)
+    status = recto_scene_read(scene, arguments->model[i], arguments->from,
+                              &arguments->options, error);
+  return status;
+}
+
+static double percent(double part, double whole) {
+  return whole > 0 ? 100 * part / whole : 0;
+}
+
+/* Says what somebody's drawing has too much and what it lacks. */
+static recto_status tell_verdict(const recto_verdict *v, recto_error *error) {
+  char text[512];
+  struct stream *stream;
+  recto_status status = stream_open(&stream, "-", error);
+  if (status != RECTO_OK)
+    return status;
+  int length =
+      snprintf(text, sizeof text,
+               "drawn        %11.3f mm\n"
+               "false ink    %11.3f mm  %7.3f %%",
+               v->drawn_mm, v->false_mm, percent(v->false_mm, v->drawn_mm));
+  if (v->false_mm > 0)
+    length += snprintf(text + length, sizeof text - (size_t)length,
+                       "  first at %.3f,%.3f mm", v->false_at_mm[0],
+                       v->false_at_mm[1]);
+  length += snprintf(text + length, sizeof text - (size_t)length,
+                     "\nvisible      %11.3f mm\n"
+                     "missing ink  %11.3f mm  %7.3f %%",
+                     v->visible_mm, v->missing_mm,
+                     percent(v->missing_mm, v->visible_mm));
+  if (v->missing_mm > 0)
+    length += snprintf(text + length, sizeof text - (size_t)length,
+                       "  first at %.3f,%.3f mm", v->missing_at_mm[0],
+                       v->missing_at_mm[1]);
+  snprintf(text + length, sizeof text - (size_t)length,
+           "\nundecided    %11.3f mm\n", v->unsure_mm);
+  stream_text(stream, text);
+  return stream_finish(stream, error);
+}
+
+/* Whether so much of a drawing is no more than the user tolerates. */
+static bool is_tolerable(const struct arguments *arguments, double part_mm,
+                         double whole_mm) {
+  return part_mm <=
+         fmax(arguments->tolerance_mm, arguments->tolerance_share * whole_mm);
+}
+
+static recto_status check(const struct arguments *arguments, bool *is_right,
+                          recto_error *error) {
+  recto_scene *scene = NULL;
+  recto_verdict verdict;
+  recto_status status = recto_scene_create(&scene, error);
+  if (status == RECTO_OK)
+    status = read_models(arguments, scene, error);
+  if (status == RECTO_OK)
+    status = recto_scene_check(scene, arguments->check_file,
+                               &arguments->options, &verdict, error);
+  recto_scene_destroy(scene);
+  progress_end();
+  if (status != RECTO_OK)
+    return status;
+  *is_right = is_tolerable(arguments, verdict.false_mm, verdict.drawn_mm) &&
+              is_tolerable(arguments, verdict.missing_mm, verdict.visible_mm);
+  return tell_verdict(&verdict, error);
+}
+
+static recto_status write_all(const struct arguments *arguments,
+                              const recto_drawing *drawing,
+                              const recto_options *options,
+                              recto_error *error) {
+  if (!arguments->quiet && recto_drawing_verdict(drawing) != NULL)
+    message_print("", 0, recto_drawing_verdict(drawing));
+  /* What goes to the terminal goes there without the bar. */
+  if (isatty(STDOUT_FILENO))
+    progress_end();
+  recto_status status = recto_drawing_write_with_stats(
+      drawing, arguments->output, arguments->format, find_stats(arguments),
+      options, error);
+  progress_end();
+  if (status == RECTO_OK && stats_stand_aside(arguments))
+    fputs(recto_drawing_stats(drawing), stderr);
+  return status;
+}
+
+static recto_status draw(const struct arguments *arguments,
+                         recto_error *error) {
+  recto_scene *scene = NULL;
+  recto_drawing *drawing = NULL;
+  recto_options options = arguments->options;
+  recto_options_suit(&options, arguments->output, arguments->format);
+  recto_status status = recto_scene_create(&scene, error);
+  if (status == RECTO_OK)
+    status = check_outputs(arguments, scene, error);
+  if (status == RECTO_OK)
+    status = read_models(arguments, scene, error);
+  if (status == RECTO_OK)
+    status = check_outputs(arguments, scene, error);
+  signals_catch();
+  if (status == RECTO_OK)
+    status = recto_scene_render(scene, &options, &drawing, error);
+  if (status == RECTO_OK)
+    status = write_all(arguments, drawing, &options, error);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+  return status;
+}
+
+/* What an error means for the exit status of a run that draws. */
+static int status_of(recto_status status) {
+  return status == RECTO_OK ? EXIT_DONE
+         : status == RECTO_ERROR_ARGUMENT || status == RECTO_ERROR_UNSUPPORTED
+             ? EXIT_USAGE
+             : EXIT_FAILED;
+}
+
+int cli_run(struct arguments *arguments) {
+  recto_error error = {0};
+  bool is_right = true;
+  /* A file larger than is allowed is a write that fails. */
+  (void)signal(SIGXFSZ, SIG_IGN);
+  arguments->options.progress = pass_progress;
+  if (!arguments->quiet) {
+    arguments->options.warning = pass_warning;
+    option_scope_warn(arguments, message_print);
+  }
+  bool checks = arguments->check_file != NULL;
+  if (!arguments->quiet)
+    progress_start(arguments->progress);
+  recto_status status =
+      checks ? check(arguments, &is_right, &error) : draw(arguments, &error);
+  progress_end();
+  if (status != RECTO_OK && !signals_are_of_a_pipe())
+    message_print(error.file, error.line, error.text);
+  signals_die();
+  if (!checks)
+    return status_of(status);
+  return status != RECTO_OK ? EXIT_USAGE : is_right ? EXIT_DONE : EXIT_FAILED;
+}

@@ -1,0 +1,68 @@
+/* drawing.c - the life of a drawing, and how far the pen goes for it. */
+#include "drawing/drawing.h"
+
+#include <math.h>
+
+void drawing_init(struct drawing *drawing) { *drawing = (struct drawing){0}; }
+
+void drawing_fini(struct drawing *drawing) {
+  ARRAY_FREE(&drawing->layer);
+  ARRAY_FREE(&drawing->stroke);
+  ARRAY_FREE(&drawing->fill);
+  ARRAY_FREE(&drawing->loop);
+  ARRAY_FREE(&drawing->point);
+  for (size_t i = 0; i < drawing->group_name.count; i++)
+    mem_free(drawing->group_name.item[i]);
+  ARRAY_FREE(&drawing->group_name);
+  report_destroy(drawing->report);
+  drawing->report = NULL;
+}
+
+double drawing_width_mm(const struct drawing *drawing,
+                        const struct drawing_stroke *stroke) {
+  double width = drawing->layer.item[stroke->layer].width_mm;
+  if (stroke->hidden)
+    return width;
+  for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
+    if (stroke->edge_class == 1u << i && drawing->weight[i] > 0)
+      return width * drawing->weight[i];
+  return width;
+}
+
+static double distance(struct drawing_point a, struct drawing_point b) {
+  double dx = b.x - a.x, dy = b.y - a.y;
+  return sqrt(dx * dx + dy * dy);
+}
+
+double drawing_stroke_mm(const struct drawing *drawing,
+                         const struct drawing_stroke *stroke) {
+  const struct drawing_point *point = drawing->point.item + stroke->point;
+  double length = 0;
+  for (uint32_t k = 1; k < stroke->count; k++)
+    length += distance(point[k - 1], point[k]);
+  if (stroke->closed && stroke->count > 0)
+    length += distance(point[stroke->count - 1], point[0]);
+  return length;
+}
+
+double drawing_length_mm(const struct drawing *drawing) {
+  double length = 0;
+  for (size_t i = 0; i < drawing->stroke.count; i++)
+    length += drawing_stroke_mm(drawing, &drawing->stroke.item[i]);
+  return length;
+}
+
+double drawing_travel_mm(const struct drawing *drawing) {
+  double travel = 0;
+  struct drawing_point pen = {0, 0};
+  for (size_t layer = 0; layer < drawing->layer.count; layer++)
+    for (size_t i = 0; i < drawing->stroke.count; i++) {
+      const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+      if (stroke->layer != layer || stroke->count == 0)
+        continue;
+      const struct drawing_point *point = drawing->point.item + stroke->point;
+      travel += distance(pen, point[0]);
+      pen = stroke->closed ? point[0] : point[stroke->count - 1];
+    }
+  return travel;
+}

@@ -1,0 +1,3 @@
+# src/drawing/local.mk - what backends write: strokes and fills in mm.
+librecto_core_la_SOURCES += \
+  %D%/drawing.c %D%/drawing.h

@@ -1,0 +1,64 @@
+/* fill.c - visible fragments become fills, painted or shaded. */
+#include "ink/fill/fill.h"
+
+#include "ink/fill/light.h"
+#include "ink/fill/merge.h"
+#include "view/vector.h"
+
+/* Muted, so that lines stay the picture, and apart in hue or in lightness. */
+static const uint32_t palette[] = {
+    0x9db4c8, 0xe0c29a, 0xa9c4a0, 0xd3a39c, 0xb9aecb, 0xd9d3a4,
+    0x8fb5b0, 0xc4a586, 0xc7d4de, 0xe3b8a0, 0x96a68a, 0xcfb3c3,
+};
+
+uint32_t fill_colour(const struct scene *scene, uint32_t group) {
+  if (group < scene->group.count && scene->group.item[group].has_colour)
+    return scene->group.item[group].colour;
+  return palette[group % (sizeof palette / sizeof palette[0])];
+}
+
+/* ---- Shade --------------------------------------------------------------- */
+
+static uint32_t grey_of(const struct scene *scene, uint32_t face,
+                        const struct camera *camera, const double light[3]) {
+  double normal[3];
+  light_face_normal(scene, face, normal);
+  if (light_is_turned_away(scene, face, camera, normal))
+    for (int k = 0; k < 3; k++)
+      normal[k] = -normal[k];
+  (void)vector_normalise(normal);
+  uint32_t level = (uint32_t)(255 * light_brightness(normal, light) + 0.5);
+  return level << 16 | level << 8 | level;
+}
+
+/* ---- Fills --------------------------------------------------------------- */
+
+/* The fill that a fragment would be, without its loops. */
+static struct drawing_fill fill_like(const struct sheet *sheet,
+                                     const struct scene *scene, uint32_t face,
+                                     const double light[3],
+                                     const recto_options *options) {
+  uint32_t group = scene->face_group.item[face];
+  return (struct drawing_fill){
+      .colour = options->fill == RECTO_FILL_SHADE
+                    ? grey_of(scene, face, &sheet->camera, light)
+                    : fill_colour(scene, group),
+      .face = face,
+      .group = group};
+}
+
+bool fill_add(struct drawing *drawing, const struct sheet *sheet,
+              const struct scene *scene, const struct map *map,
+              const recto_options *options) {
+  struct drawing_fill *like = mem_alloc(map->fragment.count, sizeof *like);
+  double light[3];
+  if (!like)
+    return false;
+  light_direction(&sheet->camera, options, light);
+  for (size_t i = 0; i < map->fragment.count; i++)
+    like[i] =
+        fill_like(sheet, scene, map->fragment.item[i].face, light, options);
+  bool ok = merge_fills(drawing, sheet, scene, map, like, options);
+  mem_free(like);
+  return ok;
+}

@@ -1,0 +1,221 @@
+/* chain.c - walks along paired ends: segments become polylines.
+ *
+ * Phases
+ *   1 pair the ends at every node (pairing.c): what is left is simple paths
+ *     and loops
+ *   2 from every end that is joined to none, walk to the other such end
+ *   3 what was not walked over is loops
+ *   4 turn every path the way it is to be read
+ *   5 sort the paths by their first edges
+ *   6 look the points up: not while walking, when each step would wait for
+ *     it; a row of look-ups waits for memory only once */
+#include "ink/lines/paths.h"
+
+#include "base/sort.h"
+#include "ink/lines/pairing.h"
+
+struct chain {
+  const struct segment_graph *graph;
+  struct ink_paths *paths;
+  uint32_t *mate;
+  uint8_t *used;       /* one a segment */
+  ARRAY(uint32_t) end; /* path by path, each point as an end that is there */
+};
+
+void paths_fini(struct ink_paths *paths) {
+  ARRAY_FREE(&paths->point);
+  ARRAY_FREE(&paths->path);
+  mem_free(paths->approximate);
+}
+
+static uint32_t node_of_end(const struct chain *c, uint32_t end) {
+  return c->graph->segment.item[end >> 1].node[end & 1];
+}
+
+static struct ink_point point_of_end(const struct chain *c, uint32_t end) {
+  return c->graph->node.item[node_of_end(c, end)];
+}
+
+static bool is_lower(struct ink_point a, struct ink_point b) {
+  return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
+
+static double distance2(struct ink_point a, struct ink_point b) {
+  double dx = (double)a.x - b.x, dy = (double)a.y - b.y;
+  return dx * dx + dy * dy;
+}
+
+static void reverse(uint32_t *end, size_t count) {
+  for (size_t i = 0; i < count / 2; i++) {
+    uint32_t swap = end[i];
+    end[i] = end[count - 1 - i];
+    end[count - 1 - i] = swap;
+  }
+}
+
+/* Makes a path of the ends from `from` on; segment `first` is its first. */
+static bool add_path(struct chain *c, size_t from, uint32_t first,
+                     bool closed) {
+  const struct graph_segment *s = &c->graph->segment.item[first];
+  struct ink_path path = {.point = (uint32_t)from,
+                          .count = (uint32_t)(c->end.count - from),
+                          .edge = s->edge,
+                          .hidden = graph_segment_is_hidden(s),
+                          .closed = closed};
+  return ARRAY_PUSH(&c->paths->path, path);
+}
+
+/* ---- Open paths ---------------------------------------------------------- */
+
+static bool walk_open(struct chain *c, uint32_t end) {
+  size_t from = c->end.count;
+  uint32_t last = end;
+  for (; end != SEGMENT_GRAPH_NONE; end = c->mate[last]) {
+    c->used[end >> 1] = 1;
+    if (!ARRAY_PUSH(&c->end, end))
+      return false;
+    last = end ^ 1;
+  }
+  if (!ARRAY_PUSH(&c->end, last))
+    return false;
+  uint32_t *path = c->end.item + from, first = path[0];
+  size_t count = c->end.count - from;
+  if (is_lower(point_of_end(c, last), point_of_end(c, first))) {
+    reverse(path, count);
+    first = last;
+  }
+  return add_path(c, from, first >> 1, false);
+}
+
+/* ---- Loops --------------------------------------------------------------- */
+
+/* Which of a loop's ends is to be its first: see paths_chain. */
+static size_t choose_start(const struct chain *c, const uint32_t *end,
+                           size_t count) {
+  struct ink_point lowest = point_of_end(c, end[0]);
+  for (size_t i = 1; i < count; i++) {
+    struct ink_point p = point_of_end(c, end[i]);
+    if (is_lower(p, lowest))
+      lowest = p;
+  }
+  size_t start = 0;
+  struct ink_point best = lowest;
+  double farthest = -1;
+  for (size_t i = 0; i < count; i++) {
+    struct ink_point p = point_of_end(c, end[i]);
+    double d = distance2(p, lowest);
+    if (d > farthest || (d == farthest && is_lower(p, best))) {
+      farthest = d;
+      best = p;
+      start = i;
+    }
+  }
+  return start;
+}
+
+static bool walk_loop(struct chain *c, uint32_t end) {
+  size_t from = c->end.count;
+  uint32_t start = end;
+  do {
+    c->used[end >> 1] = 1;
+    if (!ARRAY_PUSH(&c->end, end))
+      return false;
+    end = c->mate[end ^ 1];
+  } while (end != start);
+  uint32_t *loop = c->end.item + from;
+  size_t count = c->end.count - from, corner = choose_start(c, loop, count);
+  /* Both parts turned round, then the whole: the loop begins at its corner. */
+  reverse(loop, corner);
+  reverse(loop + corner, count - corner);
+  reverse(loop, count);
+  /* Towards the lower of its neighbours; each end leaves its point forwards,
+   * so the first segment of the loop turned round is the last one's. */
+  uint32_t first = loop[0] >> 1;
+  if (is_lower(point_of_end(c, loop[count - 1]), point_of_end(c, loop[1]))) {
+    first = loop[count - 1] >> 1;
+    reverse(loop + 1, count - 1);
+  }
+  return add_path(c, from, first, true);
+}
+
+static bool walk_all(struct chain *c) {
+  size_t count = c->graph->segment.count;
+  for (size_t i = 0; i < count; i++) {
+    for (uint32_t side = 0; side < 2 && !c->used[i]; side++) {
+      uint32_t end = (uint32_t)(2 * i) + side;
+      if (c->mate[end] == SEGMENT_GRAPH_NONE && !walk_open(c, end))
+        return false;
+    }
+  }
+  for (size_t i = 0; i < count; i++)
+    if (!c->used[i] && !walk_loop(c, (uint32_t)(2 * i)))
+      return false;
+  return true;
+}
+
+/* ---- In order ------------------------------------------------------------ */
+
+static bool sort_paths(struct ink_paths *paths) {
+  size_t count = paths->path.count;
+  struct sort_key *key = mem_alloc(count, sizeof *key);
+  struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
+  struct ink_path *sorted = mem_alloc(count, sizeof *sorted);
+  bool ok = key && scratch && sorted;
+  if (ok) {
+    for (size_t i = 0; i < count; i++) {
+      const struct ink_path *path = &paths->path.item[i];
+      key[i].key = (uint64_t)path->hidden << 32 | path->edge;
+      key[i].value = (uint32_t)i;
+    }
+    sort_keys(key, scratch, count);
+    for (size_t i = 0; i < count; i++)
+      sorted[i] = paths->path.item[key[i].value];
+    mem_free(paths->path.item);
+    paths->path.item = sorted;
+    paths->path.capacity = count;
+    sorted = NULL;
+  }
+  mem_free(key);
+  mem_free(scratch);
+  mem_free(sorted);
+  return ok;
+}
+
+static bool place_points(struct chain *c) {
+  struct ink_paths *paths = c->paths;
+  if (!ARRAY_RESERVE(&paths->point, c->end.count))
+    return false;
+  if (c->graph->approximate) {
+    paths->approximate = mem_alloc(c->end.count, sizeof *paths->approximate);
+    if (!paths->approximate)
+      return false;
+  }
+  for (size_t i = 0; i < paths->path.count; i++) {
+    struct ink_path *path = &paths->path.item[i];
+    const uint32_t *end = c->end.item + path->point;
+    struct ink_point *point = paths->point.item + paths->point.count;
+    for (uint32_t k = 0; k < path->count; k++)
+      point[k] = point_of_end(c, end[k]);
+    for (uint32_t k = 0; paths->approximate && k < path->count; k++)
+      paths->approximate[paths->point.count + k] =
+          c->graph->approximate[node_of_end(c, end[k])];
+    path->point = (uint32_t)paths->point.count;
+    paths->point.count += path->count;
+  }
+  return true;
+}
+
+recto_status paths_chain(struct ink_paths *paths,
+                         const struct segment_graph *graph,
+                         recto_error *error) {
+  size_t count = graph->segment.count;
+  struct chain c = {.graph = graph, .paths = paths};
+  c.mate = mem_alloc(count, 2 * sizeof *c.mate);
+  c.used = mem_calloc(count, sizeof *c.used);
+  bool ok = c.mate && c.used && pairing_find(c.mate, graph) && walk_all(&c) &&
+            sort_paths(paths) && place_points(&c);
+  mem_free(c.mate);
+  mem_free(c.used);
+  ARRAY_FREE(&c.end);
+  return ok ? RECTO_OK : error_memory(error);
+}

@@ -1,0 +1,311 @@
+/* nodes.c - nodes at one place become one, in rows that find them again.
+ *
+ * Phases
+ *   1 sort   all nodes by x, then y
+ *   2 rows   dealt to horizontal bands, about as many nodes in each as there
+ *            are bands: wherever the nodes crowd, bands are thin, so looking
+ *            up one place costs at most a band
+ *   3 unite  in reading order each node takes in those near it
+ *   4 renumber the nodes, and sort the segments by them
+ * Invariant  Of two nodes left, x or y differ by more than the tolerance: the
+ *   later one was looked at by the earlier and would have been taken in.
+ *   Nothing moves by more than the tolerance, as only nodes that have taken
+ *   in others stay. */
+#include "ink/lines/segment_graph.h"
+
+#include <math.h>
+
+#include "base/sort.h"
+#include "base/tolerance.h"
+
+enum { BUCKET_BITS = 16, BUCKETS = 1 << BUCKET_BITS, MOST_ROWS = 65535 };
+
+#define NEAR TOLERANCE_COINCIDENT_UNITS
+
+struct unite {
+  struct segment_graph *graph;
+  struct node_rows *rows;
+  size_t count;         /* of nodes, before */
+  struct ink_point *at; /* row by row */
+  uint32_t *order;      /* row by row: the node's old number */
+  uint32_t *root;       /* row by row: who took it in, itself if none */
+  uint32_t *renumber;   /* old number -> new */
+  uint32_t *bucket;     /* nodes in each bucket of y, then its row */
+  int32_t x_low, y_low;
+  int shift; /* y - y_low to bucket */
+};
+
+void node_rows_fini(struct node_rows *rows) {
+  mem_free(rows->start);
+  mem_free(rows->low);
+  mem_free(rows->row);
+  *rows = (struct node_rows){0};
+}
+
+/* ---- 1 Sort -------------------------------------------------------------- */
+
+static int bit_width(uint64_t value) {
+  int width = 0;
+  for (; value; value >>= 1)
+    width++;
+  return width;
+}
+
+/* The node numbers by x, then y; NULL when memory ran out. */
+static struct sort_key *sort_nodes(struct unite *u) {
+  const struct ink_point *node = u->graph->node.item;
+  int32_t y_high = node[0].y;
+  u->x_low = node[0].x;
+  u->y_low = node[0].y;
+  for (size_t i = 1; i < u->count; i++) {
+    u->x_low = node[i].x < u->x_low ? node[i].x : u->x_low;
+    u->y_low = node[i].y < u->y_low ? node[i].y : u->y_low;
+    y_high = node[i].y > y_high ? node[i].y : y_high;
+  }
+  int y_bits = bit_width((uint64_t)((int64_t)y_high - u->y_low));
+  u->shift = y_bits > BUCKET_BITS ? y_bits - BUCKET_BITS : 0;
+
+  struct sort_key *key = mem_alloc(u->count, sizeof *key);
+  struct sort_key *scratch = mem_alloc(u->count, sizeof *scratch);
+  if (key && scratch) {
+    for (size_t i = 0; i < u->count; i++) {
+      uint64_t x = (uint64_t)((int64_t)node[i].x - u->x_low);
+      uint64_t y = (uint64_t)((int64_t)node[i].y - u->y_low);
+      key[i] = (struct sort_key){x << y_bits | y, (uint32_t)i};
+    }
+    sort_keys(key, scratch, u->count);
+  } else {
+    mem_free(key);
+    key = NULL;
+  }
+  mem_free(scratch);
+  return key;
+}
+
+/* ---- 2 Rows -------------------------------------------------------------- */
+
+static size_t bucket_of(const struct unite *u, int32_t y) {
+  return (size_t)(((int64_t)y - u->y_low) >> u->shift);
+}
+
+/* Joins buckets to rows: bucket[b] becomes its row, start[r + 1] the number
+ * of nodes before row r, as deal_nodes needs it. */
+static void form_rows(struct unite *u) {
+  struct node_rows *rows = u->rows;
+  double aim = sqrt((double)u->count);
+  uint32_t target =
+      (uint32_t)(aim < MOST_ROWS ? aim + 1 : aim * aim / MOST_ROWS + 1);
+  uint32_t in_row = target, before = 0;
+  rows->count = 0;
+  for (size_t b = 0; b < BUCKETS; b++) {
+    uint32_t here = u->bucket[b];
+    if (here && in_row >= target) {
+      rows->low[rows->count] = u->y_low + ((int64_t)b << u->shift);
+      rows->start[++rows->count] = before;
+      in_row = 0;
+    }
+    u->bucket[b] = rows->count - 1;
+    in_row += here;
+    before += here;
+  }
+  rows->low[rows->count] = INT64_MAX;
+}
+
+/* Deals the sorted nodes to their rows, in order. */
+static void deal_nodes(struct unite *u, const struct sort_key *key) {
+  const struct ink_point *node = u->graph->node.item;
+  uint32_t *next = u->rows->start + 1; /* ends as the next row's start */
+  for (size_t i = 0; i < u->count; i++) {
+    struct ink_point p = node[key[i].value];
+    uint32_t place = next[u->bucket[bucket_of(u, p.y)]]++;
+    u->order[place] = key[i].value;
+    u->at[place] = p;
+  }
+  u->rows->start[0] = 0;
+}
+
+static bool make_rows(struct unite *u) {
+  struct sort_key *key = sort_nodes(u);
+  if (!key)
+    return false;
+  for (size_t i = 0; i < u->count; i++)
+    u->bucket[bucket_of(u, u->graph->node.item[i].y)]++;
+  form_rows(u);
+  deal_nodes(u, key);
+  mem_free(key);
+  return true;
+}
+
+/* ---- 3 Unite ------------------------------------------------------------- */
+
+/* The first place in [low, high) that is not before (x, y). */
+static uint32_t find_place(const struct ink_point *at, uint32_t low,
+                           uint32_t high, int64_t x, int64_t y) {
+  while (low < high) {
+    uint32_t middle = low + (high - low) / 2;
+    if (at[middle].x < x || (at[middle].x == x && at[middle].y < y))
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+/* Node i takes in the nodes of [low, high), one row's, near it. */
+static void take_in(struct unite *u, uint32_t i, uint32_t low, uint32_t high) {
+  struct ink_point p = u->at[i];
+  for (int64_t x = (int64_t)p.x - NEAR; x <= (int64_t)p.x + NEAR; x++) {
+    uint32_t k = find_place(u->at, low, high, x, (int64_t)p.y - NEAR);
+    for (; k < high && u->at[k].x == x && u->at[k].y <= (int64_t)p.y + NEAR;
+         k++)
+      if (u->root[k] == k)
+        u->root[k] = i;
+    low = k;
+  }
+}
+
+static void unite_near(struct unite *u) {
+  const struct node_rows *rows = u->rows;
+  for (uint32_t i = 0; i < u->count; i++)
+    u->root[i] = i;
+  for (uint32_t r = 0; r < rows->count; r++) {
+    uint32_t end = rows->start[r + 1];
+    for (uint32_t i = rows->start[r]; i < end; i++) {
+      if (u->root[i] != i)
+        continue;
+      struct ink_point p = u->at[i];
+      if (i + 1 < end && u->at[i + 1].x <= (int64_t)p.x + NEAR)
+        take_in(u, i, i + 1, end);
+      for (uint32_t q = r + 1; (int64_t)p.y + NEAR >= rows->low[q]; q++)
+        take_in(u, i, rows->start[q], rows->start[q + 1]);
+    }
+  }
+}
+
+/* ---- 4 Renumber ---------------------------------------------------------- */
+
+static void renumber_nodes(struct unite *u) {
+  struct node_rows *rows = u->rows;
+  struct ink_point *node = u->graph->node.item;
+  uint32_t count = 0;
+  for (uint32_t r = 0; r < rows->count; r++) {
+    uint32_t i = rows->start[r], end = rows->start[r + 1];
+    rows->start[r] = count;
+    for (; i < end; i++) {
+      /* A root stands before those it took in, so its number is known. */
+      if (u->root[i] == i) {
+        node[count] = u->at[i];
+        rows->row[count] = (uint16_t)r;
+        u->renumber[u->order[i]] = count++;
+      } else {
+        u->renumber[u->order[i]] = u->renumber[u->order[u->root[i]]];
+      }
+    }
+  }
+  rows->start[rows->count] = count;
+  u->graph->node.count = count;
+}
+
+static void renumber_segments(struct unite *u) {
+  struct segment_graph *graph = u->graph;
+  size_t kept = 0;
+  for (size_t i = 0; i < graph->segment.count; i++) {
+    struct graph_segment s = graph->segment.item[i];
+    uint32_t a = u->renumber[s.node[0]], b = u->renumber[s.node[1]];
+    s.node[0] = a < b ? a : b;
+    s.node[1] = a < b ? b : a;
+    if (a != b)
+      graph->segment.item[kept++] = s;
+  }
+  graph->dots += graph->segment.count - kept;
+  graph->segment.count = kept;
+}
+
+static int compare_second(const void *first, const void *second, void *user) {
+  const struct graph_segment *a = first, *b = second;
+  (void)user;
+  return (a->node[1] > b->node[1]) - (a->node[1] < b->node[1]);
+}
+
+/* Sorts segments with one first node by the second; there are few, or else a
+ * fan. */
+static bool sort_run(struct graph_segment *segment, size_t count) {
+  enum { FEW = 16 };
+  if (count > FEW)
+    return sort_stable(segment, count, sizeof *segment, compare_second, NULL);
+  for (size_t i = 1; i < count; i++) {
+    struct graph_segment moving = segment[i];
+    size_t hole = i;
+    for (; hole > 0 && segment[hole - 1].node[1] > moving.node[1]; hole--)
+      segment[hole] = segment[hole - 1];
+    segment[hole] = moving;
+  }
+  return true;
+}
+
+/* `start` has room for the nodes and one, all 0. */
+static bool sort_into(struct graph_segment *sorted, uint32_t *start,
+                      const struct segment_graph *graph) {
+  for (size_t i = 0; i < graph->segment.count; i++)
+    start[graph->segment.item[i].node[0] + 1]++;
+  for (size_t n = 0; n < graph->node.count; n++)
+    start[n + 1] += start[n];
+  for (size_t i = 0; i < graph->segment.count; i++)
+    sorted[start[graph->segment.item[i].node[0]]++] = graph->segment.item[i];
+  /* start[n] is by now where the run of node n ends. */
+  for (size_t n = 0, from = 0; n < graph->node.count; from = start[n++])
+    if (!sort_run(sorted + from, start[n] - from))
+      return false;
+  return true;
+}
+
+bool segment_graph_sort_segments(struct segment_graph *graph) {
+  size_t count = graph->segment.count;
+  struct graph_segment *sorted = mem_alloc(count, sizeof *sorted);
+  uint32_t *start = mem_calloc(graph->node.count + 1, sizeof *start);
+  bool ok = sorted && start && sort_into(sorted, start, graph);
+  if (ok) {
+    mem_free(graph->segment.item);
+    graph->segment.item = sorted;
+    graph->segment.capacity = count;
+    sorted = NULL;
+  }
+  mem_free(sorted);
+  mem_free(start);
+  return ok;
+}
+
+recto_status segment_graph_unite(struct segment_graph *graph,
+                                 struct node_rows *rows, recto_error *error) {
+  size_t count = graph->node.count;
+  struct unite u = {.graph = graph, .rows = rows, .count = count};
+  bool ok = false;
+  u.at = mem_alloc(count, sizeof *u.at);
+  u.order = mem_alloc(count, sizeof *u.order);
+  u.root = mem_alloc(count, sizeof *u.root);
+  u.renumber = mem_alloc(count, sizeof *u.renumber);
+  u.bucket = mem_calloc(BUCKETS, sizeof *u.bucket);
+  /* A row has one node at least, and there are at most so many. */
+  size_t most = count < MOST_ROWS ? count : MOST_ROWS;
+  rows->start = mem_calloc(most + 2, sizeof *rows->start);
+  rows->low = mem_alloc(most + 1, sizeof *rows->low);
+  rows->row = mem_alloc(count, sizeof *rows->row);
+  if (!u.at || !u.order || !u.root || !u.renumber || !u.bucket ||
+      !rows->start || !rows->low || !rows->row)
+    goto done;
+  if (count > 0) {
+    if (!make_rows(&u))
+      goto done;
+    unite_near(&u);
+    renumber_nodes(&u);
+    renumber_segments(&u);
+  }
+  ok = segment_graph_sort_segments(graph);
+done:
+  mem_free(u.at);
+  mem_free(u.order);
+  mem_free(u.root);
+  mem_free(u.renumber);
+  mem_free(u.bucket);
+  return ok ? RECTO_OK : error_memory(error);
+}

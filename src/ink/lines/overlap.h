@@ -1,0 +1,40 @@
+/* overlap.h - of segments that lie on one line, what each of them keeps. */
+#ifndef INK_LINES_OVERLAP_H
+#define INK_LINES_OVERLAP_H
+
+#include "base/sort.h"
+#include "ink/lines/segment_graph.h"
+
+/* Whether two segments run along each other for more than the tolerance. */
+bool overlap_is_along(const struct segment_graph *graph, uint32_t a,
+                      uint32_t b);
+
+/* Which of two segments is drawn where both are: the lower value. */
+static inline uint64_t overlap_rank(const struct segment_graph *graph,
+                                    uint32_t segment) {
+  const struct graph_segment *s = &graph->segment.item[segment];
+  uint64_t edge_class = s->style_key & RECTO_EDGES_ALL;
+  return (uint64_t)graph_segment_is_hidden(s) << 40 | edge_class << 32 |
+         s->edge;
+}
+
+/* Work space for clusters of up to so many segments, and what they leave. */
+struct overlap {
+  struct sort_key *key, *scratch; /* two a segment */
+  uint32_t *slot;                 /* two a segment */
+  uint32_t *node, *owner, *next;  /* two a segment, and one */
+  uint32_t *near, *rest;          /* one a segment */
+  ARRAY(struct graph_segment) piece;
+};
+
+USE_RESULT bool overlap_init(struct overlap *overlap, size_t segments);
+void overlap_fini(struct overlap *overlap);
+
+/* Replaces `count` segments that run along one another by pieces that do not.
+ * member  their numbers; they are to be dropped from the net by the caller
+ * Cost    count log count */
+USE_RESULT bool overlap_resolve(struct overlap *overlap,
+                                const struct segment_graph *graph,
+                                const uint32_t *member, size_t count);
+
+#endif

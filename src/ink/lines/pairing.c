@@ -1,0 +1,201 @@
+/* pairing.c - which of the ends that meet at a node are joined.
+ *
+ * Phases at a node
+ *   two ends     joined where they are of one bond
+ *   up to FEW    the straightest pair is joined and taken out, again and
+ *                again; pairs of one kin first
+ *   more         sorted by bond, kin and direction, each end is joined to the
+ *                one half way round, which of a full fan is the opposite one;
+ *                what odd counts leave is joined across kins in the same way
+ * Robustness  Directions are unit vectors in float: they choose between pairs,
+ *   and any choice is a valid drawing.  The same on every machine, as only
+ *   correctly rounded operations are used. */
+#include "ink/lines/pairing.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/sort.h"
+
+enum { FEW = 16 };
+
+struct end_direction {
+  float x, y;
+};
+
+/* One end at the node at hand. */
+struct fan_end {
+  uint32_t end, pen_key, style_key;
+  struct end_direction away; /* from the node */
+};
+
+struct pairing {
+  const struct segment_graph *graph;
+  uint32_t *mate;
+  struct end_direction *along; /* of each segment, from its first node */
+  ARRAY(struct fan_end) fan;
+};
+
+static void find_directions(struct pairing *p) {
+  const struct segment_graph *graph = p->graph;
+  for (size_t i = 0; i < graph->segment.count; i++) {
+    const struct graph_segment *s = &graph->segment.item[i];
+    struct ink_point a = graph->node.item[s->node[0]];
+    struct ink_point b = graph->node.item[s->node[1]];
+    double x = (double)b.x - a.x, y = (double)b.y - a.y;
+    double scale = 1 / sqrt(x * x + y * y);
+    p->along[i] =
+        (struct end_direction){(float)(x * scale), (float)(y * scale)};
+  }
+}
+
+static struct fan_end fan_end(const struct pairing *p, uint32_t end) {
+  const struct graph_segment *s = &p->graph->segment.item[end >> 1];
+  struct end_direction d = p->along[end >> 1];
+  if (end & 1)
+    d = (struct end_direction){-d.x, -d.y};
+  return (struct fan_end){end, s->pen_key, s->style_key, d};
+}
+
+static void join(struct pairing *p, uint32_t a, uint32_t b) {
+  p->mate[a] = b;
+  p->mate[b] = a;
+}
+
+/* ---- Few ends ------------------------------------------------------------ */
+
+static void pair_few(struct pairing *p, const uint32_t *end, uint32_t count) {
+  enum { NO_PAIR = 4 }; /* beyond any sum of a cosine and a penalty */
+  struct fan_end fan[FEW];
+  for (uint32_t i = 0; i < count; i++)
+    fan[i] = fan_end(p, end[i]);
+  while (count > 1) {
+    float best = NO_PAIR;
+    uint32_t a = 0, b = 0;
+    /* Of equals the first stays: the order of the ends is the page's. */
+    for (uint32_t i = 0; i + 1 < count; i++) {
+      for (uint32_t k = i + 1; k < count; k++) {
+        if (fan[i].pen_key != fan[k].pen_key)
+          continue;
+        float bend =
+            fan[i].away.x * fan[k].away.x + fan[i].away.y * fan[k].away.y;
+        if (fan[i].style_key != fan[k].style_key)
+          bend += 2.5f; /* beyond any pair of one kin: cosines span 2 */
+        if (bend < best) {
+          best = bend;
+          a = i;
+          b = k;
+        }
+      }
+    }
+    if (best >= NO_PAIR)
+      return;
+    join(p, fan[a].end, fan[b].end);
+    count -= 2;
+    memmove(&fan[b], &fan[b + 1], (count + 1 - b) * sizeof *fan);
+    memmove(&fan[a], &fan[a + 1], (count - a) * sizeof *fan);
+  }
+}
+
+/* ---- Many ends ----------------------------------------------------------- */
+
+/* Grows with the angle from 0 up to 4. */
+static float turn_of(struct end_direction d) {
+  float t = d.y / (fabsf(d.x) + fabsf(d.y));
+  return d.x < 0 ? 2 - t : d.y < 0 ? 4 + t : t;
+}
+
+static int compare_numbers(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
+
+static int compare_by_style(const void *first, const void *second, void *user) {
+  const struct fan_end *a = first, *b = second;
+  (void)user;
+  if (a->pen_key != b->pen_key)
+    return compare_numbers(a->pen_key, b->pen_key);
+  if (a->style_key != b->style_key)
+    return compare_numbers(a->style_key, b->style_key);
+  float ta = turn_of(a->away), tb = turn_of(b->away);
+  return (ta > tb) - (ta < tb);
+}
+
+static int compare_by_turn(const void *first, const void *second, void *user) {
+  const struct fan_end *a = first, *b = second;
+  (void)user;
+  if (a->pen_key != b->pen_key)
+    return compare_numbers(a->pen_key, b->pen_key);
+  float ta = turn_of(a->away), tb = turn_of(b->away);
+  return (ta > tb) - (ta < tb);
+}
+
+/* Pairs each run of alike ends half way round; the odd ones stay in the
+ * fan.  Alike: of one bond, and of one kin where `by_style` says so. */
+static void pair_runs(struct pairing *p, bool by_style) {
+  struct fan_end *fan = p->fan.item;
+  size_t left = 0;
+  for (size_t i = 0, end; i < p->fan.count; i = end) {
+    for (end = i + 1;
+         end < p->fan.count && fan[end].pen_key == fan[i].pen_key &&
+         (!by_style || fan[end].style_key == fan[i].style_key);
+         end++)
+      continue;
+    size_t half = (end - i) / 2;
+    for (size_t k = 0; k < half; k++)
+      join(p, fan[i + k].end, fan[i + half + k].end);
+    if ((end - i) % 2)
+      fan[left++] = fan[end - 1];
+  }
+  p->fan.count = left;
+}
+
+static bool pair_many(struct pairing *p, const uint32_t *end, uint32_t count) {
+  p->fan.count = 0;
+  if (!ARRAY_RESERVE(&p->fan, count))
+    return false;
+  for (uint32_t i = 0; i < count; i++)
+    p->fan.item[p->fan.count++] = fan_end(p, end[i]);
+  if (!sort_stable(p->fan.item, count, sizeof *p->fan.item, compare_by_style,
+                   NULL))
+    return false;
+  pair_runs(p, true);
+  if (!sort_stable(p->fan.item, p->fan.count, sizeof *p->fan.item,
+                   compare_by_turn, NULL))
+    return false;
+  pair_runs(p, false);
+  return true;
+}
+
+/* ---- All nodes ----------------------------------------------------------- */
+
+static bool pair_all(struct pairing *p) {
+  const struct segment_graph *graph = p->graph;
+  for (size_t n = 0; n < graph->node.count; n++) {
+    const uint32_t *end = graph->end + graph->end_start[n];
+    uint32_t count = graph->end_start[n + 1] - graph->end_start[n];
+    if (count == 2) {
+      if (graph->segment.item[end[0] >> 1].pen_key ==
+          graph->segment.item[end[1] >> 1].pen_key)
+        join(p, end[0], end[1]);
+    } else if (count > FEW) {
+      if (!pair_many(p, end, count))
+        return false;
+    } else if (count > 2) {
+      pair_few(p, end, count);
+    }
+  }
+  return true;
+}
+
+bool pairing_find(uint32_t *mate, const struct segment_graph *graph) {
+  struct pairing p = {.graph = graph, .mate = mate};
+  size_t count = graph->segment.count;
+  p.along = mem_alloc(count, sizeof *p.along);
+  bool ok = p.along != NULL;
+  if (ok) {
+    memset(mate, 0xff, 2 * count * sizeof *mate);
+    find_directions(&p);
+    ok = pair_all(&p);
+  }
+  mem_free(p.along);
+  ARRAY_FREE(&p.fan);
+  return ok;
+}

@@ -1,0 +1,217 @@
+/* segments.c - the visible and hidden intervals of the drawable edges become
+ * segments of the page. */
+#include "ink/lines/segment_graph.h"
+
+#include <string.h>
+
+#include "ink/pens.h"
+
+/* An end is numbered twice its segment, in 32 bits. */
+#define SEGMENT_LIMIT (UINT32_MAX / 2)
+
+struct collector {
+  struct segment_graph *graph;
+  const struct sheet *sheet;
+  const struct map *map;
+  const struct pens *pens;
+  const recto_options *options;
+  uint32_t
+      *node_of_point; /* sheet point -> node, SEGMENT_GRAPH_NONE: not yet one */
+  uint32_t pen_key;   /* of the edge at hand */
+};
+
+void segment_graph_init(struct segment_graph *graph) {
+  *graph = (struct segment_graph){0};
+}
+
+void segment_graph_fini(struct segment_graph *graph) {
+  ARRAY_FREE(&graph->node);
+  ARRAY_FREE(&graph->segment);
+  mem_free(graph->end_start);
+  mem_free(graph->end);
+  mem_free(graph->approximate);
+  segment_graph_init(graph);
+}
+
+static bool add_node(struct segment_graph *graph, struct ink_point at,
+                     uint32_t *node) {
+  *node = (uint32_t)graph->node.count;
+  return ARRAY_PUSH(&graph->node, at);
+}
+
+static bool node_of_point(struct collector *c, uint32_t point, uint32_t *node) {
+  *node = c->node_of_point[point];
+  if (*node != SEGMENT_GRAPH_NONE)
+    return true;
+  const struct geom_point *p = &c->sheet->point.item[point];
+  if (!add_node(c->graph, (struct ink_point){p->x, p->y}, node))
+    return false;
+  c->node_of_point[point] = *node;
+  return true;
+}
+
+static bool node_at(struct collector *c, const struct sheet_edge *edge,
+                    struct ratio t, uint32_t *node) {
+  if (t.num == 0)
+    return node_of_point(c, edge->point[0], node);
+  if (t.num == t.den)
+    return node_of_point(c, edge->point[1], node);
+  const struct geom_point *p = &c->sheet->point.item[edge->point[0]];
+  const struct geom_point *q = &c->sheet->point.item[edge->point[1]];
+  struct ink_point at = {(int32_t)ratio_lerp(t, p->x, q->x),
+                         (int32_t)ratio_lerp(t, p->y, q->y)};
+  return add_node(c->graph, at, node);
+}
+
+static bool is_same_place(const struct segment_graph *graph, uint32_t a,
+                          uint32_t b) {
+  return graph->node.item[a].x == graph->node.item[b].x &&
+         graph->node.item[a].y == graph->node.item[b].y;
+}
+
+/* Whether two edges that follow each other are of one polyline. */
+static bool is_same_wire(const struct sheet_edge *a,
+                         const struct sheet_edge *b) {
+  return a->edge_class == RECTO_EDGE_WIRE && b->edge_class == RECTO_EDGE_WIRE &&
+         a->source == b->source;
+}
+
+/* Without ids whatever one pen draws as heavily may be joined.  With ids a
+ * stroke names its source, so it is joined from pieces of that source alone:
+ * one mesh edge, one intersection, one polyline of the user's. */
+static uint32_t pen_key_of(struct collector *c, uint32_t edge, bool hidden) {
+  const struct sheet_edge *e = &c->sheet->edge.item[edge];
+  if (!c->options->ids && hidden)
+    return 2 * pens_of_hidden(c->pens, c->options, e->edge_class, e->group) + 1;
+  if (!c->options->ids)
+    return 2 * (pens_of_line(c->pens, e->edge_class, e->group) *
+                    RECTO_EDGE_CLASS_COUNT +
+                pens_weight_rank(c->pens, e->edge_class));
+  if (edge > 0 && is_same_wire(e - 1, e))
+    return c->pen_key;
+  return 2 * edge + hidden;
+}
+
+static bool add_segment(struct collector *c, uint32_t edge, struct ratio t0,
+                        struct ratio t1) {
+  const struct sheet_edge *e = &c->sheet->edge.item[edge];
+  struct graph_segment s = {.edge = edge,
+                            .pen_key = c->pen_key,
+                            .style_key = e->group << 7 | e->edge_class};
+  if (!node_at(c, e, t0, &s.node[0]) || !node_at(c, e, t1, &s.node[1]))
+    return false;
+  if (is_same_place(c->graph, s.node[0], s.node[1])) {
+    c->graph->dots++;
+    return true;
+  }
+  return ARRAY_PUSH(&c->graph->segment, s);
+}
+
+/* Intervals of one edge, in order and apart. */
+struct intervals {
+  const struct map_interval *item;
+  uint32_t count;
+};
+
+static bool add_visible_intervals(struct collector *c, uint32_t edge,
+                                  struct intervals visible) {
+  for (uint32_t i = 0; i < visible.count; i++)
+    if (!add_segment(c, edge, visible.item[i].t0, visible.item[i].t1))
+      return false;
+  return true;
+}
+
+/* What the visible intervals, and those that are too deep, leave of the
+ * edge. */
+static bool add_hidden_intervals(struct collector *c, uint32_t edge,
+                                 struct intervals visible,
+                                 struct intervals deep) {
+  struct ratio from = ratio_of(0, 1), end = ratio_of(1, 1);
+  while (visible.count + deep.count > 0) {
+    bool take_deep =
+        deep.count > 0 && (visible.count == 0 ||
+                           ratio_compare(deep.item->t0, visible.item->t0) < 0);
+    struct intervals *next = take_deep ? &deep : &visible;
+    if (ratio_compare(from, next->item->t0) < 0 &&
+        !add_segment(c, edge, from, next->item->t0))
+      return false;
+    if (ratio_compare(from, next->item->t1) < 0)
+      from = next->item->t1;
+    next->item++;
+    next->count--;
+  }
+  return ratio_compare(from, end) >= 0 || add_segment(c, edge, from, end);
+}
+
+/* The intervals of an edge, where the row at *mixed is the edge's; steps over
+ * it then. */
+static struct intervals take_intervals(const struct map_mixed **mixed,
+                                       const struct map_mixed *end,
+                                       const struct map_interval *interval,
+                                       uint32_t edge) {
+  struct intervals taken = {NULL, 0};
+  if (*mixed < end && (*mixed)->edge == edge) {
+    taken = (struct intervals){interval + (*mixed)->interval, (*mixed)->count};
+    ++*mixed;
+  }
+  return taken;
+}
+
+/* Adds the visible or the hidden parts of all drawable edges, in order. */
+static bool add_all(struct collector *c, bool hidden) {
+  const struct map *map = c->map;
+  const struct map_mixed *mixed = map->mixed.item, *deep = map->over_limit.item;
+  const struct map_mixed *mixed_end = ARRAY_AT(&map->mixed, map->mixed.count);
+  const struct map_mixed *deep_end =
+      ARRAY_AT(&map->over_limit, map->over_limit.count);
+  for (uint32_t i = 0; i < map->edge_count; i++) {
+    struct intervals visible =
+        take_intervals(&mixed, mixed_end, map->interval.item, i);
+    struct intervals too_deep =
+        take_intervals(&deep, deep_end, map->over_limit_interval.item, i);
+    uint8_t state = map->edge_state[i];
+    bool ok = true;
+    if (c->sheet->edge.item[i].edge_class == 0)
+      continue;
+    c->pen_key = pen_key_of(c, i, hidden);
+    if (hidden && state != MAP_VISIBLE)
+      ok = add_hidden_intervals(c, i, visible, too_deep);
+    else if (!hidden && state == MAP_VISIBLE)
+      ok = add_segment(c, i, ratio_of(0, 1), ratio_of(1, 1));
+    else if (!hidden)
+      ok = add_visible_intervals(c, i, visible);
+    if (!ok)
+      return false;
+  }
+  return true;
+}
+
+recto_status
+segment_graph_collect(struct segment_graph *graph, const struct sheet *sheet,
+                      const struct map *map, const struct pens *pens,
+                      const recto_options *options, recto_error *error) {
+  if (!map->edge_state)
+    return RECTO_OK;
+  size_t points = sheet->point.count;
+  struct collector c = {.graph = graph,
+                        .sheet = sheet,
+                        .map = map,
+                        .pens = pens,
+                        .options = options};
+  c.node_of_point = mem_alloc(points, sizeof *c.node_of_point);
+  if (!c.node_of_point)
+    return error_memory(error);
+  memset(c.node_of_point, 0xff, points * sizeof *c.node_of_point);
+
+  bool ok = add_all(&c, false);
+  if (ok && options->hidden != RECTO_HIDDEN_NONE)
+    ok = add_all(&c, true);
+  mem_free(c.node_of_point);
+  if (!ok)
+    return error_memory(error);
+  if (graph->segment.count >= SEGMENT_LIMIT ||
+      graph->node.count >= SEGMENT_LIMIT)
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "more than 2^31 visible lines");
+  return RECTO_OK;
+}

@@ -1,0 +1,161 @@
+/* straighten.c - a straight edge is two points: drops those in its middle.
+ *
+ * From the last point kept, the anchor, every point passed since leaves a
+ * wedge of directions that go by it within the tolerance.  While the next
+ * point lies in the intersection of these wedges, and farther off than the
+ * one before, a straight line to it passes all of them.  Otherwise the point
+ * before it is a corner, and the next anchor.
+ * Loose points have half the output's unit: two lines that meet by that had no
+ * more than a unit between them, and were one before.  With the whole unit the
+ * two ways round a slit a few units long became its diagonal, twice.
+ * Cost  linear; most points of a curve are found to be corners by one cross
+ *   product. */
+#include "ink/lines/paths.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/tolerance.h"
+
+struct vector {
+  double x, y;
+};
+
+struct wedge {
+  struct vector left, right;
+  bool open; /* nothing limits it yet */
+};
+
+static double cross(struct vector a, struct vector b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+static double dot(struct vector a, struct vector b) {
+  return a.x * b.x + a.y * b.y;
+}
+
+static struct vector from_to(struct ink_point a, struct ink_point b) {
+  return (struct vector){(double)b.x - a.x, (double)b.y - a.y};
+}
+
+/* Only directions that pass v within the tolerance stay. */
+static void narrow(struct wedge *wedge, struct vector v, double tolerance) {
+  double sine = tolerance / sqrt(dot(v, v));
+  if (sine >= 1)
+    return;
+  double cosine = sqrt(1 - sine * sine);
+  struct vector left = {v.x * cosine - v.y * sine, v.x * sine + v.y * cosine};
+  struct vector right = {v.x * cosine + v.y * sine, v.y * cosine - v.x * sine};
+  if (wedge->open || cross(wedge->left, left) < 0)
+    wedge->left = left;
+  if (wedge->open || cross(wedge->right, right) > 0)
+    wedge->right = right;
+  wedge->open = false;
+}
+
+static bool is_in(const struct wedge *wedge, struct vector v) {
+  return wedge->open ||
+         (cross(wedge->left, v) <= 0 && cross(wedge->right, v) >= 0);
+}
+
+/* Whether the line along `next` certainly misses `passed`: a bound without a
+ * root, as |next| is at most the sum. */
+static bool is_corner(struct vector passed, struct vector next,
+                      double tolerance) {
+  return fabs(cross(passed, next)) > tolerance * (fabs(next.x) + fabs(next.y));
+}
+
+/* Drops from a line the points that are not needed; `last` follows the others
+ * and stays out of it.  A loose point, and what comes after one that is kept,
+ * has the wider tolerance.
+ * loose  one a point, dropped with them; or NULL
+ * Returns how many are left. */
+static uint32_t straighten_line(struct ink_point *point, uint8_t *approximate,
+                                uint32_t count, struct ink_point last,
+                                double wide) {
+  struct ink_point anchor = point[0];
+  struct wedge wedge = {.open = true};
+  uint32_t kept = 1;
+  for (uint32_t i = 1; i < count; i++) {
+    struct ink_point here = point[i];
+    struct ink_point after = i + 1 < count ? point[i + 1] : last;
+    struct vector next = from_to(anchor, after);
+    struct vector passed = from_to(anchor, here);
+    bool is_loose = approximate && (approximate[i] || approximate[kept - 1]);
+    double tolerance = is_loose ? wide : TOLERANCE_COLLINEAR_UNITS;
+    bool straight = !is_corner(passed, next, tolerance) &&
+                    dot(next, next) > dot(passed, passed);
+    if (straight) {
+      narrow(&wedge, passed, tolerance);
+      straight = is_in(&wedge, next);
+    }
+    if (!straight) {
+      if (approximate)
+        approximate[kept] = approximate[i];
+      point[kept++] = anchor = here;
+      wedge.open = true;
+    }
+  }
+  return kept;
+}
+
+static void reverse(struct ink_point *point, uint8_t *approximate,
+                    uint32_t count) {
+  for (uint32_t i = 0; i < count / 2; i++) {
+    uint32_t k = count - 1 - i;
+    struct ink_point p = point[i];
+    uint8_t l = approximate[i];
+    point[i] = point[k];
+    approximate[i] = approximate[k];
+    point[k] = p;
+    approximate[k] = l;
+  }
+}
+
+/* The same for an open line with its end. */
+static uint32_t straighten_open(struct ink_point *point, uint8_t *approximate,
+                                uint32_t count, double wide) {
+  struct ink_point last = point[count - 1];
+  uint8_t last_loose = approximate ? approximate[count - 1] : 0;
+  uint32_t kept = straighten_line(point, approximate, count - 1, last, wide);
+  if (approximate)
+    approximate[kept] = last_loose;
+  point[kept++] = last;
+  return kept;
+}
+
+/* Both ways, so that a loose point is one to the points before it too. */
+static uint32_t straighten_path(struct ink_point *point, uint8_t *approximate,
+                                const struct ink_path *path, double wide) {
+  if (path->closed)
+    return straighten_line(point, approximate, path->count, point[0], wide);
+  uint32_t kept = straighten_open(point, approximate, path->count, wide);
+  if (approximate && kept > 2) {
+    reverse(point, approximate, kept);
+    kept = straighten_open(point, approximate, kept, wide);
+    reverse(point, approximate, kept);
+  }
+  return kept;
+}
+
+void paths_straighten(struct ink_paths *paths, double unit) {
+  struct ink_point *point = paths->point.item;
+  uint32_t to = 0;
+  double wide = fmax(unit / 2, TOLERANCE_COLLINEAR_UNITS);
+  for (size_t i = 0; i < paths->path.count; i++) {
+    struct ink_path *path = &paths->path.item[i];
+    struct ink_point *from = point + path->point;
+    uint8_t *approximate =
+        paths->approximate ? paths->approximate + path->point : NULL;
+    uint32_t kept = straighten_path(from, approximate, path, wide);
+    if (path->closed && kept < 3) /* so thin a loop is a line, there and back */
+      path->closed = false;
+    memmove(point + to, from, kept * sizeof *from);
+    path->point = to;
+    path->count = kept;
+    to += kept;
+  }
+  paths->point.count = to;
+  mem_free(paths->approximate);
+  paths->approximate = NULL;
+}

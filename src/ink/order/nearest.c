@@ -1,0 +1,239 @@
+/* nearest.c - the nearest of a set of points that shrinks.
+ *
+ * Invariants  Box i of level l holds the items n j / 2^l up to
+ *   n (j + 1) / 2^l, j = i - 2^l: halves are equal whatever the points, so the
+ *   depth is log2 n.  `left` counts what is still there.
+ * Robustness  A box is skipped where it is not nearer than the best so far;
+ *   where many points coincide the first of them found is as good as any, and
+ *   always the same. */
+#include "ink/order/nearest.h"
+
+#include <math.h>
+
+enum { LEAF = 8, DEEPEST = 32 };
+
+struct nearest_item {
+  struct drawing_point at;
+  uint32_t point;
+  bool gone;
+};
+
+struct nearest_box {
+  double low[2], high[2];
+  uint32_t left;
+};
+
+/* ---- Building ------------------------------------------------------------ */
+
+static uint32_t start_of(const struct nearest *t, int level, uint32_t j) {
+  return (uint32_t)(((uint64_t)t->count * j) >> level);
+}
+
+static double coordinate(const struct nearest *t, uint32_t i, int axis) {
+  return axis ? t->item[i].at.y : t->item[i].at.x;
+}
+
+static void swap(struct nearest_item *a, struct nearest_item *b) {
+  struct nearest_item c = *a;
+  *a = *b;
+  *b = c;
+}
+
+/* Arranges items [low, high) so that none before `middle` is greater than any
+ * from there on.  Quickselect in three parts, so that equal points end it. */
+static void select_middle(struct nearest *t, uint32_t low, uint32_t high,
+                          uint32_t middle, int axis) {
+  while (high - low > 1) {
+    double pivot = coordinate(t, low + (high - low) / 2, axis);
+    uint32_t less = low, equal = low, more = high;
+    while (equal < more) {
+      double c = coordinate(t, equal, axis);
+      if (c < pivot)
+        swap(&t->item[less++], &t->item[equal++]);
+      else if (c > pivot)
+        swap(&t->item[equal], &t->item[--more]);
+      else
+        equal++;
+    }
+    if (middle < less)
+      high = less;
+    else if (middle >= more)
+      low = more;
+    else
+      return;
+  }
+}
+
+/* The box of what is left of items [low, high). */
+static struct nearest_box bound(const struct nearest *t, uint32_t low,
+                                uint32_t high) {
+  struct nearest_box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 0};
+  for (uint32_t i = low; i < high; i++) {
+    for (int axis = 0; axis < 2 && !t->item[i].gone; axis++) {
+      double c = coordinate(t, i, axis);
+      box.low[axis] = c < box.low[axis] ? c : box.low[axis];
+      box.high[axis] = c > box.high[axis] ? c : box.high[axis];
+    }
+    box.left += !t->item[i].gone;
+  }
+  return box;
+}
+
+/* The box of two halves; empty ones are beyond everything and change
+ * nothing. */
+static struct nearest_box unite(const struct nearest_box *a,
+                                const struct nearest_box *b) {
+  struct nearest_box box = *a;
+  for (int axis = 0; axis < 2; axis++) {
+    box.low[axis] = b->low[axis] < a->low[axis] ? b->low[axis] : a->low[axis];
+    box.high[axis] =
+        b->high[axis] > a->high[axis] ? b->high[axis] : a->high[axis];
+  }
+  box.left += b->left;
+  return box;
+}
+
+static void build(struct nearest *t) {
+  for (int level = 0; level <= t->levels; level++) {
+    for (uint32_t j = 0; j < UINT32_C(1) << level; j++) {
+      uint32_t low = start_of(t, level, j), high = start_of(t, level, j + 1);
+      struct nearest_box *box = &t->box[(UINT32_C(1) << level) + j];
+      *box = bound(t, low, high);
+      if (level < t->levels) {
+        int axis = box->high[1] - box->low[1] > box->high[0] - box->low[0];
+        uint32_t middle = start_of(t, level + 1, 2 * j + 1);
+        select_middle(t, low, high, middle, axis);
+      }
+    }
+  }
+}
+
+bool nearest_init(struct nearest *t, const struct drawing_point *point,
+                  uint32_t count) {
+  *t = (struct nearest){.count = count};
+  while ((uint64_t)LEAF << t->levels < count)
+    t->levels++;
+  t->item = mem_alloc(count, sizeof *t->item);
+  t->place = mem_alloc(count, sizeof *t->place);
+  t->box = mem_alloc((size_t)2 << t->levels, sizeof *t->box);
+  if (t->item == NULL || t->place == NULL || t->box == NULL)
+    return false;
+  for (uint32_t i = 0; i < count; i++)
+    t->item[i] = (struct nearest_item){point[i], i, false};
+  build(t);
+  for (uint32_t i = 0; i < count; i++)
+    t->place[t->item[i].point] = i;
+  return true;
+}
+
+void nearest_fini(struct nearest *t) {
+  mem_free(t->item);
+  mem_free(t->place);
+  mem_free(t->box);
+  *t = (struct nearest){0};
+}
+
+void nearest_remove(struct nearest *t, uint32_t point) {
+  uint64_t place = t->place[point];
+  t->item[place].gone = true;
+  /* The last leaf j that starts at the place or before it, n j / 2^l being
+   * less than place + 1. */
+  uint32_t leaf = (uint32_t)((((place + 1) << t->levels) - 1) / t->count);
+  uint32_t i = (UINT32_C(1) << t->levels) + leaf;
+  t->box[i] =
+      bound(t, start_of(t, t->levels, leaf), start_of(t, t->levels, leaf + 1));
+  for (i /= 2; i > 0; i /= 2)
+    t->box[i] = unite(&t->box[2 * i], &t->box[2 * i + 1]);
+}
+
+/* ---- Searching ----------------------------------------------------------- */
+
+/* The best so far, nearest first, and what is looked for. */
+struct search {
+  struct drawing_point from;
+  uint32_t skip; /* points with this i / 2 do not count */
+  uint32_t wanted, count;
+  uint32_t found[NEAREST_MOST];
+  double distance2[NEAREST_MOST];
+};
+
+static double limit(const struct search *s) {
+  return s->count < s->wanted ? INFINITY : s->distance2[s->count - 1];
+}
+
+static double box_distance2(const struct nearest_box *box,
+                            struct drawing_point p) {
+  double dx = p.x < box->low[0]    ? box->low[0] - p.x
+              : p.x > box->high[0] ? p.x - box->high[0]
+                                   : 0;
+  double dy = p.y < box->low[1]    ? box->low[1] - p.y
+              : p.y > box->high[1] ? p.y - box->high[1]
+                                   : 0;
+  return dx * dx + dy * dy;
+}
+
+static void look_in_leaf(const struct nearest *t, struct search *s,
+                         uint32_t leaf) {
+  uint32_t end = start_of(t, t->levels, leaf + 1);
+  for (uint32_t i = start_of(t, t->levels, leaf); i < end; i++) {
+    const struct nearest_item *item = &t->item[i];
+    double dx = item->at.x - s->from.x, dy = item->at.y - s->from.y;
+    double d = dx * dx + dy * dy;
+    if (item->gone || item->point / 2 == s->skip || d >= limit(s))
+      continue;
+    uint32_t k = s->count < s->wanted ? s->count++ : s->count - 1;
+    for (; k > 0 && s->distance2[k - 1] > d; k--) {
+      s->distance2[k] = s->distance2[k - 1];
+      s->found[k] = s->found[k - 1];
+    }
+    s->distance2[k] = d;
+    s->found[k] = item->point;
+  }
+}
+
+static void search_tree(const struct nearest *t, struct search *s) {
+  struct {
+    uint32_t box;
+    double distance2;
+  } stack[DEEPEST + 2];
+  uint32_t depth = 0, leaves = UINT32_C(1) << t->levels;
+  stack[depth].box = 1;
+  stack[depth++].distance2 = 0;
+  while (depth > 0) {
+    depth--;
+    if (stack[depth].distance2 >= limit(s))
+      continue;
+    uint32_t i = stack[depth].box;
+    if (i >= leaves) {
+      look_in_leaf(t, s, i - leaves);
+      continue;
+    }
+    double a = box_distance2(&t->box[2 * i], s->from);
+    double b = box_distance2(&t->box[2 * i + 1], s->from);
+    /* The nearer half is looked at first, so it goes on top. */
+    uint32_t second = a <= b ? 1 : 0;
+    for (uint32_t turn = 0; turn < 2; turn++) {
+      uint32_t half = turn ? !second : second;
+      double d = half ? b : a;
+      if (t->box[2 * i + half].left > 0 && d < limit(s)) {
+        stack[depth].box = 2 * i + half;
+        stack[depth++].distance2 = d;
+      }
+    }
+  }
+}
+
+uint32_t nearest_find(const struct nearest *t, struct drawing_point from) {
+  struct search s = {.from = from, .skip = NEAREST_NONE, .wanted = 1};
+  search_tree(t, &s);
+  return s.count > 0 ? s.found[0] : NEAREST_NONE;
+}
+
+uint32_t nearest_list(const struct nearest *t, struct drawing_point from,
+                      uint32_t skip, uint32_t *found, uint32_t count) {
+  struct search s = {.from = from, .skip = skip, .wanted = count};
+  search_tree(t, &s);
+  for (uint32_t i = 0; i < s.count; i++)
+    found[i] = s.found[i];
+  return s.count;
+}

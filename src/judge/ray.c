@@ -1,0 +1,263 @@
+/* ray.c - what a point of an edge sees: the judge's rays. */
+#include "judge/ray.h"
+
+#include "judge/edges.h"
+
+/* ---- Rays ---------------------------------------------------------------- */
+
+struct slab_ray {
+  double from[3], inverse[3]; /* 1 / direction */
+  bool parallel[3];           /* direction 0 */
+  const struct judge_ray *ray;
+};
+
+static struct slab_ray ray_of(const struct judge_ray *ray) {
+  struct judge_point3 from = ray->from, towards = ray->towards;
+  return (struct slab_ray){{from.x, from.y, from.z},
+                           {1 / towards.x, 1 / towards.y, 1 / towards.z},
+                           {towards.x == 0, towards.y == 0, towards.z == 0},
+                           ray};
+}
+
+static bool ray_meets_box(const struct slab_ray *slab_ray,
+                          const struct judge_box *box) {
+  double t0 = 0, t1 = slab_ray->ray->reach;
+  for (int k = 0; k < 3; k++) {
+    if (slab_ray->parallel[k]) {
+      if (slab_ray->from[k] < box->low[k] || slab_ray->from[k] > box->high[k])
+        return false;
+      continue;
+    }
+    double a = (box->low[k] - slab_ray->from[k]) * slab_ray->inverse[k];
+    double b = (box->high[k] - slab_ray->from[k]) * slab_ray->inverse[k];
+    double first = a < b ? a : b, last = a < b ? b : a;
+    t0 = first > t0 ? first : t0;
+    t1 = last < t1 ? last : t1;
+  }
+  return t0 <= t1;
+}
+
+/* Whether the ray's line meets the triangle: it has all three sides on one
+ * hand (signed volumes with the ray's direction).  A line along a side meets
+ * it, so that none slips through between two triangles. */
+static bool line_meets_triangle(const struct judge_ray *ray,
+                                const struct judge_triangle *t) {
+  struct judge_point3 a = point3_sub(t->p[0], ray->from);
+  struct judge_point3 b = point3_sub(t->p[1], ray->from);
+  struct judge_point3 c = point3_sub(t->p[2], ray->from);
+  double u = point3_dot(ray->towards, point3_cross(a, b));
+  double v = point3_dot(ray->towards, point3_cross(b, c));
+  double w = point3_dot(ray->towards, point3_cross(c, a));
+  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
+/* Whether the triangle's plane is met on the way: if it is, it blocks. */
+static enum judge_visibility ray_meets_plane(const struct judge_ray *ray,
+                                             const struct judge_triangle *t) {
+  double at = point3_dot(t->normal, point3_sub(t->p[0], ray->from)) /
+              point3_dot(t->normal, ray->towards);
+  if (!(at > 0 && at < ray->reach))
+    return JUDGE_CLEAR;
+  return at < ray->sure ? JUDGE_BLOCKED : JUDGE_UNSURE;
+}
+
+/* ---- Planes -------------------------------------------------------------- */
+
+static double distance(const struct judge_triangle *t,
+                       struct judge_point3 from) {
+  return fabs(point3_dot(t->normal, point3_sub(t->p[0], from)));
+}
+
+/* Planes nearer than half the contact block nothing, beyond one and a half
+ * times they do; rounding is added, though no plane beyond contact is passed
+ * over: without contact the page's grid decides, and that is not asked here. */
+static enum judge_visibility weigh_distance(const struct judge_triangle *t,
+                                            struct judge_point3 from,
+                                            const struct judge_margin *margin) {
+  double away = distance(t, from);
+  if (away <= fmin(0.5 * t->contact + margin->blur, t->contact))
+    return JUDGE_CLEAR;
+  return away <= 1.5 * t->contact + 4 * margin->rounding ? JUDGE_UNSURE
+                                                         : JUDGE_BLOCKED;
+}
+
+/* How sure it is that a spot is a corner of a triangle. */
+enum shared_end { SHARED_NO, SHARED_PERHAPS, SHARED };
+
+static enum shared_end corner_is_at(struct judge_point3 corner,
+                                    const struct judge_end *end) {
+  struct judge_point3 away = point3_sub(corner, end->position);
+  if (away.x == 0 && away.y == 0 && away.z == 0)
+    return SHARED;
+  return fabs(away.x) + fabs(away.y) + fabs(away.z) <= end->near
+             ? SHARED_PERHAPS
+             : SHARED_NO;
+}
+
+/* Whether all of a face has its image inside the margins. */
+static bool is_whole(const struct scene *scene,
+                     const struct judge_camera *camera, uint32_t start,
+                     uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) {
+    struct judge_point3 at =
+        judge_point3_at(scene, scene->corner.item[start + i]);
+    if (!(judge_ahead(camera, at) > camera->near_d))
+      return false;
+    struct judge_point2 on = judge_project(camera, at);
+    double low = camera->margin_mm;
+    if (!(on.x >= low && on.x <= camera->width_mm - low && on.y >= low &&
+          on.y <= camera->height_mm - low))
+      return false;
+  }
+  return true;
+}
+
+/* Whether the triangle has that end for a corner.  How faces of more corners
+ * are cut into triangles is not the judge's to say, nor how those are which the
+ * page or the near plane cuts. */
+static enum shared_end triangle_shares(const struct judge_ray *ray,
+                                       const struct judge_triangles *all,
+                                       const struct judge_triangle *t,
+                                       const struct judge_end *end) {
+  const struct scene *scene = all->scene;
+  uint32_t start = scene->face_start.item[t->face];
+  uint32_t count = scene->face_start.item[t->face + 1] - start;
+  enum shared_end most = SHARED_NO;
+  for (uint32_t i = 0; i < count && most != SHARED; i++) {
+    enum shared_end here = corner_is_at(
+        judge_point3_at(scene, scene->corner.item[start + i]), end);
+    most = here > most ? here : most;
+  }
+  bool sure = most == SHARED && count == 3 && !end->is_cut &&
+              is_whole(scene, ray->camera, start, count);
+  return most == SHARED && !sure ? SHARED_PERHAPS : most;
+}
+
+/* Where the way from a triangle's corner to a spot leaves the triangle's image:
+ * there the plane through its far side and the eye is crossed, or nowhere. */
+static struct judge_point3 leave(const struct judge_ray *ray,
+                                 const struct judge_triangle *t,
+                                 struct judge_point3 corner,
+                                 struct judge_point3 to) {
+  const struct judge_camera *camera = ray->camera;
+  int k = 0;
+  while (k < 3 && point3_length(point3_sub(t->p[k], corner)) > 0)
+    k++;
+  if (k == 3)
+    return to;
+  struct judge_point3 a = t->p[(k + 1) % 3], b = t->p[(k + 2) % 3];
+  struct judge_point3 towards =
+      camera->perspective ? point3_sub(camera->eye, a) : camera->back;
+  struct judge_point3 normal = point3_cross(point3_sub(b, a), towards);
+  double from = point3_dot(normal, point3_sub(corner, a));
+  double past = point3_dot(normal, point3_sub(to, a));
+  return (from > 0) == (past > 0) || from == 0
+             ? to
+             : spot_along(corner, from / (from - past), point3_sub(to, corner));
+}
+
+/* How far the plane is where the edge, from one end, ends or leaves the
+ * triangle. */
+static enum judge_visibility weigh_exit(const struct judge_ray *ray,
+                                        const struct judge_triangle *t,
+                                        struct judge_point3 corner,
+                                        const struct judge_end *end) {
+  enum judge_visibility visibility =
+      weigh_distance(t, leave(ray, t, corner, end->position), &end->margin);
+  return visibility == weigh_distance(t, leave(ray, t, corner, end->cut),
+                                      &end->cut_margin)
+             ? visibility
+             : JUDGE_UNSURE;
+}
+
+/* How far the plane is, where that counts. */
+static enum judge_visibility weigh_plane(const struct judge_triangles *all,
+                                         const struct judge_ray *ray,
+                                         const struct judge_triangle *t) {
+  enum judge_visibility here = weigh_distance(t, ray->from, &ray->margin);
+  enum judge_visibility there[2];
+  enum shared_end shared[2];
+  for (int k = 0; k < 2; k++) {
+    there[k] = weigh_exit(ray, t, ray->end[k].position, &ray->end[1 - k]);
+    shared[k] = here == JUDGE_BLOCKED || there[k] == here
+                    ? SHARED_NO
+                    : triangle_shares(ray, all, t, &ray->end[k]);
+  }
+  /* One that has both ends has all of the edge in its plane. */
+  if (shared[0] == SHARED_NO && shared[1] == SHARED_NO)
+    return here;
+  if (shared[0] == SHARED && shared[1] == SHARED_NO)
+    return there[0];
+  if (shared[1] == SHARED && shared[0] == SHARED_NO)
+    return there[1];
+  return JUDGE_UNSURE;
+}
+
+static bool is_corner(const struct judge_triangle *t,
+                      struct judge_point3 position) {
+  for (int k = 0; k < 3; k++)
+    if (t->p[k].x == position.x && t->p[k].y == position.y &&
+        t->p[k].z == position.z)
+      return true;
+  return false;
+}
+
+/* Whether the edge lies in the triangle's plane, as it does in that of its own
+ * face; of one that bends, in those of the triangles alone that it is a side
+ * of. */
+static bool is_own(const struct judge_ray *ray,
+                   const struct judge_triangle *t) {
+  return (t->face == ray->own[0] || t->face == ray->own[1]) &&
+         distance(t, ray->from) <= 0.5 * t->contact + ray->margin.blur &&
+         (!t->bent || (is_corner(t, ray->end[0].position) &&
+                       is_corner(t, ray->end[1].position)));
+}
+
+static enum judge_visibility look_at(const struct judge_triangles *all,
+                                     const struct judge_ray *ray,
+                                     const struct judge_triangle *t) {
+  if (!line_meets_triangle(ray, t) || is_own(ray, t))
+    return JUDGE_CLEAR;
+  enum judge_visibility visibility = weigh_plane(all, ray, t);
+  if (visibility == JUDGE_CLEAR)
+    return visibility;
+  if (distance(t, ray->from) <= ray->margin.blur)
+    return JUDGE_UNSURE;
+  enum judge_visibility met = ray_meets_plane(ray, t);
+  return met < visibility ? met : visibility;
+}
+
+/* ---- All of them --------------------------------------------------------- */
+
+enum judge_visibility judge_look(const struct judge_triangles *all,
+                                 const struct judge_ray *ray, uint32_t *face) {
+  const struct slab_ray slab_ray = ray_of(ray);
+  uint32_t stack[JUDGE_STACK_SIZE];
+  unsigned depth = 0;
+  enum judge_visibility visibility = JUDGE_CLEAR;
+  if (all->nodes > 0)
+    stack[depth++] = 0;
+  while (depth > 0) {
+    const struct judge_node *node = &all->node[stack[--depth]];
+    if (!ray_meets_box(&slab_ray, &node->box))
+      continue;
+    if (node->count == 0) {
+      stack[depth++] = node->first;
+      stack[depth++] = node->first + 1;
+      continue;
+    }
+    for (uint32_t i = 0; i < node->count; i++) {
+      const struct judge_triangle *t = &all->triangle.item[node->first + i];
+      enum judge_visibility seen = look_at(all, ray, t);
+      if (seen == JUDGE_BLOCKED && t->open)
+        seen = JUDGE_UNSURE;
+      if (seen == JUDGE_BLOCKED) {
+        if (face != NULL)
+          *face = t->face;
+        return seen;
+      }
+      visibility = seen == JUDGE_UNSURE ? seen : visibility;
+    }
+  }
+  return visibility;
+}

@@ -1,0 +1,127 @@
+/* sampler.c - what the judge makes of a point of an edge: which rays go from it,
+ * and how far a plane must be to hide it. */
+#include "judge/sampler.h"
+
+#include "base/tolerance.h"
+
+/* ---- On the page --------------------------------------------------------- */
+
+bool judge_cut_to_page(const struct judge_camera *camera, struct judge_point2 a,
+                       struct judge_point2 b, double *t0, double *t1) {
+  const double from[2] = {a.x, a.y}, to[2] = {b.x, b.y};
+  const double low = camera->margin_mm;
+  const double high[2] = {camera->width_mm - low, camera->height_mm - low};
+  *t0 = 0;
+  *t1 = 1;
+  for (int k = 0; k < 2; k++) {
+    double d = to[k] - from[k];
+    if (d == 0 && (from[k] < low || from[k] > high[k]))
+      return false;
+    if (d == 0)
+      continue;
+    double in = (low - from[k]) / d, out = (high[k] - from[k]) / d;
+    *t0 = fmax(*t0, fmin(in, out));
+    *t1 = fmin(*t1, fmax(in, out));
+  }
+  return *t0 <= *t1;
+}
+
+struct judge_point3 judge_point3_of_image(const struct judge_edge *edge,
+                                          double t) {
+  double one = (1 - t) * edge->depth[1], two = t * edge->depth[0];
+  return spot_along(edge->p[0], two / (one + two),
+                    point3_sub(edge->p[1], edge->p[0]));
+}
+
+/* ---- Margins ------------------------------------------------------------- */
+
+double judge_rounding_at(const struct judge_camera *camera, double hair_mm,
+                         struct judge_point3 at) {
+  double depth = judge_depth(camera, at);
+  double hair =
+      point3_length(point3_sub(judge_shift(camera, at, hair_mm, 0), at));
+  return hair + camera->depth_step * depth * depth;
+}
+
+static void find_ends(const struct judge_sampler *sampler,
+                      const struct judge_edge *edge, struct judge_end end[2]) {
+  double t[2];
+  bool seen = judge_cut_to_page(sampler->camera, edge->at[0], edge->at[1],
+                                &t[0], &t[1]);
+  for (int k = 0; k < 2; k++) {
+    end[k].position = end[k].cut = edge->p[k];
+    end[k].is_cut = seen && t[k] != k;
+    if (end[k].is_cut)
+      end[k].cut = judge_point3_of_image(edge, t[k]);
+    double rounding =
+        judge_rounding_at(sampler->camera, sampler->hair_mm, end[k].position);
+    end[k].near = 4 * rounding;
+    end[k].margin = (struct judge_margin){rounding, 2 * rounding};
+    rounding = judge_rounding_at(sampler->camera, sampler->hair_mm, end[k].cut);
+    end[k].cut_margin = (struct judge_margin){rounding, 2 * rounding};
+  }
+}
+
+/* What a spot sees towards the eye.
+ * aside  it is off the edge by a hair, and so off the edge's own faces */
+static enum judge_visibility look(const struct judge_sampler *sampler,
+                                  const struct judge_edge *edge,
+                                  const struct judge_end end[2],
+                                  struct judge_point3 from, bool aside,
+                                  uint32_t *blocker) {
+  const struct judge_camera *camera = sampler->camera;
+  double rounding = judge_rounding_at(camera, sampler->hair_mm, from);
+  double blur =
+      aside ? 2 * rounding : sampler->all->size * TOLERANCE_EXTENT_SHARE;
+  double slack = judge_near_slack(camera);
+  double near = judge_near(camera), sure = camera->near_d + slack;
+  struct judge_ray ray = {.camera = camera,
+                          .from = from,
+                          .margin = {rounding, blur},
+                          .own = {edge->source.face[0], edge->source.face[1]},
+                          .end = {end[0], end[1]}};
+  if (camera->perspective) {
+    ray.towards = point3_sub(camera->eye, from);
+    ray.reach = 1 - near / judge_depth(camera, from);
+    ray.sure = 1 - sure / judge_depth(camera, from);
+  } else {
+    ray.towards = camera->back;
+    ray.reach = judge_ahead(camera, from) - near;
+    ray.sure = judge_ahead(camera, from) - sure;
+  }
+  return judge_look(sampler->all, &ray, blocker);
+}
+
+/* What a point of an edge sees: by itself and a hair to either side, as long
+ * as the answers are `expected`; the first other one is the answer. */
+enum judge_visibility judge_look_around(const struct judge_sampler *sampler,
+                                        const struct judge_edge *edge,
+                                        struct judge_point3 from,
+                                        enum judge_visibility expected,
+                                        uint32_t *blocker) {
+  double dx = edge->at[1].x - edge->at[0].x;
+  double dy = edge->at[1].y - edge->at[0].y;
+  double length = hypot(dx, dy), hair = sampler->hair_mm;
+  double x = length > 0 ? -dy / length * hair : hair;
+  double y = length > 0 ? dx / length * hair : 0;
+  struct judge_end end[2];
+  find_ends(sampler, edge, end);
+  enum judge_visibility visibility =
+      look(sampler, edge, end, from, false, blocker);
+  if (visibility != expected)
+    return visibility;
+  visibility = look(sampler, edge, end,
+                    judge_shift(sampler->camera, from, x, y), true, blocker);
+  if (visibility != expected)
+    return visibility;
+  return look(sampler, edge, end, judge_shift(sampler->camera, from, -x, -y),
+              true, blocker);
+}
+
+enum judge_visibility judge_look_from(const struct judge_sampler *sampler,
+                                      const struct judge_edge *edge,
+                                      struct judge_point3 from) {
+  struct judge_end end[2];
+  find_ends(sampler, edge, end);
+  return look(sampler, edge, end, from, false, NULL);
+}

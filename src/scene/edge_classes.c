@@ -1,0 +1,215 @@
+/* edge_classes.c - which edges are features whatever the camera: borders, creases,
+ * and where groups meet.
+ *
+ * Robustness  Normals are summed from differences to the face's first corner,
+ * so that a model far from the origin keeps its digits, and a face too small
+ * or too large for its squares is scaled by a power of two first.  Angles are
+ * compared by their cosines; a face without a normal makes no crease. */
+#include <float.h>
+#include <math.h>
+
+#include "base/tolerance.h"
+#include "scene/angle.h"
+#include "scene/topology.h"
+
+struct face_normal {
+  double x, y, z; /* of any length; 0, 0, 0: a face of no area */
+  double square;  /* of its length */
+};
+
+static inline struct face_normal difference(const struct scene_point *from,
+                                            const struct scene_point *to,
+                                            double scale) {
+  return (struct face_normal){.x = to->x * scale - from->x * scale,
+                              .y = to->y * scale - from->y * scale,
+                              .z = to->z * scale - from->z * scale};
+}
+
+static inline void add_product(struct face_normal *sum,
+                               const struct face_normal *a,
+                               const struct face_normal *b) {
+  sum->x += a->y * b->z - a->z * b->y;
+  sum->y += a->z * b->x - a->x * b->z;
+  sum->z += a->x * b->y - a->y * b->x;
+}
+
+/* Twice the area vector of a face whose coordinates are scaled. */
+static struct face_normal sum_area(const struct scene *scene, uint32_t face,
+                                   double scale) {
+  const struct scene_point *point = scene->point.item;
+  const uint32_t *corner = scene->corner.item + scene->face_start.item[face];
+  uint32_t count =
+      scene->face_start.item[face + 1] - scene->face_start.item[face];
+  struct face_normal sum = {0, 0, 0, 0};
+  struct face_normal a =
+      difference(&point[corner[0]], &point[corner[1]], scale);
+  for (uint32_t c = 2; c < count; c++) {
+    struct face_normal b =
+        difference(&point[corner[0]], &point[corner[c]], scale);
+    add_product(&sum, &a, &b);
+    a = b;
+  }
+  sum.square = sum.x * sum.x + sum.y * sum.y + sum.z * sum.z;
+  return sum;
+}
+
+/* The power of two that brings a face's extent to about 1. */
+static double scale_of_face(const struct scene *scene, uint32_t face) {
+  const struct scene_point *point = scene->point.item;
+  const uint32_t *corner = scene->corner.item;
+  uint32_t first = scene->face_start.item[face];
+  double extent = 0;
+  for (uint32_t c = first; c < scene->face_start.item[face + 1]; c++) {
+    struct face_normal d =
+        difference(&point[corner[first]], &point[corner[c]], 1);
+    extent = fmax(extent, fmax(fabs(d.x), fmax(fabs(d.y), fabs(d.z))));
+  }
+  if (!(extent > 0 && extent <= DBL_MAX))
+    return extent > 0 ? DBL_MIN : 1;
+  int exponent;
+  frexp(extent, &exponent);
+  return ldexp(1, exponent > DBL_MIN_EXP ? -exponent : DBL_MAX_EXP - 1);
+}
+
+/* Products of two squares must neither overflow nor lose digits. */
+static bool is_in_range(double square) {
+  return square >= 0x1p-400 && square <= 0x1p+400;
+}
+
+static struct face_normal normal_of_odd_face(const struct scene *scene,
+                                             uint32_t face) {
+  struct face_normal n = sum_area(scene, face, scale_of_face(scene, face));
+  return is_in_range(n.square) ? n : (struct face_normal){0, 0, 0, 0};
+}
+
+/* What sum_area gives for three corners and a scale of 1, bit for bit. */
+static inline struct face_normal area_of_triangle(const struct scene_point *p,
+                                                  const struct scene_point *q,
+                                                  const struct scene_point *r) {
+  double ax = q->x - p->x, ay = q->y - p->y, az = q->z - p->z;
+  double bx = r->x - p->x, by = r->y - p->y, bz = r->z - p->z;
+  struct face_normal n = {ay * bz - az * by, az * bx - ax * bz,
+                          ax * by - ay * bx, 0};
+  n.square = n.x * n.x + n.y * n.y + n.z * n.z;
+  return n;
+}
+
+static inline struct face_normal normal_of_face(const struct scene *scene,
+                                                uint32_t face) {
+  const struct scene_point *point = scene->point.item;
+  uint32_t start = scene->face_start.item[face];
+  const uint32_t *corner = scene->corner.item + start;
+  struct face_normal n;
+  if (scene->face_start.item[face + 1] - start == 3)
+    n = area_of_triangle(&point[corner[0]], &point[corner[1]],
+                         &point[corner[2]]);
+  else
+    n = sum_area(scene, face, 1);
+  return is_in_range(n.square) ? n : normal_of_odd_face(scene, face);
+}
+
+/* Two normals bend by more than the crease angle where their cosine is below
+ * this; an angle of 180 degrees or more is never passed. */
+static double crease_cosine_of(double crease_deg) {
+  if (crease_deg >= 180)
+    return -2;
+  return angle_of_degrees(crease_deg).cosine - TOLERANCE_CREASE_COSINE;
+}
+
+static bool is_crease(struct face_normal a, struct face_normal b, bool same_way,
+                      double crease_cosine) {
+  double dot = a.x * b.x + a.y * b.y + a.z * b.z;
+  double lengths = sqrt(a.square * b.square);
+  return (same_way ? -dot : dot) < crease_cosine * lengths && lengths > 0;
+}
+
+/* What needs no normals: BORDER alone, or GROUP or nothing. */
+static unsigned plain_natures(const struct topology_edge *edge,
+                              const struct scene *scene) {
+  if (edge->uses != 2)
+    return RECTO_EDGE_BORDER;
+  const uint32_t *group = scene->face_group.item;
+  return scene_groups_differ(scene, group[edge->first], group[edge->second])
+             ? RECTO_EDGE_GROUP
+             : 0;
+}
+
+unsigned topology_natures(const struct topology *topology,
+                          const struct scene *scene, uint32_t edge,
+                          double crease_deg) {
+  const struct topology_edge *e = &topology->edge.item[edge];
+  unsigned natures = plain_natures(e, scene);
+  if (e->uses == 2 && is_crease(normal_of_face(scene, e->first),
+                                normal_of_face(scene, e->second), e->same_way,
+                                crease_cosine_of(crease_deg)))
+    natures |= RECTO_EDGE_CREASE;
+  return natures ? natures : RECTO_EDGE_SMOOTH;
+}
+
+/* Unit normals in 16 bits a coordinate: a filter that takes a quarter of the
+ * memory, and most of its time goes into that. */
+struct crease_direction {
+  int16_t x, y, z;
+};
+
+enum { DIRECTION_ONE = 32767 };
+
+/* The nearest whole number; |value| <= DIRECTION_ONE, and a little more. */
+static inline int16_t round_direction(double value) {
+  return (int16_t)((int)(value + (DIRECTION_ONE + 1.5)) - (DIRECTION_ONE + 1));
+}
+
+static bool find_directions(const struct scene *scene,
+                            struct crease_direction **direction) {
+  uint32_t faces = scene_face_count(scene);
+  struct crease_direction *d = mem_alloc(faces, sizeof *d);
+  *direction = d;
+  if (!d)
+    return false;
+  for (uint32_t f = 0; f < faces; f++) {
+    struct face_normal n = normal_of_face(scene, f);
+    double scale = n.square > 0 ? DIRECTION_ONE / sqrt(n.square) : 0;
+    d[f] = (struct crease_direction){round_direction(n.x * scale),
+                                     round_direction(n.y * scale),
+                                     round_direction(n.z * scale)};
+  }
+  return true;
+}
+
+/* The cosine of the filter is off by less than this.  A coordinate is off by
+ * 0.5 / DIRECTION_ONE < 2^-15.99, a vector by the root of 3 of that: two of
+ * them, and their product. */
+static const double filter_error = 0x1p-14;
+
+static bool bends(const struct topology_edge *edge, const struct scene *scene,
+                  const struct crease_direction *direction,
+                  double crease_cosine) {
+  struct crease_direction a = direction[edge->first];
+  struct crease_direction b = direction[edge->second];
+  int dot = a.x * b.x + a.y * b.y + a.z * b.z;
+  double cosine = (edge->same_way ? -dot : dot) *
+                  (1.0 / ((double)DIRECTION_ONE * DIRECTION_ONE));
+  if (cosine > crease_cosine + filter_error)
+    return false;
+  return is_crease(normal_of_face(scene, edge->first),
+                   normal_of_face(scene, edge->second), edge->same_way,
+                   crease_cosine);
+}
+
+bool topology_natures_all(const struct topology *topology,
+                          const struct scene *scene, double crease_deg,
+                          uint8_t *natures) {
+  double crease_cosine = crease_cosine_of(crease_deg);
+  struct crease_direction *direction;
+  if (!find_directions(scene, &direction))
+    return false;
+  for (size_t e = 0; e < topology->edge.count; e++) {
+    const struct topology_edge *edge = &topology->edge.item[e];
+    unsigned mask = plain_natures(edge, scene);
+    if (edge->uses == 2 && bends(edge, scene, direction, crease_cosine))
+      mask |= RECTO_EDGE_CREASE;
+    natures[e] = (uint8_t)(mask ? mask : RECTO_EDGE_SMOOTH);
+  }
+  mem_free(direction);
+  return true;
+}

@@ -1,0 +1,142 @@
+/* rescale.c - a scene of any finite size, brought to one whose squares are
+ * numbers too.
+ *
+ * Robustness  The exact predicates take any doubles; lengths and normals do
+ * not.  Coordinates from 2^-LEAST to 2^MOST are left alone.  All others are
+ * brought just inside: so an eye may still be very far from a tiny scene. */
+#include "view/rescale.h"
+
+#include <float.h>
+#include <math.h>
+
+enum { LARGEST_EXPONENT = 100 };
+
+/* ---- How large the scene is ---------------------------------------------- */
+
+static double largest_of(const struct scene_point *p) {
+  return fmax(fabs(p->x), fmax(fabs(p->y), fabs(p->z)));
+}
+
+/* The largest coordinate of the corners; stops at the first that is at least
+ * `enough`. */
+static double largest_corner(const struct scene *scene, const uint32_t *corner,
+                             size_t count, double enough) {
+  double largest = 0;
+  for (size_t c = 0; c < count && largest < enough; c++)
+    largest = fmax(largest, largest_of(&scene->point.item[corner[c]]));
+  return largest;
+}
+
+static double largest_used(const struct scene *scene, double enough) {
+  return fmax(
+      largest_corner(scene, scene->corner.item, scene->corner.count, enough),
+      largest_corner(scene, scene->wire_corner.item, scene->wire_corner.count,
+                     enough));
+}
+
+/* The power of two to divide by. */
+static int choose_exponent(const struct scene *scene) {
+  const double most = ldexp(1, LARGEST_EXPONENT), least = 1 / most;
+  double largest = 0;
+  for (size_t p = 0; p < scene->point.count; p++)
+    largest = fmax(largest, largest_of(&scene->point.item[p]));
+  if (largest <= most && largest_used(scene, least) >= least)
+    return 0;
+  largest = largest_used(scene, INFINITY);
+  if (largest == 0 || (largest >= least && largest <= most))
+    return 0;
+  int exponent;
+  frexp(largest, &exponent);
+  return exponent < 0 ? exponent + LARGEST_EXPONENT
+                      : exponent - LARGEST_EXPONENT;
+}
+
+/* ---- Scaling ------------------------------------------------------------- */
+
+static recto_status scale_points(struct rescaled *rescaled,
+                                 recto_error *error) {
+  struct scene *scene = &rescaled->scene;
+  size_t count = scene->point.count;
+  const struct scene_point *from = scene->point.item;
+  struct scene_point *to = mem_alloc(count, sizeof *to);
+  scene->point.item = to;
+  if (to == NULL)
+    return error_memory(error);
+  for (size_t p = 0; p < count; p++) {
+    to[p] = (struct scene_point){ldexp(from[p].x, -rescaled->exponent),
+                                 ldexp(from[p].y, -rescaled->exponent),
+                                 ldexp(from[p].z, -rescaled->exponent)};
+    if (!isfinite(largest_of(&to[p])))
+      to[p] = (struct scene_point){0, 0, 0}; /* one that nothing uses */
+  }
+  return RECTO_OK;
+}
+
+static recto_status scale_precision(struct rescaled *rescaled,
+                                    recto_error *error) {
+  struct scene *scene = &rescaled->scene;
+  size_t count = scene->precision.count;
+  const struct precision_range *from = scene->precision.item;
+  struct precision_range *to = mem_alloc(count, sizeof *to);
+  scene->precision.item = to;
+  if (to == NULL)
+    return error_memory(error);
+  for (size_t i = 0; i < count; i++) {
+    to[i] = from[i];
+    to[i].precision.absolute =
+        ldexp(from[i].precision.absolute, -rescaled->exponent);
+  }
+  return RECTO_OK;
+}
+
+/* Returns whether the lengths are still finite that must be. */
+static bool scale_lengths(recto_options *o, int exponent) {
+  double *const length[] = {&o->eye[0],    &o->eye[1],       &o->eye[2],
+                            &o->target[0], &o->target[1],    &o->target[2],
+                            &o->section,   &o->near_distance};
+  bool finite = true;
+  for (size_t i = 0; i < sizeof length / sizeof length[0]; i++) {
+    *length[i] = ldexp(*length[i], -exponent);
+    finite = finite && isfinite(*length[i]);
+  }
+  /* A contact or weld that was not 0 must not become it, nor a chosen one asked
+   * for. */
+  if (o->contact > 0)
+    o->contact = fmin(fmax(ldexp(o->contact, -exponent), DBL_MIN), DBL_MAX);
+  if (o->weld > 0)
+    o->weld = fmin(fmax(ldexp(o->weld, -exponent), DBL_MIN), DBL_MAX);
+  o->scale = fmin(fmax(ldexp(o->scale, exponent), DBL_MIN), DBL_MAX);
+  return finite;
+}
+
+recto_status rescale(struct rescaled *rescaled, const struct scene *scene,
+                     const recto_options *options, recto_error *error) {
+  *rescaled = (struct rescaled){*scene, *options, choose_exponent(scene)};
+  if (rescaled->exponent == 0)
+    return RECTO_OK;
+  recto_status status = scale_points(rescaled, error);
+  recto_status other = scale_precision(rescaled, error);
+  if (status == RECTO_OK)
+    status = other;
+  if (status == RECTO_OK &&
+      !scale_lengths(&rescaled->options, rescaled->exponent))
+    status = error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                       "the scene is too small for so far an eye, target or "
+                       "section");
+  return status;
+}
+
+void rescale_fini(struct rescaled *rescaled) {
+  if (rescaled->exponent != 0) {
+    mem_free(rescaled->scene.point.item);
+    mem_free(rescaled->scene.precision.item);
+  }
+  rescaled->exponent = 0;
+}
+
+void rescale_matrix(const struct rescaled *rescaled, double matrix[12]) {
+  int exponent = rescaled->exponent;
+  for (int i = 0; i < 12; i++)
+    if ((i % 4 == 3) == (exponent < 0))
+      matrix[i] = ldexp(matrix[i], exponent < 0 ? exponent : -exponent);
+}

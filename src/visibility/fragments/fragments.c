@@ -1,0 +1,541 @@
+/* fragments.c - from the pieces a solver finds visible to the map's fragments. */
+#include "visibility/fragments/fragments.h"
+
+#include <string.h>
+
+#include "base/sort.h"
+#include "geom/region.h"
+#include "visibility/predicate/triangle_pair.h"
+#include "visibility/fragments/side_provenance.h"
+#include "visibility/predicate/plane_filter.h"
+
+/* Corners leave the house rounded to this many bits below the grid's unit. */
+enum { CORNER_BITS = 8 };
+
+/* Of a piece, in units of a pulse. */
+enum { FACE_WORK = 32 };
+
+bool fragments_init(struct fragments *fragments, const struct sheet *sheet,
+                    const struct triangle_grid *grid, bool contact) {
+  memset(fragments, 0, sizeof *fragments);
+  fragments->sheet = sheet;
+  fragments->grid = grid;
+  fragments->contact = contact;
+  return triangle_grid_query_init(&fragments->query, grid);
+}
+
+void fragments_fini(struct fragments *fragments) {
+  triangle_grid_query_fini(&fragments->query);
+  arena_fini(&fragments->arena);
+  arena_fini(&fragments->scratch);
+  ARRAY_FREE(&fragments->touching);
+  ARRAY_FREE(&fragments->piece);
+}
+
+/* ---- Contact: passing pieces on to earlier faces ------------------------- */
+
+static int compare_ids(const void *a, const void *b, void *user) {
+  uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
+  (void)user;
+  return (p > q) - (p < q);
+}
+
+/* Finds the earlier triangles among `about` that touch this one. */
+static bool find_touching(struct fragments *f, uint32_t triangle,
+                          const uint32_t *about, size_t count) {
+  const struct sheet *sheet = f->sheet;
+  struct box2 box = box2_of_triangle(sheet, triangle);
+  struct plane_filter plane = plane_filter_of(sheet, triangle), other;
+  for (size_t i = 0; i < count; i++) {
+    uint32_t g = about[i];
+    if (g < triangle && !(sheet->triangle_flags[g] & SHEET_FLAT) &&
+        sheet->triangle.item[g].face != sheet->triangle.item[triangle].face &&
+        !box2_disjoint(box, box2_of_triangle(sheet, g))) {
+      f->counts.contact_pairs++;
+      other = plane_filter_of(sheet, g);
+      if (!plane_filters_may_touch(sheet, &plane, triangle, &other, g) ||
+          triangles_disjoint(sheet, triangle, g))
+        continue;
+      f->counts.contact_exact++;
+      if (triangles_touch(sheet, triangle, g) && !ARRAY_PUSH(&f->touching, g))
+        return false;
+    }
+  }
+  f->counts.contacts += f->touching.count;
+  return sort_stable(f->touching.item, f->touching.count,
+                     sizeof *f->touching.item, compare_ids, NULL);
+}
+
+static bool keep_piece(struct fragments *f, uint32_t triangle,
+                       const struct geom_convex *piece) {
+  struct fragment_piece kept = {f->sheet->triangle.item[triangle].face,
+                                triangle, NULL};
+  if (piece != NULL) {
+    kept.piece = arena_alloc(&f->arena, 1, sizeof *kept.piece);
+    if (kept.piece == NULL || !geom_convex_copy(kept.piece, piece, &f->arena))
+      return false;
+  }
+  return ARRAY_PUSH(&f->piece, kept);
+}
+
+/* Gives every touching triangle, in order, what it covers of the pieces, and
+ * `triangle` the rest. */
+static bool deal_pieces(struct fragments *f, uint32_t triangle,
+                        const struct geom_convex *piece, size_t count) {
+  geom_pieces now = {0}, rest = {0}, swap;
+  bool ok = false;
+  for (size_t i = 0; i < count; i++)
+    if (!ARRAY_PUSH(&now, piece[i]))
+      goto end;
+  for (size_t i = 0; i < f->touching.count; i++) {
+    uint32_t g = f->touching.item[i];
+    struct geom_line *line = arena_alloc(&f->scratch, 6, sizeof *line);
+    if (line == NULL)
+      goto end;
+    triangle_lines(f->sheet, g, line, line + 3);
+    rest.count = 0;
+    for (size_t k = 0; k < now.count; k++) {
+      struct geom_convex inside;
+      if (!geom_convex_subtract(&now.item[k], line, line + 3, 3, &rest, &inside,
+                                &f->scratch) ||
+          (inside.count > 0 && !keep_piece(f, g, &inside)))
+        goto end;
+    }
+    swap = now;
+    now = rest;
+    rest = swap;
+  }
+  for (size_t k = 0; k < now.count; k++)
+    if (!keep_piece(f, triangle, &now.item[k]))
+      goto end;
+  ok = true;
+end:
+  ARRAY_FREE(&now);
+  ARRAY_FREE(&rest);
+  arena_reset(&f->scratch);
+  return ok;
+}
+
+static bool triangle_piece(struct fragments *f, uint32_t triangle,
+                           struct geom_convex *piece, struct arena *arena) {
+  struct geom_line *line = arena_alloc(arena, 6, sizeof *line);
+  struct geom_point p[3];
+  if (line == NULL)
+    return false;
+  for (int k = 0; k < 3; k++)
+    p[k] = f->sheet->point.item[f->sheet->triangle.item[triangle].point[k]];
+  triangle_lines(f->sheet, triangle, line, line + 3);
+  return geom_convex_triangle(piece, p, line, arena);
+}
+
+bool fragments_add_alone(struct fragments *f, uint32_t triangle) {
+  f->counts.whole++;
+  return keep_piece(f, triangle, NULL);
+}
+
+bool fragments_add_among(struct fragments *f, uint32_t triangle,
+                         const struct geom_convex *piece, size_t count,
+                         const uint32_t *about, size_t about_count) {
+  struct geom_convex whole;
+  if (piece != NULL && count == 0)
+    return true;
+  f->counts.whole += piece == NULL;
+  f->counts.cut += piece != NULL;
+  f->touching.count = 0;
+  if (f->contact && !find_touching(f, triangle, about, about_count))
+    return false;
+  if (piece == NULL) {
+    if (f->touching.count == 0)
+      return keep_piece(f, triangle, NULL);
+    if (!triangle_piece(f, triangle, &whole, &f->scratch))
+      return false;
+    piece = &whole;
+    count = 1;
+  }
+  return deal_pieces(f, triangle, piece, count);
+}
+
+/* The same, of all that the grid has about it. */
+static bool add_piece(struct fragments *f, uint32_t triangle,
+                      const struct geom_convex *piece, size_t count) {
+  f->query.found.count = 0;
+  if (f->contact && !triangle_grid_find_about(f->grid, triangle, &f->query))
+    return false;
+  return fragments_add_among(f, triangle, piece, count, f->query.found.item,
+                             f->query.found.count);
+}
+
+bool fragments_add_whole(struct fragments *f, uint32_t triangle) {
+  return add_piece(f, triangle, NULL, 0);
+}
+
+bool fragments_add(struct fragments *f, uint32_t triangle,
+                   const struct geom_convex *piece, size_t count) {
+  return count == 0 || add_piece(f, triangle, piece, count);
+}
+
+/* ---- Uniting what belongs to a face -------------------------------------- */
+
+/* What is at hand while the pieces of one face become its fragments. */
+struct face_work {
+  struct fragments *fragments;
+  struct map *map;
+  bool areas;
+  uint32_t face;
+  ARRAY(uint32_t) own;  /* the face's triangles that have area */
+  ARRAY(uint32_t) seen; /* those with pieces, ascending */
+  struct side_provenance labels;
+  struct line_index sides;
+  bool indexed; /* what is about faces that are cut */
+  geom_pieces piece;
+  struct geom_region region;
+};
+
+/* The face's triangles stand next to each other in the sheet. */
+static bool find_own(struct face_work *work, uint32_t triangle) {
+  const struct sheet *sheet = work->fragments->sheet;
+  uint32_t first = triangle;
+  work->own.count = 0;
+  while (first > 0 && sheet->triangle.item[first - 1].face == work->face)
+    first--;
+  for (uint32_t t = first;
+       t < sheet->triangle.count && sheet->triangle.item[t].face == work->face;
+       t++)
+    if (!(sheet->triangle_flags[t] & SHEET_FLAT) && !ARRAY_PUSH(&work->own, t))
+      return false;
+  return true;
+}
+
+static bool store_place(struct map *map, const struct geom_corner *corner) {
+  struct map_place place;
+  geom_corner_exact(corner, place.h);
+  return ARRAY_PUSH(&map->place, place);
+}
+
+static bool store_loop(struct face_work *work,
+                       const struct geom_region_loop *loop) {
+  const struct geom_region_side *side = work->region.side.item + loop->side;
+  struct map_loop filed = {(uint32_t)work->map->corner.count, loop->count};
+  for (uint32_t k = 0; k < loop->count; k++) {
+    struct map_corner corner;
+    int64_t x, y;
+    geom_corner_round(&side[k].corner, CORNER_BITS, &x, &y);
+    corner.x = (double)x / (1 << CORNER_BITS);
+    corner.y = (double)y / (1 << CORNER_BITS);
+    if (!side_provenance_find(&work->labels, side[k].line, &side[k].corner,
+                              &side[(k + 1) % loop->count].corner, &corner.side,
+                              &corner.id) ||
+        !ARRAY_PUSH(&work->map->corner, corner) ||
+        (work->areas && !store_place(work->map, &side[k].corner)))
+      return false;
+    work->fragments->counts.side[corner.side]++;
+  }
+  return ARRAY_PUSH(&work->map->loop, filed);
+}
+
+static bool store_region(struct face_work *work) {
+  struct map *map = work->map;
+  for (size_t l = 0; l < work->region.loop.count;) {
+    struct map_fragment fragment = {work->face, (uint32_t)map->loop.count, 0};
+    do {
+      if (!store_loop(work, &work->region.loop.item[l++]))
+        return false;
+      fragment.loops++;
+    } while (l < work->region.loop.count && work->region.loop.item[l].hole);
+    if (!ARRAY_PUSH(&map->fragment, fragment))
+      return false;
+  }
+  return true;
+}
+
+/* ---- Faces that are wholly visible --------------------------------------- */
+
+/* A side of a face's outline: from its point, along its edge. */
+struct outline_side {
+  uint32_t point, edge;
+};
+
+/* Appends the sides of a triangle but `skip`, from the one after it. */
+static int append_sides(const struct sheet_triangle *t, int skip,
+                        struct outline_side *side) {
+  for (int k = 1; k < 3; k++)
+    side[k - 1] = (struct outline_side){t->point[(skip + k) % 3],
+                                        t->side[(skip + k) % 3]};
+  return 2;
+}
+
+/* The outline of a face of one triangle, or of two on both sides of a
+ * diagonal; 0 sides where it is neither. */
+static int find_outline(const struct face_work *work,
+                        struct outline_side side[4]) {
+  const struct sheet_triangle *all = work->fragments->sheet->triangle.item,
+                              *a = &all[work->own.item[0]], *b;
+  if (work->own.count == 1) {
+    side[0] = (struct outline_side){a->point[0], a->side[0]};
+    return 1 + append_sides(a, 0, side + 1);
+  }
+  if (work->own.count != 2)
+    return 0;
+  b = &all[work->own.item[1]];
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      if (a->side[i] == SHEET_NONE && b->side[j] == SHEET_NONE &&
+          a->point[i] == b->point[(j + 1) % 3] &&
+          a->point[(i + 1) % 3] == b->point[j])
+        return append_sides(a, i, side) + append_sides(b, j, side + 2);
+  return 0;
+}
+
+/* Files such a face as it stands, without arithmetic on regions: `filed`
+ * tells whether its outline was plain enough. */
+static bool store_outline(struct face_work *work, bool *filed) {
+  const struct sheet *sheet = work->fragments->sheet;
+  struct map *map = work->map;
+  struct outline_side side[4];
+  struct geom_point p[4];
+  struct map_fragment fragment = {work->face, (uint32_t)map->loop.count, 1};
+  struct map_loop loop = {(uint32_t)map->corner.count, 0};
+  int n = find_outline(work, side), first = 0;
+  *filed = false;
+  for (int k = 0; k < n; k++) {
+    if (side[k].edge == SHEET_NONE)
+      return true;
+    p[k] = sheet->point.item[side[k].point];
+    if (p[k].x < p[first].x || (p[k].x == p[first].x && p[k].y < p[first].y))
+      first = k;
+  }
+  for (int k = 0; k < n; k++)
+    if (geom_orient2d(p[k], p[(k + 1) % n], p[(k + 2) % n]) == 0)
+      return true;
+  if (n == 0 || work->areas)
+    return true;
+  for (int k = 0; k < n; k++) {
+    int i = (first + k) % n;
+    struct map_corner corner = {p[i].x, p[i].y, MAP_SIDE_EDGE, side[i].edge};
+    if (!ARRAY_PUSH(&map->corner, corner))
+      return false;
+    loop.count++;
+  }
+  *filed = true;
+  return ARRAY_PUSH(&map->loop, loop) && ARRAY_PUSH(&map->fragment, fragment);
+}
+
+static bool is_whole(const struct face_work *work,
+                     const struct fragment_piece *piece, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    if (piece[i].piece != NULL)
+      return false;
+  return count == work->own.count;
+}
+
+/* How many of the pieces, from the first, are of the same face. */
+static size_t count_pieces(const struct fragment_piece *piece, size_t count) {
+  size_t n = 1;
+  while (n < count && piece[n].face == piece->face)
+    n++;
+  return n;
+}
+
+/* Is the face more than can be filed as it stands? */
+static bool is_cut(const struct fragment_piece *piece, size_t count) {
+  return piece->piece != NULL || count > 2 ||
+         (count == 2 && piece[1].piece != NULL);
+}
+
+/* Finds which of the face's triangles are seen, for its labels. */
+static bool find_seen(struct face_work *work,
+                      const struct fragment_piece *piece, size_t count) {
+  size_t kept = 0;
+  work->seen.count = 0;
+  for (size_t i = 0; i < count; i++)
+    if ((i == 0 || piece[i].triangle != piece[i - 1].triangle) &&
+        !ARRAY_PUSH(&work->seen, piece[i].triangle))
+      return false;
+  if (!sort_stable(work->seen.item, work->seen.count, sizeof *work->seen.item,
+                   compare_ids, NULL))
+    return false;
+  for (size_t i = 0; i < work->seen.count; i++)
+    if (i == 0 || work->seen.item[i] != work->seen.item[i - 1])
+      work->seen.item[kept++] = work->seen.item[i];
+  work->seen.count = kept;
+  work->labels.sides =
+      work->indexed && is_cut(piece, count) ? &work->sides : NULL;
+  work->labels.own = work->seen.item;
+  work->labels.own_count = kept;
+  return true;
+}
+
+static bool store_face(struct face_work *work,
+                       const struct fragment_piece *piece, size_t count) {
+  struct fragments *f = work->fragments;
+  work->face = piece->face;
+  work->piece.count = 0;
+  if (!find_own(work, piece->triangle))
+    return false;
+  if (is_whole(work, piece, count)) {
+    bool filed;
+    if (!store_outline(work, &filed))
+      return false;
+    f->counts.outlines += filed;
+    if (filed)
+      return true;
+  }
+  for (size_t i = 0; i < count; i++) {
+    struct geom_convex whole;
+    if (piece[i].piece == NULL &&
+        !triangle_piece(f, piece[i].triangle, &whole, &f->scratch))
+      return false;
+    if (!ARRAY_PUSH(&work->piece,
+                    piece[i].piece != NULL ? *piece[i].piece : whole))
+      return false;
+  }
+  f->counts.united++;
+  f->counts.pieces += count;
+  if (!find_seen(work, piece, count) ||
+      !geom_region_unite(&work->region, work->piece.item, count) ||
+      !store_region(work))
+    return false;
+  arena_reset(&f->scratch);
+  return true;
+}
+
+static int compare_faces(const void *a, const void *b, void *user) {
+  const struct fragment_piece *p = a, *q = b;
+  (void)user;
+  return (p->face > q->face) - (p->face < q->face);
+}
+
+/* ---- Sides that labels ask about ----------------------------------------- */
+
+/* Lists this long are longer than the sides of a sidegrid's cell. */
+enum { LONG_LIST = 48 };
+
+/* Has the triangle's face more triangles than need no index? */
+static bool has_many(const struct sheet *sheet, uint32_t triangle) {
+  const struct sheet_triangle *all = sheet->triangle.item;
+  uint32_t face = all[triangle].face, first = triangle, last = triangle;
+  while (last - first < SIDE_PROVENANCE_FEW && first > 0 &&
+         all[first - 1].face == face)
+    first--;
+  while (last - first < SIDE_PROVENANCE_FEW &&
+         last + 1 < sheet->triangle.count && all[last + 1].face == face)
+    last++;
+  return last - first >= SIDE_PROVENANCE_FEW;
+}
+
+static uint32_t list_length(const struct triangle_grid *grid, size_t cell) {
+  return grid->start[cell + 1] - grid->start[cell];
+}
+
+/* Is an index better than to ask the grid? */
+static bool wants_index(const struct fragments *f) {
+  const struct fragment_piece *piece = f->piece.item;
+  const struct triangle_grid *grid = f->grid;
+  uint64_t listed = 0, asked = 0;
+  for (size_t i = 0, n; i < f->piece.count; i += n) {
+    struct cell_range r;
+    n = count_pieces(&piece[i], f->piece.count - i);
+    if (!is_cut(&piece[i], n))
+      continue;
+    if (has_many(f->sheet, piece[i].triangle))
+      return true;
+    r = triangle_grid_cells(grid,
+                            box2_of_triangle(f->sheet, piece[i].triangle));
+    listed +=
+        list_length(grid, (size_t)r.y0 * (size_t)grid->columns + (size_t)r.x0);
+    asked++;
+  }
+  return listed > LONG_LIST * asked;
+}
+
+/* Adds the triangles of the cells that a triangle is in, and the triangle. */
+static bool add_about(struct fragments *f, uint32_t triangle, uint8_t *done) {
+  const struct triangle_grid *grid = f->grid;
+  struct cell_range r =
+      triangle_grid_cells(grid, box2_of_triangle(f->sheet, triangle));
+  if (triangle_grid_query_first(&f->query, triangle) &&
+      !ARRAY_PUSH(&f->query.found, triangle))
+    return false;
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++) {
+      size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+      if (done[cell])
+        continue;
+      done[cell] = 1;
+      for (uint32_t i = grid->start[cell]; i < grid->start[cell + 1]; i++)
+        if (triangle_grid_query_first(&f->query, grid->item[i]) &&
+            !ARRAY_PUSH(&f->query.found, grid->item[i]))
+          return false;
+    }
+  return true;
+}
+
+/* Indexes the sides of all that is about faces that are cut, and of these
+ * faces. */
+static bool index_sides(struct face_work *work) {
+  struct fragments *f = work->fragments;
+  const struct fragment_piece *piece = f->piece.item;
+  uint8_t *cell_done;
+  bool ok = true;
+  if (!wants_index(f))
+    return true;
+  cell_done = mem_calloc(triangle_grid_cell_count(f->grid), 1);
+  if (cell_done == NULL)
+    return false;
+  triangle_grid_query_start(f->grid, &f->query);
+  for (size_t i = 0, n; ok && i < f->piece.count; i += n) {
+    n = count_pieces(&piece[i], f->piece.count - i);
+    for (size_t k = 0; ok && is_cut(&piece[i], n) && k < n; k++)
+      ok = add_about(f, piece[i + k].triangle, cell_done);
+  }
+  mem_free(cell_done);
+  work->indexed = true;
+  return ok && line_index_init(&work->sides, f->sheet, f->query.found.item,
+                               f->query.found.count);
+}
+
+static void report_counts(const struct fragments *fragments) {
+  const struct fragments_counts *c = &fragments->counts;
+  struct report *report = fragments->report;
+  static const char *const side[] = {"sides_of_edges", "sides_of_outlines",
+                                     "sides_of_intersections", "sides_cut"};
+  report_int(report, "fragments", "triangles_whole", (int64_t)c->whole);
+  report_int(report, "fragments", "triangles_cut", (int64_t)c->cut);
+  report_int(report, "fragments", "contact_pairs", (int64_t)c->contact_pairs);
+  report_int(report, "fragments", "contact_filter_failures",
+             (int64_t)c->contact_exact);
+  report_int(report, "fragments", "contacts", (int64_t)c->contacts);
+  report_int(report, "fragments", "faces_as_they_stand", (int64_t)c->outlines);
+  report_int(report, "fragments", "faces_united", (int64_t)c->united);
+  report_int(report, "fragments", "pieces_united", (int64_t)c->pieces);
+  for (int k = 0; k <= MAP_SIDE_CUT; k++)
+    report_int(report, "fragments", side[k], (int64_t)c->side[k]);
+}
+
+bool fragments_finish(struct fragments *fragments, bool areas,
+                      struct map *map) {
+  struct face_work work = {.fragments = fragments,
+                           .map = map,
+                           .areas = areas,
+                           .labels = {.sheet = fragments->sheet,
+                                      .grid = fragments->grid,
+                                      .query = &fragments->query}};
+  const struct fragment_piece *piece = fragments->piece.item;
+  size_t n = fragments->piece.count;
+  bool ok = sort_stable(fragments->piece.item, n, sizeof *piece, compare_faces,
+                        NULL) &&
+            index_sides(&work);
+  for (size_t i = 0, count; ok && i < n; i += count) {
+    count = count_pieces(&piece[i], n - i);
+    ok = progress_step(fragments->progress, FACE_WORK * count) &&
+         store_face(&work, &piece[i], count);
+  }
+  ARRAY_FREE(&work.own);
+  ARRAY_FREE(&work.seen);
+  ARRAY_FREE(&work.piece);
+  side_provenance_fini(&work.labels);
+  line_index_fini(&work.sides);
+  geom_region_fini(&work.region);
+  report_counts(fragments);
+  return ok;
+}

@@ -1,0 +1,312 @@
+/* duplicate_triangles.c - triangles of which others are exact copies.
+ *
+ * Phases
+ *   1 triangles with corners at the same places are of one class, which is
+ *     known by its first triangle
+ *   2 edges between the same places, at which triangles of the same classes
+ *     meet, are of one kind, which is known by a number
+ *   3 triangles of one class with edges of the same kinds are copies
+ * Hashes only bring together what may be equal; places are compared.
+ */
+#include "visibility/index/duplicate_triangles.h"
+
+#include <string.h>
+
+#include "base/sort.h"
+
+enum {
+  KEPT = 2, /* of all copies stand for the rest */
+  MANY = 4  /* one in so many members of a list that are copies are many */
+};
+
+/* ---- 1 Classes ----------------------------------------------------------- */
+
+static uint64_t stir(uint64_t hash, uint64_t value) {
+  hash = (hash ^ value) * UINT64_C(0x9e3779b97f4a7c15);
+  return hash ^ (hash >> 29);
+}
+
+static const struct geom_point *corner_of(const struct sheet *sheet,
+                                          uint32_t triangle, int k) {
+  return &sheet->point.item[sheet->triangle.item[triangle].point[k]];
+}
+
+static uint64_t hash_of(const struct sheet *sheet, uint32_t triangle) {
+  uint64_t hash = 0;
+  for (int k = 0; k < 3; k++) {
+    const struct geom_point *p = corner_of(sheet, triangle, k);
+    hash = stir(hash, (uint64_t)p->x);
+    hash = stir(hash, (uint64_t)p->y);
+    hash = stir(hash, (uint64_t)p->z);
+  }
+  return hash;
+}
+
+static int compare_places(const void *a, const void *b, void *user) {
+  const struct sheet *sheet = user;
+  const struct sort_key *s = a, *t = b;
+  for (int k = 0; k < 3; k++) {
+    int order = geom_compare_points(*corner_of(sheet, s->value, k),
+                                    *corner_of(sheet, t->value, k));
+    if (order != 0)
+      return order;
+  }
+  return 0;
+}
+
+/* The triangles, those with corners at the same places next to each other and
+ * in order; NULL when memory ran out.
+ * triangle  NULL: all, from the first */
+static struct sort_key *sort_by_places(const struct sheet *sheet,
+                                       const uint32_t *triangle, size_t n) {
+  struct sort_key *key = mem_alloc(2 * n, sizeof *key);
+  bool ok = key != NULL;
+  if (!ok)
+    return NULL;
+  for (size_t i = 0; i < n; i++) {
+    uint32_t t = triangle != NULL ? triangle[i] : (uint32_t)i;
+    key[i] = (struct sort_key){hash_of(sheet, t), t};
+  }
+  sort_keys(key, key + n, n);
+  for (size_t i = 0, past; ok && i < n; i = past) {
+    for (past = i + 1; past < n && key[past].key == key[i].key;)
+      past++;
+    ok = sort_stable(&key[i], past - i, sizeof *key, compare_places,
+                     (void *)(uintptr_t)sheet);
+  }
+  if (ok)
+    return key;
+  mem_free(key);
+  return NULL;
+}
+
+static bool is_same(const struct sheet *sheet, const struct sort_key *a,
+                    const struct sort_key *b) {
+  return a->key == b->key &&
+         compare_places(a, b, (void *)(uintptr_t)sheet) == 0;
+}
+
+bool duplicate_triangles_abound(const struct sheet *sheet,
+                                const uint32_t *triangle, size_t count,
+                                bool *abound) {
+  struct sort_key *key = sort_by_places(sheet, triangle, count);
+  size_t copies = 0;
+  if (key == NULL)
+    return false;
+  for (size_t i = 1; i < count; i++)
+    copies += is_same(sheet, &key[i - 1], &key[i]);
+  *abound = copies > count / MANY;
+  mem_free(key);
+  return true;
+}
+
+struct duplicate_finder {
+  const struct sheet *sheet;
+  uint32_t *class; /* of each triangle */
+  uint32_t *size;  /* of the class known by a triangle */
+  uint8_t *marked; /* points of triangles that may be copies */
+  uint32_t *kind;  /* of each side: 3 * triangle + k; SHEET_NONE: alone */
+  uint8_t *left_out;
+};
+
+static bool may_be_duplicate(const struct duplicate_finder *f,
+                             uint32_t triangle) {
+  return f->size[f->class[triangle]] > KEPT;
+}
+
+static bool find_classes(struct duplicate_finder *f) {
+  size_t n = f->sheet->triangle.count;
+  struct sort_key *key = sort_by_places(f->sheet, NULL, n);
+  if (key == NULL)
+    return false;
+  for (size_t i = 0; i < n; i++) {
+    uint32_t t = key[i].value;
+    bool same = i > 0 && is_same(f->sheet, &key[i - 1], &key[i]);
+    f->class[t] = same ? f->class[key[i - 1].value] : t;
+    f->size[f->class[t]]++;
+  }
+  mem_free(key);
+  for (uint32_t t = 0; t < n; t++)
+    for (int k = 0; k < 3 && may_be_duplicate(f, t); k++)
+      f->marked[f->sheet->triangle.item[t].point[k]] = 1;
+  return true;
+}
+
+/* ---- 2 Kinds of edges ---------------------------------------------------- */
+
+/* A side of a triangle, its ends ordered by place, then by number. */
+struct duplicate_side {
+  uint32_t point[2], class, side;
+};
+
+/* An edge: sides[from .. from + count), by their classes. */
+struct duplicate_edge {
+  size_t from, count;
+};
+
+struct duplicate_sides {
+  const struct sheet *sheet;
+  ARRAY(struct duplicate_side) side;
+  ARRAY(struct duplicate_edge) edge;
+};
+
+static int compare_numbers(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
+
+static int compare_sides(const void *a, const void *b, void *user) {
+  const struct duplicate_side *s = a, *t = b;
+  int order = compare_numbers(s->point[0], t->point[0]);
+  (void)user;
+  if (order == 0)
+    order = compare_numbers(s->point[1], t->point[1]);
+  return order != 0 ? order : compare_numbers(s->class, t->class);
+}
+
+static int compare_edges(const void *a, const void *b, void *user) {
+  const struct duplicate_sides *all = user;
+  const struct geom_point *point = all->sheet->point.item;
+  const struct duplicate_edge *e = a, *f = b;
+  const struct duplicate_side *s = &all->side.item[e->from],
+                              *t = &all->side.item[f->from];
+  int order = 0;
+  for (int k = 0; k < 2 && order == 0; k++)
+    order = geom_compare_points(point[s->point[k]], point[t->point[k]]);
+  if (order == 0 && e->count != f->count)
+    return e->count < f->count ? -1 : 1;
+  for (size_t i = 0; i < e->count && order == 0; i++)
+    order = compare_numbers(s[i].class, t[i].class);
+  return order;
+}
+
+static bool add_sides(struct duplicate_sides *all,
+                      const struct duplicate_finder *f, uint32_t triangle) {
+  const struct geom_point *point = f->sheet->point.item;
+  const uint32_t *p = f->sheet->triangle.item[triangle].point;
+  for (uint32_t k = 0; k < 3; k++) {
+    uint32_t i = p[k], j = p[k == 2 ? 0 : k + 1];
+    int order = geom_compare_points(point[i], point[j]);
+    bool swap = order > 0 || (order == 0 && i > j);
+    struct duplicate_side side = {
+        {swap ? j : i, swap ? i : j}, f->class[triangle], 3 * triangle + k};
+    if (f->marked[i] && f->marked[j] && !ARRAY_PUSH(&all->side, side))
+      return false;
+  }
+  return true;
+}
+
+/* The sides between the same two points are an edge; of those of one class one
+ * is enough to tell its kind. */
+static bool find_edges(struct duplicate_sides *all) {
+  const struct duplicate_side *side = all->side.item;
+  for (size_t i = 0, past; i < all->side.count; i = past) {
+    struct duplicate_edge edge = {i, 0};
+    for (past = i; past < all->side.count &&
+                   side[past].point[0] == side[i].point[0] &&
+                   side[past].point[1] == side[i].point[1];)
+      past++;
+    edge.count = past - i;
+    if (!ARRAY_PUSH(&all->edge, edge))
+      return false;
+  }
+  return true;
+}
+
+static bool find_kinds(struct duplicate_finder *f) {
+  struct duplicate_sides all = {.sheet = f->sheet};
+  uint32_t kind = 0;
+  bool ok = true;
+  for (uint32_t t = 0; ok && t < f->sheet->triangle.count; t++)
+    ok = add_sides(&all, f, t);
+  ok = ok &&
+       sort_stable(all.side.item, all.side.count, sizeof *all.side.item,
+                   compare_sides, NULL) &&
+       find_edges(&all) &&
+       sort_stable(all.edge.item, all.edge.count, sizeof *all.edge.item,
+                   compare_edges, &all);
+  for (size_t e = 0; ok && e < all.edge.count; e++) {
+    const struct duplicate_edge *edge = &all.edge.item[e];
+    if (e > 0 && compare_edges(edge - 1, edge, &all) != 0)
+      kind++;
+    for (size_t i = 0; i < edge->count; i++)
+      f->kind[all.side.item[edge->from + i].side] = kind;
+  }
+  ARRAY_FREE(&all.side);
+  ARRAY_FREE(&all.edge);
+  return ok;
+}
+
+/* ---- 3 Copies ------------------------------------------------------------ */
+
+static int compare_triangles(const void *a, const void *b, void *user) {
+  const struct duplicate_finder *f = user;
+  uint32_t s = *(const uint32_t *)a, t = *(const uint32_t *)b;
+  int order = compare_numbers(f->class[s], f -> class[t]);
+  for (uint32_t k = 0; k < 3 && order == 0; k++)
+    order = compare_numbers(f->kind[3 * s + k], f->kind[3 * t + k]);
+  return order;
+}
+
+/* Does the first name sides that are no later in the sheet? */
+static bool names_first(const struct sheet *sheet, uint32_t first,
+                        uint32_t copy) {
+  const uint32_t *s = sheet->triangle.item[first].side,
+                 *t = sheet->triangle.item[copy].side;
+  return s[0] <= t[0] && s[1] <= t[1] && s[2] <= t[2];
+}
+
+/* Leaves out all copies but the first and the next one, if possible of another
+ * face. */
+static void leave_out(struct duplicate_finder *f, const uint32_t *copy,
+                      size_t count) {
+  const struct sheet_triangle *triangle = f->sheet->triangle.item;
+  size_t other = 1;
+  while (other < count && triangle[copy[other]].face == triangle[copy[0]].face)
+    other++;
+  if (other == count)
+    other = 1;
+  for (size_t i = 1; i < count; i++)
+    f->left_out[copy[i]] =
+        i != other && names_first(f->sheet, copy[0], copy[i]);
+}
+
+static bool find_duplicates(struct duplicate_finder *f) {
+  ARRAY(uint32_t) copy = {0};
+  bool ok = true;
+  for (uint32_t t = 0; ok && t < f->sheet->triangle.count; t++)
+    if (may_be_duplicate(f, t))
+      ok = ARRAY_PUSH(&copy, t);
+  ok = ok && sort_stable(copy.item, copy.count, sizeof *copy.item,
+                         compare_triangles, f);
+  for (size_t i = 0, past; ok && i < copy.count; i = past) {
+    for (past = i + 1;
+         past < copy.count &&
+         compare_triangles(&copy.item[i], &copy.item[past], f) == 0;)
+      past++;
+    leave_out(f, &copy.item[i], past - i);
+  }
+  ARRAY_FREE(&copy);
+  return ok;
+}
+
+bool duplicate_triangles_find(const struct sheet *sheet, uint8_t **left_out) {
+  size_t n = sheet->triangle.count;
+  struct duplicate_finder f = {.sheet = sheet};
+  bool ok = false;
+  f.class = mem_alloc(n, sizeof *f.class);
+  f.size = mem_calloc(n, sizeof *f.size);
+  f.marked = mem_calloc(sheet->point.count, sizeof *f.marked);
+  f.kind = mem_alloc(3 * n, sizeof *f.kind);
+  f.left_out = mem_calloc(n, sizeof *f.left_out);
+  if (f.class != NULL && f.size != NULL && f.marked != NULL && f.kind != NULL &&
+      f.left_out != NULL) {
+    memset(f.kind, 0xff, 3 * n * sizeof *f.kind);
+    ok = find_classes(&f) && find_kinds(&f) && find_duplicates(&f);
+  }
+  mem_free(f.class);
+  mem_free(f.size);
+  mem_free(f.marked);
+  mem_free(f.kind);
+  if (!ok)
+    mem_free(f.left_out);
+  *left_out = ok ? f.left_out : NULL;
+  return ok;
+}

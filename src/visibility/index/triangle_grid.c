@@ -1,0 +1,440 @@
+/* triangle_grid.c - which triangles may lie where on the page: a flat grid. */
+#include "visibility/index/triangle_grid.h"
+
+#include <string.h>
+
+#include "visibility/index/duplicate_triangles.h"
+#include "visibility/index/bsp.h"
+#include "visibility/predicate/surrounder.h"
+
+enum {
+  SPREAD = 8, /* cells a triangle, on average, for lists of pairs */
+  MAX_SHIFT = 31,
+  SAMPLE = 1 << 16 /* triangles that are looked at to choose the cells */
+};
+
+typedef ARRAY(uint32_t) triangle_list;
+
+static struct box2 box_of_sheet(const struct sheet *sheet) {
+  struct box2 all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+  for (size_t t = 0; t < sheet->triangle.count; t++) {
+    struct box2 box = box2_of_triangle(sheet, (uint32_t)t);
+    all.x0 = box2_min(all.x0, box.x0);
+    all.y0 = box2_min(all.y0, box.y0);
+    all.x1 = box2_max(all.x1, box.x1);
+    all.y1 = box2_max(all.y1, box.y1);
+  }
+  return sheet->triangle.count > 0 ? all : (struct box2){0, 0, 0, 0};
+}
+
+/* Are the boxes in at most `spread` cells of 2^shift on average?  Every
+ * stride-th one is asked. */
+static bool is_spread(const struct sheet *sheet, int shift, unsigned spread) {
+  size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
+  uint64_t cells = 0, limit = (uint64_t)spread * (n / stride) + 64;
+  for (size_t t = 0; t < n && cells <= limit; t += stride) {
+    struct box2 b = box2_of_triangle(sheet, (uint32_t)t);
+    cells += ((uint64_t)(((int64_t)b.x1 - b.x0) >> shift) + 1) *
+             ((uint64_t)(((int64_t)b.y1 - b.y0) >> shift) + 1);
+  }
+  return cells <= limit;
+}
+
+/* The cells of 2^shift units that a box has from side to side. */
+static uint64_t cells_across(int32_t from, int32_t to, int shift) {
+  return (((uint64_t)((int64_t)to - from) + 1) >> shift) + 1;
+}
+
+static void shape(struct triangle_grid *grid, const struct sheet *sheet,
+                  struct box2 all, int shift) {
+  memset(grid, 0, sizeof *grid);
+  grid->triangle_count = sheet->triangle.count;
+  grid->x0 = all.x0;
+  grid->y0 = all.y0;
+  grid->shift = shift;
+  grid->columns = (int)cells_across(all.x0, all.x1, shift);
+  grid->rows = (int)cells_across(all.y0, all.y1, shift);
+}
+
+void triangle_grid_shape(struct triangle_grid *grid, const struct sheet *sheet,
+                         unsigned spread, unsigned most) {
+  struct box2 all = box_of_sheet(sheet);
+  uint64_t room = (uint64_t)most * sheet->triangle.count + 16;
+  int shift = 0;
+  while (shift < MAX_SHIFT && (cells_across(all.x0, all.x1, shift) *
+                                       cells_across(all.y0, all.y1, shift) >
+                                   room ||
+                               !is_spread(sheet, shift, spread)))
+    shift++;
+  shape(grid, sheet, all, shift);
+}
+
+/* The pairs that share a list of the grid, were its lists of these triangles,
+ * and the lists' length.
+ * count  one a cell: scratch */
+static double cost_of_pairs(const struct triangle_grid *grid,
+                            const struct sheet *sheet, const uint32_t *some,
+                            size_t n, uint32_t *count) {
+  size_t cells = triangle_grid_cell_count(grid);
+  double cost = 0;
+  memset(count, 0, cells * sizeof *count);
+  for (size_t i = 0; i < n; i++) {
+    struct cell_range r =
+        triangle_grid_cells(grid, box2_of_triangle(sheet, some[i]));
+    for (int y = r.y0; y <= r.y1; y++)
+      for (int x = r.x0; x <= r.x1; x++)
+        count[(size_t)y * (size_t)grid->columns + (size_t)x]++;
+  }
+  for (size_t c = 0; c < cells; c++)
+    cost += triangle_grid_cost_of_list(count[c]);
+  return cost;
+}
+
+bool triangle_grid_enlarge(struct triangle_grid *grid,
+                           const struct sheet *sheet, const uint32_t *some,
+                           size_t n, double *cost) {
+  struct box2 all = box_of_sheet(sheet);
+  struct triangle_grid next;
+  int shift = grid->shift;
+  uint32_t *count = mem_alloc(triangle_grid_cell_count(grid), sizeof *count);
+  double now = *cost;
+  if (count == NULL)
+    return false;
+  /* From one cell on they become smaller as long as that is of use. */
+  while (shift < MAX_SHIFT && cells_across(all.x0, all.x1, shift) *
+                                      cells_across(all.y0, all.y1, shift) >
+                                  1)
+    shift++;
+  for (; shift > grid->shift && now < 2 * *cost; shift--) {
+    shape(&next, sheet, all, shift);
+    now = cost_of_pairs(&next, sheet, some, n, count);
+    if (now >= *cost)
+      continue;
+    *cost = now;
+    *grid = next;
+  }
+  mem_free(count);
+  return true;
+}
+
+/* What the lists are made of. */
+struct filling {
+  struct triangle_grid *grid;
+  const struct sheet *sheet;
+  const struct footprint *print;
+  const uint8_t *wanted;
+  const uint32_t *some; /* the triangles that may be listed; NULL: all */
+  size_t count;
+};
+
+static void fill_triangle(const struct filling *filling, uint32_t t,
+                          bool place) {
+  struct triangle_grid *grid = filling->grid;
+  const struct sheet *sheet = filling->sheet;
+  struct cell_range r =
+      filling->print != NULL
+          ? footprint_cells(grid, sheet, t, filling->print[t])
+          : triangle_grid_cells(grid, box2_of_triangle(sheet, t));
+  double nearest =
+      grid->horizon != NULL ? (double)triangle_nearest(sheet, t) : 0;
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++) {
+      size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+      uint32_t *end = &grid->start[cell];
+      if (filling->wanted != NULL && !filling->wanted[cell])
+        continue;
+      if (grid->horizon != NULL && nearest < grid->horizon[cell])
+        continue;
+      if (place)
+        grid->item[--*end] = t;
+      else
+        ++*end;
+    }
+}
+
+/* First pass: counts; second: places.  start[] ends as the lists' starts. */
+static void fill_cells(const struct filling *filling, bool place) {
+  for (size_t i = filling->count; i-- > 0;)
+    fill_triangle(
+        filling, filling->some != NULL ? filling->some[i] : (uint32_t)i, place);
+}
+
+/* Drops the triangles that others stand for from the lists. */
+static void shorten_lists(struct triangle_grid *grid) {
+  size_t cells = triangle_grid_cell_count(grid);
+  uint32_t kept = 0, i = 0;
+  for (size_t c = 0; c < cells; c++) {
+    uint32_t end = grid->start[c + 1];
+    grid->start[c] = kept;
+    for (; i < end; i++)
+      if (!grid->left_out[grid->item[i]])
+        grid->item[kept++] = grid->item[i];
+  }
+  grid->start[cells] = kept;
+}
+
+/* Looks for copies where the longest list is a pile of them. */
+static bool leave_out_duplicates(struct triangle_grid *grid) {
+  size_t cells = triangle_grid_cell_count(grid), longest = 0;
+  const uint32_t *start = grid->start;
+  bool abound;
+  for (size_t c = 1; c < cells; c++)
+    if (start[c + 1] - start[c] > start[longest + 1] - start[longest])
+      longest = c;
+  size_t count = start[longest + 1] - start[longest];
+  if (count < TRIANGLE_GRID_DUPLICATES)
+    return true;
+  if (!duplicate_triangles_abound(grid->sheet, grid->item + start[longest],
+                                  count, &abound))
+    return false;
+  if (!abound)
+    return true;
+  if (!duplicate_triangles_find(grid->sheet, &grid->left_out))
+    return false;
+  shorten_lists(grid);
+  return true;
+}
+
+bool triangle_grid_split(struct triangle_grid *grid, bool planes) {
+  size_t cells = triangle_grid_cell_count(grid);
+  for (size_t c = 0; c < cells; c++) {
+    size_t count = grid->start[c + 1] - grid->start[c];
+    if (count < TRIANGLE_GRID_SPLIT)
+      continue;
+    if (grid->bsp == NULL) {
+      grid->bsp = mem_calloc(1, sizeof *grid->bsp);
+      grid->bsp_root = mem_alloc(cells, sizeof *grid->bsp_root);
+      if (grid->bsp == NULL || grid->bsp_root == NULL)
+        return false;
+      memset(grid->bsp_root, 0xff, cells * sizeof *grid->bsp_root);
+    }
+    if (!bsp_add(grid->bsp, grid->sheet, grid->item + grid->start[c], count,
+                 planes, &grid->bsp_root[c]))
+      return false;
+  }
+  return true;
+}
+
+static bool fill(const struct filling *filling) {
+  struct triangle_grid *grid = filling->grid;
+  size_t cells = triangle_grid_cell_count(grid);
+  grid->start = mem_calloc(cells + 1, sizeof *grid->start);
+  if (grid->start == NULL)
+    return false;
+  fill_cells(filling, false);
+  for (size_t c = 0; c < cells; c++)
+    grid->start[c + 1] += grid->start[c];
+  grid->item = mem_alloc(grid->start[cells], sizeof *grid->item);
+  if (grid->item == NULL) {
+    triangle_grid_fini(grid);
+    return false;
+  }
+  fill_cells(filling, true);
+  grid->sheet = filling->sheet;
+  if (!leave_out_duplicates(grid)) {
+    triangle_grid_fini(grid);
+    return false;
+  }
+  return true;
+}
+
+/* One a cell: is it wanted, or the next one in x, in y or in both?  So a
+ * triangle in two cells each way or less asks once. */
+static uint8_t *widen(const struct triangle_grid *grid, const uint8_t *wanted) {
+  size_t n = triangle_grid_cell_count(grid), columns = (size_t)grid->columns;
+  uint8_t *wide = mem_alloc(n, 1);
+  if (wide == NULL)
+    return NULL;
+  for (size_t i = 0; i + 1 < n; i++)
+    wide[i] = wanted[i] | wanted[i + 1];
+  wide[n - 1] = wanted[n - 1];
+  for (size_t i = 0; i + columns < n; i++)
+    wide[i] |= wide[i + columns];
+  return wide;
+}
+
+/* The triangles that are in wanted cells, and maybe a few more. */
+static bool choose_some(const struct triangle_grid *grid,
+                        const struct footprint *print, const uint8_t *wide,
+                        triangle_list *some) {
+  for (size_t t = 0; t < grid->triangle_count; t++) {
+    struct footprint f = print[t];
+    size_t cell = (size_t)f.y * (size_t)grid->columns + f.x;
+    bool small = f.width <= 1 && f.height <= 1;
+    if (small && !wide[cell])
+      continue;
+    if (!ARRAY_PUSH(some, (uint32_t)t))
+      return false;
+  }
+  return true;
+}
+
+bool triangle_grid_fill(struct triangle_grid *grid, const struct sheet *sheet,
+                        const struct footprint *print, const uint8_t *wanted,
+                        const double *horizon) {
+  triangle_list some = {0};
+  uint8_t *wide = widen(grid, wanted);
+  grid->horizon = horizon;
+  bool ok = wide != NULL && choose_some(grid, print, wide, &some);
+  mem_free(wide);
+  ok = ok && fill(&(struct filling){grid, sheet, print, wanted, some.item,
+                                    some.count});
+  ARRAY_FREE(&some);
+  return ok;
+}
+
+bool triangle_grid_init(struct triangle_grid *grid, const struct sheet *sheet) {
+  triangle_grid_shape(grid, sheet, SPREAD, 2);
+  if (fill(&(struct filling){
+          .grid = grid, .sheet = sheet, .count = sheet->triangle.count}) &&
+      triangle_grid_split(grid, false))
+    return true;
+  triangle_grid_fini(grid);
+  return false;
+}
+
+bool triangle_grid_fill_some(struct triangle_grid *grid,
+                             const struct sheet *sheet, const uint32_t *some,
+                             size_t count) {
+  return fill(&(struct filling){
+      .grid = grid, .sheet = sheet, .some = some, .count = count});
+}
+
+void triangle_grid_fini(struct triangle_grid *grid) {
+  mem_free(grid->start);
+  mem_free(grid->item);
+  if (grid->bsp != NULL)
+    bsp_fini(grid->bsp);
+  mem_free(grid->bsp);
+  mem_free(grid->bsp_root);
+  mem_free(grid->left_out);
+  grid->start = grid->item = grid->bsp_root = NULL;
+  grid->left_out = NULL;
+  grid->bsp = NULL;
+}
+
+bool triangle_grid_query_init(struct triangle_grid_query *query,
+                              const struct triangle_grid *grid) {
+  memset(query, 0, sizeof *query);
+  query->stamp = mem_calloc(grid->triangle_count + 1, sizeof *query->stamp);
+  return query->stamp != NULL;
+}
+
+void triangle_grid_query_fini(struct triangle_grid_query *query) {
+  mem_free(query->stamp);
+  query->stamp = NULL;
+  ARRAY_FREE(&query->found);
+}
+
+void triangle_grid_query_start(const struct triangle_grid *grid,
+                               struct triangle_grid_query *query) {
+  query->found.count = 0;
+  if (++query->now == 0) {
+    memset(query->stamp, 0, grid->triangle_count * sizeof *query->stamp);
+    query->now = 1;
+  }
+}
+
+static bool visit(struct triangle_grid_query *query, uint32_t t) {
+  return !triangle_grid_query_first(query, t) || ARRAY_PUSH(&query->found, t);
+}
+
+static bool visit_bsp(const struct triangle_grid *grid, uint32_t root,
+                      const struct bsp_query *shape,
+                      struct triangle_grid_query *query) {
+  struct bsp_traversal walk = bsp_traversal_from(root);
+  const struct bsp_node *node;
+  while ((node = bsp_next(grid->bsp, &walk, shape)) != NULL)
+    for (uint32_t i = node->from; i < node->from + node->count; i++)
+      if (!visit(query, grid->bsp->member.item[i].triangle))
+        return false;
+  return true;
+}
+
+static bool visit_cell(const struct triangle_grid *grid, int x, int y,
+                       const struct bsp_query *shape,
+                       struct triangle_grid_query *query) {
+  size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+  uint32_t root = triangle_grid_bsp(grid, cell);
+  if (root != SHEET_NONE)
+    return visit_bsp(grid, root, shape, query);
+  for (uint32_t i = grid->start[cell]; i < grid->start[cell + 1]; i++)
+    if (!visit(query, grid->item[i]))
+      return false;
+  return true;
+}
+
+static bool find_in_box(const struct triangle_grid *grid,
+                        const struct bsp_query *shape,
+                        struct triangle_grid_query *query) {
+  struct cell_range r = triangle_grid_cells(grid, shape->box);
+  triangle_grid_query_start(grid, query);
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++)
+      if (!visit_cell(grid, x, y, shape, query))
+        return false;
+  return true;
+}
+
+bool triangle_grid_find(const struct triangle_grid *grid, struct box2 box,
+                        struct triangle_grid_query *query) {
+  const struct bsp_query shape = {.kind = BSP_BOX, .box = box};
+  return find_in_box(grid, &shape, query);
+}
+
+bool triangle_grid_find_about(const struct triangle_grid *grid,
+                              uint32_t triangle,
+                              struct triangle_grid_query *query) {
+  const struct bsp_query shape = {.kind = BSP_TRIANGLE,
+                                  .triangle = triangle,
+                                  .sheet = grid->sheet,
+                                  .box =
+                                      box2_of_triangle(grid->sheet, triangle)};
+  return find_in_box(grid, &shape, query);
+}
+
+void triangle_grid_row(const struct triangle_grid *grid, struct geom_point p,
+                       struct geom_point q, struct cell_range range, int y,
+                       int *x0, int *x1) {
+  int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y, low, high;
+  double a, b, from, to;
+  *x0 = range.x0;
+  *x1 = range.x1;
+  if (range.y0 == range.y1 || range.x0 == range.x1)
+    return;
+  /* Where the segment enters and leaves the row, rounded outwards. */
+  low = grid->y0 + ((int64_t)y << grid->shift) - p.y;
+  high = low + (INT64_C(1) << grid->shift);
+  a = (double)p.x + (double)dx * ((double)low / (double)dy);
+  b = (double)p.x + (double)dx * ((double)high / (double)dy);
+  from = (a < b ? a : b) - 1;
+  to = (a < b ? b : a) + 1;
+  if (from > -0x1p30) {
+    int x = triangle_grid_cell((int32_t)from - 1, grid->x0, grid->shift,
+                               grid->columns);
+    if (x > *x0)
+      *x0 = x;
+  }
+  if (to < 0x1p30) {
+    int x = triangle_grid_cell((int32_t)to + 1, grid->x0, grid->shift,
+                               grid->columns);
+    if (x < *x1)
+      *x1 = x;
+  }
+}
+
+bool triangle_grid_find_along(const struct triangle_grid *grid,
+                              struct geom_point p, struct geom_point q,
+                              struct triangle_grid_query *query) {
+  const struct bsp_query shape = {.kind = BSP_SEGMENT, .p = {p, q}};
+  struct cell_range r = triangle_grid_cells(grid, box2_of_segment(p, q));
+  triangle_grid_query_start(grid, query);
+  for (int y = r.y0; y <= r.y1; y++) {
+    int x0, x1;
+    triangle_grid_row(grid, p, q, r, y, &x0, &x1);
+    for (int x = x0; x <= x1; x++)
+      if (!visit_cell(grid, x, y, &shape, query))
+        return false;
+  }
+  return true;
+}

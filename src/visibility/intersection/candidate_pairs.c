@@ -1,0 +1,287 @@
+/* candidate_pairs.c - pairs of triangles that may pierce each other.
+ *
+ * Cell by cell, a sweep from the deepest triangle to the nearest meets every
+ * pair whose depths overlap; boxes, shared corners, planes in doubles
+ * (plane_filter.h) and sides on the page settle most of them.  A long list is parted
+ * before (bsp.h).
+ */
+#include "visibility/intersection/candidate_pairs.h"
+
+#include "base/sort.h"
+#include "visibility/index/bsp.h"
+#include "visibility/predicate/plane_filter.h"
+
+/* So many triangles in one cell are worth parting (bsp.h). */
+enum { CROWD = 256 };
+
+/* What is asked of a triangle, gathered once a cell. */
+struct summary {
+  struct box2 box;
+  int64_t low, high; /* depths */
+  int x0, y0;        /* the cell of the box's lower left corner */
+  uint32_t triangle;
+  uint64_t seen; /* bsp.h */
+  bool planned;  /* the plane is there */
+  struct plane_filter plane;
+};
+
+struct box_sweep {
+  const struct sheet *sheet;
+  const struct triangle_grid *grid;
+  const uint8_t *cells;
+  bool (*visit)(void *user, uint32_t f, uint32_t g);
+  void *user;
+  struct progress *progress;
+  int x, y; /* the cell at hand */
+  ARRAY(struct summary) summary;
+  ARRAY(struct sort_key) key; /* twice as many: by depth, and to sort in */
+  struct bsp bsp;
+  uint64_t *met;
+};
+
+static void summarise(const struct box_sweep *sweep, uint32_t triangle,
+                      uint64_t seen, struct summary *s) {
+  const struct sheet *sheet = sweep->sheet;
+  const struct triangle_grid *grid = sweep->grid;
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  s->box = box2_of_triangle(sheet, triangle);
+  s->low = s->high = sheet->point.item[p[0]].z;
+  for (int k = 1; k < 3; k++) {
+    int64_t z = sheet->point.item[p[k]].z;
+    if (z < s->low)
+      s->low = z;
+    if (z > s->high)
+      s->high = z;
+  }
+  s->x0 = triangle_grid_cell(s->box.x0, grid->x0, grid->shift, grid->columns);
+  s->y0 = triangle_grid_cell(s->box.y0, grid->y0, grid->shift, grid->rows);
+  s->triangle = triangle;
+  s->seen = seen;
+  s->planned = false;
+}
+
+static bool is_listed(const struct box_sweep *sweep, int x, int y,
+                      const struct summary *f, const struct summary *g) {
+  const struct triangle_grid *grid = sweep->grid;
+  size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+  if (sweep->cells != NULL && !sweep->cells[cell])
+    return false;
+  return grid->start[cell] < grid->start[cell + 1] &&
+         (grid->horizon == NULL || (!((double)f->high < grid->horizon[cell]) &&
+                                    !((double)g->high < grid->horizon[cell])));
+}
+
+/* A pair stands in several cells; it is asked in the first whose list has
+ * both: mostly the one where their boxes' overlap begins. */
+static bool is_cell_of_pair(const struct box_sweep *sweep,
+                            const struct summary *f, const struct summary *g) {
+  const struct triangle_grid *grid = sweep->grid;
+  int x0 = f->x0 > g->x0 ? f->x0 : g->x0, y0 = f->y0 > g->y0 ? f->y0 : g->y0;
+  if (x0 == sweep->x && y0 == sweep->y)
+    return true;
+  if (is_listed(sweep, x0, y0, f, g))
+    return false;
+  int x1 = triangle_grid_cell(box2_min(f->box.x1, g->box.x1), grid->x0,
+                              grid->shift, grid->columns);
+  for (int y = y0; y <= sweep->y; y++) {
+    int end = y < sweep->y ? x1 : sweep->x - 1;
+    for (int x = x0; x <= end; x++)
+      if (is_listed(sweep, x, y, f, g))
+        return false;
+  }
+  return true;
+}
+
+/* Which corners two triangles share: how many, and where the last of them is
+ * in each. */
+struct shared_corners {
+  int count, in_f, in_g;
+};
+
+static struct shared_corners shared_corners(const uint32_t f[3],
+                                            const uint32_t g[3]) {
+  struct shared_corners shared = {0, 0, 0};
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      if (f[i] == g[j])
+        shared = (struct shared_corners){shared.count + 1, i, j};
+  return shared;
+}
+
+/* Two points as they are seen from a third. */
+struct sector {
+  int64_t x[2], y[2];
+};
+
+static struct sector sector_of(const struct sheet *sheet, const uint32_t p[3],
+                               int corner) {
+  struct geom_point v = sheet->point.item[p[corner]],
+                    a = sheet->point.item[p[corner == 2 ? 0 : corner + 1]],
+                    b = sheet->point.item[p[corner == 0 ? 2 : corner - 1]];
+  return (struct sector){{(int64_t)a.x - v.x, (int64_t)b.x - v.x},
+                         {(int64_t)a.y - v.y, (int64_t)b.y - v.y}};
+}
+
+/* Is g strictly to the right of the first side of f, or to the left of its
+ * last one, while f is on the other side? */
+static bool is_separated_by(const struct sector *f, const struct sector *g) {
+  return (f->x[0] * g->y[0] < f->y[0] * g->x[0] &&
+          f->x[0] * g->y[1] < f->y[0] * g->x[1]) ||
+         (f->x[1] * g->y[0] > f->y[1] * g->x[0] &&
+          f->x[1] * g->y[1] > f->y[1] * g->x[1]);
+}
+
+/* Do the two, which run counter-clockwise and share a corner, meet nowhere
+ * else on the page?  On a dense mesh it is so about nearly every corner. */
+static bool part_at_corner(const struct sheet *sheet, const uint32_t f[3],
+                           const uint32_t g[3], struct shared_corners shared) {
+  struct sector a = sector_of(sheet, f, shared.in_f),
+                b = sector_of(sheet, g, shared.in_g);
+  return is_separated_by(&a, &b) || is_separated_by(&b, &a);
+}
+
+/* Do two triangles share an edge, or a corner and nothing more?  Then they do
+ * not pierce each other. */
+static bool are_neighbours(const struct sheet *sheet, uint32_t f, uint32_t g) {
+  const uint32_t *p = sheet->triangle.item[f].point,
+                 *q = sheet->triangle.item[g].point;
+  struct shared_corners shared = shared_corners(p, q);
+  return shared.count > 1 ||
+         (shared.count == 1 && part_at_corner(sheet, p, q, shared));
+}
+
+/* May the corners of f pierce the plane of g? */
+static bool may_pierce(const struct sheet *sheet, const struct summary *f,
+                       struct summary *g) {
+  const uint32_t *p = sheet->triangle.item[f->triangle].point;
+  const struct geom_point corner[3] = {sheet->point.item[p[0]],
+                                       sheet->point.item[p[1]],
+                                       sheet->point.item[p[2]]};
+  if (!g->planned)
+    g->plane = plane_filter_of(sheet, g->triangle);
+  g->planned = true;
+  return plane_filter_may_intersect(&g->plane, corner);
+}
+
+/* Is all of g to the right of a side of f, by more than what counts as one
+ * line? */
+static bool is_beyond_side(const struct sheet *sheet, uint32_t f, uint32_t g) {
+  const uint32_t *p = sheet->triangle.item[f].point,
+                 *q = sheet->triangle.item[g].point;
+  const struct geom_point *point = sheet->point.item;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point a = point[p[k]], b = point[p[k == 2 ? 0 : k + 1]];
+    int64_t dx = (int64_t)b.x - a.x, dy = (int64_t)b.y - a.y;
+    int64_t near =
+        BSP_PLANE_MARGIN * ((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
+    if (geom_orient2d(a, b, point[q[0]]) < -near &&
+        geom_orient2d(a, b, point[q[1]]) < -near &&
+        geom_orient2d(a, b, point[q[2]]) < -near)
+      return true;
+  }
+  return false;
+}
+
+static bool meet(const struct box_sweep *sweep, struct summary *f,
+                 struct summary *g) {
+  if (box2_disjoint(f->box, g->box) || (f->seen & g->seen) != 0 ||
+      !is_cell_of_pair(sweep, f, g) ||
+      are_neighbours(sweep->sheet, f->triangle, g->triangle) ||
+      !may_pierce(sweep->sheet, f, g) || !may_pierce(sweep->sheet, g, f) ||
+      is_beyond_side(sweep->sheet, f->triangle, g->triangle) ||
+      is_beyond_side(sweep->sheet, g->triangle, f->triangle))
+    return true;
+  return f->triangle < g->triangle
+             ? sweep->visit(sweep->user, f->triangle, g->triangle)
+             : sweep->visit(sweep->user, g->triangle, f->triangle);
+}
+
+/* Makes room for the summaries of a list. */
+static bool start_list(struct box_sweep *sweep, size_t n) {
+  sweep->summary.count = 0;
+  return ARRAY_RESERVE(&sweep->summary, n) && ARRAY_RESERVE(&sweep->key, 2 * n);
+}
+
+static void add_to_list(struct box_sweep *sweep, uint32_t triangle,
+                        uint64_t seen) {
+  size_t i = sweep->summary.count++;
+  summarise(sweep, triangle, seen, &sweep->summary.item[i]);
+  sweep->key.item[i] =
+      (struct sort_key){(uint64_t)sweep->summary.item[i].low, (uint32_t)i};
+}
+
+/* Meets the pairs of the list that was added. */
+static bool sweep_list(struct box_sweep *sweep) {
+  struct summary *summary = sweep->summary.item;
+  struct sort_key *key = sweep->key.item;
+  size_t n = sweep->summary.count;
+  sort_keys(key, key + n, n);
+  for (size_t i = 0; i < n; i++) {
+    struct summary *f = &summary[key[i].value];
+    size_t j = i + 1;
+    for (; j < n && key[j].key <= (uint64_t)f->high; j++)
+      if (!meet(sweep, f, &summary[key[j].value]))
+        return false;
+    *sweep->met += j - i - 1;
+    if (!progress_step(sweep->progress, j - i))
+      return false;
+  }
+  return true;
+}
+
+static bool sweep_bsp(struct box_sweep *sweep) {
+  const struct bsp *bsp = &sweep->bsp;
+  for (size_t n = 0; n < bsp->node.count; n++) {
+    const struct bsp_node *node = &bsp->node.item[n];
+    if (node->child[0] != SHEET_NONE)
+      continue;
+    if (!start_list(sweep, node->count))
+      return false;
+    for (uint32_t i = node->from; i < node->from + node->count; i++)
+      add_to_list(sweep, bsp->member.item[i].triangle,
+                  bsp->member.item[i].seen);
+    if (!sweep_list(sweep))
+      return false;
+  }
+  return true;
+}
+
+static bool sweep_cell(struct box_sweep *sweep, const uint32_t *item,
+                       size_t n) {
+  uint32_t root = SHEET_NONE;
+  bsp_clear(&sweep->bsp);
+  if (n >= CROWD && !bsp_add(&sweep->bsp, sweep->sheet, item, n, true, &root))
+    return false;
+  if (root != SHEET_NONE)
+    return sweep_bsp(sweep);
+  if (!start_list(sweep, n))
+    return false;
+  for (size_t i = 0; i < n; i++)
+    add_to_list(sweep, item[i], 0);
+  return sweep_list(sweep);
+}
+
+bool candidate_pairs(const struct sheet *sheet,
+                     const struct triangle_grid *grid, const uint8_t *cells,
+                     bool (*visit)(void *user, uint32_t f, uint32_t g),
+                     void *user, struct progress *progress, uint64_t *met) {
+  struct box_sweep sweep = {.sheet = sheet,
+                            .grid = grid,
+                            .cells = cells,
+                            .visit = visit,
+                            .user = user,
+                            .progress = progress,
+                            .met = met};
+  bool ok = true;
+  size_t cell = 0;
+  for (sweep.y = 0; ok && sweep.y < grid->rows; sweep.y++)
+    for (sweep.x = 0; ok && sweep.x < grid->columns; sweep.x++, cell++) {
+      size_t n = grid->start[cell + 1] - grid->start[cell];
+      if (n > 1 && (cells == NULL || cells[cell]))
+        ok = sweep_cell(&sweep, grid->item + grid->start[cell], n);
+    }
+  ARRAY_FREE(&sweep.summary);
+  ARRAY_FREE(&sweep.key);
+  bsp_fini(&sweep.bsp);
+  return ok;
+}

@@ -1,0 +1,89 @@
+/* intersection_segment.c - the segment in which two triangles meet. */
+#include "visibility/intersection/intersection_segment.h"
+
+/* The sign of the volume of a, b, c, d. */
+static int volume_sign(struct geom_point a, struct geom_point b,
+                       struct geom_point c, struct geom_point d) {
+  struct geom_plane plane = geom_plane_of(a, b, c);
+  return geom_sign128(geom_plane_value(&plane, d));
+}
+
+static bool line_meets(struct geom_point a, struct geom_point b,
+                       const struct geom_point p[3]) {
+  bool left = false, right = false;
+  for (int k = 0; k < 3; k++) {
+    int side = volume_sign(a, b, p[k], p[k == 2 ? 0 : k + 1]);
+    left |= side > 0;
+    right |= side < 0;
+  }
+  return !(left && right);
+}
+
+/* The ends found so far along the common line, the least and the greatest. */
+struct segment_ends {
+  int count;
+  struct geom_point low, high;
+};
+
+static void add_end(struct segment_ends *ends, struct geom_point p) {
+  if (ends->count == 0 || geom_compare_points(p, ends->low) < 0)
+    ends->low = p;
+  if (ends->count == 0 || geom_compare_points(p, ends->high) > 0)
+    ends->high = p;
+  ends->count++;
+}
+
+/* Where edges of triangle f go through triangle g. */
+static void find_ends(const struct sheet *sheet, uint32_t f,
+                      const struct occluder *hg, struct segment_ends *ends) {
+  const uint32_t *point = sheet->triangle.item[f].point;
+  for (int k = 0; k < 3; k++) {
+    uint32_t i = point[k], j = point[k == 2 ? 0 : k + 1];
+    struct geom_point a, b;
+    int128 va, vb;
+    struct ratio t;
+    if (i > j) { /* one direction, whichever triangle asks */
+      uint32_t swap = i;
+      i = j;
+      j = swap;
+    }
+    a = sheet->point.item[i];
+    b = sheet->point.item[j];
+    va = geom_plane_value(&hg->plane, a);
+    vb = geom_plane_value(&hg->plane, b);
+    if ((va > 0 && vb > 0) || (va < 0 && vb < 0) || va == vb)
+      continue;
+    if (!line_meets(a, b, hg->p))
+      continue;
+    t = va > vb ? (struct ratio){va, va - vb} : (struct ratio){-va, vb - va};
+    add_end(ends, (struct geom_point){(int32_t)ratio_lerp(t, a.x, b.x),
+                                      (int32_t)ratio_lerp(t, a.y, b.y),
+                                      ratio_lerp(t, a.z, b.z)});
+  }
+}
+
+static int shared_corners(const struct geom_point f[3],
+                          const struct geom_point g[3]) {
+  int shared = 0;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      shared += geom_same_point(f[i], g[j]);
+  return shared;
+}
+
+bool intersection_segment_find(const struct sheet *sheet, uint32_t f,
+                               uint32_t g, const struct occluder *hf,
+                               const struct occluder *hg,
+                               struct intersection_segment *segment) {
+  struct segment_ends ends = {0};
+  if (shared_corners(hf->p, hg->p) > 1)
+    return false;
+  find_ends(sheet, f, hg, &ends);
+  find_ends(sheet, g, hf, &ends);
+  if (ends.count < 2 ||
+      (ends.low.x == ends.high.x && ends.low.y == ends.high.y))
+    return false;
+  *segment = (struct intersection_segment){{f < g ? f : g, f < g ? g : f},
+                                           {ends.low, ends.high}};
+  return true;
+}

@@ -1,0 +1,280 @@
+/* newell.c - the full painter's algorithm, for pens: faces are put in painting
+ * order (newell_order.c), and then nothing is overpainted: each keeps what no
+ * later one covers.
+ *
+ * Strokes: of two faces that overlap, the one painted first hides nothing of
+ * the other.  So an edge is asked only about faces painted after its own; but
+ * one that runs along the side of a face does not overlap it, and is always
+ * asked.  So is one that was rounded off its face.
+ *
+ * Where the order has no place for a triangle, its edges, the intersections and
+ * what is seen of it are left to pairwise_fallback.h; from others it takes where its
+ * plane is nearer.
+ *
+ * Source  [Newell1972].
+ */
+#include "visibility/fragments/occluder_subtraction.h"
+#include "visibility/newell/newell_order.h"
+#include "visibility/intersection/intersection.h"
+#include "visibility/solver.h"
+#include "visibility/predicate/edge_intervals.h"
+#include "visibility/pairwise/pairwise_fallback.h"
+
+/* ---- Strokes ------------------------------------------------------------- */
+
+struct stroke_work {
+  const struct sheet *sheet;
+  const struct newell_order *order;
+  struct triangle_grid_query query;
+  struct edge_intervals intervals;
+  struct occlusion_counts counts;
+  uint64_t by_order; /* pairs the order settled */
+  struct progress *progress;
+  struct pairwise_fallback *fallback; /* NULL: every triangle is in the order */
+};
+
+/* The rank of the edge's own face where it is one whole piece, else 0: also
+ * for an intersection, whose ends were rounded and may lie beside its face. */
+static uint32_t rank_of_edge(const struct stroke_work *work,
+                             const struct sheet_edge *edge) {
+  uint32_t t = edge->triangle[0];
+  if (t == SHEET_NONE || edge->edge_class == RECTO_EDGE_INTERSECTION ||
+      work->order->piece.item[t].state != NEWELL_PAINTED)
+    return 0;
+  return work->order->piece.item[t].rank;
+}
+
+static bool runs_along(const struct sheet *sheet, uint32_t triangle,
+                       struct geom_point p, struct geom_point q) {
+  const uint32_t *point = sheet->triangle.item[triangle].point;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point a = sheet->point.item[point[k]],
+                      b = sheet->point.item[point[k == 2 ? 0 : k + 1]];
+    if (geom_orient2d(a, b, p) == 0 && geom_orient2d(a, b, q) == 0)
+      return true;
+  }
+  return false;
+}
+
+static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
+                       struct geom_point p, struct geom_point q) {
+  const struct sheet *sheet = work->sheet;
+  const struct newell_piece *piece = work->order->piece.item;
+  uint32_t rank = rank_of_edge(work, edge);
+  struct box2 box = box2_of_segment(p, q);
+  edge_intervals_start(&work->intervals);
+  if (!triangle_grid_find_along(work->order->grid, p, q, &work->query))
+    return false;
+  for (size_t i = 0; i < work->query.found.count && !work->intervals.whole;
+       i++) {
+    uint32_t t = work->query.found.item[i];
+    struct occluded_interval part;
+    if (t == edge->triangle[0] || t == edge->triangle[1] ||
+        !occlusion_is_possible(sheet, t, p, q, box))
+      continue;
+    if (piece[t].state == NEWELL_PAINTED && piece[t].rank < rank &&
+        !runs_along(sheet, t, p, q)) {
+      work->by_order++;
+      continue;
+    }
+    if (occlude_edge_by(sheet, t, p, q, &part, &work->counts) &&
+        !edge_intervals_occlude(&work->intervals, part))
+      return false;
+  }
+  return true;
+}
+
+/* Is it of no use to ask the order about the edge? */
+static bool is_undecided(const struct stroke_work *work,
+                         const struct sheet_edge *edge) {
+  uint32_t t = edge->triangle[0];
+  return work->fallback != NULL &&
+         (edge->edge_class == RECTO_EDGE_INTERSECTION ||
+          (t != SHEET_NONE && newell_is_unordered(work->order, t)));
+}
+
+/* The answer about an edge; NULL when memory ran out, or the caller wants no
+ * more. */
+static struct edge_intervals *strokes_of(struct stroke_work *work, uint32_t e) {
+  const struct sheet_edge *edge = &work->sheet->edge.item[e];
+  struct geom_point p = work->sheet->point.item[edge->point[0]],
+                    q = work->sheet->point.item[edge->point[1]];
+  if (is_undecided(work, edge))
+    return pairwise_fallback_edge(work->fallback, e);
+  return solve_edge(work, edge, p, q) &&
+                 progress_step(work->progress, work->query.found.count)
+             ? &work->intervals
+             : NULL;
+}
+
+static bool solve_strokes(const struct sheet *sheet, struct newell_order *order,
+                          struct pairwise_fallback *fallback, struct map *map,
+                          struct report *report) {
+  struct stroke_work work = {.sheet = sheet,
+                             .order = order,
+                             .progress = &order->progress,
+                             .fallback =
+                                 order->counts.unordered > 0 ? fallback : NULL};
+  bool ok = triangle_grid_query_init(&work.query, order->grid) &&
+            edge_intervals_open_map(map, sheet->edge.count);
+  for (size_t e = 0; ok && e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    struct geom_point p = sheet->point.item[edge->point[0]],
+                      q = sheet->point.item[edge->point[1]];
+    if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y))
+      continue;
+    work.progress->share = (double)e / (double)sheet->edge.count;
+    struct edge_intervals *intervals = strokes_of(&work, (uint32_t)e);
+    ok = intervals != NULL && edge_intervals_store(intervals, (uint32_t)e, map);
+  }
+  occlusion_report(&work.counts, report);
+  report_int(report, "newell", "pairs_settled_by_order",
+             (int64_t)work.by_order);
+  edge_intervals_fini(&work.intervals);
+  triangle_grid_query_fini(&work.query);
+  return ok;
+}
+
+/* ---- Fragments ----------------------------------------------------------- */
+
+/* Takes from the cover of piece p all that is painted after it. */
+static bool take_later(struct newell_order *order, uint32_t p,
+                       struct triangle_grid_query *query,
+                       struct occluder_subtraction *subtraction) {
+  const struct newell_piece *piece = &order->piece.item[p];
+  if (!triangle_grid_find_about(order->grid, piece->triangle, query))
+    return false;
+  for (size_t i = 0;
+       i < query->found.count && !occluder_subtraction_is_empty(subtraction);
+       i++) {
+    uint32_t q = query->found.item[i];
+    if (q == piece->triangle)
+      continue;
+    if (newell_is_unordered(order, q)) {
+      if (!progress_step(&order->progress, 1 + subtraction->left.count) ||
+          !occluder_subtraction_take_nearer(subtraction, q))
+        return false;
+      continue;
+    }
+    for (; q != NEWELL_NONE; q = order->piece.item[q].next) {
+      const struct newell_piece *other = &order->piece.item[q];
+      struct geom_line *line;
+      int count;
+      if (!progress_step(&order->progress, 1 + subtraction->left.count))
+        return false;
+      if (other->state != NEWELL_PAINTED || other->rank < piece->rank ||
+          box2_disjoint(piece->box, other->box))
+        continue;
+      line = newell_piece_lines(order, q, &count, &subtraction->arena);
+      if (line == NULL ||
+          !occluder_subtraction_take(subtraction, line, line + count, count))
+        return false;
+    }
+  }
+  return true;
+}
+
+/* Hands in what is seen of the triangles without an order. */
+static bool store_unordered(struct newell_order *order,
+                            struct pairwise_fallback *fallback,
+                            struct fragments *fragments) {
+  ARRAY(uint32_t) list = {0};
+  bool ok = true;
+  for (uint32_t t = 0; ok && t < order->sheet->triangle.count; t++)
+    if (newell_is_unordered(order, t))
+      ok = ARRAY_PUSH(&list, t);
+  ok = ok &&
+       (list.count == 0 ||
+        pairwise_fallback_faces(fallback, list.item, list.count, fragments));
+  ARRAY_FREE(&list);
+  return ok;
+}
+
+static bool solve_fragments(struct newell_order *order,
+                            struct pairwise_fallback *fallback, bool areas,
+                            struct map *map, struct report *report) {
+  struct fragments fragments;
+  struct triangle_grid_query query = {0};
+  struct occluder_subtraction subtraction;
+  bool ok;
+  occluder_subtraction_init(&subtraction, order->sheet);
+  ok = fragments_init(&fragments, order->sheet, order->grid, true) &&
+       triangle_grid_query_init(&query, order->grid);
+  fragments.progress = &order->progress;
+  fragments.report = report;
+  for (size_t i = order->painted.count; ok && i-- > 0;) {
+    uint32_t p = order->painted.item[i];
+    const struct newell_piece *piece = &order->piece.item[p];
+    if (newell_is_unordered(order, piece->triangle))
+      continue;
+    ok = occluder_subtraction_start(&subtraction, piece->triangle,
+                                    piece->shape) &&
+         take_later(order, p, &query, &subtraction) &&
+         occluder_subtraction_store(&subtraction, &fragments);
+  }
+  ok = ok && store_unordered(order, fallback, &fragments) &&
+       fragments_finish(&fragments, areas, map);
+  occluder_subtraction_fini(&subtraction);
+  triangle_grid_query_fini(&query);
+  fragments_fini(&fragments);
+  return ok;
+}
+
+/* ---- The solver ---------------------------------------------------------- */
+
+static void report_order(const struct newell_order *order,
+                         struct report *report) {
+  const struct newell_counts *c = &order->counts;
+  report_int(report, "newell", "settled_by_depth", (int64_t)c->depth);
+  report_int(report, "newell", "settled_by_test_a", (int64_t)c->minimax);
+  report_int(report, "newell", "settled_by_test_b", (int64_t)c->behind);
+  report_int(report, "newell", "settled_by_test_c", (int64_t)c->before);
+  report_int(report, "newell", "asked_test_d", (int64_t)c->full);
+  report_int(report, "newell", "moved", (int64_t)c->moved);
+  report_int(report, "newell", "cycles", (int64_t)c->cycles);
+  report_int(report, "newell", "splits_by_cycle", (int64_t)c->split_cycle);
+  report_int(report, "newell", "splits_by_piercing", (int64_t)c->split_pierce);
+  report_int(report, "newell", "without_order", (int64_t)c->unordered);
+  report_int(report, "newell", "pieces", (int64_t)order->painted.count);
+}
+
+/* Writes what is seen to the map, the faces being in order. */
+static bool solve_in_order(struct newell_order *order, struct sheet *sheet,
+                           const struct solver_request *request,
+                           struct map *map, struct report *report) {
+  struct pairwise_fallback fallback = {0};
+  bool ok = order->counts.unordered == 0 ||
+            pairwise_fallback_init(&fallback, sheet, request->fragments,
+                                   &order->progress);
+  order->progress.stage = "edges";
+  ok = ok && (!request->strokes ||
+              solve_strokes(sheet, order, &fallback, map, report));
+  order->progress.stage = "faces";
+  ok = ok && (!request->fragments ||
+              solve_fragments(order, &fallback, request->areas, map, report));
+  pairwise_fallback_fini(&fallback);
+  return ok;
+}
+
+static recto_status solve(struct sheet *sheet,
+                          const struct solver_request *request, struct map *map,
+                          struct report *report, recto_error *error) {
+  struct newell_order order;
+  struct triangle_grid grid;
+  recto_status status;
+  if (!triangle_grid_init(&grid, sheet))
+    return error_memory(error);
+  status = newell_order_init(&order, sheet, &grid, request, error);
+  if (status == RECTO_OK && request->intersections)
+    status = intersection_find_all(sheet, &grid, NULL, request, report, error);
+  if (status == RECTO_OK &&
+      !solve_in_order(&order, sheet, request, map, report))
+    status = progress_error(&order.progress, error);
+  report_order(&order, report);
+  newell_order_fini(&order);
+  triangle_grid_fini(&grid);
+  return status;
+}
+
+const struct solver solver_newell = {RECTO_METHOD_NEWELL, "newell", true,
+                                     solve};

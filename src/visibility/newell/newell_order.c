@@ -1,0 +1,360 @@
+/* newell_order.c - the painter's order of Newell, Newell and Sancha.
+ *
+ * Phases
+ *   1 all faces are sorted by their farthest z: list S
+ *   2 the rearmost face P that is not painted yet becomes the candidate; it is
+ *     tested against every face Q that it may cover (newell_tests.c)
+ *   3 if P may be in front of no Q, P is painted; otherwise every such Q is
+ *     moved ahead of P and marked, and becomes the candidate in turn
+ *   4 a marked face that would have to be moved again closes a cycle: it is
+ *     split by the plane of the one that asks, or, where that plane misses it,
+ *     by a side of that one's outline; faces that pierce are split where their
+ *     planes cross
+ *
+ * Invariants
+ *   whatever is painted is in front of nothing that is not painted yet;
+ *   the pieces of a triangle tile it, those unseen included.
+ *
+ * Not without bounds: n triangles that pierce each other have some n^3 pieces.
+ * So a triangle that was split SPLITS_MOST times is taken out of the order, and
+ * where there were too many tests all that wait are.  Nothing is known about
+ * such a triangle and the others; whoever uses the order asks the planes.
+ *
+ * It ends: each split follows one of finitely many lines (sides and crossings
+ * of planes) and leaves two proper parts; without a split the marked faces
+ * form a path, which is no longer than there are pieces.
+ *
+ * Source  [Newell1972]; marking and splitting as there.
+ */
+#include "visibility/newell/newell_order.h"
+
+#include <string.h>
+
+#include "base/sort.h"
+#include "visibility/newell/newell_tests.h"
+
+/* Of a pair of pieces, in units of a pulse. */
+enum { PAIR_WORK = 128 };
+
+/* Splits of one triangle, and tests for each triangle and in any case. */
+enum { SPLITS_MOST = 16, TESTS_MOST = 1 << 12, TESTS_FEW = 1 << 22 };
+
+/* ---- Pieces -------------------------------------------------------------- */
+
+static bool add_triangles(struct newell_order *order) {
+  const struct sheet *sheet = order->sheet;
+  size_t n = sheet->triangle.count;
+  order->open = mem_alloc(n, sizeof *order->open);
+  order->splits = mem_calloc(n, sizeof *order->splits);
+  if (order->open == NULL || order->splits == NULL ||
+      !ARRAY_RESERVE(&order->piece, n))
+    return false;
+  for (size_t t = 0; t < n; t++) {
+    struct newell_piece piece = {
+        .triangle = (uint32_t)t,
+        .next = NEWELL_NONE,
+        .next_open = NEWELL_NONE,
+        .last_open = NEWELL_NONE,
+        .box = box2_of_triangle(sheet, (uint32_t)t),
+        .rank = NEWELL_NONE,
+        .state = (sheet->triangle_flags[t] & SHEET_FLAT) ||
+                         triangle_grid_leaves_out(order->grid, (uint32_t)t)
+                     ? NEWELL_UNSEEN
+                     : NEWELL_WAITING};
+    piece.z_low = INT64_MAX;
+    piece.z_high = INT64_MIN;
+    for (int k = 0; k < 3; k++) {
+      int64_t z = sheet->point.item[sheet->triangle.item[t].point[k]].z;
+      if (z < piece.z_low)
+        piece.z_low = z;
+      if (z > piece.z_high)
+        piece.z_high = z;
+    }
+    order->open[t] = piece.state == NEWELL_WAITING ? (uint32_t)t : NEWELL_NONE;
+    order->piece.item[order->piece.count++] = piece;
+  }
+  return true;
+}
+
+static int32_t clamp(double v) {
+  return v < -0x1p30 ? -(1 << 30) : v > 0x1p30 ? 1 << 30 : (int32_t)v;
+}
+
+/* Adds a part of piece `from`; the shape is in the order's arena. */
+static bool add_part(struct newell_order *order, uint32_t from,
+                     const struct geom_convex *shape) {
+  struct newell_piece piece = order->piece.item[from];
+  struct newell_piece *first = &order->piece.item[piece.triangle];
+  piece.shape = arena_alloc(&order->arena, 1, sizeof *piece.shape);
+  if (piece.shape == NULL ||
+      !geom_convex_copy(piece.shape, shape, &order->arena))
+    return false;
+  piece.state = NEWELL_WAITING;
+  piece.box = (struct box2){clamp(shape->x0 - 1), clamp(shape->y0 - 1),
+                            clamp(shape->x1 + 1), clamp(shape->y1 + 1)};
+  piece.next = first->next;
+  first->next = (uint32_t)order->piece.count;
+  piece.last_open = NEWELL_NONE;
+  piece.next_open = order->open[piece.triangle];
+  if (piece.next_open != NEWELL_NONE)
+    order->piece.item[piece.next_open].last_open = first->next;
+  order->open[piece.triangle] = first->next;
+  return ARRAY_PUSH(&order->piece, piece);
+}
+
+/* A piece is painted, split or unseen: it is asked no more. */
+static void close_piece(struct newell_order *order, uint32_t piece,
+                        enum newell_state state) {
+  struct newell_piece *p = &order->piece.item[piece];
+  p->state = (uint8_t)state;
+  if (p->last_open != NEWELL_NONE)
+    order->piece.item[p->last_open].next_open = p->next_open;
+  else
+    order->open[p->triangle] = p->next_open;
+  if (p->next_open != NEWELL_NONE)
+    order->piece.item[p->next_open].last_open = p->last_open;
+}
+
+/* Takes a triangle out of the order. */
+static void leave_order(struct newell_order *order, uint32_t triangle) {
+  while (order->open[triangle] != NEWELL_NONE)
+    close_piece(order, order->open[triangle], NEWELL_UNSEEN);
+  order->splits[triangle] = NEWELL_UNORDERED;
+  order->counts.unordered++;
+}
+
+/* Notes that a triangle was split once more. */
+static void count_split(struct newell_order *order, uint32_t triangle) {
+  if (++order->splits[triangle] > SPLITS_MOST)
+    leave_order(order, triangle);
+}
+
+struct geom_line *newell_piece_lines(const struct newell_order *order,
+                                     uint32_t piece, int *count,
+                                     struct arena *arena) {
+  const struct newell_piece *p = &order->piece.item[piece];
+  size_t n = p->shape == NULL ? 3 : p->shape->count;
+  struct geom_line *line = arena_alloc(arena, 2 * n, sizeof *line);
+  *count = (int)n;
+  if (line == NULL)
+    return NULL;
+  if (p->shape == NULL) {
+    triangle_lines(order->sheet, p->triangle, line, line + n);
+    return line;
+  }
+  for (size_t k = 0; k < n; k++) {
+    line[k] = line[n + k] = *p->shape->side[k];
+    geom_line_reverse(&line[n + k]);
+  }
+  return line;
+}
+
+/* ---- Splitting ----------------------------------------------------------- */
+
+/* Splits a piece by a line into two proper parts, if it does. */
+static bool split_by(struct newell_order *order, uint32_t piece,
+                     const struct geom_convex *shape,
+                     const struct geom_line *line, const struct geom_line *back,
+                     bool *split) {
+  struct geom_convex left, right;
+  if (!geom_convex_split(shape, line, back, &left, &right, &order->scratch))
+    return false;
+  *split = left.count > 0 && right.count > 0;
+  if (!*split)
+    return true;
+  close_piece(order, piece, NEWELL_SPLIT);
+  return add_part(order, piece, &left) && add_part(order, piece, &right);
+}
+
+/* P and Q pierce each other: P is split where their planes cross. */
+static bool split_piercing(struct newell_order *order, uint32_t p, uint32_t q) {
+  struct geom_line line, back;
+  struct geom_convex shape;
+  bool split;
+  if (newell_crossing(order, p, q, &line, &back) != 0)
+    return true;
+  if (!newell_shape(order, p, &shape) ||
+      !split_by(order, p, &shape, &line, &back, &split))
+    return false;
+  order->counts.split_pierce++;
+  count_split(order, order->piece.item[p].triangle);
+  return true;
+}
+
+/* Q is marked, and P, in front of it, asks for it again: splits Q. */
+static bool split_cycle(struct newell_order *order, uint32_t p, uint32_t q) {
+  struct geom_line line, back, *side;
+  struct geom_convex shape;
+  bool split = false;
+  int count;
+  order->counts.cycles++;
+  if (!newell_shape(order, q, &shape))
+    return false;
+  if (newell_crossing(order, p, q, &line, &back) == 0 &&
+      !split_by(order, q, &shape, &line, &back, &split))
+    return false;
+  side = newell_piece_lines(order, p, &count, &order->scratch);
+  if (side == NULL)
+    return false;
+  for (int k = 0; k < count && !split; k++)
+    if (!split_by(order, q, &shape, &side[k], &side[count + k], &split))
+      return false;
+  if (split) {
+    order->counts.split_cycle++;
+    count_split(order, order->piece.item[q].triangle);
+  } else { /* Q is inside the outline of P, which is in front of it */
+    close_piece(order, q, NEWELL_UNSEEN);
+    order->counts.unseen++;
+  }
+  return true;
+}
+
+/* ---- The candidates ------------------------------------------------------ */
+
+/* Takes everything down to piece q off the stack and unmarks it. */
+static void unwind(struct newell_order *order, uint32_t q) {
+  uint32_t top;
+  do {
+    top = order->stack.item[--order->stack.count];
+    if (order->piece.item[top].state == NEWELL_MARKED)
+      order->piece.item[top].state = NEWELL_WAITING;
+  } while (top != q);
+}
+
+enum step { STEP_FAILED, STEP_PAINT, STEP_MOVED, STEP_SPLIT };
+
+/* Tests candidate P against piece Q. */
+static enum step test_pair(struct newell_order *order, uint32_t p, uint32_t q) {
+  order->counts.tests++;
+  switch (newell_test(order, p, q)) {
+  case NEWELL_FAILED:
+    return STEP_FAILED;
+  case NEWELL_P_FIRST:
+    return STEP_PAINT;
+  case NEWELL_PIERCE:
+    unwind(order, p);
+    return split_piercing(order, p, q) ? STEP_SPLIT : STEP_FAILED;
+  case NEWELL_Q_FIRST:
+    break;
+  }
+  if (order->piece.item[q].state == NEWELL_MARKED) {
+    unwind(order, q);
+    return split_cycle(order, p, q) ? STEP_SPLIT : STEP_FAILED;
+  }
+  order->counts.moved++;
+  return ARRAY_PUSH(&order->stack, q) ? STEP_MOVED : STEP_FAILED;
+}
+
+/* Tests candidate P against all it may cover. */
+static enum step test_candidate(struct newell_order *order, uint32_t p) {
+  enum step result = STEP_PAINT;
+  uint32_t triangle = order->piece.item[p].triangle;
+  if (!triangle_grid_find_about(order->grid, triangle, &order->query))
+    return STEP_FAILED;
+  for (size_t i = 0; i < order->query.found.count; i++) {
+    uint32_t t = order->query.found.item[i];
+    if (!progress_step(&order->progress, 1))
+      return STEP_FAILED;
+    if (t == triangle)
+      continue;
+    for (uint32_t q = order->open[t]; q != NEWELL_NONE;
+         q = order->piece.item[q].next_open) {
+      enum step step;
+      if (!progress_step(&order->progress, PAIR_WORK))
+        return STEP_FAILED;
+      step = test_pair(order, p, q);
+      arena_reset(&order->scratch);
+      if (step == STEP_FAILED || step == STEP_SPLIT)
+        return step;
+      if (step == STEP_MOVED)
+        result = STEP_MOVED;
+    }
+  }
+  return result;
+}
+
+/* Paints piece `root` and all that must be painted before it. */
+static bool paint(struct newell_order *order, uint32_t root) {
+  if (!ARRAY_PUSH(&order->stack, root))
+    return false;
+  while (order->stack.count > 0) {
+    uint32_t p = order->stack.item[order->stack.count - 1];
+    struct newell_piece *piece = &order->piece.item[p];
+    if (piece->state > NEWELL_MARKED) {
+      order->stack.count--;
+      continue;
+    }
+    piece->state = NEWELL_MARKED;
+    switch (test_candidate(order, p)) {
+    case STEP_FAILED:
+      return false;
+    case STEP_PAINT:
+      order->stack.count--;
+      close_piece(order, p, NEWELL_PAINTED);
+      piece->rank = (uint32_t)order->painted.count;
+      if (!ARRAY_PUSH(&order->painted, p))
+        return false;
+      break;
+    case STEP_MOVED:
+    case STEP_SPLIT:
+      break;
+    }
+  }
+  return true;
+}
+
+static struct sort_key *sort_by_depth(const struct newell_order *order,
+                                      size_t n) {
+  struct sort_key *key = mem_alloc(2 * n, sizeof *key);
+  if (key == NULL)
+    return NULL;
+  for (size_t t = 0; t < n; t++)
+    key[t] = (struct sort_key){sort_key_of_int64(order->piece.item[t].z_low),
+                               (uint32_t)t};
+  sort_keys(key, key + n, n);
+  return key;
+}
+
+recto_status newell_order_init(struct newell_order *order,
+                               const struct sheet *sheet,
+                               const struct triangle_grid *grid,
+                               const struct solver_request *request,
+                               recto_error *error) {
+  size_t n = sheet->triangle.count;
+  uint64_t most = TESTS_FEW + (uint64_t)TESTS_MOST * n;
+  struct sort_key *s;
+  recto_status status = RECTO_OK;
+  memset(order, 0, sizeof *order);
+  order->sheet = sheet;
+  order->grid = grid;
+  order->progress = progress_of(request, "ordering");
+  order->lines_only = !request->fragments;
+  order->prepared = NEWELL_NONE;
+  if (!triangle_grid_query_init(&order->query, grid) || !add_triangles(order))
+    return error_memory(error);
+  s = sort_by_depth(order, n);
+  if (s == NULL)
+    return error_memory(error);
+  for (size_t i = 0; i < n && status == RECTO_OK; i++) {
+    uint32_t p = s[i].value;
+    order->progress.share = (double)i / (double)n;
+    while (status == RECTO_OK && order->open[p] != NEWELL_NONE)
+      if (order->counts.tests > most)
+        leave_order(order, p);
+      else if (!paint(order, order->open[p]))
+        status = progress_error(&order->progress, error);
+  }
+  mem_free(s);
+  return status;
+}
+
+void newell_order_fini(struct newell_order *order) {
+  triangle_grid_query_fini(&order->query);
+  ARRAY_FREE(&order->piece);
+  mem_free(order->open);
+  mem_free(order->splits);
+  ARRAY_FREE(&order->painted);
+  ARRAY_FREE(&order->stack);
+  arena_fini(&order->arena);
+  arena_fini(&order->scratch);
+}

@@ -1,0 +1,138 @@
+/* newell_tests.c - Newell's tests: may P be painted before Q?
+ *
+ * Source  [Newell1972]; tests A to D as [FoleyVanDam1990] 15.5.2 lists them.
+ * Test D compares depths over the polygon that P and Q have in common: it is
+ * convex, so the difference of their planes takes its extremes at its corners.
+ */
+#include "visibility/newell/newell_tests.h"
+
+bool newell_shape(struct newell_order *order, uint32_t piece,
+                  struct geom_convex *shape) {
+  const struct newell_piece *p = &order->piece.item[piece];
+  const uint32_t *point = order->sheet->triangle.item[p->triangle].point;
+  struct geom_point corner[3];
+  struct geom_line *line;
+  int count;
+  if (p->shape != NULL) {
+    *shape = *p->shape;
+    return true;
+  }
+  for (int k = 0; k < 3; k++)
+    corner[k] = order->sheet->point.item[point[k]];
+  line = newell_piece_lines(order, piece, &count, &order->scratch);
+  return line != NULL &&
+         geom_convex_triangle(shape, corner, line, &order->scratch);
+}
+
+int newell_crossing(const struct newell_order *order, uint32_t p, uint32_t q,
+                    struct geom_line *line, struct geom_line *back) {
+  struct triangle_plane tp = triangle_plane_of(order->sheet,
+                                               order->piece.item[p].triangle),
+                        tq = triangle_plane_of(order->sheet,
+                                               order->piece.item[q].triangle);
+  int parallel = geom_line_between(line, &tp.plane, &tq.plane);
+  *back = *line;
+  geom_line_reverse(back);
+  return parallel;
+}
+
+/* The part of the page that both pieces cover. */
+static bool find_common(struct newell_order *order, uint32_t p, uint32_t q,
+                        struct geom_convex *common) {
+  int count;
+  struct geom_line *line =
+      newell_piece_lines(order, q, &count, &order->scratch);
+  if (line == NULL || !newell_shape(order, p, common))
+    return false;
+  for (int k = 0; k < count && common->count > 0; k++) {
+    struct geom_convex inside;
+    if (!geom_convex_split(common, &line[k], &line[count + k], &inside, NULL,
+                           &order->scratch))
+      return false;
+    *common = inside;
+  }
+  return true;
+}
+
+/* Test D, the full test on the page.
+ * q_nearer  where the planes cross, Q in front on its left; NULL: P is in
+ *           front wherever they overlap */
+static enum newell_result test_full(struct newell_order *order, uint32_t p,
+                                    uint32_t q,
+                                    const struct geom_line *q_nearer) {
+  struct geom_convex common;
+  bool p_in_front = false, q_in_front = false;
+  order->counts.full++;
+  if (!find_common(order, p, q, &common))
+    return NEWELL_FAILED;
+  if (common.count == 0)
+    return NEWELL_P_FIRST;
+  if (q_nearer == NULL)
+    return NEWELL_Q_FIRST;
+  for (uint32_t k = 0; k < common.count; k++) {
+    int side = geom_line_side(q_nearer, &common.corner[k]);
+    q_in_front |= side > 0;
+    p_in_front |= side < 0;
+  }
+  if (!p_in_front)
+    return NEWELL_P_FIRST;
+  return q_in_front ? NEWELL_PIERCE : NEWELL_Q_FIRST;
+}
+
+/* Prepares the plane of the candidate. */
+static void prepare(struct newell_order *order, uint32_t triangle) {
+  if (order->prepared == triangle)
+    return;
+  order->prepared = triangle;
+  order->plane = triangle_plane_of(order->sheet, triangle);
+  order->stance = plane_filter_of(order->sheet, triangle);
+}
+
+/* Does the candidate surely hide nothing of the edges of triangle t? */
+static bool hides_nothing(const struct newell_order *order, uint32_t t) {
+  const uint32_t *point = order->sheet->triangle.item[t].point;
+  for (int k = 0; k < 3; k++)
+    if (plane_filter_occludes(&order->stance,
+                              order->sheet->point.item[point[k]]) <= 0)
+      return false;
+  return true;
+}
+
+enum newell_result newell_test(struct newell_order *order, uint32_t p,
+                               uint32_t q) {
+  const struct newell_piece *pp = &order->piece.item[p],
+                            *pq = &order->piece.item[q];
+  struct newell_counts *counts = &order->counts;
+  struct triangle_plane tq;
+  struct geom_line line;
+  int p_sides, q_sides;
+  if (pq->z_low > pp->z_high) {
+    counts->depth++;
+    return NEWELL_P_FIRST;
+  }
+  if (box2_disjoint(pp->box, pq->box)) {
+    counts->minimax++;
+    return NEWELL_P_FIRST;
+  }
+  prepare(order, pp->triangle);
+  if (order->lines_only && hides_nothing(order, pq->triangle)) {
+    counts->before++;
+    return NEWELL_P_FIRST;
+  }
+  tq = triangle_plane_of(order->sheet, pq->triangle);
+  p_sides = plane_sides(&tq.plane, order->plane.p);
+  if (p_sides == PLANE_BEHIND ||
+      (p_sides == 0 && pq->triangle < pp->triangle)) {
+    counts->behind++;
+    return NEWELL_P_FIRST;
+  }
+  q_sides = plane_sides(&order->plane.plane, tq.p);
+  if (q_sides == PLANE_BEFORE) {
+    counts->before++;
+    return NEWELL_P_FIRST;
+  }
+  if (p_sides == PLANE_BEFORE || q_sides == PLANE_BEHIND || q_sides == 0)
+    return test_full(order, p, q, NULL);
+  (void)geom_line_between(&line, &tq.plane, &order->plane.plane);
+  return test_full(order, p, q, &line);
+}

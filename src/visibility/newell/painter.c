@@ -1,0 +1,193 @@
+/* painter.c - the painter's algorithms that need no tests, to be measured:
+ * faces are painted whole in an order that asks nothing of how they overlap,
+ * in the file's own or by the depth of their centroids.
+ *
+ * A face keeps what no later one paints over, its edges likewise; both are
+ * wrong where the order is.
+ *
+ * Source  [Newell1972] names the family; [FoleyVanDam1990] 15.5.
+ */
+#include "base/sort.h"
+#include "visibility/fragments/occluder_subtraction.h"
+#include "visibility/intersection/intersection.h"
+#include "visibility/progress.h"
+#include "visibility/solver.h"
+#include "visibility/predicate/edge_intervals.h"
+
+struct painting {
+  const struct sheet *sheet;
+  const struct triangle_grid *grid;
+  struct triangle_grid_query query;
+  uint32_t *rank; /* of each triangle; 0 is painted first */
+  struct progress progress;
+};
+
+/* The mean depth of each triangle's face, times three. */
+static void centroid_keys(const struct sheet *sheet, struct sort_key *key) {
+  size_t n = sheet->triangle.count;
+  for (size_t first = 0, end; first < n; first = end) {
+    int128 sum = 0;
+    for (end = first; end < n && sheet->triangle.item[end].face ==
+                                     sheet->triangle.item[first].face;
+         end++)
+      for (int k = 0; k < 3; k++)
+        sum += sheet->point.item[sheet->triangle.item[end].point[k]].z;
+    for (size_t t = first; t < end; t++)
+      key[t] = (struct sort_key){
+          sort_key_of_int64((int64_t)(sum / (int128)(end - first))),
+          (uint32_t)t};
+  }
+}
+
+static bool rank_by_centroid(struct painting *painting) {
+  size_t n = painting->sheet->triangle.count;
+  struct sort_key *key = mem_alloc(2 * n, sizeof *key);
+  if (key == NULL)
+    return false;
+  centroid_keys(painting->sheet, key);
+  sort_keys(key, key + n, n);
+  for (size_t i = 0; i < n; i++)
+    painting->rank[key[i].value] = (uint32_t)i;
+  mem_free(key);
+  return true;
+}
+
+static void rank_as_given(struct painting *painting) {
+  for (size_t t = 0; t < painting->sheet->triangle.count; t++)
+    painting->rank[t] = (uint32_t)t;
+}
+
+/* An edge is painted with the later of its faces; a wire before all. */
+static bool solve_edge(struct painting *painting, const struct sheet_edge *edge,
+                       struct edge_intervals *intervals) {
+  const struct sheet *sheet = painting->sheet;
+  struct geom_point p = sheet->point.item[edge->point[0]],
+                    q = sheet->point.item[edge->point[1]];
+  bool own = edge->triangle[0] != SHEET_NONE;
+  uint32_t rank = own ? painting->rank[edge->triangle[0]] : 0;
+  if (edge->triangle[1] != SHEET_NONE &&
+      painting->rank[edge->triangle[1]] > rank)
+    rank = painting->rank[edge->triangle[1]];
+  edge_intervals_start(intervals);
+  if (!triangle_grid_find_along(painting->grid, p, q, &painting->query))
+    return false;
+  for (size_t i = 0; i < painting->query.found.count; i++) {
+    uint32_t t = painting->query.found.item[i];
+    struct occluded_interval part;
+    struct geom_point corner[3];
+    if ((own && painting->rank[t] <= rank) ||
+        (sheet->triangle_flags[t] & SHEET_FLAT))
+      continue;
+    for (int k = 0; k < 3; k++)
+      corner[k] = sheet->point.item[sheet->triangle.item[t].point[k]];
+    if (occlude_by_outline(corner, p, q, &part) &&
+        !edge_intervals_occlude(intervals, part))
+      return false;
+  }
+  return true;
+}
+
+static bool solve_strokes(struct painting *painting, struct map *map) {
+  const struct sheet *sheet = painting->sheet;
+  struct edge_intervals intervals = {0};
+  bool ok = edge_intervals_open_map(map, sheet->edge.count);
+  for (size_t e = 0; ok && e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    const struct geom_point *p = &sheet->point.item[edge->point[0]],
+                            *q = &sheet->point.item[edge->point[1]];
+    if (edge->edge_class == 0 || (p->x == q->x && p->y == q->y))
+      continue;
+    ok = solve_edge(painting, edge, &intervals) &&
+         progress_step_at(&painting->progress, painting->query.found.count, e,
+                          sheet->edge.count) &&
+         edge_intervals_store(&intervals, (uint32_t)e, map);
+  }
+  edge_intervals_fini(&intervals);
+  return ok;
+}
+
+static bool take_later(struct painting *painting, uint32_t f,
+                       struct occluder_subtraction *subtraction) {
+  struct geom_line line[3], back[3];
+  if (!triangle_grid_find_about(painting->grid, f, &painting->query))
+    return false;
+  for (size_t i = 0; i < painting->query.found.count &&
+                     !occluder_subtraction_is_empty(subtraction);
+       i++) {
+    uint32_t g = painting->query.found.item[i];
+    if (painting->rank[g] <= painting->rank[f] ||
+        (painting->sheet->triangle_flags[g] & SHEET_FLAT) ||
+        box2_disjoint(subtraction->box, box2_of_triangle(painting->sheet, g)))
+      continue;
+    triangle_lines(painting->sheet, g, line, back);
+    if (!progress_step(&painting->progress, 1 + subtraction->left.count))
+      return false;
+    if (!occluder_subtraction_take(subtraction, line, back, 3))
+      return false;
+  }
+  return true;
+}
+
+static bool solve_fragments(struct painting *painting, bool areas,
+                            struct map *map) {
+  struct fragments fragments;
+  struct occluder_subtraction subtraction;
+  bool ok = fragments_init(&fragments, painting->sheet, painting->grid, false);
+  fragments.progress = &painting->progress;
+  occluder_subtraction_init(&subtraction, painting->sheet);
+  for (size_t f = 0; ok && f < painting->sheet->triangle.count; f++)
+    if (!(painting->sheet->triangle_flags[f] & SHEET_FLAT))
+      ok = occluder_subtraction_start(&subtraction, (uint32_t)f, NULL) &&
+           take_later(painting, (uint32_t)f, &subtraction) &&
+           occluder_subtraction_store(&subtraction, &fragments);
+  ok = ok && fragments_finish(&fragments, areas, map);
+  occluder_subtraction_fini(&subtraction);
+  fragments_fini(&fragments);
+  return ok;
+}
+
+static recto_status paint(struct sheet *sheet,
+                          const struct solver_request *request, bool given,
+                          struct map *map, recto_error *error) {
+  struct triangle_grid grid;
+  struct painting painting = {.sheet = sheet,
+                              .grid = &grid,
+                              .progress = progress_of(request, "painting")};
+  bool ok;
+  if (!triangle_grid_init(&grid, sheet))
+    return error_memory(error);
+  painting.rank = mem_alloc(sheet->triangle.count, sizeof *painting.rank);
+  ok =
+      painting.rank != NULL && triangle_grid_query_init(&painting.query, &grid);
+  if (ok && given)
+    rank_as_given(&painting);
+  else if (ok)
+    ok = rank_by_centroid(&painting);
+  ok = ok && (!request->strokes || solve_strokes(&painting, map)) &&
+       (!request->fragments || solve_fragments(&painting, request->areas, map));
+  mem_free(painting.rank);
+  triangle_grid_query_fini(&painting.query);
+  triangle_grid_fini(&grid);
+  return ok ? RECTO_OK : progress_error(&painting.progress, error);
+}
+
+static recto_status solve_by_centroid(struct sheet *sheet,
+                                      const struct solver_request *request,
+                                      struct map *map, struct report *report,
+                                      recto_error *error) {
+  (void)report;
+  return paint(sheet, request, false, map, error);
+}
+
+static recto_status solve_as_given(struct sheet *sheet,
+                                   const struct solver_request *request,
+                                   struct map *map, struct report *report,
+                                   recto_error *error) {
+  (void)report;
+  return paint(sheet, request, true, map, error);
+}
+
+const struct solver solver_painter = {RECTO_METHOD_PAINTER, "painter", false,
+                                      solve_by_centroid};
+const struct solver solver_painter_given = {
+    RECTO_METHOD_PAINTER_GIVEN, "painter-given", false, solve_as_given};

@@ -1,0 +1,169 @@
+/* edge_query.c - what hides an edge, by lists of triangles by page tiles. */
+#include "visibility/pairwise/edge_query.h"
+
+#include <string.h>
+
+#include "visibility/index/bsp.h"
+
+bool edge_query_init(struct edge_query *query, const struct sheet *sheet,
+                     const struct tile_candidates *lists) {
+  memset(query, 0, sizeof *query);
+  query->sheet = sheet;
+  query->lists = lists;
+  return triangle_grid_query_init(&query->found, &lists->grid);
+}
+
+void edge_query_fini(struct edge_query *query) {
+  edge_intervals_fini(&query->intervals);
+  triangle_grid_query_fini(&query->found);
+}
+
+static struct geom_point point_of_edge(const struct edge_query *query,
+                                       struct ratio t) {
+  return (struct geom_point){(int32_t)ratio_lerp(t, query->p.x, query->q.x),
+                             (int32_t)ratio_lerp(t, query->p.y, query->q.y),
+                             ratio_lerp(t, query->p.z, query->q.z)};
+}
+
+/* Asks no more about what is hidden at the ends of the edge, where that makes
+ * it much shorter.  The new ends were rounded, by less than a unit. */
+static void shorten(struct edge_query *query) {
+  struct occluded_interval rest = edge_intervals_rest(&query->intervals);
+  double share;
+  if (rest.from.num == query->rest.from.num &&
+      rest.to.num == query->rest.to.num)
+    return; /* the same place, or one that shortens by nothing much */
+  query->rest = rest;
+  share = ratio_to_double(rest.to) - ratio_to_double(rest.from);
+  if (!(share < 0.75 * query->share))
+    return;
+  query->share = share;
+  query->end[0] = point_of_edge(query, rest.from);
+  query->end[1] = point_of_edge(query, rest.to);
+  query->kdop = kdop8_of_point(query->end[0]);
+  kdop8_add(&query->kdop, query->end[1]);
+  for (int k = 0; k < 4; k++) {
+    query->kdop.least[k] -= 2;
+    query->kdop.most[k] += 2;
+  }
+  query->kdop.low--;
+}
+
+/* What triangle t hides of the edge. */
+static bool query_occluder(struct edge_query *query, uint32_t t,
+                           struct occluded_interval *part) {
+  const struct occluder *occluder = query->lists->occluder;
+  if (occluder == NULL)
+    return occlude_edge_by(query->sheet, t, query->p, query->q, part,
+                           &query->counts);
+  return !(query->sheet->triangle_flags[t] & SHEET_FLAT) &&
+         occlude_edge(&occluder[t], query->p, query->q, part, &query->counts);
+}
+
+/* Asks triangle t, which may meet the edge. */
+static bool query_triangle(struct edge_query *query, uint32_t t) {
+  struct occluded_interval part;
+  if (t == query->triangle[0] || t == query->triangle[1] ||
+      (query->several && !triangle_grid_query_first(&query->found, t)) ||
+      !query_occluder(query, t, &part))
+    return true;
+  if (!edge_intervals_occlude(&query->intervals, part))
+    return false;
+  if (part.sides == OCCLUDED_BOTH && !query->intervals.whole)
+    shorten(query);
+  return true;
+}
+
+/* The cell at hand, and the question that the edge is there. */
+struct cell_query {
+  size_t cell;
+  struct kdop8_frame frame;
+  uint64_t question;
+  double share; /* of the edge when the question was put */
+};
+
+static void put_question(struct cell_query *at,
+                         const struct edge_query *query) {
+  if (at->share == query->share)
+    return;
+  at->share = query->share;
+  at->question = kdop8_query(&at->frame, &query->kdop);
+}
+
+/* Asks the triangles of a tile's list that was parted. */
+static bool query_bsp(struct edge_query *query, struct cell_query *at) {
+  const struct triangle_grid *grid = &query->lists->grid;
+  struct bsp_query shape = {.kind = BSP_SEGMENT,
+                            .p = {query->end[0], query->end[1]}};
+  struct bsp_traversal walk =
+      bsp_traversal_from(triangle_grid_bsp(grid, at->cell));
+  const uint64_t *word = query->lists->word + grid->start[at->cell];
+  const struct bsp_node *node;
+  while ((node = bsp_next(grid->bsp, &walk, &shape)) != NULL) {
+    const struct bsp_member *member = grid->bsp->member.item + node->from;
+    for (uint32_t i = 0; i < node->count; i++) {
+      if (!kdop8_overlaps(word[member[i].place], at->question))
+        continue;
+      if (!query_triangle(query, member[i].triangle))
+        return false;
+      if (query->intervals.whole)
+        return true;
+      put_question(at, query);
+    }
+    shape.p[0] = query->end[0];
+    shape.p[1] = query->end[1];
+  }
+  return true;
+}
+
+/* Asks the triangles listed in a tile that may meet the edge. */
+static bool query_list(struct edge_query *query, int x, int y) {
+  const struct tile_candidates *list = query->lists;
+  size_t cell = (size_t)y * (size_t)list->grid.columns + (size_t)x;
+  uint32_t i = list->grid.start[cell], end = list->grid.start[cell + 1];
+  struct cell_query at = {.cell = cell, .share = -1};
+  if (i == end)
+    return true;
+  at.frame = tile_candidates_frame(list, x, y);
+  put_question(&at, query);
+  if (triangle_grid_bsp(&list->grid, cell) != SHEET_NONE)
+    return query_bsp(query, &at);
+  for (;; i++) {
+    while (i < end && !kdop8_overlaps(list->word[i], at.question))
+      i++;
+    if (i == end || query->intervals.whole)
+      return true;
+    if (!query_triangle(query, list->grid.item[i]))
+      return false;
+    put_question(&at, query);
+  }
+}
+
+bool edge_query_solve(struct edge_query *query, uint32_t e) {
+  const struct triangle_grid *grid = &query->lists->grid;
+  const struct sheet_edge *edge = &query->sheet->edge.item[e];
+  struct cell_range r;
+  query->triangle[0] = edge->triangle[0];
+  query->triangle[1] = edge->triangle[1];
+  query->p = query->sheet->point.item[edge->point[0]];
+  query->q = query->sheet->point.item[edge->point[1]];
+  query->kdop = kdop8_of_point(query->p);
+  kdop8_add(&query->kdop, query->q);
+  r = triangle_grid_cells(grid, box2_of_segment(query->p, query->q));
+  query->several = r.x0 < r.x1 || r.y0 < r.y1;
+  if (query->several)
+    triangle_grid_query_start(grid, &query->found);
+  edge_intervals_start(&query->intervals);
+  query->rest = edge_intervals_rest(&query->intervals);
+  query->share = 1;
+  query->end[0] = query->p;
+  query->end[1] = query->q;
+  for (int y = r.y0; y <= r.y1; y++) {
+    int x0, x1;
+    triangle_grid_row(grid, query->p, query->q, r, y, &x0, &x1);
+    for (int x = x0; x <= x1; x++)
+      if (!query_list(query, x, y))
+        return false;
+  }
+  return true;
+}

@@ -1,0 +1,76 @@
+/* pairwise_fallback.c - edges and faces that a method leaves undecided. */
+#include "visibility/pairwise/pairwise_fallback.h"
+
+#include <string.h>
+
+static bool init_faces(struct pairwise_fallback *fallback) {
+  const struct sheet *sheet = fallback->sheet;
+  size_t n = sheet->triangle.count;
+  fallback->state = mem_alloc(n, 1);
+  if (fallback->state == NULL)
+    return false;
+  for (size_t t = 0; t < n; t++)
+    fallback->state[t] =
+        sheet->triangle_flags[t] & SHEET_FLAT ? MAP_HIDDEN : MAP_MIXED;
+  return undecided_faces_init(&fallback->undecided_faces, sheet,
+                              &fallback->lists, fallback->wanted,
+                              fallback->state);
+}
+
+bool pairwise_fallback_init(struct pairwise_fallback *fallback,
+                            const struct sheet *sheet, bool fragments,
+                            struct progress *progress) {
+  size_t tiles;
+  memset(fallback, 0, sizeof *fallback);
+  fallback->sheet = sheet;
+  fallback->progress = progress;
+  if (!tile_classification_init(&fallback->tiles, sheet, true, fragments))
+    return false;
+  tiles = triangle_grid_cell_count(&fallback->tiles.grid);
+  fallback->wanted = mem_alloc(tiles, 1);
+  if (fallback->wanted == NULL)
+    return false;
+  memset(fallback->wanted, 1, tiles);
+  if (!tile_candidates_fill(&fallback->lists, &fallback->tiles, sheet,
+                            fallback->wanted) ||
+      !edge_query_init(&fallback->edge, sheet, &fallback->lists) ||
+      (fragments && !init_faces(fallback)))
+    return false;
+  fallback->undecided_faces.occluders.progress = progress;
+  return true;
+}
+
+void pairwise_fallback_fini(struct pairwise_fallback *fallback) {
+  if (fallback->state != NULL)
+    undecided_faces_fini(&fallback->undecided_faces);
+  mem_free(fallback->state);
+  edge_query_fini(&fallback->edge);
+  tile_candidates_fini(&fallback->lists);
+  tile_classification_fini(&fallback->tiles);
+  mem_free(fallback->wanted);
+  memset(fallback, 0, sizeof *fallback);
+}
+
+struct edge_intervals *
+pairwise_fallback_edge(struct pairwise_fallback *fallback, uint32_t e) {
+  struct edge_query *query = &fallback->edge;
+  uint64_t before = query->counts.pairs;
+  if (!edge_query_solve(query, e) ||
+      !progress_step(fallback->progress,
+                     1 + (size_t)(query->counts.pairs - before)))
+    return NULL;
+  return &query->intervals;
+}
+
+bool pairwise_fallback_faces(struct pairwise_fallback *fallback,
+                             uint32_t *triangle, size_t count,
+                             struct fragments *fragments) {
+  if (!undecided_faces_sort(&fallback->undecided_faces, triangle, count))
+    return false;
+  for (size_t i = 0; i < count; i++)
+    if (!progress_step_at(fallback->progress, 1, i, count) ||
+        !undecided_faces_solve(&fallback->undecided_faces, triangle[i],
+                               fragments))
+      return false;
+  return true;
+}

@@ -1,0 +1,197 @@
+/* edge_intervals.c - from what triangles hide of an edge to its visible intervals. */
+#include "visibility/predicate/edge_intervals.h"
+
+#include <string.h>
+
+#include "base/sort.h"
+
+static const struct ratio ZERO = {0, 1}, ONE = {1, 1};
+
+void edge_intervals_fini(struct edge_intervals *intervals) {
+  ARRAY_FREE(&intervals->both);
+  ARRAY_FREE(&intervals->part);
+  ARRAY_FREE(&intervals->left);
+  ARRAY_FREE(&intervals->right);
+}
+
+/* Parts that are kept united as they come: so many that an edge is seen to be
+ * hidden as a whole as soon as it is, so few that they are found at once. */
+enum { UNITED_MOST = 32 };
+
+/* Puts a part among others in order and apart, with which it unites where it
+ * meets them.  There is room for one more. */
+static void put(occluded_intervals *united, struct occluded_interval part) {
+  struct occluded_interval *item = united->item;
+  size_t first = 0, past;
+  while (first < united->count && ratio_compare(item[first].to, part.from) < 0)
+    first++;
+  for (past = first;
+       past < united->count && ratio_compare(item[past].from, part.to) <= 0;
+       past++) {
+    if (ratio_compare(item[past].from, part.from) < 0)
+      part.from = item[past].from;
+    if (ratio_compare(part.to, item[past].to) < 0)
+      part.to = item[past].to;
+  }
+  if (past != first + 1)
+    memmove(item + first + 1, item + past,
+            (united->count - past) * sizeof *item);
+  united->count += first + 1 - past;
+  item[first] = part;
+}
+
+bool edge_intervals_occlude(struct edge_intervals *intervals,
+                            struct occluded_interval part) {
+  occluded_intervals *both = &intervals->both;
+  if (part.sides != OCCLUDED_BOTH || both->count == UNITED_MOST)
+    return ARRAY_PUSH(&intervals->part, part);
+  if (!ARRAY_RESERVE(both, 1))
+    return false;
+  put(both, part);
+  intervals->whole = both->count == 1 && both->item[0].from.num == 0 &&
+                     both->item[0].to.num == both->item[0].to.den;
+  return true;
+}
+
+struct occluded_interval
+edge_intervals_rest(const struct edge_intervals *intervals) {
+  const occluded_intervals *both = &intervals->both;
+  struct occluded_interval rest = {ZERO, ONE, OCCLUDED_BOTH};
+  if (both->count > 0 && both->item[0].from.num == 0)
+    rest.from = both->item[0].to;
+  if (both->count > 0 &&
+      both->item[both->count - 1].to.num == both->item[both->count - 1].to.den)
+    rest.to = both->item[both->count - 1].from;
+  return rest;
+}
+
+bool edge_intervals_open_map(struct map *map, size_t edge_count) {
+  uint8_t *state = mem_resize(map->edge_state, edge_count, 1);
+  if (state == NULL)
+    return false;
+  memset(state + map->edge_count, MAP_HIDDEN, edge_count - map->edge_count);
+  map->edge_state = state;
+  map->edge_count = edge_count;
+  return true;
+}
+
+static int compare_from(const void *a, const void *b, void *user) {
+  const struct occluded_interval *p = a, *q = b;
+  (void)user;
+  return ratio_compare(p->from, q->from);
+}
+
+/* The union of the parts that cover `side`, in order and apart. */
+static bool unite(const struct edge_intervals *intervals, int side,
+                  occluded_intervals *united) {
+  const occluded_intervals *both = &intervals->both, *part = &intervals->part;
+  size_t last = 0;
+  united->count = 0;
+  for (size_t i = 0; i < both->count; i++)
+    if (!ARRAY_PUSH(united, both->item[i]))
+      return false;
+  for (size_t i = 0; i < part->count; i++)
+    if ((part->item[i].sides & side) && !ARRAY_PUSH(united, part->item[i]))
+      return false;
+  if (united->count == 0)
+    return true;
+  if (!sort_stable(united->item, united->count, sizeof *united->item,
+                   compare_from, NULL))
+    return false;
+  for (size_t i = 1; i < united->count; i++) {
+    struct occluded_interval *p = &united->item[last];
+    const struct occluded_interval *q = &united->item[i];
+    if (ratio_compare(q->from, p->to) > 0)
+      united->item[++last] = *q;
+    else if (ratio_compare(p->to, q->to) < 0)
+      p->to = q->to;
+  }
+  united->count = last + 1;
+  return true;
+}
+
+const occluded_intervals *
+edge_intervals_unite(struct edge_intervals *intervals) {
+  occluded_intervals *left = &intervals->left, *right = &intervals->right;
+  int both = OCCLUDED_BOTH;
+  if (intervals->part.count == 0)
+    return &intervals->both;
+  for (size_t i = 0; i < intervals->part.count; i++)
+    both &= intervals->part.item[i].sides;
+  if (!unite(intervals, OCCLUDED_LEFT, left))
+    return NULL;
+  for (size_t i = 0; i < left->count; i++)
+    left->item[i].sides = both == OCCLUDED_BOTH ? OCCLUDED_BOTH : OCCLUDED_LEFT;
+  if (both == OCCLUDED_BOTH)
+    return left;
+  if (!unite(intervals, OCCLUDED_RIGHT, right))
+    return NULL;
+  for (size_t i = 0; i < right->count; i++) {
+    right->item[i].sides = OCCLUDED_RIGHT;
+    if (!ARRAY_PUSH(left, right->item[i]))
+      return NULL;
+  }
+  return left;
+}
+
+/* common = left and right, all three in order and apart. */
+static bool intersect(const occluded_intervals *left,
+                      const occluded_intervals *right,
+                      occluded_intervals *common) {
+  size_t i = 0, j = 0;
+  common->count = 0;
+  while (i < left->count && j < right->count) {
+    struct occluded_interval p = left->item[i], q = right->item[j];
+    struct occluded_interval both = {
+        ratio_compare(p.from, q.from) > 0 ? p.from : q.from,
+        ratio_compare(p.to, q.to) < 0 ? p.to : q.to, OCCLUDED_BOTH};
+    if (ratio_compare(both.from, both.to) < 0 && !ARRAY_PUSH(common, both))
+      return false;
+    if (ratio_compare(p.to, q.to) < 0)
+      i++;
+    else
+      j++;
+  }
+  return true;
+}
+
+/* The complement of the hidden parts in [0, 1] goes to the map. */
+static bool store_visible(const occluded_intervals *hidden, uint32_t edge,
+                          struct map *map) {
+  struct map_mixed mixed = {edge, (uint32_t)map->interval.count, 0};
+  struct ratio from = ZERO;
+  for (size_t i = 0; i <= hidden->count; i++) {
+    struct ratio to = i < hidden->count ? hidden->item[i].from : ONE;
+    if (ratio_compare(from, to) < 0) {
+      struct map_interval visible = {from, to};
+      if (!ARRAY_PUSH(&map->interval, visible))
+        return false;
+      mixed.count++;
+    }
+    if (i < hidden->count)
+      from = hidden->item[i].to;
+  }
+  map->edge_state[edge] = mixed.count > 0 ? MAP_MIXED : MAP_HIDDEN;
+  return mixed.count == 0 || ARRAY_PUSH(&map->mixed, mixed);
+}
+
+bool edge_intervals_store(struct edge_intervals *intervals, uint32_t edge,
+                          struct map *map) {
+  const occluded_intervals *part = &intervals->part;
+  const occluded_intervals *hidden = &intervals->both;
+  map->edge_state[edge] = MAP_HIDDEN;
+  if (intervals->whole)
+    return true;
+  if (part->count > 0) {
+    if (!unite(intervals, OCCLUDED_LEFT, &intervals->left) ||
+        !unite(intervals, OCCLUDED_RIGHT, &intervals->right) ||
+        !intersect(&intervals->left, &intervals->right, &intervals->part))
+      return false;
+    hidden = &intervals->part;
+  }
+  if (hidden->count == 0) {
+    map->edge_state[edge] = MAP_VISIBLE;
+    return true;
+  }
+  return store_visible(hidden, edge, map);
+}

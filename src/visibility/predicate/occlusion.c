@@ -1,0 +1,314 @@
+/* occlusion.c - the one predicate of hiding: what a triangle hides of an edge. */
+#include "visibility/predicate/occlusion.h"
+
+#include <math.h>
+
+#include "base/tolerance.h"
+#include "view/coordinate_error.h"
+#include "visibility/predicate/plane_filter.h"
+
+#define FIXED_ONE 65536 /* 2^16: T has 16 bits below the value's unit */
+#define T_CAP 0x1p121
+
+/* Doubles decide a sign when it exceeds this share of the terms' magnitudes:
+ * each term carries at most 4 roundings, the sum 4 more. */
+#define FILTER (16 * 0x1p-53)
+
+static int128 round_up(double value) {
+  return (int128)ceil(value < T_CAP ? value : T_CAP);
+}
+
+static int128 absolute(int128 a) { return a < 0 ? -a : a; }
+
+double occlusion_grid_units(const struct sheet *sheet) {
+  return sheet->camera.contact < 0 ? TOLERANCE_CONTACT_GRID_UNITS : 1;
+}
+
+/* The contact tolerance times the length L of the plane's normal in the scene,
+ * (s nx, s ny, third) along the camera's axes (see occlusion.h). */
+static double contact_times_length(const struct sheet *sheet, uint32_t triangle,
+                                   double nx, double ny, double third) {
+  const struct camera *camera = &sheet->camera;
+  double x = sheet->units_per_view * nx, y = sheet->units_per_view * ny;
+  double error[3], sum = 0;
+  if (camera->contact >= 0)
+    return sqrt(x * x + y * y + third * third) * camera->contact;
+  coordinate_error_of_face(sheet, sheet->triangle.item[triangle].face, error);
+  for (int k = 0; k < 3; k++)
+    sum += error[k] * fabs(x * camera->right[k] + y * camera->up[k] +
+                           third * camera->back[k]);
+  return sum;
+}
+
+void occluder_init(struct occluder *occluder, const struct sheet *sheet,
+                   uint32_t triangle) {
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  const struct camera *camera = &sheet->camera;
+  double third, length;
+  for (int k = 0; k < 3; k++)
+    occluder->p[k] = sheet->point.item[p[k]];
+  occluder->plane =
+      geom_plane_of(occluder->p[0], occluder->p[1], occluder->p[2]);
+  occluder->nx = (double)occluder->plane.nx;
+  occluder->ny = (double)occluder->plane.ny;
+  occluder->nz = (double)occluder->plane.nz;
+  if (camera->perspective) {
+    struct sheet_axis axis = sheet_view_axis(sheet);
+    third = occluder->nz * (sheet->z_scale / camera->d_max) -
+            (occluder->nx * (axis.x - occluder->p[0].x) +
+             occluder->ny * (axis.y - occluder->p[0].y) -
+             occluder->nz * (double)occluder->p[0].z);
+  } else {
+    third = sheet->z_scale * occluder->nz;
+  }
+  length =
+      contact_times_length(sheet, triangle, occluder->nx, occluder->ny, third) *
+      FIXED_ONE;
+  occluder->t0 = (absolute(occluder->plane.nx) + absolute(occluder->plane.ny) +
+                  occluder->plane.nz) *
+                 (int128)(occlusion_grid_units(sheet) * FIXED_ONE);
+  occluder->t1 = 0;
+  if (camera->perspective) {
+    occluder->t0 += round_up(length / camera->d_max);
+    occluder->t1 = round_up(length / sheet->z_scale);
+    if (occluder->t1 > (int128)1 << 81)
+      occluder->t1 = (int128)1 << 81;
+  } else {
+    occluder->t0 += round_up(length);
+  }
+  occluder->t0_near = (double)occluder->t0;
+  occluder->t1_near = (double)occluder->t1;
+  occluder->z_max = occluder->p[0].z;
+  for (int k = 1; k < 3; k++)
+    if (occluder->p[k].z > occluder->z_max)
+      occluder->z_max = occluder->p[k].z;
+  occluder->box = box2_of_triangle(sheet, triangle);
+}
+
+double occlusion_tolerance_bound(const struct sheet *sheet, uint32_t triangle,
+                                 struct geom_point a, double nx, double ny,
+                                 double nz) {
+  const struct camera *camera = &sheet->camera;
+  double third = sheet->z_scale * nz, nearest = 1, length;
+  double contact =
+      coordinate_error_contact(sheet, sheet->triangle.item[triangle].face);
+  if (camera->perspective) {
+    struct sheet_axis axis = sheet_view_axis(sheet);
+    third = nz * (sheet->z_scale / camera->d_max) -
+            (nx * (axis.x - a.x) + ny * (axis.y - a.y) - nz * (double)a.z);
+    nearest = 1 / camera->d_min;
+  }
+  length = sheet->units_per_view * (fabs(nx) + fabs(ny)) + fabs(third);
+  return ((fabs(nx) + fabs(ny) + fabs(nz)) * occlusion_grid_units(sheet) +
+          length * contact * nearest) *
+             (1 + 0x1p-20) +
+         1;
+}
+
+struct occlusion_bound
+occlusion_tolerance_bound_all(const struct sheet *sheet) {
+  const struct camera *camera = &sheet->camera;
+  double level = sheet->z_scale, slope = 0, share = camera->contact_most;
+  double grid = occlusion_grid_units(sheet);
+  if (camera->perspective) {
+    struct sheet_axis axis = sheet_view_axis(sheet);
+    level = sheet->z_scale / camera->d_max + (double)SHEET_Z_MAX;
+    slope = fmax(fabs(axis.x), fabs(axis.y)) + (double)SHEET_XY_MAX;
+    share /= camera->d_min;
+  }
+  slope += sheet->units_per_view;
+  return (struct occlusion_bound){(grid + level * share) * (1 + 0x1p-19),
+                                  (grid + slope * share) * (1 + 0x1p-19)};
+}
+
+int128 occluder_depth(const struct occluder *occluder, struct geom_point p) {
+  return geom_plane_value(&occluder->plane, p) * FIXED_ONE + occluder->t0 +
+         occluder->t1 * p.z;
+}
+
+/* The sign of occluder_depth where doubles can tell, else 0. */
+static int depth_filter(const struct occluder *occluder, struct geom_point p) {
+  double x = occluder->nx * (double)((int64_t)p.x - occluder->p[0].x),
+         y = occluder->ny * (double)((int64_t)p.y - occluder->p[0].y),
+         z = occluder->nz * (double)(p.z - occluder->p[0].z),
+         t = occluder->t0_near + occluder->t1_near * (double)p.z;
+  double value = (x + y + z) * FIXED_ONE + t;
+  double bound = FILTER * ((fabs(x) + fabs(y) + fabs(z)) * FIXED_ONE + t);
+  return (value > bound) - (value < -bound);
+}
+
+int occluder_side(const struct occluder *occluder, struct geom_point p) {
+  int128 tolerance, value;
+  if (depth_filter(occluder, p) < 0)
+    return -1;
+  tolerance = occluder->t0 + occluder->t1 * p.z;
+  value = geom_plane_value(&occluder->plane, p) * FIXED_ONE;
+  return (value > tolerance) - (value < -tolerance);
+}
+
+static void raise_from(struct occluded_interval *part, struct ratio t) {
+  if (ratio_compare(part->from, t) < 0)
+    part->from = t;
+}
+
+static void lower_to(struct occluded_interval *part, struct ratio t) {
+  if (ratio_compare(t, part->to) < 0)
+    part->to = t;
+}
+
+/* Which side of itself an edge from p to q has covered that runs along the
+ * side a-b: the triangle lies left of that. */
+static int covered_side(struct geom_point a, struct geom_point b,
+                        struct geom_point p, struct geom_point q) {
+  int64_t along = ((int64_t)q.x - p.x) * ((int64_t)b.x - a.x) +
+                  ((int64_t)q.y - p.y) * ((int64_t)b.y - a.y);
+  return along > 0 ? OCCLUDED_LEFT : OCCLUDED_RIGHT;
+}
+
+/* Cuts the part to where the triangle's outline contains the edge.
+ * With corners c as seen from p, and d from there to q, the areas are
+ *   line[k] = d x c[k]           of p, q and corner k;
+ *   s[k]    = c[k] x c[k + 1]    of side k and p;
+ *   t[k]    = s[k] + line[k] - line[k + 1]   of side k and q:
+ * each below 2^63, though the sum on the way may not be.  Where all corners
+ * are on one side of the line, at most one of them on it, nothing is
+ * covered. */
+static bool cut_to_outline(const struct geom_point corner[3],
+                           struct geom_point p, struct geom_point q,
+                           struct occluded_interval *part) {
+  int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y;
+  int64_t x[3], y[3], line[3], s[3], t[3];
+  int left = 0, right = 0;
+  for (int k = 0; k < 3; k++) {
+    x[k] = (int64_t)corner[k].x - p.x;
+    y[k] = (int64_t)corner[k].y - p.y;
+    line[k] = dx * y[k] - dy * x[k];
+    left += line[k] > 0;
+    right += line[k] < 0;
+  }
+  if ((left == 0 || right == 0) && left + right >= 2)
+    return false;
+  for (int k = 0; k < 3; k++) {
+    int next = k == 2 ? 0 : k + 1;
+    s[k] = x[k] * y[next] - y[k] * x[next];
+    t[k] = (int64_t)((uint64_t)s[k] + (uint64_t)line[k] - (uint64_t)line[next]);
+    if (s[k] <= 0 && t[k] <= 0) {
+      if (s[k] < 0 || t[k] < 0)
+        return false;
+      part->sides = covered_side(corner[k], corner[next], p, q);
+    }
+  }
+  for (int k = 0; k < 3; k++) {
+    if (s[k] < 0)
+      raise_from(part, ratio_of(-s[k], t[k] - s[k]));
+    else if (t[k] < 0)
+      lower_to(part, ratio_of(s[k], s[k] - t[k]));
+  }
+  return ratio_compare(part->from, part->to) < 0;
+}
+
+/* Where an edge is hidden that starts on a corner, with depth gp there, and has
+ * gq at its other end: all of the part, or none.  It has to be behind the plane
+ * where it leaves the outline: farther on, the plane says nothing, and its
+ * rounding is beyond what contact allows for. */
+static bool is_behind_at_exit(const struct occluded_interval *part,
+                              bool p_shared, int128 gp, int128 gq) {
+  if (p_shared)
+    return gq < 0 && ratio_compare((struct ratio){gp, gp - gq}, part->to) < 0;
+  return gp < 0 && ratio_compare(part->from, (struct ratio){-gp, gq - gp}) < 0;
+}
+
+/* Cuts the part to where the edge is behind the plane, contact allowed. */
+static bool cut_to_depth(const struct occluder *occluder, struct geom_point p,
+                         struct geom_point q, struct occluded_interval *part,
+                         struct occlusion_counts *counts) {
+  int sp = depth_filter(occluder, p), sq = depth_filter(occluder, q);
+  bool p_shared = false, q_shared = false;
+  int128 gp, gq;
+  if (sp < 0 && sq < 0)
+    return true;
+  for (int k = 0; k < 3; k++) {
+    p_shared |= geom_same_point(occluder->p[k], p);
+    q_shared |= geom_same_point(occluder->p[k], q);
+  }
+  if (sp > 0 && sq > 0)
+    return false;
+  counts->exact++;
+  gp = occluder_depth(occluder, p);
+  gq = occluder_depth(occluder, q);
+  if (p_shared != q_shared)
+    return is_behind_at_exit(part, p_shared, gp, gq);
+  if (gp >= 0 && gq >= 0)
+    return false;
+  if (gp < 0 && gq < 0)
+    return true;
+  counts->crossings++;
+  if (gp >= 0)
+    raise_from(part, (struct ratio){gp, gp - gq});
+  else
+    lower_to(part, (struct ratio){-gp, gq - gp});
+  return ratio_compare(part->from, part->to) < 0;
+}
+
+bool occlude_by_outline(const struct geom_point corner[3], struct geom_point p,
+                        struct geom_point q, struct occluded_interval *part) {
+  part->from = ratio_of(0, 1);
+  part->to = ratio_of(1, 1);
+  part->sides = OCCLUDED_BOTH;
+  return cut_to_outline(corner, p, q, part);
+}
+
+bool occlude_edge(const struct occluder *occluder, struct geom_point p,
+                  struct geom_point q, struct occluded_interval *part,
+                  struct occlusion_counts *counts) {
+  if (p.z > occluder->z_max && q.z > occluder->z_max)
+    return false;
+  if (box2_disjoint(occluder->box, box2_of_segment(p, q)))
+    return false;
+  counts->pairs++;
+  if (!occlude_by_outline(occluder->p, p, q, part))
+    return false;
+  counts->depth++;
+  return cut_to_depth(occluder, p, q, part, counts);
+}
+
+bool occlude_edge_by(const struct sheet *sheet, uint32_t triangle,
+                     struct geom_point p, struct geom_point q,
+                     struct occluded_interval *part,
+                     struct occlusion_counts *counts) {
+  const uint32_t *point = sheet->triangle.item[triangle].point;
+  const struct geom_point corner[3] = {sheet->point.item[point[0]],
+                                       sheet->point.item[point[1]],
+                                       sheet->point.item[point[2]]};
+  struct occluder occluder;
+  struct plane_filter plane;
+  int at_p, at_q;
+  counts->pairs++;
+  if (!occlude_by_outline(corner, p, q, part) ||
+      (sheet->triangle_flags[triangle] & SHEET_FLAT))
+    return false;
+  counts->depth++;
+  plane = plane_filter_of(sheet, triangle);
+  at_p = plane_filter_occludes(&plane, p);
+  at_q = plane_filter_occludes(&plane, q);
+  if (at_p == at_q && at_p != 0)
+    return at_p < 0;
+  occluder_init(&occluder, sheet, triangle);
+  return cut_to_depth(&occluder, p, q, part, counts);
+}
+
+void occlusion_counts_add(struct occlusion_counts *sum,
+                          const struct occlusion_counts *more) {
+  sum->pairs += more->pairs;
+  sum->depth += more->depth;
+  sum->exact += more->exact;
+  sum->crossings += more->crossings;
+}
+
+void occlusion_report(const struct occlusion_counts *counts,
+                      struct report *report) {
+  report_add(report, "hide", "pairs", (int64_t)counts->pairs);
+  report_add(report, "hide", "outline_met", (int64_t)counts->depth);
+  report_add(report, "hide", "filter_failures", (int64_t)counts->exact);
+  report_add(report, "hide", "depth_crossings", (int64_t)counts->crossings);
+}

@@ -1,0 +1,93 @@
+/* triangle_pair.c - which of two triangles is nearer, and which only touch. */
+#include "visibility/predicate/triangle_pair.h"
+
+struct triangle_plane triangle_plane_of(const struct sheet *sheet,
+                                        uint32_t triangle) {
+  struct triangle_plane t;
+  for (int k = 0; k < 3; k++)
+    t.p[k] = sheet->point.item[sheet->triangle.item[triangle].point[k]];
+  t.plane = geom_plane_of(t.p[0], t.p[1], t.p[2]);
+  return t;
+}
+
+/* Does some side of f have all of g on its right, or on it? */
+static bool is_separated_by_side(const struct geom_point f[3],
+                                 const struct geom_point g[3]) {
+  for (int k = 0; k < 3; k++) {
+    struct geom_point a = f[k], b = f[k == 2 ? 0 : k + 1];
+    if (geom_orient2d(a, b, g[0]) <= 0 && geom_orient2d(a, b, g[1]) <= 0 &&
+        geom_orient2d(a, b, g[2]) <= 0)
+      return true;
+  }
+  return false;
+}
+
+/* Two convex figures that part do so along a side of one of them. */
+bool triangles_disjoint(const struct sheet *sheet, uint32_t f, uint32_t g) {
+  const uint32_t *i = sheet->triangle.item[f].point,
+                 *j = sheet->triangle.item[g].point;
+  const struct geom_point *point = sheet->point.item;
+  const struct geom_point p[3] = {point[i[0]], point[i[1]], point[i[2]]},
+                          q[3] = {point[j[0]], point[j[1]], point[j[2]]};
+  return is_separated_by_side(p, q) || is_separated_by_side(q, p);
+}
+
+void triangle_lines(const struct sheet *sheet, uint32_t triangle,
+                    struct geom_line line[3], struct geom_line back[3]) {
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  for (int k = 0; k < 3; k++) {
+    geom_line_through(&line[k], sheet->point.item[p[k]],
+                      sheet->point.item[p[k == 2 ? 0 : k + 1]]);
+    back[k] = line[k];
+    geom_line_reverse(&back[k]);
+  }
+}
+
+int plane_sides(const struct geom_plane *plane, const struct geom_point p[3]) {
+  int sides = 0;
+  for (int k = 0; k < 3; k++) {
+    int sign = geom_sign128(geom_plane_value(plane, p[k]));
+    if (sign != 0)
+      sides |= sign < 0 ? PLANE_BEHIND : PLANE_BEFORE;
+  }
+  return sides;
+}
+
+enum depth_order triangle_depth_order(const struct triangle_plane *f,
+                                      uint32_t f_id,
+                                      const struct triangle_plane *g,
+                                      uint32_t g_id, struct geom_line *line,
+                                      struct geom_line *back) {
+  int sides = plane_sides(&f->plane, g->p);
+  if (sides == 0)
+    return g_id < f_id ? NEARER_ALWAYS : NEARER_NEVER;
+  if (sides == PLANE_BEHIND)
+    return NEARER_NEVER;
+  if (sides == PLANE_BEFORE)
+    return NEARER_ALWAYS;
+  sides = plane_sides(&g->plane, f->p);
+  if (sides == PLANE_BEHIND)
+    return NEARER_ALWAYS;
+  if (sides == PLANE_BEFORE)
+    return NEARER_NEVER;
+  /* Each is on both sides of the other's plane: the planes cross. */
+  (void)geom_line_between(line, &g->plane, &f->plane);
+  *back = *line;
+  geom_line_reverse(back);
+  return NEARER_BEYOND;
+}
+
+static bool touches(const struct occluder *plane,
+                    const struct geom_point p[3]) {
+  for (int k = 0; k < 3; k++)
+    if (occluder_side(plane, p[k]) != 0)
+      return false;
+  return true;
+}
+
+bool triangles_touch(const struct sheet *sheet, uint32_t f, uint32_t g) {
+  struct occluder hf, hg;
+  occluder_init(&hf, sheet, f);
+  occluder_init(&hg, sheet, g);
+  return touches(&hf, hg.p) || touches(&hg, hf.p);
+}

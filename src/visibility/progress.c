@@ -1,0 +1,18 @@
+/* progress.c - asks the caller whether to go on, after so much work. */
+#include "visibility/progress.h"
+
+bool progress_poll(struct progress *progress) {
+  const struct solver_request *request = progress->request;
+  progress->left = PROGRESS_WORK;
+  if (!progress->cancelled && request != NULL && request->progress != NULL)
+    progress->cancelled =
+        !request->progress(request->user, progress->share, progress->stage);
+  return !progress->cancelled;
+}
+
+recto_status progress_error(const struct progress *progress,
+                            recto_error *error) {
+  return progress != NULL && progress->cancelled
+             ? error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled")
+             : error_memory(error);
+}

@@ -1,0 +1,230 @@
+/* pixels.c - from a frame's lines to the visible map.
+ *
+ * Fragments: neighbouring pixels of one scene face are a span; its sides are
+ * borders of pixels, cuts of the method's own. */
+#include "visibility/raster/pixels.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LINES_A_QUESTION 64 /* whether to go on, at most */
+
+/* The line a facet starts at from the top, or -1 where it covers none. */
+static int32_t top_line(const struct raster *raster,
+                        const struct facets *facets, uint32_t facet) {
+  const uint32_t *corner, *side;
+  int32_t low = INT32_MAX, high = 0;
+  uint32_t count = facet_outline(facets, raster->sheet, facet, &corner, &side);
+  for (uint32_t k = 0; k < count; k++) {
+    int32_t line = raster->place_of[corner[k]].line;
+    if (line < low)
+      low = line;
+    if (line > high)
+      high = line;
+  }
+  return low == high ? -1 : high - 1;
+}
+
+struct sort_key *pixels_buckets(const struct raster *raster,
+                                const struct facets *facets,
+                                const struct solver_request *request,
+                                size_t *count) {
+  const struct sheet *sheet = raster->sheet;
+  uint32_t all = (uint32_t)sheet->triangle.count;
+  int left_out = SHEET_FLAT | (request->remove_backs ? SHEET_FLIPPED : 0);
+  struct sort_key *key = mem_alloc(2 * (size_t)all, sizeof *key);
+  *count = 0;
+  if (key == NULL)
+    return NULL;
+  for (uint32_t t = 0; t < all; t++) {
+    int32_t top;
+    if ((sheet->triangle_flags[t] & left_out) || facet_of(facets, t) != t)
+      continue;
+    top = top_line(raster, facets, t);
+    if (top >= 0)
+      key[(*count)++] =
+          (struct sort_key){(uint64_t)(raster->grid.lines - 1 - top), t};
+  }
+  sort_keys(key, key + *count, *count);
+  return key;
+}
+
+/* One a sheet edge: 1 where all its faces turn their backs and are removed,
+ * so that it is no longer there to be drawn.  NULL when memory ran out. */
+static uint8_t *find_backs(const struct sheet *sheet) {
+  uint8_t *skip = mem_calloc(sheet->edge.count, 1);
+  for (size_t e = 0; skip != NULL && e < sheet->edge.count; e++) {
+    const uint32_t *triangle = sheet->edge.item[e].triangle;
+    skip[e] = triangle[0] != SHEET_NONE &&
+              (sheet->triangle_flags[triangle[0]] & SHEET_FLIPPED) &&
+              (triangle[1] == SHEET_NONE ||
+               (sheet->triangle_flags[triangle[1]] & SHEET_FLIPPED));
+  }
+  return skip;
+}
+
+static bool open_trace(struct pixels *pixels) {
+  const struct raster *raster = pixels->raster;
+  double step = raster->depth_bits > 0 ? 1 / raster->level_scale : 1;
+  uint8_t *skip = NULL;
+  bool ok = true;
+  if (pixels->request->remove_backs)
+    ok = (skip = find_backs(raster->sheet)) != NULL;
+  ok = ok && edge_sampling_init(&pixels->sampling, raster->sheet, &pixels->grid,
+                                0.5, step, skip);
+  mem_free(skip);
+  return ok;
+}
+
+recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
+                         int subpixels, const struct solver_request *request,
+                         recto_error *error) {
+  const struct sheet *sheet = raster->sheet;
+  memset(pixels, 0, sizeof *pixels);
+  pixels->raster = raster;
+  pixels->request = request;
+  pixels->progress = progress_of(request, "visibility");
+  pixels->grid = raster_grid(sheet, raster->grid.lines / subpixels);
+  pixels->subpixels.k = subpixels;
+  pixels->above =
+      mem_alloc((size_t)pixels->grid.columns, sizeof *pixels->above);
+  if (pixels->above == NULL ||
+      (subpixels > 1 &&
+       !subpixels_init(&pixels->subpixels, subpixels, raster->grid.columns,
+                       pixels->grid.columns)) ||
+      (request->strokes && !open_trace(pixels)) ||
+      (request->fragments &&
+       !trapezoids_init(&pixels->trapezoids, sheet, &pixels->grid,
+                        (size_t)pixels->grid.columns))) {
+    pixels_fini(pixels);
+    return error_memory(error);
+  }
+  return RECTO_OK;
+}
+
+void pixels_fini(struct pixels *pixels) {
+  edge_sampling_fini(&pixels->sampling);
+  trapezoids_fini(&pixels->trapezoids);
+  subpixels_fini(&pixels->subpixels);
+  mem_free(pixels->above);
+}
+
+struct pixel_row {
+  const uint32_t *seen; /* as in a raster */
+  int32_t columns;
+};
+
+static uint32_t seen_at(const void *user, double x) {
+  const struct pixel_row *row = user;
+  double column = floor(x);
+  if (column < 0)
+    column = 0;
+  if (column > row->columns - 1)
+    column = row->columns - 1;
+  return raster_facet(row->seen[(int32_t)column]);
+}
+
+static struct span_side side_at(const struct scan_grid *grid, int32_t column) {
+  double x = scan_plane_x(grid, column);
+  return (struct span_side){x,          x,           x, true, (uint32_t)column,
+                            SHEET_NONE, MAP_SIDE_CUT};
+}
+
+static bool add_spans(struct pixels *pixels, int32_t line,
+                      const struct pixel_row *row) {
+  const struct scan_grid *grid = &pixels->grid;
+  const struct sheet_triangle *triangle = pixels->raster->sheet->triangle.item;
+  for (int32_t c = 0, past; c < row->columns; c = past) {
+    struct span span;
+    past = c + 1;
+    if (row->seen[c] == 0)
+      continue;
+    span.face = triangle[raster_facet(row->seen[c])].face;
+    while (past < row->columns && row->seen[past] != 0 &&
+           triangle[raster_facet(row->seen[past])].face == span.face)
+      past++;
+    span.left = side_at(grid, c);
+    span.right = side_at(grid, past);
+    if (!trapezoids_add(&pixels->trapezoids, line, &span))
+      return false;
+  }
+  return true;
+}
+
+/* Follows the edges from the line above, if there is one, to this one, if
+ * there is one. */
+static bool trace_edges(struct pixels *pixels, int32_t line,
+                        const struct pixel_row *row) {
+  const struct scan_grid *grid = &pixels->grid;
+  const struct pixel_row above = {pixels->above, grid->columns};
+  if (!edge_sampling_line(&pixels->sampling, line, seen_at,
+                          line + 1 < grid->lines ? &above : NULL, row))
+    return false;
+  if (row != NULL)
+    memcpy(pixels->above, row->seen, (size_t)grid->columns * sizeof *row->seen);
+  return true;
+}
+
+recto_status pixels_line(struct pixels *pixels, int32_t line,
+                         recto_error *error) {
+  const struct raster *raster = pixels->raster;
+  const struct solver_request *request = pixels->request;
+  struct subpixels *subpixels = &pixels->subpixels;
+  int32_t done = raster->grid.lines - line;
+  struct pixel_row row = {raster->seen + raster_row(raster, line),
+                          pixels->grid.columns};
+  bool whole = subpixels->k == 1 || subpixels_take(subpixels, line, row.seen);
+  if (subpixels->k > 1) {
+    line /= subpixels->k;
+    row.seen = subpixels->pixel;
+  }
+  if (whole && ((request->strokes && !trace_edges(pixels, line, &row)) ||
+                (request->fragments && !add_spans(pixels, line, &row))))
+    return error_memory(error);
+  return progress_step_at(&pixels->progress, PROGRESS_WORK / LINES_A_QUESTION,
+                          (size_t)done, (size_t)raster->grid.lines)
+             ? RECTO_OK
+             : progress_error(&pixels->progress, error);
+}
+
+/* The share of the frame's sub-pixels that see a face. */
+static double covered_share(const struct pixels *pixels) {
+  const struct scan_grid *grid = &pixels->grid;
+  double k = pixels->subpixels.k;
+  return (double)pixels->subpixels.covered /
+         (k * k * grid->columns * grid->lines);
+}
+
+recto_status pixels_finish(struct pixels *pixels, struct map *map,
+                           struct report *report, const char *section,
+                           recto_error *error) {
+  if ((pixels->request->strokes &&
+       (!trace_edges(pixels, -1, NULL) ||
+        !edge_sampling_finish(&pixels->sampling, map))) ||
+      (pixels->request->fragments &&
+       !trapezoids_finish(&pixels->trapezoids, map)))
+    return error_memory(error);
+  report_int(report, section, "lines", pixels->grid.lines);
+  report_int(report, section, "columns", pixels->grid.columns);
+  if (pixels->subpixels.k > 1) {
+    report_int(report, section, "subpixels", pixels->subpixels.k);
+    report_double(report, section, "covered_share", covered_share(pixels));
+  }
+  return RECTO_OK;
+}
+
+recto_status pixels_store(const struct raster *raster, int subpixels,
+                          const struct solver_request *request, struct map *map,
+                          struct report *report, const char *section,
+                          recto_error *error) {
+  struct pixels pixels;
+  recto_status status = pixels_init(&pixels, raster, subpixels, request, error);
+  if (status != RECTO_OK)
+    return status;
+  for (int32_t line = raster->grid.lines; line-- > 0 && status == RECTO_OK;)
+    status = pixels_line(&pixels, line, error);
+  if (status == RECTO_OK)
+    status = pixels_finish(&pixels, map, report, section, error);
+  pixels_fini(&pixels);
+  return status;
+}

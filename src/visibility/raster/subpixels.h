@@ -1,0 +1,54 @@
+/* subpixels.h - supersampling: lines of K x K sub-pixels made lines of pixels.
+ *
+ * A pixel has K x K sub-pixels, the pixels of a frame of K times as many
+ * lines.  Where half of them or more see a facet, the pixel gets the facet that
+ * most of them see, the earlier of equals; else it is background.
+ *
+ * Source   Foley, van Dam, Feiner & Hughes 14.10 (postfiltering).
+ */
+#ifndef VISIBILITY_RASTER_SUBPIXELS_H
+#define VISIBILITY_RASTER_SUBPIXELS_H
+
+#include "visibility/raster/raster.h"
+#include "visibility/solver.h"
+
+#define SUBPIXELS_MAX 16
+
+/* K: at least 1. */
+static inline int subpixels_of(const struct solver_request *request) {
+  return request->subpixels == 0 ? 1 : request->subpixels;
+}
+
+/* How many lines of sub-pixels the request is for; raster_init refuses too
+ * many.
+ * Errors  RECTO_ERROR_ARGUMENT: K out of range. */
+USE_RESULT recto_status subpixels_lines(const struct solver_request *request,
+                                        int *lines, recto_error *error);
+
+/* What a pixel gets to see from what its `all` sub-pixels do, as a raster has
+ * it: 0 for nothing.
+ * covered  gets how many see a facet */
+uint32_t subpixels_resolve(const uint32_t *seen, uint32_t all,
+                           uint32_t *covered);
+
+/* A line of pixels in the making. */
+struct subpixels {
+  int k;
+  int32_t fine_columns, columns;
+  uint32_t *seen;   /* K lines of sub-pixels */
+  uint32_t *pixel;  /* the line of pixels */
+  uint64_t covered; /* sub-pixels that see a facet, of all lines so far */
+};
+
+/* fine_columns  sub-pixels of a line
+ * columns       pixels of a line */
+USE_RESULT bool subpixels_init(struct subpixels *subpixels, int k,
+                               int32_t fine_columns, int32_t columns);
+void subpixels_fini(struct subpixels *subpixels);
+
+/* Takes a line of sub-pixels; they come from the top.  True where it was a
+ * pixel line's last, which `pixel` then has. */
+bool subpixels_take(struct subpixels *subpixels, int32_t fine_line,
+                    const uint32_t *seen);
+
+#endif

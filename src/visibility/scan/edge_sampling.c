@@ -1,0 +1,365 @@
+/* edge_sampling.c - the sheet's edges followed through what a scan has seen. */
+#include "visibility/scan/edge_sampling.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/sort.h"
+#include "view/coordinate_error.h"
+#include "visibility/intersection/intersection.h"
+#include "visibility/scan/facets.h"
+#include "visibility/predicate/edge_intervals.h"
+
+#define EDGE_SAMPLING_HIDDEN UINT32_MAX /* no visible run is open */
+
+recto_status
+edge_sampling_find_intersections(struct sheet *sheet,
+                                 const struct solver_request *request,
+                                 struct report *report, recto_error *error) {
+  struct triangle_grid grid;
+  recto_status status;
+  if (!request->intersections)
+    return RECTO_OK;
+  if (!triangle_grid_init(&grid, sheet))
+    return error_memory(error);
+  status = intersection_find_all(sheet, &grid, NULL, request, report, error);
+  triangle_grid_fini(&grid);
+  return status;
+}
+
+/* ---- Setting out --------------------------------------------------------- */
+
+static double frame_of(int64_t at, int64_t den, int64_t first, int64_t step) {
+  return (double)(at * den - first) / (double)step;
+}
+
+static double frame_x(const struct scan_grid *grid, int64_t x) {
+  return frame_of(x, grid->den, grid->x_first, grid->x_step);
+}
+
+static double frame_y(const struct scan_grid *grid, int64_t y) {
+  return frame_of(y, grid->den, grid->y_first, grid->y_step);
+}
+
+static int cell_bits(const struct scan_grid *grid, double dx, double dy) {
+  double wide = fabs(dx) * (double)grid->x_step / (double)grid->y_step;
+  double cells = 2 * (wide > fabs(dy) ? wide : fabs(dy));
+  int bits = 0;
+  while (bits < EDGE_SAMPLING_BITS_MAX && ldexp(1, bits) < cells)
+    bits++;
+  return bits;
+}
+
+/* The place of the middle of a cell counted from the top, 0 to 1. */
+static double middle_of(const struct sampled_edge *edge, uint32_t cell) {
+  double t = (cell + 0.5) / ldexp(1, edge->bits);
+  return edge->turned ? 1 - t : t;
+}
+
+/* The line above whose centre, or at it, the middle of a cell is; -1 below
+ * the lowest centre. */
+static int32_t line_of(const struct edge_sampling *sampling,
+                       const struct sampled_edge *edge, uint32_t cell) {
+  double y = floor(edge->y0 + middle_of(edge, cell) * edge->dy - 0.5);
+  int32_t lines = sampling->grid.lines;
+  return y < 0 ? -1 : y >= lines ? lines - 1 : (int32_t)y;
+}
+
+static void set_edge(const struct edge_sampling *sampling, uint32_t e,
+                     struct sampled_edge *to) {
+  const struct sheet *sheet = sampling->sheet;
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  struct geom_point p = sheet->point.item[edge->point[0]];
+  struct geom_point q = sheet->point.item[edge->point[1]];
+  to->edge = e;
+  to->x0 = frame_x(&sampling->grid, p.x);
+  to->y0 = frame_y(&sampling->grid, p.y);
+  to->dx = frame_x(&sampling->grid, q.x) - to->x0;
+  to->dy = frame_y(&sampling->grid, q.y) - to->y0;
+  to->z0 = (double)p.z;
+  to->dz = (double)(q.z - p.z);
+  to->bits = cell_bits(&sampling->grid, to->dx, to->dy);
+  to->turned = to->dy > 0;
+  to->between = floor(to->y0 - 0.5) == floor(to->y0 + to->dy - 0.5);
+  to->cell = 0;
+  to->start = EDGE_SAMPLING_HIDDEN;
+}
+
+static bool is_traced(const struct sheet *sheet, size_t e,
+                      const uint8_t *skip) {
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  struct geom_point p = sheet->point.item[edge->point[0]];
+  struct geom_point q = sheet->point.item[edge->point[1]];
+  return edge->edge_class != 0 && (p.x != q.x || p.y != q.y) &&
+         (skip == NULL || !skip[e]);
+}
+
+/* Puts the edges in the order of their topmost lines. */
+static bool sort_edges(struct edge_sampling *sampling,
+                       struct sampled_edge *edge) {
+  struct sort_key *key = mem_alloc(2 * sampling->count, sizeof *key);
+  if (key == NULL)
+    return false;
+  for (size_t i = 0; i < sampling->count; i++)
+    key[i] = (struct sort_key){
+        (uint64_t)(sampling->grid.lines - line_of(sampling, &edge[i], 0)),
+        (uint32_t)i};
+  sort_keys(key, key + sampling->count, sampling->count);
+  for (size_t i = 0; i < sampling->count; i++)
+    sampling->edge[i] = edge[key[i].value];
+  mem_free(key);
+  return true;
+}
+
+bool edge_sampling_init(struct edge_sampling *sampling,
+                        const struct sheet *sheet, const struct scan_grid *grid,
+                        double reach_x, double step, const uint8_t *skip) {
+  struct sampled_edge *edge;
+  bool ok = false;
+  memset(sampling, 0, sizeof *sampling);
+  sampling->sheet = sheet;
+  sampling->grid = *grid;
+  sampling->reach_x = reach_x;
+  sampling->step = step;
+  for (size_t e = 0; e < sheet->edge.count; e++)
+    sampling->count += is_traced(sheet, e, skip);
+  edge = mem_alloc(sampling->count, sizeof *edge);
+  sampling->edge = mem_alloc(sampling->count, sizeof *sampling->edge);
+  sampling->active = mem_alloc(sampling->count, sizeof *sampling->active);
+  sampling->bits = mem_calloc(sheet->edge.count, 1);
+  if (edge != NULL && sampling->edge != NULL && sampling->active != NULL &&
+      sampling->bits != NULL) {
+    size_t i = 0;
+    for (size_t e = 0; e < sheet->edge.count; e++)
+      if (is_traced(sheet, e, skip)) {
+        set_edge(sampling, (uint32_t)e, &edge[i]);
+        sampling->bits[e] = (uint8_t)edge[i++].bits;
+      }
+    ok = sort_edges(sampling, edge);
+  }
+  mem_free(edge);
+  if (!ok)
+    edge_sampling_fini(sampling);
+  return ok;
+}
+
+void edge_sampling_fini(struct edge_sampling *sampling) {
+  mem_free(sampling->edge);
+  mem_free(sampling->active);
+  mem_free(sampling->bits);
+  ARRAY_FREE(&sampling->run);
+  memset(sampling, 0, sizeof *sampling);
+}
+
+/* ---- Following ----------------------------------------------------------- */
+
+/* The least depth a facet's plane has where the scan's answer, given at
+ * (x, line + 1/2), stands. */
+static double deepest(const struct edge_sampling *sampling, uint32_t facet,
+                      double x, int32_t line) {
+  const struct sheet *sheet = sampling->sheet;
+  struct geom_point corner =
+      sheet->point.item[sheet->triangle.item[facet].point[0]];
+  double per_column, per_line;
+  facet_slopes(sheet, &sampling->grid, facet, &per_column, &per_line);
+  return (double)corner.z +
+         per_column * (x - frame_x(&sampling->grid, corner.x)) +
+         per_line * (line + 0.5 - frame_y(&sampling->grid, corner.y)) -
+         fabs(per_column) * sampling->reach_x - fabs(per_line) * 0.5;
+}
+
+/* Orthographic z = Z (d_max - d); perspective z = Z (1 / d - 1 / d_max), where
+ * dz = Z / d^2. */
+double edge_sampling_contact(const struct sheet *sheet, uint32_t face,
+                             double z) {
+  const struct camera *camera = &sheet->camera;
+  double per_unit = sheet->z_scale;
+  if (camera->perspective) {
+    double inverse = z / sheet->z_scale + 1 / camera->d_max;
+    per_unit *= inverse * inverse;
+  }
+  return coordinate_error_contact(sheet, face) * per_unit;
+}
+
+/* What a scan sees at the two lines about the cells at hand. */
+struct sight {
+  edge_sampling_seen_fn seen;
+  const void *upper, *lower;
+  int32_t line; /* the lower one's */
+};
+
+/* Does the centre at frame x on one of the lines let depth z be seen? */
+static bool lets_be_seen(const struct edge_sampling *sampling,
+                         const struct sight *sight, bool upper, double x,
+                         double z) {
+  const void *line = upper ? sight->upper : sight->lower;
+  uint32_t facet;
+  if (line == NULL)
+    return false;
+  facet = sight->seen(line, x);
+  return facet == SHEET_NONE ||
+         z >= deepest(sampling, facet, x, sight->line + upper) -
+                  sampling->step -
+                  edge_sampling_contact(
+                      sampling->sheet,
+                      sampling->sheet->triangle.item[facet].face, z);
+}
+
+/* Does the facet that a line sees above or below a place of an edge reach as
+ * far as that place, and is it nearer there? */
+static bool is_covered(const struct edge_sampling *sampling,
+                       const struct sampled_edge *edge,
+                       const struct sight *sight, bool upper, double t) {
+  const struct sheet *sheet = sampling->sheet;
+  const struct sheet_edge *own = &sheet->edge.item[edge->edge];
+  double x = edge->x0 + t * edge->dx, y = edge->y0 + t * edge->dy;
+  double z = edge->z0 + t * edge->dz, at[3][2], per_column, per_line;
+  const void *line = upper ? sight->upper : sight->lower;
+  uint32_t facet = line != NULL ? sight->seen(line, x) : SHEET_NONE;
+  if (facet == SHEET_NONE || facet == own->triangle[0] ||
+      facet == own->triangle[1])
+    return false;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point p =
+        sheet->point.item[sheet->triangle.item[facet].point[k]];
+    at[k][0] = frame_x(&sampling->grid, p.x) - x;
+    at[k][1] = frame_y(&sampling->grid, p.y) - y;
+  }
+  for (int k = 0; k < 3; k++) {
+    const double *p = at[k], *q = at[(k + 1) % 3];
+    if (p[0] * q[1] - p[1] * q[0] < 0)
+      return false;
+  }
+  facet_slopes(sheet, &sampling->grid, facet, &per_column, &per_line);
+  return z + sampling->step +
+             edge_sampling_contact(sheet, sheet->triangle.item[facet].face, z) <
+         (double)sheet->point.item[sheet->triangle.item[facet].point[0]].z -
+             per_column * at[0][0] - per_line * at[0][1];
+}
+
+/* Asks the centres about the middle of the cell, the nearest ones first. */
+static bool is_visible(const struct edge_sampling *sampling,
+                       const struct sampled_edge *edge,
+                       const struct sight *sight) {
+  double t = middle_of(edge, edge->cell), x = edge->x0 + t * edge->dx;
+  double z = edge->z0 + t * edge->dz;
+  bool upper = edge->y0 + t * edge->dy > sight->line + 1;
+  double near = sampling->reach_x > 0 ? floor(x) + 0.5 : x;
+  double far = x < near ? near - 1 : near + 1;
+  if (sampling->reach_x == 0 && edge->between)
+    return lets_be_seen(sampling, sight, upper, near, z) &&
+           !is_covered(sampling, edge, sight, upper, t);
+  if (lets_be_seen(sampling, sight, upper, near, z))
+    return true;
+  if (lets_be_seen(sampling, sight, !upper, near, z))
+    return true;
+  return sampling->reach_x > 0 &&
+         (lets_be_seen(sampling, sight, upper, far, z) ||
+          lets_be_seen(sampling, sight, !upper, far, z));
+}
+
+static bool end_run(struct edge_sampling *sampling, struct sampled_edge *edge) {
+  uint32_t cells = (uint32_t)1 << edge->bits;
+  struct sampled_run run = {edge->edge, edge->start, edge->cell};
+  if (edge->start == EDGE_SAMPLING_HIDDEN)
+    return true;
+  if (edge->turned) {
+    run.first = cells - edge->cell;
+    run.past = cells - edge->start;
+  }
+  edge->start = EDGE_SAMPLING_HIDDEN;
+  return ARRAY_PUSH(&sampling->run, run);
+}
+
+/* Follows an edge through the cells above the lower line's centre. */
+static bool follow(struct edge_sampling *sampling, struct sampled_edge *edge,
+                   const struct sight *sight) {
+  uint32_t cells = (uint32_t)1 << edge->bits;
+  for (;
+       edge->cell < cells && line_of(sampling, edge, edge->cell) >= sight->line;
+       edge->cell++) {
+    if (is_visible(sampling, edge, sight)) {
+      if (edge->start == EDGE_SAMPLING_HIDDEN)
+        edge->start = edge->cell;
+    } else if (!end_run(sampling, edge)) {
+      return false;
+    }
+  }
+  return edge->cell < cells || end_run(sampling, edge);
+}
+
+bool edge_sampling_line(struct edge_sampling *sampling, int32_t line,
+                        edge_sampling_seen_fn seen, const void *upper,
+                        const void *lower) {
+  const struct sight sight = {seen, upper, lower, line};
+  size_t kept = 0;
+  while (sampling->entered < sampling->count &&
+         line_of(sampling, &sampling->edge[sampling->entered], 0) >= line)
+    sampling->active[sampling->active_count++] = (uint32_t)sampling->entered++;
+  for (size_t i = 0; i < sampling->active_count; i++) {
+    struct sampled_edge *edge = &sampling->edge[sampling->active[i]];
+    if (!follow(sampling, edge, &sight))
+      return false;
+    if (edge->cell < (uint32_t)1 << edge->bits)
+      sampling->active[kept++] = sampling->active[i];
+  }
+  sampling->active_count = kept;
+  return true;
+}
+
+/* ---- Filing -------------------------------------------------------------- */
+
+bool edge_sampling_add(struct edge_sampling *sampling, struct sampled_run run,
+                       int bits) {
+  sampling->bits[run.edge] = (uint8_t)bits;
+  return ARRAY_PUSH(&sampling->run, run);
+}
+
+/* Files the runs of one edge, in order. */
+static bool store_runs(const struct edge_sampling *sampling,
+                       const struct sort_key *key, size_t count,
+                       struct map *map) {
+  uint32_t edge = sampling->run.item[key->value].edge;
+  int64_t cells = INT64_C(1) << sampling->bits[edge];
+  struct map_mixed mixed = {edge, (uint32_t)map->interval.count,
+                            (uint32_t)count};
+  if (count == 1) {
+    const struct sampled_run *run = &sampling->run.item[key->value];
+    if (run->first == 0 && run->past == cells) {
+      map->edge_state[edge] = MAP_VISIBLE;
+      return true;
+    }
+  }
+  map->edge_state[edge] = MAP_MIXED;
+  for (size_t i = 0; i < count; i++) {
+    const struct sampled_run *run = &sampling->run.item[key[i].value];
+    struct map_interval interval = {ratio_of(run->first, cells),
+                                    ratio_of(run->past, cells)};
+    if (!ARRAY_PUSH(&map->interval, interval))
+      return false;
+  }
+  return ARRAY_PUSH(&map->mixed, mixed);
+}
+
+bool edge_sampling_finish(struct edge_sampling *sampling, struct map *map) {
+  size_t count = sampling->run.count;
+  struct sort_key *key = mem_alloc(2 * count, sizeof *key);
+  bool ok =
+      key != NULL && edge_intervals_open_map(map, sampling->sheet->edge.count);
+  for (size_t i = 0; ok && i < count; i++) {
+    const struct sampled_run *run = &sampling->run.item[i];
+    key[i] = (struct sort_key){((uint64_t)run->edge << 32) | run->first,
+                               (uint32_t)i};
+  }
+  if (ok)
+    sort_keys(key, key + count, count);
+  for (size_t i = 0, past; ok && i < count; i = past) {
+    uint32_t edge = sampling->run.item[key[i].value].edge;
+    past = i + 1;
+    while (past < count && sampling->run.item[key[past].value].edge == edge)
+      past++;
+    ok = store_runs(sampling, key + i, past - i, map);
+  }
+  mem_free(key);
+  return ok;
+}

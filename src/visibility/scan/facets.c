@@ -1,0 +1,242 @@
+/* facets.c - the planar convex pieces of the sheet's faces. */
+#include "visibility/scan/facets.h"
+
+#include <string.h>
+
+#include "base/sort.h"
+
+/* The triangles [first, past) of one face and their diagonals. */
+struct facet_joining {
+  const struct sheet *sheet;
+  struct facets *facets;
+  uint32_t first, past;
+  struct sort_key *diagonal, *scratch; /* keyed by the two points; value:
+                                          3 * (triangle - first) + side */
+  size_t diagonals, room;
+  uint32_t corner[FACET_CORNERS_MAX], side[FACET_CORNERS_MAX];
+  uint32_t count;
+};
+
+static uint64_t key_of(uint32_t p, uint32_t q) {
+  return p < q ? ((uint64_t)p << 32) | q : ((uint64_t)q << 32) | p;
+}
+
+static uint32_t next_of(uint32_t k, uint32_t count) {
+  return k + 1 == count ? 0 : k + 1;
+}
+
+static bool list_diagonals(struct facet_joining *joining) {
+  const struct sheet *sheet = joining->sheet;
+  size_t most = 3 * (size_t)(joining->past - joining->first);
+  if (most > joining->room) {
+    struct sort_key *grown =
+        mem_resize(joining->diagonal, 2 * most, sizeof *grown);
+    if (grown == NULL)
+      return false;
+    joining->diagonal = grown;
+    joining->room = most;
+  }
+  joining->diagonals = 0;
+  for (uint32_t t = joining->first; t < joining->past; t++) {
+    const struct sheet_triangle *triangle = &sheet->triangle.item[t];
+    for (uint32_t k = 0; k < 3; k++)
+      if (triangle->side[k] == SHEET_NONE)
+        joining->diagonal[joining->diagonals++] = (struct sort_key){
+            key_of(triangle->point[k], triangle->point[next_of(k, 3)]),
+            3 * (t - joining->first) + k};
+  }
+  sort_keys(joining->diagonal, joining->diagonal + joining->room,
+            joining->diagonals);
+  return true;
+}
+
+/* The first diagonal not below the key. */
+static size_t find_diagonal(const struct facet_joining *joining, uint64_t key) {
+  size_t low = 0, high = joining->diagonals;
+  while (low < high) {
+    size_t middle = low + (high - low) / 2;
+    if (joining->diagonal[middle].key < key)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+static struct geom_point point_at(const struct facet_joining *joining,
+                                  uint32_t point) {
+  return joining->sheet->point.item[point];
+}
+
+static struct geom_plane plane_at(const struct facet_joining *joining,
+                                  uint32_t triangle) {
+  const uint32_t *p = joining->sheet->triangle.item[triangle].point;
+  return geom_plane_of(point_at(joining, p[0]), point_at(joining, p[1]),
+                       point_at(joining, p[2]));
+}
+
+static bool turns_left(const struct facet_joining *joining, uint32_t a,
+                       uint32_t b, uint32_t c) {
+  return geom_orient2d(point_at(joining, a), point_at(joining, b),
+                       point_at(joining, c)) >= 0;
+}
+
+/* Is the outline still convex with `point` put in after corner k? */
+static bool stays_convex(const struct facet_joining *joining, uint32_t k,
+                         uint32_t point) {
+  uint32_t count = joining->count;
+  uint32_t u = joining->corner[k], v = joining->corner[next_of(k, count)];
+  uint32_t before = joining->corner[k == 0 ? count - 1 : k - 1];
+  uint32_t after = joining->corner[next_of(next_of(k, count), count)];
+  return turns_left(joining, before, u, point) &&
+         turns_left(joining, point, v, after);
+}
+
+/* Joins the triangle on the other side of side k, if there is one that fits:
+ * free, with area, in the plane, the union convex. */
+static bool join_across(struct facet_joining *joining,
+                        const struct geom_plane *plane, uint32_t k) {
+  const struct sheet *sheet = joining->sheet;
+  uint32_t u = joining->corner[k];
+  uint32_t v = joining->corner[next_of(k, joining->count)];
+  uint64_t key = key_of(u, v);
+  size_t i = find_diagonal(joining, key);
+  for (; i < joining->diagonals && joining->diagonal[i].key == key; i++) {
+    uint32_t t = joining->first + joining->diagonal[i].value / 3;
+    uint32_t at = joining->diagonal[i].value % 3, past = next_of(at, 3);
+    const struct sheet_triangle *other = &sheet->triangle.item[t];
+    uint32_t shared_vertex = other->point[next_of(past, 3)];
+    uint32_t tail = joining->count - k - 1;
+    if (other->point[at] != v || joining->facets->part[t] != SHEET_NONE ||
+        (sheet->triangle_flags[t] & SHEET_FLAT) ||
+        geom_plane_value(plane, point_at(joining, shared_vertex)) != 0 ||
+        !stays_convex(joining, k, shared_vertex))
+      continue;
+    memmove(joining->corner + k + 2, joining->corner + k + 1,
+            tail * sizeof *joining->corner);
+    memmove(joining->side + k + 2, joining->side + k + 1,
+            tail * sizeof *joining->side);
+    joining->corner[k + 1] = shared_vertex;
+    joining->side[k] = other->side[past];
+    joining->side[k + 1] = other->side[next_of(past, 3)];
+    joining->count++;
+    joining->facets->part[t] = (uint32_t)joining->facets->joined.count;
+    return true;
+  }
+  return false;
+}
+
+/* Grows a facet from a triangle; it is filed where it has grown at all. */
+static bool grow_facet(struct facet_joining *joining, uint32_t triangle) {
+  struct facets *facets = joining->facets;
+  const struct sheet_triangle *seed = &joining->sheet->triangle.item[triangle];
+  struct geom_plane plane = plane_at(joining, triangle);
+  struct facet facet = {triangle, (uint32_t)facets->corner.count, 0};
+  joining->count = 3;
+  memcpy(joining->corner, seed->point, sizeof seed->point);
+  memcpy(joining->side, seed->side, sizeof seed->side);
+  facets->part[triangle] = (uint32_t)facets->joined.count;
+  for (uint32_t k = 0; k < joining->count;)
+    if (joining->side[k] != SHEET_NONE || joining->count == FACET_CORNERS_MAX ||
+        !join_across(joining, &plane, k))
+      k++;
+  if (joining->count == 3) {
+    facets->part[triangle] = SHEET_NONE;
+    return true;
+  }
+  facet.count = joining->count;
+  if (!ARRAY_RESERVE(&facets->corner, facet.count) ||
+      !ARRAY_RESERVE(&facets->side, facet.count))
+    return false;
+  memcpy(facets->corner.item + facet.corner, joining->corner,
+         facet.count * sizeof *joining->corner);
+  memcpy(facets->side.item + facet.corner, joining->side,
+         facet.count * sizeof *joining->side);
+  facets->corner.count += facet.count;
+  facets->side.count += facet.count;
+  return ARRAY_PUSH(&facets->joined, facet);
+}
+
+static bool join_face(struct facet_joining *joining) {
+  if (!list_diagonals(joining))
+    return false;
+  for (uint32_t t = joining->first; t < joining->past; t++)
+    if (joining->facets->part[t] == SHEET_NONE &&
+        !(joining->sheet->triangle_flags[t] & SHEET_FLAT) &&
+        !grow_facet(joining, t))
+      return false;
+  return true;
+}
+
+bool facets_init(struct facets *facets, const struct sheet *sheet) {
+  struct facet_joining joining = {.sheet = sheet, .facets = facets};
+  uint32_t count = (uint32_t)sheet->triangle.count, t = 0;
+  const struct sheet_triangle *triangle = sheet->triangle.item;
+  bool ok = true;
+  memset(facets, 0, sizeof *facets);
+  while (t + 1 < count && triangle[t].face != triangle[t + 1].face)
+    t++;
+  if (t + 1 >= count)
+    return true;
+  facets->part = mem_alloc(count, sizeof *facets->part);
+  if (facets->part == NULL)
+    return false;
+  memset(facets->part, 0xff, count * sizeof *facets->part);
+  for (; t < count && ok; t = joining.past) {
+    joining.first = t;
+    joining.past = t + 1;
+    while (joining.past < count &&
+           triangle[joining.past].face == triangle[t].face)
+      joining.past++;
+    ok = joining.past - t == 1 || join_face(&joining);
+  }
+  mem_free(joining.diagonal);
+  if (!ok)
+    facets_fini(facets);
+  return ok;
+}
+
+void facets_fini(struct facets *facets) {
+  ARRAY_FREE(&facets->joined);
+  ARRAY_FREE(&facets->corner);
+  ARRAY_FREE(&facets->side);
+  mem_free(facets->part);
+  facets->part = NULL;
+}
+
+uint32_t facet_outline(const struct facets *facets, const struct sheet *sheet,
+                       uint32_t triangle, const uint32_t **corner,
+                       const uint32_t **side) {
+  const struct facet *facet;
+  if (facets->part == NULL || facets->part[triangle] == SHEET_NONE) {
+    *corner = sheet->triangle.item[triangle].point;
+    *side = sheet->triangle.item[triangle].side;
+    return 3;
+  }
+  facet = &facets->joined.item[facets->part[triangle]];
+  *corner = facets->corner.item + facet->corner;
+  *side = facets->side.item + facet->corner;
+  return facet->count;
+}
+
+/* ---- Planes -------------------------------------------------------------- */
+
+struct geom_plane facet_plane(const struct sheet *sheet, uint32_t facet) {
+  const uint32_t *p = sheet->triangle.item[facet].point;
+  return geom_plane_of(sheet->point.item[p[0]], sheet->point.item[p[1]],
+                       sheet->point.item[p[2]]);
+}
+
+/* Most are small, and then quickly converted. */
+static double to_double(int128 value) {
+  int64_t low = (int64_t)value;
+  return low == value ? (double)low : (double)value;
+}
+
+void facet_slopes(const struct sheet *sheet, const struct scan_grid *grid,
+                  uint32_t facet, double *per_column, double *per_line) {
+  struct geom_plane plane = facet_plane(sheet, facet);
+  double scale = 1 / ((double)plane.nz * (double)grid->den);
+  *per_column = -to_double(plane.nx) * (double)grid->x_step * scale;
+  *per_line = -to_double(plane.ny) * (double)grid->y_step * scale;
+}

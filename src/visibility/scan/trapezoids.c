@@ -1,0 +1,230 @@
+/* trapezoids.c - visible spans as the map's fragments. */
+#include "visibility/scan/trapezoids.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/sort.h"
+
+#define CORNER_SCALE 256 /* the map's corners are multiples of 1/256 unit */
+
+bool trapezoids_init(struct trapezoids *trapezoids, const struct sheet *sheet,
+                     const struct scan_grid *grid, size_t keys) {
+  memset(trapezoids, 0, sizeof *trapezoids);
+  trapezoids->grid = *grid;
+  trapezoids->x_high = sheet->camera.page_mm[0] / 2 * SHEET_UNITS_PER_MM;
+  trapezoids->y_high = sheet->camera.page_mm[1] / 2 * SHEET_UNITS_PER_MM;
+  trapezoids->x_low = -trapezoids->x_high;
+  trapezoids->y_low = -trapezoids->y_high;
+  trapezoids->keys = keys;
+  trapezoids->at = mem_alloc(keys, sizeof *trapezoids->at);
+  if (trapezoids->at == NULL)
+    return false;
+  memset(trapezoids->at, 0xff, keys * sizeof *trapezoids->at);
+  return true;
+}
+
+void trapezoids_fini(struct trapezoids *trapezoids) {
+  ARRAY_FREE(&trapezoids->row);
+  ARRAY_FREE(&trapezoids->border);
+  ARRAY_FREE(&trapezoids->side);
+  ARRAY_FREE(&trapezoids->trapezoid);
+  mem_free(trapezoids->at);
+  memset(trapezoids, 0, sizeof *trapezoids);
+}
+
+/* ---- Borders ------------------------------------------------------------- */
+
+static bool list_borders(struct trapezoids *trapezoids) {
+  struct span *row = trapezoids->row.item;
+  size_t count = trapezoids->row.count;
+  trapezoids->side.count = 0;
+  if (!ARRAY_RESERVE(&trapezoids->side, 4 * count) ||
+      !ARRAY_RESERVE(&trapezoids->border, 4 * count))
+    return false;
+  for (size_t i = 0; i < count; i++) {
+    bool meets = i > 0 && row[i - 1].right.x == row[i].left.x;
+    struct span_side **side = trapezoids->side.item + trapezoids->side.count;
+    side[0] = meets ? &row[i - 1].right : NULL;
+    side[1] = &row[i].left;
+    trapezoids->side.count += 2;
+    if (i + 1 < count && row[i].right.x == row[i + 1].left.x)
+      continue;
+    side[2] = &row[i].right;
+    side[3] = NULL;
+    trapezoids->side.count += 2;
+  }
+  return true;
+}
+
+/* Makes values ascend: those that do not are replaced by their mean, as few as
+ * will do.  (Adjacent violators are pooled.) */
+static void make_ascend(double *value, size_t count) {
+  for (size_t i = 1; i < count; i++) {
+    size_t first = i;
+    double sum = value[i];
+    if (value[i] >= value[i - 1])
+      continue;
+    while (first > 0 && value[first - 1] > sum / (double)(i + 1 - first))
+      sum += value[--first];
+    for (size_t k = first; k <= i; k++)
+      value[k] = sum / (double)(i + 1 - first);
+  }
+}
+
+/* Settles the upper or the lower x of all borders. */
+static void settle_borders(struct trapezoids *trapezoids, bool upper) {
+  struct span_side **side = trapezoids->side.item;
+  size_t count = trapezoids->side.count / 2;
+  double *value = trapezoids->border.item;
+  for (size_t i = 0; i < count; i++) {
+    double sum = 0, sides = 0;
+    for (size_t k = 2 * i; k < 2 * i + 2; k++)
+      if (side[k] != NULL) {
+        sum += upper ? side[k]->upper : side[k]->lower;
+        sides++;
+      }
+    value[i] = sum / sides;
+  }
+  make_ascend(value, count);
+  for (size_t k = 0; k < 2 * count; k++)
+    if (side[k] != NULL) {
+      double *x = upper ? &side[k]->upper : &side[k]->lower;
+      side[k]->straight &= *x == value[k / 2];
+      *x = value[k / 2];
+    }
+}
+
+/* ---- Lines --------------------------------------------------------------- */
+
+/* The trapezoid of the line above that the span makes longer, or NULL. */
+static struct trapezoid *find_above(const struct trapezoids *trapezoids,
+                                    const struct span *span) {
+  uint32_t at = span->left.straight && span->right.straight
+                    ? trapezoids->at[span->left.key]
+                    : SPAN_ALONE;
+  struct trapezoid *above;
+  if (at == SPAN_ALONE)
+    return NULL;
+  above = &trapezoids->trapezoid.item[at];
+  return above->last == trapezoids->line + 1 &&
+                 above->span.face == span->face &&
+                 above->span.right.key == span->right.key &&
+                 above->span.left.straight && above->span.right.straight
+             ? above
+             : NULL;
+}
+
+static bool join_span(struct trapezoids *trapezoids, const struct span *span) {
+  struct trapezoid *above = find_above(trapezoids, span);
+  if (above != NULL) {
+    above->last = trapezoids->line;
+    above->span.left.lower = span->left.lower;
+    above->span.right.lower = span->right.lower;
+    return true;
+  }
+  if (span->left.key != SPAN_ALONE)
+    trapezoids->at[span->left.key] = (uint32_t)trapezoids->trapezoid.count;
+  struct trapezoid next = {*span, trapezoids->line, trapezoids->line};
+  return ARRAY_PUSH(&trapezoids->trapezoid, next);
+}
+
+static bool end_line(struct trapezoids *trapezoids) {
+  if (trapezoids->row.count == 0)
+    return true;
+  if (!list_borders(trapezoids))
+    return false;
+  settle_borders(trapezoids, true);
+  settle_borders(trapezoids, false);
+  for (size_t i = 0; i < trapezoids->row.count; i++)
+    if (!join_span(trapezoids, &trapezoids->row.item[i]))
+      return false;
+  trapezoids->row.count = 0;
+  return true;
+}
+
+bool trapezoids_add(struct trapezoids *trapezoids, int32_t line,
+                    const struct span *span) {
+  if (line != trapezoids->line && !end_line(trapezoids))
+    return false;
+  trapezoids->line = line;
+  trapezoids->count++;
+  return ARRAY_PUSH(&trapezoids->row, *span);
+}
+
+/* ---- Filing -------------------------------------------------------------- */
+
+static double clamp(double value, double low, double high) {
+  return value < low ? low : value > high ? high : value;
+}
+
+static double round_corner(double value) {
+  return nearbyint(value * CORNER_SCALE) / CORNER_SCALE;
+}
+
+/* The trapezoid's corners, counter-clockwise from the lower left. */
+static void make_corners(const struct trapezoids *trapezoids,
+                         const struct trapezoid *trapezoid,
+                         struct map_corner corner[4]) {
+  const struct span_side *left = &trapezoid->span.left;
+  const struct span_side *right = &trapezoid->span.right;
+  double x[4] = {left->lower, right->lower, right->upper, left->upper};
+  double low = scan_plane_y(&trapezoids->grid, trapezoid->last);
+  double high = scan_plane_y(&trapezoids->grid, trapezoid->first + 1);
+  for (int k = 0; k < 4; k++) {
+    corner[k] = (struct map_corner){.side = MAP_SIDE_CUT, .id = SHEET_NONE};
+    corner[k].x =
+        round_corner(clamp(x[k], trapezoids->x_low, trapezoids->x_high));
+    corner[k].y = round_corner(
+        clamp(k < 2 ? low : high, trapezoids->y_low, trapezoids->y_high));
+  }
+  corner[1].side = right->side;
+  corner[1].id = right->id;
+  corner[3].side = left->side;
+  corner[3].id = left->id;
+}
+
+/* Files the loop of the corners that differ, from the lowest in (x, y). */
+static bool store_loop(const struct map_corner corner[4], uint32_t face,
+                       struct map *map) {
+  struct map_corner kept[4];
+  uint32_t count = 0, first = 0;
+  for (int k = 0; k < 4; k++) {
+    const struct map_corner *next = &corner[(k + 1) % 4];
+    if (corner[k].x != next->x || corner[k].y != next->y)
+      kept[count++] = corner[k];
+  }
+  if (count < 3)
+    return true;
+  for (uint32_t k = 1; k < count; k++)
+    if (kept[k].x < kept[first].x ||
+        (kept[k].x == kept[first].x && kept[k].y < kept[first].y))
+      first = k;
+  struct map_loop loop = {(uint32_t)map->corner.count, count};
+  struct map_fragment fragment = {face, (uint32_t)map->loop.count, 1};
+  for (uint32_t k = 0; k < count; k++)
+    if (!ARRAY_PUSH(&map->corner, kept[(first + k) % count]))
+      return false;
+  return ARRAY_PUSH(&map->loop, loop) && ARRAY_PUSH(&map->fragment, fragment);
+}
+
+bool trapezoids_finish(struct trapezoids *trapezoids, struct map *map) {
+  bool ok = end_line(trapezoids);
+  size_t count = trapezoids->trapezoid.count;
+  struct sort_key *key = mem_alloc(2 * count, sizeof *key);
+  ok = ok && key != NULL;
+  for (size_t i = 0; ok && i < count; i++)
+    key[i] =
+        (struct sort_key){trapezoids->trapezoid.item[i].span.face, (uint32_t)i};
+  if (ok)
+    sort_keys(key, key + count, count);
+  for (size_t i = 0; ok && i < count; i++) {
+    const struct trapezoid *trapezoid =
+        &trapezoids->trapezoid.item[key[i].value];
+    struct map_corner corner[4];
+    make_corners(trapezoids, trapezoid, corner);
+    ok = store_loop(corner, trapezoid->span.face, map);
+  }
+  mem_free(key);
+  return ok;
+}

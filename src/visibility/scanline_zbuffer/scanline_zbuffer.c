@@ -1,0 +1,148 @@
+/* scanline_zbuffer.c - the depth buffer with one line of memory.
+ *
+ * Phases   facets lie in buckets by their top line; line by line from the top
+ *          the bucket joins the active polygons, whose pairs of active edges
+ *          are drawn into one line's buffers and stepped (active_edge_pair.h); the line
+ *          becomes strokes and fragments (pixels.h) and is forgotten: the same
+ *          answer as zbuffer's to the pixel.
+ * Cost     as zbuffer; memory a line, the active pairs and a key per facet,
+ *          whatever the number of lines.
+ * Source   Rogers ch. 4; Foley, van Dam, Feiner & Hughes 15.6.
+ */
+#include "visibility/scanline_zbuffer/scanline_zbuffer.h"
+
+#include <string.h>
+
+#include "visibility/raster/pixels.h"
+
+#define AHEAD 8 /* facets of a bucket whose corners are fetched */
+
+/* ---- Lists --------------------------------------------------------------- */
+
+bool scanline_init(struct scanline *scanline, struct raster *raster,
+                   const struct facets *facets,
+                   const struct solver_request *request) {
+  memset(scanline, 0, sizeof *scanline);
+  scanline->raster = raster;
+  scanline->facets = facets;
+  scanline->bucket =
+      pixels_buckets(raster, facets, request, &scanline->bucket_count);
+  return scanline->bucket != NULL;
+}
+
+void scanline_fini(struct scanline *scanline) {
+  mem_free(scanline->bucket);
+  ARRAY_FREE(&scanline->active);
+  memset(scanline, 0, sizeof *scanline);
+}
+
+bool scanline_enter(struct scanline *scanline, int32_t line) {
+  const struct raster *raster = scanline->raster;
+  uint64_t key = (uint64_t)(raster->grid.lines - 1 - line);
+  const struct sheet_triangle *triangle = raster->sheet->triangle.item;
+  const struct sort_key *bucket = scanline->bucket;
+  size_t i = scanline->entered, count = scanline->bucket_count;
+  for (; i < count && bucket[i].key == key; i++) {
+    if (i + 2 * AHEAD < count) {
+      MEM_FETCH(&triangle[bucket[i + 2 * AHEAD].value]);
+      for (int k = 0; k < 3; k++)
+        RASTER_FETCH(raster, triangle[bucket[i + AHEAD].value].point[k]);
+    }
+    if (!ARRAY_RESERVE(&scanline->active, 1))
+      return false;
+    /* It covers a line, or it would not lie in a bucket. */
+    active_edge_pair_start(&scanline->active.item[scanline->active.count++],
+                           raster, scanline->facets, bucket[i].value);
+  }
+  scanline->entered = i;
+  if (scanline->active.count > scanline->most_active)
+    scanline->most_active = scanline->active.count;
+  return true;
+}
+
+void scanline_draw(struct scanline *scanline) {
+  for (size_t i = 0; i < scanline->active.count; i++)
+    scanline->covered += (int64_t)active_edge_pair_draw(
+        &scanline->active.item[i], scanline->raster);
+}
+
+void scanline_step(struct scanline *scanline) {
+  struct active_edge_pair *pair = scanline->active.item;
+  for (size_t i = 0; i < scanline->active.count;) {
+    if (active_edge_pair_next(&pair[i], scanline->raster))
+      i++;
+    else
+      pair[i] = pair[--scanline->active.count];
+  }
+}
+
+/* ---- The solver ---------------------------------------------------------- */
+
+static recto_status walk_lines(struct scanline *scanline, struct pixels *pixels,
+                               recto_error *error) {
+  recto_status status = RECTO_OK;
+  int64_t before;
+  for (int32_t line = scanline->raster->grid.lines;
+       line-- > 0 && status == RECTO_OK;) {
+    raster_clear_line(scanline->raster, line);
+    if (!scanline_enter(scanline, line))
+      return error_memory(error);
+    before = scanline->covered;
+    scanline_draw(scanline);
+    scanline_step(scanline);
+    pixels->progress.left -= (scanline->covered - before) / PROGRESS_PIXELS;
+    status = pixels_line(pixels, line, error);
+  }
+  return status;
+}
+
+static recto_status scan(struct raster *raster, const struct facets *facets,
+                         const struct solver_request *request, struct map *map,
+                         struct report *report, recto_error *error) {
+  struct scanline scanline;
+  struct pixels pixels;
+  recto_status status =
+      pixels_init(&pixels, raster, subpixels_of(request), request, error);
+  if (status != RECTO_OK)
+    return status;
+  if (!scanline_init(&scanline, raster, facets, request))
+    status = error_memory(error);
+  if (status == RECTO_OK)
+    status = walk_lines(&scanline, &pixels, error);
+  if (status == RECTO_OK)
+    status = pixels_finish(&pixels, map, report, "scanline_zbuffer", error);
+  if (status == RECTO_OK) {
+    report_int(report, "scanline_zbuffer", "depth_bits", raster->depth_bits);
+    report_int(report, "scanline_zbuffer", "pixels_covered", scanline.covered);
+    report_int(report, "scanline_zbuffer", "most_active",
+               (int64_t)scanline.most_active);
+  }
+  scanline_fini(&scanline);
+  pixels_fini(&pixels);
+  return status;
+}
+
+static recto_status solve(struct sheet *sheet,
+                          const struct solver_request *request, struct map *map,
+                          struct report *report, recto_error *error) {
+  struct raster raster = {0};
+  struct facets facets = {0};
+  int lines;
+  recto_status status =
+      edge_sampling_find_intersections(sheet, request, report, error);
+  if (status == RECTO_OK)
+    status = subpixels_lines(request, &lines, error);
+  if (status == RECTO_OK)
+    status =
+        raster_init(&raster, sheet, lines, request->depth_bits, false, error);
+  if (status == RECTO_OK && !facets_init(&facets, sheet))
+    status = error_memory(error);
+  if (status == RECTO_OK)
+    status = scan(&raster, &facets, request, map, report, error);
+  raster_fini(&raster);
+  facets_fini(&facets);
+  return status;
+}
+
+const struct solver solver_scanline_zbuffer = {
+    RECTO_METHOD_SCANLINE_ZBUFFER, "scanline-zbuffer", false, solve};

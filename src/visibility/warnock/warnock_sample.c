@@ -1,0 +1,143 @@
+/* warnock_sample.c - facets asked at the centres of sub-pixels.
+ *
+ * Ranges  In units of 1 / den <= 2^-1, den <= 2^17, a centre is below 2^48 and
+ *   its distance from a corner below 2^49: exact in int64 and in a double.  An
+ *   edge's line function there is below 2 * 2^31 * 2^49 = 2^81.
+ */
+#include "visibility/warnock/warnock_sample.h"
+
+#include <math.h>
+
+/* Each term of a depth gathers fewer than ten roundings. */
+#define SLACK (16 * 0x1p-53)
+
+static struct sample_plane plane_of(const struct sheet *sheet,
+                                    const struct facets *facets,
+                                    const struct scan_grid *grid,
+                                    uint32_t facet) {
+  const uint32_t *p = sheet->triangle.item[facet].point, *corner, *side;
+  uint32_t count = facet_outline(facets, sheet, facet, &corner, &side);
+  struct geom_plane plane =
+      geom_plane_of(sheet->point.item[p[0]], sheet->point.item[p[1]],
+                    sheet->point.item[p[2]]);
+  double scale = -(double)plane.nz * (double)grid->den;
+  int64_t nearest = 0;
+  for (uint32_t k = 0; k < count; k++)
+    if (sheet->point.item[corner[k]].z > nearest)
+      nearest = sheet->point.item[corner[k]].z;
+  return (struct sample_plane){.per_x = (double)plane.nx / scale,
+                               .per_y = (double)plane.ny / scale,
+                               .z0 = (double)plane.a.z,
+                               .nearest = (double)nearest,
+                               .x0 = plane.a.x,
+                               .y0 = plane.a.y};
+}
+
+bool warnock_sample_init(struct warnock_sample *sample,
+                         const struct sheet *sheet, const struct facets *facets,
+                         const struct scan_grid *grid) {
+  uint32_t count = (uint32_t)sheet->triangle.count;
+  *sample = (struct warnock_sample){.facets = facets,
+                                    .fine = {.sheet = sheet, .grid = *grid}};
+  sample->plane = mem_alloc(count, sizeof *sample->plane);
+  if (sample->plane == NULL)
+    return false;
+  for (uint32_t t = 0; t < count; t++)
+    if ((sheet->triangle_flags[t] & SHEET_FLAT) == 0 &&
+        facet_of(facets, t) == t)
+      sample->plane[t] = plane_of(sheet, facets, grid, t);
+  return true;
+}
+
+void warnock_sample_fini(struct warnock_sample *sample) {
+  mem_free(sample->plane);
+  sample->plane = NULL;
+}
+
+static int64_t centre_x(const struct scan_grid *grid, int32_t column) {
+  return grid->x_first + column * grid->x_step + grid->x_step / 2;
+}
+
+static int64_t centre_y(const struct scan_grid *grid, int32_t line) {
+  return grid->y_first + line * grid->y_step + grid->y_step / 2;
+}
+
+struct sample_depth warnock_sample_depth(const struct warnock_sample *sample,
+                                         uint32_t facet, int32_t column,
+                                         int32_t line) {
+  const struct scan_grid *grid = &sample->fine.grid;
+  const struct sample_plane *plane = &sample->plane[facet];
+  double dx =
+      plane->per_x * (double)(centre_x(grid, column) - plane->x0 * grid->den);
+  double dy =
+      plane->per_y * (double)(centre_y(grid, line) - plane->y0 * grid->den);
+  return (struct sample_depth){plane->z0 + dx + dy,
+                               SLACK * (fabs(plane->z0) + fabs(dx) + fabs(dy))};
+}
+
+bool warnock_sample_beats(const struct warnock_sample *sample, uint32_t a,
+                          uint32_t b, int32_t column, int32_t line) {
+  struct sample_depth of_a = warnock_sample_depth(sample, a, column, line);
+  struct sample_depth of_b = warnock_sample_depth(sample, b, column, line);
+  double doubt = of_a.error + of_b.error;
+  int order;
+  if (of_a.z > of_b.z + doubt)
+    return true;
+  if (of_a.z < of_b.z - doubt)
+    return false;
+  order = raster_compare(&sample->fine, a, b, column, line);
+  return order > 0 || (order == 0 && a < b);
+}
+
+bool warnock_sample_covers(const struct warnock_sample *sample, uint32_t facet,
+                           int32_t column, int32_t line) {
+  const struct scan_grid *grid = &sample->fine.grid;
+  const struct sheet *sheet = sample->fine.sheet;
+  const uint32_t *corner, *side;
+  uint32_t count = facet_outline(sample->facets, sheet, facet, &corner, &side);
+  int64_t x = centre_x(grid, column), y = centre_y(grid, line);
+  bool above = false, below = false;
+  for (uint32_t k = 0; k < count; k++) {
+    struct geom_point p = sheet->point.item[corner[k]];
+    struct geom_point q = sheet->point.item[corner[k + 1 == count ? 0 : k + 1]];
+    int128 along = (int128)((int64_t)q.x - p.x) * (y - p.y * grid->den);
+    int128 across = (int128)((int64_t)q.y - p.y) * (x - p.x * grid->den);
+    if (along < across)
+      return false;
+    above |= p.y * grid->den > y;
+    below |= p.y * grid->den <= y;
+  }
+  return above && below;
+}
+
+static int128 floor_divide(int128 num, int128 den) {
+  int128 quotient = num / den;
+  return num % den < 0 ? quotient - 1 : quotient;
+}
+
+bool warnock_sample_columns(const struct warnock_sample *sample, uint32_t facet,
+                            int32_t line, int64_t *first, int64_t *past) {
+  const struct scan_grid *grid = &sample->fine.grid;
+  const struct sheet *sheet = sample->fine.sheet;
+  const uint32_t *corner, *side;
+  uint32_t count = facet_outline(sample->facets, sheet, facet, &corner, &side);
+  int64_t y = centre_y(grid, line), zero = centre_x(grid, 0);
+  *first = *past = 0;
+  for (uint32_t k = 0; k < count; k++) {
+    struct geom_point p = sheet->point.item[corner[k]];
+    struct geom_point q = sheet->point.item[corner[k + 1 == count ? 0 : k + 1]];
+    int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y;
+    bool p_below = p.y * grid->den <= y;
+    int128 num;
+    if (p_below == (q.y * grid->den <= y))
+      continue;
+    /* Of the two sides that pass the line the one going up is on the right. */
+    num = (int128)(p.x * grid->den - zero) * dy +
+          (int128)dx * (y - p.y * grid->den);
+    if (p_below)
+      *past = (int64_t)floor_divide(num, (int128)dy * grid->x_step) + 1;
+    else
+      *first = -(int64_t)floor_divide(num, -(int128)dy * grid->x_step);
+  }
+  return *first < *past;
+}

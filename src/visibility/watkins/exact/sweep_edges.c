@@ -1,0 +1,146 @@
+/* sweep_edges.c - the edges that the sweep meets. */
+#include <string.h>
+
+#include "visibility/watkins/exact/sweep.h"
+
+/* Sides of triangles and drawn lines, by their two points. */
+struct sweep_gathering {
+  struct sort_key *key;
+  size_t count;
+};
+
+static uint64_t key_of(uint32_t p, uint32_t q) {
+  return p < q ? (uint64_t)p << 32 | q : (uint64_t)q << 32 | p;
+}
+
+bool sweep_takes_line(const struct sheet *sheet, size_t e) {
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  const struct geom_point *p = &sheet->point.item[edge->point[0]];
+  const struct geom_point *q = &sheet->point.item[edge->point[1]];
+  return edge->edge_class != 0 && edge->triangle[0] != SHEET_NONE &&
+         edge->edge_class != RECTO_EDGE_INTERSECTION &&
+         (p->x != q->x || p->y != q->y);
+}
+
+/* The value of a key: of triangle t's side k 3 t + k, of a drawn line e
+ * 3 x triangles + e. */
+static void list_keys(struct sweep_gathering *g, const struct sheet *sheet,
+                      const uint8_t *kept, bool drawn) {
+  uint32_t triangles = (uint32_t)sheet->triangle.count;
+  for (uint32_t t = 0; t < triangles; t++) {
+    const uint32_t *point = sheet->triangle.item[t].point;
+    if ((sheet->triangle_flags[t] & SHEET_FLAT) || (kept != NULL && !kept[t]))
+      continue;
+    for (uint32_t k = 0; k < 3; k++)
+      g->key[g->count++] = (struct sort_key){
+          key_of(point[k], point[k == 2 ? 0 : k + 1]), 3 * t + k};
+  }
+  for (uint32_t e = 0; drawn && e < sheet->edge.count; e++)
+    if (sweep_takes_line(sheet, e))
+      g->key[g->count++] = (struct sort_key){
+          key_of(sheet->edge.item[e].point[0], sheet->edge.item[e].point[1]),
+          3 * triangles + e};
+}
+
+static uint64_t key_of_end(int32_t x, int32_t y) {
+  return ((uint64_t)((INT64_C(1) << 30) - y) << 31) |
+         (uint64_t)((INT64_C(1) << 30) + x);
+}
+
+static bool add_edge(struct sweep *sweep, uint64_t points, uint32_t side) {
+  const struct geom_point *p = &sweep->sheet->point.item[points >> 32];
+  const struct geom_point *q = &sweep->sheet->point.item[points & UINT32_MAX];
+  struct sweep_edge edge = {.toggle = (uint32_t)sweep->toggle.count,
+                            .side = side};
+  if (key_of_end(p->x, p->y) > key_of_end(q->x, q->y)) {
+    const struct geom_point *swap = p;
+    p = q;
+    q = swap;
+  }
+  edge.x0 = p->x;
+  edge.y0 = p->y;
+  edge.x1 = q->x;
+  edge.y1 = q->y;
+  return ARRAY_PUSH(&sweep->edge, edge);
+}
+
+/* Makes one edge of all that run between the same two points; of more than
+ * one drawn line, more edges. */
+static bool add_edges(struct sweep *sweep, const struct sort_key *key,
+                      size_t count) {
+  uint32_t sides = 3 * (uint32_t)sweep->sheet->triangle.count;
+  size_t i = 0;
+  if (key->value < sides) {
+    if (!add_edge(sweep, key->key, SHEET_NONE))
+      return false;
+    for (; i < count && key[i].value < sides; i++)
+      if (!ARRAY_PUSH(&sweep->toggle, key[i].value / 3))
+        return false;
+    sweep->edge.item[sweep->edge.count - 1].toggles = (uint32_t)i;
+    if (i < count)
+      sweep->edge.item[sweep->edge.count - 1].side = key[i++].value - sides;
+  }
+  for (; i < count; i++)
+    if (!add_edge(sweep, key->key, key[i].value - sides))
+      return false;
+  return true;
+}
+
+/* Sorts the ends of all edges by their places. */
+static bool sort_ends(struct sweep *sweep) {
+  size_t count = sweep->edge.count;
+  struct sort_key *scratch = mem_alloc(2 * count, sizeof *scratch);
+  sweep->end = mem_alloc(2 * count, sizeof *sweep->end);
+  if (scratch == NULL || sweep->end == NULL) {
+    mem_free(scratch);
+    return false;
+  }
+  for (size_t e = 0; e < count; e++) {
+    const struct sweep_edge *edge = &sweep->edge.item[e];
+    sweep->end[2 * e] =
+        (struct sort_key){key_of_end(edge->x0, edge->y0), (uint32_t)e};
+    sweep->end[2 * e + 1] =
+        (struct sort_key){key_of_end(edge->x1, edge->y1), SWEEP_NONE};
+  }
+  sweep->ends = 2 * count;
+  sort_keys(sweep->end, scratch, sweep->ends);
+  mem_free(scratch);
+  return true;
+}
+
+bool sweep_init(struct sweep *sweep, const struct sheet *sheet,
+                const uint8_t *kept, bool drawn) {
+  size_t most = 3 * sheet->triangle.count + (drawn ? sheet->edge.count : 0);
+  struct sweep_gathering g = {mem_alloc(2 * most, sizeof *g.key), 0};
+  bool ok = g.key != NULL;
+  memset(sweep, 0, sizeof *sweep);
+  sweep->sheet = sheet;
+  sweep->most_in = SWEEP_IN_MAX;
+  sweep->most_places = SWEEP_EVENTS_MAX;
+  if (ok) {
+    list_keys(&g, sheet, kept, drawn);
+    sort_keys(g.key, g.key + most, g.count);
+  }
+  for (size_t i = 0, past; ok && i < g.count; i = past) {
+    for (past = i + 1; past < g.count && g.key[past].key == g.key[i].key;)
+      past++;
+    ok = add_edges(sweep, &g.key[i], past - i);
+  }
+  mem_free(g.key);
+  return ok && sort_ends(sweep);
+}
+
+void sweep_fini(struct sweep *sweep) {
+  for (size_t e = 0; e < sweep->edge.count; e++)
+    ARRAY_FREE(&sweep->edge.item[e].in);
+  ARRAY_FREE(&sweep->edge);
+  ARRAY_FREE(&sweep->toggle);
+  ARRAY_FREE(&sweep->crossing);
+  ARRAY_FREE(&sweep->height);
+  ARRAY_FREE(&sweep->active);
+  ARRAY_FREE(&sweep->out);
+  ARRAY_FREE(&sweep->starting);
+  ARRAY_FREE(&sweep->around);
+  mem_free(sweep->end);
+  sweep->end = NULL;
+}

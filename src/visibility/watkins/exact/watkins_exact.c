@@ -1,0 +1,301 @@
+/* watkins_exact.c - from the sweep over exact heights to the visible map.
+ *
+ * Strokes    while a line is active, the sweep lists the triangles that are in
+ *            beside it; each is asked once what it hides of the line (occlusion.h).
+ *            No triangle that is never in beside it can hide anything of it.
+ *            Lines that are no face's edge are left to pairwise_fallback.h.
+ * Fragments  see trapezoid_cells.c: trapezoids, each with the triangle that is
+ *            seen in it, are joined by fragments.h.
+ */
+#include "visibility/watkins/exact/watkins_exact.h"
+
+#include <string.h>
+
+#include "visibility/intersection/intersection.h"
+#include "visibility/progress.h"
+#include "visibility/predicate/edge_intervals.h"
+#include "visibility/pairwise/pairwise_fallback.h"
+#include "visibility/watkins/exact/trapezoid_cells.h"
+
+/* At most so many lines and triangles that may hide something of them. */
+#define MEETINGS_MAX (1 << 24)
+
+/* ---- Meetings ------------------------------------------------------------ */
+
+/* Pairs of a line and a triangle beside it. */
+struct meetings {
+  ARRAY(struct sort_key) pair; /* edge of the sheet << 32 | triangle */
+  size_t room; /* pairs are sorted and made unique when there are so many */
+  bool too_many;
+};
+
+/* What both sweeps' callbacks get. */
+struct exact {
+  struct trapezoid_cells cells;
+  struct meetings meetings;
+  struct progress progress;
+  struct pairwise_fallback fallback;
+  bool ready; /* the latter is */
+};
+
+/* Makes `undecided` ready, if it is not; false when memory ran out. */
+static bool need_fallback(struct exact *exact, const struct sheet *sheet,
+                          const struct solver_request *request) {
+  if (exact->ready)
+    return true;
+  exact->progress = progress_of(request, "edges");
+  exact->ready = true;
+  return pairwise_fallback_init(&exact->fallback, sheet, request->fragments,
+                                &exact->progress);
+}
+
+/* Sorts the pairs and drops those that are there twice. */
+static bool settle_pairs(struct meetings *meetings) {
+  size_t count = meetings->pair.count, kept = 0;
+  struct sort_key *pair = meetings->pair.item;
+  struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
+  if (scratch == NULL)
+    return false;
+  sort_keys(pair, scratch, count);
+  mem_free(scratch);
+  for (size_t i = 0; i < count; i++)
+    if (kept == 0 || pair[i].key != pair[kept - 1].key)
+      pair[kept++] = pair[i];
+  meetings->pair.count = kept;
+  meetings->room = 2 * kept + 4096;
+  meetings->too_many = kept > MEETINGS_MAX;
+  return true;
+}
+
+static bool take_meeting(void *user, const struct sweep *sweep, uint32_t edge,
+                         uint32_t triangle) {
+  struct meetings *meetings = &((struct exact *)user)->meetings;
+  uint32_t side = sweep->edge.item[edge].side;
+  const uint32_t *own = sweep->sheet->edge.item[side].triangle;
+  struct sort_key pair = {(uint64_t)side << 32 | triangle, 0};
+  if (meetings->too_many || triangle == own[0] || triangle == own[1])
+    return true;
+  return (meetings->pair.count < meetings->room || settle_pairs(meetings)) &&
+         ARRAY_PUSH(&meetings->pair, pair);
+}
+
+static bool take_cell(void *user, const struct sweep *sweep,
+                      const struct sweep_cell *cell) {
+  return trapezoid_cells_take(&((struct exact *)user)->cells, sweep, cell);
+}
+
+/* ---- Strokes ------------------------------------------------------------- */
+
+static bool store_edge(const struct sheet *sheet, uint32_t e,
+                       const struct sort_key *pair, size_t count,
+                       struct edge_intervals *intervals,
+                       struct occlusion_counts *counts, struct map *map) {
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  struct geom_point p = sheet->point.item[edge->point[0]];
+  struct geom_point q = sheet->point.item[edge->point[1]];
+  struct box2 box = box2_of_segment(p, q);
+  edge_intervals_start(intervals);
+  for (size_t i = 0; i < count && !intervals->whole; i++) {
+    uint32_t triangle = (uint32_t)pair[i].key;
+    struct occluded_interval part;
+    if (occlusion_is_possible(sheet, triangle, p, q, box) &&
+        occlude_edge_by(sheet, triangle, p, q, &part, counts) &&
+        !edge_intervals_occlude(intervals, part))
+      return false;
+  }
+  return edge_intervals_store(intervals, e, map);
+}
+
+/* The same of a line that is no face's edge. */
+static bool store_line(struct exact *exact, const struct sheet *sheet,
+                       const struct solver_request *request, uint32_t e,
+                       struct map *map) {
+  struct edge_intervals *intervals = NULL;
+  if (need_fallback(exact, sheet, request))
+    intervals = pairwise_fallback_edge(&exact->fallback, e);
+  return intervals != NULL && edge_intervals_store(intervals, e, map);
+}
+
+static recto_status store_strokes(struct exact *exact,
+                                  const struct sheet *sheet,
+                                  const struct solver_request *request,
+                                  struct map *map, struct report *report,
+                                  recto_error *error) {
+  struct meetings *meetings = &exact->meetings;
+  const struct sort_key *pair;
+  struct edge_intervals intervals = {0};
+  struct occlusion_counts counts = {0};
+  struct progress progress = progress_of(request, "edges");
+  size_t i = 0, count;
+  bool ok =
+      settle_pairs(meetings) && edge_intervals_open_map(map, sheet->edge.count);
+  if (ok && meetings->too_many)
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "too much for watkins without a pitch: lines have faces "
+                     "beside them in more than %d pairs; -m auto has no such "
+                     "limit",
+                     MEETINGS_MAX);
+  pair = meetings->pair.item;
+  count = meetings->pair.count;
+  for (uint32_t e = 0; ok && e < sheet->edge.count; e++) {
+    const struct sort_key *own = count > 0 ? pair + i : NULL;
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    const struct geom_point *p = &sheet->point.item[edge->point[0]];
+    const struct geom_point *q = &sheet->point.item[edge->point[1]];
+    size_t first = i;
+    while (i < count && pair[i].key >> 32 == e)
+      i++;
+    if (edge->edge_class == 0 || (p->x == q->x && p->y == q->y))
+      continue;
+    if (!sweep_takes_line(sheet, e))
+      ok = store_line(exact, sheet, request, e, map);
+    else
+      ok = progress_step(&progress, i - first) &&
+           store_edge(sheet, e, own, i - first, &intervals, &counts, map);
+  }
+  occlusion_report(&counts, report);
+  report_int(report, "watkins", "faces_beside_lines", (int64_t)count);
+  edge_intervals_fini(&intervals);
+  progress.cancelled |= exact->progress.cancelled;
+  return ok ? RECTO_OK : progress_error(&progress, error);
+}
+
+/* ---- Fragments ----------------------------------------------------------- */
+
+/* Hands in what is seen of the triangles left over. */
+static recto_status store_left_over(struct exact *exact,
+                                    const struct sheet *sheet,
+                                    const struct solver_request *request,
+                                    struct fragments *fragments,
+                                    struct report *report, recto_error *error) {
+  ARRAY(uint32_t) list = {0};
+  bool ok = true;
+  for (uint32_t t = 0; ok && t < sheet->triangle.count; t++)
+    if (trapezoid_cells_leave(&exact->cells, t))
+      ok = ARRAY_PUSH(&list, t);
+  report_int(report, "watkins", "left_over", (int64_t)list.count);
+  if (list.count > 0)
+    ok = ok && need_fallback(exact, sheet, request) &&
+         pairwise_fallback_faces(&exact->fallback, list.item, list.count,
+                                 fragments);
+  ARRAY_FREE(&list);
+  return ok ? RECTO_OK : progress_error(&exact->progress, error);
+}
+
+/* Sweeps the triangles that were seen once more. */
+static recto_status solve_fragments(struct exact *exact,
+                                    const struct sheet *sheet,
+                                    const struct triangle_grid *grid,
+                                    const struct solver_request *request,
+                                    struct map *map, struct report *report,
+                                    recto_error *error) {
+  struct trapezoid_cells *cells = &exact->cells;
+  struct fragments fragments;
+  struct sweep sweep;
+  recto_status status = RECTO_OK;
+  struct progress progress = progress_of(request, "faces");
+  bool ready = fragments_init(&fragments, sheet, grid, true);
+  if (!sweep_init(&sweep, sheet, cells->seen, false) || !ready)
+    status = error_memory(error);
+  fragments.progress = &progress;
+  fragments.report = report;
+  sweep.cell = take_cell;
+  sweep.user = exact;
+  cells->keep = true;
+  cells->count = cells->asked = 0;
+  if (status == RECTO_OK)
+    status = sweep_run(&sweep, request, 0.5, 0.7, error);
+  if (status == RECTO_OK)
+    status = trapezoid_cells_finish(cells, &sweep, &fragments, error);
+  exact->progress.stage = "faces";
+  if (status == RECTO_OK)
+    status = store_left_over(exact, sheet, request, &fragments, report, error);
+  if (status == RECTO_OK && !fragments_finish(&fragments, request->areas, map))
+    status = progress_error(&progress, error);
+  report_int(report, "watkins", "trapezoids_of_seen", (int64_t)cells->count);
+  report_int(report, "watkins", "not_told_by_doubles", (int64_t)cells->asked);
+  sweep_fini(&sweep);
+  if (ready)
+    fragments_fini(&fragments);
+  return status;
+}
+
+/* ---- The solver ---------------------------------------------------------- */
+
+/* Sweeps all triangles and lines. */
+static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
+                              const uint8_t *kept,
+                              const struct solver_request *request,
+                              struct report *report, recto_error *error) {
+  struct sweep sweep;
+  recto_status status = RECTO_OK;
+  if (!sweep_init(&sweep, sheet, kept, request->strokes))
+    status = error_memory(error);
+  sweep.cell = request->fragments ? take_cell : NULL;
+  sweep.meet = request->strokes ? take_meeting : NULL;
+  sweep.user = exact;
+  if (status == RECTO_OK)
+    status = sweep_run(&sweep, request, 0, 0.5, error);
+  report_int(report, "watkins", "edges", (int64_t)sweep.edge.count);
+  report_int(report, "watkins", "places", (int64_t)sweep.places);
+  report_int(report, "watkins", "heights", (int64_t)sweep.height.count);
+  report_int(report, "watkins", "crossings_found", (int64_t)sweep.crossings);
+  report_int(report, "watkins", "trapezoids", (int64_t)exact->cells.count);
+  sweep_fini(&sweep);
+  return status;
+}
+
+/* One byte a triangle: is it in the lists of the grid, so that it is there?
+ * NULL: all are. */
+static recto_status list_kept(const struct sheet *sheet,
+                              const struct triangle_grid *grid, uint8_t **kept,
+                              recto_error *error) {
+  *kept = NULL;
+  if (grid->left_out == NULL)
+    return RECTO_OK;
+  *kept = mem_alloc(sheet->triangle.count, 1);
+  for (uint32_t t = 0; *kept != NULL && t < sheet->triangle.count; t++)
+    (*kept)[t] = !triangle_grid_leaves_out(grid, t);
+  return *kept != NULL ? RECTO_OK : error_memory(error);
+}
+
+static recto_status solve_on(struct exact *exact, const struct sheet *sheet,
+                             const struct triangle_grid *grid,
+                             const struct solver_request *request,
+                             struct map *map, struct report *report,
+                             recto_error *error) {
+  uint8_t *kept;
+  recto_status status = list_kept(sheet, grid, &kept, error);
+  if (status == RECTO_OK && request->fragments &&
+      !trapezoid_cells_init(&exact->cells, sheet))
+    status = error_memory(error);
+  if (status == RECTO_OK)
+    status = sweep_all(exact, sheet, kept, request, report, error);
+  mem_free(kept);
+  if (status == RECTO_OK && request->strokes)
+    status = store_strokes(exact, sheet, request, map, report, error);
+  if (status == RECTO_OK && request->fragments)
+    status = solve_fragments(exact, sheet, grid, request, map, report, error);
+  return status;
+}
+
+recto_status watkins_solve_exactly(struct sheet *sheet,
+                                   const struct solver_request *request,
+                                   struct map *map, struct report *report,
+                                   recto_error *error) {
+  struct exact exact;
+  struct triangle_grid grid;
+  recto_status status = RECTO_OK;
+  memset(&exact, 0, sizeof exact);
+  if (!triangle_grid_init(&grid, sheet))
+    return error_memory(error);
+  if (request->intersections)
+    status = intersection_find_all(sheet, &grid, NULL, request, report, error);
+  if (status == RECTO_OK)
+    status = solve_on(&exact, sheet, &grid, request, map, report, error);
+  ARRAY_FREE(&exact.meetings.pair);
+  trapezoid_cells_fini(&exact.cells);
+  pairwise_fallback_fini(&exact.fallback);
+  triangle_grid_fini(&grid);
+  return status;
+}

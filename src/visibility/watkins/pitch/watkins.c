@@ -1,0 +1,350 @@
+/* watkins.c - the interval scan line.
+ *
+ * At a pitch
+ *   Phases   facets' edges enter S by their first line; line by line from the
+ *            top they pass through A, which cuts the line into intervals; in
+ *            each the facet seen is decided (watkins_interval.c).  What is seen
+ *            makes spans, and spans of neighbouring lines between the same
+ *            edges trapezoids (trapezoids.h).  The ends of intervals make strokes:
+ *            an edge that is drawn on one line and on the next is drawn in
+ *            between.
+ *   Strokes  a line stands for half a pitch up and down, and an edge that ends
+ *            between two lines is drawn to its end.  Edges that run along the
+ *            lines rather than across, wires, and lines where faces pierce
+ *            each other are followed through the spans of the lines above and
+ *            below (edge_sampling.h).
+ *   Cost     linear in the edges' lines and the intervals; memory linear in
+ *            the scene and what is seen.
+ * Without one: watkins_exact.c.
+ *
+ * Source  [Watkins1970]; [Romney1969] coherence; [Archuleta1972] strokes;
+ *         Rogers ch. 4.
+ */
+#include "visibility/watkins/pitch/watkins.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "visibility/watkins/exact/watkins_exact.h"
+
+#define LINES_A_QUESTION 64 /* whether to go on, at most */
+#define OPEN_NONE (-1)
+
+/* ---- Strokes ------------------------------------------------------------- */
+
+/* The lines [last, first] on which an edge of the sheet was seen, from the
+ * top. */
+struct open_run {
+  int32_t first, last;   /* first OPEN_NONE: not seen yet */
+  bool from_end, to_end; /* the edge's own first and last line are in it */
+};
+
+/* What is seen on a line. */
+struct interval_row {
+  const struct watkins *watkins;
+  watkins_pieces piece;
+};
+
+struct scan {
+  const struct solver_request *request;
+  struct watkins watkins;
+  struct edge_sampling sampling;
+  struct trapezoids trapezoids;
+  struct open_run *run; /* one an edge of the sheet */
+  struct interval_row row, above;
+};
+
+static uint32_t seen_at(const void *user, double x) {
+  const struct interval_row *row = user;
+  const struct watkins_piece *piece = row->piece.item;
+  size_t low = 0, high = row->piece.count;
+  while (low < high) {
+    size_t middle = low + (high - low) / 2;
+    if (piece[middle].x1 > x)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  if (low == row->piece.count || piece[low].x0 > x)
+    return SHEET_NONE;
+  return row->watkins->facet.item[piece[low].facet].triangle;
+}
+
+/* The place of a frame height along an edge from y0 to y1, in cells. */
+static uint32_t cell_at(double y, double y0, double y1) {
+  double cells = (y - y0) / (y1 - y0) * (1 << EDGE_SAMPLING_BITS_MAX);
+  if (!(cells > 0))
+    return 0;
+  return cells < 1 << EDGE_SAMPLING_BITS_MAX
+             ? (uint32_t)(cells + 0.5)
+             : (uint32_t)1 << EDGE_SAMPLING_BITS_MAX;
+}
+
+static double height_of(const struct scan *scan, uint32_t point) {
+  const struct scan_grid *grid = &scan->watkins.table.grid;
+  int64_t y = scan->watkins.sheet->point.item[point].y;
+  return (double)(y * grid->den - grid->y_first) / (double)grid->y_step;
+}
+
+/* Files the run at hand of an edge of the sheet. */
+static bool close_run(struct scan *scan, uint32_t side) {
+  struct open_run *open = &scan->run[side];
+  const uint32_t *point = scan->watkins.sheet->edge.item[side].point;
+  double y0 = height_of(scan, point[0]), y1 = height_of(scan, point[1]);
+  double top = open->first + 1, bottom = open->last;
+  struct sampled_run run = {.edge = side};
+  if (open->first == OPEN_NONE)
+    return true;
+  if (open->from_end)
+    top = fmax(y0, y1);
+  if (open->to_end)
+    bottom = fmin(y0, y1);
+  run.first = cell_at(y0 < y1 ? bottom : top, y0, y1);
+  run.past = cell_at(y0 < y1 ? top : bottom, y0, y1);
+  open->first = OPEN_NONE;
+  return run.first >= run.past ||
+         edge_sampling_add(&scan->sampling, run, EDGE_SAMPLING_BITS_MAX);
+}
+
+/* Joins the ends drawn on the line to those of the line before. */
+static bool take_ends(struct scan *scan) {
+  const struct watkins *watkins = &scan->watkins;
+  int32_t line = watkins->table.line;
+  for (size_t i = 0; i < watkins->shown.count; i++) {
+    uint32_t e = watkins->shown.item[i];
+    const struct watkins_edge *edge = &watkins->edge.item[e];
+    int32_t left = watkins->table.edge.item[e].dy;
+    struct open_run *open = &scan->run[edge->side];
+    if (open->first == OPEN_NONE || open->last > line + 1) {
+      if (!close_run(scan, edge->side))
+        return false;
+      open->first = line;
+      open->from_end = left == edge->lines;
+    }
+    open->last = line;
+    open->to_end = left == 0;
+  }
+  return true;
+}
+
+static bool open_strokes(struct scan *scan) {
+  const struct watkins *watkins = &scan->watkins;
+  size_t count = watkins->sheet->edge.count;
+  uint8_t *followed = mem_calloc(count, 1);
+  bool ok;
+  scan->run = mem_alloc(count, sizeof *scan->run);
+  ok = scan->run != NULL && followed != NULL;
+  for (size_t e = 0; ok && e < count; e++)
+    scan->run[e].first = OPEN_NONE;
+  for (size_t e = 0; ok && e < watkins->edge.count; e++)
+    if (watkins->edge.item[e].drawn)
+      followed[watkins->edge.item[e].side] = 1;
+  ok = ok && edge_sampling_init(&scan->sampling, watkins->sheet,
+                                &watkins->table.grid, 0, 1, followed);
+  mem_free(followed);
+  return ok;
+}
+
+static bool finish_strokes(struct scan *scan, struct map *map) {
+  size_t count = scan->watkins.sheet->edge.count;
+  for (size_t e = 0; e < count; e++)
+    if (!close_run(scan, (uint32_t)e))
+      return false;
+  return edge_sampling_line(&scan->sampling, -1, seen_at, &scan->row, NULL) &&
+         edge_sampling_finish(&scan->sampling, map);
+}
+
+/* ---- Fragments ----------------------------------------------------------- */
+
+static double between(double value, int64_t a, int64_t b) {
+  double low = (double)(a < b ? a : b), high = (double)(a < b ? b : a);
+  return value < low ? low : value > high ? high : value;
+}
+
+static bool has_face(const struct watkins *watkins,
+                     const struct watkins_edge *edge, uint32_t face) {
+  const struct watkins_facet *facet = watkins->facet.item;
+  return facet[edge->facet[0]].face == face ||
+         (edge->facet[1] != WATKINS_NONE && facet[edge->facet[1]].face == face);
+}
+
+/* The side of a span at x: along an edge of the table, or where `face` and
+ * `other` pierce each other. */
+static struct span_side side_at(const struct watkins *watkins, uint32_t e,
+                                double x, uint32_t face, uint32_t other) {
+  const struct scan_grid *grid = &watkins->table.grid;
+  struct span_side side = {
+      .key = SPAN_ALONE, .id = other, .side = MAP_SIDE_INTERSECTION};
+  const struct watkins_edge *edge;
+  const struct scan_edge *at;
+  double upper, lower;
+  side.x = side.upper = side.lower = scan_plane_x(grid, x);
+  if (e == WATKINS_NONE)
+    return side;
+  edge = &watkins->edge.item[e];
+  at = &watkins->table.edge.item[e];
+  upper = scan_plane_x(grid, x - at->dx / 2);
+  lower = scan_plane_x(grid, x + at->dx / 2);
+  side.upper = between(upper, at->x0, at->x1);
+  side.lower = between(lower, at->x0, at->x1);
+  side.straight = side.upper == upper && side.lower == lower;
+  side.key = e;
+  side.id = edge->side;
+  if (edge->side == SHEET_NONE)
+    side.side = MAP_SIDE_CUT;
+  else if (has_face(watkins, edge, face))
+    side.side = MAP_SIDE_EDGE;
+  else
+    side.side = MAP_SIDE_OUTLINE;
+  return side;
+}
+
+static uint32_t face_of(const struct watkins *watkins,
+                        const struct watkins_piece *piece) {
+  return watkins->facet.item[piece->facet].face;
+}
+
+/* Pieces of one face that meet are one span. */
+static bool take_spans(struct scan *scan) {
+  const struct watkins *watkins = &scan->watkins;
+  const struct watkins_piece *piece = watkins->piece.item;
+  size_t count = watkins->piece.count;
+  for (size_t i = 0, past; i < count; i = past) {
+    uint32_t face = face_of(watkins, &piece[i]);
+    struct span span = {.face = face};
+    for (past = i + 1; past < count && piece[past].x0 == piece[past - 1].x1 &&
+                       face_of(watkins, &piece[past]) == face;)
+      past++;
+    span.left = side_at(watkins, piece[i].left, piece[i].x0, face,
+                        i > 0 ? face_of(watkins, &piece[i - 1]) : face);
+    span.right =
+        side_at(watkins, piece[past - 1].right, piece[past - 1].x1, face,
+                past < count ? face_of(watkins, &piece[past]) : face);
+    if (!trapezoids_add(&scan->trapezoids, watkins->table.line, &span))
+      return false;
+  }
+  return true;
+}
+
+/* ---- The walk ------------------------------------------------------------ */
+
+/* Takes a line; `here` tells whether any edge crosses it. */
+static bool take_line(struct scan *scan, int32_t line, bool here) {
+  struct watkins *watkins = &scan->watkins;
+  watkins_pieces free_pieces = scan->above.piece;
+  scan->above.piece = scan->row.piece;
+  scan->row.piece = free_pieces;
+  scan->row.piece.count = 0;
+  if (here) {
+    watkins_pieces now = watkins->piece;
+    if ((scan->request->fragments && !take_spans(scan)) ||
+        (scan->request->strokes && !take_ends(scan)))
+      return false;
+    watkins->piece = scan->row.piece;
+    scan->row.piece = now;
+  }
+  return !scan->request->strokes ||
+         edge_sampling_line(&scan->sampling, line, seen_at,
+                            line + 1 < watkins->table.grid.lines ? &scan->above
+                                                                 : NULL,
+                            &scan->row);
+}
+
+static recto_status walk_lines(struct scan *scan, recto_error *error) {
+  struct progress progress = progress_of(scan->request, "visibility");
+  struct watkins *watkins = &scan->watkins;
+  int32_t lines = watkins->table.grid.lines;
+  bool more;
+  watkins->progress = &progress;
+  if (!watkins_next(watkins, &more))
+    return progress_error(&progress, error);
+  for (int32_t line = lines; line-- > 0;) {
+    bool here = more && watkins->table.line == line;
+    if (!take_line(scan, line, here) || (here && !watkins_next(watkins, &more)))
+      return progress_error(&progress, error);
+    progress.share = 1 - (double)line / lines;
+    if (!progress_step(&progress, PROGRESS_WORK / LINES_A_QUESTION))
+      return progress_error(&progress, error);
+  }
+  return RECTO_OK;
+}
+
+static void report_scan(const struct scan *scan, struct report *report) {
+  const struct watkins *watkins = &scan->watkins;
+  report_int(report, "watkins", "lines", watkins->table.grid.lines);
+  report_int(report, "watkins", "intervals", watkins->counts.intervals);
+  report_int(report, "watkins", "kept_by_coherence", watkins->counts.coherent);
+  report_int(report, "watkins", "depth_comparisons",
+             watkins->counts.comparisons);
+  report_int(report, "watkins", "splits_by_piercing", watkins->counts.splits);
+  if (scan->request->fragments) {
+    report_int(report, "watkins", "spans", scan->trapezoids.count);
+    report_int(report, "watkins", "trapezoids",
+               (int64_t)scan->trapezoids.trapezoid.count);
+  }
+}
+
+static recto_status run_scan(struct scan *scan, const struct sheet *sheet,
+                             const struct facets *facets,
+                             const struct scan_grid *grid, struct map *map,
+                             struct report *report, recto_error *error) {
+  const struct solver_request *request = scan->request;
+  recto_status status;
+  if (!watkins_init(&scan->watkins, sheet, facets, grid) ||
+      (request->strokes && !open_strokes(scan)) ||
+      (request->fragments && !trapezoids_init(&scan->trapezoids, sheet, grid,
+                                              scan->watkins.edge.count)))
+    return error_memory(error);
+  scan->watkins.coherence = !request->no_coherence;
+  scan->watkins.sides = request->fragments;
+  scan->row.watkins = scan->above.watkins = &scan->watkins;
+  status = walk_lines(scan, error);
+  if (status != RECTO_OK)
+    return status;
+  if ((request->strokes && !finish_strokes(scan, map)) ||
+      (request->fragments && !trapezoids_finish(&scan->trapezoids, map)))
+    return error_memory(error);
+  report_scan(scan, report);
+  return RECTO_OK;
+}
+
+static recto_status scan_lines(const struct sheet *sheet,
+                               const struct solver_request *request,
+                               struct map *map, struct report *report,
+                               recto_error *error) {
+  struct scan scan;
+  struct facets facets = {0};
+  struct scan_grid grid;
+  recto_status status = watkins_grid(&grid, sheet, request->pitch_mm, error);
+  if (status != RECTO_OK)
+    return status;
+  memset(&scan, 0, sizeof scan);
+  scan.request = request;
+  if (facets_init(&facets, sheet))
+    status = run_scan(&scan, sheet, &facets, &grid, map, report, error);
+  else
+    status = error_memory(error);
+  watkins_fini(&scan.watkins);
+  edge_sampling_fini(&scan.sampling);
+  trapezoids_fini(&scan.trapezoids);
+  mem_free(scan.run);
+  ARRAY_FREE(&scan.row.piece);
+  ARRAY_FREE(&scan.above.piece);
+  facets_fini(&facets);
+  return status;
+}
+
+static recto_status solve(struct sheet *sheet,
+                          const struct solver_request *request, struct map *map,
+                          struct report *report, recto_error *error) {
+  recto_status status;
+  if (request->pitch_mm == 0)
+    return watkins_solve_exactly(sheet, request, map, report, error);
+  status = edge_sampling_find_intersections(sheet, request, report, error);
+  if (status == RECTO_OK)
+    status = scan_lines(sheet, request, map, report, error);
+  return status;
+}
+
+const struct solver solver_watkins = {RECTO_METHOD_WATKINS, "watkins", true,
+                                      solve};

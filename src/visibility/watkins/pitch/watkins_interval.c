@@ -1,0 +1,336 @@
+/* watkins_interval.c - what is seen in an interval between two edges.
+ *
+ * Rules    one facet: that; one whose corners are all nearer than all of the
+ *          others': that; several: the nearest at the middle (at the ends
+ *          they may touch), unless it pierces another inside the interval.
+ * Piercing the signs of the difference in depth at the two ends tell: if they
+ *          differ, the two cross inside.  The interval is split there, the
+ *          right part goes onto a stack, and the left one is looked at again,
+ *          until it is free of crossings.  A zero sign: the crossing is at that
+ *          end, the other end judges.  It is enough to ask the facet in front
+ *          against the others: what crosses behind it is not seen.
+ * Coherence  edges, and the depths of facets along them, are linear from line
+ *          to line, so the signs that decided an interval stand for a number
+ *          of lines that is known when they are computed.  As long as the next
+ *          lines have an interval between the same edges with the same facets
+ *          in, its order is kept and no depth computed.  (Romney asks for all
+ *          edges of the line to be the same, and knows no piercing: a piercing
+ *          may begin without any change among the edges, which is why the
+ *          number of lines is asked for.)
+ * Ties     depths that differ by less than a tolerance are equal, and the facet
+ *          first in the file is in front.  The tolerance of two gentle facets
+ *          is 16 b, b the bound of error of one depth.  A decision is kept only
+ *          while each difference stays 8 b clear of the tolerance; what it was
+ *          when the decision was made, what it was thought to become, and what
+ *          it would be found to be are off by 2 b each.  So the output is the
+ *          same with coherence and without: a tie with the nearest at the
+ *          middle remains one whichever of those that tie is the nearest.
+ */
+#include <math.h>
+
+#include "visibility/watkins/pitch/watkins.h"
+
+/* Parts of an interval are no narrower, so that splitting ends whatever steep
+ * facets' depths are rounded to: a corner of the map is a multiple of it. */
+#define NARROWEST 0x1p-8
+
+/* ---- Depth --------------------------------------------------------------- */
+
+double watkins_depth(const struct watkins *watkins, uint32_t facet, double x) {
+  const struct watkins_facet *f = &watkins->facet.item[facet];
+  double z = f->z + f->per_x * (x - f->x);
+  return z < f->z_low ? f->z_low : z > f->z_high ? f->z_high : z;
+}
+
+static double tolerance(const struct watkins *watkins, uint32_t f, uint32_t g) {
+  return watkins->facet.item[f].slack + watkins->facet.item[g].slack;
+}
+
+static double difference(const struct watkins *watkins, uint32_t f, uint32_t g,
+                         double x) {
+  return watkins_depth(watkins, f, x) - watkins_depth(watkins, g, x);
+}
+
+int watkins_compare(struct watkins *watkins, uint32_t f, uint32_t g, double x) {
+  double apart = difference(watkins, f, g, x);
+  double slack = tolerance(watkins, f, g);
+  watkins->counts.comparisons++;
+  return (apart > slack) - (apart < -slack);
+}
+
+/* Is all of f nearer than all of g, beyond any doubt? */
+static bool is_clear(const struct watkins *watkins, uint32_t f, uint32_t g) {
+  return watkins->facet.item[f].z_low - watkins->facet.item[g].z_high >
+         2 * tolerance(watkins, f, g);
+}
+
+/* ---- Order --------------------------------------------------------------- */
+
+/* Puts H into the order of depth at x, nearest first, exact ties by index; the
+ * result does not depend on the order before. */
+static void sort_in(struct watkins *watkins, double x) {
+  uint32_t *in = watkins->in.item;
+  double *depth = watkins->depth.item;
+  for (size_t i = 0; i < watkins->in.count; i++) {
+    uint32_t f = in[i];
+    double z = watkins_depth(watkins, f, x);
+    size_t hole = i;
+    for (; hole > 0; hole--) {
+      watkins->counts.comparisons++;
+      if (depth[hole - 1] > z || (depth[hole - 1] == z && in[hole - 1] < f))
+        break;
+      in[hole] = in[hole - 1];
+      depth[hole] = depth[hole - 1];
+    }
+    in[hole] = f;
+    depth[hole] = z;
+  }
+}
+
+/* Of the facets as near as the nearest, the first in the file goes to the
+ * front. */
+static void settle_ties(struct watkins *watkins) {
+  uint32_t *in = watkins->in.item;
+  const double *depth = watkins->depth.item;
+  size_t front = 0;
+  uint32_t first;
+  for (size_t i = 1; i < watkins->in.count; i++)
+    if (in[i] < in[front] &&
+        depth[0] - depth[i] <= tolerance(watkins, in[0], in[i]))
+      front = i;
+  first = in[front];
+  for (; front > 0; front--)
+    in[front] = in[front - 1];
+  in[0] = first;
+}
+
+/* Where the facet in front crosses another between x0 and x1, and no nearer to
+ * them than corners are rounded: the first crossing found in the order of
+ * depth. */
+static bool find_crossing(struct watkins *watkins, double x0, double x1,
+                          double *at) {
+  const uint32_t *in = watkins->in.item;
+  for (size_t i = 1; i < watkins->in.count; i++) {
+    int left, right;
+    if (is_clear(watkins, in[0], in[i]))
+      continue;
+    left = watkins_compare(watkins, in[0], in[i], x0);
+    right = watkins_compare(watkins, in[0], in[i], x1);
+    if (left * right < 0) {
+      double d0 = difference(watkins, in[0], in[i], x0);
+      double d1 = difference(watkins, in[0], in[i], x1);
+      *at = x0 + (x1 - x0) * d0 / (d0 - d1);
+      if (*at - x0 > NARROWEST && x1 - *at > NARROWEST)
+        return true;
+    }
+  }
+  return false;
+}
+
+static bool add_piece(struct watkins *watkins, struct watkins_piece piece) {
+  return ARRAY_PUSH(&watkins->piece, piece);
+}
+
+/* Cuts the interval at its visible piercings.
+ * nearest  gets the facet nearest at the middle; WATKINS_NONE where it was
+ *          cut */
+static bool cut_interval(struct watkins *watkins, uint32_t left, uint32_t right,
+                         uint32_t *nearest) {
+  const struct scan_edge *edge = watkins->table.edge.item;
+  struct watkins_piece piece = {.x0 = edge[left].x, .left = left};
+  bool whole = true;
+  watkins->stack.count = 0;
+  if (!ARRAY_PUSH(&watkins->stack, edge[right].x))
+    return false;
+  while (watkins->stack.count > 0) {
+    int64_t before = watkins->counts.comparisons;
+    double at;
+    piece.x1 = watkins->stack.item[watkins->stack.count - 1];
+    sort_in(watkins, piece.x0 + (piece.x1 - piece.x0) / 2);
+    *nearest = watkins->in.item[0];
+    if (!progress_step(watkins->progress,
+                       (size_t)(watkins->counts.comparisons - before)))
+      return false;
+    settle_ties(watkins);
+    if (find_crossing(watkins, piece.x0, piece.x1, &at)) {
+      whole = false;
+      watkins->counts.splits++;
+      if (!ARRAY_PUSH(&watkins->stack, at))
+        return false;
+      continue;
+    }
+    watkins->stack.count--;
+    piece.facet = watkins->in.item[0];
+    piece.right = watkins->stack.count == 0 ? right : WATKINS_NONE;
+    if (!add_piece(watkins, piece))
+      return false;
+    piece.x0 = piece.x1;
+    piece.left = WATKINS_NONE;
+  }
+  if (!whole)
+    *nearest = WATKINS_NONE;
+  return true;
+}
+
+/* ---- Coherence ----------------------------------------------------------- */
+
+/* For how many lines a difference that is `apart` now and changes by `change`
+ * a line keeps its sign, with a margin: below half the tolerance it stays a
+ * tie, beyond one and a half it stays off. */
+static double lines_kept(double apart, double change, double slack) {
+  double size = fabs(apart);
+  if (apart < 0)
+    change = -change;
+  if (size < slack / 2)
+    return (slack / 2 - size) / fabs(change);
+  if (size <= slack * 3 / 2)
+    return 0;
+  return change < 0 ? (size - slack * 3 / 2) / -change : INFINITY;
+}
+
+/* The change a line down of the difference in depth along a path that moves by
+ * dx a line. */
+static double change_along(const struct watkins *watkins, uint32_t f,
+                           uint32_t g, double dx) {
+  const struct watkins_facet *p = &watkins->facet.item[f];
+  const struct watkins_facet *q = &watkins->facet.item[g];
+  return p->per_line - q->per_line + (p->per_x - q->per_x) * dx;
+}
+
+/* For how many lines the order in depth stands: at the middle against the
+ * nearest there, at both ends against the one in front.  Facets whose depths
+ * overlap and that are steep have none: their depths are kept within those of
+ * their corners and so are not linear; nor has a crossing too near to an end.
+ */
+static double order_kept(const struct watkins *watkins, uint32_t left,
+                         uint32_t right, uint32_t nearest) {
+  const struct scan_edge *l = &watkins->table.edge.item[left];
+  const struct scan_edge *r = &watkins->table.edge.item[right];
+  const struct {
+    double x, dx;
+  } at[3] = {{l->x, l->dx},
+             {r->x, r->dx},
+             {l->x + (r->x - l->x) / 2, l->dx + (r->dx - l->dx) / 2}};
+  const struct watkins_facet *facet = watkins->facet.item;
+  double kept = INFINITY;
+  for (size_t i = 0; i < watkins->in.count; i++) {
+    uint32_t g = watkins->in.item[i];
+    for (int k = 0; k < 3; k++) {
+      uint32_t f = k == 2 ? nearest : watkins->in.item[0];
+      double apart;
+      if (f == g || is_clear(watkins, f, g))
+        continue;
+      apart = difference(watkins, f, g, at[k].x);
+      if (!facet[f].gentle || !facet[g].gentle ||
+          (k < 2 && apart < -tolerance(watkins, f, g)))
+        return 0;
+      kept = fmin(kept, lines_kept(apart, change_along(watkins, f, g, at[k].dx),
+                                   tolerance(watkins, f, g)));
+    }
+  }
+  return kept;
+}
+
+static int parity_of(int32_t line) { return line & 1; }
+
+static bool ends_here(const struct watkins *watkins, uint32_t left,
+                      uint32_t right) {
+  const struct scan_edge *edge = watkins->table.edge.item;
+  return edge[left].dy == 0 || edge[right].dy == 0;
+}
+
+/* Files the order of H for the next line, if both edges go on to it. */
+static bool keep_record(struct watkins *watkins, uint32_t left, uint32_t right,
+                        int32_t until) {
+  int here = parity_of(watkins->table.line);
+  watkins_list *order = &watkins->order[here];
+  struct watkins_record record = {until, left, right, (uint32_t)order->count,
+                                  (uint32_t)watkins->in.count};
+  if (ends_here(watkins, left, right))
+    return true;
+  watkins->edge.item[left].record = (uint32_t)watkins->record[here].count;
+  if (!ARRAY_RESERVE(order, watkins->in.count))
+    return false;
+  for (size_t i = 0; i < watkins->in.count; i++)
+    order->item[order->count++] = watkins->in.item[i];
+  return ARRAY_PUSH(&watkins->record[here], record);
+}
+
+/* The record of the same interval on the line above, its order still standing;
+ * NULL: there is none. */
+static const struct watkins_record *find_record(const struct watkins *watkins,
+                                                uint32_t left, uint32_t right) {
+  int above = parity_of(watkins->table.line + 1);
+  uint32_t index = watkins->edge.item[left].record;
+  const struct watkins_record *record;
+  const uint32_t *order;
+  if (!watkins->coherence || index >= watkins->record[above].count)
+    return NULL;
+  record = &watkins->record[above].item[index];
+  if (record->left != left || record->right != right ||
+      record->until > watkins->table.line || record->count != watkins->in.count)
+    return NULL;
+  order = watkins->order[above].item + record->order;
+  for (uint32_t i = 0; i < record->count; i++)
+    if (!watkins->facet.item[order[i]].in)
+      return NULL;
+  return record;
+}
+
+/* ---- The interval -------------------------------------------------------- */
+
+static bool decide_anew(struct watkins *watkins, uint32_t left,
+                        uint32_t right) {
+  int32_t line = watkins->table.line;
+  uint32_t nearest = WATKINS_NONE;
+  double kept;
+  if (!ARRAY_RESERVE(&watkins->depth, watkins->in.count) ||
+      !cut_interval(watkins, left, right, &nearest))
+    return false;
+  if (nearest == WATKINS_NONE || !watkins->coherence ||
+      ends_here(watkins, left, right))
+    return true;
+  kept = order_kept(watkins, left, right, nearest);
+  return !(kept >= 1) || keep_record(watkins, left, right,
+                                     kept < line ? line - (int32_t)kept : 0);
+}
+
+/* Puts a facet that is clearly nearer than all others to the front of H;
+ * false: there is none.  No depth is computed. */
+static bool find_clear(struct watkins *watkins) {
+  const struct watkins_facet *facet = watkins->facet.item;
+  uint32_t *in = watkins->in.item, front;
+  size_t best = 0;
+  for (size_t i = 1; i < watkins->in.count; i++)
+    if (facet[in[i]].z_low > facet[in[best]].z_low)
+      best = i;
+  front = in[best];
+  for (size_t i = 0; i < watkins->in.count; i++)
+    if (i != best && !is_clear(watkins, front, in[i]))
+      return false;
+  in[best] = in[0];
+  in[0] = front;
+  return true;
+}
+
+bool watkins_decide(struct watkins *watkins, uint32_t left, uint32_t right) {
+  const struct scan_edge *edge = watkins->table.edge.item;
+  struct watkins_piece piece = {edge[left].x, edge[right].x, 0, left, right};
+  const struct watkins_record *record;
+  watkins->counts.intervals++;
+  if (!progress_step(watkins->progress, 1 + watkins->in.count))
+    return false;
+  if (watkins->in.count > 1 && !find_clear(watkins)) {
+    record = find_record(watkins, left, right);
+    if (record == NULL)
+      return decide_anew(watkins, left, right);
+    watkins->counts.coherent++;
+    for (uint32_t i = 0; i < record->count; i++)
+      watkins->in.item[i] = watkins->order[parity_of(watkins->table.line + 1)]
+                                .item[record->order + i];
+    if (!keep_record(watkins, left, right, record->until))
+      return false;
+  }
+  piece.facet = watkins->in.item[0];
+  return add_piece(watkins, piece);
+}

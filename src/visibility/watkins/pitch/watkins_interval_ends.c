@@ -1,0 +1,53 @@
+/* watkins_interval_ends.c - which edges are drawn at the ends of intervals, after
+ * Archuleta. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "visibility/watkins/pitch/watkins.h"
+
+/* What a steep edge may advance along a line, in pitches.  On a soup of 1,000
+ * triangles 1 makes more false ink, 4 misses more; their sum is least at 2. */
+#define STEEP 2
+
+bool watkins_is_steep(const struct sheet *sheet, uint32_t side) {
+  const struct sheet_edge *edge;
+  const struct geom_point *p, *q;
+  if (side == SHEET_NONE || sheet->edge.item[side].edge_class == 0)
+    return false;
+  edge = &sheet->edge.item[side];
+  p = &sheet->point.item[edge->point[0]];
+  q = &sheet->point.item[edge->point[1]];
+  return llabs((int64_t)q->x - p->x) <= STEEP * llabs((int64_t)q->y - p->y);
+}
+
+/* Is it the background or the edge's own facet? */
+static bool shows(const struct watkins *watkins, uint32_t seen, uint32_t edge) {
+  return seen == WATKINS_NONE ||
+         watkins_borders(&watkins->edge.item[edge], seen);
+}
+
+/* Is a facet seen beside the edge nearer by more than contact explains? */
+static bool is_before(struct watkins *watkins, uint32_t seen, uint32_t edge) {
+  double x = watkins->table.edge.item[edge].x;
+  double z = watkins_edge_depth(watkins, edge);
+  watkins->counts.comparisons++;
+  return watkins_depth(watkins, seen, x) >
+         z + watkins->facet.item[seen].slack +
+             edge_sampling_contact(watkins->sheet,
+                                   watkins->facet.item[seen].face, z);
+}
+
+bool watkins_show_ends(struct watkins *watkins, size_t first, size_t past,
+                       uint32_t left, uint32_t right) {
+  for (size_t i = first; i < past; i++) {
+    uint32_t e = watkins->table.active[i];
+    if (!watkins->edge.item[e].drawn ||
+        (!shows(watkins, left, e) && !shows(watkins, right, e) &&
+         is_before(watkins, left, e) &&
+         (left == right || is_before(watkins, right, e))))
+      continue;
+    if (!ARRAY_PUSH(&watkins->shown, e))
+      return false;
+  }
+  return true;
+}

@@ -1,0 +1,109 @@
+/* tile_order.c - the facets that a z-buffer draws, dealt out to tiles. */
+#include "visibility/zbuffer/tile_order.h"
+
+#include <string.h>
+
+#define TILE_COLUMNS 64
+#define NO_TILE UINT32_MAX /* of 2^27 at most */
+
+struct dealing {
+  const struct raster *raster;
+  const struct facets *facets;
+  int left_out;  /* flags of triangles that are not drawn */
+  size_t across; /* tiles of a band */
+  int32_t tallest;
+};
+
+/* The tile of a triangle's facet; NO_TILE where it stands for none, or for one
+ * that is not drawn. */
+static uint32_t find_tile(struct dealing *dealing, uint32_t triangle) {
+  const struct raster *raster = dealing->raster;
+  const struct sheet *sheet = raster->sheet;
+  const uint32_t *corner, *side;
+  int32_t low = INT32_MAX, high = 0;
+  uint32_t count;
+  int32_t column;
+  if ((sheet->triangle_flags[triangle] & dealing->left_out) ||
+      facet_of(dealing->facets, triangle) != triangle)
+    return NO_TILE;
+  count = facet_outline(dealing->facets, sheet, triangle, &corner, &side);
+  for (uint32_t k = 0; k < count; k++) {
+    int32_t line = raster->place_of[corner[k]].line;
+    low = line < low ? line : low;
+    high = line > high ? line : high;
+  }
+  if (low == high)
+    return NO_TILE;
+  if (high - low > dealing->tallest)
+    dealing->tallest = high - low;
+  column = raster->place_of[corner[0]].column;
+  return (uint32_t)((size_t)(raster->grid.lines - high) / TILE_ORDER_BAND *
+                        dealing->across +
+                    (size_t)column / TILE_COLUMNS);
+}
+
+/* Finds each triangle's tile, and where in the order each tile's facets start.
+ * start  0 of each tile */
+static void find_tiles(struct dealing *dealing, uint32_t *tile_of,
+                       size_t *start, size_t tiles) {
+  size_t sum = 0;
+  for (uint32_t t = 0; t < dealing->raster->sheet->triangle.count; t++) {
+    tile_of[t] = find_tile(dealing, t);
+    if (tile_of[t] != NO_TILE)
+      start[tile_of[t]]++;
+  }
+  for (size_t tile = 0; tile < tiles; tile++) {
+    size_t here = start[tile];
+    start[tile] = sum;
+    sum += here;
+  }
+}
+
+/* Deals out the facets, `start` of each tile being where its first one goes;
+ * afterwards it is where the next tile's does. */
+static void deal(const struct sheet *sheet, const uint32_t *tile_of,
+                 size_t *start, struct ordered_facet *item) {
+  for (uint32_t t = 0; t < sheet->triangle.count; t++) {
+    const uint32_t *p = sheet->triangle.item[t].point;
+    if (tile_of[t] != NO_TILE)
+      item[start[tile_of[t]]++] = (struct ordered_facet){t, {p[0], p[1], p[2]}};
+  }
+}
+
+bool tile_order_init(struct tile_order *order, const struct raster *raster,
+                     const struct facets *facets,
+                     const struct solver_request *request) {
+  const struct scan_grid *grid = &raster->grid;
+  size_t count = raster->sheet->triangle.count, tiles;
+  struct dealing dealing = {
+      raster, facets, SHEET_FLAT | (request->remove_backs ? SHEET_FLIPPED : 0),
+      (size_t)grid->columns / TILE_COLUMNS + 1, 0};
+  size_t *start;
+  uint32_t *tile_of = mem_alloc(count, sizeof *tile_of);
+  order->bands = ((size_t)grid->lines + TILE_ORDER_BAND - 1) / TILE_ORDER_BAND;
+  tiles = order->bands * dealing.across;
+  start = mem_calloc(tiles, sizeof *start);
+  order->item = mem_alloc(count, sizeof *order->item);
+  order->past = mem_alloc(order->bands, sizeof *order->past);
+  if (tile_of == NULL || start == NULL || order->item == NULL ||
+      order->past == NULL) {
+    mem_free(tile_of);
+    mem_free(start);
+    tile_order_fini(order);
+    return false;
+  }
+  find_tiles(&dealing, tile_of, start, tiles);
+  deal(raster->sheet, tile_of, start, order->item);
+  for (size_t band = 0; band < order->bands; band++)
+    order->past[band] = start[(band + 1) * dealing.across - 1];
+  order->tallest = dealing.tallest;
+  mem_free(tile_of);
+  mem_free(start);
+  return true;
+}
+
+void tile_order_fini(struct tile_order *order) {
+  mem_free(order->item);
+  mem_free(order->past);
+  memset(order, 0, sizeof *order);
+}

@@ -1,0 +1,138 @@
+/* zbuffer.c - the depth buffer: every facet is put into the frame in turn,
+ * each pixel keeps the nearest.
+ *
+ * Phases   facets are dealt out to bands and tiles of the frame (tile_order.h);
+ *          band by band from the top they are put into it (raster_small.h, span_fill.h,
+ *          active_edge_pair.h); lines that no later band reaches are finished and become
+ *          strokes and fragments (pixels.h).
+ * Order    any will do: of equally near facets the earlier in the file is
+ *          kept.  Going by bands, a finished line's memory is used again for a
+ *          line further down, so that the frame stays in the cache.
+ * Cost     linear in the pixels covered and the facets; memory: the lines of a
+ *          band and of the tallest facet, a frame at most.
+ * Source   Catmull 1974; Foley, van Dam, Feiner & Hughes 15.4.
+ */
+#include "visibility/zbuffer/zbuffer.h"
+
+#include "visibility/raster/active_edge_pair.h"
+#include "visibility/zbuffer/tile_order.h"
+#include "visibility/progress.h"
+#include "visibility/raster/span_fill.h"
+#include "visibility/zbuffer/raster_small.h"
+
+#define AHEAD 8 /* pieces whose corners are fetched */
+
+static void draw_piece(struct raster *raster, const struct facets *facets,
+                       const struct ordered_facet *piece, int64_t *covered) {
+  uint32_t facet = piece->facet;
+  bool joined = facets->part != NULL && facets->part[facet] != SHEET_NONE;
+  struct active_edge_pair pair;
+  bool more;
+  if (!joined && raster->depth_bits == 0 &&
+      (raster_small_triangle(raster, facet, piece->corner, covered) ||
+       span_fill_triangle(raster, facet, covered)))
+    return;
+  more = active_edge_pair_start(&pair, raster, facets, facet);
+  for (; more; more = active_edge_pair_next(&pair, raster))
+    *covered += (int64_t)active_edge_pair_draw(&pair, raster);
+}
+
+/* Returns false where the caller wants no more. */
+static bool draw_pieces(struct raster *raster, const struct facets *facets,
+                        const struct ordered_facet *piece, size_t count,
+                        struct progress *progress, int64_t *covered) {
+  for (size_t i = 0; i < count; i++) {
+    int64_t before = *covered;
+    for (int k = 0; k < 3 && i + AHEAD < count; k++)
+      RASTER_FETCH(raster, piece[i + AHEAD].corner[k]);
+    draw_piece(raster, facets, &piece[i], covered);
+    if (!progress_step(progress,
+                       1 + (size_t)(*covered - before) / PROGRESS_PIXELS))
+      return false;
+  }
+  return true;
+}
+
+/* Hands over the lines of a band that is finished, and makes their memory
+ * background for others. */
+static recto_status finish_band(struct raster *raster, struct pixels *pixels,
+                                size_t band, recto_error *error) {
+  recto_status status = RECTO_OK;
+  int32_t past = raster->grid.lines - (int32_t)band * TILE_ORDER_BAND;
+  int32_t first = past < TILE_ORDER_BAND ? 0 : past - TILE_ORDER_BAND;
+  for (int32_t line = past; line-- > first && status == RECTO_OK;) {
+    status = pixels_line(pixels, line, error);
+    if (raster->place != UINT32_MAX)
+      raster_clear_line(raster, line);
+  }
+  return status;
+}
+
+recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
+                          const struct solver_request *request,
+                          struct pixels *pixels, int64_t *covered,
+                          recto_error *error) {
+  struct progress progress = progress_of(request, "visibility");
+  recto_status status = RECTO_OK;
+  struct tile_order order;
+  size_t first = 0;
+  if (!tile_order_init(&order, raster, facets, request))
+    return error_memory(error);
+  if (pixels != NULL)
+    raster_fold(raster, TILE_ORDER_BAND + order.tallest);
+  for (size_t band = 0; band < order.bands && status == RECTO_OK; band++) {
+    if (!draw_pieces(raster, facets, order.item + first,
+                     order.past[band] - first, &progress, covered))
+      status = progress_error(&progress, error);
+    first = order.past[band];
+    if (status == RECTO_OK && pixels != NULL)
+      status = finish_band(raster, pixels, band, error);
+  }
+  tile_order_fini(&order);
+  return status;
+}
+
+static recto_status draw(struct raster *raster, const struct facets *facets,
+                         const struct solver_request *request, struct map *map,
+                         struct report *report, recto_error *error) {
+  struct pixels pixels;
+  int64_t covered = 0;
+  recto_status status =
+      pixels_init(&pixels, raster, subpixels_of(request), request, error);
+  if (status != RECTO_OK)
+    return status;
+  status = zbuffer_draw(raster, facets, request, &pixels, &covered, error);
+  if (status == RECTO_OK)
+    status = pixels_finish(&pixels, map, report, "zbuffer", error);
+  if (status == RECTO_OK) {
+    report_int(report, "zbuffer", "depth_bits", request->depth_bits);
+    report_int(report, "zbuffer", "pixels_covered", covered);
+  }
+  pixels_fini(&pixels);
+  return status;
+}
+
+static recto_status solve(struct sheet *sheet,
+                          const struct solver_request *request, struct map *map,
+                          struct report *report, recto_error *error) {
+  struct raster raster = {0};
+  struct facets facets = {0};
+  int lines;
+  recto_status status =
+      edge_sampling_find_intersections(sheet, request, report, error);
+  if (status == RECTO_OK)
+    status = subpixels_lines(request, &lines, error);
+  if (status == RECTO_OK)
+    status =
+        raster_init(&raster, sheet, lines, request->depth_bits, true, error);
+  if (status == RECTO_OK && !facets_init(&facets, sheet))
+    status = error_memory(error);
+  if (status == RECTO_OK)
+    status = draw(&raster, &facets, request, map, report, error);
+  raster_fini(&raster);
+  facets_fini(&facets);
+  return status;
+}
+
+const struct solver solver_zbuffer = {RECTO_METHOD_ZBUFFER, "zbuffer", false,
+                                      solve};

@@ -1,0 +1,19 @@
+/* zbuffer.h - the drawing step of the z-buffer, for its tests. */
+#ifndef VISIBILITY_ZBUFFER_ZBUFFER_H
+#define VISIBILITY_ZBUFFER_ZBUFFER_H
+
+#include "visibility/raster/pixels.h"
+#include "visibility/solver.h"
+
+/* Puts all facets that are drawn into the frame, which holds all lines.
+ * pixels   gets each line as soon as it is finished, and then the frame is
+ *          folded and forgets it; NULL: the frame stays
+ * covered  the pixels they cover, hidden or not, are added to it
+ * Errors   RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED. */
+USE_RESULT recto_status zbuffer_draw(struct raster *raster,
+                                     const struct facets *facets,
+                                     const struct solver_request *request,
+                                     struct pixels *pixels, int64_t *covered,
+                                     recto_error *error);
+
+#endif

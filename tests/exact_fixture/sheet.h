@@ -1,0 +1,53 @@
+/* sheet.h - sheets built by hand from integers, for tests of what comes after
+ * the view. */
+#ifndef TESTS_EXACT_FIXTURE_SHEET_H
+#define TESTS_EXACT_FIXTURE_SHEET_H
+
+#include <gmp.h>
+
+#include "visibility/solver.h"
+
+/* An empty orthographic sheet whose only contact is the grid's. */
+void exact_sheet_init(struct sheet *sheet);
+void exact_sheet_fini(struct sheet *sheet);
+
+/* Adds a convex planar face: `count` corners x, y, z, either way round, each
+ * times `scale`.  Its sides become borders, or silhouettes, creases ... of
+ * class RECTO_EDGE_SMOOTH where another face has the same side. */
+void exact_add_face(struct sheet *sheet, const int corner[][3], int count,
+                    int scale);
+
+/* Solves with everything asked for; asserts that it went well. */
+void exact_solve(const struct solver *solver, struct sheet *sheet,
+                 struct map *map, struct report *report);
+/* The same as the request says; tells how it went. */
+recto_status exact_solve_as(const struct solver *solver,
+                            const struct solver_request *request,
+                            struct sheet *sheet, struct map *map,
+                            struct report *report);
+
+/* Asserts that two maps are the same to the last bit of every number, exact
+ * areas where they are there. */
+void exact_assert_same_map(const struct map *a, const struct map *b,
+                           const char *what);
+
+/* The same for what is seen alone: a solver may leave out intersections that
+ * are hidden from end to end. */
+void exact_assert_visible_same(const struct map *a, const struct sheet *sa,
+                               const struct map *b, const struct sheet *sb,
+                               const char *what);
+
+/* The area of all fragments of a face over scale^2, as a fraction in lowest
+ * terms: asserts that it is num / den. */
+/* Adds twice the exact area of a fragment to `sum`. */
+void exact_add_area2(mpq_t sum, const struct map *map, size_t fragment);
+/* Are two fragments of the same area? */
+bool exact_same_area(const struct map *a, const struct map *b, size_t fragment);
+void exact_assert_area(const struct map *map, uint32_t face, int scale,
+                       long num, unsigned long den);
+
+/* A reproducible sequence (splitmix64). */
+uint64_t exact_random(uint64_t *state);
+int exact_below(uint64_t *state, int bound);
+
+#endif

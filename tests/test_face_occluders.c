@@ -1,0 +1,183 @@
+/* test_face_occluders.c - what many nearer triangles leave of one, in whatever order
+ * they are taken, is what the oracle leaves. */
+#include "visibility/fragments/face_occluders.h"
+#include "geom/region.h"
+#include "exact_fixture/scene.h"
+#include "visibility/fragments/occluder_subtraction.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+static bool is_flat(const struct sheet *sheet, size_t t) {
+  return sheet->triangle_flags[t] & SHEET_FLAT;
+}
+
+static void take_by_oracle(struct occluder_subtraction *subtraction,
+                           uint32_t t) {
+  const struct sheet *sheet = subtraction->sheet;
+  assert_true(occluder_subtraction_start(subtraction, t, NULL));
+  for (uint32_t g = 0; g < sheet->triangle.count; g++)
+    if (g != t && !is_flat(sheet, g))
+      assert_true(occluder_subtraction_take_nearer(subtraction, g));
+}
+
+static void take_all(struct face_occluders *occluders, uint32_t t) {
+  const struct sheet *sheet = occluders->sheet;
+  face_occluders_start(occluders, t);
+  for (uint32_t g = 0; g < sheet->triangle.count; g++)
+    if (g != t && !is_flat(sheet, g))
+      assert_true(face_occluders_test(occluders, g));
+  assert_true(face_occluders_subtract_all(occluders));
+}
+
+/* Unions in their one form, corner by corner. */
+static void assert_same_union(const geom_pieces *a, const geom_pieces *b) {
+  struct geom_region p = {0}, q = {0};
+  assert_true(geom_region_unite(&p, a->item, a->count));
+  assert_true(geom_region_unite(&q, b->item, b->count));
+  assert_int_equal(p.loop.count, q.loop.count);
+  assert_int_equal(p.side.count, q.side.count);
+  for (size_t i = 0; i < p.loop.count; i++) {
+    assert_int_equal(p.loop.item[i].count, q.loop.item[i].count);
+    assert_int_equal(p.loop.item[i].hole, q.loop.item[i].hole);
+  }
+  for (size_t i = 0; i < p.side.count; i++)
+    assert_int_equal(
+        geom_corner_compare(&p.side.item[i].corner, &q.side.item[i].corner), 0);
+  geom_region_fini(&p);
+  geom_region_fini(&q);
+}
+
+/* Compares all triangles of a sheet; counts those of which a part is left. */
+static void compare_all(const struct sheet *sheet,
+                        struct face_occluders_counts *sum, int *mixed) {
+  struct face_occluders occluders;
+  struct occluder_subtraction subtraction;
+  face_occluders_init(&occluders, sheet);
+  occluder_subtraction_init(&subtraction, sheet);
+  for (uint32_t t = 0; t < sheet->triangle.count; t++) {
+    if (is_flat(sheet, t))
+      continue;
+    take_by_oracle(&subtraction, t);
+    take_all(&occluders, t);
+    assert_int_equal(occluders.whole, subtraction.whole);
+    assert_same_union(&occluders.left, &subtraction.left);
+    if (occluders.covered)
+      assert_int_equal(subtraction.left.count, 0);
+    if (occluders.occluder.count == 0)
+      assert_true(subtraction.whole);
+    *mixed += !subtraction.whole && subtraction.left.count > 0;
+  }
+  sum->splits += occluders.counts.splits;
+  sum->crossings += occluders.counts.crossings;
+  sum->exact += occluders.counts.exact;
+  face_occluders_fini(&occluders);
+  occluder_subtraction_fini(&subtraction);
+}
+
+static void what_is_left_is_what_the_oracle_leaves(void **state) {
+  struct face_occluders_counts sum = {0};
+  int mixed = 0;
+  (void)state;
+  for (uint64_t seed = 1; seed <= 6; seed++)
+    for (int kind = 0; kind < EXACT_KINDS; kind++) {
+      uint64_t r = seed * EXACT_KINDS + (uint64_t)kind;
+      struct sheet sheet;
+      exact_random_sheet(&sheet, (enum exact_kind)kind, 60, &r);
+      compare_all(&sheet, &sum, &mixed);
+      exact_sheet_fini(&sheet);
+    }
+  /* And there was something to do. */
+  assert_true(mixed > 300);
+  assert_true(sum.splits > 100);
+  assert_true(sum.crossings > 1000);
+  assert_true(sum.exact > 1000);
+}
+
+/* A long bar, and n short ones across it, in front or behind. */
+static void lay_bars(struct sheet *sheet, int n, int depth) {
+  const int long_bar[4][3] = {
+      {0, 0, 50}, {40 * n, 7 * n, 50}, {40 * n, 7 * n + 60, 50}, {0, 60, 50}};
+  exact_sheet_init(sheet);
+  exact_add_face(sheet, long_bar, 4, 1024);
+  for (int k = 0; k < n; k++) {
+    int x = 40 * k + 10, y = 7 * k - 90;
+    const int bar[4][3] = {{x, y, depth},
+                           {x + 20, y, depth + k % 3},
+                           {x + 24, y + 300, depth + k % 3},
+                           {x + 4, y + 300, depth}};
+    exact_add_face(sheet, bar, 4, 1024);
+  }
+}
+
+static void bars_across_a_bar_are_met_near_by_alone(void **state) {
+  uint64_t cuts[2];
+  (void)state;
+  for (int i = 0; i < 2; i++) {
+    int n = i == 0 ? 100 : 400, mixed = 0;
+    struct face_occluders_counts sum = {0};
+    struct face_occluders occluders;
+    struct sheet sheet;
+    lay_bars(&sheet, n, 80);
+    if (i == 0)
+      compare_all(&sheet, &sum, &mixed);
+    face_occluders_init(&occluders, &sheet);
+    take_all(&occluders, 0);
+    assert_true(occluders.counts.splits > (uint64_t)n / 4);
+    assert_true(occluders.left.count >= (size_t)n / 2);
+    cuts[i] = occluders.counts.cuts;
+    face_occluders_fini(&occluders);
+    exact_sheet_fini(&sheet);
+  }
+  /* Four times as many take four times as many cuts, not sixteen. */
+  assert_true(cuts[1] < 6 * cuts[0]);
+}
+
+static void what_is_behind_is_no_rival(void **state) {
+  struct face_occluders occluders;
+  struct sheet sheet;
+  (void)state;
+  lay_bars(&sheet, 20, 20);
+  face_occluders_init(&occluders, &sheet);
+  take_all(&occluders, 0);
+  assert_int_equal(occluders.occluder.count, 0);
+  assert_true(occluders.whole);
+  assert_false(occluders.interpenetrating);
+  face_occluders_fini(&occluders);
+  exact_sheet_fini(&sheet);
+}
+
+static void memory_may_run_out_anywhere(void **state) {
+  struct sheet sheet;
+  bool ok = false;
+  (void)state;
+  lay_bars(&sheet, 40, 80);
+  for (unsigned long n = 1; !ok; n++) {
+    struct face_occluders occluders;
+    assert_true(n < 1000);
+    face_occluders_init(&occluders, &sheet);
+    face_occluders_start(&occluders, 0);
+    mem_fail_after(n);
+    ok = true;
+    for (uint32_t g = 2; ok && g < sheet.triangle.count; g++)
+      ok = face_occluders_test(&occluders, g);
+    ok = ok && face_occluders_subtract_all(&occluders);
+    mem_fail_after(0);
+    assert_true(!ok || n > 5);
+    face_occluders_fini(&occluders);
+  }
+  exact_sheet_fini(&sheet);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(what_is_left_is_what_the_oracle_leaves),
+      cmocka_unit_test(bars_across_a_bar_are_met_near_by_alone),
+      cmocka_unit_test(what_is_behind_is_no_rival),
+      cmocka_unit_test(memory_may_run_out_anywhere),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

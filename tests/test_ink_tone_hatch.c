@@ -1,0 +1,404 @@
+/* test_ink_tone_hatch.c - hatching by the light: where lines are, how much they
+ * cover, and that they run on from face to face. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <math.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "ink/fill/fill.h"
+#include "ink/fill/light.h"
+#include "ink/hatch/hatch_runs.h"
+#include "ink/hatch/tone.h"
+#include "tests/ink_fixture.h"
+#include "tests/scenes/pipeline.h"
+#include "tests/scenes/random.h"
+
+static double pi(void) { return acos(-1); }
+
+/* ---- Runs ---------------------------------------------------------------- */
+
+enum { INK, BLANK };
+
+/* A bit of line 0; `cuts`: 1 at its start, 2 at its end, 3 at both. */
+static void add_bit(struct hatch_runs *runs, int kind, double u0, double u1,
+                    int cuts) {
+  struct hatch_piece bit = {.u0 = u0,
+                            .u1 = u1,
+                            .width_mm = 1,
+                            .blank = kind == BLANK,
+                            .cut0 = cuts & 1,
+                            .cut1 = cuts & 2};
+  assert_true(ARRAY_PUSH(&runs->bit, bit));
+}
+
+static struct hatch_runs start_runs(void) {
+  return (struct hatch_runs){.touch = 0.1, .speck = 2};
+}
+
+static void assert_run(struct hatch_runs *runs, double u0, double u1) {
+  struct hatch_run run;
+  assert_true(hatch_runs_next(runs, &run));
+  assert_true(run.u0 == u0 && run.u1 == u1);
+}
+
+static void assert_no_run(struct hatch_runs *runs) {
+  struct hatch_run run;
+  assert_false(hatch_runs_next(runs, &run));
+  ARRAY_FREE(&runs->bit);
+}
+
+static void bits_that_meet_are_one_run(void **state) {
+  struct hatch_runs runs = start_runs();
+  (void)state;
+  add_bit(&runs, INK, 5, 9, 0);
+  add_bit(&runs, INK, 0, 3, 0);
+  add_bit(&runs, INK, 3.05, 5, 0);
+  add_bit(&runs, INK, 9.5, 12, 0);
+  assert_true(hatch_runs_sort(&runs));
+  assert_run(&runs, 0, 9);
+  assert_run(&runs, 9.5, 12);
+  assert_no_run(&runs);
+}
+
+static void bits_of_different_lines_never_meet(void **state) {
+  (void)state;
+  for (int what = 0; what < 4; what++) {
+    struct hatch_runs runs = start_runs();
+    add_bit(&runs, INK, 0, 3, 0);
+    add_bit(&runs, INK, 3, 6, 0);
+    struct hatch_piece *bit = &runs.bit.item[1];
+    bit->pen = what == 0;
+    bit->cross = what == 1;
+    bit->step = what == 2;
+    bit->line = what == 3;
+    assert_true(hatch_runs_sort(&runs));
+    assert_run(&runs, 0, 3);
+    assert_run(&runs, 3, 6);
+    assert_no_run(&runs);
+  }
+}
+
+static void specks_between_changes_of_tone_are_left_out(void **state) {
+  struct hatch_runs runs = start_runs();
+  (void)state;
+  add_bit(&runs, INK, 0, 1, 3);   /* a speck */
+  add_bit(&runs, INK, 5, 6, 1);   /* at the face's end */
+  add_bit(&runs, INK, 10, 13, 3); /* long enough */
+  assert_true(hatch_runs_sort(&runs));
+  assert_run(&runs, 5, 6);
+  assert_run(&runs, 10, 13);
+  assert_no_run(&runs);
+}
+
+static void short_gaps_in_a_face_are_closed(void **state) {
+  struct hatch_runs runs = start_runs();
+  (void)state;
+  /* Over two faces. */
+  add_bit(&runs, INK, 0, 3, 2);
+  add_bit(&runs, BLANK, 3, 3.5, 1);
+  add_bit(&runs, BLANK, 3.5, 4, 2);
+  add_bit(&runs, INK, 4, 8, 1);
+  /* Nothing is known about what lies between. */
+  add_bit(&runs, INK, 9, 12, 1);
+  /* Too long a gap. */
+  add_bit(&runs, INK, 20, 23, 2);
+  add_bit(&runs, BLANK, 23, 24.5, 1);
+  add_bit(&runs, BLANK, 24.5, 26, 2);
+  add_bit(&runs, INK, 26, 29, 1);
+  assert_true(hatch_runs_sort(&runs));
+  assert_run(&runs, 0, 8);
+  assert_run(&runs, 9, 12);
+  assert_run(&runs, 20, 23);
+  assert_run(&runs, 26, 29);
+  assert_no_run(&runs);
+}
+
+/* ---- Tones --------------------------------------------------------------- */
+
+static const double square[] = {10, 10, 90, 10, 90, 90, 10, 90};
+static const double facing[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+
+/* A face seen square-on that the light leaves dark by so much. */
+static void light_for_tone(recto_options *options, double tone) {
+  double cosine = 1 - tone / (1 - LIGHT_DARKEST);
+  options->fill = RECTO_FILL_HATCH;
+  options->light[0] = sqrt(1 - cosine * cosine);
+  options->light[2] = cosine;
+}
+
+static void draw_tone(struct ink_fixture *k, double tone) {
+  ink_fixture_start(k);
+  light_for_tone(&k->options, tone);
+  ink_fixture_fragment(k, ink_fixture_face(k, 0, facing, 4),
+                       INK_FIXTURE_XY(square));
+  ink_fixture_draw(k);
+}
+
+static void one_even_face_is_hatched_at_one_pitch(void **state) {
+  (void)state;
+  struct ink_fixture k;
+  draw_tone(&k, 0.1);
+  double pitch = k.options.pen_mm / (410.0 / TONE_STEPS), first = NAN;
+  assert_in_range(k.drawing.stroke.count, 35, 39); /* 113 mm of diagonal */
+  for (size_t s = 0; s < k.drawing.stroke.count; s++) {
+    const struct drawing_point *p =
+        k.drawing.point.item + k.drawing.stroke.item[s].point;
+    double v = (p[0].y - p[0].x) / sqrt(2) / pitch;
+    assert_int_equal(k.drawing.stroke.item[s].count, 2);
+    first = s == 0 ? v : first;
+    assert_true(fabs(v - first - (double)s) < 0.01);
+  }
+  ink_fixture_end(&k);
+}
+
+static void white_and_dark_are_hatched_by_no_and_three_layers(void **state) {
+  struct ink_fixture k;
+  (void)state;
+  draw_tone(&k, 0);
+  assert_int_equal(k.drawing.stroke.count, 0);
+  ink_fixture_end(&k);
+  draw_tone(&k, 1 - LIGHT_DARKEST);
+  int layers[3] = {0, 0, 0};
+  for (size_t s = 0; s < k.drawing.stroke.count; s++) {
+    const struct drawing_point *p =
+        k.drawing.point.item + k.drawing.stroke.item[s].point;
+    double turn = atan2(p[1].y - p[0].y, p[1].x - p[0].x) * 180 / pi() - 45;
+    int layer = (int)lround((turn + 360) / 60) % 3;
+    assert_true(fabs(turn - 60 * round(turn / 60)) < 0.001);
+    layers[layer]++;
+  }
+  for (int i = 0; i < 3; i++)
+    assert_in_range(layers[i], i == 0 ? 136 : 118, i == 0 ? 139 : 122);
+  ink_fixture_end(&k);
+}
+
+/* Ends of strokes stay inside the face by the pen's share of its cap. */
+static void strokes_end_before_the_face_does(void **state) {
+  struct ink_fixture k;
+  (void)state;
+  ink_fixture_start(&k);
+  light_for_tone(&k.options, 0.2);
+  k.options.hatch_angle_deg = 0;
+  ink_fixture_fragment(&k, ink_fixture_face(&k, 0, facing, 4),
+                       INK_FIXTURE_XY(square));
+  ink_fixture_draw(&k);
+  double inset = pi() / 8 * k.options.pen_mm;
+  for (size_t s = 0; s < k.drawing.stroke.count; s++) {
+    const struct drawing_point *p =
+        k.drawing.point.item + k.drawing.stroke.item[s].point;
+    assert_true(fabs(fmin(p[0].x, p[1].x) - 10 - inset) < 1e-9);
+    assert_true(fabs(fmax(p[0].x, p[1].x) - 90 + inset) < 1e-9);
+  }
+  ink_fixture_end(&k);
+}
+
+static void neighbours_of_one_tone_share_their_lines(void **state) {
+  const double left[] = {10, 10, 50, 10, 50, 50};
+  const double right[] = {10, 10, 50, 50, 10, 50};
+  struct ink_fixture k;
+  (void)state;
+  for (int ids = 0; ids < 2; ids++) {
+    ink_fixture_start(&k);
+    light_for_tone(&k.options, 0.2);
+    k.options.hatch_angle_deg = 0;
+    k.options.ids = ids;
+    ink_fixture_fragment(&k, ink_fixture_face(&k, 0, facing, 4),
+                         INK_FIXTURE_XY(left));
+    ink_fixture_fragment(&k, ink_fixture_face(&k, 0, facing, 4),
+                         INK_FIXTURE_XY(right));
+    ink_fixture_draw(&k);
+    size_t lines = 0, inside = 0;
+    for (size_t s = 0; s < k.drawing.stroke.count; s++) {
+      double length = ink_fixture_stroke_length(&k, s);
+      lines += length > 39;
+      inside += length < 39;
+    }
+    /* 40 mm, 1.5 mm apart. */
+    assert_in_range(lines, ids ? 0 : 26, ids ? 0 : 27);
+    assert_in_range(inside, ids ? 52 : 0, ids ? 54 : 0);
+    ink_fixture_end(&k);
+  }
+}
+
+static void each_pen_hatches_its_groups(void **state) {
+  struct ink_fixture k;
+  (void)state;
+  ink_fixture_start(&k);
+  light_for_tone(&k.options, 0.2);
+  k.options.pens = 2;
+  ink_fixture_group(&k, "other");
+  ink_fixture_fragment(&k, ink_fixture_face(&k, 0, facing, 4),
+                       INK_FIXTURE_XY(square));
+  ink_fixture_fragment(&k, ink_fixture_face(&k, 1, facing, 4),
+                       INK_FIXTURE_XY(square));
+  ink_fixture_draw(&k);
+  size_t half = k.drawing.stroke.count / 2;
+  assert_int_equal(k.drawing.layer.count, 2);
+  for (size_t s = 0; s < 2 * half; s++) {
+    assert_int_equal(k.drawing.stroke.item[s].layer, s >= half);
+    assert_int_equal(k.drawing.stroke.item[s].group, s >= half);
+  }
+  ink_fixture_end(&k);
+}
+
+/* ---- Curved -------------------------------------------------------------- */
+
+/* A ball of radius 1 in n rings of 2 n quadrangles. */
+static void build_ball(struct scene *scene, unsigned n) {
+  uint32_t first = (uint32_t)scene->point.count;
+  for (unsigned j = 0; j <= n; j++)
+    for (unsigned i = 0; i < 2 * n; i++) {
+      double polar = pi() * j / n, around = pi() * i / n;
+      build_point(scene, sin(polar) * cos(around), sin(polar) * sin(around),
+                  cos(polar));
+    }
+  for (unsigned j = 0; j < n; j++)
+    for (unsigned i = 0; i < 2 * n; i++) {
+      uint32_t a = first + j * 2 * n, k = (i + 1) % (2 * n);
+      if (j == 0)
+        build_triangle(scene, first, a + 2 * n + i, a + 2 * n + k);
+      else if (j + 1 == n)
+        build_triangle(scene, a + i, first + n * 2 * n, a + k);
+      else
+        build_quad(scene, a + i, a + 2 * n + i, a + 2 * n + k, a + k);
+    }
+}
+
+/* Draws a ball of 80 mm on a page of 100 mm, nothing but its hatching. */
+static void draw_ball(struct pipeline *p, unsigned n, recto_options *options) {
+  struct scene scene;
+  scene_init(&scene);
+  build_group(&scene, "ball");
+  build_ball(&scene, n);
+  options->page_width_mm = options->page_height_mm = 100;
+  options->azimuth_deg = options->elevation_deg = 0;
+  options->fit = RECTO_FIT_SCALE;
+  options->scale = 40;
+  options->edges = RECTO_EDGES_NONE;
+  options->fill = RECTO_FILL_HATCH;
+  options->up[1] = 1;
+  pipeline_run(p, &scene, options, &solver_tiles);
+  assert_int_equal(p->status, RECTO_OK);
+  scene_fini(&scene);
+}
+
+static double length_of(const struct drawing *d, size_t s) {
+  const struct drawing_point *p = d->point.item + d->stroke.item[s].point;
+  return hypot(p[1].x - p[0].x, p[1].y - p[0].y);
+}
+
+/* Lit from the eye the ball's tone is 0.7 (1 - sqrt(1 - r^2)) at radius r: 0.7
+ * thirds of its disc.  Where it is below FULL one layer makes it. */
+static void lines_over_a_ball_cover_what_its_tone_asks_for(void **state) {
+  struct pipeline p;
+  recto_options options;
+  (void)state;
+  recto_options_init(&options);
+  options.light[2] = 1;
+  draw_ball(&p, 40, &options);
+  double ink = 0, angle;
+  for (size_t s = 0; s < p.drawing.stroke.count; s++) {
+    const struct drawing_point *q =
+        p.drawing.point.item + p.drawing.stroke.item[s].point;
+    angle = atan2(q[1].y - q[0].y, q[1].x - q[0].x) * 180 / pi();
+    if (fabs(remainder(angle - 45, 180)) < 1)
+      ink += (length_of(&p.drawing, s) + pi() / 4 * options.pen_mm) *
+             options.pen_mm;
+  }
+  /* The first layer's share: the tone, up to FULL = 1 - sqrt(0.4). */
+  double full = 1 - sqrt(0.4), asked = 0;
+  enum { RINGS = 10000 };
+  for (int i = 0; i < RINGS; i++) {
+    double r = (i + 0.5) / RINGS;
+    double tone = (1 - LIGHT_DARKEST) * (1 - sqrt(1 - r * r));
+    asked += fmin(tone, full) * 2 * pi() * r / RINGS * 40 * 40;
+  }
+  assert_true(fabs(ink / asked - 1) < 0.03);
+  pipeline_fini(&p);
+}
+
+static void lines_run_over_many_faces(void **state) {
+  struct pipeline p;
+  recto_options options;
+  size_t before = 0;
+  (void)state;
+  for (unsigned n = 20; n <= 80; n *= 2) {
+    recto_options_init(&options);
+    options.light[0] = -1;
+    options.light[2] = 1;
+    draw_ball(&p, n, &options);
+    assert_true(p.drawing.stroke.count < 700);
+    assert_true(before == 0 || p.drawing.stroke.count < before + before / 2);
+    before = p.drawing.stroke.count;
+    pipeline_fini(&p);
+  }
+}
+
+/* ---- The stability list -------------------------------------------------- */
+
+static void every_scene_is_hatched_on_its_page(void **state) {
+  (void)state;
+  for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
+    struct scene scene;
+    struct pipeline p;
+    recto_options options;
+    scene_init(&scene);
+    pipeline_fill(&scene, &options, entry);
+    options.edges = RECTO_EDGES_NONE;
+    options.fill = RECTO_FILL_HATCH;
+    options.light[0] = -0.3;
+    options.light[2] = 1;
+    options.pen_mm = options.page_width_mm / 400;
+    pipeline_run(&p, &scene, &options, &solver_tiles);
+    for (size_t i = 0; p.status == RECTO_OK && i < p.drawing.point.count; i++) {
+      struct drawing_point q = p.drawing.point.item[i];
+      assert_true(q.x >= 0 && q.x <= options.page_width_mm);
+      assert_true(q.y >= 0 && q.y <= options.page_height_mm);
+    }
+    pipeline_fini(&p);
+    scene_fini(&scene);
+  }
+}
+
+/* ---- Memory -------------------------------------------------------------- */
+
+static void hatching_fails_cleanly_when_memory_runs_out(void **state) {
+  struct pipeline p;
+  struct scene scene;
+  recto_options options;
+  (void)state;
+  recto_options_init(&options);
+  options.light[2] = 1;
+  draw_ball(&p, 6, &options);
+  scene_init(&scene);
+  build_group(&scene, "ball");
+  build_ball(&scene, 6);
+  p.sheet.face_group = scene.face_group.item;
+  for (int lit = 0; lit < 2; lit++) {
+    options.light[2] = lit;
+    pipeline_starve_ink(&p, &scene, &options);
+  }
+  scene_fini(&scene);
+  pipeline_fini(&p);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(bits_that_meet_are_one_run),
+      cmocka_unit_test(bits_of_different_lines_never_meet),
+      cmocka_unit_test(specks_between_changes_of_tone_are_left_out),
+      cmocka_unit_test(short_gaps_in_a_face_are_closed),
+      cmocka_unit_test(one_even_face_is_hatched_at_one_pitch),
+      cmocka_unit_test(white_and_dark_are_hatched_by_no_and_three_layers),
+      cmocka_unit_test(strokes_end_before_the_face_does),
+      cmocka_unit_test(neighbours_of_one_tone_share_their_lines),
+      cmocka_unit_test(each_pen_hatches_its_groups),
+      cmocka_unit_test(lines_over_a_ball_cover_what_its_tone_asks_for),
+      cmocka_unit_test(lines_run_over_many_faces),
+      cmocka_unit_test(every_scene_is_hatched_on_its_page),
+      cmocka_unit_test(hatching_fails_cleanly_when_memory_runs_out),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

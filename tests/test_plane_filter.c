@@ -1,0 +1,174 @@
+/* test_plane_filter.c - planes in doubles, and cells in one word, only say what the
+ * exact answers say. */
+#include "visibility/predicate/plane_filter.h"
+#include "exact_fixture/sheet.h"
+#include "visibility/predicate/occlusion.h"
+#include "visibility/index/kdop8.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+static uint64_t seed = 1;
+
+static int32_t number(int bits) {
+  int32_t most = (int32_t)1 << bits;
+  return (int32_t)(exact_random(&seed) % (uint64_t)(2 * most)) - most;
+}
+
+/* A place on a page of 2^(bits + 1) units a side. */
+static struct geom_point place(int bits, int depth_bits) {
+  struct geom_point p;
+  p.x = number(bits);
+  p.y = number(bits);
+  p.z = (int64_t)(exact_random(&seed) >> (64 - depth_bits));
+  return p;
+}
+
+/* One triangle that is not flat, seen as `perspective` says. */
+static void start(struct sheet *sheet, bool perspective, int bits,
+                  int depth_bits) {
+  exact_sheet_init(sheet);
+  sheet->camera.perspective = perspective;
+  sheet->camera.d_min = 2;
+  sheet->camera.d_max = 5;
+  sheet->camera.contact = perspective ? 0x1p-20 : 0x1p-18;
+  sheet->z_scale = perspective ? 0x1p41 : 0x1p38;
+  sheet->units_per_view = 0x1p26;
+  sheet->triangle_flags = mem_calloc(1, 1);
+  struct geom_point p[3];
+  do
+    for (int k = 0; k < 3; k++)
+      p[k] = place(bits, depth_bits);
+  while (geom_orient2d(p[0], p[1], p[2]) <= 0);
+  for (int k = 0; k < 3; k++)
+    assert_true(ARRAY_PUSH(&sheet->point, p[k]));
+  struct sheet_triangle t = {
+      {0, 1, 2}, {SHEET_NONE, SHEET_NONE, SHEET_NONE}, 0};
+  assert_true(ARRAY_PUSH(&sheet->triangle, t));
+}
+
+/* A point of the triangle's plane, but for rounding and for `off`. */
+static struct geom_point near_plane(const struct occluder *h, int64_t off) {
+  double u = (double)number(20) / 0x1p20, v = (double)number(20) / 0x1p20;
+  const struct geom_point *p = h->p;
+  return (struct geom_point){(int32_t)(p[0].x + u * ((double)p[1].x - p[0].x) +
+                                       v * ((double)p[2].x - p[0].x)),
+                             (int32_t)(p[0].y + u * ((double)p[1].y - p[0].y) +
+                                       v * ((double)p[2].y - p[0].y)),
+                             off + (int64_t)((double)p[0].z +
+                                             u * (double)(p[1].z - p[0].z) +
+                                             v * (double)(p[2].z - p[0].z))};
+}
+
+static bool side_count_of_sides(const int side[3]) {
+  int behind = 0, before = 0;
+  for (int k = 0; k < 3; k++) {
+    behind += side[k] < 0;
+    before += side[k] > 0;
+  }
+  return (behind > 0 && before > 0) || behind + before == 1;
+}
+
+/* All doubts and certainties of one triangle; counts the certain ones. */
+static void compare_with_exact(bool perspective, int bits, int depth_bits,
+                               int certain[5]) {
+  struct sheet sheet;
+  struct occluder occluder;
+  start(&sheet, perspective, bits, depth_bits);
+  occluder_init(&occluder, &sheet, 0);
+  struct plane_filter plane = plane_filter_of(&sheet, 0);
+  for (int i = 0; i < 200; i++) {
+    struct geom_point p[3];
+    int side[3];
+    for (int k = 0; k < 3; k++) {
+      int far = (int)(exact_random(&seed) % (uint64_t)depth_bits);
+      p[k] =
+          near_plane(&occluder, number(20) * (INT64_C(1) << far) / (1 << 20));
+      if (p[k].z < 0 || p[k].z > SHEET_Z_MAX)
+        p[k].z = 0;
+      side[k] = occluder_side(&occluder, p[k]);
+      int sign = plane_filter_occludes(&plane, p[k]);
+      int exact = geom_sign128(occluder_depth(&occluder, p[k]));
+      assert_true(sign == 0 || sign == exact);
+      certain[1] += sign != 0;
+      sign = plane_filter_sign(&plane, p[k]);
+      exact = geom_sign128(geom_plane_value(&occluder.plane, p[k]));
+      assert_true(sign == 0 || sign == exact);
+      certain[3] += sign != 0;
+    }
+    bool may = plane_filter_may_intersect(&plane, p);
+    assert_true(may || !side_count_of_sides(side));
+    certain[0] += !may;
+    certain[2] += may && side_count_of_sides(side);
+    bool touches = side[0] == 0 && side[1] == 0 && side[2] == 0;
+    assert_true(plane_filter_may_touch(&plane, p) || !touches);
+    certain[4] += !plane_filter_may_touch(&plane, p);
+  }
+  exact_sheet_fini(&sheet);
+}
+
+static void doubles_are_right_or_do_not_know(void **state) {
+  int certain[5] = {0, 0, 0, 0, 0};
+  (void)state;
+  for (int i = 0; i < 300; i++) {
+    int bits = 4 + i % 26, depth_bits = 4 + i % 36;
+    compare_with_exact(i % 2 == 0, bits, depth_bits, certain);
+  }
+  /* And they mostly know. */
+  assert_true(certain[0] > 15000);
+  assert_true(certain[1] > 150000);
+  assert_true(certain[2] > 1000);
+  assert_true(certain[3] > 150000);
+  assert_true(certain[4] > 10000);
+}
+
+/* ---- Octagons ------------------------------------------------------------ */
+
+static struct kdop8 kdop8_of(const struct geom_point p[3], int count) {
+  struct kdop8 kdop = kdop8_of_point(p[0]);
+  for (int k = 1; k < count; k++)
+    kdop8_add(&kdop, p[k]);
+  return kdop;
+}
+
+static bool overlap(const struct kdop8 *a, const struct kdop8 *b) {
+  for (int k = 0; k < 4; k++)
+    if (a->most[k] < b->least[k] || b->most[k] < a->least[k])
+      return false;
+  return a->high >= b->low;
+}
+
+static void words_deny_only_what_does_not_meet(void **state) {
+  int denied = 0, met = 0;
+  (void)state;
+  for (int i = 0; i < 20000; i++) {
+    struct kdop8_frame frame = {number(10), number(10), i % 12,
+                                (int64_t)(exact_random(&seed) >> 50), i % 10};
+    struct geom_point p[3], q[3];
+    for (int k = 0; k < 3; k++) {
+      p[k] = place(11, 15);
+      q[k] = k == 0 ? place(11, 15) : p[0];
+      q[k].x = q[0].x + number(8);
+      q[k].y = q[0].y + number(8);
+    }
+    struct kdop8 a = kdop8_of(p, 3), b = kdop8_of(q, 2);
+    bool may = kdop8_overlaps(kdop8_key(&frame, &a), kdop8_query(&frame, &b));
+    assert_true(may || !overlap(&a, &b));
+    denied += !may;
+    met += overlap(&a, &b);
+  }
+  assert_true(denied > 1000);
+  assert_true(met > 1000);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(doubles_are_right_or_do_not_know),
+      cmocka_unit_test(words_deny_only_what_does_not_meet),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,134 @@
+/* test_undecided_faces.c - what tiles leave over is painted as the oracle paints it,
+ * and mostly without cutting anything. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/scenes/pipeline.h"
+
+static void start(struct scene *scene, recto_options *options) {
+  recto_options_init(options);
+  scene_init(scene);
+}
+
+/* What --stats says of a painted scene by tiles. */
+struct counts {
+  int64_t hidden, whole, mixed, by_contours, left_over, pairs, cuts, united;
+};
+
+static struct counts paint(const struct scene *scene, recto_options *options) {
+  struct pipeline pipeline;
+  struct counts counts;
+  options->fill = RECTO_FILL_PAINT;
+  options->threads = 1;
+  pipeline_run(&pipeline, scene, options, &solver_tiles);
+  assert_int_equal(pipeline.status, RECTO_OK);
+  const struct report *report = pipeline.report;
+  counts =
+      (struct counts){report_get(report, "faces", "hidden", -1),
+                      report_get(report, "faces", "whole", -1),
+                      report_get(report, "faces", "mixed", -1),
+                      report_get(report, "faces", "hidden_by_contours", -1),
+                      report_get(report, "tiles", "triangles_left_over", -1),
+                      report_get(report, "faces", "pairs", -1),
+                      report_get(report, "faces", "cuts", -1),
+                      report_get(report, "fragments", "faces_united", -1)};
+  pipeline_fini(&pipeline);
+  /* Each of them is one of the three. */
+  assert_int_equal(counts.hidden + counts.whole + counts.mixed,
+                   counts.left_over);
+  return counts;
+}
+
+static void assert_as_oracle(const struct scene *scene,
+                             const recto_options *options) {
+  size_t length[2];
+  char *tiles = pipeline_draw(scene, options, &solver_tiles, &length[0]);
+  char *brute = pipeline_draw(scene, options, &solver_brute, &length[1]);
+  assert_true(length[0] > 1000);
+  assert_string_equal(tiles, brute);
+  mem_free(tiles);
+  mem_free(brute);
+}
+
+/* Waves, one behind the other: silhouettes, and faces under whole layers. */
+static void a_face_that_no_contour_crosses_is_not_cut(void **state) {
+  struct scene scene;
+  recto_options options;
+  (void)state;
+  start(&scene, &options);
+  scenes_sinc(&scene, &options, 60);
+  options.elevation_deg = 12;
+  struct counts counts = paint(&scene, &options);
+  assert_true(counts.by_contours > 20);
+  assert_true(counts.mixed > 20);
+  assert_true(counts.whole > counts.mixed);
+  assert_as_oracle(&scene, &options);
+  scene_fini(&scene);
+}
+
+/* n bars over n bars cross n^2 times; so many cuts there may be, not n^3. */
+static void bars_over_bars_are_cut_where_they_cross(void **state) {
+  (void)state;
+  struct counts counts[2];
+  for (int i = 0; i < 2; i++) {
+    struct scene scene;
+    recto_options options;
+    start(&scene, &options);
+    scenes_lattice(&scene, &options, i == 0 ? 12 : 48);
+    counts[i] = paint(&scene, &options);
+    if (i == 0)
+      assert_as_oracle(&scene, &options);
+    scene_fini(&scene);
+  }
+  assert_true(counts[0].cuts > 12 * 12);
+  assert_true(counts[1].cuts < 24 * counts[0].cuts);
+  assert_true(counts[1].pairs < 24 * counts[0].pairs);
+}
+
+/* Deep inside a sponge nearly all is hidden, by what is hidden itself. */
+static void what_is_hidden_is_not_asked_about(void **state) {
+  struct scene scene;
+  recto_options options;
+  (void)state;
+  start(&scene, &options);
+  scenes_menger(&scene, &options, 2);
+  struct counts counts = paint(&scene, &options);
+  assert_true(counts.hidden > 2 * (counts.whole + counts.mixed));
+  assert_true(counts.pairs < 60 * counts.left_over);
+  assert_as_oracle(&scene, &options);
+  scene_fini(&scene);
+}
+
+/* A face of very many corners: its sides are labelled in no time, too. */
+static void a_face_may_have_very_many_corners(void **state) {
+  (void)state;
+  for (int bsp = 0; bsp < SCENES_CROWD_FLAT_FAN; bsp++) {
+    struct scene scene;
+    recto_options options;
+    start(&scene, &options);
+    scenes_crowd(&scene, &options, (enum scenes_crowd)bsp, 400, 5);
+    (void)paint(&scene, &options);
+    assert_as_oracle(&scene, &options);
+    scene_fini(&scene);
+    start(&scene, &options);
+    scenes_crowd(&scene, &options, (enum scenes_crowd)bsp, 20000, 5);
+    struct counts counts = paint(&scene, &options);
+    assert_int_equal(counts.united, 1);
+    scene_fini(&scene);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_face_that_no_contour_crosses_is_not_cut),
+      cmocka_unit_test(bars_over_bars_are_cut_where_they_cross),
+      cmocka_unit_test(what_is_hidden_is_not_asked_about),
+      cmocka_unit_test(a_face_may_have_very_many_corners),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
