@@ -84,9 +84,13 @@ else
   skip "an interrupt ends the loop that the run is in" "no setsid"
 fi
 
-# Whoever reads what is written has enough of it.
+# The reader of what is written has ended: a write to the pipe fails.
 pipe_is_closed() { # ARGUMENT... - the status of a run whose reader is gone
   {
+    (
+      trap '' PIPE
+      while echo; do sleep 0.05; done 2>/dev/null
+    )
     env --default-signal=PIPE "$recto" "$@" 2>err
     echo $? >status
   } | true
@@ -105,6 +109,8 @@ closed_pipe_for_stats() {
 claim "a closed pipe for --stats leaves nothing behind" closed_pipe_for_stats
 ignored_pipe_is_told() {
   {
+    trap '' PIPE
+    while echo; do sleep 0.05; done 2>/dev/null
     env --ignore-signal=PIPE "$recto" cube.obj -o - 2>err
     echo $? >status
   } | true
