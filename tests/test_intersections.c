@@ -1,5 +1,6 @@
 /* test_intersections.c - lines of intersection where a surface's edge is in
  * contact with the face that the surface goes through. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -82,10 +83,67 @@ static void what_meets_beside_an_edge_has_its_line_there(void **state) {
   }
 }
 
+/* The length on the page, in grid units, of all lines of intersection between
+ * a triangle and a polygon in the plane z = 3. */
+static double intersection_length(const double *polygon, size_t count,
+                                  int view) {
+  static const double triangle[] = {1, 2, 2, 0.5, 2, 4, 1, 2, 3.5};
+  /* Sets the size of the page for either polygon. */
+  static const double far[] = {2, 0, 0, 4, 3, 0, 3, 4, 0};
+  struct sheet_fixture fixture;
+  struct map map;
+  recto_error error;
+  const struct solver_request request = {
+      .strokes = true, .intersections = true, .threads = 1};
+  struct report *report = report_create();
+  double length = 0;
+  sheet_fixture_start(&fixture);
+  build_polygon(&fixture.scene, far, 3);
+  build_polygon(&fixture.scene, polygon, count);
+  build_polygon(&fixture.scene, triangle, 3);
+  fixture.options.contact = 0;
+  fixture.options.azimuth_deg = 3 * view;
+  fixture.options.elevation_deg = view % 2 == 0 ? 20 : -35;
+  fixture.options.fit = RECTO_FIT_SCALE;
+  fixture.options.scale = 1;
+  sheet_fixture_out(&fixture, false);
+  size_t edges = fixture.sheet.edge.count;
+  map_init(&map);
+  assert_int_equal(
+      solver_brute.solve(&fixture.sheet, &request, &map, report, &error),
+      RECTO_OK);
+  for (size_t e = edges; e < fixture.sheet.edge.count; e++) {
+    const uint32_t *point = fixture.sheet.edge.item[e].point;
+    struct geom_point a = fixture.sheet.point.item[point[0]],
+                      b = fixture.sheet.point.item[point[1]];
+    length += hypot((double)a.x - b.x, (double)a.y - b.y);
+  }
+  map_fini(&map);
+  report_destroy(report);
+  sheet_fixture_fini(&fixture);
+  return length;
+}
+
+/* The plane of the triangle contains a diagonal of the hexagon, but for
+ * rounding to the page's grid, which tilts the diagonal: a part of the line may
+ * lie in a triangle of the hexagon that only touches the plane. */
+static void a_line_along_a_diagonal_is_whole(void **state) {
+  static const double hexagon[] = {0, 0.5, 3, 0, 0, 3, 2,   2, 3,
+                                   4, 3,   3, 2, 4, 3, 0.5, 2, 3};
+  static const double simple[] = {0, 0, 3, 4, 0, 3, 0, 4, 3};
+  (void)state;
+  for (int view = 0; view < 120; view++) {
+    double whole = intersection_length(simple, 3, view);
+    assert_true(whole > 1000);
+    assert_true(fabs(intersection_length(hexagon, 6, view) - whole) < 16);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_does_not_meet_has_no_line_at_any_contact),
       cmocka_unit_test(what_meets_beside_an_edge_has_its_line_there),
+      cmocka_unit_test(a_line_along_a_diagonal_is_whole),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,6 +50,33 @@ bool edge_crossings_note(struct edge_crossings *crossings,
   return ARRAY_PUSH(&crossings->list, crossing);
 }
 
+bool edge_crossings_note_slanted(struct edge_crossings *crossings,
+                                 const struct sheet *sheet, uint32_t f,
+                                 uint32_t g, const struct occluder *plane) {
+  const uint32_t *p = sheet->triangle.item[f].point;
+  int side[3], sign[3];
+  for (int k = 0; k < 3; k++) {
+    struct geom_point corner = sheet->point.item[p[k]];
+    side[k] = occluder_side(plane, corner);
+    sign[k] = geom_sign128(geom_plane_value(&plane->plane, corner));
+  }
+  for (int k = 0; k < 3; k++) {
+    int next = k == 2 ? 0 : k + 1;
+    struct edge_crossing crossing = {
+        {{p[k] < p[next] ? p[k] : p[next], p[k] < p[next] ? p[next] : p[k]},
+         {g, SHEET_NONE}}};
+    if ((side[k] == 0) != (side[next] == 0) && sign[k] * sign[next] < 0 &&
+        !ARRAY_PUSH(&crossings->slanted, crossing))
+      return false;
+  }
+  return true;
+}
+
+void edge_crossings_fini(struct edge_crossings *crossings) {
+  ARRAY_FREE(&crossings->list);
+  ARRAY_FREE(&crossings->slanted);
+}
+
 /* ---- Which part of an edge ----------------------------------------------- */
 
 /* The part of an edge that triangle g covers on the page. */
@@ -180,15 +207,19 @@ static bool add_incidences(struct incidences *incidences,
 /* Finds all triangles of the edges that the seams name. */
 static bool incidences_init(struct incidences *incidences,
                             const struct sheet *sheet,
-                            const struct edge_crossing *crossing, size_t n) {
+                            const struct edge_crossings *crossings) {
   uint8_t *marked = mem_calloc(sheet->point.count, sizeof *marked);
   bool ok = false;
   if (marked == NULL)
     return false;
-  for (size_t s = 0; s < 2 * n; s++) {
-    struct edge_crossing_side side = crossing[s / 2].side[s % 2];
+  for (size_t s = 0; s < 2 * crossings->list.count; s++) {
+    struct edge_crossing_side side = crossings->list.item[s / 2].side[s % 2];
     if (side.j != SHEET_NONE)
       marked[side.i] = marked[side.j] = 1;
+  }
+  for (size_t s = 0; s < crossings->slanted.count; s++) {
+    struct edge_crossing_side side = crossings->slanted.item[s].side[0];
+    marked[side.i] = marked[side.j] = 1;
   }
   for (uint32_t t = 0; t < sheet->triangle.count; t++)
     if (!add_incidences(incidences, sheet, marked, t))
@@ -443,6 +474,40 @@ static bool join(const struct sheet *sheet, const struct incidences *incidences,
   return true;
 }
 
+/* Adds the segments in which triangle g meets triangles of an edge that end
+ * beside its plane within contact (edge_crossings_note_slanted).
+ * Returns false when memory ran out. */
+static bool join_slanted(const struct sheet *sheet,
+                         const struct incidences *incidences,
+                         struct edge_crossing_side edge, uint32_t g,
+                         struct intersection_segments *segments) {
+  const struct incidence *end,
+      *incidence = incidences_find(incidences, edge, &end);
+  struct occluder hf, hg;
+  occluder_init(&hg, sheet, g);
+  for (; incidence < end; incidence++) {
+    uint32_t f = incidence->triangle;
+    struct intersection_segment segment;
+    struct side_count sf, sg;
+    if (sheet->triangle.item[f].face == sheet->triangle.item[g].face)
+      continue;
+    occluder_init(&hf, sheet, f);
+    sf = side_count_of(&hg, hf.p);
+    sg = side_count_of(&hf, hg.p);
+    if ((sf.behind > 0 && sf.before > 0) || ends_there(sf) ||
+        !(sg.behind > 0 && sg.before > 0) ||
+        !intersection_segment_find(sheet, f, g, &hf, &hg, &segment))
+      continue;
+    if ((llabs((int64_t)segment.end[0].x - segment.end[1].x) >
+             TOLERANCE_COINCIDENT_UNITS ||
+         llabs((int64_t)segment.end[0].y - segment.end[1].y) >
+             TOLERANCE_COINCIDENT_UNITS) &&
+        !ARRAY_PUSH(&segments->list, segment))
+      return false;
+  }
+  return true;
+}
+
 bool edge_crossings_join(struct edge_crossings *crossings,
                          const struct sheet *sheet,
                          struct intersection_segments *segments,
@@ -452,11 +517,15 @@ bool edge_crossings_join(struct edge_crossings *crossings,
   struct fan scratch[3] = {0};
   struct incidences incidences = {0};
   bool ok = false;
-  if (n == 0)
+  if (n == 0 && crossings->slanted.count == 0)
     return true;
   if (!sort_stable(crossing, n, sizeof *crossing, compare_crossings, NULL) ||
-      !incidences_init(&incidences, sheet, crossing, n))
+      !incidences_init(&incidences, sheet, crossings))
     goto end;
+  for (size_t i = 0; i < crossings->slanted.count; i++)
+    if (!join_slanted(sheet, &incidences, crossings->slanted.item[i].side[0],
+                      crossings->slanted.item[i].side[1].i, segments))
+      goto end;
   for (size_t i = 0; i < n; i++) {
     struct intersection_segment segment;
     bool cross;

@@ -48,7 +48,10 @@ struct edge_crossing {
 
 struct edge_crossings {
   ARRAY(struct edge_crossing) list;
+  ARRAY(struct edge_crossing) slanted; /* an edge and a triangle */
 };
+
+void edge_crossings_fini(struct edge_crossings *crossings);
 
 /* Notes that triangle f ends on the plane of g, which straddles that of f or
  * ends on it.  Returns false when memory ran out. */
@@ -56,6 +59,17 @@ USE_RESULT bool edge_crossings_note(struct edge_crossings *crossings,
                                     const struct sheet *sheet, uint32_t f,
                                     struct side_count sf, uint32_t g,
                                     struct side_count sg);
+
+/* Notes the edges of triangle f that pass through the plane of g between an end
+ * beyond contact and an end that touches it.  By contact the triangle across
+ * such an edge may not straddle the plane though a part of the intersection
+ * line lies in it: the part between the edge and the end that touches.  The
+ * two may be far apart where the edge is nearly parallel to the plane.
+ * Returns false when memory ran out. */
+USE_RESULT bool edge_crossings_note_slanted(struct edge_crossings *crossings,
+                                            const struct sheet *sheet,
+                                            uint32_t f, uint32_t g,
+                                            const struct occluder *plane);
 
 /* Adds the crossings, and counts them.  It is enough that one pair of the
  * triangles about an edge was noted: the sheet is asked for the others, which

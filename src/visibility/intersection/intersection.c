@@ -68,8 +68,11 @@ static bool query_pair(void *user, uint32_t f, uint32_t g) {
     return edge_crossings_note(&pierce->crossings, sheet, f, sf, g, sg);
   if (ends_there(sg))
     return edge_crossings_note(&pierce->crossings, sheet, g, sg, f, sf);
-  return !intersection_segment_find(sheet, f, g, hf, &hg, &segment) ||
-         ARRAY_PUSH(&pierce->segment.list, segment);
+  if (intersection_segment_find(sheet, f, g, hf, &hg, &segment) &&
+      !ARRAY_PUSH(&pierce->segment.list, segment))
+    return false;
+  return edge_crossings_note_slanted(&pierce->crossings, sheet, f, g, &hg) &&
+         edge_crossings_note_slanted(&pierce->crossings, sheet, g, f, hf);
 }
 
 /* ---- Edges of the sheet -------------------------------------------------- */
@@ -195,6 +198,6 @@ recto_status intersection_find_all(struct sheet *sheet,
   report_int(report, "pierce", "along_edges", (int64_t)pierce.counts.crossings);
   report_int(report, "pierce", "segments", (int64_t)pierce.segment.list.count);
   ARRAY_FREE(&pierce.segment.list);
-  ARRAY_FREE(&pierce.crossings.list);
+  edge_crossings_fini(&pierce.crossings);
   return ok ? RECTO_OK : progress_error(&pierce.progress, error);
 }
