@@ -1,23 +1,24 @@
 /* warnock_raster.c - subdivision of a pixel frame: windows are divided until
- * one of five rules finishes them, down to pixels, which are asked at their
- * centres.
+ * one of five rules finishes them, down to single pixels, which are sampled at
+ * their centres.
  *
  * A window is a block of pixels.  On the sheet it is their outline, rounded
  * outwards to the grid: so a face that is disjoint from it covers no centre of
  * it, and one that surrounds it covers all of them, whatever the rounding.
- * Which of two planes is nearer all over a window is asked at its four
- * outermost centres: depths are linear, so what holds there holds between.
+ * Whether one plane is nearer than another throughout a window is tested at its
+ * four outermost centres: depths are linear, so what holds there holds between.
  *
  * Invariants
- *   the windows on the stack are apart, and with those finished tile the frame;
- *   a window's lists stand above its parent's in the pools, and hold all that
- *   may be seen in it, faces nearest first;
+ *   the windows on the stack are disjoint, and with the finished ones tile the
+ *   frame;
+ *   a window's lists stand above its parent's in the pools, and hold all faces
+ *   that may be visible in it, nearest first;
  *   a face that surrounds a window or is disjoint from it is not classified
  *   again below it.
  *
- * Stack   a window of 2^n pixels a side puts four of half the size there in
- *   its own stead: 3 n + 1 at most; 3 (n - 1) + 5 with the one at hand.  When
- *   cut at the faces' boxes there is no such bound.
+ * Stack   a window of 2^n pixels a side is replaced by four of half the size:
+ *   at most 3 n + 1 windows, 3 (n - 1) + 5 with the current one.  Where windows
+ *   are divided at the faces' bounding boxes there is no such bound.
  * Source  [Warnock1969]; [Rogers1985] ch. 4.
  */
 #include "visibility/warnock/warnock_raster.h"
@@ -33,17 +34,18 @@
 #include "visibility/warnock/warnock_sample.h"
 #include "visibility/predicate/window.h"
 
-/* Where a window's list stands in a pool. */
+/* A list of a window: the entries [from, to) of a pool. */
 struct pixel_range {
   size_t from, to;
 };
 
+/* A window and its lists; on the stack, the lists of its parent. */
 struct pixel_window {
   int32_t column, line, columns, lines;
-  struct pixel_range faces, surrounders, edges; /* of the parent until taken */
+  struct pixel_range faces, surrounders, edges;
 };
 
-/* The part of a window within the frame: pixels [from, past). */
+/* A window clipped to the frame: pixels [from, past). */
 struct block {
   int32_t column_from, column_past, line_from, line_past;
 };
@@ -57,7 +59,7 @@ struct subdivision {
   struct warnock_sample sample;
   ARRAY(struct pixel_window) stack;
   ARRAY(uint32_t) faces, surrounders, edges; /* the pools */
-  uint32_t *count; /* a line of pixels: sub-pixels covered */
+  uint32_t *count; /* scratch, one a column: sub-pixels covered */
   struct window_counts tests;
   uint64_t pixels_done;
 };
@@ -86,8 +88,8 @@ static int64_t floor_divide(int64_t num, int64_t den) {
   return num / den - (num % den < 0);
 }
 
-/* The block on the sheet, `margin` pixels wider all round.  No face lies
- * beyond SHEET_XY_MAX: cutting the window there changes no class. */
+/* The block on the sheet, `margin` pixels wider on each side.  No face lies
+ * beyond SHEET_XY_MAX: clipping the window there changes no class. */
 static struct window window_of(const struct subdivision *s,
                                const struct block *b, int margin) {
   const struct scan_grid *g = &s->frame->raster.grid;
@@ -123,7 +125,7 @@ static void fill_block(struct subdivision *s, const struct block *b,
       set_pixel(s, pixel_at(s, c, line), facet, all);
 }
 
-/* Counts the sub-pixels of a line of pixels that the facet covers. */
+/* Counts for each pixel of a line the sub-pixels that the facet covers. */
 static void count_line(struct subdivision *s, const struct block *b,
                        int32_t line, uint32_t facet) {
   int32_t k = s->frame->subpixels;
@@ -146,7 +148,7 @@ static void count_line(struct subdivision *s, const struct block *b,
   }
 }
 
-/* Rules 2 and 3: the part of a facet that lies in the block. */
+/* Rules 2 and 3: draws the part of a facet that lies in the block. */
 static void draw_facet(struct subdivision *s, const struct block *b,
                        uint32_t facet) {
   uint32_t all = (uint32_t)(s->frame->subpixels * s->frame->subpixels);
@@ -159,17 +161,18 @@ static void draw_facet(struct subdivision *s, const struct block *b,
   }
 }
 
-/* The facet seen at a sub-pixel's centre.  Faces come nearest first: past one
- * that ends behind what is seen there is no other. */
-static uint32_t query_centre(const struct subdivision *s,
-                             const struct pixel_window *win, int32_t column,
-                             int32_t line) {
+/* The facet visible at a sub-pixel's centre.  Faces come nearest first: after
+ * one whose nearest corner is behind the visible facet no other can be
+ * visible. */
+static uint32_t find_seen(const struct subdivision *s,
+                          const struct pixel_window *win, int32_t column,
+                          int32_t line) {
   uint32_t seen = SHEET_NONE;
   double low = -INFINITY;
   for (size_t i = win->surrounders.from; i < win->surrounders.to; i++) {
     uint32_t t = s->surrounders.item[i];
     if (seen == SHEET_NONE ||
-        warnock_sample_beats(&s->sample, t, seen, column, line))
+        warnock_sample_is_nearer(&s->sample, t, seen, column, line))
       seen = t;
   }
   for (size_t i = win->faces.from; i < win->faces.to; i++) {
@@ -183,7 +186,7 @@ static uint32_t query_centre(const struct subdivision *s,
       break;
     if (warnock_sample_covers(&s->sample, t, column, line) &&
         (seen == SHEET_NONE ||
-         warnock_sample_beats(&s->sample, t, seen, column, line))) {
+         warnock_sample_is_nearer(&s->sample, t, seen, column, line))) {
       seen = t;
       low = -INFINITY;
     }
@@ -196,36 +199,38 @@ static void draw_pixel(struct subdivision *s, const struct pixel_window *win) {
   uint32_t seen[SUBPIXELS_MAX * SUBPIXELS_MAX], all = 0, covered, facet;
   for (int32_t y = win->line * k; y < (win->line + 1) * k; y++)
     for (int32_t x = win->column * k; x < (win->column + 1) * k; x++)
-      seen[all++] = raster_seen(query_centre(s, win, x, y));
+      seen[all++] = raster_seen(find_seen(s, win, x, y));
   facet = raster_facet(subpixels_resolve(seen, all, &covered));
   set_pixel(s, pixel_at(s, win->column, win->line), facet, covered);
 }
 
 /* ---- Lists --------------------------------------------------------------- */
 
-/* Is facet a seen rather than b wherever both cover the block? */
-static bool beats_all_over(const struct subdivision *s, const struct block *b,
-                           uint32_t a, uint32_t other) {
+/* Is facet a visible rather than `other` wherever both cover the block? */
+static bool wins_everywhere(const struct subdivision *s, const struct block *b,
+                            uint32_t a, uint32_t other) {
   int32_t k = s->frame->subpixels;
   const int32_t column[2] = {b->column_from * k, b->column_past * k - 1};
   const int32_t line[2] = {b->line_from * k, b->line_past * k - 1};
   for (int corner = 0; corner < 4; corner++)
-    if (!warnock_sample_beats(&s->sample, a, other, column[corner & 1],
-                              line[corner >> 1]))
+    if (!warnock_sample_is_nearer(&s->sample, a, other, column[corner & 1],
+                                  line[corner >> 1]))
       return false;
   return true;
 }
 
-/* A surrounder that no other is before, and a depth it reaches everywhere. */
+/* A surrounder that no other one hides throughout the block, and a lower bound
+ * of its depths there. */
 struct pixel_front {
   uint32_t facet; /* SHEET_NONE: no surrounder */
   double low;
 };
 
-static void meet_surrounder(const struct subdivision *s, const struct block *b,
-                            uint32_t facet, struct pixel_front *front) {
+/* Makes a surrounder the front if it is nearer than it throughout the block. */
+static void update_front(const struct subdivision *s, const struct block *b,
+                         uint32_t facet, struct pixel_front *front) {
   int32_t k = s->frame->subpixels;
-  if (front->facet != SHEET_NONE && !beats_all_over(s, b, facet, front->facet))
+  if (front->facet != SHEET_NONE && !wins_everywhere(s, b, facet, front->facet))
     return;
   front->facet = facet;
   front->low = INFINITY;
@@ -249,8 +254,10 @@ static enum window_class classify(struct subdivision *s,
   return window_classify(window, p, (int)count, &s->tests);
 }
 
-/* Sorts the parent's faces out: those that meet the window, and those that
- * surround it. */
+/* Replaces the parent's lists by those of the faces that meet the window and of
+ * those that surround it.
+ * hidden  gets whether the front hides the rest of the parent's faces
+ * Returns false when memory ran out. */
 static bool list_faces(struct subdivision *s, const struct window *window,
                        const struct block *b, struct pixel_window *win,
                        struct pixel_front *front, bool *hidden) {
@@ -262,7 +269,7 @@ static bool list_faces(struct subdivision *s, const struct window *window,
     uint32_t t = s->surrounders.item[i];
     if (!ARRAY_PUSH(&s->surrounders, t))
       return false;
-    meet_surrounder(s, b, t, front);
+    update_front(s, b, t, front);
   }
   for (size_t i = faces.from; i < faces.to; i++) {
     uint32_t t = s->faces.item[i];
@@ -274,7 +281,7 @@ static bool list_faces(struct subdivision *s, const struct window *window,
     if (class == WINDOW_SURROUNDING) {
       if (!ARRAY_PUSH(&s->surrounders, t))
         return false;
-      meet_surrounder(s, b, t, front);
+      update_front(s, b, t, front);
     } else if (class != WINDOW_DISJOINT && !ARRAY_PUSH(&s->faces, t)) {
       return false;
     }
@@ -284,13 +291,14 @@ static bool list_faces(struct subdivision *s, const struct window *window,
   return true;
 }
 
-/* Drops from a list what the front hides all over the block. */
+/* Removes from a list the faces that the front hides throughout the block;
+ * returns where the list ends then. */
 static size_t drop_hidden(const struct subdivision *s, const struct block *b,
                           uint32_t front, uint32_t *item,
                           const struct pixel_range *list) {
   size_t kept = list->from;
   for (size_t i = list->from; i < list->to; i++)
-    if (item[i] == front || !beats_all_over(s, b, front, item[i]))
+    if (item[i] == front || !wins_everywhere(s, b, front, item[i]))
       item[kept++] = item[i];
   return kept;
 }
@@ -320,8 +328,8 @@ static int32_t pixel_of(int64_t value, int64_t first, int64_t step,
   return (int32_t)floor_divide(value * den - first, step);
 }
 
-/* Four windows in place of one: cut in the middle, or at sides of the box of
- * its nearest face. */
+/* Puts four parts of the window onto the stack.  It is divided in the middle,
+ * or at sides of the bounding box of its nearest face. */
 static bool divide(struct subdivision *s, const struct pixel_window *win) {
   const struct scan_grid *g = &s->frame->raster.grid;
   int32_t x = win->column + win->columns / 2, y = win->line + win->lines / 2;
@@ -350,7 +358,7 @@ static bool divide(struct subdivision *s, const struct pixel_window *win) {
   return true;
 }
 
-/* Does what the rules say about the window, or divides it.  Sets *rule. */
+/* Finishes the window by one of the five rules, or divides it.  Sets *rule. */
 static bool apply_rules(struct subdivision *s, struct pixel_window *win,
                         const struct block *b, enum warnock_rule *rule) {
   struct window window = window_of(s, b, 0);
@@ -387,7 +395,7 @@ static bool apply_rules(struct subdivision *s, struct pixel_window *win,
   return true;
 }
 
-static bool take_window(struct subdivision *s) {
+static bool process_window(struct subdivision *s) {
   struct pixel_window win = s->stack.item[--s->stack.count];
   struct warnock_record record = {win.column, win.line, win.columns, win.lines,
                                   WARNOCK_PIXEL};
@@ -410,41 +418,12 @@ static bool take_window(struct subdivision *s) {
   return !s->frame->keep_records || ARRAY_PUSH(&s->frame->record, record);
 }
 
-/* Of a face in a window, in units of a pulse. */
+/* Work per face of a window, in the units of progress.h. */
 enum { WINDOW_WORK = 8 };
 
-/* ---- The frame ----------------------------------------------------------- */
+/* ---- The walk ------------------------------------------------------------ */
 
-recto_status warnock_frame_init(struct warnock_frame *frame,
-                                const struct sheet *sheet,
-                                const struct solver_request *request,
-                                recto_error *error) {
-  int lines;
-  size_t pixels;
-  recto_status status = subpixels_lines(request, &lines, error);
-  memset(frame, 0, sizeof *frame);
-  frame->subpixels = subpixels_of(request);
-  if (status == RECTO_OK && lines > RASTER_LINES_MAX)
-    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                     "more than %d lines of sub-pixels", RASTER_LINES_MAX);
-  if (status == RECTO_OK)
-    status =
-        raster_init(&frame->raster, sheet, request->resolution, 0, true, error);
-  if (status != RECTO_OK || frame->subpixels == 1)
-    return status;
-  pixels = (size_t)frame->raster.grid.columns * (size_t)frame->raster.kept;
-  frame->coverage = mem_calloc(pixels, sizeof *frame->coverage);
-  return frame->coverage == NULL ? error_memory(error) : RECTO_OK;
-}
-
-void warnock_frame_fini(struct warnock_frame *frame) {
-  raster_fini(&frame->raster);
-  mem_free(frame->coverage);
-  ARRAY_FREE(&frame->record);
-  frame->coverage = NULL;
-}
-
-/* All facets that are drawn, nearest first; all edges that are. */
+/* Lists all facets to be drawn, nearest first, and all drawable edges. */
 static bool fill_pools(struct subdivision *s) {
   const struct sheet *sheet = s->sheet;
   int left_out = SHEET_FLAT | (s->request->remove_backs ? SHEET_FLIPPED : 0);
@@ -488,7 +467,7 @@ static bool run(struct subdivision *s) {
     size_t work = WINDOW_WORK * (1 + next->faces.to - next->faces.from +
                                  next->surrounders.to - next->surrounders.from);
     s->progress.share = (double)s->pixels_done / pixels;
-    if (!progress_step(&s->progress, work) || !take_window(s))
+    if (!progress_step(&s->progress, work) || !process_window(s))
       return false;
   }
   return true;
@@ -516,59 +495,4 @@ recto_status warnock_frame_draw(struct warnock_frame *frame,
   ARRAY_FREE(&s.surrounders);
   ARRAY_FREE(&s.edges);
   return ok ? RECTO_OK : progress_error(&s.progress, error);
-}
-
-/* ---- The solver ---------------------------------------------------------- */
-
-/* The share of the frame that its pixels or sub-pixels see covered. */
-static double covered_share(const struct warnock_frame *frame) {
-  size_t pixels =
-      (size_t)frame->raster.grid.columns * (size_t)frame->raster.kept;
-  uint64_t covered = 0;
-  for (size_t i = 0; i < pixels; i++)
-    covered += frame->coverage != NULL ? frame->coverage[i]
-                                       : frame->raster.seen[i] != 0;
-  return (double)covered / (double)pixels /
-         (frame->subpixels * frame->subpixels);
-}
-
-static void report_frame(const struct warnock_frame *frame,
-                         const struct solver_request *request,
-                         struct report *report) {
-  static const char *const name[WARNOCK_RULE_COUNT] = {
-      "without_edge",   "background",       "one_contained", "one_intersecting",
-      "one_surrounder", "surrounder_first", "pixels",        "divided"};
-  report_int(report, "warnock", "subpixels", frame->subpixels);
-  report_text(report, "warnock", "division",
-              request->divide_by_box ? "box" : "four");
-  for (int rule = 0; rule < WARNOCK_RULE_COUNT; rule++)
-    report_int(report, "warnock", name[rule], (int64_t)frame->windows[rule]);
-  report_int(report, "warnock", "stack_most", (int64_t)frame->stack_most);
-  report_int(report, "warnock", "classified", (int64_t)frame->classified);
-  if (request->fragments)
-    report_double(report, "warnock", "covered_share", covered_share(frame));
-}
-
-recto_status warnock_raster_solve(struct sheet *sheet,
-                                  const struct solver_request *request,
-                                  struct map *map, struct report *report,
-                                  recto_error *error) {
-  struct warnock_frame frame = {0};
-  struct facets facets = {0};
-  recto_status status =
-      edge_sampling_find_intersections(sheet, request, report, error);
-  if (status == RECTO_OK)
-    status = warnock_frame_init(&frame, sheet, request, error);
-  if (status == RECTO_OK && !facets_init(&facets, sheet))
-    status = error_memory(error);
-  if (status == RECTO_OK)
-    status = warnock_frame_draw(&frame, &facets, request, error);
-  if (status == RECTO_OK)
-    status =
-        pixels_store(&frame.raster, 1, request, map, report, "warnock", error);
-  if (status == RECTO_OK)
-    report_frame(&frame, request, report);
-  warnock_frame_fini(&frame);
-  facets_fini(&facets);
-  return status;
 }

@@ -1,4 +1,4 @@
-/* warnock_sample.c - facets asked at the centres of sub-pixels.
+/* warnock_sample.c - point sampling of facets at the centres of sub-pixels.
  *
  * Ranges  In units of 1 / den <= 2^-1, den <= 2^17, a centre is below 2^48 and
  *   its distance from a corner below 2^49: exact in int64 and in a double.  An
@@ -8,7 +8,8 @@
 
 #include <math.h>
 
-/* Each term of a depth gathers fewer than ten roundings. */
+/* Relative error of a depth: each of its terms takes fewer than ten roundings
+ * of 2^-53 each. */
 #define SLACK (16 * 0x1p-53)
 
 static struct sample_plane plane_of(const struct sheet *sheet,
@@ -75,8 +76,8 @@ struct sample_depth warnock_sample_depth(const struct warnock_sample *sample,
                                SLACK * (fabs(plane->z0) + fabs(dx) + fabs(dy))};
 }
 
-bool warnock_sample_beats(const struct warnock_sample *sample, uint32_t a,
-                          uint32_t b, int32_t column, int32_t line) {
+bool warnock_sample_is_nearer(const struct warnock_sample *sample, uint32_t a,
+                              uint32_t b, int32_t column, int32_t line) {
   struct sample_depth of_a = warnock_sample_depth(sample, a, column, line);
   struct sample_depth of_b = warnock_sample_depth(sample, b, column, line);
   double doubt = of_a.error + of_b.error;
@@ -131,7 +132,8 @@ bool warnock_sample_columns(const struct warnock_sample *sample, uint32_t facet,
     int128 num;
     if (p_below == (q.y * grid->den <= y))
       continue;
-    /* Of the two sides that pass the line the one going up is on the right. */
+    /* Corners run counter-clockwise: of the two sides that cross the line the
+     * one that goes up is on the right. */
     num = (int128)(p.x * grid->den - zero) * dy +
           (int128)dx * (y - p.y * grid->den);
     if (p_below)

@@ -1,37 +1,42 @@
-/* warnock_sample.h - facets asked at the centres of sub-pixels: which cover
- * them, and which of them is seen.
+/* warnock_sample.h - point sampling of facets at the centres of sub-pixels:
+ * which facets cover a centre, and which of two is visible there.
  *
- * The rules are those of the z-buffers (scanfill.h, active_edge_pair.h): a facet has the
- * centres with y_low <= y < y_high that lie on it or on its sides; the nearest
- * is seen, the earlier one of equals.  All answers are exact.
+ * The rules are those of the z-buffers (scanfill.h, active_edge_pair.h): a
+ * facet covers the centres with y_low <= y < y_high that lie inside it or on
+ * its sides; the nearest facet is visible, the one of lower index among equals.
+ * All results are exact.
  */
 #ifndef VISIBILITY_WARNOCK_WARNOCK_SAMPLE_H
 #define VISIBILITY_WARNOCK_WARNOCK_SAMPLE_H
 
 #include "visibility/raster/raster.h"
 
-/* z = z0 + per_x (x - x0) + per_y (y - y0), x and y in units of 1 / den. */
+/* The plane of a facet,
+ *     z = z0 + per_x (x - x0 den) + per_y (y - y0 den),
+ * x and y in units of 1 / den of the grid. */
 struct sample_plane {
   double per_x, per_y, z0;
-  double nearest; /* depth of the facet's corners */
+  double nearest; /* the nearest depth of the facet's corners */
   int32_t x0, y0; /* sheet units */
 };
 
 struct warnock_sample {
   const struct facets *facets;
-  struct raster fine;         /* a frame of sub-pixels: sheet and grid alone */
-  struct sample_plane *plane; /* one a triangle; set for those that
-                                 a facet is known by */
+  struct raster fine;         /* a frame of sub-pixels: only sheet and grid */
+  struct sample_plane *plane; /* one a triangle; set for those that represent
+                                 a facet (facet_of) */
 };
 
-/* grid  of the sub-pixels.  False when memory ran out. */
+/* Sets the planes of all facets.
+ * grid  of the sub-pixels
+ * Returns false when memory ran out. */
 USE_RESULT bool warnock_sample_init(struct warnock_sample *sample,
                                     const struct sheet *sheet,
                                     const struct facets *facets,
                                     const struct scan_grid *grid);
 void warnock_sample_fini(struct warnock_sample *sample);
 
-/* A depth in doubles, and how far it may be off. */
+/* A depth in doubles, and a bound of its error. */
 struct sample_depth {
   double z, error;
 };
@@ -41,16 +46,17 @@ struct sample_depth warnock_sample_depth(const struct warnock_sample *sample,
                                          uint32_t facet, int32_t column,
                                          int32_t line);
 
-/* Is a seen rather than b at a centre that both planes pass over? */
-bool warnock_sample_beats(const struct warnock_sample *sample, uint32_t a,
-                          uint32_t b, int32_t column, int32_t line);
+/* Is facet a visible rather than b at a centre that both cover?  The nearer one
+ * is, the one of lower index among equals. */
+bool warnock_sample_is_nearer(const struct warnock_sample *sample, uint32_t a,
+                              uint32_t b, int32_t column, int32_t line);
 
-/* Does the facet have that centre? */
+/* Does the facet cover that centre? */
 bool warnock_sample_covers(const struct warnock_sample *sample, uint32_t facet,
                            int32_t column, int32_t line);
 
-/* The centres of a line that the facet has, [*first, *past), perhaps beyond
- * the grid; false where it has none. */
+/* The centres of a line that the facet covers, [*first, *past), not clipped to
+ * the grid; false where it covers none. */
 bool warnock_sample_columns(const struct warnock_sample *sample, uint32_t facet,
                             int32_t line, int64_t *first, int64_t *past);
 

@@ -1,4 +1,5 @@
-/* warnock_window.c - the windows that warnock starts from and clips to. */
+/* warnock_window.c - the window that Warnock's subdivision starts from, and the
+ * size at which it ends. */
 #include "visibility/warnock/warnock_window.h"
 
 #include "visibility/predicate/occlusion.h"
@@ -33,7 +34,7 @@ struct window warnock_page_window(const struct sheet *sheet) {
   side = x1 - x0 > y1 - y0 ? x1 - x0 : y1 - y0;
   if (side < 2)
     side = 2;
-  /* A square about the scene, one that does not leave the grid's range. */
+  /* The square is moved where it would leave the grid's range. */
   if (x0 + side > SHEET_XY_MAX)
     x0 = SHEET_XY_MAX - side;
   if (y0 + side > SHEET_XY_MAX)

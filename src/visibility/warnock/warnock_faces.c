@@ -1,0 +1,126 @@
+/* warnock_faces.c - visible pieces of faces window by window, and the fragments
+ * of whole faces from them.
+ *
+ * Memory: each window adds pieces of its own.  Each time that their number has
+ * doubled, the faces of many pieces are deferred to pairwise_fallback.h and
+ * their pieces are discarded.
+ */
+#include "base/sort.h"
+#include "visibility/warnock/warnock_subdivision.h"
+#include "visibility/warnock/warnock_window.h"
+
+/* Faces of more pieces are deferred when there are too many pieces in all. */
+enum { PIECES_PER_FACE_MAX = 8 };
+
+static int compare_pieces(const void *a, const void *b, void *user) {
+  const struct face_piece *p = a, *q = b;
+  (void)user;
+  return (p->triangle > q->triangle) - (p->triangle < q->triangle);
+}
+
+/* Sorts the pieces by face. */
+static bool sort_pieces(struct warnock *w) {
+  return sort_stable(w->piece.item, w->piece.count, sizeof *w->piece.item,
+                     compare_pieces, NULL);
+}
+
+/* Defers faces of many pieces to the fallback, and discards their pieces. */
+static bool limit_pieces(struct warnock *w) {
+  struct face_piece *piece = w->piece.item;
+  size_t n = w->piece.count, kept = 0;
+  struct arena arena = {0};
+  bool ok = sort_pieces(w);
+  for (size_t i = 0, past; ok && i < n; i = past) {
+    uint32_t t = piece[i].triangle;
+    for (past = i; past < n && piece[past].triangle == t;)
+      past++;
+    if (past - i > PIECES_PER_FACE_MAX)
+      w->face_deferred[t] = w->any_deferred = true;
+    for (size_t k = i; ok && k < past && !w->face_deferred[t]; k++) {
+      struct face_piece copy = {.triangle = t};
+      ok = geom_convex_copy(&copy.piece, &piece[k].piece, &arena);
+      piece[kept++] = copy;
+    }
+  }
+  arena_fini(&w->arena);
+  w->arena = arena;
+  w->piece.count = kept;
+  w->piece_limit = 2 * kept + PIECES_MIN;
+  return ok;
+}
+
+bool warnock_solve_face(struct warnock *w, const struct warnock_window *win,
+                        uint32_t t) {
+  struct geom_line border[8];
+  const struct warnock_range *list[2] = {&win->surrounders, &win->faces};
+  if ((w->sheet->triangle_flags[t] & SHEET_FLAT) || w->face_deferred[t])
+    return true;
+  warnock_window_lines(&win->window, border, border + 4);
+  if (!occluder_subtraction_start(&w->subtraction, t, NULL) ||
+      !occluder_subtraction_keep(&w->subtraction, border, border + 4, 4))
+    return false;
+  for (int l = 0; l < 2; l++) {
+    const uint32_t *pool = l == 0 ? w->surrounders.item : w->faces.item;
+    for (size_t i = list[l]->from; i < list[l]->to; i++) {
+      uint32_t g = pool[i];
+      if (occluder_subtraction_is_empty(&w->subtraction))
+        return true;
+      if (g != t && !(w->sheet->triangle_flags[g] & SHEET_FLAT) &&
+          (!progress_step(&w->progress, 1 + w->subtraction.left.count) ||
+           !occluder_subtraction_take_nearer(&w->subtraction, g)))
+        return false;
+    }
+  }
+  for (size_t i = 0; i < w->subtraction.left.count; i++) {
+    struct face_piece piece = {.triangle = t};
+    if (!geom_convex_copy(&piece.piece, &w->subtraction.left.item[i],
+                          &w->arena) ||
+        !ARRAY_PUSH(&w->piece, piece))
+      return false;
+  }
+  return w->piece.count < w->piece_limit || limit_pieces(w);
+}
+
+/* ---- All faces ----------------------------------------------------------- */
+
+/* Adds the fragments of the deferred faces, solved by the fallback. */
+static bool store_deferred_faces(struct warnock *w,
+                                 struct pairwise_fallback *fallback,
+                                 struct fragments *fragments) {
+  ARRAY(uint32_t) left = {0};
+  bool ok = true;
+  for (uint32_t t = 0; ok && t < w->sheet->triangle.count; t++)
+    if (w->face_deferred[t])
+      ok = ARRAY_PUSH(&left, t);
+  ok =
+      ok && pairwise_fallback_faces(fallback, left.item, left.count, fragments);
+  ARRAY_FREE(&left);
+  return ok;
+}
+
+bool warnock_store_faces(struct warnock *w, struct pairwise_fallback *fallback,
+                         const struct triangle_grid *grid, struct map *map,
+                         struct report *report) {
+  struct fragments fragments;
+  geom_pieces piece = {0};
+  size_t n = w->piece.count;
+  bool ok = fragments_init(&fragments, w->sheet, grid, true) && sort_pieces(w);
+  fragments.progress = &w->progress;
+  fragments.report = report;
+  for (size_t i = 0, j; ok && i < n; i = j) {
+    piece.count = 0;
+    for (j = i;
+         ok && j < n && w->piece.item[j].triangle == w->piece.item[i].triangle;
+         j++)
+      ok = ARRAY_PUSH(&piece, w->piece.item[j].piece);
+    ok = ok && (w->face_deferred[w->piece.item[i].triangle] ||
+                fragments_add(&fragments, w->piece.item[i].triangle, piece.item,
+                              piece.count));
+  }
+  if (w->any_deferred)
+    ok = ok && store_deferred_faces(w, fallback, &fragments);
+  ok = ok && fragments_finish(&fragments, w->request->areas, map);
+  ARRAY_FREE(&piece);
+  fragments_fini(&fragments);
+  return ok;
+}

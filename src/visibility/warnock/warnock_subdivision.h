@@ -1,0 +1,141 @@
+/* warnock_subdivision.h - the state of Warnock's subdivision in vector mode,
+ * which the files of the method share.
+ *
+ * The lists of a window are ranges of three pools.  They stand above those of
+ * its parent and are discarded when the stack falls back to it.
+ */
+#ifndef VISIBILITY_WARNOCK_WARNOCK_SUBDIVISION_H
+#define VISIBILITY_WARNOCK_WARNOCK_SUBDIVISION_H
+
+#include "visibility/fragments/occluder_subtraction.h"
+#include "visibility/pairwise/pairwise_fallback.h"
+#include "visibility/predicate/edge_intervals.h"
+#include "visibility/predicate/surrounder.h"
+#include "visibility/progress.h"
+#include "visibility/solver.h"
+
+/* Up to so many occluded intervals are not united, and up to so many pieces no
+ * face is deferred for its pieces. */
+enum { OCCLUSIONS_MIN = 1 << 16, PIECES_MIN = 1 << 15 };
+
+/* A list of a window: the entries [from, to) of a pool. */
+struct warnock_range {
+  size_t from, to;
+};
+
+/* A window and its lists; on the stack, the lists of its parent. */
+struct warnock_window {
+  struct window window;
+  double pairs; /* unsolved items times faces, of the parent */
+  int futile;   /* consecutive divisions after which one quarter kept more than
+                   half of the pairs */
+  struct warnock_range faces, surrounders, edges;
+};
+
+/* An occluded interval of an edge inside one window. */
+struct edge_occlusion {
+  uint32_t edge;
+  struct occluded_interval interval;
+};
+
+typedef ARRAY(struct edge_occlusion) edge_occlusions;
+
+/* A visible piece of a triangle inside one window. */
+struct face_piece {
+  uint32_t triangle;
+  struct geom_convex piece;
+};
+typedef ARRAY(struct face_piece) face_pieces;
+
+struct warnock {
+  const struct sheet *sheet;
+  const struct solver_request *request;
+  struct progress progress;
+  ARRAY(struct warnock_window) stack;
+  ARRAY(uint32_t) faces, surrounders, edges; /* the pools */
+  edge_occlusions occlusion;                 /* of all windows so far */
+  size_t occlusion_limit; /* from this count on they are united, see
+                             OCCLUSIONS_MIN */
+  face_pieces piece;      /* of all windows so far */
+  size_t piece_limit;     /* from this count on faces of many pieces are
+                             deferred, see PIECES_MIN */
+  struct edge_intervals intervals; /* of the current edge */
+  uint64_t listed, listed_max;     /* faces and edges, over all windows */
+  uint8_t *edge_deferred;          /* one an edge: solved by the fallback, */
+  uint8_t *face_deferred;          /* one a triangle: pairwise_fallback.h */
+  bool any_deferred;
+  struct arena arena; /* owns the pieces */
+  struct occluder_subtraction subtraction;
+  int64_t floor; /* grid units: no smaller window is divided */
+  struct window_counts class_counts;
+  uint64_t cut_short; /* lists that ended at the first face behind the front */
+  uint64_t dropped;   /* faces behind the front at every corner of a window */
+  struct occlusion_counts occlusion_counts;
+  struct {
+    uint64_t all, no_edge, no_face, one_surrounder, few, floor, deferred,
+        divided;
+  } windows;
+};
+
+/* The surrounder whose farthest depth in the window is the nearest. */
+struct window_front {
+  uint32_t triangle; /* SHEET_NONE: no surrounder */
+  struct surrounder_depths depth;
+};
+
+/* Is the edge to be drawn, and longer than a point on the page? */
+bool warnock_is_drawn(const struct sheet *sheet, uint32_t e);
+
+/* ---- Lists of a window (warnock_lists.c) --------------------------------- */
+
+/* Replaces the parent's lists of faces and surrounders by the window's own and
+ * finds its front.  False when memory ran out. */
+USE_RESULT bool warnock_list_faces(struct warnock *w,
+                                   struct warnock_window *win,
+                                   struct window_front *front);
+
+/* Removes the faces and surrounders that the front hides in the window. */
+void warnock_drop_hidden_faces(struct warnock *w, struct warnock_window *win,
+                               const struct window_front *front);
+
+/* Replaces the parent's list of edges by the window's own: those that meet it
+ * and are not deferred.  False when memory ran out. */
+USE_RESULT bool warnock_list_edges(struct warnock *w,
+                                   struct warnock_window *win);
+
+/* ---- Edges (warnock_edges.c) --------------------------------------------- */
+
+/* Stores the edges behind the front as hidden in the window, and removes them
+ * from its list.  False when memory ran out. */
+USE_RESULT bool warnock_drop_hidden_edges(struct warnock *w,
+                                          struct warnock_window *win,
+                                          const struct window_front *front);
+
+/* Tests the edge against the faces of the window's lists, nearest first, until
+ * it is hidden throughout the window.  False when memory ran out. */
+USE_RESULT bool warnock_solve_edge(struct warnock *w,
+                                   const struct warnock_window *win,
+                                   uint32_t e);
+
+/* Writes the states and visible intervals of all edges to the map.  False when
+ * memory ran out or the caller cancelled. */
+USE_RESULT bool warnock_store_edges(struct warnock *w,
+                                    struct pairwise_fallback *fallback,
+                                    struct map *map);
+
+/* ---- Faces (warnock_faces.c) --------------------------------------------- */
+
+/* Clips a face to the window and subtracts the nearer faces of its lists.
+ * False when memory ran out or the caller cancelled. */
+USE_RESULT bool warnock_solve_face(struct warnock *w,
+                                   const struct warnock_window *win,
+                                   uint32_t t);
+
+/* Unites the pieces of each face over all windows, and writes the visible
+ * fragments to the map.  False when memory ran out or the caller cancelled. */
+USE_RESULT bool warnock_store_faces(struct warnock *w,
+                                    struct pairwise_fallback *fallback,
+                                    const struct triangle_grid *grid,
+                                    struct map *map, struct report *report);
+
+#endif
