@@ -128,7 +128,7 @@ static void bars_across_a_bar_are_met_near_by_alone(void **state) {
     take_all(&occluders, 0);
     assert_true(occluders.counts.splits > (uint64_t)n / 4);
     assert_true(occluders.left.count >= (size_t)n / 2);
-    cuts[i] = occluders.counts.cuts;
+    cuts[i] = occluders.counts.subtractions;
     face_occluders_fini(&occluders);
     exact_sheet_fini(&sheet);
   }

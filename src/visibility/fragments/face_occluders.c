@@ -1,8 +1,10 @@
-/* face_occluders.c - which triangles are nearer than one at hand, and what a few of
- * them leave of a part of it.
+/* face_occluders.c - finds the triangles that occlude the current one, and
+ * subtracts a few of them from a part of it.
  *
- * Most of what is about is sorted out by boxes, by depths, by sides between the
- * two on the page, and by planes in doubles; all that is decided is exact.
+ * Most candidates are rejected by their bounding boxes, by their depth ranges,
+ * by a side that separates the two triangles on the page, or by a
+ * floating-point filter on their planes; the rest is decided by exact
+ * arithmetic.  Every decision is exact.
  */
 #include "visibility/fragments/face_occluders.h"
 
@@ -20,8 +22,8 @@ void face_occluders_fini(struct face_occluders *occluders) {
   ARRAY_FREE(&occluders->left);
   ARRAY_FREE(&occluders->rest);
   ARRAY_FREE(&occluders->next);
-  ARRAY_FREE(&occluders->part);
-  ARRAY_FREE(&occluders->reach);
+  ARRAY_FREE(&occluders->region);
+  ARRAY_FREE(&occluders->extent);
   ARRAY_FREE(&occluders->scratch);
   ARRAY_FREE(&occluders->key);
   arena_fini(&occluders->arena);
@@ -49,11 +51,11 @@ void face_occluders_start(struct face_occluders *occluders, uint32_t triangle) {
   occluders->occluder.count = 0;
 }
 
-/* ---- Gathering ----------------------------------------------------------- */
+/* ---- Collecting the occluders -------------------------------------------- */
 
-/* A mask as of plane_sides; -1 where doubles cannot tell. */
-static int near_sides(const struct plane_filter *plane,
-                      const struct geom_point p[3]) {
+/* As plane_sides, by the floating-point filter; -1 where it fails. */
+static int filtered_plane_sides(const struct plane_filter *plane,
+                                const struct geom_point p[3]) {
   int sides = 0;
   for (int k = 0; k < 3; k++) {
     int sign = plane_filter_sign(plane, p[k]);
@@ -64,19 +66,19 @@ static int near_sides(const struct plane_filter *plane,
   return sides;
 }
 
-/* How g lies to the triangle at hand where doubles can tell, strictly; else
- * false. */
-static bool decide_depth_order(const struct face_occluders *occluders,
-                               uint32_t g, const struct geom_point p[3],
-                               enum depth_order *depth_order) {
+/* Decides by the floating-point filter how triangle g lies relative to the
+ * current one.  Returns false where the filter fails. */
+static bool filtered_depth_order(const struct face_occluders *occluders,
+                                 uint32_t g, const struct geom_point p[3],
+                                 enum depth_order *depth_order) {
   struct plane_filter plane;
-  int sides = near_sides(&occluders->filter, p);
+  int sides = filtered_plane_sides(&occluders->filter, p);
   if (sides == PLANE_BEHIND || sides == PLANE_BEFORE) {
     *depth_order = sides == PLANE_BEHIND ? NEARER_NEVER : NEARER_ALWAYS;
     return true;
   }
   plane = plane_filter_of(occluders->sheet, g);
-  int others = near_sides(&plane, occluders->plane.p);
+  int others = filtered_plane_sides(&plane, occluders->plane.p);
   if (others == PLANE_BEHIND || others == PLANE_BEFORE) {
     *depth_order = others == PLANE_BEHIND ? NEARER_ALWAYS : NEARER_NEVER;
     return true;
@@ -85,8 +87,9 @@ static bool decide_depth_order(const struct face_occluders *occluders,
   return sides >= 0 && others >= 0;
 }
 
-static bool holds_all(const struct geom_point g[3],
-                      const struct geom_point f[3]) {
+/* Returns whether triangle g contains triangle f on the page. */
+static bool contains_triangle(const struct geom_point g[3],
+                              const struct geom_point f[3]) {
   for (int k = 0; k < 3; k++)
     for (int i = 0; i < 3; i++)
       if (geom_orient2d(g[k], g[k == 2 ? 0 : k + 1], f[i]) < 0)
@@ -94,7 +97,7 @@ static bool holds_all(const struct geom_point g[3],
   return true;
 }
 
-/* Of two boxes that meet. */
+/* The area that two overlapping boxes share, in square grid units. */
 static double shared_area(struct box2 a, struct box2 b) {
   double width = (double)box2_min(a.x1, b.x1) - box2_max(a.x0, b.x0);
   double height = (double)box2_min(a.y1, b.y1) - box2_max(a.y0, b.y0);
@@ -121,7 +124,7 @@ bool face_occluders_test(struct face_occluders *occluders, uint32_t g) {
     return true;
   occluders->counts.overlapping++;
   if (low <= occluders->high &&
-      !decide_depth_order(occluders, g, plane.p, &depth_order)) {
+      !filtered_depth_order(occluders, g, plane.p, &depth_order)) {
     occluders->counts.exact++;
     occluders->interpenetrating = true;
     plane = triangle_plane_of(sheet, g);
@@ -134,13 +137,13 @@ bool face_occluders_test(struct face_occluders *occluders, uint32_t g) {
     occluders->counts.crossings++;
     occluders->interpenetrating = true;
     occluder.lines = 4;
-  } else if (holds_all(plane.p, occluders->plane.p)) {
+  } else if (contains_triangle(plane.p, occluders->plane.p)) {
     occluders->covered = true;
   }
   return ARRAY_PUSH(&occluders->occluder, occluder);
 }
 
-/* ---- Rivals and parts ---------------------------------------------------- */
+/* ---- Occluders and convex pieces ----------------------------------------- */
 
 bool face_occluder_make_lines(struct face_occluders *occluders,
                               struct face_occluder *occluder) {
@@ -157,7 +160,8 @@ bool face_occluder_make_lines(struct face_occluders *occluders,
   return true;
 }
 
-/* Makes the fourth line, if it was not. */
+/* Computes the fourth line, in which the planes intersect, unless that was done
+ * before. */
 static void make_crossing(const struct face_occluders *occluders,
                           struct face_occluder *occluder) {
   struct triangle_plane plane;
@@ -171,97 +175,101 @@ static void make_crossing(const struct face_occluders *occluders,
   occluder->crossing = true;
 }
 
-enum meeting { MEETING_NONE, MEETING_PART, MEETING_ALL };
+/* How much of a piece lies in a region. */
+enum coverage { COVERAGE_NONE, COVERAGE_PARTIAL, COVERAGE_FULL };
 
-/* How much of a part is left of a line. */
-static enum meeting side_of_line(const struct geom_line *line,
-                                 const struct geom_convex *piece) {
+/* How much of a piece lies to the left of a line. */
+static enum coverage coverage_of_line(const struct geom_line *line,
+                                      const struct geom_convex *piece) {
   bool left = false, all = true;
   for (uint32_t c = 0; c < piece->count; c++) {
     int side = geom_line_side(line, &piece->corner[c]);
     left |= side > 0;
     all &= side >= 0;
   }
-  return !left ? MEETING_NONE : all ? MEETING_ALL : MEETING_PART;
+  return !left ? COVERAGE_NONE : all ? COVERAGE_FULL : COVERAGE_PARTIAL;
 }
 
-/* The same of the fourth line, which need not be made where doubles can tell
- * all corners' sides. */
-static enum meeting side_of_crossing(const struct face_occluders *occluders,
-                                     struct face_occluder *occluder,
-                                     const struct geom_convex *piece) {
+/* As coverage_of_line for the fourth line, which is computed only where the
+ * floating-point filter fails for some corner. */
+static enum coverage
+coverage_of_crossing(const struct face_occluders *occluders,
+                     struct face_occluder *occluder,
+                     const struct geom_convex *piece) {
   struct plane_filter plane;
   int sum = 0, count = (int)piece->count;
   if (occluder->crossing)
-    return side_of_line(&occluder->line[3], piece);
+    return coverage_of_line(&occluder->line[3], piece);
   plane = plane_filter_of(occluders->sheet, occluder->triangle);
   for (uint32_t c = 0; c < piece->count; c++)
     sum += plane_filter_nearer(&occluders->filter, &plane, piece->corner[c].x,
                                piece->corner[c].y);
   if (sum == count || sum == -count)
-    return sum > 0 ? MEETING_ALL : MEETING_NONE;
+    return sum > 0 ? COVERAGE_FULL : COVERAGE_NONE;
   make_crossing(occluders, occluder);
-  return side_of_line(&occluder->line[3], piece);
+  return coverage_of_line(&occluder->line[3], piece);
 }
 
-/* How much of a part a rival may cover: a NONE and an ALL are certain.  With a
- * PART, `lines` of its lines count. */
-static enum meeting meeting_of(const struct face_occluders *occluders,
-                               struct face_occluder *occluder,
-                               const struct geom_convex *piece, int *lines) {
-  enum meeting meeting = MEETING_ALL;
+/* How much of a piece an occluder covers: COVERAGE_NONE and COVERAGE_FULL are
+ * certain, COVERAGE_PARTIAL may turn out to be nothing.
+ * lines  receives how many of the occluder's lines bound the region to
+ *        subtract: 4 only if the fourth one splits the piece */
+static enum coverage coverage_of(const struct face_occluders *occluders,
+                                 struct face_occluder *occluder,
+                                 const struct geom_convex *piece, int *lines) {
+  enum coverage coverage = COVERAGE_FULL;
   *lines = 3;
   for (int k = 0; k < 3; k++) {
-    enum meeting now = side_of_line(&occluder->line[k], piece);
-    if (now < meeting)
-      meeting = now;
-    if (now == MEETING_NONE)
+    enum coverage now = coverage_of_line(&occluder->line[k], piece);
+    if (now < coverage)
+      coverage = now;
+    if (now == COVERAGE_NONE)
       return now;
   }
   if (occluder->lines == 4) {
-    enum meeting now = side_of_crossing(occluders, occluder, piece);
-    if (now < meeting)
-      meeting = now;
-    if (now == MEETING_PART)
+    enum coverage now = coverage_of_crossing(occluders, occluder, piece);
+    if (now < coverage)
+      coverage = now;
+    if (now == COVERAGE_PARTIAL)
       *lines = 4;
   }
-  return meeting;
+  return coverage;
 }
 
 bool face_occluder_covers(const struct face_occluders *occluders,
                           struct face_occluder *occluder,
                           const struct geom_convex *piece) {
   int lines;
-  return meeting_of(occluders, occluder, piece, &lines) == MEETING_ALL;
+  return coverage_of(occluders, occluder, piece, &lines) == COVERAGE_FULL;
 }
 
 bool face_occluder_subtract(struct face_occluders *occluders,
                             const struct geom_convex *piece,
                             struct face_occluder *occluder) {
   struct geom_convex inside = {0};
-  enum meeting meeting;
+  enum coverage coverage;
   int lines;
   if (!face_occluder_make_lines(occluders, occluder))
     return false;
-  meeting = meeting_of(occluders, occluder, piece, &lines);
-  if (meeting == MEETING_NONE)
+  coverage = coverage_of(occluders, occluder, piece, &lines);
+  if (coverage == COVERAGE_NONE)
     return ARRAY_PUSH(&occluders->next, *piece);
-  if (meeting == MEETING_PART &&
+  if (coverage == COVERAGE_PARTIAL &&
       !geom_convex_subtract(piece, occluder->line,
                             occluder->line + occluder->lines, lines,
                             &occluders->next, &inside, &occluders->arena))
     return false;
-  occluders->counts.cuts++;
-  if (meeting == MEETING_ALL || inside.count > 0)
+  occluders->counts.subtractions++;
+  if (coverage == COVERAGE_FULL || inside.count > 0)
     occluders->whole = false;
   return true;
 }
 
-bool face_occluders_subtract_few(struct face_occluders *occluders,
-                                 const struct geom_convex *piece,
-                                 size_t count) {
-  const struct face_occluder_extent *reach =
-      occluders->reach.item + (occluders->reach.count - count);
+bool face_occluders_subtract_last(struct face_occluders *occluders,
+                                  const struct geom_convex *piece,
+                                  size_t count) {
+  const struct face_occluder_extent *extent =
+      occluders->extent.item + (occluders->extent.count - count);
   geom_pieces swap;
   occluders->rest.count = 0;
   if (!ARRAY_PUSH(&occluders->rest, *piece))
@@ -269,8 +277,9 @@ bool face_occluders_subtract_few(struct face_occluders *occluders,
   for (size_t i = 0; i < count && occluders->rest.count > 0; i++) {
     occluders->next.count = 0;
     for (size_t k = 0; k < occluders->rest.count; k++)
-      if (!face_occluder_subtract(occluders, &occluders->rest.item[k],
-                                  &occluders->occluder.item[reach[i].occluder]))
+      if (!face_occluder_subtract(
+              occluders, &occluders->rest.item[k],
+              &occluders->occluder.item[extent[i].occluder]))
         return false;
     swap = occluders->rest;
     occluders->rest = occluders->next;
@@ -288,6 +297,6 @@ void face_occluders_report(const struct face_occluders_counts *counts,
   report_add(report, "faces", "overlapping", (int64_t)counts->overlapping);
   report_add(report, "faces", "filter_failures", (int64_t)counts->exact);
   report_add(report, "faces", "depth_crossings", (int64_t)counts->crossings);
-  report_add(report, "faces", "partings", (int64_t)counts->splits);
-  report_add(report, "faces", "cuts", (int64_t)counts->cuts);
+  report_add(report, "faces", "splits", (int64_t)counts->splits);
+  report_add(report, "faces", "cuts", (int64_t)counts->subtractions);
 }

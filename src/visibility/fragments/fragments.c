@@ -1,4 +1,5 @@
-/* fragments.c - from the pieces a solver finds visible to the map's fragments. */
+/* fragments.c - turns the visible pieces that a solver finds into the map's
+ * fragments. */
 #include "visibility/fragments/fragments.h"
 
 #include <string.h>
@@ -9,11 +10,11 @@
 #include "visibility/fragments/side_provenance.h"
 #include "visibility/predicate/plane_filter.h"
 
-/* Corners leave the house rounded to this many bits below the grid's unit. */
+/* The map's corners are rounded to this many fractional bits of a grid unit. */
 enum { CORNER_BITS = 8 };
 
-/* Of a piece, in units of a pulse. */
-enum { FACE_WORK = 32 };
+/* Work per piece of a face, in the units of progress.h. */
+enum { PIECE_WORK = 32 };
 
 bool fragments_init(struct fragments *fragments, const struct sheet *sheet,
                     const struct triangle_grid *grid, bool contact) {
@@ -40,14 +41,15 @@ static int compare_ids(const void *a, const void *b, void *user) {
   return (p > q) - (p < q);
 }
 
-/* Finds the earlier triangles among `about` that touch this one. */
+/* Finds the earlier triangles of other faces among the candidates that are in
+ * contact with this one. */
 static bool find_touching(struct fragments *f, uint32_t triangle,
-                          const uint32_t *about, size_t count) {
+                          const uint32_t *candidate, size_t count) {
   const struct sheet *sheet = f->sheet;
   struct box2 box = box2_of_triangle(sheet, triangle);
   struct plane_filter plane = plane_filter_of(sheet, triangle), other;
   for (size_t i = 0; i < count; i++) {
-    uint32_t g = about[i];
+    uint32_t g = candidate[i];
     if (g < triangle && !(sheet->triangle_flags[g] & SHEET_FLAT) &&
         sheet->triangle.item[g].face != sheet->triangle.item[triangle].face &&
         !box2_disjoint(box, box2_of_triangle(sheet, g))) {
@@ -78,14 +80,14 @@ static bool keep_piece(struct fragments *f, uint32_t triangle,
   return ARRAY_PUSH(&f->piece, kept);
 }
 
-/* Gives every touching triangle, in order, what it covers of the pieces, and
- * `triangle` the rest. */
-static bool deal_pieces(struct fragments *f, uint32_t triangle,
-                        const struct geom_convex *piece, size_t count) {
-  geom_pieces now = {0}, rest = {0}, swap;
+/* Assigns to each touching triangle, in ascending order, the part of the pieces
+ * that it overlaps, and the rest to `triangle`. */
+static bool distribute_pieces(struct fragments *f, uint32_t triangle,
+                              const struct geom_convex *piece, size_t count) {
+  geom_pieces left = {0}, rest = {0}, swap;
   bool ok = false;
   for (size_t i = 0; i < count; i++)
-    if (!ARRAY_PUSH(&now, piece[i]))
+    if (!ARRAY_PUSH(&left, piece[i]))
       goto end;
   for (size_t i = 0; i < f->touching.count; i++) {
     uint32_t g = f->touching.item[i];
@@ -94,23 +96,23 @@ static bool deal_pieces(struct fragments *f, uint32_t triangle,
       goto end;
     triangle_lines(f->sheet, g, line, line + 3);
     rest.count = 0;
-    for (size_t k = 0; k < now.count; k++) {
+    for (size_t k = 0; k < left.count; k++) {
       struct geom_convex inside;
-      if (!geom_convex_subtract(&now.item[k], line, line + 3, 3, &rest, &inside,
-                                &f->scratch) ||
+      if (!geom_convex_subtract(&left.item[k], line, line + 3, 3, &rest,
+                                &inside, &f->scratch) ||
           (inside.count > 0 && !keep_piece(f, g, &inside)))
         goto end;
     }
-    swap = now;
-    now = rest;
+    swap = left;
+    left = rest;
     rest = swap;
   }
-  for (size_t k = 0; k < now.count; k++)
-    if (!keep_piece(f, triangle, &now.item[k]))
+  for (size_t k = 0; k < left.count; k++)
+    if (!keep_piece(f, triangle, &left.item[k]))
       goto end;
   ok = true;
 end:
-  ARRAY_FREE(&now);
+  ARRAY_FREE(&left);
   ARRAY_FREE(&rest);
   arena_reset(&f->scratch);
   return ok;
@@ -128,21 +130,22 @@ static bool triangle_piece(struct fragments *f, uint32_t triangle,
   return geom_convex_triangle(piece, p, line, arena);
 }
 
-bool fragments_add_alone(struct fragments *f, uint32_t triangle) {
+bool fragments_add_without_contact(struct fragments *f, uint32_t triangle) {
   f->counts.whole++;
   return keep_piece(f, triangle, NULL);
 }
 
-bool fragments_add_among(struct fragments *f, uint32_t triangle,
-                         const struct geom_convex *piece, size_t count,
-                         const uint32_t *about, size_t about_count) {
+bool fragments_add_with_candidates(struct fragments *f, uint32_t triangle,
+                                   const struct geom_convex *piece,
+                                   size_t count, const uint32_t *candidate,
+                                   size_t candidate_count) {
   struct geom_convex whole;
   if (piece != NULL && count == 0)
     return true;
   f->counts.whole += piece == NULL;
   f->counts.cut += piece != NULL;
   f->touching.count = 0;
-  if (f->contact && !find_touching(f, triangle, about, about_count))
+  if (f->contact && !find_touching(f, triangle, candidate, candidate_count))
     return false;
   if (piece == NULL) {
     if (f->touching.count == 0)
@@ -152,46 +155,47 @@ bool fragments_add_among(struct fragments *f, uint32_t triangle,
     piece = &whole;
     count = 1;
   }
-  return deal_pieces(f, triangle, piece, count);
+  return distribute_pieces(f, triangle, piece, count);
 }
 
-/* The same, of all that the grid has about it. */
-static bool add_piece(struct fragments *f, uint32_t triangle,
-                      const struct geom_convex *piece, size_t count) {
+/* As fragments_add_with_candidates, with the candidates from the grid. */
+static bool add_pieces(struct fragments *f, uint32_t triangle,
+                       const struct geom_convex *piece, size_t count) {
   f->query.found.count = 0;
   if (f->contact && !triangle_grid_find_about(f->grid, triangle, &f->query))
     return false;
-  return fragments_add_among(f, triangle, piece, count, f->query.found.item,
-                             f->query.found.count);
+  return fragments_add_with_candidates(
+      f, triangle, piece, count, f->query.found.item, f->query.found.count);
 }
 
 bool fragments_add_whole(struct fragments *f, uint32_t triangle) {
-  return add_piece(f, triangle, NULL, 0);
+  return add_pieces(f, triangle, NULL, 0);
 }
 
 bool fragments_add(struct fragments *f, uint32_t triangle,
                    const struct geom_convex *piece, size_t count) {
-  return count == 0 || add_piece(f, triangle, piece, count);
+  return count == 0 || add_pieces(f, triangle, piece, count);
 }
 
-/* ---- Uniting what belongs to a face -------------------------------------- */
+/* ---- Uniting the pieces of a face ---------------------------------------- */
 
-/* What is at hand while the pieces of one face become its fragments. */
+/* The state of uniting and labelling, face by face. */
 struct face_work {
   struct fragments *fragments;
   struct map *map;
   bool areas;
   uint32_t face;
   ARRAY(uint32_t) own;  /* the face's triangles that have area */
-  ARRAY(uint32_t) seen; /* those with pieces, ascending */
-  struct side_provenance labels;
+  ARRAY(uint32_t) seen; /* those with visible pieces, ascending */
+  struct side_provenance provenance;
   struct line_index sides;
-  bool indexed; /* what is about faces that are cut */
+  bool indexed; /* `sides` is built; it serves partly visible faces */
   geom_pieces piece;
   struct geom_region region;
 };
 
-/* The face's triangles stand next to each other in the sheet. */
+/* Finds the triangles of the face that have area; the triangles of a face are
+ * consecutive in the sheet. */
 static bool find_own(struct face_work *work, uint32_t triangle) {
   const struct sheet *sheet = work->fragments->sheet;
   uint32_t first = triangle;
@@ -206,7 +210,8 @@ static bool find_own(struct face_work *work, uint32_t triangle) {
   return true;
 }
 
-static bool store_place(struct map *map, const struct geom_corner *corner) {
+static bool store_exact_corner(struct map *map,
+                               const struct geom_corner *corner) {
   struct map_place place;
   geom_corner_exact(corner, place.h);
   return ARRAY_PUSH(&map->place, place);
@@ -215,22 +220,22 @@ static bool store_place(struct map *map, const struct geom_corner *corner) {
 static bool store_loop(struct face_work *work,
                        const struct geom_region_loop *loop) {
   const struct geom_region_side *side = work->region.side.item + loop->side;
-  struct map_loop filed = {(uint32_t)work->map->corner.count, loop->count};
+  struct map_loop stored = {(uint32_t)work->map->corner.count, loop->count};
   for (uint32_t k = 0; k < loop->count; k++) {
     struct map_corner corner;
     int64_t x, y;
     geom_corner_round(&side[k].corner, CORNER_BITS, &x, &y);
     corner.x = (double)x / (1 << CORNER_BITS);
     corner.y = (double)y / (1 << CORNER_BITS);
-    if (!side_provenance_find(&work->labels, side[k].line, &side[k].corner,
+    if (!side_provenance_find(&work->provenance, side[k].line, &side[k].corner,
                               &side[(k + 1) % loop->count].corner, &corner.side,
                               &corner.id) ||
         !ARRAY_PUSH(&work->map->corner, corner) ||
-        (work->areas && !store_place(work->map, &side[k].corner)))
+        (work->areas && !store_exact_corner(work->map, &side[k].corner)))
       return false;
     work->fragments->counts.side[corner.side]++;
   }
-  return ARRAY_PUSH(&work->map->loop, filed);
+  return ARRAY_PUSH(&work->map->loop, stored);
 }
 
 static bool store_region(struct face_work *work) {
@@ -248,14 +253,15 @@ static bool store_region(struct face_work *work) {
   return true;
 }
 
-/* ---- Faces that are wholly visible --------------------------------------- */
+/* ---- Entirely visible faces ---------------------------------------------- */
 
-/* A side of a face's outline: from its point, along its edge. */
+/* A side of a face's outline: the point where it starts, and its edge. */
 struct outline_side {
   uint32_t point, edge;
 };
 
-/* Appends the sides of a triangle but `skip`, from the one after it. */
+/* Appends the sides of a triangle except `skip`, starting with the one after
+ * it.  Returns how many. */
 static int append_sides(const struct sheet_triangle *t, int skip,
                         struct outline_side *side) {
   for (int k = 1; k < 3; k++)
@@ -264,8 +270,8 @@ static int append_sides(const struct sheet_triangle *t, int skip,
   return 2;
 }
 
-/* The outline of a face of one triangle, or of two on both sides of a
- * diagonal; 0 sides where it is neither. */
+/* Finds the outline of a face that is one triangle, or two that share a
+ * diagonal.  Returns the number of sides; 0 for any other face. */
 static int find_outline(const struct face_work *work,
                         struct outline_side side[4]) {
   const struct sheet_triangle *all = work->fragments->sheet->triangle.item,
@@ -286,9 +292,12 @@ static int find_outline(const struct face_work *work,
   return 0;
 }
 
-/* Files such a face as it stands, without arithmetic on regions: `filed`
- * tells whether its outline was plain enough. */
-static bool store_outline(struct face_work *work, bool *filed) {
+/* Stores an entirely visible face by its outline, without the arithmetic of
+ * regions.
+ * stored  false, and nothing done, unless the face is one or two triangles
+ *         whose outer sides are all edges and whose outline turns at each
+ *         corner */
+static bool store_outline(struct face_work *work, bool *stored) {
   const struct sheet *sheet = work->fragments->sheet;
   struct map *map = work->map;
   struct outline_side side[4];
@@ -296,7 +305,7 @@ static bool store_outline(struct face_work *work, bool *filed) {
   struct map_fragment fragment = {work->face, (uint32_t)map->loop.count, 1};
   struct map_loop loop = {(uint32_t)map->corner.count, 0};
   int n = find_outline(work, side), first = 0;
-  *filed = false;
+  *stored = false;
   for (int k = 0; k < n; k++) {
     if (side[k].edge == SHEET_NONE)
       return true;
@@ -316,7 +325,7 @@ static bool store_outline(struct face_work *work, bool *filed) {
       return false;
     loop.count++;
   }
-  *filed = true;
+  *stored = true;
   return ARRAY_PUSH(&map->loop, loop) && ARRAY_PUSH(&map->fragment, fragment);
 }
 
@@ -328,7 +337,7 @@ static bool is_whole(const struct face_work *work,
   return count == work->own.count;
 }
 
-/* How many of the pieces, from the first, are of the same face. */
+/* Returns how many of the pieces, from the first on, are of one face. */
 static size_t count_pieces(const struct fragment_piece *piece, size_t count) {
   size_t n = 1;
   while (n < count && piece[n].face == piece->face)
@@ -336,13 +345,15 @@ static size_t count_pieces(const struct fragment_piece *piece, size_t count) {
   return n;
 }
 
-/* Is the face more than can be filed as it stands? */
+/* Returns whether store_outline cannot apply to the face, so that its pieces
+ * must be united: some triangle is visible in part, or there are more than
+ * two. */
 static bool is_cut(const struct fragment_piece *piece, size_t count) {
   return piece->piece != NULL || count > 2 ||
          (count == 2 && piece[1].piece != NULL);
 }
 
-/* Finds which of the face's triangles are seen, for its labels. */
+/* Finds which triangles of the face are visible, for labelling its sides. */
 static bool find_seen(struct face_work *work,
                       const struct fragment_piece *piece, size_t count) {
   size_t kept = 0;
@@ -358,10 +369,10 @@ static bool find_seen(struct face_work *work,
     if (i == 0 || work->seen.item[i] != work->seen.item[i - 1])
       work->seen.item[kept++] = work->seen.item[i];
   work->seen.count = kept;
-  work->labels.sides =
+  work->provenance.sides =
       work->indexed && is_cut(piece, count) ? &work->sides : NULL;
-  work->labels.own = work->seen.item;
-  work->labels.own_count = kept;
+  work->provenance.own = work->seen.item;
+  work->provenance.own_count = kept;
   return true;
 }
 
@@ -373,11 +384,11 @@ static bool store_face(struct face_work *work,
   if (!find_own(work, piece->triangle))
     return false;
   if (is_whole(work, piece, count)) {
-    bool filed;
-    if (!store_outline(work, &filed))
+    bool stored;
+    if (!store_outline(work, &stored))
       return false;
-    f->counts.outlines += filed;
-    if (filed)
+    f->counts.outlines += stored;
+    if (stored)
       return true;
   }
   for (size_t i = 0; i < count; i++) {
@@ -405,51 +416,55 @@ static int compare_faces(const void *a, const void *b, void *user) {
   return (p->face > q->face) - (p->face < q->face);
 }
 
-/* ---- Sides that labels ask about ----------------------------------------- */
+/* ---- The index of sides -------------------------------------------------- */
 
-/* Lists this long are longer than the sides of a sidegrid's cell. */
+/* Grid lists of this length take longer to search than the cells of a line
+ * index. */
 enum { LONG_LIST = 48 };
 
-/* Has the triangle's face more triangles than need no index? */
-static bool has_many(const struct sheet *sheet, uint32_t triangle) {
+/* Returns whether the triangle's face has so many triangles that its labels
+ * need an index. */
+static bool is_large_face(const struct sheet *sheet, uint32_t triangle) {
   const struct sheet_triangle *all = sheet->triangle.item;
   uint32_t face = all[triangle].face, first = triangle, last = triangle;
-  while (last - first < SIDE_PROVENANCE_FEW && first > 0 &&
+  while (last - first < SIDE_PROVENANCE_SMALL_FACE && first > 0 &&
          all[first - 1].face == face)
     first--;
-  while (last - first < SIDE_PROVENANCE_FEW &&
+  while (last - first < SIDE_PROVENANCE_SMALL_FACE &&
          last + 1 < sheet->triangle.count && all[last + 1].face == face)
     last++;
-  return last - first >= SIDE_PROVENANCE_FEW;
+  return last - first >= SIDE_PROVENANCE_SMALL_FACE;
 }
 
 static uint32_t list_length(const struct triangle_grid *grid, size_t cell) {
   return grid->start[cell + 1] - grid->start[cell];
 }
 
-/* Is an index better than to ask the grid? */
-static bool wants_index(const struct fragments *f) {
+/* Returns whether an index is worth building: some partly visible face is
+ * large, or the grid lists near such faces are long on average. */
+static bool needs_index(const struct fragments *f) {
   const struct fragment_piece *piece = f->piece.item;
   const struct triangle_grid *grid = f->grid;
-  uint64_t listed = 0, asked = 0;
+  uint64_t listed = 0, faces = 0;
   for (size_t i = 0, n; i < f->piece.count; i += n) {
     struct cell_range r;
     n = count_pieces(&piece[i], f->piece.count - i);
     if (!is_cut(&piece[i], n))
       continue;
-    if (has_many(f->sheet, piece[i].triangle))
+    if (is_large_face(f->sheet, piece[i].triangle))
       return true;
     r = triangle_grid_cells(grid,
                             box2_of_triangle(f->sheet, piece[i].triangle));
     listed +=
         list_length(grid, (size_t)r.y0 * (size_t)grid->columns + (size_t)r.x0);
-    asked++;
+    faces++;
   }
-  return listed > LONG_LIST * asked;
+  return listed > LONG_LIST * faces;
 }
 
-/* Adds the triangles of the cells that a triangle is in, and the triangle. */
-static bool add_about(struct fragments *f, uint32_t triangle, uint8_t *done) {
+/* Adds a triangle and all triangles of the grid cells that its box overlaps.
+ * done  a byte per cell: its triangles have been added */
+static bool add_nearby(struct fragments *f, uint32_t triangle, uint8_t *done) {
   const struct triangle_grid *grid = f->grid;
   struct cell_range r =
       triangle_grid_cells(grid, box2_of_triangle(f->sheet, triangle));
@@ -470,14 +485,14 @@ static bool add_about(struct fragments *f, uint32_t triangle, uint8_t *done) {
   return true;
 }
 
-/* Indexes the sides of all that is about faces that are cut, and of these
- * faces. */
+/* Indexes the sides of the partly visible faces and of all triangles near
+ * them, if that is worthwhile. */
 static bool index_sides(struct face_work *work) {
   struct fragments *f = work->fragments;
   const struct fragment_piece *piece = f->piece.item;
   uint8_t *cell_done;
   bool ok = true;
-  if (!wants_index(f))
+  if (!needs_index(f))
     return true;
   cell_done = mem_calloc(triangle_grid_cell_count(f->grid), 1);
   if (cell_done == NULL)
@@ -486,7 +501,7 @@ static bool index_sides(struct face_work *work) {
   for (size_t i = 0, n; ok && i < f->piece.count; i += n) {
     n = count_pieces(&piece[i], f->piece.count - i);
     for (size_t k = 0; ok && is_cut(&piece[i], n) && k < n; k++)
-      ok = add_about(f, piece[i + k].triangle, cell_done);
+      ok = add_nearby(f, piece[i + k].triangle, cell_done);
   }
   mem_free(cell_done);
   work->indexed = true;
@@ -505,7 +520,7 @@ static void report_counts(const struct fragments *fragments) {
   report_int(report, "fragments", "contact_filter_failures",
              (int64_t)c->contact_exact);
   report_int(report, "fragments", "contacts", (int64_t)c->contacts);
-  report_int(report, "fragments", "faces_as_they_stand", (int64_t)c->outlines);
+  report_int(report, "fragments", "faces_by_outline", (int64_t)c->outlines);
   report_int(report, "fragments", "faces_united", (int64_t)c->united);
   report_int(report, "fragments", "pieces_united", (int64_t)c->pieces);
   for (int k = 0; k <= MAP_SIDE_CUT; k++)
@@ -517,9 +532,9 @@ bool fragments_finish(struct fragments *fragments, bool areas,
   struct face_work work = {.fragments = fragments,
                            .map = map,
                            .areas = areas,
-                           .labels = {.sheet = fragments->sheet,
-                                      .grid = fragments->grid,
-                                      .query = &fragments->query}};
+                           .provenance = {.sheet = fragments->sheet,
+                                          .grid = fragments->grid,
+                                          .query = &fragments->query}};
   const struct fragment_piece *piece = fragments->piece.item;
   size_t n = fragments->piece.count;
   bool ok = sort_stable(fragments->piece.item, n, sizeof *piece, compare_faces,
@@ -527,13 +542,13 @@ bool fragments_finish(struct fragments *fragments, bool areas,
             index_sides(&work);
   for (size_t i = 0, count; ok && i < n; i += count) {
     count = count_pieces(&piece[i], n - i);
-    ok = progress_step(fragments->progress, FACE_WORK * count) &&
+    ok = progress_step(fragments->progress, PIECE_WORK * count) &&
          store_face(&work, &piece[i], count);
   }
   ARRAY_FREE(&work.own);
   ARRAY_FREE(&work.seen);
   ARRAY_FREE(&work.piece);
-  side_provenance_fini(&work.labels);
+  side_provenance_fini(&work.provenance);
   line_index_fini(&work.sides);
   geom_region_fini(&work.region);
   report_counts(fragments);

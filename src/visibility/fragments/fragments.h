@@ -1,16 +1,23 @@
-/* fragments.h - from the pieces a solver finds visible to the map's fragments.
+/* fragments.h - turns the visible pieces that a solver finds into the map's
+ * fragments.
  *
- * The face seen at a point of the page is the nearest one there (exactly, the
- * earlier in the file where depths are equal); where an earlier face is in
- * contact with it at that point, that earlier face.  Two triangles are in
- * contact where all corners of one touch the plane of the other (occlusion.h).
- * Every point is given to just one face, so fragments tile the page.
+ * Definition.  The face seen at a point of the page is the nearest one there,
+ * by exact depth; where depths are equal, the one of lower index.  If an
+ * earlier face (one of lower index) is in contact with the nearest face at that
+ * point, that earlier face is seen instead.  Two triangles are in contact if
+ * all corners of one touch the plane of the other within the contact tolerance
+ * (occlusion.h).  Every point belongs to exactly one face, so fragments tile
+ * the page.
  *
- * A solver hands in, for each triangle, the pieces where it is the nearest;
- * they may be cut up in any way.  This module passes pieces on to earlier
- * faces in contact, unites what belongs to one face, and says of each side
- * what it is.  All of that depends on the sheet and the pieces' union alone,
- * so solvers agree to the byte.
+ * Phases
+ *   1 a solver adds, for each triangle, the pieces where it is the nearest;
+ *     any decomposition into disjoint convex pieces will do
+ *   2 pieces are passed on to earlier faces in contact
+ *   3 the pieces of each face are united into connected fragments
+ *   4 each side of a fragment is labelled with its provenance
+ *     (side_provenance.h)
+ * Phases 2 to 4 depend on the sheet and on the union of the pieces alone, so
+ * the fragments of all exact solvers are equal to the byte.
  */
 #ifndef VISIBILITY_FRAGMENTS_FRAGMENTS_H
 #define VISIBILITY_FRAGMENTS_FRAGMENTS_H
@@ -22,19 +29,19 @@
 #include "visibility/progress.h"
 
 struct fragment_piece {
-  uint32_t face, triangle;   /* whose it is: scene face, its triangle */
+  uint32_t face, triangle;   /* the scene face it belongs to, its triangle */
   struct geom_convex *piece; /* NULL: the whole triangle */
 };
 
 /* Counts for --stats. */
 struct fragments_counts {
-  uint64_t whole, cut;       /* triangles handed in whole, or in pieces */
-  uint64_t contact_pairs;    /* of a triangle and an earlier one, boxes meet */
-  uint64_t contact_exact;    /* of these, asked of exact numbers */
+  uint64_t whole, cut;       /* triangles added whole, or in pieces */
+  uint64_t contact_pairs;    /* a triangle and an earlier one, boxes overlap */
+  uint64_t contact_exact;    /* of these, decided by exact arithmetic */
   uint64_t contacts;         /* of these, in contact */
-  uint64_t outlines, united; /* faces filed as they stand, or united */
-  uint64_t pieces;           /* of the latter */
-  uint64_t side[MAP_SIDE_CUT + 1]; /* labelled, by kind */
+  uint64_t outlines, united; /* faces stored by their outline, or united */
+  uint64_t pieces;           /* pieces of the faces that were united */
+  uint64_t side[MAP_SIDE_CUT + 1]; /* sides labelled, by enum map_side */
 };
 
 struct fragments {
@@ -42,45 +49,54 @@ struct fragments {
   const struct triangle_grid *grid;
   struct triangle_grid_query query;
   bool contact;
-  ARRAY(uint32_t) touching;  /* earlier triangles in contact with the one at
-                               hand, in order */
-  struct progress *progress; /* lent; NULL, as at first: nobody is asked */
+  ARRAY(uint32_t) touching;  /* earlier triangles in contact with the current
+                               one, ascending */
+  struct progress *progress; /* borrowed, not owned; NULL, the initial value:
+                                never polled */
   struct arena arena, scratch;
   ARRAY(struct fragment_piece) piece;
   struct fragments_counts counts;
-  struct report *report; /* lent, as the pulse is: where the counts go */
+  struct report *report; /* receives the counts; borrowed, not owned */
 };
 
-/* contact  pass pieces on to earlier faces in contact */
+/* contact  whether pieces are passed on to earlier faces in contact
+ * Returns false when memory ran out; end with fragments_fini either way. */
 USE_RESULT bool fragments_init(struct fragments *fragments,
                                const struct sheet *sheet,
                                const struct triangle_grid *grid, bool contact);
 void fragments_fini(struct fragments *fragments);
 
-/* The triangle is the nearest over all of its outline. */
+/* Adds a triangle that is the nearest over its whole outline.
+ * Returns false when memory ran out, as all functions below. */
 USE_RESULT bool fragments_add_whole(struct fragments *fragments,
                                     uint32_t triangle);
 
-/* The same for a triangle that touches no other over its outline. */
-USE_RESULT bool fragments_add_alone(struct fragments *fragments,
-                                    uint32_t triangle);
+/* Adds a triangle that is the nearest over its whole outline and is in contact
+ * with no earlier triangle there: the search for contacts is skipped. */
+USE_RESULT bool fragments_add_without_contact(struct fragments *fragments,
+                                              uint32_t triangle);
 
-/* The triangle is the nearest over these disjoint pieces; they are copied. */
+/* Adds the disjoint pieces over which a triangle is the nearest; they are
+ * copied. */
 USE_RESULT bool fragments_add(struct fragments *fragments, uint32_t triangle,
                               const struct geom_convex *piece, size_t count);
 
-/* The same of what the grid need not be asked about.
- * piece  NULL: it is the nearest over all of its outline
- * about  triangles, each once: all among them that may overlap it */
-USE_RESULT bool fragments_add_among(struct fragments *fragments,
-                                    uint32_t triangle,
-                                    const struct geom_convex *piece,
-                                    size_t count, const uint32_t *about,
-                                    size_t about_count);
+/* As fragments_add, with the candidates for contact given by the caller instead
+ * of queried from the grid.
+ * piece      NULL: the triangle is the nearest over its whole outline
+ * candidate  triangles without duplicates, among them all that may overlap this
+ *            one on the page */
+USE_RESULT bool fragments_add_with_candidates(struct fragments *fragments,
+                                              uint32_t triangle,
+                                              const struct geom_convex *piece,
+                                              size_t count,
+                                              const uint32_t *candidate,
+                                              size_t candidate_count);
 
 /* Writes all fragments to the map, ordered by face, and the counts to the
  * report.
- * areas  the exact places of their corners too */
+ * areas  whether the exact coordinates of all corners are stored too
+ * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool fragments_finish(struct fragments *fragments, bool areas,
                                  struct map *map);
 

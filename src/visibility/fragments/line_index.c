@@ -1,4 +1,4 @@
-/* line_index.c - which sides of triangles run where on the page, and on which
+/* line_index.c - a spatial index of triangle sides, by page cell and supporting
  * line. */
 #include "visibility/fragments/line_index.h"
 
@@ -7,22 +7,24 @@
 
 #include "base/sort.h"
 
-enum {
-  SPREAD = 4,      /* cells a side is in, on average, at most ... */
-  ROOM = 1 << 20,  /* ... but so many places are always there ... */
-  SPREAD_MOST = 16 /* ... for as many more of each */
-};
+/* The cells are as small as possible with at most
+ *   max(4 n, min(16 n, 2^20))
+ * entries, and as many cells, for n sides: memory is linear in the sides, and
+ * small inputs get smaller cells. */
+enum { ENTRIES_PER_SIDE = 4, ENTRIES_PER_SIDE_MAX = 16, SMALL_SIZE = 1 << 20 };
 
-/* A corner's doubles are off by less (line.c). */
+/* Grid units; exceeds the error of a corner's doubles (line.c). */
 #define MARGIN 2.0
 
-/* What is to be indexed. */
+/* The triangles whose sides are to be indexed. */
 struct gathered_sides {
   const struct sheet *sheet;
   const uint32_t *triangle;
   size_t count;
 };
 
+/* Finds the ends of side k of triangle t.  Returns whether it is an edge of the
+ * sheet and the triangle is not flat. */
 static bool is_edge(const struct sheet *sheet, uint32_t t, int k,
                     struct geom_point end[2]) {
   const struct sheet_triangle *triangle = &sheet->triangle.item[t];
@@ -32,13 +34,14 @@ static bool is_edge(const struct sheet *sheet, uint32_t t, int k,
          !(sheet->triangle_flags[t] & SHEET_FLAT);
 }
 
-/* The smallest cells for which there is room. */
-static void choose_shape(struct line_index *grid,
+/* Chooses the smallest cells that keep to the limit on the entries. */
+static void choose_shape(struct line_index *index,
                          const struct gathered_sides *sides) {
   struct box2 box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
   double length = 0, count = 3 * (double)sides->count;
-  double most = fmax(SPREAD * count, fmin(SPREAD_MOST * count, ROOM)), width,
-         height;
+  double entries_max = fmax(ENTRIES_PER_SIDE * count,
+                            fmin(ENTRIES_PER_SIDE_MAX * count, SMALL_SIZE)),
+         width, height;
   int shift = 30;
   for (size_t i = 0; i < sides->count; i++)
     for (int k = 0; k < 3; k++) {
@@ -59,12 +62,12 @@ static void choose_shape(struct line_index *grid,
   height = (double)box.y1 - box.y0;
   while (shift > 0) {
     double side = (double)(INT64_C(1) << (shift - 1));
-    if (count + length / side > most ||
-        (width / side + 1) * (height / side + 1) > most)
+    if (count + length / side > entries_max ||
+        (width / side + 1) * (height / side + 1) > entries_max)
       break;
     shift--;
   }
-  grid->shape = (struct triangle_grid){
+  index->shape = (struct triangle_grid){
       .shift = shift,
       .x0 = box.x0,
       .y0 = box.y0,
@@ -72,7 +75,8 @@ static void choose_shape(struct line_index *grid,
       .rows = (int)(((int64_t)box.y1 - box.y0) >> shift) + 1};
 }
 
-/* What is sorted: a cell and, below it, a line's number; and the side. */
+/* The sort keys: the cell in the upper 32 bits and the number of the line in
+ * the lower; the value is the side. */
 typedef ARRAY(struct sort_key) side_keys;
 
 static uint32_t number_of(const struct geom_point end[2]) {
@@ -83,10 +87,10 @@ static uint32_t number_of(const struct geom_point end[2]) {
   return (uint32_t)number;
 }
 
-static bool add_side(const struct line_index *grid,
+static bool add_side(const struct line_index *index,
                      const struct geom_point end[2], uint32_t side,
                      side_keys *keys) {
-  const struct triangle_grid *shape = &grid->shape;
+  const struct triangle_grid *shape = &index->shape;
   struct cell_range r =
       triangle_grid_cells(shape, box2_of_segment(end[0], end[1]));
   uint32_t number = number_of(end);
@@ -103,71 +107,72 @@ static bool add_side(const struct line_index *grid,
   return true;
 }
 
-static bool gather_keys(const struct line_index *grid,
+static bool gather_keys(const struct line_index *index,
                         const struct gathered_sides *sides, side_keys *keys) {
   for (size_t i = 0; i < sides->count; i++)
     for (int k = 0; k < 3; k++) {
       uint32_t t = sides->triangle[i];
       struct geom_point end[2];
       if (is_edge(sides->sheet, t, k, end) &&
-          !add_side(grid, end, 3 * t + (uint32_t)k, keys))
+          !add_side(index, end, 3 * t + (uint32_t)k, keys))
         return false;
     }
   return true;
 }
 
-/* Makes the cells' lists of the sorted keys. */
-static bool make_lists(struct line_index *grid, const side_keys *keys) {
-  size_t cells = triangle_grid_cell_count(&grid->shape);
-  grid->start = mem_calloc(cells + 1, sizeof *grid->start);
-  grid->item = mem_alloc(keys->count, sizeof *grid->item);
-  grid->number = mem_alloc(keys->count, sizeof *grid->number);
-  if (grid->start == NULL || grid->item == NULL || grid->number == NULL)
+/* Builds the lists of the cells from the sorted keys. */
+static bool make_lists(struct line_index *index, const side_keys *keys) {
+  size_t cells = triangle_grid_cell_count(&index->shape);
+  index->start = mem_calloc(cells + 1, sizeof *index->start);
+  index->item = mem_alloc(keys->count, sizeof *index->item);
+  index->number = mem_alloc(keys->count, sizeof *index->number);
+  if (index->start == NULL || index->item == NULL || index->number == NULL)
     return false;
   for (size_t i = 0; i < keys->count; i++) {
-    grid->start[(keys->item[i].key >> 32) + 1]++;
-    grid->item[i] = keys->item[i].value;
-    grid->number[i] = (uint32_t)keys->item[i].key;
+    index->start[(keys->item[i].key >> 32) + 1]++;
+    index->item[i] = keys->item[i].value;
+    index->number[i] = (uint32_t)keys->item[i].key;
   }
   for (size_t i = 0; i < cells; i++)
-    grid->start[i + 1] += grid->start[i];
+    index->start[i + 1] += index->start[i];
   return true;
 }
 
-bool line_index_init(struct line_index *grid, const struct sheet *sheet,
+bool line_index_init(struct line_index *index, const struct sheet *sheet,
                      const uint32_t *triangle, size_t count) {
   const struct gathered_sides sides = {sheet, triangle, count};
   side_keys keys = {0};
   struct sort_key *scratch = NULL;
   bool ok = false;
-  memset(grid, 0, sizeof *grid);
-  choose_shape(grid, &sides);
-  if (!gather_keys(grid, &sides, &keys))
+  memset(index, 0, sizeof *index);
+  choose_shape(index, &sides);
+  if (!gather_keys(index, &sides, &keys))
     goto end;
   scratch = mem_alloc(keys.count, sizeof *scratch);
   if (scratch == NULL)
     goto end;
   sort_keys(keys.item, scratch, keys.count);
-  ok = make_lists(grid, &keys);
+  ok = make_lists(index, &keys);
 end:
   mem_free(scratch);
   ARRAY_FREE(&keys);
   return ok;
 }
 
-void line_index_fini(struct line_index *grid) {
-  mem_free(grid->start);
-  mem_free(grid->item);
-  mem_free(grid->number);
-  grid->start = grid->item = grid->number = NULL;
+void line_index_fini(struct line_index *index) {
+  mem_free(index->start);
+  mem_free(index->item);
+  mem_free(index->number);
+  index->start = index->item = index->number = NULL;
 }
 
+/* The row or column that contains coordinate v, clamped to the index. */
 static int cell_of(double v, int32_t v0, int shift, int count) {
   double cell = floor((v - v0) / (double)(INT64_C(1) << shift));
   return cell < 0 ? 0 : cell >= count ? count - 1 : (int)cell;
 }
 
-/* Of row y the columns where the segment may be. */
+/* The range of columns of row y that the segment from p to q may cross. */
 static void find_columns(const struct triangle_grid *shape,
                          const struct geom_corner *p,
                          const struct geom_corner *q, int y, int *x0, int *x1) {
@@ -185,28 +190,28 @@ static void find_columns(const struct triangle_grid *shape,
   *x1 = cell_of(fmax(a, b) + MARGIN, shape->x0, shape->shift, shape->columns);
 }
 
-/* Appends those of a cell whose line has that number. */
-static bool find_in_cell(const struct line_index *grid, size_t cell,
+/* Appends the sides of a cell whose line has that number. */
+static bool find_in_cell(const struct line_index *index, size_t cell,
                          uint32_t number, side_list *found) {
-  uint32_t low = grid->start[cell], high = grid->start[cell + 1];
+  uint32_t low = index->start[cell], high = index->start[cell + 1];
   uint32_t end = high;
   while (low < high) {
     uint32_t middle = low + (high - low) / 2;
-    if (grid->number[middle] < number)
+    if (index->number[middle] < number)
       low = middle + 1;
     else
       high = middle;
   }
-  for (; low < end && grid->number[low] == number; low++)
-    if (!ARRAY_PUSH(found, grid->item[low]))
+  for (; low < end && index->number[low] == number; low++)
+    if (!ARRAY_PUSH(found, index->item[low]))
       return false;
   return true;
 }
 
-bool line_index_find(const struct line_index *grid,
+bool line_index_find(const struct line_index *index,
                      const struct geom_line *line, const struct geom_corner *p,
                      const struct geom_corner *q, side_list *found) {
-  const struct triangle_grid *shape = &grid->shape;
+  const struct triangle_grid *shape = &index->shape;
   int y0 =
       cell_of(fmin(p->y, q->y) - MARGIN, shape->y0, shape->shift, shape->rows);
   int y1 =
@@ -218,7 +223,7 @@ bool line_index_find(const struct line_index *grid,
     int x0, x1;
     find_columns(shape, p, q, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
-      if (!find_in_cell(grid, (size_t)y * (size_t)shape->columns + (size_t)x,
+      if (!find_in_cell(index, (size_t)y * (size_t)shape->columns + (size_t)x,
                         (uint32_t)number, found))
         return false;
   }

@@ -1,9 +1,10 @@
-/* line_index.h - which sides of triangles run where on the page, and on which
+/* line_index.h - a spatial index of triangle sides, by page cell and supporting
  * line.
  *
- * Triangles long and thin are about everywhere; their sides are not.  In each
- * cell sides are found by the number of their line (geom/line.h), so that only
- * those on one line are met.
+ * The bounding boxes of long thin triangles overlap nearly everything, but
+ * their sides cross few cells.  Within a cell, sides are sorted by a number
+ * that is computed from their supporting line (geom/line.h), so that a query
+ * visits only the sides on one line.
  */
 #ifndef VISIBILITY_FRAGMENTS_LINE_INDEX_H
 #define VISIBILITY_FRAGMENTS_LINE_INDEX_H
@@ -11,25 +12,28 @@
 #include "geom/line.h"
 #include "visibility/index/triangle_grid.h"
 
-/* Side k of triangle t is number 3 t + k. */
+/* Side k of triangle t has the number 3 t + k. */
 typedef ARRAY(uint32_t) side_list;
 
 struct line_index {
-  struct triangle_grid shape; /* of its cells; it has no lists */
+  struct triangle_grid shape; /* the cells; its own lists are not used */
   uint32_t *start, *item;     /* of cell c: item[start[c] .. start[c + 1]) */
-  uint32_t *number; /* one an item, ascending in each cell: of its line */
+  uint32_t *number; /* one per item: that of its line, ascending in a cell */
 };
 
-/* Indexes the sides that are edges of the sheet.
- * triangle  `count` of the sheet's, each once; flat ones are left out */
-USE_RESULT bool line_index_init(struct line_index *grid,
+/* Indexes the triangle sides that are edges of the sheet.
+ * triangle  `count` triangles of the sheet without duplicates; flat ones are
+ *           left out
+ * Returns false when memory ran out. */
+USE_RESULT bool line_index_init(struct line_index *index,
                                 const struct sheet *sheet,
                                 const uint32_t *triangle, size_t count);
-void line_index_fini(struct line_index *grid);
+void line_index_fini(struct line_index *index);
 
-/* Appends every side that shares a stretch of the line with the one from p to
- * q, and a few more; some of them several times.  False when memory ran out. */
-USE_RESULT bool line_index_find(const struct line_index *grid,
+/* Appends every side that overlaps the segment from p to q of the line in more
+ * than a point, and possibly some that do not; a side may be appended more than
+ * once.  Returns false when memory ran out. */
+USE_RESULT bool line_index_find(const struct line_index *index,
                                 const struct geom_line *line,
                                 const struct geom_corner *p,
                                 const struct geom_corner *q, side_list *found);

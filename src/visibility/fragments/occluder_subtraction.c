@@ -1,4 +1,5 @@
-/* occluder_subtraction.c - what nearer triangles leave of one triangle. */
+/* occluder_subtraction.c - subtracts nearer triangles from one triangle, one
+ * after another. */
 #include "visibility/fragments/occluder_subtraction.h"
 
 #include <string.h>
@@ -37,9 +38,10 @@ bool occluder_subtraction_start(struct occluder_subtraction *subtraction,
          ARRAY_PUSH(&subtraction->left, piece);
 }
 
-/* Does some piece have a corner left of each line?  Else nothing is taken. */
-static bool may_meet(const struct occluder_subtraction *subtraction,
-                     const struct geom_line *line, int count) {
+/* Returns whether some piece has, for each line, a corner to its left;
+ * otherwise the region to the left of all lines overlaps no piece. */
+static bool may_overlap(const struct occluder_subtraction *subtraction,
+                        const struct geom_line *line, int count) {
   for (size_t i = 0; i < subtraction->left.count; i++) {
     const struct geom_convex *piece = &subtraction->left.item[i];
     int k = 0;
@@ -62,7 +64,7 @@ bool occluder_subtraction_take(struct occluder_subtraction *subtraction,
                                const struct geom_line *back, int count) {
   struct geom_line *copy;
   geom_pieces swap;
-  if (!may_meet(subtraction, line, count))
+  if (!may_overlap(subtraction, line, count))
     return true;
   copy = arena_alloc(&subtraction->arena, 2 * (size_t)count, sizeof *copy);
   if (copy == NULL)

@@ -1,4 +1,9 @@
-/* occluder_subtraction.h - what nearer triangles leave of one triangle. */
+/* occluder_subtraction.h - subtracts nearer triangles from one triangle, one
+ * after another.
+ *
+ * The plain algorithm, on which the brute-force solver relies as the reference
+ * for face_occluders.h.
+ */
 #ifndef VISIBILITY_FRAGMENTS_OCCLUDER_SUBTRACTION_H
 #define VISIBILITY_FRAGMENTS_OCCLUDER_SUBTRACTION_H
 
@@ -7,13 +12,14 @@
 
 struct occluder_subtraction {
   const struct sheet *sheet;
-  uint32_t triangle; /* the one at hand */
+  uint32_t triangle; /* the current one */
   struct triangle_plane plane;
   struct box2 box;
-  geom_pieces left, scratch; /* what is left of it, in disjoint pieces */
-  bool whole;                /* nothing was taken yet */
-  /* Counts for --stats: pairs whose boxes meet; of these, depth had to be
-   * asked; of these, the planes cross. */
+  geom_pieces left, scratch; /* what remains of it, in disjoint pieces */
+  bool whole;                /* nothing was subtracted yet */
+  /* Counts for --stats: pairs whose boxes overlap; of these, pairs that share
+   * area, so that their depth order was computed; of these, the planes
+   * intersect. */
   uint64_t pairs, overlapping, crossings;
   struct arena arena;
 };
@@ -22,24 +28,28 @@ void occluder_subtraction_init(struct occluder_subtraction *subtraction,
                                const struct sheet *sheet);
 void occluder_subtraction_fini(struct occluder_subtraction *subtraction);
 
-/* Starts anew with a triangle that is not flat.
- * part  a part of it to start with; NULL: all of it */
+/* Makes a triangle, which is not flat, the current one.
+ * part  the part of it to start with; NULL: all of it
+ * Returns false when memory ran out, as all functions below. */
 USE_RESULT bool
 occluder_subtraction_start(struct occluder_subtraction *subtraction,
                            uint32_t triangle, const struct geom_convex *part);
 
-/* Takes away where triangle g, not flat, is nearer. */
+/* Subtracts the region where triangle g, which is not flat, is nearer than the
+ * current one.  Exact. */
 USE_RESULT bool
 occluder_subtraction_take_nearer(struct occluder_subtraction *subtraction,
                                  uint32_t g);
 
-/* Takes away the convex region left of `count` lines; they are copied. */
+/* Subtracts the convex region to the left of `count` lines.
+ * back  the same lines reversed; both are copied */
 USE_RESULT bool
 occluder_subtraction_take(struct occluder_subtraction *subtraction,
                           const struct geom_line *line,
                           const struct geom_line *back, int count);
 
-/* Keeps only what is left of `count` lines; they are copied. */
+/* Intersects what remains with the convex region to the left of `count` lines.
+ * back  the same lines reversed; both are copied */
 USE_RESULT bool
 occluder_subtraction_keep(struct occluder_subtraction *subtraction,
                           const struct geom_line *line,
@@ -50,12 +60,12 @@ occluder_subtraction_is_empty(const struct occluder_subtraction *subtraction) {
   return subtraction->left.count == 0;
 }
 
-/* Hands what is left to the fragments. */
+/* Adds what remains to the fragments. */
 USE_RESULT bool
 occluder_subtraction_store(struct occluder_subtraction *subtraction,
                            struct fragments *fragments);
 
-/* Adds the counts. */
+/* Adds the counts to the report. */
 void occluder_subtraction_report(const struct occluder_subtraction *subtraction,
                                  struct report *report);
 

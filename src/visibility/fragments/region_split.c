@@ -1,11 +1,20 @@
-/* region_split.c - a triangle is parted until few rivals are about any part.
+/* region_split.c - splits a triangle recursively until few occluders overlap
+ * each region, and subtracts these.
  *
- * It is parted by a side of a rival as long as that leaves clearly fewer pairs
- * of part and rival.
+ * Phases, for each region on an explicit stack
+ *   1 a region that a single occluder covers is hidden and dropped
+ *   2 a region with few occluders is solved by subtracting them
+ *   3 an occluder that extends along most of the region is subtracted at once,
+ *     and what remains goes back on the stack
+ *   4 otherwise the region is split by the line of an occluder's side, as long
+ *     as that clearly reduces the number of pairs of region and occluder; if no
+ *     line does, all its occluders are subtracted
+ *
  * Invariants
- *   A part lists every rival that overlaps it; of others it may list some.
- *   What is left is a union of convex parts.  It is the same set whatever the
- *   parts were: what is decided here only chooses.
+ *   A region lists every occluder that overlaps it, and possibly some that do
+ *   not.
+ *   What remains is a union of convex pieces.  It is the same set of points
+ *   whatever the regions were: the heuristics here only choose how to split.
  */
 #include "visibility/fragments/face_occluders.h"
 
@@ -13,34 +22,37 @@
 #include <string.h>
 
 enum {
-  FEW = 6,     /* rivals that need no parting */
-  LINES = 6,   /* rivals of a part whose sides it may be parted by */
-  SAMPLE = 24, /* rivals by which that is judged */
+  SMALL_LIST_MAX = 6,  /* so many occluders are subtracted without a split */
+  CANDIDATE_LINES = 6, /* occluders whose sides are tried as split lines */
+  SAMPLE = 24          /* occluders that estimate the effect of a line */
 };
 
-/* A parting must leave no more than this share of the pairs: as the sample has
- * it, and truly, so that there is an end. */
-#define MOST_LEFT 0.8
-/* One that leaves no more than this needs no better. */
-#define GOOD 0.55
-#define MOST_DIVIDED 0.9
+/* The share of the pairs of region and occluder that a split may leave:
+ *   PAIRS_LEFT_MAX   by the estimate, for a line to be chosen
+ *   PAIRS_LEFT_GOOD  by the estimate, for the search to stop at this line
+ *   PAIRS_LEFT_SPLIT by the true count, for the split to be made; being below
+ *                    1, it makes the recursion end */
+#define PAIRS_LEFT_MAX 0.8
+#define PAIRS_LEFT_GOOD 0.55
+#define PAIRS_LEFT_SPLIT 0.9
 
-/* A rival that is along at least this share of a part is in most parts that
- * others would part it into: it is taken first. */
-#define LONG 0.6
+/* An occluder that extends along at least this share of a region would overlap
+ * most of the regions that it is split into: it is subtracted first. */
+#define LONG_SHARE 0.6
 
-/* Partings of a part after which its axis is found anew: reaches along one that
- * is not its own may be too long. */
-enum { AXIS_AGE = 3 };
-static const struct region_axis no_axis = {.age = AXIS_AGE};
+/* Splits after which a region's axis is computed anew: extents along the axis
+ * of a larger region may be too long. */
+enum { AXIS_SPLITS_MAX = 3 };
+static const struct region_axis no_axis = {.splits = AXIS_SPLITS_MAX};
 
-/* Reaches are in doubles of corners that are off by 1/4 unit or less (line.c):
- * this is room enough. */
-#define REACH_MARGIN 2.0
+/* Grid units.  Extents are computed in doubles from corners whose error is at
+ * most 1/4 unit (line.c). */
+#define EXTENT_MARGIN 2.0
 
-/* The library's are calls, for the sake of what is no number. */
-static inline double least(double a, double b) { return a < b ? a : b; }
-static inline double most_of(double a, double b) { return a > b ? a : b; }
+/* fmin and fmax are calls, not instructions, because of NaN; these operands are
+ * never NaN. */
+static inline double min_of(double a, double b) { return a < b ? a : b; }
+static inline double max_of(double a, double b) { return a > b ? a : b; }
 
 static double along(const struct region_axis *axis, double x, double y) {
   return (x - axis->x) * axis->dx + (y - axis->y) * axis->dy;
@@ -50,12 +62,13 @@ static double across(const struct region_axis *axis, double x, double y) {
   return (y - axis->y) * axis->dx - (x - axis->x) * axis->dy;
 }
 
+/* The axis of a region: through its first corner, parallel to the longest of
+ * its sides and of its diagonals from that corner. */
 static struct region_axis axis_of(const struct geom_convex *piece) {
   const struct geom_corner *c = piece->corner;
   struct region_axis axis = {.x = c[0].x, .y = c[0].y, .dx = 1};
   double most = 0;
   for (uint32_t k = 1; k < piece->count; k++) {
-    /* The longest way from the first corner, or along a side. */
     for (int from = 0; from < 2; from++) {
       const struct geom_corner *a = from == 0 ? &c[0] : &c[k - 1];
       double dx = c[k].x - a->x, dy = c[k].y - a->y, length = hypot(dx, dy);
@@ -70,122 +83,125 @@ static struct region_axis axis_of(const struct geom_convex *piece) {
   axis.u1 = axis.v1 = -INFINITY;
   for (uint32_t k = 0; k < piece->count; k++) {
     double u = along(&axis, c[k].x, c[k].y), v = across(&axis, c[k].x, c[k].y);
-    axis.u0 = least(axis.u0, u - REACH_MARGIN);
-    axis.u1 = most_of(axis.u1, u + REACH_MARGIN);
-    axis.v0 = least(axis.v0, v - REACH_MARGIN);
-    axis.v1 = most_of(axis.v1, v + REACH_MARGIN);
+    axis.u0 = min_of(axis.u0, u - EXTENT_MARGIN);
+    axis.u1 = max_of(axis.u1, u + EXTENT_MARGIN);
+    axis.v0 = min_of(axis.v0, v - EXTENT_MARGIN);
+    axis.v1 = max_of(axis.v1, v + EXTENT_MARGIN);
   }
   return axis;
 }
 
-/* Widens a reach by where the segment crosses v = at. */
-static void reach_crossing(struct face_occluder_extent *reach,
-                           const double p[2], const double q[2], double at) {
+/* Extends an extent to the point where segment pq crosses the line v = at. */
+static void extend_to_crossing(struct face_occluder_extent *extent,
+                               const double p[2], const double q[2],
+                               double at) {
   double u;
   if ((p[1] < at) == (q[1] < at))
     return;
   u = p[0] + (q[0] - p[0]) * ((at - p[1]) / (q[1] - p[1]));
-  reach->from = least(reach->from, u);
-  reach->to = most_of(reach->to, u);
+  extent->from = min_of(extent->from, u);
+  extent->to = max_of(extent->to, u);
 }
 
-/* Where a rival may be along the axis, within the part's breadth; false:
- * nowhere. */
-static bool find_reach(const struct face_occluders *occluders,
-                       const struct region_axis *axis,
-                       struct face_occluder_extent *reach) {
+/* Finds the interval of the axis over which an occluder may overlap the
+ * region's strip v0 <= v <= v1.  Returns whether it meets the region's own
+ * interval. */
+static bool find_extent(const struct face_occluders *occluders,
+                        const struct region_axis *axis,
+                        struct face_occluder_extent *extent) {
   const struct sheet *sheet = occluders->sheet;
   const uint32_t *point =
-      sheet->triangle.item[occluders->occluder.item[reach->occluder].triangle]
+      sheet->triangle.item[occluders->occluder.item[extent->occluder].triangle]
           .point;
   double p[3][2];
-  reach->from = INFINITY;
-  reach->to = -INFINITY;
+  extent->from = INFINITY;
+  extent->to = -INFINITY;
   for (int k = 0; k < 3; k++) {
     const struct geom_point *at = &sheet->point.item[point[k]];
     p[k][0] = along(axis, at->x, at->y);
     p[k][1] = across(axis, at->x, at->y);
     if (p[k][1] >= axis->v0 && p[k][1] <= axis->v1) {
-      reach->from = least(reach->from, p[k][0]);
-      reach->to = most_of(reach->to, p[k][0]);
+      extent->from = min_of(extent->from, p[k][0]);
+      extent->to = max_of(extent->to, p[k][0]);
     }
   }
   for (int k = 0; k < 3; k++) {
     const double *q = p[k == 2 ? 0 : k + 1];
-    reach_crossing(reach, p[k], q, axis->v0);
-    reach_crossing(reach, p[k], q, axis->v1);
+    extend_to_crossing(extent, p[k], q, axis->v0);
+    extend_to_crossing(extent, p[k], q, axis->v1);
   }
-  reach->from -= REACH_MARGIN;
-  reach->to += REACH_MARGIN;
-  return reach->from <= axis->u1 && reach->to >= axis->u0;
+  extent->from -= EXTENT_MARGIN;
+  extent->to += EXTENT_MARGIN;
+  return extent->from <= axis->u1 && extent->to >= axis->u0;
 }
 
-/* Keeps those of the last `count` reaches that meet the part; returns how
- * many.  The list ends with them. */
-static size_t sift(struct face_occluders *occluders,
-                   const struct region_axis *axis, size_t count) {
-  size_t from = occluders->reach.count - count, kept = from;
-  for (size_t i = from; i < occluders->reach.count; i++) {
-    struct face_occluder_extent reach = occluders->reach.item[i];
-    if (find_reach(occluders, axis, &reach))
-      occluders->reach.item[kept++] = reach;
+/* Recomputes the last `count` extents along a new axis and removes those that
+ * do not meet the region.  Returns how many are left, at the end of the
+ * list. */
+static size_t recompute_extents(struct face_occluders *occluders,
+                                const struct region_axis *axis, size_t count) {
+  size_t from = occluders->extent.count - count, kept = from;
+  for (size_t i = from; i < occluders->extent.count; i++) {
+    struct face_occluder_extent extent = occluders->extent.item[i];
+    if (find_extent(occluders, axis, &extent))
+      occluders->extent.item[kept++] = extent;
   }
-  occluders->reach.count = kept;
+  occluders->extent.count = kept;
   return kept - from;
 }
 
-/* A stretch of the axis. */
-struct axis_stretch {
+/* An interval of the axis. */
+struct axis_interval {
   double from, to;
 };
 
-static const struct axis_stretch no_stretch = {INFINITY, -INFINITY};
+static const struct axis_interval no_interval = {INFINITY, -INFINITY};
 
-static void widen(struct axis_stretch *stretch, double u) {
-  stretch->from = least(stretch->from, u);
-  stretch->to = most_of(stretch->to, u);
+static void widen(struct axis_interval *interval, double u) {
+  interval->from = min_of(interval->from, u);
+  interval->to = max_of(interval->to, u);
 }
 
-static bool is_along(const struct axis_stretch *stretch,
-                     const struct face_occluder_extent *reach) {
-  return reach->from <= stretch->to && reach->to >= stretch->from;
+static bool overlaps(const struct axis_interval *interval,
+                     const struct face_occluder_extent *extent) {
+  return extent->from <= interval->to && extent->to >= interval->from;
 }
 
-/* A side of a rival, and about where its line leaves halves of a part along
- * its axis. */
+/* A side of an occluder, and the approximate intervals along the axis of the
+ * two halves into which its line splits a region. */
 struct split_line {
   uint32_t occluder;
   int side;
-  struct axis_stretch half[2]; /* left of the line, right of it */
+  struct axis_interval half[2]; /* left of the line, right of it */
 };
 
-/* Does the line of that side cross the part, and how? */
-static bool find_crossing(const struct face_occluders *occluders,
-                          const struct geom_convex *piece,
-                          const struct region_axis *axis,
-                          struct split_line *parting) {
+/* Finds the halves into which the line of a side splits a region, in doubles.
+ * Returns whether the line crosses the region. */
+static bool find_halves(const struct face_occluders *occluders,
+                        const struct geom_convex *piece,
+                        const struct region_axis *axis,
+                        struct split_line *line) {
   const struct sheet *sheet = occluders->sheet;
   const uint32_t *point =
-      sheet->triangle.item[occluders->occluder.item[parting->occluder].triangle]
+      sheet->triangle.item[occluders->occluder.item[line->occluder].triangle]
           .point;
-  const struct geom_point *a = &sheet->point.item[point[parting->side]],
-                          *b = &sheet->point
-                                    .item[point[(parting->side + 1) % 3]];
+  const struct geom_point *a = &sheet->point.item[point[line->side]],
+                          *b = &sheet->point.item[point[(line->side + 1) % 3]];
   double dx = (double)b->x - a->x, dy = (double)b->y - a->y;
   const struct geom_corner *last = &piece->corner[piece->count - 1];
   double before = dx * (last->y - a->y) - dy * (last->x - a->x);
   bool crosses = false;
-  parting->half[0] = parting->half[1] = no_stretch;
+  line->half[0] = line->half[1] = no_interval;
   for (uint32_t k = 0; k < piece->count; k++) {
     const struct geom_corner *c = &piece->corner[k];
     double now = dx * (c->y - a->y) - dy * (c->x - a->x);
-    widen(&parting->half[now < 0], along(axis, c->x, c->y));
+    widen(&line->half[now < 0], along(axis, c->x, c->y));
     if ((before < 0) != (now < 0)) {
       double t = before / (before - now);
       double u = along(axis, last->x + t * (c->x - last->x),
                        last->y + t * (c->y - last->y));
-      widen(&parting->half[0], u);
-      widen(&parting->half[1], u);
+      widen(&line->half[0], u);
+      widen(&line->half[1], u);
       crosses = true;
     }
     before = now;
@@ -194,113 +210,121 @@ static bool find_crossing(const struct face_occluders *occluders,
   return crosses;
 }
 
-/* The share of the pairs that a parting leaves, by every step-th reach. */
-static double pairs_left(const struct face_occluder_extent *reach, size_t count,
-                         size_t step, const struct axis_stretch half[2]) {
+/* The share of the pairs that a split leaves, estimated from every step-th
+ * extent: of n occluders in all, of which l overlap the left half and r the
+ * right one, (l^2 + r^2) / n^2. */
+static double pairs_left(const struct face_occluder_extent *extent,
+                         size_t count, size_t step,
+                         const struct axis_interval half[2]) {
   double left = 0, right = 0, all = 0;
   for (size_t i = 0; i < count; i += step, all++) {
-    left += is_along(&half[0], &reach[i]);
-    right += is_along(&half[1], &reach[i]);
+    left += overlaps(&half[0], &extent[i]);
+    right += overlaps(&half[1], &extent[i]);
   }
   return (left * left + right * right) / (all * all);
 }
 
-static bool choose_parting(const struct face_occluders *occluders,
-                           const struct geom_convex *piece,
-                           const struct region_axis *axis, size_t count,
-                           struct split_line *best) {
-  const struct face_occluder_extent *reach =
-      occluders->reach.item + (occluders->reach.count - count);
-  double least = MOST_LEFT;
+/* Chooses the line that leaves the smallest share of the pairs.  Returns false
+ * if no line is good enough. */
+static bool choose_split_line(const struct face_occluders *occluders,
+                              const struct geom_convex *piece,
+                              const struct region_axis *axis, size_t count,
+                              struct split_line *best) {
+  const struct face_occluder_extent *extent =
+      occluders->extent.item + (occluders->extent.count - count);
+  double least = PAIRS_LEFT_MAX;
   *best = (struct split_line){0};
-  for (size_t i = 0; i < LINES && least > GOOD; i++) {
+  for (size_t i = 0; i < CANDIDATE_LINES && least > PAIRS_LEFT_GOOD; i++) {
     struct split_line now = {
-        .occluder = reach[(2 * i + 1) * count / (2 * LINES)].occluder};
+        .occluder =
+            extent[(2 * i + 1) * count / (2 * CANDIDATE_LINES)].occluder};
     for (now.side = 0; now.side < 3; now.side++) {
       double left;
-      if (!find_crossing(occluders, piece, axis, &now))
+      if (!find_halves(occluders, piece, axis, &now))
         continue;
-      left = pairs_left(reach, count, count / SAMPLE + 1, now.half);
+      left = pairs_left(extent, count, count / SAMPLE + 1, now.half);
       if (left >= least)
         continue;
       least = left;
       *best = now;
     }
   }
-  return least < MOST_LEFT;
+  return least < PAIRS_LEFT_MAX;
 }
 
-/* Where a half is along the axis, with a margin. */
-static struct axis_stretch stretch_of(const struct region_axis *axis,
-                                      const struct geom_convex *piece) {
-  struct axis_stretch stretch = no_stretch;
+/* The interval of a piece along the axis, with a margin. */
+static struct axis_interval interval_of(const struct region_axis *axis,
+                                        const struct geom_convex *piece) {
+  struct axis_interval interval = no_interval;
   for (uint32_t k = 0; k < piece->count; k++)
-    widen(&stretch, along(axis, piece->corner[k].x, piece->corner[k].y));
-  stretch.from -= REACH_MARGIN;
-  stretch.to += REACH_MARGIN;
-  return stretch;
+    widen(&interval, along(axis, piece->corner[k].x, piece->corner[k].y));
+  interval.from -= EXTENT_MARGIN;
+  interval.to += EXTENT_MARGIN;
+  return interval;
 }
 
-/* Puts a part on the stack, without its reaches.
- * axis  what these are along */
-static bool push_part(struct face_occluders *occluders,
-                      const struct geom_convex *piece,
-                      const struct region_axis *axis) {
-  struct region part = {*piece, occluders->reach.count, *axis};
-  return ARRAY_PUSH(&occluders->part, part);
+/* Pushes a region on the stack, without its extents.
+ * axis  what the extents that follow are measured along */
+static bool push_region(struct face_occluders *occluders,
+                        const struct geom_convex *piece,
+                        const struct region_axis *axis) {
+  struct region region = {*piece, occluders->extent.count, *axis};
+  return ARRAY_PUSH(&occluders->region, region);
 }
 
-/* Puts two halves on the stack, with the reaches along each; the part's own are
- * the last `count` ones, and make room.
- * divided  false: the parting was no good, for the sample was wrong; nothing
- *          was done */
-static bool divide(struct face_occluders *occluders,
-                   const struct geom_convex *piece,
-                   const struct region_axis *axis, size_t count,
-                   const struct split_line *parting, bool *divided) {
-  struct face_occluder *occluder = &occluders->occluder.item[parting->occluder];
+/* Splits a region and pushes both halves with their extents, which replace the
+ * last `count` ones, those of the region.
+ * done  false if the split leaves more pairs than the sample had suggested, and
+ *       too many; nothing was changed then */
+static bool split_region(struct face_occluders *occluders,
+                         const struct geom_convex *piece,
+                         const struct region_axis *axis, size_t count,
+                         const struct split_line *line, bool *done) {
+  struct face_occluder *occluder = &occluders->occluder.item[line->occluder];
   struct geom_convex half[2];
-  struct axis_stretch stretch[2];
-  size_t own = occluders->reach.count - count;
-  *divided = false;
+  struct axis_interval interval[2];
+  size_t own = occluders->extent.count - count;
+  *done = false;
   if (!face_occluder_make_lines(occluders, occluder) ||
-      !geom_convex_split(piece, &occluder->line[parting->side],
-                         &occluder->line[occluder->lines + parting->side],
+      !geom_convex_split(piece, &occluder->line[line->side],
+                         &occluder->line[occluder->lines + line->side],
                          &half[0], &half[1], &occluders->arena))
     return false;
   for (int h = 0; h < 2; h++)
-    stretch[h] = stretch_of(axis, &half[h]);
+    interval[h] = interval_of(axis, &half[h]);
   if (half[0].count == 0 || half[1].count == 0 ||
-      pairs_left(occluders->reach.item + own, count, 1, stretch) > MOST_DIVIDED)
+      pairs_left(occluders->extent.item + own, count, 1, interval) >
+          PAIRS_LEFT_SPLIT)
     return true;
   occluders->scratch.count = 0;
   if (!ARRAY_RESERVE(&occluders->scratch, count) ||
-      !ARRAY_RESERVE(&occluders->reach, count))
+      !ARRAY_RESERVE(&occluders->extent, count))
     return false;
-  memcpy(occluders->scratch.item, occluders->reach.item + own,
+  memcpy(occluders->scratch.item, occluders->extent.item + own,
          count * sizeof *occluders->scratch.item);
-  occluders->reach.count = own;
+  occluders->extent.count = own;
   for (int h = 0; h < 2; h++) {
     struct region_axis own_axis = *axis;
-    own_axis.age++;
-    own_axis.u0 = stretch[h].from;
-    own_axis.u1 = stretch[h].to;
-    if (!push_part(occluders, &half[h], &own_axis))
+    own_axis.splits++;
+    own_axis.u0 = interval[h].from;
+    own_axis.u1 = interval[h].to;
+    if (!push_region(occluders, &half[h], &own_axis))
       return false;
     for (size_t i = 0; i < count; i++)
-      if (is_along(&stretch[h], &occluders->scratch.item[i]))
-        occluders->reach.item[occluders->reach.count++] =
+      if (overlaps(&interval[h], &occluders->scratch.item[i]))
+        occluders->extent.item[occluders->extent.count++] =
             occluders->scratch.item[i];
   }
   occluders->counts.splits++;
-  *divided = true;
+  *done = true;
   return true;
 }
 
-/* Is some corner of the part outside a side of the rival, for certain? */
-static bool reaches_out(const struct face_occluders *occluders,
-                        const struct face_occluder *occluder,
-                        const struct geom_convex *piece) {
+/* Returns true only if some corner of the piece lies outside the occluder: a
+ * filter in doubles with an error bound. */
+static bool is_surely_not_contained(const struct face_occluders *occluders,
+                                    const struct face_occluder *occluder,
+                                    const struct geom_convex *piece) {
   const struct sheet *sheet = occluders->sheet;
   const uint32_t *point = sheet->triangle.item[occluder->triangle].point;
   for (int k = 0; k < 3; k++) {
@@ -316,16 +340,17 @@ static bool reaches_out(const struct face_occluders *occluders,
   return false;
 }
 
-/* Finds whether the part is hidden by one of its rivals alone. */
-static bool find_cover(struct face_occluders *occluders, size_t count,
-                       const struct geom_convex *piece, bool *covered) {
-  const struct face_occluder_extent *reach =
-      occluders->reach.item + (occluders->reach.count - count);
+/* Decides whether a single one of its occluders covers the region. */
+static bool find_single_occluder(struct face_occluders *occluders, size_t count,
+                                 const struct geom_convex *piece,
+                                 bool *covered) {
+  const struct face_occluder_extent *extent =
+      occluders->extent.item + (occluders->extent.count - count);
   *covered = false;
   for (size_t i = 0; i < count && !*covered; i++) {
     struct face_occluder *occluder =
-        &occluders->occluder.item[reach[i].occluder];
-    if (reaches_out(occluders, occluder, piece))
+        &occluders->occluder.item[extent[i].occluder];
+    if (is_surely_not_contained(occluders, occluder, piece))
       continue;
     if (!face_occluder_make_lines(occluders, occluder))
       return false;
@@ -334,17 +359,17 @@ static bool find_cover(struct face_occluders *occluders, size_t count,
   return true;
 }
 
-/* The one of the last `count` reaches that is longest along the part, where it
- * is long; else `count`. */
-static size_t find_long(const struct face_occluders *occluders,
-                        const struct region_axis *axis, size_t count) {
-  const struct face_occluder_extent *reach =
-      occluders->reach.item + (occluders->reach.count - count);
-  double most = LONG * (axis->u1 - axis->u0);
+/* Returns which of the last `count` extents is the longest within the region,
+ * if it is at least LONG_SHARE of it; otherwise `count`. */
+static size_t find_long_extent(const struct face_occluders *occluders,
+                               const struct region_axis *axis, size_t count) {
+  const struct face_occluder_extent *extent =
+      occluders->extent.item + (occluders->extent.count - count);
+  double most = LONG_SHARE * (axis->u1 - axis->u0);
   size_t longest = count;
   for (size_t i = 0; i < count; i++) {
     double length =
-        least(reach[i].to, axis->u1) - most_of(reach[i].from, axis->u0);
+        min_of(extent[i].to, axis->u1) - max_of(extent[i].from, axis->u0);
     if (length <= most)
       continue;
     most = length;
@@ -353,109 +378,112 @@ static size_t find_long(const struct face_occluders *occluders,
   return longest;
 }
 
-/* Takes one of the last `count` reaches' rivals from the part, and puts what is
- * left of it on the stack with the others. */
-static bool take_one(struct face_occluders *occluders,
-                     const struct geom_convex *piece, size_t count,
-                     size_t which) {
-  size_t own = occluders->reach.count - count, others = count - 1;
+/* Subtracts the occluder of one of the last `count` extents from the region,
+ * and pushes each remaining piece with the other extents. */
+static bool subtract_one(struct face_occluders *occluders,
+                         const struct geom_convex *piece, size_t count,
+                         size_t which) {
+  size_t own = occluders->extent.count - count, others = count - 1;
   struct face_occluder *occluder =
-      &occluders->occluder.item[occluders->reach.item[own + which].occluder];
+      &occluders->occluder.item[occluders->extent.item[own + which].occluder];
   occluders->next.count = 0;
   if (!face_occluder_subtract(occluders, piece, occluder))
     return false;
-  occluders->reach.item[own + which] = occluders->reach.item[own + others];
-  occluders->reach.count = own + others;
+  occluders->extent.item[own + which] = occluders->extent.item[own + others];
+  occluders->extent.count = own + others;
   if (occluders->next.count == 0)
-    occluders->reach.count = own;
+    occluders->extent.count = own;
   for (size_t i = 0; i < occluders->next.count; i++) {
-    struct region part = {occluders->next.item[i],
-                          occluders->reach.count - others, no_axis};
-    if (!ARRAY_PUSH(&occluders->part, part))
+    struct region region = {occluders->next.item[i],
+                            occluders->extent.count - others, no_axis};
+    if (!ARRAY_PUSH(&occluders->region, region))
       return false;
     if (i + 1 == occluders->next.count)
       break;
-    if (!ARRAY_RESERVE(&occluders->reach, others))
+    if (!ARRAY_RESERVE(&occluders->extent, others))
       return false;
-    memcpy(occluders->reach.item + occluders->reach.count,
-           occluders->reach.item + (occluders->reach.count - others),
-           others * sizeof *occluders->reach.item);
-    occluders->reach.count += others;
+    memcpy(occluders->extent.item + occluders->extent.count,
+           occluders->extent.item + (occluders->extent.count - others),
+           others * sizeof *occluders->extent.item);
+    occluders->extent.count += others;
   }
   return true;
 }
 
-/* Divides the part on top of the stack, which has been taken off it, or drops
- * it where it is hidden, or leaves the last *count reaches to be taken. */
-static bool part_further(struct face_occluders *occluders, struct region *part,
-                         size_t *count, bool *done) {
-  const struct geom_convex *piece = &part->piece;
-  struct split_line parting;
+/* Processes a region that was popped from the stack and has a long list.
+ * count  how many extents it has; updated
+ * done   whether the region was dropped as hidden, or replaced by smaller ones;
+ *        false: the occluders of the last *count extents are to be
+ *        subtracted */
+static bool reduce_region(struct face_occluders *occluders,
+                          struct region *region, size_t *count, bool *done) {
+  const struct geom_convex *piece = &region->piece;
+  struct split_line line;
   size_t longest;
-  if (part->axis.age >= AXIS_AGE) {
-    part->axis = axis_of(piece);
-    *count = sift(occluders, &part->axis, *count);
+  if (region->axis.splits >= AXIS_SPLITS_MAX) {
+    region->axis = axis_of(piece);
+    *count = recompute_extents(occluders, &region->axis, *count);
   }
-  if (!find_cover(occluders, *count, piece, done))
+  if (!find_single_occluder(occluders, *count, piece, done))
     return false;
   if (*done) {
     occluders->whole = false;
-    occluders->reach.count -= *count;
+    occluders->extent.count -= *count;
     return true;
   }
-  if (*count <= FEW)
+  if (*count <= SMALL_LIST_MAX)
     return true;
-  longest = find_long(occluders, &part->axis, *count);
+  longest = find_long_extent(occluders, &region->axis, *count);
   if (longest < *count) {
     *done = true;
-    return take_one(occluders, piece, *count, longest);
+    return subtract_one(occluders, piece, *count, longest);
   }
-  if (!choose_parting(occluders, piece, &part->axis, *count, &parting)) {
-    if (part->axis.age == 0)
+  if (!choose_split_line(occluders, piece, &region->axis, *count, &line)) {
+    if (region->axis.splits == 0)
       return true;
-    part->axis = no_axis; /* once more, along its own */
+    region->axis = no_axis; /* try again along its own axis */
     *done = true;
-    return ARRAY_PUSH(&occluders->part, *part);
+    return ARRAY_PUSH(&occluders->region, *region);
   }
-  return divide(occluders, piece, &part->axis, *count, &parting, done);
+  return split_region(occluders, piece, &region->axis, *count, &line, done);
 }
 
-static bool solve_part(struct face_occluders *occluders) {
-  struct region part = occluders->part.item[--occluders->part.count];
-  size_t count = occluders->reach.count - part.from;
+static bool solve_region(struct face_occluders *occluders) {
+  struct region region = occluders->region.item[--occluders->region.count];
+  size_t count = occluders->extent.count - region.first_extent;
   bool ok = false;
-  if (count > FEW && !part_further(occluders, &part, &count, &ok))
+  if (count > SMALL_LIST_MAX && !reduce_region(occluders, &region, &count, &ok))
     return false;
   if (ok)
     return true;
-  if (!face_occluders_subtract_few(occluders, &part.piece, count))
+  if (!face_occluders_subtract_last(occluders, &region.piece, count))
     return false;
-  occluders->reach.count = part.from;
+  occluders->extent.count = region.first_extent;
   return true;
 }
 
-/* Of a part that may be parted again, in units of a pulse. */
-enum { PART_WORK = 256 };
+/* Work per region, in the units of progress.h. */
+enum { REGION_WORK = 256 };
 
-/* Lists all rivals.  What may cover most comes first: what it takes is not cut
- * again. */
-static bool list_all(struct face_occluders *occluders) {
+/* Lists all occluders, those that may cover the largest area first: what they
+ * cover need not be split again. */
+static bool list_all_occluders(struct face_occluders *occluders) {
   size_t n = occluders->occluder.count;
-  occluders->reach.count = occluders->key.count = 0;
-  if (!ARRAY_RESERVE(&occluders->reach, n) ||
+  occluders->extent.count = occluders->key.count = 0;
+  if (!ARRAY_RESERVE(&occluders->extent, n) ||
       !ARRAY_RESERVE(&occluders->key, 2 * n))
     return false;
   for (size_t i = 0; i < n; i++) {
-    uint64_t bits; /* order as the numbers do, which are not negative */
-    memcpy(&bits, &occluders->occluder.item[i].share, sizeof bits);
+    uint64_t bits; /* ordered as the areas are, which are not negative */
+    memcpy(&bits, &occluders->occluder.item[i].shared_area, sizeof bits);
     occluders->key.item[i] =
         (struct sort_key){UINT32_MAX - (bits >> 32), (uint32_t)i};
   }
   sort_keys(occluders->key.item, occluders->key.item + n, n);
   for (size_t i = 0; i < n; i++)
-    occluders->reach.item[i] = (struct face_occluder_extent){
+    occluders->extent.item[i] = (struct face_occluder_extent){
         -INFINITY, INFINITY, occluders->key.item[i].value};
-  occluders->reach.count = n;
+  occluders->extent.count = n;
   return true;
 }
 
@@ -465,15 +493,16 @@ bool face_occluders_subtract_all(struct face_occluders *occluders) {
   if (line == NULL)
     return false;
   triangle_lines(occluders->sheet, occluders->triangle, line, line + 3);
-  occluders->left.count = occluders->part.count = occluders->reach.count = 0;
+  occluders->left.count = occluders->region.count = occluders->extent.count = 0;
   occluders->whole = true;
   if (!geom_convex_triangle(&piece, occluders->plane.p, line,
                             &occluders->arena) ||
-      !push_part(occluders, &piece, &no_axis) || !list_all(occluders))
+      !push_region(occluders, &piece, &no_axis) ||
+      !list_all_occluders(occluders))
     return false;
-  while (occluders->part.count > 0)
-    if (!progress_step(occluders->progress, PART_WORK) ||
-        !solve_part(occluders))
+  while (occluders->region.count > 0)
+    if (!progress_step(occluders->progress, REGION_WORK) ||
+        !solve_region(occluders))
       return false;
   return true;
 }

@@ -1,4 +1,7 @@
-/* side_provenance.h - what a fragment's side is: a question of the sheet alone. */
+/* side_provenance.h - labels each side of a fragment with what it is part of.
+ *
+ * The label depends on the sheet alone, not on the solver.
+ */
 #ifndef VISIBILITY_FRAGMENTS_SIDE_PROVENANCE_H
 #define VISIBILITY_FRAGMENTS_SIDE_PROVENANCE_H
 
@@ -7,34 +10,40 @@
 #include "visibility/index/triangle_grid.h"
 #include "visibility/fragments/line_index.h"
 
-/* What is at hand while sides are labelled. */
+/* The indices, the current face and the scratch lists of a labelling. */
 struct side_provenance {
   const struct sheet *sheet;
   const struct triangle_grid *grid;
   struct triangle_grid_query *query;
-  const struct line_index *sides; /* of all triangles that may be asked about;
-                                   NULL: the grid is asked for them */
-  /* The face at hand: its triangles that are seen, ascending. */
+  const struct line_index *sides; /* of all triangles near the current face;
+                                     NULL: the grid is queried instead */
+  /* The triangles of the current face that are visible, ascending. */
   const uint32_t *own;
   size_t own_count;
-  side_list found; /* sides that may run along the stretch at hand */
-  ARRAY(uint32_t) about, beside; /* the face's triangles there */
+  side_list found; /* sides that may overlap the current boundary segment */
+  ARRAY(uint32_t) nearby, beside; /* the face's triangles near the segment, and
+                                     those that have area on its left */
 };
 
-enum { SIDE_PROVENANCE_FEW = 8 }; /* triangles of a face, that need no index */
+/* Up to this many triangles of a face are searched without an index. */
+enum { SIDE_PROVENANCE_SMALL_FACE = 8 };
 
-void side_provenance_fini(struct side_provenance *labels);
+void side_provenance_fini(struct side_provenance *provenance);
 
-/* Labels the side of a fragment of the face at hand that runs on `line` from p
- * to q.
- * The first that holds of: an edge of the face itself lies along it; an edge
- * of a nearer face does; a face crosses this one's plane along it; any of
- * these of a later face in contact, whose pieces this one was given; a cut.
- * Of several the lowest number.  A face's triangles may each have a plane of
- * their own: those beside the stretch are asked.
+/* Labels the side of a fragment of the current face that runs on `line` from p
+ * to q, with the first of these that applies:
+ *   1 MAP_SIDE_EDGE          an edge of the face itself overlaps the side
+ *   2 MAP_SIDE_OUTLINE       an edge of a nearer face overlaps it
+ *   3 MAP_SIDE_INTERSECTION  a face intersects this one's plane along it
+ *   4 any of these three, for a later face in contact: its visible pieces were
+ *     passed on to this face (fragments.h)
+ *   5 MAP_SIDE_CUT           otherwise
+ * If several edges or faces qualify, the lowest number is returned.  The
+ * triangles of a face that is not planar each have a plane of their own; the
+ * ones beside the segment are those that count.
  * side, id    as in struct map_corner
  * Returns false when memory ran out. */
-USE_RESULT bool side_provenance_find(struct side_provenance *labels,
+USE_RESULT bool side_provenance_find(struct side_provenance *provenance,
                                      const struct geom_line *line,
                                      const struct geom_corner *p,
                                      const struct geom_corner *q, uint8_t *side,

@@ -246,7 +246,8 @@ bool undecided_faces_solve(struct undecided_faces *undecided_faces,
     return note_hidden(undecided_faces, triangle);
   if (occluders->occluder.count == 0) {
     counts->whole++;
-    return fragments_add_among(fragments, triangle, NULL, 0, about, count);
+    return fragments_add_with_candidates(fragments, triangle, NULL, 0, about,
+                                         count);
   }
   if (!occluders->interpenetrating && !is_crossed(undecided_faces)) {
     counts->uncrossed++;
@@ -258,11 +259,13 @@ bool undecided_faces_solve(struct undecided_faces *undecided_faces,
     return note_hidden(undecided_faces, triangle);
   if (occluders->whole) {
     counts->whole++;
-    return fragments_add_among(fragments, triangle, NULL, 0, about, count);
+    return fragments_add_with_candidates(fragments, triangle, NULL, 0, about,
+                                         count);
   }
   counts->mixed++;
-  return fragments_add_among(fragments, triangle, occluders->left.item,
-                             occluders->left.count, about, count);
+  return fragments_add_with_candidates(fragments, triangle,
+                                       occluders->left.item,
+                                       occluders->left.count, about, count);
 }
 
 void undecided_faces_report(const struct undecided_faces *undecided_faces,

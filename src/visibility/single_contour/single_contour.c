@@ -281,7 +281,7 @@ static bool show_faces(const struct sheet *sheet, bool areas, struct map *map,
   ok = fragments_init(&fragments, sheet, &grid, true);
   fragments.report = report;
   for (size_t t = 0; ok && t < sheet->triangle.count; t++)
-    ok = fragments_add_alone(&fragments, (uint32_t)t);
+    ok = fragments_add_without_contact(&fragments, (uint32_t)t);
   ok = ok && fragments_finish(&fragments, areas, map);
   fragments_fini(&fragments);
   triangle_grid_fini(&grid);

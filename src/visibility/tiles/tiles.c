@@ -333,7 +333,7 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
   fragments.report = work->report;
   for (size_t t = 0; ok && t < n; t++)
     if (work->face_state[t] == MAP_VISIBLE)
-      ok = fragments_add_alone(&fragments, (uint32_t)t);
+      ok = fragments_add_without_contact(&fragments, (uint32_t)t);
   ok = ok && undecided_faces_sort(&undecided_faces, work->face.item,
                                   work->face.count);
   for (size_t i = 0; ok && i < work->face.count; i++)
