@@ -168,13 +168,13 @@ static void whole_says_that_no_more_need_be_asked(void **state) {
   map_init(&map);
   assert_true(edge_intervals_open_map(&map, 1));
   hide(&intervals, span, 2, &r);
-  assert_false(intervals.whole);
+  assert_false(intervals.occluded);
   hide(&intervals, span, 3, &r);
-  assert_true(intervals.whole);
+  assert_true(intervals.occluded);
   assert_true(edge_intervals_store(&intervals, 0, &map));
   assert_int_equal(map.edge_state[0], MAP_HIDDEN);
   edge_intervals_start(&intervals);
-  assert_false(intervals.whole);
+  assert_false(intervals.occluded);
   assert_true(edge_intervals_store(&intervals, 0, &map));
   assert_int_equal(map.edge_state[0], MAP_VISIBLE);
   map_fini(&map);

@@ -268,7 +268,7 @@ static void a_decal_off_by_rounding_goes_to_the_earlier_face(void **state) {
       assert_int_equal(map.fragment.count, 2);
       assert_int_equal(map.fragment.item[1].loops, 2);
       for (uint32_t k = 8; k < 12; k++) { /* the hole is the decal's outline */
-        assert_int_equal(map.corner.item[k].side, MAP_SIDE_OUTLINE);
+        assert_int_equal(map.corner.item[k].side, MAP_SIDE_OCCLUDER);
         assert_in_range(map.corner.item[k].id, 0, 3);
       }
       map_fini(&map);

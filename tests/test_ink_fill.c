@@ -397,7 +397,7 @@ static void pen_goes_to_the_next_line_along_ink_alone(void **state) {
   k.options.edges &= ~(unsigned)RECTO_EDGE_INTERSECTION;
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 18);
-  k.map.corner.item[1].side = MAP_SIDE_CUT;
+  k.map.corner.item[1].side = MAP_SIDE_CLIP;
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 18);
   /* Nor on the left. */

@@ -48,7 +48,7 @@ static void an_edge_is_hidden_between_the_sides_it_crosses(void **state) {
                            (struct geom_point){300, 300, 0}, &part, &counts));
   assert_true(is_ratio(part.from, 0, 1) && is_ratio(part.to, 1, 1));
   assert_int_equal(counts.pairs, 2);
-  assert_int_equal(counts.depth, 2);
+  assert_int_equal(counts.depth_tests, 2);
   exact_sheet_fini(&sheet);
 }
 

@@ -127,9 +127,9 @@ static void a_face_s_own_sides_are_its_edges(void **state) {
 static void a_nearer_face_s_edge_is_an_outline(void **state) {
   static const quad over = {{8, 4, 20}, {24, 4, 20}, {24, 12, 20}, {8, 12, 20}};
   static const struct label label[] = {
-      {0, 16, 4, MAP_SIDE_OUTLINE, {8, 4, 24, 4}},
-      {0, 8, 4, MAP_SIDE_OUTLINE, {8, 4, 8, 12}},
-      {0, 8, 12, MAP_SIDE_OUTLINE, {8, 12, 24, 12}},
+      {0, 16, 4, MAP_SIDE_OCCLUDER, {8, 4, 24, 4}},
+      {0, 8, 4, MAP_SIDE_OCCLUDER, {8, 4, 8, 12}},
+      {0, 8, 12, MAP_SIDE_OCCLUDER, {8, 12, 24, 12}},
       {0, 16, 12, MAP_SIDE_EDGE, {16, 0, 16, 16}},
       {1, 8, 4, MAP_SIDE_EDGE, {8, 4, 24, 4}}};
   (void)state;
@@ -142,9 +142,9 @@ static void a_folded_face_is_asked_where_the_side_is(void **state) {
   static const quad folded = {{0, 0, 8}, {16, 0, 0}, {16, 16, 8}, {0, 16, 8}};
   static const quad post = {{2, 12, 10}, {4, 12, 10}, {4, 16, 10}, {2, 16, 10}};
   static const struct label label[] = {
-      {0, 4, 16, MAP_SIDE_OUTLINE, {4, 12, 4, 16}},
-      {0, 4, 12, MAP_SIDE_OUTLINE, {2, 12, 4, 12}},
-      {0, 2, 12, MAP_SIDE_OUTLINE, {2, 12, 2, 16}}};
+      {0, 4, 16, MAP_SIDE_OCCLUDER, {4, 12, 4, 16}},
+      {0, 4, 12, MAP_SIDE_OCCLUDER, {2, 12, 4, 12}},
+      {0, 2, 12, MAP_SIDE_OCCLUDER, {2, 12, 2, 16}}};
   (void)state;
   ASSERT_LABELS(folded, post, label);
 }
@@ -153,7 +153,7 @@ static void a_folded_face_is_asked_where_the_side_is(void **state) {
 static void the_foot_of_a_wall_is_an_outline(void **state) {
   static const quad wall = {{8, 4, 8}, {8, 12, 8}, {12, 12, 16}, {12, 4, 16}};
   static const struct label label[] = {
-      {0, 8, 4, MAP_SIDE_OUTLINE, {8, 4, 8, 12}}};
+      {0, 8, 4, MAP_SIDE_OCCLUDER, {8, 4, 8, 12}}};
   (void)state;
   ASSERT_LABELS(table, wall, label);
 }
@@ -171,7 +171,7 @@ static void an_edge_behind_is_no_outline(void **state) {
         add(&s, &table, &half, &under);
       exact_solve(exact[m], &s.sheet, &s.map, NULL);
       assert_int_equal(s.map.fragment.count, 2);
-      assert_label(&s.map, first ? 1 : 0, 8, 0, MAP_SIDE_OUTLINE,
+      assert_label(&s.map, first ? 1 : 0, 8, 0, MAP_SIDE_OCCLUDER,
                    edge_between(&s.sheet, 8, 16, 8, 0));
       fini(&s);
     }
@@ -186,7 +186,7 @@ static void of_several_edges_the_lowest_is_named(void **state) {
     add(&s, &table, &higher, &half);
     uint32_t least = edge_between(&s.sheet, 8, 16, 8, 0);
     exact_solve(exact[m], &s.sheet, &s.map, NULL);
-    assert_label(&s.map, 0, 8, 0, MAP_SIDE_OUTLINE, least);
+    assert_label(&s.map, 0, 8, 0, MAP_SIDE_OCCLUDER, least);
     assert_int_equal(s.sheet.point.item[s.sheet.edge.item[least].point[0]].z,
                      30 * SCALE);
     fini(&s);
@@ -205,7 +205,7 @@ static void where_faces_pierce_is_an_intersection(void **state) {
     exact_assert_area(&s.map, 1, SCALE, 64, 1);
     assert_label(&s.map, 0, 8, 4, MAP_SIDE_INTERSECTION, 1);
     assert_label(&s.map, 1, 8, 12, MAP_SIDE_INTERSECTION, 0);
-    assert_label(&s.map, 0, 8, 12, MAP_SIDE_OUTLINE,
+    assert_label(&s.map, 0, 8, 12, MAP_SIDE_OCCLUDER,
                  edge_between(&s.sheet, 16, 12, 0, 12));
     fini(&s);
   }
@@ -223,8 +223,8 @@ static void a_side_without_an_edge_is_a_cut(void **state) {
         if (s.sheet.triangle.item[t].side[k] == gone)
           s.sheet.triangle.item[t].side[k] = SHEET_NONE;
     exact_solve(exact[m], &s.sheet, &s.map, NULL);
-    assert_label(&s.map, 0, 8, 0, MAP_SIDE_CUT, SHEET_NONE);
-    assert_label(&s.map, 1, 8, 16, MAP_SIDE_CUT, SHEET_NONE);
+    assert_label(&s.map, 0, 8, 0, MAP_SIDE_CLIP, SHEET_NONE);
+    assert_label(&s.map, 1, 8, 16, MAP_SIDE_CLIP, SHEET_NONE);
     assert_label(&s.map, 1, 8, 0, MAP_SIDE_EDGE,
                  edge_between(&s.sheet, 8, 0, 16, 0));
     fini(&s);
@@ -241,7 +241,7 @@ static void assert_two_planes(const struct solver *solver, bool is_first,
   s.sheet.point.item[corner + (is_first ? 0 : 4)].z++;
   exact_solve(solver, &s.sheet, &s.map, NULL);
   for (size_t c = 0; c < s.map.corner.count; c++) {
-    assert_int_not_equal(s.map.corner.item[c].side, MAP_SIDE_CUT);
+    assert_int_not_equal(s.map.corner.item[c].side, MAP_SIDE_CLIP);
     intersections += s.map.corner.item[c].side == MAP_SIDE_INTERSECTION;
   }
   assert_true(intersections >= 2);
@@ -269,7 +269,7 @@ static void nothing_is_a_cut_where_nothing_was_cut(void **state) {
                        3 + exact_below(&r, 8), &r);
     exact_solve(&solver_brute, &sheet, &map, NULL);
     for (size_t c = 0; c < map.corner.count; c++)
-      if (map.corner.item[c].side == MAP_SIDE_CUT)
+      if (map.corner.item[c].side == MAP_SIDE_CLIP)
         fail_msg("seed %u: a cut at %g %g", (unsigned)seed,
                  map.corner.item[c].x, map.corner.item[c].y);
     map_fini(&map);

@@ -16,7 +16,7 @@
 static struct solver_request everything(void) {
   return (struct solver_request){.strokes = true,
                                  .fragments = true,
-                                 .areas = true,
+                                 .exact_corners = true,
                                  .hidden = true,
                                  .intersections = true,
                                  .threads = 1};

@@ -74,7 +74,7 @@ static recto_status solve(const struct solver *solver, int lines, make_fn *make,
                           unsigned long n, struct map *map) {
   const struct solver_request request = {.strokes = true,
                                          .fragments = true,
-                                         .areas = true,
+                                         .exact_corners = true,
                                          .intersections = true,
                                          .threads = 1,
                                          .pitch_mm = lines > 0 ? 100 : 0,
@@ -152,7 +152,7 @@ static void check_parts(const struct solver *solver, bool strokes,
                    RECTO_OK);
   assert_int_equal(map.edge_state != NULL, strokes);
   assert_int_equal(map.fragment.count > 0, fragments);
-  assert_int_equal(map.place.count, 0);
+  assert_int_equal(map.exact_corner.count, 0);
   assert_int_equal(sheet.edge.count, edges); /* no intersections */
   map_fini(&map);
   exact_sheet_fini(&sheet);

@@ -13,7 +13,7 @@
 
 enum { CORNERS_MAX = 8, FAR_OFF = (1 << 30) - 1 };
 
-static enum window_class classify(const struct window *window,
+static enum window_class classify(const struct box2 *window,
                                   const struct geom_point *corner, int count) {
   struct window_counts counts = {0, 0, 0};
   enum window_class class = window_classify(window, corner, count, &counts);
@@ -24,7 +24,7 @@ static enum window_class classify(const struct window *window,
 /* ---- Worked numbers ------------------------------------------------------ */
 
 static void a_box_contains_or_is_disjoint_as_listed(void **state) {
-  const struct window window = {0, 0, 32, 32};
+  const struct box2 window = {0, 0, 32, 32};
   const struct geom_point right[] = {{36, 8, 0}, {48, 24, 0}, {56, 4, 0}};
   const struct geom_point within[] = {{8, 4, 0}, {12, 24, 0}, {24, 12, 0}};
   (void)state;
@@ -35,9 +35,9 @@ static void a_box_contains_or_is_disjoint_as_listed(void **state) {
 }
 
 /* The line function is a multiple of the one listed. */
-static void assert_line_function(const struct window *window,
-                                 struct geom_point p, struct geom_point q,
-                                 int64_t times, const int listed[4]) {
+static void assert_line_function(const struct box2 *window, struct geom_point p,
+                                 struct geom_point q, int64_t times,
+                                 const int listed[4]) {
   int64_t value[4];
   window_line_function(window, p, q, value);
   for (int k = 0; k < 4; k++)
@@ -45,7 +45,7 @@ static void assert_line_function(const struct window *window,
 }
 
 static void a_line_function_with_both_signs_intersects(void **state) {
-  const struct window window = {8, 8, 32, 32};
+  const struct box2 window = {8, 8, 32, 32};
   const struct geom_point p[] = {{8, 4, 0}, {12, 24, 0}, {40, 12, 0}};
   (void)state;
   /* 4 (y - 5 x + 36) */
@@ -55,7 +55,7 @@ static void a_line_function_with_both_signs_intersects(void **state) {
 }
 
 static void line_functions_of_one_sign_surround(void **state) {
-  const struct window window = {8, 8, 32, 32};
+  const struct box2 window = {8, 8, 32, 32};
   const struct geom_point p[] = {
       {4, 4, 0}, {4, 36, 0}, {40, 36, 0}, {32, 4, 0}};
   (void)state;
@@ -72,7 +72,7 @@ static void line_functions_of_one_sign_surround(void **state) {
 
 static void assert_octants(const struct geom_point *corner, int count,
                            const int *octant, const int *difference, int sum) {
-  const struct window window = {8, 8, 32, 32};
+  const struct box2 window = {8, 8, 32, 32};
   for (int k = 0; k < count; k++) {
     int next = (k + 1) % count, d = octant[next] - octant[k];
     assert_int_equal(window_octant(&window, corner[k].x, corner[k].y),
@@ -85,7 +85,7 @@ static void assert_octants(const struct geom_point *corner, int count,
 }
 
 static void octants_7_2_3_5_surround(void **state) {
-  const struct window window = {8, 8, 32, 32};
+  const struct box2 window = {8, 8, 32, 32};
   const struct geom_point p[] = {
       {50, 4, 0}, {31, 50, 0}, {4, 40, 0}, {4, 4, 0}};
   (void)state;
@@ -95,7 +95,7 @@ static void octants_7_2_3_5_surround(void **state) {
 }
 
 static void octants_7_1_2_0_6_are_disjoint(void **state) {
-  const struct window window = {8, 8, 32, 32};
+  const struct box2 window = {8, 8, 32, 32};
   const struct geom_point p[] = {
       {50, 4, 0}, {40, 40, 0}, {20, 50, 0}, {60, 10, 0}, {31, 0, 0}};
   (void)state;
@@ -106,7 +106,7 @@ static void octants_7_1_2_0_6_are_disjoint(void **state) {
 }
 
 static void octants_run_counter_clockwise_from_the_right(void **state) {
-  const struct window window = {8, 8, 32, 32};
+  const struct box2 window = {8, 8, 32, 32};
   static const int at[9][3] = {{33, 20, 0}, {33, 33, 1}, {20, 33, 2},
                                {7, 33, 3},  {7, 20, 4},  {7, 7, 5},
                                {20, 7, 6},  {33, 7, 7},  {20, 20, -1}};
@@ -127,8 +127,8 @@ static struct geom_point turn(struct geom_point p, int quarters) {
   return p;
 }
 
-static void assert_counts(const struct window *window,
-                          const struct geom_point *p, int want) {
+static void assert_counts(const struct box2 *window, const struct geom_point *p,
+                          int want) {
   const struct geom_point back[] = {p[2], p[1], p[0]};
   assert_int_equal(window_angle_count(window, p, 3), want);
   assert_int_equal(window_angle_count(window, back, 3), -want);
@@ -138,7 +138,7 @@ static void assert_counts(const struct window *window,
 /* An edge from the lower left to the upper right field passes the window on its
  * lower right; the third corner says on which side the window is. */
 static void a_difference_of_4_is_split(void **state) {
-  const struct window window = {-12, -12, 12, 12};
+  const struct box2 window = {-12, -12, 12, 12};
   (void)state;
   for (int quarter = 0; quarter < 4; quarter++) {
     const struct geom_point p = turn((struct geom_point){-20, -40, 0}, quarter);
@@ -159,7 +159,7 @@ static void a_difference_of_4_is_split(void **state) {
 /* Edges as long as the grid, which pass a window of two units by a unit: halves
  * are ambiguous over and over. */
 static void long_edges_past_small_windows_are_split_often(void **state) {
-  const struct window window = {-1, -1, 1, 1};
+  const struct box2 window = {-1, -1, 1, 1};
   uint64_t seed = 5;
   (void)state;
   for (int round = 0; round < 2000; round++) {
@@ -181,7 +181,7 @@ static void long_edges_past_small_windows_are_split_often(void **state) {
 
 /* ---- Other ways of asking ------------------------------------------------ */
 
-static bool is_inside(const struct window *w, struct geom_point p) {
+static bool is_inside(const struct box2 *w, struct geom_point p) {
   return p.x >= w->x0 && p.x <= w->x1 && p.y >= w->y0 && p.y <= w->y1;
 }
 
@@ -204,7 +204,7 @@ static bool segments_meet(struct geom_point a, struct geom_point b,
 }
 
 /* By the window's four sides. */
-static bool edge_meets(const struct window *w, struct geom_point p,
+static bool edge_meets(const struct box2 *w, struct geom_point p,
                        struct geom_point q) {
   const struct geom_point c[] = {{w->x0, w->y0, 0},
                                  {w->x1, w->y0, 0},
@@ -218,7 +218,7 @@ static bool edge_meets(const struct window *w, struct geom_point p,
 
 /* How often the polygon runs round the window's middle, counter-clockwise: by
  * signed crossings of a ray to the right, all in half units. */
-static int winding(const struct window *w, const struct geom_point *corner,
+static int winding(const struct box2 *w, const struct geom_point *corner,
                    int count) {
   struct geom_point middle = {w->x0 + w->x1, w->y0 + w->y1, 0};
   int turns = 0;
@@ -238,7 +238,7 @@ static int winding(const struct window *w, const struct geom_point *corner,
 
 /* A polygon on a lattice that may cross itself, and a window: anywhere, or
  * small and in the middle, where polygons run round it. */
-static int random_case(uint64_t *seed, struct window *window,
+static int random_case(uint64_t *seed, struct box2 *window,
                        struct geom_point *corner) {
   int lattice = 4 + exact_below(seed, 40), count = 3 + exact_below(seed, 6);
   if (exact_below(seed, 2) == 0) {
@@ -256,7 +256,7 @@ static int random_case(uint64_t *seed, struct window *window,
   return count;
 }
 
-static bool outline_meets(const struct window *window,
+static bool outline_meets(const struct box2 *window,
                           const struct geom_point *corner, int count) {
   bool meets = false;
   for (int k = 0; k < count; k++)
@@ -269,7 +269,7 @@ static void the_sign_test_finds_the_edges_that_meet(void **state) {
   int met = 0;
   (void)state;
   for (int round = 0; round < 60000; round++) {
-    struct window window;
+    struct box2 window;
     struct geom_point p[CORNERS_MAX];
     random_case(&seed, &window, p);
     assert_int_equal(window_meets_edge(&window, p[0], p[1]),
@@ -284,7 +284,7 @@ static void angles_count_how_often_a_polygon_surrounds(void **state) {
   int times[4] = {0};
   (void)state;
   for (int round = 0; round < 100000; round++) {
-    struct window window;
+    struct box2 window;
     struct geom_point p[CORNERS_MAX];
     int count = random_case(&seed, &window, p), turns;
     if (outline_meets(&window, p, count))
@@ -301,7 +301,7 @@ static void rays_and_angles_agree(void **state) {
   int odd = 0;
   (void)state;
   for (int round = 0; round < 100000; round++) {
-    struct window window;
+    struct box2 window;
     struct geom_point p[CORNERS_MAX];
     int count = random_case(&seed, &window, p), crossings;
     if (outline_meets(&window, p, count))
@@ -319,7 +319,7 @@ static void classes_are_those_of_the_definition(void **state) {
   int met[4] = {0};
   (void)state;
   for (int round = 0; round < 100000; round++) {
-    struct window window;
+    struct box2 window;
     struct geom_point p[CORNERS_MAX];
     int count = random_case(&seed, &window, p), inside = 0;
     enum window_class want;
@@ -337,7 +337,7 @@ static void classes_are_those_of_the_definition(void **state) {
 }
 
 static void what_touches_the_window_intersects_it(void **state) {
-  const struct window window = {0, 0, 10, 10};
+  const struct box2 window = {0, 0, 10, 10};
   const struct geom_point corner[] = {{10, 10, 0}, {20, 10, 0}, {20, 20, 0}};
   const struct geom_point side[] = {{10, 2, 0}, {20, 2, 0}, {10, 8, 0}};
   const struct geom_point diagonal[] = {{5, 15, 0}, {15, 5, 0}, {20, 20, 0}};
@@ -355,7 +355,7 @@ static void what_touches_the_window_intersects_it(void **state) {
 /* ---- Clipping ------------------------------------------------------------ */
 
 /* Is the point p + t (q - p) inside? */
-static bool is_inside_at(const struct window *w, struct geom_point p,
+static bool is_inside_at(const struct box2 *w, struct geom_point p,
                          struct geom_point q, struct ratio t) {
   int128 x = p.x * t.den + ((int64_t)q.x - p.x) * t.num;
   int128 y = p.y * t.den + ((int64_t)q.y - p.y) * t.num;
@@ -364,7 +364,7 @@ static bool is_inside_at(const struct window *w, struct geom_point p,
 }
 
 /* The part kept begins and ends inside, and a little further on is outside. */
-static void assert_clipped(const struct window *window, struct geom_point p,
+static void assert_clipped(const struct box2 *window, struct geom_point p,
                            struct geom_point q) {
   struct ratio from, to, zero = ratio_of(0, 1), one = ratio_of(1, 1);
   bool kept = window_clip(window, p, q, &from, &to);
@@ -389,7 +389,7 @@ static void clipping_keeps_what_is_inside_and_no_less(void **state) {
   uint64_t seed = 6;
   (void)state;
   for (int round = 0; round < 40000; round++) {
-    struct window window;
+    struct box2 window;
     struct geom_point p[CORNERS_MAX];
     random_case(&seed, &window, p);
     assert_clipped(&window, p[0], p[1]);
@@ -400,18 +400,18 @@ static void clipping_keeps_what_is_inside_and_no_less(void **state) {
 
 static void cuts_are_at_a_box_but_cut_no_slivers_off(void **state) {
   (void)state;
-  assert_int_equal(window_cut(0, 100, 30, 60), 60);
-  assert_int_equal(window_cut(0, 100, 45, 60), 45);
-  assert_int_equal(window_cut(0, 100, 40, 60), 40);
-  assert_int_equal(window_cut(0, 100, 25, 99), 25);
-  assert_int_equal(window_cut(0, 100, 24, 99), 50);
-  assert_int_equal(window_cut(0, 100, -7, 300), 50);
-  assert_int_equal(window_cut(-100, 0, -200, -75), -75);
-  assert_int_equal(window_cut(-FAR_OFF, FAR_OFF, -FAR_OFF, FAR_OFF), 0);
+  assert_int_equal(window_split(0, 100, 30, 60), 60);
+  assert_int_equal(window_split(0, 100, 45, 60), 45);
+  assert_int_equal(window_split(0, 100, 40, 60), 40);
+  assert_int_equal(window_split(0, 100, 25, 99), 25);
+  assert_int_equal(window_split(0, 100, 24, 99), 50);
+  assert_int_equal(window_split(0, 100, -7, 300), 50);
+  assert_int_equal(window_split(-100, 0, -200, -75), -75);
+  assert_int_equal(window_split(-FAR_OFF, FAR_OFF, -FAR_OFF, FAR_OFF), 0);
   for (int32_t low = -12; low < 24; low++)
     for (int32_t width = 0; width < 24; width++)
       for (int32_t past = 2; past < 12; past++) {
-        int32_t cut = window_cut(0, past, low, low + width);
+        int32_t cut = window_split(0, past, low, low + width);
         assert_true(4 * cut >= past - 1 && 4 * (past - cut) >= past);
       }
 }
@@ -419,8 +419,8 @@ static void cuts_are_at_a_box_but_cut_no_slivers_off(void **state) {
 /* ---- Range --------------------------------------------------------------- */
 
 static void the_ends_of_the_grid_are_no_harder(void **state) {
-  const struct window page = {-FAR_OFF, -FAR_OFF, FAR_OFF, FAR_OFF};
-  const struct window corner = {FAR_OFF - 1, FAR_OFF - 1, FAR_OFF, FAR_OFF};
+  const struct box2 page = {-FAR_OFF, -FAR_OFF, FAR_OFF, FAR_OFF};
+  const struct box2 corner = {FAR_OFF - 1, FAR_OFF - 1, FAR_OFF, FAR_OFF};
   const struct geom_point low = {-FAR_OFF, -FAR_OFF, 0};
   const struct geom_point right = {FAR_OFF, -FAR_OFF, 0};
   const struct geom_point high = {FAR_OFF, FAR_OFF, 0};

@@ -589,7 +589,7 @@ static void fragments_are_loops_in_canonical_order(void **state) {
     assert_true(c[0].x == c[3].x && c[0].y < c[3].y);
     assert_true(c[0].y == c[1].y && c[0].x < c[1].x);
     for (int k = 0; k < 4; k++) {
-      assert_int_equal(c[k].side, MAP_SIDE_CUT);
+      assert_int_equal(c[k].side, MAP_SIDE_CLIP);
       assert_true(c[k].x * 256 == floor(c[k].x * 256));
     }
   }

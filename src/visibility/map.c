@@ -14,6 +14,6 @@ void map_fini(struct map *map) {
   ARRAY_FREE(&map->fragment);
   ARRAY_FREE(&map->loop);
   ARRAY_FREE(&map->corner);
-  ARRAY_FREE(&map->place);
+  ARRAY_FREE(&map->exact_corner);
   map_init(map);
 }

@@ -1,5 +1,5 @@
 /* map.h - the visible map: for each drawable edge its visible intervals, for
- * each face its visible fragments.  What every solver makes and ink reads. */
+ * each face its visible fragments.  Every solver makes it, and ink reads it. */
 #ifndef VISIBILITY_MAP_H
 #define VISIBILITY_MAP_H
 
@@ -13,42 +13,44 @@
 enum map_state {
   MAP_HIDDEN = 0, /* nowhere visible */
   MAP_VISIBLE,    /* visible from end to end */
-  MAP_MIXED       /* see the intervals */
+  MAP_MIXED       /* visible in some intervals, see `mixed` */
 };
 
-/* A visible interval of an edge, parameters from point[0] to point[1];
- * t0 < t1.  Of one edge: in order, apart from each other. */
+/* A visible interval of an edge, in the edge's parameter: 0 at point[0], 1 at
+ * point[1]; t0 < t1.  The intervals of one edge are ascending and disjoint. */
 struct map_interval {
   struct ratio t0, t1;
 };
 
+/* An edge with some intervals. */
 struct map_mixed {
   uint32_t edge;     /* ascending */
-  uint32_t interval; /* first of its intervals */
+  uint32_t interval; /* index of its first interval */
   uint32_t count;    /* at least one */
 };
 
 /* ---- Fragments ----------------------------------------------------------- */
 
+/* What runs along a side of a fragment. */
 enum map_side {
   MAP_SIDE_EDGE,         /* a piece of the face's own edge */
-  MAP_SIDE_OUTLINE,      /* a piece of a nearer face's edge */
-  MAP_SIDE_INTERSECTION, /* where a face pierces this one */
-  MAP_SIDE_CUT           /* the page's border or the near plane: never inked */
+  MAP_SIDE_OCCLUDER,     /* a piece of an edge of a nearer face */
+  MAP_SIDE_INTERSECTION, /* the line in which a face pierces this one */
+  MAP_SIDE_CLIP          /* the page's border or the near plane: never inked */
 };
 
-/* A corner of a fragment and the side that leaves it. */
+/* A corner of a fragment and the side that starts there. */
 struct map_corner {
-  double x, y;  /* grid units from the middle of the page, rounded from
-                        the exact corner to the nearest 1/256 unit */
+  double x, y;  /* grid units from the middle of the page: the exact corner
+                   rounded to the nearest 1/256 unit */
   uint8_t side; /* enum map_side */
-  uint32_t id;  /* EDGE, OUTLINE: the sheet's edge, the lowest where
-                        several coincide; INTERSECTION: the other scene face */
+  uint32_t id;  /* EDGE, OCCLUDER: the sheet's edge, of coincident ones the one
+                   with the lowest index; INTERSECTION: the other scene face */
 };
 
-/* Loops run with the fragment on their left: counter-clockwise outside,
- * clockwise holes.  Corners only where the boundary turns; the first corner
- * of a loop is its lowest in (x, y). */
+/* A boundary loop.  The fragment is on its left: outer loops run
+ * counter-clockwise, holes clockwise.  No corner is collinear with its
+ * neighbours; the first corner of a loop is the least in (x, y). */
 struct map_loop {
   uint32_t corner, count;
 };
@@ -59,26 +61,28 @@ struct map_fragment {
   uint32_t loop, loops; /* the first is the outer one */
 };
 
-/* The same corner before it was rounded: homogeneous integers x, y, w. */
-struct map_place {
+/* A corner before rounding: homogeneous integers x, y, w. */
+struct map_exact_corner {
   struct wide h[3];
 };
 
 struct map {
-  uint8_t *edge_state; /* one a drawable edge; NULL without strokes */
+  uint8_t *edge_state; /* enum map_state, per drawable edge; NULL: strokes were
+                          not requested */
   size_t edge_count;
-  ARRAY(struct map_mixed) mixed;
+  ARRAY(struct map_mixed) mixed; /* the edges in state MAP_MIXED */
   ARRAY(struct map_interval) interval;
-  /* Parts of edges behind more faces than are asked for, in the same form;
-   * empty where nobody asked (quantitative_invisibility.h). */
+  /* Intervals of edges that are behind more faces than the requested limit, in
+   * the same form (quantitative_invisibility.h); empty where no limit was
+   * requested. */
   ARRAY(struct map_mixed) over_limit;
   ARRAY(struct map_interval) over_limit_interval;
 
   ARRAY(struct map_fragment) fragment;
   ARRAY(struct map_loop) loop;
   ARRAY(struct map_corner) corner;
-  /* The exact place of each corner, where it was asked for. */
-  ARRAY(struct map_place) place;
+  /* One per corner where exact corners were requested, else empty. */
+  ARRAY(struct map_exact_corner) exact_corner;
 };
 
 void map_init(struct map *map);

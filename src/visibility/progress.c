@@ -3,7 +3,7 @@
 
 bool progress_poll(struct progress *progress) {
   const struct solver_request *request = progress->request;
-  progress->left = PROGRESS_WORK;
+  progress->work_left = PROGRESS_WORK;
   if (!progress->cancelled && request != NULL && request->progress != NULL)
     progress->cancelled =
         !request->progress(request->user, progress->share, progress->stage);

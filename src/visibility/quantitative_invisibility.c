@@ -54,7 +54,7 @@ static bool find_changes(struct depth_sweep *d, const struct sheet_edge *edge) {
     if (t == edge->triangle[0] || t == edge->triangle[1] ||
         !occlusion_is_possible(d->sheet, t, p, q, box))
       continue;
-    if (occlude_edge_by(d->sheet, t, p, q, &part, &d->counts) &&
+    if (occlude_edge_by_triangle(d->sheet, t, p, q, &part, &d->counts) &&
         !add_part(d, &part))
       return false;
   }

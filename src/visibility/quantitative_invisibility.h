@@ -1,24 +1,25 @@
-/* quantitative_invisibility.h - behind how many faces an edge runs. */
+/* quantitative_invisibility.h - how many faces hide each point of an edge. */
 #ifndef VISIBILITY_QUANTITATIVE_INVISIBILITY_H
 #define VISIBILITY_QUANTITATIVE_INVISIBILITY_H
 
 #include "visibility/solver.h"
 
-/* Finds where more than `most` >= 0 faces hide an edge that is drawn, and puts
- * these parts into map->deep.
+/* Finds where more than `limit` >= 0 faces hide an edge that is drawn, and
+ * stores these intervals in map->over_limit.
  *
- * A face counts where it hides the point of the edge by the one predicate of
- * hiding (occlusion.h); along a side that two faces share, they count as one.  The
- * count depends on the sheet alone, not on the solver: where a raster method
- * is wrong about what is visible, the count is right all the same.
+ * A face counts where occlusion.h says that it hides the point of the edge;
+ * two faces that meet along a shared side count as one there.  The count
+ * depends on the sheet alone, not on the solver: where a raster method is
+ * wrong about what is visible, the count is right all the same.
  *
- * request   threads are not used; its progress function is called
+ * request   its progress function is called; its threads are not used
  * Errors    RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED.
- * Cost      as that of the pairs of hidden edges and triangles over or under
- *           them on the page */
+ * Cost      proportional to the pairs of a hidden edge and a triangle whose
+ *           grid cells it crosses on the page
+ * Source    [Appel1967] */
 USE_RESULT recto_status
 quantitative_invisibility_find(struct map *map, const struct sheet *sheet,
-                               int most, const struct solver_request *request,
+                               int limit, const struct solver_request *request,
                                struct report *report, recto_error *error);
 
 #endif

@@ -125,7 +125,7 @@ void exact_solve(const struct solver *solver, struct sheet *sheet,
                  struct map *map, struct report *report) {
   const struct solver_request request = {.strokes = true,
                                          .fragments = true,
-                                         .areas = true,
+                                         .exact_corners = true,
                                          .intersections = true,
                                          .threads = 1,
                                          .pitch_mm = solver->exact ? 0 : 1,
@@ -174,7 +174,7 @@ static void assert_same_strokes(const struct map *a, const struct map *b,
 /* The corner's place as rationals. */
 static void set_place(const struct map *map, uint32_t corner, mpq_t x,
                       mpq_t y) {
-  const struct wide *h = map->place.item[corner].h;
+  const struct wide *h = map->exact_corner.item[corner].h;
   for (int k = 0; k < 2; k++) {
     mpq_ptr to = k == 0 ? x : y;
     mpz_import(mpq_numref(to), (size_t)h[k].count, -1, sizeof h[k].limb[0], 0,
@@ -204,7 +204,7 @@ static void add_loop(mpq_t sum, const struct map *map,
 
 void exact_add_area2(mpq_t sum, const struct map *map, size_t fragment) {
   const struct map_fragment *f = &map->fragment.item[fragment];
-  assert_int_equal(map->place.count, map->corner.count);
+  assert_int_equal(map->exact_corner.count, map->corner.count);
   for (uint32_t l = f->loop; l < f->loop + f->loops; l++)
     add_loop(sum, map, &map->loop.item[l]);
 }
@@ -226,11 +226,11 @@ static void assert_same_fragments(const struct map *a, const struct map *b,
   ASSERT_SAME(a->fragment.count, b->fragment.count, what);
   ASSERT_SAME(a->loop.count, b->loop.count, what);
   ASSERT_SAME(a->corner.count, b->corner.count, what);
-  ASSERT_SAME(a->place.count, b->place.count, what);
+  ASSERT_SAME(a->exact_corner.count, b->exact_corner.count, what);
   for (size_t f = 0; f < a->fragment.count; f++) {
     ASSERT_SAME(a->fragment.item[f].face, b->fragment.item[f].face, what);
     ASSERT_SAME(a->fragment.item[f].loops, b->fragment.item[f].loops, what);
-    if (a->place.count > 0)
+    if (a->exact_corner.count > 0)
       ASSERT_SAME(exact_same_area(a, b, f), 1, what);
   }
   for (size_t l = 0; l < a->loop.count; l++)

@@ -22,7 +22,7 @@ bool hatch_regions_side_is_inked(const struct hatch_regions *regions,
                                  const struct map_corner *corner) {
   switch (corner->side) {
   case MAP_SIDE_EDGE:
-  case MAP_SIDE_OUTLINE:
+  case MAP_SIDE_OCCLUDER:
     return corner->id < regions->sheet->edge.count &&
            regions->sheet->edge.item[corner->id].edge_class != 0;
   case MAP_SIDE_INTERSECTION:

@@ -25,7 +25,7 @@ static bool add(shared_sides *list, double line, double from, double to,
 
 bool shared_sides_add_level(shared_sides *list, const struct map_corner *corner,
                             const struct map_corner *next, uint32_t item) {
-  return corner->side != MAP_SIDE_CUT || corner->y != next->y ||
+  return corner->side != MAP_SIDE_CLIP || corner->y != next->y ||
          add(list, corner->y, corner->x, next->x, corner, next, item);
 }
 

@@ -53,9 +53,9 @@ end:
 }
 
 static bool solve_fragments(const struct sheet *sheet,
-                            const struct triangle_grid *grid, bool areas,
-                            struct map *map, struct report *report,
-                            struct progress *progress) {
+                            const struct triangle_grid *grid,
+                            bool exact_corners, struct map *map,
+                            struct report *report, struct progress *progress) {
   size_t n = sheet->triangle.count;
   struct fragments fragments;
   struct occluder_subtraction subtraction;
@@ -78,7 +78,7 @@ static bool solve_fragments(const struct sheet *sheet,
     if (!occluder_subtraction_store(&subtraction, &fragments))
       goto end;
   }
-  ok = fragments_finish(&fragments, areas, map);
+  ok = fragments_finish(&fragments, exact_corners, map);
 end:
   occluder_subtraction_report(&subtraction, report);
   occluder_subtraction_fini(&subtraction);
@@ -102,7 +102,8 @@ static recto_status solve(struct sheet *sheet,
     status = progress_error(&progress, error);
   progress.stage = "faces";
   if (status == RECTO_OK && request->fragments &&
-      !solve_fragments(sheet, &grid, request->areas, map, report, &progress))
+      !solve_fragments(sheet, &grid, request->exact_corners, map, report,
+                       &progress))
     status = progress_error(&progress, error);
   occlusion_report(&counts, report);
   triangle_grid_fini(&grid);

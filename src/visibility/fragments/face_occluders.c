@@ -61,7 +61,7 @@ static int filtered_plane_sides(const struct plane_filter *plane,
     int sign = plane_filter_sign(plane, p[k]);
     if (sign == 0)
       return -1;
-    sides |= sign < 0 ? PLANE_BEHIND : PLANE_BEFORE;
+    sides |= sign < 0 ? PLANE_BEHIND : PLANE_IN_FRONT;
   }
   return sides;
 }
@@ -73,17 +73,17 @@ static bool filtered_depth_order(const struct face_occluders *occluders,
                                  enum depth_order *depth_order) {
   struct plane_filter plane;
   int sides = filtered_plane_sides(&occluders->filter, p);
-  if (sides == PLANE_BEHIND || sides == PLANE_BEFORE) {
+  if (sides == PLANE_BEHIND || sides == PLANE_IN_FRONT) {
     *depth_order = sides == PLANE_BEHIND ? NEARER_NEVER : NEARER_ALWAYS;
     return true;
   }
   plane = plane_filter_of(occluders->sheet, g);
   int others = filtered_plane_sides(&plane, occluders->plane.p);
-  if (others == PLANE_BEHIND || others == PLANE_BEFORE) {
+  if (others == PLANE_BEHIND || others == PLANE_IN_FRONT) {
     *depth_order = others == PLANE_BEHIND ? NEARER_ALWAYS : NEARER_NEVER;
     return true;
   }
-  *depth_order = NEARER_BEYOND;
+  *depth_order = NEARER_ON_LEFT;
   return sides >= 0 && others >= 0;
 }
 
@@ -133,7 +133,7 @@ bool face_occluders_test(struct face_occluders *occluders, uint32_t g) {
   }
   if (depth_order == NEARER_NEVER)
     return true;
-  if (depth_order == NEARER_BEYOND) {
+  if (depth_order == NEARER_ON_LEFT) {
     occluders->counts.crossings++;
     occluders->interpenetrating = true;
     occluder.lines = 4;

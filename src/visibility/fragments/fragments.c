@@ -162,7 +162,8 @@ bool fragments_add_with_candidates(struct fragments *f, uint32_t triangle,
 static bool add_pieces(struct fragments *f, uint32_t triangle,
                        const struct geom_convex *piece, size_t count) {
   f->query.found.count = 0;
-  if (f->contact && !triangle_grid_find_about(f->grid, triangle, &f->query))
+  if (f->contact &&
+      !triangle_grid_find_overlapping(f->grid, triangle, &f->query))
     return false;
   return fragments_add_with_candidates(
       f, triangle, piece, count, f->query.found.item, f->query.found.count);
@@ -183,7 +184,7 @@ bool fragments_add(struct fragments *f, uint32_t triangle,
 struct face_work {
   struct fragments *fragments;
   struct map *map;
-  bool areas;
+  bool exact_corners;
   uint32_t face;
   ARRAY(uint32_t) own;  /* the face's triangles that have area */
   ARRAY(uint32_t) seen; /* those with visible pieces, ascending */
@@ -212,9 +213,9 @@ static bool find_own(struct face_work *work, uint32_t triangle) {
 
 static bool store_exact_corner(struct map *map,
                                const struct geom_corner *corner) {
-  struct map_place place;
+  struct map_exact_corner place;
   geom_corner_exact(corner, place.h);
-  return ARRAY_PUSH(&map->place, place);
+  return ARRAY_PUSH(&map->exact_corner, place);
 }
 
 static bool store_loop(struct face_work *work,
@@ -231,7 +232,8 @@ static bool store_loop(struct face_work *work,
                               &side[(k + 1) % loop->count].corner, &corner.side,
                               &corner.id) ||
         !ARRAY_PUSH(&work->map->corner, corner) ||
-        (work->areas && !store_exact_corner(work->map, &side[k].corner)))
+        (work->exact_corners &&
+         !store_exact_corner(work->map, &side[k].corner)))
       return false;
     work->fragments->counts.side[corner.side]++;
   }
@@ -316,7 +318,7 @@ static bool store_outline(struct face_work *work, bool *stored) {
   for (int k = 0; k < n; k++)
     if (geom_orient2d(p[k], p[(k + 1) % n], p[(k + 2) % n]) == 0)
       return true;
-  if (n == 0 || work->areas)
+  if (n == 0 || work->exact_corners)
     return true;
   for (int k = 0; k < n; k++) {
     int i = (first + k) % n;
@@ -523,15 +525,15 @@ static void report_counts(const struct fragments *fragments) {
   report_int(report, "fragments", "faces_by_outline", (int64_t)c->outlines);
   report_int(report, "fragments", "faces_united", (int64_t)c->united);
   report_int(report, "fragments", "pieces_united", (int64_t)c->pieces);
-  for (int k = 0; k <= MAP_SIDE_CUT; k++)
+  for (int k = 0; k <= MAP_SIDE_CLIP; k++)
     report_int(report, "fragments", side[k], (int64_t)c->side[k]);
 }
 
-bool fragments_finish(struct fragments *fragments, bool areas,
+bool fragments_finish(struct fragments *fragments, bool exact_corners,
                       struct map *map) {
   struct face_work work = {.fragments = fragments,
                            .map = map,
-                           .areas = areas,
+                           .exact_corners = exact_corners,
                            .provenance = {.sheet = fragments->sheet,
                                           .grid = fragments->grid,
                                           .query = &fragments->query}};

@@ -41,7 +41,7 @@ struct fragments_counts {
   uint64_t contacts;         /* of these, in contact */
   uint64_t outlines, united; /* faces stored by their outline, or united */
   uint64_t pieces;           /* pieces of the faces that were united */
-  uint64_t side[MAP_SIDE_CUT + 1]; /* sides labelled, by enum map_side */
+  uint64_t side[MAP_SIDE_CLIP + 1]; /* sides labelled, by enum map_side */
 };
 
 struct fragments {
@@ -95,9 +95,9 @@ USE_RESULT bool fragments_add_with_candidates(struct fragments *fragments,
 
 /* Writes all fragments to the map, ordered by face, and the counts to the
  * report.
- * areas  whether the exact coordinates of all corners are stored too
+ * exact_corners  whether the exact coordinates of all corners are stored too
  * Returns false when memory ran out or the caller cancelled. */
-USE_RESULT bool fragments_finish(struct fragments *fragments, bool areas,
-                                 struct map *map);
+USE_RESULT bool fragments_finish(struct fragments *fragments,
+                                 bool exact_corners, struct map *map);
 
 #endif

@@ -134,7 +134,7 @@ bool occluder_subtraction_take_nearer(struct occluder_subtraction *subtraction,
                                      &plane, g, &line[3], &back[3]);
   if (depth_order == NEARER_NEVER)
     return true;
-  subtraction->crossings += depth_order == NEARER_BEYOND;
+  subtraction->crossings += depth_order == NEARER_ON_LEFT;
   triangle_lines(subtraction->sheet, g, line, back);
   return occluder_subtraction_take(subtraction, line, back,
                                    depth_order == NEARER_ALWAYS ? 3 : 4);

@@ -146,7 +146,7 @@ static bool crosses_along(const struct sheet *sheet, uint32_t f, uint32_t g,
   struct triangle_plane tf = triangle_plane_of(sheet, f),
                         tg = triangle_plane_of(sheet, g);
   struct geom_line line, back;
-  if (triangle_depth_order(&tf, f, &tg, g, &line, &back) != NEARER_BEYOND)
+  if (triangle_depth_order(&tf, f, &tg, g, &line, &back) != NEARER_ON_LEFT)
     return false;
   return geom_line_side(&line, s->low) == 0 &&
          geom_line_side(&line, s->high) == 0;
@@ -231,9 +231,9 @@ static uint32_t crossing_face(const struct provenance_query *q) {
 static uint8_t label_by_others(const struct provenance_query *q, uint32_t *id) {
   *id = edge_found(q, false);
   if (*id != SHEET_NONE)
-    return MAP_SIDE_OUTLINE;
+    return MAP_SIDE_OCCLUDER;
   *id = crossing_face(q);
-  return *id != SHEET_NONE ? MAP_SIDE_INTERSECTION : MAP_SIDE_CUT;
+  return *id != SHEET_NONE ? MAP_SIDE_INTERSECTION : MAP_SIDE_CLIP;
 }
 
 /* Returns whether f is a later triangle in contact with one of the face's
@@ -252,12 +252,12 @@ static bool touches_own(const struct provenance_query *q, uint32_t f) {
  * the boundaries of these pieces. */
 static uint8_t label_by_contacts(const struct provenance_query *q,
                                  uint32_t *id) {
-  uint8_t best = MAP_SIDE_CUT;
+  uint8_t best = MAP_SIDE_CLIP;
   *id = SHEET_NONE;
   for (size_t i = 0; i < q->found_count; i++) {
     struct provenance_query other = *q;
     uint32_t f = q->found[i], other_id;
-    uint8_t side = MAP_SIDE_OUTLINE;
+    uint8_t side = MAP_SIDE_OCCLUDER;
     if (!touches_own(q, f))
       continue;
     other.own = &f;
@@ -391,7 +391,7 @@ bool side_provenance_find(struct side_provenance *provenance,
         !keep_own_nearby(provenance, &query))
       return false;
   }
-  *side = MAP_SIDE_OUTLINE;
+  *side = MAP_SIDE_OCCLUDER;
   *id = edge_found(&query, false);
   if (*id != SHEET_NONE)
     return true;

@@ -33,11 +33,11 @@ void side_provenance_fini(struct side_provenance *provenance);
 /* Labels the side of a fragment of the current face that runs on `line` from p
  * to q, with the first of these that applies:
  *   1 MAP_SIDE_EDGE          an edge of the face itself overlaps the side
- *   2 MAP_SIDE_OUTLINE       an edge of a nearer face overlaps it
+ *   2 MAP_SIDE_OCCLUDER       an edge of a nearer face overlaps it
  *   3 MAP_SIDE_INTERSECTION  a face intersects this one's plane along it
  *   4 any of these three, for a later face in contact: its visible pieces were
  *     passed on to this face (fragments.h)
- *   5 MAP_SIDE_CUT           otherwise
+ *   5 MAP_SIDE_CLIP           otherwise
  * If several edges or faces qualify, the lowest number is returned.  The
  * triangles of a face that is not planar each have a plane of their own; the
  * ones beside the segment are those that count.

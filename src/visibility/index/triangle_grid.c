@@ -136,7 +136,7 @@ static void fill_triangle(const struct filling *filling, uint32_t t,
           ? footprint_cells(grid, sheet, t, filling->print[t])
           : triangle_grid_cells(grid, box2_of_triangle(sheet, t));
   double nearest =
-      grid->horizon != NULL ? (double)triangle_nearest(sheet, t) : 0;
+      grid->horizon != NULL ? (double)triangle_nearest_z(sheet, t) : 0;
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
@@ -382,9 +382,9 @@ bool triangle_grid_find(const struct triangle_grid *grid, struct box2 box,
   return find_in_box(grid, &shape, query);
 }
 
-bool triangle_grid_find_about(const struct triangle_grid *grid,
-                              uint32_t triangle,
-                              struct triangle_grid_query *query) {
+bool triangle_grid_find_overlapping(const struct triangle_grid *grid,
+                                    uint32_t triangle,
+                                    struct triangle_grid_query *query) {
   const struct bsp_query shape = {.kind = BSP_TRIANGLE,
                                   .triangle = triangle,
                                   .sheet = grid->sheet,

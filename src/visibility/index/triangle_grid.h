@@ -185,8 +185,9 @@ USE_RESULT bool triangle_grid_find_along(const struct triangle_grid *grid,
 
 /* The same about a triangle of the sheet: those that may share an area of the
  * page with it. */
-USE_RESULT bool triangle_grid_find_about(const struct triangle_grid *grid,
-                                         uint32_t triangle,
-                                         struct triangle_grid_query *query);
+USE_RESULT bool
+triangle_grid_find_overlapping(const struct triangle_grid *grid,
+                               uint32_t triangle,
+                               struct triangle_grid_query *query);
 
 #endif

@@ -65,7 +65,7 @@ static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
   edge_intervals_start(&work->intervals);
   if (!triangle_grid_find_along(work->order->grid, p, q, &work->query))
     return false;
-  for (size_t i = 0; i < work->query.found.count && !work->intervals.whole;
+  for (size_t i = 0; i < work->query.found.count && !work->intervals.occluded;
        i++) {
     uint32_t t = work->query.found.item[i];
     struct occluded_interval part;
@@ -77,7 +77,7 @@ static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
       work->by_order++;
       continue;
     }
-    if (occlude_edge_by(sheet, t, p, q, &part, &work->counts) &&
+    if (occlude_edge_by_triangle(sheet, t, p, q, &part, &work->counts) &&
         !edge_intervals_occlude(&work->intervals, part))
       return false;
   }
@@ -142,7 +142,7 @@ static bool take_later(struct newell_order *order, uint32_t p,
                        struct triangle_grid_query *query,
                        struct occluder_subtraction *subtraction) {
   const struct newell_piece *piece = &order->piece.item[p];
-  if (!triangle_grid_find_about(order->grid, piece->triangle, query))
+  if (!triangle_grid_find_overlapping(order->grid, piece->triangle, query))
     return false;
   for (size_t i = 0;
        i < query->found.count && !occluder_subtraction_is_empty(subtraction);
@@ -191,8 +191,9 @@ static bool store_unordered(struct newell_order *order,
 }
 
 static bool solve_fragments(struct newell_order *order,
-                            struct pairwise_fallback *fallback, bool areas,
-                            struct map *map, struct report *report) {
+                            struct pairwise_fallback *fallback,
+                            bool exact_corners, struct map *map,
+                            struct report *report) {
   struct fragments fragments;
   struct triangle_grid_query query = {0};
   struct occluder_subtraction subtraction;
@@ -213,7 +214,7 @@ static bool solve_fragments(struct newell_order *order,
          occluder_subtraction_store(&subtraction, &fragments);
   }
   ok = ok && store_unordered(order, fallback, &fragments) &&
-       fragments_finish(&fragments, areas, map);
+       fragments_finish(&fragments, exact_corners, map);
   occluder_subtraction_fini(&subtraction);
   triangle_grid_query_fini(&query);
   fragments_fini(&fragments);
@@ -250,8 +251,9 @@ static bool solve_in_order(struct newell_order *order, struct sheet *sheet,
   ok = ok && (!request->strokes ||
               solve_strokes(sheet, order, &fallback, map, report));
   order->progress.stage = "faces";
-  ok = ok && (!request->fragments ||
-              solve_fragments(order, &fallback, request->areas, map, report));
+  ok = ok &&
+       (!request->fragments ||
+        solve_fragments(order, &fallback, request->exact_corners, map, report));
   pairwise_fallback_fini(&fallback);
   return ok;
 }

@@ -249,7 +249,7 @@ static enum step test_pair(struct newell_order *order, uint32_t p, uint32_t q) {
 static enum step test_candidate(struct newell_order *order, uint32_t p) {
   enum step result = STEP_PAINT;
   uint32_t triangle = order->piece.item[p].triangle;
-  if (!triangle_grid_find_about(order->grid, triangle, &order->query))
+  if (!triangle_grid_find_overlapping(order->grid, triangle, &order->query))
     return STEP_FAILED;
   for (size_t i = 0; i < order->query.found.count; i++) {
     uint32_t t = order->query.found.item[i];

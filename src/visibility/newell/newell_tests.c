@@ -127,11 +127,11 @@ enum newell_result newell_test(struct newell_order *order, uint32_t p,
     return NEWELL_P_FIRST;
   }
   q_sides = plane_sides(&order->plane.plane, tq.p);
-  if (q_sides == PLANE_BEFORE) {
+  if (q_sides == PLANE_IN_FRONT) {
     counts->before++;
     return NEWELL_P_FIRST;
   }
-  if (p_sides == PLANE_BEFORE || q_sides == PLANE_BEHIND || q_sides == 0)
+  if (p_sides == PLANE_IN_FRONT || q_sides == PLANE_BEHIND || q_sides == 0)
     return test_full(order, p, q, NULL);
   (void)geom_line_between(&line, &tq.plane, &order->plane.plane);
   return test_full(order, p, q, &line);

@@ -109,7 +109,7 @@ static bool solve_strokes(struct painting *painting, struct map *map) {
 static bool take_later(struct painting *painting, uint32_t f,
                        struct occluder_subtraction *subtraction) {
   struct geom_line line[3], back[3];
-  if (!triangle_grid_find_about(painting->grid, f, &painting->query))
+  if (!triangle_grid_find_overlapping(painting->grid, f, &painting->query))
     return false;
   for (size_t i = 0; i < painting->query.found.count &&
                      !occluder_subtraction_is_empty(subtraction);
@@ -128,7 +128,7 @@ static bool take_later(struct painting *painting, uint32_t f,
   return true;
 }
 
-static bool solve_fragments(struct painting *painting, bool areas,
+static bool solve_fragments(struct painting *painting, bool exact_corners,
                             struct map *map) {
   struct fragments fragments;
   struct occluder_subtraction subtraction;
@@ -140,7 +140,7 @@ static bool solve_fragments(struct painting *painting, bool areas,
       ok = occluder_subtraction_start(&subtraction, (uint32_t)f, NULL) &&
            take_later(painting, (uint32_t)f, &subtraction) &&
            occluder_subtraction_store(&subtraction, &fragments);
-  ok = ok && fragments_finish(&fragments, areas, map);
+  ok = ok && fragments_finish(&fragments, exact_corners, map);
   occluder_subtraction_fini(&subtraction);
   fragments_fini(&fragments);
   return ok;
@@ -164,7 +164,8 @@ static recto_status paint(struct sheet *sheet,
   else if (ok)
     ok = rank_by_centroid(&painting);
   ok = ok && (!request->strokes || solve_strokes(&painting, map)) &&
-       (!request->fragments || solve_fragments(&painting, request->areas, map));
+       (!request->fragments ||
+        solve_fragments(&painting, request->exact_corners, map));
   mem_free(painting.rank);
   triangle_grid_query_fini(&painting.query);
   triangle_grid_fini(&grid);

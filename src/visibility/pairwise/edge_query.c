@@ -28,7 +28,7 @@ static struct geom_point point_of_edge(const struct edge_query *query,
 /* Asks no more about what is hidden at the ends of the edge, where that makes
  * it much shorter.  The new ends were rounded, by less than a unit. */
 static void shorten(struct edge_query *query) {
-  struct occluded_interval rest = edge_intervals_rest(&query->intervals);
+  struct occluded_interval rest = edge_intervals_remaining(&query->intervals);
   double share;
   if (rest.from.num == query->rest.from.num &&
       rest.to.num == query->rest.to.num)
@@ -54,8 +54,8 @@ static bool query_occluder(struct edge_query *query, uint32_t t,
                            struct occluded_interval *part) {
   const struct occluder *occluder = query->lists->occluder;
   if (occluder == NULL)
-    return occlude_edge_by(query->sheet, t, query->p, query->q, part,
-                           &query->counts);
+    return occlude_edge_by_triangle(query->sheet, t, query->p, query->q, part,
+                                    &query->counts);
   return !(query->sheet->triangle_flags[t] & SHEET_FLAT) &&
          occlude_edge(&occluder[t], query->p, query->q, part, &query->counts);
 }
@@ -69,7 +69,7 @@ static bool query_triangle(struct edge_query *query, uint32_t t) {
     return true;
   if (!edge_intervals_occlude(&query->intervals, part))
     return false;
-  if (part.sides == OCCLUDED_BOTH && !query->intervals.whole)
+  if (part.sides == OCCLUDED_BOTH && !query->intervals.occluded)
     shorten(query);
   return true;
 }
@@ -106,7 +106,7 @@ static bool query_bsp(struct edge_query *query, struct cell_query *at) {
         continue;
       if (!query_triangle(query, member[i].triangle))
         return false;
-      if (query->intervals.whole)
+      if (query->intervals.occluded)
         return true;
       put_question(at, query);
     }
@@ -131,7 +131,7 @@ static bool query_list(struct edge_query *query, int x, int y) {
   for (;; i++) {
     while (i < end && !kdop8_overlaps(list->word[i], at.question))
       i++;
-    if (i == end || query->intervals.whole)
+    if (i == end || query->intervals.occluded)
       return true;
     if (!query_triangle(query, list->grid.item[i]))
       return false;
@@ -154,7 +154,7 @@ bool edge_query_solve(struct edge_query *query, uint32_t e) {
   if (query->several)
     triangle_grid_query_start(grid, &query->found);
   edge_intervals_start(&query->intervals);
-  query->rest = edge_intervals_rest(&query->intervals);
+  query->rest = edge_intervals_remaining(&query->intervals);
   query->share = 1;
   query->end[0] = query->p;
   query->end[1] = query->q;

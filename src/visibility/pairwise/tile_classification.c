@@ -283,12 +283,11 @@ static void refuse_contours(struct tile_classification *map,
   }
 }
 
-static struct window tile_window(const struct triangle_grid *grid, int x,
-                                 int y) {
+static struct box2 tile_window(const struct triangle_grid *grid, int x, int y) {
   int64_t side = INT64_C(1) << grid->shift, x0 = grid->x0 + x * side,
           y0 = grid->y0 + y * side;
-  return (struct window){(int32_t)x0, (int32_t)y0, (int32_t)(x0 + side),
-                         (int32_t)(y0 + side)};
+  return (struct box2){(int32_t)x0, (int32_t)y0, (int32_t)(x0 + side),
+                       (int32_t)(y0 + side)};
 }
 
 /* How many triangles are over a point of the page, on average; about, and no
@@ -318,7 +317,7 @@ static void raise_horizons(struct tile_classification *map,
   if (r.x1 - r.x0 < 2 || r.y1 - r.y0 < 2)
     return;
   struct corners corners = corners_of(sheet, t);
-  struct window first = tile_window(grid, r.x0 + 1, r.y0 + 1);
+  struct box2 first = tile_window(grid, r.x0 + 1, r.y0 + 1);
   struct contour_walk walk =
       walk_of(&corners, first.x0, first.y0, grid->shift, true);
   struct surrounder_plane plane = surrounder_plane_of(sheet, (uint32_t)t);
@@ -333,8 +332,8 @@ static void raise_horizons(struct tile_classification *map,
         continue;
       }
       inside = true;
-      struct window window = tile_window(grid, x, y);
-      double low = surrounder_low(&plane, &window);
+      struct box2 window = tile_window(grid, x, y);
+      double low = surrounder_farthest_z(&plane, &window);
       if (low > horizon[x])
         horizon[x] = low;
     }

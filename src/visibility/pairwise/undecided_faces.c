@@ -90,7 +90,7 @@ bool undecided_faces_sort(const struct undecided_faces *undecided_faces,
     return false;
   for (size_t i = 0; i < count; i++) {
     copy[i] = triangle[i];
-    start[tile_bucket(triangle_nearest(undecided_faces->sheet, copy[i]))]++;
+    start[tile_bucket(triangle_nearest_z(undecided_faces->sheet, copy[i]))]++;
   }
   for (int bucket = TILE_BUCKETS - 1; bucket >= 0; bucket--) {
     uint32_t here = start[bucket];
@@ -98,7 +98,8 @@ bool undecided_faces_sort(const struct undecided_faces *undecided_faces,
     sum += here;
   }
   for (size_t i = 0; i < count; i++) {
-    int bucket = tile_bucket(triangle_nearest(undecided_faces->sheet, copy[i]));
+    int bucket =
+        tile_bucket(triangle_nearest_z(undecided_faces->sheet, copy[i]));
     triangle[start[bucket]++] = copy[i];
   }
   mem_free(copy);

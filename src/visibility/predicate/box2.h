@@ -4,8 +4,10 @@
 
 #include "view/sheet.h"
 
+/* A closed axis-aligned rectangle of the page: a bounding box, or one of
+ * Warnock's windows (window.h). */
 struct box2 {
-  int32_t x0, y0, x1, y1; /* grid units, closed */
+  int32_t x0, y0, x1, y1; /* grid units, x0 <= x1, y0 <= y1 */
 };
 
 static inline int32_t box2_min(int32_t a, int32_t b) { return a < b ? a : b; }
@@ -29,6 +31,7 @@ static inline struct box2 box2_of_triangle(const struct sheet *sheet,
                        box2_max(a->y, box2_max(b->y, c->y))};
 }
 
+/* Boxes that only touch are not disjoint. */
 static inline bool box2_disjoint(struct box2 a, struct box2 b) {
   return a.x1 < b.x0 || b.x1 < a.x0 || a.y1 < b.y0 || b.y1 < a.y0;
 }

@@ -8,8 +8,8 @@
 static const struct ratio ZERO = {0, 1}, ONE = {1, 1};
 
 void edge_intervals_fini(struct edge_intervals *intervals) {
-  ARRAY_FREE(&intervals->both);
-  ARRAY_FREE(&intervals->part);
+  ARRAY_FREE(&intervals->merged);
+  ARRAY_FREE(&intervals->unmerged);
   ARRAY_FREE(&intervals->left);
   ARRAY_FREE(&intervals->right);
 }
@@ -42,20 +42,20 @@ static void put(occluded_intervals *united, struct occluded_interval part) {
 
 bool edge_intervals_occlude(struct edge_intervals *intervals,
                             struct occluded_interval part) {
-  occluded_intervals *both = &intervals->both;
+  occluded_intervals *both = &intervals->merged;
   if (part.sides != OCCLUDED_BOTH || both->count == UNITED_MOST)
-    return ARRAY_PUSH(&intervals->part, part);
+    return ARRAY_PUSH(&intervals->unmerged, part);
   if (!ARRAY_RESERVE(both, 1))
     return false;
   put(both, part);
-  intervals->whole = both->count == 1 && both->item[0].from.num == 0 &&
-                     both->item[0].to.num == both->item[0].to.den;
+  intervals->occluded = both->count == 1 && both->item[0].from.num == 0 &&
+                        both->item[0].to.num == both->item[0].to.den;
   return true;
 }
 
 struct occluded_interval
-edge_intervals_rest(const struct edge_intervals *intervals) {
-  const occluded_intervals *both = &intervals->both;
+edge_intervals_remaining(const struct edge_intervals *intervals) {
+  const occluded_intervals *both = &intervals->merged;
   struct occluded_interval rest = {ZERO, ONE, OCCLUDED_BOTH};
   if (both->count > 0 && both->item[0].from.num == 0)
     rest.from = both->item[0].to;
@@ -84,7 +84,8 @@ static int compare_from(const void *a, const void *b, void *user) {
 /* The union of the parts that cover `side`, in order and apart. */
 static bool unite(const struct edge_intervals *intervals, int side,
                   occluded_intervals *united) {
-  const occluded_intervals *both = &intervals->both, *part = &intervals->part;
+  const occluded_intervals *both = &intervals->merged,
+                           *part = &intervals->unmerged;
   size_t last = 0;
   united->count = 0;
   for (size_t i = 0; i < both->count; i++)
@@ -114,10 +115,10 @@ const occluded_intervals *
 edge_intervals_unite(struct edge_intervals *intervals) {
   occluded_intervals *left = &intervals->left, *right = &intervals->right;
   int both = OCCLUDED_BOTH;
-  if (intervals->part.count == 0)
-    return &intervals->both;
-  for (size_t i = 0; i < intervals->part.count; i++)
-    both &= intervals->part.item[i].sides;
+  if (intervals->unmerged.count == 0)
+    return &intervals->merged;
+  for (size_t i = 0; i < intervals->unmerged.count; i++)
+    both &= intervals->unmerged.item[i].sides;
   if (!unite(intervals, OCCLUDED_LEFT, left))
     return NULL;
   for (size_t i = 0; i < left->count; i++)
@@ -177,17 +178,17 @@ static bool store_visible(const occluded_intervals *hidden, uint32_t edge,
 
 bool edge_intervals_store(struct edge_intervals *intervals, uint32_t edge,
                           struct map *map) {
-  const occluded_intervals *part = &intervals->part;
-  const occluded_intervals *hidden = &intervals->both;
+  const occluded_intervals *part = &intervals->unmerged;
+  const occluded_intervals *hidden = &intervals->merged;
   map->edge_state[edge] = MAP_HIDDEN;
-  if (intervals->whole)
+  if (intervals->occluded)
     return true;
   if (part->count > 0) {
     if (!unite(intervals, OCCLUDED_LEFT, &intervals->left) ||
         !unite(intervals, OCCLUDED_RIGHT, &intervals->right) ||
-        !intersect(&intervals->left, &intervals->right, &intervals->part))
+        !intersect(&intervals->left, &intervals->right, &intervals->unmerged))
       return false;
-    hidden = &intervals->part;
+    hidden = &intervals->unmerged;
   }
   if (hidden->count == 0) {
     map->edge_state[edge] = MAP_VISIBLE;

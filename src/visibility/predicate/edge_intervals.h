@@ -1,53 +1,56 @@
-/* edge_intervals.h - from what triangles hide of an edge to its visible intervals. */
+/* edge_intervals.h - unites the occluded intervals of an edge, and stores the
+ * complement, its visible intervals. */
 #ifndef VISIBILITY_PREDICATE_EDGE_INTERVALS_H
 #define VISIBILITY_PREDICATE_EDGE_INTERVALS_H
 
-#include "visibility/predicate/occlusion.h"
 #include "visibility/map.h"
+#include "visibility/predicate/occlusion.h"
 
 typedef ARRAY(struct occluded_interval) occluded_intervals;
 
-/* What is hidden of the edge at hand; one a thread, used edge by edge. */
+/* The occluded intervals of the current edge.  One such struct serves all edges
+ * of a thread, one after the other. */
 struct edge_intervals {
-  occluded_intervals
-      both; /* parts with both sides covered: in order and apart, a
-                        few at most */
-  occluded_intervals part;        /* the others, as they came */
-  occluded_intervals left, right; /* scratch: united, by side */
-  bool whole; /* hidden from end to end: no more need be asked */
+  /* Intervals with both sides occluded, united as they are added: ascending
+   * and disjoint, a limited number of them. */
+  occluded_intervals merged;
+  occluded_intervals unmerged;    /* all others, in the order they were added */
+  occluded_intervals left, right; /* scratch: the union by side of the edge */
+  bool occluded; /* from end to end: further occluders change nothing */
 };
 
 /* Zero-initialised is empty. */
 void edge_intervals_fini(struct edge_intervals *intervals);
 
-/* Forgets the last edge. */
+/* Starts a new edge. */
 static inline void edge_intervals_start(struct edge_intervals *intervals) {
-  intervals->both.count = 0;
-  intervals->part.count = 0;
-  intervals->whole = false;
+  intervals->merged.count = 0;
+  intervals->unmerged.count = 0;
+  intervals->occluded = false;
 }
 
-/* Adds a hidden part; false when memory ran out. */
+/* Adds an occluded interval; false when memory ran out. */
 USE_RESULT bool edge_intervals_occlude(struct edge_intervals *intervals,
-                                       struct occluded_interval part);
+                                       struct occluded_interval interval);
 
-/* The hidden parts united: those of one side in order and apart.  They are valid
- * until the next call.  Returns NULL when memory ran out. */
+/* The union of the occluded intervals.  Intervals with equal `sides` are
+ * ascending and disjoint.  The result is valid until the next call.  Returns
+ * NULL when memory ran out. */
 const occluded_intervals *
 edge_intervals_unite(struct edge_intervals *intervals);
 
-/* The stretch of the edge, from end to end, beyond which all is known to be
- * hidden. */
+/* The edge less what is known to be occluded from either end on: an interval
+ * outside of which nothing is visible. */
 struct occluded_interval
-edge_intervals_rest(const struct edge_intervals *intervals);
+edge_intervals_remaining(const struct edge_intervals *intervals);
 
-/* Room in the map for the edges of the sheet; those it had no room for yet
- * are hidden at first. */
+/* Makes room in the map for the states of `edge_count` edges; the new ones are
+ * MAP_HIDDEN. */
 USE_RESULT bool edge_intervals_open_map(struct map *map, size_t edge_count);
 
-/* Files the visible intervals of `edge` in the map.  Edges come in ascending
- * order.  An edge is hidden where both of its sides are covered; a visible
- * piece without length is none. */
+/* Stores the visible intervals of `edge` in the map, where edges must come in
+ * ascending order.  An edge is hidden where both of its sides are occluded; a
+ * visible interval of length zero is dropped. */
 USE_RESULT bool edge_intervals_store(struct edge_intervals *intervals,
                                      uint32_t edge, struct map *map);
 

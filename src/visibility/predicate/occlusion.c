@@ -233,7 +233,7 @@ static bool cut_to_depth(const struct occluder *occluder, struct geom_point p,
   }
   if (sp > 0 && sq > 0)
     return false;
-  counts->exact++;
+  counts->exact_tests++;
   gp = occluder_depth(occluder, p);
   gq = occluder_depth(occluder, q);
   if (p_shared != q_shared)
@@ -268,14 +268,14 @@ bool occlude_edge(const struct occluder *occluder, struct geom_point p,
   counts->pairs++;
   if (!occlude_by_outline(occluder->p, p, q, part))
     return false;
-  counts->depth++;
+  counts->depth_tests++;
   return cut_to_depth(occluder, p, q, part, counts);
 }
 
-bool occlude_edge_by(const struct sheet *sheet, uint32_t triangle,
-                     struct geom_point p, struct geom_point q,
-                     struct occluded_interval *part,
-                     struct occlusion_counts *counts) {
+bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
+                              struct geom_point p, struct geom_point q,
+                              struct occluded_interval *part,
+                              struct occlusion_counts *counts) {
   const uint32_t *point = sheet->triangle.item[triangle].point;
   const struct geom_point corner[3] = {sheet->point.item[point[0]],
                                        sheet->point.item[point[1]],
@@ -287,7 +287,7 @@ bool occlude_edge_by(const struct sheet *sheet, uint32_t triangle,
   if (!occlude_by_outline(corner, p, q, part) ||
       (sheet->triangle_flags[triangle] & SHEET_FLAT))
     return false;
-  counts->depth++;
+  counts->depth_tests++;
   plane = plane_filter_of(sheet, triangle);
   at_p = plane_filter_occludes(&plane, p);
   at_q = plane_filter_occludes(&plane, q);
@@ -300,15 +300,15 @@ bool occlude_edge_by(const struct sheet *sheet, uint32_t triangle,
 void occlusion_counts_add(struct occlusion_counts *sum,
                           const struct occlusion_counts *more) {
   sum->pairs += more->pairs;
-  sum->depth += more->depth;
-  sum->exact += more->exact;
+  sum->depth_tests += more->depth_tests;
+  sum->exact_tests += more->exact_tests;
   sum->crossings += more->crossings;
 }
 
 void occlusion_report(const struct occlusion_counts *counts,
                       struct report *report) {
   report_add(report, "hide", "pairs", (int64_t)counts->pairs);
-  report_add(report, "hide", "outline_met", (int64_t)counts->depth);
-  report_add(report, "hide", "filter_failures", (int64_t)counts->exact);
+  report_add(report, "hide", "outline_met", (int64_t)counts->depth_tests);
+  report_add(report, "hide", "filter_failures", (int64_t)counts->exact_tests);
   report_add(report, "hide", "depth_crossings", (int64_t)counts->crossings);
 }

@@ -1,9 +1,15 @@
-/* plane_filter.h - how points lie to the plane of a triangle, contact allowed, told
- * in doubles that know when they cannot tell.
+/* plane_filter.h - a floating-point filter for the side-of-plane tests, with
+ * contact tolerance.
+ *
+ * All results are certified by an error bound: a test returns 0, or "may", when
+ * the bound cannot certify a sign, and the caller then decides exactly
+ * (occlusion.h).
  *
  * Two triangles can only pierce each other where each straddles the other's
- * plane, or ends on it (intersection.h).  On a dense mesh nearly all neighbours lie
- * within contact of each other's planes, and doubles suffice to see it.
+ * plane or ends on it (intersection.h).  On a dense mesh nearly all neighbours
+ * are within contact of each other's planes, and doubles suffice to see that.
+ *
+ * Source  [Shewchuk1997] for filters.
  */
 #ifndef VISIBILITY_PREDICATE_PLANE_FILTER_H
 #define VISIBILITY_PREDICATE_PLANE_FILTER_H
@@ -12,48 +18,55 @@
 
 #include "view/sheet.h"
 
-/* A plane as occlusion.h has it, value(p) against the tolerance T(p) / 2^16, with
- * bounds for what the doubles are off. */
+/* A triangle's plane and its contact tolerance as occlusion.h defines them, in
+ * doubles with error bounds.  With d = p - corner,
+ *     value(p)      is  n d,             off by less than  e |d|
+ *     T(p) / 2^16   is  t0 + t1 z,       too small by less than
+ *                                        t0_more + t1_more z,
+ *                                        and off by less than t_off. */
 struct plane_filter {
-  double x, y, z;          /* of a corner */
-  double nx, ny, nz;       /* value(p) = n (p - corner) */
-  double ex, ey, ez;       /* it is off by less than e |p - corner| */
-  double t0, t1;           /* the tolerance is t0 + t1 z ... */
-  double t0_more, t1_more; /* ... or more, by less than this ... */
-  double t_off;            /* ... or more or less, by less than that */
+  double x, y, z;    /* a corner of the triangle */
+  double nx, ny, nz; /* n, the normal */
+  double ex, ey, ez; /* e, the error bound of the normal */
+  double t0, t1;
+  double t0_more, t1_more; /* what occlusion.h adds by rounding up */
+  double t_off;            /* INFINITY where the filter cannot be used */
 };
 
 /* The plane of a triangle, which may be SHEET_FLAT. */
 struct plane_filter plane_filter_of(const struct sheet *sheet,
                                     uint32_t triangle);
 
-/* May these corners straddle the plane, or end on it: some behind it and some
- * before it by more than the tolerance, or just one of them?  A no is
- * certain. */
+/* May a triangle with these corners straddle the plane or end on it?  That is,
+ * beyond the contact tolerance there are corners on both sides, or there is
+ * just one corner.  False is certain. */
 bool plane_filter_may_intersect(const struct plane_filter *plane,
                                 const struct geom_point corner[3]);
 
-/* May all three corners touch the plane?  A no is certain. */
+/* May all three corners be in contact with the plane?  False is certain. */
 bool plane_filter_may_touch(const struct plane_filter *plane,
                             const struct geom_point corner[3]);
 
-/* May two triangles touch (triangle_pair.h)?  A no is certain.
+/* May two triangles touch (triangle_pair.h)?  False is certain.
  * sf, sg  their planes */
 bool plane_filters_may_touch(const struct sheet *sheet,
                              const struct plane_filter *sf, uint32_t f,
                              const struct plane_filter *sg, uint32_t g);
 
-/* The sign of value + tolerance: -1 where the triangle is in front of the
- * point by more than contact explains, so that it hides it; 0: not known. */
+/* The sign of value + T at p: -1 where the point is behind the plane by more
+ * than the contact tolerance, so that the triangle hides it; +1 where it is
+ * not; 0 where that is not certain. */
 int plane_filter_occludes(const struct plane_filter *plane,
                           struct geom_point p);
 
-/* Which of two planes is nearer at a place of the page, known to a quarter of a
- * unit: +1 the second one, -1 the first one, strictly; 0: not known. */
+/* Compares the depths of two planes at a point of the page known to a quarter
+ * of a unit: +1 where g is strictly nearer, -1 where f is, 0 where that is not
+ * certain. */
 int plane_filter_nearer(const struct plane_filter *f,
                         const struct plane_filter *g, double x, double y);
 
-/* The sign of the value alone: before the plane or behind it; 0: not known. */
+/* The sign of the value alone: +1 in front of the plane, -1 behind it, 0 where
+ * that is not certain. */
 static inline int plane_filter_sign(const struct plane_filter *plane,
                                     struct geom_point p) {
   double dx = p.x - plane->x, dy = p.y - plane->y, dz = (double)p.z - plane->z;

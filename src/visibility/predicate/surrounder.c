@@ -38,14 +38,14 @@ static struct plane_depth depth_at(const struct surrounder_plane *p, int32_t x,
                               SLACK * (fabs(p->z) + fabs(dx) + fabs(dy)) + 1};
 }
 
-static void corner_of(const struct window *window, int k, int32_t *x,
+static void corner_of(const struct box2 *window, int k, int32_t *x,
                       int32_t *y) {
   *x = k < 2 ? window->x0 : window->x1;
   *y = k == 1 || k == 2 ? window->y1 : window->y0;
 }
 
-double surrounder_low(const struct surrounder_plane *plane,
-                      const struct window *window) {
+double surrounder_farthest_z(const struct surrounder_plane *plane,
+                             const struct box2 *window) {
   struct plane_depth d =
       depth_at(plane, plane->gx > 0 ? window->x1 : window->x0,
                plane->gy > 0 ? window->y1 : window->y0);
@@ -53,7 +53,7 @@ double surrounder_low(const struct surrounder_plane *plane,
 }
 
 void surrounder_depths_of(const struct sheet *sheet, uint32_t triangle,
-                          const struct window *window,
+                          const struct box2 *window,
                           struct surrounder_depths *depth) {
   struct surrounder_plane plane = surrounder_plane_of(sheet, triangle);
   depth->low = INFINITY;
@@ -70,11 +70,11 @@ void surrounder_depths_of(const struct sheet *sheet, uint32_t triangle,
 
 bool surrounder_hides(const struct sheet *sheet,
                       const struct surrounder_depths *front,
-                      const struct window *window, uint32_t triangle) {
+                      const struct box2 *window, uint32_t triangle) {
   const uint32_t *p = sheet->triangle.item[triangle].point;
   struct surrounder_plane plane;
   struct occluder h;
-  if ((double)triangle_nearest(sheet, triangle) < front->low)
+  if ((double)triangle_nearest_z(sheet, triangle) < front->low)
     return true;
   for (int k = 0; k < 3; k++)
     h.p[k] = sheet->point.item[p[k]];

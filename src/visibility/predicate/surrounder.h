@@ -1,54 +1,56 @@
-/* surrounder.h - depths over a window that a triangle surrounds: what is behind
- * it there, for certain. */
+/* surrounder.h - certified depths of a triangle over a window that it
+ * surrounds, and what it hides there. */
 #ifndef VISIBILITY_PREDICATE_SURROUNDER_H
 #define VISIBILITY_PREDICATE_SURROUNDER_H
 
 #include "view/sheet.h"
 #include "visibility/predicate/window.h"
 
-/* Depths of a triangle's plane at a window's corners, less what contact and
- * rounding explain: in the window the triangle hides whatever is behind the
- * plane through them. */
+/* Lower bounds for the depth of a surrounder's plane at the corners of a
+ * window, with the contact tolerance and rounding subtracted.  Depth being
+ * linear, the surrounder hides all of a plane that is farther than these at all
+ * four corners. */
 struct surrounder_depths {
-  double at[4]; /* as window_line_function orders them */
+  double at[4]; /* in the order of window_line_function */
   double low;   /* the least of them */
 };
 
-/* A triangle's plane moved back by what contact explains at most, in doubles:
- * for its depths over many windows. */
+/* A triangle's plane in doubles, to be moved back by the largest contact
+ * tolerance: for its depths over many windows. */
 struct surrounder_plane {
-  double x, y, z; /* of a corner */
-  double gx, gy;  /* depth lost per unit of x and of y */
-  double contact;
+  double x, y, z; /* a corner of the triangle */
+  double gx, gy;  /* decrease of z per unit of x and of y */
+  double contact; /* in depth units */
 };
 
 /* The plane of a triangle that is not flat. */
 struct surrounder_plane surrounder_plane_of(const struct sheet *sheet,
                                             uint32_t triangle);
 
-/* The least depth that the plane surely has over the window. */
-double surrounder_low(const struct surrounder_plane *plane,
-                      const struct window *window);
+/* A certain lower bound of the plane's depth over the window. */
+double surrounder_farthest_z(const struct surrounder_plane *plane,
+                             const struct box2 *window);
 
-/* Depths that a triangle, not flat, surely reaches over the window. */
+/* Computes the depths of a triangle that is not flat over the window. */
 void surrounder_depths_of(const struct sheet *sheet, uint32_t triangle,
-                          const struct window *window,
+                          const struct box2 *window,
                           struct surrounder_depths *depth);
 
-/* The nearest depth of a triangle's corners. */
-static inline int64_t triangle_nearest(const struct sheet *sheet,
-                                       uint32_t triangle) {
+/* The depth of a triangle's nearest corner. */
+static inline int64_t triangle_nearest_z(const struct sheet *sheet,
+                                         uint32_t triangle) {
   const uint32_t *p = sheet->triangle.item[triangle].point;
   int64_t a = sheet->point.item[p[0]].z, b = sheet->point.item[p[1]].z,
           c = sheet->point.item[p[2]].z;
   return a > b ? (a > c ? a : c) : b > c ? b : c;
 }
 
-/* Is the triangle behind the front at every corner of the window, for
- * certain?  By its nearest corner, else by its plane: sufficient, not
- * necessary. */
+/* Is the triangle certainly behind the surrounder over the whole window?
+ * Decided by its nearest corner, else by its plane at the window's corners.
+ * Sufficient, not necessary.
+ * front  the surrounder's depths */
 bool surrounder_hides(const struct sheet *sheet,
                       const struct surrounder_depths *front,
-                      const struct window *window, uint32_t triangle);
+                      const struct box2 *window, uint32_t triangle);
 
 #endif

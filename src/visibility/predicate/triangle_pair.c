@@ -48,7 +48,7 @@ int plane_sides(const struct geom_plane *plane, const struct geom_point p[3]) {
   for (int k = 0; k < 3; k++) {
     int sign = geom_sign128(geom_plane_value(plane, p[k]));
     if (sign != 0)
-      sides |= sign < 0 ? PLANE_BEHIND : PLANE_BEFORE;
+      sides |= sign < 0 ? PLANE_BEHIND : PLANE_IN_FRONT;
   }
   return sides;
 }
@@ -63,18 +63,18 @@ enum depth_order triangle_depth_order(const struct triangle_plane *f,
     return g_id < f_id ? NEARER_ALWAYS : NEARER_NEVER;
   if (sides == PLANE_BEHIND)
     return NEARER_NEVER;
-  if (sides == PLANE_BEFORE)
+  if (sides == PLANE_IN_FRONT)
     return NEARER_ALWAYS;
   sides = plane_sides(&g->plane, f->p);
   if (sides == PLANE_BEHIND)
     return NEARER_ALWAYS;
-  if (sides == PLANE_BEFORE)
+  if (sides == PLANE_IN_FRONT)
     return NEARER_NEVER;
   /* Each is on both sides of the other's plane: the planes cross. */
   (void)geom_line_between(line, &g->plane, &f->plane);
   *back = *line;
   geom_line_reverse(back);
-  return NEARER_BEYOND;
+  return NEARER_ON_LEFT;
 }
 
 static bool touches(const struct occluder *plane,

@@ -1,15 +1,17 @@
-/* triangle_pair.h - which of two triangles is nearer, and which only touch. */
+/* triangle_pair.h - how two triangles lie to each other: disjoint on the page,
+ * in contact, or one nearer than the other. */
 #ifndef VISIBILITY_PREDICATE_TRIANGLE_PAIR_H
 #define VISIBILITY_PREDICATE_TRIANGLE_PAIR_H
 
 #include "geom/convex.h"
 #include "visibility/predicate/occlusion.h"
 
-/* How triangle g lies to triangle f over the part of the page they share. */
+/* Where triangle g is nearer than triangle f, within the part of the page that
+ * both cover. */
 enum depth_order {
-  NEARER_NEVER,  /* f is seen wherever they overlap */
-  NEARER_ALWAYS, /* g is */
-  NEARER_BEYOND  /* g is on the left of a line */
+  NEARER_NEVER,  /* nowhere: f is seen wherever they overlap */
+  NEARER_ALWAYS, /* everywhere: g is seen */
+  NEARER_ON_LEFT /* on the left of the line where the planes intersect */
 };
 
 struct triangle_plane {
@@ -20,29 +22,32 @@ struct triangle_plane {
 struct triangle_plane triangle_plane_of(const struct sheet *sheet,
                                         uint32_t triangle);
 
-/* Do two triangles, counter-clockwise and not flat, share no inner point of the
- * page?  Neighbours do not, and most of what is about a face are neighbours.
- * Exact. */
+/* Do the interiors of two triangles, counter-clockwise and not flat, have no
+ * point of the page in common?  Those of neighbours have none, and most
+ * triangles near a face are its neighbours.  Exact. */
 bool triangles_disjoint(const struct sheet *sheet, uint32_t f, uint32_t g);
 
-/* The three lines of a triangle's sides, and the same turned round. */
+/* The lines through the sides of a triangle, which lies on their left, and the
+ * same lines reversed. */
 void triangle_lines(const struct sheet *sheet, uint32_t triangle,
                     struct geom_line line[3], struct geom_line back[3]);
 
-/* Where three corners lie to a plane.  Exact. */
-enum { PLANE_BEHIND = 1, PLANE_BEFORE = 2 }; /* a mask; 0: all on it */
+/* On which sides of a plane the corners p lie.  Exact.
+ * Returns a mask; 0 where all corners are on the plane. */
+enum { PLANE_BEHIND = 1, PLANE_IN_FRONT = 2 };
 int plane_sides(const struct geom_plane *plane, const struct geom_point p[3]);
 
-/* Compares by exact depth, equal planes by index (the lower is seen).
- * line, back  set for NEARER_BEYOND: g is the nearer on the line's left;
- *             back is the same line turned round */
+/* Compares two triangles by exact depth; of coplanar ones that with the lower
+ * index is the nearer.
+ * line, back  set for NEARER_ON_LEFT: g is nearer on the left of `line`; `back`
+ *             is the same line reversed */
 enum depth_order triangle_depth_order(const struct triangle_plane *f,
                                       uint32_t f_id,
                                       const struct triangle_plane *g,
                                       uint32_t g_id, struct geom_line *line,
                                       struct geom_line *back);
 
-/* True where all corners of one touch the plane of the other. */
+/* Are all corners of one triangle in contact with the other's plane?  Exact. */
 bool triangles_touch(const struct sheet *sheet, uint32_t f, uint32_t g);
 
 #endif

@@ -1,7 +1,7 @@
 /* window.c - how a polygon lies to a window of the page. */
 #include "visibility/predicate/window.h"
 
-enum window_class window_box_test(const struct window *window,
+enum window_class window_box_test(const struct box2 *window,
                                   const struct geom_point *corner, int count) {
   int32_t x0 = corner[0].x, y0 = corner[0].y, x1 = x0, y1 = y0;
   for (int k = 1; k < count; k++) {
@@ -22,7 +22,7 @@ enum window_class window_box_test(const struct window *window,
   return WINDOW_INTERSECTING;
 }
 
-void window_line_function(const struct window *window, struct geom_point p,
+void window_line_function(const struct box2 *window, struct geom_point p,
                           struct geom_point q, int64_t value[4]) {
   const struct geom_point at[4] = {{window->x0, window->y0, 0},
                                    {window->x0, window->y1, 0},
@@ -32,7 +32,7 @@ void window_line_function(const struct window *window, struct geom_point p,
     value[k] = geom_orient2d(p, q, at[k]);
 }
 
-bool window_meets_edge(const struct window *window, struct geom_point p,
+bool window_meets_edge(const struct box2 *window, struct geom_point p,
                        struct geom_point q) {
   const struct geom_point edge[2] = {p, q};
   int64_t value[4];
@@ -48,7 +48,7 @@ bool window_meets_edge(const struct window *window, struct geom_point p,
 }
 
 /* The field of the point (x, y) / 2^bits. */
-static int octant_scaled(const struct window *window, int64_t x, int64_t y,
+static int octant_scaled(const struct box2 *window, int64_t x, int64_t y,
                          int bits) {
   static const int field[3][3] = {{5, 6, 7}, {4, -1, 0}, {3, 2, 1}};
   int64_t scale = INT64_C(1) << bits;
@@ -57,7 +57,7 @@ static int octant_scaled(const struct window *window, int64_t x, int64_t y,
   return field[row][column];
 }
 
-int window_octant(const struct window *window, int64_t x, int64_t y) {
+int window_octant(const struct box2 *window, int64_t x, int64_t y) {
   return octant_scaled(window, x, y, 0);
 }
 
@@ -76,7 +76,7 @@ static bool is_ambiguous(int difference) {
  * halved where the difference is 4.  Each halving doubles the coordinates, so
  * that the middle stays an integer.  Parts that still span opposite fields are
  * longer than the window's side, a unit at least: 31 halvings are enough. */
-static int count_edge(const struct window *window, struct geom_point p,
+static int count_edge(const struct box2 *window, struct geom_point p,
                       struct geom_point q) {
   int64_t px = p.x, py = p.y, qx = q.x, qy = q.y;
   int sum = 0, bits = 0;
@@ -103,7 +103,7 @@ static int count_edge(const struct window *window, struct geom_point p,
   }
 }
 
-int window_angle_count(const struct window *window,
+int window_angle_count(const struct box2 *window,
                        const struct geom_point *corner, int count) {
   int sum = 0;
   for (int k = 0; k < count; k++)
@@ -111,8 +111,8 @@ int window_angle_count(const struct window *window,
   return sum;
 }
 
-int window_ray_count(const struct window *window,
-                     const struct geom_point *corner, int count) {
+int window_ray_count(const struct box2 *window, const struct geom_point *corner,
+                     int count) {
   struct geom_point start = {window->x0, window->y0, 0};
   int crossings = 0;
   for (int k = 0; k < count; k++) {
@@ -125,7 +125,7 @@ int window_ray_count(const struct window *window,
   return crossings;
 }
 
-enum window_class window_classify(const struct window *window,
+enum window_class window_classify(const struct box2 *window,
                                   const struct geom_point *corner, int count,
                                   struct window_counts *counts) {
   enum window_class class = window_box_test(window, corner, count);
@@ -163,7 +163,7 @@ static bool clip_above(int64_t s, int64_t e, struct ratio *from,
   return ratio_compare(*from, *to) <= 0;
 }
 
-bool window_clip(const struct window *window, struct geom_point p,
+bool window_clip(const struct box2 *window, struct geom_point p,
                  struct geom_point q, struct ratio *from, struct ratio *to) {
   *from = ratio_of(0, 1);
   *to = ratio_of(1, 1);
@@ -179,7 +179,7 @@ bool window_clip(const struct window *window, struct geom_point p,
 
 /* Slivers between sides that all but coincide would be cut off one after the
  * other: hence the quarter. */
-int32_t window_cut(int32_t from, int32_t to, int32_t low, int32_t high) {
+int32_t window_split(int32_t from, int32_t to, int32_t low, int32_t high) {
   int64_t sum = (int64_t)from + to, width = (int64_t)to - from;
   int64_t off_low = 2 * (int64_t)low - sum, off_high = 2 * (int64_t)high - sum;
   if (off_low < 0)

@@ -1,8 +1,9 @@
-/* window.h - how a polygon lies to a window of the page: Warnock's four
+/* window.h - classifies polygons against a window of the page: Warnock's four
  * classes, by Warnock's tests.
  *
- * A window is closed: what only touches it intersects it.  A polygon is a
- * closed loop of integer points, either way round.
+ * A window is a box2 with x0 < x1 and y0 < y1.  It is closed: a polygon that
+ * only touches it intersects it.  A polygon is a closed loop of integer points
+ * in either orientation.
  *
  * Source  [Warnock1969]; [Rogers1985] ch. 4 for the tests.
  */
@@ -10,67 +11,68 @@
 #define VISIBILITY_PREDICATE_WINDOW_H
 
 #include "geom/predicate.h"
-
-struct window {
-  int32_t x0, y0, x1, y1; /* grid units, x0 < x1, y0 < y1 */
-};
+#include "visibility/predicate/box2.h"
 
 enum window_class {
   WINDOW_DISJOINT,
-  WINDOW_CONTAINED,
-  WINDOW_INTERSECTING,
-  WINDOW_SURROUNDING
+  WINDOW_CONTAINED,    /* the polygon lies within the window */
+  WINDOW_INTERSECTING, /* its boundary meets the window's */
+  WINDOW_SURROUNDING   /* it contains the window */
 };
 
-/* How many polygons each test settled. */
+/* How many polygons each test decided. */
 struct window_counts {
   uint64_t box, sign, angle;
 };
 
-enum window_class window_classify(const struct window *window,
+/* Classifies by bounding boxes, then by the signs of the edges' line functions,
+ * then by the angle count. */
+enum window_class window_classify(const struct box2 *window,
                                   const struct geom_point *corner, int count,
                                   struct window_counts *counts);
 
-/* Bounding boxes: DISJOINT, CONTAINED, or INTERSECTING where they do not
- * tell. */
-enum window_class window_box_test(const struct window *window,
+/* Classifies by bounding boxes alone: DISJOINT, CONTAINED, or INTERSECTING
+ * where they do not decide. */
+enum window_class window_box_test(const struct box2 *window,
                                   const struct geom_point *corner, int count);
 
 /* The line function of p-q, positive on its left, at the window's corners:
  * (x0, y0), (x0, y1), (x1, y1), (x1, y0). */
-void window_line_function(const struct window *window, struct geom_point p,
+void window_line_function(const struct box2 *window, struct geom_point p,
                           struct geom_point q, int64_t value[4]);
 
 /* Does the segment p-q meet the window?  By the signs of its line function at
- * the corners, and its box. */
-bool window_meets_edge(const struct window *window, struct geom_point p,
+ * the corners, and by its box. */
+bool window_meets_edge(const struct box2 *window, struct geom_point p,
                        struct geom_point q);
 
-/* In which of the eight fields about the window a point lies: 0 to its right,
- * 1 upper right, and on counter-clockwise; -1 inside it. */
-int window_octant(const struct window *window, int64_t x, int64_t y);
+/* In which of the eight regions around the window a point lies: 0 to its
+ * right, 1 to its upper right, and on counter-clockwise; -1 inside it. */
+int window_octant(const struct box2 *window, int64_t x, int64_t y);
 
-/* The sum of the octants' differences along a polygon no edge of which meets
- * the window: 0 where they are disjoint, +-8 n where it surrounds the window
- * n times.  A difference of 4 is ambiguous: the edge is halved until its parts
- * tell. */
-int window_angle_count(const struct window *window,
+/* The winding number of a polygon about the window, in octants: the sum of the
+ * differences of octants along its edges, none of which may meet the window.
+ * 0 where they are disjoint, +-8 n where the polygon surrounds the window n
+ * times.  A difference of 4 is ambiguous: such an edge is bisected until its
+ * parts decide. */
+int window_angle_count(const struct box2 *window,
                        const struct geom_point *corner, int count);
 
-/* The same question by a ray from the window's lower left corner downwards:
- * how often the polygon crosses it; an even number: disjoint.  A corner on
- * the ray's line counts with the edge on its right alone. */
-int window_ray_count(const struct window *window,
-                     const struct geom_point *corner, int count);
+/* The same decision by the even-odd rule: how often the polygon crosses a
+ * ray from the window's lower left corner downwards; where that is even, they
+ * are disjoint.  A corner on the ray's line counts as left of it. */
+int window_ray_count(const struct box2 *window, const struct geom_point *corner,
+                     int count);
 
-/* The part of the segment p-q inside the closed window as parameters; false
- * where there is none. */
-bool window_clip(const struct window *window, struct geom_point p,
+/* Clips the segment p-q to the closed window.
+ * from, to  get the parameters of the clipped segment
+ * Returns false where nothing is left. */
+bool window_clip(const struct box2 *window, struct geom_point p,
                  struct geom_point q, struct ratio *from, struct ratio *to);
 
-/* Where to cut the range from..to: at `low` or `high`, the sides of a box, the
- * one nearer to the middle, or in the middle where that would cut off less
- * than a quarter. */
-int32_t window_cut(int32_t from, int32_t to, int32_t low, int32_t high);
+/* The coordinate at which to split the range from..to, given a box with sides
+ * at `low` and `high`: at the side nearer to the middle, or in the middle where
+ * a side would split off less than a quarter. */
+int32_t window_split(int32_t from, int32_t to, int32_t low, int32_t high);
 
 #endif

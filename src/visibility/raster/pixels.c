@@ -126,8 +126,8 @@ static uint32_t seen_at(const void *user, double x) {
 
 static struct span_side side_at(const struct scan_grid *grid, int32_t column) {
   double x = scan_plane_x(grid, column);
-  return (struct span_side){x,          x,           x, true, (uint32_t)column,
-                            SHEET_NONE, MAP_SIDE_CUT};
+  return (struct span_side){
+      x, x, x, true, (uint32_t)column, SHEET_NONE, MAP_SIDE_CLIP};
 }
 
 static bool add_spans(struct pixels *pixels, int32_t line,

@@ -172,7 +172,7 @@ static void make_corners(const struct trapezoids *trapezoids,
   double low = scan_plane_y(&trapezoids->grid, trapezoid->last);
   double high = scan_plane_y(&trapezoids->grid, trapezoid->first + 1);
   for (int k = 0; k < 4; k++) {
-    corner[k] = (struct map_corner){.side = MAP_SIDE_CUT, .id = SHEET_NONE};
+    corner[k] = (struct map_corner){.side = MAP_SIDE_CLIP, .id = SHEET_NONE};
     corner[k].x =
         round_corner(clamp(x[k], trapezoids->x_low, trapezoids->x_high));
     corner[k].y = round_corner(

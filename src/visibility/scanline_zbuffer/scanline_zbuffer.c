@@ -90,7 +90,8 @@ static recto_status walk_lines(struct scanline *scanline, struct pixels *pixels,
     before = scanline->covered;
     scanline_draw(scanline);
     scanline_step(scanline);
-    pixels->progress.left -= (scanline->covered - before) / PROGRESS_PIXELS;
+    pixels->progress.work_left -=
+        (scanline->covered - before) / PROGRESS_PIXELS;
     status = pixels_line(pixels, line, error);
   }
   return status;

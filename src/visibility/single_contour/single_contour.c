@@ -271,8 +271,8 @@ static bool show_edges(const struct sheet *sheet, struct map *map) {
   return true;
 }
 
-static bool show_faces(const struct sheet *sheet, bool areas, struct map *map,
-                       struct report *report) {
+static bool show_faces(const struct sheet *sheet, bool exact_corners,
+                       struct map *map, struct report *report) {
   struct fragments fragments;
   struct triangle_grid grid;
   bool ok;
@@ -282,7 +282,7 @@ static bool show_faces(const struct sheet *sheet, bool areas, struct map *map,
   fragments.report = report;
   for (size_t t = 0; ok && t < sheet->triangle.count; t++)
     ok = fragments_add_without_contact(&fragments, (uint32_t)t);
-  ok = ok && fragments_finish(&fragments, areas, map);
+  ok = ok && fragments_finish(&fragments, exact_corners, map);
   fragments_fini(&fragments);
   triangle_grid_fini(&grid);
   return ok;
@@ -292,7 +292,8 @@ static recto_status solve(struct sheet *sheet,
                           const struct solver_request *request, struct map *map,
                           struct report *report, recto_error *error) {
   if ((request->strokes && !show_edges(sheet, map)) ||
-      (request->fragments && !show_faces(sheet, request->areas, map, report)))
+      (request->fragments &&
+       !show_faces(sheet, request->exact_corners, map, report)))
     return error_memory(error);
   return RECTO_OK;
 }

@@ -191,7 +191,7 @@ static enum map_state query_face(const struct tiles_work *work, uint32_t t) {
   const uint32_t *point = sheet->triangle.item[t].point;
   struct cell_range r = triangle_grid_cells(grid, box2_of_triangle(sheet, t));
   int low = TILE_BUCKETS, high = -1, state = -1;
-  int64_t nearest = triangle_nearest(sheet, t);
+  int64_t nearest = triangle_nearest_z(sheet, t);
   for (int k = 0; k < 3; k++) {
     int bucket = tile_bucket(sheet->point.item[point[k]].z);
     if (bucket < low)
@@ -340,7 +340,7 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
     ok =
         progress_step_at(&progress, 1, i, work->face.count) &&
         undecided_faces_solve(&undecided_faces, work->face.item[i], &fragments);
-  ok = ok && fragments_finish(&fragments, work->request->areas, map);
+  ok = ok && fragments_finish(&fragments, work->request->exact_corners, map);
   if (progress.cancelled)
     atomic_store(work->cancelled, true);
   undecided_faces_report(&undecided_faces, work->report);

@@ -97,26 +97,26 @@ static bool defer_window(struct warnock *w, const struct warnock_window *win) {
 static void choose_cut(const struct warnock *w,
                        const struct warnock_window *win, int32_t *x,
                        int32_t *y) {
-  const struct window *v = &win->window;
+  const struct box2 *v = &win->window;
   *x = (int32_t)(((int64_t)v->x0 + v->x1) / 2);
   *y = (int32_t)(((int64_t)v->y0 + v->y1) / 2);
   if (w->request->divide_by_box && win->faces.from < win->faces.to) {
     struct box2 box =
         box2_of_triangle(w->sheet, w->faces.item[win->faces.from]);
-    *x = window_cut(v->x0, v->x1, box.x0, box.x1);
-    *y = window_cut(v->y0, v->y1, box.y0, box.y1);
+    *x = window_split(v->x0, v->x1, box.x0, box.x1);
+    *y = window_split(v->y0, v->y1, box.y0, box.y1);
   }
 }
 
 /* Puts the four quarters of the window onto the stack. */
 static bool divide(struct warnock *w, const struct warnock_window *win) {
-  const struct window *v = &win->window;
+  const struct box2 *v = &win->window;
   int32_t x, y;
   choose_cut(w, win, &x, &y);
   for (int k = 0; k < 4; k++) {
     struct warnock_window quarter = *win;
-    quarter.window = (struct window){k & 1 ? x : v->x0, k & 2 ? y : v->y0,
-                                     k & 1 ? v->x1 : x, k & 2 ? v->y1 : y};
+    quarter.window = (struct box2){k & 1 ? x : v->x0, k & 2 ? y : v->y0,
+                                   k & 1 ? v->x1 : x, k & 2 ? v->y1 : y};
     if (!ARRAY_PUSH(&w->stack, quarter))
       return false;
   }
@@ -124,7 +124,7 @@ static bool divide(struct warnock *w, const struct warnock_window *win) {
   return true;
 }
 
-static bool is_small(const struct warnock *w, const struct window *v) {
+static bool is_small(const struct warnock *w, const struct box2 *v) {
   int64_t width = (int64_t)v->x1 - v->x0, height = (int64_t)v->y1 - v->y0;
   return width < 2 || height < 2 || (width <= w->floor && height <= w->floor);
 }
@@ -223,7 +223,8 @@ static bool fill_pools(struct warnock *w, const struct triangle_grid *grid) {
   bool ok = key != NULL && ARRAY_RESERVE(&w->faces, n);
   for (size_t t = 0; ok && t < n; t++)
     key[t] = (struct sort_key){
-        ~sort_key_of_int64(triangle_nearest(sheet, (uint32_t)t)), (uint32_t)t};
+        ~sort_key_of_int64(triangle_nearest_z(sheet, (uint32_t)t)),
+        (uint32_t)t};
   if (ok)
     sort_keys(key, key + n, n);
   for (size_t t = 0; ok && t < n; t++)

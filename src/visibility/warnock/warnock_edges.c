@@ -75,7 +75,7 @@ struct edge_task {
 };
 
 /* Sets the task; false where the edge has at most a point in the window. */
-static bool start_edge(const struct warnock *w, const struct window *window,
+static bool start_edge(const struct warnock *w, const struct box2 *window,
                        uint32_t e, struct edge_task *task) {
   const struct sheet_edge *edge = &w->sheet->edge.item[e];
   task->number = e;
@@ -126,7 +126,7 @@ bool warnock_drop_hidden_edges(struct warnock *w, struct warnock_window *win,
 
 /* Do the intervals found so far hide all of the edge inside the window? */
 static bool is_hidden(const struct warnock *w, const struct edge_task *task) {
-  const occluded_intervals *both = &w->intervals.both;
+  const occluded_intervals *both = &w->intervals.merged;
   return both->count == 1 &&
          ratio_compare(both->item[0].from, task->from) == 0 &&
          ratio_compare(both->item[0].to, task->to) == 0;
@@ -137,8 +137,8 @@ static bool occlude_by(struct warnock *w, struct edge_task *task, uint32_t t) {
   struct occluded_interval hidden;
   if (t == task->edge->triangle[0] || t == task->edge->triangle[1] ||
       !occlusion_is_possible(w->sheet, t, task->p, task->q, task->box) ||
-      !occlude_edge_by(w->sheet, t, task->p, task->q, &hidden,
-                       &w->occlusion_counts))
+      !occlude_edge_by_triangle(w->sheet, t, task->p, task->q, &hidden,
+                                &w->occlusion_counts))
     return true;
   if (ratio_compare(hidden.from, task->from) < 0)
     hidden.from = task->from;

@@ -5,7 +5,7 @@
 /* ---- Faces --------------------------------------------------------------- */
 
 /* Makes surrounder t the front if its farthest depth there is nearer. */
-static void update_front(struct warnock *w, const struct window *window,
+static void update_front(struct warnock *w, const struct box2 *window,
                          uint32_t t, struct window_front *front) {
   struct surrounder_depths depth;
   surrounder_depths_of(w->sheet, t, window, &depth);
@@ -32,7 +32,7 @@ bool warnock_list_faces(struct warnock *w, struct warnock_window *win,
     enum window_class class;
     bool pushed = true;
     if (front->triangle != SHEET_NONE &&
-        (double)triangle_nearest(w->sheet, t) < front->depth.low) {
+        (double)triangle_nearest_z(w->sheet, t) < front->depth.low) {
       w->cut_short++;
       break;
     }
@@ -57,7 +57,7 @@ bool warnock_list_faces(struct warnock *w, struct warnock_window *win,
 }
 
 /* Is the triangle not behind the front at every corner of the window? */
-static bool may_be_visible(struct warnock *w, const struct window *window,
+static bool may_be_visible(struct warnock *w, const struct box2 *window,
                            const struct window_front *front,
                            uint32_t triangle) {
   bool hidden = surrounder_hides(w->sheet, &front->depth, window, triangle);

@@ -90,17 +90,17 @@ static int64_t floor_divide(int64_t num, int64_t den) {
 
 /* The block on the sheet, `margin` pixels wider on each side.  No face lies
  * beyond SHEET_XY_MAX: clipping the window there changes no class. */
-static struct window window_of(const struct subdivision *s,
-                               const struct block *b, int margin) {
+static struct box2 window_of(const struct subdivision *s, const struct block *b,
+                             int margin) {
   const struct scan_grid *g = &s->frame->raster.grid;
   int64_t x0 = g->x_first + (b->column_from - margin) * g->x_step;
   int64_t x1 = g->x_first + (b->column_past + margin) * g->x_step;
   int64_t y0 = g->y_first + (b->line_from - margin) * g->y_step;
   int64_t y1 = g->y_first + (b->line_past + margin) * g->y_step;
-  return (struct window){clamp_to_grid(floor_divide(x0, g->den)),
-                         clamp_to_grid(floor_divide(y0, g->den)),
-                         clamp_to_grid(-floor_divide(-x1, g->den)),
-                         clamp_to_grid(-floor_divide(-y1, g->den))};
+  return (struct box2){clamp_to_grid(floor_divide(x0, g->den)),
+                       clamp_to_grid(floor_divide(y0, g->den)),
+                       clamp_to_grid(-floor_divide(-x1, g->den)),
+                       clamp_to_grid(-floor_divide(-y1, g->den))};
 }
 
 /* ---- Pixels -------------------------------------------------------------- */
@@ -244,7 +244,7 @@ static void update_front(const struct subdivision *s, const struct block *b,
 }
 
 static enum window_class classify(struct subdivision *s,
-                                  const struct window *window, uint32_t t) {
+                                  const struct box2 *window, uint32_t t) {
   const uint32_t *corner, *side;
   struct geom_point p[FACET_CORNERS_MAX];
   uint32_t count = facet_outline(s->facets, s->sheet, t, &corner, &side);
@@ -258,7 +258,7 @@ static enum window_class classify(struct subdivision *s,
  * those that surround it.
  * hidden  gets whether the front hides the rest of the parent's faces
  * Returns false when memory ran out. */
-static bool list_faces(struct subdivision *s, const struct window *window,
+static bool list_faces(struct subdivision *s, const struct box2 *window,
                        const struct block *b, struct pixel_window *win,
                        struct pixel_front *front, bool *hidden) {
   struct pixel_range faces = win->faces, surrounders = win->surrounders;
@@ -306,7 +306,7 @@ static size_t drop_hidden(const struct subdivision *s, const struct block *b,
 static bool list_edges(struct subdivision *s, const struct block *b,
                        struct pixel_window *win) {
   struct pixel_range edges = win->edges;
-  struct window window = window_of(s, b, 1);
+  struct box2 window = window_of(s, b, 1);
   win->edges.from = s->edges.count;
   for (size_t i = edges.from; i < edges.to; i++) {
     uint32_t e = s->edges.item[i];
@@ -336,12 +336,12 @@ static bool divide(struct subdivision *s, const struct pixel_window *win) {
   if (s->request->divide_by_box && win->faces.from < win->faces.to) {
     struct box2 box =
         box2_of_triangle(s->sheet, s->faces.item[win->faces.from]);
-    x = window_cut(win->column, win->column + win->columns,
-                   pixel_of(box.x0, g->x_first, g->x_step, g->den),
-                   pixel_of(box.x1, g->x_first, g->x_step, g->den) + 1);
-    y = window_cut(win->line, win->line + win->lines,
-                   pixel_of(box.y0, g->y_first, g->y_step, g->den),
-                   pixel_of(box.y1, g->y_first, g->y_step, g->den) + 1);
+    x = window_split(win->column, win->column + win->columns,
+                     pixel_of(box.x0, g->x_first, g->x_step, g->den),
+                     pixel_of(box.x1, g->x_first, g->x_step, g->den) + 1);
+    y = window_split(win->line, win->line + win->lines,
+                     pixel_of(box.y0, g->y_first, g->y_step, g->den),
+                     pixel_of(box.y1, g->y_first, g->y_step, g->den) + 1);
   }
   for (int k = 0; k < 4; k++) {
     struct pixel_window part = *win;
@@ -361,7 +361,7 @@ static bool divide(struct subdivision *s, const struct pixel_window *win) {
 /* Finishes the window by one of the five rules, or divides it.  Sets *rule. */
 static bool apply_rules(struct subdivision *s, struct pixel_window *win,
                         const struct block *b, enum warnock_rule *rule) {
-  struct window window = window_of(s, b, 0);
+  struct box2 window = window_of(s, b, 0);
   struct pixel_front front;
   size_t faces, surrounders;
   bool hidden = false;

@@ -25,7 +25,7 @@ struct warnock_range {
 
 /* A window and its lists; on the stack, the lists of its parent. */
 struct warnock_window {
-  struct window window;
+  struct box2 window;
   double pairs; /* unsolved items times faces, of the parent */
   int futile;   /* consecutive divisions after which one quarter kept more than
                    half of the pairs */

@@ -4,7 +4,7 @@
 
 #include "visibility/predicate/occlusion.h"
 
-void warnock_window_lines(const struct window *window, struct geom_line line[4],
+void warnock_window_lines(const struct box2 *window, struct geom_line line[4],
                           struct geom_line back[4]) {
   const struct geom_point at[4] = {{window->x0, window->y0, 0},
                                    {window->x1, window->y0, 0},
@@ -17,9 +17,9 @@ void warnock_window_lines(const struct window *window, struct geom_line line[4],
   }
 }
 
-struct window warnock_page_window(const struct sheet *sheet) {
+struct box2 warnock_page_window(const struct sheet *sheet) {
   int64_t x0 = SHEET_XY_MAX, y0 = x0, x1 = -x0, y1 = -x0, side;
-  struct window window;
+  struct box2 window;
   for (size_t i = 0; i < sheet->point.count; i++) {
     struct geom_point p = sheet->point.item[i];
     if (p.x < x0)
@@ -43,8 +43,8 @@ struct window warnock_page_window(const struct sheet *sheet) {
     x0 = -SHEET_XY_MAX;
   if (y0 < -SHEET_XY_MAX)
     y0 = -SHEET_XY_MAX;
-  window = (struct window){(int32_t)x0, (int32_t)y0, (int32_t)(x0 + side),
-                           (int32_t)(y0 + side)};
+  window = (struct box2){(int32_t)x0, (int32_t)y0, (int32_t)(x0 + side),
+                         (int32_t)(y0 + side)};
   return window;
 }
 

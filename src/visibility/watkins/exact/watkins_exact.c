@@ -95,11 +95,11 @@ static bool store_edge(const struct sheet *sheet, uint32_t e,
   struct geom_point q = sheet->point.item[edge->point[1]];
   struct box2 box = box2_of_segment(p, q);
   edge_intervals_start(intervals);
-  for (size_t i = 0; i < count && !intervals->whole; i++) {
+  for (size_t i = 0; i < count && !intervals->occluded; i++) {
     uint32_t triangle = (uint32_t)pair[i].key;
     struct occluded_interval part;
     if (occlusion_is_possible(sheet, triangle, p, q, box) &&
-        occlude_edge_by(sheet, triangle, p, q, &part, counts) &&
+        occlude_edge_by_triangle(sheet, triangle, p, q, &part, counts) &&
         !edge_intervals_occlude(intervals, part))
       return false;
   }
@@ -210,7 +210,8 @@ static recto_status solve_fragments(struct exact *exact,
   exact->progress.stage = "faces";
   if (status == RECTO_OK)
     status = store_left_over(exact, sheet, request, &fragments, report, error);
-  if (status == RECTO_OK && !fragments_finish(&fragments, request->areas, map))
+  if (status == RECTO_OK &&
+      !fragments_finish(&fragments, request->exact_corners, map))
     status = progress_error(&progress, error);
   report_int(report, "watkins", "trapezoids_of_seen", (int64_t)cells->count);
   report_int(report, "watkins", "not_told_by_doubles", (int64_t)cells->asked);

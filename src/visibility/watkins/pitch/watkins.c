@@ -191,11 +191,11 @@ static struct span_side side_at(const struct watkins *watkins, uint32_t e,
   side.key = e;
   side.id = edge->side;
   if (edge->side == SHEET_NONE)
-    side.side = MAP_SIDE_CUT;
+    side.side = MAP_SIDE_CLIP;
   else if (has_face(watkins, edge, face))
     side.side = MAP_SIDE_EDGE;
   else
-    side.side = MAP_SIDE_OUTLINE;
+    side.side = MAP_SIDE_OCCLUDER;
   return side;
 }
 
