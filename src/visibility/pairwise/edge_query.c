@@ -1,4 +1,5 @@
-/* edge_query.c - what hides an edge, by lists of triangles by page tiles. */
+/* edge_query.c - finds the occluded intervals of an edge from the candidate
+ * lists of page tiles. */
 #include "visibility/pairwise/edge_query.h"
 
 #include <string.h>
@@ -18,6 +19,7 @@ void edge_query_fini(struct edge_query *query) {
   triangle_grid_query_fini(&query->found);
 }
 
+/* The point of the edge at parameter t, each coordinate rounded. */
 static struct geom_point point_of_edge(const struct edge_query *query,
                                        struct ratio t) {
   return (struct geom_point){(int32_t)ratio_lerp(t, query->p.x, query->q.x),
@@ -25,14 +27,15 @@ static struct geom_point point_of_edge(const struct edge_query *query,
                              ratio_lerp(t, query->p.z, query->q.z)};
 }
 
-/* Asks no more about what is hidden at the ends of the edge, where that makes
- * it much shorter.  The new ends were rounded, by less than a unit. */
-static void shorten(struct edge_query *query) {
+/* Shrinks the remaining part of the edge to what is not known to be hidden, if
+ * that makes it shorter by a quarter at least.  The 8-DOP is enlarged, because
+ * the new ends are rounded by less than a unit. */
+static void shrink_rest(struct edge_query *query) {
   struct occluded_interval rest = edge_intervals_remaining(&query->intervals);
   double share;
   if (rest.from.num == query->rest.from.num &&
       rest.to.num == query->rest.to.num)
-    return; /* the same place, or one that shortens by nothing much */
+    return; /* the same interval, or practically the same */
   query->rest = rest;
   share = ratio_to_double(rest.to) - ratio_to_double(rest.from);
   if (!(share < 0.75 * query->share))
@@ -49,9 +52,10 @@ static void shorten(struct edge_query *query) {
   query->kdop.low--;
 }
 
-/* What triangle t hides of the edge. */
-static bool query_occluder(struct edge_query *query, uint32_t t,
-                           struct occluded_interval *part) {
+/* Computes the interval of the edge that triangle t occludes; returns whether
+ * there is one. */
+static bool occlude_by_triangle(struct edge_query *query, uint32_t t,
+                                struct occluded_interval *part) {
   const struct occluder *occluder = query->lists->occluder;
   if (occluder == NULL)
     return occlude_edge_by_triangle(query->sheet, t, query->p, query->q, part,
@@ -60,55 +64,56 @@ static bool query_occluder(struct edge_query *query, uint32_t t,
          occlude_edge(&occluder[t], query->p, query->q, part, &query->counts);
 }
 
-/* Asks triangle t, which may meet the edge. */
-static bool query_triangle(struct edge_query *query, uint32_t t) {
+/* Tests triangle t, which may overlap the edge, and adds what it occludes. */
+static bool test_triangle(struct edge_query *query, uint32_t t) {
   struct occluded_interval part;
   if (t == query->triangle[0] || t == query->triangle[1] ||
-      (query->several && !triangle_grid_query_first(&query->found, t)) ||
-      !query_occluder(query, t, &part))
+      (query->several_cells && !triangle_grid_query_first(&query->found, t)) ||
+      !occlude_by_triangle(query, t, &part))
     return true;
   if (!edge_intervals_occlude(&query->intervals, part))
     return false;
   if (part.sides == OCCLUDED_BOTH && !query->intervals.occluded)
-    shorten(query);
+    shrink_rest(query);
   return true;
 }
 
-/* The cell at hand, and the question that the edge is there. */
+/* The current cell, and the 8-DOP query of the edge relative to it. */
 struct cell_query {
   size_t cell;
   struct kdop8_frame frame;
-  uint64_t question;
-  double share; /* of the edge when the question was put */
+  uint64_t kdop_query;
+  double share; /* that of the edge when the query was computed */
 };
 
-static void put_question(struct cell_query *at,
-                         const struct edge_query *query) {
+/* Computes the 8-DOP query anew if the edge was shortened. */
+static void update_kdop_query(struct cell_query *at,
+                              const struct edge_query *query) {
   if (at->share == query->share)
     return;
   at->share = query->share;
-  at->question = kdop8_query(&at->frame, &query->kdop);
+  at->kdop_query = kdop8_query(&at->frame, &query->kdop);
 }
 
-/* Asks the triangles of a tile's list that was parted. */
-static bool query_bsp(struct edge_query *query, struct cell_query *at) {
+/* Tests the triangles of a cell whose list has a BSP. */
+static bool test_bsp(struct edge_query *query, struct cell_query *at) {
   const struct triangle_grid *grid = &query->lists->grid;
   struct bsp_query shape = {.kind = BSP_SEGMENT,
                             .p = {query->end[0], query->end[1]}};
   struct bsp_traversal walk =
       bsp_traversal_from(triangle_grid_bsp(grid, at->cell));
-  const uint64_t *word = query->lists->word + grid->start[at->cell];
+  const uint64_t *key = query->lists->key + grid->start[at->cell];
   const struct bsp_node *node;
   while ((node = bsp_next(grid->bsp, &walk, &shape)) != NULL) {
     const struct bsp_member *member = grid->bsp->member.item + node->from;
     for (uint32_t i = 0; i < node->count; i++) {
-      if (!kdop8_overlaps(word[member[i].place], at->question))
+      if (!kdop8_overlaps(key[member[i].place], at->kdop_query))
         continue;
-      if (!query_triangle(query, member[i].triangle))
+      if (!test_triangle(query, member[i].triangle))
         return false;
       if (query->intervals.occluded)
         return true;
-      put_question(at, query);
+      update_kdop_query(at, query);
     }
     shape.p[0] = query->end[0];
     shape.p[1] = query->end[1];
@@ -116,8 +121,9 @@ static bool query_bsp(struct edge_query *query, struct cell_query *at) {
   return true;
 }
 
-/* Asks the triangles listed in a tile that may meet the edge. */
-static bool query_list(struct edge_query *query, int x, int y) {
+/* Tests the triangles listed in a cell whose 8-DOPs overlap that of the
+ * edge. */
+static bool test_cell(struct edge_query *query, int x, int y) {
   const struct tile_candidates *list = query->lists;
   size_t cell = (size_t)y * (size_t)list->grid.columns + (size_t)x;
   uint32_t i = list->grid.start[cell], end = list->grid.start[cell + 1];
@@ -125,17 +131,17 @@ static bool query_list(struct edge_query *query, int x, int y) {
   if (i == end)
     return true;
   at.frame = tile_candidates_frame(list, x, y);
-  put_question(&at, query);
+  update_kdop_query(&at, query);
   if (triangle_grid_bsp(&list->grid, cell) != SHEET_NONE)
-    return query_bsp(query, &at);
+    return test_bsp(query, &at);
   for (;; i++) {
-    while (i < end && !kdop8_overlaps(list->word[i], at.question))
+    while (i < end && !kdop8_overlaps(list->key[i], at.kdop_query))
       i++;
     if (i == end || query->intervals.occluded)
       return true;
-    if (!query_triangle(query, list->grid.item[i]))
+    if (!test_triangle(query, list->grid.item[i]))
       return false;
-    put_question(&at, query);
+    update_kdop_query(&at, query);
   }
 }
 
@@ -150,8 +156,8 @@ bool edge_query_solve(struct edge_query *query, uint32_t e) {
   query->kdop = kdop8_of_point(query->p);
   kdop8_add(&query->kdop, query->q);
   r = triangle_grid_cells(grid, box2_of_segment(query->p, query->q));
-  query->several = r.x0 < r.x1 || r.y0 < r.y1;
-  if (query->several)
+  query->several_cells = r.x0 < r.x1 || r.y0 < r.y1;
+  if (query->several_cells)
     triangle_grid_query_start(grid, &query->found);
   edge_intervals_start(&query->intervals);
   query->rest = edge_intervals_remaining(&query->intervals);
@@ -162,7 +168,7 @@ bool edge_query_solve(struct edge_query *query, uint32_t e) {
     int x0, x1;
     triangle_grid_row(grid, query->p, query->q, r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
-      if (!query_list(query, x, y))
+      if (!test_cell(query, x, y))
         return false;
   }
   return true;

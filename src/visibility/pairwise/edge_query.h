@@ -1,38 +1,46 @@
-/* edge_query.h - what hides an edge, by lists of triangles by page tiles
- * (tile_candidates.h): the nearest triangles first, and only those that may meet the
- * stretch of the edge that is not known to be hidden. */
+/* edge_query.h - finds the occluded intervals of an edge from the candidate
+ * lists of the page tiles it crosses (tile_candidates.h).
+ *
+ * Each list is searched from near to far.  A candidate is tested only if its
+ * 8-DOP (kdop8.h) overlaps that of the remaining part of the edge: the interval
+ * outside of which the edge is known to be hidden, which shrinks as occluders
+ * are found.
+ */
 #ifndef VISIBILITY_PAIRWISE_EDGE_QUERY_H
 #define VISIBILITY_PAIRWISE_EDGE_QUERY_H
 
 #include "visibility/predicate/edge_intervals.h"
 #include "visibility/pairwise/tile_candidates.h"
 
-/* One a thread, used edge by edge. */
+/* The state of the queries of one thread, one edge after another. */
 struct edge_query {
-  const struct sheet *sheet;           /* lent */
-  const struct tile_candidates *lists; /* lent */
+  const struct sheet *sheet;           /* borrowed, not owned */
+  const struct tile_candidates *lists; /* borrowed, not owned */
   struct triangle_grid_query found;
-  struct edge_intervals intervals; /* what is hidden of the edge: the answer */
+  struct edge_intervals intervals; /* the occluded ones: the result */
   struct occlusion_counts counts;
   /* The current edge. */
-  uint32_t triangle[2]; /* its own */
+  uint32_t triangle[2]; /* the triangles it belongs to */
   struct geom_point p, q;
-  /* What is not known to be hidden of it, and is still asked about. */
+  /* The remaining part of the edge, outside of which it is known to be
+   * hidden. */
   struct geom_point end[2];
   struct kdop8 kdop;
-  struct occluded_interval rest; /* the stretch between them */
-  double share;                  /* of its length */
-  bool several; /* it meets several tiles, and may meet a triangle in each */
+  struct occluded_interval rest; /* its parameters on the edge */
+  double share;                  /* its share of the edge's length */
+  bool several_cells; /* the edge crosses several cells, so that a triangle may
+                         be found more than once */
 };
 
-/* Returns false when memory ran out; ends with edge_query_fini either way. */
+/* Returns false when memory ran out; end with edge_query_fini either way. */
 USE_RESULT bool edge_query_init(struct edge_query *query,
                                 const struct sheet *sheet,
                                 const struct tile_candidates *lists);
 void edge_query_fini(struct edge_query *query);
 
-/* Finds what is hidden of an edge all of whose tiles have lists, into
- * query->strokes.  Returns false when memory ran out. */
+/* Computes the occluded intervals of edge e into query->intervals.  All tiles
+ * that the edge crosses must have lists.
+ * Returns false when memory ran out. */
 USE_RESULT bool edge_query_solve(struct edge_query *query, uint32_t e);
 
 #endif

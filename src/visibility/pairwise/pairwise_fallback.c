@@ -1,4 +1,5 @@
-/* pairwise_fallback.c - edges and faces that a method leaves undecided. */
+/* pairwise_fallback.c - solves single edges and faces that a method leaves
+ * undecided. */
 #include "visibility/pairwise/pairwise_fallback.h"
 
 #include <string.h>

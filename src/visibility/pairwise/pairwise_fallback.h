@@ -1,12 +1,13 @@
-/* pairwise_fallback.h - the edges and faces that a method leaves undecided, because its
- * own way with them would cost too much time or memory.
+/* pairwise_fallback.h - solves single edges and faces for a method whose own
+ * algorithm would take too much time or memory for them.
  *
- * Newell's splits, Warnock's windows and Watkins' trapezoids all grow with the
- * crossings of what is hidden, too.  Where they would grow out of bounds, each
- * method leaves the edge or the face to the lists of triangles by page tiles
- * (tile_candidates.h), where the tiles method solves what no tile decides: edges by
- * edge_query.h, faces by undecided_faces.h.  The answer is the same, for it depends on
- * the sheet alone; memory is linear in the triangles.
+ * The number of Newell's splits, of Warnock's windows and of Watkins'
+ * trapezoids grows with the crossings among hidden edges and faces too.  Where
+ * that number exceeds a method's limit, the method leaves the edge or the face
+ * undecided. Undecided ones are solved from lists of candidate triangles per
+ * page tile (tile_candidates.h), as the tiles method does: edges by
+ * edge_query.h, faces by undecided_faces.h.  The result is the same, since it
+ * depends on the sheet alone; memory is linear in the number of triangles.
  */
 #ifndef VISIBILITY_PAIRWISE_PAIRWISE_FALLBACK_H
 #define VISIBILITY_PAIRWISE_PAIRWISE_FALLBACK_H
@@ -16,35 +17,36 @@
 #include "visibility/progress.h"
 
 struct pairwise_fallback {
-  const struct sheet *sheet; /* lent */
-  struct progress *progress; /* lent */
+  const struct sheet *sheet; /* borrowed, not owned */
+  struct progress *progress; /* borrowed, not owned */
   struct tile_classification tiles;
   struct tile_candidates lists; /* of all tiles */
-  uint8_t *wanted;              /* one a tile: all of them */
+  uint8_t *wanted;              /* one per tile: 1, as all have lists */
   struct edge_query edge;
   struct undecided_faces undecided_faces;
-  uint8_t
-      *state; /* one a triangle, as of undecided_faces.h; NULL: lines only */
+  uint8_t *state; /* one per triangle, as in undecided_faces.h; NULL: the
+                     fallback serves edges only */
 };
 
-/* Lists the triangles; zero-initialised is empty, and pairwise_fallback_fini is due
- * either way.
- * fragments  faces will be asked for, not only edges
- * Returns false when memory ran out. */
+/* Lists the triangles.
+ * fragments  whether faces will be solved, not only edges
+ * Returns false when memory ran out; end with pairwise_fallback_fini either
+ * way, which also accepts a zero-initialised fallback. */
 USE_RESULT bool pairwise_fallback_init(struct pairwise_fallback *fallback,
                                        const struct sheet *sheet,
                                        bool fragments,
                                        struct progress *progress);
 void pairwise_fallback_fini(struct pairwise_fallback *fallback);
 
-/* Finds what is hidden of an edge, which is not a point on the page.  Returns
- * NULL when memory ran out, or the caller wants no more. */
+/* Computes the occluded intervals of edge e, whose ends differ on the page.
+ * Returns NULL when memory ran out or the caller cancelled.
+ * Owner  the fallback; valid until the next call */
 struct edge_intervals *
 pairwise_fallback_edge(struct pairwise_fallback *fallback, uint32_t e);
 
-/* Finds what is visible of these triangles, none of them flat, and hands it in;
- * puts them into another order.  Returns false when memory ran out, or the
- * caller wants no more. */
+/* Computes the visible pieces of triangles, none of them flat, and adds them to
+ * the fragments.  Reorders the list.
+ * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool pairwise_fallback_faces(struct pairwise_fallback *fallback,
                                         uint32_t *triangle, size_t count,
                                         struct fragments *fragments);

@@ -1,29 +1,31 @@
-/* tile_candidates.c - the triangles of the tiles that something was left over in. */
+/* tile_candidates.c - lists of candidate triangles for the page tiles in which
+ * edges or faces are undecided. */
 #include "visibility/pairwise/tile_candidates.h"
 
 #include <string.h>
 
 #include "base/sort.h"
 
-/* Lists this long on average are worth thinking of larger cells. */
-enum { LONG_LIST = 32 };
+/* Larger cells are considered only if
+ *   the lists are this long, on average over their entries, and
+ *   two triangles together are in this many tiles, on average. */
+enum { LONG_LIST = 32, TILES_OF_TWO = 5 };
 
-/* And so are triangles of which two are in so many tiles, on average. */
-enum { TILES_OF_TWO = 5 };
-
-/* Of a sheet of more triangles none is prepared: memory. */
-enum { PREPARED_MOST = 1 << 16 };
+/* If the sheet has more triangles, none is prepared as an occluder, to bound
+ * the memory. */
+enum { PREPARED_MAX = 1 << 16 };
 
 void tile_candidates_fini(struct tile_candidates *list) {
   triangle_grid_fini(&list->grid);
-  mem_free(list->word);
+  mem_free(list->key);
   mem_free(list->occluder);
-  list->word = NULL;
+  list->key = NULL;
   list->occluder = NULL;
 }
 
 /* ---- Cells --------------------------------------------------------------- */
 
+/* The cost of pairing the entries of every list, in pairs. */
 static double cost_of_lists(const struct triangle_grid *grid) {
   size_t cells = triangle_grid_cell_count(grid);
   double cost = 0;
@@ -52,10 +54,10 @@ static uint32_t *list_all(const struct triangle_grid *grid, size_t *count) {
   return all;
 }
 
-/* Prepares the triangles that are listed and may hide something. */
+/* Prepares the listed triangles as occluders, except flat ones. */
 static bool prepare(struct tile_candidates *list, const struct sheet *sheet,
                     const uint32_t *all, size_t count) {
-  if (sheet->triangle.count > PREPARED_MOST)
+  if (sheet->triangle.count > PREPARED_MAX)
     return true;
   list->occluder = mem_alloc(sheet->triangle.count, sizeof *list->occluder);
   if (list->occluder == NULL)
@@ -66,23 +68,23 @@ static bool prepare(struct tile_candidates *list, const struct sheet *sheet,
   return true;
 }
 
-/* Takes larger cells where they make fewer pairs. */
+/* Replaces the lists by those of larger cells if these give fewer pairs. */
 static bool enlarge(struct tile_candidates *list, const struct sheet *sheet) {
-  struct triangle_grid large = list->map->grid, *tiles = &list->grid;
-  double cost = cost_of_lists(tiles);
-  size_t count, entries = tiles->start[triangle_grid_cell_count(tiles)];
+  struct triangle_grid large = list->tiles->grid, *small = &list->grid;
+  double cost = cost_of_lists(small);
+  size_t count, entries = small->start[triangle_grid_cell_count(small)];
   uint32_t *all;
   bool ok;
   if (cost < LONG_LIST / 2 * (double)entries)
     return true;
-  all = list_all(tiles, &count);
+  all = list_all(small, &count);
   ok = all != NULL;
   if (ok && 2 * entries >= TILES_OF_TWO * count)
     ok = triangle_grid_enlarge(&large, sheet, all, count, &cost);
-  if (ok && large.shift > tiles->shift) {
-    triangle_grid_fini(tiles);
+  if (ok && large.shift > small->shift) {
+    triangle_grid_fini(small);
     list->grid = large;
-    list->of_tiles = false;
+    list->cells_are_tiles = false;
     ok = triangle_grid_fill_some(&list->grid, sheet, all, count) &&
          prepare(list, sheet, all, count);
   }
@@ -90,19 +92,20 @@ static bool enlarge(struct tile_candidates *list, const struct sheet *sheet) {
   return ok;
 }
 
-/* ---- Words --------------------------------------------------------------- */
+/* ---- Keys ---------------------------------------------------------------- */
 
-/* Depths of a tile, or for larger cells all of the sheet's, in 64 steps. */
+/* In the frame, the depth range of the tile, or for larger cells that of the
+ * sheet, is divided into 64 steps. */
 struct kdop8_frame tile_candidates_frame(const struct tile_candidates *list,
                                          int x, int y) {
   const struct triangle_grid *grid = &list->grid;
-  const struct tile_classification *map = list->map;
-  uint64_t depths =
-      list->of_tiles
-          ? map->tile[(size_t)y * (size_t)grid->columns + (size_t)x].depths
-          : map->depths;
-  int low = __builtin_ctzll(depths),
-      buckets = 64 - __builtin_clzll(depths) - low;
+  const struct tile_classification *tiles = list->tiles;
+  uint64_t z_buckets =
+      list->cells_are_tiles
+          ? tiles->tile[(size_t)y * (size_t)grid->columns + (size_t)x].z_buckets
+          : tiles->z_buckets;
+  int low = __builtin_ctzll(z_buckets),
+      buckets = 64 - __builtin_clzll(z_buckets) - low;
   int bits = buckets > 1 ? 32 - __builtin_clz((unsigned)buckets - 1) : 0;
   return (struct kdop8_frame){(int32_t)(grid->x0 + ((int64_t)x << grid->shift)),
                               (int32_t)(grid->y0 + ((int64_t)y << grid->shift)),
@@ -110,10 +113,11 @@ struct kdop8_frame tile_candidates_frame(const struct tile_candidates *list,
                               TILE_BUCKET_SHIFT + bits - 6};
 }
 
-/* Writes the words of a cell's list: none for what is seen edge-on and hides
- * nothing, so that next to no question meets it. */
-static void write_words(struct tile_candidates *list, const struct sheet *sheet,
-                        int x, int y, size_t from, size_t to) {
+/* Computes the keys of a cell's list.  A flat triangle, which is seen edge-on
+ * and occludes nothing, gets the key 0, which overlaps next to no query. */
+static void compute_keys(struct tile_candidates *list,
+                         const struct sheet *sheet, int x, int y, size_t from,
+                         size_t to) {
   struct kdop8_frame frame = tile_candidates_frame(list, x, y);
   for (size_t i = from; i < to; i++) {
     uint32_t t = list->grid.item[i];
@@ -121,49 +125,49 @@ static void write_words(struct tile_candidates *list, const struct sheet *sheet,
     struct kdop8 kdop = kdop8_of_point(sheet->point.item[p[0]]);
     kdop8_add(&kdop, sheet->point.item[p[1]]);
     kdop8_add(&kdop, sheet->point.item[p[2]]);
-    list->word[i] =
+    list->key[i] =
         sheet->triangle_flags[t] & SHEET_FLAT ? 0 : kdop8_key(&frame, &kdop);
   }
 }
 
-/* Puts the nearest triangles of a cell's list first: what is hidden is found
- * to be so by few of them.
+/* Sorts a cell's list from near to far, by counting sort: the nearest triangles
+ * are the most likely to hide an edge completely.
  * scratch  room for the list */
 static void sort_list(struct tile_candidates *list, size_t from, size_t to,
                       struct sort_key scratch[TRIANGLE_GRID_SPLIT]) {
   uint32_t start[KDOP8_MOST + 1] = {0}, sum = 0;
   uint32_t *item = list->grid.item + from;
-  uint64_t *word = list->word + from;
+  uint64_t *key = list->key + from;
   size_t n = to - from;
   for (size_t i = 0; i < n; i++) {
-    scratch[i] = (struct sort_key){word[i], item[i]};
-    start[kdop8_nearest(word[i])]++;
+    scratch[i] = (struct sort_key){key[i], item[i]};
+    start[kdop8_nearest(key[i])]++;
   }
-  for (int depth = KDOP8_MOST; depth >= 0; depth--) {
-    uint32_t here = start[depth];
-    start[depth] = sum;
+  for (int step = KDOP8_MOST; step >= 0; step--) {
+    uint32_t here = start[step];
+    start[step] = sum;
     sum += here;
   }
   for (size_t i = 0; i < n; i++) {
-    uint32_t to_place = start[kdop8_nearest(scratch[i].key)]++;
-    word[to_place] = scratch[i].key;
-    item[to_place] = scratch[i].value;
+    uint32_t place = start[kdop8_nearest(scratch[i].key)]++;
+    key[place] = scratch[i].key;
+    item[place] = scratch[i].value;
   }
 }
 
-static bool add_words(struct tile_candidates *list, const struct sheet *sheet) {
+static bool add_keys(struct tile_candidates *list, const struct sheet *sheet) {
   const struct triangle_grid *grid = &list->grid;
   struct sort_key scratch[TRIANGLE_GRID_SPLIT];
   size_t cell = 0;
-  list->word = mem_alloc(grid->start[triangle_grid_cell_count(grid)],
-                         sizeof *list->word);
-  if (list->word == NULL)
+  list->key =
+      mem_alloc(grid->start[triangle_grid_cell_count(grid)], sizeof *list->key);
+  if (list->key == NULL)
     return false;
   for (int y = 0; y < grid->rows; y++)
     for (int x = 0; x < grid->columns; x++, cell++)
       if (grid->start[cell] < grid->start[cell + 1]) {
         size_t from = grid->start[cell], to = grid->start[cell + 1];
-        write_words(list, sheet, x, y, from, to);
+        compute_keys(list, sheet, x, y, from, to);
         if (to - from < TRIANGLE_GRID_SPLIT)
           sort_list(list, from, to, scratch);
       }
@@ -171,13 +175,13 @@ static bool add_words(struct tile_candidates *list, const struct sheet *sheet) {
 }
 
 bool tile_candidates_fill(struct tile_candidates *list,
-                          const struct tile_classification *map,
+                          const struct tile_classification *tiles,
                           const struct sheet *sheet, const uint8_t *wanted) {
   tile_candidates_fini(list);
-  *list =
-      (struct tile_candidates){.grid = map->grid, .of_tiles = true, .map = map};
-  return triangle_grid_fill(&list->grid, sheet, map->print, wanted,
-                            map->horizon) &&
+  *list = (struct tile_candidates){
+      .grid = tiles->grid, .cells_are_tiles = true, .tiles = tiles};
+  return triangle_grid_fill(&list->grid, sheet, tiles->footprint, wanted,
+                            tiles->horizon) &&
          enlarge(list, sheet) && triangle_grid_split(&list->grid, true) &&
-         add_words(list, sheet);
+         add_keys(list, sheet);
 }

@@ -1,11 +1,11 @@
-/* tile_candidates.h - the triangles of the tiles that something was left over in, for
- * all that is asked of pairs.
+/* tile_candidates.h - lists of candidate triangles for the page tiles in which
+ * edges or faces are undecided.
  *
- * The lists are those of the tiles, without what is behind their horizons.
- * Large faces are in very many tiles, though, and any two of them meet in each:
- * where larger cells make fewer pairs of what is listed anywhere, the lists are
- * theirs.  Each triangle has a word (kdop8.h), and what is nearest comes
- * first.
+ * A list holds the triangles of one tile, without those behind its horizon.  As
+ * a large face is in many tiles, and two of them would be paired in each tile
+ * that they share, larger cells are used instead if they give fewer pairs of
+ * the triangles that are listed anywhere.  Each entry has an 8-DOP key
+ * (kdop8.h). Entries are sorted from near to far.
  */
 #ifndef VISIBILITY_PAIRWISE_TILE_CANDIDATES_H
 #define VISIBILITY_PAIRWISE_TILE_CANDIDATES_H
@@ -16,23 +16,26 @@
 
 struct tile_candidates {
   struct triangle_grid grid;
-  bool of_tiles;  /* its cells are the tiles */
-  uint64_t *word; /* one a listed triangle */
-  /* One a triangle, of those in lists of larger cells, which are asked again
-   * and again; NULL: none is prepared. */
+  bool cells_are_tiles; /* false: they are larger */
+  uint64_t *key;        /* of kdop8.h, one per entry */
+  /* One per triangle, prepared for those in the lists of larger cells, which
+   * are tested repeatedly; NULL: none is prepared. */
   struct occluder *occluder;
-  const struct tile_classification *map; /* lent */
+  const struct tile_classification *tiles; /* borrowed, not owned */
 };
 
-/* Lists the triangles of the wanted tiles; zero-initialised is empty, and lists
- * before are forgotten.  False when memory ran out. */
+/* Lists the triangles of the wanted tiles, in place of all lists made before; a
+ * zero-initialised struct has none.
+ * wanted  one per tile: not 0 where a list is needed
+ * Returns false when memory ran out. */
 USE_RESULT bool tile_candidates_fill(struct tile_candidates *list,
-                                     const struct tile_classification *map,
+                                     const struct tile_classification *tiles,
                                      const struct sheet *sheet,
                                      const uint8_t *wanted);
 void tile_candidates_fini(struct tile_candidates *list);
 
-/* What the words of a cell's list, which is not empty, are relative to. */
+/* The frame that the keys of a cell's list, which is not empty, are relative
+ * to. */
 struct kdop8_frame tile_candidates_frame(const struct tile_candidates *list,
                                          int x, int y);
 

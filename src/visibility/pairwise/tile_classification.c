@@ -1,10 +1,14 @@
-/* tile_classification.c - page tiles over which a layer of many small faces hides all that
- * is behind it.
+/* tile_classification.c - finds the page tiles over which a front layer of
+ * faces hides everything behind it.
  *
- * Phases: stream the faces once, and gather of each tile the depths that its
- * faces are in, the two nearest faces over its sample, and the nearest one that
- * forbids telling; find each tile's front layer, which is simple where just one
- * of its faces is over the sample; refuse tiles with contours in the layer.
+ * Phases
+ *   1 visit the faces once; collect for each tile the depth buckets of its
+ *     faces, the two nearest faces over its sample point, and the nearest face
+ *     that makes the sample unusable
+ *   2 find each tile's front layer; the tile is simple if exactly one face of
+ *     the layer is over the sample point
+ *   3 reject the tiles that a contour enters at the depths of the layer
+ * If the depth complexity is high, a phase after the first finds the horizons.
  */
 #include "visibility/pairwise/tile_classification.h"
 
@@ -14,27 +18,29 @@
 #include "visibility/predicate/occlusion.h"
 #include "visibility/predicate/surrounder.h"
 
+/* Depth complexity is the mean number of faces over a point of the page; a
+ * scene is called deep if it is above DEEP. */
 enum {
-  SPREAD = 2, /* cells a triangle is in, on average: a tile is about an edge */
-  SOUP = 32,  /* faces over a point, on average, that make a soup */
-  SOUP_CELLS = 1 << 22, /* cells of all triangles of a soup together */
-  SOUP_SPREAD = 256,    /* but no more of each */
-  SOUP_QUESTIONS = 8,   /* cells cost a tenth of asking so many edges */
-  SOUP_FACE = 16,       /* edges that a face counts for */
-  BOX_PER_AREA = 4,     /* a common triangle's box has so many times its area */
-  SAMPLE = 1 << 12
+  TILES_PER_TRIANGLE = 2,        /* on average: a tile is about an edge long */
+  DEEP = 32,                     /* faces over a point, on average */
+  DEEP_TILES_TOTAL = 1 << 22,    /* of all triangles of a deep scene together */
+  DEEP_TILES_PER_TRIANGLE = 256, /* at most, on average */
+  DEEP_QUERIES_PER_TILE = 8, /* a tile costs a tenth of so many edge queries */
+  QUERIES_PER_FACE = 16,     /* a face takes as long as so many edges */
+  BOX_PER_AREA = 4, /* a typical triangle's box has this multiple of its area */
+  SAMPLE = 1 << 12  /* triangles that estimate the depth complexity */
 };
 
 static uint64_t bucket_mask(int low, int high) {
   return (~UINT64_C(0) >> (TILE_BUCKETS - 1 - high)) & (~UINT64_C(0) << low);
 }
 
-static struct tile *tile_at(const struct tile_classification *map, int x,
+static struct tile *tile_at(const struct tile_classification *tiles, int x,
                             int y) {
-  return &map->tile[(size_t)y * (size_t)map->grid.columns + (size_t)x];
+  return &tiles->tile[(size_t)y * (size_t)tiles->grid.columns + (size_t)x];
 }
 
-/* ---- Gathering ----------------------------------------------------------- */
+/* ---- Collecting the faces of each tile ----------------------------------- */
 
 struct corners {
   struct geom_point p[3];
@@ -46,51 +52,54 @@ static inline struct corners corners_of(const struct sheet *sheet, size_t t) {
                            sheet->point.item[p[2]]}};
 }
 
-/* The line functions of a triangle's sides, positive within it, at places a
- * tile's side apart.  Within the triangle's box they are below 2^62; one step
- * beyond they may wrap, unread. */
-struct contour_walk {
+/* The edge functions of a triangle's sides, which are positive inside it,
+ * evaluated incrementally at points one tile apart: their values and their
+ * increments per step to the right and up.  Within the triangle's box they are
+ * below 2^62; one step outside they may wrap around, but are not read there. */
+struct edge_functions {
   uint64_t at[3], right[3], up[3];
 };
 
-/* Starts at (x, y); or, with `least`, has the least values over the tile whose
- * lower left corner that is. */
-static inline struct contour_walk walk_of(const struct corners *corners,
-                                          int64_t x, int64_t y, int shift,
-                                          bool least) {
-  struct contour_walk walk;
+/* The edge functions at (x, y); or, if `least`, their least values over the
+ * tile whose lower left corner is (x, y). */
+static inline struct edge_functions
+edge_functions_at(const struct corners *corners, int64_t x, int64_t y,
+                  int shift, bool least) {
+  struct edge_functions functions;
   for (int k = 0; k < 3; k++) {
     struct geom_point a = corners->p[k], b = corners->p[k == 2 ? 0 : k + 1];
     int64_t dx = (int64_t)b.x - a.x, dy = (int64_t)b.y - a.y;
     int64_t side = least ? INT64_C(1) << shift : 0;
-    walk.at[k] = (uint64_t)(dx * (y + (dx < 0 ? side : 0) - a.y) -
-                            dy * (x + (dy > 0 ? side : 0) - a.x));
-    walk.right[k] = (uint64_t)-dy << shift;
-    walk.up[k] = (uint64_t)dx << shift;
+    functions.at[k] = (uint64_t)(dx * (y + (dx < 0 ? side : 0) - a.y) -
+                                 dy * (x + (dy > 0 ? side : 0) - a.x));
+    functions.right[k] = (uint64_t)-dy << shift;
+    functions.up[k] = (uint64_t)dx << shift;
   }
-  return walk;
+  return functions;
 }
 
-static inline void walk_right(struct contour_walk *walk) {
+static inline void step_right(struct edge_functions *functions) {
   for (int k = 0; k < 3; k++)
-    walk->at[k] += walk->right[k];
+    functions->at[k] += functions->right[k];
 }
 
-static inline void walk_up(struct contour_walk *walk) {
+static inline void step_up(struct edge_functions *functions) {
   for (int k = 0; k < 3; k++)
-    walk->at[k] += walk->up[k];
+    functions->at[k] += functions->up[k];
 }
 
-/* Are all three values positive? */
-static inline bool walk_is_inside(const struct contour_walk *walk) {
-  return (((walk->at[0] - 1) | (walk->at[1] - 1) | (walk->at[2] - 1)) >> 63) ==
-         0;
+/* Returns whether all three values are positive. */
+static inline bool is_inside(const struct edge_functions *functions) {
+  return (((functions->at[0] - 1) | (functions->at[1] - 1) |
+           (functions->at[2] - 1)) >>
+          63) == 0;
 }
 
-/* May the triangle hide, or touch, across an empty bucket?  Its contact
- * tolerance (occlusion.h), bounded from above, against a bucket's depth: half of
- * it is room enough for the roundings.
- * all  what bounds the tolerances of all triangles: asked first */
+/* Returns whether the triangle may hide or touch something across an empty
+ * bucket: whether an upper bound of its contact tolerance (occlusion.h) exceeds
+ * half a bucket's depth; the other half exceeds all rounding errors.
+ * all  a coarser bound for the tolerances of all triangles, which is tried
+ *      first */
 static bool is_steep(const struct sheet *sheet,
                      const struct occlusion_bound *all, uint32_t triangle,
                      const struct corners *corners) {
@@ -105,32 +114,33 @@ static bool is_steep(const struct sheet *sheet,
   return !(occlusion_tolerance_bound(sheet, triangle, p[0], nx, ny, nz) < room);
 }
 
-/* What is asked for every triangle, held by value: what is written to the
- * tiles does not change it. */
-struct tile_gathering {
+/* What is read for every triangle, as a copy, so that the compiler knows that
+ * writing to the tiles does not change it. */
+struct tile_collection {
   struct triangle_grid grid;
   struct tile *tile;
-  /* Where the first tile is sampled: off the middle, so that regular meshes
-   * whose edges run along the grid are not met on an edge again and again. */
+  /* The sample point of the first tile.  It is off the middle, because in
+   * regular meshes whose edges are aligned with the grid the middle would often
+   * be on an edge. */
   int64_t sample_x, sample_y;
 };
 
-static inline struct tile *gathering_tile(const struct tile_gathering *g, int x,
-                                          int y) {
+static inline struct tile *collection_tile(const struct tile_collection *g,
+                                           int x, int y) {
   return &g->tile[(size_t)y * (size_t)g->grid.columns + (size_t)x];
 }
 
-static struct tile_gathering
-gathering_of(const struct tile_classification *map) {
-  const struct triangle_grid *grid = &map->grid;
+static struct tile_collection
+collection_of(const struct tile_classification *tiles) {
+  const struct triangle_grid *grid = &tiles->grid;
   int64_t side = INT64_C(1) << grid->shift;
-  return (struct tile_gathering){*grid, map->tile, grid->x0 + side * 37 / 64,
-                                 grid->y0 + side * 29 / 64};
+  return (struct tile_collection){*grid, tiles->tile, grid->x0 + side * 37 / 64,
+                                  grid->y0 + side * 29 / 64};
 }
 
-/* The columns, or rows, whose samples are in [low, high]; *past <= *first:
- * none.
- * origin  where the first one is sampled */
+/* Finds the columns, or rows, from *first to before *past whose sample points
+ * are in [low, high]; there are none if *past <= *first.
+ * origin  the sample point of column or row 0 */
 static inline void find_samples(int32_t low, int32_t high, int64_t origin,
                                 int shift, int count, int *first, int *past) {
   int64_t from = (low - origin + (INT64_C(1) << shift) - 1) >> shift;
@@ -139,16 +149,18 @@ static inline void find_samples(int32_t low, int32_t high, int64_t origin,
   *past = to < count ? (int)to + 1 : count;
 }
 
-static inline void note_bar(struct tile *tile, uint8_t note) {
-  if (tile->bar < note)
-    tile->bar = note;
+/* Records a face that makes the tile's sample unusable. */
+static inline void add_unsafe_to(struct tile *tile, uint8_t farthest) {
+  if (tile->unsafe < farthest)
+    tile->unsafe = farthest;
 }
 
-/* Notes the triangle where it is over the tile's sample; where the sample is
- * on one of its sides that cannot be told. */
-static inline void query_sample(struct tile *tile,
-                                const struct corners *corners,
-                                struct geom_point sample, uint8_t note) {
+/* Records the triangle if it is over the tile's sample point.  If the sample is
+ * on one of its sides, it is unusable.
+ * farthest  the triangle's farthest bucket + 1 */
+static inline void add_to_sample(struct tile *tile,
+                                 const struct corners *corners,
+                                 struct geom_point sample, uint8_t farthest) {
   const struct geom_point *p = corners->p;
   int64_t a = geom_orient2d(p[0], p[1], sample),
           b = geom_orient2d(p[1], p[2], sample),
@@ -156,18 +168,19 @@ static inline void query_sample(struct tile *tile,
   if ((a | b | c) < 0)
     return;
   if (a == 0 || b == 0 || c == 0) {
-    note_bar(tile, note);
-  } else if (note > tile->over[0]) {
-    tile->over[1] = tile->over[0];
-    tile->over[0] = note;
-  } else if (note > tile->over[1]) {
-    tile->over[1] = note;
+    add_unsafe_to(tile, farthest);
+  } else if (farthest > tile->nearest[0]) {
+    tile->nearest[1] = tile->nearest[0];
+    tile->nearest[0] = farthest;
+  } else if (farthest > tile->nearest[1]) {
+    tile->nearest[1] = farthest;
   }
 }
 
-static inline void query_samples(const struct tile_gathering *g,
-                                 const struct corners *corners, struct box2 box,
-                                 uint8_t note) {
+/* The same for all sample points within the triangle's box. */
+static inline void add_to_samples(const struct tile_collection *g,
+                                  const struct corners *corners,
+                                  struct box2 box, uint8_t farthest) {
   const struct triangle_grid *grid = &g->grid;
   int x0, x1, y0, y1;
   find_samples(box.x0, box.x1, g->sample_x, grid->shift, grid->columns, &x0,
@@ -178,7 +191,7 @@ static inline void query_samples(const struct tile_gathering *g,
       struct geom_point sample = {
           (int32_t)(g->sample_x + ((int64_t)x << grid->shift)),
           (int32_t)(g->sample_y + ((int64_t)y << grid->shift)), 0};
-      query_sample(gathering_tile(g, x, y), corners, sample, note);
+      add_to_sample(collection_tile(g, x, y), corners, sample, farthest);
     }
 }
 
@@ -190,32 +203,33 @@ static inline struct box2 box_of(const struct corners *corners) {
                        box2_max(p[0].y, box2_max(p[1].y, p[2].y))};
 }
 
-/* The depths that a triangle is in, for all its tiles. */
-static inline void add_depths(const struct tile_gathering *g,
-                              struct cell_range r, uint64_t mask) {
+/* Adds a triangle's depth buckets to all its tiles. */
+static inline void add_buckets(const struct tile_collection *g,
+                               struct cell_range r, uint64_t mask) {
   for (int y = r.y0; y <= r.y1; y++) {
-    struct tile *tile = gathering_tile(g, r.x0, y), *end = tile + r.x1 - r.x0;
+    struct tile *tile = collection_tile(g, r.x0, y), *end = tile + r.x1 - r.x0;
     for (; tile <= end; tile++)
-      tile->depths |= mask;
+      tile->z_buckets |= mask;
   }
 }
 
-static void add_bar(const struct tile_gathering *g, struct cell_range r,
-                    uint8_t note) {
+/* Makes the samples of all tiles of a triangle unusable. */
+static void add_unsafe(const struct tile_collection *g, struct cell_range r,
+                       uint8_t farthest) {
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++)
-      note_bar(gathering_tile(g, x, y), note);
+      add_unsafe_to(collection_tile(g, x, y), farthest);
 }
 
-/* Streams the triangles: their cells and buckets, and what tiles note. */
-static void gather(struct tile_classification *map, const struct sheet *sheet,
-                   bool fragments) {
+/* Phase 1: visits the triangles once. */
+static void collect(struct tile_classification *tiles,
+                    const struct sheet *sheet, bool fragments) {
   const struct occlusion_bound all = occlusion_tolerance_bound_all(sheet);
-  const struct tile_gathering g = gathering_of(map);
+  const struct tile_collection g = collection_of(tiles);
   const struct sheet_triangle *triangle = sheet->triangle.item;
   const struct geom_point *point = sheet->point.item;
   const uint8_t *flags = sheet->triangle_flags;
-  struct footprint *print = map->print;
+  struct footprint *footprint = tiles->footprint;
   for (size_t t = 0, n = sheet->triangle.count; t < n; t++) {
     const uint32_t *p = triangle[t].point;
     const struct corners corners = {{point[p[0]], point[p[1]], point[p[2]]}};
@@ -225,57 +239,59 @@ static void gather(struct tile_classification *map, const struct sheet *sheet,
     int64_t least = z0 < z1 ? z0 : z1, most = z0 > z1 ? z0 : z1;
     int low = tile_bucket(z2 < least ? z2 : least),
         high = tile_bucket(z2 > most ? z2 : most);
-    print[t] = footprint_of(r, low, high);
-    add_depths(&g, r, bucket_mask(low, high));
+    footprint[t] = footprint_of(r, low, high);
+    add_buckets(&g, r, bucket_mask(low, high));
     if (flags[t] & SHEET_FLAT)
       continue;
     if (is_steep(sheet, &all, (uint32_t)t, &corners))
-      add_bar(&g, r, fragments ? UINT8_MAX : (uint8_t)(low + 1));
+      add_unsafe(&g, r, fragments ? UINT8_MAX : (uint8_t)(low + 1));
     else
-      query_samples(&g, &corners, box, (uint8_t)(low + 1));
+      add_to_samples(&g, &corners, box, (uint8_t)(low + 1));
   }
 }
 
-/* ---- Judging ------------------------------------------------------------- */
+/* ---- Classifying --------------------------------------------------------- */
 
-/* The lowest bit of the topmost run of ones; depths != 0. */
-static int bottom_of_front(uint64_t depths) {
-  int above = __builtin_clzll(depths);
-  uint64_t gaps = ~(depths << above);
+/* The lowest bit of the highest run of ones: the farthest bucket of the front
+ * layer.  z_buckets is not 0. */
+static int front_layer_bottom(uint64_t z_buckets) {
+  int above = __builtin_clzll(z_buckets);
+  uint64_t gaps = ~(z_buckets << above);
   int run = gaps == 0 ? TILE_BUCKETS : __builtin_clzll(gaps);
   return TILE_BUCKETS - above - run;
 }
 
-/* Where just one face of the front layer is over the sample, and none forbids
- * telling, the layer is there once. */
-static void judge(struct tile_classification *map) {
-  size_t n = triangle_grid_cell_count(&map->grid);
+/* Phase 2: if exactly one face of the front layer is over the sample point, and
+ * none makes the sample unusable, the layer covers the tile exactly once. */
+static void find_simple_tiles(struct tile_classification *tiles) {
+  size_t n = triangle_grid_cell_count(&tiles->grid);
   for (size_t i = 0; i < n; i++) {
-    struct tile *tile = &map->tile[i];
-    if (tile->depths == 0)
+    struct tile *tile = &tiles->tile[i];
+    if (tile->z_buckets == 0)
       continue;
-    map->depths |= tile->depths;
-    int front = bottom_of_front(tile->depths);
-    bool simple =
-        tile->over[0] > front && tile->over[1] <= front && tile->bar <= front;
+    tiles->z_buckets |= tile->z_buckets;
+    int front = front_layer_bottom(tile->z_buckets);
+    bool simple = tile->nearest[0] > front && tile->nearest[1] <= front &&
+                  tile->unsafe <= front;
     tile->front = (uint8_t)front;
     tile->state = simple ? TILE_SIMPLE : TILE_MIXED;
   }
 }
 
-static void refuse_contours(struct tile_classification *map,
+/* Phase 3. */
+static void reject_contours(struct tile_classification *tiles,
                             const struct sheet *sheet) {
   for (size_t i = 0; i < sheet->contour.count; i++) {
     struct geom_point p = sheet->point.item[sheet->contour.item[i].point[0]],
                       q = sheet->point.item[sheet->contour.item[i].point[1]];
     struct cell_range r =
-        triangle_grid_cells(&map->grid, box2_of_segment(p, q));
+        triangle_grid_cells(&tiles->grid, box2_of_segment(p, q));
     int high = tile_bucket(p.z > q.z ? p.z : q.z);
     for (int y = r.y0; y <= r.y1; y++) {
       int x0, x1;
-      triangle_grid_row(&map->grid, p, q, r, y, &x0, &x1);
+      triangle_grid_row(&tiles->grid, p, q, r, y, &x0, &x1);
       for (int x = x0; x <= x1; x++) {
-        struct tile *tile = tile_at(map, x, y);
+        struct tile *tile = tile_at(tiles, x, y);
         if (high >= tile->front)
           tile->state = TILE_MIXED;
       }
@@ -290,10 +306,11 @@ static struct box2 tile_window(const struct triangle_grid *grid, int x, int y) {
                        (int32_t)(y0 + side)};
 }
 
-/* How many triangles are over a point of the page, on average; about, and no
- * more than their boxes.  Needles are not what soups are made of. */
-static double mean_layers(const struct sheet *sheet,
-                          const struct triangle_grid *grid) {
+/* Estimates the depth complexity from a sample of the triangles.  A triangle
+ * counts with the area of its box, but at most BOX_PER_AREA times its own area,
+ * so that needles count for little. */
+static double depth_complexity(const struct sheet *sheet,
+                               const struct triangle_grid *grid) {
   size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
   double side = (double)(INT64_C(1) << grid->shift), sum = 0;
   for (size_t t = 0; t < n; t += stride) {
@@ -308,25 +325,25 @@ static double mean_layers(const struct sheet *sheet,
   return sum / (side * side * grid->columns * grid->rows);
 }
 
-/* The horizons of the tiles that the triangle surrounds: of a row, those in one
- * stretch. */
-static void raise_horizons(struct tile_classification *map,
+/* Raises the horizons of the tiles that the triangle surrounds; in a row these
+ * tiles are consecutive. */
+static void raise_horizons(struct tile_classification *tiles,
                            const struct sheet *sheet, size_t t) {
-  const struct triangle_grid *grid = &map->grid;
-  struct cell_range r = footprint_cells(grid, sheet, t, map->print[t]);
+  const struct triangle_grid *grid = &tiles->grid;
+  struct cell_range r = footprint_cells(grid, sheet, t, tiles->footprint[t]);
   if (r.x1 - r.x0 < 2 || r.y1 - r.y0 < 2)
     return;
   struct corners corners = corners_of(sheet, t);
   struct box2 first = tile_window(grid, r.x0 + 1, r.y0 + 1);
-  struct contour_walk walk =
-      walk_of(&corners, first.x0, first.y0, grid->shift, true);
+  struct edge_functions functions =
+      edge_functions_at(&corners, first.x0, first.y0, grid->shift, true);
   struct surrounder_plane plane = surrounder_plane_of(sheet, (uint32_t)t);
-  for (int y = r.y0 + 1; y < r.y1; y++, walk_up(&walk)) {
-    struct contour_walk row = walk;
-    double *horizon = &map->horizon[(size_t)y * (size_t)grid->columns];
+  for (int y = r.y0 + 1; y < r.y1; y++, step_up(&functions)) {
+    struct edge_functions row = functions;
+    double *horizon = &tiles->horizon[(size_t)y * (size_t)grid->columns];
     bool inside = false;
-    for (int x = r.x0 + 1; x < r.x1; x++, walk_right(&row)) {
-      if (!walk_is_inside(&row)) {
+    for (int x = r.x0 + 1; x < r.x1; x++, step_right(&row)) {
+      if (!is_inside(&row)) {
         if (inside)
           break;
         continue;
@@ -340,101 +357,105 @@ static void raise_horizons(struct tile_classification *map,
   }
 }
 
-/* Fragments ask which faces touch, and a steep one may touch across a
- * horizon: it takes the horizons of its tiles away. */
-static void drop_horizons(struct tile_classification *map,
+/* Removes the horizons of the triangle's tiles if it is steep, as it may then
+ * be in contact with a face across the horizon; contact matters for
+ * fragments. */
+static void drop_horizons(struct tile_classification *tiles,
                           const struct sheet *sheet,
                           const struct occlusion_bound *all, size_t t) {
   struct corners corners = corners_of(sheet, t);
   struct cell_range r;
   if (!is_steep(sheet, all, (uint32_t)t, &corners))
     return;
-  r = footprint_cells(&map->grid, sheet, t, map->print[t]);
+  r = footprint_cells(&tiles->grid, sheet, t, tiles->footprint[t]);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++)
-      map->horizon[(size_t)y * (size_t)map->grid.columns + (size_t)x] = -1;
+      tiles->horizon[(size_t)y * (size_t)tiles->grid.columns + (size_t)x] = -1;
 }
 
-static bool find_horizons(struct tile_classification *map,
+static bool find_horizons(struct tile_classification *tiles,
                           const struct sheet *sheet, bool fragments) {
   struct occlusion_bound all = occlusion_tolerance_bound_all(sheet);
-  size_t n = triangle_grid_cell_count(&map->grid);
-  map->horizon = mem_alloc(n, sizeof *map->horizon);
-  if (map->horizon == NULL)
+  size_t n = triangle_grid_cell_count(&tiles->grid);
+  tiles->horizon = mem_alloc(n, sizeof *tiles->horizon);
+  if (tiles->horizon == NULL)
     return false;
   for (size_t i = 0; i < n; i++)
-    map->horizon[i] = -1;
+    tiles->horizon[i] = -1;
   for (size_t t = 0; t < sheet->triangle.count; t++)
     if (!(sheet->triangle_flags[t] & SHEET_FLAT))
-      raise_horizons(map, sheet, t);
+      raise_horizons(tiles, sheet, t);
   if (!fragments)
     return true;
   for (size_t i = 0; i < n; i++)
-    map->horizon[i] -= (double)(INT64_C(1) << TILE_BUCKET_SHIFT);
+    tiles->horizon[i] -= (double)(INT64_C(1) << TILE_BUCKET_SHIFT);
   for (size_t t = 0; t < sheet->triangle.count; t++)
     if (!(sheet->triangle_flags[t] & SHEET_FLAT))
-      drop_horizons(map, sheet, &all, t);
+      drop_horizons(tiles, sheet, &all, t);
   return true;
 }
 
-/* Edges and faces that are asked about; a face takes a good deal longer. */
-static uint64_t count_questions(const struct sheet *sheet, bool strokes,
-                                bool fragments) {
-  uint64_t count = fragments ? SOUP_FACE * sheet->triangle.count : 0;
+/* The number of edges to solve, plus that of the faces times
+ * QUERIES_PER_FACE. */
+static uint64_t count_queries(const struct sheet *sheet, bool strokes,
+                              bool fragments) {
+  uint64_t count = fragments ? QUERIES_PER_FACE * sheet->triangle.count : 0;
   for (size_t e = 0; strokes && e < sheet->edge.count; e++)
     count += sheet->edge.item[e].edge_class != 0;
   return count;
 }
 
-/* The cells of a soup: so many that horizons are found well, so few that
- * they cost little beside asking everything. */
-static void shape_soup(struct tile_classification *map,
-                       const struct sheet *sheet, bool strokes,
-                       bool fragments) {
-  uint64_t spread = SOUP_CELLS / sheet->triangle.count + SPREAD;
-  uint64_t most =
-      count_questions(sheet, strokes, fragments) / SOUP_QUESTIONS + SPREAD;
-  if (spread > most)
-    spread = most;
-  if (spread > SOUP_SPREAD)
-    spread = SOUP_SPREAD;
-  triangle_grid_shape(&map->grid, sheet, (unsigned)spread, (unsigned)spread);
+/* Chooses the tiles of a deep scene: small enough for good horizons, large
+ * enough that the work per tile is little compared with the queries. */
+static void shape_deep_tiles(struct tile_classification *tiles,
+                             const struct sheet *sheet, bool strokes,
+                             bool fragments) {
+  uint64_t spread =
+      DEEP_TILES_TOTAL / sheet->triangle.count + TILES_PER_TRIANGLE;
+  uint64_t spread_max =
+      count_queries(sheet, strokes, fragments) / DEEP_QUERIES_PER_TILE +
+      TILES_PER_TRIANGLE;
+  if (spread > spread_max)
+    spread = spread_max;
+  if (spread > DEEP_TILES_PER_TRIANGLE)
+    spread = DEEP_TILES_PER_TRIANGLE;
+  triangle_grid_shape(&tiles->grid, sheet, (unsigned)spread, (unsigned)spread);
 }
 
-bool tile_classification_init(struct tile_classification *map,
+bool tile_classification_init(struct tile_classification *tiles,
                               const struct sheet *sheet, bool strokes,
                               bool fragments) {
   size_t n;
-  bool soup;
-  memset(map, 0, sizeof *map);
-  triangle_grid_shape(&map->grid, sheet, SPREAD, 2);
-  soup = mean_layers(sheet, &map->grid) > SOUP;
-  if (soup)
-    shape_soup(map, sheet, strokes, fragments);
-  n = triangle_grid_cell_count(&map->grid);
-  map->tile = mem_calloc(n, sizeof *map->tile);
-  map->print = mem_alloc(sheet->triangle.count, sizeof *map->print);
-  if (map->tile == NULL || map->print == NULL)
+  bool deep;
+  memset(tiles, 0, sizeof *tiles);
+  triangle_grid_shape(&tiles->grid, sheet, TILES_PER_TRIANGLE, 2);
+  deep = depth_complexity(sheet, &tiles->grid) > DEEP;
+  if (deep)
+    shape_deep_tiles(tiles, sheet, strokes, fragments);
+  n = triangle_grid_cell_count(&tiles->grid);
+  tiles->tile = mem_calloc(n, sizeof *tiles->tile);
+  tiles->footprint = mem_alloc(sheet->triangle.count, sizeof *tiles->footprint);
+  if (tiles->tile == NULL || tiles->footprint == NULL)
     return false;
-  gather(map, sheet, fragments);
-  if (soup && !find_horizons(map, sheet, fragments))
+  collect(tiles, sheet, fragments);
+  if (deep && !find_horizons(tiles, sheet, fragments))
     return false;
-  judge(map);
-  refuse_contours(map, sheet);
+  find_simple_tiles(tiles);
+  reject_contours(tiles, sheet);
   for (size_t i = 0; i < n; i++) {
-    struct tile *tile = &map->tile[i];
-    map->simple += tile->state == TILE_SIMPLE;
-    map->mixed += tile->state == TILE_MIXED;
-    map->empty += tile->state == TILE_EMPTY;
+    struct tile *tile = &tiles->tile[i];
+    tiles->simple += tile->state == TILE_SIMPLE;
+    tiles->mixed += tile->state == TILE_MIXED;
+    tiles->empty += tile->state == TILE_EMPTY;
   }
   return true;
 }
 
-void tile_classification_fini(struct tile_classification *map) {
-  mem_free(map->tile);
-  mem_free(map->print);
-  mem_free(map->horizon);
-  map->tile = NULL;
-  map->print = NULL;
-  map->horizon = NULL;
+void tile_classification_fini(struct tile_classification *tiles) {
+  mem_free(tiles->tile);
+  mem_free(tiles->footprint);
+  mem_free(tiles->horizon);
+  tiles->tile = NULL;
+  tiles->footprint = NULL;
+  tiles->horizon = NULL;
 }

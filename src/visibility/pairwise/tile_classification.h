@@ -1,28 +1,31 @@
-/* tile_classification.h - page tiles over which a layer of many small faces hides all that
- * is behind it.
+/* tile_classification.h - finds the page tiles over which a front layer of
+ * faces hides everything behind it.
  *
- * On a dense mesh no face surrounds a window, but a layer of faces does.  Per
- * tile the depths of its faces are gathered in 64 buckets; the topmost run of
- * buckets without a gap is the front layer.  Where no contour (sheet.h) that
- * reaches the layer's depths comes into the tile, the layer neither folds nor
- * ends there, so all of the tile's points are covered by equally many of its
- * faces; where a sample point is covered by just one, all are.  Then
- *   - what belongs to the layer is visible, exactly: nothing is in front of
- *     it, and it does not overlap itself;
- *   - what is behind it is hidden, exactly: a bucket is empty between them,
- *     which is more than contact can explain (faces seen so steeply that it
- *     might are refused).
+ * On a dense mesh no single face surrounds a window, but a layer of faces does.
+ * For each tile, the depth ranges of its faces are collected in 64 depth
+ * buckets; the nearest run of occupied buckets is the front layer.  If no
+ * contour (sheet.h) that reaches the depths of the layer enters the tile, the
+ * layer neither folds nor ends there, so every point of the tile is covered by
+ * the same number of its faces; if a sample point is covered by exactly one,
+ * every point is.  Then
+ *   - everything in the layer is visible, exactly: nothing is in front of it,
+ *     and it does not overlap itself;
+ *   - everything behind it is hidden, exactly: at least one empty bucket lies
+ *     between, which is more than the contact tolerance.  A tile with faces so
+ *     steep that their tolerance may exceed a bucket is rejected.
  * Such a tile is simple.
  *
- * In deep soups of large faces single faces do surround tiles.  There a tile
- * also has a horizon: the nearest depth that some surrounding face surely
- * reaches all over it; what is behind the horizon is hidden in the tile, and
- * left out of its list.
+ * In scenes of high depth complexity (many large faces, one behind another)
+ * single faces do surround tiles.  There a tile also has a horizon: the nearest
+ * depth behind which a surrounding face certainly hides everything within the
+ * tile.  Faces behind the horizon are left out of the tile's list.
  *
- * All of this is decided by integers; a tile that is refused for caution costs
- * time, never truth.
+ * Robustness: states are decided by integers, horizons by lower bounds in
+ * doubles.  A tile that is rejected out of caution is solved by pairs, which
+ * costs time but gives the same result.
  *
- * Source  Warnock's surrounder [Warnock1969], with a layer for the face.
+ * Source  Warnock's surrounder [Warnock1969], with a layer in place of the
+ *         face.
  */
 #ifndef VISIBILITY_PAIRWISE_TILE_CLASSIFICATION_H
 #define VISIBILITY_PAIRWISE_TILE_CLASSIFICATION_H
@@ -31,46 +34,52 @@
 
 enum tile_state {
   TILE_EMPTY, /* no face */
-  TILE_MIXED, /* must be solved by pairs */
-  TILE_SIMPLE /* covered by one layer in front */
+  TILE_MIXED, /* to be solved by pairs */
+  TILE_SIMPLE /* covered exactly once by its front layer */
 };
 
 enum { TILE_BUCKETS = 64, TILE_BUCKET_SHIFT = SHEET_Z_BITS - 6 };
 
-/* Faces are noted by their lowest bucket + 1; 0: none. */
+/* A face is recorded by its farthest bucket + 1; 0 stands for no face. */
 struct tile {
-  uint64_t depths; /* bit b: some face is in bucket b */
-  uint8_t over[2]; /* the nearest face over the sample point, and the next */
-  uint8_t bar;     /* the nearest face that forbids telling */
-  uint8_t front;   /* the front layer's lowest bucket */
-  uint8_t state;   /* enum tile_state */
+  uint64_t z_buckets; /* bit b: some face has depths in bucket b */
+  uint8_t nearest[2]; /* of the faces over the sample point, the nearest and the
+                         second nearest */
+  uint8_t unsafe;     /* the nearest face that makes the sample unusable: it is
+                         too steep, or one of its sides contains the sample */
+  uint8_t front;      /* the front layer's farthest bucket */
+  uint8_t state;      /* enum tile_state */
 };
 
 struct tile_classification {
-  struct triangle_grid grid; /* its shape; no lists */
+  struct triangle_grid grid; /* the tiles; it has no lists */
   struct tile *tile;
-  struct footprint *print; /* one a triangle */
-  double *horizon;         /* one a tile; NULL: no soup */
-  uint64_t depths;         /* of all tiles */
-  uint64_t simple, mixed, empty;
+  struct footprint *footprint; /* one per triangle */
+  double *horizon;             /* a depth per tile; NULL: not used, the scene's
+                                  depth complexity being low */
+  uint64_t z_buckets;          /* the union of all tiles' */
+  uint64_t simple, mixed, empty; /* numbers of tiles */
 };
 
-/* Is a depth behind the tile's horizon? */
+/* Returns whether depth z is behind the tile's horizon. */
 static inline bool
-tile_classification_is_beyond(const struct tile_classification *map,
+tile_classification_is_behind(const struct tile_classification *tiles,
                               size_t tile, int64_t z) {
-  return map->horizon != NULL && (double)z < map->horizon[tile];
+  return tiles->horizon != NULL && (double)z < tiles->horizon[tile];
 }
 
 /* Classifies the tiles of the sheet.
- * strokes    will be asked for
- * fragments  will be asked for: faces that touch must be told too, so tiles
- *            with steep faces in any layer are refused */
-USE_RESULT bool tile_classification_init(struct tile_classification *map,
+ * strokes    whether edges will be solved
+ * fragments  whether faces will be solved; as contact between faces matters
+ *            then, tiles with a steep face in any layer are rejected
+ * Returns false when memory ran out; end with tile_classification_fini either
+ * way. */
+USE_RESULT bool tile_classification_init(struct tile_classification *tiles,
                                          const struct sheet *sheet,
                                          bool strokes, bool fragments);
-void tile_classification_fini(struct tile_classification *map);
+void tile_classification_fini(struct tile_classification *tiles);
 
+/* The bucket of a depth; farther depths have lower numbers. */
 static inline int tile_bucket(int64_t z) {
   return (int)(z >> TILE_BUCKET_SHIFT);
 }

@@ -1,16 +1,23 @@
-/* undecided_faces.c - the faces that tiles leave over.
+/* undecided_faces.c - solves the faces that the tiles leave undecided.
  *
- * Why a face without a crossing is all of one kind.  Take a point inside it
- * that is covered from nearer by, and go from there to another, past no
- * vertex.  Cover can end only where a side of a nearer triangle is passed.  If
- * that is no contour, the triangle beyond it goes on at the same depth, so it
- * overlaps the face too; and as all that overlap it are before its plane or
- * behind it, strictly, this one is nearer as well.
- *   Lists leave out what is behind the horizon of a tile: but where the face is
- * nearer than that, so are they, and elsewhere it is covered by what made the
- * horizon, which is listed.
- *   What is hidden is not asked about: but where it ends cover, what is nearest
- * there covers too, is not hidden, and overlaps the face.
+ * Claim.  A face that no contour crosses, and whose plane no overlapping
+ * triangle intersects or touches, is entirely visible or entirely hidden.
+ *
+ * Proof.  Take a point inside the face that a nearer triangle occludes, and a
+ * path from there to any other point inside that passes through no vertex.
+ * Occlusion can end only where the path crosses a side of a nearer triangle.
+ * If that side is no contour, the triangle beyond it continues at the same
+ * depth, so it overlaps the face too.  Every triangle that overlaps the face is
+ * strictly in front of its plane or strictly behind it; hence that triangle is
+ * nearer as well, and occlusion continues.
+ *
+ * Horizons.  The lists leave out triangles behind the horizon of a tile.  Where
+ * the face is nearer than the horizon, those triangles are behind it; elsewhere
+ * the face is occluded by the triangle that made the horizon, which is listed.
+ *
+ * Hidden triangles.  They are not tested as occluders.  Where one of them
+ * occludes the face, so does the nearest triangle there, which is not hidden
+ * and overlaps the face.
  */
 #include "visibility/pairwise/undecided_faces.h"
 
@@ -21,11 +28,11 @@
 
 /* ---- Contours by tile ---------------------------------------------------- */
 
-/* Counts the contours of wanted tiles, or with `filling` lists them. */
+/* Counts the contours of each wanted tile or, if `filling`, lists them. */
 static void visit_contours(struct undecided_faces *undecided_faces,
                            const uint8_t *wanted, bool filling) {
   const struct sheet *sheet = undecided_faces->sheet;
-  const struct triangle_grid *grid = &undecided_faces->lists->map->grid;
+  const struct triangle_grid *grid = &undecided_faces->lists->tiles->grid;
   for (size_t i = sheet->contour.count; i-- > 0;) {
     const uint32_t *point = sheet->contour.item[i].point;
     struct geom_point p = sheet->point.item[point[0]],
@@ -52,7 +59,7 @@ bool undecided_faces_init(struct undecided_faces *undecided_faces,
                           const struct sheet *sheet,
                           const struct tile_candidates *lists,
                           const uint8_t *wanted, uint8_t *state) {
-  size_t cells = triangle_grid_cell_count(&lists->map->grid);
+  size_t cells = triangle_grid_cell_count(&lists->tiles->grid);
   memset(undecided_faces, 0, sizeof *undecided_faces);
   undecided_faces->sheet = sheet;
   undecided_faces->lists = lists;
@@ -81,7 +88,8 @@ void undecided_faces_fini(struct undecided_faces *undecided_faces) {
   face_occluders_fini(&undecided_faces->occluders);
 }
 
-/* By depth buckets, so that what is near on the page stays near in memory. */
+/* A counting sort by depth bucket: within a bucket, triangles keep their order,
+ * so that neighbours on the page remain neighbours in memory. */
 bool undecided_faces_sort(const struct undecided_faces *undecided_faces,
                           uint32_t *triangle, size_t count) {
   uint32_t start[TILE_BUCKETS] = {0}, sum = 0;
@@ -106,7 +114,8 @@ bool undecided_faces_sort(const struct undecided_faces *undecided_faces,
   return true;
 }
 
-/* May the segment have a point inside the triangle?  A no is certain. */
+/* Returns false only if segment pq has no point inside triangle f: a
+ * conservative test. */
 static bool may_enter(const struct geom_point f[3], struct geom_point p,
                       struct geom_point q) {
   int64_t a = geom_orient2d(p, q, f[0]), b = geom_orient2d(p, q, f[1]),
@@ -121,10 +130,11 @@ static bool may_enter(const struct geom_point f[3], struct geom_point p,
   return true;
 }
 
-/* May a contour that is not behind the triangle at hand cross it? */
+/* Returns whether a contour that is not behind the current triangle may cross
+ * it. */
 static bool is_crossed(const struct undecided_faces *undecided_faces) {
   const struct sheet *sheet = undecided_faces->sheet;
-  const struct triangle_grid *grid = &undecided_faces->lists->map->grid;
+  const struct triangle_grid *grid = &undecided_faces->lists->tiles->grid;
   const struct face_occluders *occluders = &undecided_faces->occluders;
   struct cell_range r = triangle_grid_cells(grid, occluders->box);
   for (int y = r.y0; y <= r.y1; y++)
@@ -144,11 +154,12 @@ static bool is_crossed(const struct undecided_faces *undecided_faces) {
   return false;
 }
 
-/* ---- Triangles about one ------------------------------------------------- */
+/* ---- Candidates ---------------------------------------------------------- */
 
-/* What is hidden is no rival; only an earlier triangle may have to be given
- * what it touches. */
-static bool add_found(struct undecided_faces *undecided_faces, uint32_t g) {
+/* Adds triangle g to the candidates unless it was added before.  A hidden
+ * triangle is no occluder and is added only if it is earlier than the current
+ * one: visible pieces may be passed on to it if the two are in contact. */
+static bool add_candidate(struct undecided_faces *undecided_faces, uint32_t g) {
   return g == undecided_faces->occluders.triangle ||
          (g > undecided_faces->occluders.triangle &&
           undecided_faces->state[g] == MAP_HIDDEN) ||
@@ -165,18 +176,18 @@ static bool find_in_bsp(struct undecided_faces *undecided_faces,
                                       undecided_faces->occluders.triangle,
                                   .sheet = undecided_faces->sheet,
                                   .box = undecided_faces->occluders.box};
-  struct bsp_traversal walk = bsp_traversal_from(root);
+  struct bsp_traversal traversal = bsp_traversal_from(root);
   const struct bsp_node *node;
-  while ((node = bsp_next(bsp, &walk, &shape)) != NULL)
+  while ((node = bsp_next(bsp, &traversal, &shape)) != NULL)
     for (uint32_t i = node->from; i < node->from + node->count; i++)
-      if (!add_found(undecided_faces, bsp->member.item[i].triangle))
+      if (!add_candidate(undecided_faces, bsp->member.item[i].triangle))
         return false;
   return true;
 }
 
-/* Finds what may overlap the triangle at hand on the page, at any depth: what
- * is behind it may touch it. */
-static bool find_about(struct undecided_faces *undecided_faces) {
+/* Finds the triangles that may overlap the current one on the page, at any
+ * depth, since a triangle behind it may be in contact with it. */
+static bool find_candidates(struct undecided_faces *undecided_faces) {
   const struct tile_candidates *lists = undecided_faces->lists;
   const struct triangle_grid *grid = &lists->grid;
   const struct face_occluders *occluders = &undecided_faces->occluders;
@@ -190,7 +201,7 @@ static bool find_about(struct undecided_faces *undecided_faces) {
       size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
       uint32_t i = grid->start[cell], end = grid->start[cell + 1];
       struct kdop8_frame frame;
-      uint64_t question;
+      uint64_t kdop_query;
       if (i == end)
         continue;
       if (triangle_grid_bsp(grid, cell) != SHEET_NONE) {
@@ -200,10 +211,10 @@ static bool find_about(struct undecided_faces *undecided_faces) {
       }
       frame = tile_candidates_frame(lists, x, y);
       kdop.low = frame.z0;
-      question = kdop8_query(&frame, &kdop);
+      kdop_query = kdop8_query(&frame, &kdop);
       for (; i < end; i++)
-        if (kdop8_overlaps(lists->word[i], question) &&
-            !add_found(undecided_faces, grid->item[i]))
+        if (kdop8_overlaps(lists->key[i], kdop_query) &&
+            !add_candidate(undecided_faces, grid->item[i]))
           return false;
     }
   return true;
@@ -211,21 +222,22 @@ static bool find_about(struct undecided_faces *undecided_faces) {
 
 /* ---- Solving ------------------------------------------------------------- */
 
-/* Asks all that is about, or until one hides the triangle at hand. */
-static bool query_about(struct undecided_faces *undecided_faces) {
+/* Tests the candidates as occluders, until one hides the current triangle
+ * completely. */
+static bool test_candidates(struct undecided_faces *undecided_faces) {
   struct face_occluders *occluders = &undecided_faces->occluders;
-  const uint32_t *about = undecided_faces->query.found.item;
+  const uint32_t *candidate = undecided_faces->query.found.item;
   if (!progress_step(occluders->progress, undecided_faces->query.found.count))
     return false;
   for (size_t i = 0;
        i < undecided_faces->query.found.count && !occluders->covered; i++)
-    if (undecided_faces->state[about[i]] != MAP_HIDDEN &&
-        !face_occluders_test(occluders, about[i]))
+    if (undecided_faces->state[candidate[i]] != MAP_HIDDEN &&
+        !face_occluders_test(occluders, candidate[i]))
       return false;
   return true;
 }
 
-static bool note_hidden(struct undecided_faces *undecided_faces,
+static bool mark_hidden(struct undecided_faces *undecided_faces,
                         uint32_t triangle) {
   undecided_faces->state[triangle] = MAP_HIDDEN;
   undecided_faces->counts.hidden++;
@@ -236,37 +248,37 @@ bool undecided_faces_solve(struct undecided_faces *undecided_faces,
                            uint32_t triangle, struct fragments *fragments) {
   struct face_occluders *occluders = &undecided_faces->occluders;
   struct undecided_faces_counts *counts = &undecided_faces->counts;
-  const uint32_t *about;
+  const uint32_t *candidate;
   size_t count;
   face_occluders_start(occluders, triangle);
-  if (!find_about(undecided_faces) || !query_about(undecided_faces))
+  if (!find_candidates(undecided_faces) || !test_candidates(undecided_faces))
     return false;
-  about = undecided_faces->query.found.item;
+  candidate = undecided_faces->query.found.item;
   count = undecided_faces->query.found.count;
   if (occluders->covered)
-    return note_hidden(undecided_faces, triangle);
+    return mark_hidden(undecided_faces, triangle);
   if (occluders->occluder.count == 0) {
     counts->whole++;
-    return fragments_add_with_candidates(fragments, triangle, NULL, 0, about,
-                                         count);
+    return fragments_add_with_candidates(fragments, triangle, NULL, 0,
+                                         candidate, count);
   }
   if (!occluders->interpenetrating && !is_crossed(undecided_faces)) {
     counts->uncrossed++;
-    return note_hidden(undecided_faces, triangle);
+    return mark_hidden(undecided_faces, triangle);
   }
   if (!face_occluders_subtract_all(occluders))
     return false;
   if (occluders->left.count == 0)
-    return note_hidden(undecided_faces, triangle);
+    return mark_hidden(undecided_faces, triangle);
   if (occluders->whole) {
     counts->whole++;
-    return fragments_add_with_candidates(fragments, triangle, NULL, 0, about,
-                                         count);
+    return fragments_add_with_candidates(fragments, triangle, NULL, 0,
+                                         candidate, count);
   }
   counts->mixed++;
   return fragments_add_with_candidates(fragments, triangle,
                                        occluders->left.item,
-                                       occluders->left.count, about, count);
+                                       occluders->left.count, candidate, count);
 }
 
 void undecided_faces_report(const struct undecided_faces *undecided_faces,

@@ -1,13 +1,15 @@
-/* undecided_faces.h - the faces that tiles (tile_classification.h) leave over: by the triangles
- * listed there, and as few of them as will do.
+/* undecided_faces.h - solves the faces that the tiles leave undecided
+ * (tile_classification.h), by the triangles of the candidate lists.
  *
- * What covers a face from nearer by changes only where a contour (sheet.h)
- * crosses it, or a triangle its plane.  So where neither is the case the face
- * is wholly visible, or wholly hidden, and any nearer triangle that overlaps it
- * tells which: no piece is cut.
+ * Along a path inside a face, occlusion changes only at a contour (sheet.h) or
+ * where a nearer triangle intersects the face's plane.  A face that neither
+ * crosses is entirely visible or entirely hidden; it is hidden if any nearer
+ * triangle overlaps it.  No piece has to be subtracted then.  The proof is in
+ * undecided_faces.c.
  *
- * What is hidden need not be asked about: where it covers something, what hides
- * it does.  So the nearest are solved first.
+ * A hidden triangle need not be tested as an occluder: whatever it occludes is
+ * also occluded by the triangles that hide it.  Faces are therefore solved from
+ * near to far.
  */
 #ifndef VISIBILITY_PAIRWISE_UNDECIDED_FACES_H
 #define VISIBILITY_PAIRWISE_UNDECIDED_FACES_H
@@ -16,36 +18,43 @@
 #include "visibility/pairwise/tile_candidates.h"
 
 struct undecided_faces_counts {
-  uint64_t hidden, whole, mixed; /* triangles, as it turned out */
-  uint64_t uncrossed;            /* of the first two, those told by contours */
+  uint64_t hidden, whole, mixed; /* triangles by result: hidden, visible as a
+                                    whole, visible in part */
+  uint64_t uncrossed;            /* of those hidden, the ones decided because
+                                    no contour crosses them */
 };
 
 struct undecided_faces {
   const struct sheet *sheet;
-  const struct tile_candidates *lists; /* lent */
-  uint8_t *state;            /* lent: one a triangle, enum map_state */
+  const struct tile_candidates *lists; /* borrowed, not owned */
+  uint8_t *state;            /* one per triangle, enum map_state; borrowed */
   uint32_t *start, *contour; /* of tile i: contour[start[i] .. start[i + 1]) */
   struct triangle_grid_query query;
   struct face_occluders occluders;
   struct undecided_faces_counts counts;
 };
 
-/* wanted  the tiles that have lists
- * state   one a triangle: MAP_HIDDEN where it is known to be hidden; what is
- *         found to be so is noted there */
+/* Lists the contours by tile.
+ * wanted  one per tile: not 0 where it has a list of triangles
+ * state   one per triangle: MAP_HIDDEN where it is known to be hidden;
+ *         triangles that are found to be hidden are marked there
+ * Returns false when memory ran out; end with undecided_faces_fini either
+ * way. */
 USE_RESULT bool undecided_faces_init(struct undecided_faces *undecided_faces,
                                      const struct sheet *sheet,
                                      const struct tile_candidates *lists,
                                      const uint8_t *wanted, uint8_t *state);
 void undecided_faces_fini(struct undecided_faces *undecided_faces);
 
-/* Puts triangles into the order in which they are best solved. */
+/* Sorts triangles from near to far, by depth bucket.
+ * Returns false when memory ran out. */
 USE_RESULT bool
 undecided_faces_sort(const struct undecided_faces *undecided_faces,
                      uint32_t *triangle, size_t count);
 
-/* Finds what is visible of a triangle, not flat, all of whose tiles have
- * lists, and hands it in. */
+/* Computes the visible pieces of a triangle, which is not flat and all of whose
+ * tiles have lists, and adds them to the fragments.
+ * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool undecided_faces_solve(struct undecided_faces *undecided_faces,
                                       uint32_t triangle,
                                       struct fragments *fragments);

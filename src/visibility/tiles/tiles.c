@@ -116,7 +116,7 @@ static enum map_state query_along(struct tiles_work *work, struct geom_point p,
     triangle_grid_row(grid, p, q, r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++) {
       size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
-      int now = tile_classification_is_beyond(&work->tiles, i, nearest)
+      int now = tile_classification_is_behind(&work->tiles, i, nearest)
                     ? MAP_HIDDEN
                     : (int)query_tile(&work->tiles.tile[i], low, high, wire);
       if (mark) {
@@ -202,7 +202,7 @@ static enum map_state query_face(const struct tiles_work *work, uint32_t t) {
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
-      int now = tile_classification_is_beyond(&work->tiles, i, nearest)
+      int now = tile_classification_is_behind(&work->tiles, i, nearest)
                     ? MAP_HIDDEN
                     : (int)query_tile(&work->tiles.tile[i], low, high, false);
       if (now == MAP_MIXED || (state >= 0 && state != now))
@@ -399,9 +399,10 @@ static bool pierce_anywhere(struct tiles_work *work, recto_status *status,
 
 static bool pierce_in_lists(struct tiles_work *work, recto_status *status,
                             recto_error *error) {
-  *status = intersection_find_all(work->sheet, &work->lists.grid,
-                                  work->lists.of_tiles ? work->pierced : NULL,
-                                  work->request, work->report, error);
+  *status =
+      intersection_find_all(work->sheet, &work->lists.grid,
+                            work->lists.cells_are_tiles ? work->pierced : NULL,
+                            work->request, work->report, error);
   return *status == RECTO_OK;
 }
 
