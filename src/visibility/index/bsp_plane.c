@@ -1,123 +1,146 @@
-/* bsp_plane.c - a line of the page, or a plane, that parts a crowd of triangles.
+/* bsp_plane.c - chooses the splitters of a BSP, and decides on which sides of
+ * them triangles lie.
  *
- * Why nothing is lost.  Two triangles, or an edge and one, concern each other
- * where they share a stretch of the page: one hides a stretch of the other, or
- * they pierce each other, or an edge of one touches the plane of the other
- * along what that one covers, or edges of both run along each other within
- * TOLERANCE_COINCIDENT_UNITS.
- *   A line.  Of two that are on different sides alone, one is beyond the margin
- *   but for the apex, and so is the other: they share no more than the apex,
- *   and no end of an edge of one is near an edge of the other but there.
- *   A plane.  Piercing needs a common stretch in space, which would be on the
- *   plane, where both have no more than the apex.  Touching needs a place of
- *   the page where their depths differ by no more than the thickness of the
- *   triangle that is touched.  One that does not have the apex is farther
- *   from the plane than that, everywhere.  Where both have it, all that they
- *   share on the page is a wedge at the apex, and their depths part from there
- *   on at a steady rate: at the other end of the edge, which must touch too, it
- *   is off by more than the thickness, since it is off the plane by more.
- *   Of two that have the side from the apex to the hinge the same is true of
- * all along that side, and such two share an edge, so that they are not asked
- * about touching along it.
- *   Hiding.  What is before a plane, the apex aside, is nowhere farther than
- *   what is behind it.  (It may be hidden the other way round.)  An end of it
- *   that was rounded to the grid is off the plane by less than the thickness,
- *   since planes that are steeper than that are not taken.
+ * Correctness: why no pair is lost.  Two triangles, or an edge and a triangle,
+ * concern each other only where they overlap in more than a point of the page:
+ *   (a) one hides a part of the other,
+ *   (b) they pierce each other,
+ *   (c) an edge of one touches the plane of the other along what that one
+ *       covers, or
+ *   (d) edges of both run along each other within TOLERANCE_COINCIDENT_UNITS.
+ *
+ * A line of the page.  Of two triangles that are on different sides alone, both
+ * are beyond the margin, except for the shared vertex.  So they overlap in no
+ * more than that vertex, and no end of an edge of one is near an edge of the
+ * other but there.
+ *
+ * A plane.
+ *   (b) Piercing needs a common segment in space.  It would lie on the plane,
+ *       where both have no more than the shared vertex.
+ *   (c) Touching needs a point of the page where the two depths differ by no
+ *       more than the contact tolerance of the triangle that is touched.
+ *       - A triangle without the shared vertex is farther from the plane than
+ *         that, everywhere.
+ *       - Where both have it, their overlap on the page is a wedge with its
+ *         vertex there, in which the difference of their depths grows linearly
+ *         with the distance from it.  The other end of the edge must touch too,
+ *         but its difference exceeds the tolerance, since its distance from the
+ *         plane does.
+ *       - Of two that have the shared edge the same is true along all of it,
+ *         and such two are neighbours, which are not tested for touching along
+ *         it.
+ *   (a) What is in front of a plane, the shared vertex excepted, is nowhere
+ *       farther than what is behind it.  (It may hide what is behind: hence a
+ *       traversal for what may hide a shape behind the plane visits both
+ *       sides.)  An end of an edge that was rounded to the grid is off the
+ *       plane by less than the contact tolerance, since steeper planes are not
+ *       used.
  */
 #include "visibility/index/bsp_plane.h"
 
 #include <math.h>
 
 enum {
-  SAMPLE = 48, /* triangles by which cuts are judged */
-  CANDIDATES = 8
+  SAMPLE = 48,   /* triangles by which splitters are judged */
+  CANDIDATES = 8 /* triangles whose sides and planes are tried */
 };
 
-/* Steeper than so many times the middling triangle is on both sides. */
-#define THICKEST 16
+/* A triangle whose contact tolerance, as depth, exceeds so many times the
+ * median is steep: it is on both sides. */
+#define STEEP_FACTOR 16
 
-/* Shares of the pairs: a cut must leave fewer than the first; one that leaves
- * no more than the other needs no better. */
-#define MOST_LEFT 0.85
-#define GOOD 0.6
+/* Shares of the pairs: a splitter must leave fewer than the first; once one
+ * leaves no more than the second, no better one is sought. */
+#define PAIRS_LEFT_MAX 0.85
+#define PAIRS_LEFT_GOOD 0.6
 
-static int side_of_line(const struct bsp_plane *cut, struct geom_point p) {
-  int64_t value = cut->dx * ((int64_t)p.y - cut->shared_vertex.y) -
-                  cut->dy * ((int64_t)p.x - cut->shared_vertex.x);
-  return value > cut->margin    ? BSP_LEFT
-         : value < -cut->margin ? BSP_RIGHT
-                                : BSP_BOTH;
+/* On which sides of a line of the page a point lies. */
+static int side_of_line(const struct bsp_plane *splitter, struct geom_point p) {
+  int64_t value = splitter->dx * ((int64_t)p.y - splitter->shared_vertex.y) -
+                  splitter->dy * ((int64_t)p.x - splitter->shared_vertex.x);
+  return value > splitter->margin    ? BSP_LEFT
+         : value < -splitter->margin ? BSP_RIGHT
+                                     : BSP_BOTH;
 }
 
-static int side_of_plane(const struct bsp_plane *cut, struct geom_point p) {
-  const struct plane_filter *plane = &cut->plane;
+/* The same of a plane, by a filter: a side is certified. */
+static int side_of_plane(const struct bsp_plane *splitter,
+                         struct geom_point p) {
+  const struct plane_filter *plane = &splitter->plane;
   double x = p.x - plane->x, y = p.y - plane->y, z = (double)p.z - plane->z;
   double value = plane->nx * x + plane->ny * y + plane->nz * z;
   double bound = plane->ex * fabs(x) + plane->ey * fabs(y) +
-                 plane->ez * fabs(z) + plane->nz * cut->thickness;
+                 plane->ez * fabs(z) + plane->nz * splitter->thickness;
   return value > bound ? BSP_LEFT : value < -bound ? BSP_RIGHT : BSP_BOTH;
 }
 
-static int side_of_point(const struct bsp_plane *cut, struct geom_point p) {
-  return cut->is_plane ? side_of_plane(cut, p) : side_of_line(cut, p);
+static int side_of_point(const struct bsp_plane *splitter,
+                         struct geom_point p) {
+  return splitter->is_plane ? side_of_plane(splitter, p)
+                            : side_of_line(splitter, p);
 }
 
-/* Lines end where the page does: for them all points at one place are one. */
-static bool is_shared_vertex(const struct bsp_plane *cut, struct geom_point p) {
-  return p.x == cut->shared_vertex.x && p.y == cut->shared_vertex.y &&
-         (!cut->is_plane || p.z == cut->shared_vertex.z);
+/* For a line of the page, points that differ in depth alone are the same. */
+static bool is_shared_vertex(const struct bsp_plane *splitter,
+                             struct geom_point p) {
+  return p.x == splitter->shared_vertex.x && p.y == splitter->shared_vertex.y &&
+         (!splitter->is_plane || p.z == splitter->shared_vertex.z);
 }
 
-static int side_of_points(const struct bsp_plane *cut,
+/* The sides of all points but the shared vertex; both for two points there. */
+static int side_of_points(const struct bsp_plane *splitter,
                           const struct geom_point *p, int count) {
-  int sides = 0, apexes = 0;
+  int sides = 0, shared = 0;
   for (int k = 0; k < count; k++)
-    if (is_shared_vertex(cut, p[k]))
-      apexes++;
+    if (is_shared_vertex(splitter, p[k]))
+      shared++;
     else
-      sides |= side_of_point(cut, p[k]);
-  return apexes > 1 ? BSP_BOTH : sides;
+      sides |= side_of_point(splitter, p[k]);
+  return shared > 1 ? BSP_BOTH : sides;
 }
 
-/* A segment that starts on the hinge is on the side that it leads to. */
-int bsp_plane_side_of_segment(const struct bsp_plane *cut, struct geom_point p,
-                              struct geom_point q) {
+/* A segment that starts at the shared edge's other end is on the side of its
+ * second end. */
+int bsp_plane_side_of_segment(const struct bsp_plane *splitter,
+                              struct geom_point p, struct geom_point q) {
   const struct geom_point end[2] = {p, q};
   int sides = 0;
   for (int k = 0; k < 2; k++)
-    if (cut->is_plane && geom_same_point(end[k], cut->shared_edge))
-      sides |= is_shared_vertex(cut, end[1 - k])
+    if (splitter->is_plane && geom_same_point(end[k], splitter->shared_edge))
+      sides |= is_shared_vertex(splitter, end[1 - k])
                    ? BSP_BOTH
-                   : side_of_point(cut, end[1 - k]);
-  return sides != 0 ? sides : side_of_points(cut, end, 2);
+                   : side_of_point(splitter, end[1 - k]);
+  return sides != 0 ? sides : side_of_points(splitter, end, 2);
 }
 
-/* The corner of a triangle that has the side from the apex to the hinge, which
- * is not on it; -1: it has no such side. */
-static int corner_off_shared_edge(const struct bsp_plane *cut,
+/* The corner of a triangle opposite to the shared edge; -1 where the triangle
+ * does not have that edge. */
+static int corner_off_shared_edge(const struct bsp_plane *splitter,
                                   const struct sheet *sheet,
                                   uint32_t triangle) {
   const uint32_t *point = sheet->triangle.item[triangle].point;
-  for (int k = 0; cut->is_plane && k < 3; k++) {
+  for (int k = 0; splitter->is_plane && k < 3; k++) {
     uint32_t a = point[k == 2 ? 0 : k + 1], b = point[k == 0 ? 2 : k - 1];
-    if ((a == cut->point[0] && b == cut->point[1]) ||
-        (a == cut->point[1] && b == cut->point[0]))
+    if ((a == splitter->point[0] && b == splitter->point[1]) ||
+        (a == splitter->point[1] && b == splitter->point[0]))
       return k;
   }
   return -1;
 }
 
-static int side_of_corners(const struct bsp_plane *cut,
+/* On which sides a triangle lies, its steepness not considered. */
+static int side_of_corners(const struct bsp_plane *splitter,
                            const struct sheet *sheet, uint32_t triangle,
                            const struct geom_point p[3]) {
-  int off = corner_off_shared_edge(cut, sheet, triangle);
-  return off < 0 ? side_of_points(cut, p, 3) : side_of_point(cut, p[off]);
+  int off = corner_off_shared_edge(splitter, sheet, triangle);
+  return off < 0 ? side_of_points(splitter, p, 3)
+                 : side_of_point(splitter, p[off]);
 }
 
-int bsp_plane_side_of_corners(const struct bsp_plane *cut,
+int bsp_plane_side_of_corners(const struct bsp_plane *splitter,
                               const struct geom_point p[3]) {
-  return side_of_point(cut, p[0]) | side_of_point(cut, p[1]) |
-         side_of_point(cut, p[2]);
+  return side_of_point(splitter, p[0]) | side_of_point(splitter, p[1]) |
+         side_of_point(splitter, p[2]);
 }
 
 static void corners_of(const struct sheet *sheet, uint32_t triangle,
@@ -127,22 +150,23 @@ static void corners_of(const struct sheet *sheet, uint32_t triangle,
     p[k] = sheet->point.item[t[k]];
 }
 
-/* The contact tolerance of a triangle, as depth. */
+/* An upper bound of a triangle's contact tolerance as a difference of depth;
+ * INFINITY where there is none. */
 static double thickness_of(const struct plane_filter *plane) {
   double most = plane->t0 + plane->t0_more + plane->t_off +
                 (plane->t1 + plane->t1_more) * (double)SHEET_Z_MAX;
   return plane->nz > 0 ? most / plane->nz * (1 + 0x1p-40) : INFINITY;
 }
 
-int bsp_plane_side_of_triangle(const struct bsp_plane *cut,
+int bsp_plane_side_of_triangle(const struct bsp_plane *splitter,
                                const struct sheet *sheet, uint32_t triangle) {
   struct geom_point p[3];
   int sides;
   corners_of(sheet, triangle, p);
-  sides = side_of_corners(cut, sheet, triangle, p);
-  if (cut->is_plane && sides != BSP_BOTH) {
+  sides = side_of_corners(splitter, sheet, triangle, p);
+  if (splitter->is_plane && sides != BSP_BOTH) {
     struct plane_filter plane = plane_filter_of(sheet, triangle);
-    if (!(thickness_of(&plane) <= cut->thickness))
+    if (!(thickness_of(&plane) <= splitter->thickness))
       return BSP_BOTH;
   }
   return sides;
@@ -150,7 +174,7 @@ int bsp_plane_side_of_triangle(const struct bsp_plane *cut,
 
 /* ---- Choosing ------------------------------------------------------------ */
 
-/* What stands for the crowd while cuts are judged. */
+/* A sample of the list, by which splitters are judged. */
 struct sample {
   const struct sheet *sheet;
   uint32_t triangle[SAMPLE];
@@ -159,13 +183,14 @@ struct sample {
   int count;
 };
 
-/* Places in as many equal parts of the crowd, each anywhere in its part: faces
- * of two triangles each alternate. */
-static size_t place_of_sample(int i, size_t count, size_t parts) {
+/* The index in the list of sample i: stratified, a pseudo-random one in each of
+ * `parts` equal parts.  A fixed stride would see only one triangle of each face
+ * where all faces have two. */
+static size_t index_of_sample(int i, size_t count, size_t parts) {
   size_t from = (size_t)i * count / parts,
          past = ((size_t)i + 1) * count / parts;
-  uint32_t stirred = (uint32_t)i * UINT32_C(2654435761);
-  return from + (stirred >> 16) % (past - from);
+  uint32_t hash = (uint32_t)i * UINT32_C(2654435761);
+  return from + (hash >> 16) % (past - from);
 }
 
 static void take_sample(struct sample *sample, const struct sheet *sheet,
@@ -173,7 +198,7 @@ static void take_sample(struct sample *sample, const struct sheet *sheet,
   sample->sheet = sheet;
   sample->count = count < SAMPLE ? (int)count : SAMPLE;
   for (int i = 0; i < sample->count; i++) {
-    uint32_t t = triangle[place_of_sample(i, count, (size_t)sample->count)];
+    uint32_t t = triangle[index_of_sample(i, count, (size_t)sample->count)];
     sample->triangle[i] = t;
     corners_of(sheet, t, sample->p[i]);
     if (planes) {
@@ -183,8 +208,8 @@ static void take_sample(struct sample *sample, const struct sheet *sheet,
   }
 }
 
-/* THICKEST times the thickness that half of the sample stays below. */
-static double greatest_thickness(const struct sample *sample) {
+/* STEEP_FACTOR times the median thickness of the sample. */
+static double thickness_limit(const struct sample *sample) {
   double sorted[SAMPLE];
   for (int i = 0; i < sample->count; i++) {
     int k = i;
@@ -192,10 +217,10 @@ static double greatest_thickness(const struct sample *sample) {
       sorted[k] = sorted[k - 1];
     sorted[k] = sample->thickness[i];
   }
-  return THICKEST * sorted[sample->count / 2];
+  return STEEP_FACTOR * sorted[sample->count / 2];
 }
 
-/* How many of the sample have a corner there. */
+/* How many triangles of the sample have a corner at the shared vertex. */
 static int count_sharing(const struct sample *sample,
                          struct geom_point shared_vertex) {
   int sharing = 0;
@@ -205,14 +230,14 @@ static int count_sharing(const struct sample *sample,
   return sharing;
 }
 
-/* The pairs that a cut leaves of the sample's, as a share. */
+/* The share of the sample's pairs that a splitter leaves on a common side. */
 static double pairs_left(const struct sample *sample,
-                         const struct bsp_plane *cut) {
+                         const struct bsp_plane *splitter) {
   double left = 0, right = 0, all = sample->count;
   for (int i = 0; i < sample->count; i++) {
-    int sides =
-        side_of_corners(cut, sample->sheet, sample->triangle[i], sample->p[i]);
-    if (cut->is_plane && !(sample->thickness[i] <= cut->thickness))
+    int sides = side_of_corners(splitter, sample->sheet, sample->triangle[i],
+                                sample->p[i]);
+    if (splitter->is_plane && !(sample->thickness[i] <= splitter->thickness))
       sides = BSP_BOTH;
     left += (sides & BSP_LEFT) != 0;
     right += (sides & BSP_RIGHT) != 0;
@@ -220,19 +245,23 @@ static double pairs_left(const struct sample *sample,
   return (left * left + right * right) / (all * all);
 }
 
-/* The line along side k of a triangle, with one end of it as its apex. */
+/* The line along side k of a triangle.
+ * shared_vertex  the corner to be the shared vertex if it is an end of the
+ *                side, else the side's first end is */
 static struct bsp_plane line_along(const struct geom_point p[3], int k,
                                    int shared_vertex) {
   struct geom_point a = p[k], b = p[(k + 1) % 3];
-  struct bsp_plane cut = {.shared_vertex =
-                              shared_vertex == (k + 1) % 3 ? b : a};
-  cut.dx = (int64_t)b.x - a.x;
-  cut.dy = (int64_t)b.y - a.y;
-  cut.margin = BSP_PLANE_MARGIN * ((cut.dx < 0 ? -cut.dx : cut.dx) +
-                                   (cut.dy < 0 ? -cut.dy : cut.dy));
-  return cut;
+  struct bsp_plane splitter = {.shared_vertex =
+                                   shared_vertex == (k + 1) % 3 ? b : a};
+  splitter.dx = (int64_t)b.x - a.x;
+  splitter.dy = (int64_t)b.y - a.y;
+  splitter.margin =
+      BSP_PLANE_MARGIN * ((splitter.dx < 0 ? -splitter.dx : splitter.dx) +
+                          (splitter.dy < 0 ? -splitter.dy : splitter.dy));
+  return splitter;
 }
 
+/* The plane of a triangle, with two of its corners as the shared edge. */
 static struct bsp_plane plane_of(const struct sheet *sheet, uint32_t triangle,
                                  int shared_vertex, int shared_edge,
                                  double thickness) {
@@ -247,11 +276,12 @@ static struct bsp_plane plane_of(const struct sheet *sheet, uint32_t triangle,
 }
 
 /* The corner of a triangle of the sample that most others share.
- * but  a corner that it is not to be; 3: any */
-static int choose_shared_vertex(const struct sample *sample, int i, int but) {
-  int best = but == 0, most = -1;
+ * except  a corner that is not allowed; 3: all are */
+static int choose_shared_vertex(const struct sample *sample, int i,
+                                int except) {
+  int best = except == 0, most = -1;
   for (int k = 0; k < 3; k++) {
-    if (k == but)
+    if (k == except)
       continue;
     int sharing = count_sharing(sample, sample->p[i][k]);
     if (sharing > most) {
@@ -262,48 +292,50 @@ static int choose_shared_vertex(const struct sample *sample, int i, int but) {
   return best;
 }
 
-/* The best cut so far, and the pairs that it leaves. */
+/* The best splitter so far, and the share of pairs that it leaves. */
 struct plane_choice {
-  struct bsp_plane *cut;
-  double left;
+  struct bsp_plane *splitter;
+  double pairs_left;
   bool found;
 };
 
+/* Takes a splitter if it is valid and better than the best so far. */
 static void consider(struct plane_choice *choice, const struct sample *sample,
-                     const struct bsp_plane *cut) {
+                     const struct bsp_plane *splitter) {
   double left;
-  if (cut->is_plane ? !(thickness_of(&cut->plane) <= cut->thickness)
-                    : cut->dx == 0 && cut->dy == 0)
+  if (splitter->is_plane
+          ? !(thickness_of(&splitter->plane) <= splitter->thickness)
+          : splitter->dx == 0 && splitter->dy == 0)
     return;
-  left = pairs_left(sample, cut);
-  if (left >= choice->left)
+  left = pairs_left(sample, splitter);
+  if (left >= choice->pairs_left)
     return;
-  choice->left = left;
+  choice->pairs_left = left;
   choice->found = true;
-  *choice->cut = *cut;
+  *choice->splitter = *splitter;
 }
 
-bool bsp_plane_choose(struct bsp_plane *cut, const struct sheet *sheet,
+bool bsp_plane_choose(struct bsp_plane *splitter, const struct sheet *sheet,
                       const uint32_t *triangle, size_t count, bool planes) {
-  struct plane_choice choice = {cut, MOST_LEFT, false};
+  struct plane_choice choice = {splitter, PAIRS_LEFT_MAX, false};
   struct sample sample;
   double thickness = 0;
   take_sample(&sample, sheet, triangle, count, planes);
   if (planes)
-    thickness = greatest_thickness(&sample);
-  for (int c = 0; c < CANDIDATES && choice.left > GOOD; c++) {
+    thickness = thickness_limit(&sample);
+  for (int c = 0; c < CANDIDATES && choice.pairs_left > PAIRS_LEFT_GOOD; c++) {
     int i = (2 * c + 1) * sample.count / (2 * CANDIDATES);
     int shared_vertex = choose_shared_vertex(&sample, i, 3);
-    struct bsp_plane now;
+    struct bsp_plane candidate;
     for (int k = 0; k < 3; k++) {
-      now = line_along(sample.p[i], k, shared_vertex);
-      consider(&choice, &sample, &now);
+      candidate = line_along(sample.p[i], k, shared_vertex);
+      consider(&choice, &sample, &candidate);
     }
     if (planes) {
-      now =
+      candidate =
           plane_of(sheet, sample.triangle[i], shared_vertex,
                    choose_shared_vertex(&sample, i, shared_vertex), thickness);
-      consider(&choice, &sample, &now);
+      consider(&choice, &sample, &candidate);
     }
   }
   return choice.found;

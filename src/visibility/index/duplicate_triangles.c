@@ -1,12 +1,14 @@
-/* duplicate_triangles.c - triangles of which others are exact copies.
+/* duplicate_triangles.c - finds triangles of which others are exact duplicates.
  *
  * Phases
- *   1 triangles with corners at the same places are of one class, which is
- *     known by its first triangle
- *   2 edges between the same places, at which triangles of the same classes
- *     meet, are of one kind, which is known by a number
- *   3 triangles of one class with edges of the same kinds are copies
- * Hashes only bring together what may be equal; places are compared.
+ *   1 triangles whose corners have the same coordinates form a class, whose
+ *   name
+ *     is its first triangle
+ *   2 edges whose ends have the same coordinates, and at which triangles of the
+ *     same classes meet, form an edge class, whose name is a number
+ *   3 triangles of one class whose sides are of the same edge classes are
+ *     duplicates
+ * Hashes only bring together what may be equal; coordinates are compared.
  */
 #include "visibility/index/duplicate_triangles.h"
 
@@ -15,13 +17,13 @@
 #include "base/sort.h"
 
 enum {
-  KEPT = 2, /* of all copies stand for the rest */
-  MANY = 4  /* one in so many members of a list that are copies are many */
+  REPRESENTATIVES = 2, /* of each class of duplicates */
+  FREQUENT = 4 /* duplicates abound where one in so many triangles is one */
 };
 
 /* ---- 1 Classes ----------------------------------------------------------- */
 
-static uint64_t stir(uint64_t hash, uint64_t value) {
+static uint64_t mix(uint64_t hash, uint64_t value) {
   hash = (hash ^ value) * UINT64_C(0x9e3779b97f4a7c15);
   return hash ^ (hash >> 29);
 }
@@ -35,14 +37,14 @@ static uint64_t hash_of(const struct sheet *sheet, uint32_t triangle) {
   uint64_t hash = 0;
   for (int k = 0; k < 3; k++) {
     const struct geom_point *p = corner_of(sheet, triangle, k);
-    hash = stir(hash, (uint64_t)p->x);
-    hash = stir(hash, (uint64_t)p->y);
-    hash = stir(hash, (uint64_t)p->z);
+    hash = mix(hash, (uint64_t)p->x);
+    hash = mix(hash, (uint64_t)p->y);
+    hash = mix(hash, (uint64_t)p->z);
   }
   return hash;
 }
 
-static int compare_places(const void *a, const void *b, void *user) {
+static int compare_coordinates(const void *a, const void *b, void *user) {
   const struct sheet *sheet = user;
   const struct sort_key *s = a, *t = b;
   for (int k = 0; k < 3; k++) {
@@ -54,11 +56,13 @@ static int compare_places(const void *a, const void *b, void *user) {
   return 0;
 }
 
-/* The triangles, those with corners at the same places next to each other and
- * in order; NULL when memory ran out.
- * triangle  NULL: all, from the first */
-static struct sort_key *sort_by_places(const struct sheet *sheet,
-                                       const uint32_t *triangle, size_t n) {
+/* The triangles, sorted so that those with the same coordinates are adjacent,
+ * and in order of their indices; the caller frees it.  NULL when memory ran
+ * out.
+ * triangle  `n` of them, ascending; NULL: the first n of the sheet */
+static struct sort_key *sort_by_coordinates(const struct sheet *sheet,
+                                            const uint32_t *triangle,
+                                            size_t n) {
   struct sort_key *key = mem_alloc(2 * n, sizeof *key);
   bool ok = key != NULL;
   if (!ok)
@@ -71,7 +75,7 @@ static struct sort_key *sort_by_places(const struct sheet *sheet,
   for (size_t i = 0, past; ok && i < n; i = past) {
     for (past = i + 1; past < n && key[past].key == key[i].key;)
       past++;
-    ok = sort_stable(&key[i], past - i, sizeof *key, compare_places,
+    ok = sort_stable(&key[i], past - i, sizeof *key, compare_coordinates,
                      (void *)(uintptr_t)sheet);
   }
   if (ok)
@@ -80,48 +84,51 @@ static struct sort_key *sort_by_places(const struct sheet *sheet,
   return NULL;
 }
 
-static bool is_same(const struct sheet *sheet, const struct sort_key *a,
-                    const struct sort_key *b) {
+/* Do two triangles have the same coordinates? */
+static bool have_same_coordinates(const struct sheet *sheet,
+                                  const struct sort_key *a,
+                                  const struct sort_key *b) {
   return a->key == b->key &&
-         compare_places(a, b, (void *)(uintptr_t)sheet) == 0;
+         compare_coordinates(a, b, (void *)(uintptr_t)sheet) == 0;
 }
 
 bool duplicate_triangles_abound(const struct sheet *sheet,
                                 const uint32_t *triangle, size_t count,
                                 bool *abound) {
-  struct sort_key *key = sort_by_places(sheet, triangle, count);
-  size_t copies = 0;
+  struct sort_key *key = sort_by_coordinates(sheet, triangle, count);
+  size_t duplicates = 0;
   if (key == NULL)
     return false;
   for (size_t i = 1; i < count; i++)
-    copies += is_same(sheet, &key[i - 1], &key[i]);
-  *abound = copies > count / MANY;
+    duplicates += have_same_coordinates(sheet, &key[i - 1], &key[i]);
+  *abound = duplicates > count / FREQUENT;
   mem_free(key);
   return true;
 }
 
 struct duplicate_finder {
   const struct sheet *sheet;
-  uint32_t *class; /* of each triangle */
-  uint32_t *size;  /* of the class known by a triangle */
-  uint8_t *marked; /* points of triangles that may be copies */
-  uint32_t *kind;  /* of each side: 3 * triangle + k; SHEET_NONE: alone */
-  uint8_t *left_out;
+  uint32_t *class; /* per triangle */
+  uint32_t *size;  /* of the class that a triangle names */
+  uint8_t
+      *marked; /* per point: not 0: some triangle there may be a duplicate */
+  uint32_t *edge_class; /* per side, 3 * triangle + k; SHEET_NONE: not marked */
+  uint8_t *left_out;    /* per triangle: the result */
 };
 
 static bool may_be_duplicate(const struct duplicate_finder *f,
                              uint32_t triangle) {
-  return f->size[f->class[triangle]] > KEPT;
+  return f->size[f->class[triangle]] > REPRESENTATIVES;
 }
 
 static bool find_classes(struct duplicate_finder *f) {
   size_t n = f->sheet->triangle.count;
-  struct sort_key *key = sort_by_places(f->sheet, NULL, n);
+  struct sort_key *key = sort_by_coordinates(f->sheet, NULL, n);
   if (key == NULL)
     return false;
   for (size_t i = 0; i < n; i++) {
     uint32_t t = key[i].value;
-    bool same = i > 0 && is_same(f->sheet, &key[i - 1], &key[i]);
+    bool same = i > 0 && have_same_coordinates(f->sheet, &key[i - 1], &key[i]);
     f->class[t] = same ? f->class[key[i - 1].value] : t;
     f->size[f->class[t]]++;
   }
@@ -132,14 +139,14 @@ static bool find_classes(struct duplicate_finder *f) {
   return true;
 }
 
-/* ---- 2 Kinds of edges ---------------------------------------------------- */
+/* ---- 2 Edge classes ------------------------------------------------------ */
 
-/* A side of a triangle, its ends ordered by place, then by number. */
+/* A side of a triangle, its ends ordered by coordinates, then by index. */
 struct duplicate_side {
-  uint32_t point[2], class, side;
+  uint32_t point[2], class, side; /* side: 3 * triangle + k */
 };
 
-/* An edge: sides[from .. from + count), by their classes. */
+/* An edge: sides[from .. from + count), sorted by their triangles' classes. */
 struct duplicate_edge {
   size_t from, count;
 };
@@ -150,15 +157,15 @@ struct duplicate_sides {
   ARRAY(struct duplicate_edge) edge;
 };
 
-static int compare_numbers(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
+static int compare_indices(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
 
 static int compare_sides(const void *a, const void *b, void *user) {
   const struct duplicate_side *s = a, *t = b;
-  int order = compare_numbers(s->point[0], t->point[0]);
+  int order = compare_indices(s->point[0], t->point[0]);
   (void)user;
   if (order == 0)
-    order = compare_numbers(s->point[1], t->point[1]);
-  return order != 0 ? order : compare_numbers(s->class, t->class);
+    order = compare_indices(s->point[1], t->point[1]);
+  return order != 0 ? order : compare_indices(s->class, t->class);
 }
 
 static int compare_edges(const void *a, const void *b, void *user) {
@@ -173,7 +180,7 @@ static int compare_edges(const void *a, const void *b, void *user) {
   if (order == 0 && e->count != f->count)
     return e->count < f->count ? -1 : 1;
   for (size_t i = 0; i < e->count && order == 0; i++)
-    order = compare_numbers(s[i].class, t[i].class);
+    order = compare_indices(s[i].class, t[i].class);
   return order;
 }
 
@@ -193,8 +200,7 @@ static bool add_sides(struct duplicate_sides *all,
   return true;
 }
 
-/* The sides between the same two points are an edge; of those of one class one
- * is enough to tell its kind. */
+/* Groups the sides, which are sorted, by the pair of points that they join. */
 static bool find_edges(struct duplicate_sides *all) {
   const struct duplicate_side *side = all->side.item;
   for (size_t i = 0, past; i < all->side.count; i = past) {
@@ -210,9 +216,9 @@ static bool find_edges(struct duplicate_sides *all) {
   return true;
 }
 
-static bool find_kinds(struct duplicate_finder *f) {
+static bool find_edge_classes(struct duplicate_finder *f) {
   struct duplicate_sides all = {.sheet = f->sheet};
-  uint32_t kind = 0;
+  uint32_t edge_class = 0;
   bool ok = true;
   for (uint32_t t = 0; ok && t < f->sheet->triangle.count; t++)
     ok = add_sides(&all, f, t);
@@ -225,65 +231,68 @@ static bool find_kinds(struct duplicate_finder *f) {
   for (size_t e = 0; ok && e < all.edge.count; e++) {
     const struct duplicate_edge *edge = &all.edge.item[e];
     if (e > 0 && compare_edges(edge - 1, edge, &all) != 0)
-      kind++;
+      edge_class++;
     for (size_t i = 0; i < edge->count; i++)
-      f->kind[all.side.item[edge->from + i].side] = kind;
+      f->edge_class[all.side.item[edge->from + i].side] = edge_class;
   }
   ARRAY_FREE(&all.side);
   ARRAY_FREE(&all.edge);
   return ok;
 }
 
-/* ---- 3 Copies ------------------------------------------------------------ */
+/* ---- 3 Duplicates -------------------------------------------------------- */
 
 static int compare_triangles(const void *a, const void *b, void *user) {
   const struct duplicate_finder *f = user;
   uint32_t s = *(const uint32_t *)a, t = *(const uint32_t *)b;
-  int order = compare_numbers(f->class[s], f -> class[t]);
+  int order = compare_indices(f->class[s], f -> class[t]);
   for (uint32_t k = 0; k < 3 && order == 0; k++)
-    order = compare_numbers(f->kind[3 * s + k], f->kind[3 * t + k]);
+    order = compare_indices(f->edge_class[3 * s + k], f->edge_class[3 * t + k]);
   return order;
 }
 
-/* Does the first name sides that are no later in the sheet? */
-static bool names_first(const struct sheet *sheet, uint32_t first,
-                        uint32_t copy) {
+/* Are the sheet's edges of the first triangle's sides no later than those of
+ * its duplicate?  Labels name the first of coincident edges, so leaving out a
+ * duplicate must not lose that one. */
+static bool has_first_edges(const struct sheet *sheet, uint32_t first,
+                            uint32_t duplicate) {
   const uint32_t *s = sheet->triangle.item[first].side,
-                 *t = sheet->triangle.item[copy].side;
+                 *t = sheet->triangle.item[duplicate].side;
   return s[0] <= t[0] && s[1] <= t[1] && s[2] <= t[2];
 }
 
-/* Leaves out all copies but the first and the next one, if possible of another
- * face. */
-static void leave_out(struct duplicate_finder *f, const uint32_t *copy,
+/* Leaves out all of a class of duplicates but two representatives: the first,
+ * and the next one that is of another face if there is one. */
+static void leave_out(struct duplicate_finder *f, const uint32_t *duplicate,
                       size_t count) {
   const struct sheet_triangle *triangle = f->sheet->triangle.item;
   size_t other = 1;
-  while (other < count && triangle[copy[other]].face == triangle[copy[0]].face)
+  while (other < count &&
+         triangle[duplicate[other]].face == triangle[duplicate[0]].face)
     other++;
   if (other == count)
     other = 1;
   for (size_t i = 1; i < count; i++)
-    f->left_out[copy[i]] =
-        i != other && names_first(f->sheet, copy[0], copy[i]);
+    f->left_out[duplicate[i]] =
+        i != other && has_first_edges(f->sheet, duplicate[0], duplicate[i]);
 }
 
 static bool find_duplicates(struct duplicate_finder *f) {
-  ARRAY(uint32_t) copy = {0};
+  ARRAY(uint32_t) duplicate = {0};
   bool ok = true;
   for (uint32_t t = 0; ok && t < f->sheet->triangle.count; t++)
     if (may_be_duplicate(f, t))
-      ok = ARRAY_PUSH(&copy, t);
-  ok = ok && sort_stable(copy.item, copy.count, sizeof *copy.item,
-                         compare_triangles, f);
-  for (size_t i = 0, past; ok && i < copy.count; i = past) {
+      ok = ARRAY_PUSH(&duplicate, t);
+  ok = ok && sort_stable(duplicate.item, duplicate.count,
+                         sizeof *duplicate.item, compare_triangles, f);
+  for (size_t i = 0, past; ok && i < duplicate.count; i = past) {
     for (past = i + 1;
-         past < copy.count &&
-         compare_triangles(&copy.item[i], &copy.item[past], f) == 0;)
+         past < duplicate.count &&
+         compare_triangles(&duplicate.item[i], &duplicate.item[past], f) == 0;)
       past++;
-    leave_out(f, &copy.item[i], past - i);
+    leave_out(f, &duplicate.item[i], past - i);
   }
-  ARRAY_FREE(&copy);
+  ARRAY_FREE(&duplicate);
   return ok;
 }
 
@@ -294,17 +303,17 @@ bool duplicate_triangles_find(const struct sheet *sheet, uint8_t **left_out) {
   f.class = mem_alloc(n, sizeof *f.class);
   f.size = mem_calloc(n, sizeof *f.size);
   f.marked = mem_calloc(sheet->point.count, sizeof *f.marked);
-  f.kind = mem_alloc(3 * n, sizeof *f.kind);
+  f.edge_class = mem_alloc(3 * n, sizeof *f.edge_class);
   f.left_out = mem_calloc(n, sizeof *f.left_out);
-  if (f.class != NULL && f.size != NULL && f.marked != NULL && f.kind != NULL &&
-      f.left_out != NULL) {
-    memset(f.kind, 0xff, 3 * n * sizeof *f.kind);
-    ok = find_classes(&f) && find_kinds(&f) && find_duplicates(&f);
+  if (f.class != NULL && f.size != NULL && f.marked != NULL &&
+      f.edge_class != NULL && f.left_out != NULL) {
+    memset(f.edge_class, 0xff, 3 * n * sizeof *f.edge_class);
+    ok = find_classes(&f) && find_edge_classes(&f) && find_duplicates(&f);
   }
   mem_free(f.class);
   mem_free(f.size);
   mem_free(f.marked);
-  mem_free(f.kind);
+  mem_free(f.edge_class);
   if (!ok)
     mem_free(f.left_out);
   *left_out = ok ? f.left_out : NULL;

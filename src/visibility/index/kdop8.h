@@ -1,34 +1,48 @@
-/* kdop8.h - about where in a cell of the page something is, in one word: one
- * subtraction tells of two words whether they may meet.
+/* kdop8.h - 8-DOPs relative to a grid cell, quantised to one 64-bit key; one
+ * subtraction tests whether two of them may overlap.
  *
- * A word has nine lanes of six bits and a guard bit: the extents in x, y,
- * x + y and x - y in 64ths of the cell (and of twice the cell), the least ones
- * turned round, and the nearest depth.  What meets has every lane of its word
- * at or above the lane of the other's question, so that subtracting borrows no
- * guard bit.  Extents are clamped to the cell, which keeps their order: a no
- * is certain.
+ * An 8-DOP bounds a set of points by its extents in x, y, x + y and x - y; here
+ * its nearest depth is added.  A key has nine lanes, each of six bits and a
+ * guard bit:
+ *     lanes 0, 2, 4, 6   the upper ends of the extents, in 64ths of the cell
+ *                        (of twice the cell for x + y and x - y)
+ *     lanes 1, 3, 5, 7   63 less the lower ends
+ *     lane 8             the nearest depth
+ * A query has the opposite ends and the farthest depth in the same lanes.  Two
+ * 8-DOPs overlap, and the key's is not behind all of the query's, where every
+ * lane of the key is at least that of the query, so that subtracting them
+ * borrows from no guard bit.  Extents are clamped to the cell, which keeps
+ * their order, and rounded down in both: an answer "no" is certain.
+ *
+ * Source  [Klosowski1998] for k-DOPs.
  */
 #ifndef VISIBILITY_INDEX_KDOP8_H
 #define VISIBILITY_INDEX_KDOP8_H
 
 #include "geom/predicate.h"
 
-/* The cell that words are relative to. */
+/* The cell and the depth range to which keys are relative. */
 struct kdop8_frame {
   int32_t x0, y0;
-  int shift;   /* its side is 2^shift */
-  int64_t z0;  /* depths from here on ... */
-  int z_shift; /* ... are told in steps of 2^z_shift */
+  int shift;   /* the cell's side is 2^shift */
+  int64_t z0;  /* the least depth */
+  int z_shift; /* depths are quantised to steps of 2^z_shift */
 };
 
-enum { KDOP8_LANE = 7, KDOP8_MOST = 63 };
+enum {
+  KDOP8_LANE = 7, /* bits of a lane, guard bit included */
+  KDOP8_MOST = 63 /* greatest value of a lane */
+};
+/* The guard bits of all lanes. */
 #define KDOP8_GUARDS UINT64_C(0x4081020408102040)
 
+/* An 8-DOP with its range of depths, not quantised. */
 struct kdop8 {
   int64_t least[4], most[4]; /* x, y, x + y, x - y */
-  int64_t low, high;         /* depths */
+  int64_t low, high;         /* depths: farthest, nearest */
 };
 
+/* Extends the 8-DOP to a point. */
 static inline void kdop8_add(struct kdop8 *kdop, struct geom_point p) {
   const int64_t at[4] = {p.x, p.y, (int64_t)p.x + p.y, (int64_t)p.x - p.y};
   for (int k = 0; k < 4; k++) {
@@ -49,12 +63,15 @@ static inline uint64_t kdop8_lane(int64_t value, int lane) {
   return (uint64_t)clamped << (lane * KDOP8_LANE);
 }
 
-/* An extent from a to b in a frame's steps as the two lanes of the word
- * (`first` = b) or of the question (`first` = a). */
-static inline uint64_t kdop8_lanes(int64_t first, int64_t turned, int lane) {
-  return kdop8_lane(first, lane) | kdop8_lane(KDOP8_MOST - turned, lane + 1);
+/* An extent from a to b, in the frame's steps, as two lanes: of a key for
+ * (b, a), of a query for (a, b). */
+static inline uint64_t kdop8_lanes(int64_t first, int64_t complemented,
+                                   int lane) {
+  return kdop8_lane(first, lane) |
+         kdop8_lane(KDOP8_MOST - complemented, lane + 1);
 }
 
+/* The least value of extent k in the cell. */
 static inline int64_t kdop8_origin(const struct kdop8_frame *f, int k) {
   int64_t x = f->x0, y = f->y0;
   return k == 0   ? x
@@ -63,44 +80,47 @@ static inline int64_t kdop8_origin(const struct kdop8_frame *f, int k) {
                   : x - y - (INT64_C(1) << f->shift);
 }
 
+/* Binary logarithm of the step of extent k. */
 static inline int kdop8_steps(const struct kdop8_frame *f, int k) {
   int steps = f->shift - (k < 2 ? 6 : 5);
   return steps > 0 ? steps : 0;
 }
 
-/* What something is, for others to ask. */
+/* The key of an 8-DOP that is stored in an index. */
 static inline uint64_t kdop8_key(const struct kdop8_frame *f,
                                  const struct kdop8 *o) {
-  uint64_t word = kdop8_lane((o->high - f->z0) >> f->z_shift, 8);
+  uint64_t key = kdop8_lane((o->high - f->z0) >> f->z_shift, 8);
   for (int k = 0; k < 4; k++) {
     int64_t origin = kdop8_origin(f, k);
     int steps = kdop8_steps(f, k);
-    word |= kdop8_lanes((o->most[k] - origin) >> steps,
-                        (o->least[k] - origin) >> steps, 2 * k);
+    key |= kdop8_lanes((o->most[k] - origin) >> steps,
+                       (o->least[k] - origin) >> steps, 2 * k);
   }
-  return word;
+  return key;
 }
 
-/* The question whether something that is not behind all of `o` meets it. */
+/* The query for the keys that may overlap an 8-DOP and are not behind all of
+ * it. */
 static inline uint64_t kdop8_query(const struct kdop8_frame *f,
                                    const struct kdop8 *o) {
-  uint64_t word = kdop8_lane((o->low - f->z0) >> f->z_shift, 8);
+  uint64_t query = kdop8_lane((o->low - f->z0) >> f->z_shift, 8);
   for (int k = 0; k < 4; k++) {
     int64_t origin = kdop8_origin(f, k);
     int steps = kdop8_steps(f, k);
-    word |= kdop8_lanes((o->least[k] - origin) >> steps,
-                        (o->most[k] - origin) >> steps, 2 * k);
+    query |= kdop8_lanes((o->least[k] - origin) >> steps,
+                         (o->most[k] - origin) >> steps, 2 * k);
   }
-  return word;
+  return query;
 }
 
-/* The nearest depth of a word, in steps. */
-static inline int kdop8_nearest(uint64_t word) {
-  return (int)(word >> (8 * KDOP8_LANE)) & KDOP8_MOST;
+/* The nearest depth of a key, in steps of the frame. */
+static inline int kdop8_nearest(uint64_t key) {
+  return (int)(key >> (8 * KDOP8_LANE)) & KDOP8_MOST;
 }
 
-static inline bool kdop8_overlaps(uint64_t word, uint64_t question) {
-  return (((word | KDOP8_GUARDS) - question) & KDOP8_GUARDS) == KDOP8_GUARDS;
+/* May the 8-DOP of a key overlap that of a query?  False is certain. */
+static inline bool kdop8_overlaps(uint64_t key, uint64_t query) {
+  return (((key | KDOP8_GUARDS) - query) & KDOP8_GUARDS) == KDOP8_GUARDS;
 }
 
 #endif

@@ -1,4 +1,5 @@
-/* triangle_grid.c - which triangles may lie where on the page: a flat grid. */
+/* triangle_grid.c - a uniform grid over the page, with the triangles of each
+ * cell. */
 #include "visibility/index/triangle_grid.h"
 
 #include <string.h>
@@ -8,9 +9,9 @@
 #include "visibility/predicate/surrounder.h"
 
 enum {
-  SPREAD = 8, /* cells a triangle, on average, for lists of pairs */
+  SPREAD = 8, /* cells per triangle, on average, for lists of pairs */
   MAX_SHIFT = 31,
-  SAMPLE = 1 << 16 /* triangles that are looked at to choose the cells */
+  SAMPLE = 1 << 16 /* triangles sampled to choose the cells */
 };
 
 typedef ARRAY(uint32_t) triangle_list;
@@ -27,8 +28,8 @@ static struct box2 box_of_sheet(const struct sheet *sheet) {
   return sheet->triangle.count > 0 ? all : (struct box2){0, 0, 0, 0};
 }
 
-/* Are the boxes in at most `spread` cells of 2^shift on average?  Every
- * stride-th one is asked. */
+/* Do the boxes meet at most `spread` cells of 2^shift units on average?
+ * Estimated from every stride-th triangle. */
 static bool is_spread(const struct sheet *sheet, int shift, unsigned spread) {
   size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
   uint64_t cells = 0, limit = (uint64_t)spread * (n / stride) + 64;
@@ -40,7 +41,7 @@ static bool is_spread(const struct sheet *sheet, int shift, unsigned spread) {
   return cells <= limit;
 }
 
-/* The cells of 2^shift units that a box has from side to side. */
+/* How many cells of 2^shift units cover the range from..to. */
 static uint64_t cells_across(int32_t from, int32_t to, int shift) {
   return (((uint64_t)((int64_t)to - from) + 1) >> shift) + 1;
 }
@@ -69,18 +70,18 @@ void triangle_grid_shape(struct triangle_grid *grid, const struct sheet *sheet,
   shape(grid, sheet, all, shift);
 }
 
-/* The pairs that share a list of the grid, were its lists of these triangles,
- * and the lists' length.
- * count  one a cell: scratch */
+/* The cost of the grid's lists, were they made of this subset of the triangles
+ * (triangle_grid_cost_of_list).
+ * count  per cell: scratch */
 static double cost_of_pairs(const struct triangle_grid *grid,
-                            const struct sheet *sheet, const uint32_t *some,
+                            const struct sheet *sheet, const uint32_t *subset,
                             size_t n, uint32_t *count) {
   size_t cells = triangle_grid_cell_count(grid);
   double cost = 0;
   memset(count, 0, cells * sizeof *count);
   for (size_t i = 0; i < n; i++) {
     struct cell_range r =
-        triangle_grid_cells(grid, box2_of_triangle(sheet, some[i]));
+        triangle_grid_cells(grid, box2_of_triangle(sheet, subset[i]));
     for (int y = r.y0; y <= r.y1; y++)
       for (int x = r.x0; x <= r.x1; x++)
         count[(size_t)y * (size_t)grid->columns + (size_t)x]++;
@@ -91,7 +92,7 @@ static double cost_of_pairs(const struct triangle_grid *grid,
 }
 
 bool triangle_grid_enlarge(struct triangle_grid *grid,
-                           const struct sheet *sheet, const uint32_t *some,
+                           const struct sheet *sheet, const uint32_t *subset,
                            size_t n, double *cost) {
   struct box2 all = box_of_sheet(sheet);
   struct triangle_grid next;
@@ -100,14 +101,15 @@ bool triangle_grid_enlarge(struct triangle_grid *grid,
   double now = *cost;
   if (count == NULL)
     return false;
-  /* From one cell on they become smaller as long as that is of use. */
+  /* Starting with one cell for all, cells are halved as long as the cost is
+   * below twice the least cost so far. */
   while (shift < MAX_SHIFT && cells_across(all.x0, all.x1, shift) *
                                       cells_across(all.y0, all.y1, shift) >
                                   1)
     shift++;
   for (; shift > grid->shift && now < 2 * *cost; shift--) {
     shape(&next, sheet, all, shift);
-    now = cost_of_pairs(&next, sheet, some, n, count);
+    now = cost_of_pairs(&next, sheet, subset, n, count);
     if (now >= *cost)
       continue;
     *cost = now;
@@ -117,18 +119,20 @@ bool triangle_grid_enlarge(struct triangle_grid *grid,
   return true;
 }
 
-/* What the lists are made of. */
+/* Input of the lists. */
 struct filling {
   struct triangle_grid *grid;
   const struct sheet *sheet;
-  const struct footprint *print;
-  const uint8_t *wanted;
-  const uint32_t *some; /* the triangles that may be listed; NULL: all */
+  const struct footprint *print; /* NULL: computed */
+  const uint8_t *wanted;         /* per cell: it gets a list; NULL: all do */
+  const uint32_t *subset; /* the triangles that may be listed; NULL: all */
   size_t count;
 };
 
+/* Counts the triangle in its cells' lists, or stores it there.
+ * store  grid->start has the ends of the cells' free ranges, else counts */
 static void fill_triangle(const struct filling *filling, uint32_t t,
-                          bool place) {
+                          bool store) {
   struct triangle_grid *grid = filling->grid;
   const struct sheet *sheet = filling->sheet;
   struct cell_range r =
@@ -145,21 +149,23 @@ static void fill_triangle(const struct filling *filling, uint32_t t,
         continue;
       if (grid->horizon != NULL && nearest < grid->horizon[cell])
         continue;
-      if (place)
+      if (store)
         grid->item[--*end] = t;
       else
         ++*end;
     }
 }
 
-/* First pass: counts; second: places.  start[] ends as the lists' starts. */
-static void fill_cells(const struct filling *filling, bool place) {
+/* Counting sort of the triangles by cell: the first pass counts, the second
+ * stores, backwards, after which start[] has the lists' starts. */
+static void fill_cells(const struct filling *filling, bool store) {
   for (size_t i = filling->count; i-- > 0;)
-    fill_triangle(
-        filling, filling->some != NULL ? filling->some[i] : (uint32_t)i, place);
+    fill_triangle(filling,
+                  filling->subset != NULL ? filling->subset[i] : (uint32_t)i,
+                  store);
 }
 
-/* Drops the triangles that others stand for from the lists. */
+/* Removes the triangles that are left out from the lists. */
 static void shorten_lists(struct triangle_grid *grid) {
   size_t cells = triangle_grid_cell_count(grid);
   uint32_t kept = 0, i = 0;
@@ -173,7 +179,7 @@ static void shorten_lists(struct triangle_grid *grid) {
   grid->start[cells] = kept;
 }
 
-/* Looks for copies where the longest list is a pile of them. */
+/* Leaves out duplicates where the longest list has many of them. */
 static bool leave_out_duplicates(struct triangle_grid *grid) {
   size_t cells = triangle_grid_cell_count(grid), longest = 0;
   const uint32_t *start = grid->start;
@@ -238,32 +244,34 @@ static bool fill(const struct filling *filling) {
   return true;
 }
 
-/* One a cell: is it wanted, or the next one in x, in y or in both?  So a
- * triangle in two cells each way or less asks once. */
-static uint8_t *widen(const struct triangle_grid *grid, const uint8_t *wanted) {
+/* Per cell: is it wanted, or the next one in x, in y or in both?  Then one
+ * lookup decides for a triangle of two by two cells or less.  NULL when memory
+ * ran out. */
+static uint8_t *dilate(const struct triangle_grid *grid,
+                       const uint8_t *wanted) {
   size_t n = triangle_grid_cell_count(grid), columns = (size_t)grid->columns;
-  uint8_t *wide = mem_alloc(n, 1);
-  if (wide == NULL)
+  uint8_t *dilated = mem_alloc(n, 1);
+  if (dilated == NULL)
     return NULL;
   for (size_t i = 0; i + 1 < n; i++)
-    wide[i] = wanted[i] | wanted[i + 1];
-  wide[n - 1] = wanted[n - 1];
+    dilated[i] = wanted[i] | wanted[i + 1];
+  dilated[n - 1] = wanted[n - 1];
   for (size_t i = 0; i + columns < n; i++)
-    wide[i] |= wide[i + columns];
-  return wide;
+    dilated[i] |= dilated[i + columns];
+  return dilated;
 }
 
-/* The triangles that are in wanted cells, and maybe a few more. */
-static bool choose_some(const struct triangle_grid *grid,
-                        const struct footprint *print, const uint8_t *wide,
-                        triangle_list *some) {
+/* Collects the triangles that meet wanted cells, and maybe a few more. */
+static bool choose_subset(const struct triangle_grid *grid,
+                          const struct footprint *print, const uint8_t *dilated,
+                          triangle_list *subset) {
   for (size_t t = 0; t < grid->triangle_count; t++) {
     struct footprint f = print[t];
     size_t cell = (size_t)f.y * (size_t)grid->columns + f.x;
     bool small = f.width <= 1 && f.height <= 1;
-    if (small && !wide[cell])
+    if (small && !dilated[cell])
       continue;
-    if (!ARRAY_PUSH(some, (uint32_t)t))
+    if (!ARRAY_PUSH(subset, (uint32_t)t))
       return false;
   }
   return true;
@@ -272,14 +280,14 @@ static bool choose_some(const struct triangle_grid *grid,
 bool triangle_grid_fill(struct triangle_grid *grid, const struct sheet *sheet,
                         const struct footprint *print, const uint8_t *wanted,
                         const double *horizon) {
-  triangle_list some = {0};
-  uint8_t *wide = widen(grid, wanted);
+  triangle_list subset = {0};
+  uint8_t *dilated = dilate(grid, wanted);
   grid->horizon = horizon;
-  bool ok = wide != NULL && choose_some(grid, print, wide, &some);
-  mem_free(wide);
-  ok = ok && fill(&(struct filling){grid, sheet, print, wanted, some.item,
-                                    some.count});
-  ARRAY_FREE(&some);
+  bool ok = dilated != NULL && choose_subset(grid, print, dilated, &subset);
+  mem_free(dilated);
+  ok = ok && fill(&(struct filling){grid, sheet, print, wanted, subset.item,
+                                    subset.count});
+  ARRAY_FREE(&subset);
   return ok;
 }
 
@@ -294,10 +302,10 @@ bool triangle_grid_init(struct triangle_grid *grid, const struct sheet *sheet) {
 }
 
 bool triangle_grid_fill_some(struct triangle_grid *grid,
-                             const struct sheet *sheet, const uint32_t *some,
+                             const struct sheet *sheet, const uint32_t *subset,
                              size_t count) {
   return fill(&(struct filling){
-      .grid = grid, .sheet = sheet, .some = some, .count = count});
+      .grid = grid, .sheet = sheet, .subset = subset, .count = count});
 }
 
 void triangle_grid_fini(struct triangle_grid *grid) {
@@ -335,6 +343,7 @@ void triangle_grid_query_start(const struct triangle_grid *grid,
   }
 }
 
+/* Adds a triangle to the result, unless it is there already. */
 static bool visit(struct triangle_grid_query *query, uint32_t t) {
   return !triangle_grid_query_first(query, t) || ARRAY_PUSH(&query->found, t);
 }
@@ -342,9 +351,9 @@ static bool visit(struct triangle_grid_query *query, uint32_t t) {
 static bool visit_bsp(const struct triangle_grid *grid, uint32_t root,
                       const struct bsp_query *shape,
                       struct triangle_grid_query *query) {
-  struct bsp_traversal walk = bsp_traversal_from(root);
+  struct bsp_traversal traversal = bsp_traversal_from(root);
   const struct bsp_node *node;
-  while ((node = bsp_next(grid->bsp, &walk, shape)) != NULL)
+  while ((node = bsp_next(grid->bsp, &traversal, shape)) != NULL)
     for (uint32_t i = node->from; i < node->from + node->count; i++)
       if (!visit(query, grid->bsp->member.item[i].triangle))
         return false;
@@ -402,7 +411,7 @@ void triangle_grid_row(const struct triangle_grid *grid, struct geom_point p,
   *x1 = range.x1;
   if (range.y0 == range.y1 || range.x0 == range.x1)
     return;
-  /* Where the segment enters and leaves the row, rounded outwards. */
+  /* The x at which the segment enters and leaves the row, rounded outwards. */
   low = grid->y0 + ((int64_t)y << grid->shift) - p.y;
   high = low + (INT64_C(1) << grid->shift);
   a = (double)p.x + (double)dx * ((double)low / (double)dy);

@@ -1,37 +1,45 @@
-/* triangle_grid.h - which triangles may lie where on the page: a flat grid. */
+/* triangle_grid.h - a uniform grid over the page: the triangles whose boxes
+ * meet each cell, with a BSP for overfull cells. */
 #ifndef VISIBILITY_INDEX_TRIANGLE_GRID_H
 #define VISIBILITY_INDEX_TRIANGLE_GRID_H
 
 #include "view/sheet.h"
 #include "visibility/predicate/box2.h"
 
-/* Cells are squares of 2^shift units; the triangles of cell c are
- * item[start[c] .. start[c + 1]), ascending.  In a pile of copies those that
- * others stand for are not listed (duplicate_triangles.h). */
+/* Cells are squares of 2^shift units, row by row from the lower left; the
+ * triangles of cell c are item[start[c] .. start[c + 1]), ascending.  Where
+ * there are many duplicates, only their representatives are listed
+ * (duplicate_triangles.h). */
 struct triangle_grid {
   int shift, columns, rows;
   int32_t x0, y0; /* lower left corner */
   uint32_t *start, *item;
-  uint8_t *left_out; /* one a triangle: not listed; NULL: all are */
+  uint8_t *left_out; /* per triangle, not 0: not listed; NULL: all are listed */
   size_t triangle_count;
-  const struct sheet *sheet; /* lent */
-  struct bsp *bsp;           /* the long lists, parted; NULL: none is */
-  uint32_t *bsp_root;        /* one a cell; SHEET_NONE: not parted */
-  const double *horizon;     /* what the lists were made with; lent */
+  const struct sheet *sheet; /* borrowed, not owned */
+  struct bsp *bsp;           /* the trees of overfull cells; NULL: none */
+  uint32_t *bsp_root;        /* per cell; SHEET_NONE: no tree */
+  const double *horizon;     /* used to make the lists; borrowed, not owned */
 };
 
-/* Indexes the boxes of all triangles of the sheet. */
+/* Indexes the boxes of all triangles of the sheet.  False when memory ran
+ * out. */
 USE_RESULT bool triangle_grid_init(struct triangle_grid *grid,
                                    const struct sheet *sheet);
 void triangle_grid_fini(struct triangle_grid *grid);
 
-/* The same in two steps.  The first chooses the cells: as small as they may
- * be with a triangle in `spread` of them on average, so that memory is linear
- * in the triangles whatever their shape, and at most `cells` cells a
- * triangle.  The second makes the lists.
- * print   the triangles' footprints
- * wanted  the cells that get a list, the others' stay empty
- * horizon one a cell: triangles wholly behind it are left out; NULL: none */
+/* The same in two steps.
+ *
+ * triangle_grid_shape chooses the cells: the smallest that have a triangle in
+ * at most `spread` cells on average, so that memory is linear in the triangles
+ * whatever their shape, and at most `cells` cells per triangle.
+ *
+ * triangle_grid_fill makes the lists.
+ * print    the triangles' footprints
+ * wanted   per cell, not 0: it gets a list; the lists of the others stay empty
+ * horizon  per cell, a depth: triangles wholly behind it are not listed; NULL:
+ *          none
+ * Returns false when memory ran out. */
 void triangle_grid_shape(struct triangle_grid *grid, const struct sheet *sheet,
                          unsigned spread, unsigned cells);
 struct footprint;
@@ -41,29 +49,34 @@ USE_RESULT bool triangle_grid_fill(struct triangle_grid *grid,
                                    const uint8_t *wanted,
                                    const double *horizon);
 
-/* What a list costs those who look at all pairs in it, in pairs: it is worth a
- * few to be in a list at all. */
+/* The cost of testing all pairs of a list, in pairs; each entry adds a constant
+ * cost of four. */
 static inline double triangle_grid_cost_of_list(uint32_t count) {
   return (0.5 * count + 4) * count;
 }
 
-/* Takes larger cells where these cost less, for lists of some triangles: large
- * ones are in many cells, and any two of them meet in each.
- * grid  a shape without lists
- * cost  of the lists there would be else; becomes what larger cells cost
+/* Enlarges the cells where that reduces the cost of the lists of a subset of
+ * the triangles: large triangles lie in many cells, and every pair of them
+ * would be found in each.
+ * grid    a shape without lists
+ * subset  `n` triangles
+ * cost    the cost of the lists at the present size; gets that at the size
+ *         chosen
  * Returns false when memory ran out. */
 USE_RESULT bool triangle_grid_enlarge(struct triangle_grid *grid,
                                       const struct sheet *sheet,
-                                      const uint32_t *some, size_t n,
+                                      const uint32_t *subset, size_t n,
                                       double *cost);
 
-/* Makes such lists, ascending. */
+/* Makes the lists of a subset of the triangles, ascending.  False when memory
+ * ran out. */
 USE_RESULT bool triangle_grid_fill_some(struct triangle_grid *grid,
                                         const struct sheet *sheet,
-                                        const uint32_t *some, size_t count);
+                                        const uint32_t *subset, size_t count);
 
-/* Parts the long lists of such a grid.
- * planes  by planes too: questions are then about what may hide something
+/* Makes a BSP of each list of TRIANGLE_GRID_SPLIT triangles or more.
+ * planes  split by planes too: a query then finds what may hide its shape, not
+ *         what the shape may hide (bsp.h)
  * Returns false when memory ran out. */
 USE_RESULT bool triangle_grid_split(struct triangle_grid *grid, bool planes);
 
@@ -72,6 +85,8 @@ triangle_grid_cell_count(const struct triangle_grid *grid) {
   return (size_t)grid->columns * (size_t)grid->rows;
 }
 
+/* The column or row of a coordinate, clamped to the grid's `count`.
+ * v0  the grid's first coordinate */
 static inline int triangle_grid_cell(int32_t v, int32_t v0, int shift,
                                      int count) {
   int64_t cell = ((int64_t)v - v0) >> shift;
@@ -79,28 +94,29 @@ static inline int triangle_grid_cell(int32_t v, int32_t v0, int shift,
 }
 
 enum {
-  TRIANGLE_GRID_SPLIT = 1024,    /* lists from here on are parted */
-  TRIANGLE_GRID_DUPLICATES = 256 /* and from here on searched for copies */
+  TRIANGLE_GRID_SPLIT = 1024,    /* least list that gets a BSP */
+  TRIANGLE_GRID_DUPLICATES = 256 /* least list searched for duplicates */
 };
 
-/* Do others stand for the triangle? */
+/* Is the triangle not listed, because representatives of its duplicates are? */
 static inline bool triangle_grid_leaves_out(const struct triangle_grid *grid,
                                             uint32_t triangle) {
   return grid->left_out != NULL && grid->left_out[triangle] != 0;
 }
 
-/* The root of a cell's list in grid->crowd; SHEET_NONE: it was not parted. */
+/* The root of a cell's tree in grid->bsp; SHEET_NONE: it has none. */
 static inline uint32_t triangle_grid_bsp(const struct triangle_grid *grid,
                                          size_t cell) {
   return grid->bsp_root != NULL ? grid->bsp_root[cell] : SHEET_NONE;
 }
 
-/* Ranges of cells, closed. */
+/* A closed range of cells, by columns and rows. */
 struct cell_range {
   int x0, y0, x1, y1;
 };
 
-/* The cells that a box meets; what is off the grid counts to its rim. */
+/* The cells that a box meets; what lies outside of the grid is clamped to its
+ * outermost cells. */
 static inline struct cell_range
 triangle_grid_cells(const struct triangle_grid *grid, struct box2 box) {
   return (struct cell_range){
@@ -110,16 +126,19 @@ triangle_grid_cells(const struct triangle_grid *grid, struct box2 box) {
       triangle_grid_cell(box.y1, grid->y0, grid->shift, grid->rows)};
 }
 
-/* Of row y, within `range`, the cells that the segment p-q meets. */
+/* The columns x0 to x1 of row y, within `range`, whose cells the segment p-q
+ * may meet; none where x0 > x1. */
 void triangle_grid_row(const struct triangle_grid *grid, struct geom_point p,
                        struct geom_point q, struct cell_range range, int y,
                        int *x0, int *x1);
 
-/* The cells of a triangle, kept small so that the triangles can be streamed
- * again without their points; and two numbers of whoever made it. */
+/* The cells that a triangle's box meets, in few bytes, so that passes over all
+ * triangles need not load their points; and two numbers for the caller's
+ * use. */
 struct footprint {
-  uint16_t x, y;         /* the lower left */
-  uint8_t width, height; /* cells less one; FOOTPRINT_LARGE: ask the box */
+  uint16_t x, y;         /* the lower left cell */
+  uint8_t width, height; /* cells less one; FOOTPRINT_LARGE: not stored,
+                            computed from the box */
   uint8_t low, high;
 };
 enum { FOOTPRINT_LARGE = 255 };
@@ -147,9 +166,11 @@ footprint_cells(const struct triangle_grid *grid, const struct sheet *sheet,
                              print.y + print.height};
 }
 
-/* A place for answers, one a thread. */
+/* The result of a query, and the set of triangles that are in it; one per
+ * thread. */
 struct triangle_grid_query {
-  uint32_t *stamp, now;
+  uint32_t *stamp; /* per triangle; == now: it was found */
+  uint32_t now;    /* the number of the query */
   ARRAY(uint32_t) found;
 };
 
@@ -157,11 +178,11 @@ USE_RESULT bool triangle_grid_query_init(struct triangle_grid_query *query,
                                          const struct triangle_grid *grid);
 void triangle_grid_query_fini(struct triangle_grid_query *query);
 
-/* Forgets the last answer. */
+/* Starts a new query: the result is empty. */
 void triangle_grid_query_start(const struct triangle_grid *grid,
                                struct triangle_grid_query *query);
 
-/* Is the triangle not in the answer yet?  From now on it is. */
+/* Marks the triangle as found; returns whether it had not been. */
 static inline bool triangle_grid_query_first(struct triangle_grid_query *query,
                                              uint32_t triangle) {
   bool first = query->stamp[triangle] != query->now;
@@ -169,22 +190,22 @@ static inline bool triangle_grid_query_first(struct triangle_grid_query *query,
   return first;
 }
 
-/* Finds every triangle whose box meets `box` (and some more), each once, in
+/* Finds every triangle whose box meets `box`, and maybe others, each once, in
  * an order that depends on the grid alone.  False when memory ran out. */
 USE_RESULT bool triangle_grid_find(const struct triangle_grid *grid,
                                    struct box2 box,
                                    struct triangle_grid_query *query);
 
-/* The same along the segment from p to q: triangles of the cells it meets.
- * In long lists, those that share no stretch of the page with it may be left
- * out. */
+/* The same for the segment p-q: the triangles of the cells that it meets.
+ * Triangles of overfull cells that overlap it in no more than a point of the
+ * page may be missing. */
 USE_RESULT bool triangle_grid_find_along(const struct triangle_grid *grid,
                                          struct geom_point p,
                                          struct geom_point q,
                                          struct triangle_grid_query *query);
 
-/* The same about a triangle of the sheet: those that may share an area of the
- * page with it. */
+/* The same for a triangle of the sheet: those that may overlap it in an area of
+ * the page. */
 USE_RESULT bool
 triangle_grid_find_overlapping(const struct triangle_grid *grid,
                                uint32_t triangle,

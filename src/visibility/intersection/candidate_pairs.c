@@ -239,7 +239,7 @@ static bool sweep_bsp(struct box_sweep *sweep) {
       return false;
     for (uint32_t i = node->from; i < node->from + node->count; i++)
       add_to_list(sweep, bsp->member.item[i].triangle,
-                  bsp->member.item[i].seen);
+                  bsp->member.item[i].right_copy);
     if (!sweep_list(sweep))
       return false;
   }

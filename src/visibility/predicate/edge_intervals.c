@@ -1,4 +1,5 @@
-/* edge_intervals.c - from what triangles hide of an edge to its visible intervals. */
+/* edge_intervals.c - from what triangles hide of an edge to its visible
+ * intervals. */
 #include "visibility/predicate/edge_intervals.h"
 
 #include <string.h>

@@ -1,4 +1,5 @@
-/* occlusion.c - the one predicate of hiding: what a triangle hides of an edge. */
+/* occlusion.c - the one predicate of hiding: what a triangle hides of an
+ * edge. */
 #include "visibility/predicate/occlusion.h"
 
 #include <math.h>

@@ -3,11 +3,12 @@
  * Robustness  With u = 2^-53.  The differences of corners are exact.  A part
  * of the normal is a difference of two products: it is off by less than 3u
  * (|a| + |b|) =: 3u m.  The value sums three products of these: off by less
- * than 7u times the sum of m |d|.  The tolerance of occlusion.h takes its length
- * from the normal rounded once: the two lengths differ by no more than the
- * vectors do, and the third coordinate of these is a sum of four terms.  So
- * 32u times the sums of the magnitudes is room enough for all.  What occlusion.h
- * rounds up makes the tolerance larger by less than one unit of 2^-16 each.
+ * than 7u times the sum of m |d|.  The tolerance of occlusion.h takes its
+ * length from the normal rounded once: the two lengths differ by no more than
+ * the vectors do, and the third coordinate of these is a sum of four terms.  So
+ * 32u times the sums of the magnitudes is room enough for all.  What
+ * occlusion.h rounds up makes the tolerance larger by less than one unit of
+ * 2^-16 each.
  */
 #include "visibility/predicate/plane_filter.h"
 
