@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "geom/predicate.h"
+#include "view/layout.h"
 #include "tests/sheet_fixture.h"
 
 void sheet_fixture_start(struct sheet_fixture *fixture) {
@@ -26,9 +27,9 @@ void sheet_fixture_out(struct sheet_fixture *fixture, bool outlines) {
   if (topology_init(&fixture->topology, &fixture->scene, &error) != RECTO_OK ||
       camera_aim(&fixture->camera, &fixture->scene, &fixture->options,
                  &error) != RECTO_OK ||
-      sheet_init(&fixture->sheet, &fixture->scene, &fixture->topology,
-                 &fixture->camera, &fixture->options, outlines,
-                 &error) != RECTO_OK)
+      layout_sheet(&fixture->sheet, &fixture->scene, &fixture->topology,
+                   &fixture->camera, &fixture->options, outlines,
+                   &error) != RECTO_OK)
     fail_msg("%s", error.text);
 }
 

@@ -123,7 +123,7 @@ static struct judge_point3 middle_of(const struct scene *scene, double *size) {
                            fmax(high.z, p->z));
   }
   *size = point3_length(point3_sub(high, low));
-  return spot_along(low, 0.5, point3_sub(high, low));
+  return point3_along(low, 0.5, point3_sub(high, low));
 }
 
 /* Draws the model as --no-fit --camera ... --lookat ... --fov 30 --page
@@ -139,7 +139,7 @@ static void check_model_of(void **state, const char *folder, const char *name,
   double size;
   struct judge_point3 target = middle_of(&scene, &size);
   struct judge_point3 eye =
-      spot_along(target, 1.7 * size, judge_point3_of(0.6, 0.5, 0.62));
+      point3_along(target, 1.7 * size, judge_point3_of(0.6, 0.5, 0.62));
   recto_options options;
   recto_options_init(&options);
   options.camera = RECTO_CAMERA_EYE;

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "geom/predicate.h"
+#include "view/layout.h"
 #include "tests/sheet_fixture.h"
 #include "tests/scenes/random.h"
 
@@ -692,8 +693,8 @@ static void every_failed_allocation_is_told(void **state) {
     struct sheet sheet;
     recto_error error = {0};
     mem_fail_after(++n);
-    status = sheet_init(&sheet, &fixture.scene, &fixture.topology,
-                        &fixture.camera, &fixture.options, true, &error);
+    status = layout_sheet(&sheet, &fixture.scene, &fixture.topology,
+                          &fixture.camera, &fixture.options, true, &error);
     mem_fail_after(0);
     if (status == RECTO_OK) {
       sheet_fini(&sheet);

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "tests/scenes/pipeline.h"
+#include "view/layout.h"
 #include "tests/scenes/random.h"
 #include "visibility/single_contour/single_contour.h"
 
@@ -49,8 +50,9 @@ static void project(struct drawn *drawn, bool outlines) {
   assert_int_equal(
       camera_aim(&drawn->camera, &drawn->scene, &drawn->options, none),
       RECTO_OK);
-  assert_int_equal(sheet_init(&drawn->sheet, &drawn->scene, &drawn->topology,
-                              &drawn->camera, &drawn->options, outlines, none),
+  assert_int_equal(layout_sheet(&drawn->sheet, &drawn->scene, &drawn->topology,
+                                &drawn->camera, &drawn->options, outlines,
+                                none),
                    RECTO_OK);
 }
 

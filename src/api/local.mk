@@ -3,10 +3,11 @@ librecto_core_la_SOURCES += \
   src/recto.h \
   %D%/check.c \
   %D%/clip_warning.c %D%/clip_warning.h \
+  %D%/draw_file.c \
   %D%/handle.h \
   %D%/judge_input.c %D%/judge_input.h \
   %D%/options.c \
-  %D%/output.c \
+  %D%/output.c %D%/output.h \
   %D%/render.c \
   %D%/scene.c \
   %D%/shares.c %D%/shares.h \

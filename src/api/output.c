@@ -1,11 +1,12 @@
-/* output.c - the drawing's handle: writing it and looking into it; and the
- * whole job in one call. */
+/* output.c - the functions of a drawing's handle: writing it to a file, and
+ * access to its strokes and statistics. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "api/handle.h"
+#include "api/output.h"
 #include "api/shares.h"
 #include "backends/writer.h"
 #include "base/path.h"
@@ -96,9 +97,10 @@ double recto_output_unit_mm(const char *path, const char *format,
   return writer != NULL ? writer->unit_mm(&how) : 0;
 }
 
-/* The usual margin stays where it is enough, and where the page is so small
- * that what is needed leaves no room. */
-static void suit_margin(recto_options *o, const struct writer *writer) {
+/* Sets the margin that the writer's device needs.  The default margin is kept
+ * where it is wide enough, and where the page is so small that the needed
+ * margins would leave no room. */
+static void fit_margin(recto_options *o, const struct writer *writer) {
   struct writer_options how = writer_options_of(o);
   double needed = writer->margin_mm(&how, o->page_width_mm, o->page_height_mm);
   if (needed > RECTO_USUAL_MARGIN_MM &&
@@ -113,16 +115,16 @@ void recto_options_suit(recto_options *options, const char *path,
     return;
   options->unit_mm = recto_output_unit_mm(path, format, options);
   if (options->margin_mm < 0 && writer != NULL && writer->margin_mm != NULL)
-    suit_margin(options, writer);
+    fit_margin(options, writer);
   if (options->order == RECTO_ORDER_AUTO && writer != NULL && writer->by_pens)
     options->order = RECTO_ORDER_NEAR;
   if (options->weights == NULL && writer != NULL && writer->by_pens)
     options->weights = "none";
 }
 
-/* Says why find_writer found none. */
-static recto_status refuse(const char *path, const char *format,
-                           recto_error *error) {
+/* Reports why find_writer returned NULL. */
+static recto_status no_writer(const char *path, const char *format,
+                              recto_error *error) {
   if (format != NULL)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                      "there is no output format \"%s\"", format);
@@ -133,8 +135,14 @@ static recto_status refuse(const char *path, const char *format,
                    "there is no output format of that extension");
 }
 
-/* The progress function hears of writing too, and may end it. */
-static bool ask_progress(void *user) {
+recto_status output_check_format(const char *path, const char *format,
+                                 recto_error *error) {
+  return find_writer(path, format) != NULL ? RECTO_OK
+                                           : no_writer(path, format, error);
+}
+
+/* Polls the user's progress function while a file is written; false: cancel. */
+static bool poll_progress(void *user) {
   const recto_options *options = user;
   double begin[SHARE_STAGES + 1];
   shares_plan(begin, options);
@@ -146,8 +154,8 @@ static bool is_compressed(const char *path, const char *format) {
                         : writer_path_is_compressed(path);
 }
 
-static recto_status refuse_place(const char *path, const char *what,
-                                 recto_error *error) {
+static recto_status reject_path(const char *path, const char *what,
+                                recto_error *error) {
   return error_set(error, RECTO_ERROR_ARGUMENT, path, 0, "%s", what);
 }
 
@@ -158,7 +166,7 @@ static recto_status open_output(const recto_drawing *drawing, const char *path,
   recto_status status = stream_open(stream, path, error);
   for (size_t i = 0; status == RECTO_OK && i < drawing->file.count; i++)
     if (stream_replaces(*stream, drawing->file.item[i]))
-      status = refuse_place(path, refusal, error);
+      status = reject_path(path, refusal, error);
   return status;
 }
 
@@ -179,7 +187,7 @@ static recto_status open_outputs(struct outputs *outputs,
                          &outputs->stats, error);
   if (status == RECTO_OK && outputs->stats != NULL &&
       stream_is_same(outputs->drawing, outputs->stats))
-    status = refuse_place(stats, "the stats would replace the drawing", error);
+    status = reject_path(stats, "the stats would replace the drawing", error);
   if (status == RECTO_OK && is_compressed(path, format))
     status = stream_compress(outputs->drawing, error);
   return status;
@@ -213,10 +221,10 @@ recto_status recto_drawing_write_with_stats(
     return status;
   const struct writer *writer = find_writer(path, format);
   if (writer == NULL)
-    return refuse(path, format, error);
+    return no_writer(path, format, error);
   status = open_outputs(&outputs, drawing, path, format, stats, error);
   if (status == RECTO_OK && own.progress != NULL)
-    stream_ask(outputs.drawing, ask_progress, &own);
+    stream_ask(outputs.drawing, poll_progress, &own);
   if (status == RECTO_OK)
     status = fill_outputs(&outputs, drawing, writer, &own, error);
   if (status != RECTO_OK) {
@@ -244,40 +252,6 @@ recto_status recto_scene_try_output(const recto_scene *scene, const char *path,
                      : path_identity(path, &there);
   for (size_t i = 0; is_file && i < scene->scene.file.count; i++)
     if (file_identity_is_same(there, scene->scene.file.item[i]))
-      return refuse_place(path, "this would replace the model", error);
+      return reject_path(path, "this would replace the model", error);
   return target_try(path, error);
-}
-
-recto_status recto_draw_file(const char *model, const char *from,
-                             const char *output, const char *to,
-                             const recto_options *options, recto_error *error) {
-  recto_scene *scene = NULL;
-  recto_drawing *drawing = NULL;
-  recto_options fitting;
-  if (model == NULL || output == NULL)
-    return error_null(error, model == NULL ? "the model" : "the output");
-  /* Known before the work: a format that is not there. */
-  if (find_writer(output, to) == NULL)
-    return refuse(output, to, error);
-  if (path_is_same(model, output))
-    return error_set(error, RECTO_ERROR_ARGUMENT, output, 0,
-                     "the drawing would replace the model");
-  if (options != NULL)
-    fitting = *options;
-  else
-    recto_options_init(&fitting);
-  recto_options_suit(&fitting, output, to);
-  options = &fitting;
-  recto_status status = recto_scene_create(&scene, error);
-  if (status == RECTO_OK)
-    status = recto_scene_read(scene, model, from, options, error);
-  if (status == RECTO_OK)
-    status = recto_scene_try_output(scene, output, error);
-  if (status == RECTO_OK)
-    status = recto_scene_render(scene, options, &drawing, error);
-  if (status == RECTO_OK)
-    status = recto_drawing_write(drawing, output, to, options, error);
-  recto_drawing_destroy(drawing);
-  recto_scene_destroy(scene);
-  return status;
 }

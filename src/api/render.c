@@ -9,14 +9,14 @@
 #include "api/clip_warning.h"
 #include "api/handle.h"
 #include "backends/device.h"
-#include "view/rescale.h"
 #include "api/shares.h"
 #include "base/parallel.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
 #include "scene/welded.h"
 #include "view/camera.h"
-#include "view/sheet.h"
+#include "view/layout.h"
+#include "view/rescale.h"
 #include "visibility/quantitative_invisibility.h"
 #include "visibility/solver.h"
 
@@ -145,7 +145,7 @@ static recto_status aim(struct render *render, recto_error *error) {
 }
 
 static recto_status project(struct render *render, recto_error *error) {
-  recto_status status = sheet_init(
+  recto_status status = layout_sheet(
       &render->sheet, &render->welded.scene, &render->topology, &render->camera,
       &render->rescaled.options, has_fills(render), error);
   if (status == RECTO_OK && (render->sheet.clipped_page > 0 ||

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/tolerance.h"
-#include "judge/edges.h"
+#include "judge/camera.h"
 
 /* Fills one row of the matrix: (direction, offset). */
 static void set_row(double row[4], struct judge_point3 direction,
@@ -19,27 +19,27 @@ void judge_camera_look(struct judge_camera *camera, struct judge_point3 eye,
                        double margin_mm) {
   memset(camera, 0, sizeof *camera);
   struct judge_point3 zero = {0, 0, 0};
-  struct judge_point3 ahead = spot_unit(point3_sub(target, eye));
-  struct judge_point3 right = spot_unit(point3_cross(ahead, up));
+  struct judge_point3 ahead = point3_unit(point3_sub(target, eye));
+  struct judge_point3 right = point3_unit(point3_cross(ahead, up));
   struct judge_point3 above = point3_cross(right, ahead);
   double half_fov = fov_deg / 360 * acos(-1);
   double s = (height_mm - 2 * margin_mm) / (2 * tan(half_fov));
   /* page = middle + s (x, y) / d: row = middle d-row + s x-row. */
   struct judge_point3 x =
-      spot_along(spot_along(zero, s, right), width_mm / 2, ahead);
+      point3_along(point3_along(zero, s, right), width_mm / 2, ahead);
   struct judge_point3 y =
-      spot_along(spot_along(zero, s, above), height_mm / 2, ahead);
+      point3_along(point3_along(zero, s, above), height_mm / 2, ahead);
   set_row(camera->matrix, x, -point3_dot(x, eye));
   set_row(camera->matrix + 4, y, -point3_dot(y, eye));
   set_row(camera->matrix + 8, ahead, -point3_dot(ahead, eye));
   camera->perspective = true;
   camera->eye = eye;
-  camera->back = spot_along(zero, -1, ahead);
+  camera->back = point3_along(zero, -1, ahead);
   camera->width_mm = width_mm;
   camera->height_mm = height_mm;
 }
 
-static struct judge_point3 spot_of(const double xyz[3]) {
+static struct judge_point3 point3_of(const double xyz[3]) {
   return judge_point3_of(xyz[0], xyz[1], xyz[2]);
 }
 
@@ -51,16 +51,16 @@ void judge_camera_axes(struct judge_camera *camera, const double right[3],
   const struct judge_point3 zero = {0, 0, 0};
   memset(camera, 0, sizeof *camera);
   camera->perspective = perspective;
-  camera->eye = spot_of(eye);
-  camera->back = spot_of(back);
+  camera->eye = point3_of(eye);
+  camera->back = point3_of(back);
   camera->near_d = -INFINITY;
   camera->width_mm = page_mm[0];
   camera->height_mm = page_mm[1];
-  struct judge_point3 ahead = spot_along(zero, -1, camera->back);
+  struct judge_point3 ahead = point3_along(zero, -1, camera->back);
   for (int k = 0; k < 2; k++) {
-    struct judge_point3 row = spot_along(zero, s, spot_of(axis[k]));
+    struct judge_point3 row = point3_along(zero, s, point3_of(axis[k]));
     if (perspective)
-      row = spot_along(row, middle_mm[k], ahead);
+      row = point3_along(row, middle_mm[k], ahead);
     set_row(camera->matrix + 4 * k, row,
             (perspective ? 0 : middle_mm[k]) - point3_dot(row, camera->eye));
   }
@@ -71,14 +71,14 @@ void judge_camera_axes(struct judge_camera *camera, const double right[3],
 }
 
 /* The spot that the matrix maps to nothing: where its three planes meet. */
-static struct judge_point3 common_spot(const double m[12]) {
+static struct judge_point3 common_point(const double m[12]) {
   struct judge_point3 a = {m[0], m[1], m[2]}, b = {m[4], m[5], m[6]};
   struct judge_point3 c = {m[8], m[9], m[10]}, zero = {0, 0, 0};
   double volume = point3_dot(a, point3_cross(b, c));
   struct judge_point3 position =
-      spot_along(zero, -m[3] / volume, point3_cross(b, c));
-  position = spot_along(position, -m[7] / volume, point3_cross(c, a));
-  return spot_along(position, -m[11] / volume, point3_cross(a, b));
+      point3_along(zero, -m[3] / volume, point3_cross(b, c));
+  position = point3_along(position, -m[7] / volume, point3_cross(c, a));
+  return point3_along(position, -m[11] / volume, point3_cross(a, b));
 }
 
 void judge_camera_matrix(struct judge_camera *camera, const double matrix[12],
@@ -92,13 +92,13 @@ void judge_camera_matrix(struct judge_camera *camera, const double matrix[12],
   for (int i = 0; i < 12; i++)
     camera->matrix[i] = matrix[i] * scale;
   if (camera->perspective) {
-    camera->eye = common_spot(camera->matrix);
-    camera->back = spot_unit(judge_point3_of(-third.x, -third.y, -third.z));
+    camera->eye = common_point(camera->matrix);
+    camera->back = point3_unit(judge_point3_of(-third.x, -third.y, -third.z));
   } else {
     camera->near_d = -INFINITY;
     struct judge_point3 x = {matrix[0], matrix[1], matrix[2]};
     struct judge_point3 y = {matrix[4], matrix[5], matrix[6]};
-    camera->back = spot_unit(point3_cross(x, y));
+    camera->back = point3_unit(point3_cross(x, y));
   }
   camera->width_mm = width_mm;
   camera->height_mm = height_mm;
@@ -146,9 +146,9 @@ struct judge_point3 judge_shift(const struct judge_camera *camera,
                                 struct judge_point3 p, double dx, double dy) {
   const double *m = camera->matrix;
   struct judge_point3 x = {m[0], m[1], m[2]}, y = {m[4], m[5], m[6]};
-  x = spot_along(x, -point3_dot(x, camera->back), camera->back);
-  y = spot_along(y, -point3_dot(y, camera->back), camera->back);
+  x = point3_along(x, -point3_dot(x, camera->back), camera->back);
+  y = point3_along(y, -point3_dot(y, camera->back), camera->back);
   double depth = judge_depth(camera, p);
-  p = spot_along(p, dx * depth / point3_dot(x, x), x);
-  return spot_along(p, dy * depth / point3_dot(y, y), y);
+  p = point3_along(p, dx * depth / point3_dot(x, x), x);
+  return point3_along(p, dy * depth / point3_dot(y, y), y);
 }

@@ -19,7 +19,7 @@ static double contact_of(const struct judge_options *options,
        c < scene->face_start.item[t->face + 1]; c++) {
     uint32_t point = scene->corner.item[c];
     struct judge_point3 at =
-        spot_along(options->origin, 1, judge_point3_at(scene, point));
+        point3_along(options->origin, 1, judge_point3_at(scene, point));
     error.x = fmax(error.x, error_of(options, scene, point, at.x));
     error.y = fmax(error.y, error_of(options, scene, point, at.y));
     error.z = fmax(error.z, error_of(options, scene, point, at.z));

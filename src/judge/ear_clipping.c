@@ -2,6 +2,8 @@
  * judge. */
 #include "judge/ear_clipping.h"
 
+#include "judge/sort.h"
+
 /* The polygon in the plane, counter-clockwise, and who is left of it. */
 struct ear_outline {
   const struct scene *scene;

@@ -3,7 +3,7 @@
 #ifndef JUDGE_EAR_CLIPPING_H
 #define JUDGE_EAR_CLIPPING_H
 
-#include "judge/triangles.h"
+#include "judge/point.h"
 
 struct judge_ear {
   uint32_t corner[3]; /* numbers of the face's corners */

@@ -2,7 +2,7 @@
 #ifndef JUDGE_GRID_H
 #define JUDGE_GRID_H
 
-#include "judge/triangles.h"
+#include "judge/point.h"
 
 struct judge_segment {
   struct judge_point2 a, b;

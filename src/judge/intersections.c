@@ -1,7 +1,9 @@
 /* intersections.c - the lines along which triangles pierce each other. */
 #include <string.h>
 
-#include "judge/edges.h"
+#include "judge/intersections.h"
+
+#include "judge/camera.h"
 #include "judge/sampler.h"
 
 struct piercer {
@@ -30,8 +32,8 @@ static struct triangle_outline keep(const struct triangle_outline *from,
       kept.p[kept.count++] = from->p[i];
     if ((where[i] >= 0) != (where[k] >= 0))
       kept.p[kept.count++] =
-          spot_along(from->p[i], where[i] / (where[i] - where[k]),
-                     point3_sub(from->p[k], from->p[i]));
+          point3_along(from->p[i], where[i] / (where[i] - where[k]),
+                       point3_sub(from->p[k], from->p[i]));
   }
   return kept;
 }
@@ -94,8 +96,8 @@ static struct triangle_cut cut_by_plane(const struct judge_triangle *t,
     int l = (k + 1) % 3;
     if ((away[k] > 0) == (away[l] > 0) || cut.count == 2)
       continue;
-    cut.end[cut.count++] = spot_along(t->p[k], away[k] / (away[k] - away[l]),
-                                      point3_sub(t->p[l], t->p[k]));
+    cut.end[cut.count++] = point3_along(t->p[k], away[k] / (away[k] - away[l]),
+                                        point3_sub(t->p[l], t->p[k]));
   }
   return cut;
 }
@@ -173,8 +175,8 @@ static bool add_common(struct piercer *piercer, const struct triangle_cut *s,
   double high = fmin(fmax(s0, s1), fmax(t0, t1));
   if (!(low < high))
     return true;
-  struct judge_point3 a = spot_along(s->end[0], low - s0, along);
-  struct judge_point3 b = spot_along(s->end[0], high - s0, along);
+  struct judge_point3 a = point3_along(s->end[0], low - s0, along);
+  struct judge_point3 b = point3_along(s->end[0], high - s0, along);
   const struct judge_triangle *one = &piercer->all->triangle
                                           .item[piercer->current],
                               *two = &piercer->all->triangle.item[other];
@@ -210,7 +212,7 @@ static bool pierce(void *user, uint32_t other) {
     return add_shared(piercer, s, t, corner);
   struct triangle_cut cs = cut_by_plane(s, t), ct = cut_by_plane(t, s);
   return cs.count != 2 || ct.count != 2 ||
-         add_common(piercer, &cs, &ct, spot_unit(along), other);
+         add_common(piercer, &cs, &ct, point3_unit(along), other);
 }
 
 bool judge_edges_intersections(struct judge_edges *edges,

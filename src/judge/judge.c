@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/tolerance.h"
+#include "judge/camera.h"
 #include "judge/edges.h"
 #include "judge/sampler.h"
 #include "judge/contact.h"
@@ -144,7 +145,7 @@ static enum judge_visibility sight_of(const struct judge_context *context,
   double slack = length > 0 ? context->options.lateral_mm / length : 0;
   const double where[3] = {t, fmin(t + slack, 1), fmax(t - slack, 0)};
   for (int k = 0; k < 3; k++) {
-    enum judge_visibility visibility = judge_look_around(
+    enum judge_visibility visibility = judge_sample_around(
         &context->sampler, edge, judge_point3_of_image(edge, where[k]),
         JUDGE_BLOCKED, blocker);
     if (visibility != JUDGE_BLOCKED)
@@ -290,7 +291,7 @@ static void try_edge(struct judge_context *context, uint32_t number,
    * ray is enough for that. */
   if (has_ink(context, at)) {
     context->long_edge = SCENE_NONE;
-    if (judge_look_from(&context->sampler, edge, from) == JUDGE_CLEAR)
+    if (judge_sample_point(&context->sampler, edge, from) == JUDGE_CLEAR)
       count_sample(&verdict->visible, mm);
     return;
   }
@@ -299,7 +300,7 @@ static void try_edge(struct judge_context *context, uint32_t number,
     return;
   }
   enum judge_visibility visibility =
-      judge_look_around(&context->sampler, edge, from, JUDGE_CLEAR, NULL);
+      judge_sample_around(&context->sampler, edge, from, JUDGE_CLEAR, NULL);
   if (visibility == JUDGE_CLEAR && may_be_too_short(context, number, t))
     visibility = JUDGE_UNSURE;
   if (visibility != JUDGE_CLEAR)
@@ -327,8 +328,8 @@ static void try_edge(struct judge_context *context, uint32_t number,
 static bool find_part(const struct judge_context *context, uint32_t edge,
                       struct judge_segment *part, double *t0, double *t1) {
   if (!is_asked_for(context, edge) ||
-      !judge_cut_to_page(context->camera, context->image[edge].a,
-                         context->image[edge].b, t0, t1))
+      !judge_clip_to_page(context->camera, context->image[edge].a,
+                          context->image[edge].b, t0, t1))
     return false;
   part->a = place_on(&context->image[edge], *t0);
   part->b = place_on(&context->image[edge], *t1);
@@ -422,7 +423,7 @@ static bool open_court(struct judge_context *context,
   context->sampler =
       (struct judge_sampler){&context->all, camera, context->options.hair_mm};
   context->grid = grid_of(context);
-  return judge_edges_init(&context->edges, scene, &context->all, camera,
+  return judge_edges_init(&context->edges, &context->all, camera,
                           &context->options) &&
          collect_images(context) && collect_ink(context) &&
          judge_grid_init(&context->by_image, context->image,

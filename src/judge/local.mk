@@ -1,15 +1,20 @@
 # src/judge/local.mk - the independent judge: sees the scene alone.
 librecto_core_la_SOURCES += \
-  %D%/camera.c \
+  %D%/camera.c %D%/camera.h \
   %D%/contact.c %D%/contact.h \
   %D%/ear_clipping.c %D%/ear_clipping.h \
+  %D%/edge_list.c %D%/edge_list.h \
+  %D%/edge_natures.c %D%/edge_natures.h \
   %D%/edges.c %D%/edges.h \
+  %D%/folds.c %D%/folds.h \
   %D%/grid.c %D%/grid.h \
-  %D%/intersections.c \
+  %D%/intersections.c %D%/intersections.h \
   %D%/judge.c %D%/judge.h \
   %D%/missing_run.c %D%/missing_run.h \
+  %D%/point.h \
   %D%/ray.c %D%/ray.h \
   %D%/sampler.c %D%/sampler.h \
+  %D%/sort.h \
   %D%/triangles.c %D%/triangles.h \
   %D%/triangulation.c %D%/triangulation.h \
   %D%/svg/svg.c \

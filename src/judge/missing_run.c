@@ -54,7 +54,7 @@ static double image_length(const struct judge_segment *s) {
 static bool is_visible(const struct judge_missing_run *run, uint32_t number,
                        double t, enum judge_visibility *visibility) {
   const struct judge_edge *edge = &run->edges->edge.item[number];
-  *visibility = judge_look_around(
+  *visibility = judge_sample_around(
       run->sampler, edge, judge_point3_of_image(edge, t), JUDGE_CLEAR, NULL);
   return *visibility == JUDGE_CLEAR;
 }
@@ -182,7 +182,7 @@ static bool walk_edge(struct walk *walk, uint32_t edge, double t, int side,
   const struct judge_missing_run *run = walk->run;
   const struct judge_segment *s = image_of(run, edge);
   double part[2];
-  if (!judge_cut_to_page(run->sampler->camera, s->a, s->b, &part[0], &part[1]))
+  if (!judge_clip_to_page(run->sampler->camera, s->a, s->b, &part[0], &part[1]))
     return false;
   double way = part[side] - t, mm = fabs(way) * image_length(s);
   double count = fmax(1, ceil(mm * PARTS / run->shortest_mm));

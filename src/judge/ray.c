@@ -1,7 +1,7 @@
 /* ray.c - what a point of an edge sees: the judge's rays. */
 #include "judge/ray.h"
 
-#include "judge/edges.h"
+#include "judge/camera.h"
 
 /* ---- Rays ---------------------------------------------------------------- */
 
@@ -153,7 +153,8 @@ static struct judge_point3 leave(const struct judge_ray *ray,
   double past = point3_dot(normal, point3_sub(to, a));
   return (from > 0) == (past > 0) || from == 0
              ? to
-             : spot_along(corner, from / (from - past), point3_sub(to, corner));
+             : point3_along(corner, from / (from - past),
+                            point3_sub(to, corner));
 }
 
 /* How far the plane is where the edge, from one end, ends or leaves the
@@ -229,8 +230,9 @@ static enum judge_visibility look_at(const struct judge_triangles *all,
 
 /* ---- All of them --------------------------------------------------------- */
 
-enum judge_visibility judge_look(const struct judge_triangles *all,
-                                 const struct judge_ray *ray, uint32_t *face) {
+enum judge_visibility judge_cast_ray(const struct judge_triangles *all,
+                                     const struct judge_ray *ray,
+                                     uint32_t *face) {
   const struct slab_ray slab_ray = ray_of(ray);
   uint32_t stack[JUDGE_STACK_SIZE];
   unsigned depth = 0;

@@ -42,7 +42,8 @@ struct judge_ray {
 
 /* What is seen.
  * face  of what blocks, set where something does; NULL: not wanted */
-enum judge_visibility judge_look(const struct judge_triangles *all,
-                                 const struct judge_ray *ray, uint32_t *face);
+enum judge_visibility judge_cast_ray(const struct judge_triangles *all,
+                                     const struct judge_ray *ray,
+                                     uint32_t *face);
 
 #endif

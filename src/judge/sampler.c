@@ -2,12 +2,15 @@
  * and how far a plane must be to hide it. */
 #include "judge/sampler.h"
 
+#include "judge/camera.h"
+
 #include "base/tolerance.h"
 
 /* ---- On the page --------------------------------------------------------- */
 
-bool judge_cut_to_page(const struct judge_camera *camera, struct judge_point2 a,
-                       struct judge_point2 b, double *t0, double *t1) {
+bool judge_clip_to_page(const struct judge_camera *camera,
+                        struct judge_point2 a, struct judge_point2 b,
+                        double *t0, double *t1) {
   const double from[2] = {a.x, a.y}, to[2] = {b.x, b.y};
   const double low = camera->margin_mm;
   const double high[2] = {camera->width_mm - low, camera->height_mm - low};
@@ -29,8 +32,8 @@ bool judge_cut_to_page(const struct judge_camera *camera, struct judge_point2 a,
 struct judge_point3 judge_point3_of_image(const struct judge_edge *edge,
                                           double t) {
   double one = (1 - t) * edge->depth[1], two = t * edge->depth[0];
-  return spot_along(edge->p[0], two / (one + two),
-                    point3_sub(edge->p[1], edge->p[0]));
+  return point3_along(edge->p[0], two / (one + two),
+                      point3_sub(edge->p[1], edge->p[0]));
 }
 
 /* ---- Margins ------------------------------------------------------------- */
@@ -46,8 +49,8 @@ double judge_rounding_at(const struct judge_camera *camera, double hair_mm,
 static void find_ends(const struct judge_sampler *sampler,
                       const struct judge_edge *edge, struct judge_end end[2]) {
   double t[2];
-  bool seen = judge_cut_to_page(sampler->camera, edge->at[0], edge->at[1],
-                                &t[0], &t[1]);
+  bool seen = judge_clip_to_page(sampler->camera, edge->at[0], edge->at[1],
+                                 &t[0], &t[1]);
   for (int k = 0; k < 2; k++) {
     end[k].position = end[k].cut = edge->p[k];
     end[k].is_cut = seen && t[k] != k;
@@ -89,16 +92,16 @@ static enum judge_visibility look(const struct judge_sampler *sampler,
     ray.reach = judge_ahead(camera, from) - near;
     ray.sure = judge_ahead(camera, from) - sure;
   }
-  return judge_look(sampler->all, &ray, blocker);
+  return judge_cast_ray(sampler->all, &ray, blocker);
 }
 
 /* What a point of an edge sees: by itself and a hair to either side, as long
  * as the answers are `expected`; the first other one is the answer. */
-enum judge_visibility judge_look_around(const struct judge_sampler *sampler,
-                                        const struct judge_edge *edge,
-                                        struct judge_point3 from,
-                                        enum judge_visibility expected,
-                                        uint32_t *blocker) {
+enum judge_visibility judge_sample_around(const struct judge_sampler *sampler,
+                                          const struct judge_edge *edge,
+                                          struct judge_point3 from,
+                                          enum judge_visibility expected,
+                                          uint32_t *blocker) {
   double dx = edge->at[1].x - edge->at[0].x;
   double dy = edge->at[1].y - edge->at[0].y;
   double length = hypot(dx, dy), hair = sampler->hair_mm;
@@ -118,9 +121,9 @@ enum judge_visibility judge_look_around(const struct judge_sampler *sampler,
               true, blocker);
 }
 
-enum judge_visibility judge_look_from(const struct judge_sampler *sampler,
-                                      const struct judge_edge *edge,
-                                      struct judge_point3 from) {
+enum judge_visibility judge_sample_point(const struct judge_sampler *sampler,
+                                         const struct judge_edge *edge,
+                                         struct judge_point3 from) {
   struct judge_end end[2];
   find_ends(sampler, edge, end);
   return look(sampler, edge, end, from, false, NULL);

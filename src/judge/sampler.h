@@ -2,7 +2,7 @@
 #ifndef JUDGE_SAMPLER_H
 #define JUDGE_SAMPLER_H
 
-#include "judge/edges.h"
+#include "judge/edge_list.h"
 #include "judge/ray.h"
 
 struct judge_sampler {
@@ -18,24 +18,25 @@ double judge_rounding_at(const struct judge_camera *camera, double hair_mm,
 
 /* Cuts a segment to the page inside its margins, from *t0 to *t1 of its way; false where nothing
  * is left. */
-bool judge_cut_to_page(const struct judge_camera *camera, struct judge_point2 a,
-                       struct judge_point2 b, double *t0, double *t1);
+bool judge_clip_to_page(const struct judge_camera *camera,
+                        struct judge_point2 a, struct judge_point2 b,
+                        double *t0, double *t1);
 
 /* The spot of an edge whose image is at t of the way along its image. */
 struct judge_point3 judge_point3_of_image(const struct judge_edge *edge,
                                           double t);
 
 /* What a point of an edge sees, by itself alone. */
-enum judge_visibility judge_look_from(const struct judge_sampler *sampler,
-                                      const struct judge_edge *edge,
-                                      struct judge_point3 from);
+enum judge_visibility judge_sample_point(const struct judge_sampler *sampler,
+                                         const struct judge_edge *edge,
+                                         struct judge_point3 from);
 
 /* What it sees by itself and a hair to either side, as long as the answers are
  * `expected`; the first other one is the answer. */
-enum judge_visibility judge_look_around(const struct judge_sampler *sampler,
-                                        const struct judge_edge *edge,
-                                        struct judge_point3 from,
-                                        enum judge_visibility expected,
-                                        uint32_t *blocker);
+enum judge_visibility judge_sample_around(const struct judge_sampler *sampler,
+                                          const struct judge_edge *edge,
+                                          struct judge_point3 from,
+                                          enum judge_visibility expected,
+                                          uint32_t *blocker);
 
 #endif

@@ -7,20 +7,14 @@
  * log(2^31) / log(8/7) = 161. */
 #include "judge/triangles.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/tolerance.h"
-#include "judge/triangulation.h"
 #include "judge/ear_clipping.h"
+#include "judge/sort.h"
+#include "judge/triangulation.h"
 
 enum { LEAF_SIZE = 4, FEWEST_SHARE = 8 };
-
-void judge_sort(void *item, size_t count, size_t size,
-                int (*compare)(const void *, const void *)) {
-  if (count > 1)
-    qsort(item, count, size, compare);
-}
 
 /* ---- Boxes --------------------------------------------------------------- */
 
@@ -132,7 +126,7 @@ static struct judge_triangle triangle_of(const struct scene *scene,
   struct judge_point3 normal =
       point3_cross(point3_sub(t.p[1], t.p[0]), point3_sub(t.p[2], t.p[0]));
   if (point3_length(normal) > 0)
-    t.normal = spot_unit(normal);
+    t.normal = point3_unit(normal);
   return t;
 }
 
@@ -147,7 +141,7 @@ struct judge_point3 judge_area(const struct scene *scene, uint32_t face) {
         point3_sub(judge_point3_at(scene, corner[0]), first);
     struct judge_point3 v =
         point3_sub(judge_point3_at(scene, corner[1]), first);
-    sum = spot_along(sum, 1, point3_cross(u, v));
+    sum = point3_along(sum, 1, point3_cross(u, v));
   }
   return sum;
 }
@@ -158,7 +152,7 @@ bool judge_is_warped(const struct scene *scene, uint32_t face, double contact) {
   struct judge_point3 normal = judge_area(scene, face);
   if (count == 3 || !(point3_length(normal) > 0))
     return false;
-  normal = spot_unit(normal);
+  normal = point3_unit(normal);
   struct judge_point3 first = judge_point3_at(scene, scene->corner.item[start]);
   double off = 0, extent = 0;
   for (uint32_t i = 1; i < count; i++) {

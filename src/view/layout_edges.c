@@ -1,6 +1,6 @@
 /* layout_edges.c - the sheet's edges: those of faces, with their classes, and
  * those of polylines. */
-#include "view/layout.h"
+#include "view/layout_phases.h"
 
 /* Natures that faces give an edge. */
 static const unsigned face_natures =

@@ -3,7 +3,7 @@
 #define VIEW_LAYOUT_FACET_H
 
 #include "geom/predicate.h"
-#include "view/layout.h"
+#include "view/layout_phases.h"
 
 /* A triangle of a face, before clipping. */
 struct layout_facet {

@@ -1,6 +1,6 @@
 /* layout_points.c - the sheet's points: those of the scene, and those where
  * edges leave the paper or meet the near plane. */
-#include "view/layout.h"
+#include "view/layout_phases.h"
 
 #include <string.h>
 

@@ -13,7 +13,7 @@
  * of the range (project_point); where it reaches into the range, the range
  * grows to hold it, so that it stays straight.
  */
-#include "view/layout.h"
+#include "view/layout_phases.h"
 #include "view/vector.h"
 
 /* Depths before the near plane that was chosen are looked at down to this share

@@ -7,9 +7,10 @@ librecto_core_la_SOURCES += \
   %D%/coordinate_error.c %D%/coordinate_error.h \
   %D%/extent.c %D%/extent.h \
   %D%/frame.c %D%/frame.h \
-  %D%/layout.h \
+  %D%/layout.c %D%/layout.h \
   %D%/layout_edges.c \
   %D%/layout_facet.c %D%/layout_facet.h \
+  %D%/layout_phases.h \
   %D%/layout_points.c \
   %D%/layout_range.c \
   %D%/layout_triangles.c \

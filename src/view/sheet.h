@@ -99,18 +99,7 @@ struct sheet {
   uint64_t cut_near;
 };
 
-/* Projects the scene: classes, clipping to the near plane and the page,
- * triangulation, snapping.  An edge may have several natures (a crease
- * may be a silhouette); it is kept where one of them is in options->edges,
- * and every edge of a face is where `outlines` is set (of class 0 where it is
- * not asked for).
- * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_LIMIT (2^31 points). */
-USE_RESULT recto_status sheet_init(struct sheet *sheet,
-                                   const struct scene *scene,
-                                   struct topology *topology,
-                                   const struct camera *camera,
-                                   const recto_options *options, bool outlines,
-                                   recto_error *error);
+/* Zero-initialised is empty; layout_sheet (layout.h) fills it. */
 void sheet_fini(struct sheet *sheet);
 
 /* Gives up the triangles, where of all that is asked of them only the faces of

@@ -4,7 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "judge/edges.h"
+#include "judge/camera.h"
+#include "judge/sort.h"
+#include "judge/triangles.h"
 
 static void require(bool ok) {
   if (!ok) {

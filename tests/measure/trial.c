@@ -1,6 +1,8 @@
 /* trial.c - see trial.h. */
 #include "tests/measure/trial.h"
 
+#include "view/layout.h"
+
 #include <string.h>
 
 static recto_status solve(struct trial *trial, const recto_options *options,
@@ -35,8 +37,8 @@ void trial_run(struct trial *trial, const struct scene *scene,
   if (trial->status == RECTO_OK)
     trial->status = camera_aim(&trial->camera, scene, options, NULL);
   if (trial->status == RECTO_OK)
-    trial->status = sheet_init(&trial->sheet, scene, &trial->topology,
-                               &trial->camera, options, outlines, NULL);
+    trial->status = layout_sheet(&trial->sheet, scene, &trial->topology,
+                                 &trial->camera, options, outlines, NULL);
   if (trial->status == RECTO_OK)
     trial->status = solve(trial, options, solver, lines, part);
 }

@@ -6,6 +6,7 @@
 
 #include "backends/writer.h"
 #include "ink/ink.h"
+#include "view/layout.h"
 
 static recto_status solve(struct pipeline *pipeline,
                           const recto_options *options,
@@ -39,8 +40,9 @@ void pipeline_run(struct pipeline *pipeline, const struct scene *scene,
   if (pipeline->status == RECTO_OK)
     pipeline->status = camera_aim(&pipeline->camera, scene, options, error);
   if (pipeline->status == RECTO_OK)
-    pipeline->status = sheet_init(&pipeline->sheet, scene, &pipeline->topology,
-                                  &pipeline->camera, options, outlines, error);
+    pipeline->status =
+        layout_sheet(&pipeline->sheet, scene, &pipeline->topology,
+                     &pipeline->camera, options, outlines, error);
   if (pipeline->status == RECTO_OK)
     pipeline->status = solve(pipeline, options, solver);
   if (pipeline->status == RECTO_OK)

@@ -1,0 +1,180 @@
+/* edge_natures.c - decides what an edge is: silhouette, crease, group border or
+ * smooth. */
+#include "judge/edge_natures.h"
+
+#include "judge/camera.h"
+#include "judge/triangulation.h"
+
+/* ---- How a face lies ----------------------------------------------------- */
+
+/* The corner of a face whose image is farthest from a place. */
+static struct judge_point2 farthest_image(const struct judge_facings *facings,
+                                          uint32_t start, uint32_t count,
+                                          struct judge_point2 from) {
+  struct judge_point2 best = from;
+  double most = 0;
+  for (uint32_t c = start; c < start + count; c++) {
+    struct judge_point2 at = judge_project(
+        facings->camera,
+        judge_point3_at(facings->scene, facings->scene->corner.item[c]));
+    double away = hypot(at.x - from.x, at.y - from.y);
+    if (away > most) {
+      most = away;
+      best = at;
+    }
+  }
+  return best;
+}
+
+/* How far from a line a place may be that contact and rounding moved, mm. */
+static double thickness_at(const struct judge_facings *facings, double contact,
+                           struct judge_point3 at) {
+  struct judge_point3 aside = judge_shift(facings->camera, at, 1, 0);
+  double unit = point3_length(point3_sub(aside, at)); /* a mm there */
+  return facings->options->hair_mm + 2 * contact / unit;
+}
+
+/* Whether all corners of a face lie about on one line on the page. */
+static bool is_thin(const struct judge_facings *facings, uint32_t face,
+                    double contact) {
+  const struct scene *scene = facings->scene;
+  const struct judge_camera *camera = facings->camera;
+  uint32_t start = scene->face_start.item[face];
+  uint32_t count = scene->face_start.item[face + 1] - start;
+  for (uint32_t c = start; c < start + count; c++)
+    if (!(judge_ahead(camera, judge_point3_at(scene, scene->corner.item[c])) >
+          judge_near(camera)))
+      return false;
+  struct judge_point2 first =
+      judge_project(camera, judge_point3_at(scene, scene->corner.item[start]));
+  struct judge_point2 a = farthest_image(facings, start, count, first);
+  struct judge_point2 b = farthest_image(facings, start, count, a);
+  double length = hypot(b.x - a.x, b.y - a.y);
+  for (uint32_t c = start; c < start + count; c++) {
+    struct judge_point3 position =
+        judge_point3_at(scene, scene->corner.item[c]);
+    struct judge_point2 p = judge_project(camera, position);
+    double off = fabs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x));
+    if (off > length * thickness_at(facings, contact, position))
+      return false;
+  }
+  return true;
+}
+
+static struct judge_facing facing_of(const struct judge_facings *facings,
+                                     uint32_t face, double contact) {
+  struct judge_point3 sum = judge_area(facings->scene, face);
+  struct judge_facing facing = {.flat = !(point3_length(sum) > 0)};
+  if (!facing.flat)
+    facing.normal = point3_unit(sum);
+  const uint32_t *start = facings->scene->face_start.item + face;
+  facing.open =
+      start[1] - start[0] > JUDGE_TRIANGULATION_MOST &&
+      judge_is_warped(facings->scene, face, facings->options->contact);
+  if (facings->all->fan_triangle.count > 0)
+    facing.thin = is_thin(facings, face, contact);
+  return facing;
+}
+
+/* The sine of the angle between a plane and the view to one of its points. */
+static double slope(const struct judge_facings *facings,
+                    struct judge_point3 normal, struct judge_point3 at) {
+  const struct judge_camera *camera = facings->camera;
+  struct judge_point3 view = camera->perspective
+                                 ? point3_unit(point3_sub(camera->eye, at))
+                                 : camera->back;
+  return point3_dot(normal, view);
+}
+
+/* Whether rounding does not turn a triangle over: its image is thicker. */
+static bool is_thick(const struct judge_facings *facings,
+                     const struct judge_triangle *t) {
+  struct judge_point2 p[3];
+  double longest = 0;
+  for (int k = 0; k < 3; k++) {
+    if (!(judge_ahead(facings->camera, t->p[k]) > judge_near(facings->camera)))
+      return true;
+    p[k] = judge_project(facings->camera, t->p[k]);
+  }
+  for (int k = 0; k < 3; k++)
+    longest = fmax(longest,
+                   hypot(p[(k + 1) % 3].x - p[k].x, p[(k + 1) % 3].y - p[k].y));
+  return fabs((p[1].x - p[0].x) * (p[2].y - p[0].y) -
+              (p[1].y - p[0].y) * (p[2].x - p[0].x)) >
+         longest * facings->options->hair_mm;
+}
+
+double judge_fan_slope(const struct judge_facings *facings,
+                       const struct judge_fan_triangle *fan_triangle,
+                       struct judge_point3 at) {
+  bool sure = !facings->facing[fan_triangle->face].thin &&
+              is_thick(facings, &fan_triangle->triangle);
+  return sure ? slope(facings, fan_triangle->triangle.normal, at) : 0;
+}
+
+/* How a face faces the view at a side of it, by the triangle that meets there
+ * where it bends; 0 where that is not sure. */
+static double slope_at_side(const struct judge_facings *facings,
+                            const struct judge_side *side) {
+  struct judge_point3 at = judge_point3_at(facings->scene, side->a);
+  const struct judge_facing *facing = &facings->facing[side->face];
+  size_t fan;
+  const struct judge_fan_triangle *fan_triangle =
+      judge_fan_along(facings->all, side->face, side->a, side->b, &fan);
+  if (fan > 0)
+    return fan == 1 ? judge_fan_slope(facings, fan_triangle, at) : 0;
+  return facing->flat || facing->open ? 0 : slope(facings, facing->normal, at);
+}
+
+unsigned judge_natures_of_pair(const struct judge_facings *facings,
+                               const struct judge_side *s,
+                               const struct judge_side *t, bool against) {
+  const struct judge_facing *f = &facings->facing[s->face];
+  const struct judge_facing *g = &facings->facing[t->face];
+  unsigned natures = 0;
+  if (scene_groups_differ(facings->scene,
+                          facings->scene->face_group.item[s->face],
+                          facings->scene->face_group.item[t->face]))
+    natures |= RECTO_EDGE_GROUP;
+  double one = slope_at_side(facings, s), two = slope_at_side(facings, t);
+  if (judge_is_silhouette(one, against ? two : -two))
+    natures |= RECTO_EDGE_SILHOUETTE;
+  if (f->flat || g->flat)
+    return natures;
+  double cosine = point3_dot(f->normal, g->normal);
+  cosine = against ? cosine : -cosine;
+  double crease = cos(facings->options->crease_deg / 180 * acos(-1));
+  if (cosine < crease - TOLERANCE_JUDGE_ANGLE)
+    natures |= RECTO_EDGE_CREASE;
+  if (natures == 0 && cosine > crease + TOLERANCE_JUDGE_ANGLE &&
+      judge_is_sure(one, two))
+    natures = RECTO_EDGE_SMOOTH;
+  return natures;
+}
+
+bool judge_facings_init(struct judge_facings *facings,
+                        const struct judge_triangles *all,
+                        const struct judge_camera *camera,
+                        const struct judge_options *options) {
+  *facings = (struct judge_facings){all, all->scene, camera, options, NULL};
+  uint32_t faces = scene_face_count(facings->scene);
+  facings->facing = mem_alloc(faces, sizeof *facings->facing);
+  if (facings->facing == NULL)
+    return false;
+  double *contact = mem_calloc(faces, sizeof *contact);
+  if (contact == NULL)
+    return false;
+  for (size_t t = 0; t < facings->all->triangle.count; t++) {
+    const struct judge_triangle *triangle = &facings->all->triangle.item[t];
+    contact[triangle->face] = fmax(contact[triangle->face], triangle->contact);
+  }
+  for (uint32_t i = 0; i < faces; i++)
+    facings->facing[i] = facing_of(facings, i, contact[i]);
+  mem_free(contact);
+  return true;
+}
+
+void judge_facings_fini(struct judge_facings *facings) {
+  mem_free(facings->facing);
+  facings->facing = NULL;
+}

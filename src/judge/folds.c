@@ -1,0 +1,86 @@
+/* folds.c - the diagonals along which faces that are not planar fold. */
+#include "judge/folds.h"
+
+#include "judge/camera.h"
+
+struct fold_finder {
+  struct judge_edges *edges;
+  const struct judge_facings *facings;
+};
+
+/* Whether two neighbouring corners of a face are these. */
+static bool is_side(const struct scene *scene, uint32_t face, uint32_t a,
+                    uint32_t b) {
+  uint32_t start = scene->face_start.item[face];
+  uint32_t count = scene->face_start.item[face + 1] - start;
+  for (uint32_t i = 0; i < count; i++) {
+    uint32_t p = scene->corner.item[start + i];
+    uint32_t q = scene->corner.item[start + (i + 1) % count];
+    if ((p == a && q == b) || (p == b && q == a))
+      return true;
+  }
+  return false;
+}
+
+/* Whether a side lies in the near plane, but for rounding: what the plane leaves
+ * of the triangles beside it is then a sliver that may lie either way. */
+static bool is_in_near_plane(const struct fold_finder *finder,
+                             const struct judge_fan_triangle *fan_triangle) {
+  const struct judge_camera *camera = finder->facings->camera;
+  double slack = judge_near_slack(camera);
+  const uint32_t end[2] = {fan_triangle->low, fan_triangle->high};
+  for (int k = 0; k < 2; k++)
+    if (!(fabs(judge_ahead(camera,
+                           judge_point3_at(finder->facings->scene, end[k])) -
+               camera->near_d) <= slack))
+      return false;
+  return true;
+}
+
+/* Adds the diagonal of a face that bends, where its two triangles lie on one
+ * side of it on the page, or may.  Where more of them meet between the same two
+ * points, or a side of the face runs there too, it is not sure which belong
+ * together. */
+static bool add_fold(const struct fold_finder *finder,
+                     const struct judge_fan_triangle *fan_triangle,
+                     size_t count) {
+  struct judge_point3 at =
+      judge_point3_at(finder->facings->scene, fan_triangle->low);
+  bool alone =
+      count == 2 && !is_side(finder->facings->scene, fan_triangle->face,
+                             fan_triangle->low, fan_triangle->high);
+  double one =
+      alone ? judge_fan_slope(finder->facings, &fan_triangle[0], at) : 0;
+  double two =
+      alone ? judge_fan_slope(finder->facings, &fan_triangle[1], at) : 0;
+  bool silhouette = judge_is_silhouette(one, two);
+  if (!silhouette && judge_is_sure(one, two) &&
+      !is_in_near_plane(finder, fan_triangle))
+    return true;
+  const struct judge_source source = {{fan_triangle->low, fan_triangle->high},
+                                      {fan_triangle->face, fan_triangle->face},
+                                      silhouette ? RECTO_EDGE_SILHOUETTE : 0,
+                                      false};
+  return judge_edges_add(
+      finder->edges, finder->facings->camera, at,
+      judge_point3_at(finder->facings->scene, fan_triangle->high), &source);
+}
+
+bool judge_edges_folds(struct judge_edges *edges,
+                       const struct judge_facings *facings) {
+  const struct fold_finder fold_finder = {edges, facings},
+                           *finder = &fold_finder;
+  const struct judge_fan_triangle *fan_triangle =
+      finder->facings->all->fan_triangle.item;
+  size_t count = finder->facings->all->fan_triangle.count;
+  for (size_t i = 0, next; i < count; i = next) {
+    for (next = i + 1; next < count &&
+                       fan_triangle[next].face == fan_triangle[i].face &&
+                       fan_triangle[next].low == fan_triangle[i].low &&
+                       fan_triangle[next].high == fan_triangle[i].high;)
+      next++;
+    if (next > i + 1 && !add_fold(finder, &fan_triangle[i], next - i))
+      return false;
+  }
+  return true;
+}
