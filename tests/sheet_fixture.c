@@ -42,7 +42,7 @@ void sheet_fixture_fini(struct sheet_fixture *fixture) {
 int32_t sheet_fixture_half(const struct sheet_fixture *fixture, int axis) {
   double half_mm =
       fixture->camera.page_mm[axis] / 2 - fixture->camera.margin_mm;
-  return (int32_t)ceil(half_mm * SHEET_UNITS_PER_MM) + SHEET_RIM;
+  return (int32_t)ceil(half_mm * SHEET_UNITS_PER_MM) + SHEET_BLEED;
 }
 
 bool sheet_fixture_on_border(const struct sheet_fixture *fixture, uint32_t a,

@@ -14,29 +14,30 @@ static void say_length(struct sentence *words, double mm) {
 
 static const char *plural(uint64_t count) { return count == 1 ? "" : "s"; }
 
-static void say_what(struct sentence *words, const struct beyond *beyond,
-                     uint64_t faces) {
-  if (beyond->edges > 0) {
-    sentence_add(words, "%llu line%s (", (unsigned long long)beyond->edges,
-                 plural(beyond->edges));
-    say_length(words, beyond->mm);
+static void say_what(struct sentence *words,
+                     const struct page_overflow *overflow, uint64_t faces) {
+  if (overflow->edges > 0) {
+    sentence_add(words, "%llu line%s (", (unsigned long long)overflow->edges,
+                 plural(overflow->edges));
+    say_length(words, overflow->mm);
     sentence_add(words, ", hidden parts counted)");
   }
-  if (beyond->edges > 0 && faces > 0)
+  if (overflow->edges > 0 && faces > 0)
     sentence_add(words, " and ");
   if (faces > 0)
     sentence_add(words, "%llu filled face%s", (unsigned long long)faces,
                  plural(faces));
-  if (beyond->edges > 0) {
+  if (overflow->edges > 0) {
     sentence_add(words, ", as far as ");
-    say_length(words, beyond->reach_mm);
+    say_length(words, overflow->reach_mm);
     sentence_add(words, " beyond");
   }
 }
 
-static void say_help(struct sentence *words, const struct beyond *beyond,
-                     double margin_mm, const recto_options *options) {
-  bool narrow = beyond->axis[0] && !beyond->axis[1] &&
+static void say_help(struct sentence *words,
+                     const struct page_overflow *overflow, double margin_mm,
+                     const recto_options *options) {
+  bool narrow = overflow->axis[0] && !overflow->axis[1] &&
                 options->page_width_mm < options->page_height_mm;
   sentence_add(words, ": ");
   switch (options->fit) {
@@ -56,23 +57,25 @@ static void say_help(struct sentence *words, const struct beyond *beyond,
   }
   if (narrow && options->fit != RECTO_FIT_PAGE)
     sentence_add(words, ", --landscape too");
-  if (beyond->reach_mm > 0 && beyond->reach_mm <= margin_mm + RECTO_FINEST_MM)
+  if (overflow->reach_mm > 0 &&
+      overflow->reach_mm <= margin_mm + RECTO_FINEST_MM)
     sentence_add(words, "; all is on the page itself, as --margin 0 shows");
 }
 
-void clipped_warn(const struct beyond *beyond, uint64_t faces, double margin_mm,
-                  const recto_options *options) {
+void clipped_warn(const struct page_overflow *overflow, uint64_t faces,
+                  double margin_mm, const recto_options *options) {
   struct sentence words = {.length = 0};
-  if (options->warning == NULL || (beyond->edges == 0 && faces == 0))
+  if (options->warning == NULL || (overflow->edges == 0 && faces == 0))
     return;
   sentence_add(&words, "clipped at the page's margins: ");
-  say_what(&words, beyond, faces);
-  say_help(&words, beyond, margin_mm, options);
+  say_what(&words, overflow, faces);
+  say_help(&words, overflow, margin_mm, options);
   options->warning(options->user, "", 0, words.text);
 }
 
-void clipped_report(const struct beyond *beyond, struct report *report) {
-  report_int(report, "clipped", "lines", (int64_t)beyond->edges);
-  report_double(report, "clipped", "length_mm", beyond->mm);
-  report_double(report, "clipped", "reach_mm", beyond->reach_mm);
+void clipped_report(const struct page_overflow *overflow,
+                    struct report *report) {
+  report_int(report, "clipped", "lines", (int64_t)overflow->edges);
+  report_double(report, "clipped", "length_mm", overflow->mm);
+  report_double(report, "clipped", "reach_mm", overflow->reach_mm);
 }

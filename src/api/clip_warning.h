@@ -3,16 +3,17 @@
 #define API_CLIP_WARNING_H
 
 #include "base/report.h"
-#include "view/beyond.h"
+#include "view/page_overflow.h"
 
 /* Warns, once, where lines that were asked for or, with fills, faces leave the
  * page inside its margins.
  * faces      that do; 0 where none is filled
  * margin_mm  as it is, whatever the options leave open */
-void clipped_warn(const struct beyond *beyond, uint64_t faces, double margin_mm,
-                  const recto_options *options);
+void clipped_warn(const struct page_overflow *overflow, uint64_t faces,
+                  double margin_mm, const recto_options *options);
 
 /* The same in numbers. */
-void clipped_report(const struct beyond *beyond, struct report *report);
+void clipped_report(const struct page_overflow *overflow,
+                    struct report *report);
 
 #endif

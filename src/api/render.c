@@ -29,7 +29,7 @@ struct render {
   struct topology topology;
   struct camera camera;
   struct sheet sheet;
-  struct beyond beyond;
+  struct page_overflow overflow;
   struct map map;
   struct drawing *drawing;
   struct report *report;
@@ -124,7 +124,7 @@ static recto_status find_edges(struct render *render, recto_error *error) {
     return error_set(error, RECTO_ERROR_EMPTY, NULL, 0,
                      "there is nothing to draw: the weld length is larger than "
                      "all faces");
-  render->topology.brief = !has_fills(render);
+  render->topology.drop_after_sheet = !has_fills(render);
   report_int(render->report, "scene", "edges",
              (int64_t)render->topology.edge.count);
   return status;
@@ -150,9 +150,9 @@ static recto_status project(struct render *render, recto_error *error) {
       &render->rescaled.options, has_fills(render), error);
   if (status == RECTO_OK && (render->sheet.clipped_page > 0 ||
                              scene_wire_count(&render->welded.scene) > 0))
-    status = beyond_measure(&render->beyond, &render->welded.scene,
-                            &render->topology, &render->camera,
-                            &render->rescaled.options, error);
+    status = page_overflow_measure(&render->overflow, &render->welded.scene,
+                                   &render->topology, &render->camera,
+                                   &render->rescaled.options, error);
   /* On a fine mesh it is a quarter of all memory, and lines alone never ask
    * it again. */
   if (!has_fills(render)) {
@@ -439,9 +439,9 @@ static recto_status run(struct render *render, recto_error *error) {
     report_seconds(render->report, "render_wall_s", clock_wall() - wall);
     warn_of_empty_page(render);
     warn_of_near_plane(render);
-    clipped_report(&render->beyond, render->report);
+    clipped_report(&render->overflow, render->report);
     if (!is_outside(render))
-      clipped_warn(&render->beyond,
+      clipped_warn(&render->overflow,
                    has_fills(render) ? render->sheet.clipped_page : 0,
                    render->camera.margin_mm, render->options);
     report_sheet(render->report, render);

@@ -26,9 +26,9 @@ struct topology {
   ARRAY(struct topology_edge) edge; /* in order of first use by a face */
   uint32_t *corner_edge; /* for corner c of a face, the edge from it to the
                             face's next corner; one per scene corner */
-  bool brief;            /* nobody asks for corner_edge once there are
-                            triangles on the sheet: it may be given up then */
-  uint32_t *weld;        /* point -> the point that stands for it; NULL where
+  bool drop_after_sheet; /* corner_edge may be freed once the sheet has its
+                            triangles: it is not used later */
+  uint32_t *weld;        /* point -> the point it is welded to; NULL where
                             nothing was welded */
 };
 

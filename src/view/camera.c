@@ -1,16 +1,19 @@
 /* camera.c - aims the camera at a scene and fits the drawing to the page.
  *
  * Phases
- *   aim     the axes; the eye, as far away as the field of view asks.
- *   reach   the nearest and farthest depths, and the near plane between them.
+ *   aim     the axes, and the eye, at the distance that the field of view
+ *           needs.
+ *   depths  the least and greatest depth, and the near plane.
  *   fit     the scale, and where the view axis meets the page.
- * Robustness  Coordinates are taken from the eye before anything else is done
- * with them, and an orthographic eye stands right before the scene wherever
- * the scene lies, so that no digits are lost to a far origin.  A perspective
- * eye so far away that differences to it would lose the scene's digits sees
- * what an orthographic one does: such a view is made one.  Every length
- * is judged against the scene's own, so that scaling the scene by a power of
- * two changes no bit of the drawing.
+ * Robustness
+ *   Coordinates are first subtracted from the eye's, and an orthographic eye is
+ *   placed next to the scene, so that a scene far from the origin loses no
+ *   digits.
+ *   A perspective eye so far away that the subtraction would lose digits of the
+ *   scene sees the same as an orthographic one, so the view is made
+ *   orthographic.
+ *   Every length is compared with the scene's size, so that scaling the scene
+ *   by a power of two changes no bit of the drawing.
  */
 #include "view/camera.h"
 
@@ -26,10 +29,10 @@
 #include "view/used.h"
 #include "view/vector.h"
 
-/* Paper beyond this has no room on the sheet's grid. */
+/* The largest page that fits on the page grid. */
 static const double page_limit_mm = 2000;
 
-/* What is worked out on the way. */
+/* Intermediate results. */
 struct aim {
   struct camera *camera;
   const struct scene *scene;
@@ -37,21 +40,24 @@ struct aim {
   recto_error *error;
   uint8_t *used;        /* one a point */
   double centre[3];     /* of the scene's bounding box */
-  double target[3];     /* what is looked at */
-  double eye[3];        /* where a perspective eye stands, however far */
-  bool far;             /* so far that the view is made orthographic */
-  double centre_d;      /* then the depth of the scene's middle */
-  double target_d;      /* then that of the target */
-  double d_low, d_high; /* depths of the scene, nothing cut */
+  double target[3];     /* the point looked at */
+  double eye[3];        /* of a perspective view, also of one made
+                           orthographic */
+  bool far;             /* the eye is so far that the view was made
+                           orthographic; then also: */
+  double centre_d;      /*   the depth of the scene's centre */
+  double target_d;      /*   the depth of the target */
+  double d_low, d_high; /* depth range of the whole scene, not clipped */
 };
 
-static recto_status refuse(const struct aim *aim, const char *words) {
+static recto_status argument_error(const struct aim *aim, const char *words) {
   return error_set(aim->error, RECTO_ERROR_ARGUMENT, NULL, 0, "%s", words);
 }
 
 /* ---- Options ------------------------------------------------------------- */
 
-/* One that was left open leaves room on a small page too. */
+/* The margin in mm; the default is at most a quarter of the page's shorter
+ * side. */
 static double margin_of(const recto_options *o) {
   return o->margin_mm >= 0
              ? o->margin_mm
@@ -62,35 +68,36 @@ static double margin_of(const recto_options *o) {
 static recto_status check_page(const struct aim *aim) {
   const recto_options *o = aim->options;
   if (!(o->page_width_mm > 0 && o->page_height_mm > 0))
-    return refuse(aim, "the page has no size");
+    return argument_error(aim, "the page has no size");
   if (!(o->page_width_mm <= page_limit_mm &&
         o->page_height_mm <= page_limit_mm))
-    return refuse(aim, "the page is larger than 2 m");
+    return argument_error(aim, "the page is larger than 2 m");
   if (isnan(o->margin_mm))
-    return refuse(aim, "the margin is no number");
+    return argument_error(aim, "the margin is no number");
   double margins = 2 * margin_of(o);
   if (!(margins < o->page_width_mm && margins < o->page_height_mm))
-    return refuse(aim, "the margins leave no room on the page");
+    return argument_error(aim, "the margins leave no room on the page");
   return RECTO_OK;
 }
 
 static recto_status check_view(const struct aim *aim) {
   const recto_options *o = aim->options;
   if (!(o->fov_deg >= 0 && o->fov_deg < 180))
-    return refuse(aim, "the field of view must be from 0 to below 180 degrees");
+    return argument_error(
+        aim, "the field of view must be from 0 to below 180 degrees");
   if (!isfinite(o->azimuth_deg) || !isfinite(o->elevation_deg))
-    return refuse(aim, "azimuth and elevation must be finite");
+    return argument_error(aim, "azimuth and elevation must be finite");
   if (!vector_is_finite(o->eye) || !vector_is_finite(o->target) ||
       !vector_is_finite(o->up))
-    return refuse(aim, "eye, target and up must be finite");
+    return argument_error(aim, "eye, target and up must be finite");
   if (o->fit == RECTO_FIT_SCALE && !(o->scale > 0 && isfinite(o->scale)))
-    return refuse(aim, "the scale must be above 0");
+    return argument_error(aim, "the scale must be above 0");
   if (!(o->near_distance >= 0 && isfinite(o->near_distance)))
-    return refuse(aim, "the near distance must not be negative");
+    return argument_error(aim, "the near distance must not be negative");
   if (o->has_section && !isfinite(o->section))
-    return refuse(aim, "the section must be finite");
+    return argument_error(aim, "the section must be finite");
   if (!isfinite(o->contact))
-    return refuse(aim, "the contact length must be finite");
+    return argument_error(aim, "the contact length must be finite");
   return RECTO_OK;
 }
 
@@ -132,7 +139,7 @@ static recto_status measure_scene(struct aim *aim) {
   return RECTO_OK;
 }
 
-/* The farthest that anything drawn is from the target. */
+/* The largest distance of a used point from the target. */
 static double radius_of_scene(const struct aim *aim) {
   double radius = 0;
   for (size_t p = 0; p < aim->scene->point.count; p++) {
@@ -147,8 +154,8 @@ static double radius_of_scene(const struct aim *aim) {
   return radius;
 }
 
-/* How far a perspective eye must be for its field of view to take in the
- * sphere about the target which holds the scene. */
+/* The distance from which a perspective eye sees the whole sphere about the
+ * target that encloses the scene. */
 static double distance_for_fov(const struct aim *aim) {
   double radius = radius_of_scene(aim);
   if (radius == 0)
@@ -159,8 +166,8 @@ static double distance_for_fov(const struct aim *aim) {
 static recto_status set_axes(struct aim *aim) {
   const recto_options *o = aim->options;
   double up[3] = {0, 1, 0};
-  bool named = o->up[0] != 0 || o->up[1] != 0 || o->up[2] != 0;
-  if (named)
+  bool given = o->up[0] != 0 || o->up[1] != 0 || o->up[2] != 0;
+  if (given)
     memcpy(up, o->up, sizeof up);
   else if (aim->scene->up[0] != 0 || aim->scene->up[1] != 0 ||
            aim->scene->up[2] != 0)
@@ -168,11 +175,11 @@ static recto_status set_axes(struct aim *aim) {
   struct frame frame;
   if (o->camera == RECTO_CAMERA_EYE) {
     enum frame_fault fault =
-        frame_from_eye(&frame, o->eye, aim->target, up, !named);
+        frame_from_eye(&frame, o->eye, aim->target, up, !given);
     if (fault == FRAME_NO_DIRECTION)
-      return refuse(aim, "the eye is where it looks");
+      return argument_error(aim, "the eye is where it looks");
     if (fault == FRAME_UP_ALONG_VIEW)
-      return refuse(aim, "up points along the view");
+      return argument_error(aim, "up points along the view");
   } else {
     frame = frame_from_direction(up, o->azimuth_deg, o->elevation_deg);
   }
@@ -193,9 +200,9 @@ static void difference(const double a[3], const double b[3], double c[3]) {
     c[k] = a[k] - b[k];
 }
 
-/* Makes the view from a far eye an orthographic one.  It is one only where the
- * scene is close to the view axis: what is seen aslant is sheared. */
-static recto_status judge_distance(struct aim *aim) {
+/* Makes the view from a very far eye orthographic.  The two agree only where
+ * the scene is close to the view axis: off the axis it would be sheared. */
+static recto_status handle_far_eye(struct aim *aim) {
   struct camera *camera = aim->camera;
   double to_eye[3], to_target[3], aside[3];
   difference(aim->eye, aim->centre, to_eye);
@@ -223,7 +230,7 @@ static recto_status set_eye(struct aim *aim) {
     memcpy(aim->eye, aim->options->eye, sizeof aim->eye);
   else if (camera->perspective)
     step_back(aim, aim->target, distance_for_fov(aim), aim->eye);
-  recto_status status = judge_distance(aim);
+  recto_status status = handle_far_eye(aim);
   if (camera->perspective)
     memcpy(camera->eye, aim->eye, sizeof camera->eye);
   else
@@ -240,7 +247,7 @@ static struct view_point view_of_point(const struct aim *aim, size_t p) {
   return camera_view(aim->camera, point->x, point->y, point->z);
 }
 
-/* ---- Reach --------------------------------------------------------------- */
+/* ---- Depths -------------------------------------------------------------- */
 
 static void measure_depth(struct aim *aim) {
   aim->d_low = INFINITY;
@@ -254,7 +261,7 @@ static void measure_depth(struct aim *aim) {
   }
 }
 
-/* The near plane where the user does not say. */
+/* The default near plane. */
 static double choose_near(const struct aim *aim) {
   double least = view_of(aim, aim->target).d * TOLERANCE_NEAR_SHARE;
   if (!aim->camera->perspective || (aim->d_low >= least && aim->d_low > 0))
@@ -262,25 +269,25 @@ static double choose_near(const struct aim *aim) {
   return least;
 }
 
-/* The depth that the user's distances count from: his eye, or for a direction
- * the nearest point of the scene.  A perspective eye set by a direction is
- * an eye for the near distance all the same. */
-static double depth_of_eye(const struct aim *aim, bool section) {
+/* The depth from which the options' distances are measured: the eye's, or in a
+ * view by direction that of the scene's nearest point.  The near distance of a
+ * perspective view by direction is measured from the eye too. */
+static double depth_origin(const struct aim *aim, bool section) {
   bool is_eye = aim->options->camera == RECTO_CAMERA_EYE ||
                 (aim->options->fov_deg > 0 && !section);
   return is_eye ? view_of(aim, aim->eye).d : aim->d_low;
 }
 
-static recto_status set_reach(struct aim *aim) {
+static recto_status set_depth_range(struct aim *aim) {
   const recto_options *o = aim->options;
   struct camera *camera = aim->camera;
   measure_depth(aim);
   camera->near_chosen = !(o->near_distance > 0) && !o->has_section;
   camera->near_d = o->near_distance > 0
-                       ? depth_of_eye(aim, false) + o->near_distance
+                       ? depth_origin(aim, false) + o->near_distance
                        : choose_near(aim);
   if (o->has_section)
-    camera->near_d = fmax(camera->near_d, depth_of_eye(aim, true) + o->section);
+    camera->near_d = fmax(camera->near_d, depth_origin(aim, true) + o->section);
   if (!(aim->d_high >= camera->near_d))
     return error_set(aim->error, RECTO_ERROR_EMPTY, NULL, 0,
                      "all of the scene is behind the viewer or cut away");
@@ -291,9 +298,8 @@ static recto_status set_reach(struct aim *aim) {
 
 /* ---- Fit ----------------------------------------------------------------- */
 
-/* The drawing fills the page inside the margins.  An extent that is only
- * rounding noise does not count; where both are, the scene's size stands in
- * for them. */
+/* Scales the drawing to fill the page inside the margins.  An extent that is
+ * rounding error only is ignored; where both are, the scene's size is used. */
 static void fit_page(struct aim *aim) {
   struct camera *camera = aim->camera;
   struct extent e =
@@ -317,8 +323,8 @@ static void fit_page(struct aim *aim) {
         camera->page_mm[k] / 2 - camera->s * (e.low[k] / 2 + e.high[k] / 2);
 }
 
-/* The target, which is on a perspective view axis, falls on the page's
- * middle. */
+/* Places the target, which lies on a perspective view's axis, on the middle of
+ * the page. */
 static void centre_target(struct aim *aim) {
   struct camera *camera = aim->camera;
   struct view_point target = view_of(aim, aim->target);
@@ -354,8 +360,7 @@ static void set_scale(struct aim *aim) {
   centre_target(aim);
 }
 
-/* Coordinates beyond the range of doubles on the way make a camera that is
- * of no use. */
+/* Whether nothing overflowed on the way. */
 static bool is_usable(const struct camera *camera) {
   return vector_is_finite(camera->eye) && isfinite(camera->size) &&
          isfinite(camera->d_min) && isfinite(camera->d_max) && camera->s > 0 &&
@@ -383,7 +388,7 @@ static recto_status aim_and_fit(struct aim *aim) {
     return status;
   status = set_eye(aim);
   if (status == RECTO_OK)
-    status = set_reach(aim);
+    status = set_depth_range(aim);
   if (status != RECTO_OK)
     return status;
   set_scale(aim);

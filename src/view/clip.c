@@ -1,17 +1,19 @@
-/* clip.c - the part of a segment or a triangle that is on the paper and not
- * before the near plane.
+/* clip.c - clips segments and triangles to the printable area and the near
+ * plane, plane by plane.
  *
- * Invariants  At each plane, the piece of a side that a triangle still has is
- *   the piece that clip_segment has, end for end and bit for bit: both go
- *   through the planes in one order, and both cut by cut_between with the
- *   ends in the canonical order.  A point on a plane is inside, and a segment
- *   from it to the outside is gone.
+ * Invariants
+ *   After each plane, the piece of a side that is left of a triangle is the
+ *   piece that clip_segment leaves, bit for bit: both take the planes in one
+ *   order, and both compute new points by cut_between with the ends in
+ *   canonical order.
+ *   A point on a plane is inside, and a segment from it to the outside is
+ *   removed.
  * Source      [SutherlandHodgman1974].
  */
 #include "view/clip.h"
 
-/* Where a segment meets a plane that only one of its ends is inside of.
- * a_distance, b_distance  of its ends, of opposite signs */
+/* The point in which a segment crosses a plane.
+ * a_distance, b_distance  clip_distance of its ends, of opposite signs */
 static struct view_point cut_between(const struct projection *projection,
                                      int plane, struct view_point a,
                                      struct view_point b, double a_distance,
@@ -41,30 +43,32 @@ bool clip_segment(const struct projection *projection, struct view_point end[2],
   return true;
 }
 
-static void put(struct clip_polygon *polygon, struct view_point at, int origin,
-                int side) {
+static void push_corner(struct clip_polygon *polygon, struct view_point at,
+                        int origin, int side) {
   polygon->corner[polygon->count++] =
       (struct clip_corner){at, (uint8_t)origin, (uint8_t)side};
 }
 
-/* Puts what one plane leaves of the side from a to b: its start where that is
- * inside, and where it crosses the plane.  A crossing from inside begins the
- * cut; one from outside begins the rest of the side. */
-static void put_side(const struct projection *projection, int plane,
-                     const struct clip_corner *a, const struct clip_corner *b,
-                     double a_distance, double b_distance, bool forward,
-                     struct clip_polygon *to) {
+/* Appends what one plane leaves of the side from a to b: its start, where that
+ * is inside, and its crossing with the plane.  After a crossing from inside the
+ * new side along the plane follows; after one from outside, the rest of the
+ * side. */
+static void clip_side(const struct projection *projection, int plane,
+                      const struct clip_corner *a, const struct clip_corner *b,
+                      double a_distance, double b_distance, bool forward,
+                      struct clip_polygon *to) {
   bool a_inside = a_distance >= 0, b_inside = b_distance >= 0;
   bool touches = a_inside ? a_distance == 0 : b_distance == 0;
   if (a_inside)
-    put(to, a->at, a->origin, !b_inside && touches ? CLIP_CUT : a->side);
+    push_corner(to, a->at, a->origin,
+                !b_inside && touches ? CLIP_CUT : a->side);
   if (a_inside == b_inside || touches)
     return;
   struct view_point cut = forward ? cut_between(projection, plane, a->at, b->at,
                                                 a_distance, b_distance)
                                   : cut_between(projection, plane, b->at, a->at,
                                                 b_distance, a_distance);
-  put(to, cut, CLIP_CUT, a_inside ? CLIP_CUT : a->side);
+  push_corner(to, cut, CLIP_CUT, a_inside ? CLIP_CUT : a->side);
 }
 
 static void clip_polygon(const struct projection *projection, int plane,
@@ -77,8 +81,8 @@ static void clip_polygon(const struct projection *projection, int plane,
   for (int i = 0; i < from->count; i++) {
     int j = i + 1 < from->count ? i + 1 : 0;
     const struct clip_corner *a = &from->corner[i];
-    put_side(projection, plane, a, &from->corner[j], distance[i], distance[j],
-             a->side == CLIP_CUT || forward[a->side], to);
+    clip_side(projection, plane, a, &from->corner[j], distance[i], distance[j],
+              a->side == CLIP_CUT || forward[a->side], to);
   }
 }
 
@@ -89,7 +93,7 @@ bool clip_triangle(const struct projection *projection,
   struct clip_polygon *from = polygon, *to = &other;
   from->count = 0;
   for (int k = 0; k < 3; k++)
-    put(from, corner[k], k, k);
+    push_corner(from, corner[k], k, k);
   for (int plane = 0; plane < CLIP_PLANE_COUNT && from->count >= 3; plane++) {
     clip_polygon(projection, plane, forward, from, to);
     struct clip_polygon *swap = from;

@@ -1,16 +1,16 @@
-/* clip.h - the part of a segment or a triangle that is on the paper and not
- * before the near plane.
+/* clip.h - clips segments and triangles to the printable area and the near
+ * plane.
  *
- * Everything happens in view coordinates, before the division by depth.  The
- * paper is taken half a grid unit wider than it is: what rounds onto it counts
- * as on it, so that a drawing which fits the page is never cut by rounding. */
+ * Clipping is done in view coordinates, before the division by depth.  The
+ * printable area is enlarged by half a grid unit: a point that rounds to its
+ * border counts as inside, so that rounding never cuts a drawing that fits. */
 #ifndef VIEW_CLIP_H
 #define VIEW_CLIP_H
 
 #include "view/project.h"
 
-/* In the order in which they cut: before the near plane comes first, so that
- * the others see positive depths alone. */
+/* In the order of clipping.  The near plane comes first, so that the others
+ * handle positive depths only. */
 enum clip_plane {
   CLIP_NEAR,
   CLIP_LEFT,
@@ -20,10 +20,10 @@ enum clip_plane {
   CLIP_PLANE_COUNT
 };
 
-/* The bit of an outcode without which the others mean nothing. */
+/* Where this bit of an outcode is set the others have no meaning. */
 enum { CLIP_NEAR_BIT = 1 << CLIP_NEAR };
 
-/* A linear function of the point that is negative outside of the plane. */
+/* A linear function of the point that is negative outside the plane. */
 static inline double clip_distance(const struct projection *projection,
                                    struct view_point p, int plane) {
   if (plane == CLIP_NEAR)
@@ -36,7 +36,8 @@ static inline double clip_distance(const struct projection *projection,
   return plane == CLIP_LEFT || plane == CLIP_BOTTOM ? reach + at : reach - at;
 }
 
-/* One bit for each plane that the point is outside of. */
+/* The Cohen-Sutherland outcode: bit k is set where the point is outside plane
+ * k. */
 static inline uint8_t clip_outcode(const struct projection *projection,
                                    struct view_point p) {
   unsigned code = 0;
@@ -46,21 +47,26 @@ static inline uint8_t clip_outcode(const struct projection *projection,
 }
 
 /* Clips a segment.
- * end    in the direction that its owner holds canonical: the same two points
- *        in the same order give the same result, bit for bit
- * moved  set for each end: it is a new point
- * Returns false where nothing is left, or a point alone. */
+ * end    in the segment's canonical direction: the same two points in the same
+ *        order give the same result, bit for bit
+ * moved  set for each end: whether clipping made it a new point
+ * Returns false where nothing, or a single point, is left. */
 bool clip_segment(const struct projection *projection, struct view_point end[2],
                   bool moved[2]);
 
-/* A plane adds one corner to a convex polygon; if rounding made it wavy, half
- * as many as there are at most: 3, 4, 6, 9, 13, 19. */
-enum { CLIP_MOST = 19, CLIP_CUT = 3 };
+enum {
+  /* The most corners of a clipped triangle.  A plane adds one corner to a
+   * convex polygon, and to one that rounding made slightly non-convex at most
+   * half as many as it has: 3, 4, 6, 9, 13, 19. */
+  CLIP_MOST = 19,
+  CLIP_CUT = 3 /* a corner or side that clipping made */
+};
 
 struct clip_corner {
   struct view_point at;
-  uint8_t origin; /* 0 to 2: a corner of the triangle; CLIP_CUT: new */
-  uint8_t side;   /* what leaves it: 0 to 2, a side of the triangle; CLIP_CUT */
+  uint8_t origin; /* 0 to 2: that corner of the triangle; CLIP_CUT */
+  uint8_t side;   /* the side that starts here, 0 to 2 as of the triangle;
+                     CLIP_CUT */
 };
 
 struct clip_polygon {
@@ -68,11 +74,11 @@ struct clip_polygon {
   int count;
 };
 
-/* Clips a triangle.  Its sides are cut where clip_segment cuts them, and are
- * wholly gone where it says so.
+/* Clips a triangle.  Its sides are clipped to the very points that clip_segment
+ * computes, and removed where it returns false.
  * corner   its corners; side k runs from corner k to k + 1
  * forward  whether side k runs in its canonical direction
- * polygon  what is left, in the same direction, convex
+ * polygon  what is left: convex, of the same orientation
  * Returns false where nothing with three corners is left. */
 bool clip_triangle(const struct projection *projection,
                    const struct view_point corner[3], const bool forward[3],

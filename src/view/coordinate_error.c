@@ -1,13 +1,14 @@
-/* coordinate_error.c - how far rounding of the input may have moved a face and
- * what touches it. */
+/* coordinate_error.c - bounds the distance that rounding of the input
+ * coordinates may open between a face and a point that touches it. */
 #include "view/coordinate_error.h"
 
 #include "base/tolerance.h"
 #include "view/vector.h"
 
-/* What a plane and a point that touches it may be apart where both were
- * rounded. */
-static double apart(struct precision precision, double coordinate) {
+/* Twice the rounding error of a coordinate: that of the plane and that of the
+ * point. */
+static double contact_along_axis(struct precision precision,
+                                 double coordinate) {
   return 2 * TOLERANCE_ROUNDING_SHARE * precision_error(precision, coordinate);
 }
 
@@ -23,9 +24,9 @@ void coordinate_error_of_face(const struct sheet *sheet, uint32_t face,
     const struct scene_point *p = &scene->point.item[point];
     struct precision precision =
         scene_point_precision(scene, point, sheet->camera.unstated);
-    error[0] = upper_bound(error[0], apart(precision, p->x));
-    error[1] = upper_bound(error[1], apart(precision, p->y));
-    error[2] = upper_bound(error[2], apart(precision, p->z));
+    error[0] = upper_bound(error[0], contact_along_axis(precision, p->x));
+    error[1] = upper_bound(error[1], contact_along_axis(precision, p->y));
+    error[2] = upper_bound(error[2], contact_along_axis(precision, p->z));
   }
 }
 
@@ -48,7 +49,8 @@ double coordinate_error_most(const struct scene *scene,
             : unstated;
     double error[3];
     for (int k = 0; k < 3; k++)
-      error[k] = apart(precision, fmax(fabs(low[k]), fabs(high[k])));
+      error[k] =
+          contact_along_axis(precision, fmax(fabs(low[k]), fabs(high[k])));
     most = fmax(most, vector_length(error));
   }
   return most;

@@ -1,4 +1,5 @@
-/* extent.c - how large the drawing is before it is scaled to the page. */
+/* extent.c - the bounding box of the projected scene, before it is scaled to
+ * the page. */
 #include "view/extent.h"
 
 #include <math.h>
@@ -22,7 +23,7 @@ static void grow(struct extent *extent, const struct camera *camera,
   }
 }
 
-/* Adds the point where a segment crosses the near plane, if it does. */
+/* Includes the point in which a segment crosses the near plane, if it does. */
 static void grow_by_cut(struct extent *extent, const struct camera *camera,
                         struct view_point a, struct view_point b) {
   double from = a.d - camera->near_d, to = b.d - camera->near_d;
@@ -34,9 +35,9 @@ static void grow_by_cut(struct extent *extent, const struct camera *camera,
   grow(extent, camera, cut);
 }
 
-/* Adds the cuts of consecutive corners.
- * start   where each face or polyline starts, `count` of them and one more
- * closed  whether the last corner stands before the first */
+/* Includes the crossings of all sides of faces or polylines.
+ * start   index of the first corner of each, `count` of them and one more
+ * closed  whether a side joins the last corner to the first */
 static void grow_by_cuts(struct extent *extent, const struct camera *camera,
                          const struct scene *scene, const uint32_t *start,
                          uint32_t count, const uint32_t *corner, bool closed) {

@@ -1,20 +1,21 @@
-/* extent.h - how large the drawing is before it is scaled to the page. */
+/* extent.h - the bounding box of the projected scene, before it is scaled to
+ * the page. */
 #ifndef VIEW_EXTENT_H
 #define VIEW_EXTENT_H
 
 #include "view/camera.h"
 
-/* A rectangle in x / d, y / d for perspective, in x, y for orthographic. */
+/* In x / d, y / d for perspective, in x, y for orthographic views. */
 struct extent {
-  double low[2], high[2]; /* x, y; low above high where there is nothing */
+  double low[2], high[2]; /* low > high where it is empty */
 };
 
-/* The rectangle of the used points that are not before the near plane.
+/* The box of the used points that are not in front of the near plane.
  * camera  its axes, eye and near plane are set
  * used    one a point: see used.h
- * cuts    sides that cross the near plane count up to it.  A section is to be
- *         seen whole; a near plane chosen close before the eye would make all
- *         else tiny. */
+ * cuts    whether the points in which sides cross the near plane are included.
+ *         That is so for a section, which is to be seen whole; at a default
+ *         near plane close to the eye they would make all else tiny. */
 struct extent extent_of_drawing(const struct camera *camera,
                                 const struct scene *scene, const uint8_t *used,
                                 bool cuts);

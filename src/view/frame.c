@@ -1,4 +1,4 @@
-/* frame.c - which way the camera's axes point in the scene. */
+/* frame.c - the directions of the camera's axes in the scene. */
 #include "view/frame.h"
 
 #include <string.h>
@@ -7,16 +7,17 @@
 #include "scene/angle.h"
 #include "view/vector.h"
 
-/* The right of the front view: +X less its part along `up`, and where nothing
- * is left of that, -Y or +Y, whichever turns +Y onto `up` the short way.  No
- * choice can be continuous everywhere; this one is but at +X and -X. */
+/* The right axis of the front view: +X less its component along `up`.  Where
+ * that is zero it is -Y or +Y, by the shortest rotation of +Y onto `up`.  No
+ * choice is continuous for all directions of up (hairy ball theorem); this one
+ * is except at +X and -X. */
 static void find_right(const double up[3], double right[3]) {
   if (up[1] == 0 && up[2] == 0) {
     right[0] = right[2] = 0;
     right[1] = up[0] > 0 ? -1 : 1;
     return;
   }
-  /* X - up (up . X), written so that nothing cancels: up is a unit vector. */
+  /* X - up (up . X), written without cancellation; up is a unit vector. */
   right[0] = up[1] * up[1] + up[2] * up[2];
   right[1] = -up[0] * up[1];
   right[2] = -up[0] * up[2];

@@ -41,7 +41,7 @@ recto_status layout_sheet(struct sheet *sheet, const struct scene *scene,
   recto_status status = layout_points(&layout);
   if (status == RECTO_OK)
     status = layout_triangles(&layout);
-  if (topology->brief)
+  if (topology->drop_after_sheet)
     topology_drop_corners(topology);
   if (status == RECTO_OK)
     status = layout_edges(&layout);

@@ -1,14 +1,15 @@
-/* layout_edges.c - the sheet's edges: those of faces, with their classes, and
- * those of polylines. */
+/* layout_edges.c - classifies the edges of faces and makes the edges of the
+ * sheet. */
 #include "view/layout_phases.h"
 
-/* Natures that faces give an edge. */
+/* The natures that an edge has by its faces. */
 static const unsigned face_natures =
     RECTO_EDGES_ALL & ~(unsigned)(RECTO_EDGE_WIRE | RECTO_EDGE_INTERSECTION);
 
-/* The natures of an edge as it is seen.  One that a face has twice, a bridge to
- * a hole or a spike, lies within that face.
- * still  those that do not depend on the camera */
+/* The natures of an edge in this view: the given ones, with silhouette in place
+ * of smooth where it is one.  An edge that one face has twice (a bridge to a
+ * hole, or a spike) lies inside that face and is no silhouette.
+ * still  the natures that do not depend on the camera */
 static unsigned natures_of(const struct topology_edge *edge, unsigned still,
                            uint8_t sides) {
   if (edge->uses != 2 || edge->first == edge->second ||
@@ -19,7 +20,7 @@ static unsigned natures_of(const struct topology_edge *edge, unsigned still,
 
 static unsigned lowest_bit(unsigned mask) { return mask & (~mask + 1); }
 
-/* The sheet points of a topology edge, SHEET_NONE where it is not seen. */
+/* The sheet points of a topology edge; SHEET_NONE: all of it is clipped. */
 static recto_status find_ends(struct layout *layout, uint32_t edge,
                               struct layout_cut *ends) {
   const uint32_t *point = layout->topology->edge.item[edge].point;
@@ -33,31 +34,33 @@ static recto_status find_ends(struct layout *layout, uint32_t edge,
   return layout_edge_cut(layout, edge, ends);
 }
 
-/* Which topology edges were made, a bit each, and how many before each 64 of
- * them: as sheet edges stand in the same order, that is their numbers.  It is
- * asked for every side of every triangle, and fits in a cache. */
-struct made {
+/* The map from topology edges to sheet edges, as a bit vector with rank: a bit
+ * says whether the edge was made, and as sheet edges are in the same order, the
+ * number of bits set before it is its index.  It is queried for every side of
+ * every triangle, and is small enough to stay in the cache. */
+struct edge_ids {
   uint64_t *bits;
   uint32_t *before;
 };
 
-static bool made_init(struct made *made, size_t edges) {
-  made->bits = mem_calloc(edges / 64 + 1, sizeof *made->bits);
-  made->before = mem_alloc(edges / 64 + 1, sizeof *made->before);
-  return made->bits && made->before;
+static bool edge_ids_init(struct edge_ids *edge_ids, size_t edges) {
+  edge_ids->bits = mem_calloc(edges / 64 + 1, sizeof *edge_ids->bits);
+  edge_ids->before = mem_alloc(edges / 64 + 1, sizeof *edge_ids->before);
+  return edge_ids->bits && edge_ids->before;
 }
 
-static void made_fini(struct made *made) {
-  mem_free(made->bits);
-  mem_free(made->before);
+static void edge_ids_fini(struct edge_ids *edge_ids) {
+  mem_free(edge_ids->bits);
+  mem_free(edge_ids->before);
 }
 
 /* The sheet edge of a topology edge; SHEET_NONE: it was not made. */
-static inline uint32_t made_of(const struct made *made, uint32_t edge) {
-  uint64_t bits = made->bits[edge / 64], bit = UINT64_C(1) << edge % 64;
+static inline uint32_t edge_id_of(const struct edge_ids *edge_ids,
+                                  uint32_t edge) {
+  uint64_t bits = edge_ids->bits[edge / 64], bit = UINT64_C(1) << edge % 64;
   if (!(bits & bit))
     return SHEET_NONE;
-  return made->before[edge / 64] +
+  return edge_ids->before[edge / 64] +
          (uint32_t)__builtin_popcountll(bits & (bit - 1));
 }
 
@@ -75,16 +78,16 @@ static bool add_edge(struct layout *layout, struct layout_cut ends,
   return ARRAY_PUSH(&layout->sheet->edge, edge);
 }
 
-/* Makes the edges that are wanted.
- * natures  one a topology edge; NULL where no class of them was asked for */
+/* Makes the requested edges, and contours.
+ * natures  one a topology edge; NULL where no class of them was requested */
 static recto_status make_edges(struct layout *layout, const uint8_t *natures,
-                               struct made *made) {
+                               struct edge_ids *edge_ids) {
   const struct topology *topology = layout->topology;
   unsigned wanted = layout->options->edges & face_natures;
   for (uint32_t e = 0; e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
     if (e % 64 == 0)
-      made->before[e / 64] = (uint32_t)layout->sheet->edge.count;
+      edge_ids->before[e / 64] = (uint32_t)layout->sheet->edge.count;
     unsigned edge_class = 0;
     if (natures)
       edge_class =
@@ -104,7 +107,7 @@ static recto_status make_edges(struct layout *layout, const uint8_t *natures,
       return status;
     if (!edge_class && !layout->outlines)
       continue;
-    made->bits[e / 64] |= UINT64_C(1) << e % 64;
+    edge_ids->bits[e / 64] |= UINT64_C(1) << e % 64;
     if (!add_edge(layout, ends, e, layout->scene->face_group.item[edge->first],
                   edge_class, 0))
       return error_memory(layout->error);
@@ -112,7 +115,7 @@ static recto_status make_edges(struct layout *layout, const uint8_t *natures,
   return RECTO_OK;
 }
 
-/* Makes the folds; whoever found them saw to it that they are wanted. */
+/* Makes an edge of every fold; only requested ones were stored. */
 static bool make_folds(struct layout *layout) {
   unsigned wanted = layout->options->edges & RECTO_EDGE_SILHOUETTE;
   for (size_t f = 0; f < layout->fold.count; f++) {
@@ -124,9 +127,9 @@ static bool make_folds(struct layout *layout) {
   return true;
 }
 
-/* The sides of the triangles name sheet edges from now on, and the edges their
- * first two triangles. */
-static void name_sides(struct layout *layout, const struct made *made) {
+/* Makes the triangles' sides refer to sheet edges instead of topology edges,
+ * and the edges to their first two triangles. */
+static void link_sides(struct layout *layout, const struct edge_ids *edge_ids) {
   struct sheet *sheet = layout->sheet;
   uint32_t edges = (uint32_t)layout->topology->edge.count;
   uint32_t first_fold = (uint32_t)(sheet->edge.count - layout->fold.count);
@@ -135,7 +138,7 @@ static void name_sides(struct layout *layout, const struct made *made) {
     for (int k = 0; k < 3; k++) {
       if (side[k] == SHEET_NONE)
         continue;
-      side[k] = side[k] < edges ? made_of(made, side[k])
+      side[k] = side[k] < edges ? edge_id_of(edge_ids, side[k])
                                 : first_fold + (side[k] - edges);
       if (side[k] == SHEET_NONE)
         continue;
@@ -151,9 +154,9 @@ static void name_sides(struct layout *layout, const struct made *made) {
 recto_status layout_edges(struct layout *layout) {
   size_t edges = layout->topology->edge.count;
   recto_status status;
-  struct made made;
+  struct edge_ids edge_ids;
   uint8_t *natures = NULL;
-  if (!made_init(&made, edges))
+  if (!edge_ids_init(&edge_ids, edges))
     goto no_memory;
   if (layout->options->edges & face_natures) {
     natures = mem_alloc(edges, sizeof *natures);
@@ -163,16 +166,16 @@ recto_status layout_edges(struct layout *layout) {
   }
   if (layout->outlines && !ARRAY_RESERVE(&layout->sheet->edge, edges))
     goto no_memory;
-  status = make_edges(layout, natures, &made);
+  status = make_edges(layout, natures, &edge_ids);
   if (status == RECTO_OK && !make_folds(layout))
     goto no_memory;
   if (status == RECTO_OK)
-    name_sides(layout, &made);
+    link_sides(layout, &edge_ids);
   goto end;
 no_memory:
   status = error_memory(layout->error);
 end:
-  made_fini(&made);
+  edge_ids_fini(&edge_ids);
   mem_free(natures);
   return status;
 }

@@ -1,4 +1,4 @@
-/* layout_facet.c - what clipping leaves of a triangle of a face. */
+/* layout_facet.c - clips a triangle of a face and adds what is left. */
 #include "view/layout_facet.h"
 
 #include <stdlib.h>
@@ -29,9 +29,10 @@ static recto_status cut_side(struct layout *layout,
                              cut);
 }
 
-/* The sheet point of corner i of what is left of a facet: its own corner's,
- * the one that the side which leaves or reaches it was cut at, or a new one
- * where the paper's corner or its border at the near plane is inside. */
+/* Finds the sheet point of corner i of a clipped facet.  It is
+ *   the facet's own corner,
+ *   the end of the cut of the side that starts or ends there, or
+ *   a new point, where two clipping planes cross inside the facet. */
 static recto_status find_corner(struct layout *layout,
                                 const struct layout_facet *facet,
                                 const struct clip_polygon *polygon, int i,
@@ -52,7 +53,7 @@ static recto_status find_corner(struct layout *layout,
       return status;
     *point = cut.point[leaves != facet->forward[side]];
   }
-  /* A side of which a single point is left has no cut either. */
+  /* A side of which a single point is left has no cut: a new point. */
   return *point == SHEET_NONE ? layout_new_point(layout, corner->at, point)
                               : RECTO_OK;
 }
@@ -61,13 +62,12 @@ static uint32_t edge_of(const struct layout *layout,
                         const struct layout_facet *facet,
                         const struct clip_polygon *polygon, int i) {
   int side = polygon->corner[i].side;
-  return side == CLIP_CUT ? SHEET_NONE : layout_name_of(layout, facet, side);
+  return side == CLIP_CUT ? SHEET_NONE : layout_side_id(layout, facet, side);
 }
 
-/* Adds what is left of a facet as a fan.  Where the grid folded a sliver of it
- * over or made it flat, that triangle's sides are contours.
- * Returns the sign of the whole's area on the page, as the face winds, in
- * *sign. */
+/* Adds a clipped facet as a triangle fan.  Where rounding to the grid turned a
+ * sliver of it over or made it flat, that triangle's sides are contours.
+ * sign  set to the sign of the whole area on the page, in the face's winding */
 static recto_status add_fan(struct layout *layout,
                             const struct layout_facet *facet,
                             const struct clip_polygon *polygon,
@@ -97,8 +97,8 @@ static recto_status add_fan(struct layout *layout,
   return status;
 }
 
-/* Whether nothing of a facet is left but the half unit by which clipping takes
- * the paper wider than it is. */
+/* Whether all points are on one border line: what is left of the facet lies in
+ * the half unit by which clipping enlarges the printable area. */
 static bool is_all_on_border(const struct layout *layout, const uint32_t *point,
                              int count) {
   const struct geom_point *at = layout->sheet->point.item;
@@ -126,8 +126,8 @@ static void drop_repeats(struct clip_polygon *polygon, uint32_t *point) {
   polygon->count = kept;
 }
 
-/* Adds what is left of a facet; its sides learn where it lies, and its cuts at
- * the near plane are contours. */
+/* Adds what is left of a facet and records on which side of its edges it lies.
+ * Sides that the near plane made are contours. */
 static recto_status add_polygon(struct layout *layout,
                                 const struct layout_facet *facet,
                                 struct clip_polygon *polygon) {
@@ -146,7 +146,7 @@ static recto_status add_polygon(struct layout *layout,
     const uint32_t end[2] = {point[i],
                              point[i + 1 < polygon->count ? i + 1 : 0]};
     if (polygon->corner[i].side != CLIP_CUT)
-      layout_learn_side(layout, facet, polygon->corner[i].side, sign);
+      layout_record_facet_side(layout, facet, polygon->corner[i].side, sign);
     else if (!is_all_on_border(layout, end, 2))
       status = layout_contour(layout, end[0], end[1]);
   }
@@ -167,7 +167,7 @@ recto_status layout_cut_facet(struct layout *layout,
   if (!any) {
     if (!layout_reserve(layout, 1))
       return error_memory(layout->error);
-    layout_learn_sides(layout, facet, layout_add_facet(layout, facet));
+    layout_record_facet_sides(layout, facet, layout_add_facet(layout, facet));
     return RECTO_OK;
   }
   struct clip_polygon polygon;

@@ -1,4 +1,4 @@
-/* layout_facet.h - one triangle of a face on its way to the sheet. */
+/* layout_facet.h - adds a triangle of a scene face to the sheet. */
 #ifndef VIEW_LAYOUT_FACET_H
 #define VIEW_LAYOUT_FACET_H
 
@@ -11,13 +11,13 @@ struct layout_facet {
   uint32_t point[3];    /* scene points, welded */
   uint32_t side[3];     /* topology edges; SHEET_NONE: a diagonal */
   bool forward[3];      /* whether the side runs in its canonical direction */
-  uint32_t diagonal[3]; /* where the side is one: its number in the face */
+  uint32_t diagonal[3]; /* of a side that is one: its number in the face */
 };
 
-/* What a side is called until it is known which diagonals are folds: as a
- * topology edge, or where it is the face's n-th diagonal as n folds on from
- * those that there are. */
-static inline uint32_t layout_name_of(const struct layout *layout,
+/* The provisional number of a side, until it is known which diagonals are
+ * folds: its topology edge, or for diagonal n of the face
+ *     number of topology edges + number of folds so far + n. */
+static inline uint32_t layout_side_id(const struct layout *layout,
                                       const struct layout_facet *facet, int k) {
   return facet->side[k] != SHEET_NONE
              ? facet->side[k]
@@ -25,17 +25,18 @@ static inline uint32_t layout_name_of(const struct layout *layout,
                    (uint32_t)layout->fold.count + facet->diagonal[k];
 }
 
-/* The side of a facet that is a diagonal, or an edge, learns where it lies. */
-static inline void layout_learn_side(struct layout *layout,
-                                     const struct layout_facet *facet, int k,
-                                     int sign) {
+/* Records on which side of the edge or diagonal of side k a facet lies. */
+static inline void layout_record_facet_side(struct layout *layout,
+                                            const struct layout_facet *facet,
+                                            int k, int sign) {
   uint8_t *sides = facet->side[k] != SHEET_NONE
                        ? &layout->sides[facet->side[k]]
                        : &layout->diagonal.item[facet->diagonal[k]].sides;
-  layout_learn(sides, facet->forward[k], sign);
+  layout_record_side(sides, facet->forward[k], sign);
 }
 
-/* Where triangles go, held in registers by those who add many. */
+/* The end of the arrays of triangles, as a local variable, so that a loop which
+ * adds many keeps it in registers. */
 struct layout_triangle_sink {
   const struct geom_point *point;
   struct sheet_triangle *triangle; /* the next one */
@@ -61,8 +62,8 @@ static inline void layout_sink_close(struct layout *layout,
   layout->flags.count = layout->sheet->triangle.count;
 }
 
-/* Adds a triangle of three sheet points; there is room for it.
- * Returns twice its signed area on the page, as the face winds. */
+/* Adds a triangle of three sheet points; room must have been reserved.
+ * Returns twice its signed area on the page, in the face's winding. */
 static inline int64_t layout_sink_triangle(struct layout_triangle_sink *sink,
                                            uint32_t face,
                                            const uint32_t point[3],
@@ -88,39 +89,39 @@ static inline int64_t layout_add_triangle(struct layout *layout, uint32_t face,
   return area;
 }
 
-/* Makes room for more triangles. */
+/* Reserves room for more triangles. */
 static inline bool layout_reserve(struct layout *layout, size_t extra) {
   return ARRAY_RESERVE(&layout->sheet->triangle, extra) &&
          ARRAY_RESERVE(&layout->flags, extra);
 }
 
-/* Adds a facet whose corners are all on the sheet; there is room for it.
- * Returns the sign of its area on the page, as the face winds. */
+/* Adds a facet that needs no clipping; room must have been reserved.
+ * Returns the sign of its area on the page, in the face's winding. */
 static inline int layout_add_facet(struct layout *layout,
                                    const struct layout_facet *facet) {
   const uint32_t *map = layout->point_map;
   const uint32_t point[3] = {map[facet->point[0]], map[facet->point[1]],
                              map[facet->point[2]]};
-  const uint32_t side[3] = {layout_name_of(layout, facet, 0),
-                            layout_name_of(layout, facet, 1),
-                            layout_name_of(layout, facet, 2)};
+  const uint32_t side[3] = {layout_side_id(layout, facet, 0),
+                            layout_side_id(layout, facet, 1),
+                            layout_side_id(layout, facet, 2)};
   return geom_sign64(layout_add_triangle(layout, facet->face, point, side));
 }
 
-/* The sides of a facet learn where it lies. */
-static inline void layout_learn_sides(struct layout *layout,
-                                      const struct layout_facet *facet,
-                                      int sign) {
+/* Records on which side of each of its sides a facet lies. */
+static inline void layout_record_facet_sides(struct layout *layout,
+                                             const struct layout_facet *facet,
+                                             int sign) {
   for (int k = 0; k < 3; k++)
-    layout_learn_side(layout, facet, k, sign);
+    layout_record_facet_side(layout, facet, k, sign);
 }
 
-/* Adds what is left of a facet inside of the paper and the near plane; its
- * sides learn where that lies. */
+/* Clips a facet, adds what is left of it, and records on which side of its
+ * edges and diagonals that lies. */
 USE_RESULT recto_status layout_cut_facet(struct layout *layout,
                                          const struct layout_facet *facet);
 
-/* The cut of a diagonal of the face at hand. */
+/* The cut of a diagonal of the current face. */
 USE_RESULT recto_status layout_diagonal_cut(struct layout *layout,
                                             struct layout_diagonal *diagonal,
                                             struct layout_cut *cut);

@@ -1,17 +1,20 @@
-/* layout_phases.h - what the phases of laying out a sheet share.
+/* layout_phases.h - the phases of laying out a sheet, and the state that they
+ * share.
  *
  * Phases, in this order
- *   range      the depths of what is on the paper, which the sheet's depths are
- *              spread over.
- *   points     every used scene point on the paper becomes a sheet point.
- *   triangles  faces are triangulated, clipped, turned counter-clockwise; their
- *              sides name topology edges, or folds counted on from these, and
- *              each edge learns on which of its sides its faces lie.
- *   edges      edges are classed, and where they are wanted made, then the
- *              folds; then the sides of the triangles name sheet edges.
- *   wires      polylines become edges.
- * Invariants  A topology edge is cut once, by whichever phase asks first, from
- *   its lower to its upper point; all others take the points it got.
+ *   range      computes the depth range of what is inside the printable area,
+ *              which is mapped to the sheet's range of z.
+ *   points     makes a sheet point of every used scene point inside.
+ *   triangles  triangulates the faces, clips them and turns them
+ *              counter-clockwise.  Their sides refer to topology edges, or to
+ *              folds, numbered from the last of these; for each edge it is
+ *              recorded on which of its sides its faces lie.
+ *   edges      classifies the edges and makes sheet edges of those needed, then
+ *              of the folds; then makes the triangles' sides refer to these.
+ *   wires      makes edges of polylines.
+ * Invariants
+ *   A topology edge is clipped once, when a phase first needs it, from its
+ *   lower to its upper point; all phases use the points so made.
  */
 #ifndef VIEW_LAYOUT_PHASES_H
 #define VIEW_LAYOUT_PHASES_H
@@ -20,27 +23,27 @@
 #include "view/sheet.h"
 #include "view/triangulate.h"
 
-/* What is left of an edge or a diagonal that leaves the paper. */
+/* What clipping leaves of an edge or a diagonal. */
 struct layout_cut {
   uint32_t point[2]; /* sheet points; SHEET_NONE both: nothing is left */
 };
 
-/* Where the faces of an edge or a diagonal lie, seen from its lower point to
- * its upper; the faces are counted above these bits, to three at most. */
+/* On which sides of an edge or a diagonal its faces lie, seen from its lower to
+ * its upper point.  The bits above count the faces, up to three. */
 enum {
   LAYOUT_LEFT = 1,
   LAYOUT_RIGHT = 2,
   LAYOUT_EDGE_ON = 4,
   LAYOUT_ONE_FACE = 8,
   LAYOUT_MOST_FACES = 3 * LAYOUT_ONE_FACE,
-  /* Two faces, one on each side: neither an end of the projected faces nor a
-   * fold. */
+  /* Two faces, one on each side: the edge is no contour. */
   LAYOUT_PLAIN = LAYOUT_LEFT | LAYOUT_RIGHT | 2 * LAYOUT_ONE_FACE
 };
 
-/* A line learns where a face with that sign on the page lies, which runs along
- * it from its lower point (forward) or from its upper one. */
-static inline void layout_learn(uint8_t *sides, bool forward, int sign) {
+/* Records on which side of an edge a face of this orientation lies.
+ * forward  the face runs along the edge from the lower to the upper point
+ * sign     of the face's area on the page; 0: edge-on */
+static inline void layout_record_side(uint8_t *sides, bool forward, int sign) {
   static const uint8_t bit_of[3][2] = {{LAYOUT_LEFT, LAYOUT_RIGHT},
                                        {LAYOUT_EDGE_ON, LAYOUT_EDGE_ON},
                                        {LAYOUT_RIGHT, LAYOUT_LEFT}};
@@ -49,22 +52,22 @@ static inline void layout_learn(uint8_t *sides, bool forward, int sign) {
     *sides = (uint8_t)(*sides + LAYOUT_ONE_FACE);
 }
 
-/* Both faces of a line lie on one side of it on the page, or one of them is
- * seen edge-on.  A line that lost a face to clipping is no silhouette. */
+/* Whether both faces lie on one side of the edge on the page, or one of them is
+ * seen edge-on.  An edge that lost a face to clipping is no silhouette. */
 static inline bool layout_is_silhouette(uint8_t sides) {
   bool left = sides & LAYOUT_LEFT, right = sides & LAYOUT_RIGHT;
   return sides / LAYOUT_ONE_FACE == 2 && left != right;
 }
 
-/* A diagonal of the face at hand. */
+/* A diagonal of the triangulation of the current face. */
 struct layout_diagonal {
   uint32_t from, to; /* welded scene points, the lower first */
   uint32_t cut;      /* as edge_cut */
-  uint32_t fold;     /* its number; SHEET_NONE: it is not drawn */
+  uint32_t fold;     /* its index in layout.fold; SHEET_NONE: it is none */
   uint8_t sides;     /* LAYOUT_... */
 };
 
-/* A diagonal that is a silhouette. */
+/* A diagonal that is a silhouette: a face that is not planar folds there. */
 struct layout_fold {
   struct layout_cut ends;
   uint32_t face;
@@ -77,22 +80,22 @@ struct layout {
   const recto_options *options;
   bool outlines;
   struct projection projection;
-  uint32_t *point_map; /* scene point -> sheet point; SHEET_NONE: off the
-                          paper, or welded away, or not used */
+  uint32_t *point_map; /* scene point -> sheet point; SHEET_NONE: outside,
+                          welded to another, or not used */
   uint8_t *outcode;    /* one a scene point: see clip.h */
   uint8_t *sides;      /* one a topology edge: LAYOUT_... */
-  uint32_t *edge_cut;  /* topology edge -> cut; SHEET_NONE: not yet cut;
-                          NULL while nothing was */
+  uint32_t *edge_cut;  /* topology edge -> cut; SHEET_NONE: not yet clipped;
+                          NULL until the first is */
   ARRAY(struct layout_cut) cut;
-  ARRAY(uint8_t) flags; /* one a triangle, the sheet's in the end */
+  ARRAY(uint8_t) flags; /* one a triangle; passed to the sheet at the end */
   struct triangulation triangulation;
-  ARRAY(struct layout_diagonal) diagonal; /* of one face */
+  ARRAY(struct layout_diagonal) diagonal; /* of the current face */
   ARRAY(struct layout_fold) fold;
-  ARRAY(uint32_t) corner; /* of one face, welded */
+  ARRAY(uint32_t) corner; /* of the current face, welded */
   recto_error *error;
 };
 
-/* The point that stands for a scene point. */
+/* The point to which a scene point is welded. */
 static inline uint32_t layout_weld(const struct layout *layout,
                                    uint32_t point) {
   const uint32_t *weld = layout->topology->weld;
@@ -111,17 +114,18 @@ USE_RESULT recto_status layout_triangles(struct layout *layout);
 USE_RESULT recto_status layout_edges(struct layout *layout);
 USE_RESULT recto_status layout_wires(struct layout *layout);
 
-/* Narrows the camera's depths to what is on the paper; a part of layout_points.
+/* Narrows the camera's depth range to what is inside the printable area; called
+ * by layout_points.
  * used  one a point */
 USE_RESULT recto_status layout_range(struct layout *layout,
                                      const uint8_t *used);
 
-/* Adds the sheet point of a point that clipping made. */
+/* Adds a sheet point for a point that clipping made. */
 USE_RESULT recto_status layout_new_point(struct layout *layout,
                                          struct view_point at, uint32_t *point);
 
-/* Cuts the segment between two scene points, the lower one of an edge first.
- * cut  its sheet points, or SHEET_NONE where nothing is left */
+/* Clips the segment between two scene points; of an edge, the lower first.
+ * cut  its sheet points; SHEET_NONE where nothing is left */
 USE_RESULT recto_status layout_segment(struct layout *layout, uint32_t from,
                                        uint32_t to, struct layout_cut *cut);
 
@@ -129,7 +133,7 @@ USE_RESULT recto_status layout_segment(struct layout *layout, uint32_t from,
 USE_RESULT recto_status layout_contour(struct layout *layout, uint32_t from,
                                        uint32_t to);
 
-/* The cut of a topology edge, made when it is first asked for. */
+/* The cut of a topology edge, computed at the first call and then looked up. */
 USE_RESULT recto_status layout_edge_cut(struct layout *layout, uint32_t edge,
                                         struct layout_cut *cut);
 

@@ -1,12 +1,12 @@
-/* layout_points.c - the sheet's points: those of the scene, and those where
- * edges leave the paper or meet the near plane. */
+/* layout_points.c - makes the sheet's points: those of the scene, and those
+ * where clipping cuts edges. */
 #include "view/layout_phases.h"
 
 #include <string.h>
 
 #include "view/used.h"
 
-/* The sheet keeps point numbers below this, as the scene does. */
+/* Point indices of the sheet are below this, like those of the scene. */
 static const size_t point_limit = (size_t)1 << 31;
 
 static recto_status out_of_points(const struct layout *layout) {
@@ -21,7 +21,7 @@ static size_t count_used(const uint8_t *used, size_t count) {
   return sum;
 }
 
-static void place_points(struct layout *layout, const uint8_t *used) {
+static void project_points(struct layout *layout, const uint8_t *used) {
   struct sheet *sheet = layout->sheet;
   const struct projection projection = layout->projection;
   size_t count = 0;
@@ -59,7 +59,7 @@ recto_status layout_points(struct layout *layout) {
   if (status == RECTO_OK) {
     layout->sheet->z_scale = layout->projection.z_scale;
     layout->sheet->units_per_view = layout->projection.units;
-    place_points(layout, used);
+    project_points(layout, used);
   }
 end:
   mem_free(used);

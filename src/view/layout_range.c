@@ -1,39 +1,40 @@
-/* layout_range.c - the depths that are drawn.
+/* layout_range.c - computes the depth range of what is drawn.
  *
- * The sheet's depths are integers over a range.  What lies off the page, or
- * before the near plane, takes no part in it: a ground plane that reaches to
- * the horizon, or a far corner of a face that is cut at the page's border, must
- * not make the depths of what is drawn coarser.  So faces that leave the page
- * are clipped twice: here for their depths, in layout_triangles.c for good.
+ * The sheet's depths are integers over a range.  What is outside the page, or
+ * in front of the near plane, is not part of it: a ground plane that reaches to
+ * the horizon, or a far corner of a face that the page's border clips, must not
+ * make the depths of what is drawn coarser.  So faces that leave the page are
+ * clipped twice: here for their depths, and in layout_triangles.c.
  *
- * A face that is seen edge-on hides nothing, so the depths of what is left of
- * it matter only against those of the others: of a floor in a front view, the
- * near edge is before all of them and the far edge behind.  Where a side of
- * such a face, or a polyline, lies wholly beyond the range it is set to the end
- * of the range (project_point); where it reaches into the range, the range
- * grows to hold it, so that it stays straight.
+ * A face seen edge-on hides nothing, so only the order of its depths against
+ * those of other faces matters: the near edge of a floor in a front view is in
+ * front of everything and the far edge behind.  A side of such a face, or a
+ * polyline, that is wholly outside the range is set to the end of the range
+ * (project_point); where it overlaps the range, the range is extended to
+ * include it, so that it stays straight.
  */
 #include "view/layout_phases.h"
 #include "view/vector.h"
 
-/* Depths before the near plane that was chosen are looked at down to this share
- * of its distance, to tell whether it cuts anything that could be seen. */
+/* Whether a default near plane clips anything visible is tested by clipping to
+ * a near plane at this fraction of its distance. */
 #define NEARER 0x1p-20
 
 struct depth_range {
   double low, high;
 };
 
-/* So often the range grows by lines that reach into it, before all of them are
- * taken in. */
-enum { ROUNDS = 8 };
+/* Extending the range by one line may make it overlap another, so the lines are
+ * gone through until nothing changes; in the last of so many rounds all of them
+ * are included. */
+enum { MAX_ROUNDS = 8 };
 
 static void grow(struct depth_range *range, double d) {
   range->low = lower_bound(range->low, d);
   range->high = upper_bound(range->high, d);
 }
 
-/* Whether the page's grid leaves an area of a convex polygon. */
+/* Whether a convex polygon has an area after rounding to the page grid. */
 static bool has_area(const struct projection *projection,
                      const struct clip_polygon *polygon) {
   struct geom_point first = project_point(projection, polygon->corner[0].at);
@@ -53,9 +54,9 @@ static void order(uint32_t *a, uint32_t *b) {
   *a = low;
 }
 
-/* Adds the depths of what the page leaves of a triangle, if it has an area
- * there.  Its corners are taken in one order, whatever the face's: to the last
- * bit, the range must not depend on that. */
+/* Includes the depths of a clipped triangle, if it has an area on the page.
+ * Its corners are taken in the order of their indices, so that the range does
+ * not depend, not even in the last bit, on the face's own order. */
 static void grow_by_triangle(struct depth_range *range,
                              const struct layout *layout,
                              const struct projection *projection,
@@ -99,8 +100,8 @@ static bool grow_by_face(struct depth_range *range, struct layout *layout,
   return true;
 }
 
-/* Whether a near plane that nobody asked for cuts what the page would show of a
- * face. */
+/* Whether the default near plane clips a part of a face that would be on the
+ * page. */
 static bool is_cut_near(struct layout *layout, uint32_t face, bool *cut) {
   struct projection nearer = layout->projection;
   struct depth_range range = {INFINITY, -INFINITY};
@@ -132,11 +133,12 @@ static bool grow_by_faces(struct depth_range *range, struct layout *layout) {
   return true;
 }
 
-/* Adds the depths of what the page leaves of a segment, if some but not all of
- * them are in the range, or whatever they are.  Returns whether it grew. */
+/* Includes the depths of a clipped segment if they overlap the range.
+ * force  include them in any case
+ * Returns whether the range grew. */
 static bool grow_by_segment(struct depth_range *range,
                             const struct layout *layout, uint32_t from,
-                            uint32_t to, bool whatever) {
+                            uint32_t to, bool force) {
   uint32_t own[2] = {layout_weld(layout, from), layout_weld(layout, to)};
   order(&own[0], &own[1]);
   struct view_point end[2] = {layout_view(layout, own[0]),
@@ -145,7 +147,7 @@ static bool grow_by_segment(struct depth_range *range,
   if (!clip_segment(&layout->projection, end, moved))
     return false;
   double low = fmin(end[0].d, end[1].d), high = fmax(end[0].d, end[1].d);
-  if (!whatever && (high < range->low || low > range->high))
+  if (!force && (high < range->low || low > range->high))
     return false;
   bool grows = low < range->low || high > range->high;
   grow(range, low);
@@ -154,42 +156,42 @@ static bool grow_by_segment(struct depth_range *range,
 }
 
 /* The same for the segments between consecutive corners.
- * closed  whether the last corner stands before the first */
+ * closed  whether a segment joins the last corner to the first */
 static bool grow_by_lines(struct depth_range *range,
                           const struct layout *layout, const uint32_t *corner,
-                          uint32_t count, bool closed, bool whatever) {
+                          uint32_t count, bool closed, bool force) {
   unsigned any = 0;
   bool grew = false;
   for (uint32_t c = 0; c < count; c++)
     any |= layout->outcode[layout_weld(layout, corner[c])];
   for (uint32_t c = closed ? 0 : 1; any && c < count; c++)
     grew |= grow_by_segment(range, layout, corner[c == 0 ? count - 1 : c - 1],
-                            corner[c], whatever);
+                            corner[c], force);
   return grew;
 }
 
-/* One round over all lines that leave the page; returns whether the range
+/* One round over all lines that leave the page.  Returns whether the range
  * grew. */
 static bool grow_by_all_lines(struct depth_range *range,
-                              const struct layout *layout, bool whatever) {
+                              const struct layout *layout, bool force) {
   const struct scene *scene = layout->scene;
   bool grew = false;
   for (uint32_t face = 0; face < scene_face_count(scene); face++) {
     uint32_t start = scene->face_start.item[face];
     grew |=
         grow_by_lines(range, layout, scene->corner.item + start,
-                      scene->face_start.item[face + 1] - start, true, whatever);
+                      scene->face_start.item[face + 1] - start, true, force);
   }
   for (uint32_t w = 0; w < scene_wire_count(scene); w++) {
     uint32_t start = scene->wire_start.item[w];
-    grew |=
-        grow_by_lines(range, layout, scene->wire_corner.item + start,
-                      scene->wire_start.item[w + 1] - start, false, whatever);
+    grew |= grow_by_lines(range, layout, scene->wire_corner.item + start,
+                          scene->wire_start.item[w + 1] - start, false, force);
   }
   return grew;
 }
 
-/* The outcodes of the used points, and the depths of those on the page. */
+/* Sets the outcodes of the used points and includes the depths of those on the
+ * page. */
 static void grow_by_points(struct depth_range *range, struct layout *layout,
                            const uint8_t *used) {
   for (size_t p = 0; p < layout->scene->point.count; p++) {
@@ -211,8 +213,8 @@ recto_status layout_range(struct layout *layout, const uint8_t *used) {
   if (!grow_by_faces(&range, layout))
     return error_memory(layout->error);
   bool none = range.low > range.high, grew = true;
-  for (int round = 1; grew && round <= ROUNDS; round++)
-    grew = grow_by_all_lines(&range, layout, none || round == ROUNDS);
+  for (int round = 1; grew && round <= MAX_ROUNDS; round++)
+    grew = grow_by_all_lines(&range, layout, none || round == MAX_ROUNDS);
   if (range.low > range.high)
     return RECTO_OK;
   camera->d_min = range.low;

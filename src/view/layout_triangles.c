@@ -1,7 +1,8 @@
-/* layout_triangles.c - the sheet's triangles: faces triangulated, clipped, and
- * turned counter-clockwise on the page.
+/* layout_triangles.c - makes the sheet's triangles: triangulates the faces,
+ * clips them and turns them counter-clockwise on the page.
  *
- * Until layout_edges is done, the sides of the triangles name topology edges.
+ * Until layout_edges has run, the sides of the triangles refer to topology
+ * edges.
  */
 #include <math.h>
 
@@ -52,7 +53,7 @@ facet_of_triangle(struct layout *layout, uint32_t face, uint32_t start,
   return facet;
 }
 
-/* The diagonals of the face at hand, with nothing known of them. */
+/* Resets the diagonals of the current face. */
 static bool start_diagonals(struct layout *layout, uint32_t count) {
   layout->diagonal.count = 0;
   if (!ARRAY_RESERVE(&layout->diagonal, count))
@@ -64,7 +65,7 @@ static bool start_diagonals(struct layout *layout, uint32_t count) {
   return true;
 }
 
-/* A diagonal that is no fold, or one that is. */
+/* Decides whether a diagonal is a fold and stores it if so. */
 static recto_status add_fold(struct layout *layout, uint32_t face,
                              struct layout_diagonal *diagonal) {
   bool wanted =
@@ -87,9 +88,9 @@ static recto_status add_fold(struct layout *layout, uint32_t face,
              : error_memory(layout->error);
 }
 
-/* A face that is not planar may fold at its diagonals, and these are edges
- * then: the sides of its triangles, from `first` on, learn their names.
- * folds  how many there were before this face */
+/* Stores the folds of a face that is not planar, and makes the sides of its
+ * triangles, from `first` on, refer to them.
+ * folds  the number of folds before this face */
 static recto_status add_folds(struct layout *layout, uint32_t face,
                               size_t first, uint32_t folds) {
   struct sheet *sheet = layout->sheet;
@@ -127,8 +128,8 @@ static recto_status cut_polygon_face(struct layout *layout, uint32_t face,
   return RECTO_OK;
 }
 
-/* How far contact moves a point that is at this depth on the page, and the
- * grid's rounding with it. */
+/* How far the contact tolerance moves a point of this depth on the page, in
+ * grid units, with one unit for rounding. */
 static double contact_units(const struct sheet *sheet, uint32_t face,
                             int64_t z) {
   const struct camera *camera = &sheet->camera;
@@ -160,8 +161,8 @@ static uint32_t farthest_corner(const struct layout *layout, uint32_t start,
   return from;
 }
 
-/* Is the face seen edge-on, but for what contact allows?  All of its corners
- * are about as near to the line through two that lie far apart. */
+/* Whether the face is seen edge-on within the contact tolerance: all of its
+ * corners are that close to the line through two that are far apart. */
 static bool is_edge_on(const struct layout *layout, uint32_t face,
                        uint32_t start, uint32_t count) {
   uint32_t from = farthest_corner(layout, start, count, start);
@@ -179,12 +180,13 @@ static bool is_edge_on(const struct layout *layout, uint32_t face,
   return true;
 }
 
-/* Where a face lies whose triangles start at `first`: the sign of all of them
- * that have an area.  Where the signs differ the face folds over, and each
- * triangle has its own; but of a face that is flat and seen edge-on, whose
- * corners rounding moved, no two triangles must part the front from the back,
- * or the outline would run along their diagonal: that face has none at all.
- * Returns false where each has its own. */
+/* The orientation of a face on the page, whose triangles start at `first`.
+ *   All triangles with an area have one sign: that is the face's.
+ *   The signs differ: the face folds over, and each triangle has its own sign.
+ *   The signs differ, but the face is seen edge-on within the contact
+ *     tolerance: only rounding made them differ, and the sign is 0.  With two
+ *     signs its diagonal would be drawn as a silhouette.
+ * Returns false where each triangle has its own sign. */
 static bool face_sign(const struct layout *layout, uint32_t face, size_t first,
                       uint32_t start, uint32_t count, int *sign) {
   bool plus = false, minus = false;
@@ -197,9 +199,10 @@ static bool face_sign(const struct layout *layout, uint32_t face, size_t first,
   return *sign != 0 || (plus && is_edge_on(layout, face, start, count));
 }
 
-/* Adds a face that is all on the sheet.  Its triangles that the grid, or a
- * spike, made flat lie where the others lie: what is silhouette must not hang
- * on how the face was cut into triangles.  They are contours, though. */
+/* Adds a face that needs no clipping.  Triangles without an area, because of
+ * rounding or a spike, get the orientation of the others, so that silhouettes
+ * do not depend on the triangulation.  Their sides are contours all the same.
+ */
 static recto_status add_whole_face(struct layout *layout, uint32_t face,
                                    uint32_t start, uint32_t count) {
   size_t triangles = layout->triangulation.triangle.count;
@@ -216,7 +219,7 @@ static recto_status add_whole_face(struct layout *layout, uint32_t face,
     uint8_t flags = layout->flags.item[first + t];
     int own = flags & SHEET_FLAT ? 0 : flags & SHEET_FLIPPED ? -1 : 1;
     int sign = is_common ? common : own;
-    layout_learn_sides(layout, &facet, sign);
+    layout_record_facet_sides(layout, &facet, sign);
     const uint32_t *p = layout->sheet->triangle.item[first + t].point;
     for (int k = 0; status == RECTO_OK && sign != own && k < 3; k++)
       status = layout_contour(layout, p[k], p[(k + 1) % 3]);
@@ -224,7 +227,7 @@ static recto_status add_whole_face(struct layout *layout, uint32_t face,
   return status;
 }
 
-/* The corners of a face as they are welded; NULL when memory ran out. */
+/* The welded corners of a face; NULL when memory ran out. */
 static const uint32_t *welded_corners(struct layout *layout, uint32_t start,
                                       uint32_t count) {
   const uint32_t *corner = layout->scene->corner.item + start;
@@ -257,9 +260,9 @@ static recto_status add_polygon_face(struct layout *layout, uint32_t face,
   return status == RECTO_OK ? add_folds(layout, face, first, folds) : status;
 }
 
-/* Adds faces of three corners that are all on the sheet, from `face` on, up to
- * the first that is not such a one, or for which there is no room.  Nearly all
- * faces go this way, so everything that it reads is at hand.
+/* Fast path for triangles that need no clipping: adds faces from `face` on, up
+ * to the first that is no such triangle or for which there is no room.  Nearly
+ * all faces of a mesh take it, so everything that it reads is a local variable.
  * Returns that first face. */
 static uint32_t add_plain_faces(struct layout *layout, uint32_t face) {
   const struct scene *scene = layout->scene;
@@ -287,9 +290,9 @@ static uint32_t add_plain_faces(struct layout *layout, uint32_t face) {
       break;
     int sign =
         geom_sign64(layout_sink_triangle(&sink, face, point, corner_edge + c));
-    layout_learn(&sides[corner_edge[c]], a < b, sign);
-    layout_learn(&sides[corner_edge[c + 1]], b < d, sign);
-    layout_learn(&sides[corner_edge[c + 2]], d < a, sign);
+    layout_record_side(&sides[corner_edge[c]], a < b, sign);
+    layout_record_side(&sides[corner_edge[c + 1]], b < d, sign);
+    layout_record_side(&sides[corner_edge[c + 2]], d < a, sign);
   }
   layout_sink_close(layout, &sink);
   return face;
@@ -322,7 +325,7 @@ static recto_status add_face(struct layout *layout, uint32_t face) {
     return layout_cut_facet(layout, &facet);
   if (!layout_reserve(layout, 1))
     return error_memory(layout->error);
-  layout_learn_sides(layout, &facet, layout_add_facet(layout, &facet));
+  layout_record_facet_sides(layout, &facet, layout_add_facet(layout, &facet));
   return RECTO_OK;
 }
 

@@ -1,7 +1,7 @@
 # src/view/local.mk - the sources of this layer.
 librecto_core_la_SOURCES += \
-  %D%/beyond.c %D%/beyond.h \
-  %D%/blockers.c %D%/blockers.h \
+  %D%/page_overflow.c %D%/page_overflow.h \
+  %D%/reflex_tree.c %D%/reflex_tree.h \
   %D%/camera.c %D%/camera.h \
   %D%/clip.c %D%/clip.h \
   %D%/coordinate_error.c %D%/coordinate_error.h \

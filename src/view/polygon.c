@@ -1,4 +1,5 @@
-/* polygon.c - a polygon of the scene, and its image along a coordinate axis. */
+/* polygon.c - a polygon in space, and its projection along a coordinate axis.
+ */
 #include "view/polygon.h"
 
 #include <string.h>
@@ -14,7 +15,7 @@ static void offset(const struct polygon *polygon, uint32_t c,
     to[k] -= origin[k];
 }
 
-/* The nearest number of 24 significant bits, as of a float, but of any size. */
+/* Rounds to 24 significant bits, as a float has, with a double's exponent. */
 static double round_to_single(double value) {
   const uint64_t half = UINT64_C(1) << 28;
   uint64_t bits;
@@ -81,15 +82,16 @@ bool polygon_is_warped(const struct polygon *polygon,
   return false;
 }
 
-/* ---- The image ----------------------------------------------------------- */
+/* ---- Projection ---------------------------------------------------------- */
 
-/* Of three sizes the largest, or the smallest, z before x before y. */
+/* The axis of the largest (sign 1) or smallest (sign -1) of three sizes; of
+ * equal ones z before x before y. */
 static int choose(const double size[3], double sign) {
   int axis = sign * size[0] > sign * size[2] ? 0 : 2;
   return sign * size[1] > sign * size[axis] ? 1 : axis;
 }
 
-/* The axis to look along; *shows: the polygon has an area along it. */
+/* The axis of projection; *shows: the projection has an area. */
 static int choose_axis(const struct polygon *polygon,
                        const struct polygon_areas *areas, bool *shows) {
   double size[3], low[3], high[3];
@@ -113,7 +115,7 @@ static bool is_before(const double a[2], const double b[2]) {
   return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
 }
 
-/* Whether the first corner from the left turns right. */
+/* Whether the leftmost corner turns right. */
 static bool is_clockwise(void *at, size_t stride, uint32_t count) {
   uint32_t low = 0;
   for (uint32_t c = 1; c < count; c++)

@@ -1,4 +1,5 @@
-/* polygon.h - a polygon of the scene, and its image along a coordinate axis. */
+/* polygon.h - a polygon in space, and its projection along a coordinate axis.
+ */
 #ifndef VIEW_POLYGON_H
 #define VIEW_POLYGON_H
 
@@ -12,7 +13,7 @@ struct polygon {
   uint32_t count;
 };
 
-/* Twice the area seen along each axis, and how large the polygon is. */
+/* Twice the signed area of the projection along each axis, and the extent. */
 struct polygon_areas {
   double value[3];
   double extent; /* the largest difference of any coordinate */
@@ -20,19 +21,20 @@ struct polygon_areas {
 
 struct polygon_areas polygon_measure(const struct polygon *polygon);
 
-/* Whether a corner lies off the plane through the first one, by more than
- * rounding of the input explains. */
+/* Whether a corner is farther from the plane of the polygon's Newell normal
+ * through its first corner than rounding of the input can cause. */
 bool polygon_is_warped(const struct polygon *polygon,
                        const struct polygon_areas *areas);
 
-/* The image of the corners along the axis that shows most of the polygon, so
- * that it runs counter-clockwise there.
- * at  of the first corner, two doubles; `stride` bytes to the next
- * Rule  areas are compared in single precision, so that what is equal but for
- *   rounding is equal; of equal ones z goes before x before y.  Where none is
- *   more than TOLERANCE_NO_AREA_SHARE of the extent's square, as of a bow-tie,
- *   whose lobes cancel, the axis is the one along which the polygon is
- *   thinnest, and its first corner from the left turns left. */
+/* Projects the corners along the axis of largest projected area, mirrored where
+ * needed so that the projection runs counter-clockwise.
+ * at  two doubles for the first corner; `stride` bytes to the next
+ * Rule
+ *   Areas are compared in single precision, so that those that differ by
+ *   rounding only are equal; among equal ones z is chosen before x before y.
+ *   Where no area exceeds TOLERANCE_NO_AREA_SHARE of the extent's square, as in
+ *   a bow-tie, whose lobes cancel, it is the axis along which the polygon is
+ *   thinnest, and the leftmost corner of the projection turns left. */
 void polygon_flatten(const struct polygon *polygon,
                      const struct polygon_areas *areas, void *at,
                      size_t stride);
@@ -45,7 +47,7 @@ static inline void polygon_place(const struct polygon *polygon, uint32_t c,
   to[2] = p->z;
 }
 
-/* Compares the places of two corners by x, then y, then z. */
+/* Compares the positions of two corners by x, then y, then z. */
 static inline int polygon_compare(const struct polygon *polygon, uint32_t c,
                                   uint32_t d) {
   double a[3], b[3];
@@ -58,7 +60,7 @@ static inline int polygon_compare(const struct polygon *polygon, uint32_t c,
 }
 
 /* The square of the distance between two corners, rounded to 24 bits, so that
- * distances that are equal but for rounding are equal. */
+ * distances that differ by rounding only are equal. */
 double polygon_distance(const struct polygon *polygon, uint32_t c, uint32_t d);
 
 #endif

@@ -1,4 +1,5 @@
-/* project.c - the constants of the way from view coordinates to the grid. */
+/* project.c - computes the constants of the map from view coordinates to the
+ * page grid. */
 #include "view/project.h"
 
 #include <math.h>
@@ -6,10 +7,10 @@
 #include "base/tolerance.h"
 #include "view/sheet.h"
 
-/* Half of the paper inside the margins, up to a whole grid unit, so that what
- * touches their border is inside, and its rim. */
-static double half_of_paper(double mm, double margin_mm) {
-  return ceil((mm / 2 - margin_mm) * SHEET_UNITS_PER_MM) + SHEET_RIM;
+/* Half the side of the printable area with its bleed, in grid units, rounded up
+ * so that a point on the margin's border is inside. */
+static double half_printable(double mm, double margin_mm) {
+  return ceil((mm / 2 - margin_mm) * SHEET_UNITS_PER_MM) + SHEET_BLEED;
 }
 
 struct projection projection_of(const struct camera *camera) {
@@ -20,7 +21,7 @@ struct projection projection_of(const struct camera *camera) {
       .d_max = camera->d_max,
   };
   for (int k = 0; k < 2; k++) {
-    projection.half[k] = half_of_paper(camera->page_mm[k], camera->margin_mm);
+    projection.half[k] = half_printable(camera->page_mm[k], camera->margin_mm);
     projection.offset[k] =
         (camera->middle_mm[k] - camera->page_mm[k] / 2) * SHEET_UNITS_PER_MM;
   }

@@ -1,4 +1,5 @@
-/* project.h - from scene units to view coordinates to the page's grid. */
+/* project.h - projects points from the scene to view coordinates, and from
+ * these to the page grid. */
 #ifndef VIEW_PROJECT_H
 #define VIEW_PROJECT_H
 
@@ -9,8 +10,9 @@ struct view_point {
   double x, y, d;
 };
 
-/* One order of operations for everybody: the camera's depth range and the
- * sheet's clipping must see the same depth of a point. */
+/* The view coordinates of a scene point.  All code must use this function: the
+ * camera's depth range and the sheet's clipping need the same depth of a point,
+ * bit for bit. */
 static inline struct view_point camera_view(const struct camera *camera,
                                             double x, double y, double z) {
   double p[3] = {x - camera->eye[0], y - camera->eye[1], z - camera->eye[2]};
@@ -20,14 +22,14 @@ static inline struct view_point camera_view(const struct camera *camera,
                              -(b[0] * p[0] + b[1] * p[1] + b[2] * p[2])};
 }
 
-/* The second half of the way, and the limits of the paper: the page inside its
- * margins. */
+/* The constants of the map from view coordinates to the page grid, and the
+ * limits of the printable area, which is the page inside its margins. */
 struct projection {
   bool perspective;
   double units;     /* grid units for one of x / d, or of x */
   double offset[2]; /* grid units from the page's middle to the view axis */
-  double half[2];   /* the paper and its rim end at +-half, whole grid
-                       units */
+  double half[2];   /* the printable area with its bleed (SHEET_BLEED) ends at
+                       +-half, whole grid units */
   double near_d, d_max;
   double z_factor; /* orthographic z = z_factor (d_max - d); perspective
                       z = z_factor (d_max - d) / d */
@@ -36,20 +38,20 @@ struct projection {
 
 struct projection projection_of(const struct camera *camera);
 
-/* The nearest whole number, halves up.  |value| < 2^62. */
+/* Rounds to the nearest integer, halves up.  |value| < 2^62. */
 static inline int64_t snap(double value) {
   double moved = value + 0.5;
   int64_t whole = (int64_t)moved;
   return whole - ((double)whole > moved);
 }
 
-/* What is not a number counts as least. */
+/* Limits a value to a range; NaN becomes `least`. */
 static inline double clamp(double value, double least, double most) {
   return value >= least ? (value <= most ? value : most) : least;
 }
 
-/* The grid point of a view point on the paper and not before the near plane:
- * what rounding takes past a limit is set to the limit. */
+/* The grid point of a view point that is inside all clipping planes.  A
+ * coordinate that rounding moves past a limit is set to the limit. */
 static inline struct geom_point
 project_point(const struct projection *projection, struct view_point p) {
   double per_unit = projection->units, z = projection->d_max - p.d;

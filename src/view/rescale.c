@@ -1,9 +1,10 @@
-/* rescale.c - a scene of any finite size, brought to one whose squares are
- * numbers too.
+/* rescale.c - scales a scene of extreme size so that products of its
+ * coordinates are finite and not zero.
  *
- * Robustness  The exact predicates take any doubles; lengths and normals do
- * not.  Coordinates from 2^-LEAST to 2^MOST are left alone.  All others are
- * brought just inside: so an eye may still be very far from a tiny scene. */
+ * Robustness  The exact predicates accept any doubles; lengths and normals do
+ * not.  A scene whose largest coordinate is from 2^-LARGEST_EXPONENT to
+ * 2^LARGEST_EXPONENT is not changed.  Any other is scaled just into that range,
+ * and no farther, so that the eye may still be very far from a tiny scene. */
 #include "view/rescale.h"
 
 #include <float.h>
@@ -11,7 +12,7 @@
 
 enum { LARGEST_EXPONENT = 100 };
 
-/* ---- How large the scene is ---------------------------------------------- */
+/* ---- The size of the scene ----------------------------------------------- */
 
 static double largest_of(const struct scene_point *p) {
   return fmax(fabs(p->x), fmax(fabs(p->y), fabs(p->z)));
@@ -34,16 +35,17 @@ static double largest_used(const struct scene *scene, double enough) {
                      enough));
 }
 
-/* The power of two to divide by. */
+/* The exponent of the power of two to divide by. */
 static int choose_exponent(const struct scene *scene) {
-  const double most = ldexp(1, LARGEST_EXPONENT), least = 1 / most;
+  const double largest_kept = ldexp(1, LARGEST_EXPONENT),
+               least = 1 / largest_kept;
   double largest = 0;
   for (size_t p = 0; p < scene->point.count; p++)
     largest = fmax(largest, largest_of(&scene->point.item[p]));
-  if (largest <= most && largest_used(scene, least) >= least)
+  if (largest <= largest_kept && largest_used(scene, least) >= least)
     return 0;
   largest = largest_used(scene, INFINITY);
-  if (largest == 0 || (largest >= least && largest <= most))
+  if (largest == 0 || (largest >= least && largest <= largest_kept))
     return 0;
   int exponent;
   frexp(largest, &exponent);
@@ -67,7 +69,7 @@ static recto_status scale_points(struct rescaled *rescaled,
                                  ldexp(from[p].y, -rescaled->exponent),
                                  ldexp(from[p].z, -rescaled->exponent)};
     if (!isfinite(largest_of(&to[p])))
-      to[p] = (struct scene_point){0, 0, 0}; /* one that nothing uses */
+      to[p] = (struct scene_point){0, 0, 0}; /* no face or polyline uses it */
   }
   return RECTO_OK;
 }
@@ -89,7 +91,7 @@ static recto_status scale_precision(struct rescaled *rescaled,
   return RECTO_OK;
 }
 
-/* Returns whether the lengths are still finite that must be. */
+/* Returns whether the eye, target, section and near distance are finite. */
 static bool scale_lengths(recto_options *o, int exponent) {
   double *const length[] = {&o->eye[0],    &o->eye[1],       &o->eye[2],
                             &o->target[0], &o->target[1],    &o->target[2],
@@ -99,8 +101,8 @@ static bool scale_lengths(recto_options *o, int exponent) {
     *length[i] = ldexp(*length[i], -exponent);
     finite = finite && isfinite(*length[i]);
   }
-  /* A contact or weld that was not 0 must not become it, nor a chosen one asked
-   * for. */
+  /* A positive contact or weld length must not underflow to 0, which has a
+   * meaning of its own, nor overflow. */
   if (o->contact > 0)
     o->contact = fmin(fmax(ldexp(o->contact, -exponent), DBL_MIN), DBL_MAX);
   if (o->weld > 0)

@@ -1,31 +1,32 @@
-/* rescale.h - a scene of any finite size, brought to one whose squares are
- * numbers too. */
+/* rescale.h - scales a scene of extreme size so that products of its
+ * coordinates are finite and not zero. */
 #ifndef VIEW_RESCALE_H
 #define VIEW_RESCALE_H
 
 #include "scene/scene.h"
 
-/* A scene and options that are those of the user times 2^-exponent. */
+/* The user's scene and options, with all lengths multiplied by 2^-exponent. */
 struct rescaled {
-  struct scene scene; /* all but its points and their precision
-                          are lent */
+  struct scene scene; /* all but its points and their precision is borrowed,
+                         not owned */
   recto_options options;
-  int exponent; /* 0: the points are lent too */
+  int exponent; /* 0: the points are borrowed too */
 };
 
-/* Scales by a power of two, which changes no bit of the drawing, and only
- * where coordinates are so large or so small that products of two or three of
- * them leave the range of doubles.
- * Errors  RECTO_ERROR_MEMORY; RECTO_ERROR_LIMIT: the eye, the target, the
- *         section or the near distance leaves that range by it. */
+/* Scales by a power of two, which changes no bit of the drawing.  It does so
+ * only where coordinates are so large or so small that products of two or three
+ * of them would overflow or underflow.
+ * Errors  RECTO_ERROR_MEMORY; RECTO_ERROR_LIMIT: scaling makes the eye, the
+ *         target, the section or the near distance overflow. */
 USE_RESULT recto_status rescale(struct rescaled *rescaled,
                                 const struct scene *scene,
                                 const recto_options *options,
                                 recto_error *error);
 void rescale_fini(struct rescaled *rescaled);
 
-/* Turns the 3 x 4 matrix from the rescaled model to the page, row by row, into
- * one from the model itself: homogeneous, so none of it overflows. */
+/* Converts the homogeneous 3 x 4 matrix from the rescaled scene to the page,
+ * row by row, to one from the user's scene.  As only its ratios matter, it is
+ * scaled so that nothing overflows. */
 void rescale_matrix(const struct rescaled *rescaled, double matrix[12]);
 
 #endif

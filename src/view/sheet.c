@@ -10,7 +10,7 @@ void sheet_drop_triangles(struct sheet *sheet) {
       if (triangle[k] != SHEET_NONE)
         triangle[k] = sheet->triangle.item[triangle[k]].face;
   }
-  sheet->edges_of_faces = true;
+  sheet->triangles_dropped = true;
   ARRAY_FREE(&sheet->triangle);
   mem_free(sheet->triangle_flags);
   sheet->triangle_flags = NULL;

@@ -1,20 +1,19 @@
-/* sheet.h - the scene as seen through the camera, on the page's grid.
+/* sheet.h - the sheet: the projected scene on the page grid.
  *
  * x and y are integers on a grid of 2^-20 mm whose origin is the middle of
  * the page, x right and y up.  z is an integer that grows towards the viewer:
  *   orthographic  z = z_scale * (d_max - d)
  *   perspective   z = z_scale * (1 / d - 1 / d_max)
- * so planes stay planes.  The scale lets the range from d_min to d_max, the
- * depths of what is on the page, fill all of z, but for ranges that are no more
- * than rounding noise.  After the sheet
- * is built no decision is rounded.
+ * so planes stay planes.  The scale maps the range from d_min to d_max, the
+ * depths of what is on the page, to the whole range of z, unless it is as small
+ * as rounding errors.  Once the sheet is built all decisions are exact.
  *
  * Invariants
  *   |x|, |y| <= SHEET_XY_MAX;  0 <= z <= SHEET_Z_MAX.
  *   A triangle runs counter-clockwise on the page or has no area there.
- *   Triangles stand in the order of their faces in the scene.
- *   The corners of a triangle were at three places in the scene.
- *   An edge's end points are the very points its triangles use.
+ *   Triangles are in the order of their faces in the scene.
+ *   The corners of a triangle have three different positions in the scene.
+ *   An edge and its triangles have their end points in common, by index.
  *   Where clipping cuts a shared edge, both faces get the same new point.
  */
 #ifndef VIEW_SHEET_H
@@ -30,36 +29,37 @@
 #define SHEET_Z_MAX ((INT64_C(1) << SHEET_Z_BITS) - 1)
 #define SHEET_NONE UINT32_MAX
 
-/* What leaves the page inside its margins is cut so many units beyond their
- * border: 4 nm.  The side
- * of a cut hides nothing on its outer side; on the very border it would let a
- * line there be seen that is behind a face which goes on. */
-#define SHEET_RIM 4
+/* The bleed, in grid units (4 nm): faces and edges are clipped so far outside
+ * the margins' border.  A side that clipping made hides nothing on its outer
+ * side; if it lay on the border itself, a line there behind the clipped face
+ * would be visible. */
+#define SHEET_BLEED 4
 
-/* A side k of a triangle runs from point[k] to point[(k + 1) % 3]. */
+/* Side k of a triangle runs from point[k] to point[(k + 1) % 3]. */
 struct sheet_triangle {
   uint32_t point[3];
-  uint32_t side[3]; /* sheet edge of that side; SHEET_NONE: a cut, or a
-                       diagonal that is no silhouette: never drawn */
+  uint32_t side[3]; /* the sheet edge of each side; SHEET_NONE: one that
+                       clipping made, or a diagonal that is no silhouette;
+                       neither is ever drawn */
   uint32_t face;    /* scene face */
 };
 
 enum {
-  SHEET_FLAT = 1,    /* no area on the page: seen edge-on, hides nothing */
+  SHEET_FLAT = 1,    /* seen edge-on: no area on the page, hides nothing */
   SHEET_FLIPPED = 2, /* the face's own winding is clockwise on the page */
 };
 
 struct sheet_edge {
   uint32_t point[2];    /* in the scene edge's direction */
   uint32_t triangle[2]; /* its first two; SHEET_NONE.  Intersections: the two
-                           that pierce each other, the lower first */
+                           that intersect, the lower index first */
   uint32_t source;      /* topology edge; wires: the wire's index; SHEET_NONE
                            for intersections and diagonals */
   uint32_t group;       /* of its first face, or of the wire */
-  uint16_t edge_class;  /* one recto_edge_class: of its natures that were
-                           asked for, the first in that enumeration; 0: an
-                           outline */
-  uint16_t part;        /* wires: segment's index, low bits */
+  uint16_t edge_class;  /* a recto_edge_class: the first in that enumeration of
+                           its natures that were requested; 0: none was, the
+                           edge is there as an outline of its faces */
+  uint16_t part;        /* wires: the segment's index, low bits */
 };
 
 struct sheet_contour {
@@ -69,54 +69,56 @@ struct sheet_contour {
 struct sheet {
   ARRAY(struct geom_point) point; /* x, y in grid units, z in depth units */
   ARRAY(struct sheet_triangle) triangle;
-  uint8_t *triangle_flags; /* one a triangle */
-  bool edges_of_faces;     /* the triangles were given up: where edges name one
-                          they name its scene face */
-  const struct scene *scene;       /* lent, for how precise its coordinates are;
-                                 NULL: exact */
-  const uint32_t *face_group;      /* the scene's, lent */
-  const struct topology *topology; /* the scene's, lent; NULL: unknown */
+  uint8_t *triangle_flags;   /* one a triangle */
+  bool triangles_dropped;    /* the triangles were freed: edge.triangle then has
+                              scene faces instead */
+  const struct scene *scene; /* borrowed, not owned; for the precision of its
+                                coordinates; NULL: exact */
+  const uint32_t *face_group;      /* the scene's, borrowed */
+  const struct topology *topology; /* the scene's, borrowed; NULL: unknown */
   /* Mesh edges in topology order, then diagonals that are silhouettes, then
-   * wires, then intersections once they were found.  Edges of class 0 are there
-   * as outlines, not to be drawn. */
+   * wires, then intersections once they were found.  Edges of class 0 are
+   * outlines, which are not drawn. */
   ARRAY(struct sheet_edge) edge;
-  /* The contours, whether drawn or not: edges of one face or more than two,
-   * silhouettes, sides of a triangle that is SHEET_FLAT, diagonals at which a
-   * warped face folds, and cuts at the near plane.  Away from them, and from
-   * the page's border, the projected faces neither fold nor end.  One may be
-   * there twice. */
+  /* The contours, whether drawn or not:
+   *   edges of one face or of more than two,
+   *   silhouettes,
+   *   sides of a triangle that is SHEET_FLAT,
+   *   diagonals along which a face that is not planar folds,
+   *   sides that clipping to the near plane made.
+   * Away from them, and from the page's border, the projected faces neither
+   * fold nor end.  A contour may be listed twice. */
   ARRAY(struct sheet_contour) contour;
   struct camera camera;
   double z_scale;        /* see above */
-  double units_per_view; /* grid units of x for one of X/d (perspective) or
+  double units_per_view; /* grid units per unit of X / d (perspective) or of
                             X (orthographic) */
-  /* Faces that reach before the near plane, or into the page's margins, wholly
-   * or in part; faces that are not planar; faces of which welding left
-   * nothing. */
-  uint64_t clipped_near, clipped_page, warped, empty;
-  /* Faces of which a near plane that nobody asked for cuts what could be
-   * seen. */
-  uint64_t cut_near;
+  /* Numbers of faces: */
+  uint64_t clipped_near; /* wholly or partly in front of the near plane */
+  uint64_t clipped_page; /* wholly or partly outside the margins */
+  uint64_t warped;       /* not planar */
+  uint64_t empty;        /* without a triangle left after welding */
+  uint64_t cut_near;     /* visible, and clipped by a default near plane */
 };
 
 /* Zero-initialised is empty; layout_sheet (layout.h) fills it. */
 void sheet_fini(struct sheet *sheet);
 
-/* Gives up the triangles, where of all that is asked of them only the faces of
- * edges are left to be asked. */
+/* Frees the triangles to save memory, once only the scene faces of edges are
+ * still needed (sheet_edge_face). */
 void sheet_drop_triangles(struct sheet *sheet);
 
 /* The scene face of an edge's first triangle; SHEET_NONE. */
 static inline uint32_t sheet_edge_face(const struct sheet *sheet,
                                        const struct sheet_edge *edge) {
   uint32_t first = edge->triangle[0];
-  return first == SHEET_NONE || sheet->edges_of_faces
+  return first == SHEET_NONE || sheet->triangles_dropped
              ? first
              : sheet->triangle.item[first].face;
 }
 
-/* Grid units from the middle of the page to mm from its lower left corner;
- * what is on the rim comes to lie on the border that it surrounds. */
+/* Converts grid units from the middle of the page to mm from its lower left
+ * corner.  A coordinate in the bleed is moved to the margin's border. */
 static inline double sheet_place_mm(const struct sheet *sheet, int axis,
                                     double units) {
   const struct camera *camera = &sheet->camera;

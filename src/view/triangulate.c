@@ -1,41 +1,47 @@
-/* triangulate.c - cuts a polygon into triangles without adding points.
+/* triangulate.c - triangulates a polygon in space by ear clipping.
  *
- * The rule, which decides where a polygon that is not planar folds, and so is
- * part of what is drawn; src/judge/ear_clipping.c follows it independently
- *   1 A corner at the place of the one before it is left out, and so is one
- *     whose neighbours are at one place: the polygon turns back there.
- *   2 The polygon is seen along the axis that shows most of it (polygon.h),
- *     turned so that it runs counter-clockwise.
- *   3 An ear is a corner that turns left with no other corner in its closed
- *     triangle that does not turn left; corners at the places of its own three
- *     do not count.  While there are more than three corners, the ear with the
- *     shortest diagonal in space is cut off; of equally long ones that whose
- *     lower end comes first in x, y, z, then that whose other end does.
- *     A spike, where the image doubles back, goes before any ear.
- *     A cut may bring two corners to one place: then step 1 is repeated there.
- *   4 A corner that turned out to be no ear is asked again when a cut ends at
- *     it or beside it, or corners were left out there.  Where none is left to
- *     be asked the polygon is not simple: then the first of all goes in the
- *     same order, those without area before convex and these before reflex
- *     ones, and all are asked again.
+ * Rule  It decides where a polygon that is not planar folds, and so is part of
+ * what is drawn; src/judge/triangulation.c implements it independently.
+ *   1 A corner at the position of the previous one is removed, and so is a
+ *     corner whose neighbours have one position: the sides run back over each
+ *     other there.
+ *   2 The polygon is projected along the axis of largest projected area
+ *     (polygon.h), mirrored where needed to run counter-clockwise.
+ *   3 An ear is a corner that turns left and whose closed triangle contains no
+ *     other corner that does not turn left; corners at the positions of its own
+ *     three do not count.  While there are more than three corners, the ear
+ *     with the shortest diagonal in space is cut off.  Of equally long ones it
+ *     is the one whose lower end is first in the order of x, y, z, then the one
+ *     whose other end is.
+ *     A spike, a corner where the projection runs back over itself, is cut off
+ *     before any ear.
+ *     Where a cut brings two corners to one position, step 1 is repeated.
+ *   4 A corner that was found to be no ear is tested again when a cut ends at
+ *     it or beside it, or corners were removed there.  Where no corner is left
+ *     to be tested the polygon is not simple.  Then the first corner in the
+ *     order of step 3 is cut off, those without area before convex and these
+ *     before reflex ones, and all are tested again.
  *
- * Quadrilaterals  By this rule one is cut by the shorter of the diagonals that
- *   are inside.
- * Why the shortest  Where the face starts, which way it winds, and that it is
- *   mirrored do not change it; a polygon with equal sides loses every other
- *   corner, then every other of those left, so its triangles are compact and a
- *   line meets few of them.
- * Invariants  If any corner is inside an ear of a simple polygon, the one
- *   farthest from the diagonal is not convex, so only the others are looked
- *   at, those near the triangle alone (blockers.h).  A corner on the diagonal
- *   blocks the ear: so a point in the middle of a side is never left over as a
- *   triangle without area.  Where the polygon doubles back, as it does where
- *   loops that touch were parted, that spike goes first: all of its neighbours
- *   might else look like ears.  A cut makes ears of its two neighbours alone,
- *   so each cut asks two corners.
- * Robustness  All turns are exact_turn.  Where all were asked again too often,
- *   corners go without being asked.  So the loop always ends.
- * Source      ear clipping: [Meisters1975], the two-ears theorem.
+ * Quadrilaterals
+ *   By this rule one is cut along the shorter of the diagonals inside.
+ * Why the shortest diagonal
+ *   It does not depend on the first corner, the winding or mirroring.  A
+ *   polygon with equal sides loses every other corner, then every other of
+ *   those left, so that its triangles are compact and a line meets few of them.
+ * Invariants
+ *   If any corner is inside an ear's triangle of a simple polygon, the one
+ *   farthest from the diagonal is not convex; so only corners that are not
+ *   convex are tested, and only those near the triangle (reflex_tree.h).
+ *   A corner on the diagonal blocks the ear, so that a point in the middle of a
+ *   side never remains as a triangle without area.
+ *   Spikes, which occur where loops that touch were split, are cut off first:
+ *   otherwise all of their neighbours might look like ears.
+ *   A cut can make ears of its two neighbours only, so two corners are tested
+ *   after each.
+ * Robustness
+ *   All turns are decided by exact_turn.  After too many repeated tests corners
+ *   are cut off untested, so the loop always ends.
+ * Source  ear clipping: [Meisters1975], the two-ears theorem.
  */
 #include "view/triangulate.h"
 
@@ -44,12 +50,13 @@
 
 enum {
   TURN_GONE = 2, /* of a corner that was cut off */
-  /* So many corners are asked again where a polygon is not simple. */
-  PATIENCE_CORNERS = 1 << 20,
-  PATIENCE_EACH = 32
+  /* The number of corners of a polygon that is not simple that are tested
+   * again: a constant, and so many for each corner. */
+  RECHECK_CORNERS = 1 << 20,
+  RECHECK_PER_CORNER = 32
 };
 
-/* In which order corners are cut off, before their diagonals are compared. */
+/* The rank of a corner in the queue; among equal ranks diagonals decide. */
 enum { RANK_SPIKE, RANK_EAR, RANK_STRAIGHT, RANK_CONVEX, RANK_REFLEX };
 
 void triangulation_fini(struct triangulation *triangulation) {
@@ -57,7 +64,7 @@ void triangulation_fini(struct triangulation *triangulation) {
   ARRAY_FREE(&triangulation->corner);
   ARRAY_FREE(&triangulation->queue);
   ARRAY_FREE(&triangulation->same);
-  blockers_fini(&triangulation->blockers);
+  reflex_tree_fini(&triangulation->tree);
 }
 
 static int turn_at(const struct triangulation_corner *corner, uint32_t a,
@@ -79,103 +86,110 @@ static void add(struct triangulation *triangulation, uint32_t a, uint32_t b,
       (struct triangulation_triangle){{a, b, c}, {ab, bc, ca}};
 }
 
-/* ---- Which corner is next ------------------------------------------------ */
+/* ---- The order of corners ------------------------------------------------ */
 
-struct ears {
+struct ear_clipper {
   struct triangulation *triangulation;
   const struct polygon *polygon;
   struct triangulation_corner *corner;
-  uint32_t count, left; /* corners at first, and now */
-  uint32_t diagonals;   /* how many were made */
-  uint32_t queued;
-  bool hasty;        /* corners go without being asked */
-  uint64_t patience; /* corners that may be asked again for want of ears */
+  uint32_t count, left;    /* corners at first, and now */
+  uint32_t diagonals;      /* made so far */
+  uint32_t queued;         /* length of the queue */
+  bool unchecked;          /* corners are cut off untested */
+  uint64_t recheck_budget; /* corners that may still be tested again */
 };
 
-/* The ends of a diagonal, the first in space first. */
+/* The ends of a diagonal, in the order of polygon_compare. */
 struct polygon_ends {
   uint32_t low, high;
 };
 
-static struct polygon_ends ends_past(const struct ears *ears, uint32_t b) {
-  uint32_t a = ears->corner[b].prev, c = ears->corner[b].next;
-  return polygon_compare(ears->polygon, a, c) < 0 ? (struct polygon_ends){a, c}
-                                                  : (struct polygon_ends){c, a};
+static struct polygon_ends ends_past(const struct ear_clipper *clipper,
+                                     uint32_t b) {
+  uint32_t a = clipper->corner[b].prev, c = clipper->corner[b].next;
+  return polygon_compare(clipper->polygon, a, c) < 0
+             ? (struct polygon_ends){a, c}
+             : (struct polygon_ends){c, a};
 }
 
-/* Compares the diagonals past two corners, at last by number: a quadrilateral
- * has two ears with one diagonal. */
-static int compare_diagonals(const struct ears *ears, uint32_t b, uint32_t d) {
-  double one = ears->corner[b].length, two = ears->corner[d].length;
+/* Compares the diagonals that cut off two corners by length, then by their
+ * ends, then the corners by position and number: a quadrilateral has two ears
+ * with one diagonal. */
+static int compare_diagonals(const struct ear_clipper *clipper, uint32_t b,
+                             uint32_t d) {
+  double one = clipper->corner[b].length, two = clipper->corner[d].length;
   if (one != two)
     return one < two ? -1 : 1;
-  struct polygon_ends e = ends_past(ears, b), f = ends_past(ears, d);
-  int order = polygon_compare(ears->polygon, e.low, f.low);
+  struct polygon_ends e = ends_past(clipper, b), f = ends_past(clipper, d);
+  int order = polygon_compare(clipper->polygon, e.low, f.low);
   if (order == 0)
-    order = polygon_compare(ears->polygon, e.high, f.high);
+    order = polygon_compare(clipper->polygon, e.high, f.high);
   if (order == 0)
-    order = polygon_compare(ears->polygon, b, d);
+    order = polygon_compare(clipper->polygon, b, d);
   return order != 0 ? order : (b > d) - (b < d);
 }
 
-static bool goes_before(const struct ears *ears, uint32_t b, uint32_t d) {
-  const struct triangulation_corner *corner = ears->corner;
-  return corner[b].rank != corner[d].rank ? corner[b].rank < corner[d].rank
-                                          : compare_diagonals(ears, b, d) < 0;
+static bool goes_before(const struct ear_clipper *clipper, uint32_t b,
+                        uint32_t d) {
+  const struct triangulation_corner *corner = clipper->corner;
+  return corner[b].rank != corner[d].rank
+             ? corner[b].rank < corner[d].rank
+             : compare_diagonals(clipper, b, d) < 0;
 }
 
 /* ---- The queue ----------------------------------------------------------- */
 
-static void put(struct ears *ears, uint32_t slot, uint32_t b) {
-  ears->triangulation->queue.item[slot - 1] = b;
-  ears->corner[b].slot = slot;
+static void set_slot(struct ear_clipper *clipper, uint32_t slot, uint32_t b) {
+  clipper->triangulation->queue.item[slot - 1] = b;
+  clipper->corner[b].slot = slot;
 }
 
-/* Lets b rise or sink from a slot that is free to where it belongs. */
-static void settle(struct ears *ears, uint32_t slot, uint32_t b) {
-  const uint32_t *queue = ears->triangulation->queue.item;
-  while (slot > 1 && goes_before(ears, b, queue[slot / 2 - 1])) {
-    put(ears, slot, queue[slot / 2 - 1]);
+/* Restores the heap order by sifting b up or down from an empty slot. */
+static void sift(struct ear_clipper *clipper, uint32_t slot, uint32_t b) {
+  const uint32_t *queue = clipper->triangulation->queue.item;
+  while (slot > 1 && goes_before(clipper, b, queue[slot / 2 - 1])) {
+    set_slot(clipper, slot, queue[slot / 2 - 1]);
     slot /= 2;
   }
-  while (2 * slot <= ears->queued) {
+  while (2 * slot <= clipper->queued) {
     uint32_t child = 2 * slot;
-    if (child < ears->queued &&
-        goes_before(ears, queue[child], queue[child - 1]))
+    if (child < clipper->queued &&
+        goes_before(clipper, queue[child], queue[child - 1]))
       child++;
-    if (!goes_before(ears, queue[child - 1], b))
+    if (!goes_before(clipper, queue[child - 1], b))
       break;
-    put(ears, slot, queue[child - 1]);
+    set_slot(clipper, slot, queue[child - 1]);
     slot = child;
   }
-  put(ears, slot, b);
+  set_slot(clipper, slot, b);
 }
 
-static void leave_queue(struct ears *ears, uint32_t b) {
-  uint32_t slot = ears->corner[b].slot;
+static void queue_remove(struct ear_clipper *clipper, uint32_t b) {
+  uint32_t slot = clipper->corner[b].slot;
   if (slot == 0)
     return;
-  uint32_t last = ears->triangulation->queue.item[--ears->queued];
-  ears->corner[b].slot = 0;
+  uint32_t last = clipper->triangulation->queue.item[--clipper->queued];
+  clipper->corner[b].slot = 0;
   if (last != b)
-    settle(ears, slot, last);
+    sift(clipper, slot, last);
 }
 
-static void enter_queue(struct ears *ears, uint32_t b) {
-  settle(ears, ++ears->queued, b);
+static void queue_insert(struct ear_clipper *clipper, uint32_t b) {
+  sift(clipper, ++clipper->queued, b);
 }
 
 /* ---- The state of a corner ----------------------------------------------- */
 
-static void set_turn(struct ears *ears, uint32_t c, int turn) {
-  struct triangulation_corner *corner = &ears->corner[c];
-  bool was_bent = corner->turn <= 0, is_bent = turn <= 0;
-  if (was_bent != is_bent)
-    blockers_change(&ears->triangulation->blockers, c, is_bent);
+static void set_turn(struct ear_clipper *clipper, uint32_t c, int turn) {
+  struct triangulation_corner *corner = &clipper->corner[c];
+  bool was_reflex = corner->turn <= 0, is_reflex = turn <= 0;
+  if (was_reflex != is_reflex)
+    reflex_tree_set(&clipper->triangulation->tree, c, is_reflex);
   corner->turn = (int8_t)turn;
 }
 
-/* Whether the image doubles back at a corner, or stands still. */
+/* Whether the projection runs back over itself at a corner, or one of the two
+ * sides there has no length. */
 static bool is_spike(const struct triangulation_corner *corner, uint32_t b) {
   const double *at = corner[b].at;
   const double *from = corner[corner[b].prev].at;
@@ -184,32 +198,33 @@ static bool is_spike(const struct triangulation_corner *corner, uint32_t b) {
                                  is_before(from, at) == is_before(to, at));
 }
 
-/* Where a corner stands that is not asked whether it is an ear. */
-static uint8_t plain_rank(int turn) {
+/* The rank of a corner that is cut off without testing whether it is an ear. */
+static uint8_t rank_by_turn(int turn) {
   return turn == 0 ? RANK_STRAIGHT : turn > 0 ? RANK_CONVEX : RANK_REFLEX;
 }
 
-/* A corner one of whose neighbours is new is looked at anew. */
-static void look_again(struct ears *ears, uint32_t b) {
-  struct triangulation_corner *corner = &ears->corner[b];
-  leave_queue(ears, b);
-  set_turn(ears, b, turn_at(ears->corner, corner->prev, b, corner->next));
-  corner->length = polygon_distance(ears->polygon, corner->prev, corner->next);
-  bool spike = is_spike(ears->corner, b);
-  corner->rank = spike         ? RANK_SPIKE
-                 : ears->hasty ? plain_rank(corner->turn)
-                               : RANK_EAR;
-  if (spike || ears->hasty || corner->turn > 0)
-    enter_queue(ears, b);
+/* Updates a corner that has a new neighbour, and queues it. */
+static void update_corner(struct ear_clipper *clipper, uint32_t b) {
+  struct triangulation_corner *corner = &clipper->corner[b];
+  queue_remove(clipper, b);
+  set_turn(clipper, b, turn_at(clipper->corner, corner->prev, b, corner->next));
+  corner->length =
+      polygon_distance(clipper->polygon, corner->prev, corner->next);
+  bool spike = is_spike(clipper->corner, b);
+  corner->rank = spike                ? RANK_SPIKE
+                 : clipper->unchecked ? rank_by_turn(corner->turn)
+                                      : RANK_EAR;
+  if (spike || clipper->unchecked || corner->turn > 0)
+    queue_insert(clipper, b);
 }
 
-/* What may be an ear. */
+/* A candidate ear a, b, c. */
 struct ear {
   const struct triangulation_corner *corner;
   uint32_t a, b, c;
 };
 
-/* Whether p is bent, in the closed triangle a, b, c, and at none of its
+/* Whether p is not convex, in the closed triangle a, b, c, and at none of its
  * corners. */
 static bool blocks(const void *user, uint32_t p) {
   const struct ear *ear = user;
@@ -222,219 +237,225 @@ static bool blocks(const void *user, uint32_t p) {
          exact_turn(b, c, at) >= 0;
 }
 
-static bool is_ear(const struct ears *ears, uint32_t b) {
-  const struct triangulation_corner *corner = ears->corner;
+static bool is_ear(const struct ear_clipper *clipper, uint32_t b) {
+  const struct triangulation_corner *corner = clipper->corner;
   struct ear ear = {corner, corner[b].prev, b, corner[b].next};
   const double *triangle[3] = {corner[ear.a].at, corner[b].at,
                                corner[ear.c].at};
-  return corner[b].turn > 0 &&
-         !blockers_ask(&ears->triangulation->blockers, triangle, blocks, &ear);
+  return corner[b].turn > 0 && !reflex_tree_query(&clipper->triangulation->tree,
+                                                  triangle, blocks, &ear);
 }
 
-/* ---- Corners at one place ------------------------------------------------ */
+/* ---- Corners at one position --------------------------------------------- */
 
-static bool are_at_one_place(const struct ears *ears, uint32_t a, uint32_t b) {
-  return polygon_compare(ears->polygon, a, b) == 0;
+static bool are_at_one_place(const struct ear_clipper *clipper, uint32_t a,
+                             uint32_t b) {
+  return polygon_compare(clipper->polygon, a, b) == 0;
 }
 
-static uint32_t side_that_stands_for(const struct ears *ears, uint32_t side) {
-  const uint32_t *same = ears->triangulation->same.item;
+static uint32_t representative_side(const struct ear_clipper *clipper,
+                                    uint32_t side) {
+  const uint32_t *same = clipper->triangulation->same.item;
   while (same[side] != side)
     side = same[side];
   return side;
 }
 
-/* Two sides run between the same two places: a diagonal of them gives way to
- * the polygon's side, or to the earlier diagonal. */
-static void join_sides(struct ears *ears, uint32_t one, uint32_t two) {
-  one = side_that_stands_for(ears, one);
-  two = side_that_stands_for(ears, two);
-  if (one >= ears->count || two >= ears->count)
-    ears->triangulation->same.item[one > two ? one : two] =
+/* Records that two sides run between the same two positions: a diagonal is
+ * replaced by the polygon's side, or by the earlier diagonal. */
+static void merge_sides(struct ear_clipper *clipper, uint32_t one,
+                        uint32_t two) {
+  one = representative_side(clipper, one);
+  two = representative_side(clipper, two);
+  if (one >= clipper->count || two >= clipper->count)
+    clipper->triangulation->same.item[one > two ? one : two] =
         one > two ? two : one;
 }
 
-/* Takes a corner out; what left the one before it now ends at the one after. */
-static void take_out(struct ears *ears, uint32_t b) {
-  struct triangulation_corner *corner = ears->corner;
-  leave_queue(ears, b);
-  set_turn(ears, b, TURN_GONE);
+/* Removes a corner; the previous one's side now ends at the next one. */
+static void remove_corner(struct ear_clipper *clipper, uint32_t b) {
+  struct triangulation_corner *corner = clipper->corner;
+  queue_remove(clipper, b);
+  set_turn(clipper, b, TURN_GONE);
   corner[corner[b].prev].next = corner[b].next;
   corner[corner[b].next].prev = corner[b].prev;
-  ears->left--;
+  clipper->left--;
 }
 
-/* A corner at the place of the next one goes; returns one that is left. */
-static uint32_t drop_repeat(struct ears *ears, uint32_t b) {
-  take_out(ears, b);
-  return ears->corner[b].prev;
+/* Removes a corner at the position of the next one; returns one that is
+ * left. */
+static uint32_t remove_duplicate(struct ear_clipper *clipper, uint32_t b) {
+  remove_corner(clipper, b);
+  return clipper->corner[b].prev;
 }
 
-/* The tip of a way there and back goes; returns one that is left. */
-static uint32_t drop_tip(struct ears *ears, uint32_t b) {
-  uint32_t a = ears->corner[b].prev;
-  join_sides(ears, ears->corner[a].side, ears->corner[b].side);
-  take_out(ears, b);
-  /* Now the next one is at its place, and what leaves that leaves here. */
-  ears->corner[a].side = ears->corner[ears->corner[a].next].side;
-  take_out(ears, ears->corner[a].next);
+/* Removes a corner whose neighbours have one position; returns one that is
+ * left. */
+static uint32_t remove_spike(struct ear_clipper *clipper, uint32_t b) {
+  uint32_t a = clipper->corner[b].prev;
+  merge_sides(clipper, clipper->corner[a].side, clipper->corner[b].side);
+  remove_corner(clipper, b);
+  /* The next corner is at the position of this one: remove it, too, and take
+   * over its side. */
+  clipper->corner[a].side = clipper->corner[clipper->corner[a].next].side;
+  remove_corner(clipper, clipper->corner[a].next);
   return a;
 }
 
-/* Leaves out corners about b that repeat or turn back; returns one about which
- * none does, or which is alone with one more or none. */
-static uint32_t tidy(struct ears *ears, uint32_t b) {
-  struct triangulation_corner *corner = ears->corner;
-  while (ears->left > 2) {
+/* Removes duplicates and spikes at b and its neighbours until there are none,
+ * or two corners are left; returns a corner that is left there. */
+static uint32_t remove_degenerate(struct ear_clipper *clipper, uint32_t b) {
+  struct triangulation_corner *corner = clipper->corner;
+  while (clipper->left > 2) {
     uint32_t a = corner[b].prev, c = corner[b].next;
-    if (are_at_one_place(ears, b, c))
-      b = drop_repeat(ears, b);
-    else if (are_at_one_place(ears, a, b))
-      b = drop_repeat(ears, a);
-    else if (are_at_one_place(ears, a, c))
-      b = drop_tip(ears, b);
-    else if (are_at_one_place(ears, corner[a].prev, b))
-      b = drop_tip(ears, a);
-    else if (are_at_one_place(ears, corner[c].next, b))
-      b = drop_tip(ears, c);
+    if (are_at_one_place(clipper, b, c))
+      b = remove_duplicate(clipper, b);
+    else if (are_at_one_place(clipper, a, b))
+      b = remove_duplicate(clipper, a);
+    else if (are_at_one_place(clipper, a, c))
+      b = remove_spike(clipper, b);
+    else if (are_at_one_place(clipper, corner[a].prev, b))
+      b = remove_spike(clipper, a);
+    else if (are_at_one_place(clipper, corner[c].next, b))
+      b = remove_spike(clipper, c);
     else
       break;
   }
-  if (ears->left == 2)
-    join_sides(ears, corner[b].side, corner[corner[b].next].side);
+  if (clipper->left == 2)
+    merge_sides(clipper, corner[b].side, corner[corner[b].next].side);
   return b;
 }
 
 /* ---- Cutting ------------------------------------------------------------- */
 
 /* Cuts off corner b; returns one that is left. */
-static uint32_t cut_corner(struct ears *ears, uint32_t b) {
-  struct triangulation_corner *corner = ears->corner;
+static uint32_t cut_off_corner(struct ear_clipper *clipper, uint32_t b) {
+  struct triangulation_corner *corner = clipper->corner;
   uint32_t a = corner[b].prev, c = corner[b].next;
-  uint32_t side = ears->count + ears->diagonals++;
-  add(ears->triangulation, a, b, c, corner[a].side, corner[b].side, side);
-  take_out(ears, b);
+  uint32_t side = clipper->count + clipper->diagonals++;
+  add(clipper->triangulation, a, b, c, corner[a].side, corner[b].side, side);
+  remove_corner(clipper, b);
   corner[a].side = side;
-  uint32_t left = ears->left;
-  a = tidy(ears, a);
-  if (ears->left > 2) {
-    look_again(ears, corner[a].prev);
-    look_again(ears, a);
-    look_again(ears, corner[a].next);
+  uint32_t left = clipper->left;
+  a = remove_degenerate(clipper, a);
+  if (clipper->left > 2) {
+    update_corner(clipper, corner[a].prev);
+    update_corner(clipper, a);
+    update_corner(clipper, corner[a].next);
   }
-  if (ears->left > 3 && ears->left == left)
-    look_again(ears, corner[c].next);
+  if (clipper->left > 3 && clipper->left == left)
+    update_corner(clipper, corner[c].next);
   return a;
 }
 
-/* The one to cut off where there is no ear. */
-static uint32_t choose_corner(struct ears *ears, uint32_t start) {
-  struct triangulation_corner *corner = ears->corner;
+/* The first corner in the order of the queue where there is no ear. */
+static uint32_t choose_corner(struct ear_clipper *clipper, uint32_t start) {
+  struct triangulation_corner *corner = clipper->corner;
   uint32_t best = start, c = start;
   do {
-    corner[c].rank = plain_rank(corner[c].turn);
-    if (goes_before(ears, c, best))
+    corner[c].rank = rank_by_turn(corner[c].turn);
+    if (goes_before(clipper, c, best))
       best = c;
     c = corner[c].next;
   } while (c != start);
   return best;
 }
 
-static void look_at_all(struct ears *ears, uint32_t start) {
+static void update_all(struct ear_clipper *clipper, uint32_t start) {
   uint32_t c = start;
   do {
-    look_again(ears, c);
-    c = ears->corner[c].next;
+    update_corner(clipper, c);
+    c = clipper->corner[c].next;
   } while (c != start);
 }
 
-/* Cuts off what there is no ear for. */
-static uint32_t cut_tangle(struct ears *ears, uint32_t b) {
-  b = cut_corner(ears, choose_corner(ears, b));
-  ears->hasty = ears->patience < ears->left;
-  ears->patience -= ears->hasty ? 0 : ears->left;
-  if (ears->left > 3)
-    look_at_all(ears, b);
+/* Cuts off a corner of a polygon that is not simple and so has no ear. */
+static uint32_t cut_without_ear(struct ear_clipper *clipper, uint32_t b) {
+  b = cut_off_corner(clipper, choose_corner(clipper, b));
+  clipper->unchecked = clipper->recheck_budget < clipper->left;
+  clipper->recheck_budget -= clipper->unchecked ? 0 : clipper->left;
+  if (clipper->left > 3)
+    update_all(clipper, b);
   return b;
 }
 
-static uint32_t cut_ears(struct ears *ears, uint32_t b) {
-  while (ears->left > 3) {
-    if (ears->queued == 0) {
-      b = cut_tangle(ears, b);
+static uint32_t cut_ears(struct ear_clipper *clipper, uint32_t b) {
+  while (clipper->left > 3) {
+    if (clipper->queued == 0) {
+      b = cut_without_ear(clipper, b);
       continue;
     }
-    uint32_t next = ears->triangulation->queue.item[0];
-    leave_queue(ears, next);
-    if (ears->corner[next].rank != RANK_EAR || is_ear(ears, next))
-      b = cut_corner(ears, next);
+    uint32_t next = clipper->triangulation->queue.item[0];
+    queue_remove(clipper, next);
+    if (clipper->corner[next].rank != RANK_EAR || is_ear(clipper, next))
+      b = cut_off_corner(clipper, next);
   }
   return b;
 }
 
-/* ---- All ----------------------------------------------------------------- */
+/* ---- The whole polygon --------------------------------------------------- */
 
-static void link_corners(struct ears *ears) {
-  struct triangulation_corner *corner = ears->corner;
-  for (uint32_t c = 0; c < ears->count; c++) {
-    corner[c].prev = c == 0 ? ears->count - 1 : c - 1;
-    corner[c].next = c + 1 == ears->count ? 0 : c + 1;
+static void link_corners(struct ear_clipper *clipper) {
+  struct triangulation_corner *corner = clipper->corner;
+  for (uint32_t c = 0; c < clipper->count; c++) {
+    corner[c].prev = c == 0 ? clipper->count - 1 : c - 1;
+    corner[c].next = c + 1 == clipper->count ? 0 : c + 1;
     corner[c].side = c;
     corner[c].turn = 1;
     corner[c].slot = 0;
   }
-  for (uint32_t side = 0; side < 2 * ears->count; side++)
-    ears->triangulation->same.item[side] = side;
+  for (uint32_t side = 0; side < 2 * clipper->count; side++)
+    clipper->triangulation->same.item[side] = side;
 }
 
-/* Goes around once, leaving out what repeats or turns back. */
-static uint32_t tidy_all(struct ears *ears) {
+/* Goes around once and removes duplicates and spikes. */
+static uint32_t remove_all_degenerate(struct ear_clipper *clipper) {
   uint32_t b = 0;
-  for (uint32_t c = 0; c < ears->count && ears->left > 2; c++)
-    if (ears->corner[c].turn != TURN_GONE)
-      b = tidy(ears, c);
+  for (uint32_t c = 0; c < clipper->count && clipper->left > 2; c++)
+    if (clipper->corner[c].turn != TURN_GONE)
+      b = remove_degenerate(clipper, c);
   return b;
 }
 
-static void name_sides(struct ears *ears) {
-  struct triangulation *t = ears->triangulation;
+static void number_sides(struct ear_clipper *clipper) {
+  struct triangulation *t = clipper->triangulation;
   for (size_t i = 0; i < t->triangle.count; i++)
     for (int k = 0; k < 3; k++)
       t->triangle.item[i].side[k] =
-          side_that_stands_for(ears, t->triangle.item[i].side[k]);
+          representative_side(clipper, t->triangle.item[i].side[k]);
 }
 
 static bool cut_polygon(struct triangulation *triangulation,
                         const struct polygon *polygon) {
   uint32_t count = polygon->count;
-  struct ears ears = {.triangulation = triangulation,
-                      .polygon = polygon,
-                      .corner = triangulation->corner.item,
-                      .count = count,
-                      .left = count,
-                      .patience =
-                          PATIENCE_CORNERS + PATIENCE_EACH * (uint64_t)count};
+  struct ear_clipper clipper = {
+      .triangulation = triangulation,
+      .polygon = polygon,
+      .corner = triangulation->corner.item,
+      .count = count,
+      .left = count,
+      .recheck_budget = RECHECK_CORNERS + RECHECK_PER_CORNER * (uint64_t)count};
   if (!ARRAY_RESERVE(&triangulation->queue, count) ||
       !ARRAY_RESERVE(&triangulation->same, 2 * (size_t)count) ||
-      !blockers_init(&triangulation->blockers, ears.corner, sizeof *ears.corner,
-                     count))
+      !reflex_tree_init(&triangulation->tree, clipper.corner,
+                        sizeof *clipper.corner, count))
     return false;
-  link_corners(&ears);
-  uint32_t b = tidy_all(&ears);
-  if (ears.left > 3) {
-    look_at_all(&ears, b);
-    b = cut_ears(&ears, b);
+  link_corners(&clipper);
+  uint32_t b = remove_all_degenerate(&clipper);
+  if (clipper.left > 3) {
+    update_all(&clipper, b);
+    b = cut_ears(&clipper, b);
   }
-  if (ears.left == 3) {
-    uint32_t a = ears.corner[b].prev, c = ears.corner[b].next;
-    add(triangulation, a, b, c, ears.corner[a].side, ears.corner[b].side,
-        ears.corner[c].side);
+  if (clipper.left == 3) {
+    uint32_t a = clipper.corner[b].prev, c = clipper.corner[b].next;
+    add(triangulation, a, b, c, clipper.corner[a].side, clipper.corner[b].side,
+        clipper.corner[c].side);
   }
-  name_sides(&ears);
+  number_sides(&clipper);
   return true;
 }
 
-/* ---- Few corners --------------------------------------------------------- */
+/* ---- Triangles and quadrilaterals ---------------------------------------- */
 
 static bool has_repeats(const struct polygon *polygon) {
   for (uint32_t c = 0; c < polygon->count; c++)
@@ -444,8 +465,8 @@ static bool has_repeats(const struct polygon *polygon) {
   return false;
 }
 
-/* Whether the diagonal from corner 0 is the shorter one, or of two that are as
- * long the one that starts at the first corner in space. */
+/* Whether the diagonal from corner 0 is the shorter one; of two equally long
+ * ones, the one that starts at the first corner in the order of x, y, z. */
 static bool is_shorter_from_0(const struct polygon *polygon) {
   double from_0 = polygon_distance(polygon, 0, 2);
   double from_1 = polygon_distance(polygon, 1, 3);

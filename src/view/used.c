@@ -1,4 +1,4 @@
-/* used.c - which points of a scene a face or a polyline uses. */
+/* used.c - finds the points of a scene that a face or a polyline uses. */
 #include "view/used.h"
 
 static void mark(const uint32_t *corner, size_t count, const uint32_t *weld,

@@ -1,12 +1,12 @@
-/* vector.h - triples of doubles, added up in one fixed order. */
+/* vector.h - vectors of three doubles; sums are evaluated in one fixed order.
+ */
 #ifndef VIEW_VECTOR_H
 #define VIEW_VECTOR_H
 
 #include <math.h>
 #include <stdbool.h>
 
-/* What fmin and fmax do, without a call: a value that is not a number does not
- * change the bound. */
+/* Like fmin and fmax, but inline: a NaN value does not change the bound. */
 static inline double lower_bound(double bound, double value) {
   return value < bound ? value : bound;
 }
@@ -29,9 +29,9 @@ static inline bool vector_is_finite(const double a[3]) {
   return isfinite(a[0]) && isfinite(a[1]) && isfinite(a[2]);
 }
 
-/* The length, without overflow or underflow on the way: coordinates are first
- * divided by a power of two near the largest.  A vector along an axis gives
- * exactly its one coordinate. */
+/* The length, computed without overflow or underflow: coordinates are first
+ * divided by a power of two close to the largest.  For a vector along an axis
+ * the result is exact. */
 static inline double vector_length(const double a[3]) {
   double largest = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
   if (largest == 0 || !isfinite(largest))
@@ -44,7 +44,8 @@ static inline double vector_length(const double a[3]) {
   return ldexp(sqrt(vector_dot(b, b)), exponent);
 }
 
-/* Makes a vector one unit long, with no -0; false where it has no length. */
+/* Normalises a vector, with no -0; false where its length is 0 or not
+ * finite. */
 static inline bool vector_normalise(double a[3]) {
   double length = vector_length(a);
   if (!(length > 0) || !isfinite(length))

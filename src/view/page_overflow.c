@@ -1,5 +1,6 @@
-/* beyond.c - how much of what was asked for the page's margins cut away. */
-#include "view/beyond.h"
+/* page_overflow.c - measures the requested lines that the page's margins clip
+ * away. */
+#include "view/page_overflow.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,13 +9,13 @@
 #include "view/vector.h"
 
 struct measure {
-  struct beyond *beyond;
+  struct page_overflow *overflow;
   const struct scene *scene;
   const struct topology *topology;
   const struct camera *camera;
 };
 
-struct place {
+struct page_point {
   double mm[2];
 };
 
@@ -26,13 +27,14 @@ static struct view_point view_of(const struct measure *measure,
   return camera_view(measure->camera, p->x, p->y, p->z);
 }
 
-static struct place place_of(const struct camera *camera, struct view_point p) {
+static struct page_point page_point_of(const struct camera *camera,
+                                       struct view_point p) {
   double scale = camera->perspective ? camera->s / p.d : camera->s;
-  return (struct place){
+  return (struct page_point){
       {camera->middle_mm[0] + scale * p.x, camera->middle_mm[1] + scale * p.y}};
 }
 
-/* Cuts off what is before the near plane; false where nothing is left. */
+/* Clips to the near plane; false where nothing is left. */
 static bool cut_near(const struct camera *camera, struct view_point end[2]) {
   double a = end[0].d - camera->near_d, b = end[1].d - camera->near_d;
   if (a < 0 && b < 0)
@@ -47,12 +49,13 @@ static bool cut_near(const struct camera *camera, struct view_point end[2]) {
   return true;
 }
 
-/* The share of a line that is inside the margins. */
-static double share_inside(const struct camera *camera, const struct place *a,
-                           const struct place *b) {
+/* The fraction of a line's length that is inside the margins. */
+static double share_inside(const struct camera *camera,
+                           const struct page_point *a,
+                           const struct page_point *b) {
   double from = 0, to = 1;
   for (int k = 0; k < 2; k++) {
-    double low = camera->margin_mm - SHEET_RIM / SHEET_UNITS_PER_MM;
+    double low = camera->margin_mm - SHEET_BLEED / SHEET_UNITS_PER_MM;
     double high = camera->page_mm[k] - low;
     double run = b->mm[k] - a->mm[k];
     if (run == 0 && (a->mm[k] < low || a->mm[k] > high))
@@ -66,39 +69,41 @@ static double share_inside(const struct camera *camera, const struct place *a,
   return fmax(0, to - from);
 }
 
-static void note_reach(struct measure *measure, const struct place *at) {
+static void record_reach(struct measure *measure, const struct page_point *at) {
   const struct camera *camera = measure->camera;
   for (int k = 0; k < 2; k++) {
     double low = camera->margin_mm, high = camera->page_mm[k] - low;
     double reach = fmax(low - at->mm[k], at->mm[k] - high);
     if (reach < RECTO_FINEST_MM)
       continue;
-    measure->beyond->axis[k] = true;
-    measure->beyond->reach_mm = fmax(measure->beyond->reach_mm, reach);
+    measure->overflow->axis[k] = true;
+    measure->overflow->reach_mm = fmax(measure->overflow->reach_mm, reach);
   }
 }
 
-/* No pen draws what is shorter than RECTO_FINEST_MM. */
+/* Adds what a line loses; losses shorter than RECTO_FINEST_MM, which no pen
+ * can draw, are ignored. */
 static void measure_line(struct measure *measure, uint32_t from, uint32_t to) {
   struct view_point end[2] = {view_of(measure, from), view_of(measure, to)};
   if (!cut_near(measure->camera, end))
     return;
-  struct place a = place_of(measure->camera, end[0]);
-  struct place b = place_of(measure->camera, end[1]);
+  struct page_point a = page_point_of(measure->camera, end[0]);
+  struct page_point b = page_point_of(measure->camera, end[1]);
   double length = hypot(b.mm[0] - a.mm[0], b.mm[1] - a.mm[1]);
   double lost = length * (1 - share_inside(measure->camera, &a, &b));
   if (!(lost >= RECTO_FINEST_MM))
     return;
-  measure->beyond->edges++;
-  measure->beyond->mm += lost;
-  note_reach(measure, &a);
-  note_reach(measure, &b);
+  measure->overflow->edges++;
+  measure->overflow->mm += lost;
+  record_reach(measure, &a);
+  record_reach(measure, &b);
 }
 
 /* ---- Edges --------------------------------------------------------------- */
 
-/* Whether a face is seen from its front: of which sign, as its corners run, is
- * the volume that it spans with the eye. */
+/* A number that is positive where a face is seen from one side and negative
+ * where it is seen from the other: the signed volume that it spans with the
+ * eye, in the order of its corners. */
 static double side_of_face(const struct measure *measure, uint32_t face) {
   const struct scene *scene = measure->scene;
   uint32_t start = scene->face_start.item[face];
@@ -158,14 +163,16 @@ static void measure_polylines(struct measure *measure) {
                    scene->wire_corner.item[c + 1]);
 }
 
-recto_status beyond_measure(struct beyond *beyond, const struct scene *scene,
-                            const struct topology *topology,
-                            const struct camera *camera,
-                            const recto_options *options, recto_error *error) {
+recto_status page_overflow_measure(struct page_overflow *overflow,
+                                   const struct scene *scene,
+                                   const struct topology *topology,
+                                   const struct camera *camera,
+                                   const recto_options *options,
+                                   recto_error *error) {
   const unsigned of_faces =
       RECTO_EDGES_ALL & ~(unsigned)(RECTO_EDGE_WIRE | RECTO_EDGE_INTERSECTION);
-  struct measure measure = {beyond, scene, topology, camera};
-  *beyond = (struct beyond){0};
+  struct measure measure = {overflow, scene, topology, camera};
+  *overflow = (struct page_overflow){0};
   if ((options->edges & RECTO_EDGE_WIRE) != 0)
     measure_polylines(&measure);
   return (options->edges & of_faces) != 0
