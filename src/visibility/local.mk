@@ -23,6 +23,7 @@ librecto_core_la_SOURCES += \
   %D%/intersection/intersection_segment.c %D%/intersection/intersection_segment.h \
   %D%/newell/newell.c \
   %D%/newell/newell_order.c %D%/newell/newell_order.h \
+  %D%/newell/newell_piece.c %D%/newell/newell_piece.h \
   %D%/newell/newell_tests.c %D%/newell/newell_tests.h \
   %D%/newell/painter.c \
   %D%/pairwise/edge_query.c %D%/pairwise/edge_query.h \

@@ -1,15 +1,17 @@
-/* newell.c - the full painter's algorithm, for pens: faces are put in painting
- * order (newell_order.c), and then nothing is overpainted: each keeps what no
- * later one covers.
+/* newell.c - the painter's algorithm of Newell, Newell and Sancha, for pens.
  *
- * Strokes: of two faces that overlap, the one painted first hides nothing of
- * the other.  So an edge is asked only about faces painted after its own; but
- * one that runs along the side of a face does not overlap it, and is always
- * asked.  So is one that was rounded off its face.
+ * Pens cannot overpaint.  Faces are put in painting order (newell_order.h), and
+ * each keeps what no later one occludes.
  *
- * Where the order has no place for a triangle, its edges, the intersections and
- * what is seen of it are left to pairwise_fallback.h; from others it takes where its
- * plane is nearer.
+ * Strokes.  Of two faces that overlap, the one painted first hides nothing of
+ * the other.  An edge is therefore tested only against faces that are painted
+ * after its own, with two exceptions that the order does not decide: an edge
+ * along the side of a face, as it does not overlap that face; and an
+ * intersection, as its rounded ends may lie beside its faces.
+ *
+ * Triangles without an order.  Their edges, their visible pieces and all
+ * intersections are solved by pairwise_fallback.h.  They are subtracted from
+ * other triangles where their plane is nearer.
  *
  * Source  [Newell1972].
  */
@@ -28,13 +30,13 @@ struct stroke_work {
   struct triangle_grid_query query;
   struct edge_intervals intervals;
   struct occlusion_counts counts;
-  uint64_t by_order; /* pairs the order settled */
+  uint64_t by_order; /* pairs that the order decided */
   struct progress *progress;
-  struct pairwise_fallback *fallback; /* NULL: every triangle is in the order */
+  struct pairwise_fallback *fallback; /* NULL: all triangles are ordered */
 };
 
-/* The rank of the edge's own face where it is one whole piece, else 0: also
- * for an intersection, whose ends were rounded and may lie beside its face. */
+/* The rank of the edge's own triangle if it was painted as a whole; otherwise
+ * 0, also for an intersection, whose rounded ends may lie beside its faces. */
 static uint32_t rank_of_edge(const struct stroke_work *work,
                              const struct sheet_edge *edge) {
   uint32_t t = edge->triangle[0];
@@ -44,6 +46,7 @@ static uint32_t rank_of_edge(const struct stroke_work *work,
   return work->order->piece.item[t].rank;
 }
 
+/* Returns whether segment pq is collinear with a side of the triangle. */
 static bool runs_along(const struct sheet *sheet, uint32_t triangle,
                        struct geom_point p, struct geom_point q) {
   const uint32_t *point = sheet->triangle.item[triangle].point;
@@ -56,6 +59,7 @@ static bool runs_along(const struct sheet *sheet, uint32_t triangle,
   return false;
 }
 
+/* Computes the occluded intervals of an edge. */
 static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
                        struct geom_point p, struct geom_point q) {
   const struct sheet *sheet = work->sheet;
@@ -84,22 +88,24 @@ static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
   return true;
 }
 
-/* Is it of no use to ask the order about the edge? */
-static bool is_undecided(const struct stroke_work *work,
-                         const struct sheet_edge *edge) {
+/* Returns whether the edge is left to the fallback: there are triangles without
+ * an order, and it belongs to one of them or is an intersection. */
+static bool needs_fallback(const struct stroke_work *work,
+                           const struct sheet_edge *edge) {
   uint32_t t = edge->triangle[0];
   return work->fallback != NULL &&
          (edge->edge_class == RECTO_EDGE_INTERSECTION ||
           (t != SHEET_NONE && newell_is_unordered(work->order, t)));
 }
 
-/* The answer about an edge; NULL when memory ran out, or the caller wants no
- * more. */
-static struct edge_intervals *strokes_of(struct stroke_work *work, uint32_t e) {
+/* The occluded intervals of edge e; NULL when memory ran out or the caller
+ * cancelled. */
+static struct edge_intervals *intervals_of(struct stroke_work *work,
+                                           uint32_t e) {
   const struct sheet_edge *edge = &work->sheet->edge.item[e];
   struct geom_point p = work->sheet->point.item[edge->point[0]],
                     q = work->sheet->point.item[edge->point[1]];
-  if (is_undecided(work, edge))
+  if (needs_fallback(work, edge))
     return pairwise_fallback_edge(work->fallback, e);
   return solve_edge(work, edge, p, q) &&
                  progress_step(work->progress, work->query.found.count)
@@ -124,11 +130,11 @@ static bool solve_strokes(const struct sheet *sheet, struct newell_order *order,
     if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y))
       continue;
     work.progress->share = (double)e / (double)sheet->edge.count;
-    struct edge_intervals *intervals = strokes_of(&work, (uint32_t)e);
+    struct edge_intervals *intervals = intervals_of(&work, (uint32_t)e);
     ok = intervals != NULL && edge_intervals_store(intervals, (uint32_t)e, map);
   }
   occlusion_report(&work.counts, report);
-  report_int(report, "newell", "pairs_settled_by_order",
+  report_int(report, "newell", "pairs_decided_by_order",
              (int64_t)work.by_order);
   edge_intervals_fini(&work.intervals);
   triangle_grid_query_fini(&work.query);
@@ -137,10 +143,11 @@ static bool solve_strokes(const struct sheet *sheet, struct newell_order *order,
 
 /* ---- Fragments ----------------------------------------------------------- */
 
-/* Takes from the cover of piece p all that is painted after it. */
-static bool take_later(struct newell_order *order, uint32_t p,
-                       struct triangle_grid_query *query,
-                       struct occluder_subtraction *subtraction) {
+/* Subtracts from piece p all pieces that are painted after it, and triangles
+ * without an order where they are nearer. */
+static bool subtract_later(struct newell_order *order, uint32_t p,
+                           struct triangle_grid_query *query,
+                           struct occluder_subtraction *subtraction) {
   const struct newell_piece *piece = &order->piece.item[p];
   if (!triangle_grid_find_overlapping(order->grid, piece->triangle, query))
     return false;
@@ -174,7 +181,7 @@ static bool take_later(struct newell_order *order, uint32_t p,
   return true;
 }
 
-/* Hands in what is seen of the triangles without an order. */
+/* Adds the visible pieces of the triangles without an order. */
 static bool store_unordered(struct newell_order *order,
                             struct pairwise_fallback *fallback,
                             struct fragments *fragments) {
@@ -210,7 +217,7 @@ static bool solve_fragments(struct newell_order *order,
       continue;
     ok = occluder_subtraction_start(&subtraction, piece->triangle,
                                     piece->shape) &&
-         take_later(order, p, &query, &subtraction) &&
+         subtract_later(order, p, &query, &subtraction) &&
          occluder_subtraction_store(&subtraction, &fragments);
   }
   ok = ok && store_unordered(order, fallback, &fragments) &&
@@ -226,11 +233,11 @@ static bool solve_fragments(struct newell_order *order,
 static void report_order(const struct newell_order *order,
                          struct report *report) {
   const struct newell_counts *c = &order->counts;
-  report_int(report, "newell", "settled_by_depth", (int64_t)c->depth);
-  report_int(report, "newell", "settled_by_test_a", (int64_t)c->minimax);
-  report_int(report, "newell", "settled_by_test_b", (int64_t)c->behind);
-  report_int(report, "newell", "settled_by_test_c", (int64_t)c->before);
-  report_int(report, "newell", "asked_test_d", (int64_t)c->full);
+  report_int(report, "newell", "decided_by_depth", (int64_t)c->depth);
+  report_int(report, "newell", "decided_by_test_a", (int64_t)c->minimax);
+  report_int(report, "newell", "decided_by_test_b", (int64_t)c->behind);
+  report_int(report, "newell", "decided_by_test_c", (int64_t)c->before);
+  report_int(report, "newell", "decided_by_test_d", (int64_t)c->full);
   report_int(report, "newell", "moved", (int64_t)c->moved);
   report_int(report, "newell", "cycles", (int64_t)c->cycles);
   report_int(report, "newell", "splits_by_cycle", (int64_t)c->split_cycle);
@@ -239,7 +246,7 @@ static void report_order(const struct newell_order *order,
   report_int(report, "newell", "pieces", (int64_t)order->painted.count);
 }
 
-/* Writes what is seen to the map, the faces being in order. */
+/* Fills the map, given the order. */
 static bool solve_in_order(struct newell_order *order, struct sheet *sheet,
                            const struct solver_request *request,
                            struct map *map, struct report *report) {

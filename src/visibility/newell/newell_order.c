@@ -1,28 +1,30 @@
-/* newell_order.c - the painter's order of Newell, Newell and Sancha.
+/* newell_order.c - finds the painter's order of Newell, Newell and Sancha.
  *
  * Phases
  *   1 all faces are sorted by their farthest z: list S
  *   2 the rearmost face P that is not painted yet becomes the candidate; it is
- *     tested against every face Q that it may cover (newell_tests.c)
- *   3 if P may be in front of no Q, P is painted; otherwise every such Q is
- *     moved ahead of P and marked, and becomes the candidate in turn
+ *     tested against every face Q that it may occlude (newell_tests.c)
+ *   3 if P is in front of no Q, P is painted; otherwise every Q that P is in
+ *     front of is moved ahead of P and marked, and becomes the candidate in
+ *     turn
  *   4 a marked face that would have to be moved again closes a cycle: it is
- *     split by the plane of the one that asks, or, where that plane misses it,
- *     by a side of that one's outline; faces that pierce are split where their
- *     planes cross
+ *     split by the plane of the candidate or, if that plane misses it, by a
+ *     side of the candidate; faces that intersect are split where their planes
+ *     intersect
  *
  * Invariants
- *   whatever is painted is in front of nothing that is not painted yet;
- *   the pieces of a triangle tile it, those unseen included.
+ *   A painted piece is in front of no piece that is not painted yet.
+ *   The pieces of a triangle tile it, including those that are not seen.
  *
- * Not without bounds: n triangles that pierce each other have some n^3 pieces.
- * So a triangle that was split SPLITS_MOST times is taken out of the order, and
- * where there were too many tests all that wait are.  Nothing is known about
- * such a triangle and the others; whoever uses the order asks the planes.
+ * Limits.  n triangles that intersect each other have about n^3 pieces.  A
+ * triangle that was split more than SPLITS_MAX times is therefore excluded from
+ * the order, and so are all waiting triangles once there were too many tests.
+ * The order of such a triangle relative to the others is unknown; users of the
+ * order compare the planes instead.
  *
- * It ends: each split follows one of finitely many lines (sides and crossings
- * of planes) and leaves two proper parts; without a split the marked faces
- * form a path, which is no longer than there are pieces.
+ * Termination.  Each split follows one of finitely many lines (sides, and
+ * intersections of planes) and leaves two proper parts.  Between splits the
+ * marked faces form a path, which is no longer than the number of pieces.
  *
  * Source  [Newell1972]; marking and splitting as there.
  */
@@ -33,14 +35,17 @@
 #include "base/sort.h"
 #include "visibility/newell/newell_tests.h"
 
-/* Of a pair of pieces, in units of a pulse. */
+/* Work per pair of pieces, in the units of progress.h. */
 enum { PAIR_WORK = 128 };
 
-/* Splits of one triangle, and tests for each triangle and in any case. */
-enum { SPLITS_MOST = 16, TESTS_MOST = 1 << 12, TESTS_FEW = 1 << 22 };
+/* The splits of one triangle, and the total number of tests of n triangles:
+ *   TESTS_MIN + TESTS_PER_TRIANGLE n
+ * at most. */
+enum { SPLITS_MAX = 16, TESTS_PER_TRIANGLE = 1 << 12, TESTS_MIN = 1 << 22 };
 
 /* ---- Pieces -------------------------------------------------------------- */
 
+/* Adds every triangle of the sheet as a piece. */
 static bool add_triangles(struct newell_order *order) {
   const struct sheet *sheet = order->sheet;
   size_t n = sheet->triangle.count;
@@ -102,7 +107,8 @@ static bool add_part(struct newell_order *order, uint32_t from,
   return ARRAY_PUSH(&order->piece, piece);
 }
 
-/* A piece is painted, split or unseen: it is asked no more. */
+/* Removes a piece from its triangle's list of open ones, since it is painted,
+ * split or unseen: it is not tested any more. */
 static void close_piece(struct newell_order *order, uint32_t piece,
                         enum newell_state state) {
   struct newell_piece *p = &order->piece.item[piece];
@@ -115,43 +121,25 @@ static void close_piece(struct newell_order *order, uint32_t piece,
     order->piece.item[p->next_open].last_open = p->last_open;
 }
 
-/* Takes a triangle out of the order. */
-static void leave_order(struct newell_order *order, uint32_t triangle) {
+/* Excludes a triangle from the order. */
+static void exclude_triangle(struct newell_order *order, uint32_t triangle) {
   while (order->open[triangle] != NEWELL_NONE)
     close_piece(order, order->open[triangle], NEWELL_UNSEEN);
   order->splits[triangle] = NEWELL_UNORDERED;
   order->counts.unordered++;
 }
 
-/* Notes that a triangle was split once more. */
+/* Counts a split of a triangle; too many exclude it. */
 static void count_split(struct newell_order *order, uint32_t triangle) {
-  if (++order->splits[triangle] > SPLITS_MOST)
-    leave_order(order, triangle);
-}
-
-struct geom_line *newell_piece_lines(const struct newell_order *order,
-                                     uint32_t piece, int *count,
-                                     struct arena *arena) {
-  const struct newell_piece *p = &order->piece.item[piece];
-  size_t n = p->shape == NULL ? 3 : p->shape->count;
-  struct geom_line *line = arena_alloc(arena, 2 * n, sizeof *line);
-  *count = (int)n;
-  if (line == NULL)
-    return NULL;
-  if (p->shape == NULL) {
-    triangle_lines(order->sheet, p->triangle, line, line + n);
-    return line;
-  }
-  for (size_t k = 0; k < n; k++) {
-    line[k] = line[n + k] = *p->shape->side[k];
-    geom_line_reverse(&line[n + k]);
-  }
-  return line;
+  if (++order->splits[triangle] > SPLITS_MAX)
+    exclude_triangle(order, triangle);
 }
 
 /* ---- Splitting ----------------------------------------------------------- */
 
-/* Splits a piece by a line into two proper parts, if it does. */
+/* Splits a piece by a line.
+ * split  receives whether the line leaves two proper parts; if not, nothing is
+ *        done */
 static bool split_by(struct newell_order *order, uint32_t piece,
                      const struct geom_convex *shape,
                      const struct geom_line *line, const struct geom_line *back,
@@ -166,14 +154,14 @@ static bool split_by(struct newell_order *order, uint32_t piece,
   return add_part(order, piece, &left) && add_part(order, piece, &right);
 }
 
-/* P and Q pierce each other: P is split where their planes cross. */
+/* Splits P where its plane intersects that of Q: the two pierce each other. */
 static bool split_piercing(struct newell_order *order, uint32_t p, uint32_t q) {
   struct geom_line line, back;
   struct geom_convex shape;
   bool split;
   if (newell_crossing(order, p, q, &line, &back) != 0)
     return true;
-  if (!newell_shape(order, p, &shape) ||
+  if (!newell_piece_shape(order, p, &shape) ||
       !split_by(order, p, &shape, &line, &back, &split))
     return false;
   order->counts.split_pierce++;
@@ -181,14 +169,15 @@ static bool split_piercing(struct newell_order *order, uint32_t p, uint32_t q) {
   return true;
 }
 
-/* Q is marked, and P, in front of it, asks for it again: splits Q. */
+/* Splits Q to break a cycle: Q is marked already and would have to be moved
+ * again, because the candidate P is in front of it. */
 static bool split_cycle(struct newell_order *order, uint32_t p, uint32_t q) {
   struct geom_line line, back, *side;
   struct geom_convex shape;
   bool split = false;
   int count;
   order->counts.cycles++;
-  if (!newell_shape(order, q, &shape))
+  if (!newell_piece_shape(order, q, &shape))
     return false;
   if (newell_crossing(order, p, q, &line, &back) == 0 &&
       !split_by(order, q, &shape, &line, &back, &split))
@@ -202,7 +191,7 @@ static bool split_cycle(struct newell_order *order, uint32_t p, uint32_t q) {
   if (split) {
     order->counts.split_cycle++;
     count_split(order, order->piece.item[q].triangle);
-  } else { /* Q is inside the outline of P, which is in front of it */
+  } else { /* Q lies within the outline of P, which is in front of it */
     close_piece(order, q, NEWELL_UNSEEN);
     order->counts.unseen++;
   }
@@ -211,8 +200,8 @@ static bool split_cycle(struct newell_order *order, uint32_t p, uint32_t q) {
 
 /* ---- The candidates ------------------------------------------------------ */
 
-/* Takes everything down to piece q off the stack and unmarks it. */
-static void unwind(struct newell_order *order, uint32_t q) {
+/* Pops the stack down to and including piece q, and unmarks what is popped. */
+static void pop_down_to(struct newell_order *order, uint32_t q) {
   uint32_t top;
   do {
     top = order->stack.item[--order->stack.count];
@@ -221,6 +210,8 @@ static void unwind(struct newell_order *order, uint32_t q) {
   } while (top != q);
 }
 
+/* What follows from a test of the candidate: it may be painted, another piece
+ * was moved ahead of it, or a piece was split. */
 enum step { STEP_FAILED, STEP_PAINT, STEP_MOVED, STEP_SPLIT };
 
 /* Tests candidate P against piece Q. */
@@ -232,20 +223,20 @@ static enum step test_pair(struct newell_order *order, uint32_t p, uint32_t q) {
   case NEWELL_P_FIRST:
     return STEP_PAINT;
   case NEWELL_PIERCE:
-    unwind(order, p);
+    pop_down_to(order, p);
     return split_piercing(order, p, q) ? STEP_SPLIT : STEP_FAILED;
   case NEWELL_Q_FIRST:
     break;
   }
   if (order->piece.item[q].state == NEWELL_MARKED) {
-    unwind(order, q);
+    pop_down_to(order, q);
     return split_cycle(order, p, q) ? STEP_SPLIT : STEP_FAILED;
   }
   order->counts.moved++;
   return ARRAY_PUSH(&order->stack, q) ? STEP_MOVED : STEP_FAILED;
 }
 
-/* Tests candidate P against all it may cover. */
+/* Tests candidate P against all pieces that it may occlude. */
 static enum step test_candidate(struct newell_order *order, uint32_t p) {
   enum step result = STEP_PAINT;
   uint32_t triangle = order->piece.item[p].triangle;
@@ -303,6 +294,8 @@ static bool paint(struct newell_order *order, uint32_t root) {
   return true;
 }
 
+/* List S: the triangles from back to front by their farthest corner.  Returns
+ * NULL when memory ran out. */
 static struct sort_key *sort_by_depth(const struct newell_order *order,
                                       size_t n) {
   struct sort_key *key = mem_alloc(2 * n, sizeof *key);
@@ -321,7 +314,7 @@ recto_status newell_order_init(struct newell_order *order,
                                const struct solver_request *request,
                                recto_error *error) {
   size_t n = sheet->triangle.count;
-  uint64_t most = TESTS_FEW + (uint64_t)TESTS_MOST * n;
+  uint64_t tests_max = TESTS_MIN + (uint64_t)TESTS_PER_TRIANGLE * n;
   struct sort_key *s;
   recto_status status = RECTO_OK;
   memset(order, 0, sizeof *order);
@@ -339,8 +332,8 @@ recto_status newell_order_init(struct newell_order *order,
     uint32_t p = s[i].value;
     order->progress.share = (double)i / (double)n;
     while (status == RECTO_OK && order->open[p] != NEWELL_NONE)
-      if (order->counts.tests > most)
-        leave_order(order, p);
+      if (order->counts.tests > tests_max)
+        exclude_triangle(order, p);
       else if (!paint(order, order->open[p]))
         status = progress_error(&order->progress, error);
   }

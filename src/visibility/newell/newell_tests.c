@@ -1,28 +1,11 @@
-/* newell_tests.c - Newell's tests: may P be painted before Q?
+/* newell_tests.c - Newell's tests, which decide whether piece P may be painted
+ * before piece Q.
  *
  * Source  [Newell1972]; tests A to D as [FoleyVanDam1990] 15.5.2 lists them.
- * Test D compares depths over the polygon that P and Q have in common: it is
- * convex, so the difference of their planes takes its extremes at its corners.
+ * Test D compares depths over the intersection of P and Q on the page: it is
+ * convex, so the difference of their planes is extreme at its corners.
  */
 #include "visibility/newell/newell_tests.h"
-
-bool newell_shape(struct newell_order *order, uint32_t piece,
-                  struct geom_convex *shape) {
-  const struct newell_piece *p = &order->piece.item[piece];
-  const uint32_t *point = order->sheet->triangle.item[p->triangle].point;
-  struct geom_point corner[3];
-  struct geom_line *line;
-  int count;
-  if (p->shape != NULL) {
-    *shape = *p->shape;
-    return true;
-  }
-  for (int k = 0; k < 3; k++)
-    corner[k] = order->sheet->point.item[point[k]];
-  line = newell_piece_lines(order, piece, &count, &order->scratch);
-  return line != NULL &&
-         geom_convex_triangle(shape, corner, line, &order->scratch);
-}
 
 int newell_crossing(const struct newell_order *order, uint32_t p, uint32_t q,
                     struct geom_line *line, struct geom_line *back) {
@@ -36,13 +19,13 @@ int newell_crossing(const struct newell_order *order, uint32_t p, uint32_t q,
   return parallel;
 }
 
-/* The part of the page that both pieces cover. */
+/* The intersection of both pieces on the page. */
 static bool find_common(struct newell_order *order, uint32_t p, uint32_t q,
                         struct geom_convex *common) {
   int count;
   struct geom_line *line =
       newell_piece_lines(order, q, &count, &order->scratch);
-  if (line == NULL || !newell_shape(order, p, common))
+  if (line == NULL || !newell_piece_shape(order, p, common))
     return false;
   for (int k = 0; k < count && common->count > 0; k++) {
     struct geom_convex inside;
@@ -55,8 +38,8 @@ static bool find_common(struct newell_order *order, uint32_t p, uint32_t q,
 }
 
 /* Test D, the full test on the page.
- * q_nearer  where the planes cross, Q in front on its left; NULL: P is in
- *           front wherever they overlap */
+ * q_nearer  the line where the planes intersect, Q being in front on its left;
+ *           NULL: P is in front wherever the two overlap */
 static enum newell_result test_full(struct newell_order *order, uint32_t p,
                                     uint32_t q,
                                     const struct geom_line *q_nearer) {
@@ -79,20 +62,21 @@ static enum newell_result test_full(struct newell_order *order, uint32_t p,
   return q_in_front ? NEWELL_PIERCE : NEWELL_Q_FIRST;
 }
 
-/* Prepares the plane of the candidate. */
+/* Computes the plane of the candidate and its floating-point filter. */
 static void prepare(struct newell_order *order, uint32_t triangle) {
   if (order->prepared == triangle)
     return;
   order->prepared = triangle;
   order->plane = triangle_plane_of(order->sheet, triangle);
-  order->stance = plane_filter_of(order->sheet, triangle);
+  order->filter = plane_filter_of(order->sheet, triangle);
 }
 
-/* Does the candidate surely hide nothing of the edges of triangle t? */
+/* Returns true only if the candidate hides nothing of the edges of triangle t:
+ * a conservative test by the floating-point filter. */
 static bool hides_nothing(const struct newell_order *order, uint32_t t) {
   const uint32_t *point = order->sheet->triangle.item[t].point;
   for (int k = 0; k < 3; k++)
-    if (plane_filter_occludes(&order->stance,
+    if (plane_filter_occludes(&order->filter,
                               order->sheet->point.item[point[k]]) <= 0)
       return false;
   return true;

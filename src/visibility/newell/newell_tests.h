@@ -1,9 +1,9 @@
-/* newell_tests.h - Newell's tests: may P be painted before Q? */
+/* newell_tests.h - Newell's tests, which decide whether piece P may be painted
+ * before piece Q. */
 #ifndef VISIBILITY_NEWELL_NEWELL_TESTS_H
 #define VISIBILITY_NEWELL_NEWELL_TESTS_H
 
-#include "visibility/predicate/triangle_pair.h"
-#include "visibility/newell/newell_order.h"
+#include "visibility/newell/newell_piece.h"
 
 enum newell_result {
   NEWELL_FAILED,  /* memory ran out */
@@ -12,17 +12,16 @@ enum newell_result {
   NEWELL_PIERCE   /* each is in front of the other somewhere */
 };
 
-/* The tests in rising cost; the first that settles the pair is counted.
- * Exact; equal planes by index, the earlier in front. */
+/* Applies the tests in order of increasing cost until one decides; that one is
+ * counted.  If the planes are equal, the piece of the triangle of lower index
+ * is in front.  Exact. */
 enum newell_result newell_test(struct newell_order *order, uint32_t p,
                                uint32_t q);
 
-/* The shape of a piece, in the scratch arena where it is a whole triangle. */
-USE_RESULT bool newell_shape(struct newell_order *order, uint32_t piece,
-                             struct geom_convex *shape);
-
-/* Where the planes of two pieces cross, P in front on the line's left.
- * Returns as geom_line_between. */
+/* The line where the planes of two pieces intersect, P being in front on its
+ * left, and the same line reversed.
+ * Returns 0; if the planes are parallel, another value as geom_line_between,
+ * and no line. */
 int newell_crossing(const struct newell_order *order, uint32_t p, uint32_t q,
                     struct geom_line *line, struct geom_line *back);
 

@@ -1,9 +1,10 @@
-/* painter.c - the painter's algorithms that need no tests, to be measured:
- * faces are painted whole in an order that asks nothing of how they overlap,
- * in the file's own or by the depth of their centroids.
+/* painter.c - the painter's algorithm without depth tests, as a baseline for
+ * measurements.
  *
- * A face keeps what no later one paints over, its edges likewise; both are
- * wrong where the order is.
+ * Faces are painted as a whole, either in the order of the input or by the
+ * depth of their centroids, whatever their overlaps.  A face keeps what no
+ * later face covers, and so do its edges; both are wrong where the order is
+ * wrong.
  *
  * Source  [Newell1972] names the family; [FoleyVanDam1990] 15.5.
  */
@@ -18,11 +19,11 @@ struct painting {
   const struct sheet *sheet;
   const struct triangle_grid *grid;
   struct triangle_grid_query query;
-  uint32_t *rank; /* of each triangle; 0 is painted first */
+  uint32_t *rank; /* one per triangle; 0 is painted first */
   struct progress progress;
 };
 
-/* The mean depth of each triangle's face, times three. */
+/* The sort key of each triangle: three times the mean depth of its face. */
 static void centroid_keys(const struct sheet *sheet, struct sort_key *key) {
   size_t n = sheet->triangle.count;
   for (size_t first = 0, end; first < n; first = end) {
@@ -57,7 +58,8 @@ static void rank_as_given(struct painting *painting) {
     painting->rank[t] = (uint32_t)t;
 }
 
-/* An edge is painted with the later of its faces; a wire before all. */
+/* Computes the occluded intervals of an edge.  It is painted together with the
+ * later of its faces; an edge without a face is painted before all faces. */
 static bool solve_edge(struct painting *painting, const struct sheet_edge *edge,
                        struct edge_intervals *intervals) {
   const struct sheet *sheet = painting->sheet;
@@ -106,8 +108,9 @@ static bool solve_strokes(struct painting *painting, struct map *map) {
   return ok;
 }
 
-static bool take_later(struct painting *painting, uint32_t f,
-                       struct occluder_subtraction *subtraction) {
+/* Subtracts from triangle f all triangles that are painted after it. */
+static bool subtract_later(struct painting *painting, uint32_t f,
+                           struct occluder_subtraction *subtraction) {
   struct geom_line line[3], back[3];
   if (!triangle_grid_find_overlapping(painting->grid, f, &painting->query))
     return false;
@@ -138,7 +141,7 @@ static bool solve_fragments(struct painting *painting, bool exact_corners,
   for (size_t f = 0; ok && f < painting->sheet->triangle.count; f++)
     if (!(painting->sheet->triangle_flags[f] & SHEET_FLAT))
       ok = occluder_subtraction_start(&subtraction, (uint32_t)f, NULL) &&
-           take_later(painting, (uint32_t)f, &subtraction) &&
+           subtract_later(painting, (uint32_t)f, &subtraction) &&
            occluder_subtraction_store(&subtraction, &fragments);
   ok = ok && fragments_finish(&fragments, exact_corners, map);
   occluder_subtraction_fini(&subtraction);
