@@ -1,10 +1,10 @@
-/* auto.c - the least method that is exact for what was asked. */
+/* auto.c - chooses the cheapest exact solver for a request. */
 #include "visibility/single_contour/single_contour.h"
 #include "visibility/solver.h"
 
-/* Up to so many pairs of edge and face, or of two faces, asking all of them is
- * quicker than finding out which to ask. */
-#define FEW_PAIRS 2000
+/* Up to so many pairs of an edge and a face, or of two faces, testing all of
+ * them is quicker than building an index. */
+#define BRUTE_PAIRS_MAX 2000
 
 static size_t count_drawn(const struct sheet *sheet) {
   size_t drawn = 0;
@@ -17,18 +17,18 @@ const struct solver *solver_choose(const struct sheet *sheet,
                                    const struct solver_request *request,
                                    const char **why) {
   size_t triangles = sheet->triangle.count;
-  size_t asked = request->strokes ? count_drawn(sheet) : 0;
+  size_t requested = request->strokes ? count_drawn(sheet) : 0;
   if (request->fragments)
-    asked += triangles;
-  if (triangles <= FEW_PAIRS && asked <= FEW_PAIRS &&
-      triangles * asked <= FEW_PAIRS) {
-    *why = "few edges and faces: every pair is quickest";
+    requested += triangles;
+  if (triangles <= BRUTE_PAIRS_MAX && requested <= BRUTE_PAIRS_MAX &&
+      triangles * requested <= BRUTE_PAIRS_MAX) {
+    *why = "few edges and faces: testing all pairs is quickest";
     return &solver_brute;
   }
   if (single_contour_suffices(sheet, request)) {
-    *why = "one outline, behind which nothing that is asked for can hide";
+    *why = "one simple contour: nothing requested can be hidden";
     return &solver_single_contour;
   }
-  *why = "tiles leave the fewest pairs to ask";
+  *why = "tiles leave the fewest pairs to test";
   return &solver_tiles;
 }

@@ -1,4 +1,4 @@
-/* map.c - the visible map's memory. */
+/* map.c - initialises and frees the visible map. */
 #include "visibility/map.h"
 
 #include <string.h>

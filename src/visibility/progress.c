@@ -1,4 +1,4 @@
-/* progress.c - asks the caller whether to go on, after so much work. */
+/* progress.c - reports progress to the caller, and learns of cancellation. */
 #include "visibility/progress.h"
 
 bool progress_poll(struct progress *progress) {

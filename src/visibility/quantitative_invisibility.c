@@ -1,8 +1,11 @@
-/* quantitative_invisibility.c - behind how many faces an edge runs.
+/* quantitative_invisibility.c - how many faces hide each point of an edge.
  *
- * What each triangle covers of an edge, on its left and on its right, is an
- * open interval of exact parameters.  Where they begin and end the two counts
- * change; the edge is behind the smaller of them. */
+ * What each triangle hides of an edge is an open interval of exact parameters,
+ * on the edge's left side, on its right side or on both.  A sweep along the
+ * edge over the ends of these intervals keeps a count for either side; the
+ * quantitative invisibility is the smaller of the two.
+ *
+ * Source  [Appel1967] */
 #include "visibility/quantitative_invisibility.h"
 
 #include "base/sort.h"
@@ -10,16 +13,16 @@
 #include "visibility/predicate/occlusion.h"
 #include "visibility/progress.h"
 
-/* A place where the counts change. */
+/* A parameter at which the counts change. */
 struct change {
   struct ratio at;
   int left, right; /* +1, 0 or -1 */
 };
 
-struct depth_sweep {
+struct invisibility_sweep {
   const struct sheet *sheet;
   struct map *map;
-  int most;
+  int limit;
   struct triangle_grid grid;
   struct triangle_grid_query query;
   struct occlusion_counts counts;
@@ -32,82 +35,89 @@ static int compare_changes(const void *first, const void *second, void *user) {
   return ratio_compare(a->at, b->at);
 }
 
-static bool add_part(struct depth_sweep *d,
-                     const struct occluded_interval *part) {
-  int left = (part->sides & OCCLUDED_LEFT) != 0;
-  int right = (part->sides & OCCLUDED_RIGHT) != 0;
-  return ARRAY_PUSH(&d->change, ((struct change){part->from, left, right})) &&
-         ARRAY_PUSH(&d->change, ((struct change){part->to, -left, -right}));
+static bool add_interval(struct invisibility_sweep *sweep,
+                         const struct occluded_interval *interval) {
+  int left = (interval->sides & OCCLUDED_LEFT) != 0;
+  int right = (interval->sides & OCCLUDED_RIGHT) != 0;
+  return ARRAY_PUSH(&sweep->change,
+                    ((struct change){interval->from, left, right})) &&
+         ARRAY_PUSH(&sweep->change,
+                    ((struct change){interval->to, -left, -right}));
 }
 
-/* Gathers and sorts the changes along an edge. */
-static bool find_changes(struct depth_sweep *d, const struct sheet_edge *edge) {
-  const struct geom_point *point = d->sheet->point.item;
+/* Collects and sorts the changes along an edge. */
+static bool find_changes(struct invisibility_sweep *sweep,
+                         const struct sheet_edge *edge) {
+  const struct geom_point *point = sweep->sheet->point.item;
   struct geom_point p = point[edge->point[0]], q = point[edge->point[1]];
   struct box2 box = box2_of_segment(p, q);
-  d->change.count = 0;
-  if (!triangle_grid_find_along(&d->grid, p, q, &d->query))
+  sweep->change.count = 0;
+  if (!triangle_grid_find_along(&sweep->grid, p, q, &sweep->query))
     return false;
-  for (size_t i = 0; i < d->query.found.count; i++) {
-    uint32_t t = d->query.found.item[i];
-    struct occluded_interval part;
+  for (size_t i = 0; i < sweep->query.found.count; i++) {
+    uint32_t t = sweep->query.found.item[i];
+    struct occluded_interval interval;
     if (t == edge->triangle[0] || t == edge->triangle[1] ||
-        !occlusion_is_possible(d->sheet, t, p, q, box))
+        !occlusion_is_possible(sweep->sheet, t, p, q, box))
       continue;
-    if (occlude_edge_by_triangle(d->sheet, t, p, q, &part, &d->counts) &&
-        !add_part(d, &part))
+    if (occlude_edge_by_triangle(sweep->sheet, t, p, q, &interval,
+                                 &sweep->counts) &&
+        !add_interval(sweep, &interval))
       return false;
   }
-  return sort_stable(d->change.item, d->change.count, sizeof *d->change.item,
-                     compare_changes, NULL);
+  return sort_stable(sweep->change.item, sweep->change.count,
+                     sizeof *sweep->change.item, compare_changes, NULL);
 }
 
-/* Files the intervals where both counts are above `most`. */
-static bool store_deep(struct depth_sweep *d, uint32_t edge) {
-  struct map_mixed deep = {edge, (uint32_t)d->map->over_limit_interval.count,
-                           0};
+/* Stores the intervals where both counts exceed the limit. */
+static bool store_over_limit(struct invisibility_sweep *sweep, uint32_t edge) {
+  struct map_mixed over_limit = {
+      edge, (uint32_t)sweep->map->over_limit_interval.count, 0};
   struct ratio from = ratio_of(0, 1);
   bool inside = false;
   int left = 0, right = 0;
-  for (size_t i = 0; i < d->change.count;) {
-    struct ratio at = d->change.item[i].at;
-    for (; i < d->change.count && ratio_compare(d->change.item[i].at, at) == 0;
+  for (size_t i = 0; i < sweep->change.count;) {
+    struct ratio at = sweep->change.item[i].at;
+    for (; i < sweep->change.count &&
+           ratio_compare(sweep->change.item[i].at, at) == 0;
          i++) {
-      left += d->change.item[i].left;
-      right += d->change.item[i].right;
+      left += sweep->change.item[i].left;
+      right += sweep->change.item[i].right;
     }
-    bool now = left > d->most && right > d->most;
-    if (now && !inside)
+    bool over = left > sweep->limit && right > sweep->limit;
+    if (over && !inside)
       from = at;
-    if (inside && !now) {
+    if (inside && !over) {
       struct map_interval interval = {from, at};
-      if (!ARRAY_PUSH(&d->map->over_limit_interval, interval))
+      if (!ARRAY_PUSH(&sweep->map->over_limit_interval, interval))
         return false;
-      deep.count++;
+      over_limit.count++;
     }
-    inside = now;
+    inside = over;
   }
-  return deep.count == 0 || ARRAY_PUSH(&d->map->over_limit, deep);
+  return over_limit.count == 0 ||
+         ARRAY_PUSH(&sweep->map->over_limit, over_limit);
 }
 
-static bool is_asked_for(const struct depth_sweep *d, size_t e) {
-  const struct sheet_edge *edge = &d->sheet->edge.item[e];
-  const struct geom_point *p = &d->sheet->point.item[edge->point[0]];
-  const struct geom_point *q = &d->sheet->point.item[edge->point[1]];
-  return edge->edge_class != 0 && d->map->edge_state[e] != MAP_VISIBLE &&
+static bool is_candidate(const struct invisibility_sweep *sweep, size_t e) {
+  const struct sheet_edge *edge = &sweep->sheet->edge.item[e];
+  const struct geom_point *p = &sweep->sheet->point.item[edge->point[0]];
+  const struct geom_point *q = &sweep->sheet->point.item[edge->point[1]];
+  return edge->edge_class != 0 && sweep->map->edge_state[e] != MAP_VISIBLE &&
          (p->x != q->x || p->y != q->y);
 }
 
-static recto_status find_all(struct depth_sweep *d,
+static recto_status find_all(struct invisibility_sweep *sweep,
                              const struct solver_request *request,
                              recto_error *error) {
   struct progress progress = progress_of(request, "depths");
-  size_t edges = d->map->edge_count;
+  size_t edges = sweep->map->edge_count;
   for (size_t e = 0; e < edges; e++) {
-    if (!progress_step_at(&progress, 1 + d->query.found.count, e, edges))
+    if (!progress_step_at(&progress, 1 + sweep->query.found.count, e, edges))
       return progress_error(&progress, error);
-    if (is_asked_for(d, e) && !(find_changes(d, &d->sheet->edge.item[e]) &&
-                                store_deep(d, (uint32_t)e)))
+    if (is_candidate(sweep, e) &&
+        !(find_changes(sweep, &sweep->sheet->edge.item[e]) &&
+          store_over_limit(sweep, (uint32_t)e)))
       return error_memory(error);
   }
   return RECTO_OK;
@@ -115,24 +125,25 @@ static recto_status find_all(struct depth_sweep *d,
 
 recto_status
 quantitative_invisibility_find(struct map *map, const struct sheet *sheet,
-                               int most, const struct solver_request *request,
+                               int limit, const struct solver_request *request,
                                struct report *report, recto_error *error) {
-  struct depth_sweep d = {.sheet = sheet, .map = map, .most = most};
+  struct invisibility_sweep sweep = {
+      .sheet = sheet, .map = map, .limit = limit};
   if (map->edge_state == NULL)
     return RECTO_OK;
-  if (!triangle_grid_init(&d.grid, sheet))
+  if (!triangle_grid_init(&sweep.grid, sheet))
     return error_memory(error);
   recto_status status = RECTO_OK;
-  if (triangle_grid_query_init(&d.query, &d.grid))
-    status = find_all(&d, request, error);
+  if (triangle_grid_query_init(&sweep.query, &sweep.grid))
+    status = find_all(&sweep, request, error);
   else
     status = error_memory(error);
-  report_int(report, "hidden", "most_layers", most);
-  report_int(report, "hidden", "pairs_for_layers", (int64_t)d.counts.pairs);
+  report_int(report, "hidden", "most_layers", limit);
+  report_int(report, "hidden", "pairs_for_layers", (int64_t)sweep.counts.pairs);
   report_int(report, "hidden", "parts_too_deep",
              (int64_t)map->over_limit_interval.count);
-  triangle_grid_query_fini(&d.query);
-  triangle_grid_fini(&d.grid);
-  ARRAY_FREE(&d.change);
+  triangle_grid_query_fini(&sweep.query);
+  triangle_grid_fini(&sweep.grid);
+  ARRAY_FREE(&sweep.change);
   return status;
 }

@@ -1,5 +1,5 @@
-/* edge_intervals.c - from what triangles hide of an edge to its visible
- * intervals. */
+/* edge_intervals.c - unites the occluded intervals of an edge, and stores the
+ * complement. */
 #include "visibility/predicate/edge_intervals.h"
 
 #include <string.h>
@@ -15,54 +15,56 @@ void edge_intervals_fini(struct edge_intervals *intervals) {
   ARRAY_FREE(&intervals->right);
 }
 
-/* Parts that are kept united as they come: so many that an edge is seen to be
- * hidden as a whole as soon as it is, so few that they are found at once. */
-enum { UNITED_MOST = 32 };
+/* How many intervals are kept merged as they are added: enough to see early
+ * that an edge is occluded from end to end, few enough for a linear search. */
+enum { MERGED_MAX = 32 };
 
-/* Puts a part among others in order and apart, with which it unites where it
- * meets them.  There is room for one more. */
-static void put(occluded_intervals *united, struct occluded_interval part) {
+/* Inserts an interval among ascending disjoint ones, uniting it with those that
+ * it meets.  There must be room for one more. */
+static void insert(occluded_intervals *united,
+                   struct occluded_interval interval) {
   struct occluded_interval *item = united->item;
   size_t first = 0, past;
-  while (first < united->count && ratio_compare(item[first].to, part.from) < 0)
+  while (first < united->count &&
+         ratio_compare(item[first].to, interval.from) < 0)
     first++;
   for (past = first;
-       past < united->count && ratio_compare(item[past].from, part.to) <= 0;
+       past < united->count && ratio_compare(item[past].from, interval.to) <= 0;
        past++) {
-    if (ratio_compare(item[past].from, part.from) < 0)
-      part.from = item[past].from;
-    if (ratio_compare(part.to, item[past].to) < 0)
-      part.to = item[past].to;
+    if (ratio_compare(item[past].from, interval.from) < 0)
+      interval.from = item[past].from;
+    if (ratio_compare(interval.to, item[past].to) < 0)
+      interval.to = item[past].to;
   }
   if (past != first + 1)
     memmove(item + first + 1, item + past,
             (united->count - past) * sizeof *item);
   united->count += first + 1 - past;
-  item[first] = part;
+  item[first] = interval;
 }
 
 bool edge_intervals_occlude(struct edge_intervals *intervals,
-                            struct occluded_interval part) {
-  occluded_intervals *both = &intervals->merged;
-  if (part.sides != OCCLUDED_BOTH || both->count == UNITED_MOST)
-    return ARRAY_PUSH(&intervals->unmerged, part);
-  if (!ARRAY_RESERVE(both, 1))
+                            struct occluded_interval interval) {
+  occluded_intervals *merged = &intervals->merged;
+  if (interval.sides != OCCLUDED_BOTH || merged->count == MERGED_MAX)
+    return ARRAY_PUSH(&intervals->unmerged, interval);
+  if (!ARRAY_RESERVE(merged, 1))
     return false;
-  put(both, part);
-  intervals->occluded = both->count == 1 && both->item[0].from.num == 0 &&
-                        both->item[0].to.num == both->item[0].to.den;
+  insert(merged, interval);
+  intervals->occluded = merged->count == 1 && merged->item[0].from.num == 0 &&
+                        merged->item[0].to.num == merged->item[0].to.den;
   return true;
 }
 
 struct occluded_interval
 edge_intervals_remaining(const struct edge_intervals *intervals) {
-  const occluded_intervals *both = &intervals->merged;
+  const occluded_intervals *merged = &intervals->merged;
   struct occluded_interval rest = {ZERO, ONE, OCCLUDED_BOTH};
-  if (both->count > 0 && both->item[0].from.num == 0)
-    rest.from = both->item[0].to;
-  if (both->count > 0 &&
-      both->item[both->count - 1].to.num == both->item[both->count - 1].to.den)
-    rest.to = both->item[both->count - 1].from;
+  if (merged->count > 0 && merged->item[0].from.num == 0)
+    rest.from = merged->item[0].to;
+  if (merged->count > 0 && merged->item[merged->count - 1].to.num ==
+                               merged->item[merged->count - 1].to.den)
+    rest.to = merged->item[merged->count - 1].from;
   return rest;
 }
 
@@ -82,18 +84,20 @@ static int compare_from(const void *a, const void *b, void *user) {
   return ratio_compare(p->from, q->from);
 }
 
-/* The union of the parts that cover `side`, in order and apart. */
+/* The union of the intervals with `side` occluded, ascending and disjoint.
+ * Returns false when memory ran out. */
 static bool unite(const struct edge_intervals *intervals, int side,
                   occluded_intervals *united) {
-  const occluded_intervals *both = &intervals->merged,
-                           *part = &intervals->unmerged;
+  const occluded_intervals *merged = &intervals->merged,
+                           *unmerged = &intervals->unmerged;
   size_t last = 0;
   united->count = 0;
-  for (size_t i = 0; i < both->count; i++)
-    if (!ARRAY_PUSH(united, both->item[i]))
+  for (size_t i = 0; i < merged->count; i++)
+    if (!ARRAY_PUSH(united, merged->item[i]))
       return false;
-  for (size_t i = 0; i < part->count; i++)
-    if ((part->item[i].sides & side) && !ARRAY_PUSH(united, part->item[i]))
+  for (size_t i = 0; i < unmerged->count; i++)
+    if ((unmerged->item[i].sides & side) &&
+        !ARRAY_PUSH(united, unmerged->item[i]))
       return false;
   if (united->count == 0)
     return true;
@@ -136,7 +140,8 @@ edge_intervals_unite(struct edge_intervals *intervals) {
   return left;
 }
 
-/* common = left and right, all three in order and apart. */
+/* common = the intersection of left and right; all three are ascending and
+ * disjoint.  Returns false when memory ran out. */
 static bool intersect(const occluded_intervals *left,
                       const occluded_intervals *right,
                       occluded_intervals *common) {
@@ -157,7 +162,7 @@ static bool intersect(const occluded_intervals *left,
   return true;
 }
 
-/* The complement of the hidden parts in [0, 1] goes to the map. */
+/* Stores the complement of the occluded intervals in [0, 1]. */
 static bool store_visible(const occluded_intervals *hidden, uint32_t edge,
                           struct map *map) {
   struct map_mixed mixed = {edge, (uint32_t)map->interval.count, 0};
@@ -179,12 +184,12 @@ static bool store_visible(const occluded_intervals *hidden, uint32_t edge,
 
 bool edge_intervals_store(struct edge_intervals *intervals, uint32_t edge,
                           struct map *map) {
-  const occluded_intervals *part = &intervals->unmerged;
+  const occluded_intervals *unmerged = &intervals->unmerged;
   const occluded_intervals *hidden = &intervals->merged;
   map->edge_state[edge] = MAP_HIDDEN;
   if (intervals->occluded)
     return true;
-  if (part->count > 0) {
+  if (unmerged->count > 0) {
     if (!unite(intervals, OCCLUDED_LEFT, &intervals->left) ||
         !unite(intervals, OCCLUDED_RIGHT, &intervals->right) ||
         !intersect(&intervals->left, &intervals->right, &intervals->unmerged))

@@ -1,5 +1,5 @@
-/* occlusion.c - the one predicate of hiding: what a triangle hides of an
- * edge. */
+/* occlusion.c - the one occlusion test: which interval of an edge a triangle
+ * hides. */
 #include "visibility/predicate/occlusion.h"
 
 #include <math.h>
@@ -8,13 +8,14 @@
 #include "view/coordinate_error.h"
 #include "visibility/predicate/plane_filter.h"
 
-#define FIXED_ONE 65536 /* 2^16: T has 16 bits below the value's unit */
-#define T_CAP 0x1p121
+#define FIXED_ONE 65536 /* 2^16: T has 16 fraction bits */
+#define T_CAP 0x1p121   /* of each part of T (occlusion.h, Bits) */
 
-/* Doubles decide a sign when it exceeds this share of the terms' magnitudes:
- * each term carries at most 4 roundings, the sum 4 more. */
+/* A sum in doubles has a certain sign where it exceeds this share of its terms'
+ * magnitudes: each term has at most 4 roundings, the sum 4 more. */
 #define FILTER (16 * 0x1p-53)
 
+/* Rounded up, and capped. */
 static int128 round_up(double value) {
   return (int128)ceil(value < T_CAP ? value : T_CAP);
 }
@@ -25,8 +26,9 @@ double occlusion_grid_units(const struct sheet *sheet) {
   return sheet->camera.contact < 0 ? TOLERANCE_CONTACT_GRID_UNITS : 1;
 }
 
-/* The contact tolerance times the length L of the plane's normal in the scene,
- * (s nx, s ny, third) along the camera's axes (see occlusion.h). */
+/* The contact length times L, the length of the plane's normal in the scene,
+ * whose coordinates along the camera's axes are (S nx, S ny, third)
+ * (occlusion.h). */
 static double contact_times_length(const struct sheet *sheet, uint32_t triangle,
                                    double nx, double ny, double third) {
   const struct camera *camera = &sheet->camera;
@@ -127,7 +129,7 @@ int128 occluder_depth(const struct occluder *occluder, struct geom_point p) {
          occluder->t1 * p.z;
 }
 
-/* The sign of occluder_depth where doubles can tell, else 0. */
+/* The sign of occluder_depth where doubles certify it, else 0. */
 static int depth_filter(const struct occluder *occluder, struct geom_point p) {
   double x = occluder->nx * (double)((int64_t)p.x - occluder->p[0].x),
          y = occluder->ny * (double)((int64_t)p.y - occluder->p[0].y),
@@ -147,36 +149,39 @@ int occluder_side(const struct occluder *occluder, struct geom_point p) {
   return (value > tolerance) - (value < -tolerance);
 }
 
-static void raise_from(struct occluded_interval *part, struct ratio t) {
-  if (ratio_compare(part->from, t) < 0)
-    part->from = t;
+/* Intersects the interval with [t, 1]. */
+static void raise_from(struct occluded_interval *interval, struct ratio t) {
+  if (ratio_compare(interval->from, t) < 0)
+    interval->from = t;
 }
 
-static void lower_to(struct occluded_interval *part, struct ratio t) {
-  if (ratio_compare(t, part->to) < 0)
-    part->to = t;
+/* Intersects the interval with [0, t]. */
+static void lower_to(struct occluded_interval *interval, struct ratio t) {
+  if (ratio_compare(t, interval->to) < 0)
+    interval->to = t;
 }
 
-/* Which side of itself an edge from p to q has covered that runs along the
- * side a-b: the triangle lies left of that. */
-static int covered_side(struct geom_point a, struct geom_point b,
-                        struct geom_point p, struct geom_point q) {
+/* Which side of the edge p-q is occluded by a triangle that it runs along: a-b
+ * is the triangle's side, with the triangle on its left. */
+static int occluded_side(struct geom_point a, struct geom_point b,
+                         struct geom_point p, struct geom_point q) {
   int64_t along = ((int64_t)q.x - p.x) * ((int64_t)b.x - a.x) +
                   ((int64_t)q.y - p.y) * ((int64_t)b.y - a.y);
   return along > 0 ? OCCLUDED_LEFT : OCCLUDED_RIGHT;
 }
 
-/* Cuts the part to where the triangle's outline contains the edge.
- * With corners c as seen from p, and d from there to q, the areas are
- *   line[k] = d x c[k]           of p, q and corner k;
- *   s[k]    = c[k] x c[k + 1]    of side k and p;
- *   t[k]    = s[k] + line[k] - line[k + 1]   of side k and q:
- * each below 2^63, though the sum on the way may not be.  Where all corners
- * are on one side of the line, at most one of them on it, nothing is
- * covered. */
-static bool cut_to_outline(const struct geom_point corner[3],
-                           struct geom_point p, struct geom_point q,
-                           struct occluded_interval *part) {
+/* Clips the interval to the triangle's projection.
+ * With the corners c relative to p, and d = q - p, the twofold areas are
+ *     line[k] = d x c[k]                        of p, q and corner k;
+ *     s[k]    = c[k] x c[k + 1]                 of side k and p;
+ *     t[k]    = s[k] + line[k] - line[k + 1]    of side k and q.
+ * Each is below 2^63; the intermediate sum may overflow, hence unsigned.
+ * Where all corners are on one side of the line p-q, at most one of them on it,
+ * the projection does not overlap the edge.
+ * Returns false where nothing is left. */
+static bool clip_to_outline(const struct geom_point corner[3],
+                            struct geom_point p, struct geom_point q,
+                            struct occluded_interval *interval) {
   int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y;
   int64_t x[3], y[3], line[3], s[3], t[3];
   int left = 0, right = 0;
@@ -196,33 +201,39 @@ static bool cut_to_outline(const struct geom_point corner[3],
     if (s[k] <= 0 && t[k] <= 0) {
       if (s[k] < 0 || t[k] < 0)
         return false;
-      part->sides = covered_side(corner[k], corner[next], p, q);
+      interval->sides = occluded_side(corner[k], corner[next], p, q);
     }
   }
   for (int k = 0; k < 3; k++) {
     if (s[k] < 0)
-      raise_from(part, ratio_of(-s[k], t[k] - s[k]));
+      raise_from(interval, ratio_of(-s[k], t[k] - s[k]));
     else if (t[k] < 0)
-      lower_to(part, ratio_of(s[k], s[k] - t[k]));
+      lower_to(interval, ratio_of(s[k], s[k] - t[k]));
   }
-  return ratio_compare(part->from, part->to) < 0;
+  return ratio_compare(interval->from, interval->to) < 0;
 }
 
-/* Where an edge is hidden that starts on a corner, with depth gp there, and has
- * gq at its other end: all of the part, or none.  It has to be behind the plane
- * where it leaves the outline: farther on, the plane says nothing, and its
- * rounding is beyond what contact allows for. */
-static bool is_behind_at_exit(const struct occluded_interval *part,
+/* Is an edge hidden of which one end is a corner of the triangle?  All of the
+ * interval is, or none of it.  Decided where the edge leaves the projection:
+ * farther on the plane is no longer that of the triangle, and its rounding
+ * error grows beyond the contact tolerance.
+ * p_shared  p is the corner, else q is
+ * gp, gq    occluder_depth of p and q */
+static bool is_behind_at_exit(const struct occluded_interval *interval,
                               bool p_shared, int128 gp, int128 gq) {
   if (p_shared)
-    return gq < 0 && ratio_compare((struct ratio){gp, gp - gq}, part->to) < 0;
-  return gp < 0 && ratio_compare(part->from, (struct ratio){-gp, gq - gp}) < 0;
+    return gq < 0 &&
+           ratio_compare((struct ratio){gp, gp - gq}, interval->to) < 0;
+  return gp < 0 &&
+         ratio_compare(interval->from, (struct ratio){-gp, gq - gp}) < 0;
 }
 
-/* Cuts the part to where the edge is behind the plane, contact allowed. */
-static bool cut_to_depth(const struct occluder *occluder, struct geom_point p,
-                         struct geom_point q, struct occluded_interval *part,
-                         struct occlusion_counts *counts) {
+/* Clips the interval to where the edge is behind the plane by more than the
+ * contact tolerance.  Returns false where nothing is left. */
+static bool clip_to_depth(const struct occluder *occluder, struct geom_point p,
+                          struct geom_point q,
+                          struct occluded_interval *interval,
+                          struct occlusion_counts *counts) {
   int sp = depth_filter(occluder, p), sq = depth_filter(occluder, q);
   bool p_shared = false, q_shared = false;
   int128 gp, gq;
@@ -238,44 +249,45 @@ static bool cut_to_depth(const struct occluder *occluder, struct geom_point p,
   gp = occluder_depth(occluder, p);
   gq = occluder_depth(occluder, q);
   if (p_shared != q_shared)
-    return is_behind_at_exit(part, p_shared, gp, gq);
+    return is_behind_at_exit(interval, p_shared, gp, gq);
   if (gp >= 0 && gq >= 0)
     return false;
   if (gp < 0 && gq < 0)
     return true;
   counts->crossings++;
   if (gp >= 0)
-    raise_from(part, (struct ratio){gp, gp - gq});
+    raise_from(interval, (struct ratio){gp, gp - gq});
   else
-    lower_to(part, (struct ratio){-gp, gq - gp});
-  return ratio_compare(part->from, part->to) < 0;
+    lower_to(interval, (struct ratio){-gp, gq - gp});
+  return ratio_compare(interval->from, interval->to) < 0;
 }
 
 bool occlude_by_outline(const struct geom_point corner[3], struct geom_point p,
-                        struct geom_point q, struct occluded_interval *part) {
-  part->from = ratio_of(0, 1);
-  part->to = ratio_of(1, 1);
-  part->sides = OCCLUDED_BOTH;
-  return cut_to_outline(corner, p, q, part);
+                        struct geom_point q,
+                        struct occluded_interval *interval) {
+  interval->from = ratio_of(0, 1);
+  interval->to = ratio_of(1, 1);
+  interval->sides = OCCLUDED_BOTH;
+  return clip_to_outline(corner, p, q, interval);
 }
 
 bool occlude_edge(const struct occluder *occluder, struct geom_point p,
-                  struct geom_point q, struct occluded_interval *part,
+                  struct geom_point q, struct occluded_interval *interval,
                   struct occlusion_counts *counts) {
   if (p.z > occluder->z_max && q.z > occluder->z_max)
     return false;
   if (box2_disjoint(occluder->box, box2_of_segment(p, q)))
     return false;
   counts->pairs++;
-  if (!occlude_by_outline(occluder->p, p, q, part))
+  if (!occlude_by_outline(occluder->p, p, q, interval))
     return false;
   counts->depth_tests++;
-  return cut_to_depth(occluder, p, q, part, counts);
+  return clip_to_depth(occluder, p, q, interval, counts);
 }
 
 bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
                               struct geom_point p, struct geom_point q,
-                              struct occluded_interval *part,
+                              struct occluded_interval *interval,
                               struct occlusion_counts *counts) {
   const uint32_t *point = sheet->triangle.item[triangle].point;
   const struct geom_point corner[3] = {sheet->point.item[point[0]],
@@ -285,7 +297,7 @@ bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
   struct plane_filter plane;
   int at_p, at_q;
   counts->pairs++;
-  if (!occlude_by_outline(corner, p, q, part) ||
+  if (!occlude_by_outline(corner, p, q, interval) ||
       (sheet->triangle_flags[triangle] & SHEET_FLAT))
     return false;
   counts->depth_tests++;
@@ -295,7 +307,7 @@ bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
   if (at_p == at_q && at_p != 0)
     return at_p < 0;
   occluder_init(&occluder, sheet, triangle);
-  return cut_to_depth(&occluder, p, q, part, counts);
+  return clip_to_depth(&occluder, p, q, interval, counts);
 }
 
 void occlusion_counts_add(struct occlusion_counts *sum,

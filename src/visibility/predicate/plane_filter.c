@@ -1,14 +1,17 @@
-/* plane_filter.c - how points lie to the plane of a triangle, in doubles.
+/* plane_filter.c - a floating-point filter for the side-of-plane tests.
  *
- * Robustness  With u = 2^-53.  The differences of corners are exact.  A part
- * of the normal is a difference of two products: it is off by less than 3u
- * (|a| + |b|) =: 3u m.  The value sums three products of these: off by less
- * than 7u times the sum of m |d|.  The tolerance of occlusion.h takes its
- * length from the normal rounded once: the two lengths differ by no more than
- * the vectors do, and the third coordinate of these is a sum of four terms.  So
- * 32u times the sums of the magnitudes is room enough for all.  What
- * occlusion.h rounds up makes the tolerance larger by less than one unit of
- * 2^-16 each.
+ * Robustness  Let u = 2^-53.
+ *   - The differences of corners are exact.
+ *   - A component of the normal is a difference a - b of two products: it is
+ *     off by less than 3u (|a| + |b|) =: 3u m.
+ *   - The value is the sum of three products of these and of d: it is off by
+ *     less than 7u times the sum of m |d|.
+ *   - The tolerance of occlusion.h takes its length from the exact normal, each
+ *     component rounded once: the two lengths differ by no more than the two
+ *     vectors do.  The third component of these is a sum of four terms.
+ * So 32u times the sums of the magnitudes bounds every error here.  What
+ * occlusion.h rounds up makes each of t0 and t1 larger by less than one unit of
+ * 2^-16.
  */
 #include "visibility/predicate/plane_filter.h"
 
@@ -19,16 +22,17 @@
 
 #define SLACK (32 * 0x1p-53)
 
-/* From here on occlusion.h may cap its numbers. */
+/* From these magnitudes on occlusion.h may cap the tolerance; the filter is
+ * then not used. */
 #define T0_LARGE 0x1p104
 #define T1_LARGE 0x1p64
 
-/* T(p) has 16 bits below the value's unit. */
+/* The unit of T(p), which has 16 fraction bits. */
 #define T_UNIT 0x1p-16
 
-/* The contact tolerance times the length of a plane's normal, and the sum of
- * the magnitudes in it (occlusion.c).
- * n, m  the normal along the camera's axes; magnitudes that bound it */
+/* The contact length times the length of a plane's normal (occlusion.c).
+ * n, m  the normal along the camera's axes, and magnitudes that bound it
+ * most  gets the sum of the magnitudes in the result, for its error bound */
 static double contact_times_length(const struct sheet *sheet, uint32_t triangle,
                                    const double n[3], const double m[3],
                                    double *most) {
@@ -97,49 +101,49 @@ struct plane_filter plane_filter_of(const struct sheet *sheet,
   return plane;
 }
 
-/* The value at a point, and between what the tolerance is there, the value's
- * own error taken in. */
-struct reading {
+/* The value of a plane at a point, and bounds for the tolerance there, widened
+ * by the error bound of the value. */
+struct bounded_value {
   double value, least, most;
 };
 
-static inline struct reading read_at(const struct plane_filter *plane,
-                                     struct geom_point p) {
+static inline struct bounded_value value_at(const struct plane_filter *plane,
+                                            struct geom_point p) {
   double z = (double)p.z, dx = p.x - plane->x, dy = p.y - plane->y,
          dz = z - plane->z;
   double off = plane->ex * fabs(dx) + plane->ey * fabs(dy) +
                plane->ez * fabs(dz) + plane->t_off;
   double least = plane->t0 + plane->t1 * z;
-  return (struct reading){plane->nx * dx + plane->ny * dy + plane->nz * dz,
-                          least - off,
-                          least + plane->t0_more + plane->t1_more * z + off};
+  return (struct bounded_value){
+      plane->nx * dx + plane->ny * dy + plane->nz * dz, least - off,
+      least + plane->t0_more + plane->t1_more * z + off};
 }
 
 bool plane_filter_may_intersect(const struct plane_filter *plane,
                                 const struct geom_point corner[3]) {
-  int behind = 0, before = 0;
+  int behind = 0, in_front = 0;
   for (int k = 0; k < 3; k++) {
-    struct reading at = read_at(plane, corner[k]);
-    bool is_behind = at.value<-at.most, is_before = at.value> at.most;
-    if (!is_behind && !is_before && !(fabs(at.value) < at.least))
+    struct bounded_value at = value_at(plane, corner[k]);
+    bool is_behind = at.value<-at.most, is_in_front = at.value> at.most;
+    if (!is_behind && !is_in_front && !(fabs(at.value) < at.least))
       return true;
     behind += is_behind;
-    before += is_before;
+    in_front += is_in_front;
   }
-  return (behind > 0 && before > 0) || behind + before == 1;
+  return (behind > 0 && in_front > 0) || behind + in_front == 1;
 }
 
 bool plane_filter_may_touch(const struct plane_filter *plane,
                             const struct geom_point corner[3]) {
   for (int k = 0; k < 3; k++) {
-    struct reading at = read_at(plane, corner[k]);
+    struct bounded_value at = value_at(plane, corner[k]);
     if (fabs(at.value) > at.most)
       return false;
   }
   return true;
 }
 
-/* May the triangle's corners touch the plane? */
+/* plane_filter_may_touch for the corners of a triangle. */
 static bool may_touch(const struct plane_filter *plane,
                       const struct sheet *sheet, uint32_t triangle) {
   const uint32_t *point = sheet->triangle.item[triangle].point;
@@ -157,37 +161,39 @@ bool plane_filters_may_touch(const struct sheet *sheet,
 
 int plane_filter_occludes(const struct plane_filter *plane,
                           struct geom_point p) {
-  struct reading at = read_at(plane, p);
+  struct bounded_value at = value_at(plane, p);
   return (at.value > -at.least) - (at.value < -at.most);
 }
 
-/* How much farther than its corner a plane is at a place, and by how much that
- * may be off.  The normal's parts are off by less than e, and the place by less
- * than PLACE. */
-#define PLACE 0.25
+/* The coordinates given to plane_filter_nearer are off by less than this. */
+#define POINT_ERROR 0.25
 
-struct fall {
+/* By how much a plane is farther at a point than at its corner, and the error
+ * bound of that. */
+struct depth_drop {
   double depth, off;
 };
 
-static struct fall fall_at(const struct plane_filter *plane, double x,
-                           double y) {
-  double dx = x - plane->x, dy = y - plane->y, room = plane->nz - plane->ez;
+static struct depth_drop depth_drop_at(const struct plane_filter *plane,
+                                       double x, double y) {
+  double dx = x - plane->x, dy = y - plane->y, nz_least = plane->nz - plane->ez;
   double depth = (plane->nx * dx + plane->ny * dy) / plane->nz;
-  double off = plane->ex * (fabs(dx) + PLACE) + plane->ey * (fabs(dy) + PLACE) +
-               PLACE * (fabs(plane->nx) + fabs(plane->ny)) +
+  double off = plane->ex * (fabs(dx) + POINT_ERROR) +
+               plane->ey * (fabs(dy) + POINT_ERROR) +
+               POINT_ERROR * (fabs(plane->nx) + fabs(plane->ny)) +
                plane->ez * fabs(depth);
-  if (!(room > 0))
-    return (struct fall){0, INFINITY};
-  return (struct fall){depth, off / room + SLACK * fabs(depth)};
+  if (!(nz_least > 0))
+    return (struct depth_drop){0, INFINITY};
+  return (struct depth_drop){depth, off / nz_least + SLACK * fabs(depth)};
 }
 
 int plane_filter_nearer(const struct plane_filter *f,
                         const struct plane_filter *g, double x, double y) {
-  struct fall of_f = fall_at(f, x, y), of_g = fall_at(g, x, y);
-  double apart = (g->z - f->z) - (of_g.depth - of_f.depth);
+  struct depth_drop of_f = depth_drop_at(f, x, y),
+                    of_g = depth_drop_at(g, x, y);
+  double nearer = (g->z - f->z) - (of_g.depth - of_f.depth);
   double off =
       of_f.off + of_g.off +
       SLACK * (fabs(g->z - f->z) + fabs(of_g.depth) + fabs(of_f.depth));
-  return (apart > off) - (apart < -off);
+  return (nearer > off) - (nearer < -off);
 }

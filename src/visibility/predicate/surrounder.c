@@ -1,17 +1,19 @@
-/* surrounder.c - depths over a window that a triangle surrounds. */
+/* surrounder.c - certified depths of a triangle over a window. */
 #include "visibility/predicate/surrounder.h"
 
 #include <math.h>
 
 #include "visibility/predicate/occlusion.h"
 
-/* A depth from a plane gathers a dozen roundings of its terms. */
+/* The depth of a plane at a point has a dozen roundings of its terms. */
 #define SLACK (32 * 0x1p-53)
 
+/* A depth and its error bound. */
 struct plane_depth {
   double z, error;
 };
 
+/* The plane of an occluder, with no contact tolerance. */
 static struct surrounder_plane plane_of(const struct occluder *h) {
   return (struct surrounder_plane){(double)h->p[0].x, (double)h->p[0].y,
                                    (double)h->p[0].z, h->nx / h->nz,
@@ -24,13 +26,13 @@ struct surrounder_plane surrounder_plane_of(const struct sheet *sheet,
   struct occluder h;
   occluder_init(&h, sheet, triangle);
   plane = plane_of(&h);
-  /* The tolerance of occlusion.h in depth units, at its largest. */
+  /* The contact tolerance of occlusion.h in depth units, at its largest. */
   plane.contact = (h.t0_near + h.t1_near * (double)SHEET_Z_MAX) / 0x1p16 /
                   h.nz * (1 + SLACK);
   return plane;
 }
 
-/* The depth of a plane at (x, y), and how far the doubles may be off. */
+/* The depth of a plane at (x, y). */
 static struct plane_depth depth_at(const struct surrounder_plane *p, int32_t x,
                                    int32_t y) {
   double dx = p->gx * ((double)x - p->x), dy = p->gy * ((double)y - p->y);
@@ -38,6 +40,7 @@ static struct plane_depth depth_at(const struct surrounder_plane *p, int32_t x,
                               SLACK * (fabs(p->z) + fabs(dx) + fabs(dy)) + 1};
 }
 
+/* Corner k of a window, in the order of window_line_function. */
 static void corner_of(const struct box2 *window, int k, int32_t *x,
                       int32_t *y) {
   *x = k < 2 ? window->x0 : window->x1;

@@ -1,4 +1,5 @@
-/* triangle_pair.c - which of two triangles is nearer, and which only touch. */
+/* triangle_pair.c - how two triangles lie to each other: disjoint on the page,
+ * in contact, or one nearer than the other. */
 #include "visibility/predicate/triangle_pair.h"
 
 struct triangle_plane triangle_plane_of(const struct sheet *sheet,
@@ -10,7 +11,7 @@ struct triangle_plane triangle_plane_of(const struct sheet *sheet,
   return t;
 }
 
-/* Does some side of f have all of g on its right, or on it? */
+/* Does a side of f separate the two: is all of g on its right, or on it? */
 static bool is_separated_by_side(const struct geom_point f[3],
                                  const struct geom_point g[3]) {
   for (int k = 0; k < 3; k++) {
@@ -22,7 +23,8 @@ static bool is_separated_by_side(const struct geom_point f[3],
   return false;
 }
 
-/* Two convex figures that part do so along a side of one of them. */
+/* The separating axis theorem: two convex polygons with disjoint interiors are
+ * separated by a side of one of them. */
 bool triangles_disjoint(const struct sheet *sheet, uint32_t f, uint32_t g) {
   const uint32_t *i = sheet->triangle.item[f].point,
                  *j = sheet->triangle.item[g].point;
@@ -70,13 +72,15 @@ enum depth_order triangle_depth_order(const struct triangle_plane *f,
     return NEARER_ALWAYS;
   if (sides == PLANE_IN_FRONT)
     return NEARER_NEVER;
-  /* Each is on both sides of the other's plane: the planes cross. */
+  /* Each has corners on both sides of the other's plane: the planes
+   * intersect. */
   (void)geom_line_between(line, &g->plane, &f->plane);
   *back = *line;
   geom_line_reverse(back);
   return NEARER_ON_LEFT;
 }
 
+/* Are all three corners in contact with the plane? */
 static bool touches(const struct occluder *plane,
                     const struct geom_point p[3]) {
   for (int k = 0; k < 3; k++)

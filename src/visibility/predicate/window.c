@@ -1,4 +1,4 @@
-/* window.c - how a polygon lies to a window of the page. */
+/* window.c - classifies polygons against a window of the page. */
 #include "visibility/predicate/window.h"
 
 enum window_class window_box_test(const struct box2 *window,
@@ -47,22 +47,22 @@ bool window_meets_edge(const struct box2 *window, struct geom_point p,
   return left && right;
 }
 
-/* The field of the point (x, y) / 2^bits. */
+/* window_octant of the point (x, y) / 2^bits. */
 static int octant_scaled(const struct box2 *window, int64_t x, int64_t y,
                          int bits) {
-  static const int field[3][3] = {{5, 6, 7}, {4, -1, 0}, {3, 2, 1}};
+  static const int octant[3][3] = {{5, 6, 7}, {4, -1, 0}, {3, 2, 1}};
   int64_t scale = INT64_C(1) << bits;
   int column = x < window->x0 * scale ? 0 : x > window->x1 * scale ? 2 : 1;
   int row = y < window->y0 * scale ? 0 : y > window->y1 * scale ? 2 : 1;
-  return field[row][column];
+  return octant[row][column];
 }
 
 int window_octant(const struct box2 *window, int64_t x, int64_t y) {
   return octant_scaled(window, x, y, 0);
 }
 
-/* A difference of octants brought into -4 .. 4. */
-static int fold(int difference) {
+/* A difference of octants, reduced modulo 8 to -4 .. 4. */
+static int wrap(int difference) {
   if (difference > 4)
     return difference - 8;
   return difference < -4 ? difference + 8 : difference;
@@ -72,29 +72,30 @@ static bool is_ambiguous(int difference) {
   return difference == 4 || difference == -4;
 }
 
-/* The octants passed on the way from p to q, which does not meet the window:
- * halved where the difference is 4.  Each halving doubles the coordinates, so
- * that the middle stays an integer.  Parts that still span opposite fields are
- * longer than the window's side, a unit at least: 31 halvings are enough. */
-static int count_edge(const struct box2 *window, struct geom_point p,
-                      struct geom_point q) {
+/* The octants passed from p to q, which does not meet the window.  The edge is
+ * bisected where the difference is 4; each time the coordinates are doubled, so
+ * that the midpoint stays an integer.  A half that still spans opposite octants
+ * is longer than the window's side, which is a unit at least: 31 bisections are
+ * enough. */
+static int count_octants(const struct box2 *window, struct geom_point p,
+                         struct geom_point q) {
   int64_t px = p.x, py = p.y, qx = q.x, qy = q.y;
   int sum = 0, bits = 0;
   for (;; bits++) {
     int a = octant_scaled(window, px, py, bits),
-        b = octant_scaled(window, qx, qy, bits), d = fold(b - a), m;
+        b = octant_scaled(window, qx, qy, bits), d = wrap(b - a), m;
     int64_t mx = px + qx, my = py + qy;
     if (!is_ambiguous(d) || bits == 31)
       return sum + d;
     m = octant_scaled(window, mx, my, bits + 1);
-    if (is_ambiguous(fold(m - a))) { /* go on with the first half */
-      sum += fold(b - m);
+    if (is_ambiguous(wrap(m - a))) { /* continue with the first half */
+      sum += wrap(b - m);
       px *= 2;
       py *= 2;
       qx = mx;
       qy = my;
     } else {
-      sum += fold(m - a);
+      sum += wrap(m - a);
       px = mx;
       py = my;
       qx *= 2;
@@ -107,7 +108,7 @@ int window_angle_count(const struct box2 *window,
                        const struct geom_point *corner, int count) {
   int sum = 0;
   for (int k = 0; k < count; k++)
-    sum += count_edge(window, corner[k], corner[k + 1 == count ? 0 : k + 1]);
+    sum += count_octants(window, corner[k], corner[k + 1 == count ? 0 : k + 1]);
   return sum;
 }
 
@@ -144,7 +145,8 @@ enum window_class window_classify(const struct box2 *window,
                                                         : WINDOW_SURROUNDING;
 }
 
-/* Keeps of [from, to] where s + t (e - s) >= 0. */
+/* Clips [from, to] to the parameters t where s + t (e - s) >= 0.  Returns false
+ * where nothing is left. */
 static bool clip_above(int64_t s, int64_t e, struct ratio *from,
                        struct ratio *to) {
   if (s >= 0 && e >= 0)
@@ -177,8 +179,8 @@ bool window_clip(const struct box2 *window, struct geom_point p,
                     to);
 }
 
-/* Slivers between sides that all but coincide would be cut off one after the
- * other: hence the quarter. */
+/* Where many sides nearly coincide, splitting at each would make one sliver
+ * after another: hence the quarter. */
 int32_t window_split(int32_t from, int32_t to, int32_t low, int32_t high) {
   int64_t sum = (int64_t)from + to, width = (int64_t)to - from;
   int64_t off_low = 2 * (int64_t)low - sum, off_high = 2 * (int64_t)high - sum;
