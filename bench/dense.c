@@ -4,7 +4,7 @@
  *   dense RECTO ZRASTER EXAMPLES [LEVELS]
  *
  * The bunny from the folder RECTO_MODELS names, or else the knot of the
- * examples, LEVELS times (2, if not told) four times as fine by Loop's rule.
+ * examples, LEVELS times (default 2) four times as fine by Loop's rule.
  * Depth buffer, features and all edges take turns, run after run, one thread
  * each; the figures are medians. */
 #include <math.h>

@@ -64,9 +64,9 @@ FILL(soup_100, scenes_soup(scene, options, 100, 1))
 FILL(soup_1000, scenes_soup(scene, options, 1000, 1))
 FILL(soup, scenes_soup(scene, options, 10000, 1))
 FILL(large_soup, scenes_soup(scene, options, 100000, 1))
-FILL(disc, scenes_crowd(scene, options, SCENES_CROWD_DISC, 100000, 1))
-FILL(comb, scenes_crowd(scene, options, SCENES_CROWD_COMB, 100000, 1))
-FILL(cone, scenes_crowd(scene, options, SCENES_CROWD_CONE, 100000, 1))
+FILL(disc, scenes_needles(scene, options, SCENES_NEEDLES_DISC, 100000, 1))
+FILL(comb, scenes_needles(scene, options, SCENES_NEEDLES_COMB, 100000, 1))
+FILL(cone, scenes_needles(scene, options, SCENES_NEEDLES_CONE, 100000, 1))
 
 static const struct hard_scene {
   const char *name;

@@ -1,5 +1,5 @@
-# tests/exact.mk - layers 1 and 4, where every answer is exact.  exact_fixture/ holds what
-# these tests build and reckon by hand.
+# tests/exact.mk - layers 1 and 4, where every answer is exact.  exact_fixture/ has what
+# these tests build and calculate by hand.
 exact_sheet = %D%/exact_fixture/sheet.c %D%/exact_fixture/sheet.h
 exact_rational = %D%/exact_fixture/rational.c %D%/exact_fixture/rational.h $(exact_sheet)
 exact_cppflags = $(AM_CPPFLAGS) -I$(srcdir)/%D%

@@ -57,7 +57,7 @@ void failures_camera(struct judge_camera *camera,
 }
 
 void failures_assert_judged(const struct scene *scene,
-                            const recto_options *options, unsigned asked,
+                            const recto_options *options, unsigned required,
                             const char *name) {
   struct pipeline pipeline;
   struct judge_drawing drawing;
@@ -72,7 +72,7 @@ void failures_assert_judged(const struct scene *scene,
   assert_null(judge_read_svg(&drawing, text, length));
   failures_camera(&camera, &pipeline);
   judge_options_init(&judging);
-  judging.edges = asked;
+  judging.edges = required;
   judging.contact = pipeline.camera.contact;
   judging.crease_deg = options->crease_deg;
   assert_true(judge_drawing(&verdict, &drawing, scene, &camera, &judging));

@@ -12,10 +12,10 @@ void failures_assert_agree(const struct scene *scene,
                            const recto_options *options, const char *name);
 
 /* Fails the test, with `name`, unless the judge finds no false and no missing
- * ink in the drawing of the classes `asked` (the options' own others are
+ * ink in the drawing of the classes `required` (the options' own others are
  * drawn, but may be missing). */
 void failures_assert_judged(const struct scene *scene,
-                            const recto_options *options, unsigned asked,
+                            const recto_options *options, unsigned required,
                             const char *name);
 
 /* The judge's camera for a run, from its matrix. */

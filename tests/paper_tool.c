@@ -1,5 +1,5 @@
-/* paper_tool.c - writes the drawings of drawing_fixture.h, and judges pictures of them:
- * the shell tests' hand and eye.
+/* paper_tool.c - writes the drawings of drawing_fixture.h, and judges pictures
+ * of them, for shell tests.
  *
  *   paper_tool names
  *   paper_tool write NAME FORMAT OUTPUT [device=NAME] [dpi=N] [tight]

@@ -1,4 +1,4 @@
-/* reading.h - files given as text to a reader, and what came of it. */
+/* reading.h - files given as text to a reader, and the result. */
 #ifndef TESTS_READING_H
 #define TESTS_READING_H
 

@@ -1,5 +1,5 @@
-/* sheet_fixture.c - a scene laid out as a sheet, and a check of all that a sheet
- * promises. */
+/* sheet_fixture.c - a scene projected to a sheet, and a check of all that a
+ * sheet promises. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -248,8 +248,8 @@ static struct side *list_contours(const struct sheet *sheet) {
 }
 
 /* A line that is not between two triangles on either side of it is a contour,
- * unless the paper ends there.  With outlines alone, where every edge is told
- * apart from the diagonals between the same points. */
+ * unless the paper ends there.  With outlines alone, where every edge is
+ * distinguished from the diagonals between the same points. */
 static void check_contours(const struct sheet_fixture *fixture) {
   const struct sheet *sheet = &fixture->sheet;
   size_t count = 3 * sheet->triangle.count;

@@ -1,5 +1,5 @@
-/* sheet_fixture.h - a scene laid out as a sheet, and a check of all that a sheet
- * promises. */
+/* sheet_fixture.h - a scene projected to a sheet, and a check of all that a
+ * sheet promises. */
 #ifndef TESTS_SHEET_FIXTURE_H
 #define TESTS_SHEET_FIXTURE_H
 

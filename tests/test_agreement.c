@@ -20,7 +20,7 @@ static void make(struct sheet *sheet, const struct recipe *recipe) {
   uint64_t r = recipe->seed;
   if (recipe->corner == NULL) {
     exact_random_sheet(sheet, (enum exact_kind)(r % EXACT_KINDS),
-                       2 + exact_below(&r, 12), &r);
+                       2 + exact_random_below(&r, 12), &r);
     return;
   }
   exact_sheet_init(sheet);
@@ -63,7 +63,7 @@ static void exact_solvers_agree_on_hard_sheets(void **state) {
 /* One end of the line between faces 0 and 3 is rounded off face 0, behind
  * face 3's neighbour, which Newell's order had painted before. */
 static void
-an_intersection_rounded_off_its_face_is_asked_about_all(void **state) {
+an_intersection_rounded_off_its_face_is_tested_against_all(void **state) {
   static const int corner[7][3][3] = {
       {{0, 0, 2}, {1, 0, 1}, {16, 3, 3}}, {{0, 6, 1}, {16, 3, 3}, {0, 0, 2}},
       {{16, 3, 3}, {1, 0, 0}, {0, 0, 0}}, {{0, 3, 0}, {68, 0, 26}, {1, 0, 0}},
@@ -74,7 +74,7 @@ an_intersection_rounded_off_its_face_is_asked_about_all(void **state) {
 }
 
 /* Faces 1 and 2 end on face 0 at the limit of contact; what was rounded of
- * their line is beyond it, and only brute asked face 0 about it. */
+ * their line is beyond it, and only brute tested face 0 against it. */
 static void an_intersection_is_not_hidden_by_its_own_faces(void **state) {
   static const int corner[3][3][3] = {{{0, 0, 10}, {0, 6, 10}, {24, 7, 154}},
                                       {{25, 7, 153}, {0, 5, 17}, {0, 0, 0}},
@@ -99,7 +99,8 @@ static void an_intersection_is_not_hidden_by_its_own_faces(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(an_intersection_rounded_off_its_face_is_asked_about_all),
+      cmocka_unit_test(
+          an_intersection_rounded_off_its_face_is_tested_against_all),
       cmocka_unit_test(an_intersection_is_not_hidden_by_its_own_faces),
       cmocka_unit_test(exact_solvers_agree_on_hard_sheets),
   };

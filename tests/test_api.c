@@ -81,7 +81,7 @@ static const char *path_of(const char *name) {
 
 /* ---- Words --------------------------------------------------------------- */
 
-static void every_enumerator_has_a_word_of_its_own(void **state) {
+static void every_enumerator_has_its_own_name(void **state) {
   (void)state;
   for (int i = 0; i < RECTO_METHOD_COUNT; i++)
     for (int k = 0; k < i; k++)
@@ -98,7 +98,7 @@ static void every_enumerator_has_a_word_of_its_own(void **state) {
           recto_edge_class_name((recto_edge_class)(1 << k)));
 }
 
-static void bad_enumerators_have_a_word_too(void **state) {
+static void invalid_enumerators_have_a_name_too(void **state) {
   (void)state;
   assert_string_equal(recto_method_name(RECTO_METHOD_COUNT), "unknown");
   assert_string_equal(recto_method_name((recto_method)-1), "unknown");
@@ -281,7 +281,7 @@ static void points_are_numbered_as_they_come(void **state) {
   recto_scene_destroy(scene);
 }
 
-static void nothing_to_draw_is_said(void **state) {
+static void an_empty_drawing_is_reported(void **state) {
   (void)state;
   recto_scene *scene;
   recto_drawing *drawing;
@@ -409,7 +409,7 @@ static void an_eye_beyond_numbers_is_refused(void **state) {
 }
 
 /* A drawing of a scene of any size is right, and one from elsewhere wrong. */
-static void somebodys_drawing_is_judged(void **state) {
+static void a_foreign_drawing_is_judged(void **state) {
   (void)state;
   recto_options options;
   recto_options_init(&options);
@@ -520,7 +520,7 @@ static void formats_that_are_not_there_are_refused(void **state) {
   recto_scene_destroy(scene);
 }
 
-static void formats_are_told(void **state) {
+static void formats_are_recognised(void **state) {
   (void)state;
   assert_string_equal(recto_output_format_name(0), "svg");
   assert_string_equal(recto_output_format("a.SVG", NULL), "svg");
@@ -630,7 +630,7 @@ static void an_empty_page_says_why(void **state) {
   recto_scene_destroy(scene);
 }
 
-static void a_bad_job_leaves_nothing(void **state) {
+static void a_failed_run_leaves_nothing(void **state) {
   (void)state;
   recto_error error = {0};
   assert_int_equal(recto_draw_file(path_of("none.obj"), NULL, path_of("svg"),
@@ -735,7 +735,7 @@ static void every_allocation_may_fail(void **state) {
   unlink(path_of("svg"));
 }
 
-static void a_plotter_s_way_is_short_unless_told_otherwise(void **state) {
+static void plotter_travel_is_short_by_default(void **state) {
   (void)state;
   static const struct {
     const char *format;
@@ -783,8 +783,8 @@ static void every_write_may_fail(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_enumerator_has_a_word_of_its_own),
-      cmocka_unit_test(bad_enumerators_have_a_word_too),
+      cmocka_unit_test(every_enumerator_has_its_own_name),
+      cmocka_unit_test(invalid_enumerators_have_a_name_too),
       cmocka_unit_test(the_version_is_three_numbers),
       cmocka_unit_test(no_options_are_the_defaults),
       cmocka_unit_test(numbers_that_make_no_sense_are_refused),
@@ -794,22 +794,22 @@ int main(void) {
       cmocka_unit_test(wrong_elements_are_refused_and_leave_no_trace),
       cmocka_unit_test(faces_without_area_are_skipped_and_counted),
       cmocka_unit_test(points_are_numbered_as_they_come),
-      cmocka_unit_test(nothing_to_draw_is_said),
+      cmocka_unit_test(an_empty_drawing_is_reported),
       cmocka_unit_test(a_scene_may_be_drawn_again),
       cmocka_unit_test(a_cube_at_true_scale_shows_nine_edges),
       cmocka_unit_test(every_size_of_doubles_draws_the_same),
       cmocka_unit_test(an_eye_beyond_numbers_is_refused),
-      cmocka_unit_test(somebodys_drawing_is_judged),
+      cmocka_unit_test(a_foreign_drawing_is_judged),
       cmocka_unit_test(strokes_know_where_they_come_from),
       cmocka_unit_test(a_drawing_is_written_by_name_and_by_extension),
       cmocka_unit_test(formats_that_are_not_there_are_refused),
-      cmocka_unit_test(formats_are_told),
+      cmocka_unit_test(formats_are_recognised),
       cmocka_unit_test(one_call_does_it_and_warns_by_line),
       cmocka_unit_test(an_empty_page_says_why),
-      cmocka_unit_test(a_bad_job_leaves_nothing),
+      cmocka_unit_test(a_failed_run_leaves_nothing),
       cmocka_unit_test(progress_rises_and_may_cancel_at_every_step),
       cmocka_unit_test(every_allocation_may_fail),
-      cmocka_unit_test(a_plotter_s_way_is_short_unless_told_otherwise),
+      cmocka_unit_test(plotter_travel_is_short_by_default),
       cmocka_unit_test(a_plotter_gets_the_margin_that_it_needs),
       cmocka_unit_test(every_write_may_fail),
   };

@@ -77,7 +77,7 @@ static const char dae[] =
     "</node></visual_scene></library_visual_scenes>\n"
     "<scene><instance_visual_scene url=\"#s\"/></scene>\n</COLLADA>\n";
 
-static void nodes_are_groups_in_their_places(void **state) {
+static void nodes_are_groups_with_their_transforms(void **state) {
   struct reading r;
   read_file(&r, temporary_file(state, "a.dae", dae, sizeof dae - 1), NULL);
   assert_read(&r);
@@ -155,7 +155,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       T(polygons_stay_polygons),
       T(bytes_come_through_a_pipe_too),
-      T(nodes_are_groups_in_their_places),
+      T(nodes_are_groups_with_their_transforms),
       T(what_is_not_finite_is_skipped),
       T(a_broken_file_is_an_error),
       T(our_own_readers_come_first),

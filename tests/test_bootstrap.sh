@@ -99,7 +99,7 @@ claim "and configures again" called configure
 
 sed -i '/^libgmp-dev$/d' "$INSTALLED"
 FAKE_UID=1000
-claim "another user asks sudo" boots 0
+claim "another user uses sudo" boots 0
 claim "to run apt-get" called 'sudo .*apt-get install .*libgmp-dev'
 
 # What the tests would like may be missing, what the build needs may not.

@@ -212,7 +212,7 @@ static void without_ink_tight_is_the_page(void **state) {
   end(&f);
 }
 
-static void a_png_has_the_pixels_that_its_page_asks_for(void **state) {
+static void a_png_has_as_many_pixels_as_its_page_needs(void **state) {
   (void)state;
   static const struct {
     double width_mm, height_mm, dpi;
@@ -229,7 +229,7 @@ static void a_png_has_the_pixels_that_its_page_asks_for(void **state) {
     paint(&f);
     assert_int_equal(cairo_image_surface_get_width(f.picture), page[i].width);
     assert_int_equal(cairo_image_surface_get_height(f.picture), page[i].height);
-    /* The chunk after the first tells the resolution. */
+    /* The chunk after the first contains the resolution. */
     assert_memory_equal(f.bytes + 33, "\0\0\0\11pHYs", 8);
     assert_int_equal(be32(f.bytes + 41), page[i].per_metre);
     assert_int_equal(be32(f.bytes + 45), page[i].per_metre);
@@ -480,7 +480,7 @@ static void a_full_disk_leaves_no_file(void **state) {
 }
 
 /* cairo fails first where it keeps a page of PS in a file of its own. */
-static void a_file_too_large_is_told_by_its_name(void **state) {
+static void a_file_too_large_is_reported_by_its_name(void **state) {
   (void)state;
   static const char path[] = "test_cairo_large.tmp";
   struct fixture f;
@@ -520,7 +520,7 @@ int main(void) {
       cmocka_unit_test(tight_counts_the_weight_of_lines),
       cmocka_unit_test(tight_counts_fills_and_their_seams),
       cmocka_unit_test(without_ink_tight_is_the_page),
-      cmocka_unit_test(a_png_has_the_pixels_that_its_page_asks_for),
+      cmocka_unit_test(a_png_has_as_many_pixels_as_its_page_needs),
       cmocka_unit_test(the_resolution_has_its_right_checksum),
       cmocka_unit_test(a_resolution_that_makes_no_sense_is_refused),
       cmocka_unit_test(ink_is_where_it_belongs),
@@ -532,7 +532,7 @@ int main(void) {
       cmocka_unit_test(a_seam_paints_nothing_over),
       cmocka_unit_test(the_same_drawing_gives_the_same_bytes),
       cmocka_unit_test(a_full_disk_leaves_no_file),
-      cmocka_unit_test(a_file_too_large_is_told_by_its_name),
+      cmocka_unit_test(a_file_too_large_is_reported_by_its_name),
   };
   return cmocka_run_group_tests_name("cairo", tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* test_camera.c - the camera stands, looks and fits as the options ask. */
+/* test_camera.c - the camera's position, aim and scale follow the options. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -238,7 +238,7 @@ static void a_little_tilt_of_up_turns_the_frame_a_little(void **state) {
   }
 }
 
-static void the_scene_says_what_up_is_unless_told(void **state) {
+static void the_scene_s_up_axis_is_the_default(void **state) {
   (void)state;
   struct scene scene;
   fill_box(&scene);
@@ -435,7 +435,7 @@ static void a_perspective_direction_takes_the_whole_scene_in(void **state) {
 
 /* ---- Depth --------------------------------------------------------------- */
 
-static void an_eye_before_the_scene_cuts_nothing(void **state) {
+static void an_eye_in_front_of_the_scene_clips_nothing(void **state) {
   (void)state;
   struct scene scene;
   fill_box(&scene);
@@ -562,7 +562,7 @@ static void what_makes_no_sense_is_refused(void **state) {
   scene_fini(&scene);
 }
 
-static void nothing_to_see_is_told(void **state) {
+static void an_empty_view_is_reported(void **state) {
   (void)state;
   struct scene scene;
   recto_options options = plain_options();
@@ -702,7 +702,7 @@ static void an_eye_right_above_sees_the_view_from_the_top(void **state) {
 
 /* ---- Contact ------------------------------------------------------------- */
 
-static void contact_follows_the_precision_unless_told(void **state) {
+static void contact_follows_the_precision_by_default(void **state) {
   (void)state;
   struct scene scene;
   fill_box(&scene);
@@ -856,7 +856,7 @@ static void the_matrix_is_the_camera(void **state) {
 
 /* ---- Faults -------------------------------------------------------------- */
 
-static void a_failed_allocation_is_told(void **state) {
+static void a_failed_allocation_is_reported(void **state) {
   (void)state;
   struct scene scene;
   fill_box(&scene);
@@ -873,7 +873,7 @@ int main(void) {
       cmocka_unit_test(any_up_along_an_axis_gives_exact_frames),
       cmocka_unit_test(frames_are_orthonormal_and_right_handed),
       cmocka_unit_test(a_little_tilt_of_up_turns_the_frame_a_little),
-      cmocka_unit_test(the_scene_says_what_up_is_unless_told),
+      cmocka_unit_test(the_scene_s_up_axis_is_the_default),
       cmocka_unit_test(an_eye_along_an_axis_is_exact),
       cmocka_unit_test(a_margin_left_open_leaves_room_on_any_page),
       cmocka_unit_test(the_drawing_fills_the_page_inside_the_margins),
@@ -882,25 +882,25 @@ int main(void) {
       cmocka_unit_test(without_fit_an_orthographic_view_is_true_to_scale),
       cmocka_unit_test(a_scale_is_kept_at_the_target),
       cmocka_unit_test(a_perspective_direction_takes_the_whole_scene_in),
-      cmocka_unit_test(an_eye_before_the_scene_cuts_nothing),
+      cmocka_unit_test(an_eye_in_front_of_the_scene_clips_nothing),
       cmocka_unit_test(an_eye_within_the_scene_cuts_close_before_it),
       cmocka_unit_test(a_near_distance_counts_from_the_eye),
       cmocka_unit_test(a_section_counts_from_the_eye_or_the_nearest_point),
       cmocka_unit_test(an_orthographic_eye_sees_what_is_behind_it_too),
       cmocka_unit_test(what_makes_no_sense_is_refused),
-      cmocka_unit_test(nothing_to_see_is_told),
+      cmocka_unit_test(an_empty_view_is_reported),
       cmocka_unit_test(a_scene_beyond_numbers_is_refused),
       cmocka_unit_test(a_far_eye_sees_what_an_orthographic_one_does),
       cmocka_unit_test(a_far_eye_keeps_scale_and_distances),
       cmocka_unit_test(a_far_eye_must_look_at_the_scene),
       cmocka_unit_test(an_eye_right_above_sees_the_view_from_the_top),
-      cmocka_unit_test(contact_follows_the_precision_unless_told),
+      cmocka_unit_test(contact_follows_the_precision_by_default),
       cmocka_unit_test(a_single_wire_fits_from_wherever_it_is_seen),
       cmocka_unit_test(a_plate_seen_edge_on_fits_by_its_other_extent),
       cmocka_unit_test(powers_of_two_change_no_bit_of_the_page),
       cmocka_unit_test(units_and_places_move_nothing_on_the_page),
       cmocka_unit_test(the_matrix_is_the_camera),
-      cmocka_unit_test(a_failed_allocation_is_told),
+      cmocka_unit_test(a_failed_allocation_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,7 +43,8 @@ static void stop_tiles(const char *stage, int after, int threads, unsigned n) {
       solver_tiles.solve(&fixture.sheet, &request, &map, report, &error),
       RECTO_ERROR_CANCELLED);
   assert_int_equal(error.code, RECTO_ERROR_CANCELLED);
-  assert_int_equal(listener.after, -1); /* asked no more, once it refused */
+  assert_int_equal(listener.after,
+                   -1); /* not polled again after it cancelled */
   map_fini(&map);
   report_destroy(report);
   sheet_fixture_fini(&fixture);
@@ -97,7 +98,7 @@ static bool wait_a_little(void *user, double share, const char *stage) {
  * watkins sorts its pairs: no slow machine comes near the limit. */
 enum { SILENCE_S = 20 };
 
-/* Is the caller asked all the time, and heard? */
+/* Is progress polled often, and does cancelling end the work? */
 static bool is_heard(const struct solver *solver, struct sheet_fixture *fixture,
                      const struct solver_request *what) {
   struct patience patience = {.start = clock_cpu(), .last = clock_cpu()};
@@ -144,15 +145,15 @@ static void hear_all(struct sheet_fixture *fixture) {
   sheet_fixture_fini(fixture);
 }
 
-static void every_method_is_ended_in_a_pile_of_faces(void **state) {
+static void every_method_is_cancelled_among_duplicates(void **state) {
   struct sheet_fixture fixture;
   (void)state;
   sheet_fixture_start(&fixture);
-  scenes_copies(&fixture.scene, &fixture.options, 10000, false, 1e-8);
+  scenes_duplicates(&fixture.scene, &fixture.options, 10000, false, 1e-8);
   hear_all(&fixture);
 }
 
-static void every_method_is_ended_in_a_soup(void **state) {
+static void every_method_is_cancelled_in_a_triangle_soup(void **state) {
   struct sheet_fixture fixture;
   (void)state;
   sheet_fixture_start(&fixture);
@@ -224,8 +225,8 @@ int main(void) {
       cmocka_unit_test(tiles_end_while_they_look_for_piercings),
       cmocka_unit_test(tiles_end_among_edges),
       cmocka_unit_test(tiles_end_among_faces),
-      cmocka_unit_test(every_method_is_ended_in_a_pile_of_faces),
-      cmocka_unit_test(every_method_is_ended_in_a_soup),
+      cmocka_unit_test(every_method_is_cancelled_among_duplicates),
+      cmocka_unit_test(every_method_is_cancelled_in_a_triangle_soup),
       cmocka_unit_test_setup_teardown(
           writing_may_be_cancelled_and_leaves_what_was, temporary_set_up,
           temporary_tear_down),

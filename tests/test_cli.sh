@@ -147,17 +147,17 @@ claim "the time that plotting takes adds up" time_adds_up 10 20
 claim "at a plotter's speeds" time_adds_up 38.1 50.8 --device hp7475a
 claim "at no more than its fastest" \
   time_adds_up 38.1 50.8 --device hp7475a --velocity 100
-claim "at the speeds asked for" \
+claim "at the requested speeds" \
   time_adds_up 5 7 --device hp7475a --velocity 5 --velocity-up 7
 
 # fits_a_sheet SHEET PLOTTER - by default nothing is clipped; with a margin that
-# is asked for it is kept.
+# is requested it is kept.
 fits_a_sheet() {
   run 0 cube.obj --view front -p "$1" -o out.hpgl --device "$2" && silent &&
     run 0 cube.obj --view front -p "$1" -o out.hpgl --device "$2" --margin 2 &&
     says "strokes? clipped: $2 does not reach"
 }
-# orders_like HOW FORMAT - what is drawn where no order is asked for.
+# orders_like HOW FORMAT - what is drawn where no order is requested.
 orders_like() {
   local hatch=(--view front --fill hatch)
   run 0 cube.obj -o "said.$2" --order "$1" "${hatch[@]}" --hidden layer &&
@@ -170,14 +170,14 @@ claim "a drawing fits what a plotter reaches" fits_a_sheet A4 hp7475a
 claim "on any of its sheets" fits_a_sheet A3 hp7550a
 
 # A cube from a corner: nine edges of one length are seen, three are hidden.
-tells_what_pens_draw() {
+reports_what_pens_draw() {
   run 0 cube.obj -o out.svg --stats=stats.json --hidden layer \
     --pen-for hidden=3 &&
     grep -q '"layer_pen": \[1, 3\]' stats.json &&
     sed -n 's/.*"layer_length_mm": \[\(.*\), \(.*\)\].*/\1 \2/p' stats.json |
     awk '{ off = $1 - 3 * $2; exit !($2 > 100 && off * off < 1e-6) }'
 }
-claim "--stats tells how much each pen draws" tells_what_pens_draw
+claim "--stats reports how much each pen draws" reports_what_pens_draw
 
 # same_drawing OPTION OPTION - both draw the cube alike.
 same_drawing() {
@@ -197,7 +197,7 @@ else
   skip "the drawing is well-formed XML" "no xmllint"
 fi
 
-# What the pixels' options do is told in --stats and seen in the drawing.
+# What the pixels' options do is reported by --stats and seen in the drawing.
 raster_stats() {
   run 0 cube.obj -o raster.svg -m "$1" --resolution 60 --fill paint \
     --stats=raster.json "${@:3}" && grep -q "$2" raster.json
@@ -429,7 +429,7 @@ claim "--verify keeps all corners of a warped face" run 0 warped.obj \
   -o warped.svg --up 0,1,0 --camera 3.56166494,-5.67820342,0.93747118 \
   -e all --verify
 
-# An eye on its target is wrong usage that only the scene tells.
+# An eye on its target is wrong usage that only the scene reveals.
 claim "an eye on its target is refused" refuses '.' cube.obj -o no.svg \
   --camera 1,2,3 --lookat 1,2,3
 
@@ -477,7 +477,7 @@ for output in ./model.obj link.svg hard.svg; do
     replaces_nothing "the drawing" model.obj cube.obj model.obj \
     -o "$output" --format svg
 done
-claim "nor does what --stats tells" \
+claim "nor does what --stats reports" \
   replaces_nothing "the stats" model.obj model.obj -o some.svg \
   --stats=link.svg
 claim "which does not replace the drawing either" \

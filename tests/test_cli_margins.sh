@@ -96,7 +96,7 @@ claim "--fov and --fit help with --no-fit" eval \
 claim "with --no-fit the angle spans the height inside the margins" eval \
   'run 0 square.obj -o a.svg --no-fit --camera 0,0,150 --fov 90 \
    -p 320x320mm && silent && stays_between 10 310 a.svg'
-claim "--stats tells too" eval \
+claim "--stats reports it too" eval \
   'run 0 wide.obj -q -o a.svg ${large[@]} --stats=s.json &&
    grep -q "\"lines\": 4" s.json && grep -q "\"length_mm\": 3[12]" s.json'
 # Of a ball only the outline is drawn, also of what is outside.

@@ -192,7 +192,7 @@ if test "$(id -u)" -eq 0 && command -v setpriv >/dev/null &&
   claim "a file in a folder that is closed is written in place" closed_folder
   claim "and a new one there is refused" closed_to_new_files
 else
-  skip "a file keeps its owner" "not root, or nobody may not come here"
+  skip "a file keeps its owner" "not root, or the user nobody has no access here"
 fi
 
 # ---- Names ------------------------------------------------------------------

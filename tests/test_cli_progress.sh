@@ -1,6 +1,6 @@
 #!/bin/bash
 # test_cli_progress.sh - on a terminal a bar says how far a long run is, and
-# leaves nothing behind; elsewhere nothing is said that was not asked for.
+# leaves nothing behind; elsewhere nothing is printed that was not requested.
 . "$(dirname "$0")/tap.sh"
 . "$(dirname "$0")/cli.sh"
 
@@ -89,13 +89,13 @@ claim "a short run shows none" eval \
   'terminal 80 xterm cube.obj -o cube.svg && test ! -s screen'
 claim "a dumb terminal gets none by itself" eval \
   'terminal 80 dumb "${slow[@]}" && ! grep -qa % screen'
-claim "and lines where they are asked for" eval \
+claim "and lines on request" eval \
   'terminal 80 dumb "${slow[@]}" --progress && grep -qaE "^recto: +[0-9]+% " screen'
-claim "-q silences what is asked for" eval \
+claim "-q silences even what is requested" eval \
   'terminal 80 xterm "${slow[@]}" --progress -q && test ! -s screen'
 claim "nothing is said where there is no terminal" eval \
   'run 0 "${slow[@]}" && ! grep -q % err'
-claim "but what is asked for" eval \
+claim "but what is requested" eval \
   'run 0 "${slow[@]}" --progress && says "^recto: +[0-9]+% edges"'
 claim "the drawing is the same with a bar" eval \
   'cp waves.svg before.svg && terminal 80 xterm "${slow[@]}" && cmp -s before.svg waves.svg'

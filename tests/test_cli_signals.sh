@@ -33,7 +33,7 @@ for signal in INT TERM HUP XCPU; do
   claim "an interrupt leaves nothing behind and ends the run: $signal" \
     interrupt_cleans_up "$signal"
 done
-# While it waits for a model there is nothing to clean up, and nobody to ask.
+# While it waits for a model there is nothing to clean up, and no progress is polled.
 a_wait_is_ended() {
   local writer status
   mkfifo model.pipe
@@ -116,6 +116,6 @@ ignored_pipe_is_told() {
   } | true
   test "$(cat status)" -eq 1 && says 'cannot write: Broken pipe'
 }
-claim "where the signal is ignored, the closed pipe is told" \
+claim "where the signal is ignored, the closed pipe is reported" \
   ignored_pipe_is_told
 finish

@@ -16,25 +16,25 @@ enum { ROUNDS = 10000 };
 /* ---- Random input -------------------------------------------------------- */
 
 static struct geom_point point(uint64_t *r, int size) {
-  struct geom_point p = {exact_below(r, size) * 2 - size,
-                         exact_below(r, size) * 2 - size,
-                         exact_below(r, 1 << 20)};
+  struct geom_point p = {exact_random_below(r, size) * 2 - size,
+                         exact_random_below(r, size) * 2 - size,
+                         exact_random_below(r, 1 << 20)};
   if (size == XY_MAX) { /* at the ends of the range, or next to them */
-    if (exact_below(r, 3) == 0)
-      p.x = XY_MAX - exact_below(r, 3);
-    if (exact_below(r, 3) == 0)
-      p.x = exact_below(r, 3) - XY_MAX;
-    if (exact_below(r, 3) == 0)
-      p.y = XY_MAX - exact_below(r, 3);
-    if (exact_below(r, 3) == 0)
-      p.y = exact_below(r, 3) - XY_MAX;
+    if (exact_random_below(r, 3) == 0)
+      p.x = XY_MAX - exact_random_below(r, 3);
+    if (exact_random_below(r, 3) == 0)
+      p.x = exact_random_below(r, 3) - XY_MAX;
+    if (exact_random_below(r, 3) == 0)
+      p.y = XY_MAX - exact_random_below(r, 3);
+    if (exact_random_below(r, 3) == 0)
+      p.y = exact_random_below(r, 3) - XY_MAX;
   }
   return p;
 }
 
 static int size_of_scene(uint64_t *r) {
   static const int size[] = {3, 5, 1000, XY_MAX};
-  return size[exact_below(r, 4)];
+  return size[exact_random_below(r, 4)];
 }
 
 static void triangle(uint64_t *r, int size, struct geom_point p[3]) {
@@ -86,7 +86,7 @@ static struct geom_line *random_line(uint64_t *r, int size,
   triangle(r, size, f);
   triangle(r, size, g);
   geom_line_through(&line[0], f[0], f[1]);
-  switch (exact_below(r, 4)) {
+  switch (exact_random_below(r, 4)) {
   case 0: {
     struct geom_plane front = geom_plane_of(f[0], f[1], f[2]),
                       back = geom_plane_of(g[0], g[1], g[2]);
@@ -97,18 +97,18 @@ static struct geom_line *random_line(uint64_t *r, int size,
   }
   case 1: {
     const struct geom_corner *c =
-        &piece->corner[exact_below(r, (int)piece->count)];
+        &piece->corner[exact_random_below(r, (int)piece->count)];
     if (c->l1 == NULL && (c->ix != f[1].x || c->iy != f[1].y))
       geom_line_through(&line[0], (struct geom_point){c->ix, c->iy, 0}, f[1]);
     break;
   }
   case 2:
-    line[0] = *piece->side[exact_below(r, (int)piece->count)];
+    line[0] = *piece->side[exact_random_below(r, (int)piece->count)];
     break;
   default:
     break;
   }
-  if (exact_below(r, 2))
+  if (exact_random_below(r, 2))
     geom_line_reverse(&line[0]);
   line[1] = line[0];
   geom_line_reverse(&line[1]);
@@ -120,7 +120,7 @@ static struct geom_convex random_piece(uint64_t *r, int size,
                                        struct arena *arena) {
   struct geom_point p[3];
   struct geom_convex piece;
-  int cuts = exact_below(r, 6);
+  int cuts = exact_random_below(r, 6);
   triangle(r, size, p);
   piece = piece_of(p, arena);
   for (int k = 0; k < cuts; k++) {
@@ -211,7 +211,7 @@ static bool is_same_piece(const struct geom_convex *p,
 
 /* ---- Splitting ----------------------------------------------------------- */
 
-static void parts_of_a_split_make_up_the_whole(void **state) {
+static void pieces_of_a_split_add_up_to_the_whole(void **state) {
   uint64_t r = 1;
   int proper = 0, touching = 0;
   struct arena arena = {0};
@@ -239,7 +239,7 @@ static void parts_of_a_split_make_up_the_whole(void **state) {
   arena_fini(&arena);
 }
 
-static void either_part_may_be_asked_for_alone(void **state) {
+static void either_piece_of_a_split_may_be_requested_alone(void **state) {
   uint64_t r = 2;
   struct arena arena = {0};
   (void)state;
@@ -342,7 +342,7 @@ static void what_is_left_and_what_is_common_make_up_the_whole(void **state) {
     triangle(&r, size, p);
     memcpy(line, lines_of(p, &arena), 3 * sizeof *line);
     cut = random_line(&r, size, &piece, &arena);
-    if (exact_below(&r, 2))
+    if (exact_random_below(&r, 2))
       line[count++] = cut[0];
     cut = take(&arena, 8, sizeof *cut);
     memcpy(cut, line, sizeof line);
@@ -449,8 +449,8 @@ static void a_copy_stands_alone(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(parts_of_a_split_make_up_the_whole),
-      cmocka_unit_test(either_part_may_be_asked_for_alone),
+      cmocka_unit_test(pieces_of_a_split_add_up_to_the_whole),
+      cmocka_unit_test(either_piece_of_a_split_may_be_requested_alone),
       cmocka_unit_test(a_line_through_corners_makes_no_new_ones),
       cmocka_unit_test(a_piece_may_have_many_corners),
       cmocka_unit_test(what_is_left_and_what_is_common_make_up_the_whole),

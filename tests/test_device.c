@@ -155,14 +155,14 @@ static void a_small_page_lies_where_the_pen_reaches(void **state) {
     }
 }
 
-/* A letter page where the table has none is told of, no sheet and no page that
+/* A letter page where the table has none is reported, no sheet and no page that
  * the smallest sheet holds. */
-static void a_page_between_the_sheets_is_told(void **state) {
+static void a_page_between_the_sheets_is_reported(void **state) {
   (void)state;
   static const struct {
     const char *device;
     double width_mm, height_mm;
-    bool told;
+    bool reported;
   } row[] = {{"hp7550a", 215.9, 279.4, true}, {"hp7475a", 215.9, 279.4, false},
              {"hp7550a", 420, 297, false},    {"hp7550a", 419.7, 296.8, false},
              {"hp7550a", 200, 280, false},    {"hp7475a", 250, 250, true},
@@ -171,12 +171,12 @@ static void a_page_between_the_sheets_is_told(void **state) {
     struct device_placement place;
     device_place(device_by_name(row[i].device), row[i].width_mm,
                  row[i].height_mm, &place);
-    assert_int_equal(place.between, row[i].told);
+    assert_int_equal(place.between, row[i].reported);
   }
 }
 
 /* Half a millimetre less, and something is. */
-static void nothing_is_clipped_inside_the_margin_that_is_told(void **state) {
+static void nothing_is_clipped_inside_the_reported_margin(void **state) {
   (void)state;
   struct random random = {5};
   int needed = 0;
@@ -213,7 +213,7 @@ static void nothing_is_clipped_inside_the_margin_that_is_told(void **state) {
   assert_in_range(needed, 100, 399);
 }
 
-static void the_margin_that_a_writer_asks_for_is_the_device_s(void **state) {
+static void a_writer_s_margin_is_that_of_the_device(void **state) {
   (void)state;
   struct writer_options options = {.device = "hp7475a"};
   assert_true(writer_hpgl.margin_mm(&options, 210, 297) == 16);
@@ -225,7 +225,7 @@ static void the_margin_that_a_writer_asks_for_is_the_device_s(void **state) {
   assert_true(writer_hpgl.margin_mm(&options, 210, 297) == 0);
 }
 
-static void a_drum_has_its_origin_in_the_middle(void **state) {
+static void a_drum_plotter_has_its_origin_in_the_middle(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 600, 400);
@@ -421,7 +421,7 @@ static void no_drawing_leaves_the_area_or_the_cap(void **state) {
 }
 
 /* Within the page, what comes back is the drawing: the same strokes, in
- * order, every point within half a unit (a unit is asked for). */
+ * order, every point within half a unit (a unit is required). */
 static void every_stroke_comes_back_within_a_unit(void **state) {
   (void)state;
   struct random random = {11};
@@ -476,10 +476,10 @@ int main(void) {
       cmocka_unit_test(a_page_a_touch_too_large_keeps_its_paper),
       cmocka_unit_test(a_page_that_no_paper_holds_is_clipped_on_the_largest),
       cmocka_unit_test(a_small_page_lies_where_the_pen_reaches),
-      cmocka_unit_test(a_page_between_the_sheets_is_told),
-      cmocka_unit_test(nothing_is_clipped_inside_the_margin_that_is_told),
-      cmocka_unit_test(the_margin_that_a_writer_asks_for_is_the_device_s),
-      cmocka_unit_test(a_drum_has_its_origin_in_the_middle),
+      cmocka_unit_test(a_page_between_the_sheets_is_reported),
+      cmocka_unit_test(nothing_is_clipped_inside_the_reported_margin),
+      cmocka_unit_test(a_writer_s_margin_is_that_of_the_device),
+      cmocka_unit_test(a_drum_plotter_has_its_origin_in_the_middle),
       cmocka_unit_test(a_stroke_that_leaves_and_returns_is_two),
       cmocka_unit_test(a_clipped_loop_is_not_cut_where_it_begins),
       cmocka_unit_test(a_line_across_the_whole_area_keeps_its_middle),

@@ -1,5 +1,5 @@
 #!/bin/bash
-# test_documents.sh - the documents tell the truth: examples run, options and
+# test_documents.sh - the documents are correct: examples run, options and
 # packages agree, what is referred to is there.
 . "$(dirname "$0")/tap.sh"
 

@@ -17,8 +17,8 @@ struct span {
 
 /* k / STEPS, written narrow or too wide for 64 bits. */
 static struct ratio step(int k, uint64_t *r) {
-  int128 factor = (int128)1 << (exact_below(r, 2) ? 0 : 100);
-  factor *= 1 + exact_below(r, 5);
+  int128 factor = (int128)1 << (exact_random_below(r, 2) ? 0 : 100);
+  factor *= 1 + exact_random_below(r, 5);
   return (struct ratio){k * factor, STEPS * factor};
 }
 
@@ -76,12 +76,13 @@ static void check(const struct map *map, uint32_t edge, const struct span *span,
 }
 
 static int draw_spans(struct span *span, uint64_t *r) {
-  int count = exact_below(r, 7), one_sided = exact_below(r, 3);
+  int count = exact_random_below(r, 7), one_sided = exact_random_below(r, 3);
   for (int k = 0; k < count; k++) {
-    span[k].from = exact_below(r, STEPS);
-    span[k].to = span[k].from + 1 + exact_below(r, STEPS - span[k].from);
-    span[k].sides =
-        exact_below(r, 3) < one_sided ? 1 + exact_below(r, 2) : OCCLUDED_BOTH;
+    span[k].from = exact_random_below(r, STEPS);
+    span[k].to = span[k].from + 1 + exact_random_below(r, STEPS - span[k].from);
+    span[k].sides = exact_random_below(r, 3) < one_sided
+                        ? 1 + exact_random_below(r, 2)
+                        : OCCLUDED_BOTH;
   }
   return count;
 }
@@ -158,7 +159,7 @@ static void a_visible_piece_without_length_is_none(void **state) {
   map_fini(&map);
 }
 
-static void whole_says_that_no_more_need_be_asked(void **state) {
+static void whole_occlusion_ends_the_query(void **state) {
   static const struct span span[] = {
       {0, 11, OCCLUDED_BOTH}, {0, 12, OCCLUDED_LEFT}, {0, 12, OCCLUDED_BOTH}};
   uint64_t r = 3;
@@ -181,7 +182,7 @@ static void whole_says_that_no_more_need_be_asked(void **state) {
   edge_intervals_fini(&intervals);
 }
 
-static void the_order_of_parts_does_not_matter(void **state) {
+static void the_order_of_pieces_does_not_matter(void **state) {
   uint64_t r = 4;
   (void)state;
   for (int i = 0; i < 2000; i++) {
@@ -189,7 +190,7 @@ static void the_order_of_parts_does_not_matter(void **state) {
     int count = draw_spans(span, &r);
     struct map map;
     for (int k = count; k > 1; k--) {
-      int other = exact_below(&r, k);
+      int other = exact_random_below(&r, k);
       struct span swap = span[k - 1];
       span[k - 1] = span[other];
       span[other] = swap;
@@ -205,8 +206,8 @@ int main(void) {
       cmocka_unit_test(one_side_covered_is_visible),
       cmocka_unit_test(each_side_covered_by_another_is_hidden),
       cmocka_unit_test(a_visible_piece_without_length_is_none),
-      cmocka_unit_test(whole_says_that_no_more_need_be_asked),
-      cmocka_unit_test(the_order_of_parts_does_not_matter),
+      cmocka_unit_test(whole_occlusion_ends_the_query),
+      cmocka_unit_test(the_order_of_pieces_does_not_matter),
       cmocka_unit_test(visible_is_what_is_not_hidden_on_both_sides),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -133,7 +133,7 @@ static bool judge_line(const double p[3][3]) {
   return true;
 }
 
-static void lines_in_space_are_told_exactly(void **state) {
+static void collinearity_in_space_is_decided_exactly(void **state) {
   (void)state;
   struct random random = {4};
   int yes = 0, no = 0;
@@ -179,7 +179,7 @@ int main(void) {
       cmocka_unit_test(any_doubles_turn_the_right_way),
       cmocka_unit_test(nearly_collinear_points_turn_the_right_way),
       cmocka_unit_test(the_ends_of_the_range_turn_the_right_way),
-      cmocka_unit_test(lines_in_space_are_told_exactly),
+      cmocka_unit_test(collinearity_in_space_is_decided_exactly),
       cmocka_unit_test(points_that_are_equal_are_on_one_line),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -222,17 +222,18 @@ static void a_field_of_cycles_is_right(void **state) {
  * coinciding parts are common. */
 static void random_scene(struct sheet *sheet, uint64_t seed) {
   uint64_t r = seed;
-  int faces = 2 + exact_below(&r, 9), lattice = 2 + exact_below(&r, 8);
-  int scale = 1 << (4 + exact_below(&r, 10));
+  int faces = 2 + exact_random_below(&r, 9),
+      lattice = 2 + exact_random_below(&r, 8);
+  int scale = 1 << (4 + exact_random_below(&r, 10));
   exact_sheet_init(sheet);
-  if (exact_below(&r, 3) == 0)
+  if (exact_random_below(&r, 3) == 0)
     sheet->camera.contact = scale / 4;
   for (int f = 0; f < faces; f++) {
     int corner[4][3], count = 3;
     for (int k = 0; k < 3; k++)
       for (int i = 0; i < 3; i++)
-        corner[k][i] = exact_below(&r, lattice);
-    if (exact_below(&r, 3) == 0) { /* a parallelogram */
+        corner[k][i] = exact_random_below(&r, lattice);
+    if (exact_random_below(&r, 3) == 0) { /* a parallelogram */
       count = 4;
       for (int i = 0; i < 3; i++) {
         corner[3][i] = corner[2][i];
@@ -283,9 +284,9 @@ static void deep_soup(struct sheet *sheet, uint64_t seed, int faces) {
     int corner[3][3];
     for (int k = 0; k < 3; k++)
       for (int i = 0; i < 3; i++) {
-        corner[k][i] = exact_below(&r, 3000);
-        if (exact_below(&r, 20) == 0)
-          corner[k][i] = exact_below(&r, 4) * 1000;
+        corner[k][i] = exact_random_below(&r, 3000);
+        if (exact_random_below(&r, 20) == 0)
+          corner[k][i] = exact_random_below(&r, 4) * 1000;
         if (i == 2)
           corner[k][i] *= 10;
       }

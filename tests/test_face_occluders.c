@@ -1,5 +1,5 @@
-/* test_face_occluders.c - what many nearer triangles leave of one, in whatever order
- * they are taken, is what the oracle leaves. */
+/* test_face_occluders.c - what many nearer triangles leave of one, in whatever
+ * order they are taken, is what the oracle leaves. */
 #include "visibility/fragments/face_occluders.h"
 #include "geom/region.h"
 #include "exact_fixture/scene.h"
@@ -113,7 +113,7 @@ static void lay_bars(struct sheet *sheet, int n, int depth) {
   }
 }
 
-static void bars_across_a_bar_are_met_near_by_alone(void **state) {
+static void bars_across_a_bar_are_tested_only_near_it(void **state) {
   uint64_t cuts[2];
   (void)state;
   for (int i = 0; i < 2; i++) {
@@ -136,7 +136,7 @@ static void bars_across_a_bar_are_met_near_by_alone(void **state) {
   assert_true(cuts[1] < 6 * cuts[0]);
 }
 
-static void what_is_behind_is_no_rival(void **state) {
+static void what_is_behind_is_no_occluder(void **state) {
   struct face_occluders occluders;
   struct sheet sheet;
   (void)state;
@@ -175,8 +175,8 @@ static void memory_may_run_out_anywhere(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_is_left_is_what_the_oracle_leaves),
-      cmocka_unit_test(bars_across_a_bar_are_met_near_by_alone),
-      cmocka_unit_test(what_is_behind_is_no_rival),
+      cmocka_unit_test(bars_across_a_bar_are_tested_only_near_it),
+      cmocka_unit_test(what_is_behind_is_no_occluder),
       cmocka_unit_test(memory_may_run_out_anywhere),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

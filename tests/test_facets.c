@@ -89,7 +89,7 @@ static void quad_is_one_facet_either_way_round(void **state) {
   assert_int_equal(count_facets(back, 4), 1);
 }
 
-static void octagon_is_one_facet(void **state) {
+static void regular_octagon_is_one_facet(void **state) {
   static const int octagon[][3] = {{3, 0, 4},  {7, 0, 4},  {10, 3, 4},
                                    {10, 7, 4}, {7, 10, 4}, {3, 10, 4},
                                    {0, 7, 4},  {0, 3, 4}};
@@ -193,7 +193,7 @@ static void flat_triangles_stay_alone(void **state) {
   exact_sheet_fini(&sheet);
 }
 
-static void running_out_of_memory_is_told(void **state) {
+static void running_out_of_memory_is_reported(void **state) {
   struct sheet sheet;
   struct facets facets;
   unsigned long fails = 0;
@@ -217,14 +217,14 @@ static void running_out_of_memory_is_told(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(quad_is_one_facet_either_way_round),
-      cmocka_unit_test(octagon_is_one_facet),
+      cmocka_unit_test(regular_octagon_is_one_facet),
       cmocka_unit_test(concave_face_is_several_convex_facets),
       cmocka_unit_test(warped_face_keeps_its_triangles),
       cmocka_unit_test(faces_are_never_joined_with_each_other),
       cmocka_unit_test(triangles_alone_need_no_memory),
       cmocka_unit_test(large_face_is_tiled_by_bounded_facets),
       cmocka_unit_test(flat_triangles_stay_alone),
-      cmocka_unit_test(running_out_of_memory_is_told),
+      cmocka_unit_test(running_out_of_memory_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

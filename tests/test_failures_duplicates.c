@@ -1,5 +1,5 @@
-/* test_failures_duplicates.c - very many faces in nearly one place (rows 8 and 16):
- * it ends, with the right drawing. */
+/* test_failures_duplicates.c - very many faces at nearly one position (rows 8
+ * and 16): it ends, with the right drawing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -42,29 +42,29 @@ static void agree(struct scene *scene, recto_options *options,
   scene_fini(scene);
 }
 
-static void copies_are_drawn_as_by_brute(void **state) {
+static void duplicates_are_drawn_as_by_brute(void **state) {
   struct scene scene;
   recto_options options;
   (void)state;
   for (int eye = 0; eye < 2; eye++) {
     start(&scene, &options);
-    scenes_copies(&scene, &options, 400, true, 0);
+    scenes_duplicates(&scene, &options, 400, true, 0);
     options.fov_deg = eye ? 40 : 0;
-    agree(&scene, &options, "copies");
+    agree(&scene, &options, "duplicates");
   }
 }
 
-static void near_copies_are_drawn_as_by_brute(void **state) {
+static void near_duplicates_are_drawn_as_by_brute(void **state) {
   struct scene scene;
   recto_options options;
   (void)state;
   start(&scene, &options);
-  scenes_copies(&scene, &options, 40, false, 1e-8);
-  agree(&scene, &options, "near copies");
+  scenes_duplicates(&scene, &options, 40, false, 1e-8);
+  agree(&scene, &options, "near duplicates");
 }
 
-/* Boxes and loose walls at the same places: their edges are not copies though
- * their walls are. */
+/* Boxes and separate walls at the same positions: their edges are not
+ * duplicates though their walls are. */
 static void add_boxes(struct scene *scene, struct random *random, unsigned n) {
   for (unsigned i = 0; i < n; i++) {
     double at = 0.25 * random_below(random, 2);
@@ -79,7 +79,7 @@ static void add_boxes(struct scene *scene, struct random *random, unsigned n) {
                       vector_of(0, 3, 0.1));
 }
 
-static void copies_of_boxes_are_drawn_as_by_brute(void **state) {
+static void duplicate_boxes_are_drawn_as_by_brute(void **state) {
   struct scene scene;
   recto_options options;
   struct random random = {5};
@@ -109,8 +109,8 @@ static int64_t pairs_met(const struct report *report) {
          report_get(report, "faces", "pairs", 0);
 }
 
-/* A face and its copies have 200 million pairs. */
-static void copies_20000_are_a_few_faces_work(void **state) {
+/* A face and its duplicates have 200 million pairs. */
+static void duplicates_20000_cost_as_much_as_a_few_faces(void **state) {
   (void)state;
   for (int pierced = 0; pierced < 2; pierced++)
     for (const struct solver *const *s = quick; *s != NULL; s++) {
@@ -118,7 +118,7 @@ static void copies_20000_are_a_few_faces_work(void **state) {
       recto_options options;
       struct pipeline pipeline;
       start(&scene, &options);
-      scenes_copies(&scene, &options, 20000, pierced != 0, 0);
+      scenes_duplicates(&scene, &options, 20000, pierced != 0, 0);
       pipeline_run(&pipeline, &scene, &options, *s);
       assert_int_equal(pipeline.status, RECTO_OK);
       assert_in_range(pairs_met(pipeline.report), 1, 1000);
@@ -127,9 +127,9 @@ static void copies_20000_are_a_few_faces_work(void **state) {
     }
 }
 
-/* Edge and triangle are met 48 million times where each window asks of every
+/* 48 million pairs of edge and triangle are tested if each window tests every
  * edge all that its faces hide. */
-static void warnock_asks_no_more_of_what_is_hidden(void **state) {
+static void warnock_stops_testing_hidden_edges(void **state) {
   struct scene scene;
   recto_options options;
   struct pipeline pipeline;
@@ -145,12 +145,12 @@ static void warnock_asks_no_more_of_what_is_hidden(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(copies_are_drawn_as_by_brute),
-      cmocka_unit_test(near_copies_are_drawn_as_by_brute),
-      cmocka_unit_test(copies_of_boxes_are_drawn_as_by_brute),
+      cmocka_unit_test(duplicates_are_drawn_as_by_brute),
+      cmocka_unit_test(near_duplicates_are_drawn_as_by_brute),
+      cmocka_unit_test(duplicate_boxes_are_drawn_as_by_brute),
       cmocka_unit_test(pages_are_drawn_as_by_brute),
-      cmocka_unit_test(copies_20000_are_a_few_faces_work),
-      cmocka_unit_test(warnock_asks_no_more_of_what_is_hidden),
+      cmocka_unit_test(duplicates_20000_cost_as_much_as_a_few_faces),
+      cmocka_unit_test(warnock_stops_testing_hidden_edges),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

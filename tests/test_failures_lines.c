@@ -1,5 +1,5 @@
 /* test_failures_lines.c - what walking the page line by line cannot see, and
- * just that: depths that few bits cannot tell apart, faces between two lines.
+ * just that: depths that few bits do not distinguish, faces between two lines.
  */
 #include "tests/measure/trial.h"
 
@@ -47,7 +47,7 @@ static double fighting_share(const struct solver *solver, int lines, int bits,
   return share;
 }
 
-static void exact_methods_tell_near_sheets_apart(void **state) {
+static void exact_methods_distinguish_near_sheets(void **state) {
   (void)state;
   for (const struct solver *const *s = solvers(); *s != NULL; s++)
     for (double gap = 1e-3; (*s)->exact && gap > 0.9e-9; gap /= 10)
@@ -82,7 +82,7 @@ static void lines_behind_a_near_sheet_are_hidden(void **state) {
 /* Where the two are on one level the earlier one stays, which is the far one:
  * with levels 2^-B of the depth and the sheets aslant, 1 - gap 2^B of the
  * pixels, and none where the gap is a level or more. */
-static void depths_fight_where_the_bits_say_so(void **state) {
+static void few_depth_bits_cause_z_fighting(void **state) {
   static const struct solver *const both[] = {&solver_zbuffer,
                                               &solver_scanline_zbuffer};
   static const int bits[] = {16, 24, 32};
@@ -224,9 +224,9 @@ static void a_section_cuts_away_what_is_nearer(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(exact_methods_tell_near_sheets_apart),
+      cmocka_unit_test(exact_methods_distinguish_near_sheets),
       cmocka_unit_test(lines_behind_a_near_sheet_are_hidden),
-      cmocka_unit_test(depths_fight_where_the_bits_say_so),
+      cmocka_unit_test(few_depth_bits_cause_z_fighting),
       cmocka_unit_test(what_is_thinner_than_the_pitch_is_missed_and_only_that),
       cmocka_unit_test(exact_methods_see_the_thinnest),
       cmocka_unit_test(a_section_cuts_away_what_is_nearer),

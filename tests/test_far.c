@@ -164,7 +164,7 @@ static void a_point_that_nothing_uses_changes_nothing(void **state) {
 }
 
 /* An eye on a wall: the wall reaches nearer than any near plane. */
-static void what_the_near_plane_cuts_is_told(void **state) {
+static void faces_clipped_by_the_near_plane_are_reported(void **state) {
   (void)state;
   recto_scene *scene;
   recto_options options;
@@ -202,7 +202,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_ground_of_any_size_changes_nothing_above_it),
       cmocka_unit_test(a_point_that_nothing_uses_changes_nothing),
-      cmocka_unit_test(what_the_near_plane_cuts_is_told),
+      cmocka_unit_test(faces_clipped_by_the_near_plane_are_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,7 +74,7 @@ static void areas_are_those_of_the_oracle(void **state) {
       uint64_t r = seed * EXACT_KINDS + (uint64_t)kind;
       struct sheet sheet;
       char what[64];
-      int faces = 2 + exact_below(&r, 3);
+      int faces = 2 + exact_random_below(&r, 3);
       snprintf(what, sizeof what, "kind %d, seed %u", kind, (unsigned)seed);
       exact_random_sheet(&sheet, (enum exact_kind)kind, faces, &r);
       check_areas(&sheet, what);
@@ -138,7 +138,7 @@ static void loops_are_in_their_one_form(void **state) {
     enum exact_kind kind = (enum exact_kind)(seed % EXACT_EXTREME);
     struct sheet sheet;
     struct map map;
-    exact_random_sheet(&sheet, kind, 3 + exact_below(&r, 8), &r);
+    exact_random_sheet(&sheet, kind, 3 + exact_random_below(&r, 8), &r);
     exact_solve(&solver_brute, &sheet, &map, NULL);
     check_form(&map);
     map_fini(&map);
@@ -168,8 +168,8 @@ static void solve_in_pieces(const struct sheet *sheet, int cuts, uint64_t *r,
       if (g != f && !(sheet->triangle_flags[g] & SHEET_FLAT))
         assert_true(occluder_subtraction_take_nearer(&subtraction, g));
     for (int k = 0; k < cuts; k++) {
-      struct geom_point p = sheet->point.item[exact_below(r, points)],
-                        q = sheet->point.item[exact_below(r, points)];
+      struct geom_point p = sheet->point.item[exact_random_below(r, points)],
+                        q = sheet->point.item[exact_random_below(r, points)];
       struct geom_line *line = arena_alloc(&subtraction.arena, 2, sizeof *line);
       size_t count = subtraction.left.count;
       assert_non_null(line);
@@ -217,10 +217,10 @@ static void how_pieces_were_cut_does_not_show(void **state) {
     enum exact_kind kind = (enum exact_kind)(seed % EXACT_KINDS);
     struct sheet sheet;
     struct map map, again;
-    exact_random_sheet(&sheet, kind, 2 + exact_below(&r, 5), &r);
+    exact_random_sheet(&sheet, kind, 2 + exact_random_below(&r, 5), &r);
     if (sheet.triangle.count > 0) {
       solve_in_pieces(&sheet, 0, &r, &map);
-      solve_in_pieces(&sheet, 1 + exact_below(&r, 4), &r, &again);
+      solve_in_pieces(&sheet, 1 + exact_random_below(&r, 4), &r, &again);
       assert_same_fragments(&map, &again);
       map_fini(&map);
       map_fini(&again);

@@ -1,5 +1,5 @@
 /* test_hatching.c - whole models hatched, as read back from the files: as much
- * line as the area that is seen asks for. */
+ * line as the visible area requires. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

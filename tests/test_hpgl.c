@@ -134,7 +134,7 @@ static void layers_come_in_their_order_whatever_the_strokes(void **state) {
   plotting_end(&f);
 }
 
-static void pens_past_the_carousel_are_dealt_anew_with_a_word(void **state) {
+static void pens_past_the_carousel_are_reused_with_a_warning(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 297, 210);
@@ -153,7 +153,7 @@ static void pens_past_the_carousel_are_dealt_anew_with_a_word(void **state) {
 }
 
 /* Pen 7 of 6 is pen 1, and comes with it. */
-static void a_pen_that_is_dealt_anew_is_not_fetched_twice(void **state) {
+static void a_pen_that_is_reused_is_not_fetched_twice(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 297, 210);
@@ -173,7 +173,7 @@ static void a_pen_that_is_dealt_anew_is_not_fetched_twice(void **state) {
   plotting_end(&f);
 }
 
-static void fills_are_left_out_with_a_word(void **state) {
+static void fills_are_left_out_with_a_warning(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 100, 100);
@@ -212,12 +212,12 @@ static void a_speed_that_makes_no_sense_is_refused(void **state) {
   plotting_end(&f);
 }
 
-static void a_plotter_is_told_no_more_than_its_fastest(void **state) {
+static void a_plotter_gets_at_most_its_highest_speed(void **state) {
   (void)state;
   static const struct {
     const char *device;
-    double asked;
-    int told, warnings;
+    double requested;
+    int written, warnings;
   } speed[] = {{"hp7475a", 60, 38, 1},
                {"hp7475a", 20, 20, 0},
                {"hp7550a", 127, 80, 1},
@@ -227,19 +227,19 @@ static void a_plotter_is_told_no_more_than_its_fastest(void **state) {
     struct plotting f;
     plotting_begin(&f, 297, 210);
     f.options.device = speed[i].device;
-    f.options.velocity = speed[i].asked;
+    f.options.velocity = speed[i].requested;
     drawing_fixture_line(&f.drawing,
                          drawing_fixture_layer(&f.drawing, 1, 0.3, 0), 50, 50,
                          60, 60);
     plotting_run(&f);
-    assert_int_equal(f.back.velocity, speed[i].told);
+    assert_int_equal(f.back.velocity, speed[i].written);
     assert_int_equal(f.warnings, speed[i].warnings);
     assert_true(f.warnings == 0 || strstr(f.warning, "cm/s"));
     plotting_end(&f);
   }
 }
 
-static void nobody_needs_to_listen_to_warnings(void **state) {
+static void a_warning_callback_is_optional(void **state) {
   (void)state;
   struct plotting f;
   plotting_begin(&f, 100, 100);
@@ -297,13 +297,13 @@ int main(void) {
       cmocka_unit_test(points_that_repeat_and_strokes_that_vanish_go),
       cmocka_unit_test(pens_change_only_where_they_must),
       cmocka_unit_test(layers_come_in_their_order_whatever_the_strokes),
-      cmocka_unit_test(pens_past_the_carousel_are_dealt_anew_with_a_word),
-      cmocka_unit_test(a_pen_that_is_dealt_anew_is_not_fetched_twice),
-      cmocka_unit_test(fills_are_left_out_with_a_word),
+      cmocka_unit_test(pens_past_the_carousel_are_reused_with_a_warning),
+      cmocka_unit_test(a_pen_that_is_reused_is_not_fetched_twice),
+      cmocka_unit_test(fills_are_left_out_with_a_warning),
       cmocka_unit_test(an_unknown_device_is_refused_with_the_known_ones),
       cmocka_unit_test(a_speed_that_makes_no_sense_is_refused),
-      cmocka_unit_test(a_plotter_is_told_no_more_than_its_fastest),
-      cmocka_unit_test(nobody_needs_to_listen_to_warnings),
+      cmocka_unit_test(a_plotter_gets_at_most_its_highest_speed),
+      cmocka_unit_test(a_warning_callback_is_optional),
       cmocka_unit_test(a_full_disk_leaves_no_plot),
   };
   return cmocka_run_group_tests_name("hpgl", tests, NULL, NULL);

@@ -142,7 +142,7 @@ static void what_makes_no_sense_is_refused(void **state) {
   assert_refused(model(state), RECTO_ERROR_FORMAT, "the importer failed");
 }
 
-static void an_importer_that_is_not_there_is_told(void **state) {
+static void a_missing_importer_is_reported(void **state) {
   setenv("RECTO_IMPORT", "/none/recto-import", 1);
   assert_refused(model(state), RECTO_ERROR_UNSUPPORTED,
                  "no reader for the format 'off': cannot start the importer "
@@ -247,7 +247,7 @@ static void without_processes_it_is_an_error(void **state) {
   assert_alone();
 }
 
-/* Nobody can be asked then how the importer ended. */
+/* Then the exit status of the importer is not available. */
 static void a_host_may_ignore_its_children(void **state) {
   void (*before)(int) = signal(SIGCHLD, SIG_IGN);
   assert_reads(model(state), 2);
@@ -430,7 +430,7 @@ int main(void) {
       T(a_crash_is_an_error),
       T(an_importer_that_hangs_is_ended),
       T(what_makes_no_sense_is_refused),
-      T(an_importer_that_is_not_there_is_told),
+      T(a_missing_importer_is_reported),
       T(cancelling_ends_the_importer),
       T(no_descriptor_is_left_open),
       T(without_descriptors_it_is_an_error),

@@ -194,7 +194,8 @@ static void fine_curve_does_not_drift(void **state) {
   paths_fini(&paths);
 }
 
-static void there_and_back_keeps_its_turning_point(void **state) {
+static void
+simplifying_keeps_the_turning_point_of_a_line_there_and_back(void **state) {
   struct ink_paths paths = {0};
   const struct ink_point spike[] = {{0, 0}, {100, 0}, {1000, 0}, {400, 0}};
   (void)state;
@@ -299,7 +300,7 @@ static void simplify_option_is_in_mm(void **state) {
 static void strokes_below_half_a_pen_are_dropped(void **state) {
   (void)state;
   static const struct {
-    double asked, length;
+    double minimum, length;
     bool drawn;
   } cases[] = {{-1, 0.14, false},
                {-1, 0.16, true},
@@ -309,7 +310,7 @@ static void strokes_below_half_a_pen_are_dropped(void **state) {
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     struct ink_fixture k;
     ink_fixture_start(&k);
-    k.options.min_stroke_mm = cases[i].asked;
+    k.options.min_stroke_mm = cases[i].minimum;
     ink_fixture_line(&k, 10, 10, 10 + cases[i].length, 10, CREASE);
     ink_fixture_draw(&k);
     assert_int_equal(k.drawing.stroke.count, cases[i].drawn);
@@ -533,7 +534,8 @@ int main(void) {
       cmocka_unit_test(subdivided_box_is_four_points),
       cmocka_unit_test(straightening_keeps_within_the_tolerance),
       cmocka_unit_test(fine_curve_does_not_drift),
-      cmocka_unit_test(there_and_back_keeps_its_turning_point),
+      cmocka_unit_test(
+          simplifying_keeps_the_turning_point_of_a_line_there_and_back),
       cmocka_unit_test(loop_without_width_becomes_a_line),
       cmocka_unit_test(simplifying_keeps_within_the_tolerance),
       cmocka_unit_test(simplifying_drops_what_it_may),

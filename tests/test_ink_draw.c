@@ -183,7 +183,7 @@ static void fill_all(struct ink_fixture *k) {
   k->options.hatch_pitch_mm = 10;
 }
 
-static void running_out_of_memory_is_told(void **state) {
+static void running_out_of_memory_is_reported(void **state) {
   static const struct {
     recto_hidden hidden;
     recto_fill fill;
@@ -221,7 +221,7 @@ int main(void) {
       cmocka_unit_test(no_scene_draws_a_line_twice),
       cmocka_unit_test(options_change_where_ink_goes_not_how_much),
       cmocka_unit_test(box_seen_square_on_draws_four_edges),
-      cmocka_unit_test(running_out_of_memory_is_told),
+      cmocka_unit_test(running_out_of_memory_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,7 +59,7 @@ static void hidden_lines_have_a_layer_of_their_own(void **state) {
   ink_fixture_end(&k);
 }
 
-static void groups_are_dealt_to_the_pens(void **state) {
+static void groups_are_assigned_to_the_pens(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
@@ -315,8 +315,8 @@ static void draw_hatch(struct ink_fixture *k, const struct polygon *p,
 }
 
 /* Every stroke stays inside, its long runs are on the page's lines, and between
- * them it is on the ink of a side, up to what three places of a move tell; the
- * runs add up to the area.  Returns how many strokes there are. */
+ * them it is on the ink of a side, up to what three decimals of a move express;
+ * the runs add up to the area.  Returns how many strokes there are. */
 static size_t assert_hatch(const struct polygon *p, double pitch,
                            double angle_deg, double area_slack) {
   enum { SAMPLES = 9 };
@@ -653,7 +653,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_pen_draws_everything_visible),
       cmocka_unit_test(hidden_lines_have_a_layer_of_their_own),
-      cmocka_unit_test(groups_are_dealt_to_the_pens),
+      cmocka_unit_test(groups_are_assigned_to_the_pens),
       cmocka_unit_test(empty_layers_are_left_out_and_pens_keep_their_numbers),
       cmocka_unit_test(empty_drawing_has_its_first_layer),
       cmocka_unit_test(long_names_are_cut_between_characters),

@@ -207,7 +207,7 @@ static void a_cube_is_three_polygons(void **state) {
   assert_fills(&scene, &options, 3, 4);
 }
 
-static void so_is_one_whose_sides_are_divided(void **state) {
+static void a_box_with_divided_sides_is_one_rectangle_too(void **state) {
   struct scene scene;
   recto_options options;
   (void)state;
@@ -233,7 +233,7 @@ static void a_ball_is_one_polygon_whatever_lines_are_drawn(void **state) {
   }
 }
 
-static void the_crease_angle_parts_fills(void **state) {
+static void the_crease_angle_separates_fills(void **state) {
   struct scene scene;
   recto_options options;
   (void)state;
@@ -310,9 +310,9 @@ int main(void) {
       cmocka_unit_test(random_scenes_are_painted_as_their_fragments_are),
       cmocka_unit_test(spans_at_a_pitch_keep_their_area),
       cmocka_unit_test(a_cube_is_three_polygons),
-      cmocka_unit_test(so_is_one_whose_sides_are_divided),
+      cmocka_unit_test(a_box_with_divided_sides_is_one_rectangle_too),
       cmocka_unit_test(a_ball_is_one_polygon_whatever_lines_are_drawn),
-      cmocka_unit_test(the_crease_angle_parts_fills),
+      cmocka_unit_test(the_crease_angle_separates_fills),
       cmocka_unit_test(groups_are_not_merged),
       cmocka_unit_test(fandisk_has_fewer_than_60_polygons),
       cmocka_unit_test(merging_fails_cleanly_when_memory_runs_out),

@@ -1,5 +1,5 @@
-/* test_ink_overlap_output.c - rows 12, 13 and 15 of the known failures at the output's
- * own step: what a file cannot tell apart is in it once. */
+/* test_ink_overlap_output.c - rows 12, 13 and 15 of the known failures at the
+ * output's own resolution: lines that are equal in a file are in it once. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -324,7 +324,7 @@ no_two_sides_of_random_drawings_share_more_than_a_unit(void **state) {
   }
 }
 
-/* Whatever was asked for is near something drawn. */
+/* Every requested line is near something drawn. */
 static void no_ink_is_lost_by_more_than_two_units(void **state) {
   (void)state;
   struct random random = {59};
@@ -352,7 +352,7 @@ static void no_ink_is_lost_by_more_than_two_units(void **state) {
   }
 }
 
-static void thousands_of_near_rings_end_soon(void **state) {
+static void thousands_of_near_rings_take_bounded_time(void **state) {
   enum { SIDES = 32, RINGS = 3000 };
   (void)state;
   int rings = getenv("RECTO_VALGRIND") ? 50 : RINGS;
@@ -439,7 +439,7 @@ int main(void) {
       cmocka_unit_test(with_ids_the_lower_rank_stays),
       cmocka_unit_test(no_two_sides_of_random_drawings_share_more_than_a_unit),
       cmocka_unit_test(no_ink_is_lost_by_more_than_two_units),
-      cmocka_unit_test(thousands_of_near_rings_end_soon),
+      cmocka_unit_test(thousands_of_near_rings_take_bounded_time),
       cmocka_unit_test(no_line_is_twice_in_svg),
       cmocka_unit_test(no_line_is_twice_in_hpgl),
   };

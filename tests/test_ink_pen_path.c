@@ -195,7 +195,7 @@ static void layers_are_never_mixed(void **state) {
   drawing_fini(&drawing);
 }
 
-static void strokes_at_one_place_end_soon(void **state) {
+static void strokes_at_one_position_take_bounded_time(void **state) {
   int count = is_under_valgrind() ? 200 : 50000;
   struct drawing drawing;
   (void)state;
@@ -326,7 +326,7 @@ static void more_effort_gains_little(void **state) {
   }
 }
 
-static void order_of_100000_strokes_ends_soon(void **state) {
+static void ordering_100000_strokes_takes_bounded_time(void **state) {
   int count = is_under_valgrind() ? 100 : 100000;
   struct random random = {83};
   struct drawing drawing;
@@ -487,13 +487,13 @@ int main(void) {
       cmocka_unit_test(one_stroke_is_begun_at_its_nearer_end),
       cmocka_unit_test(loop_is_begun_where_it_suits),
       cmocka_unit_test(layers_are_never_mixed),
-      cmocka_unit_test(strokes_at_one_place_end_soon),
+      cmocka_unit_test(strokes_at_one_position_take_bounded_time),
       cmocka_unit_test(empty_drawing_is_in_order),
       cmocka_unit_test(few_strokes_are_ordered_nearly_best),
       cmocka_unit_test(random_strokes_stay_what_they_were),
       cmocka_unit_test(same_strokes_give_the_same_order),
       cmocka_unit_test(more_effort_gains_little),
-      cmocka_unit_test(order_of_100000_strokes_ends_soon),
+      cmocka_unit_test(ordering_100000_strokes_takes_bounded_time),
       cmocka_unit_test(improved_tour_is_never_longer),
       cmocka_unit_test(nearest_is_what_a_look_at_all_finds),
       cmocka_unit_test(lists_of_the_nearest_are_complete_and_in_order),

@@ -1,4 +1,5 @@
-/* test_ink_segment_graph.c - intervals become lines, and every line is drawn once. */
+/* test_ink_segment_graph.c - intervals become lines, and every line is drawn
+ * once. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -534,7 +535,7 @@ static void draw_staggered(struct ink_fixture *k, int n) {
   ink_fixture_draw(k);
 }
 
-static void thousands_of_coincident_edges_end_soon(void **state) {
+static void thousands_of_coincident_edges_take_bounded_time(void **state) {
   int count = is_under_valgrind() ? 200 : 4000;
   const double end[] = {50 - 20000000 * NANOMETRE, 50 - 10000000 * NANOMETRE,
                         50 + 20686000 * NANOMETRE, 50 + 10343000 * NANOMETRE};
@@ -577,7 +578,7 @@ static void pipe_along_its_axis_is_one_ring(void **state) {
   ink_fixture_end(&k);
 }
 
-static void crowded_nodes_end_soon(void **state) {
+static void dense_nodes_take_bounded_time(void **state) {
   /* Half of all in one corner of a nanometre grid, half across the page. */
   int count = is_under_valgrind() ? 300 : 40000;
   struct random random = {5};
@@ -684,9 +685,9 @@ int main(void) {
       cmocka_unit_test(crossings_and_t_junctions_change_nothing),
       cmocka_unit_test(sharp_angle_is_two_lines),
       cmocka_unit_test(random_lines_on_a_line_leave_their_best),
-      cmocka_unit_test(thousands_of_coincident_edges_end_soon),
+      cmocka_unit_test(thousands_of_coincident_edges_take_bounded_time),
       cmocka_unit_test(pipe_along_its_axis_is_one_ring),
-      cmocka_unit_test(crowded_nodes_end_soon),
+      cmocka_unit_test(dense_nodes_take_bounded_time),
       cmocka_unit_test(columns_and_rows_of_a_lattice_are_lines),
       cmocka_unit_test(order_of_the_edges_does_not_change_the_lines),
   };

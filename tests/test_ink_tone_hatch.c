@@ -49,7 +49,7 @@ static void assert_no_run(struct hatch_runs *runs) {
   ARRAY_FREE(&runs->bit);
 }
 
-static void bits_that_meet_are_one_run(void **state) {
+static void pieces_that_meet_are_one_run(void **state) {
   struct hatch_runs runs = start_runs();
   (void)state;
   add_bit(&runs, INK, 5, 9, 0);
@@ -62,7 +62,7 @@ static void bits_that_meet_are_one_run(void **state) {
   assert_no_run(&runs);
 }
 
-static void bits_of_different_lines_never_meet(void **state) {
+static void pieces_of_different_lines_never_meet(void **state) {
   (void)state;
   for (int what = 0; what < 4; what++) {
     struct hatch_runs runs = start_runs();
@@ -291,7 +291,7 @@ static double length_of(const struct drawing *d, size_t s) {
 
 /* Lit from the eye the ball's tone is 0.7 (1 - sqrt(1 - r^2)) at radius r: 0.7
  * thirds of its disc.  Where it is below FULL one layer makes it. */
-static void lines_over_a_ball_cover_what_its_tone_asks_for(void **state) {
+static void lines_over_a_ball_cover_the_share_of_its_tone(void **state) {
   struct pipeline p;
   recto_options options;
   (void)state;
@@ -308,14 +308,14 @@ static void lines_over_a_ball_cover_what_its_tone_asks_for(void **state) {
              options.pen_mm;
   }
   /* The first layer's share: the tone, up to FULL = 1 - sqrt(0.4). */
-  double full = 1 - sqrt(0.4), asked = 0;
+  double full = 1 - sqrt(0.4), expected = 0;
   enum { RINGS = 10000 };
   for (int i = 0; i < RINGS; i++) {
     double r = (i + 0.5) / RINGS;
     double tone = (1 - LIGHT_DARKEST) * (1 - sqrt(1 - r * r));
-    asked += fmin(tone, full) * 2 * pi() * r / RINGS * 40 * 40;
+    expected += fmin(tone, full) * 2 * pi() * r / RINGS * 40 * 40;
   }
-  assert_true(fabs(ink / asked - 1) < 0.03);
+  assert_true(fabs(ink / expected - 1) < 0.03);
   pipeline_fini(&p);
 }
 
@@ -386,8 +386,8 @@ static void hatching_fails_cleanly_when_memory_runs_out(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(bits_that_meet_are_one_run),
-      cmocka_unit_test(bits_of_different_lines_never_meet),
+      cmocka_unit_test(pieces_that_meet_are_one_run),
+      cmocka_unit_test(pieces_of_different_lines_never_meet),
       cmocka_unit_test(specks_between_changes_of_tone_are_left_out),
       cmocka_unit_test(short_gaps_in_a_face_are_closed),
       cmocka_unit_test(one_even_face_is_hatched_at_one_pitch),
@@ -395,7 +395,7 @@ int main(void) {
       cmocka_unit_test(strokes_end_before_the_face_does),
       cmocka_unit_test(neighbours_of_one_tone_share_their_lines),
       cmocka_unit_test(each_pen_hatches_its_groups),
-      cmocka_unit_test(lines_over_a_ball_cover_what_its_tone_asks_for),
+      cmocka_unit_test(lines_over_a_ball_cover_the_share_of_its_tone),
       cmocka_unit_test(lines_run_over_many_faces),
       cmocka_unit_test(every_scene_is_hatched_on_its_page),
       cmocka_unit_test(hatching_fails_cleanly_when_memory_runs_out),

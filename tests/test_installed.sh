@@ -16,9 +16,9 @@ no_importer() {
     says "format 'off': cannot start the importer /.*: No such file"
 }
 if test -x /usr/local/libexec/recto/recto-import; then
-  skip "an importer that is not there is told of" "one is installed"
+  skip "a missing importer is reported" "one is installed"
 else
-  claim "an importer that is not there is told of" no_importer
+  claim "a missing importer is reported" no_importer
 fi
 cd "$scratch" || exit 1
 

@@ -1,4 +1,5 @@
-/* test_intersection.c - where faces pierce each other, and where they only touch. */
+/* test_intersection.c - where faces pierce each other, and where they only
+ * touch. */
 #include "visibility/intersection/intersection.h"
 #include "exact_fixture/rational.h"
 #include "exact_fixture/scene.h"
@@ -258,11 +259,11 @@ static void neighbours_get_the_same_end(void **state) {
   int met = 0;
   (void)state;
   for (int i = 0; i < 500; i++) {
-    const int ridge[2][3] = {{100 + exact_below(&r, 100),
-                              500 + exact_below(&r, 100), exact_below(&r, 450)},
-                             {500 + exact_below(&r, 100),
-                              500 + exact_below(&r, 100),
-                              550 + exact_below(&r, 450)}};
+    const int ridge[2][3] = {
+        {100 + exact_random_below(&r, 100), 500 + exact_random_below(&r, 100),
+         exact_random_below(&r, 450)},
+        {500 + exact_random_below(&r, 100), 500 + exact_random_below(&r, 100),
+         550 + exact_random_below(&r, 450)}};
     const int wide[][3] = {
         {-3000, -3000, 500}, {9000, -3000, 500}, {-3000, 9000, 500}};
     int face[2][3][3];
@@ -274,10 +275,10 @@ static void neighbours_get_the_same_end(void **state) {
       for (int k = 0; k < 2; k++)
         for (int c = 0; c < 3; c++)
           face[f][k][c] = ridge[f == 0 ? k : 1 - k][c];
-      face[f][2][0] = 300 + exact_below(&r, 100);
-      face[f][2][1] =
-          f == 0 ? exact_below(&r, 300) : 800 + exact_below(&r, 200);
-      face[f][2][2] = exact_below(&r, 450);
+      face[f][2][0] = 300 + exact_random_below(&r, 100);
+      face[f][2][1] = f == 0 ? exact_random_below(&r, 300)
+                             : 800 + exact_random_below(&r, 200);
+      face[f][2][2] = exact_random_below(&r, 450);
       exact_add_face(&sheet, (const int(*)[3])face[f], 3, 1);
     }
     first = sheet.edge.count;

@@ -212,9 +212,9 @@ static void half_an_edge_is_half_missing(void **state) {
   scene_fini(&scene);
 }
 
-/* What a caller hears, and after how many questions it wants no more. */
+/* The progress a caller is given, and after how many calls it cancels. */
 struct caller {
-  unsigned asked, most;
+  unsigned polled, most;
   double share;
 };
 
@@ -222,10 +222,10 @@ static bool hear(void *user, double share) {
   struct caller *caller = user;
   assert_true(share >= caller->share && share <= 1);
   caller->share = share;
-  return ++caller->asked < caller->most;
+  return ++caller->polled < caller->most;
 }
 
-static void the_caller_hears_shares_that_grow_and_may_stop(void **state) {
+static void progress_reaches_the_caller_who_may_cancel(void **state) {
   (void)state;
   struct page page;
   struct scene scene;
@@ -248,9 +248,9 @@ static void the_caller_hears_shares_that_grow_and_may_stop(void **state) {
         judge_drawing(&verdict, &drawing, &scene, &page.camera, &options));
     assert_int_equal(verdict.cancelled, most == 2);
     if (most == 2)
-      assert_int_equal(caller.asked, 2);
+      assert_int_equal(caller.polled, 2);
     else
-      assert_true(caller.asked > 100 && caller.share > 0.9);
+      assert_true(caller.polled > 100 && caller.share > 0.9);
   }
   judge_drawing_fini(&drawing);
   scene_fini(&scene);
@@ -291,7 +291,7 @@ static void draw_loop(struct page *page, const double *xyz, unsigned count) {
 static const double notched[8 * 3] = {-3, -3, 1, 3,  -3, 1, 3,  3, 1, 1,  3, 1,
                                       1,  -1, 1, -1, -1, 1, -1, 3, 1, -3, 3, 1};
 
-static void what_lies_in_a_notch_is_seen(void **state) {
+static void what_lies_in_a_notch_is_visible(void **state) {
   (void)state;
   struct page page;
   struct scene scene;
@@ -342,7 +342,7 @@ static void a_spike_covers_nothing(void **state) {
   scene_fini(&scene);
 }
 
-static void lines_where_faces_pierce_are_asked_for(void **state) {
+static void lines_where_faces_pierce_are_required(void **state) {
   (void)state;
   struct page page;
   struct scene scene;
@@ -505,7 +505,7 @@ static void ears_cover_a_face_of_any_number_of_corners(void **state) {
   judge_ears_fini(&ears);
 }
 
-static void smooth_edges_are_asked_for_by_all_alone(void **state) {
+static void smooth_edges_are_requested_only_by_all(void **state) {
   (void)state;
   struct page page;
   struct scene scene;
@@ -811,7 +811,7 @@ static void what_is_not_such_a_file_is_refused(void **state) {
 }
 
 /* Whatever bytes a file is cut to or has changed: it ends, and memory that
- * runs out is told. */
+ * runs out is reported. */
 static void any_bytes_and_no_memory_are_survived(void **state) {
   (void)state;
   static const char text[] = ROOT
@@ -850,7 +850,7 @@ static void any_bytes_and_no_memory_are_survived(void **state) {
 
 /* ---- The grid of segments ------------------------------------------------ */
 
-/* However far it is asked to see, all that is within reach of a place is found
+/* Whatever the reach, all segments within reach of a point are found
  * there, in a space that grows with the segments alone. */
 static void a_wide_reach_takes_no_more_space(void **state) {
   enum { SEGMENTS = 300 };
@@ -889,16 +889,16 @@ int main(void) {
       cmocka_unit_test(any_visible_edge_left_out_is_missing_ink),
       cmocka_unit_test(ink_where_no_edge_is_is_false),
       cmocka_unit_test(half_an_edge_is_half_missing),
-      cmocka_unit_test(the_caller_hears_shares_that_grow_and_may_stop),
+      cmocka_unit_test(progress_reaches_the_caller_who_may_cancel),
       cmocka_unit_test(a_matrix_says_the_same_as_a_camera),
-      cmocka_unit_test(what_lies_in_a_notch_is_seen),
+      cmocka_unit_test(what_lies_in_a_notch_is_visible),
       cmocka_unit_test(a_spike_covers_nothing),
-      cmocka_unit_test(lines_where_faces_pierce_are_asked_for),
+      cmocka_unit_test(lines_where_faces_pierce_are_required),
       cmocka_unit_test(contact_does_not_hide),
       cmocka_unit_test(from_a_corner_contact_counts_at_the_far_end),
       cmocka_unit_test(without_contact_the_grid_may_pierce_what_touches),
       cmocka_unit_test(ears_cover_a_face_of_any_number_of_corners),
-      cmocka_unit_test(smooth_edges_are_asked_for_by_all_alone),
+      cmocka_unit_test(smooth_edges_are_requested_only_by_all),
       cmocka_unit_test(paths_and_polylines_are_read),
       cmocka_unit_test(a_group_called_hidden_is_none_of_hidden_lines),
       cmocka_unit_test(hatching_and_seams_are_no_lines_of_the_scene),

@@ -1,6 +1,6 @@
 /* test_judged.c - drawings of hard scenes and of real meshes, sampled every
  * 0.02 mm by an independent judge: no drawn point is hidden and no visible
- * point of an edge that was asked for is without ink. */
+ * point of a requested edge is without ink. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -28,7 +28,7 @@ static void the_stability_list_is_drawn_right(void **state) {
   }
 }
 
-static void eyes_in_odd_places_see_all_there_is(void **state) {
+static void eyes_in_degenerate_positions_see_all_that_is_visible(void **state) {
   (void)state;
   for (int eye = SCENES_EYE_INSIDE; eye <= SCENES_EYE_ON_LINE; eye++) {
     struct scene scene;
@@ -223,7 +223,7 @@ static void other_models_are_drawn_right(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_stability_list_is_drawn_right),
-      cmocka_unit_test(eyes_in_odd_places_see_all_there_is),
+      cmocka_unit_test(eyes_in_degenerate_positions_see_all_that_is_visible),
       cmocka_unit_test(surfaces_do_not_leak_at_any_step),
       cmocka_unit_test(random_small_scenes_are_drawn_right),
       WITH_FOLDER(the_example_models_are_drawn_right),

@@ -13,7 +13,7 @@
 #define XY_MAX ((1 << 30) - 1)
 #define Z_MAX ((INT64_C(1) << 40) - 1)
 
-/* A line of the house and the same one in rationals. */
+/* A line of src/geom and the same one in rationals. */
 struct twin {
   struct geom_line line;
   struct rational_line exact;
@@ -52,13 +52,14 @@ static void twin_reverse(struct twin *t) {
 /* A whole number of at most `bits` bits, often at the ends of its range. */
 static int64_t number(uint64_t *r, int bits) {
   int64_t limit = (INT64_C(1) << bits) - 1;
-  switch (exact_below(r, 8)) {
+  switch (exact_random_below(r, 8)) {
   case 0:
-    return exact_below(r, 3) - 1;
+    return exact_random_below(r, 3) - 1;
   case 1:
-    return exact_below(r, 2) ? limit : -limit;
+    return exact_random_below(r, 2) ? limit : -limit;
   case 2:
-    return (exact_below(r, 2) ? limit : -limit) / 2 + exact_below(r, 3);
+    return (exact_random_below(r, 2) ? limit : -limit) / 2 +
+           exact_random_below(r, 3);
   default:
     return (int64_t)(exact_random(r) % (2 * (uint64_t)limit + 1)) - limit;
   }
@@ -76,9 +77,9 @@ static int32_t clamp_xy(int64_t v) {
 
 /* A point at most `reach` away. */
 static struct geom_point near(uint64_t *r, struct geom_point p, int reach) {
-  p.x = clamp_xy((int64_t)p.x + exact_below(r, 2 * reach + 1) - reach);
-  p.y = clamp_xy((int64_t)p.y + exact_below(r, 2 * reach + 1) - reach);
-  p.z += exact_below(r, 2 * reach + 1) - reach;
+  p.x = clamp_xy((int64_t)p.x + exact_random_below(r, 2 * reach + 1) - reach);
+  p.y = clamp_xy((int64_t)p.y + exact_random_below(r, 2 * reach + 1) - reach);
+  p.z += exact_random_below(r, 2 * reach + 1) - reach;
   if (p.z < 0)
     p.z = 0;
   if (p.z > Z_MAX)
@@ -88,7 +89,7 @@ static struct geom_point near(uint64_t *r, struct geom_point p, int reach) {
 
 static int bits_of_scene(uint64_t *r) {
   static const int bits[] = {2, 4, 12, 30, 30};
-  return bits[exact_below(r, 5)];
+  return bits[exact_random_below(r, 5)];
 }
 
 static bool same_place(struct geom_point p, struct geom_point q) {
@@ -115,7 +116,7 @@ static void narrow(uint64_t *r, int bits, struct twin *t, struct geom_point p,
                    struct geom_point q) {
   struct geom_point a, b;
   do {
-    switch (exact_below(r, 3)) {
+    switch (exact_random_below(r, 3)) {
     case 0:
       a = point(r, bits), b = point(r, bits);
       break;
@@ -127,7 +128,7 @@ static void narrow(uint64_t *r, int bits, struct twin *t, struct geom_point p,
     }
   } while (same_place(a, b));
   twin_through(t, a, b);
-  if (exact_below(r, 2))
+  if (exact_random_below(r, 2))
     twin_reverse(t);
 }
 
@@ -140,8 +141,8 @@ static bool wide(uint64_t *r, const struct geom_point family[4],
   for (int i = 0; i < 2; i++) {
     int64_t area;
     for (int k = 0; k < 3; k++) {
-      f[i][k] = family[(k + exact_below(r, 2)) % 4];
-      if (exact_below(r, 4) == 0)
+      f[i][k] = family[(k + exact_random_below(r, 2)) % 4];
+      if (exact_random_below(r, 4) == 0)
         f[i][k] = near(r, f[i][k], 1);
     }
     area = geom_orient2d(f[i][0], f[i][1], f[i][2]);
@@ -155,7 +156,7 @@ static bool wide(uint64_t *r, const struct geom_point family[4],
   }
   if (twin_between(t, f[0], f[1]) != 0)
     return false;
-  if (exact_below(r, 2))
+  if (exact_random_below(r, 2))
     twin_reverse(t);
   return true;
 }
@@ -169,7 +170,7 @@ static void draw_lines(uint64_t *r, struct twin t[LINES]) {
   for (int k = 0; k < 4; k++)
     family[k] = point(r, bits);
   for (int k = 0; k < LINES; k++)
-    if (exact_below(r, 2) || !wide(r, family, &t[k]))
+    if (exact_random_below(r, 2) || !wide(r, family, &t[k]))
       narrow(r, bits, &t[k], family[0], family[1]);
 }
 
@@ -191,7 +192,7 @@ static int sign_of_products(const struct twin *p, const struct twin *q,
   return sign;
 }
 
-static void turn_and_along_are_the_signs_of_the_products(void **state) {
+static void orientation_and_direction_are_signs_of_products(void **state) {
   uint64_t r = 11;
   int zeros = 0;
   struct twin t[LINES];
@@ -214,7 +215,7 @@ static void turn_and_along_are_the_signs_of_the_products(void **state) {
     twin_clear(&t[k]);
 }
 
-/* A corner of the house and the same place in rationals. */
+/* A corner of src/geom and the same point in rationals. */
 struct twin_corner {
   struct geom_corner corner;
   struct rational_point exact;
@@ -246,7 +247,7 @@ static int draw_corners(uint64_t *r, const struct twin t[LINES],
       }
   for (int k = 0; k < LINES && t[k].line.narrow; k++) {
     struct geom_point p = {t[k].line.x0, t[k].line.y0, 0};
-    if (exact_below(r, 2))
+    if (exact_random_below(r, 2))
       p = near(r, p, 1);
     rational_point_at(&c[count].exact, p);
     c[count++].corner = geom_corner_at(p);
@@ -398,7 +399,7 @@ static void a_half_is_rounded_up_also_below_zero(void **state) {
   twin_clear(&steep);
 }
 
-/* All that tells these lines apart is their c, which doubles round. */
+/* These lines differ only in their c, which doubles round. */
 static void lines_nearly_level_cross_where_they_should(void **state) {
   struct rational_point exact;
   (void)state;
@@ -455,10 +456,10 @@ static void corners_doubles_are_within_a_quarter_unit(void **state) {
 
 /* All corners of the range's box, and next to them. */
 static struct geom_point extreme(uint64_t *r) {
-  struct geom_point p = {exact_below(r, 2) ? XY_MAX : -XY_MAX,
-                         exact_below(r, 2) ? XY_MAX : -XY_MAX,
-                         exact_below(r, 2) ? Z_MAX : 0};
-  return exact_below(r, 2) ? near(r, p, 3) : p;
+  struct geom_point p = {exact_random_below(r, 2) ? XY_MAX : -XY_MAX,
+                         exact_random_below(r, 2) ? XY_MAX : -XY_MAX,
+                         exact_random_below(r, 2) ? Z_MAX : 0};
+  return exact_random_below(r, 2) ? near(r, p, 3) : p;
 }
 
 static void extreme_triangle(uint64_t *r, struct geom_point p[3]) {
@@ -561,7 +562,7 @@ static void parallel_planes_have_no_line_but_an_order(void **state) {
     struct geom_point f[3], g[3];
     struct geom_plane front, back;
     struct geom_line line;
-    int bits = bits_of_scene(&r), shift = exact_below(&r, 3) - 1;
+    int bits = bits_of_scene(&r), shift = exact_random_below(&r, 3) - 1;
     triangle(&r, bits, f);
     for (int k = 0; k < 3; k++) {
       if (f[k].z == 0)
@@ -621,9 +622,10 @@ static void lines_have_one_number_however_they_are_given(void **state) {
   int alike = 0;
   (void)state;
   for (int i = 0; i < 2000; i++) {
-    struct geom_point p = {exact_below(&r, 1 << 28), exact_below(&r, 1 << 28),
-                           0};
-    int dx = exact_below(&r, 2001) - 1000, dy = exact_below(&r, 2001) - 1000;
+    struct geom_point p = {exact_random_below(&r, 1 << 28),
+                           exact_random_below(&r, 1 << 28), 0};
+    int dx = exact_random_below(&r, 2001) - 1000,
+        dy = exact_random_below(&r, 2001) - 1000;
     uint64_t a, b, c, d;
     if (dx == 0 && dy == 0)
       continue;
@@ -653,7 +655,7 @@ static void lines_have_one_number_however_they_are_given(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(turn_and_along_are_the_signs_of_the_products),
+      cmocka_unit_test(orientation_and_direction_are_signs_of_products),
       cmocka_unit_test(side_is_the_sign_of_the_value),
       cmocka_unit_test(corners_compare_by_x_then_y),
       cmocka_unit_test(corners_round_to_the_nearest_halves_up),

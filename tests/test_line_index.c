@@ -54,8 +54,8 @@ static bool index_all(struct line_index *grid, const struct sheet *sheet) {
 }
 
 /* Asks about one side; counts those found that share a stretch, and others. */
-static void ask(const struct sheet *sheet, const struct line_index *grid,
-                uint32_t number, size_t count[2]) {
+static void query(const struct sheet *sheet, const struct line_index *grid,
+                  uint32_t number, size_t count[2]) {
   struct geom_point end[2];
   struct geom_line line;
   struct geom_corner p, q;
@@ -89,7 +89,7 @@ static void what_runs_along_a_side_is_found(void **state) {
       exact_random_sheet(&sheet, (enum exact_kind)kind, 40, &r);
       assert_true(index_all(&grid, &sheet));
       for (uint32_t side = 0; side < 3 * sheet.triangle.count; side++)
-        ask(&sheet, &grid, side, count);
+        query(&sheet, &grid, side, count);
       sides += 3 * sheet.triangle.count;
       line_index_fini(&grid);
       exact_sheet_fini(&sheet);

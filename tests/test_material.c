@@ -1,5 +1,5 @@
 /* test_material.c - material libraries give groups their colours; what is
- * missing or broken in them is told and never an error. */
+ * missing or broken in them is reported and never an error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -103,7 +103,7 @@ static void values_beyond_the_range_are_clamped(void **state) {
   reading_fini(&r);
 }
 
-static void only_drawings_in_colour_ask_for_libraries(void **state) {
+static void only_drawings_in_colour_read_libraries(void **state) {
   struct reading r;
   const char *path =
       write_text(state, "m.obj", "mtllib no.mtl\n" POINTS "usemtl red\n" FACE);
@@ -188,7 +188,7 @@ static void a_library_that_expands_too_far_is_not_read(void **state) {
   reading_fini(&r);
 }
 
-static void a_broken_compressed_library_is_told(void **state) {
+static void a_broken_compressed_library_is_reported(void **state) {
   struct reading r;
   temporary_file(state, "a.mtl.gz", "\x1f\x8b\x08\0odd", 7);
   read_model(&r, state, "mtllib a.mtl\n" POINTS FACE);
@@ -201,7 +201,7 @@ static void a_broken_compressed_library_is_told(void **state) {
 
 /* ---- What is wrong ------------------------------------------------------- */
 
-static void what_is_missing_is_told_with_its_line(void **state) {
+static void missing_values_are_reported_with_their_line(void **state) {
   struct reading r;
   write_text(state, "a.mtl", "newmtl known\nKd 1 1 1\nnewmtl plain\nNs 3\n");
   read_model(&r, state,
@@ -247,7 +247,8 @@ static void read_library(struct reading *r, struct heard *heard, void **state,
                    RECTO_OK);
 }
 
-static void a_bad_colour_is_told_with_the_librarys_name_and_line(void **state) {
+static void
+a_bad_colour_is_reported_with_the_librarys_name_and_line(void **state) {
   static const char *const bad[] = {
       "nan 0 0", "1 0 inf",  "-infinity", "1e999",          "1 0",
       "1 0 0 0", "1 0 0x",   "red",       "spectral a.rfl", "xyz 1 1 1",
@@ -268,7 +269,7 @@ static void a_bad_colour_is_told_with_the_librarys_name_and_line(void **state) {
   }
 }
 
-static void libraries_with_a_mistake_are_told_of_once(void **state) {
+static void libraries_with_an_error_are_reported_once(void **state) {
   static const struct {
     const char *text;
     int count;
@@ -317,7 +318,7 @@ static void a_library_begins_without_a_material(void **state) {
   reading_fini(&r);
 }
 
-/* Neither a folder, nor a pipe that nobody writes to, nor a device without an
+/* Neither a folder, nor a pipe without a writer, nor a device without an
  * end is read. */
 static void only_plain_files_are_libraries(void **state) {
   struct reading r;
@@ -390,17 +391,17 @@ int main(void) {
       T(a_library_may_come_after_its_materials_are_used),
       T(names_of_libraries_may_hold_blanks_or_be_several),
       T(values_beyond_the_range_are_clamped),
-      T(only_drawings_in_colour_ask_for_libraries),
+      T(only_drawings_in_colour_read_libraries),
       T(a_group_of_two_files_keeps_its_first_colour),
 #ifdef HAVE_ZLIB
       T(a_compressed_library_is_expanded),
       T(where_there_is_no_library_its_compressed_form_is_read),
       T(a_library_that_expands_too_far_is_not_read),
-      T(a_broken_compressed_library_is_told),
+      T(a_broken_compressed_library_is_reported),
 #endif
-      T(what_is_missing_is_told_with_its_line),
-      T(a_bad_colour_is_told_with_the_librarys_name_and_line),
-      T(libraries_with_a_mistake_are_told_of_once),
+      T(missing_values_are_reported_with_their_line),
+      T(a_bad_colour_is_reported_with_the_librarys_name_and_line),
+      T(libraries_with_an_error_are_reported_once),
       T(a_library_is_read_as_far_as_it_is_text),
       T(a_library_begins_without_a_material),
       T(only_plain_files_are_libraries),

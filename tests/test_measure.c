@@ -63,7 +63,7 @@ static void assert_near(double got, double want) {
     fail_msg("%.12g, not %.12g", got, want);
 }
 
-static void areas_are_told_by_what_is_wrong(void **state) {
+static void areas_are_reported_by_kind_of_error(void **state) {
   struct sheet sheet;
   struct map exact, map;
   struct measure m;
@@ -82,7 +82,7 @@ static void areas_are_told_by_what_is_wrong(void **state) {
 }
 
 /* What is given twice is not missing elsewhere. */
-static void overlaps_are_told_apart(void **state) {
+static void area_covered_twice_is_reported_separately(void **state) {
   struct sheet sheet;
   struct map exact, map;
   struct measure m;
@@ -219,8 +219,8 @@ static void ink_is_compared_interval_by_interval(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(areas_are_told_by_what_is_wrong),
-      cmocka_unit_test(overlaps_are_told_apart),
+      cmocka_unit_test(areas_are_reported_by_kind_of_error),
+      cmocka_unit_test(area_covered_twice_is_reported_separately),
       cmocka_unit_test(holes_and_corners_that_turn_in_are_kept_out),
       cmocka_unit_test(one_map_has_no_error_against_itself),
       cmocka_unit_test(ink_is_compared_interval_by_interval),

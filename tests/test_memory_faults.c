@@ -230,7 +230,7 @@ static void try_jobs(const struct job *job, size_t count) {
     try_jobs(job, sizeof job / sizeof *job);                                   \
   } while (0)
 
-static void readers_survive_it(void **state) {
+static void readers_survive_failed_allocations(void **state) {
   (void)state;
   TRY({.model = "m.obj", .format = "svg"},
       {.model = "m.obj", .format = "svg", .fill = RECTO_FILL_PAINT},
@@ -238,7 +238,7 @@ static void readers_survive_it(void **state) {
 }
 
 #ifdef HAVE_ZLIB
-static void readers_of_gzip_survive_it(void **state) {
+static void gzip_readers_survive_failed_allocations(void **state) {
   (void)state;
   TRY({.model = "m.stl.gz", .format = "svg"},
       {.model = "z.obj", .format = "svg", .fill = RECTO_FILL_PAINT});
@@ -256,7 +256,7 @@ static int count_descriptors(void) {
 
 /* The process that starts the importer; neither the importer nor a pipe nor a
  * file of ours is left. */
-static void the_host_of_the_importer_survives_it(void **state) {
+static void the_importer_s_host_survives_failed_allocations(void **state) {
   (void)state;
   int before = count_descriptors();
   TRY({.model = "m.off", .format = "svg"},
@@ -267,7 +267,7 @@ static void the_host_of_the_importer_survives_it(void **state) {
 }
 #endif
 
-static void writers_survive_it(void **state) {
+static void writers_survive_failed_allocations(void **state) {
   (void)state;
   TRY({.model = "m.obj", .format = "hpgl"},
       {.model = "m.obj", .format = "svg", .hidden = RECTO_HIDDEN_LAYER},
@@ -277,7 +277,7 @@ static void writers_survive_it(void **state) {
       {.model = "m.obj", .format = "png", .fill = RECTO_FILL_HATCH});
 }
 
-static void methods_survive_it(void **state) {
+static void methods_survive_failed_allocations(void **state) {
   (void)state;
   TRY({.model = "m.obj",
        .format = "svg",
@@ -320,7 +320,7 @@ static void methods_survive_it(void **state) {
        .resolution = 32});
 }
 
-static void judges_survive_it(void **state) {
+static void the_judge_survives_failed_allocations(void **state) {
   (void)state;
   TRY({.model = "m.obj", .format = "svg", .verify = 100},
       {.model = "m.obj", .format = "svg", .checks = true});
@@ -352,16 +352,16 @@ static int start(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(readers_survive_it),
+      cmocka_unit_test(readers_survive_failed_allocations),
 #ifdef HAVE_ZLIB
-      cmocka_unit_test(readers_of_gzip_survive_it),
+      cmocka_unit_test(gzip_readers_survive_failed_allocations),
 #endif
 #ifdef HAVE_ASSIMP
-      cmocka_unit_test(the_host_of_the_importer_survives_it),
+      cmocka_unit_test(the_importer_s_host_survives_failed_allocations),
 #endif
-      cmocka_unit_test(writers_survive_it),
-      cmocka_unit_test(methods_survive_it),
-      cmocka_unit_test(judges_survive_it),
+      cmocka_unit_test(writers_survive_failed_allocations),
+      cmocka_unit_test(methods_survive_failed_allocations),
+      cmocka_unit_test(the_judge_survives_failed_allocations),
   };
   return cmocka_run_group_tests_name("memory_faults", tests, start,
                                      temporary_tear_down);

@@ -20,9 +20,10 @@ struct ordered {
 };
 
 /* In the order in which faces can be painted. */
-static recto_status put_in_order(struct ordered *o, recto_progress_fn ask) {
+static recto_status put_in_order(struct ordered *o,
+                                 recto_progress_fn progress) {
   const struct solver_request request = {
-      .fragments = true, .threads = 1, .progress = ask};
+      .fragments = true, .threads = 1, .progress = progress};
   recto_error error;
   assert_true(triangle_grid_init(&o->grid, &o->sheet));
   return newell_order_init(&o->order, &o->sheet, &o->grid, &request, &error);
@@ -144,21 +145,21 @@ static void assert_tally(const int face[2][3][3], struct tally want,
   ordered_fini(&o);
 }
 
-static void depths_apart_settle_the_pair(void **state) {
+static void disjoint_depths_decide_the_pair(void **state) {
   static const int face[2][3][3] = {{{0, 0, 0}, {9, 0, 1}, {0, 9, 2}},
                                     {{0, 0, 3}, {9, 0, 4}, {0, 9, 5}}};
   (void)state;
   assert_tally(face, (struct tally){.depth = 1}, 0, 1);
 }
 
-static void test_a_settles_what_is_apart_on_the_page(void **state) {
+static void test_a_decides_pairs_disjoint_on_the_page(void **state) {
   static const int face[2][3][3] = {{{0, 0, 0}, {4, 0, 9}, {0, 4, 9}},
                                     {{5, 0, 3}, {9, 0, 4}, {5, 4, 5}}};
   (void)state;
   assert_tally(face, (struct tally){.minimax = 1}, 0, 1);
 }
 
-static void test_b_settles_p_behind_the_plane_of_q(void **state) {
+static void test_b_decides_p_behind_the_plane_of_q(void **state) {
   static const int face[2][3][3] = {{{0, 0, 0}, {9, 0, 1}, {0, 9, 2}},
                                     {{0, 0, 2}, {9, 0, 3}, {0, 9, 9}}};
   (void)state;
@@ -166,7 +167,7 @@ static void test_b_settles_p_behind_the_plane_of_q(void **state) {
 }
 
 /* P reaches through Q's plane beside Q. */
-static void test_c_settles_q_before_the_plane_of_p(void **state) {
+static void test_c_decides_q_in_front_of_the_plane_of_p(void **state) {
   static const int face[2][3][3] = {{{0, 0, 0}, {20, 0, 20}, {0, 20, 0}},
                                     {{1, 1, 5}, {3, 1, 5}, {1, 3, 5}}};
   (void)state;
@@ -175,7 +176,8 @@ static void test_c_settles_q_before_the_plane_of_p(void **state) {
 
 /* Their boxes meet and P is on both sides of Q's plane, but they do not
  * overlap. */
-static void test_d_settles_what_only_seems_to_overlap(void **state) {
+static void
+test_d_decides_disjoint_outlines_with_overlapping_boxes(void **state) {
   static const int face[2][3][3] = {{{0, 0, 0}, {20, 0, 20}, {0, 20, 20}},
                                     {{20, 20, 10}, {9, 20, 10}, {20, 5, 10}}};
   (void)state;
@@ -200,7 +202,7 @@ static void equal_planes_are_painted_latest_first(void **state) {
 }
 
 /* Contact hides no line: two that pierce each other by less are left whole,
- * where lines are all that is asked for. */
+ * where only lines are requested. */
 static void lines_alone_need_no_order_of_what_touches(void **state) {
   static const int face[2][3][3] = {{{0, 0, 0}, {20, 0, 20}, {0, 20, 0}},
                                     {{1, 1, 2}, {15, 1, 14}, {1, 15, 1}}};
@@ -349,7 +351,7 @@ static void nothing_painted_later_is_behind(void **state) {
     char what[64];
     snprintf(what, sizeof what, "seed %u", (unsigned)seed);
     exact_random_sheet(&o.sheet, (enum exact_kind)(seed % EXACT_KINDS),
-                       2 + exact_below(&r, 9), &r);
+                       2 + exact_random_below(&r, 9), &r);
     assert_int_equal(put_in_order(&o, NULL), RECTO_OK);
     check_order(&o.order, what);
     cycles += o.order.counts.cycles;
@@ -414,11 +416,11 @@ int main(void) {
       cmocka_unit_test(a_cycle_costs_one_split),
       cmocka_unit_test(a_pierced_face_is_split_where_the_planes_cross),
       cmocka_unit_test(planes_that_cross_beside_the_faces_split_nothing),
-      cmocka_unit_test(depths_apart_settle_the_pair),
-      cmocka_unit_test(test_a_settles_what_is_apart_on_the_page),
-      cmocka_unit_test(test_b_settles_p_behind_the_plane_of_q),
-      cmocka_unit_test(test_c_settles_q_before_the_plane_of_p),
-      cmocka_unit_test(test_d_settles_what_only_seems_to_overlap),
+      cmocka_unit_test(disjoint_depths_decide_the_pair),
+      cmocka_unit_test(test_a_decides_pairs_disjoint_on_the_page),
+      cmocka_unit_test(test_b_decides_p_behind_the_plane_of_q),
+      cmocka_unit_test(test_c_decides_q_in_front_of_the_plane_of_p),
+      cmocka_unit_test(test_d_decides_disjoint_outlines_with_overlapping_boxes),
       cmocka_unit_test(a_face_behind_is_moved_ahead),
       cmocka_unit_test(equal_planes_are_painted_latest_first),
       cmocka_unit_test(lines_alone_need_no_order_of_what_touches),

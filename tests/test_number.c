@@ -332,7 +332,7 @@ static void plain_numbers_are_read_as_all_others(void **state) {
 }
 #endif
 
-static void words_for_what_is_not_finite_are_read(void **state) {
+static void names_of_non_finite_numbers_are_read(void **state) {
   (void)state;
   assert_reads("inf", INFINITY);
   assert_reads("-INF", -INFINITY);
@@ -565,7 +565,7 @@ int main(void) {
 #if DIGITS_WINDOWS
     cmocka_unit_test(plain_numbers_are_read_as_all_others),
 #endif
-    cmocka_unit_test(words_for_what_is_not_finite_are_read),
+    cmocka_unit_test(names_of_non_finite_numbers_are_read),
     cmocka_unit_test(a_whole_string_must_be_a_number),
     cmocka_unit_test(integers_are_read_up_to_their_limits),
     cmocka_unit_test(decimals_are_rounded_half_away_from_zero),

@@ -124,7 +124,7 @@ static void faces_may_come_before_their_points(void **state) {
   reading_fini(&r);
 }
 
-static void a_missing_index_is_told_as_the_file_has_it(void **state) {
+static void a_missing_index_is_reported_as_the_file_has_it(void **state) {
   (void)state;
   struct reading r;
   read_text(&r, POINTS "f 1 2 9999999999999999999\nf 1 2 -00000000000000005/1\n"
@@ -134,11 +134,11 @@ static void a_missing_index_is_told_as_the_file_has_it(void **state) {
                                       "123456789012345678901234..."};
   assert_int_equal(r.warnings, 3);
   for (int i = 0; i < 3; i++) {
-    char told[100];
-    snprintf(told, sizeof told,
+    char reported[100];
+    snprintf(reported, sizeof reported,
              "%d: %s with index %s where there are 4 points, skipped", i + 5,
              i < 2 ? "face" : "polyline", index[i]);
-    assert_string_equal(r.warning[i], told);
+    assert_string_equal(r.warning[i], reported);
   }
   reading_fini(&r);
 }
@@ -189,7 +189,7 @@ static void lines_may_be_continued(void **state) {
   assert_same("v 0 \\\n 0 0\nv 1 0\\\n 0\nv \\\r\n 1 1 0\nv 0 1 0\n"
               "f \\\n1 \\\n\\\n2 3\\\n\n",
               POINTS "f 1 2 3\n");
-  /* Faults are told by the line where their statement starts. */
+  /* Faults are reported by the line where their statement starts. */
   struct reading r;
   read_text(&r, POINTS "f 1 \\\n 2 \\\n 9\nf 1 1 1\n");
   assert_string_equal(r.warning[0], "5: face with index 9 where there are 4 "
@@ -608,7 +608,7 @@ int main(void) {
       T(faces_are_read_in_every_index_form),
       T(negative_indices_count_from_the_statement),
       T(faces_may_come_before_their_points),
-      T(a_missing_index_is_told_as_the_file_has_it),
+      T(a_missing_index_is_reported_as_the_file_has_it),
       T(polygons_may_have_any_number_of_corners),
       T(polylines_are_read),
       T(what_else_there_is_is_passed_over),

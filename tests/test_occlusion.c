@@ -175,7 +175,7 @@ static void an_edge_that_dives_is_hidden_beyond_the_tolerance(void **state) {
 
 /* From a corner shared, hidden from its very start or not at all: as it is
  * where it ends, or leaves the triangle at a quarter of its way. */
-static void an_edge_from_a_shared_corner_is_asked_once(void **state) {
+static void an_edge_from_a_shared_corner_is_tested_once(void **state) {
   struct occlusion_counts counts = {0};
   struct occluded_interval part;
   struct sheet sheet;
@@ -390,7 +390,7 @@ static void check_samples(const struct sheet *sheet, const struct map *map,
     if (p->x == q->x && p->y == q->y)
       continue;
     for (int k = 0; k < 4; k++) {
-      mpq_set_si(t, 1 + exact_below(r, 99990), 99991);
+      mpq_set_si(t, 1 + exact_random_below(r, 99990), 99991);
       check_edge(sheet, map, e, t, what);
     }
   }
@@ -406,7 +406,7 @@ static void intervals_are_those_of_the_oracle(void **state) {
     char what[64];
     snprintf(what, sizeof what, "seed %u", (unsigned)seed);
     exact_random_sheet(&sheet, (enum exact_kind)(seed % EXACT_KINDS),
-                       2 + exact_below(&r, 8), &r);
+                       2 + exact_random_below(&r, 8), &r);
     exact_solve(&solver_brute, &sheet, &map, NULL);
     check_samples(&sheet, &map, &r, what);
     map_fini(&map);
@@ -424,7 +424,7 @@ int main(void) {
       cmocka_unit_test(one_unit_of_depth_is_contact_and_two_are_not),
       cmocka_unit_test(a_unit_of_x_and_y_is_contact_too),
       cmocka_unit_test(an_edge_that_dives_is_hidden_beyond_the_tolerance),
-      cmocka_unit_test(an_edge_from_a_shared_corner_is_asked_once),
+      cmocka_unit_test(an_edge_from_a_shared_corner_is_tested_once),
       cmocka_unit_test(a_triangle_does_not_hide_its_own_sides),
       cmocka_unit_test(contact_is_a_length_of_the_scene),
       cmocka_unit_test(intervals_are_those_of_the_oracle),

@@ -89,13 +89,13 @@ static size_t count_bare(const struct picture *picture, size_t *outline) {
 static void draw_faces(struct picture *picture, const struct scene *scene,
                        const struct pipeline *pipeline,
                        const recto_options *options) {
-  struct judge_input asked;
-  assert_true(judge_input_init(&asked, scene));
+  struct judge_input input;
+  assert_true(judge_input_init(&input, scene));
   struct judge_camera camera =
-      judge_input_camera(&asked, &pipeline->camera, options);
+      judge_input_camera(&input, &pipeline->camera, options);
   judge_raster_init(&picture->faces, PIXELS, page_mm);
-  judge_raster_scene(&picture->faces, &asked.scene, &camera);
-  judge_input_fini(&asked);
+  judge_raster_scene(&picture->faces, &input.scene, &camera);
+  judge_input_fini(&input);
 }
 
 /* ---- Checks -------------------------------------------------------------- */

@@ -107,7 +107,8 @@ static void a_cycle_cannot_be_painted(void **state) {
 }
 
 /* The table's middle is nearer than the cup on its far end. */
-static void depth_sort_is_wrong_for_a_cup_on_a_long_table(void **state) {
+static void
+depth_sort_is_wrong_for_a_small_object_on_a_long_table(void **state) {
   static const int table[][3] = {
       {0, 0, 0}, {100, 0, 100}, {100, 20, 100}, {0, 20, 0}};
   static const int cup[][3] = {
@@ -136,7 +137,7 @@ static void what_is_painted_covers_all_there_is(void **state) {
     struct sheet sheet;
     mpq_t *area2, covered, sum;
     exact_random_sheet(&sheet, (enum exact_kind)(seed % EXACT_KINDS),
-                       2 + exact_below(&r, 3), &r);
+                       2 + exact_random_below(&r, 3), &r);
     area2 = malloc((sheet.triangle.count + 1) * sizeof *area2);
     assert_non_null(area2);
     for (size_t t = 0; t < sheet.triangle.count; t++)
@@ -167,7 +168,7 @@ int main(void) {
       cmocka_unit_test(the_given_order_is_right_from_back_to_front),
       cmocka_unit_test(the_given_order_is_wrong_from_front_to_back),
       cmocka_unit_test(a_cycle_cannot_be_painted),
-      cmocka_unit_test(depth_sort_is_wrong_for_a_cup_on_a_long_table),
+      cmocka_unit_test(depth_sort_is_wrong_for_a_small_object_on_a_long_table),
       cmocka_unit_test(what_is_painted_covers_all_there_is),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

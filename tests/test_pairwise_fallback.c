@@ -1,6 +1,6 @@
-/* test_pairwise_fallback.c - scenes in which Newell's splits, Warnock's windows and
- * Watkins' trapezoids would grow out of bounds: each method draws them as the
- * oracle does, in bounded memory. */
+/* test_pairwise_fallback.c - scenes in which Newell's splits, Warnock's windows
+ * and Watkins' trapezoids would grow out of bounds: each method draws them as
+ * the oracle does, in bounded memory. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -101,7 +101,7 @@ static void add_scene(struct scene *scene, int kind) {
 
 /* ---- The same drawing ---------------------------------------------------- */
 
-static void crowds_are_drawn_as_by_brute(void **state) {
+static void long_lists_are_drawn_as_by_brute(void **state) {
   (void)state;
   for (int kind = 0; kind < 5; kind++)
     for (int fill = 0; fill < 2; fill++) {
@@ -140,7 +140,7 @@ static int64_t left_over(const struct solver *solver, recto_fill fill,
   return count;
 }
 
-static void what_pierces_too_much_is_left_over(void **state) {
+static void faces_that_pierce_too_many_are_left_undecided(void **state) {
   (void)state;
   assert_true(left_over(&solver_warnock, RECTO_FILL_NONE, "left_over") > 0);
   assert_true(left_over(&solver_newell, RECTO_FILL_NONE, "without_order") > 50);
@@ -189,14 +189,14 @@ static void two_hundred_piercing_triangles_take_little_memory(void **state) {
 /* ---- Ends ---------------------------------------------------------------- */
 
 struct patience {
-  int asked, most;
+  int polled, most;
 };
 
 static bool stop_in_a_while(void *user, double share, const char *stage) {
   struct patience *patience = user;
   assert_true(share >= 0 && share <= 1);
   assert_non_null(stage);
-  return ++patience->asked < patience->most;
+  return ++patience->polled < patience->most;
 }
 
 /* Solves for lines and faces. */
@@ -223,7 +223,7 @@ static recto_status solve(struct sheet_fixture *fixture,
   return status;
 }
 
-static void cancelling_ends_the_work_whenever_it_is_asked_for(void **state) {
+static void cancelling_ends_the_work_at_any_time(void **state) {
   struct sheet_fixture fixture;
   (void)state;
   sheet_fixture_start(&fixture);
@@ -234,15 +234,15 @@ static void cancelling_ends_the_work_whenever_it_is_asked_for(void **state) {
     for (int most = 1; status != RECTO_OK; most += 1 + most / 4) {
       struct patience patience = {0, most};
       status = solve(&fixture, *s, &patience);
-      assert_true(patience.asked <= most);
-      assert_int_equal(status, patience.asked == most ? RECTO_ERROR_CANCELLED
-                                                      : RECTO_OK);
+      assert_true(patience.polled <= most);
+      assert_int_equal(status, patience.polled == most ? RECTO_ERROR_CANCELLED
+                                                       : RECTO_OK);
     }
   }
   sheet_fixture_fini(&fixture);
 }
 
-static void running_out_of_memory_is_told(void **state) {
+static void running_out_of_memory_is_reported(void **state) {
   struct sheet_fixture fixture;
   (void)state;
   sheet_fixture_start(&fixture);
@@ -264,11 +264,11 @@ static void running_out_of_memory_is_told(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(crowds_are_drawn_as_by_brute),
-      cmocka_unit_test(what_pierces_too_much_is_left_over),
+      cmocka_unit_test(long_lists_are_drawn_as_by_brute),
+      cmocka_unit_test(faces_that_pierce_too_many_are_left_undecided),
       cmocka_unit_test(two_hundred_piercing_triangles_take_little_memory),
-      cmocka_unit_test(cancelling_ends_the_work_whenever_it_is_asked_for),
-      cmocka_unit_test(running_out_of_memory_is_told),
+      cmocka_unit_test(cancelling_ends_the_work_at_any_time),
+      cmocka_unit_test(running_out_of_memory_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -114,7 +114,7 @@ else
 fi
 judge hp2xx hpgl "a plotter whose unit is smaller is sent more of them" \
   is_larger_to_hp2xx
-# The measure tells a page that is not the drawing from one that is.
+# The measure distinguishes a page that is not the drawing from one that is.
 wrong_page_is_found_out() {
   "$tool" write lattice "$1" "wrong.$1" dpi=600 &&
     ! measure "wrong.$1" 600 0.01 head

@@ -93,7 +93,7 @@ static void one_thread_starts_no_other(void **state) {
   (void)state;
   to_start = 0;
   assert_int_equal(run(1), 1);
-  assert_int_equal(to_start, 0); /* nobody asked */
+  assert_int_equal(to_start, 0); /* none was needed */
 }
 
 static void threads_that_cannot_start_are_done_without(void **state) {

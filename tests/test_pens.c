@@ -66,7 +66,7 @@ static void hidden_goes_before_class_and_class_before_group(void **state) {
   assert_pens("hidden=1000,thing=999", layer, (unsigned[]){999, 999, 1000, 1});
 }
 
-static void groups_go_by_their_whole_name_or_a_part(void **state) {
+static void groups_match_by_whole_name_or_component(void **state) {
   static const char *const names[] = {"car/wheel/red=2", "car=2",
                                       "wheel=2",         "red=2",
                                       "wheel/red=2",     "car/wheel=2"};
@@ -99,8 +99,8 @@ static void layers_say_what_is_on_their_pen(void **state) {
   ink_fixture_end(&k);
 }
 
-/* What is not asked for is not on the layer's label. */
-static void layers_say_nothing_of_what_is_not_asked_for(void **state) {
+/* Classes that are not requested are not on the layer's label. */
+static void layers_do_not_name_classes_not_requested(void **state) {
   struct ink_fixture k;
   (void)state;
   start_scene(&k);
@@ -134,7 +134,7 @@ static void assert_told(struct ink_fixture *k, const char *said) {
   struct pens pens;
   struct heard heard = {.count = 0};
   assert_int_equal(pens_init(&pens, &k->scene, &k->options, NULL), RECTO_OK);
-  pens_warn_unused(&pens, &k->options); /* nobody listens */
+  pens_warn_unused(&pens, &k->options); /* without a callback */
   k->options.warning = hear;
   k->options.user = &heard;
   pens_warn_unused(&pens, &k->options);
@@ -144,7 +144,7 @@ static void assert_told(struct ink_fixture *k, const char *said) {
   pens_fini(&pens);
 }
 
-static void pens_with_nothing_to_draw_are_told(void **state) {
+static void unused_pens_are_reported(void **state) {
   static const struct {
     const char *pens, *widths, *colours;
     recto_hidden hidden;
@@ -187,7 +187,7 @@ static void pens_with_nothing_to_draw_are_told(void **state) {
   }
 }
 
-static void weights_of_lines_not_asked_for_are_told(void **state) {
+static void weights_of_classes_not_drawn_are_reported(void **state) {
   static const struct {
     const char *weights;
     unsigned edges;
@@ -289,7 +289,7 @@ static void find_widths(const char *weights, int pens, double width[3],
   ink_fixture_end(&k);
 }
 
-static void outlines_are_twice_as_wide_unless_told_otherwise(void **state) {
+static void outlines_are_twice_as_wide_by_default(void **state) {
   double width[3];
   size_t strokes;
   (void)state;
@@ -384,15 +384,15 @@ static void one_name_has_one_value(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(hidden_goes_before_class_and_class_before_group),
-      cmocka_unit_test(groups_go_by_their_whole_name_or_a_part),
+      cmocka_unit_test(groups_match_by_whole_name_or_component),
       cmocka_unit_test(layers_say_what_is_on_their_pen),
-      cmocka_unit_test(layers_say_nothing_of_what_is_not_asked_for),
-      cmocka_unit_test(pens_with_nothing_to_draw_are_told),
-      cmocka_unit_test(weights_of_lines_not_asked_for_are_told),
+      cmocka_unit_test(layers_do_not_name_classes_not_requested),
+      cmocka_unit_test(unused_pens_are_reported),
+      cmocka_unit_test(weights_of_classes_not_drawn_are_reported),
       cmocka_unit_test(fills_lie_below_the_lines_of_all_pens),
       cmocka_unit_test(half_the_strokes_own_pen_is_the_shortest),
       cmocka_unit_test(strokes_of_pens_that_meet_are_not_joined),
-      cmocka_unit_test(outlines_are_twice_as_wide_unless_told_otherwise),
+      cmocka_unit_test(outlines_are_twice_as_wide_by_default),
       cmocka_unit_test(hidden_lines_weigh_nothing_extra),
       cmocka_unit_test(lists_that_make_no_sense_are_refused),
       cmocka_unit_test(one_name_has_one_value),

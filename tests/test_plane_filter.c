@@ -1,4 +1,4 @@
-/* test_plane_filter.c - planes in doubles, and cells in one word, only say what the
+/* test_plane_filter.c - planes in doubles, and 8-DOP keys, only decide what the
  * exact answers say. */
 #include "visibility/predicate/plane_filter.h"
 #include "exact_fixture/sheet.h"
@@ -111,7 +111,7 @@ static void compare_with_exact(bool perspective, int bits, int depth_bits,
   exact_sheet_fini(&sheet);
 }
 
-static void doubles_are_right_or_do_not_know(void **state) {
+static void doubles_are_right_or_undecided(void **state) {
   int certain[5] = {0, 0, 0, 0, 0};
   (void)state;
   for (int i = 0; i < 300; i++) {
@@ -142,7 +142,7 @@ static bool overlap(const struct kdop8 *a, const struct kdop8 *b) {
   return a->high >= b->low;
 }
 
-static void words_deny_only_what_does_not_meet(void **state) {
+static void keys_exclude_only_disjoint_triangles(void **state) {
   int denied = 0, met = 0;
   (void)state;
   for (int i = 0; i < 20000; i++) {
@@ -167,8 +167,8 @@ static void words_deny_only_what_does_not_meet(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(doubles_are_right_or_do_not_know),
-      cmocka_unit_test(words_deny_only_what_does_not_meet),
+      cmocka_unit_test(doubles_are_right_or_undecided),
+      cmocka_unit_test(keys_exclude_only_disjoint_triangles),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -393,7 +393,7 @@ static void many_colours_make_few_groups(void **state) {
   free(text);
 }
 
-/* The colours that are told from each other make no lines on the surface. */
+/* The colours that are distinguished make no lines on the surface. */
 static void colours_make_no_lines(void **state) {
   struct reading r;
   (void)state;
@@ -446,7 +446,7 @@ static void the_decimals_of_a_text_say_its_precision(void **state) {
 
 /* ---- What is wrong ------------------------------------------------------- */
 
-static void broken_headers_are_told_by_their_line(void **state) {
+static void broken_headers_are_reported_by_their_line(void **state) {
   (void)state;
   assert_refused("", 1, "first line is not 'ply'");
   assert_refused("plyx\n", 1, "first line is not 'ply'");
@@ -636,7 +636,7 @@ int main(void) {
       cmocka_unit_test(colours_make_no_lines),
       cmocka_unit_test(the_type_of_positions_says_their_precision),
       cmocka_unit_test(the_decimals_of_a_text_say_its_precision),
-      cmocka_unit_test(broken_headers_are_told_by_their_line),
+      cmocka_unit_test(broken_headers_are_reported_by_their_line),
       cmocka_unit_test(counts_that_the_file_cannot_hold_take_no_memory),
       cmocka_unit_test(elements_that_make_no_sense_are_skipped),
       cmocka_unit_test(a_face_of_no_corners_is_skipped),

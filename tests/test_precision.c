@@ -1,4 +1,4 @@
-/* test_precision.c - a file's literals tell how far rounding moved its
+/* test_precision.c - a file's literals show how far rounding moved its
  * coordinates. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -128,7 +128,7 @@ static void integers_with_a_lone_decimal_take_its_place(void **state) {
                    0.5e-6, PRECISION_SINGLE);
 }
 
-static void a_lone_zero_tells_nothing(void **state) {
+static void a_lone_zero_decides_nothing(void **state) {
   (void)state;
   assert_precision(read_text(&reader_obj, "v 0 0.0 0.00000000\n"
                                           "v 1.234567 -0.345678 0\n"
@@ -178,14 +178,14 @@ static void tiny_residues_do_not_make_fine_places(void **state) {
   assert_precision(found, 0, 0.5e-6);
 }
 
-static void shortest_singles_are_singles(void **state) {
+static void shortest_singles_are_single_precision(void **state) {
   (void)state;
   struct precision found = read_text(&reader_obj, make_shortest_obj(10));
   assert_precision((struct precision){0, found.relative}, 0, PRECISION_SINGLE);
   assert_true(found.absolute < 1e-7);
 }
 
-static void singles_moved_far_are_known(void **state) {
+static void translated_single_precision_is_recognised(void **state) {
   (void)state;
   const char *text = make_obj('f', 6, AS_SINGLE, 1e6, 10);
   struct precision found = read_text(&reader_obj, text);
@@ -230,7 +230,7 @@ static const char *make_stl(const char *obj) {
   return text;
 }
 
-static void a_text_stl_tells_as_an_obj_does(void **state) {
+static void a_text_stl_has_the_precision_of_an_obj(void **state) {
   (void)state;
   assert_precision(
       read_text(&reader_stl, make_stl(make_obj('f', 6, AS_DOUBLE, 0, 100))),
@@ -251,7 +251,7 @@ static void numbers_that_are_not_finite_do_not_count(void **state) {
                    0, 0);
 }
 
-static void odd_numbers_have_some_precision(void **state) {
+static void unusual_numbers_have_some_precision(void **state) {
   (void)state;
   static const char *const texts[] = {
       "v 1e300 1.23456e308 5e-324\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
@@ -317,7 +317,7 @@ static void each_file_has_its_own_range(void **state) {
   reading_fini(&reading);
 }
 
-static void points_of_no_file_have_the_caller_s(void **state) {
+static void points_of_no_file_have_the_caller_s_precision(void **state) {
   (void)state;
   struct reading reading;
   struct scene_point point = {1, 2, 3};
@@ -385,22 +385,22 @@ int main(void) {
       cmocka_unit_test(three_decimals_round_by_half_of_the_third),
       cmocka_unit_test(integers_are_exact),
       cmocka_unit_test(integers_with_a_lone_decimal_take_its_place),
-      cmocka_unit_test(a_lone_zero_tells_nothing),
+      cmocka_unit_test(a_lone_zero_decides_nothing),
       cmocka_unit_test(authored_numbers_are_exact),
       cmocka_unit_test(a_few_long_numbers_among_authored_ones_do_not_count),
       cmocka_unit_test(general_notation_rounds_to_its_digits),
       cmocka_unit_test(exponents_round_to_their_digits),
       cmocka_unit_test(tiny_residues_do_not_make_fine_places),
-      cmocka_unit_test(shortest_singles_are_singles),
-      cmocka_unit_test(singles_moved_far_are_known),
+      cmocka_unit_test(shortest_singles_are_single_precision),
+      cmocka_unit_test(translated_single_precision_is_recognised),
       cmocka_unit_test(doubles_far_away_stay_precise),
       cmocka_unit_test(the_end_of_a_file_counts_as_its_beginning),
-      cmocka_unit_test(a_text_stl_tells_as_an_obj_does),
+      cmocka_unit_test(a_text_stl_has_the_precision_of_an_obj),
       cmocka_unit_test(numbers_that_are_not_finite_do_not_count),
-      cmocka_unit_test(odd_numbers_have_some_precision),
+      cmocka_unit_test(unusual_numbers_have_some_precision),
       cmocka_unit_test(a_binary_stl_is_single),
       cmocka_unit_test(each_file_has_its_own_range),
-      cmocka_unit_test(points_of_no_file_have_the_caller_s),
+      cmocka_unit_test(points_of_no_file_have_the_caller_s_precision),
       cmocka_unit_test(a_failed_read_leaves_the_ranges),
       cmocka_unit_test(bits_make_a_precision),
       cmocka_unit_test(bits_have_a_range),

@@ -21,19 +21,20 @@ static struct geom_point extreme(int k) {
 }
 
 static struct geom_point draw(uint64_t *r) {
-  struct geom_point p = extreme(exact_below(r, EXTREMES));
-  switch (exact_below(r, 3)) {
+  struct geom_point p = extreme(exact_random_below(r, EXTREMES));
+  switch (exact_random_below(r, 3)) {
   case 0: /* small, so that all kinds of coincidence happen */
-    return (struct geom_point){exact_below(r, 7) - 3, exact_below(r, 7) - 3,
-                               exact_below(r, 4)};
+    return (struct geom_point){exact_random_below(r, 7) - 3,
+                               exact_random_below(r, 7) - 3,
+                               exact_random_below(r, 4)};
   case 1:
-    p.x += p.x > 0 ? -exact_below(r, 3) : exact_below(r, 3);
-    p.y += p.y > 0 ? -exact_below(r, 3) : exact_below(r, 3);
-    p.z += p.z > 0 ? -exact_below(r, 3) : exact_below(r, 3);
+    p.x += p.x > 0 ? -exact_random_below(r, 3) : exact_random_below(r, 3);
+    p.y += p.y > 0 ? -exact_random_below(r, 3) : exact_random_below(r, 3);
+    p.z += p.z > 0 ? -exact_random_below(r, 3) : exact_random_below(r, 3);
     return p;
   default:
-    return (struct geom_point){exact_below(r, 2 * XY_MAX) - XY_MAX,
-                               exact_below(r, 2 * XY_MAX) - XY_MAX,
+    return (struct geom_point){exact_random_below(r, 2 * XY_MAX) - XY_MAX,
+                               exact_random_below(r, 2 * XY_MAX) - XY_MAX,
                                (int64_t)(exact_random(r) & (uint64_t)Z_MAX)};
   }
 }

@@ -1,5 +1,5 @@
-/* test_quantitative_invisibility.c - behind how many faces an edge runs, against what brute force
- * says and against the visible map. */
+/* test_quantitative_invisibility.c - the number of faces that hide an edge,
+ * compared with brute force and with the visible map. */
 #include "exact_fixture/scene.h"
 
 #include <setjmp.h>
@@ -69,7 +69,7 @@ static void plates_are_counted_one_by_one(void **state) {
   exact_sheet_fini(&sheet);
 }
 
-static void nothing_is_deep_where_enough_is_allowed(void **state) {
+static void nothing_exceeds_a_limit_that_is_large_enough(void **state) {
   struct sheet sheet;
   struct map map;
   (void)state;
@@ -114,14 +114,14 @@ static void counts_are_brute_force_ones_on_hard_sheets(void **state) {
     uint64_t r = seed;
     exact_random_sheet(&sheet, (enum exact_kind)(seed % EXACT_KINDS), 12, &r);
     exact_solve(&solver_brute, &sheet, &map, NULL);
-    int most = exact_below(&r, 4);
+    int most = exact_random_below(&r, 4);
     find(&map, &sheet, most);
     for (uint32_t e = 0; e < map.edge_count; e++) {
       const struct sheet_edge *edge = &sheet.edge.item[e];
       const struct geom_point *p = &sheet.point.item[edge->point[0]];
       const struct geom_point *q = &sheet.point.item[edge->point[1]];
       /* Odd parts of a large prime: no triangle ends there. */
-      struct ratio t = ratio_of(1 + exact_below(&r, 1000000), 1000003);
+      struct ratio t = ratio_of(1 + exact_random_below(&r, 1000000), 1000003);
       if (edge->edge_class == 0 || (p->x == q->x && p->y == q->y))
         continue;
       assert_int_equal(is_deep(&map, e, t), count_at(&sheet, e, t) > most);
@@ -294,7 +294,7 @@ static void counting_can_be_cancelled_and_fails_cleanly(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(plates_are_counted_one_by_one),
-      cmocka_unit_test(nothing_is_deep_where_enough_is_allowed),
+      cmocka_unit_test(nothing_exceeds_a_limit_that_is_large_enough),
       cmocka_unit_test(counts_are_brute_force_ones_on_hard_sheets),
       cmocka_unit_test(what_any_face_hides_is_what_is_not_visible),
       cmocka_unit_test(each_layer_more_shows_more),

@@ -14,7 +14,7 @@ enum { ROUNDS = 50000, BITS = 125, LERP_BITS = 42 };
 static int128 below(uint64_t *r, int bits) {
   uint128 wide = ((uint128)exact_random(r) << 64) | exact_random(r);
   uint128 limit = (uint128)1 << bits;
-  switch (exact_below(r, 8)) {
+  switch (exact_random_below(r, 8)) {
   case 0:
     return (int128)(limit - 1);
   case 1:
@@ -31,13 +31,13 @@ static struct ratio draw(uint64_t *r) {
   static const int edges[] = {1, 30, 62, 63, 64, 65, 80, 81, 82, 124, BITS};
   enum { EDGES = sizeof edges / sizeof *edges };
   struct ratio ratio = {
-      below(r, exact_below(r, 2) ? edges[exact_below(r, EDGES)]
-                                 : 1 + exact_below(r, BITS)),
-      below(r, exact_below(r, 2) ? edges[exact_below(r, EDGES)]
-                                 : 1 + exact_below(r, BITS))};
+      below(r, exact_random_below(r, 2) ? edges[exact_random_below(r, EDGES)]
+                                        : 1 + exact_random_below(r, BITS)),
+      below(r, exact_random_below(r, 2) ? edges[exact_random_below(r, EDGES)]
+                                        : 1 + exact_random_below(r, BITS))};
   if (ratio.den == 0)
     ratio.den = 1;
-  if (exact_below(r, 2))
+  if (exact_random_below(r, 2))
     ratio.num = -ratio.num;
   return ratio;
 }
@@ -46,10 +46,10 @@ static struct ratio draw(uint64_t *r) {
 static struct ratio draw_near(uint64_t *r, struct ratio a) {
   const int128 limit = (int128)1 << (BITS - 3);
   if (-limit < a.num && a.num < limit && a.den < limit) {
-    int factor = 1 + exact_below(r, 7);
-    a.num = a.num * factor + exact_below(r, 3) - 1;
-    a.den = a.den * factor + exact_below(r, 2);
-  } else if (exact_below(r, 2)) {
+    int factor = 1 + exact_random_below(r, 7);
+    a.num = a.num * factor + exact_random_below(r, 3) - 1;
+    a.den = a.den * factor + exact_random_below(r, 2);
+  } else if (exact_random_below(r, 2)) {
     a.num /= 2;
     a.den = a.den / 2 + 1;
   } else {
@@ -68,7 +68,7 @@ static void comparing_is_what_gmp_says(void **state) {
   mpq_inits(p, q, NULL);
   for (int i = 0; i < ROUNDS; i++) {
     struct ratio a = draw(&r),
-                 b = exact_below(&r, 2) ? draw(&r) : draw_near(&r, a);
+                 b = exact_random_below(&r, 2) ? draw(&r) : draw_near(&r, a);
     rational_set_ratio(p, a);
     rational_set_ratio(q, b);
     assert_int_equal(sign(ratio_compare(a, b)), sign(mpq_cmp(p, q)));
@@ -100,7 +100,7 @@ static void comparing_is_antisymmetric_and_reflexive(void **state) {
   (void)state;
   for (int i = 0; i < ROUNDS; i++) {
     struct ratio a = draw(&r),
-                 b = exact_below(&r, 2) ? draw(&r) : draw_near(&r, a);
+                 b = exact_random_below(&r, 2) ? draw(&r) : draw_near(&r, a);
     assert_int_equal(sign(ratio_compare(a, b)), -sign(ratio_compare(b, a)));
     assert_int_equal(ratio_compare(a, a), 0);
   }
@@ -135,8 +135,8 @@ static struct ratio draw_share(uint64_t *r) {
 }
 
 static int64_t draw_end(uint64_t *r) {
-  int64_t v = (int64_t)below(r, exact_below(r, 2) ? LERP_BITS : 31);
-  return exact_below(r, 2) ? v : -v;
+  int64_t v = (int64_t)below(r, exact_random_below(r, 2) ? LERP_BITS : 31);
+  return exact_random_below(r, 2) ? v : -v;
 }
 
 /* floor(p0 + t (p1 - p0) + 1/2) */

@@ -107,7 +107,7 @@ static void the_first_file_says_what_up_is(void **state) {
 
 /* ---- The bytes ----------------------------------------------------------- */
 
-static void files_that_cannot_be_read_are_told(void **state) {
+static void files_that_cannot_be_read_are_reported(void **state) {
   assert_refused(temporary_path(state, "none.obj"), NULL, RECTO_ERROR_IO,
                  "cannot open: No such file or directory");
   assert_refused(*state, "obj", RECTO_ERROR_IO, "cannot read: Is a directory");
@@ -270,7 +270,7 @@ static void more_triangles_than_the_limit_are_refused(void **state) {
   munmap(bytes, size);
 }
 
-static void what_was_wrong_is_summed_up_at_the_end(void **state) {
+static void faults_are_summed_up_at_the_end(void **state) {
   char text[1000], *to = text;
   to += sprintf(to, "%s", triangle);
   for (int i = 0; i < 9; i++)
@@ -295,14 +295,14 @@ int main(void) {
       T(the_format_wins_over_the_extension),
       T(what_no_reader_knows_is_refused),
       T(the_first_file_says_what_up_is),
-      T(files_that_cannot_be_read_are_told),
+      T(files_that_cannot_be_read_are_reported),
       T(a_file_of_whole_pages_is_read),
       T(standard_input_may_be_a_pipe),
       T(standard_input_may_be_a_file),
       T(a_broken_file_leaves_the_scene_as_it_was),
       T(running_out_of_memory_leaves_the_scene_as_it_was),
       T(more_triangles_than_the_limit_are_refused),
-      T(what_was_wrong_is_summed_up_at_the_end),
+      T(faults_are_summed_up_at_the_end),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -187,8 +187,8 @@ static bool inside_piece(const struct geom_convex *piece,
 /* A number between 0 and `size` that is not whole, of a prime denominator, so
  * that two of them are on no line of the lattice. */
 static void set_between(mpq_t to, uint64_t *r, int size, int prime) {
-  int whole = exact_below(r, size);
-  mpq_set_si(to, whole * prime + 1 + exact_below(r, prime - 1),
+  int whole = exact_random_below(r, size);
+  mpq_set_si(to, whole * prime + 1 + exact_random_below(r, prime - 1),
              (unsigned long)prime);
 }
 
@@ -283,8 +283,9 @@ static void cut_by(struct mosaic *m, const struct geom_line *cut) {
 }
 
 static struct geom_point lattice_point(uint64_t *r, int size) {
-  return (struct geom_point){exact_below(r, size + 1), exact_below(r, size + 1),
-                             exact_below(r, 50)};
+  return (struct geom_point){exact_random_below(r, size + 1),
+                             exact_random_below(r, size + 1),
+                             exact_random_below(r, 50)};
 }
 
 /* A random line through lattice points, or where two planes cross. */
@@ -294,7 +295,7 @@ static bool random_cut(uint64_t *r, int size, struct geom_line *line) {
     struct geom_point p[3];
     for (int k = 0; k < 3; k++)
       p[k] = lattice_point(r, size);
-    if (i == 0 && exact_below(r, 2)) {
+    if (i == 0 && exact_random_below(r, 2)) {
       if (p[0].x == p[1].x && p[0].y == p[1].y)
         return false;
       geom_line_through(line, p[0], p[1]);
@@ -309,7 +310,7 @@ static bool random_cut(uint64_t *r, int size, struct geom_line *line) {
 
 static void shuffle(struct mosaic *m, uint64_t *r) {
   for (size_t k = m->piece.count; k > 1; k--) {
-    size_t other = (size_t)exact_below(r, (int)k);
+    size_t other = (size_t)exact_random_below(r, (int)k);
     struct geom_convex swap = m->piece.item[k - 1];
     m->piece.item[k - 1] = m->piece.item[other];
     m->piece.item[other] = swap;
@@ -318,22 +319,22 @@ static void shuffle(struct mosaic *m, uint64_t *r) {
 
 /* Random parts of a lattice whose squares are cut in up to four. */
 static void random_mosaic(struct mosaic *m, uint64_t *r, int size) {
-  int fill = 2 + exact_below(r, 5);
+  int fill = 2 + exact_random_below(r, 5);
   for (int y = 0; y < size; y++)
     for (int x = 0; x < size; x++) {
       int a = 2 * x, b = 2 * y, c = a + 2, d = b + 2;
-      if (exact_below(r, 3) == 0) {
-        if (exact_below(r, 8) < fill)
+      if (exact_random_below(r, 3) == 0) {
+        if (exact_random_below(r, 8) < fill)
           add_box(m, a, b, c, d);
         continue;
       }
-      if (exact_below(r, 8) < fill)
+      if (exact_random_below(r, 8) < fill)
         add_triangle(m, a, b, c, b, a + 1, b + 1);
-      if (exact_below(r, 8) < fill)
+      if (exact_random_below(r, 8) < fill)
         add_triangle(m, c, b, c, d, a + 1, b + 1);
-      if (exact_below(r, 8) < fill)
+      if (exact_random_below(r, 8) < fill)
         add_triangle(m, c, d, a, d, a + 1, b + 1);
-      if (exact_below(r, 8) < fill)
+      if (exact_random_below(r, 8) < fill)
         add_triangle(m, a, d, a, b, a + 1, b + 1);
     }
 }
@@ -344,7 +345,7 @@ static void random_regions_are_right(void **state) {
     uint64_t r = seed;
     struct mosaic m = {0};
     struct geom_region region = {0};
-    int size = 2 + exact_below(&r, 5);
+    int size = 2 + exact_random_below(&r, 5);
     random_mosaic(&m, &r, size);
     unite(&region, &m);
     check_samples(&region, &m, 2 * size, &r);
@@ -363,10 +364,10 @@ static void the_form_depends_on_the_union_alone(void **state) {
       struct geom_line line;
       int size, cuts;
       r = seed;
-      size = 2 + exact_below(&r, 4);
+      size = 2 + exact_random_below(&r, 4);
       random_mosaic(&m[i], &r, size);
       r += (uint64_t)i;
-      cuts = exact_below(&r, 4) * i;
+      cuts = exact_random_below(&r, 4) * i;
       for (int k = 0; k < cuts;)
         if (random_cut(&r, 2 * size, &line)) {
           cut_by(&m[i], &line);

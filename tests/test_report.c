@@ -25,7 +25,7 @@ static void an_empty_report_is_an_empty_object(void **state) {
   assert_string_equal(report_json(*state), "{}\n");
 }
 
-static void entries_stand_in_order_of_first_mention(void **state) {
+static void entries_are_in_order_of_first_mention(void **state) {
   struct report *report = *state;
   report_int(report, "scene", "points", 8);
   report_double(report, "time", "parse", 0.25);
@@ -60,7 +60,7 @@ static void a_later_value_replaces_one_of_any_kind(void **state) {
                                            "  }\n}\n");
 }
 
-static void adding_starts_from_nought(void **state) {
+static void adding_starts_from_zero(void **state) {
   struct report *report = *state;
   report_add(report, "newell", "tests", 3);
   report_add(report, "newell", "tests", 4);
@@ -154,9 +154,9 @@ int main(void) {
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
   const struct CMUnitTest tests[] = {
       T(an_empty_report_is_an_empty_object),
-      T(entries_stand_in_order_of_first_mention),
+      T(entries_are_in_order_of_first_mention),
       T(a_later_value_replaces_one_of_any_kind),
-      T(adding_starts_from_nought),
+      T(adding_starts_from_zero),
       T(text_of_any_bytes_is_quoted),
       T(what_is_not_finite_is_null),
       T(a_decimal_comma_changes_nothing),

@@ -114,7 +114,7 @@ static int32_t clamp_column(int64_t column) {
 }
 
 /* Sides of whole corners, where centres often lie right on them. */
-static void columns_past_an_edge_leave_out_the_one_on_it(void **state) {
+static void columns_past_an_edge_exclude_the_one_on_it(void **state) {
   struct random random = {10};
   int on = 0;
   (void)state;
@@ -271,7 +271,7 @@ static int64_t invert(int64_t a, int64_t m) {
 }
 
 /* A side that passes a pixel's centre at 1 / height of a plane unit, on
- * either side: far closer than doubles can tell in pixels of 2^24 units. */
+ * either side: far closer than doubles resolve in pixels of 2^24 units. */
 static void sides_that_graze_a_centre_are_decided_exactly(void **state) {
   const int64_t pixel = 1 << 24, top = SIDE * pixel;
   (void)state;
@@ -366,7 +366,7 @@ static void change_of_the_active_edges_is_noticed(void **state) {
 }
 
 /* Many sides from one point that is the centre of a pixel: all have the same
- * x on the first line and only their slopes tell them apart. */
+ * x on the first line and differ only in their slopes. */
 static void fan_from_a_centre_is_ordered_by_slope(void **state) {
   enum { FAN = 5000 };
   struct scan_grid grid = make_grid(2 << 20, 2, 0, 0, false);
@@ -504,7 +504,7 @@ static void spans_add_up_to_the_area_of_a_turned_square(void **state) {
   assert_true(area > 900 - 0.05 && area < 900 + 0.05);
 }
 
-static void running_out_of_memory_is_told(void **state) {
+static void running_out_of_memory_is_reported(void **state) {
   const int64_t square[] = {10, 5, 25, 5, 25, 25, 10, 25};
   struct scan_grid grid = plain_grid(false);
   unsigned long fails = 0;
@@ -534,7 +534,7 @@ int main(void) {
       cmocka_unit_test(random_polygons_match_the_judge),
       cmocka_unit_test(random_large_polygons_match_the_judge),
       cmocka_unit_test(sides_that_graze_a_centre_are_decided_exactly),
-      cmocka_unit_test(columns_past_an_edge_leave_out_the_one_on_it),
+      cmocka_unit_test(columns_past_an_edge_exclude_the_one_on_it),
       cmocka_unit_test(neighbours_share_no_pixel_and_leave_none),
       cmocka_unit_test(active_edges_stay_in_order_and_end_in_time),
       cmocka_unit_test(change_of_the_active_edges_is_noticed),
@@ -544,7 +544,7 @@ int main(void) {
       cmocka_unit_test(convex_polygons_hand_over_at_their_corners),
       cmocka_unit_test(flat_polygon_covers_no_line),
       cmocka_unit_test(spans_add_up_to_the_area_of_a_turned_square),
-      cmocka_unit_test(running_out_of_memory_is_told),
+      cmocka_unit_test(running_out_of_memory_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

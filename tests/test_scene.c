@@ -165,7 +165,7 @@ static void fewer_than_three_distinct_corners_are_no_face(void **state) {
 }
 
 /* Reported: such a face has three corners and no line goes through them. */
-static void a_way_there_and_back_is_no_face(void **state) {
+static void a_path_there_and_back_is_no_face(void **state) {
   struct reading *r = *state;
   POLYGON(r, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}});
   POLYGON(r, {{1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
@@ -352,7 +352,7 @@ static void polygons_cross_where_two_sides_do(void **state) {
 
 /* A comb whose teeth are all active at once has a quarter of a million pairs
  * of sides at 1,000 and would take minutes at 100,000. */
-static void a_huge_comb_ends_soon(void **state) {
+static void a_huge_comb_takes_bounded_time(void **state) {
   struct reading *r = *state;
   enum { TEETH = 50000 };
   uint32_t *corner = calloc(2 * TEETH + 2, sizeof *corner), count = 0;
@@ -398,7 +398,7 @@ static void polylines_keep_two_distinct_points_at_least(void **state) {
 
 /* ---- Diagnostics --------------------------------------------------------- */
 
-static void three_of_a_kind_are_told_and_the_rest_counted(void **state) {
+static void three_of_a_kind_are_reported_and_the_rest_counted(void **state) {
   struct reading *r = *state;
   for (unsigned long line = 1; line <= 10; line++)
     diagnostics_fault(&r->diagnostics, SCENE_FAULT_INDEX, line, "bad %lu",
@@ -418,7 +418,7 @@ static void three_of_a_kind_are_told_and_the_rest_counted(void **state) {
   assert_int_equal(r->diagnostics.count[SCENE_FAULT_WARPED], 1);
 }
 
-static void the_next_file_is_told_anew(void **state) {
+static void the_next_file_is_reported_anew(void **state) {
   struct reading *r = *state;
   for (int file = 0; file < 2; file++) {
     for (int i = 0; i < 4; i++)
@@ -433,7 +433,7 @@ static void the_next_file_is_told_anew(void **state) {
 
 /* ---- Going back ---------------------------------------------------------- */
 
-static void a_mark_brings_the_scene_back(void **state) {
+static void a_snapshot_restores_the_scene(void **state) {
   struct reading *r = *state;
   struct reading fresh;
   struct scene_snapshot empty, mark;
@@ -562,7 +562,7 @@ int main(void) {
       T(a_sound_face_is_kept_as_it_is),
       T(repeated_corners_are_left_out),
       T(fewer_than_three_distinct_corners_are_no_face),
-      T(a_way_there_and_back_is_no_face),
+      T(a_path_there_and_back_is_no_face),
       T(corners_of_a_face_at_one_place_are_one_point),
       T(corners_on_one_line_are_no_face),
       T(a_face_with_area_is_kept),
@@ -571,11 +571,11 @@ int main(void) {
       T(stars_cross_and_circles_do_not),
       T(touching_sides_do_not_cross),
       T(polygons_cross_where_two_sides_do),
-      T(a_huge_comb_ends_soon),
+      T(a_huge_comb_takes_bounded_time),
       T(polylines_keep_two_distinct_points_at_least),
-      T(three_of_a_kind_are_told_and_the_rest_counted),
-      T(the_next_file_is_told_anew),
-      T(a_mark_brings_the_scene_back),
+      T(three_of_a_kind_are_reported_and_the_rest_counted),
+      T(the_next_file_is_reported_anew),
+      T(a_snapshot_restores_the_scene),
       T(running_out_of_memory_leaves_a_sound_scene),
       T(what_is_written_reads_back_the_same),
       T(the_file_is_plain),

@@ -96,7 +96,7 @@ static void clipped_scenes_keep_every_invariant(void **state) {
   assert_true(near > 1000 && page > 1000); /* they were clipped indeed */
 }
 
-static void an_eye_in_an_odd_place_is_no_trouble(void **state) {
+static void an_eye_in_a_degenerate_position_is_handled(void **state) {
   (void)state;
   for (int place = SCENES_EYE_INSIDE; place <= SCENES_EYE_ON_LINE; place++)
     for (int fit = RECTO_FIT_PAGE; fit <= RECTO_FIT_NONE; fit++) {
@@ -576,7 +576,7 @@ static void wires_are_cut_at_the_page(void **state) {
   sheet_fixture_fini(&fixture);
 }
 
-static void wires_not_asked_for_are_not_there(void **state) {
+static void wires_not_requested_are_left_out(void **state) {
   (void)state;
   struct sheet_fixture fixture;
   sheet_fixture_start(&fixture);
@@ -681,7 +681,7 @@ static void powers_of_two_change_no_bit_of_the_sheet(void **state) {
 
 /* ---- Faults -------------------------------------------------------------- */
 
-static void every_failed_allocation_is_told(void **state) {
+static void every_failed_allocation_is_reported(void **state) {
   (void)state;
   struct sheet_fixture fixture;
   fill_large_grid(&fixture, 5, false); /* clipped, and of quads */
@@ -715,7 +715,7 @@ int main(void) {
       cmocka_unit_test(the_scenes_keep_every_invariant),
       cmocka_unit_test(random_scenes_keep_every_invariant),
       cmocka_unit_test(clipped_scenes_keep_every_invariant),
-      cmocka_unit_test(an_eye_in_an_odd_place_is_no_trouble),
+      cmocka_unit_test(an_eye_in_a_degenerate_position_is_handled),
       cmocka_unit_test(points_are_snapped_to_the_nearest_grid_unit),
       cmocka_unit_test(depth_fills_its_range),
       cmocka_unit_test(planes_stay_planes),
@@ -732,12 +732,12 @@ int main(void) {
       cmocka_unit_test(the_order_of_corners_changes_no_point),
       cmocka_unit_test(wires_are_edges_segment_by_segment),
       cmocka_unit_test(wires_are_cut_at_the_page),
-      cmocka_unit_test(wires_not_asked_for_are_not_there),
+      cmocka_unit_test(wires_not_requested_are_left_out),
       cmocka_unit_test(diagonals_are_no_edges),
       cmocka_unit_test(welded_points_are_one_on_the_sheet),
       cmocka_unit_test(warped_faces_are_counted_and_drawn),
       cmocka_unit_test(powers_of_two_change_no_bit_of_the_sheet),
-      cmocka_unit_test(every_failed_allocation_is_told),
+      cmocka_unit_test(every_failed_allocation_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

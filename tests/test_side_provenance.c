@@ -138,7 +138,7 @@ static void a_nearer_face_s_edge_is_an_outline(void **state) {
 
 /* A face folded along its diagonal: the plane of its first triangle, far away
  * from it, is nearer than the post that stands before the second. */
-static void a_folded_face_is_asked_where_the_side_is(void **state) {
+static void a_folded_face_is_tested_at_the_side(void **state) {
   static const quad folded = {{0, 0, 8}, {16, 0, 0}, {16, 16, 8}, {0, 16, 8}};
   static const quad post = {{2, 12, 10}, {4, 12, 10}, {4, 16, 10}, {2, 16, 10}};
   static const struct label label[] = {
@@ -266,7 +266,7 @@ static void nothing_is_a_cut_where_nothing_was_cut(void **state) {
     struct sheet sheet;
     struct map map;
     exact_random_sheet(&sheet, (enum exact_kind)(seed % EXACT_KINDS),
-                       3 + exact_below(&r, 8), &r);
+                       3 + exact_random_below(&r, 8), &r);
     exact_solve(&solver_brute, &sheet, &map, NULL);
     for (size_t c = 0; c < map.corner.count; c++)
       if (map.corner.item[c].side == MAP_SIDE_CLIP)
@@ -286,7 +286,7 @@ int main(void) {
       cmocka_unit_test(where_faces_pierce_is_an_intersection),
       cmocka_unit_test(a_side_without_an_edge_is_a_cut),
       cmocka_unit_test(each_triangle_of_a_face_has_a_plane_of_its_own),
-      cmocka_unit_test(a_folded_face_is_asked_where_the_side_is),
+      cmocka_unit_test(a_folded_face_is_tested_at_the_side),
       cmocka_unit_test(the_foot_of_a_wall_is_an_outline),
       cmocka_unit_test(nothing_is_a_cut_where_nothing_was_cut),
   };

@@ -85,7 +85,7 @@ static void silhouettes_of_a_closed_surface_are_closed(void **state) {
 /* ---- The two faces of an edge -------------------------------------------- */
 
 /* Two triangles at the edge from (0, 0, 0) to (0, 4, 0), their third corners
- * where told; returns the class of that edge. */
+ * where requested; returns the class of that edge. */
 static unsigned class_of_hinge(struct vector left, struct vector right,
                                bool turned, unsigned edges) {
   struct sheet_fixture fixture;
@@ -142,7 +142,7 @@ static void winding_does_not_matter(void **state) {
   }
 }
 
-static void the_first_class_asked_for_is_the_edge_s(void **state) {
+static void the_first_requested_class_is_the_edge_s(void **state) {
   (void)state;
   const struct vector over = vector_of(3, 1, 3), under = vector_of(3, 1, -3);
   const struct vector left = vector_of(-3, 1, -3), right = vector_of(3, 1, -3);
@@ -264,7 +264,7 @@ where_groups_meet_is_an_edge_of_the_first_face_s_group(void **state) {
   sheet_fixture_fini(&fixture);
 }
 
-/* Whatever is asked for, the same edges are drawn with outlines as without. */
+/* For any request, the same edges are drawn with outlines as without. */
 static void outlines_add_edges_that_are_not_drawn(void **state) {
   (void)state;
   for (unsigned edges = 0; edges <= RECTO_EDGES_ALL; edges += 5) {
@@ -310,10 +310,10 @@ static void a_fold_at_a_diagonal_is_a_silhouette(void **state) {
   int folded = 0;
   for (int turn = 0; turn < 4 * 26; turn++) {
     struct sheet_fixture turned = fixture;
-    bool asked = turn & 1, outlines = turn & 2;
+    bool requested = turn & 1, outlines = turn & 2;
     turned.options.azimuth_deg = 7 * (turn / 4);
     turned.options.edges =
-        RECTO_EDGE_BORDER | (asked ? RECTO_EDGE_SILHOUETTE : 0);
+        RECTO_EDGE_BORDER | (requested ? RECTO_EDGE_SILHOUETTE : 0);
     sheet_fixture_out(&turned, outlines);
     if (outlines)
       sheet_fixture_check(&turned);
@@ -322,9 +322,9 @@ static void a_fold_at_a_diagonal_is_a_silhouette(void **state) {
         (sheet->triangle_flags[0] ^ sheet->triangle_flags[1]) & SHEET_FLIPPED;
     folded += fold;
     assert_int_equal(sheet->contour.count, 4 + fold);
-    assert_int_equal(count_folds(sheet), fold && (asked || outlines));
+    assert_int_equal(count_folds(sheet), fold && (requested || outlines));
     assert_int_equal(sheet_fixture_count(&turned, RECTO_EDGE_SILHOUETTE),
-                     fold && asked);
+                     fold && requested);
     sheet_fini(&turned.sheet);
     topology_fini(&turned.topology);
   }
@@ -400,7 +400,7 @@ int main(void) {
       cmocka_unit_test(a_box_square_on_has_the_outlines_of_its_ends),
       cmocka_unit_test(silhouettes_of_a_closed_surface_are_closed),
       cmocka_unit_test(winding_does_not_matter),
-      cmocka_unit_test(the_first_class_asked_for_is_the_edge_s),
+      cmocka_unit_test(the_first_requested_class_is_the_edge_s),
       cmocka_unit_test(order_and_winding_of_faces_change_no_class),
       cmocka_unit_test(a_lone_face_has_borders),
       cmocka_unit_test(where_groups_meet_is_an_edge_of_the_first_face_s_group),

@@ -1,5 +1,5 @@
-/* test_single_contour.c - where one outline tells that nothing is hidden, it is so,
- * to the last bit; where more is needed, it does not tell. */
+/* test_single_contour.c - if single_contour.h decides that nothing is hidden,
+ * that is so, to the last bit; where more is needed, it does not decide. */
 #include "exact_fixture/sheet.h"
 
 #include <setjmp.h>
@@ -102,7 +102,7 @@ static void assert_as_by_brute(struct drawn *drawn,
 
 static void one_layer_is_all_visible(void **state) {
   const struct solver_request request = everything();
-  int told = 0;
+  int decided = 0;
   (void)state;
   for (uint64_t seed = 0; seed < 60; seed++) {
     struct drawn drawn;
@@ -111,17 +111,17 @@ static void one_layer_is_all_visible(void **state) {
     add_sheet(&drawn, 1 + (unsigned)(seed % 7), 0.012 * (double)seed, seed);
     project(&drawn, true);
     if (single_contour_suffices(&drawn.sheet, &request)) {
-      told++;
+      decided++;
       assert_as_by_brute(&drawn, &request);
     } else {
       assert_true(seed > 20);
     }
     drawn_fini(&drawn);
   }
-  assert_true(told > 20 && told < 60);
+  assert_true(decided > 20 && decided < 60);
 }
 
-static void auto_takes_it(void **state) {
+static void auto_selects_it(void **state) {
   const struct solver_request request = everything();
   struct drawn drawn;
   const char *why = NULL;
@@ -137,18 +137,18 @@ static void auto_takes_it(void **state) {
 
 typedef void spoil_fn(struct drawn *drawn);
 
-/* Does it tell of a sheet of 4 x 4 quads that something was done to? */
-static bool tells_of_spoilt(spoil_fn *spoil) {
+/* Does it decide a sheet of 4 x 4 quads after a change by `spoil`? */
+static bool decides_spoilt(spoil_fn *spoil) {
   const struct solver_request request = everything();
   struct drawn drawn;
-  bool tells;
+  bool decided;
   drawn_init(&drawn);
   add_sheet(&drawn, 4, 0, 1);
   spoil(&drawn);
   project(&drawn, true);
-  tells = single_contour_suffices(&drawn.sheet, &request);
+  decided = single_contour_suffices(&drawn.sheet, &request);
   drawn_fini(&drawn);
-  return tells;
+  return decided;
 }
 
 static void leave(struct drawn *drawn) { (void)drawn; }
@@ -193,19 +193,19 @@ static void cut(struct drawn *drawn) {
   drawn->options.section = 998;
 }
 
-static void other_sheets_are_not_told(void **state) {
+static void other_sheets_are_not_single_contours(void **state) {
   static spoil_fn *const spoil[] = {add_lid, add_beside, add_wire,    add_wall,
                                     add_fin, fold,       fold_the_rim};
   (void)state;
-  assert_true(tells_of_spoilt(leave));
+  assert_true(decides_spoilt(leave));
   for (size_t i = 0; i < sizeof spoil / sizeof *spoil; i++)
-    if (tells_of_spoilt(spoil[i]))
+    if (decides_spoilt(spoil[i]))
       fail_msg("spoilt in way %d", (int)i);
 }
 
-static void clipped_sheets_are_not_told(void **state) {
+static void clipped_sheets_are_not_single_contours(void **state) {
   (void)state;
-  assert_false(tells_of_spoilt(cut));
+  assert_false(decides_spoilt(cut));
 }
 
 /* ---- Two layers ---------------------------------------------------------- */
@@ -228,7 +228,7 @@ static void a_convex_body_has_its_outline(void **state) {
   drawn_fini(&drawn);
 }
 
-static void what_is_drawn_within_it_is_not_told(void **state) {
+static void what_is_drawn_within_the_limit_is_not_reported(void **state) {
   const struct solver_request request = lines_alone();
   struct drawn drawn;
   (void)state;
@@ -257,7 +257,7 @@ static void add_pyramids(struct drawn *drawn, double tip) {
   drawn->options.edges = RECTO_EDGES_ALL;
 }
 
-static void the_page_cannot_tell_front_from_back(void **state) {
+static void the_page_alone_does_not_separate_front_from_back(void **state) {
   const struct solver_request request = everything(), lines = lines_alone();
   size_t contours[2];
   (void)state;
@@ -277,19 +277,19 @@ static void the_page_cannot_tell_front_from_back(void **state) {
 
 /* ---- Memory -------------------------------------------------------------- */
 
-static void without_memory_it_does_not_tell(void **state) {
+static void without_memory_nothing_is_classified(void **state) {
   const struct solver_request request = everything();
   struct drawn drawn;
   unsigned long n = 0;
-  bool told = false;
+  bool decided = false;
   (void)state;
   drawn_init(&drawn);
   add_sheet(&drawn, 4, 0, 1);
   project(&drawn, true);
-  while (!told) {
+  while (!decided) {
     assert_true(++n < 10);
     mem_fail_after(n);
-    told = single_contour_suffices(&drawn.sheet, &request);
+    decided = single_contour_suffices(&drawn.sheet, &request);
     mem_fail_after(0);
   }
   assert_true(n > 3);
@@ -299,13 +299,13 @@ static void without_memory_it_does_not_tell(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_layer_is_all_visible),
-      cmocka_unit_test(auto_takes_it),
-      cmocka_unit_test(other_sheets_are_not_told),
-      cmocka_unit_test(clipped_sheets_are_not_told),
+      cmocka_unit_test(auto_selects_it),
+      cmocka_unit_test(other_sheets_are_not_single_contours),
+      cmocka_unit_test(clipped_sheets_are_not_single_contours),
       cmocka_unit_test(a_convex_body_has_its_outline),
-      cmocka_unit_test(what_is_drawn_within_it_is_not_told),
-      cmocka_unit_test(the_page_cannot_tell_front_from_back),
-      cmocka_unit_test(without_memory_it_does_not_tell),
+      cmocka_unit_test(what_is_drawn_within_the_limit_is_not_reported),
+      cmocka_unit_test(the_page_alone_does_not_separate_front_from_back),
+      cmocka_unit_test(without_memory_nothing_is_classified),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -101,7 +101,7 @@ static void fail_in_turn(const struct solver *solver, int lines,
   struct map map, again;
   int succeeded = 0;
   recto_status status = solve(solver, lines, make, 0, &map);
-  if (status == RECTO_ERROR_UNSUPPORTED) { /* asks for more than it does */
+  if (status == RECTO_ERROR_UNSUPPORTED) { /* requests more than it does */
     map_fini(&map);
     return;
   }
@@ -133,7 +133,7 @@ static void running_out_of_memory_is_a_status_and_leaks_nothing(void **state) {
     }
 }
 
-/* ---- No more than was asked ---------------------------------------------- */
+/* ---- No more than was requested ------------------------------------------ */
 
 static void check_parts(const struct solver *solver, bool strokes,
                         bool fragments) {
@@ -158,7 +158,7 @@ static void check_parts(const struct solver *solver, bool strokes,
   exact_sheet_fini(&sheet);
 }
 
-static void a_solver_does_no_more_than_was_asked(void **state) {
+static void a_solver_does_no_more_than_was_requested(void **state) {
   (void)state;
   for (const struct solver *const *s = solvers(); *s != NULL; s++)
     if ((*s)->exact || *s == &solver_painter || *s == &solver_painter_given)
@@ -170,7 +170,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_solver_is_found_by_its_method_and_its_name),
       cmocka_unit_test(running_out_of_memory_is_a_status_and_leaks_nothing),
-      cmocka_unit_test(a_solver_does_no_more_than_was_asked),
+      cmocka_unit_test(a_solver_does_no_more_than_was_requested),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

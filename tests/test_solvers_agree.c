@@ -108,7 +108,7 @@ static void bytes_do_not_depend_on_the_threads(void **state) {
     }
 }
 
-/* Where a deep pile hides them, faces still pierce each other, and hidden lines
+/* Where many layers hide them, faces still pierce each other, and hidden lines
  * show it. */
 static void hidden_piercings_are_not_behind_a_horizon(void **state) {
   struct scene scene;
@@ -127,12 +127,12 @@ static void hidden_piercings_are_not_behind_a_horizon(void **state) {
   }
   options.hidden = RECTO_HIDDEN_DASHED;
   options.edges = RECTO_EDGE_INTERSECTION;
-  assert_solvers_agree(&scene, &options, "pile", 0);
+  assert_solvers_agree(&scene, &options, "layers", 0);
   scene_fini(&scene);
 }
 
 /* No two pictures are the same, so the views are what they say. */
-static void views_differ(void **state) {
+static void the_views_are_distinct(void **state) {
   char *text[DEGENERATE_VIEWS];
   size_t length[DEGENERATE_VIEWS];
   struct scene scene;
@@ -155,7 +155,7 @@ static void views_differ(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(views_differ),
+      cmocka_unit_test(the_views_are_distinct),
       cmocka_unit_test(solvers_agree_on_degenerate_views),
       cmocka_unit_test(hidden_piercings_are_not_behind_a_horizon),
       cmocka_unit_test(bytes_do_not_depend_on_the_threads),

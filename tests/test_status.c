@@ -37,7 +37,7 @@ static void the_record_holds_what_it_was_given(void **state) {
   assert_int_equal(error.code, RECTO_ERROR_MEMORY);
 }
 
-static void no_record_is_accepted(void **state) {
+static void a_missing_record_is_accepted(void **state) {
   (void)state;
   assert_int_equal(error_set(NULL, RECTO_ERROR_IO, "f", 1, "text"),
                    RECTO_ERROR_IO);
@@ -88,7 +88,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_status_has_a_name_of_its_own),
       cmocka_unit_test(the_record_holds_what_it_was_given),
-      cmocka_unit_test(no_record_is_accepted),
+      cmocka_unit_test(a_missing_record_is_accepted),
       cmocka_unit_test(a_long_path_keeps_its_tail),
       cmocka_unit_test(a_long_text_is_cut_between_characters),
       cmocka_unit_test(a_text_has_no_control_characters),

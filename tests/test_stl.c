@@ -1,4 +1,4 @@
-/* test_stl.c - STL of both kinds, told apart and welded. */
+/* test_stl.c - STL of both kinds, recognised and welded. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -114,7 +114,7 @@ static void triangles_are_welded_by_position(void **state) {
   reading_fini(&r);
 }
 
-static void minus_nought_is_nought(void **state) {
+static void minus_zero_is_zero(void **state) {
   (void)state;
   struct binary *binary = start_binary("");
   TRIANGLE(binary, 0, -0.0f, 0, 1, 0, 0, 0, 1, -0.0f);
@@ -163,7 +163,7 @@ static void many_triangles_are_welded_as_by_comparison(void **state) {
   reading_fini(&r);
 }
 
-static void bad_triangles_are_skipped(void **state) {
+static void invalid_triangles_are_skipped(void **state) {
   (void)state;
   struct binary *binary = start_binary("");
   add_square(binary);
@@ -229,7 +229,7 @@ static void a_truncated_binary_file_is_an_error(void **state) {
                 "it has");
 }
 
-/* Four thousand million triangles in a hundred bytes: told at once, and
+/* Four thousand million triangles in a hundred bytes: reported at once, and
  * without taking any memory for them. */
 static void a_size_is_checked_before_memory_is_taken(void **state) {
   (void)state;
@@ -281,7 +281,7 @@ static void each_solid_is_a_group(void **state) {
   reading_fini(&r);
 }
 
-static void words_may_stand_anywhere_in_any_case(void **state) {
+static void names_may_be_anywhere_in_any_case(void **state) {
   (void)state;
   struct reading r;
   read_text(&r, "\n  SOLID A facet\nFacet Normal 0 0 1 OUTER LOOP Vertex 0 0 0 "
@@ -326,7 +326,7 @@ static void a_byte_order_mark_may_stand_before_text(void **state) {
   reading_fini(&r);
 }
 
-static void bad_facets_are_skipped(void **state) {
+static void invalid_facets_are_skipped(void **state) {
   (void)state;
   struct reading r;
   read_text(&r, "solid\n" SQUARE FACET("0 0 0", "nan 0 0", "1 1 0")
@@ -455,19 +455,19 @@ int main(void) {
 #define T(name) cmocka_unit_test_teardown(name, tear_down)
   const struct CMUnitTest tests[] = {
       T(triangles_are_welded_by_position),
-      T(minus_nought_is_nought),
+      T(minus_zero_is_zero),
       T(many_triangles_are_welded_as_by_comparison),
-      T(bad_triangles_are_skipped),
+      T(invalid_triangles_are_skipped),
       T(a_file_of_the_right_size_is_binary),
       T(a_binary_file_without_triangles_is_empty),
       T(a_truncated_binary_file_is_an_error),
       T(a_size_is_checked_before_memory_is_taken),
       T(text_is_welded_by_position),
       T(each_solid_is_a_group),
-      T(words_may_stand_anywhere_in_any_case),
+      T(names_may_be_anywhere_in_any_case),
       T(lines_may_end_as_on_any_system),
       T(a_byte_order_mark_may_stand_before_text),
-      T(bad_facets_are_skipped),
+      T(invalid_facets_are_skipped),
       T(text_that_stops_is_an_error),
       T(text_out_of_order_is_an_error),
       T(other_text_is_an_error),

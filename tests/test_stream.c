@@ -226,7 +226,7 @@ static void two_streams_in_one_folder_do_not_mix(void **state) {
   assert_file(b, "second");
 }
 
-static void places_that_cannot_be_written_are_told(void **state) {
+static void paths_that_cannot_be_written_are_reported(void **state) {
   struct stream *stream;
   recto_error error;
   const char *missing = temporary_path(state, "no/such/folder");
@@ -257,7 +257,7 @@ static void several_appear_together(void **state) {
   assert_file(b, "second");
 }
 
-static void of_several_one_that_fails_keeps_back_all(void **state) {
+static void if_one_of_several_fails_none_is_written(void **state) {
   const char *a = temporary_path(state, "a");
   for (unsigned long n = 1; n <= 2; n++) {
     const char *b = temporary_file(state, "b", "old", 3);
@@ -276,7 +276,7 @@ static void of_several_one_that_fails_keeps_back_all(void **state) {
 }
 
 /* As names may be that differ in nothing that the file system knows. */
-static void one_place_taken_twice_is_nobodys(void **state) {
+static void a_path_used_twice_is_refused_for_both(void **state) {
   const char *a = temporary_path(state, "a");
   recto_error error;
   struct stream *both[] = {open_stream(a), open_stream(a)};
@@ -469,10 +469,10 @@ int main(void) {
       T(the_file_behind_a_link_is_made),
       T(a_ring_of_links_is_an_error),
       T(two_streams_in_one_folder_do_not_mix),
-      T(places_that_cannot_be_written_are_told),
+      T(paths_that_cannot_be_written_are_reported),
       T(several_appear_together),
-      T(of_several_one_that_fails_keeps_back_all),
-      T(one_place_taken_twice_is_nobodys),
+      T(if_one_of_several_fails_none_is_written),
+      T(a_path_used_twice_is_refused_for_both),
       T(a_file_of_two_names_is_written_in_place),
       T(a_closed_standard_descriptor_stays_closed),
       T(what_is_compressed_is_read_again),

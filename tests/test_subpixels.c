@@ -134,7 +134,7 @@ static void bad_numbers_of_sub_pixels_are_refused(void **state) {
     }
 }
 
-static void running_out_of_memory_is_told(void **state) {
+static void running_out_of_memory_is_reported(void **state) {
   const struct solver_request request = {.strokes = true,
                                          .fragments = true,
                                          .threads = 1,
@@ -193,7 +193,7 @@ int main(void) {
       cmocka_unit_test(the_last_pixel_may_reach_beyond_the_page),
       cmocka_unit_test(averaging_comes_nearer_to_the_area),
       cmocka_unit_test(bad_numbers_of_sub_pixels_are_refused),
-      cmocka_unit_test(running_out_of_memory_is_told),
+      cmocka_unit_test(running_out_of_memory_is_reported),
       cmocka_unit_test(removed_backs_take_their_lines_with_them),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -164,7 +164,7 @@ static void y_runs_down_in_the_numbers(void **state) {
 
 /* ---- Numbers ------------------------------------------------------------- */
 
-static void numbers_have_the_decimals_asked_for(void **state) {
+static void numbers_have_the_requested_decimals(void **state) {
   struct fixture *f = *state;
   add_stroke(f, (double[]){1.0 / 3, 100, 200.0 / 3, 100}, 2, false);
   assert_has(write_it(f), "M0.333 0L66.667 0");
@@ -174,7 +174,7 @@ static void numbers_have_the_decimals_asked_for(void **state) {
   assert_has(write_it(f), "M0.333333 0L66.666667 0");
 }
 
-static void small_numbers_have_no_exponent_and_no_minus_nought(void **state) {
+static void small_numbers_have_no_exponent_and_no_minus_zero(void **state) {
   struct fixture *f = *state;
   add_stroke(f, (double[]){-0.0000004, 100.0000004, 5e-300, 99}, 2, false);
   assert_has(write_it(f), "d=\"M0 0L0 1\"");
@@ -223,7 +223,7 @@ static void a_stroke_that_rounds_to_a_point_is_not_written(void **state) {
   assert_lacks(write_it(f), "<path");
 }
 
-static void polylines_are_there_for_the_asking(void **state) {
+static void polylines_are_drawn_on_request(void **state) {
   struct fixture *f = *state;
   f->options.polyline = true;
   add_stroke(f, (double[]){0, 100, 10, 100, 10, 90}, 3, false);
@@ -323,7 +323,7 @@ static void seams_are_strokes_below_all_fills(void **state) {
 
 /* ---- Ids and names ------------------------------------------------------- */
 
-static void ids_are_written_only_when_asked_for(void **state) {
+static void ids_are_written_only_on_request(void **state) {
   struct fixture *f = *state;
   add_group(f, "wheel");
   struct drawing_stroke *stroke =
@@ -355,7 +355,7 @@ static void names_are_escaped(void **state) {
 
 /* Latin-1, a lone lead byte, an overlong slash, a surrogate, a control, and
  * a sequence cut short by the end. */
-static void bytes_that_are_no_text_are_replaced(void **state) {
+static void invalid_utf_8_is_replaced(void **state) {
   static const char *const bad[] = {"\xe9",         "\xc3 ",    "\xc0\xaf",
                                     "\xed\xa0\x80", "\x01",     "\xf0\x9f",
                                     "\xef\xbf\xbf", "\xf5\x80", "\x80"};
@@ -377,7 +377,7 @@ static void bytes_that_are_no_text_are_replaced(void **state) {
 
 /* ---- Faults -------------------------------------------------------------- */
 
-static void running_out_of_memory_is_told(void **state) {
+static void running_out_of_memory_is_reported(void **state) {
   struct fixture *f = *state;
   add_stroke(f, (double[]){0, 100, 5, 100}, 2, false);
   unsigned failures = 0;
@@ -459,26 +459,26 @@ int main(void) {
       T(a_whole_file_is_as_promised),
       T(a_page_in_inches_keeps_its_micrometres),
       T(y_runs_down_in_the_numbers),
-      T(numbers_have_the_decimals_asked_for),
-      T(small_numbers_have_no_exponent_and_no_minus_nought),
+      T(numbers_have_the_requested_decimals),
+      T(small_numbers_have_no_exponent_and_no_minus_zero),
       T(a_comma_locale_changes_nothing),
       T(only_closed_loops_end_in_z),
       T(points_that_round_to_one_are_written_once),
       T(a_loop_does_not_repeat_its_first_point),
       T(a_loop_with_two_points_is_a_line),
       T(a_stroke_that_rounds_to_a_point_is_not_written),
-      T(polylines_are_there_for_the_asking),
+      T(polylines_are_drawn_on_request),
       T(strokes_stand_in_their_layers),
       T(fills_come_before_strokes),
       T(lines_that_follow_each_other_share_the_group_of_their_class),
       T(holes_are_loops_of_one_path),
       T(a_fill_without_area_is_not_written),
       T(seams_are_strokes_below_all_fills),
-      T(ids_are_written_only_when_asked_for),
+      T(ids_are_written_only_on_request),
       T(ids_that_are_not_there_are_left_out),
       T(names_are_escaped),
-      T(bytes_that_are_no_text_are_replaced),
-      T(running_out_of_memory_is_told),
+      T(invalid_utf_8_is_replaced),
+      T(running_out_of_memory_is_reported),
       T(writers_are_found_by_name_and_by_path),
       T(every_writer_in_the_table_is_found_by_its_name),
       T(length_counts_the_closing_side),

@@ -17,7 +17,7 @@ static const struct solver_request plain = {.threads = 1};
 static void make_sheet(struct sheet *sheet, uint64_t seed) {
   uint64_t r = seed;
   exact_random_sheet(sheet, (enum exact_kind)(seed % EXACT_KINDS),
-                     2 + exact_below(&r, 10), &r);
+                     2 + exact_random_below(&r, 10), &r);
 }
 
 /* ---- Places -------------------------------------------------------------- */
@@ -126,11 +126,12 @@ static void a_crossing_lies_on_both_edges(void **state) {
     struct sweep_event place;
     int reach = round % 3 == 0 ? 8 : HALF;
     for (int k = 0; k < 2; k++)
-      e[k] = (struct sweep_edge){
-          .x0 = exact_below(&r, reach) * (exact_below(&r, 2) * 2 - 1),
-          .y0 = exact_below(&r, reach),
-          .x1 = exact_below(&r, reach) * (exact_below(&r, 2) * 2 - 1),
-          .y1 = -1 - exact_below(&r, reach)};
+      e[k] = (struct sweep_edge){.x0 = exact_random_below(&r, reach) *
+                                       (exact_random_below(&r, 2) * 2 - 1),
+                                 .y0 = exact_random_below(&r, reach),
+                                 .x1 = exact_random_below(&r, reach) *
+                                       (exact_random_below(&r, 2) * 2 - 1),
+                                 .y1 = -1 - exact_random_below(&r, reach)};
     if (!sweep_crossing(&e[0], &e[1], &place) &&
         !sweep_crossing(&e[1], &e[0], &place)) {
       assert_true(!parts(&e[0], &e[1]) || !parts(&e[1], &e[0]));
@@ -247,7 +248,7 @@ static void piercing_squares(struct sheet *sheet) {
     exact_add_face(sheet, square[f], 4, 1 << 20);
 }
 
-static void doubles_leave_only_what_pierces_to_exact_planes(void **state) {
+static void doubles_leave_only_piercing_pairs_to_exact_planes(void **state) {
   struct sheet sheet;
   struct sweep sweep;
   struct trapezoid_cells cells;
@@ -265,7 +266,7 @@ static void doubles_leave_only_what_pierces_to_exact_planes(void **state) {
     uint32_t face = sheet.triangle.item[part->triangle].face;
     if (part->count == 0)
       continue;
-    assert_true(face != 2); /* nobody takes the one behind for near */
+    assert_true(face != 2); /* the one behind is never a candidate */
     assert_int_equal(part->count, 2);
   }
   sweep_fini(&sweep);
@@ -310,20 +311,20 @@ static void a_scene_beyond_the_limits_is_refused(void **state) {
 }
 
 static bool count_and_stop(void *user, double share, const char *stage) {
-  int *asked = user;
+  int *polled = user;
   assert_true(share >= 0 && share <= 1);
   assert_non_null(stage);
-  return ++*asked < 2;
+  return ++*polled < 2;
 }
 
 static void a_sweep_can_be_cancelled(void **state) {
   enum { SIDE = 70 };
-  int asked = 0;
+  int polled = 0;
   const struct solver_request request = {.fragments = true,
                                          .strokes = true,
                                          .threads = 1,
                                          .progress = count_and_stop,
-                                         .user = &asked};
+                                         .user = &polled};
   struct sheet sheet;
   struct map map;
   (void)state;
@@ -336,7 +337,7 @@ static void a_sweep_can_be_cancelled(void **state) {
   assert_int_equal(
       exact_solve_as(&solver_watkins, &request, &sheet, &map, NULL),
       RECTO_ERROR_CANCELLED);
-  assert_int_equal(asked, 2);
+  assert_int_equal(polled, 2);
   map_fini(&map);
   exact_sheet_fini(&sheet);
 }
@@ -346,7 +347,7 @@ int main(void) {
       cmocka_unit_test(every_end_and_crossing_is_met_once),
       cmocka_unit_test(a_crossing_lies_on_both_edges),
       cmocka_unit_test(trapezoids_tile_every_triangle),
-      cmocka_unit_test(doubles_leave_only_what_pierces_to_exact_planes),
+      cmocka_unit_test(doubles_leave_only_piercing_pairs_to_exact_planes),
       cmocka_unit_test(a_scene_beyond_the_limits_is_refused),
       cmocka_unit_test(a_sweep_can_be_cancelled),
   };

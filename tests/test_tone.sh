@@ -1,5 +1,5 @@
 #!/bin/bash
-# test_tone.sh - hatching by the light is as dark as the light asks: the ink is
+# test_tone.sh - tone hatching is as dark as the light requires: the ink is
 # weighed on pictures of 600 dots an inch.
 . "$(dirname "$0")/tap.sh"
 tool=$builddir/tests/paper_tool
@@ -33,7 +33,7 @@ light() {
 near() {
   awk -v found="$1" -v wanted="$2" 'BEGIN {
     off = found / wanted - 1
-    printf "# %.2f %% asked for, %.3f %% found, off by %+.2f %%\n",
+    printf "# %.2f %% requested, %.3f %% found, off by %+.2f %%\n",
       wanted, found, 100 * off
     exit !(off * off <= 0.03 * 0.03) }'
 }
@@ -70,7 +70,7 @@ as_shade() {
 }
 
 for tone in 5 10 20 30 36 37 45 55 60 61 66 70; do
-  claim "$tone % of the paper are covered where that is asked" \
+  claim "$tone % of the paper are covered where that is requested" \
     flat_tone_is_met $tone
 done
 claim "a thin pen covers as much" flat_tone_is_met 20 --pen 0.1

@@ -1,4 +1,4 @@
-/* test_topology.c - edges are found, stitched and told apart as promised. */
+/* test_topology.c - edges are found, joined and classified as promised. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -100,13 +100,13 @@ static void the_scenes_have_the_edges_that_a_search_finds(void **state) {
 }
 
 /* Few points and many faces: hubs, edges of many faces, faces twice. */
-static void crowded_points_have_the_edges_that_a_search_finds(void **state) {
+static void dense_points_have_the_edges_that_a_search_finds(void **state) {
   (void)state;
   for (uint64_t seed = 1; seed <= 20; seed++) {
     struct random random = {seed};
     struct scene scene;
     scene_init(&scene);
-    build_group(&scene, "crowd");
+    build_group(&scene, "dense");
     for (int p = 0; p < 24; p++)
       build_point(&scene, p, (double)p * p, (double)p * p * p);
     for (int f = 0; f < 300; f++) {
@@ -171,7 +171,7 @@ static void fill_fan(struct scene *scene, uint32_t n, bool hub_first) {
     build_triangle(scene, hub, incidence + i, incidence + i + 1);
 }
 
-static void a_fan_of_100000_triangles_is_no_trouble(void **state) {
+static void a_fan_of_100000_triangles_is_drawn_in_bounded_time(void **state) {
   (void)state;
   const uint32_t n = 100000;
   for (int hub_first = 0; hub_first < 2; hub_first++) {
@@ -302,7 +302,7 @@ static void fill_hinge(struct scene *scene, double angle_deg, bool same_way,
     build_quad(scene, p[1], p[0], p[4], p[5]);
 }
 
-/* The natures of the edge that both faces share, told both ways. */
+/* The classes of the edge that both faces share, in both orders. */
 static unsigned hinge_natures(double angle_deg, bool same_way, double scale,
                               double crease_deg) {
   struct scene scene;
@@ -339,7 +339,7 @@ static void a_crease_is_beyond_the_angle_and_not_at_it(void **state) {
 
 /* The filter in single precision must not decide what is close: angles a
  * hundred-millionth of a degree on either side of the limit. */
-static void a_crease_close_to_its_angle_is_told_in_double(void **state) {
+static void a_crease_close_to_its_angle_is_decided_in_double(void **state) {
   (void)state;
   for (double limit = 10; limit < 175; limit += 11) {
     assert_int_equal(hinge_natures(limit + 1e-8, false, 1, limit),
@@ -466,7 +466,7 @@ static void angles_agree_with_the_mathematical_library(void **state) {
 
 /* ---- Faults -------------------------------------------------------------- */
 
-static void every_failed_allocation_is_told(void **state) {
+static void every_failed_allocation_is_reported(void **state) {
   (void)state;
   struct scene scene;
   recto_options options;
@@ -499,17 +499,17 @@ static void every_failed_allocation_is_told(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_scenes_have_the_edges_that_a_search_finds),
-      cmocka_unit_test(crowded_points_have_the_edges_that_a_search_finds),
+      cmocka_unit_test(dense_points_have_the_edges_that_a_search_finds),
       cmocka_unit_test(a_box_has_twelve_edges_of_two_faces_each),
       cmocka_unit_test(no_faces_have_no_edges),
-      cmocka_unit_test(a_fan_of_100000_triangles_is_no_trouble),
+      cmocka_unit_test(a_fan_of_100000_triangles_is_drawn_in_bounded_time),
       cmocka_unit_test(an_unwelded_shell_is_stitched_whole),
       cmocka_unit_test(minus_zero_is_zero_to_the_weld),
       cmocka_unit_test(the_next_double_is_not_welded),
       cmocka_unit_test(closed_shells_that_touch_stay_apart),
       cmocka_unit_test(edges_that_only_the_weld_makes_whole_are_counted_once),
       cmocka_unit_test(a_crease_is_beyond_the_angle_and_not_at_it),
-      cmocka_unit_test(a_crease_close_to_its_angle_is_told_in_double),
+      cmocka_unit_test(a_crease_close_to_its_angle_is_decided_in_double),
       cmocka_unit_test(creases_do_not_depend_on_the_unit),
       cmocka_unit_test(a_face_folded_back_is_a_crease),
       cmocka_unit_test(a_face_given_twice_is_folded_at_all_its_edges),
@@ -518,7 +518,7 @@ int main(void) {
       cmocka_unit_test(a_shell_far_from_the_origin_has_the_same_creases),
       cmocka_unit_test(right_angles_are_exact_and_have_no_minus_zero),
       cmocka_unit_test(angles_agree_with_the_mathematical_library),
-      cmocka_unit_test(every_failed_allocation_is_told),
+      cmocka_unit_test(every_failed_allocation_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -124,14 +124,14 @@ static struct geom_point draw_point(const struct triangle_grid *grid,
                                     uint64_t *r) {
   struct geom_point p = {draw(r, 0, XY_MAX), draw(r, 0, XY_MAX), 0};
   int64_t cell = INT64_C(1) << grid->shift;
-  if (exact_below(r, 3) == 0)
+  if (exact_random_below(r, 3) == 0)
     p.x = (int32_t)(grid->x0 + (p.x - (int64_t)grid->x0) / cell * cell);
-  if (exact_below(r, 3) == 0)
+  if (exact_random_below(r, 3) == 0)
     p.y = (int32_t)(grid->y0 + (p.y - (int64_t)grid->y0) / cell * cell);
-  if (exact_below(r, 8) == 0)
-    p.x = exact_below(r, 2) ? XY_MAX : -XY_MAX;
-  if (exact_below(r, 8) == 0)
-    p.y = exact_below(r, 2) ? XY_MAX : -XY_MAX;
+  if (exact_random_below(r, 8) == 0)
+    p.x = exact_random_below(r, 2) ? XY_MAX : -XY_MAX;
+  if (exact_random_below(r, 8) == 0)
+    p.y = exact_random_below(r, 2) ? XY_MAX : -XY_MAX;
   return p;
 }
 
@@ -163,7 +163,7 @@ static void check_queries(const struct sheet *sheet, int rounds, uint64_t *r) {
   check_left_out(sheet, &grid);
   for (int i = 0; i < rounds; i++) {
     struct geom_point p = draw_point(&grid, r), q = draw_point(&grid, r);
-    switch (exact_below(r, 4)) { /* level, upright, nearly level */
+    switch (exact_random_below(r, 4)) { /* level, upright, nearly level */
     case 0:
       q.y = p.y;
       break;
@@ -205,7 +205,7 @@ static void queries_find_all_of_small_sheets(void **state) {
     uint64_t r = seed;
     struct sheet sheet;
     exact_random_sheet(&sheet, (enum exact_kind)(seed % EXACT_KINDS),
-                       exact_below(&r, 12), &r);
+                       exact_random_below(&r, 12), &r);
     check_queries(&sheet, 5, &r);
     for (size_t e = 0; e < sheet.edge.count; e++) {
       const struct sheet_edge *edge = &sheet.edge.item[e];
@@ -285,8 +285,8 @@ static void an_empty_sheet_has_an_empty_grid(void **state) {
   exact_sheet_fini(&sheet);
 }
 
-/* The stamps that tell what was found already are not counted up for ever. */
-static void a_query_survives_its_counter_s_turn(void **state) {
+/* The stamps that mark what was found already do not overflow. */
+static void a_query_survives_an_overflow_of_its_counter(void **state) {
   uint64_t r = 5;
   struct sheet sheet;
   struct triangle_grid grid;
@@ -314,7 +314,7 @@ int main(void) {
       cmocka_unit_test(queries_find_all_that_is_there),
       cmocka_unit_test(queries_find_all_of_small_sheets),
       cmocka_unit_test(a_small_box_finds_few_of_many),
-      cmocka_unit_test(a_query_survives_its_counter_s_turn),
+      cmocka_unit_test(a_query_survives_an_overflow_of_its_counter),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -457,7 +457,7 @@ static void crossing_and_empty_polygons_end(void **state) {
   free(p);
 }
 
-static void random_tangles_end(void **state) {
+static void random_tangles_finish(void **state) {
   (void)state;
   struct flat *p = calloc(1, sizeof *p);
   struct random random = {11};
@@ -734,7 +734,7 @@ static void equal_diagonals_stay_equal_when_rounded(void **state) {
 
 /* ---- Faults -------------------------------------------------------------- */
 
-static void a_failed_allocation_is_told(void **state) {
+static void a_failed_allocation_is_reported(void **state) {
   (void)state;
   struct flat *p = calloc(1, sizeof *p);
   struct random random = {17};
@@ -763,7 +763,7 @@ int main(void) {
       cmocka_unit_test(a_hole_on_a_bridge_stays_open),
       cmocka_unit_test(loops_that_touch_at_a_corner_are_covered),
       cmocka_unit_test(crossing_and_empty_polygons_end),
-      cmocka_unit_test(random_tangles_end),
+      cmocka_unit_test(random_tangles_finish),
       cmocka_unit_test(turns_of_one_last_place_are_seen),
       cmocka_unit_test(powers_of_two_change_nothing),
       cmocka_unit_test(the_shorter_diagonal_cuts_a_quadrilateral),
@@ -773,7 +773,7 @@ int main(void) {
       cmocka_unit_test(what_folds_back_makes_no_triangle),
       cmocka_unit_test(start_winding_and_mirror_change_no_triangle),
       cmocka_unit_test(equal_diagonals_stay_equal_when_rounded),
-      cmocka_unit_test(a_failed_allocation_is_told),
+      cmocka_unit_test(a_failed_allocation_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

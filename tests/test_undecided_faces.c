@@ -1,5 +1,5 @@
-/* test_undecided_faces.c - what tiles leave over is painted as the oracle paints it,
- * and mostly without cutting anything. */
+/* test_undecided_faces.c - faces that tiles leave undecided are painted as by
+ * the oracle, and mostly without cutting anything. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -56,7 +56,7 @@ static void assert_as_oracle(const struct scene *scene,
 }
 
 /* Waves, one behind the other: silhouettes, and faces under whole layers. */
-static void a_face_that_no_contour_crosses_is_not_cut(void **state) {
+static void a_face_that_no_contour_crosses_is_not_split(void **state) {
   struct scene scene;
   recto_options options;
   (void)state;
@@ -91,7 +91,7 @@ static void bars_over_bars_are_cut_where_they_cross(void **state) {
 }
 
 /* Deep inside a sponge nearly all is hidden, by what is hidden itself. */
-static void what_is_hidden_is_not_asked_about(void **state) {
+static void what_is_hidden_is_not_tested(void **state) {
   struct scene scene;
   recto_options options;
   (void)state;
@@ -107,16 +107,16 @@ static void what_is_hidden_is_not_asked_about(void **state) {
 /* A face of very many corners: its sides are labelled in no time, too. */
 static void a_face_may_have_very_many_corners(void **state) {
   (void)state;
-  for (int bsp = 0; bsp < SCENES_CROWD_FLAT_FAN; bsp++) {
+  for (int bsp = 0; bsp < SCENES_NEEDLES_FLAT_FAN; bsp++) {
     struct scene scene;
     recto_options options;
     start(&scene, &options);
-    scenes_crowd(&scene, &options, (enum scenes_crowd)bsp, 400, 5);
+    scenes_needles(&scene, &options, (enum scenes_needles)bsp, 400, 5);
     (void)paint(&scene, &options);
     assert_as_oracle(&scene, &options);
     scene_fini(&scene);
     start(&scene, &options);
-    scenes_crowd(&scene, &options, (enum scenes_crowd)bsp, 20000, 5);
+    scenes_needles(&scene, &options, (enum scenes_needles)bsp, 20000, 5);
     struct counts counts = paint(&scene, &options);
     assert_int_equal(counts.united, 1);
     scene_fini(&scene);
@@ -125,9 +125,9 @@ static void a_face_may_have_very_many_corners(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_face_that_no_contour_crosses_is_not_cut),
+      cmocka_unit_test(a_face_that_no_contour_crosses_is_not_split),
       cmocka_unit_test(bars_over_bars_are_cut_where_they_cross),
-      cmocka_unit_test(what_is_hidden_is_not_asked_about),
+      cmocka_unit_test(what_is_hidden_is_not_tested),
       cmocka_unit_test(a_face_may_have_very_many_corners),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

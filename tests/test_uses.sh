@@ -1,5 +1,5 @@
 #!/bin/bash
-# test_uses.sh - an option that what was asked for does not use is told of, in
+# test_uses.sh - an option that the request does not use is reported, in
 # one line; one that is used is not.
 . "$(dirname "$0")/tap.sh"
 cd "$scratch" || exit 1
@@ -16,7 +16,7 @@ f 2 3 4
 OBJ
 "$recto" wedge.obj -o own.svg || exit 1
 "$recto" --help >help.txt
-: >told
+: >reported
 
 # draw FILE ARGUMENT... - draws to the file, its messages in err.
 draw() {
@@ -26,13 +26,13 @@ draw() {
     { say "exit $?: $(head -n 3 err)" && false; }
 }
 
-# Anything but that an option has no use may be said.
+# Any message is allowed except that an option is not used.
 is_used() {
   draw "$@" && ! grep ' does not use it$' err >unused && return 0
   say "$(cat unused)" && false
 }
 
-is_told() { # LINE FILE ARGUMENT...
+is_reported() { # LINE FILE ARGUMENT...
   local line=$1
   shift
   draw "$@" && test "$(grep -c ' does not use it$' err)" -eq 1 &&
@@ -50,9 +50,9 @@ while IFS='|' read -r option used unused line; do
   claim "$option is used by $used" is_used $used $option
   # What is said later wins.
   # shellcheck disable=SC2086
-  claim "$option is not by $unused" is_told "${option%%[= ]*} is for $line" \
+  claim "$option is not by $unused" is_reported "${option%%[= ]*} is for $line" \
     ${unused%% *} $option ${unused#"${unused%% *}"}
-  grep -qxF -e "${option%%[= ]*}" told || echo "${option%%[= ]*}" >>told
+  grep -qxF -e "${option%%[= ]*}" reported || echo "${option%%[= ]*}" >>reported
 done <<'END_OF_ROWS'
 --pitch 3|a.svg -m watkins|a.svg -m tiles|watkins; tiles
 --pitch exact|a.svg -m watkins|a.svg|watkins; auto
@@ -147,7 +147,7 @@ always='--output --format --from --method --view --azimuth --elevation --camera
 every_option_has_its_row() {
   grep -oE -- '^ +(-.,)? *--[a-z-]+' help.txt | grep -oE -- '--[a-z-]+' |
     LC_ALL=C sort -u >offered
-  tr ' ' '\n' <<<"$always" | LC_ALL=C sort -u - told >known
+  tr ' ' '\n' <<<"$always" | LC_ALL=C sort -u - reported >known
   LC_ALL=C comm -23 offered known >rowless
   test ! -s rowless || { say "no row: $(cat rowless)" && false; }
 }

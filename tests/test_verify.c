@@ -13,10 +13,10 @@
 #include "ink/ink.h"
 #include "tests/scenes/pipeline.h"
 
-/* ---- Means --------------------------------------------------------------- */
+/* ---- Helpers ------------------------------------------------------------- */
 
-/* A scene on its way through the house, and what is asked about it. */
-struct asked {
+/* A scene, its way through the pipeline, and the verdict. */
+struct judged_run {
   struct scene scene;
   recto_options options;
   struct pipeline pipeline;
@@ -24,72 +24,71 @@ struct asked {
   char summary[VERIFY_SUMMARY_SIZE];
 };
 
-static void start(struct asked *asked) {
-  memset(asked, 0, sizeof *asked);
-  scene_init(&asked->scene);
-  recto_options_init(&asked->options);
-  asked->options.verify = 2000;
+static void start(struct judged_run *run) {
+  memset(run, 0, sizeof *run);
+  scene_init(&run->scene);
+  recto_options_init(&run->options);
+  run->options.verify = 2000;
 }
 
-static void draw(struct asked *asked) {
-  pipeline_run(&asked->pipeline, &asked->scene, &asked->options,
-               &solver_newell);
-  if (asked->pipeline.status != RECTO_OK)
-    fail_msg("%s", asked->pipeline.error.text);
+static void draw(struct judged_run *run) {
+  pipeline_run(&run->pipeline, &run->scene, &run->options, &solver_newell);
+  if (run->pipeline.status != RECTO_OK)
+    fail_msg("%s", run->pipeline.error.text);
 }
 
-static recto_status ask(struct asked *asked, int exponent) {
-  struct pipeline *p = &asked->pipeline;
-  const struct verify verify = {&asked->scene,   exponent, &p->camera,
-                                &p->sheet,       &p->map,  &p->drawing,
-                                &asked->options, NULL,     NULL};
-  asked->summary[0] = '\0';
-  return verify_drawing(&verify, p->report, asked->summary, &asked->error);
+static recto_status verify_run(struct judged_run *run, int exponent) {
+  struct pipeline *p = &run->pipeline;
+  const struct verify verify = {&run->scene,   exponent, &p->camera,
+                                &p->sheet,     &p->map,  &p->drawing,
+                                &run->options, NULL,     NULL};
+  run->summary[0] = '\0';
+  return verify_drawing(&verify, p->report, run->summary, &run->error);
 }
 
-static void end(struct asked *asked) {
-  pipeline_fini(&asked->pipeline);
-  scene_fini(&asked->scene);
+static void end(struct judged_run *run) {
+  pipeline_fini(&run->pipeline);
+  scene_fini(&run->scene);
 }
 
-static void assert_right(struct asked *asked, const char *name) {
-  if (ask(asked, 0) != RECTO_OK)
-    fail_msg("%s: %s", name, asked->error.text);
-  assert_memory_equal(asked->summary, "verified: ", 10);
+static void assert_right(struct judged_run *run, const char *name) {
+  if (verify_run(run, 0) != RECTO_OK)
+    fail_msg("%s: %s", name, run->error.text);
+  assert_memory_equal(run->summary, "verified: ", 10);
 }
 
-static int64_t count_of(const struct asked *asked, const char *name) {
-  return report_get(asked->pipeline.report, "verify", name, -1);
+static int64_t count_of(const struct judged_run *run, const char *name) {
+  return report_get(run->pipeline.report, "verify", name, -1);
 }
 
 /* Draws again, after the map was changed. */
-static void ink_again(struct asked *asked) {
-  struct pipeline *p = &asked->pipeline;
+static void ink_again(struct judged_run *run) {
+  struct pipeline *p = &run->pipeline;
   drawing_fini(&p->drawing);
   drawing_init(&p->drawing);
-  assert_int_equal(ink_draw(&p->drawing, &p->sheet, &asked->scene, &p->map,
-                            &asked->options, NULL),
+  assert_int_equal(ink_draw(&p->drawing, &p->sheet, &run->scene, &p->map,
+                            &run->options, NULL),
                    RECTO_OK);
 }
 
 /* A plate of 10 x 10, face 0 of points 0 to 3, behind one of 30 x 30, face 1;
  * 1 mm a unit, the middle of both in the middle of the page of 100 mm. */
-static void start_plates(struct asked *asked) {
-  start(asked);
-  recto_options *o = &asked->options;
-  build_parallelogram(&asked->scene, vector_of(-5, -5, 0), vector_of(10, 0, 0),
+static void start_plates(struct judged_run *run) {
+  start(run);
+  recto_options *o = &run->options;
+  build_parallelogram(&run->scene, vector_of(-5, -5, 0), vector_of(10, 0, 0),
                       vector_of(0, 10, 0));
-  build_parallelogram(&asked->scene, vector_of(-15, -15, 4),
-                      vector_of(30, 0, 0), vector_of(0, 30, 0));
+  build_parallelogram(&run->scene, vector_of(-15, -15, 4), vector_of(30, 0, 0),
+                      vector_of(0, 30, 0));
   o->azimuth_deg = o->elevation_deg = 0;
   o->fit = RECTO_FIT_SCALE;
   o->page_width_mm = o->page_height_mm = 100;
 }
 
 /* The sheet's edge between two points of the scene. */
-static uint32_t edge_between(const struct asked *asked, uint32_t a,
+static uint32_t edge_between(const struct judged_run *run, uint32_t a,
                              uint32_t b) {
-  const struct pipeline *p = &asked->pipeline;
+  const struct pipeline *p = &run->pipeline;
   for (uint32_t i = 0; i < p->sheet.edge.count; i++) {
     const uint32_t *end =
         p->topology.edge.item[p->sheet.edge.item[i].source].point;
@@ -105,13 +104,13 @@ static uint32_t edge_between(const struct asked *asked, uint32_t a,
 static void the_stability_list_passes(void **state) {
   (void)state;
   for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
-    struct asked asked;
-    memset(&asked, 0, sizeof asked);
-    pipeline_fill(&asked.scene, &asked.options, entry);
-    asked.options.verify = 3000;
-    draw(&asked);
-    assert_right(&asked, entry->name);
-    end(&asked);
+    struct judged_run run;
+    memset(&run, 0, sizeof run);
+    pipeline_fill(&run.scene, &run.options, entry);
+    run.options.verify = 3000;
+    draw(&run);
+    assert_right(&run, entry->name);
+    end(&run);
   }
 }
 
@@ -120,52 +119,52 @@ static void the_stability_list_passes(void **state) {
 static void what_ink_does_is_no_fault(void **state) {
   (void)state;
   for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
-    struct asked asked;
-    memset(&asked, 0, sizeof asked);
-    pipeline_fill(&asked.scene, &asked.options, entry);
-    asked.options.verify = 1000;
-    asked.options.min_stroke_mm = 3;
-    asked.options.simplify_mm = 0.05;
-    asked.options.hidden = RECTO_HIDDEN_DASHED;
-    asked.options.fill = RECTO_FILL_HATCH;
-    asked.options.order = RECTO_ORDER_NEAR;
-    draw(&asked);
-    assert_right(&asked, entry->name);
-    end(&asked);
+    struct judged_run run;
+    memset(&run, 0, sizeof run);
+    pipeline_fill(&run.scene, &run.options, entry);
+    run.options.verify = 1000;
+    run.options.min_stroke_mm = 3;
+    run.options.simplify_mm = 0.05;
+    run.options.hidden = RECTO_HIDDEN_DASHED;
+    run.options.fill = RECTO_FILL_HATCH;
+    run.options.order = RECTO_ORDER_NEAR;
+    draw(&run);
+    assert_right(&run, entry->name);
+    end(&run);
   }
 }
 
-/* Nor what it makes of lines that a coarse output cannot tell apart. */
+/* Nor what it makes of lines that a coarse output does not distinguish. */
 static void coarse_outputs_pass(void **state) {
   static const double unit_mm[] = {0.1, 1};
   (void)state;
   for (const struct scenes_entry *entry = scene_list; entry->name; entry++)
     for (int i = 0; i < 2; i++) {
-      struct asked asked;
-      memset(&asked, 0, sizeof asked);
-      pipeline_fill(&asked.scene, &asked.options, entry);
-      asked.options.verify = 20000;
-      asked.options.unit_mm = unit_mm[i];
-      draw(&asked);
-      assert_right(&asked, entry->name);
-      end(&asked);
+      struct judged_run run;
+      memset(&run, 0, sizeof run);
+      pipeline_fill(&run.scene, &run.options, entry);
+      run.options.verify = 20000;
+      run.options.unit_mm = unit_mm[i];
+      draw(&run);
+      assert_right(&run, entry->name);
+      end(&run);
     }
 }
 
 static void random_small_scenes_pass(void **state) {
   (void)state;
   for (uint64_t seed = 1000; seed < 1200; seed++) {
-    struct asked asked;
+    struct judged_run run;
     char name[32];
-    start(&asked);
-    scenes_small(&asked.scene, &asked.options, seed);
-    asked.options.verify = 500;
-    asked.options.contact = -1;
+    start(&run);
+    scenes_small(&run.scene, &run.options, seed);
+    run.options.verify = 500;
+    run.options.contact = -1;
     snprintf(name, sizeof name, "seed %lu", (unsigned long)seed);
-    pipeline_run(&asked.pipeline, &asked.scene, &asked.options, &solver_newell);
-    if (asked.pipeline.status == RECTO_OK)
-      assert_right(&asked, name);
-    end(&asked);
+    pipeline_run(&run.pipeline, &run.scene, &run.options, &solver_newell);
+    if (run.pipeline.status == RECTO_OK)
+      assert_right(&run, name);
+    end(&run);
   }
 }
 
@@ -175,21 +174,21 @@ static void cuts_and_far_origins_pass(void **state) {
   for (int perspective = 0; perspective < 2; perspective++)
     for (int section = 0; section < 2; section++)
       for (size_t i = 0; i < 2; i++) {
-        struct asked asked;
-        start(&asked);
+        struct judged_run run;
+        start(&run);
         double x = place[i];
-        build_box(&asked.scene, vector_of(x, x, -x),
+        build_box(&run.scene, vector_of(x, x, -x),
                   vector_of(x + 4, x + 5, 6 - x));
-        build_box(&asked.scene, vector_of(x + 1, x + 1, 1 - x),
+        build_box(&run.scene, vector_of(x + 1, x + 1, 1 - x),
                   vector_of(x + 9, x + 2, 2 - x));
-        asked.options.fov_deg = perspective * 40;
-        asked.options.has_section = section;
-        asked.options.section = 5;
-        asked.options.coordinate_bits = 53;
-        draw(&asked);
-        assert_right(&asked, "boxes");
-        assert_true(count_of(&asked, "not_drawn_hidden") > 300);
-        end(&asked);
+        run.options.fov_deg = perspective * 40;
+        run.options.has_section = section;
+        run.options.section = 5;
+        run.options.coordinate_bits = 53;
+        draw(&run);
+        assert_right(&run, "boxes");
+        assert_true(count_of(&run, "not_drawn_hidden") > 300);
+        end(&run);
       }
 }
 
@@ -197,14 +196,14 @@ static void cuts_and_far_origins_pass(void **state) {
  * where its two ways differ, and only there. */
 static void a_warped_face_hides_what_both_ways_do(void **state) {
   (void)state;
-  struct asked asked;
-  start_plates(&asked);
-  asked.scene.point.item[6].z += 1;
-  draw(&asked);
-  assert_right(&asked, "warped");
-  assert_int_equal(count_of(&asked, "not_drawn_too_close_to_call"), 0);
-  assert_true(count_of(&asked, "not_drawn_hidden") > 400);
-  end(&asked);
+  struct judged_run run;
+  start_plates(&run);
+  run.scene.point.item[6].z += 1;
+  draw(&run);
+  assert_right(&run, "warped");
+  assert_int_equal(count_of(&run, "not_drawn_too_close_to_call"), 0);
+  assert_true(count_of(&run, "not_drawn_hidden") > 400);
+  end(&run);
 }
 
 /* With no face there is nothing to hide it. */
@@ -240,15 +239,15 @@ static const struct fold {
 static void what_shares_a_corner_with_a_face_passes(void **state) {
   (void)state;
   for (size_t i = 0; i < sizeof fold / sizeof fold[0]; i++) {
-    struct asked asked;
-    start(&asked);
-    recto_options *o = &asked.options;
+    struct judged_run run;
+    start(&run);
+    recto_options *o = &run.options;
     for (int k = 0; k < 6; k++)
-      build_point(&asked.scene, fold[i].point[k][0], fold[i].point[k][1],
+      build_point(&run.scene, fold[i].point[k][0], fold[i].point[k][1],
                   fold[i].point[k][2]);
     for (int k = 0; k < 3; k++)
       if (fold[i].face[k][0] != fold[i].face[k][1])
-        build_face(&asked.scene, fold[i].face[k], 3);
+        build_face(&run.scene, fold[i].face[k], 3);
     o->camera = RECTO_CAMERA_EYE;
     memcpy(o->eye, fold[i].eye, sizeof o->eye);
     memcpy(o->target, fold[i].target, sizeof o->target);
@@ -256,142 +255,142 @@ static void what_shares_a_corner_with_a_face_passes(void **state) {
     o->fov_deg = fold[i].fov_deg;
     o->contact = fold[i].contact;
     o->edges = fold[i].edges;
-    draw(&asked);
-    assert_right(&asked, i == 0 ? "a fold" : "a tip");
-    end(&asked);
+    draw(&run);
+    assert_right(&run, i == 0 ? "a fold" : "a tip");
+    end(&run);
   }
 }
 
 static void a_wire_alone_passes(void **state) {
   (void)state;
-  struct asked asked;
-  start(&asked);
-  build_segment(&asked.scene, build_point(&asked.scene, 0, 0, 0),
-                build_point(&asked.scene, 1, 2, 4));
-  draw(&asked);
-  assert_right(&asked, "wire");
-  assert_int_equal(count_of(&asked, "drawn"), 2000);
-  end(&asked);
+  struct judged_run run;
+  start(&run);
+  build_segment(&run.scene, build_point(&run.scene, 0, 0, 0),
+                build_point(&run.scene, 1, 2, 4));
+  draw(&run);
+  assert_right(&run, "wire");
+  assert_int_equal(count_of(&run, "drawn"), 2000);
+  end(&run);
 }
 
-static void nothing_drawn_of_nothing_asked_for_passes(void **state) {
+static void an_empty_drawing_of_no_classes_passes(void **state) {
   (void)state;
-  struct asked asked;
-  start_plates(&asked);
-  asked.options.edges = RECTO_EDGES_NONE;
-  draw(&asked);
-  assert_right(&asked, "nothing");
-  assert_string_equal(asked.summary, "verified: 0 drawn points visible, 0 "
-                                     "others hidden, 0 too close to call");
-  end(&asked);
+  struct judged_run run;
+  start_plates(&run);
+  run.options.edges = RECTO_EDGES_NONE;
+  draw(&run);
+  assert_right(&run, "nothing");
+  assert_string_equal(run.summary, "verified: 0 drawn points visible, 0 "
+                                   "others hidden, 0 too close to call");
+  end(&run);
 }
 
 /* ---- Wrong drawings ------------------------------------------------------ */
 
 /* The place that the message names. */
-static void read_place(const struct asked *asked, double at[2]) {
-  assert_int_equal(sscanf(asked->error.text,
+static void read_place(const struct judged_run *run, double at[2]) {
+  assert_int_equal(sscanf(run->error.text,
                           "the drawing is wrong: at %lf,%lf mm", &at[0],
                           &at[1]),
                    2);
 }
 
-static void assert_says(const struct asked *asked, const char *words) {
-  if (strstr(asked->error.text, words) == NULL)
-    fail_msg("no \"%s\" in: %s", words, asked->error.text);
+static void assert_says(const struct judged_run *run, const char *words) {
+  if (strstr(run->error.text, words) == NULL)
+    fail_msg("no \"%s\" in: %s", words, run->error.text);
 }
 
 static void a_hidden_line_that_is_drawn_is_found(void **state) {
   (void)state;
-  struct asked asked;
+  struct judged_run run;
   double at[2], spot[3];
-  start_plates(&asked);
-  draw(&asked);
-  assert_right(&asked, "plates");
-  uint32_t edge = edge_between(&asked, 1, 2);
-  assert_int_equal(asked.pipeline.map.edge_state[edge], MAP_HIDDEN);
-  asked.pipeline.map.edge_state[edge] = MAP_VISIBLE;
-  ink_again(&asked);
-  assert_int_equal(ask(&asked, 3), RECTO_ERROR_VERIFY);
-  assert_int_equal(asked.error.code, RECTO_ERROR_VERIFY);
-  assert_says(&asked, "a line is drawn");
-  assert_says(&asked, "the edge from 1 to 2 of face 0 is hidden by face 1");
+  start_plates(&run);
+  draw(&run);
+  assert_right(&run, "plates");
+  uint32_t edge = edge_between(&run, 1, 2);
+  assert_int_equal(run.pipeline.map.edge_state[edge], MAP_HIDDEN);
+  run.pipeline.map.edge_state[edge] = MAP_VISIBLE;
+  ink_again(&run);
+  assert_int_equal(verify_run(&run, 3), RECTO_ERROR_VERIFY);
+  assert_int_equal(run.error.code, RECTO_ERROR_VERIFY);
+  assert_says(&run, "a line is drawn");
+  assert_says(&run, "the edge from 1 to 2 of face 0 is hidden by face 1");
   /* The right side of the plate, in mm, and in units of 8 of the scene's. */
-  read_place(&asked, at);
+  read_place(&run, at);
   assert_true(fabs(at[0] - 55) < 1e-3 && at[1] > 45 && at[1] < 55);
-  assert_int_equal(sscanf(strstr(asked.error.text, "point "),
-                          "point %lf,%lf,%lf", &spot[0], &spot[1], &spot[2]),
+  assert_int_equal(sscanf(strstr(run.error.text, "point "), "point %lf,%lf,%lf",
+                          &spot[0], &spot[1], &spot[2]),
                    3);
   assert_true(fabs(spot[0] - 40) < 1e-6 && fabs(spot[2]) < 1e-6);
   assert_true(fabs(spot[1] / 8 - (at[1] - 50)) < 1e-3);
-  end(&asked);
+  end(&run);
 }
 
 static void a_visible_line_that_is_missing_is_found(void **state) {
   (void)state;
-  struct asked asked;
+  struct judged_run run;
   double at[2];
-  start_plates(&asked);
-  draw(&asked);
-  asked.pipeline.map.edge_state[edge_between(&asked, 6, 7)] = MAP_HIDDEN;
-  ink_again(&asked);
-  assert_int_equal(ask(&asked, 0), RECTO_ERROR_VERIFY);
-  assert_says(&asked, "no line is drawn");
-  assert_says(&asked, "the edge from 6 to 7 of face 1 is visible");
-  read_place(&asked, at);
+  start_plates(&run);
+  draw(&run);
+  run.pipeline.map.edge_state[edge_between(&run, 6, 7)] = MAP_HIDDEN;
+  ink_again(&run);
+  assert_int_equal(verify_run(&run, 0), RECTO_ERROR_VERIFY);
+  assert_says(&run, "no line is drawn");
+  assert_says(&run, "the edge from 6 to 7 of face 1 is visible");
+  read_place(&run, at);
   assert_true(fabs(at[1] - 65) < 1e-3 && at[0] > 35 && at[0] < 65);
-  end(&asked);
+  end(&run);
 }
 
 static void a_line_where_no_edge_is_is_found(void **state) {
   (void)state;
-  struct asked asked;
-  start_plates(&asked);
-  draw(&asked);
-  struct drawing *drawing = &asked.pipeline.drawing;
+  struct judged_run run;
+  start_plates(&run);
+  draw(&run);
+  struct drawing *drawing = &run.pipeline.drawing;
   for (size_t i = 0; i < drawing->point.count; i++)
     drawing->point.item[i].x += 0.01;
-  assert_int_equal(ask(&asked, 0), RECTO_ERROR_VERIFY);
-  assert_says(&asked, "there is a line and no edge");
-  end(&asked);
+  assert_int_equal(verify_run(&run, 0), RECTO_ERROR_VERIFY);
+  assert_says(&run, "there is a line and no edge");
+  end(&run);
 }
 
 /* A line that is too short to be drawn is no excuse for a long one. */
 static void only_what_is_too_short_may_be_missing(void **state) {
   (void)state;
-  struct asked asked;
-  start_plates(&asked);
-  build_parallelogram(&asked.scene, vector_of(20, 0, 0), vector_of(1, 0, 0),
+  struct judged_run run;
+  start_plates(&run);
+  build_parallelogram(&run.scene, vector_of(20, 0, 0), vector_of(1, 0, 0),
                       vector_of(0, 1, 0));
-  asked.options.min_stroke_mm = 10;
-  draw(&asked);
-  assert_int_equal(asked.pipeline.drawing.stroke.count, 1);
-  assert_right(&asked, "a small plate is dropped");
-  asked.options.min_stroke_mm = 3;
-  assert_int_equal(ask(&asked, 0), RECTO_ERROR_VERIFY);
-  assert_says(&asked, "of face 2 is visible");
-  end(&asked);
+  run.options.min_stroke_mm = 10;
+  draw(&run);
+  assert_int_equal(run.pipeline.drawing.stroke.count, 1);
+  assert_right(&run, "a small plate is dropped");
+  run.options.min_stroke_mm = 3;
+  assert_int_equal(verify_run(&run, 0), RECTO_ERROR_VERIFY);
+  assert_says(&run, "of face 2 is visible");
+  end(&run);
 }
 
 /* Half of a line: the sampling is even. */
-static void every_part_of_a_drawing_is_asked_about(void **state) {
+static void every_part_of_a_drawing_is_judged(void **state) {
   (void)state;
   for (unsigned part = 0; part < 20; part++) {
-    struct asked asked;
-    start_plates(&asked);
-    asked.options.verify = 200;
-    draw(&asked);
-    uint32_t edge = edge_between(&asked, 0, 1);
-    struct map *map = &asked.pipeline.map;
+    struct judged_run run;
+    start_plates(&run);
+    run.options.verify = 200;
+    draw(&run);
+    uint32_t edge = edge_between(&run, 0, 1);
+    struct map *map = &run.pipeline.map;
     map->edge_state[edge] = MAP_MIXED;
     struct map_mixed mixed = {edge, (uint32_t)map->interval.count, 1};
     struct map_interval interval = {{part, 20}, {part + 1, 20}};
     assert_int_equal(map->mixed.count, 0);
     assert_true(ARRAY_PUSH(&map->mixed, mixed) &&
                 ARRAY_PUSH(&map->interval, interval));
-    ink_again(&asked);
-    assert_int_equal(ask(&asked, 0), RECTO_ERROR_VERIFY);
-    end(&asked);
+    ink_again(&run);
+    assert_int_equal(verify_run(&run, 0), RECTO_ERROR_VERIFY);
+    end(&run);
   }
 }
 
@@ -399,37 +398,37 @@ static void every_part_of_a_drawing_is_asked_about(void **state) {
 
 static void every_allocation_may_fail(void **state) {
   (void)state;
-  struct asked asked;
-  start_plates(&asked);
-  build_box(&asked.scene, vector_of(-2, -2, -9), vector_of(3, 3, 20));
-  asked.scene.point.item[0].z += 1; /* a warped face */
-  draw(&asked);
+  struct judged_run run;
+  start_plates(&run);
+  build_box(&run.scene, vector_of(-2, -2, -9), vector_of(3, 3, 20));
+  run.scene.point.item[0].z += 1; /* a warped face */
+  draw(&run);
   recto_status status = RECTO_ERROR_MEMORY;
   unsigned long n = 0;
   while (status == RECTO_ERROR_MEMORY) {
     mem_fail_after(++n);
-    status = ask(&asked, 0);
+    status = verify_run(&run, 0);
     mem_fail_after(0);
     assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
   }
   assert_true(n > 20);
-  end(&asked);
+  end(&run);
 }
 
-/* The plane of the cut passes an edge nearer than doubles tell. */
+/* The plane of the cut passes an edge nearer than doubles resolve. */
 static void an_edge_along_the_cut_may_be_missing(void **state) {
-  struct asked asked;
+  struct judged_run run;
   (void)state;
-  start(&asked);
-  build_polygon(&asked.scene, (const double[]){2, 0, 0, 0, 0, 0, 0, 0, 1}, 3);
-  asked.options.up[1] = 1;
-  asked.options.azimuth_deg = 89.9999999;
-  asked.options.elevation_deg = 1e-7;
-  asked.options.has_section = true;
-  asked.options.section = 2;
-  draw(&asked);
-  assert_right(&asked, "an edge along the cut");
-  end(&asked);
+  start(&run);
+  build_polygon(&run.scene, (const double[]){2, 0, 0, 0, 0, 0, 0, 0, 1}, 3);
+  run.options.up[1] = 1;
+  run.options.azimuth_deg = 89.9999999;
+  run.options.elevation_deg = 1e-7;
+  run.options.has_section = true;
+  run.options.section = 2;
+  draw(&run);
+  assert_right(&run, "an edge along the cut");
+  end(&run);
 }
 
 static int tear_down(void **state) {
@@ -448,13 +447,13 @@ int main(void) {
       cmocka_unit_test(a_warped_face_hides_what_both_ways_do),
       cmocka_unit_test(what_shares_a_corner_with_a_face_passes),
       cmocka_unit_test(a_wire_alone_passes),
-      cmocka_unit_test(nothing_drawn_of_nothing_asked_for_passes),
+      cmocka_unit_test(an_empty_drawing_of_no_classes_passes),
       cmocka_unit_test(an_edge_along_the_cut_may_be_missing),
       cmocka_unit_test(a_hidden_line_that_is_drawn_is_found),
       cmocka_unit_test(a_visible_line_that_is_missing_is_found),
       cmocka_unit_test(a_line_where_no_edge_is_is_found),
       cmocka_unit_test(only_what_is_too_short_may_be_missing),
-      cmocka_unit_test(every_part_of_a_drawing_is_asked_about),
+      cmocka_unit_test(every_part_of_a_drawing_is_judged),
       cmocka_unit_test_teardown(every_allocation_may_fail, tear_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

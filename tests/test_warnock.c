@@ -1,5 +1,5 @@
 /* test_warnock.c - subdivision in lines: the exact map however windows are
- * divided, each kind of window, and no question asked twice. */
+ * divided, each kind of window, and no test made twice. */
 #include "exact_fixture/sheet.h"
 
 #include <setjmp.h>
@@ -11,7 +11,7 @@
 
 enum { SCALE = 1024 };
 
-/* What is asked for, and how windows are divided. */
+/* What is requested, and how windows are divided. */
 static struct solver_request request_of(bool fragments, bool by_box) {
   return (struct solver_request){.strokes = true,
                                  .fragments = fragments,
@@ -29,12 +29,12 @@ static void random_scene(struct sheet *sheet, uint64_t seed, int faces,
   uint64_t r = seed;
   exact_sheet_init(sheet);
   for (int f = 0; f < faces; f++) {
-    int corner[3][3], x = exact_below(&r, lattice),
-                      y = exact_below(&r, lattice);
+    int corner[3][3], x = exact_random_below(&r, lattice),
+                      y = exact_random_below(&r, lattice);
     for (int k = 0; k < 3; k++) {
-      corner[k][0] = x + exact_below(&r, size);
-      corner[k][1] = y + exact_below(&r, size);
-      corner[k][2] = exact_below(&r, lattice);
+      corner[k][0] = x + exact_random_below(&r, size);
+      corner[k][1] = y + exact_random_below(&r, size);
+      corner[k][2] = exact_random_below(&r, lattice);
     }
     if ((corner[0][0] != corner[1][0] || corner[0][1] != corner[1][1]) &&
         (corner[1][0] != corner[2][0] || corner[1][1] != corner[2][1]) &&
@@ -91,7 +91,7 @@ static void assert_brute_says_the_same(void (*fill)(struct sheet *, uint64_t),
 }
 
 /* Few faces on a small lattice: all kinds of contact, one or two windows. */
-static void crowded(struct sheet *sheet, uint64_t seed) {
+static void dense(struct sheet *sheet, uint64_t seed) {
   random_scene(sheet, seed, 14 + (int)(seed % 20), 3 + (int)(seed % 6), 4);
 }
 
@@ -100,13 +100,13 @@ static void spread(struct sheet *sheet, uint64_t seed) {
   random_scene(sheet, seed, 60, 64, seed % 3 == 0 ? 48 : 12);
 }
 
-static void crowded_scenes_have_the_map_of_brute(void **state) {
+static void dense_scenes_have_the_map_of_brute(void **state) {
   (void)state;
   for (uint64_t seed = 1; seed <= 250; seed++)
-    assert_brute_says_the_same(crowded, seed, seed % 4 != 0);
+    assert_brute_says_the_same(dense, seed, seed % 4 != 0);
 }
 
-static void spread_scenes_have_the_map_of_brute(void **state) {
+static void sparse_scenes_have_the_map_of_brute(void **state) {
   (void)state;
   for (uint64_t seed = 1; seed <= 40; seed++)
     assert_brute_says_the_same(spread, seed, seed % 4 != 0);
@@ -270,10 +270,10 @@ static void a_fan_ends_in_fewer_windows_than_faces(void **state) {
 /* ---- Conversation -------------------------------------------------------- */
 
 static bool stop_in_a_while(void *user, double share, const char *stage) {
-  int *asked = user;
+  int *polls_left = user;
   assert_true(share >= 0 && share <= 1);
   assert_non_null(stage);
-  return --*asked > 0;
+  return --*polls_left > 0;
 }
 
 /* Triangles without edges, so many that there are windows by the thousand. */
@@ -296,8 +296,8 @@ static void many_triangles(struct sheet *sheet, int n) {
 
 static void cancelling_ends_the_work(void **state) {
   (void)state;
-  for (int asks = 1; asks < 3; asks++) {
-    int left = asks;
+  for (int polls = 1; polls < 3; polls++) {
+    int left = polls;
     const struct solver_request request = {.fragments = true,
                                            .threads = 1,
                                            .progress = stop_in_a_while,
@@ -314,7 +314,7 @@ static void cancelling_ends_the_work(void **state) {
   }
 }
 
-static void running_out_of_memory_is_told(void **state) {
+static void running_out_of_memory_is_reported(void **state) {
   const struct solver_request intervals = {.strokes = true, .threads = 1};
   unsigned long fails = 0;
   (void)state;
@@ -344,8 +344,8 @@ static void running_out_of_memory_is_told(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(crowded_scenes_have_the_map_of_brute),
-      cmocka_unit_test(spread_scenes_have_the_map_of_brute),
+      cmocka_unit_test(dense_scenes_have_the_map_of_brute),
+      cmocka_unit_test(sparse_scenes_have_the_map_of_brute),
       cmocka_unit_test(walls_at_any_depth_have_the_map_of_brute),
       cmocka_unit_test(windows_of_all_kinds_add_up),
       cmocka_unit_test(a_surrounder_is_not_classified_again),
@@ -353,7 +353,7 @@ int main(void) {
       cmocka_unit_test(a_window_without_a_drawable_edge_is_finished_at_once),
       cmocka_unit_test(a_fan_ends_in_fewer_windows_than_faces),
       cmocka_unit_test(cancelling_ends_the_work),
-      cmocka_unit_test(running_out_of_memory_is_told),
+      cmocka_unit_test(running_out_of_memory_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

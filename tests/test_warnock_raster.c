@@ -199,7 +199,7 @@ static void each_rule_finishes_the_window_it_is_for(void **state) {
 
 /* Surrounders that tie everywhere, or at corners of the window: the earlier
  * face is seen, by rule 5, without a division. */
-static void ties_are_settled_for_whole_windows(void **state) {
+static void ties_are_decided_for_whole_windows(void **state) {
   static const struct pixels_scene equal = {
       3, {ALL_ROUND(7), ALL_ROUND(7), ALL_ROUND(7)}};
   static const struct pixels_scene below = {
@@ -286,29 +286,29 @@ static void triangles_of_any_kind_give_the_pixels_of_the_zbuffer(void **state) {
   uint64_t seed = 4711;
   (void)state;
   for (int round = 0; round < 150; round++) {
-    const struct solver_request request = {.fragments = true,
-                                           .threads = 1,
-                                           .resolution =
-                                               20 + exact_below(&seed, 100),
-                                           .divide_by_box = round % 3 == 0};
+    const struct solver_request request = {
+        .fragments = true,
+        .threads = 1,
+        .resolution = 20 + exact_random_below(&seed, 100),
+        .divide_by_box = round % 3 == 0};
     struct sheet sheet;
     struct warnock_frame frame;
     exact_sheet_init(&sheet);
-    sheet.camera.page_mm[0] = 300 + exact_below(&seed, 1700);
-    sheet.camera.page_mm[1] = 300 + exact_below(&seed, 1700);
+    sheet.camera.page_mm[0] = 300 + exact_random_below(&seed, 1700);
+    sheet.camera.page_mm[1] = 300 + exact_random_below(&seed, 1700);
     for (uint32_t t = 0; t < 14; t++) {
-      int bits = 2 + exact_below(&seed, 29);
+      int bits = 2 + exact_random_below(&seed, 29);
       struct geom_point p[3], at = {anywhere(&seed, 29), anywhere(&seed, 29),
                                     (int64_t)(exact_random(&seed) >> 24)};
       for (int k = 0; k < 3; k++) {
         p[k].x = bits > 29 ? anywhere(&seed, 30) : at.x + anywhere(&seed, bits);
         p[k].y = k == 2 || bits > 29 ? anywhere(&seed, 30)
                                      : at.y + anywhere(&seed, bits);
-        p[k].z = exact_below(&seed, 3) == 0
+        p[k].z = exact_random_below(&seed, 3) == 0
                      ? at.z
                      : (int64_t)(exact_random(&seed) >> 24);
-        if (exact_below(&seed, 4) == 0)
-          p[k].z = exact_below(&seed, 2) == 0 ? 0 : SHEET_Z_MAX;
+        if (exact_random_below(&seed, 4) == 0)
+          p[k].z = exact_random_below(&seed, 2) == 0 ? 0 : SHEET_Z_MAX;
       }
       add_triangle(&sheet, p, t);
     }
@@ -398,7 +398,7 @@ static void the_stack_reaches_its_bound_and_no_more(void **state) {
       pixels_sheet(&sheet, &scene);
       draw_frame(&frame, &sheet, &request);
       assert_true(frame.stack_most <= stack_bound(&frame.raster.grid));
-      /* The window at hand is the one that is missing. */
+      /* The current window is the one that is missing. */
       if (odd == 0)
         assert_int_equal(frame.stack_most + 1, stack_bound(&frame.raster.grid));
       warnock_frame_fini(&frame);
@@ -489,7 +489,7 @@ static void averaging_comes_nearer_to_the_area(void **state) {
 
 /* ---- Conversation -------------------------------------------------------- */
 
-static void bad_knobs_are_refused(void **state) {
+static void invalid_options_are_refused(void **state) {
   const struct solver_request bad[] = {{.resolution = 65537},
                                        {.resolution = 64, .subpixels = -1},
                                        {.resolution = 64, .subpixels = 17},
@@ -510,16 +510,16 @@ static void bad_knobs_are_refused(void **state) {
 }
 
 static bool stop_in_a_while(void *user, double share, const char *stage) {
-  int *asked = user;
+  int *polls_left = user;
   assert_true(share >= 0 && share <= 1);
   assert_non_null(stage);
-  return --*asked > 0;
+  return --*polls_left > 0;
 }
 
 static void cancelling_ends_the_work(void **state) {
   (void)state;
-  for (int asks = 1; asks < 6; asks++) {
-    int left = asks;
+  for (int polls = 1; polls < 6; polls++) {
+    int left = polls;
     const struct solver_request request = {.strokes = true,
                                            .fragments = true,
                                            .threads = 1,
@@ -538,7 +538,7 @@ static void cancelling_ends_the_work(void **state) {
   }
 }
 
-static void running_out_of_memory_is_told(void **state) {
+static void running_out_of_memory_is_reported(void **state) {
   unsigned long fails = 0;
   (void)state;
   for (unsigned long n = 1;; n++) {
@@ -571,7 +571,7 @@ int main(void) {
       cmocka_unit_test(the_worked_frames_are_right_in_every_pixel),
       cmocka_unit_test(the_lower_left_window_is_finished_undivided),
       cmocka_unit_test(each_rule_finishes_the_window_it_is_for),
-      cmocka_unit_test(ties_are_settled_for_whole_windows),
+      cmocka_unit_test(ties_are_decided_for_whole_windows),
       cmocka_unit_test(a_surrounder_is_classified_once),
       cmocka_unit_test(random_scenes_are_right_in_every_pixel),
       cmocka_unit_test(triangles_of_any_kind_give_the_pixels_of_the_zbuffer),
@@ -579,9 +579,9 @@ int main(void) {
       cmocka_unit_test(the_stack_reaches_its_bound_and_no_more),
       cmocka_unit_test(sub_pixels_are_those_of_a_finer_frame),
       cmocka_unit_test(averaging_comes_nearer_to_the_area),
-      cmocka_unit_test(bad_knobs_are_refused),
+      cmocka_unit_test(invalid_options_are_refused),
       cmocka_unit_test(cancelling_ends_the_work),
-      cmocka_unit_test(running_out_of_memory_is_told),
+      cmocka_unit_test(running_out_of_memory_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

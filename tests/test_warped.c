@@ -91,8 +91,10 @@ static void check_methods(const struct scene *scene,
 }
 
 /* Asks the judge about a drawing. */
-static recto_status ask(const struct pipeline *p, const struct scene *scene,
-                        const recto_options *options, recto_error *error) {
+static recto_status verify_drawn(const struct pipeline *p,
+                                 const struct scene *scene,
+                                 const recto_options *options,
+                                 recto_error *error) {
   char summary[VERIFY_SUMMARY_SIZE];
   const struct verify verify = {scene,     0,       &p->camera,
                                 &p->sheet, &p->map, &p->drawing,
@@ -104,10 +106,11 @@ static void check_verdict(const struct scene *scene,
                           const recto_options *options, const char *name) {
   struct pipeline p;
   recto_error error;
-  recto_options asked = *options;
-  asked.verify = 3000;
-  pipeline_run(&p, scene, &asked, &solver_tiles);
-  if (p.status == RECTO_OK && ask(&p, scene, &asked, &error) != RECTO_OK)
+  recto_options verified = *options;
+  verified.verify = 3000;
+  pipeline_run(&p, scene, &verified, &solver_tiles);
+  if (p.status == RECTO_OK &&
+      verify_drawn(&p, scene, &verified, &error) != RECTO_OK)
     fail_msg("%s: %s", name, error.text);
   pipeline_fini(&p);
 }
@@ -196,7 +199,7 @@ static const struct reported reported[] = {
      {1, 2, 3, 0, 4, 5, 4, 6, 0}},
 };
 
-static void reported_scenes_are_drawn_right(void **state) {
+static void scenes_of_earlier_errors_are_drawn_right(void **state) {
   (void)state;
   for (size_t r = 0; r < sizeof reported / sizeof *reported; r++)
     for (int elevation = -90; elevation <= 90; elevation += 30) {
@@ -254,7 +257,7 @@ static void a_missing_fold_is_found(void **state) {
     options.azimuth_deg = azimuth;
     pipeline_run(&p, &scene, &options, &solver_brute);
     assert_int_equal(p.status, RECTO_OK);
-    assert_int_equal(ask(&p, &scene, &options, &error), RECTO_OK);
+    assert_int_equal(verify_drawn(&p, &scene, &options, &error), RECTO_OK);
     size_t kept = 0;
     for (size_t s = 0; s < p.drawing.stroke.count; s++)
       if (p.drawing.stroke.item[s].edge_class != RECTO_EDGE_SILHOUETTE)
@@ -262,7 +265,8 @@ static void a_missing_fold_is_found(void **state) {
     if (kept < p.drawing.stroke.count) {
       p.drawing.stroke.count = kept;
       folded++;
-      assert_int_equal(ask(&p, &scene, &options, &error), RECTO_ERROR_VERIFY);
+      assert_int_equal(verify_drawn(&p, &scene, &options, &error),
+                       RECTO_ERROR_VERIFY);
       assert_non_null(strstr(error.text, "no line is drawn"));
     }
     pipeline_fini(&p);
@@ -350,7 +354,7 @@ static void the_judge_cuts_faces_by_the_same_rule(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(reported_scenes_are_drawn_right),
+      cmocka_unit_test(scenes_of_earlier_errors_are_drawn_right),
       cmocka_unit_test(every_method_draws_them_alike),
       cmocka_unit_test(the_judge_finds_them_drawn_right),
       cmocka_unit_test(a_missing_fold_is_found),

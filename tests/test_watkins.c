@@ -62,7 +62,7 @@ static bool is_nearer(const struct walk *walk, uint32_t f, uint32_t g,
          1;
 }
 
-/* The face at the centre of a column.  Pieces are asked with their ends: where
+/* The face at the centre of a column.  Pieces are tested with their ends: where
  * two meet at the centre, the nearer, the earlier where equally near. */
 static int seen_at_column(const struct walk *walk, int column, int columns) {
   const struct watkins *watkins = &walk->watkins;
@@ -370,7 +370,7 @@ static void coherence_saves_comparisons_and_changes_nothing(void **state) {
   assert_true(2 * all_with < all_without);
 }
 
-static void a_standing_order_is_computed_once(void **state) {
+static void an_order_that_holds_is_computed_once(void **state) {
   /* Two parallel slopes, one before the other: one order for all lines. */
   const struct pixels_scene slopes = {
       2,
@@ -532,7 +532,7 @@ int main(void) {
       cmocka_unit_test(line_14_is_split_as_listed),
       cmocka_unit_test(an_interval_is_split_wherever_two_seen_faces_pierce),
       cmocka_unit_test(coherence_saves_comparisons_and_changes_nothing),
-      cmocka_unit_test(a_standing_order_is_computed_once),
+      cmocka_unit_test(an_order_that_holds_is_computed_once),
       cmocka_unit_test(no_depth_is_computed_of_faces_clearly_apart),
       cmocka_unit_test(equal_sides_make_one_trapezoid),
       cmocka_unit_test(whole_edges_are_visible_from_end_to_end),

@@ -90,7 +90,7 @@ static void models_are_the_same(void **state) {
       print_message("no %s\n", name[i]);
 }
 
-static void our_own_models_are_the_same(void **state) {
+static void the_example_models_are_drawn_alike(void **state) {
   const char *source = getenv("srcdir");
   char folder[600];
   (void)state;
@@ -107,7 +107,7 @@ int main(void) {
       cmocka_unit_test(soups_of_a_thousand_are_the_same),
       cmocka_unit_test(listed_scenes_are_the_same),
       cmocka_unit_test(models_are_the_same),
-      cmocka_unit_test(our_own_models_are_the_same),
+      cmocka_unit_test(the_example_models_are_drawn_alike),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -186,7 +186,7 @@ static void groups_that_are_apart_are_one_in_any_order(void **state) {
   }
 }
 
-static void places_on_the_walls_of_cells_are_found(void **state) {
+static void points_on_the_borders_of_cells_are_found(void **state) {
   (void)state;
   for (int step = 1; step < 20; step++) {
     struct scene scene;
@@ -203,7 +203,7 @@ static void places_on_the_walls_of_cells_are_found(void **state) {
   }
 }
 
-static void a_crowd_in_one_cell_is_joined_in_linear_time(void **state) {
+static void an_overfull_cell_is_joined_in_linear_time(void **state) {
   (void)state;
   struct random random = {13};
   struct scene scene;
@@ -217,7 +217,7 @@ static void a_crowd_in_one_cell_is_joined_in_linear_time(void **state) {
   scene_fini(&scene);
 }
 
-static void odd_lengths_and_places_do_no_harm(void **state) {
+static void unusual_lengths_and_positions_are_handled(void **state) {
   (void)state;
   static const double lengths[] = {0x1p-900, 0x1p-300, 1e-9, 1, 0x1p200};
   for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
@@ -456,7 +456,7 @@ static void polylines_follow_their_points(void **state) {
   end(&f);
 }
 
-static void each_file_is_joined_by_its_own_precision(void **state) {
+static void each_file_is_welded_by_its_own_precision(void **state) {
   (void)state;
   struct fixture f;
   recto_error error;
@@ -476,7 +476,7 @@ static void each_file_is_joined_by_its_own_precision(void **state) {
   end(&f);
 }
 
-static void exhausted_memory_is_told(void **state) {
+static void exhausted_memory_is_reported(void **state) {
   (void)state;
   struct fixture f;
   const struct weld_request request = {-1, single};
@@ -635,9 +635,9 @@ int main(void) {
       cmocka_unit_test(no_cluster_is_wider_than_the_length),
       cmocka_unit_test(radii_are_kept),
       cmocka_unit_test(groups_that_are_apart_are_one_in_any_order),
-      cmocka_unit_test(places_on_the_walls_of_cells_are_found),
-      cmocka_unit_test(a_crowd_in_one_cell_is_joined_in_linear_time),
-      cmocka_unit_test(odd_lengths_and_places_do_no_harm),
+      cmocka_unit_test(points_on_the_borders_of_cells_are_found),
+      cmocka_unit_test(an_overfull_cell_is_joined_in_linear_time),
+      cmocka_unit_test(unusual_lengths_and_positions_are_handled),
       cmocka_unit_test(noise_of_rounding_leaves_no_border),
       cmocka_unit_test(exact_coordinates_are_left_alone),
       cmocka_unit_test(closed_shells_are_not_pinched),
@@ -646,8 +646,8 @@ int main(void) {
       cmocka_unit_test(needles_lose_their_short_side),
       cmocka_unit_test(a_length_beyond_the_model_leaves_nothing),
       cmocka_unit_test(polylines_follow_their_points),
-      cmocka_unit_test(each_file_is_joined_by_its_own_precision),
-      cmocka_unit_test(exhausted_memory_is_told),
+      cmocka_unit_test(each_file_is_welded_by_its_own_precision),
+      cmocka_unit_test(exhausted_memory_is_reported),
       cmocka_unit_test(torn_surfaces_are_suspicious),
       cmocka_unit_test(open_grids_are_not_suspicious),
       cmocka_unit_test(soups_of_triangles_are_not_suspicious),

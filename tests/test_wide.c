@@ -16,14 +16,14 @@ enum { ROUNDS = 200000 };
 /* A number of `limbs` limbs at most, often with long runs of equal digits. */
 static struct wide draw(uint64_t *r, int limbs) {
   uint64_t limb[WIDE_LIMBS] = {0};
-  int count = exact_below(r, limbs + 1);
+  int count = exact_random_below(r, limbs + 1);
   for (int i = 0; i < count; i++) {
-    int how = exact_below(r, 4);
+    int how = exact_random_below(r, 4);
     limb[i] = how == 0 ? 0 : how == 1 ? UINT64_MAX : exact_random(r);
     if (how == 3)
-      limb[i] >>= exact_below(r, 64);
+      limb[i] >>= exact_random_below(r, 64);
   }
-  return wide_of_limbs(limb, count, exact_below(r, 2) ? 1 : -1);
+  return wide_of_limbs(limb, count, exact_random_below(r, 2) ? 1 : -1);
 }
 
 static void assert_is(const struct wide *a, const mpz_t wanted) {
@@ -44,7 +44,7 @@ static void products_and_sums_are_those_of_gmp(void **state) {
   for (int i = 0; i < ROUNDS; i++) {
     struct wide p = draw(&r, 5), q = draw(&r, 4), s = draw(&r, 5),
                 t = draw(&r, 4), to;
-    if (exact_below(&r, 4) == 0)
+    if (exact_random_below(&r, 4) == 0)
       s = p, t = q; /* what is left is 0 */
     rational_set_wide(a, &p);
     rational_set_wide(b, &q);
@@ -67,7 +67,7 @@ static void products_and_sums_are_those_of_gmp(void **state) {
   mpz_clears(a, b, c, d, want, NULL);
 }
 
-static void words_and_doubles_are_those_of_gmp(void **state) {
+static void machine_words_and_doubles_are_those_of_gmp(void **state) {
   uint64_t r = 2;
   mpz_t a;
   (void)state;
@@ -75,7 +75,7 @@ static void words_and_doubles_are_those_of_gmp(void **state) {
   for (int i = 0; i < ROUNDS; i++) {
     int128 value = (int128)((uint128)exact_random(&r) << 64 | exact_random(&r));
     struct wide p = draw(&r, 10);
-    value >>= exact_below(&r, 128);
+    value >>= exact_random_below(&r, 128);
     rational_set_wide(a, &p);
     assert_true(wide_to_double(&p) == mpz_get_d(a));
     p = wide_of_int128(value);
@@ -92,9 +92,9 @@ static void quotients_are_rounded_as_gmp_would(void **state) {
   (void)state;
   mpz_inits(num, den, NULL);
   for (int i = 0; i < ROUNDS; i++) {
-    int bits = exact_below(&r, 30);
+    int bits = exact_random_below(&r, 30);
     int64_t about =
-        (int64_t)exact_random(&r) >> (bits + 2 + exact_below(&r, 32));
+        (int64_t)exact_random(&r) >> (bits + 2 + exact_random_below(&r, 32));
     struct wide d = draw(&r, 5), q = wide_of_int128(about), n, sum,
                 off = draw(&r, 4);
     if (d.sign <= 0)
@@ -152,7 +152,7 @@ static void divided_by_their_common_divisor_they_are_as_gmp_says(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(products_and_sums_are_those_of_gmp),
-      cmocka_unit_test(words_and_doubles_are_those_of_gmp),
+      cmocka_unit_test(machine_words_and_doubles_are_those_of_gmp),
       cmocka_unit_test(quotients_are_rounded_as_gmp_would),
       cmocka_unit_test(divided_by_their_common_divisor_they_are_as_gmp_says),
   };

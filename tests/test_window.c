@@ -163,8 +163,9 @@ static void long_edges_past_small_windows_are_split_often(void **state) {
   uint64_t seed = 5;
   (void)state;
   for (int round = 0; round < 2000; round++) {
-    int quarter = round % 4, near = 2 + exact_below(&seed, 1 << (round % 29));
-    int far = FAR_OFF - 4 - exact_below(&seed, 1 << 28);
+    int quarter = round % 4,
+        near = 2 + exact_random_below(&seed, 1 << (round % 29));
+    int far = FAR_OFF - 4 - exact_random_below(&seed, 1 << 28);
     const struct geom_point p =
         turn((struct geom_point){-far, -far - 3, 0}, quarter);
     const struct geom_point q =
@@ -240,19 +241,20 @@ static int winding(const struct box2 *w, const struct geom_point *corner,
  * small and in the middle, where polygons run round it. */
 static int random_case(uint64_t *seed, struct box2 *window,
                        struct geom_point *corner) {
-  int lattice = 4 + exact_below(seed, 40), count = 3 + exact_below(seed, 6);
-  if (exact_below(seed, 2) == 0) {
-    window->x0 = exact_below(seed, lattice) - 2;
-    window->y0 = exact_below(seed, lattice) - 2;
-    window->x1 = window->x0 + 1 + exact_below(seed, lattice);
-    window->y1 = window->y0 + 1 + exact_below(seed, lattice);
+  int lattice = 4 + exact_random_below(seed, 40),
+      count = 3 + exact_random_below(seed, 6);
+  if (exact_random_below(seed, 2) == 0) {
+    window->x0 = exact_random_below(seed, lattice) - 2;
+    window->y0 = exact_random_below(seed, lattice) - 2;
+    window->x1 = window->x0 + 1 + exact_random_below(seed, lattice);
+    window->y1 = window->y0 + 1 + exact_random_below(seed, lattice);
   } else {
     window->x0 = window->y0 = lattice / 2 - 1;
     window->x1 = window->y1 = lattice / 2;
   }
   for (int k = 0; k < count; k++)
-    corner[k] = (struct geom_point){exact_below(seed, lattice),
-                                    exact_below(seed, lattice), 0};
+    corner[k] = (struct geom_point){exact_random_below(seed, lattice),
+                                    exact_random_below(seed, lattice), 0};
   return count;
 }
 

@@ -169,8 +169,8 @@ static void ties_of_rounded_depths_keep_the_earlier_face(void **state) {
       int(*c)[3] = scene.face[f].corner;
       scene.face[f].count = 3;
       for (int k = 0; k < 3; k++) {
-        c[k][1] = exact_below(&seed, 33);
-        c[k][0] = (3 * exact_below(&seed, 11) + c[k][1]) % 33;
+        c[k][1] = exact_random_below(&seed, 33);
+        c[k][0] = (3 * exact_random_below(&seed, 11) + c[k][1]) % 33;
         c[k][2] = (c[k][0] + 2 * c[k][1]) / 3;
       }
       f += (c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) !=
@@ -314,7 +314,7 @@ static int face_in_the_middle(int64_t z, int64_t gap, int bits) {
   return face;
 }
 
-/* Row 28 of the list of failures: B bits tell sheets apart by 2^(40 - B) units
+/* Row 28 of the list of failures: B bits distinguish sheets by 2^(40 - B) units
  * and no less. */
 static void integer_depths_fight_where_their_bits_say(void **state) {
   static const int bits[] = {16, 24, 32};
@@ -329,7 +329,7 @@ static void integer_depths_fight_where_their_bits_say(void **state) {
   }
 }
 
-static void float64_tells_single_units_apart(void **state) {
+static void float64_distinguishes_single_units(void **state) {
   (void)state;
   assert_int_equal(face_in_the_middle(INT64_C(1) << 39, 1, 0), 1);
   assert_int_equal(face_in_the_middle(INT64_C(1) << 39, 0, 0), 0);
@@ -363,10 +363,12 @@ static int32_t centre(int pixel) {
  * changes by 2^38 within a unit. */
 static void add_needle(struct sheet *sheet, int x, int y, uint64_t *seed) {
   int32_t cx = centre(x), cy = centre(y);
-  struct geom_point p[3] = {
-      {cx - 3 - exact_below(seed, 4), cy - 1 - exact_below(seed, 3), 0},
-      {cx + 2 + exact_below(seed, 5), cy - exact_below(seed, 3), SHEET_Z_MAX},
-      {cx + exact_below(seed, 3) - 1, (1 << 29) - 1, exact_below(seed, 1000)}};
+  struct geom_point p[3] = {{cx - 3 - exact_random_below(seed, 4),
+                             cy - 1 - exact_random_below(seed, 3), 0},
+                            {cx + 2 + exact_random_below(seed, 5),
+                             cy - exact_random_below(seed, 3), SHEET_Z_MAX},
+                            {cx + exact_random_below(seed, 3) - 1,
+                             (1 << 29) - 1, exact_random_below(seed, 1000)}};
   add_triangle(sheet, p, 0);
 }
 
@@ -395,13 +397,14 @@ static int64_t floor_depth(const struct sheet *sheet, int x, int y,
   return (int64_t)(plane.a.z - fall);
 }
 
-/* Faces so steep that doubles know nothing of their depth are still asked at
+/* Faces so steep that doubles cannot bound their depth are still sampled at
  * the centre: against a level face a unit above and below the truth. */
 static void steep_faces_are_decided_at_the_centre(void **state) {
   uint64_t seed = 99;
   (void)state;
   for (int round = 0; round < 200; round++) {
-    int x = 3 + exact_below(&seed, COARSE - 6), y = 3 + exact_below(&seed, 40);
+    int x = 3 + exact_random_below(&seed, COARSE - 6),
+        y = 3 + exact_random_below(&seed, 40);
     struct sheet sheet;
     struct frames frames;
     bool exact;
@@ -428,11 +431,14 @@ static void steep_faces_meet_gentle_ones_exactly(void **state) {
   uint64_t seed = 97;
   (void)state;
   for (int round = 0; round < 400; round++) {
-    int x = 3 + exact_below(&seed, COARSE - 6), y = 3 + exact_below(&seed, 40);
+    int x = 3 + exact_random_below(&seed, COARSE - 6),
+        y = 3 + exact_random_below(&seed, 40);
     int32_t cx = centre(x), cy = centre(y), half = 1 << 21;
-    int32_t ax = exact_below(&seed, half / 2), ay = exact_below(&seed, half);
-    int64_t z = INT64_C(1) << 39, a = exact_below(&seed, 1 << 30) * INT64_C(99),
-            b = exact_below(&seed, 1 << 30) * INT64_C(101);
+    int32_t ax = exact_random_below(&seed, half / 2),
+            ay = exact_random_below(&seed, half);
+    int64_t z = INT64_C(1) << 39,
+            a = exact_random_below(&seed, 1 << 30) * INT64_C(99),
+            b = exact_random_below(&seed, 1 << 30) * INT64_C(101);
     const struct geom_point slope[3] = {
         {cx - half, cy - half - ay, z + a},
         {cx + half - 2 * ax, cy - half + ay, z - a - 2 * b},
@@ -461,13 +467,15 @@ static void steep_faces_keep_within_their_depths(void **state) {
   uint64_t seed = 98;
   (void)state;
   for (int round = 0; round < 400; round++) {
-    int x = 3 + exact_below(&seed, COARSE - 6), y = 3 + exact_below(&seed, 40);
+    int x = 3 + exact_random_below(&seed, COARSE - 6),
+        y = 3 + exact_random_below(&seed, 40);
     int32_t cx = centre(x), cy = centre(y);
     int64_t low = round % 2 == 0 ? 0 : SHEET_Z_MAX, high = SHEET_Z_MAX - low;
     const struct geom_point needle[3] = {
         {cx, cy, low},
-        {cx + 1 + exact_below(&seed, 4), cy + 3 + exact_below(&seed, 4), high},
-        {cx + 1, (1 << 29) - exact_below(&seed, 1000), low}};
+        {cx + 1 + exact_random_below(&seed, 4),
+         cy + 3 + exact_random_below(&seed, 4), high},
+        {cx + 1, (1 << 29) - exact_random_below(&seed, 1000), low}};
     struct sheet sheet;
     struct frames frames;
     exact_sheet_init(&sheet);
@@ -832,7 +840,7 @@ static void order_of_the_edges_does_not_matter(void **state) {
   }
 }
 
-static void intersections_are_drawn_where_asked_for(void **state) {
+static void intersections_are_drawn_on_request(void **state) {
   struct sheet sheet;
   struct map map;
   const struct solver_request request = {
@@ -861,7 +869,7 @@ static void intersections_are_drawn_where_asked_for(void **state) {
 
 /* ---- Conversation -------------------------------------------------------- */
 
-static void bad_knobs_are_refused(void **state) {
+static void invalid_options_are_refused(void **state) {
   const struct solver_request bad[] = {{.resolution = -5},
                                        {.resolution = 65537},
                                        {.resolution = 64, .depth_bits = -1},
@@ -882,8 +890,8 @@ static void bad_knobs_are_refused(void **state) {
     }
 }
 
-/* Between two lines of a folded frame that share memory lie as many as asked;
- * a frame with fewer lines stays as it is. */
+/* Between two lines of a folded frame that share memory lie as many as
+ * required; a frame with fewer lines stays as it is. */
 static void a_folded_frame_uses_lines_again(void **state) {
   struct sheet sheet;
   struct raster raster;
@@ -904,17 +912,17 @@ static void a_folded_frame_uses_lines_again(void **state) {
 }
 
 static bool stop_at_once(void *user, double share, const char *stage) {
-  int *asked = user;
+  int *polls_left = user;
   assert_true(share >= 0 && share <= 1);
   assert_non_null(stage);
-  return --*asked > 0;
+  return --*polls_left > 0;
 }
 
 static void cancelling_ends_the_work(void **state) {
   (void)state;
   for (int s = 0; s < 2; s++)
-    for (int asks = 1; asks < 4; asks++) {
-      int left = asks;
+    for (int polls = 1; polls < 4; polls++) {
+      int left = polls;
       const struct solver_request request = {.strokes = true,
                                              .threads = 1,
                                              .resolution = 512,
@@ -932,7 +940,7 @@ static void cancelling_ends_the_work(void **state) {
     }
 }
 
-static void running_out_of_memory_is_told(void **state) {
+static void running_out_of_memory_is_reported(void **state) {
   const struct solver_request request = {.strokes = true,
                                          .fragments = true,
                                          .intersections = true,
@@ -987,7 +995,7 @@ int main(void) {
       cmocka_unit_test(active_pairs_are_as_listed),
       cmocka_unit_test(depths_of_line_15_fall_by_three_quarters),
       cmocka_unit_test(integer_depths_fight_where_their_bits_say),
-      cmocka_unit_test(float64_tells_single_units_apart),
+      cmocka_unit_test(float64_distinguishes_single_units),
       cmocka_unit_test(steep_faces_are_decided_at_the_centre),
       cmocka_unit_test(steep_faces_meet_gentle_ones_exactly),
       cmocka_unit_test(steep_faces_keep_within_their_depths),
@@ -1002,11 +1010,11 @@ int main(void) {
       cmocka_unit_test(outlines_and_points_are_not_followed),
       cmocka_unit_test(outline_that_curves_away_has_no_gaps),
       cmocka_unit_test(order_of_the_edges_does_not_matter),
-      cmocka_unit_test(intersections_are_drawn_where_asked_for),
-      cmocka_unit_test(bad_knobs_are_refused),
+      cmocka_unit_test(intersections_are_drawn_on_request),
+      cmocka_unit_test(invalid_options_are_refused),
       cmocka_unit_test(cancelling_ends_the_work),
       cmocka_unit_test(a_folded_frame_uses_lines_again),
-      cmocka_unit_test(running_out_of_memory_is_told),
+      cmocka_unit_test(running_out_of_memory_is_reported),
       cmocka_unit_test(scan_line_holds_one_line),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

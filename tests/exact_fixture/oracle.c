@@ -1,4 +1,4 @@
-/* oracle.c - what is visible, asked point by point in rational arithmetic. */
+/* oracle.c - what is visible, decided point by point in rational arithmetic. */
 #include "exact_fixture/oracle.h"
 
 #include <setjmp.h>

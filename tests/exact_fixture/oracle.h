@@ -1,6 +1,6 @@
-/* oracle.h - what is visible, asked point by point in rational arithmetic
- * straight from the definitions in occlusion.h and fragments.h.  For small sheets:
- * it takes the page apart along every line there is. */
+/* oracle.h - what is visible, decided point by point in rational arithmetic
+ * straight from the definitions in occlusion.h and fragments.h.  For small
+ * sheets: it divides the page along every line there is. */
 #ifndef TESTS_EXACT_FIXTURE_ORACLE_H
 #define TESTS_EXACT_FIXTURE_ORACLE_H
 

@@ -35,13 +35,13 @@ static bool is_on_page(const struct pixels_face *face) {
 }
 
 void pixels_random_scene(struct pixels_scene *scene, uint64_t seed) {
-  scene->count = 2 + exact_below(&seed, PIXELS_FACES - 1);
+  scene->count = 2 + exact_random_below(&seed, PIXELS_FACES - 1);
   for (int f = 0; f < scene->count;) {
     struct pixels_face *face = &scene->face[f];
-    face->count = 3 + exact_below(&seed, 2);
+    face->count = 3 + exact_random_below(&seed, 2);
     for (int k = 0; k < 3; k++)
       for (int axis = 0; axis < 3; axis++)
-        face->corner[k][axis] = exact_below(&seed, PIXELS_SIDE + 1);
+        face->corner[k][axis] = exact_random_below(&seed, PIXELS_SIDE + 1);
     for (int axis = 0; axis < 3; axis++)
       face->corner[3][axis] =
           face->corner[0][axis] + face->corner[2][axis] - face->corner[1][axis];

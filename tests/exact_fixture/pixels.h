@@ -1,11 +1,11 @@
 /* pixels.h - small scenes of whole numbers on a page of 32 x 32 mm, and which
- * face is seen in each pixel of it, found with rational arithmetic. */
+ * face is visible in each pixel of it, found with rational arithmetic. */
 #ifndef TESTS_EXACT_FIXTURE_PIXELS_H
 #define TESTS_EXACT_FIXTURE_PIXELS_H
 
 #include "exact_fixture/sheet.h"
 
-/* A scene unit is a millimetre of the page; depth is spread alike. */
+/* A scene unit is a millimetre of the page; depth likewise. */
 enum { PIXELS_SIDE = 32, PIXELS_UNIT = 1 << 20, PIXELS_FACES = 24 };
 
 struct pixels_face {

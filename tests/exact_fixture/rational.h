@@ -1,6 +1,6 @@
-/* rational.h - the plane in plain rational arithmetic, for tests that hold the
- * house's exact geometry against it.  Slow, obvious, and written without a
- * look at how the house does it. */
+/* rational.h - plane geometry in plain rational arithmetic, for tests that
+ * compare src/geom with it.  Slow, obvious, and written independently of how
+ * src/geom works. */
 #ifndef TESTS_EXACT_FIXTURE_RATIONAL_H
 #define TESTS_EXACT_FIXTURE_RATIONAL_H
 

@@ -20,13 +20,14 @@ static void add(struct sheet *sheet, const int corner[3][3]) {
 
 static void add_lattice(struct sheet *sheet, int faces, int jitter,
                         uint64_t *r) {
-  int places = 2 + exact_below(r, 5), step = 1 << (4 + exact_below(r, 18));
+  int places = 2 + exact_random_below(r, 5),
+      step = 1 << (4 + exact_random_below(r, 18));
   int corner[3][3];
   for (int f = 0; f < faces; f++) {
     for (int k = 0; k < 9; k++) {
-      corner[k / 3][k % 3] = exact_below(r, places) * step;
-      if (jitter > 0 && exact_below(r, 3) == 0)
-        corner[k / 3][k % 3] += exact_below(r, 2 * jitter + 1);
+      corner[k / 3][k % 3] = exact_random_below(r, places) * step;
+      if (jitter > 0 && exact_random_below(r, 3) == 0)
+        corner[k / 3][k % 3] += exact_random_below(r, 2 * jitter + 1);
     }
     add(sheet, corner);
   }
@@ -34,44 +35,47 @@ static void add_lattice(struct sheet *sheet, int faces, int jitter,
 
 static void add_mesh(struct sheet *sheet, int faces, uint64_t *r) {
   enum { MOST = 12 };
-  int points = 4 + exact_below(r, MOST - 3), size = 4 + exact_below(r, 200);
+  int points = 4 + exact_random_below(r, MOST - 3),
+      size = 4 + exact_random_below(r, 200);
   int point[MOST][3], corner[3][3];
   for (int k = 0; k < points; k++)
     for (int i = 0; i < 3; i++)
-      point[k][i] = 16 * exact_below(r, size);
+      point[k][i] = 16 * exact_random_below(r, size);
   for (int f = 0; f < faces; f++) {
     for (int k = 0; k < 3; k++)
-      memcpy(corner[k], point[exact_below(r, points)], sizeof corner[k]);
+      memcpy(corner[k], point[exact_random_below(r, points)], sizeof corner[k]);
     add(sheet, corner);
   }
 }
 
 static void add_needles(struct sheet *sheet, int faces, uint64_t *r) {
-  int length = 1 << (6 + exact_below(r, 23)), corner[3][3];
+  int length = 1 << (6 + exact_random_below(r, 23)), corner[3][3];
   for (int f = 0; f < faces; f++) {
-    int y = exact_below(r, 12), z = exact_below(r, 1000);
-    int along = exact_below(r, 2), across = 1 - along;
+    int y = exact_random_below(r, 12), z = exact_random_below(r, 1000);
+    int along = exact_random_below(r, 2), across = 1 - along;
     for (int k = 0; k < 3; k++) {
-      corner[k][along] = (k == 0 ? -length : length) + exact_below(r, 4) - 2;
-      corner[k][across] = y + exact_below(r, 4);
-      corner[k][2] = z + exact_below(r, 100);
+      corner[k][along] =
+          (k == 0 ? -length : length) + exact_random_below(r, 4) - 2;
+      corner[k][across] = y + exact_random_below(r, 4);
+      corner[k][2] = z + exact_random_below(r, 100);
     }
-    if (exact_below(r, 2))
-      corner[2][along] = exact_below(r, length);
+    if (exact_random_below(r, 2))
+      corner[2][along] = exact_random_below(r, length);
     add(sheet, corner);
   }
 }
 
 static void add_planes(struct sheet *sheet, int faces, uint64_t *r) {
-  int step = 1 << (4 + exact_below(r, 16)), corner[3][3];
-  int a = exact_below(r, 3), b = exact_below(r, 3);
+  int step = 1 << (4 + exact_random_below(r, 16)), corner[3][3];
+  int a = exact_random_below(r, 3), b = exact_random_below(r, 3);
   for (int f = 0; f < faces; f++) {
     for (int k = 0; k < 3; k++) {
-      corner[k][0] = exact_below(r, 8) * step;
-      corner[k][1] = exact_below(r, 8) * step;
-      corner[k][2] = a * corner[k][0] + b * corner[k][1] + exact_below(r, 4);
-      if (exact_below(r, 6) == 0)
-        corner[k][2] += exact_below(r, 100);
+      corner[k][0] = exact_random_below(r, 8) * step;
+      corner[k][1] = exact_random_below(r, 8) * step;
+      corner[k][2] =
+          a * corner[k][0] + b * corner[k][1] + exact_random_below(r, 4);
+      if (exact_random_below(r, 6) == 0)
+        corner[k][2] += exact_random_below(r, 100);
     }
     add(sheet, corner);
   }
@@ -95,22 +99,22 @@ static double depth_at(const int corner[3][3], const int at[3],
 /* A floor and two walls on one edge, which is as far off the floor as contact
  * allows: one wall goes up and the other down. */
 static void add_seam(struct sheet *sheet, uint64_t *r) {
-  int size = 20 + exact_below(r, 60), first = exact_below(r, 3);
+  int size = 20 + exact_random_below(r, 60), first = exact_random_below(r, 3);
   int face[3][3][3];
   for (int k = 0; k < 3; k++) {
-    face[0][k][0] = exact_below(r, size);
-    face[0][k][1] = exact_below(r, size);
-    face[0][k][2] = 4 * size + exact_below(r, 2 * size);
+    face[0][k][0] = exact_random_below(r, size);
+    face[0][k][1] = exact_random_below(r, size);
+    face[0][k][2] = 4 * size + exact_random_below(r, 2 * size);
   }
   for (int k = 0; k < 4; k++) { /* the edge's ends, then the walls' tops */
     int *at = k < 2 ? face[1][k] : face[k - 1][2];
     double tolerance, z;
-    at[0] = exact_below(r, 2 * size) - size / 2;
-    at[1] = exact_below(r, 2 * size) - size / 2;
+    at[0] = exact_random_below(r, 2 * size) - size / 2;
+    at[1] = exact_random_below(r, 2 * size) - size / 2;
     z = depth_at((const int(*)[3])face[0], at, &tolerance);
     if (k >= 2)
-      z += (k == 2 ? 1 : -1) * (5 + exact_below(r, 100));
-    else if (exact_below(r, 4) == 0)
+      z += (k == 2 ? 1 : -1) * (5 + exact_random_below(r, 100));
+    else if (exact_random_below(r, 4) == 0)
       z = floor(z + tolerance);
     else
       z = ceil(z - tolerance);
@@ -126,7 +130,7 @@ static void add_extremes(struct sheet *sheet, int faces, uint64_t *r) {
   for (int f = 0; f < faces; f++) {
     for (int k = 0; k < 9; k++) {
       int least = k % 3 == 2 ? 0 : -XY_MAX, v = least;
-      switch (exact_below(r, 4)) {
+      switch (exact_random_below(r, 4)) {
       case 0:
         break;
       case 1:
@@ -139,8 +143,8 @@ static void add_extremes(struct sheet *sheet, int faces, uint64_t *r) {
         v = (int)(least + (int64_t)(exact_random(r) %
                                     (uint64_t)(XY_MAX - (int64_t)least)));
       }
-      if (exact_below(r, 2)) /* towards zero, so as to stay in range */
-        v = between(v, least + 2, XY_MAX - 2) + exact_below(r, 5) - 2;
+      if (exact_random_below(r, 2)) /* towards zero, so as to stay in range */
+        v = between(v, least + 2, XY_MAX - 2) + exact_random_below(r, 5) - 2;
       corner[k / 3][k % 3] = v;
     }
     add(sheet, corner);
@@ -152,10 +156,10 @@ static void add_extremes(struct sheet *sheet, int faces, uint64_t *r) {
 void exact_random_sheet(struct sheet *sheet, enum exact_kind kind, int faces,
                         uint64_t *r) {
   exact_sheet_init(sheet);
-  if (exact_below(r, 3) == 0) {
+  if (exact_random_below(r, 3) == 0) {
     sheet->camera.perspective = true;
     sheet->camera.d_max = 10;
-    sheet->camera.middle_mm[0] += exact_below(r, 10);
+    sheet->camera.middle_mm[0] += exact_random_below(r, 10);
     sheet->z_scale = 0x1p30;
     sheet->units_per_view = 0x1p24;
   }
@@ -164,7 +168,7 @@ void exact_random_sheet(struct sheet *sheet, enum exact_kind kind, int faces,
     add_lattice(sheet, faces, 0, r);
     break;
   case EXACT_JITTER:
-    add_lattice(sheet, faces, 1 + exact_below(r, 3), r);
+    add_lattice(sheet, faces, 1 + exact_random_below(r, 3), r);
     break;
   case EXACT_MESH:
     add_mesh(sheet, faces, r);
@@ -175,14 +179,14 @@ void exact_random_sheet(struct sheet *sheet, enum exact_kind kind, int faces,
   case EXACT_PLANES:
     add_planes(sheet, faces, r);
     break;
-  case EXACT_SEAMS:
+  case EXACT_CROSSINGS:
     for (int f = 0; f < faces; f += 3)
       add_seam(sheet, r);
     break;
   default:
     add_extremes(sheet, faces, r);
   }
-  if (exact_below(r, 3) == 0)
-    sheet->camera.contact =
-        (sheet->camera.perspective ? 0x1p-24 : 1) * (1 << exact_below(r, 8));
+  if (exact_random_below(r, 3) == 0)
+    sheet->camera.contact = (sheet->camera.perspective ? 0x1p-24 : 1) *
+                            (1 << exact_random_below(r, 8));
 }

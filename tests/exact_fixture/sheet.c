@@ -314,6 +314,6 @@ uint64_t exact_random(uint64_t *state) {
   return z ^ (z >> 31);
 }
 
-int exact_below(uint64_t *state, int bound) {
+int exact_random_below(uint64_t *state, int bound) {
   return (int)(exact_random(state) % (uint64_t)bound);
 }

@@ -17,10 +17,10 @@ void exact_sheet_fini(struct sheet *sheet);
 void exact_add_face(struct sheet *sheet, const int corner[][3], int count,
                     int scale);
 
-/* Solves with everything asked for; asserts that it went well. */
+/* Solves with everything requested; asserts that it succeeded. */
 void exact_solve(const struct solver *solver, struct sheet *sheet,
                  struct map *map, struct report *report);
-/* The same as the request says; tells how it went. */
+/* The same for a given request; returns the solver's status. */
 recto_status exact_solve_as(const struct solver *solver,
                             const struct solver_request *request,
                             struct sheet *sheet, struct map *map,
@@ -48,6 +48,6 @@ void exact_assert_area(const struct map *map, uint32_t face, int scale,
 
 /* A reproducible sequence (splitmix64). */
 uint64_t exact_random(uint64_t *state);
-int exact_below(uint64_t *state, int bound);
+int exact_random_below(uint64_t *state, int bound);
 
 #endif

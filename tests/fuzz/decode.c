@@ -21,7 +21,7 @@ static const char *choose(struct source *source, const char *const *from,
 }
 
 /* ---- Options -------------------------------------------------------------
- * Words of one alternative are parted by spaces; "" says nothing. */
+ * Words of one alternative are separated by spaces; "" says nothing. */
 
 enum { MAX_ALTERNATIVES = 10 };
 
@@ -209,7 +209,7 @@ static void add_points(struct decoded *d, struct source *source,
   }
 }
 
-/* Adds the corner of the box between two points: bit k of `which` tells whose
+/* Adds the corner of the box between two points: bit k of `which` selects whose
  * coordinate k is. */
 static void add_corner(struct decoded *d, const char *const *a,
                        const char *const *b, unsigned which) {

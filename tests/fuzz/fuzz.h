@@ -18,7 +18,7 @@ struct fuzz_finding {
 struct fuzz_target {
   const char *name;
   /* Runs the input, `count` bytes.  A crash, a report of a sanitizer and an
-   * endless loop are findings too, and are told by whoever watches the
+   * endless loop are findings too, and are reported by what watches the
    * process. */
   void (*run)(const uint8_t *bytes, size_t count, struct fuzz_finding *finding);
   /* Prints the input in a form for people; NULL: it is a text or a file of a

@@ -3,7 +3,7 @@
 # from the committed corpus and from what earlier runs left in FOLDER.
 #
 # FUZZ_SECONDS  how long each runs; else 60
-# FUZZ_TARGET   which run, parted by spaces; else all
+# FUZZ_TARGET   which run, separated by spaces; else all
 #
 # FOLDER/TARGET/corpus gets inputs that reach new code, FOLDER/TARGET/findings
 # those that something was found with, at which that fuzzer ends.  Exit 1 where

@@ -30,7 +30,7 @@ struct words {
   int argc;
 };
 
-/* A drawing and a model are asked for, so that what is fuzzed is all else; a
+/* A drawing and a model are fixed, so that everything else is fuzzed; a
  * later -o wins. */
 static void split(struct words *words, const uint8_t *bytes, size_t count) {
   static char program[] = "recto", output[] = "-oout.svg", name[] = "model.obj";
@@ -57,7 +57,7 @@ static void split(struct words *words, const uint8_t *bytes, size_t count) {
 
 static double least(double a, double b) { return a < b ? a : b; }
 
-/* What was asked for in pixels, points and threads costs what it costs. */
+/* Requests for many pixels, points or threads are legitimately expensive. */
 static void limit_cost(recto_options *o) {
   const int lines = 200, samples = 3, points = 200, threads = 2;
   const double dpi = 20;

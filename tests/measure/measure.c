@@ -34,7 +34,8 @@ struct cells {
   struct box page;
   struct box *box; /* of each fragment */
   ARRAY(uint32_t) list[CELLS * CELLS];
-  uint32_t *asked; /* of each fragment: when it was asked about last, plus 1 */
+  uint32_t
+      *stamp; /* of each fragment: the query that visited it last, plus 1 */
   uint32_t now;
 };
 
@@ -154,7 +155,7 @@ static void free_cells(struct cells *cells) {
   for (size_t i = 0; i < CELLS * CELLS; i++)
     ARRAY_FREE(&cells->list[i]);
   mem_free(cells->box);
-  mem_free(cells->asked);
+  mem_free(cells->stamp);
   mem_free(cells);
 }
 
@@ -169,8 +170,8 @@ static struct cells *make_cells(const struct sheet *sheet,
   cells->page.x0 = -cells->page.x1;
   cells->page.y0 = -cells->page.y1;
   cells->box = mem_alloc(count, sizeof *cells->box);
-  cells->asked = mem_calloc(count, sizeof *cells->asked);
-  bool ok = cells->box != NULL && cells->asked != NULL;
+  cells->stamp = mem_calloc(count, sizeof *cells->stamp);
+  bool ok = cells->box != NULL && cells->stamp != NULL;
   for (size_t f = 0; ok && f < count; f++) {
     int range[4];
     cells->box[f] = box_of(map, f);
@@ -208,11 +209,11 @@ static bool meet_all(struct clipper *clipper, const struct place *convex,
         uint32_t f = cells->list[y * CELLS + x].item[i];
         const struct box *there = &cells->box[f];
         double area = 0;
-        if (f < clipper->from || cells->asked[f] == cells->now ||
+        if (f < clipper->from || cells->stamp[f] == cells->now ||
             there->x0 >= box.x1 || box.x0 >= there->x1 || there->y0 >= box.y1 ||
             box.y0 >= there->y1)
           continue;
-        cells->asked[f] = cells->now;
+        cells->stamp[f] = cells->now;
         if (!add_common(clipper, f, convex, count, sign, &area))
           return false;
         *both += area;

@@ -26,7 +26,7 @@ struct measure {
 double measure_area_share(const struct measure *measure);
 double measure_ink_share(const struct measure *measure);
 
-/* Measures `map` against `exact`; what either was not asked for counts
+/* Measures `map` against `exact`; what either was not requested to find counts
  * nothing.  Both are maps of `sheet`: of a sheet that had the same
  * intersections added, if any.  False when memory ran out. */
 USE_RESULT bool measure_map(struct measure *measure, const struct sheet *sheet,

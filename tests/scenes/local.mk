@@ -4,8 +4,7 @@ check_LTLIBRARIES += %D%/libscenes.la
   %D%/build.c %D%/build.h \
   %D%/camera.c \
   %D%/catmull_clark.c %D%/catmull_clark.h \
-  %D%/copies.c \
-  %D%/crowds.c \
+  %D%/duplicates.c \
   %D%/cycles.c \
   %D%/faulty.c \
   %D%/flaws.c \
@@ -13,6 +12,7 @@ check_LTLIBRARIES += %D%/libscenes.la
   %D%/list.c \
   %D%/mass.c \
   %D%/meshes.c \
+  %D%/needles.c \
   %D%/paper.c \
   %D%/piercing.c \
   %D%/pipeline.c %D%/pipeline.h \

@@ -1,4 +1,4 @@
-/* pipeline.h - a scene through the whole house in one call. */
+/* pipeline.h - a scene through all stages of the library in one call. */
 #ifndef SCENES_PIPELINE_H
 #define SCENES_PIPELINE_H
 
@@ -18,7 +18,7 @@ struct pipeline {
   recto_error error;
 };
 
-/* Draws the scene; fragments are made where options->fill asks for them, with
+/* Draws the scene; fragments are made where options->fill requires them, with
  * their exact areas where the solver keeps them.  Look at `status` first:
  * what was not reached is empty. */
 void pipeline_run(struct pipeline *pipeline, const struct scene *scene,

@@ -157,25 +157,26 @@ void scenes_pipe(struct scene *scene, recto_options *options, unsigned n,
                  unsigned rings);
 /* A fan of n triangles about one vertex, up and down like a bellows. */
 void scenes_fan(struct scene *scene, recto_options *options, unsigned n);
-enum scenes_crowd {
-  SCENES_CROWD_DISC,     /* polygons of n corners: a convex one, ... */
-  SCENES_CROWD_COMB,     /* ... long teeth, ... */
-  SCENES_CROWD_SPIRAL,   /* ... a strip rolled up, ... */
-  SCENES_CROWD_SPIKES,   /* ... a star with spikes at random */
-  SCENES_CROWD_FLAT_FAN, /* n triangles about one vertex: in a plane, ... */
-  SCENES_CROWD_CONE,     /* ... a cone, ... */
-  SCENES_CROWD_UMBRELLA, /* ... a cone with a torn rim */
-  SCENES_CROWD_COUNT
+enum scenes_needles {
+  SCENES_NEEDLES_DISC,     /* polygons of n corners: a convex one, ... */
+  SCENES_NEEDLES_COMB,     /* ... long teeth, ... */
+  SCENES_NEEDLES_SPIRAL,   /* ... a strip rolled up, ... */
+  SCENES_NEEDLES_SPIKES,   /* ... a star with spikes at random */
+  SCENES_NEEDLES_FLAT_FAN, /* n triangles about one vertex: in a plane, ... */
+  SCENES_NEEDLES_CONE,     /* ... a cone, ... */
+  SCENES_NEEDLES_UMBRELLA, /* ... a cone with a torn rim */
+  SCENES_NEEDLES_COUNT
 };
 
-/* Very many needles in one place (less than four corners may be left out). */
-void scenes_crowd(struct scene *scene, recto_options *options,
-                  enum scenes_crowd crowd, unsigned n, uint64_t seed);
+/* Very many thin triangles that overlap (up to three corners may be left
+ * out). */
+void scenes_needles(struct scene *scene, recto_options *options,
+                    enum scenes_needles kind, unsigned n, uint64_t seed);
 /* n triangles in one place, each corner moved at random by as much as `by`:
  * some seen from behind; where `pierced`, every other one goes through the
  * rest. */
-void scenes_copies(struct scene *scene, recto_options *options, unsigned n,
-                   bool pierced, double by);
+void scenes_duplicates(struct scene *scene, recto_options *options, unsigned n,
+                       bool pierced, double by);
 /* n pages on one edge, over so many turns. */
 void scenes_book(struct scene *scene, recto_options *options, unsigned n,
                  double turns);

@@ -1,5 +1,5 @@
-/* copies.c - very many faces in nearly one place: copies of a triangle, and
- * the pages of a book. */
+/* duplicates.c - very many faces at nearly one position: copies of a triangle,
+ * and the pages of a book. */
 #include <math.h>
 
 #include "tests/scenes/random.h"
@@ -11,8 +11,8 @@ static struct vector moved(struct vector at, double by, struct random *random) {
                    at.z + random_between(random, -by, by));
 }
 
-void scenes_copies(struct scene *scene, recto_options *options, unsigned n,
-                   bool pierced, double by) {
+void scenes_duplicates(struct scene *scene, recto_options *options, unsigned n,
+                       bool pierced, double by) {
   const struct vector at[2][3] = {
       {{0, 0, 0}, {1, 0, 0.3}, {0.2, 1, 0.7}},
       {{0.2, 0.1, 1}, {0.7, 0.1, -1}, {0.5, 0.8, 0.1}}};

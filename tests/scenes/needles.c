@@ -1,5 +1,5 @@
-/* crowds.c - many needles in one place: polygons of very many corners, and
- * fans about one vertex. */
+/* needles.c - many thin triangles that overlap: polygons of very many corners,
+ * and fans about one vertex. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -49,35 +49,35 @@ static uint32_t place_spiral(struct vector *at, uint32_t count) {
   return 2 * half;
 }
 
-static uint32_t place_corners(struct vector *at, enum scenes_crowd crowd,
+static uint32_t place_corners(struct vector *at, enum scenes_needles kind,
                               uint32_t count, struct random *random) {
-  if (crowd == SCENES_CROWD_COMB)
+  if (kind == SCENES_NEEDLES_COMB)
     return place_comb(at, count);
-  if (crowd == SCENES_CROWD_SPIRAL)
+  if (kind == SCENES_NEEDLES_SPIRAL)
     return place_spiral(at, count);
   for (uint32_t i = 0; i < count; i++) {
     double radius = 1, z = 0;
-    if (crowd == SCENES_CROWD_SPIKES || crowd == SCENES_CROWD_UMBRELLA)
+    if (kind == SCENES_NEEDLES_SPIKES || kind == SCENES_NEEDLES_UMBRELLA)
       radius = random_between(random, 0.4, 1);
-    if (crowd == SCENES_CROWD_UMBRELLA)
+    if (kind == SCENES_NEEDLES_UMBRELLA)
       z = random_between(random, -0.02, 0.02);
     at[i] = around((double)i / count, radius, z);
   }
   return count;
 }
 
-void scenes_crowd(struct scene *scene, recto_options *options,
-                  enum scenes_crowd crowd, unsigned n, uint64_t seed) {
+void scenes_needles(struct scene *scene, recto_options *options,
+                    enum scenes_needles kind, unsigned n, uint64_t seed) {
   struct random random = {seed};
   struct vector *at = malloc(n * sizeof *at);
   build_require(at != NULL);
-  uint32_t count = place_corners(at, crowd, n, &random);
-  if (crowd < SCENES_CROWD_FLAT_FAN) {
+  uint32_t count = place_corners(at, kind, n, &random);
+  if (kind < SCENES_NEEDLES_FLAT_FAN) {
     add_polygon(scene, at, count);
   } else {
-    double height = crowd == SCENES_CROWD_FLAT_FAN ? 0
-                    : crowd == SCENES_CROWD_CONE   ? 2
-                                                   : 0.5;
+    double height = kind == SCENES_NEEDLES_FLAT_FAN ? 0
+                    : kind == SCENES_NEEDLES_CONE   ? 2
+                                                    : 0.5;
     uint32_t hub = build_point(scene, 0, 0, height);
     for (uint32_t i = 0; i < count; i++)
       build_vector(scene, at[i]);

@@ -1,5 +1,5 @@
-/* test_failures_crowds.c - many needles in one place (rows 16 and 29): it ends,
- * with the right drawing, and pairs are not met all with all. */
+/* test_failures_long_lists.c - many needles that overlap (rows 16 and 29): the
+ * solvers finish with the right drawing, and do not test all pairs. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,24 +10,24 @@
 
 #include "tests/scenes/pipeline.h"
 
-static void fill_crowd(struct scene *scene, recto_options *options,
-                       enum scenes_crowd crowd, unsigned n) {
+static void fill_needles(struct scene *scene, recto_options *options,
+                         enum scenes_needles kind, unsigned n) {
   recto_options_init(options);
   scene_init(scene);
-  scenes_crowd(scene, options, crowd, n, 7 + crowd);
+  scenes_needles(scene, options, kind, n, 7 + kind);
   options->edges = RECTO_EDGES_ALL;
   options->min_stroke_mm = 0;
   options->precision = 6;
   options->threads = 1;
 }
 
-/* All pairs of whatever that were looked at. */
-static int64_t count_pairs(enum scenes_crowd crowd, unsigned n,
+/* The pairs tested, of edges with triangles and of triangles. */
+static int64_t count_pairs(enum scenes_needles kind, unsigned n,
                            const struct solver *solver) {
   struct scene scene;
   recto_options options;
   struct pipeline pipeline;
-  fill_crowd(&scene, &options, crowd, n);
+  fill_needles(&scene, &options, kind, n);
   pipeline_run(&pipeline, &scene, &options, solver);
   assert_int_equal(pipeline.status, RECTO_OK);
   int64_t pairs = report_get(pipeline.report, "hide", "pairs", 0) +
@@ -39,31 +39,31 @@ static int64_t count_pairs(enum scenes_crowd crowd, unsigned n,
 
 static void pairs_grow_as_the_corners_do(void **state) {
   (void)state;
-  /* But for the umbrella, whose needles truly cover one another. */
-  for (int crowd = 0; crowd < SCENES_CROWD_UMBRELLA; crowd++) {
+  /* Except for the umbrella, whose needles truly overlap. */
+  for (int kind = 0; kind < SCENES_NEEDLES_UMBRELLA; kind++) {
     const unsigned n = 16000;
-    int64_t pairs = count_pairs((enum scenes_crowd)crowd, n, &solver_tiles);
-    /* All with all would be 8000 times n. */
+    int64_t pairs = count_pairs((enum scenes_needles)kind, n, &solver_tiles);
+    /* All pairs would be 8000 times n. */
     if (pairs > 500 * (int64_t)n)
-      fail_msg("crowd %d: %ld pairs", crowd, (long)pairs);
+      fail_msg("kind %d: %ld pairs", kind, (long)pairs);
   }
 }
 
-/* A crowd must be large enough to be parted; then it is parted rightly. */
-static void solvers_agree_about_crowds(void **state) {
+/* The scenes are large enough for their lists to be split by a BSP. */
+static void solvers_agree_on_long_lists(void **state) {
   (void)state;
   const struct solver *other[] = {&solver_tiles, &solver_warnock,
                                   &solver_newell};
-  for (int crowd = 0; crowd < SCENES_CROWD_COUNT; crowd++) {
+  for (int kind = 0; kind < SCENES_NEEDLES_COUNT; kind++) {
     struct scene scene;
     recto_options options;
     size_t length;
-    fill_crowd(&scene, &options, (enum scenes_crowd)crowd, 1300);
+    fill_needles(&scene, &options, (enum scenes_needles)kind, 1300);
     char *right = pipeline_draw(&scene, &options, &solver_brute, &length);
     for (size_t i = 0; i < sizeof other / sizeof *other; i++) {
       char *text = pipeline_draw(&scene, &options, other[i], &length);
       if (strcmp(right, text) != 0)
-        fail_msg("crowd %d by %s", crowd, other[i]->name);
+        fail_msg("kind %d by %s", kind, other[i]->name);
       mem_free(text);
     }
     mem_free(right);
@@ -88,9 +88,9 @@ static void a_bellows_of_1300_is_the_same_by_all(void **state) {
   scene_fini(&scene);
 }
 
-static void triangles_100000_on_one_vertex_end(void **state) {
+static void triangles_100000_on_one_vertex_finish(void **state) {
   (void)state;
-  (void)count_pairs(SCENES_CROWD_CONE, 100000, &solver_tiles);
+  (void)count_pairs(SCENES_NEEDLES_CONE, 100000, &solver_tiles);
 }
 
 static void check_soup(unsigned n, const struct solver *const *solver) {
@@ -135,9 +135,9 @@ static void a_soup_of_10000_is_the_same_by_tiles_and_warnock(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(pairs_grow_as_the_corners_do),
-      cmocka_unit_test(solvers_agree_about_crowds),
+      cmocka_unit_test(solvers_agree_on_long_lists),
       cmocka_unit_test(a_bellows_of_1300_is_the_same_by_all),
-      cmocka_unit_test(triangles_100000_on_one_vertex_end),
+      cmocka_unit_test(triangles_100000_on_one_vertex_finish),
       cmocka_unit_test(soups_that_pierce_are_the_same_by_all),
       cmocka_unit_test(a_soup_of_10000_is_the_same_by_tiles_and_warnock),
   };
