@@ -107,14 +107,20 @@ fi
 references() {
   # shellcheck disable=SC2016 # backquotes, not a command
   grep -ohE '(`|\()[A-Za-z_./0-9-]+(`|\))' "$@" | tr -d '`()' |
-    grep -E '^[a-z]+/|^[A-Za-z0-9]+\.(md|txt|h|c)$' | grep -vE 'NAME|^http'
+    grep -E '^[a-z]+/|^[A-Za-z0-9_]+\.(md|txt|h|c)$' | grep -vE 'NAME|TARGET|^http'
 }
-# A header named alone is in one of the source's folders.
+# Names are from the top, from src or from tests; a file named alone may be in
+# any folder, a decision may be named by its number.
 is_there() {
   local place
-  for place in . src src/base src/visibility src/scene tests; do
-    test -e "$srcdir/$place/$1" && return 0
+  for place in . src tests; do
+    compgen -G "$srcdir/$place/$1" >"$scratch/found" && return 0
   done
+  case $1 in
+    *decisions/*) compgen -G "$srcdir/doc/decisions/${1##*/}-*" ;;
+    */*) false ;;
+    *) find "$srcdir/src" "$srcdir/backends" -name "$1" | grep . ;;
+  esac >"$scratch/found" && return 0
   say "not there: $1"
   return 1
 }
@@ -125,7 +131,8 @@ all_there() {
   done
   return "$all"
 }
-for document in README.md CONTRIBUTING.md; do
+for document in README.md CONTRIBUTING.md backends/README.md tests/README.md \
+  doc/algorithms.md doc/glossary.md doc/testing.md; do
   claim "what $document refers to is there" all_there "$srcdir/$document"
 done
 
