@@ -142,9 +142,9 @@ static int64_t left_over(const struct solver *solver, recto_fill fill,
 
 static void faces_that_pierce_too_many_are_left_undecided(void **state) {
   (void)state;
-  assert_true(left_over(&solver_warnock, RECTO_FILL_NONE, "left_over") > 0);
+  assert_true(left_over(&solver_warnock, RECTO_FILL_NONE, "deferred") > 0);
   assert_true(left_over(&solver_newell, RECTO_FILL_NONE, "without_order") > 50);
-  assert_true(left_over(&solver_watkins, RECTO_FILL_PAINT, "left_over") > 0);
+  assert_true(left_over(&solver_watkins, RECTO_FILL_PAINT, "deferred") > 0);
 }
 
 /* ---- Memory -------------------------------------------------------------- */

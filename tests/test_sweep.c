@@ -98,8 +98,8 @@ static void every_end_and_crossing_is_met_once(void **state) {
     assert_true(sweep_init(&sweep, &sheet, NULL, true));
     find_points(&set, &sweep);
     assert_int_equal(sweep_run(&sweep, &plain, 0, 1, NULL), RECTO_OK);
-    if (sweep.places != set.point.count)
-      fail_msg("seed %u: %zu places, not %zu", (unsigned)seed, sweep.places,
+    if (sweep.events != set.point.count)
+      fail_msg("seed %u: %zu places, not %zu", (unsigned)seed, sweep.events,
                set.point.count);
     assert_int_equal(sweep.active.count, 0);
     assert_int_equal(sweep.in, 0);
@@ -260,7 +260,7 @@ static void doubles_leave_only_piercing_pairs_to_exact_planes(void **state) {
   sweep.cell = trapezoid_cells_take;
   sweep.user = &cells;
   assert_int_equal(sweep_run(&sweep, &plain, 0, 1, NULL), RECTO_OK);
-  assert_true(cells.asked > 0 && cells.asked < cells.count);
+  assert_true(cells.undecided > 0 && cells.undecided < cells.count);
   for (size_t i = 0; i < cells.part.count; i++) {
     const struct cell_part *part = &cells.part.item[i];
     uint32_t face = sheet.triangle.item[part->triangle].face;
@@ -283,7 +283,7 @@ static void a_scene_beyond_the_limits_is_refused(void **state) {
   piercing_squares(&sheet);
   assert_true(trapezoid_cells_init(&cells, &sheet));
   cells.keep = true;
-  cells.most_pieces = 0;
+  cells.pieces_max = 0;
   for (int limit = 0; limit < 3; limit++) {
     static const char *const word[] = {"places", "over each other",
                                        "trapezoids"};
@@ -294,9 +294,9 @@ static void a_scene_beyond_the_limits_is_refused(void **state) {
     sweep.cell = trapezoid_cells_take;
     sweep.user = &cells;
     if (limit == 0)
-      sweep.most_places = 5;
+      sweep.events_max = 5;
     if (limit == 1)
-      sweep.most_in = 2;
+      sweep.in_max = 2;
     status = sweep_run(&sweep, &plain, 0, 1, &error);
     if (limit == 2) {
       assert_int_equal(status, RECTO_OK);

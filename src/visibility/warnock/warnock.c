@@ -270,7 +270,7 @@ static void report_windows(const struct warnock *w, struct report *report) {
              (int64_t)w->windows.one_surrounder);
   report_int(report, "warnock", "few_faces", (int64_t)w->windows.few);
   report_int(report, "warnock", "at_the_floor", (int64_t)w->windows.floor);
-  report_int(report, "warnock", "left_over", (int64_t)w->windows.deferred);
+  report_int(report, "warnock", "deferred", (int64_t)w->windows.deferred);
   report_int(report, "warnock", "divided", (int64_t)w->windows.divided);
   report_text(report, "warnock", "division",
               w->request->divide_by_box ? "box" : "four");

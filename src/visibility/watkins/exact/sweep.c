@@ -1,74 +1,77 @@
-/* sweep.c - the walk through the exact heights. */
+/* sweep.c - the plane sweep over the exact heights. */
 #include "visibility/watkins/exact/sweep.h"
 
 #include <string.h>
 
 #include "visibility/progress.h"
 
-#define PLACE_WORK 8 /* in units of a pulse */
-#define FEW 16       /* edges at a place that are sorted by insertion */
+#define EVENT_WORK 8          /* of an event, in the units of progress.h */
+#define INSERTION_SORT_MAX 16 /* edges; more are sorted by merging */
 
-/* ---- A place ------------------------------------------------------------- */
+/* ---- One event ----------------------------------------------------------- */
 
-/* Takes the first of the places ahead; the edges that start there are
- * `starting`.  False: there is none, or memory ran out. */
-static bool take_place(struct sweep *sweep, struct sweep_event *place,
+/* Takes the next event and lists the edges that start there in `starting`.
+ * more  gets whether there was one
+ * Returns false when memory ran out. */
+static bool take_event(struct sweep *sweep, struct sweep_event *event,
                        bool *more) {
-  bool at_end = sweep->met < sweep->ends;
-  uint64_t key = at_end ? sweep->end[sweep->met].key : 0;
+  bool at_end = sweep->ends_passed < sweep->ends;
+  uint64_t key = at_end ? sweep->end[sweep->ends_passed].key : 0;
   sweep->starting.count = 0;
   *more = at_end || sweep->crossing.count > 0;
   if (!*more)
     return true;
   if (at_end) {
-    *place = sweep_event_at(
+    *event = sweep_event_at(
         (int32_t)((int64_t)(key & ((UINT64_C(1) << 31) - 1)) - (1 << 30)),
         (int32_t)((1 << 30) - (int64_t)(key >> 31)));
     at_end = sweep->crossing.count == 0 ||
-             sweep_event_compare(place, &sweep->crossing.item[0]) <= 0;
+             sweep_event_compare(event, &sweep->crossing.item[0]) <= 0;
   }
   if (!at_end)
-    *place = sweep->crossing.item[0];
-  for (;
-       at_end && sweep->met < sweep->ends && sweep->end[sweep->met].key == key;
-       sweep->met++)
-    if (sweep->end[sweep->met].value != SWEEP_NONE &&
-        !ARRAY_PUSH(&sweep->starting, sweep->end[sweep->met].value))
+    *event = sweep->crossing.item[0];
+  for (; at_end && sweep->ends_passed < sweep->ends &&
+         sweep->end[sweep->ends_passed].key == key;
+       sweep->ends_passed++)
+    if (sweep->end[sweep->ends_passed].value != SWEEP_NONE &&
+        !ARRAY_PUSH(&sweep->starting, sweep->end[sweep->ends_passed].value))
       return false;
   while (sweep->crossing.count > 0 &&
-         sweep_event_compare(place, &sweep->crossing.item[0]) == 0)
+         sweep_event_compare(event, &sweep->crossing.item[0]) == 0)
     sweep_drop_crossing(sweep);
   return true;
 }
 
-static bool reach_height(struct sweep *sweep, const struct sweep_event *place) {
-  struct ratio height = {place->y, place->den};
+/* Appends the event's height, unless it is that of the event before. */
+static bool reach_height(struct sweep *sweep, const struct sweep_event *event) {
+  struct ratio height = {event->y, event->den};
   size_t count = sweep->height.count;
   return (count > 0 &&
           ratio_compare(sweep->height.item[count - 1], height) == 0) ||
          ARRAY_PUSH(&sweep->height, height);
 }
 
-/* The active edges through the place are [*low, *high). */
-static void find_through(const struct sweep *sweep,
-                         const struct sweep_event *place, size_t *low,
-                         size_t *high) {
+/* Finds the active edges through the event: [*low, *high). */
+static void find_edges_through(const struct sweep *sweep,
+                               const struct sweep_event *event, size_t *low,
+                               size_t *high) {
   const uint32_t *active = sweep->active.item;
   size_t past = sweep->active.count;
   *low = 0;
   for (*high = past; *low < *high;) {
     size_t middle = *low + (*high - *low) / 2;
-    if (sweep_side(&sweep->edge.item[active[middle]], place) > 0)
+    if (sweep_side(&sweep->edge.item[active[middle]], event) > 0)
       *low = middle + 1;
     else
       *high = middle;
   }
   while (*high < past &&
-         sweep_side(&sweep->edge.item[active[*high]], place) == 0)
+         sweep_side(&sweep->edge.item[active[*high]], event) == 0)
     (*high)++;
 }
 
-/* The interval after the active edge of that rank ends at this height. */
+/* Ends the interval after the active edge of that rank at the current height,
+ * and reports its cell. */
 static bool close_interval(struct sweep *sweep, size_t rank) {
   uint32_t left = sweep->active.item[rank];
   const struct sweep_edge *edge = &sweep->edge.item[left];
@@ -84,24 +87,24 @@ static bool close_interval(struct sweep *sweep, size_t rank) {
          sweep->cell(sweep->user, sweep, &cell);
 }
 
-static int compare_out(const void *a, const void *b, void *user) {
+static int compare_outgoing(const void *a, const void *b, void *user) {
   const struct sweep *sweep = user;
   uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
   int turn = sweep_turn(&sweep->edge.item[p], &sweep->edge.item[q]);
   return turn != 0 ? -turn : (p > q) - (p < q);
 }
 
-/* Lists in `out` the edges that leave the place, from the left. */
-static bool list_out(struct sweep *sweep, const struct sweep_event *place,
-                     size_t low, size_t high) {
-  sweep_list *out = &sweep->out;
+/* Lists the edges that leave the event in `outgoing`, from the left. */
+static bool list_outgoing(struct sweep *sweep, const struct sweep_event *event,
+                          size_t low, size_t high) {
+  sweep_list *out = &sweep->outgoing;
   out->count = 0;
   if (!ARRAY_RESERVE(out, high - low + sweep->starting.count))
     return false;
   for (size_t i = low; i < high; i++) {
     uint32_t e = sweep->active.item[i];
     struct sweep_edge *edge = &sweep->edge.item[e];
-    if (place->den != 1 || edge->x1 != place->x || edge->y1 != place->y) {
+    if (event->den != 1 || edge->x1 != event->x || edge->y1 != event->y) {
       out->item[out->count++] = e;
       continue;
     }
@@ -110,13 +113,14 @@ static bool list_out(struct sweep *sweep, const struct sweep_event *place,
   }
   for (size_t i = 0; i < sweep->starting.count; i++)
     out->item[out->count++] = sweep->starting.item[i];
-  if (out->count > FEW)
-    return sort_stable(out->item, out->count, sizeof *out->item, compare_out,
-                       sweep);
+  if (out->count > INSERTION_SORT_MAX)
+    return sort_stable(out->item, out->count, sizeof *out->item,
+                       compare_outgoing, sweep);
   for (size_t i = 1; i < out->count; i++) {
     uint32_t moving = out->item[i];
     size_t hole = i;
-    for (; hole > 0 && compare_out(&out->item[hole - 1], &moving, sweep) > 0;
+    for (;
+         hole > 0 && compare_outgoing(&out->item[hole - 1], &moving, sweep) > 0;
          hole--)
       out->item[hole] = out->item[hole - 1];
     out->item[hole] = moving;
@@ -124,23 +128,24 @@ static bool list_out(struct sweep *sweep, const struct sweep_event *place,
   return true;
 }
 
-/* Puts `out` in the place of active[low..high). */
+/* Replaces active[low..high) by `outgoing`. */
 static bool replace_active(struct sweep *sweep, size_t low, size_t high) {
   sweep_list *active = &sweep->active;
-  size_t out = sweep->out.count;
+  size_t out = sweep->outgoing.count;
   if (!ARRAY_RESERVE(active, out))
     return false;
   memmove(active->item + low + out, active->item + high,
           (active->count - high) * sizeof *active->item);
   if (out > 0)
-    memcpy(active->item + low, sweep->out.item, out * sizeof *active->item);
+    memcpy(active->item + low, sweep->outgoing.item,
+           out * sizeof *active->item);
   active->count = active->count - (high - low) + out;
   return true;
 }
 
-/* Finds the triangles that are in after the active edge of that rank, from
- * those before it: those that are in just one of two ascending lists, for the
- * triangles of an edge begin or end there. */
+/* Finds the triangles that cover the interval after the active edge of that
+ * rank: the symmetric difference of those before it and those that the edge
+ * bounds, two ascending lists, for each of the latter begins or ends there. */
 static bool set_in(struct sweep *sweep, size_t rank) {
   struct sweep_edge *edge = &sweep->edge.item[sweep->active.item[rank]];
   const sweep_list *before =
@@ -167,78 +172,81 @@ static bool set_in(struct sweep *sweep, size_t rank) {
   return true;
 }
 
-static bool watch_neighbours(struct sweep *sweep, size_t left) {
+/* Adds the crossing, if any, of the active edges of ranks left and left + 1. */
+static bool add_crossing_of_neighbours(struct sweep *sweep, size_t left) {
   const struct sweep_edge *edge = sweep->edge.item;
-  struct sweep_event place;
+  struct sweep_event event;
   if (left + 1 >= sweep->active.count ||
       !sweep_crossing(&edge[sweep->active.item[left]],
-                      &edge[sweep->active.item[left + 1]], &place))
+                      &edge[sweep->active.item[left + 1]], &event))
     return true;
   sweep->crossings++;
-  return sweep_add_crossing(sweep, &place);
+  return sweep_add_crossing(sweep, &event);
 }
 
-/* ---- What may hide a line ------------------------------------------------ */
+/* ---- Triangles that may occlude an edge ---------------------------------- */
 
-/* Adds the triangles that begin or end at some of the edges to `around`. */
-static bool list_around(struct sweep *sweep, const uint32_t *edge,
-                        size_t count) {
+/* Appends the triangles that the edges bound to `incident`. */
+static bool list_incident(struct sweep *sweep, const uint32_t *edge,
+                          size_t count) {
   for (size_t i = 0; i < count; i++) {
     const struct sweep_edge *at = &sweep->edge.item[edge[i]];
     for (uint32_t k = 0; k < at->toggles; k++)
-      if (!ARRAY_PUSH(&sweep->around, sweep->toggle.item[at->toggle + k]))
+      if (!ARRAY_PUSH(&sweep->incident, sweep->toggle.item[at->toggle + k]))
         return false;
   }
   return true;
 }
 
-static bool meet_all(struct sweep *sweep, uint32_t edge,
-                     const sweep_list *list) {
+static bool report_pairs(struct sweep *sweep, uint32_t edge,
+                         const sweep_list *list) {
   for (size_t i = 0; i < list->count; i++)
-    if (!sweep->meet(sweep->user, sweep, edge, list->item[i]))
+    if (!sweep->pair(sweep->user, sweep, edge, list->item[i]))
       return false;
   return true;
 }
 
-/* Lines that leave the place meet the triangles that end at it; those that
- * start there also the ones that are in beside it. */
-static bool meet_triangles(struct sweep *sweep, size_t low) {
-  for (size_t i = 0; i < sweep->out.count; i++) {
-    uint32_t e = sweep->out.item[i];
+/* Reports the pairs of the event.  Drawn edges that leave it are paired with
+ * the triangles incident to it; those that start at it also with the triangles
+ * that cover the interval to its left. */
+static bool report_occluders(struct sweep *sweep, size_t low) {
+  for (size_t i = 0; i < sweep->outgoing.count; i++) {
+    uint32_t e = sweep->outgoing.item[i];
     if (sweep->edge.item[e].side != SHEET_NONE &&
-        !meet_all(sweep, e, &sweep->around))
+        !report_pairs(sweep, e, &sweep->incident))
       return false;
   }
   for (size_t i = 0; low > 0 && i < sweep->starting.count; i++) {
     uint32_t e = sweep->starting.item[i];
     if (sweep->edge.item[e].side != SHEET_NONE &&
-        !meet_all(sweep, e, &sweep->edge.item[sweep->active.item[low - 1]].in))
+        !report_pairs(sweep, e,
+                      &sweep->edge.item[sweep->active.item[low - 1]].in))
       return false;
   }
   return true;
 }
 
-/* ---- The walk ------------------------------------------------------------ */
+/* ---- The sweep ----------------------------------------------------------- */
 
-static bool pass_place(struct sweep *sweep, const struct sweep_event *place,
-                       struct progress *progress) {
+static bool process_event(struct sweep *sweep, const struct sweep_event *event,
+                          struct progress *progress) {
   size_t low, high, past;
   uint32_t height;
-  if (!reach_height(sweep, place))
+  if (!reach_height(sweep, event))
     return false;
-  find_through(sweep, place, &low, &high);
+  find_edges_through(sweep, event, &low, &high);
   for (size_t i = low > 0 ? low - 1 : low; i < high; i++)
     if (!close_interval(sweep, i))
       return false;
-  sweep->around.count = 0;
-  if ((sweep->meet != NULL &&
-       !list_around(sweep, ARRAY_AT(&sweep->active, low), high - low)) ||
-      !list_out(sweep, place, low, high) ||
-      (sweep->meet != NULL &&
-       !list_around(sweep, sweep->starting.item, sweep->starting.count)) ||
+  sweep->incident.count = 0;
+  if ((sweep->pair != NULL &&
+       !list_incident(sweep, ARRAY_AT(&sweep->active, low), high - low)) ||
+      !list_outgoing(sweep, event, low, high) ||
+      (sweep->pair != NULL &&
+       !list_incident(sweep, sweep->starting.item, sweep->starting.count)) ||
       !replace_active(sweep, low, high))
     return false;
-  past = low + sweep->out.count;
+  past = low + sweep->outgoing.count;
   height = (uint32_t)sweep->height.count - 1;
   for (size_t i = low; i < past; i++)
     if (!set_in(sweep, i) ||
@@ -247,23 +255,23 @@ static bool pass_place(struct sweep *sweep, const struct sweep_event *place,
       return false;
   for (size_t i = low > 0 ? low - 1 : low; i < past; i++)
     sweep->edge.item[sweep->active.item[i]].top = height;
-  if ((low > 0 && !watch_neighbours(sweep, low - 1)) ||
-      (past > low && !watch_neighbours(sweep, past - 1)))
+  if ((low > 0 && !add_crossing_of_neighbours(sweep, low - 1)) ||
+      (past > low && !add_crossing_of_neighbours(sweep, past - 1)))
     return false;
-  return sweep->meet == NULL || meet_triangles(sweep, low);
+  return sweep->pair == NULL || report_occluders(sweep, low);
 }
 
-static recto_status refuse(const struct sweep *sweep, recto_error *error) {
-  if (sweep->in > sweep->most_in)
+static recto_status limit_error(const struct sweep *sweep, recto_error *error) {
+  if (sweep->in > sweep->in_max)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "too much for watkins without a pitch: more than %zu "
                      "faces over each other, counted in every interval; "
                      "-m auto has no such limit",
-                     sweep->most_in);
+                     sweep->in_max);
   return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                    "too much for watkins without a pitch: edges end or cross "
                    "in more than %zu places; -m auto has no such limit",
-                   sweep->most_places);
+                   sweep->events_max);
 }
 
 recto_status sweep_run(struct sweep *sweep,
@@ -271,19 +279,19 @@ recto_status sweep_run(struct sweep *sweep,
                        double to, recto_error *error) {
   struct progress progress = progress_of(request, "visibility");
   for (;;) {
-    struct sweep_event place;
+    struct sweep_event event;
     bool more;
-    if (!take_place(sweep, &place, &more))
+    if (!take_event(sweep, &event, &more))
       return error_memory(error);
     if (!more)
       return RECTO_OK;
-    if (!progress_step(&progress, PLACE_WORK) ||
-        !pass_place(sweep, &place, &progress))
+    if (!progress_step(&progress, EVENT_WORK) ||
+        !process_event(sweep, &event, &progress))
       return progress_error(&progress, error);
-    sweep->places++;
-    if (sweep->places > sweep->most_places || sweep->in > sweep->most_in)
-      return refuse(sweep, error);
+    sweep->events++;
+    if (sweep->events > sweep->events_max || sweep->in > sweep->in_max)
+      return limit_error(sweep, error);
     progress.share =
-        from + (to - from) * (double)sweep->met / (double)sweep->ends;
+        from + (to - from) * (double)sweep->ends_passed / (double)sweep->ends;
   }
 }

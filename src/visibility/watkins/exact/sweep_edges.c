@@ -1,9 +1,9 @@
-/* sweep_edges.c - the edges that the sweep meets. */
+/* sweep_edges.c - the edges of the sweep, collected from the sheet. */
 #include <string.h>
 
 #include "visibility/watkins/exact/sweep.h"
 
-/* Sides of triangles and drawn lines, by their two points. */
+/* Sides of triangles and drawn edges, keyed by their two points. */
 struct sweep_gathering {
   struct sort_key *key;
   size_t count;
@@ -22,8 +22,9 @@ bool sweep_takes_line(const struct sheet *sheet, size_t e) {
          (p->x != q->x || p->y != q->y);
 }
 
-/* The value of a key: of triangle t's side k 3 t + k, of a drawn line e
- * 3 x triangles + e. */
+/* The value of a key is
+ *     3 t + k            for side k of triangle t,
+ *     3 triangles + e    for drawn edge e. */
 static void list_keys(struct sweep_gathering *g, const struct sheet *sheet,
                       const uint8_t *kept, bool drawn) {
   uint32_t triangles = (uint32_t)sheet->triangle.count;
@@ -42,6 +43,7 @@ static void list_keys(struct sweep_gathering *g, const struct sheet *sheet,
           3 * triangles + e};
 }
 
+/* A point as a key in the order of events: from the top, then from the left. */
 static uint64_t key_of_end(int32_t x, int32_t y) {
   return ((uint64_t)((INT64_C(1) << 30) - y) << 31) |
          (uint64_t)((INT64_C(1) << 30) + x);
@@ -64,8 +66,8 @@ static bool add_edge(struct sweep *sweep, uint64_t points, uint32_t side) {
   return ARRAY_PUSH(&sweep->edge, edge);
 }
 
-/* Makes one edge of all that run between the same two points; of more than
- * one drawn line, more edges. */
+/* Adds one edge for all sides of triangles between the same two points, with
+ * the first drawn edge there, and one for each further drawn edge. */
 static bool add_edges(struct sweep *sweep, const struct sort_key *key,
                       size_t count) {
   uint32_t sides = 3 * (uint32_t)sweep->sheet->triangle.count;
@@ -86,7 +88,7 @@ static bool add_edges(struct sweep *sweep, const struct sort_key *key,
   return true;
 }
 
-/* Sorts the ends of all edges by their places. */
+/* Sorts the ends of all edges in the order of events. */
 static bool sort_ends(struct sweep *sweep) {
   size_t count = sweep->edge.count;
   struct sort_key *scratch = mem_alloc(2 * count, sizeof *scratch);
@@ -115,8 +117,8 @@ bool sweep_init(struct sweep *sweep, const struct sheet *sheet,
   bool ok = g.key != NULL;
   memset(sweep, 0, sizeof *sweep);
   sweep->sheet = sheet;
-  sweep->most_in = SWEEP_IN_MAX;
-  sweep->most_places = SWEEP_EVENTS_MAX;
+  sweep->in_max = SWEEP_IN_MAX;
+  sweep->events_max = SWEEP_EVENTS_MAX;
   if (ok) {
     list_keys(&g, sheet, kept, drawn);
     sort_keys(g.key, g.key + most, g.count);
@@ -138,9 +140,9 @@ void sweep_fini(struct sweep *sweep) {
   ARRAY_FREE(&sweep->crossing);
   ARRAY_FREE(&sweep->height);
   ARRAY_FREE(&sweep->active);
-  ARRAY_FREE(&sweep->out);
+  ARRAY_FREE(&sweep->outgoing);
   ARRAY_FREE(&sweep->starting);
-  ARRAY_FREE(&sweep->around);
+  ARRAY_FREE(&sweep->incident);
   mem_free(sweep->end);
   sweep->end = NULL;
 }

@@ -1,10 +1,15 @@
-/* sweep_events.c - exact questions about the places of the sweep.
+/* sweep_events.c - exact predicates on the events of the sweep, and the heap of
+ * crossings.
  *
- * The algebra.  With directions r, s < 2^31 in each coordinate, edges p + t r
- * and q + u s cross at t = ((q - p) x s) / (r x s): numerator and denominator
- * are below 2^63, so x den = p.x den + num r.x is a sum of terms below 2^94;
- * being a place of the page it is below 2^93 itself.  Which side of an edge it
- * lies on is the sign of r x (place den - p den), two products below 2^125.
+ * Ranges.  With directions r, s < 2^31 in each coordinate, edges p + t r and
+ * q + u s cross at
+ *     t = num / den = ((q - p) x s) / (r x s),
+ * numerator and denominator below 2^63.  So
+ *     x den = p.x den + num r.x
+ * is a sum of terms below 2^94; as x lies on the page, x den is below 2^93
+ * itself.  On which side of an edge the event lies is the sign of
+ *     r x (event den - p den),
+ * a difference of two products below 2^125.
  */
 #include "visibility/watkins/exact/sweep.h"
 
@@ -31,21 +36,22 @@ int sweep_event_compare(const struct sweep_event *p,
                                          q->x_near);
 }
 
-int sweep_side(const struct sweep_edge *edge, const struct sweep_event *place) {
+int sweep_side(const struct sweep_edge *edge, const struct sweep_event *event) {
   int64_t dx = (int64_t)edge->x1 - edge->x0, dy = (int64_t)edge->y1 - edge->y0;
   double a, b, slack;
-  if (place->den == 1)
-    return geom_sign64(dx * ((int64_t)place->y - edge->y0) -
-                       dy * ((int64_t)place->x - edge->x0));
-  a = (double)dx * (place->y_near - edge->y0);
-  b = (double)dy * (place->x_near - edge->x0);
-  /* The products' factors are off by SWEEP_NEAR; four roundings. */
+  if (event->den == 1)
+    return geom_sign64(dx * ((int64_t)event->y - edge->y0) -
+                       dy * ((int64_t)event->x - edge->x0));
+  a = (double)dx * (event->y_near - edge->y0);
+  b = (double)dy * (event->x_near - edge->x0);
+  /* One factor of each product is off by less than SWEEP_NEAR; each product and
+   * their difference take four roundings. */
   slack = (fabs((double)dx) + fabs((double)dy)) * (2 * SWEEP_NEAR) +
           (fabs(a) + fabs(b)) * 0x1p-50;
   if (fabs(a - b) > slack)
     return a > b ? 1 : -1;
-  return geom_sign128(dx * (place->y - (int128)edge->y0 * place->den) -
-                      dy * (place->x - (int128)edge->x0 * place->den));
+  return geom_sign128(dx * (event->y - (int128)edge->y0 * event->den) -
+                      dy * (event->x - (int128)edge->x0 * event->den));
 }
 
 int sweep_turn(const struct sweep_edge *a, const struct sweep_edge *b) {
@@ -54,7 +60,7 @@ int sweep_turn(const struct sweep_edge *a, const struct sweep_edge *b) {
 }
 
 bool sweep_crossing(const struct sweep_edge *a, const struct sweep_edge *b,
-                    struct sweep_event *place) {
+                    struct sweep_event *event) {
   struct geom_point a0 = {a->x0, a->y0, 0}, a1 = {a->x1, a->y1, 0};
   struct geom_point b0 = {b->x0, b->y0, 0}, b1 = {b->x1, b->y1, 0};
   int64_t dx = (int64_t)a->x1 - a->x0, dy = (int64_t)a->y1 - a->y0;
@@ -74,27 +80,27 @@ bool sweep_crossing(const struct sweep_edge *a, const struct sweep_edge *b,
     den = -den;
     num = -num;
   }
-  place->x = (int128)a->x0 * den + (int128)num * dx;
-  place->y = (int128)a->y0 * den + (int128)num * dy;
-  place->den = den;
-  place->x_near = (double)place->x / (double)den;
-  place->y_near = (double)place->y / (double)den;
+  event->x = (int128)a->x0 * den + (int128)num * dx;
+  event->y = (int128)a->y0 * den + (int128)num * dy;
+  event->den = den;
+  event->x_near = (double)event->x / (double)den;
+  event->y_near = (double)event->y / (double)den;
   return true;
 }
 
-/* ---- The crossings ahead ------------------------------------------------- */
+/* ---- The heap of crossings ----------------------------------------------- */
 
-bool sweep_add_crossing(struct sweep *sweep, const struct sweep_event *place) {
+bool sweep_add_crossing(struct sweep *sweep, const struct sweep_event *event) {
   size_t at = sweep->crossing.count;
   struct sweep_event *heap;
-  if (!ARRAY_PUSH(&sweep->crossing, *place))
+  if (!ARRAY_PUSH(&sweep->crossing, *event))
     return false;
   heap = sweep->crossing.item;
-  while (at > 0 && sweep_event_compare(place, &heap[(at - 1) / 2]) < 0) {
+  while (at > 0 && sweep_event_compare(event, &heap[(at - 1) / 2]) < 0) {
     heap[at] = heap[(at - 1) / 2];
     at = (at - 1) / 2;
   }
-  heap[at] = *place;
+  heap[at] = *event;
   return true;
 }
 

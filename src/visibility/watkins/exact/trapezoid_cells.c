@@ -1,18 +1,23 @@
-/* trapezoid_cells.c - which triangles are seen in a trapezoid.
+/* trapezoid_cells.c - the triangles visible in each trapezoid, as fragments.
  *
- * Rule     the nearest at the trapezoid's middle is held against the others at
- *          its four corners, in doubles.  Who is behind it at all of them is
- *          behind it everywhere; who is not, pierces it, touches it or is too
- *          near for doubles: these are kept along with it, and each is given
- *          what the others, by exact planes, leave of it (occluder_subtraction.h).
- * Twice    a first sweep only notes who may be seen at all; the second one has
- *          their edges alone, so that what is hidden cuts nothing.  A triangle
- *          seen in all its trapezoids is whole.
+ * Rule     the triangle nearest at the trapezoid's middle is compared with the
+ *          others at its four corners, in doubles.  A triangle that is behind
+ *          it at all four is behind it throughout.  One that is not intersects
+ *          it, touches it, or is closer than doubles decide: it is stored along
+ *          with it, a tie, and each of the tied triangles is visible where
+ *          subtraction of the others, by exact planes, leaves it
+ *          (occluder_subtraction.h).
+ * Passes   a first sweep only finds the triangles that may be visible at all;
+ *          the second sweeps only the edges of these, so that hidden triangles
+ *          subdivide nothing.  A triangle that is the only one visible in all
+ *          its trapezoids is wholly visible.
  *
- * The bound of error.  With u = 2^-53, a height is off by e = SWEEP_NEAR, an
- * edge's x there by its slope times e, and by less than 2^-19 by rounding;
- * the plane's slopes are each off by 4 u of themselves, which over 2^31 units
- * is 2^-20, and the sum's terms, below 2^41 where they matter, round to 2^-11.
+ * Error bound.  With u = 2^-53:
+ *   - a height is off by less than e = SWEEP_NEAR,
+ *   - an edge's x there by its slope times e, and by less than 2^-19 by
+ *     rounding,
+ *   - each slope of a plane by 4 u relatively, which over 2^31 units is 2^-20,
+ *   - the terms of the sum, below 2^41 where they matter, round to 2^-11.
  */
 #include "visibility/watkins/exact/trapezoid_cells.h"
 
@@ -23,7 +28,7 @@
 
 enum { CORNERS = 4 };
 
-/* A corner of a trapezoid, and how far off it may be. */
+/* A corner of a trapezoid, and bounds of the errors of x and y. */
 struct cell_corner {
   double x, y, dx, dy;
 };
@@ -33,7 +38,7 @@ bool trapezoid_cells_init(struct trapezoid_cells *cells,
   size_t count = sheet->triangle.count;
   memset(cells, 0, sizeof *cells);
   cells->sheet = sheet;
-  cells->most_pieces = CELLS_PIECES_MAX;
+  cells->pieces_max = CELLS_PIECES_MAX;
   cells->plane = mem_alloc(count, sizeof *cells->plane);
   cells->seen = mem_calloc(count, 1);
   cells->covered = mem_calloc(count, 1);
@@ -63,7 +68,7 @@ void trapezoid_cells_fini(struct trapezoid_cells *cells) {
   memset(cells, 0, sizeof *cells);
 }
 
-/* ---- Who may be seen ----------------------------------------------------- */
+/* ---- Visible triangles --------------------------------------------------- */
 
 static struct cell_corner corner_at(const struct sweep_edge *edge, double y) {
   double slope = ((double)edge->x1 - edge->x0) / ((double)edge->y1 - edge->y0);
@@ -76,26 +81,26 @@ static double depth_at(const struct cell_plane *plane, double x, double y) {
          plane->per_y * (y - plane->y);
 }
 
-static double doubt_at(const struct cell_plane *plane,
+static double error_at(const struct cell_plane *plane,
                        const struct cell_corner *corner) {
   return fabs(plane->per_x) * (corner->dx + 0x1p-19) +
          fabs(plane->per_y) * (corner->dy + 0x1p-19) + 0x1p-10;
 }
 
-/* Is it certainly behind the other at all corners? */
+/* Is the plane certainly behind the other at all corners? */
 static bool is_behind(const struct cell_plane *plane,
                       const struct cell_plane *other,
                       const struct cell_corner *corner) {
   for (int k = 0; k < CORNERS; k++) {
     double apart = depth_at(other, corner[k].x, corner[k].y) -
                    depth_at(plane, corner[k].x, corner[k].y);
-    if (!(apart > doubt_at(plane, &corner[k]) + doubt_at(other, &corner[k])))
+    if (!(apart > error_at(plane, &corner[k]) + error_at(other, &corner[k])))
       return false;
   }
   return true;
 }
 
-/* Lists those of the cell's triangles that may be seen, the nearest at the
+/* Lists the triangles of the cell that may be visible, the nearest at its
  * middle first. */
 static bool find_candidates(struct trapezoid_cells *cells,
                             const struct sweep *sweep,
@@ -129,20 +134,20 @@ static bool find_candidates(struct trapezoid_cells *cells,
   return true;
 }
 
-/* Counts the candidates' ties; are all of them left over? */
+/* Counts a tie for each candidate; returns whether all of them are deferred. */
 static bool count_ties(struct trapezoid_cells *cells) {
   bool all = true;
   for (size_t i = 0; i < cells->candidate.count; i++) {
     uint32_t t = cells->candidate.item[i];
-    if (!trapezoid_cells_leave(cells, t))
+    if (!trapezoid_cells_is_deferred(cells, t))
       cells->ties[t]++;
-    all &= trapezoid_cells_leave(cells, t);
+    all &= trapezoid_cells_is_deferred(cells, t);
   }
   return all;
 }
 
-static bool keep_parts(struct trapezoid_cells *cells,
-                       const struct sweep_cell *cell) {
+static bool store_parts(struct trapezoid_cells *cells,
+                        const struct sweep_cell *cell) {
   const sweep_list *candidate = &cells->candidate;
   struct cell_part part = {.left = cell->left,
                            .right = cell->right,
@@ -159,7 +164,7 @@ static bool keep_parts(struct trapezoid_cells *cells,
   }
   for (size_t i = 0; i < candidate->count; i++) {
     part.triangle = candidate->item[i];
-    if (!trapezoid_cells_leave(cells, part.triangle) &&
+    if (!trapezoid_cells_is_deferred(cells, part.triangle) &&
         !ARRAY_PUSH(&cells->part, part))
       return false;
   }
@@ -177,23 +182,23 @@ bool trapezoid_cells_take(void *user, const struct sweep *sweep,
     return true;
   if (!find_candidates(cells, sweep, cell))
     return false;
-  cells->asked += cells->candidate.count > 1;
+  cells->undecided += cells->candidate.count > 1;
   if (cells->keep) {
     cells->too_many =
         cells->part.count >= CELLS_MAX || cells->tied.count >= CELLS_TIED_MAX;
-    return keep_parts(cells, cell);
+    return store_parts(cells, cell);
   }
   for (size_t i = 0; i < cells->candidate.count; i++)
     cells->seen[cells->candidate.item[i]] = 1;
   return true;
 }
 
-/* Of a trapezoid, in units of a pulse. */
+/* Work per trapezoid, in the units of progress.h. */
 enum { PART_WORK = 32 };
 
 /* ---- Fragments ----------------------------------------------------------- */
 
-/* The pieces of one triangle at a time. */
+/* The pieces of the current triangle. */
 struct piece_work {
   struct trapezoid_cells *cells;
   const struct sweep *sweep;
@@ -229,8 +234,8 @@ static void widen_box(struct geom_convex *piece, double x, double y) {
   piece->y1 = fmax(piece->y1, y + 1);
 }
 
-/* The trapezoid as a convex piece; where its sides meet at a height, that
- * height makes no side. */
+/* The trapezoid as a convex piece; a triangle where its left and right sides
+ * meet at the top or at the bottom. */
 static bool make_piece(const struct sweep *sweep, const struct cell_part *part,
                        struct arena *arena, struct geom_convex *piece) {
   struct geom_line *line = arena_alloc(arena, CORNERS, sizeof *line);
@@ -256,9 +261,11 @@ static bool make_piece(const struct sweep *sweep, const struct cell_part *part,
   return true;
 }
 
-/* Appends what the others that may be seen leave of a trapezoid. */
-static bool cut_part(struct piece_work *work, const struct cell_part *part,
-                     const struct geom_convex *piece) {
+/* Appends what remains of a trapezoid when the nearer ones of the tied
+ * triangles are subtracted. */
+static bool subtract_others(struct piece_work *work,
+                            const struct cell_part *part,
+                            const struct geom_convex *piece) {
   const uint32_t *other = work->cells->tied.item + part->tied;
   struct occluder_subtraction *subtraction = &work->subtraction;
   if (!occluder_subtraction_start(subtraction, part->triangle, piece))
@@ -277,13 +284,13 @@ static bool cut_part(struct piece_work *work, const struct cell_part *part,
   return true;
 }
 
-/* Hands over the parts of one triangle. */
+/* Adds the parts of one triangle to the fragments. */
 static bool store_triangle(struct piece_work *work, const struct sort_key *key,
                            size_t count) {
   const struct cell_part *all = work->cells->part.item;
   uint32_t triangle = all[key->value].triangle;
   bool ok = true;
-  if (trapezoid_cells_leave(work->cells, triangle))
+  if (trapezoid_cells_is_deferred(work->cells, triangle))
     return true;
   if (!work->cells->covered[triangle])
     return fragments_add_whole(work->fragments, triangle);
@@ -292,7 +299,7 @@ static bool store_triangle(struct piece_work *work, const struct sort_key *key,
     const struct cell_part *part = &all[key[i].value];
     struct geom_convex piece;
     ok = make_piece(work->sweep, part, &work->arena, &piece) &&
-         (part->count > 0 ? cut_part(work, part, &piece)
+         (part->count > 0 ? subtract_others(work, part, &piece)
                           : ARRAY_PUSH(&work->piece, piece));
   }
   ok = ok && fragments_add(work->fragments, triangle, work->piece.item,
@@ -301,7 +308,7 @@ static bool store_triangle(struct piece_work *work, const struct sort_key *key,
   return ok;
 }
 
-/* The parts by their triangles; NULL when memory ran out. */
+/* The parts sorted by triangle; NULL when memory ran out. */
 static struct sort_key *sort_parts(const struct trapezoid_cells *cells) {
   size_t count = cells->part.count;
   struct sort_key *key = mem_alloc(2 * count, sizeof *key);
@@ -316,7 +323,7 @@ static bool has_too_many(const struct trapezoid_cells *cells) {
   size_t pieces = 0;
   for (size_t i = 0; i < cells->part.count; i++)
     pieces += cells->covered[cells->part.item[i].triangle];
-  return cells->too_many || pieces > cells->most_pieces;
+  return cells->too_many || pieces > cells->pieces_max;
 }
 
 recto_status trapezoid_cells_finish(struct trapezoid_cells *cells,
@@ -333,7 +340,7 @@ recto_status trapezoid_cells_finish(struct trapezoid_cells *cells,
                      "too much for watkins without a pitch: faces are cut "
                      "into more than %zu trapezoids; -m auto has no such "
                      "limit",
-                     cells->most_pieces);
+                     cells->pieces_max);
   key = sort_parts(cells);
   ok = key != NULL;
   occluder_subtraction_init(&work.subtraction, cells->sheet);

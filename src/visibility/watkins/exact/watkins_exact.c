@@ -1,11 +1,12 @@
 /* watkins_exact.c - from the sweep over exact heights to the visible map.
  *
- * Strokes    while a line is active, the sweep lists the triangles that are in
- *            beside it; each is asked once what it hides of the line (occlusion.h).
- *            No triangle that is never in beside it can hide anything of it.
- *            Lines that are no face's edge are left to pairwise_fallback.h.
- * Fragments  see trapezoid_cells.c: trapezoids, each with the triangle that is
- *            seen in it, are joined by fragments.h.
+ * Strokes    while a drawn edge is active, the sweep reports the triangles that
+ *            cover the intervals beside it; what each occludes of the edge is
+ *            computed once (occlusion.h).  A triangle that never covers such an
+ *            interval cannot occlude any of the edge.  Lines that are not edges
+ *            of faces are deferred to pairwise_fallback.h.
+ * Fragments  see trapezoid_cells.c: trapezoids, each with the triangle visible
+ *            in it, are united by fragments.h.
  */
 #include "visibility/watkins/exact/watkins_exact.h"
 
@@ -17,29 +18,29 @@
 #include "visibility/pairwise/pairwise_fallback.h"
 #include "visibility/watkins/exact/trapezoid_cells.h"
 
-/* At most so many lines and triangles that may hide something of them. */
-#define MEETINGS_MAX (1 << 24)
+/* Limit of the pairs of an edge and a triangle that may occlude it. */
+#define PAIRS_MAX (1 << 24)
 
-/* ---- Meetings ------------------------------------------------------------ */
+/* ---- Pairs --------------------------------------------------------------- */
 
-/* Pairs of a line and a triangle beside it. */
-struct meetings {
+/* Pairs of a drawn edge and a triangle that covers an interval beside it. */
+struct edge_face_pairs {
   ARRAY(struct sort_key) pair; /* edge of the sheet << 32 | triangle */
-  size_t room; /* pairs are sorted and made unique when there are so many */
-  bool too_many;
+  size_t limit;  /* at this count they are sorted and duplicates removed */
+  bool too_many; /* more than PAIRS_MAX */
 };
 
 /* What both sweeps' callbacks get. */
 struct exact {
   struct trapezoid_cells cells;
-  struct meetings meetings;
+  struct edge_face_pairs pairs;
   struct progress progress;
   struct pairwise_fallback fallback;
-  bool ready; /* the latter is */
+  bool ready; /* the fallback was initialised */
 };
 
-/* Makes `undecided` ready, if it is not; false when memory ran out. */
-static bool need_fallback(struct exact *exact, const struct sheet *sheet,
+/* Initialises the fallback at its first use; false when memory ran out. */
+static bool init_fallback(struct exact *exact, const struct sheet *sheet,
                           const struct solver_request *request) {
   if (exact->ready)
     return true;
@@ -49,10 +50,10 @@ static bool need_fallback(struct exact *exact, const struct sheet *sheet,
                                 &exact->progress);
 }
 
-/* Sorts the pairs and drops those that are there twice. */
-static bool settle_pairs(struct meetings *meetings) {
-  size_t count = meetings->pair.count, kept = 0;
-  struct sort_key *pair = meetings->pair.item;
+/* Sorts the pairs and removes duplicates. */
+static bool unique_pairs(struct edge_face_pairs *pairs) {
+  size_t count = pairs->pair.count, kept = 0;
+  struct sort_key *pair = pairs->pair.item;
   struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
   if (scratch == NULL)
     return false;
@@ -61,22 +62,22 @@ static bool settle_pairs(struct meetings *meetings) {
   for (size_t i = 0; i < count; i++)
     if (kept == 0 || pair[i].key != pair[kept - 1].key)
       pair[kept++] = pair[i];
-  meetings->pair.count = kept;
-  meetings->room = 2 * kept + 4096;
-  meetings->too_many = kept > MEETINGS_MAX;
+  pairs->pair.count = kept;
+  pairs->limit = 2 * kept + 4096;
+  pairs->too_many = kept > PAIRS_MAX;
   return true;
 }
 
-static bool take_meeting(void *user, const struct sweep *sweep, uint32_t edge,
-                         uint32_t triangle) {
-  struct meetings *meetings = &((struct exact *)user)->meetings;
+static bool add_pair(void *user, const struct sweep *sweep, uint32_t edge,
+                     uint32_t triangle) {
+  struct edge_face_pairs *pairs = &((struct exact *)user)->pairs;
   uint32_t side = sweep->edge.item[edge].side;
   const uint32_t *own = sweep->sheet->edge.item[side].triangle;
   struct sort_key pair = {(uint64_t)side << 32 | triangle, 0};
-  if (meetings->too_many || triangle == own[0] || triangle == own[1])
+  if (pairs->too_many || triangle == own[0] || triangle == own[1])
     return true;
-  return (meetings->pair.count < meetings->room || settle_pairs(meetings)) &&
-         ARRAY_PUSH(&meetings->pair, pair);
+  return (pairs->pair.count < pairs->limit || unique_pairs(pairs)) &&
+         ARRAY_PUSH(&pairs->pair, pair);
 }
 
 static bool take_cell(void *user, const struct sweep *sweep,
@@ -106,12 +107,12 @@ static bool store_edge(const struct sheet *sheet, uint32_t e,
   return edge_intervals_store(intervals, e, map);
 }
 
-/* The same of a line that is no face's edge. */
+/* The same for a line that is not an edge of a face. */
 static bool store_line(struct exact *exact, const struct sheet *sheet,
                        const struct solver_request *request, uint32_t e,
                        struct map *map) {
   struct edge_intervals *intervals = NULL;
-  if (need_fallback(exact, sheet, request))
+  if (init_fallback(exact, sheet, request))
     intervals = pairwise_fallback_edge(&exact->fallback, e);
   return intervals != NULL && edge_intervals_store(intervals, e, map);
 }
@@ -121,22 +122,22 @@ static recto_status store_strokes(struct exact *exact,
                                   const struct solver_request *request,
                                   struct map *map, struct report *report,
                                   recto_error *error) {
-  struct meetings *meetings = &exact->meetings;
+  struct edge_face_pairs *pairs = &exact->pairs;
   const struct sort_key *pair;
   struct edge_intervals intervals = {0};
   struct occlusion_counts counts = {0};
   struct progress progress = progress_of(request, "edges");
   size_t i = 0, count;
   bool ok =
-      settle_pairs(meetings) && edge_intervals_open_map(map, sheet->edge.count);
-  if (ok && meetings->too_many)
+      unique_pairs(pairs) && edge_intervals_open_map(map, sheet->edge.count);
+  if (ok && pairs->too_many)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "too much for watkins without a pitch: lines have faces "
                      "beside them in more than %d pairs; -m auto has no such "
                      "limit",
-                     MEETINGS_MAX);
-  pair = meetings->pair.item;
-  count = meetings->pair.count;
+                     PAIRS_MAX);
+  pair = pairs->pair.item;
+  count = pairs->pair.count;
   for (uint32_t e = 0; ok && e < sheet->edge.count; e++) {
     const struct sort_key *own = count > 0 ? pair + i : NULL;
     const struct sheet_edge *edge = &sheet->edge.item[e];
@@ -162,27 +163,27 @@ static recto_status store_strokes(struct exact *exact,
 
 /* ---- Fragments ----------------------------------------------------------- */
 
-/* Hands in what is seen of the triangles left over. */
-static recto_status store_left_over(struct exact *exact,
-                                    const struct sheet *sheet,
-                                    const struct solver_request *request,
-                                    struct fragments *fragments,
-                                    struct report *report, recto_error *error) {
+/* Adds the fragments of the deferred triangles, solved by the fallback. */
+static recto_status store_deferred(struct exact *exact,
+                                   const struct sheet *sheet,
+                                   const struct solver_request *request,
+                                   struct fragments *fragments,
+                                   struct report *report, recto_error *error) {
   ARRAY(uint32_t) list = {0};
   bool ok = true;
   for (uint32_t t = 0; ok && t < sheet->triangle.count; t++)
-    if (trapezoid_cells_leave(&exact->cells, t))
+    if (trapezoid_cells_is_deferred(&exact->cells, t))
       ok = ARRAY_PUSH(&list, t);
-  report_int(report, "watkins", "left_over", (int64_t)list.count);
+  report_int(report, "watkins", "deferred", (int64_t)list.count);
   if (list.count > 0)
-    ok = ok && need_fallback(exact, sheet, request) &&
+    ok = ok && init_fallback(exact, sheet, request) &&
          pairwise_fallback_faces(&exact->fallback, list.item, list.count,
                                  fragments);
   ARRAY_FREE(&list);
   return ok ? RECTO_OK : progress_error(&exact->progress, error);
 }
 
-/* Sweeps the triangles that were seen once more. */
+/* Sweeps the triangles that may be visible a second time. */
 static recto_status solve_fragments(struct exact *exact,
                                     const struct sheet *sheet,
                                     const struct triangle_grid *grid,
@@ -202,19 +203,20 @@ static recto_status solve_fragments(struct exact *exact,
   sweep.cell = take_cell;
   sweep.user = exact;
   cells->keep = true;
-  cells->count = cells->asked = 0;
+  cells->count = cells->undecided = 0;
   if (status == RECTO_OK)
     status = sweep_run(&sweep, request, 0.5, 0.7, error);
   if (status == RECTO_OK)
     status = trapezoid_cells_finish(cells, &sweep, &fragments, error);
   exact->progress.stage = "faces";
   if (status == RECTO_OK)
-    status = store_left_over(exact, sheet, request, &fragments, report, error);
+    status = store_deferred(exact, sheet, request, &fragments, report, error);
   if (status == RECTO_OK &&
       !fragments_finish(&fragments, request->exact_corners, map))
     status = progress_error(&progress, error);
   report_int(report, "watkins", "trapezoids_of_seen", (int64_t)cells->count);
-  report_int(report, "watkins", "not_told_by_doubles", (int64_t)cells->asked);
+  report_int(report, "watkins", "undecided_by_doubles",
+             (int64_t)cells->undecided);
   sweep_fini(&sweep);
   if (ready)
     fragments_fini(&fragments);
@@ -223,7 +225,7 @@ static recto_status solve_fragments(struct exact *exact,
 
 /* ---- The solver ---------------------------------------------------------- */
 
-/* Sweeps all triangles and lines. */
+/* Sweeps all triangles and drawn edges. */
 static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
                               const uint8_t *kept,
                               const struct solver_request *request,
@@ -233,12 +235,12 @@ static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
   if (!sweep_init(&sweep, sheet, kept, request->strokes))
     status = error_memory(error);
   sweep.cell = request->fragments ? take_cell : NULL;
-  sweep.meet = request->strokes ? take_meeting : NULL;
+  sweep.pair = request->strokes ? add_pair : NULL;
   sweep.user = exact;
   if (status == RECTO_OK)
     status = sweep_run(&sweep, request, 0, 0.5, error);
   report_int(report, "watkins", "edges", (int64_t)sweep.edge.count);
-  report_int(report, "watkins", "places", (int64_t)sweep.places);
+  report_int(report, "watkins", "places", (int64_t)sweep.events);
   report_int(report, "watkins", "heights", (int64_t)sweep.height.count);
   report_int(report, "watkins", "crossings_found", (int64_t)sweep.crossings);
   report_int(report, "watkins", "trapezoids", (int64_t)exact->cells.count);
@@ -246,8 +248,8 @@ static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
   return status;
 }
 
-/* One byte a triangle: is it in the lists of the grid, so that it is there?
- * NULL: all are. */
+/* Sets *kept, one byte a triangle: does the grid list it?  NULL: all are
+ * listed. */
 static recto_status list_kept(const struct sheet *sheet,
                               const struct triangle_grid *grid, uint8_t **kept,
                               recto_error *error) {
@@ -294,7 +296,7 @@ recto_status watkins_solve_exactly(struct sheet *sheet,
     status = intersection_find_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK)
     status = solve_on(&exact, sheet, &grid, request, map, report, error);
-  ARRAY_FREE(&exact.meetings.pair);
+  ARRAY_FREE(&exact.pairs.pair);
   trapezoid_cells_fini(&exact.cells);
   pairwise_fallback_fini(&exact.fallback);
   triangle_grid_fini(&grid);
