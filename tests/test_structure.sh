@@ -32,8 +32,8 @@ check_includes() {
         place("visibility", 3, "intersection fragments")
         place("visibility", 4, "pairwise scan")
         place("visibility", 5, "raster")
-        place("visibility", 6, "brute newell scanline_zbuffer single_contour " \
-              "tiles warnock watkins zbuffer")
+        place("visibility", 6, "brute newell scanline_zbuffer tiles warnock " \
+              "watkins zbuffer")
         place("ink", 1, "lines")
         place("ink", 2, "fill order")
         place("ink", 3, "hatch")
@@ -113,13 +113,13 @@ check_includes() {
       }'
 }
 
-# Every folder within visibility and ink has a floor above.
+# Every folder within visibility and ink that holds sources has a floor above.
 check_floors() {
-  local path
-  for path in "$1"/src/visibility/*/ "$1"/src/ink/*/; do
-    path=${path%/}
-    grep -qwF -e "${path##*/}" <(declare -f check_includes) ||
-      echo "${path#"$1"/}: has no floor"
+  local file room
+  for file in $(sources "$1" | grep -E '^src/(visibility|ink)/.*/'); do
+    room=$(cut -d / -f 3 <<<"$file")
+    grep -qwF -e "$room" <(declare -f check_includes) ||
+      echo "$file: its folder has no floor"
   done
 }
 
@@ -226,6 +226,9 @@ for literal in 1e-9 1.5e-12 1E-6f 0.e-3; do
 done
 claim "a source may not open without its job" finds check_openings \
   src/geom/new.c "int x;"
+mkdir "$copy/src/visibility/method"
+claim "a folder may not be without a floor" finds check_floors \
+  src/visibility/method/new.c "/* new.c - nothing. */"
 claim "a source may not be left out of the build" finds check_listed \
   src/geom/new.c "/* new.c - nothing. */"
 

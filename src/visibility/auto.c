@@ -1,5 +1,4 @@
 /* auto.c - chooses the cheapest exact solver for a request. */
-#include "visibility/single_contour/single_contour.h"
 #include "visibility/solver.h"
 
 /* Up to so many pairs of an edge and a face, or of two faces, testing all of
@@ -24,10 +23,6 @@ const struct solver *solver_choose(const struct sheet *sheet,
       triangles * requested <= BRUTE_PAIRS_MAX) {
     *why = "few edges and faces: testing all pairs is quickest";
     return &solver_brute;
-  }
-  if (single_contour_suffices(sheet, request)) {
-    *why = "one simple contour: nothing requested can be hidden";
-    return &solver_single_contour;
   }
   *why = "tiles leave the fewest pairs to test";
   return &solver_tiles;

@@ -47,7 +47,6 @@ librecto_core_la_SOURCES += \
   %D%/scan/facets.c %D%/scan/facets.h \
   %D%/scan/trapezoids.c %D%/scan/trapezoids.h \
   %D%/scanline_zbuffer/scanline_zbuffer.c %D%/scanline_zbuffer/scanline_zbuffer.h \
-  %D%/single_contour/single_contour.c %D%/single_contour/single_contour.h \
   %D%/tiles/tiles.c \
   %D%/warnock/warnock.c %D%/warnock/warnock_edges.c \
   %D%/warnock/warnock_faces.c %D%/warnock/warnock_lists.c \
