@@ -1,4 +1,4 @@
-/* table.h - running programs and taking their measure, for the bench. */
+/* table.h - runs programs and measures their time and memory, for the bench. */
 #ifndef BENCH_TABLE_H
 #define BENCH_TABLE_H
 

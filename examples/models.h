@@ -1,4 +1,4 @@
-/* models.h - the example models, each put together by a function. */
+/* models.h - the example models, each built by a function. */
 #ifndef EXAMPLES_MODELS_H
 #define EXAMPLES_MODELS_H
 

@@ -1,5 +1,5 @@
-/* shape.h - closed solids put together from points and polygons, written as
- * OBJ.  What the example models are made with. */
+/* shape.h - closed solids built from points and polygons, and written as OBJ:
+ * the building blocks of the example models. */
 #ifndef EXAMPLES_SHAPE_H
 #define EXAMPLES_SHAPE_H
 

@@ -1,5 +1,5 @@
-/* degenerate.h - views that hide nothing of a scene's regularity: along axes,
- * diagonals and the scene's own edges, from afar and from near. */
+/* degenerate.h - views in which coincidences are frequent: along axes,
+ * diagonals and the edges of the scene itself, from near and far. */
 #ifndef TESTS_DEGENERATE_H
 #define TESTS_DEGENERATE_H
 

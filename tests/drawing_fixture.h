@@ -1,4 +1,4 @@
-/* drawing_fixture.h - drawings made by hand, for the tests of writers. */
+/* drawing_fixture.h - drawings built from numbers, for the tests of writers. */
 #ifndef TESTS_DRAWING_FIXTURE_H
 #define TESTS_DRAWING_FIXTURE_H
 

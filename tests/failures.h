@@ -1,4 +1,4 @@
-/* failures.h - what the tests of known failures have in common. */
+/* failures.h - helpers shared by the tests of known failures. */
 #ifndef TESTS_FAILURES_H
 #define TESTS_FAILURES_H
 

@@ -1,5 +1,5 @@
-/* hpgl_reader.h - reads back the dialect of HPGL that we write, and complains
- * about anything else. */
+/* hpgl_reader.h - reads the dialect of HPGL that recto writes, and reports
+ * anything else as a fault. */
 #ifndef TESTS_HPGL_READER_H
 #define TESTS_HPGL_READER_H
 

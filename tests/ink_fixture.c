@@ -1,4 +1,5 @@
-/* ink_fixture.c - sheets and maps made by hand, and what ink makes of them. */
+/* ink_fixture.c - sheets and visible maps built from numbers, and their
+ * drawing. */
 #include "tests/ink_fixture.h"
 
 #include <stdarg.h>

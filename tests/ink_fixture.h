@@ -1,4 +1,5 @@
-/* ink_fixture.h - sheets and maps made by hand, and what ink makes of them. */
+/* ink_fixture.h - sheets and visible maps built from numbers, and the drawing
+ * that the ink stage makes of them. */
 #ifndef TESTS_INK_FIXTURE_H
 #define TESTS_INK_FIXTURE_H
 

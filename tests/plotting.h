@@ -1,5 +1,5 @@
-/* plotting.h - a drawing, the plot that the HPGL writer makes of it, and what
- * comes back of it. */
+/* plotting.h - a drawing, its HPGL as written, and the strokes read back from
+ * it. */
 #ifndef TESTS_PLOTTING_H
 #define TESTS_PLOTTING_H
 

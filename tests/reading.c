@@ -1,4 +1,4 @@
-/* reading.c - files given as text to a reader, and what came of it. */
+/* reading.c - files given as text to a reader, and the result. */
 #include "tests/reading.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* temporary.h - a folder for a test's files, gone when the test is. */
+/* temporary.h - a folder for a test's files, removed at the test's end. */
 #ifndef TESTS_TEMPORARY_H
 #define TESTS_TEMPORARY_H
 

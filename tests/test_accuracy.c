@@ -1,6 +1,7 @@
-/* test_accuracy.c - the methods that walk the page line by line, against the
- * exact map and against each other, on real meshes: errors fall with the
- * lines, the two z-buffers agree, and one of them holds but one line. */
+/* test_accuracy.c - the solvers that process the page line by line, compared
+ * with the exact map and with each other, on real meshes: errors fall with the
+ * number of lines, the two z-buffers agree, and one of them stores only one
+ * line. */
 #include "tests/measure/trial.h"
 
 #include <math.h>

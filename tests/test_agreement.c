@@ -1,5 +1,5 @@
-/* test_agreement.c - every exact solver gives brute's map, on scenes made to
- * part them. */
+/* test_agreement.c - every exact solver gives brute force's map, on scenes made
+ * to reveal differences. */
 #include "exact_fixture/scene.h"
 
 #include <setjmp.h>

@@ -1,5 +1,5 @@
-/* test_api.c - what recto.h promises: options, handles, errors, cancelling,
- * and outputs that are NULL or whole. */
+/* test_api.c - the guarantees of recto.h: options, handles, errors, cancelling,
+ * and outputs that are NULL or complete. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
-/* test_assimp.c - other formats come through Assimp with their polygons, their
- * places and their names. */
+/* test_assimp.c - models read through Assimp keep their polygons, transforms
+ * and names. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

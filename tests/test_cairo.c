@@ -1,4 +1,4 @@
-/* test_cairo.c - what the PDF, EPS, PS and PNG writers promise. */
+/* test_cairo.c - the guarantees of the PDF, EPS, PS and PNG writers. */
 #include <errno.h>
 #include <math.h>
 #include <setjmp.h>

@@ -1,5 +1,6 @@
-/* test_contact.c - what touches hides nothing, however it is turned: the drawn
- * length of scenes in contact changes as little as the angle does. */
+/* test_contact.c - faces in contact do not hide each other, however they are
+ * rotated: the drawn length of scenes in contact changes as little as the angle
+ * does. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

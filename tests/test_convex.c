@@ -1,4 +1,4 @@
-/* test_convex.c - convex pieces of the page, cut and subtracted exactly. */
+/* test_convex.c - convex polygons of the page, split and subtracted exactly. */
 #include "exact_fixture/rational.h"
 #include "exact_fixture/sheet.h"
 

@@ -1,5 +1,5 @@
-/* test_device.c - plotters: where a page lies on them, and that nothing is ever
- * drawn outside their area. */
+/* test_device.c - plotters: where a page lies on the sheet, and that nothing is
+ * drawn outside the hard-clip area. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

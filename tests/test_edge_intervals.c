@@ -1,4 +1,4 @@
-/* test_edge_intervals.c - from hidden parts to visible intervals. */
+/* test_edge_intervals.c - from occluded intervals to visible ones. */
 #include "visibility/predicate/edge_intervals.h"
 #include "exact_fixture/sheet.h"
 

@@ -1,4 +1,5 @@
-/* test_exact.c - signs of doubles, judged by rational arithmetic. */
+/* test_exact.c - signs of expressions in doubles, compared with rational
+ * arithmetic. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>

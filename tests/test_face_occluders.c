@@ -1,5 +1,5 @@
-/* test_face_occluders.c - what many nearer triangles leave of one, in whatever
- * order they are taken, is what the oracle leaves. */
+/* test_face_occluders.c - a triangle less its occluders, in any order, is what
+ * the oracle leaves of it. */
 #include "visibility/fragments/face_occluders.h"
 #include "geom/region.h"
 #include "exact_fixture/scene.h"

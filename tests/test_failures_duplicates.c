@@ -1,5 +1,5 @@
 /* test_failures_duplicates.c - very many faces at nearly one position (rows 8
- * and 16): it ends, with the right drawing. */
+ * and 16): the solvers finish with the right drawing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

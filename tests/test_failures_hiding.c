@@ -1,5 +1,5 @@
-/* test_failures_hiding.c - rows 1, 3, 5 to 8 of the known failures: what
- * hides what, and how much of it. */
+/* test_failures_hiding.c - rows 1, 3, 5 to 8 of the known failures: which faces
+ * hide which edges, and how much of them. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

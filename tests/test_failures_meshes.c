@@ -1,5 +1,6 @@
 /* test_failures_meshes.c - rows 4, 9, 10, 13, 15 and 19 of the known failures:
- * meshes as they come, and what may not be drawn because of it. */
+ * meshes with common defects, and lines that must not be drawn because of
+ * these. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

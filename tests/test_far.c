@@ -1,5 +1,5 @@
-/* test_far.c - what is far away changes nothing of what is near: a castle, with
- * a ground plane of any size below it, or a point that nothing uses. */
+/* test_far.c - distant objects do not affect near ones: a castle with a ground
+ * plane of any size below it, or a point that no face uses. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

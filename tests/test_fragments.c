@@ -1,5 +1,5 @@
-/* test_fragments.c - visible fragments tile the page, and their sides say
- * what they are. */
+/* test_fragments.c - visible fragments tile the page, and their sides have the
+ * right provenance. */
 #include "visibility/fragments/fragments.h"
 #include "exact_fixture/oracle.h"
 #include "exact_fixture/scene.h"

@@ -1,5 +1,5 @@
-/* test_hatching.c - whole models hatched, as read back from the files: as much
- * line as the visible area requires. */
+/* test_hatching.c - whole models hatched, as read back from the files: the
+ * length of line that the visible area requires. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

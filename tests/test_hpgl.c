@@ -1,5 +1,5 @@
-/* test_hpgl.c - what the HPGL writer promises to a plotter: the dialect, pens,
- * whole files. */
+/* test_hpgl.c - the guarantees of the HPGL writer: dialect, pens, complete
+ * files. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
-/* test_importer.c - whatever becomes of the importer, a process of its own, is
- * an error of ours and no more. */
+/* test_importer.c - any failure of the importer, a process of its own, is only
+ * an error status of the library. */
 #include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>

@@ -1,5 +1,5 @@
-/* test_ink_clean.c - strokes lose the points they do not need, dashes are
- * spread evenly, short strokes go. */
+/* test_ink_clean.c - redundant points and short strokes are removed, dashes are
+ * spread evenly. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

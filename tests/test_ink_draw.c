@@ -1,5 +1,5 @@
-/* test_ink_draw.c - ink as a whole: on every scene of the stability list, and
- * when memory runs out. */
+/* test_ink_draw.c - the ink stage as a whole: on every scene of the stability
+ * list, and with failing allocations. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
-/* test_ink_merge.c - fragments of one style become one fill, and no place is
- * painted otherwise than before. */
+/* test_ink_merge.c - fragments of one style become one fill, and no point
+ * changes its colour. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
-/* test_ink_pen_path.c - strokes are put in an order that keeps the pen's way in
- * the air short, and stay what they were. */
+/* test_ink_pen_path.c - strokes are ordered for short pen-up travel, and keep
+ * their shape. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
-/* test_ink_tone_hatch.c - hatching by the light: where lines are, how much they
- * cover, and that they run on from face to face. */
+/* test_ink_tone_hatch.c - tone hatching: where lines are, how much they cover,
+ * and that they continue from face to face. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
-/* test_input.c - whatever a path names is read to its end or refused: files
- * that change meanwhile, pipes, devices, and what gzip has compressed. */
+/* test_input.c - the file behind a path is read to its end or refused: files
+ * that change meanwhile, pipes, devices, gzip data. */
 #include <errno.h>
 #include <fcntl.h>
 #include <setjmp.h>

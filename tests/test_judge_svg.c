@@ -1,5 +1,5 @@
-/* test_judge_svg.c - whatever an SVG file says, what is read of it is on its
- * page, and takes memory in proportion to the file. */
+/* test_judge_svg.c - for any SVG file, what is read of it is on its page and
+ * takes memory in proportion to the file. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-/* test_line.c - exact lines and corners, held against rational arithmetic. */
+/* test_line.c - exact lines and corners, compared with rational arithmetic. */
 #include "exact_fixture/rational.h"
 #include "exact_fixture/sheet.h"
 

@@ -1,4 +1,4 @@
-/* test_line_index.c - every side that runs along a stretch is found there, and
+/* test_line_index.c - a query finds every side that runs along a segment, and
  * few others. */
 #include "visibility/fragments/line_index.h"
 #include "exact_fixture/scene.h"

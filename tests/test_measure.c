@@ -1,5 +1,5 @@
-/* test_measure.c - the measure of errors, on maps made by hand and on exact
- * ones. */
+/* test_measure.c - the measure of errors, on maps built from numbers and on
+ * exact ones. */
 #include "tests/measure/measure.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* test_null.c - no call of the public interface falls over a NULL. */
+/* test_null.c - every call of the public interface accepts NULL or refuses it.
+ * */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* test_obj.c - what OBJ files say is what the scene holds. */
+/* test_obj.c - OBJ files are read into the scene that they describe. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* test_painter.c - the painter's algorithms without tests: right where their
- * order is, and wrong where it must be. */
+ * order is right, wrong where it must be wrong. */
 #include "exact_fixture/oracle.h"
 #include "exact_fixture/scene.h"
 

@@ -1,4 +1,4 @@
-/* test_predicate.c - orientation and planes, held against GMP at the ends of
+/* test_predicate.c - orientation and planes, compared with GMP at the ends of
  * their ranges. */
 #include "exact_fixture/rational.h"
 #include "exact_fixture/sheet.h"

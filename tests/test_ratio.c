@@ -1,4 +1,4 @@
-/* test_ratio.c - exact ratios, held against GMP's. */
+/* test_ratio.c - exact ratios, compared with GMP's. */
 #include "exact_fixture/rational.h"
 #include "exact_fixture/sheet.h"
 

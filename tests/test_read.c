@@ -1,5 +1,5 @@
-/* test_read.c - files, pipes and standard input come to the right reader, and
- * a failure leaves the scene as it was. */
+/* test_read.c - files, pipes and standard input reach the right reader, and a
+ * failure leaves the scene unchanged. */
 #include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>

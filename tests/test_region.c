@@ -1,4 +1,5 @@
-/* test_region.c - the union of pieces has one form, whatever the pieces. */
+/* test_region.c - the union of pieces has a canonical form, independent of the
+ * pieces. */
 #include "geom/region.h"
 #include "exact_fixture/rational.h"
 #include "exact_fixture/sheet.h"

@@ -1,4 +1,5 @@
-/* test_report.c - the report's JSON, and what it survives. */
+/* test_report.c - the report's JSON, with any text and any failing allocation.
+ * */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
-/* test_scanfill.c - the scan-line fill against a count of crossings made with
- * whole numbers, pixel by pixel. */
+/* test_scanfill.c - the scan-line fill, compared pixel by pixel with a count of
+ * crossings in integers. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

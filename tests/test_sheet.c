@@ -1,4 +1,4 @@
-/* test_sheet.c - the sheet holds what it promises, clipped or whole. */
+/* test_sheet.c - the sheet keeps its invariants, clipped or whole. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-/* test_side_provenance.c - each side of a fragment says what it is. */
+/* test_side_provenance.c - each side of a fragment has the right provenance. */
 #include "exact_fixture/scene.h"
 
 #include <setjmp.h>

@@ -1,5 +1,5 @@
-/* test_solver.c - what holds of every visibility method: the table, and each
- * allocation failing in turn. */
+/* test_solver.c - properties of every solver: the table of solvers, and failing
+ * allocations. */
 #include "exact_fixture/scene.h"
 
 #include <setjmp.h>

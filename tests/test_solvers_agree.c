@@ -1,5 +1,5 @@
-/* test_solvers_agree.c - exact solvers give the same bytes on views that hide
- * nothing of a scene's regularity, and with any number of threads. */
+/* test_solvers_agree.c - exact solvers give the same bytes on views in which
+ * coincidences are frequent, and with any number of threads. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

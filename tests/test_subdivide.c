@@ -1,4 +1,5 @@
-/* test_subdivide.c - finer meshes keep what they must of the coarse ones. */
+/* test_subdivide.c - subdivided meshes keep the invariants of the coarse ones.
+ * */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-/* test_svg.c - what the SVG writer promises to those who read its files. */
+/* test_svg.c - the guarantees of the SVG writer. */
 #include <locale.h>
 #include <setjmp.h>
 #include <stdarg.h>

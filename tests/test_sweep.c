@@ -1,5 +1,5 @@
-/* test_sweep.c - the sweep over exact heights: its places against all
- * pairs of edges, its trapezoids against the triangles' areas. */
+/* test_sweep.c - the exact sweep: its events compared with all pairs of edges,
+ * its trapezoids with the triangles' areas. */
 #include "exact_fixture/rational.h"
 #include "exact_fixture/scene.h"
 

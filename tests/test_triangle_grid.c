@@ -1,4 +1,5 @@
-/* test_triangle_grid.c - the grid finds what a look at every triangle finds. */
+/* test_triangle_grid.c - a query of the grid finds what a search of all
+ * triangles finds. */
 #include "visibility/index/triangle_grid.h"
 #include "exact_fixture/scene.h"
 

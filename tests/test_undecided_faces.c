@@ -1,5 +1,5 @@
 /* test_undecided_faces.c - faces that tiles leave undecided are painted as by
- * the oracle, and mostly without cutting anything. */
+ * the oracle, and mostly without subtracting anything. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* test_verify.c - drawings that are right pass, and one that was tampered with
- * is found out, with a witness. */
+/* test_verify.c - right drawings pass, and one that was changed is rejected
+ * with an example. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

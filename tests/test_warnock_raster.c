@@ -1,5 +1,5 @@
 /* test_warnock_raster.c - subdivision of a pixel frame: the worked frames, the
- * z-buffer's pixels, the stack's bound, sub-pixels. */
+ * z-buffer's pixels, the bound of the stack, sub-pixels. */
 #include "exact_fixture/pixels.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* test_warped.c - faces that are not planar, cross themselves or fold back:
- * every exact method draws the same of them, and the judge, which follows the
- * rule of how they are cut by itself, agrees. */
+ * every exact solver draws them alike, and the judge, which triangulates them
+ * by the same rule with its own code, agrees. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
-/* test_watkins_exact.c - without a pitch Watkins gives the bytes that tiles
- * gives: soups, scenes of failures, and models where they are. */
+/* test_watkins_exact.c - without a pitch Watkins gives the bytes of tiles:
+ * soups, scenes of known failures, and models where found. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* test_weld.c - corners of borders that lie close together are one, and none
- * that do not. */
+/* test_weld.c - border vertices that lie close together become one, and no
+ * others. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

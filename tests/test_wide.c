@@ -1,4 +1,4 @@
-/* test_wide.c - wide integers, held against GMP's. */
+/* test_wide.c - wide integers, compared with GMP's. */
 #include "exact_fixture/rational.h"
 #include "exact_fixture/sheet.h"
 

@@ -1,5 +1,5 @@
-/* test_window.c - Warnock's four classes and his tests of them: the worked
- * numbers, and against other ways of asking the same. */
+/* test_window.c - Warnock's four classes of faces and his tests of them: worked
+ * numbers, and comparison with other methods. */
 #include "exact_fixture/sheet.h"
 
 #include <setjmp.h>

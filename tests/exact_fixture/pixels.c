@@ -1,4 +1,5 @@
-/* pixels.c - small scenes and what is seen of them, in rational arithmetic. */
+/* pixels.c - small scenes and the face visible at each pixel, in rational
+ * arithmetic. */
 #include "exact_fixture/pixels.h"
 
 #include <setjmp.h>

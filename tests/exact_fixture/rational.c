@@ -1,4 +1,4 @@
-/* rational.c - the plane in plain rational arithmetic. */
+/* rational.c - plane geometry in rational arithmetic. */
 #include "exact_fixture/rational.h"
 
 void rational_set_int128(mpz_t to, int128 value) {

@@ -1,4 +1,4 @@
-/* scene.c - random sheets, each of a kind that is hard in its own way. */
+/* scene.c - random sheets, each of a kind that is difficult in its own way. */
 #include "exact_fixture/scene.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* sheet.c - sheets built by hand from integers. */
+/* sheet.c - sheets built from integers. */
 #include "exact_fixture/sheet.h"
 
 #include <setjmp.h>

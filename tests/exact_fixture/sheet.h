@@ -1,5 +1,5 @@
-/* sheet.h - sheets built by hand from integers, for tests of what comes after
- * the view. */
+/* sheet.h - sheets built from integers, for tests of visibility without the
+ * projection. */
 #ifndef TESTS_EXACT_FIXTURE_SHEET_H
 #define TESTS_EXACT_FIXTURE_SHEET_H
 

@@ -1,5 +1,5 @@
-/* render.h - the whole way from a model and a command line to a drawing, all
- * in memory, for targets. */
+/* render.h - reads a model and a command line and makes the drawing, all in
+ * memory, for fuzz targets. */
 #ifndef TESTS_FUZZ_RENDER_H
 #define TESTS_FUZZ_RENDER_H
 

@@ -1,5 +1,5 @@
-/* flaws.c - faces that have no business being there: edge-on, needles, no
- * area, collinear or repeated corners; and bars thinner than any pitch. */
+/* flaws.c - faces that a sound mesh would not have: edge-on, needles, no area,
+ * collinear or repeated corners; and bars thinner than any pitch. */
 #include "tests/scenes/scenes.h"
 
 /* Faces in planes that hold the viewing direction of the front view. */

@@ -1,5 +1,5 @@
-/* layers.c - large under small, coplanar and doubled faces, sheets that nearly
- * touch, slits. */
+/* layers.c - large faces below small ones, coplanar and doubled faces, sheets
+ * that nearly touch, slits. */
 #include "tests/scenes/scenes.h"
 
 void scenes_large_table(struct scene *scene, recto_options *options) {

@@ -1,5 +1,5 @@
-/* meshes.c - meshes as they come: hanging vertices, unwelded, split, with
- * points within edges; and a globe. */
+/* meshes.c - meshes with common defects: hanging vertices, unshared vertices,
+ * split faces, points within edges; and a globe. */
 #include <math.h>
 
 #include "tests/scenes/scenes.h"

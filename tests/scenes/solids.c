@@ -1,4 +1,5 @@
-/* solids.c - convex solids, boxes in contact, and eyes in odd places. */
+/* solids.c - convex solids, boxes in contact, and eyes in degenerate positions.
+ * */
 #include <math.h>
 
 #include "tests/scenes/scenes.h"

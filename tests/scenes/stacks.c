@@ -1,4 +1,4 @@
-/* stacks.c - large faces over each other: few of them, or shells in shells. */
+/* stacks.c - large faces over each other: a few plates, or nested shells. */
 #include "tests/scenes/scenes.h"
 
 void scenes_plates(struct scene *scene, recto_options *options, unsigned n,

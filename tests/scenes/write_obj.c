@@ -1,4 +1,5 @@
-/* write_obj.c - the scene as OBJ text that reads back as the same scene. */
+/* write_obj.c - writes a scene as OBJ text that reads back as the same scene.
+ * */
 #include "tests/scenes/write_obj.h"
 
 #include "base/number.h"

@@ -1,4 +1,5 @@
-/* write_obj.h - the scene as OBJ text that reads back as the same scene. */
+/* write_obj.h - writes a scene as OBJ text that reads back as the same scene.
+ * */
 #ifndef TESTS_SCENES_WRITE_OBJ_H
 #define TESTS_SCENES_WRITE_OBJ_H
 
