@@ -1,14 +1,15 @@
-/* brute.c - the oracle: every edge against every triangle, every triangle
- * against every other.  Short, obvious, and kept so: the other exact solvers
- * are held against it.
+/* brute.c - the brute-force solver, the oracle of the tests: every edge against
+ * every triangle, every triangle against every other.
  *
- * Source  Appel 1967 asks the same questions edge by edge; [Appel1967].
+ * Short, obvious, and kept so: the other exact solvers are compared with it.
+ *
+ * Source  [Appel1967] decides visibility edge by edge as well.
  */
 #include "visibility/fragments/occluder_subtraction.h"
 #include "visibility/intersection/intersection.h"
+#include "visibility/predicate/edge_intervals.h"
 #include "visibility/progress.h"
 #include "visibility/solver.h"
-#include "visibility/predicate/edge_intervals.h"
 
 static bool is_flat(const struct sheet *sheet, size_t triangle) {
   return sheet->triangle_flags[triangle] & SHEET_FLAT;
@@ -35,11 +36,11 @@ static bool solve_strokes(const struct sheet *sheet, struct map *map,
       goto end;
     edge_intervals_start(&intervals);
     for (size_t t = 0; t < n; t++) {
-      struct occluded_interval part;
+      struct occluded_interval interval;
       bool own = t == edge->triangle[0] || t == edge->triangle[1];
       if (!own && !is_flat(sheet, t) &&
-          occlude_edge(&occluder[t], p, q, &part, counts) &&
-          !edge_intervals_occlude(&intervals, part))
+          occlude_edge(&occluder[t], p, q, &interval, counts) &&
+          !edge_intervals_occlude(&intervals, interval))
         goto end;
     }
     if (!edge_intervals_store(&intervals, (uint32_t)e, map))

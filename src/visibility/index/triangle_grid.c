@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-#include "visibility/index/duplicate_triangles.h"
 #include "visibility/index/bsp.h"
+#include "visibility/index/duplicate_triangles.h"
 #include "visibility/predicate/surrounder.h"
 
 enum {

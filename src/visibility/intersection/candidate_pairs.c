@@ -1,9 +1,9 @@
 /* candidate_pairs.c - pairs of triangles that may pierce each other.
  *
- * Cell by cell, a sweep from the deepest triangle to the nearest meets every
- * pair whose depths overlap; boxes, shared corners, planes in doubles
- * (plane_filter.h) and sides on the page settle most of them.  A long list is parted
- * before (bsp.h).
+ * Cell by cell, a sweep in depth, from the farthest triangle to the nearest,
+ * finds every pair whose depths overlap (sweep and prune).  Boxes, shared
+ * corners, filtered planes (plane_filter.h) and separating sides on the page
+ * reject most of them.  A long list is split by a BSP before (bsp.h).
  */
 #include "visibility/intersection/candidate_pairs.h"
 
@@ -11,17 +11,17 @@
 #include "visibility/index/bsp.h"
 #include "visibility/predicate/plane_filter.h"
 
-/* So many triangles in one cell are worth parting (bsp.h). */
-enum { CROWD = 256 };
+/* The shortest list for which a BSP is worth while. */
+enum { BSP_LIST_MIN = 256 };
 
-/* What is asked of a triangle, gathered once a cell. */
+/* What the tests use of a triangle, computed once per list. */
 struct summary {
   struct box2 box;
-  int64_t low, high; /* depths */
+  int64_t low, high; /* depths of the farthest and the nearest corner */
   int x0, y0;        /* the cell of the box's lower left corner */
   uint32_t triangle;
-  uint64_t seen; /* bsp.h */
-  bool planned;  /* the plane is there */
+  uint64_t right_copy; /* bsp.h */
+  bool has_plane;      /* `plane` has been computed */
   struct plane_filter plane;
 };
 
@@ -32,15 +32,15 @@ struct box_sweep {
   bool (*visit)(void *user, uint32_t f, uint32_t g);
   void *user;
   struct progress *progress;
-  int x, y; /* the cell at hand */
+  int x, y; /* the current cell */
   ARRAY(struct summary) summary;
-  ARRAY(struct sort_key) key; /* twice as many: by depth, and to sort in */
+  ARRAY(struct sort_key) key; /* twice as many: sorted by depth, and scratch */
   struct bsp bsp;
   uint64_t *met;
 };
 
 static void summarise(const struct box_sweep *sweep, uint32_t triangle,
-                      uint64_t seen, struct summary *s) {
+                      uint64_t right_copy, struct summary *s) {
   const struct sheet *sheet = sweep->sheet;
   const struct triangle_grid *grid = sweep->grid;
   const uint32_t *p = sheet->triangle.item[triangle].point;
@@ -56,10 +56,11 @@ static void summarise(const struct box_sweep *sweep, uint32_t triangle,
   s->x0 = triangle_grid_cell(s->box.x0, grid->x0, grid->shift, grid->columns);
   s->y0 = triangle_grid_cell(s->box.y0, grid->y0, grid->shift, grid->rows);
   s->triangle = triangle;
-  s->seen = seen;
-  s->planned = false;
+  s->right_copy = right_copy;
+  s->has_plane = false;
 }
 
+/* Are both triangles listed in a cell that is selected? */
 static bool is_listed(const struct box_sweep *sweep, int x, int y,
                       const struct summary *f, const struct summary *g) {
   const struct triangle_grid *grid = sweep->grid;
@@ -71,8 +72,9 @@ static bool is_listed(const struct box_sweep *sweep, int x, int y,
                                     !((double)g->high < grid->horizon[cell])));
 }
 
-/* A pair stands in several cells; it is asked in the first whose list has
- * both: mostly the one where their boxes' overlap begins. */
+/* A pair may be listed together in several cells; it is tested only in the
+ * first of them, mostly the one with the lower left corner of the boxes'
+ * intersection.  Is that the current cell? */
 static bool is_cell_of_pair(const struct box_sweep *sweep,
                             const struct summary *f, const struct summary *g) {
   const struct triangle_grid *grid = sweep->grid;
@@ -92,8 +94,8 @@ static bool is_cell_of_pair(const struct box_sweep *sweep,
   return true;
 }
 
-/* Which corners two triangles share: how many, and where the last of them is
- * in each. */
+/* How many corners two triangles share, and the index of the last of these in
+ * each. */
 struct shared_corners {
   int count, in_f, in_g;
 };
@@ -108,7 +110,8 @@ static struct shared_corners shared_corners(const uint32_t f[3],
   return shared;
 }
 
-/* Two points as they are seen from a third. */
+/* The sector of a triangle at a corner: the vectors from there to the next
+ * corner and to the one before. */
 struct sector {
   int64_t x[2], y[2];
 };
@@ -122,8 +125,8 @@ static struct sector sector_of(const struct sheet *sheet, const uint32_t p[3],
                          {(int64_t)a.y - v.y, (int64_t)b.y - v.y}};
 }
 
-/* Is g strictly to the right of the first side of f, or to the left of its
- * last one, while f is on the other side? */
+/* Does a side of sector f separate it from g: is all of g strictly to the right
+ * of its first side, or to the left of its last? */
 static bool is_separated_by(const struct sector *f, const struct sector *g) {
   return (f->x[0] * g->y[0] < f->y[0] * g->x[0] &&
           f->x[0] * g->y[1] < f->y[0] * g->x[1]) ||
@@ -131,10 +134,11 @@ static bool is_separated_by(const struct sector *f, const struct sector *g) {
           f->x[1] * g->y[1] > f->y[1] * g->x[1]);
 }
 
-/* Do the two, which run counter-clockwise and share a corner, meet nowhere
- * else on the page?  On a dense mesh it is so about nearly every corner. */
-static bool part_at_corner(const struct sheet *sheet, const uint32_t f[3],
-                           const uint32_t g[3], struct shared_corners shared) {
+/* Do two counter-clockwise triangles that share a corner have no other point of
+ * the page in common?  On a dense mesh nearly all such pairs have none. */
+static bool are_disjoint_at_corner(const struct sheet *sheet,
+                                   const uint32_t f[3], const uint32_t g[3],
+                                   struct shared_corners shared) {
   struct sector a = sector_of(sheet, f, shared.in_f),
                 b = sector_of(sheet, g, shared.in_g);
   return is_separated_by(&a, &b) || is_separated_by(&b, &a);
@@ -147,24 +151,24 @@ static bool are_neighbours(const struct sheet *sheet, uint32_t f, uint32_t g) {
                  *q = sheet->triangle.item[g].point;
   struct shared_corners shared = shared_corners(p, q);
   return shared.count > 1 ||
-         (shared.count == 1 && part_at_corner(sheet, p, q, shared));
+         (shared.count == 1 && are_disjoint_at_corner(sheet, p, q, shared));
 }
 
-/* May the corners of f pierce the plane of g? */
+/* May f straddle the plane of g or end on it? */
 static bool may_pierce(const struct sheet *sheet, const struct summary *f,
                        struct summary *g) {
   const uint32_t *p = sheet->triangle.item[f->triangle].point;
   const struct geom_point corner[3] = {sheet->point.item[p[0]],
                                        sheet->point.item[p[1]],
                                        sheet->point.item[p[2]]};
-  if (!g->planned)
+  if (!g->has_plane)
     g->plane = plane_filter_of(sheet, g->triangle);
-  g->planned = true;
+  g->has_plane = true;
   return plane_filter_may_intersect(&g->plane, corner);
 }
 
-/* Is all of g to the right of a side of f, by more than what counts as one
- * line? */
+/* Is all of g to the right of a side of f on the page, by more than the
+ * distance of lines that count as coincident? */
 static bool is_beyond_side(const struct sheet *sheet, uint32_t f, uint32_t g) {
   const uint32_t *p = sheet->triangle.item[f].point,
                  *q = sheet->triangle.item[g].point;
@@ -182,9 +186,10 @@ static bool is_beyond_side(const struct sheet *sheet, uint32_t f, uint32_t g) {
   return false;
 }
 
-static bool meet(const struct box_sweep *sweep, struct summary *f,
-                 struct summary *g) {
-  if (box2_disjoint(f->box, g->box) || (f->seen & g->seen) != 0 ||
+/* Visits a pair whose depths overlap, unless a test rejects it. */
+static bool test_pair(const struct box_sweep *sweep, struct summary *f,
+                      struct summary *g) {
+  if (box2_disjoint(f->box, g->box) || (f->right_copy & g->right_copy) != 0 ||
       !is_cell_of_pair(sweep, f, g) ||
       are_neighbours(sweep->sheet, f->triangle, g->triangle) ||
       !may_pierce(sweep->sheet, f, g) || !may_pierce(sweep->sheet, g, f) ||
@@ -196,21 +201,21 @@ static bool meet(const struct box_sweep *sweep, struct summary *f,
              : sweep->visit(sweep->user, g->triangle, f->triangle);
 }
 
-/* Makes room for the summaries of a list. */
+/* Starts a list, with room for n triangles. */
 static bool start_list(struct box_sweep *sweep, size_t n) {
   sweep->summary.count = 0;
   return ARRAY_RESERVE(&sweep->summary, n) && ARRAY_RESERVE(&sweep->key, 2 * n);
 }
 
 static void add_to_list(struct box_sweep *sweep, uint32_t triangle,
-                        uint64_t seen) {
+                        uint64_t right_copy) {
   size_t i = sweep->summary.count++;
-  summarise(sweep, triangle, seen, &sweep->summary.item[i]);
+  summarise(sweep, triangle, right_copy, &sweep->summary.item[i]);
   sweep->key.item[i] =
       (struct sort_key){(uint64_t)sweep->summary.item[i].low, (uint32_t)i};
 }
 
-/* Meets the pairs of the list that was added. */
+/* Tests the pairs of the list. */
 static bool sweep_list(struct box_sweep *sweep) {
   struct summary *summary = sweep->summary.item;
   struct sort_key *key = sweep->key.item;
@@ -220,7 +225,7 @@ static bool sweep_list(struct box_sweep *sweep) {
     struct summary *f = &summary[key[i].value];
     size_t j = i + 1;
     for (; j < n && key[j].key <= (uint64_t)f->high; j++)
-      if (!meet(sweep, f, &summary[key[j].value]))
+      if (!test_pair(sweep, f, &summary[key[j].value]))
         return false;
     *sweep->met += j - i - 1;
     if (!progress_step(sweep->progress, j - i))
@@ -229,6 +234,7 @@ static bool sweep_list(struct box_sweep *sweep) {
   return true;
 }
 
+/* Sweeps each leaf of the cell's tree. */
 static bool sweep_bsp(struct box_sweep *sweep) {
   const struct bsp *bsp = &sweep->bsp;
   for (size_t n = 0; n < bsp->node.count; n++) {
@@ -250,7 +256,8 @@ static bool sweep_cell(struct box_sweep *sweep, const uint32_t *item,
                        size_t n) {
   uint32_t root = SHEET_NONE;
   bsp_clear(&sweep->bsp);
-  if (n >= CROWD && !bsp_add(&sweep->bsp, sweep->sheet, item, n, true, &root))
+  if (n >= BSP_LIST_MIN &&
+      !bsp_add(&sweep->bsp, sweep->sheet, item, n, true, &root))
     return false;
   if (root != SHEET_NONE)
     return sweep_bsp(sweep);

@@ -5,14 +5,16 @@
 #include "visibility/index/triangle_grid.h"
 #include "visibility/progress.h"
 
-/* Calls visit(user, f, g), f < g, once for every pair that shares a cell of
- * the grid which has a list and is among `cells`, and may pierce: the boxes
- * meet on the page and in depth, they share less than an edge, and neither is
- * surely apart from the other's plane.
- * cells  one a cell; NULL: all
- * pulse  of the work
- * met    counts the pairs of triangles in one list whose depths overlap
- * Returns false when memory ran out, or as soon as visit or the pulse does. */
+/* Calls visit(user, f, g), f < g, once for every candidate pair.  The two
+ *   - share a cell of the grid that has a list and is selected by `cells`,
+ *   - have boxes that meet on the page and in depth,
+ *   - share less than an edge, and
+ *   - are not certainly on one side of each other's planes.
+ * cells     per cell, not 0: selected; NULL: all are
+ * progress  counts the work; NULL: never polled
+ * met       gets added the number of pairs of one list whose depths overlap
+ * Returns false when memory ran out, or as soon as visit returns false or the
+ * caller cancels. */
 USE_RESULT bool
 candidate_pairs(const struct sheet *sheet, const struct triangle_grid *grid,
                 const uint8_t *cells,

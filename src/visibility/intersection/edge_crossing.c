@@ -1,4 +1,5 @@
-/* edge_crossing.c - where surfaces cross along an edge. */
+/* edge_crossing.c - finds where surfaces pass through each other along an
+ * edge. */
 #include "visibility/intersection/edge_crossing.h"
 
 #include <stdlib.h>
@@ -12,22 +13,24 @@ struct side_count side_count_of(const struct occluder *plane,
   for (int k = 0; k < 3; k++) {
     int side = occluder_side(plane, p[k]);
     count.behind += side < 0;
-    count.before += side > 0;
+    count.in_front += side > 0;
     if (side != 0)
-      count.apart = k;
+      count.off_plane = k;
   }
   return count;
 }
 
-/* ---- Noting -------------------------------------------------------------- */
+/* ---- Candidates ---------------------------------------------------------- */
 
+/* The side of a triangle that ends on a plane. */
 static struct edge_crossing_side
 edge_of(const struct sheet *sheet, uint32_t triangle, struct side_count count) {
   const uint32_t *p = sheet->triangle.item[triangle].point;
-  uint32_t i = p[(count.apart + 1) % 3], j = p[(count.apart + 2) % 3];
+  uint32_t i = p[(count.off_plane + 1) % 3], j = p[(count.off_plane + 2) % 3];
   return (struct edge_crossing_side){i < j ? i : j, i < j ? j : i};
 }
 
+/* Edges by their ends, then triangles by index. */
 static int compare_sides(struct edge_crossing_side a,
                          struct edge_crossing_side b) {
   if (a.j != b.j)
@@ -35,12 +38,12 @@ static int compare_sides(struct edge_crossing_side a,
   return (a.i > b.i) - (a.i < b.i);
 }
 
-bool edge_crossings_note(struct edge_crossings *crossings,
-                         const struct sheet *sheet, uint32_t f,
-                         struct side_count sf, uint32_t g,
-                         struct side_count sg) {
+bool edge_crossings_add(struct edge_crossings *crossings,
+                        const struct sheet *sheet, uint32_t f,
+                        struct side_count sf, uint32_t g,
+                        struct side_count sg) {
   struct edge_crossing crossing = {{edge_of(sheet, f, sf), {g, SHEET_NONE}}};
-  if (ends_there(sg))
+  if (ends_on_plane(sg))
     crossing.side[1] = edge_of(sheet, g, sg);
   if (compare_sides(crossing.side[0], crossing.side[1]) > 0) {
     struct edge_crossing_side swap = crossing.side[0];
@@ -50,9 +53,9 @@ bool edge_crossings_note(struct edge_crossings *crossings,
   return ARRAY_PUSH(&crossings->list, crossing);
 }
 
-bool edge_crossings_note_slanted(struct edge_crossings *crossings,
-                                 const struct sheet *sheet, uint32_t f,
-                                 uint32_t g, const struct occluder *plane) {
+bool edge_crossings_add_slanted(struct edge_crossings *crossings,
+                                const struct sheet *sheet, uint32_t f,
+                                uint32_t g, const struct occluder *plane) {
   const uint32_t *p = sheet->triangle.item[f].point;
   int side[3], sign[3];
   for (int k = 0; k < 3; k++) {
@@ -79,7 +82,9 @@ void edge_crossings_fini(struct edge_crossings *crossings) {
 
 /* ---- Which part of an edge ----------------------------------------------- */
 
-/* The part of an edge that triangle g covers on the page. */
+/* Clips an edge to triangle g on the page.
+ * end  gets the ends of the clipped edge, rounded to the grid
+ * Returns false where nothing is left. */
 static bool clip_to_triangle(const struct sheet *sheet,
                              struct edge_crossing_side edge, uint32_t g,
                              struct geom_point end[2]) {
@@ -102,7 +107,8 @@ static bool clip_to_triangle(const struct sheet *sheet,
   return true;
 }
 
-/* Does p lie on the line through a and b on the page, but for rounding? */
+/* Does p lie on the line through a and b on the page, within
+ * TOLERANCE_COINCIDENT_UNITS? */
 static bool is_near_line(struct geom_point a, struct geom_point b,
                          struct geom_point p) {
   const int128 near = TOLERANCE_COINCIDENT_UNITS;
@@ -111,20 +117,21 @@ static bool is_near_line(struct geom_point a, struct geom_point b,
   return (int128)off * off <= near * near * ((int128)x * x + (int128)y * y);
 }
 
+/* Is a-b closer to the vertical than to the horizontal of the page? */
 static bool is_steep(struct geom_point a, struct geom_point b) {
   return llabs((int64_t)b.y - a.y) > llabs((int64_t)b.x - a.x);
 }
 
-/* An order along edges that are steep, or are not.  Their other coordinate may
- * run either way: rounding turns an upright edge by a unit. */
+/* The order of two points along edges that are steep, by y, or are not, by x.
+ * The other coordinate cannot serve: rounding turns an upright edge by a
+ * unit. */
 static int compare_along(bool steep, struct geom_point a, struct geom_point b) {
   if (steep && a.y != b.y)
     return a.y < b.y ? -1 : 1;
   return geom_compare_points(a, b);
 }
 
-static void put_in_order(bool steep, struct geom_point *a,
-                         struct geom_point *b) {
+static void sort_two(bool steep, struct geom_point *a, struct geom_point *b) {
   if (compare_along(steep, *a, *b) > 0) {
     struct geom_point swap = *a;
     *a = *b;
@@ -132,17 +139,18 @@ static void put_in_order(bool steep, struct geom_point *a,
   }
 }
 
-/* What two edges share: the middle two of their ends, where these lie on both.
- * Edges of faces that are all but in one plane touch each other's planes
- * wherever they run. */
+/* The overlap of two edges: the middle two of their four ends, provided that
+ * these lie on both lines.  That must be tested, since edges of nearly coplanar
+ * faces touch each other's planes wherever they run.
+ * Returns false where they do not overlap. */
 static bool clip_to_edge(const struct sheet *sheet, struct edge_crossing_side e,
                          struct edge_crossing_side f,
                          struct geom_point end[2]) {
   struct geom_point a = sheet->point.item[e.i], b = sheet->point.item[e.j],
                     c = sheet->point.item[f.i], d = sheet->point.item[f.j];
   bool steep = is_steep(a, b);
-  put_in_order(steep, &a, &b);
-  put_in_order(steep, &c, &d);
+  sort_two(steep, &a, &b);
+  sort_two(steep, &c, &d);
   end[0] = compare_along(steep, a, c) > 0 ? a : c;
   end[1] = compare_along(steep, b, d) < 0 ? b : d;
   for (int k = 0; k < 2; k++)
@@ -151,8 +159,9 @@ static bool clip_to_edge(const struct sheet *sheet, struct edge_crossing_side e,
   return compare_along(steep, end[0], end[1]) < 0;
 }
 
-/* ---- The triangles of the edges ------------------------------------------ */
+/* ---- Incidence of edges and triangles ------------------------------------ */
 
+/* A triangle and one of its edges. */
 struct incidence {
   struct edge_crossing_side edge;
   uint32_t triangle;
@@ -170,7 +179,7 @@ static int compare_incidences(const void *a, const void *b, void *user) {
                     : (r->triangle > s->triangle) - (r->triangle < s->triangle);
 }
 
-/* The rims of an edge, up to `end`. */
+/* The incidences of an edge: from the result up to `end`. */
 static const struct incidence *
 incidences_find(const struct incidences *incidences,
                 struct edge_crossing_side edge, const struct incidence **end) {
@@ -204,7 +213,8 @@ static bool add_incidences(struct incidences *incidences,
   return true;
 }
 
-/* Finds all triangles of the edges that the seams name. */
+/* Finds all triangles incident to the edges of the candidates, and maybe
+ * others. */
 static bool incidences_init(struct incidences *incidences,
                             const struct sheet *sheet,
                             const struct edge_crossings *crossings) {
@@ -235,62 +245,65 @@ static void incidences_fini(struct incidences *incidences) {
   ARRAY_FREE(&incidences->list);
 }
 
-/* ---- Round an edge ------------------------------------------------------- */
+/* ---- Fans ---------------------------------------------------------------- */
 
-/* A triangle as seen along an edge: from the edge, the way of the other
- * triangles' edges, to its third corner. */
+/* A triangle of the fan about an edge: the edge, in the direction that is
+ * common to all, and the triangle's third corner. */
 struct fan_triangle {
-  struct geom_point from, to, apart;
+  struct geom_point from, to, third;
   uint32_t triangle;
 };
 
 static struct fan_triangle fan_triangle_of(const struct sheet *sheet,
                                            struct edge_crossing_side edge,
-                                           uint32_t triangle, bool turned) {
+                                           uint32_t triangle, bool reversed) {
   const struct geom_point *point = sheet->point.item;
   const uint32_t *p = sheet->triangle.item[triangle].point;
   int k = 0;
   while (p[k] == edge.i || p[k] == edge.j)
     k++;
-  return (struct fan_triangle){point[turned ? edge.j : edge.i],
-                               point[turned ? edge.i : edge.j], point[p[k]],
+  return (struct fan_triangle){point[reversed ? edge.j : edge.i],
+                               point[reversed ? edge.i : edge.j], point[p[k]],
                                triangle};
 }
 
-/* Which way from wing a to wing b is the shorter: +1 or -1 as the sign of a
- * volume says; 0: they lie in one plane.  Exact. */
-static int way_round(const struct fan_triangle *a,
+/* The sense of the smaller angle from triangle a to triangle b about the edge,
+ * as the sign of a volume; 0: they are coplanar.  Exact. */
+static int turn_sign(const struct fan_triangle *a,
                      const struct fan_triangle *b) {
-  struct geom_plane plane = geom_plane_of(a->from, a->to, a->apart);
-  return geom_sign128(geom_plane_value(&plane, b->apart));
+  struct geom_plane plane = geom_plane_of(a->from, a->to, a->third);
+  return geom_sign128(geom_plane_value(&plane, b->third));
 }
 
-/* Going round from wing a to wing b the positive way, does one meet c? */
+/* Is c between a and b in the positive sense about the edge?  Exact. */
 static bool is_between(const struct fan_triangle *a,
                        const struct fan_triangle *b,
                        const struct fan_triangle *c) {
-  if (way_round(a, b) > 0)
-    return way_round(a, c) > 0 && way_round(c, b) > 0;
-  return !(way_round(b, c) > 0 && way_round(c, a) > 0);
+  if (turn_sign(a, b) > 0)
+    return turn_sign(a, c) > 0 && turn_sign(c, b) > 0;
+  return !(turn_sign(b, c) > 0 && turn_sign(c, a) > 0);
 }
 
-/* On which side of its edge a wing lies, seen along an axis of the sheet: the
- * page's own where it has an area there, else one across it. */
+/* On which side of its edge a triangle of a fan lies, by the sign of its
+ * projected area: on the page, or (`across`) on the coordinate plane of depth
+ * and the edge's longer page coordinate. */
 static int side_of_edge(const struct fan_triangle *w, bool across) {
   bool steep = is_steep(w->from, w->to);
   int64_t dx, dz, x, z;
   if (!across)
-    return geom_sign64(geom_orient2d(w->from, w->to, w->apart));
+    return geom_sign64(geom_orient2d(w->from, w->to, w->third));
   dx = steep ? (int64_t)w->to.y - w->from.y : (int64_t)w->to.x - w->from.x;
-  x = steep ? (int64_t)w->apart.y - w->from.y : (int64_t)w->apart.x - w->from.x;
+  x = steep ? (int64_t)w->third.y - w->from.y : (int64_t)w->third.x - w->from.x;
   dz = w->to.z - w->from.z;
-  z = w->apart.z - w->from.z;
+  z = w->third.z - w->from.z;
   return geom_sign128((int128)dx * z - (int128)dz * x);
 }
 
-/* Do two wings touch on the same side of their edge? */
-static bool are_one(const struct sheet *sheet, const struct fan_triangle *a,
-                    const struct fan_triangle *b) {
+/* Are two triangles of fans about coincident edges in contact, on the same side
+ * of the edge? */
+static bool are_in_contact(const struct sheet *sheet,
+                           const struct fan_triangle *a,
+                           const struct fan_triangle *b) {
   bool across = side_of_edge(a, false) == 0 || side_of_edge(b, false) == 0;
   struct occluder plane[2];
   struct side_count count[2];
@@ -301,29 +314,31 @@ static bool are_one(const struct sheet *sheet, const struct fan_triangle *a,
   occluder_init(&plane[1], sheet, b->triangle);
   for (int k = 0; k < 2; k++)
     count[k] = side_count_of(&plane[k], plane[1 - k].p);
-  return count[0].behind + count[0].before == 0 ||
-         count[1].behind + count[1].before == 0;
+  return count[0].behind + count[0].in_front == 0 ||
+         count[1].behind + count[1].in_front == 0;
 }
 
+/* The triangles about an edge. */
 struct fan {
   ARRAY(struct fan_triangle) list;
 };
 
-/* All wings of an edge; turned: seen from its other end. */
+/* Collects the triangles incident to an edge; reversed: in its opposite
+ * direction. */
 static bool gather_fan(struct fan *fan, const struct sheet *sheet,
                        const struct incidences *incidences,
-                       struct edge_crossing_side edge, bool turned) {
+                       struct edge_crossing_side edge, bool reversed) {
   const struct incidence *end,
       *incidence = incidences_find(incidences, edge, &end);
   fan->list.count = 0;
   for (; incidence < end; incidence++)
-    if (!ARRAY_PUSH(&fan->list,
-                    fan_triangle_of(sheet, edge, incidence->triangle, turned)))
+    if (!ARRAY_PUSH(&fan->list, fan_triangle_of(sheet, edge,
+                                                incidence->triangle, reversed)))
       return false;
   return true;
 }
 
-/* Drops the wings that touch one of the others. */
+/* Removes the triangles of a fan that are in contact with one of the others. */
 static void drop_touching(const struct sheet *sheet, struct fan *fan,
                           const struct fan *others) {
   struct fan_triangle *w = fan->list.item;
@@ -331,15 +346,17 @@ static void drop_touching(const struct sheet *sheet, struct fan *fan,
   for (size_t i = 0; i < fan->list.count; i++) {
     bool touches = false;
     for (size_t j = 0; j < others->list.count && !touches; j++)
-      touches = are_one(sheet, &w[i], &others->list.item[j]);
+      touches = are_in_contact(sheet, &w[i], &others->list.item[j]);
     if (!touches)
       w[kept++] = w[i];
   }
   fan->list.count = kept;
 }
 
-/* Do the wings of b stand in more than one of the gaps between those of a?
- * Then some two of a part them, and of these one may be the first. */
+/* Do the triangles of two fans alternate about the edge: are those of b in more
+ * than one of the angles between those of a?  If so, the first of a and some
+ * other of a separate the first of b from some other of b: these pairs
+ * suffice. */
 static bool do_alternate(const struct fan *a, const struct fan *b) {
   const struct fan_triangle *u = a->list.item, *v = b->list.item;
   for (size_t i = 1; i < a->list.count; i++)
@@ -349,23 +366,25 @@ static bool do_alternate(const struct fan *a, const struct fan *b) {
   return false;
 }
 
-/* Does one edge run against the other? */
-static bool run_against(const struct sheet *sheet, struct edge_crossing_side e,
-                        struct edge_crossing_side f) {
+/* Do two overlapping edges have opposite directions? */
+static bool are_opposite(const struct sheet *sheet, struct edge_crossing_side e,
+                         struct edge_crossing_side f) {
   struct geom_point a = sheet->point.item[e.i], b = sheet->point.item[e.j],
                     c = sheet->point.item[f.i], d = sheet->point.item[f.j];
   bool steep = is_steep(a, b);
   return compare_along(steep, a, b) != compare_along(steep, c, d);
 }
 
-/* Do the surfaces of two edges cross? */
+/* Decides whether the surfaces of two overlapping edges cross.  Returns false
+ * when memory ran out. */
 static bool do_cross(const struct sheet *sheet,
                      const struct incidences *incidences,
                      const struct edge_crossing *crossing,
                      struct fan scratch[3], bool *cross) {
-  bool against = run_against(sheet, crossing->side[0], crossing->side[1]);
+  bool opposite = are_opposite(sheet, crossing->side[0], crossing->side[1]);
   if (!gather_fan(&scratch[0], sheet, incidences, crossing->side[0], false) ||
-      !gather_fan(&scratch[1], sheet, incidences, crossing->side[1], against) ||
+      !gather_fan(&scratch[1], sheet, incidences, crossing->side[1],
+                  opposite) ||
       !gather_fan(&scratch[2], sheet, incidences, crossing->side[0], false))
     return false;
   drop_touching(sheet, &scratch[0], &scratch[1]);
@@ -374,13 +393,14 @@ static bool do_cross(const struct sheet *sheet,
   return true;
 }
 
-/* Does the surface of an edge that lies on triangle g go through it? */
-static bool goes_through(const struct sheet *sheet,
-                         const struct incidences *incidences,
-                         struct edge_crossing_side edge, uint32_t g) {
+/* Does the surface about an edge that lies on triangle g pass through it: has
+ * it triangles that end on g from behind, and others from in front? */
+static bool passes_through(const struct sheet *sheet,
+                           const struct incidences *incidences,
+                           struct edge_crossing_side edge, uint32_t g) {
   const struct incidence *end,
       *incidence = incidences_find(incidences, edge, &end);
-  bool behind = false, before = false;
+  bool behind = false, in_front = false;
   struct occluder plane;
   occluder_init(&plane, sheet, g);
   for (; incidence < end; incidence++) {
@@ -389,14 +409,15 @@ static bool goes_through(const struct sheet *sheet,
                                     sheet->point.item[t[1]],
                                     sheet->point.item[t[2]]};
     struct side_count count = side_count_of(&plane, p);
-    behind |= count.before == 0 && count.behind == 1;
-    before |= count.behind == 0 && count.before == 1;
+    behind |= count.in_front == 0 && count.behind == 1;
+    in_front |= count.behind == 0 && count.in_front == 1;
   }
-  return behind && before;
+  return behind && in_front;
 }
 
-/* Do the triangles that end along an edge meet triangle g along it?  Adds the
- * segments in which they meet it elsewhere.
+/* Decides whether the triangles that end on triangle g along an edge meet it
+ * along that edge, and adds the segments in which they meet it elsewhere.
+ * along  gets the decision
  * Returns false when memory ran out. */
 static bool meet_along(const struct sheet *sheet,
                        const struct incidences *incidences,
@@ -412,11 +433,12 @@ static bool meet_along(const struct sheet *sheet,
   for (; incidence < end; incidence++) {
     struct intersection_segment segment;
     occluder_init(&hf, sheet, incidence->triangle);
-    if (!ends_there(side_count_of(&hg, hf.p)) ||
+    if (!ends_on_plane(side_count_of(&hg, hf.p)) ||
         !intersection_segment_find(sheet, incidence->triangle, g, &hf, &hg,
                                    &segment))
       continue;
-    /* Of a triangle seen edge-on all is near the line on the page. */
+    /* All of a triangle seen edge-on is near the line on the page, which
+     * says nothing then. */
     if (!(sheet->triangle_flags[incidence->triangle] & SHEET_FLAT) &&
         is_near_line(p, q, segment.end[0]) &&
         is_near_line(p, q, segment.end[1]))
@@ -427,7 +449,7 @@ static bool meet_along(const struct sheet *sheet,
   return true;
 }
 
-/* ---- Joining ------------------------------------------------------------- */
+/* ---- Decisions ----------------------------------------------------------- */
 
 static int compare_crossings(const void *a, const void *b, void *user) {
   const struct edge_crossing *s = a, *t = b;
@@ -436,7 +458,7 @@ static int compare_crossings(const void *a, const void *b, void *user) {
   return order != 0 ? order : compare_sides(s->side[1], t->side[1]);
 }
 
-/* The first triangle of a side. */
+/* The first triangle of a candidate's side. */
 static uint32_t first_triangle(const struct incidences *incidences,
                                struct edge_crossing_side side) {
   const struct incidence *end;
@@ -445,15 +467,21 @@ static uint32_t first_triangle(const struct incidences *incidences,
              : incidences_find(incidences, side, &end)->triangle;
 }
 
-/* Does a seam make a crossing, and where? */
-static bool join(const struct sheet *sheet, const struct incidences *incidences,
-                 const struct edge_crossing *crossing, struct fan scratch[3],
-                 struct intersection_segments *segments,
-                 struct intersection_segment *segment, bool *cross) {
+/* Decides whether a candidate is a crossing.
+ * segment  gets the segment of the crossing
+ * cross    gets the decision
+ * Returns false when memory ran out. */
+static bool decide_crossing(const struct sheet *sheet,
+                            const struct incidences *incidences,
+                            const struct edge_crossing *crossing,
+                            struct fan scratch[3],
+                            struct intersection_segments *segments,
+                            struct intersection_segment *segment, bool *cross) {
   const struct edge_crossing_side *side = crossing->side;
   uint32_t first[2] = {first_triangle(incidences, side[0]),
                        first_triangle(incidences, side[1])};
-  int g = side[0].j == SHEET_NONE ? 0 : 1; /* the triangle, if one is */
+  int g = side[0].j == SHEET_NONE ? 0 : 1; /* the side with the triangle, if
+                                              there is one */
   *cross = false;
   if (side[g].j != SHEET_NONE) {
     if (!clip_to_edge(sheet, side[0], side[1], segment->end))
@@ -461,7 +489,7 @@ static bool join(const struct sheet *sheet, const struct incidences *incidences,
     if (!do_cross(sheet, incidences, crossing, scratch, cross))
       return false;
   } else {
-    if (goes_through(sheet, incidences, side[1 - g], side[g].i) &&
+    if (passes_through(sheet, incidences, side[1 - g], side[g].i) &&
         !meet_along(sheet, incidences, side[1 - g], side[g].i, segments, cross))
       return false;
     *cross =
@@ -475,12 +503,12 @@ static bool join(const struct sheet *sheet, const struct incidences *incidences,
 }
 
 /* Adds the segments in which triangle g meets triangles of an edge that end
- * beside its plane within contact (edge_crossings_note_slanted).
+ * beside its plane within contact (edge_crossings_add_slanted).
  * Returns false when memory ran out. */
-static bool join_slanted(const struct sheet *sheet,
-                         const struct incidences *incidences,
-                         struct edge_crossing_side edge, uint32_t g,
-                         struct intersection_segments *segments) {
+static bool add_slanted_segments(const struct sheet *sheet,
+                                 const struct incidences *incidences,
+                                 struct edge_crossing_side edge, uint32_t g,
+                                 struct intersection_segments *segments) {
   const struct incidence *end,
       *incidence = incidences_find(incidences, edge, &end);
   struct occluder hf, hg;
@@ -494,8 +522,7 @@ static bool join_slanted(const struct sheet *sheet,
     occluder_init(&hf, sheet, f);
     sf = side_count_of(&hg, hf.p);
     sg = side_count_of(&hf, hg.p);
-    if ((sf.behind > 0 && sf.before > 0) || ends_there(sf) ||
-        !(sg.behind > 0 && sg.before > 0) ||
+    if (straddles(sf) || ends_on_plane(sf) || !straddles(sg) ||
         !intersection_segment_find(sheet, f, g, &hf, &hg, &segment))
       continue;
     if ((llabs((int64_t)segment.end[0].x - segment.end[1].x) >
@@ -508,10 +535,10 @@ static bool join_slanted(const struct sheet *sheet,
   return true;
 }
 
-bool edge_crossings_join(struct edge_crossings *crossings,
-                         const struct sheet *sheet,
-                         struct intersection_segments *segments,
-                         uint64_t *count) {
+bool edge_crossings_resolve(struct edge_crossings *crossings,
+                            const struct sheet *sheet,
+                            struct intersection_segments *segments,
+                            uint64_t *count) {
   size_t n = crossings->list.count;
   struct edge_crossing *crossing = crossings->list.item;
   struct fan scratch[3] = {0};
@@ -523,16 +550,17 @@ bool edge_crossings_join(struct edge_crossings *crossings,
       !incidences_init(&incidences, sheet, crossings))
     goto end;
   for (size_t i = 0; i < crossings->slanted.count; i++)
-    if (!join_slanted(sheet, &incidences, crossings->slanted.item[i].side[0],
-                      crossings->slanted.item[i].side[1].i, segments))
+    if (!add_slanted_segments(sheet, &incidences,
+                              crossings->slanted.item[i].side[0],
+                              crossings->slanted.item[i].side[1].i, segments))
       goto end;
   for (size_t i = 0; i < n; i++) {
     struct intersection_segment segment;
     bool cross;
     if (i > 0 && compare_crossings(&crossing[i - 1], &crossing[i], NULL) == 0)
       continue;
-    if (!join(sheet, &incidences, &crossing[i], scratch, segments, &segment,
-              &cross))
+    if (!decide_crossing(sheet, &incidences, &crossing[i], scratch, segments,
+                         &segment, &cross))
       goto end;
     if (!cross)
       continue;

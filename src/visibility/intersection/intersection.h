@@ -1,18 +1,20 @@
-/* intersection.h - where two triangles pierce each other.
+/* intersection.h - finds the lines in which faces pierce each other.
  *
- * Two triangles pierce where each has corners on both sides of the other's
- * plane, in front of it and behind it by more than contact explains (occlusion.h),
- * and they meet along a segment.  Touching never makes a line: a box that
- * stands on a table, or sinks into it by a rounding, does not pierce it.
+ * Two triangles pierce each other where each straddles the other's plane, with
+ * corners in front of it and behind it by more than the contact tolerance
+ * (occlusion.h), and their intersection is a segment.  Touching never makes a
+ * line: a box that stands on a table, or sinks into it by a rounding error,
+ * does not pierce it.
  *
- * Triangles may also cross along an edge: two that share it end on a plane,
- * one from behind and one from before, and so the surface passes through.
- * That is seen when all pairs were asked.
+ * A surface may also pass through another along one of its own edges, where of
+ * the two triangles that share the edge one ends on a plane from behind and one
+ * from in front.  This is decided after all pairs (edge_crossing.h).
  *
- * A segment's ends are where an edge of one goes through the other: found
- * by exact signs of volumes, then rounded to the grid once, to become an edge
- * of the sheet like any other.  Neighbours that share the edge get the same
- * end, because it depends on the edge and the pierced triangle alone.
+ * The ends of a segment are where an edge of one triangle passes through the
+ * other: decided by the exact signs of volumes, then rounded to the grid once,
+ * to become an edge of the sheet like any other.  Neighbours that share the
+ * edge get the same end, because it depends only on the edge and on the
+ * triangle that is pierced.
  */
 #ifndef VISIBILITY_INTERSECTION_INTERSECTION_H
 #define VISIBILITY_INTERSECTION_INTERSECTION_H
@@ -21,10 +23,10 @@
 #include "visibility/index/triangle_grid.h"
 #include "visibility/solver.h"
 
-/* Finds the piercing pairs that share a listed cell of the grid, and adds
- * their edges.
- * cells    one a cell: where to look; NULL: everywhere
- * request  who is to be asked whether to go on; NULL: nobody
+/* Finds the piercing pairs that share a cell of the grid with a list, and
+ * appends their edges to the sheet's.
+ * cells    per cell, not 0: pairs are sought there; NULL: everywhere
+ * request  its progress function is called; NULL: none is
  * Errors   RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED. */
 USE_RESULT recto_status intersection_find_all(
     struct sheet *sheet, const struct triangle_grid *grid, const uint8_t *cells,

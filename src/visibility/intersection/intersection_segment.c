@@ -1,13 +1,15 @@
-/* intersection_segment.c - the segment in which two triangles meet. */
+/* intersection_segment.c - the segment in which two triangles intersect. */
 #include "visibility/intersection/intersection_segment.h"
 
-/* The sign of the volume of a, b, c, d. */
+/* The sign of the volume of the tetrahedron a, b, c, d. */
 static int volume_sign(struct geom_point a, struct geom_point b,
                        struct geom_point c, struct geom_point d) {
   struct geom_plane plane = geom_plane_of(a, b, c);
   return geom_sign128(geom_plane_value(&plane, d));
 }
 
+/* Does the line through a and b meet the triangle p?  It does where the three
+ * volumes with its sides do not differ in sign. */
 static bool line_meets(struct geom_point a, struct geom_point b,
                        const struct geom_point p[3]) {
   bool left = false, right = false;
@@ -19,7 +21,7 @@ static bool line_meets(struct geom_point a, struct geom_point b,
   return !(left && right);
 }
 
-/* The ends found so far along the common line, the least and the greatest. */
+/* The points found so far on the common line: the least and the greatest. */
 struct segment_ends {
   int count;
   struct geom_point low, high;
@@ -33,7 +35,7 @@ static void add_end(struct segment_ends *ends, struct geom_point p) {
   ends->count++;
 }
 
-/* Where edges of triangle f go through triangle g. */
+/* Adds the points where edges of triangle f pass through triangle g. */
 static void find_ends(const struct sheet *sheet, uint32_t f,
                       const struct occluder *hg, struct segment_ends *ends) {
   const uint32_t *point = sheet->triangle.item[f].point;
@@ -42,7 +44,7 @@ static void find_ends(const struct sheet *sheet, uint32_t f,
     struct geom_point a, b;
     int128 va, vb;
     struct ratio t;
-    if (i > j) { /* one direction, whichever triangle asks */
+    if (i > j) { /* one direction, whichever triangle it is an edge of */
       uint32_t swap = i;
       i = j;
       j = swap;
@@ -62,6 +64,7 @@ static void find_ends(const struct sheet *sheet, uint32_t f,
   }
 }
 
+/* How many corners of the two have equal coordinates. */
 static int shared_corners(const struct geom_point f[3],
                           const struct geom_point g[3]) {
   int shared = 0;

@@ -1,11 +1,11 @@
-/* intersection_segment.h - the segment in which two triangles meet. */
+/* intersection_segment.h - the segment in which two triangles intersect. */
 #ifndef VISIBILITY_INTERSECTION_INTERSECTION_SEGMENT_H
 #define VISIBILITY_INTERSECTION_INTERSECTION_SEGMENT_H
 
 #include "base/memory.h"
 #include "visibility/predicate/occlusion.h"
 
-/* Two triangles and the line in which their surfaces meet. */
+/* Two triangles and the segment in which their surfaces intersect. */
 struct intersection_segment {
   uint32_t triangle[2]; /* the lower first */
   struct geom_point end[2];
@@ -15,10 +15,11 @@ struct intersection_segments {
   ARRAY(struct intersection_segment) list;
 };
 
-/* Finds the segment that triangles f and g have in common: by exact signs of
- * volumes, whatever contact is, and rounded to the grid once.
+/* Computes the segment that triangles f and g have in common, by exact signs of
+ * volumes, without contact tolerance; its ends are rounded to the grid once.
  * hf, hg  the two, prepared
- * Returns false where they share a side, or no more than a place of the page. */
+ * Returns false where two of their corners coincide, or where they have no more
+ * than one point of the page in common. */
 bool intersection_segment_find(const struct sheet *sheet, uint32_t f,
                                uint32_t g, const struct occluder *hf,
                                const struct occluder *hg,
