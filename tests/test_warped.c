@@ -318,11 +318,11 @@ static size_t cut_both_ways(const struct scene_point *point, uint32_t count,
     corner[c] = c;
   assert_true(triangulate(&t, point, corner, count));
   assert_true(judge_triangulation_make(&cuts, point, corner, count));
-  assert_int_equal(t.triangle.count, cuts.piece.count);
+  assert_int_equal(t.triangle.count, cuts.triangle.count);
   size_t triangles = t.triangle.count;
   for (size_t i = 0; i < triangles; i++) {
     one[i] = places_of(point, t.triangle.item[i].corner);
-    other[i] = places_of(point, cuts.piece.item[i].corner);
+    other[i] = places_of(point, cuts.triangle.item[i].corner);
   }
   qsort(one, triangles, sizeof *one, compare_places);
   qsort(other, triangles, sizeof *other, compare_places);

@@ -70,7 +70,8 @@ void judge_camera_axes(struct judge_camera *camera, const double right[3],
     set_row(camera->matrix + 8, zero, 1);
 }
 
-/* The spot that the matrix maps to nothing: where its three planes meet. */
+/* The point that the matrix maps to (0, 0, 0): the intersection of the planes
+ * of its three rows. */
 static struct judge_point3 common_point(const double m[12]) {
   struct judge_point3 a = {m[0], m[1], m[2]}, b = {m[4], m[5], m[6]};
   struct judge_point3 c = {m[8], m[9], m[10]}, zero = {0, 0, 0};
@@ -86,7 +87,7 @@ void judge_camera_matrix(struct judge_camera *camera, const double matrix[12],
   struct judge_point3 third = {matrix[8], matrix[9], matrix[10]};
   memset(camera, 0, sizeof *camera);
   camera->perspective = point3_length(third) > 0;
-  /* A depth in scene units, or the plain 1 of an orthographic view. */
+  /* Scaled so that the third row is a depth in scene units, or 1. */
   double scale =
       camera->perspective ? 1 / point3_length(third) : 1 / matrix[11];
   for (int i = 0; i < 12; i++)
@@ -118,8 +119,8 @@ double judge_ahead(const struct judge_camera *camera, struct judge_point3 p) {
              : point3_dot(camera->back, point3_sub(camera->eye, p));
 }
 
-/* Depths that the near plane cuts are rounded as all others are: at either end
- * of what is cut, and once more where a plane goes through the rounded ends. */
+/* Depths at the near plane are rounded like all others: at either end of what
+ * is clipped, and once more where a plane goes through the rounded ends. */
 double judge_near_slack(const struct judge_camera *camera) {
   if (!isfinite(camera->near_d))
     return 0;
@@ -139,9 +140,11 @@ struct judge_point2 judge_project(const struct judge_camera *camera,
                                apply_row(camera->matrix + 4, p) / depth};
 }
 
-/* With P's image at m(P) / d(P), a step v that keeps the depth moves it by
- * (row_x . v, row_y . v) / d.  Of all such v the one wanted is a combination
- * of the rows' parts across the view direction. */
+/* With P's image at m(P) / d(P), a step v that keeps the depth moves the image
+ * by
+ *     (row_x . v, row_y . v) / d.
+ * The v wanted is a linear combination of the rows' components perpendicular to
+ * the view direction. */
 struct judge_point3 judge_shift(const struct judge_camera *camera,
                                 struct judge_point3 p, double dx, double dy) {
   const double *m = camera->matrix;

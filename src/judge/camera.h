@@ -4,19 +4,19 @@
 
 #include "judge/judge.h"
 
-/* How far a spot is ahead of the eye. */
+/* The distance of a point from the eye along the view direction. */
 double judge_ahead(const struct judge_camera *camera, struct judge_point3 p);
-/* What the image is divided by: that in perspective; 1 in an orthographic
- * view. */
+/* The homogeneous coordinate: the distance above in perspective, 1 in an
+ * orthographic view. */
 double judge_depth(const struct judge_camera *camera, struct judge_point3 p);
-/* How far rounding may move what the near plane cuts; 0 where it cuts nothing.
- */
+/* Upper bound of the rounding error of points that the near plane makes; 0
+ * where there is no near plane. */
 double judge_near_slack(const struct judge_camera *camera);
-/* The near distance, less that: what stands on it is drawn. */
+/* The near distance less that bound: what is on the near plane is drawn. */
 double judge_near(const struct judge_camera *camera);
 struct judge_point2 judge_project(const struct judge_camera *camera,
                                   struct judge_point3 p);
-/* The spot of the same depth whose image is (dx, dy) mm away. */
+/* The point of the same depth whose image is (dx, dy) mm away. */
 struct judge_point3 judge_shift(const struct judge_camera *camera,
                                 struct judge_point3 p, double dx, double dy);
 

@@ -1,9 +1,9 @@
-/* contact.c - how far apart the judge lets a face and what touches it be. */
+/* contact.c - the judge's contact tolerance of each triangle. */
 #include "judge/contact.h"
 
 #include "base/tolerance.h"
 
-/* What rounding may have moved a coordinate by. */
+/* Upper bound of the rounding error of a coordinate. */
 static double error_of(const struct judge_options *options,
                        const struct scene *scene, uint32_t point, double x) {
   struct precision precision =

@@ -1,10 +1,10 @@
-/* ear_clipping.c - cutting a polygon of very many corners into triangles, for the
- * judge. */
+/* ear_clipping.c - the judge's ear clipping for polygons of very many corners.
+ */
 #include "judge/ear_clipping.h"
 
 #include "judge/sort.h"
 
-/* The polygon in the plane, counter-clockwise, and who is left of it. */
+/* The projected polygon, counter-clockwise, and the corners that are left. */
 struct ear_outline {
   const struct scene *scene;
   const uint32_t *corner; /* in space */
@@ -18,9 +18,10 @@ static double turn(struct judge_point2 a, struct judge_point2 b,
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/* Drops the axis that the face's normal is nearest to. */
-static void flatten(struct ear_outline *outline, const struct scene *scene,
-                    const uint32_t *corner, uint32_t count) {
+/* Projects along the axis that is closest to the face's Newell normal. */
+static void project_polygon(struct ear_outline *outline,
+                            const struct scene *scene, const uint32_t *corner,
+                            uint32_t count) {
   struct judge_point3 normal = {0, 0, 0};
   for (uint32_t i = 0; i < count; i++) {
     const struct scene_point *a = &scene->point.item[corner[i]];
@@ -53,19 +54,20 @@ static const struct scene_point *nth_left(const struct ear_outline *outline,
   return &outline->scene->point.item[corner];
 }
 
-/* In space: two corners of a face that is not planar may lie on one place. */
+/* Compares positions in space: corners of a face that is not planar may have
+ * one image and still differ. */
 static bool is_same(const struct ear_outline *outline, uint32_t i, uint32_t k) {
   const struct scene_point *a = nth_left(outline, i), *b = nth_left(outline, k);
   return a->x == b->x && a->y == b->y && a->z == b->z;
 }
 
-static void drop(struct ear_outline *outline, uint32_t i) {
+static void remove_corner(struct ear_outline *outline, uint32_t i) {
   for (outline->count--; i < outline->count; i++)
     outline->left[i] = outline->left[i + 1];
 }
 
-/* Drops corners that repeat, and spikes that go out and come back. */
-static void tidy(struct ear_outline *outline) {
+/* Removes duplicate corners and spikes. */
+static void remove_degenerate(struct ear_outline *outline) {
   uint32_t i = 0;
   while (i < outline->count && outline->count > 2) {
     bool spike = is_same(outline, i, i + 2);
@@ -73,20 +75,20 @@ static void tidy(struct ear_outline *outline) {
       i++;
       continue;
     }
-    drop(outline, (i + 1) % outline->count);
+    remove_corner(outline, (i + 1) % outline->count);
     /* What is now beside it may repeat, too. */
     i = i < 2 ? 0 : i - 2;
   }
 }
 
-/* ---- What is near -------------------------------------------------------- */
+/* ---- Corners near a triangle --------------------------------------------- */
 
-enum { FEW = 32 }; /* so many corners are asked one by one */
+enum { LINEAR_SEARCH_MAX = 32 }; /* up to so many corners are not sorted */
 
-/* What is left of the polygon as a ring, and its corners in order. */
+/* The corners that are left as a doubly linked ring, and sorted. */
 struct ear_ring {
   const struct judge_point2 *at;
-  uint32_t *next, *before; /* of a corner that is gone: itself */
+  uint32_t *next, *before; /* of a removed corner: itself */
   const struct judge_rank *by[2];
   uint32_t count; /* of the ranks */
 };
@@ -118,12 +120,12 @@ static bool make_ring(struct judge_ears *ears,
     ears->by[0].item[i] = (struct judge_rank){outline->at[here].x, here};
     ears->by[1].item[i] = (struct judge_rank){outline->at[here].y, here};
   }
-  for (int k = 0; k < 2 && n > FEW; k++)
+  for (int k = 0; k < 2 && n > LINEAR_SEARCH_MAX; k++)
     judge_sort(ears->by[k].item, n, sizeof *ears->by[k].item, compare_ranks);
   return true;
 }
 
-/* How many ranks lie before a place. */
+/* The number of ranks below a coordinate: a lower bound by bisection. */
 static uint32_t rank_of(const struct judge_rank *by, uint32_t count,
                         double at) {
   uint32_t low = 0, high = count;
@@ -137,7 +139,8 @@ static uint32_t rank_of(const struct judge_rank *by, uint32_t count,
   return low;
 }
 
-/* The ranks from *from to *to have all corners that may lie in a triangle. */
+/* The corners that may lie in a triangle: those from *from to *to of the
+ * returned ranks. */
 static const struct judge_rank *find_near(const struct ear_ring *ring,
                                           struct judge_point2 a,
                                           struct judge_point2 b,
@@ -146,7 +149,7 @@ static const struct judge_rank *find_near(const struct ear_ring *ring,
   const struct judge_rank *best = ring->by[0];
   *from = 0;
   *to = ring->count;
-  if (ring->count <= FEW)
+  if (ring->count <= LINEAR_SEARCH_MAX)
     return best;
   const double low[2] = {fmin(a.x, fmin(b.x, c.x)), fmin(a.y, fmin(b.y, c.y))};
   const double high[2] = {fmax(a.x, fmax(b.x, c.x)), fmax(a.y, fmax(b.y, c.y))};
@@ -165,7 +168,7 @@ static const struct judge_rank *find_near(const struct ear_ring *ring,
 
 /* ---- Ears ---------------------------------------------------------------- */
 
-/* Whether a corner can be cut off. */
+/* Whether a corner can be cut_off off. */
 static bool is_ear(const struct ear_ring *ring, uint32_t here) {
   uint32_t before = ring->before[here], after = ring->next[here];
   struct judge_point2 a = ring->at[before], b = ring->at[here];
@@ -186,10 +189,10 @@ static bool is_ear(const struct ear_ring *ring, uint32_t here) {
   return true;
 }
 
-/* Cuts a corner off; returns the one to try next: not the one after it, which
- * of a round polygon would get a fan of long triangles. */
-static uint32_t cut(struct judge_ears *ears, const struct ear_ring *ring,
-                    uint32_t here) {
+/* Cuts a corner off and returns the one to try next.  That is not the following
+ * one: a round polygon would become a fan of long thin triangles. */
+static uint32_t cut_off(struct judge_ears *ears, const struct ear_ring *ring,
+                        uint32_t here) {
   uint32_t before = ring->before[here], after = ring->next[here];
   ears->ear.item[ears->ear.count++] = (struct judge_ear){{before, here, after}};
   ring->next[before] = after;
@@ -206,8 +209,8 @@ bool judge_clip_ears(struct judge_ears *ears, const struct scene *scene,
     return false;
   struct ear_outline outline = {.at = ears->at.item, .left = ears->left.item};
   struct ear_ring ring;
-  flatten(&outline, scene, corner, count);
-  tidy(&outline);
+  project_polygon(&outline, scene, corner, count);
+  remove_degenerate(&outline);
   if (outline.count < 3)
     return true;
   if (!make_ring(ears, &outline, count, &ring))
@@ -220,7 +223,7 @@ bool judge_clip_ears(struct judge_ears *ears, const struct scene *scene,
       tried++;
     }
     /* No ear: what is left has no area, or crosses itself. */
-    here = cut(ears, &ring, here);
+    here = cut_off(ears, &ring, here);
   }
   return true;
 }

@@ -1,4 +1,5 @@
-/* edge_list.c - the edges of a scene, clipped to the near plane and projected. */
+/* edge_list.c - the edges of a scene, clipped to the near plane and projected.
+ */
 #include "judge/edge_list.h"
 
 #include "base/tolerance.h"
@@ -9,7 +10,8 @@ bool judge_edges_add(struct judge_edges *edges,
                      struct judge_point3 b, const struct judge_source *source) {
   double da = judge_ahead(camera, a), db = judge_ahead(camera, b);
   double least = judge_near(camera);
-  /* Behind the eye nothing has an image; just before it, no useful one. */
+  /* A point behind the eye has no image, one just in front of it no accurate
+   * one. */
   if (camera->perspective)
     least = fmax(least, TOLERANCE_JUDGE_NEAR_SHARE * (fabs(da) + fabs(db)));
   if (da <= least && db <= least)

@@ -1,10 +1,11 @@
-/* edge_list.h - the edges of a scene, clipped to the near plane and projected. */
+/* edge_list.h - the edges of a scene, clipped to the near plane and projected.
+ */
 #ifndef JUDGE_EDGE_LIST_H
 #define JUDGE_EDGE_LIST_H
 
 #include "judge/judge.h"
 
-/* What an edge is of the scene. */
+/* What an edge of the scene comes from. */
 struct judge_source {
   uint32_t point[2]; /* scene points; SCENE_NONE: an intersection */
   uint32_t face[2];  /* two of its faces; SCENE_NONE */
@@ -13,7 +14,7 @@ struct judge_source {
 };
 
 struct judge_edge {
-  struct judge_point3 p[2];  /* cut off before the eye */
+  struct judge_point3 p[2];  /* clipped to the near plane */
   struct judge_point2 at[2]; /* their images */
   double depth[2];
   struct judge_source source;

@@ -5,9 +5,9 @@
 #include "judge/camera.h"
 #include "judge/triangulation.h"
 
-/* ---- How a face lies ----------------------------------------------------- */
+/* ---- Facings ------------------------------------------------------------- */
 
-/* The corner of a face whose image is farthest from a place. */
+/* The corner of a face whose image is farthest from a point of the page. */
 static struct judge_point2 farthest_image(const struct judge_facings *facings,
                                           uint32_t start, uint32_t count,
                                           struct judge_point2 from) {
@@ -26,7 +26,8 @@ static struct judge_point2 farthest_image(const struct judge_facings *facings,
   return best;
 }
 
-/* How far from a line a place may be that contact and rounding moved, mm. */
+/* How far on the page the contact tolerance and rounding may move a point of
+ * this position, mm. */
 static double thickness_at(const struct judge_facings *facings, double contact,
                            struct judge_point3 at) {
   struct judge_point3 aside = judge_shift(facings->camera, at, 1, 0);
@@ -34,7 +35,8 @@ static double thickness_at(const struct judge_facings *facings, double contact,
   return facings->options->hair_mm + 2 * contact / unit;
 }
 
-/* Whether all corners of a face lie about on one line on the page. */
+/* Whether the images of all corners of a face are on one line, within that
+ * distance. */
 static bool is_thin(const struct judge_facings *facings, uint32_t face,
                     double contact) {
   const struct scene *scene = facings->scene;
@@ -76,7 +78,8 @@ static struct judge_facing facing_of(const struct judge_facings *facings,
   return facing;
 }
 
-/* The sine of the angle between a plane and the view to one of its points. */
+/* The sine of the angle between a plane and the view ray through a point of
+ * it. */
 static double slope(const struct judge_facings *facings,
                     struct judge_point3 normal, struct judge_point3 at) {
   const struct judge_camera *camera = facings->camera;
@@ -86,7 +89,7 @@ static double slope(const struct judge_facings *facings,
   return point3_dot(normal, view);
 }
 
-/* Whether rounding does not turn a triangle over: its image is thicker. */
+/* Whether a triangle's image is so thick that rounding cannot turn it over. */
 static bool is_thick(const struct judge_facings *facings,
                      const struct judge_triangle *t) {
   struct judge_point2 p[3];
@@ -112,8 +115,8 @@ double judge_fan_slope(const struct judge_facings *facings,
   return sure ? slope(facings, fan_triangle->triangle.normal, at) : 0;
 }
 
-/* How a face faces the view at a side of it, by the triangle that meets there
- * where it bends; 0 where that is not sure. */
+/* The slope of a face at one of its sides; of a face that is not planar, that
+ * of the triangle with this side.  0 where it is not sure. */
 static double slope_at_side(const struct judge_facings *facings,
                             const struct judge_side *side) {
   struct judge_point3 at = judge_point3_at(facings->scene, side->a);

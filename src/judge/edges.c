@@ -1,8 +1,8 @@
-/* edges.c - the scene's edges as the judge finds them.
+/* edges.c - finds the edges of a scene by pairing the sides of its faces.
  *
- * A side is a pair of points; two faces of one pair are neighbours.  Sides
- * that only one face has are compared once more by their positions, so that
- * meshes with seams are whole. */
+ * A side is a pair of point indices; faces that have one pair are neighbours.
+ * Sides that only one face has are paired once more by the positions of their
+ * ends, so that meshes with duplicated points are joined. */
 #include "judge/edges.h"
 
 #include <string.h>
@@ -16,7 +16,7 @@ struct side_list {
   ARRAY(struct judge_side) side;
 };
 
-/* A side with the places of its ends. */
+/* A side with its ends identified by position: indices of first_at. */
 struct located_side {
   uint32_t low, high;
   struct judge_side side;
@@ -32,7 +32,7 @@ struct edge_finder {
   size_t singles;
 };
 
-/* ---- Points at one place ------------------------------------------------- */
+/* ---- Points at one position ---------------------------------------------- */
 
 static int compare_positions(const void *a, const void *b) {
   const struct scene_point *p = *(const struct scene_point *const *)a;
@@ -72,8 +72,9 @@ static uint32_t *find_first_at(const struct scene *scene) {
 
 /* ---- Adding edges -------------------------------------------------------- */
 
-/* Whether a side that is alone between its points lies there too.  Where points
- * at one place are joined it makes a border of what was a pair. */
+/* Whether a single side has its ends at the same positions.  If points at one
+ * position are joined it makes more than two sides, a border, of what is a
+ * pair by index. */
 static bool has_single(const struct edge_finder *finder,
                        const struct judge_side *side) {
   uint32_t a = finder->first_at[side->a], b = finder->first_at[side->b];
@@ -92,9 +93,9 @@ static bool has_single(const struct edge_finder *finder,
          single[low].high == high_end;
 }
 
-/* Adds the edge of two sides; of a spike of one face, which goes out and comes
- * back, nothing is sure.
- * alone  no other sides lie there */
+/* Adds the edge of two sides.  For a spike, where both are of one face, no
+ * nature is sure.
+ * alone  no other sides have the same positions */
 static bool add_pair(struct edge_finder *finder, const struct judge_side *side,
                      const struct judge_side *other, bool against, bool alone) {
   bool spike = side->face == other->face;
@@ -120,7 +121,8 @@ static bool add_border(struct edge_finder *finder,
                          judge_point3_at(finder->scene, side->b), &source);
 }
 
-/* Whether the face runs along the side from a to b. */
+/* Whether the face runs along the side from a to b.
+ * first_at  as in edge_finder, where a is a position; NULL: a is a point */
 static bool runs_from(const struct edge_finder *finder,
                       const struct judge_side *side, uint32_t a,
                       const uint32_t *first_at) {
@@ -165,7 +167,7 @@ static bool list_sides(const struct scene *scene, struct side_list *sides) {
   return true;
 }
 
-/* Gives two sides or more of one pair of points their edge. */
+/* Adds the edge of two or more sides between the same two points. */
 static bool pair_group(struct edge_finder *finder,
                        const struct judge_side *side, size_t count) {
   if (count == 2)
@@ -185,7 +187,7 @@ static int compare_located(const void *a, const void *b) {
   return compare_sides(&s->side, &t->side);
 }
 
-/* Gives single sides their places, in the order of these. */
+/* Sorts the single sides by the positions of their ends. */
 static bool locate_singles(struct edge_finder *finder,
                            const struct side_list *single) {
   size_t count = single->side.count;
@@ -244,9 +246,8 @@ static bool add_wires(struct edge_finder *finder) {
   return true;
 }
 
-/* Pairs the sides that have the same two points; those alone between theirs
- * are put aside.
- * single  where to; NULL: they are, and the others get their edges */
+/* Goes through the groups of sides with the same two points.
+ * single  collects the groups of one; NULL: adds the edges of all others */
 static bool pair_sides(struct edge_finder *finder,
                        const struct side_list *sides,
                        struct side_list *single) {

@@ -4,8 +4,8 @@
 
 #include "judge/edge_list.h"
 
-/* Finds the sides of faces, the wires, and the lines where faces pierce each
- * other.  A nature is left out where doubles cannot be sure of it. */
+/* Finds the sides of faces, folds, wires and intersections.  A nature that
+ * doubles cannot decide is left out.  Returns false when memory ran out. */
 USE_RESULT bool judge_edges_init(struct judge_edges *edges,
                                  const struct judge_triangles *all,
                                  const struct judge_camera *camera,

@@ -8,7 +8,7 @@ struct fold_finder {
   const struct judge_facings *facings;
 };
 
-/* Whether two neighbouring corners of a face are these. */
+/* Whether a face has a side between two points. */
 static bool is_side(const struct scene *scene, uint32_t face, uint32_t a,
                     uint32_t b) {
   uint32_t start = scene->face_start.item[face];
@@ -22,8 +22,8 @@ static bool is_side(const struct scene *scene, uint32_t face, uint32_t a,
   return false;
 }
 
-/* Whether a side lies in the near plane, but for rounding: what the plane leaves
- * of the triangles beside it is then a sliver that may lie either way. */
+/* Whether a side lies in the near plane within rounding.  What clipping leaves
+ * of the triangles at it is then a sliver of either orientation. */
 static bool is_in_near_plane(const struct fold_finder *finder,
                              const struct judge_fan_triangle *fan_triangle) {
   const struct judge_camera *camera = finder->facings->camera;
@@ -37,10 +37,9 @@ static bool is_in_near_plane(const struct fold_finder *finder,
   return true;
 }
 
-/* Adds the diagonal of a face that bends, where its two triangles lie on one
- * side of it on the page, or may.  Where more of them meet between the same two
- * points, or a side of the face runs there too, it is not sure which belong
- * together. */
+/* Adds a diagonal if its two triangles lie, or may lie, on one side of it on
+ * the page.  Where more triangles of the face have a side between the same two
+ * points, or the face itself has one, it is undecided which are neighbours. */
 static bool add_fold(const struct fold_finder *finder,
                      const struct judge_fan_triangle *fan_triangle,
                      size_t count) {

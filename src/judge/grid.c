@@ -1,22 +1,24 @@
-/* grid.c - segments on the page, found by place. */
+/* grid.c - a uniform grid over segments of the page, for queries by position.
+ */
 #include "judge/grid.h"
 
 #include <string.h>
 
-/* A segment across the page is in as many cells as there are in a row and a
- * column of them.  Where there are more of these than so many for each segment
- * and 4 for each cell, cells are taken twice as wide: memory grows with the
- * number of segments, not with their length. */
-enum { BY_SEGMENT = 256, FEWEST = 9 };
+/* A segment across the page is in as many cells as a row and a column have.
+ * While the total exceeds CELLS_PER_SEGMENT for each segment and 4 for each
+ * cell, the cells are made twice as wide: so memory grows with the number of
+ * segments, not with their length. */
+enum { CELLS_PER_SEGMENT = 256, MIN_CELLS = 9 };
 
 static uint32_t cell_of(double mm, double cell_mm, uint32_t count) {
   double cell = floor(mm / cell_mm);
   return cell < 0 ? 0 : cell >= count ? count - 1 : (uint32_t)cell;
 }
 
-/* Cuts the segment to the strip low <= y <= high; its extent in x there. */
-static bool cut_to_row(const struct judge_segment *s, double low, double high,
-                       double *x0, double *x1) {
+/* Clips the segment to the strip low <= y <= high and sets its range of x;
+ * false where it is outside. */
+static bool clip_to_row(const struct judge_segment *s, double low, double high,
+                        double *x0, double *x1) {
   double t0 = 0, t1 = 1, dy = s->b.y - s->a.y;
   if (dy == 0) {
     if (s->a.y < low || s->a.y > high)
@@ -34,9 +36,11 @@ static bool cut_to_row(const struct judge_segment *s, double low, double high,
   return true;
 }
 
-/* Visits the cells within reach of segment i: counts them where `item` is
- * not there yet, else enters the segment.  Returns how many there are. */
-static size_t enter(struct judge_grid *grid, uint32_t i, uint32_t *fill) {
+/* Visits the cells within reach of segment i: counts it in each of them while
+ * `item` is NULL, else enters it.
+ * fill  one a cell: the count, or the next free index
+ * Returns the number of cells. */
+static size_t visit_cells(struct judge_grid *grid, uint32_t i, uint32_t *fill) {
   size_t visited = 0;
   const struct judge_segment *s = &grid->segment[i];
   double reach = grid->reach_mm, cell = grid->cell_mm;
@@ -48,32 +52,32 @@ static size_t enter(struct judge_grid *grid, uint32_t i, uint32_t *fill) {
   uint32_t last = cell_of(high, cell, grid->rows);
   for (uint32_t row = cell_of(low, cell, grid->rows); row <= last; row++) {
     double x0, x1;
-    if (!cut_to_row(s, row * cell - reach, (row + 1) * cell + reach, &x0,
-                    &x1) ||
+    if (!clip_to_row(s, row * cell - reach, (row + 1) * cell + reach, &x0,
+                     &x1) ||
         x1 + reach < 0 || x0 - reach > width)
       continue;
     uint32_t end = cell_of(x1 + reach, cell, grid->columns);
     for (uint32_t column = cell_of(x0 - reach, cell, grid->columns);
          column <= end; column++) {
-      uint32_t *page_point = &fill[row * grid->columns + column];
+      uint32_t *slot = &fill[row * grid->columns + column];
       if (grid->item != NULL)
-        grid->item[*page_point] = i;
-      ++*page_point;
+        grid->item[*slot] = i;
+      ++*slot;
       visited++;
     }
   }
   return visited;
 }
 
-/* Counts what goes into each cell; false where that is more than may be. */
+/* Counts the segments of each cell; false where the total is over the limit. */
 static bool count_items(struct judge_grid *grid, uint32_t count,
                         uint32_t *fill) {
   size_t cells = (size_t)grid->columns * grid->rows, items = 0;
-  size_t most = (size_t)BY_SEGMENT * count + 4 * cells;
+  size_t most = (size_t)CELLS_PER_SEGMENT * count + 4 * cells;
   most = most < UINT32_MAX ? most : UINT32_MAX;
   memset(fill, 0, (cells + 1) * sizeof *fill);
   for (uint32_t i = 0; i < count && items <= most; i++)
-    items += enter(grid, i, fill);
+    items += visit_cells(grid, i, fill);
   return items <= most;
 }
 
@@ -95,7 +99,7 @@ bool judge_grid_init(struct judge_grid *grid,
   uint32_t *fill = mem_calloc(cells + 1, sizeof *fill);
   if (grid->start == NULL || fill == NULL)
     goto end;
-  while (!count_items(grid, count, fill) && cells > FEWEST) {
+  while (!count_items(grid, count, fill) && cells > MIN_CELLS) {
     set_cells(grid, width_mm, height_mm, 2 * grid->cell_mm);
     cells = (size_t)grid->columns * grid->rows;
   }
@@ -106,7 +110,7 @@ bool judge_grid_init(struct judge_grid *grid,
     goto end;
   memcpy(fill, grid->start, cells * sizeof *fill);
   for (uint32_t i = 0; i < count; i++)
-    (void)enter(grid, i, fill);
+    (void)visit_cells(grid, i, fill);
 end:
   mem_free(fill);
   if (grid->item == NULL)
@@ -139,8 +143,8 @@ double judge_distance(const struct judge_segment *segment,
   return hypot(px - *t * dx, py - *t * dy);
 }
 
-/* The distance to the line through it says no for most, without a division;
- * its square is reckoned to far better than the factor. */
+/* The distance to the line through the segment rejects most points, without a
+ * division; the rounding error of its square is far below the factor 1.0001. */
 bool judge_is_within(const struct judge_segment *segment,
                      struct judge_point2 at, double reach) {
   double dx = segment->b.x - segment->a.x, dy = segment->b.y - segment->a.y;

@@ -1,4 +1,5 @@
-/* grid.h - segments on the page, found by place. */
+/* grid.h - a uniform grid over segments of the page, for queries by position.
+ */
 #ifndef JUDGE_GRID_H
 #define JUDGE_GRID_H
 
@@ -9,16 +10,17 @@ struct judge_segment {
 };
 
 struct judge_grid {
-  const struct judge_segment *segment; /* lent */
+  const struct judge_segment *segment; /* borrowed, not owned */
   double cell_mm, reach_mm;
   uint32_t columns, rows;
-  uint32_t *start, *item; /* cell -> numbers of segments */
+  uint32_t *start, *item; /* the segments of cell c are item[start[c]] to
+                             item[start[c + 1] - 1] */
 };
 
-/* Sorts segments into the cells of a page that are within reach of them.
- * cell_mm  the side of a cell, no less than the reach: else each segment were
- *          in all the cells of a wide neighbourhood
- * What lies beyond the page is left out.
+/* Enters segments into all cells of a page that are within reach of them.
+ * cell_mm  the side of a cell; raised to the reach where it is less, so that a
+ *          segment is in few cells beside it
+ * What is outside the page is ignored.
  * Returns false when memory ran out. */
 USE_RESULT bool judge_grid_init(struct judge_grid *grid,
                                 const struct judge_segment *segment,
@@ -27,11 +29,12 @@ USE_RESULT bool judge_grid_init(struct judge_grid *grid,
                                 double reach_mm);
 void judge_grid_fini(struct judge_grid *grid);
 
-/* The segments that may be within reach of a place; *count of them. */
+/* The segments that may be within reach of a point; *count of them. */
 const uint32_t *judge_grid_near(const struct judge_grid *grid,
                                 struct judge_point2 at, uint32_t *count);
 
-/* The distance from a place to a segment; where along it, 0 to 1, in *t. */
+/* The distance from a point to a segment.
+ * t  set to the parameter of the segment's nearest point, 0 to 1 */
 double judge_distance(const struct judge_segment *segment,
                       struct judge_point2 at, double *t);
 

@@ -1,4 +1,4 @@
-/* intersections.c - the lines along which triangles pierce each other. */
+/* intersections.c - finds the lines along which triangles intersect. */
 #include <string.h>
 
 #include "judge/intersections.h"
@@ -6,7 +6,7 @@
 #include "judge/camera.h"
 #include "judge/sampler.h"
 
-struct piercer {
+struct intersection_finder {
   struct judge_edges *edges;
   const struct judge_triangles *all;
   const struct judge_camera *camera;
@@ -16,15 +16,16 @@ struct piercer {
 
 /* ---- On the page --------------------------------------------------------- */
 
-/* A triangle cut by five planes has at most eight corners. */
+/* A triangle clipped by five planes has at most eight corners. */
 struct triangle_outline {
   struct judge_point3 p[8];
   unsigned count;
 };
 
-/* Keeps of the outline what is not below zero; where[] is linear in space. */
-static struct triangle_outline keep(const struct triangle_outline *from,
-                                    const double where[8]) {
+/* Clips a convex polygon by one plane (Sutherland-Hodgman).
+ * where  signed distance of each corner, negative outside */
+static struct triangle_outline
+clip_by_plane(const struct triangle_outline *from, const double where[8]) {
   struct triangle_outline kept = {.count = 0};
   for (unsigned i = 0; i < from->count; i++) {
     unsigned k = i + 1 == from->count ? 0 : i + 1;
@@ -38,11 +39,11 @@ static struct triangle_outline keep(const struct triangle_outline *from,
   return kept;
 }
 
-/* What is inside the page's margins of a triangle.  A place is there where the
- * depth times its coordinates, which are linear in space, lies between the depth
- * times the borders'. */
-static struct triangle_outline outline_of(const struct judge_camera *camera,
-                                          const struct judge_triangle *t) {
+/* Clips a triangle to the page's margins and the near plane.  The homogeneous
+ * coordinates, depth times page coordinates, are linear in space, so each
+ * border is a plane. */
+static struct triangle_outline clip_to_page(const struct judge_camera *camera,
+                                            const struct judge_triangle *t) {
   struct triangle_outline outline = {{t->p[0], t->p[1], t->p[2]}, 3};
   double low = camera->margin_mm;
   double right = camera->width_mm - low, top = camera->height_mm - low;
@@ -57,17 +58,17 @@ static struct triangle_outline outline_of(const struct judge_camera *camera,
                                 (at.y - low) * depth, (top - at.y) * depth};
       where[i] = inside[side];
     }
-    outline = keep(&outline, where);
+    outline = clip_by_plane(&outline, where);
   }
   return outline;
 }
 
-/* How far what is on the page of a triangle reaches beyond a plane, on the side
- * where it reaches less. */
-static double reach_beyond(const struct judge_camera *camera,
-                           const struct judge_triangle *t,
-                           const struct judge_triangle *plane) {
-  struct triangle_outline outline = outline_of(camera, t);
+/* How far the clipped triangle extends from a plane to either side; the lesser
+ * of the two distances. */
+static double least_overshoot(const struct judge_camera *camera,
+                              const struct judge_triangle *t,
+                              const struct judge_triangle *plane) {
+  struct triangle_outline outline = clip_to_page(camera, t);
   double before = 0, behind = 0;
   for (unsigned i = 0; i < outline.count; i++) {
     double away =
@@ -80,7 +81,7 @@ static double reach_beyond(const struct judge_camera *camera,
 
 /* ---- In space ------------------------------------------------------------ */
 
-/* Where a triangle's sides cross a plane: at most two spots. */
+/* The points in which a triangle's sides cross a plane: at most two. */
 struct triangle_cut {
   struct judge_point3 end[2];
   unsigned count;
@@ -106,7 +107,7 @@ static bool is_same(struct judge_point3 a, struct judge_point3 b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* How many corners they share, and which. */
+/* The corners that two triangles share; returns their number. */
 static unsigned shared_corners(const struct judge_triangle *s,
                                const struct judge_triangle *t,
                                struct judge_point3 corner[3]) {
@@ -121,10 +122,11 @@ static unsigned shared_corners(const struct judge_triangle *s,
   return shared;
 }
 
-/* The line of two triangles that share a corner ends there, to the last bit. */
-static void put_on_corner(const struct judge_triangle *s,
-                          const struct judge_triangle *t,
-                          struct judge_point3 *a, struct judge_point3 *b) {
+/* If two triangles share a corner, their intersection ends there: makes its
+ * nearer end equal to the corner in all bits. */
+static void snap_to_corner(const struct judge_triangle *s,
+                           const struct judge_triangle *t,
+                           struct judge_point3 *a, struct judge_point3 *b) {
   struct judge_point3 corner[3];
   if (shared_corners(s, t, corner) == 0)
     return;
@@ -149,24 +151,25 @@ static bool has_side(const struct scene *scene, uint32_t face,
   return false;
 }
 
-/* Adds the side that two triangles share where it is a diagonal of both their
- * faces: these go on beyond it, and pierce each other in it.  That they do is
- * left open. */
-static bool add_shared(struct piercer *piercer, const struct judge_triangle *s,
+/* Adds a side that two triangles share if it is a diagonal of both their faces:
+ * the faces extend beyond it, and may intersect in it.  Undecided. */
+static bool add_shared(struct intersection_finder *finder,
+                       const struct judge_triangle *s,
                        const struct judge_triangle *t,
                        const struct judge_point3 corner[2]) {
-  const struct scene *scene = piercer->all->scene;
+  const struct scene *scene = finder->all->scene;
   const struct judge_source source = {
       {SCENE_NONE, SCENE_NONE}, {s->face, t->face}, 0, false};
   if (has_side(scene, s->face, corner) || has_side(scene, t->face, corner))
     return true;
-  return judge_edges_add(piercer->edges, piercer->camera, corner[0], corner[1],
+  return judge_edges_add(finder->edges, finder->camera, corner[0], corner[1],
                          &source);
 }
 
-/* Adds what two triangles' cuts by each other's planes have in common; both
- * lie on the line of those planes. */
-static bool add_common(struct piercer *piercer, const struct triangle_cut *s,
+/* Adds the overlap of two triangles' cuts by each other's planes; both are on
+ * the line in which the planes intersect. */
+static bool add_common(struct intersection_finder *finder,
+                       const struct triangle_cut *s,
                        const struct triangle_cut *t, struct judge_point3 along,
                        uint32_t other) {
   double s0 = point3_dot(along, s->end[0]), s1 = point3_dot(along, s->end[1]);
@@ -177,54 +180,55 @@ static bool add_common(struct piercer *piercer, const struct triangle_cut *s,
     return true;
   struct judge_point3 a = point3_along(s->end[0], low - s0, along);
   struct judge_point3 b = point3_along(s->end[0], high - s0, along);
-  const struct judge_triangle *one = &piercer->all->triangle
-                                          .item[piercer->current],
-                              *two = &piercer->all->triangle.item[other];
-  put_on_corner(one, two, &a, &b);
-  const struct judge_camera *camera = piercer->camera;
-  /* Sure where all four reaches are well beyond what counts as contact, or as
-   * rounding, on the page, and it is known how both faces are cut. */
-  double rounding = fmax(judge_rounding_at(camera, piercer->hair_mm, a),
-                         judge_rounding_at(camera, piercer->hair_mm, b));
+  const struct judge_triangle *one =
+                                  &finder->all->triangle.item[finder->current],
+                              *two = &finder->all->triangle.item[other];
+  snap_to_corner(one, two, &a, &b);
+  const struct judge_camera *camera = finder->camera;
+  /* It is sure where both triangles extend to either side of the other's plane
+   * by far more than contact and rounding, and both triangulations are
+   * known. */
+  double rounding = fmax(judge_rounding_at(camera, finder->hair_mm, a),
+                         judge_rounding_at(camera, finder->hair_mm, b));
   bool sure =
       !one->open && !two->open &&
-      reach_beyond(camera, one, two) > 10 * fmax(two->contact, rounding) &&
-      reach_beyond(camera, two, one) > 10 * fmax(one->contact, rounding);
+      least_overshoot(camera, one, two) > 10 * fmax(two->contact, rounding) &&
+      least_overshoot(camera, two, one) > 10 * fmax(one->contact, rounding);
   const struct judge_source source = {{SCENE_NONE, SCENE_NONE},
                                       {one->face, two->face},
                                       sure ? RECTO_EDGE_INTERSECTION : 0,
                                       false};
-  return judge_edges_add(piercer->edges, piercer->camera, a, b, &source);
+  return judge_edges_add(finder->edges, finder->camera, a, b, &source);
 }
 
-static bool pierce(void *user, uint32_t other) {
-  struct piercer *piercer = user;
-  if (other <= piercer->current)
+static bool intersect_with(void *user, uint32_t other) {
+  struct intersection_finder *finder = user;
+  if (other <= finder->current)
     return true;
-  const struct judge_triangle *s =
-      &piercer->all->triangle.item[piercer->current];
-  const struct judge_triangle *t = &piercer->all->triangle.item[other];
+  const struct judge_triangle *s = &finder->all->triangle.item[finder->current];
+  const struct judge_triangle *t = &finder->all->triangle.item[other];
   struct judge_point3 along = point3_cross(s->normal, t->normal), corner[3];
   if (s->face == t->face || !(point3_length(along) > 0))
     return true;
   unsigned shared = shared_corners(s, t, corner);
   if (shared >= 2)
-    return add_shared(piercer, s, t, corner);
+    return add_shared(finder, s, t, corner);
   struct triangle_cut cs = cut_by_plane(s, t), ct = cut_by_plane(t, s);
   return cs.count != 2 || ct.count != 2 ||
-         add_common(piercer, &cs, &ct, point3_unit(along), other);
+         add_common(finder, &cs, &ct, point3_unit(along), other);
 }
 
 bool judge_edges_intersections(struct judge_edges *edges,
                                const struct judge_triangles *all,
                                const struct judge_camera *camera,
                                double hair_mm) {
-  struct piercer piercer = {edges, all, camera, hair_mm, 0};
+  struct intersection_finder finder = {edges, all, camera, hair_mm, 0};
   for (uint32_t i = 0; i < all->triangle.count; i++) {
     const struct judge_triangle *triangle = &all->triangle.item[i];
     struct judge_box box = judge_triangle_box(triangle);
-    piercer.current = i;
-    if (!judge_triangles_near(all, &box, triangle->face, pierce, &piercer))
+    finder.current = i;
+    if (!judge_triangles_near(all, &box, triangle->face, intersect_with,
+                              &finder))
       return false;
   }
   return true;

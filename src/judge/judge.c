@@ -1,4 +1,4 @@
-/* judge.c - what a drawing has too much and what it lacks, by sampling. */
+/* judge.c - finds false and missing ink of a drawing by sampling. */
 #include "judge/judge.h"
 
 #include <string.h>
@@ -19,13 +19,13 @@ struct judge_context {
   struct judge_sampler sampler;
   struct judge_edges edges;
   struct judge_segment *image, *ink; /* of the edges; of the strokes */
-  uint32_t inks, drops; /* of ink; of what was dropped, behind it */
-  double grid; /* scene units that the page's grid may explain, at most */
+  uint32_t inks, drops; /* segments of ink; of dropped strokes, after these */
+  double grid; /* upper bound of the rounding to the page grid, scene units */
   struct judge_grid by_image, by_ink;
-  uint32_t long_edge; /* the last sample was of this edge, and on a line without
-                         ink that is long; SCENE_NONE */
-  double work, work_done; /* mm to be sampled, and those that were */
-  unsigned samples;       /* since the caller was last asked whether to go on */
+  uint32_t long_edge;     /* the edge of the last sample, if that was on a line
+                         without ink that is long enough; SCENE_NONE */
+  double work, work_done; /* mm to be sampled, and sampled so far */
+  unsigned samples;       /* since progress was last reported */
   struct judge_verdict *verdict;
 };
 
@@ -41,15 +41,15 @@ void judge_options_init(struct judge_options *options) {
 
 /* ---- Samples ------------------------------------------------------------- */
 
-/* Goes along pieces laid end to end. */
+/* Distributes samples over segments laid end to end. */
 struct segment_sampler {
-  double step;    /* mm; each: about so much */
-  bool each;      /* on every piece by itself */
-  double length;  /* of the piece at hand */
-  uint32_t count; /* each: on the piece at hand, and how many are done */
-  uint32_t done;
-  double behind; /* all: what pieces went before, and how many are done */
-  uint64_t passed;
+  double step;     /* mm; each: approximate */
+  bool each;       /* every segment is sampled by itself */
+  double length;   /* of the current segment */
+  uint32_t count;  /* each: samples on the current segment */
+  uint32_t done;   /* each: of these, taken so far */
+  double behind;   /* not each: total length of the previous segments */
+  uint64_t passed; /* not each: samples taken so far */
 };
 
 static struct segment_sampler sampler_of(const struct judge_options *options,
@@ -68,10 +68,12 @@ static void start_piece(struct segment_sampler *sampler, double length) {
     sampler->count = (uint32_t)fmin(ceil(length / sampler->step) + 1, 1e8);
 }
 
-/* The next sample of the piece, within it: its ends are corners of others.
- * Where all pieces share their samples, one lies in each step, at places that
- * keep no time with the pieces.
- * t  0 to 1;  *mm  what it stands for */
+/* The next sample of the segment, inside it: its ends belong to other segments,
+ * too.  Where samples are spread over all segments, one lies in each step,
+ * jittered by the golden ratio so that it does not alias with the segments.
+ * t   0 to 1
+ * mm  set to the length that the sample stands for
+ * Returns false where the segment has no more samples. */
 static bool next_sample(struct segment_sampler *sampler, double *t,
                         double *mm) {
   if (sampler->each) {
@@ -102,14 +104,14 @@ static double length_of(const struct judge_segment *s) {
   return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
 }
 
-static struct judge_point2 place_on(const struct judge_segment *s, double t) {
+static struct judge_point2 point_on(const struct judge_segment *s, double t) {
   return (struct judge_point2){s->a.x + t * (s->b.x - s->a.x),
                                s->a.y + t * (s->b.y - s->a.y)};
 }
 
-static void name_edge(struct judge_witness *witness,
-                      const struct judge_edge *edge,
-                      struct judge_point3 position, uint32_t blocker) {
+static void set_witness_edge(struct judge_witness *witness,
+                             const struct judge_edge *edge,
+                             struct judge_point3 position, uint32_t blocker) {
   *witness = (struct judge_witness){.at = witness->at,
                                     .on_edge = true,
                                     .position = position,
@@ -118,9 +120,9 @@ static void name_edge(struct judge_witness *witness,
   memcpy(witness->face, edge->source.face, sizeof witness->face);
 }
 
-/* Notes that samples for so much of a length were taken; false where the
- * caller wants no more.  It is asked a few hundred times a second. */
-static bool goes_on(struct judge_context *context, double mm) {
+/* Counts a sample and reports progress once every SAMPLES of them, a few
+ * hundred times a second; false: cancelled. */
+static bool report_progress(struct judge_context *context, double mm) {
   enum { SAMPLES = 256 };
   struct judge_verdict *verdict = context->verdict;
   context->work_done += mm;
@@ -135,11 +137,11 @@ static bool goes_on(struct judge_context *context, double mm) {
 
 /* ---- False ink ----------------------------------------------------------- */
 
-/* What an edge sees at t, or as little before or after it as the file's
- * rounding moves the end of a stroke: blocked where it is at all of them. */
-static enum judge_visibility sight_of(const struct judge_context *context,
-                                      const struct judge_edge *edge, double t,
-                                      uint32_t *blocker) {
+/* The visibility of an edge at t, and as far before and after it as rounding in
+ * the file moves the end of a stroke: blocked only where all three are. */
+static enum judge_visibility visibility_at(const struct judge_context *context,
+                                           const struct judge_edge *edge,
+                                           double t, uint32_t *blocker) {
   double length =
       hypot(edge->at[1].x - edge->at[0].x, edge->at[1].y - edge->at[0].y);
   double slack = length > 0 ? context->options.lateral_mm / length : 0;
@@ -154,15 +156,16 @@ static enum judge_visibility sight_of(const struct judge_context *context,
   return JUDGE_BLOCKED;
 }
 
-/* Where faces pierce each other so little that they may not on the grid, the
- * line is somewhere there, and at some depth. */
+/* Whether an edge is an intersection so shallow that on the page grid the faces
+ * may not intersect, or elsewhere. */
 static bool is_doubtful(const struct judge_edge *edge) {
   return edge->source.point[0] == SCENE_NONE && edge->source.natures == 0;
 }
 
-/* Whether an edge explains the ink at a place.  The nearest of those that do
- * not is the witness.  Where contact allows for less than the grid rounds,
- * faces that touch may pierce each other on the grid, anywhere. */
+/* Decides whether a visible edge explains the ink at a point.  The nearest of
+ * the hidden edges there becomes the witness.  Where the contact tolerance is
+ * less than the rounding to the grid, faces that touch may intersect on the
+ * grid anywhere, so that ink without an edge is undecided. */
 static enum judge_visibility explain(const struct judge_context *context,
                                      struct judge_witness *witness) {
   uint32_t count;
@@ -177,13 +180,14 @@ static enum judge_visibility explain(const struct judge_context *context,
       continue;
     const struct judge_edge *edge = &context->edges.edge.item[near[i]];
     uint32_t blocker = SCENE_NONE;
-    enum judge_visibility visibility = sight_of(context, edge, t, &blocker);
+    enum judge_visibility visibility =
+        visibility_at(context, edge, t, &blocker);
     if (visibility == JUDGE_BLOCKED && is_doubtful(edge))
       visibility = JUDGE_UNSURE;
     best = visibility < best ? visibility : best;
     if (visibility == JUDGE_BLOCKED && away < nearest) {
       nearest = away;
-      name_edge(witness, edge, judge_point3_of_image(edge, t), blocker);
+      set_witness_edge(witness, edge, judge_point3_of_image(edge, t), blocker);
     }
   }
   bool may_pierce =
@@ -192,7 +196,7 @@ static enum judge_visibility explain(const struct judge_context *context,
                                                                   : best;
 }
 
-/* What is off the page is not drawn. */
+/* Whether a point is on the page; ink elsewhere is not judged. */
 static bool is_on_page(const struct judge_context *context,
                        struct judge_point2 at) {
   double slack = context->options.lateral_mm;
@@ -200,8 +204,8 @@ static bool is_on_page(const struct judge_context *context,
          at.y >= -slack && at.y <= context->camera->height_mm + slack;
 }
 
-static void try_ink(struct judge_context *context, struct judge_point2 at,
-                    double mm) {
+static void judge_ink_sample(struct judge_context *context,
+                             struct judge_point2 at, double mm) {
   struct judge_verdict *verdict = context->verdict;
   if (!is_on_page(context, at))
     return;
@@ -220,17 +224,17 @@ static void try_ink(struct judge_context *context, struct judge_point2 at,
   }
 }
 
-static void try_all_ink(struct judge_context *context) {
+static void judge_all_ink(struct judge_context *context) {
   double all = 0;
   for (uint32_t i = 0; i < context->inks; i++)
     all += length_of(&context->ink[i]);
   struct segment_sampler sampler = sampler_of(&context->options, all);
-  context->work = 2 * all; /* the edges take as long again */
+  context->work = 2 * all; /* the edges are estimated to take as long again */
   for (uint32_t i = 0; i < context->inks && !context->verdict->cancelled; i++) {
     double t, mm;
     start_piece(&sampler, length_of(&context->ink[i]));
-    while (next_sample(&sampler, &t, &mm) && goes_on(context, mm))
-      try_ink(context, place_on(&context->ink[i], t), mm);
+    while (next_sample(&sampler, &t, &mm) && report_progress(context, mm))
+      judge_ink_sample(context, point_on(&context->ink[i], t), mm);
   }
 }
 
@@ -247,15 +251,15 @@ static bool has_ink(const void *user, struct judge_point2 at) {
   return false;
 }
 
-/* Whether a spot is so close behind the near plane that rounding may have cut
- * it off. */
+/* Whether a point is so close behind the near plane that rounding may have
+ * clipped it. */
 static bool is_at_near_plane(const struct judge_camera *camera,
                              struct judge_point3 position) {
   return judge_ahead(camera, position) <=
          camera->near_d + judge_near_slack(camera);
 }
 
-static bool is_asked_for(const void *user, uint32_t edge) {
+static bool is_requested(const void *user, uint32_t edge) {
   const struct judge_context *context = user;
   const struct judge_source *source = &context->edges.edge.item[edge].source;
   unsigned asked = context->options.edges;
@@ -263,16 +267,17 @@ static bool is_asked_for(const void *user, uint32_t edge) {
          (source->exists && (asked & RECTO_EDGES_ALL) == RECTO_EDGES_ALL);
 }
 
-/* Whether a visible line without ink is one that may be left out.  The samples
- * of an edge that lack their ink one after the other are on one line. */
-static bool may_be_too_short(struct judge_context *context, uint32_t edge,
-                             double t) {
+/* Whether the visible line without ink at t may be shorter than shortest_mm, so
+ * that it need not be drawn.  Consecutive samples of an edge that have no ink
+ * are on one line, so its length is computed once. */
+static bool is_too_short_to_draw(struct judge_context *context, uint32_t edge,
+                                 double t) {
   const struct judge_missing_run run = {.sampler = &context->sampler,
                                         .edges = &context->edges,
                                         .by_image = &context->by_image,
                                         .shortest_mm =
                                             context->options.shortest_mm,
-                                        .is_asked_for = is_asked_for,
+                                        .is_requested = is_requested,
                                         .has_ink = has_ink,
                                         .user = context};
   if (run.shortest_mm == 0)
@@ -282,13 +287,13 @@ static bool may_be_too_short(struct judge_context *context, uint32_t edge,
   return context->long_edge != edge;
 }
 
-static void try_edge(struct judge_context *context, uint32_t number,
-                     struct judge_point2 at, double t, double mm) {
+static void judge_edge_sample(struct judge_context *context, uint32_t number,
+                              struct judge_point2 at, double t, double mm) {
   const struct judge_edge *edge = &context->edges.edge.item[number];
   struct judge_verdict *verdict = context->verdict;
   struct judge_point3 from = judge_point3_of_image(edge, t);
-  /* Where there is ink the sight is asked for only to count the samples; one
-   * ray is enough for that. */
+  /* Where there is ink visibility is needed for the statistics only; one ray is
+   * enough for that. */
   if (has_ink(context, at)) {
     context->long_edge = SCENE_NONE;
     if (judge_sample_point(&context->sampler, edge, from) == JUDGE_CLEAR)
@@ -301,7 +306,7 @@ static void try_edge(struct judge_context *context, uint32_t number,
   }
   enum judge_visibility visibility =
       judge_sample_around(&context->sampler, edge, from, JUDGE_CLEAR, NULL);
-  if (visibility == JUDGE_CLEAR && may_be_too_short(context, number, t))
+  if (visibility == JUDGE_CLEAR && is_too_short_to_draw(context, number, t))
     visibility = JUDGE_UNSURE;
   if (visibility != JUDGE_CLEAR)
     context->long_edge = SCENE_NONE;
@@ -309,7 +314,7 @@ static void try_edge(struct judge_context *context, uint32_t number,
   case JUDGE_CLEAR:
     if (verdict->missing.samples == 0) {
       verdict->missing_at.at = at;
-      name_edge(&verdict->missing_at, edge, from, SCENE_NONE);
+      set_witness_edge(&verdict->missing_at, edge, from, SCENE_NONE);
     }
     count_sample(&verdict->visible, mm);
     count_sample(&verdict->missing, mm);
@@ -322,43 +327,44 @@ static void try_edge(struct judge_context *context, uint32_t number,
   }
 }
 
-/* The part of an edge's image that is on the page; false where it need not be
- * drawn, as what is seen as a point.  A short part of a longer line is found
- * where the length of the line is asked for. */
-static bool find_part(const struct judge_context *context, uint32_t edge,
-                      struct judge_segment *part, double *t0, double *t1) {
-  if (!is_asked_for(context, edge) ||
+/* The part of an edge's image that is on the page.  Returns false where it need
+ * not be drawn: the edge is not requested, or its image is a point.  A short
+ * part may belong to a longer line (missing_run.h), so if there is a shortest
+ * length only parts within a hair are left out. */
+static bool visible_part(const struct judge_context *context, uint32_t edge,
+                         struct judge_segment *part, double *t0, double *t1) {
+  if (!is_requested(context, edge) ||
       !judge_clip_to_page(context->camera, context->image[edge].a,
                           context->image[edge].b, t0, t1))
     return false;
-  part->a = place_on(&context->image[edge], *t0);
-  part->b = place_on(&context->image[edge], *t1);
+  part->a = point_on(&context->image[edge], *t0);
+  part->b = point_on(&context->image[edge], *t1);
   return length_of(part) > (context->options.shortest_mm > 0
                                 ? context->options.hair_mm
                                 : context->options.reach_mm);
 }
 
-static void try_all_edges(struct judge_context *context) {
+static void judge_all_edges(struct judge_context *context) {
   struct judge_segment part;
   double t0, t1, all = 0;
   for (uint32_t i = 0; i < context->edges.edge.count; i++)
-    all += find_part(context, i, &part, &t0, &t1) ? length_of(&part) : 0;
+    all += visible_part(context, i, &part, &t0, &t1) ? length_of(&part) : 0;
   struct segment_sampler sampler = sampler_of(&context->options, all);
-  /* Half of the work lies behind. */
+  /* The strokes were the first half of the work. */
   context->work = 2 * all;
   context->work_done = all;
   for (uint32_t i = 0;
        i < context->edges.edge.count && !context->verdict->cancelled; i++) {
     double t, mm;
-    if (!find_part(context, i, &part, &t0, &t1))
+    if (!visible_part(context, i, &part, &t0, &t1))
       continue;
     start_piece(&sampler, length_of(&part));
-    while (next_sample(&sampler, &t, &mm) && goes_on(context, mm))
-      try_edge(context, i, place_on(&part, t), t0 + (t1 - t0) * t, mm);
+    while (next_sample(&sampler, &t, &mm) && report_progress(context, mm))
+      judge_edge_sample(context, i, point_on(&part, t), t0 + (t1 - t0) * t, mm);
   }
 }
 
-/* ---- The court ----------------------------------------------------------- */
+/* ---- Preparation --------------------------------------------------------- */
 
 static void collect_strokes(struct judge_context *context, enum judge_role role,
                             uint32_t *count) {
@@ -395,8 +401,8 @@ static bool collect_images(struct judge_context *context) {
   return true;
 }
 
-/* The most that rounding is at a corner of the scene. */
-static double grid_of(const struct judge_context *context) {
+/* The largest rounding error at the corners of the scene's bounding box. */
+static double largest_rounding(const struct judge_context *context) {
   double most = 0;
   for (int corner = 0; context->all.nodes > 0 && corner < 8; corner++) {
     const struct judge_box *box = &context->all.node[0].box;
@@ -409,9 +415,8 @@ static double grid_of(const struct judge_context *context) {
   return most;
 }
 
-/* Finds all that the questions need; false when memory ran out. */
-static bool open_court(struct judge_context *context,
-                       const struct scene *scene) {
+/* Builds triangles, edges and grids; false when memory ran out. */
+static bool prepare(struct judge_context *context, const struct scene *scene) {
   const struct judge_camera *camera = context->camera;
   double width = camera->width_mm, height = camera->height_mm;
   const double cells = 400;
@@ -422,7 +427,7 @@ static bool open_court(struct judge_context *context,
   judge_contact_set(&context->all, &context->options);
   context->sampler =
       (struct judge_sampler){&context->all, camera, context->options.hair_mm};
-  context->grid = grid_of(context);
+  context->grid = largest_rounding(context);
   return judge_edges_init(&context->edges, &context->all, camera,
                           &context->options) &&
          collect_images(context) && collect_ink(context) &&
@@ -444,10 +449,10 @@ bool judge_drawing(struct judge_verdict *verdict,
                                   .long_edge = SCENE_NONE,
                                   .verdict = verdict};
   memset(verdict, 0, sizeof *verdict);
-  bool ok = open_court(&context, scene);
+  bool ok = prepare(&context, scene);
   if (ok) {
-    try_all_ink(&context);
-    try_all_edges(&context);
+    judge_all_ink(&context);
+    judge_all_edges(&context);
   }
   judge_grid_fini(&context.by_image);
   judge_grid_fini(&context.by_ink);

@@ -1,22 +1,23 @@
-/* judge.h - an independent judge of drawings, in double precision.
+/* judge.h - an independent check of drawings by ray casting, in doubles.
  *
- * It shares nothing with the solvers, the sheet or the camera: it has its own
- * projection, adjacency, bounding volumes and ray test, all in doubles, and of
- * a drawing it knows the strokes alone.  Two questions are asked:
+ * It shares no code with the solvers, the sheet or the camera: it has its own
+ * projection, adjacency, bounding volumes and ray test, and of a drawing it
+ * uses the strokes only.  It checks two claims by sampling:
  *
- *   false ink    is there, under every drawn point, an edge of the scene that
- *                is visible there?
- *   missing ink  is there ink near every visible point of every edge that was
- *                asked for?
+ *   no false ink    under every drawn point there is an edge of the scene that
+ *                   is visible there
+ *   no missing ink  near every visible point of every requested edge there is
+ *                   ink
  *
- * A point P of an edge is hidden where a ray from P to the eye meets a face
- * whose plane lies more than contact in front of P; or where an end of the
- * edge is a corner of that face, in front of where it leaves the face or ends:
- * it is hidden from its start or not at all.  Doubles cannot decide cases on
- * the border, so there are three answers: clear, blocked, unsure.
- * Rays start from P itself and from a hair (judge_options.hair_mm) to the left
- * and right of the edge on the page.  A point counts as false ink only if all
- * three are blocked, as missing only if all three are clear. */
+ * A point P of an edge is hidden where the ray from P to the eye meets a face
+ * whose plane is farther than the contact tolerance from P.  Where an end of
+ * the edge is a corner of that face, the distance is measured instead where the
+ * edge leaves the face or ends, so that the edge is hidden from its start or
+ * not at all.  Doubles cannot decide borderline cases, so a ray has one of
+ * three results: clear, blocked, unsure.
+ * Rays start at P and at two points a hair (judge_options.hair_mm) to the left
+ * and right of the edge on the page.  A sample is false ink only if all three
+ * are blocked, and missing ink only if all three are clear. */
 #ifndef JUDGE_JUDGE_H
 #define JUDGE_JUDGE_H
 
@@ -24,12 +25,12 @@
 #include "scene/scene.h"
 #include "judge/triangles.h"
 
-/* ---- What a drawing says ------------------------------------------------- */
+/* ---- Drawings ------------------------------------------------------------ */
 
 enum judge_role {
   JUDGE_INK,
   JUDGE_HIDDEN, /* a hidden line: not judged */
-  JUDGE_DROPPED /* not drawn, for being too short: nothing is missing there */
+  JUDGE_DROPPED /* omitted as too short: no ink is missing there */
 };
 
 struct judge_stroke {
@@ -54,75 +55,78 @@ const char *judge_read_svg(struct judge_drawing *drawing, const char *text,
 extern const char JUDGE_NO_MEMORY[];
 void judge_drawing_fini(struct judge_drawing *drawing);
 
-/* ---- Where it is seen from ----------------------------------------------- */
+/* ---- Camera -------------------------------------------------------------- */
 
 struct judge_camera {
   double matrix[12]; /* model to page mm, homogeneous, row by row; the third
                         row is the depth in front of the eye (perspective) */
   bool perspective;
-  struct judge_point3 eye;  /* orthographic: near_d counts from it */
+  struct judge_point3 eye;  /* orthographic: the origin of near_d */
   struct judge_point3 back; /* unit, towards the viewer */
   double near_d;            /* nothing nearer to the eye is drawn; perspective:
-                             0 or more; orthographic: -INFINITY cuts nothing */
-  double depth_step;        /* what rounding does to depths: scene units, in
-                             perspective those of 1 / d; 0: nothing */
+                               0 or more; orthographic: -INFINITY: no limit */
+  double depth_step;        /* rounding unit of the drawing's depths: scene
+                               units, in perspective those of 1 / d; 0: none */
   double width_mm, height_mm;
-  double margin_mm; /* edges are drawn inside of it alone */
+  double margin_mm; /* edges are drawn inside the margins only */
 };
 
-/* As the design says of --no-fit: camera coordinates (x, y, -d) fall on the
- * page at (W/2 + s x/d, H/2 + s y/d), s = (H - 2 margin) / (2 tan(fov/2)). */
+/* A perspective camera at `eye` that looks at `target`, as --no-fit has it:
+ * view coordinates (x, y, -d) are projected to the page at
+ *     (W/2 + s x/d, H/2 + s y/d),  s = (H - 2 margin) / (2 tan(fov/2)). */
 void judge_camera_look(struct judge_camera *camera, struct judge_point3 eye,
                        struct judge_point3 target, struct judge_point3 up,
                        double fov_deg, double width_mm, double height_mm,
                        double margin_mm);
 
-/* From the camera's axes: on the page mm = middle + s (x, y) / d, in an
- * orthographic view s (x, y). */
+/* From the camera's axes: on the page
+ *   perspective   mm = middle + s (x, y) / d
+ *   orthographic  mm = middle + s (x, y) */
 void judge_camera_axes(struct judge_camera *camera, const double right[3],
                        const double up[3], const double back[3],
                        const double eye[3], bool perspective, double s,
                        const double middle_mm[2], const double page_mm[2]);
 
-/* From the 3 x 4 matrix that a drawing's report holds. */
+/* From the 3 x 4 matrix of a drawing's report. */
 void judge_camera_matrix(struct judge_camera *camera, const double matrix[12],
                          double width_mm, double height_mm);
 
 /* ---- The verdict --------------------------------------------------------- */
 
 struct judge_options {
-  double step_mm;    /* between samples */
-  size_t samples;    /* so many of each kind, spread evenly; 0: by step_mm, at
-                        least two on every piece */
-  double reach_mm;   /* ink this near to a visible point is enough */
-  double lateral_mm; /* an edge this near explains a drawn point: the file's
-                        own rounding and a little */
+  double step_mm;    /* distance of samples */
+  size_t samples;    /* number of samples of strokes, and of edges, spread
+                        evenly; 0: by step_mm, at least two on each piece */
+  double reach_mm;   /* ink this close to a visible point is enough */
+  double lateral_mm; /* an edge this close to a drawn point explains it: a
+                        little more than the rounding of coordinates in the
+                        file */
   double hair_mm;    /* see above: well above the page grid */
-  double contact;    /* scene units, as the drawing was made with; negative:
-                        what rounding of the coordinates explains of a face */
-  struct precision unstated;  /* of points whose precision nobody stated */
-  struct judge_point3 origin; /* what was subtracted from all points, so that
-                                their precision is known */
+  double contact;    /* the drawing's contact tolerance, scene units; negative:
+                        for each face the rounding error of its coordinates */
+  struct precision unstated;  /* of points whose precision is not stated */
+  struct judge_point3 origin; /* was subtracted from all points; needed for
+                                 their precision */
   double crease_deg;
-  unsigned edges; /* classes asked for, a mask of recto_edge_class */
-  const struct scene_point *given; /* the points to the last digit, where the
-                                      scene's were moved; NULL: its own */
-  double shortest_mm; /* strokes that are shorter need not be drawn: a visible
-                         line without ink that is not surely so long is left
-                         open; 0: none is too short */
-  bool (*progress)(void *user, double share); /* false: no more is wanted;
-                                                 NULL: nobody is asked */
+  unsigned edges; /* requested classes, a mask of recto_edge_class */
+  const struct scene_point *given; /* the original points, where the scene's
+                                      were translated; NULL: the scene's */
+  double shortest_mm; /* shorter strokes need not be drawn: a visible line
+                         without ink that is not surely this long is undecided;
+                         0: every stroke must be drawn */
+  bool (*progress)(void *user, double share); /* returns false to cancel; NULL:
+                                                 never polled */
   void *user;
 };
 
 /* 0.02 mm steps and reach, 30 degrees, the default classes. */
 void judge_options_init(struct judge_options *options);
 
-/* What shows a drawing to be wrong. */
+/* A sample that proves a drawing wrong. */
 struct judge_witness {
   struct judge_point2 at;
-  bool on_edge; /* false: no edge is there, and so none of these */
-  struct judge_point3 position; /* of the edge, seen or hidden */
+  bool on_edge; /* false: there is no edge, and the rest is not set */
+  struct judge_point3 position; /* on the edge */
   uint32_t point[2]; /* the edge's ends; SCENE_NONE: an intersection */
   uint32_t face[2];  /* two of its faces; SCENE_NONE */
   uint32_t blocker;  /* the face that hides it; SCENE_NONE */
@@ -135,12 +139,13 @@ struct judge_count {
 };
 
 struct judge_verdict {
-  struct judge_count drawn, false_ink, unsure_ink; /* of strokes: the last two
-                                                      are of the first */
-  struct judge_count visible, missing;       /* of edges that were asked for */
-  struct judge_count hidden, unsure;         /* of these without ink */
+  struct judge_count drawn, false_ink, unsure_ink; /* samples of strokes; the
+                                                      last two are among the
+                                                      first */
+  struct judge_count visible, missing;       /* samples of requested edges */
+  struct judge_count hidden, unsure;         /* of those without ink */
   struct judge_witness false_at, missing_at; /* the first of each */
-  bool cancelled; /* the caller wanted no more: the rest is not known */
+  bool cancelled; /* by `progress`: the counts are incomplete */
 };
 
 /* Judges the strokes that are ink.

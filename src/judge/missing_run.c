@@ -1,40 +1,40 @@
-/* missing_run.c - how long a visible line is that has no ink.
+/* missing_run.c - decides whether a visible line without ink is long enough to
+ * be missed.
  *
- * A drawing leaves out strokes that are shorter than a length.  A stroke is
- * made of the edges that follow each other, so what one edge lacks says
- * nothing by itself: all edges of a fine mesh are short, and its outline is
- * long.
+ * A drawing omits strokes shorter than a given length.  A stroke consists of
+ * consecutive edges, so a single edge without ink proves nothing: all edges of
+ * a fine mesh are short, and its outline is long.
  *
  * Phases
- *   1 from the point both ways along its edge, as far as it is visible
- *   2 over the edge's end to the edge that is drawn in one stroke with it, as
- *     far as that is visible and without ink; and so on
+ *   1 From the point both ways along its edge, as far as it is visible.
+ *   2 Over the edge's end to the edge that is drawn in one stroke with it, as
+ *     far as that is visible and without ink; and so on.
  * The walk stops as soon as the length is reached.
- * Cost  at most STEPS points in each way are looked at, and at every end the
+ * Cost  at most MAX_SAMPLES samples each way, and at every end of an edge the
  *   edges that meet there. */
 #include "judge/missing_run.h"
 
 #include "base/tolerance.h"
 
 enum {
-  PARTS = 8,   /* the shortest stroke is looked at so many times */
-  STEPS = 512, /* a run is looked at in so many points at most */
-  FAN_MOST = 16
+  SAMPLES_PER_SHORTEST = 8, /* samples on a stroke of the least length */
+  MAX_SAMPLES = 512,        /* samples on a run */
+  MAX_FAN = 16
 };
 
-/* An end of an edge that leaves a place. */
+/* An edge's end at the common point of a fan. */
 struct fan_end {
   uint32_t edge;
   int side;                 /* which of the edge's ends is there */
-  struct judge_point2 away; /* unit */
+  struct judge_point2 away; /* the edge's direction from there, unit */
 };
 
 struct fan {
-  struct fan_end end[FAN_MOST];
+  struct fan_end end[MAX_FAN];
   uint32_t count;
 };
 
-/* Where a walk is. */
+/* The state of a walk. */
 struct walk {
   const struct judge_missing_run *run;
   double length;
@@ -61,7 +61,8 @@ static bool is_visible(const struct judge_missing_run *run, uint32_t number,
 
 /* ---- From edge to edge --------------------------------------------------- */
 
-/* Edges of one class and of one group go before others. */
+/* Whether two edges have one class and one group, so that they may be one
+ * stroke. */
 static bool is_alike(const struct judge_missing_run *run, uint32_t a,
                      uint32_t b) {
   const struct judge_source *s = &run->edges->edge.item[a].source;
@@ -74,8 +75,8 @@ static bool is_alike(const struct judge_missing_run *run, uint32_t a,
              scene->face_group.item[t->face[0]];
 }
 
-/* Whether another end of the fan leaves in the same direction: of edges with
- * one image one is drawn. */
+/* Whether the fan has an end with the same direction: of edges with one image
+ * only one is drawn. */
 static bool is_double(const struct fan *fan, struct judge_point2 away) {
   for (uint32_t i = 0; i < fan->count; i++) {
     const struct judge_point2 *other = &fan->end[i].away;
@@ -86,8 +87,8 @@ static bool is_double(const struct fan *fan, struct judge_point2 away) {
   return false;
 }
 
-/* Adds an end to the fan where it is visible; false where that is not sure, or
- * there are too many. */
+/* Adds an end to the fan if it is visible; false where that is undecided, or
+ * the fan is full. */
 static bool add_end(const struct judge_missing_run *run, struct fan *fan,
                     uint32_t edge, int side, bool is_first) {
   const struct judge_segment *s = image_of(run, edge);
@@ -96,18 +97,18 @@ static bool add_end(const struct judge_missing_run *run, struct fan *fan,
                                     (s->b.y - s->a.y) * sign};
   if (!(length > 0) || is_double(fan, away))
     return true;
-  double in = fmin(0.5, run->shortest_mm / PARTS / length);
+  double in = fmin(0.5, run->shortest_mm / SAMPLES_PER_SHORTEST / length);
   enum judge_visibility visibility;
   if (!is_first && !is_visible(run, edge, side ? 1 - in : in, &visibility))
     return visibility == JUDGE_BLOCKED;
-  if (fan->count == FAN_MOST)
+  if (fan->count == MAX_FAN)
     return false;
   fan->end[fan->count++] = (struct fan_end){edge, side, away};
   return true;
 }
 
-/* Finds the ends of asked-for edges that are where this one is, itself the
- * first; false where they are not sure. */
+/* Finds the ends of requested edges at the point where this one ends, itself
+ * the first; false where they are undecided. */
 static bool find_fan(const struct judge_missing_run *run, struct fan *fan,
                      uint32_t edge, int side) {
   struct judge_point2 at =
@@ -121,7 +122,7 @@ static bool find_fan(const struct judge_missing_run *run, struct fan *fan,
     for (int k = 0; ok && k < 2; k++) {
       struct judge_point2 end = k ? s->b : s->a;
       if (hypot(end.x - at.x, end.y - at.y) <= run->sampler->hair_mm &&
-          near[i] != edge && run->is_asked_for(run->user, near[i]) &&
+          near[i] != edge && run->is_requested(run->user, near[i]) &&
           is_alike(run, edge, near[i]))
         ok = add_end(run, fan, near[i], k, false);
     }
@@ -129,8 +130,10 @@ static bool find_fan(const struct judge_missing_run *run, struct fan *fan,
   return ok;
 }
 
-/* Takes the straightest pair out of the fan; its second end, where the first
- * end of all is in it.  Returns false where nothing is left to be paired. */
+/* Removes from the fan the pair with the least bend.
+ * mate  set to the other end if the pair has the fan's first end; else its edge
+ *       is SCENE_NONE
+ * Returns false where no pair is left. */
 static bool take_pair(struct fan *fan, struct fan_end *mate) {
   uint32_t a = 0, b = 0;
   double best = INFINITY;
@@ -155,7 +158,8 @@ static bool take_pair(struct fan *fan, struct fan_end *mate) {
   return true;
 }
 
-/* The end that is drawn in one stroke with this one; false: there is none. */
+/* Finds the end that is joined to this one in a stroke; false: there is none.
+ */
 static bool find_next(const struct judge_missing_run *run, uint32_t edge,
                       int side, struct fan_end *next) {
   struct fan fan;
@@ -171,12 +175,12 @@ static bool find_next(const struct judge_missing_run *run, uint32_t edge,
 /* ---- Along edges --------------------------------------------------------- */
 
 static bool is_done(const struct walk *walk) {
-  return walk->length >= walk->run->shortest_mm || walk->steps >= STEPS;
+  return walk->length >= walk->run->shortest_mm || walk->steps >= MAX_SAMPLES;
 }
 
-/* Goes from t to an end of the edge; false where it stops before: the line
+/* Walks from t to an end of the edge; false where it stops before: the line
  * ends, or is long enough.
- * bare  only where there is no ink */
+ * bare  the line ends where there is ink */
 static bool walk_edge(struct walk *walk, uint32_t edge, double t, int side,
                       bool bare) {
   const struct judge_missing_run *run = walk->run;
@@ -185,14 +189,14 @@ static bool walk_edge(struct walk *walk, uint32_t edge, double t, int side,
   if (!judge_clip_to_page(run->sampler->camera, s->a, s->b, &part[0], &part[1]))
     return false;
   double way = part[side] - t, mm = fabs(way) * image_length(s);
-  double count = fmax(1, ceil(mm * PARTS / run->shortest_mm));
+  double count = fmax(1, ceil(mm * SAMPLES_PER_SHORTEST / run->shortest_mm));
   for (double i = 0; i < count && !is_done(walk); i++) {
     double at = t + (i + 0.5) / count * way;
-    struct judge_point2 page_point = {s->a.x + at * (s->b.x - s->a.x),
-                                      s->a.y + at * (s->b.y - s->a.y)};
+    struct judge_point2 sample = {s->a.x + at * (s->b.x - s->a.x),
+                                  s->a.y + at * (s->b.y - s->a.y)};
     enum judge_visibility visibility;
     walk->steps++;
-    if ((bare && run->has_ink(run->user, page_point)) ||
+    if ((bare && run->has_ink(run->user, sample)) ||
         !is_visible(run, edge, at, &visibility))
       return false;
     walk->length += mm / count;
@@ -200,8 +204,8 @@ static bool walk_edge(struct walk *walk, uint32_t edge, double t, int side,
   return !is_done(walk) && part[side] == side;
 }
 
-/* Goes on from a point of an edge towards an end of it. */
-static void walk_on(struct walk *walk, uint32_t start, double t, int side) {
+/* Walks from a point of an edge towards an end of it, and on over that. */
+static void walk_from(struct walk *walk, uint32_t start, double t, int side) {
   struct fan_end next;
   if (!walk_edge(walk, start, t, side, false))
     return;
@@ -218,10 +222,10 @@ static void walk_on(struct walk *walk, uint32_t start, double t, int side) {
 bool judge_is_long_run(const struct judge_missing_run *run, uint32_t edge,
                        double t) {
   struct walk walk = {.run = run};
-  walk_on(&walk, edge, t, 1);
+  walk_from(&walk, edge, t, 1);
   if (walk.is_loop)
     (void)walk_edge(&walk, edge, t, 0, false);
   else
-    walk_on(&walk, edge, t, 0);
+    walk_from(&walk, edge, t, 0);
   return walk.length >= run->shortest_mm;
 }

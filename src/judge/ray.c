@@ -1,4 +1,4 @@
-/* ray.c - what a point of an edge sees: the judge's rays. */
+/* ray.c - casts a ray from a point of an edge to the eye. */
 #include "judge/ray.h"
 
 #include "judge/camera.h"
@@ -37,9 +37,9 @@ static bool ray_meets_box(const struct slab_ray *slab_ray,
   return t0 <= t1;
 }
 
-/* Whether the ray's line meets the triangle: it has all three sides on one
- * hand (signed volumes with the ray's direction).  A line along a side meets
- * it, so that none slips through between two triangles. */
+/* Whether the ray's line meets the triangle: the signed volumes of the line
+ * with its three sides have one sign (Pluecker test).  A line through a side
+ * meets the triangle, so that no line passes between two neighbours. */
 static bool line_meets_triangle(const struct judge_ray *ray,
                                 const struct judge_triangle *t) {
   struct judge_point3 a = point3_sub(t->p[0], ray->from);
@@ -51,7 +51,7 @@ static bool line_meets_triangle(const struct judge_ray *ray,
   return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
-/* Whether the triangle's plane is met on the way: if it is, it blocks. */
+/* Whether the ray meets the triangle's plane within its reach. */
 static enum judge_visibility ray_meets_plane(const struct judge_ray *ray,
                                              const struct judge_triangle *t) {
   double at = point3_dot(t->normal, point3_sub(t->p[0], ray->from)) /
@@ -68,20 +68,23 @@ static double distance(const struct judge_triangle *t,
   return fabs(point3_dot(t->normal, point3_sub(t->p[0], from)));
 }
 
-/* Planes nearer than half the contact block nothing, beyond one and a half
- * times they do; rounding is added, though no plane beyond contact is passed
- * over: without contact the page's grid decides, and that is not asked here. */
-static enum judge_visibility weigh_distance(const struct judge_triangle *t,
-                                            struct judge_point3 from,
-                                            const struct judge_margin *margin) {
+/* Decides by the distance of a triangle's plane whether it may hide a point:
+ *   up to 0.5 contact + plane_error, but at most contact: clear
+ *   up to 1.5 contact + 4 rounding: unsure
+ *   above: blocked
+ * The limit of clear keeps a plane beyond the contact tolerance from being
+ * ignored where contact is 0, a case that the page grid decides. */
+static enum judge_visibility
+classify_distance(const struct judge_triangle *t, struct judge_point3 from,
+                  const struct judge_margin *margin) {
   double away = distance(t, from);
-  if (away <= fmin(0.5 * t->contact + margin->blur, t->contact))
+  if (away <= fmin(0.5 * t->contact + margin->plane_error, t->contact))
     return JUDGE_CLEAR;
   return away <= 1.5 * t->contact + 4 * margin->rounding ? JUDGE_UNSURE
                                                          : JUDGE_BLOCKED;
 }
 
-/* How sure it is that a spot is a corner of a triangle. */
+/* Whether a point is a corner of a triangle. */
 enum shared_end { SHARED_NO, SHARED_PERHAPS, SHARED };
 
 static enum shared_end corner_is_at(struct judge_point3 corner,
@@ -94,7 +97,7 @@ static enum shared_end corner_is_at(struct judge_point3 corner,
              : SHARED_NO;
 }
 
-/* Whether all of a face has its image inside the margins. */
+/* Whether the image of a face is wholly inside the margins. */
 static bool is_whole(const struct scene *scene,
                      const struct judge_camera *camera, uint32_t start,
                      uint32_t count) {
@@ -112,9 +115,9 @@ static bool is_whole(const struct scene *scene,
   return true;
 }
 
-/* Whether the triangle has that end for a corner.  How faces of more corners
- * are cut into triangles is not the judge's to say, nor how those are which the
- * page or the near plane cuts. */
+/* Whether an end of the edge is a corner of the triangle.  It is undecided for
+ * faces of more corners and for those that the page or the near plane clips:
+ * the judge does not know the drawing's triangles of these. */
 static enum shared_end triangle_shares(const struct judge_ray *ray,
                                        const struct judge_triangles *all,
                                        const struct judge_triangle *t,
@@ -133,12 +136,13 @@ static enum shared_end triangle_shares(const struct judge_ray *ray,
   return most == SHARED && !sure ? SHARED_PERHAPS : most;
 }
 
-/* Where the way from a triangle's corner to a spot leaves the triangle's image:
- * there the plane through its far side and the eye is crossed, or nowhere. */
-static struct judge_point3 leave(const struct judge_ray *ray,
-                                 const struct judge_triangle *t,
-                                 struct judge_point3 corner,
-                                 struct judge_point3 to) {
+/* The point in which the segment from a triangle's corner to a point leaves the
+ * triangle's image, by crossing the plane through the opposite side and the
+ * eye; the end of the segment where it does not. */
+static struct judge_point3 exit_point(const struct judge_ray *ray,
+                                      const struct judge_triangle *t,
+                                      struct judge_point3 corner,
+                                      struct judge_point3 to) {
   const struct judge_camera *camera = ray->camera;
   int k = 0;
   while (k < 3 && point3_length(point3_sub(t->p[k], corner)) > 0)
@@ -157,34 +161,36 @@ static struct judge_point3 leave(const struct judge_ray *ray,
                             point3_sub(to, corner));
 }
 
-/* How far the plane is where the edge, from one end, ends or leaves the
- * triangle. */
-static enum judge_visibility weigh_exit(const struct judge_ray *ray,
-                                        const struct judge_triangle *t,
-                                        struct judge_point3 corner,
-                                        const struct judge_end *end) {
-  enum judge_visibility visibility =
-      weigh_distance(t, leave(ray, t, corner, end->position), &end->margin);
-  return visibility == weigh_distance(t, leave(ray, t, corner, end->cut),
-                                      &end->cut_margin)
+/* Decides by the distance of the plane at the point where the edge, coming from
+ * one end, ends or leaves the triangle. */
+static enum judge_visibility classify_at_exit(const struct judge_ray *ray,
+                                              const struct judge_triangle *t,
+                                              struct judge_point3 corner,
+                                              const struct judge_end *end) {
+  enum judge_visibility visibility = classify_distance(
+      t, exit_point(ray, t, corner, end->position), &end->margin);
+  return visibility == classify_distance(t,
+                                         exit_point(ray, t, corner, end->cut),
+                                         &end->cut_margin)
              ? visibility
              : JUDGE_UNSURE;
 }
 
-/* How far the plane is, where that counts. */
-static enum judge_visibility weigh_plane(const struct judge_triangles *all,
-                                         const struct judge_ray *ray,
-                                         const struct judge_triangle *t) {
-  enum judge_visibility here = weigh_distance(t, ray->from, &ray->margin);
+/* Decides by the distance of the plane, measured as ray.h explains. */
+static enum judge_visibility classify_plane(const struct judge_triangles *all,
+                                            const struct judge_ray *ray,
+                                            const struct judge_triangle *t) {
+  enum judge_visibility here = classify_distance(t, ray->from, &ray->margin);
   enum judge_visibility there[2];
   enum shared_end shared[2];
   for (int k = 0; k < 2; k++) {
-    there[k] = weigh_exit(ray, t, ray->end[k].position, &ray->end[1 - k]);
+    there[k] = classify_at_exit(ray, t, ray->end[k].position, &ray->end[1 - k]);
     shared[k] = here == JUDGE_BLOCKED || there[k] == here
                     ? SHARED_NO
                     : triangle_shares(ray, all, t, &ray->end[k]);
   }
-  /* One that has both ends has all of the edge in its plane. */
+  /* If the triangle has both ends the edge lies in its plane: undecided, see
+   * below. */
   if (shared[0] == SHARED_NO && shared[1] == SHARED_NO)
     return here;
   if (shared[0] == SHARED && shared[1] == SHARED_NO)
@@ -203,32 +209,31 @@ static bool is_corner(const struct judge_triangle *t,
   return false;
 }
 
-/* Whether the edge lies in the triangle's plane, as it does in that of its own
- * face; of one that bends, in those of the triangles alone that it is a side
- * of. */
+/* Whether the edge lies in the triangle's plane because it belongs to the same
+ * face; in a face that is not planar, because it is a side of the triangle. */
 static bool is_own(const struct judge_ray *ray,
                    const struct judge_triangle *t) {
   return (t->face == ray->own[0] || t->face == ray->own[1]) &&
-         distance(t, ray->from) <= 0.5 * t->contact + ray->margin.blur &&
+         distance(t, ray->from) <= 0.5 * t->contact + ray->margin.plane_error &&
          (!t->bent || (is_corner(t, ray->end[0].position) &&
                        is_corner(t, ray->end[1].position)));
 }
 
-static enum judge_visibility look_at(const struct judge_triangles *all,
-                                     const struct judge_ray *ray,
-                                     const struct judge_triangle *t) {
+static enum judge_visibility test_triangle(const struct judge_triangles *all,
+                                           const struct judge_ray *ray,
+                                           const struct judge_triangle *t) {
   if (!line_meets_triangle(ray, t) || is_own(ray, t))
     return JUDGE_CLEAR;
-  enum judge_visibility visibility = weigh_plane(all, ray, t);
+  enum judge_visibility visibility = classify_plane(all, ray, t);
   if (visibility == JUDGE_CLEAR)
     return visibility;
-  if (distance(t, ray->from) <= ray->margin.blur)
+  if (distance(t, ray->from) <= ray->margin.plane_error)
     return JUDGE_UNSURE;
   enum judge_visibility met = ray_meets_plane(ray, t);
   return met < visibility ? met : visibility;
 }
 
-/* ---- All of them --------------------------------------------------------- */
+/* ---- Traversal ----------------------------------------------------------- */
 
 enum judge_visibility judge_cast_ray(const struct judge_triangles *all,
                                      const struct judge_ray *ray,
@@ -250,7 +255,7 @@ enum judge_visibility judge_cast_ray(const struct judge_triangles *all,
     }
     for (uint32_t i = 0; i < node->count; i++) {
       const struct judge_triangle *t = &all->triangle.item[node->first + i];
-      enum judge_visibility seen = look_at(all, ray, t);
+      enum judge_visibility seen = test_triangle(all, ray, t);
       if (seen == JUDGE_BLOCKED && t->open)
         seen = JUDGE_UNSURE;
       if (seen == JUDGE_BLOCKED) {

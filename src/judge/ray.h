@@ -1,11 +1,11 @@
-/* ray.h - what a point of an edge sees: the judge's rays.
+/* ray.h - casts a ray from a point of an edge to the eye.
  *
- * A triangle hides the point where a ray from there to the eye meets it and
- * its plane is far enough from the point.  Where the triangle has an end of
- * the edge for a corner, its plane goes through that end, and points close to
- * it would see past the triangle however the edge runs.  Such a triangle hides
- * as much of the edge as it covers, or nothing: how far its plane is counts at
- * the edge's other end, or where it leaves the triangle. */
+ * A triangle hides the point if the ray meets it and its plane is farther from
+ * the point than the contact tolerance.  If an end of the edge is a corner of
+ * the triangle, the plane passes through that end, and points near it would
+ * count as visible whatever the edge's direction.  Such a triangle hides all of
+ * the edge that it covers, or nothing: the distance to its plane is measured at
+ * the edge's other end, or where the edge leaves the triangle. */
 #ifndef JUDGE_RAY_H
 #define JUDGE_RAY_H
 
@@ -13,35 +13,37 @@
 
 enum judge_visibility { JUDGE_CLEAR, JUDGE_UNSURE, JUDGE_BLOCKED };
 
-/* What may be the matter with how far a plane is from a spot, scene units. */
+/* Error bounds of the distance from a point to a plane, scene units. */
 struct judge_margin {
-  double rounding; /* of the spot, on the page and in depth */
-  double blur;     /* where the spot should lie on the plane: planes this near
-                      may be on either side of it */
+  double rounding;    /* of the point, on the page and in depth */
+  double plane_error; /* a plane this close to the point may pass on either side
+                         of it, or through it */
 };
 
 /* An end of an edge. */
 struct judge_end {
   struct judge_point3
-      position;            /* a corner of the scene to the last bit, or none */
-  struct judge_point3 cut; /* the same, or where the page ends before */
+      position;            /* equal to a corner of the scene in all bits, or to
+                              none */
+  struct judge_point3 cut; /* the same, or where the page's border cuts the
+                              edge */
   bool is_cut;
-  double near; /* how far rounding may move it */
+  double near; /* upper bound of its rounding error */
   struct judge_margin margin, cut_margin;
 };
 
 struct judge_ray {
   const struct judge_camera *camera;
   struct judge_point3 from, towards;
-  double reach; /* seen is from + t towards, 0 < t < reach */
-  double sure;  /* beyond it the near plane may have cut off what is met */
+  double reach; /* the ray is from + t towards, 0 < t < reach */
+  double sure;  /* for t above it the near plane may have clipped what is met */
   struct judge_margin margin;
   uint32_t own[2]; /* faces of the edge */
   struct judge_end end[2];
 };
 
-/* What is seen.
- * face  of what blocks, set where something does; NULL: not wanted */
+/* Casts a ray.
+ * face  set to the face that blocks it, where one does; may be NULL */
 enum judge_visibility judge_cast_ray(const struct judge_triangles *all,
                                      const struct judge_ray *ray,
                                      uint32_t *face);

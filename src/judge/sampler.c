@@ -1,5 +1,5 @@
-/* sampler.c - what the judge makes of a point of an edge: which rays go from it,
- * and how far a plane must be to hide it. */
+/* sampler.c - decides by rays whether a point of an edge is visible: sets up
+ * the rays and the distance that a plane must have to hide it. */
 #include "judge/sampler.h"
 
 #include "judge/camera.h"
@@ -65,8 +65,8 @@ static void find_ends(const struct judge_sampler *sampler,
   }
 }
 
-/* What a spot sees towards the eye.
- * aside  it is off the edge by a hair, and so off the edge's own faces */
+/* Casts a ray from a point towards the eye.
+ * aside  the point is a hair off the edge, and so off the edge's own faces */
 static enum judge_visibility look(const struct judge_sampler *sampler,
                                   const struct judge_edge *edge,
                                   const struct judge_end end[2],
@@ -74,13 +74,13 @@ static enum judge_visibility look(const struct judge_sampler *sampler,
                                   uint32_t *blocker) {
   const struct judge_camera *camera = sampler->camera;
   double rounding = judge_rounding_at(camera, sampler->hair_mm, from);
-  double blur =
+  double plane_error =
       aside ? 2 * rounding : sampler->all->size * TOLERANCE_EXTENT_SHARE;
   double slack = judge_near_slack(camera);
   double near = judge_near(camera), sure = camera->near_d + slack;
   struct judge_ray ray = {.camera = camera,
                           .from = from,
-                          .margin = {rounding, blur},
+                          .margin = {rounding, plane_error},
                           .own = {edge->source.face[0], edge->source.face[1]},
                           .end = {end[0], end[1]}};
   if (camera->perspective) {

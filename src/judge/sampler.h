@@ -1,4 +1,4 @@
-/* sampler.h - what the judge makes of a point of an edge. */
+/* sampler.h - decides by rays whether a point of an edge is visible. */
 #ifndef JUDGE_SAMPLER_H
 #define JUDGE_SAMPLER_H
 
@@ -11,28 +11,29 @@ struct judge_sampler {
   double hair_mm; /* as in judge_options */
 };
 
-/* What the hair by which rays are moved aside, and the rounding of depths, are
- * at a spot, in scene units. */
+/* The size of a hair on the page plus the rounding of depths, at a point of the
+ * scene, in scene units. */
 double judge_rounding_at(const struct judge_camera *camera, double hair_mm,
                          struct judge_point3 at);
 
-/* Cuts a segment to the page inside its margins, from *t0 to *t1 of its way; false where nothing
- * is left. */
+/* Clips a segment to the page inside its margins: the parameters from *t0 to
+ * *t1 are left; false where nothing is. */
 bool judge_clip_to_page(const struct judge_camera *camera,
                         struct judge_point2 a, struct judge_point2 b,
                         double *t0, double *t1);
 
-/* The spot of an edge whose image is at t of the way along its image. */
+/* The point of an edge whose image is at parameter t of the edge's image. */
 struct judge_point3 judge_point3_of_image(const struct judge_edge *edge,
                                           double t);
 
-/* What a point of an edge sees, by itself alone. */
+/* The visibility of a point of an edge, by one ray. */
 enum judge_visibility judge_sample_point(const struct judge_sampler *sampler,
                                          const struct judge_edge *edge,
                                          struct judge_point3 from);
 
-/* What it sees by itself and a hair to either side, as long as the answers are
- * `expected`; the first other one is the answer. */
+/* The visibility by three rays: from the point and from a hair to either side.
+ * Returns `expected` if all three have it, else the first other result.
+ * blocker  set to a face that blocks a ray; may be NULL */
 enum judge_visibility judge_sample_around(const struct judge_sampler *sampler,
                                           const struct judge_edge *edge,
                                           struct judge_point3 from,

@@ -1,10 +1,11 @@
-/* triangles.c - the judge's triangles and their tree of boxes.
+/* triangles.c - the judge's triangles and their bounding volume hierarchy.
  *
- * The tree is built from the top: a node's triangles are parted at the middle
- * of their centroids' longest extent, which suits meshes of even density, or
- * where that leaves less than an eighth on one side, by number.  So a child
- * has at most 7/8 of its parent, and 2^31 triangles make a tree less deep than
- * log(2^31) / log(8/7) = 161. */
+ * The tree is built top-down.  A node's triangles are split at the middle of
+ * their centroids' longest extent, which suits meshes of even density, or by
+ * number where that would leave less than an eighth on one side.
+ *
+ * Depth  A child has at most 7/8 of its parent's triangles, so a tree of 2^31
+ *   triangles is less deep than log(2^31) / log(8/7) = 161. */
 #include "judge/triangles.h"
 
 #include <string.h>
@@ -14,7 +15,7 @@
 #include "judge/sort.h"
 #include "judge/triangulation.h"
 
-enum { LEAF_SIZE = 4, FEWEST_SHARE = 8 };
+enum { LEAF_SIZE = 4, MIN_SHARE = 8 };
 
 /* ---- Boxes --------------------------------------------------------------- */
 
@@ -52,9 +53,9 @@ static double centroid_3(const struct judge_triangle *t, int axis) {
 
 /* ---- The tree ------------------------------------------------------------ */
 
-/* Parts triangles by the middle of their longest extent, or by number; returns
- * how many come first. */
-static uint32_t part_triangles(struct judge_triangle *t, uint32_t count) {
+/* Splits triangles at the middle of their longest extent, or by number; returns
+ * the number of the first part. */
+static uint32_t split_triangles(struct judge_triangle *t, uint32_t count) {
   struct judge_box box = empty_box();
   for (uint32_t i = 0; i < count; i++)
     grow_box(&box, judge_point3_of(centroid_3(&t[i], 0), centroid_3(&t[i], 1),
@@ -72,7 +73,7 @@ static uint32_t part_triangles(struct judge_triangle *t, uint32_t count) {
     t[i] = t[low];
     t[low++] = swap;
   }
-  uint32_t fewest = count / FEWEST_SHARE;
+  uint32_t fewest = count / MIN_SHARE;
   return low < fewest || count - low < fewest || low == 0 || low == count
              ? count / 2
              : low;
@@ -83,7 +84,7 @@ static bool build_tree(struct judge_triangles *all) {
   all->node = mem_alloc(2 * (size_t)total + 1, sizeof *all->node);
   if (all->node == NULL)
     return false;
-  if (total == 0) /* a node without triangles would be one with children */
+  if (total == 0) /* count 0 would mean an inner node */
     return true;
   all->nodes = 1;
   all->node[0] = (struct judge_node){.first = 0, .count = total};
@@ -101,7 +102,7 @@ static bool build_tree(struct judge_triangles *all) {
     }
     if (node->count <= LEAF_SIZE)
       continue;
-    uint32_t low = part_triangles(t, node->count);
+    uint32_t low = split_triangles(t, node->count);
     struct judge_node left = {.first = node->first, .count = low};
     struct judge_node right = {.first = node->first + low,
                                .count = node->count - low};
@@ -168,22 +169,22 @@ bool judge_is_warped(const struct scene *scene, uint32_t face, double contact) {
 
 /* ---- Faces --------------------------------------------------------------- */
 
-/* Room that is kept from face to face, and what is asked of all. */
-struct cutter {
+/* The inputs, and work space kept from face to face. */
+struct face_adder {
   struct judge_triangles *all;
   const struct scene *scene;
   const struct scene_point *given;
   double contact;
-  struct judge_triangulation cuts;
+  struct judge_triangulation triangulation;
   struct judge_ears ears;
 };
 
-/* Whether some triangle of the face, from `first` on, runs the other way than
- * the face on the whole. */
-static bool is_folded(const struct cutter *cutter, uint32_t face,
+/* Whether a triangle of the face, from `first` on, has the opposite orientation
+ * to the face. */
+static bool is_folded(const struct face_adder *adder, uint32_t face,
                       size_t first) {
-  const struct judge_triangles *all = cutter->all;
-  struct judge_point3 normal = judge_area(cutter->scene, face);
+  const struct judge_triangles *all = adder->all;
+  struct judge_point3 normal = judge_area(adder->scene, face);
   for (size_t t = first; t < all->triangle.count; t++)
     if (!(point3_dot(all->triangle.item[t].normal, normal) > 0))
       return true;
@@ -205,16 +206,16 @@ static bool add_fan(struct judge_triangles *all, size_t first) {
   return true;
 }
 
-/* A face of more corners than the rule is followed for. */
-static bool add_large_face(struct cutter *cutter, uint32_t face,
+/* Adds a face of more than JUDGE_TRIANGULATION_MOST corners. */
+static bool add_large_face(struct face_adder *adder, uint32_t face,
                            const uint32_t *corner, uint32_t count) {
-  struct judge_triangles *all = cutter->all;
-  bool open = judge_is_warped(cutter->scene, face, cutter->contact);
-  if (!judge_clip_ears(&cutter->ears, cutter->scene, corner, count))
+  struct judge_triangles *all = adder->all;
+  bool open = judge_is_warped(adder->scene, face, adder->contact);
+  if (!judge_clip_ears(&adder->ears, adder->scene, corner, count))
     return false;
-  for (size_t k = 0; k < cutter->ears.ear.count; k++) {
-    struct judge_triangle t = triangle_of(
-        cutter->scene, corner, cutter->ears.ear.item[k].corner, face);
+  for (size_t k = 0; k < adder->ears.ear.count; k++) {
+    struct judge_triangle t =
+        triangle_of(adder->scene, corner, adder->ears.ear.item[k].corner, face);
     t.open = open;
     if (!ARRAY_PUSH(&all->triangle, t))
       return false;
@@ -222,24 +223,26 @@ static bool add_large_face(struct cutter *cutter, uint32_t face,
   return true;
 }
 
-static bool add_face(struct cutter *cutter, uint32_t face) {
-  const struct scene *scene = cutter->scene;
-  struct judge_triangles *all = cutter->all;
+static bool add_face(struct face_adder *adder, uint32_t face) {
+  const struct scene *scene = adder->scene;
+  struct judge_triangles *all = adder->all;
   uint32_t start = scene->face_start.item[face];
   uint32_t count = scene->face_start.item[face + 1] - start;
   const uint32_t *corner = scene->corner.item + start;
   size_t first = all->triangle.count;
   if (count > JUDGE_TRIANGULATION_MOST)
-    return add_large_face(cutter, face, corner, count);
-  if (!judge_triangulation_make(&cutter->cuts, cutter->given, corner, count))
+    return add_large_face(adder, face, corner, count);
+  if (!judge_triangulation_make(&adder->triangulation, adder->given, corner,
+                                count))
     return false;
-  for (size_t k = 0; k < cutter->cuts.piece.count; k++)
+  for (size_t k = 0; k < adder->triangulation.triangle.count; k++)
     if (!ARRAY_PUSH(&all->triangle,
                     triangle_of(scene, corner,
-                                cutter->cuts.piece.item[k].corner, face)))
+                                adder->triangulation.triangle.item[k].corner,
+                                face)))
       return false;
-  return count == 3 || (!judge_is_warped(scene, face, cutter->contact) &&
-                        !is_folded(cutter, face, first))
+  return count == 3 || (!judge_is_warped(scene, face, adder->contact) &&
+                        !is_folded(adder, face, first))
              ? true
              : add_fan(all, first);
 }
@@ -274,7 +277,7 @@ judge_fan_along(const struct judge_triangles *all, uint32_t face, uint32_t a,
   return ARRAY_AT(&all->fan_triangle, low);
 }
 
-static double measure(const struct scene *scene) {
+static double scene_size(const struct scene *scene) {
   struct judge_box box = empty_box();
   for (size_t c = 0; c < scene->corner.count; c++)
     grow_box(&box, judge_point3_at(scene, scene->corner.item[c]));
@@ -290,18 +293,18 @@ bool judge_triangles_init(struct judge_triangles *all,
                           const struct scene_point *given, double contact) {
   memset(all, 0, sizeof *all);
   all->scene = scene;
-  all->size = measure(scene);
-  struct cutter cutter = {.all = all,
-                          .scene = scene,
-                          .given = given ? given : scene->point.item,
-                          .contact = contact};
+  all->size = scene_size(scene);
+  struct face_adder adder = {.all = all,
+                             .scene = scene,
+                             .given = given ? given : scene->point.item,
+                             .contact = contact};
   bool ok = true;
   for (uint32_t i = 0; ok && i < scene_face_count(scene); i++)
-    ok = add_face(&cutter, i);
+    ok = add_face(&adder, i);
   judge_sort(all->fan_triangle.item, all->fan_triangle.count,
              sizeof *all->fan_triangle.item, compare_fan_triangles);
-  judge_triangulation_fini(&cutter.cuts);
-  judge_ears_fini(&cutter.ears);
+  judge_triangulation_fini(&adder.triangulation);
+  judge_ears_fini(&adder.ears);
   if (ok && build_tree(all))
     return true;
   judge_triangles_fini(all);

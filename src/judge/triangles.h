@@ -1,4 +1,4 @@
-/* triangles.h - the judge's triangles and their bounding volumes. */
+/* triangles.h - the judge's triangles and their bounding volume hierarchy. */
 #ifndef JUDGE_TRIANGLES_H
 #define JUDGE_TRIANGLES_H
 
@@ -9,15 +9,15 @@ struct judge_triangle {
   struct judge_point3 normal; /* unit; 0 where the triangle has no area */
   uint32_t point[3];          /* scene points */
   uint32_t face;              /* scene face */
-  double contact;             /* what touches it may be so far off its plane,
-                               scene units: contact.h */
-  bool bent; /* the face is not planar, or its sides cross: its triangles do
-                not lie in one plane, or lie on one another */
-  bool open; /* the face is not planar, and has so many corners that the judge
-                does not know how it is cut: what it hides is not sure */
+  double contact;             /* contact tolerance: what touches it may be so
+                                 far from its plane, scene units: contact.h */
+  bool bent; /* the face is not planar, or its sides cross: its triangles are
+                not in one plane, or overlap */
+  bool open; /* the face is not planar and has so many corners that the judge
+                does not know its triangulation: what it hides is undecided */
 };
 
-/* A side of a triangle of a face that bends. */
+/* A triangle of a face that is not planar, indexed by one of its sides. */
 struct judge_fan_triangle {
   uint32_t face, low, high; /* scene points, low < high */
   struct judge_triangle triangle;
@@ -27,14 +27,15 @@ struct judge_box {
   double low[3], high[3];
 };
 
-/* A tree of boxes over triangles, which it holds in its own order. */
+/* A bounding volume hierarchy of axis-aligned boxes; it reorders the
+ * triangles. */
 struct judge_triangles {
   ARRAY(struct judge_triangle) triangle;
   struct judge_node {
     struct judge_box box;
     uint32_t first; /* of its triangles, or its left child; right follows */
     uint32_t count; /* of its triangles; 0: a node with two children */
-    uint32_t face;  /* of all its triangles; SCENE_NONE: of several */
+    uint32_t face;  /* the face of all its triangles; SCENE_NONE: several */
   } * node;
   size_t nodes; /* none where there are no triangles */
   ARRAY(struct judge_fan_triangle) fan_triangle; /* by face, low, high */
@@ -42,36 +43,37 @@ struct judge_triangles {
   const struct scene *scene;
 };
 
-/* Room for the nodes on the way down the tree, see triangles.c. */
+/* Size of the stack of a traversal; triangles.c proves that it is enough. */
 enum { JUDGE_STACK_SIZE = 192 };
 
-/* Cuts faces into triangles and builds the tree.  Cost: n log n.
- * given    the points to the last digit, where the scene's were moved; NULL:
- *          the scene's own.  How faces are cut is asked of them
+/* Triangulates the faces and builds the tree.
+ * given    the original points, where the scene's were translated; NULL: the
+ *          scene's own.  The triangulation is decided on them
  * contact  as in judge_options
- * Returns false when memory ran out. */
+ * Returns false when memory ran out.
+ * Cost  n log n. */
 USE_RESULT bool judge_triangles_init(struct judge_triangles *all,
                                      const struct scene *scene,
                                      const struct scene_point *given,
                                      double contact);
 
-/* The face's normal, as long as twice its area. */
+/* The face's Newell normal, of twice its area as length. */
 struct judge_point3 judge_area(const struct scene *scene, uint32_t face);
 
-/* Whether a corner of the face is so far off its plane that it matters how it
- * is cut. */
+/* Whether a corner of the face is so far off its plane that its triangulation
+ * matters. */
 bool judge_is_warped(const struct scene *scene, uint32_t face, double contact);
 
-/* The wings of a face along the side between two points; none where it does
- * not bend. */
+/* The triangles of a face with a side between two points, *count of them; none
+ * where the face is planar. */
 const struct judge_fan_triangle *
 judge_fan_along(const struct judge_triangles *all, uint32_t face, uint32_t a,
                 uint32_t b, size_t *count);
 void judge_triangles_fini(struct judge_triangles *all);
 
-/* Calls found(user, i) for the triangles whose boxes meet `box`, until it
- * returns false: that is then returned.
- * but  of this face some may be left out: a large one has very many */
+/* Calls found(user, i) for the triangles of all leaves whose boxes meet `box`,
+ * until it returns false; returns whether it never did.
+ * but  triangles of this face may be skipped: a large face has very many */
 bool judge_triangles_near(const struct judge_triangles *all,
                           const struct judge_box *box, uint32_t but,
                           bool (*found)(void *user, uint32_t triangle),

@@ -1,38 +1,41 @@
-/* triangulation.h - cutting a face into triangles by the rule of doc/algorithms.md, for
- * the judge. */
+/* triangulation.h - the judge's own implementation of the rule by which faces
+ * are triangulated (doc/algorithms.md). */
 #ifndef JUDGE_TRIANGULATION_H
 #define JUDGE_TRIANGULATION_H
 
 #include "scene/scene.h"
 
 struct judge_triangulation_corner {
-  double at[2];          /* in the image along an axis, counter-clockwise */
-  double length;         /* of the diagonal past it, as the rule compares */
-  uint32_t next, before; /* of those that are left */
+  double at[2];          /* in the projection, which is counter-clockwise */
+  double length;         /* squared, of the diagonal that cuts it off */
+  uint32_t next, before; /* among the corners that are left */
   int turn;              /* left 1, right -1 */
-  bool gone, refused;    /* refused: it is no ear as things are */
+  bool gone;             /* cut off or removed */
+  bool refused;          /* tested: not an ear at present */
 };
 
-struct judge_piece {
-  uint32_t corner[3]; /* numbers of the face's corners */
+struct judge_triangulation_triangle {
+  uint32_t corner[3]; /* indices into the face's corners */
 };
 
 /* Zero-initialised is empty; one serves any number of faces. */
 struct judge_triangulation {
-  ARRAY(struct judge_piece) piece; /* of the face cut last */
+  ARRAY(struct judge_triangulation_triangle)
+  triangle; /* of the face cut last */
   ARRAY(struct judge_triangulation_corner) corner;
 };
 
-/* Most corners that a face may have: each cut looks at all of them. */
+/* The most corners that a face may have; each cut tests all of them, so the
+ * cost is cubic at worst. */
 enum { JUDGE_TRIANGULATION_MOST = 256 };
 
-/* Cuts a face of at most JUDGE_TRIANGULATION_MOST corners.
- * point  as they were given: the rule asks for their last digits
+/* Triangulates a face of at most JUDGE_TRIANGULATION_MOST corners.
+ * point  the original coordinates: the rule depends on their last bits
  * Returns false when memory ran out. */
-USE_RESULT bool judge_triangulation_make(struct judge_triangulation *cuts,
-                                         const struct scene_point *point,
-                                         const uint32_t *corner,
-                                         uint32_t count);
-void judge_triangulation_fini(struct judge_triangulation *cuts);
+USE_RESULT bool
+judge_triangulation_make(struct judge_triangulation *triangulation,
+                         const struct scene_point *point,
+                         const uint32_t *corner, uint32_t count);
+void judge_triangulation_fini(struct judge_triangulation *triangulation);
 
 #endif

@@ -1,4 +1,4 @@
-/* sheet.c - gives back the memory of a sheet, or of its triangles alone. */
+/* sheet.c - frees a sheet, or its triangles alone. */
 #include "view/sheet.h"
 
 #include <string.h>

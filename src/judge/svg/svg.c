@@ -1,9 +1,9 @@
-/* svg.c - reads the lines of an SVG file: what is stroked, on its page in mm.
+/* svg.c - reads the stroked lines of an SVG file, in mm of its page.
  *
- * Groups, transforms, styles and a viewBox are followed; shapes are taken by
- * their outlines.  What would need a browser is refused rather than misread:
- * references (use), and a viewBox within another.  Style sheets are not read:
- * where there is one, what has no stroke or fill of its own counts as drawn.
+ * Groups, transforms, styles and a viewBox are interpreted; shapes become their
+ * outlines.  What would need a full renderer is an error: references (use), and
+ * an svg element within another.  Style sheets are not interpreted: where there
+ * is one, an element without a stroke or fill of its own counts as drawn.
  */
 #include <math.h>
 #include <string.h>
@@ -12,30 +12,31 @@
 #include "judge/svg/svg_path.h"
 #include "judge/svg/svg_scan.h"
 
-/* A curve across the page takes hundreds of pieces and a dozen bytes.  So that
- * a file takes memory in proportion to its size, there may be so many pieces,
- * and so many more for each byte of it: several times what drawings have. */
+/* A curve across the page takes hundreds of line segments but a dozen bytes of
+ * the file.  So that memory grows in proportion to the file's size, the number
+ * of segments is limited to PIECES plus PIECES_BY_BYTE for each byte, several
+ * times what drawings have. */
 enum { PIECES = 1 << 20, PIECES_BY_BYTE = 4 };
 
 enum paint { PAINT_UNSAID, PAINT_NONE, PAINT_SOME };
 
-/* What an element hands down to those within it. */
+/* The properties that an element's children inherit. */
 struct svg_style {
   struct svg_matrix to_page; /* mm, y up */
   enum paint stroke, fill;
-  bool dashed, hidden; /* a hidden line: by its dashes; by its class, or where
-                          it has none by the name of its layer */
-  bool filling;        /* hatching, or what closes the seams of fills */
+  bool dashed, hidden; /* a hidden line: by its dashes; by its class or, without
+                          one, by the name of its layer */
+  bool filling;        /* hatching, or the overlap of fills */
   bool unseen;         /* not displayed, or a definition */
 };
 
 struct svg_reader {
   struct judge_drawing *drawing;
-  ARRAY(struct svg_style) open; /* the elements that are open */
+  ARRAY(struct svg_style) open; /* of the elements that are open */
   bool sheet;                   /* there is a style sheet */
-  bool root;
-  bool starved;
-  size_t pieces; /* of curves that may still be stored */
+  bool root;                    /* the svg element was read */
+  bool out_of_memory;
+  size_t pieces; /* segments of curves that may still be stored */
 };
 
 /* ---- Style --------------------------------------------------------------- */
@@ -58,16 +59,16 @@ static bool is_definition(const struct svg_tag *tag) {
   return false;
 }
 
-/* "hidden", or a pen's number and that word: no more, as the name of a layer
- * may hold those of the user's groups. */
+/* Whether a layer's label is "hidden", or a pen's number and "hidden".  Nothing
+ * else counts, as labels may contain names of the user's groups. */
 static bool is_layer_of_hidden(struct svg_text label) {
   while (label.at < label.end && *label.at >= '0' && *label.at <= '9')
     label.at++;
   return svg_is(svg_trim(label), "hidden");
 }
 
-/* The classes of our own files say what a line is, whatever its layer's
- * name. */
+/* Interprets the classes of recto's own files, which take precedence over the
+ * layer's label. */
 static void take_class(struct svg_text list, struct svg_style *style) {
   struct svg_text word;
   while (svg_next_word(&list, &word)) {
@@ -81,8 +82,8 @@ static void take_class(struct svg_text list, struct svg_style *style) {
   }
 }
 
-/* What the element makes of what it was handed.  Returns NULL, or what is
- * wrong. */
+/* Applies an element's attributes to the inherited style.  Returns NULL, or a
+ * description of the error. */
 static const char *take_style(const struct svg_tag *tag,
                               struct svg_style *style) {
   struct svg_text value;
@@ -118,8 +119,8 @@ static bool is_ink(const struct svg_reader *reader,
 
 /* ---- The root ------------------------------------------------------------ */
 
-/* Fits the viewBox into the page: whole and in its middle, as SVG does unless
- * told otherwise; flips y. */
+/* Sets the matrix that fits the viewBox into the page, scaled evenly and
+ * centred, which is the default of SVG, or stretched; flips y. */
 static const char *fit_view(const struct svg_tag *tag, double width,
                             double height, struct svg_matrix *to_page) {
   struct svg_text box, aspect;
@@ -160,7 +161,7 @@ static const char *read_root(struct svg_reader *reader,
 
 /* ---- Shapes -------------------------------------------------------------- */
 
-/* A number of a shape; 0 where it does not say. */
+/* A numeric attribute; 0 where it is missing. */
 static double number_of(const struct svg_tag *tag, const char *name) {
   struct svg_text value;
   double number = 0;
@@ -257,10 +258,10 @@ static const char *open_element(struct svg_reader *reader,
                                                                : JUDGE_INK};
     fault = draw_element(&pen, tag);
     fault = fault != NULL ? fault : pen.fault;
-    reader->starved = reader->starved || pen.starved;
+    reader->out_of_memory = reader->out_of_memory || pen.out_of_memory;
   }
   if (tag->kind == SVG_TAG_OPEN && !ARRAY_PUSH(&reader->open, style))
-    reader->starved = true;
+    reader->out_of_memory = true;
   return fault;
 }
 
@@ -270,7 +271,7 @@ static const char *read_tags(struct svg_reader *reader, struct svg_text file) {
   const char *fault = NULL;
   struct svg_tag tag;
   bool broken;
-  while (fault == NULL && !reader->starved &&
+  while (fault == NULL && !reader->out_of_memory &&
          svg_next_tag(&file, &tag, &broken)) {
     if (tag.kind != SVG_TAG_CLOSE)
       fault = open_element(reader, &tag);
@@ -279,7 +280,7 @@ static const char *read_tags(struct svg_reader *reader, struct svg_text file) {
     else
       reader->open.count--;
   }
-  if (fault != NULL || reader->starved)
+  if (fault != NULL || reader->out_of_memory)
     return fault != NULL ? fault : JUDGE_NO_MEMORY;
   if (broken || reader->open.count > 0)
     return "the file stops in the middle";

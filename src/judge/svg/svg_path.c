@@ -1,7 +1,7 @@
-/* svg_path.c - the outlines of an SVG file's elements, as straight strokes.
+/* svg_path.c - converts SVG path data and arcs to line segments.
  *
- * An arc becomes cubic curves of a quarter of a turn at most, off by 3/10000
- * of its radius at most.
+ * An arc becomes cubic curves of at most a quarter turn, with an error of at
+ * most 3/10000 of its radius.
  * Source  SVG 1.1, appendix F.6, for the arc's centre. */
 #include "judge/svg/svg_path.h"
 
@@ -9,7 +9,7 @@
 
 /* ---- Arcs ---------------------------------------------------------------- */
 
-/* An ellipse: its middle, its radii, and its x axis. */
+/* An ellipse: its centre, its radii, and the direction of its x axis. */
 struct ellipse {
   double x, y, rx, ry, cosine, sine;
 };
@@ -40,10 +40,9 @@ static void draw_arc(struct svg_pen *pen, const struct ellipse *e, double from,
   }
 }
 
-/* An arc whose radii are 2^19 times as long as its chord and more is straight:
- * on a page of 2 m it is off by less than TOLERANCE_CURVE_MM, and its middle is
- * too far away for doubles.  This is the square of half the chord by the
- * radius. */
+/* The square of half the chord over the radius below which an arc is taken as
+ * straight: with radii of 2^19 times its chord, on a page of 2 m, the error is
+ * less than TOLERANCE_CURVE_MM, and the centre is too far away for doubles. */
 #define STRAIGHT 0x1p-40
 
 void svg_pen_arc(struct svg_pen *pen, double rx, double ry, double angle_deg,
@@ -62,14 +61,14 @@ void svg_pen_arc(struct svg_pen *pen, double rx, double ry, double angle_deg,
     svg_pen_line(pen, to.x, to.y);
     return;
   }
-  if (square > 1) { /* too small to reach: grown */
+  if (square > 1) { /* the radii are too small and must be scaled up */
     e.rx *= times;
     e.ry *= times;
     u /= times;
     v /= times;
     square = 1;
   }
-  /* The middle is beside the chord's, at right angles to it. */
+  /* The centre is on the perpendicular bisector of the chord. */
   double aside = sqrt((1 - square) / square) * (large != sweep ? 1 : -1);
   double cu = aside * v, cv = -aside * u;
   struct judge_point2 offset = on_ellipse(&e, cu, cv);
@@ -124,8 +123,8 @@ static struct judge_point2 page_point(const struct path *path, double x,
                         : (struct judge_point2){x, y};
 }
 
-/* The control point of the curve before, mirrored at the pen; the pen's own
- * place where the command before was no such curve. */
+/* The control point of the previous curve, mirrored at the current position;
+ * the current position where the previous command was no such curve. */
 static struct judge_point2 mirrored(const struct path *path, char one,
                                     char other) {
   struct judge_point2 here = path->pen->here, c = path->control;
@@ -140,8 +139,8 @@ static void cubic(struct path *path, struct judge_point2 b,
   svg_pen_curve(path->pen, b, c, d);
 }
 
-/* A quadratic curve is the cubic one with its control point taken twice, a
- * third nearer to either end. */
+/* Degree elevation: a quadratic curve is a cubic one whose control points are
+ * two thirds of the way from either end to its control point. */
 static void quadratic(struct path *path, struct judge_point2 b,
                       struct judge_point2 c) {
   struct judge_point2 a = path->pen->here;
@@ -225,7 +224,7 @@ static bool draw(struct path *path) {
   }
 }
 
-/* Takes the next command, or the one before again where numbers follow. */
+/* Reads the next command, or repeats the previous one where numbers follow. */
 static void next_command(struct path *path) {
   char c = *path->data.at;
   path->before = path->command;
@@ -246,7 +245,7 @@ const char *svg_path(struct svg_pen *pen, struct svg_text data) {
   pen->down = false;
   for (svg_skip_spaces(&path.data); path.data.at < path.data.end;
        svg_skip_spaces(&path.data)) {
-    if (pen->fault != NULL || pen->starved)
+    if (pen->fault != NULL || pen->out_of_memory)
       break;
     next_command(&path);
     if (path.before == '\0' && path.command != 'M')

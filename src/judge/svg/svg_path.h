@@ -1,14 +1,15 @@
-/* svg_path.h - the outlines of an SVG file's elements, as straight strokes. */
+/* svg_path.h - converts SVG path data and arcs to line segments. */
 #ifndef JUDGE_SVG_SVG_PATH_H
 #define JUDGE_SVG_SVG_PATH_H
 
 #include "judge/svg/svg_pen.h"
 
-/* An arc of an ellipse as SVG has it; angle in degrees. */
+/* Adds an elliptical arc, with the parameters of SVG; angle in degrees. */
 void svg_pen_arc(struct svg_pen *pen, double rx, double ry, double angle_deg,
                  bool large, bool sweep, struct judge_point2 to);
 
-/* Draws what a path's data say.  Returns NULL, or what is wrong with them. */
+/* Adds the strokes of path data.  Returns NULL, or a description of the
+ * error. */
 const char *svg_path(struct svg_pen *pen, struct svg_text data);
 
 #endif

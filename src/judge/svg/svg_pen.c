@@ -1,10 +1,11 @@
-/* svg_pen.c - draws lines and curves of an SVG file, on the page alone.
+/* svg_pen.c - adds lines and curves of an SVG file to a drawing, clipped to the
+ * page.
  *
- * Curves are taken to the page before they are cut into pieces, so that these
- * are as fine there as they must be.  Where a curve would take more than MOST
- * pieces it is halved first, and halves beyond the page become one piece:
- * their number follows from what is on the page, not from how far away a
- * control point is. */
+ * Curves are transformed to the page before they are subdivided, so that the
+ * tolerance holds there.  A curve that would need more than MOST segments is
+ * halved first, and a half outside the page becomes one segment: so their
+ * number depends on what is on the page, not on the distance of control points.
+ */
 #include "judge/svg/svg_pen.h"
 
 #include <math.h>
@@ -18,10 +19,10 @@
 
 static void put(struct svg_pen *pen, struct judge_point2 at) {
   struct judge_drawing *drawing = pen->drawing;
-  if (pen->starved)
+  if (pen->out_of_memory)
     return;
-  pen->starved = !ARRAY_PUSH(&drawing->point, at);
-  if (!pen->starved)
+  pen->out_of_memory = !ARRAY_PUSH(&drawing->point, at);
+  if (!pen->out_of_memory)
     drawing->stroke.item[drawing->stroke.count - 1].count++;
 }
 
@@ -29,17 +30,16 @@ static void put(struct svg_pen *pen, struct judge_point2 at) {
 static void put_first(struct svg_pen *pen, struct judge_point2 at) {
   struct judge_stroke stroke = {(uint32_t)pen->drawing->point.count, 0,
                                 pen->role};
-  if (pen->starved)
+  if (pen->out_of_memory)
     return;
-  pen->starved = !ARRAY_PUSH(&pen->drawing->stroke, stroke);
+  pen->out_of_memory = !ARRAY_PUSH(&pen->drawing->stroke, stroke);
   put(pen, at);
 }
 
-/* Moves the one of two places that is beyond x = limit to where the line
- * between them crosses it; false where both are beyond.
- * sign  1: what is greater is beyond; -1: what is less
- * The crossing is reckoned from the nearer place, in halves: places may be as
- * far away as doubles go. */
+/* Clips a segment at x = limit; false where all of it is outside.
+ * sign  1: greater x is outside; -1: lesser x is
+ * The crossing is computed from the end that is nearer, with halved operands:
+ * coordinates may be as large as doubles get. */
 static bool cut_at(double limit, double sign, double *ax, double *ay,
                    double *bx, double *by) {
   bool a_beyond = sign * *ax > sign * limit,
@@ -59,8 +59,8 @@ static bool cut_at(double limit, double sign, double *ax, double *ay,
   return false;
 }
 
-/* Cuts the line from a to b to the page and its margin; false where it is
- * beyond. */
+/* Clips the segment from a to b to the page and its margin; false where it is
+ * outside. */
 static bool cut(const struct svg_pen *pen, struct judge_point2 *a,
                 struct judge_point2 *b) {
   double right = pen->drawing->width_mm + MARGIN_MM;
@@ -75,7 +75,7 @@ static bool is_same(struct judge_point2 a, struct judge_point2 b) {
   return a.x == b.x && a.y == b.y;
 }
 
-/* Whether a place is one; where not, the drawing is refused. */
+/* Whether a point is finite; if not, the drawing is an error. */
 static bool is_place(struct svg_pen *pen, struct judge_point2 at) {
   if (isfinite(at.x) && isfinite(at.y))
     return true;
@@ -83,7 +83,7 @@ static bool is_place(struct svg_pen *pen, struct judge_point2 at) {
   return false;
 }
 
-/* Draws on to a place of the page. */
+/* Adds a point to the current stroke. */
 static void draw_to(struct svg_pen *pen, struct judge_point2 to) {
   struct judge_point2 a = pen->last, b = to;
   if (!is_place(pen, to))
@@ -97,7 +97,7 @@ static void draw_to(struct svg_pen *pen, struct judge_point2 to) {
   pen->last = to;
 }
 
-/* Begins at the pen's place, unless lines go on there. */
+/* Starts at the current position, unless a line ended there. */
 static void put_down(struct svg_pen *pen) {
   if (pen->down)
     return;
@@ -130,15 +130,15 @@ struct cubic {
   int halved;               /* how often */
 };
 
-/* How far the middle of three is from where it would be on a straight line at
- * an even pace. */
+/* The length of the second difference of three control points. */
 static double bend(struct judge_point2 a, struct judge_point2 b,
                    struct judge_point2 c) {
   return hypot(a.x - 2 * b.x + c.x, a.y - 2 * b.y + c.y);
 }
 
-/* A chord over 1 / n of a curve is off by at most max |curve''| / (8 n^2), and
- * curve'' by at most 6 bends. */
+/* The number of segments n for the tolerance.  A chord over 1 / n of the
+ * parameter range is off by at most max |curve''| / (8 n^2), and |curve''| is
+ * at most 6 times the larger second difference of the control points. */
 static double pieces_of(const struct cubic *c) {
   double bent =
       fmax(bend(c->p[0], c->p[1], c->p[2]), bend(c->p[1], c->p[2], c->p[3]));
@@ -155,7 +155,7 @@ static struct judge_point2 middle(struct judge_point2 a,
   return (struct judge_point2){a.x / 2 + b.x / 2, a.y / 2 + b.y / 2};
 }
 
-/* Cuts a curve in two: the first half stays in its place. */
+/* Splits a curve in two (de Casteljau); the first half replaces it. */
 static struct cubic halve(struct cubic *c) {
   struct judge_point2 ab = middle(c->p[0], c->p[1]),
                       bc = middle(c->p[1], c->p[2]),
@@ -168,7 +168,8 @@ static struct cubic halve(struct cubic *c) {
   return second;
 }
 
-/* Whether all of a curve is beyond one border of the page and its margin. */
+/* Whether all control points are outside one border of the page with its
+ * margin. */
 static bool is_beyond(const struct svg_pen *pen, const struct cubic *c) {
   double right = pen->drawing->width_mm + MARGIN_MM;
   double top = pen->drawing->height_mm + MARGIN_MM;
@@ -196,14 +197,14 @@ static void draw_pieces(struct svg_pen *pen, const struct cubic *c, int n) {
   *pen->pieces -= stored < *pen->pieces ? stored : *pen->pieces;
 }
 
-/* A curve that is halved at all is halved until its pieces are few: then what
- * is beyond the page is left out early. */
+/* A curve that needs halving is halved until it needs only a few segments, so
+ * that parts outside the page are found early. */
 static void draw_cubic(struct svg_pen *pen, struct cubic curve) {
   enum { MOST = 1000, FEW = 16, HALVINGS = 64 };
   struct cubic rest[HALVINGS + 1];
   int left = 0;
   rest[left++] = curve;
-  while (left > 0 && pen->fault == NULL && !pen->starved) {
+  while (left > 0 && pen->fault == NULL && !pen->out_of_memory) {
     struct cubic *c = &rest[left - 1];
     double n = pieces_of(c), most = c->halved == 0 ? MOST : FEW;
     if (n > most && c->halved < HALVINGS && !is_beyond(pen, c)) {

@@ -1,7 +1,7 @@
 /* svg_scan.h - tags, attributes, numbers and transforms of an SVG file.
  *
- * Numbers are read by a reader of its own, not by the house's, so that a fault
- * in writing them is not undone by the same fault in reading. */
+ * Numbers are read by code of its own, not by the library's, so that an error
+ * in writing them cannot be masked by the same error in reading. */
 #ifndef JUDGE_SVG_SVG_SCAN_H
 #define JUDGE_SVG_SVG_SCAN_H
 
@@ -10,7 +10,7 @@
 
 #include "judge/triangles.h"
 
-/* A part of the file. */
+/* A part of the file: a pointer to it and past it. */
 struct svg_text {
   const char *at, *end;
 };
@@ -23,8 +23,9 @@ struct svg_tag {
   struct svg_text rest; /* its attributes */
 };
 
-/* The next tag, past comments, declarations and whatever is between.
- * Returns false at the end, and with *broken where the file ends in one. */
+/* Finds the next tag; comments, declarations and text are skipped.
+ * broken  set where the file ends within a tag
+ * Returns false at the end. */
 bool svg_next_tag(struct svg_text *file, struct svg_tag *tag, bool *broken);
 
 bool svg_is(struct svg_text text, const char *word);
@@ -43,8 +44,8 @@ void svg_skip_spaces(struct svg_text *text); /* and commas */
 /* Reads a number, after spaces; false where there is none, or one that is too
  * large for a double. */
 bool svg_number(struct svg_text *text, double *value);
-/* A length in mm; of one without a unit, 96 are an inch.  False for shares and
- * what is no length. */
+/* Converts a length to mm; without a unit it is in pixels, 96 to the inch.
+ * False for percentages and what is no length. */
 bool svg_length_mm(struct svg_text text, double *mm);
 
 /* x' = a x + c y + e, y' = b x + d y + f */
@@ -53,10 +54,10 @@ struct svg_matrix {
 };
 
 struct judge_point2 svg_apply(const struct svg_matrix *m, double x, double y);
-/* First n, then m. */
+/* The matrix that applies n, then m. */
 struct svg_matrix svg_product(const struct svg_matrix *m,
                               const struct svg_matrix *n);
-/* Reads a list of transforms; false where it makes no sense. */
+/* Reads a list of transforms; false on a syntax error. */
 bool svg_transform(struct svg_text text, struct svg_matrix *matrix);
 
 #endif
