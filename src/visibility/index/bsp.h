@@ -28,7 +28,7 @@ struct bsp_member {
   uint64_t right_copy; /* bit k: on level k it is on both sides, and this is the
                           member on the right */
   uint32_t triangle;
-  uint32_t place; /* its index in the list that was given to bsp_add */
+  uint32_t list_index; /* in the list that was given to bsp_add */
 };
 
 /* Any number of trees. */

@@ -1,11 +1,10 @@
 /* duplicate_triangles.c - finds triangles of which others are exact duplicates.
  *
  * Phases
- *   1 triangles whose corners have the same coordinates form a class, whose
- *   name
- *     is its first triangle
+ *   1 triangles whose corners have the same coordinates form a class, which is
+ *     named by its first triangle
  *   2 edges whose ends have the same coordinates, and at which triangles of the
- *     same classes meet, form an edge class, whose name is a number
+ *     same classes meet, form an edge class, which is named by a number
  *   3 triangles of one class whose sides are of the same edge classes are
  *     duplicates
  * Hashes only bring together what may be equal; coordinates are compared.
@@ -18,7 +17,7 @@
 
 enum {
   REPRESENTATIVES = 2, /* of each class of duplicates */
-  FREQUENT = 4 /* duplicates abound where one in so many triangles is one */
+  DUPLICATES_MIN = 4   /* one in so many triangles is a duplicate: many are */
 };
 
 /* ---- 1 Classes ----------------------------------------------------------- */
@@ -92,26 +91,25 @@ static bool have_same_coordinates(const struct sheet *sheet,
          compare_coordinates(a, b, (void *)(uintptr_t)sheet) == 0;
 }
 
-bool duplicate_triangles_abound(const struct sheet *sheet,
-                                const uint32_t *triangle, size_t count,
-                                bool *abound) {
+bool duplicate_triangles_are_many(const struct sheet *sheet,
+                                  const uint32_t *triangle, size_t count,
+                                  bool *many) {
   struct sort_key *key = sort_by_coordinates(sheet, triangle, count);
   size_t duplicates = 0;
   if (key == NULL)
     return false;
   for (size_t i = 1; i < count; i++)
     duplicates += have_same_coordinates(sheet, &key[i - 1], &key[i]);
-  *abound = duplicates > count / FREQUENT;
+  *many = duplicates > count / DUPLICATES_MIN;
   mem_free(key);
   return true;
 }
 
 struct duplicate_finder {
   const struct sheet *sheet;
-  uint32_t *class; /* per triangle */
-  uint32_t *size;  /* of the class that a triangle names */
-  uint8_t
-      *marked; /* per point: not 0: some triangle there may be a duplicate */
+  uint32_t *class;      /* per triangle */
+  uint32_t *size;       /* of the class that a triangle names */
+  uint8_t *marked;      /* per point, not 0: it may be a duplicate's corner */
   uint32_t *edge_class; /* per side, 3 * triangle + k; SHEET_NONE: not marked */
   uint8_t *left_out;    /* per triangle: the result */
 };

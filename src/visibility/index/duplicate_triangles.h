@@ -25,9 +25,9 @@
 /* Decides whether the list contains so many duplicates that
  * duplicate_triangles_find is worth while.
  * Returns false when memory ran out. */
-USE_RESULT bool duplicate_triangles_abound(const struct sheet *sheet,
-                                           const uint32_t *triangle,
-                                           size_t count, bool *abound);
+USE_RESULT bool duplicate_triangles_are_many(const struct sheet *sheet,
+                                             const uint32_t *triangle,
+                                             size_t count, bool *many);
 
 /* Finds the triangles of the sheet for which representatives stand.
  * left_out  gets one byte per triangle, not 0 where it is one of these; the

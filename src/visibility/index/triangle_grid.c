@@ -183,17 +183,17 @@ static void shorten_lists(struct triangle_grid *grid) {
 static bool leave_out_duplicates(struct triangle_grid *grid) {
   size_t cells = triangle_grid_cell_count(grid), longest = 0;
   const uint32_t *start = grid->start;
-  bool abound;
+  bool many;
   for (size_t c = 1; c < cells; c++)
     if (start[c + 1] - start[c] > start[longest + 1] - start[longest])
       longest = c;
   size_t count = start[longest + 1] - start[longest];
   if (count < TRIANGLE_GRID_DUPLICATES)
     return true;
-  if (!duplicate_triangles_abound(grid->sheet, grid->item + start[longest],
-                                  count, &abound))
+  if (!duplicate_triangles_are_many(grid->sheet, grid->item + start[longest],
+                                    count, &many))
     return false;
-  if (!abound)
+  if (!many)
     return true;
   if (!duplicate_triangles_find(grid->sheet, &grid->left_out))
     return false;

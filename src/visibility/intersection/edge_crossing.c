@@ -80,7 +80,7 @@ void edge_crossings_fini(struct edge_crossings *crossings) {
   ARRAY_FREE(&crossings->slanted);
 }
 
-/* ---- Which part of an edge ----------------------------------------------- */
+/* ---- Clipping ------------------------------------------------------------ */
 
 /* Clips an edge to triangle g on the page.
  * end  gets the ends of the clipped edge, rounded to the grid
@@ -319,13 +319,13 @@ static bool are_in_contact(const struct sheet *sheet,
 }
 
 /* The triangles about an edge. */
-struct fan {
+struct edge_fan {
   ARRAY(struct fan_triangle) list;
 };
 
 /* Collects the triangles incident to an edge; reversed: in its opposite
  * direction. */
-static bool gather_fan(struct fan *fan, const struct sheet *sheet,
+static bool gather_fan(struct edge_fan *fan, const struct sheet *sheet,
                        const struct incidences *incidences,
                        struct edge_crossing_side edge, bool reversed) {
   const struct incidence *end,
@@ -339,8 +339,8 @@ static bool gather_fan(struct fan *fan, const struct sheet *sheet,
 }
 
 /* Removes the triangles of a fan that are in contact with one of the others. */
-static void drop_touching(const struct sheet *sheet, struct fan *fan,
-                          const struct fan *others) {
+static void drop_touching(const struct sheet *sheet, struct edge_fan *fan,
+                          const struct edge_fan *others) {
   struct fan_triangle *w = fan->list.item;
   size_t kept = 0;
   for (size_t i = 0; i < fan->list.count; i++) {
@@ -357,7 +357,7 @@ static void drop_touching(const struct sheet *sheet, struct fan *fan,
  * than one of the angles between those of a?  If so, the first of a and some
  * other of a separate the first of b from some other of b: these pairs
  * suffice. */
-static bool do_alternate(const struct fan *a, const struct fan *b) {
+static bool do_alternate(const struct edge_fan *a, const struct edge_fan *b) {
   const struct fan_triangle *u = a->list.item, *v = b->list.item;
   for (size_t i = 1; i < a->list.count; i++)
     for (size_t j = 1; j < b->list.count; j++)
@@ -380,7 +380,7 @@ static bool are_opposite(const struct sheet *sheet, struct edge_crossing_side e,
 static bool do_cross(const struct sheet *sheet,
                      const struct incidences *incidences,
                      const struct edge_crossing *crossing,
-                     struct fan scratch[3], bool *cross) {
+                     struct edge_fan scratch[3], bool *cross) {
   bool opposite = are_opposite(sheet, crossing->side[0], crossing->side[1]);
   if (!gather_fan(&scratch[0], sheet, incidences, crossing->side[0], false) ||
       !gather_fan(&scratch[1], sheet, incidences, crossing->side[1],
@@ -474,7 +474,7 @@ static uint32_t first_triangle(const struct incidences *incidences,
 static bool decide_crossing(const struct sheet *sheet,
                             const struct incidences *incidences,
                             const struct edge_crossing *crossing,
-                            struct fan scratch[3],
+                            struct edge_fan scratch[3],
                             struct intersection_segments *segments,
                             struct intersection_segment *segment, bool *cross) {
   const struct edge_crossing_side *side = crossing->side;
@@ -541,7 +541,7 @@ bool edge_crossings_resolve(struct edge_crossings *crossings,
                             uint64_t *count) {
   size_t n = crossings->list.count;
   struct edge_crossing *crossing = crossings->list.item;
-  struct fan scratch[3] = {0};
+  struct edge_fan scratch[3] = {0};
   struct incidences incidences = {0};
   bool ok = false;
   if (n == 0 && crossings->slanted.count == 0)

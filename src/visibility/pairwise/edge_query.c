@@ -107,7 +107,7 @@ static bool test_bsp(struct edge_query *query, struct cell_query *at) {
   while ((node = bsp_next(grid->bsp, &walk, &shape)) != NULL) {
     const struct bsp_member *member = grid->bsp->member.item + node->from;
     for (uint32_t i = 0; i < node->count; i++) {
-      if (!kdop8_overlaps(key[member[i].place], at->kdop_query))
+      if (!kdop8_overlaps(key[member[i].list_index], at->kdop_query))
         continue;
       if (!test_triangle(query, member[i].triangle))
         return false;

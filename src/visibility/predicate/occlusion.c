@@ -28,7 +28,9 @@ double occlusion_grid_units(const struct sheet *sheet) {
 
 /* The contact length times L, the length of the plane's normal in the scene,
  * whose coordinates along the camera's axes are (S nx, S ny, third)
- * (occlusion.h). */
+ * (occlusion.h).  Where no length is given, contact along each axis of the
+ * scene is the bound of the coordinates' rounding error, and the result is the
+ * sum of these bounds times the normal's components. */
 static double contact_times_length(const struct sheet *sheet, uint32_t triangle,
                                    double nx, double ny, double third) {
   const struct camera *camera = &sheet->camera;
