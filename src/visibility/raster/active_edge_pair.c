@@ -1,11 +1,12 @@
-/* active_edge_pair.c - an active polygon of the z-buffers. */
+/* active_edge_pair.c - an active polygon of the z-buffers, line by line. */
 #include "visibility/raster/active_edge_pair.h"
 
 #include <math.h>
 
 #include "visibility/raster/span_fill.h"
 
-/* The depth on the left edge, from the corner that this edge leads to. */
+/* The depth on the left edge at the current line, computed from the corner at
+ * which this edge ends. */
 static double depth_on_left(const struct active_edge_pair *pair,
                             const struct raster *raster) {
   const struct scan_grid *grid = &raster->grid;
@@ -60,12 +61,12 @@ bool active_edge_pair_start(struct active_edge_pair *pair,
 bool active_edge_pair_next(struct active_edge_pair *pair,
                            const struct raster *raster) {
   double dx_left = pair->edges.left.dx;
-  struct scan_point point[FACET_CORNERS_MAX], *asked = NULL;
+  struct scan_point point[FACET_CORNERS_MAX], *needed = NULL;
   if (scan_convex_ends(&pair->edges))
     return false;
   if (pair->edges.left.dy == 0 || pair->edges.right.dy == 0)
-    set_points(pair, raster, asked = point);
-  if (!scan_convex_next(&pair->edges, &raster->grid, asked))
+    set_points(pair, raster, needed = point);
+  if (!scan_convex_next(&pair->edges, &raster->grid, needed))
     return false;
   if (pair->edges.left_new)
     pair->z_left = depth_on_left(pair, raster);
@@ -74,7 +75,7 @@ bool active_edge_pair_next(struct active_edge_pair *pair,
   return true;
 }
 
-/* A facet too steep for steps of doubles. */
+/* Draws a facet that is too steep for incremental depths in doubles. */
 static void draw_steep(const struct active_edge_pair *pair,
                        struct raster *raster, int32_t first, int32_t past) {
   int32_t line = pair->edges.left.line;
@@ -93,7 +94,8 @@ static void draw_steep(const struct active_edge_pair *pair,
   }
 }
 
-/* Steep facets are kept within their own depths. */
+/* Draws into a frame of integer depths.  The depths are clamped to those of the
+ * facet's corners, for steep facets. */
 static void draw_levels(const struct active_edge_pair *pair,
                         struct raster *raster, int32_t first, int32_t past) {
   size_t row = raster_row(raster, pair->edges.left.line);

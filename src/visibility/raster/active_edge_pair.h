@@ -1,5 +1,5 @@
-/* active_edge_pair.h - an active polygon of the z-buffers: its pair of active edges and
- * the depth along the left one.
+/* active_edge_pair.h - an active polygon of the z-buffers: its pair of active
+ * edges and the depth along the left one.
  *
  * The plane of a facet is a x + b y + c z + d = 0 in frame units, so that
  *     z = -(a x + b y + d) / c,   dz_x = a / c,   dz_y = b / c.
@@ -18,28 +18,28 @@
 struct active_edge_pair {
   uint32_t facet;
   uint32_t count;
-  const uint32_t *corner; /* lent: the facet's `count` sheet points */
+  const uint32_t *corner; /* the facet's `count` sheet points; borrowed, not
+                             owned */
   struct scan_convex edges;
   double z_left, dz_x, dz_y;
   double z_low, z_high; /* of the facet's corners */
   bool gentle;          /* see RASTER_GENTLE */
 };
 
-/* Starts a facet at its first line, the topmost.  Returns false where it
- * covers no line.
- * facet  a triangle that stands for its facet and is not flat */
+/* Starts a facet at its topmost line.  Returns false where it covers no line.
+ * facet  a triangle that identifies its facet (facet_of) and is not flat */
 bool active_edge_pair_start(struct active_edge_pair *pair,
                             const struct raster *raster,
                             const struct facets *facets, uint32_t facet);
 
-/* Puts the line at hand into the frame where the facet is nearer than what is
- * there.  A facet has the pixels whose centres lie on its left or right side,
- * too: depth decides between it and its neighbour.  Returns how many pixels it
- * covers. */
+/* Draws the current line into the frame where the facet is nearer than what is
+ * there.  A facet covers the pixels whose centres lie on its left or right
+ * side, too: depth decides between it and its neighbour.  Returns how many
+ * pixels it covers, hidden ones included. */
 size_t active_edge_pair_draw(const struct active_edge_pair *pair,
                              struct raster *raster);
 
-/* Goes one line down; false past the last. */
+/* Moves one line down; false past the last line. */
 bool active_edge_pair_next(struct active_edge_pair *pair,
                            const struct raster *raster);
 

@@ -1,15 +1,15 @@
-/* pixels.c - from a frame's lines to the visible map.
+/* pixels.c - from the finished lines of a pixel frame to the visible map.
  *
- * Fragments: neighbouring pixels of one scene face are a span; its sides are
- * borders of pixels, cuts of the method's own. */
+ * Fragments: neighbouring pixels of one scene face make a span; its sides are
+ * borders of pixels, cuts of the method (MAP_SIDE_CUT). */
 #include "visibility/raster/pixels.h"
 
 #include <math.h>
 #include <string.h>
 
-#define LINES_A_QUESTION 64 /* whether to go on, at most */
+#define LINES_PER_POLL 64 /* progress is polled at least this often */
 
-/* The line a facet starts at from the top, or -1 where it covers none. */
+/* The topmost line that a facet covers, or -1 where it covers none. */
 static int32_t top_line(const struct raster *raster,
                         const struct facets *facets, uint32_t facet) {
   const uint32_t *corner, *side;
@@ -49,8 +49,8 @@ struct sort_key *pixels_buckets(const struct raster *raster,
   return key;
 }
 
-/* One a sheet edge: 1 where all its faces turn their backs and are removed,
- * so that it is no longer there to be drawn.  NULL when memory ran out. */
+/* One byte a sheet edge: 1 where all its faces are back faces and so removed,
+ * the edge with them.  NULL when memory ran out. */
 static uint8_t *find_backs(const struct sheet *sheet) {
   uint8_t *skip = mem_calloc(sheet->edge.count, 1);
   for (size_t e = 0; skip != NULL && e < sheet->edge.count; e++) {
@@ -63,7 +63,7 @@ static uint8_t *find_backs(const struct sheet *sheet) {
   return skip;
 }
 
-static bool open_trace(struct pixels *pixels) {
+static bool init_sampling(struct pixels *pixels) {
   const struct raster *raster = pixels->raster;
   double step = raster->depth_bits > 0 ? 1 / raster->level_scale : 1;
   uint8_t *skip = NULL;
@@ -92,7 +92,7 @@ recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
       (subpixels > 1 &&
        !subpixels_init(&pixels->subpixels, subpixels, raster->grid.columns,
                        pixels->grid.columns)) ||
-      (request->strokes && !open_trace(pixels)) ||
+      (request->strokes && !init_sampling(pixels)) ||
       (request->fragments &&
        !trapezoids_init(&pixels->trapezoids, sheet, &pixels->grid,
                         (size_t)pixels->grid.columns))) {
@@ -151,10 +151,10 @@ static bool add_spans(struct pixels *pixels, int32_t line,
   return true;
 }
 
-/* Follows the edges from the line above, if there is one, to this one, if
+/* Samples the edges between the line above, if there is one, and this one, if
  * there is one. */
-static bool trace_edges(struct pixels *pixels, int32_t line,
-                        const struct pixel_row *row) {
+static bool sample_edges(struct pixels *pixels, int32_t line,
+                         const struct pixel_row *row) {
   const struct scan_grid *grid = &pixels->grid;
   const struct pixel_row above = {pixels->above, grid->columns};
   if (!edge_sampling_line(&pixels->sampling, line, seen_at,
@@ -178,10 +178,10 @@ recto_status pixels_line(struct pixels *pixels, int32_t line,
     line /= subpixels->k;
     row.seen = subpixels->pixel;
   }
-  if (whole && ((request->strokes && !trace_edges(pixels, line, &row)) ||
+  if (whole && ((request->strokes && !sample_edges(pixels, line, &row)) ||
                 (request->fragments && !add_spans(pixels, line, &row))))
     return error_memory(error);
-  return progress_step_at(&pixels->progress, PROGRESS_WORK / LINES_A_QUESTION,
+  return progress_step_at(&pixels->progress, PROGRESS_WORK / LINES_PER_POLL,
                           (size_t)done, (size_t)raster->grid.lines)
              ? RECTO_OK
              : progress_error(&pixels->progress, error);
@@ -199,7 +199,7 @@ recto_status pixels_finish(struct pixels *pixels, struct map *map,
                            struct report *report, const char *section,
                            recto_error *error) {
   if ((pixels->request->strokes &&
-       (!trace_edges(pixels, -1, NULL) ||
+       (!sample_edges(pixels, -1, NULL) ||
         !edge_sampling_finish(&pixels->sampling, map))) ||
       (pixels->request->fragments &&
        !trapezoids_finish(&pixels->trapezoids, map)))

@@ -1,5 +1,4 @@
-/* pixels.h - from a frame's lines to the visible map: what the two z-buffers
- * share after a line was drawn. */
+/* pixels.h - from the finished lines of a pixel frame to the visible map. */
 #ifndef VISIBILITY_RASTER_PIXELS_H
 #define VISIBILITY_RASTER_PIXELS_H
 
@@ -11,6 +10,7 @@
 #include "visibility/raster/subpixels.h"
 #include "visibility/scan/edge_sampling.h"
 
+/* The lines so far, and what they make of edges and faces. */
 struct pixels {
   const struct raster *raster;
   const struct solver_request *request;
@@ -19,36 +19,37 @@ struct pixels {
   struct subpixels subpixels; /* k > 1: the raster's pixels are sub-pixels */
   struct edge_sampling sampling;
   struct trapezoids trapezoids;
-  uint32_t *above; /* what was seen on the line before */
+  uint32_t *above; /* the facets visible on the line above */
 };
 
-/* The facets that are drawn (with area, their backs not removed) and cover a
- * line, by their top line, counted from the top, then by their order: the value
- * is the facet, the key the line.
- * Returns NULL when memory ran out. */
+/* Bucket-sorts the facets that are drawn (with area, not removed as backs) and
+ * cover a line: by top line, counted from the top, then by index.  The key is
+ * the line, the value the facet.
+ * Returns NULL when memory ran out.
+ * Owner  the caller: mem_free */
 struct sort_key *pixels_buckets(const struct raster *raster,
                                 const struct facets *facets,
                                 const struct solver_request *request,
                                 size_t *count);
 
-/* subpixels  K: a pixel is made of K x K of the raster's; 1: of one */
+/* subpixels  K: a pixel is made of K x K pixels of the raster; 1: of one */
 USE_RESULT recto_status pixels_init(struct pixels *pixels,
                                     const struct raster *raster, int subpixels,
                                     const struct solver_request *request,
                                     recto_error *error);
 void pixels_fini(struct pixels *pixels);
 
-/* Takes a finished line of the frame; all come, from the top.
+/* Adds a finished line of the frame.  To be called for all lines, from the top.
  * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED. */
 USE_RESULT recto_status pixels_line(struct pixels *pixels, int32_t line,
                                     recto_error *error);
 
-/* Writes the map, and to `section` of the report what the frame was. */
+/* Writes the map, and the frame's size to `section` of the report. */
 USE_RESULT recto_status pixels_finish(struct pixels *pixels, struct map *map,
                                       struct report *report,
                                       const char *section, recto_error *error);
 
-/* All of it for a frame that holds all its lines. */
+/* pixels_init to pixels_fini, for a frame that holds all its lines. */
 USE_RESULT recto_status pixels_store(const struct raster *raster, int subpixels,
                                      const struct solver_request *request,
                                      struct map *map, struct report *report,

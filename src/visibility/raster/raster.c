@@ -1,23 +1,24 @@
-/* raster.c - the pixel frame.
+/* raster.c - the pixel frame: its grid, its memory and exact depths.
  *
- * The grid.  With the page H units high and N lines, a pixel is H / N units.
- * In units of 1 / (2 N) that is 2 H, and the page's lower border, -H / 2, is
- * -H N: all whole.  |coordinate| < 2^30 and N <= 2^16 keep well inside the
- * ranges of scanfill.h.
+ * Grid.  With the page H units high and N lines, a pixel is H / N units.  In
+ * units of 1 / (2 N) that is 2 H, and the page's lower border, -H / 2, is -H N:
+ * all integers.  |coordinate| < 2^30 and N <= 2^16 are well within the ranges
+ * of scanfill.h.
  *
  * Exact depth.  With D = den <= 2^17 and the centre (X, Y) in units of 1 / D,
- * a plane nx (x - ax) + ny (y - ay) + nz (z - az) = 0 is there at
+ * the plane nx (x - ax) + ny (y - ay) + nz (z - az) = 0 has the depth
  *     z = (az nz D - nx (X - ax D) - ny (Y - ay D)) / (nz D).
  * Inside a triangle the offsets are below 2^31 D = 2^48, so with nx, ny <
  * 2^72 the products are below 2^120, their sum below 2^122; the denominator
- * below 2^80: what ratio.h asks for.
+ * below 2^80: within the ranges of ratio.h.
  *
- * Doubt.  Let a gentle facet's depth change by G = RASTER_GENTLE over the
- * frame and u = 2^-53.  The x of its left edge is off by at most
- * 2 u columns (lines + 12) (scanfill.c), which moves its depth by 2 u G
- * (lines + 12); the slopes, each within 6 u of themselves, and the steps,
- * each rounded to u of at most 2^40, add less than 20 u G.  Two such depths
- * differ by less than 4 u G (lines + 22) from the truth.
+ * Error bound `doubt`.  Let a gentle facet's depth change by G = RASTER_GENTLE
+ * over the frame, and u = 2^-53.
+ *   - The x of its left edge is off by at most 2 u columns (lines + 12)
+ *     (scanfill.c), its depth thereby by 2 u G (lines + 12).
+ *   - The slopes, each with a relative error of 6 u, and the steps, each
+ *     rounded to u of at most 2^40, add less than 20 u G.
+ * So the difference of two such depths is off by less than 4 u G (lines + 22).
  */
 #include "visibility/raster/raster.h"
 
@@ -62,9 +63,10 @@ static double within(double value, double most) {
   return value < 0 ? 0 : value > most ? most : value;
 }
 
-/* Numerators are below 2^53 and whole, steps up to 2^32 (a page of 2 m) and
- * quotients below 2^17: one that is not whole is 2^-32 away from being so and
- * its rounding below 2^-36, so the first line is found exactly. */
+/* Finds the pixel of each point.  Numerators are integers below 2^53, steps at
+ * most 2^32 (a page of 2 m) and quotients below 2^17: a quotient that is not an
+ * integer is at least 2^-32 away from one and its rounding is below 2^-36, so
+ * the first line is found exactly. */
 static void find_places(struct raster *raster) {
   const struct scan_grid *grid = &raster->grid;
   const struct geom_point *at = raster->sheet->point.item;

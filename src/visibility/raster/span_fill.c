@@ -1,9 +1,9 @@
-/* span_fill.c - depths put into the pixel frame: whole triangles.
+/* span_fill.c - depth-tested drawing of whole triangles into a pixel frame.
  *
- * Doubt.  Where a triangle's depth is reckoned from its plane at frame (0, 0),
- * per line and column, each product and sum is rounded to u of at most
- * RASTER_GENTLE and the range of depths: with the slopes' own 4 u, less than
- * the 20 u G that raster.c allows for. */
+ * Error bound.  A depth is computed from the plane's at frame (0, 0) by the
+ * slopes per line and column; each product and sum is rounded to u of at most
+ * RASTER_GENTLE and the range of depths.  With the relative error 4 u of the
+ * slopes that is less than the 20 u G that raster.c allows for. */
 #include "visibility/raster/span_fill.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ void span_fill_settle(struct raster *raster, uint32_t facet, int32_t line,
   for (int32_t c = first; c < past; c++, z += per_column) {
     double *depth = &raster->depth[row + (size_t)c];
     uint32_t *seen = &raster->seen[row + (size_t)c];
-    /* The depth here may be rounded otherwise than it was then. */
+    /* This depth may be rounded differently than in the first pass. */
     if (fabs(z - *depth) < 2 * raster->doubt && *seen != raster_seen(facet) &&
         span_fill_is_nearer(raster, facet, raster_facet(*seen), c, line)) {
       *depth = z;
@@ -51,12 +51,12 @@ void span_fill_settle(struct raster *raster, uint32_t facet, int32_t line,
 
 /* ---- Triangles ----------------------------------------------------------- */
 
-enum { LINES = 32 }; /* walked at a time */
+enum { LINES = 32 }; /* processed at a time */
 
-/* An edge on its way down. */
+/* An edge that is followed from the top down. */
 struct falling {
   struct scan_edge edge;
-  double x; /* on the line at hand */
+  double x; /* on the current line */
 };
 
 static void find_columns_exactly(struct falling *falling,
@@ -67,8 +67,8 @@ static void find_columns_exactly(struct falling *falling,
         scan_edge_column_at(&falling->edge, grid, line - i, falling->x, on);
 }
 
-/* scan_edge_column_at for `count` lines from `line` down, without a jump where
- * doubles can tell for all of them; moves the edge past them. */
+/* scan_edge_column_at for `count` lines from `line` down, without branches
+ * where doubles decide for all of them; moves the edge past them. */
 static inline void find_columns(struct falling *falling,
                                 const struct scan_grid *grid, int32_t line,
                                 int32_t count, bool on, int32_t *column) {
@@ -88,8 +88,8 @@ static inline void find_columns(struct falling *falling,
     falling->x = x;
 }
 
-/* Fills `count` lines from `line` down, between two edges, and moves both on.
- * Returns how many pixels they cover. */
+/* Fills `count` lines from `line` down between two edges, and moves both past
+ * them.  Returns how many pixels they cover. */
 static int64_t fill_half(struct raster *raster, uint32_t triangle,
                          const struct span_fill_plane *plane,
                          struct falling *left, struct falling *right,
@@ -136,7 +136,7 @@ bool span_fill_triangle(struct raster *raster, uint32_t triangle,
       p[0].y > p[1].y ? (p[0].y > p[2].y ? 0 : 2) : (p[1].y > p[2].y ? 1 : 2);
   const struct scan_point *high = &p[top], *next = &p[top == 2 ? 0 : top + 1],
                           *last = &p[top == 0 ? 2 : top - 1];
-  /* Counter-clockwise from the highest leads down on the left. */
+  /* Counter-clockwise from the highest corner is down the left side. */
   bool left = next->y > last->y;
   const struct scan_point *middle = left ? next : last;
   const struct scan_point *low = left ? last : next;

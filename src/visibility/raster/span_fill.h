@@ -1,9 +1,10 @@
-/* span_fill.h - depths put into the pixel frame: spans, and whole triangles.
+/* span_fill.h - depth-tested drawing of spans, and of whole triangles, into a
+ * pixel frame of float64 depths.
  *
- * A triangle is split at its middle corner into two with a horizontal side:
- * the long edge goes through both, each of the short ones through its own.  It
- * covers the very pixels that active_edge_pair.h's walk covers, and float64 depths differ
- * from that walk's by less than the raster's doubt, so that both see the same.
+ * A triangle is split at its middle corner into two with a horizontal side: the
+ * long edge bounds both, each short one bounds one of them.  It covers the same
+ * pixels as with active_edge_pair.h, and the depths differ from those computed
+ * there by less than the raster's `doubt`, so that both yield the same frame.
  *
  * Source   Foley, van Dam, Feiner & Hughes ch. 3, 15.4. */
 #ifndef VISIBILITY_RASTER_SPAN_FILL_H
@@ -13,9 +14,10 @@
 
 #include "visibility/raster/raster.h"
 
-/* The depth of a facet's plane, and how it changes, in depth units. */
+/* The plane of a facet: its depth, and the change of depth per column and line,
+ * in depth units. */
 struct span_fill_plane {
-  double z; /* in frame units at x = 0, y = 0 */
+  double z; /* at x = 0, y = 0 in frame units */
   double per_column, per_line;
   bool gentle; /* see RASTER_GENTLE */
 };
@@ -24,14 +26,14 @@ struct span_fill_plane {
 void span_fill_plane_init(struct span_fill_plane *plane,
                           const struct raster *raster, uint32_t triangle);
 
-/* Is the facet nearer than the one that is there, SHEET_NONE where there is
- * none, or as near and earlier, at the pixel's centre?  Exact. */
+/* Is the facet nearer at the pixel's centre than facet `there` (SHEET_NONE:
+ * background), or as near and of lower index?  Exact. */
 bool span_fill_is_nearer(const struct raster *raster, uint32_t facet,
                          uint32_t there, int32_t column, int32_t line);
 
 /* ---- Spans --------------------------------------------------------------- */
 
-#define SPAN_FILL_LANES 4 /* pixels put into the frame at once, needed or not */
+#define SPAN_FILL_LANES 4 /* pixels drawn at once, past the span's end too */
 _Static_assert(SPAN_FILL_LANES - 1 <= RASTER_SPARE,
                "lanes end within the frame");
 
@@ -39,7 +41,7 @@ typedef double span_fill_pair __attribute__((vector_size(16)));
 typedef int64_t span_fill_mask __attribute__((vector_size(16)));
 typedef uint32_t span_fill_seen __attribute__((vector_size(16)));
 
-/* What all pixels of a facet share. */
+/* The constants of a facet's pixels. */
 struct span_fill_stamp {
   span_fill_pair step[2]; /* depths of the lanes less that of the first */
   double doubt;
@@ -55,9 +57,9 @@ span_fill_stamp_of(const struct raster *raster, uint32_t facet,
       raster_seen(facet)};
 }
 
-/* Puts two depths into the frame where they are nearer and `kept`.
- * close  gets where doubles cannot tell, too
- * Returns where they are nearer. */
+/* Stores two depths where they are nearer than those there and `kept` is set.
+ * close  the lanes in which doubles do not decide are added to it
+ * Returns the lanes in which they were stored. */
 static inline span_fill_mask
 span_fill_put_pair(double *depth, span_fill_pair here, span_fill_mask kept,
                    double doubt, span_fill_mask *close) {
@@ -75,7 +77,7 @@ span_fill_put_pair(double *depth, span_fill_pair here, span_fill_mask kept,
   return nearer;
 }
 
-/* Puts the first `count` lanes into the frame. */
+/* Draws the first `count` lanes. */
 static inline void span_fill_put_lanes(const struct span_fill_stamp *stamp,
                                        double *depth, uint32_t *seen, double z,
                                        double count, span_fill_mask *close) {
@@ -95,12 +97,13 @@ static inline void span_fill_put_lanes(const struct span_fill_stamp *stamp,
   memcpy(seen, &there, sizeof there);
 }
 
-/* Puts `count` pixels into a frame of float64 depths where the facet is nearer
- * than what is there.  Which of two is nearer is as good as random, and most
- * spans are short: no jump depends on the one, few on the other.
+/* Draws `count` pixels where the facet is nearer than what is there.  Which of
+ * two facets is nearer is unpredictable, and most spans are short: no branch
+ * depends on the former, few on the latter.
  * z      at the first pixel's centre
- * count  nothing is done where it is not above 0
- * close  gets not 0 where doubles cannot tell, for span_fill_settle */
+ * count  nothing is drawn where it is not above 0
+ * close  not 0 afterwards where doubles did not decide: call
+ * span_fill_settle */
 static inline void span_fill_put(const struct span_fill_stamp *stamp,
                                  double *depth, uint32_t *seen, double z,
                                  double count, span_fill_mask *close) {
@@ -113,8 +116,8 @@ static inline void span_fill_put(const struct span_fill_stamp *stamp,
   }
 }
 
-/* The second pass over a span: asks exactly about the pixels where doubles
- * could not tell. */
+/* The second pass over a span: compares exactly in the pixels where doubles did
+ * not decide. */
 void span_fill_settle(struct raster *raster, uint32_t facet, int32_t line,
                       int32_t first, int32_t past, double z, double per_column);
 
@@ -133,10 +136,9 @@ static inline void span_fill_span(struct raster *raster, uint32_t facet,
 
 /* ---- Triangles ----------------------------------------------------------- */
 
-/* Puts a triangle of the sheet that is not flat into a frame of float64 depths
- * that holds all lines.
- * covered  the pixels it covers, hidden or not, are added to it
- * Returns false, and does nothing, where it is too steep for doubles. */
+/* Draws a triangle of the sheet, not flat, into a frame that holds all lines.
+ * covered  the number of pixels it covers, hidden or not, is added to it
+ * Returns false, and does nothing, where the triangle is not gentle. */
 bool span_fill_triangle(struct raster *raster, uint32_t triangle,
                         int64_t *covered);
 

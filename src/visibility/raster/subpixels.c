@@ -1,4 +1,4 @@
-/* subpixels.c - supersampling: lines of K x K sub-pixels made lines of pixels.
+/* subpixels.c - supersampling: K lines of sub-pixels become a line of pixels.
  */
 #include "visibility/raster/subpixels.h"
 
@@ -16,7 +16,7 @@ recto_status subpixels_lines(const struct solver_request *request, int *lines,
   return RECTO_OK;
 }
 
-/* The facet most of the sub-pixels see, the earlier of equals. */
+/* The facet that most sub-pixels see, of equals the one of lower index. */
 static uint32_t find_most(const uint32_t *seen, uint32_t all) {
   uint32_t best = 0, most = 0;
   for (uint32_t i = 0; i < all; i++) {
@@ -62,8 +62,8 @@ void subpixels_fini(struct subpixels *subpixels) {
   memset(subpixels, 0, sizeof *subpixels);
 }
 
-/* The last pixel may reach beyond the sub-pixels of the page: there is
- * nothing. */
+/* Resolves all pixels of the line.  The last pixel may extend beyond the
+ * sub-pixels of the page, which are background there. */
 static void resolve_line(struct subpixels *subpixels) {
   int32_t k = subpixels->k;
   for (int32_t column = 0; column < subpixels->columns; column++) {

@@ -1,8 +1,8 @@
-/* subpixels.h - supersampling: lines of K x K sub-pixels made lines of pixels.
+/* subpixels.h - supersampling: K lines of sub-pixels become a line of pixels.
  *
- * A pixel has K x K sub-pixels, the pixels of a frame of K times as many
- * lines.  Where half of them or more see a facet, the pixel gets the facet that
- * most of them see, the earlier of equals; else it is background.
+ * A pixel has K x K sub-pixels, the pixels of a frame of K times as many lines.
+ * If at least half of them see a facet, the pixel gets the facet that most of
+ * them see, of equals the one of lower index; else it is background.
  *
  * Source   Foley, van Dam, Feiner & Hughes 14.10 (postfiltering).
  */
@@ -19,19 +19,18 @@ static inline int subpixels_of(const struct solver_request *request) {
   return request->subpixels == 0 ? 1 : request->subpixels;
 }
 
-/* How many lines of sub-pixels the request is for; raster_init refuses too
- * many.
+/* The number of lines of sub-pixels of a request; raster_init rejects too many.
  * Errors  RECTO_ERROR_ARGUMENT: K out of range. */
 USE_RESULT recto_status subpixels_lines(const struct solver_request *request,
                                         int *lines, recto_error *error);
 
-/* What a pixel gets to see from what its `all` sub-pixels do, as a raster has
- * it: 0 for nothing.
- * covered  gets how many see a facet */
+/* The value of a pixel from those of its `all` sub-pixels, in the form of
+ * raster_seen: 0 is background.
+ * covered  gets how many sub-pixels see a facet */
 uint32_t subpixels_resolve(const uint32_t *seen, uint32_t all,
                            uint32_t *covered);
 
-/* A line of pixels in the making. */
+/* The sub-pixels of the current line of pixels. */
 struct subpixels {
   int k;
   int32_t fine_columns, columns;
@@ -46,8 +45,8 @@ USE_RESULT bool subpixels_init(struct subpixels *subpixels, int k,
                                int32_t fine_columns, int32_t columns);
 void subpixels_fini(struct subpixels *subpixels);
 
-/* Takes a line of sub-pixels; they come from the top.  True where it was a
- * pixel line's last, which `pixel` then has. */
+/* Adds a line of sub-pixels; they come from the top.  Returns whether it
+ * completed a line of pixels, which is then in `pixel`. */
 bool subpixels_take(struct subpixels *subpixels, int32_t fine_line,
                     const uint32_t *seen);
 

@@ -1,4 +1,5 @@
-/* edge_sampling.c - the sheet's edges followed through what a scan has seen. */
+/* edge_sampling.c - approximate visible intervals of the sheet's edges, by
+ * sampling scan lines. */
 #include "visibility/scan/edge_sampling.h"
 
 #include <math.h>
@@ -27,7 +28,7 @@ edge_sampling_find_intersections(struct sheet *sheet,
   return status;
 }
 
-/* ---- Setting out --------------------------------------------------------- */
+/* ---- Edges and cells ----------------------------------------------------- */
 
 static double frame_of(int64_t at, int64_t den, int64_t first, int64_t step) {
   return (double)(at * den - first) / (double)step;
@@ -41,6 +42,7 @@ static double frame_y(const struct scan_grid *grid, int64_t y) {
   return frame_of(y, grid->den, grid->y_first, grid->y_step);
 }
 
+/* The bits of the number of cells: none is longer than half a line's height. */
 static int cell_bits(const struct scan_grid *grid, double dx, double dy) {
   double wide = fabs(dx) * (double)grid->x_step / (double)grid->y_step;
   double cells = 2 * (wide > fabs(dy) ? wide : fabs(dy));
@@ -50,14 +52,14 @@ static int cell_bits(const struct scan_grid *grid, double dx, double dy) {
   return bits;
 }
 
-/* The place of the middle of a cell counted from the top, 0 to 1. */
+/* The parameter, 0 to 1, of the middle of a cell counted from the top. */
 static double middle_of(const struct sampled_edge *edge, uint32_t cell) {
   double t = (cell + 0.5) / ldexp(1, edge->bits);
   return edge->turned ? 1 - t : t;
 }
 
-/* The line above whose centre, or at it, the middle of a cell is; -1 below
- * the lowest centre. */
+/* The highest line whose centre is not above the middle of a cell; -1 where all
+ * are. */
 static int32_t line_of(const struct edge_sampling *sampling,
                        const struct sampled_edge *edge, uint32_t cell) {
   double y = floor(edge->y0 + middle_of(edge, cell) * edge->dy - 0.5);
@@ -85,8 +87,8 @@ static void set_edge(const struct edge_sampling *sampling, uint32_t e,
   to->start = EDGE_SAMPLING_HIDDEN;
 }
 
-static bool is_traced(const struct sheet *sheet, size_t e,
-                      const uint8_t *skip) {
+static bool is_sampled(const struct sheet *sheet, size_t e,
+                       const uint8_t *skip) {
   const struct sheet_edge *edge = &sheet->edge.item[e];
   struct geom_point p = sheet->point.item[edge->point[0]];
   struct geom_point q = sheet->point.item[edge->point[1]];
@@ -94,7 +96,7 @@ static bool is_traced(const struct sheet *sheet, size_t e,
          (skip == NULL || !skip[e]);
 }
 
-/* Puts the edges in the order of their topmost lines. */
+/* Sorts the edges by their topmost line. */
 static bool sort_edges(struct edge_sampling *sampling,
                        struct sampled_edge *edge) {
   struct sort_key *key = mem_alloc(2 * sampling->count, sizeof *key);
@@ -122,7 +124,7 @@ bool edge_sampling_init(struct edge_sampling *sampling,
   sampling->reach_x = reach_x;
   sampling->step = step;
   for (size_t e = 0; e < sheet->edge.count; e++)
-    sampling->count += is_traced(sheet, e, skip);
+    sampling->count += is_sampled(sheet, e, skip);
   edge = mem_alloc(sampling->count, sizeof *edge);
   sampling->edge = mem_alloc(sampling->count, sizeof *sampling->edge);
   sampling->active = mem_alloc(sampling->count, sizeof *sampling->active);
@@ -131,7 +133,7 @@ bool edge_sampling_init(struct edge_sampling *sampling,
       sampling->bits != NULL) {
     size_t i = 0;
     for (size_t e = 0; e < sheet->edge.count; e++)
-      if (is_traced(sheet, e, skip)) {
+      if (is_sampled(sheet, e, skip)) {
         set_edge(sampling, (uint32_t)e, &edge[i]);
         sampling->bits[e] = (uint8_t)edge[i++].bits;
       }
@@ -151,12 +153,12 @@ void edge_sampling_fini(struct edge_sampling *sampling) {
   memset(sampling, 0, sizeof *sampling);
 }
 
-/* ---- Following ----------------------------------------------------------- */
+/* ---- Sampling ------------------------------------------------------------ */
 
-/* The least depth a facet's plane has where the scan's answer, given at
- * (x, line + 1/2), stands. */
-static double deepest(const struct edge_sampling *sampling, uint32_t facet,
-                      double x, int32_t line) {
+/* The farthest depth of a facet's plane in the part of the page for which the
+ * sample at (x, line + 1/2) stands. */
+static double farthest_depth(const struct edge_sampling *sampling,
+                             uint32_t facet, double x, int32_t line) {
   const struct sheet *sheet = sampling->sheet;
   struct geom_point corner =
       sheet->point.item[sheet->triangle.item[facet].point[0]];
@@ -168,8 +170,9 @@ static double deepest(const struct edge_sampling *sampling, uint32_t facet,
          fabs(per_column) * sampling->reach_x - fabs(per_line) * 0.5;
 }
 
-/* Orthographic z = Z (d_max - d); perspective z = Z (1 / d - 1 / d_max), where
- * dz = Z / d^2. */
+/* With Z = z_scale and d the distance from the viewer,
+ *     orthographic   z = Z (d_max - d),         |dz / dd| = Z,
+ *     perspective    z = Z (1 / d - 1 / d_max), |dz / dd| = Z / d^2. */
 double edge_sampling_contact(const struct sheet *sheet, uint32_t face,
                              double z) {
   const struct camera *camera = &sheet->camera;
@@ -181,41 +184,43 @@ double edge_sampling_contact(const struct sheet *sheet, uint32_t face,
   return coordinate_error_contact(sheet, face) * per_unit;
 }
 
-/* What a scan sees at the two lines about the cells at hand. */
-struct sight {
+/* The two scan lines between which the current cells lie. */
+struct sample_lines {
   edge_sampling_seen_fn seen;
   const void *upper, *lower;
   int32_t line; /* the lower one's */
 };
 
-/* Does the centre at frame x on one of the lines let depth z be seen? */
-static bool lets_be_seen(const struct edge_sampling *sampling,
-                         const struct sight *sight, bool upper, double x,
-                         double z) {
-  const void *line = upper ? sight->upper : sight->lower;
+/* Does the sample at frame x of the upper or lower line show no facet in front
+ * of depth z? */
+static bool sees_depth(const struct edge_sampling *sampling,
+                       const struct sample_lines *lines, bool upper, double x,
+                       double z) {
+  const void *line = upper ? lines->upper : lines->lower;
   uint32_t facet;
   if (line == NULL)
     return false;
-  facet = sight->seen(line, x);
+  facet = lines->seen(line, x);
   return facet == SHEET_NONE ||
-         z >= deepest(sampling, facet, x, sight->line + upper) -
+         z >= farthest_depth(sampling, facet, x, lines->line + upper) -
                   sampling->step -
                   edge_sampling_contact(
                       sampling->sheet,
                       sampling->sheet->triangle.item[facet].face, z);
 }
 
-/* Does the facet that a line sees above or below a place of an edge reach as
- * far as that place, and is it nearer there? */
-static bool is_covered(const struct edge_sampling *sampling,
-                       const struct sampled_edge *edge,
-                       const struct sight *sight, bool upper, double t) {
+/* Does the facet visible on a line above or below the point t of an edge extend
+ * to that point, and is it nearer there? */
+static bool is_occluded_by(const struct edge_sampling *sampling,
+                           const struct sampled_edge *edge,
+                           const struct sample_lines *lines, bool upper,
+                           double t) {
   const struct sheet *sheet = sampling->sheet;
   const struct sheet_edge *own = &sheet->edge.item[edge->edge];
   double x = edge->x0 + t * edge->dx, y = edge->y0 + t * edge->dy;
   double z = edge->z0 + t * edge->dz, at[3][2], per_column, per_line;
-  const void *line = upper ? sight->upper : sight->lower;
-  uint32_t facet = line != NULL ? sight->seen(line, x) : SHEET_NONE;
+  const void *line = upper ? lines->upper : lines->lower;
+  uint32_t facet = line != NULL ? lines->seen(line, x) : SHEET_NONE;
   if (facet == SHEET_NONE || facet == own->triangle[0] ||
       facet == own->triangle[1])
     return false;
@@ -237,28 +242,28 @@ static bool is_covered(const struct edge_sampling *sampling,
              per_column * at[0][0] - per_line * at[0][1];
 }
 
-/* Asks the centres about the middle of the cell, the nearest ones first. */
+/* Tests the samples about the middle of the current cell, the nearest first. */
 static bool is_visible(const struct edge_sampling *sampling,
                        const struct sampled_edge *edge,
-                       const struct sight *sight) {
+                       const struct sample_lines *lines) {
   double t = middle_of(edge, edge->cell), x = edge->x0 + t * edge->dx;
   double z = edge->z0 + t * edge->dz;
-  bool upper = edge->y0 + t * edge->dy > sight->line + 1;
+  bool upper = edge->y0 + t * edge->dy > lines->line + 1;
   double near = sampling->reach_x > 0 ? floor(x) + 0.5 : x;
   double far = x < near ? near - 1 : near + 1;
   if (sampling->reach_x == 0 && edge->between)
-    return lets_be_seen(sampling, sight, upper, near, z) &&
-           !is_covered(sampling, edge, sight, upper, t);
-  if (lets_be_seen(sampling, sight, upper, near, z))
+    return sees_depth(sampling, lines, upper, near, z) &&
+           !is_occluded_by(sampling, edge, lines, upper, t);
+  if (sees_depth(sampling, lines, upper, near, z))
     return true;
-  if (lets_be_seen(sampling, sight, !upper, near, z))
+  if (sees_depth(sampling, lines, !upper, near, z))
     return true;
-  return sampling->reach_x > 0 &&
-         (lets_be_seen(sampling, sight, upper, far, z) ||
-          lets_be_seen(sampling, sight, !upper, far, z));
+  return sampling->reach_x > 0 && (sees_depth(sampling, lines, upper, far, z) ||
+                                   sees_depth(sampling, lines, !upper, far, z));
 }
 
-static bool end_run(struct edge_sampling *sampling, struct sampled_edge *edge) {
+static bool close_run(struct edge_sampling *sampling,
+                      struct sampled_edge *edge) {
   uint32_t cells = (uint32_t)1 << edge->bits;
   struct sampled_run run = {edge->edge, edge->start, edge->cell};
   if (edge->start == EDGE_SAMPLING_HIDDEN)
@@ -271,34 +276,35 @@ static bool end_run(struct edge_sampling *sampling, struct sampled_edge *edge) {
   return ARRAY_PUSH(&sampling->run, run);
 }
 
-/* Follows an edge through the cells above the lower line's centre. */
-static bool follow(struct edge_sampling *sampling, struct sampled_edge *edge,
-                   const struct sight *sight) {
+/* Samples the cells of an edge above the lower line's centre. */
+static bool sample_edge(struct edge_sampling *sampling,
+                        struct sampled_edge *edge,
+                        const struct sample_lines *lines) {
   uint32_t cells = (uint32_t)1 << edge->bits;
   for (;
-       edge->cell < cells && line_of(sampling, edge, edge->cell) >= sight->line;
+       edge->cell < cells && line_of(sampling, edge, edge->cell) >= lines->line;
        edge->cell++) {
-    if (is_visible(sampling, edge, sight)) {
+    if (is_visible(sampling, edge, lines)) {
       if (edge->start == EDGE_SAMPLING_HIDDEN)
         edge->start = edge->cell;
-    } else if (!end_run(sampling, edge)) {
+    } else if (!close_run(sampling, edge)) {
       return false;
     }
   }
-  return edge->cell < cells || end_run(sampling, edge);
+  return edge->cell < cells || close_run(sampling, edge);
 }
 
 bool edge_sampling_line(struct edge_sampling *sampling, int32_t line,
                         edge_sampling_seen_fn seen, const void *upper,
                         const void *lower) {
-  const struct sight sight = {seen, upper, lower, line};
+  const struct sample_lines lines = {seen, upper, lower, line};
   size_t kept = 0;
   while (sampling->entered < sampling->count &&
          line_of(sampling, &sampling->edge[sampling->entered], 0) >= line)
     sampling->active[sampling->active_count++] = (uint32_t)sampling->entered++;
   for (size_t i = 0; i < sampling->active_count; i++) {
     struct sampled_edge *edge = &sampling->edge[sampling->active[i]];
-    if (!follow(sampling, edge, &sight))
+    if (!sample_edge(sampling, edge, &lines))
       return false;
     if (edge->cell < (uint32_t)1 << edge->bits)
       sampling->active[kept++] = sampling->active[i];
@@ -307,7 +313,7 @@ bool edge_sampling_line(struct edge_sampling *sampling, int32_t line,
   return true;
 }
 
-/* ---- Filing -------------------------------------------------------------- */
+/* ---- Results ------------------------------------------------------------- */
 
 bool edge_sampling_add(struct edge_sampling *sampling, struct sampled_run run,
                        int bits) {
@@ -315,7 +321,7 @@ bool edge_sampling_add(struct edge_sampling *sampling, struct sampled_run run,
   return ARRAY_PUSH(&sampling->run, run);
 }
 
-/* Files the runs of one edge, in order. */
+/* Stores the runs of one edge, in order, as intervals. */
 static bool store_runs(const struct edge_sampling *sampling,
                        const struct sort_key *key, size_t count,
                        struct map *map) {

@@ -1,4 +1,4 @@
-/* facets.c - the planar convex pieces of the sheet's faces. */
+/* facets.c - convex planar facets: unions of triangles of one face. */
 #include "visibility/scan/facets.h"
 
 #include <string.h>
@@ -126,7 +126,7 @@ static bool join_across(struct facet_joining *joining,
   return false;
 }
 
-/* Grows a facet from a triangle; it is filed where it has grown at all. */
+/* Grows a facet from a triangle; it is stored if it has grown at all. */
 static bool grow_facet(struct facet_joining *joining, uint32_t triangle) {
   struct facets *facets = joining->facets;
   const struct sheet_triangle *seed = &joining->sheet->triangle.item[triangle];
@@ -227,7 +227,7 @@ struct geom_plane facet_plane(const struct sheet *sheet, uint32_t facet) {
                        sheet->point.item[p[2]]);
 }
 
-/* Most are small, and then quickly converted. */
+/* Most values fit into 64 bits, whose conversion is fast. */
 static double to_double(int128 value) {
   int64_t low = (int64_t)value;
   return low == value ? (double)low : (double)value;

@@ -1,10 +1,9 @@
-/* facets.h - the planar convex pieces of the sheet's faces.
+/* facets.h - convex planar facets: unions of triangles of one face.
  *
- * The sheet's triangles carry diagonals that were only added to cut a face up.
- * Methods that walk the page line by line would stop at each of them, so
- * triangles of one face are joined again across diagonals, where they lie in
- * one plane exactly and the union is convex.  A facet is known by its lowest
- * triangle, which also is its plane.
+ * Triangulation adds diagonals to the faces.  Scan-line methods would process
+ * each of them as an edge, so triangles of one face are merged again across
+ * diagonals where they are exactly coplanar and the union is convex.  A facet
+ * is identified by its triangle of lowest index, which also defines its plane.
  */
 #ifndef VISIBILITY_SCAN_FACETS_H
 #define VISIBILITY_SCAN_FACETS_H
@@ -20,20 +19,21 @@ struct facet {
 };
 
 struct facets {
-  ARRAY(struct facet) joined; /* of more than one triangle, ascending */
+  ARRAY(struct facet) joined; /* those of more than one triangle, ascending */
   ARRAY(uint32_t) corner;     /* sheet points, counter-clockwise */
   ARRAY(uint32_t)
-  side;           /* side k, from corner k: a sheet edge or
+  side;           /* side k runs from corner k: a sheet edge or
                      SHEET_NONE */
   uint32_t *part; /* for each triangle its facet in `joined`, or SHEET_NONE;
-                     NULL where nothing was joined */
+                     NULL where nothing was merged */
 };
 
-/* Joins what can be joined.  Flat triangles stay alone. */
+/* Merges the triangles of each face greedily.  Flat triangles are not merged.
+ * Returns false when memory ran out. */
 USE_RESULT bool facets_init(struct facets *facets, const struct sheet *sheet);
 void facets_fini(struct facets *facets);
 
-/* The triangle that the facet of `triangle` is known by. */
+/* The triangle that identifies the facet of `triangle`. */
 static inline uint32_t facet_of(const struct facets *facets,
                                 uint32_t triangle) {
   if (facets->part == NULL || facets->part[triangle] == SHEET_NONE)
@@ -41,8 +41,9 @@ static inline uint32_t facet_of(const struct facets *facets,
   return facets->joined.item[facets->part[triangle]].triangle;
 }
 
-/* The corners (counter-clockwise) and sides of the facet that `triangle` is
- * the lowest of; returns how many.  Lends. */
+/* The corners (counter-clockwise) and sides of the facet that `triangle`
+ * identifies; returns how many.
+ * Owner  the arrays belong to `facets` or `sheet` */
 uint32_t facet_outline(const struct facets *facets, const struct sheet *sheet,
                        uint32_t triangle, const uint32_t **corner,
                        const uint32_t **side);
@@ -50,8 +51,8 @@ uint32_t facet_outline(const struct facets *facets, const struct sheet *sheet,
 /* The plane of a triangle of the sheet that is not flat. */
 struct geom_plane facet_plane(const struct sheet *sheet, uint32_t facet);
 
-/* The depth of the sheet's facet changes by this much from one column, line
- * to the next, to the right and up. */
+/* By how much the depth of a facet's plane changes from one column to the next
+ * on the right, and from one line to the next above. */
 void facet_slopes(const struct sheet *sheet, const struct scan_grid *grid,
                   uint32_t facet, double *per_column, double *per_line);
 

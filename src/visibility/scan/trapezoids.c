@@ -1,4 +1,4 @@
-/* trapezoids.c - visible spans as the map's fragments. */
+/* trapezoids.c - trapezoids from visible spans, as fragments of the map. */
 #include "visibility/scan/trapezoids.h"
 
 #include <math.h>
@@ -57,8 +57,8 @@ static bool list_borders(struct trapezoids *trapezoids) {
   return true;
 }
 
-/* Makes values ascend: those that do not are replaced by their mean, as few as
- * will do.  (Adjacent violators are pooled.) */
+/* Isotonic regression: replaces runs of values that do not ascend by their mean
+ * (the pool-adjacent-violators algorithm). */
 static void make_ascend(double *value, size_t count) {
   for (size_t i = 1; i < count; i++) {
     size_t first = i;
@@ -72,7 +72,7 @@ static void make_ascend(double *value, size_t count) {
   }
 }
 
-/* Settles the upper or the lower x of all borders. */
+/* Decides the upper or the lower x of all borders of the line. */
 static void settle_borders(struct trapezoids *trapezoids, bool upper) {
   struct span_side **side = trapezoids->side.item;
   size_t count = trapezoids->side.count / 2;
@@ -97,7 +97,7 @@ static void settle_borders(struct trapezoids *trapezoids, bool upper) {
 
 /* ---- Lines --------------------------------------------------------------- */
 
-/* The trapezoid of the line above that the span makes longer, or NULL. */
+/* The trapezoid of the line above that the span extends, or NULL. */
 static struct trapezoid *find_above(const struct trapezoids *trapezoids,
                                     const struct span *span) {
   uint32_t at = span->left.straight && span->right.straight
@@ -152,7 +152,7 @@ bool trapezoids_add(struct trapezoids *trapezoids, int32_t line,
   return ARRAY_PUSH(&trapezoids->row, *span);
 }
 
-/* ---- Filing -------------------------------------------------------------- */
+/* ---- Fragments ----------------------------------------------------------- */
 
 static double clamp(double value, double low, double high) {
   return value < low ? low : value > high ? high : value;
@@ -184,7 +184,7 @@ static void make_corners(const struct trapezoids *trapezoids,
   corner[3].id = left->id;
 }
 
-/* Files the loop of the corners that differ, from the lowest in (x, y). */
+/* Stores the loop of the distinct corners, from the lowest in (x, y). */
 static bool store_loop(const struct map_corner corner[4], uint32_t face,
                        struct map *map) {
   struct map_corner kept[4];

@@ -1,13 +1,14 @@
-/* trapezoids.h - visible spans, line by line from the top, as the map's fragments.
+/* trapezoids.h - trapezoids from visible spans, line by line from the top, as
+ * fragments of the map.
  *
- * A span stands for the band of its line, half a line up and half a line down.
- * Spans of neighbouring lines over the same face, with the same left and the
- * same right edge, are joined to one trapezoid.  Upper and lower sides are the
- * scan's own cuts.
+ * A span represents the band of its line, half a line up and half a line down.
+ * Spans of neighbouring lines over the same face, between the same left and the
+ * same right edge, are merged into one trapezoid.  Its upper and lower sides
+ * are cuts of the method (MAP_SIDE_CUT), never inked.
  *
- * Spans of a line that meet share the border between them, and borders that
- * would cross within the band (edges that cross or end there) meet in their
- * middle instead: so fragments are disjoint.
+ * Spans of a line that touch share the border between them.  Borders that would
+ * cross within the band (since edges cross or end there) are moved to their
+ * mean x: so fragments are disjoint.
  */
 #ifndef VISIBILITY_SCAN_TRAPEZOIDS_H
 #define VISIBILITY_SCAN_TRAPEZOIDS_H
@@ -18,12 +19,12 @@
 #define SPAN_ALONE UINT32_MAX
 
 struct span_side {
-  double x;            /* on the line; of spans that meet the same */
+  double x;            /* on the line; equal for two spans that touch */
   double upper, lower; /* at the upper and lower border of the band, plane
                           units */
-  bool straight;       /* all three are on one line, that of the key */
-  uint32_t key;        /* what it runs along: equal for the same edge on the
-                          next line; SPAN_ALONE: never the same */
+  bool straight;       /* all three lie on the line of the edge `key` */
+  uint32_t key;        /* identifies the edge that it runs along from line to
+                          line; SPAN_ALONE: none */
   uint32_t id;         /* as in struct map_corner */
   uint8_t side;        /* enum map_side */
 };
@@ -33,8 +34,8 @@ struct span {
   struct span_side left, right;
 };
 
-/* Spans that were joined, from the upper border of the first line to the lower
- * border of the last. */
+/* Merged spans, from the upper border of the first line to the lower border of
+ * the last. */
 struct trapezoid {
   struct span span;
   int32_t first, last;
@@ -43,7 +44,7 @@ struct trapezoid {
 struct trapezoids {
   struct scan_grid grid;
   double x_low, x_high, y_low, y_high; /* the page, plane units */
-  ARRAY(struct span) row;              /* of the line at hand */
+  ARRAY(struct span) row;              /* of the current line */
   int32_t line;
   ARRAY(double) border; /* room for x of the row's borders, left to right */
   ARRAY(struct span_side *)
@@ -52,16 +53,18 @@ struct trapezoids {
   ARRAY(struct trapezoid) trapezoid;
   uint32_t *at; /* for each key of a left side, the last trapezoid on it */
   size_t keys;
-  int64_t count; /* spans taken */
+  int64_t count; /* spans added */
 };
 
-/* keys  of left sides, below it */
+/* keys  upper limit of the keys of left sides
+ * Returns false when memory ran out. */
 USE_RESULT bool trapezoids_init(struct trapezoids *trapezoids,
                                 const struct sheet *sheet,
                                 const struct scan_grid *grid, size_t keys);
 void trapezoids_fini(struct trapezoids *trapezoids);
 
-/* Adds a span of a line; lines come in falling order. */
+/* Adds a span; lines come in descending order, the spans of one from the left.
+ * Returns false when memory ran out. */
 USE_RESULT bool trapezoids_add(struct trapezoids *trapezoids, int32_t line,
                                const struct span *span);
 

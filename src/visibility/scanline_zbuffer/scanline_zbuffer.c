@@ -1,11 +1,12 @@
 /* scanline_zbuffer.c - the depth buffer with one line of memory.
  *
- * Phases   facets lie in buckets by their top line; line by line from the top
- *          the bucket joins the active polygons, whose pairs of active edges
- *          are drawn into one line's buffers and stepped (active_edge_pair.h); the line
- *          becomes strokes and fragments (pixels.h) and is forgotten: the same
- *          answer as zbuffer's to the pixel.
- * Cost     as zbuffer; memory a line, the active pairs and a key per facet,
+ * Phases   facets are in buckets by their top line.  Line by line from the top
+ *          the line's bucket is added to the active polygons, whose pairs of
+ *          active edges are drawn into the buffers of one line and moved down
+ *          (active_edge_pair.h); the line becomes strokes and fragments
+ *          (pixels.h) and is discarded.  The result is the same as zbuffer's to
+ *          the pixel.
+ * Cost     as zbuffer; memory: a line, the active pairs and a key per facet,
  *          whatever the number of lines.
  * Source   Rogers ch. 4; Foley, van Dam, Feiner & Hughes 15.6.
  */
@@ -15,7 +16,7 @@
 
 #include "visibility/raster/pixels.h"
 
-#define AHEAD 8 /* facets of a bucket whose corners are fetched */
+#define AHEAD 8 /* facets of a bucket whose corners are prefetched */
 
 /* ---- Lists --------------------------------------------------------------- */
 
@@ -50,7 +51,7 @@ bool scanline_enter(struct scanline *scanline, int32_t line) {
     }
     if (!ARRAY_RESERVE(&scanline->active, 1))
       return false;
-    /* It covers a line, or it would not lie in a bucket. */
+    /* It covers a line, since it is in a bucket. */
     active_edge_pair_start(&scanline->active.item[scanline->active.count++],
                            raster, scanline->facets, bucket[i].value);
   }

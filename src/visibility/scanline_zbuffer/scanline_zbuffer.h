@@ -12,25 +12,26 @@ struct scanline {
   struct sort_key *bucket; /* facets by first line from the top, then order */
   size_t bucket_count, entered;
   ARRAY(struct active_edge_pair)
-  active; /* in no order: of equally near facets the earlier
-             in the file is kept whichever comes first */
+  active; /* unordered: of equally near facets the one of lower
+             index is kept whichever is drawn first */
   size_t most_active;
   int64_t covered;
 };
 
-/* Sorts the facets that are drawn into their buckets. */
+/* Sorts the facets that are drawn into buckets.  False when memory ran out. */
 USE_RESULT bool scanline_init(struct scanline *scanline, struct raster *raster,
                               const struct facets *facets,
                               const struct solver_request *request);
 void scanline_fini(struct scanline *scanline);
 
-/* Takes the facets that start on the line into the active list. */
+/* Adds the facets that start on the line to the active list.  False when memory
+ * ran out. */
 USE_RESULT bool scanline_enter(struct scanline *scanline, int32_t line);
 
 /* Draws the active facets into the one line of the frame. */
 void scanline_draw(struct scanline *scanline);
 
-/* Moves the active pairs to the next line; those that end leave. */
+/* Moves the active pairs to the next line, and removes those that end. */
 void scanline_step(struct scanline *scanline);
 
 #endif

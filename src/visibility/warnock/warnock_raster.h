@@ -49,8 +49,8 @@ void warnock_frame_fini(struct warnock_frame *frame);
 
 /* Draws all facets into the frame.  A pixel gets the facet that is visible at
  * its centre.  With sub-pixels, it gets the facet that most of them see (of
- * equals the one of lower index), if at least half of them see any facet.  Where
- * no fragments are requested, pixels away from the drawable edges stay
+ * equals the one of lower index), if at least half of them see any facet.
+ * Where no fragments are requested, pixels away from the drawable edges stay
  * background.
  * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED. */
 USE_RESULT recto_status warnock_frame_draw(struct warnock_frame *frame,

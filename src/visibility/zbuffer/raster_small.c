@@ -1,23 +1,25 @@
-/* raster_small.c - small triangles put into the pixel frame.
+/* raster_small.c - fast drawing of small triangles into the pixel frame.
  *
- * Columns.  Differences of corners are exact in doubles, so a slope is within
- * u = 2^-53 of itself.  With n <= ROWS lines a side goes through a corner that
- * is known to u (columns + |slope| lines), starts at most n lines from it and
- * is followed over n more, never further off the frame than n |slope|: its x is
- * off by less than u (64 columns + (lines + 2048) |slope|), and the slack below
- * is twice that.  Where a side ends, its line is followed on: of the two the
- * one further out is the one that does not bound the triangle there.
+ * Columns.  Differences of corners are exact in doubles, so a slope has a
+ * relative error of u = 2^-53.  A side passes through a corner that is known to
+ * u (columns + |slope| lines), starts at most n <= ROWS lines from it and is
+ * extended over n more, never further off the frame than n |slope|.  So its x
+ * is off by less than
+ *     u (64 columns + (lines + 2048) |slope|),
+ * and the slack below is twice that.  Where a short side ends, its line is
+ * extended: of the two short sides' lines the one further out is the one that
+ * does not bound the triangle there.
  *
- * Depths.  Products of differences are below 2^62, so the plane is exact in
- * 64 bits.  Its depth is reckoned from the highest corner over at most ROWS
+ * Depths.  Products of differences are below 2^62, so the plane is exact in 64
+ * bits.  A depth is computed from that of the highest corner over at most ROWS
  * lines, each product and sum rounded to u of at most RASTER_GENTLE and the
  * range of depths: less than raster.c allows for.
  *
- * Speed.  How a triangle lies, how many columns it covers and which face is
- * nearer are as good as random: a jump that depends on them is guessed wrong
+ * Speed.  The orientation of a triangle, its number of columns and which face
+ * is nearer are unpredictable: a branch that depends on them is mispredicted
  * every other time, which costs as much as several pixels.  So eight lines are
- * set out at once and four pixels put into the frame at once, needed or not;
- * a triangle whose middle corner is on the right is looked at in a mirror. */
+ * computed at once and four pixels drawn at once, needed or not; a triangle
+ * whose middle corner is on the right is mirrored. */
 #include "visibility/zbuffer/raster_small.h"
 
 #include <float.h>
@@ -28,7 +30,7 @@
 
 enum {
   ROWS = 32,      /* lines covered at most */
-  BATCH = 8,      /* lines set out at once */
+  BATCH = 8,      /* lines computed at once */
   REACH_BITS = 22 /* 4 mm: how far apart corners may be in x and y */
 };
 
@@ -40,8 +42,8 @@ struct small {
   double sign;                    /* -1: the middle corner is on the right */
 };
 
-/* Its sides' lines at the centre of its first line, and by how much they are
- * further right a line up; both times `sign`. */
+/* The x of its sides at the centre of its first line, and their change a line
+ * up; all multiplied by `sign`. */
 struct small_sides {
   double longest, upper, lower;
   double by_longest, by_upper, by_lower;
@@ -52,15 +54,16 @@ struct small_depths {
   double z, per_column, per_line;
 };
 
-/* Lines from the top: the first column, how many, and the depth there. */
+/* Consecutive lines from the top: the number of columns, the depth at the first
+ * one, and the first column. */
 struct rows {
   double count[BATCH], z[BATCH];
   int32_t first[BATCH];
 };
 
 /* Returns false where the triangle is not small. */
-static bool set_out(struct small *small, const struct raster *raster,
-                    const uint32_t corner[3]) {
+static bool make_small(struct small *small, const struct raster *raster,
+                       const uint32_t corner[3]) {
   static const uint8_t top_of[4] = {0, 1, 2, 2}, next_of[4] = {1, 2, 0, 0},
                        last_of[4] = {2, 0, 1, 1};
   const struct scan_grid *grid = &raster->grid;
@@ -68,7 +71,7 @@ static bool set_out(struct small *small, const struct raster *raster,
   const uint64_t reach = UINT64_C(1) << REACH_BITS;
   int32_t y0 = at[corner[0]].y, y1 = at[corner[1]].y, y2 = at[corner[2]].y;
   int top = (y1 > y0) | (y2 > (y1 > y0 ? y1 : y0)) << 1;
-  /* Counter-clockwise from the highest leads down on the left. */
+  /* Counter-clockwise from the highest corner is down the left side. */
   uint32_t h = corner[top_of[top]], next = corner[next_of[top]];
   uint32_t last = corner[last_of[top]], both = next ^ last;
   bool left = at[next].y > at[last].y;
@@ -144,11 +147,12 @@ static double find_slack(const struct small_sides *sides,
 /* The nearest whole number, of numbers below 2^51. */
 static inline double nearest(double x) { return x + 0x1.8p52 - 0x1.8p52; }
 
-/* Sets out a batch of lines, the first `from` lines from the top.  A column's
- * centre is half a column on: the first one at or past x has the number
- * nearest to x.
- * clear  how far from it x may be
- * Returns on how many lines a side is not clear. */
+/* Computes a batch of lines, the first one `from` lines from the top.  A
+ * column's centre is half a column on: the first one at or past x has the
+ * number nearest to x.
+ * clear  the largest distance of x from that number at which rounding errors do
+ *        not matter
+ * Returns the number of lines on which a side is further from it. */
 static double find_rows(struct rows *rows, const struct small_sides *sides,
                         const struct small_depths *depths, double sign,
                         double clear, int from) {
@@ -175,13 +179,13 @@ static double find_rows(struct rows *rows, const struct small_sides *sides,
 
 /* ---- Pixels -------------------------------------------------------------- */
 
-/* Puts all lines into the frame.
- * close    gets whether doubles could not tell somewhere
- * Returns how many pixels they have. */
-static inline int64_t put_rows(struct raster *raster,
-                               const struct span_fill_stamp stamp,
-                               const struct rows *rows, int32_t high,
-                               int32_t lines, bool *close) {
+/* Draws all lines.
+ * close  gets whether doubles did not decide in some pixel
+ * Returns how many pixels they cover. */
+static inline int64_t draw_rows(struct raster *raster,
+                                const struct span_fill_stamp stamp,
+                                const struct rows *rows, int32_t high,
+                                int32_t lines, bool *close) {
   span_fill_mask somewhere = {0, 0};
   double pixels = 0;
   for (int32_t i = 0; i < lines; i++) {
@@ -217,7 +221,7 @@ bool raster_small_triangle(struct raster *raster, uint32_t triangle,
   double slack, unclear = 0;
   int32_t lines;
   bool close;
-  if (!set_out(&small, raster, corner) ||
+  if (!make_small(&small, raster, corner) ||
       !find_depths(&depths, &small, &raster->grid))
     return false;
   find_sides(&sides, &small, &raster->grid);
@@ -226,12 +230,12 @@ bool raster_small_triangle(struct raster *raster, uint32_t triangle,
   for (int32_t i = 0; i < lines; i += BATCH)
     unclear += find_rows(&rows[i / BATCH], &sides, &depths, small.sign,
                          0.5 - slack, i);
-  /* Within a quarter of a column no x is out of the columns' range. */
+  /* With a slack below a quarter of a column no x leaves the columns' range. */
   if (!(slack < 0.25 && unclear == 0))
     return false;
   *covered +=
-      put_rows(raster, span_fill_stamp_of(raster, triangle, depths.per_column),
-               rows, small.high, lines, &close);
+      draw_rows(raster, span_fill_stamp_of(raster, triangle, depths.per_column),
+                rows, small.high, lines, &close);
   if (close)
     settle_rows(raster, triangle, rows, small.high, lines, depths.per_column);
   return true;

@@ -1,15 +1,16 @@
-/* zbuffer.c - the depth buffer: every facet is put into the frame in turn,
- * each pixel keeps the nearest.
+/* zbuffer.c - the depth buffer: all facets are drawn one after the other, each
+ * pixel keeps the nearest.
  *
- * Phases   facets are dealt out to bands and tiles of the frame (tile_order.h);
- *          band by band from the top they are put into it (raster_small.h, span_fill.h,
- *          active_edge_pair.h); lines that no later band reaches are finished and become
- *          strokes and fragments (pixels.h).
- * Order    any will do: of equally near facets the earlier in the file is
- *          kept.  Going by bands, a finished line's memory is used again for a
- *          line further down, so that the frame stays in the cache.
+ * Phases   facets are sorted into bands and tiles of the frame (tile_order.h);
+ *          band by band from the top they are drawn (raster_small.h,
+ *          span_fill.h, active_edge_pair.h); lines that no later band reaches
+ *          are finished and become strokes and fragments (pixels.h).
+ * Order    the result does not depend on it: of equally near facets the one of
+ *          lower index is kept.  By bands, the memory of a finished line is
+ *          reused for a line further down, so that the frame stays in the
+ *          cache.
  * Cost     linear in the pixels covered and the facets; memory: the lines of a
- *          band and of the tallest facet, a frame at most.
+ *          band and of the tallest facet, at most the whole frame.
  * Source   Catmull 1974; Foley, van Dam, Feiner & Hughes 15.4.
  */
 #include "visibility/zbuffer/zbuffer.h"
@@ -20,9 +21,9 @@
 #include "visibility/raster/span_fill.h"
 #include "visibility/zbuffer/raster_small.h"
 
-#define AHEAD 8 /* pieces whose corners are fetched */
+#define AHEAD 8 /* facets whose corners are prefetched */
 
-static void draw_piece(struct raster *raster, const struct facets *facets,
+static void draw_facet(struct raster *raster, const struct facets *facets,
                        const struct ordered_facet *piece, int64_t *covered) {
   uint32_t facet = piece->facet;
   bool joined = facets->part != NULL && facets->part[facet] != SHEET_NONE;
@@ -37,15 +38,15 @@ static void draw_piece(struct raster *raster, const struct facets *facets,
     *covered += (int64_t)active_edge_pair_draw(&pair, raster);
 }
 
-/* Returns false where the caller wants no more. */
-static bool draw_pieces(struct raster *raster, const struct facets *facets,
+/* Returns false where the caller cancelled. */
+static bool draw_facets(struct raster *raster, const struct facets *facets,
                         const struct ordered_facet *piece, size_t count,
                         struct progress *progress, int64_t *covered) {
   for (size_t i = 0; i < count; i++) {
     int64_t before = *covered;
     for (int k = 0; k < 3 && i + AHEAD < count; k++)
       RASTER_FETCH(raster, piece[i + AHEAD].corner[k]);
-    draw_piece(raster, facets, &piece[i], covered);
+    draw_facet(raster, facets, &piece[i], covered);
     if (!progress_step(progress,
                        1 + (size_t)(*covered - before) / PROGRESS_PIXELS))
       return false;
@@ -53,8 +54,8 @@ static bool draw_pieces(struct raster *raster, const struct facets *facets,
   return true;
 }
 
-/* Hands over the lines of a band that is finished, and makes their memory
- * background for others. */
+/* Passes the lines of a finished band to `pixels`, and clears their memory for
+ * other lines. */
 static recto_status finish_band(struct raster *raster, struct pixels *pixels,
                                 size_t band, recto_error *error) {
   recto_status status = RECTO_OK;
@@ -81,7 +82,7 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
   if (pixels != NULL)
     raster_fold(raster, TILE_ORDER_BAND + order.tallest);
   for (size_t band = 0; band < order.bands && status == RECTO_OK; band++) {
-    if (!draw_pieces(raster, facets, order.item + first,
+    if (!draw_facets(raster, facets, order.item + first,
                      order.past[band] - first, &progress, covered))
       status = progress_error(&progress, error);
     first = order.past[band];

@@ -5,10 +5,10 @@
 #include "visibility/raster/pixels.h"
 #include "visibility/solver.h"
 
-/* Puts all facets that are drawn into the frame, which holds all lines.
- * pixels   gets each line as soon as it is finished, and then the frame is
- *          folded and forgets it; NULL: the frame stays
- * covered  the pixels they cover, hidden or not, are added to it
+/* Draws all facets into the frame, which holds all lines.
+ * pixels   receives each line as soon as it is finished; the frame becomes a
+ *          ring buffer (raster_fold) that discards it; NULL: the frame is kept
+ * covered  the number of pixels they cover, hidden or not, is added to it
  * Errors   RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED. */
 USE_RESULT recto_status zbuffer_draw(struct raster *raster,
                                      const struct facets *facets,

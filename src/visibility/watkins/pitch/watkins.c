@@ -5,9 +5,9 @@
  *            top they pass through A, which cuts the line into intervals; in
  *            each the facet seen is decided (watkins_interval.c).  What is seen
  *            makes spans, and spans of neighbouring lines between the same
- *            edges trapezoids (trapezoids.h).  The ends of intervals make strokes:
- *            an edge that is drawn on one line and on the next is drawn in
- *            between.
+ *            edges trapezoids (trapezoids.h).  The ends of intervals make
+ *            strokes: an edge that is drawn on one line and on the next is drawn
+ *            in between.
  *   Strokes  a line stands for half a pitch up and down, and an edge that ends
  *            between two lines is drawn to its end.  Edges that run along the
  *            lines rather than across, wires, and lines where faces pierce

@@ -1,5 +1,5 @@
-/* watkins_interval_ends.c - which edges are drawn at the ends of intervals, after
- * Archuleta. */
+/* watkins_interval_ends.c - which edges are drawn at the ends of intervals,
+ * after Archuleta. */
 #include <math.h>
 #include <stdlib.h>
 
