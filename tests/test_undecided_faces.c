@@ -33,7 +33,7 @@ static struct counts paint(const struct scene *scene, recto_options *options) {
                       report_get(report, "faces", "whole", -1),
                       report_get(report, "faces", "mixed", -1),
                       report_get(report, "faces", "hidden_by_contours", -1),
-                      report_get(report, "tiles", "triangles_left_over", -1),
+                      report_get(report, "tiles", "triangles_undecided", -1),
                       report_get(report, "faces", "pairs", -1),
                       report_get(report, "faces", "cuts", -1),
                       report_get(report, "fragments", "faces_united", -1)};

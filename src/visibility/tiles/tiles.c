@@ -1,15 +1,16 @@
-/* tiles.c - exact visibility of dense meshes: most of it is decided by page
- * tiles (tile_classification.h) without asking any pair, the rest by pairs.
+/* tiles.c - exact visibility of dense meshes: decides most edges and faces by
+ * page tiles (tile_classification.h), the others by pairs.
  *
  * Phases
  *   1 classify the tiles
- *   2 classify edges, and faces where fragments are asked for: visible or
- *     hidden where all the tiles they meet say so; else they are left over
- *   3 list the faces of the tiles that left-over edges and faces meet
- *   4 find piercing pairs, in mixed tiles alone, and classify their edges
- *   5 solve the left-over ones by pairs, as the other exact solvers do
+ *   2 classify edges and, if fragments are requested, faces: as visible or as
+ *     hidden if all tiles that they overlap agree, otherwise as undecided
+ *   3 list the faces of the tiles that undecided edges and faces overlap
+ *   4 find the intersections, in mixed tiles alone unless hidden lines are
+ *     requested, and classify their edges
+ *   5 solve the undecided edges and faces by pairs, as other exact solvers do
  *
- * Invariant: a decision in phase 2 is the one that pairs would have made.
+ * Invariant: phase 2 decides as a comparison of all pairs would.
  */
 #include <stdatomic.h>
 #include <string.h>
@@ -27,52 +28,55 @@ struct tiles_work {
   const struct solver_request *request;
   struct tile_classification tiles;
   struct tile_candidates lists;
-  uint8_t *wanted;      /* tiles whose faces are to be listed */
-  uint8_t *pierced;     /* tiles where faces may be seen to pierce */
-  bool wants_more;      /* than are listed */
-  ARRAY(uint32_t) edge; /* left over, ascending */
-  ARRAY(uint32_t) face; /* triangles left over, ascending */
-  uint8_t *face_state;  /* one a triangle: enum map_state; MAP_MIXED is
-                              left over */
-  struct occlusion_counts hide;
+  uint8_t *wanted;      /* one per tile: its faces are to be listed */
+  uint8_t *intersected; /* one per tile: visible intersections are possible */
+  bool wants_more;      /* a tile became wanted after the faces were listed */
+  ARRAY(uint32_t) edge; /* undecided edges, ascending */
+  ARRAY(uint32_t) face; /* undecided triangles, ascending */
+  uint8_t *face_state;  /* one per triangle: enum map_state; MAP_MIXED is
+                           undecided */
+  struct occlusion_counts counts;
   struct report *report;
-  double phase_start; /* of the phase at hand */
+  double phase_start; /* CPU seconds at the start of the current phase */
   atomic_bool *cancelled;
 };
 
-enum { ASK_EVERY = 16 }; /* edges or faces between two calls of progress */
+enum { POLL_INTERVAL = 16 }; /* edges between two calls of progress */
 
-/* Asks whether to go on, in the caller's own thread and not too often. */
-static bool may_go_on(const struct tiles_work *work, size_t done, size_t all,
-                      const char *stage, bool callers) {
+/* Polls the caller's progress function every POLL_INTERVAL edges, and only in
+ * the thread of the caller. callers  whether this is that thread Returns false
+ * when the caller cancelled. */
+static bool poll_progress(const struct tiles_work *work, size_t done,
+                          size_t all, const char *stage, bool callers) {
   const struct solver_request *request = work->request;
-  if (callers && done % ASK_EVERY == 0 && request->progress != NULL &&
+  if (callers && done % POLL_INTERVAL == 0 && request->progress != NULL &&
       !atomic_load(work->cancelled) &&
       !request->progress(request->user, (double)done / (double)all, stage))
     atomic_store(work->cancelled, true);
   return !atomic_load(work->cancelled);
 }
 
-/* ---- 3, 4. Lists and piercing -------------------------------------------- */
+/* ---- 3, 4. Lists and intersections --------------------------------------- */
 
-/* Faces that pierce each other where they can be seen do so in mixed tiles.
- * Where hidden lines are drawn too, they are looked for everywhere, in a grid
- * of their own: lists of tiles leave out what is behind a horizon. */
-static bool want_for_piercing(struct tiles_work *work) {
+/* Marks the tiles in which intersections are searched: visible intersections
+ * lie in mixed tiles.  If hidden lines are requested, no tile is marked,
+ * because intersections are then searched everywhere, in a separate grid: the
+ * lists of tiles leave out triangles behind a horizon. */
+static bool mark_intersected_tiles(struct tiles_work *work) {
   size_t n = triangle_grid_cell_count(&work->tiles.grid);
   if (work->request->hidden)
     return true;
-  work->pierced = mem_alloc(n, 1);
-  if (work->pierced == NULL)
+  work->intersected = mem_alloc(n, 1);
+  if (work->intersected == NULL)
     return false;
   for (size_t i = 0; i < n; i++) {
-    work->pierced[i] = work->tiles.tile[i].state == TILE_MIXED;
-    work->wanted[i] |= work->pierced[i];
+    work->intersected[i] = work->tiles.tile[i].state == TILE_MIXED;
+    work->wanted[i] |= work->intersected[i];
   }
   return true;
 }
 
-/* Lists the faces of the wanted tiles, again where more became wanted. */
+/* Lists the faces of all wanted tiles, in place of the lists made before. */
 static bool list_faces(struct tiles_work *work) {
   work->wants_more = false;
   return tile_candidates_fill(&work->lists, &work->tiles, work->sheet,
@@ -81,10 +85,12 @@ static bool list_faces(struct tiles_work *work) {
 
 /* ---- 2. Classifying ------------------------------------------------------ */
 
-/* What a tile says of something with depths in these buckets: MAP_MIXED where
- * it does not say.  Of a wire it is not known that it lies in a layer. */
-static enum map_state query_tile(const struct tile *tile, int low, int high,
-                                 bool wire) {
+/* The state within a tile of an edge or face with depths in these buckets;
+ * MAP_MIXED if the tile does not decide it.
+ * wire  the edge is not known to lie in a layer of faces: it has no face, or is
+ *       an intersection */
+static enum map_state state_in_tile(const struct tile *tile, int low, int high,
+                                    bool wire) {
   if (tile->state == TILE_MIXED)
     return MAP_MIXED;
   if (tile->state == TILE_EMPTY)
@@ -94,21 +100,22 @@ static enum map_state query_tile(const struct tile *tile, int low, int high,
   return low >= tile->front ? MAP_VISIBLE : MAP_HIDDEN;
 }
 
-static int least_bucket(int64_t a, int64_t b) {
+static int farthest_bucket(int64_t a, int64_t b) {
   return tile_bucket(a < b ? a : b);
 }
 
-static int most_bucket(int64_t a, int64_t b) {
+static int nearest_bucket(int64_t a, int64_t b) {
   return tile_bucket(a > b ? a : b);
 }
 
-/* Calls for the tiles that the segment meets: the state all of them agree on,
- * or MAP_MIXED; with `mark`, marks them as wanted. */
-static enum map_state query_along(struct tiles_work *work, struct geom_point p,
+/* Visits the tiles that the segment crosses.  Returns the state on which all
+ * agree, or MAP_MIXED.
+ * mark  marks the tiles as wanted instead */
+static enum map_state state_along(struct tiles_work *work, struct geom_point p,
                                   struct geom_point q, bool wire, bool mark) {
   const struct triangle_grid *grid = &work->tiles.grid;
   struct cell_range r = triangle_grid_cells(grid, box2_of_segment(p, q));
-  int low = least_bucket(p.z, q.z), high = most_bucket(p.z, q.z);
+  int low = farthest_bucket(p.z, q.z), high = nearest_bucket(p.z, q.z);
   int64_t nearest = p.z > q.z ? p.z : q.z;
   int state = -1;
   for (int y = r.y0; y <= r.y1; y++) {
@@ -118,7 +125,7 @@ static enum map_state query_along(struct tiles_work *work, struct geom_point p,
       size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
       int now = tile_classification_is_behind(&work->tiles, i, nearest)
                     ? MAP_HIDDEN
-                    : (int)query_tile(&work->tiles.tile[i], low, high, wire);
+                    : (int)state_in_tile(&work->tiles.tile[i], low, high, wire);
       if (mark) {
         work->wants_more |= !work->wanted[i];
         work->wanted[i] = 1;
@@ -132,36 +139,38 @@ static enum map_state query_along(struct tiles_work *work, struct geom_point p,
   return state < 0 ? MAP_MIXED : (enum map_state)state;
 }
 
-/* What all tiles of a small range agree on; MAP_MIXED where they do not. */
-static enum map_state query_range(const struct tile_classification *map,
-                                  struct cell_range r, int low, int high,
-                                  bool wire) {
+/* The state on which all tiles of a small range agree, or MAP_MIXED. */
+static enum map_state state_in_range(const struct tile_classification *map,
+                                     struct cell_range r, int low, int high,
+                                     bool wire) {
   const struct tile *row = map->tile + (size_t)r.y0 * (size_t)map->grid.columns;
-  enum map_state state = query_tile(&row[r.x0], low, high, wire);
+  enum map_state state = state_in_tile(&row[r.x0], low, high, wire);
   for (int y = r.y0; y <= r.y1; y++, row += map->grid.columns)
     for (int x = r.x0; x <= r.x1; x++)
-      if (query_tile(&row[x], low, high, wire) != state)
+      if (state_in_tile(&row[x], low, high, wire) != state)
         return MAP_MIXED;
   return state;
 }
 
-/* The state of an edge: mostly all tiles about it agree, and which of them it
- * meets need not be known. */
-static enum map_state query_edge(struct tiles_work *work, struct geom_point p,
-                                 struct geom_point q, bool wire) {
+/* The state of an edge.  Usually all tiles of its bounding box agree, so that
+ * it need not be traced through them. */
+static enum map_state state_of_edge(struct tiles_work *work,
+                                    struct geom_point p, struct geom_point q,
+                                    bool wire) {
   struct cell_range r =
       triangle_grid_cells(&work->tiles.grid, box2_of_segment(p, q));
   enum map_state state;
   if (work->tiles.horizon != NULL || r.x1 - r.x0 + r.y1 - r.y0 > 2)
-    return query_along(work, p, q, wire, false);
-  state = query_range(&work->tiles, r, least_bucket(p.z, q.z),
-                      most_bucket(p.z, q.z), wire);
+    return state_along(work, p, q, wire, false);
+  state = state_in_range(&work->tiles, r, farthest_bucket(p.z, q.z),
+                         nearest_bucket(p.z, q.z), wire);
   return state == MAP_MIXED && r.x0 < r.x1 && r.y0 < r.y1
-             ? query_along(work, p, q, wire, false)
+             ? state_along(work, p, q, wire, false)
              : state;
 }
 
-/* Classifies the edges from number `from` on. */
+/* Phase 2 for the edges from number `from` on; lists the undecided ones.
+ * Returns false when memory ran out. */
 static bool classify_edges(struct tiles_work *work, size_t from,
                            struct map *map) {
   const struct sheet *sheet = work->sheet;
@@ -175,17 +184,19 @@ static bool classify_edges(struct tiles_work *work, size_t from,
                 edge->edge_class == RECTO_EDGE_INTERSECTION;
     if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y))
       continue;
-    map->edge_state[e] = (uint8_t)query_edge(work, p, q, wire);
+    map->edge_state[e] = (uint8_t)state_of_edge(work, p, q, wire);
     if (map->edge_state[e] != MAP_MIXED)
       continue;
     if (!ARRAY_PUSH(&work->edge, (uint32_t)e))
       return false;
-    (void)query_along(work, p, q, wire, true);
+    (void)state_along(work, p, q, wire, true);
   }
   return true;
 }
 
-static enum map_state query_face(const struct tiles_work *work, uint32_t t) {
+/* The state of a triangle: that on which all tiles of its bounding box agree,
+ * or MAP_MIXED. */
+static enum map_state state_of_face(const struct tiles_work *work, uint32_t t) {
   const struct sheet *sheet = work->sheet;
   const struct triangle_grid *grid = &work->tiles.grid;
   const uint32_t *point = sheet->triangle.item[t].point;
@@ -202,9 +213,10 @@ static enum map_state query_face(const struct tiles_work *work, uint32_t t) {
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
-      int now = tile_classification_is_behind(&work->tiles, i, nearest)
-                    ? MAP_HIDDEN
-                    : (int)query_tile(&work->tiles.tile[i], low, high, false);
+      int now =
+          tile_classification_is_behind(&work->tiles, i, nearest)
+              ? MAP_HIDDEN
+              : (int)state_in_tile(&work->tiles.tile[i], low, high, false);
       if (now == MAP_MIXED || (state >= 0 && state != now))
         return MAP_MIXED;
       state = now;
@@ -212,7 +224,8 @@ static enum map_state query_face(const struct tiles_work *work, uint32_t t) {
   return (enum map_state)state;
 }
 
-static void want_face(struct tiles_work *work, uint32_t t) {
+/* Marks the tiles of a triangle's bounding box as wanted. */
+static void want_face_tiles(struct tiles_work *work, uint32_t t) {
   const struct triangle_grid *grid = &work->tiles.grid;
   struct cell_range r =
       triangle_grid_cells(grid, box2_of_triangle(work->sheet, t));
@@ -221,6 +234,8 @@ static void want_face(struct tiles_work *work, uint32_t t) {
            (size_t)(r.x1 - r.x0) + 1);
 }
 
+/* Phase 2 for the faces; lists the undecided ones.  Returns false when memory
+ * ran out. */
 static bool classify_faces(struct tiles_work *work) {
   size_t n = work->sheet->triangle.count;
   work->face_state = mem_alloc(n, 1);
@@ -230,94 +245,98 @@ static bool classify_faces(struct tiles_work *work) {
     work->face_state[t] = MAP_HIDDEN;
     if (work->sheet->triangle_flags[t] & SHEET_FLAT)
       continue;
-    work->face_state[t] = (uint8_t)query_face(work, (uint32_t)t);
+    work->face_state[t] = (uint8_t)state_of_face(work, (uint32_t)t);
     if (work->face_state[t] != MAP_MIXED)
       continue;
     if (!ARRAY_PUSH(&work->face, (uint32_t)t))
       return false;
-    want_face(work, (uint32_t)t);
+    want_face_tiles(work, (uint32_t)t);
   }
   return true;
 }
 
 /* ---- 5. Pairs ------------------------------------------------------------ */
 
-/* A run of left-over edges, solved by one thread. */
-struct edge_run {
-  struct map map; /* its edge_state is the common one */
+/* A batch of consecutive undecided edges, solved by one thread. */
+struct edge_batch {
+  struct map map; /* edge_state is shared by all batches */
   struct occlusion_counts counts;
   bool done;
 };
 
-enum { RUN = 1024 };
+enum { BATCH_SIZE = 1024 }; /* edges */
 
-static void solve_run(const struct tiles_work *work, size_t from,
-                      struct edge_query *query, bool callers,
-                      struct edge_run *run) {
-  size_t to = work->edge.count - from < RUN ? work->edge.count : from + RUN;
-  run->done = true;
-  for (size_t i = from; run->done && i < to; i++)
-    run->done =
-        may_go_on(work, i, work->edge.count, "edges", callers) &&
-        edge_query_solve(query, work->edge.item[i]) &&
-        edge_intervals_store(&query->intervals, work->edge.item[i], &run->map);
-  run->counts = query->counts;
+static void solve_batch(const struct tiles_work *work, size_t from,
+                        struct edge_query *query, bool callers,
+                        struct edge_batch *batch) {
+  size_t to = work->edge.count - from < BATCH_SIZE ? work->edge.count
+                                                   : from + BATCH_SIZE;
+  batch->done = true;
+  for (size_t i = from; batch->done && i < to; i++)
+    batch->done = poll_progress(work, i, work->edge.count, "edges", callers) &&
+                  edge_query_solve(query, work->edge.item[i]) &&
+                  edge_intervals_store(&query->intervals, work->edge.item[i],
+                                       &batch->map);
+  batch->counts = query->counts;
   query->counts = (struct occlusion_counts){0};
 }
 
-/* The runs, which the threads share. */
-struct edge_runs {
+/* All batches; each thread takes the next one until none is left. */
+struct edge_batches {
   const struct tiles_work *work;
-  struct edge_run *run;
+  struct edge_batch *batch;
   size_t count;
-  atomic_size_t next; /* not yet taken by any thread */
+  atomic_size_t next; /* the first that no thread has taken */
 };
 
-static void solve_some(void *user, bool callers) {
-  struct edge_runs *runs = user;
-  const struct tiles_work *work = runs->work;
+/* Solves batches in one thread. */
+static void solve_batches(void *user, bool callers) {
+  struct edge_batches *batches = user;
+  const struct tiles_work *work = batches->work;
   struct edge_query query;
   if (edge_query_init(&query, work->sheet, &work->lists)) {
     size_t i;
-    while ((i = atomic_fetch_add(&runs->next, 1)) < runs->count)
-      solve_run(work, i * RUN, &query, callers, &runs->run[i]);
+    while ((i = atomic_fetch_add(&batches->next, 1)) < batches->count)
+      solve_batch(work, i * BATCH_SIZE, &query, callers, &batches->batch[i]);
   }
   edge_query_fini(&query);
 }
 
-/* Appends a run's intervals to the map's; runs come in the edges' order. */
-static bool join_run(struct map *map, const struct edge_run *run) {
+/* Appends the intervals of a batch to the map; batches come in the order of
+ * their edges. */
+static bool append_batch(struct map *map, const struct edge_batch *batch) {
   uint32_t base = (uint32_t)map->interval.count;
-  if (!ARRAY_RESERVE(&map->mixed, run->map.mixed.count) ||
-      !ARRAY_RESERVE(&map->interval, run->map.interval.count))
+  if (!ARRAY_RESERVE(&map->mixed, batch->map.mixed.count) ||
+      !ARRAY_RESERVE(&map->interval, batch->map.interval.count))
     return false;
-  for (size_t i = 0; i < run->map.mixed.count; i++) {
-    struct map_mixed mixed = run->map.mixed.item[i];
+  for (size_t i = 0; i < batch->map.mixed.count; i++) {
+    struct map_mixed mixed = batch->map.mixed.item[i];
     mixed.interval += base;
     map->mixed.item[map->mixed.count++] = mixed;
   }
-  for (size_t i = 0; i < run->map.interval.count; i++)
-    map->interval.item[map->interval.count++] = run->map.interval.item[i];
+  for (size_t i = 0; i < batch->map.interval.count; i++)
+    map->interval.item[map->interval.count++] = batch->map.interval.item[i];
   return true;
 }
 
 static bool solve_edges(struct tiles_work *work, struct map *map) {
-  size_t n = work->edge.count, runs = (n + RUN - 1) / RUN;
-  struct edge_run *run = mem_calloc(runs, sizeof *run);
-  bool ok = run != NULL;
+  size_t n = work->edge.count, batches = (n + BATCH_SIZE - 1) / BATCH_SIZE;
+  struct edge_batch *batch = mem_calloc(batches, sizeof *batch);
+  bool ok = batch != NULL;
   if (!ok)
     return false;
-  for (size_t i = 0; i < runs; i++)
-    run[i].map.edge_state = map->edge_state;
-  parallel_run(runs > 1 ? work->request->threads : 1, solve_some,
-               &(struct edge_runs){.work = work, .run = run, .count = runs});
-  for (size_t i = 0; i < runs; i++) {
-    ok = ok && run[i].done && join_run(map, &run[i]);
-    occlusion_counts_add(&work->hide, &run[i].counts);
-    run[i].map.edge_state = NULL;
-    map_fini(&run[i].map);
+  for (size_t i = 0; i < batches; i++)
+    batch[i].map.edge_state = map->edge_state;
+  parallel_run(
+      batches > 1 ? work->request->threads : 1, solve_batches,
+      &(struct edge_batches){.work = work, .batch = batch, .count = batches});
+  for (size_t i = 0; i < batches; i++) {
+    ok = ok && batch[i].done && append_batch(map, &batch[i]);
+    occlusion_counts_add(&work->counts, &batch[i].counts);
+    batch[i].map.edge_state = NULL;
+    map_fini(&batch[i].map);
   }
-  mem_free(run);
+  mem_free(batch);
   return ok;
 }
 
@@ -356,18 +375,19 @@ static void report_tiles(const struct tiles_work *work, struct report *report) {
   report_int(report, "tiles", "mixed", (int64_t)work->tiles.mixed);
   report_int(report, "tiles", "empty", (int64_t)work->tiles.empty);
   report_int(report, "tiles", "with_horizons", work->tiles.horizon != NULL);
-  report_int(report, "tiles", "edges_left_over", (int64_t)work->edge.count);
-  report_int(report, "tiles", "triangles_left_over", (int64_t)work->face.count);
-  occlusion_report(&work->hide, report);
+  report_int(report, "tiles", "edges_undecided", (int64_t)work->edge.count);
+  report_int(report, "tiles", "triangles_undecided", (int64_t)work->face.count);
+  occlusion_report(&work->counts, report);
 }
 
-/* Files how long the phase took that ends now. */
+/* Reports the CPU time of the phase that ends now. */
 static void end_phase(struct tiles_work *work, const char *name) {
   double now = clock_cpu();
   report_double(work->report, "tiles", name, now - work->phase_start);
   work->phase_start = now;
 }
 
+/* Phases 1 and 2. */
 static bool classify(struct tiles_work *work, struct map *map) {
   const struct solver_request *request = work->request;
   work->phase_start = clock_cpu();
@@ -386,8 +406,8 @@ static bool classify(struct tiles_work *work, struct map *map) {
   return true;
 }
 
-static bool pierce_anywhere(struct tiles_work *work, recto_status *status,
-                            recto_error *error) {
+static bool find_all_intersections(struct tiles_work *work,
+                                   recto_status *status, recto_error *error) {
   struct triangle_grid grid;
   if (!triangle_grid_init(&grid, work->sheet))
     return false;
@@ -397,25 +417,26 @@ static bool pierce_anywhere(struct tiles_work *work, recto_status *status,
   return *status == RECTO_OK;
 }
 
-static bool pierce_in_lists(struct tiles_work *work, recto_status *status,
-                            recto_error *error) {
-  *status =
-      intersection_find_all(work->sheet, &work->lists.grid,
-                            work->lists.cells_are_tiles ? work->pierced : NULL,
-                            work->request, work->report, error);
+static bool find_listed_intersections(struct tiles_work *work,
+                                      recto_status *status,
+                                      recto_error *error) {
+  *status = intersection_find_all(
+      work->sheet, &work->lists.grid,
+      work->lists.cells_are_tiles ? work->intersected : NULL, work->request,
+      work->report, error);
   return *status == RECTO_OK;
 }
 
-/* Finds the piercing pairs, and what they add to the edges. */
-static bool find_piercing(struct tiles_work *work, struct map *map,
-                          recto_status *status, recto_error *error) {
+/* Phase 4.  Adds the intersections to the edges of the sheet. */
+static bool find_intersections(struct tiles_work *work, struct map *map,
+                               recto_status *status, recto_error *error) {
   size_t mesh_edges = work->sheet->edge.count;
-  if (!(work->request->hidden ? pierce_anywhere(work, status, error)
-                              : pierce_in_lists(work, status, error)))
+  if (!(work->request->hidden ? find_all_intersections(work, status, error)
+                              : find_listed_intersections(work, status, error)))
     return false;
   if (work->request->strokes && !classify_edges(work, mesh_edges, map))
     return false;
-  end_phase(work, "piercing_cpu_s");
+  end_phase(work, "intersections_cpu_s");
   return !work->wants_more || list_faces(work);
 }
 
@@ -424,12 +445,12 @@ static bool solve_all(struct tiles_work *work, struct map *map,
   const struct solver_request *request = work->request;
   if (!classify(work, map))
     return false;
-  if (request->intersections && !want_for_piercing(work))
+  if (request->intersections && !mark_intersected_tiles(work))
     return false;
   if (!list_faces(work))
     return false;
   end_phase(work, "lists_cpu_s");
-  if (request->intersections && !find_piercing(work, map, status, error))
+  if (request->intersections && !find_intersections(work, map, status, error))
     return false;
   if (request->strokes && !solve_edges(work, map))
     return false;
@@ -457,7 +478,7 @@ static recto_status solve(struct sheet *sheet,
   tile_candidates_fini(&work.lists);
   tile_classification_fini(&work.tiles);
   mem_free(work.wanted);
-  mem_free(work.pierced);
+  mem_free(work.intersected);
   mem_free(work.face_state);
   ARRAY_FREE(&work.edge);
   ARRAY_FREE(&work.face);
