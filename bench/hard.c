@@ -111,7 +111,7 @@ enum { SCENES = sizeof hard_scenes / sizeof *hard_scenes };
 
 /* ---- Methods ------------------------------------------------------------- */
 
-/* The solver at hand, and what its last run took. */
+/* The current solver, and the time of its last run. */
 static const struct solver *timed;
 static double timed_s;
 

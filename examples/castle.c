@@ -14,21 +14,21 @@ static const double pi = 3.14159265358979323846;
  * stands out over it, and the parapet's inside. */
 struct tower {
   const char *name;
-  struct spot foot;
+  struct point3 foot;
   unsigned stations; /* 2 x the number of merlons x their stations */
   unsigned merlon;   /* stations of a merlon, and of a gap */
-  struct spot wall[stations_max], over[stations_max], inside[stations_max];
+  struct point3 wall[stations_max], over[stations_max], inside[stations_max];
   double top;      /* of the wall */
   double sill[2];  /* heights of the windows; both 0: none */
   unsigned window; /* every so many stations */
 };
 
 static uint32_t add_ring(struct shape *shape, const struct tower *tower,
-                         const struct spot *ring, double z) {
+                         const struct point3 *ring, double z) {
   uint32_t first = (uint32_t)shape->points;
   for (unsigned i = 0; i < tower->stations; i++)
-    shape_point(shape, spot_of(tower->foot.x + ring[i].x,
-                               tower->foot.y + ring[i].y, tower->foot.z + z));
+    shape_point(shape, point3_of(tower->foot.x + ring[i].x,
+                                 tower->foot.y + ring[i].y, tower->foot.z + z));
   return first;
 }
 
@@ -40,10 +40,10 @@ static void add_window(struct shape *shape, const struct tower *tower,
   const unsigned station[4] = {i, k, k, i};
   uint32_t inner = (uint32_t)shape->points;
   for (unsigned j = 0; j < 4; j++) {
-    struct spot in =
-        spot_between(tower->wall[station[j]], tower->inside[station[j]], 0.6);
-    shape_point(shape, spot_of(tower->foot.x + in.x, tower->foot.y + in.y,
-                               shape->point[outer[j]].z));
+    struct point3 in =
+        point3_between(tower->wall[station[j]], tower->inside[station[j]], 0.6);
+    shape_point(shape, point3_of(tower->foot.x + in.x, tower->foot.y + in.y,
+                                 shape->point[outer[j]].z));
   }
   for (uint32_t j = 0; j < 4; j++) {
     uint32_t next = (j + 1) % 4;
@@ -122,23 +122,23 @@ static void add_tower(struct shape *shape, const struct tower *tower) {
 static void make_round(struct tower *tower, double radius) {
   for (unsigned i = 0; i < tower->stations; i++) {
     double angle = 2 * pi * (i + 0.5) / tower->stations;
-    tower->wall[i] = spot_polar(radius, angle, 0);
-    tower->over[i] = spot_polar(radius + 0.6, angle, 0);
-    tower->inside[i] = spot_polar(radius - 0.4, angle, 0);
+    tower->wall[i] = point3_polar(radius, angle, 0);
+    tower->over[i] = point3_polar(radius + 0.6, angle, 0);
+    tower->inside[i] = point3_polar(radius - 0.4, angle, 0);
   }
 }
 
-/* The spot at station i of n on a square of half side `half`; stations next
+/* The point at station i of n on a square of half side `half`; stations next
  * to a corner stand as if the half side were `clear`, so that rings of
  * different size face each other squarely. */
-static struct spot square_at(unsigned i, unsigned n, double half,
-                             double clear) {
+static struct point3 square_at(unsigned i, unsigned n, double half,
+                               double clear) {
   static const int along[4][2] = {{0, 1}, {-1, 0}, {0, -1}, {1, 0}};
   unsigned per_side = n / 4, side = i / per_side, step = i % per_side;
   double t =
       step == 0 ? -half : clear * (2.0 * (step - 1) / (per_side - 2) - 1);
   int dx = along[side][0], dy = along[side][1];
-  return spot_of(dy * half + dx * t, -dx * half + dy * t, 0);
+  return point3_of(dy * half + dx * t, -dx * half + dy * t, 0);
 }
 
 static void make_square(struct tower *tower, double half) {
@@ -162,39 +162,39 @@ static void add_round_tower(struct shape *shape, const char *name, double x,
   add_tower(shape, &tower);
 }
 
-static void add_roof(struct shape *shape, const char *name, struct spot eaves,
+static void add_roof(struct shape *shape, const char *name, struct point3 eaves,
                      double radius, double height) {
   enum { sides = 40 };
   shape_group(shape, name);
   uint32_t ring = (uint32_t)shape->points;
   for (unsigned i = 0; i < sides; i++) {
-    struct spot at = spot_polar(radius, 2 * pi * i / sides, 0);
-    shape_point(shape, spot_of(eaves.x + at.x, eaves.y + at.y, eaves.z));
+    struct point3 at = point3_polar(radius, 2 * pi * i / sides, 0);
+    shape_point(shape, point3_of(eaves.x + at.x, eaves.y + at.y, eaves.z));
   }
   uint32_t tip =
-      shape_point(shape, spot_of(eaves.x, eaves.y, eaves.z + height));
+      shape_point(shape, point3_of(eaves.x, eaves.y, eaves.z + height));
   shape_lid(shape, ring, sides, false);
   for (uint32_t i = 0; i < sides; i++)
     shape_triangle(shape, ring + i, ring + (i + 1) % sides, tip);
 }
 
-static void add_flag(struct shape *shape, const char *name, struct spot foot,
+static void add_flag(struct shape *shape, const char *name, struct point3 foot,
                      double height) {
   char cloth[40];
   snprintf(cloth, sizeof cloth, "%s_cloth", name);
   shape_group(shape, name);
   shape_cylinder(shape, foot, 0.12, height, 12);
   shape_group(shape, cloth);
-  const struct spot pennant[5] = {
+  const struct point3 pennant[5] = {
       {foot.x, foot.y - 0.04, foot.z + height - 2},
       {foot.x + 3.6, foot.y - 0.04, foot.z + height - 1.7},
       {foot.x + 2.6, foot.y - 0.04, foot.z + height - 1.1},
       {foot.x + 3.6, foot.y - 0.04, foot.z + height - 0.5},
       {foot.x, foot.y - 0.04, foot.z + height - 0.2},
   };
-  const struct spot turned[5] = {pennant[4], pennant[3], pennant[2], pennant[1],
-                                 pennant[0]};
-  shape_prism(shape, turned, 5, spot_of(0, 0.08, 0));
+  const struct point3 turned[5] = {pennant[4], pennant[3], pennant[2],
+                                   pennant[1], pennant[0]};
+  shape_prism(shape, turned, 5, point3_of(0, 0.08, 0));
 }
 
 /* ---- Walls --------------------------------------------------------------- */
@@ -202,12 +202,12 @@ static void add_flag(struct shape *shape, const char *name, struct spot foot,
 /* A wall's side view: its length and height, notched between merlons, and an
  * arch of a gate where gate > 0.  Along the wall, then up. */
 struct side_view {
-  struct spot corner[160];
+  struct point3 corner[160];
   uint32_t count;
 };
 
 static void add_corner(struct side_view *view, double along, double up) {
-  view->corner[view->count++] = spot_of(along, 0, up);
+  view->corner[view->count++] = point3_of(along, 0, up);
 }
 
 static void draw_side(struct side_view *view, double length, double height,
@@ -218,7 +218,7 @@ static void draw_side(struct side_view *view, double length, double height,
     double left = (length - gate) / 2, spring = 3;
     add_corner(view, left, -1);
     for (unsigned i = 0; i <= 20; i++) {
-      struct spot at = spot_polar(gate / 2, pi - pi * i / 20, 0);
+      struct point3 at = point3_polar(gate / 2, pi - pi * i / 20, 0);
       add_corner(view, length / 2 + at.x, spring + at.y);
     }
     add_corner(view, left + gate, -1);
@@ -232,29 +232,29 @@ static void draw_side(struct side_view *view, double length, double height,
   }
 }
 
-/* A wall from one spot to another, thick to the left of that way. */
-static void add_curtain(struct shape *shape, const char *name, struct spot from,
-                        struct spot to, double thick, double height,
-                        double gate, unsigned merlons) {
+/* A wall from one point to another, its thickness to the left of that line. */
+static void add_curtain(struct shape *shape, const char *name,
+                        struct point3 from, struct point3 to, double thick,
+                        double height, double gate, unsigned merlons) {
   struct side_view view;
   double dx = to.x - from.x, dy = to.y - from.y, length = hypot(dx, dy);
   draw_side(&view, length, height, gate, merlons);
   dx /= length;
   dy /= length;
   for (uint32_t i = 0; i < view.count; i++) {
-    struct spot at = view.corner[i];
-    view.corner[i] = spot_of(from.x + dx * at.x, from.y + dy * at.x, at.z);
+    struct point3 at = view.corner[i];
+    view.corner[i] = point3_of(from.x + dx * at.x, from.y + dy * at.x, at.z);
   }
   /* Drawn from the right, pushed to the left: seen from the tip of the push
-   * the outline runs the other way. */
+   * the outline runs in the opposite direction. */
   for (uint32_t i = 0; i < view.count / 2; i++) {
-    struct spot swap = view.corner[i];
+    struct point3 swap = view.corner[i];
     view.corner[i] = view.corner[view.count - 1 - i];
     view.corner[view.count - 1 - i] = swap;
   }
   shape_group(shape, name);
   shape_prism(shape, view.corner, view.count,
-              spot_of(-dy * thick, dx * thick, 0));
+              point3_of(-dy * thick, dx * thick, 0));
 }
 
 static void add_portcullis(struct shape *shape, double x, double y) {
@@ -263,36 +263,36 @@ static void add_portcullis(struct shape *shape, double x, double y) {
     double at = x - 1.6 + 0.8 * i;
     snprintf(name, sizeof name, "bar_%u", i + 1);
     shape_group(shape, name);
-    shape_box(shape, spot_of(at - 0.09, y, 1.4),
-              spot_of(at + 0.09, y + 0.18, 6));
+    shape_box(shape, point3_of(at - 0.09, y, 1.4),
+              point3_of(at + 0.09, y + 0.18, 6));
   }
   for (unsigned i = 0; i < 4; i++) {
     double at = 1.9 + 0.9 * i;
     snprintf(name, sizeof name, "rail_%u", i + 1);
     shape_group(shape, name);
-    shape_box(shape, spot_of(x - 2.6, y + 0.3, at),
-              spot_of(x + 2.6, y + 0.45, at + 0.16));
+    shape_box(shape, point3_of(x - 2.6, y + 0.3, at),
+              point3_of(x + 2.6, y + 0.45, at + 0.16));
   }
 }
 
 /* ---- The rest ------------------------------------------------------------ */
 
-static void add_house(struct shape *shape, const char *name, struct spot at,
+static void add_house(struct shape *shape, const char *name, struct point3 at,
                       double width, double length, double height) {
-  const struct spot gable[5] = {
+  const struct point3 gable[5] = {
       {at.x, at.y, -1},
       {at.x + width, at.y, -1},
       {at.x + width, at.y, height},
       {at.x + width / 2, at.y, height + 0.45 * width},
       {at.x, at.y, height},
   };
-  const struct spot turned[5] = {gable[4], gable[3], gable[2], gable[1],
-                                 gable[0]};
+  const struct point3 turned[5] = {gable[4], gable[3], gable[2], gable[1],
+                                   gable[0]};
   shape_group(shape, name);
-  shape_prism(shape, turned, 5, spot_of(0, length, 0));
-  shape_box(
-      shape, spot_of(at.x + 0.68 * width, at.y + 0.7 * length, 0),
-      spot_of(at.x + 0.82 * width, at.y + 0.8 * length, height + 0.5 * width));
+  shape_prism(shape, turned, 5, point3_of(0, length, 0));
+  shape_box(shape, point3_of(at.x + 0.68 * width, at.y + 0.7 * length, 0),
+            point3_of(at.x + 0.82 * width, at.y + 0.8 * length,
+                      height + 0.5 * width));
 }
 
 static void add_keep(struct shape *shape) {
@@ -318,32 +318,32 @@ static void add_keep(struct shape *shape) {
 
 void models_castle(struct shape *shape) {
   shape_group(shape, "mound");
-  shape_cylinder(shape, spot_of(0, 0, -3), 35, 3, 72);
+  shape_cylinder(shape, point3_of(0, 0, -3), 35, 3, 72);
   add_round_tower(shape, "tower_south_west", -20, -20, 5, 13);
   add_round_tower(shape, "tower_south_east", 20, -20, 5, 13);
   add_round_tower(shape, "tower_north_west", -20, 20, 4.6, 17);
   add_round_tower(shape, "tower_north_east", 20, 20, 4.6, 17);
   add_round_tower(shape, "gate_tower_west", -6.5, -21, 3.4, 14);
   add_round_tower(shape, "gate_tower_east", 6.5, -21, 3.4, 14);
-  add_roof(shape, "roof_north_west", spot_of(-20, 20, 17.5), 4, 10);
-  add_roof(shape, "roof_north_east", spot_of(20, 20, 17.5), 4, 10);
-  add_curtain(shape, "wall_south_west", spot_of(-17, -21.2, 0),
-              spot_of(-7, -21.2, 0), 2.4, 8, 0, 5);
-  add_curtain(shape, "wall_south_east", spot_of(7, -21.2, 0),
-              spot_of(17, -21.2, 0), 2.4, 8, 0, 5);
-  add_curtain(shape, "gate", spot_of(-6, -22.5, 0), spot_of(6, -22.5, 0), 4,
+  add_roof(shape, "roof_north_west", point3_of(-20, 20, 17.5), 4, 10);
+  add_roof(shape, "roof_north_east", point3_of(20, 20, 17.5), 4, 10);
+  add_curtain(shape, "wall_south_west", point3_of(-17, -21.2, 0),
+              point3_of(-7, -21.2, 0), 2.4, 8, 0, 5);
+  add_curtain(shape, "wall_south_east", point3_of(7, -21.2, 0),
+              point3_of(17, -21.2, 0), 2.4, 8, 0, 5);
+  add_curtain(shape, "gate", point3_of(-6, -22.5, 0), point3_of(6, -22.5, 0), 4,
               10.5, 4.4, 5);
   add_portcullis(shape, 0, -20.6);
-  add_curtain(shape, "wall_east", spot_of(21.2, -17, 0), spot_of(21.2, 17, 0),
-              2.4, 8, 0, 13);
-  add_curtain(shape, "wall_north", spot_of(17, 21.2, 0), spot_of(-17, 21.2, 0),
-              2.4, 8, 0, 13);
-  add_curtain(shape, "wall_west", spot_of(-21.2, 17, 0), spot_of(-21.2, -17, 0),
-              2.4, 8, 0, 13);
+  add_curtain(shape, "wall_east", point3_of(21.2, -17, 0),
+              point3_of(21.2, 17, 0), 2.4, 8, 0, 13);
+  add_curtain(shape, "wall_north", point3_of(17, 21.2, 0),
+              point3_of(-17, 21.2, 0), 2.4, 8, 0, 13);
+  add_curtain(shape, "wall_west", point3_of(-21.2, 17, 0),
+              point3_of(-21.2, -17, 0), 2.4, 8, 0, 13);
   add_keep(shape);
-  add_house(shape, "hall", spot_of(-15.5, -8, 0), 7, 14, 4.5);
-  add_house(shape, "stable", spot_of(12.5, -13, 0), 5, 9, 3.2);
-  add_flag(shape, "flag_keep", spot_of(2, 7, 27.5), 8);
-  add_flag(shape, "flag_north_west", spot_of(-20, 20, 26.5), 5);
-  add_flag(shape, "flag_north_east", spot_of(20, 20, 26.5), 5);
+  add_house(shape, "hall", point3_of(-15.5, -8, 0), 7, 14, 4.5);
+  add_house(shape, "stable", point3_of(12.5, -13, 0), 5, 9, 3.2);
+  add_flag(shape, "flag_keep", point3_of(2, 7, 27.5), 8);
+  add_flag(shape, "flag_north_west", point3_of(-20, 20, 26.5), 5);
+  add_flag(shape, "flag_north_east", point3_of(20, 20, 26.5), 5);
 }

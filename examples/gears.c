@@ -24,7 +24,7 @@ struct gear {
   const char *name;
   unsigned teeth;  /* divides `stations` */
   unsigned spokes; /* divides `stations`; 0: a full web */
-  struct spot foot;
+  struct point3 foot;
   double thick; /* of the rim */
   double phase; /* angle of the middle of tooth 0 */
   double bore, hub, incidence;
@@ -72,9 +72,9 @@ static uint32_t add_ring(struct shape *shape, const struct gear *gear,
   uint32_t first = (uint32_t)shape->points;
   double start = gear->phase - pi / gear->teeth;
   for (unsigned i = 0; i < stations; i++) {
-    struct spot at = spot_polar(radius, start + 2 * pi * i / stations, z);
-    shape_point(shape, spot_of(at.x + gear->foot.x, at.y + gear->foot.y,
-                               at.z + gear->foot.z));
+    struct point3 at = point3_polar(radius, start + 2 * pi * i / stations, z);
+    shape_point(shape, point3_of(at.x + gear->foot.x, at.y + gear->foot.y,
+                                 at.z + gear->foot.z));
   }
   return first;
 }
@@ -86,10 +86,10 @@ static uint32_t add_outline(struct shape *shape, const struct gear *gear,
   uint32_t first = (uint32_t)shape->points;
   for (unsigned i = 0; i < gear->teeth * count; i++) {
     double angle = gear->phase + 2 * pi * (i / count) / gear->teeth;
-    struct spot at =
-        spot_polar(polar[i % count][0], angle + polar[i % count][1], z);
-    shape_point(shape, spot_of(at.x + gear->foot.x, at.y + gear->foot.y,
-                               at.z + gear->foot.z));
+    struct point3 at =
+        point3_polar(polar[i % count][0], angle + polar[i % count][1], z);
+    shape_point(shape, point3_of(at.x + gear->foot.x, at.y + gear->foot.y,
+                                 at.z + gear->foot.z));
   }
   return first;
 }
@@ -192,33 +192,34 @@ static void mesh(struct gear *gear, const struct gear *with, double radians) {
   gear->phase = radians + pi + (share + 0.5) * 2 * pi / gear->teeth;
 }
 
-static void add_shaft(struct shape *shape, const char *name, struct spot at,
+static void add_shaft(struct shape *shape, const char *name, struct point3 at,
                       double top) {
   char boss[40];
   snprintf(boss, sizeof boss, "%s_bearing", name);
   shape_group(shape, boss);
-  shape_cylinder(shape, spot_of(at.x, at.y, -2), 9, 5, 48);
+  shape_cylinder(shape, point3_of(at.x, at.y, -2), 9, 5, 48);
   shape_group(shape, name);
-  shape_cylinder(shape, spot_of(at.x, at.y, -2), 3.6, top + 2, 36);
+  shape_cylinder(shape, point3_of(at.x, at.y, -2), 3.6, top + 2, 36);
 }
 
 /* A plate with round corners. */
-static void add_plate(struct shape *shape, struct spot low, struct spot high) {
+static void add_plate(struct shape *shape, struct point3 low,
+                      struct point3 high) {
   enum { corner = 9 };
   const double radius = 14;
-  struct spot outline[4 * (corner + 1)];
+  struct point3 outline[4 * (corner + 1)];
   unsigned count = 0;
   for (unsigned side = 0; side < 4; side++) {
     double x = side == 1 || side == 2 ? low.x + radius : high.x - radius;
     double y = side >= 2 ? low.y + radius : high.y - radius;
     for (unsigned i = 0; i <= corner; i++) {
-      struct spot at =
-          spot_polar(radius, pi / 2 * (side + i / (double)corner), 0);
-      outline[count++] = spot_of(x + at.x, y + at.y, low.z);
+      struct point3 at =
+          point3_polar(radius, pi / 2 * (side + i / (double)corner), 0);
+      outline[count++] = point3_of(x + at.x, y + at.y, low.z);
     }
   }
   shape_group(shape, "plate");
-  shape_prism(shape, outline, count, spot_of(0, 0, high.z - low.z));
+  shape_prism(shape, outline, count, point3_of(0, 0, high.z - low.z));
 }
 
 void models_gears(struct shape *shape) {
@@ -230,7 +231,7 @@ void models_gears(struct shape *shape) {
   mesh(&driver, &wheel, 155 * pi / 180);
   mesh(&idler, &wheel, 278 * pi / 180);
   mesh(&last, &pinion, -12 * pi / 180);
-  add_plate(shape, spot_of(-76, -88, -6), spot_of(97, 46, 0));
+  add_plate(shape, point3_of(-76, -88, -6), point3_of(97, 46, 0));
   add_gear(shape, &wheel);
   add_gear(shape, &driver);
   add_gear(shape, &idler);

@@ -18,13 +18,13 @@ static void *grow(void *block, size_t count, size_t *room, size_t size) {
   return block;
 }
 
-struct spot spot_polar(double radius, double radians, double z) {
-  return spot_of(radius * cos(radians), radius * sin(radians), z);
+struct point3 point3_polar(double radius, double radians, double z) {
+  return point3_of(radius * cos(radians), radius * sin(radians), z);
 }
 
-struct spot spot_between(struct spot a, struct spot b, double t) {
-  return spot_of(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y),
-                 a.z + t * (b.z - a.z));
+struct point3 point3_between(struct point3 a, struct point3 b, double t) {
+  return point3_of(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y),
+                   a.z + t * (b.z - a.z));
 }
 
 void shape_free(struct shape *shape) {
@@ -43,7 +43,7 @@ void shape_group(struct shape *shape, const char *name) {
   group->word = shape->words;
 }
 
-uint32_t shape_point(struct shape *shape, struct spot at) {
+uint32_t shape_point(struct shape *shape, struct point3 at) {
   shape->point = grow(shape->point, shape->points, &shape->point_room,
                       sizeof *shape->point);
   shape->point[shape->points] = at;
@@ -77,7 +77,7 @@ uint32_t shape_raise(struct shape *shape, uint32_t first, uint32_t count,
                      double rise) {
   uint32_t raised = (uint32_t)shape->points;
   for (uint32_t i = 0; i < count; i++) {
-    struct spot at = shape->point[first + i];
+    struct point3 at = shape->point[first + i];
     at.z += rise;
     shape_point(shape, at);
   }
@@ -99,36 +99,36 @@ void shape_lid(struct shape *shape, uint32_t ring, uint32_t count,
     add_word(shape, ring + (from_above ? i : count - 1 - i));
 }
 
-void shape_prism(struct shape *shape, const struct spot *corner, uint32_t count,
-                 struct spot push) {
+void shape_prism(struct shape *shape, const struct point3 *corner,
+                 uint32_t count, struct point3 push) {
   uint32_t low = (uint32_t)shape->points;
   for (uint32_t i = 0; i < count; i++)
     shape_point(shape, corner[i]);
   for (uint32_t i = 0; i < count; i++)
-    shape_point(shape, spot_of(corner[i].x + push.x, corner[i].y + push.y,
-                               corner[i].z + push.z));
+    shape_point(shape, point3_of(corner[i].x + push.x, corner[i].y + push.y,
+                                 corner[i].z + push.z));
   shape_band(shape, low, low + count, count);
   shape_lid(shape, low, count, false);
   shape_lid(shape, low + count, count, true);
 }
 
-void shape_box(struct shape *shape, struct spot low, struct spot high) {
-  const struct spot corner[4] = {
+void shape_box(struct shape *shape, struct point3 low, struct point3 high) {
+  const struct point3 corner[4] = {
       low,
       {high.x, low.y, low.z},
       {high.x, high.y, low.z},
       {low.x, high.y, low.z},
   };
-  shape_prism(shape, corner, 4, spot_of(0, 0, high.z - low.z));
+  shape_prism(shape, corner, 4, point3_of(0, 0, high.z - low.z));
 }
 
-void shape_cylinder(struct shape *shape, struct spot foot, double radius,
+void shape_cylinder(struct shape *shape, struct point3 foot, double radius,
                     double height, uint32_t sides) {
   const double turn = 2 * acos(-1);
   uint32_t low = (uint32_t)shape->points;
   for (uint32_t i = 0; i < sides; i++) {
-    struct spot at = spot_polar(radius, turn * i / sides, foot.z);
-    shape_point(shape, spot_of(at.x + foot.x, at.y + foot.y, foot.z));
+    struct point3 at = point3_polar(radius, turn * i / sides, foot.z);
+    shape_point(shape, point3_of(at.x + foot.x, at.y + foot.y, foot.z));
   }
   uint32_t high = shape_raise(shape, low, sides, height);
   shape_band(shape, low, high, sides);

@@ -9,12 +9,12 @@
 #include <stdio.h>
 
 /* z is up here; the file has y up, as OBJ means it. */
-struct spot {
+struct point3 {
   double x, y, z;
 };
 
 struct shape {
-  struct spot *point;
+  struct point3 *point;
   size_t points, point_room;
   uint32_t *word; /* faces: a count, then as many points from 0 */
   size_t words, word_room;
@@ -25,12 +25,12 @@ struct shape {
   size_t groups, group_room;
 };
 
-static inline struct spot spot_of(double x, double y, double z) {
-  return (struct spot){x, y, z};
+static inline struct point3 point3_of(double x, double y, double z) {
+  return (struct point3){x, y, z};
 }
-/* The spot at a distance and angle about the z axis. */
-struct spot spot_polar(double radius, double radians, double z);
-struct spot spot_between(struct spot a, struct spot b, double t);
+/* The point at a distance and angle about the z axis. */
+struct point3 point3_polar(double radius, double radians, double z);
+struct point3 point3_between(struct point3 a, struct point3 b, double t);
 
 /* A shape starts as {0}.  Running out of memory ends the program. */
 void shape_free(struct shape *shape);
@@ -39,7 +39,7 @@ void shape_free(struct shape *shape);
 void shape_group(struct shape *shape, const char *name);
 
 /* Adds a point, returns its number. */
-uint32_t shape_point(struct shape *shape, struct spot at);
+uint32_t shape_point(struct shape *shape, struct point3 at);
 
 /* Adds a face, counter-clockwise seen from outside. */
 void shape_face(struct shape *shape, const uint32_t *point, size_t count);
@@ -63,14 +63,14 @@ void shape_lid(struct shape *shape, uint32_t ring, uint32_t count,
 
 /* Adds the closed prism that a plane polygon of `count` points sweeps when it
  * is pushed; seen from the tip of the push it runs counter-clockwise. */
-void shape_prism(struct shape *shape, const struct spot *corner, uint32_t count,
-                 struct spot push);
+void shape_prism(struct shape *shape, const struct point3 *corner,
+                 uint32_t count, struct point3 push);
 
 /* Adds the closed box between two opposite corners. */
-void shape_box(struct shape *shape, struct spot low, struct spot high);
+void shape_box(struct shape *shape, struct point3 low, struct point3 high);
 
 /* Adds an upright closed cylinder of `sides` sides. */
-void shape_cylinder(struct shape *shape, struct spot foot, double radius,
+void shape_cylinder(struct shape *shape, struct point3 foot, double radius,
                     double height, uint32_t sides);
 
 /* Writes the shape as OBJ, four decimals, without points that no face uses.

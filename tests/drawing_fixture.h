@@ -38,7 +38,7 @@ void drawing_fixture_loop(struct drawing *drawing, const double *xy,
  *              2, a square of 100 mm with its lower left corner at 23, 33
  *              with pen 1
  * spiral, stars, lattice, fan, waves, pens
- *              different kinds of strokes on A4, landscape for some, each
+ *              different kinds of strokes on A4, some in landscape, each
  *              without any symmetry */
 bool drawing_fixture_named(struct drawing *drawing, const char *name);
 

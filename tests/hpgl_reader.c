@@ -13,7 +13,7 @@ struct reader {
   unsigned pen;   /* held */
   bool lifted;    /* by a bare PU since the last ink */
   bool travelled; /* a PUx,y stands without ink */
-  bool drawing;   /* the stroke at hand may go on */
+  bool drawing;   /* the current stroke may continue */
 };
 
 static void complain(struct reader *reader, const char *what) {

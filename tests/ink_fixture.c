@@ -150,7 +150,7 @@ recto_status ink_fixture_try(struct ink_fixture *k) {
   recto_error error = {.code = RECTO_OK};
   drawing_fini(&k->drawing);
   drawing_init(&k->drawing);
-  /* The map lends the states for the time being, and frees them never. */
+  /* The map borrows the states and does not own them. */
   k->map.edge_state = k->state.item;
   k->map.edge_count = k->state.count;
   recto_status status =

@@ -55,21 +55,21 @@ void ink_fixture_fragment(struct ink_fixture *k, uint32_t face,
                           const double *xy, uint32_t count);
 void ink_fixture_hole(struct ink_fixture *k, const double *xy, uint32_t count);
 
-/* Makes the drawing; whatever was drawn before is forgotten. */
+/* Makes the drawing; an earlier drawing is freed. */
 recto_status ink_fixture_try(struct ink_fixture *k);
 void ink_fixture_draw(struct ink_fixture *k);
 
 /* The stroke has those points, pairs x, y in mm, to a nanometre. */
 void ink_fixture_assert_stroke(const struct ink_fixture *k, size_t stroke,
                                bool closed, const double *xy, uint32_t count);
-/* The same, or begun elsewhere (closed), or the other way round. */
+/* The same, with any start (closed) and in either direction. */
 void ink_fixture_assert_same_line(const struct ink_fixture *k, size_t stroke,
                                   bool closed, const double *xy,
                                   uint32_t count);
 
 double ink_fixture_stroke_length(const struct ink_fixture *k, size_t stroke);
 
-/* How far a place is from the nearest of the strokes, mm. */
+/* The distance of a point from the nearest stroke, mm. */
 double ink_fixture_distance(const struct ink_fixture *k, double x_mm,
                             double y_mm);
 

@@ -17,7 +17,8 @@ struct reading {
 void reading_init(struct reading *reading);
 void reading_fini(struct reading *reading);
 
-/* Hands `count` bytes to the reader, in a block that ends with their NUL. */
+/* Passes `count` bytes to the reader, in a block that ends with a NUL after
+ * them. */
 recto_status reading_bytes(struct reading *reading, const struct reader *reader,
                            const char *bytes, size_t count);
 

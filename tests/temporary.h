@@ -15,7 +15,7 @@ const char *temporary_path(void *const *state, const char *name);
 const char *temporary_file(void *const *state, const char *name,
                            const void *bytes, size_t count);
 
-/* The file's bytes, NUL-terminated, in memory of the caller's; NULL where it
+/* The file's bytes, NUL-terminated, in memory that the caller frees; NULL if it
  * cannot be read. */
 char *temporary_read(const char *path, size_t *count);
 

@@ -17,7 +17,7 @@
 #include "backends/writer.h"
 #include "tests/drawing_fixture.h"
 
-/* ---- A drawing, and what comes of it ------------------------------------- */
+/* ---- A drawing and its file ---------------------------------------------- */
 
 struct fixture {
   struct drawing drawing;
@@ -341,7 +341,7 @@ static void holes_stay_white_and_strokes_lie_on_fills(void **state) {
   drawing_fixture_line(&f.drawing, layer, 5, 15, 45, 15);
   drawing_fixture_fill(&f.drawing, layer, 0xff8000,
                        (double[]){10, 10, 40, 10, 40, 40, 10, 40}, 4);
-  /* The same way round as the outline: it is even-odd that makes the hole. */
+  /* Of the same winding as the outline: the even-odd rule makes the hole. */
   drawing_fixture_loop(&f.drawing, (double[]){20, 20, 30, 20, 30, 30, 20, 30},
                        4);
   f.options.dpi = 254;

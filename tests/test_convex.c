@@ -168,7 +168,8 @@ static void check_piece(const struct geom_convex *piece) {
   rational_point_clear(&p);
 }
 
-/* Are all corners left of the line or on it (way 1), or right of it (-1)? */
+/* Are all corners left of the line or on it (way 1), or right of it (way
+ * -1)? */
 static bool lies(const struct geom_convex *piece, const struct geom_line *line,
                  int way) {
   for (uint32_t k = 0; k < piece->count; k++)

@@ -168,10 +168,10 @@ static void a_page_between_the_sheets_is_reported(void **state) {
              {"hp7550a", 200, 280, false},    {"hp7475a", 250, 250, true},
              {"hp7475a", 1189, 841, false}};
   for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
-    struct device_placement place;
+    struct device_placement placement;
     device_place(device_by_name(row[i].device), row[i].width_mm,
-                 row[i].height_mm, &place);
-    assert_int_equal(place.between, row[i].reported);
+                 row[i].height_mm, &placement);
+    assert_int_equal(placement.between, row[i].reported);
   }
 }
 
@@ -182,7 +182,7 @@ static void nothing_is_clipped_inside_the_reported_margin(void **state) {
   int needed = 0;
   for (int i = 0; i < 400; i++) {
     static const char *const name[] = {"hp7475a", "hp7550a", "dxy"};
-    struct device_placement place;
+    struct device_placement placement;
     double width = random_int(&random, 50, 420);
     double height = random_int(&random, 50, 297);
     const char *device = name[i % 3];
@@ -190,8 +190,8 @@ static void nothing_is_clipped_inside_the_reported_margin(void **state) {
       width = i % 4 ? 420 : 210;
       height = 297;
     }
-    device_place(device_by_name(device), width, height, &place);
-    double margin = device_margin_mm(&place);
+    device_place(device_by_name(device), width, height, &placement);
+    double margin = device_margin_mm(&placement);
     assert_true(margin >= 0);
     for (int less = 0; less <= (margin > 0.5); less++) {
       struct plotting f;
@@ -204,7 +204,7 @@ static void nothing_is_clipped_inside_the_reported_margin(void **state) {
       plotting_run(&f);
       char words[40];
       snprintf(words, sizeof words, "all of the outer %.0f mm", ceil(margin));
-      assert_int_equal(f.warnings, place.between + less);
+      assert_int_equal(f.warnings, placement.between + less);
       assert_int_equal(strstr(f.warning, words) != NULL, less);
       needed += less;
       plotting_end(&f);
@@ -314,11 +314,13 @@ static void a_frame_around_the_page_is_all_there(void **state) {
 /* ---- Any drawing --------------------------------------------------------- */
 
 /* Where the page's point ought to be, by the words of device.h. */
-static void expect(const struct device_placement *place, double height_mm,
+static void expect(const struct device_placement *placement, double height_mm,
                    const struct drawing_point *point, double *x, double *y) {
-  *x = place->origin_x +
-       (place->turned ? height_mm - point->y : point->x) / place->unit_mm;
-  *y = place->origin_y + (place->turned ? point->x : point->y) / place->unit_mm;
+  *x = placement->origin_x +
+       (placement->turned ? height_mm - point->y : point->x) /
+           placement->unit_mm;
+  *y = placement->origin_y +
+       (placement->turned ? point->x : point->y) / placement->unit_mm;
 }
 
 static double distance_to_line(double x, double y, const struct hpgl_point *a,
@@ -364,31 +366,31 @@ static void make_random(struct plotting *f, struct random *random,
 }
 
 static void assert_inside(const struct hpgl *hpgl,
-                          const struct device_placement *place) {
+                          const struct device_placement *placement) {
   for (size_t i = 0; i < hpgl->point.count; i++) {
-    assert_true(hpgl->point.item[i].x >= place->x0);
-    assert_true(hpgl->point.item[i].x <= place->x1);
-    assert_true(hpgl->point.item[i].y >= place->y0);
-    assert_true(hpgl->point.item[i].y <= place->y1);
+    assert_true(hpgl->point.item[i].x >= placement->x0);
+    assert_true(hpgl->point.item[i].x <= placement->x1);
+    assert_true(hpgl->point.item[i].y >= placement->y0);
+    assert_true(hpgl->point.item[i].y <= placement->y1);
   }
 }
 
 /* Places along every stroke, as far as they are in the area: all have ink. */
 static void assert_covered(const struct plotting *f,
-                           const struct device_placement *place) {
+                           const struct device_placement *placement) {
   for (size_t i = 0; i < f->drawing.stroke.count; i++) {
     const struct drawing_stroke *stroke = &f->drawing.stroke.item[i];
     const struct drawing_point *p = f->drawing.point.item + stroke->point;
     uint32_t lines = stroke->count - (stroke->closed ? 0 : 1);
     for (uint32_t k = 0; stroke->count > 1 && k < lines; k += 7) {
       double ax, ay, bx, by;
-      expect(place, f->drawing.height_mm, &p[k], &ax, &ay);
-      expect(place, f->drawing.height_mm, &p[(k + 1) % stroke->count], &bx,
+      expect(placement, f->drawing.height_mm, &p[k], &ax, &ay);
+      expect(placement, f->drawing.height_mm, &p[(k + 1) % stroke->count], &bx,
              &by);
       for (int part = 0; part <= 5; part++) {
         double x = ax + (bx - ax) * part / 5, y = ay + (by - ay) * part / 5;
-        if (x >= place->x0 && x <= place->x1 && y >= place->y0 &&
-            y <= place->y1)
+        if (x >= placement->x0 && x <= placement->x1 && y >= placement->y0 &&
+            y <= placement->y1)
           assert_true(distance_to_ink(&f->back, x, y) <= 1);
       }
     }
@@ -401,19 +403,19 @@ static void no_drawing_leaves_the_area_or_the_cap(void **state) {
   size_t clipped = 0, device = 0;
   for (size_t i = 0; i < 400; i++) {
     struct plotting f;
-    struct device_placement place;
+    struct device_placement placement;
     make_random(&f, &random, i % 2 ? 300 : 3);
     f.options.device = device_name(device++);
     if (!device_name(device))
       device = 0;
     device_place(device_by_name(f.options.device), f.drawing.width_mm,
-                 f.drawing.height_mm, &place);
+                 f.drawing.height_mm, &placement);
     plotting_run(&f);
-    assert_inside(&f.back, &place);
+    assert_inside(&f.back, &placement);
     assert_in_range(f.back.longest, 0, 100);
-    assert_covered(&f, &place);
+    assert_covered(&f, &placement);
     bool cut = strstr(f.warning, " clipped") != NULL;
-    assert_int_equal(f.warnings, place.between + cut);
+    assert_int_equal(f.warnings, placement.between + cut);
     clipped += cut;
     plotting_end(&f);
   }

@@ -102,7 +102,7 @@ static void pages_are_drawn_as_by_brute(void **state) {
 
 /* ---- Work ---------------------------------------------------------------- */
 
-/* Pairs that were met: of edge and triangle, and of two triangles. */
+/* Pairs that were tested: of edge and triangle, and of two triangles. */
 static int64_t pairs_met(const struct report *report) {
   return report_get(report, "hide", "pairs", 0) +
          report_get(report, "pierce", "pairs_met", 0) +

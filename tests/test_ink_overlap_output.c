@@ -12,7 +12,7 @@
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 
-/* A unit of the drawings made by hand, in grid units and in mm. */
+/* The unit of these drawings, in grid units and in mm. */
 enum { UNIT = 1024, BIG = 20000 * UNIT };
 #define UNIT_MM (UNIT / 1048576.0)
 
@@ -25,12 +25,12 @@ static void start(struct ink_fixture *k) {
 
 /* ---- What a drawing is once it is rounded -------------------------------- */
 
-struct spot {
+struct unit_point {
   int64_t x, y; /* output units */
 };
 
 struct side {
-  struct spot a, b;
+  struct unit_point a, b;
   bool hidden;
 };
 
@@ -38,8 +38,8 @@ struct sides {
   ARRAY(struct side) side;
 };
 
-static struct spot round_spot(struct drawing_point p, double unit) {
-  return (struct spot){llround(p.x / unit), llround(p.y / unit)};
+static struct unit_point round_point(struct drawing_point p, double unit) {
+  return (struct unit_point){llround(p.x / unit), llround(p.y / unit)};
 }
 
 static void round_drawing(struct sides *sides, const struct drawing *drawing,
@@ -49,8 +49,8 @@ static void round_drawing(struct sides *sides, const struct drawing *drawing,
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     const struct drawing_point *p = drawing->point.item + stroke->point;
     for (uint32_t k = 0; k + !stroke->closed < stroke->count; k++) {
-      struct side side = {round_spot(p[k], unit),
-                          round_spot(p[(k + 1) % stroke->count], unit),
+      struct side side = {round_point(p[k], unit),
+                          round_point(p[(k + 1) % stroke->count], unit),
                           stroke->layer > 0};
       if (side.a.x != side.b.x || side.a.y != side.b.y)
         assert_true(ARRAY_PUSH(&sides->side, side));
@@ -62,13 +62,13 @@ static double length_of(const struct side *s) {
   return hypot((double)(s->b.x - s->a.x), (double)(s->b.y - s->a.y));
 }
 
-static double along(const struct side *s, struct spot p) {
+static double along(const struct side *s, struct unit_point p) {
   return (double)((p.x - s->a.x) * (s->b.x - s->a.x) +
                   (p.y - s->a.y) * (s->b.y - s->a.y)) /
          length_of(s);
 }
 
-static bool is_on_line(const struct side *s, struct spot p) {
+static bool is_on_line(const struct side *s, struct unit_point p) {
   return (s->b.x - s->a.x) * (p.y - s->a.y) ==
          (s->b.y - s->a.y) * (p.x - s->a.x);
 }

@@ -312,8 +312,8 @@ static int64_t round_half_up(const mpq_t v) {
   return result;
 }
 
-/* A place of space: x, y, z. */
-struct place {
+/* A point of space: x, y, z. */
+struct point3 {
   mpq_t at[3];
 };
 
@@ -327,10 +327,10 @@ static void plane_value(mpq_t to, const struct geom_point f[3],
 /* Where the sides of f go through g's plane: two places, the first before the
  * second; false: it is not on both sides of the plane. */
 static bool cut_by_plane(const struct geom_point f[3],
-                         const struct geom_point g[3], struct place end[2]) {
+                         const struct geom_point g[3], struct point3 end[2]) {
   int found = 0;
   mpq_t v[2], t;
-  struct place at;
+  struct point3 at;
   mpq_inits(v[0], v[1], t, at.at[0], at.at[1], at.at[2], NULL);
   for (int k = 0; k < 3; k++) {
     struct geom_point a = f[k], b = f[(k + 1) % 3];
@@ -366,14 +366,14 @@ static bool cut_by_plane(const struct geom_point f[3],
   return found >= 2;
 }
 
-static int compare_places(const struct place *p, const struct place *q) {
+static int compare_points(const struct point3 *p, const struct point3 *q) {
   int order = 0;
   for (int c = 0; c < 3 && order == 0; c++)
     order = mpq_cmp(p->at[c], q->at[c]);
   return order;
 }
 
-static struct geom_point rounded(const struct place *p) {
+static struct geom_point rounded(const struct point3 *p) {
   return (struct geom_point){(int32_t)round_half_up(p->at[0]),
                              (int32_t)round_half_up(p->at[1]),
                              round_half_up(p->at[2])};
@@ -384,16 +384,16 @@ static struct geom_point rounded(const struct place *p) {
 static bool common_segment(const struct geom_point f[3],
                            const struct geom_point g[3],
                            struct geom_point end[2]) {
-  struct place pf[2], pg[2];
+  struct point3 pf[2], pg[2];
   bool found = false;
   for (int k = 0; k < 2; k++)
     for (int c = 0; c < 3; c++)
       mpq_inits(pf[k].at[c], pg[k].at[c], NULL);
   if (cut_by_plane(f, g, pf) && cut_by_plane(g, f, pg)) {
-    const struct place *low = compare_places(&pf[0], &pg[0]) > 0 ? pf : pg,
-                       *high =
-                           compare_places(&pf[1], &pg[1]) < 0 ? &pf[1] : &pg[1];
-    if (compare_places(low, high) < 0) {
+    const struct point3 *low = compare_points(&pf[0], &pg[0]) > 0 ? pf : pg,
+                        *high = compare_points(&pf[1], &pg[1]) < 0 ? &pf[1]
+                                                                   : &pg[1];
+    if (compare_points(low, high) < 0) {
       end[0] = rounded(low);
       end[1] = rounded(high);
       found = end[0].x != end[1].x || end[0].y != end[1].y;

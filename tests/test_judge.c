@@ -1,6 +1,6 @@
 /* test_judge.c - the judge accepts right drawings and rejects wrong ones.
  *
- * The drawings are made here by hand: what shows of a convex solid is known
+ * The drawings are built here: what is visible of a convex solid is known
  * without any solver. */
 #include <math.h>
 #include <setjmp.h>

@@ -20,8 +20,8 @@ static void the_stability_list_is_drawn_right(void **state) {
     struct scene scene;
     recto_options options;
     pipeline_fill(&scene, &options, entry);
-    /* Sheets nearer to each other than the hair by which the judge's rays are
-     * moved are left to test_failures_lines. */
+    /* Sheets nearer to each other than the distance by which the judge's rays
+     * are moved are left to test_failures_lines. */
     if (entry->row != 28 || strstr(entry->name, "1e-3") != NULL)
       failures_assert_judged(&scene, &options, options.edges, entry->name);
     scene_fini(&scene);
@@ -127,8 +127,8 @@ static struct judge_point3 middle_of(const struct scene *scene, double *size) {
 }
 
 /* Draws the model as --no-fit --camera ... --lookat ... --fov 30 --page
- * 200x200mm --margin 0 does, and judges the file by the design's own words
- * for that camera. */
+ * 200x200mm --margin 0 does, and checks the file with a camera from the
+ * specification for that camera. */
 static void check_model_of(void **state, const char *folder, const char *name,
                            unsigned edges) {
   char path[1000];
@@ -152,7 +152,8 @@ static void check_model_of(void **state, const char *folder, const char *name,
   options.page_width_mm = options.page_height_mm = 200;
   options.margin_mm = 0;
   options.edges = edges;
-  options.min_stroke_mm = 0; /* the judge misses what a pen would not */
+  options.min_stroke_mm =
+      0; /* the judge reports even the shortest missing line */
   const char *file = temporary_path(state, "drawing.svg");
   assert_int_equal(recto_draw_file(path, NULL, file, NULL, &options, NULL),
                    RECTO_OK);

@@ -1,8 +1,8 @@
-/* test_memory_faults.c - whatever allocation of the process fails, of ours or
- * of a library's: the whole job ends well or says so, and leaves no file.
+/* test_memory_faults.c - any allocation of the process may fail, of ours or of
+ * a library's: the whole run succeeds or reports an error, and leaves no file.
  *
- * malloc and its like are defined here, before the C library's: cairo and zlib
- * come by as well. */
+ * malloc and the like are defined here and replace the C library's: cairo and
+ * zlib use them as well. */
 #include <errno.h>
 #include <fcntl.h>
 #include <setjmp.h>
@@ -106,7 +106,7 @@ struct job {
   recto_fill fill;
   recto_hidden hidden;
   int verify, resolution;
-  bool checks; /* judges an SVG instead of drawing */
+  bool checks; /* checks an SVG file instead of drawing */
 };
 
 static const char *folder;

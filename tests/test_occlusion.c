@@ -174,7 +174,7 @@ static void an_edge_that_dives_is_hidden_beyond_the_tolerance(void **state) {
 }
 
 /* From a corner shared, hidden from its very start or not at all: as it is
- * where it ends, or leaves the triangle at a quarter of its way. */
+ * where it ends, or leaves the triangle at a quarter of its length. */
 static void an_edge_from_a_shared_corner_is_tested_once(void **state) {
   struct occlusion_counts counts = {0};
   struct occluded_interval part;

@@ -64,7 +64,7 @@ static void the_given_order_is_wrong_from_front_to_back(void **state) {
   struct map map, brute;
   (void)state;
   solve_both(&solver_painter_given, depth, &map, &brute);
-  /* What should be seen whole is painted over, and the other way round. */
+  /* What should be wholly visible is painted over, and vice versa. */
   exact_assert_area(&brute, 0, SCALE, 40, 1);
   exact_assert_area(&map, 0, SCALE, 40 - 5 * 4, 1);
   exact_assert_area(&map, STEPS - 1, SCALE, 40, 1);

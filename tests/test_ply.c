@@ -45,7 +45,8 @@ static const struct scene_point *corner(const struct reading *r, uint32_t face,
   return &r->scene.point.item[r->scene.corner.item[at]];
 }
 
-/* ---- Files made by hand -------------------------------------------------- */
+/* ---- Files as text
+ * -------------------------------------------------------- */
 
 struct file {
   char bytes[4096];
@@ -277,7 +278,8 @@ static void edges_are_polylines(void **state) {
   reading_fini(&r);
 }
 
-/* Two strips in one list, the second of a triangle; all face the same way. */
+/* Two strips in one list, the second of a triangle; all have the same
+ * winding. */
 static void strips_become_triangles(void **state) {
   struct reading r;
   (void)state;

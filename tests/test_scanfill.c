@@ -26,7 +26,7 @@ static struct scan_grid plain_grid(bool down) {
   return make_grid(2, 2, 0, 0, down);
 }
 
-/* ---- The judge: half-open crossings counted in whole numbers ------------- */
+/* ---- The oracle: half-open crossings counted in integers ----------------- */
 
 /* Does the side from p to q count at the pixel's centre: is the centre's
  * height in [low, high) and the side not right of it?  0, +1 or -1. */

@@ -110,7 +110,7 @@ static unsigned count_sides(const struct scene *scene, uint32_t a, uint32_t b) {
   return count;
 }
 
-/* Every side is met by one that runs the other way. */
+/* Every side has a twin in the opposite direction. */
 static bool is_closed(const struct scene *scene) {
   for (uint32_t i = 0; i < scene_face_count(scene); i++) {
     uint32_t start = scene->face_start.item[i];

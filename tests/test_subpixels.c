@@ -27,7 +27,7 @@ static void solve(const struct solver *solver, const struct pixels_scene *scene,
   exact_sheet_fini(&sheet);
 }
 
-/* Warnock finds its sub-pixels in a way of its own. */
+/* Warnock computes its sub-pixels by another algorithm. */
 static void averaged_pixels_are_those_of_warnock(void **state) {
   (void)state;
   for (uint64_t seed = 800; seed < 830; seed++) {

@@ -123,7 +123,7 @@ static void a_crossing_lies_on_both_edges(void **state) {
   (void)state;
   for (int round = 0; round < 20000; round++) {
     struct sweep_edge e[2];
-    struct sweep_event place;
+    struct sweep_event event;
     int reach = round % 3 == 0 ? 8 : HALF;
     for (int k = 0; k < 2; k++)
       e[k] = (struct sweep_edge){.x0 = exact_random_below(&r, reach) *
@@ -132,8 +132,8 @@ static void a_crossing_lies_on_both_edges(void **state) {
                                  .x1 = exact_random_below(&r, reach) *
                                        (exact_random_below(&r, 2) * 2 - 1),
                                  .y1 = -1 - exact_random_below(&r, reach)};
-    if (!sweep_crossing(&e[0], &e[1], &place) &&
-        !sweep_crossing(&e[1], &e[0], &place)) {
+    if (!sweep_crossing(&e[0], &e[1], &event) &&
+        !sweep_crossing(&e[1], &e[0], &event)) {
       assert_true(!parts(&e[0], &e[1]) || !parts(&e[1], &e[0]));
       continue;
     }
@@ -142,12 +142,12 @@ static void a_crossing_lies_on_both_edges(void **state) {
       struct sweep_edge shifted = e[k];
       shifted.x0 -= 1;
       shifted.x1 -= 1;
-      assert_int_equal(sweep_side(&e[k], &place), 0);
-      assert_int_equal(sweep_side(&shifted, &place), 1);
+      assert_int_equal(sweep_side(&e[k], &event), 0);
+      assert_int_equal(sweep_side(&shifted, &event), 1);
     }
-    assert_true(place.den > 0);
-    assert_true(place.x_near - (double)(place.x / place.den) < 1.001);
-    assert_true(place.y_near - (double)(place.y / place.den) < 1.001);
+    assert_true(event.den > 0);
+    assert_true(event.x_near - (double)(event.x / event.den) < 1.001);
+    assert_true(event.y_near - (double)(event.y / event.den) < 1.001);
   }
   assert_true(crossings > 2000);
 }

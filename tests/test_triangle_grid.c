@@ -15,13 +15,13 @@
 
 /* ---- Sheets with many triangles ------------------------------------------ */
 
-enum crowding {
-  CROWD_SMALL, /* small triangles all over the page */
-  CROWD_LONG,  /* from end to end */
-  CROWD_MIXED, /* a few large ones, and many in one small place */
-  CROWD_POINT, /* all without extent, at one point */
-  CROWD_LEVEL, /* on one level line */
-  CROWD_KINDS
+enum triangle_mix {
+  MIX_SMALL, /* small triangles all over the page */
+  MIX_LONG,  /* from end to end */
+  MIX_MIXED, /* a few large ones, and many in one small place */
+  MIX_POINT, /* all without extent, at one point */
+  MIX_LEVEL, /* on one level line */
+  MIX_KINDS
 };
 
 static int32_t draw(uint64_t *r, int32_t middle, int32_t reach) {
@@ -30,24 +30,24 @@ static int32_t draw(uint64_t *r, int32_t middle, int32_t reach) {
   return (int32_t)(v < -XY_MAX ? -XY_MAX : v > XY_MAX ? XY_MAX : v);
 }
 
-static void bsp(struct sheet *sheet, enum crowding kind, uint32_t count,
-                uint64_t *r) {
+static void make_triangles(struct sheet *sheet, enum triangle_mix kind,
+                           uint32_t count, uint64_t *r) {
   exact_sheet_init(sheet);
   for (uint32_t t = 0; t < count; t++) {
     struct sheet_triangle triangle = {
         {3 * t, 3 * t + 1, 3 * t + 2}, {SHEET_NONE, SHEET_NONE, SHEET_NONE}, t};
     int32_t x = draw(r, 0, XY_MAX), y = draw(r, 0, XY_MAX), reach = XY_MAX / 64;
-    if (kind == CROWD_LONG)
+    if (kind == MIX_LONG)
       reach = XY_MAX;
-    if (kind == CROWD_MIXED && t > 10)
+    if (kind == MIX_MIXED && t > 10)
       x = 5, y = 7, reach = 1000;
-    if (kind == CROWD_MIXED && t <= 10)
+    if (kind == MIX_MIXED && t <= 10)
       reach = XY_MAX;
     for (int k = 0; k < 3; k++) {
       struct geom_point p = {draw(r, x, reach), draw(r, y, reach), 0};
-      if (kind == CROWD_POINT)
+      if (kind == MIX_POINT)
         p.x = p.y = -77;
-      if (kind == CROWD_LEVEL)
+      if (kind == MIX_LEVEL)
         p.y = 12345;
       assert_true(ARRAY_PUSH(&sheet->point, p));
     }
@@ -190,11 +190,11 @@ static void check_queries(const struct sheet *sheet, int rounds, uint64_t *r) {
 
 static void queries_find_all_that_is_there(void **state) {
   (void)state;
-  for (int kind = 0; kind < CROWD_KINDS; kind++)
+  for (int kind = 0; kind < MIX_KINDS; kind++)
     for (uint64_t seed = 1; seed <= 4; seed++) {
       uint64_t r = seed;
       struct sheet sheet;
-      bsp(&sheet, (enum crowding)kind, 700, &r);
+      make_triangles(&sheet, (enum triangle_mix)kind, 700, &r);
       check_queries(&sheet, 150, &r);
       exact_sheet_fini(&sheet);
     }
@@ -232,7 +232,7 @@ static void a_small_box_finds_few_of_many(void **state) {
   struct triangle_grid grid;
   struct triangle_grid_query query;
   (void)state;
-  bsp(&sheet, CROWD_SMALL, COUNT, &r);
+  make_triangles(&sheet, MIX_SMALL, COUNT, &r);
   for (size_t p = 0; p < sheet.point.count; p++) { /* shrink them */
     struct geom_point *at = &sheet.point.item[p],
                       *first = &sheet.point.item[p - p % 3];
@@ -258,7 +258,7 @@ static void lists_are_ascending(void **state) {
   struct sheet sheet;
   struct triangle_grid grid;
   (void)state;
-  bsp(&sheet, CROWD_MIXED, 3000, &r);
+  make_triangles(&sheet, MIX_MIXED, 3000, &r);
   assert_true(triangle_grid_init(&grid, &sheet));
   for (size_t c = 0; c < triangle_grid_cell_count(&grid); c++)
     for (uint32_t i = grid.start[c] + 1; i < grid.start[c + 1]; i++)
@@ -294,7 +294,7 @@ static void a_query_survives_an_overflow_of_its_counter(void **state) {
   struct triangle_grid_query query;
   const struct box2 all = {-XY_MAX, -XY_MAX, XY_MAX, XY_MAX};
   (void)state;
-  bsp(&sheet, CROWD_LONG, 100, &r);
+  make_triangles(&sheet, MIX_LONG, 100, &r);
   assert_true(triangle_grid_init(&grid, &sheet));
   assert_true(triangle_grid_query_init(&query, &grid));
   assert_true(triangle_grid_find(&grid, all, &query));

@@ -47,7 +47,7 @@ static int64_t area_of(const struct flat *p) {
 
 enum pose { POSE_XY, POSE_YZ, POSE_ZX, POSE_TILTED, POSE_COUNT };
 
-static struct scene_point place(double x, double y, enum pose pose) {
+static struct scene_point posed_point(double x, double y, enum pose pose) {
   switch (pose) {
   case POSE_XY:
     return (struct scene_point){x, y, 5};
@@ -65,7 +65,7 @@ static bool cut(struct triangulation *t, const struct flat *p, enum pose pose) {
   static uint32_t corner[MOST];
   for (uint32_t c = 0; c < p->count; c++) {
     corner[c] = p->count - 1 - c; /* indices are not places */
-    point[corner[c]] = place((double)p->x[c], (double)p->y[c], pose);
+    point[corner[c]] = posed_point((double)p->x[c], (double)p->y[c], pose);
   }
   return triangulate(t, point, corner, p->count);
 }
@@ -76,7 +76,8 @@ static int64_t place_number(const struct flat *p, uint32_t c) {
   return p ? p->x[c] * 0x100000 + p->y[c] : -1 - (int64_t)c;
 }
 
-/* Whether one side runs between the places of another, either way. */
+/* Whether one side runs between the positions of another, in either
+ * direction. */
 static bool run_alike(const struct flat *p, uint32_t a, uint32_t b, uint32_t c,
                       uint32_t d) {
   int64_t one = place_number(p, a), two = place_number(p, b);
@@ -350,7 +351,7 @@ static bool may_insert(const struct flat *p, uint32_t c, int64_t x, int64_t y) {
     if (!before &&
         meet(p->x[i], p->y[i], p->x[j], p->y[j], p->x[c], p->y[c], x, y))
       return false;
-    /* A neighbouring side may be met at the common corner alone. */
+    /* A neighbouring side may be touched at the common corner alone. */
     if (before && (turn_of(x, y, p->x[c], p->y[c], p->x[i], p->y[i]) == 0 ||
                    in_box(x, y, x, y, p->x[i], p->y[i])))
       return false;
@@ -475,7 +476,7 @@ static void random_tangles_finish(void **state) {
 /* ---- Exactness ----------------------------------------------------------- */
 
 /* A corner some units in the last place off a straight side, up or down: no
- * triangle may be the wrong way round, not even by that little. */
+ * triangle may have the wrong winding, not even by that little. */
 static void turns_of_one_last_place_are_seen(void **state) {
   (void)state;
   double y = 0.7 / 3;
@@ -513,7 +514,7 @@ static void powers_of_two_change_nothing(void **state) {
     grow(p, &random, 5 + random_below(&random, 10), 30);
     for (uint32_t c = 0; c < p->count; c++) {
       corner[c] = c;
-      point[c] = place((double)p->x[c], (double)p->y[c], POSE_TILTED);
+      point[c] = posed_point((double)p->x[c], (double)p->y[c], POSE_TILTED);
     }
     struct triangulation a = {0}, b = {0};
     assert_true(triangulate(&a, point, corner, p->count));
@@ -625,7 +626,7 @@ static void what_folds_back_makes_no_triangle(void **state) {
   assert_int_equal(COUNT(0, 0, 4, 0, 9, 5, 4, 0), 0);
   assert_int_equal(COUNT(0, 0, 4, 0, 9, 5, 9, 5, 4, 0), 0);
   assert_int_equal(COUNT(0, 0, 4, 0, 9, 5, 4, 0, 1, 7, 4, 0), 0);
-  /* A triangle and a way there and back, of one side or of three. */
+  /* A triangle and a path there and back, of one side or of three. */
   assert_int_equal(COUNT(0, 0, 4, 0, 9, 5, 4, 0, 0, 4), 1);
   assert_int_equal(COUNT(0, 0, 4, 0, 9, 5, 9, 9, 9, 5, 4, 0, 0, 4), 1);
   assert_int_equal(COUNT(0, 0, 0, 0, 4, 0, 4, 0, 4, 0, 0, 4), 1);

@@ -15,7 +15,7 @@
 
 /* ---- Helpers ------------------------------------------------------------- */
 
-/* A scene, its way through the pipeline, and the verdict. */
+/* A scene, the results of the pipeline, and the verdict. */
 struct judged_run {
   struct scene scene;
   recto_options options;
@@ -192,8 +192,8 @@ static void cuts_and_far_origins_pass(void **state) {
       }
 }
 
-/* What a warped face hides hangs on how it is cut: the judge leaves it open
- * where its two ways differ, and only there. */
+/* What a warped face hides depends on its triangulation: the judge leaves it
+ * undecided where its two ways differ, and only there. */
 static void a_warped_face_hides_what_both_ways_do(void **state) {
   (void)state;
   struct judged_run run;
@@ -303,7 +303,7 @@ static void assert_says(const struct judged_run *run, const char *words) {
 static void a_hidden_line_that_is_drawn_is_found(void **state) {
   (void)state;
   struct judged_run run;
-  double at[2], spot[3];
+  double at[2], point[3];
   start_plates(&run);
   draw(&run);
   assert_right(&run, "plates");
@@ -319,10 +319,10 @@ static void a_hidden_line_that_is_drawn_is_found(void **state) {
   read_place(&run, at);
   assert_true(fabs(at[0] - 55) < 1e-3 && at[1] > 45 && at[1] < 55);
   assert_int_equal(sscanf(strstr(run.error.text, "point "), "point %lf,%lf,%lf",
-                          &spot[0], &spot[1], &spot[2]),
+                          &point[0], &point[1], &point[2]),
                    3);
-  assert_true(fabs(spot[0] - 40) < 1e-6 && fabs(spot[2]) < 1e-6);
-  assert_true(fabs(spot[1] / 8 - (at[1] - 50)) < 1e-3);
+  assert_true(fabs(point[0] - 40) < 1e-6 && fabs(point[2]) < 1e-6);
+  assert_true(fabs(point[1] / 8 - (at[1] - 50)) < 1e-3);
   end(&run);
 }
 

@@ -166,7 +166,7 @@ static void windows_of_all_kinds_add_up(void **state) {
 }
 
 /* One triangle amid all tents, which surrounds the window that holds them all
- * and pierces them: it is classified on the way there, and in none of the
+ * and pierces them: it is classified before that, and in none of the
  * windows below, of which each would count one more angle. */
 static void a_surrounder_is_not_classified_again(void **state) {
   static const int wall[][3] = {

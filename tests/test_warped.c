@@ -90,7 +90,7 @@ static void check_methods(const struct scene *scene,
   mem_free(text);
 }
 
-/* Asks the judge about a drawing. */
+/* Verifies a drawing with the judge. */
 static recto_status verify_drawn(const struct pipeline *p,
                                  const struct scene *scene,
                                  const recto_options *options,

@@ -90,7 +90,7 @@ static void assert_pieces_in_order(const struct walk *walk) {
   }
 }
 
-/* Holds every pixel against the judge, at `lines` lines over the page. */
+/* Compares every pixel with the oracle, at `lines` lines over the page. */
 static void assert_frame_is_judged(const struct pixels_scene *scene,
                                    int lines) {
   struct walk walk;

@@ -140,7 +140,7 @@ static void random_scenes_are_right_in_every_pixel(void **state) {
   }
 }
 
-/* With integer depths there is no judge but the other z-buffer. */
+/* With integer depths the only oracle is the other z-buffer. */
 static void scan_line_agrees_at_every_depth(void **state) {
   static const int bits[] = {1, 8, 16, 24, 32};
   (void)state;

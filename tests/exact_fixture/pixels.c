@@ -67,13 +67,13 @@ void pixels_sheet(struct sheet *sheet, const struct pixels_scene *scene) {
 /* ---- What is seen -------------------------------------------------------- */
 
 /* Lengths are in units of 1 / (2 lines), in which centres are whole. */
-struct place {
+struct point2 {
   int64_t x, y, scale;
 };
 
 /* A side counts from its lower end up to, but not with, its upper one.  The
  * place is on one or between two of the convex face's sides. */
-static bool covers(const struct pixels_face *face, struct place at) {
+static bool covers(const struct pixels_face *face, struct point2 at) {
   bool left = false, right = false;
   for (int k = 0; k < face->count; k++) {
     const int *p = face->corner[k], *q = face->corner[(k + 1) % face->count];
@@ -94,7 +94,7 @@ static bool covers(const struct pixels_face *face, struct place at) {
 }
 
 /* Depth times scale as num / den, den > 0. */
-static void depth_at(const struct pixels_face *face, struct place at,
+static void depth_at(const struct pixels_face *face, struct point2 at,
                      int64_t *num, int64_t *den) {
   const int *p = face->corner[0];
   int64_t u[3], v[3], nx, ny;
@@ -115,8 +115,8 @@ static void depth_at(const struct pixels_face *face, struct place at,
 
 int pixels_seen(const struct pixels_scene *scene, int lines, int column,
                 int line, int *covered) {
-  struct place at = {(2 * column + 1) * PIXELS_SIDE,
-                     (2 * line + 1) * PIXELS_SIDE, 2 * lines};
+  struct point2 at = {(2 * column + 1) * PIXELS_SIDE,
+                      (2 * line + 1) * PIXELS_SIDE, 2 * lines};
   int64_t num = 0, den = 1;
   int seen = -1, count = 0;
   for (int f = 0; f < scene->count; f++) {

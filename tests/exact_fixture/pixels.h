@@ -10,7 +10,7 @@ enum { PIXELS_SIDE = 32, PIXELS_UNIT = 1 << 20, PIXELS_FACES = 24 };
 
 struct pixels_face {
   int count;
-  int corner[4][3]; /* convex, planar, either way round */
+  int corner[4][3]; /* convex, planar, of either winding */
 };
 
 struct pixels_scene {

@@ -33,7 +33,7 @@ void rational_point_at(struct rational_point *to, struct geom_point p);
 void rational_point_of(struct rational_point *to, const struct wide h[3]);
 void rational_point_at_corner(struct rational_point *to,
                               const struct geom_corner *corner);
-/* Where two lines meet; false: they are parallel. */
+/* The point where two lines meet; false: they are parallel. */
 bool rational_point_meet(struct rational_point *to,
                          const struct rational_line *l,
                          const struct rational_line *m);

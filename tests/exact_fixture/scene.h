@@ -10,7 +10,7 @@ enum exact_kind {
   EXACT_MESH,      /* triangles of a dozen points: shared corners and edges */
   EXACT_NEEDLES,   /* long, thin, nearly parallel */
   EXACT_PLANES,    /* all but in one tilted plane */
-  EXACT_CROSSINGS, /* two that end on a third's plane, at the limit of contact */
+  EXACT_CROSSINGS, /* two that end on a third, at the limit of contact */
   EXACT_EXTREME,   /* at the ends of the sheet's ranges */
   EXACT_KINDS
 };

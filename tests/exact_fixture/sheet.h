@@ -11,7 +11,7 @@
 void exact_sheet_init(struct sheet *sheet);
 void exact_sheet_fini(struct sheet *sheet);
 
-/* Adds a convex planar face: `count` corners x, y, z, either way round, each
+/* Adds a convex planar face: `count` corners x, y, z, of either winding, each
  * times `scale`.  Its sides become borders, or silhouettes, creases ... of
  * class RECTO_EDGE_SMOOTH where another face has the same side. */
 void exact_add_face(struct sheet *sheet, const int corner[][3], int count,
@@ -37,17 +37,18 @@ void exact_assert_visible_same(const struct map *a, const struct sheet *sa,
                                const struct map *b, const struct sheet *sb,
                                const char *what);
 
-/* The area of all fragments of a face over scale^2, as a fraction in lowest
- * terms: asserts that it is num / den. */
 /* Adds twice the exact area of a fragment to `sum`. */
 void exact_add_area2(mpq_t sum, const struct map *map, size_t fragment);
 /* Are two fragments of the same area? */
 bool exact_same_area(const struct map *a, const struct map *b, size_t fragment);
+/* Asserts that the area of all fragments of a face over scale^2, as a fraction
+ * in lowest terms, is num / den. */
 void exact_assert_area(const struct map *map, uint32_t face, int scale,
                        long num, unsigned long den);
 
-/* A reproducible sequence (splitmix64). */
+/* The next 64 bits of a reproducible random sequence (splitmix64). */
 uint64_t exact_random(uint64_t *state);
+/* A random number in [0, bound). */
 int exact_random_below(uint64_t *state, int bound);
 
 #endif

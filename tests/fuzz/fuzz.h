@@ -1,4 +1,4 @@
-/* fuzz.h - targets for fuzzing: what is done with an input of any bytes, and
+/* fuzz.h - targets for fuzzing: what runs on an input of any bytes, and
  * what must hold afterwards. */
 #ifndef TESTS_FUZZ_FUZZ_H
 #define TESTS_FUZZ_FUZZ_H
@@ -40,8 +40,8 @@ extern const struct fuzz_target *const fuzz_targets[];
 /* The target of that name, or NULL. */
 const struct fuzz_target *fuzz_find(const char *name);
 
-/* Notes a finding unless there is one already, or its text contains one of the
- * comma-separated words of the environment variable FUZZ_IGNORE. */
+/* Records a finding unless there is one already, or its text contains one of
+ * the comma-separated words of the environment variable FUZZ_IGNORE. */
 void fuzz_found(struct fuzz_finding *finding, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

@@ -29,7 +29,7 @@ void render_svg(struct rendered *rendered, const recto_scene *scene,
                 const recto_options *options);
 void rendered_fini(struct rendered *rendered);
 
-/* Renders the scene by the options' method, and compares what comes of it with
+/* Renders the scene by the options' method, and compares the result with
  * `first`, which was rendered by brute force.  That a method gives up at a
  * stated limit is no finding. */
 void render_compare(const recto_scene *scene, const recto_options *options,

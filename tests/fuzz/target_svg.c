@@ -1,4 +1,4 @@
-/* target_svg.c - drawings of any bytes before the judge: refused with a
+/* target_svg.c - drawings of any bytes, given to the judge: refused with a
  * reason, or judged, in memory that the file's size explains. */
 #include <math.h>
 #include <stdlib.h>

@@ -19,11 +19,11 @@ enum { CELLS = 128 };
 
 static const double mm2 = SHEET_UNITS_PER_MM * SHEET_UNITS_PER_MM;
 
-struct place {
+struct point2 {
   double x, y;
 };
 
-typedef ARRAY(struct place) places;
+typedef ARRAY(struct point2) polygon;
 
 struct box {
   double x0, y0, x1, y1;
@@ -41,45 +41,45 @@ struct cells {
 
 /* ---- Areas --------------------------------------------------------------- */
 
-static double loop_area(const struct place *p, size_t count) {
+static double loop_area(const struct point2 *p, size_t count) {
   double twice = 0;
   for (size_t i = 0; i < count; i++) {
-    const struct place *q = &p[i + 1 == count ? 0 : i + 1];
-    /* From the first place, so that far from the origin little is lost. */
+    const struct point2 *q = &p[i + 1 == count ? 0 : i + 1];
+    /* From the first point, so that far from the origin little is lost. */
     twice += (p[i].x - p->x) * (q->y - p->y) - (q->x - p->x) * (p[i].y - p->y);
   }
   return twice / 2;
 }
 
-static bool copy_loop(const struct map *map, uint32_t loop, places *to) {
+static bool copy_loop(const struct map *map, uint32_t loop, polygon *to) {
   const struct map_loop *l = &map->loop.item[loop];
   to->count = 0;
   for (uint32_t i = 0; i < l->count; i++) {
     const struct map_corner *c = &map->corner.item[l->corner + i];
-    if (!ARRAY_PUSH(to, ((struct place){c->x, c->y})))
+    if (!ARRAY_PUSH(to, ((struct point2){c->x, c->y})))
       return false;
   }
   return true;
 }
 
-static double side_of(const struct place *a, const struct place *b,
-                      const struct place *p) {
+static double side_of(const struct point2 *a, const struct point2 *b,
+                      const struct point2 *p) {
   return (b->x - a->x) * (p->y - a->y) - (b->y - a->y) * (p->x - a->x);
 }
 
 /* Keeps what is left of the line from a to b. */
-static bool clip(const places *from, const struct place *a,
-                 const struct place *b, places *to) {
+static bool clip(const polygon *from, const struct point2 *a,
+                 const struct point2 *b, polygon *to) {
   to->count = 0;
   for (size_t i = 0; i < from->count; i++) {
-    const struct place *p = &from->item[i];
-    const struct place *q = &from->item[i + 1 == from->count ? 0 : i + 1];
+    const struct point2 *p = &from->item[i];
+    const struct point2 *q = &from->item[i + 1 == from->count ? 0 : i + 1];
     double at_p = side_of(a, b, p), at_q = side_of(a, b, q);
     if (at_p >= 0 && !ARRAY_PUSH(to, *p))
       return false;
     if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) {
       double t = at_p / (at_p - at_q);
-      struct place cut = {p->x + t * (q->x - p->x), p->y + t * (q->y - p->y)};
+      struct point2 cut = {p->x + t * (q->x - p->x), p->y + t * (q->y - p->y)};
       if (!ARRAY_PUSH(to, cut))
         return false;
     }
@@ -87,26 +87,26 @@ static bool clip(const places *from, const struct place *a,
   return true;
 }
 
-/* Fragments of `map` are held against those of `other` from number `from` on,
+/* Fragments of `map` are compared with those of `other` from number `from` on,
  * which lie in `cells`. */
 struct clipper {
   const struct map *map, *other;
   struct cells *cells;
   uint32_t from;
-  places convex, loop, spare; /* room */
+  polygon convex, loop, spare; /* room */
 };
 
 /* Adds to *area what a convex, counter-clockwise loop holds of the other map's
  * fragment, times `sign`. */
 static bool add_common(struct clipper *clipper, uint32_t fragment,
-                       const struct place *convex, size_t count, double sign,
+                       const struct point2 *convex, size_t count, double sign,
                        double *area) {
   const struct map_fragment *f = &clipper->other->fragment.item[fragment];
   for (uint32_t l = f->loop; l < f->loop + f->loops; l++) {
     if (!copy_loop(clipper->other, l, &clipper->loop))
       return false;
     for (size_t i = 0; i < count && clipper->loop.count > 0; i++) {
-      places swap = clipper->loop;
+      polygon swap = clipper->loop;
       if (!clip(&clipper->loop, &convex[i], &convex[i + 1 == count ? 0 : i + 1],
                 &clipper->spare))
         return false;
@@ -189,7 +189,7 @@ static struct cells *make_cells(const struct sheet *sheet,
 
 /* Adds what one convex loop of a fragment of `face` has in common with the
  * other map: with that face's fragments to *right, with all to *both. */
-static bool meet_all(struct clipper *clipper, const struct place *convex,
+static bool meet_all(struct clipper *clipper, const struct point2 *convex,
                      size_t count, double sign, uint32_t face, double *right,
                      double *both) {
   struct cells *cells = clipper->cells;
@@ -223,7 +223,7 @@ static bool meet_all(struct clipper *clipper, const struct place *convex,
   return true;
 }
 
-static bool is_convex(const places *loop) {
+static bool is_convex(const polygon *loop) {
   if (loop->count > 4)
     return false;
   for (size_t i = 0; i < loop->count; i++)
@@ -237,7 +237,7 @@ static bool is_convex(const places *loop) {
 static bool meet_fragment(struct clipper *clipper, size_t index, double *right,
                           double *both) {
   const struct map_fragment *fragment = &clipper->map->fragment.item[index];
-  places *loop = &clipper->convex;
+  polygon *loop = &clipper->convex;
   for (uint32_t l = fragment->loop; l < fragment->loop + fragment->loops; l++) {
     if (!copy_loop(clipper->map, l, loop))
       return false;
@@ -248,7 +248,7 @@ static bool meet_fragment(struct clipper *clipper, size_t index, double *right,
       continue;
     }
     for (size_t i = 1; i + 1 < loop->count; i++) {
-      struct place fan[3] = {loop->item[0], loop->item[i], loop->item[i + 1]};
+      struct point2 fan[3] = {loop->item[0], loop->item[i], loop->item[i + 1]};
       double sign = 1;
       if (side_of(&fan[0], &fan[1], &fan[2]) < 0) {
         fan[1] = loop->item[i + 1];

@@ -1,6 +1,6 @@
 /* build.h - the building blocks of test scenes: points, faces, boxes, grids.
  *
- * These are tests' means, so running out of memory ends the program with a
+ * These serve tests, so running out of memory ends the program with a
  * message instead of a status.  Faces that the scene's own checks refuse
  * (zero area, fewer than three distinct corners) are left out silently. */
 #ifndef SCENES_BUILD_H
@@ -29,13 +29,13 @@ static inline double vector_dot(struct vector a, struct vector b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/* Ends the program unless `good`: memory ran out. */
+/* Ends the program unless `ok`: memory ran out. */
 void build_require(bool ok);
 
-/* Starts (or goes on with) the group `name`. */
+/* Starts (or continues) the group `name`. */
 void build_group(struct scene *scene, const char *name);
 
-/* Adds a point, also where one lies there already.  Returns its index. */
+/* Adds a point, even at the position of another.  Returns its index. */
 uint32_t build_point(struct scene *scene, double x, double y, double z);
 uint32_t build_vector(struct scene *scene, struct vector at);
 
@@ -72,7 +72,7 @@ void build_grid(struct scene *scene, uint32_t first, unsigned rows,
 /* Every point p becomes factor * p + move. */
 void scenes_scale(struct scene *scene, double factor, struct vector move);
 
-/* Turns every point about an axis through the origin (any length but 0). */
+/* Rotates every point about an axis through the origin (any length but 0). */
 void scenes_turn(struct scene *scene, struct vector axis, double radians);
 
 /* Rounds every coordinate to float32, as binary STL does. */

@@ -12,8 +12,8 @@
 struct honeycomb {
   struct scene *scene;
   unsigned columns;   /* of the lattice */
-  uint32_t *outer;    /* lattice place -> point below, above it follows */
-  unsigned char *use; /* cells that have the side: 3 sides a place */
+  uint32_t *outer;    /* lattice node -> point below, above it follows */
+  unsigned char *use; /* cells that have the side: 3 sides a node */
 };
 
 static const int hexagon[6][2] = {{0, -2}, {1, -1}, {1, 1},
@@ -27,18 +27,18 @@ static uint32_t place_of(const struct honeycomb *comb, unsigned cell_x,
          (unsigned)hexagon[k][0];
 }
 
-/* The point of the lattice place, below; the one above is the next. */
-static uint32_t outer_point(struct honeycomb *comb, uint32_t place) {
-  if (comb->outer[place] == SCENE_NONE) {
-    double x = 0.8660254037844386 * (place % comb->columns);
-    double y = 0.5 * (place / comb->columns);
-    comb->outer[place] = build_point(comb->scene, x, y, 0);
+/* The point of the lattice node, below; the one above is the next. */
+static uint32_t outer_point(struct honeycomb *comb, uint32_t node) {
+  if (comb->outer[node] == SCENE_NONE) {
+    double x = 0.8660254037844386 * (node % comb->columns);
+    double y = 0.5 * (node / comb->columns);
+    comb->outer[node] = build_point(comb->scene, x, y, 0);
     build_point(comb->scene, x, y, 1.5);
   }
-  return comb->outer[place];
+  return comb->outer[node];
 }
 
-/* A side of a cell is named by its lower place and its direction, so that
+/* A side of a cell is named by its lower node and its direction, so that
  * both cells count the same one. */
 static unsigned char *side_use(struct honeycomb *comb, uint32_t a, uint32_t b) {
   uint32_t low = a < b ? a : b, high = a < b ? b : a;
@@ -127,10 +127,10 @@ static bool is_solid(int x, int y, int z, int side) {
 
 static uint32_t lattice_point(struct scene *scene, uint32_t *known, int side,
                               const int at[3]) {
-  size_t place = (size_t)((at[2] * (side + 1) + at[1]) * (side + 1) + at[0]);
-  if (known[place] == SCENE_NONE)
-    known[place] = build_point(scene, at[0], at[1], at[2]);
-  return known[place];
+  size_t node = (size_t)((at[2] * (side + 1) + at[1]) * (side + 1) + at[0]);
+  if (known[node] == SCENE_NONE)
+    known[node] = build_point(scene, at[0], at[1], at[2]);
+  return known[node];
 }
 
 /* Adds the side of a small cube that faces along +-axis. */

@@ -6,7 +6,7 @@
 #include "tests/scenes/scenes.h"
 #include "visibility/solver.h"
 
-/* All that is made on the way. */
+/* The results of all stages. */
 struct pipeline {
   struct topology topology;
   struct camera camera;
@@ -25,8 +25,8 @@ void pipeline_run(struct pipeline *pipeline, const struct scene *scene,
                   const recto_options *options, const struct solver *solver);
 void pipeline_fini(struct pipeline *pipeline);
 
-/* Draws what was solved again and again, each allocation failing in turn: all
- * attempts but the last must say so. */
+/* Runs the ink stage repeatedly, with each allocation failing in turn: all
+ * attempts but the last must return an error. */
 void pipeline_starve_ink(const struct pipeline *pipeline,
                          const struct scene *scene,
                          const recto_options *options);

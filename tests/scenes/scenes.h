@@ -18,7 +18,7 @@ struct scenes_entry {
 };
 
 /* The stability list: small enough that every solver, the slowest included,
- * does each in a moment.  Ended by an entry whose name is NULL. */
+ * takes little time for each.  Ended by an entry whose name is NULL. */
 extern const struct scenes_entry scene_list[];
 
 /* The entry of that name, which must exist. */
@@ -60,7 +60,7 @@ void scenes_cube_stack(struct scene *scene, recto_options *options, unsigned n,
 void scenes_touching_boxes(struct scene *scene, recto_options *options,
                            double radians);
 
-/* ---- Eyes in odd places (row 2) ------------------------------------------ */
+/* ---- Eyes in degenerate positions (row 2) -------------------------------- */
 
 enum scenes_eye {
   SCENES_EYE_INSIDE,   /* in the middle of the room */
@@ -71,7 +71,7 @@ enum scenes_eye {
   SCENES_EYE_ON_LINE  /* on the line of an edge, beyond its end */
 };
 
-/* A room with a table and a column, seen from such a place. */
+/* A room with a table and a column, seen from such a position. */
 void scenes_room(struct scene *scene, recto_options *options,
                  enum scenes_eye eye);
 
@@ -86,7 +86,8 @@ enum scenes_flaw {
   SCENES_FLAW_COUNT
 };
 
-/* A cube and, before and in it, faces with that flaw (COUNT: with all). */
+/* A cube and, in front of it and in it, faces with that flaw (COUNT: with
+ * all). */
 void scenes_flaw(struct scene *scene, recto_options *options,
                  enum scenes_flaw flaw);
 /* n bars, each thinner than the one before by a third. */
@@ -127,14 +128,14 @@ void scenes_doubled(struct scene *scene, recto_options *options);
 /* One plane in two colours that meet along a line, as a checked board. */
 void scenes_two_colours(struct scene *scene, recto_options *options);
 
-/* ---- Meshes as they come (rows 9, 10, 12, 13, 15) ------------------------ */
+/* ---- Meshes with common defects (rows 9, 10, 12, 13, 15) ----------------- */
 
 /* n x n quads beside one row of quads half as wide: hanging vertices. */
 void scenes_t_junctions(struct scene *scene, recto_options *options,
                         unsigned n);
 /* A closed shell whose every triangle has points of its own. */
 void scenes_unwelded(struct scene *scene, recto_options *options);
-/* Faces that cut each other to pieces; none of the cuts may be drawn. */
+/* Faces that are divided along each other; no dividing line may be drawn. */
 void scenes_split_faces(struct scene *scene, recto_options *options);
 /* A globe of `rings` x 2 `rings` quads and triangles: one closed outline. */
 void scenes_globe(struct scene *scene, recto_options *options, unsigned rings);
@@ -172,7 +173,7 @@ enum scenes_needles {
  * out). */
 void scenes_needles(struct scene *scene, recto_options *options,
                     enum scenes_needles kind, unsigned n, uint64_t seed);
-/* n triangles in one place, each corner moved at random by as much as `by`:
+/* n triangles at one position, each corner moved at random by up to `by`:
  * some seen from behind; where `pierced`, every other one goes through the
  * rest. */
 void scenes_duplicates(struct scene *scene, recto_options *options, unsigned n,
@@ -180,17 +181,17 @@ void scenes_duplicates(struct scene *scene, recto_options *options, unsigned n,
 /* n pages on one edge, over so many turns. */
 void scenes_book(struct scene *scene, recto_options *options, unsigned n,
                  double turns);
-/* n large plates over each other, seen slantwise or from above. */
+/* n large plates over each other, seen obliquely or from above. */
 void scenes_plates(struct scene *scene, recto_options *options, unsigned n,
                    bool above);
-/* n globes in each other: only the outermost shows. */
+/* n nested globes: only the outermost is visible. */
 void scenes_shells(struct scene *scene, recto_options *options, unsigned n,
                    unsigned rings);
 /* n triangles at random that pierce each other. */
 void scenes_soup(struct scene *scene, recto_options *options, unsigned n,
                  uint64_t seed);
 
-/* ---- Surfaces and nearness (rows 20, 21, 27, 28) ------------------------- */
+/* ---- Surfaces and small distances (rows 20, 21, 27, 28) ------------------ */
 
 /* z = x^2 + y^2 over n x n cells. */
 void scenes_paraboloid(struct scene *scene, recto_options *options, unsigned n);
@@ -199,7 +200,7 @@ void scenes_sinc(struct scene *scene, recto_options *options, unsigned n);
 /* Two sheets `gap` apart, as a share of the scene's depth. */
 void scenes_near_sheets(struct scene *scene, recto_options *options,
                         double gap);
-/* Two plates a slit of `width_mm` apart before a long edge; true scale. */
+/* Two plates with a slit of `width_mm` in front of a long edge; true scale. */
 void scenes_slit(struct scene *scene, recto_options *options, double width_mm);
 
 /* ---- True scale (rows 11, 24) -------------------------------------------- */

@@ -6,7 +6,7 @@
 #include "tests/scenes/build.h"
 
 struct split_edge {
-  uint32_t a, b;        /* a < b; a == b marks a free place */
+  uint32_t a, b;        /* a < b; a == b marks a free slot */
   uint32_t opposite[2]; /* third corners of its first two triangles */
   uint32_t uses;
   uint32_t middle; /* its new point */
@@ -27,15 +27,15 @@ struct ring {
   uint32_t neighbours, border_neighbours;
 };
 
-/* The edge's place in the table, free or not. */
+/* The edge's slot in the table, free or not. */
 static size_t find_edge(const struct subdivision *sub, uint32_t a, uint32_t b) {
   uint64_t key = (uint64_t)a << 32 | b;
   key *= UINT64_C(0x9e3779b97f4a7c15);
-  size_t place = (size_t)(key >> 20) & sub->mask;
-  while (sub->table[place].a != sub->table[place].b &&
-         (sub->table[place].a != a || sub->table[place].b != b))
-    place = (place + 1) & sub->mask;
-  return place;
+  size_t slot = (size_t)(key >> 20) & sub->mask;
+  while (sub->table[slot].a != sub->table[slot].b &&
+         (sub->table[slot].a != a || sub->table[slot].b != b))
+    slot = (slot + 1) & sub->mask;
+  return slot;
 }
 
 static struct split_edge *edge_of(const struct subdivision *sub, uint32_t a,
@@ -46,12 +46,12 @@ static struct split_edge *edge_of(const struct subdivision *sub, uint32_t a,
 static void note_side(struct subdivision *sub, uint32_t a, uint32_t b,
                       uint32_t opposite) {
   uint32_t low = a < b ? a : b, high = a < b ? b : a;
-  size_t place = find_edge(sub, low, high);
-  struct split_edge *edge = &sub->table[place];
+  size_t slot = find_edge(sub, low, high);
+  struct split_edge *edge = &sub->table[slot];
   if (edge->a == edge->b) {
     edge->a = low;
     edge->b = high;
-    sub->order[sub->edges++] = (uint32_t)place;
+    sub->order[sub->edges++] = (uint32_t)slot;
   }
   if (edge->uses < 2)
     edge->opposite[edge->uses] = opposite;
