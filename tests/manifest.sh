@@ -1,6 +1,6 @@
 #!/bin/bash
-# manifest.sh RECTO - hashes some 500 drawings, a line each: what a change that
-# is to leave all drawings as they are is held against.
+# manifest.sh RECTO - hashes some 500 drawings, a line each: compared before and
+# after a change that is to leave all drawings as they are.
 #
 #   tests/manifest.sh ./recto >before
 #   ... the change ...

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# tap.sh - what shell tests share: claims as lines of TAP, a folder for what
-# they make, and the paths that make hands them.  Sourced, not run.
+# tap.sh - what shell tests share: claims as lines of TAP, a scratch folder,
+# and the paths that make passes.  Sourced, not run.
 srcdir=$(cd "${srcdir:-.}" && pwd) || exit 1
 builddir=$PWD
 recto=${RECTO:-$builddir/recto}

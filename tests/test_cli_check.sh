@@ -1,6 +1,6 @@
 #!/bin/bash
-# test_cli_check.sh - somebody's drawing is judged, and the exit status says
-# what was found, as that of diff does.
+# test_cli_check.sh - a given drawing is checked, and the exit status is like
+# that of diff.
 . "$(dirname "$0")/tap.sh"
 . "$(dirname "$0")/cli.sh"
 models=$srcdir/examples/models

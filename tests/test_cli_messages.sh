@@ -1,6 +1,6 @@
 #!/bin/bash
-# test_cli_messages.sh - nothing in a name or a word of the command line is
-# obeyed by the terminal that a message goes to.
+# test_cli_messages.sh - control characters in names and arguments do not reach
+# the terminal through messages.
 . "$(dirname "$0")/tap.sh"
 . "$(dirname "$0")/cli.sh"
 

@@ -1,7 +1,6 @@
 #!/bin/bash
-# test_cli_outputs.sh - where output goes: nothing that is read or written by
-# the run is lost, a file keeps what belongs to it, and all of the outputs
-# appear or none.
+# test_cli_outputs.sh - outputs: nothing that is read or written by the run is
+# lost, a file keeps its metadata, and all of the outputs appear or none.
 . "$(dirname "$0")/tap.sh"
 . "$(dirname "$0")/cli.sh"
 run 0 cube.obj -o cube.svg

@@ -1,6 +1,6 @@
 #!/bin/bash
-# test_cli_progress.sh - on a terminal a bar says how far a long run is, and
-# leaves nothing behind; elsewhere nothing is printed that was not requested.
+# test_cli_progress.sh - on a terminal a bar shows the progress of a long run
+# and vanishes at its end; elsewhere nothing is printed that was not requested.
 . "$(dirname "$0")/tap.sh"
 . "$(dirname "$0")/cli.sh"
 

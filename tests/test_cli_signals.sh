@@ -1,6 +1,6 @@
 #!/bin/bash
-# test_cli_signals.sh - an interrupted run cleans up and then dies of its
-# signal, so that what started it knows.
+# test_cli_signals.sh - an interrupted run cleans up and then ends by its
+# signal, so that its parent process can detect it.
 . "$(dirname "$0")/tap.sh"
 . "$(dirname "$0")/cli.sh"
 

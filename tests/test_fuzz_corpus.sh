@@ -1,6 +1,6 @@
 #!/bin/bash
-# test_fuzz_corpus.sh - nothing is found with the inputs that fuzzers have found
-# something with before, nor with those that together reach the most code.
+# test_fuzz_corpus.sh - no input that once made a fuzzer report a finding does
+# so now, nor do those that together reach the most code.
 . "$(dirname "$0")/tap.sh"
 
 replay=$builddir/tests/fuzz/replay

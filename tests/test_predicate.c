@@ -71,9 +71,9 @@ static void reference_clear(struct reference *f) {
 }
 
 /* The normal of a, b, c and its plane's value at p. */
-static void reckon(struct reference *f, struct geom_point a,
-                   struct geom_point b, struct geom_point c,
-                   struct geom_point p) {
+static void compute(struct reference *f, struct geom_point a,
+                    struct geom_point b, struct geom_point c,
+                    struct geom_point p) {
   set_row(f->u, a, b);
   set_row(f->v, a, c);
   set_row(f->w, a, p);
@@ -97,7 +97,7 @@ static bool is_same(const mpz_t exact, int128 value) {
 
 static void check(struct reference *f, const struct geom_point p[4]) {
   struct geom_plane plane = geom_plane_of(p[0], p[1], p[2]);
-  reckon(f, p[0], p[1], p[2], p[3]);
+  compute(f, p[0], p[1], p[2], p[3]);
   assert_true(is_same(f->n[2], geom_orient2d(p[0], p[1], p[2])));
   assert_true(is_same(f->n[0], plane.nx));
   assert_true(is_same(f->n[1], plane.ny));

@@ -1,7 +1,7 @@
 #!/bin/bash
-# test_structure.sh - the order of the code: who may include whom, where
-# tolerances live, what the library shows.  Each check is shown to fail on a
-# violation planted in a copy.
+# test_structure.sh - the structure of the code: which files may include which,
+# where tolerances are defined, which symbols the library exports.  Each check is
+# shown to fail on a violation planted in a copy.
 . "$(dirname "$0")/tap.sh"
 
 # ---- The checks: each prints what is wrong in the tree at $1 --------------

@@ -1,6 +1,6 @@
 #!/bin/bash
 # test_tone.sh - tone hatching is as dark as the light requires: the ink is
-# weighed on pictures of 600 dots an inch.
+# measured on pictures of 600 dots an inch.
 . "$(dirname "$0")/tap.sh"
 tool=$builddir/tests/paper_tool
 cd "$scratch" || exit 1

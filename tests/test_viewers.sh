@@ -1,5 +1,5 @@
 #!/bin/bash
-# test_viewers.sh - SVG as other programs take it: xmllint finds it
+# test_viewers.sh - SVG as other programs read it: xmllint finds it
 # well-formed, Inkscape finds a layer a pen at the top, and headless Chromium
 # shows what librsvg shows.
 . "$(dirname "$0")/tap.sh"
