@@ -1,7 +1,7 @@
 /* pixels.c - from the finished lines of a pixel frame to the visible map.
  *
  * Fragments: neighbouring pixels of one scene face make a span; its sides are
- * borders of pixels, cuts of the method (MAP_SIDE_CUT). */
+ * borders of pixels, cuts of the method (MAP_SIDE_CLIP). */
 #include "visibility/raster/pixels.h"
 
 #include <math.h>

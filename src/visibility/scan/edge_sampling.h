@@ -26,7 +26,7 @@
  * z the depth of the visible facet at the sample.  This is the farthest depth
  * of the facet's plane in the part of the page that the sample represents
  * (reach_x 1/2: a pixel; 0: the method's x is exact), less one step of the
- * depth buffer and the contact tolerance.  So a facet never hides its own sides.
+ * depth buffer and the contact tolerance: a facet never hides its own sides.
  * A larger bias draws lines through thin steep faces, a smaller one leaves gaps
  * in edges that lie on faces.
  *

@@ -4,7 +4,7 @@
  * A span represents the band of its line, half a line up and half a line down.
  * Spans of neighbouring lines over the same face, between the same left and the
  * same right edge, are merged into one trapezoid.  Its upper and lower sides
- * are cuts of the method (MAP_SIDE_CUT), never inked.
+ * are cuts of the method (MAP_SIDE_CLIP), never inked.
  *
  * Spans of a line that touch share the border between them.  Borders that would
  * cross within the band (since edges cross or end there) are moved to their

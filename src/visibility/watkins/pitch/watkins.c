@@ -1,24 +1,23 @@
-/* watkins.c - the interval scan line.
+/* watkins.c - Watkins' scan-line method at a pitch, and its solver.
  *
  * At a pitch
- *   Phases   facets' edges enter S by their first line; line by line from the
- *            top they pass through A, which cuts the line into intervals; in
- *            each the facet seen is decided (watkins_interval.c).  What is seen
- *            makes spans, and spans of neighbouring lines between the same
- *            edges trapezoids (trapezoids.h).  The ends of intervals make
- *            strokes: an edge that is drawn on one line and on the next is drawn
- *            in between.
- *   Strokes  a line stands for half a pitch up and down, and an edge that ends
- *            between two lines is drawn to its end.  Edges that run along the
- *            lines rather than across, wires, and lines where faces pierce
- *            each other are followed through the spans of the lines above and
- *            below (edge_sampling.h).
- *   Cost     linear in the edges' lines and the intervals; memory linear in
- *            the scene and what is seen.
- * Without one: watkins_exact.c.
+ *   Phases   The facets' edges are sorted into S by their first line.  Line by
+ *            line from the top they become active (A) and divide the line into
+ *            sample intervals; in each the visible facet is decided
+ *            (watkins_interval.c).  Visible facets make spans, and spans of
+ *            neighbouring lines between the same edges make trapezoids
+ *            (trapezoids.h).  The ends of intervals make strokes: an edge that
+ *            is drawn on one line and on the next is drawn in between.
+ *   Strokes  A line represents half a pitch up and down, and an edge that ends
+ *            between two lines is drawn to its end.  Nearly horizontal edges,
+ *            wires and intersections of faces are sampled on the lines above
+ *            and below (edge_sampling.h).
+ *   Cost     Linear in the sum of the edges' lines and in the intervals; memory
+ *            linear in the scene and the visible spans.
+ * Without a pitch: watkins_exact.c.
  *
- * Source  [Watkins1970]; [Romney1969] coherence; [Archuleta1972] strokes;
- *         Rogers ch. 4.
+ * Source  [Watkins1970]; [Romney1969] for coherence; [Archuleta1972] for
+ *         strokes; [Rogers1985] ch. 4.
  */
 #include "visibility/watkins/pitch/watkins.h"
 
@@ -27,19 +26,19 @@
 
 #include "visibility/watkins/exact/watkins_exact.h"
 
-#define LINES_A_QUESTION 64 /* whether to go on, at most */
+#define LINES_PER_POLL 64 /* progress is polled at least this often */
 #define OPEN_NONE (-1)
 
 /* ---- Strokes ------------------------------------------------------------- */
 
-/* The lines [last, first] on which an edge of the sheet was seen, from the
- * top. */
+/* The current run of consecutive lines on which an edge of the sheet is drawn,
+ * from the top: [last, first]. */
 struct open_run {
-  int32_t first, last;   /* first OPEN_NONE: not seen yet */
-  bool from_end, to_end; /* the edge's own first and last line are in it */
+  int32_t first, last;   /* first OPEN_NONE: no run is open */
+  bool from_end, to_end; /* includes the edge's own first, last line */
 };
 
-/* What is seen on a line. */
+/* The visible pieces of a line. */
 struct interval_row {
   const struct watkins *watkins;
   watkins_pieces piece;
@@ -54,6 +53,7 @@ struct scan {
   struct interval_row row, above;
 };
 
+/* The facet visible at x (edge_sampling_seen_fn). */
 static uint32_t seen_at(const void *user, double x) {
   const struct interval_row *row = user;
   const struct watkins_piece *piece = row->piece.item;
@@ -70,7 +70,7 @@ static uint32_t seen_at(const void *user, double x) {
   return row->watkins->facet.item[piece[low].facet].triangle;
 }
 
-/* The place of a frame height along an edge from y0 to y1, in cells. */
+/* The parameter of height y on an edge from y0 to y1, in cells. */
 static uint32_t cell_at(double y, double y0, double y1) {
   double cells = (y - y0) / (y1 - y0) * (1 << EDGE_SAMPLING_BITS_MAX);
   if (!(cells > 0))
@@ -86,7 +86,7 @@ static double height_of(const struct scan *scan, uint32_t point) {
   return (double)(y * grid->den - grid->y_first) / (double)grid->y_step;
 }
 
-/* Files the run at hand of an edge of the sheet. */
+/* Stores the open run of an edge of the sheet, if there is one. */
 static bool close_run(struct scan *scan, uint32_t side) {
   struct open_run *open = &scan->run[side];
   const uint32_t *point = scan->watkins.sheet->edge.item[side].point;
@@ -106,8 +106,8 @@ static bool close_run(struct scan *scan, uint32_t side) {
          edge_sampling_add(&scan->sampling, run, EDGE_SAMPLING_BITS_MAX);
 }
 
-/* Joins the ends drawn on the line to those of the line before. */
-static bool take_ends(struct scan *scan) {
+/* Extends the runs of the edges drawn on the line, or opens them. */
+static bool join_ends(struct scan *scan) {
   const struct watkins *watkins = &scan->watkins;
   int32_t line = watkins->table.line;
   for (size_t i = 0; i < watkins->shown.count; i++) {
@@ -168,8 +168,8 @@ static bool has_face(const struct watkins *watkins,
          (edge->facet[1] != WATKINS_NONE && facet[edge->facet[1]].face == face);
 }
 
-/* The side of a span at x: along an edge of the table, or where `face` and
- * `other` pierce each other. */
+/* The side of a span at x: along edge e of the table, or, WATKINS_NONE, along
+ * the intersection of `face` with `other`. */
 static struct span_side side_at(const struct watkins *watkins, uint32_t e,
                                 double x, uint32_t face, uint32_t other) {
   const struct scan_grid *grid = &watkins->table.grid;
@@ -204,8 +204,8 @@ static uint32_t face_of(const struct watkins *watkins,
   return watkins->facet.item[piece->facet].face;
 }
 
-/* Pieces of one face that meet are one span. */
-static bool take_spans(struct scan *scan) {
+/* Makes one span of touching pieces of one face. */
+static bool add_spans(struct scan *scan) {
   const struct watkins *watkins = &scan->watkins;
   const struct watkins_piece *piece = watkins->piece.item;
   size_t count = watkins->piece.count;
@@ -226,10 +226,11 @@ static bool take_spans(struct scan *scan) {
   return true;
 }
 
-/* ---- The walk ------------------------------------------------------------ */
+/* ---- Lines --------------------------------------------------------------- */
 
-/* Takes a line; `here` tells whether any edge crosses it. */
-static bool take_line(struct scan *scan, int32_t line, bool here) {
+/* Processes a line.
+ * here  does any edge cross it? */
+static bool process_line(struct scan *scan, int32_t line, bool here) {
   struct watkins *watkins = &scan->watkins;
   watkins_pieces free_pieces = scan->above.piece;
   scan->above.piece = scan->row.piece;
@@ -237,8 +238,8 @@ static bool take_line(struct scan *scan, int32_t line, bool here) {
   scan->row.piece.count = 0;
   if (here) {
     watkins_pieces now = watkins->piece;
-    if ((scan->request->fragments && !take_spans(scan)) ||
-        (scan->request->strokes && !take_ends(scan)))
+    if ((scan->request->fragments && !add_spans(scan)) ||
+        (scan->request->strokes && !join_ends(scan)))
       return false;
     watkins->piece = scan->row.piece;
     scan->row.piece = now;
@@ -260,10 +261,11 @@ static recto_status walk_lines(struct scan *scan, recto_error *error) {
     return progress_error(&progress, error);
   for (int32_t line = lines; line-- > 0;) {
     bool here = more && watkins->table.line == line;
-    if (!take_line(scan, line, here) || (here && !watkins_next(watkins, &more)))
+    if (!process_line(scan, line, here) ||
+        (here && !watkins_next(watkins, &more)))
       return progress_error(&progress, error);
     progress.share = 1 - (double)line / lines;
-    if (!progress_step(&progress, PROGRESS_WORK / LINES_A_QUESTION))
+    if (!progress_step(&progress, PROGRESS_WORK / LINES_PER_POLL))
       return progress_error(&progress, error);
   }
   return RECTO_OK;

@@ -1,18 +1,21 @@
-/* watkins.h - the lists of Watkins' interval scan line, for its own files and
- * its tests.
+/* watkins.h - the lists of Watkins' scan-line method at a pitch, shared by its
+ * files and its tests.
  *
  * Frame units: x is in grid units of the sheet and never rounded, y in lines.
  *
+ * Lists, in the notation of [Watkins1970]
+ *   S   the edges below the current line, sorted by (y, x, dx)
+ *   A   the active edges, which cross the line, sorted by (x, dx)
+ *   H   the facets that cover the current sample interval, in the order of
+ *       depth of the interval decided last, nearest first
+ * S and A are in the scan table (geom/scanfill.h).
+ *
  * Invariants, on a line
- *   S, the edges that have not been met, is sorted by (y, x, dx); A, those
- *   that cross the line, by (x, dx): both live in the scan table.
- *   Walking A from the left, a facet is in from its first edge to its second.
- *   H holds the facets that are in, nearest first as the last interval that
- *   was decided has them.
- *   Pieces are disjoint, from left to right, and cover just the intervals in
- *   which some facet is in.
- *   Edges at one x make one end of intervals; the facets seen on its two sides
- *   tell which of the edges are drawn there.
+ *   From the left along A, a facet is `in` from its first edge to its second.
+ *   Pieces are disjoint, ascend in x, and cover exactly the intervals in which
+ *   some facet is in.
+ *   Edges at one x make one end of intervals.  The facets visible on its two
+ *   sides decide which of the edges are drawn there.
  */
 #ifndef VISIBILITY_WATKINS_PITCH_WATKINS_H
 #define VISIBILITY_WATKINS_PITCH_WATKINS_H
@@ -27,43 +30,43 @@
 #define WATKINS_LINES_MAX (1 << 20)
 #define WATKINS_NONE UINT32_MAX
 
-/* What an edge knows beside x, dx and the lines left (the edge of the same
- * index in the scan table). */
+/* An edge.  Its x, dx and remaining lines are those of the edge of the same
+ * index in the scan table. */
 struct watkins_edge {
-  double z, dz;      /* depth on its first line; change a line down */
-  int32_t lines;     /* left after its first line */
-  uint32_t facet[2]; /* indices of its facets: two that share a side share its
-                        edge; WATKINS_NONE */
+  double z, dz;      /* depth on its first line; change per line down */
+  int32_t lines;     /* lines after its first one */
+  uint32_t facet[2]; /* indices of its facets: two facets with a common side
+                        share its edge; WATKINS_NONE */
   uint32_t side;     /* the sheet's edge; SHEET_NONE */
-  bool drawn;        /* that edge is drawable and followed from line to line */
-  uint32_t record;   /* of the interval that it began last; WATKINS_NONE */
+  bool drawn;        /* that edge is drawable, and drawn from interval ends */
+  uint32_t record;   /* of the last interval that began at it; WATKINS_NONE */
 };
 
 struct watkins_facet {
-  uint32_t triangle, face; /* that it is known by; its scene face */
-  bool in;                 /* between its two edges */
-  double per_x, per_line;  /* change of depth to the right, a line down */
-  double z_low, z_high;    /* of its corners */
+  uint32_t triangle, face; /* the triangle that identifies it; its face */
+  bool in;                 /* does it cover the current interval? */
+  double per_x, per_line;  /* change of depth per unit of x, per line down */
+  double z_low, z_high;    /* range of its corners' depths */
   bool gentle;             /* its plane is not steep: see slack */
-  double slack;            /* its depth is off by less than an eighth; the
-                              same for all that are gentle */
-  double x, z;             /* a point of it on this line */
+  double slack;            /* eight times the error bound of its depth; equal
+                              for all gentle facets */
+  double x, z;             /* a point of it on the current line */
 };
 
-/* An interval as it was decided, kept for the next line: the order in depth of
- * its facets stands up to and with line `until`. */
+/* A decided interval, stored for the next line: the depth order of its facets
+ * holds down to line `until`, inclusive. */
 struct watkins_record {
   int32_t until;
   uint32_t left, right;  /* the edges it lay between */
   uint32_t order, count; /* its facets, front first, in the list of orders */
 };
 
-/* A part of a line in which one facet is seen. */
+/* A part of a line on which one facet is visible. */
 struct watkins_piece {
   double x0, x1;
   uint32_t facet;
-  uint32_t left, right; /* edge it starts, ends at, of several at one x the
-                           facet's own; WATKINS_NONE: a piercing */
+  uint32_t left, right; /* the edges at its ends, of several at one x the
+                           facet's own; WATKINS_NONE: an intersection */
 };
 
 static inline bool watkins_borders(const struct watkins_edge *edge,
@@ -77,36 +80,37 @@ typedef ARRAY(uint32_t) watkins_list;
 
 struct watkins_counts {
   int64_t intervals, coherent, splits;
-  int64_t comparisons; /* of depths at a place */
+  int64_t comparisons; /* of two depths */
 };
 
 struct watkins {
   const struct sheet *sheet;
-  struct progress *progress; /* lent; NULL, as at first: nobody is asked */
-  struct scan_table table;   /* S and A */
+  struct progress *progress;       /* borrowed, not owned; NULL: never polled */
+  struct scan_table table;         /* S and A */
   ARRAY(struct watkins_edge) edge; /* one an edge of the table */
   ARRAY(struct watkins_facet) facet;
   watkins_list in;           /* H */
-  ARRAY(double) depth;       /* of those in H at an interval's middle */
-  ARRAY(double) stack;       /* right ends of parts yet to be decided */
+  ARRAY(double) depth;       /* of the facets of H at an interval's middle */
+  ARRAY(double) stack;       /* right ends of undecided parts of an interval */
   watkins_pieces piece;      /* of this line */
   watkins_list shown;        /* edges drawn at this line's interval ends */
   watkins_records record[2]; /* of this line and the one before, by */
   watkins_list order[2];     /* the parity of the line */
   double low, pitch;         /* of the lines, grid units of the sheet */
-  bool coherence;            /* orders are kept from line to line */
-  bool sides;                /* pieces tell their facet's own edges */
+  bool coherence;            /* reuse depth orders from line to line */
+  bool sides;                /* set the edges of pieces */
   struct watkins_counts counts;
 };
 
-/* Lines `pitch_mm` apart over the sheet's page, walked from the top.
+/* Makes a grid of lines `pitch_mm` apart over the sheet's page, processed from
+ * the top.
  * Errors  RECTO_ERROR_LIMIT: more than WATKINS_LINES_MAX lines, or a pitch
  *         below the sheet's grid. */
 USE_RESULT recto_status watkins_grid(struct scan_grid *grid,
                                      const struct sheet *sheet, double pitch_mm,
                                      recto_error *error);
 
-/* Puts the edges of all facets into S.  False when memory ran out; ends with
+/* Puts the edges of all facets into S.  Returns false when memory ran out; call
  * watkins_fini in either case. */
 USE_RESULT bool watkins_init(struct watkins *watkins, const struct sheet *sheet,
                              const struct facets *facets,
@@ -123,31 +127,32 @@ USE_RESULT bool watkins_next(struct watkins *watkins, bool *more);
 /* The depth of an edge of A on the line. */
 double watkins_edge_depth(const struct watkins *watkins, uint32_t edge);
 
-/* The depth of a facet that is or was in on the line, at x. */
+/* The depth at x of a facet that crosses the current line. */
 double watkins_depth(const struct watkins *watkins, uint32_t facet, double x);
 
-/* The sign of depth(f) - depth(g) at x on the line; 0 where they are nearer
- * than doubles can tell. */
+/* The sign of depth(f) - depth(g) at x on the current line; 0 where the
+ * difference is within the sum of their slacks. */
 int watkins_compare(struct watkins *watkins, uint32_t f, uint32_t g, double x);
 
 /* ---- Ends of intervals --------------------------------------------------- */
 
-/* Is the edge drawn from the ends of intervals?  Not one that runs along the
- * lines rather than across: its ends would be much further apart than the
- * lines are. */
+/* Is the edge drawable and steep enough to be drawn from the ends of intervals?
+ * The ends of a nearly horizontal edge on consecutive lines would be much
+ * further apart than the lines are. */
 bool watkins_is_steep(const struct sheet *sheet, uint32_t side);
 
 /* Of the edges active[first..past), which are at one x, appends those that are
  * drawn there to `shown`.
- * left, right  the facets seen on the two sides; WATKINS_NONE
+ * left, right  the facets visible on the two sides; WATKINS_NONE
  * Returns false when memory ran out. */
 USE_RESULT bool watkins_show_ends(struct watkins *watkins, size_t first,
                                   size_t past, uint32_t left, uint32_t right);
 
 /* ---- An interval --------------------------------------------------------- */
 
-/* Decides what is seen between two edges of A, left strictly before right, of
- * the facets in H, and appends the pieces.  False when memory ran out. */
+/* Decides which facets of H are visible between two edges of A, left strictly
+ * to the left of right, and appends the pieces.  Returns false when memory ran
+ * out or the caller cancelled. */
 USE_RESULT bool watkins_decide(struct watkins *watkins, uint32_t left,
                                uint32_t right);
 

@@ -1,12 +1,13 @@
-/* watkins_edge_table.c - Watkins' lists: S and A, and the walk along a line. */
+/* watkins_edge_table.c - Watkins' lists S and A, and the processing of a line
+ * from left to right. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "visibility/watkins/pitch/watkins.h"
 
-/* A pitch is a whole number of 1/256 grid units, and a line's centre is half
- * a pitch above its lower border: all whole in 1/512 units. */
+/* A pitch is an integer multiple of 1/256 grid unit, and a line's centre is
+ * half a pitch above its lower border: all integers in 1/512 units. */
 enum { DEN = 512, PITCH_DEN = DEN / 2 };
 
 recto_status watkins_grid(struct scan_grid *grid, const struct sheet *sheet,
@@ -35,9 +36,9 @@ recto_status watkins_grid(struct scan_grid *grid, const struct sheet *sheet,
  * the page and its lines. */
 #define GENTLE 0x1p48
 
-/* The bound of a depth's error: its plane is stepped over the lines, and x is
- * off by some units in the last place of the page's coordinates.  What is kept
- * is eight times as much: see watkins_interval.c. */
+/* Sets the slack, eight times the error bound of a depth (see
+ * watkins_interval.c): the depth is computed incrementally over the lines, and
+ * x is off by some units in the last place of the page's coordinates. */
 static void set_slack(struct watkins_facet *facet,
                       const struct scan_grid *grid) {
   double fall =
@@ -71,30 +72,31 @@ static void set_facet(const struct watkins *watkins, uint32_t triangle,
   set_slack(facet, &watkins->table.grid);
 }
 
-#define AHEAD 8 /* triangles whose corners are fetched */
+#define AHEAD 8 /* triangles whose corners are prefetched */
 
-/* What is at hand while edges are gathered.  The edges of a point, to points
- * of higher numbers, are a list. */
+/* Scratch for the collection of edges: for each point a linked list of the
+ * edges to points of higher index. */
 struct edge_gathering {
   struct scan_point *point;      /* the sheet's */
   uint32_t *first;               /* one a point: an edge; WATKINS_NONE */
-  ARRAY(struct facet_seam) seam; /* one an edge */
+  ARRAY(struct facet_edge) edge; /* one for each edge of the table */
 };
 
-struct facet_seam {
-  uint32_t to, next;
+/* An entry of the list of a point. */
+struct facet_edge {
+  uint32_t to, next; /* the other point; the next edge; WATKINS_NONE */
 };
 
-/* The edge between p < q of one facet alone that has that side; WATKINS_NONE.
- */
+/* The edge between points p < q that has that side and only one facet so far;
+ * WATKINS_NONE. */
 static uint32_t find_edge(const struct watkins *watkins,
                           const struct edge_gathering *g, uint32_t p,
                           uint32_t q, uint32_t side) {
   uint32_t e = g->first[p];
   while (e != WATKINS_NONE &&
-         (g->seam.item[e].to != q || watkins->edge.item[e].side != side ||
+         (g->edge.item[e].to != q || watkins->edge.item[e].side != side ||
           watkins->edge.item[e].facet[1] != WATKINS_NONE))
-    e = g->seam.item[e].next;
+    e = g->edge.item[e].next;
   return e;
 }
 
@@ -103,7 +105,7 @@ static bool new_edge(struct watkins *watkins, struct edge_gathering *g,
                      uint32_t p, uint32_t q, uint32_t side) {
   const struct geom_point *at = watkins->sheet->point.item;
   uint32_t e = (uint32_t)watkins->table.edge.count;
-  const struct facet_seam seam = {q, g->first[p]};
+  const struct facet_edge link = {q, g->first[p]};
   const struct scan_edge *added;
   struct watkins_edge edge;
   double rise, above;
@@ -121,11 +123,11 @@ static bool new_edge(struct watkins *watkins, struct edge_gathering *g,
       .drawn = watkins_is_steep(watkins->sheet, side),
       .record = WATKINS_NONE};
   g->first[p] = e;
-  return ARRAY_PUSH(&watkins->edge, edge) && ARRAY_PUSH(&g->seam, seam);
+  return ARRAY_PUSH(&watkins->edge, edge) && ARRAY_PUSH(&g->edge, link);
 }
 
-/* Adds the side between sheet points p and q to the facet at hand, if it
- * covers a line. */
+/* Adds the side between sheet points p and q of the current facet, if it
+ * crosses a line. */
 static bool add_side(struct watkins *watkins, struct edge_gathering *g,
                      uint32_t p, uint32_t q, uint32_t side, bool *covers) {
   uint32_t low = p < q ? p : q, high = p < q ? q : p, e;
@@ -147,7 +149,7 @@ static bool add_facets(struct watkins *watkins, struct edge_gathering *g,
   if (!ARRAY_RESERVE(&watkins->facet, most) ||
       !ARRAY_RESERVE(&watkins->edge, edges) ||
       !ARRAY_RESERVE(&watkins->table.edge, edges) ||
-      !ARRAY_RESERVE(&g->seam, edges))
+      !ARRAY_RESERVE(&g->edge, edges))
     return false;
   for (uint32_t t = 0; t < sheet->triangle.count; t++) {
     const uint32_t *corner, *side;
@@ -176,7 +178,7 @@ static bool add_facets(struct watkins *watkins, struct edge_gathering *g,
   return true;
 }
 
-/* Gathers the edges of all facets. */
+/* Collects the edges of all facets. */
 static bool add_edges(struct watkins *watkins, const struct facets *facets) {
   const struct sheet *sheet = watkins->sheet;
   size_t points = sheet->point.count;
@@ -193,7 +195,7 @@ static bool add_edges(struct watkins *watkins, const struct facets *facets) {
   ok = ok && add_facets(watkins, &g, facets);
   mem_free(g.point);
   mem_free(g.first);
-  ARRAY_FREE(&g.seam);
+  ARRAY_FREE(&g.edge);
   return ok;
 }
 
@@ -230,8 +232,8 @@ double watkins_edge_depth(const struct watkins *watkins, uint32_t edge) {
   return e->z + (e->lines - watkins->table.edge.item[edge].dy) * e->dz;
 }
 
-/* The flag of a facet flips at the edge. */
-static bool flip_facet(struct watkins *watkins, uint32_t f, uint32_t edge) {
+/* Toggles a facet's flag `in` at the edge, and updates H. */
+static bool toggle_facet(struct watkins *watkins, uint32_t f, uint32_t edge) {
   struct watkins_facet *facet = &watkins->facet.item[f];
   size_t i = 0;
   facet->in = !facet->in;
@@ -248,10 +250,10 @@ static bool flip_facet(struct watkins *watkins, uint32_t f, uint32_t edge) {
   return true;
 }
 
-static bool pass_edge(struct watkins *watkins, uint32_t edge) {
+static bool toggle_facets(struct watkins *watkins, uint32_t edge) {
   const uint32_t *facet = watkins->edge.item[edge].facet;
-  return flip_facet(watkins, facet[0], edge) &&
-         (facet[1] == WATKINS_NONE || flip_facet(watkins, facet[1], edge));
+  return toggle_facet(watkins, facet[0], edge) &&
+         (facet[1] == WATKINS_NONE || toggle_facet(watkins, facet[1], edge));
 }
 
 /* Of the edges active[first..past), which are at one x, the facet's own; else
@@ -280,18 +282,20 @@ static size_t find_past(const struct scan_table *table, size_t first) {
   return past;
 }
 
-/* Passes the edges active[first..past) and decides the interval after them.
- * left   the facet seen before them; WATKINS_NONE
- * right  gets the one seen before the next edges */
-static bool pass_end(struct watkins *watkins, size_t first, size_t past,
-                     uint32_t left, uint32_t *right) {
+/* Processes the edges active[first..past), which are at one x, and decides the
+ * interval after them.
+ * left   the facet visible to the left of them; WATKINS_NONE
+ * right  gets the one visible to the left of the next edges
+ * Returns false when memory ran out or the caller cancelled. */
+static bool process_end(struct watkins *watkins, size_t first, size_t past,
+                        uint32_t left, uint32_t *right) {
   const uint32_t *active = watkins->table.active;
   size_t piece = watkins->piece.count;
   uint32_t seen = WATKINS_NONE;
   bool drawn = false;
   for (size_t i = first; i < past; i++) {
     drawn |= watkins->edge.item[active[i]].drawn;
-    if (!pass_edge(watkins, active[i]))
+    if (!toggle_facets(watkins, active[i]))
       return false;
   }
   if (left != WATKINS_NONE && watkins->sides)
@@ -299,7 +303,7 @@ static bool pass_end(struct watkins *watkins, size_t first, size_t past,
         choose_edge(watkins, first, past, left);
   *right = WATKINS_NONE;
   if (watkins->in.count > 0) {
-    /* There is another edge: a facet is in. */
+    /* As a facet is in, there is another edge to the right. */
     if (!watkins_decide(watkins, active[first], active[past]))
       return false;
     seen = watkins->piece.item[piece].facet;
@@ -324,7 +328,7 @@ bool watkins_next(struct watkins *watkins, bool *more) {
   watkins->order[parity].count = 0;
   for (size_t i = 0, past; i < table->active_count; i = past) {
     past = find_past(table, i);
-    if (!pass_end(watkins, i, past, seen, &seen))
+    if (!process_end(watkins, i, past, seen, &seen))
       return false;
   }
   return true;

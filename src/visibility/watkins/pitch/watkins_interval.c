@@ -1,38 +1,44 @@
-/* watkins_interval.c - what is seen in an interval between two edges.
+/* watkins_interval.c - the facets visible in an interval between two edges.
  *
- * Rules    one facet: that; one whose corners are all nearer than all of the
- *          others': that; several: the nearest at the middle (at the ends
- *          they may touch), unless it pierces another inside the interval.
- * Piercing the signs of the difference in depth at the two ends tell: if they
- *          differ, the two cross inside.  The interval is split there, the
- *          right part goes onto a stack, and the left one is looked at again,
- *          until it is free of crossings.  A zero sign: the crossing is at that
- *          end, the other end judges.  It is enough to ask the facet in front
- *          against the others: what crosses behind it is not seen.
- * Coherence  edges, and the depths of facets along them, are linear from line
- *          to line, so the signs that decided an interval stand for a number
- *          of lines that is known when they are computed.  As long as the next
- *          lines have an interval between the same edges with the same facets
- *          in, its order is kept and no depth computed.  (Romney asks for all
- *          edges of the line to be the same, and knows no piercing: a piercing
+ * Rules    The visible facet is
+ *            - the only one in the interval;
+ *            - the one whose corners are all nearer than those of the others;
+ *            - else the nearest at the interval's middle (at the ends facets
+ *              may touch), unless it intersects another inside the interval.
+ * Intersections
+ *          If the signs of the difference of two depths differ at the two ends,
+ *          the facets intersect inside.  The interval is split there, the right
+ *          part is pushed onto a stack, and the left part is decided again,
+ *          until it has no intersection.  A sign of zero means that they
+ *          intersect at that end; then the other end decides.  Only the facet
+ *          in front is tested against the others: intersections behind it are
+ *          not visible.
+ * Coherence
+ *          Edges, and the depths of facets along them, are linear from line to
+ *          line, so the signs that decided an interval hold for a number of
+ *          lines that is known when they are computed.  While the next lines
+ *          have an interval between the same edges with the same facets in, its
+ *          order is reused and no depth is computed.  ([Romney1969] requires
+ *          all edges of the line to be the same, and has no intersections: one
  *          may begin without any change among the edges, which is why the
- *          number of lines is asked for.)
- * Ties     depths that differ by less than a tolerance are equal, and the facet
- *          first in the file is in front.  The tolerance of two gentle facets
- *          is 16 b, b the bound of error of one depth.  A decision is kept only
- *          while each difference stays 8 b clear of the tolerance; what it was
- *          when the decision was made, what it was thought to become, and what
- *          it would be found to be are off by 2 b each.  So the output is the
- *          same with coherence and without: a tie with the nearest at the
- *          middle remains one whichever of those that tie is the nearest.
+ *          number of lines is computed here.)
+ * Ties     Depths that differ by less than a tolerance are equal, and the facet
+ *          of lower index is in front.  With b the error bound of one depth,
+ *          the tolerance of two gentle facets is 16 b.  A decision is reused
+ *          only while each difference stays 8 b away from the tolerance: the
+ *          difference when the decision was made, the one extrapolated, and the
+ *          one that would be computed are off by 2 b each.  So the output is
+ *          the same with and without coherence: a tie with the facet nearest at
+ *          the middle remains one whichever of the tied facets is the nearest.
  */
 #include <math.h>
 
 #include "visibility/watkins/pitch/watkins.h"
 
-/* Parts of an interval are no narrower, so that splitting ends whatever steep
- * facets' depths are rounded to: a corner of the map is a multiple of it. */
-#define NARROWEST 0x1p-8
+/* The least width of a part of an interval, so that splitting ends whatever the
+ * rounding errors of steep facets' depths: the map's corners are multiples of
+ * it. */
+#define PART_WIDTH_MIN 0x1p-8
 
 /* ---- Depth --------------------------------------------------------------- */
 
@@ -58,7 +64,7 @@ int watkins_compare(struct watkins *watkins, uint32_t f, uint32_t g, double x) {
   return (apart > slack) - (apart < -slack);
 }
 
-/* Is all of f nearer than all of g, beyond any doubt? */
+/* Is all of f nearer than all of g, by more than any rounding error? */
 static bool is_clear(const struct watkins *watkins, uint32_t f, uint32_t g) {
   return watkins->facet.item[f].z_low - watkins->facet.item[g].z_high >
          2 * tolerance(watkins, f, g);
@@ -66,8 +72,8 @@ static bool is_clear(const struct watkins *watkins, uint32_t f, uint32_t g) {
 
 /* ---- Order --------------------------------------------------------------- */
 
-/* Puts H into the order of depth at x, nearest first, exact ties by index; the
- * result does not depend on the order before. */
+/* Sorts H by depth at x, nearest first, equal depths by index, by insertion;
+ * the result does not depend on the order before. */
 static void sort_in(struct watkins *watkins, double x) {
   uint32_t *in = watkins->in.item;
   double *depth = watkins->depth.item;
@@ -87,9 +93,9 @@ static void sort_in(struct watkins *watkins, double x) {
   }
 }
 
-/* Of the facets as near as the nearest, the first in the file goes to the
- * front. */
-static void settle_ties(struct watkins *watkins) {
+/* Moves to the front the facet of lowest index among those tied with the
+ * nearest. */
+static void break_ties(struct watkins *watkins) {
   uint32_t *in = watkins->in.item;
   const double *depth = watkins->depth.item;
   size_t front = 0;
@@ -104,9 +110,8 @@ static void settle_ties(struct watkins *watkins) {
   in[0] = first;
 }
 
-/* Where the facet in front crosses another between x0 and x1, and no nearer to
- * them than corners are rounded: the first crossing found in the order of
- * depth. */
+/* Finds where the facet in front intersects another between x0 and x1, at least
+ * PART_WIDTH_MIN away from both: the first one in the order of depth. */
 static bool find_crossing(struct watkins *watkins, double x0, double x1,
                           double *at) {
   const uint32_t *in = watkins->in.item;
@@ -120,7 +125,7 @@ static bool find_crossing(struct watkins *watkins, double x0, double x1,
       double d0 = difference(watkins, in[0], in[i], x0);
       double d1 = difference(watkins, in[0], in[i], x1);
       *at = x0 + (x1 - x0) * d0 / (d0 - d1);
-      if (*at - x0 > NARROWEST && x1 - *at > NARROWEST)
+      if (*at - x0 > PART_WIDTH_MIN && x1 - *at > PART_WIDTH_MIN)
         return true;
     }
   }
@@ -131,11 +136,12 @@ static bool add_piece(struct watkins *watkins, struct watkins_piece piece) {
   return ARRAY_PUSH(&watkins->piece, piece);
 }
 
-/* Cuts the interval at its visible piercings.
+/* Splits the interval at its visible intersections.
  * nearest  gets the facet nearest at the middle; WATKINS_NONE where it was
- *          cut */
-static bool cut_interval(struct watkins *watkins, uint32_t left, uint32_t right,
-                         uint32_t *nearest) {
+ *          split
+ * Returns false when memory ran out or the caller cancelled. */
+static bool split_interval(struct watkins *watkins, uint32_t left,
+                           uint32_t right, uint32_t *nearest) {
   const struct scan_edge *edge = watkins->table.edge.item;
   struct watkins_piece piece = {.x0 = edge[left].x, .left = left};
   bool whole = true;
@@ -151,7 +157,7 @@ static bool cut_interval(struct watkins *watkins, uint32_t left, uint32_t right,
     if (!progress_step(watkins->progress,
                        (size_t)(watkins->counts.comparisons - before)))
       return false;
-    settle_ties(watkins);
+    break_ties(watkins);
     if (find_crossing(watkins, piece.x0, piece.x1, &at)) {
       whole = false;
       watkins->counts.splits++;
@@ -174,10 +180,10 @@ static bool cut_interval(struct watkins *watkins, uint32_t left, uint32_t right,
 
 /* ---- Coherence ----------------------------------------------------------- */
 
-/* For how many lines a difference that is `apart` now and changes by `change`
- * a line keeps its sign, with a margin: below half the tolerance it stays a
- * tie, beyond one and a half it stays off. */
-static double lines_kept(double apart, double change, double slack) {
+/* The number of lines for which a difference that is `apart` on this line and
+ * changes by `change` per line keeps its sign, with a margin: below half of the
+ * tolerance it remains a tie, beyond one and a half times it remains none. */
+static double lines_sign_holds(double apart, double change, double slack) {
   double size = fabs(apart);
   if (apart < 0)
     change = -change;
@@ -188,8 +194,8 @@ static double lines_kept(double apart, double change, double slack) {
   return change < 0 ? (size - slack * 3 / 2) / -change : INFINITY;
 }
 
-/* The change a line down of the difference in depth along a path that moves by
- * dx a line. */
+/* The change per line down of the difference of two depths along a path that
+ * moves by dx per line. */
 static double change_along(const struct watkins *watkins, uint32_t f,
                            uint32_t g, double dx) {
   const struct watkins_facet *p = &watkins->facet.item[f];
@@ -197,13 +203,13 @@ static double change_along(const struct watkins *watkins, uint32_t f,
   return p->per_line - q->per_line + (p->per_x - q->per_x) * dx;
 }
 
-/* For how many lines the order in depth stands: at the middle against the
- * nearest there, at both ends against the one in front.  Facets whose depths
- * overlap and that are steep have none: their depths are kept within those of
- * their corners and so are not linear; nor has a crossing too near to an end.
- */
-static double order_kept(const struct watkins *watkins, uint32_t left,
-                         uint32_t right, uint32_t nearest) {
+/* The number of lines for which the depth order holds: at the middle relative
+ * to the nearest facet there, at both ends relative to the one in front.  It is
+ * 0 for steep facets whose depth ranges overlap, because their depths are
+ * clamped to those of their corners and so are not linear, and where an
+ * intersection is too close to an end. */
+static double lines_order_holds(const struct watkins *watkins, uint32_t left,
+                                uint32_t right, uint32_t nearest) {
   const struct scan_edge *l = &watkins->table.edge.item[left];
   const struct scan_edge *r = &watkins->table.edge.item[right];
   const struct {
@@ -224,7 +230,8 @@ static double order_kept(const struct watkins *watkins, uint32_t left,
       if (!facet[f].gentle || !facet[g].gentle ||
           (k < 2 && apart < -tolerance(watkins, f, g)))
         return 0;
-      kept = fmin(kept, lines_kept(apart, change_along(watkins, f, g, at[k].dx),
+      kept = fmin(kept,
+                  lines_sign_holds(apart, change_along(watkins, f, g, at[k].dx),
                                    tolerance(watkins, f, g)));
     }
   }
@@ -239,9 +246,9 @@ static bool ends_here(const struct watkins *watkins, uint32_t left,
   return edge[left].dy == 0 || edge[right].dy == 0;
 }
 
-/* Files the order of H for the next line, if both edges go on to it. */
-static bool keep_record(struct watkins *watkins, uint32_t left, uint32_t right,
-                        int32_t until) {
+/* Stores the order of H for the next line, if both edges continue to it. */
+static bool store_record(struct watkins *watkins, uint32_t left, uint32_t right,
+                         int32_t until) {
   int here = parity_of(watkins->table.line);
   watkins_list *order = &watkins->order[here];
   struct watkins_record record = {until, left, right, (uint32_t)order->count,
@@ -256,8 +263,8 @@ static bool keep_record(struct watkins *watkins, uint32_t left, uint32_t right,
   return ARRAY_PUSH(&watkins->record[here], record);
 }
 
-/* The record of the same interval on the line above, its order still standing;
- * NULL: there is none. */
+/* The record of the same interval on the line above, if its order still holds;
+ * else NULL. */
 static const struct watkins_record *find_record(const struct watkins *watkins,
                                                 uint32_t left, uint32_t right) {
   int above = parity_of(watkins->table.line + 1);
@@ -279,24 +286,24 @@ static const struct watkins_record *find_record(const struct watkins *watkins,
 
 /* ---- The interval -------------------------------------------------------- */
 
-static bool decide_anew(struct watkins *watkins, uint32_t left,
-                        uint32_t right) {
+static bool decide_by_depth(struct watkins *watkins, uint32_t left,
+                            uint32_t right) {
   int32_t line = watkins->table.line;
   uint32_t nearest = WATKINS_NONE;
   double kept;
   if (!ARRAY_RESERVE(&watkins->depth, watkins->in.count) ||
-      !cut_interval(watkins, left, right, &nearest))
+      !split_interval(watkins, left, right, &nearest))
     return false;
   if (nearest == WATKINS_NONE || !watkins->coherence ||
       ends_here(watkins, left, right))
     return true;
-  kept = order_kept(watkins, left, right, nearest);
-  return !(kept >= 1) || keep_record(watkins, left, right,
-                                     kept < line ? line - (int32_t)kept : 0);
+  kept = lines_order_holds(watkins, left, right, nearest);
+  return !(kept >= 1) || store_record(watkins, left, right,
+                                      kept < line ? line - (int32_t)kept : 0);
 }
 
-/* Puts a facet that is clearly nearer than all others to the front of H;
- * false: there is none.  No depth is computed. */
+/* Moves a facet that is nearer than all others by its corners' depths to the
+ * front of H; false where there is none.  No depth is computed. */
 static bool find_clear(struct watkins *watkins) {
   const struct watkins_facet *facet = watkins->facet.item;
   uint32_t *in = watkins->in.item, front;
@@ -323,12 +330,12 @@ bool watkins_decide(struct watkins *watkins, uint32_t left, uint32_t right) {
   if (watkins->in.count > 1 && !find_clear(watkins)) {
     record = find_record(watkins, left, right);
     if (record == NULL)
-      return decide_anew(watkins, left, right);
+      return decide_by_depth(watkins, left, right);
     watkins->counts.coherent++;
     for (uint32_t i = 0; i < record->count; i++)
       watkins->in.item[i] = watkins->order[parity_of(watkins->table.line + 1)]
                                 .item[record->order + i];
-    if (!keep_record(watkins, left, right, record->until))
+    if (!store_record(watkins, left, right, record->until))
       return false;
   }
   piece.facet = watkins->in.item[0];

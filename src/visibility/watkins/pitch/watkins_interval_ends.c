@@ -1,12 +1,12 @@
 /* watkins_interval_ends.c - which edges are drawn at the ends of intervals,
- * after Archuleta. */
+ * after [Archuleta1972]. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "visibility/watkins/pitch/watkins.h"
 
-/* What a steep edge may advance along a line, in pitches.  On a soup of 1,000
- * triangles 1 makes more false ink, 4 misses more; their sum is least at 2. */
+/* The largest |dx / dy| of a steep edge.  On a soup of 1,000 triangles, 1 gives
+ * more false ink and 4 more missing ink; their sum is least at 2. */
 #define STEEP 2
 
 bool watkins_is_steep(const struct sheet *sheet, uint32_t side) {
@@ -20,14 +20,16 @@ bool watkins_is_steep(const struct sheet *sheet, uint32_t side) {
   return llabs((int64_t)q->x - p->x) <= STEEP * llabs((int64_t)q->y - p->y);
 }
 
-/* Is it the background or the edge's own facet? */
-static bool shows(const struct watkins *watkins, uint32_t seen, uint32_t edge) {
+/* Is the visible facet the background, or one of the edge's own? */
+static bool is_own_or_background(const struct watkins *watkins, uint32_t seen,
+                                 uint32_t edge) {
   return seen == WATKINS_NONE ||
          watkins_borders(&watkins->edge.item[edge], seen);
 }
 
-/* Is a facet seen beside the edge nearer by more than contact explains? */
-static bool is_before(struct watkins *watkins, uint32_t seen, uint32_t edge) {
+/* Is a facet visible beside the edge nearer than it by more than the contact
+ * tolerance? */
+static bool is_in_front(struct watkins *watkins, uint32_t seen, uint32_t edge) {
   double x = watkins->table.edge.item[edge].x;
   double z = watkins_edge_depth(watkins, edge);
   watkins->counts.comparisons++;
@@ -42,9 +44,10 @@ bool watkins_show_ends(struct watkins *watkins, size_t first, size_t past,
   for (size_t i = first; i < past; i++) {
     uint32_t e = watkins->table.active[i];
     if (!watkins->edge.item[e].drawn ||
-        (!shows(watkins, left, e) && !shows(watkins, right, e) &&
-         is_before(watkins, left, e) &&
-         (left == right || is_before(watkins, right, e))))
+        (!is_own_or_background(watkins, left, e) &&
+         !is_own_or_background(watkins, right, e) &&
+         is_in_front(watkins, left, e) &&
+         (left == right || is_in_front(watkins, right, e))))
       continue;
     if (!ARRAY_PUSH(&watkins->shown, e))
       return false;
