@@ -475,7 +475,7 @@ static void dashes_begin_anew_at_corners(void **state) {
   ink_fixture_end(&k);
 }
 
-/* A bond of one corner is dashed from there to there. */
+/* A loop with one corner is dashed from that corner round to it. */
 static void loop_with_one_corner_begins_at_it(void **state) {
   enum { COUNT = 31 };
   struct ink_fixture k;
