@@ -1,7 +1,7 @@
 /* recto.h - exact visible lines and faces of 3D meshes, on paper.
  *
  * Units    Scene coordinates are the model's own unit, taken as millimetres
- *          where a true scale is asked for.  Page coordinates are
+ *          where a true scale is requested.  Page coordinates are
  *          millimetres, x right and y up from the lower left corner.
  *          Angles are degrees.
  * Errors   Every fallible call returns a recto_status and, when given one,
@@ -11,8 +11,8 @@
  *          without a status then do nothing and return 0, NULL or the like.
  * Owner    The library copies what it is given.  You own what a _create,
  *          _read or _render returns and free it with the matching _destroy,
- *          which accepts NULL.  Getters lend until the object is changed or
- *          destroyed.
+ *          which accepts NULL.  What getters return is owned by the object and
+ *          valid until the object is changed or destroyed.
  * Threads  No global state: different objects may be used from different
  *          threads at once; one object from one thread at a time.
  * Stability  Options are initialised by recto_options_init; new fields are
@@ -29,7 +29,7 @@
 extern "C" {
 #endif
 
-/* The library is built with hidden symbols; these are what it shows. */
+/* The library is built with hidden symbols; these are the exported ones. */
 #if defined __GNUC__
 #pragma GCC visibility push(default)
 #endif
@@ -51,8 +51,8 @@ typedef enum recto_status {
   RECTO_ERROR_UNSUPPORTED, /* not built in, or not meant for this */
   RECTO_ERROR_EMPTY,       /* nothing to draw */
   RECTO_ERROR_LIMIT,       /* too large: a stated limit was passed */
-  RECTO_ERROR_CANCELLED,   /* the caller's progress function said stop */
-  RECTO_ERROR_VERIFY,      /* the drawing was asked about and found wrong */
+  RECTO_ERROR_CANCELLED,   /* the caller's progress function returned false */
+  RECTO_ERROR_VERIFY,      /* verification found the drawing wrong */
   RECTO_STATUS_COUNT       /* not a status: how many there are */
 } recto_status;
 
@@ -150,11 +150,11 @@ typedef enum recto_divide {
 
 /* ---- Options ------------------------------------------------------------- */
 
-/* Pens, the pitches of hatching and of scan lines are no finer than this: on
- * the largest page, 2 m, that is 200,000 lines. */
+/* The least width of pens and pitch of hatching and scan lines: 200,000 lines
+ * on the largest page, 2 m. */
 #define RECTO_FINEST_MM 0.01
 
-/* Called now and then with the share of the work done, 0 to 1, and the name
+/* Called periodically with the share of the work done, 0 to 1, and the name
  * of the stage; by recto_scene_render, by recto_scene_read while another
  * process reads the model for it, and, while it writes, by
  * recto_drawing_write.  Returns false to cancel: the call then ends with
@@ -171,9 +171,10 @@ typedef void (*recto_warning_fn)(void *user, const char *file,
 typedef struct recto_options {
   /* Method. */
   recto_method method;
-  int threads;     /* at most as many as there are processors; 0: so many */
-  double contact;  /* scene units; negative: what rounding of the coordinates
-                      explains, face by face */
+  int threads;     /* at most the number of processors; 0: that number */
+  double contact;  /* surfaces this close in depth count as touching, scene
+                      units; negative: for each face the rounding error of its
+                      coordinates */
   double pitch_mm; /* watkins: between scan lines; 0: exact sweep, else at
                       least RECTO_FINEST_MM */
   int resolution;  /* raster methods: lines over the page height; warnock:
@@ -226,7 +227,7 @@ typedef struct recto_options {
   const char *device;   /* HPGL: the plotter's name; NULL: "generic" */
   double velocity_cm_s; /* HPGL: pen speed; 0: the plotter's own */
 
-  /* Conversation. */
+  /* Callbacks. */
   recto_progress_fn progress;
   recto_warning_fn warning;
   void *user;
@@ -240,17 +241,19 @@ typedef struct recto_options {
   int depth_bits;    /* z-buffers: 1 to 32 bits of depth; 0: float64 */
 
   /* Ink. */
-  int hidden_layers; /* hidden parts behind at most so many faces; 0: all */
-  double seam_mm;    /* below all fills, each reaches over its borders by half
-                        of this, so that viewers show no hairlines; 0 to 10 */
+  int hidden_layers; /* draw hidden lines of at most this quantitative
+                        invisibility (number of faces in front); 0: all */
+  double seam_mm;    /* below all fills, each is extended over its borders by
+                        half of this, so that viewers show no hairlines between
+                        fills; 0 to 10 */
 
-  /* The output's finest step, see recto_output_unit_mm: lines that it cannot
-   * tell apart are drawn once.  0: only those on the same place of the page */
+  /* The output's resolution, see recto_output_unit_mm: lines that coincide at
+   * it are drawn once.  0: only lines at exactly the same place of the page */
   double unit_mm;
 
   /* Verification. */
-  int verify; /* points to ask an independent ray caster about, of the drawn
-                 lines and of the edges asked for; 0: none */
+  int verify; /* number of samples that an independent ray caster checks, of the
+                 drawn lines, and of the requested edges; 0: none */
 
   /* Reports. */
   double velocity_up_cm_s; /* speed with the pen up, for the time that plotting
@@ -261,9 +264,9 @@ typedef struct recto_options {
 
   /* Pens: lists such as "silhouette=2,hidden=3"; NULL: none.  The keys of the
    * first are hidden, hatch, a class's word or a group's name (or its part
-   * between two of the strokes that join object, group and material), its
-   * values pens, 1 to 1000.  Of what holds for a line the first counts, in
-   * that order; what is not named is as `pens` says. */
+   * between two of the slashes that join object, group and material), its
+   * values pens, 1 to 1000.  The first key that applies to a line decides, in
+   * that order; if none does, `pens` does. */
   const char *pen_for;
   const char *pen_widths;  /* pens and their width, "2=0.5mm,3=0.7" */
   const char *pen_colours; /* pens and their colour, "2=#c00,3=00ff00" */
@@ -275,13 +278,13 @@ typedef struct recto_options {
   const char *weights;
 
   /* Significant bits of the coordinates given to recto_scene_add_point, 1 to
-   * 53, which are off by half of the last one; 53: exact; 0: 24 where all of
-   * them are numbers of single precision, else 53.  What is in a file tells its
-   * own precision. */
+   * 53: their rounding error is half a unit of the last one; 53: exact; 0: 24
+   * where all of them are single precision numbers, else 53.  For coordinates
+   * from files the precision follows from the file. */
   int coordinate_bits;
 
-  /* Corners of borders that are no farther apart count as one, scene units;
-   * negative: as far as rounding of the coordinates explains; 0: only those at
+  /* Corners of borders that are at most this far apart are welded, scene units;
+   * negative: within the rounding error of the coordinates; 0: only those at
    * equal positions. */
   double weld;
 } recto_options;
@@ -354,8 +357,8 @@ RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
                                                  recto_error *error);
 void recto_drawing_destroy(recto_drawing *drawing);
 
-/* Whether an output can be written, to be asked before the work: it can be
- * made or replaced, and is none of the files that the scene was read from.
+/* Checks, before the work is done, whether an output can be written: it can be
+ * created or replaced, and is none of the files that the scene was read from.
  * Errors  RECTO_ERROR_IO; RECTO_ERROR_ARGUMENT: it is one of these */
 RECTO_USE_RESULT recto_status recto_scene_try_output(const recto_scene *scene,
                                                      const char *path,
@@ -375,7 +378,7 @@ RECTO_USE_RESULT recto_status recto_drawing_write(const recto_drawing *drawing,
                                                   const recto_options *options,
                                                   recto_error *error);
 
-/* The same, and writes what recto_drawing_stats tells: both or neither.
+/* The same, and writes the text of recto_drawing_stats: both or neither.
  * stats   a path as above; NULL: none
  * Errors  RECTO_ERROR_ARGUMENT also where both are one file */
 RECTO_USE_RESULT recto_status recto_drawing_write_with_stats(
@@ -386,46 +389,48 @@ RECTO_USE_RESULT recto_status recto_drawing_write_with_stats(
  * path and format, which may be NULL; NULL where there is none. */
 const char *recto_output_format(const char *path, const char *format);
 
-/* The finest step in mm in which recto_drawing_write would write for this
- * path, format and options, for the options' unit_mm; 0 where there is no such
- * format. */
+/* The resolution in mm of coordinates that recto_drawing_write would write for
+ * this path, format and options, for the options' unit_mm; 0 where there is no
+ * such format. */
 double recto_output_unit_mm(const char *path, const char *format,
                             const recto_options *options);
 
-/* Sets what the drawing should know of its output: unit_mm; and where the
- * format is for plotters, a margin_mm that is negative, so that all inside is
- * within reach, an order that is RECTO_ORDER_AUTO to near, and weights that are
- * NULL to "none": pens have one width. */
+/* Adapts the options to an output: sets unit_mm, and where the format is for
+ * plotters replaces defaults:
+ *   margin_mm negative        the margin that the plotter needs
+ *   order RECTO_ORDER_AUTO    RECTO_ORDER_NEAR
+ *   weights NULL              "none": pens have one width */
 void recto_options_suit(recto_options *options, const char *path,
                         const char *format);
 
 /* The output format at `index`, such as "svg"; NULL past the last. */
 const char *recto_output_format_name(size_t index);
 
-/* What a drawing has too much and what it lacks, in mm of its page. */
+/* The length of false and missing lines of a drawing, in mm of its page. */
 typedef struct recto_verdict {
   double drawn_mm, false_mm;     /* lines; of these hidden, or of no edge */
-  double visible_mm, missing_mm; /* edges asked for; of these not drawn */
-  double unsure_mm;              /* too close to call: counted as right */
+  double visible_mm, missing_mm; /* requested edges; of these not drawn */
+  double unsure_mm;              /* undecided: counted as right */
   double false_at_mm[2], missing_at_mm[2]; /* the first of each: x, y */
 } recto_verdict;
 
-/* Judges somebody's drawing of the scene, an SVG file, by an independent ray
- * caster: as seen by the camera of the options, on the file's own page, of the
- * options' edges.  Lines may be off by a quarter of the options' pen; dashed
- * ones, those of the class hidden or of a layer labelled so, and hatching of
- * the class hatch are not judged. */
+/* Checks any program's drawing of the scene, an SVG file, by an independent ray
+ * caster: seen by the camera of the options, on the file's own page, for the
+ * options' edge classes.  Lines may be off by a quarter of the options' pen.
+ * Dashed lines, those of the class hidden or of a layer labelled so, and
+ * hatching of the class hatch are not checked. */
 RECTO_USE_RESULT recto_status recto_scene_check(const recto_scene *scene,
                                                 const char *path,
                                                 const recto_options *options,
                                                 recto_verdict *verdict,
                                                 recto_error *error);
 
-/* What verification found, a sentence; NULL where it was not asked for: what
- * it finds wrong is an error of recto_scene_render.  Lends. */
+/* The result of verification, a sentence; NULL where it was not requested.
+ * Errors that it finds are errors of recto_scene_render.  Owned by the
+ * drawing. */
 const char *recto_drawing_verdict(const recto_drawing *drawing);
 
-/* Counts, times and choices as one JSON object.  Lends. */
+/* Counts, times and choices as one JSON object.  Owned by the drawing. */
 const char *recto_drawing_stats(const recto_drawing *drawing);
 
 /* ---- Ring 3: custom writers ---------------------------------------------- */
@@ -443,7 +448,7 @@ typedef struct recto_stroke {
 size_t recto_drawing_stroke_count(const recto_drawing *drawing);
 
 /* The stroke at `index` < recto_drawing_stroke_count; past the last an empty
- * one.  Lends. */
+ * one.  Its points are owned by the drawing. */
 recto_stroke recto_drawing_stroke(const recto_drawing *drawing, size_t index);
 
 #if defined __GNUC__

@@ -1,7 +1,7 @@
-/* check.c - judges somebody's drawing of a scene.
+/* check.c - checks any program's drawing of a scene by the judge.
  *
- * The page is the file's own.  Lines may be off by a quarter of the pen, along
- * and across: nobody sees that. */
+ * The page is the file's own.  Lines may be off by a quarter of the pen's
+ * width, along and across, which is invisible. */
 #include "api/judge_input.h"
 #include "api/handle.h"
 #include "view/rescale.h"
@@ -9,7 +9,7 @@
 #include "ink/pens.h"
 #include "scene/welded.h"
 
-/* Samples of the drawing, and as many of the edges. */
+/* The number of samples of the drawing, and of the edges. */
 enum { SAMPLES = 200000 };
 
 static recto_status read_drawing(struct judge_drawing *drawing,
@@ -39,7 +39,7 @@ static void fill_verdict(recto_verdict *to, const struct judge_verdict *from) {
   };
 }
 
-/* The scene with its corners joined as a drawing of ours would have them. */
+/* Welds the scene's corners as recto does for a drawing. */
 static recto_status weld(struct welded *welded, const struct rescaled *rescaled,
                          recto_error *error) {
   const recto_options *o = &rescaled->options;
@@ -52,8 +52,8 @@ static recto_status weld(struct welded *welded, const struct rescaled *rescaled,
   return status;
 }
 
-/* The length below which one of the pens leaves strokes out: which of them drew
- * what is not known of somebody's drawing. */
+/* The largest of all pens' least stroke lengths: which pen drew a line of the
+ * file is unknown. */
 static recto_status find_shortest(double *mm, const struct scene *scene,
                                   const recto_options *o, recto_error *error) {
   struct pens pens;

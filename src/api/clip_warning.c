@@ -1,9 +1,10 @@
-/* clip_warning.c - says what the page's margins cut away, and what helps. */
+/* clip_warning.c - warns of lines and faces that the page's margins clip. */
 #include "api/clip_warning.h"
 
 #include "base/sentence.h"
 
-/* What comes near to the eye is endlessly large on the page. */
+/* Lines close to the eye have enormous images, so large lengths are not printed
+ * in full. */
 static void say_length(struct sentence *words, double mm) {
   const double most_mm = 100000;
   if (mm < most_mm)

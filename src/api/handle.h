@@ -1,4 +1,4 @@
-/* handle.h - what stands behind the opaque handles of recto.h. */
+/* handle.h - the structures behind the opaque handles of recto.h. */
 #ifndef API_HANDLE_H
 #define API_HANDLE_H
 
@@ -12,18 +12,18 @@ struct recto_scene {
   struct scene scene;
   unsigned long fault[SCENE_FAULT_COUNT]; /* of everything added so far */
   double read_cpu, read_wall;             /* seconds spent on reading files */
-  char *path; /* of the one file that was read; NULL: none or several were */
-  bool read_before;
+  char *path; /* of the only file that was read; NULL: none or several were */
+  bool read_before; /* a file was read */
 };
 
 struct recto_drawing {
   struct drawing drawing;
   char verdict[VERIFY_SUMMARY_SIZE]; /* "": not verified */
-  ARRAY(struct file_identity) file;  /* what it was made of */
+  ARRAY(struct file_identity) file;  /* that the scene was read from */
 };
 
-/* Copies the options, or the defaults where they are NULL, and checks what can
- * be checked of them alone: finite, in range. */
+/* Copies the options, or the defaults where they are NULL, and checks that each
+ * of them is finite and in range. */
 USE_RESULT recto_status options_take(recto_options *own,
                                      const recto_options *options,
                                      recto_error *error);

@@ -1,4 +1,4 @@
-/* judge_input.c - a scene and a camera as the judge is to see them. */
+/* judge_input.c - converts a scene, a camera and options for the judge. */
 #include "api/judge_input.h"
 
 bool judge_input_init(struct judge_input *input, const struct scene *scene) {
@@ -34,7 +34,7 @@ struct judge_camera judge_input_camera(const struct judge_input *input,
                     camera->perspective, camera->s, camera->middle_mm,
                     camera->page_mm);
   made.margin_mm = camera->margin_mm;
-  /* An orthographic view that was not cut begins at its nearest point. */
+  /* A default near plane of an orthographic view clips nothing. */
   if (camera->perspective || options->has_section || options->near_distance > 0)
     made.near_d = camera->near_d;
   return made;

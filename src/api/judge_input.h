@@ -1,16 +1,16 @@
-/* judge_input.h - a scene and a camera as the judge is to see them. */
+/* judge_input.h - converts a scene, a camera and options for the judge. */
 #ifndef API_JUDGE_INPUT_H
 #define API_JUDGE_INPUT_H
 
 #include "judge/judge.h"
 #include "view/camera.h"
 
-/* The scene with its points counted from one of its own, so that a far origin
- * costs the judge's doubles no digits. */
+/* The scene, translated so that one of its points is the origin: the judge's
+ * doubles then lose no digits where the scene is far from its origin. */
 struct judge_input {
-  struct scene scene; /* all but its points are lent */
+  struct scene scene; /* all but its points is borrowed, not owned */
   struct scene_point origin;
-  const struct scene_point *given; /* the points as they were, lent */
+  const struct scene_point *given; /* the original points, borrowed */
 };
 
 /* The scene has a face or a polyline.  Returns false when memory ran out. */
@@ -22,7 +22,8 @@ struct judge_camera judge_input_camera(const struct judge_input *input,
                                        const struct camera *camera,
                                        const recto_options *options);
 
-/* The judge's own, with contact, crease and classes as the drawing's. */
+/* The judge's defaults, with the drawing's contact, crease angle and classes.
+ */
 struct judge_options judge_input_options(const struct judge_input *input,
                                          const struct camera *camera,
                                          const recto_options *options);

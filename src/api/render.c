@@ -1,8 +1,10 @@
-/* render.c - from scene to drawing: one stage after the other, each timed.
+/* render.c - draws a scene: runs and times the stages one after the other.
  *
- * Phases: check the options, scale what is too large or small, find the edges
- * and join the corners of borders, aim the camera, build the sheet, choose the
- * method, solve, ink, and where it is asked for verify. */
+ * Phases
+ *   check the options; rescale a scene of extreme size;
+ *   weld the corners of borders and find the edges;
+ *   aim the camera; lay out the sheet; choose the method and solve;
+ *   make the ink; verify, if requested. */
 #include <math.h>
 #include <stdio.h>
 
@@ -20,7 +22,7 @@
 #include "visibility/quantitative_invisibility.h"
 #include "visibility/solver.h"
 
-/* Everything a render makes on its way; zeroed is empty. */
+/* The results of the stages; zero-initialised is empty. */
 struct render {
   const recto_scene *model;
   const recto_options *options;
@@ -35,7 +37,7 @@ struct render {
   struct report *report;
   char *verdict;                  /* VERIFY_SUMMARY_SIZE */
   double begin[SHARE_STAGES + 1]; /* shares of the work: see shares.h */
-  double passed;                  /* the most that was handed on */
+  double passed;                  /* the largest progress reported so far */
 };
 
 /* ---- The method ---------------------------------------------------------- */
@@ -73,7 +75,8 @@ choose_method(struct render *render, const struct solver_request *request) {
   return solver;
 }
 
-/* More threads than processors would only wait for each other. */
+/* The number of threads: at most that of processors, as more would be no
+ * faster. */
 static int count_threads(const recto_options *options) {
   int there = parallel_processors();
   return 0 < options->threads && options->threads < there ? options->threads
@@ -153,8 +156,8 @@ static recto_status project(struct render *render, recto_error *error) {
     status = page_overflow_measure(&render->overflow, &render->welded.scene,
                                    &render->topology, &render->camera,
                                    &render->rescaled.options, error);
-  /* On a fine mesh it is a quarter of all memory, and lines alone never ask
-   * it again. */
+  /* The topology of a fine mesh takes a quarter of all memory, and without
+   * fills it is not used again. */
   if (!has_fills(render)) {
     render->sheet.topology = NULL;
     topology_fini(&render->topology);
@@ -162,8 +165,8 @@ static recto_status project(struct render *render, recto_error *error) {
   return status;
 }
 
-/* Hands the share of a solver's phase on as a share of the whole, which never
- * falls. */
+/* Reports the progress of a solver's phase as progress of the whole, which
+ * never decreases. */
 static bool pass_progress(void *user, double share, const char *stage) {
   struct render *render = user;
   const double *begin = render->begin;
@@ -212,7 +215,7 @@ static recto_status ink(struct render *render, recto_error *error) {
                   &render->map, render->options, error);
 }
 
-/* Hands the judge's share on as one of the whole. */
+/* Reports the judge's progress as progress of the whole. */
 static bool pass_verifying(void *user, double share) {
   struct render *render = user;
   const double *begin = &render->begin[SHARE_VERIFY];
@@ -306,8 +309,8 @@ static void report_sheet(struct report *report, const struct render *render) {
              (int64_t)sheet->clipped_page);
 }
 
-/* What each layer's pen draws, so that it is known which to load, and that
- * their ink lasts. */
+/* The pen and the drawn length of each layer, so that the user knows which pens
+ * to load and whether their ink suffices. */
 static void report_layers(struct report *report,
                           const struct drawing *drawing) {
   size_t count = drawing->layer.count;
@@ -337,13 +340,13 @@ static void report_drawing(struct report *report,
   report_double(report, "drawing", "travel_mm", drawing_travel_mm(drawing));
 }
 
-/* Whether nothing at all is inside the page's margins. */
+/* Whether nothing is inside the page's margins. */
 static bool is_outside(const struct render *render) {
   return report_get(render->report, "sheet", "triangles", 0) == 0 &&
          render->sheet.edge.count == 0;
 }
 
-/* An empty page is an answer, but seldom the one that was wanted. */
+/* Warns if the drawing is empty, which is no error but seldom intended. */
 static void warn_of_empty_page(const struct render *render) {
   const recto_options *o = render->options;
   const struct drawing *drawing = render->drawing;
@@ -360,7 +363,8 @@ static void warn_of_empty_page(const struct render *render) {
   o->warning(o->user, "", 0, text);
 }
 
-/* What the eye touches is cut where depths would become too coarse. */
+/* Warns of faces that the default near plane clips, which it does where depths
+ * would otherwise become too coarse. */
 static void warn_of_near_plane(const struct render *render) {
   const recto_options *o = render->options;
   unsigned long cut = (unsigned long)render->sheet.cut_near;
@@ -377,8 +381,8 @@ static void warn_of_near_plane(const struct render *render) {
   o->warning(o->user, "", 0, text);
 }
 
-/* How long a plotter takes: at its speeds or at those asked for, with no time
- * for speeding up and slowing down. */
+/* Estimates the plotting time by the requested speeds or the plotter's own,
+ * without acceleration. */
 static void report_plotting(struct report *report,
                             const struct drawing *drawing,
                             const recto_options *options) {
@@ -404,10 +408,10 @@ static void report_plotting(struct report *report,
                     lifts * DEVICE_LIFT_S);
 }
 
-/* ---- All of it ----------------------------------------------------------- */
+/* ---- The whole render ---------------------------------------------------- */
 
-/* A list of pens that makes no sense is told before the work, and pens that
- * are idle once. */
+/* Reports errors in the lists of pens before the work, and warns of unused
+ * pens. */
 static recto_status check_pens(const struct render *render,
                                recto_error *error) {
   struct pens pens;
@@ -458,7 +462,8 @@ static recto_status run(struct render *render, recto_error *error) {
   return status;
 }
 
-/* What the drawing is made of is not to be replaced by it. */
+/* Keeps the identities of the scene's files, which the drawing must not
+ * replace. */
 static bool keep_files(recto_drawing *drawing, const struct scene *scene) {
   for (size_t i = 0; i < scene->file.count; i++)
     if (!ARRAY_PUSH(&drawing->file, scene->file.item[i]))

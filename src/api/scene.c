@@ -1,4 +1,5 @@
-/* scene.c - the scene's handle: made by hand or read from files. */
+/* scene.c - the functions of a scene's handle: building it, and reading files
+ * into it. */
 #include <math.h>
 #include <string.h>
 
@@ -30,8 +31,8 @@ static void keep_faults(recto_scene *scene,
     scene->fault[i] += diagnostics->count[i];
 }
 
-/* Notes whose file the scene is, for warnings about all of it; false when
- * memory ran out. */
+/* Keeps the path of the only file read, for warnings about the whole scene;
+ * false when memory ran out. */
 static bool keep_path(recto_scene *scene, const char *path) {
   size_t size = strlen(path) + 1;
   if (scene->read_before) {
@@ -100,7 +101,8 @@ recto_status recto_scene_add_group(recto_scene *scene, const char *name,
   return scene_use_group(&scene->scene, name, strlen(name), error);
 }
 
-/* What is a bad element in a file is a wrong argument here. */
+/* Checks corners given by the caller: an element that in a file would be
+ * skipped with a warning is a wrong argument here. */
 static recto_status check_corners(const recto_scene *scene,
                                   const uint32_t *corner, size_t count,
                                   size_t least, recto_error *error) {

@@ -1,4 +1,4 @@
-/* shares.c - how much of a render's work lies behind each of its stages.
+/* shares.c - estimates the share of the work of each stage of a render.
  *
  * The weights are hundredths of what lines of a scanned model take with the
  * automatic method; see bench/ for the times by stage. */
@@ -17,7 +17,7 @@ static double weigh_ink(const recto_options *o) {
          (o->order == RECTO_ORDER_NEAR ? 30 : 0);
 }
 
-/* A part of it is spent before the first point is asked about. */
+/* The constant part is the preparation before the first sample. */
 static double weigh_verifying(const recto_options *o) {
   const double usual = 4000;
   return o->verify > 0 ? 150 + 250 * (o->verify / usual) : 0;

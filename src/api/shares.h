@@ -1,4 +1,5 @@
-/* shares.h - how much of a render's work lies behind each of its stages. */
+/* shares.h - estimates the share of the work of each stage of a render, for
+ * progress. */
 #ifndef API_SHARES_H
 #define API_SHARES_H
 
@@ -15,13 +16,13 @@ enum share_stage {
   SHARE_STAGES
 };
 
-/* The share of the work that is done when each stage begins, from 0 upwards, as
- * measured on models of several sizes: a guess, so that progress grows with
- * time. */
+/* Sets the share of the work that is done when each stage begins, from 0 to 1:
+ * an estimate by measurements on models of several sizes, so that progress is
+ * about linear in time. */
 void shares_plan(double begin[SHARE_STAGES + 1], const recto_options *options);
 
-/* Where a phase of a solver, at that share of its own, is within the solving.
- * fragments  are asked for too, behind the edges */
+/* Converts the progress of a solver's phase, 0 to 1, to that of the solver.
+ * fragments  the solver also makes fragments, after the edges */
 double shares_of_phase(const char *phase, double share, bool fragments);
 
 #endif

@@ -1,10 +1,11 @@
-/* verify.c - asks the judge about a drawing that was just made.
+/* verify.c - has the judge check a drawing that was just made.
  *
  * Phases
- *   scene    as the judge is to see it: judge_input.h.
- *   strokes  the lines of the drawing; and of those that would be there if no
- *            line were too short, the short ones: nothing is missing there.
- *   verdict  the judge's, as a report, a summary or an error. */
+ *   scene    converts the scene for the judge: judge_input.h.
+ *   strokes  collects the drawing's lines; and draws the scene again without a
+ *            least length, to collect the lines that were too short: the judge
+ *            must not miss these.
+ *   verdict  makes a report, a summary or an error of the judge's verdict. */
 #include "api/verify.h"
 
 #include <math.h>
@@ -33,7 +34,7 @@ static bool take_stroke(struct judge_drawing *to, const struct drawing *drawing,
   return true;
 }
 
-/* The lines of edges: hatching is not one. */
+/* Collects the lines of edges, but no hatching. */
 static bool take_drawn(struct judge_drawing *to,
                        const struct drawing *drawing) {
   for (size_t i = 0; i < drawing->stroke.count; i++) {
@@ -46,7 +47,7 @@ static bool take_drawn(struct judge_drawing *to,
   return true;
 }
 
-/* What would be drawn if nothing were too short, the short lines of it. */
+/* Collects the lines that were not drawn because they are too short. */
 static recto_status take_dropped(struct judge_drawing *to,
                                  const struct verify *verify,
                                  recto_error *error) {

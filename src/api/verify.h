@@ -1,4 +1,4 @@
-/* verify.h - asks the judge about a drawing that was just made. */
+/* verify.h - has the judge check a drawing that was just made. */
 #ifndef API_VERIFY_H
 #define API_VERIFY_H
 
@@ -7,26 +7,27 @@
 #include "view/camera.h"
 #include "visibility/map.h"
 
-/* A drawing and what it was made of. */
+/* A drawing and what it was made from. */
 struct verify {
   const struct scene *scene;
   int exponent; /* the user's coordinates are the scene's times 2^exponent */
   const struct camera *camera;
-  const struct sheet *sheet; /* for the lines that are too short to draw, */
-  const struct map *map;     /* and the step of its depths */
+  const struct sheet *sheet; /* these two: to find the lines that were too short
+                                to draw */
+  const struct map *map;
   const struct drawing *drawing;
   const recto_options *options;
-  bool (*progress)(void *user, double share); /* NULL: nobody is asked */
+  bool (*progress)(void *user, double share); /* NULL: never polled */
   void *user;
 };
 
 enum { VERIFY_SUMMARY_SIZE = 160 };
 
-/* Asks about options->verify points of the drawn lines, which must be visible,
- * and as many of the edges asked for, which where they have no line must be
- * hidden.  Points too close to call are counted and pass.
- * summary  one sentence, where all is well
- * Errors   RECTO_ERROR_VERIFY: the drawing is wrong, and where;
+/* Checks options->verify samples of the drawn lines, which must be visible, and
+ * as many of the requested edges, which must be hidden where there is no line.
+ * Undecided samples are counted and pass.
+ * summary  set to one sentence where nothing is wrong
+ * Errors   RECTO_ERROR_VERIFY: the drawing is wrong; the text says where;
  *          RECTO_ERROR_MEMORY; RECTO_ERROR_CANCELLED. */
 USE_RESULT recto_status verify_drawing(const struct verify *verify,
                                        struct report *report,

@@ -10,7 +10,7 @@
 
 enum { FIRST_LONG = 256 };
 
-/* ---- The table, as getopt_long wants it ---------------------------------- */
+/* ---- The table for getopt_long ------------------------------------------- */
 
 bool option_is_end(const struct option_entry *entry) {
   return entry->name == NULL && entry->help == NULL;
@@ -65,8 +65,7 @@ static bool is_nothing(const double vector[3]) {
   return vector[0] == 0 && vector[1] == 0 && vector[2] == 0;
 }
 
-/* Puts the option's value where it belongs; false where it is not what the
- * option expects. */
+/* Parses and stores the option's value; false where it is not valid. */
 static bool store(struct arguments *arguments, const struct option_entry *entry,
                   const char *text) {
   void *to = (char *)arguments + entry->offset;
@@ -126,13 +125,13 @@ static bool take_option(struct arguments *arguments,
              entry->name, entry->expected, text);
     return false;
   }
-  arguments->said[entry - option_table] = true;
+  arguments->seen[entry - option_table] = true;
   if (entry->given != 0)
     *((bool *)((char *)arguments + entry->given)) = true;
   return true;
 }
 
-/* Says what getopt_long did not like. */
+/* Sets the message for an error of getopt_long. */
 static void explain(int code, char **argv, char message[MESSAGE_SIZE]) {
   const struct option_entry *entry = find_entry(optopt);
   if (entry != NULL && entry->kind == OPTION_ABSENT)
@@ -150,7 +149,7 @@ static void explain(int code, char **argv, char message[MESSAGE_SIZE]) {
              argv[optind - 1]);
 }
 
-/* ---- What depends on several --------------------------------------------- */
+/* ---- Rules for several options ------------------------------------------- */
 
 static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
   const char *wrong = NULL;
@@ -170,7 +169,7 @@ static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
   return true;
 }
 
-/* What is wrong with the files' names; NULL: nothing. */
+/* An error of the files' names; NULL: none. */
 static const char *judge_files(const struct arguments *a) {
   if (a->model_count == 0)
     return "no model: see recto --help";

@@ -1,4 +1,4 @@
-/* arguments.h - the command line: what it says, and what may be said. */
+/* arguments.h - the parsed command line, and the table of options. */
 #ifndef CLI_ARGUMENTS_H
 #define CLI_ARGUMENTS_H
 
@@ -19,20 +19,20 @@ struct arguments {
   const char *stats_file; /* NULL: standard output, or where the drawing goes
                              there, standard error */
   const char *check_file; /* a drawing to judge; NULL: none */
-  /* How much of a drawing may be false, and how much missing, for it to be
-   * right: the greater of both, the second of what is drawn or visible. */
+  /* The length of false or missing lines that --check tolerates: the greater of
+   * tolerance_mm and tolerance_share times what is drawn or visible. */
   double tolerance_mm, tolerance_share;
   bool stats, progress, quiet, help, version;
 
-  /* What was said, for what depends on other options. */
+  /* Which options were given, for rules that depend on several. */
   bool view_given, direction_given, eye_given, fov_given;
   bool ortho, landscape;
-  bool said[MAX_OPTIONS]; /* by the option's place in the table */
+  bool seen[MAX_OPTIONS]; /* by the option's index in the table */
 };
 
 /* Reads the command line.
  * argv     is permuted: models last
- * message  says what is wrong where false is returned, without a newline */
+ * message  set to the error where false is returned, without a newline */
 bool arguments_parse(struct arguments *arguments, int argc, char **argv,
                      char message[MESSAGE_SIZE]);
 
@@ -46,8 +46,8 @@ enum option_kind {
   OPTION_LENGTH,  /* a double in [least, most], in mm */
   OPTION_INT,     /* an int in [least, most] */
   OPTION_VECTOR,  /* a double[3]; not 0,0,0 where `least` is above 0 */
-  OPTION_WORD,    /* an enumerator, by its place in `words` */
-  OPTION_TAKE,    /* what `take` makes of it */
+  OPTION_WORD,    /* an enumerator, by its index in `words` */
+  OPTION_TAKE,    /* parsed by `take` */
   OPTION_ABSENT   /* known, but not available in this build */
 };
 
@@ -60,11 +60,11 @@ struct option_entry {
   const char *expected; /* what its value must be, for messages */
   const char *help;
   size_t offset; /* of its value in struct arguments */
-  size_t given;  /* of a bool that becomes true when it is seen; 0: none */
+  size_t given;  /* offset of a bool to set if it is given; 0: none */
   double least, most;
   const char *words;
   bool (*take)(struct arguments *arguments, const char *text);
-  /* What has to be asked for with it, or it changes nothing: all of them. */
+  /* The conditions under which the option has an effect: all of them. */
   const struct option_use *use[OPTION_USES];
 };
 

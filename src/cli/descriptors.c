@@ -1,4 +1,4 @@
-/* descriptors.c - the standard descriptors are open, whatever the caller did.
+/* descriptors.c - makes sure that the standard descriptors are open.
  */
 #include "cli/descriptors.h"
 
@@ -6,8 +6,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-/* A descriptor is opened for the contrary of what it is for, so that whoever
- * reads or writes it is told. */
+/* Each descriptor is opened in the wrong mode (standard input for writing, the
+ * others for reading), so that its use fails. */
 static bool reserve(int number) {
   if (fcntl(number, F_GETFD) != -1 || errno != EBADF)
     return true;

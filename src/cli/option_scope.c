@@ -1,14 +1,14 @@
-/* option_scope.c - what each option is for, and a warning where that was not asked
- * for: the options' own table names one of these in every row that needs it.
+/* option_scope.c - the conditions under which options have an effect; the table
+ * of options refers to them.
  *
- * That an option changes nothing is told, not refused: scripts say the same
+ * An option without effect is a warning, not an error, as scripts use the same
  * options with every method. */
 #include "cli/option_scope.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* ---- What was asked for -------------------------------------------------- */
+/* ---- Requests ------------------------------------------------------------ */
 
 static const char *name_method(const struct arguments *a) {
   return recto_method_name(a->options.method);
@@ -72,7 +72,7 @@ static bool is_in_pixels(const struct arguments *a) {
   return is_zbuffer(a) || (is_warnock(a) && a->options.resolution > 0);
 }
 
-/* The judge does too, whatever the method. */
+/* The judge uses it too, with any method. */
 static bool compares_depths(const struct arguments *a) {
   return a->check_file != NULL ||
          (a->options.method != RECTO_METHOD_PAINTER &&
@@ -102,7 +102,7 @@ static bool aims(const struct arguments *a) {
          a->options.fit != RECTO_FIT_PAGE;
 }
 
-/* Elsewhere it only says that the view is a perspective. */
+/* With other fits it only makes the view a perspective. */
 static bool has_angle(const struct arguments *a) {
   return a->options.camera == RECTO_CAMERA_DIRECTION ||
          a->options.fit == RECTO_FIT_NONE;
@@ -211,9 +211,10 @@ const struct option_use used_by_stats = {"the time in --stats", has_stats,
 const struct option_use used_by_check = {"--check", has_check, name_check,
                                          true};
 
-/* ---- Telling ------------------------------------------------------------- */
+/* ---- Warnings ------------------------------------------------------------ */
 
-/* What does not use the option; NULL: what was asked for does. */
+/* The request that is there instead of the one needed; NULL: the condition is
+ * met. */
 static const char *find_lack(const struct arguments *arguments,
                              const struct option_use *use) {
   if (arguments->check_file != NULL && !use->by_check)
@@ -223,8 +224,8 @@ static const char *find_lack(const struct arguments *arguments,
   return use->instead(arguments);
 }
 
-/* The first of what the option needs that was not asked for, and in its place
- * what was; NULL: there is none. */
+/* The first condition of the option that is not met; NULL: there is none.
+ * lack  set to what the command line requests instead */
 static const struct option_use *find_use(const struct arguments *arguments,
                                          const struct option_entry *entry,
                                          const char **lack) {
@@ -235,17 +236,17 @@ static const struct option_use *find_use(const struct arguments *arguments,
 }
 
 void option_scope_warn(const struct arguments *arguments,
-                       option_scope_warn_fn tell) {
+                       option_scope_warn_fn warn) {
   for (int i = 0; !option_is_end(&option_table[i]); i++) {
     const struct option_entry *entry = &option_table[i];
     const char *lack;
     const struct option_use *use =
-        arguments->said[i] ? find_use(arguments, entry, &lack) : NULL;
+        arguments->seen[i] ? find_use(arguments, entry, &lack) : NULL;
     if (use == NULL)
       continue;
     char text[MESSAGE_SIZE];
     snprintf(text, sizeof text, "--%s is for %s; %s does not use it",
              entry->name, use->by, lack);
-    tell("", 0, text);
+    warn("", 0, text);
   }
 }

@@ -1,17 +1,16 @@
-/* option_scope.h - what an option is for: what has to be asked for with it, lest it
- * changes nothing. */
+/* option_scope.h - the conditions under which an option has an effect. */
 #ifndef CLI_OPTION_SCOPE_H
 #define CLI_OPTION_SCOPE_H
 
 #include "cli/arguments.h"
 
-/* What uses an option. */
+/* A condition: what uses an option. */
 struct option_use {
-  const char *by; /* who does, for messages: "watkins" */
+  const char *by; /* its name, for messages: "watkins" */
   bool (*is_met)(const struct arguments *arguments); /* NULL: always */
-  /* What was asked for in place of that. */
+  /* What the command line requests instead, for messages. */
   const char *(*instead)(const struct arguments *arguments);
-  bool by_check; /* --check uses it too */
+  bool by_check; /* --check uses the option too */
 };
 
 /* Methods. */
@@ -28,12 +27,12 @@ extern const struct option_use used_by_lines, used_by_strokes, used_by_pen,
 extern const struct option_use used_by_svg, used_by_screens, used_by_cairo,
     used_by_png, used_by_plotter, used_by_stats, used_by_check;
 
-/* Told of every option that was said and that nothing uses, as message_print
- * is. */
+/* Called once per option given on the command line that has no effect, with the
+ * arguments of message_print. */
 typedef void (*option_scope_warn_fn)(const char *file, unsigned long line,
                                      const char *text);
 
 void option_scope_warn(const struct arguments *arguments,
-                       option_scope_warn_fn tell);
+                       option_scope_warn_fn warn);
 
 #endif

@@ -1,8 +1,8 @@
-/* options.c - the table of options: what each takes, where it goes, and the
- * words that --help has for it.
+/* options.c - the table of options: the kind of value, where it is stored, and
+ * the text of --help.
  *
- * An option whose engine this build does not have is in the table as absent:
- * it is refused by name rather than called unknown. */
+ * An option that this build does not support is in the table as absent, so that
+ * the message says so rather than calling it unknown. */
 #include <float.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@
 
 #define AT(member) offsetof(struct arguments, member)
 
-/* ---- Options with a way of their own ------------------------------------- */
+/* ---- Options with their own syntax --------------------------------------- */
 
 static bool take_method(struct arguments *arguments, const char *text) {
   for (int i = 0; i < RECTO_METHOD_COUNT; i++)

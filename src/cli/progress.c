@@ -1,8 +1,8 @@
-/* progress.c - how far the run is, on standard error.
+/* progress.c - shows the progress of the run on standard error.
  *
- * The bar is drawn by a thread of its own, ten times a second, so that it lives
- * while a stage says nothing.  Its lock is also held while a message is
- * written. */
+ * The bar is drawn by a thread of its own, ten times a second, so that it is
+ * updated while a stage reports nothing.  The lock is also held while a message
+ * is written. */
 #include "cli/progress.h"
 
 #include <math.h>
@@ -23,13 +23,13 @@ static struct {
   pthread_mutex_t lock;
   pthread_cond_t wake;
   pthread_t thread;
-  bool runs;      /* the thread does */
-  bool ends;      /* and is to end */
-  bool lines;     /* lines are asked for, where there is no terminal */
-  int told;       /* the last share in percent that a line told */
-  int columns;    /* of the bar that is on the screen; 0: none is */
-  double share;   /* never falls */
-  double share_s; /* when it was last heard of, from the start */
+  bool runs;        /* the thread is running */
+  bool ends;        /* the thread is to end */
+  bool lines;       /* print lines, as there is no terminal */
+  int last_percent; /* the last percentage printed as a line */
+  int columns;      /* of the bar that is on the screen; 0: none is */
+  double share;     /* never falls */
+  double share_s;   /* when it was last heard of, from the start */
   const char *stage;
   double start_s;
 } now = {.lock = PTHREAD_MUTEX_INITIALIZER, .wake = PTHREAD_COND_INITIALIZER};
@@ -147,22 +147,22 @@ static void start_thread(void) {
   pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
-void progress_start(bool asked_for) {
+void progress_start(bool requested) {
   now.start_s = clock_s();
   now.stage = "read";
-  now.told = -1;
+  now.last_percent = -1;
   if (is_terminal())
     start_thread();
   else
-    now.lines = asked_for;
+    now.lines = requested;
 }
 
 static void tell_line(bool is_new) {
   int percent = (int)(now.share * 100);
-  if (!is_new && percent < now.told + 5)
+  if (!is_new && percent < now.last_percent + 5)
     return;
   fprintf(stderr, "recto: %3d%% %s\n", percent, now.stage);
-  now.told = percent;
+  now.last_percent = percent;
 }
 
 void progress_note(double share, const char *stage) {

@@ -1,8 +1,9 @@
 /* run.c - the work of one run: read, draw, write, report.
  *
- * Once there may be something to leave behind, a signal cancels through the
- * progress function: see signals.h.  While models are read it ends the process
- * at once: that may wait for ever, for somebody at a keyboard. */
+ * From the moment at which there may be temporary files, a signal cancels the
+ * run through the progress function: see signals.h.  While models are read it
+ * terminates the process at once, as reading may block for ever, for example on
+ * a terminal. */
 #include "cli/run.h"
 
 #include <math.h>
@@ -19,7 +20,7 @@
 #include "cli/signals.h"
 #include "cli/option_scope.h"
 
-/* ---- Conversation -------------------------------------------------------- */
+/* ---- Callbacks ----------------------------------------------------------- */
 
 static void pass_warning(void *user, const char *file, unsigned long line,
                          const char *text) {
@@ -35,22 +36,22 @@ static bool pass_progress(void *user, double share, const char *stage) {
 
 /* ---- The work ------------------------------------------------------------ */
 
-/* Whether what --stats tells goes to standard error, since the drawing has
- * standard output. */
+/* Whether --stats writes to standard error, as the drawing goes to standard
+ * output. */
 static bool stats_stand_aside(const struct arguments *arguments) {
   return arguments->stats && arguments->stats_file == NULL &&
          path_is_standard_output(arguments->output);
 }
 
-/* Where the stats go to; NULL: nowhere, or to standard error. */
+/* The path of the stats; NULL: none, or standard error. */
 static const char *find_stats(const struct arguments *arguments) {
   if (!arguments->stats || stats_stand_aside(arguments))
     return NULL;
   return arguments->stats_file != NULL ? arguments->stats_file : "-";
 }
 
-/* Whether all that is to be written can be.  Nothing may replace a model that
- * is named, or has been read, or each other. */
+/* Checks that all outputs can be written and that none replaces a model or
+ * another output. */
 static recto_status check_outputs(const struct arguments *arguments,
                                   const recto_scene *scene,
                                   recto_error *error) {
@@ -86,7 +87,7 @@ static double percent(double part, double whole) {
   return whole > 0 ? 100 * part / whole : 0;
 }
 
-/* Says what somebody's drawing has too much and what it lacks. */
+/* Prints the verdict on a checked drawing. */
 static recto_status tell_verdict(const recto_verdict *v, recto_error *error) {
   char text[512];
   struct stream *stream;
@@ -117,7 +118,7 @@ static recto_status tell_verdict(const recto_verdict *v, recto_error *error) {
   return stream_finish(stream, error);
 }
 
-/* Whether so much of a drawing is no more than the user tolerates. */
+/* Whether a length of false or missing lines is within the tolerance. */
 static bool is_tolerable(const struct arguments *arguments, double part_mm,
                          double whole_mm) {
   return part_mm <=
@@ -184,7 +185,7 @@ static recto_status draw(const struct arguments *arguments,
   return status;
 }
 
-/* What an error means for the exit status of a run that draws. */
+/* The exit status for an error of a run that draws. */
 static int status_of(recto_status status) {
   return status == RECTO_OK ? EXIT_DONE
          : status == RECTO_ERROR_ARGUMENT || status == RECTO_ERROR_UNSUPPORTED
@@ -195,7 +196,7 @@ static int status_of(recto_status status) {
 int cli_run(struct arguments *arguments) {
   recto_error error = {0};
   bool is_right = true;
-  /* A file larger than is allowed is a write that fails. */
+  /* A file beyond the size limit is to be a failed write, not a signal. */
   (void)signal(SIGXFSZ, SIG_IGN);
   arguments->options.progress = pass_progress;
   if (!arguments->quiet) {

@@ -1,15 +1,14 @@
-/* run.h - what the program does once the command line is understood. */
+/* run.h - runs the program by its parsed command line. */
 #ifndef CLI_RUN_H
 #define CLI_RUN_H
 
 #include "cli/arguments.h"
 
-/* As diff has it where a drawing is checked: right, wrong, and trouble of any
- * kind. */
+/* Exit statuses; with --check as of diff: right, wrong, any error. */
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2 };
 
-/* Reads, draws, writes, reports.  Returns the exit status; after a signal that
- * asked for the end, ends the process by it. */
+/* Reads, draws, writes, reports.  Returns the exit status; if the run was
+ * cancelled by a signal, terminates the process by that signal. */
 int cli_run(struct arguments *arguments);
 
 #endif

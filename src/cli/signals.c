@@ -1,15 +1,16 @@
-/* signals.c - an interrupted run cleans up and then dies of its signal.
+/* signals.c - handles termination signals: the run cleans up, then terminates
+ * by the signal.
  *
- * A shell tells from the way a process ended whether the user wanted the whole
- * script to stop: an exit status, even 130, is not enough.  So the signal is
- * raised again with its default action once nothing half-made is left. */
+ * A shell stops its script only if the process was terminated by the signal: an
+ * exit status, even 130, is not enough.  So the signal is raised again with its
+ * default action after incomplete files have been removed. */
 #include "cli/signals.h"
 
 #include <signal.h>
 #include <stddef.h>
 
-/* SIGPIPE is among them: whoever closes the pipe that messages or a drawing go
- * to ends the run, but not before its other files are out of the way. */
+/* SIGPIPE is among them: closing the pipe of messages or of a drawing ends the
+ * run, but only after its other incomplete files are removed. */
 static const int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXCPU};
 enum { CAUGHT = sizeof caught / sizeof caught[0] };
 

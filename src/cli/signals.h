@@ -1,22 +1,23 @@
-/* signals.h - an interrupted run cleans up and then dies of its signal. */
+/* signals.h - handles termination signals: the run cleans up, then terminates
+ * by the signal. */
 #ifndef CLI_SIGNALS_H
 #define CLI_SIGNALS_H
 
 #include <stdbool.h>
 
-/* From now on the signals that ask the process to end are noted, so that the
- * work can be cancelled and cleaned up; the second of a kind ends the process
- * at once.  A signal that is ignored stays so: nohup means it. */
+/* Installs handlers that record termination signals, so that the work can be
+ * cancelled and cleaned up; a second signal of the kind terminates the process
+ * at once.  Ignored signals stay ignored, as nohup requires. */
 void signals_catch(void);
 
 /* Whether one of them has arrived. */
 bool signals_arrived(void);
 
-/* Whether the one that arrived says that nobody reads what is written. */
+/* Whether the signal that arrived was SIGPIPE. */
 bool signals_are_of_a_pipe(void);
 
-/* Ends the process by the signal that has arrived, as if it had never been
- * caught, so that a shell's loop stops; returns where none has. */
+/* Terminates the process by the signal that has arrived, as if it had not been
+ * caught, so that a shell's loop stops; returns if none has. */
 void signals_die(void);
 
 #endif

@@ -1,5 +1,6 @@
 /* importer.c - the program that reads a model through Assimp for the library,
- * under limits of time and memory, so that a broken file ends no one else.
+ * in a process of its own with limits of time and memory, so that a broken file
+ * cannot crash or block the caller.
  *
  *   recto-import SECONDS MB FORMAT [PATH]
  *
@@ -61,7 +62,7 @@ struct import {
 
 /* ---- Writing ------------------------------------------------------------- */
 
-/* Nobody may be left to read: then there is nothing to do. */
+/* Ignores errors: if the reader is gone there is nothing to do. */
 static void put(FILE *to, const void *bytes, size_t count) {
   if (count > 0 && fwrite(bytes, count, 1, to) != 1)
     _exit(1);
@@ -195,8 +196,8 @@ static void set_limit(int which, rlim_t most) {
   (void)setrlimit((__rlimit_resource_t)which, &limit);
 }
 
-/* No core, no more time of the processor and no more memory than allowed, and
- * no longer a life than the host's. */
+/* Limits core dumps, processor time and memory, and ends the process with its
+ * parent. */
 static void limit_self(long seconds, long mb) {
 #ifdef __linux__
   (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
