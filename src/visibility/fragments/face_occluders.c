@@ -71,13 +71,12 @@ static int filtered_plane_sides(const struct plane_filter *plane,
 static bool filtered_depth_order(const struct face_occluders *occluders,
                                  uint32_t g, const struct geom_point p[3],
                                  enum depth_order *depth_order) {
-  struct plane_filter plane;
   int sides = filtered_plane_sides(&occluders->filter, p);
   if (sides == PLANE_BEHIND || sides == PLANE_IN_FRONT) {
     *depth_order = sides == PLANE_BEHIND ? NEARER_NEVER : NEARER_ALWAYS;
     return true;
   }
-  plane = plane_filter_of(occluders->sheet, g);
+  struct plane_filter plane = plane_filter_of(occluders->sheet, g);
   int others = filtered_plane_sides(&plane, occluders->plane.p);
   if (others == PLANE_BEHIND || others == PLANE_IN_FRONT) {
     *depth_order = others == PLANE_BEHIND ? NEARER_ALWAYS : NEARER_NEVER;
@@ -147,10 +146,9 @@ bool face_occluders_test(struct face_occluders *occluders, uint32_t g) {
 
 bool face_occluder_make_lines(struct face_occluders *occluders,
                               struct face_occluder *occluder) {
-  struct geom_line *line;
   if (occluder->line != NULL)
     return true;
-  line =
+  struct geom_line *line =
       arena_alloc(&occluders->arena, 2 * (size_t)occluder->lines, sizeof *line);
   if (line == NULL)
     return false;
@@ -164,11 +162,11 @@ bool face_occluder_make_lines(struct face_occluders *occluders,
  * before. */
 static void make_crossing(const struct face_occluders *occluders,
                           struct face_occluder *occluder) {
-  struct triangle_plane plane;
   struct geom_line *line = &occluder->line[3], *back = &occluder->line[7];
   if (occluder->crossing)
     return;
-  plane = triangle_plane_of(occluders->sheet, occluder->triangle);
+  struct triangle_plane plane =
+      triangle_plane_of(occluders->sheet, occluder->triangle);
   (void)geom_line_between(line, &plane.plane, &occluders->plane.plane);
   *back = *line;
   geom_line_reverse(back);
@@ -196,11 +194,11 @@ static enum coverage
 coverage_of_crossing(const struct face_occluders *occluders,
                      struct face_occluder *occluder,
                      const struct geom_convex *piece) {
-  struct plane_filter plane;
   int sum = 0, count = (int)piece->count;
   if (occluder->crossing)
     return coverage_of_line(&occluder->line[3], piece);
-  plane = plane_filter_of(occluders->sheet, occluder->triangle);
+  struct plane_filter plane =
+      plane_filter_of(occluders->sheet, occluder->triangle);
   for (uint32_t c = 0; c < piece->count; c++)
     sum += plane_filter_nearer(&occluders->filter, &plane, piece->corner[c].x,
                                piece->corner[c].y);
@@ -247,11 +245,10 @@ bool face_occluder_subtract(struct face_occluders *occluders,
                             const struct geom_convex *piece,
                             struct face_occluder *occluder) {
   struct geom_convex inside = {0};
-  enum coverage coverage;
-  int lines;
   if (!face_occluder_make_lines(occluders, occluder))
     return false;
-  coverage = coverage_of(occluders, occluder, piece, &lines);
+  int lines;
+  enum coverage coverage = coverage_of(occluders, occluder, piece, &lines);
   if (coverage == COVERAGE_NONE)
     return ARRAY_PUSH(&occluders->next, *piece);
   if (coverage == COVERAGE_PARTIAL &&
@@ -270,7 +267,6 @@ bool face_occluders_subtract_last(struct face_occluders *occluders,
                                   size_t count) {
   const struct face_occluder_extent *extent =
       occluders->extent.item + (occluders->extent.count - count);
-  geom_pieces swap;
   occluders->rest.count = 0;
   if (!ARRAY_PUSH(&occluders->rest, *piece))
     return false;
@@ -281,7 +277,7 @@ bool face_occluders_subtract_last(struct face_occluders *occluders,
               occluders, &occluders->rest.item[k],
               &occluders->occluder.item[extent[i].occluder]))
         return false;
-    swap = occluders->rest;
+    geom_pieces swap = occluders->rest;
     occluders->rest = occluders->next;
     occluders->next = swap;
   }

@@ -47,14 +47,14 @@ static bool find_touching(struct fragments *f, uint32_t triangle,
                           const uint32_t *candidate, size_t count) {
   const struct sheet *sheet = f->sheet;
   struct box2 box = box2_of_triangle(sheet, triangle);
-  struct plane_filter plane = plane_filter_of(sheet, triangle), other;
+  struct plane_filter plane = plane_filter_of(sheet, triangle);
   for (size_t i = 0; i < count; i++) {
     uint32_t g = candidate[i];
     if (g < triangle && !(sheet->triangle_flags[g] & SHEET_FLAT) &&
         sheet->triangle.item[g].face != sheet->triangle.item[triangle].face &&
         !box2_disjoint(box, box2_of_triangle(sheet, g))) {
       f->counts.contact_pairs++;
-      other = plane_filter_of(sheet, g);
+      struct plane_filter other = plane_filter_of(sheet, g);
       if (!plane_filters_may_touch(sheet, &plane, triangle, &other, g) ||
           triangles_disjoint(sheet, triangle, g))
         continue;
@@ -449,14 +449,13 @@ static bool needs_index(const struct fragments *f) {
   const struct triangle_grid *grid = f->grid;
   uint64_t listed = 0, faces = 0;
   for (size_t i = 0, n; i < f->piece.count; i += n) {
-    struct cell_range r;
     n = count_pieces(&piece[i], f->piece.count - i);
     if (!is_cut(&piece[i], n))
       continue;
     if (is_large_face(f->sheet, piece[i].triangle))
       return true;
-    r = triangle_grid_cells(grid,
-                            box2_of_triangle(f->sheet, piece[i].triangle));
+    struct cell_range r = triangle_grid_cells(
+        grid, box2_of_triangle(f->sheet, piece[i].triangle));
     listed +=
         list_length(grid, (size_t)r.y0 * (size_t)grid->columns + (size_t)r.x0);
     faces++;

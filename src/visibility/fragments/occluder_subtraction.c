@@ -19,8 +19,6 @@ void occluder_subtraction_fini(struct occluder_subtraction *subtraction) {
 bool occluder_subtraction_start(struct occluder_subtraction *subtraction,
                                 uint32_t triangle,
                                 const struct geom_convex *part) {
-  struct geom_line *line;
-  struct geom_convex piece;
   arena_reset(&subtraction->arena);
   subtraction->triangle = triangle;
   subtraction->plane = triangle_plane_of(subtraction->sheet, triangle);
@@ -29,10 +27,11 @@ bool occluder_subtraction_start(struct occluder_subtraction *subtraction,
   subtraction->whole = part == NULL;
   if (part != NULL)
     return ARRAY_PUSH(&subtraction->left, *part);
-  line = arena_alloc(&subtraction->arena, 6, sizeof *line);
+  struct geom_line *line = arena_alloc(&subtraction->arena, 6, sizeof *line);
   if (line == NULL)
     return false;
   triangle_lines(subtraction->sheet, triangle, line, line + 3);
+  struct geom_convex piece;
   return geom_convex_triangle(&piece, subtraction->plane.p, line,
                               &subtraction->arena) &&
          ARRAY_PUSH(&subtraction->left, piece);
@@ -62,11 +61,10 @@ static bool may_overlap(const struct occluder_subtraction *subtraction,
 bool occluder_subtraction_take(struct occluder_subtraction *subtraction,
                                const struct geom_line *line,
                                const struct geom_line *back, int count) {
-  struct geom_line *copy;
-  geom_pieces swap;
   if (!may_overlap(subtraction, line, count))
     return true;
-  copy = arena_alloc(&subtraction->arena, 2 * (size_t)count, sizeof *copy);
+  struct geom_line *copy =
+      arena_alloc(&subtraction->arena, 2 * (size_t)count, sizeof *copy);
   if (copy == NULL)
     return false;
   memcpy(copy, line, (size_t)count * sizeof *copy);
@@ -81,7 +79,7 @@ bool occluder_subtraction_take(struct occluder_subtraction *subtraction,
     if (inside.count > 0)
       subtraction->whole = false;
   }
-  swap = subtraction->left;
+  geom_pieces swap = subtraction->left;
   subtraction->left = subtraction->scratch;
   subtraction->scratch = swap;
   return true;
@@ -121,17 +119,16 @@ bool occluder_subtraction_keep(struct occluder_subtraction *subtraction,
 bool occluder_subtraction_take_nearer(struct occluder_subtraction *subtraction,
                                       uint32_t g) {
   struct geom_line line[4], back[4];
-  struct triangle_plane plane;
-  enum depth_order depth_order;
   if (box2_disjoint(subtraction->box, box2_of_triangle(subtraction->sheet, g)))
     return true;
   subtraction->pairs++;
   if (triangles_disjoint(subtraction->sheet, subtraction->triangle, g))
     return true;
   subtraction->overlapping++;
-  plane = triangle_plane_of(subtraction->sheet, g);
-  depth_order = triangle_depth_order(&subtraction->plane, subtraction->triangle,
-                                     &plane, g, &line[3], &back[3]);
+  struct triangle_plane plane = triangle_plane_of(subtraction->sheet, g);
+  enum depth_order depth_order =
+      triangle_depth_order(&subtraction->plane, subtraction->triangle, &plane,
+                           g, &line[3], &back[3]);
   if (depth_order == NEARER_NEVER)
     return true;
   subtraction->crossings += depth_order == NEARER_ON_LEFT;

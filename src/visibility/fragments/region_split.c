@@ -95,10 +95,9 @@ static struct region_axis axis_of(const struct geom_convex *piece) {
 static void extend_to_crossing(struct face_occluder_extent *extent,
                                const double p[2], const double q[2],
                                double at) {
-  double u;
   if ((p[1] < at) == (q[1] < at))
     return;
-  u = p[0] + (q[0] - p[0]) * ((at - p[1]) / (q[1] - p[1]));
+  double u = p[0] + (q[0] - p[0]) * ((at - p[1]) / (q[1] - p[1]));
   extent->from = min_of(extent->from, u);
   extent->to = max_of(extent->to, u);
 }

@@ -118,23 +118,20 @@ static bool is_nearer(const struct sheet *sheet, uint32_t f, uint32_t g,
                       const struct boundary_segment *s,
                       const struct geom_corner *from,
                       const struct geom_corner *to) {
-  struct triangle_plane tf, tg;
-  struct geom_line line;
-  int parallel, at_from, at_to;
   bool nearer;
   if (filtered_is_nearer(sheet, f, g, from, to, &nearer))
     return nearer;
-  tf = triangle_plane_of(sheet, f);
-  tg = triangle_plane_of(sheet, g);
   if (triangles_touch(sheet, f, g))
     return g < f;
-  parallel = geom_line_between(&line, &tg.plane, &tf.plane);
+  struct triangle_plane tf = triangle_plane_of(sheet, f),
+                        tg = triangle_plane_of(sheet, g);
+  struct geom_line line;
+  int parallel = geom_line_between(&line, &tg.plane, &tf.plane);
   if (parallel == GEOM_SAME_PLANE)
     return g < f;
   if (parallel != 0)
     return parallel > 0;
-  at_from = geom_line_side(&line, from);
-  at_to = geom_line_side(&line, to);
+  int at_from = geom_line_side(&line, from), at_to = geom_line_side(&line, to);
   if (at_from != 0 || at_to != 0)
     return at_from > 0 || at_to > 0;
   return geom_line_along(&line, s->line) < 0 && is_beyond(sheet, g, s);

@@ -165,14 +165,14 @@ static bool subtract_later(struct newell_order *order, uint32_t p,
     }
     for (; q != NEWELL_NONE; q = order->piece.item[q].next) {
       const struct newell_piece *other = &order->piece.item[q];
-      struct geom_line *line;
-      int count;
       if (!progress_step(&order->progress, 1 + subtraction->left.count))
         return false;
       if (other->state != NEWELL_PAINTED || other->rank < piece->rank ||
           box2_disjoint(piece->box, other->box))
         continue;
-      line = newell_piece_lines(order, q, &count, &subtraction->arena);
+      int count;
+      struct geom_line *line =
+          newell_piece_lines(order, q, &count, &subtraction->arena);
       if (line == NULL ||
           !occluder_subtraction_take(subtraction, line, line + count, count))
         return false;

@@ -250,10 +250,9 @@ static enum step test_candidate(struct newell_order *order, uint32_t p) {
       continue;
     for (uint32_t q = order->open[t]; q != NEWELL_NONE;
          q = order->piece.item[q].next_open) {
-      enum step step;
       if (!progress_step(&order->progress, PAIR_WORK))
         return STEP_FAILED;
-      step = test_pair(order, p, q);
+      enum step step = test_pair(order, p, q);
       arena_reset(&order->scratch);
       if (step == STEP_FAILED || step == STEP_SPLIT)
         return step;

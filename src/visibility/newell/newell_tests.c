@@ -87,9 +87,6 @@ enum newell_result newell_test(struct newell_order *order, uint32_t p,
   const struct newell_piece *pp = &order->piece.item[p],
                             *pq = &order->piece.item[q];
   struct newell_counts *counts = &order->counts;
-  struct triangle_plane tq;
-  struct geom_line line;
-  int p_sides, q_sides;
   if (pq->z_low > pp->z_high) {
     counts->depth++;
     return NEWELL_P_FIRST;
@@ -103,20 +100,21 @@ enum newell_result newell_test(struct newell_order *order, uint32_t p,
     counts->before++;
     return NEWELL_P_FIRST;
   }
-  tq = triangle_plane_of(order->sheet, pq->triangle);
-  p_sides = plane_sides(&tq.plane, order->plane.p);
+  struct triangle_plane tq = triangle_plane_of(order->sheet, pq->triangle);
+  int p_sides = plane_sides(&tq.plane, order->plane.p);
   if (p_sides == PLANE_BEHIND ||
       (p_sides == 0 && pq->triangle < pp->triangle)) {
     counts->behind++;
     return NEWELL_P_FIRST;
   }
-  q_sides = plane_sides(&order->plane.plane, tq.p);
+  int q_sides = plane_sides(&order->plane.plane, tq.p);
   if (q_sides == PLANE_IN_FRONT) {
     counts->before++;
     return NEWELL_P_FIRST;
   }
   if (p_sides == PLANE_IN_FRONT || q_sides == PLANE_BEHIND || q_sides == 0)
     return test_full(order, p, q, NULL);
+  struct geom_line line;
   (void)geom_line_between(&line, &tq.plane, &order->plane.plane);
   return test_full(order, p, q, &line);
 }

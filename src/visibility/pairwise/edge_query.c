@@ -32,12 +32,11 @@ static struct geom_point point_of_edge(const struct edge_query *query,
  * the new ends are rounded by less than a unit. */
 static void shrink_rest(struct edge_query *query) {
   struct occluded_interval rest = edge_intervals_remaining(&query->intervals);
-  double share;
   if (rest.from.num == query->rest.from.num &&
       rest.to.num == query->rest.to.num)
     return; /* the same interval, or practically the same */
   query->rest = rest;
-  share = ratio_to_double(rest.to) - ratio_to_double(rest.from);
+  double share = ratio_to_double(rest.to) - ratio_to_double(rest.from);
   if (!(share < 0.75 * query->share))
     return;
   query->share = share;

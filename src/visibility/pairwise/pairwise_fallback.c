@@ -21,13 +21,12 @@ static bool init_faces(struct pairwise_fallback *fallback) {
 bool pairwise_fallback_init(struct pairwise_fallback *fallback,
                             const struct sheet *sheet, bool fragments,
                             struct progress *progress) {
-  size_t tiles;
   memset(fallback, 0, sizeof *fallback);
   fallback->sheet = sheet;
   fallback->progress = progress;
   if (!tile_classification_init(&fallback->tiles, sheet, true, fragments))
     return false;
-  tiles = triangle_grid_cell_count(&fallback->tiles.grid);
+  size_t tiles = triangle_grid_cell_count(&fallback->tiles.grid);
   fallback->wanted = mem_alloc(tiles, 1);
   if (fallback->wanted == NULL)
     return false;

@@ -4,7 +4,7 @@
  * The number of Newell's splits, of Warnock's windows and of Watkins'
  * trapezoids grows with the crossings among hidden edges and faces too.  Where
  * that number exceeds a method's limit, the method leaves the edge or the face
- * undecided. Undecided ones are solved from lists of candidate triangles per
+ * undecided.  Undecided ones are solved from lists of candidate triangles per
  * page tile (tile_candidates.h), as the tiles method does: edges by
  * edge_query.h, faces by undecided_faces.h.  The result is the same, since it
  * depends on the sheet alone; memory is linear in the number of triangles.

@@ -73,12 +73,10 @@ static bool enlarge(struct tile_candidates *list, const struct sheet *sheet) {
   struct triangle_grid large = list->tiles->grid, *small = &list->grid;
   double cost = cost_of_lists(small);
   size_t count, entries = small->start[triangle_grid_cell_count(small)];
-  uint32_t *all;
-  bool ok;
   if (cost < LONG_LIST / 2 * (double)entries)
     return true;
-  all = list_all(small, &count);
-  ok = all != NULL;
+  uint32_t *all = list_all(small, &count);
+  bool ok = all != NULL;
   if (ok && 2 * entries >= TILES_OF_TWO * count)
     ok = triangle_grid_enlarge(&large, sheet, all, count, &cost);
   if (ok && large.shift > small->shift) {

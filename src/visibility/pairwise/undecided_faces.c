@@ -200,8 +200,6 @@ static bool find_candidates(struct undecided_faces *undecided_faces) {
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
       uint32_t i = grid->start[cell], end = grid->start[cell + 1];
-      struct kdop8_frame frame;
-      uint64_t kdop_query;
       if (i == end)
         continue;
       if (triangle_grid_bsp(grid, cell) != SHEET_NONE) {
@@ -209,9 +207,9 @@ static bool find_candidates(struct undecided_faces *undecided_faces) {
           return false;
         continue;
       }
-      frame = tile_candidates_frame(lists, x, y);
+      struct kdop8_frame frame = tile_candidates_frame(lists, x, y);
       kdop.low = frame.z0;
-      kdop_query = kdop8_query(&frame, &kdop);
+      uint64_t kdop_query = kdop8_query(&frame, &kdop);
       for (; i < end; i++)
         if (kdop8_overlaps(lists->key[i], kdop_query) &&
             !add_candidate(undecided_faces, grid->item[i]))
@@ -248,13 +246,11 @@ bool undecided_faces_solve(struct undecided_faces *undecided_faces,
                            uint32_t triangle, struct fragments *fragments) {
   struct face_occluders *occluders = &undecided_faces->occluders;
   struct undecided_faces_counts *counts = &undecided_faces->counts;
-  const uint32_t *candidate;
-  size_t count;
   face_occluders_start(occluders, triangle);
   if (!find_candidates(undecided_faces) || !test_candidates(undecided_faces))
     return false;
-  candidate = undecided_faces->query.found.item;
-  count = undecided_faces->query.found.count;
+  const uint32_t *candidate = undecided_faces->query.found.item;
+  size_t count = undecided_faces->query.found.count;
   if (occluders->covered)
     return mark_hidden(undecided_faces, triangle);
   if (occluders->occluder.count == 0) {

@@ -44,8 +44,9 @@ struct tiles_work {
 enum { POLL_INTERVAL = 16 }; /* edges between two calls of progress */
 
 /* Polls the caller's progress function every POLL_INTERVAL edges, and only in
- * the thread of the caller. callers  whether this is that thread Returns false
- * when the caller cancelled. */
+ * the thread of the caller.
+ * callers  whether this is that thread
+ * Returns false when the caller cancelled. */
 static bool poll_progress(const struct tiles_work *work, size_t done,
                           size_t all, const char *stage, bool callers) {
   const struct solver_request *request = work->request;
@@ -140,12 +141,13 @@ static enum map_state state_along(struct tiles_work *work, struct geom_point p,
 }
 
 /* The state on which all tiles of a small range agree, or MAP_MIXED. */
-static enum map_state state_in_range(const struct tile_classification *map,
+static enum map_state state_in_range(const struct tile_classification *tiles,
                                      struct cell_range r, int low, int high,
                                      bool wire) {
-  const struct tile *row = map->tile + (size_t)r.y0 * (size_t)map->grid.columns;
+  const struct tile *row =
+      tiles->tile + (size_t)r.y0 * (size_t)tiles->grid.columns;
   enum map_state state = state_in_tile(&row[r.x0], low, high, wire);
-  for (int y = r.y0; y <= r.y1; y++, row += map->grid.columns)
+  for (int y = r.y0; y <= r.y1; y++, row += tiles->grid.columns)
     for (int x = r.x0; x <= r.x1; x++)
       if (state_in_tile(&row[x], low, high, wire) != state)
         return MAP_MIXED;
@@ -159,11 +161,11 @@ static enum map_state state_of_edge(struct tiles_work *work,
                                     bool wire) {
   struct cell_range r =
       triangle_grid_cells(&work->tiles.grid, box2_of_segment(p, q));
-  enum map_state state;
   if (work->tiles.horizon != NULL || r.x1 - r.x0 + r.y1 - r.y0 > 2)
     return state_along(work, p, q, wire, false);
-  state = state_in_range(&work->tiles, r, farthest_bucket(p.z, q.z),
-                         nearest_bucket(p.z, q.z), wire);
+  enum map_state state =
+      state_in_range(&work->tiles, r, farthest_bucket(p.z, q.z),
+                     nearest_bucket(p.z, q.z), wire);
   return state == MAP_MIXED && r.x0 < r.x1 && r.y0 < r.y1
              ? state_along(work, p, q, wire, false)
              : state;
