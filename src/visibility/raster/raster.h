@@ -61,7 +61,7 @@ struct raster {
   uint32_t *level; /* integer */
 };
 
-/* What `seen` holds for a facet, and back; SHEET_NONE is 0. */
+/* The value of `seen` for a facet, and the inverse; that of SHEET_NONE is 0. */
 static inline uint32_t raster_seen(uint32_t facet) { return facet + 1; }
 static inline uint32_t raster_facet(uint32_t seen) { return seen - 1; }
 

@@ -7,12 +7,13 @@
 recto_status subpixels_lines(const struct solver_request *request, int *lines,
                              recto_error *error) {
   int k = subpixels_of(request);
-  int asked =
+  int lines_requested =
       request->resolution == 0 ? RASTER_LINES_DEFAULT : request->resolution;
   if (k < 1 || k > SUBPIXELS_MAX)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "%d sub-pixels are not within 1 to %d", k, SUBPIXELS_MAX);
-  *lines = asked > RASTER_LINES_MAX ? asked : asked * k;
+  *lines = lines_requested > RASTER_LINES_MAX ? lines_requested
+                                              : lines_requested * k;
   return RECTO_OK;
 }
 

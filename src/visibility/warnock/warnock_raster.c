@@ -421,7 +421,7 @@ static bool process_window(struct subdivision *s) {
 /* Work per face of a window, in the units of progress.h. */
 enum { WINDOW_WORK = 8 };
 
-/* ---- The walk ------------------------------------------------------------ */
+/* ---- Subdivision --------------------------------------------------------- */
 
 /* Lists all facets to be drawn, nearest first, and all drawable edges. */
 static bool fill_pools(struct subdivision *s) {
