@@ -26,7 +26,7 @@
 extern char **environ;
 
 enum {
-  CLEAR = 10, /* descriptors from here on are in nobody's way */
+  CLEAR = 10, /* descriptors from here on conflict with no other */
   TICK_MS = 100
 };
 
@@ -157,7 +157,7 @@ static int start(struct child_run *run) {
 
 /* ---- Listening ----------------------------------------------------------- */
 
-/* Whether the child may go on; else the result says why not. */
+/* Whether the child may continue; else the result has the reason. */
 static bool may_go_on(struct child_run *run) {
   const struct child *child = run->child;
   if (child->progress && !child->progress(child->user, 0, "import"))

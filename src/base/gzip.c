@@ -51,7 +51,7 @@ recto_status gzip_create(struct gzip **gzip, gzip_sink *sink, void *user,
   return RECTO_OK;
 }
 
-/* Deflates what was handed in, and hands on what comes out. */
+/* Deflates the pending input and writes the output to the target. */
 static void run(struct gzip *gzip, int flush) {
   do {
     gzip->z.next_out = gzip->out;

@@ -23,7 +23,7 @@ struct report_entry {
 
 struct report {
   ARRAY(struct report_entry) entry;
-  struct stream *json; /* NULL until it is asked for */
+  struct stream *json; /* NULL until the first report_json */
 };
 
 struct report *report_create(void) {
@@ -150,7 +150,7 @@ static void put_text(struct stream *stream, const char *text) {
   stream_text(stream, "\"");
 }
 
-/* JSON has no word for what is not finite. */
+/* JSON cannot represent values that are not finite. */
 static void put_double(struct stream *stream, double value) {
   char text[NUMBER_TEXT_SIZE] = "null";
   if (isfinite(value))

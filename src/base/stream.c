@@ -25,7 +25,7 @@ struct stream {
   struct target target;
   struct gzip *gzip; /* NULL: bytes are written as they are */
   ARRAY(char) buffer;
-  bool (*go_on)(void *user); /* NULL: nobody is asked */
+  bool (*go_on)(void *user); /* NULL: never polled */
   void *user;
 };
 
@@ -34,7 +34,7 @@ static unsigned long writes_to_failure;
 
 void stream_fail_after(unsigned long n) { writes_to_failure = n; }
 
-/* The first fault is the one that is told. */
+/* The first error is the one that is reported. */
 static void fail(struct stream *stream, recto_status status, int fault) {
   if (stream->status != RECTO_OK)
     return;

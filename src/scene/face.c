@@ -42,7 +42,7 @@ static bool halves_agree(const struct scene_point *a,
   return x + y + z > 0;
 }
 
-/* Whether the face is without fault, told cheaply; false: look closer. */
+/* A fast test: true where the face has no fault; false: undecided. */
 static bool is_plain(const struct scene *scene, const uint32_t *corner,
                      size_t count) {
   const struct scene_point *point = scene->point.item;
@@ -149,7 +149,7 @@ static bool has_its_points(const struct scene *scene, const uint32_t *corner,
   return true;
 }
 
-/* ---- Corners at one place ------------------------------------------------ */
+/* ---- Corners at one position --------------------------------------------- */
 
 /* A corner on its way through the sort. */
 struct placed {
@@ -170,9 +170,9 @@ static int compare_placed(const void *a, const void *b, void *user) {
 
 enum { FEW_CORNERS = 32 };
 
-/* Makes corners of one face that are at one place one point: the first of them
- * that the face has.  So a way there and back runs along the same edges, even
- * where the file has a point for each corner.
+/* Welds corners of one face that have one position to one point: the first of
+ * them that the face has.  So a way there and back runs along the same edges,
+ * even where the file has a point for each corner.
  * Returns false when memory ran out. */
 static bool unite_corners(const struct scene *scene, uint32_t *corner,
                           size_t count) {

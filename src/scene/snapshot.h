@@ -1,4 +1,4 @@
-/* snapshot.h - a state of the scene to go back to when a file turns out broken. */
+/* snapshot.h - restores a scene to an earlier state when a file is broken. */
 #ifndef SCENE_SNAPSHOT_H
 #define SCENE_SNAPSHOT_H
 
@@ -9,10 +9,10 @@ struct scene_snapshot {
   uint32_t current_group;
 };
 
-/* Remembers how much there is. */
+/* Records the sizes of the scene's arrays. */
 void scene_snapshot(const struct scene *scene, struct scene_snapshot *mark);
 
-/* Forgets what was added since. */
+/* Removes everything that was added since. */
 void scene_return(struct scene *scene, const struct scene_snapshot *mark);
 
 #endif

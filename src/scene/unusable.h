@@ -1,5 +1,5 @@
-/* unusable.h - points of a file that have no position that can be used: they
- * keep their index, and faces that name them are skipped. */
+/* unusable.h - points of a file without a usable position: they keep their
+ * index, and faces that refer to them are skipped. */
 #ifndef SCENE_UNUSABLE_H
 #define SCENE_UNUSABLE_H
 

@@ -235,8 +235,8 @@ static double set_explained_radii(struct candidates *candidates,
 
 /* ---- Rewriting ----------------------------------------------------------- */
 
-/* Makes `number` the map from each point to the one that stands for it.  The
- * point that stands for others at its position is the lowest of them. */
+/* Makes `number` the map from each point to the one it is welded to, which is
+ * the lowest of those at one position. */
 static uint32_t *make_map(struct candidates *candidates,
                           const struct scene *scene,
                           const struct topology *topology) {
@@ -306,7 +306,7 @@ static recto_status map_wires(struct scene *to, const struct scene *from,
   return status;
 }
 
-/* Has the welded scene lend all of the scene but faces and polylines. */
+/* Makes the welded scene borrow all of the scene but faces and polylines. */
 static void borrow(struct welded *welded, const struct scene *scene) {
   struct scene *own = &welded->scene;
   *own = *scene;

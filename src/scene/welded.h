@@ -1,32 +1,30 @@
-/* welded.h - a scene in which the corners of borders that lie close together
- * are one. */
+/* welded.h - welds the corners of a scene's borders that lie close together. */
 #ifndef SCENE_WELDED_H
 #define SCENE_WELDED_H
 
 #include "scene/topology.h"
 
 struct weld_request {
-  double length; /* scene units; 0: only equal positions are one; negative:
-                    what rounding of the coordinates explains */
-  struct precision unstated; /* of points that came without a word about it */
+  double length; /* scene units; 0: only equal positions are welded; negative:
+                    the rounding error of the coordinates */
+  struct precision unstated; /* of points whose precision is not stated */
 };
 
 struct welded {
-  struct scene scene; /* all is lent but, where points were joined, the faces
-                         and polylines */
-  double length;      /* the longest that was used, scene units */
-  size_t joined;      /* points that another one stands for */
+  struct scene scene; /* borrowed, not owned, except the faces and polylines
+                         where points were welded */
+  double length;      /* the largest length used, scene units */
+  size_t joined;      /* points welded to another */
   size_t lost;        /* faces that have no area any more */
-  size_t borders;     /* edges that have one face, in the end */
+  size_t borders;     /* edges of one face that are left */
 };
 
-/* Builds the edges of a scene, joins the points of its borders that lie close
- * together (cluster.h has the rule), and where there are any, builds the edges
- * anew of a scene whose faces use the points that stand for them.  Faces and
- * polylines that lose their area or length by it are left out, and those after
- * them count down.
- * Only points of edges that one face has take part, so closed shells that
- * touch stay apart.
+/* Builds the edges of a scene and welds the points of its borders that lie
+ * close together (by the rule of cluster.h).  If there are any, makes a scene
+ * whose faces use the welded points, and builds its edges.  Faces and polylines
+ * that lose their area or length are removed, and later ones renumbered.
+ * Only points of edges with a single face are welded, so that closed shells
+ * that touch stay separate.
  * Errors  RECTO_ERROR_MEMORY: both are then empty
  * Owner   `scene` is to live as long.
  * Cost    linear in the corners. */
@@ -37,10 +35,10 @@ USE_RESULT recto_status welded_init(struct welded *welded,
                                     recto_error *error);
 void welded_fini(struct welded *welded);
 
-/* Whether so many edges are borders, of corners so close to others, that these
- * were one before something moved them apart: of a hundred faces at least,
- * three edges in ten, and a quarter of their points would join others within a
- * 64th of their faces.
+/* Whether the borders look like edges of a connected mesh whose corners were
+ * moved apart: there are at least a hundred faces, three edges in ten are
+ * borders, and a quarter of their points would be welded by a length of a 64th
+ * of the size of their faces.
  * Returns false also where memory ran out. */
 bool welded_is_suspicious(const struct welded *welded,
                           const struct topology *topology);
