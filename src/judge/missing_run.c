@@ -23,14 +23,14 @@ enum {
 };
 
 /* An edge's end at the common point of a fan. */
-struct fan_end {
+struct edge_end_at_point {
   uint32_t edge;
   int side;                 /* which of the edge's ends is there */
   struct judge_point2 away; /* the edge's direction from there, unit */
 };
 
 struct fan {
-  struct fan_end end[MAX_FAN];
+  struct edge_end_at_point end[MAX_FAN];
   uint32_t count;
 };
 
@@ -103,7 +103,7 @@ static bool add_end(const struct judge_missing_run *run, struct fan *fan,
     return visibility == JUDGE_BLOCKED;
   if (fan->count == MAX_FAN)
     return false;
-  fan->end[fan->count++] = (struct fan_end){edge, side, away};
+  fan->end[fan->count++] = (struct edge_end_at_point){edge, side, away};
   return true;
 }
 
@@ -134,12 +134,12 @@ static bool find_fan(const struct judge_missing_run *run, struct fan *fan,
  * mate  set to the other end if the pair has the fan's first end; else its edge
  *       is SCENE_NONE
  * Returns false where no pair is left. */
-static bool take_pair(struct fan *fan, struct fan_end *mate) {
+static bool take_pair(struct fan *fan, struct edge_end_at_point *mate) {
   uint32_t a = 0, b = 0;
   double best = INFINITY;
   for (uint32_t i = 0; i + 1 < fan->count; i++)
     for (uint32_t k = i + 1; k < fan->count; k++) {
-      const struct fan_end *p = &fan->end[i], *q = &fan->end[k];
+      const struct edge_end_at_point *p = &fan->end[i], *q = &fan->end[k];
       double bend = p->away.x * q->away.x + p->away.y * q->away.y;
       if (bend < best) {
         best = bend;
@@ -161,7 +161,7 @@ static bool take_pair(struct fan *fan, struct fan_end *mate) {
 /* Finds the end that is joined to this one in a stroke; false: there is none.
  */
 static bool find_next(const struct judge_missing_run *run, uint32_t edge,
-                      int side, struct fan_end *next) {
+                      int side, struct edge_end_at_point *next) {
   struct fan fan;
   if (!find_fan(run, &fan, edge, side) || fan.count == 0 ||
       fan.end[0].edge != edge)
@@ -206,7 +206,7 @@ static bool walk_edge(struct walk *walk, uint32_t edge, double t, int side,
 
 /* Walks from a point of an edge towards an end of it, and on over that. */
 static void walk_from(struct walk *walk, uint32_t start, double t, int side) {
-  struct fan_end next;
+  struct edge_end_at_point next;
   if (!walk_edge(walk, start, t, side, false))
     return;
   uint32_t edge = start;

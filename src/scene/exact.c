@@ -31,12 +31,13 @@ __extension__ typedef unsigned __int128 uint128;
 /* A number in two's complement, units of 2^-LOWEST, least limb first. */
 enum { LOWEST = 2252, HIGHEST = 1942 + 112, LIMB_COUNT = 68 };
 _Static_assert(64 * LIMB_COUNT >= LOWEST + HIGHEST, "too narrow");
-struct expansion {
+struct exact_expansion {
   uint64_t limb[LIMB_COUNT];
 };
 
 /* *sum += x * y, or -= where `minus`. */
-static void add_product(struct expansion *sum, double x, double y, bool minus) {
+static void add_product(struct exact_expansion *sum, double x, double y,
+                        bool minus) {
   if (x == 0 || y == 0)
     return;
   int x_exponent, y_exponent;
@@ -68,7 +69,7 @@ static void add_product(struct expansion *sum, double x, double y, bool minus) {
   }
 }
 
-static int sign_of(const struct expansion *number) {
+static int sign_of(const struct exact_expansion *number) {
   if (number->limb[LIMB_COUNT - 1] >> 63)
     return -1;
   for (size_t i = 0; i < LIMB_COUNT; i++)
@@ -80,7 +81,7 @@ static int sign_of(const struct expansion *number) {
 /* Multiplied out, ax ay cancels. */
 static int turn_widely(double ax, double ay, double bx, double by, double cx,
                        double cy) {
-  struct expansion sum = {{0}};
+  struct exact_expansion sum = {{0}};
   add_product(&sum, bx, cy, false);
   add_product(&sum, bx, ay, true);
   add_product(&sum, ax, cy, true);
