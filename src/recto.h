@@ -416,9 +416,10 @@ typedef struct recto_verdict {
 
 /* Checks any program's drawing of the scene, an SVG file, by an independent ray
  * caster: seen by the camera of the options, on the file's own page, for the
- * options' edge classes.  Lines may be off by a quarter of the options' pen.
- * Dashed lines, those of the class hidden or of a layer labelled so, and
- * hatching of the class hatch are not checked. */
+ * options' edge classes.  Lines may be off by a quarter of the options' pen,
+ * and by as much as simplify_mm and unit_mm allow a drawing.  Dashed lines,
+ * those of the class hidden or of a layer labelled so, and hatching of the
+ * class hatch are not checked. */
 RECTO_USE_RESULT recto_status recto_scene_check(const recto_scene *scene,
                                                 const char *path,
                                                 const recto_options *options,

@@ -51,7 +51,7 @@ unit_tests += %D%/test_warped
 %C%_test_warped_SOURCES = %D%/test_warped.c
 %C%_test_warped_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_verify
-%C%_test_verify_SOURCES = %D%/test_verify.c
+%C%_test_verify_SOURCES = %D%/test_verify.c %D%/temporary.c %D%/temporary.h
 %C%_test_verify_LDADD = %D%/scenes/libscenes.la $(LDADD)
 
 EXTRA_DIST += %D%/README.md %D%/tap.sh %D%/unit.sh %D%/cli.sh %D%/manifest.sh

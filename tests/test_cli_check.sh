@@ -64,7 +64,27 @@ gears --view iso
 gears --view front -e all --pen 2
 knot --view top --pen 5
 knot --view iso -e all --pen 3
+castle --ids
+castle --view top --ids
+castle --view iso -e all --pen 1.4 --ids
+knot --view iso --pen 3 --ids
+castle --simplify 1
+knot --view top --simplify 0.2
 END_OF_ROWS
+drawn_mm() { # MODEL ARGUMENT...
+  run 0 "$models/$1.obj" "${@:2}" -o model.svg &&
+    run 0 "$models/$1.obj" "${@:2}" --check model.svg &&
+    awk '/^drawn/ { print $2 }' out
+}
+draws_as_much_with_ids() { # but for the rounding of the file's points
+  local whole split
+  whole=$(drawn_mm "$@") && split=$(drawn_mm "$@" --ids) &&
+    awk -v a="$whole" -v b="$split" \
+      'BEGIN { exit !(a > 0 && a - b < 0.01 && b - a < 0.01) }' && return
+  say "$whole mm, with ids $split mm" && false
+}
+claim "as much is drawn with ids" draws_as_much_with_ids castle
+claim "and with a wide pen" draws_as_much_with_ids castle --view iso --pen 3
 lacks_a_stroke() {
   run 0 "$models/castle.obj" -o model.svg --pen 1 &&
     awk '/^<path/ && length > most { most = length; which = NR }

@@ -277,6 +277,32 @@ static void with_ids_a_polyline_of_the_users_is_one_stroke(void **state) {
   ink_fixture_end(&k);
 }
 
+/* Ten edges of a row, 0.4 mm each, and one of that length alone. */
+static void with_ids_the_whole_line_decides_what_is_too_short(void **state) {
+  enum { EDGES = 10 };
+  (void)state;
+  for (int ids = 0; ids < 2; ids++) {
+    struct ink_fixture k;
+    ink_fixture_start(&k);
+    k.options.ids = ids;
+    k.options.min_stroke_mm = 0.5;
+    uint32_t p = ink_fixture_point(&k, 10, 10);
+    for (int i = 1; i <= EDGES; i++) {
+      uint32_t q = ink_fixture_point(&k, 10 + 0.4 * i, 10 + i % 2 * 0.1);
+      ink_fixture_edge(&k, p, q, CREASE);
+      p = q;
+    }
+    ink_fixture_line(&k, 50, 50, 50.4, 50, CREASE);
+    ink_fixture_draw(&k);
+    assert_int_equal(k.drawing.stroke.count, ids ? EDGES : 1);
+    double length = 0;
+    for (size_t i = 0; i < k.drawing.stroke.count; i++)
+      length += ink_fixture_stroke_length(&k, i);
+    assert_true(fabs(length - EDGES * hypot(0.4, 0.1)) < 1e-5);
+    ink_fixture_end(&k);
+  }
+}
+
 /* ---- Any graph ----------------------------------------------------------- */
 
 /* An open stroke starts at its lower end, a closed one goes to the lower
@@ -495,6 +521,7 @@ int main(void) {
       cmocka_unit_test(stroke_has_the_ids_of_its_first_segment),
       cmocka_unit_test(with_ids_every_stroke_is_of_one_edge),
       cmocka_unit_test(with_ids_a_polyline_of_the_users_is_one_stroke),
+      cmocka_unit_test(with_ids_the_whole_line_decides_what_is_too_short),
       cmocka_unit_test(random_graphs_need_no_more_strokes_than_odd_nodes),
       cmocka_unit_test(full_fan_is_paired_straight_through),
       cmocka_unit_test(fan_of_100000_takes_bounded_time),

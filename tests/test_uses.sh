@@ -116,7 +116,6 @@ done <<'END_OF_ROWS'
 --page A5|drawings
 --landscape|drawings
 --threads 1|drawings
---progress|drawings
 --fill paint|drawings
 --hidden layer|lines
 --order near|lines and hatching
@@ -124,9 +123,14 @@ done <<'END_OF_ROWS'
 --pitch 3|watkins
 END_OF_ROWS
 check_uses() { judges "$@" && test ! -s err; }
+check_reports_progress() {
+  judges --progress && ! grep -q 'does not use it' err
+}
+claim "--progress is used by --check" check_reports_progress
 claim "--check looks with the same camera, edges and tolerances" \
   check_uses --view iso --lookat 0,0,1 --fov 20 --no-fit --margin 5 \
-  -e all --crease 20 --contact 0 --pen 0.3 --min-stroke 0.1 --pen-width 2=0.5
+  -e all --crease 20 --contact 0 --pen 0.3 --min-stroke 0.1 --pen-width 2=0.5 \
+  --simplify 0.1
 
 claim "a tolerance is used by --check" check_uses --tolerance 1%
 

@@ -5,13 +5,17 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
+#include "api/handle.h"
 #include "api/verify.h"
 #include "ink/ink.h"
+#include "tests/scenes/catmull_clark.h"
 #include "tests/scenes/pipeline.h"
+#include "tests/temporary.h"
 
 /* ---- Helpers ------------------------------------------------------------- */
 
@@ -437,6 +441,53 @@ static int tear_down(void **state) {
   return 0;
 }
 
+/* ---- A drawing from a file ----------------------------------------------- */
+
+/* Silhouettes of a smooth mesh consist of many edges shorter than half a pen,
+ * which are drawn, as the line that they make is longer. */
+static void a_subdivided_mesh_passes_the_check(void **state) {
+  const char *folder = getenv("RECTO_MODELS");
+  char path[1000];
+  struct recto_scene coarse = {.path = NULL}, fine = coarse, finest = coarse;
+  struct diagnostics silent = {.file = path};
+  if (folder == NULL || getenv("RECTO_VALGRIND") != NULL)
+    skip();
+  snprintf(path, sizeof path, "%.900s/suzanne.obj", folder);
+  scene_init(&coarse.scene);
+  if (scene_read(&coarse.scene, path, NULL, &silent, NULL) != RECTO_OK) {
+    scene_fini(&coarse.scene);
+    print_message("no suzanne\n");
+    skip();
+  }
+  scene_init(&fine.scene);
+  scenes_catmull_clark(&fine.scene, &coarse.scene);
+  scene_init(&finest.scene);
+  scenes_catmull_clark(&finest.scene, &fine.scene);
+  recto_options options;
+  recto_options_init(&options);
+  options.azimuth_deg = 0;
+  options.elevation_deg = 90;
+  for (int ids = 0; ids < 2; ids++) {
+    const char *svg = temporary_path(state, "suzanne.svg");
+    recto_drawing *drawing;
+    recto_verdict verdict;
+    options.ids = ids;
+    assert_int_equal(recto_scene_render(&finest, &options, &drawing, NULL),
+                     RECTO_OK);
+    assert_int_equal(recto_drawing_write(drawing, svg, NULL, NULL, NULL),
+                     RECTO_OK);
+    assert_int_equal(recto_scene_check(&finest, svg, &options, &verdict, NULL),
+                     RECTO_OK);
+    if (verdict.false_mm > 0 || verdict.missing_mm > 0)
+      fail_msg("%g mm false, %g mm missing", verdict.false_mm,
+               verdict.missing_mm);
+    recto_drawing_destroy(drawing);
+  }
+  scene_fini(&coarse.scene);
+  scene_fini(&fine.scene);
+  scene_fini(&finest.scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_stability_list_passes),
@@ -455,6 +506,8 @@ int main(void) {
       cmocka_unit_test(only_what_is_too_short_may_be_missing),
       cmocka_unit_test(every_part_of_a_drawing_is_judged),
       cmocka_unit_test_teardown(every_allocation_may_fail, tear_down),
+      cmocka_unit_test_setup_teardown(a_subdivided_mesh_passes_the_check,
+                                      temporary_set_up, temporary_tear_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,13 @@
 /* check.c - checks any program's drawing of a scene by the judge.
  *
- * The page is the file's own.  Lines may be off by a quarter of the pen's
- * width, along and across, which is invisible. */
+ * The page is the file's own.  Lines may be off, along and across, by a quarter
+ * of the pen's width, which is invisible, and by what the options allow ink to
+ * move them (ink_drift_mm). */
 #include "api/judge_input.h"
 #include "api/handle.h"
 #include "view/rescale.h"
 #include "base/input.h"
+#include "ink/ink.h"
 #include "ink/pens.h"
 #include "scene/welded.h"
 
@@ -86,7 +88,7 @@ static recto_status judge(const struct rescaled *rescaled,
   struct judge_camera seen = judge_input_camera(&asked, &camera, o);
   struct judge_options options = judge_input_options(&asked, &camera, o);
   options.samples = SAMPLES;
-  options.reach_mm = options.lateral_mm = o->pen_mm / 4;
+  options.reach_mm = options.lateral_mm = o->pen_mm / 4 + ink_drift_mm(o);
   options.progress = o->progress != NULL ? go_on : NULL;
   options.user = &asking;
   status = find_shortest(&options.shortest_mm, scene, o, error);

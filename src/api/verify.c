@@ -47,7 +47,8 @@ static bool take_drawn(struct judge_drawing *to,
   return true;
 }
 
-/* Collects the lines that were not drawn because they are too short. */
+/* Collects the lines that were not drawn because they are too short: with ids
+ * too, the length of a line before it is split by source decides. */
 static recto_status take_dropped(struct judge_drawing *to,
                                  const struct verify *verify,
                                  recto_error *error) {
@@ -56,6 +57,7 @@ static recto_status take_dropped(struct judge_drawing *to,
   if (shortest == 0)
     return RECTO_OK;
   all.min_stroke_mm = 0;
+  all.ids = false;
   all.hidden = RECTO_HIDDEN_NONE;
   all.fill = RECTO_FILL_NONE;
   all.order = RECTO_ORDER_NONE;

@@ -155,6 +155,8 @@ static bool is_lit(const struct arguments *a) {
 }
 
 const struct option_use used_by_lines = {"lines", has_lines, name_edges, false};
+const struct option_use used_by_lines_and_check = {"lines", has_lines,
+                                                   name_edges, true};
 const struct option_use used_by_strokes = {"lines and hatching", has_strokes,
                                            name_edges, false};
 const struct option_use used_by_pen = {"lines and hatching", has_strokes,

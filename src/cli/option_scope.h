@@ -20,9 +20,9 @@ extern const struct option_use used_by_drawing, used_by_watkins,
 /* Camera and page. */
 extern const struct option_use used_by_target, used_by_fov, used_by_scale;
 /* Ink. */
-extern const struct option_use used_by_lines, used_by_strokes, used_by_pen,
-    used_by_crease, used_by_seam, used_by_hatch, used_by_one_pitch,
-    used_by_light;
+extern const struct option_use used_by_lines, used_by_lines_and_check,
+    used_by_strokes, used_by_pen, used_by_crease, used_by_seam, used_by_hatch,
+    used_by_one_pitch, used_by_light;
 /* Files and reports. */
 extern const struct option_use used_by_svg, used_by_screens, used_by_cairo,
     used_by_png, used_by_plotter, used_by_stats, used_by_check;

@@ -48,14 +48,13 @@ static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
   return status;
 }
 
-static recto_status make_paths(struct ink *ink, struct ink_paths *paths,
+/* Joins the segments into cleaned polylines.
+ * path_of_segment  see paths_chain */
+static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
+                               uint32_t *path_of_segment,
+                               const struct segment_graph *graph,
                                recto_error *error) {
-  struct segment_graph graph;
-  segment_graph_init(&graph);
-  recto_status status = make_graph(ink, &graph, error);
-  if (!status)
-    status = paths_chain(paths, &graph, error);
-  segment_graph_fini(&graph);
+  recto_status status = paths_chain(paths, path_of_segment, graph, error);
   if (status)
     return status;
   paths_straighten(paths, ink->options->unit_mm * SHEET_UNITS_PER_MM);
@@ -104,14 +103,16 @@ static bool take_points(const struct ink *ink, const struct ink_paths *paths,
   return true;
 }
 
+static bool is_too_short(const struct ink *ink, const struct ink_path *path,
+                         const struct stroke_line *line) {
+  return stroke_line_length(line) <
+         pens_shortest_mm(ink->pens, stroke_like(ink, path).layer);
+}
+
 static bool add_path(struct ink *ink, const struct ink_path *path,
                      const struct stroke_line *line) {
   struct drawing_stroke like = stroke_like(ink, path);
   double pen = pens_width_mm(ink->pens, like.layer);
-  if (stroke_line_length(line) < pens_shortest_mm(ink->pens, like.layer)) {
-    ink->too_short++;
-    return true;
-  }
   if (path->hidden && ink->options->hidden == RECTO_HIDDEN_DASHED)
     return stroke_add_dashed(ink->drawing, &like, line, DASH_PENS * pen,
                              GAP_PENS * pen);
@@ -119,22 +120,86 @@ static bool add_path(struct ink *ink, const struct ink_path *path,
                     line->closed);
 }
 
-static bool add_paths(struct ink *ink, const struct ink_paths *paths) {
+/* Adds all paths; where `filter` is set, but those that are too short. */
+static bool add_paths(struct ink *ink, const struct ink_paths *paths,
+                      bool filter) {
   struct stroke_line line = {0};
   bool ok = ARRAY_RESERVE(&ink->drawing->point, paths->point.count) &&
             ARRAY_RESERVE(&ink->drawing->stroke, paths->path.count);
   for (size_t i = 0; ok && i < paths->path.count; i++) {
     const struct ink_path *path = &paths->path.item[i];
-    ok = take_points(ink, paths, path, &line) && add_path(ink, path, &line);
+    ok = take_points(ink, paths, path, &line);
+    if (ok && filter && is_too_short(ink, path, &line))
+      ink->too_short++;
+    else
+      ok = ok && add_path(ink, path, &line);
   }
   ARRAY_FREE(&line.point);
   return ok;
 }
 
+/* ---- Strokes of one source ----------------------------------------------- */
+
+/* Sets drop[i] to 1 for each segment i of a path that is too short. */
+static bool mark_short(struct ink *ink, const struct ink_paths *paths,
+                       const uint32_t *path_of_segment, size_t segments,
+                       uint8_t *drop) {
+  struct stroke_line line = {0};
+  uint8_t *path_is_short = mem_calloc(paths->path.count, 1);
+  bool ok = path_is_short != NULL;
+  for (size_t i = 0; ok && i < paths->path.count; i++) {
+    const struct ink_path *path = &paths->path.item[i];
+    ok = take_points(ink, paths, path, &line);
+    if (ok && is_too_short(ink, path, &line)) {
+      path_is_short[i] = 1;
+      ink->too_short++;
+    }
+  }
+  for (size_t i = 0; ok && i < segments; i++)
+    drop[i] = path_is_short[path_of_segment[i]];
+  mem_free(path_is_short);
+  ARRAY_FREE(&line.point);
+  return ok;
+}
+
+/* Drops the segments of lines that are too short.  With ids a stroke is a
+ * piece of one source, and a long line may consist of many short strokes.  So
+ * the length that counts is that of the line as it is drawn without ids. */
+static recto_status drop_short_lines(struct ink *ink,
+                                     struct segment_graph *graph,
+                                     recto_error *error) {
+  struct ink_paths whole = {0};
+  size_t count = graph->segment.count;
+  uint32_t *path_of_segment = mem_alloc(count, sizeof *path_of_segment);
+  uint8_t *drop = mem_alloc(count, sizeof *drop);
+  recto_status status =
+      path_of_segment != NULL && drop != NULL ? RECTO_OK : error_memory(error);
+  if (!status)
+    status = make_paths(ink, &whole, path_of_segment, graph, error);
+  if (!status && !mark_short(ink, &whole, path_of_segment, count, drop))
+    status = error_memory(error);
+  if (!status)
+    status = segment_graph_drop_segments(graph, drop, error);
+  paths_fini(&whole);
+  mem_free(path_of_segment);
+  mem_free(drop);
+  return status;
+}
+
 static recto_status draw_lines(struct ink *ink, recto_error *error) {
+  bool ids = ink->options->ids;
+  struct segment_graph graph;
   struct ink_paths paths = {0};
-  recto_status status = make_paths(ink, &paths, error);
-  if (!status && !add_paths(ink, &paths))
+  segment_graph_init(&graph);
+  recto_status status = make_graph(ink, &graph, error);
+  if (!status && ids && ink->options->min_stroke_mm != 0)
+    status = drop_short_lines(ink, &graph, error);
+  if (!status && ids)
+    status = segment_graph_key_by_source(&graph, ink->sheet, error);
+  if (!status)
+    status = make_paths(ink, &paths, NULL, &graph, error);
+  segment_graph_fini(&graph);
+  if (!status && !add_paths(ink, &paths, !ids))
     status = error_memory(error);
   paths_fini(&paths);
   return status;

@@ -20,6 +20,7 @@ struct chain {
   uint32_t *mate;
   uint8_t *used;       /* one a segment */
   ARRAY(uint32_t) end; /* path by path, each point as an end that is there */
+  uint32_t *path_of_segment; /* the caller's, or NULL */
 };
 
 void paths_fini(struct ink_paths *paths) {
@@ -196,6 +197,8 @@ static bool place_points(struct chain *c) {
     struct ink_point *point = paths->point.item + paths->point.count;
     for (uint32_t k = 0; k < path->count; k++)
       point[k] = point_of_end(c, end[k]);
+    for (uint32_t k = 0; c->path_of_segment != NULL && k < path->count; k++)
+      c->path_of_segment[end[k] >> 1] = (uint32_t)i;
     for (uint32_t k = 0; paths->approximate && k < path->count; k++)
       paths->approximate[paths->point.count + k] =
           c->graph->approximate[node_of_end(c, end[k])];
@@ -205,11 +208,12 @@ static bool place_points(struct chain *c) {
   return true;
 }
 
-recto_status paths_chain(struct ink_paths *paths,
+recto_status paths_chain(struct ink_paths *paths, uint32_t *path_of_segment,
                          const struct segment_graph *graph,
                          recto_error *error) {
   size_t count = graph->segment.count;
-  struct chain c = {.graph = graph, .paths = paths};
+  struct chain c = {
+      .graph = graph, .paths = paths, .path_of_segment = path_of_segment};
   c.mate = mem_alloc(count, 2 * sizeof *c.mate);
   c.used = mem_calloc(count, sizeof *c.used);
   bool ok = c.mate && c.used && pairing_find(c.mate, graph) && walk_all(&c) &&

@@ -29,9 +29,11 @@ void paths_fini(struct ink_paths *paths);
  * farthest from its lowest, which is a corner, so that no straight run is cut
  * by the start.  Paths come by the sheet edge of their first segment, visible
  * before hidden ones; but for this order, that of the edges does not matter.
- * paths  zero-initialised
+ * paths            zero-initialised
+ * path_of_segment  one a segment, set to the path that it is in; or NULL
  * Guarantees  every segment is in exactly one path. */
 USE_RESULT recto_status paths_chain(struct ink_paths *paths,
+                                    uint32_t *path_of_segment,
                                     const struct segment_graph *graph,
                                     recto_error *error);
 

@@ -117,6 +117,20 @@ USE_RESULT recto_status segment_graph_index_ends(struct segment_graph *graph,
 /* Restores the order of the segments. */
 USE_RESULT bool segment_graph_sort_segments(struct segment_graph *graph);
 
+/* Drops the segments i with drop[i] != 0 and indexes the ends anew.  Nodes stay;
+ * some may have no ends afterwards. */
+USE_RESULT recto_status segment_graph_drop_segments(struct segment_graph *graph,
+                                                    const uint8_t *drop,
+                                                    recto_error *error);
+
+/* Replaces the pen keys by keys of the sources: segments have the same key
+ * where they are pieces of one mesh edge, of one intersection or of one
+ * polyline of the user's, and both are visible or both hidden.
+ * Cost  linear in the segments and the edges of the sheet. */
+USE_RESULT recto_status segment_graph_key_by_source(struct segment_graph *graph,
+                                                    const struct sheet *sheet,
+                                                    recto_error *error);
+
 static inline bool
 graph_segment_is_hidden(const struct graph_segment *segment) {
   return segment->pen_key & 1;

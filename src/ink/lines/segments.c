@@ -69,27 +69,15 @@ static bool is_same_place(const struct segment_graph *graph, uint32_t a,
          graph->node.item[a].y == graph->node.item[b].y;
 }
 
-/* Whether two edges that follow each other are of one polyline. */
-static bool is_same_wire(const struct sheet_edge *a,
-                         const struct sheet_edge *b) {
-  return a->edge_class == RECTO_EDGE_WIRE && b->edge_class == RECTO_EDGE_WIRE &&
-         a->source == b->source;
-}
-
-/* Without ids whatever one pen draws as heavily may be joined.  With ids a
- * stroke names its source, so it is joined from pieces of that source alone:
- * one mesh edge, one intersection, one polyline of the user's. */
-static uint32_t pen_key_of(struct collector *c, uint32_t edge, bool hidden) {
+/* Segments may be joined where one pen draws them with one weight. */
+static uint32_t pen_key_of(const struct collector *c, uint32_t edge,
+                           bool hidden) {
   const struct sheet_edge *e = &c->sheet->edge.item[edge];
-  if (!c->options->ids && hidden)
+  if (hidden)
     return 2 * pens_of_hidden(c->pens, c->options, e->edge_class, e->group) + 1;
-  if (!c->options->ids)
-    return 2 * (pens_of_line(c->pens, e->edge_class, e->group) *
-                    RECTO_EDGE_CLASS_COUNT +
-                pens_weight_rank(c->pens, e->edge_class));
-  if (edge > 0 && is_same_wire(e - 1, e))
-    return c->pen_key;
-  return 2 * edge + hidden;
+  return 2 * (pens_of_line(c->pens, e->edge_class, e->group) *
+                  RECTO_EDGE_CLASS_COUNT +
+              pens_weight_rank(c->pens, e->edge_class));
 }
 
 static bool add_segment(struct collector *c, uint32_t edge, struct ratio t0,
@@ -213,5 +201,44 @@ segment_graph_collect(struct segment_graph *graph, const struct sheet *sheet,
       graph->node.count >= SEGMENT_LIMIT)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "more than 2^31 visible lines");
+  return RECTO_OK;
+}
+
+/* ---- Changes of a collected graph ---------------------------------------- */
+
+recto_status segment_graph_drop_segments(struct segment_graph *graph,
+                                         const uint8_t *drop,
+                                         recto_error *error) {
+  size_t kept = 0;
+  for (size_t i = 0; i < graph->segment.count; i++)
+    if (!drop[i])
+      graph->segment.item[kept++] = graph->segment.item[i];
+  graph->segment.count = kept;
+  return segment_graph_index_ends(graph, error);
+}
+
+/* Whether two consecutive edges are of one polyline. */
+static bool is_same_wire(const struct sheet_edge *a,
+                         const struct sheet_edge *b) {
+  return a->edge_class == RECTO_EDGE_WIRE && b->edge_class == RECTO_EDGE_WIRE &&
+         a->source == b->source;
+}
+
+recto_status segment_graph_key_by_source(struct segment_graph *graph,
+                                         const struct sheet *sheet,
+                                         recto_error *error) {
+  size_t count = sheet->edge.count;
+  const struct sheet_edge *edge = sheet->edge.item;
+  uint32_t *source = mem_alloc(count, sizeof *source); /* its first edge */
+  if (source == NULL)
+    return error_memory(error);
+  for (uint32_t i = 0; i < count; i++)
+    source[i] =
+        i > 0 && is_same_wire(&edge[i - 1], &edge[i]) ? source[i - 1] : i;
+  for (size_t i = 0; i < graph->segment.count; i++) {
+    struct graph_segment *s = &graph->segment.item[i];
+    s->pen_key = 2 * source[s->edge] + graph_segment_is_hidden(s);
+  }
+  mem_free(source);
   return RECTO_OK;
 }
