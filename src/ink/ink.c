@@ -27,7 +27,7 @@ struct ink {
 
 /* ---- Paths --------------------------------------------------------------- */
 
-/* What is drawn once, as a net, its ends indexed. */
+/* Builds the segment graph without overlaps, its ends indexed. */
 static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
                                recto_error *error) {
   struct report *report = ink->drawing->report;
@@ -40,7 +40,7 @@ static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
   if (!status)
     status = segment_graph_drop_collinear(graph, &rows, error);
   if (!status)
-    status = segment_graph_drop_repeats(
+    status = segment_graph_drop_output_overlaps(
         graph, &rows, ink->options->unit_mm * SHEET_UNITS_PER_MM, error);
   node_rows_fini(&rows);
   report_int(report, "ink", "without_length", (int64_t)graph->dots);
@@ -64,8 +64,8 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
   return status;
 }
 
-/* In each round of segment_graph_drop_repeats a line moves by a unit at most in x and in
- * y, in paths_straighten by half a unit. */
+/* Each round of segment_graph_drop_output_overlaps moves a line by at most a
+ * unit in x and in y, paths_straighten by at most half a unit. */
 double ink_drift_mm(const recto_options *options) {
   return options->simplify_mm +
          (SEGMENT_GRAPH_ROUNDS * sqrt(2) + 0.5) * options->unit_mm;
@@ -73,7 +73,7 @@ double ink_drift_mm(const recto_options *options) {
 
 /* ---- Strokes ------------------------------------------------------------- */
 
-/* A stroke of that path without its points. */
+/* The stroke of a path, without its points. */
 static struct drawing_stroke stroke_like(const struct ink *ink,
                                          const struct ink_path *path) {
   const struct sheet_edge *edge = &ink->sheet->edge.item[path->edge];
@@ -120,7 +120,8 @@ static bool add_path(struct ink *ink, const struct ink_path *path,
                     line->closed);
 }
 
-/* Adds all paths; where `filter` is set, but those that are too short. */
+/* Adds the paths as strokes; with `filter` those that are too short are left
+ * out. */
 static bool add_paths(struct ink *ink, const struct ink_paths *paths,
                       bool filter) {
   struct stroke_line line = {0};

@@ -1,4 +1,5 @@
-/* layers.c - the drawing's layers: one a pen, one for what is hidden. */
+/* layers.c - the layers of a drawing: one for each pen, one for hidden lines.
+ * */
 #include "ink/layers.h"
 
 #include <stdio.h>
@@ -11,7 +12,7 @@
   0x808080u /* hidden lines on a screen; a pen has its own colour              \
              */
 
-/* Appends to a label what fits of `text`, never half a character. */
+/* Appends as much of `text` as fits, without splitting a UTF-8 sequence. */
 static void append(char label[], size_t size, const char *text) {
   size_t used = strlen(label), length = strlen(text);
   if (length > size - 1 - used) {
@@ -76,7 +77,7 @@ static bool add_layer(struct drawing *drawing, const struct pens *pens,
   return ARRAY_PUSH(&drawing->layer, layer);
 }
 
-/* Whether nothing but hidden lines is on the pen. */
+/* Whether only hidden lines are drawn with the pen. */
 static bool is_for_hidden(const struct pens *pens, uint32_t pen) {
   bool alone = pens->of_hidden == pen && pens->of_hatch != pen;
   for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
@@ -100,8 +101,8 @@ bool layers_add(struct drawing *drawing, const struct pens *pens,
 
 /* ---- Packing ------------------------------------------------------------- */
 
-/* Numbers the layers with strokes on them anew: number[old] is
- * the new one.  Returns how many there are. */
+/* Renumbers the layers that have strokes: number[old] is the new number.
+ * Returns how many there are. */
 static uint32_t number_used(const struct drawing *drawing, uint32_t *number) {
   size_t layers = drawing->layer.count;
   uint32_t used = 0;
@@ -113,7 +114,7 @@ static uint32_t number_used(const struct drawing *drawing, uint32_t *number) {
   return used;
 }
 
-/* Puts a layer for fills below all others. */
+/* Adds a layer for fills below all others. */
 static bool add_fill_layer(struct drawing *drawing) {
   struct drawing_layer layer = drawing->layer.item[0];
   layer.pen = 0;
@@ -128,7 +129,7 @@ static bool add_fill_layer(struct drawing *drawing) {
   return true;
 }
 
-/* Leaves out the layers on which nothing is. */
+/* Removes the layers without strokes. */
 static bool drop_empty(struct drawing *drawing) {
   uint32_t *number = mem_alloc(drawing->layer.count, sizeof *number);
   if (!number)
@@ -145,8 +146,8 @@ static bool drop_empty(struct drawing *drawing) {
   return true;
 }
 
-/* Where lines of several weights are drawn, those of a class stand together,
- * the lightest classes first, so that the heavy ones lie on top. */
+/* With several weights the strokes of a class are consecutive, the lightest
+ * classes first, so that heavy lines lie on top. */
 static int compare_strokes(const void *first, const void *second, void *user) {
   const struct drawing_stroke *a = first, *b = second;
   const struct drawing *drawing = user;

@@ -1,5 +1,5 @@
-/* pens.c - reads what the options say about pens: lists of names or numbers
- * and what is theirs, such as silhouette=2,hidden=3. */
+/* pens.c - parses the options' lists of pens, widths, colours and weights, such
+ * as silhouette=2,hidden=3. */
 #include "ink/pens.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 
 /* One KEY=VALUE of a list. */
 struct item {
-  const char *list; /* its option, for messages */
+  const char *list; /* name of the option, for messages */
   const char *key, *value, *end;
   size_t length; /* of the key */
   recto_error *error;
@@ -27,14 +27,14 @@ typedef recto_status (*take_fn)(struct pens *pens, const struct scene *scene,
 
 static int clip(ptrdiff_t length) { return length < 80 ? (int)length : 80; }
 
-static recto_status refuse(const struct item *item, const char *expected) {
+static recto_status reject(const struct item *item, const char *expected) {
   return error_set(item->error, RECTO_ERROR_ARGUMENT, NULL, 0,
                    "%s: \"%.*s\" is not %s", item->list,
                    clip(item->end - item->key), item->key, expected);
 }
 
-/* Refuses an item that has another value for a name than an earlier one of the
- * list, which begins at `first`. */
+/* Rejects an item whose name has a different value in an earlier item of the
+ * list that begins at `first`. */
 static recto_status check_earlier(const struct item *item, const char *first) {
   size_t whole = (size_t)(item->end - item->key);
   while (first < item->key) {
@@ -53,7 +53,7 @@ static recto_status check_earlier(const struct item *item, const char *first) {
   return RECTO_OK;
 }
 
-/* Hands over each item of a comma-separated list; NULL: there is none. */
+/* Calls take for each item of a comma-separated list; NULL: empty. */
 static recto_status read_list(struct pens *pens, const struct scene *scene,
                               const char *name, const char *list, take_fn take,
                               recto_error *error) {
@@ -66,7 +66,7 @@ static recto_status read_list(struct pens *pens, const struct scene *scene,
       if (list[i] == '=')
         item.value = list + i + 1;
     if (!item.value || item.value == list + 1)
-      return refuse(&item, "of the form NAME=VALUE");
+      return reject(&item, "of the form NAME=VALUE");
     item.length = (size_t)(item.value - 1 - list);
     status = take(pens, scene, &item);
     if (status == RECTO_OK)
@@ -85,24 +85,24 @@ static bool parse_pen(const char *text, const char *end, uint32_t *pen) {
   return true;
 }
 
-static bool is_word(const struct item *item, const char *word) {
+static bool has_name(const struct item *item, const char *word) {
   return strlen(word) == item->length &&
          memcmp(item->key, word, item->length) == 0;
 }
 
-/* The place of the class of that name; RECTO_EDGE_CLASS_COUNT: none. */
+/* The bit index of the class of that name; RECTO_EDGE_CLASS_COUNT: none. */
 static unsigned find_class(const struct item *item) {
   unsigned place = 0;
-  while (place < RECTO_EDGE_CLASS_COUNT &&
-         !is_word(item, recto_edge_class_name((recto_edge_class)(1u << place))))
+  while (
+      place < RECTO_EDGE_CLASS_COUNT &&
+      !has_name(item, recto_edge_class_name((recto_edge_class)(1u << place))))
     place++;
   return place;
 }
 
-/* Whether a group is meant by the key: by its whole name, or by what stands
- * between two of the strokes that object, group and material are joined
- * with. */
-static bool is_meant(const struct item *item, const char *name) {
+/* Whether the key names a group: by the whole name, or by one of the parts
+ * between slashes, which join object, group and material. */
+static bool names_group(const struct item *item, const char *name) {
   const char *at = name;
   for (; at; at = strchr(at, '/') ? strchr(at, '/') + 1 : NULL)
     if (strncmp(at, item->key, item->length) == 0 &&
@@ -111,22 +111,22 @@ static bool is_meant(const struct item *item, const char *name) {
   return false;
 }
 
-/* ---- What is theirs ------------------------------------------------------ */
+/* ---- Values -------------------------------------------------------------- */
 
 static recto_status take_pen(struct pens *pens, const struct scene *scene,
                              const struct item *item) {
   uint32_t pen;
   bool found = false;
   if (!parse_pen(item->value, item->end, &pen))
-    return refuse(item, "a name and a pen from 1 to 1000");
+    return reject(item, "a name and a pen from 1 to 1000");
   unsigned place = find_class(item);
   if (pen + 1 > pens->count)
     pens->count = pen + 1;
-  if (is_word(item, "hidden")) {
+  if (has_name(item, "hidden")) {
     pens->of_hidden = pen;
     return RECTO_OK;
   }
-  if (is_word(item, "hatch")) {
+  if (has_name(item, "hatch")) {
     pens->of_hatch = pen;
     return RECTO_OK;
   }
@@ -136,7 +136,7 @@ static recto_status take_pen(struct pens *pens, const struct scene *scene,
     return RECTO_OK;
   }
   for (size_t g = 0; g < scene->group.count; g++)
-    if (is_meant(item, scene->group.item[g].name)) {
+    if (names_group(item, scene->group.item[g].name)) {
       pens->of_group[g] = pen;
       found = true;
     }
@@ -157,7 +157,7 @@ static recto_status take_width(struct pens *pens, const struct scene *scene,
   double mm = stop ? number * length_unit_mm(stop, item->end) : 0;
   if (!parse_pen(item->key, item->key + item->length, &pen) ||
       !(mm >= RECTO_FINEST_MM && mm <= 100))
-    return refuse(item, "a pen and its width, 0.01 to 100 mm");
+    return reject(item, "a pen and its width, 0.01 to 100 mm");
   pens->own[pen].width_mm = mm;
   return RECTO_OK;
 }
@@ -177,7 +177,7 @@ static recto_status take_colour(struct pens *pens, const struct scene *scene,
   }
   if (!parse_pen(item->key, item->key + item->length, &pen) || i != count ||
       (count != 3 && count != 6))
-    return refuse(item, "a pen and its colour, such as 2=#c00 or 2=#cc0000");
+    return reject(item, "a pen and its colour, such as 2=#c00 or 2=#cc0000");
   pens->own[pen].colour = colour;
   return RECTO_OK;
 }
@@ -190,17 +190,17 @@ static recto_status take_weight(struct pens *pens, const struct scene *scene,
   if (place == RECTO_EDGE_CLASS_COUNT ||
       number_parse_double(item->value, item->end, &weight) != item->end ||
       !(weight >= 1 / WEIGHT_MOST && weight <= WEIGHT_MOST))
-    return refuse(item, "a class of lines and its weight, 0.01 to 100");
+    return reject(item, "a class of lines and its weight, 0.01 to 100");
   pens->weight[place] = weight;
   pens->weighed |= 1u << place;
   return RECTO_OK;
 }
 
-/* ---- All of it ----------------------------------------------------------- */
+/* ---- All lists ----------------------------------------------------------- */
 
-/* Deals the groups to the pens in turn. */
-static bool deal(struct pens *pens, const struct scene *scene,
-                 const recto_options *options) {
+/* Assigns the groups to the pens in turn. */
+static bool assign_groups(struct pens *pens, const struct scene *scene,
+                          const recto_options *options) {
   uint32_t count = options->pens > 1 ? (uint32_t)options->pens : 1;
   pens->group_count = scene->group.count;
   pens->of_group = mem_alloc(pens->group_count, sizeof *pens->of_group);
@@ -228,7 +228,7 @@ recto_status pens_init(struct pens *pens, const struct scene *scene,
     pens->of_class[i] = PENS_NONE;
     pens->weight[i] = 1;
   }
-  if (!deal(pens, scene, options))
+  if (!assign_groups(pens, scene, options))
     return error_memory(error);
   recto_status status =
       read_list(pens, scene, "pens", options->pen_for, take_pen, error);
@@ -251,7 +251,7 @@ void pens_fini(struct pens *pens) {
   mem_free(pens->own);
 }
 
-/* ---- Answers ------------------------------------------------------------- */
+/* ---- Queries ------------------------------------------------------------- */
 
 unsigned pens_place(unsigned edge_class) {
   unsigned place = 0;

@@ -1,7 +1,7 @@
-/* pens_warn_unused.c - a word about pens and weights that have nothing to draw,
- * whatever is seen.
+/* pens_warn_unused.c - warns about pens and weights that have nothing to draw.
  *
- * It is told, not refused: scripts name the same pens for every drawing. */
+ * Whatever is visible, they would draw nothing.  It is no error, because
+ * scripts give the same pens for every drawing. */
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -21,33 +21,33 @@ bool pens_is_drawn(const recto_options *options, unsigned place) {
   return options->edges >> place & 1;
 }
 
-/* Whether anything that is asked for can be on the pen.  Of groups whose lines
- * are all on other pens by their classes, none is; that is let pass. */
-static bool is_busy(const struct pens *pens, const recto_options *options,
+/* Whether the pen may draw anything that is requested.  A pen of groups whose
+ * lines are all on other pens by class counts as used. */
+static bool is_used(const struct pens *pens, const recto_options *options,
                     uint32_t pen) {
   bool hatched = options->fill == RECTO_FILL_HATCH;
-  bool busy =
+  bool used =
       (pens->of_hidden == pen && options->hidden != RECTO_HIDDEN_NONE) ||
       (pens->of_hidden == PENS_NONE && pen == pens->count &&
        options->hidden == RECTO_HIDDEN_LAYER) ||
       (pens->of_hatch == pen && hatched);
   for (unsigned i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
-    busy = busy || (pens->of_class[i] == pen && pens_is_drawn(options, i));
+    used = used || (pens->of_class[i] == pen && pens_is_drawn(options, i));
   bool has_lines = options->edges != RECTO_EDGES_NONE || hatched;
-  for (size_t g = 0; has_lines && !busy && g < pens->group_count; g++)
-    busy = pens->of_group[g] == pen;
-  return busy;
+  for (size_t g = 0; has_lines && !used && g < pens->group_count; g++)
+    used = pens->of_group[g] == pen;
+  return used;
 }
 
-/* What was said of widths and colours for nothing, in one line. */
-static void tell_of_looks(const struct pens *pens,
-                          const recto_options *options) {
+/* Warns in one line about unused widths and colours. */
+static void warn_unused_looks(const struct pens *pens,
+                              const recto_options *options) {
   uint32_t first = PENS_NONE;
   unsigned others = 0;
   for (uint32_t pen = 0; pen < PENS_MOST; pen++) {
     const struct pens_own *own = &pens->own[pen];
     if ((own->width_mm == 0 && own->colour == PENS_NONE) ||
-        is_busy(pens, options, pen))
+        is_used(pens, options, pen))
       continue;
     others += first != PENS_NONE;
     first = first == PENS_NONE ? pen : first;
@@ -79,5 +79,5 @@ void pens_warn_unused(const struct pens *pens, const recto_options *options) {
     if (pens->weighed >> i & 1 && !pens_is_drawn(options, i))
       warn(options, "a weight is for %s lines, which are not asked for",
            recto_edge_class_name((recto_edge_class)(1u << i)));
-  tell_of_looks(pens, options);
+  warn_unused_looks(pens, options);
 }

@@ -2,8 +2,9 @@
  * apart.
  *
  * Strip k lies between lines k - 1 and k of the ruling (hatch_lines.h).
- * Phases, for each patch of fragments that no drawn line parts (hatch_regions.h)
- *   1 sides     of all its fragments; sides that two of them share go
+ * Phases, for each patch of fragments that no drawn line parts
+ *   (hatch_regions.h) 1 sides     of all its fragments; sides that two of them
+ *   share go
  *   2 spans     of the ruling's lines within it, inset where asked (inset.h)
  *   3 strips    its sides listed by the strips they reach into
  *   4 strokes   from a span to one of the next line, at the end where the pen

@@ -1,5 +1,5 @@
-/* hatch_runs.c - bits of parallel lines, face by face, joined to the runs that a
- * pen draws. */
+/* hatch_runs.c - bits of parallel lines, face by face, joined to the runs that
+ * a pen draws. */
 #include "ink/hatch/hatch_runs.h"
 
 #include "base/sort.h"

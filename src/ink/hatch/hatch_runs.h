@@ -1,5 +1,5 @@
-/* hatch_runs.h - bits of parallel lines, face by face, joined to the runs that a
- * pen draws. */
+/* hatch_runs.h - bits of parallel lines, face by face, joined to the runs that
+ * a pen draws. */
 #ifndef INK_HATCH_HATCH_RUNS_H
 #define INK_HATCH_HATCH_RUNS_H
 
@@ -31,8 +31,8 @@ struct hatch_run {
   double u0, u1;
 };
 
-/* Sorts the bits: afterwards hatch_runs_next gives the runs in order of pen, cross,
- * step, line, place. */
+/* Sorts the bits: afterwards hatch_runs_next gives the runs in order of pen,
+ * cross, step, line, place. */
 USE_RESULT bool hatch_runs_sort(struct hatch_runs *runs);
 
 /* The next run; false: there is none left. */

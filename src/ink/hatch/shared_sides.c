@@ -1,4 +1,5 @@
-/* shared_sides.c - sides that fragments on both sides may have in common in part.
+/* shared_sides.c - sides that fragments on both sides may have in common in
+ * part.
  *
  * Fragments are disjoint: of the sides on one line those that lead one way are
  * disjoint, and so are those that lead the other way.  Both are walked from

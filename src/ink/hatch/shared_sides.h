@@ -1,5 +1,5 @@
-/* shared_sides.h - sides that fragments on both sides may have in common in part: the
- * level cuts that a method of lines leaves, pieces of mesh edges. */
+/* shared_sides.h - sides that fragments on both sides may have in common in
+ * part: the level cuts that a method of lines leaves, pieces of mesh edges. */
 #ifndef INK_HATCH_SHARED_SIDES_H
 #define INK_HATCH_SHARED_SIDES_H
 

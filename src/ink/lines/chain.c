@@ -1,14 +1,14 @@
-/* chain.c - walks along paired ends: segments become polylines.
+/* chain.c - joins paired segments into polylines.
  *
  * Phases
- *   1 pair the ends at every node (pairing.c): what is left is simple paths
- *     and loops
- *   2 from every end that is joined to none, walk to the other such end
- *   3 what was not walked over is loops
- *   4 turn every path the way it is to be read
+ *   1 pair the ends at every node (pairing.c), which leaves simple paths and
+ *          loops
+ *   2 from every unpaired end, walk to the other end of its path
+ *   3 the segments not visited so far form loops
+ *   4 orient every path, see paths_chain
  *   5 sort the paths by their first edges
- *   6 look the points up: not while walking, when each step would wait for
- *     it; a row of look-ups waits for memory only once */
+ *   6 look up the points: not while walking, where every step would depend on a
+ *     cache miss; independent look-ups overlap their misses */
 #include "ink/lines/paths.h"
 
 #include "base/sort.h"
@@ -19,7 +19,7 @@ struct chain {
   struct ink_paths *paths;
   uint32_t *mate;
   uint8_t *used;       /* one a segment */
-  ARRAY(uint32_t) end; /* path by path, each point as an end that is there */
+  ARRAY(uint32_t) end; /* path by path, each point as one of the ends there */
   uint32_t *path_of_segment; /* the caller's, or NULL */
 };
 
@@ -54,7 +54,7 @@ static void reverse(uint32_t *end, size_t count) {
   }
 }
 
-/* Makes a path of the ends from `from` on; segment `first` is its first. */
+/* Adds the path of the ends from `from` on; its first segment is `first`. */
 static bool add_path(struct chain *c, size_t from, uint32_t first,
                      bool closed) {
   const struct graph_segment *s = &c->graph->segment.item[first];
@@ -90,7 +90,7 @@ static bool walk_open(struct chain *c, uint32_t end) {
 
 /* ---- Loops --------------------------------------------------------------- */
 
-/* Which of a loop's ends is to be its first: see paths_chain. */
+/* Chooses the end at which a loop starts: see paths_chain. */
 static size_t choose_start(const struct chain *c, const uint32_t *end,
                            size_t count) {
   struct ink_point lowest = point_of_end(c, end[0]);
@@ -125,12 +125,12 @@ static bool walk_loop(struct chain *c, uint32_t end) {
   } while (end != start);
   uint32_t *loop = c->end.item + from;
   size_t count = c->end.count - from, corner = choose_start(c, loop, count);
-  /* Both parts turned round, then the whole: the loop begins at its corner. */
+  /* Rotates by three reversals: the loop begins at its corner. */
   reverse(loop, corner);
   reverse(loop + corner, count - corner);
   reverse(loop, count);
-  /* Towards the lower of its neighbours; each end leaves its point forwards,
-   * so the first segment of the loop turned round is the last one's. */
+  /* Towards the lower of the two neighbours.  Each end is the start of its
+   * segment, so the first segment of the reversed loop is the last one's. */
   uint32_t first = loop[0] >> 1;
   if (is_lower(point_of_end(c, loop[count - 1]), point_of_end(c, loop[1]))) {
     first = loop[count - 1] >> 1;

@@ -1,14 +1,15 @@
-/* dash.c - a line as dashes of real geometry, since plotters know no other.
+/* dash.c - splits lines into dashes as geometry, since plotters have no dashed
+ * pens.
  *
- * A line is dashed anew from each of its corners on, so that every edge of a
- * box begins and ends with ink.  The number of dashes is the one whose dashes
- * come nearest the wanted length; what is over or missing is spread over all of
+ * Dashing starts anew at each corner of a line, so that every edge of a box
+ * begins and ends with ink.  The number of dashes is the one that brings their
+ * length nearest to the requested one; the difference is spread over all of
  * them. */
 #include <math.h>
 
 #include "ink/lines/stroke.h"
 
-/* A place on a line: on the side that leaves point `side`, whose start is
+/* A position on a line: on the side that leaves point `side`, whose start is
  * `start` mm along the line. */
 struct cursor {
   const struct stroke_line *line;
@@ -25,7 +26,7 @@ static double side_length(const struct cursor *c) {
                          corner(c->line, c->side + 1));
 }
 
-/* Sides of the line, the closing one included. */
+/* The number of sides, including the closing one. */
 static size_t count_sides(const struct stroke_line *line) {
   return line->point.count - !line->closed;
 }
@@ -44,16 +45,17 @@ static void next_side(struct cursor *c) {
   c->side++;
 }
 
-/* Moves on while the side ends at `along` or before it. */
+/* Advances while the side ends at or before `along`. */
 static void skip_sides(struct cursor *c, double along) {
   while (c->side + 1 < count_sides(c->line) &&
          c->start + side_length(c) <= along)
     next_side(c);
 }
 
-/* Puts what lies between two places into `piece`, moving the cursor there. */
-static bool cut(struct cursor *c, double from, double to,
-                struct stroke_line *piece) {
+/* Stores the part of the line between two positions in `piece` and advances the
+ * cursor to its end. */
+static bool take_piece(struct cursor *c, double from, double to,
+                       struct stroke_line *piece) {
   piece->point.count = 0;
   skip_sides(c, from);
   if (!ARRAY_PUSH(&piece->point, place(c, from)))
@@ -66,7 +68,7 @@ static bool cut(struct cursor *c, double from, double to,
   return ARRAY_PUSH(&piece->point, place(c, to));
 }
 
-/* How many dashes go into that length with a gap after each. */
+/* The number of dashes, each followed by a gap, for that length. */
 static double count_dashes(double length, double dash, double gap) {
   double n = floor(length / (dash + gap) + 0.5);
   return n < 2 ? 2 : n;
@@ -89,7 +91,7 @@ static bool add_dashes(struct drawing *drawing,
   bool ok = true;
   for (double i = 0; ok && i < n; i++) {
     double from = i * period / n, to = (i + 1) * period / n - gap;
-    ok = cut(&cursor, from, to, &piece);
+    ok = take_piece(&cursor, from, to, &piece);
     if (ok && !line->closed && i + 1 == n) /* the very end, unrounded */
       piece.point.item[piece.point.count - 1] =
           line->point.item[line->point.count - 1];
@@ -102,8 +104,8 @@ static bool add_dashes(struct drawing *drawing,
 
 /* ---- Corners ------------------------------------------------------------- */
 
-/* A line that turns by more, cosine of 30 degrees, has a corner there: a box
- * has, a circle of 16 sides has none. */
+/* A line has a corner where it turns by more than 30 degrees (the cosine of
+ * which this is): a box has corners, a circle of 16 sides has none. */
 #define CORNER_COSINE 0.8660254037844386
 
 static bool is_corner(const struct stroke_line *line, size_t i) {
@@ -114,8 +116,8 @@ static bool is_corner(const struct stroke_line *line, size_t i) {
   return dot < CORNER_COSINE * stroke_distance(p, q) * stroke_distance(q, r);
 }
 
-/* The next corner after point i, counted on past the end of a loop; where
- * there is none, the end of the line or `end`. */
+/* The next corner after point i, with indices that continue past the end of a
+ * loop; without one, the end of the line or `end`. */
 static size_t find_corner(const struct stroke_line *line, size_t i,
                           size_t end) {
   size_t count = line->point.count;

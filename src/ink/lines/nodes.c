@@ -1,16 +1,16 @@
-/* nodes.c - nodes at one place become one, in rows that find them again.
+/* nodes.c - merges nodes at one position and stores them in rows for searching.
  *
  * Phases
- *   1 sort   all nodes by x, then y
- *   2 rows   dealt to horizontal bands, about as many nodes in each as there
- *            are bands: wherever the nodes crowd, bands are thin, so looking
- *            up one place costs at most a band
- *   3 unite  in reading order each node takes in those near it
- *   4 renumber the nodes, and sort the segments by them
- * Invariant  Of two nodes left, x or y differ by more than the tolerance: the
- *   later one was looked at by the earlier and would have been taken in.
- *   Nothing moves by more than the tolerance, as only nodes that have taken
- *   in others stay. */
+ *   1 sort      all nodes by x, then y
+ *   2 rows      horizontal bands, about as many as there are nodes in each:
+ *               where nodes are dense, bands are thin, so that a search visits
+ *               at most one band
+ *   3 merge     in reading order each node absorbs the nodes near it
+ *   4 renumber  the nodes, and sort the segments by them
+ * Invariant  Two remaining nodes differ in x or in y by more than the
+ *   tolerance: the later one was compared with the earlier and would have been
+ *   absorbed. Nothing moves by more than the tolerance, as a node that has
+ *   absorbed others stays. */
 #include "ink/lines/segment_graph.h"
 
 #include <math.h>
@@ -27,10 +27,11 @@ struct unite {
   struct node_rows *rows;
   size_t count;         /* of nodes, before */
   struct ink_point *at; /* row by row */
-  uint32_t *order;      /* row by row: the node's old number */
-  uint32_t *root;       /* row by row: who took it in, itself if none */
+  uint32_t *order;      /* row by row: the original number of the node */
+  uint32_t *root;       /* row by row: the node that absorbed it, or itself */
   uint32_t *renumber;   /* old number -> new */
-  uint32_t *bucket;     /* nodes in each bucket of y, then its row */
+  uint32_t *bucket;     /* number of nodes by bucket of y, then the row of
+                           the bucket */
   int32_t x_low, y_low;
   int shift; /* y - y_low to bucket */
 };
@@ -88,8 +89,8 @@ static size_t bucket_of(const struct unite *u, int32_t y) {
   return (size_t)(((int64_t)y - u->y_low) >> u->shift);
 }
 
-/* Joins buckets to rows: bucket[b] becomes its row, start[r + 1] the number
- * of nodes before row r, as deal_nodes needs it. */
+/* Groups buckets into rows: bucket[b] becomes its row, start[r + 1] the number
+ * of nodes before row r, as fill_rows needs it. */
 static void form_rows(struct unite *u) {
   struct node_rows *rows = u->rows;
   double aim = sqrt((double)u->count);
@@ -111,10 +112,10 @@ static void form_rows(struct unite *u) {
   rows->low[rows->count] = INT64_MAX;
 }
 
-/* Deals the sorted nodes to their rows, in order. */
-static void deal_nodes(struct unite *u, const struct sort_key *key) {
+/* Distributes the sorted nodes over their rows, in order. */
+static void fill_rows(struct unite *u, const struct sort_key *key) {
   const struct ink_point *node = u->graph->node.item;
-  uint32_t *next = u->rows->start + 1; /* ends as the next row's start */
+  uint32_t *next = u->rows->start + 1; /* becomes the start of the next row */
   for (size_t i = 0; i < u->count; i++) {
     struct ink_point p = node[key[i].value];
     uint32_t place = next[u->bucket[bucket_of(u, p.y)]]++;
@@ -131,14 +132,14 @@ static bool make_rows(struct unite *u) {
   for (size_t i = 0; i < u->count; i++)
     u->bucket[bucket_of(u, u->graph->node.item[i].y)]++;
   form_rows(u);
-  deal_nodes(u, key);
+  fill_rows(u, key);
   mem_free(key);
   return true;
 }
 
-/* ---- 3 Unite ------------------------------------------------------------- */
+/* ---- 3 Merge ------------------------------------------------------------- */
 
-/* The first place in [low, high) that is not before (x, y). */
+/* The first index in [low, high) that is not before (x, y). */
 static uint32_t find_place(const struct ink_point *at, uint32_t low,
                            uint32_t high, int64_t x, int64_t y) {
   while (low < high) {
@@ -151,8 +152,8 @@ static uint32_t find_place(const struct ink_point *at, uint32_t low,
   return low;
 }
 
-/* Node i takes in the nodes of [low, high), one row's, near it. */
-static void take_in(struct unite *u, uint32_t i, uint32_t low, uint32_t high) {
+/* Node i absorbs the nodes near it among [low, high), which are of one row. */
+static void absorb(struct unite *u, uint32_t i, uint32_t low, uint32_t high) {
   struct ink_point p = u->at[i];
   for (int64_t x = (int64_t)p.x - NEAR; x <= (int64_t)p.x + NEAR; x++) {
     uint32_t k = find_place(u->at, low, high, x, (int64_t)p.y - NEAR);
@@ -164,7 +165,7 @@ static void take_in(struct unite *u, uint32_t i, uint32_t low, uint32_t high) {
   }
 }
 
-static void unite_near(struct unite *u) {
+static void absorb_near(struct unite *u) {
   const struct node_rows *rows = u->rows;
   for (uint32_t i = 0; i < u->count; i++)
     u->root[i] = i;
@@ -175,9 +176,9 @@ static void unite_near(struct unite *u) {
         continue;
       struct ink_point p = u->at[i];
       if (i + 1 < end && u->at[i + 1].x <= (int64_t)p.x + NEAR)
-        take_in(u, i, i + 1, end);
+        absorb(u, i, i + 1, end);
       for (uint32_t q = r + 1; (int64_t)p.y + NEAR >= rows->low[q]; q++)
-        take_in(u, i, rows->start[q], rows->start[q + 1]);
+        absorb(u, i, rows->start[q], rows->start[q + 1]);
     }
   }
 }
@@ -192,7 +193,7 @@ static void renumber_nodes(struct unite *u) {
     uint32_t i = rows->start[r], end = rows->start[r + 1];
     rows->start[r] = count;
     for (; i < end; i++) {
-      /* A root stands before those it took in, so its number is known. */
+      /* A root precedes the nodes it absorbed, so its number is known. */
       if (u->root[i] == i) {
         node[count] = u->at[i];
         rows->row[count] = (uint16_t)r;
@@ -227,11 +228,11 @@ static int compare_second(const void *first, const void *second, void *user) {
   return (a->node[1] > b->node[1]) - (a->node[1] < b->node[1]);
 }
 
-/* Sorts segments with one first node by the second; there are few, or else a
- * fan. */
+/* Sorts segments with a common first node by the second: by insertion, or where
+ * a fan makes them many, by merging. */
 static bool sort_run(struct graph_segment *segment, size_t count) {
-  enum { FEW = 16 };
-  if (count > FEW)
+  enum { INSERTION_SORT_MAX = 16 };
+  if (count > INSERTION_SORT_MAX)
     return sort_stable(segment, count, sizeof *segment, compare_second, NULL);
   for (size_t i = 1; i < count; i++) {
     struct graph_segment moving = segment[i];
@@ -252,7 +253,7 @@ static bool sort_into(struct graph_segment *sorted, uint32_t *start,
     start[n + 1] += start[n];
   for (size_t i = 0; i < graph->segment.count; i++)
     sorted[start[graph->segment.item[i].node[0]]++] = graph->segment.item[i];
-  /* start[n] is by now where the run of node n ends. */
+  /* start[n] is now the end of the run of node n. */
   for (size_t n = 0, from = 0; n < graph->node.count; from = start[n++])
     if (!sort_run(sorted + from, start[n] - from))
       return false;
@@ -285,7 +286,7 @@ recto_status segment_graph_unite(struct segment_graph *graph,
   u.root = mem_alloc(count, sizeof *u.root);
   u.renumber = mem_alloc(count, sizeof *u.renumber);
   u.bucket = mem_calloc(BUCKETS, sizeof *u.bucket);
-  /* A row has one node at least, and there are at most so many. */
+  /* Every row has at least one node, and the number of rows is bounded. */
   size_t most = count < MOST_ROWS ? count : MOST_ROWS;
   rows->start = mem_calloc(most + 2, sizeof *rows->start);
   rows->low = mem_alloc(most + 1, sizeof *rows->low);
@@ -296,7 +297,7 @@ recto_status segment_graph_unite(struct segment_graph *graph,
   if (count > 0) {
     if (!make_rows(&u))
       goto done;
-    unite_near(&u);
+    absorb_near(&u);
     renumber_nodes(&u);
     renumber_segments(&u);
   }

@@ -1,16 +1,16 @@
-/* nodes_near_segment.c - finds the nodes along a segment, row by row.
+/* nodes_near_segment.c - enumerates the nodes near a segment, row by row.
  *
  * Cost  A segment of average length meets a node or two besides its own. */
 #include "ink/lines/nodes_near_segment.h"
 
 #include <stdlib.h>
 
-/* The segment at hand, from the node in the lower row to the other. */
+/* The current segment, from the node in the lower row to the other. */
 struct probe {
   uint32_t segment, p, q; /* nodes, p < q */
   struct ink_point from, to;
   int64_t dx, dy;
-  int64_t reach; /* a cross product beyond it is farther than the tolerance */
+  int64_t reach; /* a greater cross product is beyond the tolerance */
 };
 
 static inline bool is_near(const struct probe *probe, struct ink_point p) {
@@ -19,38 +19,38 @@ static inline bool is_near(const struct probe *probe, struct ink_point p) {
   return -probe->reach <= cross && cross <= probe->reach;
 }
 
-/* Nodes from k on upwards, up to `end` and up to x. */
+/* Visits the nodes from k upwards, up to `end` and up to x. */
 static bool scan_up(const struct node_search *w, const struct probe *probe,
                     uint32_t k, uint32_t end, double x) {
   const struct ink_point *at = w->graph->node.item;
   for (; k < end && at[k].x <= x; k++)
     if (is_near(probe, at[k]) && k != probe->q &&
-        !w->look(w->user, probe->segment, k))
+        !w->visit(w->user, probe->segment, k))
       return false;
   return true;
 }
 
-/* Nodes before k downwards, from `start` and from x. */
+/* Visits the nodes before k downwards, from `start` and from x. */
 static bool scan_down(const struct node_search *w, const struct probe *probe,
                       uint32_t k, uint32_t start, double x) {
   const struct ink_point *at = w->graph->node.item;
   while (k > start && at[k - 1].x >= x) {
     k--;
     if (is_near(probe, at[k]) && k != probe->p &&
-        !w->look(w->user, probe->segment, k))
+        !w->visit(w->user, probe->segment, k))
       return false;
   }
   return true;
 }
 
-/* Where the probe's line is at height y; only for those that rise. */
+/* The x of the probe's line at height y, if it is not level. */
 static double x_at(const struct probe *probe, double y) {
   return probe->from.x +
          (double)probe->dx * (y - probe->from.y) / (double)probe->dy;
 }
 
-/* The row in which the probe starts or ends, at `node`, the probe leaving
- * it towards x. */
+/* The row that has an end of the probe, at `node`, from where the probe runs
+ * towards x. */
 static bool scan_from(const struct node_search *w, const struct probe *probe,
                       uint32_t node, double x) {
   uint32_t r = w->rows->row[node];
@@ -62,7 +62,7 @@ static bool scan_from(const struct node_search *w, const struct probe *probe,
          scan_up(w, probe, node + 1, end, high);
 }
 
-/* A row in which the probe has no end. */
+/* A row without an end of the probe. */
 static bool scan_row(const struct node_search *w, const struct probe *probe,
                      uint32_t r) {
   double low = (double)w->rows->low[r] - w->near;
@@ -87,7 +87,7 @@ static bool scan_row(const struct node_search *w, const struct probe *probe,
   return scan_up(w, probe, i, end, right);
 }
 
-/* Rows that the probe comes near without reaching them, and those between
+/* The rows within the tolerance of the probe beyond its ends, and those between
  * the rows of its ends. */
 static bool scan_other_rows(const struct node_search *w,
                             const struct probe *probe) {

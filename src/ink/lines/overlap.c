@@ -1,14 +1,15 @@
-/* overlap.c - of segments that lie on one line, what each of them keeps.
+/* overlap.c - splits collinear segments into pieces that do not overlap.
  *
- * Phases, for a cluster of segments that run along one another
- *   1 the longest gives the line; those off it wait for a line of their own
- *   2 all ends are sorted along the line; those within the tolerance are one
+ * Phases, for a cluster of segments that overlap
+ *   1 the longest one defines the line; segments off it are left to a line of
+ *     their own
+ *   2 all ends are sorted along the line; ends within the tolerance are one
  *     breakpoint, and between two breakpoints is a slot
- *   3 in order of rank each segment takes the free slots it covers; a list of
- *     the next free slot, shortened as it is walked, makes that near linear
- *   4 slots of one owner that touch become one piece
- * Robustness  Positions along the line are integers, |dx|, |dy| < 2^31 and so
- *   the sum of two products is below 2^63.  The tolerance alone is a double. */
+ *   3 in order of rank each segment takes the free slots it covers; a
+ *     union-find of next free slots makes that near linear
+ *   4 adjacent slots of one owner become one piece
+ * Robustness  Positions along the line are integers: |dx|, |dy| < 2^31, so the
+ *   sum of two products is below 2^63.  Only the tolerance is a double. */
 #include "ink/lines/overlap.h"
 
 #include <math.h>
@@ -33,7 +34,7 @@ static struct overlap_line line_of(const struct segment_graph *graph,
   return line;
 }
 
-/* How far along the line, times its length. */
+/* The position along the line, times its length. */
 static int64_t position_on(const struct overlap_line *line,
                            struct ink_point p) {
   return line->dx * ((int64_t)p.x - line->from.x) +
@@ -120,8 +121,8 @@ static struct overlap_line choose_line(const struct segment_graph *graph,
   return best;
 }
 
-/* A member of a cluster may lie along one that lies along the line, so twice
- * the tolerance off it is no surprise. */
+/* A member of a cluster may overlap one that overlaps the line, so that it may
+ * be twice the tolerance away. */
 static bool is_member_near(const struct segment_graph *graph,
                            const struct overlap_line *line, uint32_t segment) {
   const uint32_t *node = graph->segment.item[segment].node;
@@ -158,7 +159,7 @@ static uint32_t find_breakpoints(struct overlap *o,
 
 /* ---- 3 Owners ------------------------------------------------------------ */
 
-/* The first free slot from `slot` on; halves the path behind it. */
+/* The first free slot from `slot` on; halves the path. */
 static uint32_t next_free(uint32_t *next, uint32_t slot) {
   while (next[slot] != slot) {
     next[slot] = next[next[slot]];

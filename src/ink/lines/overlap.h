@@ -1,15 +1,16 @@
-/* overlap.h - of segments that lie on one line, what each of them keeps. */
+/* overlap.h - splits collinear segments into pieces that do not overlap. */
 #ifndef INK_LINES_OVERLAP_H
 #define INK_LINES_OVERLAP_H
 
 #include "base/sort.h"
 #include "ink/lines/segment_graph.h"
 
-/* Whether two segments run along each other for more than the tolerance. */
+/* Whether two segments are collinear and overlap by more than the tolerance. */
 bool overlap_is_along(const struct segment_graph *graph, uint32_t a,
                       uint32_t b);
 
-/* Which of two segments is drawn where both are: the lower value. */
+/* The rank of a segment: where two overlap, the one with the lower rank is
+ * drawn. */
 static inline uint64_t overlap_rank(const struct segment_graph *graph,
                                     uint32_t segment) {
   const struct graph_segment *s = &graph->segment.item[segment];
@@ -18,7 +19,8 @@ static inline uint64_t overlap_rank(const struct segment_graph *graph,
          s->edge;
 }
 
-/* Work space for clusters of up to so many segments, and what they leave. */
+/* Work space for clusters of a given number of segments, and the resulting
+ * pieces. */
 struct overlap {
   struct sort_key *key, *scratch; /* two a segment */
   uint32_t *slot;                 /* two a segment */
@@ -30,8 +32,8 @@ struct overlap {
 USE_RESULT bool overlap_init(struct overlap *overlap, size_t segments);
 void overlap_fini(struct overlap *overlap);
 
-/* Replaces `count` segments that run along one another by pieces that do not.
- * member  their numbers; they are to be dropped from the net by the caller
+/* Replaces `count` collinear segments by pieces that do not overlap.
+ * member  their numbers; the caller removes them from the graph
  * Cost    count log count */
 USE_RESULT bool overlap_resolve(struct overlap *overlap,
                                 const struct segment_graph *graph,

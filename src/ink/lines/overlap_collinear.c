@@ -1,15 +1,16 @@
-/* overlap_collinear.c - finds the segments that lie on each other and has one drawn.
+/* overlap_collinear.c - finds collinear segments that overlap and resolves
+ * them.
  *
  * Phases
- *   1 twins   of segments between the same two nodes, which stand together,
- *             the best stays
- *   2 walk    two segments that overlap otherwise have an end of one inside
- *             the other, so each segment looks at the nodes along it, row by
- *             row; where a segment that starts there runs along it, the two
- *             are of one cluster
- *   3 resolve each cluster leaves pieces that do not overlap (overlap.c)
- *   4 rebuild the segments
- * Cost  On a mesh without overlaps phase 2 is nearly all of the time. */
+ *   1 duplicates  of segments between the same two nodes, which are
+ *                 consecutive, the best is kept
+ *   2 search      if two segments overlap otherwise, an end of one is inside
+ *                 the other, so each segment visits the nodes along it, row by
+ *                 row; a segment that starts there and overlaps it joins its
+ *                 cluster
+ *   3 resolve     each cluster is replaced by disjoint pieces (overlap.c)
+ *   4 rebuild     the segments
+ * Cost  On a mesh without overlaps phase 2 takes nearly all of the time. */
 #include "ink/lines/segment_graph.h"
 
 #include "base/sort.h"
@@ -19,12 +20,12 @@
 
 struct overlap_finder {
   struct segment_graph *graph;
-  uint8_t *gone; /* one a segment: not to be drawn as it is */
-  size_t gone_count;
-  /* Clusters: the parent's number and one; 0: its own root.  So the pages of
-   * segments that overlap nothing are never touched. */
+  uint8_t *dropped; /* one a segment: removed or replaced */
+  size_t dropped_count;
+  /* Union-find of clusters: the parent's number plus one; 0: a root.  So the
+   * pages of segments without overlaps are never touched. */
   uint32_t *parent;
-  ARRAY(uint32_t) member; /* segments of clusters, some of them often */
+  ARRAY(uint32_t) member; /* segments of clusters, with repetitions */
 };
 
 recto_status segment_graph_index_ends(struct segment_graph *graph,
@@ -36,7 +37,8 @@ recto_status segment_graph_index_ends(struct segment_graph *graph,
   graph->end = mem_alloc(ends, sizeof *graph->end);
   if (!graph->end_start || !graph->end)
     return error_memory(error);
-  uint32_t *next = graph->end_start + 1; /* ends as the next node's start */
+  uint32_t *next = graph->end_start + 1; /* becomes the start of the next
+                                            node */
   for (size_t e = 0; e < ends; e++)
     next[graph->segment.item[e >> 1].node[e & 1] + 1]++;
   for (size_t n = 0; n < nodes; n++)
@@ -46,19 +48,19 @@ recto_status segment_graph_index_ends(struct segment_graph *graph,
   return RECTO_OK;
 }
 
-/* ---- 1 Twins ------------------------------------------------------------- */
+/* ---- 1 Duplicates -------------------------------------------------------- */
 
-static void drop_twins(struct overlap_finder *w) {
+static void drop_duplicates(struct overlap_finder *w) {
   const struct graph_segment *s = w->graph->segment.item;
   uint32_t best = 0;
   for (uint32_t i = 1; i < w->graph->segment.count; i++) {
-    bool twins =
+    bool same_nodes =
         s[i].node[0] == s[best].node[0] && s[i].node[1] == s[best].node[1];
     bool better =
-        !twins || overlap_rank(w->graph, i) < overlap_rank(w->graph, best);
-    if (twins) {
-      w->gone[better ? best : i] = 1;
-      w->gone_count++;
+        !same_nodes || overlap_rank(w->graph, i) < overlap_rank(w->graph, best);
+    if (same_nodes) {
+      w->dropped[better ? best : i] = 1;
+      w->dropped_count++;
     }
     if (better)
       best = i;
@@ -81,18 +83,19 @@ static bool join_clusters(struct overlap_finder *w, uint32_t a, uint32_t b) {
   uint32_t ra = root_of(w->parent, a), rb = root_of(w->parent, b);
   if (ra == rb)
     return true;
-  /* The lower root stays, so that a cluster is named by its first member. */
+  /* The lower root is kept, so that the root of a cluster is its first member.
+   * */
   w->parent[ra < rb ? rb : ra] = (ra < rb ? ra : rb) + 1;
   return ARRAY_PUSH(&w->member, a) && ARRAY_PUSH(&w->member, b);
 }
 
-/* Node k is near the segment's line: looks for segments that run along. */
+/* Node k is near the segment's line: finds the overlapping segments there. */
 static bool look_at(void *user, uint32_t segment, uint32_t k) {
   struct overlap_finder *w = user;
   const struct segment_graph *graph = w->graph;
   for (uint32_t i = graph->end_start[k]; i < graph->end_start[k + 1]; i++) {
     uint32_t other = graph->end[i] >> 1;
-    if (!w->gone[other] && overlap_is_along(graph, segment, other) &&
+    if (!w->dropped[other] && overlap_is_along(graph, segment, other) &&
         !join_clusters(w, segment, other))
       return false;
   }
@@ -101,7 +104,7 @@ static bool look_at(void *user, uint32_t segment, uint32_t k) {
 
 /* ---- 3 Resolve ----------------------------------------------------------- */
 
-/* Sorts the members by cluster and drops those named twice. */
+/* Sorts the members by cluster and removes repetitions. */
 static bool gather_members(struct overlap_finder *w) {
   size_t count = w->member.count, kept = 0;
   struct sort_key *key = mem_alloc(count, sizeof *key);
@@ -132,8 +135,8 @@ static bool resolve_clusters(struct overlap_finder *w,
     for (end = i;
          end < w->member.count && root_of(w->parent, member[end]) == root;
          end++) {
-      w->gone[member[end]] = 1;
-      w->gone_count++;
+      w->dropped[member[end]] = 1;
+      w->dropped_count++;
     }
     if (!overlap_resolve(overlap, w->graph, member + i, end - i))
       return false;
@@ -143,11 +146,11 @@ static bool resolve_clusters(struct overlap_finder *w,
 
 /* ---- 4 Rebuild ----------------------------------------------------------- */
 
-static void drop_gone(struct overlap_finder *w) {
+static void remove_dropped(struct overlap_finder *w) {
   struct segment_graph *graph = w->graph;
   size_t kept = 0;
   for (size_t i = 0; i < graph->segment.count; i++)
-    if (!w->gone[i])
+    if (!w->dropped[i])
       graph->segment.item[kept++] = graph->segment.item[i];
   graph->segment.count = kept;
 }
@@ -165,7 +168,7 @@ static bool replace_clusters(struct overlap_finder *w) {
   bool ok = overlap_init(&overlap, w->member.count) && gather_members(w) &&
             resolve_clusters(w, &overlap);
   if (ok) {
-    drop_gone(w);
+    remove_dropped(w);
     ok = add_pieces(w->graph, &overlap);
   }
   overlap_fini(&overlap);
@@ -182,22 +185,22 @@ recto_status segment_graph_drop_collinear(struct segment_graph *graph,
   recto_status status = segment_graph_index_ends(graph, error);
   if (status)
     return status;
-  w.gone = mem_calloc(count, sizeof *w.gone);
+  w.dropped = mem_calloc(count, sizeof *w.dropped);
   w.parent = mem_calloc(count, sizeof *w.parent);
-  bool ok = w.gone && w.parent;
+  bool ok = w.dropped && w.parent;
   if (ok)
-    drop_twins(&w);
+    drop_duplicates(&w);
   for (uint32_t i = 0; ok && i < count; i++)
-    ok = w.gone[i] || nodes_near_segment_visit(&search, i);
+    ok = w.dropped[i] || nodes_near_segment_visit(&search, i);
   if (ok && w.member.count)
     ok = replace_clusters(&w);
-  else if (ok && w.gone_count)
-    drop_gone(&w);
-  graph->doubled = w.gone_count;
-  mem_free(w.gone);
+  else if (ok && w.dropped_count)
+    remove_dropped(&w);
+  graph->doubled = w.dropped_count;
+  mem_free(w.dropped);
   mem_free(w.parent);
   ARRAY_FREE(&w.member);
   if (!ok)
     return error_memory(error);
-  return w.gone_count ? segment_graph_index_ends(graph, error) : RECTO_OK;
+  return w.dropped_count ? segment_graph_index_ends(graph, error) : RECTO_OK;
 }

@@ -1,21 +1,21 @@
-/* overlap_output.c - lines that the output's rounding makes one are drawn once.
+/* overlap_output.c - draws once the lines that the output's rounding makes one.
  *
- * Two segments are one, as far as they run along each other, where each end of
- * that run is near (vertex_snapping.h) the other segment: no farther in x and in y than
- * rounding both to the output could bring together.
+ * Two segments overlap as far as they are parallel within that precision: each
+ * end of the overlap is near (vertex_snapping.h) the other segment, in x and in
+ * y no farther than rounding both to the output could bring together.
  *
  * Phases
- *   1 twins    segments with near ends at both ends (vertex_snapping.c)
- *   2 pairs    every segment walks along its line and notes which others run
- *              along it
- *   3 settle   in order of rank, best first, a segment loses what runs along
- *              a piece that is kept.  What is left ends where that piece does,
- *              at its node
- *   4 rebuild  and once more where anything has moved, since what has moved
- *              may have come near something else
- * Invariants  What is lost is within a unit of what is kept, not of something
- *   that is lost in turn.  A node moves by a unit at most in a round, and only
- *   where a line is lost or shrinks. */
+ *   1 duplicates  segments with near ends at both ends (vertex_snapping.c)
+ *   2 pairs       every segment searches along its line and records which
+ *                 others overlap it
+ *   3 subtract    in order of rank, best first, a segment loses its overlap
+ *                 with the pieces that are kept; the rest ends at nodes of
+ *                 theirs
+ *   4 rebuild     and repeat if anything has moved, as it may have come near
+ *                 something else
+ * Invariants  What is removed is within a unit of something that is kept, not
+ *   of something that is removed in turn.  A node moves by at most a unit in a
+ *   round, and only where a line is removed or contracted. */
 #include "ink/lines/segment_graph.h"
 
 #include <math.h>
@@ -27,38 +27,39 @@
 #include "ink/lines/overlap.h"
 #include "ink/lines/nodes_near_segment.h"
 
-/* A segment as numbers. */
-struct repeat_run {
+/* A segment with its derived quantities. */
+struct measured_segment {
   struct ink_point from, to;
   int64_t dx, dy, reach; /* see nodes_near_segment.c */
   double length;
 };
 
-/* What a kept piece takes of a segment: from..to grid units along it; the
- * nodes where that is cut, SEGMENT_GRAPH_NONE at the segment's own ends. */
-struct repeat_cover {
+/* The part of a segment that a kept piece overlaps: from..to grid units along
+ * it, and the nodes at which it is split there; SEGMENT_GRAPH_NONE at the
+ * segment's own ends. */
+struct overlap_cover {
   double from, to;
   uint32_t node[2];
 };
 
-/* What segments keep: of the one at `place` in order of rank, the pieces
- * start[place] to start[place + 1]. */
-struct repeats {
+/* The remaining pieces: those of the segment at index i in order of rank are
+ * piece[start[i]] up to piece[start[i + 1]]. */
+struct output_overlaps {
   struct vertex_snapping snapping;
   ARRAY(struct sort_key) pair;   /* worse segment << 32 | better one */
-  ARRAY(struct sort_key) member; /* rank, segment: those of pairs */
+  ARRAY(struct sort_key) member; /* rank, segment: all that occur in pairs */
   ARRAY(uint32_t) start;
   ARRAY(struct graph_segment) piece;
-  ARRAY(struct repeat_cover) cover; /* of the segment at hand */
-  size_t cut;                       /* segments that lost something */
+  ARRAY(struct overlap_cover) cover; /* of the current segment */
+  size_t cut; /* number of segments that lost something */
 };
 
 /* ---- Two segments -------------------------------------------------------- */
 
-static struct repeat_run run_of(const struct vertex_snapping *snapping,
-                                const uint32_t node[2]) {
-  struct repeat_run run = {.from = vertex_snapping_at(snapping, node[0]),
-                           .to = vertex_snapping_at(snapping, node[1])};
+static struct measured_segment run_of(const struct vertex_snapping *snapping,
+                                      const uint32_t node[2]) {
+  struct measured_segment run = {.from = vertex_snapping_at(snapping, node[0]),
+                                 .to = vertex_snapping_at(snapping, node[1])};
   run.dx = (int64_t)run.to.x - run.from.x;
   run.dy = (int64_t)run.to.y - run.from.y;
   run.reach = snapping->unit * (llabs(run.dx) + llabs(run.dy));
@@ -66,8 +67,9 @@ static struct repeat_run run_of(const struct vertex_snapping *snapping,
   return run;
 }
 
-/* Whether the point is near the run; where along it, within the run. */
-static bool is_on(const struct repeat_run *run, struct ink_point p,
+/* Whether the point is near the segment; sets *along to its position, clamped
+ * to the segment. */
+static bool is_on(const struct measured_segment *run, struct ink_point p,
                   double *along) {
   int64_t x = (int64_t)p.x - run->from.x, y = (int64_t)p.y - run->from.y;
   int64_t cross = run->dx * y - run->dy * x, dot = run->dx * x + run->dy * y;
@@ -77,7 +79,7 @@ static bool is_on(const struct repeat_run *run, struct ink_point p,
          at - run->length <= (double)run->reach / run->length;
 }
 
-static void widen(struct repeat_cover *cover, double along, uint32_t node) {
+static void widen(struct overlap_cover *cover, double along, uint32_t node) {
   if (along < cover->from ||
       (along == cover->from && node == SEGMENT_GRAPH_NONE)) {
     cover->from = along;
@@ -89,13 +91,15 @@ static void widen(struct repeat_cover *cover, double along, uint32_t node) {
   }
 }
 
-/* Whether the segments run along each other, by more than a unit or, where one
- * is shorter than two, by half of it; what b takes of a then. */
+/* Whether the segments overlap by more than a unit or, where one is shorter
+ * than two units, by half of it; if so, *cover is the part of a that b
+ * overlaps. */
 static bool find_cover(const struct vertex_snapping *snapping,
                        const uint32_t a[2], const uint32_t b[2],
-                       struct repeat_cover *cover) {
-  struct repeat_run of_a = run_of(snapping, a), of_b = run_of(snapping, b);
-  *cover = (struct repeat_cover){
+                       struct overlap_cover *cover) {
+  struct measured_segment of_a = run_of(snapping, a),
+                          of_b = run_of(snapping, b);
+  *cover = (struct overlap_cover){
       INFINITY, -INFINITY, {SEGMENT_GRAPH_NONE, SEGMENT_GRAPH_NONE}};
   if (of_a.length == 0 || of_b.length == 0)
     return false;
@@ -108,8 +112,8 @@ static bool find_cover(const struct vertex_snapping *snapping,
     widen(cover, 0, SEGMENT_GRAPH_NONE);
   if (is_on(&of_b, of_a.to, &along))
     widen(cover, of_a.length, SEGMENT_GRAPH_NONE);
-  /* Ends count as near a little beyond the other's; the run itself does not
-   * begin there, or short sides of a curve would run along the next. */
+  /* An end is near even a little beyond the other's end; the overlap itself
+   * does not begin there, or short sides of a curve would overlap the next. */
   double shorter = fmin(of_a.length, of_b.length);
   double run = fmin(fabs(place[1] - place[0]), cover->to - cover->from);
   return run > fmin((double)snapping->unit, shorter / 2);
@@ -123,11 +127,11 @@ static bool is_better(const struct segment_graph *graph, uint32_t a,
   return of_a < of_b || (of_a == of_b && a < b);
 }
 
-static bool note_pairs(void *user, uint32_t segment, uint32_t node) {
-  struct repeats *r = user;
+static bool record_pairs(void *user, uint32_t segment, uint32_t node) {
+  struct output_overlaps *r = user;
   const struct segment_graph *graph = r->snapping.graph;
   const struct graph_segment *s = graph->segment.item;
-  struct repeat_cover cover;
+  struct overlap_cover cover;
   for (uint32_t i = graph->end_start[node]; i < graph->end_start[node + 1];
        i++) {
     uint32_t other = graph->end[i] >> 1;
@@ -143,17 +147,18 @@ static bool note_pairs(void *user, uint32_t segment, uint32_t node) {
   return true;
 }
 
-static bool find_pairs(struct repeats *r, const struct node_rows *rows) {
+static bool find_pairs(struct output_overlaps *r,
+                       const struct node_rows *rows) {
   const struct segment_graph *graph = r->snapping.graph;
-  const struct node_search search = {graph, rows, r->snapping.unit, note_pairs,
-                                     r};
+  const struct node_search search = {graph, rows, r->snapping.unit,
+                                     record_pairs, r};
   for (uint32_t i = 0; i < graph->segment.count; i++)
     if (!r->snapping.gone[i] && !nodes_near_segment_visit(&search, i))
       return false;
   return true;
 }
 
-/* Sorts and drops what is there twice. */
+/* Sorts and removes duplicates. */
 static bool sort_unique(struct sort_key *item, size_t *count) {
   struct sort_key *scratch = mem_alloc(*count, sizeof *scratch);
   if (!scratch)
@@ -169,52 +174,52 @@ static bool sort_unique(struct sort_key *item, size_t *count) {
   return true;
 }
 
-/* ---- 3 Settle ------------------------------------------------------------ */
+/* ---- 3 Subtract ---------------------------------------------------------- */
 
-/* The lines at the node are no longer quite where they were. */
-static void loosen(struct repeats *r, uint32_t node) {
+/* Marks a node whose lines have moved a little. */
+static void mark_approximate(struct output_overlaps *r, uint32_t node) {
   r->snapping.graph->approximate[r->snapping.root[node]] = 1;
 }
 
-static bool keep_piece(struct repeats *r, uint32_t segment, uint32_t from,
-                       uint32_t to) {
+static bool keep_piece(struct output_overlaps *r, uint32_t segment,
+                       uint32_t from, uint32_t to) {
   struct graph_segment piece = r->snapping.graph->segment.item[segment];
   piece.node[0] = from;
   piece.node[1] = to;
-  if (r->cover.count > 0) { /* what is left is a little beside the segment */
-    loosen(r, from);
-    loosen(r, to);
+  if (r->cover.count > 0) { /* the rest lies a little beside the segment */
+    mark_approximate(r, from);
+    mark_approximate(r, to);
   }
   return r->snapping.root[from] == r->snapping.root[to] ||
          ARRAY_PUSH(&r->piece, piece);
 }
 
 static int compare_covers(const void *first, const void *second, void *user) {
-  const struct repeat_cover *a = first, *b = second;
+  const struct overlap_cover *a = first, *b = second;
   (void)user;
   return (a->from > b->from) - (a->from < b->from);
 }
 
-/* Notes what the piece takes of the segment, an end of which becomes the
- * piece's where they are near. */
-static bool take_cover(struct repeats *r, uint32_t segment,
-                       const struct graph_segment *piece) {
+/* Records the overlap of the piece with the segment, and merges an end of the
+ * segment into one of the piece that is near it. */
+static bool record_cover(struct output_overlaps *r, uint32_t segment,
+                         const struct graph_segment *piece) {
   const uint32_t *node = r->snapping.graph->segment.item[segment].node;
-  struct repeat_cover cover;
+  struct overlap_cover cover;
   if (!find_cover(&r->snapping, node, piece->node, &cover))
     return true;
   for (int end = 0; end < 2; end++)
     for (int k = 0; cover.node[end] == SEGMENT_GRAPH_NONE && k < 2; k++)
       if (vertex_snapping_is_near(&r->snapping, node[end], piece->node[k]) &&
           vertex_snapping_unite(&r->snapping, node[end], piece->node[k])) {
-        loosen(r, piece->node[k]);
+        mark_approximate(r, piece->node[k]);
         break;
       }
   return ARRAY_PUSH(&r->cover, cover);
 }
 
-/* Keeps what the covers leave of the segment. */
-static bool keep_rest(struct repeats *r, uint32_t segment) {
+/* Keeps the parts of the segment outside the recorded overlaps. */
+static bool keep_rest(struct output_overlaps *r, uint32_t segment) {
   const uint32_t *node = r->snapping.graph->segment.item[segment].node;
   size_t count = r->cover.count;
   if (count == 0)
@@ -225,9 +230,9 @@ static bool keep_rest(struct repeats *r, uint32_t segment) {
     return false;
   double reached = 0;
   uint32_t last =
-      node[0]; /* where the next piece begins; SEGMENT_GRAPH_NONE: nowhere */
+      node[0]; /* start of the next piece; SEGMENT_GRAPH_NONE: none */
   for (size_t i = 0; i < count; i++) {
-    const struct repeat_cover *cover = &r->cover.item[i];
+    const struct overlap_cover *cover = &r->cover.item[i];
     if (cover->from > reached && cover->node[0] != SEGMENT_GRAPH_NONE &&
         last != SEGMENT_GRAPH_NONE &&
         !keep_piece(r, segment, last, cover->node[0]))
@@ -240,8 +245,8 @@ static bool keep_rest(struct repeats *r, uint32_t segment) {
   return last == SEGMENT_GRAPH_NONE || keep_piece(r, segment, last, node[1]);
 }
 
-/* The place of a segment among the members. */
-static uint32_t find_member(const struct repeats *r, uint32_t segment) {
+/* The index of a segment among the members. */
+static uint32_t find_member(const struct output_overlaps *r, uint32_t segment) {
   uint64_t rank = overlap_rank(r->snapping.graph, segment);
   size_t low = 0, high = r->member.count;
   while (low < high) {
@@ -255,8 +260,8 @@ static uint32_t find_member(const struct repeats *r, uint32_t segment) {
   return (uint32_t)low;
 }
 
-/* The first pair of which the segment is the worse. */
-static size_t find_pair(const struct repeats *r, uint32_t segment) {
+/* The first pair in which the segment is the worse one. */
+static size_t find_pair(const struct output_overlaps *r, uint32_t segment) {
   size_t low = 0, high = r->pair.count;
   while (low < high) {
     size_t middle = low + (high - low) / 2;
@@ -268,21 +273,21 @@ static size_t find_pair(const struct repeats *r, uint32_t segment) {
   return low;
 }
 
-static bool settle_segment(struct repeats *r, uint32_t segment) {
+static bool subtract_kept(struct output_overlaps *r, uint32_t segment) {
   r->cover.count = 0;
   for (size_t i = find_pair(r, segment);
        i < r->pair.count && r->pair.item[i].key >> 32 == segment; i++) {
     uint32_t place = find_member(r, (uint32_t)r->pair.item[i].key);
     uint32_t end = r->start.item[place + 1];
     for (uint32_t k = r->start.item[place]; k < end; k++)
-      if (!take_cover(r, segment, &r->piece.item[k]))
+      if (!record_cover(r, segment, &r->piece.item[k]))
         return false;
   }
   return keep_rest(r, segment);
 }
 
-/* Those of pairs, by rank, then by number. */
-static bool list_members(struct repeats *r) {
+/* The segments that occur in pairs, by rank, then by number. */
+static bool list_members(struct output_overlaps *r) {
   const struct segment_graph *graph = r->snapping.graph;
   for (size_t i = 0; i < r->pair.count; i++) {
     uint64_t pair = r->pair.item[i].key;
@@ -301,12 +306,12 @@ static bool list_members(struct repeats *r) {
   return sort_unique(r->member.item, &r->member.count);
 }
 
-static bool settle_members(struct repeats *r) {
+static bool resolve_members(struct output_overlaps *r) {
   if (!sort_unique(r->pair.item, &r->pair.count) || !list_members(r))
     return false;
   for (size_t i = 0; i < r->member.count; i++)
     if (!ARRAY_PUSH(&r->start, (uint32_t)r->piece.count) ||
-        !settle_segment(r, r->member.item[i].value))
+        !subtract_kept(r, r->member.item[i].value))
       return false;
   for (size_t i = 0; i < r->member.count; i++)
     r->snapping.gone[r->member.item[i].value] = 1;
@@ -319,7 +324,7 @@ static bool add_segment(struct segment_graph *graph,
                         const struct vertex_snapping *snapping,
                         struct graph_segment s, size_t *count) {
   uint32_t a = snapping->root[s.node[0]], b = snapping->root[s.node[1]];
-  /* With its end the whole line has turned a little. */
+  /* Moving an end turns the whole line a little. */
   if (a != s.node[0])
     graph->approximate[b] = 1;
   if (b != s.node[1])
@@ -336,7 +341,7 @@ static bool add_segment(struct segment_graph *graph,
   return ARRAY_PUSH(&graph->segment, s);
 }
 
-static bool rebuild(struct repeats *r) {
+static bool rebuild(struct output_overlaps *r) {
   struct segment_graph *graph = r->snapping.graph;
   size_t old = graph->segment.count, count = 0;
   for (size_t i = 0; i < old; i++)
@@ -350,15 +355,15 @@ static bool rebuild(struct repeats *r) {
   return segment_graph_sort_segments(graph);
 }
 
-/* One round; *changed says whether there may be something left to do. */
+/* One round; sets *changed if another round may find more. */
 static bool drop_once(struct segment_graph *graph, const struct node_rows *rows,
                       int32_t unit, bool *changed) {
-  struct repeats r = {0};
+  struct output_overlaps r = {0};
   bool ok = vertex_snapping_init(&r.snapping, graph, unit) &&
             vertex_snapping_drop_twins(&r.snapping, rows) &&
             find_pairs(&r, rows);
   if (ok && r.pair.count > 0)
-    ok = settle_members(&r);
+    ok = resolve_members(&r);
   *changed = r.cut > 0 || r.snapping.gone_count > 0;
   if (ok && *changed)
     ok = rebuild(&r);
@@ -372,9 +377,10 @@ static bool drop_once(struct segment_graph *graph, const struct node_rows *rows,
   return ok;
 }
 
-recto_status segment_graph_drop_repeats(struct segment_graph *graph,
-                                        const struct node_rows *rows,
-                                        double unit, recto_error *error) {
+recto_status segment_graph_drop_output_overlaps(struct segment_graph *graph,
+                                                const struct node_rows *rows,
+                                                double unit,
+                                                recto_error *error) {
   int32_t whole = (int32_t)ceil(unit);
   if (whole <= TOLERANCE_COINCIDENT_UNITS)
     return RECTO_OK;

@@ -1,15 +1,17 @@
-/* pairing.c - which of the ends that meet at a node are joined.
+/* pairing.c - decides which of the ends that meet at a node are joined.
  *
  * Phases at a node
- *   two ends     joined where they are of one bond
- *   up to FEW    the straightest pair is joined and taken out, again and
- *                again; pairs of one kin first
- *   more         sorted by bond, kin and direction, each end is joined to the
- *                one half way round, which of a full fan is the opposite one;
- *                what odd counts leave is joined across kins in the same way
+ *   two ends                 joined if their pen keys are equal
+ *   up to SMALL_FAN_MAX      the straightest pair is joined and removed, again
+ *                            and again; pairs with equal style keys first
+ *   more                     sorted by pen key, style key and direction, each
+ *                            end is joined to the one half of its run further
+ *                            on, which in a full fan is the opposite one; ends
+ *                            left over by odd counts are paired in the same way
+ *                            across styles
  * Robustness  Directions are unit vectors in float: they choose between pairs,
- *   and any choice is a valid drawing.  The same on every machine, as only
- *   correctly rounded operations are used. */
+ *   and any choice is a valid drawing.  The result is the same on every
+ *   machine, as only correctly rounded operations are used. */
 #include "ink/lines/pairing.h"
 
 #include <math.h>
@@ -17,13 +19,13 @@
 
 #include "base/sort.h"
 
-enum { FEW = 16 };
+enum { SMALL_FAN_MAX = 16 };
 
 struct end_direction {
   float x, y;
 };
 
-/* One end at the node at hand. */
+/* One end at the current node. */
 struct fan_end {
   uint32_t end, pen_key, style_key;
   struct end_direction away; /* from the node */
@@ -62,17 +64,18 @@ static void join(struct pairing *p, uint32_t a, uint32_t b) {
   p->mate[b] = a;
 }
 
-/* ---- Few ends ------------------------------------------------------------ */
+/* ---- Small fans ---------------------------------------------------------- */
 
-static void pair_few(struct pairing *p, const uint32_t *end, uint32_t count) {
-  enum { NO_PAIR = 4 }; /* beyond any sum of a cosine and a penalty */
-  struct fan_end fan[FEW];
+static void pair_small_fan(struct pairing *p, const uint32_t *end,
+                           uint32_t count) {
+  enum { NO_PAIR = 4 }; /* greater than any sum of a cosine and a penalty */
+  struct fan_end fan[SMALL_FAN_MAX];
   for (uint32_t i = 0; i < count; i++)
     fan[i] = fan_end(p, end[i]);
   while (count > 1) {
     float best = NO_PAIR;
     uint32_t a = 0, b = 0;
-    /* Of equals the first stays: the order of the ends is the page's. */
+    /* Ties go to the first: ends are sorted by position on the page. */
     for (uint32_t i = 0; i + 1 < count; i++) {
       for (uint32_t k = i + 1; k < count; k++) {
         if (fan[i].pen_key != fan[k].pen_key)
@@ -80,7 +83,7 @@ static void pair_few(struct pairing *p, const uint32_t *end, uint32_t count) {
         float bend =
             fan[i].away.x * fan[k].away.x + fan[i].away.y * fan[k].away.y;
         if (fan[i].style_key != fan[k].style_key)
-          bend += 2.5f; /* beyond any pair of one kin: cosines span 2 */
+          bend += 2.5f; /* more than any two cosines differ */
         if (bend < best) {
           best = bend;
           a = i;
@@ -97,9 +100,9 @@ static void pair_few(struct pairing *p, const uint32_t *end, uint32_t count) {
   }
 }
 
-/* ---- Many ends ----------------------------------------------------------- */
+/* ---- Large fans ---------------------------------------------------------- */
 
-/* Grows with the angle from 0 up to 4. */
+/* A monotonic function of the angle, from 0 up to 4. */
 static float turn_of(struct end_direction d) {
   float t = d.y / (fabsf(d.x) + fabsf(d.y));
   return d.x < 0 ? 2 - t : d.y < 0 ? 4 + t : t;
@@ -127,8 +130,9 @@ static int compare_by_turn(const void *first, const void *second, void *user) {
   return (ta > tb) - (ta < tb);
 }
 
-/* Pairs each run of alike ends half way round; the odd ones stay in the
- * fan.  Alike: of one bond, and of one kin where `by_style` says so. */
+/* Pairs each end with the one half of its run further on; the odd one of a run
+ * stays in the fan.  A run has one pen key and, if `by_style`, one style key.
+ * */
 static void pair_runs(struct pairing *p, bool by_style) {
   struct fan_end *fan = p->fan.item;
   size_t left = 0;
@@ -147,7 +151,8 @@ static void pair_runs(struct pairing *p, bool by_style) {
   p->fan.count = left;
 }
 
-static bool pair_many(struct pairing *p, const uint32_t *end, uint32_t count) {
+static bool pair_large_fan(struct pairing *p, const uint32_t *end,
+                           uint32_t count) {
   p->fan.count = 0;
   if (!ARRAY_RESERVE(&p->fan, count))
     return false;
@@ -175,11 +180,11 @@ static bool pair_all(struct pairing *p) {
       if (graph->segment.item[end[0] >> 1].pen_key ==
           graph->segment.item[end[1] >> 1].pen_key)
         join(p, end[0], end[1]);
-    } else if (count > FEW) {
-      if (!pair_many(p, end, count))
+    } else if (count > SMALL_FAN_MAX) {
+      if (!pair_large_fan(p, end, count))
         return false;
     } else if (count > 2) {
-      pair_few(p, end, count);
+      pair_small_fan(p, end, count);
     }
   }
   return true;

@@ -4,8 +4,9 @@
 
 #include "ink/lines/segment_graph.h"
 
-/* A closed path's last point joins its first, which is not repeated; it has
- * three points at least.  A path has two points at least. */
+/* A polyline of at least two points.  The last point of a closed path is joined
+ * to its first, which is not repeated; a closed path has at least three points.
+ * */
 struct ink_path {
   uint32_t point, count;
   uint32_t edge; /* sheet edge of its first segment */
@@ -15,20 +16,21 @@ struct ink_path {
 struct ink_paths {
   ARRAY(struct ink_point) point; /* path after path, without gaps */
   ARRAY(struct ink_path) path;
-  uint8_t *
-      approximate; /* one a point, see segment_graph.h; NULL: none, or no longer known */
+  uint8_t *approximate; /* one a point, see segment_graph.h; NULL: none, or no
+                      longer known */
 };
 
 void paths_fini(struct ink_paths *paths);
 
-/* Joins the segments of a net, which is indexed, end to end.
- * A node with two ends of one bond joins them.  Where more meet, those of one
- * class and group go first, and among them the pair that runs on straightest,
- * then the next.
- * An open path starts at its lower end in (x, y); a closed one at the point
- * farthest from its lowest, which is a corner, so that no straight run is cut
- * by the start.  Paths come by the sheet edge of their first segment, visible
- * before hidden ones; but for this order, that of the edges does not matter.
+/* Joins the segments of an indexed graph end to end.
+ * A node with two ends of equal pen key joins them.  Where more ends meet,
+ * pairs of one class and group are preferred, and among them the straightest
+ * pair, then the next.
+ * An open path starts at its lower end in (x, y).  A closed one starts at the
+ * point farthest from its lowest point, which is a corner, so that the start
+ * does not split a straight run.  Paths are sorted by the sheet edge of their
+ * first segment, visible before hidden; the order of the edges has no other
+ * effect.
  * paths            zero-initialised
  * path_of_segment  one a segment, set to the path that it is in; or NULL
  * Guarantees  every segment is in exactly one path. */
@@ -37,14 +39,14 @@ USE_RESULT recto_status paths_chain(struct ink_paths *paths,
                                     const struct segment_graph *graph,
                                     recto_error *error);
 
-/* Drops points within TOLERANCE_COLLINEAR_UNITS (loose ones: within half of
- * `unit` grid units, if that is more) of the straight line that is left when
- * they are gone, and on the way along it.  Ends stay. */
+/* Removes points within TOLERANCE_COLLINEAR_UNITS of the straight line that
+ * remains without them, if they are in order along it.  For approximate points
+ * the tolerance is half of `unit` (grid units), if that is more.  Ends stay. */
 void paths_straighten(struct ink_paths *paths, double unit);
 
-/* Douglas-Peucker: drops points so that no part of a line moves by more than
+/* Douglas-Peucker: removes points so that no part of a line moves by more than
  * `tolerance` grid units; ends stay, closed paths keep three points.
- * Cost  near linear: paths are treated in runs of bounded length. */
+ * Cost  near linear: paths are split into runs of bounded length. */
 USE_RESULT recto_status paths_simplify(struct ink_paths *paths,
                                        double tolerance, recto_error *error);
 

@@ -1,12 +1,12 @@
-/* segments.c - the visible and hidden intervals of the drawable edges become
- * segments of the page. */
+/* segments.c - turns the visible and hidden intervals of the drawable edges
+ * into segments of the page. */
 #include "ink/lines/segment_graph.h"
 
 #include <string.h>
 
 #include "ink/pens.h"
 
-/* An end is numbered twice its segment, in 32 bits. */
+/* Segment s has ends 2 s and 2 s + 1, in 32 bits. */
 #define SEGMENT_LIMIT (UINT32_MAX / 2)
 
 struct collector {
@@ -16,8 +16,8 @@ struct collector {
   const struct pens *pens;
   const recto_options *options;
   uint32_t
-      *node_of_point; /* sheet point -> node, SEGMENT_GRAPH_NONE: not yet one */
-  uint32_t pen_key;   /* of the edge at hand */
+      *node_of_point; /* sheet point -> node; SEGMENT_GRAPH_NONE: none yet */
+  uint32_t pen_key;   /* of the current edge */
 };
 
 void segment_graph_init(struct segment_graph *graph) {
@@ -95,7 +95,7 @@ static bool add_segment(struct collector *c, uint32_t edge, struct ratio t0,
   return ARRAY_PUSH(&c->graph->segment, s);
 }
 
-/* Intervals of one edge, in order and apart. */
+/* The intervals of one edge, sorted and disjoint. */
 struct intervals {
   const struct map_interval *item;
   uint32_t count;
@@ -109,8 +109,8 @@ static bool add_visible_intervals(struct collector *c, uint32_t edge,
   return true;
 }
 
-/* What the visible intervals, and those that are too deep, leave of the
- * edge. */
+/* Adds the complement of the visible intervals and of those hidden by more
+ * faces than requested. */
 static bool add_hidden_intervals(struct collector *c, uint32_t edge,
                                  struct intervals visible,
                                  struct intervals deep) {
@@ -131,8 +131,8 @@ static bool add_hidden_intervals(struct collector *c, uint32_t edge,
   return ratio_compare(from, end) >= 0 || add_segment(c, edge, from, end);
 }
 
-/* The intervals of an edge, where the row at *mixed is the edge's; steps over
- * it then. */
+/* The intervals of an edge, if the row at *mixed is the edge's, which it then
+ * advances past. */
 static struct intervals take_intervals(const struct map_mixed **mixed,
                                        const struct map_mixed *end,
                                        const struct map_interval *interval,
@@ -145,7 +145,7 @@ static struct intervals take_intervals(const struct map_mixed **mixed,
   return taken;
 }
 
-/* Adds the visible or the hidden parts of all drawable edges, in order. */
+/* Adds the visible or the hidden intervals of all drawable edges, in order. */
 static bool add_all(struct collector *c, bool hidden) {
   const struct map *map = c->map;
   const struct map_mixed *mixed = map->mixed.item, *deep = map->over_limit.item;

@@ -1,10 +1,10 @@
-/* simplify.c - fewer points for a line that may move by a little.
+/* simplify.c - reduces the points of polylines within a tolerance.
  *
- * Douglas-Peucker: of the points between two that stay, the one farthest from
- * the segment between them stays too, while it is farther than the tolerance;
- * the two halves follow.  They wait on a stack of our own.
- * Cost  A line is first cut into runs of at most RUN points, whose ends stay,
- *   so that the worst case is RUN times the points instead of their square. */
+ * Douglas-Peucker: of the points between two that are kept, the one farthest
+ * from the segment between them is kept too, while it is farther than the
+ * tolerance; then both halves are treated, by an explicit stack.
+ * Cost  A line is first split into runs of at most RUN points, whose ends are
+ *   kept, so that the worst case is RUN times the points, not their square. */
 #include "ink/lines/paths.h"
 
 #include <string.h>
@@ -12,11 +12,11 @@
 enum { RUN = 4096 };
 
 struct simplify_span {
-  uint32_t first, last; /* points that stay */
+  uint32_t first, last; /* points that are kept */
 };
 
 struct simplify {
-  const struct ink_point *point; /* of the path at hand */
+  const struct ink_point *point; /* of the current path */
   uint32_t count;                /* index count stands for 0 where closed */
   uint8_t *keep;                 /* one a point of the longest path */
   ARRAY(struct simplify_span) stack;
@@ -42,8 +42,8 @@ static double distance2(struct ink_point p, struct ink_point a,
   return cross * cross / length2;
 }
 
-/* The point between the span's ends that is farthest from the segment
- * between them, the first of equals; its distance squared goes to *far2. */
+/* The point between the span's ends that is farthest from the segment between
+ * them, the first of equals; sets *far2 to its squared distance. */
 static uint32_t find_farthest(const struct simplify *s,
                               struct simplify_span span, double *far2) {
   struct ink_point a = point_at(s, span.first), b = point_at(s, span.last);
@@ -80,7 +80,7 @@ static bool simplify_run(struct simplify *s, struct simplify_span run,
   return true;
 }
 
-/* Runs of the points [first, last], which stay. */
+/* Simplifies the points [first, last] run by run; both ends are kept. */
 static bool simplify_line(struct simplify *s, uint32_t first, uint32_t last,
                           double tolerance2) {
   while (first < last) {
@@ -92,8 +92,8 @@ static bool simplify_line(struct simplify *s, uint32_t first, uint32_t last,
   return true;
 }
 
-/* A loop stays one: its first point, the one farthest from it, and of the
- * rest the one farthest from the line between them are kept. */
+/* A loop remains a loop: its first point, the one farthest from it, and of the
+ * others the one farthest from the segment between these two are kept. */
 static bool simplify_loop(struct simplify *s, double tolerance2) {
   double left2, right2;
   uint32_t far = find_farthest(s, (struct simplify_span){0, s->count}, &left2);

@@ -1,14 +1,15 @@
-/* straighten.c - a straight edge is two points: drops those in its middle.
+/* straighten.c - removes the inner points of straight runs of polylines.
  *
- * From the last point kept, the anchor, every point passed since leaves a
- * wedge of directions that go by it within the tolerance.  While the next
- * point lies in the intersection of these wedges, and farther off than the
- * one before, a straight line to it passes all of them.  Otherwise the point
- * before it is a corner, and the next anchor.
- * Loose points have half the output's unit: two lines that meet by that had no
- * more than a unit between them, and were one before.  With the whole unit the
- * two ways round a slit a few units long became its diagonal, twice.
- * Cost  linear; most points of a curve are found to be corners by one cross
+ * From the last point kept, the anchor, every point passed since then leaves a
+ * wedge of directions that pass it within the tolerance.  While the next point
+ * lies in the intersection of these wedges, and farther away than the one
+ * before, a straight line to it passes all of them.  Otherwise the point before
+ * it is a corner, and becomes the next anchor.
+ * For approximate points (segment_graph.h) the tolerance is half the output's
+ * unit: two lines that were snapped together were no more than a unit apart,
+ * and were one line before.  With a whole unit the two sides of a slit a few
+ * units long became its diagonal, twice.
+ * Cost  linear; most points of a curve are recognised as corners by one cross
  *   product. */
 #include "ink/lines/paths.h"
 
@@ -23,7 +24,7 @@ struct vector {
 
 struct wedge {
   struct vector left, right;
-  bool open; /* nothing limits it yet */
+  bool open; /* unlimited so far */
 };
 
 static double cross(struct vector a, struct vector b) {
@@ -38,7 +39,7 @@ static struct vector from_to(struct ink_point a, struct ink_point b) {
   return (struct vector){(double)b.x - a.x, (double)b.y - a.y};
 }
 
-/* Only directions that pass v within the tolerance stay. */
+/* Keeps only the directions that pass v within the tolerance. */
 static void narrow(struct wedge *wedge, struct vector v, double tolerance) {
   double sine = tolerance / sqrt(dot(v, v));
   if (sine >= 1)
@@ -59,16 +60,16 @@ static bool is_in(const struct wedge *wedge, struct vector v) {
 }
 
 /* Whether the line along `next` certainly misses `passed`: a bound without a
- * root, as |next| is at most the sum. */
+ * square root, as |next| is at most the sum of its coordinates' magnitudes. */
 static bool is_corner(struct vector passed, struct vector next,
                       double tolerance) {
   return fabs(cross(passed, next)) > tolerance * (fabs(next.x) + fabs(next.y));
 }
 
-/* Drops from a line the points that are not needed; `last` follows the others
- * and stays out of it.  A loose point, and what comes after one that is kept,
- * has the wider tolerance.
- * loose  one a point, dropped with them; or NULL
+/* Removes the points of a line that are not needed.  `last` follows them and is
+ * not one of them.  An approximate point, and a point after an approximate one
+ * that is kept, has the wider tolerance.
+ * approximate  one a point, compacted with the points; or NULL
  * Returns how many are left. */
 static uint32_t straighten_line(struct ink_point *point, uint8_t *approximate,
                                 uint32_t count, struct ink_point last,
@@ -81,8 +82,9 @@ static uint32_t straighten_line(struct ink_point *point, uint8_t *approximate,
     struct ink_point after = i + 1 < count ? point[i + 1] : last;
     struct vector next = from_to(anchor, after);
     struct vector passed = from_to(anchor, here);
-    bool is_loose = approximate && (approximate[i] || approximate[kept - 1]);
-    double tolerance = is_loose ? wide : TOLERANCE_COLLINEAR_UNITS;
+    bool is_approximate =
+        approximate && (approximate[i] || approximate[kept - 1]);
+    double tolerance = is_approximate ? wide : TOLERANCE_COLLINEAR_UNITS;
     bool straight = !is_corner(passed, next, tolerance) &&
                     dot(next, next) > dot(passed, passed);
     if (straight) {
@@ -112,19 +114,20 @@ static void reverse(struct ink_point *point, uint8_t *approximate,
   }
 }
 
-/* The same for an open line with its end. */
+/* The same for an open line including its last point. */
 static uint32_t straighten_open(struct ink_point *point, uint8_t *approximate,
                                 uint32_t count, double wide) {
   struct ink_point last = point[count - 1];
-  uint8_t last_loose = approximate ? approximate[count - 1] : 0;
+  uint8_t last_approximate = approximate ? approximate[count - 1] : 0;
   uint32_t kept = straighten_line(point, approximate, count - 1, last, wide);
   if (approximate)
-    approximate[kept] = last_loose;
+    approximate[kept] = last_approximate;
   point[kept++] = last;
   return kept;
 }
 
-/* Both ways, so that a loose point is one to the points before it too. */
+/* In both directions, so that an approximate point also widens the tolerance of
+ * the points before it. */
 static uint32_t straighten_path(struct ink_point *point, uint8_t *approximate,
                                 const struct ink_path *path, double wide) {
   if (path->closed)
@@ -148,7 +151,8 @@ void paths_straighten(struct ink_paths *paths, double unit) {
     uint8_t *approximate =
         paths->approximate ? paths->approximate + path->point : NULL;
     uint32_t kept = straighten_path(from, approximate, path, wide);
-    if (path->closed && kept < 3) /* so thin a loop is a line, there and back */
+    if (path->closed && kept < 3) /* such a thin loop is a line traversed
+                                     twice */
       path->closed = false;
     memmove(point + to, from, kept * sizeof *from);
     path->point = to;

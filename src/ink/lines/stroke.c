@@ -1,4 +1,4 @@
-/* stroke.c - putting polylines into a drawing. */
+/* stroke.c - adds polylines to a drawing. */
 #include "ink/lines/stroke.h"
 
 #include <math.h>

@@ -1,18 +1,18 @@
-/* vertex_snapping.c - nodes that the output cannot tell apart, and making one of them.
+/* vertex_snapping.c - merges nodes that the output cannot distinguish.
  *
  * Phases
- *   1 gather  in reading order, every node takes in those near it that no
- *             other has taken in: its crowd.  Nothing moves
- *   2 shrink  the segments within one large crowd whose ends are near
- *   3 twins   segments between the same two crowds stand together, best
- *             first; one whose ends are near those of a better one is that
- *             one
- * Invariant  A node that another one has become never moves, and one that has
- *   moved is nobody's: so each moves once at most, and by a unit at most.
- * Cost  Those kept between two crowds are no nearer than a unit to each other
- *   at one end or the other, and a crowd is two units wide, so there are few.
- *   Without this phase a thousand rings behind one another would be a million
- *   pairs for the next. */
+ *   1 cluster     in reading order, every node collects the nodes near it that
+ *                 belong to no other: its cluster.  Nothing moves
+ *   2 contract    the segments inside one large cluster whose ends are near
+ *   3 duplicates  segments between the same two clusters are consecutive, best
+ *                 first; one whose ends are near those of a better one is
+ *                 removed
+ * Invariant  A merge target never moves and a moved node is never a target, so
+ *   each node moves at most once, and by at most one unit.
+ * Cost  The segments kept between two clusters differ by at least a unit at one
+ *   end or the other, and a cluster is two units wide, so they are few.
+ *   Without this phase a thousand nested rings would be a million pairs for the
+ *   next. */
 #include "ink/lines/vertex_snapping.h"
 
 #include <stdlib.h>
@@ -21,8 +21,8 @@
 #include "base/sort.h"
 #include "ink/lines/overlap.h"
 
-/* A crowd of more than so many nodes is large: what is between them would be
- * so many squared pairs for the next phase. */
+/* A cluster of more nodes is large: the next phase would see the square of
+ * their number in pairs. */
 enum { CROWDED = 16 };
 
 bool vertex_snapping_init(struct vertex_snapping *snapping,
@@ -70,7 +70,7 @@ bool vertex_snapping_unite(struct vertex_snapping *snapping, uint32_t from,
 
 /* ---- 1 Gather ------------------------------------------------------------ */
 
-/* The first place of [low, high), one row's, that is not left of x. */
+/* The first index of [low, high), which is one row, that is not left of x. */
 static uint32_t find_place(const struct ink_point *at, uint32_t low,
                            uint32_t high, int64_t x) {
   while (low < high) {
@@ -83,7 +83,7 @@ static uint32_t find_place(const struct ink_point *at, uint32_t low,
   return low;
 }
 
-/* Node i takes in what is near it of the places from k to `end`. */
+/* Node i collects the nodes near it, from index k up to `end`. */
 static void take_in(const struct vertex_snapping *snapping, uint32_t *crowd,
                     uint32_t i, uint32_t k, uint32_t end) {
   const struct ink_point *at = snapping->graph->node.item;
@@ -121,7 +121,8 @@ static void drop(struct vertex_snapping *snapping, uint32_t segment) {
   snapping->gone_count++;
 }
 
-/* Makes the worse segment one with the better; false where they are not. */
+/* Merges the worse segment with the better; false if their ends are not near.
+ * */
 static bool unite_twins(struct vertex_snapping *snapping, uint32_t better,
                         uint32_t worse) {
   const uint32_t *a = snapping->graph->segment.item[better].node;
@@ -139,8 +140,8 @@ static bool unite_twins(struct vertex_snapping *snapping, uint32_t better,
   return false;
 }
 
-/* Of segments between the same two crowds, best first, keeps those that are
- * not one with a better one. */
+/* Of segments between the same two clusters, best first, removes those that
+ * duplicate a better one. */
 static void settle(struct vertex_snapping *snapping,
                    const struct sort_key *twin, size_t count, uint32_t *kept) {
   size_t keeps = 0;
@@ -155,8 +156,8 @@ static void settle(struct vertex_snapping *snapping,
   }
 }
 
-/* Shrinks what is within a large crowd; lists what has company at both
- * ends. */
+/* Contracts the segments inside a large cluster; lists those with other nodes
+ * near at both ends. */
 static size_t list_twins(struct vertex_snapping *snapping,
                          const uint32_t *crowd, const uint8_t *company,
                          struct sort_key *twin) {

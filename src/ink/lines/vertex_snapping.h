@@ -1,8 +1,8 @@
-/* vertex_snapping.h - nodes that the output cannot tell apart, and making one of them.
+/* vertex_snapping.h - merges nodes that the output cannot distinguish.
  *
- * A unit here is the output's, in grid units.  Rounding moves a point by half
- * a unit at most in x and in y, so two points can become one only where they
- * are within a unit in both: they are near. */
+ * A unit here is the output's finest step, in grid units.  Rounding moves a
+ * point by at most half a unit in x and in y, so two points can become one only
+ * if they are within a unit in both: such points are called near. */
 #ifndef INK_LINES_VERTEX_SNAPPING_H
 #define INK_LINES_VERTEX_SNAPPING_H
 
@@ -11,9 +11,10 @@
 struct vertex_snapping {
   struct segment_graph *graph;
   int32_t unit;
-  uint32_t *root;  /* of each node: the one it has become */
-  uint8_t *anchor; /* of each node: another one has become it */
-  uint8_t *gone;   /* of each segment */
+  uint32_t *root;  /* of each node: the node that it was merged into, or
+                      itself */
+  uint8_t *anchor; /* of each node: another one was merged into it */
+  uint8_t *gone;   /* of each segment: removed */
   size_t gone_count;
 };
 
@@ -21,18 +22,19 @@ USE_RESULT bool vertex_snapping_init(struct vertex_snapping *snapping,
                                      struct segment_graph *graph, int32_t unit);
 void vertex_snapping_fini(struct vertex_snapping *snapping);
 
-/* Whether two nodes are near, as they stand now. */
+/* Whether two nodes are near at their current positions. */
 bool vertex_snapping_is_near(const struct vertex_snapping *snapping, uint32_t a,
                              uint32_t b);
 
-/* Makes `from` become `to`, or, where others have become `from` already, `to`
- * become it.  Returns false where that would move a node by more than a
- * unit. */
+/* Merges `from` into `to` or, if others were merged into `from` already, `to`
+ * into `from`.  Returns false, and does nothing, if that would move a node by
+ * more than a unit. */
 bool vertex_snapping_unite(struct vertex_snapping *snapping, uint32_t from,
                            uint32_t to);
 
-/* Shrinks the segments whose ends are near many others, and keeps of those
- * whose ends are near each other's the best one. Cost  near linear */
+/* Contracts the segments inside a large cluster of near nodes, and of segments
+ * whose ends are pairwise near keeps the best.
+ * Cost  near linear. */
 USE_RESULT bool vertex_snapping_drop_twins(struct vertex_snapping *snapping,
                                            const struct node_rows *rows);
 

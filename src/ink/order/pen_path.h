@@ -1,4 +1,5 @@
-/* pen_path.h - the order of strokes that keeps the pen's way in the air short. */
+/* pen_path.h - the order of strokes that keeps the pen's way in the air short.
+ * */
 #ifndef INK_ORDER_PEN_PATH_H
 #define INK_ORDER_PEN_PATH_H
 
