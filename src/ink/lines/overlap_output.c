@@ -360,7 +360,7 @@ static bool drop_once(struct segment_graph *graph, const struct node_rows *rows,
                       int32_t unit, bool *changed) {
   struct output_overlaps r = {0};
   bool ok = vertex_snapping_init(&r.snapping, graph, unit) &&
-            vertex_snapping_drop_twins(&r.snapping, rows) &&
+            vertex_snapping_drop_duplicates(&r.snapping, rows) &&
             find_pairs(&r, rows);
   if (ok && r.pair.count > 0)
     ok = resolve_members(&r);

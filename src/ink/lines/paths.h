@@ -50,6 +50,4 @@ void paths_straighten(struct ink_paths *paths, double unit);
 USE_RESULT recto_status paths_simplify(struct ink_paths *paths,
                                        double tolerance, recto_error *error);
 
-double paths_length(const struct ink_paths *paths, const struct ink_path *path);
-
 #endif

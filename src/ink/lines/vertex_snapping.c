@@ -21,9 +21,10 @@
 #include "base/sort.h"
 #include "ink/lines/overlap.h"
 
-/* A cluster of more nodes is large: the next phase would see the square of
- * their number in pairs. */
-enum { CROWDED = 16 };
+/* A cluster with this many further nodes or more is large: without contraction
+ * the later search for overlaps would test a number of pairs that is quadratic
+ * in the size of the cluster. */
+enum { LARGE_CLUSTER_MIN = 16 };
 
 bool vertex_snapping_init(struct vertex_snapping *snapping,
                           struct segment_graph *graph, int32_t unit) {
@@ -68,11 +69,12 @@ bool vertex_snapping_unite(struct vertex_snapping *snapping, uint32_t from,
   return true;
 }
 
-/* ---- 1 Gather ------------------------------------------------------------ */
+/* ---- 1. Clusters ---------------------------------------------------------- */
 
-/* The first index of [low, high), which is one row, that is not left of x. */
-static uint32_t find_place(const struct ink_point *at, uint32_t low,
-                           uint32_t high, int64_t x) {
+/* The first index in [low, high), a range of one row, whose node has an
+ * abscissa of at least x; `high` if there is none.  Binary search. */
+static uint32_t find_first_from(const struct ink_point *at, uint32_t low,
+                                uint32_t high, int64_t x) {
   while (low < high) {
     uint32_t middle = low + (high - low) / 2;
     if (at[middle].x < x)
@@ -83,52 +85,57 @@ static uint32_t find_place(const struct ink_point *at, uint32_t low,
   return low;
 }
 
-/* Node i collects the nodes near it, from index k up to `end`. */
-static void take_in(const struct vertex_snapping *snapping, uint32_t *crowd,
-                    uint32_t i, uint32_t k, uint32_t end) {
+/* Adds to the cluster of node i the nodes near it in [k, end), a range of one
+ * row in order of x, that are in no other cluster. */
+static void add_near_nodes(const struct vertex_snapping *snapping,
+                           uint32_t *cluster, uint32_t i, uint32_t k,
+                           uint32_t end) {
   const struct ink_point *at = snapping->graph->node.item;
-  int64_t most = (int64_t)at[i].x + snapping->unit;
-  for (; k < end && at[k].x <= most; k++)
-    if (crowd[k] == k && llabs((int64_t)at[k].y - at[i].y) <= snapping->unit)
-      crowd[k] = i;
+  int64_t x_max = (int64_t)at[i].x + snapping->unit;
+  for (; k < end && at[k].x <= x_max; k++)
+    if (cluster[k] == k && llabs((int64_t)at[k].y - at[i].y) <= snapping->unit)
+      cluster[k] = i;
 }
 
-static void gather_crowds(const struct vertex_snapping *snapping,
-                          uint32_t *crowd, const struct node_rows *rows) {
+/* Sets cluster[i] of every node to the node whose cluster it is in, which is i
+ * itself for the first node of a cluster and for a node with none near. */
+static void gather_clusters(const struct vertex_snapping *snapping,
+                            uint32_t *cluster, const struct node_rows *rows) {
   const struct ink_point *at = snapping->graph->node.item;
   for (uint32_t i = 0; i < snapping->graph->node.count; i++)
-    crowd[i] = i;
+    cluster[i] = i;
   for (uint32_t r = 0; r < rows->count; r++) {
     uint32_t end = rows->start[r + 1];
     for (uint32_t i = rows->start[r]; i < end; i++) {
-      if (crowd[i] != i)
+      if (cluster[i] != i)
         continue;
-      take_in(snapping, crowd, i, i + 1, end);
+      add_near_nodes(snapping, cluster, i, i + 1, end);
       for (uint32_t q = r + 1; at[i].y + snapping->unit >= rows->low[q]; q++) {
         uint32_t last = rows->start[q + 1];
         uint32_t k =
-            find_place(at, rows->start[q], last, at[i].x - snapping->unit);
-        take_in(snapping, crowd, i, k, last);
+            find_first_from(at, rows->start[q], last, at[i].x - snapping->unit);
+        add_near_nodes(snapping, cluster, i, k, last);
       }
     }
   }
 }
 
-/* ---- 2 and 3 Shrink, twins ----------------------------------------------- */
+/* ---- 2. and 3. Contraction, duplicates ----------------------------------- */
 
-static void drop(struct vertex_snapping *snapping, uint32_t segment) {
+static void remove_segment(struct vertex_snapping *snapping, uint32_t segment) {
   snapping->gone[segment] = 1;
   snapping->gone_count++;
 }
 
-/* Merges the worse segment with the better; false if their ends are not near.
- * */
-static bool unite_twins(struct vertex_snapping *snapping, uint32_t better,
-                        uint32_t worse) {
+/* Merges the ends of the worse segment into those of the better one, in
+ * whichever orientation they are near.  Returns false if they are not near, or
+ * if an end cannot be merged. */
+static bool merge_duplicate(struct vertex_snapping *snapping, uint32_t better,
+                            uint32_t worse) {
   const uint32_t *a = snapping->graph->segment.item[better].node;
   const uint32_t *b = snapping->graph->segment.item[worse].node;
-  for (int turned = 0; turned < 2; turned++) {
-    uint32_t to[2] = {a[turned], a[!turned]};
+  for (int reversed = 0; reversed < 2; reversed++) {
+    uint32_t to[2] = {a[reversed], a[!reversed]};
     if (!vertex_snapping_is_near(snapping, b[0], to[0]) ||
         !vertex_snapping_is_near(snapping, b[1], to[1]))
       continue;
@@ -141,91 +148,102 @@ static bool unite_twins(struct vertex_snapping *snapping, uint32_t better,
 }
 
 /* Of segments between the same two clusters, best first, removes those that
- * duplicate a better one. */
-static void settle(struct vertex_snapping *snapping,
-                   const struct sort_key *twin, size_t count, uint32_t *kept) {
-  size_t keeps = 0;
+ * duplicate a better one.
+ * kept  scratch, one element a segment */
+static void drop_duplicates(struct vertex_snapping *snapping,
+                            const struct sort_key *pair, size_t count,
+                            uint32_t *kept) {
+  size_t kept_count = 0;
   for (size_t i = 0; i < count; i++) {
-    bool ok = true;
-    for (size_t k = 0; ok && k < keeps; k++)
-      ok = !unite_twins(snapping, kept[k], twin[i].value);
-    if (ok)
-      kept[keeps++] = twin[i].value;
+    bool is_unique = true;
+    for (size_t k = 0; is_unique && k < kept_count; k++)
+      is_unique = !merge_duplicate(snapping, kept[k], pair[i].value);
+    if (is_unique)
+      kept[kept_count++] = pair[i].value;
     else
-      drop(snapping, twin[i].value);
+      remove_segment(snapping, pair[i].value);
   }
 }
 
-/* Contracts the segments inside a large cluster; lists those with other nodes
- * near at both ends. */
-static size_t list_twins(struct vertex_snapping *snapping,
-                         const uint32_t *crowd, const uint8_t *company,
-                         struct sort_key *twin) {
+/* Contracts the segments inside large clusters, and lists the other segments
+ * of which both ends are in clusters of two or more nodes, since only those can
+ * have duplicates.  Returns how many it listed.
+ * others  of each node that begins a cluster: how many further nodes the
+ *         cluster has, at most LARGE_CLUSTER_MIN
+ * pair    the list: the keys are the two clusters, the values segments */
+static size_t list_candidates(struct vertex_snapping *snapping,
+                              const uint32_t *cluster, const uint8_t *others,
+                              struct sort_key *pair) {
   const struct segment_graph *graph = snapping->graph;
   size_t count = 0;
   for (uint32_t i = 0; i < graph->segment.count; i++) {
     const uint32_t *node = graph->segment.item[i].node;
-    uint32_t a = crowd[node[0]], b = crowd[node[1]];
-    if (!company[a] || !company[b])
+    uint32_t a = cluster[node[0]], b = cluster[node[1]];
+    if (!others[a] || !others[b])
       continue;
-    bool is_large = company[a] == CROWDED;
+    bool is_large = others[a] == LARGE_CLUSTER_MIN;
     if (a == b && is_large &&
         vertex_snapping_is_near(snapping, node[0], node[1]) &&
         vertex_snapping_unite(snapping, node[1], node[0]))
-      drop(snapping, i);
-    else if (a != b || is_large) /* short ones are left to the next phase */
-      twin[count++] = (struct sort_key){
+      remove_segment(snapping, i);
+    else if (a != b || is_large) /* a segment inside a small cluster is left to
+                                    the search for overlaps */
+      pair[count++] = (struct sort_key){
           (uint64_t)(a < b ? a : b) << 32 | (a < b ? b : a), i};
   }
   return count;
 }
 
-static void settle_all(struct vertex_snapping *snapping, struct sort_key *twin,
-                       struct sort_key *scratch, size_t count, uint32_t *kept) {
-  sort_keys(twin, scratch, count);
+/* Sorts the list by the two clusters, and each group of equal keys by rank,
+ * and removes the duplicates of each group. */
+static void drop_all_duplicates(struct vertex_snapping *snapping,
+                                struct sort_key *pair, struct sort_key *scratch,
+                                size_t count, uint32_t *kept) {
+  sort_keys(pair, scratch, count);
   for (size_t i = 0, end; i < count; i = end) {
-    for (end = i + 1; end < count && twin[end].key == twin[i].key; end++)
+    for (end = i + 1; end < count && pair[end].key == pair[i].key; end++)
       continue;
     if (end == i + 1)
       continue;
     for (size_t k = i; k < end; k++)
-      twin[k].key = overlap_rank(snapping->graph, twin[k].value);
-    sort_keys(twin + i, scratch + i, end - i);
-    settle(snapping, twin + i, end - i, kept);
+      pair[k].key = overlap_rank(snapping->graph, pair[k].value);
+    sort_keys(pair + i, scratch + i, end - i);
+    drop_duplicates(snapping, pair + i, end - i, kept);
   }
 }
 
-bool vertex_snapping_drop_twins(struct vertex_snapping *snapping,
-                                const struct node_rows *rows) {
+bool vertex_snapping_drop_duplicates(struct vertex_snapping *snapping,
+                                     const struct node_rows *rows) {
   size_t nodes = snapping->graph->node.count, count = 0;
-  uint32_t *crowd = mem_alloc(nodes, sizeof *crowd);
-  uint8_t *company = mem_calloc(nodes, sizeof *company);
-  struct sort_key *twin = NULL, *scratch = NULL;
+  uint32_t *cluster = mem_alloc(nodes, sizeof *cluster);
+  uint8_t *others = mem_calloc(nodes, sizeof *others);
+  struct sort_key *pair = NULL, *scratch = NULL;
   uint32_t *kept = NULL;
-  bool ok = crowd && company;
+  bool ok = cluster && others;
   if (ok && nodes > 0) {
-    gather_crowds(snapping, crowd, rows);
+    gather_clusters(snapping, cluster, rows);
     for (uint32_t i = 0; i < nodes; i++)
-      if (crowd[i] != i) {
-        company[crowd[i]] =
-            (uint8_t)(company[crowd[i]] + (company[crowd[i]] < CROWDED));
+      if (cluster[i] != i) {
+        others[cluster[i]] =
+            (uint8_t)(others[cluster[i]] +
+                      (others[cluster[i]] < LARGE_CLUSTER_MIN));
         count++;
       }
   }
   if (ok && count > 0) {
     count = snapping->graph->segment.count;
-    twin = mem_alloc(count, sizeof *twin);
+    pair = mem_alloc(count, sizeof *pair);
     scratch = mem_alloc(count, sizeof *scratch);
     kept = mem_alloc(count, sizeof *kept);
-    ok = twin && scratch && kept;
+    ok = pair && scratch && kept;
   }
   if (ok && count > 0) {
-    count = list_twins(snapping, crowd, company, twin);
-    settle_all(snapping, twin, scratch, count, kept);
+    count = list_candidates(snapping, cluster, others, pair);
+    drop_all_duplicates(snapping, pair, scratch, count, kept);
   }
-  mem_free(crowd);
-  mem_free(company);
-  mem_free(twin);
+  mem_free(cluster);
+  mem_free(others);
+  mem_free(pair);
   mem_free(scratch);
   mem_free(kept);
   return ok;

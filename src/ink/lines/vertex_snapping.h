@@ -35,8 +35,9 @@ bool vertex_snapping_unite(struct vertex_snapping *snapping, uint32_t from,
 /* Contracts the segments inside a large cluster of near nodes, and of segments
  * whose ends are pairwise near keeps the best.
  * Cost  near linear. */
-USE_RESULT bool vertex_snapping_drop_twins(struct vertex_snapping *snapping,
-                                           const struct node_rows *rows);
+USE_RESULT bool
+vertex_snapping_drop_duplicates(struct vertex_snapping *snapping,
+                                const struct node_rows *rows);
 
 static inline struct ink_point
 vertex_snapping_at(const struct vertex_snapping *snapping, uint32_t node) {
