@@ -21,20 +21,21 @@ static double pi(void) { return acos(-1); }
 
 enum { INK, BLANK };
 
-/* A bit of line 0; `cuts`: 1 at its start, 2 at its end, 3 at both. */
-static void add_bit(struct hatch_runs *runs, int kind, double u0, double u1,
-                    int cuts) {
-  struct hatch_piece bit = {.u0 = u0,
-                            .u1 = u1,
-                            .width_mm = 1,
-                            .blank = kind == BLANK,
-                            .cut0 = cuts & 1,
-                            .cut1 = cuts & 2};
-  assert_true(ARRAY_PUSH(&runs->bit, bit));
+/* A piece of line 0.
+ * tone_ends  which of its ends the tone determines: 1 its start, 2 its end */
+static void add_piece(struct hatch_runs *runs, int kind, double u0, double u1,
+                      int tone_ends) {
+  struct hatch_piece piece = {.u0 = u0,
+                              .u1 = u1,
+                              .width_mm = 1,
+                              .blank = kind == BLANK,
+                              .tone_start = tone_ends & 1,
+                              .tone_end = tone_ends & 2};
+  assert_true(ARRAY_PUSH(&runs->piece, piece));
 }
 
 static struct hatch_runs start_runs(void) {
-  return (struct hatch_runs){.touch = 0.1, .speck = 2};
+  return (struct hatch_runs){.max_gap = 0.1, .min_length = 2};
 }
 
 static void assert_run(struct hatch_runs *runs, double u0, double u1) {
@@ -46,16 +47,16 @@ static void assert_run(struct hatch_runs *runs, double u0, double u1) {
 static void assert_no_run(struct hatch_runs *runs) {
   struct hatch_run run;
   assert_false(hatch_runs_next(runs, &run));
-  ARRAY_FREE(&runs->bit);
+  ARRAY_FREE(&runs->piece);
 }
 
 static void pieces_that_meet_are_one_run(void **state) {
   struct hatch_runs runs = start_runs();
   (void)state;
-  add_bit(&runs, INK, 5, 9, 0);
-  add_bit(&runs, INK, 0, 3, 0);
-  add_bit(&runs, INK, 3.05, 5, 0);
-  add_bit(&runs, INK, 9.5, 12, 0);
+  add_piece(&runs, INK, 5, 9, 0);
+  add_piece(&runs, INK, 0, 3, 0);
+  add_piece(&runs, INK, 3.05, 5, 0);
+  add_piece(&runs, INK, 9.5, 12, 0);
   assert_true(hatch_runs_sort(&runs));
   assert_run(&runs, 0, 9);
   assert_run(&runs, 9.5, 12);
@@ -66,13 +67,13 @@ static void pieces_of_different_lines_never_meet(void **state) {
   (void)state;
   for (int what = 0; what < 4; what++) {
     struct hatch_runs runs = start_runs();
-    add_bit(&runs, INK, 0, 3, 0);
-    add_bit(&runs, INK, 3, 6, 0);
-    struct hatch_piece *bit = &runs.bit.item[1];
-    bit->pen = what == 0;
-    bit->cross = what == 1;
-    bit->step = what == 2;
-    bit->line = what == 3;
+    add_piece(&runs, INK, 0, 3, 0);
+    add_piece(&runs, INK, 3, 6, 0);
+    struct hatch_piece *piece = &runs.piece.item[1];
+    piece->pen = what == 0;
+    piece->layer = what == 1;
+    piece->tone_steps = what == 2;
+    piece->line = what == 3;
     assert_true(hatch_runs_sort(&runs));
     assert_run(&runs, 0, 3);
     assert_run(&runs, 3, 6);
@@ -80,12 +81,12 @@ static void pieces_of_different_lines_never_meet(void **state) {
   }
 }
 
-static void specks_between_changes_of_tone_are_left_out(void **state) {
+static void short_runs_between_changes_of_tone_are_left_out(void **state) {
   struct hatch_runs runs = start_runs();
   (void)state;
-  add_bit(&runs, INK, 0, 1, 3);   /* a speck */
-  add_bit(&runs, INK, 5, 6, 1);   /* at the face's end */
-  add_bit(&runs, INK, 10, 13, 3); /* long enough */
+  add_piece(&runs, INK, 0, 1, 3);   /* too short */
+  add_piece(&runs, INK, 5, 6, 1);   /* at the face's end */
+  add_piece(&runs, INK, 10, 13, 3); /* long enough */
   assert_true(hatch_runs_sort(&runs));
   assert_run(&runs, 5, 6);
   assert_run(&runs, 10, 13);
@@ -96,17 +97,17 @@ static void short_gaps_in_a_face_are_closed(void **state) {
   struct hatch_runs runs = start_runs();
   (void)state;
   /* Over two faces. */
-  add_bit(&runs, INK, 0, 3, 2);
-  add_bit(&runs, BLANK, 3, 3.5, 1);
-  add_bit(&runs, BLANK, 3.5, 4, 2);
-  add_bit(&runs, INK, 4, 8, 1);
+  add_piece(&runs, INK, 0, 3, 2);
+  add_piece(&runs, BLANK, 3, 3.5, 1);
+  add_piece(&runs, BLANK, 3.5, 4, 2);
+  add_piece(&runs, INK, 4, 8, 1);
   /* Nothing is known about what lies between. */
-  add_bit(&runs, INK, 9, 12, 1);
+  add_piece(&runs, INK, 9, 12, 1);
   /* Too long a gap. */
-  add_bit(&runs, INK, 20, 23, 2);
-  add_bit(&runs, BLANK, 23, 24.5, 1);
-  add_bit(&runs, BLANK, 24.5, 26, 2);
-  add_bit(&runs, INK, 26, 29, 1);
+  add_piece(&runs, INK, 20, 23, 2);
+  add_piece(&runs, BLANK, 23, 24.5, 1);
+  add_piece(&runs, BLANK, 24.5, 26, 2);
+  add_piece(&runs, INK, 26, 29, 1);
   assert_true(hatch_runs_sort(&runs));
   assert_run(&runs, 0, 8);
   assert_run(&runs, 9, 12);
@@ -290,7 +291,7 @@ static double length_of(const struct drawing *d, size_t s) {
 }
 
 /* Lit from the eye the ball's tone is 0.7 (1 - sqrt(1 - r^2)) at radius r: 0.7
- * thirds of its disc.  Where it is below FULL one layer makes it. */
+ * thirds of its disc.  Where it is below FULL_COVERAGE one layer makes it. */
 static void lines_over_a_ball_cover_the_share_of_its_tone(void **state) {
   struct pipeline p;
   recto_options options;
@@ -307,7 +308,7 @@ static void lines_over_a_ball_cover_the_share_of_its_tone(void **state) {
       ink += (length_of(&p.drawing, s) + pi() / 4 * options.pen_mm) *
              options.pen_mm;
   }
-  /* The first layer's share: the tone, up to FULL = 1 - sqrt(0.4). */
+  /* The first layer's share: the tone, up to FULL_COVERAGE = 1 - sqrt(0.4). */
   double full = 1 - sqrt(0.4), expected = 0;
   enum { RINGS = 10000 };
   for (int i = 0; i < RINGS; i++) {
@@ -388,7 +389,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(pieces_that_meet_are_one_run),
       cmocka_unit_test(pieces_of_different_lines_never_meet),
-      cmocka_unit_test(specks_between_changes_of_tone_are_left_out),
+      cmocka_unit_test(short_runs_between_changes_of_tone_are_left_out),
       cmocka_unit_test(short_gaps_in_a_face_are_closed),
       cmocka_unit_test(one_even_face_is_hatched_at_one_pitch),
       cmocka_unit_test(white_and_dark_are_hatched_by_no_and_three_layers),

@@ -1,11 +1,14 @@
-/* hatch_lines.c - the page ruled with parallel lines, and what of them lies in
- * fragments.
+/* hatch_lines.c - the hatch lines of a page and the spans of them that lie
+ * inside fragments.
  *
- * A fragment is turned so that the lines are level, its corners are rounded to
- * 2^-28 mm, and the scan-line fill does the rest (even-odd).
- * Robustness  A corner that fragments share is rounded to one place.  Where a
- *   side lies within rounding of a line either outcome is right.
- * Source  [Foley] ch. 3 */
+ * Fragments are rotated so that the hatch lines are horizontal, their corners
+ * are rounded to 2^-28 mm, and the scan-line fill (geom/scanfill.h) finds the
+ * spans by the even-odd rule.
+ *
+ * Robustness  A corner that several fragments share is rounded to the same
+ *             point for each of them.  Where a side lies within the rounding
+ *             error of a line, either result is correct.
+ * Source      [FoleyVanDam1990] ch. 3 */
 #include "ink/hatch/hatch_lines.h"
 
 #include <math.h>
@@ -13,8 +16,8 @@
 #include "base/tolerance.h"
 
 #define UNITS_PER_MM 0x1p28
-#define STEP_DEN (1 << 10) /* lines stand at multiples of 1 / (2 STEP_DEN) */
-#define REACH_MM 4096.0    /* no page is so large, wherever it is turned */
+#define STEP_DEN (1 << 10) /* lines are at multiples of 1 / (2 STEP_DEN) unit */
+#define EXTENT_MM 4096.0   /* above every |v| of a page, however rotated */
 
 void hatch_lines_init(struct hatch_lines *lines, const struct sheet *sheet,
                       double pitch, double angle_deg) {
@@ -33,25 +36,25 @@ double hatch_lines_height(const struct hatch_lines *lines, int64_t line) {
   return ((double)line + 0.5) * lines->pitch;
 }
 
-struct hatch_point hatch_lines_turn(const struct hatch_lines *lines,
-                                    struct drawing_point p) {
+struct hatch_point hatch_lines_rotate(const struct hatch_lines *lines,
+                                      struct drawing_point p) {
   return (struct hatch_point){p.x * lines->cosine + p.y * lines->sine,
                               p.y * lines->cosine - p.x * lines->sine};
 }
 
-struct drawing_point hatch_lines_turn_back(const struct hatch_lines *lines,
-                                           struct hatch_point p) {
+struct drawing_point hatch_lines_rotate_back(const struct hatch_lines *lines,
+                                             struct hatch_point p) {
   return (struct drawing_point){p.u * lines->cosine - p.v * lines->sine,
                                 p.u * lines->sine + p.v * lines->cosine};
 }
 
 /* ---- Sides --------------------------------------------------------------- */
 
-struct hatch_point hatch_point_at(const struct hatch_lines *lines, double x,
-                                  double y) {
-  return hatch_lines_turn(lines,
-                          (struct drawing_point){sheet_x_mm(lines->sheet, x),
-                                                 sheet_y_mm(lines->sheet, y)});
+struct hatch_point hatch_lines_point_at(const struct hatch_lines *lines,
+                                        double x, double y) {
+  return hatch_lines_rotate(
+      lines, (struct drawing_point){sheet_x_mm(lines->sheet, x),
+                                    sheet_y_mm(lines->sheet, y)});
 }
 
 double hatch_lines_distance(struct hatch_point p, struct hatch_point a,
@@ -64,17 +67,17 @@ double hatch_lines_distance(struct hatch_point p, struct hatch_point a,
 
 void hatch_lines_clear(struct hatch_lines *lines) { lines->side.count = 0; }
 
-bool hatch_lines_take(struct hatch_lines *lines, const struct map *map,
-                      const struct map_fragment *fragment) {
+bool hatch_lines_add_fragment(struct hatch_lines *lines, const struct map *map,
+                              const struct map_fragment *fragment) {
   for (uint32_t l = 0; l < fragment->loops; l++) {
     const struct map_loop *loop = &map->loop.item[fragment->loop + l];
     const struct map_corner *corner = map->corner.item + loop->corner;
     for (uint32_t i = 0; i < loop->count; i++) {
       uint32_t next = i + 1 < loop->count ? i + 1 : 0;
       struct hatch_side side = {
-          hatch_point_at(lines, corner[i].x, corner[i].y),
-          hatch_point_at(lines, corner[next].x, corner[next].y), &corner[i],
-          &corner[next]};
+          hatch_lines_point_at(lines, corner[i].x, corner[i].y),
+          hatch_lines_point_at(lines, corner[next].x, corner[next].y),
+          &corner[i], &corner[next]};
       if (!ARRAY_PUSH(&lines->side, side))
         return false;
     }
@@ -84,32 +87,33 @@ bool hatch_lines_take(struct hatch_lines *lines, const struct map *map,
 
 /* ---- Spans --------------------------------------------------------------- */
 
-/* Lines all over the page, in units of 2^-28 mm. */
+/* Sets the scan grid: the hatch lines of the whole page, in units of
+ * 2^-28 mm. */
 static void set_grid(struct hatch_lines *lines) {
-  double pitch = lines->pitch < REACH_MM ? lines->pitch : REACH_MM;
-  double half = ceil(REACH_MM / pitch);
+  double pitch = lines->pitch < EXTENT_MM ? lines->pitch : EXTENT_MM;
+  double half = ceil(EXTENT_MM / pitch);
   struct scan_grid *grid = &lines->grid;
   lines->first = -(int64_t)half;
   grid->den = grid->x_step = STEP_DEN;
   grid->x_first = 0;
   grid->y_step = 2 * llround(pitch * UNITS_PER_MM * STEP_DEN / 2);
   grid->y_first = lines->first * grid->y_step;
-  grid->columns = 1; /* not asked for */
+  grid->columns = 1; /* columns are not used */
   grid->lines = (int32_t)(2 * half);
   grid->down = false;
 }
 
-static struct scan_point point_of(const struct hatch_lines *lines,
-                                  struct hatch_point place) {
-  return scan_point_of(&lines->grid, llround(place.u * UNITS_PER_MM),
-                       llround(place.v * UNITS_PER_MM));
+static struct scan_point scan_point_at(const struct hatch_lines *lines,
+                                       struct hatch_point p) {
+  return scan_point_of(&lines->grid, llround(p.u * UNITS_PER_MM),
+                       llround(p.v * UNITS_PER_MM));
 }
 
-void hatch_lines_find_lines(const struct hatch_lines *lines,
+void hatch_lines_side_range(const struct hatch_lines *lines,
                             const struct hatch_side *side, int64_t *low,
                             int64_t *high) {
-  int64_t a = point_of(lines, side->from).line + lines->first;
-  int64_t b = point_of(lines, side->to).line + lines->first;
+  int64_t a = scan_point_at(lines, side->from).line + lines->first;
+  int64_t b = scan_point_at(lines, side->to).line + lines->first;
   *low = a < b ? a : b;
   *high = a < b ? b : a;
 }
@@ -119,8 +123,8 @@ double hatch_lines_u_at(const struct hatch_side *side, double v) {
   return a.u + (b.u - a.u) * ((v - a.v) / (b.v - a.v));
 }
 
-/* Adds a span of the line at hand; one that begins where the last ended makes
- * that one longer. */
+/* Adds a span of the current line.  One that begins where the last span ended
+ * extends it instead. */
 static bool add_span(struct hatch_lines *lines, const struct scan_table *table,
                      const struct scan_span *found) {
   const double gap = TOLERANCE_COINCIDENT_UNITS / SHEET_UNITS_PER_MM;
@@ -142,8 +146,8 @@ static bool add_span(struct hatch_lines *lines, const struct scan_table *table,
 
 static bool scan_sides(struct hatch_lines *lines, struct scan_table *table) {
   for (uint32_t i = 0; i < lines->side.count; i++) {
-    struct scan_point p = point_of(lines, lines->side.item[i].from);
-    struct scan_point q = point_of(lines, lines->side.item[i].to);
+    struct scan_point p = scan_point_at(lines, lines->side.item[i].from);
+    struct scan_point q = scan_point_at(lines, lines->side.item[i].to);
     if (!scan_table_add(table, &p, &q, i))
       return false;
   }

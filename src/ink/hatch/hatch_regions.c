@@ -1,4 +1,5 @@
-/* hatch_regions.c - fragments that no drawn line parts. */
+/* hatch_regions.c - unites fragments that no drawn line separates into regions
+ * that are hatched as one (disjoint sets, base/sets.h). */
 #include "ink/hatch/hatch_regions.h"
 
 #include "base/sets.h"
@@ -10,7 +11,8 @@ struct region_joining {
   uint32_t *root; /* of each fragment */
 };
 
-/* The mesh edge that a side is a piece of; SHEET_NONE where there is none. */
+/* The edge of its own face that the side starting at a corner is a piece of, or
+ * SHEET_NONE. */
 static uint32_t own_edge(const struct hatch_regions *regions,
                          const struct map_corner *corner) {
   bool own =
@@ -32,10 +34,13 @@ bool hatch_regions_side_is_inked(const struct hatch_regions *regions,
   }
 }
 
-/* seen  one a sheet edge: a fragment beside it, SHEET_NONE for not yet */
-static void join_all(const struct hatch_regions *regions,
-                     const struct scene *scene, const struct map *map,
-                     const struct pens *pens, uint32_t *seen) {
+/* Joins fragments beside a mesh edge that is not drawn, if one pen hatches
+ * both.
+ * first_beside  of each sheet edge: the first fragment found beside it;
+ *               SHEET_NONE when called */
+static void join_at_edges(const struct hatch_regions *regions,
+                          const struct scene *scene, const struct map *map,
+                          const struct pens *pens, uint32_t *first_beside) {
   for (uint32_t f = 0; f < regions->count; f++) {
     const struct map_fragment *fragment = &map->fragment.item[f];
     uint32_t pen = pens_of_hatch(pens, scene->face_group.item[fragment->face]);
@@ -46,27 +51,30 @@ static void join_all(const struct hatch_regions *regions,
         uint32_t edge = own_edge(regions, corner);
         if (edge == SHEET_NONE || hatch_regions_side_is_inked(regions, corner))
           continue;
-        if (seen[edge] == SHEET_NONE)
-          seen[edge] = f;
-        uint32_t other = map->fragment.item[seen[edge]].face;
+        if (first_beside[edge] == SHEET_NONE)
+          first_beside[edge] = f;
+        uint32_t other = map->fragment.item[first_beside[edge]].face;
         if (pens_of_hatch(pens, scene->face_group.item[other]) == pen)
-          sets_join(regions->root, seen[edge], f);
+          sets_join(regions->root, first_beside[edge], f);
       }
     }
   }
 }
 
-static void join_at_cut(void *user, struct shared_side *ahead,
-                        struct shared_side *turned) {
+/* Joins the fragments of two sides that have a stretch in common, if they are
+ * of one face. */
+static void join_pair(void *user, struct shared_side *forward,
+                      struct shared_side *reversed) {
   const struct region_joining *joining = user;
   const struct map_fragment *fragment = joining->map->fragment.item;
-  if (fragment[ahead->item].face == fragment[turned->item].face)
-    sets_join(joining->root, ahead->item, turned->item);
+  if (fragment[forward->item].face == fragment[reversed->item].face)
+    sets_join(joining->root, forward->item, reversed->item);
 }
 
-/* Joins fragments of one face that only a cut of the method parts. */
-static bool join_at_cuts(const struct hatch_regions *regions,
-                         const struct map *map) {
+/* Joins fragments of one face that are separated only by a horizontal split of
+ * a scan-line method.  False when memory ran out. */
+static bool join_at_splits(const struct hatch_regions *regions,
+                           const struct map *map) {
   struct region_joining joining = {map, regions->root};
   shared_sides all = {0};
   bool ok = true;
@@ -76,17 +84,17 @@ static bool join_at_cuts(const struct hatch_regions *regions,
       const struct map_loop *loop = &map->loop.item[fragment->loop + l];
       const struct map_corner *corner = map->corner.item + loop->corner;
       for (uint32_t i = 0; ok && i < loop->count; i++)
-        ok = shared_sides_add_level(
+        ok = shared_sides_add_split(
             &all, &corner[i], &corner[i + 1 < loop->count ? i + 1 : 0], f);
     }
   }
-  ok = ok && shared_sides_match(&all, join_at_cut, &joining);
+  ok = ok && shared_sides_match(&all, join_pair, &joining);
   ARRAY_FREE(&all);
   return ok;
 }
 
-/* Lists the fragments by patch. */
-static bool list(struct hatch_regions *regions) {
+/* Lists the fragments by region.  False when memory ran out. */
+static bool list_by_region(struct hatch_regions *regions) {
   struct sort_key *key = mem_alloc(regions->count, 2 * sizeof *key);
   if (key == NULL)
     return false;
@@ -110,18 +118,18 @@ bool hatch_regions_init(struct hatch_regions *regions,
       .sheet = sheet,
       .intersections = (options->edges & RECTO_EDGE_INTERSECTION) != 0,
       .count = map->fragment.count};
-  uint32_t *seen = mem_alloc(edges, sizeof *seen);
+  uint32_t *first_beside = mem_alloc(edges, sizeof *first_beside);
   regions->root = sets_create(regions->count);
   regions->fragment = mem_alloc(regions->count, sizeof *regions->fragment);
-  bool ok = seen && regions->root && regions->fragment;
+  bool ok = first_beside && regions->root && regions->fragment;
   for (size_t e = 0; ok && e < edges; e++)
-    seen[e] = SHEET_NONE;
+    first_beside[e] = SHEET_NONE;
   if (ok && !options->ids) {
-    join_all(regions, scene, map, pens, seen);
-    ok = join_at_cuts(regions, map);
+    join_at_edges(regions, scene, map, pens, first_beside);
+    ok = join_at_splits(regions, map);
   }
-  ok = ok && list(regions);
-  mem_free(seen);
+  ok = ok && list_by_region(regions);
+  mem_free(first_beside);
   if (!ok)
     hatch_regions_fini(regions);
   return ok;

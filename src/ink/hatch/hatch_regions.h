@@ -1,4 +1,5 @@
-/* hatch_regions.h - fragments that no drawn line parts. */
+/* hatch_regions.h - unites fragments that no drawn line separates into regions
+ * that are hatched as one. */
 #ifndef INK_HATCH_HATCH_REGIONS_H
 #define INK_HATCH_HATCH_REGIONS_H
 
@@ -7,25 +8,28 @@
 
 struct hatch_regions {
   const struct sheet *sheet;
-  bool intersections; /* are drawn */
-  uint32_t *root;     /* of each fragment: the first one of its patch */
-  uint32_t *fragment; /* patch by patch, these by their first ones */
-  size_t count;
+  bool intersections; /* whether they are drawn */
+  uint32_t *root;     /* of each fragment: the first fragment of its region */
+  uint32_t *fragment; /* all fragments, region by region; the regions are in
+                         order of their first fragments */
+  size_t count;       /* of fragments */
 };
 
-/* Fragments on either side of a mesh edge that is not drawn are of one patch,
- * where one pen draws both; so are those of one face that only a level cut of
- * the method parts.  With options->ids every fragment is one. */
+/* Fragments on both sides of a mesh edge that is not drawn belong to one region
+ * if the same pen hatches both; so do fragments of one face that are separated
+ * only by a horizontal split of a scan-line method.  With options->ids every
+ * fragment is a region.  False when memory ran out. */
 USE_RESULT bool
 hatch_regions_init(struct hatch_regions *regions, const struct sheet *sheet,
                    const struct scene *scene, const struct map *map,
                    const struct pens *pens, const recto_options *options);
 void hatch_regions_fini(struct hatch_regions *regions);
 
-/* Past the last place in `fragment` of the patch that begins there. */
+/* The region whose first index in `fragment` is `begin` has the indices
+ * [begin, hatch_regions_end()). */
 size_t hatch_regions_end(const struct hatch_regions *regions, size_t begin);
 
-/* Whether the side that leaves a corner is drawn as a line. */
+/* Whether the side that starts at a corner is drawn as a line. */
 bool hatch_regions_side_is_inked(const struct hatch_regions *regions,
                                  const struct map_corner *corner);
 

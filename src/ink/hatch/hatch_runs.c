@@ -1,5 +1,5 @@
-/* hatch_runs.c - bits of parallel lines, face by face, joined to the runs that
- * a pen draws. */
+/* hatch_runs.c - joins pieces of hatch lines, one for each fragment, into runs
+ * that a pen draws in one movement. */
 #include "ink/hatch/hatch_runs.h"
 
 #include "base/sort.h"
@@ -8,14 +8,14 @@ static int compare_lines(const struct hatch_piece *a,
                          const struct hatch_piece *b) {
   if (a->pen != b->pen)
     return a->pen < b->pen ? -1 : 1;
-  if (a->cross != b->cross)
-    return a->cross < b->cross ? -1 : 1;
-  if (a->step != b->step)
-    return a->step < b->step ? -1 : 1;
+  if (a->layer != b->layer)
+    return a->layer < b->layer ? -1 : 1;
+  if (a->tone_steps != b->tone_steps)
+    return a->tone_steps < b->tone_steps ? -1 : 1;
   return (a->line > b->line) - (a->line < b->line);
 }
 
-static int compare_bits(const void *first, const void *second, void *user) {
+static int compare_pieces(const void *first, const void *second, void *user) {
   const struct hatch_piece *a = first, *b = second;
   int lines = compare_lines(a, b);
   (void)user;
@@ -24,51 +24,56 @@ static int compare_bits(const void *first, const void *second, void *user) {
 
 bool hatch_runs_sort(struct hatch_runs *runs) {
   runs->next = 0;
-  return sort_stable(runs->bit.item, runs->bit.count, sizeof *runs->bit.item,
-                     compare_bits, NULL);
+  return sort_stable(runs->piece.item, runs->piece.count,
+                     sizeof *runs->piece.item, compare_pieces, NULL);
 }
 
-/* Takes what goes on from the bit at run->first.  Returns whether the run ends
- * because of the tone. */
+/* Extends the run that starts with piece run->first by all later pieces that
+ * join it, and sets its end, u0 and u1.  Returns whether the run ends by the
+ * tone. */
 static bool extend(const struct hatch_runs *runs, struct hatch_run *run) {
-  const struct hatch_piece *bit = runs->bit.item, *first = &bit[run->first];
-  double blank = first->u1; /* how far the face is known to run on */
-  double touch = runs->touch * first->width_mm;
-  double speck = runs->speck * first->width_mm;
-  bool cut = first->cut1;
+  const struct hatch_piece *piece = runs->piece.item;
+  const struct hatch_piece *first = &piece[run->first];
+  /* The faces are known to continue without interruption up to here. */
+  double known_end = first->u1;
+  double max_gap = runs->max_gap * first->width_mm;
+  double min_length = runs->min_length * first->width_mm;
+  bool ends_by_tone = first->tone_end;
   run->end = run->first + 1;
   run->u0 = first->u0;
   run->u1 = first->u1;
   for (size_t i = run->end;
-       i < runs->bit.count && compare_lines(first, &bit[i]) == 0; i++) {
-    if (bit[i].u0 > blank + touch)
+       i < runs->piece.count && compare_lines(first, &piece[i]) == 0; i++) {
+    if (piece[i].u0 > known_end + max_gap)
       break;
-    if (bit[i].blank) {
-      blank = bit[i].u1 > blank ? bit[i].u1 : blank;
+    if (piece[i].blank) {
+      known_end = piece[i].u1 > known_end ? piece[i].u1 : known_end;
       continue;
     }
-    if (bit[i].u0 > run->u1 + touch &&
-        !(cut && bit[i].cut0 && bit[i].u0 - run->u1 < speck))
+    if (piece[i].u0 > run->u1 + max_gap &&
+        !(ends_by_tone && piece[i].tone_start &&
+          piece[i].u0 - run->u1 < min_length))
       break;
     run->end = i + 1;
-    if (bit[i].u1 > run->u1) {
-      run->u1 = bit[i].u1;
-      cut = bit[i].cut1;
+    if (piece[i].u1 > run->u1) {
+      run->u1 = piece[i].u1;
+      ends_by_tone = piece[i].tone_end;
     }
-    blank = run->u1 > blank ? run->u1 : blank;
+    known_end = run->u1 > known_end ? run->u1 : known_end;
   }
-  return cut;
+  return ends_by_tone;
 }
 
 bool hatch_runs_next(struct hatch_runs *runs, struct hatch_run *run) {
-  while (runs->next < runs->bit.count) {
-    const struct hatch_piece *bit = &runs->bit.item[runs->next];
+  while (runs->next < runs->piece.count) {
+    const struct hatch_piece *piece = &runs->piece.item[runs->next];
     run->first = runs->next++;
-    if (bit->blank)
+    if (piece->blank)
       continue;
-    bool cut = extend(runs, run);
+    bool ends_by_tone = extend(runs, run);
     runs->next = run->end;
-    if (!(bit->cut0 && cut && run->u1 - run->u0 < runs->speck * bit->width_mm))
+    if (!(piece->tone_start && ends_by_tone &&
+          run->u1 - run->u0 < runs->min_length * piece->width_mm))
       return true;
   }
   return false;

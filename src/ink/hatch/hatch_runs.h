@@ -1,41 +1,51 @@
-/* hatch_runs.h - bits of parallel lines, face by face, joined to the runs that
- * a pen draws. */
+/* hatch_runs.h - joins pieces of hatch lines, one for each fragment, into runs
+ * that a pen draws in one movement. */
 #ifndef INK_HATCH_HATCH_RUNS_H
 #define INK_HATCH_HATCH_RUNS_H
 
 #include "base/memory.h"
 
-/* A bit of a line.  Blank ones say that the face runs on there without ink. */
+/* A piece of a hatch line, with ink or blank.  A blank piece records that the
+ * face continues there without ink, so that a short gap may be closed; those of
+ * hatch_runs.min_length or longer have no effect and need not be added.  Pieces
+ * with equal pen, layer, tone_steps and line lie on the same hatch line. */
 struct hatch_piece {
-  uint32_t pen, cross, step; /* with the line's number: which line it is */
+  uint32_t pen;
+  uint32_t layer; /* the layer of hatch lines, by direction */
+  /* On a face of uniform tone this tone times TONE_STEPS, which determines the
+   * pitch; else 0. */
+  uint32_t tone_steps;
   uint32_t face;
   int64_t line;
   double u0, u1;   /* mm along the line, u0 < u1 */
   double width_mm; /* of the pen */
-  bool blank;      /* no longer than runs.speck: others say nothing */
-  bool cut0, cut1; /* begins, ends because of the tone, not of the face */
+  bool blank;
+  /* Whether the piece starts and ends where the tone passes the threshold of
+   * the line, not at a side of the fragment. */
+  bool tone_start, tone_end;
 };
 
 struct hatch_runs {
-  ARRAY(struct hatch_piece) bit;
-  double touch; /* pen widths: bits less than that apart meet */
-  double speck; /* pen widths: shorter runs, and shorter gaps, between two
-                   changes of the tone are left out: they are noise of the
-                   surface */
-  size_t next;  /* bit */
+  ARRAY(struct hatch_piece) piece;
+  double max_gap; /* pen widths: pieces with a gap up to this are joined */
+  /* Pen widths: shorter runs that start and end by the tone are left out, and
+   * shorter gaps of this kind are closed, since they are noise of the
+   * surface. */
+  double min_length;
+  size_t next; /* the first piece not yet read */
 };
 
-/* Bits [first, end) of one line, ink from u0 to u1. */
+/* The pieces [first, end) of one line, joined: ink from u0 to u1. */
 struct hatch_run {
   size_t first, end;
   double u0, u1;
 };
 
-/* Sorts the bits: afterwards hatch_runs_next gives the runs in order of pen,
- * cross, step, line, place. */
+/* Sorts the pieces.  Afterwards hatch_runs_next returns the runs in order of
+ * pen, layer, tone_steps, line, u0.  False when memory ran out. */
 USE_RESULT bool hatch_runs_sort(struct hatch_runs *runs);
 
-/* The next run; false: there is none left. */
+/* Sets `run` to the next run; false past the last one. */
 bool hatch_runs_next(struct hatch_runs *runs, struct hatch_run *run);
 
 #endif

@@ -1,9 +1,9 @@
-/* shared_sides.c - sides that fragments on both sides may have in common in
- * part.
+/* shared_sides.c - finds the stretches that sides of different fragments have
+ * in common.
  *
- * Fragments are disjoint: of the sides on one line those that lead one way are
- * disjoint, and so are those that lead the other way.  Both are walked from
- * the low end. */
+ * Fragments are disjoint and lie on the left of their sides.  So, of the sides
+ * on one line, all forward ones are disjoint, and so are all reversed ones.
+ * Both sequences are sorted by their low ends and merged. */
 #include "ink/hatch/shared_sides.h"
 
 #include "base/sort.h"
@@ -11,20 +11,20 @@
 static bool add(shared_sides *list, double line, double from, double to,
                 const struct map_corner *corner, const struct map_corner *next,
                 uint32_t item) {
-  bool turned = to < from;
-  const struct map_corner *low = turned ? next : corner;
-  const struct map_corner *high = turned ? corner : next;
-  struct shared_side cut = {.line = line,
-                            .low = turned ? to : from,
-                            .high = turned ? from : to,
-                            .turned = turned,
-                            .from = {low->x, low->y},
-                            .to = {high->x, high->y},
-                            .item = item};
-  return ARRAY_PUSH(list, cut);
+  bool reversed = to < from;
+  const struct map_corner *low = reversed ? next : corner;
+  const struct map_corner *high = reversed ? corner : next;
+  struct shared_side side = {.line = line,
+                             .low = reversed ? to : from,
+                             .high = reversed ? from : to,
+                             .reversed = reversed,
+                             .from = {low->x, low->y},
+                             .to = {high->x, high->y},
+                             .item = item};
+  return ARRAY_PUSH(list, side);
 }
 
-bool shared_sides_add_level(shared_sides *list, const struct map_corner *corner,
+bool shared_sides_add_split(shared_sides *list, const struct map_corner *corner,
                             const struct map_corner *next, uint32_t item) {
   return corner->side != MAP_SIDE_CLIP || corner->y != next->y ||
          add(list, corner->y, corner->x, next->x, corner, next, item);
@@ -36,39 +36,40 @@ bool shared_sides_add_edge(shared_sides *list, const struct map_corner *corner,
          add(list, corner->id, corner->y, next->y, corner, next, item);
 }
 
-static int compare_cuts(const void *first, const void *second, void *user) {
+static int compare_sides(const void *first, const void *second, void *user) {
   const struct shared_side *a = first, *b = second;
   (void)user;
   if (a->line != b->line)
     return a->line < b->line ? -1 : 1;
-  if (a->turned != b->turned)
-    return a->turned ? 1 : -1;
+  if (a->reversed != b->reversed)
+    return a->reversed ? 1 : -1;
   return (a->low > b->low) - (a->low < b->low);
 }
 
 bool shared_sides_match(shared_sides *list,
-                        void (*meet)(void *user, struct shared_side *ahead,
-                                     struct shared_side *turned),
+                        void (*visit)(void *user, struct shared_side *forward,
+                                      struct shared_side *reversed),
                         void *user) {
-  struct shared_side *cut = list->item;
+  struct shared_side *side = list->item;
   size_t count = list->count;
-  if (!sort_stable(cut, count, sizeof *cut, compare_cuts, NULL))
+  if (!sort_stable(side, count, sizeof *side, compare_sides, NULL))
     return false;
   for (size_t i = 0, end; i < count; i = end) {
-    size_t past = i, ahead = i, turned;
-    while (past < count && cut[past].line == cut[i].line && !cut[past].turned)
-      past++;
-    turned = end = past;
-    while (end < count && cut[end].line == cut[i].line)
+    size_t forward_end = i, forward = i, reversed;
+    while (forward_end < count && side[forward_end].line == side[i].line &&
+           !side[forward_end].reversed)
+      forward_end++;
+    reversed = end = forward_end;
+    while (end < count && side[end].line == side[i].line)
       end++;
-    while (ahead < past && turned < end) {
-      if (cut[ahead].low < cut[turned].high &&
-          cut[turned].low < cut[ahead].high)
-        meet(user, &cut[ahead], &cut[turned]);
-      if (cut[ahead].high < cut[turned].high)
-        ahead++;
+    while (forward < forward_end && reversed < end) {
+      if (side[forward].low < side[reversed].high &&
+          side[reversed].low < side[forward].high)
+        visit(user, &side[forward], &side[reversed]);
+      if (side[forward].high < side[reversed].high)
+        forward++;
       else
-        turned++;
+        reversed++;
     }
   }
   return true;

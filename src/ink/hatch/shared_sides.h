@@ -1,5 +1,9 @@
-/* shared_sides.h - sides that fragments on both sides may have in common in
- * part: the level cuts that a method of lines leaves, pieces of mesh edges. */
+/* shared_sides.h - finds the stretches that sides of different fragments have
+ * in common.
+ *
+ * Two kinds of sides are matched, as their ends may differ from one fragment to
+ * its neighbour: horizontal sides where a scan-line method has split a face,
+ * and pieces of mesh edges. */
 #ifndef INK_HATCH_SHARED_SIDES_H
 #define INK_HATCH_SHARED_SIDES_H
 
@@ -11,36 +15,41 @@ struct shared_side_point {
 };
 
 struct shared_side {
-  double line;      /* what it lies on: the height of level cuts, an edge */
-  double low, high; /* its ends along it */
-  bool turned;      /* its side leads from high to low */
-  struct shared_side_point from, to; /* low, high */
-  uint32_t item;                     /* the caller's */
+  /* The line that it lies on: the y of a horizontal split, the index of a mesh
+   * edge. */
+  double line;
+  double low, high; /* its ends: x on a horizontal split, y on a mesh edge */
+  bool reversed;    /* the side leads from high to low */
+  struct shared_side_point from, to; /* the points at low and at high */
+  uint32_t item;                     /* for the caller */
 };
 
 typedef ARRAY(struct shared_side) shared_sides;
 
-/* Adds the side from a corner to the next, if it is a level cut of the method's
- * own.  False when memory ran out. */
-USE_RESULT bool shared_sides_add_level(shared_sides *list,
+/* Adds the side from a corner to the next if it is a horizontal split
+ * (MAP_SIDE_CLIP); does nothing otherwise.  False when memory ran out. */
+USE_RESULT bool shared_sides_add_split(shared_sides *list,
                                        const struct map_corner *corner,
                                        const struct map_corner *next,
                                        uint32_t item);
 
-/* Adds it if it is a piece of a mesh edge and not level. */
+/* Adds the side from a corner to the next if it is a piece of a mesh edge and
+ * not horizontal; does nothing otherwise.  False when memory ran out. */
 USE_RESULT bool shared_sides_add_edge(shared_sides *list,
                                       const struct map_corner *corner,
                                       const struct map_corner *next,
                                       uint32_t item);
 
-/* Calls meet(user, ahead, turned) for all pairs of which one is turned and one
- * is not, and that have a stretch in common: along each of them from its low
- * end.  Those that are turned alike are disjoint.  Sorts the cuts.  False when
- * memory ran out. */
+/* Calls visit(user, forward, reversed) for every pair of a forward and a
+ * reversed side on the same line that have a stretch in common; the pairs of
+ * one side come in order from its low end.  The callback may raise the low
+ * ends.  Sides of the same direction must be disjoint.  Sorts the list.
+ * Cost  n log n for n sides
+ * Returns false when memory ran out. */
 USE_RESULT bool shared_sides_match(shared_sides *list,
-                                   void (*meet)(void *user,
-                                                struct shared_side *ahead,
-                                                struct shared_side *turned),
+                                   void (*visit)(void *user,
+                                                 struct shared_side *forward,
+                                                 struct shared_side *reversed),
                                    void *user);
 
 #endif

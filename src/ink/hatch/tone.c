@@ -1,12 +1,12 @@
-/* tone.c - the share of the paper that ink is to cover, over the faces seen.
+/* tone.c - the tone of faces: the share of the paper that ink is to cover.
  *
  * Phases
- *   1 normals   of the faces, as long as their areas
- *   2 joints    corners of faces that meet smoothly become one set, faces that
- *               do one region
- *   3 corners   the normal of a set is the sum of its faces'; its angle to the
- *               light is the tone
- *   4 regions   even ones get their mean tone */
+ *   1 normals   of the faces, with lengths proportional to their areas
+ *   2 joins     corners of faces that meet at a smooth edge are united into
+ *               sets, and the faces into smooth regions (disjoint sets)
+ *   3 corners   the normal of a set is the sum of the normals of its faces; its
+ *               angle to the light gives the tone
+ *   4 regions   uniform regions get the middle of their tones */
 #include "ink/hatch/tone.h"
 
 #include <math.h>
@@ -16,8 +16,8 @@
 #include "view/project.h"
 #include "view/vector.h"
 
-/* A region whose tones differ by less is even: below what a pen can show. */
-#define EVEN_TONE (1.0 / 512)
+/* A region whose tones differ by less is uniform: a pen cannot show it. */
+#define UNIFORM_RANGE (1.0 / 512)
 
 struct tone_normal {
   double xyz[3];
@@ -30,15 +30,17 @@ struct tone_work {
   double crease_cosine;
   struct tone_normal *face; /* of each face */
   struct tone_normal *sum;  /* of each set of corners, at its root */
-  uint32_t *corner_root;    /* sets of corners, and of faces */
-  uint32_t *face_root;
-  uint32_t *first_use; /* of each edge: a corner and its face */
+  uint32_t *corner_root;    /* disjoint sets of corners */
+  uint32_t *face_root;      /* disjoint sets of faces: smooth regions */
+  uint32_t *first_use;      /* of each edge: the corner where the first of its
+                               two faces leaves along it, and this face */
   uint32_t *first_face;
-  float *least, *most; /* tones of each region, at its root */
+  float *min, *max; /* extreme tones of each region, at its root */
 };
 
-/* ---- 2 Joints ------------------------------------------------------------ */
+/* ---- 2 Joins ------------------------------------------------------------- */
 
+/* Whether two faces meet at no more than the crease angle. */
 static bool is_smooth(const struct tone_work *w, uint32_t f, uint32_t g) {
   const double *a = w->face[f].xyz, *b = w->face[g].xyz;
   double dot = vector_dot(a, b);
@@ -52,8 +54,9 @@ static uint32_t next_corner(const struct scene *scene, uint32_t face,
              : scene->face_start.item[face];
 }
 
-/* Faces f and g leave their corners a and b along one edge, in opposite
- * directions. */
+/* Joins faces f and g, and their corners at the edge they share, if it is
+ * smooth.  The edge starts at corner a of f and, in the opposite direction, at
+ * corner b of g. */
 static void join_faces(struct tone_work *w, uint32_t f, uint32_t a, uint32_t g,
                        uint32_t b) {
   if (!is_smooth(w, f, g))
@@ -63,7 +66,7 @@ static void join_faces(struct tone_work *w, uint32_t f, uint32_t a, uint32_t g,
   sets_join(w->corner_root, next_corner(w->scene, f, a), b);
 }
 
-static void join_all(struct tone_work *w) {
+static void join_smooth_edges(struct tone_work *w) {
   const struct topology *topology = w->sheet->topology;
   for (size_t e = 0; e < topology->edge.count; e++)
     w->first_use[e] = SCENE_NONE;
@@ -95,6 +98,7 @@ static void sum_normals(struct tone_work *w) {
     }
 }
 
+/* away  the face is seen from its back: its normal is reversed */
 static float tone_of_corner(struct tone_work *w, uint32_t corner, bool away) {
   struct tone_normal n = w->sum[sets_root(w->corner_root, corner)];
   for (int k = 0; away && k < 3; k++)
@@ -104,8 +108,9 @@ static float tone_of_corner(struct tone_work *w, uint32_t corner, bool away) {
   return (float)(1 - light_brightness(n.xyz, w->light));
 }
 
-static struct drawing_point place_corner(const struct tone_work *w,
-                                         uint32_t corner) {
+/* The projection of a corner; NaN in front of the near plane. */
+static struct drawing_point project_corner(const struct tone_work *w,
+                                           uint32_t corner) {
   const struct camera *camera = &w->sheet->camera;
   const struct scene_point *p =
       &w->scene->point.item[w->scene->corner.item[corner]];
@@ -126,9 +131,9 @@ static void set_corners(struct tone_work *w, struct tones *tones) {
          c < w->scene->face_start.item[f + 1]; c++) {
       float tone = tone_of_corner(w, c, away);
       tones->corner[c] = tone;
-      tones->place[c] = place_corner(w, c);
-      w->least[region] = fminf(w->least[region], tone);
-      w->most[region] = fmaxf(w->most[region], tone);
+      tones->position[c] = project_corner(w, c);
+      w->min[region] = fminf(w->min[region], tone);
+      w->max[region] = fmaxf(w->max[region], tone);
     }
   }
 }
@@ -138,11 +143,11 @@ static void set_corners(struct tone_work *w, struct tones *tones) {
 static void set_regions(struct tone_work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene); f++) {
     uint32_t region = sets_root(w->face_root, f);
-    double least = w->least[region], most = w->most[region];
-    tones->even[f] = most - least < EVEN_TONE;
-    if (!tones->even[f])
+    double min = w->min[region], max = w->max[region];
+    tones->uniform[f] = max - min < UNIFORM_RANGE;
+    if (!tones->uniform[f])
       continue;
-    double mean = round((least + most) / 2 * TONE_STEPS) / TONE_STEPS;
+    double mean = round((min + max) / 2 * TONE_STEPS) / TONE_STEPS;
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++)
       tones->corner[c] = (float)mean;
@@ -161,28 +166,28 @@ static bool prepare(struct tone_work *w) {
   w->face_root = sets_create(faces);
   w->first_use = mem_alloc(edges, sizeof *w->first_use);
   w->first_face = mem_alloc(edges, sizeof *w->first_face);
-  w->least = mem_alloc(faces, sizeof *w->least);
-  w->most = mem_alloc(faces, sizeof *w->most);
+  w->min = mem_alloc(faces, sizeof *w->min);
+  w->max = mem_alloc(faces, sizeof *w->max);
   if (!w->face || !w->sum || !w->corner_root || !w->face_root ||
-      !w->first_use || !w->first_face || !w->least || !w->most)
+      !w->first_use || !w->first_face || !w->min || !w->max)
     return false;
   for (uint32_t f = 0; f < faces; f++) {
     light_face_normal(w->scene, f, w->face[f].xyz);
-    w->least[f] = 1;
-    w->most[f] = 0;
+    w->min[f] = 1;
+    w->max[f] = 0;
   }
   return true;
 }
 
-static void finish(struct tone_work *w) {
+static void release(struct tone_work *w) {
   mem_free(w->face);
   mem_free(w->sum);
   mem_free(w->corner_root);
   mem_free(w->face_root);
   mem_free(w->first_use);
   mem_free(w->first_face);
-  mem_free(w->least);
-  mem_free(w->most);
+  mem_free(w->min);
+  mem_free(w->max);
 }
 
 bool tones_init(struct tones *tones, const struct sheet *sheet,
@@ -192,17 +197,17 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
   light_direction(&sheet->camera, options, w.light);
   *tones = (struct tones){.scene = scene};
   tones->corner = mem_alloc(scene->corner.count, sizeof *tones->corner);
-  tones->place = mem_alloc(scene->corner.count, sizeof *tones->place);
-  tones->even = mem_alloc(scene_face_count(scene), sizeof *tones->even);
-  bool ok = tones->corner && tones->place && tones->even && prepare(&w);
+  tones->position = mem_alloc(scene->corner.count, sizeof *tones->position);
+  tones->uniform = mem_alloc(scene_face_count(scene), sizeof *tones->uniform);
+  bool ok = tones->corner && tones->position && tones->uniform && prepare(&w);
   if (ok) {
     if (sheet->topology && sheet->topology->corner_edge)
-      join_all(&w);
+      join_smooth_edges(&w);
     sum_normals(&w);
     set_corners(&w, tones);
     set_regions(&w, tones);
   }
-  finish(&w);
+  release(&w);
   if (!ok)
     tones_fini(tones);
   return ok;
@@ -210,37 +215,40 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
 
 void tones_fini(struct tones *tones) {
   mem_free(tones->corner);
-  mem_free(tones->place);
-  mem_free(tones->even);
+  mem_free(tones->position);
+  mem_free(tones->uniform);
   *tones = (struct tones){0};
 }
 
 /* ---- Over a face --------------------------------------------------------- */
 
-/* The plane through the tones of three corners, from the place of the first
- * on; false where they are in line on the page. */
+/* The plane through the tones of the corners o, a and b, with its origin at o.
+ * False where the corners are collinear on the page. */
 static bool find_plane(const struct tones *tones, uint32_t o, uint32_t a,
                        uint32_t b, struct tone_plane *plane) {
-  const struct drawing_point *place = tones->place;
-  double ax = place[a].x - place[o].x, ay = place[a].y - place[o].y;
-  double bx = place[b].x - place[o].x, by = place[b].y - place[o].y;
+  const struct drawing_point *position = tones->position;
+  double ax = position[a].x - position[o].x, ay = position[a].y - position[o].y;
+  double bx = position[b].x - position[o].x, by = position[b].y - position[o].y;
   double at = tones->corner[o];
   double ta = tones->corner[a] - at, tb = tones->corner[b] - at;
   double area = ax * by - ay * bx;
   *plane = (struct tone_plane){at, (ta * by - tb * ay) / area,
                                (tb * ax - ta * bx) / area};
-  return isfinite(plane->x) && isfinite(plane->y);
+  return isfinite(plane->dx) && isfinite(plane->dy);
 }
 
 static double value_of(const struct tone *tone, int plane,
                        struct drawing_point p) {
   const struct tone_plane *t = &tone->plane[plane];
-  return t->at + t->x * (p.x - tone->from.x) + t->y * (p.y - tone->from.y);
+  return t->value + t->dx * (p.x - tone->origin.x) +
+         t->dy * (p.y - tone->origin.y);
 }
 
-/* Two planes that agree along the diagonal from corner 0 to 2: on the side of
- * corner 1 the first is meant, and it is the higher there or the lower, so it
- * is on the whole of the face that one is higher or lower. */
+/* Sets the planes of a triangle or a quadrilateral; false where there is none.
+ * The two planes of a quadrilateral agree along the diagonal from corner 0 to
+ * corner 2, and the first holds on the side of corner 1.  If it is the higher
+ * one there, the tone is the maximum of the two planes on the whole face, else
+ * the minimum. */
 static bool find_planes(const struct tones *tones, uint32_t first,
                         uint32_t count, struct tone *tone) {
   if (!find_plane(tones, first, first + 1, first + 2, &tone->plane[0]))
@@ -250,26 +258,27 @@ static bool find_planes(const struct tones *tones, uint32_t first,
     return true;
   if (!find_plane(tones, first, first + 2, first + 3, &tone->plane[1]))
     return false;
-  struct drawing_point p = tones->place[first + 1];
+  struct drawing_point p = tones->position[first + 1];
   tone->planes = 2;
-  tone->higher = value_of(tone, 0, p) >= value_of(tone, 1, p);
+  tone->take_max = value_of(tone, 0, p) >= value_of(tone, 1, p);
   return true;
 }
 
 struct tone tones_of_face(const struct tones *tones, uint32_t face) {
   uint32_t first = tones->scene->face_start.item[face];
   uint32_t count = tones->scene->face_start.item[face + 1] - first;
-  struct tone tone = {.from = tones->place[first], .even = tones->even[face]};
+  struct tone tone = {.origin = tones->position[first],
+                      .uniform = tones->uniform[face]};
   double sum = 0;
   for (uint32_t c = first; c < first + count; c++) {
     sum += tones->corner[c];
-    tone.most = fmax(tone.most, tones->corner[c]);
+    tone.max = fmax(tone.max, tones->corner[c]);
   }
-  if (tone.even || count > 4 || !find_planes(tones, first, count, &tone)) {
-    double mean = tone.even ? tones->corner[first] : sum / count;
+  if (tone.uniform || count > 4 || !find_planes(tones, first, count, &tone)) {
+    double mean = tone.uniform ? tones->corner[first] : sum / count;
     tone.plane[0] = (struct tone_plane){mean, 0, 0};
     tone.planes = 1;
-    tone.from = (struct drawing_point){0, 0};
+    tone.origin = (struct drawing_point){0, 0};
   }
   return tone;
 }
