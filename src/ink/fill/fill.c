@@ -1,11 +1,12 @@
-/* fill.c - visible fragments become fills, painted or shaded. */
+/* fill.c - makes fills of the visible fragments, painted or shaded. */
 #include "ink/fill/fill.h"
 
 #include "ink/fill/light.h"
 #include "ink/fill/merge.h"
 #include "view/vector.h"
 
-/* Muted, so that lines stay the picture, and apart in hue or in lightness. */
+/* Colours of low saturation, so that the lines dominate the picture; any two
+ * differ in hue or in lightness. */
 static const uint32_t palette[] = {
     0x9db4c8, 0xe0c29a, 0xa9c4a0, 0xd3a39c, 0xb9aecb, 0xd9d3a4,
     0x8fb5b0, 0xc4a586, 0xc7d4de, 0xe3b8a0, 0x96a68a, 0xcfb3c3,
@@ -19,8 +20,10 @@ uint32_t fill_colour(const struct scene *scene, uint32_t group) {
 
 /* ---- Shade --------------------------------------------------------------- */
 
-static uint32_t grey_of(const struct scene *scene, uint32_t face,
-                        const struct camera *camera, const double light[3]) {
+/* The grey, 0xRRGGBB, of a face by its angle to the light.  The normal is
+ * turned towards the viewer first, so both sides of a face are shaded alike. */
+static uint32_t shade_grey(const struct scene *scene, uint32_t face,
+                           const struct camera *camera, const double light[3]) {
   double normal[3];
   light_face_normal(scene, face, normal);
   if (light_is_turned_away(scene, face, camera, normal))
@@ -33,15 +36,16 @@ static uint32_t grey_of(const struct scene *scene, uint32_t face,
 
 /* ---- Fills --------------------------------------------------------------- */
 
-/* The fill that a fragment would be, without its loops. */
-static struct drawing_fill fill_like(const struct sheet *sheet,
-                                     const struct scene *scene, uint32_t face,
-                                     const double light[3],
-                                     const recto_options *options) {
+/* The fill of a fragment of this face: colour, face and group, but no loops. */
+static struct drawing_fill fill_without_loops(const struct sheet *sheet,
+                                              const struct scene *scene,
+                                              uint32_t face,
+                                              const double light[3],
+                                              const recto_options *options) {
   uint32_t group = scene->face_group.item[face];
   return (struct drawing_fill){
       .colour = options->fill == RECTO_FILL_SHADE
-                    ? grey_of(scene, face, &sheet->camera, light)
+                    ? shade_grey(scene, face, &sheet->camera, light)
                     : fill_colour(scene, group),
       .face = face,
       .group = group};
@@ -50,15 +54,16 @@ static struct drawing_fill fill_like(const struct sheet *sheet,
 bool fill_add(struct drawing *drawing, const struct sheet *sheet,
               const struct scene *scene, const struct map *map,
               const recto_options *options) {
-  struct drawing_fill *like = mem_alloc(map->fragment.count, sizeof *like);
+  struct drawing_fill *prototype =
+      mem_alloc(map->fragment.count, sizeof *prototype);
   double light[3];
-  if (!like)
+  if (prototype == NULL)
     return false;
   light_direction(&sheet->camera, options, light);
   for (size_t i = 0; i < map->fragment.count; i++)
-    like[i] =
-        fill_like(sheet, scene, map->fragment.item[i].face, light, options);
-  bool ok = merge_fills(drawing, sheet, scene, map, like, options);
-  mem_free(like);
+    prototype[i] = fill_without_loops(sheet, scene, map->fragment.item[i].face,
+                                      light, options);
+  bool ok = merge_fills(drawing, sheet, scene, map, prototype, options);
+  mem_free(prototype);
   return ok;
 }

@@ -1,4 +1,4 @@
-/* light.c - how bright a face is by its angle to the light. */
+/* light.c - computes the brightness of a face from its angle to the light. */
 #include "ink/fill/light.h"
 
 #include <string.h>

@@ -1,24 +1,28 @@
-/* light.h - how bright a face is by its angle to the light. */
+/* light.h - computes the brightness of a face from its angle to the light. */
 #ifndef INK_FILL_LIGHT_H
 #define INK_FILL_LIGHT_H
 
 #include "view/camera.h"
 
-/* Brightness where the light does not reach; 1 is where it falls squarely. */
+/* The brightness of a face turned away from the light, its ambient part; a face
+ * perpendicular to the light has 1. */
 #define LIGHT_DARKEST 0.3
 
-/* Towards the light, of unit length, scene space; over the viewer's left
- * shoulder where options->light is 0, 0, 0. */
+/* Sets `light` to the unit vector towards the light, in scene space.  If
+ * options->light is 0, 0, 0, the light comes from behind the viewer, from the
+ * upper left. */
 void light_direction(const struct camera *camera, const recto_options *options,
                      double light[3]);
 
 /* The brightness of a surface, LIGHT_DARKEST to 1, by Lambert's law.
- * normal, light  of unit length; a normal of length 0 is dark */
+ * normal, light  of unit length; a normal of length 0 gives
+ *                LIGHT_DARKEST */
 double light_brightness(const double normal[3], const double light[3]);
 
-/* The normal of a face by Newell's sums, its length twice the area, on the
- * side from which it is counter-clockwise; measured from its first corner, so
- * that far models lose nothing. */
+/* The Newell normal of a face.  Its length is twice the area, and it points to
+ * the side from which the face is counter-clockwise.  Coordinates are taken
+ * relative to the first corner, so that models far from the origin lose no
+ * precision. */
 void light_face_normal(const struct scene *scene, uint32_t face,
                        double normal[3]);
 

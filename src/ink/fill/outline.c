@@ -1,11 +1,11 @@
-/* outline.c - directed pieces of outline, joined end to end. */
+/* outline.c - joins directed segments of outlines to closed loops. */
 #include "ink/fill/outline.h"
 
 #include <math.h>
 
 #include "base/sort.h"
 
-int outline_compare(struct outline_place a, struct outline_place b) {
+int outline_compare(struct outline_point a, struct outline_point b) {
   if (a.x != b.x)
     return a.x < b.x ? -1 : 1;
   return (a.y > b.y) - (a.y < b.y);
@@ -13,39 +13,42 @@ int outline_compare(struct outline_place a, struct outline_place b) {
 
 static int compare_starts(const void *a, const void *b, void *user) {
   (void)user;
-  return outline_compare(((const struct outline_piece *)a)->from,
-                         ((const struct outline_piece *)b)->from);
+  return outline_compare(((const struct outline_segment *)a)->from,
+                         ((const struct outline_segment *)b)->from);
 }
 
-static double cross(const struct outline_piece *a,
-                    const struct outline_piece *b) {
+/* The cross product of the directions of a and b. */
+static double cross(const struct outline_segment *a,
+                    const struct outline_segment *b) {
   return (a->to.x - a->from.x) * (b->to.y - b->from.y) -
          (a->to.y - a->from.y) * (b->to.x - b->from.x);
 }
 
-/* True where going on along u turns left of going on along v, after `in`. */
-static bool is_left(const struct outline_piece *in,
-                    const struct outline_piece *u,
-                    const struct outline_piece *v) {
+/* Whether u lies to the left of v as the continuation of `in`. */
+static bool is_left(const struct outline_segment *in,
+                    const struct outline_segment *u,
+                    const struct outline_segment *v) {
   bool left_u = cross(in, u) > 0, left_v = cross(in, v) > 0;
   return left_u != left_v ? left_u : cross(v, u) > 0;
 }
 
-/* The piece that goes on from `in`: of several the leftmost, so that loops
- * that touch at a point are told apart.  NULL: the loop is closed. */
-static struct outline_piece *next_piece(struct outline *outline,
-                                        const struct outline_piece *in) {
-  size_t low = 0, high = outline->piece.count;
-  struct outline_piece *best = NULL;
+/* The unused segment that continues `in`: the leftmost of several, so that
+ * loops that touch at a point remain separate loops.  NULL if there is none,
+ * which means that the loop is closed.  Binary search for the first segment
+ * that starts at the end of `in`. */
+static struct outline_segment *next_piece(struct outline *outline,
+                                          const struct outline_segment *in) {
+  size_t low = 0, high = outline->segment.count;
+  struct outline_segment *best = NULL;
   while (low < high) {
     size_t middle = low + (high - low) / 2;
-    if (outline_compare(outline->piece.item[middle].from, in->to) < 0)
+    if (outline_compare(outline->segment.item[middle].from, in->to) < 0)
       low = middle + 1;
     else
       high = middle;
   }
-  for (; low < outline->piece.count; low++) {
-    struct outline_piece *p = &outline->piece.item[low];
+  for (; low < outline->segment.count; low++) {
+    struct outline_segment *p = &outline->segment.item[low];
     if (outline_compare(p->from, in->to) != 0)
       break;
     if (!p->used && (best == NULL || is_left(in, p, best)))
@@ -54,7 +57,7 @@ static struct outline_piece *next_piece(struct outline *outline,
   return best;
 }
 
-bool outline_add_point(struct ink_paths *paths, struct outline_place at) {
+bool outline_add_point(struct ink_paths *paths, struct outline_point at) {
   struct ink_point point = {(int32_t)lrint(at.x), (int32_t)lrint(at.y)};
   paths->path.item[paths->path.count - 1].count++;
   return ARRAY_PUSH(&paths->point, point);
@@ -66,10 +69,13 @@ bool outline_begin_loop(struct ink_paths *paths) {
   return ARRAY_PUSH(&paths->path, path);
 }
 
-static bool trace(struct outline *outline, struct outline_piece *first,
-                  struct ink_paths *paths) {
+/* Follows the loop that begins with the segment `first`, and marks its segments
+ * used. */
+static bool trace_loop(struct outline *outline, struct outline_segment *first,
+                       struct ink_paths *paths) {
   bool ok = outline_begin_loop(paths);
-  for (struct outline_piece *p = first; ok && p; p = next_piece(outline, p)) {
+  for (struct outline_segment *p = first; ok && p != NULL;
+       p = next_piece(outline, p)) {
     p->used = true;
     ok = outline_add_point(paths, p->from);
   }
@@ -77,11 +83,11 @@ static bool trace(struct outline *outline, struct outline_piece *first,
 }
 
 bool outline_trace(struct outline *outline, struct ink_paths *loops) {
-  struct outline_piece *piece = outline->piece.item;
-  bool ok = sort_stable(piece, outline->piece.count, sizeof *piece,
+  struct outline_segment *segment = outline->segment.item;
+  bool ok = sort_stable(segment, outline->segment.count, sizeof *segment,
                         compare_starts, NULL);
-  for (size_t i = 0; ok && i < outline->piece.count; i++)
-    if (!piece[i].used)
-      ok = trace(outline, &piece[i], loops);
+  for (size_t i = 0; ok && i < outline->segment.count; i++)
+    if (!segment[i].used)
+      ok = trace_loop(outline, &segment[i], loops);
   return ok;
 }

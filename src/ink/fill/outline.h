@@ -1,36 +1,39 @@
-/* outline.h - directed pieces of outline, joined end to end. */
+/* outline.h - joins directed segments of outlines to closed loops. */
 #ifndef INK_FILL_OUTLINE_H
 #define INK_FILL_OUTLINE_H
 
 #include "ink/lines/paths.h"
 
-struct outline_place {
-  double x, y; /* grid units, as in map_corner */
+struct outline_point {
+  double x, y; /* page grid units, as in map_corner */
 };
 
-struct outline_piece {
-  struct outline_place from, to;
-  uint32_t fragment; /* the caller's */
-  bool used;
+struct outline_segment {
+  struct outline_point from, to;
+  uint32_t fragment; /* for the caller; not read here */
+  bool used;         /* already in a loop */
 };
 
 struct outline {
-  ARRAY(struct outline_piece) piece;
+  ARRAY(struct outline_segment) segment;
 };
 
-/* By x, then by y: <0, 0 or >0. */
-int outline_compare(struct outline_place a, struct outline_place b);
+/* Lexicographic order by x, then by y: returns -1, 0 or 1. */
+int outline_compare(struct outline_point a, struct outline_point b);
 
-/* Loops are closed paths; begins one, adds a point to the one begun last,
- * rounded to the grid.  False when memory ran out. */
+/* Begins a loop, which is a closed path; adds a point, rounded to the page
+ * grid, to the loop begun last.  Both return false when memory ran out. */
 USE_RESULT bool outline_begin_loop(struct ink_paths *loops);
 USE_RESULT bool outline_add_point(struct ink_paths *loops,
-                                  struct outline_place at);
+                                  struct outline_point at);
 
-/* Joins pieces, of which as many come to a point as leave it, to loops; where
- * several leave a point by the sharpest turn to the left.  The loop with the
- * lowest point comes first.
- * outline  its pieces are sorted, and used afterwards */
+/* Joins segments to closed loops.  As many segments must end at each point as
+ * start there.  Where several start at a point, the one with the sharpest turn
+ * to the left continues the loop.  The loop with the lexicographically least
+ * starting point comes first.
+ * outline  its segments are sorted, and all marked used afterwards
+ * Returns false when memory ran out.
+ * Cost  n log n */
 USE_RESULT bool outline_trace(struct outline *outline, struct ink_paths *loops);
 
 #endif

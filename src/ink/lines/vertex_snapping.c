@@ -69,7 +69,7 @@ bool vertex_snapping_unite(struct vertex_snapping *snapping, uint32_t from,
   return true;
 }
 
-/* ---- 1. Clusters ---------------------------------------------------------- */
+/* ---- 1. Clusters --------------------------------------------------------- */
 
 /* The first index in [low, high), a range of one row, whose node has an
  * abscissa of at least x; `high` if there is none.  Binary search. */
