@@ -352,7 +352,7 @@ static void improved_tour_is_never_longer(void **state) {
     struct drawing_point end[2 * MOST];
     uint32_t stroke[MOST], times[MOST] = {0};
     bool turned[MOST];
-    struct tour tour = {.end = end, .stroke = stroke, .turned = turned};
+    struct tour tour = {.end = end, .stroke = stroke, .reversed = turned};
     tour.count = (uint32_t)random_int(&random, 1, round % 2 ? 6 : MOST);
     tour.start = (struct drawing_point){random_int(&random, 0, 9), 0};
     for (uint32_t i = 0; i < tour.count; i++) {

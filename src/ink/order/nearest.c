@@ -1,21 +1,22 @@
-/* nearest.c - the nearest of a set of points that shrinks.
+/* nearest.c - nearest-neighbour search in a point set with deletion.
  *
- * Invariants  Box i of level l holds the items n j / 2^l up to
- *   n (j + 1) / 2^l, j = i - 2^l: halves are equal whatever the points, so the
- *   depth is log2 n.  `left` counts what is still there.
- * Robustness  A box is skipped where it is not nearer than the best so far;
- *   where many points coincide the first of them found is as good as any, and
- *   always the same. */
+ * Invariants  Box i of level l, with j = i - 2^l, bounds the items from
+ *   n j / 2^l up to, but without, n (j + 1) / 2^l.  So both children of a box
+ *   have child of its items, whatever the points are, and the depth is log2 n.
+ *   `left` counts the items of a box that are not deleted.
+ * Robustness  A box is pruned if it is not nearer than the best points found so
+ *   far.  Of points that coincide, the first one found is the result, which is
+ *   deterministic. */
 #include "ink/order/nearest.h"
 
 #include <math.h>
 
-enum { LEAF = 8, DEEPEST = 32 };
+enum { LEAF_MAX = 8, LEVEL_MAX = 32 };
 
 struct nearest_item {
   struct drawing_point at;
   uint32_t point;
-  bool gone;
+  bool deleted;
 };
 
 struct nearest_box {
@@ -25,6 +26,7 @@ struct nearest_box {
 
 /* ---- Building ------------------------------------------------------------ */
 
+/* The first item of box j of a level. */
 static uint32_t start_of(const struct nearest *t, int level, uint32_t j) {
   return (uint32_t)(((uint64_t)t->count * j) >> level);
 }
@@ -39,48 +41,49 @@ static void swap(struct nearest_item *a, struct nearest_item *b) {
   *b = c;
 }
 
-/* Arranges items [low, high) so that none before `middle` is greater than any
- * from there on.  Quickselect in three parts, so that equal points end it. */
+/* Partitions items [low, high) so that none before `middle` is greater than any
+ * from `middle` on.  Quickselect with a three-way partition, so that many equal
+ * coordinates end it at once.  Expected linear. */
 static void select_middle(struct nearest *t, uint32_t low, uint32_t high,
                           uint32_t middle, int axis) {
   while (high - low > 1) {
     double pivot = coordinate(t, low + (high - low) / 2, axis);
-    uint32_t less = low, equal = low, more = high;
-    while (equal < more) {
+    uint32_t less = low, equal = low, greater = high;
+    while (equal < greater) {
       double c = coordinate(t, equal, axis);
       if (c < pivot)
         swap(&t->item[less++], &t->item[equal++]);
       else if (c > pivot)
-        swap(&t->item[equal], &t->item[--more]);
+        swap(&t->item[equal], &t->item[--greater]);
       else
         equal++;
     }
     if (middle < less)
       high = less;
-    else if (middle >= more)
-      low = more;
+    else if (middle >= greater)
+      low = greater;
     else
       return;
   }
 }
 
-/* The box of what is left of items [low, high). */
+/* The bounding box of those of items [low, high) that are not deleted. */
 static struct nearest_box bound(const struct nearest *t, uint32_t low,
                                 uint32_t high) {
   struct nearest_box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 0};
   for (uint32_t i = low; i < high; i++) {
-    for (int axis = 0; axis < 2 && !t->item[i].gone; axis++) {
+    for (int axis = 0; axis < 2 && !t->item[i].deleted; axis++) {
       double c = coordinate(t, i, axis);
       box.low[axis] = c < box.low[axis] ? c : box.low[axis];
       box.high[axis] = c > box.high[axis] ? c : box.high[axis];
     }
-    box.left += !t->item[i].gone;
+    box.left += !t->item[i].deleted;
   }
   return box;
 }
 
-/* The box of two halves; empty ones are beyond everything and change
- * nothing. */
+/* The union of two boxes.  Empty ones have infinite bounds of the wrong sign,
+ * which are neutral. */
 static struct nearest_box unite(const struct nearest_box *a,
                                 const struct nearest_box *b) {
   struct nearest_box box = *a;
@@ -93,6 +96,7 @@ static struct nearest_box unite(const struct nearest_box *a,
   return box;
 }
 
+/* Fills the boxes level by level, and splits the items of each. */
 static void build(struct nearest *t) {
   for (int level = 0; level <= t->levels; level++) {
     for (uint32_t j = 0; j < UINT32_C(1) << level; j++) {
@@ -111,7 +115,7 @@ static void build(struct nearest *t) {
 bool nearest_init(struct nearest *t, const struct drawing_point *point,
                   uint32_t count) {
   *t = (struct nearest){.count = count};
-  while ((uint64_t)LEAF << t->levels < count)
+  while ((uint64_t)LEAF_MAX << t->levels < count)
     t->levels++;
   t->item = mem_alloc(count, sizeof *t->item);
   t->place = mem_alloc(count, sizeof *t->place);
@@ -135,9 +139,9 @@ void nearest_fini(struct nearest *t) {
 
 void nearest_remove(struct nearest *t, uint32_t point) {
   uint64_t place = t->place[point];
-  t->item[place].gone = true;
-  /* The last leaf j that starts at the place or before it, n j / 2^l being
-   * less than place + 1. */
+  t->item[place].deleted = true;
+  /* The leaf of the place is the last j that starts there or before, that is
+   * with n j / 2^l < place + 1. */
   uint32_t leaf = (uint32_t)((((place + 1) << t->levels) - 1) / t->count);
   uint32_t i = (UINT32_C(1) << t->levels) + leaf;
   t->box[i] =
@@ -148,19 +152,21 @@ void nearest_remove(struct nearest *t, uint32_t point) {
 
 /* ---- Searching ----------------------------------------------------------- */
 
-/* The best so far, nearest first, and what is looked for. */
+/* A query, and the best points found so far, nearest first. */
 struct search {
   struct drawing_point from;
-  uint32_t skip; /* points with this i / 2 do not count */
+  uint32_t skip; /* points with this i / 2 are ignored */
   uint32_t wanted, count;
-  uint32_t found[NEAREST_MOST];
-  double distance2[NEAREST_MOST];
+  uint32_t found[NEAREST_LIST_MAX];
+  double distance2[NEAREST_LIST_MAX];
 };
 
+/* The squared distance that a further point must be below. */
 static double limit(const struct search *s) {
   return s->count < s->wanted ? INFINITY : s->distance2[s->count - 1];
 }
 
+/* The squared distance of a point from a box, 0 inside it. */
 static double box_distance2(const struct nearest_box *box,
                             struct drawing_point p) {
   double dx = p.x < box->low[0]    ? box->low[0] - p.x
@@ -172,14 +178,15 @@ static double box_distance2(const struct nearest_box *box,
   return dx * dx + dy * dy;
 }
 
-static void look_in_leaf(const struct nearest *t, struct search *s,
-                         uint32_t leaf) {
+/* Inserts the points of a leaf that are near enough into the sorted result. */
+static void scan_leaf(const struct nearest *t, struct search *s,
+                      uint32_t leaf) {
   uint32_t end = start_of(t, t->levels, leaf + 1);
   for (uint32_t i = start_of(t, t->levels, leaf); i < end; i++) {
     const struct nearest_item *item = &t->item[i];
     double dx = item->at.x - s->from.x, dy = item->at.y - s->from.y;
     double d = dx * dx + dy * dy;
-    if (item->gone || item->point / 2 == s->skip || d >= limit(s))
+    if (item->deleted || item->point / 2 == s->skip || d >= limit(s))
       continue;
     uint32_t k = s->count < s->wanted ? s->count++ : s->count - 1;
     for (; k > 0 && s->distance2[k - 1] > d; k--) {
@@ -191,11 +198,12 @@ static void look_in_leaf(const struct nearest *t, struct search *s,
   }
 }
 
+/* Depth-first branch and bound. */
 static void search_tree(const struct nearest *t, struct search *s) {
   struct {
     uint32_t box;
     double distance2;
-  } stack[DEEPEST + 2];
+  } stack[LEVEL_MAX + 2];
   uint32_t depth = 0, leaves = UINT32_C(1) << t->levels;
   stack[depth].box = 1;
   stack[depth++].distance2 = 0;
@@ -205,18 +213,18 @@ static void search_tree(const struct nearest *t, struct search *s) {
       continue;
     uint32_t i = stack[depth].box;
     if (i >= leaves) {
-      look_in_leaf(t, s, i - leaves);
+      scan_leaf(t, s, i - leaves);
       continue;
     }
     double a = box_distance2(&t->box[2 * i], s->from);
     double b = box_distance2(&t->box[2 * i + 1], s->from);
-    /* The nearer half is looked at first, so it goes on top. */
+    /* The nearer child is visited first, so it is pushed last. */
     uint32_t second = a <= b ? 1 : 0;
     for (uint32_t turn = 0; turn < 2; turn++) {
-      uint32_t half = turn ? !second : second;
-      double d = half ? b : a;
-      if (t->box[2 * i + half].left > 0 && d < limit(s)) {
-        stack[depth].box = 2 * i + half;
+      uint32_t child = turn ? !second : second;
+      double d = child ? b : a;
+      if (t->box[2 * i + child].left > 0 && d < limit(s)) {
+        stack[depth].box = 2 * i + child;
         stack[depth++].distance2 = d;
       }
     }

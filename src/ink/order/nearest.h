@@ -1,36 +1,40 @@
-/* nearest.h - the nearest of a set of points that shrinks. */
+/* nearest.h - nearest-neighbour search in a point set with deletion. */
 #ifndef INK_ORDER_NEAREST_H
 #define INK_ORDER_NEAREST_H
 
 #include "drawing/drawing.h"
 
-/* A balanced tree of boxes over the points, halved along their longer side
- * down to a handful. */
+/* A k-d tree: a balanced binary tree of bounding boxes, each split at the
+ * median along its longer side, down to leaves of at most eight points. */
 struct nearest {
   uint32_t count;
-  int levels;                /* of halving; 2^levels leaves */
-  struct nearest_item *item; /* the points, leaf by leaf */
-  uint32_t *place;           /* of each point among them */
-  struct nearest_box *box;   /* heap: box 1 holds all, 2 i and 2 i + 1 its
-                                halves */
+  int levels;                /* below the root; 2^levels leaves */
+  struct nearest_item *item; /* the points, grouped by leaf */
+  uint32_t *place;           /* of each point: its index in `item` */
+  struct nearest_box *box;   /* in heap order: 1 is the root, 2 i and
+                                2 i + 1 are the children of i */
 };
 
 #define NEAREST_NONE UINT32_MAX
 
-/* Copies what it needs of the points. */
+/* Builds the tree.  The points are copied.  Returns false when memory ran out.
+ * Cost  n log n */
 USE_RESULT bool nearest_init(struct nearest *nearest,
                              const struct drawing_point *point, uint32_t count);
 void nearest_fini(struct nearest *nearest);
 
-/* Takes a point out; it must be there. */
+/* Deletes a point, which must not have been deleted before.
+ * Cost  log n */
 void nearest_remove(struct nearest *nearest, uint32_t point);
 
-/* The point nearest to `from`; NEAREST_NONE where none is left. */
+/* The index of the point nearest to `from`; NEAREST_NONE if all are deleted.
+ * Cost  expected log n */
 uint32_t nearest_find(const struct nearest *nearest, struct drawing_point from);
 
-/* Up to `count` <= NEAREST_MOST points nearest to `from`, those with i / 2 ==
- * skip left out, nearest first.  Returns how many. */
-#define NEAREST_MOST 16
+/* Stores in `found` the indices of the `count` <= NEAREST_LIST_MAX points that
+ * are nearest to `from`, nearest first, without the points i with i / 2 ==
+ * skip.  Returns how many there are. */
+#define NEAREST_LIST_MAX 16
 uint32_t nearest_list(const struct nearest *nearest, struct drawing_point from,
                       uint32_t skip, uint32_t *found, uint32_t count);
 

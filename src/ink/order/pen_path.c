@@ -1,11 +1,13 @@
-/* pen_path.c - the order of strokes that keeps the pen's way in the air short.
+/* pen_path.c - orders strokes for short pen-up travel.
  *
  * Phases, for each layer
- *   1 greedy   from where the pen stands to the nearest place where a stroke
- *              left can be begun: either end, or some corners of a loop
+ *   1 greedy   nearest neighbour: from the pen's position to the nearest entry
+ *              of a stroke not drawn yet, which is either end of an open
+ *              stroke, or one of some corners of a loop
  *   2 improve  2-opt and Or-opt moves (tour.c)
- *   3 loops    each starts at the corner that makes the way past it shortest
- *   4 apply    unless the order that was there is shorter */
+ *   3 loops    each loop starts at the corner with the shortest travel to it
+ *              from the previous stroke and on to the next one
+ *   4 apply    unless the given order has less travel */
 #include "ink/order/pen_path.h"
 
 #include <string.h>
@@ -13,29 +15,30 @@
 #include "ink/order/nearest.h"
 #include "ink/lines/stroke.h"
 
-/* Measured with 100,000 strokes at random over a page: short ones come to where
- * no move gains any more before this is spent, long ones to 2 % from there, in
- * less than 2 s.  For more strokes it bounds the time. */
+/* Measured with 100,000 strokes at random over a page: with short strokes a
+ * local optimum, at which no move gains, is reached within these limits; with
+ * long ones the result is within 2 % of it, in less than 2 s.  For more strokes
+ * the limits bound the time. */
 const struct tour_effort pen_path_usual_effort = {.looks = 1e8, .moves = 8e8};
 
-/* Corners of a loop that the greedy phase looks at. */
-enum { LOOP_ENTRIES = 16 };
+/* The most corners of a loop that the greedy phase tries as starting points. */
+enum { LOOP_ENTRIES_MAX = 16 };
 
-/* A place where a stroke can be begun. */
+/* A point at which a stroke can be begun. */
 struct layer_entry {
   uint32_t stroke, corner;
 };
 
 struct stroke_order {
   struct drawing *drawing;
-  struct drawing_stroke *stroke; /* of the layer */
+  struct drawing_stroke *stroke; /* the layer's, borrowed, not owned */
   uint32_t count;
   struct drawing_point start;
-  ARRAY(struct layer_entry) entry;   /* stroke by stroke */
-  ARRAY(struct drawing_point) place; /* of each entry */
-  uint32_t *first_entry;             /* one a stroke, and one */
-  uint32_t *corner;                  /* where each loop begins */
-  struct drawing_point *end;         /* two a stroke: see tour.h */
+  ARRAY(struct layer_entry) entry;   /* grouped by stroke */
+  ARRAY(struct drawing_point) place; /* the point of each entry */
+  uint32_t *first_entry;             /* of each stroke; one more at the end */
+  uint32_t *corner;          /* of each stroke: the corner it begins at */
+  struct drawing_point *end; /* two a stroke: see tour.h */
   struct tour tour;
 };
 
@@ -51,7 +54,7 @@ static bool add_entries(struct stroke_order *o) {
     const struct drawing_stroke *stroke = &o->stroke[i];
     uint32_t step = stroke->count - 1;
     if (stroke->closed)
-      step = (stroke->count + LOOP_ENTRIES - 1) / LOOP_ENTRIES;
+      step = (stroke->count + LOOP_ENTRIES_MAX - 1) / LOOP_ENTRIES_MAX;
     o->first_entry[i] = (uint32_t)o->entry.count;
     for (uint32_t k = 0; k<stroke->count; k += step> 0 ? step : 1)
       if (!ARRAY_PUSH(&o->entry, ((struct layer_entry){i, k})) ||
@@ -62,29 +65,31 @@ static bool add_entries(struct stroke_order *o) {
   return true;
 }
 
-/* Begins a stroke at that entry.  Returns where the pen stands after it. */
-static struct drawing_point take_stroke(struct stroke_order *o,
-                                        struct layer_entry entry) {
+/* Appends to the tour the stroke of an entry, drawn from there.  Returns the
+ * pen's position after it. */
+static struct drawing_point append_stroke(struct stroke_order *o,
+                                          struct layer_entry entry) {
   const struct drawing_stroke *stroke = &o->stroke[entry.stroke];
   uint32_t last = stroke->closed ? entry.corner : stroke->count - 1;
   uint32_t first = stroke->closed ? entry.corner : 0;
   o->corner[entry.stroke] = first;
   o->end[2 * entry.stroke] = corner_of(o, entry.stroke, first);
   o->end[2 * entry.stroke + 1] = corner_of(o, entry.stroke, last);
-  bool turned = entry.corner != first;
+  bool reversed = entry.corner != first;
   o->tour.stroke[o->tour.count++] = entry.stroke;
-  o->tour.turned[entry.stroke] = turned;
-  return o->end[2 * entry.stroke + !turned];
+  o->tour.reversed[entry.stroke] = reversed;
+  return o->end[2 * entry.stroke + !reversed];
 }
 
-static bool go_to_nearest(struct stroke_order *o) {
+/* The greedy phase: always continues with the nearest entry. */
+static bool make_greedy_tour(struct stroke_order *o) {
   struct nearest nearest = {0};
   struct drawing_point pen = o->start;
   bool ok = add_entries(o) &&
             nearest_init(&nearest, o->place.item, (uint32_t)o->entry.count);
   while (ok && o->tour.count < o->count) {
     struct layer_entry entry = o->entry.item[nearest_find(&nearest, pen)];
-    pen = take_stroke(o, entry);
+    pen = append_stroke(o, entry);
     for (uint32_t i = o->first_entry[entry.stroke];
          i < o->first_entry[entry.stroke + 1]; i++)
       nearest_remove(&nearest, i);
@@ -95,23 +100,24 @@ static bool go_to_nearest(struct stroke_order *o) {
 
 /* ---- 3 Loops ------------------------------------------------------------- */
 
-/* Begins the loop at place k of the tour where it is least out of the way. */
-static void start_loop_best(struct stroke_order *o, uint32_t k) {
+/* Chooses the starting point of the loop at index k of the tour, for the
+ * shortest travel to it from the previous stroke and on to the next one. */
+static void choose_loop_start(struct stroke_order *o, uint32_t k) {
   const struct tour *t = &o->tour;
   uint32_t s = t->stroke[k], best = o->corner[s];
   struct drawing_point from = o->start;
   if (k > 0)
-    from = o->end[2 * t->stroke[k - 1] + !t->turned[t->stroke[k - 1]]];
+    from = o->end[2 * t->stroke[k - 1] + !t->reversed[t->stroke[k - 1]]];
   double shortest = -1;
   for (uint32_t i = 0; i < o->stroke[s].count; i++) {
     struct drawing_point p = corner_of(o, s, i);
-    double way = stroke_distance(from, p);
+    double travel = stroke_distance(from, p);
     if (k + 1 < o->count) {
       uint32_t next = t->stroke[k + 1];
-      way += stroke_distance(p, o->end[2 * next + t->turned[next]]);
+      travel += stroke_distance(p, o->end[2 * next + t->reversed[next]]);
     }
-    if (shortest < 0 || way < shortest) {
-      shortest = way;
+    if (shortest < 0 || travel < shortest) {
+      shortest = travel;
       best = i;
     }
   }
@@ -119,12 +125,14 @@ static void start_loop_best(struct stroke_order *o, uint32_t k) {
   o->end[2 * s] = o->end[2 * s + 1] = corner_of(o, s, best);
 }
 
-static void start_loops_best(struct stroke_order *o) {
-  enum { ROUNDS = 2 }; /* where loops follow each other they wait in turn */
+static void choose_loop_starts(struct stroke_order *o) {
+  /* The best starting points of consecutive loops depend on each other, so
+   * there is a second round. */
+  enum { ROUNDS = 2 };
   for (int round = 0; round < ROUNDS; round++)
     for (uint32_t k = 0; k < o->count; k++)
       if (o->stroke[o->tour.stroke[k]].closed)
-        start_loop_best(o, k);
+        choose_loop_start(o, k);
 }
 
 /* ---- 4 Apply ------------------------------------------------------------- */
@@ -137,7 +145,8 @@ static void reverse(struct drawing_point *point, uint32_t count) {
   }
 }
 
-/* Makes the loop begin at `corner`: both parts turned, then the whole. */
+/* Rotates the points so that the loop begins at `corner`: reverses both parts,
+ * then the whole. */
 static void rotate(struct drawing_point *point, uint32_t count,
                    uint32_t corner) {
   reverse(point, corner);
@@ -145,9 +154,10 @@ static void rotate(struct drawing_point *point, uint32_t count,
   reverse(point, count);
 }
 
+/* Stores the order of the tour in the drawing. */
 static bool apply(struct stroke_order *o) {
   struct drawing_stroke *sorted = mem_alloc(o->count, sizeof *sorted);
-  if (!sorted)
+  if (sorted == NULL)
     return false;
   for (uint32_t k = 0; k < o->count; k++) {
     uint32_t s = o->tour.stroke[k];
@@ -155,7 +165,7 @@ static bool apply(struct stroke_order *o) {
     struct drawing_point *point = o->drawing->point.item + sorted[k].point;
     if (sorted[k].closed)
       rotate(point, sorted[k].count, o->corner[s]);
-    else if (o->tour.turned[s])
+    else if (o->tour.reversed[s])
       reverse(point, sorted[k].count);
   }
   memcpy(o->stroke, sorted, o->count * sizeof *sorted);
@@ -163,7 +173,7 @@ static bool apply(struct stroke_order *o) {
   return true;
 }
 
-/* The way there was, from the same start. */
+/* The travel in the given order, from the same start. */
 static double given_travel(const struct stroke_order *o) {
   struct drawing_point pen = o->start;
   double travel = 0;
@@ -177,6 +187,7 @@ static double given_travel(const struct stroke_order *o) {
 
 /* ---- Layers -------------------------------------------------------------- */
 
+/* Orders the strokes of one layer. */
 static bool order_layer(struct stroke_order *o,
                         const struct tour_effort *effort) {
   size_t count = o->count;
@@ -184,14 +195,14 @@ static bool order_layer(struct stroke_order *o,
   o->corner = mem_alloc(count, sizeof *o->corner);
   o->end = mem_alloc(count, 2 * sizeof *o->end);
   o->tour.stroke = mem_alloc(count, sizeof *o->tour.stroke);
-  o->tour.turned = mem_alloc(count, sizeof *o->tour.turned);
+  o->tour.reversed = mem_alloc(count, sizeof *o->tour.reversed);
   o->tour.end = o->end;
   o->tour.start = o->start;
   bool ok = o->first_entry && o->corner && o->end && o->tour.stroke &&
-            o->tour.turned && go_to_nearest(o) &&
+            o->tour.reversed && make_greedy_tour(o) &&
             tour_improve(&o->tour, effort);
   if (ok) {
-    start_loops_best(o);
+    choose_loop_starts(o);
     if (tour_travel(&o->tour) < given_travel(o))
       ok = apply(o);
   }
@@ -201,10 +212,11 @@ static bool order_layer(struct stroke_order *o,
   mem_free(o->corner);
   mem_free(o->end);
   mem_free(o->tour.stroke);
-  mem_free(o->tour.turned);
+  mem_free(o->tour.reversed);
   return ok;
 }
 
+/* Where the pen is after a stroke. */
 static struct drawing_point pen_after(const struct drawing *drawing,
                                       const struct drawing_stroke *stroke) {
   uint32_t last = stroke->closed ? 0 : stroke->count - 1;

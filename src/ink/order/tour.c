@@ -1,56 +1,62 @@
 /* tour.c - shortens a tour of strokes by 2-opt and Or-opt moves.
  *
- * The tour is a ring: one stop more, the home, closes it.  Leaving home starts
- * at the pen's start; coming home costs nothing.  So the ring has no ends, and
- * turning a run of stops is the same as turning all the others.
+ * The open tour is made a cyclic one by a dummy stop, the depot: travel from
+ * the depot begins at the pen's start, and travel to it costs nothing.  The
+ * other stops are the strokes.  In a cyclic tour, to reverse a run of stops is
+ * the same as to reverse all the others.
  *
- * From the side of a stop that leads to a neighbour farther off than it need
- * be, the ends near it are weighed, c being the stop, d the one after it:
- *   2-opt   ... c | d ... x | y ...      ->  c x ... d y
- *   Or-opt  ... c | d ... w | x..z | y   ->  c x..z d ... w y, or z..x
- *           of up to RUN stops x..z
- * and likewise with the ring read backwards.  A stop whose sides were weighed
- * in vain rests until a link of its own changes.
- * Robustness  A move must gain TOLERANCE_TRAVEL_MM, so rounding cannot make
- *   two moves undo each other for ever.
+ * If the stop d after a stop c is farther from the end of c than some
+ * neighbours of this end are, moves that bring such a neighbour x next to c are
+ * tried:
+ *   2-opt   ... c | d ... x | y ...      ->  ... c x ... d y ...
+ *   Or-opt  ... c | d ... w | x..z | y   ->  ... c x..z d ... w y
+ *                                        or  ... c z..x d ... w y
+ *           for runs x..z of up to RUN_MAX stops
+ * and likewise with the tour traversed backwards.  A stop for which no move
+ * gains leaves the work queue until one of its links changes ("don't look
+ * bits").
+ * Robustness  A move must gain TOLERANCE_TRAVEL_MM, so rounding errors cannot
+ *   make two moves undo each other in an endless loop.
  * Source  Bentley, Fast algorithms for geometric traveling salesman problems,
- *   1992 (neighbour lists, resting stops, turning the shorter side). */
+ *   1992 (neighbour lists, don't look bits, reversal of the shorter side). */
 #include "ink/order/tour.h"
 
 #include "base/tolerance.h"
 #include "ink/order/nearest.h"
 #include "ink/lines/stroke.h"
 
-enum { NEIGHBOURS = 8, RUN = 3 };
+enum { NEIGHBOURS = 8, RUN_MAX = 3 };
 
 struct tour_ring {
   const struct drawing_point *end;
   struct drawing_point start;
-  uint32_t count;      /* of stops, the home, the last stroke, included */
-  uint32_t *stop;      /* in order */
-  uint32_t *place;     /* of each stop in that order */
-  bool *turned;        /* of each stop */
-  uint32_t *neighbour; /* NEIGHBOURS an end, NEAREST_NONE at the end */
-  uint32_t *queue;     /* stops to weigh, a ring as large as this one */
-  bool *queued;        /* of each stop */
+  uint32_t count;  /* of stops; the last index is the depot */
+  uint32_t *stop;  /* in order */
+  uint32_t *place; /* of each stop: its index in `stop` */
+  bool *reversed;  /* of each stop: drawn from its second end */
+  /* Of each end NEIGHBOURS ends, nearest first, padded with NEAREST_NONE. */
+  uint32_t *neighbour;
+  uint32_t *queue; /* circular, of stops for which moves are to be tried */
+  bool *queued;    /* of each stop: in the queue */
   uint32_t queue_head, queue_count;
-  double looks, moves; /* left */
-  bool back;           /* whether the ring is read backwards */
+  double looks, moves; /* what is left of struct tour_effort */
+  bool back;           /* the tour is traversed backwards */
 };
 
 double tour_travel(const struct tour *tour) {
   struct drawing_point pen = tour->start;
   double travel = 0;
   for (uint32_t i = 0; i < tour->count; i++) {
-    uint32_t stroke = tour->stroke[i], turned = tour->turned[stroke];
-    travel += stroke_distance(pen, tour->end[2 * stroke + turned]);
-    pen = tour->end[2 * stroke + !turned];
+    uint32_t stroke = tour->stroke[i], reversed = tour->reversed[stroke];
+    travel += stroke_distance(pen, tour->end[2 * stroke + reversed]);
+    pen = tour->end[2 * stroke + !reversed];
   }
   return travel;
 }
 
-/* ---- The ring ------------------------------------------------------------ */
+/* ---- The cyclic tour ----------------------------------------------------- */
 
+/* The next stop in the current direction of traversal. */
 static uint32_t after(const struct tour_ring *r, uint32_t stop) {
   uint32_t p = r->place[stop];
   if (r->back)
@@ -65,43 +71,43 @@ static uint32_t before(const struct tour_ring *r, uint32_t stop) {
   return r->stop[p > 0 ? p - 1 : r->count - 1];
 }
 
-/* The end of a stop where the pen comes down, as the ring is read. */
+/* The end of a stop at which the pen comes down, in the current direction. */
 static uint32_t way_in(const struct tour_ring *r, uint32_t stop) {
-  return 2 * stop + (r->turned[stop] != r->back);
+  return 2 * stop + (r->reversed[stop] != r->back);
 }
 
 static uint32_t way_out(const struct tour_ring *r, uint32_t stop) {
   return way_in(r, stop) ^ 1;
 }
 
-/* Between two ends; the home's first end is next to everything, its second is
- * where the pen starts. */
+/* The travel between two ends.  The depot's first end has distance 0 from every
+ * end, and its second is the pen's start. */
 static double gap(const struct tour_ring *r, uint32_t a, uint32_t b) {
-  uint32_t home_in = 2 * (r->count - 1);
-  if (a == home_in || b == home_in)
+  uint32_t depot_in = 2 * (r->count - 1);
+  if (a == depot_in || b == depot_in)
     return 0;
-  return stroke_distance(a > home_in ? r->start : r->end[a],
-                         b > home_in ? r->start : r->end[b]);
+  return stroke_distance(a > depot_in ? r->start : r->end[a],
+                         b > depot_in ? r->start : r->end[b]);
 }
 
-/* How many stops there are from a on to b, both included, forwards. */
+/* The number of stops from a to b, both included, forwards. */
 static uint32_t count_stops(const struct tour_ring *r, uint32_t a, uint32_t b) {
   uint32_t p = r->place[a], q = r->place[b];
   return q >= p ? q - p + 1 : q + r->count - p + 1;
 }
 
-/* Turns the stops at places p, p + 1, ... (`count` of them, round the ring). */
-static void turn_places(struct tour_ring *r, uint32_t p, uint32_t count) {
+/* Reverses the run of `count` stops at the places p, p + 1, ..., cyclically. */
+static void reverse_places(struct tour_ring *r, uint32_t p, uint32_t count) {
   uint32_t q = (uint32_t)(((uint64_t)p + count - 1) % r->count);
   for (uint32_t i = 0; i < (count + 1) / 2; i++) {
     uint32_t a = r->stop[p], b = r->stop[q];
     r->stop[p] = b;
     r->place[b] = p;
-    r->turned[b] = !r->turned[b];
+    r->reversed[b] = !r->reversed[b];
     if (a != b) {
       r->stop[q] = a;
       r->place[a] = q;
-      r->turned[a] = !r->turned[a];
+      r->reversed[a] = !r->reversed[a];
     }
     p = p + 1 < r->count ? p + 1 : 0;
     q = q > 0 ? q - 1 : r->count - 1;
@@ -109,9 +115,9 @@ static void turn_places(struct tour_ring *r, uint32_t p, uint32_t count) {
   r->moves -= count;
 }
 
-/* Turns the run from a to b, as the ring is read: or all the others, where
- * they are fewer, which gives the same ring. */
-static void turn_run(struct tour_ring *r, uint32_t a, uint32_t b) {
+/* Reverses the run from a to b in the current direction, or if that is less
+ * work its complement, which gives the same cyclic tour. */
+static void reverse_run(struct tour_ring *r, uint32_t a, uint32_t b) {
   if (r->back) {
     uint32_t c = a;
     a = b;
@@ -119,13 +125,14 @@ static void turn_run(struct tour_ring *r, uint32_t a, uint32_t b) {
   }
   uint32_t count = count_stops(r, a, b);
   if (count <= r->count - count)
-    turn_places(r, r->place[a], count);
+    reverse_places(r, r->place[a], count);
   else
-    turn_places(r, (r->place[b] + 1) % r->count, r->count - count);
+    reverse_places(r, (r->place[b] + 1) % r->count, r->count - count);
 }
 
-/* How many strokes turn_run would move. */
-static uint32_t turn_cost(const struct tour_ring *r, uint32_t a, uint32_t b) {
+/* The number of stops that reverse_run would move. */
+static uint32_t reverse_cost(const struct tour_ring *r, uint32_t a,
+                             uint32_t b) {
   uint32_t count = r->back ? count_stops(r, b, a) : count_stops(r, a, b);
   return count <= r->count - count ? count : r->count - count;
 }
@@ -134,47 +141,48 @@ static uint32_t wrap(const struct tour_ring *r, uint32_t place) {
   return place < r->count ? place : place - r->count;
 }
 
-static void put(struct tour_ring *r, uint32_t stop, uint32_t place) {
+static void set_stop(struct tour_ring *r, uint32_t stop, uint32_t place) {
   r->stop[place] = stop;
   r->place[stop] = place;
 }
 
-/* Between the run of `count` stops that starts at place p and the gap after
- * stop g, forwards. */
+/* The number of stops, forwards, between the run of `count` stops that begins
+ * at place p and the gap after stop g. */
 static uint32_t count_ahead(const struct tour_ring *r, uint32_t p,
                             uint32_t count, uint32_t g) {
   uint32_t from = wrap(r, p + count), to = r->place[g];
   return (to >= from ? to - from : to + r->count - from) + 1;
 }
 
-/* Puts the run of `count` <= RUN stops from `first` on, forwards, after stop
- * g, turned round or not.  Those between make room: on this side of the ring
- * or on the other, where they are fewer. */
+/* Moves the run of `count` <= RUN_MAX stops that begins, forwards, with `first`
+ * to the gap after stop g, and reverses it if `reverse`.  The stops in between
+ * are shifted, on whichever way round the cycle there are fewer. */
 static void move_run(struct tour_ring *r, uint32_t first, uint32_t count,
-                     uint32_t g, bool turn) {
-  uint32_t run[RUN], p = r->place[first], to = p;
+                     uint32_t g, bool reverse) {
+  uint32_t run[RUN_MAX], p = r->place[first], to = p;
   for (uint32_t i = 0; i < count; i++)
     run[i] = r->stop[wrap(r, p + i)];
   uint32_t ahead = count_ahead(r, p, count, g);
   uint32_t behind = r->count - count - ahead;
   if (ahead <= behind) {
     for (uint32_t i = 0; i < ahead; i++, to = wrap(r, to + 1))
-      put(r, r->stop[wrap(r, to + count)], to);
+      set_stop(r, r->stop[wrap(r, to + count)], to);
   } else {
     for (uint32_t i = 0; i < behind; i++) {
       to = to > 0 ? to - 1 : r->count - 1;
-      put(r, r->stop[to], wrap(r, to + count));
+      set_stop(r, r->stop[to], wrap(r, to + count));
     }
   }
   for (uint32_t i = 0; i < count; i++) {
-    uint32_t stop = turn ? run[count - 1 - i] : run[i];
-    put(r, stop, wrap(r, to + i));
-    r->turned[stop] ^= turn;
+    uint32_t stop = reverse ? run[count - 1 - i] : run[i];
+    set_stop(r, stop, wrap(r, to + i));
+    r->reversed[stop] ^= reverse;
   }
   r->moves -= count + (ahead <= behind ? ahead : behind);
 }
 
-static void wake(struct tour_ring *r, uint32_t stop) {
+/* Appends a stop to the work queue unless it is in it. */
+static void enqueue(struct tour_ring *r, uint32_t stop) {
   if (r->queued[stop])
     return;
   uint64_t tail = (uint64_t)r->queue_head + r->queue_count++;
@@ -184,67 +192,71 @@ static void wake(struct tour_ring *r, uint32_t stop) {
 
 /* ---- Moves --------------------------------------------------------------- */
 
-/* The gap at hand: from stop c on to d, so wide; and the end of x that is
- * nearer to c's. */
-struct chance {
+/* A candidate move: the gap from stop c to its successor d has length `wide`;
+ * an end of stop x is at distance `near` < `wide` from the end of c. */
+struct tour_candidate {
   uint32_t c, d, x;
   double wide, near;
 };
 
-/* c | d .. x | y becomes c x .. d y. */
-static bool try_two_opt(struct tour_ring *r, const struct chance *t) {
+/* 2-opt: c | d .. x | y becomes c x .. d y.  Returns whether it was made. */
+static bool try_two_opt(struct tour_ring *r, const struct tour_candidate *t) {
   uint32_t y = after(r, t->x);
   double gain = t->wide + gap(r, way_out(r, t->x), way_in(r, y)) - t->near -
                 gap(r, way_in(r, t->d), way_in(r, y));
-  if (gain <= TOLERANCE_TRAVEL_MM || turn_cost(r, t->d, t->x) > r->moves)
+  if (gain <= TOLERANCE_TRAVEL_MM || reverse_cost(r, t->d, t->x) > r->moves)
     return false;
-  turn_run(r, t->d, t->x);
-  wake(r, t->c);
-  wake(r, t->d);
-  wake(r, t->x);
-  wake(r, y);
+  reverse_run(r, t->d, t->x);
+  enqueue(r, t->c);
+  enqueue(r, t->d);
+  enqueue(r, t->x);
+  enqueue(r, y);
   return true;
 }
 
-/* Moves runs of up to RUN stops, of which x comes next to c, between c and d:
- * as they are read, where x is their first, else turned round. */
-static bool try_or_opt(struct tour_ring *r, const struct chance *t, bool turn) {
+/* Or-opt: moves a run of up to RUN_MAX stops between c and d such that x comes
+ * next to c.  x is the first stop of the run in the current direction, or if
+ * `reverse` its last, and the run is reversed.  Returns whether a run was
+ * moved. */
+static bool try_or_opt(struct tour_ring *r, const struct tour_candidate *t,
+                       bool reverse) {
   uint32_t last = t->x;
-  for (uint32_t count = 1; count <= RUN; count++) {
+  for (uint32_t count = 1; count <= RUN_MAX; count++) {
     if (last == t->c || last == t->d)
       return false;
-    /* As read: w | run | y. */
-    uint32_t w = before(r, turn ? last : t->x);
-    uint32_t y = after(r, turn ? t->x : last);
-    uint32_t run_in = way_in(r, turn ? last : t->x);
-    uint32_t run_out = way_out(r, turn ? t->x : last);
-    uint32_t approximate = turn ? run_in : run_out;
+    /* In the current direction: w | run | y. */
+    uint32_t w = before(r, reverse ? last : t->x);
+    uint32_t y = after(r, reverse ? t->x : last);
+    uint32_t run_in = way_in(r, reverse ? last : t->x);
+    uint32_t run_out = way_out(r, reverse ? t->x : last);
+    uint32_t far_end = reverse ? run_in : run_out;
     double gain = t->wide + gap(r, way_out(r, w), run_in) +
                   gap(r, run_out, way_in(r, y)) - t->near -
-                  gap(r, approximate, way_in(r, t->d)) -
+                  gap(r, far_end, way_in(r, t->d)) -
                   gap(r, way_out(r, w), way_in(r, y));
     if (gain > TOLERANCE_TRAVEL_MM && w != y) {
-      bool last_is_first = turn != r->back; /* forwards */
+      bool last_is_first = reverse != r->back; /* forwards */
       move_run(r, last_is_first ? last : t->x, count, r->back ? t->d : t->c,
-               turn);
-      wake(r, t->c);
-      wake(r, t->d);
-      wake(r, t->x);
-      wake(r, last);
-      wake(r, w);
-      wake(r, y);
+               reverse);
+      enqueue(r, t->c);
+      enqueue(r, t->d);
+      enqueue(r, t->x);
+      enqueue(r, last);
+      enqueue(r, w);
+      enqueue(r, y);
       return true;
     }
-    last = turn ? before(r, last) : after(r, last);
+    last = reverse ? before(r, last) : after(r, last);
   }
   return false;
 }
 
-/* Weighs the neighbours of the end of c that leads on, as the ring is read.
- * Returns whether a move was made. */
-static bool weigh(struct tour_ring *r, uint32_t c) {
+/* Tries moves for the neighbours of the end at which c is left in the current
+ * direction.  Returns whether one was made. */
+static bool try_neighbours(struct tour_ring *r, uint32_t c) {
   uint32_t from = way_out(r, c), d = after(r, c);
-  struct chance t = {.c = c, .d = d, .wide = gap(r, from, way_in(r, d))};
+  struct tour_candidate t = {
+      .c = c, .d = d, .wide = gap(r, from, way_in(r, d))};
   const uint32_t *neighbour = r->neighbour + (size_t)from * NEIGHBOURS;
   for (int i = 0; i < NEIGHBOURS && neighbour[i] != NEAREST_NONE; i++) {
     t.x = neighbour[i] / 2;
@@ -252,13 +264,14 @@ static bool weigh(struct tour_ring *r, uint32_t c) {
     if (t.near >= t.wide)
       return false;
     r->looks--;
-    bool turn = neighbour[i] == way_out(r, t.x);
-    if (try_or_opt(r, &t, turn) || (turn && try_two_opt(r, &t)))
+    bool reverse = neighbour[i] == way_out(r, t.x);
+    if (try_or_opt(r, &t, reverse) || (reverse && try_two_opt(r, &t)))
       return true;
   }
   return false;
 }
 
+/* Makes moves until none gains or the limits of work are reached. */
 static void improve(struct tour_ring *r) {
   while (r->queue_count > 0 && r->looks > 0 && r->moves > 0) {
     uint32_t c = r->queue[r->queue_head];
@@ -268,27 +281,27 @@ static void improve(struct tour_ring *r) {
     bool moved = true;
     while (moved && r->looks > 0 && r->moves > 0) {
       r->back = false;
-      moved = weigh(r, c);
+      moved = try_neighbours(r, c);
       r->back = true;
-      moved = weigh(r, c) || moved;
+      moved = try_neighbours(r, c) || moved;
     }
   }
   r->back = false;
 }
 
-/* ---- From tour to ring and back ------------------------------------------ */
+/* ---- From the open to the cyclic tour and back --------------------------- */
 
-/* Fills the lists of all ends, stop by stop in the ring's order: so one search
- * is near the last one, and what it needs at hand. */
+/* Fills the neighbour lists of all ends, in the order of the tour: consecutive
+ * searches are then close to each other, and their data in the cache. */
 static bool find_neighbours(struct tour_ring *r) {
-  uint32_t home_in = 2 * (r->count - 1);
+  uint32_t depot_in = 2 * (r->count - 1);
   struct nearest nearest;
-  bool ok = nearest_init(&nearest, r->end, home_in);
+  bool ok = nearest_init(&nearest, r->end, depot_in);
   for (uint32_t i = 0; ok && i < 2 * r->count; i++) {
     uint32_t e = 2 * r->stop[i / 2] + i % 2, count = 0;
     uint32_t *found = r->neighbour + (size_t)e * NEIGHBOURS;
-    if (e != home_in)
-      count = nearest_list(&nearest, e < home_in ? r->end[e] : r->start, e / 2,
+    if (e != depot_in)
+      count = nearest_list(&nearest, e < depot_in ? r->end[e] : r->start, e / 2,
                            found, NEIGHBOURS);
     for (; count < NEIGHBOURS; count++)
       found[count] = NEAREST_NONE;
@@ -297,23 +310,25 @@ static bool find_neighbours(struct tour_ring *r) {
   return ok;
 }
 
-static void take_tour(struct tour_ring *r, const struct tour *tour) {
+/* Makes the initial cyclic tour, with the depot last. */
+static void close_tour(struct tour_ring *r, const struct tour *tour) {
   for (uint32_t i = 0; i < r->count; i++) {
     uint32_t stop = i < tour->count ? tour->stroke[i] : tour->count;
-    put(r, stop, i);
-    r->turned[stop] = stop < tour->count && tour->turned[stop];
-    wake(r, stop);
+    set_stop(r, stop, i);
+    r->reversed[stop] = stop < tour->count && tour->reversed[stop];
+    enqueue(r, stop);
   }
 }
 
-/* Reads the ring from home, where the pen leaves it at its start. */
-static void give_tour(struct tour_ring *r, struct tour *tour) {
-  uint32_t home = tour->count, stop = home;
-  r->back = r->turned[home];
+/* Copies the cyclic tour back, from the depot on, in the direction in which the
+ * depot is left at its second end. */
+static void open_tour(struct tour_ring *r, struct tour *tour) {
+  uint32_t depot = tour->count, stop = depot;
+  r->back = r->reversed[depot];
   for (uint32_t i = 0; i < tour->count; i++) {
     stop = after(r, stop);
     tour->stroke[i] = stop;
-    tour->turned[stop] = way_in(r, stop) & 1;
+    tour->reversed[stop] = way_in(r, stop) & 1;
   }
 }
 
@@ -326,22 +341,23 @@ bool tour_improve(struct tour *tour, const struct tour_effort *effort) {
                         .moves = effort->moves};
   r.stop = mem_alloc(count, sizeof *r.stop);
   r.place = mem_alloc(count, sizeof *r.place);
-  r.turned = mem_alloc(count, sizeof *r.turned);
+  r.reversed = mem_alloc(count, sizeof *r.reversed);
   r.neighbour = mem_alloc(count, 2 * NEIGHBOURS * sizeof *r.neighbour);
   r.queue = mem_alloc(count, sizeof *r.queue);
   r.queued = mem_calloc(count, sizeof *r.queued);
-  bool ok = r.stop && r.place && r.turned && r.neighbour && r.queue && r.queued;
+  bool ok =
+      r.stop && r.place && r.reversed && r.neighbour && r.queue && r.queued;
   if (ok) {
-    take_tour(&r, tour);
+    close_tour(&r, tour);
     ok = find_neighbours(&r);
   }
   if (ok) {
     improve(&r);
-    give_tour(&r, tour);
+    open_tour(&r, tour);
   }
   mem_free(r.stop);
   mem_free(r.place);
-  mem_free(r.turned);
+  mem_free(r.reversed);
   mem_free(r.neighbour);
   mem_free(r.queue);
   mem_free(r.queued);

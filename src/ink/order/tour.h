@@ -1,29 +1,32 @@
-/* tour.h - in which order, and from which end, strokes are drawn. */
+/* tour.h - the order and direction in which strokes are drawn. */
 #ifndef INK_ORDER_TOUR_H
 #define INK_ORDER_TOUR_H
 
 #include "drawing/drawing.h"
 
-/* What may be spent on a better tour, in all. */
+/* Limits of the work done by tour_improve, in all. */
 struct tour_effort {
-  double looks; /* neighbours weighed */
-  double moves; /* strokes put elsewhere in the tour's memory */
+  double looks; /* candidate neighbours examined */
+  double moves; /* strokes moved within the array that holds the tour */
 };
 
-/* Stroke i has ends 2 i and 2 i + 1.  The tour starts at `start` and ends
- * wherever it likes. */
+/* An open tour: it starts at `start`, and its last point is free.  Stroke i has
+ * the ends 2 i and 2 i + 1. */
 struct tour {
-  const struct drawing_point *end; /* lent */
+  const struct drawing_point *end; /* borrowed, not owned */
   uint32_t count;                  /* of strokes */
   struct drawing_point start;
   uint32_t *stroke; /* in order */
-  bool *turned;     /* of each stroke: entered at end 2 i + 1 */
+  bool *reversed;   /* of each stroke: drawn from end 2 i + 1 to end 2 i */
 };
 
+/* The length of the pen-up travel, in mm. */
 double tour_travel(const struct tour *tour);
 
-/* Shortens a tour by 2-opt and Or-opt moves between near neighbours.
- * Guarantees  not longer than it was; the same for the same tour. */
+/* Shortens the travel by 2-opt and Or-opt moves between near neighbours.
+ * Guarantees  The travel does not become longer.  Equal tours give equal
+ *             results.
+ * Returns false when memory ran out; the tour is then unchanged. */
 USE_RESULT bool tour_improve(struct tour *tour,
                              const struct tour_effort *effort);
 
