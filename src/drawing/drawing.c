@@ -1,4 +1,4 @@
-/* drawing.c - the life of a drawing, and how far the pen goes for it. */
+/* drawing.c - destroys drawings, and measures drawn length and pen travel. */
 #include "drawing/drawing.h"
 
 #include <math.h>

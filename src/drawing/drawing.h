@@ -1,5 +1,6 @@
-/* drawing.h - strokes and fills in millimetres, by layer: all that a backend
- * sees. */
+/* drawing.h - the drawing: strokes and fills in millimetres, grouped by layer.
+ *
+ * A drawing is all that a backend receives. */
 #ifndef DRAWING_DRAWING_H
 #define DRAWING_DRAWING_H
 
@@ -10,21 +11,21 @@
 #define DRAWING_NONE UINT32_MAX
 
 struct drawing_point {
-  double x, y; /* page mm, x right and y up from the lower left corner */
+  double x, y; /* mm from the lower left corner of the page, x right, y up */
 };
 
-/* A polyline; where closed, the last point joins the first (which is not
- * repeated). */
+/* A polyline.  If it is closed, a further side joins the last point to the
+ * first, which is not repeated. */
 struct drawing_stroke {
   uint32_t point, count;
   uint32_t layer;
-  uint32_t face, edge, group; /* of its first segment; DRAWING_NONE */
-  uint16_t edge_class;        /* one recto_edge_class; 0: a hatch line */
+  uint32_t face, edge, group; /* of its first segment, or DRAWING_NONE */
+  uint16_t edge_class;        /* one recto_edge_class, or 0 for a hatch line */
   bool closed;
-  bool hidden; /* part of a hidden line */
+  bool hidden; /* a hidden part of a line */
 };
 
-/* A region: an outer loop and its holes, even-odd. */
+/* A region bounded by closed loops, outer ones and holes, filled even-odd. */
 struct drawing_fill {
   uint32_t loop, loops;
   uint32_t layer;
@@ -33,37 +34,41 @@ struct drawing_fill {
 };
 
 struct drawing_loop {
-  uint32_t point, count; /* closed, the first point is not repeated */
+  uint32_t point, count; /* closed; the first point is not repeated */
 };
 
-/* Layers are written in their order; within one, fills before strokes. */
+/* Layers are drawn in their order; within a layer, fills before strokes. */
 struct drawing_layer {
-  unsigned pen;    /* 1 is the first; 0: no pen, a layer of fills alone */
-  char label[48];  /* "1 visible": the pen's number, then words */
-  uint32_t colour; /* 0xRRGGBB, of its strokes */
+  unsigned pen;    /* counts from 1; 0: a layer of fills without a pen */
+  char label[48];  /* such as "1 visible": the pen's number, then a name */
+  uint32_t colour; /* of its strokes, 0xRRGGBB */
   double width_mm;
 };
 
 struct drawing {
   double width_mm, height_mm; /* the page */
-  double seam_mm; /* > 0: below the fills, strokes of their colours */
-  /* Widths of a class's visible lines in those of their pen, by place of the
-   * class's bit; 0: 1. */
+  /* If > 0: below the fills of a layer, strokes of this width along the outline
+   * of each fill in the fill's colour.  They close the hairline gaps that
+   * viewers show between neighbouring fills. */
+  double seam_mm;
+  /* The width of a class's visible lines as a multiple of their pen's width,
+   * indexed by the number of the class's bit.  0 stands for 1. */
   double weight[RECTO_EDGE_CLASS_COUNT];
   ARRAY(struct drawing_layer) layer;
   ARRAY(struct drawing_stroke) stroke; /* in drawing order within a layer */
   ARRAY(struct drawing_fill) fill;
   ARRAY(struct drawing_loop) loop;
   ARRAY(struct drawing_point) point;
-  ARRAY(char *) group_name; /* owned; for ids */
-  bool ids;
-  struct report *report; /* owned */
+  ARRAY(char *) group_name; /* owned; written if ids */
+  bool ids;                 /* write faces, edges and groups of elements */
+  struct report *report;    /* owned */
 };
 
 void drawing_init(struct drawing *drawing);
 void drawing_fini(struct drawing *drawing);
 
-/* The stroke's width in mm: its layer's, where visible times its weight. */
+/* The stroke's width in mm: its layer's, which for a visible line is multiplied
+ * by the weight of its class. */
 double drawing_width_mm(const struct drawing *drawing,
                         const struct drawing_stroke *stroke);
 
@@ -71,8 +76,9 @@ double drawing_width_mm(const struct drawing *drawing,
 double drawing_stroke_mm(const struct drawing *drawing,
                          const struct drawing_stroke *stroke);
 
-/* Drawn length in mm; pen-up travel in mm in drawing order, from the lower
- * left corner, over all layers. */
+/* The drawn length, and the pen-up travel in drawing order over all layers from
+ * the lower left corner of the page.  Both in mm.
+ * Cost  linear; the travel takes a pass over all strokes for every layer. */
 double drawing_length_mm(const struct drawing *drawing);
 double drawing_travel_mm(const struct drawing *drawing);
 
