@@ -1,22 +1,23 @@
-/* device.c - the table of pen plotters, and laying a page on one.
+/* device.c - the table of pen plotters, and the placement of a page on one.
  *
- * Areas and units are the makers' own.  HP's manual of the 7475A says that its
- * default scaling frame P1 P2 is centred on the paper: the centres below are
- * the middles of those frames.  Of the 7550A we take the middle of its area.
- * On the DXY the area is the whole sheet.
+ * Areas and units are those of the manufacturers.  HP's manual of the 7475A
+ * states that its default scaling frame P1 P2 is centred on the paper: the
+ * centres in the table are the centres of those frames.  For the 7550A the
+ * centre of its hard-clip area is taken.  The area of the DXY is the whole
+ * sheet.
  *
- * Speeds are nominal: what the plotter draws at unless told otherwise and its
- * fastest with the pen up, for the estimate of --stats, and its fastest with
- * the pen down, which it keeps to whatever it is told.  The generic ones are
- * those of a careful hobby machine, and HPGL's own limit. */
+ * Speeds are nominal.  The default speed with the pen down and the maximum with
+ * the pen up serve the estimate of --stats; the maximum with the pen down
+ * limits any requested speed.  Those of the generic device are the speeds of a
+ * slow hobby machine, and the upper limit of HPGL itself. */
 #include "backends/device.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* How much larger than the paper a page may be and still be meant for it, so
- * that 8.5in, which no binary number is, fits on letter paper. */
+/* A page may be larger than the paper by this much, so that 8.5in, which has no
+ * exact binary representation, fits on letter paper. */
 #define PAPER_SLACK_MM 0.5
 
 static const struct device_paper hp7475a[] = {
@@ -68,13 +69,15 @@ static double area_of(const struct device_paper *paper) {
   return paper->width_mm * paper->height_mm;
 }
 
-static bool is_held(const struct device_paper *paper, double long_mm,
-                    double short_mm) {
+/* Whether the paper holds a page of these sides. */
+static bool holds_page(const struct device_paper *paper, double long_mm,
+                       double short_mm) {
   return paper->width_mm + PAPER_SLACK_MM >= long_mm &&
          paper->height_mm + PAPER_SLACK_MM >= short_mm;
 }
 
-/* The smallest paper that holds a page of these sides, or the largest. */
+/* The smallest paper that holds a page of these sides, or the largest if none
+ * does. */
 static const struct device_paper *
 choose_paper(const struct device *device, double long_mm, double short_mm) {
   const struct device_paper *best = NULL, *largest = device->paper;
@@ -82,16 +85,17 @@ choose_paper(const struct device *device, double long_mm, double short_mm) {
     const struct device_paper *paper = &device->paper[i];
     if (area_of(paper) > area_of(largest))
       largest = paper;
-    if (is_held(paper, long_mm, short_mm) &&
-        (!best || area_of(paper) < area_of(best)))
+    if (holds_page(paper, long_mm, short_mm) &&
+        (best == NULL || area_of(paper) < area_of(best)))
       best = paper;
   }
-  return best ? best : largest;
+  return best != NULL ? best : largest;
 }
 
-/* The page itself is the area. */
-static void place_freely(const struct device *device, double width_mm,
-                         double height_mm, struct device_placement *placement) {
+/* Places a page on a device without papers: the page itself is the area. */
+static void place_without_paper(const struct device *device, double width_mm,
+                                double height_mm,
+                                struct device_placement *placement) {
   double width = width_mm / device->unit_mm;
   double height = height_mm / device->unit_mm;
   placement->turned = false;
@@ -103,7 +107,8 @@ static void place_freely(const struct device *device, double width_mm,
   placement->y1 = (int32_t)lround(placement->origin_y + height);
 }
 
-/* Where a side of the page, in units, begins along an axis of the device. */
+/* Where a side of the page of this length begins along an axis of the device,
+ * whose area is low to high.  All in units. */
 static double place_side(double length, int32_t low, int32_t high,
                          double centre) {
   return length <= high - low ? low : centre - length / 2;
@@ -113,14 +118,14 @@ void device_place(const struct device *device, double width_mm,
                   double height_mm, struct device_placement *placement) {
   *placement = (struct device_placement){
       .unit_mm = device->unit_mm, .width_mm = width_mm, .height_mm = height_mm};
-  if (!device->paper) {
-    place_freely(device, width_mm, height_mm, placement);
+  if (device->paper == NULL) {
+    place_without_paper(device, width_mm, height_mm, placement);
     return;
   }
   double along = fmax(width_mm, height_mm), across = fmin(width_mm, height_mm);
   const struct device_paper *paper = choose_paper(device, along, across);
   placement->paper = paper;
-  placement->too_large = !is_held(paper, along, across);
+  placement->too_large = !holds_page(paper, along, across);
   placement->between = !placement->too_large &&
                        paper != choose_paper(device, 0, 0) &&
                        (along < paper->width_mm - PAPER_SLACK_MM ||
@@ -147,9 +152,9 @@ double device_margin_mm(const struct device_placement *placement) {
   return p->paper ? fmax(0, fmax(low, high)) * p->unit_mm : 0;
 }
 
-double device_velocity(const struct device *device, double asked_cm_s) {
-  return asked_cm_s > 0 ? fmin(asked_cm_s, device->most_cm_s)
-                        : device->down_cm_s;
+double device_velocity(const struct device *device, double requested_cm_s) {
+  return requested_cm_s > 0 ? fmin(requested_cm_s, device->max_cm_s)
+                            : device->down_cm_s;
 }
 
 void device_point(const struct device_placement *placement, double x_mm,

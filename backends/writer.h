@@ -1,8 +1,9 @@
-/* writer.h - the one interface of all file formats we write.
+/* writer.h - the interface of all output formats.
  *
- * To add a format: one file writer_NAME.c with one struct writer, and its
- * line in the table of writers.c.  A writer sees a drawing in millimetres and
- * a stream whose status is sticky; it asks nothing else of the house. */
+ * To add a format, write a file writer_NAME.c that defines one struct writer,
+ * and add it to the table in writers.c.  A writer receives a drawing in
+ * millimetres and a stream, which remembers its first error; it uses nothing
+ * else of the library.  See README.md in this folder. */
 #ifndef BACKENDS_WRITER_H
 #define BACKENDS_WRITER_H
 
@@ -12,26 +13,31 @@
 struct writer_options {
   int precision;            /* decimals of a millimetre in text formats */
   bool polyline;            /* SVG: <polyline> instead of <path> */
-  recto_warning_fn warning; /* NULL: silent */
-  void *user;
-  double dpi;         /* PNG: pixels per inch; 0: 150 */
-  bool tight;         /* PDF, EPS, PS, PNG: the page is the ink's box */
-  const char *device; /* HPGL: a name of device.h; NULL: "generic" */
-  double velocity;    /* HPGL: pen speed, cm/s; 0: the plotter's own */
+  recto_warning_fn warning; /* NULL: no warnings */
+  void *user;               /* passed to `warning` */
+  double dpi;               /* PNG: pixels per inch; 0: 150 */
+  bool tight;         /* PDF, EPS, PS, PNG: the page is the bounding box of the
+                         ink */
+  const char *device; /* HPGL: a device's name (device.h); NULL: "generic" */
+  double velocity;    /* HPGL: speed with the pen down, cm/s; 0: the plotter's
+                         default */
 };
 
 struct writer {
-  const char *name;       /* "svg" */
-  const char *extensions; /* "svg", space-separated */
-  const char *compressed; /* extensions of such a file in the format of gzip;
-                             NULL: none */
-  /* The step in mm to which it rounds the points of strokes. */
+  const char *name;       /* such as "svg" */
+  const char *extensions; /* of files, separated by spaces */
+  const char *compressed; /* extensions of files compressed by gzip; NULL: the
+                             format has none */
+  /* The step, in mm, to which the format rounds the points of strokes. */
   double (*unit_mm)(const struct writer_options *options);
-  /* How far from the edges of a page all of it can be drawn; NULL: 0. */
+  /* The least margin of a page, in mm, inside which everything can be drawn;
+   * NULL stands for 0. */
   double (*margin_mm)(const struct writer_options *options, double width_mm,
                       double height_mm);
-  bool by_pens; /* whose lines are all as wide, and whose way from line to line
-                   takes time */
+  bool by_pens; /* a format for plotters: all lines of a pen have one width, and
+                   travel with the pen up costs time */
+  /* Writes the drawing.  Write errors are not returned, but kept by the
+   * stream. */
   recto_status (*write)(const struct drawing *drawing,
                         const struct writer_options *options,
                         struct stream *stream, recto_error *error);
@@ -42,13 +48,14 @@ extern const struct writer writer_svg, writer_hpgl;
 extern const struct writer writer_pdf, writer_eps, writer_ps, writer_png;
 #endif
 
-/* The writer of that name, or NULL; by the path's extension, or NULL. */
+/* The writer with that name or extension, and the writer for the extension of
+ * that path; NULL if there is none.  Case is ignored. */
 const struct writer *writer_by_name(const char *name);
 const struct writer *writer_by_path(const char *path);
-/* Whether the name, or the path's extension, stands for a compressed file. */
+/* Whether the name, or the extension of the path, denotes a compressed file. */
 bool writer_name_is_compressed(const char *name);
 bool writer_path_is_compressed(const char *path);
-/* The writers, ended by NULL. */
+/* All writers, terminated by NULL. */
 const struct writer *const *writers(void);
 
 #endif

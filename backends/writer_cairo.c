@@ -1,11 +1,12 @@
-/* writer_cairo.c - PDF, EPS, PS and PNG through cairo, at true scale.
+/* writer_cairo.c - writes PDF, EPS, PS and PNG by cairo, at true scale.
  *
- * cairo draws in points or pixels, y down; one matrix takes the page's
- * millimetres, y up, to them.  Strokes stay paths, never pictures.  cairo
- * hands its bytes to a stream through a sink, which also makes good what cairo
- * does not offer: PS without the time of day, EPS with the page's box, PNG that
- * knows its resolution.  cairo keeps path points to 1/256 of a point (1.4 um).
- */
+ * cairo draws in points or pixels with y down; a matrix maps the page's
+ * millimetres with y up to them.  In PDF, EPS and PS strokes are written as
+ * paths, not as images.  cairo passes its bytes to a stream through a sink,
+ * which also makes three changes for which cairo has no option: it removes the
+ * creation date of PS, replaces the bounding box of EPS by the page, and adds
+ * the resolution to PNG.  cairo rounds the points of paths to 1/256 of a point
+ * (1.4 um). */
 #include <errno.h>
 #include <math.h>
 #include <string.h>
@@ -18,29 +19,34 @@
 
 #define MM_PER_INCH 25.4
 #define POINTS_PER_INCH 72.0
-/* Pages are whole numbers of these, so that rounding makes none a point larger:
- * a third of a nanometre. */
+/* Sides of pages are rounded to a multiple of a point divided by this, a third
+ * of a nanometre, so that a rounding error does not make a page a whole point
+ * larger. */
 #define PAGE_STEPS_PER_POINT 0x1p20
 #define DEFAULT_DPI 150.0
-/* The largest picture: a side is cairo's limit, the area a gigabyte of it. */
+/* The largest image: the limit of a side is cairo's, that of the area is one
+ * gigabyte of memory. */
 #define MAX_PIXELS_A_SIDE 32767.0
 #define MAX_PIXELS 268435456.0
-/* Files must not change with the day they are made on. */
+/* The creation date is fixed, so that equal drawings give equal files. */
 #define FIXED_DATE "2000-01-01T00:00:00Z"
 
 /* ---- From cairo to the stream -------------------------------------------- */
 
 struct sink {
   struct stream *stream;
-  bool in_header, is_eps; /* PS: before the end of the head's comments */
-  double width_pt, height_pt, foot_pt; /* page; its foot below the top */
-  char line[256];     /* PS: of the head, as far as it has come */
-  size_t length;      /* of it */
-  uint64_t offset;    /* PNG: bytes taken so far */
-  uint32_t per_metre; /* PNG: pixels */
+  bool in_header; /* PS: before the end of the header comments */
+  bool is_eps;
+  double width_pt, height_pt; /* of the page */
+  double foot_pt;  /* distance of the page's lower edge from cairo's origin */
+  char line[256];  /* PS: the part of the current header line received */
+  size_t length;   /* of it */
+  uint64_t offset; /* PNG: bytes received so far */
+  uint32_t per_metre; /* PNG: pixels per metre */
 };
 
-static cairo_status_t tell_cairo(const struct sink *sink) {
+/* The stream's status as one of cairo. */
+static cairo_status_t sink_status(const struct sink *sink) {
   return stream_status(sink->stream) == RECTO_OK ? CAIRO_STATUS_SUCCESS
                                                  : CAIRO_STATUS_WRITE_ERROR;
 }
@@ -49,7 +55,7 @@ static cairo_status_t pass_bytes(void *closure, const unsigned char *bytes,
                                  unsigned count) {
   struct sink *sink = closure;
   stream_write(sink->stream, bytes, count);
-  return tell_cairo(sink);
+  return sink_status(sink);
 }
 
 static bool starts_with(const struct sink *sink, const char *word) {
@@ -57,8 +63,8 @@ static bool starts_with(const struct sink *sink, const char *word) {
   return sink->length >= length && memcmp(sink->line, word, length) == 0;
 }
 
-/* The page's box, for cairo would say the ink's: whole points that hold it,
- * then the exact one. */
+/* Writes the bounding box of the page, in place of cairo's, which is that of
+ * the ink: first in whole points, rounded up, then the exact one. */
 static void write_box(const struct sink *sink) {
   struct stream *stream = sink->stream;
   stream_text(stream, "%%BoundingBox: 0 0 ");
@@ -72,8 +78,9 @@ static void write_box(const struct sink *sink) {
   stream_text(stream, "\n");
 }
 
-/* Takes one line of a PS file's head, or a part of a long one.  Not every cairo
- * gives an EPS file an exact box; where one does, ours replaces that too. */
+/* Passes on one header line of a PS file, or a part of a long one, with the
+ * creation date removed and the boxes of EPS replaced.  Only some versions of
+ * cairo write an exact box. */
 static void pass_line(struct sink *sink) {
   if (starts_with(sink, "%%EndComments"))
     sink->in_header = false;
@@ -85,6 +92,7 @@ static void pass_line(struct sink *sink) {
   sink->length = 0;
 }
 
+/* Filters the header line by line; passes on everything after it unchanged. */
 static cairo_status_t pass_ps(void *closure, const unsigned char *bytes,
                               unsigned count) {
   struct sink *sink = closure;
@@ -97,12 +105,14 @@ static cairo_status_t pass_ps(void *closure, const unsigned char *bytes,
   return pass_bytes(sink, bytes + i, count - i);
 }
 
-static void put_be32(unsigned char *bytes, uint32_t value) {
+/* Stores a number with the most significant byte first. */
+static void store_be32(unsigned char *bytes, uint32_t value) {
   for (int i = 0; i < 4; i++)
     bytes[i] = (unsigned char)(value >> (24 - 8 * i));
 }
 
-/* The CRC-32 of PNG (that of ISO 3309), bit by bit: it is for 13 bytes. */
+/* The CRC-32 of PNG (that of ISO 3309), computed bit by bit without a table,
+ * since it is used for 13 bytes only. */
 static uint32_t checksum(const unsigned char *bytes, size_t count) {
   uint32_t crc = UINT32_MAX;
   for (size_t i = 0; i < count; i++) {
@@ -113,18 +123,19 @@ static uint32_t checksum(const unsigned char *bytes, size_t count) {
   return ~crc;
 }
 
-/* The chunk that says how many pixels make a metre: length, type, x and y
- * density, unit, checksum of all but the length. */
+/* Writes the pHYs chunk with the number of pixels per metre: length, type,
+ * density in x and in y, unit, CRC of everything but the length. */
 static void write_resolution(const struct sink *sink) {
   unsigned char chunk[21] = {0, 0, 0, 9, 'p', 'H', 'Y', 's'};
-  put_be32(chunk + 8, sink->per_metre);
-  put_be32(chunk + 12, sink->per_metre);
+  store_be32(chunk + 8, sink->per_metre);
+  store_be32(chunk + 12, sink->per_metre);
   chunk[16] = 1;
-  put_be32(chunk + 17, checksum(chunk + 4, 13));
+  store_be32(chunk + 17, checksum(chunk + 4, 13));
   stream_write(sink->stream, chunk, sizeof chunk);
 }
 
-/* The chunk belongs after the first, which ends at byte 33 of every PNG. */
+/* Inserts the pHYs chunk after the first chunk, which ends at byte 33 of every
+ * PNG file. */
 static cairo_status_t pass_png(void *closure, const unsigned char *bytes,
                                unsigned count) {
   enum { HEADER = 33 };
@@ -137,11 +148,12 @@ static cairo_status_t pass_png(void *closure, const unsigned char *bytes,
     write_resolution(sink);
   stream_write(sink->stream, bytes + before, count - before);
   sink->offset += count;
-  return tell_cairo(sink);
+  return sink_status(sink);
 }
 
 /* ---- What of the page is shown ------------------------------------------- */
 
+/* The rectangle of the page that becomes the page of the file. */
 struct crop_window {
   double x0, y0, x1, y1; /* page mm */
 };
@@ -157,8 +169,9 @@ static void include_points(struct crop_window *window,
   }
 }
 
-/* The box of the ink: with round caps and joins, half a pen around the points
- * is exact. */
+/* The page, or if `tight` the bounding box of the ink, unless there is no ink.
+ * The box of the points extended by half the pen's width is exact, since caps
+ * and joins are round. */
 static struct crop_window find_window(const struct drawing *drawing,
                                       bool tight) {
   struct crop_window page = {0, 0, drawing->width_mm, drawing->height_mm};
@@ -186,8 +199,9 @@ static void set_colour(cairo_t *cr, uint32_t colour) {
                        (colour >> 8 & 0xff) / 255.0, (colour & 0xff) / 255.0);
 }
 
-static void trace(cairo_t *cr, const struct drawing_point *point,
-                  uint32_t count, bool closed) {
+/* Adds a polyline or polygon to cairo's current path. */
+static void add_path(cairo_t *cr, const struct drawing_point *point,
+                     uint32_t count, bool closed) {
   for (uint32_t i = 0; i < count; i++)
     cairo_line_to(cr, point[i].x, point[i].y);
   if (closed)
@@ -195,13 +209,13 @@ static void trace(cairo_t *cr, const struct drawing_point *point,
   cairo_new_sub_path(cr);
 }
 
-/* A fill, or the stroke that closes its seams. */
+/* Draws a fill, or the stroke along its outline that closes seams. */
 static void draw_fill(cairo_t *cr, const struct drawing *drawing,
                       const struct drawing_fill *fill, bool seam) {
   set_colour(cr, fill->colour);
   for (uint32_t i = 0; i < fill->loops; i++) {
     const struct drawing_loop *loop = &drawing->loop.item[fill->loop + i];
-    trace(cr, drawing->point.item + loop->point, loop->count, true);
+    add_path(cr, drawing->point.item + loop->point, loop->count, true);
   }
   if (seam)
     cairo_stroke(cr);
@@ -209,8 +223,8 @@ static void draw_fill(cairo_t *cr, const struct drawing *drawing,
     cairo_fill(cr);
 }
 
-/* The strokes that close seams come below all fills of the layer, so that
- * nothing is painted over. */
+/* Draws the fills of a layer.  The strokes that close seams are drawn before
+ * all of its fills, so that they do not paint over any of them. */
 static void draw_fills(cairo_t *cr, const struct drawing *drawing,
                        uint32_t layer) {
   cairo_set_line_width(cr, drawing->seam_mm);
@@ -230,14 +244,14 @@ static void draw_layer(cairo_t *cr, const struct drawing *drawing,
     if (stroke->layer != index)
       continue;
     cairo_set_line_width(cr, drawing_width_mm(drawing, stroke));
-    trace(cr, drawing->point.item + stroke->point, stroke->count,
-          stroke->closed);
+    add_path(cr, drawing->point.item + stroke->point, stroke->count,
+             stroke->closed);
     cairo_stroke(cr);
   }
 }
 
-/* Draws the window on the surface at `scale` surface units a millimetre, its
- * lower left corner at 0, `foot`. */
+/* Draws the window on the surface at `scale` surface units per millimetre, with
+ * its lower left corner at (0, foot). */
 static cairo_status_t draw(cairo_surface_t *surface,
                            const struct drawing *drawing,
                            const struct crop_window *window, double scale,
@@ -263,12 +277,13 @@ static cairo_status_t draw(cairo_surface_t *surface,
   return status;
 }
 
-/* A failed write is not told here: stream_finish does, which knows the path
- * and the reason.  Where the stream knows of none, it was cairo's own, to the
- * file where PS waits for its page's end.
- * fault  errno of it */
-static recto_status judge(cairo_status_t status, int fault,
-                          struct stream *stream, recto_error *error) {
+/* Converts cairo's status.  A failed write is not reported here but by
+ * stream_finish, which knows the path and the reason.  If the stream has no
+ * error, the write that failed was one of cairo's to its temporary file, in
+ * which it keeps PS until the page ends; it is then recorded in the stream.
+ * fault  errno of such a write */
+static recto_status convert_status(cairo_status_t status, int fault,
+                                   struct stream *stream, recto_error *error) {
   if (stream_status(stream) == RECTO_OK && status == CAIRO_STATUS_WRITE_ERROR)
     stream_fault(stream, fault);
   if (stream_status(stream) != RECTO_OK || status == CAIRO_STATUS_SUCCESS)
@@ -283,7 +298,7 @@ static recto_status judge(cairo_status_t status, int fault,
 
 typedef cairo_surface_t *open_surface(struct sink *sink);
 
-static double page_points(double length_mm) {
+static double mm_to_points(double length_mm) {
   double points = length_mm * (POINTS_PER_INCH / MM_PER_INCH);
   return round(points * PAGE_STEPS_PER_POINT) / PAGE_STEPS_PER_POINT;
 }
@@ -296,8 +311,8 @@ static recto_status write_vector(const struct drawing *drawing,
   struct crop_window window = find_window(drawing, options->tight);
   struct sink sink = {.stream = stream,
                       .in_header = true,
-                      .width_pt = page_points(window.x1 - window.x0),
-                      .height_pt = page_points(window.y1 - window.y0)};
+                      .width_pt = mm_to_points(window.x1 - window.x0),
+                      .height_pt = mm_to_points(window.y1 - window.y0)};
   sink.foot_pt = sink.height_pt;
   errno = 0;
   cairo_surface_t *surface = open(&sink);
@@ -308,10 +323,10 @@ static recto_status write_vector(const struct drawing *drawing,
   if (status == CAIRO_STATUS_SUCCESS)
     status = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
-  return judge(status, fault, stream, error);
+  return convert_status(status, fault, stream, error);
 }
 
-/* Version 1.5 is what LaTeX takes without a word. */
+/* LaTeX includes PDF up to version 1.5 without a warning. */
 static cairo_surface_t *open_pdf(struct sink *sink) {
   cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(
       pass_bytes, sink, sink->width_pt, sink->height_pt);
@@ -322,8 +337,8 @@ static cairo_surface_t *open_pdf(struct sink *sink) {
   return surface;
 }
 
-/* cairo measures from a page's top that it takes to be at whole points above
- * the foot, where PS has its origin. */
+/* In PS the origin is the lower left corner of the page, and cairo assumes that
+ * the page's height above it is a whole number of points. */
 static cairo_surface_t *open_ps(struct sink *sink) {
   sink->foot_pt = ceil(sink->height_pt);
   return cairo_ps_surface_create_for_stream(pass_ps, sink, ceil(sink->width_pt),
@@ -357,8 +372,9 @@ static recto_status write_eps(const struct drawing *drawing,
 
 /* ---- PNG ----------------------------------------------------------------- */
 
-/* A page is rounded to whole pixels, as others do; a tight window is never cut
- * into. */
+/* The number of pixels of a length.  A page is rounded to whole pixels, as
+ * other programs do; a tight window is rounded up, so that no ink is cut
+ * off. */
 static double pixels(double length_mm, double dpi, bool tight) {
   double exact = length_mm * dpi / MM_PER_INCH;
   return fmax(1, tight ? ceil(exact) : round(exact));
@@ -391,11 +407,11 @@ static recto_status write_png(const struct drawing *drawing,
   if (status == CAIRO_STATUS_SUCCESS)
     status = cairo_surface_write_to_png_stream(surface, pass_png, &sink);
   cairo_surface_destroy(surface);
-  return judge(status, 0, stream, error);
+  return convert_status(status, 0, stream, error);
 }
 
-/* cairo keeps the points of paths in steps of 1/256 of the surface's unit: a
- * point in PDF, EPS and PS, a pixel in PNG. */
+/* cairo rounds the points of paths to 1/256 of the surface's unit, which is a
+ * point in PDF, EPS and PS, and a pixel in PNG. */
 #define STEPS_PER_UNIT 256
 
 static double find_point(const struct writer_options *options) {

@@ -1,15 +1,17 @@
-/* writer_hpgl.c - HPGL for pen plotters, in the dialect that both old pens and
- * new drivers read.
+/* writer_hpgl.c - writes HPGL for pen plotters.
+ *
+ * Only commands that both old plotters and new drivers understand are used:
  *
  *   IN;DF;[VSn;]SP1;PUx,y;PDx,y,...;PU;SP2;...;PU;SP0;IN;
  *
- * Integers only, absolute, a command a line, a few points a command since the
- * buffers of plotters are small.  Turning and scaling are done in the numbers:
- * RO, SC and IP are not understood everywhere.
+ * Coordinates are absolute integers.  Each command is on a line of its own and
+ * has a limited number of points, since the buffers of plotters are small.
+ * Rotation and scaling are applied to the coordinates, because RO, SC and IP
+ * are not supported everywhere.
  *
- * Invariants: a coordinate is rounded once, to the device's unit; none is ever
- * outside the hard-clip area.  Points that repeat after rounding are dropped,
- * and with them the strokes that vanish. */
+ * Invariants  A coordinate is rounded once, to the device's unit, and is never
+ *   outside the hard-clip area.  Points that repeat after rounding are dropped,
+ *   and so are strokes that rounding shrinks to a point. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -19,21 +21,21 @@
 
 #define POINTS_PER_COMMAND 100
 #define DEFAULT_DEVICE "generic"
-#define MAX_VELOCITY 127 /* cm/s: HPGL's own upper end for VS */
+#define MAX_VELOCITY 127 /* cm/s: the upper limit of VS in HPGL */
 
 struct plot {
   struct stream *stream;
   struct device_placement place;
-  unsigned pen;     /* held; 0: none */
-  int32_t x, y;     /* where the stroke at hand has come to */
-  bool down;        /* it has ink already */
-  int points;       /* in the open PD */
-  uint64_t clipped; /* strokes */
-  double lost;      /* of them, in units */
-  uint64_t folded;  /* layers whose pen the device does not have */
+  unsigned pen;     /* the selected pen; 0: none */
+  int32_t x, y;     /* the last point of the current stroke */
+  bool down;        /* the pen is down in the current stroke */
+  int points;       /* in the current PD command; 0: none is open */
+  uint64_t clipped; /* the number of strokes clipped */
+  double lost;      /* the length clipped off, in units */
+  uint64_t folded;  /* the number of layers whose pen the device lacks */
 };
 
-struct spot {
+struct plot_point {
   double x, y; /* device units, not rounded */
 };
 
@@ -56,14 +58,16 @@ static void end_stroke(struct plot *plot) {
   plot->down = false;
 }
 
+/* Ends the current stroke and begins one at x, y. */
 static void begin_stroke(struct plot *plot, int32_t x, int32_t y) {
   end_stroke(plot);
   plot->x = x;
   plot->y = y;
 }
 
-/* Nothing is written before the first point that differs: a stroke which
- * rounding has shrunk to a point leaves no trace. */
+/* Draws a line to x, y.  Nothing is written before the first point that differs
+ * from the start, so a stroke that rounding has shrunk to a point writes
+ * nothing. */
 static void draw_to(struct plot *plot, int32_t x, int32_t y) {
   if (x == plot->x && y == plot->y)
     return;
@@ -82,7 +86,7 @@ static void draw_to(struct plot *plot, int32_t x, int32_t y) {
   plot->y = y;
 }
 
-static void take_pen(struct plot *plot, unsigned pen) {
+static void select_pen(struct plot *plot, unsigned pen) {
   if (pen == plot->pen)
     return;
   if (plot->pen != 0)
@@ -95,15 +99,17 @@ static void take_pen(struct plot *plot, unsigned pen) {
 
 /* ---- Clipping ------------------------------------------------------------ */
 
-/* The area is half a unit wider here on every side: what rounds into it is
- * in it. */
-static bool is_inside(const struct device_placement *place, struct spot spot) {
-  return spot.x >= place->x0 - 0.5 && spot.x <= place->x1 + 0.5 &&
-         spot.y >= place->y0 - 0.5 && spot.y <= place->y1 + 0.5;
+/* Whether a point is in the hard-clip area, which for this test is extended by
+ * half a unit on every side: a point that rounds into the area is inside. */
+static bool is_inside(const struct device_placement *place,
+                      struct plot_point p) {
+  return p.x >= place->x0 - 0.5 && p.x <= place->x1 + 0.5 &&
+         p.y >= place->y0 - 0.5 && p.y <= place->y1 + 0.5;
 }
 
-/* Keeps of the share *from..*to of a line that starts at `start` and runs by
- * `run` what is on the inner side of low and high. */
+/* Clips the parameter interval *from..*to of the line start + t run against low
+ * and high, in one coordinate (Liang-Barsky).  Returns false if nothing is
+ * left. */
 static bool clip_axis(double start, double run, double low, double high,
                       double *from, double *to) {
   if (run == 0)
@@ -115,48 +121,50 @@ static bool clip_axis(double start, double run, double low, double high,
   return *from <= *to;
 }
 
-/* Cuts the line a b at the area's sides; false where nothing is left. */
-static bool clip_line(const struct device_placement *place, struct spot *a,
-                      struct spot *b) {
+/* Clips the line a b to the extended area; returns false if nothing is left. */
+static bool clip_line(const struct device_placement *place,
+                      struct plot_point *a, struct plot_point *b) {
   double from = 0, to = 1;
-  struct spot start = *a, run = {b->x - a->x, b->y - a->y};
+  struct plot_point start = *a, run = {b->x - a->x, b->y - a->y};
   if (!clip_axis(start.x, run.x, place->x0 - 0.5, place->x1 + 0.5, &from,
                  &to) ||
       !clip_axis(start.y, run.y, place->y0 - 0.5, place->y1 + 0.5, &from, &to))
     return false;
   if (from > 0)
-    *a = (struct spot){start.x + from * run.x, start.y + from * run.y};
+    *a = (struct plot_point){start.x + from * run.x, start.y + from * run.y};
   if (to < 1)
-    *b = (struct spot){start.x + to * run.x, start.y + to * run.y};
+    *b = (struct plot_point){start.x + to * run.x, start.y + to * run.y};
   return true;
 }
 
-/* Clamped before it is rounded, so that the side itself, half a unit out, and
- * whatever clipping's arithmetic adds to it, stay in. */
+/* Rounds to an integer in low..high.  The value is clamped first: a point on
+ * the boundary of the extended area, half a unit outside, or beyond it by a
+ * rounding error of the clipping, would else round to a point outside. */
 static int32_t round_into(double value, int32_t low, int32_t high) {
   return (int32_t)lround(fmin(fmax(value, low), high));
 }
 
 /* ---- Strokes ------------------------------------------------------------- */
 
-static struct spot spot_of(const struct plot *plot,
-                           const struct drawing_point *point) {
-  struct spot spot;
-  device_point(&plot->place, point->x, point->y, &spot.x, &spot.y);
-  return spot;
+static struct plot_point to_device(const struct plot *plot,
+                                   const struct drawing_point *point) {
+  struct plot_point p;
+  device_point(&plot->place, point->x, point->y, &p.x, &p.y);
+  return p;
 }
 
-/* A loop that leaves the area begins outside, so that no visible piece of it
- * is cut in two. */
+/* The corner at which to begin a stroke.  A loop that leaves the area begins at
+ * a corner outside, so that none of its pieces inside is split in two. */
 static uint32_t choose_start(const struct plot *plot,
                              const struct drawing_point *point,
                              const struct drawing_stroke *stroke) {
   for (uint32_t i = 0; stroke->closed && i < stroke->count; i++)
-    if (!is_inside(&plot->place, spot_of(plot, &point[i])))
+    if (!is_inside(&plot->place, to_device(plot, &point[i])))
       return i;
   return 0;
 }
 
+/* Plots a stroke, clipped to the hard-clip area. */
 static void plot_stroke(struct plot *plot, const struct drawing *drawing,
                         const struct drawing_stroke *stroke) {
   const struct device_placement *place = &plot->place;
@@ -165,8 +173,9 @@ static void plot_stroke(struct plot *plot, const struct drawing *drawing,
   uint32_t lines = stroke->count - (stroke->closed ? 0 : 1);
   bool whole = true;
   for (uint32_t i = 0; i < lines; i++) {
-    struct spot a = spot_of(plot, &point[(start + i) % stroke->count]);
-    struct spot b = spot_of(plot, &point[(start + i + 1) % stroke->count]);
+    struct plot_point a = to_device(plot, &point[(start + i) % stroke->count]);
+    struct plot_point b =
+        to_device(plot, &point[(start + i + 1) % stroke->count]);
     bool a_inside = is_inside(place, a), b_inside = is_inside(place, b);
     whole = whole && a_inside && b_inside;
     double length = hypot(b.x - a.x, b.y - a.y);
@@ -185,12 +194,12 @@ static void plot_stroke(struct plot *plot, const struct drawing *drawing,
   plot->clipped += whole ? 0 : 1;
 }
 
-/* The pen that the device has for a layer: those past its last are dealt from
- * its first again. */
+/* The device's pen for a layer.  Pens beyond its last one are assigned
+ * cyclically, beginning with its first. */
 static unsigned find_pen(const struct device *device,
                          const struct drawing_layer *layer) {
-  unsigned most = device->pens;
-  return most > 0 && layer->pen > most ? (layer->pen - 1) % most + 1
+  unsigned pens = device->pens;
+  return pens > 0 && layer->pen > pens ? (layer->pen - 1) % pens + 1
                                        : layer->pen;
 }
 
@@ -204,39 +213,42 @@ static void plot_layer(struct plot *plot, const struct drawing *drawing,
 }
 
 /* Marks the layers that have strokes. */
-static void find_inked(const struct drawing *drawing, bool *inked) {
+static void find_layers_with_strokes(const struct drawing *drawing,
+                                     bool *has_strokes) {
   for (size_t i = 0; i < drawing->stroke.count; i++)
     if (drawing->stroke.item[i].count >= 2)
-      inked[drawing->stroke.item[i].layer] = true;
+      has_strokes[drawing->stroke.item[i].layer] = true;
 }
 
-/* Takes the pen of the layer `first`, and plots all layers on it that wait. */
+/* Selects the pen of the layer `first`, and plots all pending layers of that
+ * pen. */
 static void plot_pen(struct plot *plot, const struct drawing *drawing,
                      const struct device *device, uint32_t first,
-                     bool *waiting) {
+                     bool *pending) {
   const struct drawing_layer *layer = drawing->layer.item;
   unsigned pen = find_pen(device, &layer[first]);
-  take_pen(plot, pen);
+  select_pen(plot, pen);
   for (uint32_t i = first; i < drawing->layer.count; i++) {
-    if (!waiting[i] || find_pen(device, &layer[i]) != pen)
+    if (!pending[i] || find_pen(device, &layer[i]) != pen)
       continue;
     plot->folded += pen != layer[i].pen;
     plot_layer(plot, drawing, i);
-    waiting[i] = false;
+    pending[i] = false;
   }
 }
 
-/* Layers in their order, but that each pen is taken once. */
+/* Plots the layers in their order, except that each pen is selected only once.
+ * Returns false when memory ran out. */
 static bool plot_layers(struct plot *plot, const struct drawing *drawing,
                         const struct device *device) {
-  bool *waiting = mem_calloc(drawing->layer.count, sizeof *waiting);
-  if (!waiting)
+  bool *pending = mem_calloc(drawing->layer.count, sizeof *pending);
+  if (pending == NULL)
     return false;
-  find_inked(drawing, waiting);
+  find_layers_with_strokes(drawing, pending);
   for (uint32_t i = 0; i < drawing->layer.count; i++)
-    if (waiting[i])
-      plot_pen(plot, drawing, device, i, waiting);
-  mem_free(waiting);
+    if (pending[i])
+      plot_pen(plot, drawing, device, i, pending);
+  mem_free(pending);
   return true;
 }
 
@@ -247,7 +259,7 @@ static void warn(const struct writer_options *options, const char *format,
                  ...) {
   char text[300];
   va_list list;
-  if (!options->warning)
+  if (options->warning == NULL)
     return;
   va_start(list, format);
   vsnprintf(text, sizeof text, format, list);
@@ -257,15 +269,16 @@ static void warn(const struct writer_options *options, const char *format,
 
 static const char *plural(uint64_t count) { return count == 1 ? "" : "s"; }
 
-/* The area in mm, and the sheet, so that another page, margin or sheet can be
- * chosen. */
+/* Reports the strokes and the length clipped, with the size of the area or of
+ * the margin and the paper, so that the user can choose another page, margin or
+ * paper. */
 static void warn_of_clipping(const struct plot *plot,
                              const struct device *device,
                              const struct writer_options *options) {
   const struct device_placement *place = &plot->place;
   unsigned long long clipped = plot->clipped;
   double lost_mm = plot->lost * place->unit_mm;
-  if (!place->paper)
+  if (place->paper == NULL)
     warn(options, "%llu stroke%s clipped to the page, %.1f mm left out",
          clipped, plural(clipped), lost_mm);
   else if (place->too_large)
@@ -299,9 +312,9 @@ static void warn_of_losses(const struct plot *plot,
          "%llu layer%s on pens past the %u that %s has: dealt anew from pen 1",
          (unsigned long long)plot->folded, plural(plot->folded), device->pens,
          device->name);
-  if (options->velocity > device->most_cm_s)
+  if (options->velocity > device->max_cm_s)
     warn(options, "%s draws at no more than %g cm/s: not at %g", device->name,
-         device->most_cm_s, options->velocity);
+         device->max_cm_s, options->velocity);
   if (drawing->fill.count > 0)
     warn(options, "%zu fill%s left out: a pen cannot fill, but it can hatch",
          drawing->fill.count, plural(drawing->fill.count));
@@ -317,9 +330,9 @@ static recto_status refuse_device(const char *name, recto_error *error) {
 static recto_status write_hpgl(const struct drawing *drawing,
                                const struct writer_options *options,
                                struct stream *stream, recto_error *error) {
-  const char *name = options->device ? options->device : DEFAULT_DEVICE;
+  const char *name = options->device != NULL ? options->device : DEFAULT_DEVICE;
   const struct device *device = device_by_name(name);
-  if (!device)
+  if (device == NULL)
     return refuse_device(name, error);
   if (!(options->velocity == 0 ||
         (options->velocity >= 1 && options->velocity <= MAX_VELOCITY)))
@@ -342,22 +355,23 @@ static recto_status write_hpgl(const struct drawing *drawing,
   return RECTO_OK;
 }
 
-/* In whole millimetres; nothing helps a page that is too large. */
+/* The margin in whole millimetres.  0 for a page that is too large for every
+ * paper, since no margin suffices. */
 static double find_margin(const struct writer_options *options, double width_mm,
                           double height_mm) {
-  const struct device *device =
-      device_by_name(options->device ? options->device : DEFAULT_DEVICE);
-  if (!device)
+  const struct device *device = device_by_name(
+      options->device != NULL ? options->device : DEFAULT_DEVICE);
+  if (device == NULL)
     return 0;
   struct device_placement place;
   device_place(device, width_mm, height_mm, &place);
   return place.too_large ? 0 : ceil(device_margin_mm(&place));
 }
 
-/* 0 for a device that is not known: write_hpgl refuses it. */
+/* 0 for an unknown device: write_hpgl reports the error. */
 static double find_unit(const struct writer_options *options) {
-  const struct device *device =
-      device_by_name(options->device ? options->device : DEFAULT_DEVICE);
+  const struct device *device = device_by_name(
+      options->device != NULL ? options->device : DEFAULT_DEVICE);
   return device ? device->unit_mm : 0;
 }
 

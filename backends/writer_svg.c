@@ -1,10 +1,11 @@
-/* writer_svg.c - SVG in true millimetres: a top-level layer per pen, one path
- * a line, nothing that a plotter's driver skips.
+/* writer_svg.c - writes SVG at true scale, with one top-level group per layer.
  *
- * The same drawing gives the same bytes: no date, no version, no path, fixed
- * order of attributes, numbers rounded to the asked-for decimals once and
- * written without exponent or trailing zeros.  y runs down in SVG: the page's
- * is turned over in the numbers, not by a transform. */
+ * Each stroke is one path.  Only elements that the drivers of plotters support
+ * are used.  Equal drawings give equal bytes: there is no date, version or file
+ * path, the order of attributes is fixed, and numbers are rounded once, to the
+ * requested number of decimals, and written without exponents or trailing
+ * zeros.  The y axis of SVG points down; the page's y is reversed in the
+ * numbers, not by a transform. */
 #include <math.h>
 #include <string.h>
 
@@ -19,8 +20,8 @@ struct svg {
   const struct drawing *drawing;
   const struct writer_options *options;
   struct stream *out;
-  double scale;                  /* 10 to the power of the decimals */
-  ARRAY(struct svg_point) point; /* of the stroke or loop at hand */
+  double scale;                  /* 10 to the power of the precision */
+  ARRAY(struct svg_point) point; /* of the current stroke or loop */
 };
 
 /* ---- Text ---------------------------------------------------------------- */
@@ -49,8 +50,8 @@ static size_t measure_character(const unsigned char *text) {
   return allowed && code >= least[length] ? length : 0;
 }
 
-/* Writes `text` as the inside of an attribute.  Bytes that are no character
- * of XML, as in a name that is not UTF-8, become U+FFFD. */
+/* Writes `text` as the value of an attribute.  Bytes that are not part of a
+ * character of XML, as in a name that is not UTF-8, are replaced by U+FFFD. */
 static void write_escaped(struct stream *out, const char *text) {
   const unsigned char *at = (const unsigned char *)text;
   while (*at != '\0') {
@@ -95,8 +96,8 @@ static void write_colour(struct stream *out, uint32_t colour) {
   stream_write(out, text, 7);
 }
 
-/* Lengths that are not coordinates keep micrometres however few decimals were
- * asked for: a pen of 0.3 mm must not become 0. */
+/* Lengths that are not coordinates have at least three decimals, whatever the
+ * precision: a pen width of 0.3 mm must not become 0. */
 static void write_length(const struct svg *svg, double mm) {
   int decimals = svg->options->precision;
   stream_number(svg->out, mm, decimals > 3 ? decimals : 3);
@@ -104,8 +105,9 @@ static void write_length(const struct svg *svg, double mm) {
 
 /* ---- Geometry ------------------------------------------------------------ */
 
-/* Rounds points to svg->point, dropping those that repeat; where closed, also
- * at the end those that repeat the first.  False when memory ran out. */
+/* Rounds points to svg->point, without those that repeat the previous one, and
+ * if `closed`, without those at the end that repeat the first.  Returns false
+ * when memory ran out. */
 static bool round_points(struct svg *svg, uint32_t first, uint32_t count,
                          bool closed) {
   const struct drawing_point *from = svg->drawing->point.item + first;
@@ -128,9 +130,9 @@ static bool round_points(struct svg *svg, uint32_t first, uint32_t count,
 }
 
 static void write_point(const struct svg *svg, struct svg_point p,
-                        char between) {
+                        char separator) {
   stream_number(svg->out, (double)p.x / svg->scale, svg->options->precision);
-  stream_write(svg->out, &between, 1);
+  stream_write(svg->out, &separator, 1);
   stream_number(svg->out, (double)p.y / svg->scale, svg->options->precision);
 }
 
@@ -185,13 +187,14 @@ static void write_stroke_ids(const struct svg *svg,
   stream_text(svg->out, "\"");
 }
 
-/* A stroke that rounding leaves no length is not written. */
+/* Writes a stroke, unless rounding has reduced it to one point.  Returns false
+ * when memory ran out. */
 static bool write_stroke(struct svg *svg, const struct drawing_stroke *stroke) {
   if (!round_points(svg, stroke->point, stroke->count, stroke->closed))
     return false;
   if (svg->point.count < 2)
     return true;
-  /* There and back again along one line is one line. */
+  /* A loop of two points is a line, and written as one. */
   bool closed = stroke->closed && svg->point.count > 2;
   bool polyline = svg->options->polyline;
   stream_text(svg->out, !polyline ? "<path"
@@ -210,8 +213,8 @@ static bool write_stroke(struct svg *svg, const struct drawing_stroke *stroke) {
   return true;
 }
 
-/* Begins the element of a fill, or of the stroke that closes its seams, which
- * takes all but its colour from around it. */
+/* Begins the element of a fill, or of the stroke along its outline that closes
+ * seams.  The latter inherits everything but its colour from its group. */
 static void open_fill(const struct svg *svg, const struct drawing_fill *fill,
                       bool seam) {
   struct stream *out = svg->out;
@@ -226,6 +229,8 @@ static void open_fill(const struct svg *svg, const struct drawing_fill *fill,
                         : "\" fill-rule=\"evenodd\" stroke=\"none\" d=\"");
 }
 
+/* Writes a fill, or its seam stroke, unless rounding has reduced all loops to
+ * fewer than three points.  Returns false when memory ran out. */
 static bool write_fill(struct svg *svg, const struct drawing_fill *fill,
                        bool seam) {
   bool open = false;
@@ -245,8 +250,8 @@ static bool write_fill(struct svg *svg, const struct drawing_fill *fill,
   return true;
 }
 
-/* The strokes that close the seams of a layer's fills: below them all, so that
- * nothing is painted over. */
+/* Writes the strokes that close the seams of a layer's fills.  They come before
+ * all fills of the layer, so that they do not paint over any of them. */
 static bool write_seams(struct svg *svg, uint32_t layer) {
   const struct drawing *drawing = svg->drawing;
   bool open = false;
@@ -267,14 +272,15 @@ static bool write_seams(struct svg *svg, uint32_t layer) {
   return true;
 }
 
-/* What stands between <g> and </g> within a layer: lines or fills of one
- * class, for style sheets; one class costs a group, not a word a line. */
+/* The current group within a layer: strokes of one class and width, or fills.
+ * It lets style sheets address the class; a group takes less space than an
+ * attribute of every line. */
 struct svg_stroke_style {
-  const char *word; /* NULL: none is open */
+  const char *name; /* the class; NULL: no group is open */
   double width_mm;
 };
 
-static const char *class_of(const struct drawing_stroke *stroke) {
+static const char *class_name(const struct drawing_stroke *stroke) {
   return stroke->hidden ? "hidden"
          : stroke->edge_class == 0
              ? "hatch"
@@ -282,30 +288,30 @@ static const char *class_of(const struct drawing_stroke *stroke) {
 }
 
 static void close_style(const struct svg *svg, struct svg_stroke_style *style) {
-  if (style->word)
+  if (style->name != NULL)
     stream_text(svg->out, "</g>\n");
-  style->word = NULL;
+  style->name = NULL;
 }
 
-/* Opens a group of that class unless it is open; its width is told where it
- * is not the layer's. */
+/* Opens a group of that class and width unless it is open.  The width is
+ * written only if it differs from the layer's. */
 static void open_style(const struct svg *svg, struct svg_stroke_style *style,
-                       const char *word, double width_mm, double usual_mm) {
-  if (style->word && strcmp(style->word, word) == 0 &&
+                       const char *name, double width_mm, double layer_mm) {
+  if (style->name != NULL && strcmp(style->name, name) == 0 &&
       style->width_mm == width_mm)
     return;
   close_style(svg, style);
   stream_text(svg->out, "<g class=\"");
-  stream_text(svg->out, word);
-  if (width_mm != usual_mm) {
+  stream_text(svg->out, name);
+  if (width_mm != layer_mm) {
     stream_text(svg->out, "\" stroke-width=\"");
     write_length(svg, width_mm);
   }
   stream_text(svg->out, "\">\n");
-  *style = (struct svg_stroke_style){word, width_mm};
+  *style = (struct svg_stroke_style){name, width_mm};
 }
 
-/* The fills of a layer, then its strokes. */
+/* Writes the fills of a layer, then its strokes. */
 static bool write_contents(struct svg *svg, uint32_t index) {
   const struct drawing *drawing = svg->drawing;
   double width_mm = drawing->layer.item[index].width_mm;
@@ -320,8 +326,8 @@ static bool write_contents(struct svg *svg, uint32_t index) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     if (stroke->layer != index)
       continue;
-    open_style(svg, &style, class_of(stroke), drawing_width_mm(drawing, stroke),
-               width_mm);
+    open_style(svg, &style, class_name(stroke),
+               drawing_width_mm(drawing, stroke), width_mm);
     ok = write_stroke(svg, stroke);
   }
   close_style(svg, &style);

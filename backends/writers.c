@@ -1,4 +1,4 @@
-/* writers.c - the table of formats we write, and looking one up. */
+/* writers.c - the table of output formats, and its look-up by name or path. */
 #include "backends/writer.h"
 
 #include <string.h>
@@ -15,25 +15,27 @@ const struct writer *const *writers(void) { return table; }
 
 static int lower(char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; }
 
-/* Whether a[0 .. length) and b[0 .. length) are the same but for case. */
-static bool same_word(const char *a, const char *b, size_t length) {
+/* Whether a[0 .. length) and b[0 .. length) are equal, ignoring case. */
+static bool equal_words(const char *a, const char *b, size_t length) {
   for (size_t i = 0; i < length; i++)
     if (lower(a[i]) != lower(b[i]))
       return false;
   return true;
 }
 
-/* Whether `word` is one of the space-separated words of `list`, or where
- * `as_extension` is set, ends in one of them behind a dot. */
+/* Whether `word` is one of the words of `list`, which are separated by spaces,
+ * or if `as_extension`, ends in a dot and one of them.  A list may be NULL. */
 static bool is_among(const char *word, const char *list, bool as_extension) {
   size_t length = strlen(word);
   while (list != NULL && *list != '\0') {
-    size_t here = strcspn(list, " ");
-    const char *end = word + length - (here < length ? here : length);
+    size_t list_length = strcspn(list, " ");
+    const char *end =
+        word + length - (list_length < length ? list_length : length);
     bool fits = as_extension ? end > word && end[-1] == '.' : end == word;
-    if (fits && strlen(end) == here && same_word(end, list, here))
+    if (fits && strlen(end) == list_length &&
+        equal_words(end, list, list_length))
       return true;
-    list += here;
+    list += list_length;
     list += strspn(list, " ");
   }
   return false;
