@@ -103,6 +103,7 @@ static void set_grid(struct hatch_lines *lines) {
   grid->down = false;
 }
 
+/* A point rounded to units of the scan grid. */
 static struct scan_point scan_point_at(const struct hatch_lines *lines,
                                        struct hatch_point p) {
   return scan_point_of(&lines->grid, llround(p.u * UNITS_PER_MM),
@@ -144,6 +145,7 @@ static bool add_span(struct hatch_lines *lines, const struct scan_table *table,
   return span.left.u >= span.right.u || ARRAY_PUSH(&lines->span, span);
 }
 
+/* Adds the spans inside the sides, line by line.  False when memory ran out. */
 static bool scan_sides(struct hatch_lines *lines, struct scan_table *table) {
   for (uint32_t i = 0; i < lines->side.count; i++) {
     struct scan_point p = scan_point_at(lines, lines->side.item[i].from);

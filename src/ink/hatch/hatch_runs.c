@@ -4,6 +4,7 @@
 
 #include "base/sort.h"
 
+/* Orders pieces by hatch line; 0 if they are on the same one. */
 static int compare_lines(const struct hatch_piece *a,
                          const struct hatch_piece *b) {
   if (a->pen != b->pen)
@@ -15,6 +16,7 @@ static int compare_lines(const struct hatch_piece *a,
   return (a->line > b->line) - (a->line < b->line);
 }
 
+/* Orders pieces by hatch line, then by u0. */
 static int compare_pieces(const void *first, const void *second, void *user) {
   const struct hatch_piece *a = first, *b = second;
   int lines = compare_lines(a, b);

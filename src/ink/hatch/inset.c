@@ -93,6 +93,7 @@ static bool add_intervals(const struct hatch_lines *lines, uint32_t index,
   return true;
 }
 
+/* Orders intervals by line, then by u0. */
 static int compare_intervals(const void *first, const void *second,
                              void *user) {
   const struct inset_interval *a = first, *b = second;

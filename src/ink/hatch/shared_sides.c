@@ -8,6 +8,8 @@
 
 #include "base/sort.h"
 
+/* Adds the side from `corner` to `next`, whose coordinates along its line are
+ * `from` and `to`.  False when memory ran out. */
 static bool add(shared_sides *list, double line, double from, double to,
                 const struct map_corner *corner, const struct map_corner *next,
                 uint32_t item) {
@@ -36,6 +38,7 @@ bool shared_sides_add_edge(shared_sides *list, const struct map_corner *corner,
          add(list, corner->id, corner->y, next->y, corner, next, item);
 }
 
+/* Orders sides by line, forward before reversed, then by low end. */
 static int compare_sides(const void *first, const void *second, void *user) {
   const struct shared_side *a = first, *b = second;
   (void)user;

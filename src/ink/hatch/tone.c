@@ -16,7 +16,7 @@
 #include "view/project.h"
 #include "view/vector.h"
 
-/* A region whose tones differ by less is uniform: a pen cannot show it. */
+/* A region whose tones differ by less is uniform: a pen cannot show the difference. */
 #define UNIFORM_RANGE (1.0 / 512)
 
 struct tone_normal {
@@ -47,6 +47,7 @@ static bool is_smooth(const struct tone_work *w, uint32_t f, uint32_t g) {
   return dot >= w->crease_cosine * vector_length(a) * vector_length(b);
 }
 
+/* The corner of a face after the given one, counter-clockwise. */
 static uint32_t next_corner(const struct scene *scene, uint32_t face,
                             uint32_t corner) {
   return corner + 1 < scene->face_start.item[face + 1]
@@ -66,6 +67,8 @@ static void join_faces(struct tone_work *w, uint32_t f, uint32_t a, uint32_t g,
   sets_join(w->corner_root, next_corner(w->scene, f, a), b);
 }
 
+/* Joins faces and corners at all smooth edges of two faces, linear in the number
+ * of corners. */
 static void join_smooth_edges(struct tone_work *w) {
   const struct topology *topology = w->sheet->topology;
   for (size_t e = 0; e < topology->edge.count; e++)
@@ -88,6 +91,7 @@ static void join_smooth_edges(struct tone_work *w) {
 
 /* ---- 3 Corners ----------------------------------------------------------- */
 
+/* Sums the face normals of each set of corners, weighted by area. */
 static void sum_normals(struct tone_work *w) {
   for (uint32_t f = 0; f < scene_face_count(w->scene); f++)
     for (uint32_t c = w->scene->face_start.item[f];
@@ -122,6 +126,8 @@ static struct drawing_point project_corner(const struct tone_work *w,
                                 camera->middle_mm[1] + s * v.y};
 }
 
+/* Sets the tone and the position of all corners, and the extreme tones of all
+ * regions. */
 static void set_corners(struct tone_work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene); f++) {
     uint32_t region = sets_root(w->face_root, f);
@@ -140,6 +146,7 @@ static void set_corners(struct tone_work *w, struct tones *tones) {
 
 /* ---- 4 Regions ----------------------------------------------------------- */
 
+/* Finds the uniform regions and gives all their corners one tone. */
 static void set_regions(struct tone_work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene); f++) {
     uint32_t region = sets_root(w->face_root, f);
@@ -156,6 +163,8 @@ static void set_regions(struct tone_work *w, struct tones *tones) {
 
 /* ---- All ----------------------------------------------------------------- */
 
+/* Allocates the work arrays and sets the face normals.  False when memory ran
+ * out; release must be called all the same. */
 static bool prepare(struct tone_work *w) {
   size_t faces = scene_face_count(w->scene);
   size_t corners = w->scene->corner.count;
@@ -237,6 +246,7 @@ static bool find_plane(const struct tones *tones, uint32_t o, uint32_t a,
   return isfinite(plane->dx) && isfinite(plane->dy);
 }
 
+/* The value of one plane of a tone at a point. */
 static double value_of(const struct tone *tone, int plane,
                        struct drawing_point p) {
   const struct tone_plane *t = &tone->plane[plane];
