@@ -16,7 +16,8 @@
 #include "view/project.h"
 #include "view/vector.h"
 
-/* A region whose tones differ by less is uniform: a pen cannot show the difference. */
+/* A region whose tones differ by less is uniform: a pen cannot show the
+ * difference. */
 #define UNIFORM_RANGE (1.0 / 512)
 
 struct tone_normal {
@@ -67,8 +68,8 @@ static void join_faces(struct tone_work *w, uint32_t f, uint32_t a, uint32_t g,
   sets_join(w->corner_root, next_corner(w->scene, f, a), b);
 }
 
-/* Joins faces and corners at all smooth edges of two faces, linear in the number
- * of corners. */
+/* Joins faces and corners at all smooth edges, in time linear in the number of
+ * corners. */
 static void join_smooth_edges(struct tone_work *w) {
   const struct topology *topology = w->sheet->topology;
   for (size_t e = 0; e < topology->edge.count; e++)
