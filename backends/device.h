@@ -13,7 +13,7 @@ struct device_paper {
   const char *name;
   double width_mm, height_mm;
   int32_t x0, y0, x1, y1;    /* hard-clip area in units, ends included */
-  double centre_x, centre_y; /* the sheet's centre, in units */
+  double centre_x, centre_y; /* the paper's centre, in units */
 };
 
 struct device {
@@ -22,8 +22,8 @@ struct device {
   unsigned pens; /* in the carousel; 0: any number */
   bool centred;  /* for a device without papers: whether the origin is the
                     page's centre, or else its lower left corner */
-  const struct device_paper
-      *paper; /* NULL: a page of any size is its own paper */
+  /* The paper sizes; NULL: a page of any size is its own paper. */
+  const struct device_paper *paper;
   size_t papers;
   double down_cm_s, up_cm_s; /* default speeds with the pen down and up */
   double max_cm_s;           /* maximum speed with the pen down */

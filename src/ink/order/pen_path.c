@@ -34,9 +34,9 @@ struct stroke_order {
   struct drawing_stroke *stroke; /* the layer's, borrowed, not owned */
   uint32_t count;
   struct drawing_point start;
-  ARRAY(struct layer_entry) entry;   /* grouped by stroke */
-  ARRAY(struct drawing_point) place; /* the point of each entry */
-  uint32_t *first_entry;             /* of each stroke; one more at the end */
+  ARRAY(struct layer_entry) entry;         /* grouped by stroke */
+  ARRAY(struct drawing_point) entry_point; /* the point of each entry */
+  uint32_t *first_entry;     /* of each stroke; one more at the end */
   uint32_t *corner;          /* of each stroke: the corner it begins at */
   struct drawing_point *end; /* two a stroke: see tour.h */
   struct tour tour;
@@ -58,7 +58,7 @@ static bool add_entries(struct stroke_order *o) {
     o->first_entry[i] = (uint32_t)o->entry.count;
     for (uint32_t k = 0; k<stroke->count; k += step> 0 ? step : 1)
       if (!ARRAY_PUSH(&o->entry, ((struct layer_entry){i, k})) ||
-          !ARRAY_PUSH(&o->place, corner_of(o, i, k)))
+          !ARRAY_PUSH(&o->entry_point, corner_of(o, i, k)))
         return false;
   }
   o->first_entry[o->count] = (uint32_t)o->entry.count;
@@ -85,8 +85,8 @@ static struct drawing_point append_stroke(struct stroke_order *o,
 static bool make_greedy_tour(struct stroke_order *o) {
   struct nearest nearest = {0};
   struct drawing_point pen = o->start;
-  bool ok = add_entries(o) &&
-            nearest_init(&nearest, o->place.item, (uint32_t)o->entry.count);
+  bool ok = add_entries(o) && nearest_init(&nearest, o->entry_point.item,
+                                           (uint32_t)o->entry.count);
   while (ok && o->tour.count < o->count) {
     struct layer_entry entry = o->entry.item[nearest_find(&nearest, pen)];
     pen = append_stroke(o, entry);
@@ -207,7 +207,7 @@ static bool order_layer(struct stroke_order *o,
       ok = apply(o);
   }
   ARRAY_FREE(&o->entry);
-  ARRAY_FREE(&o->place);
+  ARRAY_FREE(&o->entry_point);
   mem_free(o->first_entry);
   mem_free(o->corner);
   mem_free(o->end);

@@ -27,7 +27,7 @@
 
 enum { NEIGHBOURS = 8, RUN_MAX = 3 };
 
-struct tour_ring {
+struct cyclic_tour {
   const struct drawing_point *end;
   struct drawing_point start;
   uint32_t count;  /* of stops; the last index is the depot */
@@ -57,14 +57,14 @@ double tour_travel(const struct tour *tour) {
 /* ---- The cyclic tour ----------------------------------------------------- */
 
 /* The next stop in the current direction of traversal. */
-static uint32_t after(const struct tour_ring *r, uint32_t stop) {
+static uint32_t after(const struct cyclic_tour *r, uint32_t stop) {
   uint32_t p = r->place[stop];
   if (r->back)
     return r->stop[p > 0 ? p - 1 : r->count - 1];
   return r->stop[p + 1 < r->count ? p + 1 : 0];
 }
 
-static uint32_t before(const struct tour_ring *r, uint32_t stop) {
+static uint32_t before(const struct cyclic_tour *r, uint32_t stop) {
   uint32_t p = r->place[stop];
   if (r->back)
     return r->stop[p + 1 < r->count ? p + 1 : 0];
@@ -72,17 +72,17 @@ static uint32_t before(const struct tour_ring *r, uint32_t stop) {
 }
 
 /* The end of a stop at which the pen comes down, in the current direction. */
-static uint32_t way_in(const struct tour_ring *r, uint32_t stop) {
+static uint32_t entry_end(const struct cyclic_tour *r, uint32_t stop) {
   return 2 * stop + (r->reversed[stop] != r->back);
 }
 
-static uint32_t way_out(const struct tour_ring *r, uint32_t stop) {
-  return way_in(r, stop) ^ 1;
+static uint32_t exit_end(const struct cyclic_tour *r, uint32_t stop) {
+  return entry_end(r, stop) ^ 1;
 }
 
 /* The travel between two ends.  The depot's first end has distance 0 from every
  * end, and its second is the pen's start. */
-static double gap(const struct tour_ring *r, uint32_t a, uint32_t b) {
+static double gap(const struct cyclic_tour *r, uint32_t a, uint32_t b) {
   uint32_t depot_in = 2 * (r->count - 1);
   if (a == depot_in || b == depot_in)
     return 0;
@@ -91,13 +91,14 @@ static double gap(const struct tour_ring *r, uint32_t a, uint32_t b) {
 }
 
 /* The number of stops from a to b, both included, forwards. */
-static uint32_t count_stops(const struct tour_ring *r, uint32_t a, uint32_t b) {
+static uint32_t count_stops(const struct cyclic_tour *r, uint32_t a,
+                            uint32_t b) {
   uint32_t p = r->place[a], q = r->place[b];
   return q >= p ? q - p + 1 : q + r->count - p + 1;
 }
 
 /* Reverses the run of `count` stops at the places p, p + 1, ..., cyclically. */
-static void reverse_places(struct tour_ring *r, uint32_t p, uint32_t count) {
+static void reverse_places(struct cyclic_tour *r, uint32_t p, uint32_t count) {
   uint32_t q = (uint32_t)(((uint64_t)p + count - 1) % r->count);
   for (uint32_t i = 0; i < (count + 1) / 2; i++) {
     uint32_t a = r->stop[p], b = r->stop[q];
@@ -117,7 +118,7 @@ static void reverse_places(struct tour_ring *r, uint32_t p, uint32_t count) {
 
 /* Reverses the run from a to b in the current direction, or if that is less
  * work its complement, which gives the same cyclic tour. */
-static void reverse_run(struct tour_ring *r, uint32_t a, uint32_t b) {
+static void reverse_run(struct cyclic_tour *r, uint32_t a, uint32_t b) {
   if (r->back) {
     uint32_t c = a;
     a = b;
@@ -131,24 +132,24 @@ static void reverse_run(struct tour_ring *r, uint32_t a, uint32_t b) {
 }
 
 /* The number of stops that reverse_run would move. */
-static uint32_t reverse_cost(const struct tour_ring *r, uint32_t a,
+static uint32_t reverse_cost(const struct cyclic_tour *r, uint32_t a,
                              uint32_t b) {
   uint32_t count = r->back ? count_stops(r, b, a) : count_stops(r, a, b);
   return count <= r->count - count ? count : r->count - count;
 }
 
-static uint32_t wrap(const struct tour_ring *r, uint32_t place) {
+static uint32_t wrap(const struct cyclic_tour *r, uint32_t place) {
   return place < r->count ? place : place - r->count;
 }
 
-static void set_stop(struct tour_ring *r, uint32_t stop, uint32_t place) {
+static void set_stop(struct cyclic_tour *r, uint32_t stop, uint32_t place) {
   r->stop[place] = stop;
   r->place[stop] = place;
 }
 
 /* The number of stops, forwards, between the run of `count` stops that begins
  * at place p and the gap after stop g. */
-static uint32_t count_ahead(const struct tour_ring *r, uint32_t p,
+static uint32_t count_ahead(const struct cyclic_tour *r, uint32_t p,
                             uint32_t count, uint32_t g) {
   uint32_t from = wrap(r, p + count), to = r->place[g];
   return (to >= from ? to - from : to + r->count - from) + 1;
@@ -157,7 +158,7 @@ static uint32_t count_ahead(const struct tour_ring *r, uint32_t p,
 /* Moves the run of `count` <= RUN_MAX stops that begins, forwards, with `first`
  * to the gap after stop g, and reverses it if `reverse`.  The stops in between
  * are shifted, on whichever way round the cycle there are fewer. */
-static void move_run(struct tour_ring *r, uint32_t first, uint32_t count,
+static void move_run(struct cyclic_tour *r, uint32_t first, uint32_t count,
                      uint32_t g, bool reverse) {
   uint32_t run[RUN_MAX], p = r->place[first], to = p;
   for (uint32_t i = 0; i < count; i++)
@@ -182,7 +183,7 @@ static void move_run(struct tour_ring *r, uint32_t first, uint32_t count,
 }
 
 /* Appends a stop to the work queue unless it is in it. */
-static void enqueue(struct tour_ring *r, uint32_t stop) {
+static void enqueue(struct cyclic_tour *r, uint32_t stop) {
   if (r->queued[stop])
     return;
   uint64_t tail = (uint64_t)r->queue_head + r->queue_count++;
@@ -200,10 +201,10 @@ struct tour_candidate {
 };
 
 /* 2-opt: c | d .. x | y becomes c x .. d y.  Returns whether it was made. */
-static bool try_two_opt(struct tour_ring *r, const struct tour_candidate *t) {
+static bool try_two_opt(struct cyclic_tour *r, const struct tour_candidate *t) {
   uint32_t y = after(r, t->x);
-  double gain = t->wide + gap(r, way_out(r, t->x), way_in(r, y)) - t->near -
-                gap(r, way_in(r, t->d), way_in(r, y));
+  double gain = t->wide + gap(r, exit_end(r, t->x), entry_end(r, y)) - t->near -
+                gap(r, entry_end(r, t->d), entry_end(r, y));
   if (gain <= TOLERANCE_TRAVEL_MM || reverse_cost(r, t->d, t->x) > r->moves)
     return false;
   reverse_run(r, t->d, t->x);
@@ -218,7 +219,7 @@ static bool try_two_opt(struct tour_ring *r, const struct tour_candidate *t) {
  * next to c.  x is the first stop of the run in the current direction, or if
  * `reverse` its last, and the run is reversed.  Returns whether a run was
  * moved. */
-static bool try_or_opt(struct tour_ring *r, const struct tour_candidate *t,
+static bool try_or_opt(struct cyclic_tour *r, const struct tour_candidate *t,
                        bool reverse) {
   uint32_t last = t->x;
   for (uint32_t count = 1; count <= RUN_MAX; count++) {
@@ -227,13 +228,13 @@ static bool try_or_opt(struct tour_ring *r, const struct tour_candidate *t,
     /* In the current direction: w | run | y. */
     uint32_t w = before(r, reverse ? last : t->x);
     uint32_t y = after(r, reverse ? t->x : last);
-    uint32_t run_in = way_in(r, reverse ? last : t->x);
-    uint32_t run_out = way_out(r, reverse ? t->x : last);
+    uint32_t run_in = entry_end(r, reverse ? last : t->x);
+    uint32_t run_out = exit_end(r, reverse ? t->x : last);
     uint32_t far_end = reverse ? run_in : run_out;
-    double gain = t->wide + gap(r, way_out(r, w), run_in) +
-                  gap(r, run_out, way_in(r, y)) - t->near -
-                  gap(r, far_end, way_in(r, t->d)) -
-                  gap(r, way_out(r, w), way_in(r, y));
+    double gain = t->wide + gap(r, exit_end(r, w), run_in) +
+                  gap(r, run_out, entry_end(r, y)) - t->near -
+                  gap(r, far_end, entry_end(r, t->d)) -
+                  gap(r, exit_end(r, w), entry_end(r, y));
     if (gain > TOLERANCE_TRAVEL_MM && w != y) {
       bool last_is_first = reverse != r->back; /* forwards */
       move_run(r, last_is_first ? last : t->x, count, r->back ? t->d : t->c,
@@ -253,10 +254,10 @@ static bool try_or_opt(struct tour_ring *r, const struct tour_candidate *t,
 
 /* Tries moves for the neighbours of the end at which c is left in the current
  * direction.  Returns whether one was made. */
-static bool try_neighbours(struct tour_ring *r, uint32_t c) {
-  uint32_t from = way_out(r, c), d = after(r, c);
+static bool try_neighbours(struct cyclic_tour *r, uint32_t c) {
+  uint32_t from = exit_end(r, c), d = after(r, c);
   struct tour_candidate t = {
-      .c = c, .d = d, .wide = gap(r, from, way_in(r, d))};
+      .c = c, .d = d, .wide = gap(r, from, entry_end(r, d))};
   const uint32_t *neighbour = r->neighbour + (size_t)from * NEIGHBOURS;
   for (int i = 0; i < NEIGHBOURS && neighbour[i] != NEAREST_NONE; i++) {
     t.x = neighbour[i] / 2;
@@ -264,7 +265,7 @@ static bool try_neighbours(struct tour_ring *r, uint32_t c) {
     if (t.near >= t.wide)
       return false;
     r->looks--;
-    bool reverse = neighbour[i] == way_out(r, t.x);
+    bool reverse = neighbour[i] == exit_end(r, t.x);
     if (try_or_opt(r, &t, reverse) || (reverse && try_two_opt(r, &t)))
       return true;
   }
@@ -272,7 +273,7 @@ static bool try_neighbours(struct tour_ring *r, uint32_t c) {
 }
 
 /* Makes moves until none gains or the limits of work are reached. */
-static void improve(struct tour_ring *r) {
+static void improve(struct cyclic_tour *r) {
   while (r->queue_count > 0 && r->looks > 0 && r->moves > 0) {
     uint32_t c = r->queue[r->queue_head];
     r->queue_head = wrap(r, r->queue_head + 1);
@@ -293,7 +294,7 @@ static void improve(struct tour_ring *r) {
 
 /* Fills the neighbour lists of all ends, in the order of the tour: consecutive
  * searches are then close to each other, and their data in the cache. */
-static bool find_neighbours(struct tour_ring *r) {
+static bool find_neighbours(struct cyclic_tour *r) {
   uint32_t depot_in = 2 * (r->count - 1);
   struct nearest nearest;
   bool ok = nearest_init(&nearest, r->end, depot_in);
@@ -311,7 +312,7 @@ static bool find_neighbours(struct tour_ring *r) {
 }
 
 /* Makes the initial cyclic tour, with the depot last. */
-static void close_tour(struct tour_ring *r, const struct tour *tour) {
+static void close_tour(struct cyclic_tour *r, const struct tour *tour) {
   for (uint32_t i = 0; i < r->count; i++) {
     uint32_t stop = i < tour->count ? tour->stroke[i] : tour->count;
     set_stop(r, stop, i);
@@ -322,23 +323,23 @@ static void close_tour(struct tour_ring *r, const struct tour *tour) {
 
 /* Copies the cyclic tour back, from the depot on, in the direction in which the
  * depot is left at its second end. */
-static void open_tour(struct tour_ring *r, struct tour *tour) {
+static void open_tour(struct cyclic_tour *r, struct tour *tour) {
   uint32_t depot = tour->count, stop = depot;
   r->back = r->reversed[depot];
   for (uint32_t i = 0; i < tour->count; i++) {
     stop = after(r, stop);
     tour->stroke[i] = stop;
-    tour->reversed[stop] = way_in(r, stop) & 1;
+    tour->reversed[stop] = entry_end(r, stop) & 1;
   }
 }
 
 bool tour_improve(struct tour *tour, const struct tour_effort *effort) {
   uint32_t count = tour->count + 1;
-  struct tour_ring r = {.end = tour->end,
-                        .start = tour->start,
-                        .count = count,
-                        .looks = effort->looks,
-                        .moves = effort->moves};
+  struct cyclic_tour r = {.end = tour->end,
+                          .start = tour->start,
+                          .count = count,
+                          .looks = effort->looks,
+                          .moves = effort->moves};
   r.stop = mem_alloc(count, sizeof *r.stop);
   r.place = mem_alloc(count, sizeof *r.place);
   r.reversed = mem_alloc(count, sizeof *r.reversed);
