@@ -290,7 +290,7 @@ static recto_status convert_status(cairo_status_t status, int fault,
     return RECTO_OK;
   if (status == CAIRO_STATUS_NO_MEMORY)
     return error_memory(error);
-  return error_set(error, RECTO_ERROR_LIMIT, NULL, 0, "cairo says: %s",
+  return error_set(error, RECTO_ERROR_LIMIT, NULL, 0, "cairo reports: %s",
                    cairo_status_to_string(status));
 }
 
@@ -393,8 +393,8 @@ static recto_status write_png(const struct drawing *drawing,
   if (width > MAX_PIXELS_A_SIDE || height > MAX_PIXELS_A_SIDE ||
       width * height > MAX_PIXELS)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
-                     "%.0f x %.0f pixels are more than the %.0f a side and "
-                     "%.0f in all that we draw",
+                     "%.0f x %.0f pixels are more than the limits of %.0f "
+                     "per side and %.0f in all",
                      width, height, MAX_PIXELS_A_SIDE, MAX_PIXELS);
 
   struct sink sink = {.stream = stream,

@@ -309,7 +309,8 @@ static void warn_of_losses(const struct plot *plot,
     warn_of_clipping(plot, device, options);
   if (plot->folded > 0)
     warn(options,
-         "%llu layer%s on pens past the %u that %s has: dealt anew from pen 1",
+         "%llu layer%s on pens past the %u that %s has: assigned from pen 1 "
+         "again",
          (unsigned long long)plot->folded, plural(plot->folded), device->pens,
          device->name);
   if (options->velocity > device->max_cm_s)
