@@ -4,7 +4,7 @@
  * several threads may call next to nothing, and a host may have any number.
  *
  * Robustness  The host may ignore SIGCHLD or wait for any child: then there is
- * no status to be had, and what the program wrote must tell whether it came to
+ * no status to be had, and what the program wrote must show whether it came to
  * its end.  Descriptors 0 to 3 may be closed in the host: ours are moved out of
  * their way. */
 #ifndef _GNU_SOURCE

@@ -14,7 +14,7 @@ struct child {
   int input;                   /* its standard input; -1: none */
   int seconds;                 /* it may take so long */
   size_t most;                 /* it may write so many bytes */
-  recto_progress_fn progress;  /* asked whether to go on; NULL: nobody is */
+  recto_progress_fn progress;  /* polled for cancellation; NULL: never */
   void *user;
 };
 

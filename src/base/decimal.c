@@ -18,7 +18,7 @@
 
 enum {
   DIGITS_KEPT = 800,
-  /* 801 digits are less than 2^2661.  The smallest exponent asked for is
+  /* 801 digits are less than 2^2661.  The smallest exponent needed is
    * -330 - 801, and 5^1131 < 2^2627.  Aligned to each other both stay within
    * 2^2662, 84 limbs. */
   LIMB_COUNT = 88

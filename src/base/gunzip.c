@@ -39,7 +39,7 @@ static size_t limit_of(size_t count, size_t most) {
   return limit < most ? limit : most;
 }
 
-/* A first guess at the expanded size: the last four bytes tell it, modulo
+/* A first guess at the expanded size: the last four bytes hold it, modulo
  * 2^32, where there is one member.  Deflated data are at best a thousandth. */
 static size_t guess_size(const struct expansion *x) {
   const unsigned char *b = (const unsigned char *)x->bytes + x->count - 4;

@@ -5,14 +5,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* What tells a file from every other, whatever its names. */
+/* The identity of a file, whatever its names. */
 struct file_identity {
   uint64_t device, number;
 };
 
 /* The identity of what is open as a descriptor, or stands at a path ("-" is
  * standard input), where that is a file proper; false: it is none, and devices
- * and pipes, which may well be both read and written, are not told apart. */
+ * and pipes, which may well be both read and written, count as different. */
 bool path_identity_of_descriptor(int descriptor, struct file_identity *it);
 bool path_identity(const char *path, struct file_identity *it);
 

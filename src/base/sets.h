@@ -13,7 +13,7 @@ static inline uint32_t *sets_create(size_t count) {
   return sets;
 }
 
-/* The lowest item of the set, which stands for it: so no set depends on the
+/* The lowest item of the set, its representative: so no set depends on the
  * order of joining. */
 static inline uint32_t sets_root(uint32_t *sets, uint32_t i) {
   while (sets[i] != i) {

@@ -223,7 +223,8 @@ static void place(struct stream *stream) {
     fail(stream, RECTO_ERROR_IO, errno);
 }
 
-static recto_status tell(const struct stream *stream, recto_error *error) {
+static recto_status report_failure(const struct stream *stream,
+                                   recto_error *error) {
   recto_status status = stream->status;
   if (status == RECTO_ERROR_MEMORY)
     return error_memory(error);
@@ -261,7 +262,7 @@ static recto_status first_fault(struct stream *const *stream, size_t count,
                                 recto_error *error) {
   for (size_t i = 0; i < count; i++)
     if (stream[i] != NULL && stream[i]->status != RECTO_OK)
-      return tell(stream[i], error);
+      return report_failure(stream[i], error);
   return RECTO_OK;
 }
 

@@ -444,7 +444,7 @@ static bool put_in_place(struct target *target) {
          copy_in_place(target);
 }
 
-/* Some file systems tell of a failed write only when a descriptor is closed;
+/* Some file systems report a failed write only when a descriptor is closed;
  * the file's own stays open, to know it by. */
 static bool is_written(int descriptor) {
   int copy = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);

@@ -1,4 +1,4 @@
-/* tolerance.h - every tolerance of the house, in one place.
+/* tolerance.h - every tolerance of the library, in one place.
  *
  * None of these decides what is visible: they serve input that was rounded
  * before it came to us, and output.  Each says its unit, where it comes from,
@@ -12,8 +12,9 @@
  * Derivation  an end point is rounded by at most 1/2 unit in x and in y, so by
  *             0.71 across any line; of two pieces of one line, each end lies
  *             within 2 * 0.71 = 1.41 of the other piece: rounded up.
- * Users       ink/lines/nodes.c, ink/lines/overlap_collinear.c, ink/lines/overlap.c, ink/hatch/hatch_lines.c,
- *             ink/hatch/hatch.c, visibility/intersection/intersection.c
+ * Users       ink/lines/nodes.c, ink/lines/overlap_collinear.c,
+ *             ink/lines/overlap.c, ink/hatch/hatch_lines.c, ink/hatch/hatch.c,
+ *             visibility/intersection/intersection.c
  * Ten times   lines 20 nm apart, such as two models side by side, become one:
  *             still far below what a pen can show. */
 #define TOLERANCE_COINCIDENT_UNITS 2
@@ -85,9 +86,10 @@
  * Unit        page grid units (2^-20 mm), and units of depth
  * Derivation  one explains what rounding to the grid does to a point over a
  *             triangle; beyond the triangle, where the corners of another one
- *             are asked about, it grows with the distance over the
+ *             are tested, it grows with the distance over the
  *             triangle's width.
- * Users       visibility/predicate/occlusion.c, visibility/predicate/plane_filter.c
+ * Users       visibility/predicate/occlusion.c,
+ *             visibility/predicate/plane_filter.c
  * Ten times   faces 0.15 um apart on paper count as touching. */
 #define TOLERANCE_CONTACT_GRID_UNITS 16
 

@@ -237,7 +237,7 @@ bool geom_line_number(const struct geom_line *line, uint64_t *number) {
   return true;
 }
 
-/* ---- Questions ----------------------------------------------------------- */
+/* ---- Predicates ---------------------------------------------------------- */
 
 static int side_exact(const struct geom_line *line,
                       const struct geom_corner *corner) {
@@ -292,7 +292,7 @@ static int side_of_point(const struct geom_line *line,
  * parallel they are rounded to 2^-9. */
 #define CORNER_ERROR 0x1p-2
 
-/* The side where the corner's doubles are far enough from the line to tell,
+/* The side where the corner's doubles are far enough from the line to decide,
  * else 0: all but the corners next to it. */
 static int side_of_doubles(const struct geom_line *line,
                            const struct geom_corner *corner) {
@@ -382,8 +382,9 @@ struct geom_corner geom_corner_at(struct geom_point p) {
 /* Below this sine of the angle between two lines, doubles do not place their
  * crossing well enough.  With |l| = |a| + |b| and a corner on the page,
  * |c| <= 2^30 |l|; the terms of x, y and w gather at most 6 roundings, so x is
- * off by less than 6 * 2^-53 * (2^31 + 2^30) |l1| |l2| / |w|: at this sine 9/64,
- * within CORNER_ERROR.  (Compared with the terms of w alone, two lines nearly
+ * off by less than
+ *     6 * 2^-53 * (2^31 + 2^30) |l1| |l2| / |w|:
+ * at this sine 9/64, within CORNER_ERROR.  (Compared with the terms of w alone, two lines nearly
  * along an axis would pass for far from parallel: c is what is large there.) */
 #define CORNER_SINE 0x1p-16
 

@@ -5,14 +5,14 @@
  * or wide, the place where two planes are equally deep.
  *
  * A corner is either an integer point or the crossing of two lines; it is
- * never rounded before its last question was asked.
+ * never rounded before the last predicate on it is evaluated.
  *
  * Ranges: narrow |a|, |b| < 2^31, |c| < 2^62; wide |a|, |b| < 2^137,
  * |c| < 2^170: with normals below 2^72 and 2^63 and plane constants below
  * 2^105 (predicate.h), a = nFx nGz - nGx nFz and c = KG nFz - KF nGz.
  *
  * Robustness: signs of 3 x 3 determinants, doubles first, wide.h where they
- * cannot tell.  Cost of the wide path is about a microsecond.
+ * cannot decide.  Cost of the wide path is about a microsecond.
  */
 #ifndef GEOM_LINE_H
 #define GEOM_LINE_H

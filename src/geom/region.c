@@ -6,8 +6,8 @@
  *     the line is inside the union, where one does it is its boundary
  *   3 join boundary segments end to end, taking the sharpest left turn, and
  *     drop the corners that go straight on
- *   4 tell outer loops from holes, give each hole to the innermost outer loop
- *     around it, and order everything
+ *   4 distinguish outer loops from holes, give each hole to the innermost outer
+ *     loop around it, and order everything
  * Invariants
  *   What phase 2 keeps depends on the union alone, because inner sides cancel
  *   however they were divided; where it is divided does not.

@@ -6,7 +6,7 @@
  *   corners stand only where the boundary turns;
  *   a loop starts at its lowest corner in (x, y) (of several visits to it, the
  *   one whose next corner is lowest);
- *   loops that touch themselves at a corner are parted or joined there by
+ *   loops that touch themselves at a corner are split or joined there by
  *   taking the sharpest left turn, so that the region stays on the left;
  *   each outer loop is followed by its holes; outers and holes are ordered by
  *   their first corners.
@@ -34,7 +34,7 @@ struct geom_region {
 
 void geom_region_fini(struct geom_region *region);
 
-/* Unites `count` pieces with disjoint interiors.  The region lends their
+/* Unites `count` pieces with disjoint interiors.  The region borrows their
  * lines.
  * Exact.  Returns false when memory ran out. */
 USE_RESULT bool geom_region_unite(struct geom_region *region,

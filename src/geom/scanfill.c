@@ -263,7 +263,7 @@ static bool insert_last(const struct scan_table *table, uint32_t *index,
   return hole + 1 < count;
 }
 
-/* Puts the keys' order right where they could not tell: first edges with the
+/* Corrects the order where the keys could not decide: first edges with the
  * same key where these are many, then neighbours within a bucket. */
 static bool refine_order(struct scan_table *table, const struct sort_key *key) {
   size_t count = table->edge.count, bucket = 0;
@@ -278,7 +278,7 @@ static bool refine_order(struct scan_table *table, const struct sort_key *key) {
   for (size_t i = 1; i < count; i++) {
     if (key[i].key >> KEY_X_BITS != key[bucket].key >> KEY_X_BITS)
       bucket = i;
-    /* Further apart, keys tell: a unit of them is more than any slack. */
+    /* Further apart, the keys decide: a unit of them is more than any slack. */
     else if (key[i].key - key[i - 1].key <= 1)
       insert_last(table, table->order + bucket, i + 1 - bucket);
   }

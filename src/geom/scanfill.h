@@ -22,7 +22,7 @@
  * Robustness  x is a double and never rounded to a column or to the plane's
  *          grid; which lines an edge covers, which columns a span covers and
  *          which of two edges is left of the other are decided exactly: by
- *          doubles where their bound of error tells, else by integers.
+ *          doubles where their error bound certifies it, else by integers.
  *
  * Ranges   |coordinate| <= 2^40, den <= 2^20, even steps, |first|, step <=
  *          2^60.  Then p * den - first < 2^61, an edge's x at a line is
@@ -45,7 +45,7 @@ struct scan_grid {
   bool down;              /* lines are walked from the last to the first */
 };
 
-/* A point of the plane, with what is asked of it most. */
+/* A point of the plane, with what is used of it most. */
 struct scan_point {
   int64_t x, y;
   double column; /* x in frame units */
@@ -129,7 +129,7 @@ static inline int32_t scan_edge_column_past(const struct scan_edge *edge,
   return scan_edge_column_at(edge, grid, edge->line, edge->x, false);
 }
 
-/* See scan_edge_compare, for edges that doubles cannot tell apart.
+/* See scan_edge_compare, for edges that doubles cannot order.
  * dx  compare where they go, too */
 int scan_edge_compare_exact(const struct scan_edge *a,
                             const struct scan_edge *b,

@@ -11,8 +11,8 @@
  * radii, that is, per axis, in the cell that holds the point less the lesser of
  * the two or in the one that holds it plus that: with cells just twice as wide
  * there could be a third one between them, by rounding.  All grids share one
- * table of chains; what else comes into a chain by its hash is told from the
- * rest by its distance.
+ * table of chains; what else comes into a chain by its hash is
+ * distinguished from the rest by its distance.
  *
  * Robustness  A cell is a floored quotient, kept as a double: where coordinates
  * are huge against the length it may be infinite, and all such points share a

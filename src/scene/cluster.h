@@ -13,7 +13,7 @@ enum { CLUSTER_LEVELS = 16, CLUSTER_ALONE = 0xff };
 struct cluster_member {
   uint32_t point; /* of the scene */
   uint8_t halvings;
-  uint32_t stands; /* out: the member that stands for it; itself, where it
+  uint32_t stands; /* out: its representative; itself, where it
                       joined none */
 };
 
@@ -21,7 +21,7 @@ struct cluster_member {
  * where the whole of the cluster's bounding box is within its radius and
  * within the least of the cluster's members; of several such clusters the one
  * whose first member is nearest.  Otherwise it begins a cluster of its own.
- * The member that stands for a cluster is the first by x, then y, then z.
+ * The representative of a cluster is its first member by x, then y, then z.
  * length  0 or more, finite
  * Returns how many members do not stand for themselves, or SIZE_MAX when
  *         memory ran out.

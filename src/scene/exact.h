@@ -14,7 +14,7 @@
  * Exact: for all finite coordinates, the smallest and the largest too. */
 int exact_turn(const double a[2], const double b[2], const double c[2]);
 
-/* Whether three points surely are not on one line, told from one view along
+/* Whether three points surely are not on one line, decided from one view along
  * an axis: a no says nothing.  The bound is that of exact.c. */
 static inline bool exact_surely_turns(double ax, double ay, double bx,
                                       double by, double cx, double cy) {

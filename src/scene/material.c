@@ -91,7 +91,7 @@ static recto_status load_library(struct input *input, char *path,
   memcpy(path + length, GZIP, sizeof GZIP);
   recto_status other = input_load_named(input, path, &of_other);
   if (other == RECTO_ERROR_IO) {
-    path[length] = '\0'; /* the name in the model is the one to tell of */
+    path[length] = '\0'; /* messages give the name in the model */
     return status;
   }
   if (other != RECTO_OK)
@@ -100,7 +100,7 @@ static recto_status load_library(struct input *input, char *path,
 }
 
 /* Reads a library of that name beside the model; *found where there is one,
- * else `why` tells what is wrong with it. */
+ * else `why` says what is wrong with it. */
 static recto_status try_library(struct shelf *shelf, const char *name,
                                 size_t length, bool *found, recto_error *why) {
   const char *slash = strrchr(shelf->model, '/');
@@ -199,7 +199,7 @@ static recto_status look_up(struct shelf *shelf,
     if (status != RECTO_OK)
       return status;
     material[g] = shelf->palette.current_group;
-    /* One that is not known is added here, and so told of once. */
+    /* One that is not known is added here, and so reported once. */
     if (shelf->palette.group.count > known)
       diagnostics_fault(shelf->diagnostics, SCENE_FAULT_MATERIAL, name->line,
                         "material %.80s is in no library",

@@ -53,7 +53,7 @@ recto_status obj_run_points(struct obj_parser *p) {
       break;
     if (!at || *at != '\n')
       break;
-    if (precision_asks(&p->sample, p->seen))
+    if (precision_is_sampled(&p->sample, p->seen))
       sample_point(p, &point);
     p->at = at + 1;
     p->line++;

@@ -1,7 +1,7 @@
 /* ply_colour.c - colours of a PLY file, which become groups.
  *
  * A scan has a colour for each of its vertices, and so as many of its faces;
- * so many groups would serve nobody.  What agrees in the upper bits of red,
+ * so many groups would be of no use.  What agrees in the upper bits of red,
  * green and blue is taken together. */
 #include "scene/ply_colour.h"
 

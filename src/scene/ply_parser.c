@@ -167,8 +167,9 @@ static enum ply_taken take_values(struct ply_parser *p,
   const struct ply_property *property =
       p->header.property.item + element->property;
   enum ply_taken taken = PLY_TAKEN;
-  bool asked = element->kind == PLY_VERTEX &&
-               precision_asks(&p->sample, p->scene->point.count - p->first);
+  bool sampled =
+      element->kind == PLY_VERTEX &&
+      precision_is_sampled(&p->sample, p->scene->point.count - p->first);
   for (size_t i = 0; i < element->property_count && taken == PLY_TAKEN;
        i++, property++) {
     double value;
@@ -180,7 +181,7 @@ static enum ply_taken take_values(struct ply_parser *p,
       taken = PLY_BROKEN;
     else if (property->role != PLY_OTHER)
       p->value[property->role] = value;
-    if (asked && taken == PLY_TAKEN && property->role <= PLY_Z)
+    if (sampled && taken == PLY_TAKEN && property->role <= PLY_Z)
       precision_look(&p->sample, start, p->at, value);
   }
   return taken;

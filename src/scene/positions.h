@@ -6,7 +6,7 @@
 #include "scene/scene.h"
 
 struct position_slot {
-  uint32_t tag;   /* more of the hash than the slot's place tells */
+  uint32_t tag;   /* more bits of the hash than the slot's index holds */
   uint32_t point; /* scene point + 1; 0: free */
 };
 
@@ -30,7 +30,7 @@ USE_RESULT recto_status positions_reserve(struct positions *positions,
 /* A hash of finite coordinates, none of them -0. */
 uint64_t positions_hash(const struct scene_point *point);
 
-/* Has the slot of that hash fetched, for a position to be asked for soon. */
+/* Prefetches the slot of that hash, for a position that is looked up soon. */
 void positions_prefetch(const struct positions *positions, uint64_t hash);
 
 /* The scene point at that position, added where it is new; room was made. */

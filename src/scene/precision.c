@@ -1,11 +1,11 @@
 /* precision.c - how far rounding may have moved the coordinates of a scene.
  *
- * A binary format says how it rounds.  Of a text the literals tell it:
+ * A binary format says how it rounds.  In a text file the literals show it:
  *   integers   A literal without a point or an exponent, and zero in any form,
- *              tell nothing; a file of these alone is exact.
+ *              say nothing; a file of these alone is exact.
  *   short      A literal of fewer than five digits, such as 0.5 or 12.25 (the
  *              zero before the point is not counted), was written by hand or
- *              by a program that meant just this: nobody rounds to so few
+ *              by a program that meant just this: no program rounds to so few
  *              digits, and half a place of it would be a visible distance.
  *              Where nine in ten of the literals are short the file is exact.
  *   long       Of the others, let S be the most significant digits that at

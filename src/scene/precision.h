@@ -37,7 +37,7 @@ struct scene;
 /* The points from `first_point` to the next range, or to the end. */
 struct precision_range {
   uint32_t first_point;
-  bool stated; /* false: nobody said, so the options do */
+  bool stated; /* false: unknown, so the options decide */
   struct precision precision;
 };
 
@@ -48,14 +48,14 @@ USE_RESULT recto_status scene_state_precision(struct scene *scene, size_t first,
                                               struct precision precision,
                                               recto_error *error);
 
-/* Begins a range of points whose precision nobody states, where the one before
+/* Begins a range of points whose precision is not stated, where the one before
  * was stated.
  * Errors  RECTO_ERROR_MEMORY */
 USE_RESULT recto_status scene_leave_precision(struct scene *scene, size_t first,
                                               recto_error *error);
 
-/* The precision of the points of which nobody stated it: that of `bits`, or for
- * 0 what the points themselves tell: where all their coordinates are numbers of
+/* The precision of the points for which none is stated: that of `bits`, or for
+ * 0 what the points themselves show: where all their coordinates are numbers of
  * single precision they were rounded to it; others are of double precision,
  * which counts as exact. */
 struct precision scene_unstated_precision(const struct scene *scene, int bits);
@@ -78,7 +78,7 @@ enum {
  * Zero-initialised, nothing was looked at yet. */
 struct precision_sample {
   size_t next;        /* point of the file to look at next */
-  uint64_t weight;    /* how many points this one stands for */
+  uint64_t weight;    /* how many points this one represents */
   uint64_t decimals;  /* literals with a point or an exponent, not zero */
   uint64_t long_ones; /* of these, with five digits or more */
   bool not_single;    /* one is far from any single-precision number */
@@ -87,11 +87,11 @@ struct precision_sample {
 };
 
 /* Whether point `number` of the file, counted from 0, should be looked at: all
- * of the first 64, and fewer and fewer after them, each of which stands for
+ * of the first 64, and fewer and fewer after them, each of which represents
  * those up to the next, so that looking costs a hundredth of the reading: 470
  * points of 35,000, and 690 of a million. */
-static inline bool precision_asks(struct precision_sample *sample,
-                                  size_t number) {
+static inline bool precision_is_sampled(struct precision_sample *sample,
+                                        size_t number) {
   enum { EACH_OF_FIRST = 64 };
   if (number < sample->next)
     return false;
@@ -106,7 +106,7 @@ static inline bool precision_asks(struct precision_sample *sample,
 void precision_look(struct precision_sample *sample, const char *text,
                     const char *end, double value);
 
-/* What the literals tell of the file's precision; precision.c says how. */
+/* What the literals say about the file's precision; see precision.c. */
 struct precision precision_conclude(const struct precision_sample *sample);
 
 #endif

@@ -58,7 +58,7 @@ struct library {
   recto_error *error;
 };
 
-static void tell(const struct library *library, const char *text) {
+static void warn(const struct library *library, const char *text) {
   diagnostics_fault(library->diagnostics, SCENE_FAULT_MATERIAL, library->line,
                     "%s", text);
 }
@@ -70,7 +70,7 @@ static recto_status begin_material(struct library *library, const char *name,
   size_t known = palette->group.count;
   library->material = SCENE_NONE;
   if (name == end) {
-    tell(library, "newmtl without a name, skipped");
+    warn(library, "newmtl without a name, skipped");
     return RECTO_OK;
   }
   recto_status status =
@@ -89,13 +89,13 @@ static void take_colour(const struct library *library, const char *at,
                         const char *end) {
   uint32_t colour;
   if (library->material == SCENE_NONE) {
-    tell(library, "Kd of no material, skipped");
+    warn(library, "Kd of no material, skipped");
     return;
   }
   struct scene_group *material =
       &library->palette->group.item[library->material];
   if (!parse_colour(at, end, &colour)) {
-    tell(library, "Kd that is no colour, skipped");
+    warn(library, "Kd that is no colour, skipped");
   } else if (!material->has_colour) {
     material->colour = colour;
     material->has_colour = true;
@@ -140,7 +140,7 @@ recto_status material_read(struct scene *palette, const char *bytes,
     while (stop > at && is_blank(stop[-1]))
       stop--;
     if (!is_text(at, stop)) {
-      tell(&library, "not text: the rest of the library is not read");
+      warn(&library, "not text: the rest of the library is not read");
       return RECTO_OK;
     }
     status = read_statement(&library, at, stop);

@@ -47,7 +47,7 @@ static recto_status read_point(struct obj_parser *p) {
   const char *start = p->at;
   unsigned long line = p->line;
   double xyz[3] = {0, 0, 0};
-  bool asked = precision_asks(&p->sample, p->seen);
+  bool sampled = precision_is_sampled(&p->sample, p->seen);
   p->at++;
   for (int k = 0; k < 3; k++) {
     obj_skip_blanks(p);
@@ -56,7 +56,7 @@ static recto_status read_point(struct obj_parser *p) {
       recto_status status = obj_skip_broken(p, start, line, "point");
       return status == RECTO_OK ? add_point(p, xyz, false) : status;
     }
-    if (asked && isfinite(xyz[k]))
+    if (sampled && isfinite(xyz[k]))
       precision_look(&p->sample, p->at, stop, xyz[k]);
     p->at = stop;
   }
@@ -263,7 +263,7 @@ static recto_status read_corners(struct obj_parser *p, bool *broken,
   return RECTO_OK;
 }
 
-/* Whether all points of the statement can be used; tells where not. */
+/* Whether all points of the statement can be used; warns where not. */
 static bool has_good_points(struct obj_parser *p, unsigned long line,
                             const char *what) {
   for (size_t i = 0; p->bad.count && i < p->corner.count; i++)

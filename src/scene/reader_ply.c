@@ -38,7 +38,7 @@ static recto_status fail_short(const struct ply_parser *p,
 }
 
 /* Takes element `number`.  *good says whether there is one; what was passed
- * over has been told. */
+ * over has been reported. */
 static recto_status take(struct ply_parser *p,
                          const struct ply_element *element, size_t number,
                          bool *good) {
@@ -146,7 +146,7 @@ static recto_status read_vertices(struct ply_parser *p,
 /* ---- Faces --------------------------------------------------------------- */
 
 /* Whether the points of the element that was taken last are there and can be
- * used; tells where not. */
+ * used; warns where not. */
 static bool has_good_points(struct ply_parser *p, const uint32_t *corner,
                             size_t count, const char *what) {
   if (p->has_missing) {

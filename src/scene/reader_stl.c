@@ -197,12 +197,12 @@ static recto_status expect(struct parser *p, const char *keyword) {
   return is_word(word, keyword) ? RECTO_OK : fail_at(p, word, keyword);
 }
 
-/* Reads x, y and z.  What is no number makes them unusable, which is told. */
+/* Reads x, y and z.  What is no number makes them unusable, with a warning. */
 static recto_status read_coordinates(struct parser *p,
                                      struct scene_point *point,
                                      enum scene_fault *fault) {
   double xyz[3];
-  bool asked = precision_asks(&p->sample, p->corners++);
+  bool sampled = precision_is_sampled(&p->sample, p->corners++);
   for (int k = 0; k < 3; k++) {
     struct stl_word word = next_word(p);
     const char *end = word.start + word.length;
@@ -213,7 +213,7 @@ static recto_status read_coordinates(struct parser *p,
       xyz[k] = 0;
     } else if (!isfinite(xyz[k]) && *fault == SCENE_FAULT_COUNT) {
       *fault = SCENE_FAULT_NOT_FINITE;
-    } else if (asked) {
+    } else if (sampled) {
       precision_look(&p->sample, word.start, end, xyz[k]);
     }
   }

@@ -97,14 +97,14 @@ enum scene_fault {
 struct diagnostics {
   const char *file;           /* as the user wrote it, "-" for stdin */
   recto_warning_fn warning;   /* NULL: silent */
-  recto_progress_fn progress; /* asked while the importer runs; NULL: nobody */
+  recto_progress_fn progress; /* polled while the importer runs; NULL: never */
   void *user;
   unsigned long count[SCENE_FAULT_COUNT];
   unsigned long settled[SCENE_FAULT_COUNT]; /* count at the last _finish */
 };
 
 /* Counts the fault; the first three of each kind are passed on.
- * diagnostics  NULL: nobody wants to know
+ * diagnostics  NULL: not wanted
  * line         0 where there is none; in a binary file the element's number */
 void diagnostics_fault(struct diagnostics *diagnostics, enum scene_fault fault,
                        unsigned long line, const char *format, ...)

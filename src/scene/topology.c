@@ -6,7 +6,7 @@
  * Where a point has too many for that, all is done in another way:
  *   count    the sides of all faces are counted at the lower of their points.
  *   name     where a point has many sides (a fan of a hundred thousand
- *            triangles), these are told apart through a table by upper point:
+ *            triangles), these are distinguished by a table by upper point:
  *            each is named by the first side in the file between its points.
  *   number   the sides are walked again, and look for their edges by their
  *            names too.
@@ -141,7 +141,7 @@ enum { FACE_BITS = (1 << 30) - 1 };
 struct lists {
   uint32_t *head; /* one a point: an edge, SCENE_NONE, or HUB */
   uint32_t *next; /* one an edge */
-  bool crowded;   /* a list was too long: no edge is asked for any more */
+  bool overfull;  /* a list was too long: no edge is looked up any more */
 };
 
 #define HUB (SCENE_NONE - 1)
@@ -163,7 +163,7 @@ static bool is_new(const struct topology *topology,
     passed++;
   }
   if (passed > MANY_EDGES)
-    lists->crowded = true;
+    lists->overfull = true;
   *found = e;
   return e == SCENE_NONE;
 }
@@ -202,7 +202,7 @@ static void use_edge(struct topology_edge *edge,
 static bool number_edges(struct topology *topology, const struct scene *scene,
                          struct lists *lists) {
   for (struct topology_walk walk = walk_sides(scene, topology->weld);
-       !lists->crowded && next_side(&walk);) {
+       !lists->overfull && next_side(&walk);) {
     uint32_t e;
     if (is_new(topology, &walk, lists, &e)) {
       if (!add_edge(topology, &walk, lists))
@@ -255,8 +255,8 @@ static bool build_edges(struct topology *topology, const struct scene *scene) {
     goto end;
   memset(lists.head, 0xff, points * sizeof *lists.head);
   ok = number_edges(topology, scene, &lists);
-  if (ok && lists.crowded) {
-    lists.crowded = false;
+  if (ok && lists.overfull) {
+    lists.overfull = false;
     topology->edge.count = 0;
     ok = mark_hubs(topology, scene, &lists) &&
          number_edges(topology, scene, &lists);

@@ -2,7 +2,7 @@
  *
  * Points are sorted by a fingerprint of their position and compared within
  * runs of equal ones.  The sort is stable and the lowest point of a position
- * stands for all, so the fingerprint leaves no trace in the result. */
+ * represents all, so the fingerprint has no influence on the result. */
 #include "scene/weld.h"
 
 #include <string.h>

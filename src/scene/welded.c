@@ -4,9 +4,9 @@
  * Phases
  *   candidates  the points of edges that only one face has, once those at equal
  *               positions are one (weld.h).
- *   radius      of each, the length asked for; or where none is, what rounding
- *               explains: see below.
- *   join        into clusters (cluster.h); one member's position stands for
+ *   radius      of each, the requested length; or where there is none, what
+ *               rounding explains: see below.
+ *   join        into clusters (cluster.h); one member's position represents
  *               all, none is made up.
  *   rewrite     faces and polylines use the points that stand for theirs.
  *
@@ -15,7 +15,7 @@
  * far corner does not widen it, and near x = 0 it is no less, for noise is not
  * either.  Of it rounding moved them by E (precision.h).  Two roundings of one
  * point are up to 2 sqrt(3) E apart; coordinates that were computed in several
- * ways more, so up to 32 E are joined where nobody can see that,
+ * ways more, so up to 32 E are joined where that is invisible,
  * TOLERANCE_WELD_SHARE.  No point joins another over more than a small share
  * of its smallest face, TOLERANCE_WELD_FACE_SHARE: where S is too large for a
  * part of the model, that keeps its parts.  The longest side of a face is
