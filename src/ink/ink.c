@@ -35,11 +35,11 @@ static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
   recto_status status = segment_graph_collect(graph, ink->sheet, ink->map,
                                               ink->pens, ink->options, error);
   report_int(report, "ink", "segments", (int64_t)graph->segment.count);
-  if (!status)
+  if (status == RECTO_OK)
     status = segment_graph_unite(graph, &rows, error);
-  if (!status)
+  if (status == RECTO_OK)
     status = segment_graph_drop_collinear(graph, &rows, error);
-  if (!status)
+  if (status == RECTO_OK)
     status = segment_graph_drop_output_overlaps(
         graph, &rows, ink->options->unit_mm * SHEET_UNITS_PER_MM, error);
   node_rows_fini(&rows);
@@ -55,7 +55,7 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
                                const struct segment_graph *graph,
                                recto_error *error) {
   recto_status status = paths_chain(paths, path_of_segment, graph, error);
-  if (status)
+  if (status != RECTO_OK)
     return status;
   paths_straighten(paths, ink->options->unit_mm * SHEET_UNITS_PER_MM);
   if (ink->options->simplify_mm > 0)
@@ -175,11 +175,12 @@ static recto_status drop_short_lines(struct ink *ink,
   uint8_t *drop = mem_alloc(count, sizeof *drop);
   recto_status status =
       path_of_segment != NULL && drop != NULL ? RECTO_OK : error_memory(error);
-  if (!status)
+  if (status == RECTO_OK)
     status = make_paths(ink, &whole, path_of_segment, graph, error);
-  if (!status && !mark_short(ink, &whole, path_of_segment, count, drop))
+  if (status == RECTO_OK &&
+      !mark_short(ink, &whole, path_of_segment, count, drop))
     status = error_memory(error);
-  if (!status)
+  if (status == RECTO_OK)
     status = segment_graph_drop_segments(graph, drop, error);
   paths_fini(&whole);
   mem_free(path_of_segment);
@@ -193,14 +194,14 @@ static recto_status draw_lines(struct ink *ink, recto_error *error) {
   struct ink_paths paths = {0};
   segment_graph_init(&graph);
   recto_status status = make_graph(ink, &graph, error);
-  if (!status && ids && ink->options->min_stroke_mm != 0)
+  if (status == RECTO_OK && ids && ink->options->min_stroke_mm != 0)
     status = drop_short_lines(ink, &graph, error);
-  if (!status && ids)
+  if (status == RECTO_OK && ids)
     status = segment_graph_key_by_source(&graph, ink->sheet, error);
-  if (!status)
+  if (status == RECTO_OK)
     status = make_paths(ink, &paths, NULL, &graph, error);
   segment_graph_fini(&graph);
-  if (!status && !add_paths(ink, &paths, !ids))
+  if (status == RECTO_OK && !add_paths(ink, &paths, !ids))
     status = error_memory(error);
   paths_fini(&paths);
   return status;
@@ -280,11 +281,11 @@ recto_status ink_draw(struct drawing *drawing, const struct sheet *sheet,
                     .options = options,
                     .pens = &pens};
   recto_status status = pens_init(&pens, scene, options, error);
-  if (!status && !start_drawing(&ink))
+  if (status == RECTO_OK && !start_drawing(&ink))
     status = error_memory(error);
-  if (!status)
+  if (status == RECTO_OK)
     status = draw_lines(&ink, error);
-  if (!status && !(add_fills(&ink) && finish_drawing(&ink)))
+  if (status == RECTO_OK && !(add_fills(&ink) && finish_drawing(&ink)))
     status = error_memory(error);
   pens_fini(&pens);
   return status;

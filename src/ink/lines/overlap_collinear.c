@@ -183,7 +183,7 @@ recto_status segment_graph_drop_collinear(struct segment_graph *graph,
   const struct node_search search = {graph, rows, TOLERANCE_COINCIDENT_UNITS,
                                      look_at, &w};
   recto_status status = segment_graph_index_ends(graph, error);
-  if (status)
+  if (status != RECTO_OK)
     return status;
   w.dropped = mem_calloc(count, sizeof *w.dropped);
   w.parent = mem_calloc(count, sizeof *w.parent);

@@ -394,7 +394,7 @@ recto_status segment_graph_drop_output_overlaps(struct segment_graph *graph,
       return error_memory(error);
     if (changed) {
       recto_status status = segment_graph_index_ends(graph, error);
-      if (status)
+      if (status != RECTO_OK)
         return status;
     }
   }
