@@ -78,26 +78,26 @@ static recto_status judge(const struct rescaled *rescaled,
                           struct judge_verdict *verdict, recto_error *error) {
   const recto_options *o = &rescaled->options;
   struct camera camera;
-  struct judge_input asked;
-  recto_options asking = *o;
+  struct judge_input input;
+  recto_options polled = *o; /* the callback takes no const */
   recto_status status = camera_aim(&camera, scene, o, error);
   if (status != RECTO_OK)
     return status;
-  if (!judge_input_init(&asked, scene))
+  if (!judge_input_init(&input, scene))
     return error_memory(error);
-  struct judge_camera seen = judge_input_camera(&asked, &camera, o);
-  struct judge_options options = judge_input_options(&asked, &camera, o);
+  struct judge_camera seen = judge_input_camera(&input, &camera, o);
+  struct judge_options options = judge_input_options(&input, &camera, o);
   options.samples = SAMPLES;
   options.reach_mm = options.lateral_mm = o->pen_mm / 4 + ink_drift_mm(o);
   options.progress = o->progress != NULL ? go_on : NULL;
-  options.user = &asking;
+  options.user = &polled;
   status = find_shortest(&options.shortest_mm, scene, o, error);
   if (status == RECTO_OK &&
-      !judge_drawing(verdict, drawing, &asked.scene, &seen, &options))
+      !judge_drawing(verdict, drawing, &input.scene, &seen, &options))
     status = error_memory(error);
   if (status == RECTO_OK && verdict->cancelled)
     status = error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
-  judge_input_fini(&asked);
+  judge_input_fini(&input);
   return status;
 }
 
@@ -106,21 +106,21 @@ recto_status recto_scene_check(const recto_scene *scene, const char *path,
                                recto_verdict *verdict, recto_error *error) {
   struct judge_drawing drawing = {0};
   struct judge_verdict found;
-  recto_options asked;
+  recto_options checked;
   if (verdict == NULL)
     return error_null(error, "the place for the verdict");
   *verdict = (recto_verdict){0};
   if (scene == NULL || path == NULL)
     return error_null(error, scene == NULL ? "the scene" : "the path");
-  recto_status status = options_take(&asked, options, error);
+  recto_status status = options_take(&checked, options, error);
   if (status == RECTO_OK)
     status = read_drawing(&drawing, path, error);
   if (status == RECTO_OK) {
     struct rescaled rescaled;
     struct welded welded = {.joined = 0};
-    asked.page_width_mm = drawing.width_mm;
-    asked.page_height_mm = drawing.height_mm;
-    status = rescale(&rescaled, &scene->scene, &asked, error);
+    checked.page_width_mm = drawing.width_mm;
+    checked.page_height_mm = drawing.height_mm;
+    status = rescale(&rescaled, &scene->scene, &checked, error);
     if (status == RECTO_OK)
       status = weld(&welded, &rescaled, error);
     if (status == RECTO_OK)

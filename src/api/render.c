@@ -57,12 +57,12 @@ static recto_status check_method(const recto_options *options,
 
 static const struct solver *
 choose_method(struct render *render, const struct solver_request *request) {
-  recto_method asked = render->options->method;
+  recto_method method = render->options->method;
   const char *why = "asked for";
   const struct solver *solver =
-      asked == RECTO_METHOD_AUTO ? solver_choose(&render->sheet, request, &why)
-                                 : solver_by_method(asked);
-  report_text(render->report, "method", "asked", recto_method_name(asked));
+      method == RECTO_METHOD_AUTO ? solver_choose(&render->sheet, request, &why)
+                                  : solver_by_method(method);
+  report_text(render->report, "method", "asked", recto_method_name(method));
   report_text(render->report, "method", "chosen", solver->name);
   report_text(render->report, "method", "why", why);
   report_text(render->report, "method", "strokes",

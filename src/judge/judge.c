@@ -262,9 +262,9 @@ static bool is_at_near_plane(const struct judge_camera *camera,
 static bool is_requested(const void *user, uint32_t edge) {
   const struct judge_context *context = user;
   const struct judge_source *source = &context->edges.edge.item[edge].source;
-  unsigned asked = context->options.edges;
-  return (source->natures & asked) != 0 ||
-         (source->exists && (asked & RECTO_EDGES_ALL) == RECTO_EDGES_ALL);
+  unsigned classes = context->options.edges;
+  return (source->natures & classes) != 0 ||
+         (source->exists && (classes & RECTO_EDGES_ALL) == RECTO_EDGES_ALL);
 }
 
 /* Whether the visible line without ink at t may be shorter than shortest_mm, so
