@@ -148,12 +148,29 @@ static void without_memory_nothing_is_sorted(void **state) {
   assert_true(sort_stable(NULL, 0, sizeof *item, compare_records, &direction));
 }
 
+/* ---- Lower bounds -------------------------------------------------------- */
+
+static void lower_bounds_are_where_a_linear_search_ends(void **state) {
+  (void)state;
+  static const int sorted[] = {1, 3, 3, 3, 5, 8, 8, 9};
+  for (size_t low = 0; low <= 8; low++)
+    for (size_t high = low; high <= 8; high++)
+      for (int key = 0; key <= 10; key++) {
+        size_t found, expected = low;
+        LOWER_BOUND(found, low, high, sorted[found] < key);
+        while (expected < high && sorted[expected] < key)
+          expected++;
+        assert_int_equal(found, expected);
+      }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(keys_are_sorted_stably_at_every_size),
       cmocka_unit_test(sorted_and_reversed_keys_are_sorted),
       cmocka_unit_test(keys_of_signed_numbers_keep_their_order),
       cmocka_unit_test(records_are_sorted_stably_at_every_size),
+      cmocka_unit_test(lower_bounds_are_where_a_linear_search_ends),
       cmocka_unit_test(without_memory_nothing_is_sorted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -22,6 +22,22 @@ USE_RESULT bool sort_stable(void *item, size_t count, size_t size,
                             int (*compare)(const void *, const void *, void *),
                             void *user);
 
+/* Sets `i`, a size_t, to the first index from `low` to before `high` for which
+ * the expression `is_below` of i is false, or to `high`: a lower bound in a
+ * sorted array, by binary search. */
+#define LOWER_BOUND(i, low, high, is_below)                                    \
+  do {                                                                         \
+    size_t first_ = (low), past_ = (high);                                     \
+    while (first_ < past_) {                                                   \
+      i = first_ + (past_ - first_) / 2;                                       \
+      if (is_below)                                                            \
+        first_ = i + 1;                                                        \
+      else                                                                     \
+        past_ = i;                                                             \
+    }                                                                          \
+    i = first_;                                                                \
+  } while (0)
+
 /* Unsigned keys that order as the numbers do. */
 static inline uint64_t sort_key_of_int64(int64_t value) {
   return (uint64_t)value ^ (UINT64_C(1) << 63);

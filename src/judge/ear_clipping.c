@@ -2,6 +2,7 @@
  */
 #include "judge/ear_clipping.h"
 
+#include "base/sort.h"
 #include "judge/sort.h"
 
 /* The projected polygon, counter-clockwise, and the corners that are left. */
@@ -128,15 +129,9 @@ static bool make_ring(struct judge_ears *ears,
 /* The number of ranks below a coordinate: a lower bound by bisection. */
 static uint32_t rank_of(const struct judge_rank *by, uint32_t count,
                         double at) {
-  uint32_t low = 0, high = count;
-  while (low < high) {
-    uint32_t middle = low + (high - low) / 2;
-    if (by[middle].at < at)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
+  size_t i;
+  LOWER_BOUND(i, 0, count, by[i].at < at);
+  return (uint32_t)i;
 }
 
 /* The corners that may lie in a triangle: those from *from to *to of the

@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#include "base/sort.h"
 #include "judge/edge_natures.h"
 #include "judge/folds.h"
 #include "judge/intersections.h"
@@ -80,17 +81,12 @@ static bool has_single(const struct edge_finder *finder,
   uint32_t a = finder->first_at[side->a], b = finder->first_at[side->b];
   uint32_t low_end = a < b ? a : b, high_end = a < b ? b : a;
   const struct located_side *single = finder->single;
-  size_t low = 0, high = finder->singles;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    if (single[middle].low < low_end ||
-        (single[middle].low == low_end && single[middle].high < high_end))
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < finder->singles && single[low].low == low_end &&
-         single[low].high == high_end;
+  size_t i;
+  LOWER_BOUND(i, 0, finder->singles,
+              single[i].low < low_end ||
+                  (single[i].low == low_end && single[i].high < high_end));
+  return i < finder->singles && single[i].low == low_end &&
+         single[i].high == high_end;
 }
 
 /* Adds the edge of two sides.  For a spike, where both are of one face, no

@@ -10,6 +10,7 @@
 
 #include <string.h>
 
+#include "base/sort.h"
 #include "base/tolerance.h"
 #include "judge/ear_clipping.h"
 #include "judge/sort.h"
@@ -262,14 +263,9 @@ judge_fan_along(const struct judge_triangles *all, uint32_t face, uint32_t a,
   const struct judge_fan_triangle wanted = {
       .face = face, .low = a < b ? a : b, .high = a < b ? b : a};
   const struct judge_fan_triangle *fan_triangle = all->fan_triangle.item;
-  size_t low = 0, high = all->fan_triangle.count;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    if (compare_fan_triangles(&fan_triangle[middle], &wanted) < 0)
-      low = middle + 1;
-    else
-      high = middle;
-  }
+  size_t low;
+  LOWER_BOUND(low, 0, all->fan_triangle.count,
+              compare_fan_triangles(&fan_triangle[low], &wanted) < 0);
   for (*count = 0;
        low + *count < all->fan_triangle.count &&
        compare_fan_triangles(&fan_triangle[low + *count], &wanted) == 0;)

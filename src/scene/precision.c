@@ -30,6 +30,7 @@
 #include <float.h>
 
 #include "base/digits.h"
+#include "base/sort.h"
 #include "scene/scene.h"
 
 enum {
@@ -94,15 +95,11 @@ struct precision scene_point_precision(const struct scene *scene,
                                        uint32_t point,
                                        struct precision unstated) {
   const struct precision_range *range = scene->precision.item;
-  size_t low = 0, high = scene->precision.count;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    if (range[middle].first_point <= point)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low > 0 && range[low - 1].stated ? range[low - 1].precision : unstated;
+  size_t past;
+  LOWER_BOUND(past, 0, scene->precision.count,
+              range[past].first_point <= point);
+  return past > 0 && range[past - 1].stated ? range[past - 1].precision
+                                            : unstated;
 }
 
 /* ---- Looking at literals ------------------------------------------------- */

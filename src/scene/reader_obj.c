@@ -19,6 +19,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/sort.h"
 #include "scene/limit.h"
 
 enum { DIGITS_MAX = 12 }; /* of an index that may be in range */
@@ -98,15 +99,9 @@ static void place_bad_points(struct obj_parser *p) {
 }
 
 static bool is_bad(const struct obj_parser *p, uint32_t point) {
-  size_t low = 0, high = p->bad.count;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    if (p->bad.item[middle] < point)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < p->bad.count && p->bad.item[low] == point;
+  size_t i;
+  LOWER_BOUND(i, 0, p->bad.count, p->bad.item[i] < point);
+  return i < p->bad.count && p->bad.item[i] == point;
 }
 
 /* ---- Names --------------------------------------------------------------- */

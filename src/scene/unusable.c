@@ -1,16 +1,12 @@
 /* unusable.c - points of a file that have no position that can be used. */
 #include "scene/unusable.h"
 
+#include "base/sort.h"
+
 static bool has(const struct unusable *unusable, uint32_t point) {
-  size_t low = 0, high = unusable->point.count;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    if (unusable->point.item[middle] < point)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < unusable->point.count && unusable->point.item[low] == point;
+  size_t i;
+  LOWER_BOUND(i, 0, unusable->point.count, unusable->point.item[i] < point);
+  return i < unusable->point.count && unusable->point.item[i] == point;
 }
 
 bool unusable_has_any(const struct unusable *unusable, const uint32_t *corner,

@@ -139,26 +139,14 @@ static bool make_rows(struct unite *u) {
 
 /* ---- 3 Merge ------------------------------------------------------------- */
 
-/* The first index in [low, high) that is not before (x, y). */
-static uint32_t find_place(const struct ink_point *at, uint32_t low,
-                           uint32_t high, int64_t x, int64_t y) {
-  while (low < high) {
-    uint32_t middle = low + (high - low) / 2;
-    if (at[middle].x < x || (at[middle].x == x && at[middle].y < y))
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
-}
-
 /* Node i absorbs the nodes near it among [low, high), which are of one row. */
-static void absorb(struct unite *u, uint32_t i, uint32_t low, uint32_t high) {
-  struct ink_point p = u->at[i];
+static void absorb(struct unite *u, uint32_t i, size_t low, uint32_t high) {
+  const struct ink_point *at = u->at, p = at[i];
+  int64_t y_min = (int64_t)p.y - NEAR, y_max = (int64_t)p.y + NEAR;
   for (int64_t x = (int64_t)p.x - NEAR; x <= (int64_t)p.x + NEAR; x++) {
-    uint32_t k = find_place(u->at, low, high, x, (int64_t)p.y - NEAR);
-    for (; k < high && u->at[k].x == x && u->at[k].y <= (int64_t)p.y + NEAR;
-         k++)
+    size_t k;
+    LOWER_BOUND(k, low, high, at[k].x < x || (at[k].x == x && at[k].y < y_min));
+    for (; k < high && at[k].x == x && at[k].y <= y_max; k++)
       if (u->root[k] == k)
         u->root[k] = i;
     low = k;

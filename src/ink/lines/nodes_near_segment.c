@@ -3,6 +3,8 @@
  * Cost  A segment of average length meets a node or two besides its own. */
 #include "ink/lines/nodes_near_segment.h"
 
+#include "base/sort.h"
+
 #include <stdlib.h>
 
 /* The current segment, from the node in the lower row to the other. */
@@ -76,15 +78,10 @@ static bool scan_row(const struct node_search *w, const struct probe *probe,
          right = (a < b ? b : a) + w->near + 1;
 
   const struct ink_point *at = w->graph->node.item;
-  uint32_t i = w->rows->start[r], end = w->rows->start[r + 1], j = end;
-  while (i < j) {
-    uint32_t middle = i + (j - i) / 2;
-    if (at[middle].x < left)
-      i = middle + 1;
-    else
-      j = middle;
-  }
-  return scan_up(w, probe, i, end, right);
+  uint32_t end = w->rows->start[r + 1];
+  size_t i;
+  LOWER_BOUND(i, w->rows->start[r], end, at[i].x < left);
+  return scan_up(w, probe, (uint32_t)i, end, right);
 }
 
 /* The rows within the tolerance of the probe beyond its ends, and those between

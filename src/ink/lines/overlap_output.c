@@ -248,29 +248,18 @@ static bool keep_rest(struct output_overlaps *r, uint32_t segment) {
 /* The index of a segment among the members. */
 static uint32_t find_member(const struct output_overlaps *r, uint32_t segment) {
   uint64_t rank = overlap_rank(r->snapping.graph, segment);
-  size_t low = 0, high = r->member.count;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    const struct sort_key *m = &r->member.item[middle];
-    if (m->key < rank || (m->key == rank && m->value < segment))
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return (uint32_t)low;
+  const struct sort_key *m = r->member.item;
+  size_t i;
+  LOWER_BOUND(i, 0, r->member.count,
+              m[i].key < rank || (m[i].key == rank && m[i].value < segment));
+  return (uint32_t)i;
 }
 
 /* The first pair in which the segment is the worse one. */
 static size_t find_pair(const struct output_overlaps *r, uint32_t segment) {
-  size_t low = 0, high = r->pair.count;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    if (r->pair.item[middle].key >> 32 < segment)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
+  size_t i;
+  LOWER_BOUND(i, 0, r->pair.count, r->pair.item[i].key >> 32 < segment);
+  return i;
 }
 
 static bool subtract_kept(struct output_overlaps *r, uint32_t segment) {

@@ -71,20 +71,6 @@ bool vertex_snapping_unite(struct vertex_snapping *snapping, uint32_t from,
 
 /* ---- 1. Clusters --------------------------------------------------------- */
 
-/* The first index in [low, high), a range of one row, whose node has an
- * abscissa of at least x; `high` if there is none.  Binary search. */
-static uint32_t find_first_from(const struct ink_point *at, uint32_t low,
-                                uint32_t high, int64_t x) {
-  while (low < high) {
-    uint32_t middle = low + (high - low) / 2;
-    if (at[middle].x < x)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
-}
-
 /* Adds to the cluster of node i the nodes near it in [k, end), a range of one
  * row in order of x, that are in no other cluster. */
 static void add_near_nodes(const struct vertex_snapping *snapping,
@@ -112,9 +98,10 @@ static void gather_clusters(const struct vertex_snapping *snapping,
       add_near_nodes(snapping, cluster, i, i + 1, end);
       for (uint32_t q = r + 1; at[i].y + snapping->unit >= rows->low[q]; q++) {
         uint32_t last = rows->start[q + 1];
-        uint32_t k =
-            find_first_from(at, rows->start[q], last, at[i].x - snapping->unit);
-        add_near_nodes(snapping, cluster, i, k, last);
+        size_t k;
+        LOWER_BOUND(k, rows->start[q], last,
+                    at[k].x < at[i].x - snapping->unit);
+        add_near_nodes(snapping, cluster, i, (uint32_t)k, last);
       }
     }
   }

@@ -184,19 +184,14 @@ static const struct incidence *
 incidences_find(const struct incidences *incidences,
                 struct edge_crossing_side edge, const struct incidence **end) {
   const struct incidence *incidence = incidences->list.item;
-  size_t low = 0, high = incidences->list.count;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    if (compare_sides(incidence[middle].edge, edge) < 0)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  for (high = low; high < incidences->list.count &&
-                   compare_sides(incidence[high].edge, edge) == 0;)
-    high++;
-  *end = incidence + high;
-  return incidence + low;
+  size_t first, past;
+  LOWER_BOUND(first, 0, incidences->list.count,
+              compare_sides(incidence[first].edge, edge) < 0);
+  for (past = first; past < incidences->list.count &&
+                     compare_sides(incidence[past].edge, edge) == 0;)
+    past++;
+  *end = incidence + past;
+  return incidence + first;
 }
 
 /* Adds the sides of a triangle that run between marked points. */

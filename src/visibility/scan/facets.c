@@ -52,15 +52,9 @@ static bool list_diagonals(struct facet_joining *joining) {
 
 /* The first diagonal not below the key. */
 static size_t find_diagonal(const struct facet_joining *joining, uint64_t key) {
-  size_t low = 0, high = joining->diagonals;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    if (joining->diagonal[middle].key < key)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
+  size_t i;
+  LOWER_BOUND(i, 0, joining->diagonals, joining->diagonal[i].key < key);
+  return i;
 }
 
 static struct geom_point point_at(const struct facet_joining *joining,

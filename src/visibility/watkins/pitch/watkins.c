@@ -24,6 +24,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/sort.h"
 #include "visibility/watkins/exact/watkins_exact.h"
 
 #define LINES_PER_POLL 64 /* progress is polled at least this often */
@@ -57,17 +58,11 @@ struct scan {
 static uint32_t seen_at(const void *user, double x) {
   const struct interval_row *row = user;
   const struct watkins_piece *piece = row->piece.item;
-  size_t low = 0, high = row->piece.count;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    if (piece[middle].x1 > x)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  if (low == row->piece.count || piece[low].x0 > x)
+  size_t i;
+  LOWER_BOUND(i, 0, row->piece.count, !(piece[i].x1 > x));
+  if (i == row->piece.count || piece[i].x0 > x)
     return SHEET_NONE;
-  return row->watkins->facet.item[piece[low].facet].triangle;
+  return row->watkins->facet.item[piece[i].facet].triangle;
 }
 
 /* The parameter of height y on an edge from y0 to y1, in cells. */
