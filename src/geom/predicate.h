@@ -19,6 +19,17 @@ struct geom_point {
   int64_t z;
 };
 
+struct geom_segment {
+  struct geom_point p, q;
+};
+
+struct geom_triangle {
+  struct geom_point p[3];
+};
+
+/* The corner after corner k of a triangle, in its order. */
+static inline int geom_next_corner(int k) { return k == 2 ? 0 : k + 1; }
+
 static inline int geom_sign64(int64_t a) { return (a > 0) - (a < 0); }
 static inline int geom_sign128(int128 a) { return (a > 0) - (a < 0); }
 

@@ -108,6 +108,27 @@ void sheet_fini(struct sheet *sheet);
  * still needed (sheet_edge_face). */
 void sheet_drop_triangles(struct sheet *sheet);
 
+/* The points of an edge or a contour, from its `point`. */
+static inline struct geom_segment sheet_ends(const struct sheet *sheet,
+                                             const uint32_t point[2]) {
+  return (struct geom_segment){sheet->point.item[point[0]],
+                               sheet->point.item[point[1]]};
+}
+
+static inline struct geom_triangle sheet_corners(const struct sheet *sheet,
+                                                 size_t triangle) {
+  const uint32_t *point = sheet->triangle.item[triangle].point;
+  return (struct geom_triangle){{sheet->point.item[point[0]],
+                                 sheet->point.item[point[1]],
+                                 sheet->point.item[point[2]]}};
+}
+
+static inline struct geom_plane sheet_plane(const struct sheet *sheet,
+                                            size_t triangle) {
+  struct geom_triangle t = sheet_corners(sheet, triangle);
+  return geom_plane_of(t.p[0], t.p[1], t.p[2]);
+}
+
 /* The scene face of an edge's first triangle; SHEET_NONE. */
 static inline uint32_t sheet_edge_face(const struct sheet *sheet,
                                        const struct sheet_edge *edge) {
