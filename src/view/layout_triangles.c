@@ -12,7 +12,7 @@
 static inline void set_side(const struct layout *layout,
                             struct layout_facet *facet, int k,
                             uint32_t corner) {
-  uint32_t from = facet->point[k], to = facet->point[k == 2 ? 0 : k + 1];
+  uint32_t from = facet->point[k], to = facet->point[geom_next_corner(k)];
   facet->side[k] = layout->topology->corner_edge[corner];
   facet->forward[k] = from < to;
 }
@@ -44,7 +44,7 @@ facet_of_triangle(struct layout *layout, uint32_t face, uint32_t start,
     facet.side[k] = SHEET_NONE;
     struct layout_diagonal *diagonal =
         &layout->diagonal.item[t->side[k] - count];
-    uint32_t from = facet.point[k], to = facet.point[k == 2 ? 0 : k + 1];
+    uint32_t from = facet.point[k], to = facet.point[geom_next_corner(k)];
     facet.diagonal[k] = t->side[k] - count;
     facet.forward[k] = from < to;
     diagonal->from = facet.forward[k] ? from : to;

@@ -115,6 +115,13 @@ static inline struct geom_segment sheet_ends(const struct sheet *sheet,
                                sheet->point.item[point[1]]};
 }
 
+/* Is the edge to be drawn, and longer than a point on the page? */
+static inline bool sheet_edge_is_drawn(const struct sheet *sheet, size_t e) {
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  struct geom_segment s = sheet_ends(sheet, edge->point);
+  return edge->edge_class != 0 && (s.p.x != s.q.x || s.p.y != s.q.y);
+}
+
 static inline struct geom_triangle sheet_corners(const struct sheet *sheet,
                                                  size_t triangle) {
   const uint32_t *point = sheet->triangle.item[triangle].point;

@@ -100,11 +100,8 @@ static bool store_over_limit(struct invisibility_sweep *sweep, uint32_t edge) {
 }
 
 static bool is_candidate(const struct invisibility_sweep *sweep, size_t e) {
-  const struct sheet_edge *edge = &sweep->sheet->edge.item[e];
-  const struct geom_point *p = &sweep->sheet->point.item[edge->point[0]];
-  const struct geom_point *q = &sweep->sheet->point.item[edge->point[1]];
-  return edge->edge_class != 0 && sweep->map->edge_state[e] != MAP_VISIBLE &&
-         (p->x != q->x || p->y != q->y);
+  return sweep->map->edge_state[e] != MAP_VISIBLE &&
+         sheet_edge_is_drawn(sweep->sheet, e);
 }
 
 static recto_status find_all(struct invisibility_sweep *sweep,

@@ -28,9 +28,8 @@ static bool solve_strokes(const struct sheet *sheet, struct map *map,
     occluder_init(&occluder[t], sheet, (uint32_t)t);
   for (size_t e = 0; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
-    struct geom_point p = sheet->point.item[edge->point[0]],
-                      q = sheet->point.item[edge->point[1]];
-    if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y))
+    struct geom_segment s = sheet_ends(sheet, edge->point);
+    if (!sheet_edge_is_drawn(sheet, e))
       continue;
     if (!progress_step_at(progress, n, e, sheet->edge.count))
       goto end;
@@ -39,7 +38,7 @@ static bool solve_strokes(const struct sheet *sheet, struct map *map,
       struct occluded_interval interval;
       bool own = t == edge->triangle[0] || t == edge->triangle[1];
       if (!own && !is_flat(sheet, t) &&
-          occlude_edge(&occluder[t], p, q, &interval, counts) &&
+          occlude_edge(&occluder[t], s.p, s.q, &interval, counts) &&
           !edge_intervals_occlude(&intervals, interval))
         goto end;
     }

@@ -119,7 +119,7 @@ struct sector {
 static struct sector sector_of(const struct sheet *sheet, const uint32_t p[3],
                                int corner) {
   struct geom_point v = sheet->point.item[p[corner]],
-                    a = sheet->point.item[p[corner == 2 ? 0 : corner + 1]],
+                    a = sheet->point.item[p[geom_next_corner(corner)]],
                     b = sheet->point.item[p[corner == 0 ? 2 : corner - 1]];
   return (struct sector){{(int64_t)a.x - v.x, (int64_t)b.x - v.x},
                          {(int64_t)a.y - v.y, (int64_t)b.y - v.y}};
@@ -157,30 +157,25 @@ static bool are_neighbours(const struct sheet *sheet, uint32_t f, uint32_t g) {
 /* May f straddle the plane of g or end on it? */
 static bool may_pierce(const struct sheet *sheet, const struct summary *f,
                        struct summary *g) {
-  const uint32_t *p = sheet->triangle.item[f->triangle].point;
-  const struct geom_point corner[3] = {sheet->point.item[p[0]],
-                                       sheet->point.item[p[1]],
-                                       sheet->point.item[p[2]]};
   if (!g->has_plane)
     g->plane = plane_filter_of(sheet, g->triangle);
   g->has_plane = true;
-  return plane_filter_may_intersect(&g->plane, corner);
+  return plane_filter_may_intersect(&g->plane,
+                                    sheet_corners(sheet, f->triangle).p);
 }
 
 /* Is all of g to the right of a side of f on the page, by more than the
  * distance of lines that count as coincident? */
 static bool is_beyond_side(const struct sheet *sheet, uint32_t f, uint32_t g) {
-  const uint32_t *p = sheet->triangle.item[f].point,
-                 *q = sheet->triangle.item[g].point;
-  const struct geom_point *point = sheet->point.item;
+  struct geom_triangle p = sheet_corners(sheet, f), q = sheet_corners(sheet, g);
   for (int k = 0; k < 3; k++) {
-    struct geom_point a = point[p[k]], b = point[p[k == 2 ? 0 : k + 1]];
+    struct geom_point a = p.p[k], b = p.p[geom_next_corner(k)];
     int64_t dx = (int64_t)b.x - a.x, dy = (int64_t)b.y - a.y;
     int64_t near =
         BSP_PLANE_MARGIN * ((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
-    if (geom_orient2d(a, b, point[q[0]]) < -near &&
-        geom_orient2d(a, b, point[q[1]]) < -near &&
-        geom_orient2d(a, b, point[q[2]]) < -near)
+    if (geom_orient2d(a, b, q.p[0]) < -near &&
+        geom_orient2d(a, b, q.p[1]) < -near &&
+        geom_orient2d(a, b, q.p[2]) < -near)
       return true;
   }
   return false;

@@ -64,7 +64,7 @@ bool edge_crossings_add_slanted(struct edge_crossings *crossings,
     sign[k] = geom_sign128(geom_plane_value(&plane->plane, corner));
   }
   for (int k = 0; k < 3; k++) {
-    int next = k == 2 ? 0 : k + 1;
+    int next = geom_next_corner(k);
     struct edge_crossing crossing = {
         {{p[k] < p[next] ? p[k] : p[next], p[k] < p[next] ? p[next] : p[k]},
          {g, SHEET_NONE}}};
@@ -88,15 +88,12 @@ void edge_crossings_fini(struct edge_crossings *crossings) {
 static bool clip_to_triangle(const struct sheet *sheet,
                              struct edge_crossing_side edge, uint32_t g,
                              struct geom_point end[2]) {
-  const uint32_t *t = sheet->triangle.item[g].point;
-  const struct geom_point corner[3] = {sheet->point.item[t[0]],
-                                       sheet->point.item[t[1]],
-                                       sheet->point.item[t[2]]},
-                          p = sheet->point.item[edge.i],
+  const struct geom_triangle corner = sheet_corners(sheet, g);
+  const struct geom_point p = sheet->point.item[edge.i],
                           q = sheet->point.item[edge.j];
   struct occluded_interval part;
   if ((sheet->triangle_flags[g] & SHEET_FLAT) ||
-      !occlude_by_outline(corner, p, q, &part))
+      !occlude_by_outline(corner.p, p, q, &part))
     return false;
   for (int k = 0; k < 2; k++) {
     struct ratio t_k = k == 0 ? part.from : part.to;
@@ -200,7 +197,7 @@ static bool add_incidences(struct incidences *incidences,
                            uint32_t triangle) {
   const uint32_t *p = sheet->triangle.item[triangle].point;
   for (int k = 0; k < 3; k++) {
-    uint32_t i = p[k], j = p[k == 2 ? 0 : k + 1];
+    uint32_t i = p[k], j = p[geom_next_corner(k)];
     struct incidence incidence = {{i < j ? i : j, i < j ? j : i}, triangle};
     if (marked[i] && marked[j] && !ARRAY_PUSH(&incidences->list, incidence))
       return false;
@@ -399,11 +396,8 @@ static bool passes_through(const struct sheet *sheet,
   struct occluder plane;
   occluder_init(&plane, sheet, g);
   for (; incidence < end; incidence++) {
-    const uint32_t *t = sheet->triangle.item[incidence->triangle].point;
-    const struct geom_point p[3] = {sheet->point.item[t[0]],
-                                    sheet->point.item[t[1]],
-                                    sheet->point.item[t[2]]};
-    struct side_count count = side_count_of(&plane, p);
+    struct side_count count =
+        side_count_of(&plane, sheet_corners(sheet, incidence->triangle).p);
     behind |= count.in_front == 0 && count.behind == 1;
     in_front |= count.behind == 0 && count.in_front == 1;
   }

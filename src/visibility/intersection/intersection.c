@@ -40,7 +40,6 @@ static bool decide_pair(void *user, uint32_t f, uint32_t g) {
   struct intersection_search *search = user;
   const struct sheet *sheet = search->sheet;
   const struct occluder *hf;
-  struct geom_point p[3];
   struct occluder hg;
   struct side_count sf, sg;
   struct intersection_segment segment;
@@ -50,9 +49,7 @@ static bool decide_pair(void *user, uint32_t f, uint32_t g) {
   if (!progress_step(&search->progress, PAIR_WORK))
     return false;
   hf = prepare(search, f);
-  for (int k = 0; k < 3; k++)
-    p[k] = sheet->point.item[sheet->triangle.item[g].point[k]];
-  sg = side_count_of(hf, p);
+  sg = side_count_of(hf, sheet_corners(sheet, g).p);
   if (!straddles(sg) && !ends_on_plane(sg))
     return true;
   occluder_init(&hg, sheet, g);

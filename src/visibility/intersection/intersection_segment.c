@@ -14,7 +14,7 @@ static bool line_meets(struct geom_point a, struct geom_point b,
                        const struct geom_point p[3]) {
   bool left = false, right = false;
   for (int k = 0; k < 3; k++) {
-    int side = volume_sign(a, b, p[k], p[k == 2 ? 0 : k + 1]);
+    int side = volume_sign(a, b, p[k], p[geom_next_corner(k)]);
     left |= side > 0;
     right |= side < 0;
   }
@@ -40,7 +40,7 @@ static void find_ends(const struct sheet *sheet, uint32_t f,
                       const struct occluder *hg, struct segment_ends *ends) {
   const uint32_t *point = sheet->triangle.item[f].point;
   for (int k = 0; k < 3; k++) {
-    uint32_t i = point[k], j = point[k == 2 ? 0 : k + 1];
+    uint32_t i = point[k], j = point[geom_next_corner(k)];
     struct geom_point a, b;
     int128 va, vb;
     struct ratio t;

@@ -49,10 +49,9 @@ static uint32_t rank_of_edge(const struct stroke_work *work,
 /* Returns whether segment pq is collinear with a side of the triangle. */
 static bool runs_along(const struct sheet *sheet, uint32_t triangle,
                        struct geom_point p, struct geom_point q) {
-  const uint32_t *point = sheet->triangle.item[triangle].point;
+  struct geom_triangle corner = sheet_corners(sheet, triangle);
   for (int k = 0; k < 3; k++) {
-    struct geom_point a = sheet->point.item[point[k]],
-                      b = sheet->point.item[point[k == 2 ? 0 : k + 1]];
+    struct geom_point a = corner.p[k], b = corner.p[geom_next_corner(k)];
     if (geom_orient2d(a, b, p) == 0 && geom_orient2d(a, b, q) == 0)
       return true;
   }

@@ -68,8 +68,9 @@ static bool add_triangles(struct newell_order *order) {
                      : NEWELL_WAITING};
     piece.z_low = INT64_MAX;
     piece.z_high = INT64_MIN;
+    struct geom_triangle corner = sheet_corners(sheet, t);
     for (int k = 0; k < 3; k++) {
-      int64_t z = sheet->point.item[sheet->triangle.item[t].point[k]].z;
+      int64_t z = corner.p[k].z;
       if (z < piece.z_low)
         piece.z_low = z;
       if (z > piece.z_high)

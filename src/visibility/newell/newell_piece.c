@@ -24,17 +24,14 @@ struct geom_line *newell_piece_lines(const struct newell_order *order,
 bool newell_piece_shape(struct newell_order *order, uint32_t piece,
                         struct geom_convex *shape) {
   const struct newell_piece *p = &order->piece.item[piece];
-  const uint32_t *point = order->sheet->triangle.item[p->triangle].point;
-  struct geom_point corner[3];
   struct geom_line *line;
   int count;
   if (p->shape != NULL) {
     *shape = *p->shape;
     return true;
   }
-  for (int k = 0; k < 3; k++)
-    corner[k] = order->sheet->point.item[point[k]];
   line = newell_piece_lines(order, piece, &count, &order->scratch);
   return line != NULL &&
-         geom_convex_triangle(shape, corner, line, &order->scratch);
+         geom_convex_triangle(shape, sheet_corners(order->sheet, p->triangle).p,
+                              line, &order->scratch);
 }

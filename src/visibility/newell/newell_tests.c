@@ -74,10 +74,9 @@ static void prepare(struct newell_order *order, uint32_t triangle) {
 /* Returns true only if the candidate hides nothing of the edges of triangle t:
  * a conservative test by the floating-point filter. */
 static bool hides_nothing(const struct newell_order *order, uint32_t t) {
-  const uint32_t *point = order->sheet->triangle.item[t].point;
+  struct geom_triangle corner = sheet_corners(order->sheet, t);
   for (int k = 0; k < 3; k++)
-    if (plane_filter_occludes(&order->filter,
-                              order->sheet->point.item[point[k]]) <= 0)
+    if (plane_filter_occludes(&order->filter, corner.p[k]) <= 0)
       return false;
   return true;
 }

@@ -30,9 +30,10 @@ static void centroid_keys(const struct sheet *sheet, struct sort_key *key) {
     int128 sum = 0;
     for (end = first; end < n && sheet->triangle.item[end].face ==
                                      sheet->triangle.item[first].face;
-         end++)
-      for (int k = 0; k < 3; k++)
-        sum += sheet->point.item[sheet->triangle.item[end].point[k]].z;
+         end++) {
+      struct geom_triangle corner = sheet_corners(sheet, end);
+      sum += (int128)corner.p[0].z + corner.p[1].z + corner.p[2].z;
+    }
     for (size_t t = first; t < end; t++)
       key[t] = (struct sort_key){
           sort_key_of_int64((int64_t)(sum / (int128)(end - first))),
@@ -63,26 +64,22 @@ static void rank_as_given(struct painting *painting) {
 static bool solve_edge(struct painting *painting, const struct sheet_edge *edge,
                        struct edge_intervals *intervals) {
   const struct sheet *sheet = painting->sheet;
-  struct geom_point p = sheet->point.item[edge->point[0]],
-                    q = sheet->point.item[edge->point[1]];
+  struct geom_segment s = sheet_ends(sheet, edge->point);
   bool own = edge->triangle[0] != SHEET_NONE;
   uint32_t rank = own ? painting->rank[edge->triangle[0]] : 0;
   if (edge->triangle[1] != SHEET_NONE &&
       painting->rank[edge->triangle[1]] > rank)
     rank = painting->rank[edge->triangle[1]];
   edge_intervals_start(intervals);
-  if (!triangle_grid_find_along(painting->grid, p, q, &painting->query))
+  if (!triangle_grid_find_along(painting->grid, s.p, s.q, &painting->query))
     return false;
   for (size_t i = 0; i < painting->query.found.count; i++) {
     uint32_t t = painting->query.found.item[i];
     struct occluded_interval part;
-    struct geom_point corner[3];
     if ((own && painting->rank[t] <= rank) ||
         (sheet->triangle_flags[t] & SHEET_FLAT))
       continue;
-    for (int k = 0; k < 3; k++)
-      corner[k] = sheet->point.item[sheet->triangle.item[t].point[k]];
-    if (occlude_by_outline(corner, p, q, &part) &&
+    if (occlude_by_outline(sheet_corners(sheet, t).p, s.p, s.q, &part) &&
         !edge_intervals_occlude(intervals, part))
       return false;
   }
@@ -95,9 +92,7 @@ static bool solve_strokes(struct painting *painting, struct map *map) {
   bool ok = edge_intervals_open_map(map, sheet->edge.count);
   for (size_t e = 0; ok && e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
-    const struct geom_point *p = &sheet->point.item[edge->point[0]],
-                            *q = &sheet->point.item[edge->point[1]];
-    if (edge->edge_class == 0 || (p->x == q->x && p->y == q->y))
+    if (!sheet_edge_is_drawn(sheet, e))
       continue;
     ok = solve_edge(painting, edge, &intervals) &&
          progress_step_at(&painting->progress, painting->query.found.count, e,

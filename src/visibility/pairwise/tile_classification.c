@@ -67,7 +67,7 @@ edge_functions_at(const struct corners *corners, int64_t x, int64_t y,
                   int shift, bool least) {
   struct edge_functions functions;
   for (int k = 0; k < 3; k++) {
-    struct geom_point a = corners->p[k], b = corners->p[k == 2 ? 0 : k + 1];
+    struct geom_point a = corners->p[k], b = corners->p[geom_next_corner(k)];
     int64_t dx = (int64_t)b.x - a.x, dy = (int64_t)b.y - a.y;
     int64_t side = least ? INT64_C(1) << shift : 0;
     functions.at[k] = (uint64_t)(dx * (y + (dx < 0 ? side : 0) - a.y) -

@@ -197,7 +197,7 @@ static bool clip_to_outline(const struct geom_point corner[3],
   if ((left == 0 || right == 0) && left + right >= 2)
     return false;
   for (int k = 0; k < 3; k++) {
-    int next = k == 2 ? 0 : k + 1;
+    int next = geom_next_corner(k);
     s[k] = x[k] * y[next] - y[k] * x[next];
     t[k] = (int64_t)((uint64_t)s[k] + (uint64_t)line[k] - (uint64_t)line[next]);
     if (s[k] <= 0 && t[k] <= 0) {

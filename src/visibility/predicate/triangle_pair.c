@@ -15,7 +15,7 @@ struct triangle_plane triangle_plane_of(const struct sheet *sheet,
 static bool is_separated_by_side(const struct geom_point f[3],
                                  const struct geom_point g[3]) {
   for (int k = 0; k < 3; k++) {
-    struct geom_point a = f[k], b = f[k == 2 ? 0 : k + 1];
+    struct geom_point a = f[k], b = f[geom_next_corner(k)];
     if (geom_orient2d(a, b, g[0]) <= 0 && geom_orient2d(a, b, g[1]) <= 0 &&
         geom_orient2d(a, b, g[2]) <= 0)
       return true;
@@ -39,7 +39,7 @@ void triangle_lines(const struct sheet *sheet, uint32_t triangle,
   const uint32_t *p = sheet->triangle.item[triangle].point;
   for (int k = 0; k < 3; k++) {
     geom_line_through(&line[k], sheet->point.item[p[k]],
-                      sheet->point.item[p[k == 2 ? 0 : k + 1]]);
+                      sheet->point.item[p[geom_next_corner(k)]]);
     back[k] = line[k];
     geom_line_reverse(&back[k]);
   }

@@ -70,16 +70,14 @@ static int32_t line_of(const struct edge_sampling *sampling,
 static void set_edge(const struct edge_sampling *sampling, uint32_t e,
                      struct sampled_edge *to) {
   const struct sheet *sheet = sampling->sheet;
-  const struct sheet_edge *edge = &sheet->edge.item[e];
-  struct geom_point p = sheet->point.item[edge->point[0]];
-  struct geom_point q = sheet->point.item[edge->point[1]];
+  struct geom_segment s = sheet_ends(sheet, sheet->edge.item[e].point);
   to->edge = e;
-  to->x0 = frame_x(&sampling->grid, p.x);
-  to->y0 = frame_y(&sampling->grid, p.y);
-  to->dx = frame_x(&sampling->grid, q.x) - to->x0;
-  to->dy = frame_y(&sampling->grid, q.y) - to->y0;
-  to->z0 = (double)p.z;
-  to->dz = (double)(q.z - p.z);
+  to->x0 = frame_x(&sampling->grid, s.p.x);
+  to->y0 = frame_y(&sampling->grid, s.p.y);
+  to->dx = frame_x(&sampling->grid, s.q.x) - to->x0;
+  to->dy = frame_y(&sampling->grid, s.q.y) - to->y0;
+  to->z0 = (double)s.p.z;
+  to->dz = (double)(s.q.z - s.p.z);
   to->bits = cell_bits(&sampling->grid, to->dx, to->dy);
   to->turned = to->dy > 0;
   to->between = floor(to->y0 - 0.5) == floor(to->y0 + to->dy - 0.5);
@@ -89,11 +87,7 @@ static void set_edge(const struct edge_sampling *sampling, uint32_t e,
 
 static bool is_sampled(const struct sheet *sheet, size_t e,
                        const uint8_t *skip) {
-  const struct sheet_edge *edge = &sheet->edge.item[e];
-  struct geom_point p = sheet->point.item[edge->point[0]];
-  struct geom_point q = sheet->point.item[edge->point[1]];
-  return edge->edge_class != 0 && (p.x != q.x || p.y != q.y) &&
-         (skip == NULL || !skip[e]);
+  return (skip == NULL || !skip[e]) && sheet_edge_is_drawn(sheet, e);
 }
 
 /* Sorts the edges by their topmost line. */
@@ -224,22 +218,20 @@ static bool is_occluded_by(const struct edge_sampling *sampling,
   if (facet == SHEET_NONE || facet == own->triangle[0] ||
       facet == own->triangle[1])
     return false;
+  struct geom_triangle corner = sheet_corners(sheet, facet);
   for (int k = 0; k < 3; k++) {
-    struct geom_point p =
-        sheet->point.item[sheet->triangle.item[facet].point[k]];
-    at[k][0] = frame_x(&sampling->grid, p.x) - x;
-    at[k][1] = frame_y(&sampling->grid, p.y) - y;
+    at[k][0] = frame_x(&sampling->grid, corner.p[k].x) - x;
+    at[k][1] = frame_y(&sampling->grid, corner.p[k].y) - y;
   }
   for (int k = 0; k < 3; k++) {
-    const double *p = at[k], *q = at[(k + 1) % 3];
+    const double *p = at[k], *q = at[geom_next_corner(k)];
     if (p[0] * q[1] - p[1] * q[0] < 0)
       return false;
   }
   facet_slopes(sheet, &sampling->grid, facet, &per_column, &per_line);
   return z + sampling->step +
              edge_sampling_contact(sheet, sheet->triangle.item[facet].face, z) <
-         (double)sheet->point.item[sheet->triangle.item[facet].point[0]].z -
-             per_column * at[0][0] - per_line * at[0][1];
+         (double)corner.p[0].z - per_column * at[0][0] - per_line * at[0][1];
 }
 
 /* Tests the samples about the middle of the current cell, the nearest first. */

@@ -216,9 +216,7 @@ uint32_t facet_outline(const struct facets *facets, const struct sheet *sheet,
 /* ---- Planes -------------------------------------------------------------- */
 
 struct geom_plane facet_plane(const struct sheet *sheet, uint32_t facet) {
-  const uint32_t *p = sheet->triangle.item[facet].point;
-  return geom_plane_of(sheet->point.item[p[0]], sheet->point.item[p[1]],
-                       sheet->point.item[p[2]]);
+  return sheet_plane(sheet, facet);
 }
 
 /* Most values fit into 64 bits, whose conversion is fast. */

@@ -180,18 +180,17 @@ static bool classify_edges(struct tiles_work *work, size_t from,
     return false;
   for (size_t e = from; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
-    struct geom_point p = sheet->point.item[edge->point[0]],
-                      q = sheet->point.item[edge->point[1]];
+    struct geom_segment s = sheet_ends(sheet, edge->point);
     bool wire = edge->triangle[0] == SHEET_NONE ||
                 edge->edge_class == RECTO_EDGE_INTERSECTION;
-    if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y))
+    if (!sheet_edge_is_drawn(sheet, e))
       continue;
-    map->edge_state[e] = (uint8_t)state_of_edge(work, p, q, wire);
+    map->edge_state[e] = (uint8_t)state_of_edge(work, s.p, s.q, wire);
     if (map->edge_state[e] != MAP_MIXED)
       continue;
     if (!ARRAY_PUSH(&work->edge, (uint32_t)e))
       return false;
-    (void)state_along(work, p, q, wire, true);
+    (void)state_along(work, s.p, s.q, wire, true);
   }
   return true;
 }
@@ -201,12 +200,12 @@ static bool classify_edges(struct tiles_work *work, size_t from,
 static enum map_state state_of_face(const struct tiles_work *work, uint32_t t) {
   const struct sheet *sheet = work->sheet;
   const struct triangle_grid *grid = &work->tiles.grid;
-  const uint32_t *point = sheet->triangle.item[t].point;
+  struct geom_triangle corner = sheet_corners(sheet, t);
   struct cell_range r = triangle_grid_cells(grid, box2_of_triangle(sheet, t));
   int low = TILE_BUCKETS, high = -1, state = -1;
   int64_t nearest = triangle_nearest_z(sheet, t);
   for (int k = 0; k < 3; k++) {
-    int bucket = tile_bucket(sheet->point.item[point[k]].z);
+    int bucket = tile_bucket(corner.p[k].z);
     if (bucket < low)
       low = bucket;
     if (bucket > high)

@@ -233,7 +233,7 @@ static bool fill_pools(struct warnock *w, const struct triangle_grid *grid) {
       w->faces.item[w->faces.count++] = key[t].value;
   mem_free(key);
   for (size_t e = 0; ok && w->request->strokes && e < sheet->edge.count; e++)
-    if (warnock_is_drawn(sheet, (uint32_t)e))
+    if (sheet_edge_is_drawn(sheet, e))
       ok = ARRAY_PUSH(&w->edges, (uint32_t)e);
   return ok;
 }

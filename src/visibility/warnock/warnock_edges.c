@@ -8,13 +8,6 @@
 #include "base/sort.h"
 #include "visibility/warnock/warnock_subdivision.h"
 
-bool warnock_is_drawn(const struct sheet *sheet, uint32_t e) {
-  const struct sheet_edge *edge = &sheet->edge.item[e];
-  struct geom_point p = sheet->point.item[edge->point[0]],
-                    q = sheet->point.item[edge->point[1]];
-  return edge->edge_class != 0 && (p.x != q.x || p.y != q.y);
-}
-
 /* ---- Occluded intervals -------------------------------------------------- */
 
 /* The occluded intervals sorted by edge; NULL when memory ran out. */
@@ -93,11 +86,9 @@ static bool start_edge(const struct warnock *w, const struct box2 *window,
  * and there along a side of the front. */
 static bool is_behind(const struct warnock *w, const struct window_front *front,
                       uint32_t e) {
-  const uint32_t *point = w->sheet->edge.item[e].point;
-  struct geom_point p = w->sheet->point.item[point[0]],
-                    q = w->sheet->point.item[point[1]];
-  return (double)p.z < front->depth.low && (double)q.z < front->depth.low &&
-         p.x != q.x && p.y != q.y;
+  struct geom_segment s = sheet_ends(w->sheet, w->sheet->edge.item[e].point);
+  return (double)s.p.z < front->depth.low && (double)s.q.z < front->depth.low &&
+         s.p.x != s.q.x && s.p.y != s.q.y;
 }
 
 bool warnock_drop_hidden_edges(struct warnock *w, struct warnock_window *win,
@@ -190,7 +181,7 @@ bool warnock_store_edges(struct warnock *w, struct pairwise_fallback *fallback,
     for (; ok && i < n && key[i].key == e; i++)
       ok = edge_intervals_occlude(intervals,
                                   w->occlusion.item[key[i].value].interval);
-    if (!warnock_is_drawn(sheet, e))
+    if (!sheet_edge_is_drawn(sheet, e))
       continue;
     if (ok && w->edge_deferred[e]) {
       intervals = pairwise_fallback_edge(fallback, e);

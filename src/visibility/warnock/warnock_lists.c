@@ -28,7 +28,6 @@ bool warnock_list_faces(struct warnock *w, struct warnock_window *win,
     update_front(w, &win->window, w->surrounders.item[i], front);
   for (size_t i = faces.from; i < faces.to; i++) {
     uint32_t t = w->faces.item[i];
-    struct geom_point p[3];
     enum window_class class;
     bool pushed = true;
     if (front->triangle != SHEET_NONE &&
@@ -36,9 +35,8 @@ bool warnock_list_faces(struct warnock *w, struct warnock_window *win,
       w->cut_short++;
       break;
     }
-    for (int k = 0; k < 3; k++)
-      p[k] = w->sheet->point.item[w->sheet->triangle.item[t].point[k]];
-    class = window_classify(&win->window, p, 3, &w->class_counts);
+    class = window_classify(&win->window, sheet_corners(w->sheet, t).p, 3,
+                            &w->class_counts);
     if (class == WINDOW_SURROUNDING) {
       pushed = ARRAY_PUSH(&w->surrounders, t);
       update_front(w, &win->window, t, front);

@@ -16,11 +16,9 @@ static struct sample_plane plane_of(const struct sheet *sheet,
                                     const struct facets *facets,
                                     const struct scan_grid *grid,
                                     uint32_t facet) {
-  const uint32_t *p = sheet->triangle.item[facet].point, *corner, *side;
+  const uint32_t *corner, *side;
   uint32_t count = facet_outline(facets, sheet, facet, &corner, &side);
-  struct geom_plane plane =
-      geom_plane_of(sheet->point.item[p[0]], sheet->point.item[p[1]],
-                    sheet->point.item[p[2]]);
+  struct geom_plane plane = sheet_plane(sheet, facet);
   double scale = -(double)plane.nz * (double)grid->den;
   int64_t nearest = 0;
   for (uint32_t k = 0; k < count; k++)

@@ -83,9 +83,6 @@ struct window_front {
   struct surrounder_depths depth;
 };
 
-/* Is the edge to be drawn, and longer than a point on the page? */
-bool warnock_is_drawn(const struct sheet *sheet, uint32_t e);
-
 /* ---- Lists of a window (warnock_lists.c) --------------------------------- */
 
 /* Replaces the parent's lists of faces and surrounders by the window's own and

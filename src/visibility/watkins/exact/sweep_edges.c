@@ -15,11 +15,9 @@ static uint64_t key_of(uint32_t p, uint32_t q) {
 
 bool sweep_takes_line(const struct sheet *sheet, size_t e) {
   const struct sheet_edge *edge = &sheet->edge.item[e];
-  const struct geom_point *p = &sheet->point.item[edge->point[0]];
-  const struct geom_point *q = &sheet->point.item[edge->point[1]];
-  return edge->edge_class != 0 && edge->triangle[0] != SHEET_NONE &&
+  return edge->triangle[0] != SHEET_NONE &&
          edge->edge_class != RECTO_EDGE_INTERSECTION &&
-         (p->x != q->x || p->y != q->y);
+         sheet_edge_is_drawn(sheet, e);
 }
 
 /* The value of a key is
@@ -32,9 +30,9 @@ static void list_keys(struct sweep_gathering *g, const struct sheet *sheet,
     const uint32_t *point = sheet->triangle.item[t].point;
     if ((sheet->triangle_flags[t] & SHEET_FLAT) || (kept != NULL && !kept[t]))
       continue;
-    for (uint32_t k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++)
       g->key[g->count++] = (struct sort_key){
-          key_of(point[k], point[k == 2 ? 0 : k + 1]), 3 * t + k};
+          key_of(point[k], point[geom_next_corner(k)]), 3 * t + (uint32_t)k};
   }
   for (uint32_t e = 0; drawn && e < sheet->edge.count; e++)
     if (sweep_takes_line(sheet, e))

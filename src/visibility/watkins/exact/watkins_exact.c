@@ -91,16 +91,14 @@ static bool store_edge(const struct sheet *sheet, uint32_t e,
                        const struct sort_key *pair, size_t count,
                        struct edge_intervals *intervals,
                        struct occlusion_counts *counts, struct map *map) {
-  const struct sheet_edge *edge = &sheet->edge.item[e];
-  struct geom_point p = sheet->point.item[edge->point[0]];
-  struct geom_point q = sheet->point.item[edge->point[1]];
-  struct box2 box = box2_of_segment(p, q);
+  struct geom_segment s = sheet_ends(sheet, sheet->edge.item[e].point);
+  struct box2 box = box2_of_segment(s.p, s.q);
   edge_intervals_start(intervals);
   for (size_t i = 0; i < count && !intervals->occluded; i++) {
     uint32_t triangle = (uint32_t)pair[i].key;
     struct occluded_interval part;
-    if (occlusion_is_possible(sheet, triangle, p, q, box) &&
-        occlude_edge_by_triangle(sheet, triangle, p, q, &part, counts) &&
+    if (occlusion_is_possible(sheet, triangle, s.p, s.q, box) &&
+        occlude_edge_by_triangle(sheet, triangle, s.p, s.q, &part, counts) &&
         !edge_intervals_occlude(intervals, part))
       return false;
   }
@@ -140,13 +138,10 @@ static recto_status store_strokes(struct exact *exact,
   count = pairs->pair.count;
   for (uint32_t e = 0; ok && e < sheet->edge.count; e++) {
     const struct sort_key *own = count > 0 ? pair + i : NULL;
-    const struct sheet_edge *edge = &sheet->edge.item[e];
-    const struct geom_point *p = &sheet->point.item[edge->point[0]];
-    const struct geom_point *q = &sheet->point.item[edge->point[1]];
     size_t first = i;
     while (i < count && pair[i].key >> 32 == e)
       i++;
-    if (edge->edge_class == 0 || (p->x == q->x && p->y == q->y))
+    if (!sheet_edge_is_drawn(sheet, e))
       continue;
     if (!sweep_takes_line(sheet, e))
       ok = store_line(exact, sheet, request, e, map);

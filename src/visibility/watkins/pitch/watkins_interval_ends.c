@@ -10,14 +10,10 @@
 #define STEEP 2
 
 bool watkins_is_steep(const struct sheet *sheet, uint32_t side) {
-  const struct sheet_edge *edge;
-  const struct geom_point *p, *q;
   if (side == SHEET_NONE || sheet->edge.item[side].edge_class == 0)
     return false;
-  edge = &sheet->edge.item[side];
-  p = &sheet->point.item[edge->point[0]];
-  q = &sheet->point.item[edge->point[1]];
-  return llabs((int64_t)q->x - p->x) <= STEEP * llabs((int64_t)q->y - p->y);
+  struct geom_segment s = sheet_ends(sheet, sheet->edge.item[side].point);
+  return llabs((int64_t)s.q.x - s.p.x) <= STEEP * llabs((int64_t)s.q.y - s.p.y);
 }
 
 /* Is the visible facet the background, or one of the edge's own? */
