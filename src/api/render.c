@@ -408,6 +408,19 @@ static void report_plotting(struct report *report,
                     lifts * DEVICE_LIFT_S);
 }
 
+/* Gives faces the numbers that they have in the scene's sources, where faces
+ * that were skipped are counted too. */
+static void number_faces(struct drawing *drawing, const struct scene *scene) {
+  for (size_t i = 0; i < drawing->stroke.count; i++) {
+    uint32_t *face = &drawing->stroke.item[i].face;
+    *face = *face == DRAWING_NONE ? *face : scene_face_number(scene, *face);
+  }
+  for (size_t i = 0; i < drawing->fill.count; i++) {
+    uint32_t *face = &drawing->fill.item[i].face;
+    *face = *face == DRAWING_NONE ? *face : scene_face_number(scene, *face);
+  }
+}
+
 /* ---- The whole render ---------------------------------------------------- */
 
 /* Reports errors in the lists of pens before the work, and warns of unused
@@ -439,6 +452,7 @@ static recto_status run(struct render *render, recto_error *error) {
   if (status == RECTO_OK)
     status = run_stages(render, error);
   if (status == RECTO_OK) {
+    number_faces(render->drawing, &render->welded.scene);
     report_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
     report_seconds(render->report, "render_wall_s", clock_wall() - wall);
     warn_of_empty_page(render);

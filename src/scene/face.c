@@ -205,12 +205,30 @@ static recto_status prepare(struct scene *scene, size_t count, size_t more,
   return RECTO_OK;
 }
 
+recto_status scene_skip_face(struct scene *scene, recto_error *error) {
+  return ARRAY_PUSH(&scene->face_skipped, scene_face_count(scene))
+             ? RECTO_OK
+             : error_memory(error);
+}
+
+uint32_t scene_face_number(const struct scene *scene, uint32_t face) {
+  size_t low = 0, high = scene->face_skipped.count;
+  while (low < high) {
+    size_t middle = low + (high - low) / 2;
+    if (scene->face_skipped.item[middle] <= face)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return face + (uint32_t)low;
+}
+
 recto_status scene_add_face(struct scene *scene, const uint32_t *corner,
                             size_t count, unsigned long line,
                             struct diagnostics *diagnostics,
                             recto_error *error) {
   if (!has_its_points(scene, corner, count, line, "face", diagnostics))
-    return RECTO_OK;
+    return scene_skip_face(scene, error);
   recto_status status = prepare(scene, scene->corner.count, count, error);
   if (status != RECTO_OK)
     return status;
@@ -229,7 +247,7 @@ recto_status scene_add_face(struct scene *scene, const uint32_t *corner,
     to = scene->corner.item + scene->corner.count;
     count = copy_distinct(scene, corner, count, true, to);
     if (!examine_face(scene, to, count, line, diagnostics, to + count))
-      return RECTO_OK;
+      return scene_skip_face(scene, error);
     if (count > 3 && !unite_corners(scene, to, count))
       return error_memory(error);
   }

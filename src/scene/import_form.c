@@ -110,7 +110,7 @@ static recto_status add_element(struct form *f, size_t first, uint64_t start,
   if (unusable_has_any(&f->unusable, f->corner.item, count)) {
     diagnostics_fault(f->diagnostics, SCENE_FAULT_NOT_FINITE, 0,
                       "face with a point that is not finite, skipped");
-    return RECTO_OK;
+    return count == 2 ? RECTO_OK : scene_skip_face(f->scene, f->error);
   }
   if (count == 2)
     return scene_add_wire(f->scene, f->corner.item, count, 0, f->diagnostics,

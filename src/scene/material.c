@@ -52,7 +52,7 @@ recto_status materials_add_use(struct materials *materials, uint32_t group,
 struct shelf {
   struct scene *scene;  /* whose groups are coloured */
   struct scene palette; /* a group for each material */
-  const char *model;    /* path */
+  const char *model;    /* path; "": libraries are not looked for */
   struct diagnostics *diagnostics;
   recto_error *error;
 };
@@ -170,7 +170,7 @@ static recto_status read_libraries(struct shelf *shelf,
 static recto_status fill_shelf(struct shelf *shelf,
                                const struct materials *materials) {
   recto_status status = RECTO_OK;
-  size_t count = materials->library.count;
+  size_t count = *shelf->model != '\0' ? materials->library.count : 0;
   if (count > LIBRARY_MOST)
     diagnostics_fault(shelf->diagnostics, SCENE_FAULT_MATERIAL,
                       materials->library.item[LIBRARY_MOST].line,

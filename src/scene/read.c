@@ -98,34 +98,64 @@ static recto_status refuse(const char *path, const char *format,
 
 /* ---- Reading ------------------------------------------------------------- */
 
-recto_status scene_read(struct scene *scene, const char *path,
-                        const char *format, struct diagnostics *diagnostics,
-                        recto_error *error) {
-  char extension[EXTENSION_SIZE];
-  const struct reader *reader = choose_reader(path, extension, &format);
-  if (!reader)
-    return refuse(path, format, error);
-  struct input input;
-  struct scene_snapshot mark;
+/* Reads what was loaded; on a failure the scene is as it was. */
+static recto_status read_input(struct scene *scene, const struct reader *reader,
+                               const struct input *input, const char *path,
+                               const char *format,
+                               struct diagnostics *diagnostics,
+                               recto_error *error) {
+  struct scene_snapshot before;
   bool first = scene->point.count == 0;
-  scene_snapshot(scene, &mark);
-  recto_status status = input_load(&input, path, error);
-  if (status == RECTO_OK && !scene_note_file(scene, &input))
-    status = error_memory(error);
-  if (status == RECTO_OK && input.count == 0)
+  scene_snapshot(scene, &before);
+  recto_status status =
+      scene_note_file(scene, input) ? RECTO_OK : error_memory(error);
+  if (status == RECTO_OK && input->count == 0)
     status = error_set(error, RECTO_ERROR_FORMAT, path, 1, "the file is empty");
   if (status == RECTO_OK)
-    status = reader->read(scene, input.bytes, input.count, path, format,
+    status = reader->read(scene, input->bytes, input->count, path, format,
                           diagnostics, error);
-  if (status == RECTO_OK && scene->precision.count == mark.precisions)
-    status = scene_leave_precision(scene, mark.points, error);
-  input_unload(&input);
+  if (status == RECTO_OK && scene->precision.count == before.precisions)
+    status = scene_leave_precision(scene, before.points, error);
   if (status != RECTO_OK) {
-    scene_return(scene, &mark);
+    scene_return(scene, &before);
     return status;
   }
   if (first)
     memcpy(scene->up, reader->up, sizeof scene->up);
   diagnostics_finish(diagnostics);
   return RECTO_OK;
+}
+
+recto_status scene_read(struct scene *scene, const char *path,
+                        const char *format, struct diagnostics *diagnostics,
+                        recto_error *error) {
+  char extension[EXTENSION_SIZE];
+  const struct reader *reader = choose_reader(path, extension, &format);
+  if (reader == NULL)
+    return refuse(path, format, error);
+  struct input input;
+  recto_status status = input_load(&input, path, error);
+  if (status == RECTO_OK)
+    status =
+        read_input(scene, reader, &input, path, format, diagnostics, error);
+  input_unload(&input);
+  return status;
+}
+
+recto_status scene_read_memory(struct scene *scene, const void *bytes,
+                               size_t count, const char *name,
+                               const char *format,
+                               struct diagnostics *diagnostics,
+                               recto_error *error) {
+  char extension[EXTENSION_SIZE];
+  const struct reader *reader = choose_reader(name, extension, &format);
+  if (reader == NULL)
+    return refuse(name, format, error);
+  struct input input;
+  recto_status status = input_copy(&input, bytes, count, name, error);
+  if (status == RECTO_OK)
+    status =
+        read_input(scene, reader, &input, name, format, diagnostics, error);
+  input_unload(&input);
+  return status;
 }

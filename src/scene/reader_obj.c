@@ -296,13 +296,16 @@ static recto_status read_element(struct obj_parser *p, bool is_face) {
   if (status != RECTO_OK)
     return status;
   bool cut_off = p->at == p->end && p->corner.count < (is_face ? 3 : 2);
-  if (broken || cut_off)
-    return obj_skip_broken(p, start, line, what);
+  if (broken || cut_off) {
+    status = obj_skip_broken(p, start, line, what);
+    return status == RECTO_OK && is_face ? scene_skip_face(p->scene, p->error)
+                                         : status;
+  }
   obj_finish_statement(p);
   if (missing != NULL)
     tell_missing(p, line, what, missing);
   if (missing != NULL || !has_good_points(p, line, what))
-    return RECTO_OK;
+    return is_face ? scene_skip_face(p->scene, p->error) : RECTO_OK;
   if (p->renamed && (status = use_group(p)) != RECTO_OK)
     return status;
   return is_face ? scene_add_face(p->scene, p->corner.item, p->corner.count,

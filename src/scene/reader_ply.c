@@ -55,6 +55,9 @@ static recto_status take(struct ply_parser *p,
     diagnostics_fault(p->diagnostics, SCENE_FAULT_SYNTAX, p->last,
                       "%s that cannot be parsed, skipped",
                       name_of(element->kind));
+  if (element->kind == PLY_FACE &&
+      !ARRAY_PUSH(&p->scene->face_skipped, scene_face_count(p->scene)))
+    return error_memory(p->error);
   return ply_check_text(p, start);
 }
 
@@ -187,7 +190,7 @@ static recto_status read_face(struct ply_parser *p,
                               const struct ply_element *element) {
   const uint32_t *corner = p->corner.item;
   if (!has_good_points(p, corner, p->corner.count, "face"))
-    return RECTO_OK;
+    return scene_skip_face(p->scene, p->error);
   return add_face(p, element, corner, p->corner.count);
 }
 

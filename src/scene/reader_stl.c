@@ -69,6 +69,7 @@ static recto_status read_batch(struct scene *scene, const char *record,
     if (!is_finite(p) || !is_finite(p + 1) || !is_finite(p + 2)) {
       diagnostics_fault(diagnostics, SCENE_FAULT_NOT_FINITE, number + i,
                         "triangle with a corner that is not finite, skipped");
+      status = scene_skip_face(scene, error);
       continue;
     }
     uint32_t corner[3];
@@ -269,7 +270,7 @@ static recto_status read_facet(struct parser *p, unsigned long line) {
                       fault == SCENE_FAULT_SYNTAX
                           ? "with a coordinate that is no number"
                           : "with a corner that is not finite");
-    return RECTO_OK;
+    return scene_skip_face(p->scene, p->error);
   }
   return scene_add_face(p->scene, p->corner.item, p->corner.count, line,
                         p->diagnostics, p->error);

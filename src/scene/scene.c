@@ -28,6 +28,7 @@ void scene_fini(struct scene *scene) {
   ARRAY_FREE(&scene->face_start);
   ARRAY_FREE(&scene->corner);
   ARRAY_FREE(&scene->face_group);
+  ARRAY_FREE(&scene->face_skipped);
   ARRAY_FREE(&scene->wire_start);
   ARRAY_FREE(&scene->wire_corner);
   ARRAY_FREE(&scene->wire_group);
@@ -128,6 +129,7 @@ recto_status scene_use_group(struct scene *scene, const char *name,
 void scene_snapshot(const struct scene *scene, struct scene_snapshot *mark) {
   mark->points = scene->point.count;
   mark->faces = scene->face_group.count;
+  mark->skipped = scene->face_skipped.count;
   mark->corners = scene->corner.count;
   mark->wires = scene->wire_group.count;
   mark->wire_corners = scene->wire_corner.count;
@@ -139,6 +141,7 @@ void scene_snapshot(const struct scene *scene, struct scene_snapshot *mark) {
 void scene_return(struct scene *scene, const struct scene_snapshot *mark) {
   scene->point.count = mark->points;
   scene->face_group.count = mark->faces;
+  scene->face_skipped.count = mark->skipped;
   scene->face_start.count = mark->faces ? mark->faces + 1 : 0;
   scene->corner.count = mark->corners;
   scene->wire_group.count = mark->wires;

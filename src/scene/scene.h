@@ -38,6 +38,8 @@ struct scene {
   ARRAY(uint32_t) face_start;
   ARRAY(uint32_t) corner;
   ARRAY(uint32_t) face_group; /* one a face */
+  /* For each face that was skipped, how many there were before it; ascending. */
+  ARRAY(uint32_t) face_skipped;
   /* Polyline w likewise. */
   ARRAY(uint32_t) wire_start;
   ARRAY(uint32_t) wire_corner;
@@ -123,6 +125,17 @@ USE_RESULT recto_status scene_add_face(struct scene *scene,
                                        unsigned long line,
                                        struct diagnostics *diagnostics,
                                        recto_error *error);
+/* Records that a face of the source is not added, so that those after it keep
+ * their numbers; scene_add_face does it for those that it skips.
+ * Errors  RECTO_ERROR_MEMORY */
+USE_RESULT recto_status scene_skip_face(struct scene *scene,
+                                        recto_error *error);
+
+/* The number of a face where those that were skipped are counted too: its place
+ * in the files or calls that it comes from.
+ * Cost  logarithmic in the number of skipped faces */
+uint32_t scene_face_number(const struct scene *scene, uint32_t face);
+
 /* Adds a polyline in the same way; it needs two points that differ. */
 USE_RESULT recto_status scene_add_wire(struct scene *scene,
                                        const uint32_t *corner, size_t count,
@@ -160,5 +173,15 @@ USE_RESULT recto_status scene_read(struct scene *scene, const char *path,
                                    const char *format,
                                    struct diagnostics *diagnostics,
                                    recto_error *error);
+
+/* Reads the bytes of a model file in the same way.
+ * name    for messages; an OBJ file's material libraries are looked for beside
+ *         the file of that name; "": they are not read
+ * Errors  as of scene_read */
+USE_RESULT recto_status scene_read_memory(struct scene *scene,
+                                          const void *bytes, size_t count,
+                                          const char *name, const char *format,
+                                          struct diagnostics *diagnostics,
+                                          recto_error *error);
 
 #endif

@@ -5,7 +5,8 @@
 #include "scene/scene.h"
 
 struct scene_snapshot {
-  size_t points, faces, corners, wires, wire_corners, precisions, groups;
+  size_t points, faces, skipped, corners, wires, wire_corners, precisions,
+      groups;
   uint32_t current_group;
 };
 

@@ -270,6 +270,7 @@ static recto_status map_faces(struct scene *to, const struct scene *from,
                               recto_error *error) {
   recto_status status = RECTO_OK;
   uint32_t faces = scene_face_count(from);
+  size_t skipped = 0; /* of those that `from` skipped */
   if (!ARRAY_RESERVE(&to->corner, from->corner.count) ||
       !ARRAY_RESERVE(&to->face_start, (size_t)faces + 1) ||
       !ARRAY_RESERVE(&to->face_group, faces))
@@ -280,6 +281,12 @@ static recto_status map_faces(struct scene *to, const struct scene *from,
     uint32_t start = from->face_start.item[f];
     uint32_t count = from->face_start.item[f + 1] - start;
     to->current_group = from->face_group.item[f];
+    for (; status == RECTO_OK && skipped < from->face_skipped.count &&
+           from->face_skipped.item[skipped] == f;
+         skipped++)
+      status = scene_skip_face(to, error);
+    if (status != RECTO_OK)
+      break;
     if (map_corners(from->corner.item + start, count, map, corner)) {
       status = scene_add_face(to, corner, count, 0, NULL, error);
       continue;
@@ -313,6 +320,7 @@ static void borrow(struct welded *welded, const struct scene *scene) {
   memset(&own->corner, 0, sizeof own->corner);
   memset(&own->face_start, 0, sizeof own->face_start);
   memset(&own->face_group, 0, sizeof own->face_group);
+  memset(&own->face_skipped, 0, sizeof own->face_skipped);
   memset(&own->wire_corner, 0, sizeof own->wire_corner);
   memset(&own->wire_start, 0, sizeof own->wire_start);
   memset(&own->wire_group, 0, sizeof own->wire_group);
@@ -398,6 +406,7 @@ void welded_fini(struct welded *welded) {
     ARRAY_FREE(&own->corner);
     ARRAY_FREE(&own->face_start);
     ARRAY_FREE(&own->face_group);
+    ARRAY_FREE(&own->face_skipped);
     ARRAY_FREE(&own->wire_corner);
     ARRAY_FREE(&own->wire_start);
     ARRAY_FREE(&own->wire_group);
