@@ -325,6 +325,49 @@ RECTO_USE_RESULT recto_status recto_scene_read(recto_scene *scene,
                                                const recto_options *options,
                                                recto_error *error);
 
+/* Reads the bytes of a model file from memory and adds it to `scene`.
+ * format  format name such as "obj"; NULL: by the name's extension
+ * name    for messages; beside a file of that name the material libraries of an
+ *         OBJ file are looked for; NULL: they are not read
+ * Errors  as of recto_scene_read; the scene is then as it was */
+RECTO_USE_RESULT recto_status recto_scene_read_memory(
+    recto_scene *scene, const void *bytes, size_t count, const char *format,
+    const char *name, const recto_options *options, recto_error *error);
+
+/* A mesh in arrays, which belong to the caller.  Initialise it with zeros, so
+ * that fields that a later version adds are zero too. */
+typedef struct recto_mesh {
+  const double *points;       /* point_count triples x y z, scene units; or: */
+  const float *points_single; /* the same in single precision, where `points`
+                                 is NULL; their rounding counts as that of a
+                                 file's coordinates */
+  size_t point_count;
+  const uint32_t *corners; /* corner_count indices of these points, from 0 */
+  size_t corner_count;
+  /* Face f has the corners from face_offsets[f] up to face_offsets[f + 1], or
+   * up to corner_count for the last; NULL: face_size corners each. */
+  const uint32_t *face_offsets;
+  size_t face_count;  /* may be 0 where face_offsets is NULL: counted */
+  uint32_t face_size; /* corners of every face; 0: 3 */
+  const uint32_t *face_groups; /* index of group_names for each face; NULL: the
+                                  current group */
+  const char *const *group_names; /* UTF-8 */
+  size_t group_count;
+} recto_mesh;
+
+/* Adds a mesh to the scene, all of it or, on an error, nothing.  Its faces are
+ * numbered in their order from the number of faces that were added before.
+ * Faces without area are skipped and counted in the stats, as in a file.
+ * Errors  RECTO_ERROR_ARGUMENT: an index out of range, a face of fewer than
+ *         three corners, a point that is not finite: the text has its number;
+ *         RECTO_ERROR_LIMIT, RECTO_ERROR_MEMORY */
+#define recto_scene_add_mesh(scene, mesh, error)                               \
+  recto_scene_add_mesh_sized((scene), (mesh), sizeof *(mesh), (error))
+RECTO_USE_RESULT recto_status recto_scene_add_mesh_sized(recto_scene *scene,
+                                                         const recto_mesh *mesh,
+                                                         size_t size,
+                                                         recto_error *error);
+
 /* Adds a point, x y z in scene units, finite; its index goes to *index. */
 RECTO_USE_RESULT recto_status recto_scene_add_point(recto_scene *scene,
                                                     const double xyz[3],
@@ -384,6 +427,20 @@ RECTO_USE_RESULT recto_status recto_drawing_write(const recto_drawing *drawing,
 RECTO_USE_RESULT recto_status recto_drawing_write_with_stats(
     const recto_drawing *drawing, const char *path, const char *format,
     const char *stats, const recto_options *options, recto_error *error);
+
+/* Receives a part of an output; returns false where it cannot be taken. */
+typedef bool (*recto_write_fn)(void *user, const void *bytes, size_t count);
+
+/* Writes the drawing through a function, which is called once the whole output
+ * has been made, and then with one part after the other.
+ * format  name of a format such as "svg", "svgz" or "pdf"
+ * write   called with `user`
+ * Errors  as of recto_drawing_write; RECTO_ERROR_IO where `write` returned
+ *         false */
+RECTO_USE_RESULT recto_status
+recto_drawing_write_to(const recto_drawing *drawing, const char *format,
+                       const recto_options *options, recto_write_fn write,
+                       void *user, recto_error *error);
 
 /* The name of the output format that recto_drawing_write would take for this
  * path and format, which may be NULL; NULL where there is none. */

@@ -203,3 +203,6 @@ unit_tests += %D%/test_ink_segment_graph %D%/test_ink_chain %D%/test_ink_clean \
 
 unit_tests += %D%/test_far
 %C%_test_far_SOURCES = %D%/test_far.c
+
+unit_tests += %D%/test_api_memory
+%C%_test_api_memory_SOURCES = %D%/test_api_memory.c

@@ -22,6 +22,10 @@ struct recto_drawing {
   ARRAY(struct file_identity) file;  /* that the scene was read from */
 };
 
+/* Adds the faults of elements that were added to those of the scene. */
+void scene_keep_faults(recto_scene *scene,
+                       const struct diagnostics *diagnostics);
+
 /* Copies the options, or the defaults where they are NULL, and checks that each
  * of them is finite and in range. */
 USE_RESULT recto_status options_take(recto_options *own,

@@ -5,11 +5,13 @@ librecto_core_la_SOURCES += \
   %D%/clip_warning.c %D%/clip_warning.h \
   %D%/draw_file.c \
   %D%/handle.h \
+  %D%/mesh.c \
   %D%/judge_input.c %D%/judge_input.h \
   %D%/options.c \
   %D%/output.c %D%/output.h \
   %D%/render.c \
   %D%/scene.c \
+  %D%/sized.c %D%/sized.h \
   %D%/shares.c %D%/shares.h \
   %D%/verify.c %D%/verify.h \
   %D%/version.c \

@@ -236,6 +236,53 @@ recto_status recto_drawing_write_with_stats(
   return stream_finish_all(both, 2, error);
 }
 
+/* Hands the bytes of a stream to the user's function, in parts. */
+static recto_status hand_over(const struct stream *stream, recto_write_fn write,
+                              void *user, recto_error *error) {
+  enum { PART = 1 << 16 };
+  size_t count;
+  const char *bytes = stream_memory(stream, &count);
+  while (count > 0) {
+    size_t part = count < PART ? count : PART;
+    if (!write(user, bytes, part))
+      return error_set(error, RECTO_ERROR_IO, NULL, 0,
+                       "the write function has failed");
+    bytes += part;
+    count -= part;
+  }
+  return RECTO_OK;
+}
+
+recto_status recto_drawing_write_to(const recto_drawing *drawing,
+                                    const char *format,
+                                    const recto_options *options,
+                                    recto_write_fn write, void *user,
+                                    recto_error *error) {
+  recto_options own;
+  struct outputs outputs = {NULL, NULL};
+  if (drawing == NULL || format == NULL || write == NULL)
+    return error_null(error, drawing == NULL  ? "the drawing"
+                             : format == NULL ? "the format"
+                                              : "the write function");
+  recto_status status = options_take(&own, options, error);
+  if (status != RECTO_OK)
+    return status;
+  const struct writer *writer = find_writer(NULL, format);
+  if (writer == NULL)
+    return no_writer(NULL, format, error);
+  status = stream_open_memory(&outputs.drawing, error);
+  if (status == RECTO_OK && is_compressed(NULL, format))
+    status = stream_compress(outputs.drawing, error);
+  if (status == RECTO_OK)
+    status = fill_outputs(&outputs, drawing, writer, &own, error);
+  if (status == RECTO_OK)
+    status = stream_complete(outputs.drawing, error);
+  if (status == RECTO_OK)
+    status = hand_over(outputs.drawing, write, user, error);
+  stream_discard(outputs.drawing);
+  return status;
+}
+
 recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
                                  const char *format,
                                  const recto_options *options,

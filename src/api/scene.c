@@ -25,8 +25,8 @@ void recto_scene_destroy(recto_scene *scene) {
   mem_free(scene);
 }
 
-static void keep_faults(recto_scene *scene,
-                        const struct diagnostics *diagnostics) {
+void scene_keep_faults(recto_scene *scene,
+                       const struct diagnostics *diagnostics) {
   for (int i = 0; i < SCENE_FAULT_COUNT; i++)
     scene->fault[i] += diagnostics->count[i];
 }
@@ -48,12 +48,12 @@ static bool keep_path(recto_scene *scene, const char *path) {
   return true;
 }
 
-recto_status recto_scene_read(recto_scene *scene, const char *path,
-                              const char *format, const recto_options *options,
-                              recto_error *error) {
+/* Reads a file, or bytes from memory where they are not NULL. */
+static recto_status read_model(recto_scene *scene, const void *bytes,
+                               size_t count, const char *path,
+                               const char *format, const recto_options *options,
+                               recto_error *error) {
   struct diagnostics diagnostics = {.file = path};
-  if (scene == NULL || path == NULL)
-    return error_null(error, scene == NULL ? "the scene" : "the path");
   if (options != NULL) {
     diagnostics.warning = options->warning;
     diagnostics.progress = options->progress;
@@ -63,14 +63,38 @@ recto_status recto_scene_read(recto_scene *scene, const char *path,
       options != NULL && options->fill == RECTO_FILL_PAINT;
   double cpu = clock_cpu(), wall = clock_wall();
   recto_status status =
-      scene_read(&scene->scene, path, format, &diagnostics, error);
+      bytes == NULL
+          ? scene_read(&scene->scene, path, format, &diagnostics, error)
+          : scene_read_memory(&scene->scene, bytes, count, path, format,
+                              &diagnostics, error);
   scene->read_cpu += clock_cpu() - cpu;
   scene->read_wall += clock_wall() - wall;
   if (status == RECTO_OK)
-    keep_faults(scene, &diagnostics);
+    scene_keep_faults(scene, &diagnostics);
   if (status == RECTO_OK && !keep_path(scene, path))
     status = error_memory(error);
   return status;
+}
+
+recto_status recto_scene_read(recto_scene *scene, const char *path,
+                              const char *format, const recto_options *options,
+                              recto_error *error) {
+  if (scene == NULL || path == NULL)
+    return error_null(error, scene == NULL ? "the scene" : "the path");
+  return read_model(scene, NULL, 0, path, format, options, error);
+}
+
+recto_status recto_scene_read_memory(recto_scene *scene, const void *bytes,
+                                     size_t count, const char *format,
+                                     const char *name,
+                                     const recto_options *options,
+                                     recto_error *error) {
+  if (scene == NULL || (bytes == NULL && count > 0))
+    return error_null(error, scene == NULL ? "the scene" : "the bytes");
+  if (name == NULL && format == NULL)
+    return error_null(error, "the format");
+  return read_model(scene, bytes != NULL ? bytes : "", count,
+                    name != NULL ? name : "", format, options, error);
 }
 
 recto_status recto_scene_add_point(recto_scene *scene, const double xyz[3],
@@ -126,7 +150,7 @@ recto_status recto_scene_add_face(recto_scene *scene, const uint32_t *corner,
     status =
         scene_add_face(&scene->scene, corner, count, 0, &diagnostics, error);
   if (status == RECTO_OK)
-    keep_faults(scene, &diagnostics);
+    scene_keep_faults(scene, &diagnostics);
   return status;
 }
 
@@ -139,6 +163,6 @@ recto_status recto_scene_add_polyline(recto_scene *scene,
     status =
         scene_add_wire(&scene->scene, corner, count, 0, &diagnostics, error);
   if (status == RECTO_OK)
-    keep_faults(scene, &diagnostics);
+    scene_keep_faults(scene, &diagnostics);
   return status;
 }

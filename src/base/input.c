@@ -135,6 +135,22 @@ recto_status input_load(struct input *input, const char *path,
   return status;
 }
 
+recto_status input_copy(struct input *input, const void *bytes, size_t count,
+                        const char *name, recto_error *error) {
+  *input = (struct input){.bytes = NULL};
+  if (count == SIZE_MAX || !ARRAY_RESERVE(&input->slurped, count + 1))
+    return error_memory(error);
+  if (count > 0)
+    memcpy(input->slurped.item, bytes, count);
+  input->slurped.item[count] = '\0';
+  input->slurped.count = count;
+  input->bytes = input->slurped.item;
+  input->count = count;
+  return gunzip_is_wanted(input->bytes, count)
+             ? gunzip(input, name, input_most(), error)
+             : RECTO_OK;
+}
+
 recto_status input_load_named(struct input *input, const char *path,
                               recto_error *error) {
   *input = (struct input){.bytes = NULL};

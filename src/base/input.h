@@ -33,6 +33,13 @@ size_t input_most(void);
 USE_RESULT recto_status input_load(struct input *input, const char *path,
                                    recto_error *error);
 
+/* Copies bytes from memory, expanded where they are compressed with gzip.
+ * name    for messages
+ * Errors  as of input_load */
+USE_RESULT recto_status input_copy(struct input *input, const void *bytes,
+                                   size_t count, const char *name,
+                                   recto_error *error);
+
 /* Loads a file whose name stands in another one, which may name anything:
  * only files proper of at most INPUT_NAMED_MOST bytes are read, and gzip data
  * are expanded to no more than that.

@@ -302,6 +302,11 @@ recto_status stream_finish_all(struct stream *const *stream, size_t count,
   return status;
 }
 
+recto_status stream_complete(struct stream *stream, recto_error *error) {
+  complete(stream);
+  return report_failure(stream, error);
+}
+
 recto_status stream_finish(struct stream *stream, recto_error *error) {
   return stream_finish_all(&stream, 1, error);
 }

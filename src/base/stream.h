@@ -53,6 +53,11 @@ void stream_fault(struct stream *stream, int fault);
 /* RECTO_OK while all went well so far. */
 recto_status stream_status(const struct stream *stream);
 
+/* Ends a memory stream's compression, so that its bytes are whole.
+ * Errors  of what was written so far */
+USE_RESULT recto_status stream_complete(struct stream *stream,
+                                        recto_error *error);
+
 /* The bytes written so far to a memory stream, NUL-terminated (the NUL is not
  * counted).  Lends. */
 const char *stream_memory(const struct stream *stream, size_t *count);

@@ -1,0 +1,22 @@
+/* sized.h - structs of recto.h that cross to callers compiled with an older or
+ * a newer header: new fields come at the end, and the caller passes the size
+ * that it knows. */
+#ifndef API_SIZED_H
+#define API_SIZED_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+/* Copies the caller's struct of `from_size` bytes to the library's own.  Fields
+ * that an older caller does not know keep the values that they have in `to`.
+ * Errors  RECTO_ERROR_UNSUPPORTED: a newer caller has set a field that this
+ *         library does not know (it is not zero) */
+USE_RESULT recto_status sized_take(void *to, size_t to_size, const void *from,
+                                   size_t from_size, recto_error *error);
+
+/* Copies the library's struct to the caller's, of which the rest becomes
+ * zero. */
+void sized_give(void *to, size_t to_size, const void *from, size_t from_size);
+
+#endif
