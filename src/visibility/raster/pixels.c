@@ -95,10 +95,8 @@ recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
       (request->strokes && !init_sampling(pixels)) ||
       (request->fragments &&
        !trapezoids_init(&pixels->trapezoids, sheet, &pixels->grid,
-                        (size_t)pixels->grid.columns))) {
-    pixels_fini(pixels);
+                        (size_t)pixels->grid.columns)))
     return error_memory(error);
-  }
   return RECTO_OK;
 }
 
@@ -219,12 +217,46 @@ recto_status pixels_store(const struct raster *raster, int subpixels,
                           recto_error *error) {
   struct pixels pixels;
   recto_status status = pixels_init(&pixels, raster, subpixels, request, error);
-  if (status != RECTO_OK)
-    return status;
   for (int32_t line = raster->grid.lines; line-- > 0 && status == RECTO_OK;)
     status = pixels_line(&pixels, line, error);
   if (status == RECTO_OK)
     status = pixels_finish(&pixels, map, report, section, error);
   pixels_fini(&pixels);
+  return status;
+}
+
+recto_status pixels_solve(struct sheet *sheet,
+                          const struct solver_request *request, bool whole,
+                          pixels_draw_fn *draw, const char *section,
+                          struct map *map, struct report *report,
+                          recto_error *error) {
+  struct raster raster = {0};
+  struct facets facets = {0};
+  struct pixels pixels = {0};
+  int64_t covered = 0;
+  int lines;
+  recto_status status =
+      edge_sampling_find_intersections(sheet, request, report, error);
+  if (status == RECTO_OK)
+    status = subpixels_lines(request, &lines, error);
+  if (status == RECTO_OK)
+    status =
+        raster_init(&raster, sheet, lines, request->depth_bits, whole, error);
+  if (status == RECTO_OK && !facets_init(&facets, sheet))
+    status = error_memory(error);
+  if (status == RECTO_OK)
+    status =
+        pixels_init(&pixels, &raster, subpixels_of(request), request, error);
+  if (status == RECTO_OK)
+    status = draw(&raster, &facets, request, &pixels, &covered, error);
+  if (status == RECTO_OK)
+    status = pixels_finish(&pixels, map, report, section, error);
+  if (status == RECTO_OK) {
+    report_int(report, section, "depth_bits", request->depth_bits);
+    report_int(report, section, "pixels_covered", covered);
+  }
+  pixels_fini(&pixels);
+  raster_fini(&raster);
+  facets_fini(&facets);
   return status;
 }

@@ -32,7 +32,8 @@ struct sort_key *pixels_buckets(const struct raster *raster,
                                 const struct solver_request *request,
                                 size_t *count);
 
-/* subpixels  K: a pixel is made of K x K pixels of the raster; 1: of one */
+/* End with pixels_fini either way.
+ * subpixels  K: a pixel is made of K x K pixels of the raster; 1: of one */
 USE_RESULT recto_status pixels_init(struct pixels *pixels,
                                     const struct raster *raster, int subpixels,
                                     const struct solver_request *request,
@@ -54,5 +55,22 @@ USE_RESULT recto_status pixels_store(const struct raster *raster, int subpixels,
                                      const struct solver_request *request,
                                      struct map *map, struct report *report,
                                      const char *section, recto_error *error);
+
+/* Draws all facets into an empty frame and passes each line to pixels_line.
+ * covered  the number of pixels that facets cover, hidden or not, is added */
+typedef recto_status pixels_draw_fn(struct raster *raster,
+                                    const struct facets *facets,
+                                    const struct solver_request *request,
+                                    struct pixels *pixels, int64_t *covered,
+                                    recto_error *error);
+
+/* Solves a sheet by a z-buffer.
+ * whole    the frame holds all lines of the request, else one
+ * section  of the report */
+USE_RESULT recto_status pixels_solve(struct sheet *sheet,
+                                     const struct solver_request *request,
+                                     bool whole, pixels_draw_fn *draw,
+                                     const char *section, struct map *map,
+                                     struct report *report, recto_error *error);
 
 #endif

@@ -56,8 +56,6 @@ bool scanline_enter(struct scanline *scanline, int32_t line) {
                            raster, scanline->facets, bucket[i].value);
   }
   scanline->entered = i;
-  if (scanline->active.count > scanline->most_active)
-    scanline->most_active = scanline->active.count;
   return true;
 }
 
@@ -98,52 +96,24 @@ static recto_status walk_lines(struct scanline *scanline, struct pixels *pixels,
   return status;
 }
 
-static recto_status scan(struct raster *raster, const struct facets *facets,
-                         const struct solver_request *request, struct map *map,
-                         struct report *report, recto_error *error) {
+static recto_status draw(struct raster *raster, const struct facets *facets,
+                         const struct solver_request *request,
+                         struct pixels *pixels, int64_t *covered,
+                         recto_error *error) {
   struct scanline scanline;
-  struct pixels pixels;
-  recto_status status =
-      pixels_init(&pixels, raster, subpixels_of(request), request, error);
-  if (status != RECTO_OK)
-    return status;
-  if (!scanline_init(&scanline, raster, facets, request))
-    status = error_memory(error);
-  if (status == RECTO_OK)
-    status = walk_lines(&scanline, &pixels, error);
-  if (status == RECTO_OK)
-    status = pixels_finish(&pixels, map, report, "scanline_zbuffer", error);
-  if (status == RECTO_OK) {
-    report_int(report, "scanline_zbuffer", "depth_bits", raster->depth_bits);
-    report_int(report, "scanline_zbuffer", "pixels_covered", scanline.covered);
-    report_int(report, "scanline_zbuffer", "most_active",
-               (int64_t)scanline.most_active);
-  }
+  recto_status status = scanline_init(&scanline, raster, facets, request)
+                            ? walk_lines(&scanline, pixels, error)
+                            : error_memory(error);
+  *covered += scanline.covered;
   scanline_fini(&scanline);
-  pixels_fini(&pixels);
   return status;
 }
 
 static recto_status solve(struct sheet *sheet,
                           const struct solver_request *request, struct map *map,
                           struct report *report, recto_error *error) {
-  struct raster raster = {0};
-  struct facets facets = {0};
-  int lines;
-  recto_status status =
-      edge_sampling_find_intersections(sheet, request, report, error);
-  if (status == RECTO_OK)
-    status = subpixels_lines(request, &lines, error);
-  if (status == RECTO_OK)
-    status =
-        raster_init(&raster, sheet, lines, request->depth_bits, false, error);
-  if (status == RECTO_OK && !facets_init(&facets, sheet))
-    status = error_memory(error);
-  if (status == RECTO_OK)
-    status = scan(&raster, &facets, request, map, report, error);
-  raster_fini(&raster);
-  facets_fini(&facets);
-  return status;
+  return pixels_solve(sheet, request, false, draw, "scanline_zbuffer", map,
+                      report, error);
 }
 
 const struct solver solver_scanline_zbuffer = {

@@ -14,7 +14,6 @@ struct scanline {
   ARRAY(struct active_edge_pair)
   active; /* unordered: of equally near facets the one of lower
              index is kept whichever is drawn first */
-  size_t most_active;
   int64_t covered;
 };
 

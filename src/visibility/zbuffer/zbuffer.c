@@ -93,46 +93,11 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
   return status;
 }
 
-static recto_status draw(struct raster *raster, const struct facets *facets,
-                         const struct solver_request *request, struct map *map,
-                         struct report *report, recto_error *error) {
-  struct pixels pixels;
-  int64_t covered = 0;
-  recto_status status =
-      pixels_init(&pixels, raster, subpixels_of(request), request, error);
-  if (status != RECTO_OK)
-    return status;
-  status = zbuffer_draw(raster, facets, request, &pixels, &covered, error);
-  if (status == RECTO_OK)
-    status = pixels_finish(&pixels, map, report, "zbuffer", error);
-  if (status == RECTO_OK) {
-    report_int(report, "zbuffer", "depth_bits", request->depth_bits);
-    report_int(report, "zbuffer", "pixels_covered", covered);
-  }
-  pixels_fini(&pixels);
-  return status;
-}
-
 static recto_status solve(struct sheet *sheet,
                           const struct solver_request *request, struct map *map,
                           struct report *report, recto_error *error) {
-  struct raster raster = {0};
-  struct facets facets = {0};
-  int lines;
-  recto_status status =
-      edge_sampling_find_intersections(sheet, request, report, error);
-  if (status == RECTO_OK)
-    status = subpixels_lines(request, &lines, error);
-  if (status == RECTO_OK)
-    status =
-        raster_init(&raster, sheet, lines, request->depth_bits, true, error);
-  if (status == RECTO_OK && !facets_init(&facets, sheet))
-    status = error_memory(error);
-  if (status == RECTO_OK)
-    status = draw(&raster, &facets, request, map, report, error);
-  raster_fini(&raster);
-  facets_fini(&facets);
-  return status;
+  return pixels_solve(sheet, request, true, zbuffer_draw, "zbuffer", map,
+                      report, error);
 }
 
 const struct solver solver_zbuffer = {RECTO_METHOD_ZBUFFER, "zbuffer", false,
