@@ -139,11 +139,49 @@ static void a_line_along_a_diagonal_is_whole(void **state) {
   }
 }
 
+/* Both lines are whole, from any side, with contact and without. */
+static void a_diagonal_that_faces_share_may_be_a_line(void **state) {
+  (void)state;
+  for (int view = 0; view < 24; view++) {
+    struct sheet_fixture fixture;
+    struct map map;
+    recto_error error;
+    const struct solver_request request = {
+        .strokes = true, .intersections = true, .threads = 1};
+    struct report *report = report_create();
+    sheet_fixture_start(&fixture);
+    scenes_crossed_in_diagonal(&fixture.scene, &fixture.options);
+    fixture.options.contact = view % 2 == 0 ? 0 : -1;
+    fixture.options.azimuth_deg = 15 * view;
+    fixture.options.elevation_deg = view % 3 == 0 ? 50 : 15;
+    sheet_fixture_out(&fixture, false);
+    size_t edges = fixture.sheet.edge.count;
+    map_init(&map);
+    assert_int_equal(
+        solver_brute.solve(&fixture.sheet, &request, &map, report, &error),
+        RECTO_OK);
+    assert_int_equal(fixture.sheet.edge.count, edges + 2);
+    for (uint32_t copy = 0; copy < 2; copy++) {
+      const uint32_t *line = fixture.sheet.edge.item[edges + copy].point;
+      const struct geom_point *point = fixture.sheet.point.item;
+      uint32_t from = 6 * copy, to = from + 1;
+      assert_true((geom_same_point(point[line[0]], point[from]) &&
+                   geom_same_point(point[line[1]], point[to])) ||
+                  (geom_same_point(point[line[0]], point[to]) &&
+                   geom_same_point(point[line[1]], point[from])));
+    }
+    map_fini(&map);
+    report_destroy(report);
+    sheet_fixture_fini(&fixture);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_does_not_meet_has_no_line_at_any_contact),
       cmocka_unit_test(what_meets_beside_an_edge_has_its_line_there),
       cmocka_unit_test(a_line_along_a_diagonal_is_whole),
+      cmocka_unit_test(a_diagonal_that_faces_share_may_be_a_line),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -369,6 +369,32 @@ static void lines_where_faces_pierce_are_required(void **state) {
   scene_fini(&scene);
 }
 
+/* Seen from above, half of the second face is behind the first. */
+static void lines_in_a_shared_diagonal_are_required(void **state) {
+  (void)state;
+  for (int with_line = 0; with_line < 2; with_line++) {
+    struct page page;
+    struct scene scene;
+    scene_init(&scene);
+    static const double chevron[12] = {-1, 2, 0, 0, 0, 0, -1, -2, 0, 3, 0, 0};
+    build_polygon(&scene, chevron, 4);
+    uint32_t above = build_point(&scene, 0.5, 0.5, 2);
+    build_quad(&scene, above, 1, build_point(&scene, 0.5, -0.5, -2), 3);
+    open_page(&page);
+    look_square_on(&page);
+    draw_loop(&page, chevron, 4);
+    draw_line(&page, vector_of(0, 0, 0), vector_of(0.5, 0.5, 2));
+    draw_line(&page, vector_of(3, 0, 0), vector_of(0.5, 0.5, 2));
+    if (with_line)
+      draw_line(&page, vector_of(0, 0, 0), vector_of(3, 0, 0));
+    struct judge_verdict verdict =
+        judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+    assert_int_equal(verdict.false_ink.samples, 0);
+    assert_int_equal(verdict.missing.samples == 0, with_line);
+    scene_fini(&scene);
+  }
+}
+
 static void contact_does_not_hide(void **state) {
   (void)state;
   struct page page;
@@ -894,6 +920,7 @@ int main(void) {
       cmocka_unit_test(what_lies_in_a_notch_is_visible),
       cmocka_unit_test(a_spike_covers_nothing),
       cmocka_unit_test(lines_where_faces_pierce_are_required),
+      cmocka_unit_test(lines_in_a_shared_diagonal_are_required),
       cmocka_unit_test(contact_does_not_hide),
       cmocka_unit_test(from_a_corner_contact_counts_at_the_far_end),
       cmocka_unit_test(without_contact_the_grid_may_pierce_what_touches),

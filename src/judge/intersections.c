@@ -63,20 +63,37 @@ static struct triangle_outline clip_to_page(const struct judge_camera *camera,
   return outline;
 }
 
-/* How far the clipped triangle extends from a plane to either side; the lesser
- * of the two distances. */
-static double least_overshoot(const struct judge_camera *camera,
-                              const struct judge_triangle *t,
-                              const struct judge_triangle *plane) {
+/* How far the clipped triangle extends from a plane to either side. */
+struct overshoot {
+  double before, behind;
+};
+
+static struct overshoot overshoot_of(const struct judge_camera *camera,
+                                     const struct judge_triangle *t,
+                                     const struct judge_triangle *plane) {
   struct triangle_outline outline = clip_to_page(camera, t);
-  double before = 0, behind = 0;
+  struct overshoot most = {0, 0};
   for (unsigned i = 0; i < outline.count; i++) {
     double away =
         point3_dot(plane->normal, point3_sub(outline.p[i], plane->p[0]));
-    before = fmax(before, away);
-    behind = fmax(behind, -away);
+    most.before = fmax(most.before, away);
+    most.behind = fmax(most.behind, -away);
   }
-  return fmin(before, behind);
+  return most;
+}
+
+static double least_overshoot(const struct judge_camera *camera,
+                              const struct judge_triangle *t,
+                              const struct judge_triangle *plane) {
+  struct overshoot both = overshoot_of(camera, t, plane);
+  return fmin(both.before, both.behind);
+}
+
+static double most_overshoot(const struct judge_camera *camera,
+                             const struct judge_triangle *t,
+                             const struct judge_triangle *plane) {
+  struct overshoot both = overshoot_of(camera, t, plane);
+  return fmax(both.before, both.behind);
 }
 
 /* ---- In space ------------------------------------------------------------ */
@@ -151,18 +168,133 @@ static bool has_side(const struct scene *scene, uint32_t face,
   return false;
 }
 
-/* Adds a side that two triangles share if it is a diagonal of both their faces:
- * the faces extend beyond it, and may intersect in it.  Undecided. */
-static bool add_shared(struct intersection_finder *finder,
+/* The triangles of one surface at a side between two corners: those of one face
+ * of which it is a diagonal, or those of all faces of which it is a side. */
+struct side_surface {
+  const struct judge_triangles *all;
+  const struct judge_point3 *corner; /* two */
+  uint32_t face;                     /* SCENE_NONE: of all */
+  uint32_t triangle[2];              /* the first two */
+  unsigned count;
+};
+
+static bool add_to_surface(void *user, uint32_t i) {
+  struct side_surface *surface = user;
+  const struct judge_triangle *t = &surface->all->triangle.item[i];
+  unsigned shared = 0;
+  for (int k = 0; k < 3; k++)
+    shared += is_same(t->p[k], surface->corner[0]) ||
+              is_same(t->p[k], surface->corner[1]);
+  if (shared < 2 ||
+      (surface->face == SCENE_NONE
+           ? !has_side(surface->all->scene, t->face, surface->corner)
+           : t->face != surface->face))
+    return true;
+  if (surface->count < 2)
+    surface->triangle[surface->count] = i;
+  surface->count++;
+  return true;
+}
+
+/* The surface of a triangle at a side.
+ * other  a face that does not belong to it */
+static struct side_surface surface_at(const struct judge_triangles *all,
+                                      const struct judge_triangle *t,
+                                      const struct judge_point3 corner[2],
+                                      uint32_t other) {
+  bool is_side = has_side(all->scene, t->face, corner);
+  struct side_surface surface = {
+      .all = all, .corner = corner, .face = is_side ? SCENE_NONE : t->face};
+  struct judge_triangle line = {.p = {corner[0], corner[1], corner[1]}};
+  struct judge_box box = judge_triangle_box(&line);
+  (void)judge_triangles_near(all, &box, other, add_to_surface, &surface);
+  return surface;
+}
+
+/* The direction in which a triangle extends from a side, perpendicular to
+ * it. */
+static struct judge_point3 direction_from(const struct judge_triangle *t,
+                                          const struct judge_point3 corner[2]) {
+  struct judge_point3 along = point3_unit(point3_sub(corner[1], corner[0]));
+  struct judge_point3 sum = {0, 0, 0};
+  for (int k = 0; k < 3; k++)
+    sum = point3_along(sum, 1, point3_sub(t->p[k], corner[0]));
+  sum = point3_along(sum, -point3_dot(sum, along), along);
+  return point3_unit(sum);
+}
+
+/* Whether two triangles with a common side surely diverge from it: each extends
+ * from the other's plane by far more than contact and rounding, or they extend
+ * to opposite sides. */
+static bool do_diverge(const struct intersection_finder *finder,
                        const struct judge_triangle *s,
                        const struct judge_triangle *t,
                        const struct judge_point3 corner[2]) {
-  const struct scene *scene = finder->all->scene;
-  const struct judge_source source = {
-      {SCENE_NONE, SCENE_NONE}, {s->face, t->face}, 0, false};
-  if (has_side(scene, s->face, corner) || has_side(scene, t->face, corner))
+  const struct judge_camera *camera = finder->camera;
+  double rounding = fmax(judge_rounding_at(camera, finder->hair_mm, corner[0]),
+                         judge_rounding_at(camera, finder->hair_mm, corner[1]));
+  double least = 10 * fmax(fmax(s->contact, t->contact), rounding);
+  return point3_dot(direction_from(s, corner), direction_from(t, corner)) < 0 ||
+         (most_overshoot(camera, s, t) > least &&
+          most_overshoot(camera, t, s) > least);
+}
+
+/* The angle about a side from one triangle to another, 0 to 2 pi. */
+static double angle_about(const struct judge_point3 corner[2],
+                          const struct judge_triangle *from,
+                          const struct judge_triangle *to) {
+  struct judge_point3 along = point3_unit(point3_sub(corner[1], corner[0]));
+  struct judge_point3 x = direction_from(from, corner),
+                      d = direction_from(to, corner);
+  double angle = atan2(point3_dot(point3_cross(along, x), d), point3_dot(x, d));
+  return angle < 0 ? angle + 2 * acos(-1) : angle;
+}
+
+/* Whether two surfaces surely cross at a common side: of two triangles each,
+ * which alternate in order of angle. */
+static bool do_cross_at(const struct intersection_finder *finder,
+                        const struct side_surface *s,
+                        const struct side_surface *t) {
+  const struct judge_triangle *triangle = finder->all->triangle.item;
+  if (s->count != 2 || t->count != 2)
+    return false;
+  const struct judge_triangle *a[2] = {&triangle[s->triangle[0]],
+                                       &triangle[s->triangle[1]]},
+                              *b[2] = {&triangle[t->triangle[0]],
+                                       &triangle[t->triangle[1]]};
+  for (int i = 0; i < 4; i++)
+    if (a[i / 2]->open || b[i % 2]->open ||
+        !do_diverge(finder, a[i / 2], b[i % 2], s->corner))
+      return false;
+  double end = angle_about(s->corner, a[0], a[1]);
+  return (angle_about(s->corner, a[0], b[0]) < end) !=
+         (angle_about(s->corner, a[0], b[1]) < end);
+}
+
+/* Adds a side that the current triangle shares with another one, where it is a
+ * diagonal of one face or of both and the surfaces cross there; where that is
+ * not sure, only a diagonal of both.  Of the pairs of the two surfaces'
+ * triangles, the first adds it. */
+static bool add_shared(struct intersection_finder *finder, uint32_t other,
+                       const struct judge_point3 corner[2]) {
+  const struct judge_triangles *all = finder->all;
+  const struct judge_triangle *s = &all->triangle.item[finder->current];
+  const struct judge_triangle *t = &all->triangle.item[other];
+  if (has_side(all->scene, s->face, corner) &&
+      has_side(all->scene, t->face, corner))
     return true;
-  return judge_edges_add(finder->edges, finder->camera, corner[0], corner[1],
+  struct side_surface one = surface_at(all, s, corner, t->face),
+                      two = surface_at(all, t, corner, s->face);
+  if (one.triangle[0] != finder->current || two.triangle[0] != other)
+    return true;
+  bool sure = do_cross_at(finder, &one, &two);
+  const struct judge_source source = {{SCENE_NONE, SCENE_NONE},
+                                      {s->face, t->face},
+                                      sure ? RECTO_EDGE_INTERSECTION : 0,
+                                      false};
+  bool is_diagonal = one.face != SCENE_NONE && two.face != SCENE_NONE;
+  return (!sure && !is_diagonal) ||
+         judge_edges_add(finder->edges, finder->camera, corner[0], corner[1],
                          &source);
 }
 
@@ -212,7 +344,7 @@ static bool intersect_with(void *user, uint32_t other) {
     return true;
   unsigned shared = shared_corners(s, t, corner);
   if (shared >= 2)
-    return add_shared(finder, s, t, corner);
+    return add_shared(finder, other, corner);
   struct triangle_cut cs = cut_by_plane(s, t), ct = cut_by_plane(t, s);
   return cs.count != 2 || ct.count != 2 ||
          add_common(finder, &cs, &ct, point3_unit(along), other);

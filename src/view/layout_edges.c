@@ -128,7 +128,7 @@ static bool make_folds(struct layout *layout) {
 }
 
 /* Makes the triangles' sides refer to sheet edges instead of topology edges,
- * and the edges to their first two triangles. */
+ * and the edges to their first two triangles; marks the inner sides. */
 static void link_sides(struct layout *layout, const struct edge_ids *edge_ids) {
   struct sheet *sheet = layout->sheet;
   uint32_t edges = (uint32_t)layout->topology->edge.count;
@@ -136,6 +136,8 @@ static void link_sides(struct layout *layout, const struct edge_ids *edge_ids) {
   for (size_t t = 0; t < sheet->triangle.count; t++) {
     uint32_t *side = sheet->triangle.item[t].side;
     for (int k = 0; k < 3; k++) {
+      if (side[k] >= edges)
+        layout->flags.item[t] |= (uint8_t)(SHEET_INNER << k);
       if (side[k] == SHEET_NONE)
         continue;
       side[k] = side[k] < edges ? edge_id_of(edge_ids, side[k])

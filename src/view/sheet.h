@@ -47,6 +47,8 @@ struct sheet_triangle {
 enum {
   SHEET_FLAT = 1,    /* seen edge-on: no area on the page, hides nothing */
   SHEET_FLIPPED = 2, /* the face's own winding is clockwise on the page */
+  SHEET_INNER = 4,   /* shifted by k: side k is no edge of the mesh: a diagonal,
+                        or one that clipping made */
 };
 
 struct sheet_edge {
@@ -143,6 +145,11 @@ static inline uint32_t sheet_edge_face(const struct sheet *sheet,
   return first == SHEET_NONE || sheet->triangles_dropped
              ? first
              : sheet->triangle.item[first].face;
+}
+
+static inline bool sheet_is_inner_side(const struct sheet *sheet,
+                                       uint32_t triangle, int k) {
+  return (sheet->triangle_flags[triangle] & SHEET_INNER << k) != 0;
 }
 
 /* Converts grid units from the middle of the page to mm from its lower left

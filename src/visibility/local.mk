@@ -19,6 +19,7 @@ librecto_core_la_SOURCES += \
   %D%/index/triangle_grid.c %D%/index/triangle_grid.h \
   %D%/intersection/candidate_pairs.c %D%/intersection/candidate_pairs.h \
   %D%/intersection/edge_crossing.c %D%/intersection/edge_crossing.h \
+  %D%/intersection/edge_fan.c %D%/intersection/edge_fan.h \
   %D%/intersection/intersection.c %D%/intersection/intersection.h \
   %D%/intersection/intersection_segment.c %D%/intersection/intersection_segment.h \
   %D%/newell/newell.c \

@@ -85,6 +85,7 @@ const struct scenes_entry scene_list[] = {
     {"three sheets", 5, scenes_three_sheets},
     {"edge through vertex", 5, scenes_edge_through_vertex},
     {"pierced along diagonal", 5, scenes_pierced_along_diagonal},
+    {"crossed in a diagonal", 5, scenes_crossed_in_diagonal},
     {"self-intersecting", 5, scenes_self_intersecting},
     {"pierced rectangle", 5, scenes_pierced_rectangle},
     {"two rectangles", 5, scenes_two_rectangles},

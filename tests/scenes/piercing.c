@@ -96,3 +96,21 @@ void scenes_pierced_along_diagonal(struct scene *scene,
                       vector_of(0, 0, 2));
   scenes_view_direction(options, 14, 38);
 }
+
+void scenes_crossed_in_diagonal(struct scene *scene, recto_options *options) {
+  const double corner[6][3] = {{0, 0, 0},   {3, 0, 0},     {-1, 2, 0},
+                               {-1, -2, 0}, {0.5, 0.5, 2}, {0.5, -0.5, -2}};
+  for (uint32_t copy = 0; copy < 2; copy++) {
+    uint32_t at = 6 * copy;
+    for (int k = 0; k < 6; k++)
+      build_point(scene, corner[k][0], corner[k][1] + 6 * copy, corner[k][2]);
+    build_quad(scene, at + 2, at, at + 3, at + 1);
+    if (copy == 0)
+      build_quad(scene, at + 4, at, at + 5, at + 1);
+    else {
+      build_triangle(scene, at + 4, at, at + 1);
+      build_triangle(scene, at + 5, at + 1, at);
+    }
+  }
+  scenes_view_direction(options, 200, 50);
+}

@@ -101,6 +101,10 @@ void scenes_three_sheets(struct scene *scene, recto_options *options);
 void scenes_edge_through_vertex(struct scene *scene, recto_options *options);
 /* Sheets that pierce faces exactly along a diagonal and a shared edge. */
 void scenes_pierced_along_diagonal(struct scene *scene, recto_options *options);
+/* Two quads that share, by index, the diagonal in which they cross; and a quad
+ * crossed in its diagonal by two triangles, whose common edge that is.  The
+ * lines are from 0,0,0 to 3,0,0 and from 0,6,0 to 3,6,0. */
+void scenes_crossed_in_diagonal(struct scene *scene, recto_options *options);
 /* A closed tube bent so that it runs through itself. */
 void scenes_self_intersecting(struct scene *scene, recto_options *options);
 

@@ -144,14 +144,35 @@ static bool are_disjoint_at_corner(const struct sheet *sheet,
   return is_separated_by(&a, &b) || is_separated_by(&b, &a);
 }
 
-/* Do two triangles share an edge, or a corner and nothing more?  Then they do
- * not pierce each other. */
+/* Is the side that triangle f shares with a triangle of corners q an edge of
+ * the mesh? */
+static bool is_mesh_edge(const struct sheet *sheet, uint32_t f,
+                         const uint32_t q[3]) {
+  const uint32_t *p = sheet->triangle.item[f].point;
+  int other = 0; /* the corner of f that is not shared */
+  while (p[other] == q[0] || p[other] == q[1] || p[other] == q[2])
+    other++;
+  return !sheet_is_inner_side(sheet, f, geom_next_corner(other));
+}
+
+/* Do two triangles share an edge of the mesh, a diagonal of one face, or a
+ * corner and nothing more?  Then they do not pierce each other.  Where a side
+ * that they share is a diagonal of one of two faces, these may cross in it. */
 static bool are_neighbours(const struct sheet *sheet, uint32_t f, uint32_t g) {
   const uint32_t *p = sheet->triangle.item[f].point,
                  *q = sheet->triangle.item[g].point;
   struct shared_corners shared = shared_corners(p, q);
-  return shared.count > 1 ||
-         (shared.count == 1 && are_disjoint_at_corner(sheet, p, q, shared));
+  switch (shared.count) {
+  case 0:
+    return false;
+  case 1:
+    return are_disjoint_at_corner(sheet, p, q, shared);
+  case 2:
+    return sheet->triangle.item[f].face == sheet->triangle.item[g].face ||
+           (is_mesh_edge(sheet, f, q) && is_mesh_edge(sheet, g, p));
+  default:
+    return true;
+  }
 }
 
 /* May f straddle the plane of g or end on it? */

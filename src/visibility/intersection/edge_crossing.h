@@ -10,50 +10,20 @@
  * meet it elsewhere, the line is there, and where they do not meet it there is
  * none.
  *
- * Where an edge lies on another edge four triangles meet, or more.  The two
- * surfaces cross where, in the circular order around the edge, triangles of the
- * two alternate.  Triangles that are in contact on the same side of the edge
- * count as one sheet there and as no crossing: two prisms that stand wall to
- * wall do not pierce each other along the sides of the walls.
+ * Where an edge lies on another edge their fans decide (edge_fan.h).
  */
 #ifndef VISIBILITY_INTERSECTION_EDGE_CROSSING_H
 #define VISIBILITY_INTERSECTION_EDGE_CROSSING_H
 
-#include "base/memory.h"
+#include "visibility/intersection/edge_fan.h"
 #include "visibility/intersection/intersection_segment.h"
-
-/* On which sides of a plane the corners of a triangle lie.  The corners that
- * are not counted are in contact with the plane. */
-struct side_count {
-  int behind, in_front; /* how many corners */
-  int off_plane;        /* the last corner that is not in contact */
-};
-
-struct side_count side_count_of(const struct occluder *plane,
-                                const struct geom_point p[3]);
-
-/* Are there corners on both sides? */
-static inline bool straddles(struct side_count s) {
-  return s.behind > 0 && s.in_front > 0;
-}
-
-/* Are just two corners in contact, so that the triangle ends on the plane along
- * a side? */
-static inline bool ends_on_plane(struct side_count s) {
-  return s.behind + s.in_front == 1;
-}
-
-/* An edge: its ends i < j; or a triangle: i, and j == SHEET_NONE. */
-struct edge_crossing_side {
-  uint32_t i, j;
-};
 
 /* A candidate for a crossing.  An edge with an incident triangle that ends on
  * the plane of a triangle; or two edges, each on a plane of the other's
  * triangles. */
 struct edge_crossing {
-  struct edge_crossing_side side[2]; /* the lower first: edges by ends, then
-                                        triangles */
+  struct surface_edge side[2]; /* the lower first: edges, then triangles, whose
+                                  index is i; their j is SHEET_NONE */
 };
 
 struct edge_crossings {

@@ -1,6 +1,19 @@
 /* intersection_segment.c - the segment in which two triangles intersect. */
 #include "visibility/intersection/intersection_segment.h"
 
+struct side_count side_count_of(const struct occluder *plane,
+                                const struct geom_point p[3]) {
+  struct side_count count = {0, 0, 0};
+  for (int k = 0; k < 3; k++) {
+    int side = occluder_side(plane, p[k]);
+    count.behind += side < 0;
+    count.in_front += side > 0;
+    if (side != 0)
+      count.off_plane = k;
+  }
+  return count;
+}
+
 /* The sign of the volume of the tetrahedron a, b, c, d. */
 static int volume_sign(struct geom_point a, struct geom_point b,
                        struct geom_point c, struct geom_point d) {

@@ -5,6 +5,27 @@
 #include "base/memory.h"
 #include "visibility/predicate/occlusion.h"
 
+/* On which sides of a plane the corners of a triangle lie.  The corners that
+ * are not counted are in contact with the plane. */
+struct side_count {
+  int behind, in_front; /* how many corners */
+  int off_plane;        /* the last corner that is not in contact */
+};
+
+struct side_count side_count_of(const struct occluder *plane,
+                                const struct geom_point p[3]);
+
+/* Are there corners on both sides? */
+static inline bool straddles(struct side_count s) {
+  return s.behind > 0 && s.in_front > 0;
+}
+
+/* Are just two corners in contact, so that the triangle ends on the plane along
+ * a side? */
+static inline bool ends_on_plane(struct side_count s) {
+  return s.behind + s.in_front == 1;
+}
+
 /* Two triangles and the segment in which their surfaces intersect. */
 struct intersection_segment {
   uint32_t triangle[2]; /* the lower first */
