@@ -168,6 +168,40 @@ typedef void (*recto_warning_fn)(void *user, const char *file,
 
 #define RECTO_USUAL_MARGIN_MM 10
 
+/* The highest number of a pen; the first is 1. */
+#define RECTO_PEN_MOST 1000
+
+/* The lines that a pen is assigned to. */
+typedef enum recto_lines {
+  RECTO_LINES_OF_CLASS = 0, /* visible lines of an edge class */
+  RECTO_LINES_OF_GROUP,     /* visible lines, and hatching, of a group */
+  RECTO_LINES_HIDDEN,       /* all hidden lines */
+  RECTO_LINES_HATCH         /* all hatching */
+} recto_lines;
+
+/* Assigns lines to a pen. */
+typedef struct recto_pen_use {
+  recto_lines lines;
+  recto_edge_class edge_class; /* of RECTO_LINES_OF_CLASS */
+  const char *group; /* of RECTO_LINES_OF_GROUP: the name of a group, or its
+                        part between two of the slashes that join object, group
+                        and material */
+  int pen;           /* 1 to RECTO_PEN_MOST */
+} recto_pen_use;
+
+/* How a pen differs from the others. */
+typedef struct recto_pen {
+  double width_mm; /* RECTO_FINEST_MM to 100; 0: that of all pens, pen_mm */
+  bool has_colour; /* false: black, grey where it draws only hidden lines */
+  uint32_t colour; /* 0xRRGGBB, of the layer in all formats but HPGL */
+} recto_pen;
+
+/* How many pens wide the visible lines of a class are. */
+typedef struct recto_weight {
+  recto_edge_class edge_class;
+  double weight; /* 0.01 to 100 */
+} recto_weight;
+
 typedef struct recto_options {
   /* Method. */
   recto_method method;
@@ -262,20 +296,21 @@ typedef struct recto_options {
   bool hatch_inset; /* without a light: hatching ends half a pen inside, so that
                        no ink lies beyond what is visible */
 
-  /* Pens: lists such as "silhouette=2,hidden=3"; NULL: none.  The keys of the
-   * first are hidden, hatch, a class's word or a group's name (or its part
-   * between two of the slashes that join object, group and material), its
-   * values pens, 1 to 1000.  The first key that applies to a line decides, in
-   * that order; if none does, `pens` does. */
-  const char *pen_for;
-  const char *pen_widths;  /* pens and their width, "2=0.5mm,3=0.7" */
-  const char *pen_colours; /* pens and their colour, "2=#c00,3=00ff00" */
+  /* Pens.  A line is drawn by the pen of the first use that applies to it: as a
+   * hidden line or hatching, by its class, by its group; if there is none,
+   * `pens` decides.  Of several uses for the same lines the last one counts. */
+  const recto_pen_use *pen_use; /* pen_use_count of them */
+  size_t pen_use_count;
+  const recto_pen *pen; /* of the pens 1 to pen_count, in order */
+  size_t pen_count;     /* at most RECTO_PEN_MOST */
 
-  /* How many pens wide the visible lines of a class are in SVG, PDF, EPS, PS
-   * and PNG, such as "silhouette=2,wire=0.5"; lines of different weight are
-   * different strokes.  "none": all are one pen wide; NULL: silhouettes and
-   * borders are 2 wide unless there are several pens. */
-  const char *weights;
+  /* The weights of classes in SVG, PDF, EPS, PS and PNG; lines of different
+   * weight are different strokes.  A class that is not listed is one pen wide;
+   * without weights silhouettes and borders are two pens wide unless there are
+   * several pens. */
+  bool has_weights;
+  const recto_weight *weight; /* weight_count of them */
+  size_t weight_count;
 
   /* Significant bits of the coordinates given to recto_scene_add_point, 1 to
    * 53: their rounding error is half a unit of the last one; 53: exact; 0: 24
@@ -456,7 +491,7 @@ double recto_output_unit_mm(const char *path, const char *format,
  * plotters replaces defaults:
  *   margin_mm negative        the margin that the plotter needs
  *   order RECTO_ORDER_AUTO    RECTO_ORDER_NEAR
- *   weights NULL              "none": pens have one width */
+ *   no weights                one pen wide, as pens have one width */
 void recto_options_suit(recto_options *options, const char *path,
                         const char *format);
 

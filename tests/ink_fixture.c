@@ -21,12 +21,18 @@ void ink_fixture_start(struct ink_fixture *k) {
   drawing_init(&k->drawing);
   recto_options_init(&k->options);
   k->options.min_stroke_mm = 0;
-  k->options.weights = "none";
+  k->options.has_weights = true;
   k->sheet.camera.page_mm[0] = k->sheet.camera.page_mm[1] = PAGE_MM;
   k->sheet.camera.right[0] = k->sheet.camera.up[1] = 1;
   k->sheet.camera.back[2] = 1;
   k->side = SHEET_NONE;
   ink_fixture_group(k, "thing");
+}
+
+void ink_fixture_use(struct ink_fixture *k, const recto_pen_use *use,
+                     size_t count) {
+  k->options.pen_use = use;
+  k->options.pen_use_count = count;
 }
 
 void ink_fixture_side(struct ink_fixture *k) {

@@ -18,7 +18,22 @@ struct ink_fixture {
   uint32_t side;        /* edge that all sides of fragments are pieces of */
 };
 
+/* Uses of pens, for the options. */
+#define CLASS_ON(of, number)                                                   \
+  { .lines = RECTO_LINES_OF_CLASS, .edge_class = (of), .pen = (number) }
+#define GROUP_ON(name, number)                                                 \
+  { .lines = RECTO_LINES_OF_GROUP, .group = (name), .pen = (number) }
+#define HIDDEN_ON(number)                                                      \
+  { .lines = RECTO_LINES_HIDDEN, .pen = (number) }
+#define HATCH_ON(number)                                                       \
+  { .lines = RECTO_LINES_HATCH, .pen = (number) }
+
 void ink_fixture_start(struct ink_fixture *k);
+/* So many uses from `use`, which must outlive the drawing. */
+void ink_fixture_use(struct ink_fixture *k, const recto_pen_use *use,
+                     size_t count);
+/* The array and its length. */
+#define INK_FIXTURE_USES(array) (array), sizeof(array) / sizeof(array)[0]
 /* From here on the sides of fragments are of an edge that is drawn; it is
  * hidden itself. */
 void ink_fixture_side(struct ink_fixture *k);

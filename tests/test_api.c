@@ -194,6 +194,47 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
   recto_scene_destroy(scene);
 }
 
+static void lists_that_make_no_sense_are_refused(void **state) {
+  static const recto_pen_use use[] = {
+      {RECTO_LINES_HIDDEN, 0, NULL, 0},
+      {RECTO_LINES_HATCH, 0, NULL, RECTO_PEN_MOST + 1},
+      {RECTO_LINES_OF_CLASS, 0, "a", 1},
+      {RECTO_LINES_OF_CLASS, (recto_edge_class)0x80, NULL, 1},
+      {RECTO_LINES_OF_GROUP, RECTO_EDGE_CREASE, NULL, 1},
+      {RECTO_LINES_OF_GROUP, RECTO_EDGE_CREASE, "no such group", 1},
+      {(recto_lines)4, RECTO_EDGE_CREASE, "a", 1},
+  };
+  static const recto_pen pen[] = {{-1, false, 0},
+                                  {101, false, 0},
+                                  {(double)NAN, false, 0},
+                                  {0, true, 0x1000000}};
+  static const recto_weight weight[] = {
+      {RECTO_EDGE_CREASE, 0},
+      {RECTO_EDGE_CREASE, (double)NAN},
+      {(recto_edge_class)(RECTO_EDGE_CREASE | RECTO_EDGE_GROUP), 1},
+  };
+  (void)state;
+  recto_scene *scene = make_cube();
+  recto_options options;
+  for (size_t i = 0; i < sizeof use / sizeof use[0]; i++) {
+    REFUSED(pen_use_count, 1);
+    options.pen_use = &use[i];
+    assert_refused(scene, &options, "the use of a pen");
+  }
+  for (size_t i = 0; i < sizeof pen / sizeof pen[0]; i++) {
+    REFUSED(pen_count, 1);
+    options.pen = &pen[i];
+    assert_refused(scene, &options, "a pen");
+  }
+  for (size_t i = 0; i < sizeof weight / sizeof weight[0]; i++) {
+    REFUSED(weight_count, 1);
+    options.weight = &weight[i];
+    assert_refused(scene, &options, "a weight");
+  }
+  REFUSED(pen_count, RECTO_PEN_MOST + 1);
+  recto_scene_destroy(scene);
+}
+
 static void an_eye_on_its_target_is_refused(void **state) {
   (void)state;
   recto_scene *scene = make_cube();
@@ -789,6 +830,7 @@ int main(void) {
       cmocka_unit_test(the_version_is_three_numbers),
       cmocka_unit_test(no_options_are_the_defaults),
       cmocka_unit_test(numbers_that_make_no_sense_are_refused),
+      cmocka_unit_test(lists_that_make_no_sense_are_refused),
       cmocka_unit_test(an_eye_on_its_target_is_refused),
       cmocka_unit_test(methods_not_built_are_unsupported),
       cmocka_unit_test(destroying_nothing_is_fine),

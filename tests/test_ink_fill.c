@@ -373,7 +373,8 @@ static void hatching_of_another_pen_leaves_the_lines_alone(void **state) {
   (void)state;
   draw_hatch(&k, &p, 2, 0);
   assert_int_equal(k.drawing.stroke.count, 1);
-  k.options.pen_for = "hatch=2";
+  const recto_pen_use hatch[] = {HATCH_ON(2)};
+  ink_fixture_use(&k, INK_FIXTURE_USES(hatch));
   ink_fixture_draw(&k);
   assert_true(k.drawing.stroke.count > 10);
   for (size_t s = 0; s < k.drawing.stroke.count; s++)

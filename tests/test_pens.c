@@ -1,4 +1,4 @@
-/* test_pens.c - which pen draws what, as the options' lists say. */
+/* test_pens.c - which pen draws what, by the options. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -9,11 +9,9 @@
 #include "ink/pens.h"
 #include "tests/ink_fixture.h"
 
-enum {
-  CREASE = RECTO_EDGE_CREASE,
-  SILHOUETTE = RECTO_EDGE_SILHOUETTE,
-  BORDER = RECTO_EDGE_BORDER
-};
+#define CREASE RECTO_EDGE_CREASE
+#define SILHOUETTE RECTO_EDGE_SILHOUETTE
+#define BORDER RECTO_EDGE_BORDER
 
 /* A silhouette, a crease and a hidden crease of the group "thing", and a crease
  * of "car/wheel/red". */
@@ -39,11 +37,23 @@ static unsigned pen_at(const struct ink_fixture *k, double y) {
   return 0;
 }
 
-static void assert_pens(const char *list, recto_hidden hidden,
+/* Ends with a use without pen. */
+static size_t count_uses(const recto_pen_use *use) {
+  size_t count = 0;
+  while (use[count].pen != 0)
+    count++;
+  return count;
+}
+
+/* The uses, ended by an empty one. */
+#define USES(...) ((const recto_pen_use[]){__VA_ARGS__, {.pen = 0}})
+#define NO_USES ((const recto_pen_use[]){{.pen = 0}})
+
+static void assert_pens(const recto_pen_use *use, recto_hidden hidden,
                         const unsigned pen[4]) {
   struct ink_fixture k;
   start_scene(&k);
-  k.options.pen_for = list;
+  ink_fixture_use(&k, use, count_uses(use));
   k.options.hidden = hidden;
   ink_fixture_draw(&k);
   for (int i = 0; i < 4; i++)
@@ -57,33 +67,43 @@ static void assert_pens(const char *list, recto_hidden hidden,
 static void hidden_goes_before_class_and_class_before_group(void **state) {
   const recto_hidden layer = RECTO_HIDDEN_LAYER, dashed = RECTO_HIDDEN_DASHED;
   (void)state;
-  assert_pens(NULL, layer, (unsigned[]){1, 1, 2, 1});
-  assert_pens("silhouette=3", layer, (unsigned[]){3, 1, 4, 1});
-  assert_pens("wheel=2", dashed, (unsigned[]){1, 1, 1, 2});
-  assert_pens("wheel=2,crease=5", dashed, (unsigned[]){1, 5, 5, 5});
-  assert_pens("crease=5,hidden=4,silhouette=2,wheel=7", dashed,
-              (unsigned[]){2, 5, 4, 5});
-  assert_pens("hidden=1000,thing=999", layer, (unsigned[]){999, 999, 1000, 1});
+  assert_pens(NO_USES, layer, (unsigned[]){1, 1, 2, 1});
+  assert_pens(USES(CLASS_ON(SILHOUETTE, 3)), layer, (unsigned[]){3, 1, 4, 1});
+  assert_pens(USES(GROUP_ON("wheel", 2)), dashed, (unsigned[]){1, 1, 1, 2});
+  assert_pens(USES(GROUP_ON("wheel", 2), CLASS_ON(CREASE, 5)), dashed,
+              (unsigned[]){1, 5, 5, 5});
+  assert_pens(USES(CLASS_ON(CREASE, 5), HIDDEN_ON(4), CLASS_ON(SILHOUETTE, 2),
+                   GROUP_ON("wheel", 7)),
+              dashed, (unsigned[]){2, 5, 4, 5});
+  assert_pens(USES(HIDDEN_ON(1000), GROUP_ON("thing", 999)), layer,
+              (unsigned[]){999, 999, 1000, 1});
+  assert_pens(USES(CLASS_ON(CREASE, 5), CLASS_ON(CREASE, 6)), dashed,
+              (unsigned[]){1, 6, 6, 6});
 }
 
 static void groups_match_by_whole_name_or_component(void **state) {
-  static const char *const names[] = {"car/wheel/red=2", "car=2",
-                                      "wheel=2",         "red=2",
-                                      "wheel/red=2",     "car/wheel=2"};
+  static const char *const names[] = {
+      "car/wheel/red", "car", "wheel", "red", "wheel/red", "car/wheel"};
   (void)state;
   for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-    assert_pens(names[i], RECTO_HIDDEN_NONE, (unsigned[]){1, 1, 0, 2});
+    assert_pens(USES(GROUP_ON(names[i], 2)), RECTO_HIDDEN_NONE,
+                (unsigned[]){1, 1, 0, 2});
 }
 
 static void layers_say_what_is_on_their_pen(void **state) {
   struct ink_fixture k;
   (void)state;
   start_scene(&k);
-  k.options.pen_for = "silhouette=3,hidden=2,wheel=3,hatch=3";
+  const recto_pen_use use[] = {CLASS_ON(SILHOUETTE, 3), HIDDEN_ON(2),
+                               GROUP_ON("wheel", 3), HATCH_ON(3)};
+  const recto_pen pen[] = {{.has_colour = true, .colour = 0x0012ff},
+                           {.width_mm = 0.7},
+                           {1, true, 0xcc0000}};
+  ink_fixture_use(&k, INK_FIXTURE_USES(use));
   k.options.fill = RECTO_FILL_HATCH;
   k.options.hidden = RECTO_HIDDEN_LAYER;
-  k.options.pen_widths = "3=0.1cm,2=0.7";
-  k.options.pen_colours = "3=#c00,1=0012Ff";
+  k.options.pen = pen;
+  k.options.pen_count = 3;
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 3);
   const struct drawing_layer *layer = k.drawing.layer.item;
@@ -104,7 +124,10 @@ static void layers_do_not_name_classes_not_requested(void **state) {
   struct ink_fixture k;
   (void)state;
   start_scene(&k);
-  k.options.pen_for = "hidden=2,hatch=2,wire=2,crease=2,silhouette=1";
+  const recto_pen_use use[] = {HIDDEN_ON(2), HATCH_ON(2),
+                               CLASS_ON(RECTO_EDGE_WIRE, 2),
+                               CLASS_ON(CREASE, 2), CLASS_ON(SILHOUETTE, 1)};
+  ink_fixture_use(&k, INK_FIXTURE_USES(use));
   k.options.edges &= ~(unsigned)RECTO_EDGE_WIRE;
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 2);
@@ -146,39 +169,71 @@ static void assert_told(struct ink_fixture *k, const char *said) {
 
 static void unused_pens_are_reported(void **state) {
   static const struct {
-    const char *pens, *widths, *colours;
+    recto_pen_use use;     /* its pen 0: none */
+    int wide, coloured[2]; /* pens with a width, with a colour; 0: none */
     recto_hidden hidden;
     recto_fill fill;
     unsigned edges;
     const char *said; /* how it begins; NULL: nothing is */
   } row[] = {
-      {"hidden=2", NULL, NULL, RECTO_HIDDEN_NONE, RECTO_FILL_NONE, CREASE,
+      {HIDDEN_ON(2),
+       0,
+       {0},
+       RECTO_HIDDEN_NONE,
+       RECTO_FILL_NONE,
+       CREASE,
        "pen 2 is for hidden lines"},
-      {"hidden=2", "2=1", NULL, RECTO_HIDDEN_LAYER, RECTO_FILL_NONE, CREASE,
-       NULL},
-      {"hatch=7", NULL, NULL, RECTO_HIDDEN_NONE, RECTO_FILL_PAINT, CREASE,
+      {HIDDEN_ON(2), 2, {0}, RECTO_HIDDEN_LAYER, RECTO_FILL_NONE, CREASE, NULL},
+      {HATCH_ON(7),
+       0,
+       {0},
+       RECTO_HIDDEN_NONE,
+       RECTO_FILL_PAINT,
+       CREASE,
        "pen 7 is for hatching"},
-      {"hatch=7", NULL, "7=fff", RECTO_HIDDEN_NONE, RECTO_FILL_HATCH, CREASE,
-       NULL},
-      {"crease=2", NULL, NULL, RECTO_HIDDEN_NONE, RECTO_FILL_NONE, SILHOUETTE,
+      {HATCH_ON(7), 0, {7}, RECTO_HIDDEN_NONE, RECTO_FILL_HATCH, CREASE, NULL},
+      {CLASS_ON(CREASE, 2),
+       0,
+       {0},
+       RECTO_HIDDEN_NONE,
+       RECTO_FILL_NONE,
+       SILHOUETTE,
        "pen 2 is for crease lines"},
-      {"wheel=5", "5=1", "1=f00", RECTO_HIDDEN_NONE, RECTO_FILL_NONE, CREASE,
+      {GROUP_ON("wheel", 5),
+       5,
+       {1},
+       RECTO_HIDDEN_NONE,
+       RECTO_FILL_NONE,
+       CREASE,
        NULL},
-      {NULL, "2=1", NULL, RECTO_HIDDEN_LAYER, RECTO_FILL_NONE, CREASE, NULL},
-      {NULL, "2=1", NULL, RECTO_HIDDEN_DASHED, RECTO_FILL_NONE, CREASE,
-       "pen 2 has"},
-      {NULL, "2=1,900=1", "3=f00,2=000", RECTO_HIDDEN_NONE, RECTO_FILL_NONE,
-       CREASE, "pen 2 and 2 more have"},
-      {NULL, "1000=1", NULL, RECTO_HIDDEN_NONE, RECTO_FILL_NONE, CREASE,
+      {{0}, 2, {0}, RECTO_HIDDEN_LAYER, RECTO_FILL_NONE, CREASE, NULL},
+      {{0}, 2, {0}, RECTO_HIDDEN_DASHED, RECTO_FILL_NONE, CREASE, "pen 2 has"},
+      {{0},
+       900,
+       {2, 3},
+       RECTO_HIDDEN_NONE,
+       RECTO_FILL_NONE,
+       CREASE,
+       "pen 2 and 2 more have"},
+      {{0},
+       1000,
+       {0},
+       RECTO_HIDDEN_NONE,
+       RECTO_FILL_NONE,
+       CREASE,
        "pen 1000 has"},
   };
   (void)state;
   for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
     struct ink_fixture k;
     start_scene(&k);
-    k.options.pen_for = row[i].pens;
-    k.options.pen_widths = row[i].widths;
-    k.options.pen_colours = row[i].colours;
+    recto_pen pen[RECTO_PEN_MOST + 1] = {{.width_mm = 0}};
+    pen[row[i].wide].width_mm = 1;
+    pen[row[i].coloured[0]].has_colour = true;
+    pen[row[i].coloured[1]].has_colour = true;
+    k.options.pen = pen + 1;
+    k.options.pen_count = RECTO_PEN_MOST;
+    ink_fixture_use(&k, &row[i].use, row[i].use.pen != 0);
     k.options.hidden = row[i].hidden;
     k.options.fill = row[i].fill;
     k.options.edges = row[i].edges;
@@ -189,23 +244,29 @@ static void unused_pens_are_reported(void **state) {
 
 static void weights_of_classes_not_drawn_are_reported(void **state) {
   static const struct {
-    const char *weights;
+    recto_edge_class class[2]; /* with weights */
+    size_t count;
     unsigned edges;
     const char *said; /* NULL: nothing is */
   } row[] = {
-      {"crease=2", SILHOUETTE,
+      {{CREASE},
+       1,
+       SILHOUETTE,
        "a weight is for crease lines, which are not asked for"},
-      {"crease=1,silhouette=2", SILHOUETTE,
+      {{CREASE, SILHOUETTE},
+       2,
+       SILHOUETTE,
        "a weight is for crease lines, which are not asked for"},
-      {"crease=2", CREASE, NULL},
-      {"none", CREASE, NULL},
-      {NULL, CREASE, NULL},
+      {{CREASE}, 1, CREASE, NULL},
+      {{CREASE}, 0, SILHOUETTE, NULL},
   };
   (void)state;
   for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
     struct ink_fixture k;
     start_scene(&k);
-    k.options.weights = row[i].weights;
+    const recto_weight weight[] = {{row[i].class[0], 2}, {row[i].class[1], 1}};
+    k.options.weight = weight;
+    k.options.weight_count = row[i].count;
     k.options.edges = row[i].edges;
     assert_told(&k, row[i].said);
     ink_fixture_end(&k);
@@ -220,7 +281,8 @@ static void fills_lie_below_the_lines_of_all_pens(void **state) {
     struct ink_fixture k;
     start_scene(&k);
     k.options.fill = RECTO_FILL_PAINT;
-    k.options.pen_for = pens == 1 ? NULL : "silhouette=2";
+    const recto_pen_use use = CLASS_ON(SILHOUETTE, 2);
+    ink_fixture_use(&k, &use, pens == 2);
     ink_fixture_fragment(&k, ink_fixture_face(&k, 1, flat, 3),
                          INK_FIXTURE_XY(outline));
     ink_fixture_draw(&k);
@@ -240,8 +302,12 @@ static void half_the_strokes_own_pen_is_the_shortest(void **state) {
     struct ink_fixture k;
     ink_fixture_start(&k);
     k.options.min_stroke_mm = -1;
-    k.options.pen_for = "crease=2";
-    k.options.pen_widths = wide ? "2=3mm" : "1=3mm";
+    const recto_pen_use use = CLASS_ON(CREASE, 2);
+    const recto_pen pen[] = {{.width_mm = wide ? 0 : 3},
+                             {.width_mm = wide ? 3 : 0}};
+    ink_fixture_use(&k, &use, 1);
+    k.options.pen = pen;
+    k.options.pen_count = 2;
     ink_fixture_line(&k, 10, 10, 11, 10, SILHOUETTE);
     ink_fixture_line(&k, 10, 20, 11, 20, CREASE);
     ink_fixture_draw(&k);
@@ -257,7 +323,8 @@ static void strokes_of_pens_that_meet_are_not_joined(void **state) {
   for (int two = 0; two < 2; two++) {
     struct ink_fixture k;
     ink_fixture_start(&k);
-    k.options.pen_for = two ? "crease=2" : "crease=1";
+    const recto_pen_use use = CLASS_ON(CREASE, two ? 2 : 1);
+    ink_fixture_use(&k, &use, 1);
     ink_fixture_line(&k, 10, 10, 50, 10, SILHOUETTE);
     ink_fixture_line(&k, 50, 10, 50, 50, CREASE);
     ink_fixture_draw(&k);
@@ -268,12 +335,15 @@ static void strokes_of_pens_that_meet_are_not_joined(void **state) {
 
 /* ---- Weights ------------------------------------------------------------- */
 
-/* How wide the crease, the silhouette and the border come out, which meet. */
-static void find_widths(const char *weights, int pens, double width[3],
-                        size_t *strokes) {
+/* How wide the crease, the silhouette and the border come out, which meet.
+ * weight  NULL: none are given; else `count` of them */
+static void find_widths(const recto_weight *weight, size_t count, int pens,
+                        double width[3], size_t *strokes) {
   struct ink_fixture k;
   ink_fixture_start(&k);
-  k.options.weights = weights;
+  k.options.has_weights = weight != NULL;
+  k.options.weight = weight;
+  k.options.weight_count = count;
   k.options.pens = pens;
   ink_fixture_line(&k, 10, 10, 50, 10, CREASE);
   ink_fixture_line(&k, 50, 10, 50, 50, SILHOUETTE);
@@ -293,15 +363,16 @@ static void outlines_are_twice_as_wide_by_default(void **state) {
   double width[3];
   size_t strokes;
   (void)state;
-  find_widths(NULL, 1, width, &strokes);
+  const recto_weight weight[] = {{BORDER, 3}, {CREASE, 0.5}};
+  find_widths(NULL, 0, 1, width, &strokes);
   assert_int_equal(strokes, 2); /* silhouette and border are one */
   assert_true(width[0] == 1 && width[1] + width[2] == 2);
-  find_widths("none", 1, width, &strokes);
+  find_widths(weight, 0, 1, width, &strokes);
   assert_int_equal(strokes, 1);
-  find_widths("border=3,crease=0.5", 1, width, &strokes);
+  find_widths(weight, 2, 1, width, &strokes);
   assert_int_equal(strokes, 3);
   assert_true(width[0] == 0.5 && width[1] == 1 && width[2] == 3);
-  find_widths(NULL, 2, width, &strokes);
+  find_widths(NULL, 0, 2, width, &strokes);
   assert_int_equal(strokes, 1);
 }
 
@@ -309,7 +380,7 @@ static void hidden_lines_weigh_nothing_extra(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.weights = NULL;
+  k.options.has_weights = false;
   k.options.hidden = RECTO_HIDDEN_LAYER;
   ink_fixture_hide(&k, ink_fixture_line(&k, 10, 10, 50, 10, SILHOUETTE));
   ink_fixture_draw(&k);
@@ -318,65 +389,17 @@ static void hidden_lines_weigh_nothing_extra(void **state) {
   ink_fixture_end(&k);
 }
 
-/* ---- Lists that make no sense -------------------------------------------- */
-
-static void assert_refused(const char **list, struct ink_fixture *k,
-                           const char *text, const char *part) {
-  struct pens pens;
-  recto_error error = {0};
-  *list = text;
-  recto_status status = pens_init(&pens, &k->scene, &k->options, &error);
-  pens_fini(&pens);
-  if (status != RECTO_ERROR_ARGUMENT || !strstr(error.text, part))
-    fail_msg("%s: %d, %s", text, status, error.text);
-  *list = NULL;
-}
-
-static void lists_that_make_no_sense_are_refused(void **state) {
-  static const char *const pens[] = {"",         "crease",      "=2",
-                                     "crease=0", "crease=1001", "crease=2x",
-                                     "crease=",  "crease=2,",   "crease=2,,"};
-  static const char *const widths[] = {"2=0",  "2=-1", "2=nan",   "0=1",
-                                       "2=1x", "2=",   "2=101mm", "x=1"};
-  static const char *const colours[] = {"2=#12", "2=red",   "2=#1234567",
-                                        "2=",    "2=##c00", "1001=#000"};
-  static const char *const weights[] = {"x=2", "crease=0", "crease=nan",
-                                        "none,crease=1"};
-  struct ink_fixture k;
-  (void)state;
-  ink_fixture_start(&k);
-  for (size_t i = 0; i < sizeof pens / sizeof pens[0]; i++)
-    assert_refused(&k.options.pen_for, &k, pens[i], "pens: ");
-  for (size_t i = 0; i < sizeof widths / sizeof widths[0]; i++)
-    assert_refused(&k.options.pen_widths, &k, widths[i], "widths of pens: ");
-  for (size_t i = 0; i < sizeof colours / sizeof colours[0]; i++)
-    assert_refused(&k.options.pen_colours, &k, colours[i], "colours of pens: ");
-  for (size_t i = 0; i < sizeof weights / sizeof weights[0]; i++)
-    assert_refused(&k.options.weights, &k, weights[i], "weights: ");
-  assert_refused(&k.options.pen_for, &k, "thing=2,thin=3", "\"thin\"");
-  ink_fixture_end(&k);
-}
-
-static void one_name_has_one_value(void **state) {
+static void a_group_that_is_not_there_is_refused(void **state) {
+  const recto_pen_use use[] = {GROUP_ON("thing", 2), GROUP_ON("thin", 3)};
   struct ink_fixture k;
   struct pens pens;
+  recto_error error;
   (void)state;
   ink_fixture_start(&k);
-  assert_refused(&k.options.pen_for, &k, "thing=2,thing=3",
-                 "pens: two values for one name: \"thing=2\" and \"thing=3\"");
-  assert_refused(&k.options.pen_for, &k, "crease=2,hatch=1,crease=22",
-                 "\"crease=2\" and \"crease=22\"");
-  assert_refused(&k.options.pen_widths, &k, "1=1,2=1,1=0.5",
-                 "widths of pens: two values for one name");
-  assert_refused(&k.options.pen_colours, &k, "1=fff,1=000",
-                 "colours of pens: two values for one name");
-  assert_refused(&k.options.weights, &k, "crease=2,crease=3",
-                 "weights: two values for one name");
-  ink_fixture_group(&k, "a");
-  ink_fixture_group(&k, "a=b");
-  k.options.pen_for = "a=b=2,a=3,hidden=4,hatch=5,a=b=2";
-  k.options.pen_widths = "1=1,11=2,111=3,1=1";
-  assert_int_equal(pens_init(&pens, &k.scene, &k.options, NULL), RECTO_OK);
+  ink_fixture_use(&k, INK_FIXTURE_USES(use));
+  assert_int_equal(pens_init(&pens, &k.scene, &k.options, &error),
+                   RECTO_ERROR_ARGUMENT);
+  assert_non_null(strstr(error.text, "pen 3 is for \"thin\""));
   pens_fini(&pens);
   ink_fixture_end(&k);
 }
@@ -394,8 +417,7 @@ int main(void) {
       cmocka_unit_test(strokes_of_pens_that_meet_are_not_joined),
       cmocka_unit_test(outlines_are_twice_as_wide_by_default),
       cmocka_unit_test(hidden_lines_weigh_nothing_extra),
-      cmocka_unit_test(lists_that_make_no_sense_are_refused),
-      cmocka_unit_test(one_name_has_one_value),
+      cmocka_unit_test(a_group_that_is_not_there_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

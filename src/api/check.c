@@ -61,7 +61,7 @@ static recto_status find_shortest(double *mm, const struct scene *scene,
   struct pens pens;
   recto_status status = pens_init(&pens, scene, o, error);
   *mm = 0;
-  for (uint32_t pen = 0; status == RECTO_OK && pen <= PENS_MOST; pen++)
+  for (uint32_t pen = 0; status == RECTO_OK && pen <= o->pen_count; pen++)
     *mm = fmax(*mm, pens_shortest_mm(&pens, pen));
   pens_fini(&pens);
   return status;

@@ -51,6 +51,43 @@ static recto_status check_ranges(const struct option_range *range, size_t count,
   return RECTO_OK;
 }
 
+static bool is_class(recto_edge_class edge_class) {
+  unsigned bit = edge_class;
+  return bit != 0 && (bit & (bit - 1)) == 0 && bit <= RECTO_EDGES_ALL;
+}
+
+static recto_status refuse(const char *what, size_t index, recto_error *error) {
+  return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                   "%s %zu is out of range", what, index);
+}
+
+/* The arrays: their pointers are there, and what they hold is in range. */
+static recto_status check_lists(const recto_options *o, recto_error *error) {
+  if ((o->pen_use_count > 0 && o->pen_use == NULL) ||
+      (o->pen_count > 0 && o->pen == NULL) ||
+      (o->weight_count > 0 && o->weight == NULL))
+    return error_null(error, "a list of the options");
+  for (size_t i = 0; i < o->pen_use_count; i++) {
+    const recto_pen_use *use = &o->pen_use[i];
+    if (use->pen < 1 || use->pen > RECTO_PEN_MOST ||
+        (unsigned)use->lines > RECTO_LINES_HATCH ||
+        (use->lines == RECTO_LINES_OF_CLASS && !is_class(use->edge_class)) ||
+        (use->lines == RECTO_LINES_OF_GROUP && use->group == NULL))
+      return refuse("the use of a pen at index", i, error);
+  }
+  for (size_t i = 0; i < o->pen_count; i++) {
+    double mm = o->pen[i].width_mm;
+    if ((mm != 0 && !(mm >= RECTO_FINEST_MM && mm <= 100)) ||
+        o->pen[i].colour > 0xffffff)
+      return refuse("the pen at index", i, error);
+  }
+  for (size_t i = 0; i < o->weight_count; i++)
+    if (!is_class(o->weight[i].edge_class) ||
+        !(o->weight[i].weight >= 0.01 && o->weight[i].weight <= 100))
+      return refuse("the weight at index", i, error);
+  return RECTO_OK;
+}
+
 static recto_status check(const recto_options *o, recto_error *error) {
   const double huge = DBL_MAX, small = DBL_MIN;
   const struct option_range range[] = {
@@ -106,6 +143,8 @@ static recto_status check(const recto_options *o, recto_error *error) {
       {"the output's unit", o->unit_mm, 0, 100},
       {"the weld length", o->weld, -huge, huge},
       {"the number of bits of coordinates", o->coordinate_bits, 0, 53},
+      {"the number of pens with a width", (double)o->pen_count, 0,
+       RECTO_PEN_MOST},
   };
   if (o->device != NULL && device_by_name(o->device) == NULL) {
     char known[DEVICE_LIST_SIZE];
@@ -114,7 +153,9 @@ static recto_status check(const recto_options *o, recto_error *error) {
                      "there is no plotter \"%.60s\"; known are: %s", o->device,
                      known);
   }
-  return check_ranges(range, sizeof range / sizeof range[0], error);
+  recto_status status =
+      check_ranges(range, sizeof range / sizeof range[0], error);
+  return status == RECTO_OK ? check_lists(o, error) : status;
 }
 
 recto_status options_take(recto_options *own, const recto_options *options,

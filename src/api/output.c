@@ -118,8 +118,8 @@ void recto_options_suit(recto_options *options, const char *path,
     fit_margin(options, writer);
   if (options->order == RECTO_ORDER_AUTO && writer != NULL && writer->by_pens)
     options->order = RECTO_ORDER_NEAR;
-  if (options->weights == NULL && writer != NULL && writer->by_pens)
-    options->weights = "none";
+  if (writer != NULL && writer->by_pens)
+    options->has_weights = true;
 }
 
 /* Reports why find_writer returned NULL. */

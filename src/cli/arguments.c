@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/path.h"
+#include "cli/lists.h"
 #include "cli/value.h"
 
 enum { FIRST_LONG = 256 };
@@ -65,7 +66,8 @@ static bool is_nothing(const double vector[3]) {
   return vector[0] == 0 && vector[1] == 0 && vector[2] == 0;
 }
 
-/* Parses and stores the option's value; false where it is not valid. */
+/* Parses and stores the option's value, which is no list; false where it is
+ * not valid. */
 static bool store(struct arguments *arguments, const struct option_entry *entry,
                   const char *text) {
   void *to = (char *)arguments + entry->offset;
@@ -100,6 +102,7 @@ static bool store(struct arguments *arguments, const struct option_entry *entry,
     return true;
   case OPTION_TAKE:
     return entry->take(arguments, text);
+  case OPTION_LIST:
   case OPTION_HEADING:
   case OPTION_ABSENT:
     break;
@@ -120,7 +123,10 @@ static bool take_option(struct arguments *arguments,
     say_absent(entry, message);
     return false;
   }
-  if (!store(arguments, entry, text)) {
+  if (entry->kind == OPTION_LIST) {
+    if (!lists_take(arguments, entry, text, message))
+      return false;
+  } else if (!store(arguments, entry, text)) {
     snprintf(message, MESSAGE_SIZE, "--%s: expected %s, not \"%.60s\"",
              entry->name, entry->expected, text);
     return false;
@@ -219,6 +225,13 @@ static void settle_page(struct arguments *a) {
     a->options.page_width_mm = a->options.page_height_mm;
     a->options.page_height_mm = width;
   }
+}
+
+void arguments_fini(struct arguments *arguments) {
+  for (size_t i = 0; i < arguments->list.count; i++)
+    mem_free(arguments->list.item[i]);
+  ARRAY_FREE(&arguments->list);
+  ARRAY_FREE(&arguments->pen_use);
 }
 
 bool arguments_parse(struct arguments *arguments, int argc, char **argv,

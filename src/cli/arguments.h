@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/memory.h"
 #include "recto.h"
 
 enum { MESSAGE_SIZE = 256, MAX_OPTIONS = 80, OPTION_USES = 2 };
@@ -28,13 +29,20 @@ struct arguments {
   bool view_given, direction_given, eye_given, fov_given;
   bool ortho, landscape;
   bool seen[MAX_OPTIONS]; /* by the option's index in the table */
+
+  /* What the options' arrays refer to. */
+  ARRAY(char *) list; /* copies of the lists, which hold names of groups */
+  ARRAY(recto_pen_use) pen_use;
+  recto_pen pen[RECTO_PEN_MOST];
+  recto_weight weight[RECTO_EDGE_CLASS_COUNT];
 };
 
-/* Reads the command line.
+/* Reads the command line.  Call arguments_fini whatever is returned.
  * argv     is permuted: models last
  * message  set to the error where false is returned, without a newline */
 bool arguments_parse(struct arguments *arguments, int argc, char **argv,
                      char message[MESSAGE_SIZE]);
+void arguments_fini(struct arguments *arguments);
 
 /* ---- The table of options ------------------------------------------------ */
 
@@ -47,6 +55,8 @@ enum option_kind {
   OPTION_INT,     /* an int in [least, most] */
   OPTION_VECTOR,  /* a double[3]; not 0,0,0 where `least` is above 0 */
   OPTION_WORD,    /* an enumerator, by its index in `words` */
+  OPTION_LIST,    /* NAME=VALUE,..., each taken by `take_item`, or `words`, if
+                     any, for an empty list; repeated, it adds to the list */
   OPTION_TAKE,    /* parsed by `take` */
   OPTION_ABSENT   /* known, but not available in this build */
 };
@@ -64,6 +74,9 @@ struct option_entry {
   double least, most;
   const char *words;
   bool (*take)(struct arguments *arguments, const char *text);
+  /* The name stays valid. */
+  recto_status (*take_item)(struct arguments *arguments, const char *name,
+                            const char *value);
   /* The conditions under which the option has an effect: all of them. */
   const struct option_use *use[OPTION_USES];
 };

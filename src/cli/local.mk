@@ -3,6 +3,7 @@ recto_SOURCES += \
   %D%/arguments.c %D%/arguments.h \
   %D%/descriptors.c %D%/descriptors.h \
   %D%/help.c \
+  %D%/lists.c %D%/lists.h \
   %D%/main.c \
   %D%/message.c %D%/message.h \
   %D%/options.c \

@@ -5,18 +5,15 @@
 #include "cli/run.h"
 #include "cli/message.h"
 
-int main(int argc, char **argv) {
-  struct arguments arguments;
+static int run(struct arguments *arguments, int argc, char **argv) {
   char message[MESSAGE_SIZE];
-  if (!descriptors_reserve())
-    return EXIT_FAILED; /* and there is nowhere to say so */
-  if (!arguments_parse(&arguments, argc, argv, message)) {
+  if (!arguments_parse(arguments, argc, argv, message)) {
     message_print("", 0, message);
     return EXIT_USAGE;
   }
-  if (!arguments.help && !arguments.version)
-    return cli_run(&arguments);
-  if (arguments.help)
+  if (!arguments->help && !arguments->version)
+    return cli_run(arguments);
+  if (arguments->help)
     help_print();
   else
     printf("recto %s\n", recto_version());
@@ -25,4 +22,13 @@ int main(int argc, char **argv) {
     return EXIT_FAILED;
   }
   return EXIT_DONE;
+}
+
+int main(int argc, char **argv) {
+  struct arguments arguments;
+  if (!descriptors_reserve())
+    return EXIT_FAILED; /* and there is nowhere to say so */
+  int code = run(&arguments, argc, argv);
+  arguments_fini(&arguments);
+  return code;
 }

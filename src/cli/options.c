@@ -6,7 +6,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "cli/arguments.h"
+#include "cli/lists.h"
 #include "cli/option_scope.h"
 #include "cli/value.h"
 
@@ -273,19 +273,23 @@ const struct option_entry option_table[] = {
     {OPTION_INT, "pens", 0, "N", "a number from 1 to 1000",
      "deal the groups to so many pens (1)", .offset = AT(options.pens),
      .least = 1, .most = 1000, .use = {&used_by_strokes}},
-    {OPTION_TEXT, "pen-for", 0, "LIST", "a list such as crease=2",
+    {OPTION_LIST, "pen-for", 0, "LIST",
+     "names and their pens, 1 to 1000, such as crease=2",
      "silhouette=2,hidden=3,hatch=4,GROUP=5: their pens",
-     .offset = AT(options.pen_for), .use = {&used_by_strokes}},
-    {OPTION_TEXT, "pen-width", 0, "LIST", "a list such as 2=0.5mm",
-     "2=0.5mm,3=0.7: widths of pens (--pen)", .offset = AT(options.pen_widths),
+     .take_item = lists_add_pen_use, .use = {&used_by_strokes}},
+    {OPTION_LIST, "pen-width", 0, "LIST",
+     "pens and their widths, 0.01 to 100 mm, such as 2=0.5mm",
+     "2=0.5mm,3=0.7: widths of pens (--pen)", .take_item = lists_set_width,
      .use = {&used_by_pen}},
-    {OPTION_TEXT, "pen-colour", 0, "LIST", "a list such as 2=#c00",
-     "2=#c00,3=00ff00: colours of pens (black)",
-     .offset = AT(options.pen_colours),
+    {OPTION_LIST, "pen-colour", 0, "LIST",
+     "pens and their colours, such as 2=#c00 or 2=#cc0000",
+     "2=#c00,3=00ff00: colours of pens (black)", .take_item = lists_set_colour,
      .use = {&used_by_strokes, &used_by_screens}},
-    {OPTION_TEXT, "weights", 0, "LIST", "a list such as silhouette=2, or none",
+    {OPTION_LIST, "weights", 0, "LIST",
+     "classes and their weights, 0.01 to 100, such as crease=2, or none",
      "widths of classes in pens (silhouette=2,border=2)",
-     .offset = AT(options.weights), .use = {&used_by_lines, &used_by_screens}},
+     .given = AT(options.has_weights), .words = "none",
+     .take_item = lists_set_weight, .use = {&used_by_lines, &used_by_screens}},
     {OPTION_WORD, "order", 0, "HOW", "none or near",
      "near (default for HPGL): short ways with the pen up",
      .offset = AT(options.order), .words = "none near",

@@ -145,10 +145,7 @@ bool value_scale(const char *text, double *scale) {
 
 /* ---- Words --------------------------------------------------------------- */
 
-/* The classes of the word [text, text + length); 0 where it is none. */
 static unsigned find_class(const char *text, size_t length) {
-  if (length == 3 && memcmp(text, "all", 3) == 0)
-    return RECTO_EDGES_ALL;
   for (unsigned i = 0; i < RECTO_EDGE_CLASS_COUNT; i++) {
     const char *name = recto_edge_class_name((recto_edge_class)(1u << i));
     if (strlen(name) == length && memcmp(name, text, length) == 0)
@@ -157,12 +154,17 @@ static unsigned find_class(const char *text, size_t length) {
   return 0;
 }
 
+unsigned value_edge_class(const char *name) {
+  return find_class(name, strlen(name));
+}
+
 bool value_edges(const char *text, unsigned *edges) {
   unsigned mask = RECTO_EDGES_NONE;
   if (strcmp(text, "none") != 0)
     for (;;) {
       size_t length = strcspn(text, ",");
-      unsigned found = find_class(text, length);
+      bool all = length == 3 && memcmp(text, "all", 3) == 0;
+      unsigned found = all ? RECTO_EDGES_ALL : find_class(text, length);
       if (found == 0)
         return false;
       mask |= found;

@@ -34,6 +34,9 @@ bool value_scale(const char *text, double *scale);
 /* A comma-separated list of edge classes, all, or none, as a mask. */
 bool value_edges(const char *text, unsigned *edges);
 
+/* The class of that name; 0: there is none. */
+unsigned value_edge_class(const char *name);
+
 /* One of the space-separated words, its index. */
 bool value_word(const char *text, const char *words, int *index);
 

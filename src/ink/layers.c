@@ -1,5 +1,4 @@
-/* layers.c - the layers of a drawing: one for each pen, one for hidden lines.
- * */
+/* layers.c - the layers of a drawing: one a pen, one for hidden lines. */
 #include "ink/layers.h"
 
 #include <stdio.h>
@@ -8,9 +7,7 @@
 #include "base/sort.h"
 
 #define BLACK 0x000000u
-#define GREY                                                                   \
-  0x808080u /* hidden lines on a screen; a pen has its own colour              \
-             */
+#define GREY 0x808080u /* of hidden lines on a screen */
 
 /* Appends as much of `text` as fits, without splitting a UTF-8 sequence. */
 static void append(char label[], size_t size, const char *text) {
@@ -69,9 +66,11 @@ static void label_pen(struct drawing_layer *layer, const struct pens *pens,
 
 static bool add_layer(struct drawing *drawing, const struct pens *pens,
                       uint32_t usual_colour) {
-  uint32_t pen = (uint32_t)drawing->layer.count, own = pens->own[pen].colour;
+  uint32_t pen = (uint32_t)drawing->layer.count;
+  bool own = pen < pens->own_count && pens->own[pen].has_colour;
   struct drawing_layer layer = {.pen = pen + 1,
-                                .colour = own != PENS_NONE ? own : usual_colour,
+                                .colour =
+                                    own ? pens->own[pen].colour : usual_colour,
                                 .width_mm = pens_width_mm(pens, pen)};
   (void)snprintf(layer.label, sizeof layer.label, "%u", layer.pen);
   return ARRAY_PUSH(&drawing->layer, layer);

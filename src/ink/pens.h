@@ -1,5 +1,5 @@
 /* pens.h - which pen draws what, with which width and colour, and the weights
- * of the classes of lines, from the lists in the options.
+ * of the classes of lines.
  *
  * The pen of a line is the first of these that is given: the one for hidden
  * lines or for hatching, the one of its class, the one of its group.  Otherwise
@@ -10,13 +10,7 @@
 #include "drawing/drawing.h"
 #include "scene/scene.h"
 
-#define PENS_MOST 1000
 #define PENS_NONE UINT32_MAX
-
-struct pens_own {
-  double width_mm; /* 0: the width of all pens */
-  uint32_t colour; /* 0xRRGGBB; PENS_NONE: the default */
-};
 
 struct pens {
   /* Pens are numbered from 0; PENS_NONE where none is given. */
@@ -26,17 +20,17 @@ struct pens {
   size_t group_count;
   uint32_t count;       /* one more than the highest pen in use */
   bool several;         /* visible lines may be on more than one pen */
-  struct pens_own *own; /* PENS_MOST + 1 of them */
+  const recto_pen *own; /* of the first own_count pens; lent by the options */
+  size_t own_count;
   double weight[RECTO_EDGE_CLASS_COUNT]; /* in pen widths, by the index of
                                             the bit */
-  unsigned weighed;             /* mask of the classes with a weight in the
-                                   list */
-  double width_mm, shortest_mm; /* from the options */
+  double width_mm, shortest_mm;          /* from the options */
 };
 
-/* Parses the lists.  Call pens_fini whatever the status.
- * Errors  RECTO_ERROR_ARGUMENT: a list is malformed, has two values for a name,
- *         or a name that is neither a class nor a group; RECTO_ERROR_MEMORY. */
+/* Call pens_fini whatever the status.
+ * options  in range (options_take), valid until pens_fini
+ * Errors   RECTO_ERROR_ARGUMENT: a pen is for a group that the scene does not
+ *          have; RECTO_ERROR_MEMORY. */
 USE_RESULT recto_status pens_init(struct pens *pens, const struct scene *scene,
                                   const recto_options *options,
                                   recto_error *error);

@@ -44,10 +44,9 @@ static void warn_unused_looks(const struct pens *pens,
                               const recto_options *options) {
   uint32_t first = PENS_NONE;
   unsigned others = 0;
-  for (uint32_t pen = 0; pen < PENS_MOST; pen++) {
-    const struct pens_own *own = &pens->own[pen];
-    if ((own->width_mm == 0 && own->colour == PENS_NONE) ||
-        is_used(pens, options, pen))
+  for (uint32_t pen = 0; pen < pens->own_count; pen++) {
+    const recto_pen *own = &pens->own[pen];
+    if ((own->width_mm == 0 && !own->has_colour) || is_used(pens, options, pen))
       continue;
     others += first != PENS_NONE;
     first = first == PENS_NONE ? pen : first;
@@ -75,9 +74,9 @@ void pens_warn_unused(const struct pens *pens, const recto_options *options) {
       warn(options, "pen %u is for %s lines, which are not asked for",
            pens->of_class[i] + 1,
            recto_edge_class_name((recto_edge_class)(1u << i)));
-  for (unsigned i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
-    if (pens->weighed >> i & 1 && !pens_is_drawn(options, i))
+  for (size_t i = 0; i < options->weight_count; i++)
+    if ((options->edges & options->weight[i].edge_class) == 0)
       warn(options, "a weight is for %s lines, which are not asked for",
-           recto_edge_class_name((recto_edge_class)(1u << i)));
+           recto_edge_class_name(options->weight[i].edge_class));
   warn_unused_looks(pens, options);
 }

@@ -18,6 +18,7 @@ bool render_options(recto_options *options, int argc, char **argv,
   static struct arguments arguments;
   char message[MESSAGE_SIZE];
   optind = 0; /* getopt starts anew */
+  arguments_fini(&arguments);
   if (!arguments_parse(&arguments, argc, argv, message)) {
     fuzz_found(finding, "the command line is refused: %s", message);
     return false;

@@ -117,6 +117,7 @@ static void run(const uint8_t *bytes, size_t count,
   char message[MESSAGE_SIZE] = "";
   split(&words, bytes, count);
   optind = 0; /* getopt starts anew */
+  arguments_fini(&arguments);
   if (!arguments_parse(&arguments, words.argc, words.argv, message)) {
     if (*message == '\0')
       fuzz_found(finding, "refused without a reason");

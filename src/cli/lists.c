@@ -1,0 +1,163 @@
+/* lists.c - parses lists of pens, widths, colours and weights. */
+#include "cli/lists.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/value.h"
+
+/* ---- Items --------------------------------------------------------------- */
+
+static bool is_pen(const char *text, int *pen) {
+  return value_int(text, pen) && *pen >= 1 && *pen <= RECTO_PEN_MOST;
+}
+
+/* A name that is neither hidden, hatch nor a class is that of a group: the
+ * library knows them. */
+recto_status lists_add_pen_use(struct arguments *a, const char *name,
+                               const char *value) {
+  recto_pen_use use = {.edge_class = (recto_edge_class)value_edge_class(name),
+                       .group = name};
+  use.lines = strcmp(name, "hidden") == 0  ? RECTO_LINES_HIDDEN
+              : strcmp(name, "hatch") == 0 ? RECTO_LINES_HATCH
+              : use.edge_class != 0        ? RECTO_LINES_OF_CLASS
+                                           : RECTO_LINES_OF_GROUP;
+  if (!is_pen(value, &use.pen))
+    return RECTO_ERROR_ARGUMENT;
+  if (!ARRAY_PUSH(&a->pen_use, use))
+    return RECTO_ERROR_MEMORY;
+  a->options.pen_use = a->pen_use.item;
+  a->options.pen_use_count = a->pen_use.count;
+  return RECTO_OK;
+}
+
+/* The pen of that name among those of the options; NULL: there is none. */
+static recto_pen *find_pen(struct arguments *a, const char *name) {
+  int pen;
+  if (!is_pen(name, &pen))
+    return NULL;
+  a->options.pen = a->pen;
+  if (a->options.pen_count < (size_t)pen)
+    a->options.pen_count = (size_t)pen;
+  return &a->pen[pen - 1];
+}
+
+recto_status lists_set_width(struct arguments *a, const char *name,
+                             const char *value) {
+  recto_pen *pen = find_pen(a, name);
+  double mm;
+  if (pen == NULL || !value_length(value, &mm) ||
+      !(mm >= RECTO_FINEST_MM && mm <= 100))
+    return RECTO_ERROR_ARGUMENT;
+  pen->width_mm = mm;
+  return RECTO_OK;
+}
+
+/* #c00 is #cc0000. */
+recto_status lists_set_colour(struct arguments *a, const char *name,
+                              const char *value) {
+  recto_pen *pen = find_pen(a, name);
+  const char *digits = value + (*value == '#');
+  size_t count = strlen(digits);
+  if (pen == NULL || strspn(digits, "0123456789abcdefABCDEF") != count ||
+      (count != 3 && count != 6))
+    return RECTO_ERROR_ARGUMENT;
+  uint32_t read = (uint32_t)strtoul(digits, NULL, 16);
+  pen->has_colour = true;
+  pen->colour = count == 6 ? read
+                           : (read & 0xf00) * 0x1100 + (read & 0xf0) * 0x110 +
+                                 (read & 0xf) * 0x11;
+  return RECTO_OK;
+}
+
+recto_status lists_set_weight(struct arguments *a, const char *name,
+                              const char *value) {
+  recto_weight weight = {.edge_class =
+                             (recto_edge_class)value_edge_class(name)};
+  size_t place = 0;
+  if (weight.edge_class == 0 || !value_number(value, &weight.weight) ||
+      !(weight.weight >= 0.01 && weight.weight <= 100))
+    return RECTO_ERROR_ARGUMENT;
+  while (place < a->options.weight_count &&
+         a->weight[place].edge_class != weight.edge_class)
+    place++;
+  a->weight[place] = weight;
+  a->options.weight = a->weight;
+  if (a->options.weight_count == place)
+    a->options.weight_count++;
+  return RECTO_OK;
+}
+
+/* ---- Lists --------------------------------------------------------------- */
+
+/* The value that an earlier item of the list gives to the name, where it is a
+ * different one; else NULL.
+ * first  the list's first name; NUL ends each name and each value */
+static const char *find_other_value(const char *first, const char *name,
+                                    const char *value) {
+  while (first < name) {
+    const char *its = first + strlen(first) + 1;
+    if (strcmp(first, name) == 0 && strcmp(its, value) != 0)
+      return its;
+    first = its + strlen(its) + 1;
+  }
+  return NULL;
+}
+
+static bool refuse(const struct option_entry *entry, const char *item,
+                   char message[MESSAGE_SIZE]) {
+  snprintf(message, MESSAGE_SIZE, "--%s: expected %s, not \"%.60s\"",
+           entry->name, entry->expected, item);
+  return false;
+}
+
+/* Cuts the list into names and values, in place, and takes them. */
+static bool take_items(struct arguments *arguments,
+                       const struct option_entry *entry, char *list,
+                       char message[MESSAGE_SIZE]) {
+  for (char *name = list, *end; name != NULL; name = end) {
+    end = strchr(name, ',');
+    if (end != NULL)
+      *end++ = '\0';
+    char *value = strrchr(name, '=');
+    if (value == NULL || value == name || value[1] == '\0')
+      return refuse(entry, name, message);
+    *value++ = '\0';
+    const char *other = find_other_value(list, name, value);
+    if (other != NULL) {
+      snprintf(message, MESSAGE_SIZE,
+               "--%s: two values for one name: \"%.60s=%.20s\" and "
+               "\"%.60s=%.20s\"",
+               entry->name, name, other, name, value);
+      return false;
+    }
+    recto_status status = entry->take_item(arguments, name, value);
+    if (status == RECTO_ERROR_MEMORY) {
+      snprintf(message, MESSAGE_SIZE, "out of memory");
+      return false;
+    }
+    if (status != RECTO_OK) {
+      value[-1] = '=';
+      return refuse(entry, name, message);
+    }
+  }
+  return true;
+}
+
+bool lists_take(struct arguments *arguments, const struct option_entry *entry,
+                const char *text, char message[MESSAGE_SIZE]) {
+  if (entry->words != NULL && strcmp(text, entry->words) == 0) {
+    arguments->options.weight_count = 0;
+    return true;
+  }
+  size_t size = strlen(text) + 1;
+  char *list = mem_alloc(size, 1);
+  if (list == NULL || !ARRAY_PUSH(&arguments->list, list)) {
+    mem_free(list);
+    snprintf(message, MESSAGE_SIZE, "out of memory");
+    return false;
+  }
+  memcpy(list, text, size);
+  return take_items(arguments, entry, list, message);
+}
