@@ -61,6 +61,37 @@ enum option_kind {
   OPTION_ABSENT   /* known, but not available in this build */
 };
 
+/* What uses an option: see the table in option_scope.c. */
+enum option_use {
+  USED_ALWAYS,
+  USED_BY_DRAWING,
+  USED_BY_WATKINS,
+  USED_BY_WARNOCK,
+  USED_BY_LINES_OF_PIXELS,
+  USED_BY_PIXELS,
+  USED_BY_ZBUFFERS,
+  USED_BY_CONTACT,
+  USED_BY_TARGET,
+  USED_BY_FOV,
+  USED_BY_SCALE,
+  USED_BY_LINES,
+  USED_BY_LINES_AND_CHECK,
+  USED_BY_STROKES,
+  USED_BY_STROKES_AND_CHECK,
+  USED_BY_CREASE,
+  USED_BY_SEAM,
+  USED_BY_HATCH,
+  USED_BY_ONE_PITCH,
+  USED_BY_LIGHT,
+  USED_BY_SVG,
+  USED_BY_SCREENS,
+  USED_BY_CAIRO,
+  USED_BY_PNG,
+  USED_BY_PLOTTER,
+  USED_BY_STATS,
+  USED_BY_CHECK
+};
+
 struct option_entry {
   enum option_kind kind;
   const char *name;     /* long, without dashes */
@@ -78,7 +109,7 @@ struct option_entry {
   recto_status (*take_item)(struct arguments *arguments, const char *name,
                             const char *value);
   /* The conditions under which the option has an effect: all of them. */
-  const struct option_use *use[OPTION_USES];
+  enum option_use use[OPTION_USES];
 };
 
 /* The table, of less than MAX_OPTIONS, ended by an entry without help and

@@ -8,247 +8,143 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- Requests ------------------------------------------------------------ */
+/* ---- What a command line requests, as bits ------------------------------- */
 
-static const char *name_method(const struct arguments *a) {
-  return recto_method_name(a->options.method);
-}
+#define BIT(n) ((uint64_t)1 << (n))
+#define METHOD(name) BIT(RECTO_METHOD_##name)
+#define FILL(name) BIT(16 + RECTO_FILL_##name)
+#define FIT(name) BIT(20 + RECTO_FIT_##name)
+#define EDGES(mask) ((uint64_t)(mask) << 24)
+enum { EYE = 32, NAMED_VIEW, PERSPECTIVE, NO_LIGHT, WARNOCK_PIXELS };
+enum { SVG = 40, HPGL, PNG, PAGES /* pdf, eps, ps */ };
+enum { STATS = 48, CHECK, BY_CHECK };
+
+#define METHODS (METHOD(COUNT) - 1)
+#define FILLS (FILL(NONE) | FILL(PAINT) | FILL(SHADE) | FILL(HATCH))
+#define FITS (FIT(PAGE) | FIT(NONE) | FIT(SCALE))
+#define FORMATS (BIT(SVG) | BIT(HPGL) | BIT(PNG) | BIT(PAGES))
+#define LINES EDGES(RECTO_EDGES_ALL)
+#define ZBUFFERS (METHOD(ZBUFFER) | METHOD(SCANLINE_ZBUFFER))
+#define PAINTERS (METHOD(PAINTER) | METHOD(PAINTER_GIVEN))
 
 static const char *name_format(const struct arguments *a) {
   const char *name = recto_output_format(a->output, a->format);
   return name != NULL ? name : "this format";
 }
 
-static const char *name_fill(const struct arguments *a) {
-  static const char *const name[] = {"--fill none", "--fill paint",
-                                     "--fill shade", "--fill hatch"};
-  return name[a->options.fill];
+static uint64_t find_requests(const struct arguments *a) {
+  const recto_options *o = &a->options;
+  const char *format = name_format(a);
+  uint64_t bits =
+      BIT(o->method) | BIT(16 + o->fill) | BIT(20 + o->fit) | EDGES(o->edges);
+  bits |= BIT(o->camera == RECTO_CAMERA_EYE ? EYE : NAMED_VIEW);
+  bits |= BIT(strcmp(format, "svg") == 0    ? SVG
+              : strcmp(format, "hpgl") == 0 ? HPGL
+              : strcmp(format, "png") == 0  ? PNG
+                                            : PAGES);
+  if (o->fov_deg > 0)
+    bits |= BIT(PERSPECTIVE);
+  if (o->light[0] == 0 && o->light[1] == 0 && o->light[2] == 0)
+    bits |= BIT(NO_LIGHT);
+  if (o->method == RECTO_METHOD_WARNOCK && o->resolution > 0)
+    bits |= BIT(WARNOCK_PIXELS);
+  if (a->stats)
+    bits |= BIT(STATS);
+  if (a->check_file != NULL)
+    bits |= BIT(CHECK);
+  return bits;
 }
 
-static const char *name_fit(const struct arguments *a) {
-  static const char *const name[] = {"--fit", "--no-fit", "--scale"};
-  return name[a->options.fit];
-}
+/* ---- The conditions ------------------------------------------------------ */
 
-static const char *name_edges(const struct arguments *a) {
-  return a->options.edges == RECTO_EDGES_NONE ? "--edges none" : "this --edges";
-}
-
-static const char *name_light(const struct arguments *a) {
-  (void)a;
-  return "hatching by --light";
-}
-
-static const char *name_check(const struct arguments *a) {
-  (void)a;
-  return "a run without --check";
-}
-
-static const char *name_run(const struct arguments *a) {
-  (void)a;
-  return "a run without --stats";
-}
-
-/* ---- Methods ------------------------------------------------------------- */
-
-static bool is_watkins(const struct arguments *a) {
-  return a->options.method == RECTO_METHOD_WATKINS;
-}
-
-static bool is_warnock(const struct arguments *a) {
-  return a->options.method == RECTO_METHOD_WARNOCK;
-}
-
-static bool is_zbuffer(const struct arguments *a) {
-  return a->options.method == RECTO_METHOD_ZBUFFER ||
-         a->options.method == RECTO_METHOD_SCANLINE_ZBUFFER;
-}
-
-static bool has_lines_of_pixels(const struct arguments *a) {
-  return is_zbuffer(a) || is_warnock(a);
-}
-
-static bool is_in_pixels(const struct arguments *a) {
-  return is_zbuffer(a) || (is_warnock(a) && a->options.resolution > 0);
-}
-
-/* The judge uses it too, with any method. */
-static bool compares_depths(const struct arguments *a) {
-  return a->check_file != NULL ||
-         (a->options.method != RECTO_METHOD_PAINTER &&
-          a->options.method != RECTO_METHOD_PAINTER_GIVEN);
-}
-
-const struct option_use used_by_drawing = {.by = "drawings"};
-const struct option_use used_by_watkins = {"watkins", is_watkins, name_method,
-                                           false};
-const struct option_use used_by_warnock = {"warnock", is_warnock, name_method,
-                                           false};
-const struct option_use used_by_lines_of_pixels = {
-    "zbuffer, scanline-zbuffer and warnock", has_lines_of_pixels, name_method,
-    false};
-const struct option_use used_by_pixels = {
-    "zbuffer, scanline-zbuffer and warnock with --resolution", is_in_pixels,
-    name_method, false};
-const struct option_use used_by_depths = {"zbuffer and scanline-zbuffer",
-                                          is_zbuffer, name_method, false};
-const struct option_use used_by_contact = {"methods that compare depths",
-                                           compares_depths, name_method, true};
-
-/* ---- Camera and page ----------------------------------------------------- */
-
-static bool aims(const struct arguments *a) {
-  return a->options.camera == RECTO_CAMERA_EYE || a->options.fov_deg > 0 ||
-         a->options.fit != RECTO_FIT_PAGE;
-}
-
-/* With other fits it only makes the view a perspective. */
-static bool has_angle(const struct arguments *a) {
-  return a->options.camera == RECTO_CAMERA_DIRECTION ||
-         a->options.fit == RECTO_FIT_NONE;
-}
-
-static bool has_scale(const struct arguments *a) {
-  return a->options.fit == RECTO_FIT_SCALE;
-}
-
-const struct option_use used_by_target = {
-    "--camera, --fov, --no-fit and --scale", aims, name_fit, true};
-const struct option_use used_by_fov = {"named views and for --no-fit",
-                                       has_angle, name_fit, true};
-const struct option_use used_by_scale = {"true scale", has_scale, name_fit,
-                                         true};
-
-/* ---- Ink ----------------------------------------------------------------- */
-
-static bool has_lines(const struct arguments *a) {
-  return a->options.edges != RECTO_EDGES_NONE;
-}
-
-static bool is_hatched(const struct arguments *a) {
-  return a->options.fill == RECTO_FILL_HATCH;
-}
-
-static bool has_strokes(const struct arguments *a) {
-  return has_lines(a) || is_hatched(a);
-}
-
-/* Fills end where faces meet at a crease. */
-static bool has_creases(const struct arguments *a) {
-  const unsigned told_apart = RECTO_EDGE_CREASE | RECTO_EDGE_SMOOTH;
-  return (a->options.edges & told_apart) != 0 ||
-         a->options.fill != RECTO_FILL_NONE;
-}
-
-static bool is_coloured(const struct arguments *a) {
-  return a->options.fill == RECTO_FILL_PAINT ||
-         a->options.fill == RECTO_FILL_SHADE;
-}
-
-static bool has_no_light(const struct arguments *a) {
-  const double *light = a->options.light;
-  return light[0] == 0 && light[1] == 0 && light[2] == 0;
-}
-
-static bool is_lit(const struct arguments *a) {
-  return a->options.fill == RECTO_FILL_SHADE || is_hatched(a);
-}
-
-const struct option_use used_by_lines = {"lines", has_lines, name_edges, false};
-const struct option_use used_by_lines_and_check = {"lines", has_lines,
-                                                   name_edges, true};
-const struct option_use used_by_strokes = {"lines and hatching", has_strokes,
-                                           name_edges, false};
-const struct option_use used_by_pen = {"lines and hatching", has_strokes,
-                                       name_edges, true};
-const struct option_use used_by_crease = {
-    "edges of the classes crease and smooth and for fills", has_creases,
-    name_edges, true};
-const struct option_use used_by_seam = {"--fill paint and --fill shade",
-                                        is_coloured, name_fill, false};
-const struct option_use used_by_hatch = {"--fill hatch", is_hatched, name_fill,
-                                         false};
-const struct option_use used_by_one_pitch = {"hatching of one pitch",
-                                             has_no_light, name_light, false};
-const struct option_use used_by_light = {"--fill shade and --fill hatch",
-                                         is_lit, name_fill, false};
-
-/* ---- Files and reports --------------------------------------------------- */
-
-static bool is_format(const struct arguments *a, const char *name) {
-  return strcmp(name_format(a), name) == 0;
-}
-
-static bool is_svg(const struct arguments *a) { return is_format(a, "svg"); }
-static bool is_png(const struct arguments *a) { return is_format(a, "png"); }
-static bool is_screen(const struct arguments *a) {
-  return !is_format(a, "hpgl");
-}
-
-static bool is_cairo(const struct arguments *a) {
-  return !is_svg(a) && is_screen(a);
-}
-
-static bool has_check(const struct arguments *a) {
-  return a->check_file != NULL;
-}
-
-static bool has_stats(const struct arguments *a) { return a->stats; }
-
-static bool is_plotted(const struct arguments *a) {
-  return !is_screen(a) || has_stats(a);
-}
-
-const struct option_use used_by_svg = {"svg", is_svg, name_format, false};
-const struct option_use used_by_screens = {"svg, pdf, eps, ps and png",
-                                           is_screen, name_format, false};
-const struct option_use used_by_cairo = {"pdf, eps, ps and png", is_cairo,
-                                         name_format, false};
-const struct option_use used_by_png = {"png", is_png, name_format, false};
-const struct option_use used_by_plotter = {"hpgl and --stats", is_plotted,
-                                           name_format, false};
-const struct option_use used_by_stats = {"the time in --stats", has_stats,
-                                         name_run, false};
-
-const struct option_use used_by_check = {"--check", has_check, name_check,
-                                         true};
+/* An option has an effect where one of the bits is requested, and with --check
+ * where also BY_CHECK is among them. */
+static const struct {
+  const char *by; /* what uses the option, for messages */
+  uint64_t bits;
+} condition[] = {
+    [USED_BY_DRAWING] = {"drawings", ~BIT(BY_CHECK)},
+    [USED_BY_WATKINS] = {"watkins", METHOD(WATKINS)},
+    [USED_BY_WARNOCK] = {"warnock", METHOD(WARNOCK)},
+    [USED_BY_LINES_OF_PIXELS] = {"zbuffer, scanline-zbuffer and warnock",
+                                 ZBUFFERS | METHOD(WARNOCK)},
+    [USED_BY_PIXELS] = {"zbuffer, scanline-zbuffer and warnock with "
+                        "--resolution",
+                        ZBUFFERS | BIT(WARNOCK_PIXELS)},
+    [USED_BY_ZBUFFERS] = {"zbuffer and scanline-zbuffer", ZBUFFERS},
+    [USED_BY_CONTACT] = {"methods that compare depths",
+                         (METHODS & ~PAINTERS) | BIT(CHECK) | BIT(BY_CHECK)},
+    [USED_BY_TARGET] = {"--camera, --fov, --no-fit and --scale",
+                        BIT(EYE) | BIT(PERSPECTIVE) | FIT(NONE) | FIT(SCALE) |
+                            BIT(BY_CHECK)},
+    /* With other fits it only makes the view a perspective. */
+    [USED_BY_FOV] = {"named views and for --no-fit",
+                     BIT(NAMED_VIEW) | FIT(NONE) | BIT(BY_CHECK)},
+    [USED_BY_SCALE] = {"true scale", FIT(SCALE) | BIT(BY_CHECK)},
+    [USED_BY_LINES] = {"lines", LINES},
+    [USED_BY_LINES_AND_CHECK] = {"lines", LINES | BIT(BY_CHECK)},
+    [USED_BY_STROKES] = {"lines and hatching", LINES | FILL(HATCH)},
+    [USED_BY_STROKES_AND_CHECK] = {"lines and hatching",
+                                   LINES | FILL(HATCH) | BIT(BY_CHECK)},
+    /* Fills end where faces meet at a crease. */
+    [USED_BY_CREASE] = {"edges of the classes crease and smooth and for fills",
+                        EDGES(RECTO_EDGE_CREASE | RECTO_EDGE_SMOOTH) |
+                            (FILLS & ~FILL(NONE)) | BIT(BY_CHECK)},
+    [USED_BY_SEAM] = {"--fill paint and --fill shade",
+                      FILL(PAINT) | FILL(SHADE)},
+    [USED_BY_HATCH] = {"--fill hatch", FILL(HATCH)},
+    [USED_BY_ONE_PITCH] = {"hatching of one pitch", BIT(NO_LIGHT)},
+    [USED_BY_LIGHT] = {"--fill shade and --fill hatch",
+                       FILL(SHADE) | FILL(HATCH)},
+    [USED_BY_SVG] = {"svg", BIT(SVG)},
+    [USED_BY_SCREENS] = {"svg, pdf, eps, ps and png",
+                         BIT(SVG) | BIT(PNG) | BIT(PAGES)},
+    [USED_BY_CAIRO] = {"pdf, eps, ps and png", BIT(PNG) | BIT(PAGES)},
+    [USED_BY_PNG] = {"png", BIT(PNG)},
+    [USED_BY_PLOTTER] = {"hpgl and --stats", BIT(HPGL) | BIT(STATS)},
+    [USED_BY_STATS] = {"the time in --stats", BIT(STATS)},
+    [USED_BY_CHECK] = {"--check", BIT(CHECK) | BIT(BY_CHECK)},
+};
 
 /* ---- Warnings ------------------------------------------------------------ */
 
-/* The request that is there instead of the one needed; NULL: the condition is
- * met. */
-static const char *find_lack(const struct arguments *arguments,
-                             const struct option_use *use) {
-  if (arguments->check_file != NULL && !use->by_check)
-    return "--check";
-  if (use->is_met == NULL || use->is_met(arguments))
-    return NULL;
-  return use->instead(arguments);
-}
-
-/* The first condition of the option that is not met; NULL: there is none.
- * lack  set to what the command line requests instead */
-static const struct option_use *find_use(const struct arguments *arguments,
-                                         const struct option_entry *entry,
-                                         const char **lack) {
-  for (int i = 0; i < OPTION_USES && entry->use[i] != NULL; i++)
-    if ((*lack = find_lack(arguments, entry->use[i])) != NULL)
-      return entry->use[i];
-  return NULL;
+/* What the command line requests instead of one of the bits. */
+static const char *name_instead(const struct arguments *a, uint64_t bits) {
+  static const char *const fill[] = {"--fill none", "--fill paint",
+                                     "--fill shade", "--fill hatch"};
+  static const char *const fit[] = {"--fit", "--no-fit", "--scale"};
+  if (bits & METHODS)
+    return recto_method_name(a->options.method);
+  if (bits & FORMATS)
+    return name_format(a);
+  if (bits & LINES)
+    return a->options.edges == RECTO_EDGES_NONE ? "--edges none"
+                                                : "this --edges";
+  if (bits & FILLS)
+    return fill[a->options.fill];
+  if (bits & FITS)
+    return fit[a->options.fit];
+  return bits & BIT(NO_LIGHT) ? "hatching by --light"
+         : bits & BIT(STATS)  ? "a run without --stats"
+                              : "a run without --check";
 }
 
 void option_scope_warn(const struct arguments *arguments,
                        option_scope_warn_fn warn) {
+  uint64_t requests = find_requests(arguments);
   for (int i = 0; !option_is_end(&option_table[i]); i++) {
     const struct option_entry *entry = &option_table[i];
-    const char *lack;
-    const struct option_use *use =
-        arguments->seen[i] ? find_use(arguments, entry, &lack) : NULL;
-    if (use == NULL)
-      continue;
-    char text[MESSAGE_SIZE];
-    snprintf(text, sizeof text, "--%s is for %s; %s does not use it",
-             entry->name, use->by, lack);
-    warn("", 0, text);
+    for (int k = 0; arguments->seen[i] && k < OPTION_USES; k++) {
+      uint64_t bits = condition[entry->use[k]].bits;
+      bool checks = requests & BIT(CHECK) && !(bits & BIT(BY_CHECK));
+      if (entry->use[k] == USED_ALWAYS || (!checks && bits & requests))
+        continue;
+      char text[MESSAGE_SIZE];
+      snprintf(text, sizeof text, "--%s is for %s; %s does not use it",
+               entry->name, condition[entry->use[k]].by,
+               checks ? "--check" : name_instead(arguments, bits));
+      warn("", 0, text);
+      break;
+    }
   }
 }

@@ -1,6 +1,6 @@
 #!/bin/bash
-# test_uses.sh - an option that the request does not use is reported, in
-# one line; one that is used is not.
+# test_options_without_effect.sh - an option that has no effect on what is
+# requested is reported, in one line; one that has an effect is not.
 . "$(dirname "$0")/tap.sh"
 cd "$scratch" || exit 1
 
