@@ -5,8 +5,7 @@ librecto_core_la_SOURCES += \
   %D%/progress.c %D%/progress.h \
   %D%/quantitative_invisibility.c %D%/quantitative_invisibility.h \
   %D%/solver.c %D%/solver.h \
-  %D%/brute/brute.c \
-  %D%/fragments/face_occluders.c %D%/fragments/face_occluders.h \
+  %D%/brute/brute.c %D%/brute/brute.h \
   %D%/fragments/fragments.c %D%/fragments/fragments.h \
   %D%/fragments/line_index.c %D%/fragments/line_index.h \
   %D%/fragments/occluder_subtraction.c %D%/fragments/occluder_subtraction.h \

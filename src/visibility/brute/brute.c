@@ -5,9 +5,11 @@
  *
  * Source  [Appel1967] decides visibility edge by edge as well.
  */
-#include "visibility/fragments/occluder_subtraction.h"
+#include "visibility/brute/brute.h"
+#include "visibility/fragments/fragments.h"
 #include "visibility/intersection/intersection.h"
 #include "visibility/predicate/edge_intervals.h"
+#include "visibility/predicate/triangle_pair.h"
 #include "visibility/progress.h"
 #include "visibility/solver.h"
 
@@ -52,36 +54,82 @@ end:
   return ok;
 }
 
+void brute_pieces_fini(struct brute_pieces *pieces) {
+  ARRAY_FREE(&pieces->left);
+  ARRAY_FREE(&pieces->scratch);
+  arena_fini(&pieces->arena);
+}
+
+/* Subtracts triangle g from the pieces of f where it is nearer. */
+static bool subtract(struct brute_pieces *pieces, const struct sheet *sheet,
+                     const struct triangle_plane *plane, uint32_t f,
+                     uint32_t g) {
+  struct triangle_plane other = triangle_plane_of(sheet, g);
+  struct geom_line *line = arena_alloc(&pieces->arena, 8, sizeof *line);
+  if (line == NULL)
+    return false;
+  enum depth_order order =
+      triangle_depth_order(plane, f, &other, g, &line[3], &line[7]);
+  if (order == NEARER_NEVER)
+    return true;
+  triangle_lines(sheet, g, line, line + 4);
+  pieces->scratch.count = 0;
+  for (size_t i = 0; i < pieces->left.count; i++) {
+    struct geom_convex inside;
+    if (!geom_convex_subtract(&pieces->left.item[i], line, line + 4,
+                              order == NEARER_ALWAYS ? 3 : 4, &pieces->scratch,
+                              &inside, &pieces->arena))
+      return false;
+    pieces->whole &= inside.count == 0;
+  }
+  geom_pieces swap = pieces->left;
+  pieces->left = pieces->scratch;
+  pieces->scratch = swap;
+  return true;
+}
+
+bool brute_subtract_all(struct brute_pieces *pieces, const struct sheet *sheet,
+                        uint32_t f, struct progress *progress) {
+  size_t n = sheet->triangle.count;
+  struct triangle_plane plane = triangle_plane_of(sheet, f);
+  struct geom_convex piece;
+  arena_reset(&pieces->arena);
+  struct geom_line *line = arena_alloc(&pieces->arena, 6, sizeof *line);
+  if (line == NULL)
+    return false;
+  triangle_lines(sheet, f, line, line + 3);
+  pieces->left.count = 0;
+  pieces->whole = true;
+  if (!geom_convex_triangle(&piece, plane.p, line, &pieces->arena) ||
+      !ARRAY_PUSH(&pieces->left, piece))
+    return false;
+  for (uint32_t g = 0; g < n; g++)
+    if (!progress_step(progress, 1 + pieces->left.count) ||
+        (g != f && !is_flat(sheet, g) && !triangles_disjoint(sheet, f, g) &&
+         !subtract(pieces, sheet, &plane, f, g)))
+      return false;
+  return true;
+}
+
 static bool solve_fragments(const struct sheet *sheet,
                             const struct triangle_grid *grid,
                             bool exact_corners, struct map *map,
                             struct report *report, struct progress *progress) {
-  size_t n = sheet->triangle.count;
   struct fragments fragments;
-  struct occluder_subtraction subtraction;
-  bool ok = false;
-  occluder_subtraction_init(&subtraction, sheet);
-  if (!fragments_init(&fragments, sheet, grid, true))
-    return false;
+  struct brute_pieces pieces = {0};
+  bool ok = fragments_init(&fragments, sheet, grid, true);
   fragments.progress = progress;
   fragments.report = report;
-  for (size_t f = 0; f < n; f++) {
-    if (is_flat(sheet, f))
-      continue;
-    if (!occluder_subtraction_start(&subtraction, (uint32_t)f, NULL))
-      goto end;
-    for (size_t g = 0; g < n; g++)
-      if (g != f && !is_flat(sheet, g) &&
-          (!progress_step_at(progress, 1 + subtraction.left.count, f, n) ||
-           !occluder_subtraction_take_nearer(&subtraction, (uint32_t)g)))
-        goto end;
-    if (!occluder_subtraction_store(&subtraction, &fragments))
-      goto end;
+  for (uint32_t f = 0; ok && f < sheet->triangle.count; f++) {
+    progress->share = (double)f / (double)sheet->triangle.count;
+    if (!is_flat(sheet, f))
+      ok = brute_subtract_all(&pieces, sheet, f, progress) &&
+           (pieces.whole ? fragments_add_whole(&fragments, f)
+                         : fragments_add(&fragments, f, pieces.left.item,
+                                         pieces.left.count));
   }
-  ok = fragments_finish(&fragments, exact_corners, map);
-end:
-  occluder_subtraction_report(&subtraction, report);
-  occluder_subtraction_fini(&subtraction);
+  ok = ok && fragments_finish(&fragments, exact_corners, map);
+  brute_pieces_fini(&pieces);
   fragments_fini(&fragments);
   return ok;
 }

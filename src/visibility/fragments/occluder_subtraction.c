@@ -1,7 +1,13 @@
-/* occluder_subtraction.c - subtracts nearer triangles from one triangle, one
- * after another. */
+/* occluder_subtraction.c - subtracts occluding triangles from one triangle.
+ *
+ * Most candidates are rejected by their bounding boxes, by their depth ranges,
+ * by a side that separates the two triangles on the page, or by a
+ * floating-point filter on their planes; the rest is decided by exact
+ * arithmetic.  Every decision is exact.
+ */
 #include "visibility/fragments/occluder_subtraction.h"
 
+#include <math.h>
 #include <string.h>
 
 void occluder_subtraction_init(struct occluder_subtraction *subtraction,
@@ -11,9 +17,26 @@ void occluder_subtraction_init(struct occluder_subtraction *subtraction,
 }
 
 void occluder_subtraction_fini(struct occluder_subtraction *subtraction) {
+  ARRAY_FREE(&subtraction->occluder);
   ARRAY_FREE(&subtraction->left);
+  ARRAY_FREE(&subtraction->rest);
+  ARRAY_FREE(&subtraction->next);
+  ARRAY_FREE(&subtraction->region);
+  ARRAY_FREE(&subtraction->extent);
   ARRAY_FREE(&subtraction->scratch);
+  ARRAY_FREE(&subtraction->key);
   arena_fini(&subtraction->arena);
+}
+
+static void find_depths(const struct geom_point p[3], int64_t *low,
+                        int64_t *high) {
+  *low = *high = p[0].z;
+  for (int k = 1; k < 3; k++) {
+    if (p[k].z < *low)
+      *low = p[k].z;
+    if (p[k].z > *high)
+      *high = p[k].z;
+  }
 }
 
 bool occluder_subtraction_start(struct occluder_subtraction *subtraction,
@@ -22,119 +45,249 @@ bool occluder_subtraction_start(struct occluder_subtraction *subtraction,
   arena_reset(&subtraction->arena);
   subtraction->triangle = triangle;
   subtraction->plane = triangle_plane_of(subtraction->sheet, triangle);
+  subtraction->filter = plane_filter_of(subtraction->sheet, triangle);
   subtraction->box = box2_of_triangle(subtraction->sheet, triangle);
-  subtraction->left.count = 0;
+  find_depths(subtraction->plane.p, &subtraction->low, &subtraction->high);
+  subtraction->covered = subtraction->interpenetrating = false;
+  subtraction->occluder.count = subtraction->left.count = 0;
   subtraction->whole = part == NULL;
   if (part != NULL)
     return ARRAY_PUSH(&subtraction->left, *part);
+  struct geom_convex piece;
   struct geom_line *line = arena_alloc(&subtraction->arena, 6, sizeof *line);
   if (line == NULL)
     return false;
   triangle_lines(subtraction->sheet, triangle, line, line + 3);
-  struct geom_convex piece;
   return geom_convex_triangle(&piece, subtraction->plane.p, line,
                               &subtraction->arena) &&
          ARRAY_PUSH(&subtraction->left, piece);
 }
 
-/* Returns whether some piece has, for each line, a corner to its left;
- * otherwise the region to the left of all lines overlaps no piece. */
-static bool may_overlap(const struct occluder_subtraction *subtraction,
-                        const struct geom_line *line, int count) {
-  for (size_t i = 0; i < subtraction->left.count; i++) {
-    const struct geom_convex *piece = &subtraction->left.item[i];
-    int k = 0;
-    for (; k < count; k++) {
-      uint32_t c = 0;
-      while (c < piece->count &&
-             geom_line_side(&line[k], &piece->corner[c]) <= 0)
-        c++;
-      if (c == piece->count)
-        break;
-    }
-    if (k == count)
-      return true;
+/* ---- Collecting the occluders -------------------------------------------- */
+
+/* As plane_sides, by the floating-point filter; -1 where it fails. */
+static int filtered_plane_sides(const struct plane_filter *plane,
+                                const struct geom_point p[3]) {
+  int sides = 0;
+  for (int k = 0; k < 3; k++) {
+    int sign = plane_filter_sign(plane, p[k]);
+    if (sign == 0)
+      return -1;
+    sides |= sign < 0 ? PLANE_BEHIND : PLANE_IN_FRONT;
   }
-  return false;
+  return sides;
+}
+
+/* Decides by the floating-point filter how triangle g lies relative to the
+ * current one.  Returns false where the filter fails. */
+static bool filtered_depth_order(const struct occluder_subtraction *subtraction,
+                                 uint32_t g, const struct geom_point p[3],
+                                 enum depth_order *depth_order) {
+  int sides = filtered_plane_sides(&subtraction->filter, p);
+  if (sides == PLANE_BEHIND || sides == PLANE_IN_FRONT) {
+    *depth_order = sides == PLANE_BEHIND ? NEARER_NEVER : NEARER_ALWAYS;
+    return true;
+  }
+  struct plane_filter plane = plane_filter_of(subtraction->sheet, g);
+  int others = filtered_plane_sides(&plane, subtraction->plane.p);
+  if (others == PLANE_BEHIND || others == PLANE_IN_FRONT) {
+    *depth_order = others == PLANE_BEHIND ? NEARER_ALWAYS : NEARER_NEVER;
+    return true;
+  }
+  *depth_order = NEARER_ON_LEFT;
+  return sides >= 0 && others >= 0;
+}
+
+/* Returns whether triangle g contains triangle f on the page. */
+static bool contains_triangle(const struct geom_point g[3],
+                              const struct geom_point f[3]) {
+  for (int k = 0; k < 3; k++)
+    for (int i = 0; i < 3; i++)
+      if (geom_orient2d(g[k], g[k == 2 ? 0 : k + 1], f[i]) < 0)
+        return false;
+  return true;
+}
+
+bool occluder_subtraction_collect(struct occluder_subtraction *subtraction,
+                                  uint32_t g) {
+  const struct sheet *sheet = subtraction->sheet;
+  struct triangle_plane plane;
+  struct box2 box = box2_of_triangle(sheet, g);
+  struct face_occluder occluder = {.triangle = g, .sides = 3, .box = box};
+  struct geom_line line, back;
+  enum depth_order depth_order = NEARER_ALWAYS;
+  int64_t low, high;
+  if (box2_disjoint(subtraction->box, box))
+    return true;
+  subtraction->counts.pairs++;
+  for (int k = 0; k < 3; k++)
+    plane.p[k] = sheet->point.item[sheet->triangle.item[g].point[k]];
+  find_depths(plane.p, &low, &high);
+  if (high < subtraction->low ||
+      triangles_disjoint(sheet, subtraction->triangle, g))
+    return true;
+  subtraction->counts.overlapping++;
+  if (low <= subtraction->high &&
+      !filtered_depth_order(subtraction, g, plane.p, &depth_order)) {
+    subtraction->counts.exact++;
+    subtraction->interpenetrating = true;
+    plane = triangle_plane_of(sheet, g);
+    depth_order = triangle_depth_order(
+        &subtraction->plane, subtraction->triangle, &plane, g, &line, &back);
+  }
+  if (depth_order == NEARER_NEVER)
+    return true;
+  if (depth_order == NEARER_ON_LEFT) {
+    subtraction->counts.crossings++;
+    subtraction->interpenetrating = true;
+    occluder.crosses = true;
+  } else if (contains_triangle(plane.p, subtraction->plane.p)) {
+    subtraction->covered = true;
+  }
+  return ARRAY_PUSH(&subtraction->occluder, occluder);
+}
+
+/* ---- Occluders and convex pieces ----------------------------------------- */
+
+/* How many lines bound an occluder, and so where the reversed ones start. */
+static int line_count(const struct face_occluder *occluder) {
+  return occluder->sides + occluder->crosses;
+}
+
+bool face_occluder_make_lines(struct occluder_subtraction *subtraction,
+                              struct face_occluder *occluder) {
+  if (occluder->line != NULL)
+    return true;
+  int count = line_count(occluder);
+  struct geom_line *line =
+      arena_alloc(&subtraction->arena, 2 * (size_t)count, sizeof *line);
+  if (line == NULL)
+    return false;
+  triangle_lines(subtraction->sheet, occluder->triangle, line, line + count);
+  occluder->line = line;
+  return true;
+}
+
+/* How much of a piece lies in a region. */
+enum coverage { COVERAGE_NONE, COVERAGE_PARTIAL, COVERAGE_FULL };
+
+/* How much of a piece lies to the left of a line. */
+static enum coverage coverage_of_line(const struct geom_line *line,
+                                      const struct geom_convex *piece) {
+  bool left = false, all = true;
+  for (uint32_t c = 0; c < piece->count; c++) {
+    int side = geom_line_side(line, &piece->corner[c]);
+    left |= side > 0;
+    all &= side >= 0;
+  }
+  return !left ? COVERAGE_NONE : all ? COVERAGE_FULL : COVERAGE_PARTIAL;
+}
+
+/* As coverage_of_line for the line in which the planes intersect, which is
+ * computed only where the floating-point filter fails for some corner. */
+static enum coverage
+coverage_of_crossing(const struct occluder_subtraction *subtraction,
+                     struct face_occluder *occluder,
+                     const struct geom_convex *piece) {
+  struct geom_line *line = &occluder->line[occluder->sides];
+  if (!occluder->crossing_made) {
+    int sum = 0, count = (int)piece->count;
+    struct plane_filter filter =
+        plane_filter_of(subtraction->sheet, occluder->triangle);
+    for (uint32_t c = 0; c < piece->count; c++)
+      sum += plane_filter_nearer(&subtraction->filter, &filter,
+                                 piece->corner[c].x, piece->corner[c].y);
+    if (sum == count || sum == -count)
+      return sum > 0 ? COVERAGE_FULL : COVERAGE_NONE;
+    struct triangle_plane plane =
+        triangle_plane_of(subtraction->sheet, occluder->triangle);
+    (void)geom_line_between(line, &plane.plane, &subtraction->plane.plane);
+    struct geom_line *back = line + line_count(occluder);
+    *back = *line;
+    geom_line_reverse(back);
+    occluder->crossing_made = true;
+  }
+  return coverage_of_line(line, piece);
+}
+
+/* How much of a piece an occluder covers: COVERAGE_NONE and COVERAGE_FULL are
+ * certain, COVERAGE_PARTIAL may turn out to be nothing.
+ * lines  receives how many of the occluder's lines bound the region to
+ *        subtract: that of the crossing only if it splits the piece */
+static enum coverage coverage_of(const struct occluder_subtraction *subtraction,
+                                 struct face_occluder *occluder,
+                                 const struct geom_convex *piece, int *lines) {
+  const struct box2 *box = &occluder->box;
+  enum coverage coverage = COVERAGE_FULL;
+  *lines = occluder->sides;
+  if (piece->x1 < box->x0 || piece->x0 > box->x1 || piece->y1 < box->y0 ||
+      piece->y0 > box->y1)
+    return COVERAGE_NONE;
+  for (int k = 0; k < occluder->sides; k++) {
+    enum coverage now = coverage_of_line(&occluder->line[k], piece);
+    if (now < coverage)
+      coverage = now;
+    if (now == COVERAGE_NONE)
+      return now;
+  }
+  if (occluder->crosses) {
+    enum coverage now = coverage_of_crossing(subtraction, occluder, piece);
+    if (now < coverage)
+      coverage = now;
+    *lines += now == COVERAGE_PARTIAL;
+  }
+  return coverage;
+}
+
+bool face_occluder_covers(const struct occluder_subtraction *subtraction,
+                          struct face_occluder *occluder,
+                          const struct geom_convex *piece) {
+  int lines;
+  return coverage_of(subtraction, occluder, piece, &lines) == COVERAGE_FULL;
+}
+
+bool face_occluder_subtract(struct occluder_subtraction *subtraction,
+                            geom_pieces *pieces,
+                            struct face_occluder *occluder) {
+  if (!face_occluder_make_lines(subtraction, occluder))
+    return false;
+  subtraction->next.count = 0;
+  for (size_t i = 0; i < pieces->count; i++) {
+    const struct geom_convex *piece = &pieces->item[i];
+    struct geom_convex inside = {0};
+    int lines;
+    enum coverage coverage = coverage_of(subtraction, occluder, piece, &lines);
+    if (coverage == COVERAGE_NONE) {
+      if (!ARRAY_PUSH(&subtraction->next, *piece))
+        return false;
+      continue;
+    }
+    if (coverage == COVERAGE_PARTIAL &&
+        !geom_convex_subtract(piece, occluder->line,
+                              occluder->line + line_count(occluder), lines,
+                              &subtraction->next, &inside, &subtraction->arena))
+      return false;
+    subtraction->counts.subtractions++;
+    if (coverage == COVERAGE_FULL || inside.count > 0)
+      subtraction->whole = false;
+  }
+  geom_pieces swap = *pieces;
+  *pieces = subtraction->next;
+  subtraction->next = swap;
+  return true;
 }
 
 bool occluder_subtraction_take(struct occluder_subtraction *subtraction,
-                               const struct geom_line *line,
-                               const struct geom_line *back, int count) {
-  if (!may_overlap(subtraction, line, count))
-    return true;
-  struct geom_line *copy =
-      arena_alloc(&subtraction->arena, 2 * (size_t)count, sizeof *copy);
-  if (copy == NULL)
-    return false;
-  memcpy(copy, line, (size_t)count * sizeof *copy);
-  memcpy(copy + count, back, (size_t)count * sizeof *copy);
-  subtraction->scratch.count = 0;
-  for (size_t i = 0; i < subtraction->left.count; i++) {
-    struct geom_convex inside;
-    if (!geom_convex_subtract(&subtraction->left.item[i], copy, copy + count,
-                              count, &subtraction->scratch, &inside,
-                              &subtraction->arena))
-      return false;
-    if (inside.count > 0)
-      subtraction->whole = false;
-  }
-  geom_pieces swap = subtraction->left;
-  subtraction->left = subtraction->scratch;
-  subtraction->scratch = swap;
-  return true;
-}
-
-bool occluder_subtraction_keep(struct occluder_subtraction *subtraction,
-                               const struct geom_line *line,
-                               const struct geom_line *back, int count) {
-  size_t n = (size_t)count, kept = 0;
-  struct geom_line *copy =
-      arena_alloc(&subtraction->arena, 2 * n, sizeof *copy);
-  if (copy == NULL)
-    return false;
-  memcpy(copy, line, n * sizeof *copy);
-  memcpy(copy + n, back, n * sizeof *copy);
-  for (size_t i = 0; i < subtraction->left.count; i++) {
-    struct geom_convex part = subtraction->left.item[i];
-    uint32_t corners = part.count;
-    for (size_t k = 0; k < n && part.count > 0; k++) {
-      struct geom_convex inside, outside;
-      if (!geom_convex_split(&part, &copy[k], &copy[n + k], &inside, &outside,
-                             &subtraction->arena))
-        return false;
-      if (outside.count > 0)
-        corners = 0;
-      part = inside;
-    }
-    if (corners != part.count)
-      subtraction->whole = false;
-    if (part.count > 0)
-      subtraction->left.item[kept++] = part;
-  }
-  subtraction->left.count = kept;
-  return true;
+                               struct face_occluder *occluder) {
+  return face_occluder_subtract(subtraction, &subtraction->left, occluder);
 }
 
 bool occluder_subtraction_take_nearer(struct occluder_subtraction *subtraction,
                                       uint32_t g) {
-  struct geom_line line[4], back[4];
-  if (box2_disjoint(subtraction->box, box2_of_triangle(subtraction->sheet, g)))
-    return true;
-  subtraction->pairs++;
-  if (triangles_disjoint(subtraction->sheet, subtraction->triangle, g))
-    return true;
-  subtraction->overlapping++;
-  struct triangle_plane plane = triangle_plane_of(subtraction->sheet, g);
-  enum depth_order depth_order =
-      triangle_depth_order(&subtraction->plane, subtraction->triangle, &plane,
-                           g, &line[3], &back[3]);
-  if (depth_order == NEARER_NEVER)
-    return true;
-  subtraction->crossings += depth_order == NEARER_ON_LEFT;
-  triangle_lines(subtraction->sheet, g, line, back);
-  return occluder_subtraction_take(subtraction, line, back,
-                                   depth_order == NEARER_ALWAYS ? 3 : 4);
+  subtraction->occluder.count = 0;
+  return occluder_subtraction_collect(subtraction, g) &&
+         (subtraction->occluder.count == 0 ||
+          occluder_subtraction_take(subtraction, subtraction->occluder.item));
 }
 
 bool occluder_subtraction_store(struct occluder_subtraction *subtraction,
@@ -147,8 +300,11 @@ bool occluder_subtraction_store(struct occluder_subtraction *subtraction,
 
 void occluder_subtraction_report(const struct occluder_subtraction *subtraction,
                                  struct report *report) {
-  report_add(report, "faces", "pairs", (int64_t)subtraction->pairs);
-  report_add(report, "faces", "overlapping", (int64_t)subtraction->overlapping);
-  report_add(report, "faces", "depth_crossings",
-             (int64_t)subtraction->crossings);
+  const struct occluder_subtraction_counts *counts = &subtraction->counts;
+  report_add(report, "faces", "pairs", (int64_t)counts->pairs);
+  report_add(report, "faces", "overlapping", (int64_t)counts->overlapping);
+  report_add(report, "faces", "filter_failures", (int64_t)counts->exact);
+  report_add(report, "faces", "depth_crossings", (int64_t)counts->crossings);
+  report_add(report, "faces", "splits", (int64_t)counts->splits);
+  report_add(report, "faces", "cuts", (int64_t)counts->subtractions);
 }

@@ -1,59 +1,125 @@
-/* occluder_subtraction.h - subtracts nearer triangles from one triangle, one
- * after another.
+/* occluder_subtraction.h - subtracts occluding triangles from one triangle.
  *
- * The plain algorithm, on which the brute-force solver relies as the reference
- * for face_occluders.h.
+ * Either the occluders are subtracted one after another, as they are found; or
+ * all of them are collected first, and if there are many, the triangle is split
+ * recursively along sides of its occluders until few of them overlap each
+ * region (region_split.c).  Both give the same set of points, and the same as
+ * the plain subtraction of the brute-force solver, which shares none of this.
  */
 #ifndef VISIBILITY_FRAGMENTS_OCCLUDER_SUBTRACTION_H
 #define VISIBILITY_FRAGMENTS_OCCLUDER_SUBTRACTION_H
 
+#include "base/report.h"
+#include "base/sort.h"
 #include "visibility/predicate/triangle_pair.h"
 #include "visibility/fragments/fragments.h"
+#include "visibility/predicate/plane_filter.h"
+
+/* A triangle that is nearer than the current one, somewhere or everywhere
+ * within their overlap; or a convex part of it. */
+struct face_occluder {
+  uint32_t triangle;
+  int sides;    /* of the triangle, or of the part */
+  bool crosses; /* the planes intersect, and it occludes on one side only of
+                   the line where they do */
+  bool crossing_made;     /* that line is computed */
+  struct box2 box;        /* of the triangle */
+  struct geom_line *line; /* those of its sides, and the one of the crossing,
+                             the occluder being on their left; then the same
+                             reversed; NULL until face_occluder_make_lines */
+};
+
+/* The interval along a region's axis that may contain an occluder. */
+struct face_occluder_extent {
+  double from, to;
+  uint32_t occluder; /* index into occluder_subtraction.occluder */
+};
+
+/* The long axis of a region: a frame with coordinate u along it and v across
+ * it, the origin being a corner. */
+struct region_axis {
+  double x, y, dx, dy;   /* origin and unit vector, grid units */
+  double u0, u1, v0, v1; /* the region's extent, with a margin */
+  int splits; /* splits since the axis was computed from the region itself */
+};
+
+/* A convex region of the triangle, on the stack of regions.  The extents of its
+ * occluders are the last ones of the list when it is on top of the stack. */
+struct region {
+  struct geom_convex piece;
+  size_t first_extent;
+  struct region_axis axis; /* what the extents are measured along */
+};
+
+/* Counts for --stats, each of them monotone. */
+struct occluder_subtraction_counts {
+  uint64_t pairs;        /* triangles whose boxes overlap */
+  uint64_t overlapping;  /* of these, they share area and are not separated by
+                            their depth ranges */
+  uint64_t exact;        /* of these, the floating-point filter failed */
+  uint64_t crossings;    /* of these, the planes intersect */
+  uint64_t splits;       /* of triangles and regions by a line */
+  uint64_t subtractions; /* of an occluder from a piece */
+};
 
 struct occluder_subtraction {
   const struct sheet *sheet;
-  uint32_t triangle; /* the current one */
+  struct progress *progress; /* borrowed, not owned; NULL, the initial value:
+                                never polled */
+  uint32_t triangle;         /* the current one */
   struct triangle_plane plane;
+  struct plane_filter filter;
   struct box2 box;
-  geom_pieces left, scratch; /* what remains of it, in disjoint pieces */
-  bool whole;                /* nothing was subtracted yet */
-  /* Counts for --stats: pairs whose boxes overlap; of these, pairs that share
-   * area, so that their depth order was computed; of these, the planes
-   * intersect. */
-  uint64_t pairs, overlapping, crossings;
+  int64_t low, high;     /* its depth range */
+  bool covered;          /* one occluder alone hides all of it */
+  bool interpenetrating; /* it overlaps a triangle that is not entirely, and
+                            strictly, on one side of its plane */
+  ARRAY(struct face_occluder) occluder; /* those collected */
+  struct occluder_subtraction_counts counts;
+  geom_pieces left; /* what remains of it, in disjoint pieces */
+  bool whole;       /* nothing was subtracted */
   struct arena arena;
+  /* Scratch, and the state of the recursive split. */
+  geom_pieces next, rest;
+  ARRAY(struct region) region; /* a stack */
+  ARRAY(struct face_occluder_extent) extent, scratch;
+  ARRAY(struct sort_key) key;
 };
 
 void occluder_subtraction_init(struct occluder_subtraction *subtraction,
                                const struct sheet *sheet);
 void occluder_subtraction_fini(struct occluder_subtraction *subtraction);
 
-/* Makes a triangle, which is not flat, the current one.
+/* Makes a triangle, which is not flat, the current one, without occluders.
  * part  the part of it to start with; NULL: all of it
  * Returns false when memory ran out, as all functions below. */
 USE_RESULT bool
 occluder_subtraction_start(struct occluder_subtraction *subtraction,
                            uint32_t triangle, const struct geom_convex *part);
 
-/* Subtracts the region where triangle g, which is not flat, is nearer than the
- * current one.  Exact. */
+/* Tests whether triangle g, which is not flat and not the current one, occludes
+ * the current one, and collects it if it does.  Exact. */
+USE_RESULT bool
+occluder_subtraction_collect(struct occluder_subtraction *subtraction,
+                             uint32_t g);
+
+/* Subtracts all collected occluders from the triangle or its part
+ * (region_split.c), of which nothing was taken yet.
+ * Returns false also where the caller cancelled. */
+USE_RESULT bool
+occluder_subtraction_take_all(struct occluder_subtraction *subtraction);
+
+/* Subtracts the region where triangle g, which is not flat and not the current
+ * one, is nearer than the current one, without collecting it.  Exact. */
 USE_RESULT bool
 occluder_subtraction_take_nearer(struct occluder_subtraction *subtraction,
                                  uint32_t g);
 
-/* Subtracts the convex region to the left of `count` lines.
- * back  the same lines reversed; both are copied */
+/* Subtracts an occluder, which need not have been collected.
+ * occluder  its lines, if given, are to live as long as the pieces */
 USE_RESULT bool
 occluder_subtraction_take(struct occluder_subtraction *subtraction,
-                          const struct geom_line *line,
-                          const struct geom_line *back, int count);
-
-/* Intersects what remains with the convex region to the left of `count` lines.
- * back  the same lines reversed; both are copied */
-USE_RESULT bool
-occluder_subtraction_keep(struct occluder_subtraction *subtraction,
-                          const struct geom_line *line,
-                          const struct geom_line *back, int count);
+                          struct face_occluder *occluder);
 
 static inline bool
 occluder_subtraction_is_empty(const struct occluder_subtraction *subtraction) {
@@ -68,5 +134,25 @@ occluder_subtraction_store(struct occluder_subtraction *subtraction,
 /* Adds the counts to the report. */
 void occluder_subtraction_report(const struct occluder_subtraction *subtraction,
                                  struct report *report);
+
+/* ---- For region_split.c -------------------------------------------------- */
+
+/* Computes the lines of an occluder's sides unless that was done before; the
+ * line of the crossing is computed only when it is needed. */
+USE_RESULT bool
+face_occluder_make_lines(struct occluder_subtraction *subtraction,
+                         struct face_occluder *occluder);
+
+/* Returns whether an occluder whose lines are computed covers a whole piece.
+ * Exact. */
+bool face_occluder_covers(const struct occluder_subtraction *subtraction,
+                          struct face_occluder *occluder,
+                          const struct geom_convex *piece);
+
+/* Replaces disjoint pieces by what remains of them after subtracting an
+ * occluder. */
+USE_RESULT bool face_occluder_subtract(struct occluder_subtraction *subtraction,
+                                       geom_pieces *pieces,
+                                       struct face_occluder *occluder);
 
 #endif

@@ -16,7 +16,7 @@
  *   What remains is a union of convex pieces.  It is the same set of points
  *   whatever the regions were: the heuristics here only choose how to split.
  */
-#include "visibility/fragments/face_occluders.h"
+#include "visibility/fragments/occluder_subtraction.h"
 
 #include <math.h>
 #include <string.h>
@@ -105,12 +105,13 @@ static void extend_to_crossing(struct face_occluder_extent *extent,
 /* Finds the interval of the axis over which an occluder may overlap the
  * region's strip v0 <= v <= v1.  Returns whether it meets the region's own
  * interval. */
-static bool find_extent(const struct face_occluders *occluders,
+static bool find_extent(const struct occluder_subtraction *subtraction,
                         const struct region_axis *axis,
                         struct face_occluder_extent *extent) {
-  const struct sheet *sheet = occluders->sheet;
+  const struct sheet *sheet = subtraction->sheet;
   const uint32_t *point =
-      sheet->triangle.item[occluders->occluder.item[extent->occluder].triangle]
+      sheet->triangle
+          .item[subtraction->occluder.item[extent->occluder].triangle]
           .point;
   double p[3][2];
   extent->from = INFINITY;
@@ -137,15 +138,15 @@ static bool find_extent(const struct face_occluders *occluders,
 /* Recomputes the last `count` extents along a new axis and removes those that
  * do not meet the region.  Returns how many are left, at the end of the
  * list. */
-static size_t recompute_extents(struct face_occluders *occluders,
+static size_t recompute_extents(struct occluder_subtraction *subtraction,
                                 const struct region_axis *axis, size_t count) {
-  size_t from = occluders->extent.count - count, kept = from;
-  for (size_t i = from; i < occluders->extent.count; i++) {
-    struct face_occluder_extent extent = occluders->extent.item[i];
-    if (find_extent(occluders, axis, &extent))
-      occluders->extent.item[kept++] = extent;
+  size_t from = subtraction->extent.count - count, kept = from;
+  for (size_t i = from; i < subtraction->extent.count; i++) {
+    struct face_occluder_extent extent = subtraction->extent.item[i];
+    if (find_extent(subtraction, axis, &extent))
+      subtraction->extent.item[kept++] = extent;
   }
-  occluders->extent.count = kept;
+  subtraction->extent.count = kept;
   return kept - from;
 }
 
@@ -176,13 +177,13 @@ struct split_line {
 
 /* Finds the halves into which the line of a side splits a region, in doubles.
  * Returns whether the line crosses the region. */
-static bool find_halves(const struct face_occluders *occluders,
+static bool find_halves(const struct occluder_subtraction *subtraction,
                         const struct geom_convex *piece,
                         const struct region_axis *axis,
                         struct split_line *line) {
-  const struct sheet *sheet = occluders->sheet;
+  const struct sheet *sheet = subtraction->sheet;
   const uint32_t *point =
-      sheet->triangle.item[occluders->occluder.item[line->occluder].triangle]
+      sheet->triangle.item[subtraction->occluder.item[line->occluder].triangle]
           .point;
   const struct geom_point *a = &sheet->point.item[point[line->side]],
                           *b = &sheet->point.item[point[(line->side + 1) % 3]];
@@ -225,12 +226,12 @@ static double pairs_left(const struct face_occluder_extent *extent,
 
 /* Chooses the line that leaves the smallest share of the pairs.  Returns false
  * if no line is good enough. */
-static bool choose_split_line(const struct face_occluders *occluders,
+static bool choose_split_line(const struct occluder_subtraction *subtraction,
                               const struct geom_convex *piece,
                               const struct region_axis *axis, size_t count,
                               struct split_line *best) {
   const struct face_occluder_extent *extent =
-      occluders->extent.item + (occluders->extent.count - count);
+      subtraction->extent.item + (subtraction->extent.count - count);
   double least = PAIRS_LEFT_MAX;
   *best = (struct split_line){0};
   for (size_t i = 0; i < CANDIDATE_LINES && least > PAIRS_LEFT_GOOD; i++) {
@@ -239,7 +240,7 @@ static bool choose_split_line(const struct face_occluders *occluders,
             extent[(2 * i + 1) * count / (2 * CANDIDATE_LINES)].occluder};
     for (now.side = 0; now.side < 3; now.side++) {
       double left;
-      if (!find_halves(occluders, piece, axis, &now))
+      if (!find_halves(subtraction, piece, axis, &now))
         continue;
       left = pairs_left(extent, count, count / SAMPLE + 1, now.half);
       if (left >= least)
@@ -264,67 +265,69 @@ static struct axis_interval interval_of(const struct region_axis *axis,
 
 /* Pushes a region on the stack, without its extents.
  * axis  what the extents that follow are measured along */
-static bool push_region(struct face_occluders *occluders,
+static bool push_region(struct occluder_subtraction *subtraction,
                         const struct geom_convex *piece,
                         const struct region_axis *axis) {
-  struct region region = {*piece, occluders->extent.count, *axis};
-  return ARRAY_PUSH(&occluders->region, region);
+  struct region region = {*piece, subtraction->extent.count, *axis};
+  return ARRAY_PUSH(&subtraction->region, region);
 }
 
 /* Splits a region and pushes both halves with their extents, which replace the
  * last `count` ones, those of the region.
  * done  false if the split leaves more pairs than the sample had suggested, and
  *       too many; nothing was changed then */
-static bool split_region(struct face_occluders *occluders,
+static bool split_region(struct occluder_subtraction *subtraction,
                          const struct geom_convex *piece,
                          const struct region_axis *axis, size_t count,
                          const struct split_line *line, bool *done) {
-  struct face_occluder *occluder = &occluders->occluder.item[line->occluder];
+  struct face_occluder *occluder = &subtraction->occluder.item[line->occluder];
   struct geom_convex half[2];
   struct axis_interval interval[2];
-  size_t own = occluders->extent.count - count;
+  size_t own = subtraction->extent.count - count;
   *done = false;
-  if (!face_occluder_make_lines(occluders, occluder) ||
-      !geom_convex_split(piece, &occluder->line[line->side],
-                         &occluder->line[occluder->lines + line->side],
-                         &half[0], &half[1], &occluders->arena))
+  if (!face_occluder_make_lines(subtraction, occluder) ||
+      !geom_convex_split(
+          piece, &occluder->line[line->side],
+          &occluder->line[occluder->sides + occluder->crosses + line->side],
+          &half[0], &half[1], &subtraction->arena))
     return false;
   for (int h = 0; h < 2; h++)
     interval[h] = interval_of(axis, &half[h]);
   if (half[0].count == 0 || half[1].count == 0 ||
-      pairs_left(occluders->extent.item + own, count, 1, interval) >
+      pairs_left(subtraction->extent.item + own, count, 1, interval) >
           PAIRS_LEFT_SPLIT)
     return true;
-  occluders->scratch.count = 0;
-  if (!ARRAY_RESERVE(&occluders->scratch, count) ||
-      !ARRAY_RESERVE(&occluders->extent, count))
+  subtraction->scratch.count = 0;
+  if (!ARRAY_RESERVE(&subtraction->scratch, count) ||
+      !ARRAY_RESERVE(&subtraction->extent, count))
     return false;
-  memcpy(occluders->scratch.item, occluders->extent.item + own,
-         count * sizeof *occluders->scratch.item);
-  occluders->extent.count = own;
+  memcpy(subtraction->scratch.item, subtraction->extent.item + own,
+         count * sizeof *subtraction->scratch.item);
+  subtraction->extent.count = own;
   for (int h = 0; h < 2; h++) {
     struct region_axis own_axis = *axis;
     own_axis.splits++;
     own_axis.u0 = interval[h].from;
     own_axis.u1 = interval[h].to;
-    if (!push_region(occluders, &half[h], &own_axis))
+    if (!push_region(subtraction, &half[h], &own_axis))
       return false;
     for (size_t i = 0; i < count; i++)
-      if (overlaps(&interval[h], &occluders->scratch.item[i]))
-        occluders->extent.item[occluders->extent.count++] =
-            occluders->scratch.item[i];
+      if (overlaps(&interval[h], &subtraction->scratch.item[i]))
+        subtraction->extent.item[subtraction->extent.count++] =
+            subtraction->scratch.item[i];
   }
-  occluders->counts.splits++;
+  subtraction->counts.splits++;
   *done = true;
   return true;
 }
 
 /* Returns true only if some corner of the piece lies outside the occluder: a
  * filter in doubles with an error bound. */
-static bool is_surely_not_contained(const struct face_occluders *occluders,
-                                    const struct face_occluder *occluder,
-                                    const struct geom_convex *piece) {
-  const struct sheet *sheet = occluders->sheet;
+static bool
+is_surely_not_contained(const struct occluder_subtraction *subtraction,
+                        const struct face_occluder *occluder,
+                        const struct geom_convex *piece) {
+  const struct sheet *sheet = subtraction->sheet;
   const uint32_t *point = sheet->triangle.item[occluder->triangle].point;
   for (int k = 0; k < 3; k++) {
     const struct geom_point *a = &sheet->point.item[point[k]],
@@ -340,30 +343,30 @@ static bool is_surely_not_contained(const struct face_occluders *occluders,
 }
 
 /* Decides whether a single one of its occluders covers the region. */
-static bool find_single_occluder(struct face_occluders *occluders, size_t count,
-                                 const struct geom_convex *piece,
+static bool find_single_occluder(struct occluder_subtraction *subtraction,
+                                 size_t count, const struct geom_convex *piece,
                                  bool *covered) {
   const struct face_occluder_extent *extent =
-      occluders->extent.item + (occluders->extent.count - count);
+      subtraction->extent.item + (subtraction->extent.count - count);
   *covered = false;
   for (size_t i = 0; i < count && !*covered; i++) {
     struct face_occluder *occluder =
-        &occluders->occluder.item[extent[i].occluder];
-    if (is_surely_not_contained(occluders, occluder, piece))
+        &subtraction->occluder.item[extent[i].occluder];
+    if (is_surely_not_contained(subtraction, occluder, piece))
       continue;
-    if (!face_occluder_make_lines(occluders, occluder))
+    if (!face_occluder_make_lines(subtraction, occluder))
       return false;
-    *covered = face_occluder_covers(occluders, occluder, piece);
+    *covered = face_occluder_covers(subtraction, occluder, piece);
   }
   return true;
 }
 
 /* Returns which of the last `count` extents is the longest within the region,
  * if it is at least LONG_SHARE of it; otherwise `count`. */
-static size_t find_long_extent(const struct face_occluders *occluders,
+static size_t find_long_extent(const struct occluder_subtraction *subtraction,
                                const struct region_axis *axis, size_t count) {
   const struct face_occluder_extent *extent =
-      occluders->extent.item + (occluders->extent.count - count);
+      subtraction->extent.item + (subtraction->extent.count - count);
   double most = LONG_SHARE * (axis->u1 - axis->u0);
   size_t longest = count;
   for (size_t i = 0; i < count; i++) {
@@ -377,34 +380,58 @@ static size_t find_long_extent(const struct face_occluders *occluders,
   return longest;
 }
 
+/* Subtracts the occluders of the last `count` extents from a piece, one after
+ * another, and appends what remains to subtraction->left. */
+static bool subtract_last(struct occluder_subtraction *subtraction,
+                          const struct geom_convex *piece, size_t count) {
+  const struct face_occluder_extent *extent =
+      subtraction->extent.item + (subtraction->extent.count - count);
+  geom_pieces *rest = &subtraction->rest;
+  rest->count = 0;
+  if (!ARRAY_PUSH(rest, *piece))
+    return false;
+  for (size_t i = 0; i < count && rest->count > 0; i++)
+    if (!face_occluder_subtract(
+            subtraction, rest, &subtraction->occluder.item[extent[i].occluder]))
+      return false;
+  for (size_t k = 0; k < rest->count; k++)
+    if (!ARRAY_PUSH(&subtraction->left, rest->item[k]))
+      return false;
+  return true;
+}
+
 /* Subtracts the occluder of one of the last `count` extents from the region,
  * and pushes each remaining piece with the other extents. */
-static bool subtract_one(struct face_occluders *occluders,
+static bool subtract_one(struct occluder_subtraction *subtraction,
                          const struct geom_convex *piece, size_t count,
                          size_t which) {
-  size_t own = occluders->extent.count - count, others = count - 1;
+  size_t own = subtraction->extent.count - count, others = count - 1;
   struct face_occluder *occluder =
-      &occluders->occluder.item[occluders->extent.item[own + which].occluder];
-  occluders->next.count = 0;
-  if (!face_occluder_subtract(occluders, piece, occluder))
+      &subtraction->occluder
+           .item[subtraction->extent.item[own + which].occluder];
+  geom_pieces *rest = &subtraction->rest;
+  rest->count = 0;
+  if (!ARRAY_PUSH(rest, *piece) ||
+      !face_occluder_subtract(subtraction, rest, occluder))
     return false;
-  occluders->extent.item[own + which] = occluders->extent.item[own + others];
-  occluders->extent.count = own + others;
-  if (occluders->next.count == 0)
-    occluders->extent.count = own;
-  for (size_t i = 0; i < occluders->next.count; i++) {
-    struct region region = {occluders->next.item[i],
-                            occluders->extent.count - others, no_axis};
-    if (!ARRAY_PUSH(&occluders->region, region))
+  subtraction->extent.item[own + which] =
+      subtraction->extent.item[own + others];
+  subtraction->extent.count = own + others;
+  if (rest->count == 0)
+    subtraction->extent.count = own;
+  for (size_t i = 0; i < rest->count; i++) {
+    struct region region = {rest->item[i], subtraction->extent.count - others,
+                            no_axis};
+    if (!ARRAY_PUSH(&subtraction->region, region))
       return false;
-    if (i + 1 == occluders->next.count)
+    if (i + 1 == rest->count)
       break;
-    if (!ARRAY_RESERVE(&occluders->extent, others))
+    if (!ARRAY_RESERVE(&subtraction->extent, others))
       return false;
-    memcpy(occluders->extent.item + occluders->extent.count,
-           occluders->extent.item + (occluders->extent.count - others),
-           others * sizeof *occluders->extent.item);
-    occluders->extent.count += others;
+    memcpy(subtraction->extent.item + subtraction->extent.count,
+           subtraction->extent.item + (subtraction->extent.count - others),
+           others * sizeof *subtraction->extent.item);
+    subtraction->extent.count += others;
   }
   return true;
 }
@@ -414,94 +441,98 @@ static bool subtract_one(struct face_occluders *occluders,
  * done   whether the region was dropped as hidden, or replaced by smaller ones;
  *        false: the occluders of the last *count extents are to be
  *        subtracted */
-static bool reduce_region(struct face_occluders *occluders,
+static bool reduce_region(struct occluder_subtraction *subtraction,
                           struct region *region, size_t *count, bool *done) {
   const struct geom_convex *piece = &region->piece;
   struct split_line line;
   size_t longest;
   if (region->axis.splits >= AXIS_SPLITS_MAX) {
     region->axis = axis_of(piece);
-    *count = recompute_extents(occluders, &region->axis, *count);
+    *count = recompute_extents(subtraction, &region->axis, *count);
   }
-  if (!find_single_occluder(occluders, *count, piece, done))
+  if (!find_single_occluder(subtraction, *count, piece, done))
     return false;
   if (*done) {
-    occluders->whole = false;
-    occluders->extent.count -= *count;
+    subtraction->whole = false;
+    subtraction->extent.count -= *count;
     return true;
   }
   if (*count <= SMALL_LIST_MAX)
     return true;
-  longest = find_long_extent(occluders, &region->axis, *count);
+  longest = find_long_extent(subtraction, &region->axis, *count);
   if (longest < *count) {
     *done = true;
-    return subtract_one(occluders, piece, *count, longest);
+    return subtract_one(subtraction, piece, *count, longest);
   }
-  if (!choose_split_line(occluders, piece, &region->axis, *count, &line)) {
+  if (!choose_split_line(subtraction, piece, &region->axis, *count, &line)) {
     if (region->axis.splits == 0)
       return true;
     region->axis = no_axis; /* try again along its own axis */
     *done = true;
-    return ARRAY_PUSH(&occluders->region, *region);
+    return ARRAY_PUSH(&subtraction->region, *region);
   }
-  return split_region(occluders, piece, &region->axis, *count, &line, done);
+  return split_region(subtraction, piece, &region->axis, *count, &line, done);
 }
 
-static bool solve_region(struct face_occluders *occluders) {
-  struct region region = occluders->region.item[--occluders->region.count];
-  size_t count = occluders->extent.count - region.first_extent;
+static bool solve_region(struct occluder_subtraction *subtraction) {
+  struct region region = subtraction->region.item[--subtraction->region.count];
+  size_t count = subtraction->extent.count - region.first_extent;
   bool ok = false;
-  if (count > SMALL_LIST_MAX && !reduce_region(occluders, &region, &count, &ok))
+  if (count > SMALL_LIST_MAX &&
+      !reduce_region(subtraction, &region, &count, &ok))
     return false;
   if (ok)
     return true;
-  if (!face_occluders_subtract_last(occluders, &region.piece, count))
+  if (!subtract_last(subtraction, &region.piece, count))
     return false;
-  occluders->extent.count = region.first_extent;
+  subtraction->extent.count = region.first_extent;
   return true;
 }
 
 /* Work per region, in the units of progress.h. */
 enum { REGION_WORK = 256 };
 
+/* The area that two overlapping boxes share, in square grid units. */
+static double shared_area(struct box2 a, struct box2 b) {
+  double width = (double)box2_min(a.x1, b.x1) - box2_max(a.x0, b.x0);
+  double height = (double)box2_min(a.y1, b.y1) - box2_max(a.y0, b.y0);
+  return width * height;
+}
+
 /* Lists all occluders, those that may cover the largest area first: what they
  * cover need not be split again. */
-static bool list_all_occluders(struct face_occluders *occluders) {
-  size_t n = occluders->occluder.count;
-  occluders->extent.count = occluders->key.count = 0;
-  if (!ARRAY_RESERVE(&occluders->extent, n) ||
-      !ARRAY_RESERVE(&occluders->key, 2 * n))
+static bool list_all_occluders(struct occluder_subtraction *subtraction) {
+  size_t n = subtraction->occluder.count;
+  subtraction->extent.count = subtraction->key.count = 0;
+  if (!ARRAY_RESERVE(&subtraction->extent, n) ||
+      !ARRAY_RESERVE(&subtraction->key, 2 * n))
     return false;
   for (size_t i = 0; i < n; i++) {
     uint64_t bits; /* ordered as the areas are, which are not negative */
-    memcpy(&bits, &occluders->occluder.item[i].shared_area, sizeof bits);
-    occluders->key.item[i] =
+    double area =
+        shared_area(subtraction->box, subtraction->occluder.item[i].box);
+    memcpy(&bits, &area, sizeof bits);
+    subtraction->key.item[i] =
         (struct sort_key){UINT32_MAX - (bits >> 32), (uint32_t)i};
   }
-  sort_keys(occluders->key.item, occluders->key.item + n, n);
+  sort_keys(subtraction->key.item, subtraction->key.item + n, n);
   for (size_t i = 0; i < n; i++)
-    occluders->extent.item[i] = (struct face_occluder_extent){
-        -INFINITY, INFINITY, occluders->key.item[i].value};
-  occluders->extent.count = n;
+    subtraction->extent.item[i] = (struct face_occluder_extent){
+        -INFINITY, INFINITY, subtraction->key.item[i].value};
+  subtraction->extent.count = n;
   return true;
 }
 
-bool face_occluders_subtract_all(struct face_occluders *occluders) {
-  struct geom_convex piece;
-  struct geom_line *line = arena_alloc(&occluders->arena, 6, sizeof *line);
-  if (line == NULL)
+bool occluder_subtraction_take_all(struct occluder_subtraction *subtraction) {
+  struct geom_convex piece = subtraction->left.item[0];
+  subtraction->left.count = subtraction->region.count = 0;
+  subtraction->extent.count = 0;
+  if (!push_region(subtraction, &piece, &no_axis) ||
+      !list_all_occluders(subtraction))
     return false;
-  triangle_lines(occluders->sheet, occluders->triangle, line, line + 3);
-  occluders->left.count = occluders->region.count = occluders->extent.count = 0;
-  occluders->whole = true;
-  if (!geom_convex_triangle(&piece, occluders->plane.p, line,
-                            &occluders->arena) ||
-      !push_region(occluders, &piece, &no_axis) ||
-      !list_all_occluders(occluders))
-    return false;
-  while (occluders->region.count > 0)
-    if (!progress_step(occluders->progress, REGION_WORK) ||
-        !solve_region(occluders))
+  while (subtraction->region.count > 0)
+    if (!progress_step(subtraction->progress, REGION_WORK) ||
+        !solve_region(subtraction))
       return false;
   return true;
 }

@@ -169,11 +169,12 @@ static bool subtract_later(struct newell_order *order, uint32_t p,
       if (other->state != NEWELL_PAINTED || other->rank < piece->rank ||
           box2_disjoint(piece->box, other->box))
         continue;
-      int count;
-      struct geom_line *line =
-          newell_piece_lines(order, q, &count, &subtraction->arena);
-      if (line == NULL ||
-          !occluder_subtraction_take(subtraction, line, line + count, count))
+      struct face_occluder occluder = {.triangle = other->triangle,
+                                       .box = other->box};
+      occluder.line =
+          newell_piece_lines(order, q, &occluder.sides, &subtraction->arena);
+      if (occluder.line == NULL ||
+          !occluder_subtraction_take(subtraction, &occluder))
         return false;
     }
   }

@@ -106,21 +106,20 @@ static bool solve_strokes(struct painting *painting, struct map *map) {
 /* Subtracts from triangle f all triangles that are painted after it. */
 static bool subtract_later(struct painting *painting, uint32_t f,
                            struct occluder_subtraction *subtraction) {
-  struct geom_line line[3], back[3];
   if (!triangle_grid_find_overlapping(painting->grid, f, &painting->query))
     return false;
   for (size_t i = 0; i < painting->query.found.count &&
                      !occluder_subtraction_is_empty(subtraction);
        i++) {
     uint32_t g = painting->query.found.item[i];
+    struct box2 box = box2_of_triangle(painting->sheet, g);
     if (painting->rank[g] <= painting->rank[f] ||
         (painting->sheet->triangle_flags[g] & SHEET_FLAT) ||
-        box2_disjoint(subtraction->box, box2_of_triangle(painting->sheet, g)))
+        box2_disjoint(subtraction->box, box))
       continue;
-    triangle_lines(painting->sheet, g, line, back);
-    if (!progress_step(&painting->progress, 1 + subtraction->left.count))
-      return false;
-    if (!occluder_subtraction_take(subtraction, line, back, 3))
+    struct face_occluder occluder = {.triangle = g, .sides = 3, .box = box};
+    if (!progress_step(&painting->progress, 1 + subtraction->left.count) ||
+        !occluder_subtraction_take(subtraction, &occluder))
       return false;
   }
   return true;

@@ -36,7 +36,7 @@ bool pairwise_fallback_init(struct pairwise_fallback *fallback,
       !edge_query_init(&fallback->edge, sheet, &fallback->lists) ||
       (fragments && !init_faces(fallback)))
     return false;
-  fallback->undecided_faces.occluders.progress = progress;
+  fallback->undecided_faces.subtraction.progress = progress;
   return true;
 }
 

@@ -64,7 +64,7 @@ bool undecided_faces_init(struct undecided_faces *undecided_faces,
   undecided_faces->sheet = sheet;
   undecided_faces->lists = lists;
   undecided_faces->state = state;
-  face_occluders_init(&undecided_faces->occluders, sheet);
+  occluder_subtraction_init(&undecided_faces->subtraction, sheet);
   undecided_faces->start =
       mem_calloc(cells + 1, sizeof *undecided_faces->start);
   if (undecided_faces->start == NULL ||
@@ -85,7 +85,7 @@ void undecided_faces_fini(struct undecided_faces *undecided_faces) {
   mem_free(undecided_faces->start);
   mem_free(undecided_faces->contour);
   triangle_grid_query_fini(&undecided_faces->query);
-  face_occluders_fini(&undecided_faces->occluders);
+  occluder_subtraction_fini(&undecided_faces->subtraction);
 }
 
 /* A counting sort by depth bucket: within a bucket, triangles keep their order,
@@ -135,8 +135,9 @@ static bool may_enter(const struct geom_point f[3], struct geom_point p,
 static bool is_crossed(const struct undecided_faces *undecided_faces) {
   const struct sheet *sheet = undecided_faces->sheet;
   const struct triangle_grid *grid = &undecided_faces->lists->tiles->grid;
-  const struct face_occluders *occluders = &undecided_faces->occluders;
-  struct cell_range r = triangle_grid_cells(grid, occluders->box);
+  const struct occluder_subtraction *subtraction =
+      &undecided_faces->subtraction;
+  struct cell_range r = triangle_grid_cells(grid, subtraction->box);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
@@ -146,8 +147,8 @@ static bool is_crossed(const struct undecided_faces *undecided_faces) {
             sheet->contour.item[undecided_faces->contour[i]].point;
         struct geom_point p = sheet->point.item[point[0]],
                           q = sheet->point.item[point[1]];
-        if ((p.z >= occluders->low || q.z >= occluders->low) &&
-            may_enter(occluders->plane.p, p, q))
+        if ((p.z >= subtraction->low || q.z >= subtraction->low) &&
+            may_enter(subtraction->plane.p, p, q))
           return true;
       }
     }
@@ -160,8 +161,8 @@ static bool is_crossed(const struct undecided_faces *undecided_faces) {
  * triangle is no occluder and is added only if it is earlier than the current
  * one: visible pieces may be passed on to it if the two are in contact. */
 static bool add_candidate(struct undecided_faces *undecided_faces, uint32_t g) {
-  return g == undecided_faces->occluders.triangle ||
-         (g > undecided_faces->occluders.triangle &&
+  return g == undecided_faces->subtraction.triangle ||
+         (g > undecided_faces->subtraction.triangle &&
           undecided_faces->state[g] == MAP_HIDDEN) ||
          (undecided_faces->sheet->triangle_flags[g] & SHEET_FLAT) ||
          !triangle_grid_query_first(&undecided_faces->query, g) ||
@@ -173,9 +174,9 @@ static bool find_in_bsp(struct undecided_faces *undecided_faces,
   const struct bsp *bsp = undecided_faces->lists->grid.bsp;
   const struct bsp_query shape = {.kind = BSP_TRIANGLE,
                                   .triangle =
-                                      undecided_faces->occluders.triangle,
+                                      undecided_faces->subtraction.triangle,
                                   .sheet = undecided_faces->sheet,
-                                  .box = undecided_faces->occluders.box};
+                                  .box = undecided_faces->subtraction.box};
   struct bsp_traversal traversal = bsp_traversal_from(root);
   const struct bsp_node *node;
   while ((node = bsp_next(bsp, &traversal, &shape)) != NULL)
@@ -190,11 +191,12 @@ static bool find_in_bsp(struct undecided_faces *undecided_faces,
 static bool find_candidates(struct undecided_faces *undecided_faces) {
   const struct tile_candidates *lists = undecided_faces->lists;
   const struct triangle_grid *grid = &lists->grid;
-  const struct face_occluders *occluders = &undecided_faces->occluders;
-  struct cell_range r = triangle_grid_cells(grid, occluders->box);
-  struct kdop8 kdop = kdop8_of_point(occluders->plane.p[0]);
-  kdop8_add(&kdop, occluders->plane.p[1]);
-  kdop8_add(&kdop, occluders->plane.p[2]);
+  const struct occluder_subtraction *subtraction =
+      &undecided_faces->subtraction;
+  struct cell_range r = triangle_grid_cells(grid, subtraction->box);
+  struct kdop8 kdop = kdop8_of_point(subtraction->plane.p[0]);
+  kdop8_add(&kdop, subtraction->plane.p[1]);
+  kdop8_add(&kdop, subtraction->plane.p[2]);
   triangle_grid_query_start(grid, &undecided_faces->query);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
@@ -223,14 +225,14 @@ static bool find_candidates(struct undecided_faces *undecided_faces) {
 /* Tests the candidates as occluders, until one hides the current triangle
  * completely. */
 static bool test_candidates(struct undecided_faces *undecided_faces) {
-  struct face_occluders *occluders = &undecided_faces->occluders;
+  struct occluder_subtraction *subtraction = &undecided_faces->subtraction;
   const uint32_t *candidate = undecided_faces->query.found.item;
-  if (!progress_step(occluders->progress, undecided_faces->query.found.count))
+  if (!progress_step(subtraction->progress, undecided_faces->query.found.count))
     return false;
   for (size_t i = 0;
-       i < undecided_faces->query.found.count && !occluders->covered; i++)
+       i < undecided_faces->query.found.count && !subtraction->covered; i++)
     if (undecided_faces->state[candidate[i]] != MAP_HIDDEN &&
-        !face_occluders_test(occluders, candidate[i]))
+        !occluder_subtraction_collect(subtraction, candidate[i]))
       return false;
   return true;
 }
@@ -244,37 +246,37 @@ static bool mark_hidden(struct undecided_faces *undecided_faces,
 
 bool undecided_faces_solve(struct undecided_faces *undecided_faces,
                            uint32_t triangle, struct fragments *fragments) {
-  struct face_occluders *occluders = &undecided_faces->occluders;
+  struct occluder_subtraction *subtraction = &undecided_faces->subtraction;
   struct undecided_faces_counts *counts = &undecided_faces->counts;
-  face_occluders_start(occluders, triangle);
-  if (!find_candidates(undecided_faces) || !test_candidates(undecided_faces))
+  if (!occluder_subtraction_start(subtraction, triangle, NULL) ||
+      !find_candidates(undecided_faces) || !test_candidates(undecided_faces))
     return false;
   const uint32_t *candidate = undecided_faces->query.found.item;
   size_t count = undecided_faces->query.found.count;
-  if (occluders->covered)
+  if (subtraction->covered)
     return mark_hidden(undecided_faces, triangle);
-  if (occluders->occluder.count == 0) {
+  if (subtraction->occluder.count == 0) {
     counts->whole++;
     return fragments_add_with_candidates(fragments, triangle, NULL, 0,
                                          candidate, count);
   }
-  if (!occluders->interpenetrating && !is_crossed(undecided_faces)) {
+  if (!subtraction->interpenetrating && !is_crossed(undecided_faces)) {
     counts->uncrossed++;
     return mark_hidden(undecided_faces, triangle);
   }
-  if (!face_occluders_subtract_all(occluders))
+  if (!occluder_subtraction_take_all(subtraction))
     return false;
-  if (occluders->left.count == 0)
+  if (subtraction->left.count == 0)
     return mark_hidden(undecided_faces, triangle);
-  if (occluders->whole) {
+  if (subtraction->whole) {
     counts->whole++;
     return fragments_add_with_candidates(fragments, triangle, NULL, 0,
                                          candidate, count);
   }
   counts->mixed++;
-  return fragments_add_with_candidates(fragments, triangle,
-                                       occluders->left.item,
-                                       occluders->left.count, candidate, count);
+  return fragments_add_with_candidates(
+      fragments, triangle, subtraction->left.item, subtraction->left.count,
+      candidate, count);
 }
 
 void undecided_faces_report(const struct undecided_faces *undecided_faces,
@@ -284,5 +286,5 @@ void undecided_faces_report(const struct undecided_faces *undecided_faces,
   report_int(report, "faces", "hidden_by_contours", (int64_t)counts->uncrossed);
   report_int(report, "faces", "whole", (int64_t)counts->whole);
   report_int(report, "faces", "mixed", (int64_t)counts->mixed);
-  face_occluders_report(&undecided_faces->occluders.counts, report);
+  occluder_subtraction_report(&undecided_faces->subtraction, report);
 }

@@ -14,7 +14,7 @@
 #ifndef VISIBILITY_PAIRWISE_UNDECIDED_FACES_H
 #define VISIBILITY_PAIRWISE_UNDECIDED_FACES_H
 
-#include "visibility/fragments/face_occluders.h"
+#include "visibility/fragments/occluder_subtraction.h"
 #include "visibility/pairwise/tile_candidates.h"
 
 struct undecided_faces_counts {
@@ -30,7 +30,7 @@ struct undecided_faces {
   uint8_t *state;            /* one per triangle, enum map_state; borrowed */
   uint32_t *start, *contour; /* of tile i: contour[start[i] .. start[i + 1]) */
   struct triangle_grid_query query;
-  struct face_occluders occluders;
+  struct occluder_subtraction subtraction;
   struct undecided_faces_counts counts;
 };
 

@@ -349,7 +349,7 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
   bool ok = fragments_init(&fragments, work->sheet, &work->lists.grid, true);
   ok &= undecided_faces_init(&undecided_faces, work->sheet, &work->lists,
                              work->wanted, work->face_state);
-  fragments.progress = undecided_faces.occluders.progress = &progress;
+  fragments.progress = undecided_faces.subtraction.progress = &progress;
   fragments.report = work->report;
   for (size_t t = 0; ok && t < n; t++)
     if (work->face_state[t] == MAP_VISIBLE)

@@ -56,9 +56,15 @@ bool warnock_solve_face(struct warnock *w, const struct warnock_window *win,
   if ((w->sheet->triangle_flags[t] & SHEET_FLAT) || w->face_deferred[t])
     return true;
   warnock_window_lines(&win->window, border, border + 4);
-  if (!occluder_subtraction_start(&w->subtraction, t, NULL) ||
-      !occluder_subtraction_keep(&w->subtraction, border, border + 4, 4))
+  if (!occluder_subtraction_start(&w->subtraction, t, NULL))
     return false;
+  struct geom_convex inside, *piece = w->subtraction.left.item;
+  for (int k = 0; k < 4; k++, *piece = inside)
+    if (!geom_convex_split(piece, &border[k], &border[4 + k], &inside, NULL,
+                           &w->subtraction.arena))
+      return false;
+  if (piece->count == 0)
+    return true;
   for (int l = 0; l < 2; l++) {
     const uint32_t *pool = l == 0 ? w->surrounders.item : w->faces.item;
     for (size_t i = list[l]->from; i < list[l]->to; i++) {
@@ -72,10 +78,10 @@ bool warnock_solve_face(struct warnock *w, const struct warnock_window *win,
     }
   }
   for (size_t i = 0; i < w->subtraction.left.count; i++) {
-    struct face_piece piece = {.triangle = t};
-    if (!geom_convex_copy(&piece.piece, &w->subtraction.left.item[i],
+    struct face_piece part = {.triangle = t};
+    if (!geom_convex_copy(&part.piece, &w->subtraction.left.item[i],
                           &w->arena) ||
-        !ARRAY_PUSH(&w->piece, piece))
+        !ARRAY_PUSH(&w->piece, part))
       return false;
   }
   return w->piece.count < w->piece_limit || limit_pieces(w);

@@ -1,9 +1,9 @@
-/* test_face_occluders.c - a triangle less its occluders, in any order, is what
- * the oracle leaves of it. */
-#include "visibility/fragments/face_occluders.h"
+/* test_occluder_subtraction.c - a triangle less its subtraction, in any order, is
+ * what the brute-force solver leaves of it. */
+#include "visibility/fragments/occluder_subtraction.h"
 #include "geom/region.h"
 #include "exact_fixture/scene.h"
-#include "visibility/fragments/occluder_subtraction.h"
+#include "visibility/brute/brute.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,22 +15,17 @@ static bool is_flat(const struct sheet *sheet, size_t t) {
   return sheet->triangle_flags[t] & SHEET_FLAT;
 }
 
-static void take_by_oracle(struct occluder_subtraction *subtraction,
-                           uint32_t t) {
+/* Subtracts all other triangles, one after another or all at once. */
+static void take_all(struct occluder_subtraction *subtraction, uint32_t t,
+                     bool at_once) {
   const struct sheet *sheet = subtraction->sheet;
   assert_true(occluder_subtraction_start(subtraction, t, NULL));
   for (uint32_t g = 0; g < sheet->triangle.count; g++)
     if (g != t && !is_flat(sheet, g))
-      assert_true(occluder_subtraction_take_nearer(subtraction, g));
-}
-
-static void take_all(struct face_occluders *occluders, uint32_t t) {
-  const struct sheet *sheet = occluders->sheet;
-  face_occluders_start(occluders, t);
-  for (uint32_t g = 0; g < sheet->triangle.count; g++)
-    if (g != t && !is_flat(sheet, g))
-      assert_true(face_occluders_test(occluders, g));
-  assert_true(face_occluders_subtract_all(occluders));
+      assert_true(at_once ? occluder_subtraction_collect(subtraction, g)
+                          : occluder_subtraction_take_nearer(subtraction, g));
+  if (at_once)
+    assert_true(occluder_subtraction_take_all(subtraction));
 }
 
 /* Unions in their one form, corner by corner. */
@@ -53,33 +48,34 @@ static void assert_same_union(const geom_pieces *a, const geom_pieces *b) {
 
 /* Compares all triangles of a sheet; counts those of which a part is left. */
 static void compare_all(const struct sheet *sheet,
-                        struct face_occluders_counts *sum, int *mixed) {
-  struct face_occluders occluders;
+                        struct occluder_subtraction_counts *sum, int *mixed) {
   struct occluder_subtraction subtraction;
-  face_occluders_init(&occluders, sheet);
+  struct brute_pieces oracle = {0};
   occluder_subtraction_init(&subtraction, sheet);
   for (uint32_t t = 0; t < sheet->triangle.count; t++) {
     if (is_flat(sheet, t))
       continue;
-    take_by_oracle(&subtraction, t);
-    take_all(&occluders, t);
-    assert_int_equal(occluders.whole, subtraction.whole);
-    assert_same_union(&occluders.left, &subtraction.left);
-    if (occluders.covered)
-      assert_int_equal(subtraction.left.count, 0);
-    if (occluders.occluder.count == 0)
-      assert_true(subtraction.whole);
-    *mixed += !subtraction.whole && subtraction.left.count > 0;
+    assert_true(brute_subtract_all(&oracle, sheet, t, NULL));
+    for (int at_once = 0; at_once < 2; at_once++) {
+      take_all(&subtraction, t, at_once);
+      assert_int_equal(subtraction.whole, oracle.whole);
+      assert_same_union(&subtraction.left, &oracle.left);
+    }
+    if (subtraction.covered)
+      assert_int_equal(oracle.left.count, 0);
+    if (subtraction.occluder.count == 0)
+      assert_true(oracle.whole);
+    *mixed += !oracle.whole && oracle.left.count > 0;
   }
-  sum->splits += occluders.counts.splits;
-  sum->crossings += occluders.counts.crossings;
-  sum->exact += occluders.counts.exact;
-  face_occluders_fini(&occluders);
+  sum->splits += subtraction.counts.splits;
+  sum->crossings += subtraction.counts.crossings;
+  sum->exact += subtraction.counts.exact;
   occluder_subtraction_fini(&subtraction);
+  brute_pieces_fini(&oracle);
 }
 
-static void what_is_left_is_what_the_oracle_leaves(void **state) {
-  struct face_occluders_counts sum = {0};
+static void what_is_left_is_what_brute_force_leaves(void **state) {
+  struct occluder_subtraction_counts sum = {0};
   int mixed = 0;
   (void)state;
   for (uint64_t seed = 1; seed <= 6; seed++)
@@ -118,18 +114,18 @@ static void bars_across_a_bar_are_tested_only_near_it(void **state) {
   (void)state;
   for (int i = 0; i < 2; i++) {
     int n = i == 0 ? 100 : 400, mixed = 0;
-    struct face_occluders_counts sum = {0};
-    struct face_occluders occluders;
+    struct occluder_subtraction_counts sum = {0};
+    struct occluder_subtraction subtraction;
     struct sheet sheet;
     lay_bars(&sheet, n, 80);
     if (i == 0)
       compare_all(&sheet, &sum, &mixed);
-    face_occluders_init(&occluders, &sheet);
-    take_all(&occluders, 0);
-    assert_true(occluders.counts.splits > (uint64_t)n / 4);
-    assert_true(occluders.left.count >= (size_t)n / 2);
-    cuts[i] = occluders.counts.subtractions;
-    face_occluders_fini(&occluders);
+    occluder_subtraction_init(&subtraction, &sheet);
+    take_all(&subtraction, 0, true);
+    assert_true(subtraction.counts.splits > (uint64_t)n / 4);
+    assert_true(subtraction.left.count >= (size_t)n / 2);
+    cuts[i] = subtraction.counts.subtractions;
+    occluder_subtraction_fini(&subtraction);
     exact_sheet_fini(&sheet);
   }
   /* Four times as many take four times as many cuts, not sixteen. */
@@ -137,16 +133,16 @@ static void bars_across_a_bar_are_tested_only_near_it(void **state) {
 }
 
 static void what_is_behind_is_no_occluder(void **state) {
-  struct face_occluders occluders;
+  struct occluder_subtraction subtraction;
   struct sheet sheet;
   (void)state;
   lay_bars(&sheet, 20, 20);
-  face_occluders_init(&occluders, &sheet);
-  take_all(&occluders, 0);
-  assert_int_equal(occluders.occluder.count, 0);
-  assert_true(occluders.whole);
-  assert_false(occluders.interpenetrating);
-  face_occluders_fini(&occluders);
+  occluder_subtraction_init(&subtraction, &sheet);
+  take_all(&subtraction, 0, true);
+  assert_int_equal(subtraction.occluder.count, 0);
+  assert_true(subtraction.whole);
+  assert_false(subtraction.interpenetrating);
+  occluder_subtraction_fini(&subtraction);
   exact_sheet_fini(&sheet);
 }
 
@@ -156,25 +152,24 @@ static void memory_may_run_out_anywhere(void **state) {
   (void)state;
   lay_bars(&sheet, 40, 80);
   for (unsigned long n = 1; !ok; n++) {
-    struct face_occluders occluders;
+    struct occluder_subtraction subtraction;
     assert_true(n < 1000);
-    face_occluders_init(&occluders, &sheet);
-    face_occluders_start(&occluders, 0);
+    occluder_subtraction_init(&subtraction, &sheet);
     mem_fail_after(n);
-    ok = true;
+    ok = occluder_subtraction_start(&subtraction, 0, NULL);
     for (uint32_t g = 2; ok && g < sheet.triangle.count; g++)
-      ok = face_occluders_test(&occluders, g);
-    ok = ok && face_occluders_subtract_all(&occluders);
+      ok = occluder_subtraction_collect(&subtraction, g);
+    ok = ok && occluder_subtraction_take_all(&subtraction);
     mem_fail_after(0);
     assert_true(!ok || n > 5);
-    face_occluders_fini(&occluders);
+    occluder_subtraction_fini(&subtraction);
   }
   exact_sheet_fini(&sheet);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_left_is_what_the_oracle_leaves),
+      cmocka_unit_test(what_is_left_is_what_brute_force_leaves),
       cmocka_unit_test(bars_across_a_bar_are_tested_only_near_it),
       cmocka_unit_test(what_is_behind_is_no_occluder),
       cmocka_unit_test(memory_may_run_out_anywhere),
