@@ -526,23 +526,72 @@ const char *recto_drawing_verdict(const recto_drawing *drawing);
 /* Counts, times and choices as one JSON object.  Owned by the drawing. */
 const char *recto_drawing_stats(const recto_drawing *drawing);
 
-/* ---- Ring 3: custom writers ---------------------------------------------- */
+/* ---- Ring 3: the drawing as data -----------------------------------------
+ * Structs that are filled in here grow at their end in later versions.  The
+ * macros pass the size that the caller was compiled with. */
+
+/* No face, edge, group or layer. */
+#define RECTO_NONE UINT32_MAX
+
+/* The page's width and height. */
+void recto_drawing_page(const recto_drawing *drawing, double size_mm[2]);
+
+/* Layers are drawn in their order; within a layer, fills before strokes. */
+typedef struct recto_layer {
+  unsigned pen;      /* counts from 1; 0: a layer of fills without a pen */
+  const char *label; /* such as "1 visible" */
+  uint32_t colour;   /* of its strokes, 0xRRGGBB */
+  double width_mm;   /* of its pen */
+} recto_layer;
+
+size_t recto_drawing_layer_count(const recto_drawing *drawing);
+
+/* Fills in the layer at `index`; past the last returns false, and the layer is
+ * empty. */
+#define recto_drawing_layer(drawing, index, layer)                             \
+  recto_drawing_layer_sized((drawing), (index), (layer), sizeof *(layer))
+bool recto_drawing_layer_sized(const recto_drawing *drawing, size_t index,
+                               recto_layer *layer, size_t size);
+
+/* The groups of the scene; a name is UTF-8, as it was in the file or given. */
+size_t recto_drawing_group_count(const recto_drawing *drawing);
+/* NULL past the last. */
+const char *recto_drawing_group_name(const recto_drawing *drawing,
+                                     size_t index);
 
 typedef struct recto_stroke {
   const double *points; /* count pairs x, y in page mm */
   size_t count;
-  bool closed;  /* the last point joins the first, not repeated */
-  size_t layer; /* index of its layer */
-  recto_edge_class edge_class;
-  uint32_t face, edge, group; /* source ids, UINT32_MAX where none */
+  bool closed; /* the last point joins the first, not repeated */
+  bool hidden; /* a hidden part of a line */
+  recto_edge_class edge_class; /* 0: a line of hatching */
+  double width_mm;
+  uint32_t layer;
+  /* Of its first segment; RECTO_NONE where it has none.  Faces are counted in
+   * the order in which they were read or added, skipped ones too; groups are
+   * those of recto_drawing_group_name. */
+  uint32_t face, edge, group;
 } recto_stroke;
 
 /* How many strokes the drawing has, in drawing order. */
 size_t recto_drawing_stroke_count(const recto_drawing *drawing);
 
-/* The stroke at `index` < recto_drawing_stroke_count; past the last an empty
- * one.  Its points are owned by the drawing. */
-recto_stroke recto_drawing_stroke(const recto_drawing *drawing, size_t index);
+/* Fills in the stroke at `index`, whose points are owned by the drawing; past
+ * the last returns false, and the stroke is empty. */
+#define recto_drawing_stroke(drawing, index, stroke)                           \
+  recto_drawing_stroke_sized((drawing), (index), (stroke), sizeof *(stroke))
+bool recto_drawing_stroke_sized(const recto_drawing *drawing, size_t index,
+                                recto_stroke *stroke, size_t size);
+
+/* Projects a point of the scene as the drawing was projected.
+ * point    scene units
+ * page_mm  where it lies on the page, which may be outside of it
+ * depth    scene units along the view axis, growing away from the viewer: from
+ *          the eye, or without perspective from the origin of the scene's
+ *          coordinates; may be NULL
+ * Returns false where the point is not in front of the eye. */
+bool recto_drawing_project(const recto_drawing *drawing, const double point[3],
+                           double page_mm[2], double *depth);
 
 #if defined __GNUC__
 #pragma GCC visibility pop

@@ -64,7 +64,8 @@ static double length_of(const recto_stroke *stroke) {
 static double drawn_length(const recto_drawing *drawing) {
   double length = 0;
   for (size_t i = 0; i < recto_drawing_stroke_count(drawing); i++) {
-    recto_stroke stroke = recto_drawing_stroke(drawing, i);
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, i, &stroke));
     length += length_of(&stroke);
   }
   return length;
@@ -392,7 +393,9 @@ static void assert_same_drawing(const recto_drawing *a,
   assert_int_equal(recto_drawing_stroke_count(a),
                    recto_drawing_stroke_count(b));
   for (size_t i = 0; i < recto_drawing_stroke_count(a); i++) {
-    recto_stroke p = recto_drawing_stroke(a, i), q = recto_drawing_stroke(b, i);
+    recto_stroke p, q;
+    assert_true(recto_drawing_stroke(a, i, &p));
+    assert_true(recto_drawing_stroke(b, i, &q));
     assert_int_equal(p.count, q.count);
     assert_memory_equal(p.points, q.points, p.count * 2 * sizeof *p.points);
   }
@@ -501,7 +504,8 @@ static void strokes_know_where_they_come_from(void **state) {
   recto_drawing *drawing = draw(scene, &options);
   assert_true(recto_drawing_stroke_count(drawing) > 0);
   for (size_t i = 0; i < recto_drawing_stroke_count(drawing); i++) {
-    recto_stroke stroke = recto_drawing_stroke(drawing, i);
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, i, &stroke));
     assert_int_equal(stroke.edge_class, RECTO_EDGE_CREASE);
     assert_int_equal(stroke.group, 0);
     assert_true(stroke.face < 6);

@@ -110,7 +110,8 @@ static double castle_length(recto_scene *scene, const struct view *view,
     fail_msg("%s: %s", view->name, error.text);
   assert_int_equal(warnings, 0);
   for (size_t i = 0; i < recto_drawing_stroke_count(drawing); i++) {
-    recto_stroke stroke = recto_drawing_stroke(drawing, i);
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, i, &stroke));
     if (stroke.group != ground)
       sum += stroke_length(&stroke);
   }

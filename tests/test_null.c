@@ -107,7 +107,7 @@ static void calls_without_one_do_nothing(void **state) {
   assert_null(recto_drawing_verdict(NULL));
   assert_non_null(recto_drawing_stats(NULL));
   assert_int_equal(recto_drawing_stroke_count(NULL), 0);
-  stroke = recto_drawing_stroke(NULL, 0);
+  assert_false(recto_drawing_stroke(NULL, 0, &stroke));
   assert_int_equal(stroke.count, 0);
   assert_null(stroke.points);
 }
@@ -116,9 +116,12 @@ static void there_is_nothing_past_the_last_stroke(void **state) {
   struct things *things = *state;
   size_t count = recto_drawing_stroke_count(things->drawing);
   assert_true(count > 0);
-  assert_true(recto_drawing_stroke(things->drawing, count - 1).count > 0);
-  assert_int_equal(recto_drawing_stroke(things->drawing, count).count, 0);
-  assert_int_equal(recto_drawing_stroke(things->drawing, SIZE_MAX).count, 0);
+  recto_stroke stroke;
+  assert_true(recto_drawing_stroke(things->drawing, count - 1, &stroke));
+  assert_true(stroke.count > 0);
+  assert_false(recto_drawing_stroke(things->drawing, count, &stroke));
+  assert_int_equal(stroke.count, 0);
+  assert_false(recto_drawing_stroke(things->drawing, SIZE_MAX, &stroke));
 }
 
 static void what_may_be_null_may_be(void **state) {

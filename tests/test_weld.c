@@ -585,10 +585,12 @@ static void count_strokes(const recto_scene *scene, double length,
   assert_int_equal(recto_scene_render(scene, &options, &drawing, &error),
                    RECTO_OK);
   memset(count, 0, RECTO_EDGE_CLASS_COUNT * sizeof *count);
-  for (size_t i = 0; i < recto_drawing_stroke_count(drawing); i++)
+  for (size_t i = 0; i < recto_drawing_stroke_count(drawing); i++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, i, &stroke));
     for (int k = 0; k < RECTO_EDGE_CLASS_COUNT; k++)
-      count[k] +=
-          (unsigned)recto_drawing_stroke(drawing, i).edge_class == 1u << k;
+      count[k] += (unsigned)stroke.edge_class == 1u << k;
+  }
   recto_drawing_destroy(drawing);
 }
 

@@ -7,6 +7,7 @@
 #include "api/verify.h"
 #include "drawing/drawing.h"
 #include "scene/scene.h"
+#include "view/rescale.h"
 
 struct recto_scene {
   struct scene scene;
@@ -18,6 +19,8 @@ struct recto_scene {
 
 struct recto_drawing {
   struct drawing drawing;
+  double matrix[12]; /* 3 x 4, from scene units to homogeneous page mm */
+  double depth[4];   /* 1 x 4, from scene units to the depth */
   char verdict[VERIFY_SUMMARY_SIZE]; /* "": not verified */
   ARRAY(struct file_identity) file;  /* that the scene was read from */
 };
@@ -25,6 +28,11 @@ struct recto_drawing {
 /* Adds the faults of elements that were added to those of the scene. */
 void scene_keep_faults(recto_scene *scene,
                        const struct diagnostics *diagnostics);
+
+/* Sets how points of the scene are projected to the drawing. */
+void drawing_keep_projection(recto_drawing *drawing,
+                             const struct camera *camera,
+                             const struct rescaled *rescaled);
 
 /* Copies the options, or the defaults where they are NULL, and checks that each
  * of them is finite and in range. */

@@ -1,6 +1,4 @@
-/* output.c - the functions of a drawing's handle: writing it to a file, and
- * access to its strokes and statistics. */
-#include <assert.h>
+/* output.c - writes a drawing to files, or to a function of the caller's. */
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -11,49 +9,6 @@
 #include "backends/writer.h"
 #include "base/path.h"
 #include "base/target.h"
-
-void recto_drawing_destroy(recto_drawing *drawing) {
-  if (drawing == NULL)
-    return;
-  drawing_fini(&drawing->drawing);
-  ARRAY_FREE(&drawing->file);
-  mem_free(drawing);
-}
-
-const char *recto_drawing_verdict(const recto_drawing *drawing) {
-  return drawing != NULL && drawing->verdict[0] != '\0' ? drawing->verdict
-                                                        : NULL;
-}
-
-const char *recto_drawing_stats(const recto_drawing *drawing) {
-  const char *json = drawing != NULL && drawing->drawing.report != NULL
-                         ? report_json(drawing->drawing.report)
-                         : NULL;
-  return json != NULL ? json : "{}\n";
-}
-
-size_t recto_drawing_stroke_count(const recto_drawing *drawing) {
-  return drawing != NULL ? drawing->drawing.stroke.count : 0;
-}
-
-recto_stroke recto_drawing_stroke(const recto_drawing *drawing, size_t index) {
-  if (index >= recto_drawing_stroke_count(drawing))
-    return (recto_stroke){
-        .face = UINT32_MAX, .edge = UINT32_MAX, .group = UINT32_MAX};
-  const struct drawing_stroke *stroke = &drawing->drawing.stroke.item[index];
-  /* A drawing's point is exactly a pair of doubles. */
-  static_assert(sizeof(struct drawing_point) == 2 * sizeof(double), "pairs");
-  return (recto_stroke){
-      .points = &drawing->drawing.point.item[stroke->point].x,
-      .count = stroke->count,
-      .closed = stroke->closed,
-      .layer = stroke->layer,
-      .edge_class = (recto_edge_class)stroke->edge_class,
-      .face = stroke->face,
-      .edge = stroke->edge,
-      .group = stroke->group,
-  };
-}
 
 /* ---- Writing ------------------------------------------------------------- */
 

@@ -33,7 +33,8 @@ struct render {
   struct sheet sheet;
   struct page_overflow overflow;
   struct map map;
-  struct drawing *drawing;
+  recto_drawing *made;
+  struct drawing *drawing; /* in it */
   struct report *report;
   char *verdict;                  /* VERIFY_SUMMARY_SIZE */
   double begin[SHARE_STAGES + 1]; /* shares of the work: see shares.h */
@@ -138,10 +139,9 @@ static recto_status aim(struct render *render, recto_error *error) {
                                    &render->rescaled.options, error);
   if (status != RECTO_OK)
     return status;
-  double matrix[12];
-  camera_matrix(&render->camera, matrix);
-  rescale_matrix(&render->rescaled, matrix);
-  report_doubles(render->report, "camera", "model_to_page_mm", matrix, 12);
+  drawing_keep_projection(render->made, &render->camera, &render->rescaled);
+  report_doubles(render->report, "camera", "model_to_page_mm",
+                 render->made->matrix, 12);
   report_double(render->report, "camera", "contact_most",
                 ldexp(render->camera.contact_most, render->rescaled.exponent));
   return RECTO_OK;
@@ -504,6 +504,7 @@ recto_status recto_scene_render(const recto_scene *scene,
   made->drawing.report = report_create();
   struct render render = {.model = scene,
                           .options = &own,
+                          .made = made,
                           .drawing = &made->drawing,
                           .report = made->drawing.report,
                           .verdict = made->verdict};

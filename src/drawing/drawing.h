@@ -59,7 +59,7 @@ struct drawing {
   ARRAY(struct drawing_fill) fill;
   ARRAY(struct drawing_loop) loop;
   ARRAY(struct drawing_point) point;
-  ARRAY(char *) group_name; /* owned; written if ids */
+  ARRAY(char *) group_name; /* of the scene, owned; written if ids */
   bool ids;                 /* write faces, edges and groups of elements */
   struct report *report;    /* owned */
 };

@@ -230,7 +230,7 @@ static bool start_drawing(struct ink *ink) {
   ink->drawing->seam_mm = ink->options->seam_mm;
   memcpy(ink->drawing->weight, ink->pens->weight, sizeof ink->pens->weight);
   return layers_add(ink->drawing, ink->pens, ink->scene, ink->options) &&
-         (!ink->options->ids || copy_group_names(ink));
+         copy_group_names(ink);
 }
 
 static bool is_lit(const recto_options *options) {

@@ -1,0 +1,250 @@
+/* test_api_results.c - what a drawing gives as data agrees with what was drawn.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "recto.h"
+
+/* A box of 2 x 3 x 4 scene units about the point (10, 20, 30), the lid a group
+ * of its own, and a polyline from it upwards. */
+static const double points[] = {
+    9,  18.5, 28, 11, 18.5, 28, 11, 21.5, 28, 9,  21.5, 28, 9,  18.5, 32,
+    11, 18.5, 32, 11, 21.5, 32, 9,  21.5, 32, 10, 21.5, 30, 10, 25,   30};
+static const uint32_t corners[] = {3, 2, 1, 0, 4, 5, 6, 7, 0, 1, 5, 4,
+                                   1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};
+static const uint32_t groups[] = {0, 0, 0, 0, 1, 0};
+static const char *const names[] = {"box", "lid"};
+
+static recto_scene *make_box(void) {
+  recto_scene *scene;
+  const recto_mesh mesh = {.points = points,
+                           .point_count = 10,
+                           .corners = corners,
+                           .corner_count = 24,
+                           .face_size = 4,
+                           .face_groups = groups,
+                           .group_names = names,
+                           .group_count = 2};
+  const uint32_t mast[] = {8, 9};
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_polyline(scene, mast, 2, NULL), RECTO_OK);
+  return scene;
+}
+
+static recto_drawing *draw(const recto_options *options) {
+  recto_scene *scene = make_box();
+  recto_drawing *drawing;
+  recto_error error = {0};
+  if (recto_scene_render(scene, options, &drawing, &error) != RECTO_OK)
+    fail_msg("%s", error.text);
+  recto_scene_destroy(scene);
+  return drawing;
+}
+
+/* ---- The page, layers and groups ----------------------------------------- */
+
+static void the_page_has_the_size_of_the_options(void **state) {
+  (void)state;
+  recto_options options;
+  recto_options_init(&options);
+  options.page_width_mm = 123;
+  options.page_height_mm = 45;
+  recto_drawing *drawing = draw(&options);
+  double size[2];
+  recto_drawing_page(drawing, size);
+  assert_true(size[0] == 123 && size[1] == 45);
+  recto_drawing_destroy(drawing);
+  recto_drawing_page(NULL, size);
+  assert_true(size[0] == 0 && size[1] == 0);
+}
+
+static void layers_have_their_pen_label_colour_and_width(void **state) {
+  (void)state;
+  const recto_pen_use use = {.lines = RECTO_LINES_HIDDEN, .pen = 2};
+  const recto_pen pen[] = {
+      {.width_mm = 0.5},
+      {.width_mm = 0.25, .has_colour = true, .colour = 0xcc0044}};
+  recto_options options;
+  recto_options_init(&options);
+  options.hidden = RECTO_HIDDEN_LAYER;
+  options.pen_use = &use;
+  options.pen_use_count = 1;
+  options.pen = pen;
+  options.pen_count = 2;
+  recto_drawing *drawing = draw(&options);
+  recto_layer layer;
+  assert_int_equal(recto_drawing_layer_count(drawing), 2);
+  assert_true(recto_drawing_layer(drawing, 0, &layer));
+  assert_int_equal(layer.pen, 1);
+  assert_true(layer.width_mm == 0.5 && layer.colour == 0);
+  assert_true(strncmp(layer.label, "1 ", 2) == 0);
+  assert_true(recto_drawing_layer(drawing, 1, &layer));
+  assert_int_equal(layer.pen, 2);
+  assert_true(layer.width_mm == 0.25 && layer.colour == 0xcc0044);
+  assert_false(recto_drawing_layer(drawing, 2, &layer));
+  assert_int_equal(layer.pen, 0);
+  assert_string_equal(layer.label, "");
+  recto_drawing_destroy(drawing);
+}
+
+static void groups_have_the_names_of_the_scene(void **state) {
+  (void)state;
+  recto_drawing *drawing = draw(NULL);
+  assert_int_equal(recto_drawing_group_count(drawing), 2);
+  assert_string_equal(recto_drawing_group_name(drawing, 0), "box");
+  assert_string_equal(recto_drawing_group_name(drawing, 1), "lid");
+  assert_null(recto_drawing_group_name(drawing, 2));
+  recto_drawing_destroy(drawing);
+}
+
+/* ---- Strokes ------------------------------------------------------------- */
+
+/* With a stroke for each edge: three of the box's twelve edges are hidden; the
+ * polyline stands on its top. */
+static void strokes_have_their_class_source_and_width(void **state) {
+  (void)state;
+  recto_options options;
+  recto_options_init(&options);
+  options.ids = true;
+  options.hidden = RECTO_HIDDEN_LAYER;
+  recto_drawing *drawing = draw(&options);
+  size_t count[RECTO_EDGE_CLASS_COUNT] = {0}, hidden = 0, lid = 0;
+  for (size_t i = 0; i < recto_drawing_stroke_count(drawing); i++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, i, &stroke));
+    for (int k = 0; k < RECTO_EDGE_CLASS_COUNT; k++)
+      count[k] += !stroke.hidden && (int)stroke.edge_class == 1 << k;
+    hidden += stroke.hidden;
+    lid += stroke.group == 1;
+    bool is_outline = stroke.edge_class == RECTO_EDGE_SILHOUETTE;
+    assert_true(stroke.width_mm == (is_outline && !stroke.hidden ? 0.6 : 0.3));
+    assert_true(stroke.layer < recto_drawing_layer_count(drawing));
+    assert_true(stroke.group < recto_drawing_group_count(drawing));
+    if (stroke.edge_class == RECTO_EDGE_WIRE)
+      assert_true(stroke.face == RECTO_NONE);
+    else
+      assert_true(stroke.face < 6);
+  }
+  assert_int_equal(count[0], 6); /* silhouettes */
+  assert_int_equal(count[2], 3); /* creases, or where the groups meet */
+  assert_int_equal(count[5], 1); /* the polyline */
+  assert_int_equal(hidden, 3);
+  assert_true(lid >= 1);
+  recto_drawing_destroy(drawing);
+}
+
+static void an_older_caller_gets_the_fields_that_it_knows(void **state) {
+  (void)state;
+  recto_drawing *drawing = draw(NULL);
+  recto_stroke whole, part;
+  memset(&part, 0x55, sizeof part);
+  assert_true(recto_drawing_stroke(drawing, 0, &whole));
+  assert_true(recto_drawing_stroke_sized(drawing, 0, &part,
+                                         offsetof(recto_stroke, width_mm)));
+  assert_ptr_equal(part.points, whole.points);
+  assert_int_equal(part.count, whole.count);
+  unsigned char *rest = (unsigned char *)&part.width_mm;
+  for (size_t i = 0; i < sizeof part - offsetof(recto_stroke, width_mm); i++)
+    assert_int_equal(rest[i], 0x55);
+  /* And a newer one zeros for those that this library does not know. */
+  struct newer {
+    recto_stroke stroke;
+    uint64_t more;
+  } newer = {.more = 1};
+  assert_true(
+      recto_drawing_stroke_sized(drawing, 0, &newer.stroke, sizeof newer));
+  assert_int_equal(newer.stroke.count, whole.count);
+  assert_int_equal(newer.more, 0);
+  recto_drawing_destroy(drawing);
+}
+
+/* ---- The projection ------------------------------------------------------ */
+
+/* The least distance of a page point to the ends of strokes. */
+static double distance_to_ends(const recto_drawing *drawing,
+                               const double at[2]) {
+  double least = INFINITY;
+  for (size_t i = 0; i < recto_drawing_stroke_count(drawing); i++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, i, &stroke));
+    for (size_t k = 0; k < stroke.count; k++)
+      least = fmin(least, hypot(stroke.points[2 * k] - at[0],
+                                stroke.points[2 * k + 1] - at[1]));
+  }
+  return least;
+}
+
+static void corners_are_projected_to_ends_of_strokes(void **state) {
+  (void)state;
+  for (int scale = -600; scale <= 600; scale += 600)
+    for (int perspective = 0; perspective < 2; perspective++) {
+      recto_options options;
+      recto_options_init(&options);
+      options.hidden = RECTO_HIDDEN_LAYER;
+      options.fov_deg = perspective ? 40 : 0;
+      recto_scene *scene;
+      recto_drawing *drawing;
+      assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+      double scaled[24];
+      for (int i = 0; i < 24; i++)
+        scaled[i] = ldexp(points[i], scale);
+      const recto_mesh mesh = {.points = scaled,
+                               .point_count = 8,
+                               .corners = corners,
+                               .corner_count = 24,
+                               .face_size = 4};
+      assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+      assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                       RECTO_OK);
+      for (int i = 0; i < 8; i++) {
+        double page[2];
+        assert_true(recto_drawing_project(drawing, scaled + 3 * i, page, NULL));
+        assert_true(distance_to_ends(drawing, page) < 1e-5);
+      }
+      recto_drawing_destroy(drawing);
+      recto_scene_destroy(scene);
+    }
+}
+
+static void depth_is_measured_from_the_eye_along_the_view(void **state) {
+  (void)state;
+  recto_options options;
+  recto_options_init(&options);
+  options.camera = RECTO_CAMERA_EYE;
+  options.eye[0] = 10, options.eye[1] = 20, options.eye[2] = 50;
+  options.target[0] = 10, options.target[1] = 20, options.target[2] = 30;
+  options.has_target = true;
+  options.fov_deg = 30;
+  recto_drawing *drawing = draw(&options);
+  double page[2], depth, size[2];
+  const double at[3] = {10.5, 20, 32}, behind[3] = {10, 20, 51};
+  assert_true(recto_drawing_project(drawing, at, page, &depth));
+  assert_true(fabs(depth - 18) < 1e-12);
+  recto_drawing_page(drawing, size);
+  assert_true(page[0] > size[0] / 2);
+  assert_false(recto_drawing_project(drawing, behind, page, &depth));
+  assert_true(fabs(depth + 1) < 1e-12);
+  assert_false(recto_drawing_project(NULL, at, page, NULL));
+  recto_drawing_destroy(drawing);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_page_has_the_size_of_the_options),
+      cmocka_unit_test(layers_have_their_pen_label_colour_and_width),
+      cmocka_unit_test(groups_have_the_names_of_the_scene),
+      cmocka_unit_test(strokes_have_their_class_source_and_width),
+      cmocka_unit_test(an_older_caller_gets_the_fields_that_it_knows),
+      cmocka_unit_test(corners_are_projected_to_ends_of_strokes),
+      cmocka_unit_test(depth_is_measured_from_the_eye_along_the_view),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
