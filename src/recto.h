@@ -148,6 +148,11 @@ typedef enum recto_divide {
   RECTO_DIVIDE_BOX       /* around the box of their nearest face */
 } recto_divide;
 
+/* Results that a drawing keeps on request, as bits of a mask. */
+#define RECTO_RESULT_EDGES 1u        /* recto_drawing_edge */
+#define RECTO_RESULT_INVISIBILITY 3u /* and how many faces hide each part */
+#define RECTO_RESULTS_ALL 3u
+
 /* ---- Options ------------------------------------------------------------- */
 
 /* The least width of pens and pitch of hatching and scan lines: 200,000 lines
@@ -311,6 +316,10 @@ typedef struct recto_options {
   bool has_weights;
   const recto_weight *weight; /* weight_count of them */
   size_t weight_count;
+
+  /* What the drawing keeps as data beside its strokes: a mask of
+   * RECTO_RESULT_EDGES and RECTO_RESULT_INVISIBILITY. */
+  unsigned results;
 
   /* Significant bits of the coordinates given to recto_scene_add_point, 1 to
    * 53: their rounding error is half a unit of the last one; 53: exact; 0: 24
@@ -582,6 +591,45 @@ size_t recto_drawing_stroke_count(const recto_drawing *drawing);
   recto_drawing_stroke_sized((drawing), (index), (stroke), sizeof *(stroke))
 bool recto_drawing_stroke_sized(const recto_drawing *drawing, size_t index,
                                 recto_stroke *stroke, size_t size);
+
+/* A part of an edge, which is visible all along or hidden by the same number of
+ * faces all along.  This struct does not change. */
+typedef struct recto_interval {
+  double t0, t1; /* 0 at the edge's first point, 1 at its second, along the
+                       edge in the scene; t0 < t1 */
+  double from_mm[2], to_mm[2]; /* the ends on the page */
+  uint32_t hidden_by; /* 0: visible; RECTO_NONE: hidden, and the number was not
+                         requested; else the quantitative invisibility, the
+                         number of faces in front */
+} recto_interval;
+
+/* An edge of the requested classes: of the mesh, of a polyline, or the line in
+ * which two faces pierce each other. */
+typedef struct recto_edge {
+  recto_edge_class edge_class;
+  uint32_t points[2]; /* points of the scene, in the order in which they were
+                         read or added, and those that welding made one by the
+                         first of them; RECTO_NONE: of an intersection, or of a
+                         polyline of more than 65536 points */
+  uint32_t faces[2];  /* RECTO_NONE: there is none */
+  uint32_t group;     /* of the first face, or of the polyline */
+  uint32_t number; /* that strokes have as `edge`; RECTO_NONE: intersections */
+  /* The parts on the page, ascending and adjacent; owned by the drawing. */
+  const recto_interval *intervals;
+  size_t interval_count;
+} recto_edge;
+
+/* How many edges there are; 0 where the options' results are without
+ * RECTO_RESULT_EDGES. */
+size_t recto_drawing_edge_count(const recto_drawing *drawing);
+
+/* Fills in the edge at `index`; past the last returns false, and the edge is
+ * empty.  The parameters are as exact as the page grid of 2^-20 mm allows; for
+ * an intersection they run along the line on the page. */
+#define recto_drawing_edge(drawing, index, edge)                               \
+  recto_drawing_edge_sized((drawing), (index), (edge), sizeof *(edge))
+bool recto_drawing_edge_sized(const recto_drawing *drawing, size_t index,
+                              recto_edge *edge, size_t size);
 
 /* Projects a point of the scene as the drawing was projected.
  * point    scene units

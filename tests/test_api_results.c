@@ -236,6 +236,155 @@ static void depth_is_measured_from_the_eye_along_the_view(void **state) {
   recto_drawing_destroy(drawing);
 }
 
+/* ---- Edges --------------------------------------------------------------- */
+
+static void init_with_edges(recto_options *options, unsigned results) {
+  recto_options_init(options);
+  options->results = results;
+  options->edges = RECTO_EDGES_ALL;
+  options->min_stroke_mm = 0;
+}
+
+static void edges_are_kept_on_request_alone(void **state) {
+  (void)state;
+  recto_drawing *drawing = draw(NULL);
+  recto_edge edge;
+  assert_int_equal(recto_drawing_edge_count(drawing), 0);
+  assert_false(recto_drawing_edge(drawing, 0, &edge));
+  assert_int_equal(edge.interval_count, 0);
+  recto_drawing_destroy(drawing);
+}
+
+/* Edge by edge: its points are corners of its faces that follow each other. */
+static bool is_side(const uint32_t point[2], uint32_t face) {
+  for (uint32_t k = 0; k < 4; k++) {
+    uint32_t a = corners[4 * face + k], b = corners[4 * face + (k + 1) % 4];
+    if ((a == point[0] && b == point[1]) || (a == point[1] && b == point[0]))
+      return true;
+  }
+  return false;
+}
+
+static void edges_have_their_points_and_faces(void **state) {
+  (void)state;
+  recto_options options;
+  init_with_edges(&options, RECTO_RESULT_EDGES);
+  recto_drawing *drawing = draw(&options);
+  assert_int_equal(recto_drawing_edge_count(drawing), 13);
+  size_t wires = 0;
+  for (size_t i = 0; i < 13; i++) {
+    recto_edge edge;
+    assert_true(recto_drawing_edge(drawing, i, &edge));
+    if (edge.edge_class == RECTO_EDGE_WIRE) {
+      assert_true(edge.points[0] == 8 && edge.points[1] == 9);
+      assert_true(edge.faces[0] == RECTO_NONE && edge.faces[1] == RECTO_NONE);
+      wires++;
+      continue;
+    }
+    assert_true(edge.faces[0] < 6 && edge.faces[1] < 6);
+    assert_true(is_side(edge.points, edge.faces[0]));
+    assert_true(is_side(edge.points, edge.faces[1]));
+    assert_true(edge.group < 2);
+  }
+  assert_int_equal(wires, 1);
+  recto_drawing_destroy(drawing);
+}
+
+/* The parts of an edge follow each other from end to end, and lie where their
+ * parameters say. */
+static void check_parts(const recto_drawing *drawing, const recto_edge *edge) {
+  const double *a = points + 3 * (size_t)edge->points[0];
+  const double *b = points + 3 * (size_t)edge->points[1];
+  for (size_t i = 0; i < edge->interval_count; i++) {
+    const recto_interval *part = &edge->intervals[i];
+    double at[3], mm[2];
+    assert_true(part->t0 == (i == 0 ? 0 : edge->intervals[i - 1].t1));
+    assert_true(part->t0 < part->t1);
+    for (int k = 0; k < 3; k++)
+      at[k] = a[k] + part->t1 * (b[k] - a[k]);
+    assert_true(recto_drawing_project(drawing, at, mm, NULL));
+    assert_true(hypot(mm[0] - part->to_mm[0], mm[1] - part->to_mm[1]) < 1e-5);
+  }
+  if (edge->interval_count > 0)
+    assert_true(edge->intervals[edge->interval_count - 1].t1 > 1 - 1e-6);
+}
+
+static void visible_parts_of_edges_are_what_is_drawn(void **state) {
+  (void)state;
+  for (int view = 0; view < 20; view++) {
+    recto_options options;
+    init_with_edges(&options, RECTO_RESULT_EDGES);
+    options.azimuth_deg = 17 * view + 1;
+    options.elevation_deg = 3 * view - 27.5;
+    options.fov_deg = view % 2 ? 50 : 0;
+    recto_drawing *drawing = draw(&options);
+    double length = 0, drawn = 0;
+    for (size_t i = 0; i < recto_drawing_edge_count(drawing); i++) {
+      recto_edge edge;
+      assert_true(recto_drawing_edge(drawing, i, &edge));
+      check_parts(drawing, &edge);
+      for (size_t k = 0; k < edge.interval_count; k++) {
+        const recto_interval *p = &edge.intervals[k];
+        assert_true(p->hidden_by == 0 || p->hidden_by == RECTO_NONE);
+        if (p->hidden_by == 0)
+          length +=
+              hypot(p->to_mm[0] - p->from_mm[0], p->to_mm[1] - p->from_mm[1]);
+      }
+    }
+    for (size_t i = 0; i < recto_drawing_stroke_count(drawing); i++) {
+      recto_stroke stroke;
+      assert_true(recto_drawing_stroke(drawing, i, &stroke));
+      for (size_t k = 0; k + 1 < stroke.count + stroke.closed; k++) {
+        const double *p = stroke.points + 2 * k;
+        const double *q = stroke.points + 2 * ((k + 1) % stroke.count);
+        drawn += hypot(q[0] - p[0], q[1] - p[1]);
+      }
+    }
+    assert_true(length > 100 && fabs(length - drawn) < 1e-4);
+    recto_drawing_destroy(drawing);
+  }
+}
+
+/* Three upright squares one behind the other, each larger than the one before
+ * it, and a polyline behind them all, from the left to the right. */
+static void hidden_parts_are_counted_where_requested(void **state) {
+  (void)state;
+  static const double point[] = {-1, -1, 2,  1,  -1, 2,  1,  1, 2, -1, 1,
+                                 2,  -2, -2, 1,  2,  -2, 1,  2, 2, 1,  -2,
+                                 2,  1,  -3, -3, 0,  3,  -3, 0, 3, 3,  0,
+                                 -3, 3,  0,  -4, 0,  -1, 4,  0, -1};
+  static const uint32_t corner[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+  static const uint32_t line[] = {12, 13};
+  static const uint32_t expected[] = {0, 1, 2, 3, 2, 1, 0};
+  const recto_mesh mesh = {.points = point,
+                           .point_count = 14,
+                           .corners = corner,
+                           .corner_count = 12,
+                           .face_size = 4};
+  recto_options options;
+  recto_scene *scene;
+  recto_drawing *drawing;
+  init_with_edges(&options, RECTO_RESULT_INVISIBILITY);
+  options.azimuth_deg = options.elevation_deg = 0;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_polyline(scene, line, 2, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_OK);
+  recto_edge edge;
+  assert_int_equal(recto_drawing_edge_count(drawing), 13);
+  assert_true(recto_drawing_edge(drawing, 12, &edge));
+  assert_int_equal(edge.edge_class, RECTO_EDGE_WIRE);
+  assert_int_equal(edge.interval_count, 7);
+  for (size_t i = 0; i < 7; i++) {
+    assert_int_equal(edge.intervals[i].hidden_by, expected[i]);
+    double t1 = i < 6 ? (double)(i + 1 + (i > 2)) / 8 : 1;
+    assert_true(fabs(edge.intervals[i].t1 - t1) < 1e-6);
+  }
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_page_has_the_size_of_the_options),
@@ -245,6 +394,10 @@ int main(void) {
       cmocka_unit_test(an_older_caller_gets_the_fields_that_it_knows),
       cmocka_unit_test(corners_are_projected_to_ends_of_strokes),
       cmocka_unit_test(depth_is_measured_from_the_eye_along_the_view),
+      cmocka_unit_test(edges_are_kept_on_request_alone),
+      cmocka_unit_test(edges_have_their_points_and_faces),
+      cmocka_unit_test(visible_parts_of_edges_are_what_is_drawn),
+      cmocka_unit_test(hidden_parts_are_counted_where_requested),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

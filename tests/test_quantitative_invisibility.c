@@ -16,7 +16,7 @@ static void find(struct map *map, const struct sheet *sheet, int most) {
   const struct solver_request request = {.threads = 1};
   map->over_limit.count = map->over_limit_interval.count = 0;
   assert_int_equal(
-      quantitative_invisibility_find(map, sheet, most, &request, NULL, NULL),
+      quantitative_invisibility_find(map, sheet, most, false, &request, NULL, NULL),
       RECTO_OK);
 }
 
@@ -277,13 +277,13 @@ static void counting_can_be_cancelled_and_fails_cleanly(void **state) {
   build_stairs(&sheet, 8);
   exact_solve(&solver_brute, &sheet, &map, NULL);
   assert_int_equal(
-      quantitative_invisibility_find(&map, &sheet, 1, &stop, NULL, &error),
+      quantitative_invisibility_find(&map, &sheet, 1, false, &stop, NULL, &error),
       RECTO_ERROR_CANCELLED);
   recto_status status = RECTO_ERROR_MEMORY;
   for (unsigned long n = 1; status != RECTO_OK; n++) {
     map.over_limit.count = map.over_limit_interval.count = 0;
     mem_fail_after(n);
-    status = quantitative_invisibility_find(&map, &sheet, 1, &go, NULL, NULL);
+    status = quantitative_invisibility_find(&map, &sheet, 1, true, &go, NULL, NULL);
     mem_fail_after(0);
     assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
     assert_true(n < 1000);

@@ -17,12 +17,21 @@ struct recto_scene {
   bool read_before; /* a file was read */
 };
 
+/* A drawable edge and its parts. */
+struct result_edge {
+  uint32_t point[2], face[2], group, number;
+  recto_edge_class edge_class;
+  uint32_t interval, count;
+};
+
 struct recto_drawing {
   struct drawing drawing;
   double matrix[12]; /* 3 x 4, from scene units to homogeneous page mm */
   double depth[4];   /* 1 x 4, from scene units to the depth */
   char verdict[VERIFY_SUMMARY_SIZE]; /* "": not verified */
-  ARRAY(struct file_identity) file;  /* that the scene was read from */
+  ARRAY(struct result_edge) edge;    /* RECTO_RESULT_EDGES */
+  ARRAY(recto_interval) interval;
+  ARRAY(struct file_identity) file; /* that the scene was read from */
 };
 
 /* Adds the faults of elements that were added to those of the scene. */
@@ -33,6 +42,22 @@ void scene_keep_faults(recto_scene *scene,
 void drawing_keep_projection(recto_drawing *drawing,
                              const struct camera *camera,
                              const struct rescaled *rescaled);
+
+/* What the edges of a drawing are made from. */
+struct edge_sources {
+  const struct sheet *sheet;
+  const struct map *map;
+  const struct topology *topology;
+  const struct scene *scene;       /* welded */
+  const struct scene_point *point; /* of the scene, in the user's units */
+  bool with_counts;                /* the map has the numbers of faces */
+};
+
+/* Stores the edges of the sheet with their visible and hidden parts.
+ * Errors  RECTO_ERROR_MEMORY */
+USE_RESULT recto_status drawing_keep_edges(recto_drawing *drawing,
+                                           const struct edge_sources *sources,
+                                           recto_error *error);
 
 /* Copies the options, or the defaults where they are NULL, and checks that each
  * of them is finite and in range. */

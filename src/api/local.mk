@@ -10,7 +10,7 @@ librecto_core_la_SOURCES += \
   %D%/options.c \
   %D%/output.c %D%/output.h \
   %D%/render.c \
-  %D%/result.c \
+  %D%/result.c %D%/result_edges.c \
   %D%/scene.c \
   %D%/sized.c %D%/sized.h \
   %D%/shares.c %D%/shares.h \

@@ -141,6 +141,7 @@ static recto_status check(const recto_options *o, recto_error *error) {
       {"the number of sub-pixels", o->subpixels, 0, 16},
       {"the number of depth bits", o->depth_bits, 0, 32},
       {"the output's unit", o->unit_mm, 0, 100},
+      {"the mask of results", o->results, 0, RECTO_RESULTS_ALL},
       {"the weld length", o->weld, -huge, huge},
       {"the number of bits of coordinates", o->coordinate_bits, 0, 53},
       {"the number of pens with a width", (double)o->pen_count, 0,

@@ -5,6 +5,7 @@
  *   weld the corners of borders and find the edges;
  *   aim the camera; lay out the sheet; choose the method and solve;
  *   make the ink; verify, if requested. */
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -90,6 +91,16 @@ static bool has_fills(const struct render *render) {
   return render->options->fill != RECTO_FILL_NONE;
 }
 
+/* Whether the scene's edges are used after the sheet was laid out. */
+static bool uses_topology(const struct render *render) {
+  return has_fills(render) || render->options->results != 0;
+}
+
+static bool keeps_invisibility(const struct render *render) {
+  return (render->options->results & RECTO_RESULT_INVISIBILITY) ==
+         RECTO_RESULT_INVISIBILITY;
+}
+
 /* Corners that were one before something moved them apart make borders of all
  * edges. */
 static void warn_of_borders(const struct render *render) {
@@ -157,8 +168,8 @@ static recto_status project(struct render *render, recto_error *error) {
                                    &render->topology, &render->camera,
                                    &render->rescaled.options, error);
   /* The topology of a fine mesh takes a quarter of all memory, and without
-   * fills it is not used again. */
-  if (!has_fills(render)) {
+   * fills or results it is not used again. */
+  if (!uses_topology(render)) {
     render->sheet.topology = NULL;
     topology_fini(&render->topology);
   }
@@ -184,7 +195,7 @@ static recto_status solve(struct render *render, recto_error *error) {
   struct solver_request request = {
       .strokes = options->edges != RECTO_EDGES_NONE,
       .fragments = options->fill != RECTO_FILL_NONE,
-      .hidden = options->hidden != RECTO_HIDDEN_NONE,
+      .hidden = options->hidden != RECTO_HIDDEN_NONE || options->results != 0,
       .intersections = (options->edges & RECTO_EDGE_INTERSECTION) != 0,
       .threads = count_threads(options),
       .pitch_mm = options->pitch_mm,
@@ -199,10 +210,13 @@ static recto_status solve(struct render *render, recto_error *error) {
   recto_status status = choose_method(render, &request)
                             ->solve(&render->sheet, &request, &render->map,
                                     render->report, error);
-  if (status == RECTO_OK && request.hidden && options->hidden_layers > 0)
-    status = quantitative_invisibility_find(&render->map, &render->sheet,
-                                            options->hidden_layers, &request,
-                                            render->report, error);
+  bool has_limit =
+      options->hidden != RECTO_HIDDEN_NONE && options->hidden_layers > 0;
+  if (status == RECTO_OK && (has_limit || keeps_invisibility(render)))
+    status = quantitative_invisibility_find(
+        &render->map, &render->sheet,
+        has_limit ? options->hidden_layers : INT_MAX,
+        keeps_invisibility(render), &request, render->report, error);
   return status;
 }
 
@@ -421,6 +435,20 @@ static void number_faces(struct drawing *drawing, const struct scene *scene) {
   }
 }
 
+static recto_status keep_results(struct render *render, recto_error *error) {
+  const struct edge_sources sources = {.sheet = &render->sheet,
+                                       .map = &render->map,
+                                       .topology = &render->topology,
+                                       .scene = &render->welded.scene,
+                                       .point = render->model->scene.point.item,
+                                       .with_counts =
+                                           keeps_invisibility(render)};
+  return render->options->results & RECTO_RESULT_EDGES &&
+                 render->map.edge_state != NULL
+             ? drawing_keep_edges(render->made, &sources, error)
+             : RECTO_OK;
+}
+
 /* ---- The whole render ---------------------------------------------------- */
 
 /* Reports errors in the lists of pens before the work, and warns of unused
@@ -451,6 +479,9 @@ static recto_status run(struct render *render, recto_error *error) {
       rescale(&render->rescaled, &render->model->scene, render->options, error);
   if (status == RECTO_OK)
     status = run_stages(render, error);
+  if (status == RECTO_OK) {
+    status = keep_results(render, error);
+  }
   if (status == RECTO_OK) {
     number_faces(render->drawing, &render->welded.scene);
     report_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);

@@ -11,6 +11,8 @@ void recto_drawing_destroy(recto_drawing *drawing) {
     return;
   drawing_fini(&drawing->drawing);
   ARRAY_FREE(&drawing->file);
+  ARRAY_FREE(&drawing->edge);
+  ARRAY_FREE(&drawing->interval);
   mem_free(drawing);
 }
 

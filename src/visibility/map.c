@@ -11,6 +11,8 @@ void map_fini(struct map *map) {
   ARRAY_FREE(&map->interval);
   ARRAY_FREE(&map->over_limit);
   ARRAY_FREE(&map->over_limit_interval);
+  ARRAY_FREE(&map->invisible);
+  ARRAY_FREE(&map->invisible_interval);
   ARRAY_FREE(&map->fragment);
   ARRAY_FREE(&map->loop);
   ARRAY_FREE(&map->corner);

@@ -22,6 +22,12 @@ struct map_interval {
   struct ratio t0, t1;
 };
 
+/* An interval of an edge that `faces` >= 1 faces hide. */
+struct map_invisible_interval {
+  struct map_interval interval;
+  uint32_t faces;
+};
+
 /* An edge with some intervals. */
 struct map_mixed {
   uint32_t edge;     /* ascending */
@@ -77,6 +83,10 @@ struct map {
    * requested. */
   ARRAY(struct map_mixed) over_limit;
   ARRAY(struct map_interval) over_limit_interval;
+  /* Where faces hide an edge, and how many, in the same form; empty where it
+   * was not requested. */
+  ARRAY(struct map_mixed) invisible;
+  ARRAY(struct map_invisible_interval) invisible_interval;
 
   ARRAY(struct map_fragment) fragment;
   ARRAY(struct map_loop) loop;

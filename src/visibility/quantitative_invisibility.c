@@ -23,6 +23,7 @@ struct invisibility_sweep {
   const struct sheet *sheet;
   struct map *map;
   int limit;
+  bool store_counts; /* whether to store map->invisible too */
   struct triangle_grid grid;
   struct triangle_grid_query query;
   struct occlusion_counts counts;
@@ -69,13 +70,30 @@ static bool find_changes(struct invisibility_sweep *sweep,
                      sizeof *sweep->change.item, compare_changes, NULL);
 }
 
-/* Stores the intervals where both counts exceed the limit. */
-static bool store_over_limit(struct invisibility_sweep *sweep, uint32_t edge) {
-  struct map_mixed over_limit = {
-      edge, (uint32_t)sweep->map->over_limit_interval.count, 0};
-  struct ratio from = ratio_of(0, 1);
-  bool inside = false;
-  int left = 0, right = 0;
+/* Adds the interval to those of the edge that are over the limit. */
+static bool add_over_limit(struct map *map, struct map_interval interval,
+                           struct map_mixed *edge) {
+  edge->count++;
+  return ARRAY_PUSH(&map->over_limit_interval, interval);
+}
+
+static bool add_invisible(struct map *map, struct map_interval interval,
+                          int faces, struct map_mixed *edge) {
+  const struct map_invisible_interval invisible = {interval, (uint32_t)faces};
+  edge->count++;
+  return ARRAY_PUSH(&map->invisible_interval, invisible);
+}
+
+/* Stores the intervals where both counts exceed the limit, and where requested
+ * those where both exceed 0, with the smaller of the two. */
+static bool store_intervals(struct invisibility_sweep *sweep, uint32_t edge) {
+  struct map *map = sweep->map;
+  struct map_mixed over_limit = {edge, (uint32_t)map->over_limit_interval.count,
+                                 0};
+  struct map_mixed invisible = {edge, (uint32_t)map->invisible_interval.count,
+                                0};
+  struct ratio over_from = ratio_of(0, 1), from = ratio_of(0, 1);
+  int left = 0, right = 0, before = 0;
   for (size_t i = 0; i < sweep->change.count;) {
     struct ratio at = sweep->change.item[i].at;
     for (; i < sweep->change.count &&
@@ -84,19 +102,24 @@ static bool store_over_limit(struct invisibility_sweep *sweep, uint32_t edge) {
       left += sweep->change.item[i].left;
       right += sweep->change.item[i].right;
     }
-    bool over = left > sweep->limit && right > sweep->limit;
-    if (over && !inside)
-      from = at;
-    if (inside && !over) {
-      struct map_interval interval = {from, at};
-      if (!ARRAY_PUSH(&sweep->map->over_limit_interval, interval))
-        return false;
-      over_limit.count++;
-    }
-    inside = over;
+    int faces = left < right ? left : right;
+    bool over = faces > sweep->limit, was_over = before > sweep->limit;
+    if (was_over && !over &&
+        !add_over_limit(map, (struct map_interval){over_from, at}, &over_limit))
+      return false;
+    if (over && !was_over)
+      over_from = at;
+    if (faces == before)
+      continue;
+    if (sweep->store_counts && before > 0 &&
+        !add_invisible(map, (struct map_interval){from, at}, before,
+                       &invisible))
+      return false;
+    from = at;
+    before = faces;
   }
-  return over_limit.count == 0 ||
-         ARRAY_PUSH(&sweep->map->over_limit, over_limit);
+  return (over_limit.count == 0 || ARRAY_PUSH(&map->over_limit, over_limit)) &&
+         (invisible.count == 0 || ARRAY_PUSH(&map->invisible, invisible));
 }
 
 static bool is_candidate(const struct invisibility_sweep *sweep, size_t e) {
@@ -114,7 +137,7 @@ static recto_status find_all(struct invisibility_sweep *sweep,
       return progress_error(&progress, error);
     if (is_candidate(sweep, e) &&
         !(find_changes(sweep, &sweep->sheet->edge.item[e]) &&
-          store_over_limit(sweep, (uint32_t)e)))
+          store_intervals(sweep, (uint32_t)e)))
       return error_memory(error);
   }
   return RECTO_OK;
@@ -122,10 +145,11 @@ static recto_status find_all(struct invisibility_sweep *sweep,
 
 recto_status
 quantitative_invisibility_find(struct map *map, const struct sheet *sheet,
-                               int limit, const struct solver_request *request,
+                               int limit, bool counts,
+                               const struct solver_request *request,
                                struct report *report, recto_error *error) {
   struct invisibility_sweep sweep = {
-      .sheet = sheet, .map = map, .limit = limit};
+      .sheet = sheet, .map = map, .limit = limit, .store_counts = counts};
   if (map->edge_state == NULL)
     return RECTO_OK;
   if (!triangle_grid_init(&sweep.grid, sheet))

@@ -5,7 +5,8 @@
 #include "visibility/solver.h"
 
 /* Finds where more than `limit` >= 0 faces hide an edge that is drawn, and
- * stores these intervals in map->over_limit.
+ * stores these intervals in map->over_limit; with `counts` it stores all that
+ * are hidden, with the number of faces, in map->invisible.
  *
  * A face counts where occlusion.h says that it hides the point of the edge;
  * two faces that meet along a shared side count as one there.  The count
@@ -17,9 +18,9 @@
  * Cost      proportional to the pairs of a hidden edge and a triangle whose
  *           grid cells it crosses on the page
  * Source    [Appel1967] */
-USE_RESULT recto_status
-quantitative_invisibility_find(struct map *map, const struct sheet *sheet,
-                               int limit, const struct solver_request *request,
-                               struct report *report, recto_error *error);
+USE_RESULT recto_status quantitative_invisibility_find(
+    struct map *map, const struct sheet *sheet, int limit, bool counts,
+    const struct solver_request *request, struct report *report,
+    recto_error *error);
 
 #endif
