@@ -104,8 +104,8 @@ static void pages_are_drawn_as_by_brute(void **state) {
 
 /* Pairs that were tested: of edge and triangle, and of two triangles. */
 static int64_t pairs_met(const struct report *report) {
-  return report_get(report, "hide", "pairs", 0) +
-         report_get(report, "pierce", "pairs_met", 0) +
+  return report_get(report, "occlusion", "pairs", 0) +
+         report_get(report, "intersections", "pairs_tested", 0) +
          report_get(report, "faces", "pairs", 0);
 }
 
@@ -138,7 +138,8 @@ static void warnock_stops_testing_hidden_edges(void **state) {
   scenes_soup(&scene, &options, 1000, 3);
   pipeline_run(&pipeline, &scene, &options, &solver_warnock);
   assert_int_equal(pipeline.status, RECTO_OK);
-  assert_in_range(report_get(pipeline.report, "hide", "pairs", 0), 1, 5000000);
+  assert_in_range(report_get(pipeline.report, "occlusion", "pairs", 0), 1,
+                  5000000);
   pipeline_fini(&pipeline);
   scene_fini(&scene);
 }

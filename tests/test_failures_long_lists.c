@@ -30,8 +30,9 @@ static int64_t count_pairs(enum scenes_needles kind, unsigned n,
   fill_needles(&scene, &options, kind, n);
   pipeline_run(&pipeline, &scene, &options, solver);
   assert_int_equal(pipeline.status, RECTO_OK);
-  int64_t pairs = report_get(pipeline.report, "hide", "pairs", 0) +
-                  report_get(pipeline.report, "pierce", "pairs_met", 0);
+  int64_t pairs =
+      report_get(pipeline.report, "occlusion", "pairs", 0) +
+      report_get(pipeline.report, "intersections", "pairs_tested", 0);
   pipeline_fini(&pipeline);
   scene_fini(&scene);
   return pairs;

@@ -35,7 +35,7 @@ static struct counts paint(const struct scene *scene, recto_options *options) {
                       report_get(report, "faces", "hidden_by_contours", -1),
                       report_get(report, "tiles", "triangles_undecided", -1),
                       report_get(report, "faces", "pairs", -1),
-                      report_get(report, "faces", "cuts", -1),
+                      report_get(report, "faces", "subtractions", -1),
                       report_get(report, "fragments", "faces_united", -1)};
   pipeline_fini(&pipeline);
   /* Each of them is one of the three. */

@@ -205,7 +205,7 @@ static void a_warped_face_hides_what_both_ways_do(void **state) {
   run.scene.point.item[6].z += 1;
   draw(&run);
   assert_right(&run, "warped");
-  assert_int_equal(count_of(&run, "not_drawn_too_close_to_call"), 0);
+  assert_int_equal(count_of(&run, "not_drawn_undecided"), 0);
   assert_true(count_of(&run, "not_drawn_hidden") > 400);
   end(&run);
 }

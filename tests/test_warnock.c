@@ -151,10 +151,10 @@ static void windows_of_all_kinds_add_up(void **state) {
     int64_t finished;
     spread(&sheet, seed);
     report = solve_and_report(&sheet, seed % 4 < 2, by_box);
-    finished = count_of(report, "without_edge") +
-               count_of(report, "without_face") +
-               count_of(report, "one_surrounder") +
-               count_of(report, "few_faces") + count_of(report, "at_the_floor");
+    finished =
+        count_of(report, "without_edge") + count_of(report, "without_face") +
+        count_of(report, "one_surrounder") + count_of(report, "few_faces") +
+        count_of(report, "of_least_size");
     assert_true(count_of(report, "divided") > 0);
     assert_int_equal(count_of(report, "windows"),
                      finished + count_of(report, "divided"));
@@ -185,7 +185,7 @@ static void a_surrounder_is_not_classified_again(void **state) {
   exact_add_face(&sheet, wall, 3, SCALE);
   report = solve_and_report(&sheet, true, false);
   assert_true(count_of(report, "windows") > 100);
-  assert_true(3 * count_of(report, "settled_by_angle") <
+  assert_true(3 * count_of(report, "classified_by_angle") <
               count_of(report, "windows"));
   report_destroy(report);
   exact_sheet_fini(&sheet);

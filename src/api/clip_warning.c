@@ -78,5 +78,5 @@ void clipped_report(const struct page_overflow *overflow,
                     struct report *report) {
   report_int(report, "clipped", "lines", (int64_t)overflow->edges);
   report_double(report, "clipped", "length_mm", overflow->mm);
-  report_double(report, "clipped", "reach_mm", overflow->reach_mm);
+  report_double(report, "clipped", "farthest_mm", overflow->reach_mm);
 }

@@ -60,19 +60,19 @@ static recto_status check_method(const recto_options *options,
 static const struct solver *
 choose_method(struct render *render, const struct solver_request *request) {
   recto_method method = render->options->method;
-  const char *why = "asked for";
+  const char *why = "requested";
   const struct solver *solver =
       method == RECTO_METHOD_AUTO ? solver_choose(&render->sheet, request, &why)
                                   : solver_by_method(method);
-  report_text(render->report, "method", "asked", recto_method_name(method));
+  report_text(render->report, "method", "requested", recto_method_name(method));
   report_text(render->report, "method", "chosen", solver->name);
   report_text(render->report, "method", "why", why);
   report_text(render->report, "method", "strokes",
-              request->strokes ? "asked for" : "not modelled");
+              request->strokes ? "requested" : "not requested");
   report_text(render->report, "method", "fragments",
-              request->fragments ? "asked for" : "not modelled");
+              request->fragments ? "requested" : "not requested");
   report_text(render->report, "method", "intersections",
-              request->intersections ? "asked for" : "not modelled");
+              request->intersections ? "requested" : "not requested");
   report_int(render->report, "method", "threads", request->threads);
   return solver;
 }
@@ -153,7 +153,7 @@ static recto_status aim(struct render *render, recto_error *error) {
   drawing_keep_projection(render->made, &render->camera, &render->rescaled);
   report_doubles(render->report, "camera", "model_to_page_mm",
                  render->made->matrix, 12);
-  report_double(render->report, "camera", "contact_most",
+  report_double(render->report, "camera", "contact_max",
                 ldexp(render->camera.contact_most, render->rescaled.exponent));
   return RECTO_OK;
 }
@@ -411,7 +411,7 @@ static void report_plotting(struct report *report,
   struct device_placement place;
   device_place(device, drawing->width_mm, drawing->height_mm, &place);
   report_text(report, "plotting", "device", device->name);
-  report_text(report, "plotting", "sheet",
+  report_text(report, "plotting", "paper",
               place.paper != NULL ? place.paper->name : "as the page");
   report_double(report, "plotting", "velocity_cm_s", down);
   report_double(report, "plotting", "velocity_up_cm_s", up);

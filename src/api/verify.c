@@ -124,11 +124,11 @@ static void report_verdict(struct report *report,
                            const struct judge_verdict *v) {
   report_int(report, "verify", "drawn", (int64_t)v->drawn.samples);
   report_int(report, "verify", "drawn_wrong", (int64_t)v->false_ink.samples);
-  report_int(report, "verify", "drawn_too_close_to_call",
+  report_int(report, "verify", "drawn_undecided",
              (int64_t)v->unsure_ink.samples);
   report_int(report, "verify", "not_drawn_hidden", (int64_t)v->hidden.samples);
   report_int(report, "verify", "not_drawn_wrong", (int64_t)v->missing.samples);
-  report_int(report, "verify", "not_drawn_too_close_to_call",
+  report_int(report, "verify", "not_drawn_undecided",
              (int64_t)v->unsure.samples);
 }
 

@@ -159,9 +159,10 @@ quantitative_invisibility_find(struct map *map, const struct sheet *sheet,
     status = find_all(&sweep, request, error);
   else
     status = error_memory(error);
-  report_int(report, "hidden", "most_layers", limit);
-  report_int(report, "hidden", "pairs_for_layers", (int64_t)sweep.counts.pairs);
-  report_int(report, "hidden", "parts_too_deep",
+  report_int(report, "quantitative_invisibility", "limit", limit);
+  report_int(report, "quantitative_invisibility", "pairs",
+             (int64_t)sweep.counts.pairs);
+  report_int(report, "quantitative_invisibility", "intervals_over_limit",
              (int64_t)map->over_limit_interval.count);
   triangle_grid_query_fini(&sweep.query);
   triangle_grid_fini(&sweep.grid);

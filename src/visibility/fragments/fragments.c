@@ -513,8 +513,9 @@ static bool index_sides(struct face_work *work) {
 static void report_counts(const struct fragments *fragments) {
   const struct fragments_counts *c = &fragments->counts;
   struct report *report = fragments->report;
-  static const char *const side[] = {"sides_of_edges", "sides_of_outlines",
-                                     "sides_of_intersections", "sides_cut"};
+  static const char *const side[] = {"sides_of_edges", "sides_of_occluders",
+                                     "sides_of_intersections",
+                                     "sides_of_clipping"};
   report_int(report, "fragments", "triangles_whole", (int64_t)c->whole);
   report_int(report, "fragments", "triangles_cut", (int64_t)c->cut);
   report_int(report, "fragments", "contact_pairs", (int64_t)c->contact_pairs);

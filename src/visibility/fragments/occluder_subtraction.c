@@ -306,5 +306,5 @@ void occluder_subtraction_report(const struct occluder_subtraction *subtraction,
   report_add(report, "faces", "filter_failures", (int64_t)counts->exact);
   report_add(report, "faces", "depth_crossings", (int64_t)counts->crossings);
   report_add(report, "faces", "splits", (int64_t)counts->splits);
-  report_add(report, "faces", "cuts", (int64_t)counts->subtractions);
+  report_add(report, "faces", "subtractions", (int64_t)counts->subtractions);
 }

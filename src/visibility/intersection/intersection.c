@@ -188,11 +188,16 @@ recto_status intersection_find_all(struct sheet *sheet,
             edge_crossings_resolve(&search.crossings, sheet, &search.segment,
                                    &search.counts.crossings) &&
             add_edges(sheet, &search);
-  report_int(report, "pierce", "pairs_met", (int64_t)search.counts.met);
-  report_int(report, "pierce", "pairs", (int64_t)search.counts.pairs);
-  report_int(report, "pierce", "straddling", (int64_t)search.counts.straddle);
-  report_int(report, "pierce", "along_edges", (int64_t)search.counts.crossings);
-  report_int(report, "pierce", "segments", (int64_t)search.segment.list.count);
+  report_int(report, "intersections", "pairs_tested",
+             (int64_t)search.counts.met);
+  report_int(report, "intersections", "candidate_pairs",
+             (int64_t)search.counts.pairs);
+  report_int(report, "intersections", "straddling_pairs",
+             (int64_t)search.counts.straddle);
+  report_int(report, "intersections", "edge_crossings",
+             (int64_t)search.counts.crossings);
+  report_int(report, "intersections", "segments",
+             (int64_t)search.segment.list.count);
   ARRAY_FREE(&search.segment.list);
   edge_crossings_fini(&search.crossings);
   return ok ? RECTO_OK : progress_error(&search.progress, error);

@@ -269,15 +269,16 @@ static void report_windows(const struct warnock *w, struct report *report) {
   report_int(report, "warnock", "one_surrounder",
              (int64_t)w->windows.one_surrounder);
   report_int(report, "warnock", "few_faces", (int64_t)w->windows.few);
-  report_int(report, "warnock", "at_the_floor", (int64_t)w->windows.floor);
+  report_int(report, "warnock", "of_least_size", (int64_t)w->windows.floor);
   report_int(report, "warnock", "deferred", (int64_t)w->windows.deferred);
   report_int(report, "warnock", "divided", (int64_t)w->windows.divided);
   report_text(report, "warnock", "division",
               w->request->divide_by_box ? "box" : "four");
-  report_int(report, "warnock", "settled_by_box", (int64_t)w->class_counts.box);
-  report_int(report, "warnock", "settled_by_sign",
+  report_int(report, "warnock", "classified_by_box",
+             (int64_t)w->class_counts.box);
+  report_int(report, "warnock", "classified_by_sign",
              (int64_t)w->class_counts.sign);
-  report_int(report, "warnock", "settled_by_angle",
+  report_int(report, "warnock", "classified_by_angle",
              (int64_t)w->class_counts.angle);
   report_int(report, "warnock", "stopped_by_depth_order",
              (int64_t)w->cut_short);

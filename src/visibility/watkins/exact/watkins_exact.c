@@ -209,9 +209,8 @@ static recto_status solve_fragments(struct exact *exact,
   if (status == RECTO_OK &&
       !fragments_finish(&fragments, request->exact_corners, map))
     status = progress_error(&progress, error);
-  report_int(report, "watkins", "trapezoids_of_seen", (int64_t)cells->count);
-  report_int(report, "watkins", "undecided_by_doubles",
-             (int64_t)cells->undecided);
+  report_int(report, "watkins", "visible_trapezoids", (int64_t)cells->count);
+  report_int(report, "watkins", "filter_failures", (int64_t)cells->undecided);
   sweep_fini(&sweep);
   if (ready)
     fragments_fini(&fragments);
@@ -235,8 +234,8 @@ static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
   if (status == RECTO_OK)
     status = sweep_run(&sweep, request, 0, 0.5, error);
   report_int(report, "watkins", "edges", (int64_t)sweep.edge.count);
-  report_int(report, "watkins", "places", (int64_t)sweep.events);
-  report_int(report, "watkins", "heights", (int64_t)sweep.height.count);
+  report_int(report, "watkins", "events", (int64_t)sweep.events);
+  report_int(report, "watkins", "event_heights", (int64_t)sweep.height.count);
   report_int(report, "watkins", "crossings_found", (int64_t)sweep.crossings);
   report_int(report, "watkins", "trapezoids", (int64_t)exact->cells.count);
   sweep_fini(&sweep);
