@@ -9,6 +9,8 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "visibility/fragments/planar_subdivision.h"
+
 /* Coordinates in mm may be off by this much, a nanometre. */
 #define SLACK_MM (1.0 / 1048576)
 
@@ -128,7 +130,7 @@ uint32_t ink_fixture_face(struct ink_fixture *k, uint32_t group,
 }
 
 static void add_loop(struct ink_fixture *k, const double *xy, uint32_t count) {
-  struct map_loop loop = {(uint32_t)k->map.corner.count, count};
+  struct map_loop loop = {(uint32_t)k->map.corner.count, count, 0};
   assert_true(ARRAY_PUSH(&k->map.loop, loop));
   for (uint32_t i = 0; i < count; i++) {
     struct map_corner corner = {
@@ -152,10 +154,35 @@ void ink_fixture_hole(struct ink_fixture *k, const double *xy, uint32_t count) {
   add_loop(k, xy, count);
 }
 
+static struct geom_point grid_point(const struct map_corner *corner) {
+  return (struct geom_point){(int32_t)corner->x, (int32_t)corner->y, 0};
+}
+
+/* Makes the map's half-edges; sides need not lie on the edges that they say. */
+static void find_twins(struct ink_fixture *k) {
+  side_lines lines = {0};
+  for (size_t l = 0; l < k->map.loop.count; l++) {
+    const struct map_loop *loop = &k->map.loop.item[l];
+    const struct map_corner *corner = k->map.corner.item + loop->corner;
+    for (uint32_t i = 0; i < loop->count; i++) {
+      struct geom_line line;
+      uint64_t number;
+      geom_line_through(&line, grid_point(&corner[i]),
+                        grid_point(&corner[(i + 1) % loop->count]));
+      assert_true(geom_line_number(&line, &number));
+      assert_true(side_lines_add_number(&lines, number));
+    }
+  }
+  k->map.half_edge.count = 0;
+  assert_true(planar_subdivision_store(&lines, &k->sheet, &k->map));
+  ARRAY_FREE(&lines);
+}
+
 recto_status ink_fixture_try(struct ink_fixture *k) {
   recto_error error = {.code = RECTO_OK};
   drawing_fini(&k->drawing);
   drawing_init(&k->drawing);
+  find_twins(k);
   /* The map borrows the states and does not own them. */
   k->map.edge_state = k->state.item;
   k->map.edge_count = k->state.count;

@@ -653,6 +653,48 @@ static void lines_have_one_number_however_they_are_given(void **state) {
   assert_int_equal(alike, 0);
 }
 
+/* A plane by a random triangle, and the same one by a larger triangle. */
+static void draw_plane(uint64_t *r, struct geom_plane plane[2]) {
+  struct geom_point p[3];
+  for (int k = 0; k < 3; k++)
+    p[k] = (struct geom_point){exact_random_below(r, 1 << 26),
+                               exact_random_below(r, 1 << 26),
+                               exact_random_below(r, 1 << 30)};
+  if (geom_orient2d(p[0], p[1], p[2]) < 0) {
+    struct geom_point swap = p[1];
+    p[1] = p[2];
+    p[2] = swap;
+  }
+  plane[0] = plane_of(p);
+  for (int k = 1; k < 3; k++) {
+    p[k].x += (1 + k) * (p[k].x - p[0].x);
+    p[k].y += (1 + k) * (p[k].y - p[0].y);
+    p[k].z += (1 + k) * (p[k].z - p[0].z);
+  }
+  plane[1] = plane_of(p);
+}
+
+static void lines_without_grid_points_have_one_number_too(void **state) {
+  uint64_t r = 4, last = 0;
+  (void)state;
+  for (int i = 0; i < 500; i++) {
+    struct geom_plane f[2], g[2];
+    struct geom_line line;
+    uint64_t number[3];
+    draw_plane(&r, f);
+    draw_plane(&r, g);
+    assert_int_equal(geom_line_between(&line, &f[0], &g[0]), 0);
+    assert_false(geom_line_number(&line, &number[0]));
+    assert_int_equal(geom_line_between(&line, &f[1], &g[0]), 0);
+    assert_false(geom_line_number(&line, &number[1]));
+    assert_int_equal(geom_line_between(&line, &g[1], &f[1]), 0);
+    assert_false(geom_line_number(&line, &number[2]));
+    assert_true(number[0] == number[1] && number[0] == number[2]);
+    assert_true(number[0] != last);
+    last = number[0];
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(orientation_and_direction_are_signs_of_products),
@@ -667,6 +709,7 @@ int main(void) {
       cmocka_unit_test(parallel_planes_have_no_line_but_an_order),
       cmocka_unit_test(a_line_turned_round_has_its_sides_swapped),
       cmocka_unit_test(lines_have_one_number_however_they_are_given),
+      cmocka_unit_test(lines_without_grid_points_have_one_number_too),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,7 +22,7 @@ static void empty_sheet(struct sheet *sheet) {
 
 /* Adds a loop of `count` corners in mm, x y after each other. */
 static void add_loop(struct map *map, const double *mm, uint32_t count) {
-  struct map_loop loop = {(uint32_t)map->corner.count, count};
+  struct map_loop loop = {(uint32_t)map->corner.count, count, 0};
   for (uint32_t i = 0; i < count; i++) {
     struct map_corner corner = {.x = mm[2 * i] * unit,
                                 .y = mm[2 * i + 1] * unit};

@@ -219,6 +219,41 @@ static bool reduce_wide(const struct geom_line *line, struct narrow_line *to) {
   return true;
 }
 
+/* Residues are modulo the prime 2^61 - 1, so that 2^64 is 8. */
+#define RESIDUE_PRIME ((UINT64_C(1) << 61) - 1)
+
+static uint64_t multiply_residues(uint64_t a, uint64_t b) {
+  return (uint64_t)((uint128)a * b % RESIDUE_PRIME);
+}
+
+/* The number of a wide line whose integers are too large to be reduced: the
+ * residues of its coefficients, divided by the first that is not 0. */
+static uint64_t number_of_residues(const struct geom_line *line) {
+  uint64_t residue[3], inverse = 1, power;
+  int first = 2;
+  for (int k = 2; k >= 0; k--) {
+    residue[k] = 0;
+    for (int i = GEOM_LINE_LIMBS; i-- > 0;)
+      residue[k] = (uint64_t)(((uint128)residue[k] * 8 + line->limb[k][i]) %
+                              RESIDUE_PRIME);
+    if (line->sign[k] < 0 && residue[k] != 0)
+      residue[k] = RESIDUE_PRIME - residue[k];
+    if (residue[k] != 0)
+      first = k;
+  }
+  /* By Fermat's little theorem. */
+  power = residue[first];
+  for (uint64_t bits = RESIDUE_PRIME - 2; bits != 0; bits >>= 1) {
+    if (bits & 1)
+      inverse = multiply_residues(inverse, power);
+    power = multiply_residues(power, power);
+  }
+  return mix(
+      (struct narrow_line){(int64_t)multiply_residues(residue[0], inverse),
+                           (int64_t)multiply_residues(residue[1], inverse),
+                           (int64_t)multiply_residues(residue[2], inverse)});
+}
+
 bool geom_line_number(const struct geom_line *line, uint64_t *number) {
   struct narrow_line reduced;
   if (line->narrow) {
@@ -231,6 +266,7 @@ bool geom_line_number(const struct geom_line *line, uint64_t *number) {
     reduced.b /= divisor;
     reduced.c /= divisor;
   } else if (!reduce_wide(line, &reduced)) {
+    *number = number_of_residues(line);
     return false;
   }
   *number = mix(reduced);

@@ -50,8 +50,8 @@ void geom_line_level(struct geom_line *line, struct ratio height);
 /* Turns the line round. */
 void geom_line_reverse(struct geom_line *line);
 
-/* A number that lines share which are the same one, either way round, if grid
- * points have a line through them; false where no two of them can have it. */
+/* Sets `number` to one that lines share which are the same one, either way
+ * round; few others do.  Returns false where no two grid points can have it. */
 bool geom_line_number(const struct geom_line *line, uint64_t *number);
 
 struct geom_corner {

@@ -9,6 +9,7 @@ librecto_core_la_SOURCES += \
   %D%/fragments/fragments.c %D%/fragments/fragments.h \
   %D%/fragments/line_index.c %D%/fragments/line_index.h \
   %D%/fragments/occluder_subtraction.c %D%/fragments/occluder_subtraction.h \
+  %D%/fragments/planar_subdivision.c %D%/fragments/planar_subdivision.h \
   %D%/fragments/region_split.c \
   %D%/fragments/side_provenance.c %D%/fragments/side_provenance.h \
   %D%/index/bsp.c %D%/index/bsp.h \

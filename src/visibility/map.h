@@ -59,6 +59,21 @@ struct map_corner {
  * neighbours; the first corner of a loop is the least in (x, y). */
 struct map_loop {
   uint32_t corner, count;
+  uint32_t half_edge; /* the first one of the first corner's side */
+};
+
+/* A half-edge of the planar subdivision that the fragments are: a side, or the
+ * part of it that one neighbour lies beside
+ * (visibility/fragments/planar_subdivision.h). */
+struct map_half_edge {
+  uint32_t fragment; /* on its left */
+  uint32_t side;     /* the corner where the side starts that it is part of */
+  uint32_t origin;   /* a corner of the map at the point where it starts: that of
+                        the side or, within it, one of a neighbour */
+  uint32_t twin;     /* the neighbour's half-edge, which runs the other way
+                        between the same points; SHEET_NONE: no face is visible
+                        there */
+  uint32_t next;     /* along the loop; it starts where this one ends */
 };
 
 /* One connected visible piece of one face: an outer loop, then its holes. */
@@ -91,6 +106,7 @@ struct map {
   ARRAY(struct map_fragment) fragment;
   ARRAY(struct map_loop) loop;
   ARRAY(struct map_corner) corner;
+  ARRAY(struct map_half_edge) half_edge; /* loop by loop, in order */
   /* One per corner where exact corners were requested, else empty. */
   ARRAY(struct map_exact_corner) exact_corner;
 };

@@ -17,6 +17,7 @@
  * options    crease_deg: an edge at which the normals differ by more is not
  *            smooth
  *            ids: fragments are not merged
+ * map        with half-edges (visibility/map.h)
  * Cost       linear in the corners, n log n in those of merged outlines.
  * Returns false when memory ran out. */
 USE_RESULT bool merge_fills(struct drawing *drawing, const struct sheet *sheet,

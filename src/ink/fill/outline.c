@@ -5,7 +5,8 @@
 
 #include "base/sort.h"
 
-int outline_compare(struct outline_point a, struct outline_point b) {
+/* Lexicographic order by x, then by y: returns -1, 0 or 1. */
+static int compare_points(struct outline_point a, struct outline_point b) {
   if (a.x != b.x)
     return a.x < b.x ? -1 : 1;
   return (a.y > b.y) - (a.y < b.y);
@@ -13,8 +14,8 @@ int outline_compare(struct outline_point a, struct outline_point b) {
 
 static int compare_starts(const void *a, const void *b, void *user) {
   (void)user;
-  return outline_compare(((const struct outline_segment *)a)->from,
-                         ((const struct outline_segment *)b)->from);
+  return compare_points(((const struct outline_segment *)a)->from,
+                        ((const struct outline_segment *)b)->from);
 }
 
 /* The cross product of the directions of a and b. */
@@ -42,14 +43,14 @@ static struct outline_segment *next_piece(struct outline *outline,
   struct outline_segment *best = NULL;
   while (low < high) {
     size_t middle = low + (high - low) / 2;
-    if (outline_compare(outline->segment.item[middle].from, in->to) < 0)
+    if (compare_points(outline->segment.item[middle].from, in->to) < 0)
       low = middle + 1;
     else
       high = middle;
   }
   for (; low < outline->segment.count; low++) {
     struct outline_segment *p = &outline->segment.item[low];
-    if (outline_compare(p->from, in->to) != 0)
+    if (compare_points(p->from, in->to) != 0)
       break;
     if (!p->used && (best == NULL || is_left(in, p, best)))
       best = p;

@@ -10,16 +10,12 @@ struct outline_point {
 
 struct outline_segment {
   struct outline_point from, to;
-  uint32_t fragment; /* for the caller; not read here */
-  bool used;         /* already in a loop */
+  bool used; /* already in a loop */
 };
 
 struct outline {
   ARRAY(struct outline_segment) segment;
 };
-
-/* Lexicographic order by x, then by y: returns -1, 0 or 1. */
-int outline_compare(struct outline_point a, struct outline_point b);
 
 /* Begins a loop, which is a closed path; adds a point, rounded to the page
  * grid, to the loop begun last.  Both return false when memory ran out. */

@@ -15,9 +15,7 @@
  *               pen, so that it cannot be seen */
 #include <math.h>
 
-#include "base/sort.h"
 #include "base/tolerance.h"
-#include "ink/hatch/shared_sides.h"
 #include "ink/fill/fill.h"
 #include "ink/hatch/inset.h"
 #include "ink/hatch/hatch_regions.h"
@@ -40,10 +38,7 @@ struct hatch {
   int64_t first, strips;
   ARRAY(uint32_t) strip;
   ARRAY(uint32_t) strip_side;
-  shared_sides shared; /* sides that may be shared in part ... */
-  ARRAY(struct hatch_side) shared_side; /* ... and the same, by their items */
-  bool ok;                              /* memory did not run out */
-  struct stroke_line line;              /* the current stroke */
+  struct stroke_line line; /* the current stroke */
 };
 
 /* ---- 1 Sides ------------------------------------------------------------- */
@@ -54,128 +49,17 @@ static bool side_is_inked(const struct hatch *h, uint32_t side) {
                                      h->lines.side.item[side].corner);
 }
 
-/* Orders points by u, then by v. */
-static int compare_points(struct hatch_point a, struct hatch_point b) {
-  if (a.u != b.u)
-    return a.u < b.u ? -1 : 1;
-  return (a.v > b.v) - (a.v < b.v);
-}
-
-/* Sets `end` to the ends of a side in the order of compare_points. */
-static void order_ends(const struct hatch_side *side,
-                       struct hatch_point end[2]) {
-  bool reversed = compare_points(side->from, side->to) > 0;
-  end[reversed] = side->from;
-  end[!reversed] = side->to;
-}
-
-/* Orders sides by their ends, whatever their direction. */
-static int compare_sides(const void *first, const void *second, void *user) {
-  struct hatch_point a[2], b[2];
-  (void)user;
-  order_ends(first, a);
-  order_ends(second, b);
-  int low = compare_points(a[0], b[0]);
-  return low ? low : compare_points(a[1], b[1]);
-}
-
-/* Adds the part of a shared side between shared->from and `end` to the sides
- * again, unless it is empty.  False when memory ran out. */
-static bool restore_part(struct hatch *h, const struct shared_side *shared,
-                         struct shared_side_point end) {
-  struct hatch_lines *lines = &h->lines;
-  struct hatch_side side = h->shared_side.item[shared->item];
-  struct hatch_point low =
-      hatch_lines_point_at(lines, shared->from.x, shared->from.y);
-  struct hatch_point high = hatch_lines_point_at(lines, end.x, end.y);
-  side.from = shared->reversed ? high : low;
-  side.to = shared->reversed ? low : high;
-  return (shared->from.x == end.x && shared->from.y == end.y) ||
-         ARRAY_PUSH(&lines->side, side);
-}
-
-/* Whether a point is on the line of a side, up to rounding. */
-static bool is_on_line(const struct shared_side *shared,
-                       struct shared_side_point at) {
-  double dx = shared->to.x - shared->from.x, dy = shared->to.y - shared->from.y;
-  double off = (at.x - shared->from.x) * dy - (at.y - shared->from.y) * dx;
-  return fabs(off) <= TOLERANCE_COINCIDENT_UNITS * hypot(dx, dy);
-}
-
-/* Removes the common stretch of two sides: keeps the parts of both below it and
- * continues with those above it.  At each end of the stretch one of the sides
- * has a corner; the other one is split there. */
-static void remove_common(void *user, struct shared_side *forward,
-                          struct shared_side *reversed) {
-  struct hatch *h = user;
-  bool later = forward->low > reversed->low;
-  bool sooner = forward->high < reversed->high;
-  struct shared_side_point low = later ? forward->from : reversed->from;
-  struct shared_side_point high = sooner ? forward->to : reversed->to;
-  if (!is_on_line(forward, low) || !is_on_line(reversed, low) ||
-      !is_on_line(forward, high) || !is_on_line(reversed, high))
-    return;
-  h->ok =
-      restore_part(h, forward, low) && restore_part(h, reversed, low) && h->ok;
-  forward->from = reversed->from = high;
-  forward->low = reversed->low = sooner ? forward->high : reversed->high;
-}
-
-/* Removes the stretches that sides of two fragments have in common where they
- * are horizontal splits of a scan-line method or pieces of mesh edges that are
- * not drawn: the pen may cross there.  False when memory ran out. */
-static bool remove_shared_stretches(struct hatch *h) {
-  struct hatch_lines *lines = &h->lines;
-  size_t kept = 0;
-  h->shared.count = h->shared_side.count = 0;
-  h->ok = true;
-  for (uint32_t i = 0; i < lines->side.count; i++) {
-    const struct hatch_side side = lines->side.item[i];
-    uint32_t item = (uint32_t)h->shared.count;
-    if (!shared_sides_add_split(&h->shared, side.corner, side.next, item) ||
-        (!side_is_inked(h, i) &&
-         !shared_sides_add_edge(&h->shared, side.corner, side.next, item)))
-      return false;
-    if (h->shared.count == item)
-      lines->side.item[kept++] = side;
-    else if (!ARRAY_PUSH(&h->shared_side, side))
-      return false;
-  }
-  lines->side.count = kept;
-  if (!shared_sides_match(&h->shared, remove_common, h))
-    return false;
-  for (size_t i = 0; i < h->shared.count && h->ok; i++)
-    h->ok = restore_part(h, &h->shared.item[i], h->shared.item[i].to);
-  return h->ok;
-}
-
-/* Collects the sides of the region with fragments [begin, end), except for
- * those that two fragments share and along which no line is drawn: the pen may
- * cross these.  False when memory ran out. */
+/* Collects the sides of the region with fragments [begin, end), except where the
+ * pen may cross them to a neighbour.  False when memory ran out. */
 static bool collect_sides(struct hatch *h, const struct map *map, size_t begin,
                           size_t end) {
-  struct hatch_lines *lines = &h->lines;
-  hatch_lines_clear(lines);
+  hatch_lines_clear(&h->lines);
   for (size_t i = begin; i < end; i++)
-    if (!hatch_lines_add_fragment(lines, map,
-                                  &map->fragment.item[h->regions.fragment[i]]))
+    if (!hatch_lines_add_fragment(&h->lines, map,
+                                  &map->fragment.item[h->regions.fragment[i]],
+                                  h->regions.crossable))
       return false;
-  if (end - begin == 1)
-    return true;
-  if (!sort_stable(lines->side.item, lines->side.count,
-                   sizeof *lines->side.item, compare_sides, NULL))
-    return false;
-  size_t kept = 0;
-  for (uint32_t i = 0; i < lines->side.count; i++) {
-    const struct hatch_side *side = &lines->side.item[i];
-    if (i + 1 < lines->side.count && compare_sides(side, side + 1, NULL) == 0 &&
-        !side_is_inked(h, i) && !side_is_inked(h, i + 1))
-      i++;
-    else
-      lines->side.item[kept++] = *side;
-  }
-  lines->side.count = kept;
-  return remove_shared_stretches(h);
+  return true;
 }
 
 /* ---- 3 Strips ------------------------------------------------------------ */
@@ -440,8 +324,6 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
   hatch_regions_fini(&h.regions);
   ARRAY_FREE(&h.strip);
   ARRAY_FREE(&h.strip_side);
-  ARRAY_FREE(&h.shared);
-  ARRAY_FREE(&h.shared_side);
   ARRAY_FREE(&h.line.point);
   return ok;
 }

@@ -50,11 +50,14 @@ struct drawing_point hatch_lines_rotate_back(const struct hatch_lines *lines,
 
 /* ---- Sides --------------------------------------------------------------- */
 
-struct hatch_point hatch_lines_point_at(const struct hatch_lines *lines,
-                                        double x, double y) {
+/* The point where a half-edge starts. */
+static struct hatch_point origin_of(const struct hatch_lines *lines,
+                                    const struct map *map, uint32_t half) {
+  const struct map_corner *c =
+      &map->corner.item[map->half_edge.item[half].origin];
   return hatch_lines_rotate(
-      lines, (struct drawing_point){sheet_x_mm(lines->sheet, x),
-                                    sheet_y_mm(lines->sheet, y)});
+      lines, (struct drawing_point){sheet_x_mm(lines->sheet, c->x),
+                                    sheet_y_mm(lines->sheet, c->y)});
 }
 
 double hatch_lines_distance(struct hatch_point p, struct hatch_point a,
@@ -68,19 +71,29 @@ double hatch_lines_distance(struct hatch_point p, struct hatch_point a,
 void hatch_lines_clear(struct hatch_lines *lines) { lines->side.count = 0; }
 
 bool hatch_lines_add_fragment(struct hatch_lines *lines, const struct map *map,
-                              const struct map_fragment *fragment) {
+                              const struct map_fragment *fragment,
+                              const uint8_t *skip) {
+  const struct map_half_edge *half = map->half_edge.item;
   for (uint32_t l = 0; l < fragment->loops; l++) {
-    const struct map_loop *loop = &map->loop.item[fragment->loop + l];
-    const struct map_corner *corner = map->corner.item + loop->corner;
-    for (uint32_t i = 0; i < loop->count; i++) {
-      uint32_t next = i + 1 < loop->count ? i + 1 : 0;
-      struct hatch_side side = {
-          hatch_lines_point_at(lines, corner[i].x, corner[i].y),
-          hatch_lines_point_at(lines, corner[next].x, corner[next].y),
-          &corner[i], &corner[next]};
-      if (!ARRAY_PUSH(&lines->side, side))
-        return false;
-    }
+    uint32_t first = map->loop.item[fragment->loop + l].half_edge, h = first;
+    uint32_t last = SHEET_NONE; /* the side that was added last, in part */
+    do {
+      uint32_t next = half[h].next;
+      struct hatch_side side = {.corner = &map->corner.item[half[h].side]};
+      if (skip != NULL && skip[h]) {
+        last = SHEET_NONE;
+      } else if (half[h].side == last) {
+        lines->side.item[lines->side.count - 1].to =
+            origin_of(lines, map, next);
+      } else {
+        side.from = origin_of(lines, map, h);
+        side.to = origin_of(lines, map, next);
+        last = half[h].side;
+        if (!ARRAY_PUSH(&lines->side, side))
+          return false;
+      }
+      h = next;
+    } while (h != first);
   }
   return true;
 }

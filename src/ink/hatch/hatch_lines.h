@@ -16,7 +16,7 @@ struct hatch_point {
 /* A side of a fragment. */
 struct hatch_side {
   struct hatch_point from, to;
-  const struct map_corner *corner, *next; /* at `from` and at `to`; borrowed */
+  const struct map_corner *corner; /* where the whole side starts; borrowed */
 };
 
 /* Where a hatch line crosses a side. */
@@ -59,9 +59,6 @@ double hatch_lines_height(const struct hatch_lines *lines, int64_t line);
 /* From page to rotated page. */
 struct hatch_point hatch_lines_rotate(const struct hatch_lines *lines,
                                       struct drawing_point p);
-/* The same for a point of the sheet in grid units. */
-struct hatch_point hatch_lines_point_at(const struct hatch_lines *lines,
-                                        double x, double y);
 /* From rotated page to page. */
 struct drawing_point hatch_lines_rotate_back(const struct hatch_lines *lines,
                                              struct hatch_point p);
@@ -83,10 +80,12 @@ double hatch_lines_distance(struct hatch_point p, struct hatch_point a,
 /* Removes all sides. */
 void hatch_lines_clear(struct hatch_lines *lines);
 
-/* Adds the sides of a fragment.  False when memory ran out. */
+/* Adds the sides of a fragment, without their parts on the half-edges for which
+ * `skip` is 1; NULL: all.  False when memory ran out. */
 USE_RESULT bool hatch_lines_add_fragment(struct hatch_lines *lines,
                                          const struct map *map,
-                                         const struct map_fragment *fragment);
+                                         const struct map_fragment *fragment,
+                                         const uint8_t *skip);
 
 /* Sets `span` to the spans inside the sides by the even-odd rule; each has a
  * positive length.  False when memory ran out. */

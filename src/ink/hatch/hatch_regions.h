@@ -13,11 +13,13 @@ struct hatch_regions {
   uint32_t *fragment; /* all fragments, region by region; the regions are in
                          order of their first fragments */
   size_t count;       /* of fragments */
+  uint8_t *crossable; /* of each half-edge: 1: no line is drawn there, and the
+                         fragment on the other side is of the same region */
 };
 
 /* Fragments on both sides of a mesh edge that is not drawn belong to one region
  * if the same pen hatches both; so do fragments of one face that are separated
- * only by a horizontal split of a scan-line method.  With options->ids every
+ * only by a split of a scan-line method.  With options->ids every
  * fragment is a region.  False when memory ran out. */
 USE_RESULT bool
 hatch_regions_init(struct hatch_regions *regions, const struct sheet *sheet,

@@ -200,7 +200,7 @@ static bool add_curved(struct tone_hatching *h, const struct map *map,
       break;
     lines->pitch = h->pen_mm / FULL_COVERAGE;
     hatch_lines_clear(lines);
-    if (!hatch_lines_add_fragment(lines, map, fragment) ||
+    if (!hatch_lines_add_fragment(lines, map, fragment, NULL) ||
         !hatch_lines_find_spans(lines))
       return false;
     for (size_t i = 0; i < lines->span.count; i++)
@@ -219,7 +219,7 @@ static bool add_uniform(struct tone_hatching *h, const struct map *map,
     struct hatch_lines *lines = &h->lines[k];
     lines->pitch = h->pen_mm / each;
     hatch_lines_clear(lines);
-    if (!hatch_lines_add_fragment(lines, map, fragment) ||
+    if (!hatch_lines_add_fragment(lines, map, fragment, NULL) ||
         !hatch_lines_find_spans(lines))
       return false;
     for (size_t i = 0; i < lines->span.count; i++)

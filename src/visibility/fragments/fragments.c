@@ -7,6 +7,7 @@
 #include "base/sort.h"
 #include "geom/region.h"
 #include "visibility/predicate/triangle_pair.h"
+#include "visibility/fragments/planar_subdivision.h"
 #include "visibility/fragments/side_provenance.h"
 #include "visibility/predicate/plane_filter.h"
 
@@ -189,6 +190,7 @@ struct face_work {
   ARRAY(uint32_t) own;  /* the face's triangles that have area */
   ARRAY(uint32_t) seen; /* those with visible pieces, ascending */
   struct side_provenance provenance;
+  side_lines lines; /* of the sides stored */
   struct line_index sides;
   bool indexed; /* `sides` is built; it serves partly visible faces */
   geom_pieces piece;
@@ -221,7 +223,7 @@ static bool store_exact_corner(struct map *map,
 static bool store_loop(struct face_work *work,
                        const struct geom_region_loop *loop) {
   const struct geom_region_side *side = work->region.side.item + loop->side;
-  struct map_loop stored = {(uint32_t)work->map->corner.count, loop->count};
+  struct map_loop stored = {(uint32_t)work->map->corner.count, loop->count, 0};
   for (uint32_t k = 0; k < loop->count; k++) {
     struct map_corner corner;
     int64_t x, y;
@@ -231,6 +233,7 @@ static bool store_loop(struct face_work *work,
     if (!side_provenance_find(&work->provenance, side[k].line, &side[k].corner,
                               &side[(k + 1) % loop->count].corner, &corner.side,
                               &corner.id) ||
+        !side_lines_add(&work->lines, &corner, side[k].line) ||
         !ARRAY_PUSH(&work->map->corner, corner) ||
         (work->exact_corners &&
          !store_exact_corner(work->map, &side[k].corner)))
@@ -305,7 +308,7 @@ static bool store_outline(struct face_work *work, bool *stored) {
   struct outline_side side[4];
   struct geom_point p[4];
   struct map_fragment fragment = {work->face, (uint32_t)map->loop.count, 1};
-  struct map_loop loop = {(uint32_t)map->corner.count, 0};
+  struct map_loop loop = {(uint32_t)map->corner.count, 0, 0};
   int n = find_outline(work, side), first = 0;
   *stored = false;
   for (int k = 0; k < n; k++) {
@@ -323,7 +326,8 @@ static bool store_outline(struct face_work *work, bool *stored) {
   for (int k = 0; k < n; k++) {
     int i = (first + k) % n;
     struct map_corner corner = {p[i].x, p[i].y, MAP_SIDE_EDGE, side[i].edge};
-    if (!ARRAY_PUSH(&map->corner, corner))
+    if (!side_lines_add(&work->lines, &corner, NULL) ||
+        !ARRAY_PUSH(&map->corner, corner))
       return false;
     loop.count++;
   }
@@ -547,6 +551,8 @@ bool fragments_finish(struct fragments *fragments, bool exact_corners,
     ok = progress_step(fragments->progress, PIECE_WORK * count) &&
          store_face(&work, &piece[i], count);
   }
+  ok = ok && planar_subdivision_store(&work.lines, fragments->sheet, map);
+  ARRAY_FREE(&work.lines);
   ARRAY_FREE(&work.own);
   ARRAY_FREE(&work.seen);
   ARRAY_FREE(&work.piece);

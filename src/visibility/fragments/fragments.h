@@ -16,7 +16,8 @@
  *   3 the pieces of each face are united into connected fragments
  *   4 each side of a fragment is labelled with its provenance
  *     (side_provenance.h)
- * Phases 2 to 4 depend on the sheet and on the union of the pieces alone, so
+ *   5 sides that separate two fragments become twins (planar_subdivision.h)
+ * Phases 2 to 5 depend on the sheet and on the union of the pieces alone, so
  * the fragments of all exact solvers are equal to the byte.
  */
 #ifndef VISIBILITY_FRAGMENTS_FRAGMENTS_H

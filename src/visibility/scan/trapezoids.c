@@ -11,6 +11,7 @@
 bool trapezoids_init(struct trapezoids *trapezoids, const struct sheet *sheet,
                      const struct scan_grid *grid, size_t keys) {
   memset(trapezoids, 0, sizeof *trapezoids);
+  trapezoids->sheet = sheet;
   trapezoids->grid = *grid;
   trapezoids->x_high = sheet->camera.page_mm[0] / 2 * SHEET_UNITS_PER_MM;
   trapezoids->y_high = sheet->camera.page_mm[1] / 2 * SHEET_UNITS_PER_MM;
@@ -30,6 +31,7 @@ void trapezoids_fini(struct trapezoids *trapezoids) {
   ARRAY_FREE(&trapezoids->side);
   ARRAY_FREE(&trapezoids->trapezoid);
   mem_free(trapezoids->at);
+  ARRAY_FREE(&trapezoids->lines);
   memset(trapezoids, 0, sizeof *trapezoids);
 }
 
@@ -184,27 +186,54 @@ static void make_corners(const struct trapezoids *trapezoids,
   corner[3].id = left->id;
 }
 
+/* Adds the line of side k of a trapezoid.  Cuts share their height;
+ * straight sides their edge, which need not be one of the sheet; other sides
+ * are one line high and share their x there. */
+static bool add_side(struct trapezoids *trapezoids,
+                     const struct trapezoid *trapezoid, int k,
+                     const struct map_corner *corner) {
+  const struct span_side *side =
+      k == 1 ? &trapezoid->span.right : &trapezoid->span.left;
+  uint64_t number;
+  if (k % 2 == 0) {
+    number = sort_key_of_int64((int64_t)(corner->y * CORNER_SCALE));
+  } else if (side->straight && side->side != MAP_SIDE_CLIP) {
+    return side_lines_add(&trapezoids->lines, corner, NULL);
+  } else if (side->straight) {
+    number = 1 + (uint64_t)side->key;
+  } else {
+    memcpy(&number, &side->x, sizeof number);
+    number += (uint64_t)trapezoid->first << 32;
+  }
+  return side_lines_add_number(&trapezoids->lines, number);
+}
+
 /* Stores the loop of the distinct corners, from the lowest in (x, y). */
-static bool store_loop(const struct map_corner corner[4], uint32_t face,
-                       struct map *map) {
-  struct map_corner kept[4];
-  uint32_t count = 0, first = 0;
+static bool store_loop(struct trapezoids *trapezoids,
+                       const struct trapezoid *trapezoid,
+                       const struct map_corner corner[4], struct map *map) {
+  int kept[4], count = 0, first = 0;
   for (int k = 0; k < 4; k++) {
     const struct map_corner *next = &corner[(k + 1) % 4];
     if (corner[k].x != next->x || corner[k].y != next->y)
-      kept[count++] = corner[k];
+      kept[count++] = k;
   }
   if (count < 3)
     return true;
-  for (uint32_t k = 1; k < count; k++)
-    if (kept[k].x < kept[first].x ||
-        (kept[k].x == kept[first].x && kept[k].y < kept[first].y))
+  for (int k = 1; k < count; k++) {
+    const struct map_corner *a = &corner[kept[k]], *b = &corner[kept[first]];
+    if (a->x < b->x || (a->x == b->x && a->y < b->y))
       first = k;
-  struct map_loop loop = {(uint32_t)map->corner.count, count};
-  struct map_fragment fragment = {face, (uint32_t)map->loop.count, 1};
-  for (uint32_t k = 0; k < count; k++)
-    if (!ARRAY_PUSH(&map->corner, kept[(first + k) % count]))
+  }
+  struct map_loop loop = {(uint32_t)map->corner.count, (uint32_t)count, 0};
+  struct map_fragment fragment = {trapezoid->span.face,
+                                  (uint32_t)map->loop.count, 1};
+  for (int i = 0; i < count; i++) {
+    int k = kept[(first + i) % count];
+    if (!ARRAY_PUSH(&map->corner, corner[k]) ||
+        !add_side(trapezoids, trapezoid, k, &corner[k]))
       return false;
+  }
   return ARRAY_PUSH(&map->loop, loop) && ARRAY_PUSH(&map->fragment, fragment);
 }
 
@@ -223,8 +252,10 @@ bool trapezoids_finish(struct trapezoids *trapezoids, struct map *map) {
         &trapezoids->trapezoid.item[key[i].value];
     struct map_corner corner[4];
     make_corners(trapezoids, trapezoid, corner);
-    ok = store_loop(corner, trapezoid->span.face, map);
+    ok = store_loop(trapezoids, trapezoid, corner, map);
   }
+  ok = ok &&
+       planar_subdivision_store(&trapezoids->lines, trapezoids->sheet, map);
   mem_free(key);
   return ok;
 }

@@ -14,7 +14,7 @@
 #define VISIBILITY_SCAN_TRAPEZOIDS_H
 
 #include "geom/scanfill.h"
-#include "visibility/map.h"
+#include "visibility/fragments/planar_subdivision.h"
 
 #define SPAN_ALONE UINT32_MAX
 
@@ -42,6 +42,7 @@ struct trapezoid {
 };
 
 struct trapezoids {
+  const struct sheet *sheet;
   struct scan_grid grid;
   double x_low, x_high, y_low, y_high; /* the page, plane units */
   ARRAY(struct span) row;              /* of the current line */
@@ -53,7 +54,8 @@ struct trapezoids {
   ARRAY(struct trapezoid) trapezoid;
   uint32_t *at; /* for each key of a left side, the last trapezoid on it */
   size_t keys;
-  int64_t count; /* spans added */
+  int64_t count;    /* spans added */
+  side_lines lines; /* of the sides stored */
 };
 
 /* keys  upper limit of the keys of left sides
@@ -68,7 +70,8 @@ void trapezoids_fini(struct trapezoids *trapezoids);
 USE_RESULT bool trapezoids_add(struct trapezoids *trapezoids, int32_t line,
                                const struct span *span);
 
-/* Writes all trapezoids to the map, ordered by face, then from the top. */
+/* Writes all trapezoids to the map, ordered by face, then from the top, with
+ * their half-edges. */
 USE_RESULT bool trapezoids_finish(struct trapezoids *trapezoids,
                                   struct map *map);
 

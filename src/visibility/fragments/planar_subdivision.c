@@ -1,0 +1,280 @@
+/* planar_subdivision.c - finds what lies beside each side of each fragment.
+ *
+ * Phases
+ *   1 pair the sides that are a whole edge of both their faces, the usual case;
+ *     sort the others by the number of their line
+ *   2 along each line sort the forward and the reversed sides by their low
+ *     ends, and merge the two sequences: the stretches in common
+ *   3 loop by loop divide the sides at the ends of their stretches */
+#include "visibility/fragments/planar_subdivision.h"
+
+#include "base/sort.h"
+
+/* Along a line, a corner's place is its x or its y in units of 1/256, the
+ * map's. */
+#define CORNER_SCALE 256
+
+/* In side_lines: the side lies on the line of its edge. */
+#define OF_EDGE 0
+
+/* What a forward and a reversed side have in common. */
+struct side_stretch {
+  uint32_t side[2];      /* the forward one and the reversed one */
+  uint32_t corner[2];    /* at its low and at its high end */
+  uint32_t half_edge[2]; /* of the two sides, when they are stored */
+  bool upright;          /* places are y */
+};
+
+struct subdivision_work {
+  const struct sheet *sheet;
+  struct map *map;
+  uint32_t *end; /* of each side: the corner where it ends */
+  ARRAY(struct side_stretch) stretch;
+  /* The stretches of side s, in its direction:
+   *     along[start[s]] to along[start[s + 1] - 1]. */
+  uint32_t *start, *along;
+};
+
+bool side_lines_add_number(side_lines *lines, uint64_t number) {
+  return ARRAY_PUSH(lines, number);
+}
+
+bool side_lines_add(side_lines *lines, const struct map_corner *corner,
+                    const struct geom_line *line) {
+  uint64_t number = OF_EDGE;
+  if (corner->side != MAP_SIDE_EDGE && corner->side != MAP_SIDE_OCCLUDER)
+    (void)geom_line_number(line, &number);
+  return ARRAY_PUSH(lines, number);
+}
+
+/* ---- 1. Sides by line ---------------------------------------------------- */
+
+static bool same_place(const struct map *map, uint32_t a, uint32_t b) {
+  const struct map_corner *p = &map->corner.item[a], *q = &map->corner.item[b];
+  return p->x == q->x && p->y == q->y;
+}
+
+/* Pairs the sides on one edge of which one is the reverse of the other.
+ * paired  of each side, set to 1 for those */
+static bool pair_edges(struct subdivision_work *work, uint8_t *paired) {
+  const struct map *map = work->map;
+  size_t edges = work->sheet->edge.count;
+  uint32_t *first = mem_alloc(edges, sizeof *first); /* of each edge: a side */
+  bool ok = first != NULL;
+  for (size_t e = 0; ok && e < edges; e++)
+    first[e] = SHEET_NONE;
+  for (uint32_t s = 0; ok && s < map->corner.count; s++) {
+    if (map->corner.item[s].side != MAP_SIDE_EDGE ||
+        map->corner.item[s].id >= edges)
+      continue;
+    uint32_t *other = &first[map->corner.item[s].id];
+    if (*other == SHEET_NONE) {
+      *other = s;
+    } else if (!paired[*other] && same_place(map, *other, work->end[s]) &&
+               same_place(map, s, work->end[*other])) {
+      struct side_stretch whole = {.side = {*other, s}, .corner = {*other, s}};
+      paired[s] = paired[*other] = 1;
+      ok = ARRAY_PUSH(&work->stretch, whole);
+    }
+  }
+  mem_free(first);
+  return ok;
+}
+
+static uint64_t number_of_edge(const struct sheet *sheet, uint32_t edge) {
+  const uint32_t *point = sheet->edge.item[edge].point;
+  struct geom_line line;
+  uint64_t number;
+  geom_line_through(&line, sheet->point.item[point[0]],
+                    sheet->point.item[point[1]]);
+  (void)geom_line_number(&line, &number);
+  return number;
+}
+
+/* ---- 2. Stretches in common ---------------------------------------------- */
+
+static int64_t place(const struct map *map, uint32_t corner, bool upright) {
+  const struct map_corner *c = &map->corner.item[corner];
+  return (int64_t)((upright ? c->y : c->x) * CORNER_SCALE);
+}
+
+/* Whether the sides on a line extend farther in y than in x. */
+static bool is_upright(const struct map *map, const struct sort_key *side,
+                       size_t count) {
+  double low[2], high[2];
+  for (size_t i = 0; i < count; i++) {
+    const struct map_corner *c = &map->corner.item[side[i].value];
+    const double at[2] = {c->x, c->y};
+    for (int k = 0; k < 2; k++) {
+      low[k] = i == 0 || at[k] < low[k] ? at[k] : low[k];
+      high[k] = i == 0 || at[k] > high[k] ? at[k] : high[k];
+    }
+  }
+  return high[1] - low[1] > high[0] - low[0];
+}
+
+/* Finds the stretches that the sides on one line have in common.
+ * side   their keys, overwritten
+ * other  room for as many */
+static bool match_sides(struct subdivision_work *work, struct sort_key *side,
+                        struct sort_key *other, size_t count) {
+  const struct map *map = work->map;
+  size_t forwards = 0, reverses = 0, f = 0, r = 0;
+  uint32_t past = SHEET_NONE; /* the high end of the last stretch */
+  bool upright = is_upright(map, side, count);
+  for (size_t i = 0; i < count; i++) {
+    uint32_t s = side[i].value;
+    int64_t from = place(map, s, upright),
+            to = place(map, work->end[s], upright);
+    bool reversed = to < from;
+    struct sort_key key = {sort_key_of_int64(reversed ? to : from), s};
+    other[reversed ? count - ++reverses : forwards++] = key;
+  }
+  sort_keys(other, side, forwards);
+  sort_keys(other + forwards, side, reverses);
+  while (f < forwards && r < reverses) {
+    struct side_stretch next = {
+        .side = {other[f].value, other[forwards + r].value},
+        .upright = upright};
+    uint32_t low[2] = {next.side[0], work->end[next.side[1]]};
+    uint32_t high[2] = {work->end[next.side[0]], next.side[1]};
+    bool later = place(map, low[1], upright) > place(map, low[0], upright);
+    bool sooner = place(map, high[1], upright) < place(map, high[0], upright);
+    int64_t from = place(map, low[later], upright);
+    next.corner[0] = low[later];
+    next.corner[1] = high[sooner];
+    if (past != SHEET_NONE && from < place(map, past, upright)) {
+      from = place(map, past, upright); /* not in exact maps */
+      next.corner[0] = past;
+    }
+    if (from < place(map, next.corner[1], upright)) {
+      past = next.corner[1];
+      if (!ARRAY_PUSH(&work->stretch, next))
+        return false;
+    }
+    if (sooner)
+      r++;
+    else
+      f++;
+  }
+  return true;
+}
+
+static bool match_lines(struct subdivision_work *work,
+                        const side_lines *lines) {
+  const struct map *map = work->map;
+  size_t sides = map->corner.count, count = 0;
+  struct sort_key *key = mem_alloc(sides, 2 * sizeof *key);
+  uint8_t *paired = mem_calloc(sides, 1);
+  bool ok = key != NULL && paired != NULL && pair_edges(work, paired);
+  for (uint32_t s = 0; ok && s < sides; s++)
+    if (!paired[s])
+      key[count++] = (struct sort_key){
+          lines->item[s] != OF_EDGE
+              ? lines->item[s]
+              : number_of_edge(work->sheet, map->corner.item[s].id),
+          s};
+  if (ok)
+    sort_keys(key, key + count, count);
+  for (size_t i = 0, j; ok && i < count; i = j) {
+    for (j = i + 1; j < count && key[j].key == key[i].key;)
+      j++;
+    ok = j - i == 1 || match_sides(work, &key[i], key + count, j - i);
+  }
+  mem_free(paired);
+  mem_free(key);
+  return ok;
+}
+
+/* Lists the stretches by side.  They are in ascending order along their
+ * line. */
+static bool list_by_side(struct subdivision_work *work) {
+  const struct side_stretch *stretch = work->stretch.item;
+  size_t sides = work->map->corner.count, count = work->stretch.count;
+  uint32_t *start = mem_calloc(sides + 2, sizeof *start);
+  work->start = start;
+  work->along = mem_alloc(2 * count, sizeof *work->along);
+  if (start == NULL || work->along == NULL)
+    return false;
+  for (size_t i = 0; i < count; i++)
+    for (int k = 0; k < 2; k++)
+      start[stretch[i].side[k] + 2]++;
+  for (size_t s = 0; s < sides; s++)
+    start[s + 2] += start[s + 1];
+  for (uint32_t i = 0; i < count; i++)
+    work->along[start[stretch[i].side[0] + 1]++] = i;
+  for (uint32_t i = (uint32_t)count; i-- > 0;)
+    work->along[start[stretch[i].side[1] + 1]++] = i;
+  return true;
+}
+
+/* ---- 3. Half-edges ------------------------------------------------------- */
+
+/* Stores the half-edges of a side. */
+static bool divide_side(struct subdivision_work *work, uint32_t fragment,
+                        uint32_t side) {
+  struct map *map = work->map;
+  struct map_half_edge half = {fragment, side, side, SHEET_NONE, 0};
+  bool ends = false; /* the last stretch ends where the side does */
+  for (uint32_t i = work->start[side]; i < work->start[side + 1]; i++) {
+    struct side_stretch *stretch = &work->stretch.item[work->along[i]];
+    bool upright = stretch->upright, reversed = stretch->side[1] == side;
+    uint32_t from = stretch->corner[reversed], to = stretch->corner[!reversed];
+    if (place(map, from, upright) != place(map, half.origin, upright)) {
+      half.next = (uint32_t)map->half_edge.count + 1;
+      if (!ARRAY_PUSH(&map->half_edge, half))
+        return false;
+      half.origin = from;
+    }
+    stretch->half_edge[reversed] = (uint32_t)map->half_edge.count;
+    half.next = (uint32_t)map->half_edge.count + 1;
+    if (!ARRAY_PUSH(&map->half_edge, half))
+      return false;
+    half.origin = to;
+    ends = place(map, to, upright) == place(map, work->end[side], upright);
+  }
+  half.next = (uint32_t)map->half_edge.count + 1;
+  return ends || ARRAY_PUSH(&map->half_edge, half);
+}
+
+static bool divide_loops(struct subdivision_work *work) {
+  struct map *map = work->map;
+  for (uint32_t f = 0; f < map->fragment.count; f++) {
+    const struct map_fragment *fragment = &map->fragment.item[f];
+    for (uint32_t l = 0; l < fragment->loops; l++) {
+      struct map_loop *loop = &map->loop.item[fragment->loop + l];
+      loop->half_edge = (uint32_t)map->half_edge.count;
+      for (uint32_t i = 0; i < loop->count; i++)
+        if (!divide_side(work, f, loop->corner + i))
+          return false;
+      map->half_edge.item[map->half_edge.count - 1].next = loop->half_edge;
+    }
+  }
+  for (size_t i = 0; i < work->stretch.count; i++) {
+    const uint32_t *half = work->stretch.item[i].half_edge;
+    map->half_edge.item[half[0]].twin = half[1];
+    map->half_edge.item[half[1]].twin = half[0];
+  }
+  return true;
+}
+
+bool planar_subdivision_store(const side_lines *lines,
+                              const struct sheet *sheet, struct map *map) {
+  size_t count = map->corner.count;
+  struct subdivision_work work = {
+      .sheet = sheet, .map = map, .end = mem_alloc(count, sizeof *work.end)};
+  bool ok = work.end != NULL;
+  for (size_t l = 0; ok && l < map->loop.count; l++) {
+    const struct map_loop *loop = &map->loop.item[l];
+    for (uint32_t i = 0; i < loop->count; i++)
+      work.end[loop->corner + i] =
+          loop->corner + (i + 1 < loop->count ? i + 1 : 0);
+  }
+  ok = ok && match_lines(&work, lines) && list_by_side(&work) &&
+       ARRAY_RESERVE(&map->half_edge, count) && divide_loops(&work);
+  mem_free(work.end);
+  mem_free(work.start);
+  mem_free(work.along);
+  ARRAY_FREE(&work.stretch);
+  return ok;
+}
