@@ -229,6 +229,27 @@ static void a_triangle_does_not_hide_its_own_sides(void **state) {
   }
 }
 
+/* The second triangle of the face lies over an edge of the first: as it does
+ * where rounding turned a sliver. */
+static void a_planar_face_does_not_hide_its_own_edges(void **state) {
+  static const int corner[][3] = {
+      {0, 0, 0}, {1000, 0, 0}, {1000, 1000, 0}, {1000, -500, 1000000}};
+  (void)state;
+  for (int planar = 0; planar < 2; planar++) {
+    struct sheet sheet;
+    struct map map;
+    exact_sheet_init(&sheet);
+    exact_add_face(&sheet, corner, 4, 1);
+    assert_int_equal(sheet.triangle.count, 2);
+    for (int t = 0; t < 2 * planar; t++)
+      sheet.triangle_flags[t] |= SHEET_COPLANAR;
+    exact_solve(&solver_brute, &sheet, &map, NULL);
+    assert_int_equal(map.edge_state[0], planar ? MAP_VISIBLE : MAP_HIDDEN);
+    map_fini(&map);
+    exact_sheet_fini(&sheet);
+  }
+}
+
 /* ---- Contact in scene units ---------------------------------------------- */
 
 /* A camera of our own: what it does to a point of view space. */
@@ -426,6 +447,7 @@ int main(void) {
       cmocka_unit_test(an_edge_that_dives_is_hidden_beyond_the_tolerance),
       cmocka_unit_test(an_edge_from_a_shared_corner_is_tested_once),
       cmocka_unit_test(a_triangle_does_not_hide_its_own_sides),
+      cmocka_unit_test(a_planar_face_does_not_hide_its_own_edges),
       cmocka_unit_test(contact_is_a_length_of_the_scene),
       cmocka_unit_test(intervals_are_those_of_the_oracle),
   };

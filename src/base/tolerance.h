@@ -89,7 +89,8 @@
  *             are tested, it grows with the distance over the
  *             triangle's width.
  * Users       visibility/predicate/occlusion.c,
- *             visibility/predicate/plane_filter.c
+ *             visibility/predicate/plane_filter.c,
+ *             visibility/intersection/edge_crossing.c
  * Ten times   faces 0.15 um apart on paper count as touching. */
 #define TOLERANCE_CONTACT_GRID_UNITS 16
 
@@ -106,7 +107,8 @@
  * Unit        share of the face's own extent
  * Derivation  single precision and six digits round a point by 1e-7 of its
  *             size; sums of a few of those stay below.
- * Users       view/polygon.c (for a count alone: nothing is decided)
+ * Users       view/polygon.c: warped faces are counted, and they alone may hide
+ *             their own edges
  * Ten times   fewer faces are counted as warped. */
 #define TOLERANCE_WARP_SHARE 1e-6
 

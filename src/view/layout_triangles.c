@@ -241,6 +241,14 @@ static const uint32_t *welded_corners(struct layout *layout, uint32_t start,
   return layout->corner.item;
 }
 
+/* Marks the triangles of a planar face, from `first` on, if there are
+ * several. */
+static void mark_coplanar(struct layout *layout, size_t first) {
+  size_t end = layout->flags.count;
+  for (size_t t = first; first + 1 < end && t < end; t++)
+    layout->flags.item[t] |= SHEET_COPLANAR;
+}
+
 static recto_status add_polygon_face(struct layout *layout, uint32_t face,
                                      uint32_t start, uint32_t count,
                                      bool clipped) {
@@ -257,6 +265,8 @@ static recto_status add_polygon_face(struct layout *layout, uint32_t face,
   layout->sheet->empty += triangulation->triangle.count == 0;
   recto_status status = clipped ? cut_polygon_face(layout, face, start, count)
                                 : add_whole_face(layout, face, start, count);
+  if (!triangulation->warped)
+    mark_coplanar(layout, first);
   return status == RECTO_OK ? add_folds(layout, face, first, folds) : status;
 }
 
@@ -321,8 +331,12 @@ static recto_status add_face(struct layout *layout, uint32_t face) {
     layout->sheet->empty++;
     return RECTO_OK;
   }
-  if (any)
-    return layout_cut_facet(layout, &facet);
+  if (any) {
+    size_t first = layout->flags.count;
+    recto_status status = layout_cut_facet(layout, &facet);
+    mark_coplanar(layout, first);
+    return status;
+  }
   if (!layout_reserve(layout, 1))
     return error_memory(layout->error);
   layout_record_facet_sides(layout, &facet, layout_add_facet(layout, &facet));

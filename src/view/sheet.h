@@ -49,6 +49,7 @@ enum {
   SHEET_FLIPPED = 2, /* the face's own winding is clockwise on the page */
   SHEET_INNER = 4,   /* shifted by k: side k is no edge of the mesh: a diagonal,
                         or one that clipping made */
+  SHEET_COPLANAR = 32 /* one of several triangles of a planar face */
 };
 
 struct sheet_edge {

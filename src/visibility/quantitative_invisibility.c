@@ -58,7 +58,7 @@ static bool find_changes(struct invisibility_sweep *sweep,
   for (size_t i = 0; i < sweep->query.found.count; i++) {
     uint32_t t = sweep->query.found.item[i];
     struct occluded_interval interval;
-    if (t == edge->triangle[0] || t == edge->triangle[1] ||
+    if (occlusion_is_own(sweep->sheet, edge, t) ||
         !occlusion_is_possible(sweep->sheet, t, p, q, box))
       continue;
     if (occlude_edge_by_triangle(sweep->sheet, t, p, q, &interval,

@@ -38,8 +38,7 @@ static bool solve_strokes(const struct sheet *sheet, struct map *map,
     edge_intervals_start(&intervals);
     for (size_t t = 0; t < n; t++) {
       struct occluded_interval interval;
-      bool own = t == edge->triangle[0] || t == edge->triangle[1];
-      if (!own && !is_flat(sheet, t) &&
+      if (!occlusion_is_own(sheet, edge, (uint32_t)t) && !is_flat(sheet, t) &&
           occlude_edge(&occluder[t], s.p, s.q, &interval, counts) &&
           !edge_intervals_occlude(&intervals, interval))
         goto end;

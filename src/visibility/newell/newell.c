@@ -72,7 +72,7 @@ static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
        i++) {
     uint32_t t = work->query.found.item[i];
     struct occluded_interval part;
-    if (t == edge->triangle[0] || t == edge->triangle[1] ||
+    if (occlusion_is_own(sheet, edge, t) ||
         !occlusion_is_possible(sheet, t, p, q, box))
       continue;
     if (piece[t].state == NEWELL_PAINTED && piece[t].rank < rank &&

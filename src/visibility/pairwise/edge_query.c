@@ -66,7 +66,7 @@ static bool occlude_by_triangle(struct edge_query *query, uint32_t t,
 /* Tests triangle t, which may overlap the edge, and adds what it occludes. */
 static bool test_triangle(struct edge_query *query, uint32_t t) {
   struct occluded_interval part;
-  if (t == query->triangle[0] || t == query->triangle[1] ||
+  if (occlusion_is_own(query->sheet, query->edge, t) ||
       (query->several_cells && !triangle_grid_query_first(&query->found, t)) ||
       !occlude_by_triangle(query, t, &part))
     return true;
@@ -148,8 +148,7 @@ bool edge_query_solve(struct edge_query *query, uint32_t e) {
   const struct triangle_grid *grid = &query->lists->grid;
   const struct sheet_edge *edge = &query->sheet->edge.item[e];
   struct cell_range r;
-  query->triangle[0] = edge->triangle[0];
-  query->triangle[1] = edge->triangle[1];
+  query->edge = edge;
   query->p = query->sheet->point.item[edge->point[0]];
   query->q = query->sheet->point.item[edge->point[1]];
   query->kdop = kdop8_of_point(query->p);

@@ -20,7 +20,7 @@ struct edge_query {
   struct edge_intervals intervals; /* the occluded ones: the result */
   struct occlusion_counts counts;
   /* The current edge. */
-  uint32_t triangle[2]; /* the triangles it belongs to */
+  const struct sheet_edge *edge;
   struct geom_point p, q;
   /* The remaining part of the edge, outside of which it is known to be
    * hidden. */

@@ -126,7 +126,7 @@ static bool is_hidden(const struct warnock *w, const struct edge_task *task) {
 /* Adds the interval that triangle t occludes of the edge inside the window. */
 static bool occlude_by(struct warnock *w, struct edge_task *task, uint32_t t) {
   struct occluded_interval hidden;
-  if (t == task->edge->triangle[0] || t == task->edge->triangle[1] ||
+  if (occlusion_is_own(w->sheet, task->edge, t) ||
       !occlusion_is_possible(w->sheet, t, task->p, task->q, task->box) ||
       !occlude_edge_by_triangle(w->sheet, t, task->p, task->q, &hidden,
                                 &w->occlusion_counts))

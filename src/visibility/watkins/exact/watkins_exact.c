@@ -72,9 +72,9 @@ static bool add_pair(void *user, const struct sweep *sweep, uint32_t edge,
                      uint32_t triangle) {
   struct edge_face_pairs *pairs = &((struct exact *)user)->pairs;
   uint32_t side = sweep->edge.item[edge].side;
-  const uint32_t *own = sweep->sheet->edge.item[side].triangle;
   struct sort_key pair = {(uint64_t)side << 32 | triangle, 0};
-  if (pairs->too_many || triangle == own[0] || triangle == own[1])
+  if (pairs->too_many ||
+      occlusion_is_own(sweep->sheet, &sweep->sheet->edge.item[side], triangle))
     return true;
   return (pairs->pair.count < pairs->limit || unique_pairs(pairs)) &&
          ARRAY_PUSH(&pairs->pair, pair);
