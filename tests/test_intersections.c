@@ -18,17 +18,47 @@ struct lines {
   struct geom_point end[16];
 };
 
+/* Lays the scene out and finds its lines of intersection; ends the fixture. */
+static void solve(struct sheet_fixture *fixture, struct lines *lines) {
+  struct map map;
+  recto_error error;
+  const struct solver_request request = {
+      .strokes = true, .intersections = true, .threads = 1};
+  struct report *report = report_create();
+  sheet_fixture_out(fixture, false);
+  const struct sheet *sheet = &fixture->sheet;
+  size_t edges = sheet->edge.count;
+  map_init(&map);
+  assert_int_equal(
+      solver_brute.solve(&fixture->sheet, &request, &map, report, &error),
+      RECTO_OK);
+  lines->count = 0;
+  for (size_t e = edges; e < sheet->edge.count; e++)
+    for (int k = 0; k < 2; k++) {
+      assert_in_range(lines->count, 0, 15);
+      lines->end[lines->count++] =
+          sheet->point.item[sheet->edge.item[e].point[k]];
+    }
+  map_fini(&map);
+  report_destroy(report);
+  sheet_fixture_fini(fixture);
+}
+
+/* Their length on the page, in grid units. */
+static double length_of(const struct lines *lines) {
+  double length = 0;
+  for (size_t i = 0; i < lines->count; i += 2)
+    length += hypot((double)lines->end[i].x - lines->end[i + 1].x,
+                    (double)lines->end[i].y - lines->end[i + 1].y);
+  return length;
+}
+
 /* Finds the lines between a square, two opposite corners of which are nearer to
  * a triangle's plane than 0.4, and the triangle.
  * through  the triangle reaches the square */
 static void find_lines(double contact, bool through, double azimuth,
                        struct lines *lines) {
   struct sheet_fixture fixture;
-  struct map map;
-  recto_error error;
-  const struct solver_request request = {
-      .strokes = true, .intersections = true, .threads = 1};
-  struct report *report = report_create();
   sheet_fixture_start(&fixture);
   build_triangle(&fixture.scene, build_point(&fixture.scene, 4, 2, 1),
                  build_point(&fixture.scene, 2, 4, 4),
@@ -39,22 +69,7 @@ static void find_lines(double contact, bool through, double azimuth,
   fixture.options.contact = contact;
   fixture.options.azimuth_deg = azimuth;
   fixture.options.elevation_deg = 75;
-  sheet_fixture_out(&fixture, false);
-  size_t edges = fixture.sheet.edge.count;
-  map_init(&map);
-  assert_int_equal(
-      solver_brute.solve(&fixture.sheet, &request, &map, report, &error),
-      RECTO_OK);
-  lines->count = 0;
-  for (size_t e = edges; e < fixture.sheet.edge.count; e++)
-    for (int k = 0; k < 2; k++) {
-      assert_in_range(lines->count, 0, 15);
-      lines->end[lines->count++] =
-          fixture.sheet.point.item[fixture.sheet.edge.item[e].point[k]];
-    }
-  map_fini(&map);
-  report_destroy(report);
-  sheet_fixture_fini(&fixture);
+  solve(&fixture, lines);
 }
 
 /* The square's diagonal touches the plane, and the square goes on behind it and
@@ -91,12 +106,7 @@ static double intersection_length(const double *polygon, size_t count,
   /* Sets the size of the page for either polygon. */
   static const double far[] = {2, 0, 0, 4, 3, 0, 3, 4, 0};
   struct sheet_fixture fixture;
-  struct map map;
-  recto_error error;
-  const struct solver_request request = {
-      .strokes = true, .intersections = true, .threads = 1};
-  struct report *report = report_create();
-  double length = 0;
+  struct lines lines;
   sheet_fixture_start(&fixture);
   build_polygon(&fixture.scene, far, 3);
   build_polygon(&fixture.scene, polygon, count);
@@ -106,22 +116,8 @@ static double intersection_length(const double *polygon, size_t count,
   fixture.options.elevation_deg = view % 2 == 0 ? 20 : -35;
   fixture.options.fit = RECTO_FIT_SCALE;
   fixture.options.scale = 1;
-  sheet_fixture_out(&fixture, false);
-  size_t edges = fixture.sheet.edge.count;
-  map_init(&map);
-  assert_int_equal(
-      solver_brute.solve(&fixture.sheet, &request, &map, report, &error),
-      RECTO_OK);
-  for (size_t e = edges; e < fixture.sheet.edge.count; e++) {
-    const uint32_t *point = fixture.sheet.edge.item[e].point;
-    struct geom_point a = fixture.sheet.point.item[point[0]],
-                      b = fixture.sheet.point.item[point[1]];
-    length += hypot((double)a.x - b.x, (double)a.y - b.y);
-  }
-  map_fini(&map);
-  report_destroy(report);
-  sheet_fixture_fini(&fixture);
-  return length;
+  solve(&fixture, &lines);
+  return length_of(&lines);
 }
 
 /* The plane of the triangle contains a diagonal of the hexagon, but for
@@ -144,35 +140,98 @@ static void a_diagonal_that_faces_share_may_be_a_line(void **state) {
   (void)state;
   for (int view = 0; view < 24; view++) {
     struct sheet_fixture fixture;
-    struct map map;
-    recto_error error;
-    const struct solver_request request = {
-        .strokes = true, .intersections = true, .threads = 1};
-    struct report *report = report_create();
+    struct lines lines;
     sheet_fixture_start(&fixture);
     scenes_crossed_in_diagonal(&fixture.scene, &fixture.options);
     fixture.options.contact = view % 2 == 0 ? 0 : -1;
     fixture.options.azimuth_deg = 15 * view;
     fixture.options.elevation_deg = view % 3 == 0 ? 50 : 15;
-    sheet_fixture_out(&fixture, false);
-    size_t edges = fixture.sheet.edge.count;
-    map_init(&map);
-    assert_int_equal(
-        solver_brute.solve(&fixture.sheet, &request, &map, report, &error),
-        RECTO_OK);
-    assert_int_equal(fixture.sheet.edge.count, edges + 2);
-    for (uint32_t copy = 0; copy < 2; copy++) {
-      const uint32_t *line = fixture.sheet.edge.item[edges + copy].point;
-      const struct geom_point *point = fixture.sheet.point.item;
-      uint32_t from = 6 * copy, to = from + 1;
-      assert_true((geom_same_point(point[line[0]], point[from]) &&
-                   geom_same_point(point[line[1]], point[to])) ||
-                  (geom_same_point(point[line[0]], point[to]) &&
-                   geom_same_point(point[line[1]], point[from])));
+    fixture.options.fit = RECTO_FIT_SCALE;
+    fixture.options.scale = 1;
+    solve(&fixture, &lines);
+    assert_int_equal(lines.count, 4);
+    /* Both are 3 mm long and parallel to the x axis. */
+    double turn = acos(-1) / 180 * fixture.options.azimuth_deg,
+           rise = acos(-1) / 180 * fixture.options.elevation_deg;
+    double share = hypot(cos(turn), sin(turn) * sin(rise));
+    assert_true(fabs(length_of(&lines) - 6 * share * SHEET_UNITS_PER_MM) < 4);
+  }
+}
+
+/* The ridge of a roof runs up within a wall that is seen edge-on, or is so many
+ * units of the grid thick on the page; the wall is 1 mm high, so that a line of
+ * 1 mm on the page is in it. */
+static void a_wall_seen_edge_on_has_its_whole_line(void **state) {
+  (void)state;
+  for (int units = 0; units < 12; units++) {
+    struct sheet_fixture fixture;
+    struct lines lines;
+    double tilt = units / SHEET_UNITS_PER_MM;
+    const double wall[] = {5 - tilt / 2, 3, -0.5, 5 - tilt / 2, 7, -0.5,
+                           5 + tilt / 2, 7, 0.5,  5 + tilt / 2, 3, 0.5};
+    sheet_fixture_start(&fixture);
+    build_polygon(&fixture.scene, wall, 4);
+    uint32_t low = build_point(&fixture.scene, 5 - tilt, 4, -1),
+             high = build_point(&fixture.scene, 5 + tilt, 6, 1);
+    build_triangle(&fixture.scene, low, high,
+                   build_point(&fixture.scene, 7, 5, -1));
+    build_triangle(&fixture.scene, high, low,
+                   build_point(&fixture.scene, 3, 5, -1));
+    scenes_view_page(&fixture.options, 10, 10);
+    solve(&fixture, &lines);
+    assert_true(fabs(length_of(&lines) - SHEET_UNITS_PER_MM) < 64);
+  }
+}
+
+/* A polygon that touches itself shares an edge with another face, and is in
+ * contact with it. */
+static void a_face_makes_no_line_with_itself(void **state) {
+  struct sheet_fixture fixture;
+  struct lines lines;
+  (void)state;
+  sheet_fixture_start(&fixture);
+  struct scene *scene = &fixture.scene;
+  uint32_t a = build_point(scene, 0, -2, 0), b = build_point(scene, 2, 0, -0.5);
+  const uint32_t folded[] = {build_point(scene, 2, -0.5, -2),
+                             build_point(scene, 1.5, 0, 1),
+                             a,
+                             b,
+                             build_point(scene, 1, 0, -0.5),
+                             a};
+  const uint32_t plain[] = {build_point(scene, 2, 0, 0),
+                            build_point(scene, 0, 0, 0), b, a};
+  build_face(scene, plain, 4);
+  build_face(scene, folded, 6);
+  fixture.options.contact = 0.1;
+  fixture.options.azimuth_deg = 45;
+  fixture.options.elevation_deg = 35.264389682754654;
+  solve(&fixture, &lines);
+  assert_int_equal(lines.count, 0);
+}
+
+/* Where a triangle meets a rectangle beside its diagonal, within wide contact,
+ * the line is where it is without contact, and not along the diagonal. */
+static void the_longer_part_of_a_line_says_where_it_is(void **state) {
+  static const double rectangle[] = {-1.5, -2,   -0.5, 2,    -2,   -0.5,
+                                     2,    -0.5, -0.5, -1.5, -0.5, -0.5};
+  static const double triangle[] = {
+      1.5, -2, -1.5, 4, 1, 0.25, 2, 1, 0.6666666666666666};
+  (void)state;
+  for (int view = 0; view < 72; view++) {
+    double length[2];
+    for (int wide = 0; wide < 2; wide++) {
+      struct sheet_fixture fixture;
+      struct lines lines;
+      sheet_fixture_start(&fixture);
+      build_polygon(&fixture.scene, rectangle, 4);
+      build_polygon(&fixture.scene, triangle, 3);
+      fixture.options.contact = 0.5 * wide;
+      fixture.options.azimuth_deg = 5 * view;
+      fixture.options.elevation_deg = 40 + view % 3;
+      solve(&fixture, &lines);
+      length[wide] = length_of(&lines);
     }
-    map_fini(&map);
-    report_destroy(report);
-    sheet_fixture_fini(&fixture);
+    assert_true(fabs(length[0] - length[1]) < 64);
   }
 }
 
@@ -182,6 +241,9 @@ int main(void) {
       cmocka_unit_test(what_meets_beside_an_edge_has_its_line_there),
       cmocka_unit_test(a_line_along_a_diagonal_is_whole),
       cmocka_unit_test(a_diagonal_that_faces_share_may_be_a_line),
+      cmocka_unit_test(a_wall_seen_edge_on_has_its_whole_line),
+      cmocka_unit_test(a_face_makes_no_line_with_itself),
+      cmocka_unit_test(the_longer_part_of_a_line_says_where_it_is),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,7 +54,7 @@ void edge_crossings_fini(struct edge_crossings *crossings) {
 
 /* ---- Clipping ------------------------------------------------------------ */
 
-/* Clips an edge to triangle g on the page.
+/* Clips an edge to triangle g, which has an area, on the page.
  * end  gets the ends of the clipped edge, rounded to the grid
  * Returns false where nothing is left. */
 static bool clip_to_triangle(const struct sheet *sheet,
@@ -64,8 +64,7 @@ static bool clip_to_triangle(const struct sheet *sheet,
   const struct geom_point p = sheet->point.item[edge.i],
                           q = sheet->point.item[edge.j];
   struct occluded_interval part;
-  if ((sheet->triangle_flags[g] & SHEET_FLAT) ||
-      !occlude_by_outline(corner.p, p, q, &part))
+  if (!occlude_by_outline(corner.p, p, q, &part))
     return false;
   for (int k = 0; k < 2; k++) {
     struct ratio t_k = k == 0 ? part.from : part.to;
@@ -76,14 +75,27 @@ static bool clip_to_triangle(const struct sheet *sheet,
   return true;
 }
 
-/* Does p lie on the line through a and b on the page, within
- * TOLERANCE_COINCIDENT_UNITS? */
-static bool is_near_line(struct geom_point a, struct geom_point b,
-                         struct geom_point p) {
-  const int128 near = TOLERANCE_COINCIDENT_UNITS;
+/* Does p lie on the line through a and b on the page, within `near` units? */
+static bool is_within(int128 near, struct geom_point a, struct geom_point b,
+                      struct geom_point p) {
   int64_t x = (int64_t)b.x - a.x, y = (int64_t)b.y - a.y,
           off = geom_orient2d(a, b, p);
   return (int128)off * off <= near * near * ((int128)x * x + (int128)y * y);
+}
+
+static bool is_near_line(struct geom_point a, struct geom_point b,
+                         struct geom_point p) {
+  return is_within(TOLERANCE_COINCIDENT_UNITS, a, b, p);
+}
+
+/* Is a triangle seen edge-on, within the contact tolerance of the grid? */
+static bool is_edge_on(const struct sheet *sheet, uint32_t triangle) {
+  struct geom_triangle t = sheet_corners(sheet, triangle);
+  for (int k = 0; k < 3; k++)
+    if (is_within(TOLERANCE_CONTACT_GRID_UNITS, t.p[k], t.p[(k + 1) % 3],
+                  t.p[(k + 2) % 3]))
+      return true;
+  return false;
 }
 
 static void sort_two(bool steep, struct geom_point *a, struct geom_point *b) {
@@ -113,6 +125,17 @@ static bool clip_to_edge(const struct sheet *sheet, struct surface_edge e,
   return edge_compare_along(steep, end[0], end[1]) < 0;
 }
 
+static bool is_same_face(const struct sheet *sheet, uint32_t f, uint32_t g) {
+  return sheet->triangle.item[f].face == sheet->triangle.item[g].face;
+}
+
+/* Is a segment so short on the page that rounding decides its direction? */
+static bool is_point(const struct intersection_segment *segment) {
+  const struct geom_point *end = segment->end;
+  return llabs((int64_t)end[0].x - end[1].x) <= TOLERANCE_COINCIDENT_UNITS &&
+         llabs((int64_t)end[0].y - end[1].y) <= TOLERANCE_COINCIDENT_UNITS;
+}
+
 /* Does the surface about an edge that lies on triangle g pass through it: has
  * it triangles that end on g from behind, and others from in front? */
 static bool passes_through(const struct sheet *sheet,
@@ -124,6 +147,8 @@ static bool passes_through(const struct sheet *sheet,
   struct occluder plane;
   occluder_init(&plane, sheet, g);
   for (; incidence < end; incidence++) {
+    if (is_same_face(sheet, incidence->triangle, g))
+      continue;
     struct side_count count =
         side_count_of(&plane, sheet_corners(sheet, incidence->triangle).p);
     behind |= count.in_front == 0 && count.behind == 1;
@@ -133,22 +158,27 @@ static bool passes_through(const struct sheet *sheet,
 }
 
 /* Decides whether the triangles that end on triangle g along an edge meet it
- * along that edge, and adds the segments in which they meet it elsewhere.
+ * along that edge; else adds the segments in which they meet it.
  * along  gets the decision
+ * end    gets the ends of such a segment along the edge
  * Returns false when memory ran out. */
 static bool meet_along(const struct sheet *sheet,
                        const struct incidences *incidences,
                        struct surface_edge edge, uint32_t g,
-                       struct intersection_segments *segments, bool *along) {
-  const struct incidence *end,
-      *incidence = incidences_find(incidences, edge, &end);
+                       struct intersection_segments *segments, bool *along,
+                       struct geom_point end[2]) {
+  const struct incidence *past,
+      *incidence = incidences_find(incidences, edge, &past);
   struct geom_point p = sheet->point.item[edge.i],
                     q = sheet->point.item[edge.j];
+  size_t first = segments->list.count;
   struct occluder hf, hg;
+  bool found = false, beside = false;
   occluder_init(&hg, sheet, g);
-  *along = false;
-  for (; incidence < end; incidence++) {
+  for (; incidence < past; incidence++) {
     struct intersection_segment segment;
+    if (is_same_face(sheet, incidence->triangle, g))
+      continue;
     occluder_init(&hf, sheet, incidence->triangle);
     if (!ends_on_plane(side_count_of(&hg, hf.p)) ||
         !intersection_segment_find(sheet, incidence->triangle, g, &hf, &hg,
@@ -156,13 +186,18 @@ static bool meet_along(const struct sheet *sheet,
       continue;
     /* All of a triangle seen edge-on is near the line on the page, which
      * says nothing then. */
-    if (!(sheet->triangle_flags[incidence->triangle] & SHEET_FLAT) &&
-        is_near_line(p, q, segment.end[0]) &&
-        is_near_line(p, q, segment.end[1]))
-      *along = true;
-    else if (!ARRAY_PUSH(&segments->list, segment))
+    bool near = is_near_line(p, q, segment.end[0]) &&
+                is_near_line(p, q, segment.end[1]);
+    beside |= !near;
+    found |= near && !(sheet->triangle_flags[incidence->triangle] & SHEET_FLAT);
+    end[0] = segment.end[0];
+    end[1] = segment.end[1];
+    if (!ARRAY_PUSH(&segments->list, segment))
       return false;
   }
+  *along = found && !beside;
+  if (*along)
+    segments->list.count = first;
   return true;
 }
 
@@ -229,10 +264,14 @@ static bool decide_crossing(const struct sheet *sheet,
       return false;
   } else {
     if (passes_through(sheet, incidences, side[1 - g], side[g].i) &&
-        !meet_along(sheet, incidences, side[1 - g], side[g].i, segments, cross))
+        !meet_along(sheet, incidences, side[1 - g], side[g].i, segments, cross,
+                    segment->end))
       return false;
-    *cross =
-        *cross && clip_to_triangle(sheet, side[1 - g], side[g].i, segment->end);
+    /* The edge itself is exact, but only space shows which part of it is in a
+     * triangle that is seen edge-on. */
+    if (!is_edge_on(sheet, side[g].i))
+      *cross = *cross &&
+               clip_to_triangle(sheet, side[1 - g], side[g].i, segment->end);
   }
   *cross = *cross && (segment->end[0].x != segment->end[1].x ||
                       segment->end[0].y != segment->end[1].y);
@@ -256,7 +295,7 @@ static bool add_slanted_segments(const struct sheet *sheet,
     uint32_t f = incidence->triangle;
     struct intersection_segment segment;
     struct side_count sf, sg;
-    if (sheet->triangle.item[f].face == sheet->triangle.item[g].face)
+    if (is_same_face(sheet, f, g))
       continue;
     occluder_init(&hf, sheet, f);
     sf = side_count_of(&hg, hf.p);
@@ -264,11 +303,7 @@ static bool add_slanted_segments(const struct sheet *sheet,
     if (straddles(sf) || ends_on_plane(sf) || !straddles(sg) ||
         !intersection_segment_find(sheet, f, g, &hf, &hg, &segment))
       continue;
-    if ((llabs((int64_t)segment.end[0].x - segment.end[1].x) >
-             TOLERANCE_COINCIDENT_UNITS ||
-         llabs((int64_t)segment.end[0].y - segment.end[1].y) >
-             TOLERANCE_COINCIDENT_UNITS) &&
-        !ARRAY_PUSH(&segments->list, segment))
+    if (!is_point(&segment) && !ARRAY_PUSH(&segments->list, segment))
       return false;
   }
   return true;
