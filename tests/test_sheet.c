@@ -576,6 +576,48 @@ static void wires_are_cut_at_the_page(void **state) {
   sheet_fixture_fini(&fixture);
 }
 
+/* The depths are those of the face; the wire, whose ends are not on the page,
+ * is set to their end, and yet farther than all of the face by far. */
+static void what_is_behind_all_faces_does_not_touch_them(void **state) {
+  static const double face[] = {-500, -500, -1, 500, -500, 1, 0, 500, 0};
+  (void)state;
+  struct sheet_fixture fixture;
+  sheet_fixture_start(&fixture);
+  build_polygon(&fixture.scene, face, 3);
+  build_segment(&fixture.scene, build_point(&fixture.scene, -500, 0, -9),
+                build_point(&fixture.scene, 500, 0, -9));
+  scenes_view_page(&fixture.options, 20, 20);
+  sheet_fixture_out(&fixture, false);
+  const struct sheet *sheet = &fixture.sheet;
+  const struct sheet_edge *wire = &sheet->edge.item[sheet->edge.count - 1];
+  assert_int_equal(wire->edge_class, RECTO_EDGE_WIRE);
+  for (size_t t = 0; t < sheet->triangle.count; t++)
+    for (int k = 0; k < 3; k++)
+      assert_true(sheet->point.item[sheet->triangle.item[t].point[k]].z >
+                  sheet->point.item[wire->point[0]].z + SHEET_Z_MAX / 4);
+  sheet_fixture_fini(&fixture);
+}
+
+/* Of the second triangle of a bent face, a strip is left behind the near plane
+ * that is thinner than the grid: it lies where the triangle lies, so that the
+ * face does not fold there. */
+static void a_strip_thinner_than_the_grid_makes_no_fold(void **state) {
+  (void)state;
+  for (int strip = 0; strip < 2; strip++) {
+    static const double face[] = {5, 5, 0, 5, 15, 0, 15, 15, -3, 15, 5, 1};
+    struct sheet_fixture fixture;
+    sheet_fixture_start(&fixture);
+    build_polygon(&fixture.scene, face, 4);
+    scenes_view_page(&fixture.options, 20, 20);
+    fixture.options.edges = RECTO_EDGE_SILHOUETTE;
+    fixture.options.near_distance = strip ? 1000 - 1e-9 : 0;
+    sheet_fixture_out(&fixture, false);
+    for (size_t e = 0; e < fixture.sheet.edge.count; e++)
+      assert_int_not_equal(fixture.sheet.edge.item[e].source, SHEET_NONE);
+    sheet_fixture_fini(&fixture);
+  }
+}
+
 static void wires_not_requested_are_left_out(void **state) {
   (void)state;
   struct sheet_fixture fixture;
@@ -732,6 +774,8 @@ int main(void) {
       cmocka_unit_test(the_order_of_corners_changes_no_point),
       cmocka_unit_test(wires_are_edges_segment_by_segment),
       cmocka_unit_test(wires_are_cut_at_the_page),
+      cmocka_unit_test(what_is_behind_all_faces_does_not_touch_them),
+      cmocka_unit_test(a_strip_thinner_than_the_grid_makes_no_fold),
       cmocka_unit_test(wires_not_requested_are_left_out),
       cmocka_unit_test(diagonals_are_no_edges),
       cmocka_unit_test(welded_points_are_one_on_the_sheet),

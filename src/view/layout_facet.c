@@ -126,10 +126,26 @@ static void drop_repeats(struct clip_polygon *polygon, uint32_t *point) {
   polygon->count = kept;
 }
 
+/* The orientation of a facet on the page, in its own winding, before clipping
+ * and rounding; 0: seen edge-on. */
+static int view_sign(const struct layout *layout,
+                     const struct view_point corner[3]) {
+  const struct view_point *a = &corner[0], *b = &corner[1], *c = &corner[2];
+  double volume;
+  if (layout->projection.perspective)
+    volume = a->x * (b->y * c->d - c->y * b->d) +
+             b->x * (c->y * a->d - a->y * c->d) +
+             c->x * (a->y * b->d - b->y * a->d);
+  else
+    volume = (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
+  return (volume > 0) - (volume < 0);
+}
+
 /* Adds what is left of a facet and records on which side of its edges it lies.
  * Sides that the near plane made are contours. */
 static recto_status add_polygon(struct layout *layout,
                                 const struct layout_facet *facet,
+                                const struct view_point corner[3],
                                 struct clip_polygon *polygon) {
   uint32_t point[CLIP_MOST];
   for (int i = 0; i < polygon->count; i++) {
@@ -142,6 +158,10 @@ static recto_status add_polygon(struct layout *layout,
     return RECTO_OK;
   int sign = 0;
   recto_status status = add_fan(layout, facet, polygon, point, &sign);
+  /* Where a strip is left so thin that rounding made it flat, as at the near
+   * plane, the facet still lies on its side of the edge. */
+  if (sign == 0)
+    sign = view_sign(layout, corner);
   for (int i = 0; status == RECTO_OK && i < polygon->count; i++) {
     const uint32_t end[2] = {point[i],
                              point[i + 1 < polygon->count ? i + 1 : 0]};
@@ -173,5 +193,5 @@ recto_status layout_cut_facet(struct layout *layout,
   struct clip_polygon polygon;
   if (!clip_triangle(&layout->projection, corner, facet->forward, &polygon))
     return RECTO_OK;
-  return add_polygon(layout, facet, &polygon);
+  return add_polygon(layout, facet, corner, &polygon);
 }

@@ -11,7 +11,9 @@
  * front of everything and the far edge behind.  A side of such a face, or a
  * polyline, that is wholly outside the range is set to the end of the range
  * (project_point); where it overlaps the range, the range is extended to
- * include it, so that it stays straight.
+ * include it, so that it stays straight.  If there is one behind the range, the
+ * far end is moved back by the length of the range, so that what is set to it is
+ * not in contact with the farthest face.
  */
 #include "view/layout_phases.h"
 #include "view/vector.h"
@@ -22,6 +24,7 @@
 
 struct depth_range {
   double low, high;
+  bool is_passed; /* lines were left out that are wholly behind it */
 };
 
 /* Extending the range by one line may make it overlap another, so the lines are
@@ -104,7 +107,7 @@ static bool grow_by_face(struct depth_range *range, struct layout *layout,
  * page. */
 static bool is_cut_near(struct layout *layout, uint32_t face, bool *cut) {
   struct projection nearer = layout->projection;
-  struct depth_range range = {INFINITY, -INFINITY};
+  struct depth_range range = {.low = INFINITY, .high = -INFINITY};
   nearer.near_d *= NEARER;
   bool ok = grow_by_face(&range, layout, &nearer, face);
   *cut = range.low < layout->projection.near_d;
@@ -147,8 +150,10 @@ static bool grow_by_segment(struct depth_range *range,
   if (!clip_segment(&layout->projection, end, moved))
     return false;
   double low = fmin(end[0].d, end[1].d), high = fmax(end[0].d, end[1].d);
-  if (!force && (high < range->low || low > range->high))
+  if (!force && (high < range->low || low > range->high)) {
+    range->is_passed |= low > range->high;
     return false;
+  }
   bool grows = low < range->low || high > range->high;
   grow(range, low);
   grow(range, high);
@@ -206,17 +211,21 @@ static void grow_by_points(struct depth_range *range, struct layout *layout,
 
 recto_status layout_range(struct layout *layout, const uint8_t *used) {
   struct camera *camera = &layout->sheet->camera;
-  struct depth_range range = {INFINITY, -INFINITY};
+  struct depth_range range = {.low = INFINITY, .high = -INFINITY};
   if (camera->all_on_page)
     return RECTO_OK;
   grow_by_points(&range, layout, used);
   if (!grow_by_faces(&range, layout))
     return error_memory(layout->error);
   bool none = range.low > range.high, grew = true;
-  for (int round = 1; grew && round <= MAX_ROUNDS; round++)
+  for (int round = 1; grew && round <= MAX_ROUNDS; round++) {
+    range.is_passed = false;
     grew = grow_by_all_lines(&range, layout, none || round == MAX_ROUNDS);
+  }
   if (range.low > range.high)
     return RECTO_OK;
+  if (range.is_passed)
+    range.high += range.high - range.low;
   camera->d_min = range.low;
   camera->d_max = range.high;
   layout->projection = projection_of(camera);
