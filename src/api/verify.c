@@ -47,18 +47,27 @@ static bool take_drawn(struct judge_drawing *to,
   return true;
 }
 
+/* Where the output's unit is larger than FINE_UNIT_MM, lines of less than so
+ * many units may collapse to a point. */
+#define FINE_UNIT_MM 0.01
+#define COLLAPSED_UNITS 4
+
 /* Collects the lines that were not drawn because they are too short: with ids
- * too, the length of a line before it is split by source decides. */
+ * too, the length of a line before it is split by source decides.  Hidden lines
+ * are drawn as well, since lines end where these begin. */
 static recto_status take_dropped(struct judge_drawing *to,
                                  const struct verify *verify,
                                  recto_error *error) {
   recto_options all = *verify->options;
-  double shortest = all.min_stroke_mm;
-  if (shortest == 0)
+  double shortest = all.min_stroke_mm, collapsed = 0;
+  if (all.unit_mm > FINE_UNIT_MM) {
+    collapsed = COLLAPSED_UNITS * all.unit_mm;
+    all.unit_mm = FINE_UNIT_MM;
+  }
+  if (shortest == 0 && collapsed == 0)
     return RECTO_OK;
   all.min_stroke_mm = 0;
   all.ids = false;
-  all.hidden = RECTO_HIDDEN_NONE;
   all.fill = RECTO_FILL_NONE;
   all.order = RECTO_ORDER_NONE;
   struct drawing drawing;
@@ -68,8 +77,9 @@ static recto_status take_dropped(struct judge_drawing *to,
   for (size_t i = 0; status == RECTO_OK && i < drawing.stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing.stroke.item[i];
     double half_pen = drawing.layer.item[stroke->layer].width_mm / 2;
-    if (drawing_stroke_mm(&drawing, stroke) <
-            (shortest < 0 ? half_pen : shortest) &&
+    if (!stroke->hidden &&
+        drawing_stroke_mm(&drawing, stroke) <
+            (shortest < 0 ? half_pen : shortest) + collapsed &&
         !take_stroke(to, &drawing, stroke, JUDGE_DROPPED))
       status = error_memory(error);
   }

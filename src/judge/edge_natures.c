@@ -73,8 +73,7 @@ static struct judge_facing facing_of(const struct judge_facings *facings,
   facing.open =
       start[1] - start[0] > JUDGE_TRIANGULATION_MOST &&
       judge_is_warped(facings->scene, face, facings->options->contact);
-  if (facings->all->fan_triangle.count > 0)
-    facing.thin = is_thin(facings, face, contact);
+  facing.thin = is_thin(facings, face, contact);
   return facing;
 }
 
@@ -126,7 +125,9 @@ static double slope_at_side(const struct judge_facings *facings,
       judge_fan_along(facings->all, side->face, side->a, side->b, &fan);
   if (fan > 0)
     return fan == 1 ? judge_fan_slope(facings, fan_triangle, at) : 0;
-  return facing->flat || facing->open ? 0 : slope(facings, facing->normal, at);
+  return facing->flat || facing->open || facing->thin
+             ? 0
+             : slope(facings, facing->normal, at);
 }
 
 unsigned judge_natures_of_pair(const struct judge_facings *facings,
