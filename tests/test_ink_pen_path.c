@@ -8,6 +8,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "base/report.h"
 #include "ink/order/nearest.h"
 #include "ink/order/pen_path.h"
 #include "tests/ink_fixture.h"

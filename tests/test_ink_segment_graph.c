@@ -8,6 +8,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "base/report.h"
 #include "tests/ink_fixture.h"
 #include "tests/scenes/random.h"
 
@@ -126,7 +127,6 @@ static void edges_without_length_are_dropped_and_counted(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.drawing.report = NULL;
   ink_fixture_line(&k, 10, 20, 10, 20, CREASE);
   uint32_t tiny = ink_fixture_line_at(&k, 5, 5, 105, 5, CREASE);
   ink_fixture_show(&k, tiny, 1000, 1001,
@@ -136,7 +136,7 @@ static void edges_without_length_are_dropped_and_counted(void **state) {
   ink_fixture_end(&k);
 }
 
-static void counts_are_reported(void **state) {
+static void segments_and_strokes_are_counted(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
@@ -147,17 +147,16 @@ static void counts_are_reported(void **state) {
   k.options.min_stroke_mm = 1;
   k.map.edge_state = k.state.item;
   k.map.edge_count = k.state.count;
-  struct report *report = k.drawing.report = report_create();
-  assert_non_null(report);
   assert_int_equal(
       ink_draw(&k.drawing, &k.sheet, &k.scene, &k.map, &k.options, NULL),
       RECTO_OK);
   k.map.edge_state = NULL;
-  assert_int_equal(report_get(report, "ink", "segments", -1), 3);
-  assert_int_equal(report_get(report, "ink", "without_length", -1), 1);
-  assert_int_equal(report_get(report, "ink", "drawn_twice", -1), 1);
-  assert_int_equal(report_get(report, "ink", "too_short", -1), 1);
-  assert_int_equal(report_get(report, "ink", "pen_lifts", -1), 1);
+  const struct drawing_counts *counts = &k.drawing.counts;
+  assert_int_equal(counts->segments, 3);
+  assert_int_equal(counts->without_length, 1);
+  assert_int_equal(counts->drawn_twice, 1);
+  assert_int_equal(counts->too_short, 1);
+  assert_int_equal(counts->pen_lifts, 1);
   ink_fixture_end(&k);
 }
 
@@ -668,7 +667,7 @@ int main(void) {
       cmocka_unit_test(interval_ends_are_rounded_to_the_grid),
       cmocka_unit_test(visible_and_hidden_make_the_edge_whole),
       cmocka_unit_test(edges_without_length_are_dropped_and_counted),
-      cmocka_unit_test(counts_are_reported),
+      cmocka_unit_test(segments_and_strokes_are_counted),
       cmocka_unit_test(interval_ends_join_at_one_grid_point),
       cmocka_unit_test(ends_a_unit_apart_join),
       cmocka_unit_test(ends_join_across_rows),

@@ -2,8 +2,6 @@
 #ifndef API_HANDLE_H
 #define API_HANDLE_H
 
-#include <math.h>
-
 #include "api/verify.h"
 #include "drawing/drawing.h"
 #include "scene/scene.h"
@@ -26,8 +24,9 @@ struct result_edge {
 
 struct recto_drawing {
   struct drawing drawing;
-  double matrix[12]; /* 3 x 4, from scene units to homogeneous page mm */
-  double depth[4];   /* 1 x 4, from scene units to the depth */
+  struct report *report; /* owned; NULL where memory ran out */
+  double matrix[12];     /* 3 x 4, from scene units to homogeneous page mm */
+  double depth[4];       /* 1 x 4, from scene units to the depth */
   char verdict[VERIFY_SUMMARY_SIZE]; /* "": not verified */
   ARRAY(struct result_edge) edge;    /* RECTO_RESULT_EDGES */
   ARRAY(recto_interval) interval;
@@ -64,11 +63,5 @@ USE_RESULT recto_status drawing_keep_edges(recto_drawing *drawing,
 USE_RESULT recto_status options_take(recto_options *own,
                                      const recto_options *options,
                                      recto_error *error);
-
-/* Reports a time, to the microsecond, in the section "time". */
-static inline void report_seconds(struct report *report, const char *name,
-                                  double seconds) {
-  report_double(report, "time", name, round(seconds * 1e6) / 1e6);
-}
 
 #endif

@@ -14,6 +14,7 @@ librecto_core_la_SOURCES += \
   %D%/scene.c \
   %D%/sized.c %D%/sized.h \
   %D%/shares.c %D%/shares.h \
+  %D%/stats.c %D%/stats.h \
   %D%/verify.c %D%/verify.h \
   %D%/version.c \
   %D%/vocabulary.c

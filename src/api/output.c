@@ -6,6 +6,7 @@
 #include "api/handle.h"
 #include "api/output.h"
 #include "api/shares.h"
+#include "api/stats.h"
 #include "backends/writer.h"
 #include "base/path.h"
 #include "base/target.h"
@@ -157,8 +158,8 @@ static recto_status fill_outputs(struct outputs *outputs,
   struct writer_options how = writer_options_of(options);
   recto_status status =
       writer->write(&drawing->drawing, &how, outputs->drawing, error);
-  report_seconds(drawing->drawing.report, "write_cpu_s", clock_cpu() - cpu);
-  report_seconds(drawing->drawing.report, "write_wall_s", clock_wall() - wall);
+  stats_add_seconds(drawing->report, "write_cpu_s", clock_cpu() - cpu);
+  stats_add_seconds(drawing->report, "write_wall_s", clock_wall() - wall);
   if (status == RECTO_OK && outputs->stats != NULL)
     stream_text(outputs->stats, recto_drawing_stats(drawing));
   return status;

@@ -11,8 +11,8 @@
 
 #include "api/clip_warning.h"
 #include "api/handle.h"
-#include "backends/device.h"
 #include "api/shares.h"
+#include "api/stats.h"
 #include "base/parallel.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
@@ -32,6 +32,7 @@ struct render {
   struct topology topology;
   struct camera camera;
   struct sheet sheet;
+  size_t triangles; /* of the sheet, also once they are dropped */
   struct page_overflow overflow;
   struct map map;
   recto_drawing *made;
@@ -64,16 +65,7 @@ choose_method(struct render *render, const struct solver_request *request) {
   const struct solver *solver =
       method == RECTO_METHOD_AUTO ? solver_choose(&render->sheet, request, &why)
                                   : solver_by_method(method);
-  report_text(render->report, "method", "requested", recto_method_name(method));
-  report_text(render->report, "method", "chosen", solver->name);
-  report_text(render->report, "method", "why", why);
-  report_text(render->report, "method", "strokes",
-              request->strokes ? "requested" : "not requested");
-  report_text(render->report, "method", "fragments",
-              request->fragments ? "requested" : "not requested");
-  report_text(render->report, "method", "intersections",
-              request->intersections ? "requested" : "not requested");
-  report_int(render->report, "method", "threads", request->threads);
+  stats_add_method(render->report, method, solver, why, request);
   return solver;
 }
 
@@ -167,6 +159,7 @@ static recto_status project(struct render *render, recto_error *error) {
     status = page_overflow_measure(&render->overflow, &render->welded.scene,
                                    &render->topology, &render->camera,
                                    &render->rescaled.options, error);
+  render->triangles = render->sheet.triangle.count;
   /* The topology of a fine mesh takes a quarter of all memory, and without
    * fills or results it is not used again. */
   if (!uses_topology(render)) {
@@ -221,8 +214,6 @@ static recto_status solve(struct render *render, recto_error *error) {
 }
 
 static recto_status ink(struct render *render, recto_error *error) {
-  report_int(render->report, "sheet", "triangles",
-             (int64_t)render->sheet.triangle.count);
   if (!has_fills(render) && render->options->verify == 0)
     sheet_drop_triangles(&render->sheet);
   return ink_draw(render->drawing, &render->sheet, &render->welded.scene,
@@ -280,84 +271,19 @@ static recto_status run_stages(struct render *render, recto_error *error) {
       return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
     double cpu = clock_cpu(), wall = clock_wall();
     recto_status status = stage->run(render, error);
-    report_seconds(render->report, stage->cpu, clock_cpu() - cpu);
-    report_seconds(render->report, stage->wall, clock_wall() - wall);
+    stats_add_seconds(render->report, stage->cpu, clock_cpu() - cpu);
+    stats_add_seconds(render->report, stage->wall, clock_wall() - wall);
     if (status != RECTO_OK)
       return status;
   }
   return RECTO_OK;
 }
 
-/* ---- The report ---------------------------------------------------------- */
-
-static void report_scene(struct report *report, const recto_scene *model) {
-  const struct scene *scene = &model->scene;
-  report_int(report, "scene", "points", (int64_t)scene->point.count);
-  report_int(report, "scene", "faces", scene_face_count(scene));
-  report_int(report, "scene", "polylines", scene_wire_count(scene));
-  report_int(report, "scene", "groups", (int64_t)scene->group.count);
-  static const char *const name[SCENE_FAULT_COUNT] = {
-      [SCENE_FAULT_NOT_FINITE] = "not_finite",
-      [SCENE_FAULT_INDEX] = "index_out_of_range",
-      [SCENE_FAULT_FEW_CORNERS] = "few_corners",
-      [SCENE_FAULT_ZERO_AREA] = "zero_area",
-      [SCENE_FAULT_BOW_TIE] = "bow_tie",
-      [SCENE_FAULT_WARPED] = "warped",
-      [SCENE_FAULT_SYNTAX] = "syntax",
-      [SCENE_FAULT_MATERIAL] = "material",
-  };
-  for (int i = 0; i < SCENE_FAULT_COUNT; i++)
-    report_int(report, "faults", name[i], (int64_t)model->fault[i]);
-}
-
-static void report_sheet(struct report *report, const struct render *render) {
-  const struct sheet *sheet = &render->sheet;
-  report_add(report, "faults", "warped", (int64_t)sheet->warped);
-  report_add(report, "faults", "zero_area", (int64_t)sheet->empty);
-  report_int(report, "sheet", "points", (int64_t)sheet->point.count);
-  report_int(report, "sheet", "edges", (int64_t)sheet->edge.count);
-  report_int(report, "sheet", "faces_clipped_near",
-             (int64_t)sheet->clipped_near);
-  report_int(report, "sheet", "faces_cut_near", (int64_t)sheet->cut_near);
-  report_int(report, "sheet", "faces_clipped_page",
-             (int64_t)sheet->clipped_page);
-}
-
-/* The pen and the drawn length of each layer, so that the user knows which pens
- * to load and whether their ink suffices. */
-static void report_layers(struct report *report,
-                          const struct drawing *drawing) {
-  size_t count = drawing->layer.count;
-  double *pen = mem_calloc(count, 2 * sizeof *pen);
-  if (pen == NULL)
-    return;
-  double *length = pen + count;
-  for (size_t i = 0; i < count; i++)
-    pen[i] = drawing->layer.item[i].pen;
-  for (size_t i = 0; i < drawing->stroke.count; i++) {
-    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
-    length[stroke->layer] += drawing_stroke_mm(drawing, stroke);
-  }
-  report_doubles(report, "drawing", "layer_pen", pen, count);
-  report_doubles(report, "drawing", "layer_length_mm", length, count);
-  mem_free(pen);
-}
-
-static void report_drawing(struct report *report,
-                           const struct drawing *drawing) {
-  report_int(report, "drawing", "layers", (int64_t)drawing->layer.count);
-  report_layers(report, drawing);
-  report_int(report, "drawing", "strokes", (int64_t)drawing->stroke.count);
-  report_int(report, "drawing", "fills", (int64_t)drawing->fill.count);
-  report_int(report, "drawing", "points", (int64_t)drawing->point.count);
-  report_double(report, "drawing", "length_mm", drawing_length_mm(drawing));
-  report_double(report, "drawing", "travel_mm", drawing_travel_mm(drawing));
-}
+/* ---- Warnings ------------------------------------------------------------ */
 
 /* Whether nothing is inside the page's margins. */
 static bool is_outside(const struct render *render) {
-  return report_get(render->report, "sheet", "triangles", 0) == 0 &&
-         render->sheet.edge.count == 0;
+  return render->triangles == 0 && render->sheet.edge.count == 0;
 }
 
 /* Warns if the drawing is empty, which is no error but seldom intended. */
@@ -395,32 +321,7 @@ static void warn_of_near_plane(const struct render *render) {
   o->warning(o->user, "", 0, text);
 }
 
-/* Estimates the plotting time by the requested speeds or the plotter's own,
- * without acceleration. */
-static void report_plotting(struct report *report,
-                            const struct drawing *drawing,
-                            const recto_options *options) {
-  const char *name = options->device != NULL ? options->device : "generic";
-  const struct device *device = device_by_name(name);
-  if (device == NULL)
-    return;
-  double down = device_velocity(device, options->velocity_cm_s);
-  double up = options->velocity_up_cm_s;
-  up = up > 0 ? up : device->up_cm_s;
-  double lifts = (double)report_get(report, "ink", "pen_lifts", 0);
-  struct device_placement place;
-  device_place(device, drawing->width_mm, drawing->height_mm, &place);
-  report_text(report, "plotting", "device", device->name);
-  report_text(report, "plotting", "paper",
-              place.paper != NULL ? place.paper->name : "as the page");
-  report_double(report, "plotting", "velocity_cm_s", down);
-  report_double(report, "plotting", "velocity_up_cm_s", up);
-  report_double(report, "plotting", "lift_s", DEVICE_LIFT_S);
-  report_double(report, "plotting", "time_s",
-                drawing_length_mm(drawing) / (10 * down) +
-                    drawing_travel_mm(drawing) / (10 * up) +
-                    lifts * DEVICE_LIFT_S);
-}
+/* ---- The results --------------------------------------------------------- */
 
 /* Gives faces the numbers that they have in the scene's sources, where faces
  * that were skipped are counted too. */
@@ -470,10 +371,8 @@ static recto_status run(struct render *render, recto_error *error) {
     status = check_pens(render, error);
   if (status != RECTO_OK)
     return status;
-  report_scene(render->report, render->model);
+  stats_add_scene(render->report, render->model);
   double cpu = clock_cpu(), wall = clock_wall();
-  report_seconds(render->report, "read_cpu_s", render->model->read_cpu);
-  report_seconds(render->report, "read_wall_s", render->model->read_wall);
   map_init(&render->map);
   status =
       rescale(&render->rescaled, &render->model->scene, render->options, error);
@@ -484,8 +383,8 @@ static recto_status run(struct render *render, recto_error *error) {
   }
   if (status == RECTO_OK) {
     number_faces(render->drawing, &render->welded.scene);
-    report_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
-    report_seconds(render->report, "render_wall_s", clock_wall() - wall);
+    stats_add_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
+    stats_add_seconds(render->report, "render_wall_s", clock_wall() - wall);
     warn_of_empty_page(render);
     warn_of_near_plane(render);
     clipped_report(&render->overflow, render->report);
@@ -493,9 +392,8 @@ static recto_status run(struct render *render, recto_error *error) {
       clipped_warn(&render->overflow,
                    has_fills(render) ? render->sheet.clipped_page : 0,
                    render->camera.margin_mm, render->options);
-    report_sheet(render->report, render);
-    report_drawing(render->report, render->drawing);
-    report_plotting(render->report, render->drawing, render->options);
+    stats_add_sheet(render->report, &render->sheet, render->triangles);
+    stats_add_drawing(render->report, render->drawing, render->options);
     report_int(render->report, "memory", "peak_bytes",
                (int64_t)mem_peak_bytes());
   }
@@ -532,12 +430,12 @@ recto_status recto_scene_render(const recto_scene *scene,
   if (made == NULL)
     return error_memory(error);
   drawing_init(&made->drawing);
-  made->drawing.report = report_create();
+  made->report = report_create();
   struct render render = {.model = scene,
                           .options = &own,
                           .made = made,
                           .drawing = &made->drawing,
-                          .report = made->drawing.report,
+                          .report = made->report,
                           .verdict = made->verdict};
   status = run(&render, error);
   if (status == RECTO_OK && !keep_files(made, &scene->scene))

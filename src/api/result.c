@@ -10,6 +10,7 @@ void recto_drawing_destroy(recto_drawing *drawing) {
   if (drawing == NULL)
     return;
   drawing_fini(&drawing->drawing);
+  report_destroy(drawing->report);
   ARRAY_FREE(&drawing->file);
   ARRAY_FREE(&drawing->edge);
   ARRAY_FREE(&drawing->interval);
@@ -22,8 +23,8 @@ const char *recto_drawing_verdict(const recto_drawing *drawing) {
 }
 
 const char *recto_drawing_stats(const recto_drawing *drawing) {
-  const char *json = drawing != NULL && drawing->drawing.report != NULL
-                         ? report_json(drawing->drawing.report)
+  const char *json = drawing != NULL && drawing->report != NULL
+                         ? report_json(drawing->report)
                          : NULL;
   return json != NULL ? json : "{}\n";
 }

@@ -2,6 +2,7 @@
 #ifndef API_VERIFY_H
 #define API_VERIFY_H
 
+#include "base/report.h"
 #include "drawing/drawing.h"
 #include "judge/judge.h"
 #include "view/camera.h"

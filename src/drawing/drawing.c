@@ -14,8 +14,6 @@ void drawing_fini(struct drawing *drawing) {
   for (size_t i = 0; i < drawing->group_name.count; i++)
     mem_free(drawing->group_name.item[i]);
   ARRAY_FREE(&drawing->group_name);
-  report_destroy(drawing->report);
-  drawing->report = NULL;
 }
 
 double drawing_width_mm(const struct drawing *drawing,

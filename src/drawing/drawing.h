@@ -5,7 +5,6 @@
 #define DRAWING_DRAWING_H
 
 #include "base/memory.h"
-#include "base/report.h"
 #include "base/status.h"
 
 #define DRAWING_NONE UINT32_MAX
@@ -45,6 +44,16 @@ struct drawing_layer {
   double width_mm;
 };
 
+/* What was counted while the drawing was made. */
+struct drawing_counts {
+  size_t segments;       /* visible intervals of edges, and hidden ones */
+  size_t without_length; /* of these, points */
+  size_t drawn_twice;    /* of these, removed as others cover them */
+  size_t too_short;      /* lines dropped */
+  size_t pen_lifts;
+  double travel_before_mm; /* of strokes in their first order */
+};
+
 struct drawing {
   double width_mm, height_mm; /* the page */
   /* If > 0: below the fills of a layer, strokes of this width along the outline
@@ -61,7 +70,7 @@ struct drawing {
   ARRAY(struct drawing_point) point;
   ARRAY(char *) group_name; /* of the scene, owned; written if ids */
   bool ids;                 /* write faces, edges and groups of elements */
-  struct report *report;    /* owned */
+  struct drawing_counts counts;
 };
 
 void drawing_init(struct drawing *drawing);

@@ -22,7 +22,6 @@ struct ink {
   const struct map *map;
   const recto_options *options;
   const struct pens *pens;
-  int64_t too_short;
 };
 
 /* ---- Paths --------------------------------------------------------------- */
@@ -30,11 +29,11 @@ struct ink {
 /* Builds the segment graph without overlaps, its ends indexed. */
 static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
                                recto_error *error) {
-  struct report *report = ink->drawing->report;
+  struct drawing_counts *counts = &ink->drawing->counts;
   struct node_rows rows = {0};
   recto_status status = segment_graph_collect(graph, ink->sheet, ink->map,
                                               ink->pens, ink->options, error);
-  report_int(report, "ink", "segments", (int64_t)graph->segment.count);
+  counts->segments = graph->segment.count;
   if (status == RECTO_OK)
     status = segment_graph_unite(graph, &rows, error);
   if (status == RECTO_OK)
@@ -43,8 +42,8 @@ static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
     status = segment_graph_drop_output_overlaps(
         graph, &rows, ink->options->unit_mm * SHEET_UNITS_PER_MM, error);
   node_rows_fini(&rows);
-  report_int(report, "ink", "without_length", (int64_t)graph->dots);
-  report_int(report, "ink", "drawn_twice", (int64_t)graph->doubled);
+  counts->without_length = graph->dots;
+  counts->drawn_twice = graph->doubled;
   return status;
 }
 
@@ -131,7 +130,7 @@ static bool add_paths(struct ink *ink, const struct ink_paths *paths,
     const struct ink_path *path = &paths->path.item[i];
     ok = take_points(ink, paths, path, &line);
     if (ok && filter && is_too_short(ink, path, &line))
-      ink->too_short++;
+      ink->drawing->counts.too_short++;
     else
       ok = ok && add_path(ink, path, &line);
   }
@@ -153,7 +152,7 @@ static bool mark_short(struct ink *ink, const struct ink_paths *paths,
     ok = take_points(ink, paths, path, &line);
     if (ok && is_too_short(ink, path, &line)) {
       path_is_short[i] = 1;
-      ink->too_short++;
+      ink->drawing->counts.too_short++;
     }
   }
   for (size_t i = 0; ok && i < segments; i++)
@@ -255,18 +254,13 @@ static bool add_fills(struct ink *ink) {
 }
 
 static bool finish_drawing(struct ink *ink) {
-  struct report *report = ink->drawing->report;
   if (!layers_pack(ink->drawing))
     return false;
-  report_double(report, "ink", "travel_before_mm",
-                drawing_travel_mm(ink->drawing));
+  ink->drawing->counts.travel_before_mm = drawing_travel_mm(ink->drawing);
   if (ink->options->order == RECTO_ORDER_NEAR &&
       !pen_path_order(ink->drawing, &pen_path_usual_effort))
     return false;
-  report_double(report, "ink", "travel_mm", drawing_travel_mm(ink->drawing));
-  report_int(report, "ink", "too_short", ink->too_short);
-  report_int(report, "ink", "pen_lifts",
-             (int64_t)pen_path_pen_lifts(ink->drawing));
+  ink->drawing->counts.pen_lifts = pen_path_pen_lifts(ink->drawing);
   return true;
 }
 
