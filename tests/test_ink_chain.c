@@ -229,7 +229,7 @@ static void stroke_has_the_ids_of_its_first_segment(void **state) {
   assert_int_equal(stroke->group, 1);
   assert_int_equal(stroke->edge_class, CREASE);
   assert_false(k.drawing.ids);
-  assert_int_equal(k.drawing.group_name.count, 0);
+  assert_int_equal(k.drawing.group_name.count, 2);
   ink_fixture_end(&k);
 }
 
