@@ -38,8 +38,9 @@ static bool solve_strokes(const struct sheet *sheet, struct map *map,
     edge_intervals_start(&intervals);
     for (size_t t = 0; t < n; t++) {
       struct occluded_interval interval;
-      if (!occlusion_is_own(sheet, edge, (uint32_t)t) && !is_flat(sheet, t) &&
+      if (!is_flat(sheet, t) &&
           occlude_edge(&occluder[t], s.p, s.q, &interval, counts) &&
+          !occlusion_is_own(sheet, edge, (uint32_t)t) &&
           !edge_intervals_occlude(&intervals, interval))
         goto end;
     }
