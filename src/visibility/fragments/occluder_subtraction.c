@@ -21,10 +21,10 @@ void occluder_subtraction_fini(struct occluder_subtraction *subtraction) {
   ARRAY_FREE(&subtraction->left);
   ARRAY_FREE(&subtraction->rest);
   ARRAY_FREE(&subtraction->next);
-  ARRAY_FREE(&subtraction->region);
-  ARRAY_FREE(&subtraction->extent);
-  ARRAY_FREE(&subtraction->scratch);
   ARRAY_FREE(&subtraction->key);
+  ARRAY_FREE(&subtraction->list);
+  bsp_fini(&subtraction->bsp);
+  ARRAY_FREE(&subtraction->region);
   arena_fini(&subtraction->arena);
 }
 
@@ -154,8 +154,10 @@ static int line_count(const struct face_occluder *occluder) {
   return occluder->sides + occluder->crosses;
 }
 
-bool face_occluder_make_lines(struct occluder_subtraction *subtraction,
-                              struct face_occluder *occluder) {
+/* Computes the lines of an occluder's sides unless that was done before; the
+ * line of the crossing is computed only when it is needed. */
+static bool make_lines(struct occluder_subtraction *subtraction,
+                       struct face_occluder *occluder) {
   if (occluder->line != NULL)
     return true;
   int count = line_count(occluder);
@@ -239,17 +241,10 @@ static enum coverage coverage_of(const struct occluder_subtraction *subtraction,
   return coverage;
 }
 
-bool face_occluder_covers(const struct occluder_subtraction *subtraction,
-                          struct face_occluder *occluder,
-                          const struct geom_convex *piece) {
-  int lines;
-  return coverage_of(subtraction, occluder, piece, &lines) == COVERAGE_FULL;
-}
-
 bool face_occluder_subtract(struct occluder_subtraction *subtraction,
                             geom_pieces *pieces,
                             struct face_occluder *occluder) {
-  if (!face_occluder_make_lines(subtraction, occluder))
+  if (!make_lines(subtraction, occluder))
     return false;
   subtraction->next.count = 0;
   for (size_t i = 0; i < pieces->count; i++) {

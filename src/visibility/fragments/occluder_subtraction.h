@@ -2,8 +2,7 @@
  *
  * Either the occluders are subtracted one after another, as they are found; or
  * all of them are collected first, and if there are many, the triangle is split
- * recursively along sides of its occluders until few of them overlap each
- * region (region_split.c).  Both give the same set of points, and the same as
+ * by a BSP tree of them until few of them overlap each region (region_split.c).  Both give the same set of points, and the same as
  * the plain subtraction of the brute-force solver, which shares none of this.
  */
 #ifndef VISIBILITY_FRAGMENTS_OCCLUDER_SUBTRACTION_H
@@ -13,6 +12,7 @@
 #include "base/sort.h"
 #include "visibility/predicate/triangle_pair.h"
 #include "visibility/fragments/fragments.h"
+#include "visibility/index/bsp.h"
 #include "visibility/predicate/plane_filter.h"
 
 /* A triangle that is nearer than the current one, somewhere or everywhere
@@ -26,29 +26,14 @@ struct face_occluder {
   struct box2 box;        /* of the triangle */
   struct geom_line *line; /* those of its sides, and the one of the crossing,
                              the occluder being on their left; then the same
-                             reversed; NULL until face_occluder_make_lines */
+                             reversed; NULL until it is subtracted */
 };
 
-/* The interval along a region's axis that may contain an occluder. */
-struct face_occluder_extent {
-  double from, to;
-  uint32_t occluder; /* index into occluder_subtraction.occluder */
-};
-
-/* The long axis of a region: a frame with coordinate u along it and v across
- * it, the origin being a corner. */
-struct region_axis {
-  double x, y, dx, dy;   /* origin and unit vector, grid units */
-  double u0, u1, v0, v1; /* the region's extent, with a margin */
-  int splits; /* splits since the axis was computed from the region itself */
-};
-
-/* A convex region of the triangle, on the stack of regions.  The extents of its
- * occluders are the last ones of the list when it is on top of the stack. */
+/* A convex region of the triangle, and the node of the tree to which it is to
+ * be passed. */
 struct region {
   struct geom_convex piece;
-  size_t first_extent;
-  struct region_axis axis; /* what the extents are measured along */
+  uint32_t node;
 };
 
 /* Counts for --stats, each of them monotone. */
@@ -81,9 +66,10 @@ struct occluder_subtraction {
   struct arena arena;
   /* Scratch, and the state of the recursive split. */
   geom_pieces next, rest;
+  ARRAY(struct sort_key) key; /* sorts the occluders */
+  ARRAY(uint32_t) list;       /* their triangles in this order */
+  struct bsp bsp;
   ARRAY(struct region) region; /* a stack */
-  ARRAY(struct face_occluder_extent) extent, scratch;
-  ARRAY(struct sort_key) key;
 };
 
 void occluder_subtraction_init(struct occluder_subtraction *subtraction,
@@ -136,18 +122,6 @@ void occluder_subtraction_report(const struct occluder_subtraction *subtraction,
                                  struct report *report);
 
 /* ---- For region_split.c -------------------------------------------------- */
-
-/* Computes the lines of an occluder's sides unless that was done before; the
- * line of the crossing is computed only when it is needed. */
-USE_RESULT bool
-face_occluder_make_lines(struct occluder_subtraction *subtraction,
-                         struct face_occluder *occluder);
-
-/* Returns whether an occluder whose lines are computed covers a whole piece.
- * Exact. */
-bool face_occluder_covers(const struct occluder_subtraction *subtraction,
-                          struct face_occluder *occluder,
-                          const struct geom_convex *piece);
 
 /* Replaces disjoint pieces by what remains of them after subtracting an
  * occluder. */

@@ -1,4 +1,4 @@
-/* bsp.c - a BSP of the triangles of one overfull grid cell.
+/* bsp.c - a BSP of a list of triangles.
  *
  * Robustness  A list becomes a leaf where
  *   - it is short;

@@ -1,5 +1,5 @@
-/* bsp.h - a BSP of the triangles of one overfull grid cell, by lines of the
- * page and by planes (bsp_plane.h).
+/* bsp.h - a BSP of the triangles of one overfull grid cell, or of the occluders
+ * of one face, by lines of the page and by planes (bsp_plane.h).
  *
  * Recursion ends where a list is short, or where no splitter leaves clearly
  * fewer pairs.  Triangles are not cut: one that lies on both sides of a

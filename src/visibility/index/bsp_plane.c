@@ -39,6 +39,7 @@
 #include "visibility/index/bsp_plane.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum {
   SAMPLE = 48,   /* triangles by which splitters are judged */
@@ -56,8 +57,7 @@ enum {
 
 /* On which sides of a line of the page a point lies. */
 static int side_of_line(const struct bsp_plane *splitter, struct geom_point p) {
-  int64_t value = splitter->dx * ((int64_t)p.y - splitter->shared_vertex.y) -
-                  splitter->dy * ((int64_t)p.x - splitter->shared_vertex.x);
+  int64_t value = geom_orient2d(splitter->from, splitter->to, p);
   return value > splitter->margin    ? BSP_LEFT
          : value < -splitter->margin ? BSP_RIGHT
                                      : BSP_BOTH;
@@ -251,14 +251,12 @@ static double pairs_left(const struct sample *sample,
 static struct bsp_plane line_along(const struct geom_point p[3], int k,
                                    int shared_vertex) {
   struct geom_point a = p[k], b = p[(k + 1) % 3];
-  struct bsp_plane splitter = {.shared_vertex =
-                                   shared_vertex == (k + 1) % 3 ? b : a};
-  splitter.dx = (int64_t)b.x - a.x;
-  splitter.dy = (int64_t)b.y - a.y;
-  splitter.margin =
-      BSP_PLANE_MARGIN * ((splitter.dx < 0 ? -splitter.dx : splitter.dx) +
-                          (splitter.dy < 0 ? -splitter.dy : splitter.dy));
-  return splitter;
+  int64_t length = llabs((int64_t)b.x - a.x) + llabs((int64_t)b.y - a.y);
+  return (struct bsp_plane){.shared_vertex =
+                                shared_vertex == (k + 1) % 3 ? b : a,
+                            .from = a,
+                            .to = b,
+                            .margin = BSP_PLANE_MARGIN * length};
 }
 
 /* The plane of a triangle, with two of its corners as the shared edge. */
@@ -305,7 +303,7 @@ static void consider(struct plane_choice *choice, const struct sample *sample,
   double left;
   if (splitter->is_plane
           ? !(thickness_of(&splitter->plane) <= splitter->thickness)
-          : splitter->dx == 0 && splitter->dy == 0)
+          : splitter->margin == 0)
     return;
   left = pairs_left(sample, splitter);
   if (left >= choice->pairs_left)

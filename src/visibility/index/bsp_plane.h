@@ -37,8 +37,8 @@ struct bsp_plane {
   struct geom_point shared_vertex;
   struct geom_point shared_edge; /* of a plane: the edge's other end */
   uint32_t point[2]; /* of a plane: the edge's ends, as points of the sheet */
-  int64_t dx, dy;    /* of a line: its direction */
-  int64_t margin;    /* of a line: BSP_PLANE_MARGIN as a twofold area */
+  struct geom_point from, to; /* of a line: points on it */
+  int64_t margin; /* of a line: BSP_PLANE_MARGIN as a twofold area */
   bool is_plane;
   struct plane_filter plane;
   double thickness; /* of a plane: its margin, depth units */
