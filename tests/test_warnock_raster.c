@@ -1,5 +1,5 @@
 /* test_warnock_raster.c - subdivision of a pixel frame: the worked frames, the
- * z-buffer's pixels, the bound of the stack, sub-pixels. */
+ * rules, the z-buffer's pixels, sub-pixels. */
 #include "exact_fixture/pixels.h"
 
 #include <math.h>
@@ -20,7 +20,6 @@ static void draw_frame(struct warnock_frame *frame, const struct sheet *sheet,
   struct facets facets;
   assert_true(facets_init(&facets, sheet));
   assert_int_equal(warnock_frame_init(frame, sheet, request, NULL), RECTO_OK);
-  frame->keep_records = true;
   assert_int_equal(warnock_frame_draw(frame, &facets, request, NULL), RECTO_OK);
   facets_fini(&facets);
 }
@@ -67,33 +66,6 @@ static uint64_t sum_windows(const struct warnock_frame *frame) {
   return sum;
 }
 
-/* The windows that were finished tile the frame. */
-static void assert_windows_tile(const struct warnock_frame *frame) {
-  const struct scan_grid *grid = &frame->raster.grid;
-  uint8_t *times = mem_calloc(pixels_of(&frame->raster), 1);
-  assert_int_equal(sum_windows(frame), frame->record.count);
-  for (size_t i = 0; i < frame->record.count; i++) {
-    const struct warnock_record *r = &frame->record.item[i];
-    if (r->rule == WARNOCK_DIVIDED)
-      continue;
-    for (int y = r->line; y < r->line + r->lines && y < grid->lines; y++)
-      for (int x = r->column; x < r->column + r->columns && x < grid->columns;
-           x++)
-        times[y * grid->columns + x]++;
-  }
-  for (size_t i = 0; i < pixels_of(&frame->raster); i++)
-    assert_int_equal(times[i], 1);
-  mem_free(times);
-}
-
-/* 3 (n - 1) + 5, for the least n that holds the frame. */
-static size_t stack_bound(const struct scan_grid *grid) {
-  size_t n = 0;
-  while (INT64_C(1) << n < grid->lines || INT64_C(1) << n < grid->columns)
-    n++;
-  return n == 0 ? 5 : 3 * (n - 1) + 5;
-}
-
 /* ---- The worked frames --------------------------------------------------- */
 
 static void assert_worked_frame(const struct pixels_scene *scene,
@@ -109,7 +81,6 @@ static void assert_worked_frame(const struct pixels_scene *scene,
   for (int y = 0; y < 32; y++)
     for (int x = 0; x < 32; x++)
       assert_int_equal(face_at(&frame, x, y), seen(x, y));
-  assert_windows_tile(&frame);
   warnock_frame_fini(&frame);
   exact_sheet_fini(&sheet);
 }
@@ -124,31 +95,6 @@ static void the_worked_frames_are_right_in_every_pixel(void **state) {
   }
 }
 
-static void the_lower_left_window_is_finished_undivided(void **state) {
-  const struct solver_request request = {
-      .fragments = true, .threads = 1, .resolution = 32};
-  struct sheet sheet;
-  struct warnock_frame frame;
-  int found = 0;
-  (void)state;
-  pixels_sheet(&sheet, &pixels_two_rectangles);
-  draw_frame(&frame, &sheet, &request);
-  for (size_t i = 0; i < frame.record.count; i++) {
-    const struct warnock_record *r = &frame.record.item[i];
-    if (r->column >= 8 || r->line >= 8)
-      continue;
-    if (r->columns == 8) {
-      assert_int_equal(r->rule, WARNOCK_BACKGROUND);
-      found++;
-    } else {
-      assert_true(r->columns > 8 && r->rule == WARNOCK_DIVIDED);
-    }
-  }
-  assert_int_equal(found, 1);
-  warnock_frame_fini(&frame);
-  exact_sheet_fini(&sheet);
-}
-
 /* ---- The rules ----------------------------------------------------------- */
 
 static void assert_first_rule(const struct pixels_scene *scene,
@@ -159,8 +105,9 @@ static void assert_first_rule(const struct pixels_scene *scene,
   struct warnock_frame frame;
   pixels_sheet(&sheet, scene);
   draw_frame(&frame, &sheet, &request);
-  assert_int_equal(frame.record.item[0].columns, 32);
-  assert_int_equal(frame.record.item[0].rule, rule);
+  assert_int_equal(frame.windows[WARNOCK_DIVIDED] > 0, rule == WARNOCK_DIVIDED);
+  assert_true(rule == WARNOCK_DIVIDED ||
+              (frame.windows[rule] == 1 && sum_windows(&frame) == 1));
   assert_zbuffer_sees_the_same(&frame, "a rule");
   warnock_frame_fini(&frame);
   exact_sheet_fini(&sheet);
@@ -211,27 +158,6 @@ static void ties_are_decided_for_whole_windows(void **state) {
   assert_first_rule(&below, WARNOCK_FRONT);
 }
 
-/* A wall that surrounds the page and something before it: the wall is
- * classified against the whole page, and never again. */
-static void a_surrounder_is_classified_once(void **state) {
-  static const struct pixels_scene scene = {
-      2, {ALL_ROUND(2), {3, {{8, 4, 1}, {12, 24, 2}, {24, 12, 9}}}}};
-  const struct solver_request request = {
-      .fragments = true, .threads = 1, .resolution = 64};
-  struct sheet sheet;
-  struct warnock_frame frame;
-  uint64_t tested = 0;
-  (void)state;
-  pixels_sheet(&sheet, &scene);
-  draw_frame(&frame, &sheet, &request);
-  for (size_t i = 0; i < frame.record.count; i++)
-    tested += frame.record.item[i].columns > 1;
-  assert_true(tested > 100);
-  assert_true(frame.classified <= tested + 1);
-  warnock_frame_fini(&frame);
-  exact_sheet_fini(&sheet);
-}
-
 /* ---- The z-buffer's pixels ----------------------------------------------- */
 
 static void random_scenes_are_right_in_every_pixel(void **state) {
@@ -253,9 +179,6 @@ static void random_scenes_are_right_in_every_pixel(void **state) {
         assert_int_equal(face_at(&frame, x, y),
                          pixels_seen(&scene, request.resolution, x, y, NULL));
     assert_zbuffer_sees_the_same(&frame, "random");
-    assert_windows_tile(&frame);
-    if (!request.divide_by_box)
-      assert_true(frame.stack_most <= stack_bound(&frame.raster.grid));
     warnock_frame_fini(&frame);
     exact_sheet_fini(&sheet);
   }
@@ -378,32 +301,6 @@ static void maps_are_those_of_the_zbuffer(void **state) {
       exact_sheet_fini(&sheet[s]);
     }
   }
-}
-
-/* ---- The stack ----------------------------------------------------------- */
-
-/* Two walls that cross in a diagonal plane, so that there is something to
- * divide down to the pixels in the corner that is taken first. */
-static void the_stack_reaches_its_bound_and_no_more(void **state) {
-  static const struct pixels_scene scene = {
-      2,
-      {ALL_ROUND(8), {4, {{0, 0, 0}, {32, 0, 7}, {32, 32, 16}, {0, 32, 9}}}}};
-  (void)state;
-  for (int n = 1; n <= 9; n++)
-    for (int odd = 0; odd < 2; odd++) {
-      const struct solver_request request = {
-          .fragments = true, .threads = 1, .resolution = (1 << n) - odd};
-      struct sheet sheet;
-      struct warnock_frame frame;
-      pixels_sheet(&sheet, &scene);
-      draw_frame(&frame, &sheet, &request);
-      assert_true(frame.stack_most <= stack_bound(&frame.raster.grid));
-      /* The current window is the one that is missing. */
-      if (odd == 0)
-        assert_int_equal(frame.stack_most + 1, stack_bound(&frame.raster.grid));
-      warnock_frame_fini(&frame);
-      exact_sheet_fini(&sheet);
-    }
 }
 
 /* ---- Sub-pixels ---------------------------------------------------------- */
@@ -569,14 +466,11 @@ static void running_out_of_memory_is_reported(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_worked_frames_are_right_in_every_pixel),
-      cmocka_unit_test(the_lower_left_window_is_finished_undivided),
       cmocka_unit_test(each_rule_finishes_the_window_it_is_for),
       cmocka_unit_test(ties_are_decided_for_whole_windows),
-      cmocka_unit_test(a_surrounder_is_classified_once),
       cmocka_unit_test(random_scenes_are_right_in_every_pixel),
       cmocka_unit_test(triangles_of_any_kind_give_the_pixels_of_the_zbuffer),
       cmocka_unit_test(maps_are_those_of_the_zbuffer),
-      cmocka_unit_test(the_stack_reaches_its_bound_and_no_more),
       cmocka_unit_test(sub_pixels_are_those_of_a_finer_frame),
       cmocka_unit_test(averaging_comes_nearer_to_the_area),
       cmocka_unit_test(invalid_options_are_refused),

@@ -50,12 +50,12 @@ librecto_core_la_SOURCES += \
   %D%/scanline_zbuffer/scanline_zbuffer.c %D%/scanline_zbuffer/scanline_zbuffer.h \
   %D%/tiles/tiles.c \
   %D%/warnock/warnock.c %D%/warnock/warnock_edges.c \
-  %D%/warnock/warnock_faces.c %D%/warnock/warnock_lists.c \
+  %D%/warnock/warnock_faces.c \
   %D%/warnock/warnock_frame.c %D%/warnock/warnock_raster.c \
   %D%/warnock/warnock_raster.h \
   %D%/warnock/warnock_sample.c %D%/warnock/warnock_sample.h \
   %D%/warnock/warnock_subdivision.h \
-  %D%/warnock/warnock_window.c %D%/warnock/warnock_window.h \
+  %D%/warnock/warnock_windows.c %D%/warnock/warnock_windows.h \
   %D%/watkins/exact/sweep.c %D%/watkins/exact/sweep.h \
   %D%/watkins/exact/sweep_edges.c \
   %D%/watkins/exact/sweep_events.c \

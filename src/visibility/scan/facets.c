@@ -198,21 +198,6 @@ void facets_fini(struct facets *facets) {
   facets->part = NULL;
 }
 
-uint32_t facet_outline(const struct facets *facets, const struct sheet *sheet,
-                       uint32_t triangle, const uint32_t **corner,
-                       const uint32_t **side) {
-  const struct facet *facet;
-  if (facets->part == NULL || facets->part[triangle] == SHEET_NONE) {
-    *corner = sheet->triangle.item[triangle].point;
-    *side = sheet->triangle.item[triangle].side;
-    return 3;
-  }
-  facet = &facets->joined.item[facets->part[triangle]];
-  *corner = facets->corner.item + facet->corner;
-  *side = facets->side.item + facet->corner;
-  return facet->count;
-}
-
 /* ---- Planes -------------------------------------------------------------- */
 
 struct geom_plane facet_plane(const struct sheet *sheet, uint32_t facet) {

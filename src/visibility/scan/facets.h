@@ -44,9 +44,20 @@ static inline uint32_t facet_of(const struct facets *facets,
 /* The corners (counter-clockwise) and sides of the facet that `triangle`
  * identifies; returns how many.
  * Owner  the arrays belong to `facets` or `sheet` */
-uint32_t facet_outline(const struct facets *facets, const struct sheet *sheet,
-                       uint32_t triangle, const uint32_t **corner,
-                       const uint32_t **side);
+static inline uint32_t facet_outline(const struct facets *facets,
+                                     const struct sheet *sheet,
+                                     uint32_t triangle, const uint32_t **corner,
+                                     const uint32_t **side) {
+  if (facets->part == NULL || facets->part[triangle] == SHEET_NONE) {
+    *corner = sheet->triangle.item[triangle].point;
+    *side = sheet->triangle.item[triangle].side;
+    return 3;
+  }
+  const struct facet *facet = &facets->joined.item[facets->part[triangle]];
+  *corner = facets->corner.item + facet->corner;
+  *side = facets->side.item + facet->corner;
+  return facet->count;
+}
 
 /* The plane of a triangle of the sheet that is not flat. */
 struct geom_plane facet_plane(const struct sheet *sheet, uint32_t facet);

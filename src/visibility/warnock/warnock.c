@@ -14,30 +14,22 @@
  *     then its edges and faces are deferred to pairwise_fallback.h;
  * otherwise it is divided.  The front, its surrounder whose farthest depth is
  * the nearest, removes from its lists whatever lies behind it by more than the
- * contact tolerance at every corner of the window.  A face that surrounds a
- * window is not classified again in the windows below it.
+ * contact tolerance at every corner of the window.
  *
- * Invariants
- *   the windows tile the page;
+ * Invariants  those of warnock_windows.h;
  *   a window's border is never drawn: an edge on both sides of it is united by
  *   its parameters (edge_intervals.h), a face by the union of its pieces
- *   (fragments.h);
- *   what is removed from a window's list is hidden there by what stays.
+ *   (fragments.h).
  *
  * Memory: see warnock_edges.c and warnock_faces.c.
- *
- * Stack: explicit; the lists of a window stand above its parent's in the pools
- * and are discarded when the stack falls back to it.
  *
  * Source  [Warnock1969]; [Rogers1985] ch. 4.
  */
 #include <math.h>
 
-#include "base/sort.h"
 #include "visibility/intersection/intersection.h"
 #include "visibility/warnock/warnock_raster.h"
 #include "visibility/warnock/warnock_subdivision.h"
-#include "visibility/warnock/warnock_window.h"
 
 /* Lists of at most so many faces, surrounders included, are solved by pairs. */
 enum { SMALL_LIST_MAX = 12 };
@@ -58,21 +50,19 @@ enum { LISTED_PER_ITEM_MAX = 256 };
 /* Solves the window's own lists by pairs. */
 static bool solve_window(struct warnock *w, const struct warnock_window *win) {
   for (size_t i = win->edges.from; i < win->edges.to; i++) {
-    uint32_t e = w->edges.item[i];
-    if (!progress_step(&w->progress, win->surrounders.to -
-                                         win->surrounders.from + win->faces.to -
-                                         win->faces.from))
-      return false;
-    if (!warnock_solve_edge(w, win, e))
+    uint32_t e = w->windows.edges.item[i];
+    if (!progress_step(&w->progress, warnock_count(win->surrounders) +
+                                         warnock_count(win->faces)) ||
+        !warnock_solve_edge(w, win, e))
       return false;
   }
   if (!w->request->fragments)
     return true;
   for (size_t k = win->surrounders.from; k < win->surrounders.to; k++)
-    if (!warnock_solve_face(w, win, w->surrounders.item[k]))
+    if (!warnock_solve_face(w, win, w->windows.surrounders.item[k]))
       return false;
   for (size_t k = win->faces.from; k < win->faces.to; k++)
-    if (!warnock_solve_face(w, win, w->faces.item[k]))
+    if (!warnock_solve_face(w, win, w->windows.faces.item[k]))
       return false;
   return true;
 }
@@ -80,48 +70,32 @@ static bool solve_window(struct warnock *w, const struct warnock_window *win) {
 /* Defers everything in the window's lists to pairwise_fallback.h. */
 static bool defer_window(struct warnock *w, const struct warnock_window *win) {
   for (size_t i = win->edges.from; i < win->edges.to; i++)
-    w->edge_deferred[w->edges.item[i]] = 1;
+    w->edge_deferred[w->windows.edges.item[i]] = 1;
   for (size_t i = win->surrounders.from; i < win->surrounders.to; i++)
-    w->face_deferred[w->surrounders.item[i]] = w->request->fragments;
+    w->face_deferred[w->windows.surrounders.item[i]] = w->request->fragments;
   for (size_t i = win->faces.from; i < win->faces.to; i++)
-    w->face_deferred[w->faces.item[i]] = w->request->fragments;
+    w->face_deferred[w->windows.faces.item[i]] = w->request->fragments;
   w->any_deferred = true;
-  w->windows.deferred++;
+  w->counts.deferred++;
   return true;
 }
 
 /* ---- Division ------------------------------------------------------------ */
 
-/* Where to divide: in the middle, or at a side of the bounding box of the
- * window's nearest face. */
-static void choose_cut(const struct warnock *w,
-                       const struct warnock_window *win, int32_t *x,
-                       int32_t *y) {
-  const struct box2 *v = &win->window;
-  *x = (int32_t)(((int64_t)v->x0 + v->x1) / 2);
-  *y = (int32_t)(((int64_t)v->y0 + v->y1) / 2);
-  if (w->request->divide_by_box && win->faces.from < win->faces.to) {
-    struct box2 box =
-        box2_of_triangle(w->sheet, w->faces.item[win->faces.from]);
-    *x = window_split(v->x0, v->x1, box.x0, box.x1);
-    *y = window_split(v->y0, v->y1, box.y0, box.y1);
-  }
-}
-
-/* Puts the four quarters of the window onto the stack. */
+/* Divides the window in the middle, or at sides of the bounding box of its
+ * nearest face. */
 static bool divide(struct warnock *w, const struct warnock_window *win) {
-  const struct box2 *v = &win->window;
-  int32_t x, y;
-  choose_cut(w, win, &x, &y);
-  for (int k = 0; k < 4; k++) {
-    struct warnock_window quarter = *win;
-    quarter.window = (struct box2){k & 1 ? x : v->x0, k & 2 ? y : v->y0,
-                                   k & 1 ? v->x1 : x, k & 2 ? v->y1 : y};
-    if (!ARRAY_PUSH(&w->stack, quarter))
-      return false;
+  const struct box2 *b = &win->box;
+  int32_t x = (int32_t)(((int64_t)b->x0 + b->x1) / 2),
+          y = (int32_t)(((int64_t)b->y0 + b->y1) / 2);
+  if (w->request->divide_by_box && warnock_count(win->faces) > 0) {
+    struct box2 face =
+        box2_of_triangle(w->sheet, w->windows.faces.item[win->faces.from]);
+    x = window_split(b->x0, b->x1, face.x0, face.x1);
+    y = window_split(b->y0, b->y1, face.y0, face.y1);
   }
-  w->windows.divided++;
-  return true;
+  w->counts.divided++;
+  return warnock_divide(&w->windows, win, x, y);
 }
 
 static bool is_small(const struct warnock *w, const struct box2 *v) {
@@ -132,13 +106,13 @@ static bool is_small(const struct warnock *w, const struct box2 *v) {
 /* The edges and faces of the window that are not yet deferred. */
 static size_t count_unsolved(const struct warnock *w,
                              const struct warnock_window *win) {
-  size_t unsolved = win->edges.to - win->edges.from;
+  size_t unsolved = warnock_count(win->edges);
   if (!w->request->fragments)
     return unsolved;
   for (size_t i = win->surrounders.from; i < win->surrounders.to; i++)
-    unsolved += !w->face_deferred[w->surrounders.item[i]];
+    unsolved += !w->face_deferred[w->windows.surrounders.item[i]];
   for (size_t i = win->faces.from; i < win->faces.to; i++)
-    unsolved += !w->face_deferred[w->faces.item[i]];
+    unsolved += !w->face_deferred[w->windows.faces.item[i]];
   return unsolved;
 }
 
@@ -147,9 +121,9 @@ static size_t count_unsolved(const struct warnock *w,
 static bool handle_long_list(struct warnock *w, struct warnock_window *win,
                              size_t faces) {
   double pairs = (double)count_unsolved(w, win) * (double)faces;
-  bool small = is_small(w, &win->window);
+  bool small = is_small(w, &win->box);
   if (pairs == 0) {
-    w->windows.deferred++;
+    w->counts.deferred++;
     return true;
   }
   if (w->listed > w->listed_max)
@@ -157,57 +131,47 @@ static bool handle_long_list(struct warnock *w, struct warnock_window *win,
   win->futile = pairs > win->pairs / 2 ? win->futile + 1 : 0;
   win->pairs = pairs;
   if (pairs > SMALL_WINDOW_PAIRS_MAX) {
-    bool is_point = win->window.x1 - (int64_t)win->window.x0 < 2 ||
-                    win->window.y1 - (int64_t)win->window.y0 < 2;
+    bool is_point = win->box.x1 - (int64_t)win->box.x0 < 2 ||
+                    win->box.y1 - (int64_t)win->box.y0 < 2;
     return is_point || win->futile >= (small ? 1 : FUTILE_MAX)
                ? defer_window(w, win)
                : divide(w, win);
   }
   if (!small)
     return divide(w, win);
-  w->windows.floor++;
+  w->counts.floor++;
   return solve_window(w, win);
 }
 
 /* Takes a window from the stack and finishes or divides it. */
 static bool process_window(struct warnock *w) {
-  struct warnock_window win = w->stack.item[--w->stack.count];
-  struct window_front front;
-  size_t faces;
-  w->windows.all++;
-  if (!progress_step(&w->progress,
-                     win.faces.to - win.faces.from + win.surrounders.to -
-                         win.surrounders.from + win.edges.to - win.edges.from))
+  struct warnock_window win = warnock_windows_pop(&w->windows);
+  bool fragments = w->request->fragments;
+  struct warnock_front front;
+  w->counts.all++;
+  if (!progress_step(&w->progress, warnock_count(win.faces) +
+                                       warnock_count(win.surrounders) +
+                                       warnock_count(win.edges)) ||
+      !warnock_list_edges(&w->windows, &win, &win.box, w->edge_deferred))
     return false;
-  w->faces.count = win.faces.to;
-  w->surrounders.count = win.surrounders.to;
-  w->edges.count = win.edges.to;
-  if (!warnock_list_edges(w, &win))
+  if ((fragments || warnock_count(win.edges) > 0) &&
+      (!warnock_list_faces(&w->windows, &win, &win.box, &front) ||
+       !warnock_drop_hidden_edges(w, &win, &front)))
     return false;
-  if (win.edges.from == win.edges.to && !w->request->fragments) {
-    w->windows.no_edge++;
+  if (!fragments && warnock_count(win.edges) == 0) {
+    w->counts.no_edge++;
     return true;
   }
-  if (!warnock_list_faces(w, &win, &front))
-    return false;
-  warnock_drop_hidden_faces(w, &win, &front);
-  if (!warnock_drop_hidden_edges(w, &win, &front))
-    return false;
-  if (win.edges.from == win.edges.to && !w->request->fragments) {
-    w->windows.no_edge++;
-    return true;
-  }
-  faces =
-      win.faces.to - win.faces.from + win.surrounders.to - win.surrounders.from;
-  w->listed += faces + win.edges.to - win.edges.from;
+  size_t faces = warnock_count(win.faces) + warnock_count(win.surrounders);
+  w->listed += faces + warnock_count(win.edges);
   if (faces == 0) {
-    w->windows.no_face++;
+    w->counts.no_face++;
     return true;
   }
-  if (win.faces.from == win.faces.to && faces == 1)
-    w->windows.one_surrounder++;
+  if (faces == 1 && warnock_count(win.faces) == 0)
+    w->counts.one_surrounder++;
   else if (faces <= SMALL_LIST_MAX)
-    w->windows.few++;
+    w->counts.few++;
   else
     return handle_long_list(w, &win, faces);
   return solve_window(w, &win);
@@ -215,75 +179,119 @@ static bool process_window(struct warnock *w) {
 
 /* ---- The solver ---------------------------------------------------------- */
 
-/* Lists all faces, nearest first, and all drawable edges. */
-static bool fill_pools(struct warnock *w, const struct triangle_grid *grid) {
-  const struct sheet *sheet = w->sheet;
-  size_t n = sheet->triangle.count;
-  struct sort_key *key = mem_alloc(2 * n, sizeof *key);
-  bool ok = key != NULL && ARRAY_RESERVE(&w->faces, n);
-  for (size_t t = 0; ok && t < n; t++)
-    key[t] = (struct sort_key){
-        ~sort_key_of_int64(triangle_nearest_z(sheet, (uint32_t)t)),
-        (uint32_t)t};
-  if (ok)
-    sort_keys(key, key + n, n);
-  for (size_t t = 0; ok && t < n; t++)
-    if (!(sheet->triangle_flags[key[t].value] & SHEET_FLAT) &&
-        !triangle_grid_leaves_out(grid, key[t].value))
-      w->faces.item[w->faces.count++] = key[t].value;
-  mem_free(key);
-  for (size_t e = 0; ok && w->request->strokes && e < sheet->edge.count; e++)
-    if (sheet_edge_is_drawn(sheet, e))
-      ok = ARRAY_PUSH(&w->edges, (uint32_t)e);
-  return ok;
+/* The smallest square window about all points of the sheet, at least 2 units
+ * wide, moved to lie within the grid's range. */
+static struct box2 page_window(const struct sheet *sheet) {
+  int64_t x0 = SHEET_XY_MAX, y0 = x0, x1 = -x0, y1 = -x0, side;
+  for (size_t i = 0; i < sheet->point.count; i++) {
+    struct geom_point p = sheet->point.item[i];
+    if (p.x < x0)
+      x0 = p.x;
+    if (p.x > x1)
+      x1 = p.x;
+    if (p.y < y0)
+      y0 = p.y;
+    if (p.y > y1)
+      y1 = p.y;
+  }
+  side = x1 - x0 > y1 - y0 ? x1 - x0 : y1 - y0;
+  if (side < 2)
+    side = 2;
+  /* The square is moved where it would leave the grid's range. */
+  if (x0 + side > SHEET_XY_MAX)
+    x0 = SHEET_XY_MAX - side;
+  if (y0 + side > SHEET_XY_MAX)
+    y0 = SHEET_XY_MAX - side;
+  if (x0 < -SHEET_XY_MAX)
+    x0 = -SHEET_XY_MAX;
+  if (y0 < -SHEET_XY_MAX)
+    y0 = -SHEET_XY_MAX;
+  return (struct box2){(int32_t)x0, (int32_t)y0, (int32_t)(x0 + side),
+                       (int32_t)(y0 + side)};
+}
+
+/* Half the mean larger side of the triangles' bounding boxes, from a sample of
+ * about 4096 of them; grid units, at least 1. */
+static int64_t edge_length(const struct sheet *sheet) {
+  enum { SAMPLE = 4096 };
+  size_t n = sheet->triangle.count, stride = n / SAMPLE + 1, count = 0;
+  int64_t sum = 0;
+  for (size_t t = 0; t < n; t += stride, count++) {
+    struct box2 b = box2_of_triangle(sheet, (uint32_t)t);
+    int64_t width = (int64_t)b.x1 - b.x0, height = (int64_t)b.y1 - b.y0;
+    sum += width > height ? width : height;
+  }
+  return count == 0 ? 1 : sum / (int64_t)count / 2 + 1;
+}
+
+/* Makes surrounder t the front if its farthest depth there is nearer. */
+static void update_front(void *user, const struct box2 *window, uint32_t t,
+                         struct warnock_front *front) {
+  const struct warnock *w = user;
+  struct surrounder_depths depth;
+  surrounder_depths_of(w->sheet, t, window, &depth);
+  if (front->facet == SHEET_NONE || depth.low > front->depth.low) {
+    front->facet = t;
+    front->depth = depth;
+  }
+}
+
+/* Is triangle t behind the front at every corner of the window? */
+static bool hides(void *user, const struct box2 *window,
+                  const struct warnock_front *front, uint32_t t) {
+  const struct warnock *w = user;
+  return surrounder_hides(w->sheet, &front->depth, window, t);
 }
 
 static bool run(struct warnock *w, const struct triangle_grid *grid) {
-  struct warnock_window page;
-  w->edge_deferred = mem_calloc(w->sheet->edge.count, 1);
-  w->face_deferred = mem_calloc(w->sheet->triangle.count, 1);
+  static const struct facets triangles = {0};
+  const struct sheet *sheet = w->sheet;
+  struct box2 page = page_window(sheet);
+  w->edge_deferred = mem_calloc(sheet->edge.count, 1);
+  w->face_deferred = mem_calloc(sheet->triangle.count, 1);
   w->occlusion_limit = OCCLUSIONS_MIN;
   w->piece_limit = PIECES_MIN;
+  w->floor = edge_length(sheet);
+  w->windows = (struct warnock_windows){.sheet = sheet,
+                                        .facets = &triangles,
+                                        .update_front = update_front,
+                                        .hides = hides,
+                                        .user = w};
   if (w->edge_deferred == NULL || w->face_deferred == NULL ||
-      !fill_pools(w, grid))
+      !warnock_windows_init(&w->windows, &page, SHEET_FLAT, grid->left_out,
+                            w->request->strokes))
     return false;
-  page = (struct warnock_window){
-      warnock_page_window(w->sheet), INFINITY, 0,
-      {0, w->faces.count},           {0, 0},   {0, w->edges.count}};
-  w->floor = warnock_edge_length(w->sheet);
   w->listed_max =
-      LISTED_PER_ITEM_MAX * (uint64_t)(w->faces.count + w->edges.count + 1024);
-  if (!ARRAY_PUSH(&w->stack, page))
-    return false;
-  while (w->stack.count > 0) {
+      LISTED_PER_ITEM_MAX *
+      (uint64_t)(w->windows.faces.count + w->windows.edges.count + 1024);
+  while (w->windows.stack.count > 0)
     if (!process_window(w))
       return false;
-  }
   return true;
 }
 
 static void report_windows(const struct warnock *w, struct report *report) {
-  report_int(report, "warnock", "windows", (int64_t)w->windows.all);
-  report_int(report, "warnock", "without_edge", (int64_t)w->windows.no_edge);
-  report_int(report, "warnock", "without_face", (int64_t)w->windows.no_face);
+  report_int(report, "warnock", "windows", (int64_t)w->counts.all);
+  report_int(report, "warnock", "without_edge", (int64_t)w->counts.no_edge);
+  report_int(report, "warnock", "without_face", (int64_t)w->counts.no_face);
   report_int(report, "warnock", "one_surrounder",
-             (int64_t)w->windows.one_surrounder);
-  report_int(report, "warnock", "few_faces", (int64_t)w->windows.few);
-  report_int(report, "warnock", "of_least_size", (int64_t)w->windows.floor);
-  report_int(report, "warnock", "deferred", (int64_t)w->windows.deferred);
-  report_int(report, "warnock", "divided", (int64_t)w->windows.divided);
+             (int64_t)w->counts.one_surrounder);
+  report_int(report, "warnock", "few_faces", (int64_t)w->counts.few);
+  report_int(report, "warnock", "of_least_size", (int64_t)w->counts.floor);
+  report_int(report, "warnock", "deferred", (int64_t)w->counts.deferred);
+  report_int(report, "warnock", "divided", (int64_t)w->counts.divided);
   report_text(report, "warnock", "division",
               w->request->divide_by_box ? "box" : "four");
   report_int(report, "warnock", "classified_by_box",
-             (int64_t)w->class_counts.box);
+             (int64_t)w->windows.classified.box);
   report_int(report, "warnock", "classified_by_sign",
-             (int64_t)w->class_counts.sign);
+             (int64_t)w->windows.classified.sign);
   report_int(report, "warnock", "classified_by_angle",
-             (int64_t)w->class_counts.angle);
+             (int64_t)w->windows.classified.angle);
   report_int(report, "warnock", "stopped_by_depth_order",
-             (int64_t)w->cut_short);
+             (int64_t)w->windows.cut_short);
   report_int(report, "warnock", "dropped_by_corner_depths",
-             (int64_t)w->dropped);
+             (int64_t)w->windows.dropped);
   occlusion_report(&w->occlusion_counts, report);
 }
 
@@ -328,10 +336,7 @@ static recto_status solve(struct sheet *sheet,
     occluder_subtraction_fini(&w.subtraction);
   }
   report_windows(&w, report);
-  ARRAY_FREE(&w.stack);
-  ARRAY_FREE(&w.faces);
-  ARRAY_FREE(&w.surrounders);
-  ARRAY_FREE(&w.edges);
+  warnock_windows_fini(&w.windows);
   ARRAY_FREE(&w.occlusion);
   ARRAY_FREE(&w.piece);
   edge_intervals_fini(&w.intervals);

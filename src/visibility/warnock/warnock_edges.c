@@ -84,34 +84,34 @@ static bool start_edge(const struct warnock *w, const struct box2 *window,
 /* Is the whole edge behind the front, and its interval in the window inside the
  * front's outline?  An axis-parallel edge might run along the window's border,
  * and there along a side of the front. */
-static bool is_behind(const struct warnock *w, const struct window_front *front,
-                      uint32_t e) {
+static bool is_behind(const struct warnock *w,
+                      const struct warnock_front *front, uint32_t e) {
   struct geom_segment s = sheet_ends(w->sheet, w->sheet->edge.item[e].point);
   return (double)s.p.z < front->depth.low && (double)s.q.z < front->depth.low &&
          s.p.x != s.q.x && s.p.y != s.q.y;
 }
 
 bool warnock_drop_hidden_edges(struct warnock *w, struct warnock_window *win,
-                               const struct window_front *front) {
+                               const struct warnock_front *front) {
   size_t kept = win->edges.from;
-  if (front->triangle == SHEET_NONE)
+  if (front->facet == SHEET_NONE)
     return true;
   for (size_t i = win->edges.from; i < win->edges.to; i++) {
-    uint32_t e = w->edges.item[i];
+    uint32_t e = w->windows.edges.item[i];
     struct edge_task task;
     struct edge_occlusion hidden = {.edge = e, .interval.sides = OCCLUDED_BOTH};
     if (!is_behind(w, front, e)) {
-      w->edges.item[kept++] = e;
+      w->windows.edges.item[kept++] = e;
       continue;
     }
-    if (!start_edge(w, &win->window, e, &task))
+    if (!start_edge(w, &win->box, e, &task))
       continue;
     hidden.interval.from = task.from;
     hidden.interval.to = task.to;
     if (!add_occlusion(w, hidden))
       return false;
   }
-  win->edges.to = w->edges.count = kept;
+  win->edges.to = w->windows.edges.count = kept;
   return true;
 }
 
@@ -147,15 +147,15 @@ bool warnock_solve_edge(struct warnock *w, const struct warnock_window *win,
                         uint32_t e) {
   struct edge_task task;
   const occluded_intervals *parts;
-  if (!start_edge(w, &win->window, e, &task))
+  if (!start_edge(w, &win->box, e, &task))
     return true;
   edge_intervals_start(&w->intervals);
   for (size_t k = win->surrounders.from;
        k < win->surrounders.to && !task.hidden; k++)
-    if (!occlude_by(w, &task, w->surrounders.item[k]))
+    if (!occlude_by(w, &task, w->windows.surrounders.item[k]))
       return false;
   for (size_t k = win->faces.from; k < win->faces.to && !task.hidden; k++)
-    if (!occlude_by(w, &task, w->faces.item[k]))
+    if (!occlude_by(w, &task, w->windows.faces.item[k]))
       return false;
   parts = edge_intervals_unite(&w->intervals);
   for (size_t i = 0; parts != NULL && i < parts->count; i++) {

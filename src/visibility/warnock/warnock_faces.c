@@ -7,7 +7,6 @@
  */
 #include "base/sort.h"
 #include "visibility/warnock/warnock_subdivision.h"
-#include "visibility/warnock/warnock_window.h"
 
 /* Faces of more pieces are deferred when there are too many pieces in all. */
 enum { PIECES_PER_FACE_MAX = 8 };
@@ -49,13 +48,28 @@ static bool limit_pieces(struct warnock *w) {
   return ok;
 }
 
+/* The window's borders as lines with the window on their left, and the same
+ * lines reversed. */
+static void window_lines(const struct box2 *window, struct geom_line line[4],
+                         struct geom_line back[4]) {
+  const struct geom_point at[4] = {{window->x0, window->y0, 0},
+                                   {window->x1, window->y0, 0},
+                                   {window->x1, window->y1, 0},
+                                   {window->x0, window->y1, 0}};
+  for (int k = 0; k < 4; k++) {
+    geom_line_through(&line[k], at[k], at[(k + 1) % 4]);
+    back[k] = line[k];
+    geom_line_reverse(&back[k]);
+  }
+}
+
 bool warnock_solve_face(struct warnock *w, const struct warnock_window *win,
                         uint32_t t) {
   struct geom_line border[8];
   const struct warnock_range *list[2] = {&win->surrounders, &win->faces};
   if ((w->sheet->triangle_flags[t] & SHEET_FLAT) || w->face_deferred[t])
     return true;
-  warnock_window_lines(&win->window, border, border + 4);
+  window_lines(&win->box, border, border + 4);
   if (!occluder_subtraction_start(&w->subtraction, t, NULL))
     return false;
   struct geom_convex inside, *piece = w->subtraction.left.item;
@@ -66,7 +80,8 @@ bool warnock_solve_face(struct warnock *w, const struct warnock_window *win,
   if (piece->count == 0)
     return true;
   for (int l = 0; l < 2; l++) {
-    const uint32_t *pool = l == 0 ? w->surrounders.item : w->faces.item;
+    const uint32_t *pool =
+        l == 0 ? w->windows.surrounders.item : w->windows.faces.item;
     for (size_t i = list[l]->from; i < list[l]->to; i++) {
       uint32_t g = pool[i];
       if (occluder_subtraction_is_empty(&w->subtraction))

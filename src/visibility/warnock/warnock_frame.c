@@ -32,7 +32,6 @@ recto_status warnock_frame_init(struct warnock_frame *frame,
 void warnock_frame_fini(struct warnock_frame *frame) {
   raster_fini(&frame->raster);
   mem_free(frame->coverage);
-  ARRAY_FREE(&frame->record);
   frame->coverage = NULL;
 }
 
@@ -61,8 +60,6 @@ static void report_frame(const struct warnock_frame *frame,
               request->divide_by_box ? "box" : "four");
   for (int rule = 0; rule < WARNOCK_RULE_COUNT; rule++)
     report_int(report, "warnock", name[rule], (int64_t)frame->windows[rule]);
-  report_int(report, "warnock", "stack_most", (int64_t)frame->stack_most);
-  report_int(report, "warnock", "classified", (int64_t)frame->classified);
   if (request->fragments)
     report_double(report, "warnock", "covered_share", covered_share(frame));
 }

@@ -19,12 +19,6 @@ enum warnock_rule {
   WARNOCK_RULE_COUNT
 };
 
-/* A window that was processed, in pixels; it may extend beyond the frame. */
-struct warnock_record {
-  int32_t column, line, columns, lines;
-  enum warnock_rule rule;
-};
-
 /* A frame drawn by subdivision. */
 struct warnock_frame {
   struct raster raster; /* its depths are not used */
@@ -32,10 +26,6 @@ struct warnock_frame {
   uint16_t *coverage;   /* K > 1: for each pixel, how many of its sub-pixels
                            see a face; else NULL */
   uint64_t windows[WARNOCK_RULE_COUNT]; /* how many each rule finished */
-  uint64_t classified;                  /* faces classified against a window */
-  size_t stack_most;                    /* largest size of the stack, windows */
-  bool keep_records; /* for tests: keep a record of each window */
-  ARRAY(struct warnock_record) record;
 };
 
 /* Makes an empty frame.

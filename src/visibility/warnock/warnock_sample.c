@@ -13,21 +13,13 @@
 #define SLACK (16 * 0x1p-53)
 
 static struct sample_plane plane_of(const struct sheet *sheet,
-                                    const struct facets *facets,
                                     const struct scan_grid *grid,
                                     uint32_t facet) {
-  const uint32_t *corner, *side;
-  uint32_t count = facet_outline(facets, sheet, facet, &corner, &side);
   struct geom_plane plane = sheet_plane(sheet, facet);
   double scale = -(double)plane.nz * (double)grid->den;
-  int64_t nearest = 0;
-  for (uint32_t k = 0; k < count; k++)
-    if (sheet->point.item[corner[k]].z > nearest)
-      nearest = sheet->point.item[corner[k]].z;
   return (struct sample_plane){.per_x = (double)plane.nx / scale,
                                .per_y = (double)plane.ny / scale,
                                .z0 = (double)plane.a.z,
-                               .nearest = (double)nearest,
                                .x0 = plane.a.x,
                                .y0 = plane.a.y};
 }
@@ -44,7 +36,7 @@ bool warnock_sample_init(struct warnock_sample *sample,
   for (uint32_t t = 0; t < count; t++)
     if ((sheet->triangle_flags[t] & SHEET_FLAT) == 0 &&
         facet_of(facets, t) == t)
-      sample->plane[t] = plane_of(sheet, facets, grid, t);
+      sample->plane[t] = plane_of(sheet, grid, t);
   return true;
 }
 

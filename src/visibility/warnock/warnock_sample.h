@@ -16,7 +16,6 @@
  * x and y in units of 1 / den of the grid. */
 struct sample_plane {
   double per_x, per_y, z0;
-  double nearest; /* the nearest depth of the facet's corners */
   int32_t x0, y0; /* sheet units */
 };
 

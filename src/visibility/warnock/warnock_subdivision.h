@@ -1,36 +1,18 @@
 /* warnock_subdivision.h - the state of Warnock's subdivision in vector mode,
- * which the files of the method share.
- *
- * The lists of a window are ranges of three pools.  They stand above those of
- * its parent and are discarded when the stack falls back to it.
- */
+ * which the files of the mode share. */
 #ifndef VISIBILITY_WARNOCK_WARNOCK_SUBDIVISION_H
 #define VISIBILITY_WARNOCK_WARNOCK_SUBDIVISION_H
 
 #include "visibility/fragments/occluder_subtraction.h"
 #include "visibility/pairwise/pairwise_fallback.h"
 #include "visibility/predicate/edge_intervals.h"
-#include "visibility/predicate/surrounder.h"
 #include "visibility/progress.h"
 #include "visibility/solver.h"
+#include "visibility/warnock/warnock_windows.h"
 
 /* Up to so many occluded intervals are not united, and up to so many pieces no
  * face is deferred for its pieces. */
 enum { OCCLUSIONS_MIN = 1 << 16, PIECES_MIN = 1 << 15 };
-
-/* A list of a window: the entries [from, to) of a pool. */
-struct warnock_range {
-  size_t from, to;
-};
-
-/* A window and its lists; on the stack, the lists of its parent. */
-struct warnock_window {
-  struct box2 window;
-  double pairs; /* unsolved items times faces, of the parent */
-  int futile;   /* consecutive divisions after which one quarter kept more than
-                   half of the pairs */
-  struct warnock_range faces, surrounders, edges;
-};
 
 /* An occluded interval of an edge inside one window. */
 struct edge_occlusion {
@@ -51,13 +33,12 @@ struct warnock {
   const struct sheet *sheet;
   const struct solver_request *request;
   struct progress progress;
-  ARRAY(struct warnock_window) stack;
-  ARRAY(uint32_t) faces, surrounders, edges; /* the pools */
-  edge_occlusions occlusion;                 /* of all windows so far */
-  size_t occlusion_limit; /* from this count on they are united, see
+  struct warnock_windows windows;
+  edge_occlusions occlusion; /* of all windows so far */
+  size_t occlusion_limit;    /* from this count on they are united, see
                              OCCLUSIONS_MIN */
-  face_pieces piece;      /* of all windows so far */
-  size_t piece_limit;     /* from this count on faces of many pieces are
+  face_pieces piece;         /* of all windows so far */
+  size_t piece_limit;        /* from this count on faces of many pieces are
                              deferred, see PIECES_MIN */
   struct edge_intervals intervals; /* of the current edge */
   uint64_t listed, listed_max;     /* faces and edges, over all windows */
@@ -67,38 +48,12 @@ struct warnock {
   struct arena arena; /* owns the pieces */
   struct occluder_subtraction subtraction;
   int64_t floor; /* grid units: no smaller window is divided */
-  struct window_counts class_counts;
-  uint64_t cut_short; /* lists that ended at the first face behind the front */
-  uint64_t dropped;   /* faces behind the front at every corner of a window */
   struct occlusion_counts occlusion_counts;
   struct {
     uint64_t all, no_edge, no_face, one_surrounder, few, floor, deferred,
         divided;
-  } windows;
+  } counts;
 };
-
-/* The surrounder whose farthest depth in the window is the nearest. */
-struct window_front {
-  uint32_t triangle; /* SHEET_NONE: no surrounder */
-  struct surrounder_depths depth;
-};
-
-/* ---- Lists of a window (warnock_lists.c) --------------------------------- */
-
-/* Replaces the parent's lists of faces and surrounders by the window's own and
- * finds its front.  False when memory ran out. */
-USE_RESULT bool warnock_list_faces(struct warnock *w,
-                                   struct warnock_window *win,
-                                   struct window_front *front);
-
-/* Removes the faces and surrounders that the front hides in the window. */
-void warnock_drop_hidden_faces(struct warnock *w, struct warnock_window *win,
-                               const struct window_front *front);
-
-/* Replaces the parent's list of edges by the window's own: those that meet it
- * and are not deferred.  False when memory ran out. */
-USE_RESULT bool warnock_list_edges(struct warnock *w,
-                                   struct warnock_window *win);
 
 /* ---- Edges (warnock_edges.c) --------------------------------------------- */
 
@@ -106,7 +61,7 @@ USE_RESULT bool warnock_list_edges(struct warnock *w,
  * from its list.  False when memory ran out. */
 USE_RESULT bool warnock_drop_hidden_edges(struct warnock *w,
                                           struct warnock_window *win,
-                                          const struct window_front *front);
+                                          const struct warnock_front *front);
 
 /* Tests the edge against the faces of the window's lists, nearest first, until
  * it is hidden throughout the window.  False when memory ran out. */
