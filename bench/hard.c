@@ -22,6 +22,7 @@
 #include <unistd.h>
 
 #include "bench/table.h"
+#include "tests/scenes/exact.h"
 #include "tests/scenes/pipeline.h"
 
 enum { LIMIT_S = 20, ROUNDS = 5, AGAIN_MOST = 400, METHODS_MOST = 12 };
@@ -240,7 +241,7 @@ static void print_figure(double s) {
 static size_t list_methods(const struct solver *method[METHODS_MOST]) {
   size_t n = 0;
   for (const struct solver *const *s = solvers(); *s != NULL; s++)
-    if ((*s)->exact && n + 1 < METHODS_MOST)
+    if (is_exact(*s) && n + 1 < METHODS_MOST)
       method[n++] = *s;
   method[n++] = NULL;
   return n;

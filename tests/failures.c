@@ -9,6 +9,9 @@
 
 #include <cmocka.h>
 
+#include "tests/scenes/exact.h"
+#include "tests/scenes/judge_camera.h"
+
 /* Solves by every exact solver and compares with the first. */
 static void compare_solvers(const struct scene *scene,
                             const recto_options *options, const char *name) {
@@ -16,7 +19,7 @@ static void compare_solvers(const struct scene *scene,
   size_t first_length = 0;
   for (const struct solver *const *solver = solvers(); *solver; solver++) {
     size_t length;
-    if (!(*solver)->exact)
+    if (!is_exact(*solver))
       continue;
     char *text = pipeline_draw(scene, options, *solver, &length);
     bool same = first == NULL ||

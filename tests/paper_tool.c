@@ -37,6 +37,16 @@ static int list_names(void) {
 
 /* ---- Writing ------------------------------------------------------------- */
 
+/* Parses a whole string as a number; false if anything is left over. */
+static bool number_from_string(const char *text, double *value) {
+  const char *end = text + strlen(text);
+  double parsed;
+  if (end == text || number_parse_double(text, end, &parsed) != end)
+    return false;
+  *value = parsed;
+  return true;
+}
+
 static bool read_options(struct writer_options *options, char **word,
                          int count) {
   *options = (struct writer_options){.precision = 3};

@@ -9,6 +9,8 @@
 
 #include <cmocka.h>
 
+#include "tests/scenes/exact.h"
+
 /* A scene, made anew for each solver: solving adds to the sheet. */
 struct recipe {
   const int (*corner)[3][3]; /* `count` triangles; NULL: by seed */
@@ -37,7 +39,7 @@ static void check(const struct recipe *recipe, const char *name) {
     struct sheet sheet;
     struct map again;
     char what[128];
-    if (!(*s)->exact || *s == &solver_brute)
+    if (!is_exact(*s) || *s == &solver_brute)
       continue;
     snprintf(what, sizeof what, "%s by %s", name, (*s)->name);
     make(&sheet, recipe);

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "tests/scenes/exact.h"
 #include "tests/scenes/pipeline.h"
 
 /* mm^2 of the fragments of a face. */
@@ -50,7 +51,7 @@ static double fighting_share(const struct solver *solver, int lines, int bits,
 static void exact_methods_distinguish_near_sheets(void **state) {
   (void)state;
   for (const struct solver *const *s = solvers(); *s != NULL; s++)
-    for (double gap = 1e-3; (*s)->exact && gap > 0.9e-9; gap /= 10)
+    for (double gap = 1e-3; is_exact(*s) && gap > 0.9e-9; gap /= 10)
       if (!(fabs(fighting_share(*s, 0, 0, gap)) < 1e-6))
         fail_msg("%s at %g: %g", (*s)->name, gap,
                  fighting_share(*s, 0, 0, gap));
@@ -61,7 +62,7 @@ static void exact_methods_distinguish_near_sheets(void **state) {
 static void lines_behind_a_near_sheet_are_hidden(void **state) {
   (void)state;
   for (const struct solver *const *s = solvers(); *s != NULL; s++)
-    for (double gap = 1e-3; (*s)->exact && gap > 0.9e-9; gap /= 10) {
+    for (double gap = 1e-3; is_exact(*s) && gap > 0.9e-9; gap /= 10) {
       struct scene scene;
       recto_options options;
       struct trial trial;
@@ -177,7 +178,7 @@ static void exact_methods_see_the_thinnest(void **state) {
   fill_bars(&scene, &options, true);
   for (const struct solver *const *s = solvers(); *s != NULL; s++) {
     struct trial trial;
-    if (!(*s)->exact)
+    if (!is_exact(*s))
       continue;
     trial_run(&trial, &scene, &options, *s, 0, TRIAL_FRAGMENTS);
     assert_int_equal(trial.status, RECTO_OK);
@@ -210,7 +211,7 @@ static void a_section_cuts_away_what_is_nearer(void **state) {
   for (size_t m = 0; m < sizeof name / sizeof *name; m++) {
     const struct solver *solver = solver_by_name(name[m]);
     struct trial trial;
-    trial_run(&trial, &scene, &options, solver, solver->exact ? 0 : 100,
+    trial_run(&trial, &scene, &options, solver, is_exact(solver) ? 0 : 100,
               TRIAL_FRAGMENTS);
     assert_int_equal(trial.status, RECTO_OK);
     if (!(fabs(area_of(&trial.map, 0) - 4000) < 1e-3 &&

@@ -15,6 +15,7 @@
 #include "judge/ear_clipping.h"
 #include "judge/grid.h"
 #include "judge/judge.h"
+#include "tests/scenes/judge_camera.h"
 #include "tests/scenes/scenes.h"
 
 /* An SVG file that is being written. */

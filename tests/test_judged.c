@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "tests/failures.h"
+#include "tests/scenes/judge_camera.h"
 #include "tests/temporary.h"
 
 static void the_stability_list_is_drawn_right(void **state) {

@@ -332,6 +332,13 @@ static void plain_numbers_are_read_as_all_others(void **state) {
 }
 #endif
 
+/* Is the whole text one number? */
+static bool is_number(const char *text) {
+  const char *end = text + strlen(text);
+  double value;
+  return number_parse_double(text, end, &value) == end;
+}
+
 static void names_of_non_finite_numbers_are_read(void **state) {
   (void)state;
   assert_reads("inf", INFINITY);
@@ -339,21 +346,9 @@ static void names_of_non_finite_numbers_are_read(void **state) {
   assert_reads("+Infinity", INFINITY);
   assert_true(isnan(parse("nan")));
   assert_true(isnan(parse("-NaN")));
-  double value;
-  assert_false(number_from_string("in", &value));
-  assert_false(number_from_string("infinit", &value));
-  assert_false(number_from_string("nano", &value));
-}
-
-static void a_whole_string_must_be_a_number(void **state) {
-  (void)state;
-  double value = 7;
-  assert_true(number_from_string("-1.5e2", &value));
-  assert_true(value == -150);
-  assert_false(number_from_string("1.5 ", &value));
-  assert_false(number_from_string("1.5mm", &value));
-  assert_false(number_from_string("", &value));
-  assert_true(value == -150);
+  assert_false(is_number("in"));
+  assert_false(is_number("infinit"));
+  assert_false(is_number("nano"));
 }
 
 static void integers_are_read_up_to_their_limits(void **state) {
@@ -544,8 +539,7 @@ static void a_decimal_comma_changes_nothing(void **state) {
   assert_reads("1234.5", 1234.5);
   assert_reads("0.1234567890123456789012", 0.1234567890123456789012);
   assert_reads("6.123233995736766e-177", 6.123233995736766e-177);
-  double value = 0;
-  assert_false(number_from_string("1,5", &value));
+  assert_false(is_number("1,5"));
   assert_format(1234.5678, 3, "1234.568");
   assert_exact(0.1, "0.1");
   assert_exact(1.25e-9, "1.25e-9");
@@ -566,7 +560,6 @@ int main(void) {
     cmocka_unit_test(plain_numbers_are_read_as_all_others),
 #endif
     cmocka_unit_test(names_of_non_finite_numbers_are_read),
-    cmocka_unit_test(a_whole_string_must_be_a_number),
     cmocka_unit_test(integers_are_read_up_to_their_limits),
     cmocka_unit_test(decimals_are_rounded_half_away_from_zero),
     cmocka_unit_test(there_are_no_needless_characters),

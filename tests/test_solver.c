@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "tests/scenes/exact.h"
+
 /* ---- The table ----------------------------------------------------------- */
 
 static void a_solver_is_found_by_its_method_and_its_name(void **state) {
@@ -27,8 +29,6 @@ static void a_solver_is_found_by_its_method_and_its_name(void **state) {
   assert_null(solver_by_name("no such method"));
   assert_null(solver_by_name(""));
   assert_null(solver_by_method(RECTO_METHOD_COUNT));
-  assert_true(solver_brute.exact && solver_newell.exact);
-  assert_false(solver_painter.exact || solver_painter_given.exact);
 }
 
 /* ---- Each allocation failing --------------------------------------------- */
@@ -74,7 +74,6 @@ static recto_status solve(const struct solver *solver, int lines, make_fn *make,
                           unsigned long n, struct map *map) {
   const struct solver_request request = {.strokes = true,
                                          .fragments = true,
-                                         .exact_corners = true,
                                          .intersections = true,
                                          .threads = 1,
                                          .pitch_mm = lines > 0 ? 100 : 0,
@@ -127,7 +126,7 @@ static void running_out_of_memory_is_a_status_and_leaks_nothing(void **state) {
   (void)state;
   for (const struct solver *const *s = solvers(); *s != NULL; s++)
     for (size_t k = 0; k < sizeof make / sizeof *make; k++) {
-      if ((*s)->exact)
+      if (is_exact(*s))
         fail_in_turn(*s, 0, make[k]);
       fail_in_turn(*s, 16, make[k]);
     }
@@ -152,7 +151,6 @@ static void check_parts(const struct solver *solver, bool strokes,
                    RECTO_OK);
   assert_int_equal(map.edge_state != NULL, strokes);
   assert_int_equal(map.fragment.count > 0, fragments);
-  assert_int_equal(map.exact_corner.count, 0);
   assert_int_equal(sheet.edge.count, edges); /* no intersections */
   map_fini(&map);
   exact_sheet_fini(&sheet);
@@ -161,7 +159,7 @@ static void check_parts(const struct solver *solver, bool strokes,
 static void a_solver_does_no_more_than_was_requested(void **state) {
   (void)state;
   for (const struct solver *const *s = solvers(); *s != NULL; s++)
-    if ((*s)->exact || *s == &solver_painter || *s == &solver_painter_given)
+    if (is_exact(*s) || *s == &solver_painter || *s == &solver_painter_given)
       for (int parts = 0; parts < 4; parts++)
         check_parts(*s, parts & 1, parts & 2);
 }

@@ -23,8 +23,6 @@ void mem_fail_after(unsigned long n) {
   atomic_store(&allocations_to_failure, n);
 }
 
-bool mem_is_to_fail(void) { return atomic_load(&allocations_to_failure) > 0; }
-
 /* The size of a block; false where it does not fit.  Never zero, so that an
  * empty array has an address of its own. */
 static bool multiply(size_t count, size_t size, size_t *bytes) {

@@ -28,8 +28,6 @@ void mem_free(void *block);
 /* For tests: the n-th allocation from now (1-based) fails, once; 0 switches
  * this off. */
 void mem_fail_after(unsigned long n);
-/* Whether that allocation is still to come. */
-bool mem_is_to_fail(void);
 
 /* How many bytes the process has held at most (the system's own figure for
  * the resident set, bytes; 0 where it is not known). */

@@ -198,12 +198,3 @@ const char *number_parse_int(const char *text, const char *end,
   *value = sum;
   return p;
 }
-
-bool number_from_string(const char *text, double *value) {
-  const char *end = text + strlen(text);
-  double parsed;
-  if (end == text || number_parse_double(text, end, &parsed) != end)
-    return false;
-  *value = parsed;
-  return true;
-}

@@ -61,10 +61,6 @@ static inline const char *number_parse_plain(const char *text, double *value) {
  * it does not fit. */
 const char *number_parse_int(const char *text, const char *end, int64_t *value);
 
-/* Parses a whole NUL-terminated string as a number; false if anything is
- * left over. */
-bool number_from_string(const char *text, double *value);
-
 /* Writes `value` with at most `decimals` (0 to 9) decimals, rounded half away
  * from zero, no exponent, no trailing zeros, no "-0", always ".".
  * value  finite, |value| < 1e9

@@ -203,21 +203,6 @@ bool scan_table_add(struct scan_table *table, const struct scan_point *p,
   return ARRAY_PUSH(&table->edge, edge);
 }
 
-bool scan_table_add_loop(struct scan_table *table, const int64_t *xy,
-                         size_t count, uint32_t owner) {
-  struct scan_point last;
-  if (count == 0)
-    return true;
-  last = scan_point_of(&table->grid, xy[2 * count - 2], xy[2 * count - 1]);
-  for (size_t i = 0; i < count; i++) {
-    struct scan_point p = scan_point_of(&table->grid, xy[2 * i], xy[2 * i + 1]);
-    if (!scan_table_add(table, &last, &p, owner))
-      return false;
-    last = p;
-  }
-  return true;
-}
-
 /* Keys that order as (first line in walking order, x) up to rounding. */
 static void make_keys(const struct scan_table *table, struct sort_key *key) {
   const struct scan_grid *grid = &table->grid;

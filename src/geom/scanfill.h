@@ -220,11 +220,6 @@ USE_RESULT bool scan_table_add(struct scan_table *table,
                                const struct scan_point *p,
                                const struct scan_point *q, uint32_t owner);
 
-/* Adds all sides of a closed loop of plane points, x y after each other;
- * several loops make holes and islands. */
-USE_RESULT bool scan_table_add_loop(struct scan_table *table, const int64_t *xy,
-                                    size_t count, uint32_t owner);
-
 /* Sorts the edges into their buckets; none is added after it.  Walking
  * starts with the first scan_table_next.  False when memory ran out. */
 USE_RESULT bool scan_table_start(struct scan_table *table);

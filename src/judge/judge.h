@@ -71,14 +71,6 @@ struct judge_camera {
   double margin_mm; /* edges are drawn inside the margins only */
 };
 
-/* A perspective camera at `eye` that looks at `target`, as --no-fit has it:
- * view coordinates (x, y, -d) are projected to the page at
- *     (W/2 + s x/d, H/2 + s y/d),  s = (H - 2 margin) / (2 tan(fov/2)). */
-void judge_camera_look(struct judge_camera *camera, struct judge_point3 eye,
-                       struct judge_point3 target, struct judge_point3 up,
-                       double fov_deg, double width_mm, double height_mm,
-                       double margin_mm);
-
 /* From the camera's axes: on the page
  *   perspective   mm = middle + s (x, y) / d
  *   orthographic  mm = middle + s (x, y) */
@@ -86,10 +78,6 @@ void judge_camera_axes(struct judge_camera *camera, const double right[3],
                        const double up[3], const double back[3],
                        const double eye[3], bool perspective, double s,
                        const double middle_mm[2], const double page_mm[2]);
-
-/* From the 3 x 4 matrix of a drawing's report. */
-void judge_camera_matrix(struct judge_camera *camera, const double matrix[12],
-                         double width_mm, double height_mm);
 
 /* ---- The verdict --------------------------------------------------------- */
 

@@ -8,6 +8,7 @@ check_LTLIBRARIES += %D%/libscenes.la
   %D%/cycles.c \
   %D%/faulty.c \
   %D%/flaws.c \
+  %D%/judge_camera.c %D%/judge_camera.h \
   %D%/layers.c \
   %D%/list.c \
   %D%/mass.c \
@@ -15,7 +16,7 @@ check_LTLIBRARIES += %D%/libscenes.la
   %D%/needles.c \
   %D%/paper.c \
   %D%/piercing.c \
-  %D%/pipeline.c %D%/pipeline.h \
+  %D%/exact.h %D%/pipeline.c %D%/pipeline.h \
   %D%/random.h \
   %D%/scenes.h \
   %D%/small.c \

@@ -112,20 +112,6 @@ int window_angle_count(const struct box2 *window,
   return sum;
 }
 
-int window_ray_count(const struct box2 *window, const struct geom_point *corner,
-                     int count) {
-  struct geom_point start = {window->x0, window->y0, 0};
-  int crossings = 0;
-  for (int k = 0; k < count; k++) {
-    struct geom_point p = corner[k], q = corner[k + 1 == count ? 0 : k + 1];
-    if ((p.x <= start.x) == (q.x <= start.x))
-      continue;
-    if ((geom_orient2d(p, q, start) > 0) == (p.x < q.x))
-      crossings++;
-  }
-  return crossings;
-}
-
 enum window_class window_classify(const struct box2 *window,
                                   const struct geom_point *corner, int count,
                                   struct window_counts *counts) {

@@ -58,12 +58,6 @@ int window_octant(const struct box2 *window, int64_t x, int64_t y);
 int window_angle_count(const struct box2 *window,
                        const struct geom_point *corner, int count);
 
-/* The same decision by the even-odd rule: how often the polygon crosses a
- * ray from the window's lower left corner downwards; where that is even, they
- * are disjoint.  A corner on the ray's line counts as left of it. */
-int window_ray_count(const struct box2 *window, const struct geom_point *corner,
-                     int count);
-
 /* Clips the segment p-q to the closed window.
  * from, to  get the parameters of the clipped segment
  * Returns false where nothing is left. */

@@ -8,8 +8,9 @@
 
 #include <math.h>
 
-void span_fill_plane_init(struct span_fill_plane *plane,
-                          const struct raster *raster, uint32_t triangle) {
+/* Sets the plane of a triangle of the sheet that is not flat. */
+static void init_plane(struct span_fill_plane *plane,
+                       const struct raster *raster, uint32_t triangle) {
   const struct scan_grid *grid = &raster->grid;
   uint32_t point = raster->sheet->triangle.item[triangle].point[0];
   const struct scan_point corner = raster_point(raster, point);
@@ -142,7 +143,7 @@ bool span_fill_triangle(struct raster *raster, uint32_t triangle,
   const struct scan_point *low = left ? last : next;
   if (high->line == low->line)
     return true;
-  span_fill_plane_init(&plane, raster, triangle);
+  init_plane(&plane, raster, triangle);
   if (!plane.gentle)
     return false;
   if (!start(&longest, grid, high, low))

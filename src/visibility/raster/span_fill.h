@@ -22,10 +22,6 @@ struct span_fill_plane {
   bool gentle; /* see RASTER_GENTLE */
 };
 
-/* Sets the plane of a triangle of the sheet that is not flat. */
-void span_fill_plane_init(struct span_fill_plane *plane,
-                          const struct raster *raster, uint32_t triangle);
-
 /* Is the facet nearer at the pixel's centre than facet `there` (SHEET_NONE:
  * background), or as near and of lower index?  Exact. */
 bool span_fill_is_nearer(const struct raster *raster, uint32_t facet,
