@@ -2,6 +2,7 @@
  * against each other on random ones. */
 #include "exact_fixture/sheet.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -173,19 +174,17 @@ static void add_cycle(struct sheet *sheet, int x, int y) {
   exact_add_face(sheet, c, 4, SCALE);
 }
 
-/* Visible areas of all faces, twice over, summed. */
-static void sum_areas(const struct map *map, mpq_t sum) {
-  mpq_set_ui(sum, 0, 1);
+static struct exact_area sum_areas(const struct map *map) {
+  struct exact_area sum = {0};
   for (size_t f = 0; f < map->fragment.count; f++)
-    exact_add_area2(sum, map, f);
+    exact_add_area(&sum, map, f);
+  return sum;
 }
 
 static void a_field_of_cycles_is_right(void **state) {
   struct sheet sheet;
   struct map one[EXACT_COUNT], field[EXACT_COUNT];
-  mpq_t area_one, area_field;
   (void)state;
-  mpq_inits(area_one, area_field, NULL);
   for (int s = 0; s < EXACT_COUNT; s++) {
     struct report *report = report_create();
     exact_sheet_init(&sheet);
@@ -201,11 +200,8 @@ static void a_field_of_cycles_is_right(void **state) {
         add_cycle(&sheet, 30 * x, 30 * y);
     exact_solve(exact[s], &sheet, &field[s], NULL);
     exact_sheet_fini(&sheet);
-    sum_areas(&one[s], area_one);
-    sum_areas(&field[s], area_field);
-    mpz_mul_ui(mpq_numref(area_one), mpq_numref(area_one), 100);
-    mpq_canonicalize(area_one);
-    assert_true(mpq_equal(area_one, area_field));
+    struct exact_area a = sum_areas(&one[s]), b = sum_areas(&field[s]);
+    assert_true(fabs(100 * a.twice - b.twice) <= 100 * a.slack + b.slack);
   }
   for (int s = 1; s < EXACT_COUNT; s++) {
     exact_assert_same_map(&one[0], &one[s], "a cycle");
@@ -215,7 +211,6 @@ static void a_field_of_cycles_is_right(void **state) {
     map_fini(&one[s]);
     map_fini(&field[s]);
   }
-  mpq_clears(area_one, area_field, NULL);
 }
 
 /* A random scene on a small lattice, so that touching, coplanar, edge-on and

@@ -15,7 +15,6 @@ enum { SCALE = 1024 };
 static struct solver_request request_of(bool fragments, bool by_box) {
   return (struct solver_request){.strokes = true,
                                  .fragments = fragments,
-                                 .exact_corners = fragments,
                                  .intersections = true,
                                  .threads = 1,
                                  .divide_by_box = by_box};

@@ -320,38 +320,29 @@ static void an_interval_is_split_wherever_two_seen_faces_pierce(void **state) {
 
 /* ---- Coherence ----------------------------------------------------------- */
 
-static void solve_scene(const struct pixels_scene *scene, bool coherent,
-                        double pitch_mm, struct map *map,
-                        struct report *report) {
-  const struct solver_request request = {.strokes = true,
-                                         .fragments = true,
-                                         .threads = 1,
-                                         .pitch_mm = pitch_mm,
-                                         .no_coherence = !coherent};
-  struct sheet sheet;
-  pixels_sheet(&sheet, scene);
-  map_init(map);
-  assert_int_equal(solver_watkins.solve(&sheet, &request, map, report, NULL),
-                   RECTO_OK);
-  exact_sheet_fini(&sheet);
-}
-
-/* Depth comparisons with coherence, and without; the maps are the same. */
+/* Depth comparisons with coherence, and without, where what was kept of the
+ * line above is forgotten; the pieces of each line are the same. */
 static void compare_coherence(const struct pixels_scene *scene, double pitch_mm,
                               int64_t *with, int64_t *without) {
-  struct report *report[2] = {report_create(), report_create()};
-  struct map map[2];
-  for (int k = 0; k < 2; k++)
-    solve_scene(scene, k == 0, pitch_mm, &map[k], report[k]);
-  exact_assert_same_map(&map[0], &map[1], "coherence");
-  *with = report_get(report[0], "watkins", "depth_comparisons", -1);
-  *without = report_get(report[1], "watkins", "depth_comparisons", -1);
-  assert_int_equal(report_get(report[1], "watkins", "kept_by_coherence", -1),
-                   0);
-  for (int k = 0; k < 2; k++) {
-    map_fini(&map[k]);
-    report_destroy(report[k]);
+  struct walk kept, anew;
+  start_walk(&kept, scene, pitch_mm);
+  start_walk(&anew, scene, pitch_mm);
+  while (next_line(&kept)) {
+    anew.watkins.record[0].count = anew.watkins.record[1].count = 0;
+    assert_true(next_line(&anew));
+    assert_int_equal(kept.watkins.piece.count, anew.watkins.piece.count);
+    for (size_t i = 0; i < kept.watkins.piece.count; i++) {
+      const struct watkins_piece *p = &kept.watkins.piece.item[i],
+                                 *q = &anew.watkins.piece.item[i];
+      assert_int_equal(p->facet, q->facet);
+      assert_true(p->x0 == q->x0 && p->x1 == q->x1);
+    }
   }
+  *with = kept.watkins.counts.comparisons;
+  *without = anew.watkins.counts.comparisons;
+  assert_int_equal(anew.watkins.counts.coherent, 0);
+  end_walk(&kept);
+  end_walk(&anew);
 }
 
 static void coherence_saves_comparisons_and_changes_nothing(void **state) {
@@ -400,6 +391,18 @@ static void no_depth_is_computed_of_faces_clearly_apart(void **state) {
 
 /* ---- What it draws ------------------------------------------------------- */
 
+static void solve_scene(const struct pixels_scene *scene, double pitch_mm,
+                        struct map *map) {
+  const struct solver_request request = {
+      .strokes = true, .fragments = true, .threads = 1, .pitch_mm = pitch_mm};
+  struct sheet sheet;
+  pixels_sheet(&sheet, scene);
+  map_init(map);
+  assert_int_equal(solver_watkins.solve(&sheet, &request, map, NULL, NULL),
+                   RECTO_OK);
+  exact_sheet_fini(&sheet);
+}
+
 static void equal_sides_make_one_trapezoid(void **state) {
   const struct pixels_scene square = {
       1, {{4, {{4, 4, 9}, {4, 28, 9}, {20, 28, 9}, {20, 4, 9}}}}};
@@ -407,7 +410,7 @@ static void equal_sides_make_one_trapezoid(void **state) {
       1, {{3, {{4, 4, 9}, {28, 16, 9}, {4, 28, 9}}}}};
   struct map map;
   (void)state;
-  solve_scene(&square, true, 0.5, &map, NULL);
+  solve_scene(&square, 0.5, &map);
   assert_int_equal(map.fragment.count, 1);
   assert_int_equal(map.corner.count, 4);
   for (int k = 0; k < 4; k++) {
@@ -416,7 +419,7 @@ static void equal_sides_make_one_trapezoid(void **state) {
   }
   map_fini(&map);
   /* One above the right corner, one below it. */
-  solve_scene(&triangle, true, 0.5, &map, NULL);
+  solve_scene(&triangle, 0.5, &map);
   assert_int_equal(map.fragment.count, 2);
   map_fini(&map);
 }
@@ -430,7 +433,7 @@ static void whole_edges_are_visible_from_end_to_end(void **state) {
   (void)state;
   for (int i = 0; i < 4; i++) {
     struct map map;
-    solve_scene(&scene, true, pitch[i], &map, NULL);
+    solve_scene(&scene, pitch[i], &map);
     for (size_t e = 0; e < map.edge_count; e++)
       assert_int_equal(map.edge_state[e], MAP_VISIBLE);
     map_fini(&map);
@@ -452,7 +455,7 @@ static void what_no_line_meets_is_not_drawn_where_it_is_hidden(void **state) {
         {{4, {{4, 4, 9}, {4, 28, 9}, {28, 28, 9}, {28, 4, 9}}},
          {4, {{8, y0, 1}, {8, y1, 1}, {12, y1, 1}, {12, y0, 1}}}}};
     struct map map;
-    solve_scene(&scene, true, row[i].pitch, &map, NULL);
+    solve_scene(&scene, row[i].pitch, &map);
     assert_int_equal(map.edge_count, 8);
     for (size_t e = 0; e < 8; e++)
       assert_int_equal(map.edge_state[e], e < 4 ? MAP_VISIBLE : MAP_HIDDEN);
@@ -468,7 +471,7 @@ static void a_face_hides_as_far_as_it_reaches(void **state) {
        {4, {{15, 18, 4}, {17, 18, 4}, {17, 20, 4}, {15, 20, 4}}}}};
   struct map map;
   (void)state;
-  solve_scene(&scene, true, 1000, &map, NULL);
+  solve_scene(&scene, 1000, &map);
   for (size_t e = 0; e < 7; e++)
     assert_int_equal(map.edge_state[e], e < 3 ? MAP_VISIBLE : MAP_HIDDEN);
   map_fini(&map);
@@ -493,8 +496,8 @@ static void strokes_end_where_faces_pierce_within_a_pitch(void **state) {
   (void)state;
   for (int i = 0; i < 3; i++) {
     struct map map, exact;
-    solve_scene(&pixels_pierced_rectangle, true, pitch[i], &map, NULL);
-    solve_scene(&pixels_pierced_rectangle, true, 0, &exact, NULL);
+    solve_scene(&pixels_pierced_rectangle, pitch[i], &map);
+    solve_scene(&pixels_pierced_rectangle, 0, &exact);
     assert_true(fabs(visible_share(&map) - visible_share(&exact)) <
                 2 * pitch[i] / 10);
     assert_int_equal(map.edge_count, exact.edge_count);

@@ -17,6 +17,5 @@ void map_fini(struct map *map) {
   ARRAY_FREE(&map->loop);
   ARRAY_FREE(&map->corner);
   ARRAY_FREE(&map->half_edge);
-  ARRAY_FREE(&map->exact_corner);
   map_init(map);
 }

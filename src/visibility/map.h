@@ -5,7 +5,6 @@
 
 #include "base/memory.h"
 #include "geom/ratio.h"
-#include "geom/wide.h"
 #include "view/sheet.h"
 
 /* ---- Strokes ------------------------------------------------------------- */
@@ -82,11 +81,6 @@ struct map_fragment {
   uint32_t loop, loops; /* the first is the outer one */
 };
 
-/* A corner before rounding: homogeneous integers x, y, w. */
-struct map_exact_corner {
-  struct wide h[3];
-};
-
 struct map {
   uint8_t *edge_state; /* enum map_state, per drawable edge; NULL: strokes were
                           not requested */
@@ -107,8 +101,6 @@ struct map {
   ARRAY(struct map_loop) loop;
   ARRAY(struct map_corner) corner;
   ARRAY(struct map_half_edge) half_edge; /* loop by loop, in order */
-  /* One per corner where exact corners were requested, else empty. */
-  ARRAY(struct map_exact_corner) exact_corner;
 };
 
 void map_init(struct map *map);

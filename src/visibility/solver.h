@@ -9,8 +9,6 @@
 struct solver_request {
   bool strokes;       /* visible intervals of the sheet's drawable edges */
   bool fragments;     /* visible fragments of its faces */
-  bool exact_corners; /* with fragments: their corners before rounding too,
-                         from which tests compute exact areas */
   bool hidden;        /* hidden parts of intersections will be drawn too */
   bool intersections; /* edges where faces pierce each other are drawable */
   int threads;        /* at least 1 */
@@ -24,8 +22,6 @@ struct solver_request {
                          are left out (back-face culling) */
   bool divide_by_box; /* warnock: windows are split at bounding boxes of faces
                          rather than in the middle */
-  bool no_coherence;  /* watkins: the depth order is computed anew on every scan
-                         line, not kept from the last one */
   int subpixels;      /* raster methods: K x K samples averaged per pixel; 0:
                          one sample */
 };
@@ -33,7 +29,6 @@ struct solver_request {
 struct solver {
   recto_method method;
   const char *name;
-  bool exact; /* computes the visible map itself, not an approximation */
   /* Solves `sheet`.  Where intersections are requested, their edges are
    * appended to the sheet's drawable ones (intersection.h).
    * map     initialised, empty

@@ -26,8 +26,7 @@ recto_status exact_solve_as(const struct solver *solver,
                             struct sheet *sheet, struct map *map,
                             struct report *report);
 
-/* Asserts that two maps are the same to the last bit of every number, exact
- * areas where they are there. */
+/* Asserts that two maps are the same to the last bit of every number. */
 void exact_assert_same_map(const struct map *a, const struct map *b,
                            const char *what);
 
@@ -37,10 +36,17 @@ void exact_assert_visible_same(const struct map *a, const struct sheet *sa,
                                const struct map *b, const struct sheet *sb,
                                const char *what);
 
-/* Adds twice the exact area of a fragment to `sum`. */
-void exact_add_area2(mpq_t sum, const struct map *map, size_t fragment);
-/* Are two fragments of the same area? */
-bool exact_same_area(const struct map *a, const struct map *b, size_t fragment);
+/* Twice an area of fragments, and how much it may be off because their corners
+ * are rounded by 1/512. */
+struct exact_area {
+  double twice, slack;
+};
+
+/* Adds the area of a fragment to `sum`. */
+void exact_add_area(struct exact_area *sum, const struct map *map,
+                    size_t fragment);
+/* May the exact area be this one? */
+bool exact_is_area(struct exact_area area, const mpq_t twice);
 /* Asserts that the area of all fragments of a face over scale^2, as a fraction
  * in lowest terms, is num / den. */
 void exact_assert_area(const struct map *map, uint32_t face, int scale,

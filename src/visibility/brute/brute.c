@@ -112,8 +112,7 @@ bool brute_subtract_all(struct brute_pieces *pieces, const struct sheet *sheet,
 }
 
 static bool solve_fragments(const struct sheet *sheet,
-                            const struct triangle_grid *grid,
-                            bool exact_corners, struct map *map,
+                            const struct triangle_grid *grid, struct map *map,
                             struct report *report, struct progress *progress) {
   struct fragments fragments;
   struct brute_pieces pieces = {0};
@@ -128,7 +127,7 @@ static bool solve_fragments(const struct sheet *sheet,
                          : fragments_add(&fragments, f, pieces.left.item,
                                          pieces.left.count));
   }
-  ok = ok && fragments_finish(&fragments, exact_corners, map);
+  ok = ok && fragments_finish(&fragments, map);
   brute_pieces_fini(&pieces);
   fragments_fini(&fragments);
   return ok;
@@ -150,12 +149,11 @@ static recto_status solve(struct sheet *sheet,
     status = progress_error(&progress, error);
   progress.stage = "faces";
   if (status == RECTO_OK && request->fragments &&
-      !solve_fragments(sheet, &grid, request->exact_corners, map, report,
-                       &progress))
+      !solve_fragments(sheet, &grid, map, report, &progress))
     status = progress_error(&progress, error);
   occlusion_report(&counts, report);
   triangle_grid_fini(&grid);
   return status;
 }
 
-const struct solver solver_brute = {RECTO_METHOD_BRUTE, "brute", true, solve};
+const struct solver solver_brute = {RECTO_METHOD_BRUTE, "brute", solve};

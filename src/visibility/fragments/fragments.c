@@ -185,7 +185,6 @@ bool fragments_add(struct fragments *f, uint32_t triangle,
 struct face_work {
   struct fragments *fragments;
   struct map *map;
-  bool exact_corners;
   uint32_t face;
   ARRAY(uint32_t) own;  /* the face's triangles that have area */
   ARRAY(uint32_t) seen; /* those with visible pieces, ascending */
@@ -213,13 +212,6 @@ static bool find_own(struct face_work *work, uint32_t triangle) {
   return true;
 }
 
-static bool store_exact_corner(struct map *map,
-                               const struct geom_corner *corner) {
-  struct map_exact_corner place;
-  geom_corner_exact(corner, place.h);
-  return ARRAY_PUSH(&map->exact_corner, place);
-}
-
 static bool store_loop(struct face_work *work,
                        const struct geom_region_loop *loop) {
   const struct geom_region_side *side = work->region.side.item + loop->side;
@@ -234,9 +226,7 @@ static bool store_loop(struct face_work *work,
                               &side[(k + 1) % loop->count].corner, &corner.side,
                               &corner.id) ||
         !side_lines_add(&work->lines, &corner, side[k].line) ||
-        !ARRAY_PUSH(&work->map->corner, corner) ||
-        (work->exact_corners &&
-         !store_exact_corner(work->map, &side[k].corner)))
+        !ARRAY_PUSH(&work->map->corner, corner))
       return false;
     work->fragments->counts.side[corner.side]++;
   }
@@ -321,7 +311,7 @@ static bool store_outline(struct face_work *work, bool *stored) {
   for (int k = 0; k < n; k++)
     if (geom_orient2d(p[k], p[(k + 1) % n], p[(k + 2) % n]) == 0)
       return true;
-  if (n == 0 || work->exact_corners)
+  if (n == 0)
     return true;
   for (int k = 0; k < n; k++) {
     int i = (first + k) % n;
@@ -533,11 +523,9 @@ static void report_counts(const struct fragments *fragments) {
     report_int(report, "fragments", side[k], (int64_t)c->side[k]);
 }
 
-bool fragments_finish(struct fragments *fragments, bool exact_corners,
-                      struct map *map) {
+bool fragments_finish(struct fragments *fragments, struct map *map) {
   struct face_work work = {.fragments = fragments,
                            .map = map,
-                           .exact_corners = exact_corners,
                            .provenance = {.sheet = fragments->sheet,
                                           .grid = fragments->grid,
                                           .query = &fragments->query}};

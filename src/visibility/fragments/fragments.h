@@ -96,9 +96,7 @@ USE_RESULT bool fragments_add_with_candidates(struct fragments *fragments,
 
 /* Writes all fragments to the map, ordered by face, and the counts to the
  * report.
- * exact_corners  whether the exact coordinates of all corners are stored too
  * Returns false when memory ran out or the caller cancelled. */
-USE_RESULT bool fragments_finish(struct fragments *fragments,
-                                 bool exact_corners, struct map *map);
+USE_RESULT bool fragments_finish(struct fragments *fragments, struct map *map);
 
 #endif

@@ -198,8 +198,7 @@ static bool store_unordered(struct newell_order *order,
 }
 
 static bool solve_fragments(struct newell_order *order,
-                            struct pairwise_fallback *fallback,
-                            bool exact_corners, struct map *map,
+                            struct pairwise_fallback *fallback, struct map *map,
                             struct report *report) {
   struct fragments fragments;
   struct triangle_grid_query query = {0};
@@ -221,7 +220,7 @@ static bool solve_fragments(struct newell_order *order,
          occluder_subtraction_store(&subtraction, &fragments);
   }
   ok = ok && store_unordered(order, fallback, &fragments) &&
-       fragments_finish(&fragments, exact_corners, map);
+       fragments_finish(&fragments, map);
   occluder_subtraction_fini(&subtraction);
   triangle_grid_query_fini(&query);
   fragments_fini(&fragments);
@@ -259,8 +258,7 @@ static bool solve_in_order(struct newell_order *order, struct sheet *sheet,
               solve_strokes(sheet, order, &fallback, map, report));
   order->progress.stage = "faces";
   ok = ok &&
-       (!request->fragments ||
-        solve_fragments(order, &fallback, request->exact_corners, map, report));
+       (!request->fragments || solve_fragments(order, &fallback, map, report));
   pairwise_fallback_fini(&fallback);
   return ok;
 }
@@ -285,5 +283,4 @@ static recto_status solve(struct sheet *sheet,
   return status;
 }
 
-const struct solver solver_newell = {RECTO_METHOD_NEWELL, "newell", true,
-                                     solve};
+const struct solver solver_newell = {RECTO_METHOD_NEWELL, "newell", solve};

@@ -125,8 +125,7 @@ static bool subtract_later(struct painting *painting, uint32_t f,
   return true;
 }
 
-static bool solve_fragments(struct painting *painting, bool exact_corners,
-                            struct map *map) {
+static bool solve_fragments(struct painting *painting, struct map *map) {
   struct fragments fragments;
   struct occluder_subtraction subtraction;
   bool ok = fragments_init(&fragments, painting->sheet, painting->grid, false);
@@ -137,7 +136,7 @@ static bool solve_fragments(struct painting *painting, bool exact_corners,
       ok = occluder_subtraction_start(&subtraction, (uint32_t)f, NULL) &&
            subtract_later(painting, (uint32_t)f, &subtraction) &&
            occluder_subtraction_store(&subtraction, &fragments);
-  ok = ok && fragments_finish(&fragments, exact_corners, map);
+  ok = ok && fragments_finish(&fragments, map);
   occluder_subtraction_fini(&subtraction);
   fragments_fini(&fragments);
   return ok;
@@ -161,8 +160,7 @@ static recto_status paint(struct sheet *sheet,
   else if (ok)
     ok = rank_by_centroid(&painting);
   ok = ok && (!request->strokes || solve_strokes(&painting, map)) &&
-       (!request->fragments ||
-        solve_fragments(&painting, request->exact_corners, map));
+       (!request->fragments || solve_fragments(&painting, map));
   mem_free(painting.rank);
   triangle_grid_query_fini(&painting.query);
   triangle_grid_fini(&grid);
@@ -185,7 +183,7 @@ static recto_status solve_as_given(struct sheet *sheet,
   return paint(sheet, request, true, map, error);
 }
 
-const struct solver solver_painter = {RECTO_METHOD_PAINTER, "painter", false,
+const struct solver solver_painter = {RECTO_METHOD_PAINTER, "painter",
                                       solve_by_centroid};
-const struct solver solver_painter_given = {
-    RECTO_METHOD_PAINTER_GIVEN, "painter-given", false, solve_as_given};
+const struct solver solver_painter_given = {RECTO_METHOD_PAINTER_GIVEN,
+                                            "painter-given", solve_as_given};

@@ -116,5 +116,5 @@ static recto_status solve(struct sheet *sheet,
                       report, error);
 }
 
-const struct solver solver_scanline_zbuffer = {
-    RECTO_METHOD_SCANLINE_ZBUFFER, "scanline-zbuffer", false, solve};
+const struct solver solver_scanline_zbuffer = {RECTO_METHOD_SCANLINE_ZBUFFER,
+                                               "scanline-zbuffer", solve};

@@ -360,7 +360,7 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
     ok =
         progress_step_at(&progress, 1, i, work->face.count) &&
         undecided_faces_solve(&undecided_faces, work->face.item[i], &fragments);
-  ok = ok && fragments_finish(&fragments, work->request->exact_corners, map);
+  ok = ok && fragments_finish(&fragments, map);
   if (progress.cancelled)
     atomic_store(work->cancelled, true);
   undecided_faces_report(&undecided_faces, work->report);
@@ -486,4 +486,4 @@ static recto_status solve(struct sheet *sheet,
   return status;
 }
 
-const struct solver solver_tiles = {RECTO_METHOD_TILES, "tiles", true, solve};
+const struct solver solver_tiles = {RECTO_METHOD_TILES, "tiles", solve};

@@ -347,5 +347,4 @@ static recto_status solve(struct sheet *sheet,
   return status;
 }
 
-const struct solver solver_warnock = {RECTO_METHOD_WARNOCK, "warnock", true,
-                                      solve};
+const struct solver solver_warnock = {RECTO_METHOD_WARNOCK, "warnock", solve};

@@ -140,7 +140,7 @@ bool warnock_store_faces(struct warnock *w, struct pairwise_fallback *fallback,
   }
   if (w->any_deferred)
     ok = ok && store_deferred_faces(w, fallback, &fragments);
-  ok = ok && fragments_finish(&fragments, w->request->exact_corners, map);
+  ok = ok && fragments_finish(&fragments, map);
   ARRAY_FREE(&piece);
   fragments_fini(&fragments);
   return ok;

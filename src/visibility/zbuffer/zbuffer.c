@@ -100,5 +100,4 @@ static recto_status solve(struct sheet *sheet,
                       report, error);
 }
 
-const struct solver solver_zbuffer = {RECTO_METHOD_ZBUFFER, "zbuffer", false,
-                                      solve};
+const struct solver solver_zbuffer = {RECTO_METHOD_ZBUFFER, "zbuffer", solve};

@@ -206,8 +206,7 @@ static recto_status solve_fragments(struct exact *exact,
   exact->progress.stage = "faces";
   if (status == RECTO_OK)
     status = store_deferred(exact, sheet, request, &fragments, report, error);
-  if (status == RECTO_OK &&
-      !fragments_finish(&fragments, request->exact_corners, map))
+  if (status == RECTO_OK && !fragments_finish(&fragments, map))
     status = progress_error(&progress, error);
   report_int(report, "watkins", "visible_trapezoids", (int64_t)cells->count);
   report_int(report, "watkins", "filter_failures", (int64_t)cells->undecided);

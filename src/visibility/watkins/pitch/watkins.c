@@ -292,7 +292,6 @@ static recto_status run_scan(struct scan *scan, const struct sheet *sheet,
       (request->fragments && !trapezoids_init(&scan->trapezoids, sheet, grid,
                                               scan->watkins.edge.count)))
     return error_memory(error);
-  scan->watkins.coherence = !request->no_coherence;
   scan->watkins.sides = request->fragments;
   scan->row.watkins = scan->above.watkins = &scan->watkins;
   status = walk_lines(scan, error);
@@ -343,5 +342,4 @@ static recto_status solve(struct sheet *sheet,
   return status;
 }
 
-const struct solver solver_watkins = {RECTO_METHOD_WATKINS, "watkins", true,
-                                      solve};
+const struct solver solver_watkins = {RECTO_METHOD_WATKINS, "watkins", solve};

@@ -97,7 +97,6 @@ struct watkins {
   watkins_records record[2]; /* of this line and the one before, by */
   watkins_list order[2];     /* the parity of the line */
   double low, pitch;         /* of the lines, grid units of the sheet */
-  bool coherence;            /* reuse depth orders from line to line */
   bool sides;                /* set the edges of pieces */
   struct watkins_counts counts;
 };

@@ -203,7 +203,7 @@ bool watkins_init(struct watkins *watkins, const struct sheet *sheet,
                   const struct facets *facets, const struct scan_grid *grid) {
   memset(watkins, 0, sizeof *watkins);
   watkins->sheet = sheet;
-  watkins->coherence = watkins->sides = true;
+  watkins->sides = true;
   watkins->low = scan_plane_y(grid, 0);
   watkins->pitch = scan_plane_y(grid, 1) - watkins->low;
   scan_table_init(&watkins->table, grid);

@@ -271,7 +271,7 @@ static const struct watkins_record *find_record(const struct watkins *watkins,
   uint32_t index = watkins->edge.item[left].record;
   const struct watkins_record *record;
   const uint32_t *order;
-  if (!watkins->coherence || index >= watkins->record[above].count)
+  if (index >= watkins->record[above].count)
     return NULL;
   record = &watkins->record[above].item[index];
   if (record->left != left || record->right != right ||
@@ -294,8 +294,7 @@ static bool decide_by_depth(struct watkins *watkins, uint32_t left,
   if (!ARRAY_RESERVE(&watkins->depth, watkins->in.count) ||
       !split_interval(watkins, left, right, &nearest))
     return false;
-  if (nearest == WATKINS_NONE || !watkins->coherence ||
-      ends_here(watkins, left, right))
+  if (nearest == WATKINS_NONE || ends_here(watkins, left, right))
     return true;
   kept = lines_order_holds(watkins, left, right, nearest);
   return !(kept >= 1) || store_record(watkins, left, right,
