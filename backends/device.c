@@ -16,9 +16,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A page may be larger than the paper by this much, so that 8.5in, which has no
- * exact binary representation, fits on letter paper. */
-#define PAPER_SLACK_MM 0.5
+#include "base/tolerance.h"
 
 static const struct device_paper hp7475a[] = {
     {"A", 279.4, 215.9, 0, 0, 10365, 7962, 5250, 4196},  /* A */
@@ -72,8 +70,8 @@ static double area_of(const struct device_paper *paper) {
 /* Whether the paper holds a page of these sides. */
 static bool holds_page(const struct device_paper *paper, double long_mm,
                        double short_mm) {
-  return paper->width_mm + PAPER_SLACK_MM >= long_mm &&
-         paper->height_mm + PAPER_SLACK_MM >= short_mm;
+  return paper->width_mm + TOLERANCE_PAPER_MM >= long_mm &&
+         paper->height_mm + TOLERANCE_PAPER_MM >= short_mm;
 }
 
 /* The smallest paper that holds a page of these sides, or the largest if none
@@ -128,8 +126,8 @@ void device_place(const struct device *device, double width_mm,
   placement->too_large = !holds_page(paper, along, across);
   placement->between = !placement->too_large &&
                        paper != choose_paper(device, 0, 0) &&
-                       (along < paper->width_mm - PAPER_SLACK_MM ||
-                        across < paper->height_mm - PAPER_SLACK_MM);
+                       (along < paper->width_mm - TOLERANCE_PAPER_MM ||
+                        across < paper->height_mm - TOLERANCE_PAPER_MM);
   placement->turned = height_mm > width_mm;
   placement->origin_x = place_side(along / device->unit_mm, paper->x0,
                                    paper->x1, paper->centre_x);

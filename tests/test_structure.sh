@@ -22,6 +22,7 @@ sources() {
 #
 # Every file opens with its name and its job.
 check_sources() {
+  # shellcheck disable=SC2016 # of awk
   (cd "$1" && sources . | xargs awk '
       BEGIN {
         split("base geom scene view visibility drawing ink backends judge api " \
@@ -138,6 +139,49 @@ check_tolerances() {
       }'
 }
 
+# tolerance.h names for each tolerance the files that use it, and no others.
+check_users() {
+  (cd "$1" && sources . | grep -v '^src/base/tolerance\.h$' |
+    xargs awk '
+      FILENAME == "src/base/tolerance.h" {
+        if (/^ \* Users/)
+          listing = 1
+        if (/^ \* Ten times/)
+          listing = 0
+        if (listing)
+          list = list " " $0
+        if (/^#define TOLERANCE_/) {
+          listed[$2] = list " "
+          list = ""
+        }
+        next
+      }
+      !/^ *\/?\*/ {
+        while (match($0, /TOLERANCE_[A-Z_]+/)) {
+          name = substr($0, RSTART, RLENGTH)
+          $0 = substr($0, RSTART + RLENGTH)
+          if (name in listed)
+            uses[name, FILENAME]
+        }
+      }
+      END {
+        for (pair in uses) {
+          split(pair, part, SUBSEP)
+          path = part[2]
+          sub(/^src\//, "", path)
+          if (listed[part[1]] !~ "[ ,]" path "[ ,:]")
+            print part[2] ": uses " part[1] " and is not listed"
+        }
+        for (name in listed) {
+          count = split(listed[name], word, /[ ,:]+/)
+          for (i = 1; i <= count; i++)
+            if (word[i] ~ /\.[ch]$/ && !((name, word[i]) in uses) &&
+                !((name, "src/" word[i]) in uses))
+              print "src/base/tolerance.h: " word[i] " does not use " name
+        }
+      }' src/base/tolerance.h)
+}
+
 # Whatever is compiled is listed, and goes into a release.
 check_listed() {
   (cd "$1" && {
@@ -156,7 +200,7 @@ holds() {
   test -z "$found" || { say "$found" && false; }
 }
 claim "there are sources to check" test "$(sources "$srcdir" | wc -l)" -gt 50
-for check in sources tolerances listed; do
+for check in sources tolerances users listed; do
   claim "check_$check finds nothing" holds check_$check "$srcdir"
 done
 
@@ -204,9 +248,11 @@ done <"$scratch/includes"
 for literal in 1e-9 1.5e-12 1E-6f 0.e-3; do
   echo "double a = $literal;" >>"$copy/src/geom/ratio.c"
 done
+echo "double b = TOLERANCE_TONE;" >>"$copy/src/geom/ratio.c"
+sed -i 's|Users       view/frame.c|&, view/page.c|' "$copy/src/base/tolerance.h"
 echo "int x;" >"$copy/src/geom/new.c"
 echo "/* new.c - nothing. */" >"$copy/src/visibility/included/new.c"
-for check in sources tolerances listed; do
+for check in sources tolerances users listed; do
   check_$check "$copy" >"$scratch/$check"
 done
 
@@ -227,6 +273,10 @@ for literal in 1e-9 1.5e-12 1E-6f 0.e-3; do
   claim "a tolerance of $literal may not stand in a source" finds \
     tolerances "src/geom/ratio.c: " " = $literal;"
 done
+claim "a user of a tolerance may not be unlisted" finds users \
+  "src/geom/ratio.c: uses TOLERANCE_TONE" ""
+claim "a listed user of a tolerance must use it" finds users \
+  "src/base/tolerance.h: view/page.c does not use TOLERANCE_UP_SINE" ""
 claim "a source may not open without its job" finds sources \
   "src/geom/new.c: does not open" ""
 claim "a folder may not be without a floor" finds sources \

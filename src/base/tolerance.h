@@ -2,8 +2,12 @@
  *
  * None of these decides what is visible: they serve input that was rounded
  * before it came to us, and output.  Each says its unit, where it comes from,
- * who uses it, and what ten times as much would do.
- */
+ * who uses it, and what ten times as much would do.  Error bounds of filters
+ * are no tolerances: what they leave undecided is decided exactly.
+ *
+ * Defined elsewhere, beside what they follow from: STRAIGHT in
+ * judge/svg/svg_path.c, from TOLERANCE_CURVE_MM; FINE_UNIT_MM in api/verify.c,
+ * from the resolutions of plotters. */
 #ifndef BASE_TOLERANCE_H
 #define BASE_TOLERANCE_H
 
@@ -13,8 +17,10 @@
  *             0.71 across any line; of two pieces of one line, each end lies
  *             within 2 * 0.71 = 1.41 of the other piece: rounded up.
  * Users       ink/lines/nodes.c, ink/lines/overlap_collinear.c,
- *             ink/lines/overlap.c, ink/hatch/hatch_lines.c, ink/hatch/hatch.c,
- *             visibility/intersection/intersection.c
+ *             ink/lines/overlap.c, ink/lines/overlap_output.c,
+ *             ink/hatch/hatch_lines.c, ink/hatch/inset.c,
+ *             visibility/index/bsp_plane.h,
+ *             visibility/intersection/edge_crossing.c
  * Ten times   lines 20 nm apart, such as two models side by side, become one:
  *             still far below what a pen can show. */
 #define TOLERANCE_COINCIDENT_UNITS 2
@@ -89,7 +95,6 @@
  *             are tested, it grows with the distance over the
  *             triangle's width.
  * Users       visibility/predicate/occlusion.c,
- *             visibility/predicate/plane_filter.c,
  *             visibility/intersection/edge_crossing.c
  * Ten times   faces 0.15 um apart on paper count as touching. */
 #define TOLERANCE_CONTACT_GRID_UNITS 16
@@ -99,7 +104,8 @@
  * Unit        share of the scene's diagonal
  * Derivation  view coordinates are sums of three products, off by about
  *             2^-51 of the diagonal, more for a model far from its origin.
- * Users       view/camera.c, view/project.c
+ * Users       view/camera.c, view/project.c, judge/triangles.c,
+ *             judge/sampler.c
  * Ten times   a plate turned by 1e-11 rad still counts as square-on. */
 #define TOLERANCE_EXTENT_SHARE 0x1p-40
 
@@ -107,8 +113,8 @@
  * Unit        share of the face's own extent
  * Derivation  single precision and six digits round a point by 1e-7 of its
  *             size; sums of a few of those stay below.
- * Users       view/polygon.c: warped faces are counted, and they alone may hide
- *             their own edges
+ * Users       view/polygon.c, judge/triangles.c: warped faces are counted, and
+ *             they alone may hide their own edges
  * Ten times   fewer faces are counted as warped. */
 #define TOLERANCE_WARP_SHARE 1e-6
 
@@ -138,12 +144,20 @@
  * Ten times   gaps of a tenth of a face are closed, which can be seen. */
 #define TOLERANCE_WELD_FACE_SHARE 0x1p-8
 
+/* Where many corners of borders are no farther apart than this, a warning says
+ * that they may be meant to be one.
+ * Unit        share of the size of the faces about a corner
+ * Derivation  by experience: modelled gaps are wider.
+ * Users       scene/welded.c
+ * Ten times   models of loose plates are warned about too. */
+#define TOLERANCE_GAP_SHARE 0x1p-6
+
 /* A polygon shows no area along an axis where it is no more than this.
  * Unit        share of the square of the polygon's extent
  * Derivation  the areas of lobes that cancel add up to rounding noise, 2^-53 of
  *             the square for each of the corners: this leaves room for
  *             thousands.
- * Users       view/polygon.c, judge/triangulation.c
+ * Users       judge/triangulation.c
  * Ten times   needles a hundred times thinner than they are wide today are
  *             seen along their thinnest extent; they are cut otherwise. */
 #define TOLERANCE_NO_AREA_SHARE 0x1p-40
@@ -161,7 +175,7 @@
  * Unit        1 (a sine, a cosine)
  * Derivation  single precision rounds a normal by 1e-7 of its length and that
  *             of a face a hundred times longer than wide by 1e-5.
- * Users       judge/edges.c
+ * Users       judge/edge_natures.c, judge/edge_natures.h, judge/missing_run.c
  * Ten times   silhouettes seen within 0.006 degrees of edge-on may be missing
  *             unnoticed. */
 #define TOLERANCE_JUDGE_ANGLE 1e-5
@@ -170,7 +184,7 @@
  * Unit        share of the near distance
  * Derivation  doubles place a point of the near plane within 1e-15 of it; this
  *             is well above, and far below what is seen.
- * Users       judge/camera.c, judge/edges.c
+ * Users       judge/camera.c, judge/edge_list.c
  * Ten times   nothing that could be seen. */
 #define TOLERANCE_JUDGE_NEAR_SHARE 1e-9
 
@@ -180,6 +194,30 @@
  * Users       judge/svg/svg_pen.c
  * Ten times   a third as many pieces; still a tenth of a fine pen. */
 #define TOLERANCE_CURVE_MM 1e-3
+
+/* A region whose tones differ by less is uniform.
+ * Unit        1 (a tone, 0 to 1)
+ * Derivation  half a step of 8 bits: neither a pen nor a screen shows less.
+ * Users       ink/hatch/tone.c
+ * Ten times   shallow curved surfaces get hatching of one density. */
+#define TOLERANCE_TONE (1.0 / 512)
+
+/* Runs of tone hatching, and gaps in it, that only the tone limits are noise
+ * where they are shorter.
+ * Unit        pen widths
+ * Derivation  by eye: a run of six widths is seen as a line, a shorter one as a
+ *             dot (hatch_runs.h).
+ * Users       ink/hatch/tone_hatch.c
+ * Ten times   light tones lose most of their lines. */
+#define TOLERANCE_TONE_PENS 6.0
+
+/* A page may be larger than the paper by this much.
+ * Unit        mm
+ * Derivation  sizes in inches are rounded, 8.5in is no binary number, and
+ *             paper is cut no better.
+ * Users       backends/device.c
+ * Ten times   pages 5 mm too large are plotted without a warning. */
+#define TOLERANCE_PAPER_MM 0.5
 
 /* A change of the pen's way in the air is made where it gains more.
  * Unit        mm

@@ -419,7 +419,6 @@ void welded_fini(struct welded *welded) {
 bool welded_is_suspicious(const struct welded *welded,
                           const struct topology *topology) {
   enum { FEWEST_FACES = 100, TENTHS_OF_EDGES = 3, ONE_POINT_IN = 4 };
-  const double share = 0x1p-6; /* of a face: what lies so close is no gap */
   const struct scene *scene = &welded->scene;
   struct candidates candidates = {.number = NULL};
   size_t joined = 0, count = 0;
@@ -431,10 +430,10 @@ bool welded_is_suspicious(const struct welded *welded,
     double length = 0;
     count = candidates.member.count;
     for (size_t i = 0; i < count; i++)
-      length = fmax(length, share * sqrt(candidates.size[i]));
+      length = fmax(length, TOLERANCE_GAP_SHARE * sqrt(candidates.size[i]));
     for (size_t i = 0; i < count; i++)
       set_radius(&candidates.member.item[i], length,
-                 share * sqrt(candidates.size[i]));
+                 TOLERANCE_GAP_SHARE * sqrt(candidates.size[i]));
     if (length >= LENGTH_LEAST)
       joined = cluster_join(scene, length, candidates.member.item, count);
   }

@@ -12,13 +12,10 @@
 #include <math.h>
 
 #include "base/sets.h"
+#include "base/tolerance.h"
 #include "ink/fill/light.h"
 #include "view/project.h"
 #include "view/vector.h"
-
-/* A region whose tones differ by less is uniform: a pen cannot show the
- * difference. */
-#define UNIFORM_RANGE (1.0 / 512)
 
 struct tone_normal {
   double xyz[3];
@@ -152,7 +149,7 @@ static void set_regions(struct tone_work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene); f++) {
     uint32_t region = sets_root(w->face_root, f);
     double min = w->min[region], max = w->max[region];
-    tones->uniform[f] = max - min < UNIFORM_RANGE;
+    tones->uniform[f] = max - min < TOLERANCE_TONE;
     if (!tones->uniform[f])
       continue;
     double mean = round((min + max) / 2 * TONE_STEPS) / TONE_STEPS;

@@ -41,6 +41,7 @@
  */
 #include <math.h>
 
+#include "base/tolerance.h"
 #include "ink/fill/fill.h"
 #include "ink/fill/light.h"
 #include "ink/hatch/hatch_lines.h"
@@ -49,10 +50,6 @@
 #include "ink/hatch/tone.h"
 
 enum { LAYERS = 3, LAYER_DEG = 60, THRESHOLD_BITS = 8 };
-
-/* Pen widths: runs and gaps below this length that only the tone limits are
- * noise (hatch_runs.h). */
-#define MIN_LENGTH_PENS 6.0
 
 /* The coverage of a layer of a curved region with all its lines, such that
  * three layers give the greatest tone, 1 - LIGHT_DARKEST:
@@ -125,7 +122,7 @@ static bool add_piece(struct tone_hatching *h, int layer,
                               .tone_end = u1 < span->right.u};
   if (h->tone.uniform)
     piece.tone_steps = (uint32_t)lround(h->tone.max * TONE_STEPS);
-  if (u0 >= u1 || (blank && u1 - u0 >= MIN_LENGTH_PENS * h->pen_mm))
+  if (u0 >= u1 || (blank && u1 - u0 >= TOLERANCE_TONE_PENS * h->pen_mm))
     return true;
   return ARRAY_PUSH(&h->runs.piece, piece);
 }
@@ -304,7 +301,7 @@ bool tone_hatch_add(struct drawing *drawing, const struct sheet *sheet,
       .drawing = drawing, .options = options, .pens = pens};
   /* Gaps below an eighth of the pen width would be closed by the ink. */
   h.runs.max_gap = 1.0 / 8;
-  h.runs.min_length = MIN_LENGTH_PENS;
+  h.runs.min_length = TOLERANCE_TONE_PENS;
   for (int k = 0; k < LAYERS; k++)
     hatch_lines_init(&h.lines[k], sheet, options->pen_mm,
                      options->hatch_angle_deg + LAYER_DEG * k);
