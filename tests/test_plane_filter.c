@@ -1,6 +1,7 @@
 /* test_plane_filter.c - planes in doubles, and 8-DOP keys, only decide what the
- * exact answers say. */
+ * exact answers say, and their error bounds hold. */
 #include "visibility/predicate/plane_filter.h"
+#include "visibility/predicate/depth_plane.h"
 #include "exact_fixture/sheet.h"
 #include "visibility/predicate/occlusion.h"
 #include "visibility/index/kdop8.h"
@@ -73,6 +74,21 @@ static bool side_count_of_sides(const int side[3]) {
   return (behind > 0 && before > 0) || behind + before == 1;
 }
 
+/* The bounds of the two other forms of the occluder's plane, at a point. */
+static void check_bounds(const struct occluder *occluder,
+                         const struct plane_filter *filter,
+                         struct geom_point p) {
+  const struct geom_plane *plane = &occluder->plane;
+  double tolerance = (double)(occluder->t0 + occluder->t1 * p.z) / 0x1p16;
+  assert_true(tolerance <= plane_filter_thickness(filter) * (double)plane->nz);
+  struct depth_plane depth = depth_plane_of(plane);
+  long double fall = ((long double)plane->nx * ((int64_t)p.x - plane->a.x) +
+                      (long double)plane->ny * ((int64_t)p.y - plane->a.y)) /
+                     (long double)plane->nz;
+  long double off = depth_plane_at(&depth, p.x, p.y) - (plane->a.z - fall);
+  assert_true(fabsl(off) <= depth_plane_error(&depth, p.x, p.y));
+}
+
 /* All doubts and certainties of one triangle; counts the certain ones. */
 static void compare_with_exact(bool perspective, int bits, int depth_bits,
                                int certain[5]) {
@@ -90,6 +106,7 @@ static void compare_with_exact(bool perspective, int bits, int depth_bits,
           near_plane(&occluder, number(20) * (INT64_C(1) << far) / (1 << 20));
       if (p[k].z < 0 || p[k].z > SHEET_Z_MAX)
         p[k].z = 0;
+      check_bounds(&occluder, &plane, p[k]);
       side[k] = occluder_side(&occluder, p[k]);
       int sign = plane_filter_occludes(&plane, p[k]);
       int exact = geom_sign128(occluder_depth(&occluder, p[k]));

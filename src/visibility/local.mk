@@ -33,6 +33,7 @@ librecto_core_la_SOURCES += \
   %D%/pairwise/tile_classification.c %D%/pairwise/tile_classification.h \
   %D%/pairwise/undecided_faces.c %D%/pairwise/undecided_faces.h \
   %D%/predicate/box2.h \
+  %D%/predicate/depth_plane.h \
   %D%/predicate/edge_intervals.c %D%/predicate/edge_intervals.h \
   %D%/predicate/occlusion.c %D%/predicate/occlusion.h \
   %D%/predicate/plane_filter.c %D%/predicate/plane_filter.h \

@@ -150,14 +150,6 @@ static void corners_of(const struct sheet *sheet, uint32_t triangle,
     p[k] = sheet->point.item[t[k]];
 }
 
-/* An upper bound of a triangle's contact tolerance as a difference of depth;
- * INFINITY where there is none. */
-static double thickness_of(const struct plane_filter *plane) {
-  double most = plane->t0 + plane->t0_more + plane->t_off +
-                (plane->t1 + plane->t1_more) * (double)SHEET_Z_MAX;
-  return plane->nz > 0 ? most / plane->nz * (1 + 0x1p-40) : INFINITY;
-}
-
 int bsp_plane_side_of_triangle(const struct bsp_plane *splitter,
                                const struct sheet *sheet, uint32_t triangle) {
   struct geom_point p[3];
@@ -166,7 +158,7 @@ int bsp_plane_side_of_triangle(const struct bsp_plane *splitter,
   sides = side_of_corners(splitter, sheet, triangle, p);
   if (splitter->is_plane && sides != BSP_BOTH) {
     struct plane_filter plane = plane_filter_of(sheet, triangle);
-    if (!(thickness_of(&plane) <= splitter->thickness))
+    if (!(plane_filter_thickness(&plane) <= splitter->thickness))
       return BSP_BOTH;
   }
   return sides;
@@ -203,7 +195,7 @@ static void take_sample(struct sample *sample, const struct sheet *sheet,
     corners_of(sheet, t, sample->p[i]);
     if (planes) {
       struct plane_filter plane = plane_filter_of(sheet, t);
-      sample->thickness[i] = thickness_of(&plane);
+      sample->thickness[i] = plane_filter_thickness(&plane);
     }
   }
 }
@@ -302,7 +294,7 @@ static void consider(struct plane_choice *choice, const struct sample *sample,
                      const struct bsp_plane *splitter) {
   double left;
   if (splitter->is_plane
-          ? !(thickness_of(&splitter->plane) <= splitter->thickness)
+          ? !(plane_filter_thickness(&splitter->plane) <= splitter->thickness)
           : splitter->margin == 0)
     return;
   left = pairs_left(sample, splitter);

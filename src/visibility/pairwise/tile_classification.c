@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "visibility/predicate/occlusion.h"
+#include "visibility/predicate/plane_filter.h"
 #include "visibility/predicate/surrounder.h"
 
 /* Depth complexity is the mean number of faces over a point of the page; a
@@ -108,10 +109,11 @@ static bool is_steep(const struct sheet *sheet,
          uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
          vy = (double)p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
   double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-  double room = nz * (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1));
-  if (1 + all->level * nz + all->slope * (fabs(nx) + fabs(ny)) < room)
+  const double room = (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1));
+  if (1 + all->level * nz + all->slope * (fabs(nx) + fabs(ny)) < room * nz)
     return false;
-  return !(occlusion_tolerance_bound(sheet, triangle, p[0], nx, ny, nz) < room);
+  struct plane_filter plane = plane_filter_of(sheet, triangle);
+  return !(plane_filter_thickness(&plane) < room);
 }
 
 /* What is read for every triangle, as a copy, so that the compiler knows that

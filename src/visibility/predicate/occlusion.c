@@ -3,6 +3,7 @@
 #include "visibility/predicate/occlusion.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/tolerance.h"
 #include "view/coordinate_error.h"
@@ -26,48 +27,55 @@ double occlusion_grid_units(const struct sheet *sheet) {
   return sheet->camera.contact < 0 ? TOLERANCE_CONTACT_GRID_UNITS : 1;
 }
 
-/* The contact length times L, the length of the plane's normal in the scene,
- * whose coordinates along the camera's axes are (S nx, S ny, third)
- * (occlusion.h).  Where no length is given, contact along each axis of the
- * scene is the bound of the coordinates' rounding error, and the result is the
- * sum of these bounds times the normal's components. */
-static double contact_times_length(const struct sheet *sheet, uint32_t triangle,
-                                   double nx, double ny, double third) {
+/* Along the camera's axes, the plane's normal in the scene is (S nx, S ny,
+ * third) (occlusion.h).  Where no length is given, contact along each axis of
+ * the scene is the bound of the coordinates' rounding error, and the result is
+ * the sum of these bounds times the normal's components. */
+struct occlusion_contact occlusion_contact_of(const struct sheet *sheet,
+                                              uint32_t triangle,
+                                              struct geom_point a,
+                                              const double n[3],
+                                              const double m[3]) {
   const struct camera *camera = &sheet->camera;
-  double x = sheet->units_per_view * nx, y = sheet->units_per_view * ny;
-  double error[3], sum = 0;
+  double s = sheet->units_per_view, third = sheet->z_scale * n[2],
+         third_most = sheet->z_scale * m[2], error[3];
+  if (camera->perspective) {
+    struct sheet_axis axis = sheet_view_axis(sheet);
+    double x = axis.x - a.x, y = axis.y - a.y, z = (double)a.z,
+           foot = sheet->z_scale / camera->d_max;
+    third = n[2] * foot - (n[0] * x + n[1] * y - n[2] * z);
+    third_most = m[2] * (foot + z) + m[0] * fabs(x) + m[1] * fabs(y);
+  }
+  double x = s * n[0], y = s * n[1];
   if (camera->contact >= 0)
-    return sqrt(x * x + y * y + third * third) * camera->contact;
+    return (struct occlusion_contact){
+        sqrt(x * x + y * y + third * third) * camera->contact,
+        camera->contact * (s * m[0] + s * m[1] + third_most)};
   coordinate_error_of_face(sheet, sheet->triangle.item[triangle].face, error);
-  for (int k = 0; k < 3; k++)
-    sum += error[k] * fabs(x * camera->right[k] + y * camera->up[k] +
-                           third * camera->back[k]);
-  return sum;
+  struct occlusion_contact contact = {0};
+  for (int k = 0; k < 3; k++) {
+    double right = camera->right[k], up = camera->up[k], back = camera->back[k];
+    contact.length += error[k] * fabs(x * right + y * up + third * back);
+    contact.most += error[k] * (s * m[0] * fabs(right) + s * m[1] * fabs(up) +
+                                third_most * fabs(back));
+  }
+  return contact;
 }
 
 void occluder_init(struct occluder *occluder, const struct sheet *sheet,
                    uint32_t triangle) {
-  const uint32_t *p = sheet->triangle.item[triangle].point;
   const struct camera *camera = &sheet->camera;
-  double third, length;
-  for (int k = 0; k < 3; k++)
-    occluder->p[k] = sheet->point.item[p[k]];
-  occluder->plane =
-      geom_plane_of(occluder->p[0], occluder->p[1], occluder->p[2]);
-  occluder->nx = (double)occluder->plane.nx;
-  occluder->ny = (double)occluder->plane.ny;
-  occluder->nz = (double)occluder->plane.nz;
-  if (camera->perspective) {
-    struct sheet_axis axis = sheet_view_axis(sheet);
-    third = occluder->nz * (sheet->z_scale / camera->d_max) -
-            (occluder->nx * (axis.x - occluder->p[0].x) +
-             occluder->ny * (axis.y - occluder->p[0].y) -
-             occluder->nz * (double)occluder->p[0].z);
-  } else {
-    third = sheet->z_scale * occluder->nz;
-  }
-  length =
-      contact_times_length(sheet, triangle, occluder->nx, occluder->ny, third) *
+  struct geom_triangle corners = sheet_corners(sheet, triangle);
+  memcpy(occluder->p, corners.p, sizeof occluder->p);
+  occluder->plane = geom_plane_of(corners.p[0], corners.p[1], corners.p[2]);
+  const double n[3] = {(double)occluder->plane.nx, (double)occluder->plane.ny,
+                       (double)occluder->plane.nz},
+               m[3] = {fabs(n[0]), fabs(n[1]), fabs(n[2])};
+  occluder->nx = n[0];
+  occluder->ny = n[1];
+  occluder->nz = n[2];
+  double length =
+      occlusion_contact_of(sheet, triangle, corners.p[0], n, m).length *
       FIXED_ONE;
   occluder->t0 = (absolute(occluder->plane.nx) + absolute(occluder->plane.ny) +
                   occluder->plane.nz) *
@@ -88,26 +96,6 @@ void occluder_init(struct occluder *occluder, const struct sheet *sheet,
     if (occluder->p[k].z > occluder->z_max)
       occluder->z_max = occluder->p[k].z;
   occluder->box = box2_of_triangle(sheet, triangle);
-}
-
-double occlusion_tolerance_bound(const struct sheet *sheet, uint32_t triangle,
-                                 struct geom_point a, double nx, double ny,
-                                 double nz) {
-  const struct camera *camera = &sheet->camera;
-  double third = sheet->z_scale * nz, nearest = 1, length;
-  double contact =
-      coordinate_error_contact(sheet, sheet->triangle.item[triangle].face);
-  if (camera->perspective) {
-    struct sheet_axis axis = sheet_view_axis(sheet);
-    third = nz * (sheet->z_scale / camera->d_max) -
-            (nx * (axis.x - a.x) + ny * (axis.y - a.y) - nz * (double)a.z);
-    nearest = 1 / camera->d_min;
-  }
-  length = sheet->units_per_view * (fabs(nx) + fabs(ny)) + fabs(third);
-  return ((fabs(nx) + fabs(ny) + fabs(nz)) * occlusion_grid_units(sheet) +
-          length * contact * nearest) *
-             (1 + 0x1p-20) +
-         1;
 }
 
 struct occlusion_bound

@@ -70,6 +70,19 @@ struct occluder {
 /* How many grid units in x, y and z count as contact: G above. */
 double occlusion_grid_units(const struct sheet *sheet);
 
+/* The contact length times L, before T is rounded, and the sum of the
+ * magnitudes of its terms, of which its error is a share. */
+struct occlusion_contact {
+  double length, most;
+};
+
+/* a     a point of the plane
+ * n, m  its integer normal as doubles, and bounds of the magnitudes of the
+ *       terms of which each component is the sum */
+struct occlusion_contact
+occlusion_contact_of(const struct sheet *sheet, uint32_t triangle,
+                     struct geom_point a, const double n[3], const double m[3]);
+
 /* Prepares a triangle that is not SHEET_FLAT. */
 void occluder_init(struct occluder *occluder, const struct sheet *sheet,
                    uint32_t triangle);
@@ -154,15 +167,9 @@ void occlusion_counts_add(struct occlusion_counts *sum,
 void occlusion_report(const struct occlusion_counts *counts,
                       struct report *report);
 
-/* An upper bound of T over all depths of the sheet, in units of value.
- * a           a point of the plane
- * nx, ny, nz  the plane's integer normal, as doubles */
-double occlusion_tolerance_bound(const struct sheet *sheet, uint32_t triangle,
-                                 struct geom_point a, double nx, double ny,
-                                 double nz);
-
-/* The same for any triangle of the sheet, coarser: the bound is at most
- * 1 + level * nz + slope * (|nx| + |ny|). */
+/* An upper bound of T over all depths of the sheet, for any triangle of it, in
+ * units of value: at most 1 + level * nz + slope * (|nx| + |ny|).  Coarse: see
+ * plane_filter_thickness. */
 struct occlusion_bound {
   double level, slope;
 };

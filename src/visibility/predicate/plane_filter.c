@@ -17,7 +17,6 @@
 
 #include <math.h>
 
-#include "view/coordinate_error.h"
 #include "visibility/predicate/occlusion.h"
 
 #define SLACK (32 * 0x1p-53)
@@ -30,75 +29,52 @@
 /* The unit of T(p), which has 16 fraction bits. */
 #define T_UNIT 0x1p-16
 
-/* The contact length times the length of a plane's normal (occlusion.c).
- * n, m  the normal along the camera's axes, and magnitudes that bound it
- * most  gets the sum of the magnitudes in the result, for its error bound */
-static double contact_times_length(const struct sheet *sheet, uint32_t triangle,
-                                   const double n[3], const double m[3],
-                                   double *most) {
-  const struct camera *camera = &sheet->camera;
-  double error[3], sum = 0;
-  if (camera->contact >= 0) {
-    *most = camera->contact * (m[0] + m[1] + m[2]);
-    return camera->contact * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  }
-  coordinate_error_of_face(sheet, sheet->triangle.item[triangle].face, error);
-  *most = 0;
-  for (int k = 0; k < 3; k++) {
-    const double axis[3] = {camera->right[k], camera->up[k], camera->back[k]};
-    sum += error[k] * fabs(n[0] * axis[0] + n[1] * axis[1] + n[2] * axis[2]);
-    *most += error[k] * (m[0] * fabs(axis[0]) + m[1] * fabs(axis[1]) +
-                         m[2] * fabs(axis[2]));
-  }
-  return sum;
-}
-
 struct plane_filter plane_filter_of(const struct sheet *sheet,
                                     uint32_t triangle) {
-  const uint32_t *t = sheet->triangle.item[triangle].point;
   const struct camera *camera = &sheet->camera;
-  struct geom_point a = sheet->point.item[t[0]], b = sheet->point.item[t[1]],
-                    c = sheet->point.item[t[2]];
+  const struct geom_triangle corners = sheet_corners(sheet, triangle);
+  struct geom_point a = corners.p[0], b = corners.p[1], c = corners.p[2];
   double ux = (double)b.x - a.x, uy = (double)b.y - a.y,
          uz = (double)(b.z - a.z), vx = (double)c.x - a.x,
          vy = (double)c.y - a.y, vz = (double)(c.z - a.z);
-  double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-  double mx = fabs(uy * vz) + fabs(uz * vy), my = fabs(uz * vx) + fabs(ux * vz),
-         mz = fabs(ux * vy) + fabs(uy * vx);
-  double s = sheet->units_per_view, third = sheet->z_scale * nz,
-         third_most = sheet->z_scale * mz, by_near = 1, by_z = 0;
+  const double n[3] = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx},
+               m[3] = {fabs(uy * vz) + fabs(uz * vy),
+                       fabs(uz * vx) + fabs(ux * vz),
+                       fabs(ux * vy) + fabs(uy * vx)};
+  struct occlusion_contact contact =
+      occlusion_contact_of(sheet, triangle, a, n, m);
+  double grid = occlusion_grid_units(sheet), by_near = 1, by_z = 0;
   if (camera->perspective) {
-    struct sheet_axis axis = sheet_view_axis(sheet);
-    double x = axis.x - a.x, y = axis.y - a.y,
-           z = sheet->z_scale / camera->d_max + (double)a.z;
-    third = nz * z - (nx * x + ny * y);
-    third_most = mz * fabs(z) + mx * fabs(x) + my * fabs(y);
     by_near = 1 / camera->d_max;
     by_z = 1 / sheet->z_scale;
   }
-  const double n[3] = {s * nx, s * ny, third},
-               m[3] = {s * mx, s * my, third_most};
-  double grid = occlusion_grid_units(sheet), length_most;
-  double length = contact_times_length(sheet, triangle, n, m, &length_most);
   struct plane_filter plane = {
       .x = a.x,
       .y = a.y,
       .z = (double)a.z,
-      .nx = nx,
-      .ny = ny,
-      .nz = nz,
-      .ex = SLACK * mx,
-      .ey = SLACK * my,
-      .ez = SLACK * mz,
-      .t0 = (fabs(nx) + fabs(ny) + fabs(nz)) * grid + length * by_near,
-      .t1 = length * by_z,
+      .nx = n[0],
+      .ny = n[1],
+      .nz = n[2],
+      .ex = SLACK * m[0],
+      .ey = SLACK * m[1],
+      .ez = SLACK * m[2],
+      .t0 = (fabs(n[0]) + fabs(n[1]) + fabs(n[2])) * grid +
+            contact.length * by_near,
+      .t1 = contact.length * by_z,
       .t0_more = T_UNIT,
       .t1_more = camera->perspective ? T_UNIT : 0,
-      .t_off = SLACK * ((mx + my + mz) * grid +
-                        length_most * (by_near + by_z * (double)SHEET_Z_MAX))};
-  if (!(length_most * by_near < T0_LARGE && length_most * by_z < T1_LARGE))
+      .t_off = SLACK * ((m[0] + m[1] + m[2]) * grid +
+                        contact.most * (by_near + by_z * (double)SHEET_Z_MAX))};
+  if (!(contact.most * by_near < T0_LARGE && contact.most * by_z < T1_LARGE))
     plane.t_off = INFINITY;
   return plane;
+}
+
+double plane_filter_thickness(const struct plane_filter *plane) {
+  double least = plane->nz - plane->ez;
+  double most = plane->t0 + plane->t0_more + plane->t_off +
+                (plane->t1 + plane->t1_more) * (double)SHEET_Z_MAX;
+  return least > 0 ? most / least * (1 + SLACK) : INFINITY;
 }
 
 /* The value of a plane at a point, and bounds for the tolerance there, widened

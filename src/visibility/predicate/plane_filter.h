@@ -37,6 +37,10 @@ struct plane_filter {
 struct plane_filter plane_filter_of(const struct sheet *sheet,
                                     uint32_t triangle);
 
+/* An upper bound of the contact tolerance as a difference of depth; INFINITY
+ * where there is none. */
+double plane_filter_thickness(const struct plane_filter *plane);
+
 /* May a triangle with these corners straddle the plane or end on it?  That is,
  * beyond the contact tolerance there are corners on both sides, or there is
  * just one corner.  False is certain. */

@@ -4,6 +4,7 @@
 #define VISIBILITY_PREDICATE_SURROUNDER_H
 
 #include "view/sheet.h"
+#include "visibility/predicate/depth_plane.h"
 #include "visibility/predicate/window.h"
 
 /* Lower bounds for the depth of a surrounder's plane at the corners of a
@@ -15,11 +16,10 @@ struct surrounder_depths {
   double low;   /* the least of them */
 };
 
-/* A triangle's plane in doubles, to be moved back by the largest contact
- * tolerance: for its depths over many windows. */
+/* A triangle's plane, to be moved back by the largest contact tolerance: for
+ * its depths over many windows. */
 struct surrounder_plane {
-  double x, y, z; /* a corner of the triangle */
-  double gx, gy;  /* decrease of z per unit of x and of y */
+  struct depth_plane depth;
   double contact; /* in depth units */
 };
 

@@ -47,12 +47,9 @@ bool trapezoid_cells_init(struct trapezoid_cells *cells,
       cells->ties == NULL)
     return false;
   for (size_t t = 0; t < count; t++) {
-    struct geom_plane plane = triangle_plane_of(sheet, (uint32_t)t).plane;
-    double scale = -(double)plane.nz;
+    struct geom_plane plane = sheet_plane(sheet, t);
     if (!(sheet->triangle_flags[t] & SHEET_FLAT))
-      cells->plane[t] = (struct cell_plane){
-          plane.a.x, plane.a.y, (double)plane.a.z, (double)plane.nx / scale,
-          (double)plane.ny / scale};
+      cells->plane[t] = depth_plane_of(&plane);
   }
   return true;
 }
@@ -76,24 +73,21 @@ static struct cell_corner corner_at(const struct sweep_edge *edge, double y) {
                               fabs(slope) * SWEEP_NEAR + 0x1p-19, SWEEP_NEAR};
 }
 
-static double depth_at(const struct cell_plane *plane, double x, double y) {
-  return plane->z + plane->per_x * (x - plane->x) +
-         plane->per_y * (y - plane->y);
-}
-
-static double error_at(const struct cell_plane *plane,
+/* The bound of depth_plane.h where x and y are not integers, in the terms
+ * above. */
+static double error_at(const struct depth_plane *plane,
                        const struct cell_corner *corner) {
   return fabs(plane->per_x) * (corner->dx + 0x1p-19) +
          fabs(plane->per_y) * (corner->dy + 0x1p-19) + 0x1p-10;
 }
 
 /* Is the plane certainly behind the other at all corners? */
-static bool is_behind(const struct cell_plane *plane,
-                      const struct cell_plane *other,
+static bool is_behind(const struct depth_plane *plane,
+                      const struct depth_plane *other,
                       const struct cell_corner *corner) {
   for (int k = 0; k < CORNERS; k++) {
-    double apart = depth_at(other, corner[k].x, corner[k].y) -
-                   depth_at(plane, corner[k].x, corner[k].y);
+    double apart = depth_plane_at(other, corner[k].x, corner[k].y) -
+                   depth_plane_at(plane, corner[k].x, corner[k].y);
     if (!(apart > error_at(plane, &corner[k]) + error_at(other, &corner[k])))
       return false;
   }
@@ -120,7 +114,7 @@ static bool find_candidates(struct trapezoid_cells *cells,
   for (int k = 0; k < CORNERS; k++)
     x += corner[k].x / CORNERS;
   for (size_t i = 0; i < cell->count && cell->count > 1; i++) {
-    double depth = depth_at(&cells->plane[cell->in[i]], x, y);
+    double depth = depth_plane_at(&cells->plane[cell->in[i]], x, y);
     if (depth > nearest || (depth == nearest && cell->in[i] < front)) {
       nearest = depth;
       front = cell->in[i];

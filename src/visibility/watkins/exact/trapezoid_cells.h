@@ -4,6 +4,7 @@
 #define VISIBILITY_WATKINS_EXACT_TRAPEZOID_CELLS_H
 
 #include "visibility/fragments/fragments.h"
+#include "visibility/predicate/depth_plane.h"
 #include "visibility/watkins/exact/sweep.h"
 
 /* Limits: parts stored; triangles stored of parts in which doubles do not
@@ -11,12 +12,6 @@
 #define CELLS_MAX (1 << 23)
 #define CELLS_TIED_MAX (1 << 25)
 #define CELLS_PIECES_MAX (1 << 20)
-
-/* The depth of a triangle's plane in doubles. */
-struct cell_plane {
-  double x, y, z; /* of its first corner */
-  double per_x, per_y;
-};
 
 /* A trapezoid in which a triangle is visible: throughout where count is 0, else
  * where none of the tied triangles is nearer. */
@@ -29,14 +24,14 @@ struct cell_part {
 
 struct trapezoid_cells {
   const struct sheet *sheet;
-  struct cell_plane *plane; /* one a triangle */
-  uint8_t *seen;            /* one a triangle: it may be visible somewhere */
-  uint8_t *covered;         /* one a triangle: another may be visible in front
+  struct depth_plane *plane; /* one a triangle */
+  uint8_t *seen;             /* one a triangle: it may be visible somewhere */
+  uint8_t *covered;          /* one a triangle: another may be visible in front
                                of some of it */
-  bool keep;                /* store parts, instead of only setting `seen` */
-  bool too_many;            /* a limit was exceeded */
-  uint8_t *ties;            /* one a triangle: its parts with ties so far */
-  size_t pieces_max;        /* CELLS_PIECES_MAX; tests set less */
+  bool keep;                 /* store parts, instead of only setting `seen` */
+  bool too_many;             /* a limit was exceeded */
+  uint8_t *ties;             /* one a triangle: its parts with ties so far */
+  size_t pieces_max;         /* CELLS_PIECES_MAX; tests set less */
   ARRAY(struct cell_part) part;
   sweep_list tied;
   sweep_list candidate; /* scratch */
