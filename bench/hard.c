@@ -129,7 +129,7 @@ static recto_status solve_timed(struct sheet *sheet,
   return status;
 }
 
-static const struct solver solver_timed = {RECTO_METHOD_AUTO, "auto", true,
+static const struct solver solver_timed = {RECTO_METHOD_AUTO, "auto",
                                            solve_timed};
 
 /* ---- Measuring ----------------------------------------------------------- */

@@ -21,8 +21,8 @@ static recto_status divide_by_box(struct sheet *sheet,
   return solver_warnock.solve(sheet, &boxed, map, report, error);
 }
 
-static const struct solver warnock_by_box = {
-    RECTO_METHOD_WARNOCK, "warnock by box", true, divide_by_box};
+static const struct solver warnock_by_box = {RECTO_METHOD_WARNOCK,
+                                             "warnock by box", divide_by_box};
 
 /* The oracle comes first. */
 static const struct solver *const exact[] = {&solver_brute,   &solver_newell,
