@@ -54,7 +54,8 @@ unit_tests += %D%/test_verify
 %C%_test_verify_SOURCES = %D%/test_verify.c %D%/temporary.c %D%/temporary.h
 %C%_test_verify_LDADD = %D%/scenes/libscenes.la $(LDADD)
 
-EXTRA_DIST += %D%/README.md %D%/tap.sh %D%/unit.sh %D%/cli.sh %D%/manifest.sh
+EXTRA_DIST += %D%/README.md %D%/tap.sh %D%/unit.sh %D%/cli.sh %D%/manifest.sh \
+  %D%/memory_faults.h
 dist_check_SCRIPTS += \
   %D%/test_bootstrap.sh \
   %D%/test_cli.sh \

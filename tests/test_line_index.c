@@ -2,6 +2,7 @@
  * few others. */
 #include "visibility/fragments/line_index.h"
 #include "exact_fixture/scene.h"
+#include "tests/memory_faults.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -103,19 +104,16 @@ static void what_runs_along_a_side_is_found(void **state) {
 static void memory_may_run_out(void **state) {
   uint64_t r = 7;
   struct sheet sheet;
-  bool ok = false;
-  unsigned long n = 1;
+  struct memory_faults faults = {.least = 4};
   (void)state;
   exact_random_sheet(&sheet, EXACT_MESH, 40, &r);
-  for (; !ok; n++) {
+  while (memory_faults_go_on(&faults)) {
     struct line_index grid;
-    assert_true(n < 100);
-    mem_fail_after(n);
-    ok = index_all(&grid, &sheet);
-    mem_fail_after(0);
+    memory_faults_begin(&faults);
+    bool ok = index_all(&grid, &sheet);
+    memory_faults_end(&faults, memory_faults_status(ok));
     line_index_fini(&grid);
   }
-  assert_true(n > 4);
   exact_sheet_fini(&sheet);
 }
 

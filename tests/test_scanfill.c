@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "geom/scanfill.h"
+#include "tests/memory_faults.h"
 #include "tests/scenes/random.h"
 
 enum { SIDE = 48, MANY = 64 };
@@ -524,21 +525,16 @@ static void spans_add_up_to_the_area_of_a_turned_square(void **state) {
 static void running_out_of_memory_is_reported(void **state) {
   const int64_t square[] = {10, 5, 25, 5, 25, 25, 10, 25};
   struct scan_grid grid = plain_grid(false);
-  unsigned long fails = 0;
+  struct memory_faults faults = {.least = 5};
   (void)state;
-  for (unsigned long n = 1;; n++) {
+  while (memory_faults_go_on(&faults)) {
     struct scan_table table;
-    bool ok;
     scan_table_init(&table, &grid);
-    mem_fail_after(n);
-    ok = add_loop(&table, square, 4, 0) && scan_table_start(&table);
-    mem_fail_after(0);
+    memory_faults_begin(&faults);
+    bool ok = add_loop(&table, square, 4, 0) && scan_table_start(&table);
+    memory_faults_end(&faults, memory_faults_status(ok));
     scan_table_fini(&table);
-    if (ok)
-      break;
-    fails++;
   }
-  assert_true(fails >= 5);
 }
 
 int main(void) {

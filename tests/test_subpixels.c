@@ -13,6 +13,7 @@
 #include "base/report.h"
 #include "visibility/solver.h"
 #include "visibility/raster/subpixels.h"
+#include "tests/memory_faults.h"
 
 static const struct solver *const both[] = {&solver_zbuffer,
                                             &solver_scanline_zbuffer};
@@ -143,17 +144,15 @@ static void running_out_of_memory_is_reported(void **state) {
                                          .remove_backs = true};
   (void)state;
   for (int s = 0; s < 2; s++) {
-    recto_status status = RECTO_ERROR_MEMORY;
-    for (unsigned long n = 1; status != RECTO_OK; n++) {
+    struct memory_faults faults = {.least = 10};
+    while (memory_faults_go_on(&faults)) {
       struct sheet sheet;
       struct map map;
       pixels_sheet(&sheet, &pixels_two_rectangles);
       map_init(&map);
-      mem_fail_after(n);
-      status = both[s]->solve(&sheet, &request, &map, NULL, NULL);
-      mem_fail_after(0);
-      assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
-      assert_true(n > 10 || status != RECTO_OK);
+      memory_faults_begin(&faults);
+      memory_faults_end(&faults,
+                        both[s]->solve(&sheet, &request, &map, NULL, NULL));
       map_fini(&map);
       exact_sheet_fini(&sheet);
     }

@@ -1,6 +1,7 @@
 /* test_warnock.c - subdivision in lines: the exact map however windows are
  * divided, each kind of window, and no test made twice. */
 #include "exact_fixture/sheet.h"
+#include "tests/memory_faults.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -315,30 +316,25 @@ static void cancelling_ends_the_work(void **state) {
 
 static void running_out_of_memory_is_reported(void **state) {
   const struct solver_request intervals = {.strokes = true, .threads = 1};
-  unsigned long fails = 0;
+  struct memory_faults faults = {.least = 20};
   (void)state;
-  for (unsigned long n = 1;; n++) {
-    const struct solver_request request = request_of(true, n % 2 == 0);
+  while (memory_faults_go_on(&faults)) {
+    const struct solver_request request =
+        request_of(true, faults.failed % 2 != 0);
     struct sheet sheet;
     struct map map;
-    recto_status status;
     tents_and_a_wall(&sheet, 3, 14, 1);
     /* Once without failures, so that the sheet's contours are there. */
     assert_int_equal(
         exact_solve_as(&solver_warnock, &intervals, &sheet, &map, NULL),
         RECTO_OK);
     map_fini(&map);
-    mem_fail_after(n);
-    status = exact_solve_as(&solver_warnock, &request, &sheet, &map, NULL);
-    mem_fail_after(0);
+    memory_faults_begin(&faults);
+    memory_faults_end(
+        &faults, exact_solve_as(&solver_warnock, &request, &sheet, &map, NULL));
     map_fini(&map);
     exact_sheet_fini(&sheet);
-    if (status == RECTO_OK)
-      break;
-    assert_int_equal(status, RECTO_ERROR_MEMORY);
-    fails++;
   }
-  assert_true(fails > 20);
 }
 
 int main(void) {

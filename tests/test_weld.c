@@ -13,6 +13,7 @@
 #include "recto.h"
 #include "scene/cluster.h"
 #include "scene/welded.h"
+#include "tests/memory_faults.h"
 #include "tests/scenes/build.h"
 #include "tests/scenes/random.h"
 
@@ -483,13 +484,11 @@ static void exhausted_memory_is_reported(void **state) {
   recto_error error;
   scene_init(&f.scene);
   add_torus(&f.scene, 1e-6);
-  recto_status status = RECTO_ERROR_MEMORY;
-  for (unsigned long n = 1; status != RECTO_OK; n++) {
-    mem_fail_after(n);
-    status = welded_init(&f.welded, &f.topology, &f.scene, &request, &error);
-    mem_fail_after(0);
-    assert_true(n < 1000);
-    assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
+  struct memory_faults faults = {.least = 1};
+  while (memory_faults_go_on(&faults)) {
+    memory_faults_begin(&faults);
+    memory_faults_end(&faults, welded_init(&f.welded, &f.topology, &f.scene,
+                                           &request, &error));
   }
   assert_int_equal(count_natures(&f, RECTO_EDGE_BORDER), 0);
   end(&f);
