@@ -1,7 +1,10 @@
 /* layout_facet.c - clips a triangle of a face and adds what is left. */
 #include "view/layout_facet.h"
 
+#include <math.h>
 #include <stdlib.h>
+
+#include "base/tolerance.h"
 
 recto_status layout_diagonal_cut(struct layout *layout,
                                  struct layout_diagonal *diagonal,
@@ -127,18 +130,22 @@ static void drop_repeats(struct clip_polygon *polygon, uint32_t *point) {
 }
 
 /* The orientation of a facet on the page, in its own winding, before clipping
- * and rounding; 0: seen edge-on. */
+ * and rounding; 0: seen edge-on, within the rounding of view coordinates. */
 static int view_sign(const struct layout *layout,
                      const struct view_point corner[3]) {
-  const struct view_point *a = &corner[0], *b = &corner[1], *c = &corner[2];
-  double volume;
-  if (layout->projection.perspective)
-    volume = a->x * (b->y * c->d - c->y * b->d) +
-             b->x * (c->y * a->d - a->y * c->d) +
-             c->x * (a->y * b->d - b->y * a->d);
-  else
-    volume = (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
-  return (volume > 0) - (volume < 0);
+  double volume = 0, most = 0;
+  for (int k = 0; k < 3; k++) {
+    const struct view_point *a = &corner[k], *b = &corner[geom_next_corner(k)];
+    double area = a->x * b->y - a->y * b->x;
+    double depth = layout->projection.perspective
+                       ? corner[geom_next_corner(geom_next_corner(k))].d
+                       : 1;
+    volume += area * depth;
+    most += (fabs(a->x * b->y) + fabs(a->y * b->x)) * fabs(depth);
+  }
+  if (fabs(volume) <= most * TOLERANCE_EXTENT_SHARE)
+    return 0;
+  return volume > 0 ? 1 : -1;
 }
 
 /* Adds what is left of a facet and records on which side of its edges it lies.
