@@ -36,22 +36,7 @@ static uint64_t bucket_mask(int low, int high) {
   return (~UINT64_C(0) >> (TILE_BUCKETS - 1 - high)) & (~UINT64_C(0) << low);
 }
 
-static struct tile *tile_at(const struct tile_classification *tiles, int x,
-                            int y) {
-  return &tiles->tile[(size_t)y * (size_t)tiles->grid.columns + (size_t)x];
-}
-
 /* ---- Collecting the faces of each tile ----------------------------------- */
-
-struct corners {
-  struct geom_point p[3];
-};
-
-static inline struct corners corners_of(const struct sheet *sheet, size_t t) {
-  const uint32_t *p = sheet->triangle.item[t].point;
-  return (struct corners){{sheet->point.item[p[0]], sheet->point.item[p[1]],
-                           sheet->point.item[p[2]]}};
-}
 
 /* The edge functions of a triangle's sides, which are positive inside it,
  * evaluated incrementally at points one tile apart: their values and their
@@ -64,7 +49,7 @@ struct edge_functions {
 /* The edge functions at (x, y); or, if `least`, their least values over the
  * tile whose lower left corner is (x, y). */
 static inline struct edge_functions
-edge_functions_at(const struct corners *corners, int64_t x, int64_t y,
+edge_functions_at(const struct geom_triangle *corners, int64_t x, int64_t y,
                   int shift, bool least) {
   struct edge_functions functions;
   for (int k = 0; k < 3; k++) {
@@ -103,7 +88,7 @@ static inline bool is_inside(const struct edge_functions *functions) {
  *      first */
 static bool is_steep(const struct sheet *sheet,
                      const struct occlusion_bound *all, uint32_t triangle,
-                     const struct corners *corners) {
+                     const struct geom_triangle *corners) {
   const struct geom_point *p = corners->p;
   double ux = (double)p[1].x - p[0].x, uy = (double)p[1].y - p[0].y,
          uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
@@ -161,7 +146,7 @@ static inline void add_unsafe_to(struct tile *tile, uint8_t farthest) {
  * on one of its sides, it is unusable.
  * farthest  the triangle's farthest bucket + 1 */
 static inline void add_to_sample(struct tile *tile,
-                                 const struct corners *corners,
+                                 const struct geom_triangle *corners,
                                  struct geom_point sample, uint8_t farthest) {
   const struct geom_point *p = corners->p;
   int64_t a = geom_orient2d(p[0], p[1], sample),
@@ -181,7 +166,7 @@ static inline void add_to_sample(struct tile *tile,
 
 /* The same for all sample points within the triangle's box. */
 static inline void add_to_samples(const struct tile_collection *g,
-                                  const struct corners *corners,
+                                  const struct geom_triangle *corners,
                                   struct box2 box, uint8_t farthest) {
   const struct triangle_grid *grid = &g->grid;
   int x0, x1, y0, y1;
@@ -197,7 +182,7 @@ static inline void add_to_samples(const struct tile_collection *g,
     }
 }
 
-static inline struct box2 box_of(const struct corners *corners) {
+static inline struct box2 box_of(const struct geom_triangle *corners) {
   const struct geom_point *p = corners->p;
   return (struct box2){box2_min(p[0].x, box2_min(p[1].x, p[2].x)),
                        box2_min(p[0].y, box2_min(p[1].y, p[2].y)),
@@ -234,7 +219,8 @@ static void collect(struct tile_classification *tiles,
   struct footprint *footprint = tiles->footprint;
   for (size_t t = 0, n = sheet->triangle.count; t < n; t++) {
     const uint32_t *p = triangle[t].point;
-    const struct corners corners = {{point[p[0]], point[p[1]], point[p[2]]}};
+    const struct geom_triangle corners = {
+        {point[p[0]], point[p[1]], point[p[2]]}};
     struct box2 box = box_of(&corners);
     struct cell_range r = triangle_grid_cells(&g.grid, box);
     int64_t z0 = corners.p[0].z, z1 = corners.p[1].z, z2 = corners.p[2].z;
@@ -284,16 +270,16 @@ static void find_simple_tiles(struct tile_classification *tiles) {
 static void reject_contours(struct tile_classification *tiles,
                             const struct sheet *sheet) {
   for (size_t i = 0; i < sheet->contour.count; i++) {
-    struct geom_point p = sheet->point.item[sheet->contour.item[i].point[0]],
-                      q = sheet->point.item[sheet->contour.item[i].point[1]];
+    struct geom_segment s = sheet_ends(sheet, sheet->contour.item[i].point);
     struct cell_range r =
-        triangle_grid_cells(&tiles->grid, box2_of_segment(p, q));
-    int high = tile_bucket(p.z > q.z ? p.z : q.z);
+        triangle_grid_cells(&tiles->grid, box2_of_segment(s.p, s.q));
+    int high = tile_bucket(s.p.z > s.q.z ? s.p.z : s.q.z);
     for (int y = r.y0; y <= r.y1; y++) {
       int x0, x1;
-      triangle_grid_row(&tiles->grid, p, q, r, y, &x0, &x1);
+      triangle_grid_row(&tiles->grid, s.p, s.q, r, y, &x0, &x1);
       for (int x = x0; x <= x1; x++) {
-        struct tile *tile = tile_at(tiles, x, y);
+        struct tile *tile =
+            &tiles->tile[(size_t)y * (size_t)tiles->grid.columns + (size_t)x];
         if (high >= tile->front)
           tile->state = TILE_MIXED;
       }
@@ -316,12 +302,10 @@ static double depth_complexity(const struct sheet *sheet,
   size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
   double side = (double)(INT64_C(1) << grid->shift), sum = 0;
   for (size_t t = 0; t < n; t += stride) {
-    const uint32_t *p = sheet->triangle.item[t].point;
+    struct geom_triangle c = sheet_corners(sheet, t);
     struct box2 b = box2_of_triangle(sheet, (uint32_t)t);
     double box = ((double)b.x1 - b.x0) * ((double)b.y1 - b.y0);
-    double area = 0.5 * fabs((double)geom_orient2d(sheet->point.item[p[0]],
-                                                   sheet->point.item[p[1]],
-                                                   sheet->point.item[p[2]]));
+    double area = 0.5 * fabs((double)geom_orient2d(c.p[0], c.p[1], c.p[2]));
     sum += fmin(box, BOX_PER_AREA * area) * (double)stride;
   }
   return sum / (side * side * grid->columns * grid->rows);
@@ -335,7 +319,7 @@ static void raise_horizons(struct tile_classification *tiles,
   struct cell_range r = footprint_cells(grid, sheet, t, tiles->footprint[t]);
   if (r.x1 - r.x0 < 2 || r.y1 - r.y0 < 2)
     return;
-  struct corners corners = corners_of(sheet, t);
+  struct geom_triangle corners = sheet_corners(sheet, t);
   struct box2 first = tile_window(grid, r.x0 + 1, r.y0 + 1);
   struct edge_functions functions =
       edge_functions_at(&corners, first.x0, first.y0, grid->shift, true);
@@ -365,7 +349,7 @@ static void raise_horizons(struct tile_classification *tiles,
 static void drop_horizons(struct tile_classification *tiles,
                           const struct sheet *sheet,
                           const struct occlusion_bound *all, size_t t) {
-  struct corners corners = corners_of(sheet, t);
+  struct geom_triangle corners = sheet_corners(sheet, t);
   struct cell_range r;
   if (!is_steep(sheet, all, (uint32_t)t, &corners))
     return;

@@ -6,7 +6,9 @@
  *                                  the contact tolerance;
  *   depth_plane                    the depth at any point of the page.
  * Frames of pixels and lines step from depth to depth by facet_slopes
- * (scan/facets.h), where the error is that of the steps.
+ * (scan/facets.h), where the error is that of the steps; Warnock's samples keep
+ * theirs per fraction of a unit (warnock_sample.h), so that the distance of a
+ * sample from a corner is an integer and exact.
  *
  * Error bound.  With u = 2^-53, each slope is the quotient of two numbers that
  * are rounded once, so it is off by 3 u relatively.  A term of the sum has a

@@ -101,14 +101,6 @@ static enum map_state state_in_tile(const struct tile *tile, int low, int high,
   return low >= tile->front ? MAP_VISIBLE : MAP_HIDDEN;
 }
 
-static int farthest_bucket(int64_t a, int64_t b) {
-  return tile_bucket(a < b ? a : b);
-}
-
-static int nearest_bucket(int64_t a, int64_t b) {
-  return tile_bucket(a > b ? a : b);
-}
-
 /* Visits the tiles that the segment crosses.  Returns the state on which all
  * agree, or MAP_MIXED.
  * mark  marks the tiles as wanted instead */
@@ -116,9 +108,9 @@ static enum map_state state_along(struct tiles_work *work, struct geom_point p,
                                   struct geom_point q, bool wire, bool mark) {
   const struct triangle_grid *grid = &work->tiles.grid;
   struct cell_range r = triangle_grid_cells(grid, box2_of_segment(p, q));
-  int low = farthest_bucket(p.z, q.z), high = nearest_bucket(p.z, q.z);
   int64_t nearest = p.z > q.z ? p.z : q.z;
-  int state = -1;
+  int low = tile_bucket(p.z < q.z ? p.z : q.z), high = tile_bucket(nearest),
+      state = -1;
   for (int y = r.y0; y <= r.y1; y++) {
     int x0, x1;
     triangle_grid_row(grid, p, q, r, y, &x0, &x1);
@@ -140,18 +132,23 @@ static enum map_state state_along(struct tiles_work *work, struct geom_point p,
   return state < 0 ? MAP_MIXED : (enum map_state)state;
 }
 
-/* The state on which all tiles of a small range agree, or MAP_MIXED. */
+/* The state on which all tiles of a range agree, or MAP_MIXED, between the
+ * depths z_low and z_high. */
 static enum map_state state_in_range(const struct tile_classification *tiles,
-                                     struct cell_range r, int low, int high,
-                                     bool wire) {
-  const struct tile *row =
-      tiles->tile + (size_t)r.y0 * (size_t)tiles->grid.columns;
-  enum map_state state = state_in_tile(&row[r.x0], low, high, wire);
-  for (int y = r.y0; y <= r.y1; y++, row += tiles->grid.columns)
-    for (int x = r.x0; x <= r.x1; x++)
-      if (state_in_tile(&row[x], low, high, wire) != state)
+                                     struct cell_range r, int64_t z_low,
+                                     int64_t z_high, bool wire) {
+  int low = tile_bucket(z_low), high = tile_bucket(z_high), state = -1;
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++) {
+      size_t i = (size_t)y * (size_t)tiles->grid.columns + (size_t)x;
+      int now = tile_classification_is_behind(tiles, i, z_high)
+                    ? MAP_HIDDEN
+                    : (int)state_in_tile(&tiles->tile[i], low, high, wire);
+      if (now == MAP_MIXED || (state >= 0 && state != now))
         return MAP_MIXED;
-  return state;
+      state = now;
+    }
+  return (enum map_state)state;
 }
 
 /* The state of an edge.  Usually all tiles of its bounding box agree, so that
@@ -163,9 +160,8 @@ static enum map_state state_of_edge(struct tiles_work *work,
       triangle_grid_cells(&work->tiles.grid, box2_of_segment(p, q));
   if (work->tiles.horizon != NULL || r.x1 - r.x0 + r.y1 - r.y0 > 2)
     return state_along(work, p, q, wire, false);
-  enum map_state state =
-      state_in_range(&work->tiles, r, farthest_bucket(p.z, q.z),
-                     nearest_bucket(p.z, q.z), wire);
+  enum map_state state = state_in_range(&work->tiles, r, p.z < q.z ? p.z : q.z,
+                                        p.z > q.z ? p.z : q.z, wire);
   return state == MAP_MIXED && r.x0 < r.x1 && r.y0 < r.y1
              ? state_along(work, p, q, wire, false)
              : state;
@@ -199,30 +195,12 @@ static bool classify_edges(struct tiles_work *work, size_t from,
  * or MAP_MIXED. */
 static enum map_state state_of_face(const struct tiles_work *work, uint32_t t) {
   const struct sheet *sheet = work->sheet;
-  const struct triangle_grid *grid = &work->tiles.grid;
-  struct geom_triangle corner = sheet_corners(sheet, t);
-  struct cell_range r = triangle_grid_cells(grid, box2_of_triangle(sheet, t));
-  int low = TILE_BUCKETS, high = -1, state = -1;
-  int64_t nearest = triangle_nearest_z(sheet, t);
-  for (int k = 0; k < 3; k++) {
-    int bucket = tile_bucket(corner.p[k].z);
-    if (bucket < low)
-      low = bucket;
-    if (bucket > high)
-      high = bucket;
-  }
-  for (int y = r.y0; y <= r.y1; y++)
-    for (int x = r.x0; x <= r.x1; x++) {
-      size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
-      int now =
-          tile_classification_is_behind(&work->tiles, i, nearest)
-              ? MAP_HIDDEN
-              : (int)state_in_tile(&work->tiles.tile[i], low, high, false);
-      if (now == MAP_MIXED || (state >= 0 && state != now))
-        return MAP_MIXED;
-      state = now;
-    }
-  return (enum map_state)state;
+  struct geom_triangle c = sheet_corners(sheet, t);
+  int64_t low = c.p[0].z < c.p[1].z ? c.p[0].z : c.p[1].z;
+  return state_in_range(
+      &work->tiles,
+      triangle_grid_cells(&work->tiles.grid, box2_of_triangle(sheet, t)),
+      low < c.p[2].z ? low : c.p[2].z, triangle_nearest_z(sheet, t), false);
 }
 
 /* Marks the tiles of a triangle's bounding box as wanted. */
@@ -388,54 +366,25 @@ static void end_phase(struct tiles_work *work, const char *name) {
   work->phase_start = now;
 }
 
-/* Phases 1 and 2. */
-static bool classify(struct tiles_work *work, struct map *map) {
-  const struct solver_request *request = work->request;
-  work->phase_start = clock_cpu();
-  if (!tile_classification_init(&work->tiles, work->sheet, request->strokes,
-                                request->fragments))
-    return false;
-  end_phase(work, "tiles_cpu_s");
-  work->wanted = mem_calloc(triangle_grid_cell_count(&work->tiles.grid), 1);
-  if (work->wanted == NULL)
-    return false;
-  if (request->strokes && !classify_edges(work, 0, map))
-    return false;
-  if (request->fragments && !classify_faces(work))
-    return false;
-  end_phase(work, "classes_cpu_s");
-  return true;
-}
-
-static bool find_all_intersections(struct tiles_work *work,
-                                   recto_status *status, recto_error *error) {
-  struct triangle_grid grid;
-  if (!triangle_grid_init(&grid, work->sheet))
-    return false;
-  *status = intersection_find_all(work->sheet, &grid, NULL, work->request,
-                                  work->report, error);
-  triangle_grid_fini(&grid);
-  return *status == RECTO_OK;
-}
-
-static bool find_listed_intersections(struct tiles_work *work,
-                                      recto_status *status,
-                                      recto_error *error) {
-  *status = intersection_find_all(
-      work->sheet, &work->lists.grid,
-      work->lists.cells_are_tiles ? work->intersected : NULL, work->request,
-      work->report, error);
-  return *status == RECTO_OK;
-}
-
 /* Phase 4.  Adds the intersections to the edges of the sheet. */
 static bool find_intersections(struct tiles_work *work, struct map *map,
                                recto_status *status, recto_error *error) {
   size_t mesh_edges = work->sheet->edge.count;
-  if (!(work->request->hidden ? find_all_intersections(work, status, error)
-                              : find_listed_intersections(work, status, error)))
-    return false;
-  if (work->request->strokes && !classify_edges(work, mesh_edges, map))
+  if (work->request->hidden) {
+    struct triangle_grid grid;
+    if (!triangle_grid_init(&grid, work->sheet))
+      return false;
+    *status = intersection_find_all(work->sheet, &grid, NULL, work->request,
+                                    work->report, error);
+    triangle_grid_fini(&grid);
+  } else {
+    *status = intersection_find_all(
+        work->sheet, &work->lists.grid,
+        work->lists.cells_are_tiles ? work->intersected : NULL, work->request,
+        work->report, error);
+  }
+  if (*status != RECTO_OK ||
+      (work->request->strokes && !classify_edges(work, mesh_edges, map)))
     return false;
   end_phase(work, "intersections_cpu_s");
   return !work->wants_more || list_faces(work);
@@ -444,11 +393,19 @@ static bool find_intersections(struct tiles_work *work, struct map *map,
 static bool solve_all(struct tiles_work *work, struct map *map,
                       recto_status *status, recto_error *error) {
   const struct solver_request *request = work->request;
-  if (!classify(work, map))
+  work->phase_start = clock_cpu();
+  if (!tile_classification_init(&work->tiles, work->sheet, request->strokes,
+                                request->fragments))
     return false;
-  if (request->intersections && !mark_intersected_tiles(work))
+  end_phase(work, "tiles_cpu_s");
+  work->wanted = mem_calloc(triangle_grid_cell_count(&work->tiles.grid), 1);
+  if (work->wanted == NULL ||
+      (request->strokes && !classify_edges(work, 0, map)) ||
+      (request->fragments && !classify_faces(work)))
     return false;
-  if (!list_faces(work))
+  end_phase(work, "classes_cpu_s");
+  if ((request->intersections && !mark_intersected_tiles(work)) ||
+      !list_faces(work))
     return false;
   end_phase(work, "lists_cpu_s");
   if (request->intersections && !find_intersections(work, map, status, error))
