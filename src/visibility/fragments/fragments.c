@@ -181,17 +181,29 @@ bool fragments_add(struct fragments *f, uint32_t triangle,
 
 /* ---- Uniting the pieces of a face ---------------------------------------- */
 
+/* A side of a face's outline: the point where it starts, and its edge. */
+struct outline_side {
+  uint32_t point, edge;
+};
+
+/* The outline of an entirely visible face, which is its fragment. */
+struct face_outline {
+  uint32_t face, count;
+  struct outline_side
+      side[4]; /* the first starts at the least point in (x, y) */
+};
+
 /* The state of uniting and labelling, face by face. */
 struct face_work {
   struct fragments *fragments;
   struct map *map;
   uint32_t face;
-  ARRAY(uint32_t) own;  /* the face's triangles that have area */
-  ARRAY(uint32_t) seen; /* those with visible pieces, ascending */
+  ARRAY(uint32_t) own;                /* the face's triangles that have area */
+  ARRAY(uint32_t) seen;               /* those with visible pieces, ascending */
+  ARRAY(struct face_outline) outline; /* by face */
   struct side_provenance provenance;
-  side_lines lines; /* of the sides stored */
-  struct line_index sides;
-  bool indexed; /* `sides` is built; it serves partly visible faces */
+  side_lines lines;        /* of the sides stored */
+  struct line_index sides; /* of all other faces and all triangles near them */
   geom_pieces piece;
   struct geom_region region;
 };
@@ -250,25 +262,20 @@ static bool store_region(struct face_work *work) {
 
 /* ---- Entirely visible faces ---------------------------------------------- */
 
-/* A side of a face's outline: the point where it starts, and its edge. */
-struct outline_side {
-  uint32_t point, edge;
-};
-
 /* Appends the sides of a triangle except `skip`, starting with the one after
  * it.  Returns how many. */
-static int append_sides(const struct sheet_triangle *t, int skip,
-                        struct outline_side *side) {
+static uint32_t append_sides(const struct sheet_triangle *t, int skip,
+                             struct outline_side *side) {
   for (int k = 1; k < 3; k++)
     side[k - 1] = (struct outline_side){t->point[(skip + k) % 3],
                                         t->side[(skip + k) % 3]};
   return 2;
 }
 
-/* Finds the outline of a face that is one triangle, or two that share a
+/* Lists the sides of a face that is one triangle, or two that share a
  * diagonal.  Returns the number of sides; 0 for any other face. */
-static int find_outline(const struct face_work *work,
-                        struct outline_side side[4]) {
+static uint32_t list_sides(const struct face_work *work,
+                           struct outline_side side[4]) {
   const struct sheet_triangle *all = work->fragments->sheet->triangle.item,
                               *a = &all[work->own.item[0]], *b;
   if (work->own.count == 1) {
@@ -287,50 +294,53 @@ static int find_outline(const struct face_work *work,
   return 0;
 }
 
-/* Stores an entirely visible face by its outline, without the arithmetic of
- * regions.
- * stored  false, and nothing done, unless the face is one or two triangles
- *         whose outer sides are all edges and whose outline turns at each
- *         corner */
-static bool store_outline(struct face_work *work, bool *stored) {
+/* Sets `outline` to that of a face that is one or two triangles, entirely
+ * visible, if its outer sides are all edges and it turns at each corner.  Such
+ * a face is stored without the arithmetic of regions.  Returns whether it is
+ * one. */
+static bool find_outline(const struct face_work *work,
+                         const struct fragment_piece *piece, size_t count,
+                         struct face_outline *outline) {
   const struct sheet *sheet = work->fragments->sheet;
-  struct map *map = work->map;
   struct outline_side side[4];
   struct geom_point p[4];
-  struct map_fragment fragment = {work->face, (uint32_t)map->loop.count, 1};
-  struct map_loop loop = {(uint32_t)map->corner.count, 0, 0};
-  int n = find_outline(work, side), first = 0;
-  *stored = false;
-  for (int k = 0; k < n; k++) {
+  uint32_t n, first = 0;
+  if (count != work->own.count || count > 2 || piece[0].piece != NULL ||
+      piece[count - 1].piece != NULL)
+    return false;
+  n = list_sides(work, side);
+  for (uint32_t k = 0; k < n; k++) {
     if (side[k].edge == SHEET_NONE)
-      return true;
+      return false;
     p[k] = sheet->point.item[side[k].point];
     if (p[k].x < p[first].x || (p[k].x == p[first].x && p[k].y < p[first].y))
       first = k;
   }
-  for (int k = 0; k < n; k++)
+  for (uint32_t k = 0; k < n; k++) {
     if (geom_orient2d(p[k], p[(k + 1) % n], p[(k + 2) % n]) == 0)
-      return true;
-  if (n == 0)
-    return true;
-  for (int k = 0; k < n; k++) {
-    int i = (first + k) % n;
-    struct map_corner corner = {p[i].x, p[i].y, MAP_SIDE_EDGE, side[i].edge};
+      return false;
+    outline->side[k] = side[(first + k) % n];
+  }
+  outline->face = work->face;
+  outline->count = n;
+  return n > 0;
+}
+
+static bool store_outline(struct face_work *work,
+                          const struct face_outline *outline) {
+  struct map *map = work->map;
+  struct map_fragment fragment = {outline->face, (uint32_t)map->loop.count, 1};
+  struct map_loop loop = {(uint32_t)map->corner.count, outline->count, 0};
+  work->fragments->counts.outlines++;
+  for (uint32_t k = 0; k < outline->count; k++) {
+    const struct outline_side *side = &outline->side[k];
+    struct geom_point p = work->fragments->sheet->point.item[side->point];
+    struct map_corner corner = {p.x, p.y, MAP_SIDE_EDGE, side->edge};
     if (!side_lines_add(&work->lines, &corner, NULL) ||
         !ARRAY_PUSH(&map->corner, corner))
       return false;
-    loop.count++;
   }
-  *stored = true;
   return ARRAY_PUSH(&map->loop, loop) && ARRAY_PUSH(&map->fragment, fragment);
-}
-
-static bool is_whole(const struct face_work *work,
-                     const struct fragment_piece *piece, size_t count) {
-  for (size_t i = 0; i < count; i++)
-    if (piece[i].piece != NULL)
-      return false;
-  return count == work->own.count;
 }
 
 /* Returns how many of the pieces, from the first on, are of one face. */
@@ -339,14 +349,6 @@ static size_t count_pieces(const struct fragment_piece *piece, size_t count) {
   while (n < count && piece[n].face == piece->face)
     n++;
   return n;
-}
-
-/* Returns whether store_outline cannot apply to the face, so that its pieces
- * must be united: some triangle is visible in part, or there are more than
- * two. */
-static bool is_cut(const struct fragment_piece *piece, size_t count) {
-  return piece->piece != NULL || count > 2 ||
-         (count == 2 && piece[1].piece != NULL);
 }
 
 /* Finds which triangles of the face are visible, for labelling its sides. */
@@ -365,28 +367,16 @@ static bool find_seen(struct face_work *work,
     if (i == 0 || work->seen.item[i] != work->seen.item[i - 1])
       work->seen.item[kept++] = work->seen.item[i];
   work->seen.count = kept;
-  work->provenance.sides =
-      work->indexed && is_cut(piece, count) ? &work->sides : NULL;
   work->provenance.own = work->seen.item;
   work->provenance.own_count = kept;
   return true;
 }
 
-static bool store_face(struct face_work *work,
+static bool unite_face(struct face_work *work,
                        const struct fragment_piece *piece, size_t count) {
   struct fragments *f = work->fragments;
   work->face = piece->face;
   work->piece.count = 0;
-  if (!find_own(work, piece->triangle))
-    return false;
-  if (is_whole(work, piece, count)) {
-    bool stored;
-    if (!store_outline(work, &stored))
-      return false;
-    f->counts.outlines += stored;
-    if (stored)
-      return true;
-  }
   for (size_t i = 0; i < count; i++) {
     struct geom_convex whole;
     if (piece[i].piece == NULL &&
@@ -414,49 +404,6 @@ static int compare_faces(const void *a, const void *b, void *user) {
 
 /* ---- The index of sides -------------------------------------------------- */
 
-/* Grid lists of this length take longer to search than the cells of a line
- * index. */
-enum { LONG_LIST = 48 };
-
-/* Returns whether the triangle's face has so many triangles that its labels
- * need an index. */
-static bool is_large_face(const struct sheet *sheet, uint32_t triangle) {
-  const struct sheet_triangle *all = sheet->triangle.item;
-  uint32_t face = all[triangle].face, first = triangle, last = triangle;
-  while (last - first < SIDE_PROVENANCE_SMALL_FACE && first > 0 &&
-         all[first - 1].face == face)
-    first--;
-  while (last - first < SIDE_PROVENANCE_SMALL_FACE &&
-         last + 1 < sheet->triangle.count && all[last + 1].face == face)
-    last++;
-  return last - first >= SIDE_PROVENANCE_SMALL_FACE;
-}
-
-static uint32_t list_length(const struct triangle_grid *grid, size_t cell) {
-  return grid->start[cell + 1] - grid->start[cell];
-}
-
-/* Returns whether an index is worth building: some partly visible face is
- * large, or the grid lists near such faces are long on average. */
-static bool needs_index(const struct fragments *f) {
-  const struct fragment_piece *piece = f->piece.item;
-  const struct triangle_grid *grid = f->grid;
-  uint64_t listed = 0, faces = 0;
-  for (size_t i = 0, n; i < f->piece.count; i += n) {
-    n = count_pieces(&piece[i], f->piece.count - i);
-    if (!is_cut(&piece[i], n))
-      continue;
-    if (is_large_face(f->sheet, piece[i].triangle))
-      return true;
-    struct cell_range r = triangle_grid_cells(
-        grid, box2_of_triangle(f->sheet, piece[i].triangle));
-    listed +=
-        list_length(grid, (size_t)r.y0 * (size_t)grid->columns + (size_t)r.x0);
-    faces++;
-  }
-  return listed > LONG_LIST * faces;
-}
-
 /* Adds a triangle and all triangles of the grid cells that its box overlaps.
  * done  a byte per cell: its triangles have been added */
 static bool add_nearby(struct fragments *f, uint32_t triangle, uint8_t *done) {
@@ -480,26 +427,26 @@ static bool add_nearby(struct fragments *f, uint32_t triangle, uint8_t *done) {
   return true;
 }
 
-/* Indexes the sides of the partly visible faces and of all triangles near
- * them, if that is worthwhile. */
+/* Finds the outlines, and indexes the sides of all other faces and of the
+ * triangles near them. */
 static bool index_sides(struct face_work *work) {
   struct fragments *f = work->fragments;
   const struct fragment_piece *piece = f->piece.item;
-  uint8_t *cell_done;
-  bool ok = true;
-  if (!needs_index(f))
-    return true;
-  cell_done = mem_calloc(triangle_grid_cell_count(f->grid), 1);
-  if (cell_done == NULL)
-    return false;
+  uint8_t *cell_done = mem_calloc(triangle_grid_cell_count(f->grid), 1);
+  bool ok = cell_done != NULL;
   triangle_grid_query_start(f->grid, &f->query);
   for (size_t i = 0, n; ok && i < f->piece.count; i += n) {
+    struct face_outline outline;
     n = count_pieces(&piece[i], f->piece.count - i);
-    for (size_t k = 0; ok && is_cut(&piece[i], n) && k < n; k++)
-      ok = add_nearby(f, piece[i + k].triangle, cell_done);
+    work->face = piece[i].face;
+    ok = find_own(work, piece[i].triangle);
+    if (ok && find_outline(work, &piece[i], n, &outline))
+      ok = ARRAY_PUSH(&work->outline, outline);
+    else
+      for (size_t k = 0; ok && k < n; k++)
+        ok = add_nearby(f, piece[i + k].triangle, cell_done);
   }
   mem_free(cell_done);
-  work->indexed = true;
   return ok && line_index_init(&work->sides, f->sheet, f->query.found.item,
                                f->query.found.count);
 }
@@ -528,21 +475,27 @@ bool fragments_finish(struct fragments *fragments, struct map *map) {
                            .map = map,
                            .provenance = {.sheet = fragments->sheet,
                                           .grid = fragments->grid,
-                                          .query = &fragments->query}};
+                                          .query = &fragments->query,
+                                          .sides = &work.sides}};
   const struct fragment_piece *piece = fragments->piece.item;
   size_t n = fragments->piece.count;
   bool ok = sort_stable(fragments->piece.item, n, sizeof *piece, compare_faces,
                         NULL) &&
             index_sides(&work);
-  for (size_t i = 0, count; ok && i < n; i += count) {
+  for (size_t i = 0, k = 0, count; ok && i < n; i += count) {
     count = count_pieces(&piece[i], n - i);
+    bool whole =
+        k < work.outline.count && work.outline.item[k].face == piece[i].face;
     ok = progress_step(fragments->progress, PIECE_WORK * count) &&
-         store_face(&work, &piece[i], count);
+         (whole ? store_outline(&work, &work.outline.item[k])
+                : unite_face(&work, &piece[i], count));
+    k += whole;
   }
   ok = ok && planar_subdivision_store(&work.lines, fragments->sheet, map);
   ARRAY_FREE(&work.lines);
   ARRAY_FREE(&work.own);
   ARRAY_FREE(&work.seen);
+  ARRAY_FREE(&work.outline);
   ARRAY_FREE(&work.piece);
   side_provenance_fini(&work.provenance);
   line_index_fini(&work.sides);

@@ -48,11 +48,11 @@ static bool side_runs_along(const struct sheet *sheet, uint32_t triangle,
                     sheet->point.item[point[k == 2 ? 0 : k + 1]], s, from, to);
 }
 
-/* The lowest edge of a triangle that overlaps the segment, if it is below
- * `best`; otherwise `best`. */
+/* The lowest edge of a triangle that overlaps the segment; SHEET_NONE. */
 static uint32_t edge_along(const struct sheet *sheet, uint32_t triangle,
-                           const struct boundary_segment *s, uint32_t best) {
+                           const struct boundary_segment *s) {
   const uint32_t *side = sheet->triangle.item[triangle].side;
+  uint32_t best = SHEET_NONE;
   struct geom_corner from, to;
   for (uint32_t k = 0; k < 3; k++)
     if (side[k] < best && side_runs_along(sheet, triangle, k, s, &from, &to))
@@ -189,14 +189,6 @@ static bool is_candidate(const struct provenance_query *q, uint32_t g) {
          !box2_disjoint(q->box, box2_of_triangle(q->sheet, g));
 }
 
-/* The lowest edge of the face's own triangles that overlaps the segment. */
-static uint32_t own_edge(const struct provenance_query *q) {
-  uint32_t id = SHEET_NONE;
-  for (size_t i = 0; i < q->own_count; i++)
-    id = edge_along(q->sheet, q->own[i], &q->segment, id);
-  return id;
-}
-
 /* The lowest edge that overlaps the segment among the sides found: among those
  * of the face itself, or among those of nearer faces. */
 static uint32_t edge_found(const struct provenance_query *q, bool own) {
@@ -260,7 +252,7 @@ static uint8_t label_by_contacts(const struct provenance_query *q,
     other.own = &f;
     other.own_count = 1;
     other.face = q->sheet->triangle.item[f].face;
-    other_id = own_edge(&other);
+    other_id = edge_along(q->sheet, f, &q->segment);
     if (other_id == SHEET_NONE)
       side = label_by_others(&other, &other_id);
     if (side < best || (side == best && other_id < *id)) {
@@ -279,42 +271,6 @@ void side_provenance_fini(struct side_provenance *provenance) {
   ARRAY_FREE(&provenance->beside);
 }
 
-/* Finds the triangles near the segment, unless that was done before. */
-static bool find_triangles(struct side_provenance *provenance,
-                           struct provenance_query *q) {
-  if (q->found != NULL)
-    return true;
-  if (!triangle_grid_find(provenance->grid, q->box, provenance->query))
-    return false;
-  if (provenance->query->found.count == 0)
-    return true;
-  q->found = provenance->query->found.item;
-  q->found_count = provenance->query->found.count;
-  return true;
-}
-
-/* Finds the sides that may overlap the segment, in the line index or else in
- * the grid. */
-static bool find_sides(struct side_provenance *provenance,
-                       struct provenance_query *q) {
-  provenance->found.count = 0;
-  if (provenance->sides != NULL) {
-    if (!line_index_find(provenance->sides, q->segment.line, q->segment.low,
-                         q->segment.high, &provenance->found))
-      return false;
-  } else {
-    if (!find_triangles(provenance, q))
-      return false;
-    for (size_t i = 0; i < q->found_count; i++)
-      for (uint32_t k = 0; k < 3 && is_candidate(q, q->found[i]); k++)
-        if (!ARRAY_PUSH(&provenance->found, 3 * q->found[i] + k))
-          return false;
-  }
-  q->side = provenance->found.item;
-  q->side_count = provenance->found.count;
-  return true;
-}
-
 /* Binary search in an ascending list. */
 static bool is_among(const uint32_t *item, size_t count, uint32_t wanted) {
   while (count > 0) {
@@ -331,7 +287,7 @@ static bool is_among(const uint32_t *item, size_t count, uint32_t wanted) {
   return false;
 }
 
-/* Reduces the triangles of a large face to those near the segment. */
+/* Reduces the face's triangles to those near the segment. */
 static bool keep_own_nearby(struct side_provenance *provenance,
                             struct provenance_query *q) {
   provenance->nearby.count = 0;
@@ -365,35 +321,33 @@ bool side_provenance_find(struct side_provenance *provenance,
                           const struct geom_corner *p,
                           const struct geom_corner *q, uint8_t *side,
                           uint32_t *id) {
-  bool forward = geom_corner_compare(p, q) < 0,
-       small = provenance->own_count <= SIDE_PROVENANCE_SMALL_FACE;
+  bool forward = geom_corner_compare(p, q) < 0;
   struct provenance_query query = {
       .sheet = provenance->sheet,
       .segment = {line, forward ? p : q, forward ? q : p},
-      .face = provenance->sheet->triangle.item[provenance->own[0]].face,
-      .own = provenance->own,
-      .own_count = provenance->own_count};
+      .face = provenance->sheet->triangle.item[provenance->own[0]].face};
+  provenance->found.count = 0;
+  if (!line_index_find(provenance->sides, line, query.segment.low,
+                       query.segment.high, &provenance->found))
+    return false;
+  query.side = provenance->found.item;
+  query.side_count = provenance->found.count;
   *side = MAP_SIDE_EDGE;
-  *id = small ? own_edge(&query) : SHEET_NONE;
+  *id = edge_found(&query, true);
   if (*id != SHEET_NONE)
     return true;
   query.box = box_of(&query.segment);
-  if (!find_sides(provenance, &query))
+  if (!triangle_grid_find(provenance->grid, query.box, provenance->query))
     return false;
-  if (!small) {
-    *id = edge_found(&query, true);
-    if (*id != SHEET_NONE)
-      return true;
-    if (!find_triangles(provenance, &query) ||
-        !keep_own_nearby(provenance, &query))
-      return false;
-  }
+  query.found = provenance->query->found.item;
+  query.found_count = provenance->query->found.count;
+  if (!keep_own_nearby(provenance, &query))
+    return false;
   *side = MAP_SIDE_OCCLUDER;
   *id = edge_found(&query, false);
   if (*id != SHEET_NONE)
     return true;
-  if (!find_triangles(provenance, &query) ||
-      !keep_own_beside(provenance, &query))
+  if (!keep_own_beside(provenance, &query))
     return false;
   *side = MAP_SIDE_INTERSECTION;
   *id = crossing_face(&query);

@@ -15,8 +15,7 @@ struct side_provenance {
   const struct sheet *sheet;
   const struct triangle_grid *grid;
   struct triangle_grid_query *query;
-  const struct line_index *sides; /* of all triangles near the current face;
-                                     NULL: the grid is queried instead */
+  const struct line_index *sides; /* of all triangles near the current face */
   /* The triangles of the current face that are visible, ascending. */
   const uint32_t *own;
   size_t own_count;
@@ -24,9 +23,6 @@ struct side_provenance {
   ARRAY(uint32_t) nearby, beside; /* the face's triangles near the segment, and
                                      those that have area on its left */
 };
-
-/* Up to this many triangles of a face are searched without an index. */
-enum { SIDE_PROVENANCE_SMALL_FACE = 8 };
 
 void side_provenance_fini(struct side_provenance *provenance);
 
