@@ -28,7 +28,8 @@ void side_provenance_fini(struct side_provenance *provenance);
 
 /* Labels the side of a fragment of the current face that runs on `line` from p
  * to q, with the first of these that applies:
- *   1 MAP_SIDE_EDGE          an edge of the face itself overlaps the side
+ *   1 MAP_SIDE_EDGE          an edge of the face itself overlaps the side,
+ *     whether or not the triangle that it belongs to is visible
  *   2 MAP_SIDE_OCCLUDER       an edge of a nearer face overlaps it
  *   3 MAP_SIDE_INTERSECTION  a face intersects this one's plane along it
  *   4 any of these three, for a later face in contact: its visible pieces were
