@@ -164,7 +164,9 @@ bool judge_is_warped(const struct scene *scene, uint32_t face, double contact) {
     off = fmax(off, fabs(point3_dot(normal, away)));
     extent = fmax(extent, point3_length(away));
   }
-  double flat = contact < 0 ? extent * TOLERANCE_WARP_SHARE : contact / 4;
+  double flat = extent * TOLERANCE_WARP_SHARE;
+  if (contact >= 0)
+    flat = fmin(flat, contact / 4);
   return off > fmax(flat, extent * TOLERANCE_EXTENT_SHARE);
 }
 
