@@ -437,6 +437,17 @@ RECTO_USE_RESULT recto_status recto_scene_add_polyline(recto_scene *scene,
                                                        size_t count,
                                                        recto_error *error);
 
+/* Prepares the scene for several views: welds its corners, finds its edges and
+ * decides which of them are borders and creases, as recto_scene_render does it
+ * each time for a scene that was not prepared.  Renders with the same `weld`,
+ * `crease_deg` and `coordinate_bits` then share the result; those with others
+ * do the work themselves.  What is added to the scene later undoes it.
+ * Threads  afterwards, several threads may render the scene at once
+ * Errors   RECTO_ERROR_ARGUMENT, RECTO_ERROR_MEMORY */
+RECTO_USE_RESULT recto_status recto_scene_prepare(recto_scene *scene,
+                                                  const recto_options *options,
+                                                  recto_error *error);
+
 /* Draws the scene as the options say; NULL: the defaults. */
 RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
                                                  const recto_options *options,

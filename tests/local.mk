@@ -212,3 +212,5 @@ unit_tests += %D%/test_api_memory
 %C%_test_api_memory_SOURCES = %D%/test_api_memory.c
 unit_tests += %D%/test_api_results
 %C%_test_api_results_SOURCES = %D%/test_api_results.c
+unit_tests += %D%/test_api_prepare
+%C%_test_api_prepare_SOURCES = %D%/test_api_prepare.c

@@ -3,9 +3,9 @@
  * The page is the file's own.  Lines may be off, along and across, by a quarter
  * of the pen's width, which is invisible, and by what the options allow ink to
  * move them (ink_drift_mm). */
+#include "api/preparation.h"
 #include "api/judge_input.h"
 #include "api/handle.h"
-#include "view/rescale.h"
 #include "base/input.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
@@ -41,19 +41,6 @@ static void fill_verdict(recto_verdict *to, const struct judge_verdict *from) {
   };
 }
 
-/* Welds the scene's corners as recto does for a drawing. */
-static recto_status weld(struct welded *welded, const struct rescaled *rescaled,
-                         recto_error *error) {
-  const recto_options *o = &rescaled->options;
-  const struct weld_request request = {o->weld,
-                                       precision_of_bits(o->coordinate_bits)};
-  struct topology topology;
-  recto_status status =
-      welded_init(welded, &topology, &rescaled->scene, &request, error);
-  topology_fini(&topology);
-  return status;
-}
-
 /* The largest of all pens' least stroke lengths: which pen drew a line of the
  * file is unknown. */
 static recto_status find_shortest(double *mm, const struct scene *scene,
@@ -72,11 +59,11 @@ static bool go_on(void *user, double share) {
   return options->progress(options->user, share, "check");
 }
 
-static recto_status judge(const struct rescaled *rescaled,
-                          const struct scene *scene,
+/* Checks a drawing.
+ * o  its lengths are scaled as the scene is */
+static recto_status judge(const struct scene *scene, const recto_options *o,
                           const struct judge_drawing *drawing,
                           struct judge_verdict *verdict, recto_error *error) {
-  const recto_options *o = &rescaled->options;
   struct camera camera;
   struct judge_input input;
   recto_options polled = *o; /* the callback takes no const */
@@ -116,17 +103,16 @@ recto_status recto_scene_check(const recto_scene *scene, const char *path,
   if (status == RECTO_OK)
     status = read_drawing(&drawing, path, error);
   if (status == RECTO_OK) {
-    struct rescaled rescaled;
-    struct welded welded = {.joined = 0};
+    struct preparation prepared;
     checked.page_width_mm = drawing.width_mm;
     checked.page_height_mm = drawing.height_mm;
-    status = rescale(&rescaled, &scene->scene, &checked, error);
+    status = preparation_init(&prepared, &scene->scene, &checked, false, error);
+    topology_fini(&prepared.topology); /* the judge has its own */
     if (status == RECTO_OK)
-      status = weld(&welded, &rescaled, error);
+      status = rescale_options(&prepared.rescaled, &checked, error);
     if (status == RECTO_OK)
-      status = judge(&rescaled, &welded.scene, &drawing, &found, error);
-    welded_fini(&welded);
-    rescale_fini(&rescaled);
+      status = judge(&prepared.welded.scene, &checked, &drawing, &found, error);
+    preparation_fini(&prepared);
   }
   if (status == RECTO_OK)
     fill_verdict(verdict, &found);

@@ -2,18 +2,22 @@
 #ifndef API_HANDLE_H
 #define API_HANDLE_H
 
+#include "api/preparation.h"
 #include "api/verify.h"
 #include "drawing/drawing.h"
 #include "scene/scene.h"
-#include "view/rescale.h"
 
 struct recto_scene {
   struct scene scene;
   unsigned long fault[SCENE_FAULT_COUNT]; /* of everything added so far */
   double read_cpu, read_wall;             /* seconds spent on reading files */
   char *path; /* of the only file that was read; NULL: none or several were */
-  bool read_before; /* a file was read */
+  bool read_before;             /* a file was read */
+  struct preparation *prepared; /* recto_scene_prepare; NULL: not prepared */
 };
+
+/* Forgets what was prepared, as the scene changes. */
+void scene_forget_preparation(recto_scene *scene);
 
 /* A drawable edge and its parts. */
 struct result_edge {

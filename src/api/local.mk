@@ -10,6 +10,7 @@ librecto_core_la_SOURCES += \
   %D%/options.c \
   %D%/output.c %D%/output.h \
   %D%/render.c \
+  %D%/preparation.c %D%/preparation.h \
   %D%/result.c %D%/result_edges.c \
   %D%/scene.c \
   %D%/sized.c %D%/sized.h \

@@ -1,8 +1,9 @@
 /* render.c - draws a scene: runs and times the stages one after the other.
  *
  * Phases
- *   check the options; rescale a scene of extreme size;
- *   weld the corners of borders and find the edges;
+ *   check the options;
+ *   rescale a scene of extreme size, weld the corners of borders and find the
+ *   edges, unless that was prepared (preparation.h);
  *   aim the camera; lay out the sheet; choose the method and solve;
  *   make the ink; verify, if requested. */
 #include <limits.h>
@@ -16,10 +17,8 @@
 #include "base/parallel.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
-#include "scene/welded.h"
 #include "view/camera.h"
 #include "view/layout.h"
-#include "view/rescale.h"
 #include "visibility/quantitative_invisibility.h"
 #include "visibility/solver.h"
 
@@ -27,9 +26,10 @@
 struct render {
   const recto_scene *model;
   const recto_options *options;
-  struct rescaled rescaled; /* scene and options as the stages see them */
-  struct welded welded;     /* the scene that is drawn */
-  struct topology topology;
+  struct preparation own;             /* empty where the scene has one */
+  const struct preparation *prepared; /* that one, or its own */
+  recto_options scaled;               /* its lengths as those of that scene */
+  struct topology topology; /* owned unless the preparation is shared */
   struct camera camera;
   struct sheet sheet;
   size_t triangles; /* of the sheet, also once they are dropped */
@@ -93,78 +93,106 @@ static bool keeps_invisibility(const struct render *render) {
          RECTO_RESULT_INVISIBILITY;
 }
 
+static bool is_shared(const struct render *render) {
+  return render->prepared != &render->own;
+}
+
+static void drop_topology(struct render *render) {
+  if (!is_shared(render))
+    topology_fini(&render->topology);
+}
+
 /* Corners that were one before something moved them apart make borders of all
  * edges. */
 static void warn_of_borders(const struct render *render) {
   const recto_options *o = render->options;
   const struct topology *topology = &render->topology;
   if (o->warning == NULL || o->weld == 0 ||
-      !welded_is_suspicious(&render->welded, topology))
+      !welded_is_suspicious(&render->prepared->welded, topology))
     return;
   char text[128];
   snprintf(text, sizeof text,
            "%.0f %% of the edges are borders; --weld LENGTH joins corners that "
            "lie apart",
-           100.0 * (double)render->welded.borders /
+           100.0 * (double)render->prepared->welded.borders /
                (double)topology->edge.count);
   const char *path = render->model->path;
   o->warning(o->user, path != NULL ? path : "", 0, text);
 }
 
+/* Takes what was prepared for the scene, where it serves, or prepares it.  The
+ * topology is lent by a shared preparation, and taken from the render's own so
+ * that it can be freed early. */
 static recto_status find_edges(struct render *render, recto_error *error) {
-  const recto_options *o = &render->rescaled.options;
-  const struct weld_request request = {o->weld,
-                                       precision_of_bits(o->coordinate_bits)};
-  recto_status status = welded_init(&render->welded, &render->topology,
-                                    &render->rescaled.scene, &request, error);
+  const recto_options *o = render->options;
+  const struct preparation *shared = render->model->prepared;
+  recto_status status = RECTO_OK;
+  if (shared != NULL && preparation_suits(shared, o)) {
+    render->prepared = shared;
+    render->topology = shared->topology;
+  } else {
+    status =
+        preparation_init(&render->own, &render->model->scene, o, false, error);
+    render->topology = render->own.topology;
+    render->own.topology = (struct topology){.corner_edge = NULL};
+  }
+  render->scaled = *o;
+  if (status == RECTO_OK)
+    status =
+        rescale_options(&render->prepared->rescaled, &render->scaled, error);
   if (status != RECTO_OK)
     return status;
   report_double(render->report, "scene", "weld",
-                ldexp(render->welded.length, render->rescaled.exponent));
+                ldexp(render->prepared->welded.length,
+                      render->prepared->rescaled.exponent));
   report_int(render->report, "scene", "welded_points",
-             (int64_t)render->welded.joined);
+             (int64_t)render->prepared->welded.joined);
   report_int(render->report, "scene", "welded_faces",
-             (int64_t)render->welded.lost);
+             (int64_t)render->prepared->welded.lost);
   warn_of_borders(render);
-  if (render->welded.lost > 0 && scene_face_count(&render->welded.scene) == 0 &&
-      scene_wire_count(&render->welded.scene) == 0)
+  if (render->prepared->welded.lost > 0 &&
+      scene_face_count(&render->prepared->welded.scene) == 0 &&
+      scene_wire_count(&render->prepared->welded.scene) == 0)
     return error_set(error, RECTO_ERROR_EMPTY, NULL, 0,
                      "there is nothing to draw: the weld length is larger than "
                      "all faces");
-  render->topology.drop_after_sheet = !has_fills(render);
+  render->topology.drop_after_sheet = !has_fills(render) && !is_shared(render);
   report_int(render->report, "scene", "edges",
              (int64_t)render->topology.edge.count);
   return status;
 }
 
 static recto_status aim(struct render *render, recto_error *error) {
-  recto_status status = camera_aim(&render->camera, &render->welded.scene,
-                                   &render->rescaled.options, error);
+  recto_status status = camera_aim(
+      &render->camera, &render->prepared->welded.scene, &render->scaled, error);
   if (status != RECTO_OK)
     return status;
-  drawing_keep_projection(render->made, &render->camera, &render->rescaled);
+  drawing_keep_projection(render->made, &render->camera,
+                          &render->prepared->rescaled);
   report_doubles(render->report, "camera", "model_to_page_mm",
                  render->made->matrix, 12);
-  report_double(render->report, "camera", "contact_max",
-                ldexp(render->camera.contact_most, render->rescaled.exponent));
+  report_double(
+      render->report, "camera", "contact_max",
+      ldexp(render->camera.contact_most, render->prepared->rescaled.exponent));
   return RECTO_OK;
 }
 
 static recto_status project(struct render *render, recto_error *error) {
   recto_status status = layout_sheet(
-      &render->sheet, &render->welded.scene, &render->topology, &render->camera,
-      &render->rescaled.options, has_fills(render), error);
-  if (status == RECTO_OK && (render->sheet.clipped_page > 0 ||
-                             scene_wire_count(&render->welded.scene) > 0))
-    status = page_overflow_measure(&render->overflow, &render->welded.scene,
-                                   &render->topology, &render->camera,
-                                   &render->rescaled.options, error);
+      &render->sheet, &render->prepared->welded.scene, &render->topology,
+      &render->camera, &render->scaled, has_fills(render), error);
+  if (status == RECTO_OK &&
+      (render->sheet.clipped_page > 0 ||
+       scene_wire_count(&render->prepared->welded.scene) > 0))
+    status = page_overflow_measure(
+        &render->overflow, &render->prepared->welded.scene, &render->topology,
+        &render->camera, &render->scaled, error);
   render->triangles = render->sheet.triangle.count;
   /* The topology of a fine mesh takes a quarter of all memory, and without
    * fills or results it is not used again. */
   if (!uses_topology(render)) {
     render->sheet.topology = NULL;
-    topology_fini(&render->topology);
+    drop_topology(render);
   }
   return status;
 }
@@ -216,8 +244,9 @@ static recto_status solve(struct render *render, recto_error *error) {
 static recto_status ink(struct render *render, recto_error *error) {
   if (!has_fills(render) && render->options->verify == 0)
     sheet_drop_triangles(&render->sheet);
-  return ink_draw(render->drawing, &render->sheet, &render->welded.scene,
-                  &render->map, render->options, error);
+  return ink_draw(render->drawing, &render->sheet,
+                  &render->prepared->welded.scene, &render->map,
+                  render->options, error);
 }
 
 /* Reports the judge's progress as progress of the whole. */
@@ -233,13 +262,13 @@ static recto_status verify(struct render *render, recto_error *error) {
   if (render->options->verify == 0)
     return RECTO_OK;
   const struct verify what = {
-      .scene = &render->welded.scene,
-      .exponent = render->rescaled.exponent,
+      .scene = &render->prepared->welded.scene,
+      .exponent = render->prepared->rescaled.exponent,
       .camera = &render->camera,
       .sheet = &render->sheet,
       .map = &render->map,
       .drawing = render->drawing,
-      .options = &render->rescaled.options,
+      .options = &render->scaled,
       .progress = render->options->progress != NULL ? pass_verifying : NULL,
       .user = render};
   return verify_drawing(&what, render->report, render->verdict, error);
@@ -316,7 +345,7 @@ static void warn_of_near_plane(const struct render *render) {
       "%lu %s nearer to the eye than %.3g and %s cut there; --near takes a "
       "smaller distance",
       cut, cut == 1 ? "face comes" : "faces come",
-      ldexp(render->camera.near_d, render->rescaled.exponent),
+      ldexp(render->camera.near_d, render->prepared->rescaled.exponent),
       cut == 1 ? "is" : "are");
   o->warning(o->user, "", 0, text);
 }
@@ -340,7 +369,7 @@ static recto_status keep_results(struct render *render, recto_error *error) {
   const struct edge_sources sources = {.sheet = &render->sheet,
                                        .map = &render->map,
                                        .topology = &render->topology,
-                                       .scene = &render->welded.scene,
+                                       .scene = &render->prepared->welded.scene,
                                        .point = render->model->scene.point.item,
                                        .with_counts =
                                            keeps_invisibility(render)};
@@ -374,15 +403,13 @@ static recto_status run(struct render *render, recto_error *error) {
   stats_add_scene(render->report, render->model);
   double cpu = clock_cpu(), wall = clock_wall();
   map_init(&render->map);
-  status =
-      rescale(&render->rescaled, &render->model->scene, render->options, error);
-  if (status == RECTO_OK)
-    status = run_stages(render, error);
+  render->prepared = &render->own;
+  status = run_stages(render, error);
   if (status == RECTO_OK) {
     status = keep_results(render, error);
   }
   if (status == RECTO_OK) {
-    number_faces(render->drawing, &render->welded.scene);
+    number_faces(render->drawing, &render->prepared->welded.scene);
     stats_add_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
     stats_add_seconds(render->report, "render_wall_s", clock_wall() - wall);
     warn_of_empty_page(render);
@@ -399,9 +426,8 @@ static recto_status run(struct render *render, recto_error *error) {
   }
   map_fini(&render->map);
   sheet_fini(&render->sheet);
-  topology_fini(&render->topology);
-  welded_fini(&render->welded);
-  rescale_fini(&render->rescaled);
+  drop_topology(render);
+  preparation_fini(&render->own);
   return status;
 }
 

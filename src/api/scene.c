@@ -20,10 +20,41 @@ recto_status recto_scene_create(recto_scene **scene, recto_error *error) {
 void recto_scene_destroy(recto_scene *scene) {
   if (scene == NULL)
     return;
+  scene_forget_preparation(scene);
   scene_fini(&scene->scene);
   mem_free(scene->path);
   mem_free(scene);
 }
+
+/* ---- Preparation --------------------------------------------------------- */
+
+void scene_forget_preparation(recto_scene *scene) {
+  if (scene->prepared != NULL)
+    preparation_fini(scene->prepared);
+  mem_free(scene->prepared);
+  scene->prepared = NULL;
+}
+
+recto_status recto_scene_prepare(recto_scene *scene,
+                                 const recto_options *options,
+                                 recto_error *error) {
+  recto_options own;
+  if (scene == NULL)
+    return error_null(error, "the scene");
+  recto_status status = options_take(&own, options, error);
+  if (status != RECTO_OK)
+    return status;
+  scene_forget_preparation(scene);
+  scene->prepared = mem_calloc(1, sizeof *scene->prepared);
+  if (scene->prepared == NULL)
+    return error_memory(error);
+  status = preparation_init(scene->prepared, &scene->scene, &own, true, error);
+  if (status != RECTO_OK)
+    scene_forget_preparation(scene);
+  return status;
+}
+
+/* ---- Adding -------------------------------------------------------------- */
 
 void scene_keep_faults(recto_scene *scene,
                        const struct diagnostics *diagnostics) {
@@ -61,6 +92,7 @@ static recto_status read_model(recto_scene *scene, const void *bytes,
   }
   scene->scene.wants_colours =
       options != NULL && options->fill == RECTO_FILL_PAINT;
+  scene_forget_preparation(scene);
   double cpu = clock_cpu(), wall = clock_wall();
   recto_status status =
       bytes == NULL
@@ -104,6 +136,7 @@ recto_status recto_scene_add_point(recto_scene *scene, const double xyz[3],
   if (!isfinite(xyz[0]) || !isfinite(xyz[1]) || !isfinite(xyz[2]))
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "a point is not finite");
+  scene_forget_preparation(scene);
   if (scene->scene.point.count >= SCENE_LIMIT)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0, "too many points");
   recto_status status =
@@ -122,6 +155,7 @@ recto_status recto_scene_add_group(recto_scene *scene, const char *name,
                                    recto_error *error) {
   if (scene == NULL || name == NULL)
     return error_null(error, scene == NULL ? "the scene" : "the name");
+  scene_forget_preparation(scene);
   return scene_use_group(&scene->scene, name, strlen(name), error);
 }
 
@@ -147,6 +181,8 @@ recto_status recto_scene_add_face(recto_scene *scene, const uint32_t *corner,
   struct diagnostics diagnostics = {.file = ""};
   recto_status status = check_corners(scene, corner, count, 3, error);
   if (status == RECTO_OK)
+    scene_forget_preparation(scene);
+  if (status == RECTO_OK)
     status =
         scene_add_face(&scene->scene, corner, count, 0, &diagnostics, error);
   if (status == RECTO_OK)
@@ -159,6 +195,8 @@ recto_status recto_scene_add_polyline(recto_scene *scene,
                                       recto_error *error) {
   struct diagnostics diagnostics = {.file = ""};
   recto_status status = check_corners(scene, corner, count, 2, error);
+  if (status == RECTO_OK)
+    scene_forget_preparation(scene);
   if (status == RECTO_OK)
     status =
         scene_add_wire(&scene->scene, corner, count, 0, &diagnostics, error);

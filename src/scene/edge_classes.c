@@ -7,6 +7,7 @@
  * compared by their cosines; a face without a normal makes no crease. */
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/tolerance.h"
 #include "scene/angle.h"
@@ -199,6 +200,10 @@ static bool bends(const struct topology_edge *edge, const struct scene *scene,
 bool topology_natures_all(const struct topology *topology,
                           const struct scene *scene, double crease_deg,
                           uint8_t *natures) {
+  if (topology->natures != NULL && topology->crease_deg == crease_deg) {
+    memcpy(natures, topology->natures, topology->edge.count);
+    return true;
+  }
   double crease_cosine = crease_cosine_of(crease_deg);
   struct crease_direction *direction;
   if (!find_directions(scene, &direction))
@@ -211,5 +216,18 @@ bool topology_natures_all(const struct topology *topology,
     natures[e] = (uint8_t)(mask ? mask : RECTO_EDGE_SMOOTH);
   }
   mem_free(direction);
+  return true;
+}
+
+bool topology_keep_natures(struct topology *topology, const struct scene *scene,
+                           double crease_deg) {
+  uint8_t *natures = mem_alloc(topology->edge.count, sizeof *natures);
+  if (natures == NULL ||
+      !topology_natures_all(topology, scene, crease_deg, natures)) {
+    mem_free(natures);
+    return false;
+  }
+  topology->natures = natures;
+  topology->crease_deg = crease_deg;
   return true;
 }

@@ -292,5 +292,6 @@ void topology_fini(struct topology *topology) {
   ARRAY_FREE(&topology->edge);
   mem_free(topology->corner_edge);
   mem_free(topology->weld);
+  mem_free(topology->natures);
   memset(topology, 0, sizeof *topology);
 }

@@ -26,6 +26,9 @@ struct topology {
   ARRAY(struct topology_edge) edge; /* in order of first use by a face */
   uint32_t *corner_edge; /* for corner c of a face, the edge from it to the
                             face's next corner; one per scene corner */
+  uint8_t *natures;      /* of all edges at the angle crease_deg, as of
+                            topology_natures_all; NULL: not kept */
+  double crease_deg;
   bool drop_after_sheet; /* corner_edge may be freed once the sheet has its
                             triangles: it is not used later */
   uint32_t *weld;        /* point -> the point it is welded to; NULL where
@@ -56,5 +59,11 @@ unsigned topology_natures(const struct topology *topology,
 USE_RESULT bool topology_natures_all(const struct topology *topology,
                                      const struct scene *scene,
                                      double crease_deg, uint8_t *natures);
+
+/* Keeps the result of topology_natures_all at that angle for later calls.
+ * Returns false when memory ran out. */
+USE_RESULT bool topology_keep_natures(struct topology *topology,
+                                      const struct scene *scene,
+                                      double crease_deg);
 
 #endif

@@ -112,20 +112,22 @@ static bool scale_lengths(recto_options *o, int exponent) {
 }
 
 recto_status rescale(struct rescaled *rescaled, const struct scene *scene,
-                     const recto_options *options, recto_error *error) {
-  *rescaled = (struct rescaled){*scene, *options, choose_exponent(scene)};
+                     recto_error *error) {
+  *rescaled = (struct rescaled){*scene, choose_exponent(scene)};
   if (rescaled->exponent == 0)
     return RECTO_OK;
   recto_status status = scale_points(rescaled, error);
   recto_status other = scale_precision(rescaled, error);
-  if (status == RECTO_OK)
-    status = other;
-  if (status == RECTO_OK &&
-      !scale_lengths(&rescaled->options, rescaled->exponent))
-    status = error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
-                       "the scene is too small for so far an eye, target or "
-                       "section");
-  return status;
+  return status == RECTO_OK ? other : status;
+}
+
+recto_status rescale_options(const struct rescaled *rescaled,
+                             recto_options *options, recto_error *error) {
+  if (rescaled->exponent == 0 || scale_lengths(options, rescaled->exponent))
+    return RECTO_OK;
+  return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                   "the scene is too small for so far an eye, target or "
+                   "section");
 }
 
 void rescale_fini(struct rescaled *rescaled) {

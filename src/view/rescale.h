@@ -5,24 +5,27 @@
 
 #include "scene/scene.h"
 
-/* The user's scene and options, with all lengths multiplied by 2^-exponent. */
+/* The user's scene, with all lengths multiplied by 2^-exponent. */
 struct rescaled {
   struct scene scene; /* all but its points and their precision is borrowed,
                          not owned */
-  recto_options options;
-  int exponent; /* 0: the points are borrowed too */
+  int exponent;       /* 0: the points are borrowed too */
 };
 
 /* Scales by a power of two, which changes no bit of the drawing.  It does so
  * only where coordinates are so large or so small that products of two or three
  * of them would overflow or underflow.
- * Errors  RECTO_ERROR_MEMORY; RECTO_ERROR_LIMIT: scaling makes the eye, the
- *         target, the section or the near distance overflow. */
+ * Errors  RECTO_ERROR_MEMORY */
 USE_RESULT recto_status rescale(struct rescaled *rescaled,
-                                const struct scene *scene,
-                                const recto_options *options,
-                                recto_error *error);
+                                const struct scene *scene, recto_error *error);
 void rescale_fini(struct rescaled *rescaled);
+
+/* Scales the lengths of options in the same way.
+ * Errors  RECTO_ERROR_LIMIT: the eye, the target, the section or the near
+ *         distance overflows. */
+USE_RESULT recto_status rescale_options(const struct rescaled *rescaled,
+                                        recto_options *options,
+                                        recto_error *error);
 
 /* Converts the homogeneous 3 x 4 matrix from the rescaled scene to the page,
  * row by row, to one from the user's scene.  As only its ratios matter, it is

@@ -1,0 +1,43 @@
+/* preparation.c - computes once what several views of a scene share. */
+#include "api/preparation.h"
+
+#include <math.h>
+
+recto_status preparation_init(struct preparation *preparation,
+                              const struct scene *scene,
+                              const recto_options *options, bool classes,
+                              recto_error *error) {
+  recto_options scaled;
+  *preparation =
+      (struct preparation){.weld = options->weld,
+                           .crease_deg = options->crease_deg,
+                           .coordinate_bits = options->coordinate_bits};
+  recto_options_init(&scaled);
+  scaled.weld = options->weld;
+  recto_status status = rescale(&preparation->rescaled, scene, error);
+  if (status == RECTO_OK)
+    status = rescale_options(&preparation->rescaled, &scaled, error);
+  if (status != RECTO_OK)
+    return status;
+  const struct weld_request request = {
+      scaled.weld, precision_of_bits(options->coordinate_bits)};
+  status = welded_init(&preparation->welded, &preparation->topology,
+                       &preparation->rescaled.scene, &request, error);
+  if (status == RECTO_OK && classes &&
+      !topology_keep_natures(&preparation->topology, &preparation->welded.scene,
+                             options->crease_deg))
+    status = error_memory(error);
+  return status;
+}
+
+void preparation_fini(struct preparation *preparation) {
+  topology_fini(&preparation->topology);
+  welded_fini(&preparation->welded);
+  rescale_fini(&preparation->rescaled);
+}
+
+bool preparation_suits(const struct preparation *preparation,
+                       const recto_options *options) {
+  return preparation->weld == options->weld &&
+         preparation->coordinate_bits == options->coordinate_bits;
+}

@@ -1,0 +1,33 @@
+/* preparation.h - what of a scene does not depend on the camera: its points in
+ * a range that is safe to compute with, its welded faces, their edges, and the
+ * classes that these have in every view. */
+#ifndef API_PREPARATION_H
+#define API_PREPARATION_H
+
+#include "scene/welded.h"
+#include "view/rescale.h"
+
+/* Zero-initialised is empty. */
+struct preparation {
+  struct rescaled rescaled;
+  struct welded welded;
+  struct topology topology;
+  /* The options that it depends on. */
+  double weld, crease_deg;
+  int coordinate_bits;
+};
+
+/* Prepares a scene, which is to live as long and not to change.
+ * classes  whether to keep the classes of the edges too, for several views
+ * Errors   RECTO_ERROR_MEMORY; preparation_fini it in any case */
+USE_RESULT recto_status preparation_init(struct preparation *preparation,
+                                         const struct scene *scene,
+                                         const recto_options *options,
+                                         bool classes, recto_error *error);
+void preparation_fini(struct preparation *preparation);
+
+/* Whether a preparation serves for these options. */
+bool preparation_suits(const struct preparation *preparation,
+                       const recto_options *options);
+
+#endif
