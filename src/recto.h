@@ -135,7 +135,10 @@ typedef enum recto_order {
 typedef enum recto_fit {
   RECTO_FIT_PAGE = 0, /* the drawing fills the page inside the margins */
   RECTO_FIT_NONE,     /* --fov spans the printable height, centred */
-  RECTO_FIT_SCALE     /* true scale: `scale` page mm for a scene unit */
+  RECTO_FIT_SCALE,    /* true scale: `scale` page mm for a scene unit */
+  RECTO_FIT_SPHERE    /* the sphere about the target that encloses the scene
+                         fills the page inside the margins: one scale for all
+                         directions */
 } recto_fit;
 
 typedef enum recto_camera {

@@ -52,11 +52,13 @@ static void say_help(struct sentence *words,
                             : "--fit or a smaller --scale shows all");
     break;
   case RECTO_FIT_PAGE:
+  case RECTO_FIT_SPHERE:
     sentence_add(words, "what is close to the eye is large: a larger --near or "
                         "--section cuts it away");
     break;
   }
-  if (narrow && options->fit != RECTO_FIT_PAGE)
+  if (narrow && options->fit != RECTO_FIT_PAGE &&
+      options->fit != RECTO_FIT_SPHERE)
     sentence_add(words, ", --landscape too");
   if (overflow->reach_mm > 0 &&
       overflow->reach_mm <= margin_mm + RECTO_FINEST_MM)

@@ -109,7 +109,7 @@ static recto_status check(const recto_options *o, recto_error *error) {
       {"the up direction", o->up[1], -huge, huge},
       {"the up direction", o->up[2], -huge, huge},
       {"the field of view", o->fov_deg, 0, 179},
-      {"the way to fit", o->fit, 0, RECTO_FIT_SCALE},
+      {"the way to fit", o->fit, 0, RECTO_FIT_SPHERE},
       {"the scale", o->scale, small, huge},
       {"the near distance", o->near_distance, 0, huge},
       {"the section", o->section, -huge, huge},

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/path.h"
+#include "cli/frames.h"
 #include "cli/lists.h"
 #include "cli/value.h"
 
@@ -161,6 +162,12 @@ static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
   const char *wrong = NULL;
   if (a->eye_given && (a->view_given || a->direction_given))
     wrong = "--camera and --view, --azimuth or --elevation exclude each other";
+  else if (a->eye_given && a->turntable > 0)
+    wrong = "--camera and --turntable exclude each other";
+  else if (a->turntable > 0 && a->view_count > 1)
+    wrong = "--turntable takes one --view to begin with";
+  else if (a->view_count > 1 && a->direction_given)
+    wrong = "--azimuth and --elevation take one --view to begin with";
   else if (a->ortho && a->fov_given)
     wrong = "--ortho and --fov exclude each other";
   if (wrong != NULL) {
@@ -183,6 +190,8 @@ static const char *judge_files(const struct arguments *a) {
                                 a->options.verify > 0 || a->format != NULL))
     return "--check draws nothing: leave out --output, --format, --stats and "
            "--verify";
+  if (a->check_file != NULL && frames_count(a) > 1)
+    return "--check takes one view";
   if (a->output == NULL && a->check_file == NULL)
     return "no output: say -o FILE";
   for (int i = 0; i < a->model_count && a->from == NULL; i++)
@@ -199,6 +208,15 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
   }
   if (a->output == NULL)
     return true;
+  const char *pattern[] = {a->output, a->stats_file};
+  for (int k = 0; k < 2; k++) {
+    const char *fault = pattern[k] != NULL ? frame_fault(a, pattern[k]) : NULL;
+    if (fault != NULL) {
+      snprintf(message, MESSAGE_SIZE, "several drawings: %s \"%.60s\" %s",
+               k == 0 ? "the output" : "--stats", pattern[k], fault);
+      return false;
+    }
+  }
   if (a->format == NULL &&
       (path_is_standard_output(a->output) || path_descriptor(a->output) >= 0))
     a->format = "svg";

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "recto.h"
 
-enum { MESSAGE_SIZE = 256, MAX_OPTIONS = 80, OPTION_USES = 2 };
+enum { MESSAGE_SIZE = 256, MAX_OPTIONS = 80, OPTION_USES = 2, VIEWS_MAX = 32 };
 
 struct arguments {
   recto_options options;
@@ -24,6 +24,14 @@ struct arguments {
    * tolerance_mm and tolerance_share times what is drawn or visible. */
   double tolerance_mm, tolerance_share;
   bool stats, progress, quiet, help, version;
+
+  /* Several drawings in one run, frames: see frames.h. */
+  int turntable; /* how many directions about the up axis; 0: one */
+  struct named_view {
+    const char *name;
+    double azimuth_deg, elevation_deg;
+  } view[VIEWS_MAX]; /* as given, view_count of them */
+  int view_count;
 
   /* Which options were given, for rules that depend on several. */
   bool view_given, direction_given, eye_given, fov_given;

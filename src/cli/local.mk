@@ -2,6 +2,7 @@
 recto_SOURCES += \
   %D%/arguments.c %D%/arguments.h \
   %D%/descriptors.c %D%/descriptors.h \
+  %D%/frames.c %D%/frames.h \
   %D%/help.c \
   %D%/lists.c %D%/lists.h \
   %D%/main.c \

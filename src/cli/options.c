@@ -26,10 +26,7 @@ static bool take_method(struct arguments *arguments, const char *text) {
 /* Dimetric: the axes to the right and up are drawn at one scale, the third at
  * half of it, so that sin^2 elevation = 1/9 and sin^2 azimuth = 1/8. */
 static bool take_view(struct arguments *arguments, const char *text) {
-  static const struct {
-    const char *name;
-    double azimuth_deg, elevation_deg;
-  } view[] = {
+  static const struct named_view known[] = {
       {"iso", 45, 35.264389682754654}, /* tan = 1 / sqrt(2) */
       {"front", 0, 0},
       {"back", 180, 0},
@@ -40,10 +37,13 @@ static bool take_view(struct arguments *arguments, const char *text) {
       {"dimetric", 20.704811054635428, 19.471220634490691},
       {"trimetric", 30, 25},
   };
-  for (size_t i = 0; i < sizeof view / sizeof view[0]; i++)
-    if (strcmp(text, view[i].name) == 0) {
-      arguments->options.azimuth_deg = view[i].azimuth_deg;
-      arguments->options.elevation_deg = view[i].elevation_deg;
+  for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+    if (strcmp(text, known[i].name) == 0) {
+      if (arguments->view_count == VIEWS_MAX)
+        return false;
+      arguments->view[arguments->view_count++] = known[i];
+      arguments->options.azimuth_deg = known[i].azimuth_deg;
+      arguments->options.elevation_deg = known[i].elevation_deg;
       return true;
     }
   return false;
@@ -187,6 +187,10 @@ const struct option_entry option_table[] = {
      "iso, front, back, left, right, top, bottom, dimetric or trimetric",
      "iso (default) front back left right top bottom", .given = AT(view_given),
      .take = take_view},
+    {OPTION_INT, "turntable", 0, "N", "a number from 1 to 100000",
+     "N drawings all around; -o with %03d, as with several --view",
+     .offset = AT(turntable), .least = 1, .most = 100000,
+     .use = {USED_BY_DRAWING}},
     {OPTION_NUMBER, "azimuth", 0, "DEG", "an angle in degrees",
      "turn the eye to the right, from the front",
      .offset = AT(options.azimuth_deg), .given = AT(direction_given),

@@ -15,12 +15,18 @@
 #include "base/path.h"
 #include "base/stream.h"
 #include "base/target.h"
+#include "cli/frames.h"
 #include "cli/message.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
 #include "cli/option_scope.h"
 
 /* ---- Callbacks ----------------------------------------------------------- */
+
+/* The drawing that is made, of how many. */
+struct current_frame {
+  int number, count;
+};
 
 static void pass_warning(void *user, const char *file, unsigned long line,
                          const char *text) {
@@ -29,8 +35,8 @@ static void pass_warning(void *user, const char *file, unsigned long line,
 }
 
 static bool pass_progress(void *user, double share, const char *stage) {
-  (void)user;
-  progress_note(share, stage);
+  const struct current_frame *frame = user;
+  progress_note((frame->number + share) / frame->count, stage);
   return !signals_arrived();
 }
 
@@ -50,28 +56,60 @@ static const char *find_stats(const struct arguments *arguments) {
   return arguments->stats_file != NULL ? arguments->stats_file : "-";
 }
 
-/* Checks that all outputs can be written and that none replaces a model or
- * another output. */
-static recto_status check_outputs(const struct arguments *arguments,
-                                  const recto_scene *scene,
-                                  recto_error *error) {
-  const char *output[] = {arguments->output, find_stats(arguments)};
-  static const char *const what[] = {"the drawing", "the stats"};
+/* The paths of a drawing and of its stats. */
+struct outputs {
+  const char *path[2]; /* the second is NULL where there are none */
+  char room[2][FRAME_PATH_SIZE];
+};
+
+static recto_status find_outputs(struct outputs *outputs,
+                                 const struct arguments *arguments, int frame,
+                                 recto_error *error) {
+  const char *const pattern[] = {arguments->output, find_stats(arguments)};
   for (int k = 0; k < 2; k++) {
-    for (int i = 0; output[k] != NULL && i < arguments->model_count; i++)
-      if (path_is_same(output[k], arguments->model[i]))
-        return error_set(error, RECTO_ERROR_ARGUMENT, output[k], 0,
-                         "%s would replace the model", what[k]);
-    recto_status status = output[k] != NULL
-                              ? recto_scene_try_output(scene, output[k], error)
-                              : RECTO_OK;
-    if (status != RECTO_OK)
-      return status;
+    outputs->path[k] = NULL;
+    if (pattern[k] == NULL)
+      continue;
+    outputs->path[k] =
+        frame_path(arguments, pattern[k], frame, outputs->room[k]);
+    if (outputs->path[k] == NULL)
+      return error_set(error, RECTO_ERROR_ARGUMENT, pattern[k], 0,
+                       "the path of a drawing is too long");
   }
-  if (output[1] != NULL && target_paths_are_same(output[0], output[1]))
-    return error_set(error, RECTO_ERROR_ARGUMENT, output[1], 0,
-                     "%s would replace the drawing", what[1]);
   return RECTO_OK;
+}
+
+/* Checks that the outputs of a drawing can be written and that none replaces a
+ * model or another output. */
+static recto_status check_outputs(const struct arguments *arguments,
+                                  const recto_scene *scene, int frame,
+                                  recto_error *error) {
+  struct outputs outputs;
+  static const char *const what[] = {"the drawing", "the stats"};
+  recto_status status = find_outputs(&outputs, arguments, frame, error);
+  for (int k = 0; k < 2 && status == RECTO_OK; k++) {
+    const char *path = outputs.path[k];
+    for (int i = 0; path != NULL && i < arguments->model_count; i++)
+      if (path_is_same(path, arguments->model[i]))
+        return error_set(error, RECTO_ERROR_ARGUMENT, path, 0,
+                         "%s would replace the model", what[k]);
+    if (path != NULL)
+      status = recto_scene_try_output(scene, path, error);
+  }
+  if (status == RECTO_OK && outputs.path[1] != NULL &&
+      target_paths_are_same(outputs.path[0], outputs.path[1]))
+    return error_set(error, RECTO_ERROR_ARGUMENT, outputs.path[1], 0,
+                     "%s would replace the drawing", what[1]);
+  return status;
+}
+
+static recto_status check_all_outputs(const struct arguments *arguments,
+                                      const recto_scene *scene,
+                                      recto_error *error) {
+  recto_status status = RECTO_OK;
+  for (int i = 0; i < frames_count(arguments) && status == RECTO_OK; i++)
+    status = check_outputs(arguments, scene, i, error);
+  return status;
 }
 
 static recto_status read_models(const struct arguments *arguments,
@@ -145,42 +183,64 @@ static recto_status check(const struct arguments *arguments, bool *is_right,
 }
 
 static recto_status write_all(const struct arguments *arguments,
-                              const recto_drawing *drawing,
+                              const recto_drawing *drawing, int frame,
                               const recto_options *options,
                               recto_error *error) {
+  struct outputs outputs;
   if (!arguments->quiet && recto_drawing_verdict(drawing) != NULL)
     message_print("", 0, recto_drawing_verdict(drawing));
   /* What goes to the terminal goes there without the bar. */
   if (isatty(STDOUT_FILENO))
     progress_end();
-  recto_status status = recto_drawing_write_with_stats(
-      drawing, arguments->output, arguments->format, find_stats(arguments),
-      options, error);
-  progress_end();
-  if (status == RECTO_OK && stats_stand_aside(arguments))
+  recto_status status = find_outputs(&outputs, arguments, frame, error);
+  if (status == RECTO_OK)
+    status = recto_drawing_write_with_stats(drawing, outputs.path[0],
+                                            arguments->format, outputs.path[1],
+                                            options, error);
+  if (status == RECTO_OK && stats_stand_aside(arguments)) {
+    progress_end();
     fputs(recto_drawing_stats(drawing), stderr);
+  }
+  return status;
+}
+
+/* Draws the scene and writes the drawing.  Warnings that several drawings have
+ * in common are those of the first. */
+static recto_status draw_frame(const struct arguments *arguments,
+                               const recto_scene *scene, int frame,
+                               recto_error *error) {
+  struct current_frame current = {frame, frames_count(arguments)};
+  recto_drawing *drawing = NULL;
+  recto_options options;
+  frame_options(arguments, frame, &options);
+  recto_options_suit(&options, arguments->output, arguments->format);
+  options.user = &current;
+  if (frame > 0)
+    options.warning = NULL;
+  recto_status status = recto_scene_render(scene, &options, &drawing, error);
+  if (status == RECTO_OK)
+    status = write_all(arguments, drawing, frame, &options, error);
+  recto_drawing_destroy(drawing);
   return status;
 }
 
 static recto_status draw(const struct arguments *arguments,
                          recto_error *error) {
   recto_scene *scene = NULL;
-  recto_drawing *drawing = NULL;
-  recto_options options = arguments->options;
-  recto_options_suit(&options, arguments->output, arguments->format);
+  int frames = frames_count(arguments);
   recto_status status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)
-    status = check_outputs(arguments, scene, error);
+    status = check_all_outputs(arguments, scene, error);
   if (status == RECTO_OK)
     status = read_models(arguments, scene, error);
   if (status == RECTO_OK)
-    status = check_outputs(arguments, scene, error);
+    status = check_all_outputs(arguments, scene, error);
   signals_catch();
-  if (status == RECTO_OK)
-    status = recto_scene_render(scene, &options, &drawing, error);
-  if (status == RECTO_OK)
-    status = write_all(arguments, drawing, &options, error);
-  recto_drawing_destroy(drawing);
+  if (status == RECTO_OK && frames > 1)
+    status = recto_scene_prepare(scene, &arguments->options, error);
+  for (int i = 0; i < frames && status == RECTO_OK; i++)
+    status = draw_frame(arguments, scene, i, error);
+  progress_end();
   recto_scene_destroy(scene);
   return status;
 }
@@ -198,7 +258,9 @@ int cli_run(struct arguments *arguments) {
   bool is_right = true;
   /* A file beyond the size limit is to be a failed write, not a signal. */
   (void)signal(SIGXFSZ, SIG_IGN);
+  struct current_frame one = {0, 1};
   arguments->options.progress = pass_progress;
+  arguments->options.user = &one;
   if (!arguments->quiet) {
     arguments->options.warning = pass_warning;
     option_scope_warn(arguments, message_print);

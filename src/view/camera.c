@@ -334,6 +334,22 @@ static void centre_target(struct aim *aim) {
                            (camera->perspective ? 0 : camera->s * aside[k]);
 }
 
+/* Scales the drawing so that the sphere about the target which encloses the
+ * scene fills the page inside the margins.  From a distance D the outline of a
+ * sphere of radius R is at R / sqrt(D^2 - R^2) from the axis, at unit depth. */
+static void fit_sphere(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  double margin = margin_of(aim->options), radius = radius_of_scene(aim);
+  double room = fmin(camera->page_mm[0], camera->page_mm[1]) - 2 * margin;
+  if (radius == 0)
+    radius = camera->size > 0 ? camera->size : 1;
+  if (camera->perspective) {
+    double distance = view_of(aim, aim->target).d;
+    radius /= sqrt((distance - radius) * (distance + radius));
+  }
+  camera->s = room / (2 * radius);
+}
+
 static void set_scale(struct aim *aim) {
   const recto_options *o = aim->options;
   struct camera *camera = aim->camera;
@@ -342,7 +358,9 @@ static void set_scale(struct aim *aim) {
     camera->all_on_page = aim->d_low >= camera->near_d;
     return;
   }
-  if (o->fit == RECTO_FIT_SCALE) {
+  if (o->fit == RECTO_FIT_SPHERE) {
+    fit_sphere(aim);
+  } else if (o->fit == RECTO_FIT_SCALE) {
     camera->s = o->scale;
     if (camera->perspective)
       camera->s *= view_of(aim, aim->target).d;

@@ -4,7 +4,7 @@ fuzz_sources = %D%/fuzz.h %D%/targets.c \
   %D%/decode.c %D%/decode.h %D%/render.c %D%/render.h \
   %D%/target_cli.c %D%/target_reader.c %D%/target_scene.c %D%/target_svg.c \
   tests/reading.c tests/reading.h \
-  src/cli/arguments.c src/cli/lists.c src/cli/options.c \
+  src/cli/arguments.c src/cli/frames.c src/cli/lists.c src/cli/options.c \
   src/cli/option_scope.c src/cli/value.c
 
 check_PROGRAMS += %D%/replay

@@ -1,0 +1,102 @@
+/* frames.c - the directions and the paths of several drawings in one run. */
+#include "cli/frames.h"
+
+#include <stdio.h>
+#include <string.h>
+
+int frames_count(const struct arguments *a) {
+  if (a->turntable > 0)
+    return a->turntable;
+  return a->view_count > 1 ? a->view_count : 1;
+}
+
+void frame_options(const struct arguments *a, int frame,
+                   recto_options *options) {
+  *options = a->options;
+  if (a->turntable > 0) {
+    options->azimuth_deg += 360.0 * frame / a->turntable;
+    if (options->fit == RECTO_FIT_PAGE)
+      options->fit = RECTO_FIT_SPHERE;
+  } else if (a->view_count > 1) {
+    options->azimuth_deg = a->view[frame].azimuth_deg;
+    options->elevation_deg = a->view[frame].elevation_deg;
+  }
+}
+
+/* ---- Patterns ------------------------------------------------------------ */
+
+/* A conversion of a pattern. */
+struct conversion {
+  char letter; /* d, s or %; 0: it is none */
+  bool zeros;
+  int width;
+  size_t length; /* of its text, from the % on */
+};
+
+static struct conversion read_conversion(const char *text) {
+  struct conversion c = {.length = 1};
+  if (text[c.length] == '0') {
+    c.zeros = true;
+    c.length++;
+  }
+  while (text[c.length] >= '0' && text[c.length] <= '9' && c.width < 10)
+    c.width = 10 * c.width + (text[c.length++] - '0');
+  char letter = text[c.length++];
+  if (letter == 'd' || (c.length == 2 && (letter == 's' || letter == '%')))
+    c.letter = letter;
+  return c;
+}
+
+const char *frame_path(const struct arguments *a, const char *pattern,
+                       int frame, char path[FRAME_PATH_SIZE]) {
+  if (frames_count(a) == 1)
+    return pattern;
+  size_t at = 0;
+  while (*pattern != '\0') {
+    struct conversion c = {.length = 1};
+    if (*pattern == '%')
+      c = read_conversion(pattern);
+    size_t room = FRAME_PATH_SIZE - at;
+    int length =
+        c.letter == 'd'   ? snprintf(path + at, room, c.zeros ? "%0*d" : "%*d",
+                                     c.width, frame)
+        : c.letter == 's' ? snprintf(path + at, room, "%s", a->view[frame].name)
+                          : snprintf(path + at, room, "%c", *pattern);
+    if (length < 0 || (size_t)length >= room)
+      return NULL;
+    at += (size_t)length;
+    pattern += c.length;
+  }
+  path[at] = '\0';
+  return path;
+}
+
+/* Whether two of the views have one name. */
+static bool has_view_twice(const struct arguments *a) {
+  for (int i = 0; i < a->view_count; i++)
+    for (int k = 0; k < i; k++)
+      if (strcmp(a->view[i].name, a->view[k].name) == 0)
+        return true;
+  return false;
+}
+
+const char *frame_fault(const struct arguments *a, const char *pattern) {
+  bool has_number = false, has_name = false;
+  if (frames_count(a) == 1)
+    return NULL;
+  for (const char *at = strchr(pattern, '%'); at != NULL;) {
+    struct conversion c = read_conversion(at);
+    if (c.letter == 0)
+      return "has a % that is neither %d, such as %03d, nor %s nor %%";
+    has_number = has_number || c.letter == 'd';
+    has_name = has_name || c.letter == 's';
+    at = strchr(at + c.length, '%');
+  }
+  if (has_name && a->turntable > 0)
+    return "has %s, the name of a view, but --turntable takes %d";
+  if (!has_number && (!has_name || has_view_twice(a)))
+    return a->turntable > 0 || has_name
+               ? "needs %d or %03d, the number of the drawing"
+               : "needs %d, the number of the drawing, or %s, its view's name";
+  return NULL;
+}

@@ -1,0 +1,94 @@
+#!/bin/bash
+# test_cli_frames.sh - several views and the frames of a turntable in one run.
+. "$(dirname "$0")/tap.sh"
+. "$(dirname "$0")/cli.sh"
+
+views_are_those_of_single_runs() {
+  run 0 cube.obj --view front --view iso --view top -o 'view-%s.svg' || return 1
+  for view in front iso top; do
+    run 0 cube.obj --view "$view" -o one.svg && cmp one.svg "view-$view.svg" ||
+      return 1
+  done
+  test "$(ls view-*.svg | wc -l)" -eq 3
+}
+claim "several views are the drawings of single runs" \
+  views_are_those_of_single_runs
+numbers_views() {
+  run 0 cube.obj --view front --view top -o 'n%03d-100%%.svg' &&
+    cmp n000-100%.svg view-front.svg && cmp n001-100%.svg view-top.svg
+}
+claim "they may be numbered, and a name may have a per cent sign" numbers_views
+one_name_is_literal() {
+  run 0 cube.obj --view front -o '100%d.svg' && cmp 100%d.svg view-front.svg
+}
+claim "the name of one drawing is taken as it is" one_name_is_literal
+
+# Quarter turns of a cube are the same drawing; eighths are two in turn.
+turns() {
+  run 0 cube.obj --turntable 8 --view front -o 'turn%d.svg' &&
+    test "$(ls turn?.svg | wc -l)" -eq 8 && cmp turn0.svg turn4.svg &&
+    cmp turn1.svg turn3.svg && ! cmp -s turn0.svg turn1.svg
+}
+claim "a turntable turns all around" turns
+# A post beside the middle: fitted alone each frame would have another scale.
+cat >post.obj <<'END'
+v 0 0 0
+v 4 0 0
+v 0 3 0
+f 1 2 3
+END
+has_one_scale() {
+  run 0 post.obj --turntable 5 --view front --path polyline -o 'p%d.svg' || return 1
+  for i in 0 1 2 3 4; do
+    sed -n 's/.*points="\([^"]*\)".*/\1/p' "p$i.svg" | tr ' ' '\n' |
+      cut -d, -f2 | sort -g | sed -n '1p;$p' | paste -sd' ' |
+      awk '{ printf "%.2f\n", $2 - $1 }'
+  done | sort -u >heights
+  test "$(wc -l <heights)" -eq 1 || { say "$(cat heights)" && false; }
+}
+claim "the frames of a turntable have one scale" has_one_scale
+stays_on_page() {
+  run 0 cube.obj --turntable 7 --elevation 30 --fov 50 -o 'q%d.svg' && silent
+}
+claim "and stay on the page in perspective" stays_on_page
+keeps_true_scale() {
+  run 0 cube.obj --turntable 2 --view front --scale 10:1 -o 's%d.svg' &&
+    run 0 cube.obj --view front --scale 10:1 -o s.svg && cmp s.svg s0.svg
+}
+claim "a scale that is given is kept" keeps_true_scale
+writes_stats() {
+  run 0 cube.obj --turntable 2 -o 't%d.svg' --stats='t%d.json' && test -s t0.json &&
+    test -s t1.json && run 0 cube.obj --turntable 2 -o 't%d.svg' --stats &&
+    test "$(grep -c model_to_page_mm out)" -eq 2
+}
+claim "each frame has its statistics" writes_stats
+
+claim "several drawings need names that differ" \
+  refuses 'needs %d' cube.obj --turntable 3 -o no.svg
+claim "so do their statistics" \
+  refuses 'needs %d' cube.obj --turntable 3 -o no%d.svg --stats=no.json
+claim "of views too" \
+  refuses 'needs %d' cube.obj --view top --view left -o no.svg
+claim "a view's name is not enough where it comes twice" \
+  refuses 'needs %d' cube.obj --view top --view top -o no%s.svg
+claim "a frame has no view's name" \
+  refuses 'takes %d' cube.obj --turntable 3 -o no%s.svg
+for pattern in 'no%x.svg' 'no%d%.svg' 'no%5s.svg' '%n%d.svg' '%-3d.svg'; do
+  claim "the pattern $pattern is refused" \
+    refuses 'neither' cube.obj --turntable 3 -o "$pattern"
+done
+claim "a turntable takes no eye" \
+  refuses 'exclude' cube.obj --turntable 3 --camera 9,9,9 -o no%d.svg
+claim "nor several views" refuses 'one --view' cube.obj --turntable 3 --view top \
+  --view left -o no%d.svg
+claim "several views take no angles" \
+  refuses 'one --view' cube.obj --view top --view left --azimuth 3 -o no%d.svg
+claim "a check takes one view" \
+  refuses 'one view' cube.obj --view top --view left --check one.svg
+cp cube.obj cube1.obj
+claim "no frame replaces the model" \
+  refuses 'cube1.obj: .*would replace' cube1.obj --turntable 3 --format svg \
+  -o 'cube%d.obj'
+too_wide() { run 2 cube.obj --turntable 3 -o 'no%99999999d.svg'; }
+claim "a number of absurd width is refused" too_wide
+finish
