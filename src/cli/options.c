@@ -188,7 +188,7 @@ const struct option_entry option_table[] = {
      "iso (default) front back left right top bottom", .given = AT(view_given),
      .take = take_view},
     {OPTION_INT, "turntable", 0, "N", "a number from 1 to 100000",
-     "N drawings all around; -o with %03d, as with several --view",
+     "N drawings all around, to files such as a%03d.svg",
      .offset = AT(turntable), .least = 1, .most = 100000,
      .use = {USED_BY_DRAWING}},
     {OPTION_NUMBER, "azimuth", 0, "DEG", "an angle in degrees",
