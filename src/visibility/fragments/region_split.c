@@ -21,7 +21,8 @@
 
 enum {
   FIRST = 4, /* occluders that are subtracted before the tree is made */
-  WORK = 256 /* per region, in the units of progress.h */
+  WORK = 64  /* per region, and per occluder subtracted, in the units of
+                progress.h */
 };
 
 /* The area that two overlapping boxes share, in square grid units. */
@@ -69,7 +70,8 @@ static bool solve_leaf(struct occluder_subtraction *subtraction,
   if (!ARRAY_PUSH(rest, *region))
     return false;
   for (uint32_t i = 0; i < leaf->count && rest->count > 0; i++)
-    if (!face_occluder_subtract(
+    if (!progress_step(subtraction->progress, WORK) ||
+        !face_occluder_subtract(
             subtraction, rest,
             sorted_occluder(subtraction, first + member[i].list_index)))
       return false;
@@ -108,7 +110,8 @@ static bool split_region(struct occluder_subtraction *subtraction,
 static bool take(struct occluder_subtraction *subtraction, size_t from,
                  size_t to) {
   for (size_t i = from; i < to && subtraction->left.count > 0; i++)
-    if (!occluder_subtraction_take(subtraction,
+    if (!progress_step(subtraction->progress, WORK) ||
+        !occluder_subtraction_take(subtraction,
                                    sorted_occluder(subtraction, i)))
       return false;
   return true;
