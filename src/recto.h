@@ -154,7 +154,8 @@ typedef enum recto_divide {
 /* Results that a drawing keeps on request, as bits of a mask. */
 #define RECTO_RESULT_EDGES 1u        /* recto_drawing_edge */
 #define RECTO_RESULT_INVISIBILITY 3u /* and how many faces hide each part */
-#define RECTO_RESULTS_ALL 3u
+#define RECTO_RESULT_FACES 4u        /* recto_drawing_fragment */
+#define RECTO_RESULTS_ALL 7u
 
 /* ---- Options ------------------------------------------------------------- */
 
@@ -321,7 +322,7 @@ typedef struct recto_options {
   size_t weight_count;
 
   /* What the drawing keeps as data beside its strokes: a mask of
-   * RECTO_RESULT_EDGES and RECTO_RESULT_INVISIBILITY. */
+   * RECTO_RESULT_EDGES, RECTO_RESULT_INVISIBILITY and RECTO_RESULT_FACES. */
   unsigned results;
 
   /* Significant bits of the coordinates given to recto_scene_add_point, 1 to
@@ -644,6 +645,72 @@ size_t recto_drawing_edge_count(const recto_drawing *drawing);
   recto_drawing_edge_sized((drawing), (index), (edge), sizeof *(edge))
 bool recto_drawing_edge_sized(const recto_drawing *drawing, size_t index,
                               recto_edge *edge, size_t size);
+
+/* ---- Visible faces -------------------------------------------------------
+ * The visible part of a face is one fragment or several, polygons that may have
+ * holes.  All fragments together are a planar subdivision of the page: where
+ * two of them meet, a side of one and a side of the other run along each other,
+ * as two half-edges that are twins.  A side beside which several neighbours lie
+ * is several half-edges.  Source: de Berg et al., Computational Geometry, ch. 2
+ * (doubly connected edge list). */
+
+/* A connected visible part of one face. */
+typedef struct recto_fragment {
+  uint32_t face, group; /* as of strokes */
+  uint32_t colour;      /* of its group, 0xRRGGBB: as RECTO_FILL_PAINT fills */
+  double brightness;    /* by the options' light, to 1: as RECTO_FILL_SHADE */
+  bool is_back;         /* the face is seen from its back: clockwise */
+  uint32_t loop, loop_count; /* of recto_drawing_loops; the first is the outer
+                                one, the others are holes */
+} recto_fragment;
+
+/* A closed boundary of a fragment, which is on its left: the outer one runs
+ * counter-clockwise, holes clockwise.  This struct does not change. */
+typedef struct recto_loop {
+  uint32_t half_edge, count; /* consecutive ones of recto_drawing_half_edges;
+                                each ends where the next one starts */
+  bool is_hole;
+} recto_loop;
+
+/* What a side of a fragment is. */
+typedef enum recto_side {
+  RECTO_SIDE_EDGE = 0,     /* a part of the face's own edge */
+  RECTO_SIDE_OCCLUDER,     /* a part of an edge of a nearer face: its contour */
+  RECTO_SIDE_INTERSECTION, /* where another face pierces this one */
+  RECTO_SIDE_WINDOW        /* the page's margins or the near plane */
+} recto_side;
+
+/* A side of a fragment, or the part of it that one neighbour lies beside.  This
+ * struct does not change. */
+typedef struct recto_half_edge {
+  double x_mm, y_mm; /* where it starts; exact to 2^-28 mm */
+  uint32_t fragment; /* on its left */
+  uint32_t twin; /* the half-edge of the neighbour, which runs the other way;
+                        RECTO_NONE: there is no visible face beside it */
+  recto_side side;
+  recto_edge_class edge_class; /* of the edge that it is a part of, whether that
+                                  class was requested or not; 0 for a window */
+  uint32_t edge; /* the number that strokes have as `edge`; RECTO_NONE: none */
+} recto_half_edge;
+
+/* How many fragments there are; 0 where the options' results are without
+ * RECTO_RESULT_FACES, or the method makes none. */
+size_t recto_drawing_fragment_count(const recto_drawing *drawing);
+
+/* Fills in the fragment at `index`; past the last returns false, and the
+ * fragment is empty. */
+#define recto_drawing_fragment(drawing, index, fragment)                       \
+  recto_drawing_fragment_sized((drawing), (index), (fragment),                 \
+                               sizeof *(fragment))
+bool recto_drawing_fragment_sized(const recto_drawing *drawing, size_t index,
+                                  recto_fragment *fragment, size_t size);
+
+/* All loops and half-edges, arrays of *count owned by the drawing; NULL and 0
+ * where there are none. */
+const recto_loop *recto_drawing_loops(const recto_drawing *drawing,
+                                      size_t *count);
+const recto_half_edge *recto_drawing_half_edges(const recto_drawing *drawing,
+                                                size_t *count);
 
 /* Projects a point of the scene as the drawing was projected.
  * point    scene units

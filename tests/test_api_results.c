@@ -385,6 +385,147 @@ static void hidden_parts_are_counted_where_requested(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* ---- Visible faces ------------------------------------------------------- */
+
+/* Twice the area of a loop, in square mm. */
+static double area_of(const recto_half_edge *half, const recto_loop *loop) {
+  double area = 0;
+  for (uint32_t k = 0; k < loop->count; k++) {
+    const recto_half_edge *p = &half[loop->half_edge + k];
+    const recto_half_edge *q =
+        &half[loop->half_edge + (k + 1 < loop->count ? k + 1 : 0)];
+    area += p->x_mm * q->y_mm - q->x_mm * p->y_mm;
+  }
+  return area;
+}
+
+/* The half-edge after one, in its loop. */
+static uint32_t next_of(const recto_drawing *drawing, uint32_t half_edge) {
+  size_t count;
+  const recto_loop *loop = recto_drawing_loops(drawing, &count);
+  for (size_t i = 0; i < count; i++)
+    if (half_edge - loop[i].half_edge < loop[i].count)
+      return loop[i].half_edge +
+             (half_edge - loop[i].half_edge + 1) % loop[i].count;
+  fail_msg("half-edge %u is in no loop", half_edge);
+  return 0;
+}
+
+/* A frame before a wall: the wall is seen around it and through it. */
+static recto_drawing *draw_frame(unsigned results) {
+  static const double point[] = {
+      -9, -9, 0, 9, -9, 0, 9, 9, 0, -9, 9, 0, /* the wall */
+      -4, -4, 2, 4, -4, 2, 4, 4, 2, -4, 4, 2, /* the frame, outside */
+      -2, -2, 2, 2, -2, 2, 2, 2, 2, -2, 2, 2 /* and inside */};
+  static const uint32_t corner[] = {0,  1, 2, 3, 4,  5,  9, 8, 5, 6,
+                                    10, 9, 6, 7, 11, 10, 7, 4, 8, 11};
+  const recto_mesh mesh = {.points = point,
+                           .point_count = 12,
+                           .corners = corner,
+                           .corner_count = 20,
+                           .face_size = 4};
+  recto_options options;
+  recto_scene *scene;
+  recto_drawing *drawing;
+  init_with_edges(&options, results);
+  options.azimuth_deg = options.elevation_deg = 0;
+  options.fit = RECTO_FIT_SCALE;
+  options.edges = RECTO_EDGES_DEFAULT;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_OK);
+  recto_scene_destroy(scene);
+  return drawing;
+}
+
+static void fragments_have_outlines_and_holes(void **state) {
+  (void)state;
+  recto_drawing *drawing = draw_frame(RECTO_RESULT_FACES);
+  size_t loops, half_edges;
+  const recto_loop *loop = recto_drawing_loops(drawing, &loops);
+  const recto_half_edge *half = recto_drawing_half_edges(drawing, &half_edges);
+  /* The wall around the frame and within it, and the frame's four parts. */
+  assert_int_equal(recto_drawing_fragment_count(drawing), 6);
+  assert_int_equal(loops, 7);
+  double wall = 0, frame = 0;
+  size_t holes = 0;
+  for (size_t i = 0; i < 6; i++) {
+    recto_fragment fragment;
+    assert_true(recto_drawing_fragment(drawing, i, &fragment));
+    assert_false(fragment.is_back);
+    assert_true(fragment.brightness > 0 && fragment.brightness <= 1);
+    for (uint32_t k = 0; k < fragment.loop_count; k++) {
+      const recto_loop *l = &loop[fragment.loop + k];
+      double area = area_of(half, l) / 2;
+      assert_true(l->is_hole == (k > 0) && (area < 0) == l->is_hole);
+      for (uint32_t h = 0; h < l->count; h++)
+        assert_int_equal(half[l->half_edge + h].fragment, i);
+      holes += l->is_hole;
+      *(fragment.face == 0 ? &wall : &frame) += area;
+    }
+  }
+  assert_int_equal(holes, 1);
+  assert_true(fabs(wall - (324 - 48)) < 1e-6 && fabs(frame - 48) < 1e-6);
+  recto_fragment none;
+  assert_false(recto_drawing_fragment(drawing, 6, &none));
+  assert_int_equal(none.face, RECTO_NONE);
+  recto_drawing_destroy(drawing);
+}
+
+static void twins_run_along_each_other(void **state) {
+  (void)state;
+  recto_drawing *drawing = draw_frame(RECTO_RESULT_FACES);
+  size_t count, outer = 0;
+  const recto_half_edge *half = recto_drawing_half_edges(drawing, &count);
+  for (uint32_t i = 0; i < count; i++) {
+    if (half[i].twin == RECTO_NONE) {
+      outer++;
+      continue;
+    }
+    const recto_half_edge *twin = &half[half[i].twin];
+    const recto_half_edge *end = &half[next_of(drawing, i)];
+    assert_int_equal(twin->twin, i);
+    assert_true(twin->fragment != half[i].fragment);
+    assert_true(twin->x_mm == end->x_mm && twin->y_mm == end->y_mm);
+  }
+  assert_int_equal(outer, 4); /* the wall's own border */
+  recto_drawing_destroy(drawing);
+}
+
+static void sides_have_their_class(void **state) {
+  (void)state;
+  recto_drawing *drawing = draw_frame(RECTO_RESULT_FACES);
+  size_t count, of_side[4] = {0}, smooth = 0;
+  const recto_half_edge *half = recto_drawing_half_edges(drawing, &count);
+  for (size_t i = 0; i < count; i++) {
+    of_side[half[i].side]++;
+    smooth += half[i].edge_class == RECTO_EDGE_SMOOTH;
+    if (half[i].side == RECTO_SIDE_OCCLUDER)
+      assert_int_equal(half[i].edge_class, RECTO_EDGE_SILHOUETTE);
+    else
+      assert_true(half[i].edge_class == RECTO_EDGE_BORDER ||
+                  half[i].edge_class == RECTO_EDGE_SMOOTH);
+  }
+  assert_int_equal(of_side[RECTO_SIDE_EDGE], 4 + 4 * 4);
+  assert_int_equal(of_side[RECTO_SIDE_OCCLUDER], 8);
+  assert_int_equal(smooth, 8); /* four seams, from both sides; not requested */
+  assert_int_equal(of_side[RECTO_SIDE_INTERSECTION], 0);
+  assert_int_equal(of_side[RECTO_SIDE_WINDOW], 0);
+  recto_drawing_destroy(drawing);
+}
+
+static void no_fragments_are_kept_without_request(void **state) {
+  (void)state;
+  size_t count = 9;
+  recto_drawing *drawing = draw_frame(RECTO_RESULT_EDGES);
+  assert_int_equal(recto_drawing_fragment_count(drawing), 0);
+  assert_null(recto_drawing_loops(drawing, &count));
+  assert_int_equal(count, 0);
+  assert_null(recto_drawing_half_edges(NULL, NULL));
+  recto_drawing_destroy(drawing);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_page_has_the_size_of_the_options),
@@ -398,6 +539,10 @@ int main(void) {
       cmocka_unit_test(edges_have_their_points_and_faces),
       cmocka_unit_test(visible_parts_of_edges_are_what_is_drawn),
       cmocka_unit_test(hidden_parts_are_counted_where_requested),
+      cmocka_unit_test(fragments_have_outlines_and_holes),
+      cmocka_unit_test(twins_run_along_each_other),
+      cmocka_unit_test(sides_have_their_class),
+      cmocka_unit_test(no_fragments_are_kept_without_request),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

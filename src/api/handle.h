@@ -34,6 +34,9 @@ struct recto_drawing {
   char verdict[VERIFY_SUMMARY_SIZE]; /* "": not verified */
   ARRAY(struct result_edge) edge;    /* RECTO_RESULT_EDGES */
   ARRAY(recto_interval) interval;
+  ARRAY(recto_fragment) fragment; /* RECTO_RESULT_FACES */
+  ARRAY(recto_loop) loop;
+  ARRAY(recto_half_edge) half_edge;
   ARRAY(struct file_identity) file; /* that the scene was read from */
 };
 
@@ -46,20 +49,28 @@ void drawing_keep_projection(recto_drawing *drawing,
                              const struct camera *camera,
                              const struct rescaled *rescaled);
 
-/* What the edges of a drawing are made from. */
-struct edge_sources {
+/* What the results of a drawing are made from. */
+struct result_sources {
   const struct sheet *sheet;
   const struct map *map;
   const struct topology *topology;
   const struct scene *scene;       /* welded */
   const struct scene_point *point; /* of the scene, in the user's units */
-  bool with_counts;                /* the map has the numbers of faces */
+  const recto_options *options;    /* scaled as the scene */
+  double crease_deg;
+  bool with_counts; /* the map has the numbers of faces */
 };
 
 /* Stores the edges of the sheet with their visible and hidden parts.
  * Errors  RECTO_ERROR_MEMORY */
 USE_RESULT recto_status drawing_keep_edges(recto_drawing *drawing,
-                                           const struct edge_sources *sources,
+                                           const struct result_sources *sources,
+                                           recto_error *error);
+
+/* Stores the visible fragments and their half-edges.
+ * Errors  RECTO_ERROR_MEMORY */
+USE_RESULT recto_status drawing_keep_faces(recto_drawing *drawing,
+                                           const struct result_sources *sources,
                                            recto_error *error);
 
 /* Copies the options, or the defaults where they are NULL, and checks that each

@@ -11,7 +11,7 @@ librecto_core_la_SOURCES += \
   %D%/output.c %D%/output.h \
   %D%/render.c \
   %D%/preparation.c %D%/preparation.h \
-  %D%/result.c %D%/result_edges.c \
+  %D%/result.c %D%/result_edges.c %D%/result_faces.c \
   %D%/scene.c \
   %D%/sized.c %D%/sized.h \
   %D%/shares.c %D%/shares.h \

@@ -83,6 +83,10 @@ static bool has_fills(const struct render *render) {
   return render->options->fill != RECTO_FILL_NONE;
 }
 
+static bool needs_fragments(const struct render *render) {
+  return has_fills(render) || (render->options->results & RECTO_RESULT_FACES);
+}
+
 /* Whether the scene's edges are used after the sheet was laid out. */
 static bool uses_topology(const struct render *render) {
   return has_fills(render) || render->options->results != 0;
@@ -156,7 +160,8 @@ static recto_status find_edges(struct render *render, recto_error *error) {
     return error_set(error, RECTO_ERROR_EMPTY, NULL, 0,
                      "there is nothing to draw: the weld length is larger than "
                      "all faces");
-  render->topology.drop_after_sheet = !has_fills(render) && !is_shared(render);
+  render->topology.drop_after_sheet =
+      !needs_fragments(render) && !is_shared(render);
   report_int(render->report, "scene", "edges",
              (int64_t)render->topology.edge.count);
   return status;
@@ -180,7 +185,7 @@ static recto_status aim(struct render *render, recto_error *error) {
 static recto_status project(struct render *render, recto_error *error) {
   recto_status status = layout_sheet(
       &render->sheet, &render->prepared->welded.scene, &render->topology,
-      &render->camera, &render->scaled, has_fills(render), error);
+      &render->camera, &render->scaled, needs_fragments(render), error);
   if (status == RECTO_OK &&
       (render->sheet.clipped_page > 0 ||
        scene_wire_count(&render->prepared->welded.scene) > 0))
@@ -202,7 +207,7 @@ static recto_status project(struct render *render, recto_error *error) {
 static bool pass_progress(void *user, double share, const char *stage) {
   struct render *render = user;
   const double *begin = render->begin;
-  double within = shares_of_phase(stage, share, has_fills(render));
+  double within = shares_of_phase(stage, share, needs_fragments(render));
   double whole = begin[SHARE_SOLVE] +
                  within * (begin[SHARE_SOLVE + 1] - begin[SHARE_SOLVE]);
   if (whole > render->passed)
@@ -215,8 +220,9 @@ static recto_status solve(struct render *render, recto_error *error) {
   const recto_options *options = render->options;
   struct solver_request request = {
       .strokes = options->edges != RECTO_EDGES_NONE,
-      .fragments = options->fill != RECTO_FILL_NONE,
-      .hidden = options->hidden != RECTO_HIDDEN_NONE || options->results != 0,
+      .fragments = needs_fragments(render),
+      .hidden = options->hidden != RECTO_HIDDEN_NONE ||
+                (options->results & RECTO_RESULT_EDGES) != 0,
       .intersections = (options->edges & RECTO_EDGE_INTERSECTION) != 0,
       .threads = count_threads(options),
       .pitch_mm = options->pitch_mm,
@@ -242,7 +248,7 @@ static recto_status solve(struct render *render, recto_error *error) {
 }
 
 static recto_status ink(struct render *render, recto_error *error) {
-  if (!has_fills(render) && render->options->verify == 0)
+  if (!needs_fragments(render) && render->options->verify == 0)
     sheet_drop_triangles(&render->sheet);
   return ink_draw(render->drawing, &render->sheet,
                   &render->prepared->welded.scene, &render->map,
@@ -366,17 +372,22 @@ static void number_faces(struct drawing *drawing, const struct scene *scene) {
 }
 
 static recto_status keep_results(struct render *render, recto_error *error) {
-  const struct edge_sources sources = {.sheet = &render->sheet,
-                                       .map = &render->map,
-                                       .topology = &render->topology,
-                                       .scene = &render->prepared->welded.scene,
-                                       .point = render->model->scene.point.item,
-                                       .with_counts =
-                                           keeps_invisibility(render)};
-  return render->options->results & RECTO_RESULT_EDGES &&
-                 render->map.edge_state != NULL
-             ? drawing_keep_edges(render->made, &sources, error)
-             : RECTO_OK;
+  unsigned results = render->options->results;
+  const struct result_sources sources = {
+      .sheet = &render->sheet,
+      .map = &render->map,
+      .topology = &render->topology,
+      .scene = &render->prepared->welded.scene,
+      .point = render->model->scene.point.item,
+      .options = &render->scaled,
+      .crease_deg = render->options->crease_deg,
+      .with_counts = keeps_invisibility(render)};
+  recto_status status = RECTO_OK;
+  if (results & RECTO_RESULT_EDGES && render->map.edge_state != NULL)
+    status = drawing_keep_edges(render->made, &sources, error);
+  if (status == RECTO_OK && results & RECTO_RESULT_FACES)
+    status = drawing_keep_faces(render->made, &sources, error);
+  return status;
 }
 
 /* ---- The whole render ---------------------------------------------------- */

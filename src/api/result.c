@@ -14,6 +14,9 @@ void recto_drawing_destroy(recto_drawing *drawing) {
   ARRAY_FREE(&drawing->file);
   ARRAY_FREE(&drawing->edge);
   ARRAY_FREE(&drawing->interval);
+  ARRAY_FREE(&drawing->fragment);
+  ARRAY_FREE(&drawing->loop);
+  ARRAY_FREE(&drawing->half_edge);
   mem_free(drawing);
 }
 

@@ -203,7 +203,7 @@ static bool add_edge(struct edge_results *r, uint32_t e) {
 }
 
 recto_status drawing_keep_edges(recto_drawing *drawing,
-                                const struct edge_sources *sources,
+                                const struct result_sources *sources,
                                 recto_error *error) {
   struct edge_results r = {.drawing = drawing,
                            .sheet = sources->sheet,
