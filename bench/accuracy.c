@@ -36,10 +36,10 @@ struct row {
 
 static void set_view(recto_options *options) {
   recto_options_init(options);
-  options->azimuth_deg = 30;
-  options->elevation_deg = 20;
-  options->page_width_mm = options->page_height_mm = page_mm;
-  options->margin_mm = 5;
+  options->camera.azimuth_deg = 30;
+  options->camera.elevation_deg = 20;
+  options->page.width_mm = options->page.height_mm = page_mm;
+  options->page.margin_mm = 5;
 }
 
 /* The median time of a part; the last map against the exact one. */

@@ -40,7 +40,7 @@ FILL(fine_globe, scenes_globe(scene, options, 150))
 FILL(sinc, scenes_sinc(scene, options, 200))
 FILL(sinc_above, scenes_sinc(scene, options, 200); scenes_view_above(options))
 FILL(globe_outline, scenes_globe(scene, options, 150);
-     options->edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_CREASE)
+     options->ink.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_CREASE)
 FILL(stack, scenes_cube_stack(scene, options, 30, 0))
 FILL(table, scenes_large_table(scene, options))
 FILL(cycles, scenes_cycle_field(scene, options, 12))
@@ -156,9 +156,9 @@ static void fill_scene(const struct hard_scene *what, bool painted,
   recto_options_init(options);
   scene_init(scene);
   what->fill(scene, options);
-  options->threads = 1;
+  options->solver.threads = 1;
   if (painted)
-    options->fill = RECTO_FILL_PAINT;
+    options->ink.fill = RECTO_FILL_PAINT;
 }
 
 /* Draws as often as a round has time for: the medians. */

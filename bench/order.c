@@ -34,12 +34,12 @@ static bool draw_plot(const void *how, struct drawing *drawing) {
   struct scene scene;
   recto_options options;
   recto_options_init(&options);
-  options.edges = plot->edges;
-  options.fill = plot->fill;
-  options.ids = plot->ids;
+  options.ink.edges = plot->edges;
+  options.ink.fill = plot->fill;
+  options.ink.ids = plot->ids;
   if (plot->lit) {
-    options.light[0] = -1;
-    options.light[1] = options.light[2] = 1;
+    options.ink.light[0] = -1;
+    options.ink.light[1] = options.ink.light[2] = 1;
   }
   scene_init(&scene);
   bool ok = scene_read(&scene, plot->path, NULL, &silent, NULL) == RECTO_OK;

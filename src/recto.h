@@ -15,8 +15,10 @@
  *          valid until the object is changed or destroyed.
  * Threads  No global state: different objects may be used from different
  *          threads at once; one object from one thread at a time.
- * Stability  Options are initialised by recto_options_init; new fields are
- *          added at the end.  Enumerators keep their values.
+ * Stability  Enumerators keep their values.  Options are initialised by
+ *          recto_options_init.  Structs that are handed over grow at their end
+ *          or in their reserved fields; macros pass the size that the caller
+ *          was compiled with (doc/decisions/0032 in the sources).
  */
 #ifndef RECTO_H
 #define RECTO_H
@@ -56,6 +58,7 @@ typedef enum recto_status {
   RECTO_STATUS_COUNT       /* not a status: how many there are */
 } recto_status;
 
+/* This struct does not change. */
 typedef struct recto_error {
   recto_status code;
   char file[256];     /* "" where no file is at fault */
@@ -129,7 +132,7 @@ typedef enum recto_fill {
 typedef enum recto_order {
   RECTO_ORDER_NONE = 0, /* by layer, then as the edges come */
   RECTO_ORDER_NEAR,     /* short pen-up travel */
-  RECTO_ORDER_AUTO      /* near for plotters, see recto_options_suit; none */
+  RECTO_ORDER_AUTO      /* near where the format is for plotters; none */
 } recto_order;
 
 typedef enum recto_fit {
@@ -157,7 +160,12 @@ typedef enum recto_divide {
 #define RECTO_RESULT_FACES 4u        /* recto_drawing_fragment */
 #define RECTO_RESULTS_ALL 7u
 
-/* ---- Options ------------------------------------------------------------- */
+/* ---- Options -------------------------------------------------------------
+ * Blocks of options by what they concern.  Every block ends with room for
+ * fields that later versions add, so that no field ever moves: a program that
+ * was compiled with an older header runs with a newer library, and with an
+ * older library as long as it sets no field that this does not know
+ * (RECTO_ERROR_UNSUPPORTED).  recto_options_init fills all of it. */
 
 /* The least width of pens and pitch of hatching and scan lines: 200,000 lines
  * on the largest page, 2 m. */
@@ -192,10 +200,11 @@ typedef enum recto_lines {
 typedef struct recto_pen_use {
   recto_lines lines;
   recto_edge_class edge_class; /* of RECTO_LINES_OF_CLASS */
-  const char *group; /* of RECTO_LINES_OF_GROUP: the name of a group, or its
+  const char *group;    /* of RECTO_LINES_OF_GROUP: the name of a group, or its
                         part between two of the slashes that join object, group
                         and material */
-  int pen;           /* 1 to RECTO_PEN_MOST */
+  int pen;              /* 1 to RECTO_PEN_MOST */
+  uint64_t reserved[2]; /* 0, as in all structs of arrays below */
 } recto_pen_use;
 
 /* How a pen differs from the others. */
@@ -203,28 +212,53 @@ typedef struct recto_pen {
   double width_mm; /* RECTO_FINEST_MM to 100; 0: that of all pens, pen_mm */
   bool has_colour; /* false: black, grey where it draws only hidden lines */
   uint32_t colour; /* 0xRRGGBB, of the layer in all formats but HPGL */
+  uint64_t reserved[2];
 } recto_pen;
 
 /* How many pens wide the visible lines of a class are. */
 typedef struct recto_weight {
   recto_edge_class edge_class;
   double weight; /* 0.01 to 100 */
+  uint64_t reserved[2];
 } recto_weight;
 
-typedef struct recto_options {
-  /* Method. */
+/* How visibility is found. */
+typedef struct recto_solver_options {
   recto_method method;
-  int threads;     /* at most the number of processors; 0: that number */
-  double contact;  /* surfaces this close in depth count as touching, scene
+  int threads;         /* at most the number of processors; 0: that number */
+  double contact;      /* surfaces this close in depth count as touching, scene
                       units; negative: for each face the rounding error of its
                       coordinates */
-  double pitch_mm; /* watkins: between scan lines; 0: exact sweep, else at
+  double pitch_mm;     /* watkins: between scan lines; 0: exact sweep, else at
                       least RECTO_FINEST_MM */
-  int resolution;  /* raster methods: lines over the page height; warnock:
+  int resolution;      /* raster methods: lines over the page height; warnock:
                       in pixels, so many lines; 0: exact */
+  recto_divide divide; /* warnock */
+  int subpixels;       /* in pixels: average K x K in each, to 16; 0: none */
+  int depth_bits;      /* z-buffers: 1 to 32 bits of depth; 0: float64 */
+  bool remove_backs;   /* in pixels (the z-buffers, and warnock where a
+                          resolution is given): leave out faces that are seen
+                          from behind */
+  uint64_t reserved[8];
+} recto_solver_options;
 
-  /* Camera. */
-  recto_camera camera;
+/* How the scene's points are understood. */
+typedef struct recto_mesh_options {
+  /* Corners of borders that are at most this far apart are welded, scene units;
+   * negative: within the rounding error of the coordinates; 0: only those at
+   * equal positions. */
+  double weld;
+  double crease_deg; /* faces that meet at a larger angle make a crease */
+  /* Significant bits of the coordinates given to recto_scene_add_point, 1 to
+   * 53: their rounding error is half a unit of the last one; 53: exact; 0: 24
+   * where all of them are single precision numbers, else 53.  For coordinates
+   * from files the precision follows from the file. */
+  int coordinate_bits;
+  uint64_t reserved[8];
+} recto_mesh_options;
+
+typedef struct recto_camera_options {
+  recto_camera kind;
   double azimuth_deg, elevation_deg; /* 0,0 is the front; azimuth turns the
                                         eye to the right, elevation up */
   double eye[3], target[3];          /* scene units */
@@ -239,75 +273,38 @@ typedef struct recto_options {
   double section; /* scene units in front of the eye, or
                      behind the scene's nearest point for
                      a direction: what is nearer is cut */
+  uint64_t reserved[8];
+} recto_camera_options;
 
-  /* Page. */
-  double page_width_mm, page_height_mm;
+typedef struct recto_page_options {
+  double width_mm, height_mm;
   double margin_mm; /* on every side, and nothing is drawn there; negative:
                        RECTO_USUAL_MARGIN_MM or, if that is less, a quarter of
-                       the shorter side; as much more as a plotter needs: see
-                       recto_options_suit */
+                       the shorter side; as much more as the plotter of the
+                       output's format needs */
+  uint64_t reserved[8];
+} recto_page_options;
 
-  /* Ink. */
+typedef struct recto_ink_options {
   unsigned edges; /* mask of recto_edge_class */
-  double crease_deg;
   recto_hidden hidden;
-  recto_fill fill;
-  double hatch_pitch_mm, hatch_angle_deg; /* at least RECTO_FINEST_MM */
-  double light[3]; /* direction towards the light; 0,0,0: the viewer's
-                      upper left */
-  double pen_mm;   /* RECTO_FINEST_MM to 100 */
-  int pens;        /* pens to deal the groups to; 1: all on one */
-  recto_order order;
-  double simplify_mm;   /* no point of a line moves by more */
-  double min_stroke_mm; /* shorter strokes are dropped; negative: half a pen */
-  bool ids;             /* keep source ids on every stroke */
-
-  /* Output. */
-  int precision;        /* decimals of a millimetre in text formats, 0 to 9 */
-  bool polyline;        /* SVG: <polyline> elements instead of <path> */
-  bool tight;           /* PDF, EPS, PS, PNG: the page is the ink's box */
-  double dpi;           /* PNG: pixels per inch; 0: 150 */
-  const char *device;   /* HPGL: the plotter's name; NULL: "generic" */
-  double velocity_cm_s; /* HPGL: pen speed; 0: the plotter's own */
-
-  /* Callbacks. */
-  recto_progress_fn progress;
-  recto_warning_fn warning;
-  void *user;
-
-  /* Warnock. */
-  recto_divide divide;
-  int subpixels; /* in pixels: average K x K in each, to 16; 0: none */
-
-  /* In pixels: the z-buffers, and warnock where a resolution is given. */
-  bool remove_backs; /* leave out faces that are seen from behind */
-  int depth_bits;    /* z-buffers: 1 to 32 bits of depth; 0: float64 */
-
-  /* Ink. */
   int hidden_layers; /* draw hidden lines of at most this quantitative
                         invisibility (number of faces in front); 0: all */
-  double seam_mm;    /* below all fills, each is extended over its borders by
-                        half of this, so that viewers show no hairlines between
-                        fills; 0 to 10 */
-
-  /* The output's resolution, see recto_output_unit_mm: lines that coincide at
-   * it are drawn once.  0: only lines at exactly the same place of the page */
-  double unit_mm;
-
-  /* Verification. */
-  int verify; /* number of samples that an independent ray caster checks, of the
-                 drawn lines, and of the requested edges; 0: none */
-
-  /* Reports. */
-  double velocity_up_cm_s; /* speed with the pen up, for the time that plotting
-                              takes; 0: the plotter's own */
-
+  recto_fill fill;
+  double seam_mm; /* below all fills, each is extended over its borders by half
+                     of this, so that viewers show no hairlines between fills;
+                     0 to 10 */
+  double hatch_pitch_mm, hatch_angle_deg; /* at least RECTO_FINEST_MM */
   bool hatch_inset; /* without a light: hatching ends half a pen inside, so that
                        no ink lies beyond what is visible */
+  double light[3];  /* direction towards the light; 0,0,0: the viewer's upper
+                       left */
+  double pen_mm;    /* RECTO_FINEST_MM to 100 */
+  int pens;         /* pens to deal the groups to; 1: all on one */
 
-  /* Pens.  A line is drawn by the pen of the first use that applies to it: as a
-   * hidden line or hatching, by its class, by its group; if there is none,
-   * `pens` decides.  Of several uses for the same lines the last one counts. */
+  /* A line is drawn by the pen of the first use that applies to it: as a hidden
+   * line or hatching, by its class, by its group; if there is none, `pens`
+   * decides.  Of several uses for the same lines the last one counts. */
   const recto_pen_use *pen_use; /* pen_use_count of them */
   size_t pen_use_count;
   const recto_pen *pen; /* of the pens 1 to pen_count, in order */
@@ -316,30 +313,64 @@ typedef struct recto_options {
   /* The weights of classes in SVG, PDF, EPS, PS and PNG; lines of different
    * weight are different strokes.  A class that is not listed is one pen wide;
    * without weights silhouettes and borders are two pens wide unless there are
-   * several pens. */
+   * several pens, or the output is for plotters, whose pens have one width. */
   bool has_weights;
   const recto_weight *weight; /* weight_count of them */
   size_t weight_count;
 
+  recto_order order;
+  double simplify_mm;   /* no point of a line moves by more */
+  double min_stroke_mm; /* shorter strokes are dropped; negative: half a pen */
+  bool ids;             /* one source for each stroke, written with it */
+  uint64_t reserved[8];
+} recto_ink_options;
+
+typedef struct recto_output_options {
+  /* The format that the drawing is made for, such as "svg", as of
+   * recto_output_format; NULL: none.  It decides the resolution, where unit_mm
+   * is 0, and for plotters the margin, the order and the weights, where they
+   * are the defaults. */
+  const char *format;
+  /* The output's resolution: lines that coincide at it are drawn once; 0: that
+   * of the format, or without one only lines at exactly the same place. */
+  double unit_mm;
+  int precision;        /* decimals of a millimetre in text formats, 0 to 9 */
+  bool polyline;        /* SVG: <polyline> elements instead of <path> */
+  bool tight;           /* PDF, EPS, PS, PNG: the page is the ink's box */
+  double dpi;           /* PNG: pixels per inch; 0: 150 */
+  const char *device;   /* HPGL: the plotter's name; NULL: "generic" */
+  double velocity_cm_s; /* HPGL: pen speed; 0: the plotter's own */
+  double velocity_up_cm_s; /* speed with the pen up, for the time that plotting
+                              takes; 0: the plotter's own */
+  uint64_t reserved[8];
+} recto_output_options;
+
+typedef struct recto_options {
+  size_t size; /* set by recto_options_init: that of this struct */
+  recto_solver_options solver;
+  recto_mesh_options mesh;
+  recto_camera_options camera;
+  recto_page_options page;
+  recto_ink_options ink;
+  recto_output_options output;
+
+  int verify; /* number of samples that an independent ray caster checks, of the
+                 drawn lines, and of the requested edges; 0: none */
   /* What the drawing keeps as data beside its strokes: a mask of
    * RECTO_RESULT_EDGES, RECTO_RESULT_INVISIBILITY and RECTO_RESULT_FACES. */
   unsigned results;
 
-  /* Significant bits of the coordinates given to recto_scene_add_point, 1 to
-   * 53: their rounding error is half a unit of the last one; 53: exact; 0: 24
-   * where all of them are single precision numbers, else 53.  For coordinates
-   * from files the precision follows from the file. */
-  int coordinate_bits;
-
-  /* Corners of borders that are at most this far apart are welded, scene units;
-   * negative: within the rounding error of the coordinates; 0: only those at
-   * equal positions. */
-  double weld;
+  /* Callbacks, called from the thread that called the library. */
+  recto_progress_fn progress;
+  recto_warning_fn warning;
+  void *user;
 } recto_options;
 
-/* Fills `options` with the defaults: auto, isometric, A4 portrait with a
- * 10 mm margin, a 0.3 mm pen, every class of edge but the smooth ones. */
-void recto_options_init(recto_options *options);
+/* Fills `options` with the defaults: auto, isometric, A4 portrait with a 10 mm
+ * margin, a 0.3 mm pen, every class of edge but the smooth ones. */
+#define recto_options_init(options)                                            \
+  recto_options_init_sized((options), sizeof *(options))
+void recto_options_init_sized(recto_options *options, size_t size);
 
 /* ---- Ring 1: one call for the whole job ---------------------------------- */
 
@@ -443,9 +474,10 @@ RECTO_USE_RESULT recto_status recto_scene_add_polyline(recto_scene *scene,
 
 /* Prepares the scene for several views: welds its corners, finds its edges and
  * decides which of them are borders and creases, as recto_scene_render does it
- * each time for a scene that was not prepared.  Renders with the same `weld`,
- * `crease_deg` and `coordinate_bits` then share the result; those with others
- * do the work themselves.  What is added to the scene later undoes it.
+ * each time for a scene that was not prepared.  Renders with the same `weld` and
+ * `coordinate_bits` then share the result, and with the same `crease_deg` the
+ * decisions too; those with others do the work themselves.  What is added to
+ * the scene later undoes it.
  * Threads  afterwards, several threads may render the scene at once
  * Errors   RECTO_ERROR_ARGUMENT, RECTO_ERROR_MEMORY */
 RECTO_USE_RESULT recto_status recto_scene_prepare(recto_scene *scene,
@@ -505,20 +537,6 @@ recto_drawing_write_to(const recto_drawing *drawing, const char *format,
  * path and format, which may be NULL; NULL where there is none. */
 const char *recto_output_format(const char *path, const char *format);
 
-/* The resolution in mm of coordinates that recto_drawing_write would write for
- * this path, format and options, for the options' unit_mm; 0 where there is no
- * such format. */
-double recto_output_unit_mm(const char *path, const char *format,
-                            const recto_options *options);
-
-/* Adapts the options to an output: sets unit_mm, and where the format is for
- * plotters replaces defaults:
- *   margin_mm negative        the margin that the plotter needs
- *   order RECTO_ORDER_AUTO    RECTO_ORDER_NEAR
- *   no weights                one pen wide, as pens have one width */
-void recto_options_suit(recto_options *options, const char *path,
-                        const char *format);
-
 /* The output format at `index`, such as "svg"; NULL past the last. */
 const char *recto_output_format_name(size_t index);
 
@@ -533,14 +551,15 @@ typedef struct recto_verdict {
 /* Checks any program's drawing of the scene, an SVG file, by an independent ray
  * caster: seen by the camera of the options, on the file's own page, for the
  * options' edge classes.  Lines may be off by a quarter of the options' pen,
- * and by as much as simplify_mm and unit_mm allow a drawing.  Dashed lines,
+ * and by as much as simplify_mm and the output's unit allow a drawing.  Dashed lines,
  * those of the class hidden or of a layer labelled so, and hatching of the
  * class hatch are not checked. */
-RECTO_USE_RESULT recto_status recto_scene_check(const recto_scene *scene,
-                                                const char *path,
-                                                const recto_options *options,
-                                                recto_verdict *verdict,
-                                                recto_error *error);
+#define recto_scene_check(scene, path, options, verdict, error)                \
+  recto_scene_check_sized((scene), (path), (options), (verdict),               \
+                          sizeof *(verdict), (error))
+RECTO_USE_RESULT recto_status recto_scene_check_sized(
+    const recto_scene *scene, const char *path, const recto_options *options,
+    recto_verdict *verdict, size_t size, recto_error *error);
 
 /* The result of verification, a sentence; NULL where it was not requested.
  * Errors that it finds are errors of recto_scene_render.  Owned by the
@@ -677,7 +696,8 @@ typedef enum recto_side {
   RECTO_SIDE_EDGE = 0,     /* a part of the face's own edge */
   RECTO_SIDE_OCCLUDER,     /* a part of an edge of a nearer face: its contour */
   RECTO_SIDE_INTERSECTION, /* where another face pierces this one */
-  RECTO_SIDE_WINDOW        /* the page's margins or the near plane */
+  RECTO_SIDE_CLIP          /* the page's margins or the near plane; also where
+                              a method with scan lines or pixels divides a face */
 } recto_side;
 
 /* A side of a fragment, or the part of it that one neighbour lies beside.  This
@@ -689,7 +709,7 @@ typedef struct recto_half_edge {
                         RECTO_NONE: there is no visible face beside it */
   recto_side side;
   recto_edge_class edge_class; /* of the edge that it is a part of, whether that
-                                  class was requested or not; 0 for a window */
+                                  class was requested or not; 0 for a clip */
   uint32_t edge; /* the number that strokes have as `edge`; RECTO_NONE: none */
 } recto_half_edge;
 

@@ -34,15 +34,15 @@ static void aim(recto_options *options, struct vector target,
   double length = fmax(fabs(towards.x), fmax(fabs(towards.y), fabs(towards.z)));
   double reach = (away == 0 ? 4 : away) * size / length;
   bool upright = towards.x == 0 && towards.y == 0;
-  options->camera = RECTO_CAMERA_EYE;
-  options->has_target = true;
-  options->fit = RECTO_FIT_PAGE;
-  options->fov_deg = away == 0 ? 0 : 30;
-  options->near_distance = 0;
-  options->has_section = false;
-  set(options->target, target);
-  set(options->eye, vector_add(target, vector_scale(towards, reach)));
-  set(options->up, upright ? vector_of(0, 1, 0) : vector_of(0, 0, 1));
+  options->camera.kind = RECTO_CAMERA_EYE;
+  options->camera.has_target = true;
+  options->camera.fit = RECTO_FIT_PAGE;
+  options->camera.fov_deg = away == 0 ? 0 : 30;
+  options->camera.near_distance = 0;
+  options->camera.has_section = false;
+  set(options->camera.target, target);
+  set(options->camera.eye, vector_add(target, vector_scale(towards, reach)));
+  set(options->camera.up, upright ? vector_of(0, 1, 0) : vector_of(0, 0, 1));
 }
 
 static struct vector point_of(const struct scene *scene, uint32_t corner) {

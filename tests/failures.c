@@ -26,7 +26,7 @@ static void compare_solvers(const struct scene *scene,
                 (length == first_length && memcmp(text, first, length) == 0);
     if (!same)
       fail_msg("%s: %s disagrees (fill %d, hidden %d)", name, (*solver)->name,
-               (int)options->fill, (int)options->hidden);
+               (int)options->ink.fill, (int)options->ink.hidden);
     if (first == NULL) {
       first = text;
       first_length = length;
@@ -40,9 +40,9 @@ static void compare_solvers(const struct scene *scene,
 void failures_assert_agree(const struct scene *scene,
                            const recto_options *options, const char *name) {
   recto_options lines = *options, hidden = *options, painted = *options;
-  lines.fill = hidden.fill = RECTO_FILL_NONE;
-  hidden.hidden = RECTO_HIDDEN_LAYER;
-  painted.fill = RECTO_FILL_PAINT;
+  lines.ink.fill = hidden.ink.fill = RECTO_FILL_NONE;
+  hidden.ink.hidden = RECTO_HIDDEN_LAYER;
+  painted.ink.fill = RECTO_FILL_PAINT;
   compare_solvers(scene, &lines, name);
   compare_solvers(scene, &hidden, name);
   compare_solvers(scene, &painted, name);
@@ -77,7 +77,7 @@ void failures_assert_judged(const struct scene *scene,
   judge_options_init(&judging);
   judging.edges = required;
   judging.contact = pipeline.camera.contact;
-  judging.crease_deg = options->crease_deg;
+  judging.crease_deg = options->mesh.crease_deg;
   assert_true(judge_drawing(&verdict, &drawing, scene, &camera, &judging));
   if (verdict.false_ink.samples > 0)
     fail_msg("%s: false ink at %.4f %.4f and in %lu of %lu samples", name,

@@ -22,8 +22,8 @@ void ink_fixture_start(struct ink_fixture *k) {
   scene_init(&k->scene);
   drawing_init(&k->drawing);
   recto_options_init(&k->options);
-  k->options.min_stroke_mm = 0;
-  k->options.has_weights = true;
+  k->options.ink.min_stroke_mm = 0;
+  k->options.ink.has_weights = true;
   k->sheet.camera.page_mm[0] = k->sheet.camera.page_mm[1] = PAGE_MM;
   k->sheet.camera.right[0] = k->sheet.camera.up[1] = 1;
   k->sheet.camera.back[2] = 1;
@@ -33,8 +33,8 @@ void ink_fixture_start(struct ink_fixture *k) {
 
 void ink_fixture_use(struct ink_fixture *k, const recto_pen_use *use,
                      size_t count) {
-  k->options.pen_use = use;
-  k->options.pen_use_count = count;
+  k->options.ink.pen_use = use;
+  k->options.ink.pen_use_count = count;
 }
 
 void ink_fixture_side(struct ink_fixture *k) {

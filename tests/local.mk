@@ -57,6 +57,7 @@ unit_tests += %D%/test_verify
 EXTRA_DIST += %D%/README.md %D%/tap.sh %D%/unit.sh %D%/cli.sh %D%/manifest.sh \
   %D%/memory_faults.h
 dist_check_SCRIPTS += \
+  %D%/test_abi.sh \
   %D%/test_bootstrap.sh \
   %D%/test_cli.sh \
   %D%/test_cli_check.sh \

@@ -17,8 +17,8 @@ void sheet_fixture_start(struct sheet_fixture *fixture) {
   memset(fixture, 0, sizeof *fixture);
   scene_init(&fixture->scene);
   recto_options_init(&fixture->options);
-  fixture->options.page_width_mm = 200;
-  fixture->options.page_height_mm = 100;
+  fixture->options.page.width_mm = 200;
+  fixture->options.page.height_mm = 100;
 }
 
 void sheet_fixture_out(struct sheet_fixture *fixture, bool outlines) {
@@ -128,7 +128,7 @@ static void check_edge(const struct sheet_fixture *fixture,
     return;
   }
   assert_true(has_one_bit(edge->edge_class));
-  assert_true(edge->edge_class & fixture->options.edges);
+  assert_true(edge->edge_class & fixture->options.ink.edges);
 }
 
 /* A diagonal with both of its triangles on one side of it; clipping may leave

@@ -29,10 +29,10 @@ static bool open_model(struct scene *scene, recto_options *options,
   char path[1000];
   struct diagnostics silent = {.file = path};
   recto_options_init(options);
-  options->azimuth_deg = 30;
-  options->elevation_deg = 20;
-  options->page_width_mm = options->page_height_mm = 200;
-  options->margin_mm = 5;
+  options->camera.azimuth_deg = 30;
+  options->camera.elevation_deg = 20;
+  options->page.width_mm = options->page.height_mm = 200;
+  options->page.margin_mm = 5;
   scene_init(scene);
   if (folder == NULL)
     return false;
@@ -51,7 +51,7 @@ static bool open_real(struct scene *scene, recto_options *options,
 static void open_soup(struct scene *scene, recto_options *options) {
   open_model(scene, options, NULL, "");
   scenes_soup(scene, options, 1000, 1);
-  options->page_width_mm = options->page_height_mm = 200;
+  options->page.width_mm = options->page.height_mm = 200;
 }
 
 /* ---- Errors -------------------------------------------------------------- */
@@ -208,7 +208,7 @@ static void check_agreement_on(const char *folder, const char *name) {
   recto_options options;
   if (open_model(&scene, &options, folder, name))
     for (int i = 0; i < 2; i++) {
-      options.depth_bits = bits[i];
+      options.solver.depth_bits = bits[i];
       check_agreement(&scene, &options, 512);
       check_agreement(&scene, &options, 2048);
     }

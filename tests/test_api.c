@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "api/handle.h"
 #include "base/memory.h"
 #include "base/stream.h"
 #include "recto.h"
@@ -154,85 +155,102 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
     options.field = bad;                                                       \
     assert_refused(scene, &options, #field " = " #bad);                        \
   } while (0)
-  REFUSED(method, RECTO_METHOD_COUNT);
-  REFUSED(method, (recto_method)-1);
-  REFUSED(threads, -1);
-  REFUSED(contact, (double)NAN);
-  REFUSED(azimuth_deg, (double)INFINITY);
-  REFUSED(elevation_deg, (double)NAN);
-  REFUSED(eye[1], (double)NAN);
-  REFUSED(target[2], (double)-INFINITY);
-  REFUSED(up[0], (double)NAN);
-  REFUSED(fov_deg, -1);
-  REFUSED(fov_deg, 180);
-  REFUSED(scale, 0);
-  REFUSED(near_distance, -1);
-  REFUSED(section, (double)NAN);
-  REFUSED(page_width_mm, 0);
-  REFUSED(page_height_mm, -297);
-  REFUSED(page_width_mm, 2001);
-  REFUSED(margin_mm, (double)NAN);
-  REFUSED(margin_mm, 105);
-  REFUSED(edges, 0x80);
-  REFUSED(crease_deg, 181);
-  REFUSED(hidden, (recto_hidden)3);
-  REFUSED(hidden_layers, -1);
-  REFUSED(fill, (recto_fill)4);
-  REFUSED(hatch_pitch_mm, 0);
-  REFUSED(pen_mm, 0);
-  REFUSED(pen_mm, (double)NAN);
-  REFUSED(pens, 0);
-  REFUSED(order, (recto_order)3);
-  REFUSED(simplify_mm, -1);
-  REFUSED(min_stroke_mm, (double)NAN);
-  REFUSED(seam_mm, -0.1);
-  REFUSED(seam_mm, 11);
-  REFUSED(precision, 10);
-  REFUSED(precision, -1);
-  REFUSED(dpi, -1);
-  REFUSED(velocity_cm_s, (double)NAN);
-  REFUSED(velocity_up_cm_s, -1);
+  REFUSED(solver.method, RECTO_METHOD_COUNT);
+  REFUSED(solver.method, (recto_method)-1);
+  REFUSED(solver.threads, -1);
+  REFUSED(solver.contact, (double)NAN);
+  REFUSED(camera.azimuth_deg, (double)INFINITY);
+  REFUSED(camera.elevation_deg, (double)NAN);
+  REFUSED(camera.eye[1], (double)NAN);
+  REFUSED(camera.target[2], (double)-INFINITY);
+  REFUSED(camera.up[0], (double)NAN);
+  REFUSED(camera.fov_deg, -1);
+  REFUSED(camera.fov_deg, 180);
+  REFUSED(camera.scale, 0);
+  REFUSED(camera.near_distance, -1);
+  REFUSED(camera.section, (double)NAN);
+  REFUSED(page.width_mm, 0);
+  REFUSED(page.height_mm, -297);
+  REFUSED(page.width_mm, 2001);
+  REFUSED(page.margin_mm, (double)NAN);
+  REFUSED(page.margin_mm, 105);
+  REFUSED(ink.edges, 0x80);
+  REFUSED(mesh.crease_deg, 181);
+  REFUSED(ink.hidden, (recto_hidden)3);
+  REFUSED(ink.hidden_layers, -1);
+  REFUSED(ink.fill, (recto_fill)4);
+  REFUSED(ink.hatch_pitch_mm, 0);
+  REFUSED(ink.pen_mm, 0);
+  REFUSED(ink.pen_mm, (double)NAN);
+  REFUSED(ink.pens, 0);
+  REFUSED(ink.order, (recto_order)3);
+  REFUSED(ink.simplify_mm, -1);
+  REFUSED(ink.min_stroke_mm, (double)NAN);
+  REFUSED(ink.seam_mm, -0.1);
+  REFUSED(ink.seam_mm, 11);
+  REFUSED(output.precision, 10);
+  REFUSED(output.precision, -1);
+  REFUSED(output.dpi, -1);
+  REFUSED(output.velocity_cm_s, (double)NAN);
+  REFUSED(output.velocity_up_cm_s, -1);
   recto_scene_destroy(scene);
 }
 
 static void lists_that_make_no_sense_are_refused(void **state) {
   static const recto_pen_use use[] = {
-      {RECTO_LINES_HIDDEN, 0, NULL, 0},
-      {RECTO_LINES_HATCH, 0, NULL, RECTO_PEN_MOST + 1},
-      {RECTO_LINES_OF_CLASS, 0, "a", 1},
-      {RECTO_LINES_OF_CLASS, (recto_edge_class)0x80, NULL, 1},
-      {RECTO_LINES_OF_GROUP, RECTO_EDGE_CREASE, NULL, 1},
-      {RECTO_LINES_OF_GROUP, RECTO_EDGE_CREASE, "no such group", 1},
-      {(recto_lines)4, RECTO_EDGE_CREASE, "a", 1},
+      {.lines = RECTO_LINES_HIDDEN, .edge_class = 0, .group = NULL, .pen = 0},
+      {.lines = RECTO_LINES_HATCH,
+       .edge_class = 0,
+       .group = NULL,
+       .pen = RECTO_PEN_MOST + 1},
+      {.lines = RECTO_LINES_OF_CLASS, .edge_class = 0, .group = "a", .pen = 1},
+      {.lines = RECTO_LINES_OF_CLASS,
+       .edge_class = (recto_edge_class)0x80,
+       .group = NULL,
+       .pen = 1},
+      {.lines = RECTO_LINES_OF_GROUP,
+       .edge_class = RECTO_EDGE_CREASE,
+       .group = NULL,
+       .pen = 1},
+      {.lines = RECTO_LINES_OF_GROUP,
+       .edge_class = RECTO_EDGE_CREASE,
+       .group = "no such group",
+       .pen = 1},
+      {.lines = (recto_lines)4,
+       .edge_class = RECTO_EDGE_CREASE,
+       .group = "a",
+       .pen = 1},
   };
-  static const recto_pen pen[] = {{-1, false, 0},
-                                  {101, false, 0},
-                                  {(double)NAN, false, 0},
-                                  {0, true, 0x1000000}};
+  static const recto_pen pen[] = {
+      {.width_mm = -1, .has_colour = false, .colour = 0},
+      {.width_mm = 101, .has_colour = false, .colour = 0},
+      {.width_mm = (double)NAN, .has_colour = false, .colour = 0},
+      {.width_mm = 0, .has_colour = true, .colour = 0x1000000}};
   static const recto_weight weight[] = {
-      {RECTO_EDGE_CREASE, 0},
-      {RECTO_EDGE_CREASE, (double)NAN},
-      {(recto_edge_class)(RECTO_EDGE_CREASE | RECTO_EDGE_GROUP), 1},
+      {.edge_class = RECTO_EDGE_CREASE, .weight = 0},
+      {.edge_class = RECTO_EDGE_CREASE, .weight = (double)NAN},
+      {.edge_class = (recto_edge_class)(RECTO_EDGE_CREASE | RECTO_EDGE_GROUP),
+       .weight = 1},
   };
   (void)state;
   recto_scene *scene = make_cube();
   recto_options options;
   for (size_t i = 0; i < sizeof use / sizeof use[0]; i++) {
-    REFUSED(pen_use_count, 1);
-    options.pen_use = &use[i];
+    REFUSED(ink.pen_use_count, 1);
+    options.ink.pen_use = &use[i];
     assert_refused(scene, &options, "the use of a pen");
   }
   for (size_t i = 0; i < sizeof pen / sizeof pen[0]; i++) {
-    REFUSED(pen_count, 1);
-    options.pen = &pen[i];
+    REFUSED(ink.pen_count, 1);
+    options.ink.pen = &pen[i];
     assert_refused(scene, &options, "a pen");
   }
   for (size_t i = 0; i < sizeof weight / sizeof weight[0]; i++) {
-    REFUSED(weight_count, 1);
-    options.weight = &weight[i];
+    REFUSED(ink.weight_count, 1);
+    options.ink.weight = &weight[i];
     assert_refused(scene, &options, "a weight");
   }
-  REFUSED(pen_count, RECTO_PEN_MOST + 1);
+  REFUSED(ink.pen_count, RECTO_PEN_MOST + 1);
   recto_scene_destroy(scene);
 }
 
@@ -241,8 +259,8 @@ static void an_eye_on_its_target_is_refused(void **state) {
   recto_scene *scene = make_cube();
   recto_options options;
   recto_options_init(&options);
-  options.camera = RECTO_CAMERA_EYE;
-  options.has_target = true;
+  options.camera.kind = RECTO_CAMERA_EYE;
+  options.camera.has_target = true;
   assert_refused(scene, &options, "eye = target");
   recto_scene_destroy(scene);
 }
@@ -253,10 +271,10 @@ static void methods_not_built_are_unsupported(void **state) {
   recto_options options;
   recto_options_init(&options);
   for (int i = 0; i < RECTO_METHOD_COUNT; i++) {
-    options.method = (recto_method)i;
+    options.solver.method = (recto_method)i;
     recto_drawing *drawing;
     recto_status status = recto_scene_render(scene, &options, &drawing, NULL);
-    assert_int_equal(status, recto_method_is_available(options.method)
+    assert_int_equal(status, recto_method_is_available(options.solver.method)
                                  ? RECTO_OK
                                  : RECTO_ERROR_UNSUPPORTED);
     recto_drawing_destroy(drawing);
@@ -343,7 +361,7 @@ static void a_scene_may_be_drawn_again(void **state) {
   recto_options options;
   recto_options_init(&options);
   recto_drawing *first = draw(scene, &options);
-  options.azimuth_deg = options.elevation_deg = 0;
+  options.camera.azimuth_deg = options.camera.elevation_deg = 0;
   recto_drawing *front = draw(scene, &options);
   recto_options_init(&options);
   recto_drawing *again = draw(scene, &options);
@@ -363,8 +381,8 @@ static void a_cube_at_true_scale_shows_nine_edges(void **state) {
   recto_scene *scene = make_cube();
   recto_options options;
   recto_options_init(&options);
-  options.fit = RECTO_FIT_SCALE;
-  options.scale = 100;
+  options.camera.fit = RECTO_FIT_SCALE;
+  options.camera.scale = 100;
   recto_drawing *drawing = draw(scene, &options);
   double length = drawn_length(drawing), expected = 9 * 100 * sqrt(2.0 / 3);
   /* A few grid units of 1e-6 mm for each of the edges' ends. */
@@ -409,11 +427,11 @@ static void every_size_of_doubles_draws_the_same(void **state) {
   recto_options_init(&options);
   recto_scene *scene = make_scaled_cube(1, 0.5);
   recto_drawing *iso = draw(scene, NULL);
-  options.camera = RECTO_CAMERA_EYE;
-  options.fov_deg = 30;
+  options.camera.kind = RECTO_CAMERA_EYE;
+  options.camera.fov_deg = 30;
   const double eye[3] = {3, 4, 5};
-  memcpy(options.eye, eye, sizeof eye);
-  options.contact = 0x1p-10;
+  memcpy(options.camera.eye, eye, sizeof eye);
+  options.solver.contact = 0x1p-10;
   recto_drawing *perspective = draw(scene, &options);
   recto_scene_destroy(scene);
   for (int e = -1074; e <= 1021; e += e < 1008 ? 13 : 1) {
@@ -423,8 +441,8 @@ static void every_size_of_doubles_draws_the_same(void **state) {
     assert_same_drawing(iso, same);
     recto_drawing_destroy(same);
     for (int k = 0; k < 3; k++)
-      options.eye[k] = eye[k] * scale;
-    options.contact = ldexp(0x1p-10, e);
+      options.camera.eye[k] = eye[k] * scale;
+    options.solver.contact = ldexp(0x1p-10, e);
     same = draw(scene, &options);
     assert_same_drawing(perspective, same);
     recto_drawing_destroy(same);
@@ -441,11 +459,11 @@ static void an_eye_beyond_numbers_is_refused(void **state) {
   recto_options options;
   recto_drawing *drawing;
   recto_options_init(&options);
-  options.camera = RECTO_CAMERA_EYE;
-  options.eye[2] = 1;
+  options.camera.kind = RECTO_CAMERA_EYE;
+  options.camera.eye[2] = 1;
   recto_drawing *near = draw(scene, &options);
   recto_drawing_destroy(near);
-  options.eye[2] = 1e300;
+  options.camera.eye[2] = 1e300;
   recto_error error;
   assert_int_equal(recto_scene_render(scene, &options, &drawing, &error),
                    RECTO_ERROR_LIMIT);
@@ -458,7 +476,7 @@ static void a_foreign_drawing_is_judged(void **state) {
   (void)state;
   recto_options options;
   recto_options_init(&options);
-  options.page_width_mm = 100;
+  options.page.width_mm = 100;
   const char *path = path_of("own.svg");
   recto_scene *scene = make_scaled_cube(1, 0.5);
   recto_drawing *drawing = draw(scene, &options);
@@ -470,12 +488,12 @@ static void a_foreign_drawing_is_judged(void **state) {
   for (int e = -1040; e <= 1000; e += 510) {
     recto_verdict verdict;
     scene = make_scaled_cube(ldexp(1, e), 0.5);
-    options.azimuth_deg = 45;
+    options.camera.azimuth_deg = 45;
     assert_int_equal(recto_scene_check(scene, path, &options, &verdict, NULL),
                      RECTO_OK);
     assert_true(verdict.drawn_mm > 300 && verdict.visible_mm > 300);
     assert_true(verdict.false_mm == 0 && verdict.missing_mm == 0);
-    options.azimuth_deg = 44;
+    options.camera.azimuth_deg = 44;
     assert_int_equal(recto_scene_check(scene, path, &options, &verdict, NULL),
                      RECTO_OK);
     assert_true(verdict.false_mm > 100 && verdict.missing_mm > 100);
@@ -500,7 +518,7 @@ static void strokes_know_where_they_come_from(void **state) {
   recto_scene *scene = make_cube();
   recto_options options;
   recto_options_init(&options);
-  options.edges = RECTO_EDGE_CREASE;
+  options.ink.edges = RECTO_EDGE_CREASE;
   recto_drawing *drawing = draw(scene, &options);
   assert_true(recto_drawing_stroke_count(drawing) > 0);
   for (size_t i = 0; i < recto_drawing_stroke_count(drawing); i++) {
@@ -648,27 +666,28 @@ static void an_empty_page_says_why(void **state) {
   recto_options options;
   recto_options_init(&options);
   assert_warns(scene, options, "");
-  options.edges = RECTO_EDGES_NONE;
+  options.ink.edges = RECTO_EDGES_NONE;
   assert_warns(scene, options,
                "the drawing is empty: neither lines nor fills are asked for");
-  options.edges = RECTO_EDGE_INTERSECTION;
+  options.ink.edges = RECTO_EDGE_INTERSECTION;
   assert_warns(scene, options,
                "the drawing is empty: nothing that was asked for is visible "
                "and long enough");
-  options.edges = RECTO_EDGES_DEFAULT;
-  options.fit = RECTO_FIT_SCALE;
-  for (options.scale = 0.01; options.scale > 1e-300; options.scale *= 1e-99)
+  options.ink.edges = RECTO_EDGES_DEFAULT;
+  options.camera.fit = RECTO_FIT_SCALE;
+  for (options.camera.scale = 0.01; options.camera.scale > 1e-300;
+       options.camera.scale *= 1e-99)
     assert_warns(scene, options,
                  "the drawing is empty: nothing that was asked for is visible "
                  "and long enough");
-  options.scale = 100;
-  options.has_target = true;
-  options.target[0] = 50;
+  options.camera.scale = 100;
+  options.camera.has_target = true;
+  options.camera.target[0] = 50;
   assert_warns(
       scene, options,
       "the drawing is empty: all of the scene is outside of the page's "
       "margins");
-  options.fill = RECTO_FILL_PAINT;
+  options.ink.fill = RECTO_FILL_PAINT;
   assert_warns(
       scene, options,
       "the drawing is empty: all of the scene is outside of the page's "
@@ -737,9 +756,9 @@ static recto_status whole_job(const char *path) {
   recto_drawing *drawing = NULL;
   recto_options options;
   recto_options_init(&options);
-  options.threads = 1;
-  options.method = RECTO_METHOD_BRUTE;
-  options.ids = true;
+  options.solver.threads = 1;
+  options.solver.method = RECTO_METHOD_BRUTE;
+  options.ink.ids = true;
   recto_status status = recto_scene_create(&scene, NULL);
   if (status == RECTO_OK)
     status = add_cube(scene, NULL);
@@ -793,10 +812,11 @@ static void plotter_travel_is_short_by_default(void **state) {
   for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
     recto_options o;
     recto_options_init(&o);
-    assert_int_equal(o.order, RECTO_ORDER_AUTO);
-    o.order = row[i].asked;
-    recto_options_suit(&o, "-", row[i].format);
-    assert_int_equal(o.order, row[i].found);
+    assert_int_equal(o.ink.order, RECTO_ORDER_AUTO);
+    o.ink.order = row[i].asked;
+    o.output.format = row[i].format;
+    assert_int_equal(options_suit(&o, NULL), RECTO_OK);
+    assert_int_equal(o.ink.order, row[i].found);
   }
 }
 
@@ -812,10 +832,11 @@ static void a_plotter_gets_the_margin_that_it_needs(void **state) {
   for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
     recto_options o;
     recto_options_init(&o);
-    o.device = row[i].device;
-    o.margin_mm = row[i].named;
-    recto_options_suit(&o, "-", row[i].format);
-    assert_true(o.margin_mm == row[i].found);
+    o.output.device = row[i].device;
+    o.page.margin_mm = row[i].named;
+    o.output.format = row[i].format;
+    assert_int_equal(options_suit(&o, NULL), RECTO_OK);
+    assert_true(o.page.margin_mm == row[i].found);
   }
 }
 

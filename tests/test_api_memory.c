@@ -67,7 +67,7 @@ static struct text *draw(recto_scene *scene) {
   recto_drawing *drawing;
   recto_error error = {0};
   recto_options_init(&options);
-  options.ids = true;
+  options.ink.ids = true;
   if (recto_scene_render(scene, &options, &drawing, &error) != RECTO_OK)
     fail_msg("%s", error.text);
   struct text *text = calloc(1, sizeof *text);
@@ -171,7 +171,7 @@ static void a_model_in_memory_opens_files_only_beside_its_name(void **state) {
   int warnings = 0;
   recto_options options;
   recto_options_init(&options);
-  options.fill = RECTO_FILL_PAINT;
+  options.ink.fill = RECTO_FILL_PAINT;
   options.warning = count_libraries;
   options.user = &warnings;
   recto_scene *scene = new_scene();

@@ -64,11 +64,11 @@ static bool append(void *user, const void *bytes, size_t count) {
 
 static void init_view(recto_options *options, int view) {
   recto_options_init(options);
-  options->azimuth_deg = 45 * view;
-  options->fov_deg = view % 2 ? 40 : 0;
-  options->fill = view % 3 ? RECTO_FILL_NONE : RECTO_FILL_HATCH;
-  options->hidden = view % 4 ? RECTO_HIDDEN_NONE : RECTO_HIDDEN_DASHED;
-  options->threads = 1;
+  options->camera.azimuth_deg = 45 * view;
+  options->camera.fov_deg = view % 2 ? 40 : 0;
+  options->ink.fill = view % 3 ? RECTO_FILL_NONE : RECTO_FILL_HATCH;
+  options->ink.hidden = view % 4 ? RECTO_HIDDEN_NONE : RECTO_HIDDEN_DASHED;
+  options->solver.threads = 1;
 }
 
 /* NULL where it fails. */
@@ -119,8 +119,8 @@ static void other_options_are_prepared_by_the_render(void **state) {
   recto_scene *plain = make_torus(), *prepared = make_torus();
   recto_options options;
   recto_options_init(&options);
-  options.weld = 0; /* nothing but borders */
-  options.crease_deg = 1;
+  options.mesh.weld = 0; /* nothing but borders */
+  options.mesh.crease_deg = 1;
   assert_int_equal(recto_scene_prepare(prepared, &options, NULL), RECTO_OK);
   assert_same_text(draw_view(plain, 1), draw_view(prepared, 1));
   recto_scene_destroy(plain);
@@ -180,7 +180,7 @@ static void bad_options_are_refused_and_prepare_nothing(void **state) {
   recto_scene *scene = make_torus();
   recto_options options;
   recto_options_init(&options);
-  options.crease_deg = NAN;
+  options.mesh.crease_deg = NAN;
   assert_int_equal(recto_scene_prepare(scene, &options, NULL),
                    RECTO_ERROR_ARGUMENT);
   assert_int_equal(recto_scene_prepare(NULL, NULL, NULL), RECTO_ERROR_ARGUMENT);

@@ -19,24 +19,24 @@
 static recto_options plain_options(void) {
   recto_options options;
   recto_options_init(&options);
-  options.page_width_mm = 200;
-  options.page_height_mm = 100;
-  options.margin_mm = 10;
+  options.page.width_mm = 200;
+  options.page.height_mm = 100;
+  options.page.margin_mm = 10;
   return options;
 }
 
 static void eye_at(recto_options *options, double x, double y, double z) {
-  options->camera = RECTO_CAMERA_EYE;
-  options->eye[0] = x;
-  options->eye[1] = y;
-  options->eye[2] = z;
+  options->camera.kind = RECTO_CAMERA_EYE;
+  options->camera.eye[0] = x;
+  options->camera.eye[1] = y;
+  options->camera.eye[2] = z;
 }
 
 static void target_at(recto_options *options, double x, double y, double z) {
-  options->has_target = true;
-  options->target[0] = x;
-  options->target[1] = y;
-  options->target[2] = z;
+  options->camera.has_target = true;
+  options->camera.target[0] = x;
+  options->camera.target[1] = y;
+  options->camera.target[2] = z;
 }
 
 static struct camera aim(const struct scene *scene,
@@ -145,15 +145,15 @@ static void named_views_are_exact(void **state) {
   recto_options options = plain_options();
   for (size_t i = 0; i < sizeof named_views / sizeof *named_views; i++) {
     const struct named *n = &named_views[i];
-    options.azimuth_deg = n->azimuth;
-    options.elevation_deg = n->elevation;
-    options.up[1] = 1;
-    options.up[2] = 0;
+    options.camera.azimuth_deg = n->azimuth;
+    options.camera.elevation_deg = n->elevation;
+    options.camera.up[1] = 1;
+    options.camera.up[2] = 0;
     struct camera camera = aim(&scene, &options);
     assert_axis(camera.back, n->back_y[0], n->back_y[1], n->back_y[2]);
     assert_axis(camera.up, n->up_y[0], n->up_y[1], n->up_y[2]);
-    options.up[1] = 0;
-    options.up[2] = 1;
+    options.camera.up[1] = 0;
+    options.camera.up[2] = 1;
     camera = aim(&scene, &options);
     assert_axis(camera.back, n->back_z[0], n->back_z[1], n->back_z[2]);
     assert_axis(camera.up, n->up_z[0], n->up_z[1], n->up_z[2]);
@@ -243,12 +243,12 @@ static void the_scene_s_up_axis_is_the_default(void **state) {
   struct scene scene;
   fill_box(&scene);
   recto_options options = plain_options();
-  options.azimuth_deg = options.elevation_deg = 0;
+  options.camera.azimuth_deg = options.camera.elevation_deg = 0;
   scene.up[1] = 0;
   scene.up[2] = 1;
   struct camera camera = aim(&scene, &options);
   assert_axis(camera.up, 0, 0, 1);
-  options.up[1] = -1;
+  options.camera.up[1] = -1;
   camera = aim(&scene, &options);
   assert_axis(camera.up, 0, -1, 0);
   scene_fini(&scene);
@@ -259,10 +259,10 @@ static void an_eye_along_an_axis_is_exact(void **state) {
   struct scene scene;
   fill_box(&scene);
   recto_options options = plain_options();
-  options.fov_deg = 30;
+  options.camera.fov_deg = 30;
   eye_at(&options, 0.1, 0.7, 33);
   target_at(&options, 0.1, 0.7, -0.3);
-  options.up[1] = 0.1;
+  options.camera.up[1] = 0.1;
   struct camera camera = aim(&scene, &options);
   assert_axis(camera.right, 1, 0, 0);
   assert_axis(camera.up, 0, 1, 0);
@@ -295,9 +295,9 @@ static void a_margin_left_open_leaves_room_on_any_page(void **state) {
     struct scene scene;
     fill_box(&scene);
     recto_options options = plain_options();
-    options.page_width_mm = side[i][0];
-    options.page_height_mm = side[i][1];
-    options.margin_mm = -1;
+    options.page.width_mm = side[i][0];
+    options.page.height_mm = side[i][1];
+    options.page.margin_mm = -1;
     struct camera camera = aim(&scene, &options);
     assert_fits(&camera, &scene, side[i][2]);
     scene_fini(&scene);
@@ -311,16 +311,16 @@ static void the_drawing_fills_the_page_inside_the_margins(void **state) {
   fill_box(&scene);
   for (int i = 0; i < 300; i++) {
     recto_options options = plain_options();
-    options.page_width_mm = random_between(&random, 30, 2000);
-    options.page_height_mm = random_between(&random, 30, 2000);
-    options.margin_mm = random_between(&random, 0, 14);
-    options.azimuth_deg = random_between(&random, 0, 360);
-    options.elevation_deg = random_between(&random, -90, 90);
-    options.fov_deg = i % 2 ? random_between(&random, 1, 120) : 0;
+    options.page.width_mm = random_between(&random, 30, 2000);
+    options.page.height_mm = random_between(&random, 30, 2000);
+    options.page.margin_mm = random_between(&random, 0, 14);
+    options.camera.azimuth_deg = random_between(&random, 0, 360);
+    options.camera.elevation_deg = random_between(&random, -90, 90);
+    options.camera.fov_deg = i % 2 ? random_between(&random, 1, 120) : 0;
     if (i % 4 > 1)
       eye_at(&options, 9 + i, 11, random_between(&random, -20, 20));
     struct camera camera = aim(&scene, &options);
-    assert_fits(&camera, &scene, options.margin_mm);
+    assert_fits(&camera, &scene, options.page.margin_mm);
     for (size_t p = 0; p < scene.point.count; p++) {
       double d = see_point(&camera, &scene, p).d;
       assert_true(d >= camera.near_d);
@@ -348,11 +348,11 @@ static void without_fit_fov_spans_the_printable_height(void **state) {
   struct scene scene;
   fill_box(&scene);
   recto_options options = plain_options();
-  options.fit = RECTO_FIT_NONE;
-  options.fov_deg = 40;
+  options.camera.fit = RECTO_FIT_NONE;
+  options.camera.fov_deg = 40;
   eye_at(&options, 3, 5, 30);
   target_at(&options, 3, 5, 0);
-  options.up[1] = 1;
+  options.camera.up[1] = 1;
   struct camera camera = aim(&scene, &options);
   double s = (100 - 2 * 10) / (2 * tan(20 * acos(-1) / 180));
   assert_near(camera.s, s, s * 4e-16);
@@ -374,14 +374,15 @@ static void without_fit_an_orthographic_view_is_true_to_scale(void **state) {
   struct scene scene;
   fill_box(&scene);
   recto_options options = plain_options();
-  options.fit = RECTO_FIT_NONE;
-  options.azimuth_deg = options.elevation_deg = 0;
+  options.camera.fit = RECTO_FIT_NONE;
+  options.camera.azimuth_deg = options.camera.elevation_deg = 0;
   target_at(&options, 1, 2, 1e3);
   struct camera camera = aim(&scene, &options);
   struct seen seen = see(&camera, 2, 4, 0);
   assert_near(seen.x_mm, 101, 1e-12);
   assert_near(seen.y_mm, 52, 1e-12);
-  options.has_target = false; /* the middle of the scene is 0.5, 1, 0.25 */
+  options.camera.has_target =
+      false; /* the middle of the scene is 0.5, 1, 0.25 */
   camera = aim(&scene, &options);
   seen = see(&camera, 0.5, 1, 9);
   assert_near(seen.x_mm, 100, 1e-12);
@@ -394,11 +395,11 @@ static void a_scale_is_kept_at_the_target(void **state) {
   struct scene scene;
   fill_box(&scene);
   recto_options options = plain_options();
-  options.fit = RECTO_FIT_SCALE;
-  options.scale = 2.5;
-  options.azimuth_deg = 37;
+  options.camera.fit = RECTO_FIT_SCALE;
+  options.camera.scale = 2.5;
+  options.camera.azimuth_deg = 37;
   for (int perspective = 0; perspective < 2; perspective++) {
-    options.fov_deg = perspective ? 50 : 0;
+    options.camera.fov_deg = perspective ? 50 : 0;
     target_at(&options, 1, 2, 0);
     struct camera camera = aim(&scene, &options);
     struct seen seen = see(&camera, 1, 2, 0);
@@ -419,11 +420,11 @@ static void a_perspective_direction_takes_the_whole_scene_in(void **state) {
   fill_box(&scene);
   for (int i = 0; i < 100; i++) {
     recto_options options = plain_options();
-    options.fit = RECTO_FIT_NONE;
-    options.page_width_mm = 100;
-    options.fov_deg = random_between(&random, 1, 170);
-    options.azimuth_deg = random_between(&random, 0, 360);
-    options.elevation_deg = random_between(&random, -90, 90);
+    options.camera.fit = RECTO_FIT_NONE;
+    options.page.width_mm = 100;
+    options.camera.fov_deg = random_between(&random, 1, 170);
+    options.camera.azimuth_deg = random_between(&random, 0, 360);
+    options.camera.elevation_deg = random_between(&random, -90, 90);
     struct camera camera = aim(&scene, &options);
     struct rectangle r = rectangle_of(&camera, &scene);
     for (int k = 0; k < 2; k++)
@@ -440,7 +441,7 @@ static void an_eye_in_front_of_the_scene_clips_nothing(void **state) {
   struct scene scene;
   fill_box(&scene);
   recto_options options = plain_options();
-  options.fov_deg = 30;
+  options.camera.fov_deg = 30;
   eye_at(&options, 0, 0, 20);
   target_at(&options, 0, 0, 0);
   struct camera camera = aim(&scene, &options);
@@ -473,9 +474,9 @@ static void a_near_distance_counts_from_the_eye(void **state) {
   struct scene scene;
   fill_box(&scene);
   recto_options options = plain_options();
-  options.near_distance = 18;
+  options.camera.near_distance = 18;
   for (int perspective = 0; perspective < 2; perspective++) {
-    options.fov_deg = perspective ? 30 : 0;
+    options.camera.fov_deg = perspective ? 30 : 0;
     eye_at(&options, 0, 0, 20);
     target_at(&options, 0, 0, 0);
     struct camera camera = aim(&scene, &options);
@@ -491,17 +492,17 @@ static void a_section_counts_from_the_eye_or_the_nearest_point(void **state) {
   struct scene scene;
   fill_box(&scene);
   recto_options options = plain_options();
-  options.has_section = true;
-  options.section = 2.5;
-  options.azimuth_deg = options.elevation_deg = 0;
+  options.camera.has_section = true;
+  options.camera.section = 2.5;
+  options.camera.azimuth_deg = options.camera.elevation_deg = 0;
   for (int perspective = 0; perspective < 2; perspective++) {
-    options.fov_deg = perspective ? 30 : 0;
+    options.camera.fov_deg = perspective ? 30 : 0;
     struct camera camera = aim(&scene, &options);
     assert_near(camera.near_d, see(&camera, 0, 0, 1).d, 1e-12);
   }
-  options.section = 21;
+  options.camera.section = 21;
   for (int perspective = 0; perspective < 2; perspective++) {
-    options.fov_deg = perspective ? 30 : 0;
+    options.camera.fov_deg = perspective ? 30 : 0;
     eye_at(&options, 0, 0, 20);
     target_at(&options, 0, 0, 0);
     struct camera camera = aim(&scene, &options);
@@ -537,27 +538,27 @@ static void what_makes_no_sense_is_refused(void **state) {
     change;                                                                    \
     assert_refused(&scene, &o, RECTO_ERROR_ARGUMENT);                          \
   } while (0)
-  REFUSED(o.page_width_mm = 0);
-  REFUSED(o.page_height_mm = -1);
-  REFUSED(o.page_width_mm = NAN);
-  REFUSED(o.page_height_mm = 2000.5);
-  REFUSED(o.margin_mm = 50);
-  REFUSED(o.margin_mm = NAN);
-  REFUSED(o.fov_deg = 180);
-  REFUSED(o.fov_deg = -1);
-  REFUSED(o.fov_deg = NAN);
-  REFUSED(o.azimuth_deg = INFINITY);
-  REFUSED(o.elevation_deg = NAN);
-  REFUSED(o.up[0] = NAN);
-  REFUSED(o.near_distance = -1);
-  REFUSED(o.has_section = true; o.section = NAN);
-  REFUSED(o.contact = NAN);
-  REFUSED(o.fit = RECTO_FIT_SCALE; o.scale = 0);
-  REFUSED(o.fit = RECTO_FIT_SCALE; o.scale = INFINITY);
+  REFUSED(o.page.width_mm = 0);
+  REFUSED(o.page.height_mm = -1);
+  REFUSED(o.page.width_mm = NAN);
+  REFUSED(o.page.height_mm = 2000.5);
+  REFUSED(o.page.margin_mm = 50);
+  REFUSED(o.page.margin_mm = NAN);
+  REFUSED(o.camera.fov_deg = 180);
+  REFUSED(o.camera.fov_deg = -1);
+  REFUSED(o.camera.fov_deg = NAN);
+  REFUSED(o.camera.azimuth_deg = INFINITY);
+  REFUSED(o.camera.elevation_deg = NAN);
+  REFUSED(o.camera.up[0] = NAN);
+  REFUSED(o.camera.near_distance = -1);
+  REFUSED(o.camera.has_section = true; o.camera.section = NAN);
+  REFUSED(o.solver.contact = NAN);
+  REFUSED(o.camera.fit = RECTO_FIT_SCALE; o.camera.scale = 0);
+  REFUSED(o.camera.fit = RECTO_FIT_SCALE; o.camera.scale = INFINITY);
   REFUSED(eye_at(&o, 1, 2, 3); target_at(&o, 1, 2, 3));
   REFUSED(eye_at(&o, 0.5, 1, 0.25)); /* the middle of the scene */
-  REFUSED(eye_at(&o, 0, 9, 0); target_at(&o, 0, 0, 0); o.up[1] = 2);
-  REFUSED(eye_at(&o, 1e-9, 9, 0); target_at(&o, 0, 0, 0); o.up[1] = 2);
+  REFUSED(eye_at(&o, 0, 9, 0); target_at(&o, 0, 0, 0); o.camera.up[1] = 2);
+  REFUSED(eye_at(&o, 1e-9, 9, 0); target_at(&o, 0, 0, 0); o.camera.up[1] = 2);
 #undef REFUSED
   scene_fini(&scene);
 }
@@ -572,11 +573,11 @@ static void an_empty_view_is_reported(void **state) {
   assert_refused(&scene, &options, RECTO_ERROR_EMPTY);
   scene_fini(&scene);
   fill_box(&scene);
-  options.has_section = true;
-  options.section = 100;
+  options.camera.has_section = true;
+  options.camera.section = 100;
   assert_refused(&scene, &options, RECTO_ERROR_EMPTY);
-  options.has_section = false;
-  options.fov_deg = 30;
+  options.camera.has_section = false;
+  options.camera.fov_deg = 30;
   eye_at(&options, 0, 0, 20);
   target_at(&options, 0, 0, 40);
   assert_refused(&scene, &options, RECTO_ERROR_EMPTY);
@@ -612,10 +613,10 @@ static void a_far_eye_sees_what_an_orthographic_one_does(void **state) {
     double far = ldexp(1, e);
     eye_at(&options, -0.5 + far * 1.5, far * 2, 0.25 + far * 2.75);
     target_at(&options, 0, 0, 0.25);
-    options.fov_deg = 30;
+    options.camera.fov_deg = 30;
     struct camera camera = aim(&scene, &options);
     eye_at(&options, 1.5, 2, 3);
-    options.fov_deg = 0;
+    options.camera.fov_deg = 0;
     struct camera level = aim(&scene, &options);
     for (size_t p = 0; p < scene.point.count; p++) {
       struct seen near = see_point(&level, &scene, p);
@@ -634,8 +635,8 @@ static void a_far_eye_keeps_scale_and_distances(void **state) {
   fill_box(&scene); /* z from -3 to 0.5 */
   recto_options options = plain_options();
   const double far = 0x1p40;
-  options.fov_deg = 1e-9;
-  options.fit = RECTO_FIT_NONE;
+  options.camera.fov_deg = 1e-9;
+  options.camera.fit = RECTO_FIT_NONE;
   eye_at(&options, 0, 0, far);
   target_at(&options, 0, 0, 0);
   struct camera camera = aim(&scene, &options);
@@ -643,16 +644,16 @@ static void a_far_eye_keeps_scale_and_distances(void **state) {
   double height = 2 * far * tan(acos(-1) / 180 * 0.5e-9);
   assert_near(camera.s / (80 / height), 1, 1e-9);
   assert_near(see(&camera, 0, 0, 0).x_mm, 100, 1e-9);
-  options.fit = RECTO_FIT_SCALE;
-  options.scale = 7;
+  options.camera.fit = RECTO_FIT_SCALE;
+  options.camera.scale = 7;
   assert_near(aim(&scene, &options).s, 7, 1e-9);
-  options.has_section = true;
-  options.section = far + 1;
+  options.camera.has_section = true;
+  options.camera.section = far + 1;
   camera = aim(&scene, &options);
   assert_near(camera.near_d - see(&camera, 0, 0, 0).d, 1, 1e-3);
-  options.has_section = false;
-  options.camera = RECTO_CAMERA_DIRECTION;
-  options.near_distance = 1; /* from an eye as far, so nothing is cut */
+  options.camera.has_section = false;
+  options.camera.kind = RECTO_CAMERA_DIRECTION;
+  options.camera.near_distance = 1; /* from an eye as far, so nothing is cut */
   camera = aim(&scene, &options);
   assert_false(camera.perspective);
   assert_true(camera.near_d < camera.d_min);
@@ -665,7 +666,7 @@ static void a_far_eye_must_look_at_the_scene(void **state) {
   struct scene scene;
   fill_box(&scene);
   recto_options options = plain_options();
-  options.fov_deg = 30;
+  options.camera.fov_deg = 30;
   eye_at(&options, 0, 0, 1e15);
   target_at(&options, 0.5, 0, 0);
   (void)aim(&scene, &options);
@@ -686,8 +687,8 @@ static void an_eye_right_above_sees_the_view_from_the_top(void **state) {
     for (int sign = -1; sign <= 1; sign += 2) {
       memcpy(scene.up, up[i], sizeof scene.up);
       recto_options_init(&options);
-      options.azimuth_deg = 0;
-      options.elevation_deg = sign * 90;
+      options.camera.azimuth_deg = 0;
+      options.camera.elevation_deg = sign * 90;
       struct camera top = aim(&scene, &options);
       target_at(&options, 0, 0, 0);
       eye_at(&options, sign * 9 * up[i][0], sign * 9 * up[i][1],
@@ -712,11 +713,11 @@ static void contact_follows_the_precision_by_default(void **state) {
   assert_true(camera.contact < 0);
   assert_true(camera.unstated.relative == 0x1p-24);
   assert_true(camera.contact_most > 0 && camera.contact_most < 1e-5);
-  options.coordinate_bits = 53;
+  options.mesh.coordinate_bits = 53;
   assert_true(aim(&scene, &options).contact_most == 0);
-  options.contact = 0;
+  options.solver.contact = 0;
   assert_true(aim(&scene, &options).contact == 0);
-  options.contact = 0.25;
+  options.solver.contact = 0.25;
   assert_true(aim(&scene, &options).contact == 0.25);
   scene_fini(&scene);
 }
@@ -730,9 +731,9 @@ static void a_single_wire_fits_from_wherever_it_is_seen(void **state) {
       for (int perspective = 0; perspective < 2; perspective++) {
         struct scene scene;
         recto_options options = plain_options();
-        options.azimuth_deg = azimuth;
-        options.elevation_deg = 0;
-        options.fov_deg = perspective ? 30 : 0;
+        options.camera.azimuth_deg = azimuth;
+        options.camera.elevation_deg = 0;
+        options.camera.fov_deg = perspective ? 30 : 0;
         scene_init(&scene);
         build_group(&scene, "wire");
         build_segment(&scene, build_point(&scene, 7, 7, 7),
@@ -753,7 +754,7 @@ static void a_plate_seen_edge_on_fits_by_its_other_extent(void **state) {
   (void)state;
   struct scene scene;
   recto_options options = plain_options();
-  options.azimuth_deg = options.elevation_deg = 0;
+  options.camera.azimuth_deg = options.camera.elevation_deg = 0;
   scene_init(&scene);
   build_parallelogram(&scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
                       vector_of(0, 0, 3));
@@ -772,16 +773,16 @@ static void powers_of_two_change_no_bit_of_the_page(void **state) {
     recto_options_init(&options);
     scene_init(&scene);
     entry->fill(&scene, &options);
-    if (options.fit == RECTO_FIT_PAGE) {
+    if (options.camera.fit == RECTO_FIT_PAGE) {
       struct camera before = aim(&scene, &options);
       const double factor = 0x1p-20;
       scenes_scale(&scene, factor, vector_of(0, 0, 0));
       for (int k = 0; k < 3; k++) {
-        options.eye[k] *= factor;
-        options.target[k] *= factor;
+        options.camera.eye[k] *= factor;
+        options.camera.target[k] *= factor;
       }
-      options.near_distance *= factor;
-      options.section *= factor;
+      options.camera.near_distance *= factor;
+      options.camera.section *= factor;
       struct camera after = aim(&scene, &options);
       assert_memory_equal(before.back, after.back, sizeof before.back);
       assert_memory_equal(before.right, after.right, sizeof before.right);
@@ -807,8 +808,8 @@ static void units_and_places_move_nothing_on_the_page(void **state) {
     for (int i = 0; i < 4; i++) {
       struct scene scene;
       recto_options options = plain_options();
-      options.azimuth_deg = 31;
-      options.fov_deg = perspective ? 30 : 0;
+      options.camera.azimuth_deg = 31;
+      options.camera.fov_deg = perspective ? 30 : 0;
       fill_box(&scene);
       struct camera before = aim(&scene, &options);
       struct seen seen[8];
@@ -834,8 +835,8 @@ static void the_matrix_is_the_camera(void **state) {
   fill_box(&scene);
   for (int perspective = 0; perspective < 2; perspective++) {
     recto_options options = plain_options();
-    options.azimuth_deg = 31;
-    options.fov_deg = perspective ? 30 : 0;
+    options.camera.azimuth_deg = 31;
+    options.camera.fov_deg = perspective ? 30 : 0;
     struct camera camera = aim(&scene, &options);
     double m[12];
     camera_matrix(&camera, m);

@@ -191,8 +191,8 @@ static void writing_may_be_cancelled_and_leaves_what_was(void **state) {
   int calls = 1000;
   options.progress = stop_writing;
   options.user = &calls;
-  options.fill = RECTO_FILL_HATCH; /* more than one buffer of SVG */
-  options.hatch_pitch_mm = 0.02;
+  options.ink.fill = RECTO_FILL_HATCH; /* more than one buffer of SVG */
+  options.ink.hatch_pitch_mm = 0.02;
   recto_drawing *drawing;
   assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
                    RECTO_OK);

@@ -94,10 +94,10 @@ static double length_of(void (*add)(struct scene *), int azimuth,
   struct pipeline pipeline;
   recto_options options;
   recto_options_init(&options);
-  options.min_stroke_mm = 0;
-  options.unit_mm = 1e-3; /* SVG's: a wall against a wall is one line */
-  options.azimuth_deg = azimuth;
-  options.elevation_deg = 31;
+  options.ink.min_stroke_mm = 0;
+  options.output.unit_mm = 1e-3; /* SVG's: a wall against a wall is one line */
+  options.camera.azimuth_deg = azimuth;
+  options.camera.elevation_deg = 31;
   scene_init(&scene);
   scene.up[1] = 0;
   scene.up[2] = 1;

@@ -33,9 +33,9 @@ static void solvers_agree_on_2000_random_small_scenes(void **state) {
     recto_options_init(&options);
     scene_init(&scene);
     scenes_small(&scene, &options, seed);
-    options.min_stroke_mm = 0;
-    options.precision = 6;
-    options.threads = 1;
+    options.ink.min_stroke_mm = 0;
+    options.output.precision = 6;
+    options.solver.threads = 1;
     failures_assert_agree(&scene, &options, name);
     scene_fini(&scene);
   }

@@ -16,11 +16,11 @@ static const struct solver *const quick[] = {&solver_tiles, &solver_newell,
 static void start(struct scene *scene, recto_options *options) {
   recto_options_init(options);
   scene_init(scene);
-  options->edges = RECTO_EDGES_ALL;
-  options->min_stroke_mm = 0;
-  options->precision = 6;
-  options->threads = 1;
-  options->ids = true;
+  options->ink.edges = RECTO_EDGES_ALL;
+  options->ink.min_stroke_mm = 0;
+  options->output.precision = 6;
+  options->solver.threads = 1;
+  options->ink.ids = true;
 }
 
 /* Draws by every method what brute draws, lines and faces, and ends the
@@ -29,7 +29,7 @@ static void agree(struct scene *scene, recto_options *options,
                   const char *what) {
   size_t length;
   for (int fill = 0; fill < 2; fill++) {
-    options->fill = fill ? RECTO_FILL_PAINT : RECTO_FILL_NONE;
+    options->ink.fill = fill ? RECTO_FILL_PAINT : RECTO_FILL_NONE;
     char *right = pipeline_draw(scene, options, &solver_brute, &length);
     for (const struct solver *const *s = quick; *s != NULL; s++) {
       char *text = pipeline_draw(scene, options, *s, &length);
@@ -49,7 +49,7 @@ static void duplicates_are_drawn_as_by_brute(void **state) {
   for (int eye = 0; eye < 2; eye++) {
     start(&scene, &options);
     scenes_duplicates(&scene, &options, 400, true, 0);
-    options.fov_deg = eye ? 40 : 0;
+    options.camera.fov_deg = eye ? 40 : 0;
     agree(&scene, &options, "duplicates");
   }
 }

@@ -184,8 +184,8 @@ static void no_seam_shows_between_fills(void **state) {
     recto_options options;
     struct pipeline p;
     pipeline_fill(&scene, &options, e);
-    options.fill = RECTO_FILL_SHADE;
-    options.edges = RECTO_EDGES_NONE;
+    options.ink.fill = RECTO_FILL_SHADE;
+    options.ink.edges = RECTO_EDGES_NONE;
     pipeline_run(&p, &scene, &options, solver_by_name("tiles"));
     if (p.status == RECTO_OK && p.drawing.fill.count > 0) {
       blacken_page(&p.drawing);

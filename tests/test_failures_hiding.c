@@ -74,11 +74,11 @@ static void no_face_hides_its_own_edge(void **state) {
     struct scene scene;
     recto_options options;
     pipeline_fill(&scene, &options, scenes_find(solid[i % 2]));
-    options.azimuth_deg = random_between(&random, 0, 360);
-    options.elevation_deg =
+    options.camera.azimuth_deg = random_between(&random, 0, 360);
+    options.camera.elevation_deg =
         asin(random_between(&random, -1, 1)) * 180 / acos(-1);
-    options.edges = RECTO_EDGES_ALL;
-    options.hidden = RECTO_HIDDEN_LAYER;
+    options.ink.edges = RECTO_EDGES_ALL;
+    options.ink.hidden = RECTO_HIDDEN_LAYER;
     check_convex(&scene, &options);
     scene_fini(&scene);
   }
@@ -116,7 +116,7 @@ static void a_cube_seen_square_on_keeps_its_outline(void **state) {
     scene_init(&scene);
     scenes_cube(&scene, &options, turn < 5e-13 ? 0 : turn);
     scenes_view_direction(&options, 0, 0);
-    options.min_stroke_mm = 0;
+    options.ink.min_stroke_mm = 0;
     run(&pipeline, &scene, &options);
     /* Four sides of 90 mm; a fifth line once the turned side opens. */
     double drawn = pipeline_length(&pipeline, RECTO_EDGES_ALL, false);
@@ -137,14 +137,14 @@ static void pierced_scenes_have_their_exact_areas(void **state) {
   recto_options options;
   struct pipeline pipeline;
   pipeline_fill(&scene, &options, scenes_find("pierced rectangle"));
-  options.fill = RECTO_FILL_PAINT;
+  options.ink.fill = RECTO_FILL_PAINT;
   run(&pipeline, &scene, &options);
   failures_assert_near(failures_area(&pipeline, 0), 275, 1e-7, "1");
   failures_assert_near(failures_area(&pipeline, 1), 25 + 100 / 3.0, 1e-7, "2");
   pipeline_fini(&pipeline);
   scene_fini(&scene);
   pipeline_fill(&scene, &options, scenes_find("two rectangles"));
-  options.fill = RECTO_FILL_PAINT;
+  options.ink.fill = RECTO_FILL_PAINT;
   run(&pipeline, &scene, &options);
   failures_assert_near(failures_area(&pipeline, 0), 1175 / 4.0, 1e-7, "1");
   failures_assert_near(failures_area(&pipeline, 1), 178 / 3.0, 1e-7, "2");
@@ -165,7 +165,7 @@ static void lines_where_faces_pierce_are_drawn(void **state) {
       pipeline_length(&pipeline, RECTO_EDGE_INTERSECTION, false),
       hypot(2.5, 7.5), 1e-5, "intersection");
   pipeline_fini(&pipeline);
-  options.edges &= ~(unsigned)RECTO_EDGE_INTERSECTION;
+  options.ink.edges &= ~(unsigned)RECTO_EDGE_INTERSECTION;
   run(&pipeline, &scene, &options);
   assert_true(pipeline_length(&pipeline, RECTO_EDGE_INTERSECTION, false) == 0);
   pipeline_fini(&pipeline);
@@ -191,7 +191,7 @@ static void each_bar_of_a_cycle_is_cut_in_two(void **state) {
     recto_options_init(&options);
     scene_init(&scene);
     scenes_cycle(&scene, &options, n);
-    options.fill = RECTO_FILL_PAINT;
+    options.ink.fill = RECTO_FILL_PAINT;
     run(&pipeline, &scene, &options);
     count_fragments(&pipeline, fragments, n);
     for (unsigned i = 0; i < n; i++)
@@ -219,11 +219,11 @@ static void a_field_of_100_cycles_is_100_times_one(void **state) {
   scene_init(&scene_field);
   scenes_cycle(&scene_one, &options, 3);
   scenes_cycle_field(&scene_field, &options, 10);
-  options.fill = RECTO_FILL_PAINT;
-  options.fit = RECTO_FIT_SCALE;
-  options.scale = 1.5;
-  options.eye[0] = options.target[0] = 24.75;
-  options.eye[1] = options.target[1] = 24.75;
+  options.ink.fill = RECTO_FILL_PAINT;
+  options.camera.fit = RECTO_FIT_SCALE;
+  options.camera.scale = 1.5;
+  options.camera.eye[0] = options.camera.target[0] = 24.75;
+  options.camera.eye[1] = options.camera.target[1] = 24.75;
   run(&one, &scene_one, &options);
   run(&field, &scene_field, &options);
   assert_int_equal(field.map.fragment.count, 100 * one.map.fragment.count);
@@ -282,7 +282,7 @@ static void areas_of_1000_sticks_add_up_to_their_union(void **state) {
   recto_options_init(&options);
   scene_init(&scene);
   scenes_sticks(&scene, &options, sticks, 3);
-  options.fill = RECTO_FILL_PAINT;
+  options.ink.fill = RECTO_FILL_PAINT;
   run(&pipeline, &scene, &options);
   double matrix[12], area = 0;
   camera_matrix(&pipeline.camera, matrix);
@@ -336,7 +336,7 @@ static void check_against_raster(const char *name, unsigned n) {
   struct judge_camera camera;
   struct judge_raster exact, raster;
   pipeline_fill(&scene, &options, scenes_find(name));
-  options.fill = RECTO_FILL_PAINT;
+  options.ink.fill = RECTO_FILL_PAINT;
   run(&pipeline, &scene, &options);
   failures_camera(&camera, &pipeline);
   judge_raster_init(&exact, n, 100);
@@ -381,7 +381,7 @@ static void a_doubled_mesh_is_drawn_once(void **state) {
   once.face_group.count = half;
   once.face_start.count = half + 1;
   once.corner.count = once.face_start.item[half];
-  options.fill = RECTO_FILL_PAINT;
+  options.ink.fill = RECTO_FILL_PAINT;
   run(&pipeline, &twice, &options);
   run(&alone, &once, &options);
   for (uint32_t i = 0; i < half; i++) {
@@ -404,7 +404,7 @@ static void two_colours_in_one_plane_keep_their_areas(void **state) {
   recto_options options;
   struct pipeline pipeline;
   pipeline_fill(&scene, &options, scenes_find("two colours"));
-  options.fill = RECTO_FILL_PAINT;
+  options.ink.fill = RECTO_FILL_PAINT;
   run(&pipeline, &scene, &options);
   double field = failures_area(&pipeline, 0);
   assert_true(field > 1);
@@ -425,7 +425,7 @@ static void check_turned(void (*fill)(struct scene *, recto_options *, double),
     recto_options_init(&options);
     scene_init(&scene);
     fill(&scene, &options, turn);
-    options.min_stroke_mm = 0;
+    options.ink.min_stroke_mm = 0;
     run(&pipeline, &scene, &options);
     double length = pipeline_length(&pipeline, RECTO_EDGES_ALL, false);
     if (turn == 0)

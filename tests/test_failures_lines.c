@@ -37,7 +37,7 @@ static double fighting_share(const struct solver *solver, int lines, int bits,
   recto_options_init(&options);
   scene_init(&scene);
   scenes_near_sheets(&scene, &options, gap);
-  options.depth_bits = bits;
+  options.solver.depth_bits = bits;
   trial_run(&trial, &scene, &options, solver, lines, TRIAL_FRAGMENTS);
   assert_int_equal(trial.status, RECTO_OK);
   share = (area_of(&trial.map, FAR) / (trial.camera.s * trial.camera.s) -
@@ -206,8 +206,8 @@ static void a_section_cuts_away_what_is_nearer(void **state) {
   build_parallelogram(&scene, vector_of(0, 0, -1), vector_of(100, 0, 0),
                       vector_of(0, 100, 0));
   scenes_view_page(&options, 100, 100);
-  options.has_section = true;
-  options.section = 1000 - 4; /* from the eye */
+  options.camera.has_section = true;
+  options.camera.section = 1000 - 4; /* from the eye */
   for (size_t m = 0; m < sizeof name / sizeof *name; m++) {
     const struct solver *solver = solver_by_name(name[m]);
     struct trial trial;

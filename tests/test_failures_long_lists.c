@@ -15,10 +15,10 @@ static void fill_needles(struct scene *scene, recto_options *options,
   recto_options_init(options);
   scene_init(scene);
   scenes_needles(scene, options, kind, n, 7 + kind);
-  options->edges = RECTO_EDGES_ALL;
-  options->min_stroke_mm = 0;
-  options->precision = 6;
-  options->threads = 1;
+  options->ink.edges = RECTO_EDGES_ALL;
+  options->ink.min_stroke_mm = 0;
+  options->output.precision = 6;
+  options->solver.threads = 1;
 }
 
 /* The pairs tested, of edges with triangles and of triangles. */
@@ -80,7 +80,7 @@ static void a_bellows_of_1300_is_the_same_by_all(void **state) {
   recto_options_init(&options);
   scene_init(&scene);
   scenes_fan(&scene, &options, 1300);
-  options.threads = 1;
+  options.solver.threads = 1;
   char *tiles = pipeline_draw(&scene, &options, &solver_tiles, &length);
   char *brute = pipeline_draw(&scene, &options, &solver_brute, &length);
   assert_string_equal(tiles, brute);
@@ -102,10 +102,10 @@ static void check_soup(unsigned n, const struct solver *const *solver) {
   recto_options_init(&options);
   scene_init(&scene);
   scenes_soup(&scene, &options, n, 3);
-  options.edges = RECTO_EDGES_ALL;
-  options.min_stroke_mm = 0;
-  options.precision = 6;
-  options.threads = 1;
+  options.ink.edges = RECTO_EDGES_ALL;
+  options.ink.min_stroke_mm = 0;
+  options.output.precision = 6;
+  options.solver.threads = 1;
   for (; *solver != NULL; solver++) {
     char *text = pipeline_draw(&scene, &options, *solver, &length);
     if (first == NULL)

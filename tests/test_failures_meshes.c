@@ -82,7 +82,7 @@ static void flawed_faces_are_drawn_as_the_judge_sees_them(void **state) {
     struct scene scene;
     recto_options options;
     pipeline_fill(&scene, &options, scenes_find(name[i]));
-    failures_assert_judged(&scene, &options, options.edges, name[i]);
+    failures_assert_judged(&scene, &options, options.ink.edges, name[i]);
     scene_fini(&scene);
   }
 }
@@ -157,7 +157,7 @@ static void no_split_is_drawn(void **state) {
                  (RECTO_EDGE_BORDER | RECTO_EDGE_INTERSECTION)) != 0);
   pipeline_fini(&pipeline);
   /* And each of its points lies on a border or an intersection. */
-  failures_assert_judged(&scene, &options, options.edges, "split faces");
+  failures_assert_judged(&scene, &options, options.ink.edges, "split faces");
   scene_fini(&scene);
 }
 

@@ -81,8 +81,8 @@ static void memory_grows_with_the_faces_and_no_faster(void **state) {
 /* Scenes that are seen from a direction and fitted to the page: their unit
  * must not matter.  Those whose contact is set in units are left out. */
 static bool has_no_unit(const recto_options *options) {
-  return options->camera == RECTO_CAMERA_DIRECTION &&
-         options->fit == RECTO_FIT_PAGE && options->contact < 0;
+  return options->camera.kind == RECTO_CAMERA_DIRECTION &&
+         options->camera.fit == RECTO_FIT_PAGE && options->solver.contact < 0;
 }
 
 static void a_power_of_two_in_scale_changes_no_byte(void **state) {
@@ -194,7 +194,7 @@ static void drawing_twice_gives_the_same_bytes(void **state) {
     struct scene scene;
     recto_options options;
     pipeline_fill(&scene, &options, entry);
-    options.hidden = RECTO_HIDDEN_LAYER;
+    options.ink.hidden = RECTO_HIDDEN_LAYER;
     char *one = draw(&scene, &options), *two = draw(&scene, &options);
     assert_string_equal(one, two);
     mem_free(one);
@@ -211,7 +211,7 @@ static void the_number_of_threads_changes_no_byte(void **state) {
     pipeline_fill(&scene, &options, entry);
     char *one = draw(&scene, &options);
     for (int threads = 2; threads <= 7; threads += 5) {
-      options.threads = threads;
+      options.solver.threads = threads;
       char *more = draw(&scene, &options);
       if (strcmp(one, more) != 0)
         fail_msg("%s: %d threads draw differently", entry->name, threads);

@@ -29,22 +29,22 @@ static const struct view views[] = {
 static recto_options options_of(const struct view *view) {
   recto_options options;
   recto_options_init(&options);
-  options.edges = RECTO_EDGES_ALL;
-  options.ids = true;
-  options.min_stroke_mm = 0;
+  options.ink.edges = RECTO_EDGES_ALL;
+  options.ink.ids = true;
+  options.ink.min_stroke_mm = 0;
   options.verify = 400;
-  options.azimuth_deg = view->azimuth;
-  options.elevation_deg = view->elevation;
-  options.fit = view->scale > 0 ? RECTO_FIT_SCALE : RECTO_FIT_NONE;
-  options.has_target = true;
+  options.camera.azimuth_deg = view->azimuth;
+  options.camera.elevation_deg = view->elevation;
+  options.camera.fit = view->scale > 0 ? RECTO_FIT_SCALE : RECTO_FIT_NONE;
+  options.camera.has_target = true;
   if (view->scale > 0) {
-    options.scale = view->scale;
+    options.camera.scale = view->scale;
     return options;
   }
-  options.camera = RECTO_CAMERA_EYE;
-  memcpy(options.eye, view->eye, sizeof options.eye);
-  memcpy(options.target, view->target, sizeof options.target);
-  options.fov_deg = view->fov;
+  options.camera.kind = RECTO_CAMERA_EYE;
+  memcpy(options.camera.eye, view->eye, sizeof options.camera.eye);
+  memcpy(options.camera.target, view->target, sizeof options.camera.target);
+  options.camera.fov_deg = view->fov;
   return options;
 }
 
@@ -178,20 +178,20 @@ static void faces_clipped_by_the_near_plane_are_reported(void **state) {
   corner[2] = add_point(scene, 0, 4, 10);
   assert_int_equal(recto_scene_add_face(scene, corner, 3, NULL), RECTO_OK);
   recto_options_init(&options);
-  options.camera = RECTO_CAMERA_EYE;
-  options.fit = RECTO_FIT_NONE;
-  options.fov_deg = 60;
-  options.eye[1] = 1e-5 - 0.5;
-  options.has_target = true;
-  options.target[1] = -0.5;
-  options.target[2] = -10;
+  options.camera.kind = RECTO_CAMERA_EYE;
+  options.camera.fit = RECTO_FIT_NONE;
+  options.camera.fov_deg = 60;
+  options.camera.eye[1] = 1e-5 - 0.5;
+  options.camera.has_target = true;
+  options.camera.target[1] = -0.5;
+  options.camera.target[2] = -10;
   options.warning = count_warning;
   options.user = &warnings;
   assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
                    RECTO_OK);
   recto_drawing_destroy(drawing);
   assert_int_equal(warnings, 1);
-  options.near_distance = 1e-3;
+  options.camera.near_distance = 1e-3;
   assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
                    RECTO_OK);
   recto_drawing_destroy(drawing);

@@ -83,13 +83,13 @@ static bool hatch(struct pipeline *pipeline, recto_options *options,
   scene_init(&scene);
   bool there = scene_read(&scene, path, NULL, &silent, NULL) == RECTO_OK;
   recto_options_init(options);
-  options->azimuth_deg = 30;
-  options->elevation_deg = 25;
-  options->fill = RECTO_FILL_HATCH;
-  options->edges = RECTO_EDGES_NONE;
-  options->hatch_pitch_mm = pitch;
-  options->hatch_angle_deg = 0;
-  options->min_stroke_mm = 0;
+  options->camera.azimuth_deg = 30;
+  options->camera.elevation_deg = 25;
+  options->ink.fill = RECTO_FILL_HATCH;
+  options->ink.edges = RECTO_EDGES_NONE;
+  options->ink.hatch_pitch_mm = pitch;
+  options->ink.hatch_angle_deg = 0;
+  options->ink.min_stroke_mm = 0;
   if (there) {
     pipeline_run(pipeline, &scene, options, &solver_tiles);
     assert_int_equal(pipeline->status, RECTO_OK);
@@ -164,13 +164,13 @@ static void the_angle_of_hatching_changes_no_length(void **state) {
     recto_options options;
     double along;
     recto_options_init(&options);
-    options.fill = RECTO_FILL_HATCH;
-    options.edges = RECTO_EDGES_NONE;
-    options.hatch_angle_deg = angle;
-    options.min_stroke_mm = 0;
+    options.ink.fill = RECTO_FILL_HATCH;
+    options.ink.edges = RECTO_EDGES_NONE;
+    options.ink.hatch_angle_deg = angle;
+    options.ink.min_stroke_mm = 0;
     pipeline_run(&pipeline, &scene, &options, &solver_tiles);
     find_lines(&pipeline.drawing, &along);
-    double want = visible_area(&pipeline.map) / options.hatch_pitch_mm;
+    double want = visible_area(&pipeline.map) / options.ink.hatch_pitch_mm;
     if (!(fabs(along / want - 1) < 0.01))
       fail_msg("%g degrees: %.1f mm, not %.1f", angle, along, want);
     pipeline_fini(&pipeline);
@@ -186,8 +186,8 @@ static size_t count_strokes(const struct scene *scene, double pitch_mm,
   recto_options options;
   size_t count;
   recto_options_init(&options);
-  options.fill = RECTO_FILL_HATCH;
-  options.pitch_mm = pitch_mm;
+  options.ink.fill = RECTO_FILL_HATCH;
+  options.solver.pitch_mm = pitch_mm;
   pipeline_run(&pipeline, scene, &options, &solver_watkins);
   assert_int_equal(pipeline.status, RECTO_OK);
   count = find_lines(&pipeline.drawing, length);

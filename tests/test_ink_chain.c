@@ -186,7 +186,7 @@ static void hidden_and_visible_are_not_joined(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.hidden = RECTO_HIDDEN_LAYER;
+  k.options.ink.hidden = RECTO_HIDDEN_LAYER;
   ink_fixture_show(&k, ink_fixture_line(&k, 10, 50, 90, 50, CREASE), 0, 1, 2);
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 2);
@@ -199,7 +199,7 @@ static void strokes_of_two_pens_are_not_joined(void **state) {
     struct ink_fixture k;
     ink_fixture_start(&k);
     ink_fixture_group(&k, "other");
-    k.options.pens = pens;
+    k.options.ink.pens = pens;
     ink_fixture_line(&k, 10, 50, 50, 50, CREASE);
     uint32_t edge = ink_fixture_line(&k, 50, 50, 90, 80, CREASE);
     k.sheet.edge.item[edge].group = 1;
@@ -237,7 +237,7 @@ static void with_ids_every_stroke_is_of_one_edge(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.ids = true;
+  k.options.ink.ids = true;
   ink_fixture_group(&k, "other");
   uint32_t p[4];
   for (int i = 0; i < 4; i++)
@@ -262,7 +262,7 @@ static void with_ids_a_polyline_of_the_users_is_one_stroke(void **state) {
   const double first[] = {10, 10, 20, 30, 40, 10}, second[] = {40, 10, 60, 20};
   (void)state;
   ink_fixture_start(&k);
-  k.options.ids = true;
+  k.options.ink.ids = true;
   uint32_t a = ink_fixture_line(&k, 10, 10, 20, 30, WIRE);
   uint32_t b = ink_fixture_line(&k, 20, 30, 40, 10, WIRE);
   uint32_t c = ink_fixture_line(&k, 40, 10, 60, 20, WIRE);
@@ -285,8 +285,8 @@ static void with_ids_the_whole_line_decides_what_is_too_short(void **state) {
   for (int ids = 0; ids < 2; ids++) {
     struct ink_fixture k;
     ink_fixture_start(&k);
-    k.options.ids = ids;
-    k.options.min_stroke_mm = 0.5;
+    k.options.ink.ids = ids;
+    k.options.ink.min_stroke_mm = 0.5;
     uint32_t p = ink_fixture_point(&k, 10, 10);
     for (int i = 1; i <= EDGES; i++) {
       uint32_t q = ink_fixture_point(&k, 10 + 0.4 * i, 10 + i % 2 * 0.1);
@@ -481,7 +481,7 @@ static void same_sheet_gives_the_same_drawing(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.order = RECTO_ORDER_NEAR;
+  k.options.ink.order = RECTO_ORDER_NEAR;
   for (int i = 0; i < 300; i++)
     ink_fixture_line(
         &k, random_int(&random, 0, 20) * 5, random_int(&random, 0, 20) * 5,

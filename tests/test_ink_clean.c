@@ -286,7 +286,7 @@ static void simplify_option_is_in_mm(void **state) {
   for (int on = 0; on < 2; on++) {
     struct ink_fixture k;
     ink_fixture_start(&k);
-    k.options.simplify_mm = on ? 0.5 : 0;
+    k.options.ink.simplify_mm = on ? 0.5 : 0;
     ink_fixture_line(&k, 10, 10, 50, 10.25, CREASE);
     ink_fixture_line(&k, 50, 10.25, 90, 10, CREASE);
     ink_fixture_draw(&k);
@@ -311,7 +311,7 @@ static void strokes_below_half_a_pen_are_dropped(void **state) {
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     struct ink_fixture k;
     ink_fixture_start(&k);
-    k.options.min_stroke_mm = cases[i].minimum;
+    k.options.ink.min_stroke_mm = cases[i].minimum;
     ink_fixture_line(&k, 10, 10, 10 + cases[i].length, 10, CREASE);
     ink_fixture_draw(&k);
     assert_int_equal(k.drawing.stroke.count, cases[i].drawn);
@@ -323,7 +323,7 @@ static void short_pieces_of_a_long_chain_stay(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.min_stroke_mm = 5;
+  k.options.ink.min_stroke_mm = 5;
   for (int i = 0; i < 100; i++)
     ink_fixture_line(&k, 10 + 0.1 * i, 10 + (i % 2) * 0.1, 10.1 + 0.1 * i,
                      10 + (1 - i % 2) * 0.1, CREASE);
@@ -366,7 +366,7 @@ static double length_of(const double *xy, uint32_t count, bool closed) {
 static void draw_hidden(struct ink_fixture *k, const double *xy, uint32_t count,
                         bool closed) {
   ink_fixture_start(k);
-  k->options.hidden = RECTO_HIDDEN_DASHED;
+  k->options.ink.hidden = RECTO_HIDDEN_DASHED;
   for (uint32_t i = 0; i + !closed < count; i++) {
     const double *a = xy + 2 * i, *b = xy + 2 * ((i + 1) % count);
     ink_fixture_hide(k, ink_fixture_line(k, a[0], a[1], b[0], b[1], CREASE));

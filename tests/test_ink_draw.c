@@ -73,7 +73,7 @@ static void no_scene_draws_a_line_twice(void **state) {
     struct pipeline pipeline;
     scene_init(&scene);
     pipeline_fill(&scene, &options, e);
-    options.hidden = RECTO_HIDDEN_LAYER;
+    options.ink.hidden = RECTO_HIDDEN_LAYER;
     pipeline_run(&pipeline, &scene, &options, &solver_newell);
     size_t count;
     struct side *side = sides_of(&pipeline.drawing, &count);
@@ -103,9 +103,9 @@ static void options_change_where_ink_goes_not_how_much(void **state) {
       struct pipeline pipeline;
       scene_init(&scene);
       pipeline_fill(&scene, &options, e);
-      options.hidden = i == 1 ? RECTO_HIDDEN_LAYER : RECTO_HIDDEN_NONE;
-      options.order = i == 2 ? RECTO_ORDER_NEAR : RECTO_ORDER_NONE;
-      options.ids = i == 3;
+      options.ink.hidden = i == 1 ? RECTO_HIDDEN_LAYER : RECTO_HIDDEN_NONE;
+      options.ink.order = i == 2 ? RECTO_ORDER_NEAR : RECTO_ORDER_NONE;
+      options.ink.ids = i == 3;
       pipeline_run(&pipeline, &scene, &options, &solver_newell);
       visible[i] = pipeline_length(&pipeline, RECTO_EDGES_ALL, false);
       pipeline_fini(&pipeline);
@@ -137,7 +137,7 @@ static void box_seen_square_on_draws_four_edges(void **state) {
     assert_int_equal(scene_add_face(&scene, face[i], 4, 0, NULL, NULL),
                      RECTO_OK);
   scenes_view_above(&options);
-  options.hidden = RECTO_HIDDEN_LAYER;
+  options.ink.hidden = RECTO_HIDDEN_LAYER;
   pipeline_run(&pipeline, &scene, &options, &solver_newell);
   assert_int_equal(pipeline.status, RECTO_OK);
   assert_int_equal(pipeline.drawing.stroke.count, 1);
@@ -177,10 +177,10 @@ static void fill_all(struct ink_fixture *k) {
   ink_fixture_fragment(k, ink_fixture_face(k, 0, flat, 4),
                        INK_FIXTURE_XY(outer));
   ink_fixture_hole(k, INK_FIXTURE_XY(inner));
-  k->options.pens = 2;
-  k->options.simplify_mm = 0.01;
-  k->options.order = RECTO_ORDER_NEAR;
-  k->options.hatch_pitch_mm = 10;
+  k->options.ink.pens = 2;
+  k->options.ink.simplify_mm = 0.01;
+  k->options.ink.order = RECTO_ORDER_NEAR;
+  k->options.ink.hatch_pitch_mm = 10;
 }
 
 static void running_out_of_memory_is_reported(void **state) {
@@ -197,10 +197,10 @@ static void running_out_of_memory_is_reported(void **state) {
     struct ink_fixture k;
     ink_fixture_start(&k);
     fill_all(&k);
-    k.options.hidden = cases[i].hidden;
-    k.options.fill = cases[i].fill;
-    k.options.ids = cases[i].ids;
-    k.options.hatch_inset = cases[i].inset;
+    k.options.ink.hidden = cases[i].hidden;
+    k.options.ink.fill = cases[i].fill;
+    k.options.ink.ids = cases[i].ids;
+    k.options.ink.hatch_inset = cases[i].inset;
     unsigned long n = 1, step = is_under_valgrind() ? 7 : 1;
     recto_status status;
     do {

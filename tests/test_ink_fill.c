@@ -23,14 +23,14 @@ static void assert_layer(const struct ink_fixture *k, size_t layer,
   assert_in_range(layer + 1, 1, k->drawing.layer.count);
   assert_int_equal(k->drawing.layer.item[layer].pen, pen);
   assert_string_equal(k->drawing.layer.item[layer].label, label);
-  assert_true(k->drawing.layer.item[layer].width_mm == k->options.pen_mm);
+  assert_true(k->drawing.layer.item[layer].width_mm == k->options.ink.pen_mm);
 }
 
 static void one_pen_draws_everything_visible(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.pen_mm = 0.7;
+  k.options.ink.pen_mm = 0.7;
   ink_fixture_group(&k, "other");
   uint32_t edge = ink_fixture_line(&k, 10, 10, 50, 10, CREASE);
   ink_fixture_line(&k, 10, 20, 50, 20, CREASE);
@@ -46,7 +46,7 @@ static void hidden_lines_have_a_layer_of_their_own(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.hidden = RECTO_HIDDEN_LAYER;
+  k.options.ink.hidden = RECTO_HIDDEN_LAYER;
   ink_fixture_hide(&k, ink_fixture_line(&k, 10, 10, 50, 10, CREASE));
   ink_fixture_line(&k, 10, 20, 50, 20, CREASE);
   ink_fixture_draw(&k);
@@ -63,8 +63,8 @@ static void groups_are_assigned_to_the_pens(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.pens = 2;
-  k.options.hidden = RECTO_HIDDEN_LAYER;
+  k.options.ink.pens = 2;
+  k.options.ink.hidden = RECTO_HIDDEN_LAYER;
   ink_fixture_group(&k, "wheel");
   ink_fixture_group(&k, "axle");
   for (uint32_t g = 3; g-- > 0;) {
@@ -92,7 +92,7 @@ empty_layers_are_left_out_and_pens_keep_their_numbers(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.pens = 9;
+  k.options.ink.pens = 9;
   ink_fixture_group(&k, "wheel");
   ink_fixture_group(&k, "axle");
   uint32_t edge = ink_fixture_line(&k, 10, 10, 50, 10, CREASE);
@@ -108,7 +108,7 @@ static void empty_drawing_has_its_first_layer(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.hidden = RECTO_HIDDEN_LAYER;
+  k.options.ink.hidden = RECTO_HIDDEN_LAYER;
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 1);
   assert_layer(&k, 0, 1, "1 visible");
@@ -121,7 +121,7 @@ static void long_names_are_cut_between_characters(void **state) {
     struct ink_fixture k;
     char name[200] = "";
     ink_fixture_start(&k);
-    k.options.pens = 2;
+    k.options.ink.pens = 2;
     memset(name, 'a', (size_t)pad);
     for (int i = 0; i < 30; i++)
       strcat(name, "\xe2\x82\xac"); /* three bytes each */
@@ -140,7 +140,7 @@ static void group_without_name_has_a_label(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.pens = 2;
+  k.options.ink.pens = 2;
   mem_free(k.scene.group.item[0].name);
   k.scene.group.item[0].name = mem_calloc(1, 1);
   ink_fixture_line(&k, 1, 1, 5, 5, CREASE);
@@ -159,7 +159,7 @@ static void fragments_become_fills_with_their_holes(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.fill = RECTO_FILL_PAINT;
+  k.options.ink.fill = RECTO_FILL_PAINT;
   uint32_t face = ink_fixture_face(&k, 0, flat, 4);
   ink_fixture_fragment(&k, face, INK_FIXTURE_XY(outer));
   ink_fixture_hole(&k, INK_FIXTURE_XY(inner));
@@ -186,8 +186,8 @@ groups_are_painted_in_their_colour_or_one_of_their_own(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.fill = RECTO_FILL_PAINT;
-  k.options.pens = 3;
+  k.options.ink.fill = RECTO_FILL_PAINT;
+  k.options.ink.pens = 3;
   ink_fixture_group(&k, "red");
   k.scene.group.item[1].colour = 0xc00000;
   k.scene.group.item[1].has_colour = true;
@@ -211,8 +211,8 @@ static uint32_t shade(const double *face, uint32_t count,
                       const double light[3]) {
   struct ink_fixture k;
   ink_fixture_start(&k);
-  k.options.fill = RECTO_FILL_SHADE;
-  memcpy(k.options.light, light, sizeof k.options.light);
+  k.options.ink.fill = RECTO_FILL_SHADE;
+  memcpy(k.options.ink.light, light, sizeof k.options.ink.light);
   ink_fixture_fragment(&k, ink_fixture_face(&k, 0, face, count),
                        INK_FIXTURE_XY(outer));
   ink_fixture_draw(&k);
@@ -247,8 +247,8 @@ static void perspective_shades_the_side_that_the_eye_sees(void **state) {
   const double ceiling[] = {0, 1, 0, 1, 1, 0, 1, 1, -1};
   (void)state;
   ink_fixture_start(&k);
-  k.options.fill = RECTO_FILL_SHADE;
-  k.options.light[1] = 1;
+  k.options.ink.fill = RECTO_FILL_SHADE;
+  k.options.ink.light[1] = 1;
   k.sheet.camera.perspective = true;
   k.sheet.camera.eye[2] = 10;
   ink_fixture_fragment(&k, ink_fixture_face(&k, 0, floor_face, 3),
@@ -304,9 +304,9 @@ static void draw_hatch(struct ink_fixture *k, const struct polygon *p,
                        double pitch, double angle_deg) {
   ink_fixture_start(k);
   ink_fixture_side(k);
-  k->options.fill = RECTO_FILL_HATCH;
-  k->options.hatch_pitch_mm = pitch;
-  k->options.hatch_angle_deg = angle_deg;
+  k->options.ink.fill = RECTO_FILL_HATCH;
+  k->options.ink.hatch_pitch_mm = pitch;
+  k->options.ink.hatch_angle_deg = angle_deg;
   ink_fixture_fragment(k, ink_fixture_face(k, 0, flat, 4), p->xy[0],
                        p->count[0]);
   for (int l = 1; l < p->loops; l++)
@@ -336,7 +336,7 @@ static size_t assert_hatch(const struct polygon *p, double pitch,
         double y = q[i].y + (q[i + 1].y - q[i].y) * t / SAMPLES;
         assert_true(depth_in(p, x, y) > -1e-6);
         assert_true(i % 2 == 0 ||
-                    depth_in(p, x, y) < 1.25 * k.options.pen_mm / 2);
+                    depth_in(p, x, y) < 1.25 * k.options.ink.pen_mm / 2);
       }
       double across = q[i].y * cos(turn) - q[i].x * sin(turn);
       double line = across / pitch - 0.5;
@@ -395,7 +395,7 @@ static void pen_goes_to_the_next_line_along_ink_alone(void **state) {
   k.map.corner.item[1].side = MAP_SIDE_INTERSECTION;
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 1);
-  k.options.edges &= ~(unsigned)RECTO_EDGE_INTERSECTION;
+  k.options.ink.edges &= ~(unsigned)RECTO_EDGE_INTERSECTION;
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 18);
   k.map.corner.item[1].side = MAP_SIDE_CLIP;
@@ -438,9 +438,9 @@ static double assert_inset(const struct polygon *p, double pitch,
   struct ink_fixture k;
   double along = 0;
   draw_hatch(&k, p, pitch, angle_deg);
-  k.options.pen_mm = pen;
-  k.options.hatch_inset = true;
-  k.options.min_stroke_mm = 0;
+  k.options.ink.pen_mm = pen;
+  k.options.ink.hatch_inset = true;
+  k.options.ink.min_stroke_mm = 0;
   ink_fixture_draw(&k);
   *strokes = k.drawing.stroke.count;
   for (size_t s = 0; s < k.drawing.stroke.count; s++) {
@@ -565,9 +565,9 @@ static void neighbours_are_hatched_on_the_same_lines(void **state) {
   const double right[] = {10, 10, 50, 50, 10, 50};
   (void)state;
   ink_fixture_start(&k);
-  k.options.fill = RECTO_FILL_HATCH;
-  k.options.hatch_angle_deg = 0;
-  k.options.hatch_pitch_mm = 2;
+  k.options.ink.fill = RECTO_FILL_HATCH;
+  k.options.ink.hatch_angle_deg = 0;
+  k.options.ink.hatch_pitch_mm = 2;
   uint32_t face = ink_fixture_face(&k, 0, flat, 4);
   ink_fixture_fragment(&k, face, INK_FIXTURE_XY(left));
   ink_fixture_fragment(&k, face, INK_FIXTURE_XY(right));
@@ -585,11 +585,11 @@ static size_t count_strokes_over(unsigned edge_class, bool ids, int pens) {
   const double upper[] = {10, 10, 50, 50, 10, 50};
   ink_fixture_start(&k);
   ink_fixture_side(&k);
-  k.options.fill = RECTO_FILL_HATCH;
-  k.options.hatch_angle_deg = 0;
-  k.options.hatch_pitch_mm = 2;
-  k.options.ids = ids;
-  k.options.pens = pens;
+  k.options.ink.fill = RECTO_FILL_HATCH;
+  k.options.ink.hatch_angle_deg = 0;
+  k.options.ink.hatch_pitch_mm = 2;
+  k.options.ink.ids = ids;
+  k.options.ink.pens = pens;
   ink_fixture_group(&k, "other");
   ink_fixture_fragment(&k, ink_fixture_face(&k, 0, flat, 4),
                        INK_FIXTURE_XY(lower));
@@ -631,7 +631,7 @@ static void short_hatch_strokes_are_dropped(void **state) {
   (void)state;
   draw_hatch(&k, &p, 2, 0);
   assert_int_equal(k.drawing.stroke.count, 1);
-  k.options.min_stroke_mm = 1;
+  k.options.ink.min_stroke_mm = 1;
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 0);
   ink_fixture_end(&k);

@@ -26,7 +26,7 @@ static bool draw_both(struct both *both, const struct scene *scene,
   recto_options options = *given;
   const struct solver *solver = solver_by_name(method);
   pipeline_run(&both->merged, scene, &options, solver);
-  options.ids = true;
+  options.ink.ids = true;
   pipeline_run(&both->apart, scene, &options, solver);
   assert_int_equal(both->merged.status, both->apart.status);
   if (both->merged.status != RECTO_ERROR_EMPTY)
@@ -111,7 +111,7 @@ static void assert_same_paint(const struct both *both, int places) {
 static void check_paint(const struct scene *scene, recto_options *options,
                         recto_fill fill, int places) {
   struct both both;
-  options->fill = fill;
+  options->ink.fill = fill;
   if (draw_both(&both, scene, options, "tiles") &&
       both.apart.drawing.fill.count > 0)
     assert_same_paint(&both, places);
@@ -138,7 +138,7 @@ static void random_scenes_are_painted_as_their_fragments_are(void **state) {
     scene_init(&scene);
     recto_options_init(&options);
     scenes_small(&scene, &options, seed);
-    options.crease_deg = seed % 2 == 0 ? 30 : 180;
+    options.mesh.crease_deg = seed % 2 == 0 ? 30 : 180;
     check_paint(&scene, &options, RECTO_FILL_PAINT, 50);
     scene_fini(&scene);
   }
@@ -155,8 +155,8 @@ static void spans_at_a_pitch_keep_their_area(void **state) {
     scene_init(&scene);
     recto_options_init(&options);
     scenes_globe(&scene, &options, rings);
-    options.fill = RECTO_FILL_PAINT;
-    options.pitch_mm = 0.37;
+    options.ink.fill = RECTO_FILL_PAINT;
+    options.solver.pitch_mm = 0.37;
     assert_true(draw_both(&both, &scene, &options, "watkins"));
     for (size_t i = 0; i < both.merged.drawing.fill.count; i++) {
       uint32_t colour = both.merged.drawing.fill.item[i].colour;
@@ -174,7 +174,7 @@ static void spans_at_a_pitch_keep_their_area(void **state) {
 static void start(struct scene *scene, recto_options *options) {
   scene_init(scene);
   recto_options_init(options);
-  options->fill = RECTO_FILL_PAINT;
+  options->ink.fill = RECTO_FILL_PAINT;
 }
 
 static void draw(struct pipeline *p, struct scene *scene,
@@ -225,7 +225,7 @@ static void a_ball_is_one_polygon_whatever_lines_are_drawn(void **state) {
     struct pipeline p;
     start(&scene, &options);
     scenes_globe(&scene, &options, 20);
-    options.edges = edges[i];
+    options.ink.edges = edges[i];
     draw(&p, &scene, &options);
     assert_int_equal(p.drawing.fill.count, 1);
     assert_int_equal(p.drawing.fill.item[0].loops, 1);
@@ -239,7 +239,7 @@ static void the_crease_angle_separates_fills(void **state) {
   (void)state;
   start(&scene, &options);
   scenes_cube(&scene, &options, 0);
-  options.crease_deg = 100;
+  options.mesh.crease_deg = 100;
   assert_fills(&scene, &options, 1, 6);
 }
 
@@ -278,7 +278,7 @@ static void fandisk_has_fewer_than_60_polygons(void **state) {
     skip();
   }
   for (int view = 0; view < 3; view++) {
-    options.azimuth_deg = 40 + 100 * view;
+    options.camera.azimuth_deg = 40 + 100 * view;
     pipeline_run(&p, &scene, &options, solver_by_name("tiles"));
     assert_int_equal(p.status, RECTO_OK);
     assert_in_range(p.drawing.fill.count, 1, 59);
@@ -296,7 +296,7 @@ static void merging_fails_cleanly_when_memory_runs_out(void **state) {
   (void)state;
   start(&scene, &options);
   scenes_box_on_table(&scene, &options, SCENES_CONTACT_EXACT, 0.1);
-  options.crease_deg = 100;
+  options.mesh.crease_deg = 100;
   pipeline_run(&p, &scene, &options, solver_by_name("tiles"));
   assert_int_equal(p.status, RECTO_OK);
   pipeline_starve_ink(&p, &scene, &options);

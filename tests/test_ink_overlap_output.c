@@ -20,7 +20,7 @@ enum { CREASE = RECTO_EDGE_CREASE, BORDER = RECTO_EDGE_BORDER };
 
 static void start(struct ink_fixture *k) {
   ink_fixture_start(k);
-  k->options.unit_mm = UNIT_MM;
+  k->options.output.unit_mm = UNIT_MM;
 }
 
 /* ---- What a drawing is once it is rounded -------------------------------- */
@@ -197,7 +197,7 @@ static void hidden_lines_near_visible_ones_go(void **state) {
   for (int dashed = 0; dashed < 2; dashed++) {
     struct ink_fixture k;
     start(&k);
-    k.options.hidden = dashed ? RECTO_HIDDEN_DASHED : RECTO_HIDDEN_LAYER;
+    k.options.ink.hidden = dashed ? RECTO_HIDDEN_DASHED : RECTO_HIDDEN_LAYER;
     ink_fixture_hide(&k, ink_fixture_line_at(&k, -BIG, 400, BIG, -300, BORDER));
     ink_fixture_line_at(&k, -BIG, 0, BIG, 0, CREASE);
     ink_fixture_hide(
@@ -281,7 +281,7 @@ static void with_ids_the_lower_rank_stays(void **state) {
   (void)state;
   struct ink_fixture k;
   start(&k);
-  k.options.ids = true;
+  k.options.ink.ids = true;
   ink_fixture_line_at(&k, -BIG, 0, BIG, 0, CREASE);
   ink_fixture_line_at(&k, -BIG, 500, BIG, 500, BORDER);
   ink_fixture_draw(&k);
@@ -314,7 +314,7 @@ no_two_sides_of_random_drawings_share_more_than_a_unit(void **state) {
   for (int round = 0; round < 200; round++) {
     struct ink_fixture k;
     start(&k);
-    k.options.hidden = round % 2 ? RECTO_HIDDEN_LAYER : RECTO_HIDDEN_NONE;
+    k.options.ink.hidden = round % 2 ? RECTO_HIDDEN_LAYER : RECTO_HIDDEN_NONE;
     add_hay(&k, &random, 60);
     ink_fixture_draw(&k);
     double most = most_shared(&k.drawing, UNIT_MM);
@@ -331,7 +331,7 @@ static void no_ink_is_lost_by_more_than_two_units(void **state) {
   for (int round = 0; round < 100; round++) {
     struct ink_fixture k;
     start(&k);
-    k.options.hidden = RECTO_HIDDEN_LAYER;
+    k.options.ink.hidden = RECTO_HIDDEN_LAYER;
     add_hay(&k, &random, 60);
     ink_fixture_draw(&k);
     for (size_t i = 0; i < k.sheet.edge.count; i++) {
@@ -383,11 +383,11 @@ static double drawn_length(const char *name, double turn_deg, double unit) {
   recto_options options;
   struct pipeline pipeline;
   pipeline_fill(&scene, &options, scenes_find(name));
-  options.camera = RECTO_CAMERA_DIRECTION;
-  options.azimuth_deg = options.elevation_deg = turn_deg;
-  options.fov_deg = 0;
-  options.unit_mm = unit;
-  options.hidden = RECTO_HIDDEN_LAYER;
+  options.camera.kind = RECTO_CAMERA_DIRECTION;
+  options.camera.azimuth_deg = options.camera.elevation_deg = turn_deg;
+  options.camera.fov_deg = 0;
+  options.output.unit_mm = unit;
+  options.ink.hidden = RECTO_HIDDEN_LAYER;
   pipeline_run(&pipeline, &scene, &options, &solver_newell);
   assert_int_equal(pipeline.status, RECTO_OK);
   double most = most_shared(&pipeline.drawing, unit);

@@ -469,7 +469,7 @@ static void order_is_an_option(void **state) {
     struct ink_fixture k;
     struct random random = {101};
     ink_fixture_start(&k);
-    k.options.order = near ? RECTO_ORDER_NEAR : RECTO_ORDER_NONE;
+    k.options.ink.order = near ? RECTO_ORDER_NEAR : RECTO_ORDER_NONE;
     for (int i = 0; i < 100; i++) {
       double x = random_between(&random, 5, 90);
       double y = random_between(&random, 5, 90);

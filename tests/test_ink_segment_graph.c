@@ -102,7 +102,7 @@ static void visible_and_hidden_make_the_edge_whole(void **state) {
   for (int round = 0; round < 200; round++) {
     struct ink_fixture k;
     ink_fixture_start(&k);
-    k.options.hidden = RECTO_HIDDEN_LAYER;
+    k.options.ink.hidden = RECTO_HIDDEN_LAYER;
     uint32_t edge = ink_fixture_line_at(
         &k, random_int(&random, -50000000, 0), random_int(&random, -9000, 9000),
         random_int(&random, 10000, 50000000),
@@ -144,7 +144,7 @@ static void segments_and_strokes_are_counted(void **state) {
   ink_fixture_line(&k, 10, 20, 30, 20, CREASE);
   ink_fixture_line(&k, 10, 20, 30, 20, CREASE);
   ink_fixture_line(&k, 80, 80, 80.25, 80, CREASE);
-  k.options.min_stroke_mm = 1;
+  k.options.ink.min_stroke_mm = 1;
   k.map.edge_state = k.state.item;
   k.map.edge_count = k.state.count;
   assert_int_equal(
@@ -301,7 +301,7 @@ static void shorter_line_of_lower_class_is_let_in(void **state) {
   const double right[] = {40, 10, 90, 10};
   (void)state;
   ink_fixture_start(&k);
-  k.options.ids = true;
+  k.options.ink.ids = true;
   ink_fixture_line(&k, 10, 10, 90, 10, SMOOTH);
   ink_fixture_line(&k, 40, 10, 20, 10, BORDER);
   ink_fixture_draw(&k);
@@ -320,7 +320,7 @@ static void visible_line_wins_over_hidden(void **state) {
   const double seen[] = {30, 10, 50, 10};
   (void)state;
   ink_fixture_start(&k);
-  k.options.hidden = RECTO_HIDDEN_LAYER;
+  k.options.ink.hidden = RECTO_HIDDEN_LAYER;
   ink_fixture_hide(&k, ink_fixture_line(&k, 10, 10, 90, 10, SILHOUETTE));
   ink_fixture_line(&k, 30, 10, 50, 10, SMOOTH);
   ink_fixture_draw(&k);
@@ -339,7 +339,7 @@ static void hidden_line_under_a_visible_one_is_not_drawn(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.hidden = RECTO_HIDDEN_DASHED;
+  k.options.ink.hidden = RECTO_HIDDEN_DASHED;
   ink_fixture_line(&k, 10, 10, 90, 10, SMOOTH);
   ink_fixture_hide(&k, ink_fixture_line(&k, 10, 10, 90, 10, SILHOUETTE));
   ink_fixture_hide(&k, ink_fixture_line(&k, 30, 10, 40, 10, SILHOUETTE));
@@ -411,7 +411,7 @@ static void sharp_angle_is_two_lines(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.ids = true; /* each on its own */
+  k.options.ink.ids = true; /* each on its own */
   uint32_t tip = ink_fixture_point_at(&k, 0, 0);
   for (int i = 0; i < 20; i++) {
     /* Neighbours are 20 units apart where they end. */
@@ -484,8 +484,8 @@ static void random_lines_on_a_line_leave_their_best(void **state) {
     double x0 = random_between(&random, -1e6, 1e6);
     double y0 = random_between(&random, -1e6, 1e6);
     ink_fixture_start(&k);
-    k.options.ids = true;
-    k.options.hidden = RECTO_HIDDEN_LAYER;
+    k.options.ink.ids = true;
+    k.options.ink.hidden = RECTO_HIDDEN_LAYER;
     for (int i = 0; i < count; i++) {
       struct piece *p = &piece[i];
       p->from = random_int(&random, 0, STEPS);

@@ -124,9 +124,9 @@ static const double facing[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 /* A face seen square-on that the light leaves dark by so much. */
 static void light_for_tone(recto_options *options, double tone) {
   double cosine = 1 - tone / (1 - LIGHT_DARKEST);
-  options->fill = RECTO_FILL_HATCH;
-  options->light[0] = sqrt(1 - cosine * cosine);
-  options->light[2] = cosine;
+  options->ink.fill = RECTO_FILL_HATCH;
+  options->ink.light[0] = sqrt(1 - cosine * cosine);
+  options->ink.light[2] = cosine;
 }
 
 static void draw_tone(struct ink_fixture *k, double tone) {
@@ -141,7 +141,7 @@ static void one_even_face_is_hatched_at_one_pitch(void **state) {
   (void)state;
   struct ink_fixture k;
   draw_tone(&k, 0.1);
-  double pitch = k.options.pen_mm / (410.0 / TONE_STEPS), first = NAN;
+  double pitch = k.options.ink.pen_mm / (410.0 / TONE_STEPS), first = NAN;
   assert_in_range(k.drawing.stroke.count, 35, 39); /* 113 mm of diagonal */
   for (size_t s = 0; s < k.drawing.stroke.count; s++) {
     const struct drawing_point *p =
@@ -181,11 +181,11 @@ static void strokes_end_before_the_face_does(void **state) {
   (void)state;
   ink_fixture_start(&k);
   light_for_tone(&k.options, 0.2);
-  k.options.hatch_angle_deg = 0;
+  k.options.ink.hatch_angle_deg = 0;
   ink_fixture_fragment(&k, ink_fixture_face(&k, 0, facing, 4),
                        INK_FIXTURE_XY(square));
   ink_fixture_draw(&k);
-  double inset = pi() / 8 * k.options.pen_mm;
+  double inset = pi() / 8 * k.options.ink.pen_mm;
   for (size_t s = 0; s < k.drawing.stroke.count; s++) {
     const struct drawing_point *p =
         k.drawing.point.item + k.drawing.stroke.item[s].point;
@@ -203,8 +203,8 @@ static void neighbours_of_one_tone_share_their_lines(void **state) {
   for (int ids = 0; ids < 2; ids++) {
     ink_fixture_start(&k);
     light_for_tone(&k.options, 0.2);
-    k.options.hatch_angle_deg = 0;
-    k.options.ids = ids;
+    k.options.ink.hatch_angle_deg = 0;
+    k.options.ink.ids = ids;
     ink_fixture_fragment(&k, ink_fixture_face(&k, 0, facing, 4),
                          INK_FIXTURE_XY(left));
     ink_fixture_fragment(&k, ink_fixture_face(&k, 0, facing, 4),
@@ -228,7 +228,7 @@ static void each_pen_hatches_its_groups(void **state) {
   (void)state;
   ink_fixture_start(&k);
   light_for_tone(&k.options, 0.2);
-  k.options.pens = 2;
+  k.options.ink.pens = 2;
   ink_fixture_group(&k, "other");
   ink_fixture_fragment(&k, ink_fixture_face(&k, 0, facing, 4),
                        INK_FIXTURE_XY(square));
@@ -273,13 +273,13 @@ static void draw_ball(struct pipeline *p, unsigned n, recto_options *options) {
   scene_init(&scene);
   build_group(&scene, "ball");
   build_ball(&scene, n);
-  options->page_width_mm = options->page_height_mm = 100;
-  options->azimuth_deg = options->elevation_deg = 0;
-  options->fit = RECTO_FIT_SCALE;
-  options->scale = 40;
-  options->edges = RECTO_EDGES_NONE;
-  options->fill = RECTO_FILL_HATCH;
-  options->up[1] = 1;
+  options->page.width_mm = options->page.height_mm = 100;
+  options->camera.azimuth_deg = options->camera.elevation_deg = 0;
+  options->camera.fit = RECTO_FIT_SCALE;
+  options->camera.scale = 40;
+  options->ink.edges = RECTO_EDGES_NONE;
+  options->ink.fill = RECTO_FILL_HATCH;
+  options->camera.up[1] = 1;
   pipeline_run(p, &scene, options, &solver_tiles);
   assert_int_equal(p->status, RECTO_OK);
   scene_fini(&scene);
@@ -297,7 +297,7 @@ static void lines_over_a_ball_cover_the_share_of_its_tone(void **state) {
   recto_options options;
   (void)state;
   recto_options_init(&options);
-  options.light[2] = 1;
+  options.ink.light[2] = 1;
   draw_ball(&p, 40, &options);
   double ink = 0, angle;
   for (size_t s = 0; s < p.drawing.stroke.count; s++) {
@@ -305,8 +305,8 @@ static void lines_over_a_ball_cover_the_share_of_its_tone(void **state) {
         p.drawing.point.item + p.drawing.stroke.item[s].point;
     angle = atan2(q[1].y - q[0].y, q[1].x - q[0].x) * 180 / pi();
     if (fabs(remainder(angle - 45, 180)) < 1)
-      ink += (length_of(&p.drawing, s) + pi() / 4 * options.pen_mm) *
-             options.pen_mm;
+      ink += (length_of(&p.drawing, s) + pi() / 4 * options.ink.pen_mm) *
+             options.ink.pen_mm;
   }
   /* The first layer's share: the tone, up to FULL_COVERAGE = 1 - sqrt(0.4). */
   double full = 1 - sqrt(0.4), expected = 0;
@@ -327,8 +327,8 @@ static void lines_run_over_many_faces(void **state) {
   (void)state;
   for (unsigned n = 20; n <= 80; n *= 2) {
     recto_options_init(&options);
-    options.light[0] = -1;
-    options.light[2] = 1;
+    options.ink.light[0] = -1;
+    options.ink.light[2] = 1;
     draw_ball(&p, n, &options);
     assert_true(p.drawing.stroke.count < 700);
     assert_true(before == 0 || p.drawing.stroke.count < before + before / 2);
@@ -347,16 +347,16 @@ static void every_scene_is_hatched_on_its_page(void **state) {
     recto_options options;
     scene_init(&scene);
     pipeline_fill(&scene, &options, entry);
-    options.edges = RECTO_EDGES_NONE;
-    options.fill = RECTO_FILL_HATCH;
-    options.light[0] = -0.3;
-    options.light[2] = 1;
-    options.pen_mm = options.page_width_mm / 400;
+    options.ink.edges = RECTO_EDGES_NONE;
+    options.ink.fill = RECTO_FILL_HATCH;
+    options.ink.light[0] = -0.3;
+    options.ink.light[2] = 1;
+    options.ink.pen_mm = options.page.width_mm / 400;
     pipeline_run(&p, &scene, &options, &solver_tiles);
     for (size_t i = 0; p.status == RECTO_OK && i < p.drawing.point.count; i++) {
       struct drawing_point q = p.drawing.point.item[i];
-      assert_true(q.x >= 0 && q.x <= options.page_width_mm);
-      assert_true(q.y >= 0 && q.y <= options.page_height_mm);
+      assert_true(q.x >= 0 && q.x <= options.page.width_mm);
+      assert_true(q.y >= 0 && q.y <= options.page.height_mm);
     }
     pipeline_fini(&p);
     scene_fini(&scene);
@@ -371,14 +371,14 @@ static void hatching_fails_cleanly_when_memory_runs_out(void **state) {
   recto_options options;
   (void)state;
   recto_options_init(&options);
-  options.light[2] = 1;
+  options.ink.light[2] = 1;
   draw_ball(&p, 6, &options);
   scene_init(&scene);
   build_group(&scene, "ball");
   build_ball(&scene, 6);
   p.sheet.face_group = scene.face_group.item;
   for (int lit = 0; lit < 2; lit++) {
-    options.light[2] = lit;
+    options.ink.light[2] = lit;
     pipeline_starve_ink(&p, &scene, &options);
   }
   scene_fini(&scene);

@@ -66,9 +66,9 @@ static void find_lines(double contact, bool through, double azimuth,
                          : build_point(&fixture.scene, 1, 0, 2));
   build_parallelogram(&fixture.scene, vector_of(3, 3, 2), vector_of(2, 0, 0),
                       vector_of(0, 2, 0));
-  fixture.options.contact = contact;
-  fixture.options.azimuth_deg = azimuth;
-  fixture.options.elevation_deg = 75;
+  fixture.options.solver.contact = contact;
+  fixture.options.camera.azimuth_deg = azimuth;
+  fixture.options.camera.elevation_deg = 75;
   solve(&fixture, lines);
 }
 
@@ -111,11 +111,11 @@ static double intersection_length(const double *polygon, size_t count,
   build_polygon(&fixture.scene, far, 3);
   build_polygon(&fixture.scene, polygon, count);
   build_polygon(&fixture.scene, triangle, 3);
-  fixture.options.contact = 0;
-  fixture.options.azimuth_deg = 3 * view;
-  fixture.options.elevation_deg = view % 2 == 0 ? 20 : -35;
-  fixture.options.fit = RECTO_FIT_SCALE;
-  fixture.options.scale = 1;
+  fixture.options.solver.contact = 0;
+  fixture.options.camera.azimuth_deg = 3 * view;
+  fixture.options.camera.elevation_deg = view % 2 == 0 ? 20 : -35;
+  fixture.options.camera.fit = RECTO_FIT_SCALE;
+  fixture.options.camera.scale = 1;
   solve(&fixture, &lines);
   return length_of(&lines);
 }
@@ -143,16 +143,16 @@ static void a_diagonal_that_faces_share_may_be_a_line(void **state) {
     struct lines lines;
     sheet_fixture_start(&fixture);
     scenes_crossed_in_diagonal(&fixture.scene, &fixture.options);
-    fixture.options.contact = view % 2 == 0 ? 0 : -1;
-    fixture.options.azimuth_deg = 15 * view;
-    fixture.options.elevation_deg = view % 3 == 0 ? 50 : 15;
-    fixture.options.fit = RECTO_FIT_SCALE;
-    fixture.options.scale = 1;
+    fixture.options.solver.contact = view % 2 == 0 ? 0 : -1;
+    fixture.options.camera.azimuth_deg = 15 * view;
+    fixture.options.camera.elevation_deg = view % 3 == 0 ? 50 : 15;
+    fixture.options.camera.fit = RECTO_FIT_SCALE;
+    fixture.options.camera.scale = 1;
     solve(&fixture, &lines);
     assert_int_equal(lines.count, 4);
     /* Both are 3 mm long and parallel to the x axis. */
-    double turn = acos(-1) / 180 * fixture.options.azimuth_deg,
-           rise = acos(-1) / 180 * fixture.options.elevation_deg;
+    double turn = acos(-1) / 180 * fixture.options.camera.azimuth_deg,
+           rise = acos(-1) / 180 * fixture.options.camera.elevation_deg;
     double share = hypot(cos(turn), sin(turn) * sin(rise));
     assert_true(fabs(length_of(&lines) - 6 * share * SHEET_UNITS_PER_MM) < 4);
   }
@@ -202,9 +202,9 @@ static void a_face_makes_no_line_with_itself(void **state) {
                             build_point(scene, 0, 0, 0), b, a};
   build_face(scene, plain, 4);
   build_face(scene, folded, 6);
-  fixture.options.contact = 0.1;
-  fixture.options.azimuth_deg = 45;
-  fixture.options.elevation_deg = 35.264389682754654;
+  fixture.options.solver.contact = 0.1;
+  fixture.options.camera.azimuth_deg = 45;
+  fixture.options.camera.elevation_deg = 35.264389682754654;
   solve(&fixture, &lines);
   assert_int_equal(lines.count, 0);
 }
@@ -225,9 +225,9 @@ static void the_longer_part_of_a_line_says_where_it_is(void **state) {
       sheet_fixture_start(&fixture);
       build_polygon(&fixture.scene, rectangle, 4);
       build_polygon(&fixture.scene, triangle, 3);
-      fixture.options.contact = 0.5 * wide;
-      fixture.options.azimuth_deg = 5 * view;
-      fixture.options.elevation_deg = 40 + view % 3;
+      fixture.options.solver.contact = 0.5 * wide;
+      fixture.options.camera.azimuth_deg = 5 * view;
+      fixture.options.camera.elevation_deg = 40 + view % 3;
       solve(&fixture, &lines);
       length[wide] = length_of(&lines);
     }

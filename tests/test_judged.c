@@ -24,7 +24,7 @@ static void the_stability_list_is_drawn_right(void **state) {
     /* Sheets nearer to each other than the distance by which the judge's rays
      * are moved are left to test_failures_lines. */
     if (entry->row != 28 || strstr(entry->name, "1e-3") != NULL)
-      failures_assert_judged(&scene, &options, options.edges, entry->name);
+      failures_assert_judged(&scene, &options, options.ink.edges, entry->name);
     scene_fini(&scene);
   }
 }
@@ -39,10 +39,10 @@ static void eyes_in_degenerate_positions_see_all_that_is_visible(void **state) {
     recto_options_init(&options);
     scene_init(&scene);
     scenes_room(&scene, &options, (enum scenes_eye)eye);
-    options.min_stroke_mm = 0;
-    options.precision = 6;
-    options.edges = RECTO_EDGES_ALL;
-    failures_assert_judged(&scene, &options, options.edges, name);
+    options.ink.min_stroke_mm = 0;
+    options.output.precision = 6;
+    options.ink.edges = RECTO_EDGES_ALL;
+    failures_assert_judged(&scene, &options, options.ink.edges, name);
     struct pipeline pipeline;
     pipeline_run(&pipeline, &scene, &options, &solver_newell);
     assert_true(pipeline_length(&pipeline, RECTO_EDGES_ALL, false) > 50);
@@ -64,9 +64,9 @@ static void surfaces_do_not_leak_at_any_step(void **state) {
       recto_options_init(&options);
       scene_init(&scene);
       fill[i](&scene, &options, n);
-      options.min_stroke_mm = 0;
-      options.precision = 6;
-      failures_assert_judged(&scene, &options, options.edges, name);
+      options.ink.min_stroke_mm = 0;
+      options.output.precision = 6;
+      failures_assert_judged(&scene, &options, options.ink.edges, name);
       scene_fini(&scene);
     }
   }
@@ -84,14 +84,14 @@ static void random_small_scenes_are_drawn_right(void **state) {
     recto_options_init(&options);
     scene_init(&scene);
     scenes_small(&scene, &options, seed);
-    options.min_stroke_mm = 0;
-    options.precision = 6;
+    options.ink.min_stroke_mm = 0;
+    options.output.precision = 6;
     /* Without a contact tolerance the grid decides, which doubles cannot. */
-    options.contact = -1;
+    options.solver.contact = -1;
     if (camera_aim(&camera, &scene, &options, NULL) == RECTO_OK)
-      failures_assert_judged(&scene, &options,
-                             options.edges & ~(unsigned)RECTO_EDGE_INTERSECTION,
-                             name);
+      failures_assert_judged(
+          &scene, &options,
+          options.ink.edges & ~(unsigned)RECTO_EDGE_INTERSECTION, name);
     scene_fini(&scene);
   }
 }
@@ -143,17 +143,18 @@ static void check_model_of(void **state, const char *folder, const char *name,
       point3_along(target, 1.7 * size, judge_point3_of(0.6, 0.5, 0.62));
   recto_options options;
   recto_options_init(&options);
-  options.camera = RECTO_CAMERA_EYE;
-  memcpy(options.eye, (double[]){eye.x, eye.y, eye.z}, sizeof options.eye);
-  memcpy(options.target, (double[]){target.x, target.y, target.z},
-         sizeof options.target);
-  options.has_target = true;
-  options.fov_deg = 30;
-  options.fit = RECTO_FIT_NONE;
-  options.page_width_mm = options.page_height_mm = 200;
-  options.margin_mm = 0;
-  options.edges = edges;
-  options.min_stroke_mm =
+  options.camera.kind = RECTO_CAMERA_EYE;
+  memcpy(options.camera.eye, (double[]){eye.x, eye.y, eye.z},
+         sizeof options.camera.eye);
+  memcpy(options.camera.target, (double[]){target.x, target.y, target.z},
+         sizeof options.camera.target);
+  options.camera.has_target = true;
+  options.camera.fov_deg = 30;
+  options.camera.fit = RECTO_FIT_NONE;
+  options.page.width_mm = options.page.height_mm = 200;
+  options.page.margin_mm = 0;
+  options.ink.edges = edges;
+  options.ink.min_stroke_mm =
       0; /* the judge reports even the shortest missing line */
   const char *file = temporary_path(state, "drawing.svg");
   assert_int_equal(recto_draw_file(path, NULL, file, NULL, &options, NULL),

@@ -84,16 +84,28 @@ static void names_become_lines_and_pens(void **state) {
   assert_true(parse(&a, message, "--pen-for=a=b=2,a=3,hidden=4,hatch=5,a=b=2",
                     "--pen-for=crease=6"));
   static const recto_pen_use expected[] = {
-      {RECTO_LINES_OF_GROUP, 0, "a=b", 2},
-      {RECTO_LINES_OF_GROUP, 0, "a", 3},
-      {RECTO_LINES_HIDDEN, 0, "hidden", 4},
-      {RECTO_LINES_HATCH, 0, "hatch", 5},
-      {RECTO_LINES_OF_GROUP, 0, "a=b", 2},
-      {RECTO_LINES_OF_CLASS, RECTO_EDGE_CREASE, "crease", 6},
+      {.lines = RECTO_LINES_OF_GROUP,
+       .edge_class = 0,
+       .group = "a=b",
+       .pen = 2},
+      {.lines = RECTO_LINES_OF_GROUP, .edge_class = 0, .group = "a", .pen = 3},
+      {.lines = RECTO_LINES_HIDDEN,
+       .edge_class = 0,
+       .group = "hidden",
+       .pen = 4},
+      {.lines = RECTO_LINES_HATCH, .edge_class = 0, .group = "hatch", .pen = 5},
+      {.lines = RECTO_LINES_OF_GROUP,
+       .edge_class = 0,
+       .group = "a=b",
+       .pen = 2},
+      {.lines = RECTO_LINES_OF_CLASS,
+       .edge_class = RECTO_EDGE_CREASE,
+       .group = "crease",
+       .pen = 6},
   };
-  assert_int_equal(a.options.pen_use_count, 6);
+  assert_int_equal(a.options.ink.pen_use_count, 6);
   for (int i = 0; i < 6; i++) {
-    const recto_pen_use *use = &a.options.pen_use[i];
+    const recto_pen_use *use = &a.options.ink.pen_use[i];
     assert_int_equal(use->lines, expected[i].lines);
     assert_int_equal(use->edge_class, expected[i].edge_class);
     assert_string_equal(use->group, expected[i].group);
@@ -108,8 +120,8 @@ static void widths_and_colours_meet_in_a_pen(void **state) {
   (void)state;
   assert_true(parse(&a, message, "--pen-width=1=1,11=0.2cm,1=1",
                     "--pen-colour=3=#c0f,1=0012Ff"));
-  assert_int_equal(a.options.pen_count, 11);
-  const recto_pen *pen = a.options.pen;
+  assert_int_equal(a.options.ink.pen_count, 11);
+  const recto_pen *pen = a.options.ink.pen;
   assert_true(pen[0].width_mm == 1 && pen[10].width_mm == 2 &&
               pen[2].width_mm == 0);
   assert_true(pen[0].has_colour && pen[2].has_colour && !pen[10].has_colour);
@@ -124,16 +136,16 @@ static void later_weights_replace_earlier_ones(void **state) {
   (void)state;
   assert_true(
       parse(&a, message, "--weights=crease=2,wire=3", "--weights=wire=0.5"));
-  assert_true(a.options.has_weights);
-  assert_int_equal(a.options.weight_count, 2);
-  assert_int_equal(a.options.weight[1].edge_class, RECTO_EDGE_WIRE);
-  assert_true(a.options.weight[1].weight == 0.5);
+  assert_true(a.options.ink.has_weights);
+  assert_int_equal(a.options.ink.weight_count, 2);
+  assert_int_equal(a.options.ink.weight[1].edge_class, RECTO_EDGE_WIRE);
+  assert_true(a.options.ink.weight[1].weight == 0.5);
   arguments_fini(&a);
   assert_true(parse(&a, message, "--weights=crease=2", "--weights=none"));
-  assert_true(a.options.has_weights && a.options.weight_count == 0);
+  assert_true(a.options.ink.has_weights && a.options.ink.weight_count == 0);
   arguments_fini(&a);
   assert_true(parse(&a, message, "--pens=2", NULL));
-  assert_false(a.options.has_weights);
+  assert_false(a.options.ink.has_weights);
   arguments_fini(&a);
 }
 

@@ -136,10 +136,10 @@ static void one_map_has_no_error_against_itself(void **state) {
     struct pipeline pipeline;
     struct measure m;
     pipeline_fill(&scene, &options, entry);
-    options.fill = RECTO_FILL_PAINT;
+    options.ink.fill = RECTO_FILL_PAINT;
     pipeline_run(&pipeline, &scene, &options, &solver_tiles);
     if (pipeline.status == RECTO_OK) {
-      double page = options.page_width_mm * options.page_height_mm;
+      double page = options.page.width_mm * options.page.height_mm;
       assert_true(
           measure_map(&m, &pipeline.sheet, &pipeline.map, &pipeline.map));
       /* Corners are rounded to 1 / 256 unit: fragments may overlap by that. */

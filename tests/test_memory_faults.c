@@ -155,11 +155,11 @@ static recto_status run(const struct job *job, const char *output,
   recto_options options;
   char model[300];
   recto_options_init(&options);
-  options.method = job->method;
-  options.fill = job->fill;
-  options.hidden = job->hidden;
+  options.solver.method = job->method;
+  options.ink.fill = job->fill;
+  options.ink.hidden = job->hidden;
   options.verify = job->verify;
-  options.resolution = job->resolution;
+  options.solver.resolution = job->resolution;
   path_of(model, job->model);
   if (job->checks)
     return check(model, &options, error);

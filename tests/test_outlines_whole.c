@@ -151,7 +151,7 @@ static void check_view(const struct scene *scene, const recto_options *options,
   if (bare > 0)
     fail_msg("%s: no line along %lu of %lu pixels of the outline", name,
              (unsigned long)bare, (unsigned long)outline);
-  if (options->fill == RECTO_FILL_PAINT)
+  if (options->ink.fill == RECTO_FILL_PAINT)
     check_fills(&picture, &pipeline.drawing, name);
   free(picture.ink);
   judge_raster_fini(&picture.faces);
@@ -168,13 +168,13 @@ static void check_views(const struct scene *scene, const char *name,
     char what[64];
     snprintf(what, sizeof what, "%.40s, view %u", name, (unsigned)v);
     recto_options_init(&options);
-    options.page_width_mm = options.page_height_mm = page_mm;
-    options.edges =
+    options.page.width_mm = options.page.height_mm = page_mm;
+    options.ink.edges =
         RECTO_EDGE_SILHOUETTE | RECTO_EDGE_BORDER | RECTO_EDGE_INTERSECTION;
-    options.azimuth_deg = view[v][0];
-    options.elevation_deg = view[v][1];
-    options.fov_deg = view[v][2];
-    options.fill = fill;
+    options.camera.azimuth_deg = view[v][0];
+    options.camera.elevation_deg = view[v][1];
+    options.camera.fov_deg = view[v][2];
+    options.ink.fill = fill;
     check_view(scene, &options, what);
   }
 }
@@ -240,7 +240,7 @@ static void a_smooth_ring_has_no_creases(void **state) {
   }
   recto_options options;
   recto_options_init(&options);
-  options.edges = RECTO_EDGE_CREASE;
+  options.ink.edges = RECTO_EDGE_CREASE;
   struct pipeline pipeline;
   pipeline_run(&pipeline, &fine[2], &options, &solver_tiles);
   assert_int_equal(pipeline.status, RECTO_OK);

@@ -21,10 +21,10 @@ static const struct solver *const bounded[] = {
 static void start(struct scene *scene, recto_options *options) {
   recto_options_init(options);
   scene_init(scene);
-  options->edges = RECTO_EDGES_ALL;
-  options->min_stroke_mm = 0;
-  options->precision = 6;
-  options->threads = 1;
+  options->ink.edges = RECTO_EDGES_ALL;
+  options->ink.min_stroke_mm = 0;
+  options->output.precision = 6;
+  options->solver.threads = 1;
 }
 
 /* ---- Scenes -------------------------------------------------------------- */
@@ -110,7 +110,7 @@ static void long_lists_are_drawn_as_by_brute(void **state) {
       size_t length;
       start(&scene, &options);
       add_scene(&scene, kind);
-      options.fill = fill ? RECTO_FILL_PAINT : RECTO_FILL_NONE;
+      options.ink.fill = fill ? RECTO_FILL_PAINT : RECTO_FILL_NONE;
       char *right = pipeline_draw(&scene, &options, &solver_brute, &length);
       for (const struct solver *const *s = bounded; *s != NULL; s++) {
         char *text = pipeline_draw(&scene, &options, *s, &length);
@@ -131,7 +131,7 @@ static int64_t left_over(const struct solver *solver, recto_fill fill,
   int64_t count;
   start(&scene, &options);
   add_piercing(&scene, 60, false);
-  options.fill = fill;
+  options.ink.fill = fill;
   pipeline_run(&pipeline, &scene, &options, solver);
   assert_int_equal(pipeline.status, RECTO_OK);
   count = report_get(pipeline.report, solver->name, name, 0);

@@ -54,7 +54,7 @@ static void assert_pens(const recto_pen_use *use, recto_hidden hidden,
   struct ink_fixture k;
   start_scene(&k);
   ink_fixture_use(&k, use, count_uses(use));
-  k.options.hidden = hidden;
+  k.options.ink.hidden = hidden;
   ink_fixture_draw(&k);
   for (int i = 0; i < 4; i++)
     if (pen[i] != 0)
@@ -96,21 +96,22 @@ static void layers_say_what_is_on_their_pen(void **state) {
   start_scene(&k);
   const recto_pen_use use[] = {CLASS_ON(SILHOUETTE, 3), HIDDEN_ON(2),
                                GROUP_ON("wheel", 3), HATCH_ON(3)};
-  const recto_pen pen[] = {{.has_colour = true, .colour = 0x0012ff},
-                           {.width_mm = 0.7},
-                           {1, true, 0xcc0000}};
+  const recto_pen pen[] = {
+      {.has_colour = true, .colour = 0x0012ff},
+      {.width_mm = 0.7},
+      {.width_mm = 1, .has_colour = true, .colour = 0xcc0000}};
   ink_fixture_use(&k, INK_FIXTURE_USES(use));
-  k.options.fill = RECTO_FILL_HATCH;
-  k.options.hidden = RECTO_HIDDEN_LAYER;
-  k.options.pen = pen;
-  k.options.pen_count = 3;
+  k.options.ink.fill = RECTO_FILL_HATCH;
+  k.options.ink.hidden = RECTO_HIDDEN_LAYER;
+  k.options.ink.pen = pen;
+  k.options.ink.pen_count = 3;
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 3);
   const struct drawing_layer *layer = k.drawing.layer.item;
   assert_string_equal(layer[0].label, "1 visible");
   assert_string_equal(layer[1].label, "2 hidden");
   assert_string_equal(layer[2].label, "3 silhouette, hatch, car/wheel/red");
-  assert_true(layer[0].width_mm == k.options.pen_mm);
+  assert_true(layer[0].width_mm == k.options.ink.pen_mm);
   assert_true(layer[1].width_mm == 0.7);
   assert_true(layer[2].width_mm == 1);
   assert_int_equal(layer[0].colour, 0x0012ff);
@@ -128,7 +129,7 @@ static void layers_do_not_name_classes_not_requested(void **state) {
                                CLASS_ON(RECTO_EDGE_WIRE, 2),
                                CLASS_ON(CREASE, 2), CLASS_ON(SILHOUETTE, 1)};
   ink_fixture_use(&k, INK_FIXTURE_USES(use));
-  k.options.edges &= ~(unsigned)RECTO_EDGE_WIRE;
+  k.options.ink.edges &= ~(unsigned)RECTO_EDGE_WIRE;
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 2);
   assert_string_equal(k.drawing.layer.item[0].label, "1 visible");
@@ -231,12 +232,12 @@ static void unused_pens_are_reported(void **state) {
     pen[row[i].wide].width_mm = 1;
     pen[row[i].coloured[0]].has_colour = true;
     pen[row[i].coloured[1]].has_colour = true;
-    k.options.pen = pen + 1;
-    k.options.pen_count = RECTO_PEN_MOST;
+    k.options.ink.pen = pen + 1;
+    k.options.ink.pen_count = RECTO_PEN_MOST;
     ink_fixture_use(&k, &row[i].use, row[i].use.pen != 0);
-    k.options.hidden = row[i].hidden;
-    k.options.fill = row[i].fill;
-    k.options.edges = row[i].edges;
+    k.options.ink.hidden = row[i].hidden;
+    k.options.ink.fill = row[i].fill;
+    k.options.ink.edges = row[i].edges;
     assert_told(&k, row[i].said);
     ink_fixture_end(&k);
   }
@@ -264,10 +265,12 @@ static void weights_of_classes_not_drawn_are_reported(void **state) {
   for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
     struct ink_fixture k;
     start_scene(&k);
-    const recto_weight weight[] = {{row[i].class[0], 2}, {row[i].class[1], 1}};
-    k.options.weight = weight;
-    k.options.weight_count = row[i].count;
-    k.options.edges = row[i].edges;
+    const recto_weight weight[] = {
+        {.edge_class = row[i].class[0], .weight = 2},
+        {.edge_class = row[i].class[1], .weight = 1}};
+    k.options.ink.weight = weight;
+    k.options.ink.weight_count = row[i].count;
+    k.options.ink.edges = row[i].edges;
     assert_told(&k, row[i].said);
     ink_fixture_end(&k);
   }
@@ -280,7 +283,7 @@ static void fills_lie_below_the_lines_of_all_pens(void **state) {
   for (int pens = 1; pens <= 2; pens++) {
     struct ink_fixture k;
     start_scene(&k);
-    k.options.fill = RECTO_FILL_PAINT;
+    k.options.ink.fill = RECTO_FILL_PAINT;
     const recto_pen_use use = CLASS_ON(SILHOUETTE, 2);
     ink_fixture_use(&k, &use, pens == 2);
     ink_fixture_fragment(&k, ink_fixture_face(&k, 1, flat, 3),
@@ -301,13 +304,13 @@ static void half_the_strokes_own_pen_is_the_shortest(void **state) {
   for (int wide = 0; wide < 2; wide++) {
     struct ink_fixture k;
     ink_fixture_start(&k);
-    k.options.min_stroke_mm = -1;
+    k.options.ink.min_stroke_mm = -1;
     const recto_pen_use use = CLASS_ON(CREASE, 2);
     const recto_pen pen[] = {{.width_mm = wide ? 0 : 3},
                              {.width_mm = wide ? 3 : 0}};
     ink_fixture_use(&k, &use, 1);
-    k.options.pen = pen;
-    k.options.pen_count = 2;
+    k.options.ink.pen = pen;
+    k.options.ink.pen_count = 2;
     ink_fixture_line(&k, 10, 10, 11, 10, SILHOUETTE);
     ink_fixture_line(&k, 10, 20, 11, 20, CREASE);
     ink_fixture_draw(&k);
@@ -341,10 +344,10 @@ static void find_widths(const recto_weight *weight, size_t count, int pens,
                         double width[3], size_t *strokes) {
   struct ink_fixture k;
   ink_fixture_start(&k);
-  k.options.has_weights = weight != NULL;
-  k.options.weight = weight;
-  k.options.weight_count = count;
-  k.options.pens = pens;
+  k.options.ink.has_weights = weight != NULL;
+  k.options.ink.weight = weight;
+  k.options.ink.weight_count = count;
+  k.options.ink.pens = pens;
   ink_fixture_line(&k, 10, 10, 50, 10, CREASE);
   ink_fixture_line(&k, 50, 10, 50, 50, SILHOUETTE);
   ink_fixture_line(&k, 50, 50, 10, 50, BORDER);
@@ -354,7 +357,7 @@ static void find_widths(const recto_weight *weight, size_t count, int pens,
   for (size_t i = 0; i < k.drawing.stroke.count; i++) {
     const struct drawing_stroke *s = &k.drawing.stroke.item[i];
     int place = s->edge_class == CREASE ? 0 : s->edge_class == BORDER ? 2 : 1;
-    width[place] = drawing_width_mm(&k.drawing, s) / k.options.pen_mm;
+    width[place] = drawing_width_mm(&k.drawing, s) / k.options.ink.pen_mm;
   }
   ink_fixture_end(&k);
 }
@@ -363,7 +366,8 @@ static void outlines_are_twice_as_wide_by_default(void **state) {
   double width[3];
   size_t strokes;
   (void)state;
-  const recto_weight weight[] = {{BORDER, 3}, {CREASE, 0.5}};
+  const recto_weight weight[] = {{.edge_class = BORDER, .weight = 3},
+                                 {.edge_class = CREASE, .weight = 0.5}};
   find_widths(NULL, 0, 1, width, &strokes);
   assert_int_equal(strokes, 2); /* silhouette and border are one */
   assert_true(width[0] == 1 && width[1] + width[2] == 2);
@@ -380,12 +384,12 @@ static void hidden_lines_weigh_nothing_extra(void **state) {
   struct ink_fixture k;
   (void)state;
   ink_fixture_start(&k);
-  k.options.has_weights = false;
-  k.options.hidden = RECTO_HIDDEN_LAYER;
+  k.options.ink.has_weights = false;
+  k.options.ink.hidden = RECTO_HIDDEN_LAYER;
   ink_fixture_hide(&k, ink_fixture_line(&k, 10, 10, 50, 10, SILHOUETTE));
   ink_fixture_draw(&k);
   assert_true(drawing_width_mm(&k.drawing, &k.drawing.stroke.item[0]) ==
-              k.options.pen_mm);
+              k.options.ink.pen_mm);
   ink_fixture_end(&k);
 }
 

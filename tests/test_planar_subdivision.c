@@ -203,7 +203,7 @@ static size_t check_scene(const struct scene *scene,
   struct pipeline p;
   size_t tested = 0;
   recto_options painted = *options;
-  painted.fill = RECTO_FILL_PAINT;
+  painted.ink.fill = RECTO_FILL_PAINT;
   pipeline_run(&p, scene, &painted, solver_by_name(method));
   if (p.status == RECTO_OK) {
     assert_loops(&p.map);
@@ -254,8 +254,8 @@ static void approximate_maps_have_twins_too(void **state) {
     struct scene scene;
     recto_options options;
     pipeline_fill(&scene, &options, e);
-    options.pitch_mm = 0.7;
-    options.resolution = 150;
+    options.solver.pitch_mm = 0.7;
+    options.solver.resolution = 150;
     for (size_t m = 0; m < sizeof method / sizeof *method; m++)
       check_scene(&scene, &options, method[m], false);
     scene_fini(&scene);

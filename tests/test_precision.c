@@ -368,7 +368,7 @@ static void bits_have_a_range(void **state) {
   (void)state;
   recto_options options;
   recto_options_init(&options);
-  options.coordinate_bits = 54;
+  options.mesh.coordinate_bits = 54;
   recto_scene *scene;
   recto_drawing *drawing;
   recto_error error;

@@ -180,7 +180,7 @@ static void what_any_face_hides_is_what_is_not_visible(void **state) {
     recto_options options;
     scene_init(&scene);
     pipeline_fill(&scene, &options, entry);
-    options.hidden = RECTO_HIDDEN_LAYER;
+    options.ink.hidden = RECTO_HIDDEN_LAYER;
     pipeline_run(&p, &scene, &options, &solver_tiles);
     if (p.status == RECTO_OK) {
       find(&p.map, &p.sheet, 0);
@@ -200,9 +200,9 @@ static double hidden_length(int layers, recto_method method) {
   recto_options options;
   double length = 0;
   recto_options_init(&options);
-  options.hidden = RECTO_HIDDEN_LAYER;
-  options.hidden_layers = layers;
-  options.method = method;
+  options.ink.hidden = RECTO_HIDDEN_LAYER;
+  options.ink.hidden_layers = layers;
+  options.solver.method = method;
   assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
   for (int box = 0; box < 3; box++) {
     uint32_t index[8];

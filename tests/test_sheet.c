@@ -23,7 +23,7 @@ static void the_scenes_keep_every_invariant(void **state) {
       struct sheet_fixture fixture;
       sheet_fixture_start(&fixture);
       entry->fill(&fixture.scene, &fixture.options);
-      fixture.options.edges = RECTO_EDGES_ALL;
+      fixture.options.ink.edges = RECTO_EDGES_ALL;
       sheet_fixture_out(&fixture, outlines);
       sheet_fixture_check(&fixture);
       sheet_fixture_fini(&fixture);
@@ -43,7 +43,7 @@ static void random_scenes_keep_every_invariant(void **state) {
     struct sheet_fixture fixture;
     sheet_fixture_start(&fixture);
     scenes_small(&fixture.scene, &fixture.options, seed);
-    fixture.options.edges = (unsigned)seed & RECTO_EDGES_ALL;
+    fixture.options.ink.edges = (unsigned)seed & RECTO_EDGES_ALL;
     if (is_in_view(&fixture)) {
       sheet_fixture_out(&fixture, seed % 3 != 0);
       sheet_fixture_check(&fixture);
@@ -59,21 +59,21 @@ static void random_scenes_keep_every_invariant(void **state) {
 static void put_camera_inside(struct sheet_fixture *fixture,
                               struct random *random) {
   recto_options *o = &fixture->options;
-  o->camera = RECTO_CAMERA_EYE;
-  o->has_target = true;
+  o->camera.kind = RECTO_CAMERA_EYE;
+  o->camera.has_target = true;
   do {
     for (int k = 0; k < 3; k++) {
-      o->eye[k] = random_between(random, -4, 4);
-      o->target[k] = random_between(random, -4, 4);
+      o->camera.eye[k] = random_between(random, -4, 4);
+      o->camera.target[k] = random_between(random, -4, 4);
       if (random_below(random, 3) == 0) /* on planes and points too */
-        o->eye[k] = floor(o->eye[k]);
+        o->camera.eye[k] = floor(o->camera.eye[k]);
     }
-  } while (fabs(o->eye[0] - o->target[0]) < 0.1);
-  o->up[0] = 0;
-  o->up[1] = 0.01;
-  o->up[2] = 1;
-  o->fov_deg = random_between(random, 20, 110);
-  o->fit = random_below(random, 2) ? RECTO_FIT_NONE : RECTO_FIT_PAGE;
+  } while (fabs(o->camera.eye[0] - o->camera.target[0]) < 0.1);
+  o->camera.up[0] = 0;
+  o->camera.up[1] = 0.01;
+  o->camera.up[2] = 1;
+  o->camera.fov_deg = random_between(random, 20, 110);
+  o->camera.fit = random_below(random, 2) ? RECTO_FIT_NONE : RECTO_FIT_PAGE;
 }
 
 static void clipped_scenes_keep_every_invariant(void **state) {
@@ -85,7 +85,7 @@ static void clipped_scenes_keep_every_invariant(void **state) {
     sheet_fixture_start(&fixture);
     scenes_small(&fixture.scene, &fixture.options, seed);
     put_camera_inside(&fixture, &random);
-    fixture.options.edges = RECTO_EDGES_ALL;
+    fixture.options.ink.edges = RECTO_EDGES_ALL;
     if (is_in_view(&fixture)) {
       sheet_fixture_out(&fixture, true);
       sheet_fixture_check(&fixture);
@@ -104,8 +104,8 @@ static void an_eye_in_a_degenerate_position_is_handled(void **state) {
       struct sheet_fixture fixture;
       sheet_fixture_start(&fixture);
       scenes_room(&fixture.scene, &fixture.options, (enum scenes_eye)place);
-      fixture.options.fit = (recto_fit)fit;
-      fixture.options.edges = RECTO_EDGES_ALL;
+      fixture.options.camera.fit = (recto_fit)fit;
+      fixture.options.ink.edges = RECTO_EDGES_ALL;
       sheet_fixture_out(&fixture, true);
       sheet_fixture_check(&fixture);
       assert_true(fixture.sheet.triangle.count > 0);
@@ -140,7 +140,7 @@ static void points_are_snapped_to_the_nearest_grid_unit(void **state) {
   for (int perspective = 0; perspective < 2; perspective++) {
     struct sheet_fixture fixture;
     fill_box(&fixture);
-    fixture.options.fov_deg = perspective ? 40 : 0;
+    fixture.options.camera.fov_deg = perspective ? 40 : 0;
     sheet_fixture_out(&fixture, true);
     const struct camera *c = &fixture.camera;
     double m[12];
@@ -175,7 +175,7 @@ static void depth_fills_its_range(void **state) {
   for (int perspective = 0; perspective < 2; perspective++) {
     struct sheet_fixture fixture;
     fill_box(&fixture);
-    fixture.options.fov_deg = perspective ? 40 : 0;
+    fixture.options.camera.fov_deg = perspective ? 40 : 0;
     sheet_fixture_out(&fixture, false);
     int64_t low = SHEET_Z_MAX, high = 0;
     for (size_t p = 0; p < fixture.sheet.point.count; p++) {
@@ -196,7 +196,7 @@ static void planes_stay_planes(void **state) {
   for (int perspective = 0; perspective < 2; perspective++) {
     struct sheet_fixture fixture;
     fill_box(&fixture);
-    fixture.options.fov_deg = perspective ? 60 : 0;
+    fixture.options.camera.fov_deg = perspective ? 60 : 0;
     sheet_fixture_out(&fixture, true);
     for (uint32_t f = 0; f < 6; f++) {
       const uint32_t *corner =
@@ -221,8 +221,9 @@ static void a_flat_scene_square_on_is_fine(void **state) {
     sheet_fixture_start(&fixture);
     build_parallelogram(&fixture.scene, vector_of(0, 0, 7), vector_of(3, 0, 0),
                         vector_of(0, 2, 0));
-    fixture.options.azimuth_deg = fixture.options.elevation_deg = 0;
-    fixture.options.fov_deg = perspective ? 40 : 0;
+    fixture.options.camera.azimuth_deg = fixture.options.camera.elevation_deg =
+        0;
+    fixture.options.camera.fov_deg = perspective ? 40 : 0;
     sheet_fixture_out(&fixture, true);
     sheet_fixture_check(&fixture);
     assert_true(isfinite(fixture.sheet.z_scale) && fixture.sheet.z_scale > 0);
@@ -239,21 +240,21 @@ static void a_noisy_flat_scene_does_not_blow_depth_up(void **state) {
   build_parallelogram(&fixture.scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
                       vector_of(0, 2, 0));
   scenes_turn(&fixture.scene, vector_of(1, 2, 3), 1);
-  fixture.options.azimuth_deg = 0;
-  fixture.options.elevation_deg = 0;
+  fixture.options.camera.azimuth_deg = 0;
+  fixture.options.camera.elevation_deg = 0;
   struct scene_point *p = fixture.scene.point.item;
   struct vector u =
       vector_of(p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z);
   struct vector v =
       vector_of(p[3].x - p[0].x, p[3].y - p[0].y, p[3].z - p[0].z);
   struct vector n = vector_cross(u, v);
-  fixture.options.camera = RECTO_CAMERA_EYE;
-  fixture.options.eye[0] = n.x;
-  fixture.options.eye[1] = n.y;
-  fixture.options.eye[2] = n.z;
-  fixture.options.has_target = true;
-  fixture.options.target[0] = fixture.options.target[1] =
-      fixture.options.target[2] = 0;
+  fixture.options.camera.kind = RECTO_CAMERA_EYE;
+  fixture.options.camera.eye[0] = n.x;
+  fixture.options.camera.eye[1] = n.y;
+  fixture.options.camera.eye[2] = n.z;
+  fixture.options.camera.has_target = true;
+  fixture.options.camera.target[0] = fixture.options.camera.target[1] =
+      fixture.options.camera.target[2] = 0;
   sheet_fixture_out(&fixture, true);
   sheet_fixture_check(&fixture);
   assert_true(fixture.camera.contact * fixture.sheet.z_scale < 0x1p62);
@@ -289,7 +290,8 @@ static void triangles_of_a_polygon_have_its_area_exactly(void **state) {
       xyz[3 * c + 2] = 0.5 * xyz[3 * c] - 0.25 * xyz[3 * c + 1];
     }
     build_polygon(&fixture.scene, xyz, (size_t)corners);
-    fixture.options.azimuth_deg = fixture.options.elevation_deg = 0;
+    fixture.options.camera.azimuth_deg = fixture.options.camera.elevation_deg =
+        0;
     sheet_fixture_out(&fixture, true);
     sheet_fixture_check(&fixture);
     assert_int_equal(fixture.sheet.triangle.count, corners - 2);
@@ -314,8 +316,9 @@ static void fill_large_grid(struct sheet_fixture *fixture, unsigned n,
       build_point(&fixture->scene, 600.0 * column / n - 301.7,
                   600.0 * row / n - 297.1, 10 * sin(row) * cos(column));
   build_grid(&fixture->scene, 0, n, n, triangles);
-  fixture->options.fit = RECTO_FIT_NONE;
-  fixture->options.azimuth_deg = fixture->options.elevation_deg = 0;
+  fixture->options.camera.fit = RECTO_FIT_NONE;
+  fixture->options.camera.azimuth_deg = fixture->options.camera.elevation_deg =
+      0;
 }
 
 /* Neither a gap nor an overlap of a single unit, however the page cuts. */
@@ -343,8 +346,8 @@ static void a_polygon_around_the_page_is_cut_to_the_page(void **state) {
   const double xyz[] = {-900, -800, 1, 0, -500, 1, 900,  -700, 1, 800,  300, 1,
                         200,  900,  1, 0, 400,  1, -200, 900,  1, -700, 500, 1};
   build_polygon(&fixture.scene, xyz, 8);
-  fixture.options.fit = RECTO_FIT_NONE;
-  fixture.options.azimuth_deg = fixture.options.elevation_deg = 0;
+  fixture.options.camera.fit = RECTO_FIT_NONE;
+  fixture.options.camera.azimuth_deg = fixture.options.camera.elevation_deg = 0;
   sheet_fixture_out(&fixture, true);
   sheet_fixture_check(&fixture);
   assert_int_equal(fixture.sheet.clipped_page, 1);
@@ -363,14 +366,14 @@ static void a_floor_to_the_horizon_is_cut_by_both(void **state) {
     for (int column = 0; column <= 20; column++)
       build_point(&fixture.scene, 20.0 * column - 200, 0, 10.0 * row - 100);
   build_grid(&fixture.scene, 0, 20, 20, false);
-  fixture.options.camera = RECTO_CAMERA_EYE;
-  fixture.options.eye[1] = 1.5;
-  fixture.options.has_target = true;
-  fixture.options.target[1] = 1.5;
-  fixture.options.target[2] = -100;
-  fixture.options.fov_deg = 60;
-  fixture.options.fit = RECTO_FIT_NONE;
-  fixture.options.near_distance = 1;
+  fixture.options.camera.kind = RECTO_CAMERA_EYE;
+  fixture.options.camera.eye[1] = 1.5;
+  fixture.options.camera.has_target = true;
+  fixture.options.camera.target[1] = 1.5;
+  fixture.options.camera.target[2] = -100;
+  fixture.options.camera.fov_deg = 60;
+  fixture.options.camera.fit = RECTO_FIT_NONE;
+  fixture.options.camera.near_distance = 1;
   sheet_fixture_out(&fixture, true);
   sheet_fixture_check(&fixture);
   assert_true(fixture.sheet.clipped_near > 0 && fixture.sheet.clipped_page > 0);
@@ -393,12 +396,13 @@ static void a_drawing_that_fits_the_page_is_never_cut(void **state) {
   for (int i = 0; i < 300; i++) {
     struct sheet_fixture fixture;
     fill_box(&fixture);
-    fixture.options.margin_mm = 0;
-    fixture.options.page_width_mm = random_int(&random, 10, 2000);
-    fixture.options.page_height_mm = random_between(&random, 10, 2000);
-    fixture.options.azimuth_deg = random_between(&random, 0, 360);
-    fixture.options.elevation_deg = random_between(&random, -90, 90);
-    fixture.options.fov_deg = i % 2 ? random_between(&random, 1, 150) : 0;
+    fixture.options.page.margin_mm = 0;
+    fixture.options.page.width_mm = random_int(&random, 10, 2000);
+    fixture.options.page.height_mm = random_between(&random, 10, 2000);
+    fixture.options.camera.azimuth_deg = random_between(&random, 0, 360);
+    fixture.options.camera.elevation_deg = random_between(&random, -90, 90);
+    fixture.options.camera.fov_deg =
+        i % 2 ? random_between(&random, 1, 150) : 0;
     sheet_fixture_out(&fixture, true);
     sheet_fixture_check(&fixture);
     assert_int_equal(fixture.sheet.clipped_page, 0);
@@ -413,7 +417,7 @@ static void a_cut_edge_is_cut_once_for_all_who_use_it(void **state) {
   (void)state;
   struct sheet_fixture fixture;
   fill_large_grid(&fixture, 29, true);
-  fixture.options.edges = RECTO_EDGES_ALL;
+  fixture.options.ink.edges = RECTO_EDGES_ALL;
   sheet_fixture_out(&fixture, true);
   size_t cut = 0;
   for (size_t e = 0; e < fixture.sheet.edge.count; e++) {
@@ -438,12 +442,12 @@ static void a_section_cuts_and_leaves_no_line(void **state) {
   for (int perspective = 0; perspective < 2; perspective++) {
     struct sheet_fixture fixture;
     fill_box(&fixture);
-    fixture.options.azimuth_deg = 20;
-    fixture.options.elevation_deg = 0;
-    fixture.options.fov_deg = perspective ? 30 : 0;
-    fixture.options.has_section = true;
-    fixture.options.section = 6;
-    fixture.options.edges = RECTO_EDGES_ALL;
+    fixture.options.camera.azimuth_deg = 20;
+    fixture.options.camera.elevation_deg = 0;
+    fixture.options.camera.fov_deg = perspective ? 30 : 0;
+    fixture.options.camera.has_section = true;
+    fixture.options.camera.section = 6;
+    fixture.options.ink.edges = RECTO_EDGES_ALL;
     sheet_fixture_out(&fixture, true);
     sheet_fixture_check(&fixture);
     assert_true(fixture.sheet.clipped_near >= 4);
@@ -468,9 +472,9 @@ static void a_face_in_the_section_plane_stays(void **state) {
   sheet_fixture_start(&fixture);
   build_box(&fixture.scene, vector_of(0, 0, 0), vector_of(1, 1, 1));
   build_box(&fixture.scene, vector_of(2, 0, 0), vector_of(3, 1, 2));
-  fixture.options.azimuth_deg = fixture.options.elevation_deg = 0;
-  fixture.options.has_section = true;
-  fixture.options.section = 1; /* the nearest point is at z = 2 */
+  fixture.options.camera.azimuth_deg = fixture.options.camera.elevation_deg = 0;
+  fixture.options.camera.has_section = true;
+  fixture.options.camera.section = 1; /* the nearest point is at z = 2 */
   sheet_fixture_out(&fixture, true);
   sheet_fixture_check(&fixture);
   size_t front = 0;
@@ -504,8 +508,8 @@ static void the_order_of_corners_changes_no_point(void **state) {
         build_triangle(scene, 2, 1, 0);
       else
         build_triangle(scene, 0, 1, 2);
-      fixture[turn].options.fit = RECTO_FIT_NONE;
-      fixture[turn].options.edges = RECTO_EDGES_ALL;
+      fixture[turn].options.camera.fit = RECTO_FIT_NONE;
+      fixture[turn].options.ink.edges = RECTO_EDGES_ALL;
       sheet_fixture_out(&fixture[turn], true);
     }
     assert_int_equal(sheet_fixture_area(&fixture[0], 0),
@@ -563,9 +567,9 @@ static void wires_are_cut_at_the_page(void **state) {
                 build_point(&fixture.scene, 500, 0, 0));
   build_segment(&fixture.scene, build_point(&fixture.scene, -500, 400, 0),
                 build_point(&fixture.scene, 500, 400, 0)); /* beyond it */
-  fixture.options.fit = RECTO_FIT_NONE;
-  fixture.options.has_target = true;
-  fixture.options.azimuth_deg = fixture.options.elevation_deg = 0;
+  fixture.options.camera.fit = RECTO_FIT_NONE;
+  fixture.options.camera.has_target = true;
+  fixture.options.camera.azimuth_deg = fixture.options.camera.elevation_deg = 0;
   sheet_fixture_out(&fixture, false);
   sheet_fixture_check(&fixture);
   assert_int_equal(fixture.sheet.edge.count, 1);
@@ -610,8 +614,8 @@ static void a_strip_thinner_than_the_grid_makes_no_fold(void **state) {
     sheet_fixture_start(&fixture);
     build_polygon(&fixture.scene, face, 4);
     scenes_view_page(&fixture.options, 20, 20);
-    fixture.options.edges = RECTO_EDGE_SILHOUETTE;
-    fixture.options.near_distance = strip ? 1000 - 1e-9 : 0;
+    fixture.options.ink.edges = RECTO_EDGE_SILHOUETTE;
+    fixture.options.camera.near_distance = strip ? 1000 - 1e-9 : 0;
     sheet_fixture_out(&fixture, false);
     for (size_t e = 0; e < fixture.sheet.edge.count; e++)
       assert_int_not_equal(fixture.sheet.edge.item[e].source, SHEET_NONE);
@@ -626,7 +630,7 @@ static void wires_not_requested_are_left_out(void **state) {
   build_group(&fixture.scene, "wire");
   build_segment(&fixture.scene, build_point(&fixture.scene, 0, 0, 0),
                 build_point(&fixture.scene, 1, 0, 0));
-  fixture.options.edges = RECTO_EDGES_ALL & ~(unsigned)RECTO_EDGE_WIRE;
+  fixture.options.ink.edges = RECTO_EDGES_ALL & ~(unsigned)RECTO_EDGE_WIRE;
   sheet_fixture_out(&fixture, true);
   assert_int_equal(fixture.sheet.edge.count, 0);
   sheet_fixture_fini(&fixture);
@@ -640,7 +644,7 @@ static void diagonals_are_no_edges(void **state) {
   sheet_fixture_start(&fixture);
   build_parallelogram(&fixture.scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
                       vector_of(0, 2, 0));
-  fixture.options.edges = RECTO_EDGES_ALL;
+  fixture.options.ink.edges = RECTO_EDGES_ALL;
   sheet_fixture_out(&fixture, true);
   sheet_fixture_check(&fixture);
   assert_int_equal(fixture.sheet.edge.count, 4);
@@ -658,7 +662,7 @@ static void welded_points_are_one_on_the_sheet(void **state) {
   struct sheet_fixture fixture;
   sheet_fixture_start(&fixture);
   scenes_unwelded(&fixture.scene, &fixture.options);
-  fixture.options.edges = RECTO_EDGES_ALL;
+  fixture.options.ink.edges = RECTO_EDGES_ALL;
   sheet_fixture_out(&fixture, true);
   sheet_fixture_check(&fixture);
   size_t standing = 0;
@@ -695,13 +699,14 @@ static void powers_of_two_change_no_bit_of_the_sheet(void **state) {
       entry->fill(&fixture[i].scene, o);
       scenes_scale(&fixture[i].scene, factor, vector_of(0, 0, 0));
       for (int k = 0; k < 3; k++) {
-        o->eye[k] *= factor;
-        o->target[k] *= factor;
+        o->camera.eye[k] *= factor;
+        o->camera.target[k] *= factor;
       }
-      o->near_distance *= factor;
-      o->section *= factor;
-      o->scale /= factor;
-      o->fit = o->fit == RECTO_FIT_NONE ? RECTO_FIT_PAGE : o->fit;
+      o->camera.near_distance *= factor;
+      o->camera.section *= factor;
+      o->camera.scale /= factor;
+      o->camera.fit =
+          o->camera.fit == RECTO_FIT_NONE ? RECTO_FIT_PAGE : o->camera.fit;
       sheet_fixture_out(&fixture[i], true);
     }
     const struct sheet *a = &fixture[0].sheet, *b = &fixture[1].sheet;
@@ -729,7 +734,7 @@ static void every_failed_allocation_is_reported(void **state) {
   struct sheet_fixture fixture;
   fill_large_grid(&fixture, 5, false); /* clipped, and of quads */
   build_segment(&fixture.scene, 0, 35);
-  fixture.options.edges = RECTO_EDGES_ALL;
+  fixture.options.ink.edges = RECTO_EDGES_ALL;
   sheet_fixture_out(&fixture, true);
   struct memory_faults faults = {.least = 15};
   while (memory_faults_go_on(&faults)) {

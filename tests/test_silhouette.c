@@ -14,15 +14,16 @@
 /* A camera in front: x right, y up, z towards the viewer. */
 static void start_in_front(struct sheet_fixture *fixture) {
   sheet_fixture_start(fixture);
-  fixture->options.azimuth_deg = fixture->options.elevation_deg = 0;
-  fixture->options.edges = RECTO_EDGES_ALL;
+  fixture->options.camera.azimuth_deg = fixture->options.camera.elevation_deg =
+      0;
+  fixture->options.ink.edges = RECTO_EDGES_ALL;
 }
 
 static void start_from_corner(struct sheet_fixture *fixture) {
   sheet_fixture_start(fixture);
-  fixture->options.azimuth_deg = 33;
-  fixture->options.elevation_deg = 21;
-  fixture->options.edges = RECTO_EDGES_ALL;
+  fixture->options.camera.azimuth_deg = 33;
+  fixture->options.camera.elevation_deg = 21;
+  fixture->options.ink.edges = RECTO_EDGES_ALL;
 }
 
 /* ---- Solids -------------------------------------------------------------- */
@@ -32,7 +33,7 @@ static void a_box_from_a_corner_has_six_silhouettes(void **state) {
   for (int perspective = 0; perspective < 2; perspective++) {
     struct sheet_fixture fixture;
     start_from_corner(&fixture);
-    fixture.options.fov_deg = perspective ? 30 : 0;
+    fixture.options.camera.fov_deg = perspective ? 30 : 0;
     build_box(&fixture.scene, vector_of(0, 0, 0), vector_of(1, 2, 3));
     sheet_fixture_out(&fixture, true);
     sheet_fixture_check(&fixture);
@@ -66,8 +67,8 @@ static void silhouettes_of_a_closed_surface_are_closed(void **state) {
       struct sheet_fixture fixture;
       start_from_corner(&fixture);
       scenes_globe(&fixture.scene, &fixture.options, rings);
-      fixture.options.azimuth_deg = azimuth;
-      fixture.options.edges = RECTO_EDGE_SILHOUETTE;
+      fixture.options.camera.azimuth_deg = azimuth;
+      fixture.options.ink.edges = RECTO_EDGE_SILHOUETTE;
       sheet_fixture_out(&fixture, false);
       sheet_fixture_check(&fixture);
       assert_true(fixture.sheet.edge.count > 0);
@@ -90,7 +91,7 @@ static unsigned class_of_hinge(struct vector left, struct vector right,
                                bool turned, unsigned edges) {
   struct sheet_fixture fixture;
   start_in_front(&fixture);
-  fixture.options.edges = edges;
+  fixture.options.ink.edges = edges;
   build_group(&fixture.scene, "hinge");
   build_point(&fixture.scene, 0, 0, 0);
   build_point(&fixture.scene, 0, 4, 0);
@@ -210,7 +211,7 @@ static void order_and_winding_of_faces_change_no_class(void **state) {
       sheet_fixture_start(&fixture[i]);
       if (i == 0) {
         entry->fill(&fixture[0].scene, &fixture[0].options);
-        fixture[0].options.edges = RECTO_EDGES_ALL;
+        fixture[0].options.ink.edges = RECTO_EDGES_ALL;
       } else {
         fixture[1].options = fixture[0].options;
         scenes_copy(&fixture[1].scene, &fixture[0].scene, 99);
@@ -255,7 +256,7 @@ where_groups_meet_is_an_edge_of_the_first_face_s_group(void **state) {
   build_quad(&fixture.scene, 0, 2, 3, 1);
   build_group(&fixture.scene, "two");
   build_quad(&fixture.scene, 2, 4, 5, 3);
-  fixture.options.edges = RECTO_EDGE_GROUP;
+  fixture.options.ink.edges = RECTO_EDGE_GROUP;
   sheet_fixture_out(&fixture, false);
   sheet_fixture_check(&fixture);
   assert_int_equal(fixture.sheet.edge.count, 1);
@@ -275,7 +276,7 @@ static void outlines_add_edges_that_are_not_drawn(void **state) {
                 vector_of(1, 2, 3));
       build_parallelogram(&fixture[outlines].scene, vector_of(4, 0, 0),
                           vector_of(1, 0, 0), vector_of(0, 1, 1));
-      fixture[outlines].options.edges = edges;
+      fixture[outlines].options.ink.edges = edges;
       sheet_fixture_out(&fixture[outlines], outlines);
       sheet_fixture_check(&fixture[outlines]);
     }
@@ -311,8 +312,8 @@ static void a_fold_at_a_diagonal_is_a_silhouette(void **state) {
   for (int turn = 0; turn < 4 * 26; turn++) {
     struct sheet_fixture turned = fixture;
     bool requested = turn & 1, outlines = turn & 2;
-    turned.options.azimuth_deg = 7 * (turn / 4);
-    turned.options.edges =
+    turned.options.camera.azimuth_deg = 7 * (turn / 4);
+    turned.options.ink.edges =
         RECTO_EDGE_BORDER | (requested ? RECTO_EDGE_SILHOUETTE : 0);
     sheet_fixture_out(&turned, outlines);
     if (outlines)
@@ -365,7 +366,7 @@ static void warp_alone_makes_no_crease(void **state) {
                   0.03 * (column - 6) * (row - 6) +
                       ((row + column) % 2 ? 0.12 : -0.12));
   build_grid(&fixture.scene, 0, 12, 12, false);
-  fixture.options.crease_deg = 20;
+  fixture.options.mesh.crease_deg = 20;
   sheet_fixture_out(&fixture, true);
   sheet_fixture_check(&fixture);
   assert_int_equal(fixture.sheet.warped, 144);
@@ -385,8 +386,8 @@ static void clipping_makes_no_silhouettes(void **state) {
       build_point(&fixture.scene, 10 * column - 151.3, 10 * row - 147.9,
                   0.01 * row * column);
   build_grid(&fixture.scene, 0, 30, 30, true);
-  fixture.options.fit = RECTO_FIT_NONE;
-  fixture.options.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_BORDER;
+  fixture.options.camera.fit = RECTO_FIT_NONE;
+  fixture.options.ink.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_BORDER;
   sheet_fixture_out(&fixture, false);
   sheet_fixture_check(&fixture);
   assert_true(fixture.sheet.clipped_page > 0);

@@ -54,8 +54,8 @@ static void assert_solvers_agree(const struct scene *scene,
 /* All edges and painted faces of a scene of the list from a degenerate view. */
 static void look(const struct scene *scene, recto_options *options, int view) {
   degenerate_view(options, scene, view);
-  options->edges = RECTO_EDGES_ALL;
-  options->fill = RECTO_FILL_PAINT;
+  options->ink.edges = RECTO_EDGES_ALL;
+  options->ink.fill = RECTO_FILL_PAINT;
 }
 
 /* Each scene from a part of the views, each view of a part of the scenes;
@@ -73,7 +73,7 @@ static void solvers_agree_on_degenerate_views(void **state) {
     for (int view = number % step; view < DEGENERATE_VIEWS; view += step) {
       look(&scene, &options, view);
       if ((view + number / step) % 2 == 0)
-        options.fill = RECTO_FILL_NONE;
+        options.ink.fill = RECTO_FILL_NONE;
       assert_solvers_agree(&scene, &options, entry->name, view);
     }
     scene_fini(&scene);
@@ -97,7 +97,7 @@ static void bytes_do_not_depend_on_the_threads(void **state) {
       one = pipeline_draw(&scene, &options, exact[s], &one_length);
       for (size_t t = 0; t < sizeof threads / sizeof *threads; t++) {
         char *text;
-        options.threads = threads[t];
+        options.solver.threads = threads[t];
         text = pipeline_draw(&scene, &options, exact[s], &length);
         assert_same_text(text, length, one, one_length, names[i], view,
                          exact[s]->name);
@@ -125,8 +125,8 @@ static void hidden_piercings_are_not_behind_a_horizon(void **state) {
     build_parallelogram(&scene, vector_of(x + 0.05, y, -5),
                         vector_of(0.1, 0, 0), vector_of(0, 0.2, 2));
   }
-  options.hidden = RECTO_HIDDEN_DASHED;
-  options.edges = RECTO_EDGE_INTERSECTION;
+  options.ink.hidden = RECTO_HIDDEN_DASHED;
+  options.ink.edges = RECTO_EDGE_INTERSECTION;
   assert_solvers_agree(&scene, &options, "layers", 0);
   scene_fini(&scene);
 }

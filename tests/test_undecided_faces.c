@@ -23,8 +23,8 @@ struct counts {
 static struct counts paint(const struct scene *scene, recto_options *options) {
   struct pipeline pipeline;
   struct counts counts;
-  options->fill = RECTO_FILL_PAINT;
-  options->threads = 1;
+  options->ink.fill = RECTO_FILL_PAINT;
+  options->solver.threads = 1;
   pipeline_run(&pipeline, scene, options, &solver_tiles);
   assert_int_equal(pipeline.status, RECTO_OK);
   const struct report *report = pipeline.report;
@@ -62,7 +62,7 @@ static void a_face_that_no_contour_crosses_is_not_split(void **state) {
   (void)state;
   start(&scene, &options);
   scenes_sinc(&scene, &options, 60);
-  options.elevation_deg = 12;
+  options.camera.elevation_deg = 12;
   struct counts counts = paint(&scene, &options);
   assert_true(counts.by_contours > 20);
   assert_true(counts.mixed > 20);

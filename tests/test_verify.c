@@ -84,9 +84,9 @@ static void start_plates(struct judged_run *run) {
                       vector_of(0, 10, 0));
   build_parallelogram(&run->scene, vector_of(-15, -15, 4), vector_of(30, 0, 0),
                       vector_of(0, 30, 0));
-  o->azimuth_deg = o->elevation_deg = 0;
-  o->fit = RECTO_FIT_SCALE;
-  o->page_width_mm = o->page_height_mm = 100;
+  o->camera.azimuth_deg = o->camera.elevation_deg = 0;
+  o->camera.fit = RECTO_FIT_SCALE;
+  o->page.width_mm = o->page.height_mm = 100;
 }
 
 /* The sheet's edge between two points of the scene. */
@@ -127,11 +127,11 @@ static void what_ink_does_is_no_fault(void **state) {
     memset(&run, 0, sizeof run);
     pipeline_fill(&run.scene, &run.options, entry);
     run.options.verify = 1000;
-    run.options.min_stroke_mm = 3;
-    run.options.simplify_mm = 0.05;
-    run.options.hidden = RECTO_HIDDEN_DASHED;
-    run.options.fill = RECTO_FILL_HATCH;
-    run.options.order = RECTO_ORDER_NEAR;
+    run.options.ink.min_stroke_mm = 3;
+    run.options.ink.simplify_mm = 0.05;
+    run.options.ink.hidden = RECTO_HIDDEN_DASHED;
+    run.options.ink.fill = RECTO_FILL_HATCH;
+    run.options.ink.order = RECTO_ORDER_NEAR;
     draw(&run);
     assert_right(&run, entry->name);
     end(&run);
@@ -148,7 +148,7 @@ static void coarse_outputs_pass(void **state) {
       memset(&run, 0, sizeof run);
       pipeline_fill(&run.scene, &run.options, entry);
       run.options.verify = 20000;
-      run.options.unit_mm = unit_mm[i];
+      run.options.output.unit_mm = unit_mm[i];
       draw(&run);
       assert_right(&run, entry->name);
       end(&run);
@@ -163,7 +163,7 @@ static void random_small_scenes_pass(void **state) {
     start(&run);
     scenes_small(&run.scene, &run.options, seed);
     run.options.verify = 500;
-    run.options.contact = -1;
+    run.options.solver.contact = -1;
     snprintf(name, sizeof name, "seed %lu", (unsigned long)seed);
     pipeline_run(&run.pipeline, &run.scene, &run.options, &solver_newell);
     if (run.pipeline.status == RECTO_OK)
@@ -185,10 +185,10 @@ static void cuts_and_far_origins_pass(void **state) {
                   vector_of(x + 4, x + 5, 6 - x));
         build_box(&run.scene, vector_of(x + 1, x + 1, 1 - x),
                   vector_of(x + 9, x + 2, 2 - x));
-        run.options.fov_deg = perspective * 40;
-        run.options.has_section = section;
-        run.options.section = 5;
-        run.options.coordinate_bits = 53;
+        run.options.camera.fov_deg = perspective * 40;
+        run.options.camera.has_section = section;
+        run.options.camera.section = 5;
+        run.options.mesh.coordinate_bits = 53;
         draw(&run);
         assert_right(&run, "boxes");
         assert_true(count_of(&run, "not_drawn_hidden") > 300);
@@ -252,13 +252,13 @@ static void what_shares_a_corner_with_a_face_passes(void **state) {
     for (int k = 0; k < 3; k++)
       if (fold[i].face[k][0] != fold[i].face[k][1])
         build_face(&run.scene, fold[i].face[k], 3);
-    o->camera = RECTO_CAMERA_EYE;
-    memcpy(o->eye, fold[i].eye, sizeof o->eye);
-    memcpy(o->target, fold[i].target, sizeof o->target);
-    o->has_target = true;
-    o->fov_deg = fold[i].fov_deg;
-    o->contact = fold[i].contact;
-    o->edges = fold[i].edges;
+    o->camera.kind = RECTO_CAMERA_EYE;
+    memcpy(o->camera.eye, fold[i].eye, sizeof o->camera.eye);
+    memcpy(o->camera.target, fold[i].target, sizeof o->camera.target);
+    o->camera.has_target = true;
+    o->camera.fov_deg = fold[i].fov_deg;
+    o->solver.contact = fold[i].contact;
+    o->ink.edges = fold[i].edges;
     draw(&run);
     assert_right(&run, i == 0 ? "a fold" : "a tip");
     end(&run);
@@ -281,7 +281,7 @@ static void an_empty_drawing_of_no_classes_passes(void **state) {
   (void)state;
   struct judged_run run;
   start_plates(&run);
-  run.options.edges = RECTO_EDGES_NONE;
+  run.options.ink.edges = RECTO_EDGES_NONE;
   draw(&run);
   assert_right(&run, "nothing");
   assert_string_equal(run.summary, "verified: 0 drawn points visible, 0 "
@@ -366,11 +366,11 @@ static void only_what_is_too_short_may_be_missing(void **state) {
   start_plates(&run);
   build_parallelogram(&run.scene, vector_of(20, 0, 0), vector_of(1, 0, 0),
                       vector_of(0, 1, 0));
-  run.options.min_stroke_mm = 10;
+  run.options.ink.min_stroke_mm = 10;
   draw(&run);
   assert_int_equal(run.pipeline.drawing.stroke.count, 1);
   assert_right(&run, "a small plate is dropped");
-  run.options.min_stroke_mm = 3;
+  run.options.ink.min_stroke_mm = 3;
   assert_int_equal(verify_run(&run, 0), RECTO_ERROR_VERIFY);
   assert_says(&run, "of face 2 is visible");
   end(&run);
@@ -425,11 +425,11 @@ static void an_edge_along_the_cut_may_be_missing(void **state) {
   (void)state;
   start(&run);
   build_polygon(&run.scene, (const double[]){2, 0, 0, 0, 0, 0, 0, 0, 1}, 3);
-  run.options.up[1] = 1;
-  run.options.azimuth_deg = 89.9999999;
-  run.options.elevation_deg = 1e-7;
-  run.options.has_section = true;
-  run.options.section = 2;
+  run.options.camera.up[1] = 1;
+  run.options.camera.azimuth_deg = 89.9999999;
+  run.options.camera.elevation_deg = 1e-7;
+  run.options.camera.has_section = true;
+  run.options.camera.section = 2;
   draw(&run);
   assert_right(&run, "an edge along the cut");
   end(&run);
@@ -465,13 +465,13 @@ static void a_subdivided_mesh_passes_the_check(void **state) {
   scenes_catmull_clark(&finest.scene, &fine.scene);
   recto_options options;
   recto_options_init(&options);
-  options.azimuth_deg = 0;
-  options.elevation_deg = 90;
+  options.camera.azimuth_deg = 0;
+  options.camera.elevation_deg = 90;
   for (int ids = 0; ids < 2; ids++) {
     const char *svg = temporary_path(state, "suzanne.svg");
     recto_drawing *drawing;
     recto_verdict verdict;
-    options.ids = ids;
+    options.ink.ids = ids;
     assert_int_equal(recto_scene_render(&finest, &options, &drawing, NULL),
                      RECTO_OK);
     assert_int_equal(recto_drawing_write(drawing, svg, NULL, NULL, NULL),

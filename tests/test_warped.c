@@ -58,11 +58,12 @@ static void make_scene(struct scene *scene, recto_options *options,
   struct random random = {seed};
   scene_init(scene);
   recto_options_init(options);
-  options->min_stroke_mm = 0;
-  options->precision = 6;
-  options->azimuth_deg = 45.0 * random_below(&random, 8) + (double)(seed % 3);
-  options->elevation_deg = random_below(&random, 3) * 30.0;
-  options->fov_deg = seed % 2 ? 40 : 0;
+  options->ink.min_stroke_mm = 0;
+  options->output.precision = 6;
+  options->camera.azimuth_deg =
+      45.0 * random_below(&random, 8) + (double)(seed % 3);
+  options->camera.elevation_deg = random_below(&random, 3) * 30.0;
+  options->camera.fov_deg = seed % 2 ? 40 : 0;
   build_group(scene, "faces");
   int faces = random_int(&random, 1, 5);
   for (int f = 0; f < faces; f++)
@@ -126,8 +127,8 @@ static void every_method_draws_them_alike(void **state) {
     char name[32];
     make_scene(&scene, &options, seed);
     snprintf(name, sizeof name, "seed %u", (unsigned)seed);
-    options.fill = fill[seed / 2 % 3];
-    options.hidden = seed % 5 == 0 ? RECTO_HIDDEN_LAYER : RECTO_HIDDEN_NONE;
+    options.ink.fill = fill[seed / 2 % 3];
+    options.ink.hidden = seed % 5 == 0 ? RECTO_HIDDEN_LAYER : RECTO_HIDDEN_NONE;
     if (scene_face_count(&scene) > 0)
       check_methods(&scene, &options, name);
     scene_fini(&scene);
@@ -210,7 +211,7 @@ static void scenes_of_earlier_errors_are_drawn_right(void **state) {
       make_scene(&scene, &options, 1);
       scene_fini(&scene);
       scene_init(&scene);
-      options.elevation_deg = elevation;
+      options.camera.elevation_deg = elevation;
       build_group(&scene, "reported");
       for (size_t p = 0; p < 14; p++)
         build_point(&scene, reported[r].point[p][0], reported[r].point[p][1],
@@ -237,10 +238,10 @@ static void make_fold(struct scene *scene, recto_options *options) {
   scene_fini(scene);
   scene_init(scene);
   build_group(scene, "fold");
-  options->azimuth_deg = 91;
-  options->elevation_deg = 2;
-  options->fov_deg = 0;
-  options->edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_BORDER;
+  options->camera.azimuth_deg = 91;
+  options->camera.elevation_deg = 2;
+  options->camera.fov_deg = 0;
+  options->ink.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_BORDER;
   options->verify = 1000;
   build_polygon(scene, (const double[]){0, 0, 0, 3, 0, 0, 3, 2, 3, 0, 0, 3}, 4);
 }
@@ -254,7 +255,7 @@ static void a_missing_fold_is_found(void **state) {
     struct pipeline p;
     recto_error error;
     make_fold(&scene, &options);
-    options.azimuth_deg = azimuth;
+    options.camera.azimuth_deg = azimuth;
     pipeline_run(&p, &scene, &options, &solver_brute);
     assert_int_equal(p.status, RECTO_OK);
     assert_int_equal(verify_drawn(&p, &scene, &options, &error), RECTO_OK);

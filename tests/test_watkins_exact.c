@@ -35,10 +35,10 @@ static void soups_of_a_thousand_are_the_same(void **state) {
     recto_options_init(&options);
     scene_init(&scene);
     scenes_soup(&scene, &options, 1000, (uint64_t)seed);
-    options.precision = 6;
-    options.edges = RECTO_EDGES_ALL;
-    options.fill = seed % 3 == 0 ? RECTO_FILL_NONE : RECTO_FILL_PAINT;
-    options.fov_deg = seed % 2 == 0 ? 40 : 0;
+    options.output.precision = 6;
+    options.ink.edges = RECTO_EDGES_ALL;
+    options.ink.fill = seed % 3 == 0 ? RECTO_FILL_NONE : RECTO_FILL_PAINT;
+    options.camera.fov_deg = seed % 2 == 0 ? 40 : 0;
     assert_same_as_tiles(&scene, &options, name);
     scene_fini(&scene);
   }
@@ -51,7 +51,7 @@ static void listed_scenes_are_the_same(void **state) {
     struct scene scene;
     recto_options options;
     pipeline_fill(&scene, &options, entry);
-    options.fill = RECTO_FILL_PAINT;
+    options.ink.fill = RECTO_FILL_PAINT;
     assert_same_as_tiles(&scene, &options, entry->name);
     scene_fini(&scene);
   }
@@ -65,10 +65,10 @@ static bool compare_model(const char *folder, const char *name) {
   recto_options options;
   bool there;
   recto_options_init(&options);
-  options.azimuth_deg = 27;
-  options.elevation_deg = 31;
-  options.precision = 6;
-  options.fill = RECTO_FILL_PAINT;
+  options.camera.azimuth_deg = 27;
+  options.camera.elevation_deg = 31;
+  options.output.precision = 6;
+  options.ink.fill = RECTO_FILL_PAINT;
   snprintf(path, sizeof path, "%.900s/%s.obj", folder, name);
   scene_init(&scene);
   there = scene_read(&scene, path, NULL, &silent, NULL) == RECTO_OK;

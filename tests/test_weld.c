@@ -577,10 +577,10 @@ static void count_strokes(const recto_scene *scene, double length,
   recto_drawing *drawing;
   recto_error error;
   recto_options_init(&options);
-  options.weld = length;
-  options.up[1] = 1;
-  options.ids = true;
-  options.threads = 1;
+  options.mesh.weld = length;
+  options.camera.up[1] = 1;
+  options.ink.ids = true;
+  options.solver.threads = 1;
   assert_int_equal(recto_scene_render(scene, &options, &drawing, &error),
                    RECTO_OK);
   memset(count, 0, RECTO_EDGE_CLASS_COUNT * sizeof *count);

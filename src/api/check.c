@@ -3,9 +3,9 @@
  * The page is the file's own.  Lines may be off, along and across, by a quarter
  * of the pen's width, which is invisible, and by what the options allow ink to
  * move them (ink_drift_mm). */
-#include "api/preparation.h"
-#include "api/judge_input.h"
 #include "api/handle.h"
+#include "api/judge_input.h"
+#include "api/sized.h"
 #include "base/input.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
@@ -48,7 +48,7 @@ static recto_status find_shortest(double *mm, const struct scene *scene,
   struct pens pens;
   recto_status status = pens_init(&pens, scene, o, error);
   *mm = 0;
-  for (uint32_t pen = 0; status == RECTO_OK && pen <= o->pen_count; pen++)
+  for (uint32_t pen = 0; status == RECTO_OK && pen <= o->ink.pen_count; pen++)
     *mm = fmax(*mm, pens_shortest_mm(&pens, pen));
   pens_fini(&pens);
   return status;
@@ -75,7 +75,7 @@ static recto_status judge(const struct scene *scene, const recto_options *o,
   struct judge_camera seen = judge_input_camera(&input, &camera, o);
   struct judge_options options = judge_input_options(&input, &camera, o);
   options.samples = SAMPLES;
-  options.reach_mm = options.lateral_mm = o->pen_mm / 4 + ink_drift_mm(o);
+  options.reach_mm = options.lateral_mm = o->ink.pen_mm / 4 + ink_drift_mm(o);
   options.progress = o->progress != NULL ? go_on : NULL;
   options.user = &polled;
   status = find_shortest(&options.shortest_mm, scene, o, error);
@@ -88,15 +88,17 @@ static recto_status judge(const struct scene *scene, const recto_options *o,
   return status;
 }
 
-recto_status recto_scene_check(const recto_scene *scene, const char *path,
-                               const recto_options *options,
-                               recto_verdict *verdict, recto_error *error) {
+recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
+                                     const recto_options *options,
+                                     recto_verdict *verdict, size_t size,
+                                     recto_error *error) {
+  recto_verdict own = {0};
   struct judge_drawing drawing = {0};
   struct judge_verdict found;
   recto_options checked;
   if (verdict == NULL)
     return error_null(error, "the place for the verdict");
-  *verdict = (recto_verdict){0};
+  sized_give(verdict, size, &own, sizeof own);
   if (scene == NULL || path == NULL)
     return error_null(error, scene == NULL ? "the scene" : "the path");
   recto_status status = options_take(&checked, options, error);
@@ -104,8 +106,8 @@ recto_status recto_scene_check(const recto_scene *scene, const char *path,
     status = read_drawing(&drawing, path, error);
   if (status == RECTO_OK) {
     struct preparation prepared;
-    checked.page_width_mm = drawing.width_mm;
-    checked.page_height_mm = drawing.height_mm;
+    checked.page.width_mm = drawing.width_mm;
+    checked.page.height_mm = drawing.height_mm;
     status = preparation_init(&prepared, &scene->scene, &checked, false, error);
     topology_fini(&prepared.topology); /* the judge has its own */
     if (status == RECTO_OK)
@@ -115,7 +117,9 @@ recto_status recto_scene_check(const recto_scene *scene, const char *path,
     preparation_fini(&prepared);
   }
   if (status == RECTO_OK)
-    fill_verdict(verdict, &found);
+    fill_verdict(&own, &found);
+  if (status == RECTO_OK)
+    sized_give(verdict, size, &own, sizeof own);
   judge_drawing_fini(&drawing);
   return status;
 }

@@ -39,15 +39,15 @@ static void say_help(struct sentence *words,
                      const struct page_overflow *overflow, double margin_mm,
                      const recto_options *options) {
   bool narrow = overflow->axis[0] && !overflow->axis[1] &&
-                options->page_width_mm < options->page_height_mm;
+                options->page.width_mm < options->page.height_mm;
   sentence_add(words, ": ");
-  switch (options->fit) {
+  switch (options->camera.fit) {
   case RECTO_FIT_SCALE:
     sentence_add(words,
                  "--fit or a smaller --scale shows all, a larger --page more");
     break;
   case RECTO_FIT_NONE:
-    sentence_add(words, options->fov_deg > 0
+    sentence_add(words, options->camera.fov_deg > 0
                             ? "--fit shows all, a larger --fov or --page more"
                             : "--fit or a smaller --scale shows all");
     break;
@@ -57,8 +57,8 @@ static void say_help(struct sentence *words,
                         "--section cuts it away");
     break;
   }
-  if (narrow && options->fit != RECTO_FIT_PAGE &&
-      options->fit != RECTO_FIT_SPHERE)
+  if (narrow && options->camera.fit != RECTO_FIT_PAGE &&
+      options->camera.fit != RECTO_FIT_SPHERE)
     sentence_add(words, ", --landscape too");
   if (overflow->reach_mm > 0 &&
       overflow->reach_mm <= margin_mm + RECTO_FINEST_MM)

@@ -1,5 +1,6 @@
 /* draw_file.c - the whole job in one call: reads a model, draws it and writes the
  * drawing. */
+#include "api/handle.h"
 #include "api/output.h"
 #include "base/path.h"
 #include "base/status.h"
@@ -19,11 +20,10 @@ recto_status recto_draw_file(const char *model, const char *from,
   if (path_is_same(model, output))
     return error_set(error, RECTO_ERROR_ARGUMENT, output, 0,
                      "the drawing would replace the model");
-  if (options != NULL)
-    fitting = *options;
-  else
-    recto_options_init(&fitting);
-  recto_options_suit(&fitting, output, to);
+  status = options_copy(&fitting, options, error);
+  if (status != RECTO_OK)
+    return status;
+  fitting.output.format = recto_output_format(output, to);
   options = &fitting;
   status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)

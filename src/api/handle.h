@@ -73,10 +73,24 @@ USE_RESULT recto_status drawing_keep_faces(recto_drawing *drawing,
                                            const struct result_sources *sources,
                                            recto_error *error);
 
-/* Copies the options, or the defaults where they are NULL, and checks that each
- * of them is finite and in range. */
+/* Copies the options, or the defaults where they are NULL.
+ * Errors  RECTO_ERROR_ARGUMENT: they were not initialised;
+ *         RECTO_ERROR_UNSUPPORTED: they are of a later version */
+USE_RESULT recto_status options_copy(recto_options *own,
+                                     const recto_options *options,
+                                     recto_error *error);
+
+/* The same, and checks that each of them is finite and in range, and adapts
+ * them to their output. */
 USE_RESULT recto_status options_take(recto_options *own,
                                      const recto_options *options,
+                                     recto_error *error);
+
+/* Adapts options to their output's format, if any: sets the unit, and where the
+ * format is for plotters replaces defaults: the margin by the one that the
+ * plotter needs, the order by RECTO_ORDER_NEAR, and the weights by none.
+ * Errors  RECTO_ERROR_UNSUPPORTED: there is no such format */
+USE_RESULT recto_status options_suit(recto_options *options,
                                      recto_error *error);
 
 #endif

@@ -35,7 +35,8 @@ struct judge_camera judge_input_camera(const struct judge_input *input,
                     camera->page_mm);
   made.margin_mm = camera->margin_mm;
   /* A default near plane of an orthographic view clips nothing. */
-  if (camera->perspective || options->has_section || options->near_distance > 0)
+  if (camera->perspective || options->camera.has_section ||
+      options->camera.near_distance > 0)
     made.near_d = camera->near_d;
   return made;
 }
@@ -49,8 +50,8 @@ struct judge_options judge_input_options(const struct judge_input *input,
   made.unstated = camera->unstated;
   made.origin =
       judge_point3_of(input->origin.x, input->origin.y, input->origin.z);
-  made.crease_deg = options->crease_deg;
-  made.edges = options->edges;
+  made.crease_deg = options->mesh.crease_deg;
+  made.edges = options->ink.edges;
   made.given = input->given;
   return made;
 }

@@ -1,37 +1,41 @@
 /* options.c - the options' defaults, and whether they make sense. */
 #include <float.h>
 #include <limits.h>
+#include <stddef.h>
 
 #include "api/handle.h"
+#include "api/sized.h"
 #include "backends/device.h"
 
-void recto_options_init(recto_options *options) {
-  if (options == NULL)
+/* Every double, pointer and int that is not named is 0. */
+static const recto_options defaults = {
+    .size = sizeof defaults,
+    .solver = {.method = RECTO_METHOD_AUTO, .contact = -1},
+    .mesh = {.weld = -1, .crease_deg = 30},
+    .camera = {.kind = RECTO_CAMERA_DIRECTION,
+               .azimuth_deg = 45,
+               /* atan(1 / sqrt(2)): isometric */
+               .elevation_deg = 35.264389682754654,
+               .fit = RECTO_FIT_PAGE,
+               .scale = 1},
+    .page = {.width_mm = 210, .height_mm = 297, .margin_mm = -1},
+    .ink = {.edges = RECTO_EDGES_DEFAULT,
+            .hidden = RECTO_HIDDEN_NONE,
+            .fill = RECTO_FILL_NONE,
+            .hatch_pitch_mm = 1,
+            .hatch_angle_deg = 45,
+            .pen_mm = 0.3,
+            .pens = 1,
+            .order = RECTO_ORDER_AUTO,
+            .min_stroke_mm = -1},
+    .output = {.precision = 3},
+};
+
+void recto_options_init_sized(recto_options *options, size_t size) {
+  if (options == NULL || size < sizeof options->size)
     return;
-  *options = (recto_options){
-      .method = RECTO_METHOD_AUTO,
-      .contact = -1,
-      .camera = RECTO_CAMERA_DIRECTION,
-      .azimuth_deg = 45,
-      .elevation_deg = 35.264389682754654, /* atan(1 / sqrt(2)): isometric */
-      .fit = RECTO_FIT_PAGE,
-      .scale = 1,
-      .page_width_mm = 210,
-      .page_height_mm = 297,
-      .margin_mm = -1,
-      .edges = RECTO_EDGES_DEFAULT,
-      .crease_deg = 30,
-      .hidden = RECTO_HIDDEN_NONE,
-      .fill = RECTO_FILL_NONE,
-      .hatch_pitch_mm = 1,
-      .hatch_angle_deg = 45,
-      .pen_mm = 0.3,
-      .pens = 1,
-      .order = RECTO_ORDER_AUTO,
-      .min_stroke_mm = -1,
-      .precision = 3,
-      .weld = -1,
-  };
+  sized_give(options, size, &defaults, sizeof defaults);
+  options->size = size;
 }
 
 /* A number of the options and where it may lie. */
@@ -63,27 +67,27 @@ static recto_status refuse(const char *what, size_t index, recto_error *error) {
 
 /* The arrays: their pointers are there, and what they hold is in range. */
 static recto_status check_lists(const recto_options *o, recto_error *error) {
-  if ((o->pen_use_count > 0 && o->pen_use == NULL) ||
-      (o->pen_count > 0 && o->pen == NULL) ||
-      (o->weight_count > 0 && o->weight == NULL))
+  if ((o->ink.pen_use_count > 0 && o->ink.pen_use == NULL) ||
+      (o->ink.pen_count > 0 && o->ink.pen == NULL) ||
+      (o->ink.weight_count > 0 && o->ink.weight == NULL))
     return error_null(error, "a list of the options");
-  for (size_t i = 0; i < o->pen_use_count; i++) {
-    const recto_pen_use *use = &o->pen_use[i];
+  for (size_t i = 0; i < o->ink.pen_use_count; i++) {
+    const recto_pen_use *use = &o->ink.pen_use[i];
     if (use->pen < 1 || use->pen > RECTO_PEN_MOST ||
         (unsigned)use->lines > RECTO_LINES_HATCH ||
         (use->lines == RECTO_LINES_OF_CLASS && !is_class(use->edge_class)) ||
         (use->lines == RECTO_LINES_OF_GROUP && use->group == NULL))
       return refuse("the use of a pen at index", i, error);
   }
-  for (size_t i = 0; i < o->pen_count; i++) {
-    double mm = o->pen[i].width_mm;
+  for (size_t i = 0; i < o->ink.pen_count; i++) {
+    double mm = o->ink.pen[i].width_mm;
     if ((mm != 0 && !(mm >= RECTO_FINEST_MM && mm <= 100)) ||
-        o->pen[i].colour > 0xffffff)
+        o->ink.pen[i].colour > 0xffffff)
       return refuse("the pen at index", i, error);
   }
-  for (size_t i = 0; i < o->weight_count; i++)
-    if (!is_class(o->weight[i].edge_class) ||
-        !(o->weight[i].weight >= 0.01 && o->weight[i].weight <= 100))
+  for (size_t i = 0; i < o->ink.weight_count; i++)
+    if (!is_class(o->ink.weight[i].edge_class) ||
+        !(o->ink.weight[i].weight >= 0.01 && o->ink.weight[i].weight <= 100))
       return refuse("the weight at index", i, error);
   return RECTO_OK;
 }
@@ -91,79 +95,110 @@ static recto_status check_lists(const recto_options *o, recto_error *error) {
 static recto_status check(const recto_options *o, recto_error *error) {
   const double huge = DBL_MAX, small = DBL_MIN;
   const struct option_range range[] = {
-      {"the method", o->method, 0, RECTO_METHOD_COUNT - 1},
-      {"the number of threads", o->threads, 0, 1024},
-      {"the contact length", o->contact, -huge, huge},
-      {"the pitch", o->pitch_mm, o->pitch_mm == 0 ? 0 : RECTO_FINEST_MM, huge},
-      {"the resolution", o->resolution, 0, 1 << 20},
-      {"the kind of camera", o->camera, 0, RECTO_CAMERA_EYE},
-      {"the azimuth", o->azimuth_deg, -huge, huge},
-      {"the elevation", o->elevation_deg, -huge, huge},
-      {"the eye", o->eye[0], -huge, huge},
-      {"the eye", o->eye[1], -huge, huge},
-      {"the eye", o->eye[2], -huge, huge},
-      {"the target", o->target[0], -huge, huge},
-      {"the target", o->target[1], -huge, huge},
-      {"the target", o->target[2], -huge, huge},
-      {"the up direction", o->up[0], -huge, huge},
-      {"the up direction", o->up[1], -huge, huge},
-      {"the up direction", o->up[2], -huge, huge},
-      {"the field of view", o->fov_deg, 0, 179},
-      {"the way to fit", o->fit, 0, RECTO_FIT_SPHERE},
-      {"the scale", o->scale, small, huge},
-      {"the near distance", o->near_distance, 0, huge},
-      {"the section", o->section, -huge, huge},
-      {"the page width", o->page_width_mm, small, huge},
-      {"the page height", o->page_height_mm, small, huge},
-      {"the margin", o->margin_mm, -huge, huge},
-      {"the mask of edges", o->edges, 0, RECTO_EDGES_ALL},
-      {"the crease angle", o->crease_deg, 0, 180},
-      {"the way with hidden lines", o->hidden, 0, RECTO_HIDDEN_LAYER},
-      {"the number of layers that hide", o->hidden_layers, 0, INT_MAX},
-      {"the kind of fill", o->fill, 0, RECTO_FILL_HATCH},
-      {"the seam", o->seam_mm, 0, 10},
-      {"the hatch pitch", o->hatch_pitch_mm, RECTO_FINEST_MM, huge},
-      {"the hatch angle", o->hatch_angle_deg, -huge, huge},
-      {"the light", o->light[0], -huge, huge},
-      {"the light", o->light[1], -huge, huge},
-      {"the light", o->light[2], -huge, huge},
-      {"the pen width", o->pen_mm, RECTO_FINEST_MM, 100},
-      {"the number of pens", o->pens, 1, 1000},
-      {"the order", o->order, 0, RECTO_ORDER_AUTO},
-      {"the simplification", o->simplify_mm, 0, huge},
-      {"the shortest stroke", o->min_stroke_mm, -huge, huge},
-      {"the precision", o->precision, 0, 9},
-      {"the resolution of PNG", o->dpi, 0, 10000},
-      {"the pen speed", o->velocity_cm_s, 0, 127},
-      {"the speed with the pen up", o->velocity_up_cm_s, 0, 1000},
-      {"the way to divide", o->divide, 0, RECTO_DIVIDE_BOX},
+      {"the method", o->solver.method, 0, RECTO_METHOD_COUNT - 1},
+      {"the number of threads", o->solver.threads, 0, 1024},
+      {"the contact length", o->solver.contact, -huge, huge},
+      {"the pitch", o->solver.pitch_mm,
+       o->solver.pitch_mm == 0 ? 0 : RECTO_FINEST_MM, huge},
+      {"the resolution", o->solver.resolution, 0, 1 << 20},
+      {"the kind of camera", o->camera.kind, 0, RECTO_CAMERA_EYE},
+      {"the azimuth", o->camera.azimuth_deg, -huge, huge},
+      {"the elevation", o->camera.elevation_deg, -huge, huge},
+      {"the eye", o->camera.eye[0], -huge, huge},
+      {"the eye", o->camera.eye[1], -huge, huge},
+      {"the eye", o->camera.eye[2], -huge, huge},
+      {"the target", o->camera.target[0], -huge, huge},
+      {"the target", o->camera.target[1], -huge, huge},
+      {"the target", o->camera.target[2], -huge, huge},
+      {"the up direction", o->camera.up[0], -huge, huge},
+      {"the up direction", o->camera.up[1], -huge, huge},
+      {"the up direction", o->camera.up[2], -huge, huge},
+      {"the field of view", o->camera.fov_deg, 0, 179},
+      {"the way to fit", o->camera.fit, 0, RECTO_FIT_SPHERE},
+      {"the scale", o->camera.scale, small, huge},
+      {"the near distance", o->camera.near_distance, 0, huge},
+      {"the section", o->camera.section, -huge, huge},
+      {"the page width", o->page.width_mm, small, huge},
+      {"the page height", o->page.height_mm, small, huge},
+      {"the margin", o->page.margin_mm, -huge, huge},
+      {"the mask of edges", o->ink.edges, 0, RECTO_EDGES_ALL},
+      {"the crease angle", o->mesh.crease_deg, 0, 180},
+      {"the way with hidden lines", o->ink.hidden, 0, RECTO_HIDDEN_LAYER},
+      {"the number of layers that hide", o->ink.hidden_layers, 0, INT_MAX},
+      {"the kind of fill", o->ink.fill, 0, RECTO_FILL_HATCH},
+      {"the seam", o->ink.seam_mm, 0, 10},
+      {"the hatch pitch", o->ink.hatch_pitch_mm, RECTO_FINEST_MM, huge},
+      {"the hatch angle", o->ink.hatch_angle_deg, -huge, huge},
+      {"the light", o->ink.light[0], -huge, huge},
+      {"the light", o->ink.light[1], -huge, huge},
+      {"the light", o->ink.light[2], -huge, huge},
+      {"the pen width", o->ink.pen_mm, RECTO_FINEST_MM, 100},
+      {"the number of pens", o->ink.pens, 1, 1000},
+      {"the order", o->ink.order, 0, RECTO_ORDER_AUTO},
+      {"the simplification", o->ink.simplify_mm, 0, huge},
+      {"the shortest stroke", o->ink.min_stroke_mm, -huge, huge},
+      {"the precision", o->output.precision, 0, 9},
+      {"the resolution of PNG", o->output.dpi, 0, 10000},
+      {"the pen speed", o->output.velocity_cm_s, 0, 127},
+      {"the speed with the pen up", o->output.velocity_up_cm_s, 0, 1000},
+      {"the way to divide", o->solver.divide, 0, RECTO_DIVIDE_BOX},
       {"the number of points to verify", o->verify, 0, 10000000},
-      {"the number of sub-pixels", o->subpixels, 0, 16},
-      {"the number of depth bits", o->depth_bits, 0, 32},
-      {"the output's unit", o->unit_mm, 0, 100},
+      {"the number of sub-pixels", o->solver.subpixels, 0, 16},
+      {"the number of depth bits", o->solver.depth_bits, 0, 32},
+      {"the output's unit", o->output.unit_mm, 0, 100},
       {"the mask of results", o->results, 0, RECTO_RESULTS_ALL},
-      {"the weld length", o->weld, -huge, huge},
-      {"the number of bits of coordinates", o->coordinate_bits, 0, 53},
-      {"the number of pens with a width", (double)o->pen_count, 0,
+      {"the weld length", o->mesh.weld, -huge, huge},
+      {"the number of bits of coordinates", o->mesh.coordinate_bits, 0, 53},
+      {"the number of pens with a width", (double)o->ink.pen_count, 0,
        RECTO_PEN_MOST},
   };
-  if (o->device != NULL && device_by_name(o->device) == NULL) {
+  if (o->output.device != NULL && device_by_name(o->output.device) == NULL) {
     char known[DEVICE_LIST_SIZE];
     device_list(known);
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                     "there is no plotter \"%.60s\"; known are: %s", o->device,
-                     known);
+                     "there is no plotter \"%.60s\"; known are: %s",
+                     o->output.device, known);
   }
   recto_status status =
       check_ranges(range, sizeof range / sizeof range[0], error);
   return status == RECTO_OK ? check_lists(o, error) : status;
 }
 
+/* Whether all reserved fields of a block are 0. */
+static bool is_zero(const uint64_t *reserved, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    if (reserved[i] != 0)
+      return false;
+  return true;
+}
+
+#define IS_UNUSED(block)                                                       \
+  is_zero((block).reserved, sizeof(block).reserved / sizeof(uint64_t))
+
+recto_status options_copy(recto_options *own, const recto_options *options,
+                          recto_error *error) {
+  enum { LARGEST = 1 << 16 };
+  *own = defaults;
+  if (options == NULL)
+    return RECTO_OK;
+  if (options->size < offsetof(recto_options, verify) ||
+      options->size > LARGEST)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "the options were not initialised by recto_options_init");
+  recto_status status =
+      sized_take(own, sizeof *own, options, options->size, error);
+  own->size = sizeof *own;
+  if (status == RECTO_OK && !(IS_UNUSED(own->solver) && IS_UNUSED(own->mesh) &&
+                              IS_UNUSED(own->camera) && IS_UNUSED(own->page) &&
+                              IS_UNUSED(own->ink) && IS_UNUSED(own->output)))
+    status = sized_reject(error);
+  return status;
+}
+
 recto_status options_take(recto_options *own, const recto_options *options,
                           recto_error *error) {
-  if (options != NULL)
-    *own = *options;
-  else
-    recto_options_init(own);
-  return check(own, error);
+  recto_status status = options_copy(own, options, error);
+  if (status == RECTO_OK)
+    status = check(own, error);
+  return status == RECTO_OK ? options_suit(own, error) : status;
 }

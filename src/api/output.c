@@ -33,49 +33,14 @@ const char *recto_output_format_name(size_t index) {
 }
 
 static struct writer_options writer_options_of(const recto_options *options) {
-  return (struct writer_options){.precision = options->precision,
-                                 .polyline = options->polyline,
-                                 .tight = options->tight,
-                                 .dpi = options->dpi,
-                                 .device = options->device,
-                                 .velocity = options->velocity_cm_s,
+  return (struct writer_options){.precision = options->output.precision,
+                                 .polyline = options->output.polyline,
+                                 .tight = options->output.tight,
+                                 .dpi = options->output.dpi,
+                                 .device = options->output.device,
+                                 .velocity = options->output.velocity_cm_s,
                                  .warning = options->warning,
                                  .user = options->user};
-}
-
-double recto_output_unit_mm(const char *path, const char *format,
-                            const recto_options *options) {
-  const struct writer *writer = find_writer(path, format);
-  recto_options usual;
-  recto_options_init(&usual);
-  struct writer_options how =
-      writer_options_of(options != NULL ? options : &usual);
-  return writer != NULL ? writer->unit_mm(&how) : 0;
-}
-
-/* Sets the margin that the writer's device needs.  The default margin is kept
- * where it is wide enough, and where the page is so small that the needed
- * margins would leave no room. */
-static void fit_margin(recto_options *o, const struct writer *writer) {
-  struct writer_options how = writer_options_of(o);
-  double needed = writer->margin_mm(&how, o->page_width_mm, o->page_height_mm);
-  if (needed > RECTO_USUAL_MARGIN_MM &&
-      2 * needed < fmin(o->page_width_mm, o->page_height_mm))
-    o->margin_mm = needed;
-}
-
-void recto_options_suit(recto_options *options, const char *path,
-                        const char *format) {
-  const struct writer *writer = find_writer(path, format);
-  if (options == NULL)
-    return;
-  options->unit_mm = recto_output_unit_mm(path, format, options);
-  if (options->margin_mm < 0 && writer != NULL && writer->margin_mm != NULL)
-    fit_margin(options, writer);
-  if (options->order == RECTO_ORDER_AUTO && writer != NULL && writer->by_pens)
-    options->order = RECTO_ORDER_NEAR;
-  if (writer != NULL && writer->by_pens)
-    options->has_weights = true;
 }
 
 /* Reports why find_writer returned NULL. */
@@ -89,6 +54,37 @@ static recto_status no_writer(const char *path, const char *format,
                      "standard output needs a format");
   return error_set(error, RECTO_ERROR_UNSUPPORTED, path, 0,
                    "there is no output format of that extension");
+}
+
+/* Sets the margin that the writer's device needs.  The default margin is kept
+ * where it is wide enough, and where the page is so small that the needed
+ * margins would leave no room. */
+static void fit_margin(recto_options *o, const struct writer *writer) {
+  struct writer_options how = writer_options_of(o);
+  double needed = writer->margin_mm(&how, o->page.width_mm, o->page.height_mm);
+  if (needed > RECTO_USUAL_MARGIN_MM &&
+      2 * needed < fmin(o->page.width_mm, o->page.height_mm))
+    o->page.margin_mm = needed;
+}
+
+recto_status options_suit(recto_options *options, recto_error *error) {
+  const char *format = options->output.format;
+  if (format == NULL)
+    return RECTO_OK;
+  const struct writer *writer = writer_by_name(format);
+  if (writer == NULL)
+    return no_writer(NULL, format, error);
+  struct writer_options how = writer_options_of(options);
+  if (options->output.unit_mm == 0)
+    options->output.unit_mm = writer->unit_mm(&how);
+  if (options->page.margin_mm < 0 && writer->margin_mm != NULL)
+    fit_margin(options, writer);
+  if (writer->by_pens) {
+    options->ink.has_weights = true;
+    if (options->ink.order == RECTO_ORDER_AUTO)
+      options->ink.order = RECTO_ORDER_NEAR;
+  }
+  return RECTO_OK;
 }
 
 recto_status output_check_format(const char *path, const char *format,

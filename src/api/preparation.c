@@ -9,23 +9,23 @@ recto_status preparation_init(struct preparation *preparation,
                               recto_error *error) {
   recto_options scaled;
   *preparation =
-      (struct preparation){.weld = options->weld,
-                           .crease_deg = options->crease_deg,
-                           .coordinate_bits = options->coordinate_bits};
+      (struct preparation){.weld = options->mesh.weld,
+
+                           .coordinate_bits = options->mesh.coordinate_bits};
   recto_options_init(&scaled);
-  scaled.weld = options->weld;
+  scaled.mesh.weld = options->mesh.weld;
   recto_status status = rescale(&preparation->rescaled, scene, error);
   if (status == RECTO_OK)
     status = rescale_options(&preparation->rescaled, &scaled, error);
   if (status != RECTO_OK)
     return status;
   const struct weld_request request = {
-      scaled.weld, precision_of_bits(options->coordinate_bits)};
+      scaled.mesh.weld, precision_of_bits(options->mesh.coordinate_bits)};
   status = welded_init(&preparation->welded, &preparation->topology,
                        &preparation->rescaled.scene, &request, error);
   if (status == RECTO_OK && classes &&
       !topology_keep_natures(&preparation->topology, &preparation->welded.scene,
-                             options->crease_deg))
+                             options->mesh.crease_deg))
     status = error_memory(error);
   return status;
 }
@@ -38,6 +38,6 @@ void preparation_fini(struct preparation *preparation) {
 
 bool preparation_suits(const struct preparation *preparation,
                        const recto_options *options) {
-  return preparation->weld == options->weld &&
-         preparation->coordinate_bits == options->coordinate_bits;
+  return preparation->weld == options->mesh.weld &&
+         preparation->coordinate_bits == options->mesh.coordinate_bits;
 }

@@ -13,7 +13,7 @@ struct preparation {
   struct welded welded;
   struct topology topology;
   /* The options that it depends on. */
-  double weld, crease_deg;
+  double weld;
   int coordinate_bits;
 };
 

@@ -51,16 +51,16 @@ bool recto_method_is_available(recto_method method) {
 
 static recto_status check_method(const recto_options *options,
                                  recto_error *error) {
-  if (!recto_method_is_available(options->method))
+  if (!recto_method_is_available(options->solver.method))
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                      "method %s is not available in this build",
-                     recto_method_name(options->method));
+                     recto_method_name(options->solver.method));
   return RECTO_OK;
 }
 
 static const struct solver *
 choose_method(struct render *render, const struct solver_request *request) {
-  recto_method method = render->options->method;
+  recto_method method = render->options->solver.method;
   const char *why = "requested";
   const struct solver *solver =
       method == RECTO_METHOD_AUTO ? solver_choose(&render->sheet, request, &why)
@@ -73,14 +73,15 @@ choose_method(struct render *render, const struct solver_request *request) {
  * faster. */
 static int count_threads(const recto_options *options) {
   int there = parallel_processors();
-  return 0 < options->threads && options->threads < there ? options->threads
-                                                          : there;
+  return 0 < options->solver.threads && options->solver.threads < there
+             ? options->solver.threads
+             : there;
 }
 
 /* ---- Stages -------------------------------------------------------------- */
 
 static bool has_fills(const struct render *render) {
-  return render->options->fill != RECTO_FILL_NONE;
+  return render->options->ink.fill != RECTO_FILL_NONE;
 }
 
 static bool needs_fragments(const struct render *render) {
@@ -111,7 +112,7 @@ static void drop_topology(struct render *render) {
 static void warn_of_borders(const struct render *render) {
   const recto_options *o = render->options;
   const struct topology *topology = &render->topology;
-  if (o->warning == NULL || o->weld == 0 ||
+  if (o->warning == NULL || o->mesh.weld == 0 ||
       !welded_is_suspicious(&render->prepared->welded, topology))
     return;
   char text[128];
@@ -219,30 +220,30 @@ static bool pass_progress(void *user, double share, const char *stage) {
 static recto_status solve(struct render *render, recto_error *error) {
   const recto_options *options = render->options;
   struct solver_request request = {
-      .strokes = options->edges != RECTO_EDGES_NONE,
+      .strokes = options->ink.edges != RECTO_EDGES_NONE,
       .fragments = needs_fragments(render),
-      .hidden = options->hidden != RECTO_HIDDEN_NONE ||
+      .hidden = options->ink.hidden != RECTO_HIDDEN_NONE ||
                 (options->results & RECTO_RESULT_EDGES) != 0,
-      .intersections = (options->edges & RECTO_EDGE_INTERSECTION) != 0,
+      .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,
       .threads = count_threads(options),
-      .pitch_mm = options->pitch_mm,
-      .resolution = options->resolution,
-      .divide_by_box = options->divide == RECTO_DIVIDE_BOX,
-      .subpixels = options->subpixels,
-      .remove_backs = options->remove_backs,
-      .depth_bits = options->depth_bits,
+      .pitch_mm = options->solver.pitch_mm,
+      .resolution = options->solver.resolution,
+      .divide_by_box = options->solver.divide == RECTO_DIVIDE_BOX,
+      .subpixels = options->solver.subpixels,
+      .remove_backs = options->solver.remove_backs,
+      .depth_bits = options->solver.depth_bits,
       .progress = options->progress != NULL ? pass_progress : NULL,
       .user = render,
   };
   recto_status status = choose_method(render, &request)
                             ->solve(&render->sheet, &request, &render->map,
                                     render->report, error);
-  bool has_limit =
-      options->hidden != RECTO_HIDDEN_NONE && options->hidden_layers > 0;
+  bool has_limit = options->ink.hidden != RECTO_HIDDEN_NONE &&
+                   options->ink.hidden_layers > 0;
   if (status == RECTO_OK && (has_limit || keeps_invisibility(render)))
     status = quantitative_invisibility_find(
         &render->map, &render->sheet,
-        has_limit ? options->hidden_layers : INT_MAX,
+        has_limit ? options->ink.hidden_layers : INT_MAX,
         keeps_invisibility(render), &request, render->report, error);
   return status;
 }
@@ -329,7 +330,7 @@ static void warn_of_empty_page(const struct render *render) {
       o->warning == NULL)
     return;
   const char *why = "nothing that was asked for is visible and long enough";
-  if (o->edges == RECTO_EDGES_NONE && o->fill == RECTO_FILL_NONE)
+  if (o->ink.edges == RECTO_EDGES_NONE && o->ink.fill == RECTO_FILL_NONE)
     why = "neither lines nor fills are asked for";
   else if (is_outside(render))
     why = "all of the scene is outside of the page's margins";
@@ -380,7 +381,7 @@ static recto_status keep_results(struct render *render, recto_error *error) {
       .scene = &render->prepared->welded.scene,
       .point = render->model->scene.point.item,
       .options = &render->scaled,
-      .crease_deg = render->options->crease_deg,
+      .crease_deg = render->options->mesh.crease_deg,
       .with_counts = keeps_invisibility(render)};
   recto_status status = RECTO_OK;
   if (results & RECTO_RESULT_EDGES && render->map.edge_state != NULL)

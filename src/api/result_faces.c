@@ -8,7 +8,9 @@
 
 /* The class of a mesh edge in this view: as it was drawn, or for an edge of a
  * class that was not requested, by its faces.  The other face of a silhouette
- * is turned away, so that it is not the neighbour. */
+ * is turned away, so that it is not the neighbour.
+ * neighbour  the face beside an edge of the fragment's own; SHEET_NONE: none,
+ *            or the edge is that of a nearer face, which hides something */
 static recto_edge_class class_of(const struct result_sources *s,
                                  const struct sheet_edge *edge,
                                  uint32_t neighbour) {
@@ -32,7 +34,7 @@ static void classify(const struct result_sources *s,
                                     [MAP_SIDE_OCCLUDER] = RECTO_SIDE_OCCLUDER,
                                     [MAP_SIDE_INTERSECTION] =
                                         RECTO_SIDE_INTERSECTION,
-                                    [MAP_SIDE_CLIP] = RECTO_SIDE_WINDOW};
+                                    [MAP_SIDE_CLIP] = RECTO_SIDE_CLIP};
   const struct map *map = s->map;
   const struct map_corner *corner = &map->corner.item[half->side];
   to->side = side[corner->side];
@@ -47,8 +49,7 @@ static void classify(const struct result_sources *s,
         map->fragment.item[map->half_edge.item[half->twin].fragment].face;
   const struct sheet_edge *edge = &s->sheet->edge.item[corner->id];
   to->edge = edge->source;
-  to->edge_class = corner->side == MAP_SIDE_EDGE ? class_of(s, edge, neighbour)
-                                                 : RECTO_EDGE_SILHOUETTE;
+  to->edge_class = class_of(s, edge, neighbour);
 }
 
 static bool add_half_edges(recto_drawing *drawing,

@@ -84,21 +84,21 @@ static recto_status read_model(recto_scene *scene, const void *bytes,
                                size_t count, const char *path,
                                const char *format, const recto_options *options,
                                recto_error *error) {
-  struct diagnostics diagnostics = {.file = path};
-  if (options != NULL) {
-    diagnostics.warning = options->warning;
-    diagnostics.progress = options->progress;
-    diagnostics.user = options->user;
-  }
-  scene->scene.wants_colours =
-      options != NULL && options->fill == RECTO_FILL_PAINT;
+  recto_options own;
+  recto_status status = options_copy(&own, options, error);
+  if (status != RECTO_OK)
+    return status;
+  struct diagnostics diagnostics = {.file = path,
+                                    .warning = own.warning,
+                                    .progress = own.progress,
+                                    .user = own.user};
+  scene->scene.wants_colours = own.ink.fill == RECTO_FILL_PAINT;
   scene_forget_preparation(scene);
   double cpu = clock_cpu(), wall = clock_wall();
-  recto_status status =
-      bytes == NULL
-          ? scene_read(&scene->scene, path, format, &diagnostics, error)
-          : scene_read_memory(&scene->scene, bytes, count, path, format,
-                              &diagnostics, error);
+  status = bytes == NULL
+               ? scene_read(&scene->scene, path, format, &diagnostics, error)
+               : scene_read_memory(&scene->scene, bytes, count, path, format,
+                                   &diagnostics, error);
   scene->read_cpu += clock_cpu() - cpu;
   scene->read_wall += clock_wall() - wall;
   if (status == RECTO_OK)

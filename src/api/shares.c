@@ -7,14 +7,15 @@
 #include <string.h>
 
 static double weigh_solving(const recto_options *o) {
-  bool fast = o->method == RECTO_METHOD_AUTO || o->method == RECTO_METHOD_TILES;
-  return (fast ? 60 : 400) * (o->fill != RECTO_FILL_NONE ? 3 : 1);
+  bool fast = o->solver.method == RECTO_METHOD_AUTO ||
+              o->solver.method == RECTO_METHOD_TILES;
+  return (fast ? 60 : 400) * (o->ink.fill != RECTO_FILL_NONE ? 3 : 1);
 }
 
 static double weigh_ink(const recto_options *o) {
-  return 3 + (o->fill == RECTO_FILL_HATCH ? 80 : 0) +
-         (o->fill != RECTO_FILL_NONE ? 20 : 0) +
-         (o->order == RECTO_ORDER_NEAR ? 30 : 0);
+  return 3 + (o->ink.fill == RECTO_FILL_HATCH ? 80 : 0) +
+         (o->ink.fill != RECTO_FILL_NONE ? 20 : 0) +
+         (o->ink.order == RECTO_ORDER_NEAR ? 30 : 0);
 }
 
 /* The constant part is the preparation before the first sample. */

@@ -4,14 +4,18 @@
 
 #include <string.h>
 
+recto_status sized_reject(recto_error *error) {
+  return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                   "the program was compiled for a later version of recto and "
+                   "uses a field that this one does not have");
+}
+
 recto_status sized_take(void *to, size_t to_size, const void *from,
                         size_t from_size, recto_error *error) {
   const unsigned char *byte = from;
   for (size_t i = to_size; i < from_size; i++)
     if (byte[i] != 0)
-      return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                       "the program was compiled for a later version of recto "
-                       "and uses a field that this one does not have");
+      return sized_reject(error);
   memcpy(to, from, from_size < to_size ? from_size : to_size);
   return RECTO_OK;
 }

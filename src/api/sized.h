@@ -15,6 +15,9 @@
 USE_RESULT recto_status sized_take(void *to, size_t to_size, const void *from,
                                    size_t from_size, recto_error *error);
 
+/* Sets the error of a newer caller. */
+recto_status sized_reject(recto_error *error);
+
 /* Copies the library's struct to the caller's, of which the rest becomes
  * zero. */
 void sized_give(void *to, size_t to_size, const void *from, size_t from_size);

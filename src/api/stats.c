@@ -94,12 +94,13 @@ static void add_layers(struct report *report, const struct drawing *drawing) {
 static void add_plotting(struct report *report, const struct drawing *drawing,
                          const recto_options *options, double length_mm,
                          double travel_mm) {
-  const char *name = options->device != NULL ? options->device : "generic";
+  const char *name =
+      options->output.device != NULL ? options->output.device : "generic";
   const struct device *device = device_by_name(name);
   if (device == NULL)
     return;
-  double down = device_velocity(device, options->velocity_cm_s);
-  double up = options->velocity_up_cm_s;
+  double down = device_velocity(device, options->output.velocity_cm_s);
+  double up = options->output.velocity_up_cm_s;
   up = up > 0 ? up : device->up_cm_s;
   struct device_placement place;
   device_place(device, drawing->width_mm, drawing->height_mm, &place);

@@ -59,17 +59,17 @@ static recto_status take_dropped(struct judge_drawing *to,
                                  const struct verify *verify,
                                  recto_error *error) {
   recto_options all = *verify->options;
-  double shortest = all.min_stroke_mm, collapsed = 0;
-  if (all.unit_mm > FINE_UNIT_MM) {
-    collapsed = COLLAPSED_UNITS * all.unit_mm;
-    all.unit_mm = FINE_UNIT_MM;
+  double shortest = all.ink.min_stroke_mm, collapsed = 0;
+  if (all.output.unit_mm > FINE_UNIT_MM) {
+    collapsed = COLLAPSED_UNITS * all.output.unit_mm;
+    all.output.unit_mm = FINE_UNIT_MM;
   }
   if (shortest == 0 && collapsed == 0)
     return RECTO_OK;
-  all.min_stroke_mm = 0;
-  all.ids = false;
-  all.fill = RECTO_FILL_NONE;
-  all.order = RECTO_ORDER_NONE;
+  all.ink.min_stroke_mm = 0;
+  all.ink.ids = false;
+  all.ink.fill = RECTO_FILL_NONE;
+  all.ink.order = RECTO_ORDER_NONE;
   struct drawing drawing;
   drawing_init(&drawing);
   recto_status status = ink_draw(&drawing, verify->sheet, verify->scene,

@@ -175,9 +175,9 @@ static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
     return false;
   }
   if (a->eye_given) {
-    a->options.camera = RECTO_CAMERA_EYE;
+    a->options.camera.kind = RECTO_CAMERA_EYE;
     if (!a->ortho && !a->fov_given)
-      a->options.fov_deg = 30;
+      a->options.camera.fov_deg = 30;
   }
   return true;
 }
@@ -230,18 +230,18 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
 
 static bool settle_method(const struct arguments *a,
                           char message[MESSAGE_SIZE]) {
-  if (recto_method_is_available(a->options.method))
+  if (recto_method_is_available(a->options.solver.method))
     return true;
   snprintf(message, MESSAGE_SIZE, "--method %s is not available in this build",
-           recto_method_name(a->options.method));
+           recto_method_name(a->options.solver.method));
   return false;
 }
 
 static void settle_page(struct arguments *a) {
-  double width = a->options.page_width_mm;
-  if (a->landscape && width < a->options.page_height_mm) {
-    a->options.page_width_mm = a->options.page_height_mm;
-    a->options.page_height_mm = width;
+  double width = a->options.page.width_mm;
+  if (a->landscape && width < a->options.page.height_mm) {
+    a->options.page.width_mm = a->options.page.height_mm;
+    a->options.page.height_mm = width;
   }
 }
 

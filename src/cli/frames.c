@@ -14,12 +14,12 @@ void frame_options(const struct arguments *a, int frame,
                    recto_options *options) {
   *options = a->options;
   if (a->turntable > 0) {
-    options->azimuth_deg += 360.0 * frame / a->turntable;
-    if (options->fit == RECTO_FIT_PAGE)
-      options->fit = RECTO_FIT_SPHERE;
+    options->camera.azimuth_deg += 360.0 * frame / a->turntable;
+    if (options->camera.fit == RECTO_FIT_PAGE)
+      options->camera.fit = RECTO_FIT_SPHERE;
   } else if (a->view_count > 1) {
-    options->azimuth_deg = a->view[frame].azimuth_deg;
-    options->elevation_deg = a->view[frame].elevation_deg;
+    options->camera.azimuth_deg = a->view[frame].azimuth_deg;
+    options->camera.elevation_deg = a->view[frame].elevation_deg;
   }
 }
 

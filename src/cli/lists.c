@@ -27,8 +27,8 @@ recto_status lists_add_pen_use(struct arguments *a, const char *name,
     return RECTO_ERROR_ARGUMENT;
   if (!ARRAY_PUSH(&a->pen_use, use))
     return RECTO_ERROR_MEMORY;
-  a->options.pen_use = a->pen_use.item;
-  a->options.pen_use_count = a->pen_use.count;
+  a->options.ink.pen_use = a->pen_use.item;
+  a->options.ink.pen_use_count = a->pen_use.count;
   return RECTO_OK;
 }
 
@@ -37,9 +37,9 @@ static recto_pen *find_pen(struct arguments *a, const char *name) {
   int pen;
   if (!is_pen(name, &pen))
     return NULL;
-  a->options.pen = a->pen;
-  if (a->options.pen_count < (size_t)pen)
-    a->options.pen_count = (size_t)pen;
+  a->options.ink.pen = a->pen;
+  if (a->options.ink.pen_count < (size_t)pen)
+    a->options.ink.pen_count = (size_t)pen;
   return &a->pen[pen - 1];
 }
 
@@ -79,13 +79,13 @@ recto_status lists_set_weight(struct arguments *a, const char *name,
   if (weight.edge_class == 0 || !value_number(value, &weight.weight) ||
       !(weight.weight >= 0.01 && weight.weight <= 100))
     return RECTO_ERROR_ARGUMENT;
-  while (place < a->options.weight_count &&
+  while (place < a->options.ink.weight_count &&
          a->weight[place].edge_class != weight.edge_class)
     place++;
   a->weight[place] = weight;
-  a->options.weight = a->weight;
-  if (a->options.weight_count == place)
-    a->options.weight_count++;
+  a->options.ink.weight = a->weight;
+  if (a->options.ink.weight_count == place)
+    a->options.ink.weight_count++;
   return RECTO_OK;
 }
 
@@ -148,7 +148,7 @@ static bool take_items(struct arguments *arguments,
 bool lists_take(struct arguments *arguments, const struct option_entry *entry,
                 const char *text, char message[MESSAGE_SIZE]) {
   if (entry->words != NULL && strcmp(text, entry->words) == 0) {
-    arguments->options.weight_count = 0;
+    arguments->options.ink.weight_count = 0;
     return true;
   }
   size_t size = strlen(text) + 1;

@@ -35,18 +35,18 @@ static const char *name_format(const struct arguments *a) {
 static uint64_t find_requests(const struct arguments *a) {
   const recto_options *o = &a->options;
   const char *format = name_format(a);
-  uint64_t bits =
-      BIT(o->method) | BIT(16 + o->fill) | BIT(20 + o->fit) | EDGES(o->edges);
-  bits |= BIT(o->camera == RECTO_CAMERA_EYE ? EYE : NAMED_VIEW);
+  uint64_t bits = BIT(o->solver.method) | BIT(16 + o->ink.fill) |
+                  BIT(20 + o->camera.fit) | EDGES(o->ink.edges);
+  bits |= BIT(o->camera.kind == RECTO_CAMERA_EYE ? EYE : NAMED_VIEW);
   bits |= BIT(strcmp(format, "svg") == 0    ? SVG
               : strcmp(format, "hpgl") == 0 ? HPGL
               : strcmp(format, "png") == 0  ? PNG
                                             : PAGES);
-  if (o->fov_deg > 0)
+  if (o->camera.fov_deg > 0)
     bits |= BIT(PERSPECTIVE);
-  if (o->light[0] == 0 && o->light[1] == 0 && o->light[2] == 0)
+  if (o->ink.light[0] == 0 && o->ink.light[1] == 0 && o->ink.light[2] == 0)
     bits |= BIT(NO_LIGHT);
-  if (o->method == RECTO_METHOD_WARNOCK && o->resolution > 0)
+  if (o->solver.method == RECTO_METHOD_WARNOCK && o->solver.resolution > 0)
     bits |= BIT(WARNOCK_PIXELS);
   if (a->stats)
     bits |= BIT(STATS);
@@ -114,16 +114,16 @@ static const char *name_instead(const struct arguments *a, uint64_t bits) {
                                      "--fill shade", "--fill hatch"};
   static const char *const fit[] = {"--fit", "--no-fit", "--scale"};
   if (bits & METHODS)
-    return recto_method_name(a->options.method);
+    return recto_method_name(a->options.solver.method);
   if (bits & FORMATS)
     return name_format(a);
   if (bits & LINES)
-    return a->options.edges == RECTO_EDGES_NONE ? "--edges none"
-                                                : "this --edges";
+    return a->options.ink.edges == RECTO_EDGES_NONE ? "--edges none"
+                                                    : "this --edges";
   if (bits & FILLS)
-    return fill[a->options.fill];
+    return fill[a->options.ink.fill];
   if (bits & FITS)
-    return fit[a->options.fit];
+    return fit[a->options.camera.fit];
   return bits & BIT(NO_LIGHT) ? "hatching by --light"
          : bits & BIT(STATS)  ? "a run without --stats"
                               : "a run without --check";

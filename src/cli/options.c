@@ -17,7 +17,7 @@
 static bool take_method(struct arguments *arguments, const char *text) {
   for (int i = 0; i < RECTO_METHOD_COUNT; i++)
     if (strcmp(text, recto_method_name((recto_method)i)) == 0) {
-      arguments->options.method = (recto_method)i;
+      arguments->options.solver.method = (recto_method)i;
       return true;
     }
   return false;
@@ -42,8 +42,8 @@ static bool take_view(struct arguments *arguments, const char *text) {
       if (arguments->view_count == VIEWS_MAX)
         return false;
       arguments->view[arguments->view_count++] = known[i];
-      arguments->options.azimuth_deg = known[i].azimuth_deg;
-      arguments->options.elevation_deg = known[i].elevation_deg;
+      arguments->options.camera.azimuth_deg = known[i].azimuth_deg;
+      arguments->options.camera.elevation_deg = known[i].elevation_deg;
       return true;
     }
   return false;
@@ -51,24 +51,24 @@ static bool take_view(struct arguments *arguments, const char *text) {
 
 static bool take_fit(struct arguments *arguments, const char *text) {
   (void)text;
-  arguments->options.fit = RECTO_FIT_PAGE;
+  arguments->options.camera.fit = RECTO_FIT_PAGE;
   return true;
 }
 
 static bool take_no_fit(struct arguments *arguments, const char *text) {
   (void)text;
-  arguments->options.fit = RECTO_FIT_NONE;
+  arguments->options.camera.fit = RECTO_FIT_NONE;
   return true;
 }
 
 static bool take_scale(struct arguments *arguments, const char *text) {
-  arguments->options.fit = RECTO_FIT_SCALE;
-  return value_scale(text, &arguments->options.scale);
+  arguments->options.camera.fit = RECTO_FIT_SCALE;
+  return value_scale(text, &arguments->options.camera.scale);
 }
 
 static bool take_page(struct arguments *arguments, const char *text) {
-  return value_page(text, &arguments->options.page_width_mm,
-                    &arguments->options.page_height_mm);
+  return value_page(text, &arguments->options.page.width_mm,
+                    &arguments->options.page.height_mm);
 }
 
 static bool take_depth_bits(struct arguments *arguments, const char *text) {
@@ -78,7 +78,7 @@ static bool take_depth_bits(struct arguments *arguments, const char *text) {
   } depth[] = {{"16", 16}, {"24", 24}, {"32", 32}, {"64", 0}, {"float64", 0}};
   for (size_t i = 0; i < sizeof depth / sizeof depth[0]; i++)
     if (strcmp(text, depth[i].word) == 0) {
-      arguments->options.depth_bits = depth[i].bits;
+      arguments->options.solver.depth_bits = depth[i].bits;
       return true;
     }
   return false;
@@ -90,12 +90,12 @@ static bool take_pitch(struct arguments *arguments, const char *text) {
   if (strcmp(text, "exact") != 0 &&
       !(value_length(text, &mm) && mm >= RECTO_FINEST_MM))
     return false;
-  arguments->options.pitch_mm = mm;
+  arguments->options.solver.pitch_mm = mm;
   return true;
 }
 
 static bool take_edges(struct arguments *arguments, const char *text) {
-  return value_edges(text, &arguments->options.edges);
+  return value_edges(text, &arguments->options.ink.edges);
 }
 
 /* HOW, HOW,N or N, which is dashed,N. */
@@ -114,14 +114,14 @@ static bool take_hidden(struct arguments *arguments, const char *text) {
   if (how < 0 || (number != NULL &&
                   (!value_int(number, &layers) || layers < 1 || how == 0)))
     return false;
-  arguments->options.hidden = (recto_hidden)how;
-  arguments->options.hidden_layers = layers;
+  arguments->options.ink.hidden = (recto_hidden)how;
+  arguments->options.ink.hidden_layers = layers;
   return true;
 }
 
 static bool take_path(struct arguments *arguments, const char *text) {
-  arguments->options.polyline = strcmp(text, "polyline") == 0;
-  return arguments->options.polyline || strcmp(text, "path") == 0;
+  arguments->options.output.polyline = strcmp(text, "polyline") == 0;
+  return arguments->options.output.polyline || strcmp(text, "path") == 0;
 }
 
 static bool take_tolerance(struct arguments *arguments, const char *text) {
@@ -156,31 +156,33 @@ const struct option_entry option_table[] = {
      .use = {USED_BY_DRAWING}},
     {OPTION_NUMBER, "contact", 0, "LENGTH", "a number, 0 or more",
      "what lies closer in depth touches, in model units",
-     .offset = AT(options.contact), .least = 0, .most = DBL_MAX,
+     .offset = AT(options.solver.contact), .least = 0, .most = DBL_MAX,
      .use = {USED_BY_CONTACT}},
     {OPTION_NUMBER, "weld", 0, "LENGTH", "a number, 0 or more",
      "corners no farther apart are one, in model units",
-     .offset = AT(options.weld), .least = 0, .most = DBL_MAX},
+     .offset = AT(options.mesh.weld), .least = 0, .most = DBL_MAX},
     {OPTION_TAKE, "pitch", 0, "LENGTH",
      "a length of at least 0.01 mm, or exact",
      "watkins: between its scan lines, or exact (default)", .take = take_pitch,
      .use = {USED_BY_WATKINS}},
     {OPTION_INT, "resolution", 0, "N", "a number from 1 to 65536",
      "lines of pixels: z-buffers, warnock if asked",
-     .offset = AT(options.resolution), .least = 1, .most = 65536,
+     .offset = AT(options.solver.resolution), .least = 1, .most = 65536,
      .use = {USED_BY_LINES_OF_PIXELS}},
     {OPTION_WORD, "divide", 0, "HOW", "four or box",
-     "warnock: cut windows in four (default) box", .offset = AT(options.divide),
-     .words = "four box", .use = {USED_BY_WARNOCK}},
+     "warnock: cut windows in four (default) box",
+     .offset = AT(options.solver.divide), .words = "four box",
+     .use = {USED_BY_WARNOCK}},
     {OPTION_TAKE, "depth-bits", 0, "B", "16, 24, 32 or 64",
      "z-buffers: 16 24 32, or 64 for doubles (default)",
      .take = take_depth_bits, .use = {USED_BY_ZBUFFERS}},
     {OPTION_INT, "subpixels", 0, "K", "a number from 1 to 16",
-     "in pixels: average K x K in each (1)", .offset = AT(options.subpixels),
-     .least = 1, .most = 16, .use = {USED_BY_PIXELS}},
+     "in pixels: average K x K in each (1)",
+     .offset = AT(options.solver.subpixels), .least = 1, .most = 16,
+     .use = {USED_BY_PIXELS}},
     {OPTION_FLAG, "remove-backs", 0, NULL, NULL,
      "in pixels: leave out faces seen from behind",
-     .offset = AT(options.remove_backs), .use = {USED_BY_PIXELS}},
+     .offset = AT(options.solver.remove_backs), .use = {USED_BY_PIXELS}},
 
     HEADING("Camera"),
     {OPTION_TAKE, "view", 0, "NAME",
@@ -193,23 +195,24 @@ const struct option_entry option_table[] = {
      .use = {USED_BY_DRAWING}},
     {OPTION_NUMBER, "azimuth", 0, "DEG", "an angle in degrees",
      "turn the eye to the right, from the front",
-     .offset = AT(options.azimuth_deg), .given = AT(direction_given),
+     .offset = AT(options.camera.azimuth_deg), .given = AT(direction_given),
      .least = -DBL_MAX, .most = DBL_MAX},
     {OPTION_NUMBER, "elevation", 0, "DEG", "an angle from -90 to 90",
-     "raise the eye", .offset = AT(options.elevation_deg),
+     "raise the eye", .offset = AT(options.camera.elevation_deg),
      .given = AT(direction_given), .least = -90, .most = 90},
     {OPTION_VECTOR, "camera", 'c', "X,Y,Z", "three numbers such as 1,2,3",
-     "the eye's place, in model units", .offset = AT(options.eye),
+     "the eye's place, in model units", .offset = AT(options.camera.eye),
      .given = AT(eye_given)},
     {OPTION_VECTOR, "lookat", 'l', "X,Y,Z", "three numbers such as 1,2,3",
-     "what the eye looks at (the middle)", .offset = AT(options.target),
-     .given = AT(options.has_target), .use = {USED_BY_TARGET}},
+     "what the eye looks at (the middle)", .offset = AT(options.camera.target),
+     .given = AT(options.camera.has_target), .use = {USED_BY_TARGET}},
     {OPTION_VECTOR, "up", 'u', "X,Y,Z", "a direction such as 0,0,1",
-     "up (+Z in .stl, else +Y)", .offset = AT(options.up), .least = DBL_MIN},
+     "up (+Z in .stl, else +Y)", .offset = AT(options.camera.up),
+     .least = DBL_MIN},
     {OPTION_NUMBER, "fov", 'F', "DEG", "an angle above 0, at most 179",
      "perspective; vertical angle (30 with --camera)",
-     .offset = AT(options.fov_deg), .given = AT(fov_given), .least = DBL_MIN,
-     .most = 179, .use = {USED_BY_FOV}},
+     .offset = AT(options.camera.fov_deg), .given = AT(fov_given),
+     .least = DBL_MIN, .most = 179, .use = {USED_BY_FOV}},
     {OPTION_FLAG, "ortho", 0, NULL, NULL,
      "no perspective (default with --view)", .offset = AT(ortho)},
     {OPTION_TAKE, "fit", 0, NULL, NULL,
@@ -221,10 +224,13 @@ const struct option_entry option_table[] = {
      .use = {USED_BY_SCALE}},
     {OPTION_NUMBER, "near", 0, "D", "a distance above 0",
      "draw nothing nearer than this, in model units",
-     .offset = AT(options.near_distance), .least = DBL_MIN, .most = DBL_MAX},
+     .offset = AT(options.camera.near_distance), .least = DBL_MIN,
+     .most = DBL_MAX},
     {OPTION_NUMBER, "section", 0, "Z", "a depth in model units",
-     "cut at this depth, draw what is behind", .offset = AT(options.section),
-     .given = AT(options.has_section), .least = -DBL_MAX, .most = DBL_MAX},
+     "cut at this depth, draw what is behind",
+     .offset = AT(options.camera.section),
+     .given = AT(options.camera.has_section), .least = -DBL_MAX,
+     .most = DBL_MAX},
 
     HEADING("Page (lengths take mm, cm, in, pt; mm where nothing is said)"),
     {OPTION_TAKE, "page", 'p', "SIZE",
@@ -235,7 +241,7 @@ const struct option_entry option_table[] = {
      .offset = AT(landscape), .use = {USED_BY_DRAWING}},
     {OPTION_LENGTH, "margin", 0, "LENGTH", "a length, 0 or more",
      "left free on every side (10mm; a plotter: its own)",
-     .offset = AT(options.margin_mm), .least = 0, .most = DBL_MAX},
+     .offset = AT(options.page.margin_mm), .least = 0, .most = DBL_MAX},
 
     HEADING("Ink"),
     {OPTION_TAKE, "edges", 'e', "LIST",
@@ -244,38 +250,38 @@ const struct option_entry option_table[] = {
      "classes to draw (see below)", .take = take_edges},
     {OPTION_NUMBER, "crease", 0, "DEG", "an angle from 0 to 180",
      "faces that meet at more make a crease (30)",
-     .offset = AT(options.crease_deg), .least = 0, .most = 180,
+     .offset = AT(options.mesh.crease_deg), .least = 0, .most = 180,
      .use = {USED_BY_CREASE}},
     {OPTION_TAKE, "hidden", 0, "HOW[,N]",
      "none, dashed or layer, with ,N or not, or N above 0",
      "none (default) dashed layer; N: behind N at most", .take = take_hidden,
      .use = {USED_BY_LINES}},
     {OPTION_WORD, "fill", 0, "HOW", "none, paint, shade or hatch",
-     "faces: none (default) paint shade hatch", .offset = AT(options.fill),
+     "faces: none (default) paint shade hatch", .offset = AT(options.ink.fill),
      .words = "none paint shade hatch", .use = {USED_BY_DRAWING}},
     {OPTION_LENGTH, "seam", 0, "LENGTH", "a length from 0 to 10 mm",
      "paint, shade: such a stroke closes hairlines (0)",
-     .offset = AT(options.seam_mm), .least = 0, .most = 10,
+     .offset = AT(options.ink.seam_mm), .least = 0, .most = 10,
      .use = {USED_BY_SEAM}},
     {OPTION_LENGTH, "hatch-pitch", 0, "LENGTH", "a length of at least 0.01 mm",
      "between lines of hatching without --light (1mm)",
-     .offset = AT(options.hatch_pitch_mm), .least = RECTO_FINEST_MM,
+     .offset = AT(options.ink.hatch_pitch_mm), .least = RECTO_FINEST_MM,
      .most = DBL_MAX, .use = {USED_BY_HATCH, USED_BY_ONE_PITCH}},
     {OPTION_NUMBER, "hatch-angle", 0, "DEG", "an angle in degrees",
-     "direction of hatching (45)", .offset = AT(options.hatch_angle_deg),
+     "direction of hatching (45)", .offset = AT(options.ink.hatch_angle_deg),
      .least = -DBL_MAX, .most = DBL_MAX, .use = {USED_BY_HATCH}},
     {OPTION_FLAG, "hatch-inset", 0, NULL, NULL,
      "hatching without --light ends half a pen inside",
-     .offset = AT(options.hatch_inset),
+     .offset = AT(options.ink.hatch_inset),
      .use = {USED_BY_HATCH, USED_BY_ONE_PITCH}},
     {OPTION_VECTOR, "light", 0, "X,Y,Z", "a direction such as 1,2,3",
      "to the light (upper left); hatch: sets the tone",
-     .offset = AT(options.light), .least = DBL_MIN, .use = {USED_BY_LIGHT}},
+     .offset = AT(options.ink.light), .least = DBL_MIN, .use = {USED_BY_LIGHT}},
     {OPTION_LENGTH, "pen", 0, "LENGTH", "a length from 0.01 to 100 mm",
-     "the pen's width (0.3mm)", .offset = AT(options.pen_mm),
+     "the pen's width (0.3mm)", .offset = AT(options.ink.pen_mm),
      .least = RECTO_FINEST_MM, .most = 100, .use = {USED_BY_STROKES_AND_CHECK}},
     {OPTION_INT, "pens", 0, "N", "a number from 1 to 1000",
-     "deal the groups to so many pens (1)", .offset = AT(options.pens),
+     "deal the groups to so many pens (1)", .offset = AT(options.ink.pens),
      .least = 1, .most = 1000, .use = {USED_BY_STROKES}},
     {OPTION_LIST, "pen-for", 0, "LIST",
      "names and their pens, 1 to 1000, such as crease=2",
@@ -292,45 +298,48 @@ const struct option_entry option_table[] = {
     {OPTION_LIST, "weights", 0, "LIST",
      "classes and their weights, 0.01 to 100, such as crease=2, or none",
      "widths of classes in pens (silhouette=2,border=2)",
-     .given = AT(options.has_weights), .words = "none",
+     .given = AT(options.ink.has_weights), .words = "none",
      .take_item = lists_set_weight, .use = {USED_BY_LINES, USED_BY_SCREENS}},
     {OPTION_WORD, "order", 0, "HOW", "none or near",
      "near (default for HPGL): short ways with the pen up",
-     .offset = AT(options.order), .words = "none near",
+     .offset = AT(options.ink.order), .words = "none near",
      .use = {USED_BY_STROKES}},
     {OPTION_LENGTH, "simplify", 0, "LENGTH", "a length, 0 or more",
-     "move no point of a line by more (0)", .offset = AT(options.simplify_mm),
-     .least = 0, .most = DBL_MAX, .use = {USED_BY_LINES_AND_CHECK}},
+     "move no point of a line by more (0)",
+     .offset = AT(options.ink.simplify_mm), .least = 0, .most = DBL_MAX,
+     .use = {USED_BY_LINES_AND_CHECK}},
     {OPTION_LENGTH, "min-stroke", 0, "LENGTH", "a length, 0 or more",
      "drop strokes that are shorter (half the pen)",
-     .offset = AT(options.min_stroke_mm), .least = 0, .most = DBL_MAX,
+     .offset = AT(options.ink.min_stroke_mm), .least = 0, .most = DBL_MAX,
      .use = {USED_BY_STROKES_AND_CHECK}},
     {OPTION_FLAG, "ids", 0, NULL, NULL,
      "SVG: note face, edge, group, class of every line",
-     .offset = AT(options.ids), .use = {USED_BY_SVG}},
+     .offset = AT(options.ink.ids), .use = {USED_BY_SVG}},
 
     HEADING("File"),
     {OPTION_INT, "precision", 0, "DIGITS", "a number from 0 to 9",
-     "SVG: decimals of a millimetre (3)", .offset = AT(options.precision),
-     .least = 0, .most = 9, .use = {USED_BY_SVG}},
+     "SVG: decimals of a millimetre (3)",
+     .offset = AT(options.output.precision), .least = 0, .most = 9,
+     .use = {USED_BY_SVG}},
     {OPTION_TAKE, "path", 0, "HOW", "path or polyline",
      "SVG: path (default) or polyline elements", .take = take_path,
      .use = {USED_BY_SVG}},
     {OPTION_TEXT, "device", 0, "NAME", "a plotter",
      "HPGL: generic (default) drum hp7475a hp7550a dxy",
-     .offset = AT(options.device), .use = {USED_BY_PLOTTER}},
+     .offset = AT(options.output.device), .use = {USED_BY_PLOTTER}},
     {OPTION_NUMBER, "velocity", 0, "SPEED", "a speed from 1 to 127 cm/s",
-     "HPGL: pen speed in cm/s", .offset = AT(options.velocity_cm_s), .least = 1,
-     .most = 127, .use = {USED_BY_PLOTTER}},
+     "HPGL: pen speed in cm/s", .offset = AT(options.output.velocity_cm_s),
+     .least = 1, .most = 127, .use = {USED_BY_PLOTTER}},
     {OPTION_NUMBER, "velocity-up", 0, "SPEED", "a speed in cm/s, at least 1",
-     "pen up, for the time in --stats", .offset = AT(options.velocity_up_cm_s),
-     .least = 1, .most = 1000, .use = {USED_BY_STATS}},
+     "pen up, for the time in --stats",
+     .offset = AT(options.output.velocity_up_cm_s), .least = 1, .most = 1000,
+     .use = {USED_BY_STATS}},
 #ifdef HAVE_CAIRO
     {OPTION_FLAG, "tight", 0, NULL, NULL,
-     "PDF, EPS, PS, PNG: crop the page to the ink", .offset = AT(options.tight),
-     .use = {USED_BY_CAIRO}},
+     "PDF, EPS, PS, PNG: crop the page to the ink",
+     .offset = AT(options.output.tight), .use = {USED_BY_CAIRO}},
     {OPTION_NUMBER, "dpi", 0, "N", "a number from 1 to 10000",
-     "PNG: pixels per inch (150)", .offset = AT(options.dpi), .least = 1,
+     "PNG: pixels per inch (150)", .offset = AT(options.output.dpi), .least = 1,
      .most = 10000, .use = {USED_BY_PNG}},
 #else
     ABSENT("tight", NULL),
@@ -350,8 +359,9 @@ const struct option_entry option_table[] = {
      "--check: so much false, or missing, is right (0)", .take = take_tolerance,
      .use = {USED_BY_CHECK}},
     {OPTION_INT, "threads", 0, "N", "a number from 1 to 1024",
-     "at most so many threads (all there are)", .offset = AT(options.threads),
-     .least = 1, .most = 1024, .use = {USED_BY_DRAWING}},
+     "at most so many threads (all there are)",
+     .offset = AT(options.solver.threads), .least = 1, .most = 1024,
+     .use = {USED_BY_DRAWING}},
     {OPTION_FLAG, "progress", 0, NULL, NULL,
      "say how far it is (a terminal: by itself)", .offset = AT(progress)},
     {OPTION_FLAG, "quiet", 'q', NULL, NULL, "no warnings, no progress",

@@ -213,7 +213,8 @@ static recto_status draw_frame(const struct arguments *arguments,
   recto_drawing *drawing = NULL;
   recto_options options;
   frame_options(arguments, frame, &options);
-  recto_options_suit(&options, arguments->output, arguments->format);
+  options.output.format =
+      recto_output_format(arguments->output, arguments->format);
   options.user = &current;
   if (frame > 0)
     options.warning = NULL;

@@ -40,7 +40,7 @@ static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
     status = segment_graph_drop_collinear(graph, &rows, error);
   if (status == RECTO_OK)
     status = segment_graph_drop_output_overlaps(
-        graph, &rows, ink->options->unit_mm * SHEET_UNITS_PER_MM, error);
+        graph, &rows, ink->options->output.unit_mm * SHEET_UNITS_PER_MM, error);
   node_rows_fini(&rows);
   counts->without_length = graph->dots;
   counts->drawn_twice = graph->doubled;
@@ -56,18 +56,18 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
   recto_status status = paths_chain(paths, path_of_segment, graph, error);
   if (status != RECTO_OK)
     return status;
-  paths_straighten(paths, ink->options->unit_mm * SHEET_UNITS_PER_MM);
-  if (ink->options->simplify_mm > 0)
+  paths_straighten(paths, ink->options->output.unit_mm * SHEET_UNITS_PER_MM);
+  if (ink->options->ink.simplify_mm > 0)
     status = paths_simplify(
-        paths, ink->options->simplify_mm * SHEET_UNITS_PER_MM, error);
+        paths, ink->options->ink.simplify_mm * SHEET_UNITS_PER_MM, error);
   return status;
 }
 
 /* Each round of segment_graph_drop_output_overlaps moves a line by at most a
  * unit in x and in y, paths_straighten by at most half a unit. */
 double ink_drift_mm(const recto_options *options) {
-  return options->simplify_mm +
-         (SEGMENT_GRAPH_ROUNDS * sqrt(2) + 0.5) * options->unit_mm;
+  return options->ink.simplify_mm +
+         (SEGMENT_GRAPH_ROUNDS * sqrt(2) + 0.5) * options->output.unit_mm;
 }
 
 /* ---- Strokes ------------------------------------------------------------- */
@@ -112,7 +112,7 @@ static bool add_path(struct ink *ink, const struct ink_path *path,
                      const struct stroke_line *line) {
   struct drawing_stroke like = stroke_like(ink, path);
   double pen = pens_width_mm(ink->pens, like.layer);
-  if (path->hidden && ink->options->hidden == RECTO_HIDDEN_DASHED)
+  if (path->hidden && ink->options->ink.hidden == RECTO_HIDDEN_DASHED)
     return stroke_add_dashed(ink->drawing, &like, line, DASH_PENS * pen,
                              GAP_PENS * pen);
   return stroke_add(ink->drawing, &like, line->point.item, line->point.count,
@@ -188,12 +188,12 @@ static recto_status drop_short_lines(struct ink *ink,
 }
 
 static recto_status draw_lines(struct ink *ink, recto_error *error) {
-  bool ids = ink->options->ids;
+  bool ids = ink->options->ink.ids;
   struct segment_graph graph;
   struct ink_paths paths = {0};
   segment_graph_init(&graph);
   recto_status status = make_graph(ink, &graph, error);
-  if (status == RECTO_OK && ids && ink->options->min_stroke_mm != 0)
+  if (status == RECTO_OK && ids && ink->options->ink.min_stroke_mm != 0)
     status = drop_short_lines(ink, &graph, error);
   if (status == RECTO_OK && ids)
     status = segment_graph_key_by_source(&graph, ink->sheet, error);
@@ -225,20 +225,20 @@ static bool copy_group_names(struct ink *ink) {
 static bool start_drawing(struct ink *ink) {
   ink->drawing->width_mm = ink->sheet->camera.page_mm[0];
   ink->drawing->height_mm = ink->sheet->camera.page_mm[1];
-  ink->drawing->ids = ink->options->ids;
-  ink->drawing->seam_mm = ink->options->seam_mm;
+  ink->drawing->ids = ink->options->ink.ids;
+  ink->drawing->seam_mm = ink->options->ink.seam_mm;
   memcpy(ink->drawing->weight, ink->pens->weight, sizeof ink->pens->weight);
   return layers_add(ink->drawing, ink->pens, ink->scene, ink->options) &&
          copy_group_names(ink);
 }
 
 static bool is_lit(const recto_options *options) {
-  const double *light = options->light;
+  const double *light = options->ink.light;
   return light[0] != 0 || light[1] != 0 || light[2] != 0;
 }
 
 static bool add_fills(struct ink *ink) {
-  switch (ink->options->fill) {
+  switch (ink->options->ink.fill) {
   case RECTO_FILL_PAINT:
   case RECTO_FILL_SHADE:
     return fill_add(ink->drawing, ink->sheet, ink->scene, ink->map,
@@ -257,7 +257,7 @@ static bool finish_drawing(struct ink *ink) {
   if (!layers_pack(ink->drawing))
     return false;
   ink->drawing->counts.travel_before_mm = drawing_travel_mm(ink->drawing);
-  if (ink->options->order == RECTO_ORDER_NEAR &&
+  if (ink->options->ink.order == RECTO_ORDER_NEAR &&
       !pen_path_order(ink->drawing, &pen_path_usual_effort))
     return false;
   ink->drawing->counts.pen_lifts = pen_path_pen_lifts(ink->drawing);

@@ -47,16 +47,16 @@ static void label_pen(struct drawing_layer *layer, const struct pens *pens,
                       const struct scene *scene, const recto_options *options) {
   struct label label = {layer, true};
   uint32_t pen = layer->pen - 1;
-  bool has_rest = options->pens <= 1 && pen == 0;
+  bool has_rest = options->ink.pens <= 1 && pen == 0;
   if (has_rest)
     add_word(&label, "visible");
   for (unsigned i = 0; !has_rest && i < RECTO_EDGE_CLASS_COUNT; i++)
     if (pens->of_class[i] == pen && pens_is_drawn(options, i))
       add_word(&label, recto_edge_class_name((recto_edge_class)(1u << i)));
-  if ((pens->of_hidden == pen && options->hidden != RECTO_HIDDEN_NONE) ||
+  if ((pens->of_hidden == pen && options->ink.hidden != RECTO_HIDDEN_NONE) ||
       (pens->of_hidden == PENS_NONE && pen == pens->count))
     add_word(&label, "hidden");
-  if (pens->of_hatch == pen && options->fill == RECTO_FILL_HATCH)
+  if (pens->of_hatch == pen && options->ink.fill == RECTO_FILL_HATCH)
     add_word(&label, "hatch");
   if (!has_rest)
     add_groups(&label, pens, scene);
@@ -89,7 +89,7 @@ static bool is_for_hidden(const struct pens *pens, uint32_t pen) {
 bool layers_add(struct drawing *drawing, const struct pens *pens,
                 const struct scene *scene, const recto_options *options) {
   bool one_more =
-      options->hidden == RECTO_HIDDEN_LAYER && pens->of_hidden == PENS_NONE;
+      options->ink.hidden == RECTO_HIDDEN_LAYER && pens->of_hidden == PENS_NONE;
   for (uint32_t pen = 0; pen < pens->count + one_more; pen++) {
     if (!add_layer(drawing, pens, is_for_hidden(pens, pen) ? GREY : BLACK))
       return false;

@@ -21,7 +21,7 @@ static bool is_name_of(const char *name, const char *group) {
 /* Assigns the groups to the pens in turn. */
 static bool assign_groups(struct pens *pens, const struct scene *scene,
                           const recto_options *options) {
-  uint32_t count = options->pens > 1 ? (uint32_t)options->pens : 1;
+  uint32_t count = options->ink.pens > 1 ? (uint32_t)options->ink.pens : 1;
   pens->group_count = scene->group.count;
   pens->of_group = mem_alloc(pens->group_count, sizeof *pens->of_group);
   if (pens->of_group == NULL)
@@ -65,29 +65,30 @@ static recto_status add_use(struct pens *pens, const struct scene *scene,
 static void set_weights(struct pens *pens, const recto_options *options) {
   for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
     pens->weight[i] = 1;
-  if (!options->has_weights && !pens->several)
+  if (!options->ink.has_weights && !pens->several)
     pens->weight[pens_place(RECTO_EDGE_SILHOUETTE)] =
         pens->weight[pens_place(RECTO_EDGE_BORDER)] = WIDE;
-  for (size_t i = 0; options->has_weights && i < options->weight_count; i++)
-    pens->weight[pens_place(options->weight[i].edge_class)] =
-        options->weight[i].weight;
+  for (size_t i = 0; options->ink.has_weights && i < options->ink.weight_count;
+       i++)
+    pens->weight[pens_place(options->ink.weight[i].edge_class)] =
+        options->ink.weight[i].weight;
 }
 
 recto_status pens_init(struct pens *pens, const struct scene *scene,
                        const recto_options *options, recto_error *error) {
   *pens = (struct pens){.of_hidden = PENS_NONE,
                         .of_hatch = PENS_NONE,
-                        .own = options->pen,
-                        .own_count = options->pen_count,
-                        .width_mm = options->pen_mm,
-                        .shortest_mm = options->min_stroke_mm};
+                        .own = options->ink.pen,
+                        .own_count = options->ink.pen_count,
+                        .width_mm = options->ink.pen_mm,
+                        .shortest_mm = options->ink.min_stroke_mm};
   for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
     pens->of_class[i] = PENS_NONE;
   if (!assign_groups(pens, scene, options))
     return error_memory(error);
   recto_status status = RECTO_OK;
-  for (size_t i = 0; status == RECTO_OK && i < options->pen_use_count; i++)
-    status = add_use(pens, scene, &options->pen_use[i], error);
+  for (size_t i = 0; status == RECTO_OK && i < options->ink.pen_use_count; i++)
+    status = add_use(pens, scene, &options->ink.pen_use[i], error);
   set_weights(pens, options);
   return status;
 }
@@ -113,7 +114,7 @@ uint32_t pens_of_hidden(const struct pens *pens, const recto_options *options,
                         unsigned edge_class, uint32_t group) {
   if (pens->of_hidden != PENS_NONE)
     return pens->of_hidden;
-  return options->hidden == RECTO_HIDDEN_LAYER
+  return options->ink.hidden == RECTO_HIDDEN_LAYER
              ? pens->count
              : pens_of_line(pens, edge_class, group);
 }

@@ -18,22 +18,22 @@ static void warn(const recto_options *options, const char *format, ...) {
 }
 
 bool pens_is_drawn(const recto_options *options, unsigned place) {
-  return options->edges >> place & 1;
+  return options->ink.edges >> place & 1;
 }
 
 /* Whether the pen may draw anything that is requested.  A pen of groups whose
  * lines are all on other pens by class counts as used. */
 static bool is_used(const struct pens *pens, const recto_options *options,
                     uint32_t pen) {
-  bool hatched = options->fill == RECTO_FILL_HATCH;
+  bool hatched = options->ink.fill == RECTO_FILL_HATCH;
   bool used =
-      (pens->of_hidden == pen && options->hidden != RECTO_HIDDEN_NONE) ||
+      (pens->of_hidden == pen && options->ink.hidden != RECTO_HIDDEN_NONE) ||
       (pens->of_hidden == PENS_NONE && pen == pens->count &&
-       options->hidden == RECTO_HIDDEN_LAYER) ||
+       options->ink.hidden == RECTO_HIDDEN_LAYER) ||
       (pens->of_hatch == pen && hatched);
   for (unsigned i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
     used = used || (pens->of_class[i] == pen && pens_is_drawn(options, i));
-  bool has_lines = options->edges != RECTO_EDGES_NONE || hatched;
+  bool has_lines = options->ink.edges != RECTO_EDGES_NONE || hatched;
   for (size_t g = 0; has_lines && !used && g < pens->group_count; g++)
     used = pens->of_group[g] == pen;
   return used;
@@ -63,10 +63,10 @@ static void warn_unused_looks(const struct pens *pens,
 void pens_warn_unused(const struct pens *pens, const recto_options *options) {
   if (!options->warning)
     return;
-  if (pens->of_hidden != PENS_NONE && options->hidden == RECTO_HIDDEN_NONE)
+  if (pens->of_hidden != PENS_NONE && options->ink.hidden == RECTO_HIDDEN_NONE)
     warn(options, "pen %u is for hidden lines, which are not asked for",
          pens->of_hidden + 1);
-  if (pens->of_hatch != PENS_NONE && options->fill != RECTO_FILL_HATCH)
+  if (pens->of_hatch != PENS_NONE && options->ink.fill != RECTO_FILL_HATCH)
     warn(options, "pen %u is for hatching, which is not asked for",
          pens->of_hatch + 1);
   for (unsigned i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
@@ -74,9 +74,9 @@ void pens_warn_unused(const struct pens *pens, const recto_options *options) {
       warn(options, "pen %u is for %s lines, which are not asked for",
            pens->of_class[i] + 1,
            recto_edge_class_name((recto_edge_class)(1u << i)));
-  for (size_t i = 0; i < options->weight_count; i++)
-    if ((options->edges & options->weight[i].edge_class) == 0)
+  for (size_t i = 0; i < options->ink.weight_count; i++)
+    if ((options->ink.edges & options->ink.weight[i].edge_class) == 0)
       warn(options, "a weight is for %s lines, which are not asked for",
-           recto_edge_class_name(options->weight[i].edge_class));
+           recto_edge_class_name(options->ink.weight[i].edge_class));
   warn_unused_looks(pens, options);
 }

@@ -59,44 +59,45 @@ static recto_status argument_error(const struct aim *aim, const char *words) {
 /* The margin in mm; the default is at most a quarter of the page's shorter
  * side. */
 static double margin_of(const recto_options *o) {
-  return o->margin_mm >= 0
-             ? o->margin_mm
+  return o->page.margin_mm >= 0
+             ? o->page.margin_mm
              : fmin(RECTO_USUAL_MARGIN_MM,
-                    fmin(o->page_width_mm, o->page_height_mm) / 4);
+                    fmin(o->page.width_mm, o->page.height_mm) / 4);
 }
 
 static recto_status check_page(const struct aim *aim) {
   const recto_options *o = aim->options;
-  if (!(o->page_width_mm > 0 && o->page_height_mm > 0))
+  if (!(o->page.width_mm > 0 && o->page.height_mm > 0))
     return argument_error(aim, "the page has no size");
-  if (!(o->page_width_mm <= page_limit_mm &&
-        o->page_height_mm <= page_limit_mm))
+  if (!(o->page.width_mm <= page_limit_mm &&
+        o->page.height_mm <= page_limit_mm))
     return argument_error(aim, "the page is larger than 2 m");
-  if (isnan(o->margin_mm))
+  if (isnan(o->page.margin_mm))
     return argument_error(aim, "the margin is no number");
   double margins = 2 * margin_of(o);
-  if (!(margins < o->page_width_mm && margins < o->page_height_mm))
+  if (!(margins < o->page.width_mm && margins < o->page.height_mm))
     return argument_error(aim, "the margins leave no room on the page");
   return RECTO_OK;
 }
 
 static recto_status check_view(const struct aim *aim) {
   const recto_options *o = aim->options;
-  if (!(o->fov_deg >= 0 && o->fov_deg < 180))
+  if (!(o->camera.fov_deg >= 0 && o->camera.fov_deg < 180))
     return argument_error(
         aim, "the field of view must be from 0 to below 180 degrees");
-  if (!isfinite(o->azimuth_deg) || !isfinite(o->elevation_deg))
+  if (!isfinite(o->camera.azimuth_deg) || !isfinite(o->camera.elevation_deg))
     return argument_error(aim, "azimuth and elevation must be finite");
-  if (!vector_is_finite(o->eye) || !vector_is_finite(o->target) ||
-      !vector_is_finite(o->up))
+  if (!vector_is_finite(o->camera.eye) || !vector_is_finite(o->camera.target) ||
+      !vector_is_finite(o->camera.up))
     return argument_error(aim, "eye, target and up must be finite");
-  if (o->fit == RECTO_FIT_SCALE && !(o->scale > 0 && isfinite(o->scale)))
+  if (o->camera.fit == RECTO_FIT_SCALE &&
+      !(o->camera.scale > 0 && isfinite(o->camera.scale)))
     return argument_error(aim, "the scale must be above 0");
-  if (!(o->near_distance >= 0 && isfinite(o->near_distance)))
+  if (!(o->camera.near_distance >= 0 && isfinite(o->camera.near_distance)))
     return argument_error(aim, "the near distance must not be negative");
-  if (o->has_section && !isfinite(o->section))
+  if (o->camera.has_section && !isfinite(o->camera.section))
     return argument_error(aim, "the section must be finite");
-  if (!isfinite(o->contact))
+  if (!isfinite(o->solver.contact))
     return argument_error(aim, "the contact length must be finite");
   return RECTO_OK;
 }
@@ -130,11 +131,12 @@ static recto_status measure_scene(struct aim *aim) {
   struct camera *camera = aim->camera;
   const recto_options *o = aim->options;
   camera->size = vector_length(extent);
-  camera->unstated = scene_unstated_precision(aim->scene, o->coordinate_bits);
-  camera->contact = o->contact;
+  camera->unstated =
+      scene_unstated_precision(aim->scene, o->mesh.coordinate_bits);
+  camera->contact = o->solver.contact;
   camera->contact_most =
-      o->contact >= 0
-          ? o->contact
+      o->solver.contact >= 0
+          ? o->solver.contact
           : coordinate_error_most(aim->scene, camera->unstated, low, high);
   return RECTO_OK;
 }
@@ -160,28 +162,30 @@ static double distance_for_fov(const struct aim *aim) {
   double radius = radius_of_scene(aim);
   if (radius == 0)
     radius = 1;
-  return radius / angle_of_degrees(aim->options->fov_deg / 2).sine;
+  return radius / angle_of_degrees(aim->options->camera.fov_deg / 2).sine;
 }
 
 static recto_status set_axes(struct aim *aim) {
   const recto_options *o = aim->options;
   double up[3] = {0, 1, 0};
-  bool given = o->up[0] != 0 || o->up[1] != 0 || o->up[2] != 0;
+  bool given =
+      o->camera.up[0] != 0 || o->camera.up[1] != 0 || o->camera.up[2] != 0;
   if (given)
-    memcpy(up, o->up, sizeof up);
+    memcpy(up, o->camera.up, sizeof up);
   else if (aim->scene->up[0] != 0 || aim->scene->up[1] != 0 ||
            aim->scene->up[2] != 0)
     memcpy(up, aim->scene->up, sizeof up);
   struct frame frame;
-  if (o->camera == RECTO_CAMERA_EYE) {
+  if (o->camera.kind == RECTO_CAMERA_EYE) {
     enum frame_fault fault =
-        frame_from_eye(&frame, o->eye, aim->target, up, !given);
+        frame_from_eye(&frame, o->camera.eye, aim->target, up, !given);
     if (fault == FRAME_NO_DIRECTION)
       return argument_error(aim, "the eye is where it looks");
     if (fault == FRAME_UP_ALONG_VIEW)
       return argument_error(aim, "up points along the view");
   } else {
-    frame = frame_from_direction(up, o->azimuth_deg, o->elevation_deg);
+    frame = frame_from_direction(up, o->camera.azimuth_deg,
+                                 o->camera.elevation_deg);
   }
   memcpy(aim->camera->right, frame.right, sizeof frame.right);
   memcpy(aim->camera->up, frame.up, sizeof frame.up);
@@ -226,8 +230,8 @@ static recto_status handle_far_eye(struct aim *aim) {
 
 static recto_status set_eye(struct aim *aim) {
   struct camera *camera = aim->camera;
-  if (aim->options->camera == RECTO_CAMERA_EYE)
-    memcpy(aim->eye, aim->options->eye, sizeof aim->eye);
+  if (aim->options->camera.kind == RECTO_CAMERA_EYE)
+    memcpy(aim->eye, aim->options->camera.eye, sizeof aim->eye);
   else if (camera->perspective)
     step_back(aim, aim->target, distance_for_fov(aim), aim->eye);
   recto_status status = handle_far_eye(aim);
@@ -273,8 +277,8 @@ static double choose_near(const struct aim *aim) {
  * view by direction that of the scene's nearest point.  The near distance of a
  * perspective view by direction is measured from the eye too. */
 static double depth_origin(const struct aim *aim, bool section) {
-  bool is_eye = aim->options->camera == RECTO_CAMERA_EYE ||
-                (aim->options->fov_deg > 0 && !section);
+  bool is_eye = aim->options->camera.kind == RECTO_CAMERA_EYE ||
+                (aim->options->camera.fov_deg > 0 && !section);
   return is_eye ? view_of(aim, aim->eye).d : aim->d_low;
 }
 
@@ -282,12 +286,14 @@ static recto_status set_depth_range(struct aim *aim) {
   const recto_options *o = aim->options;
   struct camera *camera = aim->camera;
   measure_depth(aim);
-  camera->near_chosen = !(o->near_distance > 0) && !o->has_section;
-  camera->near_d = o->near_distance > 0
-                       ? depth_origin(aim, false) + o->near_distance
+  camera->near_chosen =
+      !(o->camera.near_distance > 0) && !o->camera.has_section;
+  camera->near_d = o->camera.near_distance > 0
+                       ? depth_origin(aim, false) + o->camera.near_distance
                        : choose_near(aim);
-  if (o->has_section)
-    camera->near_d = fmax(camera->near_d, depth_origin(aim, true) + o->section);
+  if (o->camera.has_section)
+    camera->near_d =
+        fmax(camera->near_d, depth_origin(aim, true) + o->camera.section);
   if (!(aim->d_high >= camera->near_d))
     return error_set(aim->error, RECTO_ERROR_EMPTY, NULL, 0,
                      "all of the scene is behind the viewer or cut away");
@@ -302,9 +308,9 @@ static recto_status set_depth_range(struct aim *aim) {
  * rounding error only is ignored; where both are, the scene's size is used. */
 static void fit_page(struct aim *aim) {
   struct camera *camera = aim->camera;
-  struct extent e =
-      extent_of_drawing(camera, aim->scene, aim->used,
-                        aim->options->has_section || !camera->perspective);
+  struct extent e = extent_of_drawing(camera, aim->scene, aim->used,
+                                      aim->options->camera.has_section ||
+                                          !camera->perspective);
   double size =
       camera->perspective ? camera->size / camera->d_max : camera->size;
   camera->s = INFINITY;
@@ -353,22 +359,22 @@ static void fit_sphere(struct aim *aim) {
 static void set_scale(struct aim *aim) {
   const recto_options *o = aim->options;
   struct camera *camera = aim->camera;
-  if (o->fit == RECTO_FIT_PAGE) {
+  if (o->camera.fit == RECTO_FIT_PAGE) {
     fit_page(aim);
     camera->all_on_page = aim->d_low >= camera->near_d;
     return;
   }
-  if (o->fit == RECTO_FIT_SPHERE) {
+  if (o->camera.fit == RECTO_FIT_SPHERE) {
     fit_sphere(aim);
-  } else if (o->fit == RECTO_FIT_SCALE) {
-    camera->s = o->scale;
+  } else if (o->camera.fit == RECTO_FIT_SCALE) {
+    camera->s = o->camera.scale;
     if (camera->perspective)
       camera->s *= view_of(aim, aim->target).d;
     else if (aim->far)
       camera->s *= aim->target_d / aim->centre_d;
   } else if (camera->perspective || aim->far) {
-    struct angle half = angle_of_degrees(o->fov_deg / 2);
-    camera->s = (o->page_height_mm - 2 * margin_of(o)) /
+    struct angle half = angle_of_degrees(o->camera.fov_deg / 2);
+    camera->s = (o->page.height_mm - 2 * margin_of(o)) /
                 (2 * (half.sine / half.cosine));
     if (aim->far)
       camera->s /= aim->centre_d;
@@ -395,11 +401,11 @@ static recto_status aim_and_fit(struct aim *aim) {
   recto_status status = measure_scene(aim);
   if (status != RECTO_OK)
     return status;
-  camera->perspective = o->fov_deg > 0;
-  camera->page_mm[0] = o->page_width_mm;
-  camera->page_mm[1] = o->page_height_mm;
+  camera->perspective = o->camera.fov_deg > 0;
+  camera->page_mm[0] = o->page.width_mm;
+  camera->page_mm[1] = o->page.height_mm;
   camera->margin_mm = margin_of(o);
-  memcpy(aim->target, o->has_target ? o->target : aim->centre,
+  memcpy(aim->target, o->camera.has_target ? o->camera.target : aim->centre,
          sizeof aim->target);
   status = set_axes(aim);
   if (status != RECTO_OK)

@@ -9,7 +9,7 @@
  * edges.
  *
  * An edge may have several natures: a crease may be a silhouette.  It becomes a
- * sheet edge if one of them is in options->edges.
+ * sheet edge if one of them is in options->ink.edges.
  * topology   its corners are dropped where `drop_after_sheet` is set
  * outlines   every edge of a face becomes a sheet edge, of class 0 where no
  *            nature of it was requested

@@ -83,7 +83,7 @@ static bool add_edge(struct layout *layout, struct layout_cut ends,
 static recto_status make_edges(struct layout *layout, const uint8_t *natures,
                                struct edge_ids *edge_ids) {
   const struct topology *topology = layout->topology;
-  unsigned wanted = layout->options->edges & face_natures;
+  unsigned wanted = layout->options->ink.edges & face_natures;
   for (uint32_t e = 0; e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
     if (e % 64 == 0)
@@ -117,7 +117,7 @@ static recto_status make_edges(struct layout *layout, const uint8_t *natures,
 
 /* Makes an edge of every fold; only requested ones were stored. */
 static bool make_folds(struct layout *layout) {
-  unsigned wanted = layout->options->edges & RECTO_EDGE_SILHOUETTE;
+  unsigned wanted = layout->options->ink.edges & RECTO_EDGE_SILHOUETTE;
   for (size_t f = 0; f < layout->fold.count; f++) {
     const struct layout_fold *fold = &layout->fold.item[f];
     uint32_t group = layout->scene->face_group.item[fold->face];
@@ -160,10 +160,11 @@ recto_status layout_edges(struct layout *layout) {
   uint8_t *natures = NULL;
   if (!edge_ids_init(&edge_ids, edges))
     goto no_memory;
-  if (layout->options->edges & face_natures) {
+  if (layout->options->ink.edges & face_natures) {
     natures = mem_alloc(edges, sizeof *natures);
-    if (!natures || !topology_natures_all(layout->topology, layout->scene,
-                                          layout->options->crease_deg, natures))
+    if (!natures ||
+        !topology_natures_all(layout->topology, layout->scene,
+                              layout->options->mesh.crease_deg, natures))
       goto no_memory;
   }
   if (layout->outlines && !ARRAY_RESERVE(&layout->sheet->edge, edges))
@@ -205,7 +206,7 @@ static recto_status add_wire(struct layout *layout, uint32_t wire) {
 }
 
 recto_status layout_wires(struct layout *layout) {
-  if (!(layout->options->edges & RECTO_EDGE_WIRE))
+  if (!(layout->options->ink.edges & RECTO_EDGE_WIRE))
     return RECTO_OK;
   for (uint32_t w = 0; w < scene_wire_count(layout->scene); w++) {
     recto_status status = add_wire(layout, w);

@@ -140,13 +140,13 @@ static recto_status measure_edges(struct measure *measure,
                                   recto_error *error) {
   const struct topology *topology = measure->topology;
   uint8_t *natures = mem_alloc(topology->edge.count, sizeof *natures);
-  bool ok =
-      natures != NULL && topology_natures_all(topology, measure->scene,
-                                              options->crease_deg, natures);
+  bool ok = natures != NULL &&
+            topology_natures_all(topology, measure->scene,
+                                 options->mesh.crease_deg, natures);
   for (size_t e = 0; ok && e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
-    if ((natures[e] & options->edges) != 0 ||
-        ((options->edges & RECTO_EDGE_SILHOUETTE) != 0 &&
+    if ((natures[e] & options->ink.edges) != 0 ||
+        ((options->ink.edges & RECTO_EDGE_SILHOUETTE) != 0 &&
          is_silhouette(measure, edge)))
       measure_line(measure, edge->point[0], edge->point[1]);
   }
@@ -173,9 +173,9 @@ recto_status page_overflow_measure(struct page_overflow *overflow,
       RECTO_EDGES_ALL & ~(unsigned)(RECTO_EDGE_WIRE | RECTO_EDGE_INTERSECTION);
   struct measure measure = {overflow, scene, topology, camera};
   *overflow = (struct page_overflow){0};
-  if ((options->edges & RECTO_EDGE_WIRE) != 0)
+  if ((options->ink.edges & RECTO_EDGE_WIRE) != 0)
     measure_polylines(&measure);
-  return (options->edges & of_faces) != 0
+  return (options->ink.edges & of_faces) != 0
              ? measure_edges(&measure, options, error)
              : RECTO_OK;
 }

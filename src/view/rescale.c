@@ -93,9 +93,10 @@ static recto_status scale_precision(struct rescaled *rescaled,
 
 /* Returns whether the eye, target, section and near distance are finite. */
 static bool scale_lengths(recto_options *o, int exponent) {
-  double *const length[] = {&o->eye[0],    &o->eye[1],       &o->eye[2],
-                            &o->target[0], &o->target[1],    &o->target[2],
-                            &o->section,   &o->near_distance};
+  double *const length[] = {&o->camera.eye[0],    &o->camera.eye[1],
+                            &o->camera.eye[2],    &o->camera.target[0],
+                            &o->camera.target[1], &o->camera.target[2],
+                            &o->camera.section,   &o->camera.near_distance};
   bool finite = true;
   for (size_t i = 0; i < sizeof length / sizeof length[0]; i++) {
     *length[i] = ldexp(*length[i], -exponent);
@@ -103,11 +104,13 @@ static bool scale_lengths(recto_options *o, int exponent) {
   }
   /* A positive contact or weld length must not underflow to 0, which has a
    * meaning of its own, nor overflow. */
-  if (o->contact > 0)
-    o->contact = fmin(fmax(ldexp(o->contact, -exponent), DBL_MIN), DBL_MAX);
-  if (o->weld > 0)
-    o->weld = fmin(fmax(ldexp(o->weld, -exponent), DBL_MIN), DBL_MAX);
-  o->scale = fmin(fmax(ldexp(o->scale, exponent), DBL_MIN), DBL_MAX);
+  if (o->solver.contact > 0)
+    o->solver.contact =
+        fmin(fmax(ldexp(o->solver.contact, -exponent), DBL_MIN), DBL_MAX);
+  if (o->mesh.weld > 0)
+    o->mesh.weld = fmin(fmax(ldexp(o->mesh.weld, -exponent), DBL_MIN), DBL_MAX);
+  o->camera.scale =
+      fmin(fmax(ldexp(o->camera.scale, exponent), DBL_MIN), DBL_MAX);
   return finite;
 }
 

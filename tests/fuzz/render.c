@@ -24,7 +24,8 @@ bool render_options(recto_options *options, int argc, char **argv,
     return false;
   }
   *options = arguments.options;
-  recto_options_suit(options, arguments.output, arguments.format);
+  options->output.format =
+      recto_output_format(arguments.output, arguments.format);
   return true;
 }
 
@@ -53,12 +54,12 @@ static recto_status write_drawing(struct rendered *rendered,
                                   const recto_drawing *drawing,
                                   const recto_options *options,
                                   const struct writer *writer) {
-  const struct writer_options how = {.precision = options->precision,
-                                     .polyline = options->polyline,
-                                     .tight = options->tight,
-                                     .dpi = options->dpi,
-                                     .device = options->device,
-                                     .velocity = options->velocity_cm_s};
+  const struct writer_options how = {.precision = options->output.precision,
+                                     .polyline = options->output.polyline,
+                                     .tight = options->output.tight,
+                                     .dpi = options->output.dpi,
+                                     .device = options->output.device,
+                                     .velocity = options->output.velocity_cm_s};
   struct stream *stream;
   if (stream_open_memory(&stream, &rendered->error) != RECTO_OK)
     abort();
@@ -102,7 +103,7 @@ void render_compare(const recto_scene *scene, const recto_options *options,
                     const struct rendered *first,
                     struct fuzz_finding *finding) {
   struct rendered other;
-  const char *name = recto_method_name(options->method);
+  const char *name = recto_method_name(options->solver.method);
   render_svg(&other, scene, options);
   if (other.status == RECTO_ERROR_LIMIT ||
       other.status == RECTO_ERROR_CANCELLED)

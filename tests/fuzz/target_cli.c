@@ -61,11 +61,13 @@ static double least(double a, double b) { return a < b ? a : b; }
 static void limit_cost(recto_options *o) {
   const int lines = 200, samples = 3, points = 200, threads = 2;
   const double dpi = 20;
-  o->resolution = o->resolution > lines ? lines : o->resolution;
-  o->subpixels = o->subpixels > samples ? samples : o->subpixels;
+  o->solver.resolution =
+      o->solver.resolution > lines ? lines : o->solver.resolution;
+  o->solver.subpixels =
+      o->solver.subpixels > samples ? samples : o->solver.subpixels;
   o->verify = o->verify > points ? points : o->verify;
-  o->threads = o->threads > threads ? threads : o->threads;
-  o->dpi = o->dpi == 0 ? dpi : least(o->dpi, dpi);
+  o->solver.threads = o->solver.threads > threads ? threads : o->solver.threads;
+  o->output.dpi = o->output.dpi == 0 ? dpi : least(o->output.dpi, dpi);
 }
 
 static bool still_in_time(void *user, double share, const char *stage) {
@@ -94,7 +96,7 @@ static void draw(struct arguments *a, struct fuzz_finding *finding) {
   recto_scene *scene = render_scene(model, sizeof model - 1, "obj", finding);
   if (scene == NULL)
     return;
-  recto_options_suit(&a->options, a->output, a->format);
+  a->options.output.format = recto_output_format(a->output, a->format);
   limit_cost(&a->options);
   a->options.progress = still_in_time;
   a->options.warning = take_warning;

@@ -25,11 +25,11 @@ static void draw(const uint8_t *bytes, size_t count, const char *format,
   if (scene == NULL)
     return;
   recto_options_init(&options);
-  recto_options_suit(&options, "-", "svg");
-  options.threads = 1;
-  options.method = RECTO_METHOD_BRUTE;
+  options.output.format = "svg";
+  options.solver.threads = 1;
+  options.solver.method = RECTO_METHOD_BRUTE;
   render_svg(&first, scene, &options);
-  options.method = RECTO_METHOD_AUTO;
+  options.solver.method = RECTO_METHOD_AUTO;
   render_compare(scene, &options, &first, finding);
   rendered_fini(&first);
   recto_scene_destroy(scene);

@@ -17,7 +17,7 @@ static const recto_method exact[] = {
 static void verify(const recto_scene *scene, recto_options *options,
                    struct fuzz_finding *finding) {
   struct rendered verified;
-  options->method = RECTO_METHOD_AUTO;
+  options->solver.method = RECTO_METHOD_AUTO;
   options->verify = VERIFIED_POINTS;
   render_svg(&verified, scene, options);
   if (verified.status == RECTO_ERROR_VERIFY)
@@ -28,10 +28,10 @@ static void verify(const recto_scene *scene, recto_options *options,
 static void run_scene(const recto_scene *scene, recto_options *options,
                       struct fuzz_finding *finding) {
   struct rendered first;
-  options->method = exact[0];
+  options->solver.method = exact[0];
   render_svg(&first, scene, options);
   for (size_t i = 1; i < sizeof exact / sizeof exact[0]; i++) {
-    options->method = exact[i];
+    options->solver.method = exact[i];
     render_compare(scene, options, &first, finding);
   }
   if (first.status == RECTO_OK) {

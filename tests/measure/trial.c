@@ -12,13 +12,13 @@ static recto_status solve(struct trial *trial, const recto_options *options,
       .strokes = (part & TRIAL_STROKES) != 0,
       .fragments = (part & TRIAL_FRAGMENTS) != 0,
       .intersections = (part & TRIAL_STROKES) != 0 &&
-                       (options->edges & RECTO_EDGE_INTERSECTION) != 0,
+                       (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,
       .threads = 1,
       .resolution = lines,
-      .pitch_mm = lines > 0 ? options->page_height_mm / lines : 0,
-      .subpixels = options->subpixels,
-      .remove_backs = options->remove_backs,
-      .depth_bits = options->depth_bits,
+      .pitch_mm = lines > 0 ? options->page.height_mm / lines : 0,
+      .subpixels = options->solver.subpixels,
+      .remove_backs = options->solver.remove_backs,
+      .depth_bits = options->solver.depth_bits,
   };
   double start = clock_cpu();
   recto_status status =

@@ -88,7 +88,7 @@ void scenes_near_sheets(struct scene *scene, recto_options *options,
                       vector_of(-1, -1.5, 0.4 + gap + 0.5 / 128 - 0.5 / 256),
                       vector_of(3, 0, 3 / 128.0), vector_of(0, 2, 2 / 256.0));
   scenes_view_above(options);
-  options->contact = 0;
+  options->solver.contact = 0;
 }
 
 void scenes_slit(struct scene *scene, recto_options *options, double width_mm) {
@@ -101,5 +101,5 @@ void scenes_slit(struct scene *scene, recto_options *options, double width_mm) {
   build_parallelogram(scene, vector_of(5, 20, 0), vector_of(90, 0, 0),
                       vector_of(0, 7, 0));
   scenes_view_page(options, 100, 50);
-  options->min_stroke_mm = 0;
+  options->ink.min_stroke_mm = 0;
 }

@@ -38,7 +38,7 @@ void scenes_white_square(struct scene *scene, recto_options *options,
       build_point(scene, 5 + 40.0 * x / n, 5 + 40.0 * y / n, 0);
   build_grid(scene, first, n, n, true);
   scenes_view_page(options, 50, 50);
-  options->fill = RECTO_FILL_PAINT;
+  options->ink.fill = RECTO_FILL_PAINT;
 }
 
 /* Worked examples, from the classical texts' own figures. */

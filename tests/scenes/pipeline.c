@@ -12,16 +12,16 @@ static recto_status solve(struct pipeline *pipeline,
                           const recto_options *options,
                           const struct solver *solver) {
   const struct solver_request request = {
-      .strokes = options->edges != RECTO_EDGES_NONE,
-      .fragments = options->fill != RECTO_FILL_NONE,
-      .hidden = options->hidden != RECTO_HIDDEN_NONE,
-      .intersections = (options->edges & RECTO_EDGE_INTERSECTION) != 0,
-      .threads = options->threads > 0 ? options->threads : 1,
-      .pitch_mm = options->pitch_mm,
-      .resolution = options->resolution,
-      .subpixels = options->subpixels,
-      .remove_backs = options->remove_backs,
-      .depth_bits = options->depth_bits,
+      .strokes = options->ink.edges != RECTO_EDGES_NONE,
+      .fragments = options->ink.fill != RECTO_FILL_NONE,
+      .hidden = options->ink.hidden != RECTO_HIDDEN_NONE,
+      .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,
+      .threads = options->solver.threads > 0 ? options->solver.threads : 1,
+      .pitch_mm = options->solver.pitch_mm,
+      .resolution = options->solver.resolution,
+      .subpixels = options->solver.subpixels,
+      .remove_backs = options->solver.remove_backs,
+      .depth_bits = options->solver.depth_bits,
   };
   return solver->solve(&pipeline->sheet, &request, &pipeline->map,
                        pipeline->report, &pipeline->error);
@@ -34,7 +34,7 @@ void pipeline_run(struct pipeline *pipeline, const struct scene *scene,
   drawing_init(&pipeline->drawing);
   pipeline->report = report_create();
   recto_error *error = &pipeline->error;
-  bool outlines = options->fill != RECTO_FILL_NONE;
+  bool outlines = options->ink.fill != RECTO_FILL_NONE;
   pipeline->status = topology_init(&pipeline->topology, scene, error);
   if (pipeline->status == RECTO_OK)
     pipeline->status = camera_aim(&pipeline->camera, scene, options, error);
@@ -77,7 +77,8 @@ void pipeline_starve_ink(const struct pipeline *pipeline,
 
 char *pipeline_svg(const struct pipeline *pipeline,
                    const recto_options *options, size_t *length) {
-  const struct writer_options writing = {.precision = options->precision};
+  const struct writer_options writing = {.precision =
+                                             options->output.precision};
   struct stream *stream = NULL;
   build_require(stream_open_memory(&stream, NULL) == RECTO_OK);
   recto_status status = pipeline->status;
@@ -108,9 +109,9 @@ void pipeline_fill(struct scene *scene, recto_options *options,
   recto_options_init(options);
   scene_init(scene);
   entry->fill(scene, options);
-  options->min_stroke_mm = 0;
-  options->precision = 6;
-  options->threads = 1;
+  options->ink.min_stroke_mm = 0;
+  options->output.precision = 6;
+  options->solver.threads = 1;
 }
 
 double pipeline_length(const struct pipeline *pipeline, unsigned classes,

@@ -18,7 +18,7 @@ struct pipeline {
   recto_error error;
 };
 
-/* Draws the scene; fragments are made where options->fill requires them, with
+/* Draws the scene; fragments are made where options->ink.fill requires them, with
  * their exact areas where the solver keeps them.  Look at `status` first:
  * what was not reached is empty. */
 void pipeline_run(struct pipeline *pipeline, const struct scene *scene,

@@ -187,7 +187,7 @@ static void choose_camera(struct small *small, recto_options *options) {
     /* Among the faces, on a plane or a corner of some of them. */
     struct vector eye = pick(small, -2, 2);
     scenes_view_eye(options, eye, vector_add(eye, vector_of(1, 3, 0.5)), 75);
-    options->fit = RECTO_FIT_NONE;
+    options->camera.fit = RECTO_FIT_NONE;
   }
 }
 
@@ -214,7 +214,7 @@ void scenes_small(struct scene *scene, recto_options *options, uint64_t seed) {
   }
   choose_camera(&small, options);
   if (random_below(random, 2) == 0)
-    options->edges = RECTO_EDGES_ALL;
+    options->ink.edges = RECTO_EDGES_ALL;
   if (random_below(random, 4) == 0)
-    options->contact = 0;
+    options->solver.contact = 0;
 }

@@ -106,5 +106,5 @@ void scenes_room(struct scene *scene, recto_options *options,
   build_group(scene, "column");
   build_box(scene, vector_of(3.5, 3.5, 0), vector_of(4, 4, 3));
   scenes_view_eye(options, place[eye].eye, place[eye].target, 70);
-  options->fit = RECTO_FIT_NONE;
+  options->camera.fit = RECTO_FIT_NONE;
 }

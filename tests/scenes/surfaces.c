@@ -27,11 +27,11 @@ void scenes_paraboloid(struct scene *scene, recto_options *options,
                        unsigned n) {
   add_surface(scene, n, bowl);
   scenes_view_direction(options, 26, 17);
-  options->edges = RECTO_EDGES_ALL;
+  options->ink.edges = RECTO_EDGES_ALL;
 }
 
 void scenes_sinc(struct scene *scene, recto_options *options, unsigned n) {
   add_surface(scene, n, ripple);
   scenes_view_direction(options, 33, 22);
-  options->edges = RECTO_EDGES_ALL;
+  options->ink.edges = RECTO_EDGES_ALL;
 }

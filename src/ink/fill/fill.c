@@ -44,7 +44,7 @@ static struct drawing_fill fill_without_loops(const struct sheet *sheet,
                                               const recto_options *options) {
   uint32_t group = scene->face_group.item[face];
   return (struct drawing_fill){
-      .colour = options->fill == RECTO_FILL_SHADE
+      .colour = options->ink.fill == RECTO_FILL_SHADE
                     ? shade_grey(scene, face, &sheet->camera, light)
                     : fill_colour(scene, group),
       .face = face,

@@ -7,7 +7,7 @@
 
 void light_direction(const struct camera *camera, const recto_options *options,
                      double light[3]) {
-  memcpy(light, options->light, 3 * sizeof *light);
+  memcpy(light, options->ink.light, 3 * sizeof *light);
   if (vector_normalise(light))
     return;
   for (int k = 0; k < 3; k++)

@@ -183,12 +183,12 @@ bool merge_fills(struct drawing *drawing, const struct sheet *sheet,
       .scene = scene,
       .map = map,
       .prototype = prototype,
-      .crease_deg = options->crease_deg,
+      .crease_deg = options->mesh.crease_deg,
       .root = sets_create(map->fragment.count),
       .merged = mem_calloc(map->fragment.count, sizeof *merge.merged),
       .removed = mem_calloc(map->half_edge.count, sizeof *merge.removed)};
   bool ok = merge.root != NULL && merge.merged != NULL && merge.removed != NULL;
-  if (ok && !options->ids)
+  if (ok && !options->ink.ids)
     remove_half_edges(&merge);
   ok = ok && add_fills(&merge);
   mem_free(merge.root);

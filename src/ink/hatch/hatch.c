@@ -305,15 +305,15 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
                const struct scene *scene, const struct map *map,
                const struct pens *pens, const recto_options *options) {
   struct hatch h = {.drawing = drawing, .sheet = sheet, .pens = pens};
-  hatch_lines_init(&h.lines, sheet, options->hatch_pitch_mm,
-                   options->hatch_angle_deg);
+  hatch_lines_init(&h.lines, sheet, options->ink.hatch_pitch_mm,
+                   options->ink.hatch_angle_deg);
   bool ok = hatch_regions_init(&h.regions, sheet, scene, map, pens, options);
   for (size_t i = 0, end; ok && i < map->fragment.count; i = end) {
     end = hatch_regions_end(&h.regions, i);
     uint32_t face = map->fragment.item[h.regions.fragment[i]].face;
     uint32_t group = scene->face_group.item[face];
     h.pen = pens_of_hatch(pens, group);
-    h.inset = options->hatch_inset ? pens_width_mm(pens, h.pen) / 2 : 0;
+    h.inset = options->ink.hatch_inset ? pens_width_mm(pens, h.pen) / 2 : 0;
     h.reach = h.inset + pens_width_mm(pens, h.pen) / 2;
     h.shortest = pens_shortest_mm(pens, h.pen);
     h.attributes = (struct drawing_stroke){

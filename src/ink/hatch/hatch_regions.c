@@ -88,14 +88,14 @@ bool hatch_regions_init(struct hatch_regions *regions,
                         const recto_options *options) {
   *regions = (struct hatch_regions){
       .sheet = sheet,
-      .intersections = (options->edges & RECTO_EDGE_INTERSECTION) != 0,
+      .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,
       .count = map->fragment.count};
   regions->root = sets_create(regions->count);
   regions->fragment = mem_alloc(regions->count, sizeof *regions->fragment);
   regions->crossable = mem_alloc(map->half_edge.count, 1);
   bool ok = regions->root != NULL && regions->fragment != NULL &&
             regions->crossable != NULL;
-  if (ok && !options->ids)
+  if (ok && !options->ink.ids)
     join_fragments(regions, scene, map, pens);
   ok = ok && list_by_region(regions);
   if (ok)

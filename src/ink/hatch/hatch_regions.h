@@ -19,7 +19,7 @@ struct hatch_regions {
 
 /* Fragments on both sides of a mesh edge that is not drawn belong to one region
  * if the same pen hatches both; so do fragments of one face that are separated
- * only by a split of a scan-line method.  With options->ids every
+ * only by a split of a scan-line method.  With options->ink.ids every
  * fragment is a region.  False when memory ran out. */
 USE_RESULT bool
 hatch_regions_init(struct hatch_regions *regions, const struct sheet *sheet,

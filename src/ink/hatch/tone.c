@@ -200,7 +200,7 @@ static void release(struct tone_work *w) {
 bool tones_init(struct tones *tones, const struct sheet *sheet,
                 const struct scene *scene, const recto_options *options) {
   struct tone_work w = {.scene = scene, .sheet = sheet};
-  w.crease_cosine = cos(options->crease_deg * (acos(-1.0) / 180));
+  w.crease_cosine = cos(options->mesh.crease_deg * (acos(-1.0) / 180));
   light_direction(&sheet->camera, options, w.light);
   *tones = (struct tones){.scene = scene};
   tones->corner = mem_alloc(scene->corner.count, sizeof *tones->corner);

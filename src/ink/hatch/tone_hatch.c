@@ -260,7 +260,7 @@ static bool add_run(struct tone_hatching *h, const struct hatch_run *run) {
   const struct hatch_piece *piece = h->runs.piece.item;
   double inset = acos(-1.0) / 8 * piece[run->first].width_mm;
   double u0 = run->u0 + inset, u1 = run->u1 - inset;
-  if (!h->options->ids)
+  if (!h->options->ink.ids)
     return add_stroke(h, &piece[run->first], u0, u1);
   for (size_t i = run->first; i < run->end; i++)
     if (!add_stroke(h, &piece[i], fmax(u0, piece[i].u0), fmin(u1, piece[i].u1)))
@@ -303,8 +303,8 @@ bool tone_hatch_add(struct drawing *drawing, const struct sheet *sheet,
   h.runs.max_gap = 1.0 / 8;
   h.runs.min_length = TOLERANCE_TONE_PENS;
   for (int k = 0; k < LAYERS; k++)
-    hatch_lines_init(&h.lines[k], sheet, options->pen_mm,
-                     options->hatch_angle_deg + LAYER_DEG * k);
+    hatch_lines_init(&h.lines[k], sheet, options->ink.pen_mm,
+                     options->ink.hatch_angle_deg + LAYER_DEG * k);
   bool ok = tones_init(&h.tones, sheet, scene, options) &&
             add_fragments(&h, map) && add_runs(&h);
   tones_fini(&h.tones);

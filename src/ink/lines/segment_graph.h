@@ -69,7 +69,7 @@ void segment_graph_fini(struct segment_graph *graph);
 void node_rows_fini(struct node_rows *rows);
 
 /* Fills an empty graph with the visible intervals of the drawable edges, and
- * the hidden ones if options->hidden requests them.  An end of an interval at
+ * the hidden ones if options->ink.hidden requests them.  An end of an interval at
  * an end of the edge is the sheet's point; others are rounded to the grid once.
  * Errors  RECTO_ERROR_MEMORY; RECTO_ERROR_LIMIT: 2^31 segments. */
 USE_RESULT recto_status segment_graph_collect(struct segment_graph *graph,

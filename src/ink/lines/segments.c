@@ -192,7 +192,7 @@ segment_graph_collect(struct segment_graph *graph, const struct sheet *sheet,
   memset(c.node_of_point, 0xff, points * sizeof *c.node_of_point);
 
   bool ok = add_all(&c, false);
-  if (ok && options->hidden != RECTO_HIDDEN_NONE)
+  if (ok && options->ink.hidden != RECTO_HIDDEN_NONE)
     ok = add_all(&c, true);
   mem_free(c.node_of_point);
   if (!ok)
