@@ -2,9 +2,7 @@
  * their sides. */
 #include "api/handle.h"
 #include "api/sized.h"
-#include "ink/fill/fill.h"
-#include "ink/fill/light.h"
-#include "view/vector.h"
+#include "ink/ink.h"
 
 /* The class of a mesh edge in this view: as it was drawn, or for an edge of a
  * class that was not requested, by its faces.  The other face of a silhouette
@@ -92,24 +90,16 @@ static bool add_loops(recto_drawing *drawing, const struct map *map) {
 
 static bool add_fragments(recto_drawing *drawing,
                           const struct result_sources *s) {
-  double light[3];
-  light_direction(&s->sheet->camera, s->options, light);
   for (size_t f = 0; f < s->map->fragment.count; f++) {
     const struct map_fragment *from = &s->map->fragment.item[f];
-    uint32_t group = s->scene->face_group.item[from->face];
-    double normal[3];
-    light_face_normal(s->scene, from->face, normal);
-    bool is_back =
-        light_is_turned_away(s->scene, from->face, &s->sheet->camera, normal);
-    for (int k = 0; k < 3; k++)
-      normal[k] = is_back ? -normal[k] : normal[k];
-    (void)vector_normalise(normal);
+    struct ink_look look =
+        ink_look_of(s->scene, from->face, &s->sheet->camera, s->options);
     const recto_fragment fragment = {
         .face = scene_face_number(s->scene, from->face),
-        .group = group,
-        .colour = fill_colour(s->scene, group),
-        .brightness = light_brightness(normal, light),
-        .is_back = is_back,
+        .group = s->scene->face_group.item[from->face],
+        .colour = look.colour,
+        .brightness = look.brightness,
+        .is_back = look.is_back,
         .loop = from->loop,
         .loop_count = from->loops};
     if (!ARRAY_PUSH(&drawing->fragment, fragment))

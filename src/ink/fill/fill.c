@@ -3,6 +3,7 @@
 
 #include "ink/fill/light.h"
 #include "ink/fill/merge.h"
+#include "ink/ink.h"
 #include "view/vector.h"
 
 /* Colours of low saturation, so that the lines dominate the picture; any two
@@ -20,18 +21,34 @@ uint32_t fill_colour(const struct scene *scene, uint32_t group) {
 
 /* ---- Shade --------------------------------------------------------------- */
 
-/* The grey, 0xRRGGBB, of a face by its angle to the light.  The normal is
- * turned towards the viewer first, so both sides of a face are shaded alike. */
-static uint32_t shade_grey(const struct scene *scene, uint32_t face,
-                           const struct camera *camera, const double light[3]) {
+/* The brightness of a face by its angle to the light.  The normal is turned
+ * towards the viewer first, so both sides of a face are shaded alike. */
+static double shade(const struct scene *scene, uint32_t face,
+                    const struct camera *camera, const double light[3],
+                    bool *is_back) {
   double normal[3];
   light_face_normal(scene, face, normal);
-  if (light_is_turned_away(scene, face, camera, normal))
-    for (int k = 0; k < 3; k++)
-      normal[k] = -normal[k];
+  *is_back = light_is_turned_away(scene, face, camera, normal);
+  for (int k = 0; k < 3 && *is_back; k++)
+    normal[k] = -normal[k];
   (void)vector_normalise(normal);
-  uint32_t level = (uint32_t)(255 * light_brightness(normal, light) + 0.5);
+  return light_brightness(normal, light);
+}
+
+static uint32_t grey_of(double brightness) {
+  uint32_t level = (uint32_t)(255 * brightness + 0.5);
   return level << 16 | level << 8 | level;
+}
+
+struct ink_look ink_look_of(const struct scene *scene, uint32_t face,
+                            const struct camera *camera,
+                            const recto_options *options) {
+  struct ink_look look = {.colour =
+                              fill_colour(scene, scene->face_group.item[face])};
+  double light[3];
+  light_direction(camera, options, light);
+  look.brightness = shade(scene, face, camera, light, &look.is_back);
+  return look;
 }
 
 /* ---- Fills --------------------------------------------------------------- */
@@ -43,10 +60,12 @@ static struct drawing_fill fill_without_loops(const struct sheet *sheet,
                                               const double light[3],
                                               const recto_options *options) {
   uint32_t group = scene->face_group.item[face];
+  bool is_back;
   return (struct drawing_fill){
-      .colour = options->ink.fill == RECTO_FILL_SHADE
-                    ? shade_grey(scene, face, &sheet->camera, light)
-                    : fill_colour(scene, group),
+      .colour =
+          options->ink.fill == RECTO_FILL_SHADE
+              ? grey_of(shade(scene, face, &sheet->camera, light, &is_back))
+              : fill_colour(scene, group),
       .face = face,
       .group = group};
 }
