@@ -116,6 +116,7 @@ is_there() {
   for place in . src tests; do
     compgen -G "$srcdir/$place/$1" >"$scratch/found" && return 0
   done
+  test -e "$1" && return 0 # a program, in the folder of the build
   case $1 in
     *decisions/*) compgen -G "$srcdir/doc/decisions/${1##*/}-*" ;;
     */*) false ;;

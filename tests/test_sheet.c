@@ -603,6 +603,26 @@ static void what_is_behind_all_faces_does_not_touch_them(void **state) {
   sheet_fixture_fini(&fixture);
 }
 
+/* A long face is off its plane by a little, compared with its length, but by
+ * far more than contact: it may hide its own edges. */
+static void only_planar_faces_are_marked_coplanar(void **state) {
+  (void)state;
+  for (int bent = 0; bent < 2; bent++) {
+    const double face[] = {
+        1, 0, 0, 0.5, 2, bent ? 1.5 : 0, 0.5, 1, bent ? 1.5 : 0, 0, 1000, 0};
+    struct sheet_fixture fixture;
+    sheet_fixture_start(&fixture);
+    build_polygon(&fixture.scene, face, 4);
+    fixture.options.elevation_deg = 60;
+    sheet_fixture_out(&fixture, false);
+    assert_int_equal(fixture.sheet.triangle.count, 2);
+    for (int t = 0; t < 2; t++)
+      assert_int_equal(!(fixture.sheet.triangle_flags[t] & SHEET_COPLANAR),
+                       bent);
+    sheet_fixture_fini(&fixture);
+  }
+}
+
 /* Of the second triangle of a bent face, a strip is left behind the near plane
  * that is thinner than the grid: it lies where the triangle lies, so that the
  * face does not fold there. */
@@ -779,6 +799,7 @@ int main(void) {
       cmocka_unit_test(wires_are_edges_segment_by_segment),
       cmocka_unit_test(wires_are_cut_at_the_page),
       cmocka_unit_test(what_is_behind_all_faces_does_not_touch_them),
+      cmocka_unit_test(only_planar_faces_are_marked_coplanar),
       cmocka_unit_test(a_strip_thinner_than_the_grid_makes_no_fold),
       cmocka_unit_test(wires_not_requested_are_left_out),
       cmocka_unit_test(diagonals_are_no_edges),

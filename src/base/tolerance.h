@@ -113,8 +113,7 @@
  * Unit        share of the face's own extent
  * Derivation  single precision and six digits round a point by 1e-7 of its
  *             size; sums of a few of those stay below.
- * Users       view/polygon.c, judge/triangles.c: warped faces are counted, and
- *             they alone may hide their own edges
+ * Users       view/triangulate.c, judge/triangles.c
  * Ten times   fewer faces are counted as warped. */
 #define TOLERANCE_WARP_SHARE 1e-6
 

@@ -265,7 +265,7 @@ static recto_status add_polygon_face(struct layout *layout, uint32_t face,
   layout->sheet->empty += triangulation->triangle.count == 0;
   recto_status status = clipped ? cut_polygon_face(layout, face, start, count)
                                 : add_whole_face(layout, face, start, count);
-  if (!triangulation->warped)
+  if (triangulation->off_plane <= coordinate_error_contact(layout->sheet, face))
     mark_coplanar(layout, first);
   return status == RECTO_OK ? add_folds(layout, face, first, folds) : status;
 }

@@ -69,17 +69,15 @@ struct polygon_areas polygon_measure(const struct polygon *polygon) {
   return areas;
 }
 
-bool polygon_is_warped(const struct polygon *polygon,
-                       const struct polygon_areas *areas) {
-  double length = vector_length(areas->value), origin[3], to[3];
-  double most = length * areas->extent * TOLERANCE_WARP_SHARE;
+double polygon_off_plane(const struct polygon *polygon,
+                         const struct polygon_areas *areas) {
+  double length = vector_length(areas->value), origin[3], to[3], most = 0;
   polygon_place(polygon, 0, origin);
   for (uint32_t c = 1; polygon->count > 3 && c < polygon->count; c++) {
     offset(polygon, c, origin, to);
-    if (fabs(vector_dot(areas->value, to)) > most)
-      return true;
+    most = upper_bound(most, fabs(vector_dot(areas->value, to)));
   }
-  return false;
+  return length > 0 ? most / length : 0;
 }
 
 /* ---- Projection ---------------------------------------------------------- */

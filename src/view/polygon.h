@@ -21,10 +21,10 @@ struct polygon_areas {
 
 struct polygon_areas polygon_measure(const struct polygon *polygon);
 
-/* Whether a corner is farther from the plane of the polygon's Newell normal
- * through its first corner than rounding of the input can cause. */
-bool polygon_is_warped(const struct polygon *polygon,
-                       const struct polygon_areas *areas);
+/* The distance of the farthest corner from the plane of the polygon's Newell
+ * normal through its first corner; 0 for triangles and where it has no area. */
+double polygon_off_plane(const struct polygon *polygon,
+                         const struct polygon_areas *areas);
 
 /* Projects the corners along the axis of largest projected area, mirrored where
  * needed so that the projection runs counter-clockwise.

@@ -45,6 +45,7 @@
  */
 #include "view/triangulate.h"
 
+#include "base/tolerance.h"
 #include "scene/exact.h"
 #include "view/polygon.h"
 
@@ -505,6 +506,7 @@ bool triangulate(struct triangulation *triangulation,
                  size_t count) {
   const struct polygon polygon = {point, corner, (uint32_t)count};
   triangulation->triangle.count = 0;
+  triangulation->off_plane = 0;
   triangulation->warped = false;
   if (!ARRAY_RESERVE(&triangulation->triangle, count - 2) ||
       !ARRAY_RESERVE(&triangulation->corner, count))
@@ -515,7 +517,9 @@ bool triangulate(struct triangulation *triangulation,
     return true;
   }
   struct polygon_areas areas = polygon_measure(&polygon);
-  triangulation->warped = polygon_is_warped(&polygon, &areas);
+  triangulation->off_plane = polygon_off_plane(&polygon, &areas);
+  triangulation->warped =
+      triangulation->off_plane > areas.extent * TOLERANCE_WARP_SHARE;
   polygon_flatten(&polygon, &areas, triangulation->corner.item,
                   sizeof *triangulation->corner.item);
   return (count == 4 && !has_repeats(&polygon) &&

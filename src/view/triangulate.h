@@ -28,7 +28,8 @@ struct triangulation_corner {
 
 struct triangulation {
   ARRAY(struct triangulation_triangle) triangle;
-  bool warped; /* the polygon is not planar */
+  bool warped;      /* the polygon is not planar */
+  double off_plane; /* polygon_off_plane */
   /* Work space, kept from call to call. */
   ARRAY(struct triangulation_corner) corner;
   ARRAY(uint32_t) queue; /* a heap of corners that may be ears */
