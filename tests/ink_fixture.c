@@ -158,31 +158,35 @@ static struct geom_point grid_point(const struct map_corner *corner) {
   return (struct geom_point){(int32_t)corner->x, (int32_t)corner->y, 0};
 }
 
-/* Makes the map's half-edges; sides need not lie on the edges that they say. */
-static void find_twins(struct ink_fixture *k) {
+/* Makes the map's half-edges; sides need not lie on the edges that they say.
+ * Returns false when memory ran out. */
+static bool find_twins(struct ink_fixture *k) {
   side_lines lines = {0};
-  for (size_t l = 0; l < k->map.loop.count; l++) {
+  bool ok = true;
+  for (size_t l = 0; l < k->map.loop.count && ok; l++) {
     const struct map_loop *loop = &k->map.loop.item[l];
     const struct map_corner *corner = k->map.corner.item + loop->corner;
-    for (uint32_t i = 0; i < loop->count; i++) {
+    for (uint32_t i = 0; i < loop->count && ok; i++) {
       struct geom_line line;
       uint64_t number;
       geom_line_through(&line, grid_point(&corner[i]),
                         grid_point(&corner[(i + 1) % loop->count]));
       assert_true(geom_line_number(&line, &number));
-      assert_true(side_lines_add_number(&lines, number));
+      ok = side_lines_add_number(&lines, number);
     }
   }
   k->map.half_edge.count = 0;
-  assert_true(planar_subdivision_store(&lines, &k->sheet, &k->map));
+  ok = ok && planar_subdivision_store(&lines, &k->sheet, &k->map);
   ARRAY_FREE(&lines);
+  return ok;
 }
 
 recto_status ink_fixture_try(struct ink_fixture *k) {
   recto_error error = {.code = RECTO_OK};
   drawing_fini(&k->drawing);
   drawing_init(&k->drawing);
-  find_twins(k);
+  if (!find_twins(k))
+    return RECTO_ERROR_MEMORY;
   /* The map borrows the states and does not own them. */
   k->map.edge_state = k->state.item;
   k->map.edge_count = k->state.count;

@@ -613,7 +613,7 @@ static void only_planar_faces_are_marked_coplanar(void **state) {
     struct sheet_fixture fixture;
     sheet_fixture_start(&fixture);
     build_polygon(&fixture.scene, face, 4);
-    fixture.options.elevation_deg = 60;
+    fixture.options.camera.elevation_deg = 60;
     sheet_fixture_out(&fixture, false);
     assert_int_equal(fixture.sheet.triangle.count, 2);
     for (int t = 0; t < 2; t++)
