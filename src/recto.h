@@ -186,7 +186,7 @@ typedef void (*recto_warning_fn)(void *user, const char *file,
 #define RECTO_USUAL_MARGIN_MM 10
 
 /* The highest number of a pen; the first is 1. */
-#define RECTO_PEN_MOST 1000
+#define RECTO_PEN_MAX 1000
 
 /* The lines that a pen is assigned to. */
 typedef enum recto_lines {
@@ -203,7 +203,7 @@ typedef struct recto_pen_use {
   const char *group;    /* of RECTO_LINES_OF_GROUP: the name of a group, or its
                         part between two of the slashes that join object, group
                         and material */
-  int pen;              /* 1 to RECTO_PEN_MOST */
+  int pen;              /* 1 to RECTO_PEN_MAX */
   uint64_t reserved[2]; /* 0, as in all structs of arrays below */
 } recto_pen_use;
 
@@ -288,7 +288,7 @@ typedef struct recto_page_options {
 typedef struct recto_ink_options {
   unsigned edges; /* mask of recto_edge_class */
   recto_hidden hidden;
-  int hidden_layers; /* draw hidden lines of at most this quantitative
+  int hidden_by_max; /* draw hidden lines of at most this quantitative
                         invisibility (number of faces in front); 0: all */
   recto_fill fill;
   double seam_mm; /* below all fills, each is extended over its borders by half
@@ -300,7 +300,7 @@ typedef struct recto_ink_options {
   double light[3];  /* direction towards the light; 0,0,0: the viewer's upper
                        left */
   double pen_mm;    /* RECTO_FINEST_MM to 100 */
-  int pens;         /* pens to deal the groups to; 1: all on one */
+  int pens;         /* pens to assign the groups to; 1: all on one */
 
   /* A line is drawn by the pen of the first use that applies to it: as a hidden
    * line or hatching, by its class, by its group; if there is none, `pens`
@@ -308,7 +308,7 @@ typedef struct recto_ink_options {
   const recto_pen_use *pen_use; /* pen_use_count of them */
   size_t pen_use_count;
   const recto_pen *pen; /* of the pens 1 to pen_count, in order */
-  size_t pen_count;     /* at most RECTO_PEN_MOST */
+  size_t pen_count;     /* at most RECTO_PEN_MAX */
 
   /* The weights of classes in SVG, PDF, EPS, PS and PNG; lines of different
    * weight are different strokes.  A class that is not listed is one pen wide;
@@ -372,7 +372,7 @@ typedef struct recto_options {
   recto_options_init_sized((options), sizeof *(options))
 void recto_options_init_sized(recto_options *options, size_t size);
 
-/* ---- Ring 1: one call for the whole job ---------------------------------- */
+/* ---- Level 1: one call for the whole job --------------------------------- */
 
 /* Reads `model`, draws it and writes `output`.
  * model   path; its format by extension, or "-" for standard input
@@ -386,7 +386,7 @@ RECTO_USE_RESULT recto_status recto_draw_file(
     const char *model, const char *from, const char *output, const char *to,
     const recto_options *options, recto_error *error);
 
-/* ---- Ring 2: scene, drawing ---------------------------------------------- */
+/* ---- Level 2: scene, drawing --------------------------------------------- */
 
 typedef struct recto_scene recto_scene;
 typedef struct recto_drawing recto_drawing;
@@ -544,7 +544,7 @@ const char *recto_output_format_name(size_t index);
 typedef struct recto_verdict {
   double drawn_mm, false_mm;     /* lines; of these hidden, or of no edge */
   double visible_mm, missing_mm; /* requested edges; of these not drawn */
-  double unsure_mm;              /* undecided: counted as right */
+  double undecided_mm;           /* counted as right */
   double false_at_mm[2], missing_at_mm[2]; /* the first of each: x, y */
 } recto_verdict;
 
@@ -569,7 +569,7 @@ const char *recto_drawing_verdict(const recto_drawing *drawing);
 /* Counts, times and choices as one JSON object.  Owned by the drawing. */
 const char *recto_drawing_stats(const recto_drawing *drawing);
 
-/* ---- Ring 3: the drawing as data -----------------------------------------
+/* ---- Level 3: the drawing as data ----------------------------------------
  * Structs that are filled in here grow at their end in later versions.  The
  * macros pass the size that the caller was compiled with. */
 

@@ -177,7 +177,7 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
   REFUSED(ink.edges, 0x80);
   REFUSED(mesh.crease_deg, 181);
   REFUSED(ink.hidden, (recto_hidden)3);
-  REFUSED(ink.hidden_layers, -1);
+  REFUSED(ink.hidden_by_max, -1);
   REFUSED(ink.fill, (recto_fill)4);
   REFUSED(ink.hatch_pitch_mm, 0);
   REFUSED(ink.pen_mm, 0);
@@ -202,7 +202,7 @@ static void lists_that_make_no_sense_are_refused(void **state) {
       {.lines = RECTO_LINES_HATCH,
        .edge_class = 0,
        .group = NULL,
-       .pen = RECTO_PEN_MOST + 1},
+       .pen = RECTO_PEN_MAX + 1},
       {.lines = RECTO_LINES_OF_CLASS, .edge_class = 0, .group = "a", .pen = 1},
       {.lines = RECTO_LINES_OF_CLASS,
        .edge_class = (recto_edge_class)0x80,
@@ -250,7 +250,7 @@ static void lists_that_make_no_sense_are_refused(void **state) {
     options.ink.weight = &weight[i];
     assert_refused(scene, &options, "a weight");
   }
-  REFUSED(ink.pen_count, RECTO_PEN_MOST + 1);
+  REFUSED(ink.pen_count, RECTO_PEN_MAX + 1);
   recto_scene_destroy(scene);
 }
 

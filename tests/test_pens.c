@@ -228,12 +228,12 @@ static void unused_pens_are_reported(void **state) {
   for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
     struct ink_fixture k;
     start_scene(&k);
-    recto_pen pen[RECTO_PEN_MOST + 1] = {{.width_mm = 0}};
+    recto_pen pen[RECTO_PEN_MAX + 1] = {{.width_mm = 0}};
     pen[row[i].wide].width_mm = 1;
     pen[row[i].coloured[0]].has_colour = true;
     pen[row[i].coloured[1]].has_colour = true;
     k.options.ink.pen = pen + 1;
-    k.options.ink.pen_count = RECTO_PEN_MOST;
+    k.options.ink.pen_count = RECTO_PEN_MAX;
     ink_fixture_use(&k, &row[i].use, row[i].use.pen != 0);
     k.options.ink.hidden = row[i].hidden;
     k.options.ink.fill = row[i].fill;

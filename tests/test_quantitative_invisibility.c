@@ -201,7 +201,7 @@ static double hidden_length(int layers, recto_method method) {
   double length = 0;
   recto_options_init(&options);
   options.ink.hidden = RECTO_HIDDEN_LAYER;
-  options.ink.hidden_layers = layers;
+  options.ink.hidden_by_max = layers;
   options.solver.method = method;
   assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
   for (int box = 0; box < 3; box++) {

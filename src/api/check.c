@@ -35,7 +35,7 @@ static void fill_verdict(recto_verdict *to, const struct judge_verdict *from) {
       .false_mm = from->false_ink.mm,
       .visible_mm = from->visible.mm,
       .missing_mm = from->missing.mm,
-      .unsure_mm = from->unsure_ink.mm + from->unsure.mm,
+      .undecided_mm = from->unsure_ink.mm + from->unsure.mm,
       .false_at_mm = {from->false_at.at.x, from->false_at.at.y},
       .missing_at_mm = {from->missing_at.at.x, from->missing_at.at.y},
   };

@@ -73,7 +73,7 @@ static recto_status check_lists(const recto_options *o, recto_error *error) {
     return error_null(error, "a list of the options");
   for (size_t i = 0; i < o->ink.pen_use_count; i++) {
     const recto_pen_use *use = &o->ink.pen_use[i];
-    if (use->pen < 1 || use->pen > RECTO_PEN_MOST ||
+    if (use->pen < 1 || use->pen > RECTO_PEN_MAX ||
         (unsigned)use->lines > RECTO_LINES_HATCH ||
         (use->lines == RECTO_LINES_OF_CLASS && !is_class(use->edge_class)) ||
         (use->lines == RECTO_LINES_OF_GROUP && use->group == NULL))
@@ -124,7 +124,7 @@ static recto_status check(const recto_options *o, recto_error *error) {
       {"the mask of edges", o->ink.edges, 0, RECTO_EDGES_ALL},
       {"the crease angle", o->mesh.crease_deg, 0, 180},
       {"the way with hidden lines", o->ink.hidden, 0, RECTO_HIDDEN_LAYER},
-      {"the number of layers that hide", o->ink.hidden_layers, 0, INT_MAX},
+      {"the number of layers that hide", o->ink.hidden_by_max, 0, INT_MAX},
       {"the kind of fill", o->ink.fill, 0, RECTO_FILL_HATCH},
       {"the seam", o->ink.seam_mm, 0, 10},
       {"the hatch pitch", o->ink.hatch_pitch_mm, RECTO_FINEST_MM, huge},
@@ -150,7 +150,7 @@ static recto_status check(const recto_options *o, recto_error *error) {
       {"the weld length", o->mesh.weld, -huge, huge},
       {"the number of bits of coordinates", o->mesh.coordinate_bits, 0, 53},
       {"the number of pens with a width", (double)o->ink.pen_count, 0,
-       RECTO_PEN_MOST},
+       RECTO_PEN_MAX},
   };
   if (o->output.device != NULL && device_by_name(o->output.device) == NULL) {
     char known[DEVICE_LIST_SIZE];

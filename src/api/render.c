@@ -239,11 +239,11 @@ static recto_status solve(struct render *render, recto_error *error) {
                             ->solve(&render->sheet, &request, &render->map,
                                     render->report, error);
   bool has_limit = options->ink.hidden != RECTO_HIDDEN_NONE &&
-                   options->ink.hidden_layers > 0;
+                   options->ink.hidden_by_max > 0;
   if (status == RECTO_OK && (has_limit || keeps_invisibility(render)))
     status = quantitative_invisibility_find(
         &render->map, &render->sheet,
-        has_limit ? options->ink.hidden_layers : INT_MAX,
+        has_limit ? options->ink.hidden_by_max : INT_MAX,
         keeps_invisibility(render), &request, render->report, error);
   return status;
 }

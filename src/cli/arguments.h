@@ -41,7 +41,7 @@ struct arguments {
   /* What the options' arrays refer to. */
   ARRAY(char *) list; /* copies of the lists, which hold names of groups */
   ARRAY(recto_pen_use) pen_use;
-  recto_pen pen[RECTO_PEN_MOST];
+  recto_pen pen[RECTO_PEN_MAX];
   recto_weight weight[RECTO_EDGE_CLASS_COUNT];
 };
 

@@ -10,7 +10,7 @@
 /* ---- Items --------------------------------------------------------------- */
 
 static bool is_pen(const char *text, int *pen) {
-  return value_int(text, pen) && *pen >= 1 && *pen <= RECTO_PEN_MOST;
+  return value_int(text, pen) && *pen >= 1 && *pen <= RECTO_PEN_MAX;
 }
 
 /* A name that is neither hidden, hatch nor a class is that of a group: the

@@ -115,7 +115,7 @@ static bool take_hidden(struct arguments *arguments, const char *text) {
                   (!value_int(number, &layers) || layers < 1 || how == 0)))
     return false;
   arguments->options.ink.hidden = (recto_hidden)how;
-  arguments->options.ink.hidden_layers = layers;
+  arguments->options.ink.hidden_by_max = layers;
   return true;
 }
 
@@ -281,7 +281,7 @@ const struct option_entry option_table[] = {
      "the pen's width (0.3mm)", .offset = AT(options.ink.pen_mm),
      .least = RECTO_FINEST_MM, .most = 100, .use = {USED_BY_STROKES_AND_CHECK}},
     {OPTION_INT, "pens", 0, "N", "a number from 1 to 1000",
-     "deal the groups to so many pens (1)", .offset = AT(options.ink.pens),
+     "assign the groups to so many pens (1)", .offset = AT(options.ink.pens),
      .least = 1, .most = 1000, .use = {USED_BY_STROKES}},
     {OPTION_LIST, "pen-for", 0, "LIST",
      "names and their pens, 1 to 1000, such as crease=2",

@@ -151,7 +151,7 @@ static recto_status tell_verdict(const recto_verdict *v, recto_error *error) {
                        "  first at %.3f,%.3f mm", v->missing_at_mm[0],
                        v->missing_at_mm[1]);
   snprintf(text + length, sizeof text - (size_t)length,
-           "\nundecided    %11.3f mm\n", v->unsure_mm);
+           "\nundecided    %11.3f mm\n", v->undecided_mm);
   stream_text(stream, text);
   return stream_finish(stream, error);
 }
