@@ -156,7 +156,11 @@ check_users() {
         }
         next
       }
-      !/^ *\/?\*/ {
+      {
+        if (comment && !sub(/^.*\*\//, ""))
+          next
+        gsub(/\/\*.*\*\//, "")
+        comment = sub(/\/\*.*/, "")
         while (match($0, /TOLERANCE_[A-Z_]+/)) {
           name = substr($0, RSTART, RLENGTH)
           $0 = substr($0, RSTART + RLENGTH)
@@ -248,7 +252,7 @@ done <"$scratch/includes"
 for literal in 1e-9 1.5e-12 1E-6f 0.e-3; do
   echo "double a = $literal;" >>"$copy/src/geom/ratio.c"
 done
-echo "double b = TOLERANCE_TONE;" >>"$copy/src/geom/ratio.c"
+printf 'double b = 2\n  * TOLERANCE_TONE;\n' >>"$copy/src/geom/ratio.c"
 sed -i 's|Users       view/frame.c|&, view/page.c|' "$copy/src/base/tolerance.h"
 echo "int x;" >"$copy/src/geom/new.c"
 echo "/* new.c - nothing. */" >"$copy/src/visibility/included/new.c"

@@ -1,8 +1,9 @@
 /* tolerance.h - every tolerance of the library, in one place.
  *
- * None of these decides what is visible: they serve input that was rounded
- * before it came to us, and output.  Each says its unit, where it comes from,
- * who uses it, and what ten times as much would do.  Error bounds of filters
+ * They serve input that was rounded before it came to us, and output.  Those of
+ * contact are part of the definition of visibility: surfaces that touch do not
+ * hide each other.  No other decides what is visible.  Each says its unit,
+ * where it comes from, who uses it, and what ten times as much would do.  Error bounds of filters
  * are no tolerances: what they leave undecided is decided exactly.
  *
  * Defined elsewhere, beside what they follow from: STRAIGHT in
@@ -156,9 +157,10 @@
  * Derivation  the areas of lobes that cancel add up to rounding noise, 2^-53 of
  *             the square for each of the corners: this leaves room for
  *             thousands.
- * Users       judge/triangulation.c
- * Ten times   needles a hundred times thinner than they are wide today are
- *             seen along their thinnest extent; they are cut otherwise. */
+ * Users       view/polygon.c, judge/triangulation.c
+ * Ten times   needles that are ten times wider, in relation to their length,
+ *             are projected along their thinnest extent, and may be
+ *             triangulated otherwise. */
 #define TOLERANCE_NO_AREA_SHARE 0x1p-40
 
 /* How far the judge's rays are moved to either side of an edge.

@@ -36,7 +36,7 @@ void geom_line_through(struct geom_line *line, struct geom_point p,
                        struct geom_point q);
 
 /* The line where two planes are equally deep; positive where `front` is the
- * nearer (deeper z) one.  Both nz > 0.
+ * nearer one, of greater z.  Both nz > 0.
  * Returns 0, or where the planes are parallel the sign of front - back (2:
  * they are the same plane): the line is then not set. */
 int geom_line_between(struct geom_line *line, const struct geom_plane *front,

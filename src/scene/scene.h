@@ -1,9 +1,9 @@
-/* scene.h - what the user gave us: points, planar faces, polylines, groups.
+/* scene.h - what the user gave us: points, faces, polylines, groups.
  *
  * Invariants (scene_add_* keep them, everything after relies on them)
  *   points are finite; corner indices are in range; a face has at least three
  *   corners, no two neighbouring ones equal in position; a polyline has at
- *   least two points. */
+ *   least two points.  A face need not be planar. */
 #ifndef SCENE_SCENE_H
 #define SCENE_SCENE_H
 

@@ -2,8 +2,9 @@
  * plane.
  *
  * Clipping is done in view coordinates, before the division by depth.  The
- * printable area is enlarged by half a grid unit: a point that rounds to its
- * border counts as inside, so that rounding never cuts a drawing that fits. */
+ * printable area is enlarged by SHEET_BLEED grid units, and by half of one: a
+ * point that rounds to its border counts as inside, so that rounding never cuts
+ * a drawing that fits. */
 #ifndef VIEW_CLIP_H
 #define VIEW_CLIP_H
 

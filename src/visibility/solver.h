@@ -46,7 +46,8 @@ extern const struct solver solver_painter;       /* faces sorted by centroid */
 extern const struct solver solver_painter_given; /* faces in the file's order */
 extern const struct solver solver_zbuffer;
 extern const struct solver solver_scanline_zbuffer;
-extern const struct solver solver_watkins; /* on scan lines at a pitch */
+extern const struct solver solver_watkins; /* exact; approximate, on scan
+                                              lines, where a pitch is given */
 
 /* Chooses the cheapest exact method for this sheet and this request: what the
  * method "auto" uses.

@@ -210,7 +210,8 @@ static bool list_by_side(struct subdivision_work *work) {
 
 /* ---- 3. Half-edges ------------------------------------------------------- */
 
-/* Stores the half-edges of a side. */
+/* Stores the half-edges of a side, which is divided at its T-junctions: where
+ * the neighbour beside it changes. */
 static bool divide_side(struct subdivision_work *work, uint32_t fragment,
                         uint32_t side) {
   struct map *map = work->map;
