@@ -567,7 +567,7 @@ static void binary_data_in_a_text_are_an_error(void **state) {
   (void)state;
   assert_refused("ply\nformat ascii 1.0\nelement vertex 2\n" XYZ "end_header\n"
                  "0 0 0\n\x01\x02\x03\n",
-                 9, "no text, though the header says so");
+                 9, "the header says ascii, but the data are not text");
 }
 
 /* What crashed an importer, and what it never came back from: headers that

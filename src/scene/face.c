@@ -126,8 +126,9 @@ static bool examine_face(const struct scene *scene, const uint32_t *corner,
     return false;
   }
   if (count > 3 && !has_inside(scene, corner, count, room)) {
-    diagnostics_fault(diagnostics, SCENE_FAULT_ZERO_AREA, line,
-                      "face without area, it goes there and back, skipped");
+    diagnostics_fault(
+        diagnostics, SCENE_FAULT_ZERO_AREA, line,
+        "face without area, its boundary retraces itself, skipped");
     return false;
   }
   if (count > 3 && bowtie_has_crossing(scene, corner, count))

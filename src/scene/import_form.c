@@ -26,7 +26,7 @@ struct form {
 
 static recto_status fail(const struct form *f) {
   return error_set(f->error, RECTO_ERROR_FORMAT, f->path, 0,
-                   "the importer handed over nothing that makes sense");
+                   "malformed output of the importer");
 }
 
 /* The next `count` items of that size; NULL where there are fewer. */

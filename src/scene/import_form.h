@@ -29,8 +29,8 @@ struct import_record {
   uint64_t name_length, points, elements, corners;
 };
 
-/* Adds to the scene what stands in these bytes, which may be any: nothing in
- * them is believed that was not looked at.
+/* Adds to the scene what stands in these bytes, which may be any: every field
+ * is validated before use.
  * path    of the model, for messages
  * format  its name, for messages
  * mb      the importer's memory, for messages

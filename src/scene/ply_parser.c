@@ -209,7 +209,7 @@ recto_status ply_check_text(struct ply_parser *p, const char *start) {
   for (const char *at = start; at < p->at; at++)
     if ((unsigned char)*at < ' ' && !is_blank(*at) && *at != '\n')
       return error_set(p->error, RECTO_ERROR_FORMAT, p->path, p->last,
-                       "no text, though the header says so");
+                       "the header says ascii, but the data are not text");
   return RECTO_OK;
 }
 

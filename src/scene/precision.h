@@ -61,7 +61,7 @@ USE_RESULT recto_status scene_leave_precision(struct scene *scene, size_t first,
 struct precision scene_unstated_precision(const struct scene *scene, int bits);
 
 /* The precision of one point.
- * unstated  of points that were added without a word about it */
+ * unstated  of points that were added without a stated one */
 struct precision scene_point_precision(const struct scene *scene,
                                        uint32_t point,
                                        struct precision unstated);

@@ -80,7 +80,7 @@ static recto_status begin_material(struct library *library, const char *name,
   library->material = palette->current_group;
   if (palette->group.count == known && library->material >= library->first)
     diagnostics_fault(library->diagnostics, SCENE_FAULT_MATERIAL, library->line,
-                      "newmtl %.80s once more: its first Kd holds",
+                      "newmtl %.80s is defined again; its first Kd is used",
                       palette->group.item[library->material].name);
   return RECTO_OK;
 }

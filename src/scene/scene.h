@@ -45,7 +45,7 @@ struct scene {
   ARRAY(uint32_t) wire_corner;
   ARRAY(uint32_t) wire_group;
   /* How exact the points are, one range a file, ascending; points before the
-   * first range were added without a word about it. */
+   * first range were added without a stated precision. */
   ARRAY(struct precision_range) precision;
   ARRAY(struct scene_group) group; /* group 0 is there once anything is */
   uint32_t current_group;          /* what scene_add_* add to */

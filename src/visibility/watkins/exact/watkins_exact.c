@@ -130,8 +130,8 @@ static recto_status store_strokes(struct exact *exact,
       unique_pairs(pairs) && edge_intervals_open_map(map, sheet->edge.count);
   if (ok && pairs->too_many)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
-                     "too much for watkins without a pitch: lines have faces "
-                     "beside them in more than %d pairs; -m auto has no such "
+                     "too much for watkins without a pitch: more than %d pairs "
+                     "of an edge and an adjacent triangle; -m auto has no such "
                      "limit",
                      PAIRS_MAX);
   pair = pairs->pair.item;
