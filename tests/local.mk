@@ -216,3 +216,5 @@ unit_tests += %D%/test_api_results
 %C%_test_api_results_SOURCES = %D%/test_api_results.c
 unit_tests += %D%/test_api_prepare
 %C%_test_api_prepare_SOURCES = %D%/test_api_prepare.c
+unit_tests += %D%/test_api_memory_faults
+%C%_test_api_memory_faults_SOURCES = %D%/test_api_memory_faults.c

@@ -62,21 +62,25 @@ void scene_keep_faults(recto_scene *scene,
     scene->fault[i] += diagnostics->count[i];
 }
 
+/* A copy of a text; NULL when memory ran out. */
+static char *copy_text(const char *text) {
+  size_t size = strlen(text) + 1;
+  char *copy = mem_alloc(size, 1);
+  if (copy != NULL)
+    memcpy(copy, text, size);
+  return copy;
+}
+
 /* Keeps the path of the only file read, for warnings about the whole scene;
- * false when memory ran out. */
-static bool keep_path(recto_scene *scene, const char *path) {
-  size_t size = strlen(path) + 1;
+ * drops it where it is not the only one.  Owns the path from then on. */
+static void keep_path(recto_scene *scene, char *path) {
   if (scene->read_before) {
     mem_free(scene->path);
-    scene->path = NULL;
-    return true;
+    mem_free(path);
+    path = NULL;
   }
   scene->read_before = true;
-  scene->path = mem_alloc(size, 1);
-  if (scene->path == NULL)
-    return false;
-  memcpy(scene->path, path, size);
-  return true;
+  scene->path = path;
 }
 
 /* Reads a file, or bytes from memory where they are not NULL. */
@@ -88,6 +92,9 @@ static recto_status read_model(recto_scene *scene, const void *bytes,
   recto_status status = options_copy(&own, options, error);
   if (status != RECTO_OK)
     return status;
+  char *kept = copy_text(path);
+  if (kept == NULL)
+    return error_memory(error);
   struct diagnostics diagnostics = {.file = path,
                                     .warning = own.warning,
                                     .progress = own.progress,
@@ -101,11 +108,13 @@ static recto_status read_model(recto_scene *scene, const void *bytes,
                                    &diagnostics, error);
   scene->read_cpu += clock_cpu() - cpu;
   scene->read_wall += clock_wall() - wall;
-  if (status == RECTO_OK)
-    scene_keep_faults(scene, &diagnostics);
-  if (status == RECTO_OK && !keep_path(scene, path))
-    status = error_memory(error);
-  return status;
+  if (status != RECTO_OK) {
+    mem_free(kept);
+    return status;
+  }
+  scene_keep_faults(scene, &diagnostics);
+  keep_path(scene, kept);
+  return RECTO_OK;
 }
 
 recto_status recto_scene_read(recto_scene *scene, const char *path,
