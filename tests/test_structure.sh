@@ -301,7 +301,7 @@ declares_what_it_shows() {
   nm -D --defined-only "$library" | awk '{ print $3 }' | LC_ALL=C sort \
     >"$scratch/shown"
   # shellcheck disable=SC2086
-  ${CC:-cc} -fpreprocessed -dD -E -P "$srcdir/src/recto.h" 2>/dev/null |
+  ${CC:-cc} -E -P "$srcdir/src/recto.h" 2>/dev/null |
     grep -oE '\brecto_[a-z_]+\(' | tr -d '(' | LC_ALL=C sort -u \
     >"$scratch/declared"
   # A declared function that is missing, or a shown one that is not declared.
