@@ -71,7 +71,8 @@ dist_check_SCRIPTS += \
   %D%/test_installed.sh \
   %D%/test_documents.sh \
   %D%/test_structure.sh \
-  %D%/test_options_without_effect.sh
+  %D%/test_options_without_effect.sh \
+  %D%/test_python.sh
 
 # Drawings made by hand, for the writers.
 plotting = %D%/plotting.c %D%/plotting.h \

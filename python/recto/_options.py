@@ -1,0 +1,385 @@
+"""Options by the names of the command line, as recto_options takes them."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from typing import Any, Mapping, Sequence, TypedDict, Union
+
+from ._library import Call, Progress, ffi, lib, text_of
+
+Vector = Sequence[float]
+
+
+class Options(TypedDict, total=False):
+    """The options of drawings, by keyword; the names and the meanings are
+    those of the program (`recto --help`).  Lengths are millimetres; contact,
+    weld, near and section are in units of the scene, angles in degrees."""
+
+    method: str
+    contact: float
+    weld: float
+    coordinate_bits: int
+    pitch: float
+    resolution: int
+    divide: str
+    depth_bits: int
+    subpixels: int
+    remove_backs: bool
+    threads: int
+
+    view: str
+    azimuth: float
+    elevation: float
+    camera: Vector
+    lookat: Vector
+    up: Vector
+    fov: float
+    ortho: bool
+    fit: str  # page (default), none, sphere
+    scale: float  # mm of page for a unit of the scene
+    near: float
+    section: float
+
+    page: Union[str, Sequence[float]]  # "A4", or (width, height)
+    landscape: bool
+    margin: float
+
+    edges: Union[str, Iterable[str]]
+    crease: float
+    hidden: Union[str, tuple[str, int]]  # "dashed", or ("dashed", 2)
+    fill: str
+    seam: float
+    hatch_pitch: float
+    hatch_angle: float
+    hatch_inset: bool
+    light: Vector
+    pen: float
+    pens: int
+    pen_for: Mapping[str, int]  # {"crease": 2, "hidden": 3}
+    pen_width: Mapping[int, float]
+    pen_colour: Mapping[int, str]  # {2: "#cc0000"}
+    weights: Mapping[str, float]
+    order: str
+    simplify: float
+    min_stroke: float
+    ids: bool
+
+    format: Union[str, None]
+    unit: float  # the output's resolution, mm
+    precision: int
+    path: str
+    device: str
+    velocity: float
+    velocity_up: float
+    tight: bool
+    dpi: float
+
+    verify: Union[bool, int]
+    results: Union[str, Iterable[str]]  # edges, invisibility, faces
+    progress: Progress  # called with the share done, 0 to 1, and the stage
+
+
+METHODS = {
+    text_of(lib.recto_method_name(i)): i for i in range(lib.RECTO_METHOD_COUNT)
+}
+EDGE_CLASSES = {
+    text_of(lib.recto_edge_class_name(1 << i)): 1 << i
+    for i in range(lib.RECTO_EDGE_CLASS_COUNT)
+}
+CLASS_NAMES = {mask: name for name, mask in EDGE_CLASSES.items()}
+
+_VIEWS = {
+    "iso": (45, 35.264389682754654),
+    "front": (0, 0),
+    "back": (180, 0),
+    "left": (-90, 0),
+    "right": (90, 0),
+    "top": (0, 90),
+    "bottom": (0, -90),
+    "dimetric": (20.704811054635428, 19.471220634490691),
+    "trimetric": (30, 25),
+}
+_PAGES = {
+    "a0": (841, 1189),
+    "a1": (594, 841),
+    "a2": (420, 594),
+    "a3": (297, 420),
+    "a4": (210, 297),
+    "a5": (148, 210),
+    "a6": (105, 148),
+    "letter": (215.9, 279.4),
+    "legal": (215.9, 355.6),
+}
+RESULTS = {
+    "edges": lib.RECTO_RESULT_EDGES,
+    "invisibility": lib.RECTO_RESULT_INVISIBILITY,
+    "faces": lib.RECTO_RESULT_FACES,
+    "all": lib.RECTO_RESULTS_ALL,
+}
+_FITS = {
+    "page": lib.RECTO_FIT_PAGE,
+    "none": lib.RECTO_FIT_NONE,
+    "sphere": lib.RECTO_FIT_SPHERE,
+}
+_HIDDEN = {
+    "none": lib.RECTO_HIDDEN_NONE,
+    "dashed": lib.RECTO_HIDDEN_DASHED,
+    "layer": lib.RECTO_HIDDEN_LAYER,
+}
+_FILLS = {
+    "none": lib.RECTO_FILL_NONE,
+    "paint": lib.RECTO_FILL_PAINT,
+    "shade": lib.RECTO_FILL_SHADE,
+    "hatch": lib.RECTO_FILL_HATCH,
+}
+
+# Options whose value is stored as it is: the block and the field.
+_FIELDS = {
+    "contact": ("solver", "contact"),
+    "pitch": ("solver", "pitch_mm"),
+    "resolution": ("solver", "resolution"),
+    "subpixels": ("solver", "subpixels"),
+    "depth_bits": ("solver", "depth_bits"),
+    "remove_backs": ("solver", "remove_backs"),
+    "threads": ("solver", "threads"),
+    "weld": ("mesh", "weld"),
+    "crease": ("mesh", "crease_deg"),
+    "coordinate_bits": ("mesh", "coordinate_bits"),
+    "azimuth": ("camera", "azimuth_deg"),
+    "elevation": ("camera", "elevation_deg"),
+    "fov": ("camera", "fov_deg"),
+    "near": ("camera", "near_distance"),
+    "margin": ("page", "margin_mm"),
+    "seam": ("ink", "seam_mm"),
+    "hatch_pitch": ("ink", "hatch_pitch_mm"),
+    "hatch_angle": ("ink", "hatch_angle_deg"),
+    "hatch_inset": ("ink", "hatch_inset"),
+    "light": ("ink", "light"),
+    "pen": ("ink", "pen_mm"),
+    "pens": ("ink", "pens"),
+    "simplify": ("ink", "simplify_mm"),
+    "min_stroke": ("ink", "min_stroke_mm"),
+    "ids": ("ink", "ids"),
+    "up": ("camera", "up"),
+    "unit": ("output", "unit_mm"),
+    "precision": ("output", "precision"),
+    "tight": ("output", "tight"),
+    "dpi": ("output", "dpi"),
+    "velocity": ("output", "velocity_cm_s"),
+    "velocity_up": ("output", "velocity_up_cm_s"),
+}
+
+
+def _word(name: str, value: Any, known: Mapping[str, Any]) -> Any:
+    try:
+        return known[value]
+    except (KeyError, TypeError):
+        words = ", ".join(known)
+        raise ValueError(f"{name}: not {value!r}, but one of {words}") from None
+
+
+def _mask(name: str, value: Any, known: Mapping[str, int]) -> int:
+    words = value.replace(",", " ").split() if isinstance(value, str) else value
+    mask = 0
+    for word in words:
+        mask |= _word(name, word, known)
+    return mask
+
+
+class _Setter:
+    """Sets the options that are more than a field.  What arrays and strings
+    point to is kept."""
+
+    def __init__(self, options: Any) -> None:
+        self.options = options
+        self.kept: list[Any] = []
+        self.pens: dict[int, dict[str, Any]] = {}
+
+    def text(self, value: str) -> Any:
+        self.kept.append(ffi.new("char[]", value.encode("utf-8")))
+        return self.kept[-1]
+
+    def array(self, kind: str, items: Sequence[Any]) -> Any:
+        self.kept.append(ffi.new(f"{kind}[]", list(items)))
+        return self.kept[-1]
+
+    def method(self, value: str) -> None:
+        self.options.solver.method = _word("method", value, METHODS)
+
+    def divide(self, value: str) -> None:
+        self.options.solver.divide = _word(
+            "divide",
+            value,
+            {"four": lib.RECTO_DIVIDE_FOUR, "box": lib.RECTO_DIVIDE_BOX},
+        )
+
+    def view(self, value: str) -> None:
+        camera = self.options.camera
+        camera.azimuth_deg, camera.elevation_deg = _word("view", value, _VIEWS)
+
+    def camera(self, value: Vector) -> None:
+        self.options.camera.kind = lib.RECTO_CAMERA_EYE
+        self.options.camera.eye = list(value)
+
+    def lookat(self, value: Vector) -> None:
+        self.options.camera.target = list(value)
+        self.options.camera.has_target = True
+
+    def ortho(self, value: bool) -> None:
+        """Only takes away the default of 30 degrees: see `fill_in`."""
+
+    def fit(self, value: str) -> None:
+        self.options.camera.fit = _word("fit", value, _FITS)
+
+    def scale(self, value: float) -> None:
+        self.options.camera.fit = lib.RECTO_FIT_SCALE
+        self.options.camera.scale = value
+
+    def section(self, value: float) -> None:
+        self.options.camera.section = value
+        self.options.camera.has_section = True
+
+    def page(self, value: Any) -> None:
+        if isinstance(value, str):
+            value = _word("page", value.lower(), _PAGES)
+        self.options.page.width_mm, self.options.page.height_mm = value
+
+    def landscape(self, value: bool) -> None:
+        page = self.options.page
+        sides = sorted([page.width_mm, page.height_mm])
+        if value:
+            page.height_mm, page.width_mm = sides
+
+    def edges(self, value: Any) -> None:
+        known = {"none": 0, "all": lib.RECTO_EDGES_ALL, **EDGE_CLASSES}
+        self.options.ink.edges = _mask("edges", value, known)
+
+    def hidden(self, value: Any) -> None:
+        how, layers = (value, 0) if isinstance(value, str) else value
+        self.options.ink.hidden = _word("hidden", how, _HIDDEN)
+        self.options.ink.hidden_by_max = layers
+
+    def fill(self, value: str) -> None:
+        self.options.ink.fill = _word("fill", value, _FILLS)
+
+    def order(self, value: str) -> None:
+        known = {"none": lib.RECTO_ORDER_NONE, "near": lib.RECTO_ORDER_NEAR}
+        self.options.ink.order = _word("order", value, known)
+
+    def pen_for(self, value: Mapping[str, int]) -> None:
+        uses = []
+        for name, pen in value.items():
+            use: dict[str, Any] = {"pen": pen}
+            if name in EDGE_CLASSES:
+                use["lines"] = lib.RECTO_LINES_OF_CLASS
+                use["edge_class"] = EDGE_CLASSES[name]
+            elif name == "hidden":
+                use["lines"] = lib.RECTO_LINES_HIDDEN
+            elif name == "hatch":
+                use["lines"] = lib.RECTO_LINES_HATCH
+            else:
+                use["lines"] = lib.RECTO_LINES_OF_GROUP
+                use["group"] = self.text(name)
+            uses.append(use)
+        self.options.ink.pen_use = self.array("recto_pen_use", uses)
+        self.options.ink.pen_use_count = len(uses)
+
+    def _change_pens(self, changes: Mapping[int, dict[str, Any]]) -> None:
+        for number, change in changes.items():
+            if not 1 <= number <= lib.RECTO_PEN_MAX:
+                raise ValueError(f"pen {number}: pens count from 1")
+            self.pens.setdefault(number, {}).update(change)
+        most = max(self.pens, default=0)
+        pens = [self.pens.get(i + 1, {}) for i in range(most)]
+        self.options.ink.pen = self.array("recto_pen", pens)
+        self.options.ink.pen_count = most
+
+    def pen_width(self, value: Mapping[int, float]) -> None:
+        self._change_pens({n: {"width_mm": mm} for n, mm in value.items()})
+
+    def pen_colour(self, value: Mapping[int, str]) -> None:
+        changes = {}
+        for number, colour in value.items():
+            digits = colour.lstrip("#")
+            if len(digits) == 3:
+                digits = "".join(2 * digit for digit in digits)
+            if len(digits) != 6:
+                raise ValueError(f"pen_colour: not {colour!r}, but as #cc0000")
+            changes[number] = {"has_colour": True, "colour": int(digits, 16)}
+        self._change_pens(changes)
+
+    def weights(self, value: Mapping[str, float]) -> None:
+        items = [
+            {"edge_class": _word("weights", name, EDGE_CLASSES), "weight": w}
+            for name, w in value.items()
+        ]
+        self.options.ink.has_weights = True
+        self.options.ink.weight = self.array("recto_weight", items)
+        self.options.ink.weight_count = len(items)
+
+    def format(self, value: str | None) -> None:
+        if value is not None:
+            self.options.output.format = self.text(value)
+
+    def path(self, value: str) -> None:
+        known = {"path": False, "polyline": True}
+        self.options.output.polyline = _word("path", value, known)
+
+    def device(self, value: str) -> None:
+        self.options.output.device = self.text(value)
+
+    def verify(self, value: Any) -> None:
+        self.options.verify = 4000 if value is True else int(value)
+
+    def results(self, value: Any) -> None:
+        self.options.results = _mask("results", value, RESULTS)
+
+    def progress(self, value: Progress) -> None:
+        """Is called by `Call`."""
+
+
+def check_names(names: Iterable[str]) -> None:
+    """Raises TypeError for a name that is no option, and lists near ones."""
+    known = Options.__annotations__
+    for name in names:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 3, 0.5)
+            hint = f"; near: {', '.join(near)}" if near else ""
+            raise TypeError(f"there is no option {name!r}{hint}")
+
+
+class Filled:
+    """recto_options, as `at`, with what it points to, and its call."""
+
+    def __init__(self, given: Mapping[str, Any]) -> None:
+        check_names(given)
+        self.call = Call(given.get("progress"))
+        self.at = ffi.new("recto_options *")
+        lib.recto_options_init_sized(self.at, ffi.sizeof("recto_options"))
+        self.at.progress = lib.recto_python_progress
+        self.at.warning = lib.recto_python_warning
+        self.at.user = self.call.user
+        self._setter = _Setter(self.at)
+        # A view sets both angles, which may be given too; a page is turned
+        # once its size is known.
+        first, last = ("view", "page"), ("landscape",)
+        names = [n for n in first if n in given]
+        names += [n for n in given if n not in first + last]
+        names += [n for n in last if n in given]
+        for name in names:
+            self._set(name, given[name])
+        if "camera" in given and not given.get("ortho") and "fov" not in given:
+            self.at.camera.fov_deg = 30
+
+    def _set(self, name: str, value: Any) -> None:
+        if name in _FIELDS:
+            block, field = _FIELDS[name]
+            if isinstance(value, Iterable) and not isinstance(value, str):
+                value = [float(x) for x in value]
+            try:
+                setattr(getattr(self.at, block), field, value)
+            except (TypeError, IndexError, OverflowError) as error:
+                raise type(error)(f"{name}: {error}") from None
+        else:
+            getattr(self._setter, name)(value)

@@ -1,0 +1,243 @@
+"""Scenes: meshes from arrays and files, and the calls that draw them."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Sequence
+
+import numpy as np
+
+from ._drawing import Drawing
+from ._library import Call, ffi, lib, path_of, text_to
+from ._options import Filled, Options
+
+try:
+    from typing import Unpack
+except ImportError:  # before Python 3.11
+    Unpack = Any  # type: ignore[assignment]
+
+
+def _corners(faces: Any) -> tuple[np.ndarray, np.ndarray | None, int]:
+    """The corners of all faces, their offsets where the faces have different
+    numbers of corners, and else that number."""
+    offsets, size = None, 0
+    if not isinstance(faces, np.ndarray):
+        faces = list(faces)
+        sizes = np.fromiter((len(face) for face in faces), np.int64, len(faces))
+        if len(faces) > 0 and (sizes != sizes[0]).any():
+            offsets = np.zeros(len(faces) + 1, np.uint32)
+            np.cumsum(sizes, out=offsets[1:])
+            faces = np.concatenate([np.asarray(face) for face in faces])
+    corners = np.asarray(faces)
+    if corners.size == 0:
+        return np.empty(0, np.uint32), None, 3
+    if corners.dtype.kind not in "iu":
+        raise TypeError(f"faces are indices, not {corners.dtype}")
+    if offsets is None:
+        if corners.ndim != 2:
+            raise ValueError("faces: a row for each face, or a list of lists")
+        size = corners.shape[1]
+    if corners.min() < 0 or corners.max() >= lib.RECTO_NONE:
+        raise ValueError("faces: an index is out of range")
+    if corners.dtype.itemsize == 4:
+        return np.ascontiguousarray(corners).view(np.uint32), offsets, size
+    return np.ascontiguousarray(corners, np.uint32), offsets, size
+
+
+class Scene:
+    """Meshes and polylines, to be drawn.
+
+    Scene(vertices, faces)  arrays as of add_mesh
+    Scene(mesh)             an object with .vertices and .faces, such as those
+                            of trimesh
+    Scene()                 an empty one, to add to
+
+    A scene may be used by one thread at a time; once it is prepared, several
+    may render it at once."""
+
+    def __init__(
+        self, vertices: Any = None, faces: Any = None, groups: Any = None
+    ) -> None:
+        call = Call()
+        scene = ffi.new("recto_scene **")
+        call.finish(lib.recto_scene_create(scene, call.error))
+        self._owner = ffi.gc(scene[0], lib.recto_scene_destroy)
+        if vertices is not None:
+            self.add_mesh(vertices, faces, groups)
+
+    @classmethod
+    def read(
+        cls,
+        path: str | os.PathLike[str],
+        format: str | None = None,
+        **options: Unpack[Options],
+    ) -> Scene:
+        """Reads a model file; its format is that of its extension.  Colours,
+        which OBJ has in its material libraries, are read for fill="paint"."""
+        scene = cls()
+        filled = Filled(options)
+        filled.call.finish(
+            lib.recto_scene_read(
+                scene._owner,
+                path_of(path),
+                text_to(format),
+                filled.at,
+                filled.call.error,
+            )
+        )
+        return scene
+
+    @classmethod
+    def from_bytes(
+        cls,
+        data: Any,
+        format: str | None = None,
+        name: str | os.PathLike[str] | None = None,
+        **options: Unpack[Options],
+    ) -> Scene:
+        """Reads the bytes of a model file.  `name` is for messages; beside a
+        file of that name the material libraries of OBJ are looked for."""
+        scene = cls()
+        filled = Filled(options)
+        held = ffi.from_buffer(data)
+        filled.call.finish(
+            lib.recto_scene_read_memory(
+                scene._owner,
+                held,
+                len(held),
+                text_to(format),
+                ffi.NULL if name is None else path_of(name),
+                filled.at,
+                filled.call.error,
+            )
+        )
+        return scene
+
+    def add_mesh(
+        self, vertices: Any, faces: Any = None, groups: Sequence[str] | None = None
+    ) -> None:
+        """Adds a mesh, all of it or, on an error, nothing.
+
+        vertices  (n, 3); float32 counts as rounded to single precision.  Or an
+                  object with .vertices and .faces
+        faces     (m, k) indices of vertices, or a list of lists
+        groups    a name for each face
+        Arrays that are contiguous, of float32 or float64, and of 32-bit
+        indices, are handed over without a copy; the library copies them."""
+        if faces is None:
+            vertices, faces = vertices.vertices, vertices.faces
+        points = np.asarray(vertices)
+        single = points.dtype == np.float32
+        points = np.ascontiguousarray(points, np.float32 if single else np.float64)
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise ValueError(f"vertices: shape {points.shape} is not (n, 3)")
+        corners, offsets, size = _corners(faces)
+        mesh = ffi.new("recto_mesh *")
+        kept: list[Any] = [points, corners, offsets]
+        if single:
+            mesh.points_single = ffi.from_buffer("float[]", points)
+        else:
+            mesh.points = ffi.from_buffer("double[]", points)
+        mesh.point_count = len(points)
+        mesh.corners = ffi.from_buffer("uint32_t[]", corners)
+        mesh.corner_count = corners.size
+        mesh.face_size = size
+        mesh.face_count = corners.size // size if size else len(offsets) - 1
+        if offsets is not None:
+            mesh.face_offsets = ffi.from_buffer("uint32_t[]", offsets)
+        if groups is not None:
+            if len(groups) != mesh.face_count:
+                raise ValueError(f"groups: {len(groups)} for {mesh.face_count} faces")
+            names = list(dict.fromkeys(groups))
+            index = {name: i for i, name in enumerate(names)}
+            kept += [np.array([index[name] for name in groups], np.uint32)]
+            mesh.face_groups = ffi.from_buffer("uint32_t[]", kept[-1])
+            kept += [[ffi.new("char[]", name.encode()) for name in names]]
+            kept += [ffi.new("char *[]", kept[-1])]
+            mesh.group_names = kept[-1]
+            mesh.group_count = len(names)
+        call = Call()
+        call.finish(
+            lib.recto_scene_add_mesh_sized(
+                self._owner, mesh, ffi.sizeof("recto_mesh"), call.error
+            )
+        )
+
+    def add_polyline(self, points: Any) -> None:
+        """Adds a polyline, (n, 3) points, which is drawn with class wire."""
+        rows = np.ascontiguousarray(points, np.float64)
+        if rows.ndim != 2 or rows.shape[1] != 3:
+            raise ValueError(f"points: shape {rows.shape} is not (n, 3)")
+        call = Call()
+        index = ffi.new("uint32_t[]", len(rows))
+        at = ffi.from_buffer("double[]", rows)
+        for i in range(len(rows)):
+            call.finish(
+                lib.recto_scene_add_point(
+                    self._owner, at + 3 * i, index + i, call.error
+                )
+            )
+        call.finish(
+            lib.recto_scene_add_polyline(self._owner, index, len(rows), call.error)
+        )
+
+    def add_group(self, name: str) -> None:
+        """Starts a group, which what is added later belongs to."""
+        call = Call()
+        call.finish(lib.recto_scene_add_group(self._owner, name.encode(), call.error))
+
+    def prepare(self, **options: Unpack[Options]) -> None:
+        """Does once what views of the scene share; weld, coordinate_bits and
+        crease count."""
+        filled = Filled(options)
+        filled.call.finish(
+            lib.recto_scene_prepare(self._owner, filled.at, filled.call.error)
+        )
+
+    def render(self, **options: Unpack[Options]) -> Drawing:
+        """Draws the scene for SVG files, or for those of `format`."""
+        options = {"format": "svg", **options}
+        filled = Filled(options)
+        drawing = ffi.new("recto_drawing **")
+        status = lib.recto_scene_render(
+            self._owner, filled.at, drawing, filled.call.error
+        )
+        owner = drawing[0]
+        if owner != ffi.NULL:
+            owner = ffi.gc(owner, lib.recto_drawing_destroy)
+        filled.call.finish(status)
+        return Drawing(owner, options)
+
+
+def draw(
+    model: Any,
+    output: str | os.PathLike[str],
+    *,
+    model_format: str | None = None,
+    **options: Unpack[Options],
+) -> None:
+    """Draws a model to a file.
+
+    model         path of a model file, a Scene, or an object with .vertices
+                  and .faces
+    output        path; its format is `format`, or that of its extension
+    model_format  name of a format such as "obj"; None: by extension"""
+    to = options.pop("format", None)
+    if isinstance(model, (str, os.PathLike)):
+        filled = Filled(options)
+        filled.call.finish(
+            lib.recto_draw_file(
+                path_of(model),
+                text_to(model_format),
+                path_of(output),
+                text_to(to),
+                filled.at,
+                filled.call.error,
+            )
+        )
+        return
+    name = lib.recto_output_format(path_of(output), text_to(to))
+    if name != ffi.NULL:
+        options["format"] = ffi.string(name).decode()
+    scene = model if isinstance(model, Scene) else Scene(model)
+    scene.render(**options).write(output, to)

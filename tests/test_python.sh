@@ -1,0 +1,101 @@
+#!/bin/bash
+# test_python.sh - the Python package does what it says, the session in its
+# documentation and the examples included.
+. "$(dirname "$0")/tap.sh"
+
+library=$builddir/.libs/librecto.so
+can_build() {
+  "$1" -c 'import cffi, numpy, setuptools, sysconfig, os
+assert os.path.exists(sysconfig.get_path("include") + "/Python.h")' 2>/dev/null
+}
+python=
+for each in ${PYTHON:-python3 /usr/bin/python3}; do
+  if test -z "$python" && can_build "$each"; then
+    python=$each
+  fi
+done
+why=
+if test -z "$python"; then
+  why="no python3 with cffi, numpy, setuptools and Python.h"
+elif ! test -e "$library"; then
+  why="no shared library was built"
+elif nm -D "$library" 2>/dev/null | grep -q __asan_init; then
+  why="the library was built with sanitizers"
+fi
+if test -n "$why"; then
+  skip "the Python package builds" "$why"
+  finish
+  exit
+fi
+
+# ---- The package is built and used as an installed one would be -----------
+
+cp -R "$srcdir/python" "$scratch/source" && chmod -R u+w "$scratch/source"
+builds() {
+  (cd "$scratch/source" &&
+    RECTO_CFLAGS="-I$srcdir/src" \
+      RECTO_LIBS="-L$builddir/.libs -lrecto -Wl,-rpath,$builddir/.libs" \
+      "$python" setup.py -q build --build-lib "$scratch/lib" \
+      >"$scratch/log" 2>&1) || { say "$(tail -n 5 "$scratch/log")" && false; }
+}
+claim "the Python package builds" builds
+export PYTHONPATH=$scratch/lib PYTHONDONTWRITEBYTECODE=1
+export SCRATCH=$scratch RECTO=$recto
+"$python" "$scratch/source/tests/test_recto.py" >"$scratch/results" \
+  2>"$scratch/log"
+said=$?
+while read -r result text; do
+  claim "$text" test "$result" = pass
+done <"$scratch/results"
+claim "the package's tests ran to their end" test "$said" -eq 0
+if grep -q . "$scratch/log"; then
+  say "$(tail -n 20 "$scratch/log")"
+fi
+
+# ---- Documentation and examples -------------------------------------------
+
+cp "$srcdir"/examples/models/*.obj "$scratch"
+cd "$scratch" || exit 1
+session_is_true() {
+  "$python" -m doctest "$srcdir/doc/python.md" >log 2>&1 ||
+    { say "$(tail -n 20 log)" && false; }
+}
+claim "every output of the session in doc/python.md is what Python prints" \
+  session_is_true
+claim "it has at least twenty outputs" \
+  test "$(grep -c '^>>> ' "$srcdir/doc/python.md")" -ge 20
+
+# example NAME ARGUMENT... - runs; what it prints is in the file printed.
+example() {
+  "$python" "$srcdir/examples/python/$1.py" "${@:2}" >printed 2>log ||
+    { say "$(tail -n 3 log)" && false; }
+}
+turntable() {
+  example turntable turn 6 && test "$(find . -name 'turn*.svg' | wc -l)" -eq 6 &&
+    grep -q '<path' turn005.svg && ! cmp -s turn000.svg turn001.svg
+}
+claim "examples/python/turntable.py draws a mesh from arrays all around" turntable
+faces() {
+  example faces castle.obj castle.geojson castle.wkt &&
+    "$python" - <<'PYTHON'
+import json
+data = json.load(open("castle.geojson"))
+polygons = [f["geometry"] for f in data["features"]]
+assert len(polygons) == sum(1 for _ in open("castle.wkt")) > 100
+for polygon in polygons:
+    assert polygon["type"] == "Polygon"
+    for ring in polygon["coordinates"]:
+        assert ring[0] == ring[-1] and len(ring) >= 4
+PYTHON
+}
+claim "examples/python/faces.py writes visible faces as GeoJSON and WKT" faces
+hides() {
+  example hides && test "$(grep -c 'hidden by' printed)" -ge 1 &&
+    grep -q 'tower' printed
+}
+claim "examples/python/hides.py says which face hides which edge" hides
+is_short() { test "$(wc -l <"$1")" -lt 60; }
+for each in "$srcdir"/examples/python/*.py; do
+  claim "$(basename "$each") has fewer than 60 lines" is_short "$each"
+done
+finish
