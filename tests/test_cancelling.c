@@ -27,7 +27,7 @@ static void stop_tiles(const char *stage, int after, int threads, unsigned n) {
   struct sheet_fixture fixture;
   struct map map;
   struct listener listener = {stage, after};
-  const struct solver_request request = {.strokes = true,
+  const struct solver_request request = {.edges = true,
                                          .fragments = true,
                                          .intersections = true,
                                          .threads = threads,
@@ -124,13 +124,13 @@ static bool is_heard(const struct solver *solver, struct sheet_fixture *fixture,
 }
 
 static void hear_all(struct sheet_fixture *fixture) {
-  const struct solver_request lines = {.strokes = true, .threads = 1},
+  const struct solver_request lines = {.edges = true, .threads = 1},
                               faces = {.fragments = true, .threads = 1},
-                              all = {.strokes = true,
+                              all = {.edges = true,
                                      .fragments = true,
                                      .intersections = true,
                                      .threads = 1},
-                              pixels = {.strokes = true,
+                              pixels = {.edges = true,
                                         .fragments = true,
                                         .threads = 1,
                                         .resolution = 1000,

@@ -155,7 +155,7 @@ static void solve_in_pieces(const struct sheet *sheet, int cuts, uint64_t *r,
     assert_true(occluder_subtraction_start(&subtraction, f, NULL));
     for (uint32_t g = 0; g < n; g++)
       if (g != f && !(sheet->triangle_flags[g] & SHEET_FLAT))
-        assert_true(occluder_subtraction_take_nearer(&subtraction, g));
+        assert_true(occluder_subtraction_subtract_nearer(&subtraction, g));
     for (int k = 0; k < cuts; k++) {
       struct geom_point p = sheet->point.item[exact_random_below(r, points)],
                         q = sheet->point.item[exact_random_below(r, points)];

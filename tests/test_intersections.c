@@ -23,7 +23,7 @@ static void solve(struct sheet_fixture *fixture, struct lines *lines) {
   struct map map;
   recto_error error;
   const struct solver_request request = {
-      .strokes = true, .intersections = true, .threads = 1};
+      .edges = true, .intersections = true, .threads = 1};
   struct report *report = report_create();
   sheet_fixture_out(fixture, false);
   const struct sheet *sheet = &fixture->sheet;

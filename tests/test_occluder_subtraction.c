@@ -24,9 +24,9 @@ static void take_all(struct occluder_subtraction *subtraction, uint32_t t,
   for (uint32_t g = 0; g < sheet->triangle.count; g++)
     if (g != t && !is_flat(sheet, g))
       assert_true(at_once ? occluder_subtraction_collect(subtraction, g)
-                          : occluder_subtraction_take_nearer(subtraction, g));
+                          : occluder_subtraction_subtract_nearer(subtraction, g));
   if (at_once)
-    assert_true(occluder_subtraction_take_all(subtraction));
+    assert_true(occluder_subtraction_subtract_all(subtraction));
 }
 
 /* Unions in their one form, corner by corner. */
@@ -170,7 +170,7 @@ static void memory_may_run_out_anywhere(void **state) {
     bool ok = occluder_subtraction_start(&subtraction, 0, NULL);
     for (uint32_t g = 2; ok && g < sheet.triangle.count; g++)
       ok = occluder_subtraction_collect(&subtraction, g);
-    ok = ok && occluder_subtraction_take_all(&subtraction);
+    ok = ok && occluder_subtraction_subtract_all(&subtraction);
     memory_faults_end(&faults, memory_faults_status(ok));
     occluder_subtraction_fini(&subtraction);
   }

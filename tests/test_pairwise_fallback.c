@@ -140,7 +140,7 @@ static int64_t left_over(const struct solver *solver, recto_fill fill,
   return count;
 }
 
-static void faces_that_pierce_too_many_are_left_undecided(void **state) {
+static void faces_that_pierce_too_many_are_deferred(void **state) {
   (void)state;
   assert_true(left_over(&solver_warnock, RECTO_FILL_NONE, "deferred") > 0);
   assert_true(left_over(&solver_newell, RECTO_FILL_NONE, "without_order") > 50);
@@ -203,7 +203,7 @@ static bool stop_in_a_while(void *user, double share, const char *stage) {
 static recto_status solve(struct sheet_fixture *fixture,
                           const struct solver *solver,
                           struct patience *patience) {
-  const struct solver_request request = {.strokes = true,
+  const struct solver_request request = {.edges = true,
                                          .fragments = true,
                                          .intersections = true,
                                          .threads = 1,
@@ -265,7 +265,7 @@ static void running_out_of_memory_is_reported(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(long_lists_are_drawn_as_by_brute),
-      cmocka_unit_test(faces_that_pierce_too_many_are_left_undecided),
+      cmocka_unit_test(faces_that_pierce_too_many_are_deferred),
       cmocka_unit_test(two_hundred_piercing_triangles_take_little_memory),
       cmocka_unit_test(cancelling_ends_the_work_at_any_time),
       cmocka_unit_test(running_out_of_memory_is_reported),

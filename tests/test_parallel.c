@@ -126,7 +126,7 @@ static void there_is_a_processor(void **state) {
 static void solve(struct sheet_fixture *fixture, struct map *map, int threads,
                   recto_status expected) {
   const struct solver_request request = {
-      .strokes = true, .intersections = true, .threads = threads};
+      .edges = true, .intersections = true, .threads = threads};
   struct report *report = report_create();
   recto_error error;
   assert_non_null(report);

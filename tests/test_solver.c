@@ -72,7 +72,7 @@ typedef void make_fn(struct sheet *sheet);
  *        method knows better ones */
 static recto_status solve(const struct solver *solver, int lines, make_fn *make,
                           unsigned long n, struct map *map) {
-  const struct solver_request request = {.strokes = true,
+  const struct solver_request request = {.edges = true,
                                          .fragments = true,
                                          .intersections = true,
                                          .threads = 1,
@@ -136,7 +136,7 @@ static void running_out_of_memory_is_a_status_and_leaks_nothing(void **state) {
 
 static void check_parts(const struct solver *solver, bool strokes,
                         bool fragments) {
-  const struct solver_request request = {.strokes = strokes,
+  const struct solver_request request = {.edges = strokes,
                                          .fragments = fragments,
                                          .threads = 1,
                                          .resolution = 0};

@@ -32,7 +32,7 @@ static void solve(const struct solver *solver, const struct pixels_scene *scene,
 static void averaged_pixels_are_those_of_warnock(void **state) {
   (void)state;
   for (uint64_t seed = 800; seed < 830; seed++) {
-    const struct solver_request request = {.strokes = true,
+    const struct solver_request request = {.edges = true,
                                            .fragments = true,
                                            .threads = 1,
                                            .resolution = 11 + (int)seed % 30,
@@ -136,7 +136,7 @@ static void bad_numbers_of_sub_pixels_are_refused(void **state) {
 }
 
 static void running_out_of_memory_is_reported(void **state) {
-  const struct solver_request request = {.strokes = true,
+  const struct solver_request request = {.edges = true,
                                          .fragments = true,
                                          .threads = 1,
                                          .resolution = 20,
@@ -171,7 +171,7 @@ static void removed_backs_take_their_lines_with_them(void **state) {
   (void)state;
   for (int s = 0; s < 2; s++)
     for (int remove = 0; remove < 2; remove++) {
-      const struct solver_request request = {.strokes = true,
+      const struct solver_request request = {.edges = true,
                                              .threads = 1,
                                              .resolution = 32,
                                              .remove_backs = remove == 1};

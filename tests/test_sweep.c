@@ -260,7 +260,7 @@ static void doubles_leave_only_piercing_pairs_to_exact_planes(void **state) {
   sweep.cell = trapezoid_cells_take;
   sweep.user = &cells;
   assert_int_equal(sweep_run(&sweep, &plain, 0, 1, NULL), RECTO_OK);
-  assert_true(cells.undecided > 0 && cells.undecided < cells.count);
+  assert_true(cells.filter_failures > 0 && cells.filter_failures < cells.count);
   for (size_t i = 0; i < cells.part.count; i++) {
     const struct cell_part *part = &cells.part.item[i];
     uint32_t face = sheet.triangle.item[part->triangle].face;
@@ -321,7 +321,7 @@ static void a_sweep_can_be_cancelled(void **state) {
   enum { SIDE = 70 };
   int polled = 0;
   const struct solver_request request = {.fragments = true,
-                                         .strokes = true,
+                                         .edges = true,
                                          .threads = 1,
                                          .progress = count_and_stop,
                                          .user = &polled};

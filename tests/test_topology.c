@@ -304,21 +304,21 @@ static void fill_hinge(struct scene *scene, double angle_deg, bool same_way,
 }
 
 /* The classes of the edge that both faces share, in both orders. */
-static unsigned hinge_natures(double angle_deg, bool same_way, double scale,
+static unsigned hinge_class_mask(double angle_deg, bool same_way, double scale,
                               double crease_deg) {
   struct scene scene;
   struct topology topology;
-  uint8_t natures[7];
+  uint8_t class_masks[7];
   scene_init(&scene);
   fill_hinge(&scene, angle_deg, same_way, scale);
   find(&topology, &scene);
   assert_int_equal(topology.edge.count, 7);
-  assert_true(topology_natures_all(&topology, &scene, crease_deg, natures));
+  assert_true(topology_class_masks(&topology, &scene, crease_deg, class_masks));
   for (uint32_t e = 0; e < 7; e++)
-    assert_int_equal(natures[e],
-                     topology_natures(&topology, &scene, e, crease_deg));
-  unsigned of_hinge = natures[0];
-  assert_int_equal(natures[1], RECTO_EDGE_BORDER);
+    assert_int_equal(class_masks[e],
+                     topology_class_mask(&topology, &scene, e, crease_deg));
+  unsigned of_hinge = class_masks[0];
+  assert_int_equal(class_masks[1], RECTO_EDGE_BORDER);
   topology_fini(&topology);
   scene_fini(&scene);
   return of_hinge;
@@ -327,14 +327,14 @@ static unsigned hinge_natures(double angle_deg, bool same_way, double scale,
 static void a_crease_is_beyond_the_angle_and_not_at_it(void **state) {
   (void)state;
   for (int same_way = 0; same_way < 2; same_way++) {
-    assert_int_equal(hinge_natures(31, same_way, 1, 30), RECTO_EDGE_CREASE);
-    assert_int_equal(hinge_natures(29, same_way, 1, 30), RECTO_EDGE_SMOOTH);
-    assert_int_equal(hinge_natures(-31, same_way, 1, 30), RECTO_EDGE_CREASE);
-    assert_int_equal(hinge_natures(90, same_way, 1, 90), RECTO_EDGE_SMOOTH);
-    assert_int_equal(hinge_natures(90.001, same_way, 1, 90), RECTO_EDGE_CREASE);
-    assert_int_equal(hinge_natures(0, same_way, 1, 0), RECTO_EDGE_SMOOTH);
-    assert_int_equal(hinge_natures(0.01, same_way, 1, 0), RECTO_EDGE_CREASE);
-    assert_int_equal(hinge_natures(179, same_way, 1, 180), RECTO_EDGE_SMOOTH);
+    assert_int_equal(hinge_class_mask(31, same_way, 1, 30), RECTO_EDGE_CREASE);
+    assert_int_equal(hinge_class_mask(29, same_way, 1, 30), RECTO_EDGE_SMOOTH);
+    assert_int_equal(hinge_class_mask(-31, same_way, 1, 30), RECTO_EDGE_CREASE);
+    assert_int_equal(hinge_class_mask(90, same_way, 1, 90), RECTO_EDGE_SMOOTH);
+    assert_int_equal(hinge_class_mask(90.001, same_way, 1, 90), RECTO_EDGE_CREASE);
+    assert_int_equal(hinge_class_mask(0, same_way, 1, 0), RECTO_EDGE_SMOOTH);
+    assert_int_equal(hinge_class_mask(0.01, same_way, 1, 0), RECTO_EDGE_CREASE);
+    assert_int_equal(hinge_class_mask(179, same_way, 1, 180), RECTO_EDGE_SMOOTH);
   }
 }
 
@@ -343,9 +343,9 @@ static void a_crease_is_beyond_the_angle_and_not_at_it(void **state) {
 static void a_crease_close_to_its_angle_is_decided_in_double(void **state) {
   (void)state;
   for (double limit = 10; limit < 175; limit += 11) {
-    assert_int_equal(hinge_natures(limit + 1e-8, false, 1, limit),
+    assert_int_equal(hinge_class_mask(limit + 1e-8, false, 1, limit),
                      RECTO_EDGE_CREASE);
-    assert_int_equal(hinge_natures(limit - 1e-8, false, 1, limit),
+    assert_int_equal(hinge_class_mask(limit - 1e-8, false, 1, limit),
                      RECTO_EDGE_SMOOTH);
   }
 }
@@ -354,15 +354,15 @@ static void creases_do_not_depend_on_the_unit(void **state) {
   (void)state;
   for (int exponent = -1000; exponent <= 1000; exponent += 50) {
     double scale = ldexp(1, exponent);
-    assert_int_equal(hinge_natures(31, false, scale, 30), RECTO_EDGE_CREASE);
-    assert_int_equal(hinge_natures(29, false, scale, 30), RECTO_EDGE_SMOOTH);
+    assert_int_equal(hinge_class_mask(31, false, scale, 30), RECTO_EDGE_CREASE);
+    assert_int_equal(hinge_class_mask(29, false, scale, 30), RECTO_EDGE_SMOOTH);
   }
 }
 
 static void a_face_folded_back_is_a_crease(void **state) {
   (void)state;
-  assert_int_equal(hinge_natures(179.9, false, 1, 30), RECTO_EDGE_CREASE);
-  assert_int_equal(hinge_natures(179.9, true, 1, 179), RECTO_EDGE_CREASE);
+  assert_int_equal(hinge_class_mask(179.9, false, 1, 30), RECTO_EDGE_CREASE);
+  assert_int_equal(hinge_class_mask(179.9, true, 1, 179), RECTO_EDGE_CREASE);
 }
 
 /* Welded at all its borders, so no edge of it is a border any more. */
@@ -375,7 +375,7 @@ static void a_face_given_twice_is_folded_at_all_its_edges(void **state) {
   find(&topology, &scene);
   assert_int_equal(topology.edge.count, 4);
   for (uint32_t e = 0; e < 4; e++)
-    assert_int_equal(topology_natures(&topology, &scene, e, 30),
+    assert_int_equal(topology_class_mask(&topology, &scene, e, 30),
                      RECTO_EDGE_CREASE);
   topology_fini(&topology);
   scene_fini(&scene);
@@ -396,7 +396,7 @@ static void two_groups_meet_at_an_edge_of_class_group(void **state) {
   build_triangle(&scene, 0, 2, 3);
   find(&topology, &scene);
   uint32_t diagonal = search(&topology, 0, 2);
-  assert_int_equal(topology_natures(&topology, &scene, diagonal, 30),
+  assert_int_equal(topology_class_mask(&topology, &scene, diagonal, 30),
                    RECTO_EDGE_GROUP);
   topology_fini(&topology);
   scene_fini(&scene);
@@ -416,7 +416,7 @@ static void three_faces_make_a_border_whatever_their_order(void **state) {
   find(&topology, &scene);
   uint32_t spine = search(&topology, 0, 1);
   assert_int_equal(topology.edge.item[spine].uses, 3);
-  assert_int_equal(topology_natures(&topology, &scene, spine, 30),
+  assert_int_equal(topology_class_mask(&topology, &scene, spine, 30),
                    RECTO_EDGE_BORDER);
   topology_fini(&topology);
   scene_fini(&scene);
@@ -431,9 +431,9 @@ static void a_shell_far_from_the_origin_has_the_same_creases(void **state) {
             vector_of(1e7 + 1, 1 - 1e7, 10000002));
   find(&topology, &scene);
   for (uint32_t e = 0; e < 12; e++) {
-    assert_int_equal(topology_natures(&topology, &scene, e, 89),
+    assert_int_equal(topology_class_mask(&topology, &scene, e, 89),
                      RECTO_EDGE_CREASE);
-    assert_int_equal(topology_natures(&topology, &scene, e, 90),
+    assert_int_equal(topology_class_mask(&topology, &scene, e, 90),
                      RECTO_EDGE_SMOOTH);
   }
   topology_fini(&topology);

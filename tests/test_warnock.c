@@ -14,7 +14,7 @@ enum { SCALE = 1024 };
 
 /* What is requested, and how windows are divided. */
 static struct solver_request request_of(bool fragments, bool by_box) {
-  return (struct solver_request){.strokes = true,
+  return (struct solver_request){.edges = true,
                                  .fragments = fragments,
                                  .intersections = true,
                                  .threads = 1,
@@ -315,7 +315,7 @@ static void cancelling_ends_the_work(void **state) {
 }
 
 static void running_out_of_memory_is_reported(void **state) {
-  const struct solver_request intervals = {.strokes = true, .threads = 1};
+  const struct solver_request intervals = {.edges = true, .threads = 1};
   struct memory_faults faults = {.least = 20};
   (void)state;
   while (memory_faults_go_on(&faults)) {

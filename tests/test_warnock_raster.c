@@ -278,7 +278,7 @@ static void assert_same_map(const struct map *a, const struct map *b) {
 static void maps_are_those_of_the_zbuffer(void **state) {
   (void)state;
   for (uint64_t seed = 600; seed < 660; seed++) {
-    const struct solver_request request = {.strokes = true,
+    const struct solver_request request = {.edges = true,
                                            .fragments = seed % 2 == 0,
                                            .intersections = seed % 3 == 0,
                                            .remove_backs = seed % 5 == 0,
@@ -418,7 +418,7 @@ static void cancelling_ends_the_work(void **state) {
   (void)state;
   for (int polls = 1; polls < 6; polls++) {
     int left = polls;
-    const struct solver_request request = {.strokes = true,
+    const struct solver_request request = {.edges = true,
                                            .fragments = true,
                                            .threads = 1,
                                            .resolution = 512,
@@ -440,7 +440,7 @@ static void running_out_of_memory_is_reported(void **state) {
   struct memory_faults faults = {.least = 20};
   (void)state;
   while (memory_faults_go_on(&faults)) {
-    const struct solver_request request = {.strokes = true,
+    const struct solver_request request = {.edges = true,
                                            .fragments = true,
                                            .intersections = true,
                                            .threads = 1,

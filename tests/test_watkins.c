@@ -394,7 +394,7 @@ static void no_depth_is_computed_of_faces_clearly_apart(void **state) {
 static void solve_scene(const struct pixels_scene *scene, double pitch_mm,
                         struct map *map) {
   const struct solver_request request = {
-      .strokes = true, .fragments = true, .threads = 1, .pitch_mm = pitch_mm};
+      .edges = true, .fragments = true, .threads = 1, .pitch_mm = pitch_mm};
   struct sheet sheet;
   pixels_sheet(&sheet, scene);
   map_init(map);

@@ -299,13 +299,13 @@ static void end(struct fixture *fixture) {
   scene_fini(&fixture->scene);
 }
 
-/* How many edges have that nature at a crease angle of 30 degrees. */
-static size_t count_natures(const struct fixture *fixture, unsigned nature) {
+/* How many edges have that edge_class at a crease angle of 30 degrees. */
+static size_t count_edges_of_class(const struct fixture *fixture, unsigned edge_class) {
   size_t count = 0;
   for (uint32_t e = 0; e < fixture->topology.edge.count; e++)
     count +=
-        (topology_natures(&fixture->topology, &fixture->welded.scene, e, 30) &
-         nature) != 0;
+        (topology_class_mask(&fixture->topology, &fixture->welded.scene, e, 30) &
+         edge_class) != 0;
   return count;
 }
 
@@ -330,8 +330,8 @@ static void noise_of_rounding_leaves_no_border(void **state) {
     add_torus(&f.scene, row[i].noise);
     weld(&f, row[i].length, row[i].precision);
     assert_int_equal(f.topology.edge.count, 3 * TRIANGLES / 2);
-    assert_int_equal(count_natures(&f, RECTO_EDGE_BORDER), 0);
-    assert_int_equal(count_natures(&f, RECTO_EDGE_CREASE), 0);
+    assert_int_equal(count_edges_of_class(&f, RECTO_EDGE_BORDER), 0);
+    assert_int_equal(count_edges_of_class(&f, RECTO_EDGE_CREASE), 0);
     assert_int_equal(f.welded.lost, 0);
     end(&f);
   }
@@ -376,7 +376,7 @@ static void what_is_far_widens_nothing_near(void **state) {
   build_polygon(&f.scene, ground, 4);
   weld(&f, -1, single);
   assert_true(f.welded.length == length);
-  assert_int_equal(count_natures(&f, RECTO_EDGE_BORDER), 4);
+  assert_int_equal(count_edges_of_class(&f, RECTO_EDGE_BORDER), 4);
   end(&f);
 }
 
@@ -416,7 +416,7 @@ static void needles_lose_their_short_side(void **state) {
   assert_int_equal(f.welded.lost, 1);
   assert_int_equal(scene_face_count(&f.welded.scene), 2);
   assert_int_equal(f.topology.edge.count, 5);
-  assert_int_equal(count_natures(&f, RECTO_EDGE_BORDER), 4);
+  assert_int_equal(count_edges_of_class(&f, RECTO_EDGE_BORDER), 4);
   end(&f);
 }
 
@@ -473,7 +473,7 @@ static void each_file_is_welded_by_its_own_precision(void **state) {
   assert_int_equal(scene_state_precision(&f.scene, first, exact, &error),
                    RECTO_OK);
   weld(&f, -1, single);
-  assert_int_equal(count_natures(&f, RECTO_EDGE_BORDER), 6);
+  assert_int_equal(count_edges_of_class(&f, RECTO_EDGE_BORDER), 6);
   end(&f);
 }
 
@@ -490,7 +490,7 @@ static void exhausted_memory_is_reported(void **state) {
     memory_faults_end(&faults, welded_init(&f.welded, &f.topology, &f.scene,
                                            &request, &error));
   }
-  assert_int_equal(count_natures(&f, RECTO_EDGE_BORDER), 0);
+  assert_int_equal(count_edges_of_class(&f, RECTO_EDGE_BORDER), 0);
   end(&f);
 }
 

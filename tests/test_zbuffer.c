@@ -536,7 +536,7 @@ static void removed_backs_leave_what_is_behind(void **state) {
 static void solve_scene(const struct solver *solver,
                         const struct pixels_scene *scene, int lines, int bits,
                         struct sheet *sheet, struct map *map) {
-  const struct solver_request request = {.strokes = true,
+  const struct solver_request request = {.edges = true,
                                          .fragments = true,
                                          .threads = 1,
                                          .resolution = lines,
@@ -729,7 +729,7 @@ static void edges_are_seen_where_they_touch_and_not_behind(void **state) {
   sheet.triangle.count--;
   map_init(&map);
   const struct solver_request request = {
-      .strokes = true, .threads = 1, .resolution = FINE};
+      .edges = true, .threads = 1, .resolution = FINE};
   assert_int_equal(solver_zbuffer.solve(&sheet, &request, &map, NULL, NULL),
                    RECTO_OK);
   assert_int_equal(map.edge_count, 13);
@@ -745,7 +745,7 @@ static void outlines_and_points_are_not_followed(void **state) {
   struct sheet sheet;
   struct map map;
   const struct solver_request request = {
-      .strokes = true, .threads = 1, .resolution = 32};
+      .edges = true, .threads = 1, .resolution = 32};
   (void)state;
   pixels_sheet(&sheet, &pixels_pierced_rectangle);
   sheet.edge.item[1].edge_class = 0;
@@ -790,7 +790,7 @@ static void outline_that_curves_away_has_no_gaps(void **state) {
     }
   for (int lines = 16; lines <= 1024; lines *= 2) {
     const struct solver_request request = {
-        .strokes = true, .threads = 1, .resolution = lines};
+        .edges = true, .threads = 1, .resolution = lines};
     struct map map;
     map_init(&map);
     assert_int_equal(solver_zbuffer.solve(&sheet, &request, &map, NULL, NULL),
@@ -806,7 +806,7 @@ static void outline_that_curves_away_has_no_gaps(void **state) {
 /* The edges turned round in number: each keeps what is seen of it. */
 static void order_of_the_edges_does_not_matter(void **state) {
   const struct solver_request request = {
-      .strokes = true, .threads = 1, .resolution = 100};
+      .edges = true, .threads = 1, .resolution = 100};
   (void)state;
   for (uint64_t seed = 500; seed < 520; seed++) {
     struct pixels_scene scene;
@@ -845,7 +845,7 @@ static void intersections_are_drawn_on_request(void **state) {
   struct sheet sheet;
   struct map map;
   const struct solver_request request = {
-      .strokes = true, .intersections = true, .threads = 1, .resolution = 512};
+      .edges = true, .intersections = true, .threads = 1, .resolution = 512};
   double length = 0;
   (void)state;
   pixels_sheet(&sheet, &pixels_pierced_rectangle);
@@ -924,7 +924,7 @@ static void cancelling_ends_the_work(void **state) {
   for (int s = 0; s < 2; s++)
     for (int polls = 1; polls < 4; polls++) {
       int left = polls;
-      const struct solver_request request = {.strokes = true,
+      const struct solver_request request = {.edges = true,
                                              .threads = 1,
                                              .resolution = 512,
                                              .progress = stop_at_once,
@@ -942,7 +942,7 @@ static void cancelling_ends_the_work(void **state) {
 }
 
 static void running_out_of_memory_is_reported(void **state) {
-  const struct solver_request request = {.strokes = true,
+  const struct solver_request request = {.edges = true,
                                          .fragments = true,
                                          .intersections = true,
                                          .threads = 1,

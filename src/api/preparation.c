@@ -24,7 +24,7 @@ recto_status preparation_init(struct preparation *preparation,
   status = welded_init(&preparation->welded, &preparation->topology,
                        &preparation->rescaled.scene, &request, error);
   if (status == RECTO_OK && classes &&
-      !topology_keep_natures(&preparation->topology, &preparation->welded.scene,
+      !topology_keep_class_masks(&preparation->topology, &preparation->welded.scene,
                              options->mesh.crease_deg))
     status = error_memory(error);
   return status;

@@ -220,7 +220,7 @@ static bool pass_progress(void *user, double share, const char *stage) {
 static recto_status solve(struct render *render, recto_error *error) {
   const recto_options *options = render->options;
   struct solver_request request = {
-      .strokes = options->ink.edges != RECTO_EDGES_NONE,
+      .edges = options->ink.edges != RECTO_EDGES_NONE,
       .fragments = needs_fragments(render),
       .hidden = options->ink.hidden != RECTO_HIDDEN_NONE ||
                 (options->results & RECTO_RESULT_EDGES) != 0,

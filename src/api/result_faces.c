@@ -20,9 +20,9 @@ static recto_edge_class class_of(const struct result_sources *s,
   if (source->uses == 2 && neighbour != source->first &&
       neighbour != source->second)
     return RECTO_EDGE_SILHOUETTE;
-  unsigned natures =
-      topology_natures(s->topology, s->scene, edge->source, s->crease_deg);
-  return (recto_edge_class)(natures & (0u - natures)); /* the lowest bit */
+  unsigned class_mask =
+      topology_class_mask(s->topology, s->scene, edge->source, s->crease_deg);
+  return (recto_edge_class)(class_mask & (0u - class_mask)); /* the lowest bit */
 }
 
 /* Fills in what runs along the half-edge. */

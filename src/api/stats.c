@@ -48,7 +48,7 @@ void stats_add_method(struct report *report, recto_method requested,
   report_text(report, "method", "requested", recto_method_name(requested));
   report_text(report, "method", "chosen", chosen->name);
   report_text(report, "method", "why", why);
-  report_text(report, "method", "strokes", word[request->strokes]);
+  report_text(report, "method", "strokes", word[request->edges]);
   report_text(report, "method", "fragments", word[request->fragments]);
   report_text(report, "method", "intersections", word[request->intersections]);
   report_int(report, "method", "threads", request->threads);

@@ -176,7 +176,7 @@
  * Unit        1 (a sine, a cosine)
  * Derivation  single precision rounds a normal by 1e-7 of its length and that
  *             of a face a hundred times longer than wide by 1e-5.
- * Users       judge/edge_natures.c, judge/edge_natures.h, judge/missing_run.c
+ * Users       judge/edge_classes.c, judge/edge_classes.h, judge/missing_run.c
  * Ten times   silhouettes seen within 0.006 degrees of edge-on may be missing
  *             unnoticed. */
 #define TOLERANCE_JUDGE_ANGLE 1e-5

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/sort.h"
-#include "judge/edge_natures.h"
+#include "judge/edge_classes.h"
 #include "judge/folds.h"
 #include "judge/intersections.h"
 #include "judge/sort.h"
@@ -90,7 +90,7 @@ static bool has_single(const struct edge_finder *finder,
 }
 
 /* Adds the edge of two sides.  For a spike, where both are of one face, no
- * nature is sure.
+ * class is sure.
  * alone  no other sides have the same positions */
 static bool add_pair(struct edge_finder *finder, const struct judge_side *side,
                      const struct judge_side *other, bool against, bool alone) {
@@ -100,7 +100,7 @@ static bool add_pair(struct edge_finder *finder, const struct judge_side *side,
       {side->face, other->face},
       spike || !alone
           ? 0
-          : judge_natures_of_pair(&finder->facings, side, other, against),
+          : judge_class_mask_of_pair(&finder->facings, side, other, against),
       !spike};
   return judge_edges_add(finder->edges, finder->camera,
                          judge_point3_at(finder->scene, side->a),

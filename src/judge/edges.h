@@ -4,7 +4,7 @@
 
 #include "judge/edge_list.h"
 
-/* Finds the sides of faces, folds, wires and intersections.  A nature that
+/* Finds the sides of faces, folds, wires and intersections.  A class that
  * doubles cannot decide is left out.  Returns false when memory ran out. */
 USE_RESULT bool judge_edges_init(struct judge_edges *edges,
                                  const struct judge_triangles *all,

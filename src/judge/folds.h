@@ -3,7 +3,7 @@
 #define JUDGE_FOLDS_H
 
 #include "judge/edge_list.h"
-#include "judge/edge_natures.h"
+#include "judge/edge_classes.h"
 
 /* Adds the diagonals of faces that are not planar whose two triangles lie, or
  * may lie, on one side of it on the page: these are silhouettes.

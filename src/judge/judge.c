@@ -159,7 +159,7 @@ static enum judge_visibility visibility_at(const struct judge_context *context,
 /* Whether an edge is an intersection so shallow that on the page grid the faces
  * may not intersect, or elsewhere. */
 static bool is_doubtful(const struct judge_edge *edge) {
-  return edge->source.point[0] == SCENE_NONE && edge->source.natures == 0;
+  return edge->source.point[0] == SCENE_NONE && edge->source.class_mask == 0;
 }
 
 /* Decides whether a visible edge explains the ink at a point.  The nearest of
@@ -263,7 +263,7 @@ static bool is_requested(const void *user, uint32_t edge) {
   const struct judge_context *context = user;
   const struct judge_source *source = &context->edges.edge.item[edge].source;
   unsigned classes = context->options.edges;
-  return (source->natures & classes) != 0 ||
+  return (source->class_mask & classes) != 0 ||
          (source->exists && (classes & RECTO_EDGES_ALL) == RECTO_EDGES_ALL);
 }
 

@@ -4,7 +4,7 @@ librecto_core_la_SOURCES += \
   %D%/contact.c %D%/contact.h \
   %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/edge_list.c %D%/edge_list.h \
-  %D%/edge_natures.c %D%/edge_natures.h \
+  %D%/edge_classes.c %D%/edge_classes.h \
   %D%/edges.c %D%/edges.h \
   %D%/folds.c %D%/folds.h \
   %D%/grid.c %D%/grid.h \

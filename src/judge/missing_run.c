@@ -68,7 +68,7 @@ static bool is_alike(const struct judge_missing_run *run, uint32_t a,
   const struct judge_source *s = &run->edges->edge.item[a].source;
   const struct judge_source *t = &run->edges->edge.item[b].source;
   const struct scene *scene = run->sampler->all->scene;
-  if ((s->natures & -s->natures) != (t->natures & -t->natures))
+  if ((s->class_mask & -s->class_mask) != (t->class_mask & -t->class_mask))
     return false;
   return s->face[0] == SCENE_NONE || t->face[0] == SCENE_NONE ||
          scene->face_group.item[s->face[0]] ==

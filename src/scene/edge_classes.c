@@ -125,7 +125,7 @@ static bool is_crease(struct face_normal a, struct face_normal b, bool same_way,
 }
 
 /* What needs no normals: BORDER alone, or GROUP or nothing. */
-static unsigned plain_natures(const struct topology_edge *edge,
+static unsigned plain_class_mask(const struct topology_edge *edge,
                               const struct scene *scene) {
   if (edge->uses != 2)
     return RECTO_EDGE_BORDER;
@@ -135,16 +135,16 @@ static unsigned plain_natures(const struct topology_edge *edge,
              : 0;
 }
 
-unsigned topology_natures(const struct topology *topology,
+unsigned topology_class_mask(const struct topology *topology,
                           const struct scene *scene, uint32_t edge,
                           double crease_deg) {
   const struct topology_edge *e = &topology->edge.item[edge];
-  unsigned natures = plain_natures(e, scene);
+  unsigned class_mask = plain_class_mask(e, scene);
   if (e->uses == 2 && is_crease(normal_of_face(scene, e->first),
                                 normal_of_face(scene, e->second), e->same_way,
                                 crease_cosine_of(crease_deg)))
-    natures |= RECTO_EDGE_CREASE;
-  return natures ? natures : RECTO_EDGE_SMOOTH;
+    class_mask |= RECTO_EDGE_CREASE;
+  return class_mask ? class_mask : RECTO_EDGE_SMOOTH;
 }
 
 /* Unit normals in 16 bits a coordinate: a filter that takes a quarter of the
@@ -197,11 +197,11 @@ static bool bends(const struct topology_edge *edge, const struct scene *scene,
                    crease_cosine);
 }
 
-bool topology_natures_all(const struct topology *topology,
+bool topology_class_masks(const struct topology *topology,
                           const struct scene *scene, double crease_deg,
-                          uint8_t *natures) {
-  if (topology->natures != NULL && topology->crease_deg == crease_deg) {
-    memcpy(natures, topology->natures, topology->edge.count);
+                          uint8_t *class_masks) {
+  if (topology->class_masks != NULL && topology->crease_deg == crease_deg) {
+    memcpy(class_masks, topology->class_masks, topology->edge.count);
     return true;
   }
   double crease_cosine = crease_cosine_of(crease_deg);
@@ -210,24 +210,24 @@ bool topology_natures_all(const struct topology *topology,
     return false;
   for (size_t e = 0; e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
-    unsigned mask = plain_natures(edge, scene);
+    unsigned mask = plain_class_mask(edge, scene);
     if (edge->uses == 2 && bends(edge, scene, direction, crease_cosine))
       mask |= RECTO_EDGE_CREASE;
-    natures[e] = (uint8_t)(mask ? mask : RECTO_EDGE_SMOOTH);
+    class_masks[e] = (uint8_t)(mask ? mask : RECTO_EDGE_SMOOTH);
   }
   mem_free(direction);
   return true;
 }
 
-bool topology_keep_natures(struct topology *topology, const struct scene *scene,
+bool topology_keep_class_masks(struct topology *topology, const struct scene *scene,
                            double crease_deg) {
-  uint8_t *natures = mem_alloc(topology->edge.count, sizeof *natures);
-  if (natures == NULL ||
-      !topology_natures_all(topology, scene, crease_deg, natures)) {
-    mem_free(natures);
+  uint8_t *class_masks = mem_alloc(topology->edge.count, sizeof *class_masks);
+  if (class_masks == NULL ||
+      !topology_class_masks(topology, scene, crease_deg, class_masks)) {
+    mem_free(class_masks);
     return false;
   }
-  topology->natures = natures;
+  topology->class_masks = class_masks;
   topology->crease_deg = crease_deg;
   return true;
 }

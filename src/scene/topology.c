@@ -292,6 +292,6 @@ void topology_fini(struct topology *topology) {
   ARRAY_FREE(&topology->edge);
   mem_free(topology->corner_edge);
   mem_free(topology->weld);
-  mem_free(topology->natures);
+  mem_free(topology->class_masks);
   memset(topology, 0, sizeof *topology);
 }

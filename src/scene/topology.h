@@ -26,8 +26,8 @@ struct topology {
   ARRAY(struct topology_edge) edge; /* in order of first use by a face */
   uint32_t *corner_edge; /* for corner c of a face, the edge from it to the
                             face's next corner; one per scene corner */
-  uint8_t *natures;      /* of all edges at the angle crease_deg, as of
-                            topology_natures_all; NULL: not kept */
+  uint8_t *class_masks;      /* of all edges at the angle crease_deg, as of
+                            topology_class_masks; NULL: not kept */
   double crease_deg;
   bool drop_after_sheet; /* corner_edge may be freed once the sheet has its
                             triangles: it is not used later */
@@ -44,25 +44,25 @@ void topology_fini(struct topology *topology);
 /* Gives up corner_edge. */
 void topology_drop_corners(struct topology *topology);
 
-/* The natures of an edge that do not depend on the camera, a mask of
+/* The classes of an edge that do not depend on the camera, a mask of
  * RECTO_EDGE_BORDER (one face or more than two), RECTO_EDGE_CREASE (angle
  * between the two faces' normals beyond crease_deg; where the winding of the
  * two disagrees one is turned) and RECTO_EDGE_GROUP (two groups meet);
  * RECTO_EDGE_SMOOTH alone where it has none of them. */
-unsigned topology_natures(const struct topology *topology,
+unsigned topology_class_mask(const struct topology *topology,
                           const struct scene *scene, uint32_t edge,
                           double crease_deg);
 
 /* The same for every edge at once.
- * natures  one an edge
+ * class_masks  one an edge
  * Returns false when memory ran out. */
-USE_RESULT bool topology_natures_all(const struct topology *topology,
+USE_RESULT bool topology_class_masks(const struct topology *topology,
                                      const struct scene *scene,
-                                     double crease_deg, uint8_t *natures);
+                                     double crease_deg, uint8_t *class_masks);
 
-/* Keeps the result of topology_natures_all at that angle for later calls.
+/* Keeps the result of topology_class_masks at that angle for later calls.
  * Returns false when memory ran out. */
-USE_RESULT bool topology_keep_natures(struct topology *topology,
+USE_RESULT bool topology_keep_class_masks(struct topology *topology,
                                       const struct scene *scene,
                                       double crease_deg);
 

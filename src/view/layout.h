@@ -8,11 +8,11 @@
  * triangulates the faces, rounds the points to the page grid and classifies the
  * edges.
  *
- * An edge may have several natures: a crease may be a silhouette.  It becomes a
+ * An edge may have several classes: a crease may be a silhouette.  It becomes a
  * sheet edge if one of them is in options->ink.edges.
  * topology   its corners are dropped where `drop_after_sheet` is set
  * outlines   every edge of a face becomes a sheet edge, of class 0 where no
- *            nature of it was requested
+ *            class of it was requested
  * Errors  RECTO_ERROR_MEMORY; RECTO_ERROR_LIMIT: 2^31 points or triangles. */
 USE_RESULT recto_status layout_sheet(struct sheet *sheet,
                                      const struct scene *scene,

@@ -2,15 +2,15 @@
  * sheet. */
 #include "view/layout_phases.h"
 
-/* The natures that an edge has by its faces. */
-static const unsigned face_natures =
+/* The classes that an edge has by its faces. */
+static const unsigned face_classes =
     RECTO_EDGES_ALL & ~(unsigned)(RECTO_EDGE_WIRE | RECTO_EDGE_INTERSECTION);
 
-/* The natures of an edge in this view: the given ones, with silhouette in place
+/* The classes of an edge in this view: the given ones, with silhouette in place
  * of smooth where it is one.  An edge that one face has twice (a bridge to a
  * hole, or a spike) lies inside that face and is no silhouette.
- * still  the natures that do not depend on the camera */
-static unsigned natures_of(const struct topology_edge *edge, unsigned still,
+ * still  the classes that do not depend on the camera */
+static unsigned class_mask_of(const struct topology_edge *edge, unsigned still,
                            uint8_t sides) {
   if (edge->uses != 2 || edge->first == edge->second ||
       !layout_is_silhouette(sides))
@@ -79,19 +79,19 @@ static bool add_edge(struct layout *layout, struct layout_cut ends,
 }
 
 /* Makes the requested edges, and contours.
- * natures  one a topology edge; NULL where no class of them was requested */
-static recto_status make_edges(struct layout *layout, const uint8_t *natures,
+ * class_masks  one a topology edge; NULL where no class of them was requested */
+static recto_status make_edges(struct layout *layout, const uint8_t *class_masks,
                                struct edge_ids *edge_ids) {
   const struct topology *topology = layout->topology;
-  unsigned wanted = layout->options->ink.edges & face_natures;
+  unsigned wanted = layout->options->ink.edges & face_classes;
   for (uint32_t e = 0; e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
     if (e % 64 == 0)
       edge_ids->before[e / 64] = (uint32_t)layout->sheet->edge.count;
     unsigned edge_class = 0;
-    if (natures)
+    if (class_masks)
       edge_class =
-          lowest_bit(natures_of(edge, natures[e], layout->sides[e]) & wanted);
+          lowest_bit(class_mask_of(edge, class_masks[e], layout->sides[e]) & wanted);
     bool contour = edge->uses != 2 || layout->sides[e] != LAYOUT_PLAIN;
     if (!edge_class && !layout->outlines && !contour)
       continue;
@@ -157,19 +157,19 @@ recto_status layout_edges(struct layout *layout) {
   size_t edges = layout->topology->edge.count;
   recto_status status;
   struct edge_ids edge_ids;
-  uint8_t *natures = NULL;
+  uint8_t *class_masks = NULL;
   if (!edge_ids_init(&edge_ids, edges))
     goto no_memory;
-  if (layout->options->ink.edges & face_natures) {
-    natures = mem_alloc(edges, sizeof *natures);
-    if (!natures ||
-        !topology_natures_all(layout->topology, layout->scene,
-                              layout->options->mesh.crease_deg, natures))
+  if (layout->options->ink.edges & face_classes) {
+    class_masks = mem_alloc(edges, sizeof *class_masks);
+    if (!class_masks ||
+        !topology_class_masks(layout->topology, layout->scene,
+                              layout->options->mesh.crease_deg, class_masks))
       goto no_memory;
   }
   if (layout->outlines && !ARRAY_RESERVE(&layout->sheet->edge, edges))
     goto no_memory;
-  status = make_edges(layout, natures, &edge_ids);
+  status = make_edges(layout, class_masks, &edge_ids);
   if (status == RECTO_OK && !make_folds(layout))
     goto no_memory;
   if (status == RECTO_OK)
@@ -179,7 +179,7 @@ no_memory:
   status = error_memory(layout->error);
 end:
   edge_ids_fini(&edge_ids);
-  mem_free(natures);
+  mem_free(class_masks);
   return status;
 }
 

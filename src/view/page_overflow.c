@@ -139,18 +139,18 @@ static recto_status measure_edges(struct measure *measure,
                                   const recto_options *options,
                                   recto_error *error) {
   const struct topology *topology = measure->topology;
-  uint8_t *natures = mem_alloc(topology->edge.count, sizeof *natures);
-  bool ok = natures != NULL &&
-            topology_natures_all(topology, measure->scene,
-                                 options->mesh.crease_deg, natures);
+  uint8_t *class_masks = mem_alloc(topology->edge.count, sizeof *class_masks);
+  bool ok = class_masks != NULL &&
+            topology_class_masks(topology, measure->scene,
+                                 options->mesh.crease_deg, class_masks);
   for (size_t e = 0; ok && e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
-    if ((natures[e] & options->ink.edges) != 0 ||
+    if ((class_masks[e] & options->ink.edges) != 0 ||
         ((options->ink.edges & RECTO_EDGE_SILHOUETTE) != 0 &&
          is_silhouette(measure, edge)))
       measure_line(measure, edge->point[0], edge->point[1]);
   }
-  mem_free(natures);
+  mem_free(class_masks);
   return ok ? RECTO_OK : error_memory(error);
 }
 

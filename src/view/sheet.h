@@ -60,7 +60,7 @@ struct sheet_edge {
                            for intersections and diagonals */
   uint32_t group;       /* of its first face, or of the wire */
   uint16_t edge_class;  /* a recto_edge_class: the first in that enumeration of
-                           its natures that were requested; 0: none was, the
+                           its classes that were requested; 0: none was, the
                            edge is there as an outline of its faces */
   uint16_t part;        /* wires: the segment's index, low bits */
 };

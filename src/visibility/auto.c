@@ -16,7 +16,7 @@ const struct solver *solver_choose(const struct sheet *sheet,
                                    const struct solver_request *request,
                                    const char **why) {
   size_t triangles = sheet->triangle.count;
-  size_t requested = request->strokes ? count_drawn(sheet) : 0;
+  size_t requested = request->edges ? count_drawn(sheet) : 0;
   if (request->fragments)
     requested += triangles;
   if (triangles <= BRUTE_PAIRS_MAX && requested <= BRUTE_PAIRS_MAX &&

@@ -31,7 +31,7 @@ librecto_core_la_SOURCES += \
   %D%/pairwise/pairwise_fallback.c %D%/pairwise/pairwise_fallback.h \
   %D%/pairwise/tile_candidates.c %D%/pairwise/tile_candidates.h \
   %D%/pairwise/tile_classification.c %D%/pairwise/tile_classification.h \
-  %D%/pairwise/undecided_faces.c %D%/pairwise/undecided_faces.h \
+  %D%/pairwise/deferred_triangles.c %D%/pairwise/deferred_triangles.h \
   %D%/predicate/box2.h \
   %D%/predicate/depth_plane.h \
   %D%/predicate/edge_intervals.c %D%/predicate/edge_intervals.h \

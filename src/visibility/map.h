@@ -82,7 +82,7 @@ struct map_fragment {
 };
 
 struct map {
-  uint8_t *edge_state; /* enum map_state, per drawable edge; NULL: strokes were
+  uint8_t *edge_state; /* enum map_state, per drawable edge; NULL: edges were
                           not requested */
   size_t edge_count;
   ARRAY(struct map_mixed) mixed; /* the edges in state MAP_MIXED */

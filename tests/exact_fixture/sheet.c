@@ -126,7 +126,7 @@ static void find_contours(struct sheet *sheet) {
 
 void exact_solve(const struct solver *solver, struct sheet *sheet,
                  struct map *map, struct report *report) {
-  const struct solver_request request = {.strokes = true,
+  const struct solver_request request = {.edges = true,
                                          .fragments = true,
                                          .intersections = true,
                                          .threads = 1,

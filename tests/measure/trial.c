@@ -9,7 +9,7 @@ static recto_status solve(struct trial *trial, const recto_options *options,
                           const struct solver *solver, int lines,
                           enum trial_part part) {
   const struct solver_request request = {
-      .strokes = (part & TRIAL_STROKES) != 0,
+      .edges = (part & TRIAL_STROKES) != 0,
       .fragments = (part & TRIAL_FRAGMENTS) != 0,
       .intersections = (part & TRIAL_STROKES) != 0 &&
                        (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,

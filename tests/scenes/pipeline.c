@@ -12,7 +12,7 @@ static recto_status solve(struct pipeline *pipeline,
                           const recto_options *options,
                           const struct solver *solver) {
   const struct solver_request request = {
-      .strokes = options->ink.edges != RECTO_EDGES_NONE,
+      .edges = options->ink.edges != RECTO_EDGES_NONE,
       .fragments = options->ink.fill != RECTO_FILL_NONE,
       .hidden = options->ink.hidden != RECTO_HIDDEN_NONE,
       .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,

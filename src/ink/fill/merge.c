@@ -42,7 +42,7 @@ static bool is_smooth(const struct merge *merge, uint32_t id) {
     return edge->edge_class == RECTO_EDGE_SMOOTH;
   const struct topology *topology = merge->sheet->topology;
   return topology != NULL && edge->source < topology->edge.count &&
-         topology_natures(topology, merge->scene, edge->source,
+         topology_class_mask(topology, merge->scene, edge->source,
                           merge->crease_deg) == RECTO_EDGE_SMOOTH;
 }
 

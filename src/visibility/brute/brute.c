@@ -17,7 +17,7 @@ static bool is_flat(const struct sheet *sheet, size_t triangle) {
   return sheet->triangle_flags[triangle] & SHEET_FLAT;
 }
 
-static bool solve_strokes(const struct sheet *sheet, struct map *map,
+static bool solve_edges(const struct sheet *sheet, struct map *map,
                           struct occlusion_counts *counts,
                           struct progress *progress) {
   size_t n = sheet->triangle.count;
@@ -144,8 +144,8 @@ static recto_status solve(struct sheet *sheet,
     return error_memory(error);
   if (request->intersections)
     status = intersection_find_all(sheet, &grid, NULL, request, report, error);
-  if (status == RECTO_OK && request->strokes &&
-      !solve_strokes(sheet, map, &counts, &progress))
+  if (status == RECTO_OK && request->edges &&
+      !solve_edges(sheet, map, &counts, &progress))
     status = progress_error(&progress, error);
   progress.stage = "faces";
   if (status == RECTO_OK && request->fragments &&

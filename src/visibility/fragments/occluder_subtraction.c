@@ -113,7 +113,7 @@ bool occluder_subtraction_collect(struct occluder_subtraction *subtraction,
   const struct sheet *sheet = subtraction->sheet;
   struct triangle_plane plane;
   struct box2 box = box2_of_triangle(sheet, g);
-  struct face_occluder occluder = {.triangle = g, .sides = 3, .box = box};
+  struct triangle_occluder occluder = {.triangle = g, .sides = 3, .box = box};
   struct geom_line line, back;
   enum depth_order depth_order = NEARER_ALWAYS;
   int64_t low, high;
@@ -150,14 +150,14 @@ bool occluder_subtraction_collect(struct occluder_subtraction *subtraction,
 /* ---- Occluders and convex pieces ----------------------------------------- */
 
 /* How many lines bound an occluder, and so where the reversed ones start. */
-static int line_count(const struct face_occluder *occluder) {
+static int line_count(const struct triangle_occluder *occluder) {
   return occluder->sides + occluder->crosses;
 }
 
 /* Computes the lines of an occluder's sides unless that was done before; the
  * line of the crossing is computed only when it is needed. */
 static bool make_lines(struct occluder_subtraction *subtraction,
-                       struct face_occluder *occluder) {
+                       struct triangle_occluder *occluder) {
   if (occluder->line != NULL)
     return true;
   int count = line_count(occluder);
@@ -189,7 +189,7 @@ static enum coverage coverage_of_line(const struct geom_line *line,
  * computed only where the floating-point filter fails for some corner. */
 static enum coverage
 coverage_of_crossing(const struct occluder_subtraction *subtraction,
-                     struct face_occluder *occluder,
+                     struct triangle_occluder *occluder,
                      const struct geom_convex *piece) {
   struct geom_line *line = &occluder->line[occluder->sides];
   if (!occluder->crossing_made) {
@@ -217,7 +217,7 @@ coverage_of_crossing(const struct occluder_subtraction *subtraction,
  * lines  receives how many of the occluder's lines bound the region to
  *        subtract: that of the crossing only if it splits the piece */
 static enum coverage coverage_of(const struct occluder_subtraction *subtraction,
-                                 struct face_occluder *occluder,
+                                 struct triangle_occluder *occluder,
                                  const struct geom_convex *piece, int *lines) {
   const struct box2 *box = &occluder->box;
   enum coverage coverage = COVERAGE_FULL;
@@ -241,9 +241,9 @@ static enum coverage coverage_of(const struct occluder_subtraction *subtraction,
   return coverage;
 }
 
-bool face_occluder_subtract(struct occluder_subtraction *subtraction,
+bool triangle_occluder_subtract(struct occluder_subtraction *subtraction,
                             geom_pieces *pieces,
-                            struct face_occluder *occluder) {
+                            struct triangle_occluder *occluder) {
   if (!make_lines(subtraction, occluder))
     return false;
   subtraction->next.count = 0;
@@ -272,17 +272,17 @@ bool face_occluder_subtract(struct occluder_subtraction *subtraction,
   return true;
 }
 
-bool occluder_subtraction_take(struct occluder_subtraction *subtraction,
-                               struct face_occluder *occluder) {
-  return face_occluder_subtract(subtraction, &subtraction->left, occluder);
+bool occluder_subtraction_subtract(struct occluder_subtraction *subtraction,
+                               struct triangle_occluder *occluder) {
+  return triangle_occluder_subtract(subtraction, &subtraction->left, occluder);
 }
 
-bool occluder_subtraction_take_nearer(struct occluder_subtraction *subtraction,
+bool occluder_subtraction_subtract_nearer(struct occluder_subtraction *subtraction,
                                       uint32_t g) {
   subtraction->occluder.count = 0;
   return occluder_subtraction_collect(subtraction, g) &&
          (subtraction->occluder.count == 0 ||
-          occluder_subtraction_take(subtraction, subtraction->occluder.item));
+          occluder_subtraction_subtract(subtraction, subtraction->occluder.item));
 }
 
 bool occluder_subtraction_store(struct occluder_subtraction *subtraction,

@@ -17,7 +17,7 @@
 
 /* A triangle that is nearer than the current one, somewhere or everywhere
  * within their overlap; or a convex part of it. */
-struct face_occluder {
+struct triangle_occluder {
   uint32_t triangle;
   int sides;    /* of the triangle, or of the part */
   bool crosses; /* the planes intersect, and it occludes on one side only of
@@ -59,7 +59,7 @@ struct occluder_subtraction {
   bool covered;          /* one occluder alone hides all of it */
   bool interpenetrating; /* it overlaps a triangle that is not entirely, and
                             strictly, on one side of its plane */
-  ARRAY(struct face_occluder) occluder; /* those collected */
+  ARRAY(struct triangle_occluder) occluder; /* those collected */
   struct occluder_subtraction_counts counts;
   geom_pieces left; /* what remains of it, in disjoint pieces */
   bool whole;       /* nothing was subtracted */
@@ -93,19 +93,19 @@ occluder_subtraction_collect(struct occluder_subtraction *subtraction,
  * (region_split.c), of which nothing was taken yet.
  * Returns false also where the caller cancelled. */
 USE_RESULT bool
-occluder_subtraction_take_all(struct occluder_subtraction *subtraction);
+occluder_subtraction_subtract_all(struct occluder_subtraction *subtraction);
 
 /* Subtracts the region where triangle g, which is not flat and not the current
  * one, is nearer than the current one, without collecting it.  Exact. */
 USE_RESULT bool
-occluder_subtraction_take_nearer(struct occluder_subtraction *subtraction,
+occluder_subtraction_subtract_nearer(struct occluder_subtraction *subtraction,
                                  uint32_t g);
 
 /* Subtracts an occluder, which need not have been collected.
  * occluder  its lines, if given, are to live as long as the pieces */
 USE_RESULT bool
-occluder_subtraction_take(struct occluder_subtraction *subtraction,
-                          struct face_occluder *occluder);
+occluder_subtraction_subtract(struct occluder_subtraction *subtraction,
+                          struct triangle_occluder *occluder);
 
 static inline bool
 occluder_subtraction_is_empty(const struct occluder_subtraction *subtraction) {
@@ -125,8 +125,8 @@ void occluder_subtraction_report(const struct occluder_subtraction *subtraction,
 
 /* Replaces disjoint pieces by what remains of them after subtracting an
  * occluder. */
-USE_RESULT bool face_occluder_subtract(struct occluder_subtraction *subtraction,
+USE_RESULT bool triangle_occluder_subtract(struct occluder_subtraction *subtraction,
                                        geom_pieces *pieces,
-                                       struct face_occluder *occluder);
+                                       struct triangle_occluder *occluder);
 
 #endif

@@ -54,7 +54,7 @@ static bool sort_occluders(struct occluder_subtraction *subtraction) {
   return true;
 }
 
-static struct face_occluder *
+static struct triangle_occluder *
 sorted_occluder(struct occluder_subtraction *subtraction, size_t i) {
   return &subtraction->occluder.item[subtraction->key.item[i].value];
 }
@@ -71,7 +71,7 @@ static bool solve_leaf(struct occluder_subtraction *subtraction,
     return false;
   for (uint32_t i = 0; i < leaf->count && rest->count > 0; i++)
     if (!progress_step(subtraction->progress, WORK) ||
-        !face_occluder_subtract(
+        !triangle_occluder_subtract(
             subtraction, rest,
             sorted_occluder(subtraction, first + member[i].list_index)))
       return false;
@@ -111,13 +111,13 @@ static bool take(struct occluder_subtraction *subtraction, size_t from,
                  size_t to) {
   for (size_t i = from; i < to && subtraction->left.count > 0; i++)
     if (!progress_step(subtraction->progress, WORK) ||
-        !occluder_subtraction_take(subtraction,
+        !occluder_subtraction_subtract(subtraction,
                                    sorted_occluder(subtraction, i)))
       return false;
   return true;
 }
 
-bool occluder_subtraction_take_all(struct occluder_subtraction *subtraction) {
+bool occluder_subtraction_subtract_all(struct occluder_subtraction *subtraction) {
   size_t n = subtraction->occluder.count, first = n < FIRST ? n : FIRST;
   uint32_t root;
   if (!sort_occluders(subtraction) || !take(subtraction, 0, first))

@@ -24,7 +24,7 @@
 
 /* ---- Strokes ------------------------------------------------------------- */
 
-struct stroke_work {
+struct edge_work {
   const struct sheet *sheet;
   const struct newell_order *order;
   struct triangle_grid_query query;
@@ -37,7 +37,7 @@ struct stroke_work {
 
 /* The rank of the edge's own triangle if it was painted as a whole; otherwise
  * 0, also for an intersection, whose rounded ends may lie beside its faces. */
-static uint32_t rank_of_edge(const struct stroke_work *work,
+static uint32_t rank_of_edge(const struct edge_work *work,
                              const struct sheet_edge *edge) {
   uint32_t t = edge->triangle[0];
   if (t == SHEET_NONE || edge->edge_class == RECTO_EDGE_INTERSECTION ||
@@ -59,7 +59,7 @@ static bool runs_along(const struct sheet *sheet, uint32_t triangle,
 }
 
 /* Computes the occluded intervals of an edge. */
-static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
+static bool solve_edge(struct edge_work *work, const struct sheet_edge *edge,
                        struct geom_point p, struct geom_point q) {
   const struct sheet *sheet = work->sheet;
   const struct newell_piece *piece = work->order->piece.item;
@@ -89,17 +89,17 @@ static bool solve_edge(struct stroke_work *work, const struct sheet_edge *edge,
 
 /* Returns whether the edge is left to the fallback: there are triangles without
  * an order, and it belongs to one of them or is an intersection. */
-static bool needs_fallback(const struct stroke_work *work,
+static bool needs_fallback(const struct edge_work *work,
                            const struct sheet_edge *edge) {
   uint32_t t = edge->triangle[0];
   return work->fallback != NULL &&
          (edge->edge_class == RECTO_EDGE_INTERSECTION ||
-          (t != SHEET_NONE && newell_is_unordered(work->order, t)));
+          (t != SHEET_NONE && newell_is_deferred(work->order, t)));
 }
 
 /* The occluded intervals of edge e; NULL when memory ran out or the caller
  * cancelled. */
-static struct edge_intervals *intervals_of(struct stroke_work *work,
+static struct edge_intervals *intervals_of(struct edge_work *work,
                                            uint32_t e) {
   const struct sheet_edge *edge = &work->sheet->edge.item[e];
   struct geom_point p = work->sheet->point.item[edge->point[0]],
@@ -112,14 +112,14 @@ static struct edge_intervals *intervals_of(struct stroke_work *work,
              : NULL;
 }
 
-static bool solve_strokes(const struct sheet *sheet, struct newell_order *order,
+static bool solve_edges(const struct sheet *sheet, struct newell_order *order,
                           struct pairwise_fallback *fallback, struct map *map,
                           struct report *report) {
-  struct stroke_work work = {.sheet = sheet,
+  struct edge_work work = {.sheet = sheet,
                              .order = order,
                              .progress = &order->progress,
                              .fallback =
-                                 order->counts.unordered > 0 ? fallback : NULL};
+                                 order->counts.deferred > 0 ? fallback : NULL};
   bool ok = triangle_grid_query_init(&work.query, order->grid) &&
             edge_intervals_open_map(map, sheet->edge.count);
   for (size_t e = 0; ok && e < sheet->edge.count; e++) {
@@ -156,9 +156,9 @@ static bool subtract_later(struct newell_order *order, uint32_t p,
     uint32_t q = query->found.item[i];
     if (q == piece->triangle)
       continue;
-    if (newell_is_unordered(order, q)) {
+    if (newell_is_deferred(order, q)) {
       if (!progress_step(&order->progress, 1 + subtraction->left.count) ||
-          !occluder_subtraction_take_nearer(subtraction, q))
+          !occluder_subtraction_subtract_nearer(subtraction, q))
         return false;
       continue;
     }
@@ -169,12 +169,12 @@ static bool subtract_later(struct newell_order *order, uint32_t p,
       if (other->state != NEWELL_PAINTED || other->rank < piece->rank ||
           box2_disjoint(piece->box, other->box))
         continue;
-      struct face_occluder occluder = {.triangle = other->triangle,
+      struct triangle_occluder occluder = {.triangle = other->triangle,
                                        .box = other->box};
       occluder.line =
           newell_piece_lines(order, q, &occluder.sides, &subtraction->arena);
       if (occluder.line == NULL ||
-          !occluder_subtraction_take(subtraction, &occluder))
+          !occluder_subtraction_subtract(subtraction, &occluder))
         return false;
     }
   }
@@ -182,13 +182,13 @@ static bool subtract_later(struct newell_order *order, uint32_t p,
 }
 
 /* Adds the visible pieces of the triangles without an order. */
-static bool store_unordered(struct newell_order *order,
+static bool store_deferred(struct newell_order *order,
                             struct pairwise_fallback *fallback,
                             struct fragments *fragments) {
   ARRAY(uint32_t) list = {0};
   bool ok = true;
   for (uint32_t t = 0; ok && t < order->sheet->triangle.count; t++)
-    if (newell_is_unordered(order, t))
+    if (newell_is_deferred(order, t))
       ok = ARRAY_PUSH(&list, t);
   ok = ok &&
        (list.count == 0 ||
@@ -212,14 +212,14 @@ static bool solve_fragments(struct newell_order *order,
   for (size_t i = order->painted.count; ok && i-- > 0;) {
     uint32_t p = order->painted.item[i];
     const struct newell_piece *piece = &order->piece.item[p];
-    if (newell_is_unordered(order, piece->triangle))
+    if (newell_is_deferred(order, piece->triangle))
       continue;
     ok = occluder_subtraction_start(&subtraction, piece->triangle,
                                     piece->shape) &&
          subtract_later(order, p, &query, &subtraction) &&
          occluder_subtraction_store(&subtraction, &fragments);
   }
-  ok = ok && store_unordered(order, fallback, &fragments) &&
+  ok = ok && store_deferred(order, fallback, &fragments) &&
        fragments_finish(&fragments, map);
   occluder_subtraction_fini(&subtraction);
   triangle_grid_query_fini(&query);
@@ -241,7 +241,7 @@ static void report_order(const struct newell_order *order,
   report_int(report, "newell", "cycles", (int64_t)c->cycles);
   report_int(report, "newell", "splits_by_cycle", (int64_t)c->split_cycle);
   report_int(report, "newell", "splits_by_piercing", (int64_t)c->split_pierce);
-  report_int(report, "newell", "without_order", (int64_t)c->unordered);
+  report_int(report, "newell", "without_order", (int64_t)c->deferred);
   report_int(report, "newell", "pieces", (int64_t)order->painted.count);
 }
 
@@ -250,12 +250,12 @@ static bool solve_in_order(struct newell_order *order, struct sheet *sheet,
                            const struct solver_request *request,
                            struct map *map, struct report *report) {
   struct pairwise_fallback fallback = {0};
-  bool ok = order->counts.unordered == 0 ||
+  bool ok = order->counts.deferred == 0 ||
             pairwise_fallback_init(&fallback, sheet, request->fragments,
                                    &order->progress);
   order->progress.stage = "edges";
-  ok = ok && (!request->strokes ||
-              solve_strokes(sheet, order, &fallback, map, report));
+  ok = ok && (!request->edges ||
+              solve_edges(sheet, order, &fallback, map, report));
   order->progress.stage = "faces";
   ok = ok &&
        (!request->fragments || solve_fragments(order, &fallback, map, report));

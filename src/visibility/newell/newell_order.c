@@ -127,7 +127,7 @@ static void exclude_triangle(struct newell_order *order, uint32_t triangle) {
   while (order->open[triangle] != NEWELL_NONE)
     close_piece(order, order->open[triangle], NEWELL_UNSEEN);
   order->splits[triangle] = NEWELL_UNORDERED;
-  order->counts.unordered++;
+  order->counts.deferred++;
 }
 
 /* Counts a split of a triangle; too many exclude it. */

@@ -86,7 +86,7 @@ static bool solve_edge(struct painting *painting, const struct sheet_edge *edge,
   return true;
 }
 
-static bool solve_strokes(struct painting *painting, struct map *map) {
+static bool solve_edges(struct painting *painting, struct map *map) {
   const struct sheet *sheet = painting->sheet;
   struct edge_intervals intervals = {0};
   bool ok = edge_intervals_open_map(map, sheet->edge.count);
@@ -117,9 +117,9 @@ static bool subtract_later(struct painting *painting, uint32_t f,
         (painting->sheet->triangle_flags[g] & SHEET_FLAT) ||
         box2_disjoint(subtraction->box, box))
       continue;
-    struct face_occluder occluder = {.triangle = g, .sides = 3, .box = box};
+    struct triangle_occluder occluder = {.triangle = g, .sides = 3, .box = box};
     if (!progress_step(&painting->progress, 1 + subtraction->left.count) ||
-        !occluder_subtraction_take(subtraction, &occluder))
+        !occluder_subtraction_subtract(subtraction, &occluder))
       return false;
   }
   return true;
@@ -159,7 +159,7 @@ static recto_status paint(struct sheet *sheet,
     rank_as_given(&painting);
   else if (ok)
     ok = rank_by_centroid(&painting);
-  ok = ok && (!request->strokes || solve_strokes(&painting, map)) &&
+  ok = ok && (!request->edges || solve_edges(&painting, map)) &&
        (!request->fragments || solve_fragments(&painting, map));
   mem_free(painting.rank);
   triangle_grid_query_fini(&painting.query);

@@ -1,5 +1,5 @@
-/* pairwise_fallback.c - solves single edges and faces that a method leaves
- * undecided. */
+/* pairwise_fallback.c - solves single edges and faces that a method
+ * defers. */
 #include "visibility/pairwise/pairwise_fallback.h"
 
 #include <string.h>
@@ -13,7 +13,7 @@ static bool init_faces(struct pairwise_fallback *fallback) {
   for (size_t t = 0; t < n; t++)
     fallback->state[t] =
         sheet->triangle_flags[t] & SHEET_FLAT ? MAP_HIDDEN : MAP_MIXED;
-  return undecided_faces_init(&fallback->undecided_faces, sheet,
+  return deferred_triangles_init(&fallback->deferred_triangles, sheet,
                               &fallback->lists, fallback->wanted,
                               fallback->state);
 }
@@ -36,13 +36,13 @@ bool pairwise_fallback_init(struct pairwise_fallback *fallback,
       !edge_query_init(&fallback->edge, sheet, &fallback->lists) ||
       (fragments && !init_faces(fallback)))
     return false;
-  fallback->undecided_faces.subtraction.progress = progress;
+  fallback->deferred_triangles.subtraction.progress = progress;
   return true;
 }
 
 void pairwise_fallback_fini(struct pairwise_fallback *fallback) {
   if (fallback->state != NULL)
-    undecided_faces_fini(&fallback->undecided_faces);
+    deferred_triangles_fini(&fallback->deferred_triangles);
   mem_free(fallback->state);
   edge_query_fini(&fallback->edge);
   tile_candidates_fini(&fallback->lists);
@@ -65,11 +65,11 @@ pairwise_fallback_edge(struct pairwise_fallback *fallback, uint32_t e) {
 bool pairwise_fallback_faces(struct pairwise_fallback *fallback,
                              uint32_t *triangle, size_t count,
                              struct fragments *fragments) {
-  if (!undecided_faces_sort(&fallback->undecided_faces, triangle, count))
+  if (!deferred_triangles_sort(&fallback->deferred_triangles, triangle, count))
     return false;
   for (size_t i = 0; i < count; i++)
     if (!progress_step_at(fallback->progress, 1, i, count) ||
-        !undecided_faces_solve(&fallback->undecided_faces, triangle[i],
+        !deferred_triangles_solve(&fallback->deferred_triangles, triangle[i],
                                fragments))
       return false;
   return true;

@@ -3,17 +3,17 @@
  *
  * The number of Newell's splits, of Warnock's windows and of Watkins'
  * trapezoids grows with the crossings among hidden edges and faces too.  Where
- * that number exceeds a method's limit, the method leaves the edge or the face
- * undecided.  Undecided ones are solved from lists of candidate triangles per
+ * that number exceeds a method's limit, the method defers the edge or the
+ * face.  Deferred ones are solved from lists of candidate triangles per
  * page tile (tile_candidates.h), as the tiles method does: edges by
- * edge_query.h, faces by undecided_faces.h.  The result is the same, since it
+ * edge_query.h, faces by deferred_triangles.h.  The result is the same, since it
  * depends on the sheet alone; memory is linear in the number of triangles.
  */
 #ifndef VISIBILITY_PAIRWISE_PAIRWISE_FALLBACK_H
 #define VISIBILITY_PAIRWISE_PAIRWISE_FALLBACK_H
 
 #include "visibility/pairwise/edge_query.h"
-#include "visibility/pairwise/undecided_faces.h"
+#include "visibility/pairwise/deferred_triangles.h"
 #include "visibility/progress.h"
 
 struct pairwise_fallback {
@@ -23,8 +23,8 @@ struct pairwise_fallback {
   struct tile_candidates lists; /* of all tiles */
   uint8_t *wanted;              /* one per tile: 1, as all have lists */
   struct edge_query edge;
-  struct undecided_faces undecided_faces;
-  uint8_t *state; /* one per triangle, as in undecided_faces.h; NULL: the
+  struct deferred_triangles deferred_triangles;
+  uint8_t *state; /* one per triangle, as in deferred_triangles.h; NULL: the
                      fallback serves edges only */
 };
 

@@ -1,5 +1,5 @@
 /* tile_candidates.c - lists of candidate triangles for the page tiles in which
- * edges or faces are undecided. */
+ * edges or faces are deferred. */
 #include "visibility/pairwise/tile_candidates.h"
 
 #include <string.h>

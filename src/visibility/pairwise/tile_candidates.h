@@ -1,5 +1,5 @@
 /* tile_candidates.h - lists of candidate triangles for the page tiles in which
- * edges or faces are undecided.
+ * edges or faces are deferred.
  *
  * A list holds the triangles of one tile, without those behind its horizon.  As
  * a large face is in many tiles, and two of them would be paired in each tile

@@ -383,10 +383,10 @@ static bool find_horizons(struct tile_classification *tiles,
 
 /* The number of edges to solve, plus that of the faces times
  * QUERIES_PER_FACE. */
-static uint64_t count_queries(const struct sheet *sheet, bool strokes,
+static uint64_t count_queries(const struct sheet *sheet, bool edges,
                               bool fragments) {
   uint64_t count = fragments ? QUERIES_PER_FACE * sheet->triangle.count : 0;
-  for (size_t e = 0; strokes && e < sheet->edge.count; e++)
+  for (size_t e = 0; edges && e < sheet->edge.count; e++)
     count += sheet->edge.item[e].edge_class != 0;
   return count;
 }
@@ -394,12 +394,12 @@ static uint64_t count_queries(const struct sheet *sheet, bool strokes,
 /* Chooses the tiles of a deep scene: small enough for good horizons, large
  * enough that the work per tile is little compared with the queries. */
 static void shape_deep_tiles(struct tile_classification *tiles,
-                             const struct sheet *sheet, bool strokes,
+                             const struct sheet *sheet, bool edges,
                              bool fragments) {
   uint64_t spread =
       DEEP_TILES_TOTAL / sheet->triangle.count + TILES_PER_TRIANGLE;
   uint64_t spread_max =
-      count_queries(sheet, strokes, fragments) / DEEP_QUERIES_PER_TILE +
+      count_queries(sheet, edges, fragments) / DEEP_QUERIES_PER_TILE +
       TILES_PER_TRIANGLE;
   if (spread > spread_max)
     spread = spread_max;
@@ -409,7 +409,7 @@ static void shape_deep_tiles(struct tile_classification *tiles,
 }
 
 bool tile_classification_init(struct tile_classification *tiles,
-                              const struct sheet *sheet, bool strokes,
+                              const struct sheet *sheet, bool edges,
                               bool fragments) {
   size_t n;
   bool deep;
@@ -417,7 +417,7 @@ bool tile_classification_init(struct tile_classification *tiles,
   triangle_grid_shape(&tiles->grid, sheet, TILES_PER_TRIANGLE, 2);
   deep = depth_complexity(sheet, &tiles->grid) > DEEP;
   if (deep)
-    shape_deep_tiles(tiles, sheet, strokes, fragments);
+    shape_deep_tiles(tiles, sheet, edges, fragments);
   n = triangle_grid_cell_count(&tiles->grid);
   tiles->tile = mem_calloc(n, sizeof *tiles->tile);
   tiles->footprint = mem_alloc(sheet->triangle.count, sizeof *tiles->footprint);

@@ -69,14 +69,14 @@ tile_classification_is_behind(const struct tile_classification *tiles,
 }
 
 /* Classifies the tiles of the sheet.
- * strokes    whether edges will be solved
+ * edges      whether edges will be solved
  * fragments  whether faces will be solved; as contact between faces matters
  *            then, tiles with a steep face in any layer are rejected
  * Returns false when memory ran out; end with tile_classification_fini either
  * way. */
 USE_RESULT bool tile_classification_init(struct tile_classification *tiles,
                                          const struct sheet *sheet,
-                                         bool strokes, bool fragments);
+                                         bool edges, bool fragments);
 void tile_classification_fini(struct tile_classification *tiles);
 
 /* The bucket of a depth; farther depths have lower numbers. */

@@ -92,7 +92,7 @@ recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
       (subpixels > 1 &&
        !subpixels_init(&pixels->subpixels, subpixels, raster->grid.columns,
                        pixels->grid.columns)) ||
-      (request->strokes && !init_sampling(pixels)) ||
+      (request->edges && !init_sampling(pixels)) ||
       (request->fragments &&
        !trapezoids_init(&pixels->trapezoids, sheet, &pixels->grid,
                         (size_t)pixels->grid.columns)))
@@ -176,7 +176,7 @@ recto_status pixels_line(struct pixels *pixels, int32_t line,
     line /= subpixels->k;
     row.seen = subpixels->pixel;
   }
-  if (whole && ((request->strokes && !sample_edges(pixels, line, &row)) ||
+  if (whole && ((request->edges && !sample_edges(pixels, line, &row)) ||
                 (request->fragments && !add_spans(pixels, line, &row))))
     return error_memory(error);
   return progress_step_at(&pixels->progress, PROGRESS_WORK / LINES_PER_POLL,
@@ -196,7 +196,7 @@ static double covered_share(const struct pixels *pixels) {
 recto_status pixels_finish(struct pixels *pixels, struct map *map,
                            struct report *report, const char *section,
                            recto_error *error) {
-  if ((pixels->request->strokes &&
+  if ((pixels->request->edges &&
        (!sample_edges(pixels, -1, NULL) ||
         !edge_sampling_finish(&pixels->sampling, map))) ||
       (pixels->request->fragments &&

@@ -3,7 +3,7 @@
  * Phases   facets are in buckets by their top line.  Line by line from the top
  *          the line's bucket is added to the active polygons, whose pairs of
  *          active edges are drawn into the buffers of one line and moved down
- *          (active_edge_pair.h); the line becomes strokes and fragments
+ *          (active_edge_pair.h); the line becomes intervals and fragments
  *          (pixels.h) and is discarded.  The result is the same as zbuffer's to
  *          the pixel.
  * Cost     as zbuffer; memory: a line, the active pairs and a key per facet,

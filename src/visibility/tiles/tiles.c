@@ -4,11 +4,11 @@
  * Phases
  *   1 classify the tiles
  *   2 classify edges and, if fragments are requested, faces: as visible or as
- *     hidden if all tiles that they overlap agree, otherwise as undecided
- *   3 list the faces of the tiles that undecided edges and faces overlap
+ *     hidden if all tiles that they overlap agree, otherwise as deferred
+ *   3 list the faces of the tiles that deferred edges and faces overlap
  *   4 find the intersections, in mixed tiles alone unless hidden lines are
  *     requested, and classify their edges
- *   5 solve the undecided edges and faces by pairs, as other exact solvers do
+ *   5 solve the deferred edges and faces by pairs, as other exact solvers do
  *
  * Invariant: phase 2 decides as a comparison of all pairs would.
  */
@@ -17,7 +17,7 @@
 
 #include "base/parallel.h"
 #include "visibility/pairwise/edge_query.h"
-#include "visibility/pairwise/undecided_faces.h"
+#include "visibility/pairwise/deferred_triangles.h"
 #include "visibility/intersection/intersection.h"
 #include "visibility/solver.h"
 #include "visibility/predicate/surrounder.h"
@@ -31,10 +31,10 @@ struct tiles_work {
   uint8_t *wanted;      /* one per tile: its faces are to be listed */
   uint8_t *intersected; /* one per tile: visible intersections are possible */
   bool wants_more;      /* a tile became wanted after the faces were listed */
-  ARRAY(uint32_t) edge; /* undecided edges, ascending */
-  ARRAY(uint32_t) face; /* undecided triangles, ascending */
+  ARRAY(uint32_t) edge; /* deferred edges, ascending */
+  ARRAY(uint32_t) face; /* deferred triangles, ascending */
   uint8_t *face_state;  /* one per triangle: enum map_state; MAP_MIXED is
-                           undecided */
+                           deferred */
   struct occlusion_counts counts;
   struct report *report;
   double phase_start; /* CPU seconds at the start of the current phase */
@@ -167,7 +167,7 @@ static enum map_state state_of_edge(struct tiles_work *work,
              : state;
 }
 
-/* Phase 2 for the edges from number `from` on; lists the undecided ones.
+/* Phase 2 for the edges from number `from` on; lists the deferred ones.
  * Returns false when memory ran out. */
 static bool classify_edges(struct tiles_work *work, size_t from,
                            struct map *map) {
@@ -213,7 +213,7 @@ static void want_face_tiles(struct tiles_work *work, uint32_t t) {
            (size_t)(r.x1 - r.x0) + 1);
 }
 
-/* Phase 2 for the faces; lists the undecided ones.  Returns false when memory
+/* Phase 2 for the faces; lists the deferred ones.  Returns false when memory
  * ran out. */
 static bool classify_faces(struct tiles_work *work) {
   size_t n = work->sheet->triangle.count;
@@ -236,7 +236,7 @@ static bool classify_faces(struct tiles_work *work) {
 
 /* ---- 5. Pairs ------------------------------------------------------------ */
 
-/* A batch of consecutive undecided edges, solved by one thread. */
+/* A batch of consecutive deferred edges, solved by one thread. */
 struct edge_batch {
   struct map map; /* edge_state is shared by all batches */
   struct occlusion_counts counts;
@@ -321,28 +321,28 @@ static bool solve_edges(struct tiles_work *work, struct map *map) {
 
 static bool solve_faces(struct tiles_work *work, struct map *map) {
   struct fragments fragments;
-  struct undecided_faces undecided_faces;
+  struct deferred_triangles deferred_triangles;
   size_t n = work->sheet->triangle.count;
   struct progress progress = progress_of(work->request, "faces");
   bool ok = fragments_init(&fragments, work->sheet, &work->lists.grid, true);
-  ok &= undecided_faces_init(&undecided_faces, work->sheet, &work->lists,
+  ok &= deferred_triangles_init(&deferred_triangles, work->sheet, &work->lists,
                              work->wanted, work->face_state);
-  fragments.progress = undecided_faces.subtraction.progress = &progress;
+  fragments.progress = deferred_triangles.subtraction.progress = &progress;
   fragments.report = work->report;
   for (size_t t = 0; ok && t < n; t++)
     if (work->face_state[t] == MAP_VISIBLE)
       ok = fragments_add_without_contact(&fragments, (uint32_t)t);
-  ok = ok && undecided_faces_sort(&undecided_faces, work->face.item,
+  ok = ok && deferred_triangles_sort(&deferred_triangles, work->face.item,
                                   work->face.count);
   for (size_t i = 0; ok && i < work->face.count; i++)
     ok =
         progress_step_at(&progress, 1, i, work->face.count) &&
-        undecided_faces_solve(&undecided_faces, work->face.item[i], &fragments);
+        deferred_triangles_solve(&deferred_triangles, work->face.item[i], &fragments);
   ok = ok && fragments_finish(&fragments, map);
   if (progress.cancelled)
     atomic_store(work->cancelled, true);
-  undecided_faces_report(&undecided_faces, work->report);
-  undecided_faces_fini(&undecided_faces);
+  deferred_triangles_report(&deferred_triangles, work->report);
+  deferred_triangles_fini(&deferred_triangles);
   fragments_fini(&fragments);
   return ok;
 }
@@ -354,8 +354,8 @@ static void report_tiles(const struct tiles_work *work, struct report *report) {
   report_int(report, "tiles", "mixed", (int64_t)work->tiles.mixed);
   report_int(report, "tiles", "empty", (int64_t)work->tiles.empty);
   report_int(report, "tiles", "with_horizons", work->tiles.horizon != NULL);
-  report_int(report, "tiles", "edges_undecided", (int64_t)work->edge.count);
-  report_int(report, "tiles", "triangles_undecided", (int64_t)work->face.count);
+  report_int(report, "tiles", "edges_deferred", (int64_t)work->edge.count);
+  report_int(report, "tiles", "triangles_deferred", (int64_t)work->face.count);
   occlusion_report(&work->counts, report);
 }
 
@@ -384,7 +384,7 @@ static bool find_intersections(struct tiles_work *work, struct map *map,
         work->report, error);
   }
   if (*status != RECTO_OK ||
-      (work->request->strokes && !classify_edges(work, mesh_edges, map)))
+      (work->request->edges && !classify_edges(work, mesh_edges, map)))
     return false;
   end_phase(work, "intersections_cpu_s");
   return !work->wants_more || list_faces(work);
@@ -394,13 +394,13 @@ static bool solve_all(struct tiles_work *work, struct map *map,
                       recto_status *status, recto_error *error) {
   const struct solver_request *request = work->request;
   work->phase_start = clock_cpu();
-  if (!tile_classification_init(&work->tiles, work->sheet, request->strokes,
+  if (!tile_classification_init(&work->tiles, work->sheet, request->edges,
                                 request->fragments))
     return false;
   end_phase(work, "tiles_cpu_s");
   work->wanted = mem_calloc(triangle_grid_cell_count(&work->tiles.grid), 1);
   if (work->wanted == NULL ||
-      (request->strokes && !classify_edges(work, 0, map)) ||
+      (request->edges && !classify_edges(work, 0, map)) ||
       (request->fragments && !classify_faces(work)))
     return false;
   end_phase(work, "classes_cpu_s");
@@ -410,7 +410,7 @@ static bool solve_all(struct tiles_work *work, struct map *map,
   end_phase(work, "lists_cpu_s");
   if (request->intersections && !find_intersections(work, map, status, error))
     return false;
-  if (request->strokes && !solve_edges(work, map))
+  if (request->edges && !solve_edges(work, map))
     return false;
   end_phase(work, "edges_cpu_s");
   if (request->fragments && !solve_faces(work, map))

@@ -72,9 +72,9 @@ static bool defer_window(struct warnock *w, const struct warnock_window *win) {
   for (size_t i = win->edges.from; i < win->edges.to; i++)
     w->edge_deferred[w->windows.edges.item[i]] = 1;
   for (size_t i = win->surrounders.from; i < win->surrounders.to; i++)
-    w->face_deferred[w->windows.surrounders.item[i]] = w->request->fragments;
+    w->triangle_deferred[w->windows.surrounders.item[i]] = w->request->fragments;
   for (size_t i = win->faces.from; i < win->faces.to; i++)
-    w->face_deferred[w->windows.faces.item[i]] = w->request->fragments;
+    w->triangle_deferred[w->windows.faces.item[i]] = w->request->fragments;
   w->any_deferred = true;
   w->counts.deferred++;
   return true;
@@ -110,9 +110,9 @@ static size_t count_unsolved(const struct warnock *w,
   if (!w->request->fragments)
     return unsolved;
   for (size_t i = win->surrounders.from; i < win->surrounders.to; i++)
-    unsolved += !w->face_deferred[w->windows.surrounders.item[i]];
+    unsolved += !w->triangle_deferred[w->windows.surrounders.item[i]];
   for (size_t i = win->faces.from; i < win->faces.to; i++)
-    unsolved += !w->face_deferred[w->windows.faces.item[i]];
+    unsolved += !w->triangle_deferred[w->windows.faces.item[i]];
   return unsolved;
 }
 
@@ -248,7 +248,7 @@ static bool run(struct warnock *w, const struct triangle_grid *grid) {
   const struct sheet *sheet = w->sheet;
   struct box2 page = page_window(sheet);
   w->edge_deferred = mem_calloc(sheet->edge.count, 1);
-  w->face_deferred = mem_calloc(sheet->triangle.count, 1);
+  w->triangle_deferred = mem_calloc(sheet->triangle.count, 1);
   w->occlusion_limit = OCCLUSIONS_MIN;
   w->piece_limit = PIECES_MIN;
   w->floor = edge_length(sheet);
@@ -257,9 +257,9 @@ static bool run(struct warnock *w, const struct triangle_grid *grid) {
                                         .update_front = update_front,
                                         .hides = hides,
                                         .user = w};
-  if (w->edge_deferred == NULL || w->face_deferred == NULL ||
+  if (w->edge_deferred == NULL || w->triangle_deferred == NULL ||
       !warnock_windows_init(&w->windows, &page, SHEET_FLAT, grid->left_out,
-                            w->request->strokes))
+                            w->request->edges))
     return false;
   w->listed_max =
       LISTED_PER_ITEM_MAX *
@@ -303,7 +303,7 @@ static bool store_all(struct warnock *w, const struct triangle_grid *grid,
             pairwise_fallback_init(&fallback, w->sheet, w->request->fragments,
                                    &w->progress);
   w->progress.stage = "edges";
-  ok = ok && (!w->request->strokes || warnock_store_edges(w, &fallback, map));
+  ok = ok && (!w->request->edges || warnock_store_edges(w, &fallback, map));
   w->progress.stage = "faces";
   ok = ok && (!w->request->fragments ||
               warnock_store_faces(w, &fallback, grid, map, report));
@@ -341,7 +341,7 @@ static recto_status solve(struct sheet *sheet,
   ARRAY_FREE(&w.piece);
   edge_intervals_fini(&w.intervals);
   mem_free(w.edge_deferred);
-  mem_free(w.face_deferred);
+  mem_free(w.triangle_deferred);
   arena_fini(&w.arena);
   triangle_grid_fini(&grid);
   return status;

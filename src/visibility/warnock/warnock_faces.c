@@ -12,7 +12,7 @@
 enum { PIECES_PER_FACE_MAX = 8 };
 
 static int compare_pieces(const void *a, const void *b, void *user) {
-  const struct face_piece *p = a, *q = b;
+  const struct triangle_piece *p = a, *q = b;
   (void)user;
   return (p->triangle > q->triangle) - (p->triangle < q->triangle);
 }
@@ -25,7 +25,7 @@ static bool sort_pieces(struct warnock *w) {
 
 /* Defers faces of many pieces to the fallback, and discards their pieces. */
 static bool limit_pieces(struct warnock *w) {
-  struct face_piece *piece = w->piece.item;
+  struct triangle_piece *piece = w->piece.item;
   size_t n = w->piece.count, kept = 0;
   struct arena arena = {0};
   bool ok = sort_pieces(w);
@@ -34,9 +34,9 @@ static bool limit_pieces(struct warnock *w) {
     for (past = i; past < n && piece[past].triangle == t;)
       past++;
     if (past - i > PIECES_PER_FACE_MAX)
-      w->face_deferred[t] = w->any_deferred = true;
-    for (size_t k = i; ok && k < past && !w->face_deferred[t]; k++) {
-      struct face_piece copy = {.triangle = t};
+      w->triangle_deferred[t] = w->any_deferred = true;
+    for (size_t k = i; ok && k < past && !w->triangle_deferred[t]; k++) {
+      struct triangle_piece copy = {.triangle = t};
       ok = geom_convex_copy(&copy.piece, &piece[k].piece, &arena);
       piece[kept++] = copy;
     }
@@ -67,7 +67,7 @@ bool warnock_solve_face(struct warnock *w, const struct warnock_window *win,
                         uint32_t t) {
   struct geom_line border[8];
   const struct warnock_range *list[2] = {&win->surrounders, &win->faces};
-  if ((w->sheet->triangle_flags[t] & SHEET_FLAT) || w->face_deferred[t])
+  if ((w->sheet->triangle_flags[t] & SHEET_FLAT) || w->triangle_deferred[t])
     return true;
   window_lines(&win->box, border, border + 4);
   if (!occluder_subtraction_start(&w->subtraction, t, NULL))
@@ -88,12 +88,12 @@ bool warnock_solve_face(struct warnock *w, const struct warnock_window *win,
         return true;
       if (g != t && !(w->sheet->triangle_flags[g] & SHEET_FLAT) &&
           (!progress_step(&w->progress, 1 + w->subtraction.left.count) ||
-           !occluder_subtraction_take_nearer(&w->subtraction, g)))
+           !occluder_subtraction_subtract_nearer(&w->subtraction, g)))
         return false;
     }
   }
   for (size_t i = 0; i < w->subtraction.left.count; i++) {
-    struct face_piece part = {.triangle = t};
+    struct triangle_piece part = {.triangle = t};
     if (!geom_convex_copy(&part.piece, &w->subtraction.left.item[i],
                           &w->arena) ||
         !ARRAY_PUSH(&w->piece, part))
@@ -111,7 +111,7 @@ static bool store_deferred_faces(struct warnock *w,
   ARRAY(uint32_t) left = {0};
   bool ok = true;
   for (uint32_t t = 0; ok && t < w->sheet->triangle.count; t++)
-    if (w->face_deferred[t])
+    if (w->triangle_deferred[t])
       ok = ARRAY_PUSH(&left, t);
   ok =
       ok && pairwise_fallback_faces(fallback, left.item, left.count, fragments);
@@ -134,7 +134,7 @@ bool warnock_store_faces(struct warnock *w, struct pairwise_fallback *fallback,
          ok && j < n && w->piece.item[j].triangle == w->piece.item[i].triangle;
          j++)
       ok = ARRAY_PUSH(&piece, w->piece.item[j].piece);
-    ok = ok && (w->face_deferred[w->piece.item[i].triangle] ||
+    ok = ok && (w->triangle_deferred[w->piece.item[i].triangle] ||
                 fragments_add(&fragments, w->piece.item[i].triangle, piece.item,
                               piece.count));
   }

@@ -4,7 +4,7 @@
  * Phases   facets are sorted into bands and tiles of the frame (tile_order.h);
  *          band by band from the top they are drawn (raster_small.h,
  *          span_fill.h, active_edge_pair.h); lines that no later band reaches
- *          are finished and become strokes and fragments (pixels.h).
+ *          are finished and become intervals and fragments (pixels.h).
  * Order    the result does not depend on it: of equally near facets the one of
  *          lower index is kept.  By bands, the memory of a finished line is
  *          reused for a line further down, so that the frame stays in the

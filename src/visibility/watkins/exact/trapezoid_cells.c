@@ -176,7 +176,7 @@ bool trapezoid_cells_take(void *user, const struct sweep *sweep,
     return true;
   if (!find_candidates(cells, sweep, cell))
     return false;
-  cells->undecided += cells->candidate.count > 1;
+  cells->filter_failures += cells->candidate.count > 1;
   if (cells->keep) {
     cells->too_many =
         cells->part.count >= CELLS_MAX || cells->tied.count >= CELLS_TIED_MAX;
@@ -267,7 +267,7 @@ static bool subtract_others(struct piece_work *work,
   for (uint32_t i = 0;
        i < part->count && !occluder_subtraction_is_empty(subtraction); i++)
     if (other[i] != part->triangle &&
-        !occluder_subtraction_take_nearer(subtraction, other[i]))
+        !occluder_subtraction_subtract_nearer(subtraction, other[i]))
       return false;
   for (size_t i = 0; i < subtraction->left.count; i++) {
     struct geom_convex copy;

@@ -115,7 +115,7 @@ static bool store_line(struct exact *exact, const struct sheet *sheet,
   return intervals != NULL && edge_intervals_store(intervals, e, map);
 }
 
-static recto_status store_strokes(struct exact *exact,
+static recto_status store_edges(struct exact *exact,
                                   const struct sheet *sheet,
                                   const struct solver_request *request,
                                   struct map *map, struct report *report,
@@ -198,7 +198,7 @@ static recto_status solve_fragments(struct exact *exact,
   sweep.cell = take_cell;
   sweep.user = exact;
   cells->keep = true;
-  cells->count = cells->undecided = 0;
+  cells->count = cells->filter_failures = 0;
   if (status == RECTO_OK)
     status = sweep_run(&sweep, request, 0.5, 0.7, error);
   if (status == RECTO_OK)
@@ -209,7 +209,7 @@ static recto_status solve_fragments(struct exact *exact,
   if (status == RECTO_OK && !fragments_finish(&fragments, map))
     status = progress_error(&progress, error);
   report_int(report, "watkins", "visible_trapezoids", (int64_t)cells->count);
-  report_int(report, "watkins", "filter_failures", (int64_t)cells->undecided);
+  report_int(report, "watkins", "filter_failures", (int64_t)cells->filter_failures);
   sweep_fini(&sweep);
   if (ready)
     fragments_fini(&fragments);
@@ -225,10 +225,10 @@ static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
                               struct report *report, recto_error *error) {
   struct sweep sweep;
   recto_status status = RECTO_OK;
-  if (!sweep_init(&sweep, sheet, kept, request->strokes))
+  if (!sweep_init(&sweep, sheet, kept, request->edges))
     status = error_memory(error);
   sweep.cell = request->fragments ? take_cell : NULL;
-  sweep.pair = request->strokes ? add_pair : NULL;
+  sweep.pair = request->edges ? add_pair : NULL;
   sweep.user = exact;
   if (status == RECTO_OK)
     status = sweep_run(&sweep, request, 0, 0.5, error);
@@ -268,8 +268,8 @@ static recto_status solve_on(struct exact *exact, const struct sheet *sheet,
   if (status == RECTO_OK)
     status = sweep_all(exact, sheet, kept, request, report, error);
   mem_free(kept);
-  if (status == RECTO_OK && request->strokes)
-    status = store_strokes(exact, sheet, request, map, report, error);
+  if (status == RECTO_OK && request->edges)
+    status = store_edges(exact, sheet, request, map, report, error);
   if (status == RECTO_OK && request->fragments)
     status = solve_fragments(exact, sheet, grid, request, map, report, error);
   return status;

@@ -6,7 +6,7 @@
  *            sample intervals; in each the visible facet is decided
  *            (watkins_interval.c).  Visible facets make spans, and spans of
  *            neighbouring lines between the same edges make trapezoids
- *            (trapezoids.h).  The ends of intervals make strokes: an edge that
+ *            (trapezoids.h).  The ends of intervals make intervals: an edge that
  *            is drawn on one line and on the next is drawn in between.
  *   Strokes  A line represents half a pitch up and down, and an edge that ends
  *            between two lines is drawn to its end.  Nearly horizontal edges,
@@ -17,7 +17,7 @@
  * Without a pitch: watkins_exact.c.
  *
  * Source  [Watkins1970]; [Romney1969] for coherence; [Archuleta1972] for
- *         strokes; [Rogers1985] ch. 4.
+ *         intervals; [Rogers1985] ch. 4.
  */
 #include "visibility/watkins/pitch/watkins.h"
 
@@ -122,7 +122,7 @@ static bool join_ends(struct scan *scan) {
   return true;
 }
 
-static bool open_strokes(struct scan *scan) {
+static bool open_edges(struct scan *scan) {
   const struct watkins *watkins = &scan->watkins;
   size_t count = watkins->sheet->edge.count;
   uint8_t *followed = mem_calloc(count, 1);
@@ -140,7 +140,7 @@ static bool open_strokes(struct scan *scan) {
   return ok;
 }
 
-static bool finish_strokes(struct scan *scan, struct map *map) {
+static bool finish_edges(struct scan *scan, struct map *map) {
   size_t count = scan->watkins.sheet->edge.count;
   for (size_t e = 0; e < count; e++)
     if (!close_run(scan, (uint32_t)e))
@@ -234,12 +234,12 @@ static bool process_line(struct scan *scan, int32_t line, bool here) {
   if (here) {
     watkins_pieces now = watkins->piece;
     if ((scan->request->fragments && !add_spans(scan)) ||
-        (scan->request->strokes && !join_ends(scan)))
+        (scan->request->edges && !join_ends(scan)))
       return false;
     watkins->piece = scan->row.piece;
     scan->row.piece = now;
   }
-  return !scan->request->strokes ||
+  return !scan->request->edges ||
          edge_sampling_line(&scan->sampling, line, seen_at,
                             line + 1 < watkins->table.grid.lines ? &scan->above
                                                                  : NULL,
@@ -288,7 +288,7 @@ static recto_status run_scan(struct scan *scan, const struct sheet *sheet,
   const struct solver_request *request = scan->request;
   recto_status status;
   if (!watkins_init(&scan->watkins, sheet, facets, grid) ||
-      (request->strokes && !open_strokes(scan)) ||
+      (request->edges && !open_edges(scan)) ||
       (request->fragments && !trapezoids_init(&scan->trapezoids, sheet, grid,
                                               scan->watkins.edge.count)))
     return error_memory(error);
@@ -297,7 +297,7 @@ static recto_status run_scan(struct scan *scan, const struct sheet *sheet,
   status = walk_lines(scan, error);
   if (status != RECTO_OK)
     return status;
-  if ((request->strokes && !finish_strokes(scan, map)) ||
+  if ((request->edges && !finish_edges(scan, map)) ||
       (request->fragments && !trapezoids_finish(&scan->trapezoids, map)))
     return error_memory(error);
   report_scan(scan, report);

@@ -1,4 +1,4 @@
-/* test_undecided_faces.c - faces that tiles leave undecided are painted as by
+/* test_deferred_triangles.c - triangles that tiles defer are painted as by
  * the oracle, and mostly without subtracting anything. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -33,7 +33,7 @@ static struct counts paint(const struct scene *scene, recto_options *options) {
                       report_get(report, "faces", "whole", -1),
                       report_get(report, "faces", "mixed", -1),
                       report_get(report, "faces", "hidden_by_contours", -1),
-                      report_get(report, "tiles", "triangles_undecided", -1),
+                      report_get(report, "tiles", "triangles_deferred", -1),
                       report_get(report, "faces", "pairs", -1),
                       report_get(report, "faces", "subtractions", -1),
                       report_get(report, "fragments", "faces_united", -1)};

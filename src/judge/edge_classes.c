@@ -1,6 +1,6 @@
-/* edge_natures.c - decides what an edge is: silhouette, crease, group border or
+/* edge_classes.c - decides what an edge is: silhouette, crease, group border or
  * smooth. */
-#include "judge/edge_natures.h"
+#include "judge/edge_classes.h"
 
 #include "judge/camera.h"
 #include "judge/triangulation.h"
@@ -130,30 +130,30 @@ static double slope_at_side(const struct judge_facings *facings,
              : slope(facings, facing->normal, at);
 }
 
-unsigned judge_natures_of_pair(const struct judge_facings *facings,
+unsigned judge_class_mask_of_pair(const struct judge_facings *facings,
                                const struct judge_side *s,
                                const struct judge_side *t, bool against) {
   const struct judge_facing *f = &facings->facing[s->face];
   const struct judge_facing *g = &facings->facing[t->face];
-  unsigned natures = 0;
+  unsigned class_mask = 0;
   if (scene_groups_differ(facings->scene,
                           facings->scene->face_group.item[s->face],
                           facings->scene->face_group.item[t->face]))
-    natures |= RECTO_EDGE_GROUP;
+    class_mask |= RECTO_EDGE_GROUP;
   double one = slope_at_side(facings, s), two = slope_at_side(facings, t);
   if (judge_is_silhouette(one, against ? two : -two))
-    natures |= RECTO_EDGE_SILHOUETTE;
+    class_mask |= RECTO_EDGE_SILHOUETTE;
   if (f->flat || g->flat)
-    return natures;
+    return class_mask;
   double cosine = point3_dot(f->normal, g->normal);
   cosine = against ? cosine : -cosine;
   double crease = cos(facings->options->crease_deg / 180 * acos(-1));
   if (cosine < crease - TOLERANCE_JUDGE_ANGLE)
-    natures |= RECTO_EDGE_CREASE;
-  if (natures == 0 && cosine > crease + TOLERANCE_JUDGE_ANGLE &&
+    class_mask |= RECTO_EDGE_CREASE;
+  if (class_mask == 0 && cosine > crease + TOLERANCE_JUDGE_ANGLE &&
       judge_is_sure(one, two))
-    natures = RECTO_EDGE_SMOOTH;
-  return natures;
+    class_mask = RECTO_EDGE_SMOOTH;
+  return class_mask;
 }
 
 bool judge_facings_init(struct judge_facings *facings,

@@ -1,65 +1,65 @@
-/* undecided_faces.h - solves the faces that the tiles leave undecided
+/* deferred_triangles.h - solves the triangles that the tiles defer
  * (tile_classification.h), by the triangles of the candidate lists.
  *
  * Along a path inside a face, occlusion changes only at a contour (sheet.h) or
  * where a nearer triangle intersects the face's plane.  A face that neither
  * crosses is entirely visible or entirely hidden; it is hidden if any nearer
  * triangle overlaps it.  No piece has to be subtracted then.  The proof is in
- * undecided_faces.c.
+ * deferred_triangles.c.
  *
  * A hidden triangle need not be tested as an occluder: whatever it occludes is
  * also occluded by the triangles that hide it.  Faces are therefore solved from
  * near to far.
  */
-#ifndef VISIBILITY_PAIRWISE_UNDECIDED_FACES_H
-#define VISIBILITY_PAIRWISE_UNDECIDED_FACES_H
+#ifndef VISIBILITY_PAIRWISE_DEFERRED_TRIANGLES_H
+#define VISIBILITY_PAIRWISE_DEFERRED_TRIANGLES_H
 
 #include "visibility/fragments/occluder_subtraction.h"
 #include "visibility/pairwise/tile_candidates.h"
 
-struct undecided_faces_counts {
+struct deferred_triangles_counts {
   uint64_t hidden, whole, mixed; /* triangles by result: hidden, visible as a
                                     whole, visible in part */
   uint64_t uncrossed;            /* of those hidden, the ones decided because
                                     no contour crosses them */
 };
 
-struct undecided_faces {
+struct deferred_triangles {
   const struct sheet *sheet;
   const struct tile_candidates *lists; /* borrowed, not owned */
   uint8_t *state;            /* one per triangle, enum map_state; borrowed */
   uint32_t *start, *contour; /* of tile i: contour[start[i] .. start[i + 1]) */
   struct triangle_grid_query query;
   struct occluder_subtraction subtraction;
-  struct undecided_faces_counts counts;
+  struct deferred_triangles_counts counts;
 };
 
 /* Lists the contours by tile.
  * wanted  one per tile: not 0 where it has a list of triangles
  * state   one per triangle: MAP_HIDDEN where it is known to be hidden;
  *         triangles that are found to be hidden are marked there
- * Returns false when memory ran out; end with undecided_faces_fini either
+ * Returns false when memory ran out; end with deferred_triangles_fini either
  * way. */
-USE_RESULT bool undecided_faces_init(struct undecided_faces *undecided_faces,
+USE_RESULT bool deferred_triangles_init(struct deferred_triangles *deferred_triangles,
                                      const struct sheet *sheet,
                                      const struct tile_candidates *lists,
                                      const uint8_t *wanted, uint8_t *state);
-void undecided_faces_fini(struct undecided_faces *undecided_faces);
+void deferred_triangles_fini(struct deferred_triangles *deferred_triangles);
 
 /* Sorts triangles from near to far, by depth bucket.
  * Returns false when memory ran out. */
 USE_RESULT bool
-undecided_faces_sort(const struct undecided_faces *undecided_faces,
+deferred_triangles_sort(const struct deferred_triangles *deferred_triangles,
                      uint32_t *triangle, size_t count);
 
 /* Computes the visible pieces of a triangle, which is not flat and all of whose
  * tiles have lists, and adds them to the fragments.
  * Returns false when memory ran out or the caller cancelled. */
-USE_RESULT bool undecided_faces_solve(struct undecided_faces *undecided_faces,
+USE_RESULT bool deferred_triangles_solve(struct deferred_triangles *deferred_triangles,
                                       uint32_t triangle,
                                       struct fragments *fragments);
 
-void undecided_faces_report(const struct undecided_faces *undecided_faces,
+void deferred_triangles_report(const struct deferred_triangles *deferred_triangles,
                             struct report *report);
 
 #endif

@@ -1,4 +1,4 @@
-/* undecided_faces.c - solves the faces that the tiles leave undecided.
+/* deferred_triangles.c - solves the triangles that the tiles defer.
  *
  * Claim.  A face that no contour crosses, and whose plane no overlapping
  * triangle intersects or touches, is entirely visible or entirely hidden.
@@ -19,7 +19,7 @@
  * occludes the face, so does the nearest triangle there, which is not hidden
  * and overlaps the face.
  */
-#include "visibility/pairwise/undecided_faces.h"
+#include "visibility/pairwise/deferred_triangles.h"
 
 #include <string.h>
 
@@ -29,10 +29,10 @@
 /* ---- Contours by tile ---------------------------------------------------- */
 
 /* Counts the contours of each wanted tile or, if `filling`, lists them. */
-static void visit_contours(struct undecided_faces *undecided_faces,
+static void visit_contours(struct deferred_triangles *deferred_triangles,
                            const uint8_t *wanted, bool filling) {
-  const struct sheet *sheet = undecided_faces->sheet;
-  const struct triangle_grid *grid = &undecided_faces->lists->tiles->grid;
+  const struct sheet *sheet = deferred_triangles->sheet;
+  const struct triangle_grid *grid = &deferred_triangles->lists->tiles->grid;
   for (size_t i = sheet->contour.count; i-- > 0;) {
     const uint32_t *point = sheet->contour.item[i].point;
     struct geom_point p = sheet->point.item[point[0]],
@@ -46,51 +46,51 @@ static void visit_contours(struct undecided_faces *undecided_faces,
         if (!wanted[cell])
           continue;
         if (filling)
-          undecided_faces->contour[--undecided_faces->start[cell]] =
+          deferred_triangles->contour[--deferred_triangles->start[cell]] =
               (uint32_t)i;
         else
-          undecided_faces->start[cell]++;
+          deferred_triangles->start[cell]++;
       }
     }
   }
 }
 
-bool undecided_faces_init(struct undecided_faces *undecided_faces,
+bool deferred_triangles_init(struct deferred_triangles *deferred_triangles,
                           const struct sheet *sheet,
                           const struct tile_candidates *lists,
                           const uint8_t *wanted, uint8_t *state) {
   size_t cells = triangle_grid_cell_count(&lists->tiles->grid);
-  memset(undecided_faces, 0, sizeof *undecided_faces);
-  undecided_faces->sheet = sheet;
-  undecided_faces->lists = lists;
-  undecided_faces->state = state;
-  occluder_subtraction_init(&undecided_faces->subtraction, sheet);
-  undecided_faces->start =
-      mem_calloc(cells + 1, sizeof *undecided_faces->start);
-  if (undecided_faces->start == NULL ||
-      !triangle_grid_query_init(&undecided_faces->query, &lists->grid))
+  memset(deferred_triangles, 0, sizeof *deferred_triangles);
+  deferred_triangles->sheet = sheet;
+  deferred_triangles->lists = lists;
+  deferred_triangles->state = state;
+  occluder_subtraction_init(&deferred_triangles->subtraction, sheet);
+  deferred_triangles->start =
+      mem_calloc(cells + 1, sizeof *deferred_triangles->start);
+  if (deferred_triangles->start == NULL ||
+      !triangle_grid_query_init(&deferred_triangles->query, &lists->grid))
     return false;
-  visit_contours(undecided_faces, wanted, false);
+  visit_contours(deferred_triangles, wanted, false);
   for (size_t i = 0; i < cells; i++)
-    undecided_faces->start[i + 1] += undecided_faces->start[i];
-  undecided_faces->contour = mem_alloc(undecided_faces->start[cells],
-                                       sizeof *undecided_faces->contour);
-  if (undecided_faces->contour == NULL)
+    deferred_triangles->start[i + 1] += deferred_triangles->start[i];
+  deferred_triangles->contour = mem_alloc(deferred_triangles->start[cells],
+                                       sizeof *deferred_triangles->contour);
+  if (deferred_triangles->contour == NULL)
     return false;
-  visit_contours(undecided_faces, wanted, true);
+  visit_contours(deferred_triangles, wanted, true);
   return true;
 }
 
-void undecided_faces_fini(struct undecided_faces *undecided_faces) {
-  mem_free(undecided_faces->start);
-  mem_free(undecided_faces->contour);
-  triangle_grid_query_fini(&undecided_faces->query);
-  occluder_subtraction_fini(&undecided_faces->subtraction);
+void deferred_triangles_fini(struct deferred_triangles *deferred_triangles) {
+  mem_free(deferred_triangles->start);
+  mem_free(deferred_triangles->contour);
+  triangle_grid_query_fini(&deferred_triangles->query);
+  occluder_subtraction_fini(&deferred_triangles->subtraction);
 }
 
 /* A counting sort by depth bucket: within a bucket, triangles keep their order,
  * so that neighbours on the page remain neighbours in memory. */
-bool undecided_faces_sort(const struct undecided_faces *undecided_faces,
+bool deferred_triangles_sort(const struct deferred_triangles *deferred_triangles,
                           uint32_t *triangle, size_t count) {
   uint32_t start[TILE_BUCKETS] = {0}, sum = 0;
   uint32_t *copy = mem_alloc(count, sizeof *copy);
@@ -98,7 +98,7 @@ bool undecided_faces_sort(const struct undecided_faces *undecided_faces,
     return false;
   for (size_t i = 0; i < count; i++) {
     copy[i] = triangle[i];
-    start[tile_bucket(triangle_nearest_z(undecided_faces->sheet, copy[i]))]++;
+    start[tile_bucket(triangle_nearest_z(deferred_triangles->sheet, copy[i]))]++;
   }
   for (int bucket = TILE_BUCKETS - 1; bucket >= 0; bucket--) {
     uint32_t here = start[bucket];
@@ -107,7 +107,7 @@ bool undecided_faces_sort(const struct undecided_faces *undecided_faces,
   }
   for (size_t i = 0; i < count; i++) {
     int bucket =
-        tile_bucket(triangle_nearest_z(undecided_faces->sheet, copy[i]));
+        tile_bucket(triangle_nearest_z(deferred_triangles->sheet, copy[i]));
     triangle[start[bucket]++] = copy[i];
   }
   mem_free(copy);
@@ -132,19 +132,19 @@ static bool may_enter(const struct geom_point f[3], struct geom_point p,
 
 /* Returns whether a contour that is not behind the current triangle may cross
  * it. */
-static bool is_crossed(const struct undecided_faces *undecided_faces) {
-  const struct sheet *sheet = undecided_faces->sheet;
-  const struct triangle_grid *grid = &undecided_faces->lists->tiles->grid;
+static bool is_crossed(const struct deferred_triangles *deferred_triangles) {
+  const struct sheet *sheet = deferred_triangles->sheet;
+  const struct triangle_grid *grid = &deferred_triangles->lists->tiles->grid;
   const struct occluder_subtraction *subtraction =
-      &undecided_faces->subtraction;
+      &deferred_triangles->subtraction;
   struct cell_range r = triangle_grid_cells(grid, subtraction->box);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
-      for (uint32_t i = undecided_faces->start[cell];
-           i < undecided_faces->start[cell + 1]; i++) {
+      for (uint32_t i = deferred_triangles->start[cell];
+           i < deferred_triangles->start[cell + 1]; i++) {
         const uint32_t *point =
-            sheet->contour.item[undecided_faces->contour[i]].point;
+            sheet->contour.item[deferred_triangles->contour[i]].point;
         struct geom_point p = sheet->point.item[point[0]],
                           q = sheet->point.item[point[1]];
         if ((p.z >= subtraction->low || q.z >= subtraction->low) &&
@@ -160,44 +160,44 @@ static bool is_crossed(const struct undecided_faces *undecided_faces) {
 /* Adds triangle g to the candidates unless it was added before.  A hidden
  * triangle is no occluder and is added only if it is earlier than the current
  * one: visible pieces may be passed on to it if the two are in contact. */
-static bool add_candidate(struct undecided_faces *undecided_faces, uint32_t g) {
-  return g == undecided_faces->subtraction.triangle ||
-         (g > undecided_faces->subtraction.triangle &&
-          undecided_faces->state[g] == MAP_HIDDEN) ||
-         (undecided_faces->sheet->triangle_flags[g] & SHEET_FLAT) ||
-         !triangle_grid_query_first(&undecided_faces->query, g) ||
-         ARRAY_PUSH(&undecided_faces->query.found, g);
+static bool add_candidate(struct deferred_triangles *deferred_triangles, uint32_t g) {
+  return g == deferred_triangles->subtraction.triangle ||
+         (g > deferred_triangles->subtraction.triangle &&
+          deferred_triangles->state[g] == MAP_HIDDEN) ||
+         (deferred_triangles->sheet->triangle_flags[g] & SHEET_FLAT) ||
+         !triangle_grid_query_first(&deferred_triangles->query, g) ||
+         ARRAY_PUSH(&deferred_triangles->query.found, g);
 }
 
-static bool find_in_bsp(struct undecided_faces *undecided_faces,
+static bool find_in_bsp(struct deferred_triangles *deferred_triangles,
                         uint32_t root) {
-  const struct bsp *bsp = undecided_faces->lists->grid.bsp;
+  const struct bsp *bsp = deferred_triangles->lists->grid.bsp;
   const struct bsp_query shape = {.kind = BSP_TRIANGLE,
                                   .triangle =
-                                      undecided_faces->subtraction.triangle,
-                                  .sheet = undecided_faces->sheet,
-                                  .box = undecided_faces->subtraction.box};
+                                      deferred_triangles->subtraction.triangle,
+                                  .sheet = deferred_triangles->sheet,
+                                  .box = deferred_triangles->subtraction.box};
   struct bsp_traversal traversal = bsp_traversal_from(root);
   const struct bsp_node *node;
   while ((node = bsp_next(bsp, &traversal, &shape)) != NULL)
     for (uint32_t i = node->from; i < node->from + node->count; i++)
-      if (!add_candidate(undecided_faces, bsp->member.item[i].triangle))
+      if (!add_candidate(deferred_triangles, bsp->member.item[i].triangle))
         return false;
   return true;
 }
 
 /* Finds the triangles that may overlap the current one on the page, at any
  * depth, since a triangle behind it may be in contact with it. */
-static bool find_candidates(struct undecided_faces *undecided_faces) {
-  const struct tile_candidates *lists = undecided_faces->lists;
+static bool find_candidates(struct deferred_triangles *deferred_triangles) {
+  const struct tile_candidates *lists = deferred_triangles->lists;
   const struct triangle_grid *grid = &lists->grid;
   const struct occluder_subtraction *subtraction =
-      &undecided_faces->subtraction;
+      &deferred_triangles->subtraction;
   struct cell_range r = triangle_grid_cells(grid, subtraction->box);
   struct kdop8 kdop = kdop8_of_point(subtraction->plane.p[0]);
   kdop8_add(&kdop, subtraction->plane.p[1]);
   kdop8_add(&kdop, subtraction->plane.p[2]);
-  triangle_grid_query_start(grid, &undecided_faces->query);
+  triangle_grid_query_start(grid, &deferred_triangles->query);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
@@ -205,7 +205,7 @@ static bool find_candidates(struct undecided_faces *undecided_faces) {
       if (i == end)
         continue;
       if (triangle_grid_bsp(grid, cell) != SHEET_NONE) {
-        if (!find_in_bsp(undecided_faces, triangle_grid_bsp(grid, cell)))
+        if (!find_in_bsp(deferred_triangles, triangle_grid_bsp(grid, cell)))
           return false;
         continue;
       }
@@ -214,7 +214,7 @@ static bool find_candidates(struct undecided_faces *undecided_faces) {
       uint64_t kdop_query = kdop8_query(&frame, &kdop);
       for (; i < end; i++)
         if (kdop8_overlaps(lists->key[i], kdop_query) &&
-            !add_candidate(undecided_faces, grid->item[i]))
+            !add_candidate(deferred_triangles, grid->item[i]))
           return false;
     }
   return true;
@@ -224,50 +224,50 @@ static bool find_candidates(struct undecided_faces *undecided_faces) {
 
 /* Tests the candidates as occluders, until one hides the current triangle
  * completely. */
-static bool test_candidates(struct undecided_faces *undecided_faces) {
-  struct occluder_subtraction *subtraction = &undecided_faces->subtraction;
-  const uint32_t *candidate = undecided_faces->query.found.item;
-  if (!progress_step(subtraction->progress, undecided_faces->query.found.count))
+static bool test_candidates(struct deferred_triangles *deferred_triangles) {
+  struct occluder_subtraction *subtraction = &deferred_triangles->subtraction;
+  const uint32_t *candidate = deferred_triangles->query.found.item;
+  if (!progress_step(subtraction->progress, deferred_triangles->query.found.count))
     return false;
   for (size_t i = 0;
-       i < undecided_faces->query.found.count && !subtraction->covered; i++)
-    if (undecided_faces->state[candidate[i]] != MAP_HIDDEN &&
+       i < deferred_triangles->query.found.count && !subtraction->covered; i++)
+    if (deferred_triangles->state[candidate[i]] != MAP_HIDDEN &&
         !occluder_subtraction_collect(subtraction, candidate[i]))
       return false;
   return true;
 }
 
-static bool mark_hidden(struct undecided_faces *undecided_faces,
+static bool mark_hidden(struct deferred_triangles *deferred_triangles,
                         uint32_t triangle) {
-  undecided_faces->state[triangle] = MAP_HIDDEN;
-  undecided_faces->counts.hidden++;
+  deferred_triangles->state[triangle] = MAP_HIDDEN;
+  deferred_triangles->counts.hidden++;
   return true;
 }
 
-bool undecided_faces_solve(struct undecided_faces *undecided_faces,
+bool deferred_triangles_solve(struct deferred_triangles *deferred_triangles,
                            uint32_t triangle, struct fragments *fragments) {
-  struct occluder_subtraction *subtraction = &undecided_faces->subtraction;
-  struct undecided_faces_counts *counts = &undecided_faces->counts;
+  struct occluder_subtraction *subtraction = &deferred_triangles->subtraction;
+  struct deferred_triangles_counts *counts = &deferred_triangles->counts;
   if (!occluder_subtraction_start(subtraction, triangle, NULL) ||
-      !find_candidates(undecided_faces) || !test_candidates(undecided_faces))
+      !find_candidates(deferred_triangles) || !test_candidates(deferred_triangles))
     return false;
-  const uint32_t *candidate = undecided_faces->query.found.item;
-  size_t count = undecided_faces->query.found.count;
+  const uint32_t *candidate = deferred_triangles->query.found.item;
+  size_t count = deferred_triangles->query.found.count;
   if (subtraction->covered)
-    return mark_hidden(undecided_faces, triangle);
+    return mark_hidden(deferred_triangles, triangle);
   if (subtraction->occluder.count == 0) {
     counts->whole++;
     return fragments_add_with_candidates(fragments, triangle, NULL, 0,
                                          candidate, count);
   }
-  if (!subtraction->interpenetrating && !is_crossed(undecided_faces)) {
+  if (!subtraction->interpenetrating && !is_crossed(deferred_triangles)) {
     counts->uncrossed++;
-    return mark_hidden(undecided_faces, triangle);
+    return mark_hidden(deferred_triangles, triangle);
   }
-  if (!occluder_subtraction_take_all(subtraction))
+  if (!occluder_subtraction_subtract_all(subtraction))
     return false;
   if (subtraction->left.count == 0)
-    return mark_hidden(undecided_faces, triangle);
+    return mark_hidden(deferred_triangles, triangle);
   if (subtraction->whole) {
     counts->whole++;
     return fragments_add_with_candidates(fragments, triangle, NULL, 0,
@@ -279,12 +279,12 @@ bool undecided_faces_solve(struct undecided_faces *undecided_faces,
       candidate, count);
 }
 
-void undecided_faces_report(const struct undecided_faces *undecided_faces,
+void deferred_triangles_report(const struct deferred_triangles *deferred_triangles,
                             struct report *report) {
-  const struct undecided_faces_counts *counts = &undecided_faces->counts;
+  const struct deferred_triangles_counts *counts = &deferred_triangles->counts;
   report_int(report, "faces", "hidden", (int64_t)counts->hidden);
   report_int(report, "faces", "hidden_by_contours", (int64_t)counts->uncrossed);
   report_int(report, "faces", "whole", (int64_t)counts->whole);
   report_int(report, "faces", "mixed", (int64_t)counts->mixed);
-  occluder_subtraction_report(&undecided_faces->subtraction, report);
+  occluder_subtraction_report(&deferred_triangles->subtraction, report);
 }

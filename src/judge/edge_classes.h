@@ -1,10 +1,10 @@
-/* edge_natures.h - decides what an edge is: silhouette, crease, group border or
+/* edge_classes.h - decides what an edge is: silhouette, crease, group border or
  * smooth.
  *
- * Everything is computed in doubles.  A nature is reported only where rounding
+ * Everything is computed in doubles.  A class is reported only where rounding
  * cannot change it. */
-#ifndef JUDGE_EDGE_NATURES_H
-#define JUDGE_EDGE_NATURES_H
+#ifndef JUDGE_EDGE_CLASSES_H
+#define JUDGE_EDGE_CLASSES_H
 
 #include "base/tolerance.h"
 #include "judge/judge.h"
@@ -46,11 +46,11 @@ double judge_fan_slope(const struct judge_facings *facings,
                        const struct judge_fan_triangle *fan_triangle,
                        struct judge_point3 at);
 
-/* The natures that the edge of two sides surely has: a mask of
+/* The classes that the edge of two sides surely has: a mask of
  * recto_edge_class.
  * against  the faces run along it in opposite directions, as in a well-formed
  *          mesh */
-unsigned judge_natures_of_pair(const struct judge_facings *facings,
+unsigned judge_class_mask_of_pair(const struct judge_facings *facings,
                                const struct judge_side *s,
                                const struct judge_side *t, bool against);
 
