@@ -14,7 +14,7 @@
 
 #include "bench/model.h"
 
-enum { RUNS = 5, LIMIT_S = 300, LEVELS_MOST = 4 };
+enum { RUNS = 5, LIMIT_S = 300, LEVELS_MAX = 4 };
 
 /* What all runs of a kind gave. */
 struct series {
@@ -87,8 +87,7 @@ static void print_level(struct dense *dense, const struct model *model) {
 }
 
 static int measure(struct dense *dense, const char *examples, int levels) {
-  static const char *const level[LEVELS_MOST] = {"x 4", "x 16", "x 64",
-                                                 "x 256"};
+  static const char *const level[LEVELS_MAX] = {"x 4", "x 16", "x 64", "x 256"};
   const char *models = getenv("RECTO_MODELS");
   struct model model;
   struct scene scene;
@@ -118,7 +117,7 @@ int main(int argc, char **argv) {
   static const char *const made[] = {"report.json", "drawing.svg"};
   struct dense dense = {.folder = "/tmp/recto-dense-XXXXXX"};
   int levels = argc == 5 ? atoi(argv[4]) : 2;
-  if (argc < 4 || argc > 5 || levels < 0 || levels > LEVELS_MOST) {
+  if (argc < 4 || argc > 5 || levels < 0 || levels > LEVELS_MAX) {
     fputs("usage: dense RECTO ZRASTER EXAMPLES [LEVELS]\n", stderr);
     return 2;
   }

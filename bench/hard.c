@@ -25,7 +25,7 @@
 #include "tests/scenes/exact.h"
 #include "tests/scenes/pipeline.h"
 
-enum { LIMIT_S = 20, ROUNDS = 5, AGAIN_MOST = 400, METHODS_MOST = 12 };
+enum { LIMIT_S = 20, ROUNDS = 5, AGAIN_MAX = 400, METHODS_MAX = 12 };
 
 static const double ROUND_S = 0.04, SLOW_S = 1;
 
@@ -163,7 +163,7 @@ static void fill_scene(const struct hard_scene *what, bool painted,
 
 /* Draws as often as a round has time for: the medians. */
 static struct cost draw_again(const struct hard_scene *what, bool painted) {
-  static double whole[AGAIN_MOST], solver[AGAIN_MOST];
+  static double whole[AGAIN_MAX], solver[AGAIN_MAX];
   struct scene scene;
   recto_options options;
   struct cost cost = {INFINITY, INFINITY};
@@ -175,7 +175,7 @@ static struct cost draw_again(const struct hard_scene *what, bool painted) {
       return (struct cost){INFINITY, INFINITY};
     whole[n] = cost.whole;
     solver[n++] = cost.solver;
-  } while (n < AGAIN_MOST && clock_cpu() - start < ROUND_S);
+  } while (n < AGAIN_MAX && clock_cpu() - start < ROUND_S);
   scene_fini(&scene);
   return (struct cost){median_of(whole, n), median_of(solver, n)};
 }
@@ -238,18 +238,18 @@ static void print_figure(double s) {
 }
 
 /* The exact methods; the last one, NULL, is auto. */
-static size_t list_methods(const struct solver *method[METHODS_MOST]) {
+static size_t list_methods(const struct solver *method[METHODS_MAX]) {
   size_t n = 0;
   for (const struct solver *const *s = solvers(); *s != NULL; s++)
-    if (is_exact(*s) && n + 1 < METHODS_MOST)
+    if (is_exact(*s) && n + 1 < METHODS_MAX)
       method[n++] = *s;
   method[n++] = NULL;
   return n;
 }
 
 static void print_row(const struct hard_scene *what, bool painted) {
-  const struct solver *method[METHODS_MOST];
-  static struct series series[METHODS_MOST];
+  const struct solver *method[METHODS_MAX];
+  static struct series series[METHODS_MAX];
   size_t methods = list_methods(method);
   for (size_t m = 0; m < methods; m++)
     series[m].count = 0;
@@ -273,7 +273,7 @@ static void print_row(const struct hard_scene *what, bool painted) {
 }
 
 static void print_heading(void) {
-  const struct solver *method[METHODS_MOST];
+  const struct solver *method[METHODS_MAX];
   size_t methods = list_methods(method);
   printf("\nHard scenes: CPU milliseconds, medians of %d runs, one thread\n"
          "%-20s",

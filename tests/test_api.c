@@ -815,7 +815,7 @@ static void plotter_travel_is_short_by_default(void **state) {
     assert_int_equal(o.ink.order, RECTO_ORDER_AUTO);
     o.ink.order = row[i].asked;
     o.output.format = row[i].format;
-    assert_int_equal(options_suit(&o, NULL), RECTO_OK);
+    assert_int_equal(options_adapt(&o, NULL), RECTO_OK);
     assert_int_equal(o.ink.order, row[i].found);
   }
 }
@@ -835,7 +835,7 @@ static void a_plotter_gets_the_margin_that_it_needs(void **state) {
     o.output.device = row[i].device;
     o.page.margin_mm = row[i].named;
     o.output.format = row[i].format;
-    assert_int_equal(options_suit(&o, NULL), RECTO_OK);
+    assert_int_equal(options_adapt(&o, NULL), RECTO_OK);
     assert_true(o.page.margin_mm == row[i].found);
   }
 }

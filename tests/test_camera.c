@@ -12,7 +12,7 @@
 #include "tests/scenes/random.h"
 #include "tests/scenes/scenes.h"
 #include "view/camera.h"
-#include "view/frame.h"
+#include "view/camera_axes.h"
 
 /* ---- Means --------------------------------------------------------------- */
 
@@ -169,7 +169,8 @@ static void any_up_along_an_axis_gives_exact_frames(void **state) {
       up[axis] = 17.3 * sign; /* of any length */
       for (int azimuth = -180; azimuth <= 360; azimuth += 90)
         for (int elevation = -90; elevation <= 90; elevation += 90) {
-          struct frame f = frame_from_direction(up, azimuth, elevation);
+          struct camera_axes f =
+              camera_axes_from_direction(up, azimuth, elevation);
           const double *row[3] = {f.right, f.up, f.back};
           for (int r = 0; r < 3; r++)
             for (int k = 0; k < 3; k++)
@@ -184,7 +185,7 @@ static double dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static void assert_orthonormal(const struct frame *f) {
+static void assert_orthonormal(const struct camera_axes *f) {
   const double tight = 1e-15;
   assert_near(dot(f->right, f->right), 1, 4 * tight);
   assert_near(dot(f->up, f->up), 1, 4 * tight);
@@ -206,11 +207,12 @@ static void frames_are_orthonormal_and_right_handed(void **state) {
       eye[k] = random_between(&random, -9, 9);
       target[k] = random_between(&random, -9, 9);
     }
-    struct frame f =
-        frame_from_direction(up, random_between(&random, -400, 400),
-                             random_between(&random, -90, 90));
+    struct camera_axes f =
+        camera_axes_from_direction(up, random_between(&random, -400, 400),
+                                   random_between(&random, -90, 90));
     assert_orthonormal(&f);
-    assert_int_equal(frame_from_eye(&f, eye, target, up, false), FRAME_OK);
+    assert_int_equal(camera_axes_from_eye(&f, eye, target, up, false),
+                     CAMERA_AXES_OK);
     assert_orthonormal(&f);
     assert_true(dot(f.up, up) > 0);
     const double away[3] = {eye[0] - target[0], eye[1] - target[1],
@@ -231,8 +233,8 @@ static void a_little_tilt_of_up_turns_the_frame_a_little(void **state) {
       continue;
     for (int k = 0; k < 3; k++)
       b[k] = a[k] + random_between(&random, -1, 1) * 1e-7;
-    struct frame f = frame_from_direction(a, 30, 20);
-    struct frame g = frame_from_direction(b, 30, 20);
+    struct camera_axes f = camera_axes_from_direction(a, 30, 20);
+    struct camera_axes g = camera_axes_from_direction(b, 30, 20);
     for (int k = 0; k < 3; k++)
       assert_near(f.right[k], g.right[k], 1e-5);
   }

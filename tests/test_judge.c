@@ -446,7 +446,7 @@ static void from_a_corner_contact_counts_at_the_far_end(void **state) {
   (void)state;
   struct judge_verdict verdict = judge_wire(0.2, 0);
   assert_int_equal(verdict.missing.samples, 0);
-  assert_int_equal(verdict.unsure.samples, 0);
+  assert_int_equal(verdict.undecided.samples, 0);
   assert_in_range(verdict.hidden.samples, 2000, 2200);
   verdict = judge_wire(0.2, 0.1);
   assert_in_range(verdict.false_ink.samples, 200, 220);

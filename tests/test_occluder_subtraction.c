@@ -23,8 +23,9 @@ static void take_all(struct occluder_subtraction *subtraction, uint32_t t,
   assert_true(occluder_subtraction_start(subtraction, t, NULL));
   for (uint32_t g = 0; g < sheet->triangle.count; g++)
     if (g != t && !is_flat(sheet, g))
-      assert_true(at_once ? occluder_subtraction_collect(subtraction, g)
-                          : occluder_subtraction_subtract_nearer(subtraction, g));
+      assert_true(at_once
+                      ? occluder_subtraction_collect(subtraction, g)
+                      : occluder_subtraction_subtract_nearer(subtraction, g));
   if (at_once)
     assert_true(occluder_subtraction_subtract_all(subtraction));
 }

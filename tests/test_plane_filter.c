@@ -163,7 +163,7 @@ static void keys_exclude_only_disjoint_triangles(void **state) {
   int denied = 0, met = 0;
   (void)state;
   for (int i = 0; i < 20000; i++) {
-    struct kdop8_frame frame = {number(10), number(10), i % 12,
+    struct kdop8_range range = {number(10), number(10), i % 12,
                                 (int64_t)(exact_random(&seed) >> 50), i % 10};
     struct geom_point p[3], q[3];
     for (int k = 0; k < 3; k++) {
@@ -173,7 +173,7 @@ static void keys_exclude_only_disjoint_triangles(void **state) {
       q[k].y = q[0].y + number(8);
     }
     struct kdop8 a = kdop8_of(p, 3), b = kdop8_of(q, 2);
-    bool may = kdop8_overlaps(kdop8_key(&frame, &a), kdop8_query(&frame, &b));
+    bool may = kdop8_overlaps(kdop8_key(&range, &a), kdop8_query(&range, &b));
     assert_true(may || !overlap(&a, &b));
     denied += !may;
     met += overlap(&a, &b);

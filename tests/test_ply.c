@@ -386,7 +386,7 @@ static void many_colours_make_few_groups(void **state) {
                     (i - 1) * SIDE + k, i * SIDE + k, i * SIDE + k - 1);
   struct reading r;
   read_coloured(&r, text);
-  assert_in_range(r.scene.group.count, 500, PLY_COLOUR_MOST + 1);
+  assert_in_range(r.scene.group.count, 500, PLY_COLOUR_MAX + 1);
   /* No face is far from its own colour. */
   for (uint32_t f = 0; f < scene_face_count(&r.scene); f++) {
     int i = (int)f / (SIDE - 1), red = (int)(colour_of(&r, f) >> 16);

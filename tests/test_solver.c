@@ -136,10 +136,8 @@ static void running_out_of_memory_is_a_status_and_leaks_nothing(void **state) {
 
 static void check_parts(const struct solver *solver, bool strokes,
                         bool fragments) {
-  const struct solver_request request = {.edges = strokes,
-                                         .fragments = fragments,
-                                         .threads = 1,
-                                         .resolution = 0};
+  const struct solver_request request = {
+      .edges = strokes, .fragments = fragments, .threads = 1, .resolution = 0};
   struct sheet sheet;
   struct map map;
   recto_error error;

@@ -253,7 +253,7 @@ for literal in 1e-9 1.5e-12 1E-6f 0.e-3; do
   echo "double a = $literal;" >>"$copy/src/geom/ratio.c"
 done
 printf 'double b = 2\n  * TOLERANCE_TONE;\n' >>"$copy/src/geom/ratio.c"
-sed -i 's|Users       view/frame.c|&, view/page.c|' "$copy/src/base/tolerance.h"
+sed -i 's|Users       view/camera_axes.c|&, view/page.c|' "$copy/src/base/tolerance.h"
 echo "int x;" >"$copy/src/geom/new.c"
 echo "/* new.c - nothing. */" >"$copy/src/visibility/included/new.c"
 for check in sources tolerances users listed; do

@@ -305,7 +305,7 @@ static void fill_hinge(struct scene *scene, double angle_deg, bool same_way,
 
 /* The classes of the edge that both faces share, in both orders. */
 static unsigned hinge_class_mask(double angle_deg, bool same_way, double scale,
-                              double crease_deg) {
+                                 double crease_deg) {
   struct scene scene;
   struct topology topology;
   uint8_t class_masks[7];
@@ -331,10 +331,12 @@ static void a_crease_is_beyond_the_angle_and_not_at_it(void **state) {
     assert_int_equal(hinge_class_mask(29, same_way, 1, 30), RECTO_EDGE_SMOOTH);
     assert_int_equal(hinge_class_mask(-31, same_way, 1, 30), RECTO_EDGE_CREASE);
     assert_int_equal(hinge_class_mask(90, same_way, 1, 90), RECTO_EDGE_SMOOTH);
-    assert_int_equal(hinge_class_mask(90.001, same_way, 1, 90), RECTO_EDGE_CREASE);
+    assert_int_equal(hinge_class_mask(90.001, same_way, 1, 90),
+                     RECTO_EDGE_CREASE);
     assert_int_equal(hinge_class_mask(0, same_way, 1, 0), RECTO_EDGE_SMOOTH);
     assert_int_equal(hinge_class_mask(0.01, same_way, 1, 0), RECTO_EDGE_CREASE);
-    assert_int_equal(hinge_class_mask(179, same_way, 1, 180), RECTO_EDGE_SMOOTH);
+    assert_int_equal(hinge_class_mask(179, same_way, 1, 180),
+                     RECTO_EDGE_SMOOTH);
   }
 }
 

@@ -300,12 +300,13 @@ static void end(struct fixture *fixture) {
 }
 
 /* How many edges have that edge_class at a crease angle of 30 degrees. */
-static size_t count_edges_of_class(const struct fixture *fixture, unsigned edge_class) {
+static size_t count_edges_of_class(const struct fixture *fixture,
+                                   unsigned edge_class) {
   size_t count = 0;
   for (uint32_t e = 0; e < fixture->topology.edge.count; e++)
-    count +=
-        (topology_class_mask(&fixture->topology, &fixture->welded.scene, e, 30) &
-         edge_class) != 0;
+    count += (topology_class_mask(&fixture->topology, &fixture->welded.scene, e,
+                                  30) &
+              edge_class) != 0;
   return count;
 }
 

@@ -899,9 +899,9 @@ static void a_folded_frame_uses_lines_again(void **state) {
   (void)state;
   pixels_sheet(&sheet, &pixels_pierced_rectangle);
   assert_int_equal(raster_init(&raster, &sheet, 100, 0, true, NULL), RECTO_OK);
-  raster_fold(&raster, 101);
+  raster_make_ring(&raster, 101);
   assert_int_equal(raster_row(&raster, 99), 99 * (size_t)raster.grid.columns);
-  raster_fold(&raster, 17);
+  raster_make_ring(&raster, 17);
   for (int32_t line = 0; line < 68; line++) {
     assert_int_equal(raster_row(&raster, line + 32), raster_row(&raster, line));
     for (int32_t other = 1; other < 17; other++)

@@ -2,7 +2,7 @@
  *
  * The page is the file's own.  Lines may be off, along and across, by a quarter
  * of the pen's width, which is invisible, and by what the options allow ink to
- * move them (ink_drift_mm). */
+ * move them (ink_deviation_mm). */
 #include "api/handle.h"
 #include "api/judge_input.h"
 #include "api/sized.h"
@@ -35,7 +35,7 @@ static void fill_verdict(recto_verdict *to, const struct judge_verdict *from) {
       .false_mm = from->false_ink.mm,
       .visible_mm = from->visible.mm,
       .missing_mm = from->missing.mm,
-      .undecided_mm = from->unsure_ink.mm + from->unsure.mm,
+      .undecided_mm = from->undecided_ink.mm + from->undecided.mm,
       .false_at_mm = {from->false_at.at.x, from->false_at.at.y},
       .missing_at_mm = {from->missing_at.at.x, from->missing_at.at.y},
   };
@@ -75,7 +75,8 @@ static recto_status judge(const struct scene *scene, const recto_options *o,
   struct judge_camera seen = judge_input_camera(&input, &camera, o);
   struct judge_options options = judge_input_options(&input, &camera, o);
   options.samples = SAMPLES;
-  options.reach_mm = options.lateral_mm = o->ink.pen_mm / 4 + ink_drift_mm(o);
+  options.reach_mm = options.lateral_mm =
+      o->ink.pen_mm / 4 + ink_deviation_mm(o);
   options.progress = o->progress != NULL ? go_on : NULL;
   options.user = &polled;
   status = find_shortest(&options.shortest_mm, scene, o, error);

@@ -90,7 +90,7 @@ USE_RESULT recto_status options_take(recto_options *own,
  * format is for plotters replaces defaults: the margin by the one that the
  * plotter needs, the order by RECTO_ORDER_NEAR, and the weights by none.
  * Errors  RECTO_ERROR_UNSUPPORTED: there is no such format */
-USE_RESULT recto_status options_suit(recto_options *options,
-                                     recto_error *error);
+USE_RESULT recto_status options_adapt(recto_options *options,
+                                      recto_error *error);
 
 #endif

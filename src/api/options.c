@@ -200,5 +200,5 @@ recto_status options_take(recto_options *own, const recto_options *options,
   recto_status status = options_copy(own, options, error);
   if (status == RECTO_OK)
     status = check(own, error);
-  return status == RECTO_OK ? options_suit(own, error) : status;
+  return status == RECTO_OK ? options_adapt(own, error) : status;
 }

@@ -67,7 +67,7 @@ static void fit_margin(recto_options *o, const struct writer *writer) {
     o->page.margin_mm = needed;
 }
 
-recto_status options_suit(recto_options *options, recto_error *error) {
+recto_status options_adapt(recto_options *options, recto_error *error) {
   const char *format = options->output.format;
   if (format == NULL)
     return RECTO_OK;

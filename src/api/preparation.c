@@ -24,8 +24,9 @@ recto_status preparation_init(struct preparation *preparation,
   status = welded_init(&preparation->welded, &preparation->topology,
                        &preparation->rescaled.scene, &request, error);
   if (status == RECTO_OK && classes &&
-      !topology_keep_class_masks(&preparation->topology, &preparation->welded.scene,
-                             options->mesh.crease_deg))
+      !topology_keep_class_masks(&preparation->topology,
+                                 &preparation->welded.scene,
+                                 options->mesh.crease_deg))
     status = error_memory(error);
   return status;
 }
@@ -36,8 +37,8 @@ void preparation_fini(struct preparation *preparation) {
   rescale_fini(&preparation->rescaled);
 }
 
-bool preparation_suits(const struct preparation *preparation,
-                       const recto_options *options) {
+bool preparation_is_valid_for(const struct preparation *preparation,
+                              const recto_options *options) {
   return preparation->weld == options->mesh.weld &&
          preparation->coordinate_bits == options->mesh.coordinate_bits;
 }

@@ -27,7 +27,7 @@ USE_RESULT recto_status preparation_init(struct preparation *preparation,
 void preparation_fini(struct preparation *preparation);
 
 /* Whether a preparation serves for these options. */
-bool preparation_suits(const struct preparation *preparation,
-                       const recto_options *options);
+bool preparation_is_valid_for(const struct preparation *preparation,
+                              const recto_options *options);
 
 #endif

@@ -132,7 +132,7 @@ static recto_status find_edges(struct render *render, recto_error *error) {
   const recto_options *o = render->options;
   const struct preparation *shared = render->model->prepared;
   recto_status status = RECTO_OK;
-  if (shared != NULL && preparation_suits(shared, o)) {
+  if (shared != NULL && preparation_is_valid_for(shared, o)) {
     render->prepared = shared;
     render->topology = shared->topology;
   } else {

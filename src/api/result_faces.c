@@ -22,7 +22,8 @@ static recto_edge_class class_of(const struct result_sources *s,
     return RECTO_EDGE_SILHOUETTE;
   unsigned class_mask =
       topology_class_mask(s->topology, s->scene, edge->source, s->crease_deg);
-  return (recto_edge_class)(class_mask & (0u - class_mask)); /* the lowest bit */
+  return (recto_edge_class)(class_mask &
+                            (0u - class_mask)); /* the lowest bit */
 }
 
 /* Fills in what runs along the half-edge. */

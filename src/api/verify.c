@@ -135,11 +135,11 @@ static void report_verdict(struct report *report,
   report_int(report, "verify", "drawn", (int64_t)v->drawn.samples);
   report_int(report, "verify", "drawn_wrong", (int64_t)v->false_ink.samples);
   report_int(report, "verify", "drawn_undecided",
-             (int64_t)v->unsure_ink.samples);
+             (int64_t)v->undecided_ink.samples);
   report_int(report, "verify", "not_drawn_hidden", (int64_t)v->hidden.samples);
   report_int(report, "verify", "not_drawn_wrong", (int64_t)v->missing.samples);
   report_int(report, "verify", "not_drawn_undecided",
-             (int64_t)v->unsure.samples);
+             (int64_t)v->undecided.samples);
 }
 
 static recto_status judge(const struct verify *verify,
@@ -151,8 +151,8 @@ static recto_status judge(const struct verify *verify,
   struct judge_options options = judge_input_options(input, verify->camera, o);
   camera.depth_step = 1 / verify->sheet->z_scale;
   options.samples = (size_t)o->verify;
-  options.reach_mm += ink_drift_mm(o);
-  options.lateral_mm += ink_drift_mm(o);
+  options.reach_mm += ink_deviation_mm(o);
+  options.lateral_mm += ink_deviation_mm(o);
   options.progress = verify->progress;
   options.user = verify->user;
   if (!judge_drawing(verdict, drawing, &input->scene, &camera, &options))
@@ -185,8 +185,8 @@ recto_status verify_drawing(const struct verify *verify, struct report *report,
   snprintf(summary, VERIFY_SUMMARY_SIZE,
            "verified: %zu drawn points visible, %zu others hidden, %zu too "
            "close to call",
-           verdict.drawn.samples - verdict.unsure_ink.samples,
+           verdict.drawn.samples - verdict.undecided_ink.samples,
            verdict.hidden.samples,
-           verdict.unsure_ink.samples + verdict.unsure.samples);
+           verdict.undecided_ink.samples + verdict.undecided.samples);
   return RECTO_OK;
 }

@@ -64,11 +64,11 @@ static recto_status fail(const struct expansion *x, int result) {
  * besides that of the NUL.
  * Returns zlib's code: Z_BUF_ERROR where there are no data left. */
 static int expand_some(struct expansion *x) {
-  enum { MOST_AT_ONCE = 1 << 30 };
+  enum { AT_ONCE_MAX = 1 << 30 };
   size_t left = x->count - x->taken;
   size_t room = x->to.capacity - x->to.count - 1;
-  uInt in = left < MOST_AT_ONCE ? (uInt)left : MOST_AT_ONCE;
-  uInt out = room < MOST_AT_ONCE ? (uInt)room : MOST_AT_ONCE;
+  uInt in = left < AT_ONCE_MAX ? (uInt)left : AT_ONCE_MAX;
+  uInt out = room < AT_ONCE_MAX ? (uInt)room : AT_ONCE_MAX;
   x->stream.next_in = (z_const Bytef *)(uintptr_t)(x->bytes + x->taken);
   x->stream.avail_in = in;
   x->stream.next_out = (Bytef *)(x->to.item + x->to.count);

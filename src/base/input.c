@@ -105,7 +105,7 @@ static struct source describe(int descriptor, const char *path) {
   if (fstat(descriptor, &about) != 0)
     return source;
   if (S_ISCHR(about.st_mode))
-    source.most = INPUT_DEVICE_MOST;
+    source.most = INPUT_DEVICE_MAX;
   if (!S_ISREG(about.st_mode) || about.st_size <= 0)
     return source;
   off_t at = lseek(descriptor, 0, SEEK_CUR);
@@ -163,10 +163,10 @@ recto_status input_load_named(struct input *input, const char *path,
   struct stat about;
   struct source source = describe(descriptor, path);
   input->is_file = path_identity_of_descriptor(descriptor, &input->file);
-  source.most = INPUT_NAMED_MOST;
+  source.most = INPUT_NAMED_MAX;
   if (fstat(descriptor, &about) != 0 || !S_ISREG(about.st_mode))
     status = error_set(error, RECTO_ERROR_IO, path, 0, "no file");
-  else if (about.st_size > INPUT_NAMED_MOST)
+  else if (about.st_size > INPUT_NAMED_MAX)
     status = error_set(error, RECTO_ERROR_LIMIT, path, 0, "too large");
   else if (about.st_size > 0)
     status = slurp(&source, input, error);

@@ -22,7 +22,7 @@ struct input {
 size_t input_most(void);
 
 /* The same for a character device, such as a terminal: most are endless. */
-#define INPUT_DEVICE_MOST (INT64_C(64) << 20)
+#define INPUT_DEVICE_MAX (INT64_C(64) << 20)
 
 /* Loads a file; "-" is standard input.  What is compressed with gzip, by its
  * first bytes, is expanded.
@@ -41,10 +41,10 @@ USE_RESULT recto_status input_copy(struct input *input, const void *bytes,
                                    recto_error *error);
 
 /* Loads a file whose name stands in another one, which may name anything:
- * only files proper of at most INPUT_NAMED_MOST bytes are read, and gzip data
+ * only files proper of at most INPUT_NAMED_MAX bytes are read, and gzip data
  * are expanded to no more than that.
  * Errors  as of input_load */
-#define INPUT_NAMED_MOST (INT64_C(16) << 20)
+#define INPUT_NAMED_MAX (INT64_C(16) << 20)
 USE_RESULT recto_status input_load_named(struct input *input, const char *path,
                                          recto_error *error);
 

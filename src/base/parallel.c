@@ -15,7 +15,7 @@
 #include <sched.h>
 #endif
 
-enum { MOST_THREADS = 1024 };
+enum { THREADS_MAX = 1024 };
 
 struct others {
   parallel_worker *worker;
@@ -44,9 +44,9 @@ static int start_others(pthread_t *thread, int wanted, struct others *others) {
 }
 
 void parallel_run(int threads, parallel_worker *worker, void *user) {
-  pthread_t thread[MOST_THREADS];
+  pthread_t thread[THREADS_MAX];
   struct others others = {worker, user};
-  int wanted = threads <= MOST_THREADS ? threads - 1 : MOST_THREADS - 1;
+  int wanted = threads <= THREADS_MAX ? threads - 1 : THREADS_MAX - 1;
   int count = wanted > 0 ? start_others(thread, wanted, &others) : 0;
   worker(user, true);
   for (int i = 0; i < count; i++)
@@ -64,5 +64,5 @@ int parallel_processors(void) {
     there = sysconf(_SC_NPROCESSORS_ONLN);
   if (there < 1)
     return 1;
-  return there < MOST_THREADS ? (int)there : MOST_THREADS;
+  return there < THREADS_MAX ? (int)there : THREADS_MAX;
 }

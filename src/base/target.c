@@ -63,10 +63,10 @@ static char *read_link(const char *path, bool *failed) {
  * left for the system to complain of.  Names of descriptors are links too, to
  * what may have no path. */
 static char *follow_links(const char *path) {
-  enum { MOST_LINKS = 40 };
+  enum { LINKS_MAX = 40 };
   char *here = copy_text(path, 0);
   bool failed = here == NULL;
-  for (int i = 0; i < MOST_LINKS && !failed && path_descriptor(here) < 0; i++) {
+  for (int i = 0; i < LINKS_MAX && !failed && path_descriptor(here) < 0; i++) {
     char *to = read_link(here, &failed);
     if (to == NULL)
       break;

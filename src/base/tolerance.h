@@ -51,7 +51,7 @@
  * Unit        1 (a sine)
  * Derivation  below it, half of the digits of the camera's right would be
  *             rounding noise.
- * Users       view/frame.c
+ * Users       view/camera_axes.c
  * Ten times   views within 1.5e-7 rad of up are refused. */
 #define TOLERANCE_UP_SINE 0x1p-26
 
@@ -169,7 +169,7 @@
  *             ray's way through the scene, is a tenth of it.
  * Users       judge/judge.c
  * Ten times   slits and slivers of 0.2 um are passed over. */
-#define TOLERANCE_JUDGE_HAIR_MM 2e-5
+#define TOLERANCE_JUDGE_RAY_OFFSET_MM 2e-5
 
 /* The judge leaves open what a face's slope to the view, or an edge's angle to
  * the crease angle, is within this of.

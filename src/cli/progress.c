@@ -15,7 +15,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { MOST_COLUMNS = 200, LEAST_COLUMNS = 12, USUAL_COLUMNS = 80 };
+enum { COLUMNS_MAX = 200, LEAST_COLUMNS = 12, USUAL_COLUMNS = 80 };
 
 static const double delay_s = 0.5, tick_s = 0.1;
 
@@ -48,7 +48,7 @@ static void write_out(const char *text, size_t length) {
 
 /* Blanks do on terminals that know no sequences too. */
 static void erase(void) {
-  char text[MOST_COLUMNS + 2];
+  char text[COLUMNS_MAX + 2];
   if (now.columns == 0)
     return;
   size_t columns = (size_t)now.columns;
@@ -65,7 +65,7 @@ static int count_columns(void) {
   int columns = USUAL_COLUMNS;
   if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
     columns = size.ws_col;
-  return columns > MOST_COLUMNS ? MOST_COLUMNS - 1 : columns - 1;
+  return columns > COLUMNS_MAX ? COLUMNS_MAX - 1 : columns - 1;
 }
 
 /* The time left, from what the work had taken when the share was last heard of;
@@ -86,7 +86,7 @@ static void say_left(char text[24], double passed_s) {
 }
 
 static void draw_bar(double passed_s) {
-  char text[MOST_COLUMNS + 64], left[24];
+  char text[COLUMNS_MAX + 64], left[24];
   int columns = count_columns();
   if (columns < LEAST_COLUMNS || tcgetpgrp(STDERR_FILENO) != getpgrp())
     return;
@@ -95,7 +95,7 @@ static void draw_bar(double passed_s) {
   int room = columns - (int)strlen(left) - 5 - 11 - 3;
   int length;
   if (room >= 10) {
-    char bar[MOST_COLUMNS];
+    char bar[COLUMNS_MAX];
     int filled = (int)(now.share * room);
     memset(bar, '#', (size_t)filled);
     memset(bar + filled, '-', (size_t)(room - filled));

@@ -57,12 +57,12 @@ static const char *find_stats(const struct arguments *arguments) {
 }
 
 /* The paths of a drawing and of its stats. */
-struct outputs {
+struct output_paths {
   const char *path[2]; /* the second is NULL where there are none */
   char room[2][FRAME_PATH_SIZE];
 };
 
-static recto_status find_outputs(struct outputs *outputs,
+static recto_status find_outputs(struct output_paths *outputs,
                                  const struct arguments *arguments, int frame,
                                  recto_error *error) {
   const char *const pattern[] = {arguments->output, find_stats(arguments)};
@@ -84,7 +84,7 @@ static recto_status find_outputs(struct outputs *outputs,
 static recto_status check_outputs(const struct arguments *arguments,
                                   const recto_scene *scene, int frame,
                                   recto_error *error) {
-  struct outputs outputs;
+  struct output_paths outputs;
   static const char *const what[] = {"the drawing", "the stats"};
   recto_status status = find_outputs(&outputs, arguments, frame, error);
   for (int k = 0; k < 2 && status == RECTO_OK; k++) {
@@ -186,7 +186,7 @@ static recto_status write_all(const struct arguments *arguments,
                               const recto_drawing *drawing, int frame,
                               const recto_options *options,
                               recto_error *error) {
-  struct outputs outputs;
+  struct output_paths outputs;
   if (!arguments->quiet && recto_drawing_verdict(drawing) != NULL)
     message_print("", 0, recto_drawing_verdict(drawing));
   /* What goes to the terminal goes there without the bar. */

@@ -65,7 +65,7 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
 
 /* Each round of segment_graph_drop_output_overlaps moves a line by at most a
  * unit in x and in y, paths_straighten by at most half a unit. */
-double ink_drift_mm(const recto_options *options) {
+double ink_deviation_mm(const recto_options *options) {
   return options->ink.simplify_mm +
          (SEGMENT_GRAPH_ROUNDS * sqrt(2) + 0.5) * options->output.unit_mm;
 }

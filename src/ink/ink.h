@@ -7,7 +7,7 @@
 
 /* The greatest distance in mm between a drawn line and the edge that it shows,
  * as far as simplification and the output's step unit_mm cause it. */
-double ink_drift_mm(const recto_options *options);
+double ink_deviation_mm(const recto_options *options);
 
 /* Makes the drawing of a solved sheet.
  * Phases

@@ -32,7 +32,7 @@ static double thickness_at(const struct judge_facings *facings, double contact,
                            struct judge_point3 at) {
   struct judge_point3 aside = judge_shift(facings->camera, at, 1, 0);
   double unit = point3_length(point3_sub(aside, at)); /* a mm there */
-  return facings->options->hair_mm + 2 * contact / unit;
+  return facings->options->ray_offset_mm + 2 * contact / unit;
 }
 
 /* Whether the images of all corners of a face are on one line, within that
@@ -71,7 +71,7 @@ static struct judge_facing facing_of(const struct judge_facings *facings,
     facing.normal = point3_unit(sum);
   const uint32_t *start = facings->scene->face_start.item + face;
   facing.open =
-      start[1] - start[0] > JUDGE_TRIANGULATION_MOST &&
+      start[1] - start[0] > JUDGE_TRIANGULATION_MAX &&
       judge_is_warped(facings->scene, face, facings->options->contact);
   facing.thin = is_thin(facings, face, contact);
   return facing;
@@ -103,15 +103,15 @@ static bool is_thick(const struct judge_facings *facings,
                    hypot(p[(k + 1) % 3].x - p[k].x, p[(k + 1) % 3].y - p[k].y));
   return fabs((p[1].x - p[0].x) * (p[2].y - p[0].y) -
               (p[1].y - p[0].y) * (p[2].x - p[0].x)) >
-         longest * facings->options->hair_mm;
+         longest * facings->options->ray_offset_mm;
 }
 
 double judge_fan_slope(const struct judge_facings *facings,
-                       const struct judge_fan_triangle *fan_triangle,
+                       const struct judge_side_triangle *side_triangle,
                        struct judge_point3 at) {
-  bool sure = !facings->facing[fan_triangle->face].thin &&
-              is_thick(facings, &fan_triangle->triangle);
-  return sure ? slope(facings, fan_triangle->triangle.normal, at) : 0;
+  bool sure = !facings->facing[side_triangle->face].thin &&
+              is_thick(facings, &side_triangle->triangle);
+  return sure ? slope(facings, side_triangle->triangle.normal, at) : 0;
 }
 
 /* The slope of a face at one of its sides; of a face that is not planar, that
@@ -121,18 +121,18 @@ static double slope_at_side(const struct judge_facings *facings,
   struct judge_point3 at = judge_point3_at(facings->scene, side->a);
   const struct judge_facing *facing = &facings->facing[side->face];
   size_t fan;
-  const struct judge_fan_triangle *fan_triangle =
+  const struct judge_side_triangle *side_triangle =
       judge_fan_along(facings->all, side->face, side->a, side->b, &fan);
   if (fan > 0)
-    return fan == 1 ? judge_fan_slope(facings, fan_triangle, at) : 0;
+    return fan == 1 ? judge_fan_slope(facings, side_triangle, at) : 0;
   return facing->flat || facing->open || facing->thin
              ? 0
              : slope(facings, facing->normal, at);
 }
 
 unsigned judge_class_mask_of_pair(const struct judge_facings *facings,
-                               const struct judge_side *s,
-                               const struct judge_side *t, bool against) {
+                                  const struct judge_side *s,
+                                  const struct judge_side *t, bool against) {
   const struct judge_facing *f = &facings->facing[s->face];
   const struct judge_facing *g = &facings->facing[t->face];
   unsigned class_mask = 0;

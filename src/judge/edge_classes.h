@@ -43,7 +43,7 @@ void judge_facings_fini(struct judge_facings *facings);
  * triangle of a face that is not planar; 0 where rounding may turn the
  * triangle's image over. */
 double judge_fan_slope(const struct judge_facings *facings,
-                       const struct judge_fan_triangle *fan_triangle,
+                       const struct judge_side_triangle *side_triangle,
                        struct judge_point3 at);
 
 /* The classes that the edge of two sides surely has: a mask of
@@ -51,8 +51,8 @@ double judge_fan_slope(const struct judge_facings *facings,
  * against  the faces run along it in opposite directions, as in a well-formed
  *          mesh */
 unsigned judge_class_mask_of_pair(const struct judge_facings *facings,
-                               const struct judge_side *s,
-                               const struct judge_side *t, bool against);
+                                  const struct judge_side *s,
+                                  const struct judge_side *t, bool against);
 
 /* Whether of two planes with these slopes surely one is seen from its front and
  * the other from its back. */

@@ -7,10 +7,10 @@
 
 /* What an edge of the scene comes from. */
 struct judge_source {
-  uint32_t point[2]; /* scene points; SCENE_NONE: an intersection */
-  uint32_t face[2];  /* two of its faces; SCENE_NONE */
-  unsigned class_mask;  /* mask of recto_edge_class that it surely has */
-  bool exists;       /* surely there, whatever its classes */
+  uint32_t point[2];   /* scene points; SCENE_NONE: an intersection */
+  uint32_t face[2];    /* two of its faces; SCENE_NONE */
+  unsigned class_mask; /* mask of recto_edge_class that it surely has */
+  bool exists;         /* surely there, whatever its classes */
 };
 
 struct judge_edge {

@@ -271,13 +271,14 @@ bool judge_edges_init(struct judge_edges *edges,
   struct side_list sides = {{0}}, single = {{0}};
   memset(edges, 0, sizeof *edges);
   finder.first_at = find_first_at(all->scene);
-  bool ok = judge_facings_init(&finder.facings, all, camera, options) &&
-            finder.first_at != NULL && list_sides(all->scene, &sides) &&
-            pair_sides(&finder, &sides, &single) &&
-            locate_singles(&finder, &single) &&
-            pair_sides(&finder, &sides, NULL) && pair_singles(&finder) &&
-            judge_edges_folds(edges, &finder.facings) && add_wires(&finder) &&
-            judge_edges_intersections(edges, all, camera, options->hair_mm);
+  bool ok =
+      judge_facings_init(&finder.facings, all, camera, options) &&
+      finder.first_at != NULL && list_sides(all->scene, &sides) &&
+      pair_sides(&finder, &sides, &single) &&
+      locate_singles(&finder, &single) && pair_sides(&finder, &sides, NULL) &&
+      pair_singles(&finder) && judge_edges_folds(edges, &finder.facings) &&
+      add_wires(&finder) &&
+      judge_edges_intersections(edges, all, camera, options->ray_offset_mm);
   ARRAY_FREE(&sides.side);
   ARRAY_FREE(&single.side);
   judge_facings_fini(&finder.facings);

@@ -25,10 +25,10 @@ static bool is_side(const struct scene *scene, uint32_t face, uint32_t a,
 /* Whether a side lies in the near plane within rounding.  What clipping leaves
  * of the triangles at it is then a sliver of either orientation. */
 static bool is_in_near_plane(const struct fold_finder *finder,
-                             const struct judge_fan_triangle *fan_triangle) {
+                             const struct judge_side_triangle *side_triangle) {
   const struct judge_camera *camera = finder->facings->camera;
   double slack = judge_near_slack(camera);
-  const uint32_t end[2] = {fan_triangle->low, fan_triangle->high};
+  const uint32_t end[2] = {side_triangle->low, side_triangle->high};
   for (int k = 0; k < 2; k++)
     if (!(fabs(judge_ahead(camera,
                            judge_point3_at(finder->facings->scene, end[k])) -
@@ -41,44 +41,45 @@ static bool is_in_near_plane(const struct fold_finder *finder,
  * the page.  Where more triangles of the face have a side between the same two
  * points, or the face itself has one, it is undecided which are neighbours. */
 static bool add_fold(const struct fold_finder *finder,
-                     const struct judge_fan_triangle *fan_triangle,
+                     const struct judge_side_triangle *side_triangle,
                      size_t count) {
   struct judge_point3 at =
-      judge_point3_at(finder->facings->scene, fan_triangle->low);
+      judge_point3_at(finder->facings->scene, side_triangle->low);
   bool alone =
-      count == 2 && !is_side(finder->facings->scene, fan_triangle->face,
-                             fan_triangle->low, fan_triangle->high);
+      count == 2 && !is_side(finder->facings->scene, side_triangle->face,
+                             side_triangle->low, side_triangle->high);
   double one =
-      alone ? judge_fan_slope(finder->facings, &fan_triangle[0], at) : 0;
+      alone ? judge_fan_slope(finder->facings, &side_triangle[0], at) : 0;
   double two =
-      alone ? judge_fan_slope(finder->facings, &fan_triangle[1], at) : 0;
+      alone ? judge_fan_slope(finder->facings, &side_triangle[1], at) : 0;
   bool silhouette = judge_is_silhouette(one, two);
   if (!silhouette && judge_is_sure(one, two) &&
-      !is_in_near_plane(finder, fan_triangle))
+      !is_in_near_plane(finder, side_triangle))
     return true;
-  const struct judge_source source = {{fan_triangle->low, fan_triangle->high},
-                                      {fan_triangle->face, fan_triangle->face},
-                                      silhouette ? RECTO_EDGE_SILHOUETTE : 0,
-                                      false};
+  const struct judge_source source = {
+      {side_triangle->low, side_triangle->high},
+      {side_triangle->face, side_triangle->face},
+      silhouette ? RECTO_EDGE_SILHOUETTE : 0,
+      false};
   return judge_edges_add(
       finder->edges, finder->facings->camera, at,
-      judge_point3_at(finder->facings->scene, fan_triangle->high), &source);
+      judge_point3_at(finder->facings->scene, side_triangle->high), &source);
 }
 
 bool judge_edges_folds(struct judge_edges *edges,
                        const struct judge_facings *facings) {
   const struct fold_finder fold_finder = {edges, facings},
                            *finder = &fold_finder;
-  const struct judge_fan_triangle *fan_triangle =
-      finder->facings->all->fan_triangle.item;
-  size_t count = finder->facings->all->fan_triangle.count;
+  const struct judge_side_triangle *side_triangle =
+      finder->facings->all->side_triangle.item;
+  size_t count = finder->facings->all->side_triangle.count;
   for (size_t i = 0, next; i < count; i = next) {
     for (next = i + 1; next < count &&
-                       fan_triangle[next].face == fan_triangle[i].face &&
-                       fan_triangle[next].low == fan_triangle[i].low &&
-                       fan_triangle[next].high == fan_triangle[i].high;)
+                       side_triangle[next].face == side_triangle[i].face &&
+                       side_triangle[next].low == side_triangle[i].low &&
+                       side_triangle[next].high == side_triangle[i].high;)
       next++;
-    if (next > i + 1 && !add_fold(finder, &fan_triangle[i], next - i))
+    if (next > i + 1 && !add_fold(finder, &side_triangle[i], next - i))
       return false;
   }
   return true;

@@ -10,7 +10,7 @@ struct intersection_finder {
   struct judge_edges *edges;
   const struct judge_triangles *all;
   const struct judge_camera *camera;
-  double hair_mm;
+  double ray_offset_mm;
   uint32_t current; /* the triangle whose neighbours are looked up */
 };
 
@@ -231,8 +231,9 @@ static bool do_diverge(const struct intersection_finder *finder,
                        const struct judge_triangle *t,
                        const struct judge_point3 corner[2]) {
   const struct judge_camera *camera = finder->camera;
-  double rounding = fmax(judge_rounding_at(camera, finder->hair_mm, corner[0]),
-                         judge_rounding_at(camera, finder->hair_mm, corner[1]));
+  double rounding =
+      fmax(judge_rounding_at(camera, finder->ray_offset_mm, corner[0]),
+           judge_rounding_at(camera, finder->ray_offset_mm, corner[1]));
   double least = 10 * fmax(fmax(s->contact, t->contact), rounding);
   return point3_dot(direction_from(s, corner), direction_from(t, corner)) < 0 ||
          (most_overshoot(camera, s, t) > least &&
@@ -320,8 +321,8 @@ static bool add_common(struct intersection_finder *finder,
   /* It is sure where both triangles extend to either side of the other's plane
    * by far more than contact and rounding, and both triangulations are
    * known. */
-  double rounding = fmax(judge_rounding_at(camera, finder->hair_mm, a),
-                         judge_rounding_at(camera, finder->hair_mm, b));
+  double rounding = fmax(judge_rounding_at(camera, finder->ray_offset_mm, a),
+                         judge_rounding_at(camera, finder->ray_offset_mm, b));
   bool sure =
       !one->open && !two->open &&
       least_overshoot(camera, one, two) > 10 * fmax(two->contact, rounding) &&
@@ -353,8 +354,8 @@ static bool intersect_with(void *user, uint32_t other) {
 bool judge_edges_intersections(struct judge_edges *edges,
                                const struct judge_triangles *all,
                                const struct judge_camera *camera,
-                               double hair_mm) {
-  struct intersection_finder finder = {edges, all, camera, hair_mm, 0};
+                               double ray_offset_mm) {
+  struct intersection_finder finder = {edges, all, camera, ray_offset_mm, 0};
   for (uint32_t i = 0; i < all->triangle.count; i++) {
     const struct judge_triangle *triangle = &all->triangle.item[i];
     struct judge_box box = judge_triangle_box(triangle);

@@ -9,6 +9,6 @@
 USE_RESULT bool judge_edges_intersections(struct judge_edges *edges,
                                           const struct judge_triangles *all,
                                           const struct judge_camera *camera,
-                                          double hair_mm);
+                                          double ray_offset_mm);
 
 #endif

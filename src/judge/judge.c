@@ -30,13 +30,14 @@ struct judge_context {
 };
 
 void judge_options_init(struct judge_options *options) {
-  *options = (struct judge_options){.step_mm = 0.02,
-                                    .reach_mm = 0.02,
-                                    .lateral_mm = 0.0015,
-                                    .hair_mm = TOLERANCE_JUDGE_HAIR_MM,
-                                    .contact = -1,
-                                    .crease_deg = 30,
-                                    .edges = RECTO_EDGES_DEFAULT};
+  *options =
+      (struct judge_options){.step_mm = 0.02,
+                             .reach_mm = 0.02,
+                             .lateral_mm = 0.0015,
+                             .ray_offset_mm = TOLERANCE_JUDGE_RAY_OFFSET_MM,
+                             .contact = -1,
+                             .crease_deg = 30,
+                             .edges = RECTO_EDGES_DEFAULT};
 }
 
 /* ---- Samples ------------------------------------------------------------- */
@@ -215,7 +216,7 @@ static void judge_ink_sample(struct judge_context *context,
   case JUDGE_CLEAR:
     break;
   case JUDGE_UNSURE:
-    count_sample(&verdict->unsure_ink, mm);
+    count_sample(&verdict->undecided_ink, mm);
     break;
   case JUDGE_BLOCKED:
     if (verdict->false_ink.samples == 0)
@@ -301,7 +302,7 @@ static void judge_edge_sample(struct judge_context *context, uint32_t number,
     return;
   }
   if (is_at_near_plane(context->camera, from)) {
-    count_sample(&verdict->unsure, mm);
+    count_sample(&verdict->undecided, mm);
     return;
   }
   enum judge_visibility visibility =
@@ -320,7 +321,7 @@ static void judge_edge_sample(struct judge_context *context, uint32_t number,
     count_sample(&verdict->missing, mm);
     break;
   case JUDGE_UNSURE:
-    count_sample(&verdict->unsure, mm);
+    count_sample(&verdict->undecided, mm);
     break;
   case JUDGE_BLOCKED:
     count_sample(&verdict->hidden, mm);
@@ -330,7 +331,7 @@ static void judge_edge_sample(struct judge_context *context, uint32_t number,
 /* The part of an edge's image that is on the page.  Returns false where it need
  * not be drawn: the edge is not requested, or its image is a point.  A short
  * part may belong to a longer line (missing_run.h), so if there is a shortest
- * length only parts within a hair are left out. */
+ * length only parts within ray_offset_mm are left out. */
 static bool visible_part(const struct judge_context *context, uint32_t edge,
                          struct judge_segment *part, double *t0, double *t1) {
   if (!is_requested(context, edge) ||
@@ -340,7 +341,7 @@ static bool visible_part(const struct judge_context *context, uint32_t edge,
   part->a = point_on(&context->image[edge], *t0);
   part->b = point_on(&context->image[edge], *t1);
   return length_of(part) > (context->options.shortest_mm > 0
-                                ? context->options.hair_mm
+                                ? context->options.ray_offset_mm
                                 : context->options.reach_mm);
 }
 
@@ -409,8 +410,8 @@ static double largest_rounding(const struct judge_context *context) {
     struct judge_point3 at = {(corner & 1 ? box->high : box->low)[0],
                               (corner & 2 ? box->high : box->low)[1],
                               (corner & 4 ? box->high : box->low)[2]};
-    most = fmax(
-        most, judge_rounding_at(context->camera, context->sampler.hair_mm, at));
+    most = fmax(most, judge_rounding_at(context->camera,
+                                        context->sampler.ray_offset_mm, at));
   }
   return most;
 }
@@ -425,8 +426,8 @@ static bool prepare(struct judge_context *context, const struct scene *scene) {
                             context->options.contact))
     return false;
   judge_contact_set(&context->all, &context->options);
-  context->sampler =
-      (struct judge_sampler){&context->all, camera, context->options.hair_mm};
+  context->sampler = (struct judge_sampler){&context->all, camera,
+                                            context->options.ray_offset_mm};
   context->grid = largest_rounding(context);
   return judge_edges_init(&context->edges, &context->all, camera,
                           &context->options) &&

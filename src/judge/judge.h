@@ -14,9 +14,9 @@
  * the edge is a corner of that face, the distance is measured instead where the
  * edge leaves the face or ends, so that the edge is hidden from its start or
  * not at all.  Doubles cannot decide borderline cases, so a ray has one of
- * three results: clear, blocked, unsure.
- * Rays start at P and at two points a hair (judge_options.hair_mm) to the left
- * and right of the edge on the page.  A sample is false ink only if all three
+ * three results: clear, blocked, undecided.
+ * Rays start at P and at two points judge_options.ray_offset_mm to the left and
+ * right of the edge on the page.  A sample is false ink only if all three
  * are blocked, and missing ink only if all three are clear. */
 #ifndef JUDGE_JUDGE_H
 #define JUDGE_JUDGE_H
@@ -82,15 +82,15 @@ void judge_camera_axes(struct judge_camera *camera, const double right[3],
 /* ---- The verdict --------------------------------------------------------- */
 
 struct judge_options {
-  double step_mm;    /* distance of samples */
-  size_t samples;    /* number of samples of strokes, and of edges, spread
+  double step_mm;       /* distance of samples */
+  size_t samples;       /* number of samples of strokes, and of edges, spread
                         evenly; 0: by step_mm, at least two on each piece */
-  double reach_mm;   /* ink this close to a visible point is enough */
-  double lateral_mm; /* an edge this close to a drawn point explains it: a
+  double reach_mm;      /* ink this close to a visible point is enough */
+  double lateral_mm;    /* an edge this close to a drawn point explains it: a
                         little more than the rounding of coordinates in the
                         file */
-  double hair_mm;    /* see above: well above the page grid */
-  double contact;    /* the drawing's contact tolerance, scene units; negative:
+  double ray_offset_mm; /* see above: well above the page grid */
+  double contact; /* the drawing's contact tolerance, scene units; negative:
                         for each face the rounding error of its coordinates */
   struct precision unstated;  /* of points whose precision is not stated */
   struct judge_point3 origin; /* was subtracted from all points; needed for
@@ -127,11 +127,11 @@ struct judge_count {
 };
 
 struct judge_verdict {
-  struct judge_count drawn, false_ink, unsure_ink; /* samples of strokes; the
+  struct judge_count drawn, false_ink, undecided_ink; /* samples of strokes; the
                                                       last two are among the
                                                       first */
   struct judge_count visible, missing;       /* samples of requested edges */
-  struct judge_count hidden, unsure;         /* of those without ink */
+  struct judge_count hidden, undecided;      /* of those without ink */
   struct judge_witness false_at, missing_at; /* the first of each */
   bool cancelled; /* by `progress`: the counts are incomplete */
 };

@@ -121,7 +121,7 @@ static bool find_fan(const struct judge_missing_run *run, struct fan *fan,
     const struct judge_segment *s = image_of(run, near[i]);
     for (int k = 0; ok && k < 2; k++) {
       struct judge_point2 end = k ? s->b : s->a;
-      if (hypot(end.x - at.x, end.y - at.y) <= run->sampler->hair_mm &&
+      if (hypot(end.x - at.x, end.y - at.y) <= run->sampler->ray_offset_mm &&
           near[i] != edge && run->is_requested(run->user, near[i]) &&
           is_alike(run, edge, near[i]))
         ok = add_end(run, fan, near[i], k, false);

@@ -70,7 +70,7 @@ static double distance(const struct judge_triangle *t,
 
 /* Decides by the distance of a triangle's plane whether it may hide a point:
  *   up to 0.5 contact + plane_error, but at most contact: clear
- *   up to 1.5 contact + 4 rounding: unsure
+ *   up to 1.5 contact + 4 rounding: undecided
  *   above: blocked
  * The limit of clear keeps a plane beyond the contact tolerance from being
  * ignored where contact is 0, a case that the page grid decides. */

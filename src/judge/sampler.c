@@ -38,12 +38,12 @@ struct judge_point3 judge_point3_of_image(const struct judge_edge *edge,
 
 /* ---- Margins ------------------------------------------------------------- */
 
-double judge_rounding_at(const struct judge_camera *camera, double hair_mm,
-                         struct judge_point3 at) {
+double judge_rounding_at(const struct judge_camera *camera,
+                         double ray_offset_mm, struct judge_point3 at) {
   double depth = judge_depth(camera, at);
-  double hair =
-      point3_length(point3_sub(judge_shift(camera, at, hair_mm, 0), at));
-  return hair + camera->depth_step * depth * depth;
+  double offset =
+      point3_length(point3_sub(judge_shift(camera, at, ray_offset_mm, 0), at));
+  return offset + camera->depth_step * depth * depth;
 }
 
 static void find_ends(const struct judge_sampler *sampler,
@@ -56,24 +56,26 @@ static void find_ends(const struct judge_sampler *sampler,
     end[k].is_cut = seen && t[k] != k;
     if (end[k].is_cut)
       end[k].cut = judge_point3_of_image(edge, t[k]);
-    double rounding =
-        judge_rounding_at(sampler->camera, sampler->hair_mm, end[k].position);
+    double rounding = judge_rounding_at(sampler->camera, sampler->ray_offset_mm,
+                                        end[k].position);
     end[k].near = 4 * rounding;
     end[k].margin = (struct judge_margin){rounding, 2 * rounding};
-    rounding = judge_rounding_at(sampler->camera, sampler->hair_mm, end[k].cut);
+    rounding =
+        judge_rounding_at(sampler->camera, sampler->ray_offset_mm, end[k].cut);
     end[k].cut_margin = (struct judge_margin){rounding, 2 * rounding};
   }
 }
 
 /* Casts a ray from a point towards the eye.
- * aside  the point is a hair off the edge, and so off the edge's own faces */
+ * aside  the point is ray_offset_mm off the edge, and so off the edge's own
+ *        faces */
 static enum judge_visibility look(const struct judge_sampler *sampler,
                                   const struct judge_edge *edge,
                                   const struct judge_end end[2],
                                   struct judge_point3 from, bool aside,
                                   uint32_t *blocker) {
   const struct judge_camera *camera = sampler->camera;
-  double rounding = judge_rounding_at(camera, sampler->hair_mm, from);
+  double rounding = judge_rounding_at(camera, sampler->ray_offset_mm, from);
   double plane_error =
       aside ? 2 * rounding : sampler->all->size * TOLERANCE_EXTENT_SHARE;
   double slack = judge_near_slack(camera);
@@ -95,8 +97,8 @@ static enum judge_visibility look(const struct judge_sampler *sampler,
   return judge_cast_ray(sampler->all, &ray, blocker);
 }
 
-/* What a point of an edge sees: by itself and a hair to either side, as long
- * as the answers are `expected`; the first other one is the answer. */
+/* What a point of an edge sees: by itself and ray_offset_mm to either side, as
+ * long as the answers are `expected`; the first other one is the answer. */
 enum judge_visibility judge_sample_around(const struct judge_sampler *sampler,
                                           const struct judge_edge *edge,
                                           struct judge_point3 from,
@@ -104,9 +106,9 @@ enum judge_visibility judge_sample_around(const struct judge_sampler *sampler,
                                           uint32_t *blocker) {
   double dx = edge->at[1].x - edge->at[0].x;
   double dy = edge->at[1].y - edge->at[0].y;
-  double length = hypot(dx, dy), hair = sampler->hair_mm;
-  double x = length > 0 ? -dy / length * hair : hair;
-  double y = length > 0 ? dx / length * hair : 0;
+  double length = hypot(dx, dy), offset = sampler->ray_offset_mm;
+  double x = length > 0 ? -dy / length * offset : offset;
+  double y = length > 0 ? dx / length * offset : 0;
   struct judge_end end[2];
   find_ends(sampler, edge, end);
   enum judge_visibility visibility =

@@ -8,13 +8,13 @@
 struct judge_sampler {
   const struct judge_triangles *all;
   const struct judge_camera *camera;
-  double hair_mm; /* as in judge_options */
+  double ray_offset_mm; /* as in judge_options */
 };
 
-/* The size of a hair on the page plus the rounding of depths, at a point of the
- * scene, in scene units. */
-double judge_rounding_at(const struct judge_camera *camera, double hair_mm,
-                         struct judge_point3 at);
+/* The size of ray_offset_mm in the scene plus the rounding of depths, at a point
+ * of the scene, in scene units. */
+double judge_rounding_at(const struct judge_camera *camera,
+                         double ray_offset_mm, struct judge_point3 at);
 
 /* Clips a segment to the page inside its margins: the parameters from *t0 to
  * *t1 are left; false where nothing is. */
@@ -31,7 +31,8 @@ enum judge_visibility judge_sample_point(const struct judge_sampler *sampler,
                                          const struct judge_edge *edge,
                                          struct judge_point3 from);
 
-/* The visibility by three rays: from the point and from a hair to either side.
+/* The visibility by three rays: from the point and from ray_offset_mm to either
+ * side.
  * Returns `expected` if all three have it, else the first other result.
  * blocker  set to a face that blocks a ray; may be NULL */
 enum judge_visibility judge_sample_around(const struct judge_sampler *sampler,

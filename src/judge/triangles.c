@@ -200,16 +200,16 @@ static bool add_fan(struct judge_triangles *all, size_t first) {
     triangle->bent = true;
     for (int k = 0; k < 3; k++) {
       uint32_t a = triangle->point[k], b = triangle->point[(k + 1) % 3];
-      struct judge_fan_triangle fan_triangle = {triangle->face, a < b ? a : b,
-                                                a < b ? b : a, *triangle};
-      if (!ARRAY_PUSH(&all->fan_triangle, fan_triangle))
+      struct judge_side_triangle side_triangle = {triangle->face, a < b ? a : b,
+                                                  a < b ? b : a, *triangle};
+      if (!ARRAY_PUSH(&all->side_triangle, side_triangle))
         return false;
     }
   }
   return true;
 }
 
-/* Adds a face of more than JUDGE_TRIANGULATION_MOST corners. */
+/* Adds a face of more than JUDGE_TRIANGULATION_MAX corners. */
 static bool add_large_face(struct face_adder *adder, uint32_t face,
                            const uint32_t *corner, uint32_t count) {
   struct judge_triangles *all = adder->all;
@@ -233,7 +233,7 @@ static bool add_face(struct face_adder *adder, uint32_t face) {
   uint32_t count = scene->face_start.item[face + 1] - start;
   const uint32_t *corner = scene->corner.item + start;
   size_t first = all->triangle.count;
-  if (count > JUDGE_TRIANGULATION_MOST)
+  if (count > JUDGE_TRIANGULATION_MAX)
     return add_large_face(adder, face, corner, count);
   if (!judge_triangulation_make(&adder->triangulation, adder->given, corner,
                                 count))
@@ -251,7 +251,7 @@ static bool add_face(struct face_adder *adder, uint32_t face) {
 }
 
 static int compare_fan_triangles(const void *a, const void *b) {
-  const struct judge_fan_triangle *s = a, *t = b;
+  const struct judge_side_triangle *s = a, *t = b;
   if (s->face != t->face)
     return s->face < t->face ? -1 : 1;
   if (s->low != t->low)
@@ -259,20 +259,20 @@ static int compare_fan_triangles(const void *a, const void *b) {
   return s->high < t->high ? -1 : s->high > t->high;
 }
 
-const struct judge_fan_triangle *
+const struct judge_side_triangle *
 judge_fan_along(const struct judge_triangles *all, uint32_t face, uint32_t a,
                 uint32_t b, size_t *count) {
-  const struct judge_fan_triangle wanted = {
+  const struct judge_side_triangle wanted = {
       .face = face, .low = a < b ? a : b, .high = a < b ? b : a};
-  const struct judge_fan_triangle *fan_triangle = all->fan_triangle.item;
+  const struct judge_side_triangle *side_triangle = all->side_triangle.item;
   size_t low;
-  LOWER_BOUND(low, 0, all->fan_triangle.count,
-              compare_fan_triangles(&fan_triangle[low], &wanted) < 0);
+  LOWER_BOUND(low, 0, all->side_triangle.count,
+              compare_fan_triangles(&side_triangle[low], &wanted) < 0);
   for (*count = 0;
-       low + *count < all->fan_triangle.count &&
-       compare_fan_triangles(&fan_triangle[low + *count], &wanted) == 0;)
+       low + *count < all->side_triangle.count &&
+       compare_fan_triangles(&side_triangle[low + *count], &wanted) == 0;)
     ++*count;
-  return ARRAY_AT(&all->fan_triangle, low);
+  return ARRAY_AT(&all->side_triangle, low);
 }
 
 static double scene_size(const struct scene *scene) {
@@ -299,8 +299,8 @@ bool judge_triangles_init(struct judge_triangles *all,
   bool ok = true;
   for (uint32_t i = 0; ok && i < scene_face_count(scene); i++)
     ok = add_face(&adder, i);
-  judge_sort(all->fan_triangle.item, all->fan_triangle.count,
-             sizeof *all->fan_triangle.item, compare_fan_triangles);
+  judge_sort(all->side_triangle.item, all->side_triangle.count,
+             sizeof *all->side_triangle.item, compare_fan_triangles);
   judge_triangulation_fini(&adder.triangulation);
   judge_ears_fini(&adder.ears);
   if (ok && build_tree(all))
@@ -311,7 +311,7 @@ bool judge_triangles_init(struct judge_triangles *all,
 
 void judge_triangles_fini(struct judge_triangles *all) {
   ARRAY_FREE(&all->triangle);
-  ARRAY_FREE(&all->fan_triangle);
+  ARRAY_FREE(&all->side_triangle);
   mem_free(all->node);
   all->node = NULL;
   all->nodes = 0;

@@ -18,7 +18,7 @@ struct judge_triangle {
 };
 
 /* A triangle of a face that is not planar, indexed by one of its sides. */
-struct judge_fan_triangle {
+struct judge_side_triangle {
   uint32_t face, low, high; /* scene points, low < high */
   struct judge_triangle triangle;
 };
@@ -38,7 +38,7 @@ struct judge_triangles {
     uint32_t face;  /* the face of all its triangles; SCENE_NONE: several */
   } * node;
   size_t nodes; /* none where there are no triangles */
-  ARRAY(struct judge_fan_triangle) fan_triangle; /* by face, low, high */
+  ARRAY(struct judge_side_triangle) side_triangle; /* by face, low, high */
   double size; /* diagonal of the box of all points that faces use */
   const struct scene *scene;
 };
@@ -66,7 +66,7 @@ bool judge_is_warped(const struct scene *scene, uint32_t face, double contact);
 
 /* The triangles of a face with a side between two points, *count of them; none
  * where the face is planar. */
-const struct judge_fan_triangle *
+const struct judge_side_triangle *
 judge_fan_along(const struct judge_triangles *all, uint32_t face, uint32_t a,
                 uint32_t b, size_t *count);
 void judge_triangles_fini(struct judge_triangles *all);

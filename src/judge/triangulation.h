@@ -27,9 +27,9 @@ struct judge_triangulation {
 
 /* The most corners that a face may have; each cut tests all of them, so the
  * cost is cubic at worst. */
-enum { JUDGE_TRIANGULATION_MOST = 256 };
+enum { JUDGE_TRIANGULATION_MAX = 256 };
 
-/* Triangulates a face of at most JUDGE_TRIANGULATION_MOST corners.
+/* Triangulates a face of at most JUDGE_TRIANGULATION_MAX corners.
  * point  the original coordinates: the rule depends on their last bits
  * Returns false when memory ran out. */
 USE_RESULT bool

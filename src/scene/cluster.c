@@ -17,14 +17,14 @@
  * Robustness  A cell is a floored quotient, kept as a double: where coordinates
  * are huge against the length it may be infinite, and all such points share a
  * cell.  In the worst case cells hold many clusters that are not joined; only
- * the last CHAIN_MOST of a chain are looked at, so that time stays linear.
+ * the last CHAIN_MAX of a chain are looked at, so that time stays linear.
  */
 #include "scene/cluster.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { CHAIN_MOST = 128, NONE = -1 };
+enum { CHAIN_MAX = 128, NONE = -1 };
 
 struct cluster {
   double low[3], high[3];
@@ -85,7 +85,7 @@ static void look_through(const struct clusters *clusters, int32_t first,
                          const double at[3], int halvings,
                          struct cluster_choice *choice) {
   int passed = 0;
-  for (int32_t c = first; c != NONE && passed < CHAIN_MOST; passed++) {
+  for (int32_t c = first; c != NONE && passed < CHAIN_MAX; passed++) {
     const struct cluster *cluster = &clusters->cluster.item[c];
     double dx = at[0] - cluster->x, dy = at[1] - cluster->y;
     double dz = at[2] - cluster->z;

@@ -126,7 +126,7 @@ static bool is_crease(struct face_normal a, struct face_normal b, bool same_way,
 
 /* What needs no normals: BORDER alone, or GROUP or nothing. */
 static unsigned plain_class_mask(const struct topology_edge *edge,
-                              const struct scene *scene) {
+                                 const struct scene *scene) {
   if (edge->uses != 2)
     return RECTO_EDGE_BORDER;
   const uint32_t *group = scene->face_group.item;
@@ -136,8 +136,8 @@ static unsigned plain_class_mask(const struct topology_edge *edge,
 }
 
 unsigned topology_class_mask(const struct topology *topology,
-                          const struct scene *scene, uint32_t edge,
-                          double crease_deg) {
+                             const struct scene *scene, uint32_t edge,
+                             double crease_deg) {
   const struct topology_edge *e = &topology->edge.item[edge];
   unsigned class_mask = plain_class_mask(e, scene);
   if (e->uses == 2 && is_crease(normal_of_face(scene, e->first),
@@ -219,8 +219,8 @@ bool topology_class_masks(const struct topology *topology,
   return true;
 }
 
-bool topology_keep_class_masks(struct topology *topology, const struct scene *scene,
-                           double crease_deg) {
+bool topology_keep_class_masks(struct topology *topology,
+                               const struct scene *scene, double crease_deg) {
   uint8_t *class_masks = mem_alloc(topology->edge.count, sizeof *class_masks);
   if (class_masks == NULL ||
       !topology_class_masks(topology, scene, crease_deg, class_masks)) {

@@ -2,14 +2,14 @@
  * groups.
  *
  * Robustness  Names come from a file that may be hostile: each library is read
- * once, at most LIBRARY_MOST of them, and none but plain files. */
+ * once, at most LIBRARY_MAX of them, and none but plain files. */
 #include "scene/material.h"
 
 #include <string.h>
 
 #include "base/input.h"
 
-enum { LIBRARY_MOST = 100 };
+enum { LIBRARY_MAX = 100 };
 
 static const char GZIP[] = ".gz";
 
@@ -49,7 +49,7 @@ recto_status materials_add_use(struct materials *materials, uint32_t group,
 
 /* ---- Libraries ----------------------------------------------------------- */
 
-struct shelf {
+struct library_reader {
   struct scene *scene;  /* whose groups are coloured */
   struct scene palette; /* a group for each material */
   const char *model;    /* path; "": libraries are not looked for */
@@ -59,20 +59,20 @@ struct shelf {
 
 /* Passes a library's faults on under its own name, and counts them with the
  * model's. */
-static recto_status read_library(struct shelf *shelf, const char *path,
-                                 const struct input *input) {
+static recto_status read_library(struct library_reader *reader,
+                                 const char *path, const struct input *input) {
   struct diagnostics own = {.file = path};
-  if (shelf->diagnostics) {
-    own.warning = shelf->diagnostics->warning;
-    own.user = shelf->diagnostics->user;
+  if (reader->diagnostics) {
+    own.warning = reader->diagnostics->warning;
+    own.user = reader->diagnostics->user;
   }
-  recto_status status = material_read(&shelf->palette, input->bytes,
-                                      input->count, &own, shelf->error);
+  recto_status status = material_read(&reader->palette, input->bytes,
+                                      input->count, &own, reader->error);
   diagnostics_finish(&own);
-  if (shelf->diagnostics) {
+  if (reader->diagnostics) {
     unsigned long count = own.count[SCENE_FAULT_MATERIAL];
-    shelf->diagnostics->count[SCENE_FAULT_MATERIAL] += count;
-    shelf->diagnostics->settled[SCENE_FAULT_MATERIAL] += count;
+    reader->diagnostics->count[SCENE_FAULT_MATERIAL] += count;
+    reader->diagnostics->settled[SCENE_FAULT_MATERIAL] += count;
   }
   return status;
 }
@@ -101,28 +101,28 @@ static recto_status load_library(struct input *input, char *path,
 
 /* Reads a library of that name beside the model; *found where there is one,
  * else `why` says what is wrong with it. */
-static recto_status try_library(struct shelf *shelf, const char *name,
+static recto_status try_library(struct library_reader *reader, const char *name,
                                 size_t length, bool *found, recto_error *why) {
-  const char *slash = strrchr(shelf->model, '/');
+  const char *slash = strrchr(reader->model, '/');
   size_t folder =
-      slash && *name != '/' ? (size_t)(slash + 1 - shelf->model) : 0;
+      slash && *name != '/' ? (size_t)(slash + 1 - reader->model) : 0;
   char *path = length < PTRDIFF_MAX / 2 - folder
                    ? mem_alloc(folder + length + sizeof GZIP, 1)
                    : NULL;
   if (!path)
-    return error_memory(shelf->error);
-  memcpy(path, shelf->model, folder);
+    return error_memory(reader->error);
+  memcpy(path, reader->model, folder);
   memcpy(path + folder, name, length);
   path[folder + length] = '\0';
   struct input input;
   recto_status status = load_library(&input, path, why);
   *found = status == RECTO_OK;
-  if (*found && !scene_note_file(shelf->scene, &input))
-    status = error_memory(shelf->error);
+  if (*found && !scene_note_file(reader->scene, &input))
+    status = error_memory(reader->error);
   else if (*found && input.count > 0)
-    status = read_library(shelf, path, &input);
+    status = read_library(reader, path, &input);
   else if (status == RECTO_ERROR_MEMORY)
-    (void)error_memory(shelf->error);
+    (void)error_memory(reader->error);
   else
     status = RECTO_OK;
   input_unload(&input);
@@ -130,54 +130,53 @@ static recto_status try_library(struct shelf *shelf, const char *name,
   return status;
 }
 
-static void tell_missing(struct shelf *shelf, const struct material_name *name,
-                         size_t length, const char *at,
-                         const recto_error *why) {
-  diagnostics_fault(shelf->diagnostics, SCENE_FAULT_MATERIAL, name->line,
+static void tell_missing(struct library_reader *reader,
+                         const struct material_name *name, size_t length,
+                         const char *at, const recto_error *why) {
+  diagnostics_fault(reader->diagnostics, SCENE_FAULT_MATERIAL, name->line,
                     "material library %.*s: %s", length < 80 ? (int)length : 80,
                     at, why->text);
 }
 
 /* The rest of the line is one name, in which there may be blanks, or, where
  * there is no such file, several with blanks between them. */
-static recto_status read_libraries(struct shelf *shelf,
+static recto_status read_libraries(struct library_reader *reader,
                                    const struct material_name *name) {
   bool found = false;
   recto_error why;
   recto_status status =
-      try_library(shelf, name->start, name->length, &found, &why);
+      try_library(reader, name->start, name->length, &found, &why);
   if (status != RECTO_OK || found)
     return status;
   const char *at = name->start, *end = at + name->length;
   int tried = 0;
-  while (status == RECTO_OK && at < end && tried++ < LIBRARY_MOST) {
+  while (status == RECTO_OK && at < end && tried++ < LIBRARY_MAX) {
     const char *stop = at;
     while (stop < end && *stop != ' ' && *stop != '\t')
       stop++;
     found = false;
     if (stop == end && at == name->start) /* has been tried */
-      tell_missing(shelf, name, name->length, at, &why);
+      tell_missing(reader, name, name->length, at, &why);
     else if (stop > at) {
-      status = try_library(shelf, at, (size_t)(stop - at), &found, &why);
+      status = try_library(reader, at, (size_t)(stop - at), &found, &why);
       if (status == RECTO_OK && !found)
-        tell_missing(shelf, name, (size_t)(stop - at), at, &why);
+        tell_missing(reader, name, (size_t)(stop - at), at, &why);
     }
     at = stop < end ? stop + 1 : end;
   }
   return status;
 }
 
-static recto_status fill_shelf(struct shelf *shelf,
-                               const struct materials *materials) {
+static recto_status read_all_libraries(struct library_reader *reader,
+                                       const struct materials *materials) {
   recto_status status = RECTO_OK;
-  size_t count = *shelf->model != '\0' ? materials->library.count : 0;
-  if (count > LIBRARY_MOST)
-    diagnostics_fault(shelf->diagnostics, SCENE_FAULT_MATERIAL,
-                      materials->library.item[LIBRARY_MOST].line,
-                      "more than %d material libraries, not read",
-                      LIBRARY_MOST);
-  for (size_t i = 0; status == RECTO_OK && i < count && i < LIBRARY_MOST; i++)
-    status = read_libraries(shelf, &materials->library.item[i]);
+  size_t count = *reader->model != '\0' ? materials->library.count : 0;
+  if (count > LIBRARY_MAX)
+    diagnostics_fault(reader->diagnostics, SCENE_FAULT_MATERIAL,
+                      materials->library.item[LIBRARY_MAX].line,
+                      "more than %d material libraries, not read", LIBRARY_MAX);
+  for (size_t i = 0; status == RECTO_OK && i < count && i < LIBRARY_MAX; i++)
+    status = read_libraries(reader, &materials->library.item[i]);
   return status;
 }
 
@@ -185,37 +184,38 @@ static recto_status fill_shelf(struct shelf *shelf,
 
 /* The palette's number of each group's material, SCENE_NONE where it has none,
  * to material[]. */
-static recto_status look_up(struct shelf *shelf,
+static recto_status look_up(struct library_reader *reader,
                             const struct materials *materials,
                             uint32_t *material) {
   for (size_t g = 0; g < materials->use.count; g++) {
     const struct material_name *name = &materials->use.item[g];
-    size_t known = shelf->palette.group.count;
+    size_t known = reader->palette.group.count;
     material[g] = SCENE_NONE;
     if (name->length == 0)
       continue;
-    recto_status status = scene_use_group(&shelf->palette, name->start,
-                                          name->length, shelf->error);
+    recto_status status = scene_use_group(&reader->palette, name->start,
+                                          name->length, reader->error);
     if (status != RECTO_OK)
       return status;
-    material[g] = shelf->palette.current_group;
+    material[g] = reader->palette.current_group;
     /* One that is not known is added here, and so reported once. */
-    if (shelf->palette.group.count > known)
-      diagnostics_fault(shelf->diagnostics, SCENE_FAULT_MATERIAL, name->line,
+    if (reader->palette.group.count > known)
+      diagnostics_fault(reader->diagnostics, SCENE_FAULT_MATERIAL, name->line,
                         "material %.80s is in no library",
-                        shelf->palette.group.item[known].name);
+                        reader->palette.group.item[known].name);
   }
   return RECTO_OK;
 }
 
-static void colour_groups(struct scene *scene, const struct shelf *shelf,
+static void colour_groups(struct scene *scene,
+                          const struct library_reader *reader,
                           const uint32_t *material, size_t count) {
   for (size_t g = 0; g < count; g++) {
     struct scene_group *group = &scene->group.item[g];
     if (material[g] == SCENE_NONE || group->has_colour)
       continue;
-    group->colour = shelf->palette.group.item[material[g]].colour;
-    group->has_colour = shelf->palette.group.item[material[g]].has_colour;
+    group->colour = reader->palette.group.item[material[g]].colour;
+    group->has_colour = reader->palette.group.item[material[g]].has_colour;
   }
 }
 
@@ -223,21 +223,21 @@ recto_status materials_colour(const struct materials *materials,
                               struct scene *scene, const char *path,
                               struct diagnostics *diagnostics,
                               recto_error *error) {
-  struct shelf shelf = {.scene = scene,
-                        .model = path,
-                        .diagnostics = diagnostics,
-                        .error = error};
+  struct library_reader reader = {.scene = scene,
+                                  .model = path,
+                                  .diagnostics = diagnostics,
+                                  .error = error};
   size_t count = materials->use.count;
-  scene_init(&shelf.palette);
+  scene_init(&reader.palette);
   uint32_t *material = mem_alloc(count, sizeof *material);
   recto_status status = material ? RECTO_OK : error_memory(error);
   if (status == RECTO_OK)
-    status = fill_shelf(&shelf, materials);
+    status = read_all_libraries(&reader, materials);
   if (status == RECTO_OK)
-    status = look_up(&shelf, materials, material);
+    status = look_up(&reader, materials, material);
   if (status == RECTO_OK)
-    colour_groups(scene, &shelf, material, count);
+    colour_groups(scene, &reader, material, count);
   mem_free(material);
-  scene_fini(&shelf.palette);
+  scene_fini(&reader.palette);
   return status;
 }

@@ -133,7 +133,7 @@ recto_status ply_colour_faces(struct ply_parser *p, size_t first) {
   if (!key)
     return error_memory(p->error);
   int bits = 8;
-  while (sort_within(p, mask_of(bits), key, count) > PLY_COLOUR_MOST)
+  while (sort_within(p, mask_of(bits), key, count) > PLY_COLOUR_MAX)
     bits--;
   for (size_t i = 0; i < count;)
     i = average_run(p, key, i, count);

@@ -5,7 +5,7 @@
 #include "scene/ply_parser.h"
 
 /* So many groups are made of the colours of a file at most. */
-enum { PLY_COLOUR_MOST = 4096 };
+enum { PLY_COLOUR_MAX = 4096 };
 
 /* The colour of the element that was taken last, 0xRRGGBB: numbers with a
  * point run from 0 to 1, 16 bits from 0 to 65535, others from 0 to 255. */
@@ -26,7 +26,7 @@ uint32_t ply_mean_colour(const struct ply_parser *p, const uint32_t *corner,
 #define PLY_NO_COLOUR UINT32_MAX
 
 /* Puts the faces from `first` on, of which `face_colour` has the colours, into
- * groups "colour #rrggbb".  Where there are more than PLY_COLOUR_MOST colours,
+ * groups "colour #rrggbb".  Where there are more than PLY_COLOUR_MAX colours,
  * those that agree in their upper bits, as many as make no more than that,
  * become their mean.
  * Errors  RECTO_ERROR_MEMORY */

@@ -126,12 +126,12 @@ static inline bool next_number(struct ply_parser *p, double *value) {
 
 /* Reads an index or a count, which may be written as a decimal. */
 static inline bool next_whole(struct ply_parser *p, int64_t *value) {
-  enum { DIGITS_MOST = 12 };
+  enum { DIGITS_MAX = 12 };
   uint64_t sum = 0;
   double number;
   skip_blanks(p);
   const char *stop = digits_gather_singly(p->at, p->end, &sum);
-  if (stop > p->at && stop - p->at <= DIGITS_MOST && ends_value(p, stop)) {
+  if (stop > p->at && stop - p->at <= DIGITS_MAX && ends_value(p, stop)) {
     *value = (int64_t)sum;
     p->at = stop;
     return true;

@@ -26,7 +26,7 @@ struct topology {
   ARRAY(struct topology_edge) edge; /* in order of first use by a face */
   uint32_t *corner_edge; /* for corner c of a face, the edge from it to the
                             face's next corner; one per scene corner */
-  uint8_t *class_masks;      /* of all edges at the angle crease_deg, as of
+  uint8_t *class_masks;  /* of all edges at the angle crease_deg, as of
                             topology_class_masks; NULL: not kept */
   double crease_deg;
   bool drop_after_sheet; /* corner_edge may be freed once the sheet has its
@@ -50,8 +50,8 @@ void topology_drop_corners(struct topology *topology);
  * two disagrees one is turned) and RECTO_EDGE_GROUP (two groups meet);
  * RECTO_EDGE_SMOOTH alone where it has none of them. */
 unsigned topology_class_mask(const struct topology *topology,
-                          const struct scene *scene, uint32_t edge,
-                          double crease_deg);
+                             const struct scene *scene, uint32_t edge,
+                             double crease_deg);
 
 /* The same for every edge at once.
  * class_masks  one an edge
@@ -63,7 +63,7 @@ USE_RESULT bool topology_class_masks(const struct topology *topology,
 /* Keeps the result of topology_class_masks at that angle for later calls.
  * Returns false when memory ran out. */
 USE_RESULT bool topology_keep_class_masks(struct topology *topology,
-                                      const struct scene *scene,
-                                      double crease_deg);
+                                          const struct scene *scene,
+                                          double crease_deg);
 
 #endif

@@ -32,7 +32,7 @@
 #include "scene/cluster.h"
 
 /* Lengths beyond these are as good as these: coordinates are within. */
-#define LENGTH_MOST 0x1p200
+#define LENGTH_MAX 0x1p200
 #define LENGTH_LEAST 0x1p-900
 
 /* The points that may be joined. */
@@ -355,7 +355,7 @@ static bool join(struct welded *welded, struct candidates *candidates,
     return false;
   if (candidates->member.count == 0)
     return true;
-  welded->length = fmin(request->length, LENGTH_MOST);
+  welded->length = fmin(request->length, LENGTH_MAX);
   if (request->length < 0)
     welded->length =
         set_explained_radii(candidates, scene, topology, request->unstated);

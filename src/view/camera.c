@@ -24,7 +24,7 @@
 #include "scene/angle.h"
 #include "view/coordinate_error.h"
 #include "view/extent.h"
-#include "view/frame.h"
+#include "view/camera_axes.h"
 #include "view/project.h"
 #include "view/used.h"
 #include "view/vector.h"
@@ -108,8 +108,8 @@ static void grow_box(double low[3], double high[3],
                      const struct scene_point *point) {
   const double p[3] = {point->x, point->y, point->z};
   for (int k = 0; k < 3; k++) {
-    low[k] = lower_bound(low[k], p[k]);
-    high[k] = upper_bound(high[k], p[k]);
+    low[k] = min_number(low[k], p[k]);
+    high[k] = max_number(high[k], p[k]);
   }
 }
 
@@ -175,21 +175,21 @@ static recto_status set_axes(struct aim *aim) {
   else if (aim->scene->up[0] != 0 || aim->scene->up[1] != 0 ||
            aim->scene->up[2] != 0)
     memcpy(up, aim->scene->up, sizeof up);
-  struct frame frame;
+  struct camera_axes axes;
   if (o->camera.kind == RECTO_CAMERA_EYE) {
-    enum frame_fault fault =
-        frame_from_eye(&frame, o->camera.eye, aim->target, up, !given);
-    if (fault == FRAME_NO_DIRECTION)
+    enum camera_axes_fault fault =
+        camera_axes_from_eye(&axes, o->camera.eye, aim->target, up, !given);
+    if (fault == CAMERA_AXES_NO_DIRECTION)
       return argument_error(aim, "the eye is where it looks");
-    if (fault == FRAME_UP_ALONG_VIEW)
+    if (fault == CAMERA_AXES_UP_ALONG_VIEW)
       return argument_error(aim, "up points along the view");
   } else {
-    frame = frame_from_direction(up, o->camera.azimuth_deg,
-                                 o->camera.elevation_deg);
+    axes = camera_axes_from_direction(up, o->camera.azimuth_deg,
+                                      o->camera.elevation_deg);
   }
-  memcpy(aim->camera->right, frame.right, sizeof frame.right);
-  memcpy(aim->camera->up, frame.up, sizeof frame.up);
-  memcpy(aim->camera->back, frame.back, sizeof frame.back);
+  memcpy(aim->camera->right, axes.right, sizeof axes.right);
+  memcpy(aim->camera->up, axes.up, sizeof axes.up);
+  memcpy(aim->camera->back, axes.back, sizeof axes.back);
   return RECTO_OK;
 }
 
@@ -260,8 +260,8 @@ static void measure_depth(struct aim *aim) {
     if (!aim->used[p])
       continue;
     double d = view_of_point(aim, p).d;
-    aim->d_low = lower_bound(aim->d_low, d);
-    aim->d_high = upper_bound(aim->d_high, d);
+    aim->d_low = min_number(aim->d_low, d);
+    aim->d_high = max_number(aim->d_high, d);
   }
 }
 

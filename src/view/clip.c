@@ -74,7 +74,7 @@ static void clip_side(const struct projection *projection, int plane,
 static void clip_polygon(const struct projection *projection, int plane,
                          const bool forward[3], const struct clip_polygon *from,
                          struct clip_polygon *to) {
-  double distance[CLIP_MOST];
+  double distance[CLIP_CORNERS_MAX];
   for (int i = 0; i < from->count; i++)
     distance[i] = clip_distance(projection, from->corner[i].at, plane);
   to->count = 0;

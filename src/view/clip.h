@@ -59,7 +59,7 @@ enum {
   /* The most corners of a clipped triangle.  A plane adds one corner to a
    * convex polygon, and to one that rounding made slightly non-convex at most
    * half as many as it has: 3, 4, 6, 9, 13, 19. */
-  CLIP_MOST = 19,
+  CLIP_CORNERS_MAX = 19,
   CLIP_CUT = 3 /* a corner or side that clipping made */
 };
 
@@ -71,7 +71,7 @@ struct clip_corner {
 };
 
 struct clip_polygon {
-  struct clip_corner corner[CLIP_MOST];
+  struct clip_corner corner[CLIP_CORNERS_MAX];
   int count;
 };
 

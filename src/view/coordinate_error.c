@@ -24,9 +24,9 @@ void coordinate_error_of_face(const struct sheet *sheet, uint32_t face,
     const struct scene_point *p = &scene->point.item[point];
     struct precision precision =
         scene_point_precision(scene, point, sheet->camera.unstated);
-    error[0] = upper_bound(error[0], contact_along_axis(precision, p->x));
-    error[1] = upper_bound(error[1], contact_along_axis(precision, p->y));
-    error[2] = upper_bound(error[2], contact_along_axis(precision, p->z));
+    error[0] = max_number(error[0], contact_along_axis(precision, p->x));
+    error[1] = max_number(error[1], contact_along_axis(precision, p->y));
+    error[2] = max_number(error[2], contact_along_axis(precision, p->z));
   }
 }
 

@@ -18,8 +18,8 @@ static void grow(struct extent *extent, const struct camera *camera,
   double scale = camera->perspective ? 1 / v.d : 1;
   const double xy[2] = {v.x * scale, v.y * scale};
   for (int k = 0; k < 2; k++) {
-    extent->low[k] = lower_bound(extent->low[k], xy[k]);
-    extent->high[k] = upper_bound(extent->high[k], xy[k]);
+    extent->low[k] = min_number(extent->low[k], xy[k]);
+    extent->high[k] = max_number(extent->high[k], xy[k]);
   }
 }
 

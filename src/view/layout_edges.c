@@ -11,7 +11,7 @@ static const unsigned face_classes =
  * hole, or a spike) lies inside that face and is no silhouette.
  * still  the classes that do not depend on the camera */
 static unsigned class_mask_of(const struct topology_edge *edge, unsigned still,
-                           uint8_t sides) {
+                              uint8_t sides) {
   if (edge->uses != 2 || edge->first == edge->second ||
       !layout_is_silhouette(sides))
     return still;
@@ -80,7 +80,8 @@ static bool add_edge(struct layout *layout, struct layout_cut ends,
 
 /* Makes the requested edges, and contours.
  * class_masks  one a topology edge; NULL where no class of them was requested */
-static recto_status make_edges(struct layout *layout, const uint8_t *class_masks,
+static recto_status make_edges(struct layout *layout,
+                               const uint8_t *class_masks,
                                struct edge_ids *edge_ids) {
   const struct topology *topology = layout->topology;
   unsigned wanted = layout->options->ink.edges & face_classes;
@@ -90,8 +91,8 @@ static recto_status make_edges(struct layout *layout, const uint8_t *class_masks
       edge_ids->before[e / 64] = (uint32_t)layout->sheet->edge.count;
     unsigned edge_class = 0;
     if (class_masks)
-      edge_class =
-          lowest_bit(class_mask_of(edge, class_masks[e], layout->sides[e]) & wanted);
+      edge_class = lowest_bit(
+          class_mask_of(edge, class_masks[e], layout->sides[e]) & wanted);
     bool contour = edge->uses != 2 || layout->sides[e] != LAYOUT_PLAIN;
     if (!edge_class && !layout->outlines && !contour)
       continue;

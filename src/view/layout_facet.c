@@ -75,9 +75,9 @@ static recto_status add_fan(struct layout *layout,
                             const struct layout_facet *facet,
                             const struct clip_polygon *polygon,
                             const uint32_t *point, int *sign) {
-  int64_t area[CLIP_MOST] = {0};
+  int64_t area[CLIP_CORNERS_MAX] = {0};
   int128 whole = 0;
-  if (!layout_reserve(layout, CLIP_MOST))
+  if (!layout_reserve(layout, CLIP_CORNERS_MAX))
     return error_memory(layout->error);
   for (int i = 1; i + 1 < polygon->count; i++) {
     bool last = i + 2 == polygon->count;
@@ -154,7 +154,7 @@ static recto_status add_polygon(struct layout *layout,
                                 const struct layout_facet *facet,
                                 const struct view_point corner[3],
                                 struct clip_polygon *polygon) {
-  uint32_t point[CLIP_MOST];
+  uint32_t point[CLIP_CORNERS_MAX];
   for (int i = 0; i < polygon->count; i++) {
     recto_status status = find_corner(layout, facet, polygon, i, &point[i]);
     if (status != RECTO_OK)

@@ -35,7 +35,7 @@ enum {
   LAYOUT_RIGHT = 2,
   LAYOUT_EDGE_ON = 4,
   LAYOUT_ONE_FACE = 8,
-  LAYOUT_MOST_FACES = 3 * LAYOUT_ONE_FACE,
+  LAYOUT_FACES_MAX = 3 * LAYOUT_ONE_FACE,
   /* Two faces, one on each side: the edge is no contour. */
   LAYOUT_PLAIN = LAYOUT_LEFT | LAYOUT_RIGHT | 2 * LAYOUT_ONE_FACE
 };
@@ -48,7 +48,7 @@ static inline void layout_record_side(uint8_t *sides, bool forward, int sign) {
                                        {LAYOUT_EDGE_ON, LAYOUT_EDGE_ON},
                                        {LAYOUT_RIGHT, LAYOUT_LEFT}};
   *sides |= bit_of[sign + 1][forward];
-  if (*sides < LAYOUT_MOST_FACES)
+  if (*sides < LAYOUT_FACES_MAX)
     *sides = (uint8_t)(*sides + LAYOUT_ONE_FACE);
 }
 

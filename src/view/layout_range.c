@@ -33,8 +33,8 @@ struct depth_range {
 enum { MAX_ROUNDS = 8 };
 
 static void grow(struct depth_range *range, double d) {
-  range->low = lower_bound(range->low, d);
-  range->high = upper_bound(range->high, d);
+  range->low = min_number(range->low, d);
+  range->high = max_number(range->high, d);
 }
 
 /* Whether a convex polygon has an area after rounding to the page grid. */

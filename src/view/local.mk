@@ -6,7 +6,7 @@ librecto_core_la_SOURCES += \
   %D%/clip.c %D%/clip.h \
   %D%/coordinate_error.c %D%/coordinate_error.h \
   %D%/extent.c %D%/extent.h \
-  %D%/frame.c %D%/frame.h \
+  %D%/camera_axes.c %D%/camera_axes.h \
   %D%/layout.c %D%/layout.h \
   %D%/layout_edges.c \
   %D%/layout_facet.c %D%/layout_facet.h \

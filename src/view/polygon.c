@@ -44,8 +44,8 @@ static void find_box(const struct polygon *polygon, double low[3],
   for (uint32_t c = 1; c < polygon->count; c++) {
     polygon_place(polygon, c, at);
     for (int k = 0; k < 3; k++) {
-      low[k] = lower_bound(low[k], at[k]);
-      high[k] = upper_bound(high[k], at[k]);
+      low[k] = min_number(low[k], at[k]);
+      high[k] = max_number(high[k], at[k]);
     }
   }
 }
@@ -65,7 +65,7 @@ struct polygon_areas polygon_measure(const struct polygon *polygon) {
   }
   find_box(polygon, a, b);
   for (int k = 0; k < 3; k++)
-    areas.extent = upper_bound(areas.extent, b[k] - a[k]);
+    areas.extent = max_number(areas.extent, b[k] - a[k]);
   return areas;
 }
 
@@ -75,7 +75,7 @@ double polygon_off_plane(const struct polygon *polygon,
   polygon_place(polygon, 0, origin);
   for (uint32_t c = 1; polygon->count > 3 && c < polygon->count; c++) {
     offset(polygon, c, origin, to);
-    most = upper_bound(most, fabs(vector_dot(areas->value, to)));
+    most = max_number(most, fabs(vector_dot(areas->value, to)));
   }
   return length > 0 ? most / length : 0;
 }

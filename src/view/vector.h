@@ -7,10 +7,10 @@
 #include <stdbool.h>
 
 /* Like fmin and fmax, but inline: a NaN value does not change the bound. */
-static inline double lower_bound(double bound, double value) {
+static inline double min_number(double bound, double value) {
   return value < bound ? value : bound;
 }
-static inline double upper_bound(double bound, double value) {
+static inline double max_number(double bound, double value) {
   return value > bound ? value : bound;
 }
 

@@ -67,12 +67,12 @@ struct map_loop {
 struct map_half_edge {
   uint32_t fragment; /* on its left */
   uint32_t side;     /* the corner where the side starts that it is part of */
-  uint32_t origin;   /* a corner of the map at the point where it starts: that of
+  uint32_t origin; /* a corner of the map at the point where it starts: that of
                         the side or, within it, one of a neighbour */
-  uint32_t twin;     /* the neighbour's half-edge, which runs the other way
+  uint32_t twin;   /* the neighbour's half-edge, which runs the other way
                         between the same points; SHEET_NONE: no face is visible
                         there */
-  uint32_t next;     /* along the loop; it starts where this one ends */
+  uint32_t next;   /* along the loop; it starts where this one ends */
 };
 
 /* One connected visible piece of one face: an outer loop, then its holes. */

@@ -7,7 +7,7 @@
 
 /* What a solver is to compute, and how; it computes nothing else. */
 struct solver_request {
-  bool edges;       /* visible intervals of the sheet's drawable edges */
+  bool edges;         /* visible intervals of the sheet's drawable edges */
   bool fragments;     /* visible fragments of its faces */
   bool hidden;        /* hidden parts of intersections will be drawn too */
   bool intersections; /* edges where faces pierce each other are drawable */

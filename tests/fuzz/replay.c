@@ -108,12 +108,12 @@ static int replay(const struct fuzz_target *target, char **path) {
 
 /* ---- Random inputs ------------------------------------------------------- */
 
-enum { RANDOM_LEAST = 40, RANDOM_MOST = 160 };
+enum { RANDOM_LEAST = 40, RANDOM_MAX = 160 };
 
 /* Half of the bytes of options are 0, for what is usual. */
 static void make_random(struct bytes *bytes, uint64_t seed) {
   struct random random = {seed};
-  bytes->count = (size_t)random_int(&random, RANDOM_LEAST, RANDOM_MOST);
+  bytes->count = (size_t)random_int(&random, RANDOM_LEAST, RANDOM_MAX);
   for (size_t i = 0; i < bytes->count; i++)
     bytes->item[i] = i < RANDOM_LEAST / 2 && random_below(&random, 2) == 0
                          ? 0

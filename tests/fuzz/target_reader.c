@@ -9,11 +9,11 @@
 #include "tests/reading.h"
 
 /* What is drawn is small: the fuzzer is to try many. */
-enum { MOST_ELEMENTS = 30, MOST_CORNERS = 200 };
+enum { ELEMENTS_MAX = 30, CORNERS_MAX = 200 };
 
 static bool is_small(const struct scene *scene) {
-  return scene_face_count(scene) + scene_wire_count(scene) <= MOST_ELEMENTS &&
-         scene->corner.count + scene->wire_corner.count <= MOST_CORNERS;
+  return scene_face_count(scene) + scene_wire_count(scene) <= ELEMENTS_MAX &&
+         scene->corner.count + scene->wire_corner.count <= CORNERS_MAX;
 }
 
 /* The method that is taken by default draws as brute force does. */

@@ -51,7 +51,7 @@ static void judge(const struct judge_drawing *drawing,
   if (!judge_drawing(&v, drawing, &scene, &camera, &options))
     abort();
   if (!is_sound(&v.drawn) || !is_sound(&v.false_ink) ||
-      !is_sound(&v.unsure_ink) || !is_sound(&v.visible) ||
+      !is_sound(&v.undecided_ink) || !is_sound(&v.visible) ||
       !is_sound(&v.missing))
     fuzz_found(finding, "the verdict has a length that is no length");
   scene_fini(&scene);

@@ -43,7 +43,7 @@ static bool is_smooth(const struct merge *merge, uint32_t id) {
   const struct topology *topology = merge->sheet->topology;
   return topology != NULL && edge->source < topology->edge.count &&
          topology_class_mask(topology, merge->scene, edge->source,
-                          merge->crease_deg) == RECTO_EDGE_SMOOTH;
+                             merge->crease_deg) == RECTO_EDGE_SMOOTH;
 }
 
 /* Whether two twins are pieces of one smooth edge of both their faces, and the

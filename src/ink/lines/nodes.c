@@ -18,7 +18,7 @@
 #include "base/sort.h"
 #include "base/tolerance.h"
 
-enum { BUCKET_BITS = 16, BUCKETS = 1 << BUCKET_BITS, MOST_ROWS = 65535 };
+enum { BUCKET_BITS = 16, BUCKETS = 1 << BUCKET_BITS, ROWS_MAX = 65535 };
 
 #define NEAR TOLERANCE_COINCIDENT_UNITS
 
@@ -95,7 +95,7 @@ static void form_rows(struct unite *u) {
   struct node_rows *rows = u->rows;
   double aim = sqrt((double)u->count);
   uint32_t target =
-      (uint32_t)(aim < MOST_ROWS ? aim + 1 : aim * aim / MOST_ROWS + 1);
+      (uint32_t)(aim < ROWS_MAX ? aim + 1 : aim * aim / ROWS_MAX + 1);
   uint32_t in_row = target, before = 0;
   rows->count = 0;
   for (size_t b = 0; b < BUCKETS; b++) {
@@ -275,7 +275,7 @@ recto_status segment_graph_unite(struct segment_graph *graph,
   u.renumber = mem_alloc(count, sizeof *u.renumber);
   u.bucket = mem_calloc(BUCKETS, sizeof *u.bucket);
   /* Every row has at least one node, and the number of rows is bounded. */
-  size_t most = count < MOST_ROWS ? count : MOST_ROWS;
+  size_t most = count < ROWS_MAX ? count : ROWS_MAX;
   rows->start = mem_calloc(most + 2, sizeof *rows->start);
   rows->low = mem_alloc(most + 1, sizeof *rows->low);
   rows->row = mem_alloc(count, sizeof *rows->row);

@@ -26,7 +26,7 @@ struct end_direction {
 };
 
 /* One end at the current node. */
-struct fan_end {
+struct node_end {
   uint32_t end, pen_key, style_key;
   struct end_direction away; /* from the node */
 };
@@ -35,7 +35,7 @@ struct pairing {
   const struct segment_graph *graph;
   uint32_t *mate;
   struct end_direction *along; /* of each segment, from its first node */
-  ARRAY(struct fan_end) fan;
+  ARRAY(struct node_end) fan;
 };
 
 static void find_directions(struct pairing *p) {
@@ -51,12 +51,12 @@ static void find_directions(struct pairing *p) {
   }
 }
 
-static struct fan_end fan_end(const struct pairing *p, uint32_t end) {
+static struct node_end node_end(const struct pairing *p, uint32_t end) {
   const struct graph_segment *s = &p->graph->segment.item[end >> 1];
   struct end_direction d = p->along[end >> 1];
   if (end & 1)
     d = (struct end_direction){-d.x, -d.y};
-  return (struct fan_end){end, s->pen_key, s->style_key, d};
+  return (struct node_end){end, s->pen_key, s->style_key, d};
 }
 
 static void join(struct pairing *p, uint32_t a, uint32_t b) {
@@ -69,9 +69,9 @@ static void join(struct pairing *p, uint32_t a, uint32_t b) {
 static void pair_small_fan(struct pairing *p, const uint32_t *end,
                            uint32_t count) {
   enum { NO_PAIR = 4 }; /* greater than any sum of a cosine and a penalty */
-  struct fan_end fan[SMALL_FAN_MAX];
+  struct node_end fan[SMALL_FAN_MAX];
   for (uint32_t i = 0; i < count; i++)
-    fan[i] = fan_end(p, end[i]);
+    fan[i] = node_end(p, end[i]);
   while (count > 1) {
     float best = NO_PAIR;
     uint32_t a = 0, b = 0;
@@ -111,7 +111,7 @@ static float turn_of(struct end_direction d) {
 static int compare_numbers(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
 
 static int compare_by_style(const void *first, const void *second, void *user) {
-  const struct fan_end *a = first, *b = second;
+  const struct node_end *a = first, *b = second;
   (void)user;
   if (a->pen_key != b->pen_key)
     return compare_numbers(a->pen_key, b->pen_key);
@@ -122,7 +122,7 @@ static int compare_by_style(const void *first, const void *second, void *user) {
 }
 
 static int compare_by_turn(const void *first, const void *second, void *user) {
-  const struct fan_end *a = first, *b = second;
+  const struct node_end *a = first, *b = second;
   (void)user;
   if (a->pen_key != b->pen_key)
     return compare_numbers(a->pen_key, b->pen_key);
@@ -134,7 +134,7 @@ static int compare_by_turn(const void *first, const void *second, void *user) {
  * stays in the fan.  A run has one pen key and, if `by_style`, one style key.
  * */
 static void pair_runs(struct pairing *p, bool by_style) {
-  struct fan_end *fan = p->fan.item;
+  struct node_end *fan = p->fan.item;
   size_t left = 0;
   for (size_t i = 0, end; i < p->fan.count; i = end) {
     for (end = i + 1;
@@ -157,7 +157,7 @@ static bool pair_large_fan(struct pairing *p, const uint32_t *end,
   if (!ARRAY_RESERVE(&p->fan, count))
     return false;
   for (uint32_t i = 0; i < count; i++)
-    p->fan.item[p->fan.count++] = fan_end(p, end[i]);
+    p->fan.item[p->fan.count++] = node_end(p, end[i]);
   if (!sort_stable(p->fan.item, count, sizeof *p->fan.item, compare_by_style,
                    NULL))
     return false;

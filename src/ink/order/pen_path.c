@@ -19,7 +19,8 @@
  * local optimum, at which no move gains, is reached within these limits; with
  * long ones the result is within 2 % of it, in less than 2 s.  For more strokes
  * the limits bound the time. */
-const struct tour_effort pen_path_usual_effort = {.looks = 1e8, .moves = 8e8};
+const struct tour_effort pen_path_usual_effort = {
+    .neighbours_examined_max = 1e8, .moves = 8e8};
 
 /* The most corners of a loop that the greedy phase tries as starting points. */
 enum { LOOP_ENTRIES_MAX = 16 };

@@ -39,8 +39,8 @@ struct cyclic_tour {
   uint32_t *queue; /* circular, of stops for which moves are to be tried */
   bool *queued;    /* of each stop: in the queue */
   uint32_t queue_head, queue_count;
-  double looks, moves; /* what is left of struct tour_effort */
-  bool back;           /* the tour is traversed backwards */
+  double neighbours_left, moves; /* what is left of struct tour_effort */
+  bool back;                     /* the tour is traversed backwards */
 };
 
 double tour_travel(const struct tour *tour) {
@@ -264,7 +264,7 @@ static bool try_neighbours(struct cyclic_tour *r, uint32_t c) {
     t.near = gap(r, from, neighbour[i]);
     if (t.near >= t.wide)
       return false;
-    r->looks--;
+    r->neighbours_left--;
     bool reverse = neighbour[i] == exit_end(r, t.x);
     if (try_or_opt(r, &t, reverse) || (reverse && try_two_opt(r, &t)))
       return true;
@@ -274,13 +274,13 @@ static bool try_neighbours(struct cyclic_tour *r, uint32_t c) {
 
 /* Makes moves until none gains or the limits of work are reached. */
 static void improve(struct cyclic_tour *r) {
-  while (r->queue_count > 0 && r->looks > 0 && r->moves > 0) {
+  while (r->queue_count > 0 && r->neighbours_left > 0 && r->moves > 0) {
     uint32_t c = r->queue[r->queue_head];
     r->queue_head = wrap(r, r->queue_head + 1);
     r->queue_count--;
     r->queued[c] = false;
     bool moved = true;
-    while (moved && r->looks > 0 && r->moves > 0) {
+    while (moved && r->neighbours_left > 0 && r->moves > 0) {
       r->back = false;
       moved = try_neighbours(r, c);
       r->back = true;
@@ -338,7 +338,7 @@ bool tour_improve(struct tour *tour, const struct tour_effort *effort) {
   struct cyclic_tour r = {.end = tour->end,
                           .start = tour->start,
                           .count = count,
-                          .looks = effort->looks,
+                          .neighbours_left = effort->neighbours_examined_max,
                           .moves = effort->moves};
   r.stop = mem_alloc(count, sizeof *r.stop);
   r.place = mem_alloc(count, sizeof *r.place);

@@ -6,7 +6,7 @@
 
 /* Limits of the work done by tour_improve, in all. */
 struct tour_effort {
-  double looks; /* candidate neighbours examined */
+  double neighbours_examined_max; /* candidate neighbours examined */
   double moves; /* strokes moved within the array that holds the tour */
 };
 

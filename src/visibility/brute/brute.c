@@ -18,8 +18,8 @@ static bool is_flat(const struct sheet *sheet, size_t triangle) {
 }
 
 static bool solve_edges(const struct sheet *sheet, struct map *map,
-                          struct occlusion_counts *counts,
-                          struct progress *progress) {
+                        struct occlusion_counts *counts,
+                        struct progress *progress) {
   size_t n = sheet->triangle.count;
   struct occluder *occluder = mem_alloc(n, sizeof *occluder);
   struct edge_intervals intervals = {0};

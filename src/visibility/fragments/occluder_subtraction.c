@@ -242,8 +242,8 @@ static enum coverage coverage_of(const struct occluder_subtraction *subtraction,
 }
 
 bool triangle_occluder_subtract(struct occluder_subtraction *subtraction,
-                            geom_pieces *pieces,
-                            struct triangle_occluder *occluder) {
+                                geom_pieces *pieces,
+                                struct triangle_occluder *occluder) {
   if (!make_lines(subtraction, occluder))
     return false;
   subtraction->next.count = 0;
@@ -273,16 +273,17 @@ bool triangle_occluder_subtract(struct occluder_subtraction *subtraction,
 }
 
 bool occluder_subtraction_subtract(struct occluder_subtraction *subtraction,
-                               struct triangle_occluder *occluder) {
+                                   struct triangle_occluder *occluder) {
   return triangle_occluder_subtract(subtraction, &subtraction->left, occluder);
 }
 
-bool occluder_subtraction_subtract_nearer(struct occluder_subtraction *subtraction,
-                                      uint32_t g) {
+bool occluder_subtraction_subtract_nearer(
+    struct occluder_subtraction *subtraction, uint32_t g) {
   subtraction->occluder.count = 0;
   return occluder_subtraction_collect(subtraction, g) &&
          (subtraction->occluder.count == 0 ||
-          occluder_subtraction_subtract(subtraction, subtraction->occluder.item));
+          occluder_subtraction_subtract(subtraction,
+                                        subtraction->occluder.item));
 }
 
 bool occluder_subtraction_store(struct occluder_subtraction *subtraction,

@@ -31,7 +31,7 @@ struct triangle_occluder {
 
 /* A convex region of the triangle, and the node of the tree to which it is to
  * be passed. */
-struct region {
+struct split_region {
   struct geom_convex piece;
   uint32_t node;
 };
@@ -69,7 +69,7 @@ struct occluder_subtraction {
   ARRAY(struct sort_key) key; /* sorts the occluders */
   ARRAY(uint32_t) list;       /* their triangles in this order */
   struct bsp bsp;
-  ARRAY(struct region) region; /* a stack */
+  ARRAY(struct split_region) region; /* a stack */
 };
 
 void occluder_subtraction_init(struct occluder_subtraction *subtraction,
@@ -99,13 +99,13 @@ occluder_subtraction_subtract_all(struct occluder_subtraction *subtraction);
  * one, is nearer than the current one, without collecting it.  Exact. */
 USE_RESULT bool
 occluder_subtraction_subtract_nearer(struct occluder_subtraction *subtraction,
-                                 uint32_t g);
+                                     uint32_t g);
 
 /* Subtracts an occluder, which need not have been collected.
  * occluder  its lines, if given, are to live as long as the pieces */
 USE_RESULT bool
 occluder_subtraction_subtract(struct occluder_subtraction *subtraction,
-                          struct triangle_occluder *occluder);
+                              struct triangle_occluder *occluder);
 
 static inline bool
 occluder_subtraction_is_empty(const struct occluder_subtraction *subtraction) {
@@ -125,8 +125,9 @@ void occluder_subtraction_report(const struct occluder_subtraction *subtraction,
 
 /* Replaces disjoint pieces by what remains of them after subtracting an
  * occluder. */
-USE_RESULT bool triangle_occluder_subtract(struct occluder_subtraction *subtraction,
-                                       geom_pieces *pieces,
-                                       struct triangle_occluder *occluder);
+USE_RESULT bool
+triangle_occluder_subtract(struct occluder_subtraction *subtraction,
+                           geom_pieces *pieces,
+                           struct triangle_occluder *occluder);
 
 #endif

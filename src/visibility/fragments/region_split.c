@@ -83,7 +83,7 @@ static bool solve_leaf(struct occluder_subtraction *subtraction,
 
 static bool push_region(struct occluder_subtraction *subtraction,
                         const struct geom_convex *piece, uint32_t node) {
-  struct region region = {*piece, node};
+  struct split_region region = {*piece, node};
   return piece->count == 0 || ARRAY_PUSH(&subtraction->region, region);
 }
 
@@ -112,12 +112,13 @@ static bool take(struct occluder_subtraction *subtraction, size_t from,
   for (size_t i = from; i < to && subtraction->left.count > 0; i++)
     if (!progress_step(subtraction->progress, WORK) ||
         !occluder_subtraction_subtract(subtraction,
-                                   sorted_occluder(subtraction, i)))
+                                       sorted_occluder(subtraction, i)))
       return false;
   return true;
 }
 
-bool occluder_subtraction_subtract_all(struct occluder_subtraction *subtraction) {
+bool occluder_subtraction_subtract_all(
+    struct occluder_subtraction *subtraction) {
   size_t n = subtraction->occluder.count, first = n < FIRST ? n : FIRST;
   uint32_t root;
   if (!sort_occluders(subtraction) || !take(subtraction, 0, first))
@@ -136,7 +137,7 @@ bool occluder_subtraction_subtract_all(struct occluder_subtraction *subtraction)
       return false;
   subtraction->left.count = 0;
   while (subtraction->region.count > 0) {
-    struct region region =
+    struct split_region region =
         subtraction->region.item[--subtraction->region.count];
     const struct bsp_node *node = &subtraction->bsp.node.item[region.node];
     if (!progress_step(subtraction->progress, WORK) ||

@@ -15,7 +15,7 @@ enum {
 };
 
 /* The share of a list's pairs that a split may leave at most. */
-#define PAIRS_LEFT_MAX 0.9
+#define NODE_PAIRS_LEFT_MAX 0.9
 
 void bsp_fini(struct bsp *bsp) {
   ARRAY_FREE(&bsp->node);
@@ -90,7 +90,7 @@ static bool choose_splitter(struct bsp_builder *builder, struct pending list,
     right += (sides & BSP_RIGHT) != 0;
   }
   if ((double)left * (double)left + (double)right * (double)right <=
-          PAIRS_LEFT_MAX * (double)count * (double)count &&
+          NODE_PAIRS_LEFT_MAX * (double)count * (double)count &&
       list.from + left + right + builder->bsp->member.count <=
           builder->members_max)
     *sum = left + right;

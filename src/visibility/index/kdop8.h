@@ -22,7 +22,7 @@
 #include "geom/predicate.h"
 
 /* The cell and the depth range to which keys are relative. */
-struct kdop8_frame {
+struct kdop8_range {
   int32_t x0, y0;
   int shift;   /* the cell's side is 2^shift */
   int64_t z0;  /* the least depth */
@@ -31,7 +31,7 @@ struct kdop8_frame {
 
 enum {
   KDOP8_LANE = 7, /* bits of a lane, guard bit included */
-  KDOP8_MOST = 63 /* greatest value of a lane */
+  KDOP8_MAX = 63  /* greatest value of a lane */
 };
 /* The guard bits of all lanes. */
 #define KDOP8_GUARDS UINT64_C(0x4081020408102040)
@@ -59,20 +59,20 @@ static inline struct kdop8 kdop8_of_point(struct geom_point p) {
 }
 
 static inline uint64_t kdop8_lane(int64_t value, int lane) {
-  int64_t clamped = value < 0 ? 0 : value > KDOP8_MOST ? KDOP8_MOST : value;
+  int64_t clamped = value < 0 ? 0 : value > KDOP8_MAX ? KDOP8_MAX : value;
   return (uint64_t)clamped << (lane * KDOP8_LANE);
 }
 
-/* An extent from a to b, in the frame's steps, as two lanes: of a key for
+/* An extent from a to b, in the range's steps, as two lanes: of a key for
  * (b, a), of a query for (a, b). */
 static inline uint64_t kdop8_lanes(int64_t first, int64_t complemented,
                                    int lane) {
   return kdop8_lane(first, lane) |
-         kdop8_lane(KDOP8_MOST - complemented, lane + 1);
+         kdop8_lane(KDOP8_MAX - complemented, lane + 1);
 }
 
 /* The least value of extent k in the cell. */
-static inline int64_t kdop8_origin(const struct kdop8_frame *f, int k) {
+static inline int64_t kdop8_origin(const struct kdop8_range *f, int k) {
   int64_t x = f->x0, y = f->y0;
   return k == 0   ? x
          : k == 1 ? y
@@ -81,13 +81,13 @@ static inline int64_t kdop8_origin(const struct kdop8_frame *f, int k) {
 }
 
 /* Binary logarithm of the step of extent k. */
-static inline int kdop8_steps(const struct kdop8_frame *f, int k) {
+static inline int kdop8_steps(const struct kdop8_range *f, int k) {
   int steps = f->shift - (k < 2 ? 6 : 5);
   return steps > 0 ? steps : 0;
 }
 
 /* The key of an 8-DOP that is stored in an index. */
-static inline uint64_t kdop8_key(const struct kdop8_frame *f,
+static inline uint64_t kdop8_key(const struct kdop8_range *f,
                                  const struct kdop8 *o) {
   uint64_t key = kdop8_lane((o->high - f->z0) >> f->z_shift, 8);
   for (int k = 0; k < 4; k++) {
@@ -101,7 +101,7 @@ static inline uint64_t kdop8_key(const struct kdop8_frame *f,
 
 /* The query for the keys that may overlap an 8-DOP and are not behind all of
  * it. */
-static inline uint64_t kdop8_query(const struct kdop8_frame *f,
+static inline uint64_t kdop8_query(const struct kdop8_range *f,
                                    const struct kdop8 *o) {
   uint64_t query = kdop8_lane((o->low - f->z0) >> f->z_shift, 8);
   for (int k = 0; k < 4; k++) {
@@ -113,9 +113,9 @@ static inline uint64_t kdop8_query(const struct kdop8_frame *f,
   return query;
 }
 
-/* The nearest depth of a key, in steps of the frame. */
+/* The nearest depth of a key, in steps of the range. */
 static inline int kdop8_nearest(uint64_t key) {
-  return (int)(key >> (8 * KDOP8_LANE)) & KDOP8_MOST;
+  return (int)(key >> (8 * KDOP8_LANE)) & KDOP8_MAX;
 }
 
 /* May the 8-DOP of a key overlap that of a query?  False is certain. */

@@ -98,8 +98,8 @@ static bool is_edge_on(const struct sheet *sheet, uint32_t triangle) {
   return false;
 }
 
-static void sort_two(bool steep, struct geom_point *a, struct geom_point *b) {
-  if (edge_compare_along(steep, *a, *b) > 0) {
+static void sort_two(bool upright, struct geom_point *a, struct geom_point *b) {
+  if (edge_compare_along(upright, *a, *b) > 0) {
     struct geom_point swap = *a;
     *a = *b;
     *b = swap;
@@ -114,15 +114,15 @@ static bool clip_to_edge(const struct sheet *sheet, struct surface_edge e,
                          struct surface_edge f, struct geom_point end[2]) {
   struct geom_point a = sheet->point.item[e.i], b = sheet->point.item[e.j],
                     c = sheet->point.item[f.i], d = sheet->point.item[f.j];
-  bool steep = edge_is_steep(a, b);
-  sort_two(steep, &a, &b);
-  sort_two(steep, &c, &d);
-  end[0] = edge_compare_along(steep, a, c) > 0 ? a : c;
-  end[1] = edge_compare_along(steep, b, d) < 0 ? b : d;
+  bool upright = edge_is_upright(a, b);
+  sort_two(upright, &a, &b);
+  sort_two(upright, &c, &d);
+  end[0] = edge_compare_along(upright, a, c) > 0 ? a : c;
+  end[1] = edge_compare_along(upright, b, d) < 0 ? b : d;
   for (int k = 0; k < 2; k++)
     if (!is_near_line(a, b, end[k]) || !is_near_line(c, d, end[k]))
       return false;
-  return edge_compare_along(steep, end[0], end[1]) < 0;
+  return edge_compare_along(upright, end[0], end[1]) < 0;
 }
 
 static bool is_same_face(const struct sheet *sheet, uint32_t f, uint32_t g) {

@@ -14,12 +14,12 @@ int surface_edge_compare(struct surface_edge a, struct surface_edge b) {
   return (a.face > b.face) - (a.face < b.face);
 }
 
-bool edge_is_steep(struct geom_point a, struct geom_point b) {
+bool edge_is_upright(struct geom_point a, struct geom_point b) {
   return llabs((int64_t)b.y - a.y) > llabs((int64_t)b.x - a.x);
 }
 
-int edge_compare_along(bool steep, struct geom_point a, struct geom_point b) {
-  if (steep && a.y != b.y)
+int edge_compare_along(bool upright, struct geom_point a, struct geom_point b) {
+  if (upright && a.y != b.y)
     return a.y < b.y ? -1 : 1;
   return geom_compare_points(a, b);
 }
@@ -76,31 +76,31 @@ void incidences_fini(struct incidences *incidences) {
 
 /* ---- Fans ---------------------------------------------------------------- */
 
-static struct fan_triangle fan_triangle_of(const struct sheet *sheet,
-                                           struct surface_edge edge,
-                                           uint32_t triangle, bool reversed) {
+static struct side_triangle fan_triangle_of(const struct sheet *sheet,
+                                            struct surface_edge edge,
+                                            uint32_t triangle, bool reversed) {
   const struct geom_point *point = sheet->point.item;
   const uint32_t *p = sheet->triangle.item[triangle].point;
   int k = 0;
   while (p[k] == edge.i || p[k] == edge.j)
     k++;
-  return (struct fan_triangle){point[reversed ? edge.j : edge.i],
-                               point[reversed ? edge.i : edge.j], point[p[k]],
-                               triangle};
+  return (struct side_triangle){point[reversed ? edge.j : edge.i],
+                                point[reversed ? edge.i : edge.j], point[p[k]],
+                                triangle};
 }
 
 /* The sense of the smaller angle from triangle a to triangle b about the edge,
  * as the sign of a volume; 0: they are coplanar.  Exact. */
-static int turn_sign(const struct fan_triangle *a,
-                     const struct fan_triangle *b) {
+static int turn_sign(const struct side_triangle *a,
+                     const struct side_triangle *b) {
   struct geom_plane plane = geom_plane_of(a->from, a->to, a->third);
   return geom_sign128(geom_plane_value(&plane, b->third));
 }
 
 /* Is c between a and b in the positive sense about the edge?  Exact. */
-static bool is_between(const struct fan_triangle *a,
-                       const struct fan_triangle *b,
-                       const struct fan_triangle *c) {
+static bool is_between(const struct side_triangle *a,
+                       const struct side_triangle *b,
+                       const struct side_triangle *c) {
   if (turn_sign(a, b) > 0)
     return turn_sign(a, c) > 0 && turn_sign(c, b) > 0;
   return !(turn_sign(b, c) > 0 && turn_sign(c, a) > 0);
@@ -109,13 +109,14 @@ static bool is_between(const struct fan_triangle *a,
 /* On which side of its edge a triangle of a fan lies, by the sign of its
  * projected area: on the page, or (`across`) on the coordinate plane of depth
  * and the edge's longer page coordinate. */
-static int side_of_edge(const struct fan_triangle *w, bool across) {
-  bool steep = edge_is_steep(w->from, w->to);
+static int side_of_edge(const struct side_triangle *w, bool across) {
+  bool upright = edge_is_upright(w->from, w->to);
   int64_t dx, dz, x, z;
   if (!across)
     return geom_sign64(geom_orient2d(w->from, w->to, w->third));
-  dx = steep ? (int64_t)w->to.y - w->from.y : (int64_t)w->to.x - w->from.x;
-  x = steep ? (int64_t)w->third.y - w->from.y : (int64_t)w->third.x - w->from.x;
+  dx = upright ? (int64_t)w->to.y - w->from.y : (int64_t)w->to.x - w->from.x;
+  x = upright ? (int64_t)w->third.y - w->from.y
+              : (int64_t)w->third.x - w->from.x;
   dz = w->to.z - w->from.z;
   z = w->third.z - w->from.z;
   return geom_sign128((int128)dx * z - (int128)dz * x);
@@ -124,8 +125,8 @@ static int side_of_edge(const struct fan_triangle *w, bool across) {
 /* Are two triangles of fans about coincident edges in contact, on the same side
  * of the edge? */
 static bool are_in_contact(const struct sheet *sheet,
-                           const struct fan_triangle *a,
-                           const struct fan_triangle *b) {
+                           const struct side_triangle *a,
+                           const struct side_triangle *b) {
   bool across = side_of_edge(a, false) == 0 || side_of_edge(b, false) == 0;
   struct occluder plane[2];
   struct side_count count[2];
@@ -158,7 +159,7 @@ static bool gather_fan(struct edge_fan *fan, const struct sheet *sheet,
 /* Removes the triangles of a fan that are in contact with one of the others. */
 static void drop_touching(const struct sheet *sheet, struct edge_fan *fan,
                           const struct edge_fan *others) {
-  struct fan_triangle *w = fan->list.item;
+  struct side_triangle *w = fan->list.item;
   size_t kept = 0;
   for (size_t i = 0; i < fan->list.count; i++) {
     bool touches = false;
@@ -175,7 +176,7 @@ static void drop_touching(const struct sheet *sheet, struct edge_fan *fan,
  * other of a separate the first of b from some other of b: these pairs
  * suffice. */
 static bool do_alternate(const struct edge_fan *a, const struct edge_fan *b) {
-  const struct fan_triangle *u = a->list.item, *v = b->list.item;
+  const struct side_triangle *u = a->list.item, *v = b->list.item;
   for (size_t i = 1; i < a->list.count; i++)
     for (size_t j = 1; j < b->list.count; j++)
       if (is_between(&u[0], &u[i], &v[j]) != is_between(&u[0], &u[i], &v[0]))
@@ -188,8 +189,8 @@ static bool are_opposite(const struct sheet *sheet, struct surface_edge e,
                          struct surface_edge f) {
   struct geom_point a = sheet->point.item[e.i], b = sheet->point.item[e.j],
                     c = sheet->point.item[f.i], d = sheet->point.item[f.j];
-  bool steep = edge_is_steep(a, b);
-  return edge_compare_along(steep, a, b) != edge_compare_along(steep, c, d);
+  bool upright = edge_is_upright(a, b);
+  return edge_compare_along(upright, a, b) != edge_compare_along(upright, c, d);
 }
 
 bool edge_fans_cross(const struct sheet *sheet,

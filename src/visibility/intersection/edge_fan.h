@@ -30,12 +30,12 @@ struct surface_edge surface_edge_of(const struct sheet *sheet,
                                     uint32_t triangle, int k);
 
 /* Is a-b closer to the vertical than to the horizontal of the page? */
-bool edge_is_steep(struct geom_point a, struct geom_point b);
+bool edge_is_upright(struct geom_point a, struct geom_point b);
 
-/* The order of two points along edges that are steep, by y, or are not, by x.
+/* The order of two points along edges that are upright, by y, or are not, by x.
  * The other coordinate cannot serve: rounding turns an upright edge by a
  * unit. */
-int edge_compare_along(bool steep, struct geom_point a, struct geom_point b);
+int edge_compare_along(bool upright, struct geom_point a, struct geom_point b);
 
 /* A triangle and one of its edges. */
 struct incidence {
@@ -63,14 +63,14 @@ const struct incidence *incidences_find(const struct incidences *incidences,
 
 /* A triangle of the fan about an edge: the edge, in the direction that is
  * common to all, and the triangle's third corner. */
-struct fan_triangle {
+struct side_triangle {
   struct geom_point from, to, third;
   uint32_t triangle;
 };
 
 /* The triangles about an edge. */
 struct edge_fan {
-  ARRAY(struct fan_triangle) list;
+  ARRAY(struct side_triangle) list;
 };
 
 /* Decides whether the surfaces of two overlapping edges cross.

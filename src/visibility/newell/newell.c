@@ -99,8 +99,7 @@ static bool needs_fallback(const struct edge_work *work,
 
 /* The occluded intervals of edge e; NULL when memory ran out or the caller
  * cancelled. */
-static struct edge_intervals *intervals_of(struct edge_work *work,
-                                           uint32_t e) {
+static struct edge_intervals *intervals_of(struct edge_work *work, uint32_t e) {
   const struct sheet_edge *edge = &work->sheet->edge.item[e];
   struct geom_point p = work->sheet->point.item[edge->point[0]],
                     q = work->sheet->point.item[edge->point[1]];
@@ -113,13 +112,13 @@ static struct edge_intervals *intervals_of(struct edge_work *work,
 }
 
 static bool solve_edges(const struct sheet *sheet, struct newell_order *order,
-                          struct pairwise_fallback *fallback, struct map *map,
-                          struct report *report) {
+                        struct pairwise_fallback *fallback, struct map *map,
+                        struct report *report) {
   struct edge_work work = {.sheet = sheet,
-                             .order = order,
-                             .progress = &order->progress,
-                             .fallback =
-                                 order->counts.deferred > 0 ? fallback : NULL};
+                           .order = order,
+                           .progress = &order->progress,
+                           .fallback =
+                               order->counts.deferred > 0 ? fallback : NULL};
   bool ok = triangle_grid_query_init(&work.query, order->grid) &&
             edge_intervals_open_map(map, sheet->edge.count);
   for (size_t e = 0; ok && e < sheet->edge.count; e++) {
@@ -170,7 +169,7 @@ static bool subtract_later(struct newell_order *order, uint32_t p,
           box2_disjoint(piece->box, other->box))
         continue;
       struct triangle_occluder occluder = {.triangle = other->triangle,
-                                       .box = other->box};
+                                           .box = other->box};
       occluder.line =
           newell_piece_lines(order, q, &occluder.sides, &subtraction->arena);
       if (occluder.line == NULL ||
@@ -183,8 +182,8 @@ static bool subtract_later(struct newell_order *order, uint32_t p,
 
 /* Adds the visible pieces of the triangles without an order. */
 static bool store_deferred(struct newell_order *order,
-                            struct pairwise_fallback *fallback,
-                            struct fragments *fragments) {
+                           struct pairwise_fallback *fallback,
+                           struct fragments *fragments) {
   ARRAY(uint32_t) list = {0};
   bool ok = true;
   for (uint32_t t = 0; ok && t < order->sheet->triangle.count; t++)
@@ -254,8 +253,8 @@ static bool solve_in_order(struct newell_order *order, struct sheet *sheet,
             pairwise_fallback_init(&fallback, sheet, request->fragments,
                                    &order->progress);
   order->progress.stage = "edges";
-  ok = ok && (!request->edges ||
-              solve_edges(sheet, order, &fallback, map, report));
+  ok = ok &&
+       (!request->edges || solve_edges(sheet, order, &fallback, map, report));
   order->progress.stage = "faces";
   ok = ok &&
        (!request->fragments || solve_fragments(order, &fallback, map, report));

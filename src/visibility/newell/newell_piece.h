@@ -42,7 +42,7 @@ struct newell_counts {
    * on the page (D). */
   uint64_t depth, minimax, behind, before, full;
   uint64_t moved, cycles, split_cycle, split_pierce, unseen;
-  uint64_t tests;     /* pairs of a candidate and another piece */
+  uint64_t tests;    /* pairs of a candidate and another piece */
   uint64_t deferred; /* triangles without an order */
 };
 
@@ -72,7 +72,7 @@ enum { NEWELL_UNORDERED = UINT8_MAX };
 
 /* Returns whether the triangle was excluded from the order. */
 static inline bool newell_is_deferred(const struct newell_order *order,
-                                       uint32_t triangle) {
+                                      uint32_t triangle) {
   return order->splits[triangle] == NEWELL_UNORDERED;
 }
 

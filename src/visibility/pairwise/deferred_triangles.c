@@ -56,9 +56,9 @@ static void visit_contours(struct deferred_triangles *deferred_triangles,
 }
 
 bool deferred_triangles_init(struct deferred_triangles *deferred_triangles,
-                          const struct sheet *sheet,
-                          const struct tile_candidates *lists,
-                          const uint8_t *wanted, uint8_t *state) {
+                             const struct sheet *sheet,
+                             const struct tile_candidates *lists,
+                             const uint8_t *wanted, uint8_t *state) {
   size_t cells = triangle_grid_cell_count(&lists->tiles->grid);
   memset(deferred_triangles, 0, sizeof *deferred_triangles);
   deferred_triangles->sheet = sheet;
@@ -74,7 +74,7 @@ bool deferred_triangles_init(struct deferred_triangles *deferred_triangles,
   for (size_t i = 0; i < cells; i++)
     deferred_triangles->start[i + 1] += deferred_triangles->start[i];
   deferred_triangles->contour = mem_alloc(deferred_triangles->start[cells],
-                                       sizeof *deferred_triangles->contour);
+                                          sizeof *deferred_triangles->contour);
   if (deferred_triangles->contour == NULL)
     return false;
   visit_contours(deferred_triangles, wanted, true);
@@ -90,15 +90,17 @@ void deferred_triangles_fini(struct deferred_triangles *deferred_triangles) {
 
 /* A counting sort by depth bucket: within a bucket, triangles keep their order,
  * so that neighbours on the page remain neighbours in memory. */
-bool deferred_triangles_sort(const struct deferred_triangles *deferred_triangles,
-                          uint32_t *triangle, size_t count) {
+bool deferred_triangles_sort(
+    const struct deferred_triangles *deferred_triangles, uint32_t *triangle,
+    size_t count) {
   uint32_t start[TILE_BUCKETS] = {0}, sum = 0;
   uint32_t *copy = mem_alloc(count, sizeof *copy);
   if (copy == NULL)
     return false;
   for (size_t i = 0; i < count; i++) {
     copy[i] = triangle[i];
-    start[tile_bucket(triangle_nearest_z(deferred_triangles->sheet, copy[i]))]++;
+    start[tile_bucket(
+        triangle_nearest_z(deferred_triangles->sheet, copy[i]))]++;
   }
   for (int bucket = TILE_BUCKETS - 1; bucket >= 0; bucket--) {
     uint32_t here = start[bucket];
@@ -160,7 +162,8 @@ static bool is_crossed(const struct deferred_triangles *deferred_triangles) {
 /* Adds triangle g to the candidates unless it was added before.  A hidden
  * triangle is no occluder and is added only if it is earlier than the current
  * one: visible pieces may be passed on to it if the two are in contact. */
-static bool add_candidate(struct deferred_triangles *deferred_triangles, uint32_t g) {
+static bool add_candidate(struct deferred_triangles *deferred_triangles,
+                          uint32_t g) {
   return g == deferred_triangles->subtraction.triangle ||
          (g > deferred_triangles->subtraction.triangle &&
           deferred_triangles->state[g] == MAP_HIDDEN) ||
@@ -209,9 +212,9 @@ static bool find_candidates(struct deferred_triangles *deferred_triangles) {
           return false;
         continue;
       }
-      struct kdop8_frame frame = tile_candidates_frame(lists, x, y);
-      kdop.low = frame.z0;
-      uint64_t kdop_query = kdop8_query(&frame, &kdop);
+      struct kdop8_range range = tile_candidates_range(lists, x, y);
+      kdop.low = range.z0;
+      uint64_t kdop_query = kdop8_query(&range, &kdop);
       for (; i < end; i++)
         if (kdop8_overlaps(lists->key[i], kdop_query) &&
             !add_candidate(deferred_triangles, grid->item[i]))
@@ -227,7 +230,8 @@ static bool find_candidates(struct deferred_triangles *deferred_triangles) {
 static bool test_candidates(struct deferred_triangles *deferred_triangles) {
   struct occluder_subtraction *subtraction = &deferred_triangles->subtraction;
   const uint32_t *candidate = deferred_triangles->query.found.item;
-  if (!progress_step(subtraction->progress, deferred_triangles->query.found.count))
+  if (!progress_step(subtraction->progress,
+                     deferred_triangles->query.found.count))
     return false;
   for (size_t i = 0;
        i < deferred_triangles->query.found.count && !subtraction->covered; i++)
@@ -245,11 +249,12 @@ static bool mark_hidden(struct deferred_triangles *deferred_triangles,
 }
 
 bool deferred_triangles_solve(struct deferred_triangles *deferred_triangles,
-                           uint32_t triangle, struct fragments *fragments) {
+                              uint32_t triangle, struct fragments *fragments) {
   struct occluder_subtraction *subtraction = &deferred_triangles->subtraction;
   struct deferred_triangles_counts *counts = &deferred_triangles->counts;
   if (!occluder_subtraction_start(subtraction, triangle, NULL) ||
-      !find_candidates(deferred_triangles) || !test_candidates(deferred_triangles))
+      !find_candidates(deferred_triangles) ||
+      !test_candidates(deferred_triangles))
     return false;
   const uint32_t *candidate = deferred_triangles->query.found.item;
   size_t count = deferred_triangles->query.found.count;
@@ -279,8 +284,9 @@ bool deferred_triangles_solve(struct deferred_triangles *deferred_triangles,
       candidate, count);
 }
 
-void deferred_triangles_report(const struct deferred_triangles *deferred_triangles,
-                            struct report *report) {
+void deferred_triangles_report(
+    const struct deferred_triangles *deferred_triangles,
+    struct report *report) {
   const struct deferred_triangles_counts *counts = &deferred_triangles->counts;
   report_int(report, "faces", "hidden", (int64_t)counts->hidden);
   report_int(report, "faces", "hidden_by_contours", (int64_t)counts->uncrossed);

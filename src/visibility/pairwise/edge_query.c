@@ -80,7 +80,7 @@ static bool test_triangle(struct edge_query *query, uint32_t t) {
 /* The current cell, and the 8-DOP query of the edge relative to it. */
 struct cell_query {
   size_t cell;
-  struct kdop8_frame frame;
+  struct kdop8_range range;
   uint64_t kdop_query;
   double share; /* that of the edge when the query was computed */
 };
@@ -91,7 +91,7 @@ static void update_kdop_query(struct cell_query *at,
   if (at->share == query->share)
     return;
   at->share = query->share;
-  at->kdop_query = kdop8_query(&at->frame, &query->kdop);
+  at->kdop_query = kdop8_query(&at->range, &query->kdop);
 }
 
 /* Tests the triangles of a cell whose list has a BSP. */
@@ -129,7 +129,7 @@ static bool test_cell(struct edge_query *query, int x, int y) {
   struct cell_query at = {.cell = cell, .share = -1};
   if (i == end)
     return true;
-  at.frame = tile_candidates_frame(list, x, y);
+  at.range = tile_candidates_range(list, x, y);
   update_kdop_query(&at, query);
   if (triangle_grid_bsp(&list->grid, cell) != SHEET_NONE)
     return test_bsp(query, &at);

@@ -14,8 +14,8 @@ static bool init_faces(struct pairwise_fallback *fallback) {
     fallback->state[t] =
         sheet->triangle_flags[t] & SHEET_FLAT ? MAP_HIDDEN : MAP_MIXED;
   return deferred_triangles_init(&fallback->deferred_triangles, sheet,
-                              &fallback->lists, fallback->wanted,
-                              fallback->state);
+                                 &fallback->lists, fallback->wanted,
+                                 fallback->state);
 }
 
 bool pairwise_fallback_init(struct pairwise_fallback *fallback,
@@ -70,7 +70,7 @@ bool pairwise_fallback_faces(struct pairwise_fallback *fallback,
   for (size_t i = 0; i < count; i++)
     if (!progress_step_at(fallback->progress, 1, i, count) ||
         !deferred_triangles_solve(&fallback->deferred_triangles, triangle[i],
-                               fragments))
+                                  fragments))
       return false;
   return true;
 }

@@ -92,9 +92,9 @@ static bool enlarge(struct tile_candidates *list, const struct sheet *sheet) {
 
 /* ---- Keys ---------------------------------------------------------------- */
 
-/* In the frame, the depth range of the tile, or for larger cells that of the
- * sheet, is divided into 64 steps. */
-struct kdop8_frame tile_candidates_frame(const struct tile_candidates *list,
+/* The depths of the tile, or for larger cells those of the sheet, are divided
+ * into 64 steps. */
+struct kdop8_range tile_candidates_range(const struct tile_candidates *list,
                                          int x, int y) {
   const struct triangle_grid *grid = &list->grid;
   const struct tile_classification *tiles = list->tiles;
@@ -105,7 +105,7 @@ struct kdop8_frame tile_candidates_frame(const struct tile_candidates *list,
   int low = __builtin_ctzll(z_buckets),
       buckets = 64 - __builtin_clzll(z_buckets) - low;
   int bits = buckets > 1 ? 32 - __builtin_clz((unsigned)buckets - 1) : 0;
-  return (struct kdop8_frame){(int32_t)(grid->x0 + ((int64_t)x << grid->shift)),
+  return (struct kdop8_range){(int32_t)(grid->x0 + ((int64_t)x << grid->shift)),
                               (int32_t)(grid->y0 + ((int64_t)y << grid->shift)),
                               grid->shift, (int64_t)low << TILE_BUCKET_SHIFT,
                               TILE_BUCKET_SHIFT + bits - 6};
@@ -116,7 +116,7 @@ struct kdop8_frame tile_candidates_frame(const struct tile_candidates *list,
 static void compute_keys(struct tile_candidates *list,
                          const struct sheet *sheet, int x, int y, size_t from,
                          size_t to) {
-  struct kdop8_frame frame = tile_candidates_frame(list, x, y);
+  struct kdop8_range range = tile_candidates_range(list, x, y);
   for (size_t i = from; i < to; i++) {
     uint32_t t = list->grid.item[i];
     const uint32_t *p = sheet->triangle.item[t].point;
@@ -124,7 +124,7 @@ static void compute_keys(struct tile_candidates *list,
     kdop8_add(&kdop, sheet->point.item[p[1]]);
     kdop8_add(&kdop, sheet->point.item[p[2]]);
     list->key[i] =
-        sheet->triangle_flags[t] & SHEET_FLAT ? 0 : kdop8_key(&frame, &kdop);
+        sheet->triangle_flags[t] & SHEET_FLAT ? 0 : kdop8_key(&range, &kdop);
   }
 }
 
@@ -133,7 +133,7 @@ static void compute_keys(struct tile_candidates *list,
  * scratch  room for the list */
 static void sort_list(struct tile_candidates *list, size_t from, size_t to,
                       struct sort_key scratch[TRIANGLE_GRID_SPLIT]) {
-  uint32_t start[KDOP8_MOST + 1] = {0}, sum = 0;
+  uint32_t start[KDOP8_MAX + 1] = {0}, sum = 0;
   uint32_t *item = list->grid.item + from;
   uint64_t *key = list->key + from;
   size_t n = to - from;
@@ -141,7 +141,7 @@ static void sort_list(struct tile_candidates *list, size_t from, size_t to,
     scratch[i] = (struct sort_key){key[i], item[i]};
     start[kdop8_nearest(key[i])]++;
   }
-  for (int step = KDOP8_MOST; step >= 0; step--) {
+  for (int step = KDOP8_MAX; step >= 0; step--) {
     uint32_t here = start[step];
     start[step] = sum;
     sum += here;

@@ -34,9 +34,9 @@ USE_RESULT bool tile_candidates_fill(struct tile_candidates *list,
                                      const uint8_t *wanted);
 void tile_candidates_fini(struct tile_candidates *list);
 
-/* The frame that the keys of a cell's list, which is not empty, are relative
+/* The range that the keys of a cell's list, which is not empty, are relative
  * to. */
-struct kdop8_frame tile_candidates_frame(const struct tile_candidates *list,
+struct kdop8_range tile_candidates_range(const struct tile_candidates *list,
                                          int x, int y);
 
 #endif

@@ -75,8 +75,8 @@ tile_classification_is_behind(const struct tile_classification *tiles,
  * Returns false when memory ran out; end with tile_classification_fini either
  * way. */
 USE_RESULT bool tile_classification_init(struct tile_classification *tiles,
-                                         const struct sheet *sheet,
-                                         bool edges, bool fragments);
+                                         const struct sheet *sheet, bool edges,
+                                         bool fragments);
 void tile_classification_fini(struct tile_classification *tiles);
 
 /* The bucket of a depth; farther depths have lower numbers. */

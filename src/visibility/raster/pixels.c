@@ -16,7 +16,7 @@ static int32_t top_line(const struct raster *raster,
   int32_t low = INT32_MAX, high = 0;
   uint32_t count = facet_outline(facets, raster->sheet, facet, &corner, &side);
   for (uint32_t k = 0; k < count; k++) {
-    int32_t line = raster->place_of[corner[k]].line;
+    int32_t line = raster->pixel_of[corner[k]].line;
     if (line < low)
       low = line;
     if (line > high)

@@ -49,13 +49,13 @@ static bool allocate(struct raster *raster) {
   size_t pixels =
       (size_t)raster->grid.columns * (size_t)raster->kept + RASTER_SPARE;
   size_t points = raster->sheet->point.count;
-  raster->place_of = mem_alloc(points, sizeof *raster->place_of);
+  raster->pixel_of = mem_alloc(points, sizeof *raster->pixel_of);
   raster->seen = mem_calloc(pixels, sizeof *raster->seen);
   if (raster->depth_bits > 0)
     raster->level = mem_calloc(pixels, sizeof *raster->level);
   else
     raster->depth = mem_calloc(pixels, sizeof *raster->depth);
-  return raster->place_of != NULL && raster->seen != NULL &&
+  return raster->pixel_of != NULL && raster->seen != NULL &&
          (raster->level != NULL || raster->depth != NULL);
 }
 
@@ -77,8 +77,8 @@ static void find_places(struct raster *raster) {
     double column = within(x / (double)grid->x_step, grid->columns - 1);
     double line = within(y / (double)grid->y_step, grid->lines);
     int32_t below = (int32_t)line;
-    raster->place_of[i] =
-        (struct raster_place){below + (below < line), (int32_t)column};
+    raster->pixel_of[i] =
+        (struct raster_pixel){below + (below < line), (int32_t)column};
   }
 }
 
@@ -107,7 +107,7 @@ recto_status raster_init(struct raster *raster, const struct sheet *sheet,
   raster->doubt = 2 * DBL_EPSILON * RASTER_GENTLE *
                   (raster->grid.lines + raster->grid.columns + 64);
   raster->kept = whole ? lines : 1;
-  raster->place = whole ? UINT32_MAX : 0;
+  raster->line_mask = whole ? UINT32_MAX : 0;
   if (!allocate(raster)) {
     raster_fini(raster);
     return error_memory(error);
@@ -117,19 +117,19 @@ recto_status raster_init(struct raster *raster, const struct sheet *sheet,
 }
 
 void raster_fini(struct raster *raster) {
-  mem_free(raster->place_of);
+  mem_free(raster->pixel_of);
   mem_free(raster->seen);
   mem_free(raster->depth);
   mem_free(raster->level);
   memset(raster, 0, sizeof *raster);
 }
 
-void raster_fold(struct raster *raster, int32_t lines) {
+void raster_make_ring(struct raster *raster, int32_t lines) {
   uint32_t place = 0;
   while (place < (uint32_t)lines - 1)
     place = 2 * place + 1;
   if (place < (uint32_t)raster->kept)
-    raster->place = place;
+    raster->line_mask = place;
 }
 
 void raster_clear_line(struct raster *raster, int32_t line) {

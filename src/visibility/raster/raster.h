@@ -39,7 +39,7 @@
 
 /* The pixel of a point of the sheet: `line` as in struct scan_point, and the
  * column, clamped to the frame. */
-struct raster_place {
+struct raster_pixel {
   int32_t line, column;
 };
 
@@ -50,9 +50,9 @@ struct raster {
   double level_scale; /* integer: levels per depth unit */
   double doubt;       /* float64: depths whose difference is smaller are
                          compared exactly */
-  struct raster_place *place_of; /* one a point of the sheet */
+  struct raster_pixel *pixel_of; /* one a point of the sheet */
   int32_t kept;                  /* lines in memory: all, or one */
-  uint32_t place;                /* mask: the bits of a line's number that are
+  uint32_t line_mask;            /* mask: the bits of a line's number that are
                                     its index in memory */
   /* kept x columns.  0 is background, so that calloc need not touch the memory
    * of pixels that are never drawn. */
@@ -81,7 +81,7 @@ void raster_fini(struct raster *raster);
 
 /* The index of a line's first pixel. */
 static inline size_t raster_row(const struct raster *raster, int32_t line) {
-  return ((uint32_t)line & raster->place) * (size_t)raster->grid.columns;
+  return ((uint32_t)line & raster->line_mask) * (size_t)raster->grid.columns;
 }
 
 /* A point of the sheet in the form of scan_point_of. */
@@ -91,19 +91,19 @@ static inline struct scan_point raster_point(const struct raster *raster,
   const struct geom_point *at = &raster->sheet->point.item[point];
   double x = (double)(at->x * grid->den - grid->x_first);
   return (struct scan_point){at->x, at->y, x / (double)grid->x_step,
-                             raster->place_of[point].line};
+                             raster->pixel_of[point].line};
 }
 
 /* Prefetches the data of a point, since the points of consecutive triangles lie
  * scattered in memory. */
 #define RASTER_FETCH(raster, at)                                               \
   (MEM_FETCH(&(raster)->sheet->point.item[at]),                                \
-   MEM_FETCH(&(raster)->place_of[at]))
+   MEM_FETCH(&(raster)->pixel_of[at]))
 
 /* Makes an empty frame that holds all lines a ring buffer: from now on lines
  * share memory, with a distance of at least `lines` lines between two that
  * do. */
-void raster_fold(struct raster *raster, int32_t lines);
+void raster_make_ring(struct raster *raster, int32_t lines);
 
 /* Clears a line in memory to background. */
 void raster_clear_line(struct raster *raster, int32_t line);

@@ -10,7 +10,7 @@
  *   - it has at most SMALL_LIST_MAX faces, or it is at most about as large as a
  *     mean edge is long and its list is not too long: then its lists are solved
  *     by pairs, exactly;
- *   - division is futile, because one quarter keeps nearly all of its pairs:
+ *   - division gains nothing, as one quarter keeps nearly all of its pairs:
  *     then its edges and faces are deferred to pairwise_fallback.h;
  * otherwise it is divided.  The front, its surrounder whose farthest depth is
  * the nearest, removes from its lists whatever lies behind it by more than the
@@ -37,9 +37,9 @@ enum { SMALL_LIST_MAX = 12 };
 /* In a small window, lists of up to so many pairs are solved by pairs. */
 enum { SMALL_WINDOW_PAIRS_MAX = 1 << 12 };
 
-/* Consecutive futile divisions after which a window of more pairs is no longer
- * divided; a small window is not divided after the first. */
-enum { FUTILE_MAX = 4 };
+/* Consecutive divisions without gain after which a window of more pairs is no
+ * longer divided; a small window is not divided after the first. */
+enum { DIVISIONS_WITHOUT_GAIN_MAX = 4 };
 
 /* Entries in the lists of all windows for each face and edge of the sheet:
  * beyond that no window with a long list is divided. */
@@ -52,7 +52,7 @@ static bool solve_window(struct warnock *w, const struct warnock_window *win) {
   for (size_t i = win->edges.from; i < win->edges.to; i++) {
     uint32_t e = w->windows.edges.item[i];
     if (!progress_step(&w->progress, warnock_count(win->surrounders) +
-                                         warnock_count(win->faces)) ||
+                                         warnock_count(win->facets)) ||
         !warnock_solve_edge(w, win, e))
       return false;
   }
@@ -61,8 +61,8 @@ static bool solve_window(struct warnock *w, const struct warnock_window *win) {
   for (size_t k = win->surrounders.from; k < win->surrounders.to; k++)
     if (!warnock_solve_face(w, win, w->windows.surrounders.item[k]))
       return false;
-  for (size_t k = win->faces.from; k < win->faces.to; k++)
-    if (!warnock_solve_face(w, win, w->windows.faces.item[k]))
+  for (size_t k = win->facets.from; k < win->facets.to; k++)
+    if (!warnock_solve_face(w, win, w->windows.facet_pool.item[k]))
       return false;
   return true;
 }
@@ -72,9 +72,10 @@ static bool defer_window(struct warnock *w, const struct warnock_window *win) {
   for (size_t i = win->edges.from; i < win->edges.to; i++)
     w->edge_deferred[w->windows.edges.item[i]] = 1;
   for (size_t i = win->surrounders.from; i < win->surrounders.to; i++)
-    w->triangle_deferred[w->windows.surrounders.item[i]] = w->request->fragments;
-  for (size_t i = win->faces.from; i < win->faces.to; i++)
-    w->triangle_deferred[w->windows.faces.item[i]] = w->request->fragments;
+    w->triangle_deferred[w->windows.surrounders.item[i]] =
+        w->request->fragments;
+  for (size_t i = win->facets.from; i < win->facets.to; i++)
+    w->triangle_deferred[w->windows.facet_pool.item[i]] = w->request->fragments;
   w->any_deferred = true;
   w->counts.deferred++;
   return true;
@@ -88,9 +89,9 @@ static bool divide(struct warnock *w, const struct warnock_window *win) {
   const struct box2 *b = &win->box;
   int32_t x = (int32_t)(((int64_t)b->x0 + b->x1) / 2),
           y = (int32_t)(((int64_t)b->y0 + b->y1) / 2);
-  if (w->request->divide_by_box && warnock_count(win->faces) > 0) {
-    struct box2 face =
-        box2_of_triangle(w->sheet, w->windows.faces.item[win->faces.from]);
+  if (w->request->divide_by_box && warnock_count(win->facets) > 0) {
+    struct box2 face = box2_of_triangle(
+        w->sheet, w->windows.facet_pool.item[win->facets.from]);
     x = window_split(b->x0, b->x1, face.x0, face.x1);
     y = window_split(b->y0, b->y1, face.y0, face.y1);
   }
@@ -111,13 +112,13 @@ static size_t count_unsolved(const struct warnock *w,
     return unsolved;
   for (size_t i = win->surrounders.from; i < win->surrounders.to; i++)
     unsolved += !w->triangle_deferred[w->windows.surrounders.item[i]];
-  for (size_t i = win->faces.from; i < win->faces.to; i++)
-    unsolved += !w->triangle_deferred[w->windows.faces.item[i]];
+  for (size_t i = win->facets.from; i < win->facets.to; i++)
+    unsolved += !w->triangle_deferred[w->windows.facet_pool.item[i]];
   return unsolved;
 }
 
 /* Divides a window of many faces, or solves or defers its lists where division
- * is futile. */
+ * gains nothing. */
 static bool handle_long_list(struct warnock *w, struct warnock_window *win,
                              size_t faces) {
   double pairs = (double)count_unsolved(w, win) * (double)faces;
@@ -128,12 +129,14 @@ static bool handle_long_list(struct warnock *w, struct warnock_window *win,
   }
   if (w->listed > w->listed_max)
     return defer_window(w, win);
-  win->futile = pairs > win->pairs / 2 ? win->futile + 1 : 0;
+  win->divisions_without_gain =
+      pairs > win->pairs / 2 ? win->divisions_without_gain + 1 : 0;
   win->pairs = pairs;
   if (pairs > SMALL_WINDOW_PAIRS_MAX) {
     bool is_point = win->box.x1 - (int64_t)win->box.x0 < 2 ||
                     win->box.y1 - (int64_t)win->box.y0 < 2;
-    return is_point || win->futile >= (small ? 1 : FUTILE_MAX)
+    return is_point || win->divisions_without_gain >=
+                           (small ? 1 : DIVISIONS_WITHOUT_GAIN_MAX)
                ? defer_window(w, win)
                : divide(w, win);
   }
@@ -149,26 +152,26 @@ static bool process_window(struct warnock *w) {
   bool fragments = w->request->fragments;
   struct warnock_front front;
   w->counts.all++;
-  if (!progress_step(&w->progress, warnock_count(win.faces) +
+  if (!progress_step(&w->progress, warnock_count(win.facets) +
                                        warnock_count(win.surrounders) +
                                        warnock_count(win.edges)) ||
       !warnock_list_edges(&w->windows, &win, &win.box, w->edge_deferred))
     return false;
   if ((fragments || warnock_count(win.edges) > 0) &&
-      (!warnock_list_faces(&w->windows, &win, &win.box, &front) ||
+      (!warnock_list_facets(&w->windows, &win, &win.box, &front) ||
        !warnock_drop_hidden_edges(w, &win, &front)))
     return false;
   if (!fragments && warnock_count(win.edges) == 0) {
     w->counts.no_edge++;
     return true;
   }
-  size_t faces = warnock_count(win.faces) + warnock_count(win.surrounders);
+  size_t faces = warnock_count(win.facets) + warnock_count(win.surrounders);
   w->listed += faces + warnock_count(win.edges);
   if (faces == 0) {
     w->counts.no_face++;
     return true;
   }
-  if (faces == 1 && warnock_count(win.faces) == 0)
+  if (faces == 1 && warnock_count(win.facets) == 0)
     w->counts.one_surrounder++;
   else if (faces <= SMALL_LIST_MAX)
     w->counts.few++;
@@ -263,7 +266,7 @@ static bool run(struct warnock *w, const struct triangle_grid *grid) {
     return false;
   w->listed_max =
       LISTED_PER_ITEM_MAX *
-      (uint64_t)(w->windows.faces.count + w->windows.edges.count + 1024);
+      (uint64_t)(w->windows.facet_pool.count + w->windows.edges.count + 1024);
   while (w->windows.stack.count > 0)
     if (!process_window(w))
       return false;

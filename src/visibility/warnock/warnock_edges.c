@@ -154,8 +154,8 @@ bool warnock_solve_edge(struct warnock *w, const struct warnock_window *win,
        k < win->surrounders.to && !task.hidden; k++)
     if (!occlude_by(w, &task, w->windows.surrounders.item[k]))
       return false;
-  for (size_t k = win->faces.from; k < win->faces.to && !task.hidden; k++)
-    if (!occlude_by(w, &task, w->windows.faces.item[k]))
+  for (size_t k = win->facets.from; k < win->facets.to && !task.hidden; k++)
+    if (!occlude_by(w, &task, w->windows.facet_pool.item[k]))
       return false;
   parts = edge_intervals_unite(&w->intervals);
   for (size_t i = 0; parts != NULL && i < parts->count; i++) {

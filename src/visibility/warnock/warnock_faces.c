@@ -66,7 +66,7 @@ static void window_lines(const struct box2 *window, struct geom_line line[4],
 bool warnock_solve_face(struct warnock *w, const struct warnock_window *win,
                         uint32_t t) {
   struct geom_line border[8];
-  const struct warnock_range *list[2] = {&win->surrounders, &win->faces};
+  const struct warnock_range *list[2] = {&win->surrounders, &win->facets};
   if ((w->sheet->triangle_flags[t] & SHEET_FLAT) || w->triangle_deferred[t])
     return true;
   window_lines(&win->box, border, border + 4);
@@ -81,7 +81,7 @@ bool warnock_solve_face(struct warnock *w, const struct warnock_window *win,
     return true;
   for (int l = 0; l < 2; l++) {
     const uint32_t *pool =
-        l == 0 ? w->windows.surrounders.item : w->windows.faces.item;
+        l == 0 ? w->windows.surrounders.item : w->windows.facet_pool.item;
     for (size_t i = list[l]->from; i < list[l]->to; i++) {
       uint32_t g = pool[i];
       if (occluder_subtraction_is_empty(&w->subtraction))

@@ -130,8 +130,8 @@ static uint32_t find_seen(const struct subdivision *s,
         warnock_sample_is_nearer(&s->sample, t, seen, column, line))
       seen = t;
   }
-  for (size_t i = win->faces.from; i < win->faces.to; i++) {
-    uint32_t t = s->windows.faces.item[i];
+  for (size_t i = win->facets.from; i < win->facets.to; i++) {
+    uint32_t t = s->windows.facet_pool.item[i];
     if (seen != SHEET_NONE && low == -INFINITY) {
       struct sample_depth d =
           warnock_sample_depth(&s->sample, seen, column, line);
@@ -215,9 +215,9 @@ static bool divide(struct subdivision *s, const struct warnock_window *win) {
   while (2 * half < b->x1 - b->x0 || 2 * half < b->y1 - b->y0)
     half *= 2;
   int32_t x = b->x0 + half, y = b->y0 + half;
-  if (s->request->divide_by_box && warnock_count(win->faces) > 0) {
-    struct box2 face = box2_of_triangle(s->windows.sheet,
-                                        s->windows.faces.item[win->faces.from]);
+  if (s->request->divide_by_box && warnock_count(win->facets) > 0) {
+    struct box2 face = box2_of_triangle(
+        s->windows.sheet, s->windows.facet_pool.item[win->facets.from]);
     x = window_split(b->x0, b->x1,
                      pixel_of(face.x0, g->x_first, g->x_step, g->den),
                      pixel_of(face.x1, g->x_first, g->x_step, g->den) + 1);
@@ -233,9 +233,9 @@ static bool apply_rules(struct subdivision *s, struct warnock_window *win,
                         enum warnock_rule *rule) {
   struct box2 on_sheet = window_of(s, &win->box, 0);
   struct warnock_front front;
-  if (!warnock_list_faces(&s->windows, win, &on_sheet, &front))
+  if (!warnock_list_facets(&s->windows, win, &on_sheet, &front))
     return false;
-  size_t faces = warnock_count(win->faces),
+  size_t faces = warnock_count(win->facets),
          surrounders = warnock_count(win->surrounders);
   if (faces + surrounders == 0) {
     *rule = WARNOCK_BACKGROUND;
@@ -246,7 +246,7 @@ static bool apply_rules(struct subdivision *s, struct warnock_window *win,
     *rule = front.hides ? WARNOCK_FRONT : WARNOCK_SURROUNDER;
     fill_block(s, &win->box, front.facet);
   } else {
-    uint32_t t = s->windows.faces.item[win->faces.from];
+    uint32_t t = s->windows.facet_pool.item[win->facets.from];
     *rule = warnock_classify(&s->windows, &on_sheet, t) == WINDOW_CONTAINED
                 ? WARNOCK_CONTAINED
                 : WARNOCK_INTERSECTING;
@@ -268,7 +268,7 @@ static bool process_window(struct subdivision *s) {
   uint64_t pixels =
       (uint64_t)(win.box.x1 - win.box.x0) * (uint64_t)(win.box.y1 - win.box.y0);
   if (!progress_step(&s->progress,
-                     WINDOW_WORK * (1 + warnock_count(win.faces) +
+                     WINDOW_WORK * (1 + warnock_count(win.facets) +
                                     warnock_count(win.surrounders))) ||
       (lines_only && !warnock_list_edges(&s->windows, &win, &nearby, NULL)))
     return false;

@@ -37,13 +37,13 @@ struct warnock {
   edge_occlusions occlusion; /* of all windows so far */
   size_t occlusion_limit;    /* from this count on they are united, see
                              OCCLUSIONS_MIN */
-  triangle_pieces piece;         /* of all windows so far */
+  triangle_pieces piece;     /* of all windows so far */
   size_t piece_limit;        /* from this count on faces of many pieces are
                              deferred, see PIECES_MIN */
   struct edge_intervals intervals; /* of the current edge */
   uint64_t listed, listed_max;     /* faces and edges, over all windows */
   uint8_t *edge_deferred;          /* one an edge: solved by the fallback, */
-  uint8_t *triangle_deferred;          /* one a triangle: pairwise_fallback.h */
+  uint8_t *triangle_deferred;      /* one a triangle: pairwise_fallback.h */
   bool any_deferred;
   struct arena arena; /* owns the pieces */
   struct occluder_subtraction subtraction;

@@ -1,5 +1,5 @@
 /* warnock_windows.c - the windows of Warnock's subdivision: their stack, their
- * lists of faces and edges, and their division. */
+ * lists of facets and edges, and their division. */
 #include "visibility/warnock/warnock_windows.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ bool warnock_windows_init(struct warnock_windows *windows,
   struct sort_key *key = mem_alloc(2 * n, sizeof *key);
   windows->nearest = mem_alloc(n, sizeof *windows->nearest);
   bool ok = key != NULL && windows->nearest != NULL &&
-            ARRAY_RESERVE(&windows->faces, n);
+            ARRAY_RESERVE(&windows->facet_pool, n);
   for (uint32_t t = 0; ok && t < n; t++)
     if ((sheet->triangle_flags[t] & flags) == 0 &&
         (left_out == NULL || left_out[t] == 0) &&
@@ -40,21 +40,21 @@ bool warnock_windows_init(struct warnock_windows *windows,
   if (ok)
     sort_keys(key, key + n, count);
   for (size_t i = 0; ok && i < count; i++)
-    windows->faces.item[windows->faces.count++] = key[i].value;
+    windows->facet_pool.item[windows->facet_pool.count++] = key[i].value;
   mem_free(key);
   for (uint32_t e = 0; ok && edges && e < sheet->edge.count; e++)
     if (sheet_edge_is_drawn(sheet, e))
       ok = ARRAY_PUSH(&windows->edges, e);
   struct warnock_window win = {.box = *first,
                                .pairs = INFINITY,
-                               .faces = {0, windows->faces.count},
+                               .facets = {0, windows->facet_pool.count},
                                .edges = {0, windows->edges.count}};
   return ok && ARRAY_PUSH(&windows->stack, win);
 }
 
 void warnock_windows_fini(struct warnock_windows *windows) {
   ARRAY_FREE(&windows->stack);
-  ARRAY_FREE(&windows->faces);
+  ARRAY_FREE(&windows->facet_pool);
   ARRAY_FREE(&windows->surrounders);
   ARRAY_FREE(&windows->edges);
   mem_free(windows->nearest);
@@ -62,7 +62,7 @@ void warnock_windows_fini(struct warnock_windows *windows) {
 
 struct warnock_window warnock_windows_pop(struct warnock_windows *windows) {
   struct warnock_window win = windows->stack.item[--windows->stack.count];
-  windows->faces.count = win.faces.to;
+  windows->facet_pool.count = win.facets.to;
   windows->surrounders.count = win.surrounders.to;
   windows->edges.count = win.edges.to;
   return win;
@@ -114,18 +114,19 @@ static size_t drop_hidden(struct warnock_windows *windows,
 /* The parent's surrounders surround this window, too, and are not classified
  * again.  The parent's faces come nearest first, so that all others are behind
  * the front as soon as one is behind its farthest depth. */
-bool warnock_list_faces(struct warnock_windows *windows,
-                        struct warnock_window *win, const struct box2 *on_sheet,
-                        struct warnock_front *front) {
-  struct warnock_range faces = win->faces, surrounders = win->surrounders;
-  win->faces.from = windows->faces.count;
+bool warnock_list_facets(struct warnock_windows *windows,
+                         struct warnock_window *win,
+                         const struct box2 *on_sheet,
+                         struct warnock_front *front) {
+  struct warnock_range facets = win->facets, surrounders = win->surrounders;
+  win->facets.from = windows->facet_pool.count;
   win->surrounders.from = windows->surrounders.count;
   *front = (struct warnock_front){SHEET_NONE, .depth.low = -INFINITY};
   for (size_t i = surrounders.from; i < surrounders.to; i++)
     windows->update_front(windows->user, &win->box,
                           windows->surrounders.item[i], front);
-  for (size_t i = faces.from; i < faces.to; i++) {
-    uint32_t t = windows->faces.item[i];
+  for (size_t i = facets.from; i < facets.to; i++) {
+    uint32_t t = windows->facet_pool.item[i];
     front->hides = windows->nearest[t] < front->depth.low;
     if (front->hides) {
       windows->cut_short++;
@@ -136,20 +137,21 @@ bool warnock_list_faces(struct warnock_windows *windows,
       if (!ARRAY_PUSH(&windows->surrounders, t))
         return false;
       windows->update_front(windows->user, &win->box, t, front);
-    } else if (class != WINDOW_DISJOINT && !ARRAY_PUSH(&windows->faces, t)) {
+    } else if (class != WINDOW_DISJOINT &&
+               !ARRAY_PUSH(&windows->facet_pool, t)) {
       return false;
     }
   }
   for (size_t i = surrounders.from; i < surrounders.to; i++)
     if (!ARRAY_PUSH(&windows->surrounders, windows->surrounders.item[i]))
       return false;
-  win->faces.to = windows->faces.count;
+  win->facets.to = windows->facet_pool.count;
   win->surrounders.to = windows->surrounders.count;
   if (front->facet == SHEET_NONE)
     return true;
   uint64_t dropped = windows->dropped;
-  win->faces.to = windows->faces.count =
-      drop_hidden(windows, win, front, windows->faces.item, win->faces);
+  win->facets.to = windows->facet_pool.count =
+      drop_hidden(windows, win, front, windows->facet_pool.item, win->facets);
   win->surrounders.to = windows->surrounders.count = drop_hidden(
       windows, win, front, windows->surrounders.item, win->surrounders);
   front->hides |= windows->dropped > dropped;

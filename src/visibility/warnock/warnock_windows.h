@@ -1,5 +1,5 @@
 /* warnock_windows.h - the windows of Warnock's subdivision: their stack, their
- * lists of faces and edges, and their division.
+ * lists of facets and edges, and their division.
  *
  * In vector mode a window is a box of the sheet, in pixel mode a box of pixels
  * [x0, x1) x [y0, y1).  The modes differ in what finishes a window, and in how
@@ -38,17 +38,17 @@ static inline size_t warnock_count(struct warnock_range list) {
 /* A window and its lists; on the stack, the lists of its parent. */
 struct warnock_window {
   struct box2 box;
-  double pairs; /* vector mode: unsolved items times faces, of the parent */
-  int futile;   /* vector mode: consecutive divisions after which one quarter
-                   kept more than half of the pairs */
-  struct warnock_range faces, surrounders, edges;
+  double pairs; /* vector mode: unsolved items times facets, of the parent */
+  int divisions_without_gain; /* vector mode: consecutive divisions after which
+                                 one quarter kept more than half of the pairs */
+  struct warnock_range facets, surrounders, edges;
 };
 
 /* The surrounder that hides most. */
 struct warnock_front {
   uint32_t facet; /* SHEET_NONE: no surrounder */
   struct surrounder_depths depth;
-  bool hides; /* it hides other faces of the window */
+  bool hides; /* it hides other facets of the window */
 };
 
 struct warnock_windows {
@@ -62,11 +62,11 @@ struct warnock_windows {
                 const struct warnock_front *front, uint32_t facet);
   void *user;
   ARRAY(struct warnock_window) stack;
-  ARRAY(uint32_t) faces, surrounders, edges; /* the pools */
+  ARRAY(uint32_t) facet_pool, surrounders, edges; /* the pools */
   double *nearest; /* one a triangle: the depth of its facet's nearest corner */
   struct window_counts classified;
   uint64_t cut_short; /* lists that ended at the first face behind the front */
-  uint64_t dropped;   /* faces that the front hid throughout a window */
+  uint64_t dropped;   /* facets that the front hid throughout a window */
 };
 
 /* Puts the first window onto the stack, with all facets that have none of those
@@ -85,14 +85,14 @@ struct warnock_window warnock_windows_pop(struct warnock_windows *windows);
 enum window_class warnock_classify(struct warnock_windows *windows,
                                    const struct box2 *on_sheet, uint32_t facet);
 
-/* Replaces the parent's lists of faces and surrounders by the window's own,
+/* Replaces the parent's lists of facets and surrounders by the window's own,
  * less what the front hides, and finds the front.
  * on_sheet  the window in sheet units
  * Returns false when memory ran out. */
-USE_RESULT bool warnock_list_faces(struct warnock_windows *windows,
-                                   struct warnock_window *win,
-                                   const struct box2 *on_sheet,
-                                   struct warnock_front *front);
+USE_RESULT bool warnock_list_facets(struct warnock_windows *windows,
+                                    struct warnock_window *win,
+                                    const struct box2 *on_sheet,
+                                    struct warnock_front *front);
 
 /* Replaces the parent's list of edges by those that meet the window.
  * deferred  one an edge: not zero where it is left out; or NULL

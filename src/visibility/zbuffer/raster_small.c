@@ -83,9 +83,9 @@ static bool make_small(struct small *small, const struct raster *raster,
   small->vx = (int64_t)at[l].x - at[h].x;
   small->vy = (int64_t)at[l].y - at[h].y;
   small->vz = at[l].z - at[h].z;
-  small->high = raster->place_of[h].line;
-  small->middle = raster->place_of[m].line;
-  small->low = raster->place_of[l].line;
+  small->high = raster->pixel_of[h].line;
+  small->middle = raster->pixel_of[m].line;
+  small->low = raster->pixel_of[l].line;
   small->column =
       (double)(at[h].x * grid->den - grid->x_first) / (double)grid->x_step;
   small->row =

@@ -29,7 +29,7 @@ static uint32_t find_tile(struct tile_sort *sort, uint32_t triangle) {
     return NO_TILE;
   count = facet_outline(sort->facets, sheet, triangle, &corner, &side);
   for (uint32_t k = 0; k < count; k++) {
-    int32_t line = raster->place_of[corner[k]].line;
+    int32_t line = raster->pixel_of[corner[k]].line;
     low = line < low ? line : low;
     high = line > high ? line : high;
   }
@@ -37,7 +37,7 @@ static uint32_t find_tile(struct tile_sort *sort, uint32_t triangle) {
     return NO_TILE;
   if (high - low > sort->tallest)
     sort->tallest = high - low;
-  column = raster->place_of[corner[0]].column;
+  column = raster->pixel_of[corner[0]].column;
   return (uint32_t)((size_t)(raster->grid.lines - high) / TILE_ORDER_BAND *
                         sort->across +
                     (size_t)column / TILE_COLUMNS);

@@ -63,7 +63,7 @@ static recto_status finish_band(struct raster *raster, struct pixels *pixels,
   int32_t first = past < TILE_ORDER_BAND ? 0 : past - TILE_ORDER_BAND;
   for (int32_t line = past; line-- > first && status == RECTO_OK;) {
     status = pixels_line(pixels, line, error);
-    if (raster->place != UINT32_MAX)
+    if (raster->line_mask != UINT32_MAX)
       raster_clear_line(raster, line);
   }
   return status;
@@ -80,7 +80,7 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
   if (!tile_order_init(&order, raster, facets, request))
     return error_memory(error);
   if (pixels != NULL)
-    raster_fold(raster, TILE_ORDER_BAND + order.tallest);
+    raster_make_ring(raster, TILE_ORDER_BAND + order.tallest);
   for (size_t band = 0; band < order.bands && status == RECTO_OK; band++) {
     if (!draw_facets(raster, facets, order.item + first,
                      order.past[band] - first, &progress, covered))

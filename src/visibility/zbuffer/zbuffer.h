@@ -7,7 +7,8 @@
 
 /* Draws all facets into the frame, which holds all lines.
  * pixels   receives each line as soon as it is finished; the frame becomes a
- *          ring buffer (raster_fold) that discards it; NULL: the frame is kept
+ *          ring buffer (raster_make_ring) that discards it; NULL: the frame is
+ *          kept
  * covered  the number of pixels they cover, hidden or not, is added to it
  * Errors   RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED. */
 USE_RESULT recto_status zbuffer_draw(struct raster *raster,

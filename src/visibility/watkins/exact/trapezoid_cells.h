@@ -36,7 +36,8 @@ struct trapezoid_cells {
   sweep_list tied;
   sweep_list candidate; /* scratch */
   uint64_t count;       /* trapezoids received */
-  uint64_t filter_failures;   /* of these, doubles did not decide which triangle is
+  uint64_t
+      filter_failures; /* of these, doubles did not decide which triangle is
                            visible */
 };
 

@@ -115,11 +115,10 @@ static bool store_line(struct exact *exact, const struct sheet *sheet,
   return intervals != NULL && edge_intervals_store(intervals, e, map);
 }
 
-static recto_status store_edges(struct exact *exact,
-                                  const struct sheet *sheet,
-                                  const struct solver_request *request,
-                                  struct map *map, struct report *report,
-                                  recto_error *error) {
+static recto_status store_edges(struct exact *exact, const struct sheet *sheet,
+                                const struct solver_request *request,
+                                struct map *map, struct report *report,
+                                recto_error *error) {
   struct edge_face_pairs *pairs = &exact->pairs;
   const struct sort_key *pair;
   struct edge_intervals intervals = {0};
@@ -209,7 +208,8 @@ static recto_status solve_fragments(struct exact *exact,
   if (status == RECTO_OK && !fragments_finish(&fragments, map))
     status = progress_error(&progress, error);
   report_int(report, "watkins", "visible_trapezoids", (int64_t)cells->count);
-  report_int(report, "watkins", "filter_failures", (int64_t)cells->filter_failures);
+  report_int(report, "watkins", "filter_failures",
+             (int64_t)cells->filter_failures);
   sweep_fini(&sweep);
   if (ready)
     fragments_fini(&fragments);
