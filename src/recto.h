@@ -172,8 +172,8 @@ typedef enum recto_divide {
 #define RECTO_FINEST_MM 0.01
 
 /* Called periodically with the share of the work done, 0 to 1, and the name
- * of the stage; by recto_scene_render, by recto_scene_read while another
- * process reads the model for it, and, while it writes, by
+ * of the stage, from the thread that called the library: by recto_scene_read,
+ * recto_scene_render, recto_scene_check and, while it writes, by
  * recto_drawing_write.  Returns false to cancel: the call then ends with
  * RECTO_ERROR_CANCELLED and no output. */
 typedef bool (*recto_progress_fn)(void *user, double share, const char *stage);

@@ -186,6 +186,85 @@ static void a_model_in_memory_opens_files_only_beside_its_name(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* Counts the polls and cancels at number `last`. */
+struct polls {
+  int count, last;
+};
+
+static bool poll(void *user, double share, const char *stage) {
+  struct polls *polls = user;
+  (void)share;
+  assert_string_equal(stage, "read");
+  return ++polls->count != polls->last;
+}
+
+/* A model of 60,000 points and 20,000 triangles in each format. */
+static char *make_large(const char *format, size_t *count) {
+  enum { FACES = 20000, ROOM = 140 };
+  char *text = malloc((size_t)FACES * ROOM * 2), *at = text;
+  assert_non_null(text);
+  bool is_ply = strcmp(format, "ply") == 0, is_stl = strcmp(format, "stl") == 0;
+  if (is_ply)
+    at += sprintf(at,
+                  "ply\nformat ascii 1.0\nelement vertex %d\n"
+                  "property float x\nproperty float y\nproperty float z\n"
+                  "element face %d\n"
+                  "property list uchar int vertex_indices\nend_header\n",
+                  3 * FACES, FACES);
+  if (is_stl)
+    at += sprintf(at, "solid large\n");
+  for (int i = 0; i < FACES; i++) {
+    int x = i % 100, y = i / 100;
+    const char *v = is_ply ? "" : is_stl ? "vertex " : "v ";
+    if (is_stl)
+      at += sprintf(at, "facet normal 0 0 1\nouter loop\n");
+    at += sprintf(at, "%s%d %d 0\n%s%d.5 %d 0\n%s%d %d.5 0\n", v, x, y, v, x, y,
+                  v, x, y);
+    if (is_stl)
+      at += sprintf(at, "endloop\nendfacet\n");
+  }
+  for (int i = 0; i < FACES && !is_stl; i++)
+    at += is_ply ? sprintf(at, "3 %d %d %d\n", 3 * i, 3 * i + 1, 3 * i + 2)
+                 : sprintf(at, "f %d %d %d\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+  if (is_stl)
+    at += sprintf(at, "endsolid large\n");
+  *count = (size_t)(at - text);
+  return text;
+}
+
+static void reading_may_be_cancelled_and_leaves_the_scene(void **state) {
+  (void)state;
+  static const char *const format[] = {"obj", "ply", "stl"};
+  for (int i = 0; i < 3; i++) {
+    size_t count;
+    char *text = make_large(format[i], &count);
+    recto_options options;
+    struct polls polls = {0, 0};
+    recto_scene *scene = new_scene();
+    recto_mesh mesh = cube_mesh();
+    recto_options_init(&options);
+    options.progress = poll;
+    options.user = &polls;
+    assert_int_equal(recto_scene_read_memory(scene, text, count, format[i],
+                                             NULL, &options, NULL),
+                     RECTO_OK);
+    recto_scene_destroy(scene);
+    int most = polls.count;
+    assert_in_range(most, count >> 19, 2 + (count >> 17));
+    scene = new_scene();
+    assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+    for (int last = 1; last <= most; last++) {
+      polls = (struct polls){0, last};
+      assert_int_equal(recto_scene_read_memory(scene, text, count, format[i],
+                                               NULL, &options, NULL),
+                       RECTO_ERROR_CANCELLED);
+      assert_int_equal(polls.count, last);
+    }
+    free(text);
+    assert_same(draw(scene), draw_obj(cube_obj));
+  }
+}
+
 /* ---- Meshes -------------------------------------------------------------- */
 
 static void a_mesh_draws_as_the_same_model(void **state) {
@@ -423,6 +502,7 @@ int main(void) {
       cmocka_unit_test(no_byte_behind_the_given_ones_is_read),
       cmocka_unit_test(errors_of_a_model_in_memory_have_its_name_and_line),
       cmocka_unit_test(a_model_in_memory_opens_files_only_beside_its_name),
+      cmocka_unit_test(reading_may_be_cancelled_and_leaves_the_scene),
       cmocka_unit_test(a_mesh_draws_as_the_same_model),
       cmocka_unit_test(a_mesh_in_single_precision_draws_as_in_double),
       cmocka_unit_test(faces_of_several_sizes_are_given_by_offsets),

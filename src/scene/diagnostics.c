@@ -63,3 +63,12 @@ void diagnostics_finish(struct diagnostics *diagnostics) {
                          diagnostics->file ? diagnostics->file : "", 0, text);
   }
 }
+
+recto_status diagnostics_poll_progress(struct diagnostics *diagnostics,
+                                       const char *at, recto_error *error) {
+  enum { STEP = 1 << 18 };
+  diagnostics->poll_at = at + STEP;
+  return diagnostics->progress(diagnostics->user, 0, "read")
+             ? RECTO_OK
+             : error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+}

@@ -378,6 +378,9 @@ static recto_status read_statements(struct obj_parser *p, bool points_only) {
     obj_skip_blanks(p);
     if (p->at == p->end)
       break;
+    status = diagnostics_poll(p->diagnostics, p->at, p->error);
+    if (status != RECTO_OK)
+      break;
     char keyword = *p->at, next = p->at[1];
     if (keyword == '\n' || keyword == '#')
       obj_finish_statement(p);

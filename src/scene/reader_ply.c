@@ -136,8 +136,11 @@ static recto_status read_vertices(struct ply_parser *p,
   if (!ARRAY_RESERVE(&p->scene->point, most))
     return error_memory(p->error);
   recto_status status = RECTO_OK;
-  for (size_t i = 0; i < element->count && status == RECTO_OK; i++)
-    status = read_vertex(p, element, i);
+  for (size_t i = 0; i < element->count && status == RECTO_OK; i++) {
+    status = diagnostics_poll(p->diagnostics, p->at, p->error);
+    if (status == RECTO_OK)
+      status = read_vertex(p, element, i);
+  }
   p->points = p->scene->point.count - p->first;
   unusable_place(&p->unusable, p->scene, p->first);
   if (status == RECTO_OK && p->points > 0)
@@ -245,7 +248,9 @@ static recto_status read_others(struct ply_parser *p,
   recto_status status = RECTO_OK;
   for (size_t i = 0; i < element->count && status == RECTO_OK; i++) {
     bool ok;
-    status = take(p, element, i, &ok);
+    status = diagnostics_poll(p->diagnostics, p->at, p->error);
+    if (status == RECTO_OK)
+      status = take(p, element, i, &ok);
     if (status != RECTO_OK || !ok)
       continue;
     if (element->kind == PLY_FACE)

@@ -132,10 +132,13 @@ static recto_status read_binary(struct scene *scene, const char *bytes,
   status = positions_reserve(&positions, scene, triangles / 2, error);
   for (size_t i = 0; i < triangles && status == RECTO_OK; i += BATCH) {
     size_t batch = triangles - i < BATCH ? triangles - i : BATCH;
-    status = positions_reserve(&positions, scene, 3 * batch, error);
+    const char *record = bytes + HEADER_SIZE + RECORD_SIZE * i;
+    status = diagnostics_poll(diagnostics, record, error);
     if (status == RECTO_OK)
-      status = read_batch(scene, bytes + HEADER_SIZE + RECORD_SIZE * i, batch,
-                          i + 1, &positions, diagnostics, error);
+      status = positions_reserve(&positions, scene, 3 * batch, error);
+    if (status == RECTO_OK)
+      status = read_batch(scene, record, batch, i + 1, &positions, diagnostics,
+                          error);
   }
   positions_fini(&positions);
   if (status != RECTO_OK)
@@ -297,6 +300,9 @@ static recto_status read_solid(struct parser *p) {
       scene_use_group(p->scene, name.start, name.length, p->error);
   while (status == RECTO_OK) {
     struct stl_word word = next_word(p);
+    status = diagnostics_poll(p->diagnostics, p->at, p->error);
+    if (status != RECTO_OK)
+      break;
     if (is_word(word, "endsolid")) {
       rest_of_line(p);
       return RECTO_OK;
