@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "base/report.h"
-#include "ink/order/pen_path.h"
+#include "ink/order/stroke_order.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 
@@ -84,7 +84,7 @@ static bool draw_scatter(const void *how, struct drawing *drawing) {
 static void print_row(const char *name, const char *what, draw_fn draw,
                       const void *how) {
   const struct tour_effort endless = {INFINITY, INFINITY};
-  const struct tour_effort *effort[] = {&pen_path_usual_effort, &endless};
+  const struct tour_effort *effort[] = {&stroke_order_usual_effort, &endless};
   double after[2], seconds[2];
   for (int i = 0; i < 2; i++) {
     struct drawing drawing;
@@ -97,7 +97,7 @@ static void print_row(const char *name, const char *what, draw_fn draw,
       printf("%-16s %-14s %8zu %10.0f", name, what, drawing.stroke.count,
              drawing_travel_mm(&drawing));
     double start = clock_cpu();
-    bool ok = pen_path_order(&drawing, effort[i]);
+    bool ok = stroke_order_improve(&drawing, effort[i]);
     seconds[i] = ok ? clock_cpu() - start : NAN;
     after[i] = drawing_travel_mm(&drawing);
     drawing_fini(&drawing);

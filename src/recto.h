@@ -474,10 +474,10 @@ RECTO_USE_RESULT recto_status recto_scene_add_polyline(recto_scene *scene,
 
 /* Prepares the scene for several views: welds its corners, finds its edges and
  * decides which of them are borders and creases, as recto_scene_render does it
- * each time for a scene that was not prepared.  Renders with the same `weld` and
- * `coordinate_bits` then share the result, and with the same `crease_deg` the
- * decisions too; those with others do the work themselves.  What is added to
- * the scene later undoes it.
+ * each time for a scene that was not prepared.  Renders with the same `weld`
+ * and `coordinate_bits` then share the result, and with the same `crease_deg`
+ * the decisions too; those with others do the work themselves.  What is added
+ * to the scene later undoes it.
  * Threads  afterwards, several threads may render the scene at once
  * Errors   RECTO_ERROR_ARGUMENT, RECTO_ERROR_MEMORY */
 RECTO_USE_RESULT recto_status recto_scene_prepare(recto_scene *scene,
@@ -551,9 +551,9 @@ typedef struct recto_verdict {
 /* Checks any program's drawing of the scene, an SVG file, by an independent ray
  * caster: seen by the camera of the options, on the file's own page, for the
  * options' edge classes.  Lines may be off by a quarter of the options' pen,
- * and by as much as simplify_mm and the output's unit allow a drawing.  Dashed lines,
- * those of the class hidden or of a layer labelled so, and hatching of the
- * class hatch are not checked. */
+ * and by as much as simplify_mm and the output's unit allow a drawing.  Dashed
+ * lines, those of the class hidden or of a layer labelled so, and hatching of
+ * the class hatch are not checked. */
 #define recto_scene_check(scene, path, options, verdict, error)                \
   recto_scene_check_sized((scene), (path), (options), (verdict),               \
                           sizeof *(verdict), (error))
@@ -697,7 +697,8 @@ typedef enum recto_side {
   RECTO_SIDE_OCCLUDER,     /* a part of an edge of a nearer face: its contour */
   RECTO_SIDE_INTERSECTION, /* where another face pierces this one */
   RECTO_SIDE_CLIP          /* the page's margins or the near plane; also where
-                              a method with scan lines or pixels divides a face */
+                              a method with scan lines or pixels divides a
+                              face */
 } recto_side;
 
 /* A side of a fragment, or the part of it that one neighbour lies beside.  This

@@ -189,7 +189,7 @@ unit_tests += %D%/test_api
 
 # Ink, on sheets and maps made by hand.
 unit_tests += %D%/test_ink_segment_graph %D%/test_ink_chain %D%/test_ink_clean \
-  %D%/test_ink_fill %D%/test_ink_tone_hatch %D%/test_ink_pen_path \
+  %D%/test_ink_fill %D%/test_ink_tone_hatch %D%/test_ink_stroke_order \
   %D%/test_ink_draw %D%/test_ink_merge %D%/test_pens
 unit_tests += %D%/test_lists
 %C%_test_lists_SOURCES = %D%/test_lists.c src/cli/arguments.c src/cli/frames.c \
@@ -204,7 +204,7 @@ unit_tests += %D%/test_lists
 %C%_test_ink_tone_hatch_SOURCES = %D%/test_ink_tone_hatch.c \
   %D%/ink_fixture.c %D%/ink_fixture.h
 %C%_test_ink_tone_hatch_LDADD = %D%/scenes/libscenes.la $(LDADD)
-%C%_test_ink_pen_path_SOURCES = %D%/test_ink_pen_path.c %D%/ink_fixture.c %D%/ink_fixture.h
+%C%_test_ink_stroke_order_SOURCES = %D%/test_ink_stroke_order.c %D%/ink_fixture.c %D%/ink_fixture.h
 %C%_test_ink_draw_SOURCES = %D%/test_ink_draw.c %D%/ink_fixture.c %D%/ink_fixture.h
 %C%_test_ink_draw_LDADD = %D%/scenes/libscenes.la $(LDADD)
 

@@ -71,7 +71,7 @@ static void pieces_of_different_lines_never_meet(void **state) {
     add_piece(&runs, INK, 3, 6, 0);
     struct hatch_piece *piece = &runs.piece.item[1];
     piece->pen = what == 0;
-    piece->layer = what == 1;
+    piece->direction = what == 1;
     piece->tone_steps = what == 2;
     piece->line = what == 3;
     assert_true(hatch_runs_sort(&runs));

@@ -1,5 +1,5 @@
-/* test_occluder_subtraction.c - a triangle less its subtraction, in any order, is
- * what the brute-force solver leaves of it. */
+/* test_occluder_subtraction.c - a triangle less its subtraction, in any order,
+ * is what the brute-force solver leaves of it. */
 #include "visibility/fragments/occluder_subtraction.h"
 #include "geom/region.h"
 #include "exact_fixture/scene.h"

@@ -27,8 +27,8 @@ static struct scan_grid plain_grid(bool down) {
   return make_grid(2, 2, 0, 0, down);
 }
 
-/* Adds all sides of a closed loop of plane points, x y after each other; several
- * loops make holes and islands. */
+/* Adds all sides of a closed loop of plane points, x y after each other;
+ * several loops make holes and islands. */
 static bool add_loop(struct scan_table *table, const int64_t *xy, size_t count,
                      uint32_t owner) {
   struct scan_point last;

@@ -12,7 +12,7 @@
 
 #include "recto.h"
 #include "scene/cluster.h"
-#include "scene/welded.h"
+#include "scene/weld_near.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/build.h"
 #include "tests/scenes/random.h"
@@ -284,8 +284,8 @@ static void weld(struct fixture *fixture, double length,
                  struct precision precision) {
   const struct weld_request request = {length, precision};
   recto_error error;
-  assert_int_equal(welded_init(&fixture->welded, &fixture->topology,
-                               &fixture->scene, &request, &error),
+  assert_int_equal(weld_near(&fixture->welded, &fixture->topology,
+                             &fixture->scene, &request, &error),
                    RECTO_OK);
 }
 
@@ -488,8 +488,8 @@ static void exhausted_memory_is_reported(void **state) {
   struct memory_faults faults = {.least = 1};
   while (memory_faults_go_on(&faults)) {
     memory_faults_begin(&faults);
-    memory_faults_end(&faults, welded_init(&f.welded, &f.topology, &f.scene,
-                                           &request, &error));
+    memory_faults_end(
+        &faults, weld_near(&f.welded, &f.topology, &f.scene, &request, &error));
   }
   assert_int_equal(count_edges_of_class(&f, RECTO_EDGE_BORDER), 0);
   end(&f);

@@ -23,9 +23,10 @@ static enum window_class classify(const struct box2 *window,
 
 /* ---- Worked numbers ------------------------------------------------------ */
 
-/* The decision of window_angle_count by the even-odd rule: how often the polygon
- * crosses a ray from the window's lower left corner downwards; where that is
- * even, they are disjoint.  A corner on the ray's line counts as left of it. */
+/* The decision of window_angle_count by the even-odd rule: how often the
+ * polygon crosses a ray from the window's lower left corner downwards; where
+ * that is even, they are disjoint.  A corner on the ray's line counts as left
+ * of it. */
 static int ray_count(const struct box2 *window, const struct geom_point *corner,
                      int count) {
   struct geom_point start = {window->x0, window->y0, 0};

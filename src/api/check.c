@@ -9,7 +9,7 @@
 #include "base/input.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
-#include "scene/welded.h"
+#include "scene/weld_near.h"
 
 /* The number of samples of the drawing, and of the edges. */
 enum { SAMPLES = 200000 };

@@ -1,5 +1,5 @@
-/* draw_file.c - the whole job in one call: reads a model, draws it and writes the
- * drawing. */
+/* draw_file.c - the whole job in one call: reads a model, draws it and writes
+ * the drawing. */
 #include "api/handle.h"
 #include "api/output.h"
 #include "base/path.h"

@@ -21,8 +21,8 @@ recto_status preparation_init(struct preparation *preparation,
     return status;
   const struct weld_request request = {
       scaled.mesh.weld, precision_of_bits(options->mesh.coordinate_bits)};
-  status = welded_init(&preparation->welded, &preparation->topology,
-                       &preparation->rescaled.scene, &request, error);
+  status = weld_near(&preparation->welded, &preparation->topology,
+                     &preparation->rescaled.scene, &request, error);
   if (status == RECTO_OK && classes &&
       !topology_keep_class_masks(&preparation->topology,
                                  &preparation->welded.scene,

@@ -4,7 +4,7 @@
 #ifndef API_PREPARATION_H
 #define API_PREPARATION_H
 
-#include "scene/welded.h"
+#include "scene/weld_near.h"
 #include "view/rescale.h"
 
 /* Zero-initialised is empty. */

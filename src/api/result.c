@@ -1,5 +1,5 @@
-/* result.c - what a drawing tells its caller: strokes, layers, groups, the page,
- * the projection, and the reports. */
+/* result.c - what a drawing tells its caller: strokes, layers, groups, the
+ * page, the projection, and the reports. */
 #include <assert.h>
 #include <math.h>
 

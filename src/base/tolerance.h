@@ -3,8 +3,9 @@
  * They serve input that was rounded before it came to us, and output.  Those of
  * contact are part of the definition of visibility: surfaces that touch do not
  * hide each other.  No other decides what is visible.  Each says its unit,
- * where it comes from, who uses it, and what ten times as much would do.  Error bounds of filters
- * are no tolerances: what they leave undecided is decided exactly.
+ * where it comes from, who uses it, and what ten times as much would do.  Error
+ * bounds of filters are no tolerances: what they leave undecided is decided
+ * exactly.
  *
  * Defined elsewhere, beside what they follow from: STRAIGHT in
  * judge/svg/svg_path.c, from TOLERANCE_CURVE_MM; FINE_UNIT_MM in api/verify.c,
@@ -105,7 +106,7 @@
  * Unit        share of the scene's diagonal
  * Derivation  view coordinates are sums of three products, off by about
  *             2^-51 of the diagonal, more for a model far from its origin.
- * Users       view/camera.c, view/project.c, view/layout_facet.c,
+ * Users       view/camera.c, view/project.c, view/layout_triangle.c,
  *             judge/triangles.c, judge/sampler.c
  * Ten times   a plate turned by 1e-11 rad still counts as square-on. */
 #define TOLERANCE_EXTENT_SHARE 0x1p-40
@@ -124,7 +125,7 @@
  * Derivation  two corners that should be one were computed in several ways: a
  *             chain of some ten operations in the file's precision, each off
  *             by half a unit in the last place, at either corner.
- * Users       scene/welded.c
+ * Users       scene/weld_near.c
  * Ten times   of %.6f, gaps of 1.6e-4 units: see the next. */
 #define TOLERANCE_WELD_ERRORS 32
 
@@ -132,7 +133,7 @@
  * model.
  * Unit        share of the common scale of the coordinates
  * Derivation  2^-18 of a sheet of A4 is 1 um, a hundredth of a fine pen.
- * Users       scene/welded.c
+ * Users       scene/weld_near.c
  * Ten times   gaps of 10 um on the page are closed; still a tenth of a pen. */
 #define TOLERANCE_WELD_SHARE 0x1p-18
 
@@ -140,7 +141,7 @@
  * Unit        share of the face's longest side
  * Derivation  parts of a face that are so thin are not seen, even where the
  *             face is as large as the page: a millimetre by 297 mm.
- * Users       scene/welded.c
+ * Users       scene/weld_near.c
  * Ten times   gaps of a tenth of a face are closed, which can be seen. */
 #define TOLERANCE_WELD_FACE_SHARE 0x1p-8
 
@@ -148,7 +149,7 @@
  * that they may be meant to be one.
  * Unit        share of the size of the faces about a corner
  * Derivation  by experience: modelled gaps are wider.
- * Users       scene/welded.c
+ * Users       scene/weld_near.c
  * Ten times   models of loose plates are warned about too. */
 #define TOLERANCE_GAP_SHARE 0x1p-6
 

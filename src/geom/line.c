@@ -420,8 +420,9 @@ struct geom_corner geom_corner_at(struct geom_point p) {
  * |c| <= 2^30 |l|; the terms of x, y and w gather at most 6 roundings, so x is
  * off by less than
  *     6 * 2^-53 * (2^31 + 2^30) |l1| |l2| / |w|:
- * at this sine 9/64, within CORNER_ERROR.  (Compared with the terms of w alone, two lines nearly
- * along an axis would pass for far from parallel: c is what is large there.) */
+ * at this sine 9/64, within CORNER_ERROR.  (Compared with the terms of w alone,
+ * two lines nearly along an axis would pass for far from parallel: c is what is
+ * large there.) */
 #define CORNER_SINE 0x1p-16
 
 struct geom_corner geom_corner_of(const struct geom_line *l1,

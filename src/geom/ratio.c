@@ -1,7 +1,7 @@
 /* ratio.c - comparing and applying exact rational parameters.
  *
- * Bit widths: num and den stay below 2^126 (occlusion.h derives the widest, 2^125),
- * so a cross product needs 252 bits: four 64-bit limbs.
+ * Bit widths: num and den stay below 2^126 (occlusion.h derives the widest,
+ * 2^125), so a cross product needs 252 bits: four 64-bit limbs.
  */
 #include "geom/ratio.h"
 

@@ -6,7 +6,7 @@
 
 #include "ink/fill/fill.h"
 #include "ink/layers.h"
-#include "ink/order/pen_path.h"
+#include "ink/order/stroke_order.h"
 #include "ink/lines/paths.h"
 #include "ink/lines/stroke.h"
 
@@ -258,9 +258,9 @@ static bool finish_drawing(struct ink *ink) {
     return false;
   ink->drawing->counts.travel_before_mm = drawing_travel_mm(ink->drawing);
   if (ink->options->ink.order == RECTO_ORDER_NEAR &&
-      !pen_path_order(ink->drawing, &pen_path_usual_effort))
+      !stroke_order_improve(ink->drawing, &stroke_order_usual_effort))
     return false;
-  ink->drawing->counts.pen_lifts = pen_path_pen_lifts(ink->drawing);
+  ink->drawing->counts.pen_lifts = stroke_order_pen_lifts(ink->drawing);
   return true;
 }
 

@@ -25,8 +25,8 @@ USE_RESULT recto_status ink_draw(struct drawing *drawing,
                                  const recto_options *options,
                                  recto_error *error);
 
-/* How a face looks: the colour in which RECTO_FILL_PAINT fills it, 0xRRGGBB, and
- * the brightness with which RECTO_FILL_SHADE does, to 1. */
+/* How a face looks: the colour in which RECTO_FILL_PAINT fills it, 0xRRGGBB,
+ * and the brightness with which RECTO_FILL_SHADE does, to 1. */
 struct ink_look {
   uint32_t colour;
   double brightness;

@@ -31,5 +31,5 @@ librecto_core_la_SOURCES += \
   %D%/lines/stroke.c %D%/lines/stroke.h \
   %D%/lines/vertex_snapping.c %D%/lines/vertex_snapping.h \
   %D%/order/nearest.c %D%/order/nearest.h \
-  %D%/order/pen_path.c %D%/order/pen_path.h \
+  %D%/order/stroke_order.c %D%/order/stroke_order.h \
   %D%/order/tour.c %D%/order/tour.h

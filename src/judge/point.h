@@ -1,4 +1,5 @@
-/* point.h - points of the page and of the scene, and their vector arithmetic. */
+/* point.h - points of the page and of the scene, and their vector
+ * arithmetic. */
 #ifndef JUDGE_POINT_H
 #define JUDGE_POINT_H
 

@@ -11,8 +11,8 @@ struct judge_sampler {
   double ray_offset_mm; /* as in judge_options */
 };
 
-/* The size of ray_offset_mm in the scene plus the rounding of depths, at a point
- * of the scene, in scene units. */
+/* The size of ray_offset_mm in the scene plus the rounding of depths, at a
+ * point of the scene, in scene units. */
 double judge_rounding_at(const struct judge_camera *camera,
                          double ray_offset_mm, struct judge_point3 at);
 

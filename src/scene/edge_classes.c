@@ -1,5 +1,5 @@
-/* edge_classes.c - which edges are features whatever the camera: borders, creases,
- * and where groups meet.
+/* edge_classes.c - which edges are features whatever the camera: borders,
+ * creases, and where groups meet.
  *
  * Robustness  Normals are summed from differences to the face's first corner,
  * so that a model far from the origin keeps its digits, and a face too small

@@ -29,5 +29,5 @@ librecto_core_la_SOURCES += \
   %D%/snapshot.h \
   %D%/topology.c %D%/topology.h \
   %D%/unusable.c %D%/unusable.h \
-  %D%/weld.c %D%/weld.h \
-  %D%/welded.c %D%/welded.h
+  %D%/weld_equal.c %D%/weld_equal.h \
+  %D%/weld_near.c %D%/weld_near.h

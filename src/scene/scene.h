@@ -38,7 +38,8 @@ struct scene {
   ARRAY(uint32_t) face_start;
   ARRAY(uint32_t) corner;
   ARRAY(uint32_t) face_group; /* one a face */
-  /* For each face that was skipped, how many there were before it; ascending. */
+  /* For each face that was skipped, how many there were before it;
+   * ascending. */
   ARRAY(uint32_t) face_skipped;
   /* Polyline w likewise. */
   ARRAY(uint32_t) wire_start;

@@ -10,8 +10,8 @@
  *            each is named by the first side in the file between its points.
  *   number   the sides are walked again, and look for their edges by their
  *            names too.
- *   weld     where points of border edges coincide (weld.h), all is done again
- *            with those points made one.
+ *   weld     where points of border edges coincide (weld_equal.h), all is done
+ *            again with those points made one.
  * Invariants  Edges stand in the order in which the file first uses them.
  * Memory      beside the result, 4 bytes a point and 4 an edge: sorting all
  *             sides took 8 a side more, and most of its time to touch them.
@@ -20,7 +20,7 @@
 
 #include <string.h>
 
-#include "scene/weld.h"
+#include "scene/weld_equal.h"
 
 /* A point with more sides than this above it is a hub, where one has so many
  * edges that a side has to pass by more than that. */
@@ -273,7 +273,7 @@ recto_status topology_init(struct topology *topology, const struct scene *scene,
   topology->corner_edge =
       mem_alloc(scene->corner.count, sizeof *topology->corner_edge);
   if (!topology->corner_edge || !build_edges(topology, scene) ||
-      !weld_borders(topology, scene, &topology->weld))
+      !weld_equal(topology, scene, &topology->weld))
     goto fail;
   if (topology->weld && !build_edges(topology, scene))
     goto fail;

@@ -79,7 +79,8 @@ static bool add_edge(struct layout *layout, struct layout_cut ends,
 }
 
 /* Makes the requested edges, and contours.
- * class_masks  one a topology edge; NULL where no class of them was requested */
+ * class_masks  one a topology edge; NULL where no class of them was
+ * requested */
 static recto_status make_edges(struct layout *layout,
                                const uint8_t *class_masks,
                                struct edge_ids *edge_ids) {

@@ -12,8 +12,8 @@
  * polyline, that is wholly outside the range is set to the end of the range
  * (project_point); where it overlaps the range, the range is extended to
  * include it, so that it stays straight.  If there is one behind the range, the
- * far end is moved back by the length of the range, so that what is set to it is
- * not in contact with the farthest face.
+ * far end is moved back by the length of the range, so that what is set to it
+ * is not in contact with the farthest face.
  */
 #include "view/layout_phases.h"
 #include "view/vector.h"

@@ -7,50 +7,51 @@
 #include <math.h>
 
 #include "view/coordinate_error.h"
-#include "view/layout_facet.h"
+#include "view/layout_triangle.h"
 
 static inline void set_side(const struct layout *layout,
-                            struct layout_facet *facet, int k,
+                            struct layout_triangle *triangle, int k,
                             uint32_t corner) {
-  uint32_t from = facet->point[k], to = facet->point[geom_next_corner(k)];
-  facet->side[k] = layout->topology->corner_edge[corner];
-  facet->forward[k] = from < to;
+  uint32_t from = triangle->point[k], to = triangle->point[geom_next_corner(k)];
+  triangle->side[k] = layout->topology->corner_edge[corner];
+  triangle->forward[k] = from < to;
 }
 
-/* The facet of a face of three corners. */
-static inline struct layout_facet facet_of_face(const struct layout *layout,
-                                                uint32_t face, uint32_t start) {
-  struct layout_facet facet = {.face = face};
+/* The triangle of a face of three corners. */
+static inline struct layout_triangle
+triangle_of_face(const struct layout *layout, uint32_t face, uint32_t start) {
+  struct layout_triangle triangle = {.face = face};
   for (uint32_t k = 0; k < 3; k++)
-    facet.point[k] = layout_weld(layout, layout->scene->corner.item[start + k]);
+    triangle.point[k] =
+        layout_weld(layout, layout->scene->corner.item[start + k]);
   for (int k = 0; k < 3; k++)
-    set_side(layout, &facet, k, start + (uint32_t)k);
-  return facet;
+    set_side(layout, &triangle, k, start + (uint32_t)k);
+  return triangle;
 }
 
 /* One triangle of a triangulated face of `count` corners. */
-static struct layout_facet
-facet_of_triangle(struct layout *layout, uint32_t face, uint32_t start,
-                  uint32_t count, const struct triangulation_triangle *t) {
-  struct layout_facet facet = {.face = face};
+static struct layout_triangle
+triangle_of_part(struct layout *layout, uint32_t face, uint32_t start,
+                 uint32_t count, const struct triangulation_triangle *t) {
+  struct layout_triangle triangle = {.face = face};
   for (int k = 0; k < 3; k++)
-    facet.point[k] =
+    triangle.point[k] =
         layout_weld(layout, layout->scene->corner.item[start + t->corner[k]]);
   for (int k = 0; k < 3; k++) {
     if (t->side[k] < count) {
-      set_side(layout, &facet, k, start + t->side[k]);
+      set_side(layout, &triangle, k, start + t->side[k]);
       continue;
     }
-    facet.side[k] = SHEET_NONE;
+    triangle.side[k] = SHEET_NONE;
     struct layout_diagonal *diagonal =
         &layout->diagonal.item[t->side[k] - count];
-    uint32_t from = facet.point[k], to = facet.point[geom_next_corner(k)];
-    facet.diagonal[k] = t->side[k] - count;
-    facet.forward[k] = from < to;
-    diagonal->from = facet.forward[k] ? from : to;
-    diagonal->to = facet.forward[k] ? to : from;
+    uint32_t from = triangle.point[k], to = triangle.point[geom_next_corner(k)];
+    triangle.diagonal[k] = t->side[k] - count;
+    triangle.forward[k] = from < to;
+    diagonal->from = triangle.forward[k] ? from : to;
+    diagonal->to = triangle.forward[k] ? to : from;
   }
-  return facet;
+  return triangle;
 }
 
 /* Resets the diagonals of the current face. */
@@ -111,17 +112,19 @@ static recto_status add_folds(struct layout *layout, uint32_t face,
   return RECTO_OK;
 }
 
-static struct layout_facet nth_facet(struct layout *layout, uint32_t face,
-                                     uint32_t start, uint32_t count, size_t t) {
-  return facet_of_triangle(layout, face, start, count,
-                           &layout->triangulation.triangle.item[t]);
+static struct layout_triangle nth_triangle(struct layout *layout, uint32_t face,
+                                           uint32_t start, uint32_t count,
+                                           size_t t) {
+  return triangle_of_part(layout, face, start, count,
+                          &layout->triangulation.triangle.item[t]);
 }
 
 static recto_status cut_polygon_face(struct layout *layout, uint32_t face,
                                      uint32_t start, uint32_t count) {
   for (size_t t = 0; t < layout->triangulation.triangle.count; t++) {
-    struct layout_facet facet = nth_facet(layout, face, start, count, t);
-    recto_status status = layout_cut_facet(layout, &facet);
+    struct layout_triangle triangle =
+        nth_triangle(layout, face, start, count, t);
+    recto_status status = layout_add_clipped(layout, &triangle);
     if (status != RECTO_OK)
       return status;
   }
@@ -208,18 +211,20 @@ static recto_status add_whole_face(struct layout *layout, uint32_t face,
   size_t triangles = layout->triangulation.triangle.count;
   size_t first = layout->flags.count;
   for (size_t t = 0; t < triangles; t++) {
-    struct layout_facet facet = nth_facet(layout, face, start, count, t);
-    layout_add_facet(layout, &facet);
+    struct layout_triangle triangle =
+        nth_triangle(layout, face, start, count, t);
+    layout_add_whole(layout, &triangle);
   }
   int common;
   bool is_common = face_sign(layout, face, first, start, count, &common);
   recto_status status = RECTO_OK;
   for (size_t t = 0; t < triangles; t++) {
-    struct layout_facet facet = nth_facet(layout, face, start, count, t);
+    struct layout_triangle triangle =
+        nth_triangle(layout, face, start, count, t);
     uint8_t flags = layout->flags.item[first + t];
     int own = flags & SHEET_FLAT ? 0 : flags & SHEET_FLIPPED ? -1 : 1;
     int sign = is_common ? common : own;
-    layout_record_facet_sides(layout, &facet, sign);
+    layout_record_triangle_sides(layout, &triangle, sign);
     const uint32_t *p = layout->sheet->triangle.item[first + t].point;
     for (int k = 0; status == RECTO_OK && sign != own && k < 3; k++)
       status = layout_contour(layout, p[k], p[(k + 1) % 3]);
@@ -325,21 +330,22 @@ static recto_status add_face(struct layout *layout, uint32_t face) {
     return RECTO_OK;
   if (count != 3)
     return add_polygon_face(layout, face, start, count, any != 0);
-  struct layout_facet facet = facet_of_face(layout, face, start);
-  const uint32_t *p = facet.point;
+  struct layout_triangle triangle = triangle_of_face(layout, face, start);
+  const uint32_t *p = triangle.point;
   if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) {
     layout->sheet->empty++;
     return RECTO_OK;
   }
   if (any) {
     size_t first = layout->flags.count;
-    recto_status status = layout_cut_facet(layout, &facet);
+    recto_status status = layout_add_clipped(layout, &triangle);
     mark_coplanar(layout, first);
     return status;
   }
   if (!layout_reserve(layout, 1))
     return error_memory(layout->error);
-  layout_record_facet_sides(layout, &facet, layout_add_facet(layout, &facet));
+  layout_record_triangle_sides(layout, &triangle,
+                               layout_add_whole(layout, &triangle));
   return RECTO_OK;
 }
 

@@ -18,8 +18,8 @@ struct pipeline {
   recto_error error;
 };
 
-/* Draws the scene; fragments are made where options->ink.fill requires them, with
- * their exact areas where the solver keeps them.  Look at `status` first:
+/* Draws the scene; fragments are made where options->ink.fill requires them,
+ * with their exact areas where the solver keeps them.  Look at `status` first:
  * what was not reached is empty. */
 void pipeline_run(struct pipeline *pipeline, const struct scene *scene,
                   const recto_options *options, const struct solver *solver);

@@ -11,8 +11,8 @@ uint32_t fill_colour(const struct scene *scene, uint32_t group);
 
 /* Adds the fills of the map's fragments, merged (merge.h).  Their colour is
  *   RECTO_FILL_PAINT  that of the face's group
- *   RECTO_FILL_SHADE  a grey by the angle between the face and options->ink.light,
- *                     the same for both sides of a face
+ *   RECTO_FILL_SHADE  a grey by the angle between the face and
+ *                     options->ink.light, the same for both sides of a face
  * Returns false when memory ran out. */
 USE_RESULT bool fill_add(struct drawing *drawing, const struct sheet *sheet,
                          const struct scene *scene, const struct map *map,
@@ -32,8 +32,8 @@ USE_RESULT bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
 
 /* Adds strokes of class 0 along parallel lines in up to three directions, the
  * first at hatch_angle_deg, so that the ink of a pen pen_mm wide covers the
- * share of the paper that the tone of the face under options->ink.light requires
- * (tone.h).  Returns false when memory ran out. */
+ * share of the paper that the tone of the face under options->ink.light
+ * requires (tone.h).  Returns false when memory ran out. */
 USE_RESULT bool tone_hatch_add(struct drawing *drawing,
                                const struct sheet *sheet,
                                const struct scene *scene, const struct map *map,

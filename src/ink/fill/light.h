@@ -9,8 +9,8 @@
 #define LIGHT_DARKEST 0.3
 
 /* Sets `light` to the unit vector towards the light, in scene space.  If
- * options->ink.light is 0, 0, 0, the light comes from behind the viewer, from the
- * upper left. */
+ * options->ink.light is 0, 0, 0, the light comes from behind the viewer, from
+ * the upper left. */
 void light_direction(const struct camera *camera, const recto_options *options,
                      double light[3]);
 

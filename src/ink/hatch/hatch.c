@@ -49,8 +49,8 @@ static bool side_is_inked(const struct hatch *h, uint32_t side) {
                                      h->lines.side.item[side].corner);
 }
 
-/* Collects the sides of the region with fragments [begin, end), except where the
- * pen may cross them to a neighbour.  False when memory ran out. */
+/* Collects the sides of the region with fragments [begin, end), except where
+ * the pen may cross them to a neighbour.  False when memory ran out. */
 static bool collect_sides(struct hatch *h, const struct map *map, size_t begin,
                           size_t end) {
   hatch_lines_clear(&h->lines);

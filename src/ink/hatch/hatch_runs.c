@@ -9,8 +9,8 @@ static int compare_lines(const struct hatch_piece *a,
                          const struct hatch_piece *b) {
   if (a->pen != b->pen)
     return a->pen < b->pen ? -1 : 1;
-  if (a->layer != b->layer)
-    return a->layer < b->layer ? -1 : 1;
+  if (a->direction != b->direction)
+    return a->direction < b->direction ? -1 : 1;
   if (a->tone_steps != b->tone_steps)
     return a->tone_steps < b->tone_steps ? -1 : 1;
   return (a->line > b->line) - (a->line < b->line);

@@ -8,10 +8,10 @@
 /* A piece of a hatch line, with ink or blank.  A blank piece records that the
  * face continues there without ink, so that a short gap may be closed; those of
  * hatch_runs.min_length or longer have no effect and need not be added.  Pieces
- * with equal pen, layer, tone_steps and line lie on the same hatch line. */
+ * with equal pen, direction, tone_steps and line lie on the same hatch line. */
 struct hatch_piece {
   uint32_t pen;
-  uint32_t layer; /* the layer of hatch lines, by direction */
+  uint32_t direction; /* the number of the direction of its hatch lines */
   /* On a face of uniform tone this tone times TONE_STEPS, which determines the
    * pitch; else 0. */
   uint32_t tone_steps;
@@ -42,7 +42,7 @@ struct hatch_run {
 };
 
 /* Sorts the pieces.  Afterwards hatch_runs_next returns the runs in order of
- * pen, layer, tone_steps, line, u0.  False when memory ran out. */
+ * pen, direction, tone_steps, line, u0.  False when memory ran out. */
 USE_RESULT bool hatch_runs_sort(struct hatch_runs *runs);
 
 /* Sets `run` to the next run; false past the last one. */

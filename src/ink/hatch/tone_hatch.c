@@ -111,7 +111,7 @@ static bool add_piece(struct tone_hatching *h, int layer,
                       const struct hatch_span *span, double u0, double u1,
                       bool blank) {
   struct hatch_piece piece = {.pen = h->pen,
-                              .layer = (uint32_t)layer,
+                              .direction = (uint32_t)layer,
                               .face = h->face,
                               .line = span->left.line,
                               .u0 = u0,
@@ -235,7 +235,7 @@ static bool add_stroke(struct tone_hatching *h, const struct hatch_piece *piece,
                        double u0, double u1) {
   if (!(u1 - u0 >= pens_shortest_mm(h->pens, piece->pen)) || u1 <= u0)
     return true;
-  struct hatch_lines *lines = &h->lines[piece->layer];
+  struct hatch_lines *lines = &h->lines[piece->direction];
   double each = FULL_COVERAGE;
   if (piece->tone_steps > 0)
     (void)layers_for_tone((double)piece->tone_steps / TONE_STEPS, &each);

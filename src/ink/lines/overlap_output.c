@@ -62,7 +62,7 @@ static struct measured_segment run_of(const struct vertex_snapping *snapping,
                                  .to = vertex_snapping_at(snapping, node[1])};
   run.dx = (int64_t)run.to.x - run.from.x;
   run.dy = (int64_t)run.to.y - run.from.y;
-  run.reach = snapping->unit * (llabs(run.dx) + llabs(run.dy));
+  run.reach = snapping->output_step * (llabs(run.dx) + llabs(run.dy));
   run.length = sqrt((double)(run.dx * run.dx + run.dy * run.dy));
   return run;
 }
@@ -116,7 +116,7 @@ static bool find_cover(const struct vertex_snapping *snapping,
    * does not begin there, or short sides of a curve would overlap the next. */
   double shorter = fmin(of_a.length, of_b.length);
   double run = fmin(fabs(place[1] - place[0]), cover->to - cover->from);
-  return run > fmin((double)snapping->unit, shorter / 2);
+  return run > fmin((double)snapping->output_step, shorter / 2);
 }
 
 /* ---- 2 Pairs ------------------------------------------------------------- */
@@ -150,7 +150,7 @@ static bool record_pairs(void *user, uint32_t segment, uint32_t node) {
 static bool find_pairs(struct output_overlaps *r,
                        const struct node_rows *rows) {
   const struct segment_graph *graph = r->snapping.graph;
-  const struct node_search search = {graph, rows, r->snapping.unit,
+  const struct node_search search = {graph, rows, r->snapping.output_step,
                                      record_pairs, r};
   for (uint32_t i = 0; i < graph->segment.count; i++)
     if (!r->snapping.gone[i] && !nodes_near_segment_visit(&search, i))
@@ -346,9 +346,9 @@ static bool rebuild(struct output_overlaps *r) {
 
 /* One round; sets *changed if another round may find more. */
 static bool drop_once(struct segment_graph *graph, const struct node_rows *rows,
-                      int32_t unit, bool *changed) {
+                      int32_t output_step, bool *changed) {
   struct output_overlaps r = {0};
-  bool ok = vertex_snapping_init(&r.snapping, graph, unit) &&
+  bool ok = vertex_snapping_init(&r.snapping, graph, output_step) &&
             vertex_snapping_drop_duplicates(&r.snapping, rows) &&
             find_pairs(&r, rows);
   if (ok && r.pair.count > 0)
@@ -368,9 +368,9 @@ static bool drop_once(struct segment_graph *graph, const struct node_rows *rows,
 
 recto_status segment_graph_drop_output_overlaps(struct segment_graph *graph,
                                                 const struct node_rows *rows,
-                                                double unit,
+                                                double output_step,
                                                 recto_error *error) {
-  int32_t whole = (int32_t)ceil(unit);
+  int32_t whole = (int32_t)ceil(output_step);
   if (whole <= TOLERANCE_COINCIDENT_UNITS)
     return RECTO_OK;
   graph->approximate =

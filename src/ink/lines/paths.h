@@ -41,8 +41,9 @@ USE_RESULT recto_status paths_chain(struct ink_paths *paths,
 
 /* Removes points within TOLERANCE_COLLINEAR_UNITS of the straight line that
  * remains without them, if they are in order along it.  For approximate points
- * the tolerance is half of `unit` (grid units), if that is more.  Ends stay. */
-void paths_straighten(struct ink_paths *paths, double unit);
+ * the tolerance is half of `output_step` (grid units), if that is more.  Ends
+ * stay. */
+void paths_straighten(struct ink_paths *paths, double output_step);
 
 /* Douglas-Peucker: removes points so that no part of a line moves by more than
  * `tolerance` grid units; ends stay, closed paths keep three points.

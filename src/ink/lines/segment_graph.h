@@ -69,8 +69,9 @@ void segment_graph_fini(struct segment_graph *graph);
 void node_rows_fini(struct node_rows *rows);
 
 /* Fills an empty graph with the visible intervals of the drawable edges, and
- * the hidden ones if options->ink.hidden requests them.  An end of an interval at
- * an end of the edge is the sheet's point; others are rounded to the grid once.
+ * the hidden ones if options->ink.hidden requests them.  An end of an interval
+ * at an end of the edge is the sheet's point; others are rounded to the grid
+ * once.
  * Errors  RECTO_ERROR_MEMORY; RECTO_ERROR_LIMIT: 2^31 segments. */
 USE_RESULT recto_status segment_graph_collect(struct segment_graph *graph,
                                               const struct sheet *sheet,
@@ -107,12 +108,12 @@ segment_graph_drop_collinear(struct segment_graph *graph,
 /* Of lines that round to the same output, keeps one, by the same rank, and
  * contracts segments without length at that precision where many nodes are near
  * each other.  Afterwards a node may have no ends.  Leaves the ends indexed.
- * unit  the output's finest step, in grid units; up to the tolerance of
+ * output_step  the output's finest step, in grid units; up to the tolerance of
  *       segment_graph_drop_collinear there is nothing to do
  * Cost  near linear in the segments if few overlap. */
 USE_RESULT recto_status segment_graph_drop_output_overlaps(
-    struct segment_graph *graph, const struct node_rows *rows, double unit,
-    recto_error *error);
+    struct segment_graph *graph, const struct node_rows *rows,
+    double output_step, recto_error *error);
 
 /* Builds end_start and end. */
 USE_RESULT recto_status segment_graph_index_ends(struct segment_graph *graph,

@@ -141,10 +141,10 @@ static uint32_t straighten_path(struct ink_point *point, uint8_t *approximate,
   return kept;
 }
 
-void paths_straighten(struct ink_paths *paths, double unit) {
+void paths_straighten(struct ink_paths *paths, double output_step) {
   struct ink_point *point = paths->point.item;
   uint32_t to = 0;
-  double wide = fmax(unit / 2, TOLERANCE_COLLINEAR_UNITS);
+  double wide = fmax(output_step / 2, TOLERANCE_COLLINEAR_UNITS);
   for (size_t i = 0; i < paths->path.count; i++) {
     struct ink_path *path = &paths->path.item[i];
     struct ink_point *from = point + path->point;

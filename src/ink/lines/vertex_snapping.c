@@ -27,9 +27,10 @@
 enum { LARGE_CLUSTER_MIN = 16 };
 
 bool vertex_snapping_init(struct vertex_snapping *snapping,
-                          struct segment_graph *graph, int32_t unit) {
+                          struct segment_graph *graph, int32_t output_step) {
   size_t nodes = graph->node.count;
-  *snapping = (struct vertex_snapping){.graph = graph, .unit = unit};
+  *snapping =
+      (struct vertex_snapping){.graph = graph, .output_step = output_step};
   snapping->root = mem_alloc(nodes, sizeof *snapping->root);
   snapping->anchor = mem_calloc(nodes, sizeof *snapping->anchor);
   snapping->gone = mem_calloc(graph->segment.count, sizeof *snapping->gone);
@@ -50,8 +51,8 @@ bool vertex_snapping_is_near(const struct vertex_snapping *snapping, uint32_t a,
                              uint32_t b) {
   struct ink_point p = vertex_snapping_at(snapping, a),
                    q = vertex_snapping_at(snapping, b);
-  return llabs((int64_t)p.x - q.x) <= snapping->unit &&
-         llabs((int64_t)p.y - q.y) <= snapping->unit;
+  return llabs((int64_t)p.x - q.x) <= snapping->output_step &&
+         llabs((int64_t)p.y - q.y) <= snapping->output_step;
 }
 
 bool vertex_snapping_unite(struct vertex_snapping *snapping, uint32_t from,
@@ -77,9 +78,10 @@ static void add_near_nodes(const struct vertex_snapping *snapping,
                            uint32_t *cluster, uint32_t i, uint32_t k,
                            uint32_t end) {
   const struct ink_point *at = snapping->graph->node.item;
-  int64_t x_max = (int64_t)at[i].x + snapping->unit;
+  int64_t x_max = (int64_t)at[i].x + snapping->output_step;
   for (; k < end && at[k].x <= x_max; k++)
-    if (cluster[k] == k && llabs((int64_t)at[k].y - at[i].y) <= snapping->unit)
+    if (cluster[k] == k &&
+        llabs((int64_t)at[k].y - at[i].y) <= snapping->output_step)
       cluster[k] = i;
 }
 
@@ -96,11 +98,12 @@ static void gather_clusters(const struct vertex_snapping *snapping,
       if (cluster[i] != i)
         continue;
       add_near_nodes(snapping, cluster, i, i + 1, end);
-      for (uint32_t q = r + 1; at[i].y + snapping->unit >= rows->low[q]; q++) {
+      for (uint32_t q = r + 1; at[i].y + snapping->output_step >= rows->low[q];
+           q++) {
         uint32_t last = rows->start[q + 1];
         size_t k;
         LOWER_BOUND(k, rows->start[q], last,
-                    at[k].x < at[i].x - snapping->unit);
+                    at[k].x < at[i].x - snapping->output_step);
         add_near_nodes(snapping, cluster, i, (uint32_t)k, last);
       }
     }

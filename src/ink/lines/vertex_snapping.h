@@ -10,7 +10,7 @@
 
 struct vertex_snapping {
   struct segment_graph *graph;
-  int32_t unit;
+  int32_t output_step;
   uint32_t *root;  /* of each node: the node that it was merged into, or
                       itself */
   uint8_t *anchor; /* of each node: another one was merged into it */
@@ -19,7 +19,8 @@ struct vertex_snapping {
 };
 
 USE_RESULT bool vertex_snapping_init(struct vertex_snapping *snapping,
-                                     struct segment_graph *graph, int32_t unit);
+                                     struct segment_graph *graph,
+                                     int32_t output_step);
 void vertex_snapping_fini(struct vertex_snapping *snapping);
 
 /* Whether two nodes are near at their current positions. */

@@ -38,8 +38,8 @@ struct newell_piece {
 
 struct newell_counts {
   /* Pairs by the test that decided them: depth ranges, bounding boxes (test A),
-   * P behind the plane of Q (B), Q in front of the plane of P (C), the full test
-   * on the page (D). */
+   * P behind the plane of Q (B), Q in front of the plane of P (C), the full
+   * test on the page (D). */
   uint64_t depth, minimax, behind, before, full;
   uint64_t moved, cycles, split_cycle, split_pierce, unseen;
   uint64_t tests;    /* pairs of a candidate and another piece */

@@ -6,8 +6,8 @@
  * that number exceeds a method's limit, the method defers the edge or the
  * face.  Deferred ones are solved from lists of candidate triangles per
  * page tile (tile_candidates.h), as the tiles method does: edges by
- * edge_query.h, faces by deferred_triangles.h.  The result is the same, since it
- * depends on the sheet alone; memory is linear in the number of triangles.
+ * edge_query.h, faces by deferred_triangles.h.  The result is the same, since
+ * it depends on the sheet alone; memory is linear in the number of triangles.
  */
 #ifndef VISIBILITY_PAIRWISE_PAIRWISE_FALLBACK_H
 #define VISIBILITY_PAIRWISE_PAIRWISE_FALLBACK_H

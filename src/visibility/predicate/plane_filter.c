@@ -63,16 +63,17 @@ struct plane_filter plane_filter_of(const struct sheet *sheet,
       .t1 = contact.length * by_z,
       .t0_more = T_UNIT,
       .t1_more = camera->perspective ? T_UNIT : 0,
-      .t_off = SLACK * ((m[0] + m[1] + m[2]) * grid +
-                        contact.most * (by_near + by_z * (double)SHEET_Z_MAX))};
+      .t_error =
+          SLACK * ((m[0] + m[1] + m[2]) * grid +
+                   contact.most * (by_near + by_z * (double)SHEET_Z_MAX))};
   if (!(contact.most * by_near < T0_LARGE && contact.most * by_z < T1_LARGE))
-    plane.t_off = INFINITY;
+    plane.t_error = INFINITY;
   return plane;
 }
 
 double plane_filter_thickness(const struct plane_filter *plane) {
   double least = plane->nz - plane->ez;
-  double most = plane->t0 + plane->t0_more + plane->t_off +
+  double most = plane->t0 + plane->t0_more + plane->t_error +
                 (plane->t1 + plane->t1_more) * (double)SHEET_Z_MAX;
   return least > 0 ? most / least * (1 + SLACK) : INFINITY;
 }
@@ -88,7 +89,7 @@ static inline struct bounded_value value_at(const struct plane_filter *plane,
   double z = (double)p.z, dx = p.x - plane->x, dy = p.y - plane->y,
          dz = z - plane->z;
   double off = plane->ex * fabs(dx) + plane->ey * fabs(dy) +
-               plane->ez * fabs(dz) + plane->t_off;
+               plane->ez * fabs(dz) + plane->t_error;
   double least = plane->t0 + plane->t1 * z;
   return (struct bounded_value){
       plane->nx * dx + plane->ny * dy + plane->nz * dz, least - off,

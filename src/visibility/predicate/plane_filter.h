@@ -23,14 +23,14 @@
  *     value(p)      is  n d,             off by less than  e |d|
  *     T(p) / 2^16   is  t0 + t1 z,       too small by less than
  *                                        t0_more + t1_more z,
- *                                        and off by less than t_off. */
+ *                                        and off by less than t_error. */
 struct plane_filter {
   double x, y, z;    /* a corner of the triangle */
   double nx, ny, nz; /* n, the normal */
   double ex, ey, ez; /* e, the error bound of the normal */
   double t0, t1;
   double t0_more, t1_more; /* what occlusion.h adds by rounding up */
-  double t_off;            /* INFINITY where the filter cannot be used */
+  double t_error;          /* INFINITY where the filter cannot be used */
 };
 
 /* The plane of a triangle, which may be SHEET_FLAT. */

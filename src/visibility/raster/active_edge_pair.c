@@ -84,9 +84,9 @@ static void draw_steep(const struct active_edge_pair *pair,
     double *depth = &raster->depth[row + (size_t)c];
     uint32_t *seen = &raster->seen[row + (size_t)c];
     double z = raster_depth(raster, pair->facet, c, line);
-    if (z <= *depth - raster->doubt)
+    if (z <= *depth - raster->error_bound)
       continue;
-    if (z < *depth + raster->doubt &&
+    if (z < *depth + raster->error_bound &&
         !span_fill_is_nearer(raster, pair->facet, raster_facet(*seen), c, line))
       continue;
     *depth = z;

@@ -34,7 +34,7 @@
  * edge-on where the scene is as deep as the page is high; their depths are
  * computed exactly pixel by pixel.  The depth of a gentle facet is computed
  * incrementally in doubles, over at most all lines and columns, with an error
- * below half of `doubt`. */
+ * below half of `error_bound`. */
 #define RASTER_GENTLE 0x1p48
 
 /* The pixel of a point of the sheet: `line` as in struct scan_point, and the
@@ -48,7 +48,7 @@ struct raster {
   struct scan_grid grid;
   int depth_bits;     /* 0: float64 */
   double level_scale; /* integer: levels per depth unit */
-  double doubt;       /* float64: depths whose difference is smaller are
+  double error_bound; /* float64: depths whose difference is smaller are
                          compared exactly */
   struct raster_pixel *pixel_of; /* one a point of the sheet */
   int32_t kept;                  /* lines in memory: all, or one */

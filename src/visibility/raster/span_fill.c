@@ -42,7 +42,8 @@ void span_fill_settle(struct raster *raster, uint32_t facet, int32_t line,
     double *depth = &raster->depth[row + (size_t)c];
     uint32_t *seen = &raster->seen[row + (size_t)c];
     /* This depth may be rounded differently than in the first pass. */
-    if (fabs(z - *depth) < 2 * raster->doubt && *seen != raster_seen(facet) &&
+    if (fabs(z - *depth) < 2 * raster->error_bound &&
+        *seen != raster_seen(facet) &&
         span_fill_is_nearer(raster, facet, raster_facet(*seen), c, line)) {
       *depth = z;
       *seen = raster_seen(facet);

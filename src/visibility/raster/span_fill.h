@@ -4,7 +4,8 @@
  * A triangle is split at its middle corner into two with a horizontal side: the
  * long edge bounds both, each short one bounds one of them.  It covers the same
  * pixels as with active_edge_pair.h, and the depths differ from those computed
- * there by less than the raster's `doubt`, so that both yield the same frame.
+ * there by less than the raster's `error_bound`, so that both yield the same
+ * frame.
  *
  * Source   Foley, van Dam, Feiner & Hughes ch. 3, 15.4. */
 #ifndef VISIBILITY_RASTER_SPAN_FILL_H
@@ -40,7 +41,7 @@ typedef uint32_t span_fill_seen __attribute__((vector_size(16)));
 /* The constants of a facet's pixels. */
 struct span_fill_stamp {
   span_fill_pair step[2]; /* depths of the lanes less that of the first */
-  double doubt;
+  double error_bound;
   uint32_t own;
 };
 
@@ -49,7 +50,7 @@ span_fill_stamp_of(const struct raster *raster, uint32_t facet,
                    double per_column) {
   return (struct span_fill_stamp){
       {{0, per_column}, (span_fill_pair){2, 3} * per_column},
-      raster->doubt,
+      raster->error_bound,
       raster_seen(facet)};
 }
 
@@ -58,14 +59,14 @@ span_fill_stamp_of(const struct raster *raster, uint32_t facet,
  * Returns the lanes in which they were stored. */
 static inline span_fill_mask
 span_fill_put_pair(double *depth, span_fill_pair here, span_fill_mask kept,
-                   double doubt, span_fill_mask *close) {
+                   double error_bound, span_fill_mask *close) {
   span_fill_pair there, gap, size;
   span_fill_mask nearer;
   memcpy(&there, depth, sizeof there);
   gap = here - there;
   size = (span_fill_pair)((span_fill_mask)gap & INT64_MAX);
-  nearer = (gap >= doubt) & kept;
-  *close |= (size < doubt) & kept;
+  nearer = (gap >= error_bound) & kept;
+  *close |= (size < error_bound) & kept;
   there = (span_fill_pair)((span_fill_mask)there ^
                            (((span_fill_mask)there ^ (span_fill_mask)here) &
                             nearer));
@@ -80,9 +81,10 @@ static inline void span_fill_put_lanes(const struct span_fill_stamp *stamp,
   const span_fill_pair lane[2] = {{0, 1}, {2, 3}};
   span_fill_seen there;
   span_fill_seen a = (span_fill_seen)span_fill_put_pair(
-      depth, z + stamp->step[0], lane[0] < count, stamp->doubt, close);
+      depth, z + stamp->step[0], lane[0] < count, stamp->error_bound, close);
   span_fill_seen b = (span_fill_seen)span_fill_put_pair(
-      depth + 2, z + stamp->step[1], lane[1] < count, stamp->doubt, close);
+      depth + 2, z + stamp->step[1], lane[1] < count, stamp->error_bound,
+      close);
 #if defined __clang__
   a = __builtin_shufflevector(a, b, 0, 2, 4, 6);
 #else

@@ -70,11 +70,11 @@ bool warnock_sample_is_nearer(const struct warnock_sample *sample, uint32_t a,
                               uint32_t b, int32_t column, int32_t line) {
   struct sample_depth of_a = warnock_sample_depth(sample, a, column, line);
   struct sample_depth of_b = warnock_sample_depth(sample, b, column, line);
-  double doubt = of_a.error + of_b.error;
+  double error_bound = of_a.error + of_b.error;
   int order;
-  if (of_a.z > of_b.z + doubt)
+  if (of_a.z > of_b.z + error_bound)
     return true;
-  if (of_a.z < of_b.z - doubt)
+  if (of_a.z < of_b.z - error_bound)
     return false;
   order = raster_compare(&sample->fine, a, b, column, line);
   return order > 0 || (order == 0 && a < b);

@@ -6,8 +6,8 @@
  *            sample intervals; in each the visible facet is decided
  *            (watkins_interval.c).  Visible facets make spans, and spans of
  *            neighbouring lines between the same edges make trapezoids
- *            (trapezoids.h).  The ends of intervals make intervals: an edge that
- *            is drawn on one line and on the next is drawn in between.
+ *            (trapezoids.h).  The ends of intervals make intervals: an edge
+ *            that is drawn on one line and on the next is drawn in between.
  *   Strokes  A line represents half a pitch up and down, and an edge that ends
  *            between two lines is drawn to its end.  Nearly horizontal edges,
  *            wires and intersections of faces are sampled on the lines above

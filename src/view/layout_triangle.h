@@ -1,12 +1,12 @@
-/* layout_facet.h - adds a triangle of a scene face to the sheet. */
-#ifndef VIEW_LAYOUT_FACET_H
-#define VIEW_LAYOUT_FACET_H
+/* layout_triangle.h - adds a triangle of a scene face to the sheet. */
+#ifndef VIEW_LAYOUT_TRIANGLE_H
+#define VIEW_LAYOUT_TRIANGLE_H
 
 #include "geom/predicate.h"
 #include "view/layout_phases.h"
 
 /* A triangle of a face, before clipping. */
-struct layout_facet {
+struct layout_triangle {
   uint32_t face;
   uint32_t point[3];    /* scene points, welded */
   uint32_t side[3];     /* topology edges; SHEET_NONE: a diagonal */
@@ -18,21 +18,23 @@ struct layout_facet {
  * folds: its topology edge, or for diagonal n of the face
  *     number of topology edges + number of folds so far + n. */
 static inline uint32_t layout_side_id(const struct layout *layout,
-                                      const struct layout_facet *facet, int k) {
-  return facet->side[k] != SHEET_NONE
-             ? facet->side[k]
+                                      const struct layout_triangle *triangle,
+                                      int k) {
+  return triangle->side[k] != SHEET_NONE
+             ? triangle->side[k]
              : (uint32_t)layout->topology->edge.count +
-                   (uint32_t)layout->fold.count + facet->diagonal[k];
+                   (uint32_t)layout->fold.count + triangle->diagonal[k];
 }
 
-/* Records on which side of the edge or diagonal of side k a facet lies. */
-static inline void layout_record_facet_side(struct layout *layout,
-                                            const struct layout_facet *facet,
-                                            int k, int sign) {
-  uint8_t *sides = facet->side[k] != SHEET_NONE
-                       ? &layout->sides[facet->side[k]]
-                       : &layout->diagonal.item[facet->diagonal[k]].sides;
-  layout_record_side(sides, facet->forward[k], sign);
+/* Records on which side of the edge or diagonal of side k a triangle lies. */
+static inline void
+layout_record_triangle_side(struct layout *layout,
+                            const struct layout_triangle *triangle, int k,
+                            int sign) {
+  uint8_t *sides = triangle->side[k] != SHEET_NONE
+                       ? &layout->sides[triangle->side[k]]
+                       : &layout->diagonal.item[triangle->diagonal[k]].sides;
+  layout_record_side(sides, triangle->forward[k], sign);
 }
 
 /* The end of the arrays of triangles, as a local variable, so that a loop which
@@ -95,31 +97,31 @@ static inline bool layout_reserve(struct layout *layout, size_t extra) {
          ARRAY_RESERVE(&layout->flags, extra);
 }
 
-/* Adds a facet that needs no clipping; room must have been reserved.
+/* Adds a triangle that needs no clipping; room must have been reserved.
  * Returns the sign of its area on the page, in the face's winding. */
-static inline int layout_add_facet(struct layout *layout,
-                                   const struct layout_facet *facet) {
+static inline int layout_add_whole(struct layout *layout,
+                                   const struct layout_triangle *triangle) {
   const uint32_t *map = layout->point_map;
-  const uint32_t point[3] = {map[facet->point[0]], map[facet->point[1]],
-                             map[facet->point[2]]};
-  const uint32_t side[3] = {layout_side_id(layout, facet, 0),
-                            layout_side_id(layout, facet, 1),
-                            layout_side_id(layout, facet, 2)};
-  return geom_sign64(layout_add_triangle(layout, facet->face, point, side));
+  const uint32_t point[3] = {map[triangle->point[0]], map[triangle->point[1]],
+                             map[triangle->point[2]]};
+  const uint32_t side[3] = {layout_side_id(layout, triangle, 0),
+                            layout_side_id(layout, triangle, 1),
+                            layout_side_id(layout, triangle, 2)};
+  return geom_sign64(layout_add_triangle(layout, triangle->face, point, side));
 }
 
-/* Records on which side of each of its sides a facet lies. */
-static inline void layout_record_facet_sides(struct layout *layout,
-                                             const struct layout_facet *facet,
-                                             int sign) {
+/* Records on which side of each of its sides a triangle lies. */
+static inline void
+layout_record_triangle_sides(struct layout *layout,
+                             const struct layout_triangle *triangle, int sign) {
   for (int k = 0; k < 3; k++)
-    layout_record_facet_side(layout, facet, k, sign);
+    layout_record_triangle_side(layout, triangle, k, sign);
 }
 
-/* Clips a facet, adds what is left of it, and records on which side of its
+/* Clips a triangle, adds what is left of it, and records on which side of its
  * edges and diagonals that lies. */
-USE_RESULT recto_status layout_cut_facet(struct layout *layout,
-                                         const struct layout_facet *facet);
+USE_RESULT recto_status layout_add_clipped(
+    struct layout *layout, const struct layout_triangle *triangle);
 
 /* The cut of a diagonal of the current face. */
 USE_RESULT recto_status layout_diagonal_cut(struct layout *layout,

@@ -1,9 +1,9 @@
-/* welded.c - a scene in which the corners of borders that lie close together
+/* weld_near.c - a scene in which the corners of borders that lie close together
  * are one.
  *
  * Phases
  *   candidates  the points of edges that only one face has, once those at equal
- *               positions are one (weld.h).
+ *               positions are one (weld_equal.h).
  *   radius      of each, the requested length; or where there is none, what
  *               rounding explains: see below.
  *   join        into clusters (cluster.h); one member's position represents
@@ -22,7 +22,7 @@
  * taken for its size, because rounding makes needles of faces without area,
  * and the short sides of those are what should be joined.
  */
-#include "scene/welded.h"
+#include "scene/weld_near.h"
 
 #include <float.h>
 #include <math.h>
@@ -368,10 +368,9 @@ static bool join(struct welded *welded, struct candidates *candidates,
   return welded->joined != SIZE_MAX;
 }
 
-recto_status welded_init(struct welded *welded, struct topology *topology,
-                         const struct scene *scene,
-                         const struct weld_request *request,
-                         recto_error *error) {
+recto_status weld_near(struct welded *welded, struct topology *topology,
+                       const struct scene *scene,
+                       const struct weld_request *request, recto_error *error) {
   struct candidates candidates = {.number = NULL};
   *welded = (struct welded){.scene = *scene};
   recto_status status = topology_init(topology, scene, error);

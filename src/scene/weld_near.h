@@ -1,6 +1,6 @@
-/* welded.h - welds the corners of a scene's borders that lie close together. */
-#ifndef SCENE_WELDED_H
-#define SCENE_WELDED_H
+/* weld_near.h - welds corners of a scene's borders that lie close together. */
+#ifndef SCENE_WELD_NEAR_H
+#define SCENE_WELD_NEAR_H
 
 #include "scene/topology.h"
 
@@ -28,11 +28,11 @@ struct welded {
  * Errors  RECTO_ERROR_MEMORY: both are then empty
  * Owner   `scene` is to live as long.
  * Cost    linear in the corners. */
-USE_RESULT recto_status welded_init(struct welded *welded,
-                                    struct topology *topology,
-                                    const struct scene *scene,
-                                    const struct weld_request *request,
-                                    recto_error *error);
+USE_RESULT recto_status weld_near(struct welded *welded,
+                                  struct topology *topology,
+                                  const struct scene *scene,
+                                  const struct weld_request *request,
+                                  recto_error *error);
 void welded_fini(struct welded *welded);
 
 /* Whether the borders look like edges of a connected mesh whose corners were

@@ -1,4 +1,4 @@
-/* pen_path.c - orders strokes for short pen-up travel.
+/* stroke_order.c - orders strokes for short pen-up travel.
  *
  * Phases, for each layer
  *   1 greedy   nearest neighbour: from the pen's position to the nearest entry
@@ -8,7 +8,7 @@
  *   3 loops    each loop starts at the corner with the shortest travel to it
  *              from the previous stroke and on to the next one
  *   4 apply    unless the given order has less travel */
-#include "ink/order/pen_path.h"
+#include "ink/order/stroke_order.h"
 
 #include <string.h>
 
@@ -19,7 +19,7 @@
  * local optimum, at which no move gains, is reached within these limits; with
  * long ones the result is within 2 % of it, in less than 2 s.  For more strokes
  * the limits bound the time. */
-const struct tour_effort pen_path_usual_effort = {
+const struct tour_effort stroke_order_usual_effort = {
     .neighbours_examined_max = 1e8, .moves = 8e8};
 
 /* The most corners of a loop that the greedy phase tries as starting points. */
@@ -30,7 +30,7 @@ struct layer_entry {
   uint32_t stroke, corner;
 };
 
-struct stroke_order {
+struct order_work {
   struct drawing *drawing;
   struct drawing_stroke *stroke; /* the layer's, borrowed, not owned */
   uint32_t count;
@@ -43,14 +43,14 @@ struct stroke_order {
   struct tour tour;
 };
 
-static struct drawing_point corner_of(const struct stroke_order *o,
+static struct drawing_point corner_of(const struct order_work *o,
                                       uint32_t stroke, uint32_t corner) {
   return o->drawing->point.item[o->stroke[stroke].point + corner];
 }
 
 /* ---- 1 Greedy ------------------------------------------------------------ */
 
-static bool add_entries(struct stroke_order *o) {
+static bool add_entries(struct order_work *o) {
   for (uint32_t i = 0; i < o->count; i++) {
     const struct drawing_stroke *stroke = &o->stroke[i];
     uint32_t step = stroke->count - 1;
@@ -68,7 +68,7 @@ static bool add_entries(struct stroke_order *o) {
 
 /* Appends to the tour the stroke of an entry, drawn from there.  Returns the
  * pen's position after it. */
-static struct drawing_point append_stroke(struct stroke_order *o,
+static struct drawing_point append_stroke(struct order_work *o,
                                           struct layer_entry entry) {
   const struct drawing_stroke *stroke = &o->stroke[entry.stroke];
   uint32_t last = stroke->closed ? entry.corner : stroke->count - 1;
@@ -83,7 +83,7 @@ static struct drawing_point append_stroke(struct stroke_order *o,
 }
 
 /* The greedy phase: always continues with the nearest entry. */
-static bool make_greedy_tour(struct stroke_order *o) {
+static bool make_greedy_tour(struct order_work *o) {
   struct nearest nearest = {0};
   struct drawing_point pen = o->start;
   bool ok = add_entries(o) && nearest_init(&nearest, o->entry_point.item,
@@ -103,7 +103,7 @@ static bool make_greedy_tour(struct stroke_order *o) {
 
 /* Chooses the starting point of the loop at index k of the tour, for the
  * shortest travel to it from the previous stroke and on to the next one. */
-static void choose_loop_start(struct stroke_order *o, uint32_t k) {
+static void choose_loop_start(struct order_work *o, uint32_t k) {
   const struct tour *t = &o->tour;
   uint32_t s = t->stroke[k], best = o->corner[s];
   struct drawing_point from = o->start;
@@ -126,7 +126,7 @@ static void choose_loop_start(struct stroke_order *o, uint32_t k) {
   o->end[2 * s] = o->end[2 * s + 1] = corner_of(o, s, best);
 }
 
-static void choose_loop_starts(struct stroke_order *o) {
+static void choose_loop_starts(struct order_work *o) {
   /* The best starting points of consecutive loops depend on each other, so
    * there is a second round. */
   enum { ROUNDS = 2 };
@@ -156,7 +156,7 @@ static void rotate(struct drawing_point *point, uint32_t count,
 }
 
 /* Stores the order of the tour in the drawing. */
-static bool apply(struct stroke_order *o) {
+static bool apply(struct order_work *o) {
   struct drawing_stroke *sorted = mem_alloc(o->count, sizeof *sorted);
   if (sorted == NULL)
     return false;
@@ -175,7 +175,7 @@ static bool apply(struct stroke_order *o) {
 }
 
 /* The travel in the given order, from the same start. */
-static double given_travel(const struct stroke_order *o) {
+static double given_travel(const struct order_work *o) {
   struct drawing_point pen = o->start;
   double travel = 0;
   for (uint32_t i = 0; i < o->count; i++) {
@@ -189,7 +189,7 @@ static double given_travel(const struct stroke_order *o) {
 /* ---- Layers -------------------------------------------------------------- */
 
 /* Orders the strokes of one layer. */
-static bool order_layer(struct stroke_order *o,
+static bool order_layer(struct order_work *o,
                         const struct tour_effort *effort) {
   size_t count = o->count;
   o->first_entry = mem_alloc(count + 1, sizeof *o->first_entry);
@@ -224,7 +224,8 @@ static struct drawing_point pen_after(const struct drawing *drawing,
   return drawing->point.item[stroke->point + last];
 }
 
-bool pen_path_order(struct drawing *drawing, const struct tour_effort *effort) {
+bool stroke_order_improve(struct drawing *drawing,
+                          const struct tour_effort *effort) {
   struct drawing_point pen = {0, 0};
   bool ok = true;
   for (size_t i = 0, end; ok && i < drawing->stroke.count; i = end) {
@@ -233,17 +234,17 @@ bool pen_path_order(struct drawing *drawing, const struct tour_effort *effort) {
                   drawing->stroke.item[end].layer == stroke->layer;
          end++)
       continue;
-    struct stroke_order order = {.drawing = drawing,
-                                 .stroke = stroke,
-                                 .count = (uint32_t)(end - i),
-                                 .start = pen};
+    struct order_work order = {.drawing = drawing,
+                               .stroke = stroke,
+                               .count = (uint32_t)(end - i),
+                               .start = pen};
     ok = order_layer(&order, effort);
     pen = pen_after(drawing, &drawing->stroke.item[end - 1]);
   }
   return ok;
 }
 
-size_t pen_path_pen_lifts(const struct drawing *drawing) {
+size_t stroke_order_pen_lifts(const struct drawing *drawing) {
   size_t lifts = 0;
   for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];

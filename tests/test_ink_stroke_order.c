@@ -1,5 +1,5 @@
-/* test_ink_pen_path.c - strokes are ordered for short pen-up travel, and keep
- * their shape. */
+/* test_ink_stroke_order.c - strokes are ordered for short pen-up travel, and
+ * keep their shape. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -10,7 +10,7 @@
 
 #include "base/report.h"
 #include "ink/order/nearest.h"
-#include "ink/order/pen_path.h"
+#include "ink/order/stroke_order.h"
 #include "tests/ink_fixture.h"
 #include "tests/scenes/random.h"
 
@@ -119,7 +119,7 @@ static void assert_reordered(const struct drawing *was,
 static double order(struct drawing *drawing, const struct tour_effort *effort) {
   struct drawing was;
   copy_drawing(&was, drawing);
-  assert_true(pen_path_order(drawing, effort));
+  assert_true(stroke_order_improve(drawing, effort));
   assert_reordered(&was, drawing);
   double before = drawing_travel_mm(&was), after = drawing_travel_mm(drawing);
   assert_true(after <= before);
@@ -141,7 +141,7 @@ static void strokes_in_a_row_are_drawn_one_after_the_other(void **state) {
     double back[] = {x + 8, 20, x, 20};
     add_stroke(&drawing, i % 2 ? line : back, 2, false);
   }
-  double travel = order(&drawing, &pen_path_usual_effort);
+  double travel = order(&drawing, &stroke_order_usual_effort);
   assert_true(fabs(travel - (hypot(10, 20) + 9 * 2)) < 1e-9);
   for (uint32_t i = 0; i < 10; i++)
     assert_int_equal(place[drawing.stroke.item[i].edge], i);
@@ -155,7 +155,7 @@ static void one_stroke_is_begun_at_its_nearer_end(void **state) {
   drawing_init(&drawing);
   add_layer(&drawing);
   add_stroke(&drawing, line, 2, false);
-  assert_true(order(&drawing, &pen_path_usual_effort) == 5);
+  assert_true(order(&drawing, &stroke_order_usual_effort) == 5);
   drawing_fini(&drawing);
 }
 
@@ -175,7 +175,7 @@ static void loop_is_begun_where_it_suits(void **state) {
   add_stroke(&drawing, after, 2, false);
   add_stroke(&drawing, ring, 100, true);
   add_stroke(&drawing, before, 2, false);
-  double travel = order(&drawing, &pen_path_usual_effort);
+  double travel = order(&drawing, &stroke_order_usual_effort);
   assert_true(fabs(travel - 2 * hypot(100, 10)) < 1e-6);
   assert_int_equal(drawing.stroke.item[1].edge, 1);
   drawing_fini(&drawing);
@@ -190,7 +190,7 @@ static void layers_are_never_mixed(void **state) {
     add_layer(&drawing);
     add_random(&drawing, &random, 30, 5);
   }
-  order(&drawing, &pen_path_usual_effort);
+  order(&drawing, &stroke_order_usual_effort);
   for (size_t i = 0; i < drawing.stroke.count; i++)
     assert_int_equal(drawing.stroke.item[i].layer, i / 30);
   drawing_fini(&drawing);
@@ -207,7 +207,7 @@ static void strokes_at_one_position_take_bounded_time(void **state) {
     add_stroke(&drawing, line, 2, false);
   }
   double before = clock_cpu();
-  assert_true(pen_path_order(&drawing, &pen_path_usual_effort));
+  assert_true(stroke_order_improve(&drawing, &stroke_order_usual_effort));
   assert_true(is_under_valgrind() || clock_cpu() - before < 10);
   drawing_fini(&drawing);
 }
@@ -216,8 +216,8 @@ static void empty_drawing_is_in_order(void **state) {
   struct drawing drawing;
   (void)state;
   drawing_init(&drawing);
-  assert_true(pen_path_order(&drawing, &pen_path_usual_effort));
-  assert_int_equal(pen_path_pen_lifts(&drawing), 0);
+  assert_true(stroke_order_improve(&drawing, &stroke_order_usual_effort));
+  assert_int_equal(stroke_order_pen_lifts(&drawing), 0);
   drawing_fini(&drawing);
 }
 
@@ -255,7 +255,7 @@ static void few_strokes_are_ordered_nearly_best(void **state) {
     }
     double optimum =
         best_travel(&drawing, (struct drawing_point){0, 0}, (1u << 6) - 1);
-    double travel = order(&drawing, &pen_path_usual_effort);
+    double travel = order(&drawing, &stroke_order_usual_effort);
     assert_true(travel > optimum - 1e-9);
     best += travel < optimum + 1e-9;
     sum += travel;
@@ -280,7 +280,7 @@ static void random_strokes_stay_what_they_were(void **state) {
       add_random(&drawing, &random, random_int(&random, 1, 40),
                  round % 2 ? 1 : 60);
     }
-    order(&drawing, &pen_path_usual_effort);
+    order(&drawing, &stroke_order_usual_effort);
     drawing_fini(&drawing);
   }
 }
@@ -293,7 +293,7 @@ static void same_strokes_give_the_same_order(void **state) {
     drawing_init(&drawing[i]);
     add_layer(&drawing[i]);
     add_random(&drawing[i], &random, 500, 10);
-    order(&drawing[i], &pen_path_usual_effort);
+    order(&drawing[i], &stroke_order_usual_effort);
   }
   for (size_t i = 0; i < 500; i++)
     assert_int_equal(drawing[0].stroke.item[i].edge,
@@ -311,7 +311,7 @@ static void more_effort_gains_little(void **state) {
   (void)state;
   for (int kind = 0; kind < 3; kind++) {
     double travel[3];
-    const struct tour_effort *effort[] = {&none, &pen_path_usual_effort,
+    const struct tour_effort *effort[] = {&none, &stroke_order_usual_effort,
                                           &endless};
     for (int i = 0; i < 3; i++) {
       struct random random = {79};
@@ -336,7 +336,7 @@ static void ordering_100000_strokes_takes_bounded_time(void **state) {
   add_layer(&drawing);
   add_random(&drawing, &random, count, 1);
   double before = clock_cpu();
-  assert_true(pen_path_order(&drawing, &pen_path_usual_effort));
+  assert_true(stroke_order_improve(&drawing, &stroke_order_usual_effort));
   /* Two seconds is the aim; sanitizers and busy machines take longer. */
   assert_true(is_under_valgrind() || clock_cpu() - before < 20);
   drawing_fini(&drawing);
@@ -458,7 +458,7 @@ static void pen_is_not_lifted_between_strokes_that_meet(void **state) {
   add_stroke(&drawing, a, 2, false);
   add_stroke(&drawing, b, 2, false);
   add_stroke(&drawing, c, 2, false);
-  assert_int_equal(pen_path_pen_lifts(&drawing), 2);
+  assert_int_equal(stroke_order_pen_lifts(&drawing), 2);
   drawing_fini(&drawing);
 }
 

@@ -1,5 +1,5 @@
-/* layout_facet.c - clips a triangle of a face and adds what is left. */
-#include "view/layout_facet.h"
+/* layout_triangle.c - clips a triangle of a face and adds what is left. */
+#include "view/layout_triangle.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,28 +22,28 @@ recto_status layout_diagonal_cut(struct layout *layout,
                                         : error_memory(layout->error);
 }
 
-/* The cut of a side of a facet, in the side's canonical direction. */
+/* The cut of a side of a triangle, in the side's canonical direction. */
 static recto_status cut_side(struct layout *layout,
-                             const struct layout_facet *facet, int k,
+                             const struct layout_triangle *triangle, int k,
                              struct layout_cut *cut) {
-  if (facet->side[k] != SHEET_NONE)
-    return layout_edge_cut(layout, facet->side[k], cut);
-  return layout_diagonal_cut(layout, &layout->diagonal.item[facet->diagonal[k]],
-                             cut);
+  if (triangle->side[k] != SHEET_NONE)
+    return layout_edge_cut(layout, triangle->side[k], cut);
+  return layout_diagonal_cut(
+      layout, &layout->diagonal.item[triangle->diagonal[k]], cut);
 }
 
-/* Finds the sheet point of corner i of a clipped facet.  It is
- *   the facet's own corner,
+/* Finds the sheet point of corner i of a clipped triangle.  It is
+ *   the triangle's own corner,
  *   the end of the cut of the side that starts or ends there, or
- *   a new point, where two clipping planes cross inside the facet. */
+ *   a new point, where two clipping planes cross inside the triangle. */
 static recto_status find_corner(struct layout *layout,
-                                const struct layout_facet *facet,
+                                const struct layout_triangle *triangle,
                                 const struct clip_polygon *polygon, int i,
                                 uint32_t *point) {
   const struct clip_corner *corner = &polygon->corner[i];
   *point = SHEET_NONE;
   if (corner->origin != CLIP_CUT) {
-    *point = layout->point_map[facet->point[corner->origin]];
+    *point = layout->point_map[triangle->point[corner->origin]];
     return RECTO_OK;
   }
   int reached = polygon->corner[i > 0 ? i - 1 : polygon->count - 1].side;
@@ -51,10 +51,10 @@ static recto_status find_corner(struct layout *layout,
   int side = leaves ? corner->side : reached;
   if (side != CLIP_CUT) {
     struct layout_cut cut;
-    recto_status status = cut_side(layout, facet, side, &cut);
+    recto_status status = cut_side(layout, triangle, side, &cut);
     if (status != RECTO_OK)
       return status;
-    *point = cut.point[leaves != facet->forward[side]];
+    *point = cut.point[leaves != triangle->forward[side]];
   }
   /* A side of which a single point is left has no cut: a new point. */
   return *point == SHEET_NONE ? layout_new_point(layout, corner->at, point)
@@ -62,17 +62,17 @@ static recto_status find_corner(struct layout *layout,
 }
 
 static uint32_t edge_of(const struct layout *layout,
-                        const struct layout_facet *facet,
+                        const struct layout_triangle *triangle,
                         const struct clip_polygon *polygon, int i) {
   int side = polygon->corner[i].side;
-  return side == CLIP_CUT ? SHEET_NONE : layout_side_id(layout, facet, side);
+  return side == CLIP_CUT ? SHEET_NONE : layout_side_id(layout, triangle, side);
 }
 
-/* Adds a clipped facet as a triangle fan.  Where rounding to the grid turned a
+/* Adds a clipped triangle as a fan.  Where rounding to the grid turned a
  * sliver of it over or made it flat, that triangle's sides are contours.
  * sign  set to the sign of the whole area on the page, in the face's winding */
 static recto_status add_fan(struct layout *layout,
-                            const struct layout_facet *facet,
+                            const struct layout_triangle *triangle,
                             const struct clip_polygon *polygon,
                             const uint32_t *point, int *sign) {
   int64_t area[CLIP_CORNERS_MAX] = {0};
@@ -83,10 +83,10 @@ static recto_status add_fan(struct layout *layout,
     bool last = i + 2 == polygon->count;
     const uint32_t corner[3] = {point[0], point[i], point[i + 1]};
     const uint32_t side[3] = {
-        i == 1 ? edge_of(layout, facet, polygon, 0) : SHEET_NONE,
-        edge_of(layout, facet, polygon, i),
-        last ? edge_of(layout, facet, polygon, i + 1) : SHEET_NONE};
-    area[i] = layout_add_triangle(layout, facet->face, corner, side);
+        i == 1 ? edge_of(layout, triangle, polygon, 0) : SHEET_NONE,
+        edge_of(layout, triangle, polygon, i),
+        last ? edge_of(layout, triangle, polygon, i + 1) : SHEET_NONE};
+    area[i] = layout_add_triangle(layout, triangle->face, corner, side);
     whole += area[i];
   }
   *sign = geom_sign128(whole);
@@ -100,8 +100,8 @@ static recto_status add_fan(struct layout *layout,
   return status;
 }
 
-/* Whether all points are on one border line: what is left of the facet lies in
- * the half unit by which clipping enlarges the printable area. */
+/* Whether all points are on one border line: what is left of the triangle lies
+ * in the half unit by which clipping enlarges the printable area. */
 static bool is_all_on_border(const struct layout *layout, const uint32_t *point,
                              int count) {
   const struct geom_point *at = layout->sheet->point.item;
@@ -129,8 +129,9 @@ static void drop_repeats(struct clip_polygon *polygon, uint32_t *point) {
   polygon->count = kept;
 }
 
-/* The orientation of a facet on the page, in its own winding, before clipping
- * and rounding; 0: seen edge-on, within the rounding of view coordinates. */
+/* The orientation of a triangle on the page, in its own winding, before
+ * clipping and rounding; 0: seen edge-on, within the rounding of view
+ * coordinates. */
 static int view_sign(const struct layout *layout,
                      const struct view_point corner[3]) {
   double volume = 0, most = 0;
@@ -148,15 +149,15 @@ static int view_sign(const struct layout *layout,
   return volume > 0 ? 1 : -1;
 }
 
-/* Adds what is left of a facet and records on which side of its edges it lies.
- * Sides that the near plane made are contours. */
+/* Adds what is left of a triangle and records on which side of its edges it
+ * lies. Sides that the near plane made are contours. */
 static recto_status add_polygon(struct layout *layout,
-                                const struct layout_facet *facet,
+                                const struct layout_triangle *triangle,
                                 const struct view_point corner[3],
                                 struct clip_polygon *polygon) {
   uint32_t point[CLIP_CORNERS_MAX];
   for (int i = 0; i < polygon->count; i++) {
-    recto_status status = find_corner(layout, facet, polygon, i, &point[i]);
+    recto_status status = find_corner(layout, triangle, polygon, i, &point[i]);
     if (status != RECTO_OK)
       return status;
   }
@@ -164,41 +165,43 @@ static recto_status add_polygon(struct layout *layout,
   if (polygon->count < 3 || is_all_on_border(layout, point, polygon->count))
     return RECTO_OK;
   int sign = 0;
-  recto_status status = add_fan(layout, facet, polygon, point, &sign);
+  recto_status status = add_fan(layout, triangle, polygon, point, &sign);
   /* Where a strip is left so thin that rounding made it flat, as at the near
-   * plane, the facet still lies on its side of the edge. */
+   * plane, the triangle still lies on its side of the edge. */
   if (sign == 0)
     sign = view_sign(layout, corner);
   for (int i = 0; status == RECTO_OK && i < polygon->count; i++) {
     const uint32_t end[2] = {point[i],
                              point[i + 1 < polygon->count ? i + 1 : 0]};
     if (polygon->corner[i].side != CLIP_CUT)
-      layout_record_facet_side(layout, facet, polygon->corner[i].side, sign);
+      layout_record_triangle_side(layout, triangle, polygon->corner[i].side,
+                                  sign);
     else if (!is_all_on_border(layout, end, 2))
       status = layout_contour(layout, end[0], end[1]);
   }
   return status;
 }
 
-recto_status layout_cut_facet(struct layout *layout,
-                              const struct layout_facet *facet) {
+recto_status layout_add_clipped(struct layout *layout,
+                                const struct layout_triangle *triangle) {
   struct view_point corner[3];
   unsigned any = 0, all = ~0u;
   for (int k = 0; k < 3; k++) {
-    corner[k] = layout_view(layout, facet->point[k]);
-    any |= layout->outcode[facet->point[k]];
-    all &= layout->outcode[facet->point[k]];
+    corner[k] = layout_view(layout, triangle->point[k]);
+    any |= layout->outcode[triangle->point[k]];
+    all &= layout->outcode[triangle->point[k]];
   }
   if (all)
     return RECTO_OK;
   if (!any) {
     if (!layout_reserve(layout, 1))
       return error_memory(layout->error);
-    layout_record_facet_sides(layout, facet, layout_add_facet(layout, facet));
+    layout_record_triangle_sides(layout, triangle,
+                                 layout_add_whole(layout, triangle));
     return RECTO_OK;
   }
   struct clip_polygon polygon;
-  if (!clip_triangle(&layout->projection, corner, facet->forward, &polygon))
+  if (!clip_triangle(&layout->projection, corner, triangle->forward, &polygon))
     return RECTO_OK;
-  return add_polygon(layout, facet, corner, &polygon);
+  return add_polygon(layout, triangle, corner, &polygon);
 }

@@ -1,9 +1,9 @@
-/* weld.c - which points of border edges lie at exactly the same position.
+/* weld_equal.c - which points of border edges lie at exactly the same position.
  *
  * Points are sorted by a fingerprint of their position and compared within
  * runs of equal ones.  The sort is stable and the lowest point of a position
  * represents all, so the fingerprint has no influence on the result. */
-#include "scene/weld.h"
+#include "scene/weld_equal.h"
 
 #include <string.h>
 
@@ -76,8 +76,8 @@ static size_t weld_runs(const struct scene_point *point,
   return welded;
 }
 
-bool weld_borders(const struct topology *topology, const struct scene *scene,
-                  uint32_t **weld) {
+bool weld_equal(const struct topology *topology, const struct scene *scene,
+                uint32_t **weld) {
   size_t points = scene->point.count, count = 0;
   uint8_t *marked = mem_calloc(points, sizeof *marked);
   uint32_t *map = NULL;

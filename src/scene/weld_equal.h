@@ -1,6 +1,6 @@
-/* weld.h - which points of border edges lie at exactly the same position. */
-#ifndef SCENE_WELD_H
-#define SCENE_WELD_H
+/* weld_equal.h - welds points of border edges at exactly the same position. */
+#ifndef SCENE_WELD_EQUAL_H
+#define SCENE_WELD_EQUAL_H
 
 #include "scene/topology.h"
 
@@ -11,7 +11,7 @@
  * Exact: coordinates are compared as they are; -0 and 0 are the same.
  * Cost: linear in the points, save where made to be slow: points that share a
  * fingerprint of 33 bits without coinciding are compared in pairs. */
-USE_RESULT bool weld_borders(const struct topology *topology,
-                             const struct scene *scene, uint32_t **weld);
+USE_RESULT bool weld_equal(const struct topology *topology,
+                           const struct scene *scene, uint32_t **weld);
 
 #endif
