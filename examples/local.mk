@@ -19,3 +19,7 @@ models: examples/generate$(EXEEXT)
 	  examples/generate$(EXEEXT) $$name >$(srcdir)/$$model || exit 1; \
 	done
 .PHONY: models
+
+# Compiled by tests/test_examples.sh as a user would.
+EXTRA_DIST += %D%/surface.c %D%/turntable.c %D%/dxf.c %D%/gcode.c \
+  %D%/faces.c %D%/hides.c

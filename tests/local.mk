@@ -70,6 +70,7 @@ dist_check_SCRIPTS += \
   %D%/test_cli_signals.sh \
   %D%/test_installed.sh \
   %D%/test_documents.sh \
+  %D%/test_examples.sh \
   %D%/test_structure.sh \
   %D%/test_options_without_effect.sh \
   %D%/test_python.sh
