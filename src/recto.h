@@ -14,7 +14,8 @@
  *          which accepts NULL.  What getters return is owned by the object and
  *          valid until the object is changed or destroyed.
  * Threads  No global state: different objects may be used from different
- *          threads at once; one object from one thread at a time.
+ *          threads at once; one object from one thread at a time, but for
+ *          renders of a scene that was prepared (recto_scene_prepare).
  * Stability  Enumerators keep their values.  Options are initialised by
  *          recto_options_init.  Structs that are handed over grow at their end
  *          or in their reserved fields; macros pass the size that the caller
@@ -633,7 +634,7 @@ typedef struct recto_interval {
                        edge in the scene; t0 < t1 */
   double from_mm[2], to_mm[2]; /* the ends on the page */
   uint32_t hidden_by; /* 0: visible; RECTO_NONE: hidden, and the number was not
-                         requested; else the quantitative invisibility, the
+                         requested or, by a raster method, is not known; else the quantitative invisibility, the
                          number of faces in front */
 } recto_interval;
 
@@ -643,11 +644,13 @@ typedef struct recto_edge {
   recto_edge_class edge_class;
   uint32_t points[2]; /* points of the scene, in the order in which they were
                          read or added, and those that welding made one by the
-                         first of them; RECTO_NONE: of an intersection, or of a
+                         first of them; RECTO_NONE: of an intersection, of a
+                         diagonal along which a warped polygon folds, or of a
                          polyline of more than 65536 points */
   uint32_t faces[2];  /* RECTO_NONE: there is none */
   uint32_t group;     /* of the first face, or of the polyline */
-  uint32_t number; /* that strokes have as `edge`; RECTO_NONE: intersections */
+  uint32_t number;    /* that strokes have as `edge`: of the mesh edge, or for
+                      the class wire of the polyline; RECTO_NONE: none */
   /* The parts on the page, ascending and adjacent; owned by the drawing. */
   const recto_interval *intervals;
   size_t interval_count;

@@ -110,7 +110,8 @@ static double parameter_of(const struct edge_image *image, const double mm[2],
 /* ---- Parts --------------------------------------------------------------- */
 
 /* Adds the part up to the parameter t1 of the sheet's edge, from where the part
- * before it ends. */
+ * before it ends.  A part that is shorter than the page grid can show is left
+ * to the next one, so that the parts are adjacent. */
 static bool add_part(struct edge_results *r, const struct sheet_edge *edge,
                      double t1, uint32_t hidden_by) {
   double t0 = r->at;
@@ -121,9 +122,9 @@ static bool add_part(struct edge_results *r, const struct sheet_edge *edge,
   place(r, edge, t1, part.to_mm);
   part.t0 = parameter_of(&r->image, part.from_mm, t0);
   part.t1 = parameter_of(&r->image, part.to_mm, t1);
-  r->at = t1;
-  if (!(part.t0 < part.t1)) /* shorter than the page grid can show */
+  if (!(part.t0 < part.t1))
     return true;
+  r->at = t1;
   r->edge->count++;
   return ARRAY_PUSH(&r->drawing->interval, part);
 }
