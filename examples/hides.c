@@ -1,4 +1,4 @@
-/* hides.c - which face hides which edge, and where: hides MODEL */
+/* hides.c - which face hides which mesh edge, and where: hides MODEL */
 #include <stdio.h>
 
 #include "recto.h"
@@ -45,7 +45,7 @@ int main(int argc, char **argv) {
   for (size_t i = 0; ok && recto_drawing_edge(drawing, i, &edge); i++)
     for (size_t k = 0; k < edge.interval_count; k++) {
       const recto_interval *part = edge.intervals + k;
-      if (part->hidden_by > 0)
+      if (part->hidden_by > 0 && edge.points[0] != RECTO_NONE)
         printf("edge %u-%u: from %.4f to %.4f behind face %u\n", edge.points[0],
                edge.points[1], part->t0, part->t1,
                find_face(drawing, (part->from_mm[0] + part->to_mm[0]) / 2,
