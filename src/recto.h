@@ -150,6 +150,17 @@ typedef enum recto_camera {
   RECTO_CAMERA_EYE            /* from eye to target */
 } recto_camera;
 
+/* The direction at `index` that has a name, such as "iso", as --view takes it;
+ * NULL past the last.  Its angles go to *azimuth_deg and *elevation_deg,
+ * which may be NULL. */
+const char *recto_view_name(size_t index, double *azimuth_deg,
+                            double *elevation_deg);
+
+/* The paper size at `index`, such as "A4", upright, as --page takes it; NULL
+ * past the last.  Its sides go to *width_mm and *height_mm, which may be
+ * NULL. */
+const char *recto_page_name(size_t index, double *width_mm, double *height_mm);
+
 typedef enum recto_divide {
   RECTO_DIVIDE_FOUR = 0, /* windows are cut in the middle */
   RECTO_DIVIDE_BOX       /* around the box of their nearest face */

@@ -596,6 +596,25 @@ static void formats_are_recognised(void **state) {
   assert_true(count >= 2 && count < 20);
 }
 
+static void views_and_pages_have_names(void **state) {
+  (void)state;
+  double a, b;
+  size_t views = 0, pages = 0;
+  assert_string_equal(recto_view_name(0, &a, &b), "iso");
+  assert_true(a == 45);
+  assert_true(fabs(tan(b * acos(-1) / 180) - 1 / sqrt(2)) < 1e-15);
+  for (; recto_view_name(views, NULL, &b) != NULL; views++)
+    assert_true(-90 <= b && b <= 90);
+  for (const char *name; (name = recto_page_name(pages, &a, &b)) != NULL;
+       pages++) {
+    assert_true(a < b);
+    if (name[0] == 'A') /* ISO 216 rounds to millimetres */
+      assert_true(fabs(a * b - 1e6 / (1 << (name[1] - '0'))) < 2100);
+  }
+  assert_int_equal(views, 9);
+  assert_int_equal(pages, 9);
+}
+
 /* ---- The whole job ------------------------------------------------------- */
 
 static void write_model(const char *path) {
@@ -872,6 +891,7 @@ int main(void) {
       cmocka_unit_test(a_drawing_is_written_by_name_and_by_extension),
       cmocka_unit_test(formats_that_are_not_there_are_refused),
       cmocka_unit_test(formats_are_recognised),
+      cmocka_unit_test(views_and_pages_have_names),
       cmocka_unit_test(one_call_does_it_and_warns_by_line),
       cmocka_unit_test(an_empty_page_says_why),
       cmocka_unit_test(a_failed_run_leaves_nothing),

@@ -89,28 +89,18 @@ EDGE_CLASSES = {
 }
 CLASS_NAMES = {mask: name for name, mask in EDGE_CLASSES.items()}
 
-_VIEWS = {
-    "iso": (45, 35.264389682754654),
-    "front": (0, 0),
-    "back": (180, 0),
-    "left": (-90, 0),
-    "right": (90, 0),
-    "top": (0, 90),
-    "bottom": (0, -90),
-    "dimetric": (20.704811054635428, 19.471220634490691),
-    "trimetric": (30, 25),
-}
-_PAGES = {
-    "a0": (841, 1189),
-    "a1": (594, 841),
-    "a2": (420, 594),
-    "a3": (297, 420),
-    "a4": (210, 297),
-    "a5": (148, 210),
-    "a6": (105, 148),
-    "letter": (215.9, 279.4),
-    "legal": (215.9, 355.6),
-}
+
+
+def _named_pairs(name_at: Any) -> dict[str, tuple[float, float]]:
+    """The words of the library for two numbers, in lower case."""
+    pair, pairs = ffi.new("double[2]"), {}
+    while word := text_of(name_at(len(pairs), pair, pair + 1)):
+        pairs[word.lower()] = (pair[0], pair[1])
+    return pairs
+
+
+_VIEWS = _named_pairs(lib.recto_view_name)
+_PAGES = _named_pairs(lib.recto_page_name)
 RESULTS = {
     "edges": lib.RECTO_RESULT_EDGES,
     "invisibility": lib.RECTO_RESULT_INVISIBILITY,

@@ -1,4 +1,5 @@
-/* vocabulary.c - the words that stand for the public enumerators. */
+/* vocabulary.c - the words that stand for the public enumerators, for directions
+ * and for paper sizes. */
 #include "recto.h"
 
 const char *recto_method_name(recto_method method) {
@@ -35,4 +36,50 @@ const char *recto_edge_class_name(recto_edge_class edge_class) {
     return "smooth";
   }
   return "unknown";
+}
+
+/* A word for two numbers. */
+struct named_pair {
+  const char *name;
+  double first, second;
+};
+
+static const char *give_pair(const struct named_pair *pair, double *first,
+                             double *second) {
+  if (first != NULL)
+    *first = pair->first;
+  if (second != NULL)
+    *second = pair->second;
+  return pair->name;
+}
+
+/* Dimetric: the axes to the right and up are drawn at one scale, the third at
+ * half of it, so that sin^2 elevation = 1/9 and sin^2 azimuth = 1/8. */
+const char *recto_view_name(size_t index, double *azimuth_deg,
+                            double *elevation_deg) {
+  static const struct named_pair view[] = {
+      {"iso", 45, 35.264389682754654}, /* tan = 1 / sqrt(2) */
+      {"front", 0, 0},
+      {"back", 180, 0},
+      {"left", -90, 0},
+      {"right", 90, 0},
+      {"top", 0, 90},
+      {"bottom", 0, -90},
+      {"dimetric", 20.704811054635428, 19.471220634490691},
+      {"trimetric", 30, 25},
+  };
+  return index < sizeof view / sizeof view[0]
+             ? give_pair(&view[index], azimuth_deg, elevation_deg)
+             : NULL;
+}
+
+const char *recto_page_name(size_t index, double *width_mm, double *height_mm) {
+  static const struct named_pair page[] = {
+      {"A0", 841, 1189}, {"A1", 594, 841},         {"A2", 420, 594},
+      {"A3", 297, 420},  {"A4", 210, 297},         {"A5", 148, 210},
+      {"A6", 105, 148},  {"LETTER", 215.9, 279.4}, {"LEGAL", 215.9, 355.6},
+  };
+  return index < sizeof page / sizeof page[0]
+             ? give_pair(&page[index], width_mm, height_mm)
+             : NULL;
 }

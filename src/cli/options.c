@@ -23,27 +23,17 @@ static bool take_method(struct arguments *arguments, const char *text) {
   return false;
 }
 
-/* Dimetric: the axes to the right and up are drawn at one scale, the third at
- * half of it, so that sin^2 elevation = 1/9 and sin^2 azimuth = 1/8. */
 static bool take_view(struct arguments *arguments, const char *text) {
-  static const struct named_view known[] = {
-      {"iso", 45, 35.264389682754654}, /* tan = 1 / sqrt(2) */
-      {"front", 0, 0},
-      {"back", 180, 0},
-      {"left", -90, 0},
-      {"right", 90, 0},
-      {"top", 0, 90},
-      {"bottom", 0, -90},
-      {"dimetric", 20.704811054635428, 19.471220634490691},
-      {"trimetric", 30, 25},
-  };
-  for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-    if (strcmp(text, known[i].name) == 0) {
+  struct named_view view;
+  for (size_t i = 0; (view.name = recto_view_name(i, &view.azimuth_deg,
+                                                  &view.elevation_deg)) != NULL;
+       i++)
+    if (strcmp(text, view.name) == 0) {
       if (arguments->view_count == VIEWS_MAX)
         return false;
-      arguments->view[arguments->view_count++] = known[i];
-      arguments->options.camera.azimuth_deg = known[i].azimuth_deg;
-      arguments->options.camera.elevation_deg = known[i].elevation_deg;
+      arguments->view[arguments->view_count++] = view;
+      arguments->options.camera.azimuth_deg = view.azimuth_deg;
+      arguments->options.camera.elevation_deg = view.elevation_deg;
       return true;
     }
   return false;

@@ -92,18 +92,12 @@ static bool same_word(const char *a, const char *b) {
 }
 
 static bool find_page(const char *text, double *width_mm, double *height_mm) {
-  static const struct {
-    const char *name;
-    double width_mm, height_mm;
-  } page[] = {
-      {"A0", 841, 1189}, {"A1", 594, 841},         {"A2", 420, 594},
-      {"A3", 297, 420},  {"A4", 210, 297},         {"A5", 148, 210},
-      {"A6", 105, 148},  {"LETTER", 215.9, 279.4}, {"LEGAL", 215.9, 355.6},
-  };
-  for (size_t i = 0; i < sizeof page / sizeof page[0]; i++)
-    if (same_word(text, page[i].name)) {
-      *width_mm = page[i].width_mm;
-      *height_mm = page[i].height_mm;
+  double width, height;
+  const char *name;
+  for (size_t i = 0; (name = recto_page_name(i, &width, &height)) != NULL; i++)
+    if (same_word(text, name)) {
+      *width_mm = width;
+      *height_mm = height;
       return true;
     }
   return false;
