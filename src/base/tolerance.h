@@ -106,7 +106,7 @@
  * Unit        share of the scene's diagonal
  * Derivation  view coordinates are sums of three products, off by about
  *             2^-51 of the diagonal, more for a model far from its origin.
- * Users       view/camera.c, view/project.c, view/layout_triangle.c,
+ * Users       view/camera.c, view/project.c, view/layout_clipping.c,
  *             judge/triangles.c, judge/sampler.c
  * Ten times   a plate turned by 1e-11 rad still counts as square-on. */
 #define TOLERANCE_EXTENT_SHARE 0x1p-40

@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "view/coordinate_error.h"
-#include "view/layout_triangle.h"
+#include "view/layout_clipping.h"
 
 static inline void set_side(const struct layout *layout,
                             struct layout_triangle *triangle, int k,

@@ -9,7 +9,7 @@ librecto_core_la_SOURCES += \
   %D%/camera_axes.c %D%/camera_axes.h \
   %D%/layout.c %D%/layout.h \
   %D%/layout_edges.c \
-  %D%/layout_triangle.c %D%/layout_triangle.h \
+  %D%/layout_clipping.c %D%/layout_clipping.h \
   %D%/layout_phases.h \
   %D%/layout_points.c \
   %D%/layout_range.c \

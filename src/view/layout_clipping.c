@@ -1,5 +1,5 @@
-/* layout_triangle.c - clips a triangle of a face and adds what is left. */
-#include "view/layout_triangle.h"
+/* layout_clipping.c - clips a triangle of a face and adds what is left. */
+#include "view/layout_clipping.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
-/* layout_triangle.h - adds a triangle of a scene face to the sheet. */
-#ifndef VIEW_LAYOUT_TRIANGLE_H
-#define VIEW_LAYOUT_TRIANGLE_H
+/* layout_clipping.h - adds triangles of scene faces to the sheet, clipped where
+ * they leave the view. */
+#ifndef VIEW_LAYOUT_CLIPPING_H
+#define VIEW_LAYOUT_CLIPPING_H
 
 #include "geom/predicate.h"
 #include "view/layout_phases.h"
