@@ -12,7 +12,7 @@
 #include "visibility/fragments/planar_subdivision.h"
 
 /* Coordinates in mm may be off by this much, a nanometre. */
-#define SLACK_MM (1.0 / 1048576)
+#define GRID_UNIT_MM (1.0 / 1048576)
 
 enum { PAGE_MM = 100 };
 
@@ -207,7 +207,7 @@ static bool is_point(const struct ink_fixture *k,
                      const struct drawing_stroke *stroke, uint32_t i,
                      const double *xy) {
   struct drawing_point p = k->drawing.point.item[stroke->point + i];
-  return fabs(p.x - xy[0]) <= SLACK_MM && fabs(p.y - xy[1]) <= SLACK_MM;
+  return fabs(p.x - xy[0]) <= GRID_UNIT_MM && fabs(p.y - xy[1]) <= GRID_UNIT_MM;
 }
 
 static const struct drawing_stroke *check_stroke(const struct ink_fixture *k,

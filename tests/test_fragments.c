@@ -82,13 +82,13 @@ static void areas_are_those_of_the_oracle(void **state) {
 /* Twice the area of a loop as its rounded corners have it, and how much
  * rounding them by 1/512 may have changed it. */
 static double loop_area2(const struct map *map, const struct map_loop *loop,
-                         double *slack) {
+                         double *error) {
   const struct map_corner *c = &map->corner.item[loop->corner];
   double sum = 0;
   for (uint32_t k = 0; k < loop->count; k++) {
     const struct map_corner *p = &c[k], *q = &c[(k + 1) % loop->count];
     sum += (p->x - c->x) * (q->y - c->y) - (q->x - c->x) * (p->y - c->y);
-    *slack += (fabs(q->x - p->x) + fabs(q->y - p->y) + 1) / 128;
+    *error += (fabs(q->x - p->x) + fabs(q->y - p->y) + 1) / 128;
   }
   return sum;
 }
@@ -97,24 +97,24 @@ static void check_form(const struct map *map) {
   uint32_t loop = 0, corner = 0;
   for (size_t f = 0; f < map->fragment.count; f++) {
     const struct map_fragment *fragment = &map->fragment.item[f];
-    double sum = 0, slack = 0;
+    double sum = 0, error = 0;
     assert_true(f == 0 || fragment[-1].face <= fragment->face);
     assert_int_equal(fragment->loop, loop);
     assert_true(fragment->loops >= 1);
     for (uint32_t l = 0; l < fragment->loops; l++) {
       const struct map_loop *at = &map->loop.item[loop++];
       const struct map_corner *c = &map->corner.item[at->corner];
-      double area2 = loop_area2(map, at, &slack);
+      double area2 = loop_area2(map, at, &error);
       assert_int_equal(at->corner, corner);
       corner += at->count;
       assert_true(at->count >= 3);
-      assert_true(l == 0 ? area2 > -slack : area2 < slack);
+      assert_true(l == 0 ? area2 > -error : area2 < error);
       /* The lowest before it was rounded: in y, another may come below. */
       for (uint32_t k = 1; k < at->count; k++)
         assert_true(c->x <= c[k].x);
       sum += area2;
     }
-    assert_true(sum > -slack);
+    assert_true(sum > -error);
   }
   assert_int_equal(loop, map->loop.count);
   assert_int_equal(corner, map->corner.count);

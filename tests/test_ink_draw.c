@@ -48,7 +48,7 @@ static double off(const struct side *s, struct drawing_point p) {
 
 /* How far two sides run along each other within 4 grid units. */
 static double overlap(const struct side *s, const struct side *t) {
-  const double slack = 4 * NANOMETRE;
+  const double error = 4 * NANOMETRE;
   double t_low = INFINITY, t_high = -INFINITY;
   const struct drawing_point end[] = {t->a, t->b};
   for (int i = 0; i < 2; i++) {
@@ -58,7 +58,7 @@ static double overlap(const struct side *s, const struct side *t) {
     t_low = fmin(t_low, along);
     t_high = fmax(t_high, along);
   }
-  if (off(s, t->a) > slack || off(s, t->b) > slack)
+  if (off(s, t->a) > error || off(s, t->b) > error)
     return 0;
   return fmin(t_high, s->length) - fmax(t_low, 0);
 }

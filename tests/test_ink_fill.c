@@ -318,7 +318,7 @@ static void draw_hatch(struct ink_fixture *k, const struct polygon *p,
  * them it is on the ink of a side, up to what three decimals of a move express;
  * the runs add up to the area.  Returns how many strokes there are. */
 static size_t assert_hatch(const struct polygon *p, double pitch,
-                           double angle_deg, double area_slack) {
+                           double angle_deg, double area_error) {
   enum { SAMPLES = 9 };
   struct ink_fixture k;
   draw_hatch(&k, p, pitch, angle_deg);
@@ -345,7 +345,7 @@ static size_t assert_hatch(const struct polygon *p, double pitch,
         along += hypot(q[i + 1].x - q[i].x, q[i + 1].y - q[i].y);
     }
   }
-  assert_true(fabs(along * pitch - area_of(p)) <= area_slack);
+  assert_true(fabs(along * pitch - area_of(p)) <= area_error);
   size_t strokes = k.drawing.stroke.count;
   ink_fixture_end(&k);
   return strokes;

@@ -97,7 +97,7 @@ static void a_cycle_cannot_be_painted(void **state) {
           if (both[i]->fragment.item[k].face == f)
             exact_add_area(&area[i], both[i], k);
       wrong +=
-          fabs(area[0].twice - area[1].twice) > area[0].slack + area[1].slack;
+          fabs(area[0].twice - area[1].twice) > area[0].error + area[1].error;
     }
     assert_true(wrong >= 2); /* one too large, one too small */
     map_fini(&map);

@@ -428,7 +428,7 @@ static void steep_faces_are_decided_at_the_centre(void **state) {
 
 /* A needle that starts at the very centre, just as deep there as a face whose
  * depth in doubles is rounded, or a unit nearer: c = (p0 + p1 + 2 p2) / 4. */
-static void steep_faces_meet_gentle_ones_exactly(void **state) {
+static void steep_faces_meet_others_exactly(void **state) {
   uint64_t seed = 97;
   (void)state;
   for (int round = 0; round < 400; round++) {
@@ -992,7 +992,7 @@ int main(void) {
       cmocka_unit_test(integer_depths_fight_where_their_bits_say),
       cmocka_unit_test(float64_distinguishes_single_units),
       cmocka_unit_test(steep_faces_are_decided_at_the_centre),
-      cmocka_unit_test(steep_faces_meet_gentle_ones_exactly),
+      cmocka_unit_test(steep_faces_meet_others_exactly),
       cmocka_unit_test(steep_faces_keep_within_their_depths),
       cmocka_unit_test(needles_cover_the_pixels_whose_centres_they_hold),
       cmocka_unit_test(removed_backs_leave_what_is_behind),

@@ -203,12 +203,12 @@ static recto_status project(struct render *render, recto_error *error) {
   return status;
 }
 
-/* Reports the progress of a solver's phase as progress of the whole, which
+/* Reports the progress of a solver's stage as progress of the whole, which
  * never decreases. */
 static bool pass_progress(void *user, double share, const char *stage) {
   struct render *render = user;
   const double *begin = render->begin;
-  double within = shares_of_phase(stage, share, needs_fragments(render));
+  double within = shares_within_solver(stage, share, needs_fragments(render));
   double whole = begin[SHARE_SOLVE] +
                  within * (begin[SHARE_SOLVE + 1] - begin[SHARE_SOLVE]);
   if (whole > render->passed)

@@ -42,7 +42,7 @@ void shares_plan(double begin[SHARE_STAGES + 1], const recto_options *options) {
     begin[i + 1] = begin[i] + weight[i] / sum;
 }
 
-double shares_of_phase(const char *phase, double share, bool fragments) {
+double shares_within_solver(const char *stage, double share, bool fragments) {
   static const struct {
     const char *name;
     double from, to, to_with_fragments;
@@ -53,7 +53,7 @@ double shares_of_phase(const char *phase, double share, bool fragments) {
       {"faces", 0.4, 1, 1},        {"depths", 0.9, 1, 1},
   };
   for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-    if (strcmp(phase, known[i].name) == 0) {
+    if (strcmp(stage, known[i].name) == 0) {
       double to = fragments ? known[i].to_with_fragments : known[i].to;
       return known[i].from + share * (to - known[i].from);
     }

@@ -21,8 +21,9 @@ enum share_stage {
  * about linear in time. */
 void shares_plan(double begin[SHARE_STAGES + 1], const recto_options *options);
 
-/* Converts the progress of a solver's phase, 0 to 1, to that of the solver.
+/* Converts the progress of one of a solver's stages, 0 to 1, to that of the
+ * solver.
  * fragments  the solver also makes fragments, after the edges */
-double shares_of_phase(const char *phase, double share, bool fragments);
+double shares_within_solver(const char *stage, double share, bool fragments);
 
 #endif

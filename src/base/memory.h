@@ -24,6 +24,7 @@ void mem_free(void *block);
 #else
 #define MEM_FETCH(address) ((void)(address))
 #endif
+#define MEM_FETCH_AHEAD 8 /* elements from a fetch to its use */
 
 /* For tests: the n-th allocation from now (1-based) fails, once; 0 switches
  * this off. */

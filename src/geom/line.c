@@ -11,8 +11,7 @@
  *
  * Filter: the nine inputs are within 2^-52 of the true coefficients (the
  * digits are cut off); each of the six triple products gathers at most 3 such
- * errors and 5 roundings in all, so the sum is off by less than 16 * 2^-53
- * times the sum of magnitudes.
+ * errors and 5 roundings in all: 11 roundings, within FILTER_ERROR.
  */
 #include "geom/line.h"
 
@@ -20,8 +19,6 @@
 #include <string.h>
 
 #include "geom/wide.h"
-
-#define FILTER (16 * 0x1p-53)
 
 void geom_line_through(struct geom_line *line, struct geom_point p,
                        struct geom_point q) {
@@ -317,9 +314,9 @@ static int side_of_point(const struct geom_line *line,
   value = line->a * corner->ix + line->b * corner->iy + line->c;
   size =
       fabs(line->a * corner->ix) + fabs(line->b * corner->iy) + fabs(line->c);
-  if (value > FILTER * size)
+  if (value > FILTER_ERROR * size)
     return 1;
-  if (value < -FILTER * size)
+  if (value < -FILTER_ERROR * size)
     return -1;
   return side_exact(line, corner);
 }
@@ -344,7 +341,7 @@ static int side_of_doubles(const struct geom_line *line,
   }
   value = ax + by + c;
   bound = CORNER_ERROR * (fabs(line->a) + fabs(line->b)) +
-          FILTER * (fabs(ax) + fabs(by) + fabs(c));
+          FILTER_ERROR * (fabs(ax) + fabs(by) + fabs(c));
   return (value > bound) - (value < -bound);
 }
 
@@ -368,7 +365,8 @@ int geom_line_side(const struct geom_line *line,
   size = fabs(line->a) * (fabs(x1) + fabs(x2)) +
          fabs(line->b) * (fabs(y1) + fabs(y2)) +
          fabs(line->c) * (fabs(w1) + fabs(w2));
-  if (fabs(det) > FILTER * size && fabs(w) > FILTER * (fabs(w1) + fabs(w2)))
+  if (fabs(det) > FILTER_ERROR * size &&
+      fabs(w) > FILTER_ERROR * (fabs(w1) + fabs(w2)))
     return (det > 0) == (w > 0) ? 1 : -1;
   return side_exact(line, corner);
 }
@@ -395,7 +393,7 @@ static int product_exact(const struct geom_line *l1, const struct geom_line *l2,
 
 int geom_line_turn(const struct geom_line *l1, const struct geom_line *l2) {
   double w1 = l1->a * l2->b, w2 = l2->a * l1->b, w = w1 - w2;
-  if (fabs(w) > FILTER * (fabs(w1) + fabs(w2)))
+  if (fabs(w) > FILTER_ERROR * (fabs(w1) + fabs(w2)))
     return w > 0 ? 1 : -1;
   if (same_line(l1, l2))
     return 0;
@@ -404,7 +402,7 @@ int geom_line_turn(const struct geom_line *l1, const struct geom_line *l2) {
 
 int geom_line_along(const struct geom_line *l1, const struct geom_line *l2) {
   double w1 = l1->a * l2->a, w2 = l1->b * l2->b, w = w1 + w2;
-  if (fabs(w) > FILTER * (fabs(w1) + fabs(w2)))
+  if (fabs(w) > FILTER_ERROR * (fabs(w1) + fabs(w2)))
     return w > 0 ? 1 : -1;
   return product_exact(l1, l2, true);
 }

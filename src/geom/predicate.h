@@ -14,6 +14,11 @@
 
 #include "geom/ratio.h"
 
+/* The error bound of a floating-point filter: a sum in doubles, of terms that
+ * together with the sum take fewer than 14 roundings each, is off by less than
+ * this share of the sum of their magnitudes [Shewchuk1997]. */
+#define FILTER_ERROR (16 * 0x1p-53)
+
 struct geom_point {
   int32_t x, y;
   int64_t z;

@@ -8,7 +8,7 @@
  * The bound of error.  With u = 2^-53 and M = |x low| + |x high| in frame
  * units: the first x takes at most 8 roundings of values up to M; dx is off by
  * 4 u |dx|, which n lines gather to 4 u M; each of n steps rounds once more.
- * So x is off by less than u M (n + 12), and slack = 2 u M (n + 16) is safe
+ * So x is off by less than u M (n + 12), and x_error = 2 u M (n + 16) is safe
  * for comparisons that round again.
  */
 #include "geom/scanfill.h"
@@ -19,7 +19,7 @@
 #include "base/sort.h"
 
 /* A key of 44 bits, four passes of the sort: 20 for the line, the rest for x.
- * A unit of it is 2^-24 of the range of x; slack is below 2^-30 of it, with
+ * A unit of it is 2^-24 of the range of x; x_error is below 2^-30 of it, with
  * the 2^20 lines that are the most. */
 #define KEY_X_BITS 24
 
@@ -68,9 +68,9 @@ bool scan_edge_init(struct scan_edge *edge, const struct scan_grid *grid,
   edge->dx = (double)grid->y_step * slope;
   if (grid->down)
     edge->dx = -edge->dx;
-  edge->slack = DBL_EPSILON * (count + 16) *
-                ((low->column < 0 ? -low->column : low->column) +
-                 (high->column < 0 ? -high->column : high->column));
+  edge->x_error = DBL_EPSILON * (count + 16) *
+                  ((low->column < 0 ? -low->column : low->column) +
+                   (high->column < 0 ? -high->column : high->column));
   edge->owner = 0;
   edge->x0 = low->x;
   edge->y0 = low->y;
@@ -263,7 +263,7 @@ static bool refine_order(struct scan_table *table, const struct sort_key *key) {
   for (size_t i = 1; i < count; i++) {
     if (key[i].key >> KEY_X_BITS != key[bucket].key >> KEY_X_BITS)
       bucket = i;
-    /* Further apart, the keys decide: a unit of them is more than any slack. */
+    /* Further apart, the keys decide: a unit of them is more than any error. */
     else if (key[i].key - key[i - 1].key <= 1)
       insert_last(table, table->order + bucket, i + 1 - bucket);
   }

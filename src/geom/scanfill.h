@@ -69,7 +69,7 @@ static inline double scan_plane_y(const struct scan_grid *grid, double y) {
 struct scan_edge {
   double x, dx;    /* where it is on its line, frame units; change to the next
                       line in walking order */
-  double slack;    /* x is off by less */
+  double x_error;  /* x is off by less */
   int32_t line;    /* the line it is at */
   int32_t dy;      /* lines left after this one */
   int32_t winding; /* +1 going up the page, -1 going down */
@@ -97,7 +97,7 @@ int32_t scan_edge_column_exact(const struct scan_edge *edge,
                                int32_t near, bool on);
 
 /* The first column, 0 to grid->columns, whose centre is not left of the edge
- * where it passes a line's centre at x or less than its slack off; where not
+ * where it passes a line's centre at x or less than its error off; where not
  * `on`, the first whose centre is right of it.  Exact.
  * x  as the edge's own x would be on that line */
 static inline int32_t scan_edge_column_at(const struct scan_edge *edge,
@@ -112,7 +112,7 @@ static inline int32_t scan_edge_column_at(const struct scan_edge *edge,
   near = (int32_t)x; /* of the nearest centre, or -0 */
   at -= near;
   /* Which side of the centre is as good as random: no jump depends on it. */
-  if (fabs(at) > edge->slack)
+  if (fabs(at) > edge->x_error)
     near += at > 0;
   else
     near = scan_edge_column_exact(edge, grid, line, near, on);
@@ -138,10 +138,10 @@ int scan_edge_compare_exact(const struct scan_edge *a,
 static inline int scan_edge_find_order(const struct scan_edge *a,
                                        const struct scan_edge *b,
                                        const struct scan_grid *grid, bool dx) {
-  double apart = a->x - b->x, slack = a->slack + b->slack;
-  if (apart < -slack)
+  double apart = a->x - b->x, error = a->x_error + b->x_error;
+  if (apart < -error)
     return -1;
-  return apart > slack ? 1 : scan_edge_compare_exact(a, b, grid, dx);
+  return apart > error ? 1 : scan_edge_compare_exact(a, b, grid, dx);
 }
 
 /* Orders two edges at the same line by x: <0, 0, >0.  Exact. */

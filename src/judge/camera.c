@@ -60,7 +60,7 @@ double judge_ahead(const struct judge_camera *camera, struct judge_point3 p) {
 
 /* Depths at the near plane are rounded like all others: at either end of what
  * is clipped, and once more where a plane goes through the rounded ends. */
-double judge_near_slack(const struct judge_camera *camera) {
+double judge_near_tolerance(const struct judge_camera *camera) {
   if (!isfinite(camera->near_d))
     return 0;
   double unit = camera->perspective ? camera->near_d * camera->near_d : 1;
@@ -69,7 +69,7 @@ double judge_near_slack(const struct judge_camera *camera) {
 }
 
 double judge_near(const struct judge_camera *camera) {
-  return camera->near_d - judge_near_slack(camera);
+  return camera->near_d - judge_near_tolerance(camera);
 }
 
 struct judge_point2 judge_project(const struct judge_camera *camera,

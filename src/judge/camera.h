@@ -11,7 +11,7 @@ double judge_ahead(const struct judge_camera *camera, struct judge_point3 p);
 double judge_depth(const struct judge_camera *camera, struct judge_point3 p);
 /* Upper bound of the rounding error of points that the near plane makes; 0
  * where there is no near plane. */
-double judge_near_slack(const struct judge_camera *camera);
+double judge_near_tolerance(const struct judge_camera *camera);
 /* The near distance less that bound: what is on the near plane is drawn. */
 double judge_near(const struct judge_camera *camera);
 struct judge_point2 judge_project(const struct judge_camera *camera,

@@ -27,12 +27,12 @@ static bool is_side(const struct scene *scene, uint32_t face, uint32_t a,
 static bool is_in_near_plane(const struct fold_finder *finder,
                              const struct judge_side_triangle *side_triangle) {
   const struct judge_camera *camera = finder->facings->camera;
-  double slack = judge_near_slack(camera);
+  double tolerance = judge_near_tolerance(camera);
   const uint32_t end[2] = {side_triangle->low, side_triangle->high};
   for (int k = 0; k < 2; k++)
     if (!(fabs(judge_ahead(camera,
                            judge_point3_at(finder->facings->scene, end[k])) -
-               camera->near_d) <= slack))
+               camera->near_d) <= tolerance))
       return false;
   return true;
 }

@@ -145,8 +145,8 @@ static enum judge_visibility visibility_at(const struct judge_context *context,
                                            double t, uint32_t *blocker) {
   double length =
       hypot(edge->at[1].x - edge->at[0].x, edge->at[1].y - edge->at[0].y);
-  double slack = length > 0 ? context->options.lateral_mm / length : 0;
-  const double where[3] = {t, fmin(t + slack, 1), fmax(t - slack, 0)};
+  double margin = length > 0 ? context->options.lateral_mm / length : 0;
+  const double where[3] = {t, fmin(t + margin, 1), fmax(t - margin, 0)};
   for (int k = 0; k < 3; k++) {
     enum judge_visibility visibility = judge_sample_around(
         &context->sampler, edge, judge_point3_of_image(edge, where[k]),
@@ -200,9 +200,9 @@ static enum judge_visibility explain(const struct judge_context *context,
 /* Whether a point is on the page; ink elsewhere is not judged. */
 static bool is_on_page(const struct judge_context *context,
                        struct judge_point2 at) {
-  double slack = context->options.lateral_mm;
-  return at.x >= -slack && at.x <= context->camera->width_mm + slack &&
-         at.y >= -slack && at.y <= context->camera->height_mm + slack;
+  double margin = context->options.lateral_mm;
+  return at.x >= -margin && at.x <= context->camera->width_mm + margin &&
+         at.y >= -margin && at.y <= context->camera->height_mm + margin;
 }
 
 static void judge_ink_sample(struct judge_context *context,
@@ -257,7 +257,7 @@ static bool has_ink(const void *user, struct judge_point2 at) {
 static bool is_at_near_plane(const struct judge_camera *camera,
                              struct judge_point3 position) {
   return judge_ahead(camera, position) <=
-         camera->near_d + judge_near_slack(camera);
+         camera->near_d + judge_near_tolerance(camera);
 }
 
 static bool is_requested(const void *user, uint32_t edge) {

@@ -78,8 +78,8 @@ static enum judge_visibility look(const struct judge_sampler *sampler,
   double rounding = judge_rounding_at(camera, sampler->ray_offset_mm, from);
   double plane_error =
       aside ? 2 * rounding : sampler->all->size * TOLERANCE_EXTENT_SHARE;
-  double slack = judge_near_slack(camera);
-  double near = judge_near(camera), sure = camera->near_d + slack;
+  double tolerance = judge_near_tolerance(camera);
+  double near = judge_near(camera), sure = camera->near_d + tolerance;
   struct judge_ray ray = {.camera = camera,
                           .from = from,
                           .margin = {rounding, plane_error},

@@ -165,14 +165,14 @@ static int place_slot(int place) {
 /* Whether the value is within half of its last place of a single-precision
  * number.  The last place counts |value| / mantissa. */
 static bool is_single(const struct literal *literal, double value) {
-  const double slack = 1 + 0x1p-40; /* the product rounds */
+  const double rounding_up = 1 + 0x1p-40; /* the product rounds */
   double size = fabs(value);
   if (!(size <= FLT_MAX))
     return false;
   double off = fabs(value - (double)(float)value);
   if (literal->digits > DIGITS_SAFE)
     return off == 0;
-  return 2 * off * (double)literal->mantissa <= size * slack;
+  return 2 * off * (double)literal->mantissa <= size * rounding_up;
 }
 
 void precision_look(struct precision_sample *sample, const char *text,

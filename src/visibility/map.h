@@ -44,6 +44,8 @@ enum map_side {
   MAP_SIDE_CLIP          /* the page's border or the near plane: never inked */
 };
 
+#define MAP_CORNER_SCALE 256 /* corners are multiples of 1/256 grid unit */
+
 /* A corner of a fragment and the side that starts there. */
 struct map_corner {
   double x, y;  /* grid units from the middle of the page: the exact corner

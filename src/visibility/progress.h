@@ -12,7 +12,8 @@ enum {
    * takes from a few nanoseconds to a microsecond: the comparison of two boxes,
    * or that of a pair in exact numbers. */
   PROGRESS_WORK = 1 << 17,
-  PROGRESS_PIXELS = 8 /* pixels filled that count as one unit */
+  PROGRESS_LINE = PROGRESS_WORK / 64, /* units that a scan line counts as */
+  PROGRESS_PIXELS = 8                 /* pixels filled that count as one unit */
 };
 
 struct progress {

@@ -184,13 +184,13 @@ void exact_add_area(struct exact_area *sum, const struct map *map,
       const struct map_corner *p = &c[k], *q = &c[(k + 1) % loop->count];
       sum->twice +=
           (p->x - c->x) * (q->y - c->y) - (q->x - c->x) * (p->y - c->y);
-      sum->slack += (fabs(q->x - p->x) + fabs(q->y - p->y) + 1) / 128;
+      sum->error += (fabs(q->x - p->x) + fabs(q->y - p->y) + 1) / 128;
     }
   }
 }
 
 bool exact_is_area(struct exact_area area, const mpq_t twice) {
-  return fabs(area.twice - mpq_get_d(twice)) <= area.slack;
+  return fabs(area.twice - mpq_get_d(twice)) <= area.error;
 }
 
 static void assert_same_fragments(const struct map *a, const struct map *b,
@@ -266,7 +266,7 @@ void exact_assert_area(const struct map *map, uint32_t face, int scale,
   for (size_t f = 0; f < map->fragment.count; f++)
     if (map->fragment.item[f].face == face)
       exact_add_area(&sum, map, f);
-  if (!(fabs(sum.twice - want) <= sum.slack))
+  if (!(fabs(sum.twice - want) <= sum.error))
     fail_msg("face %u: area %g, not %ld/%lu", face,
              sum.twice / 2 / scale / scale, num, den);
 }

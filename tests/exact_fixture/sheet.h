@@ -39,7 +39,7 @@ void exact_assert_visible_same(const struct map *a, const struct sheet *sa,
 /* Twice an area of fragments, and how much it may be off because their corners
  * are rounded by 1/512. */
 struct exact_area {
-  double twice, slack;
+  double twice, error;
 };
 
 /* Adds the area of a fragment to `sum`. */

@@ -2,38 +2,37 @@
  *
  * Coverage
  *   Lines of a pen of width w at pitch p cover the share a = w / p of the
- *   paper.  There are up to three layers of lines, each at 60 degrees to the
- *   one before it.  All lines are defined on the page, so that they continue
- *   from face to face.
+ *   paper.  The lines run in up to three directions, 60 degrees apart.  All
+ *   lines are defined on the page, so that they continue from face to face.
  *
- *   A second layer, of coverage b, adds b (1 - a) at whatever angle.
- *   A third layer is placed so that its lines lie midway between the crossings
- *   of the other two.  Let all three have the coverage a.
- *     a <= 1/3   No point is covered three times: the third layer adds
+ *   Lines in a second direction, of coverage b, add b (1 - a) at whatever
+ *   angle.  Those in a third lie midway between the crossings of the other two.
+ *   Let all three have the coverage a.
+ *     a <= 1/3   No point is covered three times: the third adds
  *                    a (1 - 2 a).
  *     a > 1/3    Its lines reach into each crossing with two triangles, which
  *                are covered three times.  All triangles together are the
- *                share (3 a - 1)^2 / 4 of the paper: the third layer adds
+ *                share (3 a - 1)^2 / 4 of the paper: the third adds
  *                    a (1 - 2 a) + (3 a - 1)^2 / 4.
- *   So three layers give the tone
+ *   So three directions give the tone
  *     T = 3 a - 3 a^2                  for a <= 1/3, where T <= 2/3,
  *     T = 1/4 + 3/2 a - 3/4 a^2        for a >= 1/3.
  *
  * Curved regions
- *   Line i of layer k has a threshold and is drawn where the tone exceeds it,
- *   so that lines begin and end where the tone passes the threshold, not at
- *   edges of the mesh.  The thresholds of a layer are evenly distributed, and
- *   those of neighbouring lines are far apart (bit reversal of i): at every
+ *   Line i of direction k has a threshold and is drawn where the tone exceeds
+ *   it, so that lines begin and end where the tone passes the threshold, not at
+ *   edges of the mesh.  The thresholds of a direction are evenly distributed,
+ *   and those of neighbouring lines are far apart (bit reversal of i): at every
  *   tone the right share of the lines is drawn, and where the tone grows, new
- *   lines begin midway between old ones.  A layer begins when all lines of the
- *   one before it are drawn.
+ *   lines begin midway between old ones.  A direction begins when all lines of
+ *   the one before it are drawn.
  *
  * Uniform regions
- *   As few layers as the tone allows, all with one pitch, which gives the tone
- *   exactly.
+ *   As few directions as the tone allows, all with one pitch, which gives the
+ *   tone exactly.
  *
  * Phases
- *   1 spans     of every fragment on the hatch lines of every layer
+ *   1 spans     of every fragment on the hatch lines of every direction
  *   2 runs      the pieces sorted by line; those that meet are joined
  *               (hatch_runs.h)
  *   3 strokes   each end is shortened by pi / 8 of the pen width: then the
@@ -49,15 +48,15 @@
 #include "ink/lines/stroke.h"
 #include "ink/hatch/tone.h"
 
-enum { LAYERS = 3, LAYER_DEG = 60, THRESHOLD_BITS = 8 };
+enum { DIRECTIONS = 3, DIRECTION_DEG = 60, THRESHOLD_BITS = 8 };
 
-/* The coverage of a layer of a curved region with all its lines, such that
- * three layers give the greatest tone, 1 - LIGHT_DARKEST:
+/* The coverage of a direction of a curved region with all its lines, such that
+ * three directions give the greatest tone, 1 - LIGHT_DARKEST:
  *     FULL_COVERAGE = 1 - sqrt(0.4). */
 #define FULL_COVERAGE 0.36754446796632406
-/* The tone of layers 0 to k - 1 with all their lines. */
-static const double tone_below[LAYERS + 1] = {0, FULL_COVERAGE, 0.6,
-                                              1 - LIGHT_DARKEST};
+/* The tone of directions 0 to k - 1 with all their lines. */
+static const double tone_below[DIRECTIONS + 1] = {0, FULL_COVERAGE, 0.6,
+                                                  1 - LIGHT_DARKEST};
 
 /* Hatching in progress. */
 struct tone_hatching {
@@ -65,7 +64,7 @@ struct tone_hatching {
   const recto_options *options;
   const struct pens *pens;
   struct tones tones;
-  struct hatch_lines lines[LAYERS];
+  struct hatch_lines lines[DIRECTIONS];
   double pen_mm; /* the width of the pen for the current face */
   struct hatch_runs runs;
   struct tone tone;   /* of the current face */
@@ -74,19 +73,19 @@ struct tone_hatching {
 
 /* ---- Coverage ------------------------------------------------------------ */
 
-/* The tone above which line `line` of a layer is drawn. */
-static double threshold(int layer, int64_t line) {
+/* The tone above which line `line` of a direction is drawn. */
+static double threshold(int direction, int64_t line) {
   uint32_t bits = (uint32_t)line, reversed = 0;
   for (int k = 0; k < THRESHOLD_BITS; k++)
     reversed |= (bits >> k & 1) << (THRESHOLD_BITS - 1 - k);
   double share = (reversed + 0.5) / (1 << THRESHOLD_BITS);
-  return tone_below[layer] +
-         share * (tone_below[layer + 1] - tone_below[layer]);
+  return tone_below[direction] +
+         share * (tone_below[direction + 1] - tone_below[direction]);
 }
 
-/* The number of layers for a uniform tone; sets *each to the coverage of each
- * of them.  Inverts the formulas for T above. */
-static int layers_for_tone(double tone, double *each) {
+/* The number of directions for a uniform tone; sets *each to the coverage
+ * of each of them.  Inverts the formulas for T above. */
+static int directions_for_tone(double tone, double *each) {
   const double third = 1.0 / 3;
   if (tone <= tone_below[1]) {
     *each = tone;
@@ -107,11 +106,11 @@ static int layers_for_tone(double tone, double *each) {
 
 /* Adds the piece [u0, u1] of a span, with ink or blank.  False when memory ran
  * out. */
-static bool add_piece(struct tone_hatching *h, int layer,
+static bool add_piece(struct tone_hatching *h, int direction,
                       const struct hatch_span *span, double u0, double u1,
                       bool blank) {
   struct hatch_piece piece = {.pen = h->pen,
-                              .direction = (uint32_t)layer,
+                              .direction = (uint32_t)direction,
                               .face = h->face,
                               .line = span->left.line,
                               .u0 = u0,
@@ -128,21 +127,22 @@ static bool add_piece(struct tone_hatching *h, int layer,
 }
 
 /* Adds a whole span as pieces: ink from u0 to u1, blank before and after. */
-static bool add_inked(struct tone_hatching *h, int layer,
+static bool add_inked(struct tone_hatching *h, int direction,
                       const struct hatch_span *span, double u0, double u1) {
   double left = span->left.u, right = span->right.u;
   if (u0 >= u1)
-    return add_piece(h, layer, span, left, right, true);
-  return add_piece(h, layer, span, left, u0, true) &&
-         add_piece(h, layer, span, u0, u1, false) &&
-         add_piece(h, layer, span, u1, right, true);
+    return add_piece(h, direction, span, left, right, true);
+  return add_piece(h, direction, span, left, u0, true) &&
+         add_piece(h, direction, span, u0, u1, false) &&
+         add_piece(h, direction, span, u1, right, true);
 }
 
 /* Sets [*u0, *u1] to the part of the hatch line at v where one plane of the
  * tone is above `level`: a ray, the whole line, or nothing (*u0 > *u1). */
-static void clip_to_tone(const struct tone_hatching *h, int layer, int plane,
-                         double v, double level, double *u0, double *u1) {
-  const struct hatch_lines *lines = &h->lines[layer];
+static void clip_to_tone(const struct tone_hatching *h, int direction,
+                         int plane, double v, double level, double *u0,
+                         double *u1) {
+  const struct hatch_lines *lines = &h->lines[direction];
   const struct tone_plane *t = &h->tone.plane[plane];
   struct hatch_point from = hatch_lines_rotate(lines, h->tone.origin);
   double slope = t->dx * lines->cosine + t->dy * lines->sine;
@@ -162,36 +162,37 @@ static void clip_to_tone(const struct tone_hatching *h, int layer, int plane,
 }
 
 /* Adds the pieces of a span of a curved region. */
-static bool add_span(struct tone_hatching *h, int layer,
+static bool add_span(struct tone_hatching *h, int direction,
                      const struct hatch_span *span) {
-  double v = hatch_lines_height(&h->lines[layer], span->left.line);
-  double level = threshold(layer, span->left.line);
+  double v = hatch_lines_height(&h->lines[direction], span->left.line);
+  double level = threshold(direction, span->left.line);
   double left = span->left.u, right = span->right.u, u0[2], u1[2];
   for (int i = 0; i < h->tone.planes; i++) {
-    clip_to_tone(h, layer, i, v, level, &u0[i], &u1[i]);
+    clip_to_tone(h, direction, i, v, level, &u0[i], &u1[i]);
     u0[i] = fmax(u0[i], left);
     u1[i] = fmin(u1[i], right);
   }
   if (h->tone.planes == 1)
-    return add_inked(h, layer, span, u0[0], u1[0]);
+    return add_inked(h, direction, span, u0[0], u1[0]);
   if (!h->tone.take_max)
-    return add_inked(h, layer, span, fmax(u0[0], u0[1]), fmin(u1[0], u1[1]));
+    return add_inked(h, direction, span, fmax(u0[0], u0[1]),
+                     fmin(u1[0], u1[1]));
   /* The union of two rays: one may be empty; they may overlap or leave a
    * gap. */
   int low = u0[1] < u0[0] || u0[0] >= u1[0], high = !low;
   if (u0[high] >= u1[high])
-    return add_inked(h, layer, span, u0[low], u1[low]);
+    return add_inked(h, direction, span, u0[low], u1[low]);
   if (u0[high] <= u1[low])
-    return add_inked(h, layer, span, u0[low], fmax(u1[low], u1[high]));
-  return add_piece(h, layer, span, left, u1[low], false) &&
-         add_piece(h, layer, span, u1[low], u0[high], true) &&
-         add_piece(h, layer, span, u0[high], right, false);
+    return add_inked(h, direction, span, u0[low], fmax(u1[low], u1[high]));
+  return add_piece(h, direction, span, left, u1[low], false) &&
+         add_piece(h, direction, span, u1[low], u0[high], true) &&
+         add_piece(h, direction, span, u0[high], right, false);
 }
 
 /* Adds the pieces of a fragment of a curved region. */
 static bool add_curved(struct tone_hatching *h, const struct map *map,
                        const struct map_fragment *fragment) {
-  for (int k = 0; k < LAYERS; k++) {
+  for (int k = 0; k < DIRECTIONS; k++) {
     struct hatch_lines *lines = &h->lines[k];
     if (h->tone.max <= threshold(k, 0))
       break;
@@ -211,8 +212,8 @@ static bool add_curved(struct tone_hatching *h, const struct map *map,
 static bool add_uniform(struct tone_hatching *h, const struct map *map,
                         const struct map_fragment *fragment) {
   double each;
-  int layers = layers_for_tone(h->tone.max, &each);
-  for (int k = 0; each > 0 && k < layers; k++) {
+  int directions = directions_for_tone(h->tone.max, &each);
+  for (int k = 0; each > 0 && k < directions; k++) {
     struct hatch_lines *lines = &h->lines[k];
     lines->pitch = h->pen_mm / each;
     hatch_lines_clear(lines);
@@ -238,7 +239,7 @@ static bool add_stroke(struct tone_hatching *h, const struct hatch_piece *piece,
   struct hatch_lines *lines = &h->lines[piece->direction];
   double each = FULL_COVERAGE;
   if (piece->tone_steps > 0)
-    (void)layers_for_tone((double)piece->tone_steps / TONE_STEPS, &each);
+    (void)directions_for_tone((double)piece->tone_steps / TONE_STEPS, &each);
   lines->pitch = piece->width_mm / each;
   double v = hatch_lines_height(lines, piece->line);
   /* Consecutive lines have opposite directions: less pen travel. */
@@ -302,13 +303,13 @@ bool tone_hatch_add(struct drawing *drawing, const struct sheet *sheet,
   /* Gaps below an eighth of the pen width would be closed by the ink. */
   h.runs.max_gap = 1.0 / 8;
   h.runs.min_length = TOLERANCE_TONE_PENS;
-  for (int k = 0; k < LAYERS; k++)
+  for (int k = 0; k < DIRECTIONS; k++)
     hatch_lines_init(&h.lines[k], sheet, options->ink.pen_mm,
-                     options->ink.hatch_angle_deg + LAYER_DEG * k);
+                     options->ink.hatch_angle_deg + DIRECTION_DEG * k);
   bool ok = tones_init(&h.tones, sheet, scene, options) &&
             add_fragments(&h, map) && add_runs(&h);
   tones_fini(&h.tones);
-  for (int k = 0; k < LAYERS; k++)
+  for (int k = 0; k < DIRECTIONS; k++)
     hatch_lines_fini(&h.lines[k]);
   ARRAY_FREE(&h.runs.piece);
   return ok;

@@ -20,8 +20,6 @@
 
 enum { BUCKET_BITS = 16, BUCKETS = 1 << BUCKET_BITS, ROWS_MAX = 65535 };
 
-#define NEAR TOLERANCE_COINCIDENT_UNITS
-
 struct unite {
   struct segment_graph *graph;
   struct node_rows *rows;
@@ -142,8 +140,10 @@ static bool make_rows(struct unite *u) {
 /* Node i absorbs the nodes near it among [low, high), which are of one row. */
 static void absorb(struct unite *u, uint32_t i, size_t low, uint32_t high) {
   const struct ink_point *at = u->at, p = at[i];
-  int64_t y_min = (int64_t)p.y - NEAR, y_max = (int64_t)p.y + NEAR;
-  for (int64_t x = (int64_t)p.x - NEAR; x <= (int64_t)p.x + NEAR; x++) {
+  int64_t y_min = (int64_t)p.y - TOLERANCE_COINCIDENT_UNITS,
+          y_max = (int64_t)p.y + TOLERANCE_COINCIDENT_UNITS;
+  for (int64_t x = (int64_t)p.x - TOLERANCE_COINCIDENT_UNITS;
+       x <= (int64_t)p.x + TOLERANCE_COINCIDENT_UNITS; x++) {
     size_t k;
     LOWER_BOUND(k, low, high, at[k].x < x || (at[k].x == x && at[k].y < y_min));
     for (; k < high && at[k].x == x && at[k].y <= y_max; k++)
@@ -163,9 +163,11 @@ static void absorb_near(struct unite *u) {
       if (u->root[i] != i)
         continue;
       struct ink_point p = u->at[i];
-      if (i + 1 < end && u->at[i + 1].x <= (int64_t)p.x + NEAR)
+      if (i + 1 < end &&
+          u->at[i + 1].x <= (int64_t)p.x + TOLERANCE_COINCIDENT_UNITS)
         absorb(u, i, i + 1, end);
-      for (uint32_t q = r + 1; (int64_t)p.y + NEAR >= rows->low[q]; q++)
+      for (uint32_t q = r + 1;
+           (int64_t)p.y + TOLERANCE_COINCIDENT_UNITS >= rows->low[q]; q++)
         absorb(u, i, rows->start[q], rows->start[q + 1]);
     }
   }

@@ -16,8 +16,6 @@
 
 #include "base/tolerance.h"
 
-#define NEAR TOLERANCE_COINCIDENT_UNITS
-
 struct overlap_line {
   struct ink_point from;
   int64_t dx, dy;
@@ -50,10 +48,11 @@ static double distance_from(const struct overlap_line *line,
 
 /* Whether the point is within the tolerance of the segment itself. */
 static bool is_on(const struct overlap_line *line, struct ink_point p) {
-  double slack = NEAR * line->length;
+  double tolerance = TOLERANCE_COINCIDENT_UNITS * line->length;
   double along = (double)position_on(line, p);
-  return distance_from(line, p) <= NEAR && along >= -slack &&
-         along <= line->length * line->length + slack;
+  return distance_from(line, p) <= TOLERANCE_COINCIDENT_UNITS &&
+         along >= -tolerance &&
+         along <= line->length * line->length + tolerance;
 }
 
 bool overlap_is_along(const struct segment_graph *graph, uint32_t a,
@@ -71,7 +70,7 @@ bool overlap_is_along(const struct segment_graph *graph, uint32_t a,
     low = along < low ? along : low;
     high = along > high ? along : high;
   }
-  return high - low > NEAR * on_a.length;
+  return high - low > TOLERANCE_COINCIDENT_UNITS * on_a.length;
 }
 
 /* ---- Work space ---------------------------------------------------------- */
@@ -126,8 +125,10 @@ static struct overlap_line choose_line(const struct segment_graph *graph,
 static bool is_member_near(const struct segment_graph *graph,
                            const struct overlap_line *line, uint32_t segment) {
   const uint32_t *node = graph->segment.item[segment].node;
-  return distance_from(line, graph->node.item[node[0]]) <= 2 * NEAR &&
-         distance_from(line, graph->node.item[node[1]]) <= 2 * NEAR;
+  return distance_from(line, graph->node.item[node[0]]) <=
+             2 * TOLERANCE_COINCIDENT_UNITS &&
+         distance_from(line, graph->node.item[node[1]]) <=
+             2 * TOLERANCE_COINCIDENT_UNITS;
 }
 
 /* ---- 2 Breakpoints ------------------------------------------------------- */
@@ -144,11 +145,12 @@ static uint32_t find_breakpoints(struct overlap *o,
     o->key[i] = (struct sort_key){sort_key_of_int64(along), i};
   }
   sort_keys(o->key, o->scratch, 2 * count);
-  uint64_t slack = (uint64_t)(NEAR * line->length), first = 0;
+  uint64_t tolerance = (uint64_t)(TOLERANCE_COINCIDENT_UNITS * line->length),
+           first = 0;
   uint32_t points = 0;
   for (uint32_t k = 0; k < 2 * count; k++) {
     uint32_t i = o->key[k].value;
-    if (k == 0 || o->key[k].key - first > slack) {
+    if (k == 0 || o->key[k].key - first > tolerance) {
       first = o->key[k].key;
       o->node[points++] = graph->segment.item[o->near[i / 2]].node[i & 1];
     }

@@ -13,8 +13,8 @@
  *                 theirs
  *   4 rebuild     and repeat if anything has moved, as it may have come near
  *                 something else
- * Invariants  What is removed is within a unit of something that is kept, not
- *   of something that is removed in turn.  A node moves by at most a unit in a
+ * Invariants  What is removed is within an output step of what is kept, not
+ *   of something that is removed in turn.  A node moves by at most a step in a
  *   round, and only where a line is removed or contracted. */
 #include "ink/lines/segment_graph.h"
 
@@ -91,8 +91,8 @@ static void widen(struct overlap_cover *cover, double along, uint32_t node) {
   }
 }
 
-/* Whether the segments overlap by more than a unit or, where one is shorter
- * than two units, by half of it; if so, *cover is the part of a that b
+/* Whether the segments overlap by more than the output step or, where one is
+ * shorter than two steps, by half of it; if so, *cover is the part of a that b
  * overlaps. */
 static bool find_cover(const struct vertex_snapping *snapping,
                        const uint32_t a[2], const uint32_t b[2],

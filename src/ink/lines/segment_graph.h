@@ -98,7 +98,7 @@ USE_RESULT recto_status
 segment_graph_drop_collinear(struct segment_graph *graph,
                              const struct node_rows *rows, recto_error *error);
 
-/* The rounds of segment_graph_drop_output_overlaps.  What has moved by a unit
+/* The rounds of segment_graph_drop_output_overlaps.  What has moved by a step
  * may come near something else: after one round some lines are still drawn
  * twice; after two, none were in thousands of random drawings.  Models drawn to
  * whole millimetres lose a little more in a third round; later rounds only

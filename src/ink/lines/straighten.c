@@ -5,10 +5,10 @@
  * lies in the intersection of these wedges, and farther away than the one
  * before, a straight line to it passes all of them.  Otherwise the point before
  * it is a corner, and becomes the next anchor.
- * For approximate points (segment_graph.h) the tolerance is half the output's
- * unit: two lines that were snapped together were no more than a unit apart,
- * and were one line before.  With a whole unit the two sides of a slit a few
- * units long became its diagonal, twice.
+ * For approximate points (segment_graph.h) the tolerance is half the output
+ * step: two lines that were snapped together were no more than a step apart,
+ * and were one line before.  With a whole step the two sides of a slit a few
+ * steps long became its diagonal, twice.
  * Cost  linear; most points of a curve are recognised as corners by one cross
  *   product. */
 #include "ink/lines/paths.h"

@@ -8,9 +8,9 @@
  *                 first; one whose ends are near those of a better one is
  *                 removed
  * Invariant  A merge target never moves and a moved node is never a target, so
- *   each node moves at most once, and by at most one unit.
- * Cost  The segments kept between two clusters differ by at least a unit at one
- *   end or the other, and a cluster is two units wide, so they are few.
+ *   each node moves at most once, and by at most one output step.
+ * Cost  The segments kept between two clusters differ by at least a step at one
+ *   end or the other, and a cluster is two steps wide, so they are few.
  *   Without this phase a thousand nested rings would be a million pairs for the
  *   next. */
 #include "ink/lines/vertex_snapping.h"

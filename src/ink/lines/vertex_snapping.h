@@ -1,8 +1,8 @@
 /* vertex_snapping.h - merges nodes that the output cannot distinguish.
  *
- * A unit here is the output's finest step, in grid units.  Rounding moves a
- * point by at most half a unit in x and in y, so two points can become one only
- * if they are within a unit in both: such points are called near. */
+ * The output step is the finest step of the output, in grid units.  Rounding
+ * moves a point by at most half a step in x and in y, so two points can become
+ * one only if they are within a step in both: such points are called near. */
 #ifndef INK_LINES_VERTEX_SNAPPING_H
 #define INK_LINES_VERTEX_SNAPPING_H
 
@@ -29,7 +29,7 @@ bool vertex_snapping_is_near(const struct vertex_snapping *snapping, uint32_t a,
 
 /* Merges `from` into `to` or, if others were merged into `from` already, `to`
  * into `from`.  Returns false, and does nothing, if that would move a node by
- * more than a unit. */
+ * more than a step. */
 bool vertex_snapping_unite(struct vertex_snapping *snapping, uint32_t from,
                            uint32_t to);
 

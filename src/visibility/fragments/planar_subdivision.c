@@ -10,10 +10,6 @@
 
 #include "base/sort.h"
 
-/* Along a line, a corner's place is its x or its y in units of 1/256, the
- * map's. */
-#define CORNER_SCALE 256
-
 /* In side_lines: the side lies on the line of its edge. */
 #define OF_EDGE 0
 
@@ -95,7 +91,7 @@ static uint64_t number_of_edge(const struct sheet *sheet, uint32_t edge) {
 
 static int64_t place(const struct map *map, uint32_t corner, bool upright) {
   const struct map_corner *c = &map->corner.item[corner];
-  return (int64_t)((upright ? c->y : c->x) * CORNER_SCALE);
+  return (int64_t)((upright ? c->y : c->x) * MAP_CORNER_SCALE);
 }
 
 /* Whether the sides on a line extend farther in y than in x. */

@@ -1,23 +1,24 @@
 /* deferred_triangles.c - solves the triangles that the tiles defer.
  *
- * Claim.  A face that no contour crosses, and whose plane no overlapping
- * triangle intersects or touches, is entirely visible or entirely hidden.
+ * Claim.  A triangle T that no contour crosses, and whose plane no triangle
+ * over or under it intersects or touches, is entirely visible or entirely
+ * hidden.
  *
- * Proof.  Take a point inside the face that a nearer triangle occludes, and a
- * path from there to any other point inside that passes through no vertex.
+ * Proof.  Take a point inside T that a nearer triangle occludes, and a path
+ * from there to any other point inside that passes through no vertex.
  * Occlusion can end only where the path crosses a side of a nearer triangle.
  * If that side is no contour, the triangle beyond it continues at the same
- * depth, so it overlaps the face too.  Every triangle that overlaps the face is
- * strictly in front of its plane or strictly behind it; hence that triangle is
- * nearer as well, and occlusion continues.
+ * depth, so it overlaps T too.  Every triangle that overlaps T is strictly in
+ * front of its plane or strictly behind it; hence that triangle is nearer as
+ * well, and occlusion continues.
  *
  * Horizons.  The lists leave out triangles behind the horizon of a tile.  Where
- * the face is nearer than the horizon, those triangles are behind it; elsewhere
- * the face is occluded by the triangle that made the horizon, which is listed.
+ * T is nearer than the horizon, those triangles are behind it; elsewhere T is
+ * occluded by the triangle that made the horizon, which is listed.
  *
  * Hidden triangles.  They are not tested as occluders.  Where one of them
- * occludes the face, so does the nearest triangle there, which is not hidden
- * and overlaps the face.
+ * occludes T, so does the nearest triangle there, which is not hidden and
+ * overlaps T.
  */
 #include "visibility/pairwise/deferred_triangles.h"
 

@@ -1,15 +1,15 @@
 /* deferred_triangles.h - solves the triangles that the tiles defer
  * (tile_classification.h), by the triangles of the candidate lists.
  *
- * Along a path inside a face, occlusion changes only at a contour (sheet.h) or
- * where a nearer triangle intersects the face's plane.  A face that neither
+ * Along a path inside a triangle, occlusion changes only at a contour (sheet.h)
+ * or where a nearer triangle intersects its plane.  A triangle that neither
  * crosses is entirely visible or entirely hidden; it is hidden if any nearer
- * triangle overlaps it.  No piece has to be subtracted then.  The proof is in
+ * one overlaps it.  No piece has to be subtracted then.  The proof is in
  * deferred_triangles.c.
  *
  * A hidden triangle need not be tested as an occluder: whatever it occludes is
- * also occluded by the triangles that hide it.  Faces are therefore solved from
- * near to far.
+ * also occluded by the triangles that hide it.  Triangles are therefore solved
+ * from near to far.
  */
 #ifndef VISIBILITY_PAIRWISE_DEFERRED_TRIANGLES_H
 #define VISIBILITY_PAIRWISE_DEFERRED_TRIANGLES_H

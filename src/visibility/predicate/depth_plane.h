@@ -46,9 +46,8 @@ static inline double depth_plane_at(const struct depth_plane *plane, double x,
 /* An upper bound of the error of depth_plane_at for integers x and y. */
 static inline double depth_plane_error(const struct depth_plane *plane,
                                        double x, double y) {
-  return 16 * 0x1p-53 *
-         (fabs(plane->z) + fabs(plane->per_x * (x - plane->x)) +
-          fabs(plane->per_y * (y - plane->y)));
+  return FILTER_ERROR * (fabs(plane->z) + fabs(plane->per_x * (x - plane->x)) +
+                         fabs(plane->per_y * (y - plane->y)));
 }
 
 #endif

@@ -12,10 +12,6 @@
 #define FIXED_ONE 65536 /* 2^16: T has 16 fraction bits */
 #define T_CAP 0x1p121   /* of each part of T (occlusion.h, Bits) */
 
-/* A sum in doubles has a certain sign where it exceeds this share of its terms'
- * magnitudes: each term has at most 4 roundings, the sum 4 more. */
-#define FILTER (16 * 0x1p-53)
-
 /* Rounded up, and capped. */
 static int128 round_up(double value) {
   return (int128)ceil(value < T_CAP ? value : T_CAP);
@@ -126,7 +122,7 @@ static int depth_filter(const struct occluder *occluder, struct geom_point p) {
          z = occluder->nz * (double)(p.z - occluder->p[0].z),
          t = occluder->t0_near + occluder->t1_near * (double)p.z;
   double value = (x + y + z) * FIXED_ONE + t;
-  double bound = FILTER * ((fabs(x) + fabs(y) + fabs(z)) * FIXED_ONE + t);
+  double bound = FILTER_ERROR * ((fabs(x) + fabs(y) + fabs(z)) * FIXED_ONE + t);
   return (value > bound) - (value < -bound);
 }
 

@@ -19,7 +19,7 @@
 
 #include "visibility/predicate/occlusion.h"
 
-#define SLACK (32 * 0x1p-53)
+#define ERROR_BOUND (2 * FILTER_ERROR)
 
 /* From these magnitudes on occlusion.h may cap the tolerance; the filter is
  * then not used. */
@@ -55,17 +55,17 @@ struct plane_filter plane_filter_of(const struct sheet *sheet,
       .nx = n[0],
       .ny = n[1],
       .nz = n[2],
-      .ex = SLACK * m[0],
-      .ey = SLACK * m[1],
-      .ez = SLACK * m[2],
+      .ex = ERROR_BOUND * m[0],
+      .ey = ERROR_BOUND * m[1],
+      .ez = ERROR_BOUND * m[2],
       .t0 = (fabs(n[0]) + fabs(n[1]) + fabs(n[2])) * grid +
             contact.length * by_near,
       .t1 = contact.length * by_z,
       .t0_more = T_UNIT,
       .t1_more = camera->perspective ? T_UNIT : 0,
-      .t_error =
-          SLACK * ((m[0] + m[1] + m[2]) * grid +
-                   contact.most * (by_near + by_z * (double)SHEET_Z_MAX))};
+      .t_error = ERROR_BOUND *
+                 ((m[0] + m[1] + m[2]) * grid +
+                  contact.most * (by_near + by_z * (double)SHEET_Z_MAX))};
   if (!(contact.most * by_near < T0_LARGE && contact.most * by_z < T1_LARGE))
     plane.t_error = INFINITY;
   return plane;
@@ -75,7 +75,7 @@ double plane_filter_thickness(const struct plane_filter *plane) {
   double least = plane->nz - plane->ez;
   double most = plane->t0 + plane->t0_more + plane->t_error +
                 (plane->t1 + plane->t1_more) * (double)SHEET_Z_MAX;
-  return least > 0 ? most / least * (1 + SLACK) : INFINITY;
+  return least > 0 ? most / least * (1 + ERROR_BOUND) : INFINITY;
 }
 
 /* The value of a plane at a point, and bounds for the tolerance there, widened
@@ -161,7 +161,7 @@ static struct depth_drop depth_drop_at(const struct plane_filter *plane,
                plane->ez * fabs(depth);
   if (!(nz_least > 0))
     return (struct depth_drop){0, INFINITY};
-  return (struct depth_drop){depth, off / nz_least + SLACK * fabs(depth)};
+  return (struct depth_drop){depth, off / nz_least + ERROR_BOUND * fabs(depth)};
 }
 
 int plane_filter_nearer(const struct plane_filter *f,
@@ -171,6 +171,6 @@ int plane_filter_nearer(const struct plane_filter *f,
   double nearer = (g->z - f->z) - (of_g.depth - of_f.depth);
   double off =
       of_f.off + of_g.off +
-      SLACK * (fabs(g->z - f->z) + fabs(of_g.depth) + fabs(of_f.depth));
+      ERROR_BOUND * (fabs(g->z - f->z) + fabs(of_g.depth) + fabs(of_f.depth));
   return (nearer > off) - (nearer < -off);
 }

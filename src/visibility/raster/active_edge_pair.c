@@ -51,9 +51,7 @@ bool active_edge_pair_start(struct active_edge_pair *pair,
   facet_slopes(sheet, grid, facet, &per_column, &per_line);
   pair->dz_x = -per_column;
   pair->dz_y = -per_line;
-  pair->gentle =
-      fabs(per_column) * grid->columns + fabs(per_line) * grid->lines <=
-      RASTER_GENTLE;
+  pair->steep = raster_is_steep(raster, per_column, per_line);
   pair->z_left = depth_on_left(pair, raster);
   return true;
 }
@@ -120,7 +118,7 @@ size_t active_edge_pair_draw(const struct active_edge_pair *pair,
     return 0;
   if (raster->depth_bits > 0)
     draw_levels(pair, raster, first, past);
-  else if (pair->gentle)
+  else if (!pair->steep)
     span_fill_span(raster, pair->facet, pair->edges.left.line, first, past,
                    pair->z_left -
                        pair->dz_x * (first + 0.5 - pair->edges.left.x),

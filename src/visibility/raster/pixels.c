@@ -7,8 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-#define LINES_PER_POLL 64 /* progress is polled at least this often */
-
 /* The topmost line that a facet covers, or -1 where it covers none. */
 static int32_t top_line(const struct raster *raster,
                         const struct facets *facets, uint32_t facet) {
@@ -179,8 +177,8 @@ recto_status pixels_line(struct pixels *pixels, int32_t line,
   if (whole && ((request->edges && !sample_edges(pixels, line, &row)) ||
                 (request->fragments && !add_spans(pixels, line, &row))))
     return error_memory(error);
-  return progress_step_at(&pixels->progress, PROGRESS_WORK / LINES_PER_POLL,
-                          (size_t)done, (size_t)raster->grid.lines)
+  return progress_step_at(&pixels->progress, PROGRESS_LINE, (size_t)done,
+                          (size_t)raster->grid.lines)
              ? RECTO_OK
              : progress_error(&pixels->progress, error);
 }

@@ -12,8 +12,8 @@
  * 2^72 the products are below 2^120, their sum below 2^122; the denominator
  * below 2^80: within the ranges of ratio.h.
  *
- * Error bound.  Let a gentle facet's depth change by G = RASTER_GENTLE over
- * the frame, and u = 2^-53.
+ * Error bound.  Let the depth of a facet that is not steep change by
+ * G = RASTER_DEPTH_CHANGE_MAX over the frame, and u = 2^-53.
  *   - The x of its left edge is off by at most 2 u columns (lines + 12)
  *     (scanfill.c), its depth thereby by 2 u G (lines + 12).
  *   - The slopes, each with a relative error of 6 u, and the steps, each
@@ -104,7 +104,7 @@ recto_status raster_init(struct raster *raster, const struct sheet *sheet,
                      RASTER_COLUMNS_MAX);
   raster->depth_bits = depth_bits;
   raster->level_scale = (ldexp(1, depth_bits) - 1) / ldexp(1, SHEET_Z_BITS);
-  raster->error_bound = 2 * DBL_EPSILON * RASTER_GENTLE *
+  raster->error_bound = 2 * DBL_EPSILON * RASTER_DEPTH_CHANGE_MAX *
                         (raster->grid.lines + raster->grid.columns + 64);
   raster->kept = whole ? lines : 1;
   raster->line_mask = whole ? UINT32_MAX : 0;

@@ -2,8 +2,8 @@
  *
  * Error bound.  A depth is computed from the plane's at frame (0, 0) by the
  * slopes per line and column; each product and sum is rounded to u of at most
- * RASTER_GENTLE and the range of depths.  With the relative error 4 u of the
- * slopes that is less than the 20 u G that raster.c allows for. */
+ * RASTER_DEPTH_CHANGE_MAX and the range of depths.  With the relative error
+ * 4 u of the slopes that is less than the 20 u G that raster.c allows for. */
 #include "visibility/raster/span_fill.h"
 
 #include <math.h>
@@ -20,9 +20,7 @@ static void init_plane(struct span_fill_plane *plane,
                &plane->per_line);
   plane->z = (double)raster->sheet->point.item[point].z -
              plane->per_column * corner.column - plane->per_line * y;
-  plane->gentle = fabs(plane->per_column) * grid->columns +
-                      fabs(plane->per_line) * grid->lines <=
-                  RASTER_GENTLE;
+  plane->steep = raster_is_steep(raster, plane->per_column, plane->per_line);
 }
 
 bool span_fill_is_nearer(const struct raster *raster, uint32_t facet,
@@ -74,14 +72,14 @@ static void find_columns_exactly(struct falling *falling,
 static inline void find_columns(struct falling *falling,
                                 const struct scan_grid *grid, int32_t line,
                                 int32_t count, bool on, int32_t *column) {
-  double x = falling->x, dx = falling->edge.dx, slack = falling->edge.slack;
+  double x = falling->x, dx = falling->edge.dx, x_error = falling->edge.x_error;
   double end = x + dx * count, most = grid->columns;
   bool inside = (x >= 0) & (end >= 0) & (x <= most) & (end <= most);
   bool close = !inside;
   for (int32_t i = 0; inside && i < count; i++, x += dx) {
     int32_t near = (int32_t)x;
     double past = x - 0.5 - near;
-    close |= fabs(past) <= slack;
+    close |= fabs(past) <= x_error;
     column[i] = near + (past > 0);
   }
   if (close)
@@ -145,7 +143,7 @@ bool span_fill_triangle(struct raster *raster, uint32_t triangle,
   if (high->line == low->line)
     return true;
   init_plane(&plane, raster, triangle);
-  if (!plane.gentle)
+  if (plane.steep)
     return false;
   if (!start(&longest, grid, high, low))
     return true;

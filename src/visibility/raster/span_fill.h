@@ -20,7 +20,7 @@
 struct span_fill_plane {
   double z; /* at x = 0, y = 0 in frame units */
   double per_column, per_line;
-  bool gentle; /* see RASTER_GENTLE */
+  bool steep; /* see raster_is_steep */
 };
 
 /* Is the facet nearer at the pixel's centre than facet `there` (SHEET_NONE:
@@ -136,7 +136,7 @@ static inline void span_fill_span(struct raster *raster, uint32_t facet,
 
 /* Draws a triangle of the sheet, not flat, into a frame that holds all lines.
  * covered  the number of pixels it covers, hidden or not, is added to it
- * Returns false, and does nothing, where the triangle is not gentle. */
+ * Returns false, and does nothing, where the triangle is steep. */
 bool span_fill_triangle(struct raster *raster, uint32_t triangle,
                         int64_t *covered);
 

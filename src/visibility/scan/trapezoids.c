@@ -6,8 +6,6 @@
 
 #include "base/sort.h"
 
-#define CORNER_SCALE 256 /* the map's corners are multiples of 1/256 unit */
-
 bool trapezoids_init(struct trapezoids *trapezoids, const struct sheet *sheet,
                      const struct scan_grid *grid, size_t keys) {
   memset(trapezoids, 0, sizeof *trapezoids);
@@ -161,7 +159,7 @@ static double clamp(double value, double low, double high) {
 }
 
 static double round_corner(double value) {
-  return nearbyint(value * CORNER_SCALE) / CORNER_SCALE;
+  return nearbyint(value * MAP_CORNER_SCALE) / MAP_CORNER_SCALE;
 }
 
 /* The trapezoid's corners, counter-clockwise from the lower left. */
@@ -196,7 +194,7 @@ static bool add_side(struct trapezoids *trapezoids,
       k == 1 ? &trapezoid->span.right : &trapezoid->span.left;
   uint64_t number;
   if (k % 2 == 0) {
-    number = sort_key_of_int64((int64_t)(corner->y * CORNER_SCALE));
+    number = sort_key_of_int64((int64_t)(corner->y * MAP_CORNER_SCALE));
   } else if (side->straight && side->side != MAP_SIDE_CLIP) {
     return side_lines_add(&trapezoids->lines, corner, NULL);
   } else if (side->straight) {

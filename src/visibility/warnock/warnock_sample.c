@@ -8,10 +8,6 @@
 
 #include <math.h>
 
-/* Relative error of a depth: each of its terms takes fewer than ten roundings
- * of 2^-53 each. */
-#define SLACK (16 * 0x1p-53)
-
 static struct sample_plane plane_of(const struct sheet *sheet,
                                     const struct scan_grid *grid,
                                     uint32_t facet) {
@@ -63,7 +59,8 @@ struct sample_depth warnock_sample_depth(const struct warnock_sample *sample,
   double dy =
       plane->per_y * (double)(centre_y(grid, line) - plane->y0 * grid->den);
   return (struct sample_depth){plane->z0 + dx + dy,
-                               SLACK * (fabs(plane->z0) + fabs(dx) + fabs(dy))};
+                               FILTER_ERROR *
+                                   (fabs(plane->z0) + fabs(dx) + fabs(dy))};
 }
 
 bool warnock_sample_is_nearer(const struct warnock_sample *sample, uint32_t a,

@@ -6,14 +6,14 @@
  * extended over n more, never further off the frame than n |slope|.  So its x
  * is off by less than
  *     u (64 columns + (lines + 2048) |slope|),
- * and the slack below is twice that.  Where a short side ends, its line is
- * extended: of the two short sides' lines the one further out is the one that
- * does not bound the triangle there.
+ * and the error bound below is twice that.  Where a short side ends, its line
+ * is extended: of the two short sides' lines the one further out is the one
+ * that does not bound the triangle there.
  *
  * Depths.  Products of differences are below 2^62, so the plane is exact in 64
  * bits.  A depth is computed from that of the highest corner over at most ROWS
- * lines, each product and sum rounded to u of at most RASTER_GENTLE and the
- * range of depths: less than raster.c allows for.
+ * lines, each product and sum rounded to u of at most RASTER_DEPTH_CHANGE_MAX
+ * and the range of depths: less than raster.c allows for.
  *
  * Speed.  The orientation of a triangle, its number of columns and which face
  * is nearer are unpredictable: a branch that depends on them is mispredicted
@@ -111,7 +111,7 @@ static bool find_depths(struct small_depths *depths, const struct small *s,
               depths->per_line * (s->high - 0.5 - s->row);
   return fabs(depths->per_column) * grid->columns +
              fabs(depths->per_line) * grid->lines <=
-         RASTER_GENTLE;
+         RASTER_DEPTH_CHANGE_MAX;
 }
 
 /* A side that covers no line is replaced by the other short one. */
@@ -137,8 +137,8 @@ static void find_sides(struct small_sides *sides, const struct small *s,
   }
 }
 
-static double find_slack(const struct small_sides *sides,
-                         const struct scan_grid *grid) {
+static double find_x_error(const struct small_sides *sides,
+                           const struct scan_grid *grid) {
   double slopes =
       fabs(sides->by_longest) + fabs(sides->by_upper) + fabs(sides->by_lower);
   return DBL_EPSILON * (64. * grid->columns + (grid->lines + 2048.) * slopes);
@@ -218,20 +218,20 @@ bool raster_small_triangle(struct raster *raster, uint32_t triangle,
   struct small_depths depths;
   struct small_sides sides;
   struct rows rows[ROWS / BATCH];
-  double slack, unclear = 0;
+  double x_error, unclear = 0;
   int32_t lines;
   bool close;
   if (!make_small(&small, raster, corner) ||
       !find_depths(&depths, &small, &raster->grid))
     return false;
   find_sides(&sides, &small, &raster->grid);
-  slack = find_slack(&sides, &raster->grid);
+  x_error = find_x_error(&sides, &raster->grid);
   lines = small.high - small.low;
   for (int32_t i = 0; i < lines; i += BATCH)
     unclear += find_rows(&rows[i / BATCH], &sides, &depths, small.sign,
-                         0.5 - slack, i);
-  /* With a slack below a quarter of a column no x leaves the columns' range. */
-  if (!(slack < 0.25 && unclear == 0))
+                         0.5 - x_error, i);
+  /* With an error below a quarter column no x leaves the columns' range. */
+  if (!(x_error < 0.25 && unclear == 0))
     return false;
   *covered +=
       draw_rows(raster, span_fill_stamp_of(raster, triangle, depths.per_column),

@@ -38,7 +38,7 @@ int sweep_event_compare(const struct sweep_event *p,
 
 int sweep_side(const struct sweep_edge *edge, const struct sweep_event *event) {
   int64_t dx = (int64_t)edge->x1 - edge->x0, dy = (int64_t)edge->y1 - edge->y0;
-  double a, b, slack;
+  double a, b, bound;
   if (event->den == 1)
     return geom_sign64(dx * ((int64_t)event->y - edge->y0) -
                        dy * ((int64_t)event->x - edge->x0));
@@ -46,9 +46,9 @@ int sweep_side(const struct sweep_edge *edge, const struct sweep_event *event) {
   b = (double)dy * (event->x_near - edge->x0);
   /* One factor of each product is off by less than SWEEP_NEAR; each product and
    * their difference take four roundings. */
-  slack = (fabs((double)dx) + fabs((double)dy)) * (2 * SWEEP_NEAR) +
+  bound = (fabs((double)dx) + fabs((double)dy)) * (2 * SWEEP_NEAR) +
           (fabs(a) + fabs(b)) * 0x1p-50;
-  if (fabs(a - b) > slack)
+  if (fabs(a - b) > bound)
     return a > b ? 1 : -1;
   return geom_sign128(dx * (event->y - (int128)edge->y0 * event->den) -
                       dy * (event->x - (int128)edge->x0 * event->den));

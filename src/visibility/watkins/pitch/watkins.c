@@ -27,7 +27,6 @@
 #include "base/sort.h"
 #include "visibility/watkins/exact/watkins_exact.h"
 
-#define LINES_PER_POLL 64 /* progress is polled at least this often */
 #define OPEN_NONE (-1)
 
 /* ---- Strokes ------------------------------------------------------------- */
@@ -260,7 +259,7 @@ static recto_status walk_lines(struct scan *scan, recto_error *error) {
         (here && !watkins_next(watkins, &more)))
       return progress_error(&progress, error);
     progress.share = 1 - (double)line / lines;
-    if (!progress_step(&progress, PROGRESS_WORK / LINES_PER_POLL))
+    if (!progress_step(&progress, PROGRESS_LINE))
       return progress_error(&progress, error);
   }
   return RECTO_OK;

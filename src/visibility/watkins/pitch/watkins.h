@@ -47,9 +47,9 @@ struct watkins_facet {
   bool in;                 /* does it cover the current interval? */
   double per_x, per_line;  /* change of depth per unit of x, per line down */
   double z_low, z_high;    /* range of its corners' depths */
-  bool gentle;             /* its plane is not steep: see slack */
-  double slack;            /* eight times the error bound of its depth; equal
-                              for all gentle facets */
+  bool steep;              /* see watkins_edge_table.c */
+  double z_error;          /* eight times the error bound of its depth; equal
+                              for all facets that are not steep */
   double x, z;             /* a point of it on the current line */
 };
 
@@ -130,7 +130,7 @@ double watkins_edge_depth(const struct watkins *watkins, uint32_t edge);
 double watkins_depth(const struct watkins *watkins, uint32_t facet, double x);
 
 /* The sign of depth(f) - depth(g) at x on the current line; 0 where the
- * difference is within the sum of their slacks. */
+ * difference is within the sum of their z_error. */
 int watkins_compare(struct watkins *watkins, uint32_t f, uint32_t g, double x);
 
 /* ---- Ends of intervals --------------------------------------------------- */

@@ -32,21 +32,21 @@ recto_status watkins_grid(struct scan_grid *grid, const struct sheet *sheet,
 
 /* ---- S ------------------------------------------------------------------- */
 
-/* A facet is gentle where its plane's depth changes by no more than this over
- * the page and its lines. */
-#define GENTLE 0x1p48
+/* A facet is steep where its plane's depth changes by more than this over the
+ * page and its lines. */
+#define DEPTH_CHANGE_MAX 0x1p48
 
-/* Sets the slack, eight times the error bound of a depth (see
+/* Sets z_error, eight times the error bound of a depth (see
  * watkins_interval.c): the depth is computed incrementally over the lines, and
  * x is off by some units in the last place of the page's coordinates. */
-static void set_slack(struct watkins_facet *facet,
-                      const struct scan_grid *grid) {
+static void set_z_error(struct watkins_facet *facet,
+                        const struct scan_grid *grid) {
   double fall =
       fabs(facet->per_x) * SHEET_XY_MAX + fabs(facet->per_line) * grid->lines;
-  facet->gentle = fall <= GENTLE;
-  if (facet->gentle)
-    fall = GENTLE;
-  facet->slack =
+  facet->steep = !(fall <= DEPTH_CHANGE_MAX);
+  if (!facet->steep)
+    fall = DEPTH_CHANGE_MAX;
+  facet->z_error =
       8 * DBL_EPSILON * (grid->lines + 64) * (fall + (double)SHEET_Z_MAX);
 }
 
@@ -69,10 +69,8 @@ static void set_facet(const struct watkins *watkins, uint32_t triangle,
   }
   facet_slopes(sheet, &watkins->table.grid, triangle, &facet->per_x, &up);
   facet->per_line = -up;
-  set_slack(facet, &watkins->table.grid);
+  set_z_error(facet, &watkins->table.grid);
 }
-
-#define AHEAD 8 /* triangles whose corners are prefetched */
 
 /* Scratch for the collection of edges: for each point a linked list of the
  * edges to points of higher index. */
@@ -156,8 +154,8 @@ static bool add_facets(struct watkins *watkins, struct edge_gathering *g,
     struct watkins_facet facet;
     bool covers = false;
     uint32_t count;
-    for (int k = 0; k < 3 && t + AHEAD < most; k++) {
-      uint32_t p = sheet->triangle.item[t + AHEAD].point[k];
+    for (int k = 0; k < 3 && t + MEM_FETCH_AHEAD < most; k++) {
+      uint32_t p = sheet->triangle.item[t + MEM_FETCH_AHEAD].point[k];
       MEM_FETCH(&sheet->point.item[p]);
       MEM_FETCH(&g->point[p]);
       MEM_FETCH(&g->first[p]);

@@ -24,12 +24,13 @@
  *          number of lines is computed here.)
  * Ties     Depths that differ by less than a tolerance are equal, and the facet
  *          of lower index is in front.  With b the error bound of one depth,
- *          the tolerance of two gentle facets is 16 b.  A decision is reused
- *          only while each difference stays 8 b away from the tolerance: the
- *          difference when the decision was made, the one extrapolated, and the
- *          one that would be computed are off by 2 b each.  So the output is
- *          the same with and without coherence: a tie with the facet nearest at
- *          the middle remains one whichever of the tied facets is the nearest.
+ *          the tolerance of two facets that are not steep is 16 b.  A
+ *          decision is reused only while each difference stays 8 b away from
+ *          the tolerance: the difference when the decision was made, the one
+ *          extrapolated, and the one that would be computed are off by 2 b each.
+ *          So the output is the same with and without coherence: a tie with the
+ *          facet nearest at the middle remains one whichever of the tied facets
+ *          is the nearest.
  */
 #include <math.h>
 
@@ -48,8 +49,9 @@ double watkins_depth(const struct watkins *watkins, uint32_t facet, double x) {
   return z < f->z_low ? f->z_low : z > f->z_high ? f->z_high : z;
 }
 
-static double tolerance(const struct watkins *watkins, uint32_t f, uint32_t g) {
-  return watkins->facet.item[f].slack + watkins->facet.item[g].slack;
+static double tolerance_of(const struct watkins *watkins, uint32_t f,
+                           uint32_t g) {
+  return watkins->facet.item[f].z_error + watkins->facet.item[g].z_error;
 }
 
 static double difference(const struct watkins *watkins, uint32_t f, uint32_t g,
@@ -59,15 +61,15 @@ static double difference(const struct watkins *watkins, uint32_t f, uint32_t g,
 
 int watkins_compare(struct watkins *watkins, uint32_t f, uint32_t g, double x) {
   double apart = difference(watkins, f, g, x);
-  double slack = tolerance(watkins, f, g);
+  double tolerance = tolerance_of(watkins, f, g);
   watkins->counts.comparisons++;
-  return (apart > slack) - (apart < -slack);
+  return (apart > tolerance) - (apart < -tolerance);
 }
 
 /* Is all of f nearer than all of g, by more than any rounding error? */
 static bool is_clear(const struct watkins *watkins, uint32_t f, uint32_t g) {
   return watkins->facet.item[f].z_low - watkins->facet.item[g].z_high >
-         2 * tolerance(watkins, f, g);
+         2 * tolerance_of(watkins, f, g);
 }
 
 /* ---- Order --------------------------------------------------------------- */
@@ -102,7 +104,7 @@ static void break_ties(struct watkins *watkins) {
   uint32_t first;
   for (size_t i = 1; i < watkins->in.count; i++)
     if (in[i] < in[front] &&
-        depth[0] - depth[i] <= tolerance(watkins, in[0], in[i]))
+        depth[0] - depth[i] <= tolerance_of(watkins, in[0], in[i]))
       front = i;
   first = in[front];
   for (; front > 0; front--)
@@ -183,15 +185,15 @@ static bool split_interval(struct watkins *watkins, uint32_t left,
 /* The number of lines for which a difference that is `apart` on this line and
  * changes by `change` per line keeps its sign, with a margin: below half of the
  * tolerance it remains a tie, beyond one and a half times it remains none. */
-static double lines_sign_holds(double apart, double change, double slack) {
+static double lines_sign_holds(double apart, double change, double tolerance) {
   double size = fabs(apart);
   if (apart < 0)
     change = -change;
-  if (size < slack / 2)
-    return (slack / 2 - size) / fabs(change);
-  if (size <= slack * 3 / 2)
+  if (size < tolerance / 2)
+    return (tolerance / 2 - size) / fabs(change);
+  if (size <= tolerance * 3 / 2)
     return 0;
-  return change < 0 ? (size - slack * 3 / 2) / -change : INFINITY;
+  return change < 0 ? (size - tolerance * 3 / 2) / -change : INFINITY;
 }
 
 /* The change per line down of the difference of two depths along a path that
@@ -227,12 +229,12 @@ static double lines_order_holds(const struct watkins *watkins, uint32_t left,
       if (f == g || is_clear(watkins, f, g))
         continue;
       apart = difference(watkins, f, g, at[k].x);
-      if (!facet[f].gentle || !facet[g].gentle ||
-          (k < 2 && apart < -tolerance(watkins, f, g)))
+      if (facet[f].steep || facet[g].steep ||
+          (k < 2 && apart < -tolerance_of(watkins, f, g)))
         return 0;
       kept = fmin(kept,
                   lines_sign_holds(apart, change_along(watkins, f, g, at[k].dx),
-                                   tolerance(watkins, f, g)));
+                                   tolerance_of(watkins, f, g)));
     }
   }
   return kept;

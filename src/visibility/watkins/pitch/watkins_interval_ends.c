@@ -30,7 +30,7 @@ static bool is_in_front(struct watkins *watkins, uint32_t seen, uint32_t edge) {
   double z = watkins_edge_depth(watkins, edge);
   watkins->counts.comparisons++;
   return watkins_depth(watkins, seen, x) >
-         z + watkins->facet.item[seen].slack +
+         z + watkins->facet.item[seen].z_error +
              edge_sampling_contact(watkins->sheet,
                                    watkins->facet.item[seen].face, z);
 }
