@@ -70,9 +70,11 @@ unit_tests += %D%/test_newell
 %C%_test_newell_SOURCES = %D%/test_newell.c $(exact_rational) \
   %D%/exact_fixture/scene.c %D%/exact_fixture/scene.h
 %C%_test_newell_CPPFLAGS = $(exact_cppflags)
-unit_tests += %D%/test_agreement
-%C%_test_agreement_SOURCES = %D%/test_agreement.c $(exact_scene)
-%C%_test_agreement_CPPFLAGS = $(exact_cppflags)
+unit_tests += %D%/test_solvers_agree
+%C%_test_solvers_agree_SOURCES = %D%/test_solvers_agree.c $(exact_scene) \
+  %D%/degenerate.c %D%/degenerate.h
+%C%_test_solvers_agree_CPPFLAGS = $(exact_cppflags)
+%C%_test_solvers_agree_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_painter
 %C%_test_painter_SOURCES = %D%/test_painter.c $(exact_oracle)
 %C%_test_painter_CPPFLAGS = $(exact_cppflags)

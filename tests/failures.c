@@ -9,44 +9,7 @@
 
 #include <cmocka.h>
 
-#include "tests/scenes/exact.h"
 #include "tests/scenes/judge_camera.h"
-
-/* Solves by every exact solver and compares with the first. */
-static void compare_solvers(const struct scene *scene,
-                            const recto_options *options, const char *name) {
-  char *first = NULL;
-  size_t first_length = 0;
-  for (const struct solver *const *solver = solvers(); *solver; solver++) {
-    size_t length;
-    if (!is_exact(*solver))
-      continue;
-    char *text = pipeline_draw(scene, options, *solver, &length);
-    bool same = first == NULL ||
-                (length == first_length && memcmp(text, first, length) == 0);
-    if (!same)
-      fail_msg("%s: %s disagrees (fill %d, hidden %d)", name, (*solver)->name,
-               (int)options->ink.fill, (int)options->ink.hidden);
-    if (first == NULL) {
-      first = text;
-      first_length = length;
-    } else {
-      mem_free(text);
-    }
-  }
-  mem_free(first);
-}
-
-void failures_assert_agree(const struct scene *scene,
-                           const recto_options *options, const char *name) {
-  recto_options lines = *options, hidden = *options, painted = *options;
-  lines.ink.fill = hidden.ink.fill = RECTO_FILL_NONE;
-  hidden.ink.hidden = RECTO_HIDDEN_LAYER;
-  painted.ink.fill = RECTO_FILL_PAINT;
-  compare_solvers(scene, &lines, name);
-  compare_solvers(scene, &hidden, name);
-  compare_solvers(scene, &painted, name);
-}
 
 void failures_camera(struct judge_camera *camera,
                      const struct pipeline *pipeline) {

@@ -5,12 +5,6 @@
 #include "judge/judge.h"
 #include "tests/scenes/pipeline.h"
 
-/* Fails the test, with `name`, unless all exact solvers give the same SVG
- * text, to the byte: lines alone, with hidden ones on a layer of their own,
- * and with the faces painted. */
-void failures_assert_agree(const struct scene *scene,
-                           const recto_options *options, const char *name);
-
 /* Fails the test, with `name`, unless the judge finds no false and no missing
  * ink in the drawing of the classes `required` (the options' own others are
  * drawn, but may be missing). */

@@ -2,9 +2,6 @@
 failures = %D%/failures.c %D%/failures.h
 failures_libs = %D%/judge/libjudge.la %D%/scenes/libscenes.la $(LDADD)
 
-unit_tests += %D%/test_failures_agree
-%C%_test_failures_agree_SOURCES = %D%/test_failures_agree.c $(failures)
-%C%_test_failures_agree_LDADD = $(failures_libs)
 unit_tests += %D%/test_failures_long_lists
 %C%_test_failures_long_lists_SOURCES = %D%/test_failures_long_lists.c
 %C%_test_failures_long_lists_LDADD = %D%/scenes/libscenes.la $(LDADD)

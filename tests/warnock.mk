@@ -8,7 +8,3 @@ unit_tests += %D%/test_warnock_raster
 unit_tests += %D%/test_warnock
 %C%_test_warnock_SOURCES = %D%/test_warnock.c $(exact_sheet)
 %C%_test_warnock_CPPFLAGS = $(exact_cppflags)
-unit_tests += %D%/test_solvers_agree
-%C%_test_solvers_agree_SOURCES = %D%/test_solvers_agree.c \
-  %D%/degenerate.c %D%/degenerate.h
-%C%_test_solvers_agree_LDADD = %D%/scenes/libscenes.la $(LDADD)
