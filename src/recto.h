@@ -503,16 +503,21 @@ RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
                                                  recto_error *error);
 void recto_drawing_destroy(recto_drawing *drawing);
 
-/* Checks, before the work is done, whether an output can be written: it can be
- * created or replaced, and is none of the files that the scene was read from.
- * Errors  RECTO_ERROR_IO; RECTO_ERROR_ARGUMENT: it is one of these */
+/* Checks, before the work is done, whether recto_drawing_write_with_stats could
+ * write to these paths: each can be created or replaced, none is a file that the
+ * scene was read from, and they are not one file.
+ * stats   NULL: none
+ * Errors  RECTO_ERROR_IO; RECTO_ERROR_ARGUMENT: a file that was read would be
+ *         replaced, or both are one */
 RECTO_USE_RESULT recto_status recto_scene_try_output(const recto_scene *scene,
                                                      const char *path,
+                                                     const char *stats,
                                                      recto_error *error);
 
 /* Writes the drawing; whole or not at all.  Path "-" is standard output, and
  * so are /dev/stdout and the like; format NULL: by the path's extension, of
- * which svgz and svg.gz stand for a compressed one; options NULL: the defaults.
+ * which svgz and svg.gz stand for a compressed one, or for standard output and
+ * /dev/fd/N svg; options NULL: the defaults.
  * A file that is there is replaced by a new one with its owner, mode, access
  * list and attributes; where it has several names, or where these cannot be
  * kept, its bytes are replaced once all of them are known.

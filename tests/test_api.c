@@ -577,8 +577,6 @@ static void formats_that_are_not_there_are_refused(void **state) {
       recto_drawing_write(drawing, path_of("xyz"), NULL, NULL, &error),
       RECTO_ERROR_UNSUPPORTED);
   assert_string_equal(error.file, path_of("xyz"));
-  assert_int_equal(recto_drawing_write(drawing, "-", NULL, NULL, &error),
-                   RECTO_ERROR_ARGUMENT);
   assert_int_not_equal(access(path_of("svg"), F_OK), 0);
   recto_drawing_destroy(drawing);
   recto_scene_destroy(scene);
@@ -589,6 +587,9 @@ static void formats_are_recognised(void **state) {
   assert_string_equal(recto_output_format_name(0), "svg");
   assert_string_equal(recto_output_format("a.SVG", NULL), "svg");
   assert_string_equal(recto_output_format("a.svg", "hpgl"), "hpgl");
+  assert_string_equal(recto_output_format("-", NULL), "svg");
+  assert_string_equal(recto_output_format("/dev/fd/3", NULL), "svg");
+  assert_string_equal(recto_output_format("/dev/stdout", "hpgl"), "hpgl");
   assert_null(recto_output_format("a.xyz", NULL));
   size_t count = 0;
   while (recto_output_format_name(count) != NULL)
@@ -628,6 +629,39 @@ static void write_model(const char *path) {
             cube_face[i][2] + 1, cube_face[i][3] + 1);
   fprintf(file, "f 1 2 9\n");
   assert_int_equal(fclose(file), 0);
+}
+
+static void outputs_are_tried_together(void **state) {
+  (void)state;
+  recto_error error = {0};
+  recto_scene *scene = NULL;
+  char model[300];
+  snprintf(model, sizeof model, "%s", path_of("obj"));
+  write_model(model);
+  assert_int_equal(recto_scene_create(&scene, &error), RECTO_OK);
+  assert_int_equal(recto_scene_read(scene, model, NULL, NULL, &error),
+                   RECTO_OK);
+  const struct {
+    const char *path, *stats, *text;
+  } refused[] = {
+      {model, NULL, "the drawing would replace the model"},
+      {"-", model, "the stats would replace the model"},
+      {"new.svg", "./new.svg", "the stats would replace the drawing"},
+  };
+  for (int i = 0; i < 3; i++) {
+    assert_int_equal(recto_scene_try_output(scene, refused[i].path,
+                                            refused[i].stats, &error),
+                     RECTO_ERROR_ARGUMENT);
+    assert_string_equal(error.text, refused[i].text);
+  }
+  assert_int_equal(
+      recto_scene_try_output(scene, "no folder/a.svg", NULL, &error),
+      RECTO_ERROR_IO);
+  assert_int_equal(recto_scene_try_output(scene, "new.svg", "new.json", &error),
+                   RECTO_OK);
+  assert_int_not_equal(access("new.svg", F_OK), 0);
+  assert_int_equal(remove(model), 0);
+  recto_scene_destroy(scene);
 }
 
 struct warnings {
@@ -892,6 +926,7 @@ int main(void) {
       cmocka_unit_test(formats_that_are_not_there_are_refused),
       cmocka_unit_test(formats_are_recognised),
       cmocka_unit_test(views_and_pages_have_names),
+      cmocka_unit_test(outputs_are_tried_together),
       cmocka_unit_test(one_call_does_it_and_warns_by_line),
       cmocka_unit_test(an_empty_page_says_why),
       cmocka_unit_test(a_failed_run_leaves_nothing),

@@ -89,6 +89,8 @@ cp cube.obj cube1.obj
 claim "no frame replaces the model" \
   refuses 'cube1.obj: .*would replace' cube1.obj --turntable 3 --format svg \
   -o 'cube%d.obj'
-too_wide() { run 2 cube.obj --turntable 3 -o 'no%99999999d.svg'; }
-claim "a number of absurd width is refused" too_wide
+claim "a number of absurd width is refused" \
+  refuses 'neither' cube.obj --turntable 3 -o 'no%99999999d.svg'
+claim "so is a path that no system takes" \
+  refuses 'too long' cube.obj --turntable 3 -o "$(printf '%04100d' 0)%d.svg"
 finish

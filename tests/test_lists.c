@@ -4,16 +4,22 @@
 #include <stddef.h>
 #include <setjmp.h>
 #include <getopt.h>
+#include <stdio.h>
 #include <string.h>
 #include <cmocka.h>
 
 #include "cli/arguments.h"
 
-/* Parses a command line with up to two options. */
+/* Parses a command line with up to two options, copies of which are referred to
+ * until the next call. */
 static bool parse(struct arguments *a, char message[MESSAGE_SIZE],
                   const char *first, const char *second) {
-  char *argv[] = {(char *)"recto", (char *)"model.obj", (char *)"-oa.svg",
-                  (char *)first,   (char *)second,      NULL};
+  static char copy[2][200];
+  char *argv[] = {(char *)"recto",   (char *)"model.obj",
+                  (char *)"-oa.svg", copy[0],
+                  copy[1],           NULL};
+  snprintf(copy[0], sizeof copy[0], "%s", first);
+  snprintf(copy[1], sizeof copy[1], "%s", second != NULL ? second : "");
   optind = 0; /* getopt starts anew */
   return arguments_parse(a, second != NULL ? 5 : 4, argv, message);
 }

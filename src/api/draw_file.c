@@ -29,7 +29,7 @@ recto_status recto_draw_file(const char *model, const char *from,
   if (status == RECTO_OK)
     status = recto_scene_read(scene, model, from, options, error);
   if (status == RECTO_OK)
-    status = recto_scene_try_output(scene, output, error);
+    status = recto_scene_try_output(scene, output, NULL, error);
   if (status == RECTO_OK)
     status = recto_scene_render(scene, options, &drawing, error);
   if (status == RECTO_OK)

@@ -16,7 +16,11 @@
 static const struct writer *find_writer(const char *path, const char *format) {
   if (format != NULL)
     return writer_by_name(format);
-  return path != NULL ? writer_by_path(path) : NULL;
+  if (path == NULL)
+    return NULL;
+  return path_is_standard_output(path) || path_descriptor(path) >= 0
+             ? &writer_svg
+             : writer_by_path(path);
 }
 
 const char *recto_output_format(const char *path, const char *format) {
@@ -49,9 +53,6 @@ static recto_status no_writer(const char *path, const char *format,
   if (format != NULL)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                      "there is no output format \"%s\"", format);
-  if (strcmp(path, "-") == 0)
-    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                     "standard output needs a format");
   return error_set(error, RECTO_ERROR_UNSUPPORTED, path, 0,
                    "there is no output format of that extension");
 }
@@ -106,19 +107,21 @@ static bool is_compressed(const char *path, const char *format) {
                         : writer_path_is_compressed(path);
 }
 
+/* `what` would replace `other`, as both are at the path. */
 static recto_status reject_path(const char *path, const char *what,
-                                recto_error *error) {
-  return error_set(error, RECTO_ERROR_ARGUMENT, path, 0, "%s", what);
+                                const char *other, recto_error *error) {
+  return error_set(error, RECTO_ERROR_ARGUMENT, path, 0,
+                   "the %s would replace the %s", what, other);
 }
 
 /* Opens an output, which must not be one of the files that were read. */
 static recto_status open_output(const recto_drawing *drawing, const char *path,
-                                const char *refusal, struct stream **stream,
+                                const char *what, struct stream **stream,
                                 recto_error *error) {
   recto_status status = stream_open(stream, path, error);
   for (size_t i = 0; status == RECTO_OK && i < drawing->file.count; i++)
     if (stream_replaces(*stream, drawing->file.item[i]))
-      status = reject_path(path, refusal, error);
+      status = reject_path(path, what, "model", error);
   return status;
 }
 
@@ -132,14 +135,12 @@ static recto_status open_outputs(struct outputs *outputs,
                                  const char *format, const char *stats,
                                  recto_error *error) {
   recto_status status =
-      open_output(drawing, path, "the drawing would replace the model",
-                  &outputs->drawing, error);
+      open_output(drawing, path, "drawing", &outputs->drawing, error);
   if (status == RECTO_OK && stats != NULL)
-    status = open_output(drawing, stats, "the stats would replace the model",
-                         &outputs->stats, error);
+    status = open_output(drawing, stats, "stats", &outputs->stats, error);
   if (status == RECTO_OK && outputs->stats != NULL &&
       stream_is_same(outputs->drawing, outputs->stats))
-    status = reject_path(stats, "the stats would replace the drawing", error);
+    status = reject_path(stats, "stats", "drawing", error);
   if (status == RECTO_OK && is_compressed(path, format))
     status = stream_compress(outputs->drawing, error);
   return status;
@@ -243,14 +244,26 @@ recto_status recto_drawing_write(const recto_drawing *drawing, const char *path,
                                         error);
 }
 
-recto_status recto_scene_try_output(const recto_scene *scene, const char *path,
-                                    recto_error *error) {
+static recto_status try_output(const recto_scene *scene, const char *path,
+                               const char *what, recto_error *error) {
   struct file_identity there;
   bool is_file = path_is_standard_output(path)
                      ? path_identity_of_descriptor(STDOUT_FILENO, &there)
                      : path_identity(path, &there);
   for (size_t i = 0; is_file && i < scene->scene.file.count; i++)
     if (file_identity_is_same(there, scene->scene.file.item[i]))
-      return reject_path(path, "this would replace the model", error);
+      return reject_path(path, what, "model", error);
   return target_try(path, error);
+}
+
+recto_status recto_scene_try_output(const recto_scene *scene, const char *path,
+                                    const char *stats, recto_error *error) {
+  if (scene == NULL || path == NULL)
+    return error_null(error, scene == NULL ? "the scene" : "the path");
+  recto_status status = try_output(scene, path, "drawing", error);
+  if (status == RECTO_OK && stats != NULL)
+    status = try_output(scene, stats, "stats", error);
+  if (status == RECTO_OK && stats != NULL && target_paths_are_same(path, stats))
+    status = reject_path(stats, "stats", "drawing", error);
+  return status;
 }

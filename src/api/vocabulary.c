@@ -77,7 +77,7 @@ const char *recto_page_name(size_t index, double *width_mm, double *height_mm) {
   static const struct named_pair page[] = {
       {"A0", 841, 1189}, {"A1", 594, 841},         {"A2", 420, 594},
       {"A3", 297, 420},  {"A4", 210, 297},         {"A5", 148, 210},
-      {"A6", 105, 148},  {"LETTER", 215.9, 279.4}, {"LEGAL", 215.9, 355.6},
+      {"A6", 105, 148},  {"letter", 215.9, 279.4}, {"legal", 215.9, 355.6},
   };
   return index < sizeof page / sizeof page[0]
              ? give_pair(&page[index], width_mm, height_mm)

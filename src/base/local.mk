@@ -6,7 +6,6 @@ librecto_core_la_SOURCES += \
   %D%/gunzip.c %D%/gunzip.h \
   %D%/gzip.c %D%/gzip.h \
   %D%/input.c %D%/input.h \
-  %D%/length.c %D%/length.h \
   %D%/memory.c %D%/memory.h \
   %D%/number.c %D%/number.h \
   %D%/number_format.c \

@@ -3,9 +3,9 @@
 
 #include <getopt.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "base/path.h"
 #include "cli/frames.h"
 #include "cli/lists.h"
 #include "cli/value.h"
@@ -118,7 +118,7 @@ static void say_absent(const struct option_entry *entry,
 }
 
 static bool take_option(struct arguments *arguments,
-                        const struct option_entry *entry, const char *text,
+                        const struct option_entry *entry, char *text,
                         char message[MESSAGE_SIZE]) {
   if (entry->kind == OPTION_ABSENT) {
     say_absent(entry, message);
@@ -217,9 +217,6 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
       return false;
     }
   }
-  if (a->format == NULL &&
-      (path_is_standard_output(a->output) || path_descriptor(a->output) >= 0))
-    a->format = "svg";
   if (recto_output_format(a->output, a->format) == NULL) {
     snprintf(message, MESSAGE_SIZE, "there is no output format for \"%.100s\"",
              a->format != NULL ? a->format : a->output);
@@ -246,10 +243,8 @@ static void settle_page(struct arguments *a) {
 }
 
 void arguments_fini(struct arguments *arguments) {
-  for (size_t i = 0; i < arguments->list.count; i++)
-    mem_free(arguments->list.item[i]);
-  ARRAY_FREE(&arguments->list);
-  ARRAY_FREE(&arguments->pen_use);
+  free(arguments->pen_use);
+  arguments->pen_use = NULL;
 }
 
 bool arguments_parse(struct arguments *arguments, int argc, char **argv,

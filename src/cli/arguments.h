@@ -5,7 +5,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/memory.h"
 #include "recto.h"
 
 enum { MESSAGE_SIZE = 256, MAX_OPTIONS = 80, OPTION_USES = 2, VIEWS_MAX = 32 };
@@ -39,14 +38,14 @@ struct arguments {
   bool seen[MAX_OPTIONS]; /* by the option's index in the table */
 
   /* What the options' arrays refer to. */
-  ARRAY(char *) list; /* copies of the lists, which hold names of groups */
-  ARRAY(recto_pen_use) pen_use;
+  recto_pen_use *pen_use;
   recto_pen pen[RECTO_PEN_MAX];
   recto_weight weight[RECTO_EDGE_CLASS_COUNT];
 };
 
 /* Reads the command line.  Call arguments_fini whatever is returned.
- * argv     is permuted: models last
+ * argv     is permuted, models last, and its lists are cut; it stays referred
+ *          to
  * message  set to the error where false is returned, without a newline */
 bool arguments_parse(struct arguments *arguments, int argc, char **argv,
                      char message[MESSAGE_SIZE]);
@@ -113,7 +112,6 @@ struct option_entry {
   double least, most;
   const char *words;
   bool (*take)(struct arguments *arguments, const char *text);
-  /* The name stays valid. */
   recto_status (*take_item)(struct arguments *arguments, const char *name,
                             const char *value);
   /* The conditions under which the option has an effect: all of them. */

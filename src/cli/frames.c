@@ -98,5 +98,9 @@ const char *frame_fault(const struct arguments *a, const char *pattern) {
     return a->turntable > 0 || has_name
                ? "needs %d or %03d, the number of the drawing"
                : "needs %d, the number of the drawing, or %s, its view's name";
+  char path[FRAME_PATH_SIZE];
+  for (int i = 0; i < frames_count(a); i++)
+    if (frame_path(a, pattern, i, path) == NULL)
+      return "makes a path that is too long";
   return NULL;
 }

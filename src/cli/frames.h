@@ -20,7 +20,7 @@ void frame_options(const struct arguments *arguments, int frame,
  *   %d, %3d, %03d   the drawing's number
  *   %s              the name of its view
  *   %%              %
- * Returns NULL where the path is too long. */
+ * Returns NULL where the path is too long: see frame_fault. */
 const char *frame_path(const struct arguments *arguments, const char *pattern,
                        int frame, char path[FRAME_PATH_SIZE]);
 

@@ -25,10 +25,14 @@ recto_status lists_add_pen_use(struct arguments *a, const char *name,
                                            : RECTO_LINES_OF_GROUP;
   if (!is_pen(value, &use.pen))
     return RECTO_ERROR_ARGUMENT;
-  if (!ARRAY_PUSH(&a->pen_use, use))
+  size_t count = a->options.ink.pen_use_count;
+  recto_pen_use *grown = realloc(a->pen_use, (count + 1) * sizeof *grown);
+  if (grown == NULL)
     return RECTO_ERROR_MEMORY;
-  a->options.ink.pen_use = a->pen_use.item;
-  a->options.ink.pen_use_count = a->pen_use.count;
+  grown[count] = use;
+  a->pen_use = grown;
+  a->options.ink.pen_use = grown;
+  a->options.ink.pen_use_count = count + 1;
   return RECTO_OK;
 }
 
@@ -112,10 +116,12 @@ static bool refuse(const struct option_entry *entry, const char *item,
   return false;
 }
 
-/* Cuts the list into names and values, in place, and takes them. */
-static bool take_items(struct arguments *arguments,
-                       const struct option_entry *entry, char *list,
-                       char message[MESSAGE_SIZE]) {
+bool lists_take(struct arguments *arguments, const struct option_entry *entry,
+                char *list, char message[MESSAGE_SIZE]) {
+  if (entry->words != NULL && strcmp(list, entry->words) == 0) {
+    arguments->options.ink.weight_count = 0;
+    return true;
+  }
   for (char *name = list, *end; name != NULL; name = end) {
     end = strchr(name, ',');
     if (end != NULL)
@@ -143,21 +149,4 @@ static bool take_items(struct arguments *arguments,
     }
   }
   return true;
-}
-
-bool lists_take(struct arguments *arguments, const struct option_entry *entry,
-                const char *text, char message[MESSAGE_SIZE]) {
-  if (entry->words != NULL && strcmp(text, entry->words) == 0) {
-    arguments->options.ink.weight_count = 0;
-    return true;
-  }
-  size_t size = strlen(text) + 1;
-  char *list = mem_alloc(size, 1);
-  if (list == NULL || !ARRAY_PUSH(&arguments->list, list)) {
-    mem_free(list);
-    snprintf(message, MESSAGE_SIZE, "out of memory");
-    return false;
-  }
-  memcpy(list, text, size);
-  return take_items(arguments, entry, list, message);
 }

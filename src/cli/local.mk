@@ -1,4 +1,4 @@
-# src/cli/local.mk - the program: sees recto.h and base, nothing else.
+# src/cli/local.mk - the program: sees recto.h alone.
 recto_SOURCES += \
   %D%/arguments.c %D%/arguments.h \
   %D%/descriptors.c %D%/descriptors.h \

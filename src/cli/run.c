@@ -12,9 +12,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/path.h"
-#include "base/stream.h"
-#include "base/target.h"
 #include "cli/frames.h"
 #include "cli/message.h"
 #include "cli/progress.h"
@@ -42,11 +39,20 @@ static bool pass_progress(void *user, double share, const char *stage) {
 
 /* ---- The work ------------------------------------------------------------ */
 
+static bool is_standard_output(const char *path) {
+  static const char *const name[] = {"-", "/dev/stdout", "/dev/fd/1",
+                                     "/proc/self/fd/1"};
+  for (size_t i = 0; i < sizeof name / sizeof name[0]; i++)
+    if (strcmp(path, name[i]) == 0)
+      return true;
+  return false;
+}
+
 /* Whether --stats writes to standard error, as the drawing goes to standard
  * output. */
 static bool stats_stand_aside(const struct arguments *arguments) {
   return arguments->stats && arguments->stats_file == NULL &&
-         path_is_standard_output(arguments->output);
+         is_standard_output(arguments->output);
 }
 
 /* The path of the stats; NULL: none, or standard error. */
@@ -58,57 +64,32 @@ static const char *find_stats(const struct arguments *arguments) {
 
 /* The paths of a drawing and of its stats. */
 struct output_paths {
-  const char *path[2]; /* the second is NULL where there are none */
+  const char *drawing, *stats; /* NULL: no stats */
   char room[2][FRAME_PATH_SIZE];
 };
 
-static recto_status find_outputs(struct output_paths *outputs,
-                                 const struct arguments *arguments, int frame,
-                                 recto_error *error) {
-  const char *const pattern[] = {arguments->output, find_stats(arguments)};
-  for (int k = 0; k < 2; k++) {
-    outputs->path[k] = NULL;
-    if (pattern[k] == NULL)
-      continue;
-    outputs->path[k] =
-        frame_path(arguments, pattern[k], frame, outputs->room[k]);
-    if (outputs->path[k] == NULL)
-      return error_set(error, RECTO_ERROR_ARGUMENT, pattern[k], 0,
-                       "the path of a drawing is too long");
-  }
-  return RECTO_OK;
+static void find_outputs(struct output_paths *outputs,
+                         const struct arguments *arguments, int frame) {
+  const char *stats = find_stats(arguments);
+  outputs->drawing =
+      frame_path(arguments, arguments->output, frame, outputs->room[0]);
+  outputs->stats = stats != NULL
+                       ? frame_path(arguments, stats, frame, outputs->room[1])
+                       : NULL;
 }
 
-/* Checks that the outputs of a drawing can be written and that none replaces a
- * model or another output. */
+/* Checks that all outputs can be written and that none replaces a file that was
+ * read or the other one. */
 static recto_status check_outputs(const struct arguments *arguments,
-                                  const recto_scene *scene, int frame,
+                                  const recto_scene *scene,
                                   recto_error *error) {
   struct output_paths outputs;
-  static const char *const what[] = {"the drawing", "the stats"};
-  recto_status status = find_outputs(&outputs, arguments, frame, error);
-  for (int k = 0; k < 2 && status == RECTO_OK; k++) {
-    const char *path = outputs.path[k];
-    for (int i = 0; path != NULL && i < arguments->model_count; i++)
-      if (path_is_same(path, arguments->model[i]))
-        return error_set(error, RECTO_ERROR_ARGUMENT, path, 0,
-                         "%s would replace the model", what[k]);
-    if (path != NULL)
-      status = recto_scene_try_output(scene, path, error);
-  }
-  if (status == RECTO_OK && outputs.path[1] != NULL &&
-      target_paths_are_same(outputs.path[0], outputs.path[1]))
-    return error_set(error, RECTO_ERROR_ARGUMENT, outputs.path[1], 0,
-                     "%s would replace the drawing", what[1]);
-  return status;
-}
-
-static recto_status check_all_outputs(const struct arguments *arguments,
-                                      const recto_scene *scene,
-                                      recto_error *error) {
   recto_status status = RECTO_OK;
-  for (int i = 0; i < frames_count(arguments) && status == RECTO_OK; i++)
-    status = check_outputs(arguments, scene, i, error);
+  for (int i = 0; i < frames_count(arguments) && status == RECTO_OK; i++) {
+    find_outputs(&outputs, arguments, i);
+    status =
+        recto_scene_try_output(scene, outputs.drawing, outputs.stats, error);
+  }
   return status;
 }
 
@@ -125,35 +106,28 @@ static double percent(double part, double whole) {
   return whole > 0 ? 100 * part / whole : 0;
 }
 
+/* Prints a length and its share, and the first place where it has some. */
+static void tell_fault(const char *what, double fault_mm, double whole_mm,
+                       const double at_mm[2]) {
+  printf("%s  %11.3f mm  %7.3f %%", what, fault_mm,
+         percent(fault_mm, whole_mm));
+  if (fault_mm > 0)
+    printf("  first at %.3f,%.3f mm", at_mm[0], at_mm[1]);
+  printf("\n");
+}
+
 /* Prints the verdict on a checked drawing. */
 static recto_status tell_verdict(const recto_verdict *v, recto_error *error) {
-  char text[512];
-  struct stream *stream;
-  recto_status status = stream_open(&stream, "-", error);
-  if (status != RECTO_OK)
-    return status;
-  int length =
-      snprintf(text, sizeof text,
-               "drawn        %11.3f mm\n"
-               "false ink    %11.3f mm  %7.3f %%",
-               v->drawn_mm, v->false_mm, percent(v->false_mm, v->drawn_mm));
-  if (v->false_mm > 0)
-    length += snprintf(text + length, sizeof text - (size_t)length,
-                       "  first at %.3f,%.3f mm", v->false_at_mm[0],
-                       v->false_at_mm[1]);
-  length += snprintf(text + length, sizeof text - (size_t)length,
-                     "\nvisible      %11.3f mm\n"
-                     "missing ink  %11.3f mm  %7.3f %%",
-                     v->visible_mm, v->missing_mm,
-                     percent(v->missing_mm, v->visible_mm));
-  if (v->missing_mm > 0)
-    length += snprintf(text + length, sizeof text - (size_t)length,
-                       "  first at %.3f,%.3f mm", v->missing_at_mm[0],
-                       v->missing_at_mm[1]);
-  snprintf(text + length, sizeof text - (size_t)length,
-           "\nundecided    %11.3f mm\n", v->undecided_mm);
-  stream_text(stream, text);
-  return stream_finish(stream, error);
+  printf("drawn        %11.3f mm\n", v->drawn_mm);
+  tell_fault("false ink  ", v->false_mm, v->drawn_mm, v->false_at_mm);
+  printf("visible      %11.3f mm\n", v->visible_mm);
+  tell_fault("missing ink", v->missing_mm, v->visible_mm, v->missing_at_mm);
+  printf("undecided    %11.3f mm\n", v->undecided_mm);
+  if (fflush(stdout) == 0)
+    return RECTO_OK;
+  *error = (recto_error){.code = RECTO_ERROR_IO,
+                         .text = "cannot write to standard output"};
+  return error->code;
 }
 
 /* Whether a length of false or missing lines is within the tolerance. */
@@ -192,11 +166,10 @@ static recto_status write_all(const struct arguments *arguments,
   /* What goes to the terminal goes there without the bar. */
   if (isatty(STDOUT_FILENO))
     progress_end();
-  recto_status status = find_outputs(&outputs, arguments, frame, error);
-  if (status == RECTO_OK)
-    status = recto_drawing_write_with_stats(drawing, outputs.path[0],
-                                            arguments->format, outputs.path[1],
-                                            options, error);
+  find_outputs(&outputs, arguments, frame);
+  recto_status status = recto_drawing_write_with_stats(
+      drawing, outputs.drawing, arguments->format, outputs.stats, options,
+      error);
   if (status == RECTO_OK && stats_stand_aside(arguments)) {
     progress_end();
     fputs(recto_drawing_stats(drawing), stderr);
@@ -231,11 +204,11 @@ static recto_status draw(const struct arguments *arguments,
   int frames = frames_count(arguments);
   recto_status status = recto_scene_create(&scene, error);
   if (status == RECTO_OK)
-    status = check_all_outputs(arguments, scene, error);
+    status = check_outputs(arguments, scene, error);
   if (status == RECTO_OK)
     status = read_models(arguments, scene, error);
   if (status == RECTO_OK)
-    status = check_all_outputs(arguments, scene, error);
+    status = check_outputs(arguments, scene, error);
   signals_catch();
   if (status == RECTO_OK && frames > 1)
     status = recto_scene_prepare(scene, &arguments->options, error);

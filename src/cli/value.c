@@ -3,32 +3,37 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
-#include "base/length.h"
-#include "base/number.h"
 #include "recto.h"
 
-/* Reads a finite number at `text`; returns where it stopped, or NULL. */
-static const char *read_number(const char *text, const char *end,
-                               double *number) {
-  const char *stop = number_parse_double(text, end, number);
-  return stop != NULL && isfinite(*number) ? stop : NULL;
+/* Reads a finite decimal number at `text`; returns where it stopped, or NULL.
+ * The program's locale is always C. */
+static const char *read_number(const char *text, double *number) {
+  const char *digits = text + (*text == '+' || *text == '-');
+  char *stop;
+  bool is_hexadecimal = digits[0] == '0' && (digits[1] | 0x20) == 'x';
+  if (strspn(digits, "0123456789.") == 0 || is_hexadecimal)
+    return NULL;
+  *number = strtod(text, &stop);
+  return stop != text && isfinite(*number) ? stop : NULL;
 }
 
 bool value_number(const char *text, double *number) {
-  const char *end = text + strlen(text);
   double read;
-  if (read_number(text, end, &read) != end)
+  const char *stop = read_number(text, &read);
+  if (stop == NULL || *stop != '\0')
     return false;
   *number = read;
   return true;
 }
 
 bool value_int(const char *text, int *number) {
-  const char *end = text + strlen(text);
-  int64_t read;
-  if (number_parse_int(text, end, &read) != end || read < INT_MIN ||
+  double read;
+  bool is_whole = text[strspn(text, "+-0123456789")] == '\0';
+  if (!is_whole || !value_number(text, &read) || read < INT_MIN ||
       read > INT_MAX)
     return false;
   *number = (int)read;
@@ -37,21 +42,36 @@ bool value_int(const char *text, int *number) {
 
 /* ---- Lengths ------------------------------------------------------------- */
 
+/* Reads a number and its unit, which is stored in millimetres, `usual_mm` where
+ * there is none; returns where it stopped, or NULL. */
+static const char *read_length(const char *text, double usual_mm,
+                               double *number, double *unit_mm) {
+  static const struct {
+    const char *name;
+    double mm;
+  } unit[] = {{"mm", 1}, {"cm", 10}, {"in", 25.4}, {"pt", 25.4 / 72}};
+  text = read_number(text, number);
+  *unit_mm = usual_mm;
+  for (size_t i = 0; text != NULL && i < sizeof unit / sizeof unit[0]; i++)
+    if (strncmp(text, unit[i].name, 2) == 0) {
+      *unit_mm = unit[i].mm;
+      return text + 2;
+    }
+  return text;
+}
+
 bool value_length(const char *text, double *mm) {
-  const char *end = text + strlen(text);
-  double number;
-  const char *stop = read_number(text, end, &number);
-  double unit = stop != NULL ? length_unit_mm(stop, end) : 0;
-  if (!(unit > 0) || !isfinite(number * unit))
+  double number, unit_mm;
+  const char *stop = read_length(text, 1, &number, &unit_mm);
+  if (stop == NULL || *stop != '\0' || !isfinite(number * unit_mm))
     return false;
-  *mm = number * unit;
+  *mm = number * unit_mm;
   return true;
 }
 
 bool value_tolerance(const char *text, double *mm, double *share) {
-  const char *end = text + strlen(text);
   double number;
-  const char *stop = read_number(text, end, &number);
+  const char *stop = read_number(text, &number);
   bool is_share = stop != NULL && strcmp(stop, "%") == 0;
   if (!is_share && !value_length(text, &number))
     return false;
@@ -65,73 +85,47 @@ bool value_tolerance(const char *text, double *mm, double *share) {
 /* ---- Vectors ------------------------------------------------------------- */
 
 bool value_vector(const char *text, double vector[3]) {
-  const char *end = text + strlen(text);
   double read[3];
   for (int i = 0; i < 3; i++) {
-    if (i > 0 && (text == end || *text++ != ','))
+    text = read_number(text, &read[i]);
+    if (text == NULL || *text != (i < 2 ? ',' : '\0'))
       return false;
-    text = read_number(text, end, &read[i]);
-    if (text == NULL)
-      return false;
+    text++;
   }
-  if (text != end)
-    return false;
   memcpy(vector, read, sizeof read);
   return true;
 }
 
 /* ---- Pages --------------------------------------------------------------- */
 
-static bool same_word(const char *a, const char *b) {
-  for (; *a != '\0' && *b != '\0'; a++, b++) {
-    int upper = *a >= 'a' && *a <= 'z' ? *a - 'a' + 'A' : *a;
-    if (upper != *b)
-      return false;
-  }
-  return *a == *b;
-}
-
-static bool find_page(const char *text, double *width_mm, double *height_mm) {
-  double width, height;
+bool value_page(const char *text, double *width_mm, double *height_mm) {
   const char *name;
-  for (size_t i = 0; (name = recto_page_name(i, &width, &height)) != NULL; i++)
-    if (same_word(text, name)) {
-      *width_mm = width;
-      *height_mm = height;
+  double size_mm[2], unit_mm[2];
+  for (size_t i = 0;
+       (name = recto_page_name(i, &size_mm[0], &size_mm[1])) != NULL; i++)
+    if (strcasecmp(text, name) == 0) {
+      *width_mm = size_mm[0];
+      *height_mm = size_mm[1];
       return true;
     }
-  return false;
-}
-
-bool value_page(const char *text, double *width_mm, double *height_mm) {
-  if (find_page(text, width_mm, height_mm))
-    return true;
-  const char *end = text + strlen(text);
-  const char *cross = strchr(text, 'x');
-  double width, height;
-  if (cross == NULL)
+  const char *cross = read_length(text, 0, &size_mm[0], &unit_mm[0]);
+  if (cross == NULL || *cross != 'x')
     return false;
-  const char *first = read_number(text, cross, &width);
-  const char *second = read_number(cross + 1, end, &height);
-  if (first == NULL || second == NULL)
+  const char *stop = read_length(cross + 1, 1, &size_mm[1], &unit_mm[1]);
+  if (stop == NULL || *stop != '\0' || !(size_mm[0] > 0 && size_mm[1] > 0))
     return false;
-  double unit = length_unit_mm(second, end);
-  double first_unit = first == cross ? unit : length_unit_mm(first, cross);
-  if (!(width > 0 && height > 0 && unit > 0 && first_unit > 0))
-    return false;
-  *width_mm = width * first_unit;
-  *height_mm = height * unit;
+  *width_mm = size_mm[0] * (unit_mm[0] > 0 ? unit_mm[0] : unit_mm[1]);
+  *height_mm = size_mm[1] * unit_mm[1];
   return true;
 }
 
 bool value_scale(const char *text, double *scale) {
-  const char *end = text + strlen(text);
   double page, scene = 1;
-  const char *stop = read_number(text, end, &page);
-  if (stop != NULL && stop != end && *stop == ':')
-    stop = read_number(stop + 1, end, &scene);
-  if (stop != end || !(page > 0 && scene > 0) || !isfinite(page / scene) ||
-      !(page / scene > 0))
+  const char *stop = read_number(text, &page);
+  if (stop != NULL && *stop == ':')
+    stop = read_number(stop + 1, &scene);
+  if (stop == NULL || *stop != '\0' || !(page > 0 && scene > 0) ||
+      !isfinite(page / scene) || !(page / scene > 0))
     return false;
   *scale = page / scene;
   return true;
