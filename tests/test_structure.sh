@@ -11,7 +11,7 @@ sources() {
 }
 
 # A file includes its own layer or a lower one.  Writers see base and the
-# drawing alone, the judge base and the scene, the program base and recto.h;
+# drawing alone, the judge base and the scene, the program recto.h alone;
 # readers and writers never include each other.
 #
 # Within visibility and ink the folders have floors too: a folder includes
@@ -110,8 +110,8 @@ check_sources() {
         else if (from == "judge" && to != "judge" && to != "base" &&
                  to != "scene")
           wrong("the judge sees base and the scene alone")
-        else if (from == "cli" && to != "cli" && to != "base")
-          wrong("the program sees base and recto.h alone")
+        else if (from == "cli" && to != "cli")
+          wrong("the program sees recto.h alone")
         else if (member(included) != "" && member(included) != member(file))
           wrong("readers and writers do not know each other")
         else if (from == to && (from == "visibility" || from == "ink") &&
@@ -238,6 +238,7 @@ backends/writer_svg.c|#include "ink/ink.h"
 backends/writer_svg.c|#include "backends/writer_hpgl.h"
 src/judge/judge.c|#include "view/sheet.h"
 backends/writers.c|#include "api/handle.h"
+src/cli/main.c|#include "base/memory.h"
 src/cli/main.c|#include "scene/scene.h"
 src/cli/main.c|#include "backends/writer.h"
 src/api/render.c|#include "cli/run.h"
@@ -315,4 +316,52 @@ else
 fi
 claim "the program is no wrapper script" \
   test "$(head -c 4 "$recto" | tail -c 3)" = ELF
+
+# ---- The program: its library is the public one -----------------------------
+
+# It is linked with the static library, which has more than recto_* to offer.
+archive=$builddir/.libs/librecto.a
+objects=()
+for source in "$srcdir"/src/cli/*.c; do
+  source=${source##*/}
+  objects+=("$builddir/src/cli/${source%.c}.o")
+done
+# used_of_the_library OBJECT... - the library's functions that these call.
+used_of_the_library() {
+  nm -u "$@" | awk '{ print $2 }' | LC_ALL=C sort -u |
+    LC_ALL=C comm -12 - <(nm --defined-only "$archive" 2>/dev/null |
+      awk '$2 ~ /[A-Z]/ { print $3 }' | LC_ALL=C sort -u)
+}
+uses_recto_alone() {
+  used_of_the_library "${objects[@]}" >"$scratch/used"
+  grep -q '^recto_scene_render$' "$scratch/used" &&
+    ! grep -v '^recto_' "$scratch/used"
+}
+finds_another_function() {
+  # shellcheck disable=SC2086
+  echo 'void mem_free(void *); int main(void) { mem_free(0); }' |
+    ${CC:-cc} -x c -c - -o "$scratch/inner.o" &&
+    test "$(used_of_the_library "$scratch/inner.o")" = mem_free
+}
+draws_the_same() {
+  local model=$srcdir/examples/models/gears.obj
+  # shellcheck disable=SC2086
+  ${CC:-cc} "${objects[@]}" "$library" -Wl,-rpath,"${library%/*}" -lm -lpthread \
+    -o "$scratch/shared" &&
+    "$scratch/shared" "$model" -o "$scratch/shared.svg" &&
+    "$recto" "$model" -o "$scratch/static.svg" &&
+    cmp "$scratch/shared.svg" "$scratch/static.svg"
+}
+if test -e "$archive" && command -v nm >/dev/null; then
+  claim "of the library the program uses recto_* alone" uses_recto_alone
+  claim "the use of another function would be found" finds_another_function
+else
+  skip "of the library the program uses recto_* alone" "not built static"
+fi
+if test -e "$library" && ! nm -D "$library" | grep -q __asan_init; then
+  claim "the program draws the same with the shared library" draws_the_same
+else
+  skip "the program draws the same with the shared library" \
+    "none without sanitizers was built"
+fi
 finish
