@@ -68,7 +68,7 @@ static bool make_leaf(struct bsp_builder *builder, struct pending list) {
  * Returns false when memory ran out. */
 static bool choose_splitter(struct bsp_builder *builder, struct pending list,
                             struct bsp_plane *splitter, size_t *sum) {
-  const struct bsp_member *member = builder->bsp->pool.item + list.from;
+  const struct bsp_member *member = ARRAY_AT(&builder->bsp->pool, list.from);
   size_t count = builder->bsp->pool.count - list.from, left = 0, right = 0;
   *sum = 0;
   if (count <= SMALL_LIST_MAX || list.level == BSP_LEVELS)
