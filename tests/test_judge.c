@@ -22,7 +22,8 @@
 struct page {
   char text[60000];
   size_t length;
-  double contact; /* as in judge_options */
+  double contact;                  /* as in judge_options */
+  const struct scene_point *given; /* as in judge_options */
   struct judge_camera camera;
 };
 
@@ -36,6 +37,7 @@ static void write_text(struct page *page, const char *text) {
 static void open_page(struct page *page) {
   page->length = 0;
   page->contact = -1;
+  page->given = NULL;
   write_text(page, "<?xml version=\"1.0\"?>\n"
                    "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100mm\""
                    " height=\"100mm\" viewBox=\"0 0 100 100\">\n"
@@ -69,6 +71,7 @@ judge_page(struct page *page, const struct scene *scene, unsigned edges) {
   judge_options_init(&options);
   options.edges = edges;
   options.contact = page->contact;
+  options.given = page->given;
   write_text(page, "</g>\n</svg>\n");
   assert_null(judge_read_svg(&drawing, page->text, page->length));
   assert_true(
@@ -457,7 +460,8 @@ static void from_a_corner_contact_counts_at_the_far_end(void **state) {
 }
 
 /* Two plates, of which one is turned about the middle by so little that only
- * the page's grid says where they pierce each other, or whether. */
+ * the page's grid says where they pierce each other, or whether.  A wire behind
+ * them crosses these lines and makes no difference, unless it is drawn. */
 static void without_contact_the_grid_may_pierce_what_touches(void **state) {
   (void)state;
   for (int deep = 0; deep < 2; deep++) {
@@ -471,21 +475,75 @@ static void without_contact_the_grid_may_pierce_what_touches(void **state) {
     const double tilted[12] = {-1, -2, tilt,  1,  -2, -tilt,
                                1,  2,  -tilt, -1, 2,  tilt};
     build_polygon(&scene, tilted, 4);
-    for (int drawn = 0; drawn < 3; drawn++) {
+    const struct vector wire[2] = {{0.34, -2, -1}, {0.66, 2, -1}};
+    build_segment(&scene, build_vector(&scene, wire[0]),
+                  build_vector(&scene, wire[1]));
+    for (int drawn = 0; drawn < 4; drawn++) {
       open_page(&page);
       page.contact = 0;
       look_square_on(&page);
       draw_loop(&page, flat, 4);
       draw_loop(&page, tilted, 4);
-      if (drawn > 0) /* where they cross, and where they do not */
-        draw_line(&page, vector_of(drawn - 1, -2, 0),
-                  vector_of(drawn - 1, 2, 0));
+      if (drawn == 1 || drawn == 2) /* where they cross; where they do not */
+        draw_line(&page, vector_of(0.5 * (drawn - 1), -2, 0),
+                  vector_of(0.5 * (drawn - 1), 2, 0));
+      if (drawn == 3)
+        draw_line(&page, wire[0], wire[1]);
       verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
       assert_int_equal(verdict.missing.samples > 0, deep && drawn != 1);
-      assert_int_equal(verdict.false_ink.samples > 0, deep);
+      assert_int_equal(verdict.false_ink.samples > 0, deep || drawn == 3);
     }
     scene_fini(&scene);
   }
+}
+
+/* A rectangle 1e-17 wide, with another one behind it that faces away: four
+ * edges, of which two pairs coincide once the scene is translated. */
+static void edges_that_translation_joins_are_distinct(void **state) {
+  (void)state;
+  struct page page;
+  struct scene scene;
+  struct scene_point given[8];
+  scene_init(&scene);
+  static const double front[12] = {0,      -3, 0, 0,      3,  0,
+                                   -1e-17, 3,  0, -1e-17, -3, 0};
+  static const double back[12] = {0,      3,  0, 0,      -3, 0,
+                                  -1e-17, -3, 0, -1e-17, 3,  0};
+  build_polygon(&scene, front, 4);
+  build_polygon(&scene, back, 4);
+  assert_int_equal(scene.point.count, 8);
+  for (int i = 0; i < 8; i++) {
+    given[i] = scene.point.item[i];
+    scene.point.item[i].x += 1;
+  }
+  for (int translated = 0; translated < 2; translated++) {
+    open_page(&page);
+    page.given = translated ? given : NULL;
+    look_square_on(&page);
+    struct judge_verdict verdict =
+        judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+    assert_int_equal(verdict.missing.samples > 0, !translated);
+  }
+  scene_fini(&scene);
+}
+
+/* Just in front of the eye's plane a wire ends, far beside the eye. */
+static void an_image_of_any_length_is_accurate_on_the_page(void **state) {
+  (void)state;
+  struct page page;
+  struct scene scene;
+  scene_init(&scene);
+  build_segment(&scene, build_point(&scene, 5, 1e3, 333),
+                build_point(&scene, 1, 0, 0.1));
+  open_page(&page);
+  look_from(&page, 5, 0, 0);
+  const double share = 1e-3;
+  draw_line(&page, vector_of(1, 0, 0.1),
+            vector_of(1 + 4 * share, 1e3 * share, 0.1 + 332.9 * share));
+  struct judge_verdict verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+  assert_true(verdict.drawn.samples > 1000);
+  assert_int_equal(verdict.false_ink.samples, 0);
+  scene_fini(&scene);
 }
 
 static double area_of(const struct scene *scene, const uint32_t *corner,
@@ -925,6 +983,8 @@ int main(void) {
       cmocka_unit_test(contact_does_not_hide),
       cmocka_unit_test(from_a_corner_contact_counts_at_the_far_end),
       cmocka_unit_test(without_contact_the_grid_may_pierce_what_touches),
+      cmocka_unit_test(edges_that_translation_joins_are_distinct),
+      cmocka_unit_test(an_image_of_any_length_is_accurate_on_the_page),
       cmocka_unit_test(ears_cover_a_face_of_any_number_of_corners),
       cmocka_unit_test(smooth_edges_are_requested_only_by_all),
       cmocka_unit_test(paths_and_polylines_are_read),

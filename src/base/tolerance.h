@@ -190,6 +190,15 @@
  * Ten times   nothing that could be seen. */
 #define TOLERANCE_JUDGE_NEAR_SHARE 1e-9
 
+/* The judge clips edges whose images reach farther than this from the page, as
+ * they do beside the eye.
+ * Unit        mm
+ * Derivation  doubles place a point of such an image within 1e-10 mm; of one
+ *             of 1e13 mm within 0.002 mm, and strokes along it would be false.
+ * Users       judge/edge_list.c
+ * Ten times   nothing that could be seen. */
+#define TOLERANCE_JUDGE_IMAGE_MM 1e6
+
 /* Curves of a drawing that is judged are as straight pieces off by no more.
  * Unit        mm
  * Derivation  what three decimals of a millimetre round.

@@ -1,9 +1,31 @@
-/* edge_list.c - the edges of a scene, clipped to the near plane and projected.
+/* edge_list.c - the edges of a scene, clipped and projected.
  */
 #include "judge/edge_list.h"
 
 #include "base/tolerance.h"
 #include "judge/camera.h"
+
+/* Clips a segment in front of the eye to TOLERANCE_JUDGE_IMAGE_MM about the
+ * page's origin; false where nothing is left.  Coordinates times depth are
+ * linear in space. */
+static bool clip_far_image(const struct judge_camera *camera,
+                           struct judge_point3 end[2]) {
+  for (int side = 0; side < 4; side++) {
+    double where[2];
+    for (int k = 0; k < 2; k++) {
+      struct judge_point2 at = judge_project(camera, end[k]);
+      double along = side / 2 == 0 ? at.x : at.y;
+      where[k] = (TOLERANCE_JUDGE_IMAGE_MM + (side % 2 == 0 ? along : -along)) *
+                 judge_depth(camera, end[k]);
+    }
+    if (where[0] < 0 && where[1] < 0)
+      return false;
+    if (where[0] < 0 || where[1] < 0)
+      end[where[0] < 0 ? 0 : 1] = point3_along(
+          end[0], where[0] / (where[0] - where[1]), point3_sub(end[1], end[0]));
+  }
+  return true;
+}
 
 bool judge_edges_add(struct judge_edges *edges,
                      const struct judge_camera *camera, struct judge_point3 a,
@@ -18,14 +40,13 @@ bool judge_edges_add(struct judge_edges *edges,
     return true;
   struct judge_point3 cut =
       point3_along(a, (least - da) / (db - da), point3_sub(b, a));
-  if (da < least)
-    a = cut;
-  if (db < least)
-    b = cut;
+  struct judge_point3 end[2] = {da < least ? cut : a, db < least ? cut : b};
+  if (!clip_far_image(camera, end))
+    return true;
   struct judge_edge edge = {
-      {a, b},
-      {judge_project(camera, a), judge_project(camera, b)},
-      {judge_depth(camera, a), judge_depth(camera, b)},
+      {end[0], end[1]},
+      {judge_project(camera, end[0]), judge_project(camera, end[1])},
+      {judge_depth(camera, end[0]), judge_depth(camera, end[1])},
       *source};
   return ARRAY_PUSH(&edges->edge, edge);
 }

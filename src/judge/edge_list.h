@@ -1,4 +1,4 @@
-/* edge_list.h - the edges of a scene, clipped to the near plane and projected.
+/* edge_list.h - the edges of a scene, clipped and projected.
  */
 #ifndef JUDGE_EDGE_LIST_H
 #define JUDGE_EDGE_LIST_H
@@ -14,7 +14,7 @@ struct judge_source {
 };
 
 struct judge_edge {
-  struct judge_point3 p[2];  /* clipped to the near plane */
+  struct judge_point3 p[2];  /* clipped, see below */
   struct judge_point2 at[2]; /* their images */
   double depth[2];
   struct judge_source source;
@@ -24,8 +24,8 @@ struct judge_edges {
   ARRAY(struct judge_edge) edge;
 };
 
-/* Adds an edge between two points, or the part of it in front of the near
- * plane.  Returns false when memory ran out. */
+/* Adds an edge between two points, or the part of it in front of the near plane
+ * and no farther from the page than doubles are accurate.  Returns false when memory ran out. */
 USE_RESULT bool judge_edges_add(struct judge_edges *edges,
                                 const struct judge_camera *camera,
                                 struct judge_point3 a, struct judge_point3 b,

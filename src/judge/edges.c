@@ -47,9 +47,9 @@ static int compare_positions(const void *a, const void *b) {
   return p < q ? -1 : p > q;
 }
 
-/* Returns NULL when memory ran out. */
-static uint32_t *find_first_at(const struct scene *scene) {
-  size_t count = scene->point.count;
+/* By the original points: where the scene's were translated, more of them may
+ * coincide.  Returns NULL when memory ran out. */
+static uint32_t *find_first_at(const struct scene_point *point, size_t count) {
   uint32_t *first_at = mem_alloc(count, sizeof *first_at);
   const struct scene_point **order = mem_alloc(count, sizeof *order);
   if (first_at == NULL || order == NULL) {
@@ -58,14 +58,14 @@ static uint32_t *find_first_at(const struct scene *scene) {
     return NULL;
   }
   for (size_t i = 0; i < count; i++)
-    order[i] = &scene->point.item[i];
+    order[i] = &point[i];
   judge_sort(order, count, sizeof *order, compare_positions);
   for (size_t i = 0; i < count; i++) {
-    uint32_t here = (uint32_t)(order[i] - scene->point.item);
+    uint32_t here = (uint32_t)(order[i] - point);
     bool same = i > 0 && order[i]->x == order[i - 1]->x &&
                 order[i]->y == order[i - 1]->y &&
                 order[i]->z == order[i - 1]->z;
-    first_at[here] = same ? first_at[order[i - 1] - scene->point.item] : here;
+    first_at[here] = same ? first_at[order[i - 1] - point] : here;
   }
   mem_free(order);
   return first_at;
@@ -270,7 +270,9 @@ bool judge_edges_init(struct judge_edges *edges,
       .edges = edges, .scene = all->scene, .camera = camera};
   struct side_list sides = {{0}}, single = {{0}};
   memset(edges, 0, sizeof *edges);
-  finder.first_at = find_first_at(all->scene);
+  finder.first_at =
+      find_first_at(options->given ? options->given : all->scene->point.item,
+                    all->scene->point.count);
   bool ok =
       judge_facings_init(&finder.facings, all, camera, options) &&
       finder.first_at != NULL && list_sides(all->scene, &sides) &&

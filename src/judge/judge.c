@@ -163,11 +163,29 @@ static bool is_doubtful(const struct judge_edge *edge) {
   return edge->source.point[0] == SCENE_NONE && edge->source.class_mask == 0;
 }
 
-/* Decides whether a visible edge explains the ink at a point.  The nearest of
- * the hidden edges there becomes the witness.  Where the contact tolerance is
- * less than the rounding to the grid, faces that touch may intersect on the
- * grid anywhere, so that ink without an edge is undecided. */
+/* Whether a stroke near an edge runs along it, rather than across. */
+static bool runs_along(const struct judge_context *context,
+                       const struct judge_segment *stroke,
+                       const struct judge_segment *edge,
+                       struct judge_point2 at) {
+  double lateral = context->options.lateral_mm, t;
+  double length = length_of(stroke);
+  judge_distance(stroke, at, &t);
+  for (int side = -1; length > 0 && side <= 1; side += 2) {
+    double aside = fmin(fmax(t + side * 64 * lateral / length, 0), 1);
+    if (!judge_is_within(edge, point_on(stroke, aside), 2 * lateral))
+      return false;
+  }
+  return true;
+}
+
+/* Decides whether a visible edge explains the ink at a point of a stroke.  The
+ * nearest of the hidden edges along the stroke becomes the witness.  Where the
+ * contact tolerance is less than the rounding to the grid, faces that touch may
+ * intersect on the grid anywhere, so that ink without an edge along it is
+ * undecided. */
 static enum judge_visibility explain(const struct judge_context *context,
+                                     const struct judge_segment *stroke,
                                      struct judge_witness *witness) {
   uint32_t count;
   const uint32_t *near =
@@ -186,7 +204,8 @@ static enum judge_visibility explain(const struct judge_context *context,
     if (visibility == JUDGE_BLOCKED && is_doubtful(edge))
       visibility = JUDGE_UNSURE;
     best = visibility < best ? visibility : best;
-    if (visibility == JUDGE_BLOCKED && away < nearest) {
+    if (visibility == JUDGE_BLOCKED && away < nearest &&
+        runs_along(context, stroke, &context->image[near[i]], witness->at)) {
       nearest = away;
       set_witness_edge(witness, edge, judge_point3_of_image(edge, t), blocker);
     }
@@ -206,13 +225,14 @@ static bool is_on_page(const struct judge_context *context,
 }
 
 static void judge_ink_sample(struct judge_context *context,
+                             const struct judge_segment *stroke,
                              struct judge_point2 at, double mm) {
   struct judge_verdict *verdict = context->verdict;
   if (!is_on_page(context, at))
     return;
   struct judge_witness witness = {.at = at, .blocker = SCENE_NONE};
   count_sample(&verdict->drawn, mm);
-  switch (explain(context, &witness)) {
+  switch (explain(context, stroke, &witness)) {
   case JUDGE_CLEAR:
     break;
   case JUDGE_UNSURE:
@@ -235,7 +255,8 @@ static void judge_all_ink(struct judge_context *context) {
     double t, mm;
     start_piece(&sampler, length_of(&context->ink[i]));
     while (next_sample(&sampler, &t, &mm) && report_progress(context, mm))
-      judge_ink_sample(context, point_on(&context->ink[i], t), mm);
+      judge_ink_sample(context, &context->ink[i], point_on(&context->ink[i], t),
+                       mm);
   }
 }
 
