@@ -18,6 +18,7 @@
 
 #include <cmocka.h>
 
+#include "base/poll.h"
 #include "scene/import_form.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
@@ -161,10 +162,13 @@ static void cancelling_ends_the_importer(void **state) {
   use_script(state, "exec sleep 60");
   setenv("RECTO_IMPORT_SECONDS", "50", 1);
   reading_init(&r);
-  r.diagnostics.progress = never;
+  const recto_options options = {.progress = never};
+  struct poll poll;
+  poll_open(&poll, &options);
   assert_int_equal(
       scene_read(&r.scene, model(state), NULL, &r.diagnostics, &r.error),
       RECTO_ERROR_CANCELLED);
+  poll_close(&poll);
   assert_alone();
   reading_fini(&r);
 }

@@ -7,6 +7,7 @@
 #include "api/judge_input.h"
 #include "api/sized.h"
 #include "base/input.h"
+#include "base/poll.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
 #include "scene/weld_near.h"
@@ -54,11 +55,6 @@ static recto_status find_shortest(double *mm, const struct scene *scene,
   return status;
 }
 
-static bool go_on(void *user, double share) {
-  const recto_options *options = user;
-  return options->progress(options->user, share, "check");
-}
-
 /* Checks a drawing.
  * o  its lengths are scaled as the scene is */
 static recto_status judge(const struct scene *scene, const recto_options *o,
@@ -66,7 +62,6 @@ static recto_status judge(const struct scene *scene, const recto_options *o,
                           struct judge_verdict *verdict, recto_error *error) {
   struct camera camera;
   struct judge_input input;
-  recto_options polled = *o; /* the callback takes no const */
   recto_status status = camera_aim(&camera, scene, o, error);
   if (status != RECTO_OK)
     return status;
@@ -77,14 +72,10 @@ static recto_status judge(const struct scene *scene, const recto_options *o,
   options.samples = SAMPLES;
   options.reach_mm = options.lateral_mm =
       o->ink.pen_mm / 4 + ink_deviation_mm(o);
-  options.progress = o->progress != NULL ? go_on : NULL;
-  options.user = &polled;
   status = find_shortest(&options.shortest_mm, scene, o, error);
   if (status == RECTO_OK &&
       !judge_drawing(verdict, drawing, &input.scene, &seen, &options))
     status = error_memory(error);
-  if (status == RECTO_OK && verdict->cancelled)
-    status = error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
   judge_input_fini(&input);
   return status;
 }
@@ -97,14 +88,18 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
   struct judge_drawing drawing = {0};
   struct judge_verdict found;
   recto_options checked;
+  struct poll poll;
   if (verdict == NULL)
     return error_null(error, "the place for the verdict");
   sized_give(verdict, size, &own, sizeof own);
   if (scene == NULL || path == NULL)
     return error_null(error, scene == NULL ? "the scene" : "the path");
   recto_status status = options_take(&checked, options, error);
-  if (status == RECTO_OK)
-    status = read_drawing(&drawing, path, error);
+  if (status != RECTO_OK)
+    return status;
+  poll_open(&poll, &checked);
+  status = poll_stage(0, 1, "check") ? read_drawing(&drawing, path, error)
+                                     : error_cancelled(error);
   if (status == RECTO_OK) {
     struct preparation prepared;
     checked.page.width_mm = drawing.width_mm;
@@ -122,5 +117,6 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
   if (status == RECTO_OK)
     sized_give(verdict, size, &own, sizeof own);
   judge_drawing_fini(&drawing);
+  poll_close(&poll);
   return status;
 }

@@ -9,6 +9,7 @@
 #include "api/stats.h"
 #include "backends/writer.h"
 #include "base/path.h"
+#include "base/poll.h"
 #include "base/target.h"
 
 /* ---- Writing ------------------------------------------------------------- */
@@ -94,12 +95,13 @@ recto_status output_check_format(const char *path, const char *format,
                                            : no_writer(path, format, error);
 }
 
-/* Polls the user's progress function while a file is written; false: cancel. */
-static bool poll_progress(void *user) {
-  const recto_options *options = user;
+/* Lets the call's work be cancelled until poll_close. */
+static void open_poll(struct poll *poll, const recto_options *options) {
   double begin[SHARE_STAGES + 1];
   shares_plan(begin, options);
-  return options->progress(options->user, begin[SHARE_WRITE], "write");
+  poll_open(poll, options);
+  poll->stage = "write";
+  poll->share = begin[SHARE_WRITE];
 }
 
 static bool is_compressed(const char *path, const char *format) {
@@ -176,17 +178,20 @@ recto_status recto_drawing_write_with_stats(
   if (writer == NULL)
     return no_writer(path, format, error);
   status = open_outputs(&outputs, drawing, path, format, stats, error);
-  if (status == RECTO_OK && own.progress != NULL)
-    stream_ask(outputs.drawing, poll_progress, &own);
-  if (status == RECTO_OK)
+  if (status == RECTO_OK) {
+    struct poll poll;
+    struct stream *const both[] = {outputs.drawing, outputs.stats};
+    open_poll(&poll, &own);
     status = fill_outputs(&outputs, drawing, writer, &own, error);
-  if (status != RECTO_OK) {
-    stream_discard(outputs.drawing);
-    stream_discard(outputs.stats);
-    return status;
+    if (status == RECTO_OK) {
+      status = stream_finish_all(both, 2, error);
+      outputs = (struct outputs){NULL, NULL};
+    }
+    poll_close(&poll);
   }
-  struct stream *const both[] = {outputs.drawing, outputs.stats};
-  return stream_finish_all(both, 2, error);
+  stream_discard(outputs.drawing);
+  stream_discard(outputs.stats);
+  return status;
 }
 
 /* Hands the bytes of a stream to the user's function, in parts. */
@@ -197,6 +202,8 @@ static recto_status hand_over(const struct stream *stream, recto_write_fn write,
   const char *bytes = stream_memory(stream, &count);
   while (count > 0) {
     size_t part = count < PART ? count : PART;
+    if (!poll_now())
+      return error_cancelled(error);
     if (!write(user, bytes, part))
       return error_set(error, RECTO_ERROR_IO, NULL, 0,
                        "the write function has failed");
@@ -223,6 +230,8 @@ recto_status recto_drawing_write_to(const recto_drawing *drawing,
   const struct writer *writer = find_writer(NULL, format);
   if (writer == NULL)
     return no_writer(NULL, format, error);
+  struct poll poll;
+  open_poll(&poll, &own);
   status = stream_open_memory(&outputs.drawing, error);
   if (status == RECTO_OK && is_compressed(NULL, format))
     status = stream_compress(outputs.drawing, error);
@@ -233,6 +242,7 @@ recto_status recto_drawing_write_to(const recto_drawing *drawing,
   if (status == RECTO_OK)
     status = hand_over(outputs.drawing, write, user, error);
   stream_discard(outputs.drawing);
+  poll_close(&poll);
   return status;
 }
 

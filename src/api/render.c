@@ -15,6 +15,7 @@
 #include "api/shares.h"
 #include "api/stats.h"
 #include "base/parallel.h"
+#include "base/poll.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
 #include "view/camera.h"
@@ -38,9 +39,7 @@ struct render {
   recto_drawing *made;
   struct drawing *drawing; /* in it */
   struct report *report;
-  char *verdict;                  /* VERIFY_SUMMARY_SIZE */
-  double begin[SHARE_STAGES + 1]; /* shares of the work: see shares.h */
-  double passed;                  /* the largest progress reported so far */
+  char *verdict; /* VERIFY_SUMMARY_SIZE */
 };
 
 /* ---- The method ---------------------------------------------------------- */
@@ -203,18 +202,9 @@ static recto_status project(struct render *render, recto_error *error) {
   return status;
 }
 
-/* Reports the progress of a solver's stage as progress of the whole, which
- * never decreases. */
 static bool pass_progress(void *user, double share, const char *stage) {
-  struct render *render = user;
-  const double *begin = render->begin;
-  double within = shares_within_solver(stage, share, needs_fragments(render));
-  double whole = begin[SHARE_SOLVE] +
-                 within * (begin[SHARE_SOLVE + 1] - begin[SHARE_SOLVE]);
-  if (whole > render->passed)
-    render->passed = whole;
-  return render->options->progress(render->options->user, render->passed,
-                                   stage);
+  return poll_share(shares_within_solver(stage, share, needs_fragments(user)),
+                    stage);
 }
 
 static recto_status solve(struct render *render, recto_error *error) {
@@ -256,28 +246,16 @@ static recto_status ink(struct render *render, recto_error *error) {
                   render->options, error);
 }
 
-/* Reports the judge's progress as progress of the whole. */
-static bool pass_verifying(void *user, double share) {
-  struct render *render = user;
-  const double *begin = &render->begin[SHARE_VERIFY];
-  return render->options->progress(render->options->user,
-                                   begin[0] + share * (begin[1] - begin[0]),
-                                   "verify");
-}
-
 static recto_status verify(struct render *render, recto_error *error) {
   if (render->options->verify == 0)
     return RECTO_OK;
-  const struct verify what = {
-      .scene = &render->prepared->welded.scene,
-      .exponent = render->prepared->rescaled.exponent,
-      .camera = &render->camera,
-      .sheet = &render->sheet,
-      .map = &render->map,
-      .drawing = render->drawing,
-      .options = &render->scaled,
-      .progress = render->options->progress != NULL ? pass_verifying : NULL,
-      .user = render};
+  const struct verify what = {.scene = &render->prepared->welded.scene,
+                              .exponent = render->prepared->rescaled.exponent,
+                              .camera = &render->camera,
+                              .sheet = &render->sheet,
+                              .map = &render->map,
+                              .drawing = render->drawing,
+                              .options = &render->scaled};
   return verify_drawing(&what, render->report, render->verdict, error);
 }
 
@@ -297,14 +275,12 @@ static const struct stage {
 };
 
 static recto_status run_stages(struct render *render, recto_error *error) {
-  const recto_options *options = render->options;
-  shares_plan(render->begin, options);
+  double begin[SHARE_STAGES + 1]; /* shares of the work: see shares.h */
+  shares_plan(begin, render->options);
   for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++) {
     const struct stage *stage = &stages[i];
-    if (options->progress != NULL &&
-        !options->progress(options->user, render->begin[stage->stage],
-                           stage->name))
-      return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+    if (!poll_stage(begin[stage->stage], begin[stage->stage + 1], stage->name))
+      return error_cancelled(error);
     double cpu = clock_cpu(), wall = clock_wall();
     recto_status status = stage->run(render, error);
     stats_add_seconds(render->report, stage->cpu, clock_cpu() - cpu);
@@ -475,7 +451,10 @@ recto_status recto_scene_render(const recto_scene *scene,
                           .drawing = &made->drawing,
                           .report = made->report,
                           .verdict = made->verdict};
+  struct poll poll;
+  poll_open(&poll, &own);
   status = run(&render, error);
+  poll_close(&poll);
   if (status == RECTO_OK && !keep_files(made, &scene->scene))
     status = error_memory(error);
   if (status != RECTO_OK) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "api/handle.h"
+#include "base/poll.h"
 #include "base/report.h"
 #include "scene/limit.h"
 
@@ -48,7 +49,11 @@ recto_status recto_scene_prepare(recto_scene *scene,
   scene->prepared = mem_calloc(1, sizeof *scene->prepared);
   if (scene->prepared == NULL)
     return error_memory(error);
+  struct poll poll;
+  poll_open(&poll, &own);
+  poll.stage = "topology";
   status = preparation_init(scene->prepared, &scene->scene, &own, true, error);
+  poll_close(&poll);
   if (status != RECTO_OK)
     scene_forget_preparation(scene);
   return status;
@@ -95,17 +100,19 @@ static recto_status read_model(recto_scene *scene, const void *bytes,
   char *kept = copy_text(path);
   if (kept == NULL)
     return error_memory(error);
-  struct diagnostics diagnostics = {.file = path,
-                                    .warning = own.warning,
-                                    .progress = own.progress,
-                                    .user = own.user};
+  struct diagnostics diagnostics = {
+      .file = path, .warning = own.warning, .user = own.user};
   scene->scene.wants_colours = own.ink.fill == RECTO_FILL_PAINT;
   scene_forget_preparation(scene);
   double cpu = clock_cpu(), wall = clock_wall();
+  struct poll poll;
+  poll_open(&poll, &own);
+  poll.stage = "read";
   status = bytes == NULL
                ? scene_read(&scene->scene, path, format, &diagnostics, error)
                : scene_read_memory(&scene->scene, bytes, count, path, format,
                                    &diagnostics, error);
+  poll_close(&poll);
   scene->read_cpu += clock_cpu() - cpu;
   scene->read_wall += clock_wall() - wall;
   if (status != RECTO_OK) {

@@ -153,13 +153,9 @@ static recto_status judge(const struct verify *verify,
   options.samples = (size_t)o->verify;
   options.reach_mm += ink_deviation_mm(o);
   options.lateral_mm += ink_deviation_mm(o);
-  options.progress = verify->progress;
-  options.user = verify->user;
-  if (!judge_drawing(verdict, drawing, &input->scene, &camera, &options))
-    return error_memory(error);
-  return verdict->cancelled
-             ? error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled")
-             : RECTO_OK;
+  return judge_drawing(verdict, drawing, &input->scene, &camera, &options)
+             ? RECTO_OK
+             : error_memory(error);
 }
 
 recto_status verify_drawing(const struct verify *verify, struct report *report,

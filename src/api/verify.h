@@ -18,8 +18,6 @@ struct verify {
   const struct map *map;
   const struct drawing *drawing;
   const recto_options *options;
-  bool (*progress)(void *user, double share); /* NULL: never polled */
-  void *user;
 };
 
 enum { VERIFY_SUMMARY_SIZE = 160 };

@@ -23,6 +23,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/poll.h"
+
 extern char **environ;
 
 enum {
@@ -159,8 +161,7 @@ static int start(struct child_run *run) {
 
 /* Whether the child may continue; else the result has the reason. */
 static bool may_go_on(struct child_run *run) {
-  const struct child *child = run->child;
-  if (child->progress && !child->progress(child->user, 0, "import"))
+  if (!poll_share(0, "import"))
     run->result->end = CHILD_CANCELLED;
   else if (now() > run->deadline)
     run->result->end = CHILD_TOO_LONG;

@@ -14,8 +14,6 @@ struct child {
   int input;                   /* its standard input; -1: none */
   int seconds;                 /* it may take so long */
   size_t most;                 /* it may write so many bytes */
-  recto_progress_fn progress;  /* polled for cancellation; NULL: never */
-  void *user;
 };
 
 enum child_end {

@@ -12,6 +12,8 @@ bool gunzip_is_wanted(const char *bytes, size_t count) {
 
 #include <zlib.h>
 
+#include "base/poll.h"
+
 struct expansion {
   z_stream stream;
   const char *bytes; /* compressed, `count` of them */
@@ -64,7 +66,7 @@ static recto_status fail(const struct expansion *x, int result) {
  * besides that of the NUL.
  * Returns zlib's code: Z_BUF_ERROR where there are no data left. */
 static int expand_some(struct expansion *x) {
-  enum { AT_ONCE_MAX = 1 << 30 };
+  enum { AT_ONCE_MAX = 1 << 22 };
   size_t left = x->count - x->taken;
   size_t room = x->to.capacity - x->to.count - 1;
   uInt in = left < AT_ONCE_MAX ? (uInt)left : AT_ONCE_MAX;
@@ -83,6 +85,8 @@ static int expand_some(struct expansion *x) {
 static recto_status expand_member(struct expansion *x) {
   int result = Z_OK;
   while (result == Z_OK) {
+    if (!poll_now())
+      return error_cancelled(x->error);
     if (x->to.capacity - x->to.count < 2 &&
         !ARRAY_RESERVE(&x->to, (size_t)1 << 16))
       return error_memory(x->error);

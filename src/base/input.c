@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/gunzip.h"
+#include "base/poll.h"
 
 size_t input_most(void) {
   static const size_t most = (size_t)1 << 36;
@@ -63,7 +64,7 @@ static bool was_cut_short(const struct source *source, size_t count) {
 /* Reads to the end of the source. */
 static recto_status slurp(const struct source *source, struct input *input,
                           recto_error *error) {
-  enum { CHUNK = 1 << 16 };
+  enum { CHUNK = 1 << 16, PART = 1 << 22 };
   if (source->size > source->most)
     return refuse_size(source, error);
   /* One byte more than there are shows that the end is reached. */
@@ -71,13 +72,14 @@ static recto_status slurp(const struct source *source, struct input *input,
   if (!ARRAY_RESERVE(&input->slurped, room))
     return error_memory(error);
   advise_large_pages(input->slurped.item, room);
-  for (;;) {
+  while (poll_now()) {
     if (input->slurped.capacity - input->slurped.count < 2 &&
         !ARRAY_RESERVE(&input->slurped, CHUNK))
       return error_memory(error);
+    size_t left = input->slurped.capacity - input->slurped.count - 1;
     ssize_t got =
         read(source->descriptor, input->slurped.item + input->slurped.count,
-             input->slurped.capacity - input->slurped.count - 1);
+             left < PART ? left : PART);
     if (got < 0 && errno == EINTR)
       continue;
     if (got < 0)
@@ -89,6 +91,8 @@ static recto_status slurp(const struct source *source, struct input *input,
     if (got == 0)
       break;
   }
+  if (poll_is_cancelled())
+    return error_cancelled(error);
   if (was_cut_short(source, input->slurped.count))
     return error_set(error, RECTO_ERROR_IO, source->path, 0,
                      "was cut short while it was read");

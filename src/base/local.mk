@@ -11,6 +11,7 @@ librecto_core_la_SOURCES += \
   %D%/number_format.c \
   %D%/parallel.c %D%/parallel.h \
   %D%/path.c %D%/path.h \
+  %D%/poll.c %D%/poll.h \
   %D%/report.c %D%/report.h \
   %D%/sentence.c %D%/sentence.h \
   %D%/sets.h \

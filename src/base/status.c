@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/poll.h"
+
 const char *recto_status_name(recto_status status) {
   switch (status) {
   case RECTO_OK:
@@ -82,7 +84,13 @@ recto_status error_set(recto_error *error, recto_status code, const char *file,
   return code;
 }
 
+recto_status error_cancelled(recto_error *error) {
+  return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+}
+
 recto_status error_memory(recto_error *error) {
+  if (poll_is_cancelled())
+    return error_cancelled(error);
   return error_set(error, RECTO_ERROR_MEMORY, NULL, 0, "out of memory");
 }
 

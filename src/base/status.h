@@ -25,7 +25,11 @@ recto_status error_set(recto_error *error, recto_status code, const char *file,
  * not be NULL. */
 recto_status error_null(recto_error *error, const char *name);
 
-/* error_set(error, RECTO_ERROR_MEMORY, ...) with its usual words. */
+/* error_set(error, RECTO_ERROR_CANCELLED, ...) with its usual words. */
+recto_status error_cancelled(recto_error *error);
+
+/* The same with RECTO_ERROR_MEMORY, for work that ended early: with
+ * RECTO_ERROR_CANCELLED where the caller has cancelled (base/poll.h). */
 recto_status error_memory(recto_error *error);
 
 #endif

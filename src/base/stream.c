@@ -14,6 +14,7 @@
 #include "base/gzip.h"
 #include "base/memory.h"
 #include "base/number.h"
+#include "base/poll.h"
 #include "base/target.h"
 
 enum { CHUNK = 1 << 16 };
@@ -25,8 +26,6 @@ struct stream {
   struct target target;
   struct gzip *gzip; /* NULL: bytes are written as they are */
   ARRAY(char) buffer;
-  bool (*go_on)(void *user); /* NULL: never polled */
-  void *user;
 };
 
 /* For tests alone: see stream_fail_after. */
@@ -45,7 +44,7 @@ static void fail(struct stream *stream, recto_status status, int fault) {
 static void write_physically(struct stream *stream, const char *bytes,
                              size_t count) {
   while (count > 0 && stream->status == RECTO_OK) {
-    if (stream->go_on != NULL && !stream->go_on(stream->user)) {
+    if (!poll_now()) {
       fail(stream, RECTO_ERROR_CANCELLED, 0);
       return;
     }
@@ -117,11 +116,6 @@ bool stream_replaces(const struct stream *stream, struct file_identity it) {
 
 /* ---- Writing ------------------------------------------------------------- */
 
-void stream_ask(struct stream *stream, bool (*go_on)(void *user), void *user) {
-  stream->go_on = go_on;
-  stream->user = user;
-}
-
 /* Whether the buffer may be emptied before the end. */
 static bool is_written_on_the_way(const struct stream *stream) {
   return !stream->is_memory && stream->target.kind == TARGET_NEW;
@@ -140,6 +134,11 @@ static void put(void *user, const void *bytes, size_t count) {
     }
   } else if (!ARRAY_RESERVE(&stream->buffer, count + 1)) {
     fail(stream, RECTO_ERROR_MEMORY, ENOMEM);
+    return;
+  } else if (stream->buffer.count / CHUNK !=
+                 (stream->buffer.count + count) / CHUNK &&
+             !poll_now()) {
+    fail(stream, RECTO_ERROR_CANCELLED, 0);
     return;
   }
   memcpy(stream->buffer.item + stream->buffer.count, bytes, count);
@@ -229,7 +228,7 @@ static recto_status report_failure(const struct stream *stream,
   if (status == RECTO_ERROR_MEMORY)
     return error_memory(error);
   if (status == RECTO_ERROR_CANCELLED)
-    return error_set(error, status, NULL, 0, "cancelled");
+    return error_cancelled(error);
   if (status == RECTO_ERROR_ARGUMENT)
     return error_set(error, status, stream->target.name, 0,
                      "another output of this run has taken this place");

@@ -4,7 +4,8 @@
  * without a fault; or to a pipe, a device or a file that must be written in
  * place, for which bytes are held back until then; or to memory.  Its status is
  * sticky: after the first fault every write is ignored and stream_finish
- * tells. */
+ * tells.  Every part of 64 KB polls (poll.h), so that writing may be cancelled.
+ */
 #ifndef BASE_STREAM_H
 #define BASE_STREAM_H
 
@@ -34,10 +35,6 @@ bool stream_replaces(const struct stream *stream, struct file_identity it);
  * name or time in it.  RECTO_ERROR_UNSUPPORTED, RECTO_ERROR_MEMORY. */
 USE_RESULT recto_status stream_compress(struct stream *stream,
                                         recto_error *error);
-
-/* Asks before every write to the system whether to go on; where not, the
- * status is RECTO_ERROR_CANCELLED. */
-void stream_ask(struct stream *stream, bool (*go_on)(void *user), void *user);
 
 void stream_write(struct stream *stream, const void *bytes, size_t count);
 void stream_text(struct stream *stream, const char *text);

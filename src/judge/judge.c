@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/tolerance.h"
 #include "judge/camera.h"
 #include "judge/edges.h"
@@ -25,7 +26,7 @@ struct judge_context {
   uint32_t long_edge;     /* the edge of the last sample, if that was on a line
                          without ink that is long enough; SCENE_NONE */
   double work, work_done; /* mm to be sampled, and sampled so far */
-  unsigned samples;       /* since progress was last reported */
+  unsigned samples;       /* taken so far */
   struct judge_verdict *verdict;
 };
 
@@ -125,15 +126,12 @@ static void set_witness_edge(struct judge_witness *witness,
  * hundred times a second; false: cancelled. */
 static bool report_progress(struct judge_context *context, double mm) {
   enum { SAMPLES = 256 };
-  struct judge_verdict *verdict = context->verdict;
   context->work_done += mm;
-  if (++context->samples < SAMPLES || context->options.progress == NULL)
-    return !verdict->cancelled;
-  context->samples = 0;
-  double share =
-      context->work > 0 ? fmin(context->work_done / context->work, 1) : 0;
-  verdict->cancelled = !context->options.progress(context->options.user, share);
-  return !verdict->cancelled;
+  if (++context->samples % SAMPLES != 0)
+    return !poll_is_cancelled();
+  return poll_share(
+      context->work > 0 ? fmin(context->work_done / context->work, 1) : 0,
+      NULL);
 }
 
 /* ---- False ink ----------------------------------------------------------- */
@@ -251,7 +249,7 @@ static void judge_all_ink(struct judge_context *context) {
     all += length_of(&context->ink[i]);
   struct segment_sampler sampler = sampler_of(&context->options, all);
   context->work = 2 * all; /* the edges are estimated to take as long again */
-  for (uint32_t i = 0; i < context->inks && !context->verdict->cancelled; i++) {
+  for (uint32_t i = 0; i < context->inks; i++) {
     double t, mm;
     start_piece(&sampler, length_of(&context->ink[i]));
     while (next_sample(&sampler, &t, &mm) && report_progress(context, mm))
@@ -375,8 +373,7 @@ static void judge_all_edges(struct judge_context *context) {
   /* The strokes were the first half of the work. */
   context->work = 2 * all;
   context->work_done = all;
-  for (uint32_t i = 0;
-       i < context->edges.edge.count && !context->verdict->cancelled; i++) {
+  for (uint32_t i = 0; i < context->edges.edge.count; i++) {
     double t, mm;
     if (!visible_part(context, i, &part, &t0, &t1))
       continue;
@@ -475,6 +472,7 @@ bool judge_drawing(struct judge_verdict *verdict,
   if (ok) {
     judge_all_ink(&context);
     judge_all_edges(&context);
+    ok = !poll_is_cancelled();
   }
   judge_grid_fini(&context.by_image);
   judge_grid_fini(&context.by_ink);

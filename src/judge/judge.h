@@ -102,9 +102,6 @@ struct judge_options {
   double shortest_mm; /* shorter strokes need not be drawn: a visible line
                          without ink that is not surely this long is undecided;
                          0: every stroke must be drawn */
-  bool (*progress)(void *user, double share); /* returns false to cancel; NULL:
-                                                 never polled */
-  void *user;
 };
 
 /* 0.02 mm steps and reach, 30 degrees, the default classes. */
@@ -133,11 +130,10 @@ struct judge_verdict {
   struct judge_count visible, missing;       /* samples of requested edges */
   struct judge_count hidden, undecided;      /* of those without ink */
   struct judge_witness false_at, missing_at; /* the first of each */
-  bool cancelled; /* by `progress`: the counts are incomplete */
 };
 
 /* Judges the strokes that are ink.
- * Returns false when memory ran out. */
+ * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool judge_drawing(struct judge_verdict *verdict,
                               const struct judge_drawing *drawing,
                               const struct scene *scene,

@@ -5,6 +5,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "base/poll.h"
+
 enum { TOLD = 3 };
 
 static const char *describe(enum scene_fault fault) {
@@ -64,11 +66,9 @@ void diagnostics_finish(struct diagnostics *diagnostics) {
   }
 }
 
-recto_status diagnostics_poll_progress(struct diagnostics *diagnostics,
-                                       const char *at, recto_error *error) {
+recto_status diagnostics_poll_now(struct diagnostics *diagnostics,
+                                  const char *at, recto_error *error) {
   enum { STEP = 1 << 18 };
   diagnostics->poll_at = at + STEP;
-  return diagnostics->progress(diagnostics->user, 0, "read")
-             ? RECTO_OK
-             : error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+  return poll_now() ? RECTO_OK : error_cancelled(error);
 }

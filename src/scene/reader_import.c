@@ -100,7 +100,7 @@ static recto_status tell_end(const struct import_child *import,
   case CHILD_NO_MEMORY:
     return error_memory(error);
   case CHILD_CANCELLED:
-    return error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled");
+    return error_cancelled(error);
   case CHILD_TOO_LONG:
     return error_set(error, RECTO_ERROR_LIMIT, import->path, 0,
                      "the importer took longer than %ld s", import->seconds);
@@ -134,7 +134,6 @@ static bool is_by_path(const char *path, const char *format, size_t count) {
 
 static recto_status run_importer(const struct import_child *import,
                                  const char *bytes, size_t count,
-                                 struct diagnostics *diagnostics,
                                  struct child_result *result) {
   char seconds[24], mb[24];
   bool by_path = is_by_path(import->path, import->format, count);
@@ -150,10 +149,6 @@ static recto_status run_importer(const struct import_child *import,
                         .input = -1,
                         .seconds = (int)import->seconds,
                         .most = input_most()};
-  if (diagnostics) {
-    child.progress = diagnostics->progress;
-    child.user = diagnostics->user;
-  }
   if (!by_path && (child.input = child_input_of(bytes, count)) < 0)
     return error_set(import->error, RECTO_ERROR_IO, import->path, 0,
                      "cannot hand it to the importer: %s", strerror(errno));
@@ -177,8 +172,7 @@ static recto_status read_import(struct scene *scene, const char *bytes,
   find_importer(import.program);
   struct child_result result = {.end = CHILD_EXITED};
   size_t first = scene->point.count;
-  recto_status status =
-      run_importer(&import, bytes, count, diagnostics, &result);
+  recto_status status = run_importer(&import, bytes, count, &result);
   if (status == RECTO_OK) {
     bool ended = result.end == CHILD_EXITED || result.end == CHILD_SIGNALLED;
     if (ended && import_form_is_whole(result.output.item, result.output.count))

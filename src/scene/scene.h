@@ -98,28 +98,27 @@ enum scene_fault {
 };
 
 struct diagnostics {
-  const char *file;           /* as the user wrote it, "-" for stdin */
-  recto_warning_fn warning;   /* NULL: silent */
-  recto_progress_fn progress; /* polled while a file is read; NULL: never */
+  const char *file;         /* as the user wrote it, "-" for stdin */
+  recto_warning_fn warning; /* NULL: silent */
   void *user;
   unsigned long count[SCENE_FAULT_COUNT];
   unsigned long settled[SCENE_FAULT_COUNT]; /* count at the last _finish */
   const char *poll_at; /* the first byte at which progress is polled again */
 };
 
-/* Polls the progress function where reading has come a quarter of a megabyte
- * farther: a few milliseconds.
+/* Polls where reading has come a quarter of a megabyte farther: a few
+ * milliseconds.
  * at      the byte that is read next
  * Errors  RECTO_ERROR_CANCELLED */
-USE_RESULT recto_status diagnostics_poll_progress(
-    struct diagnostics *diagnostics, const char *at, recto_error *error);
+USE_RESULT recto_status diagnostics_poll_now(struct diagnostics *diagnostics,
+                                             const char *at,
+                                             recto_error *error);
 static inline recto_status diagnostics_poll(struct diagnostics *diagnostics,
                                             const char *at,
                                             recto_error *error) {
-  return diagnostics == NULL || diagnostics->progress == NULL ||
-                 at < diagnostics->poll_at
+  return diagnostics == NULL || at < diagnostics->poll_at
              ? RECTO_OK
-             : diagnostics_poll_progress(diagnostics, at, error);
+             : diagnostics_poll_now(diagnostics, at, error);
 }
 
 /* Counts the fault; the first three of each kind are passed on.

@@ -12,7 +12,6 @@ bool progress_poll(struct progress *progress) {
 
 recto_status progress_error(const struct progress *progress,
                             recto_error *error) {
-  return progress != NULL && progress->cancelled
-             ? error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled")
-             : error_memory(error);
+  return progress != NULL && progress->cancelled ? error_cancelled(error)
+                                                 : error_memory(error);
 }

@@ -1,0 +1,51 @@
+/* poll.h - asks the caller's progress function, from work of any layer,
+ * whether to go on.
+ *
+ * A call of the library that may last opens a poll, which is its thread's until
+ * it is closed.  What works for that call in that thread asks it, without
+ * having it passed down; threads that the library starts have none, and never
+ * ask.  Once the caller has cancelled, every poll is false without asking
+ * again: work ends as it does where memory runs out, and error_memory says
+ * which of the two it was (doc/decisions/0033). */
+#ifndef BASE_POLL_H
+#define BASE_POLL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "recto.h"
+
+/* Items of a loop between two polls, which take a millisecond as a rule. */
+enum { POLL_ITEMS = 1 << 13 };
+
+struct poll {
+  const recto_options *options; /* its progress function and user */
+  double from, to; /* of the whole work: shares where the stage begins, ends */
+  double share;    /* as reported last; never falls */
+  const char *stage;
+  bool cancelled;
+  struct poll *outer; /* of the call within which this one was made */
+};
+
+/* Makes `poll` the thread's own, until poll_close. */
+void poll_open(struct poll *poll, const recto_options *options);
+void poll_close(struct poll *poll);
+
+/* Begins a stage, and asks. */
+bool poll_stage(double from, double to, const char *stage);
+
+/* Asks, with a share of the stage that is done, 0 to 1.
+ * phase  what is reported as the stage from now on; NULL: as it was */
+bool poll_share(double share, const char *phase);
+
+/* Asks.  False: cancelled; true also where there is no poll. */
+bool poll_now(void);
+
+/* Asks in a loop over many items, at one of POLL_ITEMS of them. */
+static inline bool poll_at(size_t index) {
+  return index % POLL_ITEMS != 0 || poll_now();
+}
+
+bool poll_is_cancelled(void);
+
+#endif
