@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/tolerance.h"
 #include "scene/angle.h"
 #include "scene/topology.h"
@@ -168,6 +169,8 @@ static bool find_directions(const struct scene *scene,
   if (!d)
     return false;
   for (uint32_t f = 0; f < faces; f++) {
+    if (!poll_at(f))
+      return false;
     struct face_normal n = normal_of_face(scene, f);
     double scale = n.square > 0 ? DIRECTION_ONE / sqrt(n.square) : 0;
     d[f] = (struct crease_direction){round_direction(n.x * scale),
@@ -206,17 +209,17 @@ bool topology_class_masks(const struct topology *topology,
   }
   double crease_cosine = crease_cosine_of(crease_deg);
   struct crease_direction *direction;
-  if (!find_directions(scene, &direction))
-    return false;
-  for (size_t e = 0; e < topology->edge.count; e++) {
+  bool ok = find_directions(scene, &direction);
+  for (size_t e = 0; ok && e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
     unsigned mask = plain_class_mask(edge, scene);
     if (edge->uses == 2 && bends(edge, scene, direction, crease_cosine))
       mask |= RECTO_EDGE_CREASE;
     class_masks[e] = (uint8_t)(mask ? mask : RECTO_EDGE_SMOOTH);
+    ok = poll_at(e);
   }
   mem_free(direction);
-  return true;
+  return ok;
 }
 
 bool topology_keep_class_masks(struct topology *topology,

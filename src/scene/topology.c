@@ -20,6 +20,7 @@
 
 #include <string.h>
 
+#include "base/poll.h"
 #include "scene/weld_equal.h"
 
 /* A point with more sides than this above it is a hub, where one has so many
@@ -204,6 +205,8 @@ static bool number_edges(struct topology *topology, const struct scene *scene,
   for (struct topology_walk walk = walk_sides(scene, topology->weld);
        !lists->overfull && next_side(&walk);) {
     uint32_t e;
+    if (!poll_at(walk.corner))
+      return false;
     if (is_new(topology, &walk, lists, &e)) {
       if (!add_edge(topology, &walk, lists))
         return false;

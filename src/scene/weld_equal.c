@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/sort.h"
 
 static uint64_t bits_of(double value) {
@@ -96,6 +97,8 @@ bool weld_equal(const struct topology *topology, const struct scene *scene,
   if (!key || !map)
     goto end;
   for (size_t p = 0; p < points; p++) {
+    if (!poll_at(p))
+      goto end;
     map[p] = (uint32_t)p;
     if (marked[p])
       key[count++] =

@@ -1,5 +1,6 @@
 /* layout_edges.c - classifies the edges of faces and makes the edges of the
  * sheet. */
+#include "base/poll.h"
 #include "view/layout_phases.h"
 
 /* The classes that an edge has by its faces. */
@@ -91,6 +92,8 @@ static recto_status make_edges(struct layout *layout,
     if (e % 64 == 0)
       edge_ids->before[e / 64] = (uint32_t)layout->sheet->edge.count;
     unsigned edge_class = 0;
+    if (!poll_at(e))
+      return error_cancelled(layout->error);
     if (class_masks)
       edge_class = lowest_bit(
           class_mask_of(edge, class_masks[e], layout->sides[e]) & wanted);
@@ -137,6 +140,7 @@ static void link_sides(struct layout *layout, const struct edge_ids *edge_ids) {
   uint32_t first_fold = (uint32_t)(sheet->edge.count - layout->fold.count);
   for (size_t t = 0; t < sheet->triangle.count; t++) {
     uint32_t *side = sheet->triangle.item[t].side;
+    (void)poll_at(t);
     for (int k = 0; k < 3; k++) {
       if (side[k] >= edges)
         layout->flags.item[t] |= (uint8_t)(SHEET_INNER << k);

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/poll.h"
 #include "view/used.h"
 
 /* Point indices of the sheet are below this, like those of the scene. */
@@ -21,7 +22,7 @@ static size_t count_used(const uint8_t *used, size_t count) {
   return sum;
 }
 
-static void project_points(struct layout *layout, const uint8_t *used) {
+static bool project_points(struct layout *layout, const uint8_t *used) {
   struct sheet *sheet = layout->sheet;
   const struct projection projection = layout->projection;
   size_t count = 0;
@@ -29,6 +30,8 @@ static void project_points(struct layout *layout, const uint8_t *used) {
     layout->point_map[p] = SHEET_NONE;
     if (!used[p])
       continue;
+    if (!poll_at(p))
+      return false;
     struct view_point at = layout_view(layout, (uint32_t)p);
     layout->outcode[p] = clip_outcode(&projection, at);
     if (layout->outcode[p] == 0) {
@@ -37,6 +40,7 @@ static void project_points(struct layout *layout, const uint8_t *used) {
     }
   }
   sheet->point.count = count;
+  return true;
 }
 
 recto_status layout_points(struct layout *layout) {
@@ -59,7 +63,8 @@ recto_status layout_points(struct layout *layout) {
   if (status == RECTO_OK) {
     layout->sheet->z_scale = layout->projection.z_scale;
     layout->sheet->units_per_view = layout->projection.units;
-    project_points(layout, used);
+    if (!project_points(layout, used))
+      status = error_cancelled(layout->error);
   }
 end:
   mem_free(used);

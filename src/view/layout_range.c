@@ -15,6 +15,7 @@
  * far end is moved back by the length of the range, so that what is set to it
  * is not in contact with the farthest face.
  */
+#include "base/poll.h"
 #include "view/layout_phases.h"
 #include "view/vector.h"
 
@@ -127,6 +128,8 @@ static bool grow_by_faces(struct depth_range *range, struct layout *layout) {
       all &= code;
     }
     bool cut = false;
+    if (!poll_at(face))
+      return false;
     if (look && (any & CLIP_NEAR_BIT) && !is_cut_near(layout, face, &cut))
       return false;
     layout->sheet->cut_near += cut;

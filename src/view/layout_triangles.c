@@ -6,6 +6,7 @@
  */
 #include <math.h>
 
+#include "base/poll.h"
 #include "view/coordinate_error.h"
 #include "view/layout_clipping.h"
 
@@ -276,8 +277,9 @@ static recto_status add_polygon_face(struct layout *layout, uint32_t face,
 }
 
 /* Fast path for triangles that need no clipping: adds faces from `face` on, up
- * to the first that is no such triangle or for which there is no room.  Nearly
- * all faces of a mesh take it, so everything that it reads is a local variable.
+ * to the first that is no such triangle or for which there is no room, or to
+ * the next after which layout_triangles polls.  Nearly all faces of a mesh take
+ * it, so everything that it reads is a local variable.
  * Returns that first face. */
 static uint32_t add_plain_faces(struct layout *layout, uint32_t face) {
   const struct scene *scene = layout->scene;
@@ -286,7 +288,9 @@ static uint32_t add_plain_faces(struct layout *layout, uint32_t face) {
   const uint32_t *corner_edge = layout->topology->corner_edge;
   struct layout_triangle_sink sink = layout_sink_of(layout);
   uint8_t *sides = layout->sides;
-  uint32_t end = scene_face_count(scene);
+  uint32_t end = (face | (POLL_ITEMS - 1)) + 1;
+  if (end > scene_face_count(scene))
+    end = scene_face_count(scene);
   for (; face < end && sink.room > 0; face++) {
     uint32_t c = start[face];
     if (start[face + 1] - c != 3)
@@ -363,6 +367,8 @@ recto_status layout_triangles(struct layout *layout) {
     recto_status status = add_face(layout, face);
     if (status != RECTO_OK)
       return status;
+    if (!poll_at(face))
+      return error_cancelled(layout->error);
     if (layout->sheet->triangle.count > SHEET_NONE / 2)
       return error_set(layout->error, RECTO_ERROR_LIMIT, NULL, 0,
                        "the drawing has more than 2^31 triangles");

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/poll.h"
 #include "view/project.h"
 #include "view/vector.h"
 
@@ -149,6 +150,7 @@ static recto_status measure_edges(struct measure *measure,
         ((options->ink.edges & RECTO_EDGE_SILHOUETTE) != 0 &&
          is_silhouette(measure, edge)))
       measure_line(measure, edge->point[0], edge->point[1]);
+    ok = poll_at(e);
   }
   mem_free(class_masks);
   return ok ? RECTO_OK : error_memory(error);

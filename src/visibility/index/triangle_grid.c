@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/poll.h"
 #include "visibility/index/bsp.h"
 #include "visibility/index/duplicate_triangles.h"
 #include "visibility/predicate/surrounder.h"
@@ -159,10 +160,12 @@ static void fill_triangle(const struct filling *filling, uint32_t t,
 /* Counting sort of the triangles by cell: the first pass counts, the second
  * stores, backwards, after which start[] has the lists' starts. */
 static void fill_cells(const struct filling *filling, bool store) {
-  for (size_t i = filling->count; i-- > 0;)
+  for (size_t i = filling->count; i-- > 0;) {
+    (void)poll_at(i);
     fill_triangle(filling,
                   filling->subset != NULL ? filling->subset[i] : (uint32_t)i,
                   store);
+  }
 }
 
 /* Removes the triangles that are left out from the lists. */
@@ -271,7 +274,7 @@ static bool choose_subset(const struct triangle_grid *grid,
     bool small = f.width <= 1 && f.height <= 1;
     if (small && !dilated[cell])
       continue;
-    if (!ARRAY_PUSH(subset, (uint32_t)t))
+    if (!ARRAY_PUSH(subset, (uint32_t)t) || !poll_at(t))
       return false;
   }
   return true;

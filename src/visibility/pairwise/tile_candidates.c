@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/sort.h"
 
 /* Larger cells are considered only if
@@ -162,13 +163,16 @@ static bool add_keys(struct tile_candidates *list, const struct sheet *sheet) {
   if (list->key == NULL)
     return false;
   for (int y = 0; y < grid->rows; y++)
-    for (int x = 0; x < grid->columns; x++, cell++)
+    for (int x = 0; x < grid->columns; x++, cell++) {
+      if (!poll_at(cell))
+        return false;
       if (grid->start[cell] < grid->start[cell + 1]) {
         size_t from = grid->start[cell], to = grid->start[cell + 1];
         compute_keys(list, sheet, x, y, from, to);
         if (to - from < TRIANGLE_GRID_SPLIT)
           sort_list(list, from, to, scratch);
       }
+    }
   return true;
 }
 

@@ -15,6 +15,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/poll.h"
 #include "visibility/predicate/occlusion.h"
 #include "visibility/predicate/plane_filter.h"
 #include "visibility/predicate/surrounder.h"
@@ -227,6 +228,7 @@ static void collect(struct tile_classification *tiles,
     int64_t least = z0 < z1 ? z0 : z1, most = z0 > z1 ? z0 : z1;
     int low = tile_bucket(z2 < least ? z2 : least),
         high = tile_bucket(z2 > most ? z2 : most);
+    (void)poll_at(t);
     footprint[t] = footprint_of(r, low, high);
     add_buckets(&g, r, bucket_mask(low, high));
     if (flags[t] & SHEET_FLAT)

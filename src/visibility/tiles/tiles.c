@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "base/poll.h"
 #include "visibility/pairwise/edge_query.h"
 #include "visibility/pairwise/deferred_triangles.h"
 #include "visibility/intersection/intersection.h"
@@ -179,6 +180,8 @@ static bool classify_edges(struct tiles_work *work, size_t from,
     struct geom_segment s = sheet_ends(sheet, edge->point);
     bool wire = edge->triangle[0] == SHEET_NONE ||
                 edge->edge_class == RECTO_EDGE_INTERSECTION;
+    if (!poll_at(e))
+      return false;
     if (!sheet_edge_is_drawn(sheet, e))
       continue;
     map->edge_state[e] = (uint8_t)state_of_edge(work, s.p, s.q, wire);
@@ -222,6 +225,8 @@ static bool classify_faces(struct tiles_work *work) {
     return false;
   for (size_t t = 0; t < n; t++) {
     work->face_state[t] = MAP_HIDDEN;
+    if (!poll_at(t))
+      return false;
     if (work->sheet->triangle_flags[t] & SHEET_FLAT)
       continue;
     work->face_state[t] = (uint8_t)state_of_face(work, (uint32_t)t);
@@ -331,7 +336,7 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
   fragments.report = work->report;
   for (size_t t = 0; ok && t < n; t++)
     if (work->face_state[t] == MAP_VISIBLE)
-      ok = fragments_add_without_contact(&fragments, (uint32_t)t);
+      ok = poll_at(t) && fragments_add_without_contact(&fragments, (uint32_t)t);
   ok = ok && deferred_triangles_sort(&deferred_triangles, work->face.item,
                                      work->face.count);
   for (size_t i = 0; ok && i < work->face.count; i++)
@@ -429,9 +434,7 @@ static recto_status solve(struct sheet *sheet,
                             .cancelled = &cancelled};
   recto_status status = RECTO_OK;
   if (!solve_all(&work, map, &status, error) && status == RECTO_OK)
-    status = cancelled
-                 ? error_set(error, RECTO_ERROR_CANCELLED, NULL, 0, "cancelled")
-                 : error_memory(error);
+    status = cancelled ? error_cancelled(error) : error_memory(error);
   report_tiles(&work, report);
   tile_candidates_fini(&work.lists);
   tile_classification_fini(&work.tiles);
