@@ -4,6 +4,22 @@ EXTRA_DIST += NEWS.md CONTRIBUTING.md BIBLIOGRAPHY.md \
 	%D%/algorithms.md %D%/decisions %D%/draw.sh %D%/glossary.md \
 	%D%/python.md %D%/testing.md
 
+# What completes command lines in bash and zsh, by the program's own table of
+# options; a program that was built for another machine is not run.
+if !CROSS_COMPILING
+bashcompletiondir = $(datadir)/bash-completion/completions
+bashcompletion_DATA = %D%/completion/recto
+zshcompletiondir = $(datadir)/zsh/site-functions
+zshcompletion_DATA = %D%/completion/_recto
+CLEANFILES += $(bashcompletion_DATA) $(zshcompletion_DATA)
+endif
+%D%/completion/recto: recto$(EXEEXT)
+	@$(MKDIR_P) $(@D)
+	$(AM_V_GEN)./recto --completion bash >$@
+%D%/completion/_recto: recto$(EXEEXT)
+	@$(MKDIR_P) $(@D)
+	$(AM_V_GEN)./recto --completion zsh >$@
+
 # The README's pictures, as recto draws them now; a test compares them.
 PICTURES = %D%/images/castle.svg %D%/images/gears.svg %D%/images/knot.svg
 EXTRA_DIST += $(PICTURES)

@@ -68,6 +68,7 @@ dist_check_SCRIPTS += \
   %D%/test_cli_outputs.sh \
   %D%/test_cli_progress.sh \
   %D%/test_cli_signals.sh \
+  %D%/test_completion.sh \
   %D%/test_installed.sh \
   %D%/test_documents.sh \
   %D%/test_examples.sh \

@@ -98,7 +98,7 @@ for option in output format from method pitch resolution depth-bits subpixels \
   elevation camera lookat up fov ortho fit no-fit scale near section page \
   landscape margin edges crease hidden fill hatch-pitch hatch-angle hatch-inset light pen \
   pens pen-for pen-width pen-colour weights path order simplify precision ids stats verify check threads progress quiet \
-  version help; do
+  completion version help; do
   claim "--$option is there, or refused by name" offered_or_refused "$option"
 done
 for method in auto newell watkins warnock tiles zbuffer scanline-zbuffer \

@@ -97,7 +97,8 @@ static bool store(struct arguments *arguments, const struct option_entry *entry,
     return value_vector(text, to) &&
            (entry->least == 0 || !is_nothing((const double *)to));
   case OPTION_WORD:
-    if (!value_word(text, entry->words, &integer))
+    if (!(entry->word != NULL ? value_name(text, entry->word, &integer)
+                              : value_word(text, entry->words, &integer)))
       return false;
     *(unsigned *)to = (unsigned)integer; /* as an enumeration is */
     return true;
@@ -266,7 +267,7 @@ bool arguments_parse(struct arguments *arguments, int argc, char **argv,
   }
   arguments->model = argv + optind;
   arguments->model_count = argc - optind;
-  if (arguments->help || arguments->version)
+  if (arguments->help || arguments->version || arguments->completes)
     return true;
   settle_page(arguments);
   return settle_method(arguments, message) &&

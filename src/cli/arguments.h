@@ -22,7 +22,8 @@ struct arguments {
   /* The length of false or missing lines that --check tolerates: the greater of
    * tolerance_mm and tolerance_share times what is drawn or visible. */
   double tolerance_mm, tolerance_share;
-  bool stats, progress, quiet, help, version;
+  bool stats, progress, quiet, help, version, completes;
+  unsigned completion; /* whose to print: an enum completion_shell */
 
   /* Several drawings in one run, frames: see frames.h. */
   int turntable; /* how many directions about the up axis; 0: one */
@@ -61,7 +62,7 @@ enum option_kind {
   OPTION_LENGTH,  /* a double in [least, most], in mm */
   OPTION_INT,     /* an int in [least, most] */
   OPTION_VECTOR,  /* a double[3]; not 0,0,0 where `least` is above 0 */
-  OPTION_WORD,    /* an enumerator, by its index in `words` */
+  OPTION_WORD,    /* an enumerator, by its index in `words`, or by `word` */
   OPTION_LIST,    /* NAME=VALUE,..., each taken by `take_item`, or `words`, if
                      any, for an empty list; repeated, it adds to the list */
   OPTION_TAKE,    /* parsed by `take` */
@@ -110,7 +111,8 @@ struct option_entry {
   size_t offset; /* of its value in struct arguments */
   size_t given;  /* offset of a bool to set if it is given; 0: none */
   double least, most;
-  const char *words;
+  const char *words; /* that its value may be, also for completion */
+  const char *(*word)(size_t index); /* more such words; NULL past the last */
   bool (*take)(struct arguments *arguments, const char *text);
   recto_status (*take_item)(struct arguments *arguments, const char *name,
                             const char *value);
@@ -124,7 +126,9 @@ extern const struct option_entry option_table[];
 
 bool option_is_end(const struct option_entry *entry);
 
-/* Prints --help to standard output. */
+/* Print --help and --completion to standard output. */
 void help_print(void);
+enum completion_shell { COMPLETION_BASH, COMPLETION_ZSH };
+void completion_print(enum completion_shell shell);
 
 #endif

@@ -1,6 +1,7 @@
 # src/cli/local.mk - the program: sees recto.h alone.
 recto_SOURCES += \
   %D%/arguments.c %D%/arguments.h \
+  %D%/completion.c \
   %D%/descriptors.c %D%/descriptors.h \
   %D%/frames.c %D%/frames.h \
   %D%/help.c \

@@ -11,12 +11,14 @@ static int run(struct arguments *arguments, int argc, char **argv) {
     message_print("", 0, message);
     return EXIT_USAGE;
   }
-  if (!arguments->help && !arguments->version)
-    return cli_run(arguments);
   if (arguments->help)
     help_print();
-  else
+  else if (arguments->version)
     printf("recto %s\n", recto_version());
+  else if (arguments->completes)
+    completion_print((enum completion_shell)arguments->completion);
+  else
+    return cli_run(arguments);
   if (fflush(stdout) != 0) {
     message_print("", 0, "cannot write to standard output");
     return EXIT_FAILED;

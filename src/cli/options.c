@@ -12,16 +12,28 @@
 
 #define AT(member) offsetof(struct arguments, member)
 
-/* ---- Options with their own syntax --------------------------------------- */
+/* ---- Words --------------------------------------------------------------- */
 
-static bool take_method(struct arguments *arguments, const char *text) {
-  for (int i = 0; i < RECTO_METHOD_COUNT; i++)
-    if (strcmp(text, recto_method_name((recto_method)i)) == 0) {
-      arguments->options.solver.method = (recto_method)i;
-      return true;
-    }
-  return false;
+static const char *name_method(size_t index) {
+  return index < RECTO_METHOD_COUNT ? recto_method_name((recto_method)index)
+                                    : NULL;
 }
+
+static const char *name_view(size_t index) {
+  return recto_view_name(index, NULL, NULL);
+}
+
+static const char *name_page(size_t index) {
+  return recto_page_name(index, NULL, NULL);
+}
+
+static const char *name_edge_class(size_t index) {
+  return index < RECTO_EDGE_CLASS_COUNT
+             ? recto_edge_class_name((recto_edge_class)(1u << index))
+             : NULL;
+}
+
+/* ---- Options with their own syntax --------------------------------------- */
 
 static bool take_view(struct arguments *arguments, const char *text) {
   struct named_view view;
@@ -138,12 +150,14 @@ const struct option_entry option_table[] = {
     {OPTION_TEXT, "output", 'o', "FILE", "a file", "- for standard output",
      .offset = AT(output)},
     {OPTION_TEXT, "format", 0, "NAME", "a format",
-     "output format; else by extension, svg for -", .offset = AT(format)},
+     "output format; else by extension, svg for -", .offset = AT(format),
+     .word = recto_output_format_name},
     {OPTION_TEXT, "from", 0, "NAME", "a format",
-     "model format; else by extension", .offset = AT(from)},
-    {OPTION_TAKE, "method", 'm', "NAME", "a method: see recto --help",
-     "how visibility is found (auto)", .take = take_method,
-     .use = {USED_BY_DRAWING}},
+     "model format; else by extension", .offset = AT(from),
+     .words = "obj ply stl"},
+    {OPTION_WORD, "method", 'm', "NAME", "a method: see recto --help",
+     "how visibility is found (auto)", .offset = AT(options.solver.method),
+     .word = name_method, .use = {USED_BY_DRAWING}},
     {OPTION_NUMBER, "contact", 0, "LENGTH", "a number, 0 or more",
      "what lies closer in depth touches, in model units",
      .offset = AT(options.solver.contact), .least = 0, .most = DBL_MAX,
@@ -154,7 +168,7 @@ const struct option_entry option_table[] = {
     {OPTION_TAKE, "pitch", 0, "LENGTH",
      "a length of at least 0.01 mm, or exact",
      "watkins: between its scan lines, or exact (default)", .take = take_pitch,
-     .use = {USED_BY_WATKINS}},
+     .words = "exact", .use = {USED_BY_WATKINS}},
     {OPTION_INT, "resolution", 0, "N", "a number from 1 to 65536",
      "lines of pixels: z-buffers, warnock if asked",
      .offset = AT(options.solver.resolution), .least = 1, .most = 65536,
@@ -165,7 +179,8 @@ const struct option_entry option_table[] = {
      .use = {USED_BY_WARNOCK}},
     {OPTION_TAKE, "depth-bits", 0, "B", "16, 24, 32 or 64",
      "z-buffers: 16 24 32, or 64 for doubles (default)",
-     .take = take_depth_bits, .use = {USED_BY_ZBUFFERS}},
+     .take = take_depth_bits, .words = "16 24 32 64",
+     .use = {USED_BY_ZBUFFERS}},
     {OPTION_INT, "subpixels", 0, "K", "a number from 1 to 16",
      "in pixels: average K x K in each (1)",
      .offset = AT(options.solver.subpixels), .least = 1, .most = 16,
@@ -178,7 +193,7 @@ const struct option_entry option_table[] = {
     {OPTION_TAKE, "view", 0, "NAME",
      "iso, front, back, left, right, top, bottom, dimetric or trimetric",
      "iso (default) front back left right top bottom", .given = AT(view_given),
-     .take = take_view},
+     .take = take_view, .word = name_view},
     {OPTION_INT, "turntable", 0, "N", "a number from 1 to 100000",
      "N drawings all around, to files such as a%03d.svg",
      .offset = AT(turntable), .least = 1, .most = 100000,
@@ -225,7 +240,7 @@ const struct option_entry option_table[] = {
     HEADING("Page (lengths take mm, cm, in, pt; mm where nothing is said)"),
     {OPTION_TAKE, "page", 'p', "SIZE",
      "A0 to A6, letter, legal or a size such as 200x100mm",
-     "A0 to A6, letter, legal, WxH (A4)", .take = take_page,
+     "A0 to A6, letter, legal, WxH (A4)", .take = take_page, .word = name_page,
      .use = {USED_BY_DRAWING}},
     {OPTION_FLAG, "landscape", 0, NULL, NULL, "the page's long side lies",
      .offset = AT(landscape), .use = {USED_BY_DRAWING}},
@@ -237,7 +252,8 @@ const struct option_entry option_table[] = {
     {OPTION_TAKE, "edges", 'e', "LIST",
      "all, none, or a list of silhouette, border, crease, group, "
      "intersection, wire and smooth",
-     "classes to draw (see below)", .take = take_edges},
+     "classes to draw (see below)", .take = take_edges, .words = "all none",
+     .word = name_edge_class},
     {OPTION_NUMBER, "crease", 0, "DEG", "an angle from 0 to 180",
      "faces that meet at more make a crease (30)",
      .offset = AT(options.mesh.crease_deg), .least = 0, .most = 180,
@@ -245,7 +261,7 @@ const struct option_entry option_table[] = {
     {OPTION_TAKE, "hidden", 0, "HOW[,N]",
      "none, dashed or layer, with ,N or not, or N above 0",
      "none (default) dashed layer; N: behind N at most", .take = take_hidden,
-     .use = {USED_BY_LINES}},
+     .words = "none dashed layer", .use = {USED_BY_LINES}},
     {OPTION_WORD, "fill", 0, "HOW", "none, paint, shade or hatch",
      "faces: none (default) paint shade hatch", .offset = AT(options.ink.fill),
      .words = "none paint shade hatch", .use = {USED_BY_DRAWING}},
@@ -313,10 +329,11 @@ const struct option_entry option_table[] = {
      .use = {USED_BY_SVG}},
     {OPTION_TAKE, "path", 0, "HOW", "path or polyline",
      "SVG: path (default) or polyline elements", .take = take_path,
-     .use = {USED_BY_SVG}},
+     .words = "path polyline", .use = {USED_BY_SVG}},
     {OPTION_TEXT, "device", 0, "NAME", "a plotter",
      "HPGL: generic (default) drum hp7475a hp7550a dxy",
-     .offset = AT(options.output.device), .use = {USED_BY_PLOTTER}},
+     .offset = AT(options.output.device),
+     .words = "generic drum hp7475a hp7550a dxy", .use = {USED_BY_PLOTTER}},
     {OPTION_NUMBER, "velocity", 0, "SPEED", "a speed from 1 to 127 cm/s",
      "HPGL: pen speed in cm/s", .offset = AT(options.output.velocity_cm_s),
      .least = 1, .most = 127, .use = {USED_BY_PLOTTER}},
@@ -356,6 +373,9 @@ const struct option_entry option_table[] = {
      "say how far it is (a terminal: by itself)", .offset = AT(progress)},
     {OPTION_FLAG, "quiet", 'q', NULL, NULL, "no warnings, no progress",
      .offset = AT(quiet)},
+    {OPTION_WORD, "completion", 0, "SHELL", "bash or zsh",
+     "print what completes command lines in bash or zsh",
+     .offset = AT(completion), .given = AT(completes), .words = "bash zsh"},
     {OPTION_FLAG, "version", 0, NULL, NULL, "say which version this is",
      .offset = AT(version)},
     {OPTION_FLAG, "help", 0, NULL, NULL, "say all this", .offset = AT(help)},

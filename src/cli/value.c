@@ -178,3 +178,13 @@ bool value_word(const char *text, const char *words, int *index) {
   }
   return false;
 }
+
+bool value_name(const char *text, const char *(*name)(size_t index),
+                int *index) {
+  for (int i = 0; name((size_t)i) != NULL; i++)
+    if (strcmp(text, name((size_t)i)) == 0) {
+      *index = i;
+      return true;
+    }
+  return false;
+}

@@ -3,6 +3,7 @@
 #define CLI_VALUE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 /* All return false, and leave the result alone, where `text` as a whole is
  * not what they read or a number is not finite. */
@@ -39,5 +40,9 @@ unsigned value_edge_class(const char *name);
 
 /* One of the space-separated words, its index. */
 bool value_word(const char *text, const char *words, int *index);
+
+/* One of the names up to the first NULL, its index. */
+bool value_name(const char *text, const char *(*name)(size_t index),
+                int *index);
 
 #endif
