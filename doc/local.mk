@@ -1,5 +1,13 @@
-# doc/local.mk - the man page and the documents that go with a release.
+# doc/local.mk - the man pages and the documents that go with a release.
 dist_man_MANS = %D%/recto.1
+man_MANS = %D%/recto.3
+CLEANFILES += %D%/recto.3
+EXTRA_DIST += %D%/recto.3.in %D%/manual.awk
+%D%/recto.3: %D%/recto.3.in %D%/manual.awk src/recto.h
+	@$(MKDIR_P) $(@D)
+	$(AM_V_GEN)$(AWK) -f $(srcdir)/%D%/manual.awk $(srcdir)/src/recto.h \
+	  $(srcdir)/%D%/recto.3.in >$@.new && mv $@.new $@
+
 EXTRA_DIST += NEWS.md CONTRIBUTING.md BIBLIOGRAPHY.md \
 	%D%/algorithms.md %D%/decisions %D%/draw.sh %D%/glossary.md \
 	%D%/python.md %D%/testing.md

@@ -6,9 +6,12 @@
  *          Angles are degrees.
  * Errors   Every fallible call returns a recto_status and, when given one,
  *          fills a recto_error with the code, the file and line at fault and
- *          a sentence.  A failed call leaves its outputs NULL.  A pointer that
- *          is NULL, where that has no meaning, is RECTO_ERROR_ARGUMENT; calls
- *          without a status then do nothing and return 0, NULL or the like.
+ *          a sentence.  A failed call leaves its outputs NULL.  Every call that
+ *          returns a status may return RECTO_ERROR_MEMORY, and
+ *          RECTO_ERROR_ARGUMENT for an option out of its range or a pointer that
+ *          is NULL where that has no meaning; what else it may return follows
+ *          its description.  Given such a pointer, a call without a status does
+ *          nothing and returns 0, NULL or the like.
  * Owner    The library copies what it is given.  You own what a _create,
  *          _read or _render returns and free it with the matching _destroy,
  *          which accepts NULL.  What getters return is owned by the object and
@@ -387,13 +390,13 @@ void recto_options_init_sized(recto_options *options, size_t size);
 /* ---- Level 1: one call for the whole job --------------------------------- */
 
 /* Reads `model`, draws it and writes `output`.
- * model   path; its format by extension, or "-" for standard input
- * from    format name such as "obj"; NULL: by extension
- * output  path, or "-" for standard output
- * to      format name such as "svg"; NULL: by extension
- * options NULL: the defaults
- * Errors  as the calls below; RECTO_ERROR_ARGUMENT where the output would
- *         replace the model */
+ * model    path; its format by extension, or "-" for standard input
+ * from     format name such as "obj"; NULL: by extension
+ * output   path, or "-" for standard output
+ * to       format name such as "svg"; NULL: by extension
+ * options  NULL: the defaults
+ * Errors   as of recto_scene_read, recto_scene_render and recto_drawing_write
+ */
 RECTO_USE_RESULT recto_status recto_draw_file(
     const char *model, const char *from, const char *output, const char *to,
     const recto_options *options, recto_error *error);
@@ -403,13 +406,19 @@ RECTO_USE_RESULT recto_status recto_draw_file(
 typedef struct recto_scene recto_scene;
 typedef struct recto_drawing recto_drawing;
 
+/* Creates an empty scene; destroys one. */
 RECTO_USE_RESULT recto_status recto_scene_create(recto_scene **scene,
                                                  recto_error *error);
 void recto_scene_destroy(recto_scene *scene);
 
 /* Reads a model file and adds it to `scene`.  Warnings go to the options'
  * warning function; colours, which OBJ has in its material libraries, are read
- * where the options' fill is RECTO_FILL_PAINT; `options` may be NULL. */
+ * where the options' fill is RECTO_FILL_PAINT; `options` may be NULL.
+ * path    "-" is standard input, which needs a format
+ * format  format name such as "obj"; NULL: by the path's extension
+ * Errors  RECTO_ERROR_IO: it cannot be read; RECTO_ERROR_FORMAT: it is broken or
+ *         cut short; RECTO_ERROR_UNSUPPORTED: there is no reader for it;
+ *         RECTO_ERROR_LIMIT: it is too large; RECTO_ERROR_CANCELLED */
 RECTO_USE_RESULT recto_status recto_scene_read(recto_scene *scene,
                                                const char *path,
                                                const char *format,
@@ -459,7 +468,8 @@ RECTO_USE_RESULT recto_status recto_scene_add_mesh_sized(recto_scene *scene,
                                                          size_t size,
                                                          recto_error *error);
 
-/* Adds a point, x y z in scene units, finite; its index goes to *index. */
+/* Adds a point, x y z in scene units, finite; its index goes to *index.
+ * Errors  RECTO_ERROR_LIMIT: 2^31 points are too many */
 RECTO_USE_RESULT recto_status recto_scene_add_point(recto_scene *scene,
                                                     const double xyz[3],
                                                     uint32_t *index,
@@ -471,8 +481,8 @@ RECTO_USE_RESULT recto_status recto_scene_add_group(recto_scene *scene,
                                                     recto_error *error);
 
 /* Adds a face of `count` >= 3 corners, indices of points; it need not be
- * planar. One without area is skipped and counted in the stats, as in a file.
- */
+ * planar.  One without area is skipped and counted in the stats, as in a file.
+ * Errors  RECTO_ERROR_LIMIT: 2^31 corners are too many */
 RECTO_USE_RESULT recto_status recto_scene_add_face(recto_scene *scene,
                                                    const uint32_t *corner,
                                                    size_t count,
@@ -491,16 +501,23 @@ RECTO_USE_RESULT recto_status recto_scene_add_polyline(recto_scene *scene,
  * the decisions too; those with others do the work themselves.  What is added
  * to the scene later undoes it.
  * Threads  afterwards, several threads may render the scene at once
- * Errors   RECTO_ERROR_ARGUMENT, RECTO_ERROR_MEMORY */
+ * Errors   RECTO_ERROR_LIMIT: sizes and distances differ by too much;
+ *          RECTO_ERROR_CANCELLED */
 RECTO_USE_RESULT recto_status recto_scene_prepare(recto_scene *scene,
                                                   const recto_options *options,
                                                   recto_error *error);
 
-/* Draws the scene as the options say; NULL: the defaults. */
+/* Draws the scene as the options say; NULL: the defaults.
+ * Errors  RECTO_ERROR_EMPTY: there is nothing to draw; RECTO_ERROR_LIMIT: there
+ *         is too much for the method, or sizes and distances differ by too much;
+ *         RECTO_ERROR_UNSUPPORTED: the method or the output's format is not
+ *         built in; RECTO_ERROR_VERIFY; RECTO_ERROR_CANCELLED */
 RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
                                                  const recto_options *options,
                                                  recto_drawing **drawing,
                                                  recto_error *error);
+
+/* Destroys a drawing and what its getters returned. */
 void recto_drawing_destroy(recto_drawing *drawing);
 
 /* Checks, before the work is done, whether recto_drawing_write_with_stats could
@@ -521,8 +538,10 @@ RECTO_USE_RESULT recto_status recto_scene_try_output(const recto_scene *scene,
  * A file that is there is replaced by a new one with its owner, mode, access
  * list and attributes; where it has several names, or where these cannot be
  * kept, its bytes are replaced once all of them are known.
- * Errors  RECTO_ERROR_ARGUMENT also where a file that the scene was read from
- *         would be replaced */
+ * Errors  RECTO_ERROR_IO: it cannot be written; RECTO_ERROR_UNSUPPORTED: there is
+ *         no such format; RECTO_ERROR_LIMIT: it is too large for the format;
+ *         RECTO_ERROR_ARGUMENT also where a file that the scene was read from
+ *         would be replaced; RECTO_ERROR_CANCELLED */
 RECTO_USE_RESULT recto_status recto_drawing_write(const recto_drawing *drawing,
                                                   const char *path,
                                                   const char *format,
@@ -570,7 +589,10 @@ typedef struct recto_verdict {
  * options' edge classes.  Lines may be off by a quarter of the options' pen,
  * and by as much as simplify_mm and the output's unit allow a drawing.  Dashed
  * lines, those of the class hidden or of a layer labelled so, and hatching of
- * the class hatch are not checked. */
+ * the class hatch are not checked.
+ * Errors  RECTO_ERROR_IO: the file cannot be read; RECTO_ERROR_FORMAT: it is no
+ *         SVG that can be read; RECTO_ERROR_EMPTY, RECTO_ERROR_LIMIT as of
+ *         recto_scene_render; RECTO_ERROR_CANCELLED */
 #define recto_scene_check(scene, path, options, verdict, error)                \
   recto_scene_check_sized((scene), (path), (options), (verdict),               \
                           sizeof *(verdict), (error))
@@ -604,6 +626,7 @@ typedef struct recto_layer {
   double width_mm;   /* of its pen */
 } recto_layer;
 
+/* How many layers there are. */
 size_t recto_drawing_layer_count(const recto_drawing *drawing);
 
 /* Fills in the layer at `index`; past the last returns false, and the layer is

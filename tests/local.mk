@@ -69,6 +69,7 @@ dist_check_SCRIPTS += \
   %D%/test_cli_progress.sh \
   %D%/test_cli_signals.sh \
   %D%/test_completion.sh \
+  %D%/test_header.sh \
   %D%/test_installed.sh \
   %D%/test_documents.sh \
   %D%/test_examples.sh \

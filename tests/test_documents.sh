@@ -46,14 +46,47 @@ awk '/^\.SH/ { on = $2 == "METHODS" }
 claim "the manual and --help have the same methods" \
   same "$scratch/methods-help" "$scratch/methods-manual"
 
-formats_clean() {
-  test -z "$(LC_ALL=C.UTF-8 man -l --warnings=w "$manual" 2>&1 >/dev/null)"
+# ---- The manual page of the library -----------------------------------------
+
+header=$srcdir/src/recto.h
+library_manual=$scratch/recto.3
+awk -f "$srcdir/doc/manual.awk" "$header" "$srcdir/doc/recto.3.in" \
+  >"$library_manual"
+# Whatever looks like the name of a function, declared or defined as a macro.
+all_are_explained() {
+  local name all=0
+  for name in $(sed 's|/\*.*||; /^ \*/d' "$header" |
+    grep -oE '\brecto_[a-z_0-9]+\(' | sort -u); do
+    sed 's/\\-/-/g' "$library_manual" |
+      awk -v name="$name" '/^\.B / && index($0, name) { head = 1; next }
+        /^\./ { next }
+        head { found = 1 }
+        END { exit !found }' || { say "not explained: $name" && all=1; }
+  done
+  return "$all"
 }
-if man -l "$manual" >/dev/null 2>&1; then
-  claim "the manual page formats without a warning" formats_clean
-else
-  skip "the manual page formats without a warning" "no man -l"
-fi
+claim "recto(3) explains every function of recto.h" all_are_explained
+all_statuses() {
+  test "$(grep -cE '^RECTO_(OK|ERROR_[A-Z]+)  +[a-z]' "$library_manual")" -eq \
+    "$(grep -cE '^  RECTO_(OK|ERROR_[A-Z]+)( =|,)' "$header")"
+}
+claim "and every status" all_statuses
+awk '/^\.EX/ { on = 1; next } /^\.EE/ { on = 0 } on' "$library_manual" |
+  sed 's/\\-/-/g; s/\\e/\\/g' >"$scratch/manual.c"
+manual_program_draws() {
+  build manual && (cd "$scratch" && ./manual) | grep -q '<path'
+}
+
+formats_clean() {
+  test -z "$(LC_ALL=C.UTF-8 man -l --warnings=w "$1" 2>&1 >/dev/null)"
+}
+for page in "$manual" "$library_manual"; do
+  if man -l "$page" >/dev/null 2>&1; then
+    claim "${page##*/} formats without a warning" formats_clean "$page"
+  else
+    skip "${page##*/} formats without a warning" "no man -l"
+  fi
+done
 
 # ---- The README -----------------------------------------------------------
 
@@ -81,24 +114,28 @@ claim "the README explains the packages of packages.txt" \
 # The library example compiles and links as a user would have it.
 awk '/^```c/ { on = 1; next } /^```/ { on = 0 } on' "$readme" \
   >"$scratch/example.c"
-library_example_builds() {
-  # shellcheck disable=SC2086 # CC may be several words
-  ${CC:-cc} -Wall -Werror -I"$srcdir/src" "$scratch/example.c" \
-    -o "$scratch/example" "$builddir/.libs/librecto.so"
+library=$builddir/.libs/librecto.so
+libraries=-Wl,-rpath,$builddir/.libs
+if ! test -e "$library"; then
+  library=$builddir/.libs/librecto.a
+  libraries="$(pkg-config --libs cairo zlib 2>/dev/null) -lm -lpthread"
+fi
+build() { # NAME
+  # shellcheck disable=SC2086 # several words
+  ${CC:-cc} -Wall -Wextra -Werror -I"$srcdir/src" "$scratch/$1.c" \
+    -o "$scratch/$1" "$library" $libraries
 }
-example_runs() {
+example_draws() {
   cp "$srcdir/examples/models/knot.obj" "$scratch/model.obj"
-  (cd "$scratch" && LD_LIBRARY_PATH=$builddir/.libs ./example) &&
+  build example && (cd "$scratch" && ./example) &&
     grep -q '<path' "$scratch/model.svg"
 }
-if test -e "$builddir/.libs/librecto.so" &&
-  ! nm -D "$builddir/.libs/librecto.so" 2>/dev/null | grep -q __asan_init; then
-  claim "the README's program builds against the shared library" \
-    library_example_builds
-  claim "and draws" example_runs
+if test -e "$library" && ! nm "$library" 2>/dev/null | grep -q __asan; then
+  claim "the README's program builds and draws" example_draws
+  claim "so does that of recto(3)" manual_program_draws
 else
-  skip "the README's program builds against the shared library" \
-    "none without sanitizers was built"
+  skip "the README's program builds and draws" \
+    "no library without sanitizers was built"
 fi
 
 # ---- References -----------------------------------------------------------

@@ -51,7 +51,7 @@ installs() {
   say "$(tail -n 3 install.log)" && false
 }
 claim "make install fills an empty folder" installs
-for file in bin/recto include/recto.h pkgconfig/recto.pc man1/recto.1 \
+for file in bin/recto include/recto.h pkgconfig/recto.pc man1/recto.1 man3/recto.3 \
   bash-completion/completions/recto zsh/site-functions/_recto; do
   claim "it has $file" grep -q "/$file\$" files
 done
