@@ -186,6 +186,12 @@ check_users() {
       }' src/base/tolerance.h)
 }
 
+# --stats is for the reader: nothing is decided by what was reported.
+check_reports() {
+  (cd "$1" && sources . | grep -v '^src/base/report\.[ch]$' |
+    xargs grep -H 'report_get(' | sed 's/:.*/: reads a report/')
+}
+
 # Whatever is compiled is listed, and goes into a release.
 check_listed() {
   (cd "$1" && {
@@ -204,7 +210,7 @@ holds() {
   test -z "$found" || { say "$found" && false; }
 }
 claim "there are sources to check" test "$(sources "$srcdir" | wc -l)" -gt 50
-for check in sources tolerances users listed; do
+for check in sources tolerances users reports listed; do
   claim "check_$check finds nothing" holds check_$check "$srcdir"
 done
 
@@ -255,9 +261,10 @@ for literal in 1e-9 1.5e-12 1E-6f 0.e-3; do
 done
 printf 'double b = 2\n  * TOLERANCE_TONE;\n' >>"$copy/src/geom/ratio.c"
 sed -i 's|Users       view/camera_axes.c|&, view/page.c|' "$copy/src/base/tolerance.h"
+echo "int n = report_get(0, 0, 0, 0);" >>"$copy/src/api/render.c"
 echo "int x;" >"$copy/src/geom/new.c"
 echo "/* new.c - nothing. */" >"$copy/src/visibility/included/new.c"
-for check in sources tolerances users listed; do
+for check in sources tolerances users reports listed; do
   check_$check "$copy" >"$scratch/$check"
 done
 
@@ -282,6 +289,7 @@ claim "a user of a tolerance may not be unlisted" finds users \
   "src/geom/ratio.c: uses TOLERANCE_TONE" ""
 claim "a listed user of a tolerance must use it" finds users \
   "src/base/tolerance.h: view/page.c does not use TOLERANCE_UP_SINE" ""
+claim "a report may not be read" finds reports "src/api/render.c: reads" ""
 claim "a source may not open without its job" finds sources \
   "src/geom/new.c: does not open" ""
 claim "a folder may not be without a floor" finds sources \

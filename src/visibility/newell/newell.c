@@ -122,10 +122,7 @@ static bool solve_edges(const struct sheet *sheet, struct newell_order *order,
   bool ok = triangle_grid_query_init(&work.query, order->grid) &&
             edge_intervals_open_map(map, sheet->edge.count);
   for (size_t e = 0; ok && e < sheet->edge.count; e++) {
-    const struct sheet_edge *edge = &sheet->edge.item[e];
-    struct geom_point p = sheet->point.item[edge->point[0]],
-                      q = sheet->point.item[edge->point[1]];
-    if (edge->edge_class == 0 || (p.x == q.x && p.y == q.y))
+    if (!sheet_edge_is_drawn(sheet, e))
       continue;
     work.progress->share = (double)e / (double)sheet->edge.count;
     struct edge_intervals *intervals = intervals_of(&work, (uint32_t)e);

@@ -6,15 +6,14 @@
  *                                  the contact tolerance;
  *   depth_plane                    the depth at any point of the page.
  * Frames of pixels and lines step from depth to depth by facet_slopes
- * (scan/facets.h), where the error is that of the steps; Warnock's samples keep
- * theirs per fraction of a unit (warnock_sample.h), so that the distance of a
- * sample from a corner is an integer and exact.
+ * (scan/facets.h), where the error is that of the steps.
  *
  * Error bound.  With u = 2^-53, each slope is the quotient of two numbers that
- * are rounded once, so it is off by 3 u relatively.  A term of the sum has a
- * difference, which is exact where x and y are integers, a product and two
- * sums: with the slope's, at most 6 u, and z itself at most 3 u.  16 u of the
- * sum of the magnitudes is more than both.
+ * are rounded once, so it is off by 3 u relatively; by 4 u where it is divided
+ * by the fraction of a unit in which x and y are integers.  A term of the sum
+ * has a difference, which is exact for integers, a product and two sums: with
+ * the slope's, at most 7 u, and z itself at most 3 u.  FILTER_ERROR of the sum
+ * of the magnitudes is more than both.
  */
 #ifndef VISIBILITY_PREDICATE_DEPTH_PLANE_H
 #define VISIBILITY_PREDICATE_DEPTH_PLANE_H

@@ -6,18 +6,15 @@
  */
 #include "visibility/warnock/warnock_sample.h"
 
-#include <math.h>
-
-static struct sample_plane plane_of(const struct sheet *sheet,
-                                    const struct scan_grid *grid,
-                                    uint32_t facet) {
-  struct geom_plane plane = sheet_plane(sheet, facet);
-  double scale = -(double)plane.nz * (double)grid->den;
-  return (struct sample_plane){.per_x = (double)plane.nx / scale,
-                               .per_y = (double)plane.ny / scale,
-                               .z0 = (double)plane.a.z,
-                               .x0 = plane.a.x,
-                               .y0 = plane.a.y};
+/* The plane of a facet, x and y in units of 1 / den. */
+static struct depth_plane plane_of(const struct sheet *sheet,
+                                   const struct scan_grid *grid,
+                                   uint32_t facet) {
+  struct geom_plane exact = sheet_plane(sheet, facet);
+  struct depth_plane plane = depth_plane_of(&exact);
+  double den = (double)grid->den;
+  return (struct depth_plane){plane.x * den, plane.y * den, plane.z,
+                              plane.per_x / den, plane.per_y / den};
 }
 
 bool warnock_sample_init(struct warnock_sample *sample,
@@ -53,14 +50,10 @@ struct sample_depth warnock_sample_depth(const struct warnock_sample *sample,
                                          uint32_t facet, int32_t column,
                                          int32_t line) {
   const struct scan_grid *grid = &sample->fine.grid;
-  const struct sample_plane *plane = &sample->plane[facet];
-  double dx =
-      plane->per_x * (double)(centre_x(grid, column) - plane->x0 * grid->den);
-  double dy =
-      plane->per_y * (double)(centre_y(grid, line) - plane->y0 * grid->den);
-  return (struct sample_depth){plane->z0 + dx + dy,
-                               FILTER_ERROR *
-                                   (fabs(plane->z0) + fabs(dx) + fabs(dy))};
+  const struct depth_plane *plane = &sample->plane[facet];
+  double x = (double)centre_x(grid, column), y = (double)centre_y(grid, line);
+  return (struct sample_depth){depth_plane_at(plane, x, y),
+                               depth_plane_error(plane, x, y)};
 }
 
 bool warnock_sample_is_nearer(const struct warnock_sample *sample, uint32_t a,

@@ -9,21 +9,15 @@
 #ifndef VISIBILITY_WARNOCK_WARNOCK_SAMPLE_H
 #define VISIBILITY_WARNOCK_WARNOCK_SAMPLE_H
 
+#include "visibility/predicate/depth_plane.h"
 #include "visibility/raster/raster.h"
-
-/* The plane of a facet,
- *     z = z0 + per_x (x - x0 den) + per_y (y - y0 den),
- * x and y in units of 1 / den of the grid. */
-struct sample_plane {
-  double per_x, per_y, z0;
-  int32_t x0, y0; /* sheet units */
-};
 
 struct warnock_sample {
   const struct facets *facets;
-  struct raster fine;         /* a frame of sub-pixels: only sheet and grid */
-  struct sample_plane *plane; /* one a triangle; set for those that represent
-                                 a facet (facet_of) */
+  struct raster fine;        /* a frame of sub-pixels: only sheet and grid */
+  struct depth_plane *plane; /* one a triangle, x and y in units of 1 / den of
+                                the grid; set for those that represent a facet
+                                (facet_of) */
 };
 
 /* Sets the planes of all facets.
