@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/poll.h"
 
 enum {
   DIGIT_BITS = 11,
@@ -55,6 +56,8 @@ void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count) {
   for (int pass = 0; pass < PASS_COUNT; pass++) {
     if (digit(differing, pass) == 0)
       continue;
+    if (count > POLL_ITEMS)
+      (void)poll_now();
     size_t start[DIGIT_COUNT] = {0};
     for (size_t i = 0; i < count; i++)
       start[digit(from[i].key, pass)]++;
@@ -86,7 +89,8 @@ static void merge(const struct sort_order *order, const char *from, char *to,
     memcpy(to, from, count * size);
     return;
   }
-  while (a < a_end && b < b_end) {
+  for (size_t n = 1; a < a_end && b < b_end; n++) {
+    (void)poll_at(n);
     if (order->compare(a, b, order->user) <= 0) {
       memcpy(to, a, size);
       a += size;
@@ -110,8 +114,10 @@ bool sort_stable(void *item, size_t count, size_t size,
     return false;
   struct sort_order order = {size, compare, user};
   char *from = item, *to = scratch;
-  for (size_t width = 1; width < count; width *= 2) {
-    for (size_t i = 0; i < count; i += 2 * width) {
+  bool ok = true;
+  for (size_t width = 1; ok && width < count; width *= 2) {
+    for (size_t i = 0; ok && i < count; i += 2 * width) {
+      ok = i == 0 || poll_at(i);
       size_t rest = count - i;
       size_t left = width < rest ? width : rest;
       size_t both = 2 * width < rest ? 2 * width : rest;
@@ -124,5 +130,5 @@ bool sort_stable(void *item, size_t count, size_t size,
   if (from != (char *)item)
     memcpy(item, from, count * size);
   mem_free(scratch);
-  return true;
+  return ok;
 }

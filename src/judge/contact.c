@@ -1,6 +1,7 @@
 /* contact.c - the judge's contact tolerance of each triangle. */
 #include "judge/contact.h"
 
+#include "base/poll.h"
 #include "base/tolerance.h"
 
 /* Upper bound of the rounding error of a coordinate. */
@@ -30,7 +31,7 @@ static double contact_of(const struct judge_options *options,
 
 void judge_contact_set(struct judge_triangles *all,
                        const struct judge_options *options) {
-  for (size_t i = 0; i < all->triangle.count; i++) {
+  for (size_t i = 0; i < all->triangle.count && poll_at(i); i++) {
     struct judge_triangle *t = &all->triangle.item[i];
     t->contact = options->contact < 0 ? contact_of(options, all->scene, t)
                                       : options->contact;

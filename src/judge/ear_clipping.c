@@ -3,7 +3,6 @@
 #include "judge/ear_clipping.h"
 
 #include "base/sort.h"
-#include "judge/sort.h"
 
 /* The projected polygon, counter-clockwise, and the corners that are left. */
 struct ear_outline {
@@ -94,8 +93,9 @@ struct ear_ring {
   uint32_t count; /* of the ranks */
 };
 
-static int compare_ranks(const void *a, const void *b) {
+static int compare_ranks(const void *a, const void *b, void *user) {
   const struct judge_rank *s = a, *t = b;
+  (void)user;
   if (s->at != t->at)
     return s->at < t->at ? -1 : 1;
   return s->corner < t->corner ? -1 : s->corner > t->corner;
@@ -121,9 +121,11 @@ static bool make_ring(struct judge_ears *ears,
     ears->by[0].item[i] = (struct judge_rank){outline->at[here].x, here};
     ears->by[1].item[i] = (struct judge_rank){outline->at[here].y, here};
   }
-  for (int k = 0; k < 2 && n > LINEAR_SEARCH_MAX; k++)
-    judge_sort(ears->by[k].item, n, sizeof *ears->by[k].item, compare_ranks);
-  return true;
+  bool ok = true;
+  for (int k = 0; ok && k < 2 && n > LINEAR_SEARCH_MAX; k++)
+    ok = sort_stable(ears->by[k].item, n, sizeof *ears->by[k].item,
+                     compare_ranks, NULL);
+  return ok;
 }
 
 /* The number of ranks below a coordinate: a lower bound by bisection. */

@@ -2,6 +2,7 @@
  * smooth. */
 #include "judge/edge_classes.h"
 
+#include "base/poll.h"
 #include "judge/camera.h"
 #include "judge/triangulation.h"
 
@@ -172,7 +173,7 @@ bool judge_facings_init(struct judge_facings *facings,
     const struct judge_triangle *triangle = &facings->all->triangle.item[t];
     contact[triangle->face] = fmax(contact[triangle->face], triangle->contact);
   }
-  for (uint32_t i = 0; i < faces; i++)
+  for (uint32_t i = 0; i < faces && poll_at(i); i++)
     facings->facing[i] = facing_of(facings, i, contact[i]);
   mem_free(contact);
   return true;

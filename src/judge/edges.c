@@ -7,11 +7,11 @@
 
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/sort.h"
 #include "judge/edge_classes.h"
 #include "judge/folds.h"
 #include "judge/intersections.h"
-#include "judge/sort.h"
 
 struct side_list {
   ARRAY(struct judge_side) side;
@@ -35,7 +35,8 @@ struct edge_finder {
 
 /* ---- Points at one position ---------------------------------------------- */
 
-static int compare_positions(const void *a, const void *b) {
+static int compare_positions(const void *a, const void *b, void *user) {
+  (void)user;
   const struct scene_point *p = *(const struct scene_point *const *)a;
   const struct scene_point *q = *(const struct scene_point *const *)b;
   if (p->x != q->x)
@@ -52,14 +53,15 @@ static int compare_positions(const void *a, const void *b) {
 static uint32_t *find_first_at(const struct scene_point *point, size_t count) {
   uint32_t *first_at = mem_alloc(count, sizeof *first_at);
   const struct scene_point **order = mem_alloc(count, sizeof *order);
-  if (first_at == NULL || order == NULL) {
+  bool ok = first_at != NULL && order != NULL;
+  for (size_t i = 0; ok && i < count; i++)
+    order[i] = &point[i];
+  if (!ok ||
+      !sort_stable(order, count, sizeof *order, compare_positions, NULL)) {
     mem_free(first_at);
     mem_free(order);
     return NULL;
   }
-  for (size_t i = 0; i < count; i++)
-    order[i] = &point[i];
-  judge_sort(order, count, sizeof *order, compare_positions);
   for (size_t i = 0; i < count; i++) {
     uint32_t here = (uint32_t)(order[i] - point);
     bool same = i > 0 && order[i]->x == order[i - 1]->x &&
@@ -137,8 +139,9 @@ static bool runs_from(const struct edge_finder *finder,
 
 /* ---- Pairing ------------------------------------------------------------- */
 
-static int compare_sides(const void *a, const void *b) {
+static int compare_sides(const void *a, const void *b, void *user) {
   const struct judge_side *s = a, *t = b;
+  (void)user;
   if (s->a != t->a)
     return s->a < t->a ? -1 : 1;
   if (s->b != t->b)
@@ -150,6 +153,8 @@ static bool list_sides(const struct scene *scene, struct side_list *sides) {
   for (uint32_t i = 0; i < scene_face_count(scene); i++) {
     uint32_t start = scene->face_start.item[i];
     uint32_t count = scene->face_start.item[i + 1] - start;
+    if (!poll_at(i))
+      return false;
     for (uint32_t k = 0; k < count; k++) {
       uint32_t p = scene->corner.item[start + k];
       uint32_t q = scene->corner.item[start + (k + 1) % count];
@@ -158,9 +163,8 @@ static bool list_sides(const struct scene *scene, struct side_list *sides) {
         return false;
     }
   }
-  judge_sort(sides->side.item, sides->side.count, sizeof *sides->side.item,
-             compare_sides);
-  return true;
+  return sort_stable(sides->side.item, sides->side.count,
+                     sizeof *sides->side.item, compare_sides, NULL);
 }
 
 /* Adds the edge of two or more sides between the same two points. */
@@ -174,13 +178,13 @@ static bool pair_group(struct edge_finder *finder,
   return add_border(finder, side);
 }
 
-static int compare_located(const void *a, const void *b) {
+static int compare_located(const void *a, const void *b, void *user) {
   const struct located_side *s = a, *t = b;
   if (s->low != t->low)
     return s->low < t->low ? -1 : 1;
   if (s->high != t->high)
     return s->high < t->high ? -1 : 1;
-  return compare_sides(&s->side, &t->side);
+  return compare_sides(&s->side, &t->side, user);
 }
 
 /* Sorts the single sides by the positions of their ends. */
@@ -196,10 +200,9 @@ static bool locate_singles(struct edge_finder *finder,
     uint32_t a = first_at[side->a], b = first_at[side->b];
     located[i] = (struct located_side){a < b ? a : b, a < b ? b : a, *side};
   }
-  judge_sort(located, count, sizeof *located, compare_located);
   finder->single = located;
   finder->singles = count;
-  return true;
+  return sort_stable(located, count, sizeof *located, compare_located, NULL);
 }
 
 static bool pair_singles(struct edge_finder *finder) {
@@ -249,8 +252,10 @@ static bool pair_sides(struct edge_finder *finder,
                        struct side_list *single) {
   bool ok = true;
   size_t count = sides->side.count;
-  for (size_t i = 0, next; ok && i < count; i = next) {
+  for (size_t i = 0, next, n = 0; ok && i < count; i = next, n++) {
     const struct judge_side *side = sides->side.item + i;
+    if (!poll_at(n))
+      return false;
     for (next = i + 1; next < count && sides->side.item[next].a == side->a &&
                        sides->side.item[next].b == side->b;)
       next++;

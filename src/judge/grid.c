@@ -2,6 +2,8 @@
  */
 #include "judge/grid.h"
 
+#include "base/poll.h"
+
 #include <string.h>
 
 /* A segment across the page is in as many cells as a row and a column have.
@@ -76,7 +78,7 @@ static bool count_items(struct judge_grid *grid, uint32_t count,
   size_t most = (size_t)CELLS_PER_SEGMENT * count + 4 * cells;
   most = most < UINT32_MAX ? most : UINT32_MAX;
   memset(fill, 0, (cells + 1) * sizeof *fill);
-  for (uint32_t i = 0; i < count && items <= most; i++)
+  for (uint32_t i = 0; i < count && items <= most && poll_at(i); i++)
     items += visit_cells(grid, i, fill);
   return items <= most;
 }
@@ -109,7 +111,7 @@ bool judge_grid_init(struct judge_grid *grid,
   if (grid->item == NULL)
     goto end;
   memcpy(fill, grid->start, cells * sizeof *fill);
-  for (uint32_t i = 0; i < count; i++)
+  for (uint32_t i = 0; i < count && poll_at(i); i++)
     (void)visit_cells(grid, i, fill);
 end:
   mem_free(fill);

@@ -3,6 +3,7 @@
 
 #include "judge/intersections.h"
 
+#include "base/poll.h"
 #include "judge/camera.h"
 #include "judge/sampler.h"
 
@@ -360,8 +361,8 @@ bool judge_edges_intersections(struct judge_edges *edges,
     const struct judge_triangle *triangle = &all->triangle.item[i];
     struct judge_box box = judge_triangle_box(triangle);
     finder.current = i;
-    if (!judge_triangles_near(all, &box, triangle->face, intersect_with,
-                              &finder))
+    if (!poll_at(i) || !judge_triangles_near(all, &box, triangle->face,
+                                             intersect_with, &finder))
       return false;
   }
   return true;

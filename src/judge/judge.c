@@ -367,7 +367,7 @@ static bool visible_part(const struct judge_context *context, uint32_t edge,
 static void judge_all_edges(struct judge_context *context) {
   struct judge_segment part;
   double t0, t1, all = 0;
-  for (uint32_t i = 0; i < context->edges.edge.count; i++)
+  for (uint32_t i = 0; i < context->edges.edge.count && poll_at(i); i++)
     all += visible_part(context, i, &part, &t0, &t1) ? length_of(&part) : 0;
   struct segment_sampler sampler = sampler_of(&context->options, all);
   /* The strokes were the first half of the work. */
@@ -390,6 +390,7 @@ static void collect_strokes(struct judge_context *context, enum judge_role role,
   const struct judge_drawing *drawing = context->drawing;
   for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct judge_stroke *stroke = &drawing->stroke.item[i];
+    (void)poll_at(i);
     for (uint32_t k = 1; stroke->role == role && k < stroke->count; k++) {
       const struct judge_point2 *at =
           &drawing->point.item[stroke->point + k - 1];
@@ -414,7 +415,7 @@ static bool collect_images(struct judge_context *context) {
   context->image = mem_alloc(count, sizeof *context->image);
   if (context->image == NULL)
     return false;
-  for (size_t i = 0; i < count; i++)
+  for (size_t i = 0; i < count && poll_at(i); i++)
     context->image[i] = (struct judge_segment){
         context->edges.edge.item[i].at[0], context->edges.edge.item[i].at[1]};
   return true;

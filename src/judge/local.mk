@@ -14,7 +14,6 @@ librecto_core_la_SOURCES += \
   %D%/point.h \
   %D%/ray.c %D%/ray.h \
   %D%/sampler.c %D%/sampler.h \
-  %D%/sort.h \
   %D%/triangles.c %D%/triangles.h \
   %D%/triangulation.c %D%/triangulation.h \
   %D%/svg/svg.c \

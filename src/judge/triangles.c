@@ -10,10 +10,10 @@
 
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "judge/ear_clipping.h"
-#include "judge/sort.h"
 #include "judge/triangulation.h"
 
 enum { LEAF_SIZE = 4, MIN_SHARE = 8 };
@@ -58,7 +58,7 @@ static double centroid_3(const struct judge_triangle *t, int axis) {
  * the number of the first part. */
 static uint32_t split_triangles(struct judge_triangle *t, uint32_t count) {
   struct judge_box box = empty_box();
-  for (uint32_t i = 0; i < count; i++)
+  for (uint32_t i = 0; i < count && poll_at(i + 1); i++)
     grow_box(&box, judge_point3_of(centroid_3(&t[i], 0), centroid_3(&t[i], 1),
                                    centroid_3(&t[i], 2)));
   int axis = 0;
@@ -68,7 +68,7 @@ static uint32_t split_triangles(struct judge_triangle *t, uint32_t count) {
   double middle = (box.low[axis] + box.high[axis]) / 2;
   uint32_t low = 0;
   for (uint32_t i = 0; i < count; i++) {
-    if (centroid_3(&t[i], axis) >= middle)
+    if (!poll_at(i + 1) || centroid_3(&t[i], axis) >= middle)
       continue;
     struct judge_triangle swap = t[i];
     t[i] = t[low];
@@ -90,12 +90,14 @@ static bool build_tree(struct judge_triangles *all) {
   all->nodes = 1;
   all->node[0] = (struct judge_node){.first = 0, .count = total};
   /* Children come after their parent: one pass serves as the stack. */
-  for (size_t i = 0; i < all->nodes; i++) {
+  for (size_t i = 0, n = 0; i < all->nodes; i++) {
     struct judge_node *node = &all->node[i];
     struct judge_triangle *t = all->triangle.item + node->first;
     node->box = empty_box();
     node->face = t->face;
     for (uint32_t k = 0; k < node->count; k++) {
+      if (!poll_at(n++))
+        return false;
       for (int j = 0; j < 3; j++)
         grow_box(&node->box, t[k].p[j]);
       if (t[k].face != t->face)
@@ -250,8 +252,9 @@ static bool add_face(struct face_adder *adder, uint32_t face) {
              : add_fan(all, first);
 }
 
-static int compare_fan_triangles(const void *a, const void *b) {
+static int compare_fan_triangles(const void *a, const void *b, void *user) {
   const struct judge_side_triangle *s = a, *t = b;
+  (void)user;
   if (s->face != t->face)
     return s->face < t->face ? -1 : 1;
   if (s->low != t->low)
@@ -267,17 +270,17 @@ judge_fan_along(const struct judge_triangles *all, uint32_t face, uint32_t a,
   const struct judge_side_triangle *side_triangle = all->side_triangle.item;
   size_t low;
   LOWER_BOUND(low, 0, all->side_triangle.count,
-              compare_fan_triangles(&side_triangle[low], &wanted) < 0);
+              compare_fan_triangles(&side_triangle[low], &wanted, NULL) < 0);
   for (*count = 0;
        low + *count < all->side_triangle.count &&
-       compare_fan_triangles(&side_triangle[low + *count], &wanted) == 0;)
+       compare_fan_triangles(&side_triangle[low + *count], &wanted, NULL) == 0;)
     ++*count;
   return ARRAY_AT(&all->side_triangle, low);
 }
 
 static double scene_size(const struct scene *scene) {
   struct judge_box box = empty_box();
-  for (size_t c = 0; c < scene->corner.count; c++)
+  for (size_t c = 0; c < scene->corner.count && poll_at(c); c++)
     grow_box(&box, judge_point3_at(scene, scene->corner.item[c]));
   for (size_t c = 0; c < scene->wire_corner.count; c++)
     grow_box(&box, judge_point3_at(scene, scene->wire_corner.item[c]));
@@ -298,9 +301,10 @@ bool judge_triangles_init(struct judge_triangles *all,
                              .contact = contact};
   bool ok = true;
   for (uint32_t i = 0; ok && i < scene_face_count(scene); i++)
-    ok = add_face(&adder, i);
-  judge_sort(all->side_triangle.item, all->side_triangle.count,
-             sizeof *all->side_triangle.item, compare_fan_triangles);
+    ok = poll_at(i) && add_face(&adder, i);
+  ok = ok && sort_stable(all->side_triangle.item, all->side_triangle.count,
+                         sizeof *all->side_triangle.item, compare_fan_triangles,
+                         NULL);
   judge_triangulation_fini(&adder.triangulation);
   judge_ears_fini(&adder.ears);
   if (ok && build_tree(all))

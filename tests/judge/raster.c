@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/sort.h"
 #include "judge/camera.h"
-#include "judge/sort.h"
 #include "judge/triangles.h"
 
 static void require(bool ok) {
@@ -101,7 +101,8 @@ static void draw_image(struct judge_raster *raster, double *depth,
   }
 }
 
-static int compare_faces(const void *a, const void *b) {
+static int compare_faces(const void *a, const void *b, void *user) {
+  (void)user;
   const struct judge_triangle *s = a, *t = b;
   return s->face < t->face ? -1 : s->face > t->face;
 }
@@ -116,8 +117,8 @@ void judge_raster_scene(struct judge_raster *raster, const struct scene *scene,
     depth[i] = -INFINITY;
   require(judge_triangles_init(&all, scene, NULL, INFINITY));
   /* The tree has mixed them; earlier faces come first again. */
-  judge_sort(all.triangle.item, all.triangle.count, sizeof *all.triangle.item,
-             compare_faces);
+  require(sort_stable(all.triangle.item, all.triangle.count,
+                      sizeof *all.triangle.item, compare_faces, NULL));
   for (size_t i = 0; i < all.triangle.count; i++) {
     struct image image = image_of(raster, camera, &all.triangle.item[i]);
     draw_image(raster, depth, &image, all.triangle.item[i].face);
@@ -128,7 +129,8 @@ void judge_raster_scene(struct judge_raster *raster, const struct scene *scene,
 
 /* ---- Regions ------------------------------------------------------------- */
 
-static int compare_numbers(const void *a, const void *b) {
+static int compare_numbers(const void *a, const void *b, void *user) {
+  (void)user;
   const double *x = a, *y = b;
   return *x < *y ? -1 : *x > *y;
 }
@@ -165,8 +167,8 @@ void judge_raster_region(struct judge_raster *raster,
     crossings.x.count = 0;
     for (uint32_t i = 0; i < loops; at += count[i++])
       cross_loop(&crossings, at, count[i], scale, row + 0.5);
-    judge_sort(crossings.x.item, crossings.x.count, sizeof *crossings.x.item,
-               compare_numbers);
+    require(sort_stable(crossings.x.item, crossings.x.count,
+                        sizeof *crossings.x.item, compare_numbers, NULL));
     for (size_t k = 0; k + 1 < crossings.x.count; k += 2) {
       unsigned last = first_pixel(raster, crossings.x.item[k + 1]);
       for (unsigned i = first_pixel(raster, crossings.x.item[k]); i < last; i++)

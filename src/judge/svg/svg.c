@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/poll.h"
 #include "judge/judge.h"
 #include "judge/svg/svg_path.h"
 #include "judge/svg/svg_scan.h"
@@ -271,8 +272,11 @@ static const char *read_tags(struct svg_reader *reader, struct svg_text file) {
   const char *fault = NULL;
   struct svg_tag tag;
   bool broken;
-  while (fault == NULL && !reader->out_of_memory &&
-         svg_next_tag(&file, &tag, &broken)) {
+  for (size_t n = 0; fault == NULL && !reader->out_of_memory &&
+                     svg_next_tag(&file, &tag, &broken);
+       n++) {
+    if (!poll_at(n))
+      return JUDGE_NO_MEMORY;
     if (tag.kind != SVG_TAG_CLOSE)
       fault = open_element(reader, &tag);
     else if (reader->open.count == 0)
