@@ -16,6 +16,7 @@
 #include <cairo.h>
 
 #include "backends/writer.h"
+#include "base/poll.h"
 
 #define MM_PER_INCH 25.4
 #define POINTS_PER_INCH 72.0
@@ -176,7 +177,7 @@ static struct crop_window find_window(const struct drawing *drawing,
                                       bool tight) {
   struct crop_window page = {0, 0, drawing->width_mm, drawing->height_mm};
   struct crop_window ink = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-  for (size_t i = 0; i < drawing->stroke.count; i++) {
+  for (size_t i = 0; i < drawing->stroke.count && poll_at(i); i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     include_points(&ink, drawing->point.item + stroke->point, stroke->count,
                    drawing_width_mm(drawing, stroke) / 2);
@@ -229,17 +230,21 @@ static void draw_fills(cairo_t *cr, const struct drawing *drawing,
                        uint32_t layer) {
   cairo_set_line_width(cr, drawing->seam_mm);
   for (int seam = drawing->seam_mm > 0; seam >= 0; seam--)
-    for (size_t i = 0; i < drawing->fill.count; i++)
+    for (size_t i = 0; i < drawing->fill.count && poll_at(i); i++)
       if (drawing->fill.item[i].layer == layer)
         draw_fill(cr, drawing, &drawing->fill.item[i], seam);
 }
+
+/* A stroke takes cairo as long as so many items of other loops. */
+enum { STROKE_ITEMS = 8 };
 
 static void draw_layer(cairo_t *cr, const struct drawing *drawing,
                        uint32_t index) {
   const struct drawing_layer *layer = &drawing->layer.item[index];
   draw_fills(cr, drawing, index);
   set_colour(cr, layer->colour);
-  for (size_t i = 0; i < drawing->stroke.count; i++) {
+  for (size_t i = 0; i < drawing->stroke.count && poll_at(STROKE_ITEMS * i);
+       i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     if (stroke->layer != index)
       continue;
