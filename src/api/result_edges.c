@@ -9,6 +9,7 @@
 
 #include "api/handle.h"
 #include "api/sized.h"
+#include "base/poll.h"
 
 /* The homogeneous images of an edge's two points in the scene. */
 struct edge_image {
@@ -214,7 +215,7 @@ recto_status drawing_keep_edges(recto_drawing *drawing,
                            .point = sources->point,
                            .with_counts = sources->with_counts};
   for (uint32_t e = 0; e < r.map->edge_count; e++)
-    if (sheet_edge_is_drawn(r.sheet, e) && !add_edge(&r, e))
+    if (!poll_at(e) || (sheet_edge_is_drawn(r.sheet, e) && !add_edge(&r, e)))
       return error_memory(error);
   return RECTO_OK;
 }

@@ -2,6 +2,7 @@
  * their sides. */
 #include "api/handle.h"
 #include "api/sized.h"
+#include "base/poll.h"
 #include "ink/ink.h"
 
 /* The class of a mesh edge in this view: as it was drawn, or for an edge of a
@@ -59,6 +60,8 @@ static bool add_half_edges(recto_drawing *drawing,
   for (size_t i = 0; i < map->half_edge.count; i++) {
     const struct map_half_edge *from = &map->half_edge.item[i];
     const struct map_corner *origin = &map->corner.item[from->origin];
+    if (!poll_at(i))
+      return false;
     recto_half_edge half = {.x_mm = sheet_x_mm(s->sheet, origin->x),
                             .y_mm = sheet_y_mm(s->sheet, origin->y),
                             .fragment = from->fragment,
@@ -93,6 +96,8 @@ static bool add_fragments(recto_drawing *drawing,
                           const struct result_sources *s) {
   for (size_t f = 0; f < s->map->fragment.count; f++) {
     const struct map_fragment *from = &s->map->fragment.item[f];
+    if (!poll_at(f))
+      return false;
     struct ink_look look =
         ink_look_of(s->scene, from->face, &s->sheet->camera, s->options);
     const recto_fragment fragment = {

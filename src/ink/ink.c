@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/poll.h"
 #include "ink/fill/fill.h"
 #include "ink/layers.h"
 #include "ink/order/stroke_order.h"
@@ -128,7 +129,7 @@ static bool add_paths(struct ink *ink, const struct ink_paths *paths,
             ARRAY_RESERVE(&ink->drawing->stroke, paths->path.count);
   for (size_t i = 0; ok && i < paths->path.count; i++) {
     const struct ink_path *path = &paths->path.item[i];
-    ok = take_points(ink, paths, path, &line);
+    ok = poll_at(i) && take_points(ink, paths, path, &line);
     if (ok && filter && is_too_short(ink, path, &line))
       ink->drawing->counts.too_short++;
     else

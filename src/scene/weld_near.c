@@ -28,6 +28,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/tolerance.h"
 #include "scene/cluster.h"
 
@@ -281,6 +282,8 @@ static recto_status map_faces(struct scene *to, const struct scene *from,
     uint32_t start = from->face_start.item[f];
     uint32_t count = from->face_start.item[f + 1] - start;
     to->current_group = from->face_group.item[f];
+    if (!poll_at(f))
+      status = error_cancelled(error);
     for (; status == RECTO_OK && skipped < from->face_skipped.count &&
            from->face_skipped.item[skipped] == f;
          skipped++)

@@ -1,6 +1,7 @@
 /* fill.c - makes fills of the visible fragments, painted or shaded. */
 #include "ink/fill/fill.h"
 
+#include "base/poll.h"
 #include "ink/fill/light.h"
 #include "ink/fill/merge.h"
 #include "ink/ink.h"
@@ -79,10 +80,13 @@ bool fill_add(struct drawing *drawing, const struct sheet *sheet,
   if (prototype == NULL)
     return false;
   light_direction(&sheet->camera, options, light);
-  for (size_t i = 0; i < map->fragment.count; i++)
+  bool ok = true;
+  for (size_t i = 0; ok && i < map->fragment.count; i++) {
     prototype[i] = fill_without_loops(sheet, scene, map->fragment.item[i].face,
                                       light, options);
-  bool ok = merge_fills(drawing, sheet, scene, map, prototype, options);
+    ok = poll_at(i);
+  }
+  ok = ok && merge_fills(drawing, sheet, scene, map, prototype, options);
   mem_free(prototype);
   return ok;
 }

@@ -14,6 +14,7 @@
 
 #include <math.h>
 
+#include "base/poll.h"
 #include "base/sets.h"
 #include "base/sort.h"
 #include "ink/fill/outline.h"
@@ -64,6 +65,7 @@ static void remove_half_edges(struct merge *merge) {
   const struct map_half_edge *half = merge->map->half_edge.item;
   for (uint32_t h = 0; h < merge->map->half_edge.count; h++) {
     uint32_t twin = half[h].twin;
+    (void)poll_at(h);
     if (twin == SHEET_NONE || twin < h ||
         !is_within_fill(merge, &half[h], &half[twin]))
       continue;
@@ -164,10 +166,10 @@ static bool add_fills(struct merge *merge) {
     fragment[i] = (struct sort_key){sets_root(merge->root, i), i};
   if (ok)
     sort_keys(fragment, fragment + count, count);
-  for (size_t i = 0, j; ok && i < count; i = j) {
+  for (size_t i = 0, j, n = 0; ok && i < count; i = j, n++) {
     for (j = i + 1; j < count && fragment[j].key == fragment[i].key;)
       j++;
-    ok = add_fill(merge, &fragment[i], j - i);
+    ok = poll_at(n) && add_fill(merge, &fragment[i], j - i);
   }
   mem_free(fragment);
   return ok;

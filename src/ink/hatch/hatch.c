@@ -15,6 +15,7 @@
  *               pen, so that it cannot be seen */
 #include <math.h>
 
+#include "base/poll.h"
 #include "base/tolerance.h"
 #include "ink/fill/fill.h"
 #include "ink/hatch/inset.h"
@@ -296,7 +297,8 @@ static bool hatch_region(struct hatch *h) {
   if (!list_strips(h, first, last))
     return false;
   for (size_t i = 0; i < lines->span.count; i++)
-    if (!lines->span.item[i].used && !add_stroke(h, &lines->span.item[i]))
+    if (!poll_at(i + 1) ||
+        (!lines->span.item[i].used && !add_stroke(h, &lines->span.item[i])))
       return false;
   return true;
 }
@@ -308,7 +310,7 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
   hatch_lines_init(&h.lines, sheet, options->ink.hatch_pitch_mm,
                    options->ink.hatch_angle_deg);
   bool ok = hatch_regions_init(&h.regions, sheet, scene, map, pens, options);
-  for (size_t i = 0, end; ok && i < map->fragment.count; i = end) {
+  for (size_t i = 0, end, n = 0; ok && i < map->fragment.count; i = end, n++) {
     end = hatch_regions_end(&h.regions, i);
     uint32_t face = map->fragment.item[h.regions.fragment[i]].face;
     uint32_t group = scene->face_group.item[face];
@@ -318,7 +320,7 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
     h.shortest = pens_shortest_mm(pens, h.pen);
     h.attributes = (struct drawing_stroke){
         .layer = h.pen, .face = face, .edge = DRAWING_NONE, .group = group};
-    ok = collect_sides(&h, map, i, end) && hatch_region(&h);
+    ok = poll_at(n) && collect_sides(&h, map, i, end) && hatch_region(&h);
   }
   hatch_lines_fini(&h.lines);
   hatch_regions_fini(&h.regions);

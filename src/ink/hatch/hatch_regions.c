@@ -2,6 +2,7 @@
  * that are hatched as one (disjoint sets, base/sets.h). */
 #include "ink/hatch/hatch_regions.h"
 
+#include "base/poll.h"
 #include "base/sets.h"
 #include "base/sort.h"
 
@@ -43,11 +44,13 @@ static void join_fragments(const struct hatch_regions *regions,
                            const struct scene *scene, const struct map *map,
                            const struct pens *pens) {
   const struct map_half_edge *half = map->half_edge.item;
-  for (uint32_t h = 0; h < map->half_edge.count; h++)
+  for (uint32_t h = 0; h < map->half_edge.count; h++) {
+    (void)poll_at(h);
     if (half[h].twin != SHEET_NONE && half[h].twin > h &&
         is_within_region(regions, scene, map, pens, &half[h],
                          &half[half[h].twin]))
       sets_join(regions->root, half[h].fragment, half[half[h].twin].fragment);
+  }
 }
 
 /* Finds the half-edges within the regions along which no line is drawn. */
@@ -57,6 +60,7 @@ static void find_crossable(const struct hatch_regions *regions,
   for (uint32_t h = 0; h < map->half_edge.count; h++) {
     const struct map_half_edge *twin =
         half[h].twin == SHEET_NONE ? NULL : &half[half[h].twin];
+    (void)poll_at(h);
     regions->crossable[h] =
         twin != NULL &&
         regions->root[half[h].fragment] == regions->root[twin->fragment] &&

@@ -11,6 +11,7 @@
 
 #include <math.h>
 
+#include "base/poll.h"
 #include "base/sets.h"
 #include "base/tolerance.h"
 #include "ink/fill/light.h"
@@ -71,7 +72,7 @@ static void join_smooth_edges(struct tone_work *w) {
   const struct topology *topology = w->sheet->topology;
   for (size_t e = 0; e < topology->edge.count; e++)
     w->first_use[e] = SCENE_NONE;
-  for (uint32_t f = 0; f < scene_face_count(w->scene); f++)
+  for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++) {
       uint32_t e = topology->corner_edge[c];
@@ -91,7 +92,7 @@ static void join_smooth_edges(struct tone_work *w) {
 
 /* Sums the face normals of each set of corners, weighted by area. */
 static void sum_normals(struct tone_work *w) {
-  for (uint32_t f = 0; f < scene_face_count(w->scene); f++)
+  for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++) {
       double *sum = w->sum[sets_root(w->corner_root, c)].xyz;
@@ -127,7 +128,7 @@ static struct drawing_point project_corner(const struct tone_work *w,
 /* Sets the tone and the position of all corners, and the extreme tones of all
  * regions. */
 static void set_corners(struct tone_work *w, struct tones *tones) {
-  for (uint32_t f = 0; f < scene_face_count(w->scene); f++) {
+  for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
     uint32_t region = sets_root(w->face_root, f);
     bool away =
         light_is_turned_away(w->scene, f, &w->sheet->camera, w->face[f].xyz);
@@ -146,7 +147,7 @@ static void set_corners(struct tone_work *w, struct tones *tones) {
 
 /* Finds the uniform regions and gives all their corners one tone. */
 static void set_regions(struct tone_work *w, struct tones *tones) {
-  for (uint32_t f = 0; f < scene_face_count(w->scene); f++) {
+  for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
     uint32_t region = sets_root(w->face_root, f);
     double min = w->min[region], max = w->max[region];
     tones->uniform[f] = max - min < TOLERANCE_TONE;
@@ -179,6 +180,8 @@ static bool prepare(struct tone_work *w) {
       !w->first_use || !w->first_face || !w->min || !w->max)
     return false;
   for (uint32_t f = 0; f < faces; f++) {
+    if (!poll_at(f))
+      return false;
     light_face_normal(w->scene, f, w->face[f].xyz);
     w->min[f] = 1;
     w->max[f] = 0;

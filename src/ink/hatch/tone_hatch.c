@@ -40,6 +40,7 @@
  */
 #include <math.h>
 
+#include "base/poll.h"
 #include "base/tolerance.h"
 #include "ink/fill/fill.h"
 #include "ink/fill/light.h"
@@ -273,8 +274,8 @@ static bool add_runs(struct tone_hatching *h) {
   struct hatch_run run;
   if (!hatch_runs_sort(&h->runs))
     return false;
-  while (hatch_runs_next(&h->runs, &run))
-    if (!add_run(h, &run))
+  for (size_t n = 0; hatch_runs_next(&h->runs, &run); n++)
+    if (!poll_at(n) || !add_run(h, &run))
       return false;
   return true;
 }
@@ -289,7 +290,8 @@ static bool add_fragments(struct tone_hatching *h, const struct map *map) {
     h->pen = pens_of_hatch(h->pens, group);
     h->pen_mm = pens_width_mm(h->pens, h->pen);
     h->tone = tones_of_face(&h->tones, fragment->face);
-    if (!(h->tone.uniform ? add_uniform : add_curved)(h, map, fragment))
+    if (!poll_at(i) ||
+        !(h->tone.uniform ? add_uniform : add_curved)(h, map, fragment))
       return false;
   }
   return true;

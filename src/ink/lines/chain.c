@@ -9,6 +9,7 @@
  *   5 sort the paths by their first edges
  *   6 look up the points: not while walking, where every step would depend on a
  *     cache miss; independent look-ups overlap their misses */
+#include "base/poll.h"
 #include "ink/lines/paths.h"
 
 #include "base/sort.h"
@@ -142,6 +143,8 @@ static bool walk_loop(struct chain *c, uint32_t end) {
 static bool walk_all(struct chain *c) {
   size_t count = c->graph->segment.count;
   for (size_t i = 0; i < count; i++) {
+    if (!poll_at(i))
+      return false;
     for (uint32_t side = 0; side < 2 && !c->used[i]; side++) {
       uint32_t end = (uint32_t)(2 * i) + side;
       if (c->mate[end] == SEGMENT_GRAPH_NONE && !walk_open(c, end))
@@ -195,8 +198,11 @@ static bool place_points(struct chain *c) {
     struct ink_path *path = &paths->path.item[i];
     const uint32_t *end = c->end.item + path->point;
     struct ink_point *point = paths->point.item + paths->point.count;
-    for (uint32_t k = 0; k < path->count; k++)
+    for (uint32_t k = 0; k < path->count; k++) {
+      if (!poll_at(paths->point.count + k))
+        return false;
       point[k] = point_of_end(c, end[k]);
+    }
     for (uint32_t k = 0; c->path_of_segment != NULL && k < path->count; k++)
       c->path_of_segment[end[k] >> 1] = (uint32_t)i;
     for (uint32_t k = 0; paths->approximate && k < path->count; k++)

@@ -11,6 +11,7 @@
  *   tolerance: the later one was compared with the earlier and would have been
  *   absorbed. Nothing moves by more than the tolerance, as a node that has
  *   absorbed others stays. */
+#include "base/poll.h"
 #include "ink/lines/segment_graph.h"
 
 #include <math.h>
@@ -116,6 +117,7 @@ static void fill_rows(struct unite *u, const struct sort_key *key) {
   uint32_t *next = u->rows->start + 1; /* becomes the start of the next row */
   for (size_t i = 0; i < u->count; i++) {
     struct ink_point p = node[key[i].value];
+    (void)poll_at(i);
     uint32_t place = next[u->bucket[bucket_of(u, p.y)]]++;
     u->order[place] = key[i].value;
     u->at[place] = p;
@@ -160,6 +162,7 @@ static void absorb_near(struct unite *u) {
   for (uint32_t r = 0; r < rows->count; r++) {
     uint32_t end = rows->start[r + 1];
     for (uint32_t i = rows->start[r]; i < end; i++) {
+      (void)poll_at(i);
       if (u->root[i] != i)
         continue;
       struct ink_point p = u->at[i];
@@ -183,6 +186,7 @@ static void renumber_nodes(struct unite *u) {
     uint32_t i = rows->start[r], end = rows->start[r + 1];
     rows->start[r] = count;
     for (; i < end; i++) {
+      (void)poll_at(i);
       /* A root precedes the nodes it absorbed, so its number is known. */
       if (u->root[i] == i) {
         node[count] = u->at[i];
@@ -203,6 +207,7 @@ static void renumber_segments(struct unite *u) {
   for (size_t i = 0; i < graph->segment.count; i++) {
     struct graph_segment s = graph->segment.item[i];
     uint32_t a = u->renumber[s.node[0]], b = u->renumber[s.node[1]];
+    (void)poll_at(i);
     s.node[0] = a < b ? a : b;
     s.node[1] = a < b ? b : a;
     if (a != b)
@@ -241,11 +246,13 @@ static bool sort_into(struct graph_segment *sorted, uint32_t *start,
     start[graph->segment.item[i].node[0] + 1]++;
   for (size_t n = 0; n < graph->node.count; n++)
     start[n + 1] += start[n];
-  for (size_t i = 0; i < graph->segment.count; i++)
+  for (size_t i = 0; i < graph->segment.count; i++) {
+    (void)poll_at(i);
     sorted[start[graph->segment.item[i].node[0]]++] = graph->segment.item[i];
+  }
   /* start[n] is now the end of the run of node n. */
   for (size_t n = 0, from = 0; n < graph->node.count; from = start[n++])
-    if (!sort_run(sorted + from, start[n] - from))
+    if (!poll_at(n) || !sort_run(sorted + from, start[n] - from))
       return false;
   return true;
 }

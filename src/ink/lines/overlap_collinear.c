@@ -11,6 +11,7 @@
  *   3 resolve     each cluster is replaced by disjoint pieces (overlap.c)
  *   4 rebuild     the segments
  * Cost  On a mesh without overlaps phase 2 takes nearly all of the time. */
+#include "base/poll.h"
 #include "ink/lines/segment_graph.h"
 
 #include "base/sort.h"
@@ -43,8 +44,10 @@ recto_status segment_graph_index_ends(struct segment_graph *graph,
     next[graph->segment.item[e >> 1].node[e & 1] + 1]++;
   for (size_t n = 0; n < nodes; n++)
     next[n + 1] += next[n];
-  for (size_t e = 0; e < ends; e++)
+  for (size_t e = 0; e < ends; e++) {
+    (void)poll_at(e);
     graph->end[next[graph->segment.item[e >> 1].node[e & 1]]++] = (uint32_t)e;
+  }
   return RECTO_OK;
 }
 
@@ -130,7 +133,7 @@ static bool gather_members(struct overlap_finder *w) {
 static bool resolve_clusters(struct overlap_finder *w,
                              struct overlap *overlap) {
   const uint32_t *member = w->member.item;
-  for (size_t i = 0, end; i < w->member.count; i = end) {
+  for (size_t i = 0, end, n = 0; i < w->member.count; i = end, n++) {
     uint32_t root = root_of(w->parent, member[i]);
     for (end = i;
          end < w->member.count && root_of(w->parent, member[end]) == root;
@@ -138,7 +141,7 @@ static bool resolve_clusters(struct overlap_finder *w,
       w->dropped[member[end]] = 1;
       w->dropped_count++;
     }
-    if (!overlap_resolve(overlap, w->graph, member + i, end - i))
+    if (!poll_at(n) || !overlap_resolve(overlap, w->graph, member + i, end - i))
       return false;
   }
   return true;
@@ -191,7 +194,7 @@ recto_status segment_graph_drop_collinear(struct segment_graph *graph,
   if (ok)
     drop_duplicates(&w);
   for (uint32_t i = 0; ok && i < count; i++)
-    ok = w.dropped[i] || nodes_near_segment_visit(&search, i);
+    ok = poll_at(i) && (w.dropped[i] || nodes_near_segment_visit(&search, i));
   if (ok && w.member.count)
     ok = replace_clusters(&w);
   else if (ok && w.dropped_count)

@@ -16,6 +16,7 @@
  * Invariants  What is removed is within an output step of what is kept, not
  *   of something that is removed in turn.  A node moves by at most a step in a
  *   round, and only where a line is removed or contracted. */
+#include "base/poll.h"
 #include "ink/lines/segment_graph.h"
 
 #include <math.h>
@@ -153,7 +154,8 @@ static bool find_pairs(struct output_overlaps *r,
   const struct node_search search = {graph, rows, r->snapping.output_step,
                                      record_pairs, r};
   for (uint32_t i = 0; i < graph->segment.count; i++)
-    if (!r->snapping.gone[i] && !nodes_near_segment_visit(&search, i))
+    if (!poll_at(i) ||
+        (!r->snapping.gone[i] && !nodes_near_segment_visit(&search, i)))
       return false;
   return true;
 }
@@ -299,7 +301,7 @@ static bool resolve_members(struct output_overlaps *r) {
   if (!sort_unique(r->pair.item, &r->pair.count) || !list_members(r))
     return false;
   for (size_t i = 0; i < r->member.count; i++)
-    if (!ARRAY_PUSH(&r->start, (uint32_t)r->piece.count) ||
+    if (!poll_at(i) || !ARRAY_PUSH(&r->start, (uint32_t)r->piece.count) ||
         !subtract_kept(r, r->member.item[i].value))
       return false;
   for (size_t i = 0; i < r->member.count; i++)
@@ -334,8 +336,9 @@ static bool rebuild(struct output_overlaps *r) {
   struct segment_graph *graph = r->snapping.graph;
   size_t old = graph->segment.count, count = 0;
   for (size_t i = 0; i < old; i++)
-    if (!r->snapping.gone[i] &&
-        !add_segment(graph, &r->snapping, graph->segment.item[i], &count))
+    if (!poll_at(i) ||
+        (!r->snapping.gone[i] &&
+         !add_segment(graph, &r->snapping, graph->segment.item[i], &count)))
       return false;
   for (size_t i = 0; i < r->piece.count; i++)
     if (!add_segment(graph, &r->snapping, r->piece.item[i], &count))

@@ -17,6 +17,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/sort.h"
 
 enum { SMALL_FAN_MAX = 16 };
@@ -176,6 +177,8 @@ static bool pair_all(struct pairing *p) {
   for (size_t n = 0; n < graph->node.count; n++) {
     const uint32_t *end = graph->end + graph->end_start[n];
     uint32_t count = graph->end_start[n + 1] - graph->end_start[n];
+    if (!poll_at(n))
+      return false;
     if (count == 2) {
       if (graph->segment.item[end[0] >> 1].pen_key ==
           graph->segment.item[end[1] >> 1].pen_key)

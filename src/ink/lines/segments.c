@@ -1,5 +1,6 @@
 /* segments.c - turns the visible and hidden intervals of the drawable edges
  * into segments of the page. */
+#include "base/poll.h"
 #include "ink/lines/segment_graph.h"
 
 #include <string.h>
@@ -159,6 +160,8 @@ static bool add_all(struct collector *c, bool hidden) {
         take_intervals(&deep, deep_end, map->over_limit_interval.item, i);
     uint8_t state = map->edge_state[i];
     bool ok = true;
+    if (!poll_at(i))
+      return false;
     if (c->sheet->edge.item[i].edge_class == 0)
       continue;
     c->pen_key = pen_key_of(c, i, hidden);

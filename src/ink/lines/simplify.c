@@ -5,6 +5,7 @@
  * tolerance; then both halves are treated, by an explicit stack.
  * Cost  A line is first split into runs of at most RUN points, whose ends are
  *   kept, so that the worst case is RUN times the points, not their square. */
+#include "base/poll.h"
 #include "ink/lines/paths.h"
 
 #include <string.h>
@@ -128,7 +129,7 @@ recto_status paths_simplify(struct ink_paths *paths, double tolerance,
   bool ok = s.keep != NULL;
   for (size_t i = 0; ok && i < paths->path.count; i++) {
     struct ink_path *path = &paths->path.item[i];
-    ok = simplify_path(&s, paths, path, tolerance * tolerance);
+    ok = poll_at(i) && simplify_path(&s, paths, path, tolerance * tolerance);
     uint32_t kept = 0;
     for (uint32_t k = 0; ok && k < path->count; k++)
       if (s.keep[k])

@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/sort.h"
 #include "ink/lines/overlap.h"
 
@@ -95,6 +96,7 @@ static void gather_clusters(const struct vertex_snapping *snapping,
   for (uint32_t r = 0; r < rows->count; r++) {
     uint32_t end = rows->start[r + 1];
     for (uint32_t i = rows->start[r]; i < end; i++) {
+      (void)poll_at(i);
       if (cluster[i] != i)
         continue;
       add_near_nodes(snapping, cluster, i, i + 1, end);
@@ -169,6 +171,7 @@ static size_t list_candidates(struct vertex_snapping *snapping,
   for (uint32_t i = 0; i < graph->segment.count; i++) {
     const uint32_t *node = graph->segment.item[i].node;
     uint32_t a = cluster[node[0]], b = cluster[node[1]];
+    (void)poll_at(i);
     if (!others[a] || !others[b])
       continue;
     bool is_large = others[a] == LARGE_CLUSTER_MIN;

@@ -9,6 +9,8 @@
  *   deterministic. */
 #include "ink/order/nearest.h"
 
+#include "base/poll.h"
+
 #include <math.h>
 
 enum { LEAF_MAX = 8, LEVEL_MAX = 32 };
@@ -72,6 +74,7 @@ static struct nearest_box bound(const struct nearest *t, uint32_t low,
                                 uint32_t high) {
   struct nearest_box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 0};
   for (uint32_t i = low; i < high; i++) {
+    (void)poll_at(i);
     for (int axis = 0; axis < 2 && !t->item[i].deleted; axis++) {
       double c = coordinate(t, i, axis);
       box.low[axis] = c < box.low[axis] ? c : box.low[axis];

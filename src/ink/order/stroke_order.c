@@ -12,6 +12,7 @@
 
 #include <string.h>
 
+#include "base/poll.h"
 #include "ink/order/nearest.h"
 #include "ink/lines/stroke.h"
 
@@ -89,6 +90,10 @@ static bool make_greedy_tour(struct order_work *o) {
   bool ok = add_entries(o) && nearest_init(&nearest, o->entry_point.item,
                                            (uint32_t)o->entry.count);
   while (ok && o->tour.count < o->count) {
+    if (!poll_at(o->tour.count)) {
+      ok = false;
+      break;
+    }
     struct layer_entry entry = o->entry.item[nearest_find(&nearest, pen)];
     pen = append_stroke(o, entry);
     for (uint32_t i = o->first_entry[entry.stroke];

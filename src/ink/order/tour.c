@@ -21,6 +21,7 @@
  *   1992 (neighbour lists, don't look bits, reversal of the shorter side). */
 #include "ink/order/tour.h"
 
+#include "base/poll.h"
 #include "base/tolerance.h"
 #include "ink/order/nearest.h"
 #include "ink/lines/stroke.h"
@@ -272,9 +273,13 @@ static bool try_neighbours(struct cyclic_tour *r, uint32_t c) {
   return false;
 }
 
+/* A move takes as long as so many items of other loops. */
+enum { MOVE_ITEMS = 32 };
+
 /* Makes moves until none gains or the limits of work are reached. */
 static void improve(struct cyclic_tour *r) {
-  while (r->queue_count > 0 && r->neighbours_left > 0 && r->moves > 0) {
+  while (r->queue_count > 0 && r->neighbours_left > 0 && r->moves > 0 &&
+         poll_at((size_t)r->queue_head * MOVE_ITEMS)) {
     uint32_t c = r->queue[r->queue_head];
     r->queue_head = wrap(r, r->queue_head + 1);
     r->queue_count--;
@@ -300,6 +305,7 @@ static bool find_neighbours(struct cyclic_tour *r) {
   bool ok = nearest_init(&nearest, r->end, depot_in);
   for (uint32_t i = 0; ok && i < 2 * r->count; i++) {
     uint32_t e = 2 * r->stop[i / 2] + i % 2, count = 0;
+    ok = poll_at(i);
     uint32_t *found = r->neighbour + (size_t)e * NEIGHBOURS;
     if (e != depot_in)
       count = nearest_list(&nearest, e < depot_in ? r->end[e] : r->start, e / 2,

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/sort.h"
 #include "geom/region.h"
 #include "visibility/predicate/triangle_pair.h"
@@ -435,11 +436,11 @@ static bool index_sides(struct face_work *work) {
   uint8_t *cell_done = mem_calloc(triangle_grid_cell_count(f->grid), 1);
   bool ok = cell_done != NULL;
   triangle_grid_query_start(f->grid, &f->query);
-  for (size_t i = 0, n; ok && i < f->piece.count; i += n) {
+  for (size_t i = 0, n, polls = 0; ok && i < f->piece.count; i += n) {
     struct face_outline outline;
     n = count_pieces(&piece[i], f->piece.count - i);
     work->face = piece[i].face;
-    ok = find_own(work, piece[i].triangle);
+    ok = poll_at(polls++) && find_own(work, piece[i].triangle);
     if (ok && find_outline(work, &piece[i], n, &outline))
       ok = ARRAY_PUSH(&work->outline, outline);
     else

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/sort.h"
 
 /* The cells are as small as possible with at most
@@ -109,7 +110,9 @@ static bool add_side(const struct line_index *index,
 
 static bool gather_keys(const struct line_index *index,
                         const struct gathered_sides *sides, side_keys *keys) {
-  for (size_t i = 0; i < sides->count; i++)
+  for (size_t i = 0; i < sides->count; i++) {
+    if (!poll_at(i))
+      return false;
     for (int k = 0; k < 3; k++) {
       uint32_t t = sides->triangle[i];
       struct geom_point end[2];
@@ -117,6 +120,7 @@ static bool gather_keys(const struct line_index *index,
           !add_side(index, end, 3 * t + (uint32_t)k, keys))
         return false;
     }
+  }
   return true;
 }
 

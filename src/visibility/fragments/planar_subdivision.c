@@ -8,6 +8,7 @@
  *   3 loop by loop divide the sides at the ends of their stretches */
 #include "visibility/fragments/planar_subdivision.h"
 
+#include "base/poll.h"
 #include "base/sort.h"
 
 /* In side_lines: the side lies on the line of its edge. */
@@ -60,6 +61,7 @@ static bool pair_edges(struct subdivision_work *work, uint8_t *paired) {
   for (size_t e = 0; ok && e < edges; e++)
     first[e] = SHEET_NONE;
   for (uint32_t s = 0; ok && s < map->corner.count; s++) {
+    (void)poll_at(s);
     if (map->corner.item[s].side != MAP_SIDE_EDGE ||
         map->corner.item[s].id >= edges)
       continue;
@@ -172,10 +174,11 @@ static bool match_lines(struct subdivision_work *work,
           s};
   if (ok)
     sort_keys(key, key + count, count);
-  for (size_t i = 0, j; ok && i < count; i = j) {
+  for (size_t i = 0, j, n = 0; ok && i < count; i = j, n++) {
     for (j = i + 1; j < count && key[j].key == key[i].key;)
       j++;
-    ok = j - i == 1 || match_sides(work, &key[i], key + count, j - i);
+    ok = poll_at(n) &&
+         (j - i == 1 || match_sides(work, &key[i], key + count, j - i));
   }
   mem_free(paired);
   mem_free(key);
@@ -197,8 +200,10 @@ static bool list_by_side(struct subdivision_work *work) {
       start[stretch[i].side[k] + 2]++;
   for (size_t s = 0; s < sides; s++)
     start[s + 2] += start[s + 1];
-  for (uint32_t i = 0; i < count; i++)
+  for (uint32_t i = 0; i < count; i++) {
+    (void)poll_at(i);
     work->along[start[stretch[i].side[0] + 1]++] = i;
+  }
   for (uint32_t i = (uint32_t)count; i-- > 0;)
     work->along[start[stretch[i].side[1] + 1]++] = i;
   return true;
@@ -238,6 +243,8 @@ static bool divide_loops(struct subdivision_work *work) {
   struct map *map = work->map;
   for (uint32_t f = 0; f < map->fragment.count; f++) {
     const struct map_fragment *fragment = &map->fragment.item[f];
+    if (!poll_at(f))
+      return false;
     for (uint32_t l = 0; l < fragment->loops; l++) {
       struct map_loop *loop = &map->loop.item[fragment->loop + l];
       loop->half_edge = (uint32_t)map->half_edge.count;

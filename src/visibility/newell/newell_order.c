@@ -32,6 +32,7 @@
 
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/sort.h"
 #include "visibility/newell/newell_tests.h"
 
@@ -55,6 +56,8 @@ static bool add_triangles(struct newell_order *order) {
       !ARRAY_RESERVE(&order->piece, n))
     return false;
   for (size_t t = 0; t < n; t++) {
+    if (!poll_at(t))
+      return false;
     struct newell_piece piece = {
         .triangle = (uint32_t)t,
         .next = NEWELL_NONE,

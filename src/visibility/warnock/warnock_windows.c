@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/poll.h"
 #include "base/sort.h"
 
 /* ---- The stack ----------------------------------------------------------- */
@@ -127,6 +128,8 @@ bool warnock_list_facets(struct warnock_windows *windows,
                           windows->surrounders.item[i], front);
   for (size_t i = facets.from; i < facets.to; i++) {
     uint32_t t = windows->facet_pool.item[i];
+    if (!poll_at(i))
+      return false;
     front->hides = windows->nearest[t] < front->depth.low;
     if (front->hides) {
       windows->cut_short++;

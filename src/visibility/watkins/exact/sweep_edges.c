@@ -1,6 +1,7 @@
 /* sweep_edges.c - the edges of the sweep, collected from the sheet. */
 #include <string.h>
 
+#include "base/poll.h"
 #include "visibility/watkins/exact/sweep.h"
 
 /* Sides of triangles and drawn edges, keyed by their two points. */
@@ -28,6 +29,7 @@ static void list_keys(struct sweep_gathering *g, const struct sheet *sheet,
   uint32_t triangles = (uint32_t)sheet->triangle.count;
   for (uint32_t t = 0; t < triangles; t++) {
     const uint32_t *point = sheet->triangle.item[t].point;
+    (void)poll_at(t);
     if ((sheet->triangle_flags[t] & SHEET_FLAT) || (kept != NULL && !kept[t]))
       continue;
     for (int k = 0; k < 3; k++)
@@ -97,6 +99,7 @@ static bool sort_ends(struct sweep *sweep) {
   }
   for (size_t e = 0; e < count; e++) {
     const struct sweep_edge *edge = &sweep->edge.item[e];
+    (void)poll_at(e);
     sweep->end[2 * e] =
         (struct sort_key){key_of_end(edge->x0, edge->y0), (uint32_t)e};
     sweep->end[2 * e + 1] =
@@ -121,10 +124,10 @@ bool sweep_init(struct sweep *sweep, const struct sheet *sheet,
     list_keys(&g, sheet, kept, drawn);
     sort_keys(g.key, g.key + most, g.count);
   }
-  for (size_t i = 0, past; ok && i < g.count; i = past) {
+  for (size_t i = 0, past, n = 0; ok && i < g.count; i = past, n++) {
     for (past = i + 1; past < g.count && g.key[past].key == g.key[i].key;)
       past++;
-    ok = add_edges(sweep, &g.key[i], past - i);
+    ok = poll_at(n) && add_edges(sweep, &g.key[i], past - i);
   }
   mem_free(g.key);
   return ok && sort_ends(sweep);
