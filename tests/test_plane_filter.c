@@ -39,17 +39,12 @@ static void start(struct sheet *sheet, bool perspective, int bits,
   sheet->camera.contact = perspective ? 0x1p-20 : 0x1p-18;
   sheet->z_scale = perspective ? 0x1p41 : 0x1p38;
   sheet->units_per_view = 0x1p26;
-  sheet->triangle_flags = mem_calloc(1, 1);
   struct geom_point p[3];
   do
     for (int k = 0; k < 3; k++)
       p[k] = place(bits, depth_bits);
   while (geom_orient2d(p[0], p[1], p[2]) <= 0);
-  for (int k = 0; k < 3; k++)
-    assert_true(ARRAY_PUSH(&sheet->point, p[k]));
-  struct sheet_triangle t = {
-      {0, 1, 2}, {SHEET_NONE, SHEET_NONE, SHEET_NONE}, 0};
-  assert_true(ARRAY_PUSH(&sheet->triangle, t));
+  exact_add_triangle(sheet, p, 0);
 }
 
 /* A point of the triangle's plane, but for rounding and for `off`. */

@@ -12,6 +12,10 @@
 
 #include "tests/scenes/exact.h"
 
+static const struct solver *const raster[] = {
+    &solver_zbuffer, &solver_scanline_zbuffer, &solver_warnock};
+enum { RASTERS = sizeof raster / sizeof *raster };
+
 /* ---- The table ----------------------------------------------------------- */
 
 static void a_solver_is_found_by_its_method_and_its_name(void **state) {
@@ -67,24 +71,17 @@ static void random_mesh(struct sheet *sheet) {
 
 typedef void make_fn(struct sheet *sheet);
 
-/* Solves a new sheet with the n-th allocation failing; 0: none.
- * lines  of the raster methods (for watkins a large pitch); 0 where the
- *        method knows better ones */
-static recto_status solve(const struct solver *solver, int lines, make_fn *make,
+/* Solves a new sheet with the n-th allocation failing; 0: none. */
+static recto_status solve(const struct solver *solver,
+                          const struct solver_request *request, make_fn *make,
                           unsigned long n, struct map *map) {
-  const struct solver_request request = {.edges = true,
-                                         .fragments = true,
-                                         .intersections = true,
-                                         .threads = 1,
-                                         .pitch_mm = lines > 0 ? 100 : 0,
-                                         .resolution = lines};
   struct sheet sheet;
   recto_error error = {0};
   recto_status status;
   make(&sheet);
   map_init(map);
   mem_fail_after(n);
-  status = solver->solve(&sheet, &request, map, NULL, &error);
+  status = solver->solve(&sheet, request, map, NULL, &error);
   mem_fail_after(0);
   if (status != RECTO_OK)
     assert_int_equal(error.code, status);
@@ -94,12 +91,12 @@ static recto_status solve(const struct solver *solver, int lines, make_fn *make,
 
 /* Whatever allocation fails, the run says so or was not harmed.  Past the last
  * allocation all runs succeed. */
-static void fail_in_turn(const struct solver *solver, int lines,
-                         make_fn *make) {
+static void fail_in_turn(const struct solver *solver,
+                         const struct solver_request *request, make_fn *make) {
   enum { MOST = 20000, AFTER = 64 };
   struct map map, again;
   int succeeded = 0;
-  recto_status status = solve(solver, lines, make, 0, &map);
+  recto_status status = solve(solver, request, make, 0, &map);
   if (status == RECTO_ERROR_UNSUPPORTED) { /* requests more than it does */
     map_fini(&map);
     return;
@@ -107,9 +104,9 @@ static void fail_in_turn(const struct solver *solver, int lines,
   assert_int_equal(status, RECTO_OK);
   for (unsigned long n = 1; succeeded < AFTER; n++) {
     assert_true(n < MOST);
-    status = solve(solver, lines, make, n, &again);
+    status = solve(solver, request, make, n, &again);
     if (status == RECTO_OK) {
-      if (lines == 0)
+      if (request->resolution == 0)
         exact_assert_same_map(&map, &again, solver->name);
       succeeded++;
     } else {
@@ -121,14 +118,69 @@ static void fail_in_turn(const struct solver *solver, int lines,
   map_fini(&map);
 }
 
+#define EVERYTHING                                                             \
+  .edges = true, .fragments = true, .intersections = true, .threads = 1
+
 static void running_out_of_memory_is_a_status_and_leaks_nothing(void **state) {
   static make_fn *const make[] = {all_kinds, one_in_front, empty, random_mesh};
+  static const struct solver_request request[] = {
+      {EVERYTHING},
+      {EVERYTHING, .divide_by_box = true},
+      {EVERYTHING, .resolution = 16, .pitch_mm = 100},
+      {EVERYTHING, .resolution = 48, .pitch_mm = 100, .subpixels = 2},
+      {EVERYTHING, .resolution = 20, .pitch_mm = 100, .remove_backs = true}};
   (void)state;
   for (const struct solver *const *s = solvers(); *s != NULL; s++)
-    for (size_t k = 0; k < sizeof make / sizeof *make; k++) {
-      if (is_exact(*s))
-        fail_in_turn(*s, 0, make[k]);
-      fail_in_turn(*s, 16, make[k]);
+    for (size_t k = 0; k < sizeof make / sizeof *make; k++)
+      for (size_t r = 0; r < sizeof request / sizeof *request; r++)
+        if (is_exact(*s) || request[r].resolution > 0)
+          fail_in_turn(*s, &request[r], make[k]);
+}
+
+/* ---- Cancelling, and what is out of range -------------------------------- */
+
+static bool stop_in_a_while(void *user, double share, const char *stage) {
+  int *polls_left = user;
+  assert_true(share >= 0 && share <= 1);
+  assert_non_null(stage);
+  return --*polls_left > 0;
+}
+
+/* test_cancelling does the same for all methods, on scenes that take longer. */
+static void a_cancelled_raster_is_not_polled_again(void **state) {
+  (void)state;
+  for (int s = 0; s < RASTERS; s++)
+    for (int polls = 1; polls < 6; polls++) {
+      int left = polls;
+      const struct solver_request request = {EVERYTHING, .resolution = 512,
+                                             .progress = stop_in_a_while,
+                                             .user = &left};
+      struct map map;
+      assert_int_equal(solve(raster[s], &request, all_kinds, 0, &map),
+                       RECTO_ERROR_CANCELLED);
+      assert_int_equal(left, 0);
+      map_fini(&map);
+    }
+}
+
+static void numbers_of_pixels_out_of_range_are_refused(void **state) {
+  static const struct solver_request bad[] = {
+      {.resolution = 65537},
+      {.resolution = 64, .subpixels = -1},
+      {.resolution = 64, .subpixels = 17},
+      {.resolution = 40000, .subpixels = 2},
+      {.resolution = 65537, .subpixels = 2},
+      /* of the z-buffers */
+      {.resolution = -5},
+      {.resolution = 64, .depth_bits = -1},
+      {.resolution = 64, .depth_bits = 33}};
+  (void)state;
+  for (int s = 0; s < RASTERS; s++)
+    for (int i = 0; i < (raster[s] == &solver_warnock ? 5 : 8); i++) {
+      struct map map;
+      assert_int_equal(solve(raster[s], &bad[i], all_kinds, 0, &map),
+                       RECTO_ERROR_ARGUMENT);
+      map_fini(&map);
     }
 }
 
@@ -166,6 +218,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_solver_is_found_by_its_method_and_its_name),
       cmocka_unit_test(running_out_of_memory_is_a_status_and_leaks_nothing),
+      cmocka_unit_test(a_cancelled_raster_is_not_polled_again),
+      cmocka_unit_test(numbers_of_pixels_out_of_range_are_refused),
       cmocka_unit_test(a_solver_does_no_more_than_was_requested),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -13,7 +13,6 @@
 #include "base/report.h"
 #include "visibility/solver.h"
 #include "visibility/raster/subpixels.h"
-#include "tests/memory_faults.h"
 
 static const struct solver *const both[] = {&solver_zbuffer,
                                             &solver_scanline_zbuffer};
@@ -115,50 +114,6 @@ static void averaging_comes_nearer_to_the_area(void **state) {
   assert_true(4 * fine < coarse);
 }
 
-static void bad_numbers_of_sub_pixels_are_refused(void **state) {
-  const struct solver_request bad[] = {{.resolution = 64, .subpixels = -1},
-                                       {.resolution = 64, .subpixels = 17},
-                                       {.resolution = 40000, .subpixels = 2},
-                                       {.resolution = 65537, .subpixels = 2}};
-  (void)state;
-  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-    for (int s = 0; s < 2; s++) {
-      struct sheet sheet;
-      struct map map;
-      recto_error error;
-      pixels_sheet(&sheet, &pixels_pierced_rectangle);
-      map_init(&map);
-      assert_int_equal(both[s]->solve(&sheet, &bad[i], &map, NULL, &error),
-                       RECTO_ERROR_ARGUMENT);
-      map_fini(&map);
-      exact_sheet_fini(&sheet);
-    }
-}
-
-static void running_out_of_memory_is_reported(void **state) {
-  const struct solver_request request = {.edges = true,
-                                         .fragments = true,
-                                         .threads = 1,
-                                         .resolution = 20,
-                                         .subpixels = 3,
-                                         .remove_backs = true};
-  (void)state;
-  for (int s = 0; s < 2; s++) {
-    struct memory_faults faults = {.least = 10};
-    while (memory_faults_go_on(&faults)) {
-      struct sheet sheet;
-      struct map map;
-      pixels_sheet(&sheet, &pixels_two_rectangles);
-      map_init(&map);
-      memory_faults_begin(&faults);
-      memory_faults_end(&faults,
-                        both[s]->solve(&sheet, &request, &map, NULL, NULL));
-      map_fini(&map);
-      exact_sheet_fini(&sheet);
-    }
-  }
-}
-
 /* ---- Backs --------------------------------------------------------------- */
 
 /* A back face before a front face, apart: what is removed takes its lines
@@ -191,8 +146,6 @@ int main(void) {
       cmocka_unit_test(a_pixel_is_what_most_of_it_see),
       cmocka_unit_test(the_last_pixel_may_reach_beyond_the_page),
       cmocka_unit_test(averaging_comes_nearer_to_the_area),
-      cmocka_unit_test(bad_numbers_of_sub_pixels_are_refused),
-      cmocka_unit_test(running_out_of_memory_is_reported),
       cmocka_unit_test(removed_backs_take_their_lines_with_them),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

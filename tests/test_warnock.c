@@ -1,7 +1,6 @@
 /* test_warnock.c - subdivision in lines: the exact map however windows are
  * divided, each kind of window, and no test made twice. */
 #include "exact_fixture/sheet.h"
-#include "tests/memory_faults.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -267,76 +266,6 @@ static void a_fan_ends_in_fewer_windows_than_faces(void **state) {
   }
 }
 
-/* ---- Conversation -------------------------------------------------------- */
-
-static bool stop_in_a_while(void *user, double share, const char *stage) {
-  int *polls_left = user;
-  assert_true(share >= 0 && share <= 1);
-  assert_non_null(stage);
-  return --*polls_left > 0;
-}
-
-/* Triangles without edges, so many that there are windows by the thousand. */
-static void many_triangles(struct sheet *sheet, int n) {
-  exact_sheet_init(sheet);
-  for (int i = 0; i < n * n; i++) {
-    struct geom_point p = {i % n * 8 * SCALE, i / n * 8 * SCALE, i};
-    struct sheet_triangle triangle = {
-        .side = {SHEET_NONE, SHEET_NONE, SHEET_NONE}};
-    for (uint32_t k = 0; k < 3; k++) {
-      triangle.point[k] = (uint32_t)sheet->point.count;
-      assert_true(ARRAY_PUSH(&sheet->point, p));
-      p.x += k == 0 ? 6 * SCALE : -SCALE;
-      p.y += k == 0 ? SCALE : 6 * SCALE;
-    }
-    assert_true(ARRAY_PUSH(&sheet->triangle, triangle));
-  }
-  sheet->triangle_flags = mem_calloc(sheet->triangle.count, 1);
-}
-
-static void cancelling_ends_the_work(void **state) {
-  (void)state;
-  for (int polls = 1; polls < 3; polls++) {
-    int left = polls;
-    const struct solver_request request = {.fragments = true,
-                                           .threads = 1,
-                                           .progress = stop_in_a_while,
-                                           .user = &left};
-    struct sheet sheet;
-    struct map map;
-    many_triangles(&sheet, 200);
-    assert_int_equal(
-        exact_solve_as(&solver_warnock, &request, &sheet, &map, NULL),
-        RECTO_ERROR_CANCELLED);
-    assert_int_equal(left, 0);
-    map_fini(&map);
-    exact_sheet_fini(&sheet);
-  }
-}
-
-static void running_out_of_memory_is_reported(void **state) {
-  const struct solver_request intervals = {.edges = true, .threads = 1};
-  struct memory_faults faults = {.least = 20};
-  (void)state;
-  while (memory_faults_go_on(&faults)) {
-    const struct solver_request request =
-        request_of(true, faults.failed % 2 != 0);
-    struct sheet sheet;
-    struct map map;
-    tents_and_a_wall(&sheet, 3, 14, 1);
-    /* Once without failures, so that the sheet's contours are there. */
-    assert_int_equal(
-        exact_solve_as(&solver_warnock, &intervals, &sheet, &map, NULL),
-        RECTO_OK);
-    map_fini(&map);
-    memory_faults_begin(&faults);
-    memory_faults_end(
-        &faults, exact_solve_as(&solver_warnock, &request, &sheet, &map, NULL));
-    map_fini(&map);
-    exact_sheet_fini(&sheet);
-  }
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(dense_scenes_have_the_map_of_brute),
@@ -347,8 +276,6 @@ int main(void) {
       cmocka_unit_test(a_front_that_surrounds_drops_what_is_behind),
       cmocka_unit_test(a_window_without_a_drawable_edge_is_finished_at_once),
       cmocka_unit_test(a_fan_ends_in_fewer_windows_than_faces),
-      cmocka_unit_test(cancelling_ends_the_work),
-      cmocka_unit_test(running_out_of_memory_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,6 @@
 
 #include "visibility/warnock/warnock_raster.h"
 #include "visibility/zbuffer/zbuffer.h"
-#include "tests/memory_faults.h"
 
 /* ---- Frames -------------------------------------------------------------- */
 
@@ -185,21 +184,6 @@ static void random_scenes_are_right_in_every_pixel(void **state) {
   }
 }
 
-static void add_triangle(struct sheet *sheet, const struct geom_point p[3],
-                         uint32_t face) {
-  struct sheet_triangle triangle = {
-      .side = {SHEET_NONE, SHEET_NONE, SHEET_NONE}, .face = face};
-  int64_t area = geom_orient2d(p[0], p[1], p[2]);
-  for (int k = 0; k < 3; k++) {
-    triangle.point[k] = (uint32_t)sheet->point.count;
-    assert_true(ARRAY_PUSH(&sheet->point, p[area < 0 ? 2 - k : k]));
-  }
-  assert_true(ARRAY_PUSH(&sheet->triangle, triangle));
-  sheet->triangle_flags =
-      mem_resize(sheet->triangle_flags, sheet->triangle.count, 1);
-  sheet->triangle_flags[sheet->triangle.count - 1] = area == 0 ? SHEET_FLAT : 0;
-}
-
 static int32_t anywhere(uint64_t *seed, int bits) {
   int32_t half = (1 << bits) - 1;
   return (int32_t)(exact_random(seed) % (2 * (uint64_t)half + 1)) - half;
@@ -234,7 +218,7 @@ static void triangles_of_any_kind_give_the_pixels_of_the_zbuffer(void **state) {
         if (exact_random_below(&seed, 4) == 0)
           p[k].z = exact_random_below(&seed, 2) == 0 ? 0 : SHEET_Z_MAX;
       }
-      add_triangle(&sheet, p, t);
+      exact_add_triangle(&sheet, p, t);
     }
     draw_frame(&frame, &sheet, &request);
     assert_zbuffer_sees_the_same(&frame, "any kind");
@@ -385,79 +369,6 @@ static void averaging_comes_nearer_to_the_area(void **state) {
   assert_true(covered_share(10, 1) == covered_share(10, 0));
 }
 
-/* ---- Conversation -------------------------------------------------------- */
-
-static void invalid_options_are_refused(void **state) {
-  const struct solver_request bad[] = {{.resolution = 65537},
-                                       {.resolution = 64, .subpixels = -1},
-                                       {.resolution = 64, .subpixels = 17},
-                                       {.resolution = 40000, .subpixels = 2}};
-  (void)state;
-  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-    struct sheet sheet;
-    struct map map;
-    recto_error error;
-    pixels_sheet(&sheet, &pixels_pierced_rectangle);
-    map_init(&map);
-    assert_int_equal(solver_warnock.solve(&sheet, &bad[i], &map, NULL, &error),
-                     RECTO_ERROR_ARGUMENT);
-    assert_int_equal(error.code, RECTO_ERROR_ARGUMENT);
-    map_fini(&map);
-    exact_sheet_fini(&sheet);
-  }
-}
-
-static bool stop_in_a_while(void *user, double share, const char *stage) {
-  int *polls_left = user;
-  assert_true(share >= 0 && share <= 1);
-  assert_non_null(stage);
-  return --*polls_left > 0;
-}
-
-static void cancelling_ends_the_work(void **state) {
-  (void)state;
-  for (int polls = 1; polls < 6; polls++) {
-    int left = polls;
-    const struct solver_request request = {.edges = true,
-                                           .fragments = true,
-                                           .threads = 1,
-                                           .resolution = 512,
-                                           .progress = stop_in_a_while,
-                                           .user = &left};
-    struct sheet sheet;
-    struct map map;
-    pixels_sheet(&sheet, &pixels_pierced_rectangle);
-    map_init(&map);
-    assert_int_equal(solver_warnock.solve(&sheet, &request, &map, NULL, NULL),
-                     RECTO_ERROR_CANCELLED);
-    assert_int_equal(left, 0);
-    map_fini(&map);
-    exact_sheet_fini(&sheet);
-  }
-}
-
-static void running_out_of_memory_is_reported(void **state) {
-  struct memory_faults faults = {.least = 20};
-  (void)state;
-  while (memory_faults_go_on(&faults)) {
-    const struct solver_request request = {.edges = true,
-                                           .fragments = true,
-                                           .intersections = true,
-                                           .threads = 1,
-                                           .resolution = 48,
-                                           .subpixels = 2};
-    struct sheet sheet;
-    struct map map;
-    pixels_sheet(&sheet, &pixels_two_rectangles);
-    map_init(&map);
-    memory_faults_begin(&faults);
-    memory_faults_end(&faults,
-                      solver_warnock.solve(&sheet, &request, &map, NULL, NULL));
-    map_fini(&map);
-    exact_sheet_fini(&sheet);
-  }
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_worked_frames_are_right_in_every_pixel),
@@ -468,9 +379,6 @@ int main(void) {
       cmocka_unit_test(maps_are_those_of_the_zbuffer),
       cmocka_unit_test(sub_pixels_are_those_of_a_finer_frame),
       cmocka_unit_test(averaging_comes_nearer_to_the_area),
-      cmocka_unit_test(invalid_options_are_refused),
-      cmocka_unit_test(cancelling_ends_the_work),
-      cmocka_unit_test(running_out_of_memory_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

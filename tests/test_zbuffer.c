@@ -12,7 +12,6 @@
 
 #include "visibility/scanline_zbuffer/scanline_zbuffer.h"
 #include "visibility/zbuffer/zbuffer.h"
-#include "tests/memory_faults.h"
 
 enum { FINE = 2048 }; /* lines where the answer should be nearly exact */
 
@@ -337,22 +336,6 @@ static void float64_distinguishes_single_units(void **state) {
   assert_int_equal(face_in_the_middle(INT64_C(1) << 39, -1, 0), 0);
 }
 
-/* Adds a triangle of sheet units. */
-static void add_triangle(struct sheet *sheet, const struct geom_point p[3],
-                         uint32_t face) {
-  struct sheet_triangle triangle = {
-      .side = {SHEET_NONE, SHEET_NONE, SHEET_NONE}, .face = face};
-  assert_true(geom_orient2d(p[0], p[1], p[2]) > 0);
-  for (uint32_t k = 0; k < 3; k++) {
-    triangle.point[k] = (uint32_t)sheet->point.count;
-    assert_true(ARRAY_PUSH(&sheet->point, p[k]));
-  }
-  assert_true(ARRAY_PUSH(&sheet->triangle, triangle));
-  sheet->triangle_flags =
-      mem_resize(sheet->triangle_flags, sheet->triangle.count, 1);
-  sheet->triangle_flags[sheet->triangle.count - 1] = 0;
-}
-
 enum { COARSE = 64 }; /* lines over a page of 1024 mm: 2^24 units a pixel */
 
 static int32_t centre(int pixel) {
@@ -370,7 +353,7 @@ static void add_needle(struct sheet *sheet, int x, int y, uint64_t *seed) {
                              cy - exact_random_below(seed, 3), SHEET_Z_MAX},
                             {cx + exact_random_below(seed, 3) - 1,
                              (1 << 29) - 1, exact_random_below(seed, 1000)}};
-  add_triangle(sheet, p, 0);
+  exact_add_triangle(sheet, p, 0);
 }
 
 /* A level triangle about the same centre. */
@@ -378,7 +361,7 @@ static void add_level(struct sheet *sheet, int x, int y, int64_t z) {
   int32_t cx = centre(x), cy = centre(y);
   const struct geom_point p[3] = {
       {cx - 5000, cy - 5000, z}, {cx + 5000, cy - 5000, z}, {cx, cy + 9000, z}};
-  add_triangle(sheet, p, 1);
+  exact_add_triangle(sheet, p, 1);
 }
 
 /* floor of the first triangle's depth at a pixel's centre, and whether that
@@ -451,8 +434,8 @@ static void steep_faces_meet_others_exactly(void **state) {
     struct frames frames;
     exact_sheet_init(&sheet);
     sheet.camera.page_mm[0] = sheet.camera.page_mm[1] = 1024;
-    add_triangle(&sheet, slope, 0);
-    add_triangle(&sheet, needle, 1);
+    exact_add_triangle(&sheet, slope, 0);
+    exact_add_triangle(&sheet, needle, 1);
     draw_frames(&frames, &sheet, COARSE, 0);
     assert_int_equal(
         face_at(&sheet, frames.whole.seen, (size_t)(y * COARSE + x)),
@@ -481,7 +464,7 @@ static void steep_faces_keep_within_their_depths(void **state) {
     struct frames frames;
     exact_sheet_init(&sheet);
     sheet.camera.page_mm[0] = sheet.camera.page_mm[1] = 1024;
-    add_triangle(&sheet, needle, 0);
+    exact_add_triangle(&sheet, needle, 0);
     draw_frames(&frames, &sheet, COARSE, 32);
     assert_int_equal(frames.whole.seen[y * COARSE + x], raster_seen(0));
     if (low == 0)
@@ -870,27 +853,6 @@ static void intersections_are_drawn_on_request(void **state) {
 
 /* ---- Conversation -------------------------------------------------------- */
 
-static void invalid_options_are_refused(void **state) {
-  const struct solver_request bad[] = {{.resolution = -5},
-                                       {.resolution = 65537},
-                                       {.resolution = 64, .depth_bits = -1},
-                                       {.resolution = 64, .depth_bits = 33}};
-  (void)state;
-  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-    for (int s = 0; s < 2; s++) {
-      struct sheet sheet;
-      struct map map;
-      recto_error error;
-      pixels_sheet(&sheet, &pixels_pierced_rectangle);
-      map_init(&map);
-      assert_int_equal(both[s]->solve(&sheet, &bad[i], &map, NULL, &error),
-                       RECTO_ERROR_ARGUMENT);
-      assert_int_equal(error.code, RECTO_ERROR_ARGUMENT);
-      map_fini(&map);
-      exact_sheet_fini(&sheet);
-    }
-}
-
 /* Between two lines of a folded frame that share memory lie as many as
  * required; a frame with fewer lines stays as it is. */
 static void a_folded_frame_uses_lines_again(void **state) {
@@ -910,58 +872,6 @@ static void a_folded_frame_uses_lines_again(void **state) {
   }
   raster_fini(&raster);
   exact_sheet_fini(&sheet);
-}
-
-static bool stop_at_once(void *user, double share, const char *stage) {
-  int *polls_left = user;
-  assert_true(share >= 0 && share <= 1);
-  assert_non_null(stage);
-  return --*polls_left > 0;
-}
-
-static void cancelling_ends_the_work(void **state) {
-  (void)state;
-  for (int s = 0; s < 2; s++)
-    for (int polls = 1; polls < 4; polls++) {
-      int left = polls;
-      const struct solver_request request = {.edges = true,
-                                             .threads = 1,
-                                             .resolution = 512,
-                                             .progress = stop_at_once,
-                                             .user = &left};
-      struct sheet sheet;
-      struct map map;
-      pixels_sheet(&sheet, &pixels_pierced_rectangle);
-      map_init(&map);
-      assert_int_equal(both[s]->solve(&sheet, &request, &map, NULL, NULL),
-                       RECTO_ERROR_CANCELLED);
-      assert_int_equal(left, 0);
-      map_fini(&map);
-      exact_sheet_fini(&sheet);
-    }
-}
-
-static void running_out_of_memory_is_reported(void **state) {
-  const struct solver_request request = {.edges = true,
-                                         .fragments = true,
-                                         .intersections = true,
-                                         .threads = 1,
-                                         .resolution = 48};
-  (void)state;
-  for (int s = 0; s < 2; s++) {
-    struct memory_faults faults = {.least = 20};
-    while (memory_faults_go_on(&faults)) {
-      struct sheet sheet;
-      struct map map;
-      pixels_sheet(&sheet, &pixels_two_rectangles);
-      map_init(&map);
-      memory_faults_begin(&faults);
-      memory_faults_end(&faults,
-                        both[s]->solve(&sheet, &request, &map, NULL, NULL));
-      map_fini(&map);
-      exact_sheet_fini(&sheet);
-    }
-  }
 }
 
 static void scan_line_holds_one_line(void **state) {
@@ -1006,10 +916,7 @@ int main(void) {
       cmocka_unit_test(outline_that_curves_away_has_no_gaps),
       cmocka_unit_test(order_of_the_edges_does_not_matter),
       cmocka_unit_test(intersections_are_drawn_on_request),
-      cmocka_unit_test(invalid_options_are_refused),
-      cmocka_unit_test(cancelling_ends_the_work),
       cmocka_unit_test(a_folded_frame_uses_lines_again),
-      cmocka_unit_test(running_out_of_memory_is_reported),
       cmocka_unit_test(scan_line_holds_one_line),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

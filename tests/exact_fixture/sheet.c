@@ -77,6 +77,16 @@ static void add_triangle(struct sheet *sheet, const uint32_t p[3],
                                                    : 0);
 }
 
+void exact_add_triangle(struct sheet *sheet, const struct geom_point p[3],
+                        uint32_t face) {
+  uint32_t point[3];
+  for (int k = 0; k < 3; k++) {
+    point[k] = (uint32_t)sheet->point.count;
+    assert_true(ARRAY_PUSH(&sheet->point, p[k]));
+  }
+  add_triangle(sheet, point, (const bool[3]){false}, face);
+}
+
 void exact_add_face(struct sheet *sheet, const int corner[][3], int count,
                     int scale) {
   uint32_t face =

@@ -17,6 +17,10 @@ void exact_sheet_fini(struct sheet *sheet);
 void exact_add_face(struct sheet *sheet, const int corner[][3], int count,
                     int scale);
 
+/* Adds a triangle of sheet units with three points of its own and no edges. */
+void exact_add_triangle(struct sheet *sheet, const struct geom_point p[3],
+                        uint32_t face);
+
 /* Solves with everything requested; asserts that it succeeded. */
 void exact_solve(const struct solver *solver, struct sheet *sheet,
                  struct map *map, struct report *report);
