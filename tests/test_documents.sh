@@ -111,9 +111,13 @@ awk -F'|' '/^\| Debian package/ { on = 1; getline; next } !/^\|/ { on = 0 }
 claim "the README explains the packages of packages.txt" \
   same "$scratch/packages-list" "$scratch/packages-readme"
 
-# The library example compiles and links as a user would have it.
-awk '/^```c/ { on = 1; next } /^```/ { on = 0 } on' "$readme" \
-  >"$scratch/example.c"
+# The library's examples compile and link as a user would have it.
+for i in 1 2; do
+  awk -v i="$i" '/^```c$/ { on = ++count == i; next } /^```/ { on = 0 } on' \
+    "$readme" >"$scratch/example$i.c"
+done
+awk '/^It prints$/ { here = 1 } here && /^```/ { if (on++) exit; next } on' \
+  "$readme" >"$scratch/expected"
 library=$builddir/.libs/librecto.so
 libraries=-Wl,-rpath,$builddir/.libs
 if ! test -e "$library"; then
@@ -127,14 +131,19 @@ build() { # NAME
 }
 example_draws() {
   cp "$srcdir/examples/models/knot.obj" "$scratch/model.obj"
-  build example && (cd "$scratch" && ./example) &&
+  build example1 && (cd "$scratch" && ./example1) &&
     grep -q '<path' "$scratch/model.svg"
 }
+example_prints() {
+  build example2 && "$scratch/example2" >"$scratch/printed" &&
+    same "$scratch/expected" "$scratch/printed"
+}
 if test -e "$library" && ! nm "$library" 2>/dev/null | grep -q __asan; then
-  claim "the README's program builds and draws" example_draws
+  claim "the README's first program builds and draws" example_draws
+  claim "the second one prints what is said" example_prints
   claim "so does that of recto(3)" manual_program_draws
 else
-  skip "the README's program builds and draws" \
+  skip "the README's programs build and draws" \
     "no library without sanitizers was built"
 fi
 

@@ -58,11 +58,12 @@ done
 claim "no path of the build is in the files that are text" \
   eval '! grep -rIlF "$builddir" "$staged" | grep .'
 
-# uses_it OPTION... - builds the README's program as pkg-config says, and draws.
+# uses_it OPTION... - builds the README's first program as pkg-config says, and draws.
 uses_it() {
   local pc
   pc=$staged$(grep '/recto\.pc$' files | sed 's/^\.//')
-  awk '/^```c/ { on = 1; next } /^```/ { on = 0 } on' "$srcdir/README.md" >user.c
+  awk '/^```c$/ { on = 1; next } on && /^```/ { exit } on' "$srcdir/README.md" \
+    >user.c
   cp "$srcdir/examples/models/gears.obj" model.obj && rm -f model.svg
   # shellcheck disable=SC2046,SC2086 # several words each
   ${CC:-cc} -Wall -Werror user.c -o user $(PKG_CONFIG_SYSROOT_DIR=$staged \
