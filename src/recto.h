@@ -186,11 +186,14 @@ typedef enum recto_divide {
  * on the largest page, 2 m. */
 #define RECTO_FINEST_MM 0.01
 
-/* Called periodically with the share of the work done, 0 to 1, and the name
- * of the stage, from the thread that called the library: by recto_scene_read,
- * recto_scene_render, recto_scene_check and, while it writes, by
- * recto_drawing_write.  Returns false to cancel: the call then ends with
- * RECTO_ERROR_CANCELLED and no output. */
+/* Called with the share of the work done, 0 to 1, which never falls, and the
+ * name of the stage: by all calls that take options, in each stage every few
+ * milliseconds, however large the scene.  It may itself call the library, with
+ * other objects.  Returns false to cancel: the call then ends within some
+ * 50 ms, for a million triangles, with RECTO_ERROR_CANCELLED and no output, and
+ * does not call it again.
+ * Threads  the thread that called the library; never two calls of it at once
+ *          for one call of the library */
 typedef bool (*recto_progress_fn)(void *user, double share, const char *stage);
 
 /* Called with a warning: a bad element that was skipped, a clipped stroke.
