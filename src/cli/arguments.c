@@ -226,15 +226,6 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
   return true;
 }
 
-static bool settle_method(const struct arguments *a,
-                          char message[MESSAGE_SIZE]) {
-  if (recto_method_is_available(a->options.solver.method))
-    return true;
-  snprintf(message, MESSAGE_SIZE, "--method %s is not available in this build",
-           recto_method_name(a->options.solver.method));
-  return false;
-}
-
 static void settle_page(struct arguments *a) {
   double width = a->options.page.width_mm;
   if (a->landscape && width < a->options.page.height_mm) {
@@ -270,6 +261,5 @@ bool arguments_parse(struct arguments *arguments, int argc, char **argv,
   if (arguments->help || arguments->version || arguments->completes)
     return true;
   settle_page(arguments);
-  return settle_method(arguments, message) &&
-         settle_camera(arguments, message) && settle_files(arguments, message);
+  return settle_camera(arguments, message) && settle_files(arguments, message);
 }

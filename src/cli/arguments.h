@@ -100,6 +100,10 @@ enum option_use {
   USED_BY_CHECK
 };
 
+/* The word at `index` of a list; NULL past the last. */
+typedef const char *word_fn(size_t index);
+word_fn name_method, name_edge_class;
+
 struct option_entry {
   enum option_kind kind;
   const char *name;     /* long, without dashes */
@@ -112,7 +116,7 @@ struct option_entry {
   size_t given;  /* offset of a bool to set if it is given; 0: none */
   double least, most;
   const char *words; /* that its value may be, also for completion */
-  const char *(*word)(size_t index); /* more such words; NULL past the last */
+  word_fn *word;     /* more such words */
   bool (*take)(struct arguments *arguments, const char *text);
   recto_status (*take_item)(struct arguments *arguments, const char *name,
                             const char *value);

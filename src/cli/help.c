@@ -14,38 +14,14 @@ static void print_entry(const struct option_entry *entry) {
   printf("%*s%s\n", width < column ? column - width : 1, "", entry->help);
 }
 
-/* Prints one more word of a list, on a new line where this one is full;
- * returns the new column. */
-static int print_word(int column, const char *word) {
+static void print_list(const char *head, word_fn *word) {
   const int edge = 80;
-  if (column + 1 + (int)strlen(word) > edge) {
-    printf("\n ");
-    column = 1;
+  int column = printf("%s", head);
+  for (size_t i = 0; word(i) != NULL; i++) {
+    if (column + 1 + (int)strlen(word(i)) > edge)
+      column = printf("\n ") - 1;
+    column += printf(" %s", word(i));
   }
-  return column + printf(" %s", word);
-}
-
-static void print_methods(void) {
-  int column = printf("Methods:");
-  for (int i = 0; i < RECTO_METHOD_COUNT; i++)
-    if (recto_method_is_available((recto_method)i))
-      column = print_word(column, recto_method_name((recto_method)i));
-  printf("\n");
-}
-
-static void print_formats(void) {
-  int column = printf("Output formats:");
-  for (size_t i = 0; recto_output_format_name(i) != NULL; i++)
-    column = print_word(column, recto_output_format_name(i));
-  printf("\n");
-}
-
-static void print_classes(void) {
-  int column = printf("Edge classes:");
-  for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
-    column =
-        print_word(column, recto_edge_class_name((recto_edge_class)(1u << i)));
-  printf(";\n  all; none; default: all of these but smooth\n");
 }
 
 void help_print(void) {
@@ -60,9 +36,11 @@ void help_print(void) {
       print_entry(entry);
   }
   printf("\n");
-  print_classes();
-  print_methods();
-  print_formats();
-  printf("Exit status: 0 done, 1 failed, 2 wrong usage; --check: 0 right, "
+  print_list("Edge classes:", name_edge_class);
+  printf(";\n  all; none; default: all of these but smooth\n");
+  print_list("Methods:", name_method);
+  printf("\n");
+  print_list("Output formats:", recto_output_format_name);
+  printf("\nExit status: 0 done, 1 failed, 2 wrong usage; --check: 0 right, "
          "1 wrong,\n2 trouble.\n");
 }

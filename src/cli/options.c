@@ -14,7 +14,7 @@
 
 /* ---- Words --------------------------------------------------------------- */
 
-static const char *name_method(size_t index) {
+const char *name_method(size_t index) {
   return index < RECTO_METHOD_COUNT ? recto_method_name((recto_method)index)
                                     : NULL;
 }
@@ -27,7 +27,7 @@ static const char *name_page(size_t index) {
   return recto_page_name(index, NULL, NULL);
 }
 
-static const char *name_edge_class(size_t index) {
+const char *name_edge_class(size_t index) {
   return index < RECTO_EDGE_CLASS_COUNT
              ? recto_edge_class_name((recto_edge_class)(1u << index))
              : NULL;
