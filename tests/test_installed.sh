@@ -18,6 +18,8 @@ no_importer() {
 }
 if test -x /usr/local/libexec/recto/recto-import; then
   skip "a missing importer is reported" "one is installed"
+elif ! test -x "$importer"; then
+  skip "a missing importer is reported" "no Assimp"
 else
   claim "a missing importer is reported" no_importer
 fi

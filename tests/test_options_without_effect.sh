@@ -135,7 +135,7 @@ claim "--check looks with the same camera, edges and tolerances" \
 claim "a tolerance is used by --check" check_uses --tolerance 1%
 
 all_are_quiet() {
-  draw a.svg -q --pitch 3 --seam 1 --dpi 30 && test ! -s err
+  draw a.svg -q --pitch 3 --seam 1 --depth-bits 16 && test ! -s err
 }
 claim "--quiet says nothing of it" all_are_quiet
 draws_the_same() {
