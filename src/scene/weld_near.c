@@ -123,11 +123,16 @@ static bool measure_faces(struct candidates *candidates,
     return false;
   for (size_t i = 0; i < count; i++)
     candidates->size[i] = INFINITY;
+  /* The edges of a face follow one another. */
+  uint32_t face = SCENE_NONE;
+  double size = 0;
   for (size_t e = 0; e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
     if (!is_border(edge))
       continue;
-    double size = face_size(scene, edge->first);
+    if (edge->first != face)
+      size = face_size(scene, edge->first);
+    face = edge->first;
     for (int k = 0; k < 2; k++) {
       uint32_t number = candidates->number[edge->point[k]];
       double *least = &candidates->size[number - 1];
