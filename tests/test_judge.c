@@ -502,6 +502,28 @@ static void without_contact_the_grid_may_pierce_what_touches(void **state) {
   }
 }
 
+/* A quadrilateral of two triangles that is planar within a tenth of a unit.
+ * Where one is in front of the other one's side it is two thirds of a unit
+ * nearer. */
+static void a_face_planar_within_contact_hides_none_of_its_edges(void **state) {
+  (void)state;
+  struct page page;
+  struct scene scene;
+  static const double quad[12] = {0, 0, -8, 0.1, 0, 2, 0, 1, 3, 0.1, 1.5, 2};
+  scene_init(&scene);
+  build_polygon(&scene, quad, 4);
+  for (int contact = 0; contact < 2; contact++) {
+    open_page(&page);
+    page.contact = contact ? 0.25 : 0.01;
+    look_square_on(&page);
+    draw_loop(&page, quad, 4);
+    struct judge_verdict verdict =
+        judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
+    assert_int_equal(verdict.false_ink.samples > 0, !contact);
+  }
+  scene_fini(&scene);
+}
+
 /* A rectangle 1e-17 wide, with another one behind it that faces away: four
  * edges, of which two pairs coincide once the scene is translated. */
 static void edges_that_translation_joins_are_distinct(void **state) {
@@ -988,6 +1010,7 @@ int main(void) {
       cmocka_unit_test(contact_does_not_hide),
       cmocka_unit_test(from_a_corner_contact_counts_at_the_far_end),
       cmocka_unit_test(without_contact_the_grid_may_pierce_what_touches),
+      cmocka_unit_test(a_face_planar_within_contact_hides_none_of_its_edges),
       cmocka_unit_test(edges_that_translation_joins_are_distinct),
       cmocka_unit_test(an_image_of_any_length_is_accurate_on_the_page),
       cmocka_unit_test(ears_cover_a_face_of_any_number_of_corners),

@@ -12,12 +12,13 @@ static double error_of(const struct judge_options *options,
   return TOLERANCE_ROUNDING_SHARE * precision_error(precision, x);
 }
 
-static double contact_of(const struct judge_options *options,
-                         const struct scene *scene,
-                         const struct judge_triangle *t) {
+/* Upper bounds of the rounding errors of a face's coordinates. */
+static struct judge_point3 error_of_face(const struct judge_options *options,
+                                         const struct scene *scene,
+                                         uint32_t face) {
   struct judge_point3 error = {0, 0, 0};
-  for (uint32_t c = scene->face_start.item[t->face];
-       c < scene->face_start.item[t->face + 1]; c++) {
+  for (uint32_t c = scene->face_start.item[face];
+       c < scene->face_start.item[face + 1]; c++) {
     uint32_t point = scene->corner.item[c];
     struct judge_point3 at =
         point3_along(options->origin, 1, judge_point3_at(scene, point));
@@ -25,15 +26,26 @@ static double contact_of(const struct judge_options *options,
     error.y = fmax(error.y, error_of(options, scene, point, at.y));
     error.z = fmax(error.z, error_of(options, scene, point, at.z));
   }
-  return 2 * (fabs(t->normal.x) * error.x + fabs(t->normal.y) * error.y +
-              fabs(t->normal.z) * error.z);
+  return error;
 }
 
-void judge_contact_set(struct judge_triangles *all,
+bool judge_contact_set(struct judge_triangles *all,
                        const struct judge_options *options) {
+  uint32_t faces = options->contact < 0 ? scene_face_count(all->scene) : 0;
+  struct judge_point3 *error = mem_calloc(faces, sizeof *error);
+  if (error == NULL)
+    return false;
+  for (uint32_t i = 0; i < faces && poll_at(i); i++)
+    error[i] = error_of_face(options, all->scene, i);
   for (size_t i = 0; i < all->triangle.count && poll_at(i); i++) {
     struct judge_triangle *t = &all->triangle.item[i];
-    t->contact = options->contact < 0 ? contact_of(options, all->scene, t)
-                                      : options->contact;
+    t->contact = t->planar = options->contact;
+    if (faces == 0)
+      continue;
+    struct judge_point3 e = error[t->face], n = t->normal;
+    t->contact = 2 * (fabs(n.x) * e.x + fabs(n.y) * e.y + fabs(n.z) * e.z);
+    t->planar = 2 * point3_length(e);
   }
+  mem_free(error);
+  return true;
 }

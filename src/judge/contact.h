@@ -6,8 +6,10 @@
 
 /* Sets the contact tolerance of every triangle: the options' length, or where
  * that is negative the sum of the rounding errors of its face's corners and of
- * a point that touches it, in the direction of its normal. */
-void judge_contact_set(struct judge_triangles *all,
-                       const struct judge_options *options);
+ * a point that touches it, in the direction of its normal; planar is that
+ * length, or that of the sum as a vector.
+ * Returns false when memory ran out. */
+USE_RESULT bool judge_contact_set(struct judge_triangles *all,
+                                  const struct judge_options *options);
 
 #endif

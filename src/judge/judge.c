@@ -442,9 +442,9 @@ static bool prepare(struct judge_context *context, const struct scene *scene) {
   const double cells = 400;
   double cell = fmax(width, height) / cells;
   if (!judge_triangles_init(&context->all, scene, context->options.given,
-                            context->options.contact))
+                            context->options.contact) ||
+      !judge_contact_set(&context->all, &context->options))
     return false;
-  judge_contact_set(&context->all, &context->options);
   context->sampler = (struct judge_sampler){&context->all, camera,
                                             context->options.ray_offset_mm};
   context->grid = largest_rounding(context);

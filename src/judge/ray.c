@@ -219,6 +219,16 @@ static bool is_own(const struct judge_ray *ray,
                        is_corner(t, ray->end[1].position)));
 }
 
+/* What a triangle may do to the edge: a planar face hides none of its own edges,
+ * though the planes of its triangles may differ by more than contact. */
+static enum judge_visibility most_hidden(const struct judge_ray *ray,
+                                         const struct judge_triangle *t) {
+  if ((t->face != ray->own[0] && t->face != ray->own[1]) ||
+      t->off_plane > 1.5 * t->planar + ray->margin.plane_error)
+    return JUDGE_BLOCKED;
+  return t->off_plane <= 0.5 * t->planar ? JUDGE_CLEAR : JUDGE_UNSURE;
+}
+
 static enum judge_visibility test_triangle(const struct judge_triangles *all,
                                            const struct judge_ray *ray,
                                            const struct judge_triangle *t) {
@@ -230,7 +240,9 @@ static enum judge_visibility test_triangle(const struct judge_triangles *all,
   if (distance(t, ray->from) <= ray->margin.plane_error)
     return JUDGE_UNSURE;
   enum judge_visibility met = ray_meets_plane(ray, t);
-  return met < visibility ? met : visibility;
+  enum judge_visibility most = most_hidden(ray, t);
+  most = met < most ? met : most;
+  return most < visibility ? most : visibility;
 }
 
 /* ---- Traversal ----------------------------------------------------------- */

@@ -121,8 +121,9 @@ static bool build_tree(struct judge_triangles *all) {
 
 static struct judge_triangle triangle_of(const struct scene *scene,
                                          const uint32_t *corner,
-                                         const uint32_t ear[3], uint32_t face) {
-  struct judge_triangle t = {.face = face};
+                                         const uint32_t ear[3], uint32_t face,
+                                         double off_plane) {
+  struct judge_triangle t = {.face = face, .off_plane = off_plane};
   for (int k = 0; k < 3; k++) {
     t.point[k] = corner[ear[k]];
     t.p[k] = judge_point3_at(scene, t.point[k]);
@@ -150,22 +151,32 @@ struct judge_point3 judge_area(const struct scene *scene, uint32_t face) {
   return sum;
 }
 
-bool judge_is_warped(const struct scene *scene, uint32_t face, double contact) {
+/* The distance of the corner of a face that is farthest from the plane through
+ * its first corner; 0 for a triangle and where the face has no area.
+ * extent  set to the distance of the corner farthest from the first one */
+static double off_plane_of(const struct scene *scene, uint32_t face,
+                           double *extent) {
   uint32_t start = scene->face_start.item[face];
   uint32_t count = scene->face_start.item[face + 1] - start;
   struct judge_point3 normal = judge_area(scene, face);
+  double off = 0;
+  *extent = 0;
   if (count == 3 || !(point3_length(normal) > 0))
-    return false;
+    return 0;
   normal = point3_unit(normal);
   struct judge_point3 first = judge_point3_at(scene, scene->corner.item[start]);
-  double off = 0, extent = 0;
   for (uint32_t i = 1; i < count; i++) {
     struct judge_point3 p =
         judge_point3_at(scene, scene->corner.item[start + i]);
     struct judge_point3 away = point3_sub(p, first);
     off = fmax(off, fabs(point3_dot(normal, away)));
-    extent = fmax(extent, point3_length(away));
+    *extent = fmax(*extent, point3_length(away));
   }
+  return off;
+}
+
+bool judge_is_warped(const struct scene *scene, uint32_t face, double contact) {
+  double extent, off = off_plane_of(scene, face, &extent);
   double flat = extent * TOLERANCE_WARP_SHARE;
   if (contact >= 0)
     flat = fmin(flat, contact / 4);
@@ -216,11 +227,12 @@ static bool add_large_face(struct face_adder *adder, uint32_t face,
                            const uint32_t *corner, uint32_t count) {
   struct judge_triangles *all = adder->all;
   bool open = judge_is_warped(adder->scene, face, adder->contact);
+  double extent, off_plane = off_plane_of(adder->scene, face, &extent);
   if (!judge_clip_ears(&adder->ears, adder->scene, corner, count))
     return false;
   for (size_t k = 0; k < adder->ears.ear.count; k++) {
-    struct judge_triangle t =
-        triangle_of(adder->scene, corner, adder->ears.ear.item[k].corner, face);
+    struct judge_triangle t = triangle_of(
+        adder->scene, corner, adder->ears.ear.item[k].corner, face, off_plane);
     t.open = open;
     if (!ARRAY_PUSH(&all->triangle, t))
       return false;
@@ -240,11 +252,12 @@ static bool add_face(struct face_adder *adder, uint32_t face) {
   if (!judge_triangulation_make(&adder->triangulation, adder->given, corner,
                                 count))
     return false;
+  double extent, off_plane = off_plane_of(scene, face, &extent);
   for (size_t k = 0; k < adder->triangulation.triangle.count; k++)
     if (!ARRAY_PUSH(&all->triangle,
                     triangle_of(scene, corner,
                                 adder->triangulation.triangle.item[k].corner,
-                                face)))
+                                face, off_plane)))
       return false;
   return count == 3 || (!judge_is_warped(scene, face, adder->contact) &&
                         !is_folded(adder, face, first))

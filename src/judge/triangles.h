@@ -9,8 +9,11 @@ struct judge_triangle {
   struct judge_point3 normal; /* unit; 0 where the triangle has no area */
   uint32_t point[3];          /* scene points */
   uint32_t face;              /* scene face */
+  double off_plane;           /* the face's corner farthest from its plane */
   double contact;             /* contact tolerance: what touches it may be so
                                  far from its plane, scene units: contact.h */
+  double planar;              /* its face hides none of its own edges if no
+                                 corner is farther off its plane: contact.h */
   bool bent; /* the face is not planar, or its sides cross: its triangles are
                 not in one plane, or overlap */
   bool open; /* the face is not planar and has so many corners that the judge
