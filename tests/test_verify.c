@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <cmocka.h>
 
@@ -488,6 +489,37 @@ static void a_subdivided_mesh_passes_the_check(void **state) {
   scene_fini(&finest.scene);
 }
 
+/* Processor seconds for a regular polygon, verified. */
+static double time_polygon(unsigned corners) {
+  struct judged_run run;
+  start(&run);
+  double *xyz = calloc(corners, 3 * sizeof *xyz);
+  assert_non_null(xyz);
+  for (unsigned i = 0; i < corners; i++) {
+    double angle = 2 * acos(-1) * i / corners;
+    xyz[3 * i] = cos(angle);
+    xyz[3 * i + 1] = sin(angle);
+  }
+  build_polygon(&run.scene, xyz, corners);
+  free(xyz);
+  run.options.verify = 100;
+  run.options.solver.threads = 1;
+  clock_t from = clock();
+  draw(&run);
+  assert_right(&run, "polygon");
+  double seconds = (double)(clock() - from) / CLOCKS_PER_SEC;
+  end(&run);
+  return seconds;
+}
+
+/* Eight times the corners take some ten times as long, and not 64 times. */
+static void a_face_may_have_very_many_corners(void **state) {
+  (void)state;
+  double few = time_polygon(8000), many = time_polygon(64000);
+  if (many > 32 * few)
+    fail_msg("%.2f s, and %.2f s for eight times as many", few, many);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_stability_list_passes),
@@ -505,6 +537,7 @@ int main(void) {
       cmocka_unit_test(a_line_where_no_edge_is_is_found),
       cmocka_unit_test(only_what_is_too_short_may_be_missing),
       cmocka_unit_test(every_part_of_a_drawing_is_judged),
+      cmocka_unit_test(a_face_may_have_very_many_corners),
       cmocka_unit_test_teardown(every_allocation_may_fail, tear_down),
       cmocka_unit_test_setup_teardown(a_subdivided_mesh_passes_the_check,
                                       temporary_set_up, temporary_tear_down),

@@ -2,6 +2,9 @@
  * coordinates may open between a face and a point that touches it. */
 #include "view/coordinate_error.h"
 
+#include <string.h>
+
+#include "base/sort.h"
 #include "base/tolerance.h"
 #include "view/vector.h"
 
@@ -12,12 +15,12 @@ static double contact_along_axis(struct precision precision,
   return 2 * TOLERANCE_ROUNDING_SHARE * precision_error(precision, coordinate);
 }
 
-void coordinate_error_of_face(const struct sheet *sheet, uint32_t face,
-                              double error[3]) {
+/* Faces of more corners are measured once, not for each of their triangles. */
+enum { CORNERS_MAX = 64 };
+
+static void measure(const struct sheet *sheet, uint32_t face, double error[3]) {
   const struct scene *scene = sheet->scene;
   error[0] = error[1] = error[2] = 0;
-  if (scene == NULL)
-    return;
   for (uint32_t c = scene->face_start.item[face];
        c < scene->face_start.item[face + 1]; c++) {
     uint32_t point = scene->corner.item[c];
@@ -28,6 +31,30 @@ void coordinate_error_of_face(const struct sheet *sheet, uint32_t face,
     error[1] = max_number(error[1], contact_along_axis(precision, p->y));
     error[2] = max_number(error[2], contact_along_axis(precision, p->z));
   }
+}
+
+bool coordinate_error_store(struct sheet *sheet, uint32_t face) {
+  struct sheet_face_error error = {.face = face};
+  const uint32_t *start = sheet->scene->face_start.item + face;
+  if (start[1] - start[0] <= CORNERS_MAX)
+    return true;
+  measure(sheet, face, error.along);
+  return ARRAY_PUSH(&sheet->face_error, error);
+}
+
+void coordinate_error_of_face(const struct sheet *sheet, uint32_t face,
+                              double error[3]) {
+  const struct sheet_face_error *stored = sheet->face_error.item;
+  size_t i;
+  if (sheet->scene == NULL) {
+    error[0] = error[1] = error[2] = 0;
+    return;
+  }
+  LOWER_BOUND(i, 0, sheet->face_error.count, stored[i].face < face);
+  if (i < sheet->face_error.count && stored[i].face == face)
+    memcpy(error, stored[i].along, sizeof stored[i].along);
+  else
+    measure(sheet, face, error);
 }
 
 double coordinate_error_contact(const struct sheet *sheet, uint32_t face) {

@@ -13,6 +13,11 @@
 
 #include "view/sheet.h"
 
+/* Measures a face of many corners, so that the functions below need not do so
+ * for each of its triangles.  To be called in order of the faces, once for each
+ * of more than three corners.  Returns false when memory ran out. */
+USE_RESULT bool coordinate_error_store(struct sheet *sheet, uint32_t face);
+
 /* Sets for each axis k the bound 2 e[k] of a face, in scene units: twice the
  * largest error of its corners.  0 where the sheet has no scene: coordinates
  * are then exact. */

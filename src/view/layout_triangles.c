@@ -265,7 +265,8 @@ static recto_status add_polygon_face(struct layout *layout, uint32_t face,
   if (!corner ||
       !triangulate(triangulation, layout->scene->point.item, corner, count) ||
       !layout_reserve(layout, triangulation->triangle.count) ||
-      !start_diagonals(layout, count - 3))
+      !start_diagonals(layout, count - 3) ||
+      !coordinate_error_store(layout->sheet, face))
     return error_memory(layout->error);
   layout->sheet->warped += triangulation->warped;
   layout->sheet->empty += triangulation->triangle.count == 0;

@@ -69,6 +69,12 @@ struct sheet_contour {
   uint32_t point[2];
 };
 
+/* The error of the coordinates of a face of many corners: coordinate_error.h. */
+struct sheet_face_error {
+  uint32_t face;
+  double along[3];
+};
+
 struct sheet {
   ARRAY(struct geom_point) point; /* x, y in grid units, z in depth units */
   ARRAY(struct sheet_triangle) triangle;
@@ -77,7 +83,8 @@ struct sheet {
                               scene faces instead */
   const struct scene *scene; /* borrowed, not owned; for the precision of its
                                 coordinates; NULL: exact */
-  const uint32_t *face_group;      /* the scene's, borrowed */
+  ARRAY(struct sheet_face_error) face_error; /* by face */
+  const uint32_t *face_group;                /* the scene's, borrowed */
   const struct topology *topology; /* the scene's, borrowed; NULL: unknown */
   /* Mesh edges in topology order, then diagonals that are silhouettes, then
    * wires, then intersections once they were found.  Edges of class 0 are
