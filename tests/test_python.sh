@@ -18,7 +18,7 @@ why=
 if test -z "$python"; then
   why="no python3 with cffi, numpy, setuptools and Python.h"
 elif ! test -e "$library"; then
-  why="no shared library was built"
+  why="no shared library was built: configure with --enable-shared"
 elif nm -D "$library" 2>/dev/null | grep -q __asan_init; then
   why="the library was built with sanitizers"
 fi
@@ -52,6 +52,32 @@ if grep -q . "$scratch/log"; then
   say "$(tail -n 20 "$scratch/log")"
 fi
 
+# ---- As a wheel ------------------------------------------------------------
+
+# The wheel is installed to a folder of its own, and draws from there.
+wheel_draws() {
+  (cd "$scratch" && unset PYTHONPATH &&
+    RECTO_CFLAGS="-I$srcdir/src" \
+      RECTO_LIBS="-L$builddir/.libs -lrecto -Wl,-rpath,$builddir/.libs" \
+      "$python" -m pip wheel -q --no-deps --no-build-isolation \
+      --disable-pip-version-check -w wheel ./source &&
+    "$python" -m pip install -q --no-deps --no-index \
+      --disable-pip-version-check --root-user-action=ignore \
+      --target installed wheel/recto-*.whl &&
+    test -e installed/recto/py.typed &&
+    PYTHONPATH=installed "$python" -c 'import recto
+assert "installed" in recto.__file__
+recto.draw(recto.Scene([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), "w.svg")
+' && grep -q '<path' w.svg) >"$scratch/log" 2>&1 ||
+    { say "$(tail -n 5 "$scratch/log")" && false; }
+}
+if "$python" -c 'import pip, wheel' 2>/dev/null; then
+  claim "a wheel is built from pyproject.toml, installed and draws" wheel_draws
+else
+  skip "a wheel is built from pyproject.toml, installed and draws" \
+    "no pip and wheel"
+fi
+
 # ---- Documentation and examples -------------------------------------------
 
 cp "$srcdir"/examples/models/*.obj "$scratch"
@@ -81,11 +107,13 @@ faces() {
 import json
 data = json.load(open("castle.geojson"))
 polygons = [f["geometry"] for f in data["features"]]
+area = lambda ring: sum(p[0] * q[1] - q[0] * p[1] for p, q in zip(ring, ring[1:]))
 assert len(polygons) == sum(1 for _ in open("castle.wkt")) > 100
 for polygon in polygons:
     assert polygon["type"] == "Polygon"
     for ring in polygon["coordinates"]:
         assert ring[0] == ring[-1] and len(ring) >= 4
+        assert (area(ring) > 0) == (ring is polygon["coordinates"][0])
 PYTHON
 }
 claim "examples/python/faces.py writes visible faces as GeoJSON and WKT" faces

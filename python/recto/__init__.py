@@ -25,8 +25,8 @@ from ._library import (
     lib,
     text_of,
 )
-from ._options import EDGE_CLASSES, Options
-from ._scene import Scene, draw
+from ._options import EDGE_CLASSES, PAGES, VIEWS, Options
+from ._scene import Scene, Verdict, draw
 
 __version__ = text_of(lib.recto_version())
 NONE: int = lib.RECTO_NONE
@@ -47,10 +47,13 @@ __all__ = [
     "NONE",
     "Options",
     "OutOfMemoryError",
+    "PAGES",
     "SIDES",
     "Scene",
     "Stroke",
     "UnsupportedError",
+    "VIEWS",
+    "Verdict",
     "VerifyError",
     "Warning",
     "draw",

@@ -76,10 +76,37 @@ def declare(header):
 
 
 CALLBACKS = """
+bool recto_python_poll(void *, double, const char *);
 extern "Python" bool recto_python_progress(void *, double, const char *);
 extern "Python" void recto_python_warning(void *, const char *, unsigned long,
                                           const char *);
 extern "Python" bool recto_python_write(void *, const void *, size_t);
+"""
+
+
+# The library asks thousands of times in a long drawing, and each time Python's
+# lock is to be waited for: so Python is asked anew for each call and stage, and
+# else every 10 ms.
+SOURCE = """
+#include <time.h>
+#include "recto.h"
+
+static bool recto_python_progress(void *, double, const char *);
+
+static bool recto_python_poll(void *user, double share, const char *stage) {
+  static _Thread_local void *last_user;
+  static _Thread_local const char *last_stage;
+  static _Thread_local struct timespec last;
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (user == last_user && stage == last_stage &&
+      1e9 * (now.tv_sec - last.tv_sec) + (now.tv_nsec - last.tv_nsec) < 1e7)
+    return true;
+  last_user = user;
+  last_stage = stage;
+  last = now;
+  return recto_python_progress(user, share, stage);
+}
 """
 
 
@@ -89,7 +116,7 @@ def make_builder():
     builder.cdef(declare(header.read_text(encoding="utf-8")) + CALLBACKS)
     builder.set_source(
         "recto._recto",
-        '#include "recto.h"\n',
+        SOURCE,
         extra_compile_args=cflags,
         extra_link_args=libs,
     )

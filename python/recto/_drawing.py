@@ -7,12 +7,12 @@ import json
 import os
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, Mapping, NamedTuple
 
 import numpy as np
 
 from ._library import ffi, index_of, lib, path_of, record_type, text_of, view
-from ._options import CLASS_NAMES, RESULTS, Filled, Options, check_names
+from ._options import CLASS_NAMES, RESULTS, Filled, check_names
 
 SIDES = {
     "edge": lib.RECTO_SIDE_EDGE,
@@ -117,7 +117,7 @@ class Drawing:
     Its arrays are views of the library's memory and stay valid when the
     drawing itself is deleted."""
 
-    def __init__(self, owner: Any, given: Options) -> None:
+    def __init__(self, owner: Any, given: Mapping[str, Any]) -> None:
         self._owner = owner  # a recto_drawing * that frees itself
         self._given = dict(given)
 
@@ -284,7 +284,7 @@ class Drawing:
 
     # ---- Files ------------------------------------------------------------
 
-    def _filled(self, options: Options) -> Filled:
+    def _filled(self, options: Mapping[str, Any]) -> Filled:
         check_names(options)
         return Filled({**self._given, **options})
 

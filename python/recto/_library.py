@@ -200,7 +200,7 @@ def view(
     owner: Any,
     pointer: Any,
     shape: tuple[int, ...],
-    dtype: np.dtype,
+    dtype: Any,
     strides: tuple[int, ...] | None = None,
 ) -> np.ndarray:
     """An array at `pointer`, without a copy; it keeps `owner` alive."""

@@ -93,14 +93,15 @@ CLASS_NAMES = {mask: name for name, mask in EDGE_CLASSES.items()}
 
 def _named_pairs(name_at: Any) -> dict[str, tuple[float, float]]:
     """The words of the library for two numbers, in lower case."""
-    pair, pairs = ffi.new("double[2]"), {}
+    pair = ffi.new("double[2]")
+    pairs: dict[str, tuple[float, float]] = {}
     while word := text_of(name_at(len(pairs), pair, pair + 1)):
         pairs[word.lower()] = (pair[0], pair[1])
     return pairs
 
 
-_VIEWS = _named_pairs(lib.recto_view_name)
-_PAGES = _named_pairs(lib.recto_page_name)
+VIEWS = _named_pairs(lib.recto_view_name)
+PAGES = _named_pairs(lib.recto_page_name)
 RESULTS = {
     "edges": lib.RECTO_RESULT_EDGES,
     "invisibility": lib.RECTO_RESULT_INVISIBILITY,
@@ -206,7 +207,7 @@ class _Setter:
 
     def view(self, value: str) -> None:
         camera = self.options.camera
-        camera.azimuth_deg, camera.elevation_deg = _word("view", value, _VIEWS)
+        camera.azimuth_deg, camera.elevation_deg = _word("view", value, VIEWS)
 
     def camera(self, value: Vector) -> None:
         self.options.camera.kind = lib.RECTO_CAMERA_EYE
@@ -232,7 +233,7 @@ class _Setter:
 
     def page(self, value: Any) -> None:
         if isinstance(value, str):
-            value = _word("page", value.lower(), _PAGES)
+            value = _word("page", value.lower(), PAGES)
         self.options.page.width_mm, self.options.page.height_mm = value
 
     def landscape(self, value: bool) -> None:
@@ -347,7 +348,7 @@ class Filled:
         self.call = Call(given.get("progress"))
         self.at = ffi.new("recto_options *")
         lib.recto_options_init_sized(self.at, ffi.sizeof("recto_options"))
-        self.at.progress = lib.recto_python_progress
+        self.at.progress = ffi.addressof(lib, "recto_python_poll")
         self.at.warning = lib.recto_python_warning
         self.at.user = self.call.user
         self._setter = _Setter(self.at)

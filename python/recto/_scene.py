@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Sequence
+from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
@@ -44,6 +44,18 @@ def _corners(faces: Any) -> tuple[np.ndarray, np.ndarray | None, int]:
     return np.ascontiguousarray(corners, np.uint32), offsets, size
 
 
+class Verdict(NamedTuple):
+    """What Scene.check finds: lengths of lines in mm of the page."""
+
+    drawn: float
+    false: float  # of the drawn ones, hidden or of no edge
+    visible: float  # of the requested edges
+    missing: float  # of these, not drawn
+    undecided: float  # counted as right
+    false_at: tuple[float, float] | None  # the first of each
+    missing_at: tuple[float, float] | None
+
+
 class Scene:
     """Meshes and polylines, to be drawn.
 
@@ -69,7 +81,8 @@ class Scene:
     def read(
         cls,
         path: str | os.PathLike[str],
-        format: str | None = None,
+        /,
+        model_format: str | None = None,
         **options: Unpack[Options],
     ) -> Scene:
         """Reads a model file; its format is that of its extension.  Colours,
@@ -80,7 +93,7 @@ class Scene:
             lib.recto_scene_read(
                 scene._owner,
                 path_of(path),
-                text_to(format),
+                text_to(model_format),
                 filled.at,
                 filled.call.error,
             )
@@ -91,7 +104,7 @@ class Scene:
     def from_bytes(
         cls,
         data: Any,
-        format: str | None = None,
+        model_format: str | None = None,
         name: str | os.PathLike[str] | None = None,
         **options: Unpack[Options],
     ) -> Scene:
@@ -105,7 +118,7 @@ class Scene:
                 scene._owner,
                 held,
                 len(held),
-                text_to(format),
+                text_to(model_format),
                 ffi.NULL if name is None else path_of(name),
                 filled.at,
                 filled.call.error,
@@ -142,8 +155,10 @@ class Scene:
         mesh.corners = ffi.from_buffer("uint32_t[]", corners)
         mesh.corner_count = corners.size
         mesh.face_size = size
-        mesh.face_count = corners.size // size if size else len(offsets) - 1
-        if offsets is not None:
+        if offsets is None:
+            mesh.face_count = corners.size // size
+        else:
+            mesh.face_count = len(offsets) - 1
             mesh.face_offsets = ffi.from_buffer("uint32_t[]", offsets)
         if groups is not None:
             if len(groups) != mesh.face_count:
@@ -196,8 +211,8 @@ class Scene:
 
     def render(self, **options: Unpack[Options]) -> Drawing:
         """Draws the scene for SVG files, or for those of `format`."""
-        options = {"format": "svg", **options}
-        filled = Filled(options)
+        given: dict[str, Any] = {"format": "svg", **options}
+        filled = Filled(given)
         drawing = ffi.new("recto_drawing **")
         status = lib.recto_scene_render(
             self._owner, filled.at, drawing, filled.call.error
@@ -206,7 +221,36 @@ class Scene:
         if owner != ffi.NULL:
             owner = ffi.gc(owner, lib.recto_drawing_destroy)
         filled.call.finish(status)
-        return Drawing(owner, options)
+        return Drawing(owner, given)
+
+    def check(
+        self, path: str | os.PathLike[str], /, **options: Unpack[Options]
+    ) -> Verdict:
+        """Checks any program's drawing of the scene, an SVG file, by an
+        independent ray caster: for the camera and the edge classes of the
+        options, on the file's own page."""
+        filled = Filled(options)
+        found = ffi.new("recto_verdict *")
+        filled.call.finish(
+            lib.recto_scene_check_sized(
+                self._owner,
+                path_of(path),
+                filled.at,
+                found,
+                ffi.sizeof("recto_verdict"),
+                filled.call.error,
+            )
+        )
+        at = found.false_at_mm, found.missing_at_mm
+        return Verdict(
+            found.drawn_mm,
+            found.false_mm,
+            found.visible_mm,
+            found.missing_mm,
+            found.undecided_mm,
+            (at[0][0], at[0][1]) if found.false_mm > 0 else None,
+            (at[1][0], at[1][1]) if found.missing_mm > 0 else None,
+        )
 
 
 def draw(

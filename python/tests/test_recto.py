@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import traceback
 import warnings
 import xml.etree.ElementTree as ElementTree
@@ -266,7 +267,8 @@ def test_every_option():
     text = subprocess.run(program, capture_output=True, text=True).stdout
     words = re.findall(r"^ +(?:-\w, |    )--([a-z-]+)", text, re.M)
     names = {word.replace("-", "_") for word in words}
-    others = "output from turntable no_fit stats check tolerance quiet version help"
+    others = "output from turntable no_fit stats check tolerance quiet version help "
+    others += "completion"
     known = set(recto.Options.__annotations__)
     assert names - known == set(others.split()), names ^ known
     options = recto._options
@@ -415,6 +417,46 @@ def test_notebook():
     raised(recto.Error, drawing.write, "cube.unknown")
     assert drawing.stats and drawing.verdict is None
     assert "error" not in cube().render(verify=True).verdict
+
+
+def test_check():
+    """A drawing that lacks a line, or has one too many, is found"""
+    cube().render().write("right.svg")
+    verdict = cube().check("right.svg")
+    assert verdict.false == verdict.missing == 0 and verdict.missing_at is None
+    edge = 190 / 3**0.5  # the isometric cube is as wide as the page allows
+    assert abs(verdict.drawn - 9 * edge) < 0.01
+    verdict = cube().check("right.svg", view="trimetric")
+    assert verdict.false > 6 * edge and verdict.missing > 6 * edge
+    cube().render(edges="silhouette").write("few.svg")
+    verdict = cube().check("few.svg")
+    assert abs(verdict.missing - 3 * edge) < 1 and verdict.false == 0
+    x, y = verdict.missing_at
+    assert 10 < x < 200 and 38 < y < 259
+    raised(recto.FileError, cube().check, "no.svg")
+    raised(recto.CancelledError, cube().check, "few.svg", progress=lambda *_: False)
+
+
+def test_vocabulary():
+    """Views and pages are those of the library"""
+    assert recto.VIEWS["front"] == (0, 0) and len(recto.VIEWS) == 9
+    assert recto.PAGES["a4"] == (210, 297) and len(recto.PAGES) == 9
+    for name in recto.VIEWS:
+        assert cube().render(view=name).strokes, name
+    for name, size in recto.PAGES.items():
+        assert cube().render(page=name).page == size
+
+
+def test_seldom():
+    """Python's lock is waited for every 10 ms at most, in each stage"""
+    vertices, faces = sheet(150)
+    scene = recto.Scene(vertices, faces)
+    told = []
+    before = time.monotonic()
+    scene.render(edges="all", progress=lambda _, stage: told.append(stage))
+    passed = time.monotonic() - before
+    changes = sum(a != b for a, b in zip(told, told[1:]))
+    assert changes <= len(told) <= changes + 2 + 100 * passed
 
 
 def run():
