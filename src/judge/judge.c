@@ -469,7 +469,7 @@ bool judge_drawing(struct judge_verdict *verdict,
                                   .long_edge = SCENE_NONE,
                                   .verdict = verdict};
   memset(verdict, 0, sizeof *verdict);
-  bool ok = prepare(&context, scene);
+  bool ok = prepare(&context, scene) && !poll_is_cancelled();
   if (ok) {
     judge_all_ink(&context);
     judge_all_edges(&context);

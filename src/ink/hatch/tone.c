@@ -216,6 +216,7 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
     sum_normals(&w);
     set_corners(&w, tones);
     set_regions(&w, tones);
+    ok = !poll_is_cancelled();
   }
   release(&w);
   if (!ok)
