@@ -96,17 +96,17 @@ static const struct hard_scene {
     {"fan-200", fill_fan_200, true},
     {"fan-2000", fill_fan_2000, true},
     {"honeycomb-40", fill_honeycomb, false},
-    {"lattice-200", fill_lattice, false},
-    {"sponge-3", fill_sponge, false},
+    {"lattice-200", fill_lattice, true},
+    {"sponge-3", fill_sponge, true},
     {"pipe-200x100", fill_pipe, false},
     {"sticks-1000", fill_sticks, false},
     {"soup-100", fill_soup_100, true},
     {"soup-1000", fill_soup_1000, true},
     {"soup-10000", fill_soup, false},
     {"soup-100000", fill_large_soup, false},
-    {"disc-100000", fill_disc, false},
-    {"comb-100000", fill_comb, false},
-    {"cone-100000", fill_cone, false},
+    {"disc-100000", fill_disc, true},
+    {"comb-100000", fill_comb, true},
+    {"cone-100000", fill_cone, true},
 };
 enum { SCENES = sizeof hard_scenes / sizeof *hard_scenes };
 
