@@ -125,7 +125,7 @@ static void run(const uint8_t *bytes, size_t count,
       fuzz_found(finding, "refused without a reason");
     return;
   }
-  if (arguments.help || arguments.version)
+  if (arguments.help || arguments.version || arguments.completes)
     return;
   option_scope_warn(&arguments, take_use);
   if (arguments.check_file == NULL)
