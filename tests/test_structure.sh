@@ -124,19 +124,19 @@ check_sources() {
 }
 
 # Tolerances stand in one header, each with its reason.  Comments may speak of
-# small numbers: one preprocessor takes them out of all files, and keeps the
-# line markers that say which file it is in.
+# small numbers.
 check_tolerances() {
-  # CC may be several words.
-  # shellcheck disable=SC2086
   (cd "$1" && sources . | grep -v '^src/base/tolerance\.h$' |
-    xargs awk 'FNR == 1 { print "# 1 \"" FILENAME "\"" } { print }' |
-    ${CC:-cc} -fpreprocessed -dD -E -x c - 2>/dev/null) |
-    awk '
-      /^# [0-9]+ "/ { file = $3; gsub(/"/, "", file); next }
+    xargs awk '
+      FNR == 1 { comment = 0 }
+      comment && !sub(/^([^*]|\*+[^*\/])*\*+\//, "") { next }
+      {
+        gsub(/\/\*([^*]|\*+[^*\/])*\*+\//, "")
+        comment = sub(/\/\*.*/, "")
+      }
       /(^|[^A-Za-z0-9_])[0-9]*\.?[0-9]*[eE]-[0-9]/ {
-        print file ": a tolerance: " $0
-      }'
+        print FILENAME ": a tolerance: " $0
+      }')
 }
 
 # tolerance.h names for each tolerance the files that use it, and no others.
@@ -259,6 +259,7 @@ done <"$scratch/includes"
 for literal in 1e-9 1.5e-12 1E-6f 0.e-3; do
   echo "double a = $literal;" >>"$copy/src/geom/ratio.c"
 done
+printf '/* 2e-5\n2e-5 */ double c = 2e-4; /* 2e-5 */\n' >>"$copy/src/geom/ratio.c"
 printf 'double b = 2\n  * TOLERANCE_TONE;\n' >>"$copy/src/geom/ratio.c"
 sed -i 's|Users       view/camera_axes.c|&, view/page.c|' "$copy/src/base/tolerance.h"
 echo "int n = report_get(0, 0, 0, 0);" >>"$copy/src/api/render.c"
@@ -285,6 +286,9 @@ for literal in 1e-9 1.5e-12 1E-6f 0.e-3; do
   claim "a tolerance of $literal may not stand in a source" finds \
     tolerances "src/geom/ratio.c: " " = $literal;"
 done
+claim "nor between comments" finds \
+  tolerances "src/geom/ratio.c: " " double c = 2e-4; "
+claim "but within them" test "$(wc -l <"$scratch/tolerances")" -eq 5
 claim "a user of a tolerance may not be unlisted" finds users \
   "src/geom/ratio.c: uses TOLERANCE_TONE" ""
 claim "a listed user of a tolerance must use it" finds users \
