@@ -5,6 +5,7 @@
  * in time: a loop over triangles, edges or strokes that does not poll is missed
  * here. */
 #include <math.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -56,9 +57,12 @@ struct listener {
   double share;
 };
 
+static pthread_t caller;
+
 static bool listen(void *user, double share, const char *stage) {
   struct listener *listener = user;
   assert_true(share >= listener->share && share <= 1);
+  assert_true(pthread_equal(pthread_self(), caller));
   listener->share = share;
   if (listener->stage == NULL || strcmp(stage, listener->stage) == 0)
     listener->polls++;
@@ -308,7 +312,25 @@ static void the_progress_function_may_call_the_library(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* `listen` requires it. */
+static void polls_are_in_the_callers_thread(void **state) {
+  (void)state;
+  recto_scene *scene = make_hills(100);
+  struct listener listener = {0};
+  recto_options options;
+  recto_drawing *drawing;
+  init(&options, &listener);
+  all_edges(&options);
+  painted(&options);
+  options.solver.threads = 0;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_OK);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 int main(void) {
+  caller = pthread_self();
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_stage_polls_in_each_of_its_loops),
       cmocka_unit_test(a_render_is_cancelled_at_any_poll),
@@ -319,6 +341,7 @@ int main(void) {
           writing_and_checking_are_cancelled_at_any_poll, temporary_set_up,
           temporary_tear_down),
       cmocka_unit_test(the_progress_function_may_call_the_library),
+      cmocka_unit_test(polls_are_in_the_callers_thread),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,6 +21,8 @@ struct model {
   double (*point)[3], (*page)[2], *depth;
   uint32_t *corner, *start; /* of face f: corner[start[f]] to [start[f + 1]] */
   double contact;           /* the largest tolerance of contact, scene units */
+  double scale;             /* about so many mm for a scene unit */
+  double eye; /* distance from the middle, scene units; 0: no perspective */
   size_t points, faces, corners;
   recto_scene *scene;
   recto_drawing *drawing;
@@ -74,8 +76,39 @@ static void read_geometry(struct model *m, FILE *file) {
   }
 }
 
+/* Sets an eye in no special direction from the middle of the scene. */
+static void set_eye(struct model *m, recto_options *options) {
+  const double away[3] = {0.53, 0.39, 0.76};
+  double low[3], high[3];
+  for (int k = 0; k < 3; k++) {
+    low[k] = high[k] = m->point[0][k];
+    for (size_t p = 0; p < m->points; p++) {
+      low[k] = fmin(low[k], m->point[p][k]);
+      high[k] = fmax(high[k], m->point[p][k]);
+    }
+    m->eye += 2 * (high[k] - low[k]);
+  }
+  options->camera.kind = RECTO_CAMERA_EYE;
+  options->camera.has_target = true;
+  options->camera.fov_deg = 30;
+  for (int k = 0; k < 3; k++) {
+    options->camera.target[k] = (low[k] + high[k]) / 2;
+    options->camera.eye[k] = options->camera.target[k] + away[k] * m->eye;
+  }
+}
+
+/* Where a point lies on the page, and a number that grows with its depth and is
+ * linear on planes of the page: with perspective a reciprocal, which changes as
+ * the depth does in the middle. */
+static void project(const struct model *m, const double point[3],
+                    double page[2], double *depth) {
+  assert_true(recto_drawing_project(m->drawing, point, page, depth));
+  if (m->eye > 0)
+    *depth = -m->eye * m->eye / *depth;
+}
+
 /* Draws a model from no special direction, all lines at their full length. */
-static bool draw_model(struct model *m, const char *name) {
+static bool draw_model(struct model *m, const char *name, bool perspective) {
   char path[1024];
   FILE *file = open_model(name, path);
   recto_options options;
@@ -88,6 +121,8 @@ static bool draw_model(struct model *m, const char *name) {
   recto_options_init(&options);
   options.camera.azimuth_deg = 31.7;
   options.camera.elevation_deg = 23.3;
+  if (perspective)
+    set_eye(m, &options);
   options.results = RECTO_RESULTS_ALL;
   options.ink.min_stroke_mm = 0;
   options.ink.ids = true;
@@ -99,8 +134,14 @@ static bool draw_model(struct model *m, const char *name) {
   assert_non_null(contact);
   m->contact = strtod(strchr(contact, ':') + 1, NULL);
   for (size_t p = 0; p < m->points; p++)
-    assert_true(recto_drawing_project(m->drawing, m->point[p], m->page[p],
-                                      &m->depth[p]));
+    project(m, m->point[p], m->page[p], &m->depth[p]);
+  for (size_t p = 1; p < m->points; p++) {
+    const double *a = m->point[p - 1], *b = m->point[p];
+    double mm = hypot(m->page[p][0] - m->page[p - 1][0],
+                      m->page[p][1] - m->page[p - 1][1]);
+    double length = hypot(hypot(b[0] - a[0], b[1] - a[1]), b[2] - a[2]);
+    m->scale = fmax(m->scale, length > 0 ? mm / length : 0);
+  }
   return true;
 }
 
@@ -115,11 +156,12 @@ static void free_model(struct model *m) {
 }
 
 static void with_all_models(void (*check)(const struct model *model)) {
-  for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+  for (size_t i = 0; i < 2 * sizeof names / sizeof names[0]; i++) {
     struct model model;
-    if (!draw_model(&model, names[i]))
+    bool perspective = i % 2;
+    if (!draw_model(&model, names[i / 2], perspective))
       continue;
-    print_message("%s\n", names[i]);
+    print_message("%s%s\n", names[i / 2], perspective ? ", from an eye" : "");
     check(&model);
     free_model(&model);
   }
@@ -261,12 +303,31 @@ static int count_in_front(const struct model *m, const recto_edge *edge,
       return -1; /* it may fold over the edge */
     if (over == 0 || is_own)
       continue;
+    /* Contact is measured at right angles to the face. */
     double own = plane.offset + plane.slope[0] * at[0] + plane.slope[1] * at[1];
-    if (over < 0 || !is_plane || fabs(own - depth) < 2 * m->contact)
+    double steep = hypot(plane.slope[0], plane.slope[1]) * m->scale;
+    if (over < 0 || !is_plane ||
+        fabs(own - depth) < 4 * m->contact * (1 + steep))
       return -1;
     count += own < depth;
   }
   return count;
+}
+
+static void point_along(const struct model *m, const recto_edge *edge, double t,
+                        double at[3]) {
+  const double *a = m->point[edge->points[0]], *b = m->point[edge->points[1]];
+  for (int k = 0; k < 3; k++)
+    at[k] = a[k] + t * (b[k] - a[k]);
+}
+
+/* The point at t of an edge is there on the page. */
+static void check_place(const struct model *m, const recto_edge *edge, double t,
+                        const double place[2]) {
+  double at[3], page[2], depth;
+  point_along(m, edge, t, at);
+  project(m, at, page, &depth);
+  assert_true(hypot(page[0] - place[0], page[1] - place[1]) < 1e-4);
 }
 
 static void check_invisibility(const struct model *m) {
@@ -281,14 +342,12 @@ static void check_invisibility(const struct model *m) {
       continue;
     for (size_t k = 0; k < edge.interval_count; k++) {
       const recto_interval *part = &edge.intervals[k];
-      double t = (part->t0 + part->t1) / 2, at[3], page[2], depth;
-      for (int j = 0; j < 3; j++)
-        at[j] = m->point[edge.points[0]][j] +
-                t * (m->point[edge.points[1]][j] - m->point[edge.points[0]][j]);
-      assert_true(recto_drawing_project(m->drawing, at, page, &depth));
-      assert_true(hypot(page[0] - (part->from_mm[0] + part->to_mm[0]) / 2,
-                        page[1] - (part->from_mm[1] + part->to_mm[1]) / 2) <
-                  1e-4);
+      double at[3], page[2], depth;
+      check_place(m, &edge, part->t0, part->from_mm);
+      check_place(m, &edge, part->t1, part->to_mm);
+      double t = (part->t0 + part->t1) / 2;
+      point_along(m, &edge, t, at);
+      project(m, at, page, &depth);
       int front = count_in_front(m, &edge, page, depth);
       if (front < 0)
         continue;
