@@ -2,7 +2,7 @@
 # frame of the second.
 #
 # A block of the header is a comment and the declarations below it, up to an
-# empty line; it is an entry where it declares a function.
+# empty line; it is an entry where it declares a function or the type of one.
 
 # Text as troff takes it; names in backquotes become italic.
 function escape(text) {
@@ -36,7 +36,7 @@ function add_entry(declarations, count, part, i, heads) {
   count = split(declarations, part, ";")
   for (i = 1; i <= count; i++) {
     gsub(/^ +|RECTO_USE_RESULT | +$/, "", part[i])
-    if (part[i] ~ /recto_[a-z_]+\(/ && part[i] !~ /[{}]/) {
+    if (part[i] ~ /recto_[a-z_]+\)?\(/ && part[i] !~ /[{}]/) {
       gsub(/ +/, " ", part[i])
       gsub(/\( /, "(", part[i])
       gsub(/\*/, "* ", part[i])

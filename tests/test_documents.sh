@@ -52,11 +52,12 @@ header=$srcdir/src/recto.h
 library_manual=$scratch/recto.3
 awk -f "$srcdir/doc/manual.awk" "$header" "$srcdir/doc/recto.3.in" \
   >"$library_manual"
-# Whatever looks like the name of a function, declared or defined as a macro.
+# Whatever looks like the name of a function, declared or defined as a macro, or
+# of the type of a function that is called back.
 all_are_explained() {
   local name all=0
   for name in $(sed 's|/\*.*||; /^ \*/d' "$header" |
-    grep -oE '\brecto_[a-z_0-9]+\(' | sort -u); do
+    grep -oE '\brecto_[a-z_0-9]+\)?\(' | sort -u); do
     sed 's/\\-/-/g' "$library_manual" |
       awk -v name="$name" '/^\.B / && index($0, name) { head = 1; next }
         /^\./ { next }
