@@ -132,3 +132,13 @@ bool sort_stable(void *item, size_t count, size_t size,
   mem_free(scratch);
   return ok;
 }
+
+static int compare_ids(const void *a, const void *b, void *user) {
+  uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
+  (void)user;
+  return (p > q) - (p < q);
+}
+
+bool sort_ids(uint32_t *id, size_t count) {
+  return sort_stable(id, count, sizeof *id, compare_ids, NULL);
+}

@@ -22,6 +22,9 @@ USE_RESULT bool sort_stable(void *item, size_t count, size_t size,
                             int (*compare)(const void *, const void *, void *),
                             void *user);
 
+/* Sorts numbers in ascending order.  False when memory ran out. */
+USE_RESULT bool sort_ids(uint32_t *id, size_t count);
+
 /* Sets `i`, a size_t, to the first index from `low` to before `high` for which
  * the expression `is_below` of i is false, or to `high`: a lower bound in a
  * sorted array, by binary search. */

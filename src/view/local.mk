@@ -4,6 +4,7 @@ librecto_core_la_SOURCES += \
   %D%/reflex_tree.c %D%/reflex_tree.h \
   %D%/camera.c %D%/camera.h \
   %D%/clip.c %D%/clip.h \
+  %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/coordinate_error.c %D%/coordinate_error.h \
   %D%/extent.c %D%/extent.h \
   %D%/camera_axes.c %D%/camera_axes.h \

@@ -1,64 +1,10 @@
-/* triangulate.c - triangulates a polygon in space by ear clipping.
- *
- * Rule  It decides where a polygon that is not planar folds, and so is part of
- * what is drawn; src/judge/triangulation.c implements it independently.
- *   1 A corner at the position of the previous one is removed, and so is a
- *     corner whose neighbours have one position: the sides run back over each
- *     other there.
- *   2 The polygon is projected along the axis of largest projected area
- *     (polygon.h), mirrored where needed to run counter-clockwise.
- *   3 An ear is a corner that turns left and whose closed triangle contains no
- *     other corner that does not turn left; corners at the positions of its own
- *     three do not count.  While there are more than three corners, the ear
- *     with the shortest diagonal in space is cut off.  Of equally long ones it
- *     is the one whose lower end is first in the order of x, y, z, then the one
- *     whose other end is.
- *     A spike, a corner where the projection runs back over itself, is cut off
- *     before any ear.
- *     Where a cut brings two corners to one position, step 1 is repeated.
- *   4 A corner that was found to be no ear is tested again when a cut ends at
- *     it or beside it, or corners were removed there.  Where no corner is left
- *     to be tested the polygon is not simple.  Then the first corner in the
- *     order of step 3 is cut off, those without area before convex and these
- *     before reflex ones, and all are tested again.
- *
- * Quadrilaterals
- *   By this rule one is cut along the shorter of the diagonals inside.
- * Why the shortest diagonal
- *   It does not depend on the first corner, the winding or mirroring.  A
- *   polygon with equal sides loses every other corner, then every other of
- *   those left, so that its triangles are compact and a line meets few of them.
- * Invariants
- *   If any corner is inside an ear's triangle of a simple polygon, the one
- *   farthest from the diagonal is not convex; so only corners that are not
- *   convex are tested, and only those near the triangle (reflex_tree.h).
- *   A corner on the diagonal blocks the ear, so that a point in the middle of a
- *   side never remains as a triangle without area.
- *   Spikes, which occur where loops that touch were split, are cut off first:
- *   otherwise all of their neighbours might look like ears.
- *   A cut can make ears of its two neighbours only, so two corners are tested
- *   after each.
- * Robustness
- *   All turns are decided by exact_turn.  After too many repeated tests corners
- *   are cut off untested, so the loop always ends.
- * Source  ear clipping: [Meisters1975], the two-ears theorem.
- */
+/* triangulate.c - triangulates a polygon in space: triangles and quadrilaterals
+ * at once, others by ear clipping. */
 #include "view/triangulate.h"
 
 #include "base/tolerance.h"
-#include "scene/exact.h"
+#include "view/ear_clipping.h"
 #include "view/polygon.h"
-
-enum {
-  TURN_GONE = 2, /* of a corner that was cut off */
-  /* The number of corners of a polygon that is not simple that are tested
-   * again: a constant, and so many for each corner. */
-  RECHECK_CORNERS = 1 << 20,
-  RECHECK_PER_CORNER = 32
-};
-
-/* The rank of a corner in the queue; among equal ranks diagonals decide. */
-enum { RANK_SPIKE, RANK_EAR, RANK_STRAIGHT, RANK_CONVEX, RANK_REFLEX };
 
 void triangulation_fini(struct triangulation *triangulation) {
   ARRAY_FREE(&triangulation->triangle);
@@ -67,396 +13,6 @@ void triangulation_fini(struct triangulation *triangulation) {
   ARRAY_FREE(&triangulation->same);
   reflex_tree_fini(&triangulation->tree);
 }
-
-static int turn_at(const struct triangulation_corner *corner, uint32_t a,
-                   uint32_t b, uint32_t c) {
-  return exact_turn(corner[a].at, corner[b].at, corner[c].at);
-}
-
-static bool is_before(const double a[2], const double b[2]) {
-  return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
-}
-
-static bool is_at(const double a[2], const double b[2]) {
-  return a[0] == b[0] && a[1] == b[1];
-}
-
-static void add(struct triangulation *triangulation, uint32_t a, uint32_t b,
-                uint32_t c, uint32_t ab, uint32_t bc, uint32_t ca) {
-  triangulation->triangle.item[triangulation->triangle.count++] =
-      (struct triangulation_triangle){{a, b, c}, {ab, bc, ca}};
-}
-
-/* ---- The order of corners ------------------------------------------------ */
-
-struct ear_clipper {
-  struct triangulation *triangulation;
-  const struct polygon *polygon;
-  struct triangulation_corner *corner;
-  uint32_t count, left;    /* corners at first, and now */
-  uint32_t diagonals;      /* made so far */
-  uint32_t queued;         /* length of the queue */
-  bool unchecked;          /* corners are cut off untested */
-  uint64_t recheck_budget; /* corners that may still be tested again */
-};
-
-/* The ends of a diagonal, in the order of polygon_compare. */
-struct polygon_ends {
-  uint32_t low, high;
-};
-
-static struct polygon_ends ends_past(const struct ear_clipper *clipper,
-                                     uint32_t b) {
-  uint32_t a = clipper->corner[b].prev, c = clipper->corner[b].next;
-  return polygon_compare(clipper->polygon, a, c) < 0
-             ? (struct polygon_ends){a, c}
-             : (struct polygon_ends){c, a};
-}
-
-/* Compares the diagonals that cut off two corners by length, then by their
- * ends, then the corners by position and number: a quadrilateral has two ears
- * with one diagonal. */
-static int compare_diagonals(const struct ear_clipper *clipper, uint32_t b,
-                             uint32_t d) {
-  double one = clipper->corner[b].length, two = clipper->corner[d].length;
-  if (one != two)
-    return one < two ? -1 : 1;
-  struct polygon_ends e = ends_past(clipper, b), f = ends_past(clipper, d);
-  int order = polygon_compare(clipper->polygon, e.low, f.low);
-  if (order == 0)
-    order = polygon_compare(clipper->polygon, e.high, f.high);
-  if (order == 0)
-    order = polygon_compare(clipper->polygon, b, d);
-  return order != 0 ? order : (b > d) - (b < d);
-}
-
-static bool goes_before(const struct ear_clipper *clipper, uint32_t b,
-                        uint32_t d) {
-  const struct triangulation_corner *corner = clipper->corner;
-  return corner[b].rank != corner[d].rank
-             ? corner[b].rank < corner[d].rank
-             : compare_diagonals(clipper, b, d) < 0;
-}
-
-/* ---- The queue ----------------------------------------------------------- */
-
-static void set_slot(struct ear_clipper *clipper, uint32_t slot, uint32_t b) {
-  clipper->triangulation->queue.item[slot - 1] = b;
-  clipper->corner[b].slot = slot;
-}
-
-/* Restores the heap order by sifting b up or down from an empty slot. */
-static void sift(struct ear_clipper *clipper, uint32_t slot, uint32_t b) {
-  const uint32_t *queue = clipper->triangulation->queue.item;
-  while (slot > 1 && goes_before(clipper, b, queue[slot / 2 - 1])) {
-    set_slot(clipper, slot, queue[slot / 2 - 1]);
-    slot /= 2;
-  }
-  while (2 * slot <= clipper->queued) {
-    uint32_t child = 2 * slot;
-    if (child < clipper->queued &&
-        goes_before(clipper, queue[child], queue[child - 1]))
-      child++;
-    if (!goes_before(clipper, queue[child - 1], b))
-      break;
-    set_slot(clipper, slot, queue[child - 1]);
-    slot = child;
-  }
-  set_slot(clipper, slot, b);
-}
-
-static void queue_remove(struct ear_clipper *clipper, uint32_t b) {
-  uint32_t slot = clipper->corner[b].slot;
-  if (slot == 0)
-    return;
-  uint32_t last = clipper->triangulation->queue.item[--clipper->queued];
-  clipper->corner[b].slot = 0;
-  if (last != b)
-    sift(clipper, slot, last);
-}
-
-static void queue_insert(struct ear_clipper *clipper, uint32_t b) {
-  sift(clipper, ++clipper->queued, b);
-}
-
-/* ---- The state of a corner ----------------------------------------------- */
-
-static void set_turn(struct ear_clipper *clipper, uint32_t c, int turn) {
-  struct triangulation_corner *corner = &clipper->corner[c];
-  bool was_reflex = corner->turn <= 0, is_reflex = turn <= 0;
-  if (was_reflex != is_reflex)
-    reflex_tree_set(&clipper->triangulation->tree, c, is_reflex);
-  corner->turn = (int8_t)turn;
-}
-
-/* Whether the projection runs back over itself at a corner, or one of the two
- * sides there has no length. */
-static bool is_spike(const struct triangulation_corner *corner, uint32_t b) {
-  const double *at = corner[b].at;
-  const double *from = corner[corner[b].prev].at;
-  const double *to = corner[corner[b].next].at;
-  return corner[b].turn == 0 && (is_at(from, at) || is_at(at, to) ||
-                                 is_before(from, at) == is_before(to, at));
-}
-
-/* The rank of a corner that is cut off without testing whether it is an ear. */
-static uint8_t rank_by_turn(int turn) {
-  return turn == 0 ? RANK_STRAIGHT : turn > 0 ? RANK_CONVEX : RANK_REFLEX;
-}
-
-/* Updates a corner that has a new neighbour, and queues it. */
-static void update_corner(struct ear_clipper *clipper, uint32_t b) {
-  struct triangulation_corner *corner = &clipper->corner[b];
-  queue_remove(clipper, b);
-  set_turn(clipper, b, turn_at(clipper->corner, corner->prev, b, corner->next));
-  corner->length =
-      polygon_distance(clipper->polygon, corner->prev, corner->next);
-  bool spike = is_spike(clipper->corner, b);
-  corner->rank = spike                ? RANK_SPIKE
-                 : clipper->unchecked ? rank_by_turn(corner->turn)
-                                      : RANK_EAR;
-  if (spike || clipper->unchecked || corner->turn > 0)
-    queue_insert(clipper, b);
-}
-
-/* A candidate ear a, b, c. */
-struct ear {
-  const struct triangulation_corner *corner;
-  uint32_t a, b, c;
-};
-
-/* Whether p is not convex, in the closed triangle a, b, c, and at none of its
- * corners. */
-static bool blocks(const void *user, uint32_t p) {
-  const struct ear *ear = user;
-  const struct triangulation_corner *corner = ear->corner;
-  const double *at = corner[p].at, *a = corner[ear->a].at,
-               *b = corner[ear->b].at, *c = corner[ear->c].at;
-  if (corner[p].turn > 0 || is_at(at, a) || is_at(at, b) || is_at(at, c))
-    return false;
-  return exact_turn(c, a, at) >= 0 && exact_turn(a, b, at) >= 0 &&
-         exact_turn(b, c, at) >= 0;
-}
-
-static bool is_ear(const struct ear_clipper *clipper, uint32_t b) {
-  const struct triangulation_corner *corner = clipper->corner;
-  struct ear ear = {corner, corner[b].prev, b, corner[b].next};
-  const double *triangle[3] = {corner[ear.a].at, corner[b].at,
-                               corner[ear.c].at};
-  return corner[b].turn > 0 && !reflex_tree_query(&clipper->triangulation->tree,
-                                                  triangle, blocks, &ear);
-}
-
-/* ---- Corners at one position --------------------------------------------- */
-
-static bool are_at_one_place(const struct ear_clipper *clipper, uint32_t a,
-                             uint32_t b) {
-  return polygon_compare(clipper->polygon, a, b) == 0;
-}
-
-static uint32_t representative_side(const struct ear_clipper *clipper,
-                                    uint32_t side) {
-  const uint32_t *same = clipper->triangulation->same.item;
-  while (same[side] != side)
-    side = same[side];
-  return side;
-}
-
-/* Records that two sides run between the same two positions: a diagonal is
- * replaced by the polygon's side, or by the earlier diagonal. */
-static void merge_sides(struct ear_clipper *clipper, uint32_t one,
-                        uint32_t two) {
-  one = representative_side(clipper, one);
-  two = representative_side(clipper, two);
-  if (one >= clipper->count || two >= clipper->count)
-    clipper->triangulation->same.item[one > two ? one : two] =
-        one > two ? two : one;
-}
-
-/* Removes a corner; the previous one's side now ends at the next one. */
-static void remove_corner(struct ear_clipper *clipper, uint32_t b) {
-  struct triangulation_corner *corner = clipper->corner;
-  queue_remove(clipper, b);
-  set_turn(clipper, b, TURN_GONE);
-  corner[corner[b].prev].next = corner[b].next;
-  corner[corner[b].next].prev = corner[b].prev;
-  clipper->left--;
-}
-
-/* Removes a corner at the position of the next one; returns one that is
- * left. */
-static uint32_t remove_duplicate(struct ear_clipper *clipper, uint32_t b) {
-  remove_corner(clipper, b);
-  return clipper->corner[b].prev;
-}
-
-/* Removes a corner whose neighbours have one position; returns one that is
- * left. */
-static uint32_t remove_spike(struct ear_clipper *clipper, uint32_t b) {
-  uint32_t a = clipper->corner[b].prev;
-  merge_sides(clipper, clipper->corner[a].side, clipper->corner[b].side);
-  remove_corner(clipper, b);
-  /* The next corner is at the position of this one: remove it, too, and take
-   * over its side. */
-  clipper->corner[a].side = clipper->corner[clipper->corner[a].next].side;
-  remove_corner(clipper, clipper->corner[a].next);
-  return a;
-}
-
-/* Removes duplicates and spikes at b and its neighbours until there are none,
- * or two corners are left; returns a corner that is left there. */
-static uint32_t remove_degenerate(struct ear_clipper *clipper, uint32_t b) {
-  struct triangulation_corner *corner = clipper->corner;
-  while (clipper->left > 2) {
-    uint32_t a = corner[b].prev, c = corner[b].next;
-    if (are_at_one_place(clipper, b, c))
-      b = remove_duplicate(clipper, b);
-    else if (are_at_one_place(clipper, a, b))
-      b = remove_duplicate(clipper, a);
-    else if (are_at_one_place(clipper, a, c))
-      b = remove_spike(clipper, b);
-    else if (are_at_one_place(clipper, corner[a].prev, b))
-      b = remove_spike(clipper, a);
-    else if (are_at_one_place(clipper, corner[c].next, b))
-      b = remove_spike(clipper, c);
-    else
-      break;
-  }
-  if (clipper->left == 2)
-    merge_sides(clipper, corner[b].side, corner[corner[b].next].side);
-  return b;
-}
-
-/* ---- Cutting ------------------------------------------------------------- */
-
-/* Cuts off corner b; returns one that is left. */
-static uint32_t cut_off_corner(struct ear_clipper *clipper, uint32_t b) {
-  struct triangulation_corner *corner = clipper->corner;
-  uint32_t a = corner[b].prev, c = corner[b].next;
-  uint32_t side = clipper->count + clipper->diagonals++;
-  add(clipper->triangulation, a, b, c, corner[a].side, corner[b].side, side);
-  remove_corner(clipper, b);
-  corner[a].side = side;
-  uint32_t left = clipper->left;
-  a = remove_degenerate(clipper, a);
-  if (clipper->left > 2) {
-    update_corner(clipper, corner[a].prev);
-    update_corner(clipper, a);
-    update_corner(clipper, corner[a].next);
-  }
-  if (clipper->left > 3 && clipper->left == left)
-    update_corner(clipper, corner[c].next);
-  return a;
-}
-
-/* The first corner in the order of the queue where there is no ear. */
-static uint32_t choose_corner(struct ear_clipper *clipper, uint32_t start) {
-  struct triangulation_corner *corner = clipper->corner;
-  uint32_t best = start, c = start;
-  do {
-    corner[c].rank = rank_by_turn(corner[c].turn);
-    if (goes_before(clipper, c, best))
-      best = c;
-    c = corner[c].next;
-  } while (c != start);
-  return best;
-}
-
-static void update_all(struct ear_clipper *clipper, uint32_t start) {
-  uint32_t c = start;
-  do {
-    update_corner(clipper, c);
-    c = clipper->corner[c].next;
-  } while (c != start);
-}
-
-/* Cuts off a corner of a polygon that is not simple and so has no ear. */
-static uint32_t cut_without_ear(struct ear_clipper *clipper, uint32_t b) {
-  b = cut_off_corner(clipper, choose_corner(clipper, b));
-  clipper->unchecked = clipper->recheck_budget < clipper->left;
-  clipper->recheck_budget -= clipper->unchecked ? 0 : clipper->left;
-  if (clipper->left > 3)
-    update_all(clipper, b);
-  return b;
-}
-
-static uint32_t cut_ears(struct ear_clipper *clipper, uint32_t b) {
-  while (clipper->left > 3) {
-    if (clipper->queued == 0) {
-      b = cut_without_ear(clipper, b);
-      continue;
-    }
-    uint32_t next = clipper->triangulation->queue.item[0];
-    queue_remove(clipper, next);
-    if (clipper->corner[next].rank != RANK_EAR || is_ear(clipper, next))
-      b = cut_off_corner(clipper, next);
-  }
-  return b;
-}
-
-/* ---- The whole polygon --------------------------------------------------- */
-
-static void link_corners(struct ear_clipper *clipper) {
-  struct triangulation_corner *corner = clipper->corner;
-  for (uint32_t c = 0; c < clipper->count; c++) {
-    corner[c].prev = c == 0 ? clipper->count - 1 : c - 1;
-    corner[c].next = c + 1 == clipper->count ? 0 : c + 1;
-    corner[c].side = c;
-    corner[c].turn = 1;
-    corner[c].slot = 0;
-  }
-  for (uint32_t side = 0; side < 2 * clipper->count; side++)
-    clipper->triangulation->same.item[side] = side;
-}
-
-/* Goes around once and removes duplicates and spikes. */
-static uint32_t remove_all_degenerate(struct ear_clipper *clipper) {
-  uint32_t b = 0;
-  for (uint32_t c = 0; c < clipper->count && clipper->left > 2; c++)
-    if (clipper->corner[c].turn != TURN_GONE)
-      b = remove_degenerate(clipper, c);
-  return b;
-}
-
-static void number_sides(struct ear_clipper *clipper) {
-  struct triangulation *t = clipper->triangulation;
-  for (size_t i = 0; i < t->triangle.count; i++)
-    for (int k = 0; k < 3; k++)
-      t->triangle.item[i].side[k] =
-          representative_side(clipper, t->triangle.item[i].side[k]);
-}
-
-static bool cut_polygon(struct triangulation *triangulation,
-                        const struct polygon *polygon) {
-  uint32_t count = polygon->count;
-  struct ear_clipper clipper = {
-      .triangulation = triangulation,
-      .polygon = polygon,
-      .corner = triangulation->corner.item,
-      .count = count,
-      .left = count,
-      .recheck_budget = RECHECK_CORNERS + RECHECK_PER_CORNER * (uint64_t)count};
-  if (!ARRAY_RESERVE(&triangulation->queue, count) ||
-      !ARRAY_RESERVE(&triangulation->same, 2 * (size_t)count) ||
-      !reflex_tree_init(&triangulation->tree, clipper.corner,
-                        sizeof *clipper.corner, count))
-    return false;
-  link_corners(&clipper);
-  uint32_t b = remove_all_degenerate(&clipper);
-  if (clipper.left > 3) {
-    update_all(&clipper, b);
-    b = cut_ears(&clipper, b);
-  }
-  if (clipper.left == 3) {
-    uint32_t a = clipper.corner[b].prev, c = clipper.corner[b].next;
-    add(triangulation, a, b, c, clipper.corner[a].side, clipper.corner[b].side,
-        clipper.corner[c].side);
-  }
-  number_sides(&clipper);
-  return true;
-}
-
-/* ---- Triangles and quadrilaterals ---------------------------------------- */
 
 static bool has_repeats(const struct polygon *polygon) {
   for (uint32_t c = 0; c < polygon->count; c++)
@@ -480,23 +36,26 @@ static bool is_shorter_from_0(const struct polygon *polygon) {
   return first % 2 == 0;
 }
 
-/* Cuts a quadrilateral by a diagonal that leaves area on both its sides; false
+/* By the rule of ear_clipping.c a quadrilateral is cut along the shorter of the
+ * diagonals inside.  Cuts it by a diagonal that leaves area on both its sides; false
  * where there is none. */
 static bool cut_quadrilateral(struct triangulation *triangulation,
                               const struct polygon *polygon) {
   const struct triangulation_corner *corner = triangulation->corner.item;
-  bool from_0 = turn_at(corner, 0, 1, 2) > 0 && turn_at(corner, 2, 3, 0) > 0;
-  bool from_1 = turn_at(corner, 3, 0, 1) > 0 && turn_at(corner, 1, 2, 3) > 0;
+  bool from_0 = triangulation_turn(corner, 0, 1, 2) > 0 &&
+                triangulation_turn(corner, 2, 3, 0) > 0;
+  bool from_1 = triangulation_turn(corner, 3, 0, 1) > 0 &&
+                triangulation_turn(corner, 1, 2, 3) > 0;
   if (!from_0 && !from_1)
     return false;
   if (from_0 && from_1)
     from_0 = is_shorter_from_0(polygon);
   if (from_0) {
-    add(triangulation, 0, 1, 2, 0, 1, 4);
-    add(triangulation, 0, 2, 3, 4, 2, 3);
+    triangulation_add(triangulation, 0, 1, 2, 0, 1, 4);
+    triangulation_add(triangulation, 0, 2, 3, 4, 2, 3);
   } else {
-    add(triangulation, 0, 1, 3, 0, 4, 3);
-    add(triangulation, 1, 2, 3, 1, 2, 4);
+    triangulation_add(triangulation, 0, 1, 3, 0, 4, 3);
+    triangulation_add(triangulation, 1, 2, 3, 1, 2, 4);
   }
   return true;
 }
@@ -513,7 +72,7 @@ bool triangulate(struct triangulation *triangulation,
     return false;
   if (count == 3) {
     if (!has_repeats(&polygon))
-      add(triangulation, 0, 1, 2, 0, 1, 2);
+      triangulation_add(triangulation, 0, 1, 2, 0, 1, 2);
     return true;
   }
   struct polygon_areas areas = polygon_measure(&polygon);
@@ -524,5 +83,5 @@ bool triangulate(struct triangulation *triangulation,
                   sizeof *triangulation->corner.item);
   return (count == 4 && !has_repeats(&polygon) &&
           cut_quadrilateral(triangulation, &polygon)) ||
-         cut_polygon(triangulation, &polygon);
+         ear_clipping(triangulation, &polygon);
 }

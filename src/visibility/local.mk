@@ -7,6 +7,7 @@ librecto_core_la_SOURCES += \
   %D%/solver.c %D%/solver.h \
   %D%/brute/brute.c %D%/brute/brute.h \
   %D%/fragments/fragments.c %D%/fragments/fragments.h \
+  %D%/fragments/fragments_union.c \
   %D%/fragments/line_index.c %D%/fragments/line_index.h \
   %D%/fragments/occluder_subtraction.c %D%/fragments/occluder_subtraction.h \
   %D%/fragments/planar_subdivision.c %D%/fragments/planar_subdivision.h \

@@ -44,7 +44,9 @@ enum map_side {
   MAP_SIDE_CLIP          /* the page's border or the near plane: never inked */
 };
 
-#define MAP_CORNER_SCALE 256 /* corners are multiples of 1/256 grid unit */
+/* Corners are rounded to so many fractional bits of a grid unit. */
+#define MAP_CORNER_BITS 8
+#define MAP_CORNER_SCALE (1 << MAP_CORNER_BITS)
 
 /* A corner of a fragment and the side that starts there. */
 struct map_corner {

@@ -94,13 +94,9 @@ bool brute_subtract_all(struct brute_pieces *pieces, const struct sheet *sheet,
   struct triangle_plane plane = triangle_plane_of(sheet, f);
   struct geom_convex piece;
   arena_reset(&pieces->arena);
-  struct geom_line *line = arena_alloc(&pieces->arena, 6, sizeof *line);
-  if (line == NULL)
-    return false;
-  triangle_lines(sheet, f, line, line + 3);
   pieces->left.count = 0;
   pieces->whole = true;
-  if (!geom_convex_triangle(&piece, plane.p, line, &pieces->arena) ||
+  if (!triangle_as_convex(sheet, f, &piece, &pieces->arena) ||
       !ARRAY_PUSH(&pieces->left, piece))
     return false;
   for (uint32_t g = 0; g < n; g++)

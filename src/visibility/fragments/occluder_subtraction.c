@@ -54,12 +54,8 @@ bool occluder_subtraction_start(struct occluder_subtraction *subtraction,
   if (part != NULL)
     return ARRAY_PUSH(&subtraction->left, *part);
   struct geom_convex piece;
-  struct geom_line *line = arena_alloc(&subtraction->arena, 6, sizeof *line);
-  if (line == NULL)
-    return false;
-  triangle_lines(subtraction->sheet, triangle, line, line + 3);
-  return geom_convex_triangle(&piece, subtraction->plane.p, line,
-                              &subtraction->arena) &&
+  return triangle_as_convex(subtraction->sheet, triangle, &piece,
+                            &subtraction->arena) &&
          ARRAY_PUSH(&subtraction->left, piece);
 }
 

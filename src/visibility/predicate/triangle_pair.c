@@ -45,6 +45,16 @@ void triangle_lines(const struct sheet *sheet, uint32_t triangle,
   }
 }
 
+bool triangle_as_convex(const struct sheet *sheet, uint32_t triangle,
+                        struct geom_convex *piece, struct arena *arena) {
+  struct geom_line *line = arena_alloc(arena, 6, sizeof *line);
+  if (line == NULL)
+    return false;
+  triangle_lines(sheet, triangle, line, line + 3);
+  return geom_convex_triangle(piece, sheet_corners(sheet, triangle).p, line,
+                              arena);
+}
+
 int plane_sides(const struct geom_plane *plane, const struct geom_point p[3]) {
   int sides = 0;
   for (int k = 0; k < 3; k++) {

@@ -32,6 +32,11 @@ bool triangles_disjoint(const struct sheet *sheet, uint32_t f, uint32_t g);
 void triangle_lines(const struct sheet *sheet, uint32_t triangle,
                     struct geom_line line[3], struct geom_line back[3]);
 
+/* The triangle as a piece of itself.  Returns false when memory ran out. */
+USE_RESULT bool triangle_as_convex(const struct sheet *sheet, uint32_t triangle,
+                                   struct geom_convex *piece,
+                                   struct arena *arena);
+
 /* On which sides of a plane the corners p lie.  Exact.
  * Returns a mask; 0 where all corners are on the plane. */
 enum { PLANE_BEHIND = 1, PLANE_IN_FRONT = 2 };
