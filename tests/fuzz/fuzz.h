@@ -27,6 +27,7 @@ struct fuzz_target {
 };
 
 extern const struct fuzz_target fuzz_target_cli;
+extern const struct fuzz_target fuzz_target_mesh;
 extern const struct fuzz_target fuzz_target_mtl;
 extern const struct fuzz_target fuzz_target_obj;
 extern const struct fuzz_target fuzz_target_ply;

@@ -2,7 +2,8 @@
 # replays their inputs, and the same linked with libFuzzer (make fuzz).
 fuzz_sources = %D%/fuzz.h %D%/targets.c \
   %D%/decode.c %D%/decode.h %D%/render.c %D%/render.h \
-  %D%/target_cli.c %D%/target_reader.c %D%/target_scene.c %D%/target_svg.c \
+  %D%/target_cli.c %D%/target_mesh.c %D%/target_reader.c \
+  %D%/target_scene.c %D%/target_svg.c \
   tests/reading.c tests/reading.h \
   src/cli/arguments.c src/cli/frames.c src/cli/lists.c src/cli/options.c \
   src/cli/option_scope.c src/cli/value.c

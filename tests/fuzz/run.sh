@@ -14,7 +14,7 @@ found=0
 
 longest() {
   case $1 in
-    scene) echo 200 ;;
+    scene | mesh) echo 200 ;;
     cli) echo 500 ;;
     *) echo 4096 ;;
   esac
