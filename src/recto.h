@@ -295,7 +295,7 @@ typedef struct recto_camera_options {
 } recto_camera_options;
 
 typedef struct recto_page_options {
-  double width_mm, height_mm;
+  double width_mm, height_mm; /* RECTO_FINEST_MM to 2000 */
   double margin_mm; /* on every side, and nothing is drawn there; negative:
                        RECTO_USUAL_MARGIN_MM or, if that is less, a quarter of
                        the shorter side; as much more as the plotter of the

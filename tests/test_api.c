@@ -171,6 +171,7 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
   REFUSED(camera.section, (double)NAN);
   REFUSED(page.width_mm, 0);
   REFUSED(page.height_mm, -297);
+  REFUSED(page.height_mm, 0.0099);
   REFUSED(page.width_mm, 2001);
   REFUSED(page.margin_mm, (double)NAN);
   REFUSED(page.margin_mm, 105);
