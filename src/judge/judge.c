@@ -161,20 +161,21 @@ static bool is_doubtful(const struct judge_edge *edge) {
   return edge->source.point[0] == SCENE_NONE && edge->source.class_mask == 0;
 }
 
-/* Whether a stroke near an edge runs along it, rather than across. */
+/* Whether a stroke near an edge runs along it to one side or both, rather than
+ * across. */
 static bool runs_along(const struct judge_context *context,
                        const struct judge_segment *stroke,
                        const struct judge_segment *edge,
                        struct judge_point2 at) {
   double lateral = context->options.lateral_mm, t;
   double length = length_of(stroke);
+  bool along = length == 0;
   judge_distance(stroke, at, &t);
-  for (int side = -1; length > 0 && side <= 1; side += 2) {
+  for (int side = -1; !along && side <= 1; side += 2) {
     double aside = fmin(fmax(t + side * 64 * lateral / length, 0), 1);
-    if (!judge_is_within(edge, point_on(stroke, aside), 2 * lateral))
-      return false;
+    along = judge_is_within(edge, point_on(stroke, aside), 2 * lateral);
   }
-  return true;
+  return along;
 }
 
 /* Decides whether a visible edge explains the ink at a point of a stroke.  The
