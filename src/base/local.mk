@@ -5,6 +5,7 @@ librecto_core_la_SOURCES += \
   %D%/digits.h \
   %D%/gunzip.c %D%/gunzip.h \
   %D%/gzip.c %D%/gzip.h \
+  %D%/hash.h \
   %D%/input.c %D%/input.h \
   %D%/memory.c %D%/memory.h \
   %D%/number.c %D%/number.h \

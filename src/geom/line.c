@@ -18,6 +18,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "geom/wide.h"
 
 void geom_line_through(struct geom_line *line, struct geom_point p,
@@ -194,14 +195,11 @@ static uint64_t magnitude(int64_t a) {
 /* Mixes the coefficients, which have no common divisor, so that few lines share
  * a number that are different. */
 static uint64_t mix(struct narrow_line l) {
-  const uint64_t odd = UINT64_C(0x9e3779b97f4a7c15); /* 2^64 / golden ratio */
   bool turned = l.a < 0 || (l.a == 0 && l.b < 0);
   const uint64_t part[3] = {(uint64_t)l.a, (uint64_t)l.b, (uint64_t)l.c};
   uint64_t sum = 0;
-  for (int k = 0; k < 3; k++) {
-    sum = (sum ^ (turned ? 0 - part[k] : part[k])) * odd;
-    sum ^= sum >> 32;
-  }
+  for (int k = 0; k < 3; k++)
+    sum = hash_add(sum, turned ? 0 - part[k] : part[k]);
   return sum;
 }
 

@@ -8,6 +8,7 @@
 
 #include <string.h>
 
+#include "base/hash.h"
 #include "scene/limit.h"
 
 enum { FEWEST_BITS = 6 };
@@ -22,24 +23,11 @@ void positions_fini(struct positions *positions) {
   positions->bits = 0;
 }
 
-static uint64_t bits_of(double value) {
-  uint64_t bits;
-  memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-
-/* Coordinates that were single numbers end in zeros: the product spreads
- * their bits upwards, the shift brings them down again. */
-static uint64_t mix(uint64_t hash, uint64_t bits) {
-  hash = (hash ^ bits) * UINT64_C(0x9e3779b97f4a7c15);
-  return hash ^ hash >> 32;
-}
-
 uint64_t positions_hash(const struct scene_point *point) {
-  uint64_t hash = mix(0, bits_of(point->x));
-  hash = mix(hash, bits_of(point->y));
-  hash = mix(hash, bits_of(point->z));
-  return hash * UINT64_C(0x9e3779b97f4a7c15);
+  uint64_t hash = hash_add_double(0, point->x);
+  hash = hash_add_double(hash, point->y);
+  hash = hash_add_double(hash, point->z);
+  return hash * HASH_GOLDEN;
 }
 
 static size_t place_of(const struct positions *positions, uint64_t hash) {
