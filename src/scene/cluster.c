@@ -24,6 +24,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/hash.h"
+#include "base/poll.h"
+
 enum { CHAIN_MAX = 128, NONE = -1 };
 
 struct cluster {
@@ -45,20 +48,12 @@ struct clusters {
 
 /* ---- The grids ----------------------------------------------------------- */
 
-static uint64_t mix(uint64_t hash, double cell) {
-  uint64_t bits;
-  cell += 0.0; /* -0 becomes 0 */
-  memcpy(&bits, &cell, sizeof bits);
-  hash = (hash ^ bits) * UINT64_C(0x9e3779b97f4a7c15);
-  return hash ^ hash >> 32;
-}
-
 static int32_t *chain_of(const struct clusters *clusters, int halvings,
                          const double cell[3]) {
   uint64_t hash = (uint64_t)halvings;
   for (int k = 0; k < 3; k++)
-    hash = mix(hash, cell[k]);
-  hash *= UINT64_C(0x9e3779b97f4a7c15);
+    hash = hash_add_double(hash, cell[k] + 0.0); /* -0 becomes 0 */
+  hash *= HASH_GOLDEN;
   return &clusters->chain[hash >> (64 - clusters->bits)];
 }
 
@@ -181,6 +176,88 @@ static bool join(struct clusters *clusters, const struct scene *scene,
   return true;
 }
 
+/* ---- Points without neighbours ------------------------------------------- */
+
+/* A hash table of 2^bits slots, 32 in a word; a slot is two bits, which are set
+ * once a first and once a second point is in it. */
+struct slots {
+  uint64_t *word;
+  int bits;
+};
+
+/* The slots of the cells that lie within the length of a point; there is mostly
+ * one, as cells are wide.  Returns how many. */
+static int find_slots(const struct scene_point *p, double length, int bits,
+                      size_t slot[8]) {
+  enum { LENGTHS = 64 }; /* in a cell's side */
+  const double at[3] = {p->x, p->y, p->z}, per_side = 1 / (LENGTHS * length);
+  double cell[3][2];
+  int count = 0, differ = 0;
+  for (int k = 0; k < 3; k++) {
+    /* -0 becomes 0 */
+    cell[k][0] = floor((at[k] - length) * per_side) + 0.0;
+    cell[k][1] = floor((at[k] + length) * per_side) + 0.0;
+    differ |= (cell[k][0] != cell[k][1]) << k;
+  }
+  for (int i = 0; i < 8; i++) {
+    uint64_t hash = 0;
+    if ((i & ~differ) != 0)
+      continue;
+    for (int k = 0; k < 3; k++)
+      hash = hash_add_double(hash, cell[k][i >> k & 1]);
+    slot[count++] = (size_t)((hash * HASH_GOLDEN) >> (64 - bits));
+  }
+  return count;
+}
+
+/* Enters a point into the slots of its cells. */
+static void enter(struct slots *slots, const struct scene_point *p,
+                  double length) {
+  size_t slot[8];
+  int count = find_slots(p, length, slots->bits, slot);
+  for (int i = 0; i < count; i++) {
+    uint64_t *word = &slots->word[slot[i] / 32];
+    uint64_t first = UINT64_C(1) << slot[i] % 32 * 2;
+    *word |= (*word & first) << 1 | first;
+  }
+}
+
+/* Does the point share no slot with another, so that it has no neighbour? */
+static bool is_alone(const struct slots *slots, const struct scene_point *p,
+                     double length) {
+  size_t slot[8];
+  int count = find_slots(p, length, slots->bits, slot);
+  for (int i = 0; i < count; i++)
+    if (slots->word[slot[i] / 32] >> slot[i] % 32 * 2 & 2)
+      return false;
+  return true;
+}
+
+/* Marks members that no other is near as CLUSTER_ALONE, which is most of them
+ * in a scene of separate faces; it saves looking for clusters to join.  Returns
+ * false when memory ran out. */
+static bool mark_alone(const struct scene *scene, double length,
+                       struct cluster_member *member, size_t count) {
+  struct slots slots = {.bits = 10};
+  while (8 * count >> slots.bits)
+    slots.bits++;
+  slots.word = mem_calloc((size_t)1 << (slots.bits - 5), sizeof *slots.word);
+  bool ok = slots.word != NULL;
+  const struct scene_point *point = scene->point.item;
+  for (size_t i = 0; ok && i < count; i++) {
+    if (member[i].halvings != CLUSTER_ALONE)
+      enter(&slots, &point[member[i].point], length);
+    ok = poll_at(i);
+  }
+  for (size_t i = 0; ok && i < count; i++) {
+    if (is_alone(&slots, &point[member[i].point], length))
+      member[i].halvings = CLUSTER_ALONE;
+    ok = poll_at(i);
+  }
+  mem_free(slots.word);
+  return ok;
+}
+
 /* ---- All of it ----------------------------------------------------------- */
 
 static bool prepare(struct clusters *clusters, double length, size_t count) {
@@ -214,7 +291,8 @@ static size_t name_members(const struct clusters *clusters,
 size_t cluster_join(const struct scene *scene, double length,
                     struct cluster_member *member, size_t count) {
   struct clusters clusters = {.chain = NULL};
-  bool ok = prepare(&clusters, length, count);
+  bool ok = mark_alone(scene, length, member, count) &&
+            prepare(&clusters, length, count);
   for (size_t i = 0; i < count && ok; i++) {
     member[i].stands = (uint32_t)i;
     if (member[i].halvings != CLUSTER_ALONE)
