@@ -138,6 +138,8 @@ static recto_status measure_scene(struct aim *aim) {
       o->solver.contact >= 0
           ? o->solver.contact
           : coordinate_error_most(aim->scene, camera->unstated, low, high);
+  camera->error =
+      coordinate_error_common(aim->scene, camera->unstated, low, high);
   return RECTO_OK;
 }
 

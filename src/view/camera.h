@@ -27,6 +27,7 @@ struct camera {
                           face the rounding error of its coordinates
                           (coordinate_error.h) */
   double contact_most; /* upper bound of all faces' contact tolerances */
+  double error;        /* of all coordinates, coordinate_error_common */
   struct precision unstated; /* of points whose precision is not stated */
   bool near_chosen;          /* near_d is the default, not an option */
   bool all_on_page; /* nothing drawn leaves the page or the depth range */

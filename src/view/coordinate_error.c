@@ -36,7 +36,7 @@ static void measure(const struct sheet *sheet, uint32_t face, double error[3]) {
 bool coordinate_error_store(struct sheet *sheet, uint32_t face) {
   struct sheet_face_error error = {.face = face};
   const uint32_t *start = sheet->scene->face_start.item + face;
-  if (start[1] - start[0] <= CORNERS_MAX)
+  if (start[1] - start[0] <= CORNERS_MAX || sheet->camera.error > 0)
     return true;
   measure(sheet, face, error.along);
   return ARRAY_PUSH(&sheet->face_error, error);
@@ -46,8 +46,9 @@ void coordinate_error_of_face(const struct sheet *sheet, uint32_t face,
                               double error[3]) {
   const struct sheet_face_error *stored = sheet->face_error.item;
   size_t i;
-  if (sheet->scene == NULL) {
-    error[0] = error[1] = error[2] = 0;
+  if (sheet->scene == NULL || sheet->camera.error > 0) {
+    error[0] = error[1] = error[2] =
+        sheet->scene != NULL ? sheet->camera.error : 0;
     return;
   }
   LOWER_BOUND(i, 0, sheet->face_error.count, stored[i].face < face);
@@ -81,4 +82,21 @@ double coordinate_error_most(const struct scene *scene,
     most = fmax(most, vector_length(error));
   }
   return most;
+}
+
+double coordinate_error_common(const struct scene *scene,
+                               struct precision unstated, const double low[3],
+                               const double high[3]) {
+  const struct precision_range *range = scene->precision.item;
+  struct precision precision = unstated;
+  if (scene->precision.count > 1 ||
+      (scene->precision.count == 1 && range->first_point > 0))
+    return 0;
+  if (scene->precision.count == 1 && range->stated)
+    precision = range->precision;
+  for (int k = 0; k < 3; k++)
+    if (precision.relative * fmax(fabs(low[k]), fabs(high[k])) >
+        precision.absolute)
+      return 0;
+  return contact_along_axis(precision, 0);
 }

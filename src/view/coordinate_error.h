@@ -34,4 +34,11 @@ double coordinate_error_most(const struct scene *scene,
                              struct precision unstated, const double low[3],
                              const double high[3]);
 
+/* The error above where it is the same along each axis of every face whose
+ * points lie in that box, because their coordinates were rounded to one place
+ * after the point; 0 where it is not, or may not be. */
+double coordinate_error_common(const struct scene *scene,
+                               struct precision unstated, const double low[3],
+                               const double high[3]);
+
 #endif
