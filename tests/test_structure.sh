@@ -31,7 +31,7 @@ check_sources() {
           layer[name[i]] = i - 1
         place("visibility", 1, "predicate")
         place("visibility", 2, "index")
-        place("visibility", 3, "intersection fragments")
+        place("visibility", 3, "culling intersection fragments")
         place("visibility", 4, "pairwise scan")
         place("visibility", 5, "raster")
         place("visibility", 6, "brute newell scanline_zbuffer tiles warnock " \

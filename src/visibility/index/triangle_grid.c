@@ -140,15 +140,11 @@ static void fill_triangle(const struct filling *filling, uint32_t t,
       filling->print != NULL
           ? footprint_cells(grid, sheet, t, filling->print[t])
           : triangle_grid_cells(grid, box2_of_triangle(sheet, t));
-  double nearest =
-      grid->horizon != NULL ? (double)triangle_nearest_z(sheet, t) : 0;
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
       uint32_t *end = &grid->start[cell];
       if (filling->wanted != NULL && !filling->wanted[cell])
-        continue;
-      if (grid->horizon != NULL && nearest < grid->horizon[cell])
         continue;
       if (store)
         grid->item[--*end] = t;
@@ -264,11 +260,14 @@ static uint8_t *dilate(const struct triangle_grid *grid,
   return dilated;
 }
 
-/* Collects the triangles that meet wanted cells, and maybe a few more. */
+/* Collects the triangles that are not culled and meet wanted cells, and maybe a
+ * few more. */
 static bool choose_subset(const struct triangle_grid *grid,
                           const struct footprint *print, const uint8_t *dilated,
-                          triangle_list *subset) {
+                          const uint8_t *culled, triangle_list *subset) {
   for (size_t t = 0; t < grid->triangle_count; t++) {
+    if (culled != NULL && culled[t] != 0)
+      continue;
     struct footprint f = print[t];
     size_t cell = (size_t)f.y * (size_t)grid->columns + f.x;
     bool small = f.width <= 1 && f.height <= 1;
@@ -282,11 +281,11 @@ static bool choose_subset(const struct triangle_grid *grid,
 
 bool triangle_grid_fill(struct triangle_grid *grid, const struct sheet *sheet,
                         const struct footprint *print, const uint8_t *wanted,
-                        const double *horizon) {
+                        const uint8_t *culled) {
   triangle_list subset = {0};
   uint8_t *dilated = dilate(grid, wanted);
-  grid->horizon = horizon;
-  bool ok = dilated != NULL && choose_subset(grid, print, dilated, &subset);
+  bool ok =
+      dilated != NULL && choose_subset(grid, print, dilated, culled, &subset);
   mem_free(dilated);
   ok = ok && fill(&(struct filling){grid, sheet, print, wanted, subset.item,
                                     subset.count});

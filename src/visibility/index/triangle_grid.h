@@ -19,7 +19,6 @@ struct triangle_grid {
   const struct sheet *sheet; /* borrowed, not owned */
   struct bsp *bsp;           /* the trees of overfull cells; NULL: none */
   uint32_t *bsp_root;        /* per cell; SHEET_NONE: no tree */
-  const double *horizon;     /* used to make the lists; borrowed, not owned */
 };
 
 /* Indexes the boxes of all triangles of the sheet.  False when memory ran
@@ -37,8 +36,7 @@ void triangle_grid_fini(struct triangle_grid *grid);
  * triangle_grid_fill makes the lists.
  * print    the triangles' footprints
  * wanted   per cell, not 0: it gets a list; the lists of the others stay empty
- * horizon  per cell, a depth: triangles wholly behind it are not listed; NULL:
- *          none
+ * culled   per triangle, not 0: it is not listed; NULL: all are
  * Returns false when memory ran out. */
 void triangle_grid_shape(struct triangle_grid *grid, const struct sheet *sheet,
                          unsigned spread, unsigned cells);
@@ -47,7 +45,7 @@ USE_RESULT bool triangle_grid_fill(struct triangle_grid *grid,
                                    const struct sheet *sheet,
                                    const struct footprint *print,
                                    const uint8_t *wanted,
-                                   const double *horizon);
+                                   const uint8_t *culled);
 
 /* The cost of testing all pairs of a list, in pairs; each entry adds a constant
  * cost of four. */

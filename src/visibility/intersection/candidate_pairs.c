@@ -61,15 +61,12 @@ static void summarise(const struct box_sweep *sweep, uint32_t triangle,
 }
 
 /* Are both triangles listed in a cell that is selected? */
-static bool is_listed(const struct box_sweep *sweep, int x, int y,
-                      const struct summary *f, const struct summary *g) {
+static bool is_listed(const struct box_sweep *sweep, int x, int y) {
   const struct triangle_grid *grid = sweep->grid;
   size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
   if (sweep->cells != NULL && !sweep->cells[cell])
     return false;
-  return grid->start[cell] < grid->start[cell + 1] &&
-         (grid->horizon == NULL || (!((double)f->high < grid->horizon[cell]) &&
-                                    !((double)g->high < grid->horizon[cell])));
+  return grid->start[cell] < grid->start[cell + 1];
 }
 
 /* A pair may be listed together in several cells; it is tested only in the
@@ -81,14 +78,14 @@ static bool is_cell_of_pair(const struct box_sweep *sweep,
   int x0 = f->x0 > g->x0 ? f->x0 : g->x0, y0 = f->y0 > g->y0 ? f->y0 : g->y0;
   if (x0 == sweep->x && y0 == sweep->y)
     return true;
-  if (is_listed(sweep, x0, y0, f, g))
+  if (is_listed(sweep, x0, y0))
     return false;
   int x1 = triangle_grid_cell(box2_min(f->box.x1, g->box.x1), grid->x0,
                               grid->shift, grid->columns);
   for (int y = y0; y <= sweep->y; y++) {
     int end = y < sweep->y ? x1 : sweep->x - 1;
     for (int x = x0; x <= end; x++)
-      if (is_listed(sweep, x, y, f, g))
+      if (is_listed(sweep, x, y))
         return false;
   }
   return true;

@@ -12,9 +12,8 @@
  * front of its plane or strictly behind it; hence that triangle is nearer as
  * well, and occlusion continues.
  *
- * Horizons.  The lists leave out triangles behind the horizon of a tile.  Where
- * T is nearer than the horizon, those triangles are behind it; elsewhere T is
- * occluded by the triangle that made the horizon, which is listed.
+ * Culled triangles are not listed.  Where one of them occludes T, so does the
+ * triangle that hides it, which is listed.
  *
  * Hidden triangles.  They are not tested as occluders.  Where one of them
  * occludes T, so does the nearest triangle there, which is not hidden and

@@ -1,7 +1,7 @@
 /* tile_candidates.h - lists of candidate triangles for the page tiles in which
  * edges or faces are deferred.
  *
- * A list holds the triangles of one tile, without those behind its horizon.  As
+ * A list holds the triangles of one tile that are not culled.  As
  * a large face is in many tiles, and two of them would be paired in each tile
  * that they share, larger cells are used instead if they give fewer pairs of
  * the triangles that are listed anywhere.  Each entry has an 8-DOP key

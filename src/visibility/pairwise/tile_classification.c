@@ -7,8 +7,8 @@
  *     that makes the sample unusable
  *   2 find each tile's front layer; the tile is simple if exactly one face of
  *     the layer is over the sample point
- *   3 reject the tiles that a contour enters at the depths of the layer
- * If the depth complexity is high, a phase after the first finds the horizons.
+ *   3 reject the tiles that a contour, or a culled triangle, enters at the
+ *     depths of the layer
  */
 #include "visibility/pairwise/tile_classification.h"
 
@@ -20,67 +20,13 @@
 #include "visibility/predicate/plane_filter.h"
 #include "visibility/predicate/surrounder.h"
 
-/* Depth complexity is the mean number of faces over a point of the page; a
- * scene is called deep if it is above DEEP. */
-enum {
-  TILES_PER_TRIANGLE = 2,        /* on average: a tile is about an edge long */
-  DEEP = 32,                     /* faces over a point, on average */
-  DEEP_TILES_TOTAL = 1 << 22,    /* of all triangles of a deep scene together */
-  DEEP_TILES_PER_TRIANGLE = 256, /* at most, on average */
-  DEEP_QUERIES_PER_TILE = 8, /* a tile costs a tenth of so many edge queries */
-  QUERIES_PER_FACE = 16,     /* a face takes as long as so many edges */
-  BOX_PER_AREA = 4, /* a typical triangle's box has this multiple of its area */
-  SAMPLE = 1 << 12  /* triangles that estimate the depth complexity */
-};
+enum { TILES_PER_TRIANGLE = 2 }; /* on average: a tile is about an edge long */
 
 static uint64_t bucket_mask(int low, int high) {
   return (~UINT64_C(0) >> (TILE_BUCKETS - 1 - high)) & (~UINT64_C(0) << low);
 }
 
 /* ---- Collecting the faces of each tile ----------------------------------- */
-
-/* The edge functions of a triangle's sides, which are positive inside it,
- * evaluated incrementally at points one tile apart: their values and their
- * increments per step to the right and up.  Within the triangle's box they are
- * below 2^62; one step outside they may wrap around, but are not read there. */
-struct edge_functions {
-  uint64_t at[3], right[3], up[3];
-};
-
-/* The edge functions at (x, y); or, if `least`, their least values over the
- * tile whose lower left corner is (x, y). */
-static inline struct edge_functions
-edge_functions_at(const struct geom_triangle *corners, int64_t x, int64_t y,
-                  int shift, bool least) {
-  struct edge_functions functions;
-  for (int k = 0; k < 3; k++) {
-    struct geom_point a = corners->p[k], b = corners->p[geom_next_corner(k)];
-    int64_t dx = (int64_t)b.x - a.x, dy = (int64_t)b.y - a.y;
-    int64_t side = least ? INT64_C(1) << shift : 0;
-    functions.at[k] = (uint64_t)(dx * (y + (dx < 0 ? side : 0) - a.y) -
-                                 dy * (x + (dy > 0 ? side : 0) - a.x));
-    functions.right[k] = (uint64_t)-dy << shift;
-    functions.up[k] = (uint64_t)dx << shift;
-  }
-  return functions;
-}
-
-static inline void step_right(struct edge_functions *functions) {
-  for (int k = 0; k < 3; k++)
-    functions->at[k] += functions->right[k];
-}
-
-static inline void step_up(struct edge_functions *functions) {
-  for (int k = 0; k < 3; k++)
-    functions->at[k] += functions->up[k];
-}
-
-/* Returns whether all three values are positive. */
-static inline bool is_inside(const struct edge_functions *functions) {
-  return (((functions->at[0] - 1) | (functions->at[1] - 1) |
-           (functions->at[2] - 1)) >>
-          63) == 0;
-}
 
 /* Returns whether the triangle may hide or touch something across an empty
  * bucket: whether an upper bound of its contact tolerance (occlusion.h) exceeds
@@ -219,6 +165,8 @@ static void collect(struct tile_classification *tiles,
   const uint8_t *flags = sheet->triangle_flags;
   struct footprint *footprint = tiles->footprint;
   for (size_t t = 0, n = sheet->triangle.count; t < n; t++) {
+    if (occlusion_culling_is_culled(&tiles->culling, (uint32_t)t))
+      continue;
     const uint32_t *p = triangle[t].point;
     const struct geom_triangle corners = {
         {point[p[0]], point[p[1]], point[p[2]]}};
@@ -268,6 +216,27 @@ static void find_simple_tiles(struct tile_classification *tiles) {
   }
 }
 
+/* Phase 3 for culled triangles: where one is missing the layer may end, at a
+ * side that is no contour. */
+static void reject_culled(struct tile_classification *tiles,
+                          const struct sheet *sheet) {
+  for (uint32_t t = 0; t < sheet->triangle.count; t++) {
+    if (!occlusion_culling_is_culled(&tiles->culling, t))
+      continue;
+    (void)poll_at(t);
+    struct cell_range r =
+        triangle_grid_cells(&tiles->grid, box2_of_triangle(sheet, t));
+    int high = tile_bucket(triangle_nearest_z(sheet, t));
+    for (int y = r.y0; y <= r.y1; y++)
+      for (int x = r.x0; x <= r.x1; x++) {
+        struct tile *tile =
+            &tiles->tile[(size_t)y * (size_t)tiles->grid.columns + (size_t)x];
+        if (high >= tile->front)
+          tile->state = TILE_MIXED;
+      }
+  }
+}
+
 /* Phase 3. */
 static void reject_contours(struct tile_classification *tiles,
                             const struct sheet *sheet) {
@@ -289,147 +258,23 @@ static void reject_contours(struct tile_classification *tiles,
   }
 }
 
-static struct box2 tile_window(const struct triangle_grid *grid, int x, int y) {
-  int64_t side = INT64_C(1) << grid->shift, x0 = grid->x0 + x * side,
-          y0 = grid->y0 + y * side;
-  return (struct box2){(int32_t)x0, (int32_t)y0, (int32_t)(x0 + side),
-                       (int32_t)(y0 + side)};
-}
-
-/* Estimates the depth complexity from a sample of the triangles.  A triangle
- * counts with the area of its box, but at most BOX_PER_AREA times its own area,
- * so that needles count for little. */
-static double depth_complexity(const struct sheet *sheet,
-                               const struct triangle_grid *grid) {
-  size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
-  double side = (double)(INT64_C(1) << grid->shift), sum = 0;
-  for (size_t t = 0; t < n; t += stride) {
-    struct geom_triangle c = sheet_corners(sheet, t);
-    struct box2 b = box2_of_triangle(sheet, (uint32_t)t);
-    double box = ((double)b.x1 - b.x0) * ((double)b.y1 - b.y0);
-    double area = 0.5 * fabs((double)geom_orient2d(c.p[0], c.p[1], c.p[2]));
-    sum += fmin(box, BOX_PER_AREA * area) * (double)stride;
-  }
-  return sum / (side * side * grid->columns * grid->rows);
-}
-
-/* Raises the horizons of the tiles that the triangle surrounds; in a row these
- * tiles are consecutive. */
-static void raise_horizons(struct tile_classification *tiles,
-                           const struct sheet *sheet, size_t t) {
-  const struct triangle_grid *grid = &tiles->grid;
-  struct cell_range r = footprint_cells(grid, sheet, t, tiles->footprint[t]);
-  if (r.x1 - r.x0 < 2 || r.y1 - r.y0 < 2)
-    return;
-  struct geom_triangle corners = sheet_corners(sheet, t);
-  struct box2 first = tile_window(grid, r.x0 + 1, r.y0 + 1);
-  struct edge_functions functions =
-      edge_functions_at(&corners, first.x0, first.y0, grid->shift, true);
-  struct surrounder_plane plane = surrounder_plane_of(sheet, (uint32_t)t);
-  for (int y = r.y0 + 1; y < r.y1; y++, step_up(&functions)) {
-    struct edge_functions row = functions;
-    double *horizon = &tiles->horizon[(size_t)y * (size_t)grid->columns];
-    bool inside = false;
-    for (int x = r.x0 + 1; x < r.x1; x++, step_right(&row)) {
-      if (!is_inside(&row)) {
-        if (inside)
-          break;
-        continue;
-      }
-      inside = true;
-      struct box2 window = tile_window(grid, x, y);
-      double low = surrounder_farthest_z(&plane, &window);
-      if (low > horizon[x])
-        horizon[x] = low;
-    }
-  }
-}
-
-/* Removes the horizons of the triangle's tiles if it is steep, as it may then
- * be in contact with a face across the horizon; contact matters for
- * fragments. */
-static void drop_horizons(struct tile_classification *tiles,
-                          const struct sheet *sheet,
-                          const struct occlusion_bound *all, size_t t) {
-  struct geom_triangle corners = sheet_corners(sheet, t);
-  struct cell_range r;
-  if (!is_steep(sheet, all, (uint32_t)t, &corners))
-    return;
-  r = footprint_cells(&tiles->grid, sheet, t, tiles->footprint[t]);
-  for (int y = r.y0; y <= r.y1; y++)
-    for (int x = r.x0; x <= r.x1; x++)
-      tiles->horizon[(size_t)y * (size_t)tiles->grid.columns + (size_t)x] = -1;
-}
-
-static bool find_horizons(struct tile_classification *tiles,
-                          const struct sheet *sheet, bool fragments) {
-  struct occlusion_bound all = occlusion_tolerance_bound_all(sheet);
-  size_t n = triangle_grid_cell_count(&tiles->grid);
-  tiles->horizon = mem_alloc(n, sizeof *tiles->horizon);
-  if (tiles->horizon == NULL)
-    return false;
-  for (size_t i = 0; i < n; i++)
-    tiles->horizon[i] = -1;
-  for (size_t t = 0; t < sheet->triangle.count; t++)
-    if (!(sheet->triangle_flags[t] & SHEET_FLAT))
-      raise_horizons(tiles, sheet, t);
-  if (!fragments)
-    return true;
-  for (size_t i = 0; i < n; i++)
-    tiles->horizon[i] -= (double)(INT64_C(1) << TILE_BUCKET_SHIFT);
-  for (size_t t = 0; t < sheet->triangle.count; t++)
-    if (!(sheet->triangle_flags[t] & SHEET_FLAT))
-      drop_horizons(tiles, sheet, &all, t);
-  return true;
-}
-
-/* The number of edges to solve, plus that of the faces times
- * QUERIES_PER_FACE. */
-static uint64_t count_queries(const struct sheet *sheet, bool edges,
-                              bool fragments) {
-  uint64_t count = fragments ? QUERIES_PER_FACE * sheet->triangle.count : 0;
-  for (size_t e = 0; edges && e < sheet->edge.count; e++)
-    count += sheet->edge.item[e].edge_class != 0;
-  return count;
-}
-
-/* Chooses the tiles of a deep scene: small enough for good horizons, large
- * enough that the work per tile is little compared with the queries. */
-static void shape_deep_tiles(struct tile_classification *tiles,
-                             const struct sheet *sheet, bool edges,
-                             bool fragments) {
-  uint64_t spread =
-      DEEP_TILES_TOTAL / sheet->triangle.count + TILES_PER_TRIANGLE;
-  uint64_t spread_max =
-      count_queries(sheet, edges, fragments) / DEEP_QUERIES_PER_TILE +
-      TILES_PER_TRIANGLE;
-  if (spread > spread_max)
-    spread = spread_max;
-  if (spread > DEEP_TILES_PER_TRIANGLE)
-    spread = DEEP_TILES_PER_TRIANGLE;
-  triangle_grid_shape(&tiles->grid, sheet, (unsigned)spread, (unsigned)spread);
-}
-
 bool tile_classification_init(struct tile_classification *tiles,
-                              const struct sheet *sheet, bool edges,
-                              bool fragments) {
+                              const struct sheet *sheet, bool fragments) {
   size_t n;
-  bool deep;
   memset(tiles, 0, sizeof *tiles);
+  if (!occlusion_culling_init(&tiles->culling, sheet, fragments))
+    return false;
   triangle_grid_shape(&tiles->grid, sheet, TILES_PER_TRIANGLE, 2);
-  deep = depth_complexity(sheet, &tiles->grid) > DEEP;
-  if (deep)
-    shape_deep_tiles(tiles, sheet, edges, fragments);
   n = triangle_grid_cell_count(&tiles->grid);
   tiles->tile = mem_calloc(n, sizeof *tiles->tile);
   tiles->footprint = mem_alloc(sheet->triangle.count, sizeof *tiles->footprint);
   if (tiles->tile == NULL || tiles->footprint == NULL)
     return false;
   collect(tiles, sheet, fragments);
-  if (deep && !find_horizons(tiles, sheet, fragments))
-    return false;
   find_simple_tiles(tiles);
   reject_contours(tiles, sheet);
+  if (tiles->culling.count > 0)
+    reject_culled(tiles, sheet);
   for (size_t i = 0; i < n; i++) {
     struct tile *tile = &tiles->tile[i];
     tiles->simple += tile->state == TILE_SIMPLE;
@@ -442,8 +287,7 @@ bool tile_classification_init(struct tile_classification *tiles,
 void tile_classification_fini(struct tile_classification *tiles) {
   mem_free(tiles->tile);
   mem_free(tiles->footprint);
-  mem_free(tiles->horizon);
+  occlusion_culling_fini(&tiles->culling);
   tiles->tile = NULL;
   tiles->footprint = NULL;
-  tiles->horizon = NULL;
 }

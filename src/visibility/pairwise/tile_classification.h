@@ -16,13 +16,12 @@
  * Such a tile is simple.
  *
  * In scenes of high depth complexity (many large faces, one behind another)
- * single faces do surround tiles.  There a tile also has a horizon: the nearest
- * depth behind which a surrounding face certainly hides everything within the
- * tile.  Faces behind the horizon are left out of the tile's list.
+ * single faces do surround tiles.  There most triangles are culled before
+ * (culling/occlusion_culling.h).  They take part in nothing; but a layer may end
+ * where one is missing, so they count as contours.
  *
- * Robustness: states are decided by integers, horizons by lower bounds in
- * doubles.  A tile that is rejected out of caution is solved by pairs, which
- * costs time but gives the same result.
+ * Robustness: states are decided by integers.  A tile that is rejected out of
+ * caution is solved by pairs, which costs time but gives the same result.
  *
  * Source  Warnock's surrounder [Warnock1969], with a layer in place of the
  *         face.
@@ -30,7 +29,7 @@
 #ifndef VISIBILITY_PAIRWISE_TILE_CLASSIFICATION_H
 #define VISIBILITY_PAIRWISE_TILE_CLASSIFICATION_H
 
-#include "visibility/index/triangle_grid.h"
+#include "visibility/culling/occlusion_culling.h"
 
 enum tile_state {
   TILE_EMPTY, /* no face */
@@ -54,28 +53,19 @@ struct tile {
 struct tile_classification {
   struct triangle_grid grid; /* the tiles; it has no lists */
   struct tile *tile;
-  struct footprint *footprint; /* one per triangle */
-  double *horizon;             /* a depth per tile; NULL: not used, the scene's
-                                  depth complexity being low */
-  uint64_t z_buckets;          /* the union of all tiles' */
+  struct occlusion_culling culling;
+  struct footprint *footprint;   /* one per triangle that is not culled */
+  uint64_t z_buckets;            /* the union of all tiles' */
   uint64_t simple, mixed, empty; /* numbers of tiles */
 };
 
-/* Returns whether depth z is behind the tile's horizon. */
-static inline bool
-tile_classification_is_behind(const struct tile_classification *tiles,
-                              size_t tile, int64_t z) {
-  return tiles->horizon != NULL && (double)z < tiles->horizon[tile];
-}
-
-/* Classifies the tiles of the sheet.
- * edges      whether edges will be solved
+/* Culls triangles, and classifies the tiles of the sheet.
  * fragments  whether faces will be solved; as contact between faces matters
  *            then, tiles with a steep face in any layer are rejected
  * Returns false when memory ran out; end with tile_classification_fini either
  * way. */
 USE_RESULT bool tile_classification_init(struct tile_classification *tiles,
-                                         const struct sheet *sheet, bool edges,
+                                         const struct sheet *sheet,
                                          bool fragments);
 void tile_classification_fini(struct tile_classification *tiles);
 

@@ -63,7 +63,7 @@ static bool poll_progress(const struct tiles_work *work, size_t done,
 /* Marks the tiles in which intersections are searched: visible intersections
  * lie in mixed tiles.  If hidden lines are requested, no tile is marked,
  * because intersections are then searched everywhere, in a separate grid: the
- * lists of tiles leave out triangles behind a horizon. */
+ * lists of tiles leave out culled triangles. */
 static bool mark_intersected_tiles(struct tiles_work *work) {
   size_t n = triangle_grid_cell_count(&work->tiles.grid);
   if (work->request->hidden)
@@ -109,17 +109,14 @@ static enum map_state state_along(struct tiles_work *work, struct geom_point p,
                                   struct geom_point q, bool wire, bool mark) {
   const struct triangle_grid *grid = &work->tiles.grid;
   struct cell_range r = triangle_grid_cells(grid, box2_of_segment(p, q));
-  int64_t nearest = p.z > q.z ? p.z : q.z;
-  int low = tile_bucket(p.z < q.z ? p.z : q.z), high = tile_bucket(nearest),
-      state = -1;
+  int low = tile_bucket(p.z < q.z ? p.z : q.z),
+      high = tile_bucket(p.z > q.z ? p.z : q.z), state = -1;
   for (int y = r.y0; y <= r.y1; y++) {
     int x0, x1;
     triangle_grid_row(grid, p, q, r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++) {
       size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
-      int now = tile_classification_is_behind(&work->tiles, i, nearest)
-                    ? MAP_HIDDEN
-                    : (int)state_in_tile(&work->tiles.tile[i], low, high, wire);
+      int now = state_in_tile(&work->tiles.tile[i], low, high, wire);
       if (mark) {
         work->wants_more |= !work->wanted[i];
         work->wanted[i] = 1;
@@ -142,9 +139,7 @@ static enum map_state state_in_range(const struct tile_classification *tiles,
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t i = (size_t)y * (size_t)tiles->grid.columns + (size_t)x;
-      int now = tile_classification_is_behind(tiles, i, z_high)
-                    ? MAP_HIDDEN
-                    : (int)state_in_tile(&tiles->tile[i], low, high, wire);
+      int now = state_in_tile(&tiles->tile[i], low, high, wire);
       if (now == MAP_MIXED || (state >= 0 && state != now))
         return MAP_MIXED;
       state = now;
@@ -159,13 +154,23 @@ static enum map_state state_of_edge(struct tiles_work *work,
                                     bool wire) {
   struct cell_range r =
       triangle_grid_cells(&work->tiles.grid, box2_of_segment(p, q));
-  if (work->tiles.horizon != NULL || r.x1 - r.x0 + r.y1 - r.y0 > 2)
+  if (r.x1 - r.x0 + r.y1 - r.y0 > 2)
     return state_along(work, p, q, wire, false);
   enum map_state state = state_in_range(&work->tiles, r, p.z < q.z ? p.z : q.z,
                                         p.z > q.z ? p.z : q.z, wire);
   return state == MAP_MIXED && r.x0 < r.x1 && r.y0 < r.y1
              ? state_along(work, p, q, wire, false)
              : state;
+}
+
+/* Is a triangle of the edge culled?  The edge is hidden then. */
+static bool is_culled(const struct tiles_work *work,
+                      const struct sheet_edge *edge) {
+  for (int k = 0; k < 2; k++)
+    if (edge->triangle[k] != SHEET_NONE &&
+        occlusion_culling_is_culled(&work->tiles.culling, edge->triangle[k]))
+      return true;
+  return false;
 }
 
 /* Phase 2 for the edges from number `from` on; lists the deferred ones.
@@ -184,7 +189,11 @@ static bool classify_edges(struct tiles_work *work, size_t from,
       return false;
     if (!sheet_edge_is_drawn(sheet, e))
       continue;
-    map->edge_state[e] = (uint8_t)state_of_edge(work, s.p, s.q, wire);
+    map->edge_state[e] =
+        is_culled(work, edge) ||
+                occlusion_culling_hides(&work->tiles.culling, s.p, s.q)
+            ? MAP_HIDDEN
+            : (uint8_t)state_of_edge(work, s.p, s.q, wire);
     if (map->edge_state[e] != MAP_MIXED)
       continue;
     if (!ARRAY_PUSH(&work->edge, (uint32_t)e))
@@ -227,7 +236,8 @@ static bool classify_faces(struct tiles_work *work) {
     work->face_state[t] = MAP_HIDDEN;
     if (!poll_at(t))
       return false;
-    if (work->sheet->triangle_flags[t] & SHEET_FLAT)
+    if ((work->sheet->triangle_flags[t] & SHEET_FLAT) ||
+        occlusion_culling_is_culled(&work->tiles.culling, (uint32_t)t))
       continue;
     work->face_state[t] = (uint8_t)state_of_face(work, (uint32_t)t);
     if (work->face_state[t] != MAP_MIXED)
@@ -358,7 +368,8 @@ static void report_tiles(const struct tiles_work *work, struct report *report) {
   report_int(report, "tiles", "simple", (int64_t)work->tiles.simple);
   report_int(report, "tiles", "mixed", (int64_t)work->tiles.mixed);
   report_int(report, "tiles", "empty", (int64_t)work->tiles.empty);
-  report_int(report, "tiles", "with_horizons", work->tiles.horizon != NULL);
+  report_int(report, "tiles", "triangles_culled",
+             (int64_t)work->tiles.culling.count);
   report_int(report, "tiles", "edges_deferred", (int64_t)work->edge.count);
   report_int(report, "tiles", "triangles_deferred", (int64_t)work->face.count);
   occlusion_report(&work->counts, report);
@@ -399,8 +410,7 @@ static bool solve_all(struct tiles_work *work, struct map *map,
                       recto_status *status, recto_error *error) {
   const struct solver_request *request = work->request;
   work->phase_start = clock_cpu();
-  if (!tile_classification_init(&work->tiles, work->sheet, request->edges,
-                                request->fragments))
+  if (!tile_classification_init(&work->tiles, work->sheet, request->fragments))
     return false;
   end_phase(work, "tiles_cpu_s");
   work->wanted = mem_calloc(triangle_grid_cell_count(&work->tiles.grid), 1);

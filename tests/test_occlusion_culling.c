@@ -1,0 +1,203 @@
+/* test_occlusion_culling.c - culled triangles are hidden, and most hidden ones
+ * are culled.  That drawings do not change is test_solvers_agree's claim, and
+ * test_exact_map's for soups. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/scenes/random.h"
+#include "tests/sheet_fixture.h"
+#include "visibility/culling/occlusion_culling.h"
+#include "visibility/predicate/occlusion.h"
+
+enum { PARTS = 512 };
+
+/* Looks down, on a square page. */
+static void start(struct sheet_fixture *fixture) {
+  sheet_fixture_start(fixture);
+  scenes_view_above(&fixture->options);
+  fixture->options.page.width_mm = fixture->options.page.height_mm = 200;
+  fixture->options.page.margin_mm = 0;
+}
+
+/* Small squares, in a lattice within the unit square, at this height. */
+static void add_squares(struct scene *scene, int a_side, double z) {
+  double step = 1.0 / a_side;
+  for (int i = 0; i < a_side * a_side; i++)
+    build_parallelogram(
+        scene,
+        vector_of((i % a_side + 0.3) * step, (i / a_side + 0.3) * step, z),
+        vector_of(0.4 * step, 0, 0), vector_of(0, 0.4 * step, 0));
+}
+
+/* The number of culled triangles. */
+static size_t count_culled(struct sheet_fixture *fixture, bool fragments) {
+  struct occlusion_culling culling;
+  sheet_fixture_out(fixture, true);
+  assert_true(occlusion_culling_init(&culling, &fixture->sheet, fragments));
+  size_t culled = culling.count;
+  occlusion_culling_fini(&culling);
+  return culled;
+}
+
+/* All parts are behind the inside of a triangle, or of two that share a
+ * diagonal, and one layer of them covers the page. */
+static void what_is_in_a_box_is_culled(void **state) {
+  (void)state;
+  for (int fragments = 0; fragments <= 1; fragments++) {
+    struct sheet_fixture fixture;
+    start(&fixture);
+    build_box(&fixture.scene, vector_of(-0.1, -0.1, -1),
+              vector_of(1.1, 1.1, 1));
+    for (int layer = 0; layer < 8; layer++)
+      add_squares(&fixture.scene, 8, 0.1 * layer);
+    size_t culled = count_culled(&fixture, fragments);
+    /* The parts, and the bottom of the box but for its border cells. */
+    assert_true(culled >= 2 * PARTS);
+    assert_true(culled <= 2 * PARTS + 2);
+    sheet_fixture_fini(&fixture);
+  }
+}
+
+/* Squares above the plates, none of which is hidden, and under the highest, all
+ * of which are. */
+static void what_is_in_front_is_not_culled(void **state) {
+  struct sheet_fixture fixture;
+  (void)state;
+  start(&fixture);
+  for (int plate = 0; plate < 8; plate++)
+    build_parallelogram(&fixture.scene, vector_of(-0.1, -0.1, -0.1 * plate),
+                        vector_of(1.2, 0, 0), vector_of(0, 1.2, 0));
+  add_squares(&fixture.scene, 8, 0.1);
+  add_squares(&fixture.scene, 8, -0.05);
+  sheet_fixture_out(&fixture, true);
+  struct occlusion_culling culling;
+  assert_true(occlusion_culling_init(&culling, &fixture.sheet, true));
+  for (uint32_t t = 0; t < fixture.sheet.triangle.count; t++) {
+    uint32_t face = fixture.sheet.triangle.item[t].face;
+    if (face >= 8)
+      assert_int_equal(occlusion_culling_is_culled(&culling, t),
+                       face >= 8 + 64);
+  }
+  occlusion_culling_fini(&culling);
+  sheet_fixture_fini(&fixture);
+}
+
+/* A plate a thousandth in front hides the squares; if so much is in contact, it
+ * does not. */
+static void contact_is_not_culled(void **state) {
+  (void)state;
+  for (int touching = 0; touching <= 1; touching++) {
+    struct sheet_fixture fixture;
+    start(&fixture);
+    for (int plate = 0; plate < 8; plate++)
+      build_parallelogram(&fixture.scene,
+                          vector_of(-0.1, -0.1, 1 + 0.01 * plate),
+                          vector_of(1.2, 0, 0), vector_of(0, 1.2, 0));
+    add_squares(&fixture.scene, 8, 1.069);
+    fixture.options.solver.contact = touching ? 0.002 : 0;
+    sheet_fixture_out(&fixture, true);
+    struct occlusion_culling culling;
+    assert_true(occlusion_culling_init(&culling, &fixture.sheet, true));
+    size_t culled = 0;
+    for (uint32_t t = 0; t < fixture.sheet.triangle.count; t++)
+      culled += fixture.sheet.triangle.item[t].face >= 8 &&
+                occlusion_culling_is_culled(&culling, t);
+    assert_int_equal(culled, touching ? 0 : 128);
+    occlusion_culling_fini(&culling);
+    sheet_fixture_fini(&fixture);
+  }
+}
+
+/* Where nothing lies behind anything, no buffer is made. */
+static void shallow_scenes_are_left_alone(void **state) {
+  struct sheet_fixture fixture;
+  (void)state;
+  start(&fixture);
+  add_squares(&fixture.scene, 32, 0);
+  sheet_fixture_out(&fixture, true);
+  struct occlusion_culling culling;
+  assert_true(occlusion_culling_init(&culling, &fixture.sheet, true));
+  assert_null(culling.culled);
+  assert_null(culling.bound);
+  occlusion_culling_fini(&culling);
+  sheet_fixture_fini(&fixture);
+}
+
+/* A soup in a unit cube. */
+static void add_soup(struct scene *scene, uint64_t seed, int count,
+                     double size) {
+  struct random r = {seed};
+  for (int i = 0; i < count; i++) {
+    double xyz[9], middle[3];
+    for (int k = 0; k < 3; k++)
+      middle[k] = random_unit(&r);
+    for (int k = 0; k < 9; k++)
+      xyz[k] = middle[k % 3] + size * (random_unit(&r) - 0.5);
+    build_polygon(scene, xyz, 3);
+  }
+}
+
+/* Does a triangle hide the point of the page at that depth?  By the definition
+ * in occlusion.h. */
+static bool hides(const struct sheet *sheet, uint32_t t, struct geom_point p) {
+  struct geom_triangle c = sheet_corners(sheet, t);
+  struct occluder occluder;
+  if ((sheet->triangle_flags[t] & SHEET_FLAT) ||
+      geom_orient2d(c.p[0], c.p[1], p) <= 0 ||
+      geom_orient2d(c.p[1], c.p[2], p) <= 0 ||
+      geom_orient2d(c.p[2], c.p[0], p) <= 0)
+    return false;
+  occluder_init(&occluder, sheet, t);
+  return occluder_depth(&occluder, p) < 0;
+}
+
+/* Every corner of a culled triangle is behind a triangle that is not culled. */
+static void what_is_culled_is_hidden(void **state) {
+  (void)state;
+  for (uint64_t seed = 1; seed <= 4; seed++) {
+    struct sheet_fixture fixture;
+    struct occlusion_culling culling;
+    size_t tested = 0;
+    start(&fixture);
+    if (seed % 2 == 0)
+      scenes_view_eye(&fixture.options, vector_of(0.5, -1.5, 1.5),
+                      vector_of(0.5, 0.5, 0.5), 40);
+    add_soup(&fixture.scene, seed, 3000, 0.3);
+    sheet_fixture_out(&fixture, true);
+    const struct sheet *sheet = &fixture.sheet;
+    assert_true(occlusion_culling_init(&culling, sheet, seed > 2));
+    assert_true(culling.count > sheet->triangle.count / 4);
+    for (uint32_t t = 0; t < sheet->triangle.count; t++) {
+      struct geom_triangle c = sheet_corners(sheet, t);
+      if (!occlusion_culling_is_culled(&culling, t))
+        continue;
+      for (int k = 0; k < 3; k++) {
+        bool hidden = false;
+        for (uint32_t o = 0; o < sheet->triangle.count && !hidden; o++)
+          hidden = !occlusion_culling_is_culled(&culling, o) &&
+                   hides(sheet, o, c.p[k]);
+        assert_true(hidden);
+        tested++;
+      }
+    }
+    assert_true(tested > 1000);
+    occlusion_culling_fini(&culling);
+    sheet_fixture_fini(&fixture);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(what_is_in_a_box_is_culled),
+      cmocka_unit_test(what_is_in_front_is_not_culled),
+      cmocka_unit_test(contact_is_not_culled),
+      cmocka_unit_test(shallow_scenes_are_left_alone),
+      cmocka_unit_test(what_is_culled_is_hidden),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
