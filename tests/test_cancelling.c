@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "tests/polled.h"
 #include "tests/sheet_fixture.h"
 #include "tests/temporary.h"
 #include "visibility/solver.h"
@@ -30,18 +31,19 @@ static void stop_tiles(const char *stage, int after, int threads, unsigned n) {
   const struct solver_request request = {.edges = true,
                                          .fragments = true,
                                          .intersections = true,
-                                         .threads = threads,
-                                         .progress = listen,
-                                         .user = &listener};
+                                         .threads = threads};
+  struct polled polled;
   struct report *report = report_create();
   recto_error error;
   sheet_fixture_start(&fixture);
   scenes_soup(&fixture.scene, &fixture.options, n, 3);
   sheet_fixture_out(&fixture, true);
   map_init(&map);
+  polled_begin(&polled, listen, &listener);
   assert_int_equal(
       solver_tiles.solve(&fixture.sheet, &request, &map, report, &error),
       RECTO_ERROR_CANCELLED);
+  polled_end(&polled);
   assert_int_equal(error.code, RECTO_ERROR_CANCELLED);
   assert_int_equal(listener.after,
                    -1); /* not polled again after it cancelled */
@@ -102,16 +104,16 @@ enum { SILENCE_S = 20 };
 static bool is_heard(const struct solver *solver, struct sheet_fixture *fixture,
                      const struct solver_request *what) {
   struct patience patience = {.start = clock_cpu(), .last = clock_cpu()};
-  struct solver_request request = *what;
+  struct polled polled;
   struct report *report = report_create();
   recto_status status;
   struct map map;
   recto_error error;
   size_t edges = fixture->sheet.edge.count;
-  request.progress = wait_a_little;
-  request.user = &patience;
   map_init(&map);
-  status = solver->solve(&fixture->sheet, &request, &map, report, &error);
+  polled_begin(&polled, wait_a_little, &patience);
+  status = solver->solve(&fixture->sheet, what, &map, report, &error);
+  polled_end(&polled);
   note_time(&patience);
   map_fini(&map);
   report_destroy(report);

@@ -18,8 +18,8 @@
 
 #include <cmocka.h>
 
-#include "base/poll.h"
 #include "scene/import_form.h"
+#include "tests/polled.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
 #include "tests/temporary.h"
@@ -162,13 +162,12 @@ static void cancelling_ends_the_importer(void **state) {
   use_script(state, "exec sleep 60");
   setenv("RECTO_IMPORT_SECONDS", "50", 1);
   reading_init(&r);
-  const recto_options options = {.progress = never};
-  struct poll poll;
-  poll_open(&poll, &options);
+  struct polled polled;
+  polled_begin(&polled, never, NULL);
   assert_int_equal(
       scene_read(&r.scene, model(state), NULL, &r.diagnostics, &r.error),
       RECTO_ERROR_CANCELLED);
-  poll_close(&poll);
+  polled_end(&polled);
   assert_alone();
   reading_fini(&r);
 }

@@ -12,10 +12,10 @@
 
 #include <cmocka.h>
 
-#include "base/poll.h"
 #include "judge/ear_clipping.h"
 #include "judge/grid.h"
 #include "judge/judge.h"
+#include "tests/polled.h"
 #include "tests/scenes/judge_camera.h"
 #include "tests/scenes/scenes.h"
 
@@ -248,14 +248,12 @@ static void progress_reaches_the_caller_who_may_cancel(void **state) {
     struct judge_verdict verdict;
     judge_options_init(&options);
     options.step_mm = 0.01;
-    const recto_options polled = {.progress = hear, .user = &caller};
-    struct poll poll;
-    poll_open(&poll, &polled);
-    poll.to = 1;
+    struct polled polled;
+    polled_begin(&polled, hear, &caller);
     assert_int_equal(
         judge_drawing(&verdict, &drawing, &scene, &page.camera, &options),
         most != 2);
-    poll_close(&poll);
+    polled_end(&polled);
     if (most == 2)
       assert_int_equal(caller.polled, 2);
     else

@@ -1,6 +1,7 @@
 /* test_newell.c - the painter's order of Newell, Newell and Sancha. */
 #include "exact_fixture/rational.h"
 #include "exact_fixture/scene.h"
+#include "tests/polled.h"
 #include "visibility/newell/newell_order.h"
 
 #include <setjmp.h>
@@ -20,10 +21,8 @@ struct ordered {
 };
 
 /* In the order in which faces can be painted. */
-static recto_status put_in_order(struct ordered *o,
-                                 recto_progress_fn progress) {
-  const struct solver_request request = {
-      .fragments = true, .threads = 1, .progress = progress};
+static recto_status put_in_order(struct ordered *o) {
+  const struct solver_request request = {.fragments = true, .threads = 1};
   recto_error error;
   assert_true(triangle_grid_init(&o->grid, &o->sheet));
   return newell_order_init(&o->order, &o->sheet, &o->grid, &request, &error);
@@ -41,7 +40,7 @@ static void order_triangles(struct ordered *o, const int corner[][3][3],
   exact_sheet_init(&o->sheet);
   for (int f = 0; f < count; f++)
     exact_add_face(&o->sheet, corner[f], 3, SCALE);
-  assert_int_equal(put_in_order(o, NULL), RECTO_OK);
+  assert_int_equal(put_in_order(o), RECTO_OK);
 }
 
 /* The triangles of the pieces painted, back to front. */
@@ -352,7 +351,7 @@ static void nothing_painted_later_is_behind(void **state) {
     snprintf(what, sizeof what, "seed %u", (unsigned)seed);
     exact_random_sheet(&o.sheet, (enum exact_kind)(seed % EXACT_KINDS),
                        2 + exact_random_below(&r, 9), &r);
-    assert_int_equal(put_in_order(&o, NULL), RECTO_OK);
+    assert_int_equal(put_in_order(&o), RECTO_OK);
     check_order(&o.order, what);
     cycles += o.order.counts.cycles;
     splits += o.order.counts.split_pierce;
@@ -383,7 +382,7 @@ static void long_cycles_are_broken(void **state) {
           {q[0] + dx / 4, q[1] + dy / 4, 300}};
       exact_add_face(&o.sheet, bar, 3, SCALE);
     }
-    assert_int_equal(put_in_order(&o, NULL), RECTO_OK);
+    assert_int_equal(put_in_order(&o), RECTO_OK);
     snprintf(what, sizeof what, "ring of %d", n);
     assert_in_range(o.order.counts.split_cycle, 1, n);
     assert_int_equal(o.order.painted.count,
@@ -403,10 +402,13 @@ static bool say_stop(void *user, double share, const char *stage) {
 
 static void progress_may_say_stop(void **state) {
   struct ordered o;
+  struct polled polled;
   (void)state;
   exact_sheet_init(&o.sheet);
   exact_add_face(&o.sheet, bars[0], 3, SCALE);
-  assert_int_equal(put_in_order(&o, say_stop), RECTO_ERROR_CANCELLED);
+  polled_begin(&polled, say_stop, NULL);
+  assert_int_equal(put_in_order(&o), RECTO_ERROR_CANCELLED);
+  polled_end(&polled);
   ordered_fini(&o);
 }
 

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "tests/polled.h"
 #include "tests/sheet_fixture.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
@@ -203,19 +204,18 @@ static bool stop_in_a_while(void *user, double share, const char *stage) {
 static recto_status solve(struct sheet_fixture *fixture,
                           const struct solver *solver,
                           struct patience *patience) {
-  const struct solver_request request = {.edges = true,
-                                         .fragments = true,
-                                         .intersections = true,
-                                         .threads = 1,
-                                         .progress = stop_in_a_while,
-                                         .user = patience};
+  const struct solver_request request = {
+      .edges = true, .fragments = true, .intersections = true, .threads = 1};
+  struct polled polled;
   size_t edges = fixture->sheet.edge.count, points = fixture->sheet.point.count;
   struct report *report = report_create();
   struct map map;
   recto_error error;
   map_init(&map);
+  polled_begin(&polled, stop_in_a_while, patience);
   recto_status status =
       solver->solve(&fixture->sheet, &request, &map, report, &error);
+  polled_end(&polled);
   map_fini(&map);
   report_destroy(report);
   fixture->sheet.edge.count = edges;

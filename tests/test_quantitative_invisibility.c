@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "tests/memory_faults.h"
+#include "tests/polled.h"
 #include "tests/scenes/pipeline.h"
 #include "visibility/quantitative_invisibility.h"
 #include "visibility/predicate/occlusion.h"
@@ -271,15 +272,17 @@ static bool refuse(void *user, double share, const char *stage) {
 static void counting_can_be_cancelled_and_fails_cleanly(void **state) {
   struct sheet sheet;
   struct map map;
-  const struct solver_request stop = {.progress = refuse};
+  struct polled polled;
   const struct solver_request go = {.threads = 1};
   recto_error error;
   (void)state;
   build_stairs(&sheet, 8);
   exact_solve(&solver_brute, &sheet, &map, NULL);
-  assert_int_equal(quantitative_invisibility_find(&map, &sheet, 1, false, &stop,
-                                                  NULL, &error),
-                   RECTO_ERROR_CANCELLED);
+  polled_begin(&polled, refuse, NULL);
+  assert_int_equal(
+      quantitative_invisibility_find(&map, &sheet, 1, false, &go, NULL, &error),
+      RECTO_ERROR_CANCELLED);
+  polled_end(&polled);
   struct memory_faults faults = {.least = 1};
   while (memory_faults_go_on(&faults)) {
     map.over_limit.count = map.over_limit_interval.count = 0;

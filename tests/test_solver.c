@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "tests/polled.h"
 #include "tests/scenes/exact.h"
 
 static const struct solver *const raster[] = {
@@ -152,12 +153,13 @@ static void a_cancelled_raster_is_not_polled_again(void **state) {
   for (int s = 0; s < RASTERS; s++)
     for (int polls = 1; polls < 6; polls++) {
       int left = polls;
-      const struct solver_request request = {EVERYTHING, .resolution = 512,
-                                             .progress = stop_in_a_while,
-                                             .user = &left};
+      const struct solver_request request = {EVERYTHING, .resolution = 512};
+      struct polled polled;
       struct map map;
+      polled_begin(&polled, stop_in_a_while, &left);
       assert_int_equal(solve(raster[s], &request, all_kinds, 0, &map),
                        RECTO_ERROR_CANCELLED);
+      polled_end(&polled);
       assert_int_equal(left, 0);
       map_fini(&map);
     }

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "tests/polled.h"
 #include "visibility/watkins/exact/trapezoid_cells.h"
 
 static const struct solver_request plain = {.threads = 1};
@@ -320,11 +321,9 @@ static bool count_and_stop(void *user, double share, const char *stage) {
 static void a_sweep_can_be_cancelled(void **state) {
   enum { SIDE = 70 };
   int polled = 0;
-  const struct solver_request request = {.fragments = true,
-                                         .edges = true,
-                                         .threads = 1,
-                                         .progress = count_and_stop,
-                                         .user = &polled};
+  const struct solver_request request = {
+      .fragments = true, .edges = true, .threads = 1};
+  struct polled with;
   struct sheet sheet;
   struct map map;
   (void)state;
@@ -334,9 +333,11 @@ static void a_sweep_can_be_cancelled(void **state) {
     const int corner[3][3] = {{x, y, 0}, {x + 1, y, 0}, {x, y + 1, 0}};
     exact_add_face(&sheet, corner, 3, 1 << 20);
   }
+  polled_begin(&with, count_and_stop, &polled);
   assert_int_equal(
       exact_solve_as(&solver_watkins, &request, &sheet, &map, NULL),
       RECTO_ERROR_CANCELLED);
+  polled_end(&with);
   assert_int_equal(polled, 2);
   map_fini(&map);
   exact_sheet_fini(&sheet);

@@ -202,11 +202,6 @@ static recto_status project(struct render *render, recto_error *error) {
   return status;
 }
 
-static bool pass_progress(void *user, double share, const char *stage) {
-  return poll_share(shares_within_solver(stage, share, needs_fragments(user)),
-                    stage);
-}
-
 static recto_status solve(struct render *render, recto_error *error) {
   const recto_options *options = render->options;
   struct solver_request request = {
@@ -222,8 +217,6 @@ static recto_status solve(struct render *render, recto_error *error) {
       .subpixels = options->solver.subpixels,
       .remove_backs = options->solver.remove_backs,
       .depth_bits = options->solver.depth_bits,
-      .progress = options->progress != NULL ? pass_progress : NULL,
-      .user = render,
   };
   recto_status status = choose_method(render, &request)
                             ->solve(&render->sheet, &request, &render->map,

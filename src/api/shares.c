@@ -4,8 +4,6 @@
  * automatic method; see bench/ for the times by stage. */
 #include "api/shares.h"
 
-#include <string.h>
-
 static double weigh_solving(const recto_options *o) {
   bool fast = o->solver.method == RECTO_METHOD_AUTO ||
               o->solver.method == RECTO_METHOD_TILES;
@@ -40,22 +38,4 @@ void shares_plan(double begin[SHARE_STAGES + 1], const recto_options *options) {
   begin[0] = 0;
   for (int i = 0; i < SHARE_STAGES; i++)
     begin[i + 1] = begin[i] + weight[i] / sum;
-}
-
-double shares_within_solver(const char *stage, double share, bool fragments) {
-  static const struct {
-    const char *name;
-    double from, to, to_with_fragments;
-  } known[] = {
-      {"piercing", 0, 0.15, 0.1},  {"ordering", 0.15, 0.92, 0.6},
-      {"visibility", 0.2, 1, 0.9}, {"subdividing", 0.2, 1, 0.9},
-      {"painting", 0.2, 1, 0.9},   {"edges", 0.15, 1, 0.4},
-      {"faces", 0.4, 1, 1},        {"depths", 0.9, 1, 1},
-  };
-  for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-    if (strcmp(stage, known[i].name) == 0) {
-      double to = fragments ? known[i].to_with_fragments : known[i].to;
-      return known[i].from + share * (to - known[i].from);
-    }
-  return share;
 }

@@ -21,9 +21,4 @@ enum share_stage {
  * about linear in time. */
 void shares_plan(double begin[SHARE_STAGES + 1], const recto_options *options);
 
-/* Converts the progress of one of a solver's stages, 0 to 1, to that of the
- * solver.
- * fragments  the solver also makes fragments, after the edges */
-double shares_within_solver(const char *stage, double share, bool fragments);
-
 #endif

@@ -4,7 +4,8 @@
 static _Thread_local struct poll *current; /* NULL: none is open */
 
 void poll_open(struct poll *poll, const recto_options *options) {
-  *poll = (struct poll){.options = options, .stage = "", .outer = current};
+  *poll =
+      (struct poll){.options = options, .to = 1, .stage = "", .outer = current};
   current = poll;
 }
 

@@ -27,7 +27,7 @@ struct poll {
   struct poll *outer; /* of the call within which this one was made */
 };
 
-/* Makes `poll` the thread's own, until poll_close. */
+/* Makes `poll` the thread's own, until poll_close; as if one stage were all. */
 void poll_open(struct poll *poll, const recto_options *options);
 void poll_close(struct poll *poll);
 

@@ -1,4 +1,4 @@
-/* progress.h - reports progress to the caller, and learns of cancellation.
+/* progress.h - polls (base/poll.h) by the work of a method.
  *
  * Progress is polled once per amount of work, not once per edge or window,
  * because one of these may take minutes. */
@@ -17,20 +17,18 @@ enum {
 };
 
 struct progress {
-  const struct solver_request *request; /* NULL: never polled */
+  bool fragments;    /* the method makes them too, after the edges */
   const char *stage; /* name of the current stage, as the caller sees it */
   double share;      /* of the work of this stage that is done, 0 to 1 */
   int64_t work_left; /* units until the next poll */
-  bool cancelled;    /* the caller cancelled; it is not polled any more */
 };
 
 static inline struct progress progress_of(const struct solver_request *request,
                                           const char *stage) {
-  return (struct progress){.request = request, .stage = stage};
+  return (struct progress){.fragments = request->fragments, .stage = stage};
 }
 
-/* Calls the caller's progress function now.  Returns false when the caller
- * cancels. */
+/* Polls now.  Returns false when the caller cancelled. */
 bool progress_poll(struct progress *progress);
 
 /* Counts units of work, done or about to be done, and polls when enough have
@@ -41,8 +39,7 @@ static inline bool progress_step(struct progress *progress, size_t work) {
   if (progress == NULL)
     return true;
   progress->work_left -= (int64_t)work;
-  return progress->work_left > 0 ? !progress->cancelled
-                                 : progress_poll(progress);
+  return progress->work_left > 0 || progress_poll(progress);
 }
 
 /* The same, and sets the share: `done` items of `all`. */
@@ -51,11 +48,5 @@ static inline bool progress_step_at(struct progress *progress, size_t work,
   progress->share = all > 0 ? (double)done / (double)all : 0;
   return progress_step(progress, work);
 }
-
-/* Sets and returns the error that ended the work: RECTO_ERROR_CANCELLED where
- * the caller cancelled, else RECTO_ERROR_MEMORY.
- * progress  NULL: never polled, so memory ran out */
-recto_status progress_error(const struct progress *progress,
-                            recto_error *error);
 
 #endif

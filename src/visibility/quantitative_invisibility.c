@@ -134,7 +134,7 @@ static recto_status find_all(struct invisibility_sweep *sweep,
   size_t edges = sweep->map->edge_count;
   for (size_t e = 0; e < edges; e++) {
     if (!progress_step_at(&progress, 1 + sweep->query.found.count, e, edges))
-      return progress_error(&progress, error);
+      return error_memory(error);
     if (is_candidate(sweep, e) &&
         !(find_changes(sweep, &sweep->sheet->edge.item[e]) &&
           store_intervals(sweep, (uint32_t)e)))

@@ -13,12 +13,10 @@ struct solver_request {
   bool intersections; /* edges where faces pierce each other are drawable */
   int threads;        /* at least 1 */
   double pitch_mm;    /* watkins: distance of the scan lines */
-  int resolution; /* raster methods: lines over the page; 0: their default */
-  recto_progress_fn progress; /* NULL: none */
-  void *user;                 /* argument of `progress` */
-  int depth_bits;     /* z-buffers: 1 to 32; 0: float64 with ties decided
+  int resolution;    /* raster methods: lines over the page; 0: their default */
+  int depth_bits;    /* z-buffers: 1 to 32; 0: float64 with ties decided
                          exactly */
-  bool remove_backs;  /* raster methods: faces that run clockwise on the page
+  bool remove_backs; /* raster methods: faces that run clockwise on the page
                          are left out (back-face culling) */
   bool divide_by_box; /* warnock: windows are split at bounding boxes of faces
                          rather than in the middle */

@@ -142,11 +142,11 @@ static recto_status solve(struct sheet *sheet,
     status = intersection_find_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK && request->edges &&
       !solve_edges(sheet, map, &counts, &progress))
-    status = progress_error(&progress, error);
+    status = error_memory(error);
   progress.stage = "faces";
   if (status == RECTO_OK && request->fragments &&
       !solve_fragments(sheet, &grid, map, report, &progress))
-    status = progress_error(&progress, error);
+    status = error_memory(error);
   occlusion_report(&counts, report);
   triangle_grid_fini(&grid);
   return status;

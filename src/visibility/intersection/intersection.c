@@ -200,5 +200,5 @@ recto_status intersection_find_all(struct sheet *sheet,
              (int64_t)search.segment.list.count);
   ARRAY_FREE(&search.segment.list);
   edge_crossings_fini(&search.crossings);
-  return ok ? RECTO_OK : progress_error(&search.progress, error);
+  return ok ? RECTO_OK : error_memory(error);
 }

@@ -272,7 +272,7 @@ static recto_status solve(struct sheet *sheet,
     status = intersection_find_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK &&
       !solve_in_order(&order, sheet, request, map, report))
-    status = progress_error(&order.progress, error);
+    status = error_memory(error);
   report_order(&order, report);
   newell_order_fini(&order);
   triangle_grid_fini(&grid);

@@ -338,7 +338,7 @@ recto_status newell_order_init(struct newell_order *order,
       if (order->counts.tests > tests_max)
         exclude_triangle(order, p);
       else if (!paint(order, order->open[p]))
-        status = progress_error(&order->progress, error);
+        status = error_memory(error);
   }
   mem_free(s);
   return status;

@@ -164,7 +164,7 @@ static recto_status paint(struct sheet *sheet,
   mem_free(painting.rank);
   triangle_grid_query_fini(&painting.query);
   triangle_grid_fini(&grid);
-  return ok ? RECTO_OK : progress_error(&painting.progress, error);
+  return ok ? RECTO_OK : error_memory(error);
 }
 
 static recto_status solve_by_centroid(struct sheet *sheet,

@@ -180,7 +180,7 @@ recto_status pixels_line(struct pixels *pixels, int32_t line,
   return progress_step_at(&pixels->progress, PROGRESS_LINE, (size_t)done,
                           (size_t)raster->grid.lines)
              ? RECTO_OK
-             : progress_error(&pixels->progress, error);
+             : error_memory(error);
 }
 
 /* The share of the frame's sub-pixels that see a face. */

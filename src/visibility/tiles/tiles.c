@@ -44,16 +44,14 @@ struct tiles_work {
 
 enum { POLL_INTERVAL = 16 }; /* edges between two calls of progress */
 
-/* Polls the caller's progress function every POLL_INTERVAL edges, and only in
- * the thread of the caller.
+/* Polls every POLL_INTERVAL edges, in the caller's thread alone.
  * callers  whether this is that thread
  * Returns false when the caller cancelled. */
-static bool poll_progress(const struct tiles_work *work, size_t done,
-                          size_t all, const char *stage, bool callers) {
-  const struct solver_request *request = work->request;
-  if (callers && done % POLL_INTERVAL == 0 && request->progress != NULL &&
-      !atomic_load(work->cancelled) &&
-      !request->progress(request->user, (double)done / (double)all, stage))
+static bool poll_edges(const struct tiles_work *work, size_t done,
+                       bool callers) {
+  struct progress progress = progress_of(work->request, "edges");
+  progress.share = (double)done / (double)work->edge.count;
+  if (callers && done % POLL_INTERVAL == 0 && !progress_poll(&progress))
     atomic_store(work->cancelled, true);
   return !atomic_load(work->cancelled);
 }
@@ -267,7 +265,7 @@ static void solve_batch(const struct tiles_work *work, size_t from,
                                                    : from + BATCH_SIZE;
   batch->done = true;
   for (size_t i = from; batch->done && i < to; i++)
-    batch->done = poll_progress(work, i, work->edge.count, "edges", callers) &&
+    batch->done = poll_edges(work, i, callers) &&
                   edge_query_solve(query, work->edge.item[i]) &&
                   edge_intervals_store(&query->intervals, work->edge.item[i],
                                        &batch->map);
@@ -354,8 +352,6 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
          deferred_triangles_solve(&deferred_triangles, work->face.item[i],
                                   &fragments);
   ok = ok && fragments_finish(&fragments, map);
-  if (progress.cancelled)
-    atomic_store(work->cancelled, true);
   deferred_triangles_report(&deferred_triangles, work->report);
   deferred_triangles_fini(&deferred_triangles);
   fragments_fini(&fragments);
@@ -444,7 +440,7 @@ static recto_status solve(struct sheet *sheet,
                             .cancelled = &cancelled};
   recto_status status = RECTO_OK;
   if (!solve_all(&work, map, &status, error) && status == RECTO_OK)
-    status = cancelled ? error_cancelled(error) : error_memory(error);
+    status = error_memory(error);
   report_tiles(&work, report);
   tile_candidates_fini(&work.lists);
   tile_classification_fini(&work.tiles);

@@ -333,7 +333,7 @@ static recto_status solve(struct sheet *sheet,
     occluder_subtraction_init(&w.subtraction, sheet);
     ok = run(&w, &grid) && store_all(&w, &grid, map, report);
     if (!ok)
-      status = progress_error(&w.progress, error);
+      status = error_memory(error);
     if (request->fragments)
       occluder_subtraction_report(&w.subtraction, report);
     occluder_subtraction_fini(&w.subtraction);

@@ -321,5 +321,5 @@ recto_status warnock_frame_draw(struct warnock_frame *frame,
   warnock_sample_fini(&s.sample);
   warnock_windows_fini(&s.windows);
   mem_free(s.count);
-  return ok ? RECTO_OK : progress_error(&s.progress, error);
+  return ok ? RECTO_OK : error_memory(error);
 }

@@ -82,7 +82,7 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
   for (size_t band = 0; band < order.bands && status == RECTO_OK; band++) {
     if (!draw_facets(raster, facets, order.item + first,
                      order.past[band] - first, &progress, covered))
-      status = progress_error(&progress, error);
+      status = error_memory(error);
     first = order.past[band];
     if (status == RECTO_OK && pixels != NULL)
       status = finish_band(raster, pixels, band, error);

@@ -287,7 +287,7 @@ recto_status sweep_run(struct sweep *sweep,
       return RECTO_OK;
     if (!progress_step(&progress, EVENT_WORK) ||
         !process_event(sweep, &event, &progress))
-      return progress_error(&progress, error);
+      return error_memory(error);
     sweep->events++;
     if (sweep->events > sweep->events_max || sweep->in > sweep->in_max)
       return limit_error(sweep, error);

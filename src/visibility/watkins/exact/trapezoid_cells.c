@@ -348,5 +348,5 @@ recto_status trapezoid_cells_finish(struct trapezoid_cells *cells,
   occluder_subtraction_fini(&work.subtraction);
   arena_fini(&work.arena);
   ARRAY_FREE(&work.piece);
-  return ok ? RECTO_OK : progress_error(fragments->progress, error);
+  return ok ? RECTO_OK : error_memory(error);
 }

@@ -151,8 +151,7 @@ static recto_status store_edges(struct exact *exact, const struct sheet *sheet,
   occlusion_report(&counts, report);
   report_int(report, "watkins", "faces_beside_lines", (int64_t)count);
   edge_intervals_fini(&intervals);
-  progress.cancelled |= exact->progress.cancelled;
-  return ok ? RECTO_OK : progress_error(&progress, error);
+  return ok ? RECTO_OK : error_memory(error);
 }
 
 /* ---- Fragments ----------------------------------------------------------- */
@@ -174,7 +173,7 @@ static recto_status store_deferred(struct exact *exact,
          pairwise_fallback_faces(&exact->fallback, list.item, list.count,
                                  fragments);
   ARRAY_FREE(&list);
-  return ok ? RECTO_OK : progress_error(&exact->progress, error);
+  return ok ? RECTO_OK : error_memory(error);
 }
 
 /* Sweeps the triangles that may be visible a second time. */
@@ -206,7 +205,7 @@ static recto_status solve_fragments(struct exact *exact,
   if (status == RECTO_OK)
     status = store_deferred(exact, sheet, request, &fragments, report, error);
   if (status == RECTO_OK && !fragments_finish(&fragments, map))
-    status = progress_error(&progress, error);
+    status = error_memory(error);
   report_int(report, "watkins", "visible_trapezoids", (int64_t)cells->count);
   report_int(report, "watkins", "filter_failures",
              (int64_t)cells->filter_failures);

@@ -252,15 +252,15 @@ static recto_status walk_lines(struct scan *scan, recto_error *error) {
   bool more;
   watkins->progress = &progress;
   if (!watkins_next(watkins, &more))
-    return progress_error(&progress, error);
+    return error_memory(error);
   for (int32_t line = lines; line-- > 0;) {
     bool here = more && watkins->table.line == line;
     if (!process_line(scan, line, here) ||
         (here && !watkins_next(watkins, &more)))
-      return progress_error(&progress, error);
+      return error_memory(error);
     progress.share = 1 - (double)line / lines;
     if (!progress_step(&progress, PROGRESS_LINE))
-      return progress_error(&progress, error);
+      return error_memory(error);
   }
   return RECTO_OK;
 }
