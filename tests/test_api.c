@@ -15,30 +15,21 @@
 #include "api/handle.h"
 #include "base/memory.h"
 #include "base/stream.h"
-#include "recto.h"
+#include "tests/box_mesh.h"
 
-/* ---- A cube
- * --------------------------------------------------------------- */
-
-static const double cube_point[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},
-                                        {0, 1, 0}, {0, 0, 1}, {1, 0, 1},
-                                        {1, 1, 1}, {0, 1, 1}};
-static const uint32_t cube_face[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7},
-                                         {0, 1, 5, 4}, {1, 2, 6, 5},
-                                         {2, 3, 7, 6}, {3, 0, 4, 7}};
+/* ---- A cube -------------------------------------------------------------- */
 
 static recto_status add_cube(recto_scene *scene, recto_error *error) {
   recto_status status = recto_scene_add_group(scene, "cube", error);
   for (int i = 0; i < 8 && status == RECTO_OK; i++)
-    status = recto_scene_add_point(scene, cube_point[i], NULL, error);
+    status = recto_scene_add_point(scene, box_cube[i], NULL, error);
   for (int i = 0; i < 6 && status == RECTO_OK; i++)
-    status = recto_scene_add_face(scene, cube_face[i], 4, error);
+    status = recto_scene_add_face(scene, box_faces[i], 4, error);
   return status;
 }
 
 static recto_scene *make_cube(void) {
-  recto_scene *scene;
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  recto_scene *scene = box_scene(NULL);
   assert_int_equal(add_cube(scene, NULL), RECTO_OK);
   return scene;
 }
@@ -298,7 +289,7 @@ static void wrong_elements_are_refused_and_leave_no_trace(void **state) {
   const uint32_t bad[4] = {0, 1, 8, 2};
   const double nowhere[3] = {0, (double)NAN, 0};
   uint32_t index = 77;
-  assert_int_equal(recto_scene_add_face(scene, cube_face[0], 2, &error),
+  assert_int_equal(recto_scene_add_face(scene, box_faces[0], 2, &error),
                    RECTO_ERROR_ARGUMENT);
   assert_int_equal(recto_scene_add_face(scene, bad, 4, &error),
                    RECTO_ERROR_ARGUMENT);
@@ -393,16 +384,15 @@ static void a_cube_at_true_scale_shows_nine_edges(void **state) {
 }
 
 static recto_scene *make_scaled_cube(double scale, double middle) {
-  recto_scene *scene;
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  recto_scene *scene = box_scene(NULL);
   for (int i = 0; i < 8; i++) {
     double point[3];
     for (int k = 0; k < 3; k++)
-      point[k] = scale * (2 * (cube_point[i][k] - middle));
+      point[k] = scale * (2 * (box_cube[i][k] - middle));
     assert_int_equal(recto_scene_add_point(scene, point, NULL, NULL), RECTO_OK);
   }
   for (int i = 0; i < 6; i++)
-    assert_int_equal(recto_scene_add_face(scene, cube_face[i], 4, NULL),
+    assert_int_equal(recto_scene_add_face(scene, box_faces[i], 4, NULL),
                      RECTO_OK);
   return scene;
 }
@@ -623,11 +613,11 @@ static void write_model(const char *path) {
   FILE *file = fopen(path, "wb");
   assert_non_null(file);
   for (int i = 0; i < 8; i++)
-    fprintf(file, "v %d %d %d\n", (int)cube_point[i][0], (int)cube_point[i][1],
-            (int)cube_point[i][2]);
+    fprintf(file, "v %d %d %d\n", (int)box_cube[i][0], (int)box_cube[i][1],
+            (int)box_cube[i][2]);
   for (int i = 0; i < 6; i++)
-    fprintf(file, "f %u %u %u %u\n", cube_face[i][0] + 1, cube_face[i][1] + 1,
-            cube_face[i][2] + 1, cube_face[i][3] + 1);
+    fprintf(file, "f %u %u %u %u\n", box_faces[i][0] + 1, box_faces[i][1] + 1,
+            box_faces[i][2] + 1, box_faces[i][3] + 1);
   fprintf(file, "f 1 2 9\n");
   assert_int_equal(fclose(file), 0);
 }

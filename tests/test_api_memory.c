@@ -9,16 +9,11 @@
 
 #include <cmocka.h>
 
-#include "recto.h"
+#include "tests/box_mesh.h"
 
 /* ---- A cube with a group for its lid ------------------------------------- */
 
-static const double points[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0,
-                                0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
-static const uint32_t corners[] = {3, 2, 1, 0, 4, 5, 6, 7, 0, 1, 5, 4,
-                                   1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};
-static const uint32_t groups[] = {0, 0, 0, 0, 1, 0};
-static const char *const names[] = {"box", "lid"};
+static const double *const points = box_cube[0];
 
 static const char cube_obj[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                                "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
@@ -26,22 +21,7 @@ static const char cube_obj[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                                "f 2 3 7 6\ng lid\nf 3 4 8 7\ng box\n"
                                "f 4 1 5 8\n";
 
-static recto_mesh cube_mesh(void) {
-  return (recto_mesh){.points = points,
-                      .point_count = 8,
-                      .corners = corners,
-                      .corner_count = 24,
-                      .face_size = 4,
-                      .face_groups = groups,
-                      .group_names = names,
-                      .group_count = 2};
-}
-
-static recto_scene *new_scene(void) {
-  recto_scene *scene;
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
-  return scene;
-}
+static recto_mesh cube_mesh(void) { return box_mesh(points, 8); }
 
 /* ---- A drawing as text --------------------------------------------------- */
 
@@ -81,7 +61,7 @@ static struct text *draw(recto_scene *scene) {
 }
 
 static struct text *draw_obj(const char *obj) {
-  recto_scene *scene = new_scene();
+  recto_scene *scene = box_scene(NULL);
   assert_int_equal(
       recto_scene_read_memory(scene, obj, strlen(obj), "obj", NULL, NULL, NULL),
       RECTO_OK);
@@ -89,7 +69,7 @@ static struct text *draw_obj(const char *obj) {
 }
 
 static struct text *draw_mesh(const recto_mesh *mesh) {
-  recto_scene *scene = new_scene();
+  recto_scene *scene = box_scene(NULL);
   recto_error error = {0};
   if (recto_scene_add_mesh(scene, mesh, &error) != RECTO_OK)
     fail_msg("%s", error.text);
@@ -116,7 +96,7 @@ static void a_model_from_memory_draws_as_from_its_file(void **state) {
   (void)state;
   const char *path = "test_api_memory.obj";
   write_file(path, cube_obj);
-  recto_scene *scene = new_scene();
+  recto_scene *scene = box_scene(NULL);
   assert_int_equal(recto_scene_read(scene, path, NULL, NULL, NULL), RECTO_OK);
   remove(path);
   assert_same(draw(scene), draw_obj(cube_obj));
@@ -128,7 +108,7 @@ static void no_byte_behind_the_given_ones_is_read(void **state) {
   char *exact = malloc(count); /* valgrind and the sanitizers guard its end */
   assert_non_null(exact);
   memcpy(exact, cube_obj, count);
-  recto_scene *scene = new_scene();
+  recto_scene *scene = box_scene(NULL);
   assert_int_equal(
       recto_scene_read_memory(scene, exact, count, "obj", NULL, NULL, NULL),
       RECTO_OK);
@@ -139,7 +119,7 @@ static void no_byte_behind_the_given_ones_is_read(void **state) {
 static void errors_of_a_model_in_memory_have_its_name_and_line(void **state) {
   (void)state;
   static const char stl[] = "solid x\nfacet normal 0 0 1\nouter loop\nvortex";
-  recto_scene *scene = new_scene();
+  recto_scene *scene = box_scene(NULL);
   recto_error error = {0};
   assert_int_equal(recto_scene_read_memory(scene, stl, strlen(stl), NULL,
                                            "part.stl", NULL, &error),
@@ -174,7 +154,7 @@ static void a_model_in_memory_opens_files_only_beside_its_name(void **state) {
   options.ink.fill = RECTO_FILL_PAINT;
   options.warning = count_libraries;
   options.user = &warnings;
-  recto_scene *scene = new_scene();
+  recto_scene *scene = box_scene(NULL);
   assert_int_equal(recto_scene_read_memory(scene, obj, strlen(obj), "obj", NULL,
                                            &options, NULL),
                    RECTO_OK);
@@ -240,7 +220,7 @@ static void reading_may_be_cancelled_and_leaves_the_scene(void **state) {
     char *text = make_large(format[i], &count);
     recto_options options;
     struct polls polls = {0, 0};
-    recto_scene *scene = new_scene();
+    recto_scene *scene = box_scene(NULL);
     recto_mesh mesh = cube_mesh();
     recto_options_init(&options);
     options.progress = poll;
@@ -251,8 +231,7 @@ static void reading_may_be_cancelled_and_leaves_the_scene(void **state) {
     recto_scene_destroy(scene);
     int most = polls.count;
     assert_in_range(most, count >> 19, 2 + (count >> 17));
-    scene = new_scene();
-    assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+    scene = box_scene(&mesh);
     for (int last = 1; last <= most; last++) {
       polls = (struct polls){0, last};
       assert_int_equal(recto_scene_read_memory(scene, text, count, format[i],
@@ -307,9 +286,8 @@ static void a_second_mesh_has_indices_of_its_own(void **state) {
   (void)state;
   static const double flat[] = {3, 0, 0, 4, 0, 0, 3, 1, 0};
   static const uint32_t corner[] = {0, 1, 2};
-  recto_scene *scene = new_scene();
   recto_mesh mesh = cube_mesh();
-  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  recto_scene *scene = box_scene(&mesh);
   mesh = (recto_mesh){
       .points = flat, .point_count = 3, .corners = corner, .corner_count = 3};
   assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
@@ -325,18 +303,18 @@ static void a_wrong_mesh_is_refused_with_its_face_and_adds_nothing(void **s) {
   static const uint32_t two[] = {0, 3, 5}, back[] = {4, 0};
   static const uint32_t group[] = {0, 2};
   double infinite[24];
-  memcpy(infinite, points, sizeof points);
+  memcpy(infinite, points, sizeof infinite);
   infinite[22] = INFINITY;
   const recto_mesh good = {.points = points,
                            .point_count = 8,
-                           .corners = corners,
+                           .corners = box_faces[0],
                            .corner_count = 6};
   recto_mesh wrong[8] = {good, good, good, good, good, good, good, good};
   wrong[0].corners = beyond;
   wrong[1].face_offsets = two, wrong[1].face_count = 2,
   wrong[1].corner_count = 5;
   wrong[2].face_offsets = back, wrong[2].face_count = 2;
-  wrong[3].face_groups = group, wrong[3].group_names = names,
+  wrong[3].face_groups = group, wrong[3].group_names = box_names,
   wrong[3].group_count = 2;
   wrong[4].points = infinite;
   wrong[5].face_size = 4;
@@ -351,9 +329,8 @@ static void a_wrong_mesh_is_refused_with_its_face_and_adds_nothing(void **s) {
       "6 corners are not 1 faces of 4",
       NULL,
       NULL};
-  recto_scene *scene = new_scene();
   recto_mesh cube = cube_mesh();
-  assert_int_equal(recto_scene_add_mesh(scene, &cube, NULL), RECTO_OK);
+  recto_scene *scene = box_scene(&cube);
   for (int i = 0; i < 8; i++) {
     recto_error error = {0};
     assert_int_equal(recto_scene_add_mesh(scene, &wrong[i], &error),
@@ -370,7 +347,7 @@ static void a_caller_of_another_version_may_add_a_mesh(void **state) {
     recto_mesh mesh;
     double more;
   } later = {cube_mesh(), 0};
-  recto_scene *scene = new_scene();
+  recto_scene *scene = box_scene(NULL);
   recto_error error = {0};
   /* A later one that does not use what is new, and one that does. */
   assert_int_equal(
@@ -383,7 +360,7 @@ static void a_caller_of_another_version_may_add_a_mesh(void **state) {
   assert_same(draw(scene), draw_obj(cube_obj));
   /* An earlier one, which knew no groups. */
   recto_mesh earlier = cube_mesh();
-  scene = new_scene();
+  scene = box_scene(NULL);
   assert_int_equal(recto_scene_add_mesh_sized(scene, &earlier,
                                               offsetof(recto_mesh, face_groups),
                                               NULL),
@@ -429,10 +406,9 @@ static void skipped_faces_are_counted_where_faces_have_numbers(void **state) {
 /* ---- Writing ------------------------------------------------------------- */
 
 static recto_drawing *render_cube(void) {
-  recto_scene *scene = new_scene();
   recto_mesh mesh = cube_mesh();
+  recto_scene *scene = box_scene(&mesh);
   recto_drawing *drawing;
-  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
   assert_int_equal(recto_scene_render(scene, NULL, &drawing, NULL), RECTO_OK);
   recto_scene_destroy(scene);
   return drawing;

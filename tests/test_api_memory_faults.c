@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "recto.h"
-#include "memory_faults.h"
+#include "tests/box_mesh.h"
+#include "tests/memory_faults.h"
 
 /* A box in a box that is open at its front, so that something is hidden. */
 static const double points[] = {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0,
@@ -27,13 +27,6 @@ static const recto_mesh mesh = {.points = points,
                                 .face_groups = groups,
                                 .group_names = names,
                                 .group_count = 2};
-
-static recto_scene *make_scene(void) {
-  recto_scene *scene;
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
-  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
-  return scene;
-}
 
 static bool count_bytes(void *user, const void *bytes, size_t count) {
   (void)bytes;
@@ -60,11 +53,11 @@ static void a_mesh_is_added_whole_or_not_at_all(void **state) {
   const recto_mesh other = {
       .points = far, .point_count = 3, .corners = three, .corner_count = 3};
   struct memory_faults faults = {.least = 1};
-  recto_scene *plain = make_scene();
+  recto_scene *plain = box_scene(&mesh);
   size_t size = size_of(plain);
   recto_scene_destroy(plain);
   while (memory_faults_go_on(&faults)) {
-    recto_scene *scene = make_scene();
+    recto_scene *scene = box_scene(&mesh);
     memory_faults_begin(&faults);
     recto_status status = recto_scene_add_mesh(scene, &other, NULL);
     memory_faults_end(&faults, status);
@@ -79,11 +72,11 @@ static void a_model_in_memory_is_read_whole_or_not_at_all(void **state) {
   static const char obj[] = "v 90 0 0\nv 91 0 0\nv 90 1 0\ng far\nf 1 2 3\n"
                             "f 1 1 1\n";
   struct memory_faults faults = {.least = 3};
-  recto_scene *plain = make_scene();
+  recto_scene *plain = box_scene(&mesh);
   size_t size = size_of(plain);
   recto_scene_destroy(plain);
   while (memory_faults_go_on(&faults)) {
-    recto_scene *scene = make_scene();
+    recto_scene *scene = box_scene(&mesh);
     memory_faults_begin(&faults);
     recto_status status = recto_scene_read_memory(scene, obj, sizeof obj - 1,
                                                   "obj", "far.obj", NULL, NULL);
@@ -97,7 +90,7 @@ static void a_model_in_memory_is_read_whole_or_not_at_all(void **state) {
 static void a_scene_that_could_not_be_prepared_is_drawn(void **state) {
   (void)state;
   struct memory_faults faults = {.least = 5};
-  recto_scene *scene = make_scene();
+  recto_scene *scene = box_scene(&mesh);
   size_t size = size_of(scene);
   while (memory_faults_go_on(&faults)) {
     memory_faults_begin(&faults);
@@ -125,7 +118,7 @@ static void check_results(const recto_drawing *drawing) {
  * that not every failure is an error. */
 static void a_drawing_has_all_of_its_results_or_is_none(void **state) {
   (void)state;
-  recto_scene *scene = make_scene();
+  recto_scene *scene = box_scene(&mesh);
   recto_options options;
   size_t failed = 0;
   recto_options_init(&options);
@@ -150,7 +143,7 @@ static void a_drawing_has_all_of_its_results_or_is_none(void **state) {
 
 static void nothing_is_handed_over_of_an_output_that_failed(void **state) {
   (void)state;
-  recto_scene *scene = make_scene();
+  recto_scene *scene = box_scene(&mesh);
   recto_drawing *drawing;
   assert_int_equal(recto_scene_render(scene, NULL, &drawing, NULL), RECTO_OK);
   struct memory_faults faults = {.least = 1};

@@ -10,31 +10,17 @@
 
 #include <cmocka.h>
 
-#include "recto.h"
+#include "tests/box_mesh.h"
 
 /* A box of 2 x 3 x 4 scene units about the point (10, 20, 30), the lid a group
  * of its own, and a polyline from it upwards. */
 static const double points[] = {
     9,  18.5, 28, 11, 18.5, 28, 11, 21.5, 28, 9,  21.5, 28, 9,  18.5, 32,
     11, 18.5, 32, 11, 21.5, 32, 9,  21.5, 32, 10, 21.5, 30, 10, 25,   30};
-static const uint32_t corners[] = {3, 2, 1, 0, 4, 5, 6, 7, 0, 1, 5, 4,
-                                   1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};
-static const uint32_t groups[] = {0, 0, 0, 0, 1, 0};
-static const char *const names[] = {"box", "lid"};
-
 static recto_scene *make_box(void) {
-  recto_scene *scene;
-  const recto_mesh mesh = {.points = points,
-                           .point_count = 10,
-                           .corners = corners,
-                           .corner_count = 24,
-                           .face_size = 4,
-                           .face_groups = groups,
-                           .group_names = names,
-                           .group_count = 2};
+  const recto_mesh mesh = box_mesh(points, 10);
   const uint32_t mast[] = {8, 9};
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
-  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  recto_scene *scene = box_scene(&mesh);
   assert_int_equal(recto_scene_add_polyline(scene, mast, 2, NULL), RECTO_OK);
   return scene;
 }
@@ -198,7 +184,7 @@ static void corners_are_projected_to_ends_of_strokes(void **state) {
         scaled[i] = ldexp(points[i], scale);
       const recto_mesh mesh = {.points = scaled,
                                .point_count = 8,
-                               .corners = corners,
+                               .corners = box_faces[0],
                                .corner_count = 24,
                                .face_size = 4};
       assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
@@ -260,7 +246,7 @@ static void edges_are_kept_on_request_alone(void **state) {
 /* Edge by edge: its points are corners of its faces that follow each other. */
 static bool is_side(const uint32_t point[2], uint32_t face) {
   for (uint32_t k = 0; k < 4; k++) {
-    uint32_t a = corners[4 * face + k], b = corners[4 * face + (k + 1) % 4];
+    uint32_t a = box_faces[face][k], b = box_faces[face][(k + 1) % 4];
     if ((a == point[0] && b == point[1]) || (a == point[1] && b == point[0]))
       return true;
   }
