@@ -12,6 +12,7 @@
 /* A side of a face between two scene points, a < b. */
 struct judge_side {
   uint32_t a, b, face;
+  bool backward; /* the face runs from b to a */
 };
 
 /* How a face lies in space and towards the viewer. */

@@ -119,22 +119,12 @@ static bool add_border(struct edge_finder *finder,
                          judge_point3_at(finder->scene, side->b), &source);
 }
 
-/* Whether the face runs along the side from a to b.
+/* Whether the face runs along the side from a, and not towards it.
  * first_at  as in edge_finder, where a is a position; NULL: a is a point */
-static bool runs_from(const struct edge_finder *finder,
-                      const struct judge_side *side, uint32_t a,
+static bool runs_from(const struct judge_side *side, uint32_t a,
                       const uint32_t *first_at) {
-  const struct scene *scene = finder->scene;
-  uint32_t start = scene->face_start.item[side->face];
-  uint32_t count = scene->face_start.item[side->face + 1] - start;
-  for (uint32_t i = 0; i < count; i++) {
-    uint32_t p = scene->corner.item[start + i];
-    uint32_t q = scene->corner.item[start + (i + 1) % count];
-    bool forward = p == side->a && q == side->b;
-    if (forward || (p == side->b && q == side->a))
-      return (first_at == NULL ? p : first_at[p]) == a;
-  }
-  return false;
+  uint32_t from = side->backward ? side->b : side->a;
+  return (first_at == NULL ? from : first_at[from]) == a;
 }
 
 /* ---- Pairing ------------------------------------------------------------- */
@@ -158,7 +148,7 @@ static bool list_sides(const struct scene *scene, struct side_list *sides) {
     for (uint32_t k = 0; k < count; k++) {
       uint32_t p = scene->corner.item[start + k];
       uint32_t q = scene->corner.item[start + (k + 1) % count];
-      struct judge_side side = {p < q ? p : q, p < q ? q : p, i};
+      struct judge_side side = {p < q ? p : q, p < q ? q : p, i, p > q};
       if (p != q && !ARRAY_PUSH(&sides->side, side))
         return false;
     }
@@ -172,8 +162,8 @@ static bool pair_group(struct edge_finder *finder,
                        const struct judge_side *side, size_t count) {
   if (count == 2)
     return add_pair(finder, &side[0], &side[1],
-                    runs_from(finder, &side[0], side->a, NULL) !=
-                        runs_from(finder, &side[1], side->a, NULL),
+                    runs_from(&side[0], side->a, NULL) !=
+                        runs_from(&side[1], side->a, NULL),
                     !has_single(finder, side));
   return add_border(finder, side);
 }
@@ -218,8 +208,8 @@ static bool pair_singles(struct edge_finder *finder) {
     if (next == i + 2)
       ok = add_pair(
           finder, side, &located[i + 1].side,
-          runs_from(finder, side, located[i].low, first_at) !=
-              runs_from(finder, &located[i + 1].side, located[i].low, first_at),
+          runs_from(side, located[i].low, first_at) !=
+              runs_from(&located[i + 1].side, located[i].low, first_at),
           true);
     else
       ok = add_border(finder, side);

@@ -195,6 +195,10 @@ static bool bends(const struct topology_edge *edge, const struct scene *scene,
                   (1.0 / ((double)DIRECTION_ONE * DIRECTION_ONE));
   if (cosine > crease_cosine + filter_error)
     return false;
+  bool is_known =
+      (a.x != 0 || a.y != 0 || a.z != 0) && (b.x != 0 || b.y != 0 || b.z != 0);
+  if (is_known && cosine < crease_cosine - filter_error)
+    return true;
   return is_crease(normal_of_face(scene, edge->first),
                    normal_of_face(scene, edge->second), edge->same_way,
                    crease_cosine);
