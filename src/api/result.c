@@ -1,4 +1,4 @@
-/* result.c - what a drawing tells its caller: strokes, layers, groups, the
+/* result.c - what a drawing returns to its caller: strokes, layers, groups, the
  * page, the projection, and the reports. */
 #include <assert.h>
 #include <math.h>

@@ -106,9 +106,10 @@ static void say_edge(struct sentence *words, const struct verify *verify,
     sentence_add(words, " and %lu", (unsigned long)w->face[1]);
 }
 
-static recto_status tell(const struct verify *verify,
-                         const struct judge_verdict *verdict,
-                         struct scene_point origin, recto_error *error) {
+static recto_status verdict_error(const struct verify *verify,
+                                  const struct judge_verdict *verdict,
+                                  struct scene_point origin,
+                                  recto_error *error) {
   bool is_false = verdict->false_ink.samples > 0;
   const struct judge_witness *w =
       is_false ? &verdict->false_at : &verdict->missing_at;
@@ -177,7 +178,7 @@ recto_status verify_drawing(const struct verify *verify, struct report *report,
     return status;
   report_verdict(report, &verdict);
   if (verdict.false_ink.samples > 0 || verdict.missing.samples > 0)
-    return tell(verify, &verdict, input.origin, error);
+    return verdict_error(verify, &verdict, input.origin, error);
   snprintf(summary, VERIFY_SUMMARY_SIZE,
            "verified: %zu drawn points visible, %zu others hidden, %zu too "
            "close to call",

@@ -56,9 +56,9 @@ static recto_status refuse_size(const struct source *source,
 /* Whether a file that ended before its size says has another size by now.
  * Some file systems do not know the sizes of their files. */
 static bool was_cut_short(const struct source *source, size_t count) {
-  struct stat about;
-  return count < source->size && fstat(source->descriptor, &about) == 0 &&
-         (size_t)about.st_size < source->size;
+  struct stat attributes;
+  return count < source->size && fstat(source->descriptor, &attributes) == 0 &&
+         (size_t)attributes.st_size < source->size;
 }
 
 /* Reads to the end of the source. */
@@ -105,16 +105,16 @@ static recto_status slurp(const struct source *source, struct input *input,
 /* Standard input may be a file too, and one that was read from already. */
 static struct source describe(int descriptor, const char *path) {
   struct source source = {descriptor, path, 0, input_most()};
-  struct stat about;
-  if (fstat(descriptor, &about) != 0)
+  struct stat attributes;
+  if (fstat(descriptor, &attributes) != 0)
     return source;
-  if (S_ISCHR(about.st_mode))
+  if (S_ISCHR(attributes.st_mode))
     source.most = INPUT_DEVICE_MAX;
-  if (!S_ISREG(about.st_mode) || about.st_size <= 0)
+  if (!S_ISREG(attributes.st_mode) || attributes.st_size <= 0)
     return source;
   off_t at = lseek(descriptor, 0, SEEK_CUR);
-  if (at >= 0 && at < about.st_size)
-    source.size = (size_t)(about.st_size - at);
+  if (at >= 0 && at < attributes.st_size)
+    source.size = (size_t)(attributes.st_size - at);
   return source;
 }
 
@@ -164,15 +164,15 @@ recto_status input_load_named(struct input *input, const char *path,
     return error_set(error, RECTO_ERROR_IO, path, 0, "cannot open: %s",
                      strerror(errno));
   recto_status status = RECTO_OK;
-  struct stat about;
+  struct stat attributes;
   struct source source = describe(descriptor, path);
   input->is_file = path_identity_of_descriptor(descriptor, &input->file);
   source.most = INPUT_NAMED_MAX;
-  if (fstat(descriptor, &about) != 0 || !S_ISREG(about.st_mode))
+  if (fstat(descriptor, &attributes) != 0 || !S_ISREG(attributes.st_mode))
     status = error_set(error, RECTO_ERROR_IO, path, 0, "no file");
-  else if (about.st_size > INPUT_NAMED_MAX)
+  else if (attributes.st_size > INPUT_NAMED_MAX)
     status = error_set(error, RECTO_ERROR_LIMIT, path, 0, "too large");
-  else if (about.st_size > 0)
+  else if (attributes.st_size > 0)
     status = slurp(&source, input, error);
   close(descriptor);
   if (status == RECTO_OK && gunzip_is_wanted(input->bytes, input->count))

@@ -7,21 +7,22 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static bool identify(const struct stat *about, struct file_identity *it) {
-  *it = (struct file_identity){(uint64_t)about->st_dev, about->st_ino};
-  return S_ISREG(about->st_mode);
+static bool identify(const struct stat *attributes, struct file_identity *it) {
+  *it =
+      (struct file_identity){(uint64_t)attributes->st_dev, attributes->st_ino};
+  return S_ISREG(attributes->st_mode);
 }
 
 bool path_identity_of_descriptor(int descriptor, struct file_identity *it) {
-  struct stat about;
-  return fstat(descriptor, &about) == 0 && identify(&about, it);
+  struct stat attributes;
+  return fstat(descriptor, &attributes) == 0 && identify(&attributes, it);
 }
 
 bool path_identity(const char *path, struct file_identity *it) {
-  struct stat about;
+  struct stat attributes;
   return strcmp(path, "-") == 0
              ? path_identity_of_descriptor(STDIN_FILENO, it)
-             : stat(path, &about) == 0 && identify(&about, it);
+             : stat(path, &attributes) == 0 && identify(&attributes, it);
 }
 
 bool path_is_same(const char *a, const char *b) {

@@ -26,15 +26,15 @@ bool poll_now(void) {
   return !poll->cancelled;
 }
 
-bool poll_share(double share, const char *phase) {
+bool poll_share(double share, const char *stage) {
   struct poll *poll = current;
   if (poll == NULL)
     return true;
   double whole = poll->from + share * (poll->to - poll->from);
   if (whole > poll->share)
     poll->share = whole;
-  if (phase != NULL)
-    poll->stage = phase;
+  if (stage != NULL)
+    poll->stage = stage;
   return poll_now();
 }
 

@@ -1,11 +1,11 @@
-/* poll.h - asks the caller's progress function, from work of any layer,
- * whether to go on.
+/* poll.h - calls the caller's progress function from work of any layer, which
+ * may cancel it.
  *
  * A call of the library that may last opens a poll, which is its thread's until
- * it is closed.  What works for that call in that thread asks it, without
- * having it passed down; threads that the library starts have none, and never
- * ask.  Once the caller has cancelled, every poll is false without asking
- * again: work ends as it does where memory runs out, and error_memory says
+ * it is closed.  Work for that call in that thread polls without having it
+ * passed down; threads that the library starts have none, and their polls do
+ * nothing.  Once the caller has cancelled, every poll is false without a call:
+ * work ends as it does where memory runs out, and error_memory says
  * which of the two it was (doc/decisions/0033). */
 #ifndef BASE_POLL_H
 #define BASE_POLL_H
@@ -31,17 +31,17 @@ struct poll {
 void poll_open(struct poll *poll, const recto_options *options);
 void poll_close(struct poll *poll);
 
-/* Begins a stage, and asks. */
+/* Begins a stage, and polls. */
 bool poll_stage(double from, double to, const char *stage);
 
-/* Asks, with a share of the stage that is done, 0 to 1.
- * phase  what is reported as the stage from now on; NULL: as it was */
-bool poll_share(double share, const char *phase);
+/* Polls, with a share of the stage that is done, 0 to 1.
+ * stage  its name from now on; NULL: as it was */
+bool poll_share(double share, const char *stage);
 
-/* Asks.  False: cancelled; true also where there is no poll. */
+/* Polls.  False: cancelled; true also where there is no poll. */
 bool poll_now(void);
 
-/* Asks in a loop over many items, at one of POLL_ITEMS of them. */
+/* Polls in a loop over many items, at one of POLL_ITEMS of them. */
 static inline bool poll_at(size_t index) {
   return index % POLL_ITEMS != 0 || poll_now();
 }

@@ -38,9 +38,9 @@ static size_t folder_length(const char *path) {
 /* What the link at `path` says, as seen from here; NULL with *failed false
  * where there is no link. */
 static char *read_link(const char *path, bool *failed) {
-  struct stat about;
+  struct stat attributes;
   *failed = false;
-  if (lstat(path, &about) != 0 || !S_ISLNK(about.st_mode))
+  if (lstat(path, &attributes) != 0 || !S_ISLNK(attributes.st_mode))
     return NULL;
   size_t folder = folder_length(path);
   char *to = mem_alloc(folder + PATH_MAX, 1);
@@ -311,10 +311,10 @@ recto_status target_open(struct target *target, const char *path,
 /* Whether something other than a file or a folder stands there, which opening
  * may wake. */
 static bool is_special(const char *path) {
-  struct stat about;
+  struct stat attributes;
   return strcmp(path, "-") != 0 && path_descriptor(path) < 0 &&
-         stat(path, &about) == 0 && !S_ISREG(about.st_mode) &&
-         !S_ISDIR(about.st_mode);
+         stat(path, &attributes) == 0 && !S_ISREG(attributes.st_mode) &&
+         !S_ISDIR(attributes.st_mode);
 }
 
 recto_status target_try(const char *path, recto_error *error) {
@@ -408,13 +408,13 @@ bool target_replace(struct target *target, const char *bytes, size_t count) {
  * by itself, its bytes can. */
 static bool copy_in_place(struct target *target) {
   enum { CHUNK = 1 << 16 };
-  struct stat about;
+  struct stat attributes;
   int to = path_above_standard(open(target->path, O_WRONLY | O_CLOEXEC));
   char *chunk = mem_alloc(CHUNK, 1);
   off_t at = 0;
-  bool ok = to >= 0 && chunk && fstat(target->descriptor, &about) == 0 &&
-            reserve_room(to, (size_t)about.st_size);
-  while (ok && at < about.st_size) {
+  bool ok = to >= 0 && chunk && fstat(target->descriptor, &attributes) == 0 &&
+            reserve_room(to, (size_t)attributes.st_size);
+  while (ok && at < attributes.st_size) {
     ssize_t got = pread(target->descriptor, chunk, CHUNK, at);
     ok = got > 0 && write_all(to, chunk, (size_t)got);
     at += got;

@@ -126,10 +126,10 @@ static recto_status tell_end(const struct import_child *import,
  * extension. */
 static bool is_by_path(const char *path, const char *format, size_t count) {
   const char *point = strrchr(path, '.');
-  struct stat about;
+  struct stat attributes;
   return point && strcasecmp(point + 1, format) == 0 &&
-         stat(path, &about) == 0 && S_ISREG(about.st_mode) &&
-         (uintmax_t)about.st_size == count;
+         stat(path, &attributes) == 0 && S_ISREG(attributes.st_mode) &&
+         (uintmax_t)attributes.st_size == count;
 }
 
 static recto_status run_importer(const struct import_child *import,

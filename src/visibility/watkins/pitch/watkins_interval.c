@@ -67,7 +67,8 @@ int watkins_compare(struct watkins *watkins, uint32_t f, uint32_t g, double x) {
 }
 
 /* Is all of f nearer than all of g, by more than any rounding error? */
-static bool is_clear(const struct watkins *watkins, uint32_t f, uint32_t g) {
+static bool is_clearly_nearer(const struct watkins *watkins, uint32_t f,
+                              uint32_t g) {
   return watkins->facet.item[f].z_low - watkins->facet.item[g].z_high >
          2 * tolerance_of(watkins, f, g);
 }
@@ -119,7 +120,7 @@ static bool find_crossing(struct watkins *watkins, double x0, double x1,
   const uint32_t *in = watkins->in.item;
   for (size_t i = 1; i < watkins->in.count; i++) {
     int left, right;
-    if (is_clear(watkins, in[0], in[i]))
+    if (is_clearly_nearer(watkins, in[0], in[i]))
       continue;
     left = watkins_compare(watkins, in[0], in[i], x0);
     right = watkins_compare(watkins, in[0], in[i], x1);
@@ -226,7 +227,7 @@ static double lines_order_holds(const struct watkins *watkins, uint32_t left,
     for (int k = 0; k < 3; k++) {
       uint32_t f = k == 2 ? nearest : watkins->in.item[0];
       double apart;
-      if (f == g || is_clear(watkins, f, g))
+      if (f == g || is_clearly_nearer(watkins, f, g))
         continue;
       apart = difference(watkins, f, g, at[k].x);
       if (facet[f].steep || facet[g].steep ||
@@ -305,7 +306,7 @@ static bool decide_by_depth(struct watkins *watkins, uint32_t left,
 
 /* Moves a facet that is nearer than all others by its corners' depths to the
  * front of H; false where there is none.  No depth is computed. */
-static bool find_clear(struct watkins *watkins) {
+static bool find_clearly_nearest(struct watkins *watkins) {
   const struct watkins_facet *facet = watkins->facet.item;
   uint32_t *in = watkins->in.item, front;
   size_t best = 0;
@@ -314,7 +315,7 @@ static bool find_clear(struct watkins *watkins) {
       best = i;
   front = in[best];
   for (size_t i = 0; i < watkins->in.count; i++)
-    if (i != best && !is_clear(watkins, front, in[i]))
+    if (i != best && !is_clearly_nearer(watkins, front, in[i]))
       return false;
   in[best] = in[0];
   in[0] = front;
@@ -328,7 +329,7 @@ bool watkins_decide(struct watkins *watkins, uint32_t left, uint32_t right) {
   watkins->counts.intervals++;
   if (!progress_step(watkins->progress, 1 + watkins->in.count))
     return false;
-  if (watkins->in.count > 1 && !find_clear(watkins)) {
+  if (watkins->in.count > 1 && !find_clearly_nearest(watkins)) {
     record = find_record(watkins, left, right);
     if (record == NULL)
       return decide_by_depth(watkins, left, right);
