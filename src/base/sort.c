@@ -11,7 +11,8 @@ enum {
   DIGIT_BITS = 11,
   DIGIT_COUNT = 1 << DIGIT_BITS,
   PASS_COUNT = (64 + DIGIT_BITS - 1) / DIGIT_BITS,
-  FEW = 64 /* below, insertion beats clearing the histograms */
+  FEW = 64, /* below, insertion beats clearing the histograms */
+  DEALT_ITEMS = 16 * POLL_ITEMS /* between two polls */
 };
 
 static void insert_keys(struct sort_key *item, size_t count) {
@@ -38,8 +39,11 @@ static void deal(const struct sort_key *from, struct sort_key *to, size_t count,
     start[i] = sum;
     sum += here;
   }
-  for (size_t i = 0; i < count; i++)
+  for (size_t i = 0; i < count; i++) {
+    if ((i + 1) % DEALT_ITEMS == 0)
+      (void)poll_now();
     to[start[digit(from[i].key, pass)]++] = from[i];
+  }
 }
 
 void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count) {
