@@ -8,10 +8,10 @@
  *          fills a recto_error with the code, the file and line at fault and
  *          a sentence.  A failed call leaves its outputs NULL.  Every call that
  *          returns a status may return RECTO_ERROR_MEMORY, and
- *          RECTO_ERROR_ARGUMENT for an option out of its range or a pointer that
- *          is NULL where that has no meaning; what else it may return follows
- *          its description.  Given such a pointer, a call without a status does
- *          nothing and returns 0, NULL or the like.
+ *          RECTO_ERROR_ARGUMENT for an option out of its range or a pointer
+ *          that is NULL where that has no meaning; what else it may return
+ *          follows its description.  Given such a pointer, a call without a
+ *          status does nothing and returns 0, NULL or the like.
  * Owner    The library copies what it is given.  You own what a _create,
  *          _read or _render returns and free it with the matching _destroy,
  *          which accepts NULL.  What getters return is owned by the object and
@@ -419,8 +419,8 @@ void recto_scene_destroy(recto_scene *scene);
  * where the options' fill is RECTO_FILL_PAINT; `options` may be NULL.
  * path    "-" is standard input, which needs a format
  * format  format name such as "obj"; NULL: by the path's extension
- * Errors  RECTO_ERROR_IO: it cannot be read; RECTO_ERROR_FORMAT: it is broken or
- *         cut short; RECTO_ERROR_UNSUPPORTED: there is no reader for it;
+ * Errors  RECTO_ERROR_IO: it cannot be read; RECTO_ERROR_FORMAT: it is broken
+ *         or cut short; RECTO_ERROR_UNSUPPORTED: there is no reader for it;
  *         RECTO_ERROR_LIMIT: it is too large; RECTO_ERROR_CANCELLED */
 RECTO_USE_RESULT recto_status recto_scene_read(recto_scene *scene,
                                                const char *path,
@@ -512,9 +512,9 @@ RECTO_USE_RESULT recto_status recto_scene_prepare(recto_scene *scene,
 
 /* Draws the scene as the options say; NULL: the defaults.
  * Errors  RECTO_ERROR_EMPTY: there is nothing to draw; RECTO_ERROR_LIMIT: there
- *         is too much for the method, or sizes and distances differ by too much;
- *         RECTO_ERROR_UNSUPPORTED: the method or the output's format is not
- *         built in; RECTO_ERROR_VERIFY; RECTO_ERROR_CANCELLED */
+ *         is too much for the method, or sizes and distances differ by too
+ *         much; RECTO_ERROR_UNSUPPORTED: the method or the output's format is
+ *         not built in; RECTO_ERROR_VERIFY; RECTO_ERROR_CANCELLED */
 RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
                                                  const recto_options *options,
                                                  recto_drawing **drawing,
@@ -524,8 +524,8 @@ RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
 void recto_drawing_destroy(recto_drawing *drawing);
 
 /* Checks, before the work is done, whether recto_drawing_write_with_stats could
- * write to these paths: each can be created or replaced, none is a file that the
- * scene was read from, and they are not one file.
+ * write to these paths: each can be created or replaced, none is a file that
+ * the scene was read from, and they are not one file.
  * stats   NULL: none
  * Errors  RECTO_ERROR_IO; RECTO_ERROR_ARGUMENT: a file that was read would be
  *         replaced, or both are one */
@@ -541,8 +541,8 @@ RECTO_USE_RESULT recto_status recto_scene_try_output(const recto_scene *scene,
  * A file that is there is replaced by a new one with its owner, mode, access
  * list and attributes; where it has several names, or where these cannot be
  * kept, its bytes are replaced once all of them are known.
- * Errors  RECTO_ERROR_IO: it cannot be written; RECTO_ERROR_UNSUPPORTED: there is
- *         no such format; RECTO_ERROR_LIMIT: it is too large for the format;
+ * Errors  RECTO_ERROR_IO: it cannot be written; RECTO_ERROR_UNSUPPORTED: there
+ *         is no such format; RECTO_ERROR_LIMIT: it is too large for the format;
  *         RECTO_ERROR_ARGUMENT also where a file that the scene was read from
  *         would be replaced; RECTO_ERROR_CANCELLED */
 RECTO_USE_RESULT recto_status recto_drawing_write(const recto_drawing *drawing,
@@ -676,8 +676,9 @@ typedef struct recto_interval {
                        edge in the scene; t0 < t1 */
   double from_mm[2], to_mm[2]; /* the ends on the page */
   uint32_t hidden_by; /* 0: visible; RECTO_NONE: hidden, and the number was not
-                         requested or, by a raster method, is not known; else the quantitative invisibility, the
-                         number of faces in front */
+                         requested or, by a raster method, is not known; else
+                         the quantitative invisibility, the number of faces in
+                         front */
 } recto_interval;
 
 /* An edge of the requested classes: of the mesh, of a polyline, or the line in

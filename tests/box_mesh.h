@@ -13,7 +13,7 @@ static const uint32_t box_faces[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7},
 static const uint32_t box_groups[6] = {0, 0, 0, 0, 1, 0};
 static const char *const box_names[2] = {"box", "lid"};
 
-/* points  x y z of `count` points, the corners in the order of box_cube first */
+/* points  x y z of `count` points, first the corners in box_cube's order */
 static inline recto_mesh box_mesh(const double *points, size_t count) {
   return (recto_mesh){.points = points,
                       .point_count = count,

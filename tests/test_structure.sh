@@ -192,6 +192,12 @@ check_reports() {
     xargs grep -H 'report_get(' | sed 's/:.*/: reads a report/')
 }
 
+# The formatter leaves comments as they are, so that it does not wrap them.
+check_width() {
+  (cd "$1" && sources . | xargs awk '
+    length($0) > 80 { print FILENAME ": line " FNR " is too long" }')
+}
+
 # Whatever is compiled is listed, and goes into a release.
 check_listed() {
   (cd "$1" && {
@@ -210,7 +216,7 @@ holds() {
   test -z "$found" || { say "$found" && false; }
 }
 claim "there are sources to check" test "$(sources "$srcdir" | wc -l)" -gt 50
-for check in sources tolerances users reports listed; do
+for check in sources tolerances users reports width listed; do
   claim "check_$check finds nothing" holds check_$check "$srcdir"
 done
 
@@ -263,9 +269,10 @@ printf '/* 2e-5\n2e-5 */ double c = 2e-4; /* 2e-5 */\n' >>"$copy/src/geom/ratio.
 printf 'double b = 2\n  * TOLERANCE_TONE;\n' >>"$copy/src/geom/ratio.c"
 sed -i 's|Users       view/camera_axes.c|&, view/page.c|' "$copy/src/base/tolerance.h"
 echo "int n = report_get(0, 0, 0, 0);" >>"$copy/src/api/render.c"
+printf '/* %80s */\n' wide >>"$copy/src/geom/ratio.c"
 echo "int x;" >"$copy/src/geom/new.c"
 echo "/* new.c - nothing. */" >"$copy/src/visibility/included/new.c"
-for check in sources tolerances users reports listed; do
+for check in sources tolerances users reports width listed; do
   check_$check "$copy" >"$scratch/$check"
 done
 
@@ -294,6 +301,8 @@ claim "a user of a tolerance may not be unlisted" finds users \
 claim "a listed user of a tolerance must use it" finds users \
   "src/base/tolerance.h: view/page.c does not use TOLERANCE_UP_SINE" ""
 claim "a report may not be read" finds reports "src/api/render.c: reads" ""
+claim "a comment may not be wider than the page" finds width \
+  "src/geom/ratio.c: line" "too long"
 claim "a source may not open without its job" finds sources \
   "src/geom/new.c: does not open" ""
 claim "a folder may not be without a floor" finds sources \

@@ -1,5 +1,5 @@
-/* vocabulary.c - the words that stand for the public enumerators, for directions
- * and for paper sizes. */
+/* vocabulary.c - the words that stand for the public enumerators, for
+ * directions and for paper sizes. */
 #include "recto.h"
 
 const char *recto_method_name(recto_method method) {

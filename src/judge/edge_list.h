@@ -25,7 +25,8 @@ struct judge_edges {
 };
 
 /* Adds an edge between two points, or the part of it in front of the near plane
- * and no farther from the page than doubles are accurate.  Returns false when memory ran out. */
+ * and no farther from the page than doubles are accurate.  Returns false when
+ * memory ran out. */
 USE_RESULT bool judge_edges_add(struct judge_edges *edges,
                                 const struct judge_camera *camera,
                                 struct judge_point3 a, struct judge_point3 b,

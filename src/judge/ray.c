@@ -219,8 +219,8 @@ static bool is_own(const struct judge_ray *ray,
                        is_corner(t, ray->end[1].position)));
 }
 
-/* What a triangle may do to the edge: a planar face hides none of its own edges,
- * though the planes of its triangles may differ by more than contact. */
+/* What a triangle may do to the edge: a planar face hides none of its own
+ * edges, though the planes of its triangles may differ by more than contact. */
 static enum judge_visibility most_hidden(const struct judge_ray *ray,
                                          const struct judge_triangle *t) {
   if ((t->face != ray->own[0] && t->face != ray->own[1]) ||

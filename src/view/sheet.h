@@ -69,7 +69,7 @@ struct sheet_contour {
   uint32_t point[2];
 };
 
-/* The error of the coordinates of a face of many corners: coordinate_error.h. */
+/* The coordinates' error of a face of many corners: coordinate_error.h. */
 struct sheet_face_error {
   uint32_t face;
   double along[3];

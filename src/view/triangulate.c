@@ -37,8 +37,8 @@ static bool is_shorter_from_0(const struct polygon *polygon) {
 }
 
 /* By the rule of ear_clipping.c a quadrilateral is cut along the shorter of the
- * diagonals inside.  Cuts it by a diagonal that leaves area on both its sides; false
- * where there is none. */
+ * diagonals inside.  Cuts it by a diagonal that leaves area on both its sides;
+ * false where there is none. */
 static bool cut_quadrilateral(struct triangulation *triangulation,
                               const struct polygon *polygon) {
   const struct triangulation_corner *corner = triangulation->corner.item;

@@ -49,8 +49,8 @@ struct culling_work {
 
 /* ---- Phase 1 ------------------------------------------------------------- */
 
-/* Estimates the depth complexity of the sheet, from a sample.  A triangle counts
- * with its area. */
+/* Estimates the depth complexity of the sheet, from a sample.  A triangle
+ * counts with its area. */
 static double depth_complexity(const struct sheet *sheet, struct box2 page) {
   size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
   double sum = 0;
@@ -357,8 +357,8 @@ struct raising {
   int searched; /* bit k: the neighbour beyond side k was looked for */
 };
 
-/* The bound of a cell that the triangle surrounds, or that it surrounds together
- * with its neighbour beyond one side; -1: neither.
+/* The bound of a cell that the triangle surrounds, or that it surrounds
+ * together with its neighbour beyond one side; -1: neither.
  * out  the sides that are not beyond the cell, as bits */
 static int32_t bound_of_cell(struct raising *raising, int out,
                              const struct box2 *window) {

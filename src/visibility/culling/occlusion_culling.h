@@ -20,8 +20,8 @@
  *     triangles, which lie on T within the contact length and rounding.
  *   - For fragments, contact matters beyond: where V is visible and touches T,
  *     V's fragments may be T's.  At a point of V that O does not hide, V is no
- *     farther behind O than O's tolerance.  `margin` contains T's tolerance as a
- *     depth, and the bounds are lowered by the largest tolerance of all
+ *     farther behind O than O's tolerance.  `margin` contains T's tolerance as
+ *     a depth, and the bounds are lowered by the largest tolerance of all
  *     triangles that meet the cell and are not culled: so V and T do not touch.
  *
  * Cost  Linear in the triangles, and in the cells of those that are not culled.

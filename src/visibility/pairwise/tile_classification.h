@@ -17,8 +17,8 @@
  *
  * In scenes of high depth complexity (many large faces, one behind another)
  * single faces do surround tiles.  There most triangles are culled before
- * (culling/occlusion_culling.h).  They take part in nothing; but a layer may end
- * where one is missing, so they count as contours.
+ * (culling/occlusion_culling.h).  They take part in nothing; but a layer may
+ * end where one is missing, so they count as contours.
  *
  * Robustness: states are decided by integers.  A tile that is rejected out of
  * caution is solved by pairs, which costs time but gives the same result.

@@ -27,10 +27,10 @@
  *          the tolerance of two facets that are not steep is 16 b.  A
  *          decision is reused only while each difference stays 8 b away from
  *          the tolerance: the difference when the decision was made, the one
- *          extrapolated, and the one that would be computed are off by 2 b each.
- *          So the output is the same with and without coherence: a tie with the
- *          facet nearest at the middle remains one whichever of the tied facets
- *          is the nearest.
+ *          extrapolated, and the one that would be computed are off by 2 b
+ *          each.  So the output is the same with and without coherence: a tie
+ *          with the facet nearest at the middle remains one whichever of the
+ *          tied facets is the nearest.
  */
 #include <math.h>
 
