@@ -26,9 +26,12 @@ enum {
   DEPTH_SHIFT = 9, /* bounds are in steps of 2^9 depth units */
   SORT_SHIFT = 19, /* triangles are sorted by 2^12 ranges of steps */
   SORT_RANGES = 1 << (SHEET_Z_BITS - DEPTH_SHIFT - SORT_SHIFT),
-  COMPLEXITY_MIN = 2, /* faces over a point of the page, on average */
-  COVERAGE_MIN = 2,   /* times that large triangles cover the page */
-  SAMPLE = 1 << 12    /* triangles that estimate the complexity */
+  COMPLEXITY_MIN = 2,   /* faces over a point of the page, on average */
+  COVERAGE_MIN = 2,     /* times that large triangles cover the page */
+  SLOPE = 8,            /* in the scene; few triangles are steeper */
+  VISITS = 64,          /* to a block to raise its cells, on average, at most */
+  VISITS_MIN = 1 << 15, /* to all blocks, this many are no cost */
+  SAMPLE = 1 << 12      /* triangles that estimate the complexity */
 };
 
 /* A triangle to be tested: its cells, and its nearest depth with the margin, in
@@ -45,6 +48,8 @@ struct culling_work {
   bool fragments;
   struct occlusion_bound contact;
   struct candidate *candidate; /* one per triangle, from near to far */
+  int64_t raises; /* blocks that may still be raised: what is near comes first,
+                     and more than VISITS would not pay */
 };
 
 /* ---- Phase 1 ------------------------------------------------------------- */
@@ -352,6 +357,8 @@ static bool surrounds_beyond(const struct neighbour *neighbour,
 struct raising {
   const struct culling_work *work;
   uint32_t triangle;
+  struct geom_triangle corners;
+  struct box2 box;
   struct surrounder_plane plane;
   struct neighbour neighbour[3];
   int searched; /* bit k: the neighbour beyond side k was looked for */
@@ -378,50 +385,106 @@ static int32_t bound_of_cell(struct raising *raising, int out,
   return steps_down(low);
 }
 
-/* Raises the bounds of the cells that the triangle surrounds, alone or with one
- * neighbour. */
-static void raise_bounds(const struct culling_work *work,
-                         const struct candidate *candidate) {
-  struct occlusion_culling *culling = work->culling;
+/* The part of the triangle's box that is in a range of cells. */
+static struct box2 part_in_cells(const struct raising *raising,
+                                 struct cell_range r) {
+  const struct triangle_grid *cells = &raising->work->culling->cells;
+  int64_t side = INT64_C(1) << cells->shift, x0 = cells->x0 + r.x0 * side,
+          y0 = cells->y0 + r.y0 * side, x1 = cells->x0 + (r.x1 + 1) * side,
+          y1 = cells->y0 + (r.y1 + 1) * side;
+  struct box2 box = raising->box;
+  return (struct box2){
+      box.x0 > x0 ? box.x0 : (int32_t)x0, box.y0 > y0 ? box.y0 : (int32_t)y0,
+      box.x1 < x1 ? box.x1 : (int32_t)x1, box.y1 < y1 ? box.y1 : (int32_t)y1};
+}
+
+/* The nearest depth of the triangle's plane over a part of its box, in steps:
+ * no bound that it gives there is nearer. */
+static int32_t nearest_over(const struct raising *raising, struct box2 part) {
+  const struct depth_plane *plane = &raising->plane.depth;
+  return steps_up(depth_plane_at(plane, plane->per_x > 0 ? part.x1 : part.x0,
+                                 plane->per_y > 0 ? part.y1 : part.y0));
+}
+
+/* Is a part of the triangle's box outside of one of its sides? */
+static bool is_outside(const struct geom_triangle *corners, struct box2 part) {
+  for (int k = 0; k < 3; k++) {
+    struct geom_point a = corners->p[k], b = corners->p[geom_next_corner(k)];
+    struct geom_point innermost = {b.y > a.y ? part.x0 : part.x1,
+                                   b.x > a.x ? part.y1 : part.y0, 0};
+    if (geom_orient2d(a, b, innermost) <= 0)
+      return true;
+  }
+  return false;
+}
+
+/* Raises the bounds of the cells of a block. */
+static void raise_block(struct raising *raising, struct cell_range r, int bx,
+                        int by) {
+  struct occlusion_culling *culling = raising->work->culling;
   const struct triangle_grid *cells = &culling->cells;
-  const struct sheet *sheet = work->sheet;
-  struct geom_triangle corners = sheet_corners(sheet, candidate->triangle);
-  struct cell_range r =
-      triangle_grid_cells(cells, box2_of_triangle(sheet, candidate->triangle));
-  if (r.x1 - r.x0 < 2 || r.y1 - r.y0 < 2 ||
-      (sheet->triangle_flags[candidate->triangle] & SHEET_FLAT))
-    return;
-  int64_t side = INT64_C(1) << cells->shift, x = cells->x0 + (r.x0 + 1) * side,
-          y = cells->y0 + (r.y0 + 1) * side;
-  struct edge_functions row = edge_functions_at(&corners, x, y, cells->shift);
-  struct raising raising = {work,
-                            candidate->triangle,
-                            surrounder_plane_of(sheet, candidate->triangle),
-                            {{.found = false}},
-                            0};
+  int64_t side = INT64_C(1) << cells->shift, x = cells->x0 + r.x0 * side,
+          y = cells->y0 + r.y0 * side;
+  struct edge_functions row =
+      edge_functions_at(&raising->corners, x, y, cells->shift);
   bool raised = false;
-  for (int cy = r.y0 + 1; cy < r.y1; cy++, y += side, step(row.at, row.up)) {
+  for (int cy = r.y0; cy <= r.y1; cy++, y += side, step(row.at, row.up)) {
     int32_t *bound = culling->bound + (size_t)cy * (size_t)cells->columns;
     uint64_t at[3] = {row.at[0], row.at[1], row.at[2]};
-    for (int cx = r.x0 + 1; cx < r.x1; cx++, step(at, row.right)) {
+    for (int cx = r.x0; cx <= r.x1; cx++, step(at, row.right)) {
       int out = outside(at);
       if ((out & (out - 1)) != 0)
         continue;
       struct box2 window = {(int32_t)(cells->x0 + cx * side), (int32_t)y,
                             (int32_t)(cells->x0 + (cx + 1) * side),
                             (int32_t)(y + side)};
-      int32_t low = bound_of_cell(&raising, out, &window);
+      int32_t low = bound_of_cell(raising, out, &window);
       raised |= low > bound[cx];
       bound[cx] = low > bound[cx] ? low : bound[cx];
     }
   }
-  for (int by = r.y0 >> BLOCK_SHIFT; raised && by <= r.y1 >> BLOCK_SHIFT; by++)
-    for (int bx = r.x0 >> BLOCK_SHIFT; bx <= r.x1 >> BLOCK_SHIFT; bx++)
-      update_block(culling, bx, by);
+  if (raised)
+    update_block(culling, bx, by);
+}
+
+/* Raises the bounds of the cells that the triangle surrounds, alone or with one
+ * neighbour: block by block, as most of them lie outside of a large triangle or
+ * have nearer bounds. */
+static void raise_bounds(struct culling_work *work,
+                         const struct candidate *candidate) {
+  struct occlusion_culling *culling = work->culling;
+  const struct triangle_grid *cells = &culling->cells;
+  const struct sheet *sheet = work->sheet;
+  uint32_t t = candidate->triangle;
+  struct box2 box = box2_of_triangle(sheet, t);
+  struct cell_range r = triangle_grid_cells(cells, box);
+  r = (struct cell_range){r.x0 + 1, r.y0 + 1, r.x1 - 1, r.y1 - 1};
+  if (r.x0 > r.x1 || r.y0 > r.y1 || (sheet->triangle_flags[t] & SHEET_FLAT))
+    return;
+  struct raising raising = {.work = work,
+                            .triangle = t,
+                            .corners = sheet_corners(sheet, t),
+                            .box = box,
+                            .plane = surrounder_plane_of(sheet, t)};
+  enum { LAST = (1 << BLOCK_SHIFT) - 1 };
+  for (int by = r.y0 >> BLOCK_SHIFT; by <= r.y1 >> BLOCK_SHIFT; by++)
+    for (int bx = r.x0 >> BLOCK_SHIFT; bx <= r.x1 >> BLOCK_SHIFT; bx++) {
+      int x = bx << BLOCK_SHIFT, y = by << BLOCK_SHIFT;
+      struct cell_range part = {x > r.x0 ? x : r.x0, y > r.y0 ? y : r.y0,
+                                x + LAST < r.x1 ? x + LAST : r.x1,
+                                y + LAST < r.y1 ? y + LAST : r.y1};
+      struct box2 box_part = part_in_cells(&raising, part);
+      if (culling->farthest[(size_t)by * (size_t)culling->blocks + (size_t)bx] <
+              nearest_over(&raising, box_part) &&
+          !is_outside(&raising.corners, box_part)) {
+        raise_block(&raising, part, bx, by);
+        work->raises--;
+      }
+    }
 }
 
 /* Returns false when the caller cancelled. */
-static bool cull(const struct culling_work *work) {
+static bool cull(struct culling_work *work) {
   struct occlusion_culling *culling = work->culling;
   for (size_t i = 0; i < work->sheet->triangle.count; i++) {
     if (!poll_at(i))
@@ -430,7 +493,7 @@ static bool cull(const struct culling_work *work) {
     bool hidden = is_hidden(work, candidate);
     culling->culled[candidate->triangle] = hidden;
     culling->count += hidden;
-    if (!hidden)
+    if (!hidden && work->raises > 0)
       raise_bounds(work, candidate);
   }
   return true;
@@ -438,17 +501,19 @@ static bool cull(const struct culling_work *work) {
 
 /* ---- Phase 4 ------------------------------------------------------------- */
 
-/* Raises the contact tolerances, in steps, of the cells that a triangle meets
- * to its own. */
+/* Raises the contact tolerances, in steps, of the cells that a triangle meets to
+ * its own; they start as that of a slope of SLOPE, which few triangles
+ * exceed. */
 static void add_thickness(const struct culling_work *work,
-                          const struct candidate *candidate,
+                          const struct candidate *candidate, int32_t least,
                           int32_t *thickness) {
   const struct triangle_grid *cells = &work->culling->cells;
   struct geom_triangle corners =
       sheet_corners(work->sheet, candidate->triangle);
-  if (work->sheet->triangle_flags[candidate->triangle] & SHEET_FLAT)
-    return;
   int32_t steps = steps_up(thickness_of(&work->contact, &corners));
+  if (steps <= least ||
+      (work->sheet->triangle_flags[candidate->triangle] & SHEET_FLAT))
+    return;
   for (int y = candidate->y0, x0, x1; y <= candidate->y1; y++)
     if (columns_in_row(work->culling, &corners, y, &x0, &x1))
       for (int x = x0; x <= x1; x++) {
@@ -463,20 +528,27 @@ static void add_thickness(const struct culling_work *work,
 static bool lower_bounds(const struct culling_work *work) {
   struct occlusion_culling *culling = work->culling;
   size_t n = triangle_grid_cell_count(&culling->cells);
-  int32_t *thickness = mem_calloc(n, sizeof *thickness);
+  const struct camera *camera = &work->sheet->camera;
+  double slope = SLOPE * work->sheet->z_scale / work->sheet->units_per_view /
+                 (camera->perspective ? camera->d_max : 1);
+  int32_t least =
+      steps_up(1 + work->contact.slope * slope + work->contact.level);
+  int32_t *thickness = mem_alloc(n, sizeof *thickness);
   if (thickness == NULL)
     return false;
+  for (size_t i = 0; i < n; i++)
+    thickness[i] = least;
   for (size_t i = 0; i < work->sheet->triangle.count; i++)
     if (!culling->culled[work->candidate[i].triangle])
-      add_thickness(work, &work->candidate[i], thickness);
+      add_thickness(work, &work->candidate[i], least, thickness);
   for (size_t i = 0; i < n; i++)
     culling->bound[i] = culling->bound[i] < thickness[i]
                             ? -1
                             : culling->bound[i] - thickness[i];
   mem_free(thickness);
-  for (int y = 0; y < culling->cells.rows; y += 1 << BLOCK_SHIFT)
-    for (int x = 0; x < culling->cells.columns; x += 1 << BLOCK_SHIFT)
-      update_block(culling, x >> BLOCK_SHIFT, y >> BLOCK_SHIFT);
+  for (int y = 0; y < culling->block_rows; y++)
+    for (int x = 0; x < culling->blocks; x++)
+      update_block(culling, x, y);
   return true;
 }
 
@@ -522,8 +594,8 @@ static bool init_buffer(struct occlusion_culling *culling, size_t triangles) {
   const struct triangle_grid *cells = &culling->cells;
   size_t n = triangle_grid_cell_count(cells);
   culling->blocks = ((cells->columns - 1) >> BLOCK_SHIFT) + 1;
-  size_t blocks = (size_t)culling->blocks *
-                  (size_t)(((cells->rows - 1) >> BLOCK_SHIFT) + 1);
+  culling->block_rows = ((cells->rows - 1) >> BLOCK_SHIFT) + 1;
+  size_t blocks = (size_t)culling->blocks * (size_t)culling->block_rows;
   culling->bound = mem_alloc(n, sizeof *culling->bound);
   culling->farthest = mem_alloc(blocks, sizeof *culling->farthest);
   culling->culled = mem_calloc(triangles, 1);
@@ -564,6 +636,8 @@ bool occlusion_culling_init(struct occlusion_culling *culling,
   bool ok = list_candidates(&work);
   if (ok && work.candidate != NULL) {
     ok = init_buffer(culling, sheet->triangle.count);
+    work.raises =
+        VISITS_MIN + VISITS * (int64_t)culling->blocks * culling->block_rows;
     ok = ok && cull(&work);
     if (fragments && culling->count > 0)
       ok = ok && lower_bounds(&work) && test_again(&work);

@@ -42,7 +42,7 @@ struct occlusion_culling {
   struct triangle_grid cells; /* their shape; there are no lists */
   int32_t *bound;             /* one per cell, in steps of depth */
   int32_t *farthest;          /* one per block, of its cells' */
-  int blocks;                 /* in a row */
+  int blocks, block_rows;     /* blocks in a row, and their rows */
   int64_t reach;              /* by how much edges may stray on the page */
   double margin;              /* the same in depth */
 };

@@ -24,7 +24,7 @@ bool pairwise_fallback_init(struct pairwise_fallback *fallback,
   memset(fallback, 0, sizeof *fallback);
   fallback->sheet = sheet;
   fallback->progress = progress;
-  if (!tile_classification_init(&fallback->tiles, sheet, fragments))
+  if (!tile_classification_init(&fallback->tiles, sheet, true, fragments))
     return false;
   size_t tiles = triangle_grid_cell_count(&fallback->tiles.grid);
   fallback->wanted = mem_alloc(tiles, 1);

@@ -20,7 +20,18 @@
 #include "visibility/predicate/plane_filter.h"
 #include "visibility/predicate/surrounder.h"
 
-enum { TILES_PER_TRIANGLE = 2 }; /* on average: a tile is about an edge long */
+/* Depth complexity is the mean number of faces over a point of the page; a
+ * scene is called deep if it is above DEEP. */
+enum {
+  TILES_PER_TRIANGLE = 2,        /* on average: a tile is about an edge long */
+  DEEP = 32,                     /* faces over a point, on average */
+  DEEP_TILES_TOTAL = 1 << 22,    /* of all triangles of a deep scene together */
+  DEEP_TILES_PER_TRIANGLE = 256, /* at most, on average */
+  DEEP_QUERIES_PER_TILE = 8, /* a tile costs a tenth of so many edge queries */
+  QUERIES_PER_FACE = 16,     /* a face takes as long as so many edges */
+  BOX_PER_AREA = 4, /* a typical triangle's box has this multiple of its area */
+  SAMPLE = 1 << 12  /* triangles that estimate the depth complexity */
+};
 
 static uint64_t bucket_mask(int low, int high) {
   return (~UINT64_C(0) >> (TILE_BUCKETS - 1 - high)) & (~UINT64_C(0) << low);
@@ -258,13 +269,64 @@ static void reject_contours(struct tile_classification *tiles,
   }
 }
 
+/* Estimates the depth complexity from a sample of the triangles, without those
+ * that are culled.  A triangle
+ * counts with the area of its box, but at most BOX_PER_AREA times its own area,
+ * so that needles count for little. */
+static double depth_complexity(const struct tile_classification *tiles,
+                               const struct sheet *sheet) {
+  const struct triangle_grid *grid = &tiles->grid;
+  size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
+  double side = (double)(INT64_C(1) << grid->shift), sum = 0;
+  for (size_t t = 0; t < n; t += stride) {
+    if (occlusion_culling_is_culled(&tiles->culling, (uint32_t)t))
+      continue;
+    struct geom_triangle c = sheet_corners(sheet, t);
+    struct box2 b = box2_of_triangle(sheet, (uint32_t)t);
+    double box = ((double)b.x1 - b.x0) * ((double)b.y1 - b.y0);
+    double area = 0.5 * fabs((double)geom_orient2d(c.p[0], c.p[1], c.p[2]));
+    sum += fmin(box, BOX_PER_AREA * area) * (double)stride;
+  }
+  return sum / (side * side * grid->columns * grid->rows);
+}
+
+/* The number of edges to solve, plus that of the faces times
+ * QUERIES_PER_FACE. */
+static uint64_t count_queries(const struct sheet *sheet, bool edges,
+                              bool fragments) {
+  uint64_t count = fragments ? QUERIES_PER_FACE * sheet->triangle.count : 0;
+  for (size_t e = 0; edges && e < sheet->edge.count; e++)
+    count += sheet->edge.item[e].edge_class != 0;
+  return count;
+}
+
+/* Chooses the tiles of a deep scene: small, so that lists are short,
+ * but large enough that the work per tile is little compared with the queries. */
+static void shape_deep_tiles(struct tile_classification *tiles,
+                             const struct sheet *sheet, bool edges,
+                             bool fragments) {
+  uint64_t spread =
+      DEEP_TILES_TOTAL / sheet->triangle.count + TILES_PER_TRIANGLE;
+  uint64_t spread_max =
+      count_queries(sheet, edges, fragments) / DEEP_QUERIES_PER_TILE +
+      TILES_PER_TRIANGLE;
+  if (spread > spread_max)
+    spread = spread_max;
+  if (spread > DEEP_TILES_PER_TRIANGLE)
+    spread = DEEP_TILES_PER_TRIANGLE;
+  triangle_grid_shape(&tiles->grid, sheet, (unsigned)spread, (unsigned)spread);
+}
+
 bool tile_classification_init(struct tile_classification *tiles,
-                              const struct sheet *sheet, bool fragments) {
+                              const struct sheet *sheet, bool edges,
+                              bool fragments) {
   size_t n;
   memset(tiles, 0, sizeof *tiles);
   if (!occlusion_culling_init(&tiles->culling, sheet, fragments))
     return false;
   triangle_grid_shape(&tiles->grid, sheet, TILES_PER_TRIANGLE, 2);
+  if (depth_complexity(tiles, sheet) > DEEP)
+    shape_deep_tiles(tiles, sheet, edges, fragments);
   n = triangle_grid_cell_count(&tiles->grid);
   tiles->tile = mem_calloc(n, sizeof *tiles->tile);
   tiles->footprint = mem_alloc(sheet->triangle.count, sizeof *tiles->footprint);

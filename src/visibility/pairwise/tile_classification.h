@@ -60,12 +60,13 @@ struct tile_classification {
 };
 
 /* Culls triangles, and classifies the tiles of the sheet.
+ * edges      whether edges will be solved
  * fragments  whether faces will be solved; as contact between faces matters
  *            then, tiles with a steep face in any layer are rejected
  * Returns false when memory ran out; end with tile_classification_fini either
  * way. */
 USE_RESULT bool tile_classification_init(struct tile_classification *tiles,
-                                         const struct sheet *sheet,
+                                         const struct sheet *sheet, bool edges,
                                          bool fragments);
 void tile_classification_fini(struct tile_classification *tiles);
 

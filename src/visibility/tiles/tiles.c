@@ -406,7 +406,8 @@ static bool solve_all(struct tiles_work *work, struct map *map,
                       recto_status *status, recto_error *error) {
   const struct solver_request *request = work->request;
   work->phase_start = clock_cpu();
-  if (!tile_classification_init(&work->tiles, work->sheet, request->fragments))
+  if (!tile_classification_init(&work->tiles, work->sheet, request->edges,
+                                request->fragments))
     return false;
   end_phase(work, "tiles_cpu_s");
   work->wanted = mem_calloc(triangle_grid_cell_count(&work->tiles.grid), 1);
