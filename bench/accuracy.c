@@ -45,7 +45,7 @@ static void set_view(recto_options *options) {
 /* The median time of a part; the last map against the exact one. */
 static double take_part(const struct scene *scene, const recto_options *options,
                         const struct solver *solver, int count,
-                        enum trial_part part, const struct map *truth,
+                        enum trial_part part, const struct trial *truth,
                         struct measure *measure, bool *good) {
   double seconds[RUNS_MAX];
   for (size_t i = 0; i < runs; i++) {
@@ -53,7 +53,8 @@ static double take_part(const struct scene *scene, const recto_options *options,
     trial_run(&trial, scene, options, solver, count, part);
     seconds[i] = trial.solve_s;
     if (trial.status != RECTO_OK ||
-        (i == 0 && !measure_map(measure, &trial.sheet, truth, &trial.map)))
+        (i == 0 && !measure_map(measure, &truth->sheet, &truth->map,
+                                &trial.sheet, &trial.map)))
       *good = false;
     trial_fini(&trial);
   }
@@ -66,9 +67,9 @@ static void take_row(struct row *row, const struct scene *scene,
   struct measure ink = {0};
   row->ok = true;
   row->fragments_s = take_part(scene, options, solver, count, TRIAL_FRAGMENTS,
-                               &truth[0].map, &row->measure, &row->ok);
+                               &truth[0], &row->measure, &row->ok);
   row->strokes_s = take_part(scene, options, solver, count, TRIAL_STROKES,
-                             &truth[1].map, &ink, &row->ok);
+                             &truth[1], &ink, &row->ok);
   row->measure.true_ink = ink.true_ink;
   row->measure.missing_ink = ink.missing_ink;
   row->measure.false_ink = ink.false_ink;

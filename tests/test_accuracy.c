@@ -66,7 +66,8 @@ static void measure_errors(const struct scene *scene,
   struct measure measure;
   trial_run(&trial, scene, options, solver, lines, TRIAL_BOTH);
   assert_int_equal(trial.status, RECTO_OK);
-  assert_true(measure_map(&measure, &trial.sheet, &truth->map, &trial.map));
+  assert_true(measure_map(&measure, &truth->sheet, &truth->map, &trial.sheet,
+                          &trial.map));
   *area = measure_area_share(&measure);
   *ink = measure_ink_share(&measure);
   trial_fini(&trial);
@@ -132,7 +133,8 @@ static void check_first_order_ink(const struct scene *scene,
     trial_run(&trial, scene, options, &solver_scanline_zbuffer,
               lines << (2 * k), TRIAL_STROKES);
     assert_int_equal(trial.status, RECTO_OK);
-    assert_true(measure_map(&measure[k], &trial.sheet, &truth.map, &trial.map));
+    assert_true(measure_map(&measure[k], &truth.sheet, &truth.map, &trial.sheet,
+                            &trial.map));
     trial_fini(&trial);
   }
   double ratio =
@@ -164,7 +166,8 @@ static void check_disjoint(const struct scene *scene,
     trial_run(&trial, scene, options, solver_by_name("watkins"), lines,
               TRIAL_FRAGMENTS);
     assert_int_equal(trial.status, RECTO_OK);
-    assert_true(measure_map(&measure, &trial.sheet, &trial.map, &trial.map));
+    assert_true(measure_map(&measure, &trial.sheet, &trial.map, &trial.sheet,
+                            &trial.map));
     if (!(measure.twice_area < 1e-6 * measure.true_area))
       fail_msg("%s at %d lines: %g of %g mm2 twice", name, lines,
                measure.twice_area, measure.true_area);

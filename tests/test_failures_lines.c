@@ -72,7 +72,8 @@ static void lines_behind_a_near_sheet_are_hidden(void **state) {
       scenes_near_sheets(&scene, &options, gap);
       trial_run(&trial, &scene, &options, *s, 0, TRIAL_STROKES);
       assert_int_equal(trial.status, RECTO_OK);
-      assert_true(measure_map(&m, &trial.sheet, &trial.map, &trial.map));
+      assert_true(
+          measure_map(&m, &trial.sheet, &trial.map, &trial.sheet, &trial.map));
       if (!(fabs(m.true_ink / trial.camera.s - 20) < 1e-6))
         fail_msg("%s at %g: %g", (*s)->name, gap, m.true_ink / trial.camera.s);
       trial_fini(&trial);

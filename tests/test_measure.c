@@ -71,7 +71,7 @@ static void areas_are_reported_by_kind_of_error(void **state) {
   start_two(&sheet, &exact, &map);
   add_box(&map, 0, 2, 1, 13, 10);  /* 2 and 1 short, 3 too far */
   add_box(&map, 1, 13, 1, 20, 12); /* 3 and 1 short, 2 too high */
-  assert_true(measure_map(&m, &sheet, &exact, &map));
+  assert_true(measure_map(&m, &sheet, &exact, &sheet, &map));
   assert_near(m.true_area, 200);
   assert_near(m.wrong_face, 3 * 9);
   assert_near(m.missing_area, 2 * 10 + 18 * 1);
@@ -90,7 +90,7 @@ static void area_covered_twice_is_reported_separately(void **state) {
   start_two(&sheet, &exact, &map);
   add_box(&map, 0, 0, 0, 12, 8);
   add_box(&map, 1, 9, 0, 20, 8);
-  assert_true(measure_map(&m, &sheet, &exact, &map));
+  assert_true(measure_map(&m, &sheet, &exact, &sheet, &map));
   assert_near(m.twice_area, 3 * 8);
   assert_near(m.wrong_face, 3 * 8);
   assert_near(m.missing_area, 20 * 2);
@@ -115,12 +115,12 @@ static void holes_and_corners_that_turn_in_are_kept_out(void **state) {
   add_loop(&bend, l, 6);
   add_fragment(&bend, 7, 1);
   /* The hole takes 27 of the L's 75. */
-  assert_true(measure_map(&m, &sheet, &frame, &bend));
+  assert_true(measure_map(&m, &sheet, &frame, &sheet, &bend));
   assert_near(m.true_area, 18 * 18 - 36);
   assert_near(m.wrong_face, 0);
   assert_near(m.false_area, 27);
   assert_near(m.missing_area, 18 * 18 - 36 - 48);
-  assert_true(measure_map(&m, &sheet, &bend, &frame));
+  assert_true(measure_map(&m, &sheet, &bend, &sheet, &frame));
   assert_near(m.true_area, 75);
   assert_near(m.missing_area, 27);
   assert_near(m.false_area, 18 * 18 - 36 - 48);
@@ -140,8 +140,8 @@ static void one_map_has_no_error_against_itself(void **state) {
     pipeline_run(&pipeline, &scene, &options, &solver_tiles);
     if (pipeline.status == RECTO_OK) {
       double page = options.page.width_mm * options.page.height_mm;
-      assert_true(
-          measure_map(&m, &pipeline.sheet, &pipeline.map, &pipeline.map));
+      assert_true(measure_map(&m, &pipeline.sheet, &pipeline.map,
+                              &pipeline.sheet, &pipeline.map));
       /* Corners are rounded to 1 / 256 unit: fragments may overlap by that. */
       if (!(fabs(m.wrong_face) < 1e-9 * page &&
             fabs(m.missing_area) < 1e-9 * page &&
@@ -206,7 +206,7 @@ static void ink_is_compared_interval_by_interval(void **state) {
   /* Edge 2: 1/3 to 2/3; but nothing. */
   add_interval(&exact, 1, 2, 3);
   assert_true(ARRAY_PUSH(&exact.mixed, ((struct map_mixed){2, 1, 1})));
-  assert_true(measure_map(&m, &sheet, &exact, &map));
+  assert_true(measure_map(&m, &sheet, &exact, &sheet, &map));
   assert_near(m.true_ink, 10 + 5 + 10 / 3.);
   assert_near(m.missing_ink, 5 + 3 + 10 / 3.);
   assert_near(m.false_ink, 2);

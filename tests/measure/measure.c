@@ -363,23 +363,60 @@ static double common_length(const struct map_interval *p, size_t p_count,
   return sum;
 }
 
-static void measure_ink(struct measure *measure, const struct sheet *sheet,
-                        const struct map *exact, const struct map *map) {
-  size_t in_exact = 0, in_map = 0;
-  for (uint32_t e = 0; e < sheet->edge.count; e++) {
-    const struct sheet_edge *edge = &sheet->edge.item[e];
-    const struct geom_point *p = &sheet->point.item[edge->point[0]];
-    const struct geom_point *q = &sheet->point.item[edge->point[1]];
-    double length = hypot(q->x - p->x, q->y - p->y) / SHEET_UNITS_PER_MM;
-    size_t t_count, m_count;
-    const struct map_interval *t = intervals_of(exact, e, &in_exact, &t_count);
-    const struct map_interval *m = intervals_of(map, e, &in_map, &m_count);
+/* A map, its sheet, and the edge that is next. */
+struct ink_side {
+  const struct sheet *sheet;
+  const struct map *map;
+  uint32_t edge;
+  size_t mixed; /* in map->mixed */
+};
+
+/* Which edge comes first: those of the mesh by index, which are the same on both
+ * sheets, then intersections by their triangles.  Below 0: that of a, above: that
+ * of b; 0: they are the same. */
+static int compare_edges(const struct ink_side *a, const struct ink_side *b) {
+  const struct sheet_edge *p = a->sheet->edge.item + a->edge,
+                          *q = b->sheet->edge.item + b->edge;
+  if (a->edge == a->sheet->edge.count || b->edge == b->sheet->edge.count)
+    return (a->edge == a->sheet->edge.count) -
+           (b->edge == b->sheet->edge.count);
+  if (p->edge_class != RECTO_EDGE_INTERSECTION ||
+      q->edge_class != RECTO_EDGE_INTERSECTION)
+    return (p->edge_class == RECTO_EDGE_INTERSECTION) -
+           (q->edge_class == RECTO_EDGE_INTERSECTION);
+  for (int k = 0; k < 2; k++)
+    if (p->triangle[k] != q->triangle[k])
+      return p->triangle[k] < q->triangle[k] ? -1 : 1;
+  return 0;
+}
+
+static double length_of_edge(const struct ink_side *side) {
+  struct geom_segment s =
+      sheet_ends(side->sheet, side->sheet->edge.item[side->edge].point);
+  return hypot(s.q.x - s.p.x, s.q.y - s.p.y) / SHEET_UNITS_PER_MM;
+}
+
+static void measure_ink(struct measure *measure, struct ink_side exact,
+                        struct ink_side other) {
+  while (exact.edge < exact.sheet->edge.count ||
+         other.edge < other.sheet->edge.count) {
+    int order = compare_edges(&exact, &other);
+    const struct ink_side *first = order <= 0 ? &exact : &other;
+    size_t t_count = 0, m_count = 0;
+    const struct map_interval *t = NULL, *m = NULL;
+    if (order <= 0)
+      t = intervals_of(exact.map, exact.edge, &exact.mixed, &t_count);
+    if (order >= 0)
+      m = intervals_of(other.map, other.edge, &other.mixed, &m_count);
     double common = common_length(t, t_count, m, m_count);
-    if (edge->edge_class == 0)
-      continue;
-    measure->true_ink += length * length_of(t, t_count);
-    measure->missing_ink += length * (length_of(t, t_count) - common);
-    measure->false_ink += length * (length_of(m, m_count) - common);
+    if (first->sheet->edge.item[first->edge].edge_class != 0) {
+      double length = length_of_edge(first);
+      measure->true_ink += length * length_of(t, t_count);
+      measure->missing_ink += length * (length_of(t, t_count) - common);
+      measure->false_ink += length * (length_of(m, m_count) - common);
+    }
+    exact.edge += order <= 0;
+    other.edge += order >= 0;
   }
 }
 
@@ -394,9 +431,11 @@ double measure_ink_share(const struct measure *measure) {
   return (measure->missing_ink + measure->false_ink) / measure->true_ink;
 }
 
-bool measure_map(struct measure *measure, const struct sheet *sheet,
-                 const struct map *exact, const struct map *map) {
+bool measure_map(struct measure *measure, const struct sheet *exact_sheet,
+                 const struct map *exact, const struct sheet *sheet,
+                 const struct map *map) {
   memset(measure, 0, sizeof *measure);
-  measure_ink(measure, sheet, exact, map);
+  measure_ink(measure, (struct ink_side){.sheet = exact_sheet, .map = exact},
+              (struct ink_side){.sheet = sheet, .map = map});
   return measure_areas(measure, sheet, exact, map);
 }

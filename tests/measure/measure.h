@@ -26,11 +26,14 @@ struct measure {
 double measure_area_share(const struct measure *measure);
 double measure_ink_share(const struct measure *measure);
 
-/* Measures `map` against `exact`; what either was not requested to find counts
- * nothing.  Both are maps of `sheet`: of a sheet that had the same
- * intersections added, if any.  False when memory ran out. */
-USE_RESULT bool measure_map(struct measure *measure, const struct sheet *sheet,
-                            const struct map *exact, const struct map *map);
+/* Measures `map`, of `sheet`, against `exact`, of `exact_sheet`; what either was
+ * not requested to find counts nothing.  Both sheets are of the same scene; an
+ * intersection that only one of them has is hidden in the other.  False when
+ * memory ran out. */
+USE_RESULT bool measure_map(struct measure *measure,
+                            const struct sheet *exact_sheet,
+                            const struct map *exact, const struct sheet *sheet,
+                            const struct map *map);
 
 /* The area in mm^2 of a fragment. */
 double measure_fragment_area(const struct map *map, size_t fragment);
