@@ -26,8 +26,8 @@ int main(void) {
   static const char obj[] = "v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\n"
                             "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   recto_options options;
-  recto_scene *scene;
-  recto_drawing *drawing;
+  recto_scene *scene = NULL;
+  recto_drawing *drawing = NULL;
   recto_stroke stroke;
   recto_error error;
   memset(&options, 0x55, sizeof options);
@@ -47,6 +47,8 @@ int main(void) {
       recto_drawing_write_to(drawing, "svg", &options, print, NULL, &error) !=
           RECTO_OK) {
     printf("%s: %s\n", recto_status_name(error.code), error.text);
+    recto_drawing_destroy(drawing);
+    recto_scene_destroy(scene);
     return 1;
   }
   if (!recto_drawing_stroke(drawing, 0, &stroke) || stroke.count < 2)
