@@ -123,7 +123,7 @@ static void shallow_scenes_are_left_alone(void **state) {
   struct occlusion_culling culling;
   assert_true(occlusion_culling_init(&culling, &fixture.sheet, true));
   assert_null(culling.culled);
-  assert_null(culling.bound);
+  assert_null(culling.buffer.bound);
   occlusion_culling_fini(&culling);
   sheet_fixture_fini(&fixture);
 }

@@ -23,6 +23,7 @@ librecto_core_la_SOURCES += \
   %D%/intersection/edge_fan.c %D%/intersection/edge_fan.h \
   %D%/intersection/intersection.c %D%/intersection/intersection.h \
   %D%/intersection/intersection_segment.c %D%/intersection/intersection_segment.h \
+  %D%/culling/occlusion_buffer.c %D%/culling/occlusion_buffer.h \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
   %D%/newell/newell.c \
   %D%/newell/newell_order.c %D%/newell/newell_order.h \

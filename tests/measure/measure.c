@@ -371,9 +371,9 @@ struct ink_side {
   size_t mixed; /* in map->mixed */
 };
 
-/* Which edge comes first: those of the mesh by index, which are the same on both
- * sheets, then intersections by their triangles.  Below 0: that of a, above: that
- * of b; 0: they are the same. */
+/* Which edge comes first: those of the mesh by index, which are the same on
+ * both sheets, then intersections by their triangles.  Below 0: that of a,
+ * above: that of b; 0: they are the same. */
 static int compare_edges(const struct ink_side *a, const struct ink_side *b) {
   const struct sheet_edge *p = a->sheet->edge.item + a->edge,
                           *q = b->sheet->edge.item + b->edge;

@@ -26,8 +26,8 @@ struct measure {
 double measure_area_share(const struct measure *measure);
 double measure_ink_share(const struct measure *measure);
 
-/* Measures `map`, of `sheet`, against `exact`, of `exact_sheet`; what either was
- * not requested to find counts nothing.  Both sheets are of the same scene; an
+/* Measures `map`, of `sheet`, against `exact`, of `exact_sheet`; what either
+ * was not requested to find counts nothing.  Both sheets are of the same scene; an
  * intersection that only one of them has is hidden in the other.  False when
  * memory ran out. */
 USE_RESULT bool measure_map(struct measure *measure,

@@ -1,13 +1,10 @@
 /* occlusion_culling.h - finds triangles that are certainly hidden, before
  * anything is solved.
  *
- * A buffer of page cells holds a bound for each: whatever lies farther is
- * hidden everywhere in the cell, because one triangle surrounds the cell and is
- * nearer.  Triangles come from near to far.  Each is tested first: it is hidden
- * if its nearest corner is behind the bounds of all cells that it meets.
- * Otherwise it raises the bounds of the cells that it surrounds.  Blocks of
- * cells have the farthest bound of their cells, so that most triangles are
- * tested by a few blocks.
+ * A buffer (occlusion_buffer.h) has for each page cell a depth behind which all
+ * is hidden.  Triangles come from near to far.  Each is tested first: it is
+ * hidden if its nearest corner is behind the bounds of all cells that it meets.
+ * Otherwise it raises the bounds of the cells that it surrounds.
  *
  * Claim.  The visible lines and fragments of all triangles are those of the
  * triangles that are not culled, to the last bit.
@@ -25,26 +22,20 @@
  *     triangles that meet the cell and are not culled: so V and T do not touch.
  *
  * Cost  Linear in the triangles, and in the cells of those that are not culled.
- *
- * Source  The hierarchical z-buffer [Greene1993], with bounds that hold all
- *         over a cell in place of depths at pixels.
  */
 #ifndef VISIBILITY_CULLING_OCCLUSION_CULLING_H
 #define VISIBILITY_CULLING_OCCLUSION_CULLING_H
 
 #include "view/sheet.h"
-#include "visibility/index/triangle_grid.h"
+#include "visibility/culling/occlusion_buffer.h"
 
 struct occlusion_culling {
   uint8_t *culled; /* one per triangle, not 0: it is hidden; NULL: culling was
                       not worth while, and nothing is culled */
   size_t count;    /* of culled triangles */
-  struct triangle_grid cells; /* their shape; there are no lists */
-  int32_t *bound;             /* one per cell, in steps of depth */
-  int32_t *farthest;          /* one per block, of its cells' */
-  int blocks, block_rows;     /* blocks in a row, and their rows */
-  int64_t reach;              /* by how much edges may stray on the page */
-  double margin;              /* the same in depth */
+  struct occlusion_buffer buffer;
+  int64_t reach; /* by how much edges may stray on the page */
+  double margin; /* the same in depth */
 };
 
 /* Culls the triangles of the sheet, or, if that would not be worth while, none.

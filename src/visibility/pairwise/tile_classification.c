@@ -301,7 +301,8 @@ static uint64_t count_queries(const struct sheet *sheet, bool edges,
 }
 
 /* Chooses the tiles of a deep scene: small, so that lists are short,
- * but large enough that the work per tile is little compared with the queries. */
+ * but large enough that the work per tile is little compared with the
+ * queries. */
 static void shape_deep_tiles(struct tile_classification *tiles,
                              const struct sheet *sheet, bool edges,
                              bool fragments) {

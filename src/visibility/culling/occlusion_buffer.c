@@ -1,0 +1,318 @@
+/* occlusion_buffer.c - for each page cell a depth behind which all is
+ * hidden. */
+#include "visibility/culling/occlusion_buffer.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "visibility/predicate/surrounder.h"
+
+enum {
+  CELLS_PER_TRIANGLE = 2,
+  CELLS_MIN = 1 << 12,
+  CELLS_MAX = 1 << 21,
+  VISITS = 64,         /* to a block to raise its cells, on average, at most */
+  VISITS_MIN = 1 << 15 /* to all blocks, this many are no cost */
+};
+
+void occlusion_buffer_shape(struct occlusion_buffer *buffer, struct box2 page,
+                            size_t triangles) {
+  struct triangle_grid *cells = &buffer->cells;
+  size_t room = CELLS_PER_TRIANGLE * triangles;
+  room = room < CELLS_MIN ? CELLS_MIN : room > CELLS_MAX ? CELLS_MAX : room;
+  *cells = (struct triangle_grid){.x0 = page.x0, .y0 = page.y0, .shift = -1};
+  do {
+    cells->shift++;
+    cells->columns = (int)(((int64_t)page.x1 - page.x0) >> cells->shift) + 1;
+    cells->rows = (int)(((int64_t)page.y1 - page.y0) >> cells->shift) + 1;
+  } while (cells->columns > UINT16_MAX || cells->rows > UINT16_MAX ||
+           triangle_grid_cell_count(cells) > room);
+}
+
+bool occlusion_buffer_init(struct occlusion_buffer *buffer) {
+  const struct triangle_grid *cells = &buffer->cells;
+  size_t n = triangle_grid_cell_count(cells);
+  buffer->blocks = ((cells->columns - 1) >> OCCLUSION_BLOCK_SHIFT) + 1;
+  buffer->block_rows = ((cells->rows - 1) >> OCCLUSION_BLOCK_SHIFT) + 1;
+  size_t blocks = (size_t)buffer->blocks * (size_t)buffer->block_rows;
+  buffer->bound = mem_alloc(n, sizeof *buffer->bound);
+  buffer->farthest = mem_alloc(blocks, sizeof *buffer->farthest);
+  if (buffer->bound == NULL || buffer->farthest == NULL)
+    return false;
+  buffer->visits = VISITS_MIN + VISITS * (int64_t)blocks;
+  memset(buffer->bound, 0xff, n * sizeof *buffer->bound);
+  memset(buffer->farthest, 0xff, blocks * sizeof *buffer->farthest);
+  return true;
+}
+
+bool occlusion_buffer_hides_in_row(const struct occlusion_buffer *buffer, int y,
+                                   int x0, int x1, int32_t nearest) {
+  const int32_t *bound =
+      buffer->bound + (size_t)y * (size_t)buffer->cells.columns;
+  for (int x = x0; x <= x1; x++)
+    if (bound[x] <= nearest)
+      return false;
+  return true;
+}
+
+bool occlusion_buffer_hides_in_blocks(const struct occlusion_buffer *buffer,
+                                      struct cell_range r, int32_t nearest) {
+  for (int y = r.y0 >> OCCLUSION_BLOCK_SHIFT;
+       y <= r.y1 >> OCCLUSION_BLOCK_SHIFT; y++) {
+    const int32_t *farthest =
+        buffer->farthest + (size_t)y * (size_t)buffer->blocks;
+    for (int x = r.x0 >> OCCLUSION_BLOCK_SHIFT;
+         x <= r.x1 >> OCCLUSION_BLOCK_SHIFT; x++)
+      if (farthest[x] <= nearest)
+        return false;
+  }
+  return true;
+}
+
+/* ---- Raising bounds ------------------------------------------------------ */
+
+/* The edge functions of a triangle's sides, which are positive inside it: their
+ * least values over a cell, and their increments per cell to the right and up.
+ * Within the triangle's box they are below 2^62; one step outside they may wrap
+ * around, but are not read there. */
+struct edge_functions {
+  uint64_t at[3], right[3], up[3];
+};
+
+/* The edge functions of the cell whose lower left corner is (x, y). */
+static struct edge_functions
+edge_functions_at(const struct geom_triangle *corners, int64_t x, int64_t y,
+                  int shift) {
+  struct edge_functions functions;
+  int64_t side = INT64_C(1) << shift;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point a = corners->p[k], b = corners->p[geom_next_corner(k)];
+    int64_t dx = (int64_t)b.x - a.x, dy = (int64_t)b.y - a.y;
+    functions.at[k] = (uint64_t)(dx * (y + (dx < 0 ? side : 0) - a.y) -
+                                 dy * (x + (dy > 0 ? side : 0) - a.x));
+    functions.right[k] = (uint64_t)-dy << shift;
+    functions.up[k] = (uint64_t)dx << shift;
+  }
+  return functions;
+}
+
+static void step(uint64_t at[3], const uint64_t by[3]) {
+  for (int k = 0; k < 3; k++)
+    at[k] += by[k];
+}
+
+/* Which of the three values are not positive, as bits. */
+static int outside(const uint64_t at[3]) {
+  return (int)((at[0] - 1) >> 63 | (at[1] - 1) >> 63 << 1 |
+               (at[2] - 1) >> 63 << 2);
+}
+
+/* Computes a block's bound from those of its cells. */
+static void update_block(struct occlusion_buffer *buffer, int bx, int by) {
+  const struct triangle_grid *cells = &buffer->cells;
+  int x0 = bx << OCCLUSION_BLOCK_SHIFT, y0 = by << OCCLUSION_BLOCK_SHIFT,
+      x1 = x0 + (1 << OCCLUSION_BLOCK_SHIFT),
+      y1 = y0 + (1 << OCCLUSION_BLOCK_SHIFT);
+  int32_t least = INT32_MAX;
+  for (int y = y0; y < y1 && y < cells->rows; y++) {
+    const int32_t *bound = buffer->bound + (size_t)y * (size_t)cells->columns;
+    for (int x = x0; x < x1 && x < cells->columns; x++)
+      least = bound[x] < least ? bound[x] : least;
+  }
+  buffer->farthest[(size_t)by * (size_t)buffer->blocks + (size_t)bx] = least;
+}
+
+/* The corner of triangle n at which its side q-p starts; -1: it has none. */
+static int side_between(const struct sheet *sheet, uint32_t n, uint32_t p,
+                        uint32_t q) {
+  const uint32_t *point = sheet->triangle.item[n].point;
+  for (int k = 0; k < 3; k++)
+    if (point[k] == q && point[geom_next_corner(k)] == p)
+      return k;
+  return -1;
+}
+
+/* A triangle that continues another one beyond a side. */
+struct neighbour {
+  bool found;
+  struct geom_triangle corners;
+  struct surrounder_plane plane;
+  int side; /* the corner where the common side starts */
+};
+
+/* Finds the triangle beyond side k, across an edge or a diagonal: one that has
+ * the same side the other way round, so that it lies beyond it on the page. */
+static struct neighbour find_neighbour(const struct sheet *sheet, uint32_t t,
+                                       int k) {
+  const struct sheet_triangle *triangle = &sheet->triangle.item[t];
+  uint32_t p = triangle->point[k], q = triangle->point[geom_next_corner(k)],
+           edge = triangle->side[k];
+  uint32_t candidate[2] = {t - 1, t + 1}; /* a face's triangles follow */
+  if (edge != SHEET_NONE)
+    memcpy(candidate, sheet->edge.item[edge].triangle, sizeof candidate);
+  for (int i = 0; i < 2; i++) {
+    uint32_t n = candidate[i];
+    if (n >= sheet->triangle.count || n == t ||
+        (sheet->triangle_flags[n] & SHEET_FLAT))
+      continue;
+    int side = side_between(sheet, n, p, q);
+    if (side >= 0)
+      return (struct neighbour){true, sheet_corners(sheet, n),
+                                surrounder_plane_of(sheet, n), side};
+  }
+  return (struct neighbour){.found = false};
+}
+
+/* Does the triangle surround the window but for its own side? */
+static bool surrounds_beyond(const struct neighbour *neighbour,
+                             const struct box2 *window, int shift) {
+  struct edge_functions functions =
+      edge_functions_at(&neighbour->corners, window->x0, window->y0, shift);
+  return (outside(functions.at) & ~(1 << neighbour->side)) == 0;
+}
+
+/* The triangle that raises bounds, and those beyond its sides. */
+struct raising {
+  struct occlusion_buffer *buffer;
+  const struct sheet *sheet;
+  uint32_t triangle;
+  struct geom_triangle corners;
+  struct box2 box;
+  struct surrounder_plane plane;
+  struct neighbour neighbour[3];
+  int searched; /* bit k: the neighbour beyond side k was looked for */
+};
+
+/* The bound of a cell that the triangle surrounds, or that it surrounds
+ * together with its neighbour beyond one side; -1: neither.
+ * out  the sides that are not beyond the cell, as bits */
+static int32_t bound_of_cell(struct raising *raising, int out,
+                             const struct box2 *window) {
+  const struct occlusion_buffer *buffer = raising->buffer;
+  double low = surrounder_farthest_z(&raising->plane, window);
+  if (out != 0) {
+    int k = out >> 1; /* out is 1, 2 or 4 */
+    struct neighbour *neighbour = &raising->neighbour[k];
+    if ((raising->searched >> k & 1) == 0)
+      *neighbour = find_neighbour(raising->sheet, raising->triangle, k);
+    raising->searched |= 1 << k;
+    if (!neighbour->found ||
+        !surrounds_beyond(neighbour, window, buffer->cells.shift))
+      return -1;
+    low = fmin(low, surrounder_farthest_z(&neighbour->plane, window));
+  }
+  return occlusion_steps_down(low);
+}
+
+/* The part of the triangle's box that is in a range of cells. */
+static struct box2 part_in_cells(const struct raising *raising,
+                                 struct cell_range r) {
+  const struct triangle_grid *cells = &raising->buffer->cells;
+  int64_t side = INT64_C(1) << cells->shift, x0 = cells->x0 + r.x0 * side,
+          y0 = cells->y0 + r.y0 * side, x1 = cells->x0 + (r.x1 + 1) * side,
+          y1 = cells->y0 + (r.y1 + 1) * side;
+  struct box2 box = raising->box;
+  return (struct box2){
+      box.x0 > x0 ? box.x0 : (int32_t)x0, box.y0 > y0 ? box.y0 : (int32_t)y0,
+      box.x1 < x1 ? box.x1 : (int32_t)x1, box.y1 < y1 ? box.y1 : (int32_t)y1};
+}
+
+/* The nearest depth of the triangle's plane over a part of its box, in steps:
+ * no bound that it gives there is nearer. */
+static int32_t nearest_over(const struct raising *raising, struct box2 part) {
+  const struct depth_plane *plane = &raising->plane.depth;
+  return occlusion_steps_up(
+      depth_plane_at(plane, plane->per_x > 0 ? part.x1 : part.x0,
+                     plane->per_y > 0 ? part.y1 : part.y0));
+}
+
+/* Is a part of the triangle's box outside of one of its sides? */
+static bool is_outside(const struct geom_triangle *corners, struct box2 part) {
+  for (int k = 0; k < 3; k++) {
+    struct geom_point a = corners->p[k], b = corners->p[geom_next_corner(k)];
+    struct geom_point innermost = {b.y > a.y ? part.x0 : part.x1,
+                                   b.x > a.x ? part.y1 : part.y0, 0};
+    if (geom_orient2d(a, b, innermost) <= 0)
+      return true;
+  }
+  return false;
+}
+
+/* Raises the bounds of the cells of a block. */
+static void raise_block(struct raising *raising, struct cell_range r, int bx,
+                        int by) {
+  struct occlusion_buffer *buffer = raising->buffer;
+  const struct triangle_grid *cells = &buffer->cells;
+  int64_t side = INT64_C(1) << cells->shift, x = cells->x0 + r.x0 * side,
+          y = cells->y0 + r.y0 * side;
+  struct edge_functions row =
+      edge_functions_at(&raising->corners, x, y, cells->shift);
+  bool raised = false;
+  for (int cy = r.y0; cy <= r.y1; cy++, y += side, step(row.at, row.up)) {
+    int32_t *bound = buffer->bound + (size_t)cy * (size_t)cells->columns;
+    uint64_t at[3] = {row.at[0], row.at[1], row.at[2]};
+    for (int cx = r.x0; cx <= r.x1; cx++, step(at, row.right)) {
+      int out = outside(at);
+      if ((out & (out - 1)) != 0)
+        continue;
+      struct box2 window = {(int32_t)(cells->x0 + cx * side), (int32_t)y,
+                            (int32_t)(cells->x0 + (cx + 1) * side),
+                            (int32_t)(y + side)};
+      int32_t low = bound_of_cell(raising, out, &window);
+      raised |= low > bound[cx];
+      bound[cx] = low > bound[cx] ? low : bound[cx];
+    }
+  }
+  if (raised)
+    update_block(buffer, bx, by);
+}
+
+void occlusion_buffer_raise(struct occlusion_buffer *buffer,
+                            const struct sheet *sheet, uint32_t t) {
+  const struct triangle_grid *cells = &buffer->cells;
+  struct box2 box = box2_of_triangle(sheet, t);
+  struct cell_range r = triangle_grid_cells(cells, box);
+  r = (struct cell_range){r.x0 + 1, r.y0 + 1, r.x1 - 1, r.y1 - 1};
+  if (r.x0 > r.x1 || r.y0 > r.y1 || (sheet->triangle_flags[t] & SHEET_FLAT))
+    return;
+  struct raising raising = {.buffer = buffer,
+                            .sheet = sheet,
+                            .triangle = t,
+                            .corners = sheet_corners(sheet, t),
+                            .box = box,
+                            .plane = surrounder_plane_of(sheet, t)};
+  enum { LAST = (1 << OCCLUSION_BLOCK_SHIFT) - 1 };
+  for (int by = r.y0 >> OCCLUSION_BLOCK_SHIFT;
+       by <= r.y1 >> OCCLUSION_BLOCK_SHIFT; by++)
+    for (int bx = r.x0 >> OCCLUSION_BLOCK_SHIFT;
+         bx <= r.x1 >> OCCLUSION_BLOCK_SHIFT; bx++) {
+      int x = bx << OCCLUSION_BLOCK_SHIFT, y = by << OCCLUSION_BLOCK_SHIFT;
+      struct cell_range part = {x > r.x0 ? x : r.x0, y > r.y0 ? y : r.y0,
+                                x + LAST < r.x1 ? x + LAST : r.x1,
+                                y + LAST < r.y1 ? y + LAST : r.y1};
+      struct box2 box_part = part_in_cells(&raising, part);
+      if (buffer->farthest[(size_t)by * (size_t)buffer->blocks + (size_t)bx] <
+              nearest_over(&raising, box_part) &&
+          !is_outside(&raising.corners, box_part)) {
+        raise_block(&raising, part, bx, by);
+        buffer->visits--;
+      }
+    }
+}
+
+void occlusion_buffer_lower(struct occlusion_buffer *buffer,
+                            const int32_t *steps) {
+  size_t n = triangle_grid_cell_count(&buffer->cells);
+  for (size_t i = 0; i < n; i++)
+    buffer->bound[i] =
+        buffer->bound[i] < steps[i] ? -1 : buffer->bound[i] - steps[i];
+  for (int y = 0; y < buffer->block_rows; y++)
+    for (int x = 0; x < buffer->blocks; x++)
+      update_block(buffer, x, y);
+}
+
+void occlusion_buffer_fini(struct occlusion_buffer *buffer) {
+  mem_free(buffer->bound);
+  mem_free(buffer->farthest);
+  buffer->bound = buffer->farthest = NULL;
+}

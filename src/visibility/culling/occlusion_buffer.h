@@ -1,0 +1,77 @@
+/* occlusion_buffer.h - for each page cell a depth behind which all is hidden.
+ *
+ * A cell's bound is raised by a triangle that surrounds the cell, or by two
+ * that share a side and surround it together, to the farthest depth that they
+ * have there, less their contact tolerances.  Whatever lies farther than the
+ * bound is hidden everywhere in the cell.  A block of cells has the farthest of their
+ * bounds, so that large ranges are tested quickly.
+ *
+ * Depths are in steps of 2^OCCLUSION_DEPTH_SHIFT depth units, rounded so that
+ * nothing is said to be hidden that is not.
+ *
+ * Source  The hierarchical z-buffer [Greene1993], with bounds that hold all
+ *         over a cell in place of depths at pixels.
+ */
+#ifndef VISIBILITY_CULLING_OCCLUSION_BUFFER_H
+#define VISIBILITY_CULLING_OCCLUSION_BUFFER_H
+
+#include <math.h>
+
+#include "visibility/index/triangle_grid.h"
+
+enum {
+  OCCLUSION_DEPTH_SHIFT = 9,
+  OCCLUSION_BLOCK_SHIFT = 3 /* a block has 8 by 8 cells */
+};
+
+struct occlusion_buffer {
+  struct triangle_grid cells; /* their shape; there are no lists */
+  int32_t *bound;         /* one per cell, in steps; -1: nothing is hidden */
+  int32_t *farthest;      /* one per block, of its cells' */
+  int blocks, block_rows; /* blocks in a row, and their rows */
+  int64_t visits; /* of blocks that may still be made to raise bounds: what is
+                     near comes first, and more would not pay */
+};
+
+/* Shapes the cells of a part of the page: the smallest squares of which there
+ * are not too many for so many triangles. */
+void occlusion_buffer_shape(struct occlusion_buffer *buffer, struct box2 page,
+                            size_t triangles);
+
+/* Allocates bounds that hide nothing.  Returns false when memory ran out; end
+ * with occlusion_buffer_fini either way. */
+USE_RESULT bool occlusion_buffer_init(struct occlusion_buffer *buffer);
+void occlusion_buffer_fini(struct occlusion_buffer *buffer);
+
+/* Raises the bounds of the cells that the triangle surrounds, alone or with the
+ * one beyond a side: block by block, as most of them lie outside of a large
+ * triangle or have nearer bounds. */
+void occlusion_buffer_raise(struct occlusion_buffer *buffer,
+                            const struct sheet *sheet, uint32_t triangle);
+
+/* Lowers the bounds.
+ * steps  one per cell */
+void occlusion_buffer_lower(struct occlusion_buffer *buffer,
+                            const int32_t *steps);
+
+/* Is everything behind `nearest` hidden in all cells of a range of a row? */
+bool occlusion_buffer_hides_in_row(const struct occlusion_buffer *buffer, int y,
+                                   int x0, int x1, int32_t nearest);
+
+/* The same in all blocks that meet a range of cells. */
+bool occlusion_buffer_hides_in_blocks(const struct occlusion_buffer *buffer,
+                                      struct cell_range range, int32_t nearest);
+
+/* A depth in steps, rounded towards the viewer. */
+static inline int32_t occlusion_steps_up(double depth) {
+  double steps = ceil(depth * (1.0 / (1 << OCCLUSION_DEPTH_SHIFT)));
+  return steps < (double)INT32_MAX ? (int32_t)steps : INT32_MAX;
+}
+
+/* A depth in steps, rounded away from the viewer; nothing is behind -1. */
+static inline int32_t occlusion_steps_down(double depth) {
+  double steps = floor(depth * (1.0 / (1 << OCCLUSION_DEPTH_SHIFT)));
+  return steps > 0 ? (int32_t)steps : -1;
+}
+
+#endif
