@@ -18,10 +18,12 @@ enum { SCALE = 1024 };
 static size_t pierce(struct sheet *sheet) {
   size_t before = sheet->edge.count;
   struct triangle_grid grid;
+  const struct solver_request request = {.intersections = true};
   recto_error error;
   assert_true(triangle_grid_init(&grid, sheet));
   assert_int_equal(
-      intersection_find_all(sheet, &grid, NULL, NULL, NULL, &error), RECTO_OK);
+      intersection_find_all(sheet, &grid, NULL, &request, NULL, &error),
+      RECTO_OK);
   triangle_grid_fini(&grid);
   for (size_t e = before; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];

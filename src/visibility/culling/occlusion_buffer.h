@@ -3,8 +3,8 @@
  * A cell's bound is raised by a triangle that surrounds the cell, or by two
  * that share a side and surround it together, to the farthest depth that they
  * have there, less their contact tolerances.  Whatever lies farther than the
- * bound is hidden everywhere in the cell.  A block of cells has the farthest of their
- * bounds, so that large ranges are tested quickly.
+ * bound is hidden everywhere in the cell.  A block of cells has the farthest
+ * of their bounds, so that large ranges are tested quickly.
  *
  * Depths are in steps of 2^OCCLUSION_DEPTH_SHIFT depth units, rounded so that
  * nothing is said to be hidden that is not.
