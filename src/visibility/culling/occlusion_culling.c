@@ -24,6 +24,7 @@ enum {
   COMPLEXITY_MIN = 2, /* faces over a point of the page, on average */
   COVERAGE_MIN = 2,   /* times that large triangles cover the page */
   SLOPE = 8,          /* in the scene; few triangles are steeper */
+  TESTS = 256,        /* of rows and blocks, for a triangle, on average */
   SAMPLE = 1 << 12    /* triangles that estimate the complexity */
 };
 
@@ -41,6 +42,8 @@ struct culling_work {
   bool fragments;
   struct occlusion_bound contact;
   struct candidate *candidate; /* one per triangle, from near to far */
+  int64_t tests; /* of rows, in parts as wide as a block, that may still be
+                    made; large triangles that hide little would need many */
 };
 
 /* ---- Phase 1 ------------------------------------------------------------- */
@@ -181,25 +184,40 @@ static struct cell_range cells_of(const struct candidate *candidate) {
                              candidate->y1};
 }
 
-/* Is the triangle hidden in all cells that it meets? */
-static bool is_hidden(const struct culling_work *work,
+/* Is the triangle hidden in all cells that it meets?  False also where too much
+ * has been tested.  First by blocks; then by the rows of cells, but only those
+ * of a block row that is not hidden. */
+static bool is_hidden(struct culling_work *work,
                       const struct candidate *candidate) {
-  const struct occlusion_culling *culling = work->culling;
-  if (occlusion_buffer_hides_in_blocks(&culling->buffer, cells_of(candidate),
-                                       candidate->nearest))
-    return true;
+  const struct occlusion_buffer *buffer = &work->culling->buffer;
+  struct cell_range r = cells_of(candidate), part = r;
+  work->tests -= (1 + ((r.x1 - r.x0) >> OCCLUSION_BLOCK_SHIFT)) *
+                 (1 + ((r.y1 - r.y0) >> OCCLUSION_BLOCK_SHIFT));
+  if (work->tests < 0 ||
+      occlusion_buffer_hides_in_blocks(buffer, r, candidate->nearest))
+    return work->tests >= 0;
   struct geom_triangle corners =
       sheet_corners(work->sheet, candidate->triangle);
-  for (int y = candidate->y0, x0, x1; y <= candidate->y1; y++)
-    if (columns_in_row(culling, &corners, y, &x0, &x1) &&
-        !occlusion_buffer_hides_in_row(&culling->buffer, y, x0, x1,
-                                       candidate->nearest))
-      return false;
+  for (; part.y0 <= r.y1; part.y0 = part.y1 + 1) {
+    part.y1 = part.y0 | ((1 << OCCLUSION_BLOCK_SHIFT) - 1);
+    part.y1 = part.y1 < r.y1 ? part.y1 : r.y1;
+    work->tests -= 1 + ((r.x1 - r.x0) >> OCCLUSION_BLOCK_SHIFT);
+    if (occlusion_buffer_hides_in_blocks(buffer, part, candidate->nearest))
+      continue;
+    for (int y = part.y0, x0, x1; y <= part.y1; y++) {
+      if (!columns_in_row(work->culling, &corners, y, &x0, &x1))
+        continue;
+      work->tests -= 1 + ((x1 - x0) >> OCCLUSION_BLOCK_SHIFT);
+      if (work->tests < 0 ||
+          !occlusion_buffer_hides_in_row(buffer, y, x0, x1, candidate->nearest))
+        return false;
+    }
+  }
   return true;
 }
 
 /* Returns false when the caller cancelled. */
-static bool cull(const struct culling_work *work) {
+static bool cull(struct culling_work *work) {
   struct occlusion_culling *culling = work->culling;
   for (size_t i = 0; i < work->sheet->triangle.count; i++) {
     if (!poll_at(i))
@@ -220,28 +238,32 @@ static bool cull(const struct culling_work *work) {
 /* Raises the contact tolerances, in steps, of the cells that a triangle meets
  * to its own; they start as that of a slope of SLOPE, which few triangles
  * exceed. */
-static void add_thickness(const struct culling_work *work,
+static void add_thickness(struct culling_work *work,
                           const struct candidate *candidate, int32_t least,
                           int32_t *thickness) {
   const struct triangle_grid *cells = &work->culling->buffer.cells;
   struct geom_triangle corners =
       sheet_corners(work->sheet, candidate->triangle);
   int32_t steps = occlusion_steps_up(thickness_of(&work->contact, &corners));
-  if (steps <= least ||
+  if (steps <= least || work->tests < 0 ||
       (work->sheet->triangle_flags[candidate->triangle] & SHEET_FLAT))
     return;
   for (int y = candidate->y0, x0, x1; y <= candidate->y1; y++)
-    if (columns_in_row(work->culling, &corners, y, &x0, &x1))
+    if (columns_in_row(work->culling, &corners, y, &x0, &x1)) {
+      work->tests -= 1 + ((x1 - x0) >> OCCLUSION_BLOCK_SHIFT);
       for (int x = x0; x <= x1; x++) {
         int32_t *at =
             &thickness[(size_t)y * (size_t)cells->columns + (size_t)x];
         *at = steps > *at ? steps : *at;
       }
+    }
 }
 
 /* Lowers the bounds by the contact tolerances of the triangles that are not
- * culled.  Returns false when memory ran out. */
-static bool lower_bounds(const struct culling_work *work) {
+ * culled.  Those that test_again brings back do not count: they are hidden, so
+ * that no fragment is in contact with theirs.  Returns false when memory ran
+ * out. */
+static bool lower_bounds(struct culling_work *work) {
   struct occlusion_culling *culling = work->culling;
   size_t n = triangle_grid_cell_count(&culling->buffer.cells);
   const struct camera *camera = &work->sheet->camera;
@@ -252,20 +274,24 @@ static bool lower_bounds(const struct culling_work *work) {
   int32_t *thickness = mem_alloc(n, sizeof *thickness);
   if (thickness == NULL)
     return false;
+  work->tests = TESTS * (int64_t)work->sheet->triangle.count;
   for (size_t i = 0; i < n; i++)
     thickness[i] = least;
   for (size_t i = 0; i < work->sheet->triangle.count; i++)
     if (!culling->culled[work->candidate[i].triangle])
       add_thickness(work, &work->candidate[i], least, thickness);
+  for (size_t i = 0; i < n && work->tests < 0; i++)
+    thickness[i] = INT32_MAX; /* too many to tell: nothing stays culled */
   occlusion_buffer_lower(&culling->buffer, thickness);
   mem_free(thickness);
   return true;
 }
 
-/* Tests the culled triangles again.  Returns false when the caller
- * cancelled. */
-static bool test_again(const struct culling_work *work) {
+/* Tests the culled triangles again, with a new number of tests.  Returns false
+ * when the caller cancelled. */
+static bool test_again(struct culling_work *work) {
   struct occlusion_culling *culling = work->culling;
+  work->tests = TESTS * (int64_t)work->sheet->triangle.count;
   for (size_t i = 0; i < work->sheet->triangle.count; i++) {
     const struct candidate *candidate = &work->candidate[i];
     uint8_t *culled = &culling->culled[candidate->triangle];
@@ -329,6 +355,7 @@ bool occlusion_culling_init(struct occlusion_culling *culling,
   if (ok && work.candidate != NULL) {
     culling->culled = mem_calloc(sheet->triangle.count, 1);
     ok = culling->culled != NULL && occlusion_buffer_init(&culling->buffer);
+    work.tests = TESTS * (int64_t)sheet->triangle.count;
     ok = ok && cull(&work);
     if (fragments && culling->count > 0)
       ok = ok && lower_bounds(&work) && test_again(&work);

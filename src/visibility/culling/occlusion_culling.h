@@ -9,19 +9,25 @@
  * Claim.  The visible lines and fragments of all triangles are those of the
  * triangles that are not culled, to the last bit.
  *
- * Proof.  Let O surround a cell and be nearer than T there by more than O's
- * contact tolerance and `margin`, which exceeds the extent in depth of whatever
- * T's plane touches.
- *   - What T occludes at a point of the cell, O occludes as well.
+ * Proof.  Let O, one triangle or two that share a side, surround a cell, and
+ * let T be farther there by more than O's contact tolerance and `margin`.
+ *   - What T occludes at a point of the cell, O occludes as well: also on the
+ *     shared side, each side of which one of the triangles covers.  Only an
+ *     edge of O's own face is not occluded by O; it lies on O's plane, within
+ *     the tolerance, and so is not behind T.
  *   - T's edges are hidden there, and so are its intersections with other
- *     triangles, which lie on T within the contact length and rounding.
- *   - For fragments, contact matters beyond: where V is visible and touches T,
- *     V's fragments may be T's.  At a point of V that O does not hide, V is no
- *     farther behind O than O's tolerance.  `margin` contains T's tolerance as
- *     a depth, and the bounds are lowered by the largest tolerance of all
- *     triangles that meet the cell and are not culled: so V and T do not touch.
+ *     triangles.  These lie on T but for its contact length, a level of T's
+ *     tolerance in depth, and for rounding, which are in `margin` and `reach`
+ *     with room to spare.
+ *   - For fragments, let V be a triangle that is visible there and touches T,
+ *     so that V's fragments may be T's.  Where O does not hide V, V is no
+ *     farther behind O than O's tolerance.  T's tolerance as a depth is in the
+ *     margin, and the bounds are lowered by the largest tolerance of all
+ *     triangles that meet the cell and were not culled, V's among them: V and T
+ *     do not touch.
  *
- * Cost  Linear in the triangles, and in the cells of those that are not culled.
+ * Cost  Linear in the triangles: tests and raised bounds are limited, and what
+ * is not tested is not culled.
  */
 #ifndef VISIBILITY_CULLING_OCCLUSION_CULLING_H
 #define VISIBILITY_CULLING_OCCLUSION_CULLING_H
@@ -40,8 +46,8 @@ struct occlusion_culling {
 
 /* Culls the triangles of the sheet, or, if that would not be worth while, none.
  * fragments  whether faces will be solved, so that contact matters
- * Returns false when memory ran out; end with occlusion_culling_fini either
- * way. */
+ * Returns false when memory ran out or the caller cancelled; end with
+ * occlusion_culling_fini either way. */
 USE_RESULT bool occlusion_culling_init(struct occlusion_culling *culling,
                                        const struct sheet *sheet,
                                        bool fragments);
