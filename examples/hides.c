@@ -55,5 +55,5 @@ int main(int argc, char **argv) {
     fprintf(stderr, "hides: %s\n", error.text);
   recto_drawing_destroy(drawing);
   recto_scene_destroy(scene);
-  return ok ? 0 : 1;
+  return ok && fclose(stdout) == 0 ? 0 : 1;
 }

@@ -140,4 +140,16 @@ edge 0-4: from 0.0000 to 1.0000 behind face 1
 END2
 claim "each hidden edge of a cube is behind its face" eval \
   './hides cube.obj | cmp - expected'
+lost() {
+  for program in dxf gcode faces hides; do
+    if "./$program" cube.obj >/dev/full; then
+      return 1
+    fi
+  done
+}
+if [ -c /dev/full ]; then
+  claim "what cannot be written is a failure" lost
+else
+  skip "what cannot be written is a failure" "no /dev/full"
+fi
 finish

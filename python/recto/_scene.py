@@ -39,7 +39,7 @@ def _corners(faces: Any) -> tuple[np.ndarray, np.ndarray | None, int]:
         size = corners.shape[1]
     if corners.min() < 0 or corners.max() >= lib.RECTO_NONE:
         raise ValueError("faces: an index is out of range")
-    if corners.dtype.itemsize == 4:
+    if corners.dtype.itemsize == 4 and corners.dtype.isnative:
         return np.ascontiguousarray(corners).view(np.uint32), offsets, size
     return np.ascontiguousarray(corners, np.uint32), offsets, size
 

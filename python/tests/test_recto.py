@@ -120,6 +120,7 @@ def test_arrays():
         cube(),
         recto.Scene(VERTICES.tolist(), FACES.tolist()),
         recto.Scene(VERTICES.astype(np.float32), FACES.astype(np.int32)),
+        recto.Scene(VERTICES.astype(">f4"), FACES.astype(">i4")),
         recto.Scene(np.asfortranarray(VERTICES), FACES.astype(np.uint8)),
         recto.Scene(VERTICES[::-1], 7 - FACES[:, ::-1][:, ::-1]),
         recto.Scene(Mesh()),
