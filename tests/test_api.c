@@ -246,6 +246,31 @@ static void lists_that_make_no_sense_are_refused(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* A later version may give them a meaning. */
+static void reserved_fields_of_lists_are_unsupported(void **state) {
+  static const recto_pen_use use = {
+      .lines = RECTO_LINES_HIDDEN, .pen = 1, .reserved = {1}};
+  static const recto_pen pen = {.reserved = {0, 1}};
+  static const recto_weight weight = {
+      .edge_class = RECTO_EDGE_CREASE, .weight = 1, .reserved = {1}};
+  (void)state;
+  recto_scene *scene = make_cube();
+  for (int list = 0; list < 3; list++) {
+    recto_options options;
+    recto_drawing *drawing;
+    recto_options_init(&options);
+    options.ink.pen_use = &use;
+    options.ink.pen_use_count = list == 0;
+    options.ink.pen = &pen;
+    options.ink.pen_count = list == 1;
+    options.ink.weight = &weight;
+    options.ink.weight_count = list == 2;
+    assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                     RECTO_ERROR_UNSUPPORTED);
+  }
+  recto_scene_destroy(scene);
+}
+
 static void an_eye_on_its_target_is_refused(void **state) {
   (void)state;
   recto_scene *scene = make_cube();
@@ -900,6 +925,7 @@ int main(void) {
       cmocka_unit_test(no_options_are_the_defaults),
       cmocka_unit_test(numbers_that_make_no_sense_are_refused),
       cmocka_unit_test(lists_that_make_no_sense_are_refused),
+      cmocka_unit_test(reserved_fields_of_lists_are_unsupported),
       cmocka_unit_test(an_eye_on_its_target_is_refused),
       cmocka_unit_test(methods_not_built_are_unsupported),
       cmocka_unit_test(destroying_nothing_is_fine),

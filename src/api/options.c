@@ -65,6 +65,17 @@ static recto_status refuse(const char *what, size_t index, recto_error *error) {
                    "%s %zu is out of range", what, index);
 }
 
+/* Whether all reserved fields of a struct are 0. */
+static bool is_zero(const uint64_t *reserved, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    if (reserved[i] != 0)
+      return false;
+  return true;
+}
+
+#define IS_UNUSED(value)                                                       \
+  is_zero((value).reserved, sizeof(value).reserved / sizeof(uint64_t))
+
 /* The arrays: their pointers are there, and what they hold is in range. */
 static recto_status check_lists(const recto_options *o, recto_error *error) {
   if ((o->ink.pen_use_count > 0 && o->ink.pen_use == NULL) ||
@@ -73,6 +84,8 @@ static recto_status check_lists(const recto_options *o, recto_error *error) {
     return error_null(error, "a list of the options");
   for (size_t i = 0; i < o->ink.pen_use_count; i++) {
     const recto_pen_use *use = &o->ink.pen_use[i];
+    if (!IS_UNUSED(*use))
+      return sized_reject(error);
     if (use->pen < 1 || use->pen > RECTO_PEN_MAX ||
         (unsigned)use->lines > RECTO_LINES_HATCH ||
         (use->lines == RECTO_LINES_OF_CLASS && !is_class(use->edge_class)) ||
@@ -81,14 +94,19 @@ static recto_status check_lists(const recto_options *o, recto_error *error) {
   }
   for (size_t i = 0; i < o->ink.pen_count; i++) {
     double mm = o->ink.pen[i].width_mm;
+    if (!IS_UNUSED(o->ink.pen[i]))
+      return sized_reject(error);
     if ((mm != 0 && !(mm >= RECTO_FINEST_MM && mm <= 100)) ||
         o->ink.pen[i].colour > 0xffffff)
       return refuse("the pen at index", i, error);
   }
-  for (size_t i = 0; i < o->ink.weight_count; i++)
+  for (size_t i = 0; i < o->ink.weight_count; i++) {
+    if (!IS_UNUSED(o->ink.weight[i]))
+      return sized_reject(error);
     if (!is_class(o->ink.weight[i].edge_class) ||
         !(o->ink.weight[i].weight >= 0.01 && o->ink.weight[i].weight <= 100))
       return refuse("the weight at index", i, error);
+  }
   return RECTO_OK;
 }
 
@@ -163,17 +181,6 @@ static recto_status check(const recto_options *o, recto_error *error) {
       check_ranges(range, sizeof range / sizeof range[0], error);
   return status == RECTO_OK ? check_lists(o, error) : status;
 }
-
-/* Whether all reserved fields of a block are 0. */
-static bool is_zero(const uint64_t *reserved, size_t count) {
-  for (size_t i = 0; i < count; i++)
-    if (reserved[i] != 0)
-      return false;
-  return true;
-}
-
-#define IS_UNUSED(block)                                                       \
-  is_zero((block).reserved, sizeof(block).reserved / sizeof(uint64_t))
 
 recto_status options_copy(recto_options *own, const recto_options *options,
                           recto_error *error) {
