@@ -528,6 +528,37 @@ static void open_grids_are_not_suspicious(void **state) {
   scene_fini(&f.scene);
 }
 
+/* Triangles of a grid of unit squares, each corner moved by up to `noise`; all
+ * of their points are on borders. */
+static void add_torn_grid(struct scene *scene, int squares, double noise) {
+  static const int corner[6][2] = {{0, 0}, {1, 0}, {1, 1},
+                                   {0, 0}, {1, 1}, {0, 1}};
+  struct random random = {22};
+  for (int i = 0; i < 2 * squares * squares; i++) {
+    double xyz[9];
+    for (int k = 0; k < 9; k++)
+      xyz[k] = random_between(&random, -noise, noise);
+    for (int k = 0; k < 3; k++) {
+      xyz[3 * k] += i / 2 % squares + corner[i % 2 * 3 + k][0];
+      xyz[3 * k + 1] += i / 2 / squares + corner[i % 2 * 3 + k][1];
+    }
+    build_polygon(scene, xyz, 3);
+  }
+}
+
+/* Of so many points a sample is looked at. */
+static void large_scenes_are_suspicious_as_small_ones_are(void **state) {
+  (void)state;
+  for (int torn = 0; torn <= 1; torn++) {
+    struct fixture f;
+    scene_init(&f.scene);
+    add_torn_grid(&f.scene, 120, torn ? 1e-4 : 0.4);
+    assert_true(3 * scene_face_count(&f.scene) > 1 << 16);
+    assert_int_equal(is_suspicious(&f, -1), torn);
+    scene_fini(&f.scene);
+  }
+}
+
 static void soups_of_triangles_are_not_suspicious(void **state) {
   (void)state;
   struct fixture f;
@@ -651,6 +682,7 @@ int main(void) {
       cmocka_unit_test(each_file_is_welded_by_its_own_precision),
       cmocka_unit_test(exhausted_memory_is_reported),
       cmocka_unit_test(torn_surfaces_are_suspicious),
+      cmocka_unit_test(large_scenes_are_suspicious_as_small_ones_are),
       cmocka_unit_test(open_grids_are_not_suspicious),
       cmocka_unit_test(soups_of_triangles_are_not_suspicious),
       cmocka_unit_test(a_noisy_teapot_is_drawn_as_a_clean_one),
