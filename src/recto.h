@@ -188,10 +188,13 @@ typedef enum recto_divide {
 
 /* Called with the share of the work done, 0 to 1, which never falls, and the
  * name of the stage: by all calls that take options, in each stage every few
- * milliseconds, however large the scene.  It may itself call the library, with
- * other objects.  Returns false to cancel: the call then ends within some
- * 50 ms, for a million triangles, with RECTO_ERROR_CANCELLED and no output, and
- * does not call it again.
+ * milliseconds, however large the scene.  The share moves while a scene is
+ * rendered and a drawing is checked; it is not measured in reading, preparing
+ * and writing.  The function may itself call the library, with other objects.
+ * It returns false to cancel: the call then ends within some 50 ms, for a
+ * million triangles, with RECTO_ERROR_CANCELLED and no output, and does not
+ * call it again.  Only cairo's own work at the end of writing PDF, PS, EPS and
+ * PNG cannot be interrupted: seconds for very large drawings.
  * Threads  the thread that called the library; never two calls of it at once
  *          for one call of the library */
 typedef bool (*recto_progress_fn)(void *user, double share, const char *stage);
