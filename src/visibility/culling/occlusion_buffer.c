@@ -73,8 +73,9 @@ bool occlusion_buffer_hides_in_blocks(const struct occlusion_buffer *buffer,
 
 /* The edge functions of a triangle's sides, which are positive inside it: their
  * least values over a cell, and their increments per cell to the right and up.
- * Within the triangle's box they are below 2^62; one step outside they may wrap
- * around, but are not read there. */
+ * Within the page box they are below 2^62, as are the products of which they
+ * are differences; one step outside they may wrap around, but are not read
+ * there. */
 struct edge_functions {
   uint64_t at[3], right[3], up[3];
 };

@@ -21,11 +21,12 @@
 enum {
   SORT_SHIFT = 19, /* triangles are sorted by 2^12 ranges of steps */
   SORT_RANGES = 1 << (SHEET_Z_BITS - OCCLUSION_DEPTH_SHIFT - SORT_SHIFT),
-  COMPLEXITY_MIN = 2, /* faces over a point of the page, on average */
+  COMPLEXITY_MIN = 5, /* a closed convex body has about 3 */
   COVERAGE_MIN = 2,   /* times that large triangles cover the page */
   SLOPE = 8,          /* in the scene; few triangles are steeper */
   TESTS = 256,        /* of rows and blocks, for a triangle, on average */
-  SAMPLE = 1 << 12    /* triangles that estimate the complexity */
+  BOX_PER_AREA = 4, /* a typical triangle's box has this multiple of its area */
+  SAMPLE = 1 << 12  /* triangles that estimate the complexity */
 };
 
 /* A triangle to be tested: its cells, and its nearest depth with the margin, in
@@ -48,19 +49,6 @@ struct culling_work {
 
 /* ---- Phase 1 ------------------------------------------------------------- */
 
-/* Estimates the depth complexity of the sheet, from a sample.  A triangle
- * counts with its area. */
-static double depth_complexity(const struct sheet *sheet, struct box2 page) {
-  size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
-  double sum = 0;
-  for (size_t t = 0; t < n; t += stride) {
-    struct geom_triangle c = sheet_corners(sheet, t);
-    sum += (double)geom_orient2d(c.p[0], c.p[1], c.p[2]) * (double)stride;
-  }
-  return sum / 2 /
-         (((double)page.x1 - page.x0 + 1) * ((double)page.y1 - page.y0 + 1));
-}
-
 static struct box2 page_box(const struct sheet *sheet) {
   struct box2 all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
   for (size_t i = 0; i < sheet->point.count; i++) {
@@ -73,18 +61,29 @@ static struct box2 page_box(const struct sheet *sheet) {
   return all;
 }
 
+double occlusion_culling_complexity(const struct occlusion_culling *culling,
+                                    const struct sheet *sheet) {
+  size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
+  double sum = 0;
+  for (size_t t = 0; t < n; t += stride) {
+    if (occlusion_culling_is_culled(culling, (uint32_t)t))
+      continue;
+    struct geom_triangle c = sheet_corners(sheet, t);
+    struct box2 b = box2_of_triangle(sheet, (uint32_t)t);
+    double box = ((double)b.x1 - b.x0) * ((double)b.y1 - b.y0);
+    double area = 0.5 * fabs((double)geom_orient2d(c.p[0], c.p[1], c.p[2]));
+    sum += fmin(box, BOX_PER_AREA * area) * (double)stride;
+  }
+  return sum / (((double)culling->page.x1 - culling->page.x0 + 1) *
+                ((double)culling->page.y1 - culling->page.y0 + 1));
+}
+
 /* An upper bound of a triangle's contact tolerance as a depth; INFINITY where
  * it is flat. */
 static double thickness_of(const struct occlusion_bound *contact,
                            const struct geom_triangle *corners) {
-  const struct geom_point *p = corners->p;
-  double ux = (double)p[1].x - p[0].x, uy = (double)p[1].y - p[0].y,
-         uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
-         vy = (double)p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
-  double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-  return nz > 0 ? (1 + contact->slope * (fabs(nx) + fabs(ny))) / nz +
-                      contact->level
-                : INFINITY;
+  double nz, bound = occlusion_bound_of(contact, corners, &nz);
+  return nz > 0 ? bound / nz : INFINITY;
 }
 
 /* Makes the candidates, in the order of the triangles.  Returns the number of
@@ -277,9 +276,11 @@ static bool lower_bounds(struct culling_work *work) {
   work->tests = TESTS * (int64_t)work->sheet->triangle.count;
   for (size_t i = 0; i < n; i++)
     thickness[i] = least;
-  for (size_t i = 0; i < work->sheet->triangle.count; i++)
+  for (size_t i = 0; i < work->sheet->triangle.count; i++) {
+    (void)poll_at(i);
     if (!culling->culled[work->candidate[i].triangle])
       add_thickness(work, &work->candidate[i], least, thickness);
+  }
   for (size_t i = 0; i < n && work->tests < 0; i++)
     thickness[i] = INT32_MAX; /* too many to tell: nothing stays culled */
   occlusion_buffer_lower(&culling->buffer, thickness);
@@ -344,12 +345,12 @@ bool occlusion_culling_init(struct occlusion_culling *culling,
                               .culling = culling,
                               .fragments = fragments,
                               .contact = occlusion_tolerance_bound_all(sheet)};
-  struct box2 page = page_box(sheet);
-  *culling = (struct occlusion_culling){.culled = NULL};
+  *culling = (struct occlusion_culling){.page = page_box(sheet)};
   if (sheet->triangle.count == 0 ||
-      depth_complexity(sheet, page) < COMPLEXITY_MIN)
+      occlusion_culling_complexity(culling, sheet) < COMPLEXITY_MIN)
     return true;
-  occlusion_buffer_shape(&culling->buffer, page, sheet->triangle.count);
+  occlusion_buffer_shape(&culling->buffer, culling->page,
+                         sheet->triangle.count);
   measure_reach(culling, sheet, &work.contact);
   bool ok = list_candidates(&work);
   if (ok && work.candidate != NULL) {

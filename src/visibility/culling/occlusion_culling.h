@@ -36,9 +36,10 @@
 #include "visibility/culling/occlusion_buffer.h"
 
 struct occlusion_culling {
-  uint8_t *culled; /* one per triangle, not 0: it is hidden; NULL: culling was
+  uint8_t *culled;  /* one per triangle, not 0: it is hidden; NULL: culling was
                       not worth while, and nothing is culled */
-  size_t count;    /* of culled triangles */
+  size_t count;     /* of culled triangles */
+  struct box2 page; /* that all points lie in */
   struct occlusion_buffer buffer;
   int64_t reach; /* by how much edges may stray on the page */
   double margin; /* the same in depth */
@@ -52,6 +53,13 @@ USE_RESULT bool occlusion_culling_init(struct occlusion_culling *culling,
                                        const struct sheet *sheet,
                                        bool fragments);
 void occlusion_culling_fini(struct occlusion_culling *culling);
+
+/* Estimates the depth complexity of the triangles that are not culled: the mean
+ * number of them over a point of the page box.  From a sample, in which a
+ * triangle counts with the area of its box, but at most a few times its own
+ * area, so that needles count for little. */
+double occlusion_culling_complexity(const struct occlusion_culling *culling,
+                                    const struct sheet *sheet);
 
 static inline bool
 occlusion_culling_is_culled(const struct occlusion_culling *culling,

@@ -20,17 +20,14 @@
 #include "visibility/predicate/plane_filter.h"
 #include "visibility/predicate/surrounder.h"
 
-/* Depth complexity is the mean number of faces over a point of the page; a
- * scene is called deep if it is above DEEP. */
+/* A scene is called deep if its depth complexity is above DEEP. */
 enum {
   TILES_PER_TRIANGLE = 2,        /* on average: a tile is about an edge long */
   DEEP = 32,                     /* faces over a point, on average */
   DEEP_TILES_TOTAL = 1 << 22,    /* of all triangles of a deep scene together */
   DEEP_TILES_PER_TRIANGLE = 256, /* at most, on average */
   DEEP_QUERIES_PER_TILE = 8, /* a tile costs a tenth of so many edge queries */
-  QUERIES_PER_FACE = 16,     /* a face takes as long as so many edges */
-  BOX_PER_AREA = 4, /* a typical triangle's box has this multiple of its area */
-  SAMPLE = 1 << 12  /* triangles that estimate the depth complexity */
+  QUERIES_PER_FACE = 16      /* a face takes as long as so many edges */
 };
 
 static uint64_t bucket_mask(int low, int high) {
@@ -47,13 +44,9 @@ static uint64_t bucket_mask(int low, int high) {
 static bool is_steep(const struct sheet *sheet,
                      const struct occlusion_bound *all, uint32_t triangle,
                      const struct geom_triangle *corners) {
-  const struct geom_point *p = corners->p;
-  double ux = (double)p[1].x - p[0].x, uy = (double)p[1].y - p[0].y,
-         uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
-         vy = (double)p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
-  double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
   const double room = (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1));
-  if (1 + all->level * nz + all->slope * (fabs(nx) + fabs(ny)) < room * nz)
+  double nz, bound = occlusion_bound_of(all, corners, &nz);
+  if (bound < room * nz)
     return false;
   struct plane_filter plane = plane_filter_of(sheet, triangle);
   return !(plane_filter_thickness(&plane) < room);
@@ -269,27 +262,6 @@ static void reject_contours(struct tile_classification *tiles,
   }
 }
 
-/* Estimates the depth complexity from a sample of the triangles, without those
- * that are culled.  A triangle
- * counts with the area of its box, but at most BOX_PER_AREA times its own area,
- * so that needles count for little. */
-static double depth_complexity(const struct tile_classification *tiles,
-                               const struct sheet *sheet) {
-  const struct triangle_grid *grid = &tiles->grid;
-  size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
-  double side = (double)(INT64_C(1) << grid->shift), sum = 0;
-  for (size_t t = 0; t < n; t += stride) {
-    if (occlusion_culling_is_culled(&tiles->culling, (uint32_t)t))
-      continue;
-    struct geom_triangle c = sheet_corners(sheet, t);
-    struct box2 b = box2_of_triangle(sheet, (uint32_t)t);
-    double box = ((double)b.x1 - b.x0) * ((double)b.y1 - b.y0);
-    double area = 0.5 * fabs((double)geom_orient2d(c.p[0], c.p[1], c.p[2]));
-    sum += fmin(box, BOX_PER_AREA * area) * (double)stride;
-  }
-  return sum / (side * side * grid->columns * grid->rows);
-}
-
 /* The number of edges to solve, plus that of the faces times
  * QUERIES_PER_FACE. */
 static uint64_t count_queries(const struct sheet *sheet, bool edges,
@@ -326,7 +298,7 @@ bool tile_classification_init(struct tile_classification *tiles,
   if (!occlusion_culling_init(&tiles->culling, sheet, fragments))
     return false;
   triangle_grid_shape(&tiles->grid, sheet, TILES_PER_TRIANGLE, 2);
-  if (depth_complexity(tiles, sheet) > DEEP)
+  if (occlusion_culling_complexity(&tiles->culling, sheet) > DEEP)
     shape_deep_tiles(tiles, sheet, edges, fragments);
   n = triangle_grid_cell_count(&tiles->grid);
   tiles->tile = mem_calloc(n, sizeof *tiles->tile);
