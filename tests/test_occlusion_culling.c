@@ -221,6 +221,14 @@ static void what_is_culled_is_hidden(void **state) {
   }
 }
 
+/* The plane of a steep triangle, beside it. */
+static void depths_of_any_size_are_steps(void **state) {
+  (void)state;
+  assert_int_equal(occlusion_steps_up(-1e13), -1);
+  assert_int_equal(occlusion_steps_up(1e13), INT32_MAX);
+  assert_int_equal(occlusion_steps_down(-1e13), -1);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_is_in_a_box_is_culled),
@@ -228,6 +236,7 @@ int main(void) {
       cmocka_unit_test(contact_is_not_culled),
       cmocka_unit_test(shallow_scenes_are_left_alone),
       cmocka_unit_test(what_is_culled_is_hidden),
+      cmocka_unit_test(depths_of_any_size_are_steps),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -62,10 +62,11 @@ bool occlusion_buffer_hides_in_row(const struct occlusion_buffer *buffer, int y,
 bool occlusion_buffer_hides_in_blocks(const struct occlusion_buffer *buffer,
                                       struct cell_range range, int32_t nearest);
 
-/* A depth in steps, rounded towards the viewer. */
+/* A depth in steps, rounded towards the viewer; what is behind all bounds, as a
+ * steep plane may be far beside its triangle, is -1. */
 static inline int32_t occlusion_steps_up(double depth) {
   double steps = ceil(depth * (1.0 / (1 << OCCLUSION_DEPTH_SHIFT)));
-  return steps < (double)INT32_MAX ? (int32_t)steps : INT32_MAX;
+  return steps < (double)INT32_MAX ? (int32_t)fmax(steps, -1) : INT32_MAX;
 }
 
 /* A depth in steps, rounded away from the viewer; nothing is behind -1. */
