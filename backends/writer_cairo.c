@@ -59,7 +59,7 @@ static cairo_status_t pass_bytes(void *closure, const unsigned char *bytes,
   return sink_status(sink);
 }
 
-static bool starts_with(const struct sink *sink, const char *word) {
+static bool data_starts_with(const struct sink *sink, const char *word) {
   size_t length = strlen(word);
   return sink->length >= length && memcmp(sink->line, word, length) == 0;
 }
@@ -83,12 +83,12 @@ static void write_box(const struct sink *sink) {
  * creation date removed and the boxes of EPS replaced.  Only some versions of
  * cairo write an exact box. */
 static void pass_line(struct sink *sink) {
-  if (starts_with(sink, "%%EndComments"))
+  if (data_starts_with(sink, "%%EndComments"))
     sink->in_header = false;
-  if (sink->is_eps && starts_with(sink, "%%BoundingBox:"))
+  if (sink->is_eps && data_starts_with(sink, "%%BoundingBox:"))
     write_box(sink);
-  else if (!(sink->is_eps && starts_with(sink, "%%HiResBoundingBox:")) &&
-           !starts_with(sink, "%%CreationDate:"))
+  else if (!(sink->is_eps && data_starts_with(sink, "%%HiResBoundingBox:")) &&
+           !data_starts_with(sink, "%%CreationDate:"))
     stream_write(sink->stream, sink->line, sink->length);
   sink->length = 0;
 }
@@ -201,8 +201,8 @@ static void set_colour(cairo_t *cr, uint32_t colour) {
 }
 
 /* Adds a polyline or polygon to cairo's current path. */
-static void add_path(cairo_t *cr, const struct drawing_point *point,
-                     uint32_t count, bool closed) {
+static void add_cairo_path(cairo_t *cr, const struct drawing_point *point,
+                           uint32_t count, bool closed) {
   for (uint32_t i = 0; i < count; i++)
     cairo_line_to(cr, point[i].x, point[i].y);
   if (closed)
@@ -216,7 +216,7 @@ static void draw_fill(cairo_t *cr, const struct drawing *drawing,
   set_colour(cr, fill->colour);
   for (uint32_t i = 0; i < fill->loops; i++) {
     const struct drawing_loop *loop = &drawing->loop.item[fill->loop + i];
-    add_path(cr, drawing->point.item + loop->point, loop->count, true);
+    add_cairo_path(cr, drawing->point.item + loop->point, loop->count, true);
   }
   if (seam)
     cairo_stroke(cr);
@@ -249,18 +249,18 @@ static void draw_layer(cairo_t *cr, const struct drawing *drawing,
     if (stroke->layer != index)
       continue;
     cairo_set_line_width(cr, drawing_width_mm(drawing, stroke));
-    add_path(cr, drawing->point.item + stroke->point, stroke->count,
-             stroke->closed);
+    add_cairo_path(cr, drawing->point.item + stroke->point, stroke->count,
+                   stroke->closed);
     cairo_stroke(cr);
   }
 }
 
 /* Draws the window on the surface at `scale` surface units per millimetre, with
  * its lower left corner at (0, foot). */
-static cairo_status_t draw(cairo_surface_t *surface,
-                           const struct drawing *drawing,
-                           const struct crop_window *window, double scale,
-                           double foot, bool on_white) {
+static cairo_status_t draw_window(cairo_surface_t *surface,
+                                  const struct drawing *drawing,
+                                  const struct crop_window *window,
+                                  double scale, double foot, bool on_white) {
   cairo_t *cr = cairo_create(surface);
   cairo_matrix_t matrix;
   cairo_status_t status;
@@ -322,7 +322,7 @@ static recto_status write_vector(const struct drawing *drawing,
   errno = 0;
   cairo_surface_t *surface = open(&sink);
   cairo_status_t status =
-      draw(surface, drawing, &window, scale, sink.foot_pt, false);
+      draw_window(surface, drawing, &window, scale, sink.foot_pt, false);
   cairo_surface_finish(surface);
   int fault = errno;
   if (status == CAIRO_STATUS_SUCCESS)
@@ -407,8 +407,8 @@ static recto_status write_png(const struct drawing *drawing,
   cairo_surface_t *surface =
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
   cairo_status_t status =
-      draw(surface, drawing, &window, dpi / MM_PER_INCH,
-           (window.y1 - window.y0) * dpi / MM_PER_INCH, true);
+      draw_window(surface, drawing, &window, dpi / MM_PER_INCH,
+                  (window.y1 - window.y0) * dpi / MM_PER_INCH, true);
   if (status == CAIRO_STATUS_SUCCESS)
     status = cairo_surface_write_to_png_stream(surface, pass_png, &sink);
   cairo_surface_destroy(surface);

@@ -18,6 +18,7 @@
 
 #include "backends/device.h"
 #include "backends/writer.h"
+#include "base/word.h"
 
 #define POINTS_PER_COMMAND 100
 #define DEFAULT_DEVICE "generic"
@@ -68,7 +69,7 @@ static void begin_stroke(struct plot *plot, int32_t x, int32_t y) {
 /* Draws a line to x, y.  Nothing is written before the first point that differs
  * from the start, so a stroke that rounding has shrunk to a point writes
  * nothing. */
-static void draw_to(struct plot *plot, int32_t x, int32_t y) {
+static void plot_to(struct plot *plot, int32_t x, int32_t y) {
   if (x == plot->x && y == plot->y)
     return;
   if (!plot->down) {
@@ -155,9 +156,9 @@ static struct plot_point to_device(const struct plot *plot,
 
 /* The corner at which to begin a stroke.  A loop that leaves the area begins at
  * a corner outside, so that none of its pieces inside is split in two. */
-static uint32_t choose_start(const struct plot *plot,
-                             const struct drawing_point *point,
-                             const struct drawing_stroke *stroke) {
+static uint32_t choose_stroke_start(const struct plot *plot,
+                                    const struct drawing_point *point,
+                                    const struct drawing_stroke *stroke) {
   for (uint32_t i = 0; stroke->closed && i < stroke->count; i++)
     if (!is_inside(&plot->place, to_device(plot, &point[i])))
       return i;
@@ -169,7 +170,7 @@ static void plot_stroke(struct plot *plot, const struct drawing *drawing,
                         const struct drawing_stroke *stroke) {
   const struct device_placement *place = &plot->place;
   const struct drawing_point *point = drawing->point.item + stroke->point;
-  uint32_t start = choose_start(plot, point, stroke);
+  uint32_t start = choose_stroke_start(plot, point, stroke);
   uint32_t lines = stroke->count - (stroke->closed ? 0 : 1);
   bool whole = true;
   for (uint32_t i = 0; i < lines; i++) {
@@ -187,7 +188,7 @@ static void plot_stroke(struct plot *plot, const struct drawing *drawing,
     if (i == 0 || !a_inside)
       begin_stroke(plot, round_into(a.x, place->x0, place->x1),
                    round_into(a.y, place->y0, place->y1));
-    draw_to(plot, round_into(b.x, place->x0, place->x1),
+    plot_to(plot, round_into(b.x, place->x0, place->x1),
             round_into(b.y, place->y0, place->y1));
   }
   end_stroke(plot);
@@ -196,8 +197,8 @@ static void plot_stroke(struct plot *plot, const struct drawing *drawing,
 
 /* The device's pen for a layer.  Pens beyond its last one are assigned
  * cyclically, beginning with its first. */
-static unsigned find_pen(const struct device *device,
-                         const struct drawing_layer *layer) {
+static unsigned find_device_pen(const struct device *device,
+                                const struct drawing_layer *layer) {
   unsigned pens = device->pens;
   return pens > 0 && layer->pen > pens ? (layer->pen - 1) % pens + 1
                                        : layer->pen;
@@ -226,10 +227,10 @@ static void plot_pen(struct plot *plot, const struct drawing *drawing,
                      const struct device *device, uint32_t first,
                      bool *pending) {
   const struct drawing_layer *layer = drawing->layer.item;
-  unsigned pen = find_pen(device, &layer[first]);
+  unsigned pen = find_device_pen(device, &layer[first]);
   select_pen(plot, pen);
   for (uint32_t i = first; i < drawing->layer.count; i++) {
-    if (!pending[i] || find_pen(device, &layer[i]) != pen)
+    if (!pending[i] || find_device_pen(device, &layer[i]) != pen)
       continue;
     plot->folded += pen != layer[i].pen;
     plot_layer(plot, drawing, i);
@@ -267,8 +268,6 @@ static void warn(const struct writer_options *options, const char *format,
   options->warning(options->user, "", 0, text);
 }
 
-static const char *plural(uint64_t count) { return count == 1 ? "" : "s"; }
-
 /* Reports the strokes and the length clipped, with the size of the area or of
  * the margin and the paper, so that the user can choose another page, margin or
  * paper. */
@@ -280,13 +279,13 @@ static void warn_of_clipping(const struct plot *plot,
   double lost_mm = plot->lost * place->unit_mm;
   if (place->paper == NULL)
     warn(options, "%llu stroke%s clipped to the page, %.1f mm left out",
-         clipped, plural(clipped), lost_mm);
+         clipped, plural_ending(clipped), lost_mm);
   else if (place->too_large)
     warn(options,
          "%llu stroke%s clipped: the page is larger than the largest sheet of "
          "%s, %s, of which it reaches %.0f x %.0f mm; %.1f mm are left out: a "
          "smaller --page helps",
-         clipped, plural(clipped), device->name, place->paper->name,
+         clipped, plural_ending(clipped), device->name, place->paper->name,
          floor((place->x1 - place->x0) * place->unit_mm),
          floor((place->y1 - place->y0) * place->unit_mm), lost_mm);
   else
@@ -294,8 +293,8 @@ static void warn_of_clipping(const struct plot *plot,
          "%llu stroke%s clipped: %s does not reach all of the outer %.0f mm of "
          "this page on an %s sheet; %.1f mm are left out: a larger --margin "
          "helps",
-         clipped, plural(clipped), device->name, ceil(device_margin_mm(place)),
-         place->paper->name, lost_mm);
+         clipped, plural_ending(clipped), device->name,
+         ceil(device_margin_mm(place)), place->paper->name, lost_mm);
 }
 
 static void warn_of_losses(const struct plot *plot,
@@ -311,14 +310,14 @@ static void warn_of_losses(const struct plot *plot,
     warn(options,
          "%llu layer%s on pens past the %u that %s has: assigned from pen 1 "
          "again",
-         (unsigned long long)plot->folded, plural(plot->folded), device->pens,
-         device->name);
+         (unsigned long long)plot->folded, plural_ending(plot->folded),
+         device->pens, device->name);
   if (options->velocity > device->max_cm_s)
     warn(options, "%s draws at no more than %g cm/s: not at %g", device->name,
          device->max_cm_s, options->velocity);
   if (drawing->fill.count > 0)
     warn(options, "%zu fill%s left out: a pen cannot fill, but it can hatch",
-         drawing->fill.count, plural(drawing->fill.count));
+         drawing->fill.count, plural_ending(drawing->fill.count));
 }
 
 static recto_status refuse_device(const char *name, recto_error *error) {
@@ -370,7 +369,7 @@ static double find_margin(const struct writer_options *options, double width_mm,
 }
 
 /* 0 for an unknown device: write_hpgl reports the error. */
-static double find_unit(const struct writer_options *options) {
+static double hpgl_unit(const struct writer_options *options) {
   const struct device *device = device_by_name(
       options->device != NULL ? options->device : DEFAULT_DEVICE);
   return device ? device->unit_mm : 0;
@@ -378,7 +377,7 @@ static double find_unit(const struct writer_options *options) {
 
 const struct writer writer_hpgl = {.name = "hpgl",
                                    .extensions = "hpgl plt hpg",
-                                   .unit_mm = find_unit,
+                                   .unit_mm = hpgl_unit,
                                    .margin_mm = find_margin,
                                    .by_pens = true,
                                    .write = write_hpgl};

@@ -383,7 +383,7 @@ static recto_status write_svg(const struct drawing *drawing,
   return ok ? RECTO_OK : error_memory(error);
 }
 
-static double find_unit(const struct writer_options *options) {
+static double svg_unit(const struct writer_options *options) {
   double unit = 1;
   for (int i = 0; i < options->precision; i++)
     unit /= 10;
@@ -393,5 +393,5 @@ static double find_unit(const struct writer_options *options) {
 const struct writer writer_svg = {.name = "svg",
                                   .extensions = "svg",
                                   .compressed = "svgz svg.gz",
-                                  .unit_mm = find_unit,
+                                  .unit_mm = svg_unit,
                                   .write = write_svg};

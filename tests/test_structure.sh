@@ -123,6 +123,29 @@ check_sources() {
       }')
 }
 
+# A function has a name of its own, static ones included, and so has a struct:
+# no name has two meanings.  Each program has its main.
+check_names() {
+  # shellcheck disable=SC2016 # of awk
+  (cd "$1" && sources . | xargs awk '
+      function define(name) {
+        if (name in definer && definer[name] != FILENAME)
+          print FILENAME ": also defined in " definer[name] ": " name
+        definer[name] = FILENAME
+      }
+      /^(struct|union|enum) [a-z_0-9]+ \{/ {
+        define($1 " " $2)
+      }
+      /^[a-z_][^=]*\(/ && !/^(typedef|extern) / &&
+      (/^static / || FILENAME ~ /\.c$/) {
+        name = $0
+        sub(/\(.*/, "", name)
+        sub(/.*[ *]/, "", name)
+        if (name != "" && name != "main")
+          define(name)
+      }')
+}
+
 # Tolerances stand in one header, each with its reason.  Comments may speak of
 # small numbers.
 check_tolerances() {
@@ -216,7 +239,7 @@ holds() {
   test -z "$found" || { say "$found" && false; }
 }
 claim "there are sources to check" test "$(sources "$srcdir" | wc -l)" -gt 50
-for check in sources tolerances users reports width listed; do
+for check in sources names tolerances users reports width listed; do
   claim "check_$check finds nothing" holds check_$check "$srcdir"
 done
 
@@ -271,8 +294,17 @@ sed -i 's|Users       view/camera_axes.c|&, view/page.c|' "$copy/src/base/tolera
 echo "int n = report_get(0, 0, 0, 0);" >>"$copy/src/api/render.c"
 printf '/* %80s */\n' wide >>"$copy/src/geom/ratio.c"
 echo "int x;" >"$copy/src/geom/new.c"
+cat >>"$copy/src/ink/pens.c" <<'END'
+static int count_vertices(void) { return 0; }
+struct planted_tag { int x; };
+END
+cat >>"$copy/src/ink/layers.c" <<'END'
+static inline int *count_vertices(int a,
+                             int b) { return 0; }
+struct planted_tag { int x; };
+END
 echo "/* new.c - nothing. */" >"$copy/src/visibility/included/new.c"
-for check in sources tolerances users reports width listed; do
+for check in sources names tolerances users reports width listed; do
   check_$check "$copy" >"$scratch/$check"
 done
 
@@ -307,6 +339,11 @@ claim "a source may not open without its job" finds sources \
   "src/geom/new.c: does not open" ""
 claim "a folder may not be without a floor" finds sources \
   "src/visibility/included/new.c: its folder has no floor" ""
+claim "a function may not have the name of another one" finds names \
+  "src/ink/pens.c: also defined in src/ink/layers.c: " "count_vertices"
+claim "nor a struct" finds names \
+  "src/ink/pens.c: also defined in src/ink/layers.c: " "struct planted_tag"
+claim "and no other names are reported" test "$(wc -l <"$scratch/names")" -eq 2
 claim "a source may not be left out of the build" finds listed \
   "src/geom/new.c: not in" ""
 

@@ -57,9 +57,11 @@ static recto_status find_shortest(double *mm, const struct scene *scene,
 
 /* Checks a drawing.
  * o  its lengths are scaled as the scene is */
-static recto_status judge(const struct scene *scene, const recto_options *o,
-                          const struct judge_drawing *drawing,
-                          struct judge_verdict *verdict, recto_error *error) {
+static recto_status judge_file_drawing(const struct scene *scene,
+                                       const recto_options *o,
+                                       const struct judge_drawing *drawing,
+                                       struct judge_verdict *verdict,
+                                       recto_error *error) {
   struct camera camera;
   struct judge_input input;
   recto_status status = camera_aim(&camera, scene, o, error);
@@ -109,7 +111,8 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
     if (status == RECTO_OK)
       status = rescale_options(&prepared.rescaled, &checked, error);
     if (status == RECTO_OK)
-      status = judge(&prepared.welded.scene, &checked, &drawing, &found, error);
+      status = judge_file_drawing(&prepared.welded.scene, &checked, &drawing,
+                                  &found, error);
     preparation_fini(&prepared);
   }
   if (status == RECTO_OK)

@@ -2,6 +2,7 @@
 #include "api/clip_warning.h"
 
 #include "base/sentence.h"
+#include "base/word.h"
 
 /* Lines close to the eye have enormous images, so large lengths are not printed
  * in full. */
@@ -13,13 +14,11 @@ static void say_length(struct sentence *words, double mm) {
     sentence_add(words, "more than %.0f m", most_mm / 1000);
 }
 
-static const char *plural(uint64_t count) { return count == 1 ? "" : "s"; }
-
 static void say_what(struct sentence *words,
                      const struct page_overflow *overflow, uint64_t faces) {
   if (overflow->edges > 0) {
     sentence_add(words, "%llu line%s (", (unsigned long long)overflow->edges,
-                 plural(overflow->edges));
+                 plural_ending(overflow->edges));
     say_length(words, overflow->mm);
     sentence_add(words, ", hidden parts counted)");
   }
@@ -27,7 +26,7 @@ static void say_what(struct sentence *words,
     sentence_add(words, " and ");
   if (faces > 0)
     sentence_add(words, "%llu filled face%s", (unsigned long long)faces,
-                 plural(faces));
+                 plural_ending(faces));
   if (overflow->edges > 0) {
     sentence_add(words, ", as far as ");
     say_length(words, overflow->reach_mm);

@@ -29,7 +29,7 @@ static recto_status reject_face(const char *what, size_t face,
 
 /* Fills in the size and the number of the faces where they are 0, and checks
  * that no array that is needed is NULL. */
-static recto_status complete(recto_mesh *mesh, recto_error *error) {
+static recto_status complete_mesh(recto_mesh *mesh, recto_error *error) {
   if (mesh->face_size == 0)
     mesh->face_size = 3;
   if (mesh->face_offsets == NULL && mesh->face_count == 0)
@@ -53,8 +53,8 @@ static recto_status complete(recto_mesh *mesh, recto_error *error) {
   return RECTO_OK;
 }
 
-static recto_status add_points(struct scene *scene, const recto_mesh *mesh,
-                               recto_error *error) {
+static recto_status add_mesh_points(struct scene *scene, const recto_mesh *mesh,
+                                    recto_error *error) {
   size_t first = scene->point.count;
   bool is_single = mesh->points == NULL;
   if (mesh->point_count > SCENE_LIMIT - first)
@@ -79,8 +79,8 @@ static recto_status add_points(struct scene *scene, const recto_mesh *mesh,
 }
 
 /* Makes the face's group the current one. */
-static recto_status use_group(struct scene *scene, const recto_mesh *mesh,
-                              size_t face, recto_error *error) {
+static recto_status use_face_group(struct scene *scene, const recto_mesh *mesh,
+                                   size_t face, recto_error *error) {
   size_t group = mesh->face_groups[face];
   if (face > 0 && mesh->face_groups[face - 1] == group)
     return RECTO_OK;
@@ -120,7 +120,7 @@ static recto_status add_faces(struct scene *scene, const recto_mesh *mesh,
   for (size_t f = 0; f < mesh->face_count && status == RECTO_OK; f++) {
     status = take_corners(mesh, f, first, &face, error);
     if (status == RECTO_OK && mesh->face_groups != NULL)
-      status = use_group(scene, mesh, f, error);
+      status = use_face_group(scene, mesh, f, error);
     if (status == RECTO_OK)
       status = scene_add_face(scene, face.corner.item, face.corner.count, 0,
                               diagnostics, error);
@@ -138,13 +138,13 @@ recto_status recto_scene_add_mesh_sized(recto_scene *scene,
     return error_null(error, scene == NULL ? "the scene" : "the mesh");
   recto_status status = sized_take(&own, sizeof own, mesh, size, error);
   if (status == RECTO_OK)
-    status = complete(&own, error);
+    status = complete_mesh(&own, error);
   if (status != RECTO_OK)
     return status;
   struct scene_snapshot before;
   scene_forget_preparation(scene);
   scene_snapshot(&scene->scene, &before);
-  status = add_points(&scene->scene, &own, error);
+  status = add_mesh_points(&scene->scene, &own, error);
   if (status == RECTO_OK)
     status = add_faces(&scene->scene, &own, before.points, &diagnostics, error);
   if (status != RECTO_OK) {

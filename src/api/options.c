@@ -60,7 +60,8 @@ static bool is_class(recto_edge_class edge_class) {
   return bit != 0 && (bit & (bit - 1)) == 0 && bit <= RECTO_EDGES_ALL;
 }
 
-static recto_status refuse(const char *what, size_t index, recto_error *error) {
+static recto_status refuse_option(const char *what, size_t index,
+                                  recto_error *error) {
   return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                    "%s %zu is out of range", what, index);
 }
@@ -90,7 +91,7 @@ static recto_status check_lists(const recto_options *o, recto_error *error) {
         (unsigned)use->lines > RECTO_LINES_HATCH ||
         (use->lines == RECTO_LINES_OF_CLASS && !is_class(use->edge_class)) ||
         (use->lines == RECTO_LINES_OF_GROUP && use->group == NULL))
-      return refuse("the use of a pen at index", i, error);
+      return refuse_option("the use of a pen at index", i, error);
   }
   for (size_t i = 0; i < o->ink.pen_count; i++) {
     double mm = o->ink.pen[i].width_mm;
@@ -98,19 +99,19 @@ static recto_status check_lists(const recto_options *o, recto_error *error) {
       return sized_reject(error);
     if ((mm != 0 && !(mm >= RECTO_FINEST_MM && mm <= 100)) ||
         o->ink.pen[i].colour > 0xffffff)
-      return refuse("the pen at index", i, error);
+      return refuse_option("the pen at index", i, error);
   }
   for (size_t i = 0; i < o->ink.weight_count; i++) {
     if (!IS_UNUSED(o->ink.weight[i]))
       return sized_reject(error);
     if (!is_class(o->ink.weight[i].edge_class) ||
         !(o->ink.weight[i].weight >= 0.01 && o->ink.weight[i].weight <= 100))
-      return refuse("the weight at index", i, error);
+      return refuse_option("the weight at index", i, error);
   }
   return RECTO_OK;
 }
 
-static recto_status check(const recto_options *o, recto_error *error) {
+static recto_status check_options(const recto_options *o, recto_error *error) {
   const double huge = DBL_MAX, small = DBL_MIN;
   const struct option_range range[] = {
       {"the method", o->solver.method, 0, RECTO_METHOD_COUNT - 1},
@@ -206,6 +207,6 @@ recto_status options_take(recto_options *own, const recto_options *options,
                           recto_error *error) {
   recto_status status = options_copy(own, options, error);
   if (status == RECTO_OK)
-    status = check(own, error);
+    status = check_options(own, error);
   return status == RECTO_OK ? options_adapt(own, error) : status;
 }

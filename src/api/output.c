@@ -104,7 +104,7 @@ static void open_poll(struct poll *poll, const recto_options *options) {
   poll->share = begin[SHARE_WRITE];
 }
 
-static bool is_compressed(const char *path, const char *format) {
+static bool output_is_compressed(const char *path, const char *format) {
   return format != NULL ? writer_name_is_compressed(format)
                         : writer_path_is_compressed(path);
 }
@@ -143,7 +143,7 @@ static recto_status open_outputs(struct outputs *outputs,
   if (status == RECTO_OK && outputs->stats != NULL &&
       stream_is_same(outputs->drawing, outputs->stats))
     status = reject_path(stats, "stats", "drawing", error);
-  if (status == RECTO_OK && is_compressed(path, format))
+  if (status == RECTO_OK && output_is_compressed(path, format))
     status = stream_compress(outputs->drawing, error);
   return status;
 }
@@ -233,7 +233,7 @@ recto_status recto_drawing_write_to(const recto_drawing *drawing,
   struct poll poll;
   open_poll(&poll, &own);
   status = stream_open_memory(&outputs.drawing, error);
-  if (status == RECTO_OK && is_compressed(NULL, format))
+  if (status == RECTO_OK && output_is_compressed(NULL, format))
     status = stream_compress(outputs.drawing, error);
   if (status == RECTO_OK)
     status = fill_outputs(&outputs, drawing, writer, &own, error);

@@ -127,7 +127,7 @@ static void warn_of_borders(const struct render *render) {
 /* Takes what was prepared for the scene, where it serves, or prepares it.  The
  * topology is lent by a shared preparation, and taken from the render's own so
  * that it can be freed early. */
-static recto_status find_edges(struct render *render, recto_error *error) {
+static recto_status find_topology(struct render *render, recto_error *error) {
   const recto_options *o = render->options;
   const struct preparation *shared = render->model->prepared;
   recto_status status = RECTO_OK;
@@ -182,7 +182,7 @@ static recto_status aim(struct render *render, recto_error *error) {
   return RECTO_OK;
 }
 
-static recto_status project(struct render *render, recto_error *error) {
+static recto_status project_scene(struct render *render, recto_error *error) {
   recto_status status = layout_sheet(
       &render->sheet, &render->prepared->welded.scene, &render->topology,
       &render->camera, &render->scaled, needs_fragments(render), error);
@@ -202,7 +202,8 @@ static recto_status project(struct render *render, recto_error *error) {
   return status;
 }
 
-static recto_status solve(struct render *render, recto_error *error) {
+static recto_status solve_visibility(struct render *render,
+                                     recto_error *error) {
   const recto_options *options = render->options;
   struct solver_request request = {
       .edges = options->ink.edges != RECTO_EDGES_NONE,
@@ -259,10 +260,10 @@ static const struct stage {
   recto_status (*run)(struct render *render, recto_error *error);
 } stages[] = {
     {"topology", "topology_cpu_s", "topology_wall_s", SHARE_TOPOLOGY,
-     find_edges},
+     find_topology},
     {"camera", "camera_cpu_s", "camera_wall_s", SHARE_CAMERA, aim},
-    {"sheet", "sheet_cpu_s", "sheet_wall_s", SHARE_SHEET, project},
-    {"solve", "solve_cpu_s", "solve_wall_s", SHARE_SOLVE, solve},
+    {"sheet", "sheet_cpu_s", "sheet_wall_s", SHARE_SHEET, project_scene},
+    {"solve", "solve_cpu_s", "solve_wall_s", SHARE_SOLVE, solve_visibility},
     {"ink", "ink_cpu_s", "ink_wall_s", SHARE_INK, ink},
     {"verify", "verify_cpu_s", "verify_wall_s", SHARE_VERIFY, verify},
 };
@@ -287,7 +288,7 @@ static recto_status run_stages(struct render *render, recto_error *error) {
 /* ---- Warnings ------------------------------------------------------------ */
 
 /* Whether nothing is inside the page's margins. */
-static bool is_outside(const struct render *render) {
+static bool is_outside_page(const struct render *render) {
   return render->triangles == 0 && render->sheet.edge.count == 0;
 }
 
@@ -301,7 +302,7 @@ static void warn_of_empty_page(const struct render *render) {
   const char *why = "nothing that was asked for is visible and long enough";
   if (o->ink.edges == RECTO_EDGES_NONE && o->ink.fill == RECTO_FILL_NONE)
     why = "neither lines nor fills are asked for";
-  else if (is_outside(render))
+  else if (is_outside_page(render))
     why = "all of the scene is outside of the page's margins";
   char text[128];
   snprintf(text, sizeof text, "the drawing is empty: %s", why);
@@ -375,7 +376,8 @@ static recto_status check_pens(const struct render *render,
   return status;
 }
 
-static recto_status run(struct render *render, recto_error *error) {
+static recto_status render_stages_and_report(struct render *render,
+                                             recto_error *error) {
   recto_status status = check_method(render->options, error);
   if (status == RECTO_OK)
     status = check_pens(render, error);
@@ -396,7 +398,7 @@ static recto_status run(struct render *render, recto_error *error) {
     warn_of_empty_page(render);
     warn_of_near_plane(render);
     clipped_report(&render->overflow, render->report);
-    if (!is_outside(render))
+    if (!is_outside_page(render))
       clipped_warn(&render->overflow,
                    has_fills(render) ? render->sheet.clipped_page : 0,
                    render->camera.margin_mm, render->options);
@@ -446,7 +448,7 @@ recto_status recto_scene_render(const recto_scene *scene,
                           .verdict = made->verdict};
   struct poll poll;
   poll_open(&poll, &own);
-  status = run(&render, error);
+  status = render_stages_and_report(&render, error);
   poll_close(&poll);
   if (status == RECTO_OK && !keep_files(made, &scene->scene))
     status = error_memory(error);

@@ -66,16 +66,17 @@ static bool find_points(struct edge_results *r, const struct sheet_edge *edge,
 
 /* ---- Parameters ---------------------------------------------------------- */
 
-static void project(const recto_drawing *drawing, const struct scene_point *p,
-                    double to[3]) {
+static void project_point_mm(const recto_drawing *drawing,
+                             const struct scene_point *p, double to[3]) {
   const double *m = drawing->matrix;
   for (int i = 0; i < 3; i++, m += 4)
     to[i] = m[0] * p->x + m[1] * p->y + m[2] * p->z + m[3];
 }
 
 /* The point of the sheet's edge at a parameter, in mm. */
-static void place(const struct edge_results *r, const struct sheet_edge *edge,
-                  double t, double mm[2]) {
+static void edge_point_mm(const struct edge_results *r,
+                          const struct sheet_edge *edge, double t,
+                          double mm[2]) {
   const struct geom_point *a = &r->sheet->point.item[edge->point[0]];
   const struct geom_point *b = &r->sheet->point.item[edge->point[1]];
   mm[0] = sheet_x_mm(r->sheet, (double)a->x + t * (double)(b->x - a->x));
@@ -113,14 +114,14 @@ static double parameter_of(const struct edge_image *image, const double mm[2],
 /* Adds the part up to the parameter t1 of the sheet's edge, from where the part
  * before it ends.  A part that is shorter than the page grid can show is left
  * to the next one, so that the parts are adjacent. */
-static bool add_part(struct edge_results *r, const struct sheet_edge *edge,
-                     double t1, uint32_t hidden_by) {
+static bool add_edge_part(struct edge_results *r, const struct sheet_edge *edge,
+                          double t1, uint32_t hidden_by) {
   double t0 = r->at;
   if (!(t0 < t1))
     return true;
   recto_interval part = {.hidden_by = hidden_by};
-  place(r, edge, t0, part.from_mm);
-  place(r, edge, t1, part.to_mm);
+  edge_point_mm(r, edge, t0, part.from_mm);
+  edge_point_mm(r, edge, t1, part.to_mm);
   part.t0 = parameter_of(&r->image, part.from_mm, t0);
   part.t1 = parameter_of(&r->image, part.to_mm, t1);
   if (!(part.t0 < part.t1))
@@ -137,7 +138,7 @@ static bool add_hidden(struct edge_results *r, const struct sheet_edge *edge,
   const struct map_invisible_interval *interval =
       ARRAY_AT(&r->map->invisible_interval, r->next_invisible);
   if (!r->with_counts)
-    return add_part(r, edge, t1, RECTO_NONE);
+    return add_edge_part(r, edge, t1, RECTO_NONE);
   for (; r->next_invisible < r->past_invisible;
        r->next_invisible++, interval++) {
     double from = ratio_to_double(interval->interval.t0);
@@ -145,13 +146,13 @@ static bool add_hidden(struct edge_results *r, const struct sheet_edge *edge,
     if (from >= t1)
       break;
     /* A raster method hides what no face hides. */
-    if (!add_part(r, edge, fmin(from, t1), RECTO_NONE) ||
-        !add_part(r, edge, fmin(to, t1), interval->faces))
+    if (!add_edge_part(r, edge, fmin(from, t1), RECTO_NONE) ||
+        !add_edge_part(r, edge, fmin(to, t1), interval->faces))
       return false;
     if (to > t1)
       break;
   }
-  return add_part(r, edge, t1, RECTO_NONE);
+  return add_edge_part(r, edge, t1, RECTO_NONE);
 }
 
 static bool add_parts(struct edge_results *r, const struct sheet_edge *edge,
@@ -169,7 +170,7 @@ static bool add_parts(struct edge_results *r, const struct sheet_edge *edge,
         r->next_invisible + map->invisible.item[r->next_count].count;
   }
   if (map->edge_state[e] == MAP_VISIBLE)
-    return add_part(r, edge, 1, 0);
+    return add_edge_part(r, edge, 1, 0);
   if (map->edge_state[e] == MAP_MIXED) {
     while (map->mixed.item[r->next_mixed].edge < e)
       r->next_mixed++;
@@ -178,14 +179,14 @@ static bool add_parts(struct edge_results *r, const struct sheet_edge *edge,
       const struct map_interval *visible =
           &map->interval.item[mixed->interval + i];
       if (!add_hidden(r, edge, ratio_to_double(visible->t0)) ||
-          !add_part(r, edge, ratio_to_double(visible->t1), 0))
+          !add_edge_part(r, edge, ratio_to_double(visible->t1), 0))
         return false;
     }
   }
   return add_hidden(r, edge, 1);
 }
 
-static bool add_edge(struct edge_results *r, uint32_t e) {
+static bool add_edge_result(struct edge_results *r, uint32_t e) {
   const struct sheet_edge *edge = &r->sheet->edge.item[e];
   struct result_edge result = {.point = {RECTO_NONE, RECTO_NONE},
                                .face = {face_number(r, edge->triangle[0]),
@@ -197,8 +198,8 @@ static bool add_edge(struct edge_results *r, uint32_t e) {
                                    (uint32_t)r->drawing->interval.count};
   r->image.is_known = find_points(r, edge, result.point);
   if (r->image.is_known) {
-    project(r->drawing, &r->point[result.point[0]], r->image.a);
-    project(r->drawing, &r->point[result.point[1]], r->image.b);
+    project_point_mm(r->drawing, &r->point[result.point[0]], r->image.a);
+    project_point_mm(r->drawing, &r->point[result.point[1]], r->image.b);
   }
   r->edge = &result;
   return add_parts(r, edge, e) && ARRAY_PUSH(&r->drawing->edge, result);
@@ -215,7 +216,8 @@ recto_status drawing_keep_edges(recto_drawing *drawing,
                            .point = sources->point,
                            .with_counts = sources->with_counts};
   for (uint32_t e = 0; e < r.map->edge_count; e++)
-    if (!poll_at(e) || (sheet_edge_is_drawn(r.sheet, e) && !add_edge(&r, e)))
+    if (!poll_at(e) ||
+        (sheet_edge_is_drawn(r.sheet, e) && !add_edge_result(&r, e)))
       return error_memory(error);
   return RECTO_OK;
 }

@@ -52,8 +52,8 @@ static void classify(const struct result_sources *s,
   to->edge_class = class_of(s, edge, neighbour);
 }
 
-static bool add_half_edges(recto_drawing *drawing,
-                           const struct result_sources *s) {
+static bool add_half_edge_results(recto_drawing *drawing,
+                                  const struct result_sources *s) {
   const struct map *map = s->map;
   if (!ARRAY_RESERVE(&drawing->half_edge, map->half_edge.count))
     return false;
@@ -92,8 +92,8 @@ static bool add_loops(recto_drawing *drawing, const struct map *map) {
   return true;
 }
 
-static bool add_fragments(recto_drawing *drawing,
-                          const struct result_sources *s) {
+static bool add_fragment_results(recto_drawing *drawing,
+                                 const struct result_sources *s) {
   for (size_t f = 0; f < s->map->fragment.count; f++) {
     const struct map_fragment *from = &s->map->fragment.item[f];
     if (!poll_at(f))
@@ -117,8 +117,9 @@ static bool add_fragments(recto_drawing *drawing,
 recto_status drawing_keep_faces(recto_drawing *drawing,
                                 const struct result_sources *sources,
                                 recto_error *error) {
-  return add_half_edges(drawing, sources) && add_loops(drawing, sources->map) &&
-                 add_fragments(drawing, sources)
+  return add_half_edge_results(drawing, sources) &&
+                 add_loops(drawing, sources->map) &&
+                 add_fragment_results(drawing, sources)
              ? RECTO_OK
              : error_memory(error);
 }

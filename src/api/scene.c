@@ -67,15 +67,6 @@ void scene_keep_faults(recto_scene *scene,
     scene->fault[i] += diagnostics->count[i];
 }
 
-/* A copy of a text; NULL when memory ran out. */
-static char *copy_text(const char *text) {
-  size_t size = strlen(text) + 1;
-  char *copy = mem_alloc(size, 1);
-  if (copy != NULL)
-    memcpy(copy, text, size);
-  return copy;
-}
-
 /* Keeps the path of the only file read, for warnings about the whole scene;
  * drops it where it is not the only one.  Owns the path from then on. */
 static void keep_path(recto_scene *scene, char *path) {
@@ -97,7 +88,7 @@ static recto_status read_model(recto_scene *scene, const void *bytes,
   recto_status status = options_copy(&own, options, error);
   if (status != RECTO_OK)
     return status;
-  char *kept = copy_text(path);
+  char *kept = mem_copy_text(path);
   if (kept == NULL)
     return error_memory(error);
   struct diagnostics diagnostics = {

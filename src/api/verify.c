@@ -143,10 +143,11 @@ static void report_verdict(struct report *report,
              (int64_t)v->undecided.samples);
 }
 
-static recto_status judge(const struct verify *verify,
-                          const struct judge_input *input,
-                          const struct judge_drawing *drawing,
-                          struct judge_verdict *verdict, recto_error *error) {
+static recto_status judge_own_drawing(const struct verify *verify,
+                                      const struct judge_input *input,
+                                      const struct judge_drawing *drawing,
+                                      struct judge_verdict *verdict,
+                                      recto_error *error) {
   const recto_options *o = verify->options;
   struct judge_camera camera = judge_input_camera(input, verify->camera, o);
   struct judge_options options = judge_input_options(input, verify->camera, o);
@@ -171,7 +172,7 @@ recto_status verify_drawing(const struct verify *verify, struct report *report,
                             ? take_dropped(&drawing, verify, error)
                             : error_memory(error);
   if (status == RECTO_OK)
-    status = judge(verify, &input, &drawing, &verdict, error);
+    status = judge_own_drawing(verify, &input, &drawing, &verdict, error);
   judge_drawing_fini(&drawing);
   judge_input_fini(&input);
   if (status != RECTO_OK)

@@ -139,7 +139,7 @@ static int spawn(struct child_run *run, int output) {
   return error;
 }
 
-static int start(struct child_run *run) {
+static int start_child(struct child_run *run) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     return errno;
@@ -238,7 +238,7 @@ void child_run(const struct child *child, struct child_result *result) {
   struct child_run run = {
       .child = child, .result = result, .deadline = now() + child->seconds};
   *result = (struct child_result){.end = CHILD_EXITED};
-  result->code = start(&run);
+  result->code = start_child(&run);
   if (result->code != 0) {
     result->end = CHILD_NOT_STARTED;
     return;

@@ -74,7 +74,7 @@ static int compare(const struct natural *a, const struct natural *b) {
 }
 
 /* a -= b, where a >= b. */
-static void subtract(struct natural *a, const struct natural *b) {
+static void subtract_natural(struct natural *a, const struct natural *b) {
   uint64_t borrow = 0;
   for (int i = 0; i < a->count; i++) {
     uint64_t less = borrow + (i < b->count ? b->limb[i] : 0);
@@ -110,8 +110,8 @@ double decimal_round(uint64_t top, bool sticky, int exponent) {
 
 /* The digits as a number without leading zeros, cut as said above.  Returns
  * how many digits it has; *exponent grows by those left out. */
-static int read_digits(struct natural *n, const char *text, const char *end,
-                       int64_t *exponent) {
+static int read_natural(struct natural *n, const char *text, const char *end,
+                        int64_t *exponent) {
   int digits = 0;
   bool rest = false;
   n->count = 0;
@@ -136,7 +136,7 @@ static int read_digits(struct natural *n, const char *text, const char *end,
 
 double decimal_to_double(const char *text, const char *end, int64_t exponent) {
   struct natural number, divisor = {1, {1}};
-  int digits = read_digits(&number, text, end, &exponent);
+  int digits = read_natural(&number, text, end, &exponent);
   /* 10^(digits + exponent - 1) <= value < 10^(digits + exponent) */
   if (digits == 0 || digits + exponent < -330)
     return 0;
@@ -161,7 +161,7 @@ double decimal_to_double(const char *text, const char *end, int64_t exponent) {
   for (int bit = 0; bit < 64; bit++) {
     quotient <<= 1;
     if (compare(&number, &divisor) >= 0) {
-      subtract(&number, &divisor);
+      subtract_natural(&number, &divisor);
       quotient |= 1;
     }
     shift_left(&number, 1);

@@ -12,29 +12,20 @@ bool gunzip_is_wanted(const char *bytes, size_t count) {
 
 #include <zlib.h>
 
+#include "base/gzip.h"
 #include "base/poll.h"
 
 struct expansion {
   z_stream stream;
   const char *bytes; /* compressed, `count` of them */
   size_t count, taken, most;
-  ARRAY(char) to;
+  struct byte_array to;
   const char *path;
   recto_error *error;
 };
 
-static void *allocate(void *user, unsigned count, unsigned size) {
-  (void)user;
-  return mem_alloc(count, size);
-}
-
-static void release(void *user, void *block) {
-  (void)user;
-  mem_free(block);
-}
-
 /* The most that the data may expand to. */
-static size_t limit_of(size_t count, size_t most) {
+static size_t expansion_limit(size_t count, size_t most) {
   size_t limit = (size_t)GUNZIP_ANYWAY;
   if (count > limit / GUNZIP_RATIO)
     limit = count > most / GUNZIP_RATIO ? most : count * GUNZIP_RATIO;
@@ -51,7 +42,7 @@ static size_t guess_size(const struct expansion *x) {
   return (size < probable ? size : probable) + 2;
 }
 
-static recto_status fail(const struct expansion *x, int result) {
+static recto_status expansion_fault(const struct expansion *x, int result) {
   if (result == Z_MEM_ERROR)
     return error_memory(x->error);
   if (result == Z_BUF_ERROR)
@@ -96,7 +87,7 @@ static recto_status expand_member(struct expansion *x) {
                        "gzip data that expand to more than %zu MB",
                        x->most >> 20);
   }
-  return result == Z_STREAM_END ? RECTO_OK : fail(x, result);
+  return result == Z_STREAM_END ? RECTO_OK : expansion_fault(x, result);
 }
 
 static bool is_padding(const char *bytes, size_t count) {
@@ -124,12 +115,13 @@ static recto_status expand(struct expansion *x) {
   return status;
 }
 
-recto_status gunzip(struct input *input, const char *path, size_t most,
+recto_status gunzip(struct byte_array *data, const char *path, size_t most,
                     recto_error *error) {
-  struct expansion x = {.stream = {.zalloc = allocate, .zfree = release},
-                        .bytes = input->bytes,
-                        .count = input->count,
-                        .most = limit_of(input->count, most),
+  struct expansion x = {.stream = {.zalloc = gzip_allocate,
+                                   .zfree = gzip_release},
+                        .bytes = data->item,
+                        .count = data->count,
+                        .most = expansion_limit(data->count, most),
                         .path = path,
                         .error = error};
   recto_status status =
@@ -138,21 +130,17 @@ recto_status gunzip(struct input *input, const char *path, size_t most,
     ARRAY_FREE(&x.to);
     return status;
   }
-  ARRAY_FREE(&input->slurped);
   x.to.item[x.to.count] = '\0';
-  input->slurped.item = x.to.item;
-  input->slurped.count = x.to.count;
-  input->slurped.capacity = x.to.capacity;
-  input->bytes = x.to.item;
-  input->count = x.to.count;
+  ARRAY_FREE(data);
+  *data = x.to;
   return RECTO_OK;
 }
 
 #else
 
-recto_status gunzip(struct input *input, const char *path, size_t most,
+recto_status gunzip(struct byte_array *data, const char *path, size_t most,
                     recto_error *error) {
-  (void)input;
+  (void)data;
   (void)most;
   return error_set(error, RECTO_ERROR_UNSUPPORTED, path, 0,
                    "compressed with gzip, and this build is without zlib");

@@ -2,7 +2,9 @@
 #ifndef BASE_GUNZIP_H
 #define BASE_GUNZIP_H
 
-#include "base/input.h"
+#include <stdint.h>
+
+#include "base/memory.h"
 
 /* Expanded data may have so many bytes whatever it was made from; beyond, at
  * most GUNZIP_RATIO for each compressed one.  Models are compressed to a third
@@ -13,13 +15,14 @@
 /* Whether the bytes begin as those of a gzip file do [RFC 1952 2.3.1]. */
 bool gunzip_is_wanted(const char *bytes, size_t count);
 
-/* Puts what the gzip data in `input` expands to in its place; several members
- * are joined, zeros after the last are passed over.
+/* Replaces gzip data by what they expand to, with a NUL behind the last byte;
+ * several members are joined, zeros after the last are passed over.  On a
+ * failure the data stay.
  * path    for messages
  * most    bytes that it may expand to
  * Errors  RECTO_ERROR_FORMAT (broken or cut short), RECTO_ERROR_LIMIT,
  *         RECTO_ERROR_MEMORY; RECTO_ERROR_UNSUPPORTED without zlib */
-USE_RESULT recto_status gunzip(struct input *input, const char *path,
+USE_RESULT recto_status gunzip(struct byte_array *data, const char *path,
                                size_t most, recto_error *error);
 
 #endif

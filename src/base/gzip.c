@@ -18,12 +18,12 @@ struct gzip {
   unsigned char out[CHUNK];
 };
 
-static voidpf allocate(voidpf user, uInt count, uInt size) {
+void *gzip_allocate(void *user, unsigned count, unsigned size) {
   (void)user;
   return mem_alloc(count, size);
 }
 
-static void release(voidpf user, voidpf block) {
+void gzip_release(void *user, void *block) {
   (void)user;
   mem_free(block);
 }
@@ -37,8 +37,8 @@ recto_status gzip_create(struct gzip **gzip, gzip_sink *sink, void *user,
     return error_memory(error);
   made->sink = sink;
   made->user = user;
-  made->z.zalloc = allocate;
-  made->z.zfree = release;
+  made->z.zalloc = gzip_allocate;
+  made->z.zfree = gzip_release;
   made->header.os = UNKNOWN_SYSTEM;
   if (deflateInit2(&made->z, Z_BEST_COMPRESSION, Z_DEFLATED,
                    WINDOW_BITS + AS_GZIP, USUAL_MEMORY,
@@ -52,7 +52,7 @@ recto_status gzip_create(struct gzip **gzip, gzip_sink *sink, void *user,
 }
 
 /* Deflates the pending input and writes the output to the target. */
-static void run(struct gzip *gzip, int flush) {
+static void deflate_pending(struct gzip *gzip, int flush) {
   do {
     gzip->z.next_out = gzip->out;
     gzip->z.avail_out = CHUNK;
@@ -67,13 +67,13 @@ void gzip_write(struct gzip *gzip, const void *bytes, size_t count) {
     uInt now = count < UINT_MAX ? (uInt)count : UINT_MAX;
     gzip->z.next_in = (z_const Bytef *)(uintptr_t)next;
     gzip->z.avail_in = now;
-    run(gzip, Z_NO_FLUSH);
+    deflate_pending(gzip, Z_NO_FLUSH);
     next += now;
     count -= now;
   }
 }
 
-void gzip_end(struct gzip *gzip) { run(gzip, Z_FINISH); }
+void gzip_end(struct gzip *gzip) { deflate_pending(gzip, Z_FINISH); }
 
 void gzip_destroy(struct gzip *gzip) {
   if (gzip == NULL)

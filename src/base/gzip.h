@@ -7,6 +7,10 @@
 
 #include "base/status.h"
 
+/* What zlib allocates with. */
+void *gzip_allocate(void *user, unsigned count, unsigned size);
+void gzip_release(void *user, void *block);
+
 struct gzip;
 
 typedef void gzip_sink(void *user, const void *bytes, size_t count);

@@ -97,13 +97,11 @@ static recto_status slurp(const struct source *source, struct input *input,
     return error_set(error, RECTO_ERROR_IO, source->path, 0,
                      "was cut short while it was read");
   input->slurped.item[input->slurped.count] = '\0';
-  input->bytes = input->slurped.item;
-  input->count = input->slurped.count;
   return RECTO_OK;
 }
 
 /* Standard input may be a file too, and one that was read from already. */
-static struct source describe(int descriptor, const char *path) {
+static struct source describe_source(int descriptor, const char *path) {
   struct source source = {descriptor, path, 0, input_most()};
   struct stat attributes;
   if (fstat(descriptor, &attributes) != 0)
@@ -118,6 +116,18 @@ static struct source describe(int descriptor, const char *path) {
   return source;
 }
 
+/* Expands what was loaded where it is compressed. */
+static recto_status expand_input(struct input *input, const char *path,
+                                 size_t most, recto_error *error) {
+  struct byte_array *data = &input->slurped;
+  recto_status status = gunzip_is_wanted(data->item, data->count)
+                            ? gunzip(data, path, most, error)
+                            : RECTO_OK;
+  input->bytes = data->item;
+  input->count = data->count;
+  return status;
+}
+
 recto_status input_load(struct input *input, const char *path,
                         recto_error *error) {
   *input = (struct input){.bytes = NULL};
@@ -129,14 +139,13 @@ recto_status input_load(struct input *input, const char *path,
   if (descriptor < 0)
     return error_set(error, RECTO_ERROR_IO, path, 0, "cannot open: %s",
                      strerror(errno));
-  struct source source = describe(descriptor, path);
+  struct source source = describe_source(descriptor, path);
   input->is_file = path_identity_of_descriptor(descriptor, &input->file);
   recto_status status = slurp(&source, input, error);
   if (!standard)
     close(descriptor);
-  if (status == RECTO_OK && gunzip_is_wanted(input->bytes, input->count))
-    status = gunzip(input, path, source.most, error);
-  return status;
+  return status == RECTO_OK ? expand_input(input, path, source.most, error)
+                            : status;
 }
 
 recto_status input_copy(struct input *input, const void *bytes, size_t count,
@@ -148,11 +157,7 @@ recto_status input_copy(struct input *input, const void *bytes, size_t count,
     memcpy(input->slurped.item, bytes, count);
   input->slurped.item[count] = '\0';
   input->slurped.count = count;
-  input->bytes = input->slurped.item;
-  input->count = count;
-  return gunzip_is_wanted(input->bytes, count)
-             ? gunzip(input, name, input_most(), error)
-             : RECTO_OK;
+  return expand_input(input, name, input_most(), error);
 }
 
 recto_status input_load_named(struct input *input, const char *path,
@@ -165,7 +170,7 @@ recto_status input_load_named(struct input *input, const char *path,
                      strerror(errno));
   recto_status status = RECTO_OK;
   struct stat attributes;
-  struct source source = describe(descriptor, path);
+  struct source source = describe_source(descriptor, path);
   input->is_file = path_identity_of_descriptor(descriptor, &input->file);
   source.most = INPUT_NAMED_MAX;
   if (fstat(descriptor, &attributes) != 0 || !S_ISREG(attributes.st_mode))
@@ -175,9 +180,8 @@ recto_status input_load_named(struct input *input, const char *path,
   else if (attributes.st_size > 0)
     status = slurp(&source, input, error);
   close(descriptor);
-  if (status == RECTO_OK && gunzip_is_wanted(input->bytes, input->count))
-    status = gunzip(input, path, source.most, error);
-  return status;
+  return status == RECTO_OK ? expand_input(input, path, source.most, error)
+                            : status;
 }
 
 void input_unload(struct input *input) { ARRAY_FREE(&input->slurped); }

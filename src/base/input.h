@@ -11,7 +11,7 @@
 struct input {
   const char *bytes; /* a NUL stands behind the last */
   size_t count;
-  ARRAY(char) slurped; /* what `bytes` points to */
+  struct byte_array slurped; /* what `bytes` points to */
   bool is_file;        /* it was a file proper, and this one */
   struct file_identity file;
 };

@@ -20,4 +20,5 @@ librecto_core_la_SOURCES += \
   %D%/status.c %D%/status.h \
   %D%/stream.c %D%/stream.h \
   %D%/target.c %D%/target.h \
-  %D%/tolerance.h
+  %D%/tolerance.h \
+  %D%/word.c %D%/word.h

@@ -4,6 +4,7 @@
 #include <stdalign.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/resource.h>
 
 /* For tests alone: see mem_fail_after. */
@@ -25,7 +26,7 @@ void mem_fail_after(unsigned long n) {
 
 /* The size of a block; false where it does not fit.  Never zero, so that an
  * empty array has an address of its own. */
-static bool multiply(size_t count, size_t size, size_t *bytes) {
+static bool block_size(size_t count, size_t size, size_t *bytes) {
   if (size && count > PTRDIFF_MAX / size)
     return false;
   *bytes = count * size;
@@ -36,21 +37,21 @@ static bool multiply(size_t count, size_t size, size_t *bytes) {
 
 void *mem_alloc(size_t count, size_t size) {
   size_t bytes;
-  if (is_made_to_fail() || !multiply(count, size, &bytes))
+  if (is_made_to_fail() || !block_size(count, size, &bytes))
     return NULL;
   return malloc(bytes);
 }
 
 void *mem_calloc(size_t count, size_t size) {
   size_t bytes;
-  if (is_made_to_fail() || !multiply(count, size, &bytes))
+  if (is_made_to_fail() || !block_size(count, size, &bytes))
     return NULL;
   return calloc(bytes, 1);
 }
 
 void *mem_resize(void *block, size_t count, size_t size) {
   size_t bytes;
-  if (is_made_to_fail() || !multiply(count, size, &bytes))
+  if (is_made_to_fail() || !block_size(count, size, &bytes))
     return NULL;
   return realloc(block, bytes);
 }
@@ -66,6 +67,14 @@ size_t mem_peak_bytes(void) {
 #else
   return (size_t)usage.ru_maxrss * 1024;
 #endif
+}
+
+char *mem_copy_text(const char *text) {
+  size_t size = strlen(text) + 1;
+  char *copy = mem_alloc(size, 1);
+  if (copy != NULL)
+    memcpy(copy, text, size);
+  return copy;
 }
 
 /* ---- Growing arrays ------------------------------------------------------ */
@@ -101,15 +110,15 @@ struct arena_block {
 
 enum { ARENA_BLOCK_SIZE = 1 << 16 };
 
-static size_t round_up(size_t bytes) {
+static size_t align_size(size_t bytes) {
   return (bytes + alignof(max_align_t) - 1) & ~(alignof(max_align_t) - 1);
 }
 
 void *arena_alloc(struct arena *arena, size_t count, size_t size) {
   size_t bytes;
-  if (!multiply(count, size, &bytes) || bytes > PTRDIFF_MAX / 2)
+  if (!block_size(count, size, &bytes) || bytes > PTRDIFF_MAX / 2)
     return NULL;
-  bytes = round_up(bytes);
+  bytes = align_size(bytes);
   struct arena_block *block = arena->block;
   if (!block || bytes > block->size - arena->used) {
     size_t room = block ? 2 * block->size : ARENA_BLOCK_SIZE;

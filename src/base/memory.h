@@ -16,6 +16,7 @@ void *mem_calloc(size_t count, size_t size);
 /* On failure the old block stays valid. */
 void *mem_resize(void *block, size_t count, size_t size);
 void mem_free(void *block);
+char *mem_copy_text(const char *text);
 
 /* Fetches into the cache what will be read soon.  A macro: calls of a function
  * that does no more are left out by compilers. */
@@ -55,6 +56,12 @@ size_t mem_peak_bytes(void);
 #define ARRAY_PUSH(array, value)                                               \
   (ARRAY_RESERVE(array, 1) ? ((array)->item[(array)->count++] = (value), true) \
                            : false)
+
+/* The array of bytes that one function makes for another. */
+struct byte_array {
+  char *item;
+  size_t count, capacity;
+};
 
 #define ARRAY_FREE(array)                                                      \
   do {                                                                         \

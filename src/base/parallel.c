@@ -22,7 +22,7 @@ struct others {
   void *user;
 };
 
-static void *start(void *argument) {
+static void *start_worker(void *argument) {
   const struct others *others = argument;
   others->worker(others->user, false);
   return NULL;
@@ -37,7 +37,7 @@ static int start_others(pthread_t *thread, int wanted, struct others *others) {
   if (sigfillset(&all) != 0 || pthread_sigmask(SIG_SETMASK, &all, &before) != 0)
     return 0;
   while (count < wanted &&
-         pthread_create(&thread[count], NULL, start, others) == 0)
+         pthread_create(&thread[count], NULL, start_worker, others) == 0)
     count++;
   (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
   return count;

@@ -33,7 +33,7 @@ bool path_is_same(const char *a, const char *b) {
 }
 
 /* A number of few digits as a whole word; -1 where it is none. */
-static int read_number(const char *text) {
+static int read_volume_number(const char *text) {
   int number = 0;
   size_t length = strspn(text, "0123456789");
   if (length == 0 || length > 6 || text[length] != '\0')
@@ -52,7 +52,7 @@ int path_descriptor(const char *path) {
       return i;
   for (int i = 0; i < 2; i++)
     if (strncmp(path, folder[i], strlen(folder[i])) == 0)
-      return read_number(path + strlen(folder[i]));
+      return read_volume_number(path + strlen(folder[i]));
   return -1;
 }
 

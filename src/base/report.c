@@ -50,8 +50,9 @@ void report_destroy(struct report *report) {
 
 /* ---- Gathering ----------------------------------------------------------- */
 
-static struct report_entry *look_up(const struct report *report,
-                                    const char *section, const char *name) {
+static struct report_entry *find_report_entry(const struct report *report,
+                                              const char *section,
+                                              const char *name) {
   for (size_t i = 0; i < report->entry.count; i++) {
     struct report_entry *entry = &report->entry.item[i];
     if (strcmp(entry->section, section) == 0 && strcmp(entry->name, name) == 0)
@@ -67,7 +68,7 @@ static struct report_entry *make_entry(struct report *report,
                                        enum kind kind) {
   if (!report)
     return NULL;
-  struct report_entry *entry = look_up(report, section, name);
+  struct report_entry *entry = find_report_entry(report, section, name);
   if (!entry) {
     struct report_entry fresh = {.section = section, .name = name};
     if (!ARRAY_PUSH(&report->entry, fresh))
@@ -126,7 +127,7 @@ void report_text(struct report *report, const char *section, const char *name,
 int64_t report_get(const struct report *report, const char *section,
                    const char *name, int64_t otherwise) {
   const struct report_entry *entry =
-      report ? look_up(report, section, name) : NULL;
+      report ? find_report_entry(report, section, name) : NULL;
   return entry && entry->kind == KIND_INT ? entry->integer : otherwise;
 }
 

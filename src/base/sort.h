@@ -41,6 +41,11 @@ USE_RESULT bool sort_ids(uint32_t *id, size_t count);
     i = first_;                                                                \
   } while (0)
 
+/* The key of two numbers in either order. */
+static inline uint64_t sort_pair_key(uint32_t p, uint32_t q) {
+  return p < q ? (uint64_t)p << 32 | q : (uint64_t)q << 32 | p;
+}
+
 /* Unsigned keys that order as the numbers do. */
 static inline uint64_t sort_key_of_int64(int64_t value) {
   return (uint64_t)value ^ (UINT64_C(1) << 63);

@@ -34,7 +34,7 @@ static unsigned long writes_to_failure;
 void stream_fail_after(unsigned long n) { writes_to_failure = n; }
 
 /* The first error is the one that is reported. */
-static void fail(struct stream *stream, recto_status status, int fault) {
+static void set_fault(struct stream *stream, recto_status status, int fault) {
   if (stream->status != RECTO_OK)
     return;
   stream->status = status;
@@ -45,11 +45,11 @@ static void write_physically(struct stream *stream, const char *bytes,
                              size_t count) {
   while (count > 0 && stream->status == RECTO_OK) {
     if (!poll_now()) {
-      fail(stream, RECTO_ERROR_CANCELLED, 0);
+      set_fault(stream, RECTO_ERROR_CANCELLED, 0);
       return;
     }
     if (writes_to_failure && --writes_to_failure == 0) {
-      fail(stream, RECTO_ERROR_IO, ENOSPC);
+      set_fault(stream, RECTO_ERROR_IO, ENOSPC);
       return;
     }
     ssize_t written = write(stream->target.descriptor, bytes, count);
@@ -57,7 +57,7 @@ static void write_physically(struct stream *stream, const char *bytes,
       bytes += written;
       count -= (size_t)written;
     } else if (written == 0 || errno != EINTR) {
-      fail(stream, RECTO_ERROR_IO, written == 0 ? EIO : errno);
+      set_fault(stream, RECTO_ERROR_IO, written == 0 ? EIO : errno);
     }
   }
 }
@@ -69,7 +69,7 @@ static void empty_buffer(struct stream *stream) {
 
 /* ---- Opening ------------------------------------------------------------- */
 
-static struct stream *create(void) {
+static struct stream *allocate_stream(void) {
   struct stream *stream = mem_calloc(1, sizeof *stream);
   if (!stream)
     return NULL;
@@ -85,7 +85,7 @@ static struct stream *create(void) {
 recto_status stream_open(struct stream **stream, const char *path,
                          recto_error *error) {
   *stream = NULL;
-  struct stream *opened = create();
+  struct stream *opened = allocate_stream();
   if (!opened)
     return error_memory(error);
   recto_status status = target_open(&opened->target, path, error);
@@ -98,7 +98,7 @@ recto_status stream_open(struct stream **stream, const char *path,
 }
 
 recto_status stream_open_memory(struct stream **stream, recto_error *error) {
-  *stream = create();
+  *stream = allocate_stream();
   if (!*stream)
     return error_memory(error);
   (*stream)->is_memory = true;
@@ -121,7 +121,7 @@ static bool is_written_on_the_way(const struct stream *stream) {
   return !stream->is_memory && stream->target.kind == TARGET_NEW;
 }
 
-static void put(void *user, const void *bytes, size_t count) {
+static void put_bytes(void *user, const void *bytes, size_t count) {
   struct stream *stream = user;
   if (stream->status != RECTO_OK || count == 0)
     return;
@@ -133,12 +133,12 @@ static void put(void *user, const void *bytes, size_t count) {
       return;
     }
   } else if (!ARRAY_RESERVE(&stream->buffer, count + 1)) {
-    fail(stream, RECTO_ERROR_MEMORY, ENOMEM);
+    set_fault(stream, RECTO_ERROR_MEMORY, ENOMEM);
     return;
   } else if (stream->buffer.count / CHUNK !=
                  (stream->buffer.count + count) / CHUNK &&
              !poll_now()) {
-    fail(stream, RECTO_ERROR_CANCELLED, 0);
+    set_fault(stream, RECTO_ERROR_CANCELLED, 0);
     return;
   }
   memcpy(stream->buffer.item + stream->buffer.count, bytes, count);
@@ -146,12 +146,12 @@ static void put(void *user, const void *bytes, size_t count) {
 }
 
 recto_status stream_compress(struct stream *stream, recto_error *error) {
-  return gzip_create(&stream->gzip, put, stream, error);
+  return gzip_create(&stream->gzip, put_bytes, stream, error);
 }
 
 void stream_write(struct stream *stream, const void *bytes, size_t count) {
   if (stream->gzip == NULL)
-    put(stream, bytes, count);
+    put_bytes(stream, bytes, count);
   else if (stream->status == RECTO_OK)
     gzip_write(stream->gzip, bytes, count);
 }
@@ -171,7 +171,7 @@ void stream_int(struct stream *stream, int64_t value) {
 }
 
 void stream_fault(struct stream *stream, int fault) {
-  fail(stream, RECTO_ERROR_IO, fault != 0 ? fault : EIO);
+  set_fault(stream, RECTO_ERROR_IO, fault != 0 ? fault : EIO);
 }
 
 recto_status stream_status(const struct stream *stream) {
@@ -197,7 +197,7 @@ void stream_discard(struct stream *stream) {
 }
 
 /* Brings a new file to its end; nothing else is touched. */
-static void complete(struct stream *stream) {
+static void complete_file(struct stream *stream) {
   if (stream->gzip != NULL && stream->status == RECTO_OK)
     gzip_end(stream->gzip);
   if (is_written_on_the_way(stream))
@@ -209,7 +209,7 @@ static void exact_over(struct stream *stream) {
     empty_buffer(stream);
 }
 
-static void place(struct stream *stream) {
+static void place_target(struct stream *stream) {
   struct target *target = &stream->target;
   if (stream->is_memory || stream->status != RECTO_OK)
     return;
@@ -219,7 +219,7 @@ static void place(struct stream *stream) {
           ? target_replace(target, stream->buffer.item, stream->buffer.count)
           : true;
   if (!ok)
-    fail(stream, RECTO_ERROR_IO, errno);
+    set_fault(stream, RECTO_ERROR_IO, errno);
 }
 
 static recto_status report_failure(const struct stream *stream,
@@ -272,8 +272,8 @@ static recto_status place_all(struct stream *const *stream, size_t count,
     if (stream[i] == NULL)
       continue;
     if (is_taken(stream, i))
-      fail(stream[i], RECTO_ERROR_ARGUMENT, 0);
-    place(stream[i]);
+      set_fault(stream[i], RECTO_ERROR_ARGUMENT, 0);
+    place_target(stream[i]);
     status = first_fault(stream, count, error);
   }
   for (size_t i = 0; i < count && status != RECTO_OK; i++)
@@ -286,7 +286,7 @@ recto_status stream_finish_all(struct stream *const *stream, size_t count,
                                recto_error *error) {
   for (size_t i = 0; i < count; i++)
     if (stream[i] != NULL)
-      complete(stream[i]);
+      complete_file(stream[i]);
   recto_status status = first_fault(stream, count, error);
   for (size_t i = count; i-- > 0 && status == RECTO_OK;) {
     if (stream[i] == NULL)
@@ -302,7 +302,7 @@ recto_status stream_finish_all(struct stream *const *stream, size_t count,
 }
 
 recto_status stream_complete(struct stream *stream, recto_error *error) {
-  complete(stream);
+  complete_file(stream);
   return report_failure(stream, error);
 }
 

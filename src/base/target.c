@@ -21,14 +21,6 @@ enum { NAME_SIZE = 64, DESCRIPTOR_NAME_SIZE = 32 };
 
 /* ---- Paths --------------------------------------------------------------- */
 
-static char *copy_text(const char *text, size_t room) {
-  size_t size = strlen(text) + 1;
-  char *copy = mem_alloc(size + room, 1);
-  if (copy)
-    memcpy(copy, text, size);
-  return copy;
-}
-
 /* The length of the path's folder, the last slash included. */
 static size_t folder_length(const char *path) {
   const char *slash = strrchr(path, '/');
@@ -64,7 +56,7 @@ static char *read_link(const char *path, bool *failed) {
  * what may have no path. */
 static char *follow_links(const char *path) {
   enum { LINKS_MAX = 40 };
-  char *here = copy_text(path, 0);
+  char *here = mem_copy_text(path);
   bool failed = here == NULL;
   for (int i = 0; i < LINKS_MAX && !failed && path_descriptor(here) < 0; i++) {
     char *to = read_link(here, &failed);
@@ -83,7 +75,7 @@ static char *follow_links(const char *path) {
 /* The folder that the file is to appear in, as a path. */
 static char *folder_of(const char *path) {
   size_t length = folder_length(path);
-  char *folder = copy_text(length > 0 ? path : ".", 0);
+  char *folder = mem_copy_text(length > 0 ? path : ".");
   if (folder && length > 0)
     folder[length] = '\0';
   return folder;
@@ -160,7 +152,7 @@ static bool make_link(struct target *target, const char *name) {
   return linkat(AT_FDCWD, from, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
 }
 
-static recto_status create(struct target *target, recto_error *error) {
+static recto_status create_file(struct target *target, recto_error *error) {
   char *folder = folder_of(target->path);
   if (!folder)
     return error_memory(error);
@@ -255,7 +247,7 @@ static recto_status replace(struct target *target, recto_error *error) {
   recto_error why;
   if (target->old.st_nlink > 1)
     return open_in_place(target, error);
-  recto_status status = create(target, &why);
+  recto_status status = create_file(target, &why);
   if (status == RECTO_OK && inherit(target))
     return RECTO_OK;
   if (status == RECTO_OK) {
@@ -269,7 +261,7 @@ static recto_status replace(struct target *target, recto_error *error) {
 }
 
 /* Finds out what is there; target->path is set. */
-static recto_status look(struct target *target, recto_error *error) {
+static recto_status query_target(struct target *target, recto_error *error) {
   target->existed = stat(target->path, &target->old) == 0;
   if (!target->existed && errno != ENOENT)
     return cannot(target, "create", error);
@@ -287,18 +279,18 @@ static recto_status open_path(struct target *target, recto_error *error) {
   int descriptor = path_descriptor(target->path);
   if (descriptor >= 0)
     return open_descriptor(target, descriptor, error);
-  recto_status status = look(target, error);
+  recto_status status = query_target(target, error);
   if (status != RECTO_OK)
     return status;
   if (!target->existed)
-    return create(target, error);
+    return create_file(target, error);
   return S_ISREG(target->old.st_mode) ? replace(target, error)
                                       : open_in_place(target, error);
 }
 
 recto_status target_open(struct target *target, const char *path,
                          recto_error *error) {
-  *target = (struct target){.descriptor = -1, .name = copy_text(path, 0)};
+  *target = (struct target){.descriptor = -1, .name = mem_copy_text(path)};
   recto_status status = !target->name ? error_memory(error)
                         : strcmp(path, "-") == 0
                             ? open_descriptor(target, STDOUT_FILENO, error)
@@ -369,7 +361,7 @@ bool target_is(const struct target *target, struct file_identity it) {
 
 /* ---- Putting in place ---------------------------------------------------- */
 
-static bool write_all(int descriptor, const char *bytes, size_t count) {
+static bool write_bytes_all(int descriptor, const char *bytes, size_t count) {
   while (count > 0) {
     ssize_t written = write(descriptor, bytes, count);
     if (written < 0 && errno == EINTR)
@@ -400,7 +392,7 @@ static bool reserve_room(int descriptor, size_t count) {
 
 bool target_replace(struct target *target, const char *bytes, size_t count) {
   int to = target->descriptor;
-  return reserve_room(to, count) && write_all(to, bytes, count) &&
+  return reserve_room(to, count) && write_bytes_all(to, bytes, count) &&
          ftruncate(to, (off_t)count) == 0;
 }
 
@@ -416,7 +408,7 @@ static bool copy_in_place(struct target *target) {
             reserve_room(to, (size_t)attributes.st_size);
   while (ok && at < attributes.st_size) {
     ssize_t got = pread(target->descriptor, chunk, CHUNK, at);
-    ok = got > 0 && write_all(to, chunk, (size_t)got);
+    ok = got > 0 && write_bytes_all(to, chunk, (size_t)got);
     at += got;
   }
   ok = ok && ftruncate(to, at) == 0;

@@ -69,8 +69,8 @@ static bool is_nothing(const double vector[3]) {
 
 /* Parses and stores the option's value, which is no list; false where it is
  * not valid. */
-static bool store(struct arguments *arguments, const struct option_entry *entry,
-                  const char *text) {
+static bool store_value(struct arguments *arguments,
+                        const struct option_entry *entry, const char *text) {
   void *to = (char *)arguments + entry->offset;
   double number;
   int integer;
@@ -128,7 +128,7 @@ static bool take_option(struct arguments *arguments,
   if (entry->kind == OPTION_LIST) {
     if (!lists_take(arguments, entry, text, message))
       return false;
-  } else if (!store(arguments, entry, text)) {
+  } else if (!store_value(arguments, entry, text)) {
     snprintf(message, MESSAGE_SIZE, "--%s: expected %s, not \"%.60s\"",
              entry->name, entry->expected, text);
     return false;
@@ -140,7 +140,8 @@ static bool take_option(struct arguments *arguments,
 }
 
 /* Sets the message for an error of getopt_long. */
-static void explain(int code, char **argv, char message[MESSAGE_SIZE]) {
+static void explain_getopt_error(int code, char **argv,
+                                 char message[MESSAGE_SIZE]) {
   const struct option_entry *entry = find_entry(optopt);
   if (entry != NULL && entry->kind == OPTION_ABSENT)
     say_absent(entry, message);
@@ -250,7 +251,7 @@ bool arguments_parse(struct arguments *arguments, int argc, char **argv,
   int code;
   while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
     if (code == '?' || code == ':') {
-      explain(code, argv, message);
+      explain_getopt_error(code, argv, message);
       return false;
     }
     if (!take_option(arguments, find_entry(code), optarg, message))

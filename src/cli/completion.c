@@ -9,7 +9,8 @@
 
 /* The option after this one, or the first after NULL, that this build has; NULL
  * past the last. */
-static const struct option_entry *find_next(const struct option_entry *entry) {
+static const struct option_entry *
+next_option(const struct option_entry *entry) {
   entry = entry == NULL ? option_table : entry + 1;
   while (!option_is_end(entry) &&
          (entry->kind == OPTION_HEADING || entry->kind == OPTION_ABSENT))
@@ -73,12 +74,12 @@ static void print_bash(void) {
          "    option=${COMP_WORDS[COMP_CWORD - 2]}\n"
          "  fi\n"
          "  case $option in\n");
-  while ((entry = find_next(entry)) != NULL)
+  while ((entry = next_option(entry)) != NULL)
     if (entry->argument != NULL && !is_optional(entry))
       print_case(entry);
   printf("  *) [[ $word == -* ]] || files=yes\n"
          "    words='");
-  while ((entry = find_next(entry)) != NULL)
+  while ((entry = next_option(entry)) != NULL)
     printf("--%s ", entry->name);
   printf("' ;;\n"
          "  esac\n"
@@ -112,7 +113,7 @@ static void print_zsh(void) {
   printf("#compdef recto\n"
          "# zsh completion for recto, printed by recto --completion zsh\n"
          "_arguments -S \\\n");
-  while ((entry = find_next(entry)) != NULL) {
+  while ((entry = next_option(entry)) != NULL) {
     bool takes = entry->argument != NULL;
     const char *equals = !takes ? "" : is_optional(entry) ? "=-" : "=";
     if (entry->letter != 0)

@@ -37,7 +37,7 @@ recto_status lists_add_pen_use(struct arguments *a, const char *name,
 }
 
 /* The pen of that name among those of the options; NULL: there is none. */
-static recto_pen *find_pen(struct arguments *a, const char *name) {
+static recto_pen *find_named_pen(struct arguments *a, const char *name) {
   int pen;
   if (!is_pen(name, &pen))
     return NULL;
@@ -49,7 +49,7 @@ static recto_pen *find_pen(struct arguments *a, const char *name) {
 
 recto_status lists_set_width(struct arguments *a, const char *name,
                              const char *value) {
-  recto_pen *pen = find_pen(a, name);
+  recto_pen *pen = find_named_pen(a, name);
   double mm;
   if (pen == NULL || !value_length(value, &mm) ||
       !(mm >= RECTO_FINEST_MM && mm <= 100))
@@ -61,7 +61,7 @@ recto_status lists_set_width(struct arguments *a, const char *name,
 /* #c00 is #cc0000. */
 recto_status lists_set_colour(struct arguments *a, const char *name,
                               const char *value) {
-  recto_pen *pen = find_pen(a, name);
+  recto_pen *pen = find_named_pen(a, name);
   const char *digits = value + (*value == '#');
   size_t count = strlen(digits);
   if (pen == NULL || strspn(digits, "0123456789abcdefABCDEF") != count ||
@@ -109,8 +109,8 @@ static const char *find_other_value(const char *first, const char *name,
   return NULL;
 }
 
-static bool refuse(const struct option_entry *entry, const char *item,
-                   char message[MESSAGE_SIZE]) {
+static bool refuse_item(const struct option_entry *entry, const char *item,
+                        char message[MESSAGE_SIZE]) {
   snprintf(message, MESSAGE_SIZE, "--%s: expected %s, not \"%.60s\"",
            entry->name, entry->expected, item);
   return false;
@@ -128,7 +128,7 @@ bool lists_take(struct arguments *arguments, const struct option_entry *entry,
       *end++ = '\0';
     char *value = strrchr(name, '=');
     if (value == NULL || value == name || value[1] == '\0')
-      return refuse(entry, name, message);
+      return refuse_item(entry, name, message);
     *value++ = '\0';
     const char *other = find_other_value(list, name, value);
     if (other != NULL) {
@@ -145,7 +145,7 @@ bool lists_take(struct arguments *arguments, const struct option_entry *entry,
     }
     if (status != RECTO_OK) {
       value[-1] = '=';
-      return refuse(entry, name, message);
+      return refuse_item(entry, name, message);
     }
   }
   return true;

@@ -5,7 +5,7 @@
 #include "cli/run.h"
 #include "cli/message.h"
 
-static int run(struct arguments *arguments, int argc, char **argv) {
+static int run_program(struct arguments *arguments, int argc, char **argv) {
   char message[MESSAGE_SIZE];
   if (!arguments_parse(arguments, argc, argv, message)) {
     message_print("", 0, message);
@@ -30,7 +30,7 @@ int main(int argc, char **argv) {
   struct arguments arguments;
   if (!descriptors_reserve())
     return EXIT_FAILED; /* and there is nowhere to say so */
-  int code = run(&arguments, argc, argv);
+  int code = run_program(&arguments, argc, argv);
   arguments_fini(&arguments);
   return code;
 }

@@ -24,7 +24,8 @@ static void flush_line(struct message_line *line) {
   line->length = 0;
 }
 
-static void put(struct message_line *line, const char *bytes, size_t count) {
+static void add_bytes(struct message_line *line, const char *bytes,
+                      size_t count) {
   if (count > sizeof line->text - line->length)
     flush_line(line);
   memcpy(line->text + line->length, bytes, count);
@@ -64,7 +65,7 @@ static void put_escaped(struct message_line *line, unsigned char byte) {
   int length = byte == '\n'   ? snprintf(escape, sizeof escape, "\\n")
                : byte == '\t' ? snprintf(escape, sizeof escape, "\\t")
                               : snprintf(escape, sizeof escape, "\\%03o", byte);
-  put(line, escape, (size_t)length);
+  add_bytes(line, escape, (size_t)length);
 }
 
 static void put_visibly(struct message_line *line, const char *text) {
@@ -73,7 +74,7 @@ static void put_visibly(struct message_line *line, const char *text) {
     uint32_t code;
     size_t length = read_character(at, &code);
     if (length > 0 && !is_obeyed(code)) {
-      put(line, text, length);
+      add_bytes(line, text, length);
     } else {
       length = length > 0 ? length : 1;
       for (size_t i = 0; i < length; i++)
@@ -86,16 +87,17 @@ static void put_visibly(struct message_line *line, const char *text) {
 void message_print(const char *file, unsigned long line, const char *text) {
   struct message_line whole = {.length = 0};
   char number[32];
-  put(&whole, "recto: ", 7);
+  add_bytes(&whole, "recto: ", 7);
   put_visibly(&whole, file);
   if (file[0] != '\0')
-    put(&whole, ":", 1);
+    add_bytes(&whole, ":", 1);
   if (line != 0)
-    put(&whole, number, (size_t)snprintf(number, sizeof number, "%lu:", line));
+    add_bytes(&whole, number,
+              (size_t)snprintf(number, sizeof number, "%lu:", line));
   if (file[0] != '\0' || line != 0)
-    put(&whole, " ", 1);
+    add_bytes(&whole, " ", 1);
   put_visibly(&whole, text);
-  put(&whole, "\n", 1);
+  add_bytes(&whole, "\n", 1);
   progress_hide();
   flush_line(&whole);
   progress_go_on();

@@ -112,7 +112,7 @@ static void draw_bar(double passed_s) {
   now.columns = length - 1;
 }
 
-static void *run(void *unused) {
+static void *update_until_end(void *unused) {
   (void)unused;
   pthread_mutex_lock(&now.lock);
   while (!now.ends) {
@@ -143,7 +143,7 @@ static void start_thread(void) {
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  now.runs = pthread_create(&now.thread, NULL, run, NULL) == 0;
+  now.runs = pthread_create(&now.thread, NULL, update_until_end, NULL) == 0;
   pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 

@@ -137,8 +137,8 @@ static bool is_tolerable(const struct arguments *arguments, double part_mm,
          fmax(arguments->tolerance_mm, arguments->tolerance_share * whole_mm);
 }
 
-static recto_status check(const struct arguments *arguments, bool *is_right,
-                          recto_error *error) {
+static recto_status check_drawing(const struct arguments *arguments,
+                                  bool *is_right, recto_error *error) {
   recto_scene *scene = NULL;
   recto_verdict verdict;
   recto_status status = recto_scene_create(&scene, error);
@@ -156,10 +156,10 @@ static recto_status check(const struct arguments *arguments, bool *is_right,
   return tell_verdict(&verdict, error);
 }
 
-static recto_status write_all(const struct arguments *arguments,
-                              const recto_drawing *drawing, int frame,
-                              const recto_options *options,
-                              recto_error *error) {
+static recto_status write_outputs(const struct arguments *arguments,
+                                  const recto_drawing *drawing, int frame,
+                                  const recto_options *options,
+                                  recto_error *error) {
   struct output_paths outputs;
   if (!arguments->quiet && recto_drawing_verdict(drawing) != NULL)
     message_print("", 0, recto_drawing_verdict(drawing));
@@ -193,13 +193,13 @@ static recto_status draw_frame(const struct arguments *arguments,
     options.warning = NULL;
   recto_status status = recto_scene_render(scene, &options, &drawing, error);
   if (status == RECTO_OK)
-    status = write_all(arguments, drawing, frame, &options, error);
+    status = write_outputs(arguments, drawing, frame, &options, error);
   recto_drawing_destroy(drawing);
   return status;
 }
 
-static recto_status draw(const struct arguments *arguments,
-                         recto_error *error) {
+static recto_status draw_models(const struct arguments *arguments,
+                                recto_error *error) {
   recto_scene *scene = NULL;
   int frames = frames_count(arguments);
   recto_status status = recto_scene_create(&scene, error);
@@ -242,8 +242,8 @@ int cli_run(struct arguments *arguments) {
   bool checks = arguments->check_file != NULL;
   if (!arguments->quiet)
     progress_start(arguments->progress);
-  recto_status status =
-      checks ? check(arguments, &is_right, &error) : draw(arguments, &error);
+  recto_status status = checks ? check_drawing(arguments, &is_right, &error)
+                               : draw_models(arguments, &error);
   progress_end();
   if (status != RECTO_OK && !signals_are_of_a_pipe())
     message_print(error.file, error.line, error.text);

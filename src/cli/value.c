@@ -11,7 +11,7 @@
 
 /* Reads a finite decimal number at `text`; returns where it stopped, or NULL.
  * The program's locale is always C. */
-static const char *read_number(const char *text, double *number) {
+static const char *parse_number(const char *text, double *number) {
   const char *digits = text + (*text == '+' || *text == '-');
   char *stop;
   bool is_hexadecimal = digits[0] == '0' && (digits[1] | 0x20) == 'x';
@@ -23,7 +23,7 @@ static const char *read_number(const char *text, double *number) {
 
 bool value_number(const char *text, double *number) {
   double read;
-  const char *stop = read_number(text, &read);
+  const char *stop = parse_number(text, &read);
   if (stop == NULL || *stop != '\0')
     return false;
   *number = read;
@@ -50,7 +50,7 @@ static const char *read_length(const char *text, double usual_mm,
     const char *name;
     double mm;
   } unit[] = {{"mm", 1}, {"cm", 10}, {"in", 25.4}, {"pt", 25.4 / 72}};
-  text = read_number(text, number);
+  text = parse_number(text, number);
   *unit_mm = usual_mm;
   for (size_t i = 0; text != NULL && i < sizeof unit / sizeof unit[0]; i++)
     if (strncmp(text, unit[i].name, 2) == 0) {
@@ -71,7 +71,7 @@ bool value_length(const char *text, double *mm) {
 
 bool value_tolerance(const char *text, double *mm, double *share) {
   double number;
-  const char *stop = read_number(text, &number);
+  const char *stop = parse_number(text, &number);
   bool is_share = stop != NULL && strcmp(stop, "%") == 0;
   if (!is_share && !value_length(text, &number))
     return false;
@@ -87,7 +87,7 @@ bool value_tolerance(const char *text, double *mm, double *share) {
 bool value_vector(const char *text, double vector[3]) {
   double read[3];
   for (int i = 0; i < 3; i++) {
-    text = read_number(text, &read[i]);
+    text = parse_number(text, &read[i]);
     if (text == NULL || *text != (i < 2 ? ',' : '\0'))
       return false;
     text++;
@@ -121,9 +121,9 @@ bool value_page(const char *text, double *width_mm, double *height_mm) {
 
 bool value_scale(const char *text, double *scale) {
   double page, scene = 1;
-  const char *stop = read_number(text, &page);
+  const char *stop = parse_number(text, &page);
   if (stop != NULL && *stop == ':')
-    stop = read_number(stop + 1, &scene);
+    stop = parse_number(stop + 1, &scene);
   if (stop == NULL || *stop != '\0' || !(page > 0 && scene > 0) ||
       !isfinite(page / scene) || !(page / scene > 0))
     return false;

@@ -27,7 +27,7 @@ double drawing_width_mm(const struct drawing *drawing,
   return width;
 }
 
-static double distance(struct drawing_point a, struct drawing_point b) {
+static double point_distance(struct drawing_point a, struct drawing_point b) {
   double dx = b.x - a.x, dy = b.y - a.y;
   return sqrt(dx * dx + dy * dy);
 }
@@ -37,9 +37,9 @@ double drawing_stroke_mm(const struct drawing *drawing,
   const struct drawing_point *point = drawing->point.item + stroke->point;
   double length = 0;
   for (uint32_t k = 1; k < stroke->count; k++)
-    length += distance(point[k - 1], point[k]);
+    length += point_distance(point[k - 1], point[k]);
   if (stroke->closed && stroke->count > 0)
-    length += distance(point[stroke->count - 1], point[0]);
+    length += point_distance(point[stroke->count - 1], point[0]);
   return length;
 }
 
@@ -59,7 +59,7 @@ double drawing_travel_mm(const struct drawing *drawing) {
       if (stroke->layer != layer || stroke->count == 0)
         continue;
       const struct drawing_point *point = drawing->point.item + stroke->point;
-      travel += distance(pen, point[0]);
+      travel += point_distance(pen, point[0]);
       pen = stroke->closed ? point[0] : point[stroke->count - 1];
     }
   return travel;

@@ -7,16 +7,16 @@
 /* Corners' doubles are within 1/4 of the truth (line.c). */
 #define BOX_MARGIN 0.25
 
-static bool allocate(struct geom_convex *piece, uint32_t count,
-                     struct arena *arena) {
+static bool allocate_corners(struct geom_convex *piece, uint32_t count,
+                             struct arena *arena) {
   piece->count = 0;
   piece->corner = arena_alloc(arena, count, sizeof *piece->corner);
   piece->side = arena_alloc(arena, count, sizeof *piece->side);
   return piece->corner != NULL && piece->side != NULL;
 }
 
-static void append(struct geom_convex *piece, struct geom_corner corner,
-                   const struct geom_line *side) {
+static void append_corner(struct geom_convex *piece, struct geom_corner corner,
+                          const struct geom_line *side) {
   piece->corner[piece->count] = corner;
   piece->side[piece->count++] = side;
 }
@@ -44,10 +44,10 @@ static void set_box(struct geom_convex *piece) {
 bool geom_convex_triangle(struct geom_convex *piece,
                           const struct geom_point p[3],
                           const struct geom_line line[3], struct arena *arena) {
-  if (!allocate(piece, 3, arena))
+  if (!allocate_corners(piece, 3, arena))
     return false;
   for (int k = 0; k < 3; k++)
-    append(piece, geom_corner_at(p[k]), &line[k]);
+    append_corner(piece, geom_corner_at(p[k]), &line[k]);
   set_box(piece);
   return true;
 }
@@ -58,23 +58,23 @@ static bool take_part(const struct geom_convex *piece, const signed char *sign,
                       int keep, const struct geom_line *cut,
                       struct geom_convex *part, struct arena *arena) {
   uint32_t n = piece->count;
-  if (!allocate(part, n + 1, arena))
+  if (!allocate_corners(part, n + 1, arena))
     return false;
   for (uint32_t k = 0; k < n; k++) {
     uint32_t next = k + 1 == n ? 0 : k + 1;
     int s = sign[k] * keep, t = sign[next] * keep;
     if (s > 0) {
-      append(part, piece->corner[k], piece->side[k]);
+      append_corner(part, piece->corner[k], piece->side[k]);
       if (t < 0)
-        append(part, geom_corner_of(piece->side[k], cut), cut);
+        append_corner(part, geom_corner_of(piece->side[k], cut), cut);
     } else if (s == 0) {
       /* On the line: the boundary either enters, leaves or touches here. */
       if (t > 0)
-        append(part, piece->corner[k], piece->side[k]);
+        append_corner(part, piece->corner[k], piece->side[k]);
       else if (sign[k == 0 ? n - 1 : k - 1] * keep > 0)
-        append(part, piece->corner[k], cut);
+        append_corner(part, piece->corner[k], cut);
     } else if (t > 0) {
-      append(part, geom_corner_of(piece->side[k], cut), piece->side[k]);
+      append_corner(part, geom_corner_of(piece->side[k], cut), piece->side[k]);
     }
   }
   set_box(part);
@@ -192,7 +192,7 @@ bool geom_convex_copy(struct geom_convex *to, const struct geom_convex *from,
     goto end;
   number_lines(&map, from); /* before there are copies: half the bound */
   map.to = arena_alloc(arena, map.count, sizeof *map.to);
-  if (map.to == NULL || !allocate(to, n, arena))
+  if (map.to == NULL || !allocate_corners(to, n, arena))
     goto end;
   for (uint32_t k = 0; k < map.count; k++)
     map.to[k] = *map.from[k];
@@ -202,7 +202,7 @@ bool geom_convex_copy(struct geom_convex *to, const struct geom_convex *from,
       corner.l1 = map_line(&map, corner.l1);
       corner.l2 = map_line(&map, corner.l2);
     }
-    append(to, corner, map_line(&map, from->side[k]));
+    append_corner(to, corner, map_line(&map, from->side[k]));
   }
   to->x0 = from->x0;
   to->y0 = from->y0;

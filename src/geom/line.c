@@ -35,8 +35,8 @@ void geom_line_through(struct geom_line *line, struct geom_point p,
   line->c = (double)-(a * p.x + b * p.y);
 }
 
-static void store(struct geom_line *line, int k, const struct wide *value,
-                  double *nearest) {
+static void store_coefficient(struct geom_line *line, int k,
+                              const struct wide *value, double *nearest) {
   line->sign[k] = (int8_t)value->sign;
   for (int i = 0; i < GEOM_LINE_LIMBS; i++)
     line->limb[k][i] = i < value->count ? value->limb[i] : 0;
@@ -66,11 +66,11 @@ int geom_line_between(struct geom_line *line, const struct geom_plane *front,
   memset(line, 0, sizeof *line);
   /* z = (K - nx x - ny y) / nz for both; their difference times both nz. */
   wide_cross(&value, &f[0], &g[2], &g[0], &f[2]);
-  store(line, 0, &value, &line->a);
+  store_coefficient(line, 0, &value, &line->a);
   wide_cross(&value, &f[1], &g[2], &g[1], &f[2]);
-  store(line, 1, &value, &line->b);
+  store_coefficient(line, 1, &value, &line->b);
   wide_cross(&value, &kg, &f[2], &kf, &g[2]);
-  store(line, 2, &value, &line->c);
+  store_coefficient(line, 2, &value, &line->c);
   if (line->sign[0] != 0 || line->sign[1] != 0)
     return 0;
   return line->sign[2] == 0 ? GEOM_SAME_PLANE : line->sign[2];
@@ -86,9 +86,9 @@ void geom_line_level(struct geom_line *line, struct ratio height) {
   }
   memset(line, 0, sizeof *line);
   value = wide_of_int128(height.den);
-  store(line, 1, &value, &line->b);
+  store_coefficient(line, 1, &value, &line->b);
   value = wide_of_int128(-height.num);
-  store(line, 2, &value, &line->c);
+  store_coefficient(line, 2, &value, &line->c);
 }
 
 void geom_line_reverse(struct geom_line *line) {
@@ -188,13 +188,13 @@ static uint64_t common_divisor(uint64_t a, uint64_t b) {
   return a;
 }
 
-static uint64_t magnitude(int64_t a) {
+static uint64_t magnitude_64(int64_t a) {
   return a < 0 ? (uint64_t)-a : (uint64_t)a;
 }
 
 /* Mixes the coefficients, which have no common divisor, so that few lines share
  * a number that are different. */
-static uint64_t mix(struct narrow_line l) {
+static uint64_t hash_line(struct narrow_line l) {
   bool turned = l.a < 0 || (l.a == 0 && l.b < 0);
   const uint64_t part[3] = {(uint64_t)l.a, (uint64_t)l.b, (uint64_t)l.c};
   uint64_t sum = 0;
@@ -243,7 +243,7 @@ static uint64_t number_of_residues(const struct geom_line *line) {
       inverse = multiply_residues(inverse, power);
     power = multiply_residues(power, power);
   }
-  return mix(
+  return hash_line(
       (struct narrow_line){(int64_t)multiply_residues(residue[0], inverse),
                            (int64_t)multiply_residues(residue[1], inverse),
                            (int64_t)multiply_residues(residue[2], inverse)});
@@ -255,8 +255,8 @@ bool geom_line_number(const struct geom_line *line, uint64_t *number) {
     int64_t divisor;
     reduced = narrow_of(line);
     /* It divides c too. */
-    divisor =
-        (int64_t)common_divisor(magnitude(reduced.a), magnitude(reduced.b));
+    divisor = (int64_t)common_divisor(magnitude_64(reduced.a),
+                                      magnitude_64(reduced.b));
     reduced.a /= divisor;
     reduced.b /= divisor;
     reduced.c /= divisor;
@@ -264,7 +264,7 @@ bool geom_line_number(const struct geom_line *line, uint64_t *number) {
     *number = number_of_residues(line);
     return false;
   }
-  *number = mix(reduced);
+  *number = hash_line(reduced);
   return true;
 }
 

@@ -12,7 +12,7 @@ struct product {
   uint128 high, low;
 };
 
-static struct product multiply(uint128 a, uint128 b) {
+static struct product multiply_128(uint128 a, uint128 b) {
   uint64_t a0 = (uint64_t)a, a1 = (uint64_t)(a >> 64);
   uint64_t b0 = (uint64_t)b, b1 = (uint64_t)(b >> 64);
   uint128 p00 = (uint128)a0 * b0, p01 = (uint128)a0 * b1;
@@ -51,8 +51,8 @@ int ratio_compare(struct ratio a, struct ratio b) {
     int128 left = a.num * b.den, right = b.num * a.den;
     return (left > right) - (left < right);
   }
-  order = compare_products(multiply(magnitude(a.num), (uint128)b.den),
-                           multiply(magnitude(b.num), (uint128)a.den));
+  order = compare_products(multiply_128(magnitude(a.num), (uint128)b.den),
+                           multiply_128(magnitude(b.num), (uint128)a.den));
   return sa > 0 ? order : -order;
 }
 

@@ -62,7 +62,7 @@ static int turn_forward(const struct segment *p, const struct segment *q) {
 
 /* Orders sides by the direction of their line, then by its place, then by
  * where they begin. */
-static int compare_sides(const void *a, const void *b, void *user) {
+static int compare_region_sides(const void *a, const void *b, void *user) {
   const struct segment *p = *(const struct segment *const *)a,
                        *q = *(const struct segment *const *)b;
   int order = -turn_forward(p, q);
@@ -138,7 +138,7 @@ static bool find_boundary(const segments *sides, segments *boundary) {
   bool ok = event != NULL && side != NULL;
   for (size_t i = 0; ok && i < n; i++)
     side[i] = &sides->item[i];
-  ok = ok && sort_stable(side, n, sizeof *side, compare_sides, NULL);
+  ok = ok && sort_stable(side, n, sizeof *side, compare_region_sides, NULL);
   for (size_t i = 0, j; ok && i < n; i = j) {
     for (j = i + 1; j < n && on_same_line(side[i], side[j]);)
       j++;
@@ -151,7 +151,7 @@ static bool find_boundary(const segments *sides, segments *boundary) {
 
 /* ---- 3. Loops ------------------------------------------------------------ */
 
-static const struct geom_corner *start_of(const struct segment *s) {
+static const struct geom_corner *segment_start(const struct segment *s) {
   return s->forward ? &s->low : &s->high;
 }
 
@@ -159,9 +159,9 @@ static const struct geom_corner *end_of(const struct segment *s) {
   return s->forward ? &s->high : &s->low;
 }
 
-static int compare_starts(const void *a, const void *b, void *user) {
+static int compare_segment_starts(const void *a, const void *b, void *user) {
   (void)user;
-  return geom_corner_compare(start_of(a), start_of(b));
+  return geom_corner_compare(segment_start(a), segment_start(b));
 }
 
 /* True where going on along u turns left of going on along v, after `in`. */
@@ -181,14 +181,14 @@ static struct segment *next_segment(segments *boundary,
   struct segment *best = NULL;
   while (low < high) {
     size_t middle = low + (high - low) / 2;
-    if (geom_corner_compare(start_of(&boundary->item[middle]), end) < 0)
+    if (geom_corner_compare(segment_start(&boundary->item[middle]), end) < 0)
       low = middle + 1;
     else
       high = middle;
   }
   for (; low < boundary->count; low++) {
     struct segment *s = &boundary->item[low];
-    if (geom_corner_compare(start_of(s), end) != 0)
+    if (geom_corner_compare(segment_start(s), end) != 0)
       break;
     if (best == NULL || sharper_left(in->line, s->line, best->line))
       best = s;
@@ -243,12 +243,12 @@ static bool is_hole(const struct geom_region_side *side, uint32_t count) {
   return hole;
 }
 
-static bool trace_loop(segments *boundary, struct segment *start,
-                       struct geom_region *region) {
+static bool trace_region_loop(segments *boundary, struct segment *start,
+                              struct geom_region *region) {
   struct geom_region_loop loop = {(uint32_t)region->side.count, 0, false};
   struct geom_region_side *side;
   for (struct segment *s = start; !s->used; s = next_segment(boundary, s)) {
-    struct geom_region_side next = {*start_of(s), s->line};
+    struct geom_region_side next = {*segment_start(s), s->line};
     s->used = true;
     if (!ARRAY_PUSH(&region->side, next))
       return false;
@@ -297,7 +297,7 @@ struct region_ray {
 };
 
 /* Whether p is to the right of q; both are in the right half plane. */
-static bool is_lower(struct region_ray p, struct region_ray q) {
+static bool is_right_of(struct region_ray p, struct region_ray q) {
   return geom_line_turn(p.line, q.line) * p.sign * q.sign > 0;
 }
 
@@ -312,9 +312,9 @@ static struct region_ray lowest_ray(const struct geom_region_side *side,
     before = side[k].line;
     if (geom_corner_compare(&side[k].corner, &side[0].corner) != 0)
       continue;
-    if (is_lower(in, lowest))
+    if (is_right_of(in, lowest))
       lowest = in;
-    if (is_lower(out, lowest))
+    if (is_right_of(out, lowest))
       lowest = out;
   }
   return lowest;
@@ -336,8 +336,8 @@ static bool holds(const struct geom_region *region,
    * those that begin there. */
   if (geom_corner_compare(&round[0].corner, &side[0].corner) != 0)
     return true;
-  return is_lower(lowest_ray(round, outer->count),
-                  lowest_ray(side, hole->count));
+  return is_right_of(lowest_ray(round, outer->count),
+                     lowest_ray(side, hole->count));
 }
 
 struct placed_loop {
@@ -413,11 +413,11 @@ bool geom_region_unite(struct geom_region *region,
   if (!gather_sides(piece, count, &sides) ||
       !find_boundary(&sides, &boundary) ||
       !sort_stable(boundary.item, boundary.count, sizeof *boundary.item,
-                   compare_starts, NULL))
+                   compare_segment_starts, NULL))
     goto end;
   for (size_t i = 0; i < boundary.count; i++)
     if (!boundary.item[i].used &&
-        !trace_loop(&boundary, &boundary.item[i], region))
+        !trace_region_loop(&boundary, &boundary.item[i], region))
       goto end;
   ok = place_loops(region);
 end:

@@ -225,7 +225,7 @@ static void make_keys(const struct scan_table *table, struct sort_key *key) {
   }
 }
 
-static int compare_indices(const void *a, const void *b, void *user) {
+static int compare_span_edges(const void *a, const void *b, void *user) {
   const struct scan_table *table = user;
   const uint32_t *p = a, *q = b;
   return scan_edge_compare(&table->edge.item[*p], &table->edge.item[*q],
@@ -257,7 +257,7 @@ static bool refine_order(struct scan_table *table, const struct sort_key *key) {
       table->order[past] = key[past].value;
     if (past - i > FEW_EQUAL &&
         !sort_stable(table->order + i, past - i, sizeof *table->order,
-                     compare_indices, table))
+                     compare_span_edges, table))
       return false;
   }
   for (size_t i = 1; i < count; i++) {
@@ -350,8 +350,9 @@ bool scan_table_next(struct scan_table *table) {
 
 /* Appends the span between two edges unless it is empty; one that starts
  * where the last ended makes that one longer. */
-static size_t add_span(const struct scan_table *table, struct scan_span *span,
-                       size_t count, uint32_t left, uint32_t right) {
+static size_t append_span(const struct scan_table *table,
+                          struct scan_span *span, size_t count, uint32_t left,
+                          uint32_t right) {
   const struct scan_edge *edge = table->edge.item;
   const struct scan_edge *l = &edge[left], *r = &edge[right];
   double x1 = r->x > l->x ? r->x : l->x;
@@ -382,7 +383,7 @@ size_t scan_table_spans(const struct scan_table *table, enum scan_rule rule,
     if (before == 0)
       left = e;
     else if (inside == 0)
-      count = add_span(table, span, count, left, e);
+      count = append_span(table, span, count, left, e);
   }
   return count;
 }

@@ -38,7 +38,7 @@ struct wide wide_of_limbs(const uint64_t *limb, int count, int sign) {
 
 static int bits_of_limb(uint64_t a) { return 64 - __builtin_clzll(a); }
 
-static int bits_of(const struct wide *a) {
+static int wide_bits(const struct wide *a) {
   return a->count == 0
              ? 0
              : 64 * (a->count - 1) + bits_of_limb(a->limb[a->count - 1]);
@@ -46,7 +46,7 @@ static int bits_of(const struct wide *a) {
 
 double wide_to_double(const struct wide *a) {
   enum { DIGITS = 53 };
-  int bits = bits_of(a), below = bits - DIGITS;
+  int bits = wide_bits(a), below = bits - DIGITS;
   uint64_t top;
   if (bits == 0)
     return 0;
@@ -272,7 +272,7 @@ static void divide_common(struct wide *a, struct wide *b) {
 /* Whether all are below 2^64 once they are divided: no more is certain. */
 static bool may_fit(const struct wide v[3], const struct wide *divisor) {
   for (int k = 0; k < 3; k++)
-    if (bits_of(&v[k]) - bits_of(divisor) >= 64)
+    if (wide_bits(&v[k]) - wide_bits(divisor) >= 64)
       return false;
   return true;
 }

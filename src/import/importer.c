@@ -63,7 +63,7 @@ struct import {
 /* ---- Writing ------------------------------------------------------------- */
 
 /* Ignores errors: if the reader is gone there is nothing to do. */
-static void put(FILE *to, const void *bytes, size_t count) {
+static void write_bytes(FILE *to, const void *bytes, size_t count) {
   if (count > 0 && fwrite(bytes, count, 1, to) != 1)
     _exit(1);
 }
@@ -71,15 +71,16 @@ static void put(FILE *to, const void *bytes, size_t count) {
 /* Ends the process, and so frees what Assimp holds. */
 static _Noreturn void finish(FILE *to) {
   struct import_record record = {.kind = IMPORT_DONE};
-  put(to, &record, sizeof record);
+  write_bytes(to, &record, sizeof record);
   _exit(fflush(to) != 0);
 }
 
-static _Noreturn void fail(FILE *to, enum import_why why, const char *text) {
+static _Noreturn void exit_with(FILE *to, enum import_why why,
+                                const char *text) {
   struct import_record record = {
       .kind = IMPORT_FAILED, .why = why, .name_length = strlen(text)};
-  put(to, &record, sizeof record);
-  put(to, text, strlen(text));
+  write_bytes(to, &record, sizeof record);
+  write_bytes(to, text, strlen(text));
   finish(to);
 }
 
@@ -125,7 +126,7 @@ static void put_points(FILE *to, const struct aiMesh *mesh,
       const double *row = placed->row[k];
       at[k] = row[0] * v->x + row[1] * v->y + row[2] * v->z + row[3];
     }
-    put(to, at, sizeof at);
+    write_bytes(to, at, sizeof at);
   }
 }
 
@@ -146,23 +147,23 @@ static void put_mesh(struct import *import, const struct aiNode *node,
   find_colour(import, mesh, &record);
   for (unsigned i = 0; i < mesh->mNumFaces; i++)
     record.corners += mesh->mFaces[i].mNumIndices;
-  put(import->to, &record, sizeof record);
-  put(import->to, name, (size_t)record.name_length);
+  write_bytes(import->to, &record, sizeof record);
+  write_bytes(import->to, name, (size_t)record.name_length);
   put_points(import->to, mesh, placed);
   for (unsigned i = 0; i < mesh->mNumFaces; i++) {
     uint32_t count = mesh->mFaces[i].mNumIndices;
-    put(import->to, &count, sizeof count);
+    write_bytes(import->to, &count, sizeof count);
   }
   for (unsigned i = 0; i < mesh->mNumFaces; i++)
-    put(import->to, mesh->mFaces[i].mIndices,
-        mesh->mFaces[i].mNumIndices * sizeof *mesh->mFaces[i].mIndices);
+    write_bytes(import->to, mesh->mFaces[i].mIndices,
+                mesh->mFaces[i].mNumIndices * sizeof *mesh->mFaces[i].mIndices);
 }
 
 /* ---- Nodes --------------------------------------------------------------- */
 
 static void push(struct import *import, struct visit visit) {
   if (!ARRAY_PUSH(&import->stack, visit))
-    fail(import->to, IMPORT_NO_MEMORY, "");
+    exit_with(import->to, IMPORT_NO_MEMORY, "");
 }
 
 /* Walks the tree, each node before its children and those in their order. */
@@ -218,9 +219,9 @@ static const struct aiScene *import_file(FILE *to, const char *format,
     return aiImportFile(path, 0);
   recto_status status = input_load(&input, "-", NULL);
   if (status == RECTO_ERROR_MEMORY)
-    fail(to, IMPORT_NO_MEMORY, "");
+    exit_with(to, IMPORT_NO_MEMORY, "");
   if (status != RECTO_OK || input.count > UINT32_MAX)
-    fail(to, IMPORT_BROKEN, "too large");
+    exit_with(to, IMPORT_BROKEN, "too large");
   return aiImportFileFromMemory(input.bytes, (unsigned)input.count, 0, format);
 }
 
@@ -240,15 +241,15 @@ int main(int argc, char **argv) {
   struct import import = {.to = fdopen(CHILD_OUTPUT, "wb")};
   if (!import.to)
     return 2;
-  put(import.to, IMPORT_MAGIC, sizeof IMPORT_MAGIC - 1);
+  write_bytes(import.to, IMPORT_MAGIC, sizeof IMPORT_MAGIC - 1);
   if (!is_supported(argv[3]))
-    fail(import.to, IMPORT_UNKNOWN_FORMAT, "");
+    exit_with(import.to, IMPORT_UNKNOWN_FORMAT, "");
   import.from = import_file(import.to, argv[3], argc == 5 ? argv[4] : NULL);
   const char *text = import.from ? "nothing in it" : aiGetErrorString();
   if (strstr(text, "bad_alloc"))
-    fail(import.to, IMPORT_NO_MEMORY, "");
+    exit_with(import.to, IMPORT_NO_MEMORY, "");
   if (!import.from || !import.from->mRootNode)
-    fail(import.to, IMPORT_BROKEN, text);
+    exit_with(import.to, IMPORT_BROKEN, text);
   put_nodes(&import);
   finish(import.to);
 }

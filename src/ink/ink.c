@@ -109,8 +109,8 @@ static bool is_too_short(const struct ink *ink, const struct ink_path *path,
          pens_shortest_mm(ink->pens, stroke_like(ink, path).layer);
 }
 
-static bool add_path(struct ink *ink, const struct ink_path *path,
-                     const struct stroke_line *line) {
+static bool add_drawn_path(struct ink *ink, const struct ink_path *path,
+                           const struct stroke_line *line) {
   struct drawing_stroke like = stroke_like(ink, path);
   double pen = pens_width_mm(ink->pens, like.layer);
   if (path->hidden && ink->options->ink.hidden == RECTO_HIDDEN_DASHED)
@@ -133,7 +133,7 @@ static bool add_paths(struct ink *ink, const struct ink_paths *paths,
     if (ok && filter && is_too_short(ink, path, &line))
       ink->drawing->counts.too_short++;
     else
-      ok = ok && add_path(ink, path, &line);
+      ok = ok && add_drawn_path(ink, path, &line);
   }
   ARRAY_FREE(&line.point);
   return ok;
@@ -238,7 +238,7 @@ static bool is_lit(const recto_options *options) {
   return light[0] != 0 || light[1] != 0 || light[2] != 0;
 }
 
-static bool add_fills(struct ink *ink) {
+static bool add_fills_of_kind(struct ink *ink) {
   switch (ink->options->ink.fill) {
   case RECTO_FILL_PAINT:
   case RECTO_FILL_SHADE:
@@ -280,7 +280,7 @@ recto_status ink_draw(struct drawing *drawing, const struct sheet *sheet,
     status = error_memory(error);
   if (status == RECTO_OK)
     status = draw_lines(&ink, error);
-  if (status == RECTO_OK && !(add_fills(&ink) && finish_drawing(&ink)))
+  if (status == RECTO_OK && !(add_fills_of_kind(&ink) && finish_drawing(&ink)))
     status = error_memory(error);
   pens_fini(&pens);
   return status;

@@ -10,7 +10,7 @@
 #define GREY 0x808080u /* of hidden lines on a screen */
 
 /* Appends as much of `text` as fits, without splitting a UTF-8 sequence. */
-static void append(char label[], size_t size, const char *text) {
+static void append_text(char label[], size_t size, const char *text) {
   size_t used = strlen(label), length = strlen(text);
   if (length > size - 1 - used) {
     length = size - 1 - used;
@@ -27,9 +27,9 @@ struct label {
 };
 
 static void add_word(struct label *label, const char *word) {
-  append(label->layer->label, sizeof label->layer->label,
-         label->first ? " " : ", ");
-  append(label->layer->label, sizeof label->layer->label, word);
+  append_text(label->layer->label, sizeof label->layer->label,
+              label->first ? " " : ", ");
+  append_text(label->layer->label, sizeof label->layer->label, word);
   label->first = false;
 }
 

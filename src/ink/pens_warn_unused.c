@@ -8,7 +8,7 @@
 #include "ink/pens.h"
 
 PRINTF_LIKE(2, 3)
-static void warn(const recto_options *options, const char *format, ...) {
+static void warn_of_pen(const recto_options *options, const char *format, ...) {
   char text[128];
   va_list list;
   va_start(list, format);
@@ -52,31 +52,32 @@ static void warn_unused_looks(const struct pens *pens,
     first = first == PENS_NONE ? pen : first;
   }
   if (first != PENS_NONE && others == 0)
-    warn(options, "pen %u has a width or a colour but nothing to draw",
-         first + 1);
+    warn_of_pen(options, "pen %u has a width or a colour but nothing to draw",
+                first + 1);
   else if (first != PENS_NONE)
-    warn(options,
-         "pen %u and %u more have a width or a colour but nothing to draw",
-         first + 1, others);
+    warn_of_pen(
+        options,
+        "pen %u and %u more have a width or a colour but nothing to draw",
+        first + 1, others);
 }
 
 void pens_warn_unused(const struct pens *pens, const recto_options *options) {
   if (!options->warning)
     return;
   if (pens->of_hidden != PENS_NONE && options->ink.hidden == RECTO_HIDDEN_NONE)
-    warn(options, "pen %u is for hidden lines, which are not asked for",
-         pens->of_hidden + 1);
+    warn_of_pen(options, "pen %u is for hidden lines, which are not asked for",
+                pens->of_hidden + 1);
   if (pens->of_hatch != PENS_NONE && options->ink.fill != RECTO_FILL_HATCH)
-    warn(options, "pen %u is for hatching, which is not asked for",
-         pens->of_hatch + 1);
+    warn_of_pen(options, "pen %u is for hatching, which is not asked for",
+                pens->of_hatch + 1);
   for (unsigned i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
     if (pens->of_class[i] != PENS_NONE && !pens_is_drawn(options, i))
-      warn(options, "pen %u is for %s lines, which are not asked for",
-           pens->of_class[i] + 1,
-           recto_edge_class_name((recto_edge_class)(1u << i)));
+      warn_of_pen(options, "pen %u is for %s lines, which are not asked for",
+                  pens->of_class[i] + 1,
+                  recto_edge_class_name((recto_edge_class)(1u << i)));
   for (size_t i = 0; i < options->ink.weight_count; i++)
     if ((options->ink.edges & options->ink.weight[i].edge_class) == 0)
-      warn(options, "a weight is for %s lines, which are not asked for",
-           recto_edge_class_name(options->ink.weight[i].edge_class));
+      warn_of_pen(options, "a weight is for %s lines, which are not asked for",
+                  recto_edge_class_name(options->ink.weight[i].edge_class));
   warn_unused_looks(pens, options);
 }

@@ -19,9 +19,9 @@ static double turn(struct judge_point2 a, struct judge_point2 b,
 }
 
 /* Projects along the axis that is closest to the face's Newell normal. */
-static void project_polygon(struct ear_outline *outline,
-                            const struct scene *scene, const uint32_t *corner,
-                            uint32_t count) {
+static void project_by_normal(struct ear_outline *outline,
+                              const struct scene *scene, const uint32_t *corner,
+                              uint32_t count) {
   struct judge_point3 normal = {0, 0, 0};
   for (uint32_t i = 0; i < count; i++) {
     const struct scene_point *a = &scene->point.item[corner[i]];
@@ -56,26 +56,27 @@ static const struct scene_point *nth_left(const struct ear_outline *outline,
 
 /* Compares positions in space: corners of a face that is not planar may have
  * one image and still differ. */
-static bool is_same(const struct ear_outline *outline, uint32_t i, uint32_t k) {
+static bool is_same_position(const struct ear_outline *outline, uint32_t i,
+                             uint32_t k) {
   const struct scene_point *a = nth_left(outline, i), *b = nth_left(outline, k);
   return a->x == b->x && a->y == b->y && a->z == b->z;
 }
 
-static void remove_corner(struct ear_outline *outline, uint32_t i) {
+static void remove_outline_corner(struct ear_outline *outline, uint32_t i) {
   for (outline->count--; i < outline->count; i++)
     outline->left[i] = outline->left[i + 1];
 }
 
 /* Removes duplicate corners and spikes. */
-static void remove_degenerate(struct ear_outline *outline) {
+static void remove_degenerate_outline(struct ear_outline *outline) {
   uint32_t i = 0;
   while (i < outline->count && outline->count > 2) {
-    bool spike = is_same(outline, i, i + 2);
-    if (!spike && !is_same(outline, i, i + 1)) {
+    bool spike = is_same_position(outline, i, i + 2);
+    if (!spike && !is_same_position(outline, i, i + 1)) {
       i++;
       continue;
     }
-    remove_corner(outline, (i + 1) % outline->count);
+    remove_outline_corner(outline, (i + 1) % outline->count);
     /* What is now beside it may repeat, too. */
     i = i < 2 ? 0 : i - 2;
   }
@@ -129,8 +130,8 @@ static bool make_ring(struct judge_ears *ears,
 }
 
 /* The number of ranks below a coordinate: a lower bound by bisection. */
-static uint32_t rank_of(const struct judge_rank *by, uint32_t count,
-                        double at) {
+static uint32_t lower_bound_of(const struct judge_rank *by, uint32_t count,
+                               double at) {
   size_t i;
   LOWER_BOUND(i, 0, count, by[i].at < at);
   return (uint32_t)i;
@@ -151,9 +152,9 @@ static const struct judge_rank *find_near(const struct ear_ring *ring,
   const double low[2] = {fmin(a.x, fmin(b.x, c.x)), fmin(a.y, fmin(b.y, c.y))};
   const double high[2] = {fmax(a.x, fmax(b.x, c.x)), fmax(a.y, fmax(b.y, c.y))};
   for (int k = 0; k < 2; k++) {
-    uint32_t first = rank_of(ring->by[k], ring->count, low[k]);
+    uint32_t first = lower_bound_of(ring->by[k], ring->count, low[k]);
     uint32_t last =
-        rank_of(ring->by[k], ring->count, nextafter(high[k], INFINITY));
+        lower_bound_of(ring->by[k], ring->count, nextafter(high[k], INFINITY));
     if (last - first < *to - *from) {
       best = ring->by[k];
       *from = first;
@@ -166,7 +167,7 @@ static const struct judge_rank *find_near(const struct ear_ring *ring,
 /* ---- Ears ---------------------------------------------------------------- */
 
 /* Whether a corner can be cut_off off. */
-static bool is_ear(const struct ear_ring *ring, uint32_t here) {
+static bool is_ring_ear(const struct ear_ring *ring, uint32_t here) {
   uint32_t before = ring->before[here], after = ring->next[here];
   struct judge_point2 a = ring->at[before], b = ring->at[here];
   struct judge_point2 c = ring->at[after];
@@ -188,8 +189,8 @@ static bool is_ear(const struct ear_ring *ring, uint32_t here) {
 
 /* Cuts a corner off and returns the one to try next.  That is not the following
  * one: a round polygon would become a fan of long thin triangles. */
-static uint32_t cut_off(struct judge_ears *ears, const struct ear_ring *ring,
-                        uint32_t here) {
+static uint32_t cut_ring_corner(struct judge_ears *ears,
+                                const struct ear_ring *ring, uint32_t here) {
   uint32_t before = ring->before[here], after = ring->next[here];
   ears->ear.item[ears->ear.count++] = (struct judge_ear){{before, here, after}};
   ring->next[before] = after;
@@ -206,8 +207,8 @@ bool judge_clip_ears(struct judge_ears *ears, const struct scene *scene,
     return false;
   struct ear_outline outline = {.at = ears->at.item, .left = ears->left.item};
   struct ear_ring ring;
-  project_polygon(&outline, scene, corner, count);
-  remove_degenerate(&outline);
+  project_by_normal(&outline, scene, corner, count);
+  remove_degenerate_outline(&outline);
   if (outline.count < 3)
     return true;
   if (!make_ring(ears, &outline, count, &ring))
@@ -215,12 +216,12 @@ bool judge_clip_ears(struct judge_ears *ears, const struct scene *scene,
   uint32_t here = outline.left[0];
   for (uint32_t n = outline.count; n >= 3; n--) {
     uint32_t tried = 0;
-    while (tried < n && !is_ear(&ring, here)) {
+    while (tried < n && !is_ring_ear(&ring, here)) {
       here = ring.next[here];
       tried++;
     }
     /* No ear: what is left has no area, or crosses itself. */
-    here = cut_off(ears, &ring, here);
+    here = cut_ring_corner(ears, &ring, here);
   }
   return true;
 }

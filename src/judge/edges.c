@@ -35,7 +35,7 @@ struct edge_finder {
 
 /* ---- Points at one position ---------------------------------------------- */
 
-static int compare_positions(const void *a, const void *b, void *user) {
+static int compare_point_positions(const void *a, const void *b, void *user) {
   (void)user;
   const struct scene_point *p = *(const struct scene_point *const *)a;
   const struct scene_point *q = *(const struct scene_point *const *)b;
@@ -56,8 +56,8 @@ static uint32_t *find_first_at(const struct scene_point *point, size_t count) {
   bool ok = first_at != NULL && order != NULL;
   for (size_t i = 0; ok && i < count; i++)
     order[i] = &point[i];
-  if (!ok ||
-      !sort_stable(order, count, sizeof *order, compare_positions, NULL)) {
+  if (!ok || !sort_stable(order, count, sizeof *order, compare_point_positions,
+                          NULL)) {
     mem_free(first_at);
     mem_free(order);
     return NULL;
@@ -94,8 +94,10 @@ static bool has_single(const struct edge_finder *finder,
 /* Adds the edge of two sides.  For a spike, where both are of one face, no
  * class is sure.
  * alone  no other sides have the same positions */
-static bool add_pair(struct edge_finder *finder, const struct judge_side *side,
-                     const struct judge_side *other, bool against, bool alone) {
+static bool add_edge_of_sides(struct edge_finder *finder,
+                              const struct judge_side *side,
+                              const struct judge_side *other, bool against,
+                              bool alone) {
   bool spike = side->face == other->face;
   const struct judge_source source = {
       {side->a, side->b},
@@ -129,7 +131,7 @@ static bool runs_from(const struct judge_side *side, uint32_t a,
 
 /* ---- Pairing ------------------------------------------------------------- */
 
-static int compare_sides(const void *a, const void *b, void *user) {
+static int compare_judge_sides(const void *a, const void *b, void *user) {
   const struct judge_side *s = a, *t = b;
   (void)user;
   if (s->a != t->a)
@@ -139,7 +141,8 @@ static int compare_sides(const void *a, const void *b, void *user) {
   return s->face < t->face ? -1 : s->face > t->face;
 }
 
-static bool list_sides(const struct scene *scene, struct side_list *sides) {
+static bool list_scene_sides(const struct scene *scene,
+                             struct side_list *sides) {
   for (uint32_t i = 0; i < scene_face_count(scene); i++) {
     uint32_t start = scene->face_start.item[i];
     uint32_t count = scene->face_start.item[i + 1] - start;
@@ -154,17 +157,17 @@ static bool list_sides(const struct scene *scene, struct side_list *sides) {
     }
   }
   return sort_stable(sides->side.item, sides->side.count,
-                     sizeof *sides->side.item, compare_sides, NULL);
+                     sizeof *sides->side.item, compare_judge_sides, NULL);
 }
 
 /* Adds the edge of two or more sides between the same two points. */
 static bool pair_group(struct edge_finder *finder,
                        const struct judge_side *side, size_t count) {
   if (count == 2)
-    return add_pair(finder, &side[0], &side[1],
-                    runs_from(&side[0], side->a, NULL) !=
-                        runs_from(&side[1], side->a, NULL),
-                    !has_single(finder, side));
+    return add_edge_of_sides(finder, &side[0], &side[1],
+                             runs_from(&side[0], side->a, NULL) !=
+                                 runs_from(&side[1], side->a, NULL),
+                             !has_single(finder, side));
   return add_border(finder, side);
 }
 
@@ -174,7 +177,7 @@ static int compare_located(const void *a, const void *b, void *user) {
     return s->low < t->low ? -1 : 1;
   if (s->high != t->high)
     return s->high < t->high ? -1 : 1;
-  return compare_sides(&s->side, &t->side, user);
+  return compare_judge_sides(&s->side, &t->side, user);
 }
 
 /* Sorts the single sides by the positions of their ends. */
@@ -206,7 +209,7 @@ static bool pair_singles(struct edge_finder *finder) {
       next++;
     const struct judge_side *side = &located[i].side;
     if (next == i + 2)
-      ok = add_pair(
+      ok = add_edge_of_sides(
           finder, side, &located[i + 1].side,
           runs_from(side, located[i].low, first_at) !=
               runs_from(&located[i + 1].side, located[i].low, first_at),
@@ -270,7 +273,7 @@ bool judge_edges_init(struct judge_edges *edges,
                     all->scene->point.count);
   bool ok =
       judge_facings_init(&finder.facings, all, camera, options) &&
-      finder.first_at != NULL && list_sides(all->scene, &sides) &&
+      finder.first_at != NULL && list_scene_sides(all->scene, &sides) &&
       pair_sides(&finder, &sides, &single) &&
       locate_singles(&finder, &single) && pair_sides(&finder, &sides, NULL) &&
       pair_singles(&finder) && judge_edges_folds(edges, &finder.facings) &&

@@ -40,9 +40,9 @@ static bool is_in_near_plane(const struct fold_finder *finder,
 /* Adds a diagonal if its two triangles lie, or may lie, on one side of it on
  * the page.  Where more triangles of the face have a side between the same two
  * points, or the face itself has one, it is undecided which are neighbours. */
-static bool add_fold(const struct fold_finder *finder,
-                     const struct judge_side_triangle *side_triangle,
-                     size_t count) {
+static bool test_fold(const struct fold_finder *finder,
+                      const struct judge_side_triangle *side_triangle,
+                      size_t count) {
   struct judge_point3 at =
       judge_point3_at(finder->facings->scene, side_triangle->low);
   bool alone =
@@ -79,7 +79,7 @@ bool judge_edges_folds(struct judge_edges *edges,
                        side_triangle[next].low == side_triangle[i].low &&
                        side_triangle[next].high == side_triangle[i].high;)
       next++;
-    if (next > i + 1 && !add_fold(finder, &side_triangle[i], next - i))
+    if (next > i + 1 && !test_fold(finder, &side_triangle[i], next - i))
       return false;
   }
   return true;

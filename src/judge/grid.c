@@ -12,7 +12,7 @@
  * segments, not with their length. */
 enum { CELLS_PER_SEGMENT = 256, MIN_CELLS = 9 };
 
-static uint32_t cell_of(double mm, double cell_mm, uint32_t count) {
+static uint32_t grid_cell_at(double mm, double cell_mm, uint32_t count) {
   double cell = floor(mm / cell_mm);
   return cell < 0 ? 0 : cell >= count ? count - 1 : (uint32_t)cell;
 }
@@ -51,15 +51,15 @@ static size_t visit_cells(struct judge_grid *grid, uint32_t i, uint32_t *fill) {
   double height = grid->rows * cell, width = grid->columns * cell;
   if (!(low <= height && high >= 0))
     return 0;
-  uint32_t last = cell_of(high, cell, grid->rows);
-  for (uint32_t row = cell_of(low, cell, grid->rows); row <= last; row++) {
+  uint32_t last = grid_cell_at(high, cell, grid->rows);
+  for (uint32_t row = grid_cell_at(low, cell, grid->rows); row <= last; row++) {
     double x0, x1;
     if (!clip_to_row(s, row * cell - reach, (row + 1) * cell + reach, &x0,
                      &x1) ||
         x1 + reach < 0 || x0 - reach > width)
       continue;
-    uint32_t end = cell_of(x1 + reach, cell, grid->columns);
-    for (uint32_t column = cell_of(x0 - reach, cell, grid->columns);
+    uint32_t end = grid_cell_at(x1 + reach, cell, grid->columns);
+    for (uint32_t column = grid_cell_at(x0 - reach, cell, grid->columns);
          column <= end; column++) {
       uint32_t *slot = &fill[row * grid->columns + column];
       if (grid->item != NULL)
@@ -128,8 +128,8 @@ void judge_grid_fini(struct judge_grid *grid) {
 
 const uint32_t *judge_grid_near(const struct judge_grid *grid,
                                 struct judge_point2 at, uint32_t *count) {
-  uint32_t column = cell_of(at.x, grid->cell_mm, grid->columns);
-  uint32_t row = cell_of(at.y, grid->cell_mm, grid->rows);
+  uint32_t column = grid_cell_at(at.x, grid->cell_mm, grid->columns);
+  uint32_t row = grid_cell_at(at.y, grid->cell_mm, grid->rows);
   size_t cell = (size_t)row * grid->columns + column;
   *count = grid->start[cell + 1] - grid->start[cell];
   return grid->item + grid->start[cell];

@@ -121,18 +121,18 @@ static struct triangle_cut cut_by_plane(const struct judge_triangle *t,
   return cut;
 }
 
-static bool is_same(struct judge_point3 a, struct judge_point3 b) {
+static bool is_same_point3(struct judge_point3 a, struct judge_point3 b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
 /* The corners that two triangles share; returns their number. */
-static unsigned shared_corners(const struct judge_triangle *s,
-                               const struct judge_triangle *t,
-                               struct judge_point3 corner[3]) {
+static unsigned find_shared_corners(const struct judge_triangle *s,
+                                    const struct judge_triangle *t,
+                                    struct judge_point3 corner[3]) {
   unsigned shared = 0;
   for (int i = 0; i < 3; i++) {
     int k = 0;
-    while (k < 3 && !is_same(s->p[i], t->p[k]))
+    while (k < 3 && !is_same_point3(s->p[i], t->p[k]))
       k++;
     if (k < 3)
       corner[shared++] = s->p[i];
@@ -146,7 +146,7 @@ static void snap_to_corner(const struct judge_triangle *s,
                            const struct judge_triangle *t,
                            struct judge_point3 *a, struct judge_point3 *b) {
   struct judge_point3 corner[3];
-  if (shared_corners(s, t, corner) == 0)
+  if (find_shared_corners(s, t, corner) == 0)
     return;
   bool is_first = point3_length(point3_sub(*a, corner[0])) <
                   point3_length(point3_sub(*b, corner[0]));
@@ -162,8 +162,8 @@ static bool has_side(const struct scene *scene, uint32_t face,
   for (uint32_t i = 0; i < count; i++) {
     struct judge_point3 p = judge_point3_at(scene, corner[i]);
     struct judge_point3 q = judge_point3_at(scene, corner[(i + 1) % count]);
-    if ((is_same(p, end[0]) && is_same(q, end[1])) ||
-        (is_same(p, end[1]) && is_same(q, end[0])))
+    if ((is_same_point3(p, end[0]) && is_same_point3(q, end[1])) ||
+        (is_same_point3(p, end[1]) && is_same_point3(q, end[0])))
       return true;
   }
   return false;
@@ -184,8 +184,8 @@ static bool add_to_surface(void *user, uint32_t i) {
   const struct judge_triangle *t = &surface->all->triangle.item[i];
   unsigned shared = 0;
   for (int k = 0; k < 3; k++)
-    shared += is_same(t->p[k], surface->corner[0]) ||
-              is_same(t->p[k], surface->corner[1]);
+    shared += is_same_point3(t->p[k], surface->corner[0]) ||
+              is_same_point3(t->p[k], surface->corner[1]);
   if (shared < 2 ||
       (surface->face == SCENE_NONE
            ? !has_side(surface->all->scene, t->face, surface->corner)
@@ -344,7 +344,7 @@ static bool intersect_with(void *user, uint32_t other) {
   struct judge_point3 along = point3_cross(s->normal, t->normal), corner[3];
   if (s->face == t->face || !(point3_length(along) > 0))
     return true;
-  unsigned shared = shared_corners(s, t, corner);
+  unsigned shared = find_shared_corners(s, t, corner);
   if (shared >= 2)
     return add_shared(finder, other, corner);
   struct triangle_cut cs = cut_by_plane(s, t), ct = cut_by_plane(t, s);

@@ -163,10 +163,10 @@ static bool is_doubtful(const struct judge_edge *edge) {
 
 /* Whether a stroke near an edge runs along it to one side or both, rather than
  * across. */
-static bool runs_along(const struct judge_context *context,
-                       const struct judge_segment *stroke,
-                       const struct judge_segment *edge,
-                       struct judge_point2 at) {
+static bool stroke_runs_along(const struct judge_context *context,
+                              const struct judge_segment *stroke,
+                              const struct judge_segment *edge,
+                              struct judge_point2 at) {
   double lateral = context->options.lateral_mm, t;
   double length = length_of(stroke);
   bool along = length == 0;
@@ -183,9 +183,9 @@ static bool runs_along(const struct judge_context *context,
  * contact tolerance is less than the rounding to the grid, faces that touch may
  * intersect on the grid anywhere, so that ink without an edge along it is
  * undecided. */
-static enum judge_visibility explain(const struct judge_context *context,
-                                     const struct judge_segment *stroke,
-                                     struct judge_witness *witness) {
+static enum judge_visibility explain_ink(const struct judge_context *context,
+                                         const struct judge_segment *stroke,
+                                         struct judge_witness *witness) {
   uint32_t count;
   const uint32_t *near =
       judge_grid_near(&context->by_image, witness->at, &count);
@@ -204,7 +204,8 @@ static enum judge_visibility explain(const struct judge_context *context,
       visibility = JUDGE_UNSURE;
     best = visibility < best ? visibility : best;
     if (visibility == JUDGE_BLOCKED && away < nearest &&
-        runs_along(context, stroke, &context->image[near[i]], witness->at)) {
+        stroke_runs_along(context, stroke, &context->image[near[i]],
+                          witness->at)) {
       nearest = away;
       set_witness_edge(witness, edge, judge_point3_of_image(edge, t), blocker);
     }
@@ -231,7 +232,7 @@ static void judge_ink_sample(struct judge_context *context,
     return;
   struct judge_witness witness = {.at = at, .blocker = SCENE_NONE};
   count_sample(&verdict->drawn, mm);
-  switch (explain(context, stroke, &witness)) {
+  switch (explain_ink(context, stroke, &witness)) {
   case JUDGE_CLEAR:
     break;
   case JUDGE_UNSURE:
@@ -437,7 +438,8 @@ static double largest_rounding(const struct judge_context *context) {
 }
 
 /* Builds triangles, edges and grids; false when memory ran out. */
-static bool prepare(struct judge_context *context, const struct scene *scene) {
+static bool build_context(struct judge_context *context,
+                          const struct scene *scene) {
   const struct judge_camera *camera = context->camera;
   double width = camera->width_mm, height = camera->height_mm;
   const double cells = 400;
@@ -470,7 +472,7 @@ bool judge_drawing(struct judge_verdict *verdict,
                                   .long_edge = SCENE_NONE,
                                   .verdict = verdict};
   memset(verdict, 0, sizeof *verdict);
-  bool ok = prepare(&context, scene) && !poll_is_cancelled();
+  bool ok = build_context(&context, scene) && !poll_is_cancelled();
   if (ok) {
     judge_all_ink(&context);
     judge_all_edges(&context);

@@ -51,8 +51,8 @@ static double image_length(const struct judge_segment *s) {
   return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
 }
 
-static bool is_visible(const struct judge_missing_run *run, uint32_t number,
-                       double t, enum judge_visibility *visibility) {
+static bool is_end_visible(const struct judge_missing_run *run, uint32_t number,
+                           double t, enum judge_visibility *visibility) {
   const struct judge_edge *edge = &run->edges->edge.item[number];
   *visibility = judge_sample_around(
       run->sampler, edge, judge_point3_of_image(edge, t), JUDGE_CLEAR, NULL);
@@ -89,8 +89,8 @@ static bool is_double(const struct fan *fan, struct judge_point2 away) {
 
 /* Adds an end to the fan if it is visible; false where that is undecided, or
  * the fan is full. */
-static bool add_end(const struct judge_missing_run *run, struct fan *fan,
-                    uint32_t edge, int side, bool is_first) {
+static bool add_fan_end(const struct judge_missing_run *run, struct fan *fan,
+                        uint32_t edge, int side, bool is_first) {
   const struct judge_segment *s = image_of(run, edge);
   double length = image_length(s), sign = (side ? -1 : 1) / length;
   const struct judge_point2 away = {(s->b.x - s->a.x) * sign,
@@ -99,7 +99,7 @@ static bool add_end(const struct judge_missing_run *run, struct fan *fan,
     return true;
   double in = fmin(0.5, run->shortest_mm / SAMPLES_PER_SHORTEST / length);
   enum judge_visibility visibility;
-  if (!is_first && !is_visible(run, edge, side ? 1 - in : in, &visibility))
+  if (!is_first && !is_end_visible(run, edge, side ? 1 - in : in, &visibility))
     return visibility == JUDGE_BLOCKED;
   if (fan->count == MAX_FAN)
     return false;
@@ -116,7 +116,7 @@ static bool find_fan(const struct judge_missing_run *run, struct fan *fan,
   uint32_t count;
   const uint32_t *near = judge_grid_near(run->by_image, at, &count);
   fan->count = 0;
-  bool ok = add_end(run, fan, edge, side, true);
+  bool ok = add_fan_end(run, fan, edge, side, true);
   for (uint32_t i = 0; ok && i < count; i++) {
     const struct judge_segment *s = image_of(run, near[i]);
     for (int k = 0; ok && k < 2; k++) {
@@ -124,7 +124,7 @@ static bool find_fan(const struct judge_missing_run *run, struct fan *fan,
       if (hypot(end.x - at.x, end.y - at.y) <= run->sampler->ray_offset_mm &&
           near[i] != edge && run->is_requested(run->user, near[i]) &&
           is_alike(run, edge, near[i]))
-        ok = add_end(run, fan, near[i], k, false);
+        ok = add_fan_end(run, fan, near[i], k, false);
     }
   }
   return ok;
@@ -160,8 +160,8 @@ static bool take_pair(struct fan *fan, struct edge_end_at_point *mate) {
 
 /* Finds the end that is joined to this one in a stroke; false: there is none.
  */
-static bool find_next(const struct judge_missing_run *run, uint32_t edge,
-                      int side, struct edge_end_at_point *next) {
+static bool find_next_end(const struct judge_missing_run *run, uint32_t edge,
+                          int side, struct edge_end_at_point *next) {
   struct fan fan;
   if (!find_fan(run, &fan, edge, side) || fan.count == 0 ||
       fan.end[0].edge != edge)
@@ -197,7 +197,7 @@ static bool walk_edge(struct walk *walk, uint32_t edge, double t, int side,
     enum judge_visibility visibility;
     walk->steps++;
     if ((bare && run->has_ink(run->user, sample)) ||
-        !is_visible(run, edge, at, &visibility))
+        !is_end_visible(run, edge, at, &visibility))
       return false;
     walk->length += mm / count;
   }
@@ -210,7 +210,7 @@ static void walk_from(struct walk *walk, uint32_t start, double t, int side) {
   if (!walk_edge(walk, start, t, side, false))
     return;
   uint32_t edge = start;
-  while (find_next(walk->run, edge, side, &next)) {
+  while (find_next_end(walk->run, edge, side, &next)) {
     edge = next.edge;
     side = !next.side;
     walk->is_loop = edge == start;

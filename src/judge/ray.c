@@ -63,8 +63,8 @@ static enum judge_visibility ray_meets_plane(const struct judge_ray *ray,
 
 /* ---- Planes -------------------------------------------------------------- */
 
-static double distance(const struct judge_triangle *t,
-                       struct judge_point3 from) {
+static double triangle_distance(const struct judge_triangle *t,
+                                struct judge_point3 from) {
   return fabs(point3_dot(t->normal, point3_sub(t->p[0], from)));
 }
 
@@ -77,7 +77,7 @@ static double distance(const struct judge_triangle *t,
 static enum judge_visibility
 classify_distance(const struct judge_triangle *t, struct judge_point3 from,
                   const struct judge_margin *margin) {
-  double away = distance(t, from);
+  double away = triangle_distance(t, from);
   if (away <= fmin(0.5 * t->contact + margin->plane_error, t->contact))
     return JUDGE_CLEAR;
   return away <= 1.5 * t->contact + 4 * margin->rounding ? JUDGE_UNSURE
@@ -200,8 +200,8 @@ static enum judge_visibility classify_plane(const struct judge_triangles *all,
   return JUDGE_UNSURE;
 }
 
-static bool is_corner(const struct judge_triangle *t,
-                      struct judge_point3 position) {
+static bool is_triangle_corner(const struct judge_triangle *t,
+                               struct judge_point3 position) {
   for (int k = 0; k < 3; k++)
     if (t->p[k].x == position.x && t->p[k].y == position.y &&
         t->p[k].z == position.z)
@@ -214,9 +214,10 @@ static bool is_corner(const struct judge_triangle *t,
 static bool is_own(const struct judge_ray *ray,
                    const struct judge_triangle *t) {
   return (t->face == ray->own[0] || t->face == ray->own[1]) &&
-         distance(t, ray->from) <= 0.5 * t->contact + ray->margin.plane_error &&
-         (!t->bent || (is_corner(t, ray->end[0].position) &&
-                       is_corner(t, ray->end[1].position)));
+         triangle_distance(t, ray->from) <=
+             0.5 * t->contact + ray->margin.plane_error &&
+         (!t->bent || (is_triangle_corner(t, ray->end[0].position) &&
+                       is_triangle_corner(t, ray->end[1].position)));
 }
 
 /* What a triangle may do to the edge: a planar face hides none of its own
@@ -229,15 +230,15 @@ static enum judge_visibility most_hidden(const struct judge_ray *ray,
   return t->off_plane <= 0.5 * t->planar ? JUDGE_CLEAR : JUDGE_UNSURE;
 }
 
-static enum judge_visibility test_triangle(const struct judge_triangles *all,
-                                           const struct judge_ray *ray,
-                                           const struct judge_triangle *t) {
+static enum judge_visibility
+test_ray_triangle(const struct judge_triangles *all,
+                  const struct judge_ray *ray, const struct judge_triangle *t) {
   if (!line_meets_triangle(ray, t) || is_own(ray, t))
     return JUDGE_CLEAR;
   enum judge_visibility visibility = classify_plane(all, ray, t);
   if (visibility == JUDGE_CLEAR)
     return visibility;
-  if (distance(t, ray->from) <= ray->margin.plane_error)
+  if (triangle_distance(t, ray->from) <= ray->margin.plane_error)
     return JUDGE_UNSURE;
   enum judge_visibility met = ray_meets_plane(ray, t);
   enum judge_visibility most = most_hidden(ray, t);
@@ -267,7 +268,7 @@ enum judge_visibility judge_cast_ray(const struct judge_triangles *all,
     }
     for (uint32_t i = 0; i < node->count; i++) {
       const struct judge_triangle *t = &all->triangle.item[node->first + i];
-      enum judge_visibility seen = test_triangle(all, ray, t);
+      enum judge_visibility seen = test_ray_triangle(all, ray, t);
       if (seen == JUDGE_BLOCKED && t->open)
         seen = JUDGE_UNSURE;
       if (seen == JUDGE_BLOCKED) {

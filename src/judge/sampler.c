@@ -46,8 +46,9 @@ double judge_rounding_at(const struct judge_camera *camera,
   return offset + camera->depth_step * depth * depth;
 }
 
-static void find_ends(const struct judge_sampler *sampler,
-                      const struct judge_edge *edge, struct judge_end end[2]) {
+static void find_sampled_ends(const struct judge_sampler *sampler,
+                              const struct judge_edge *edge,
+                              struct judge_end end[2]) {
   double t[2];
   bool seen = judge_clip_to_page(sampler->camera, edge->at[0], edge->at[1],
                                  &t[0], &t[1]);
@@ -69,11 +70,11 @@ static void find_ends(const struct judge_sampler *sampler,
 /* Casts a ray from a point towards the eye.
  * aside  the point is ray_offset_mm off the edge, and so off the edge's own
  *        faces */
-static enum judge_visibility look(const struct judge_sampler *sampler,
-                                  const struct judge_edge *edge,
-                                  const struct judge_end end[2],
-                                  struct judge_point3 from, bool aside,
-                                  uint32_t *blocker) {
+static enum judge_visibility cast_ray(const struct judge_sampler *sampler,
+                                      const struct judge_edge *edge,
+                                      const struct judge_end end[2],
+                                      struct judge_point3 from, bool aside,
+                                      uint32_t *blocker) {
   const struct judge_camera *camera = sampler->camera;
   double rounding = judge_rounding_at(camera, sampler->ray_offset_mm, from);
   double plane_error =
@@ -110,23 +111,24 @@ enum judge_visibility judge_sample_around(const struct judge_sampler *sampler,
   double x = length > 0 ? -dy / length * offset : offset;
   double y = length > 0 ? dx / length * offset : 0;
   struct judge_end end[2];
-  find_ends(sampler, edge, end);
+  find_sampled_ends(sampler, edge, end);
   enum judge_visibility visibility =
-      look(sampler, edge, end, from, false, blocker);
+      cast_ray(sampler, edge, end, from, false, blocker);
   if (visibility != expected)
     return visibility;
-  visibility = look(sampler, edge, end,
-                    judge_shift(sampler->camera, from, x, y), true, blocker);
+  visibility =
+      cast_ray(sampler, edge, end, judge_shift(sampler->camera, from, x, y),
+               true, blocker);
   if (visibility != expected)
     return visibility;
-  return look(sampler, edge, end, judge_shift(sampler->camera, from, -x, -y),
-              true, blocker);
+  return cast_ray(sampler, edge, end,
+                  judge_shift(sampler->camera, from, -x, -y), true, blocker);
 }
 
 enum judge_visibility judge_sample_point(const struct judge_sampler *sampler,
                                          const struct judge_edge *edge,
                                          struct judge_point3 from) {
   struct judge_end end[2];
-  find_ends(sampler, edge, end);
-  return look(sampler, edge, end, from, false, NULL);
+  find_sampled_ends(sampler, edge, end);
+  return cast_ray(sampler, edge, end, from, false, NULL);
 }

@@ -207,7 +207,7 @@ static bool is_folded(const struct face_adder *adder, uint32_t face,
   return false;
 }
 
-static bool add_fan(struct judge_triangles *all, size_t first) {
+static bool add_face_fan(struct judge_triangles *all, size_t first) {
   for (size_t t = first; t < all->triangle.count; t++) {
     struct judge_triangle *triangle = &all->triangle.item[t];
     triangle->bent = true;
@@ -240,7 +240,7 @@ static bool add_large_face(struct face_adder *adder, uint32_t face,
   return true;
 }
 
-static bool add_face(struct face_adder *adder, uint32_t face) {
+static bool add_face_triangles(struct face_adder *adder, uint32_t face) {
   const struct scene *scene = adder->scene;
   struct judge_triangles *all = adder->all;
   uint32_t start = scene->face_start.item[face];
@@ -262,7 +262,7 @@ static bool add_face(struct face_adder *adder, uint32_t face) {
   return count == 3 || (!judge_is_warped(scene, face, adder->contact) &&
                         !is_folded(adder, face, first))
              ? true
-             : add_fan(all, first);
+             : add_face_fan(all, first);
 }
 
 static int compare_fan_triangles(const void *a, const void *b, void *user) {
@@ -314,7 +314,7 @@ bool judge_triangles_init(struct judge_triangles *all,
                              .contact = contact};
   bool ok = true;
   for (uint32_t i = 0; ok && i < scene_face_count(scene); i++)
-    ok = poll_at(i) && add_face(&adder, i);
+    ok = poll_at(i) && add_face_triangles(&adder, i);
   ok = ok && sort_stable(all->side_triangle.item, all->side_triangle.count,
                          sizeof *all->side_triangle.item, compare_fan_triangles,
                          NULL);

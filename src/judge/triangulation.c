@@ -21,14 +21,15 @@ struct triangulation_work {
   uint32_t count, left;
 };
 
-static const struct scene_point *point_at(const struct triangulation_work *work,
-                                          uint32_t i) {
+static const struct scene_point *
+position_of_corner(const struct triangulation_work *work, uint32_t i) {
   return &work->point[work->corner[i]];
 }
 
 static int compare_positions(const struct triangulation_work *work, uint32_t i,
                              uint32_t k) {
-  const struct scene_point *p = point_at(work, i), *q = point_at(work, k);
+  const struct scene_point *p = position_of_corner(work, i),
+                           *q = position_of_corner(work, k);
   if (p->x != q->x)
     return p->x < q->x ? -1 : 1;
   if (p->y != q->y)
@@ -46,30 +47,31 @@ static double round_to_24_bits(double value) {
 
 /* ---- Projection ---------------------------------------------------------- */
 
-static double coordinate(const struct scene_point *p, int axis) {
+static double point_coordinate(const struct scene_point *p, int axis) {
   return axis == 0 ? p->x : axis == 1 ? p->y : p->z;
 }
 
 /* Twice the signed area of the projection along an axis. */
 static double area_along(const struct triangulation_work *work, int axis) {
   int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const struct scene_point *from = point_at(work, 0);
+  const struct scene_point *from = position_of_corner(work, 0);
   double sum = 0;
   for (uint32_t i = 1; i + 1 < work->count; i++) {
-    const struct scene_point *p = point_at(work, i), *q = point_at(work, i + 1);
-    sum += (coordinate(p, u) - coordinate(from, u)) *
-               (coordinate(q, v) - coordinate(from, v)) -
-           (coordinate(p, v) - coordinate(from, v)) *
-               (coordinate(q, u) - coordinate(from, u));
+    const struct scene_point *p = position_of_corner(work, i),
+                             *q = position_of_corner(work, i + 1);
+    sum += (point_coordinate(p, u) - point_coordinate(from, u)) *
+               (point_coordinate(q, v) - point_coordinate(from, v)) -
+           (point_coordinate(p, v) - point_coordinate(from, v)) *
+               (point_coordinate(q, u) - point_coordinate(from, u));
   }
   return sum;
 }
 
 static double extent_along(const struct triangulation_work *work, int axis) {
-  double low = coordinate(point_at(work, 0), axis), high = low;
+  double low = point_coordinate(position_of_corner(work, 0), axis), high = low;
   for (uint32_t i = 1; i < work->count; i++) {
-    low = fmin(low, coordinate(point_at(work, i), axis));
-    high = fmax(high, coordinate(point_at(work, i), axis));
+    low = fmin(low, point_coordinate(position_of_corner(work, i), axis));
+    high = fmax(high, point_coordinate(position_of_corner(work, i), axis));
   }
   return high - low;
 }
@@ -108,8 +110,10 @@ static void project_polygon(struct triangulation_work *work) {
                extent * extent * TOLERANCE_NO_AREA_SHARE;
   int axis = shows ? most : thinnest;
   for (uint32_t i = 0; i < work->count; i++) {
-    work->c[i].at[0] = coordinate(point_at(work, i), (axis + 1) % 3);
-    work->c[i].at[1] = coordinate(point_at(work, i), (axis + 2) % 3);
+    work->c[i].at[0] =
+        point_coordinate(position_of_corner(work, i), (axis + 1) % 3);
+    work->c[i].at[1] =
+        point_coordinate(position_of_corner(work, i), (axis + 2) % 3);
   }
   if (shows ? area[axis] > 0 : !leftmost_turns_right(work))
     return;
@@ -122,7 +126,7 @@ static void project_polygon(struct triangulation_work *work) {
 
 /* ---- Corners at one position --------------------------------------------- */
 
-static void remove_corner(struct triangulation_work *work, uint32_t i) {
+static void remove_polygon_corner(struct triangulation_work *work, uint32_t i) {
   struct judge_triangulation_corner *c = work->c;
   c[c[i].before].next = c[i].next;
   c[c[i].next].before = c[i].before;
@@ -132,17 +136,18 @@ static void remove_corner(struct triangulation_work *work, uint32_t i) {
 
 /* Removes duplicates and spikes at a corner and its neighbours until there are
  * none; returns a corner that is left there. */
-static uint32_t remove_degenerate(struct triangulation_work *work, uint32_t i) {
+static uint32_t remove_degenerate_corners(struct triangulation_work *work,
+                                          uint32_t i) {
   struct judge_triangulation_corner *c = work->c;
   for (int tries = 0; tries < 3 && work->left > 2; tries++) {
     /* The corner before it, itself, the one after it. */
     uint32_t here = tries == 0 ? c[i].before : tries == 1 ? i : c[i].next;
     uint32_t before = c[here].before, next = c[here].next;
     if (compare_positions(work, here, next) == 0) {
-      remove_corner(work, next);
+      remove_polygon_corner(work, next);
     } else if (compare_positions(work, before, next) == 0) {
-      remove_corner(work, here);
-      remove_corner(work, next);
+      remove_polygon_corner(work, here);
+      remove_polygon_corner(work, next);
       here = before;
     } else {
       continue;
@@ -155,17 +160,17 @@ static uint32_t remove_degenerate(struct triangulation_work *work, uint32_t i) {
 
 /* ---- Ears ---------------------------------------------------------------- */
 
-static void update_corner(struct triangulation_work *work, uint32_t i) {
+static void update_cut(struct triangulation_work *work, uint32_t i) {
   struct judge_triangulation_corner *c = work->c;
-  const struct scene_point *p = point_at(work, c[i].before),
-                           *q = point_at(work, c[i].next);
+  const struct scene_point *p = position_of_corner(work, c[i].before),
+                           *q = position_of_corner(work, c[i].next);
   double x = q->x - p->x, y = q->y - p->y, z = q->z - p->z;
   c[i].turn = exact_turn(c[c[i].before].at, c[i].at, c[c[i].next].at);
   c[i].length = round_to_24_bits(x * x + y * y + z * z);
   c[i].refused = false;
 }
 
-static bool is_spike(const struct triangulation_work *work, uint32_t i) {
+static bool is_spike_corner(const struct triangulation_work *work, uint32_t i) {
   const struct judge_triangulation_corner *c = work->c;
   const double *at = c[i].at, *p = c[c[i].before].at, *q = c[c[i].next].at;
   if (c[i].turn != 0)
@@ -176,16 +181,17 @@ static bool is_spike(const struct triangulation_work *work, uint32_t i) {
   return true; /* a neighbour is at the same position */
 }
 
-static bool is_at(const double *a, const double *b) {
+static bool is_same_projection(const double *a, const double *b) {
   return a[0] == b[0] && a[1] == b[1];
 }
 
-static bool is_ear(const struct triangulation_work *work, uint32_t i) {
+static bool is_rule_ear(const struct triangulation_work *work, uint32_t i) {
   const struct judge_triangulation_corner *c = work->c;
   const double *p = c[c[i].before].at, *q = c[i].at, *r = c[c[i].next].at;
   for (uint32_t k = c[i].next; k != i; k = c[k].next) {
     const double *at = c[k].at;
-    if (c[k].turn <= 0 && !is_at(at, p) && !is_at(at, q) && !is_at(at, r) &&
+    if (c[k].turn <= 0 && !is_same_projection(at, p) &&
+        !is_same_projection(at, q) && !is_same_projection(at, r) &&
         exact_turn(p, q, at) >= 0 && exact_turn(q, r, at) >= 0 &&
         exact_turn(r, p, at) >= 0)
       return false;
@@ -195,10 +201,10 @@ static bool is_ear(const struct triangulation_work *work, uint32_t i) {
 
 /* The order of cutting: 0 spikes, 1 candidate ears; if there are none of these
  * (any), 2 straight, 3 convex, 4 reflex corners. */
-static int rank_of(const struct triangulation_work *work, uint32_t i,
-                   bool any) {
+static int cutting_rank(const struct triangulation_work *work, uint32_t i,
+                        bool any) {
   int turn = work->c[i].turn;
-  if (is_spike(work, i))
+  if (is_spike_corner(work, i))
     return 0;
   if (!any)
     return turn > 0 && !work->c[i].refused ? 1 : 5;
@@ -228,12 +234,12 @@ static bool is_shorter(const struct triangulation_work *work, uint32_t i,
 /* The first corner in the order of cutting.
  * from  any corner that is left
  * rank  set to its rank */
-static uint32_t choose_corner(const struct triangulation_work *work,
-                              uint32_t from, bool any, int *rank) {
+static uint32_t choose_next_cut(const struct triangulation_work *work,
+                                uint32_t from, bool any, int *rank) {
   uint32_t best = from;
-  *rank = rank_of(work, from, any);
+  *rank = cutting_rank(work, from, any);
   for (uint32_t i = work->c[from].next; i != from; i = work->c[i].next) {
-    int here = rank_of(work, i, any);
+    int here = cutting_rank(work, i, any);
     if (here < *rank || (here == *rank && is_shorter(work, i, best))) {
       best = i;
       *rank = here;
@@ -242,10 +248,10 @@ static uint32_t choose_corner(const struct triangulation_work *work,
   return best;
 }
 
-static void update_all(struct triangulation_work *work, uint32_t from) {
+static void update_all_corners(struct triangulation_work *work, uint32_t from) {
   uint32_t i = from;
   do {
-    update_corner(work, i);
+    update_cut(work, i);
     i = work->c[i].next;
   } while (i != from);
 }
@@ -256,31 +262,31 @@ static uint32_t cut_off(struct triangulation_work *work, uint32_t i) {
   uint32_t before = c[i].before, next = c[i].next;
   work->triangulation->triangle.item[work->triangulation->triangle.count++] =
       (struct judge_triangulation_triangle){{before, i, next}};
-  remove_corner(work, i);
-  uint32_t left = work->left, here = remove_degenerate(work, before);
+  remove_polygon_corner(work, i);
+  uint32_t left = work->left, here = remove_degenerate_corners(work, before);
   if (work->left < 3)
     return here;
-  update_corner(work, c[here].before);
-  update_corner(work, here);
-  update_corner(work, c[here].next);
+  update_cut(work, c[here].before);
+  update_cut(work, here);
+  update_cut(work, c[here].next);
   if (work->left == left)
-    update_corner(work, c[next].next);
+    update_cut(work, c[next].next);
   return here;
 }
 
 static void cut_all(struct triangulation_work *work, uint32_t from) {
-  update_all(work, from);
+  update_all_corners(work, from);
   while (work->left > 3) {
     int rank;
-    uint32_t i = choose_corner(work, from, false, &rank);
-    if (rank == 1 && !is_ear(work, i)) {
+    uint32_t i = choose_next_cut(work, from, false, &rank);
+    if (rank == 1 && !is_rule_ear(work, i)) {
       work->c[i].refused = true;
     } else if (rank <= 1) {
       from = cut_off(work, i);
     } else {
-      from = cut_off(work, choose_corner(work, from, true, &rank));
+      from = cut_off(work, choose_next_cut(work, from, true, &rank));
       if (work->left > 3)
-        update_all(work, from);
+        update_all_corners(work, from);
     }
   }
   if (work->left == 3)
@@ -305,7 +311,7 @@ bool judge_triangulation_make(struct judge_triangulation *triangulation,
   uint32_t from = 0;
   for (uint32_t i = 0; i < count && work.left > 2; i++)
     if (!work.c[i].gone)
-      from = remove_degenerate(&work, i);
+      from = remove_degenerate_corners(&work, i);
   if (work.left > 2)
     cut_all(&work, from);
   return true;

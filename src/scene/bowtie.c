@@ -59,8 +59,9 @@ static double choose_scale(const struct scene *scene, const uint32_t *corner,
   return ldexp(1, exponent < EXPONENT_MIN ? -EXPONENT_MIN : -exponent);
 }
 
-static void subtract(const struct scene_point *b, const struct scene_point *a,
-                     double scale, double to[3]) {
+static void subtract_halves(const struct scene_point *b,
+                            const struct scene_point *a, double scale,
+                            double to[3]) {
   to[0] = (b->x / 2 - a->x / 2) * scale;
   to[1] = (b->y / 2 - a->y / 2) * scale;
   to[2] = (b->z / 2 - a->z / 2) * scale;
@@ -70,15 +71,15 @@ static void subtract(const struct scene_point *b, const struct scene_point *a,
  * lobes of a bow-tie may cancel; of the triangles from the first corner to
  * each side, the areas are then added up without their signs.  (Those alone
  * will not do, for they show a saddle from the side.) */
-static int choose_axis(const struct scene *scene, const uint32_t *corner,
-                       size_t count) {
+static int choose_view_axis(const struct scene *scene, const uint32_t *corner,
+                            size_t count) {
   const struct scene_point *point = scene->point.item;
   double area[3] = {0, 0, 0}, sum[3] = {0, 0, 0};
   double scale = choose_scale(scene, corner, count);
   for (size_t i = 1; i + 1 < count; i++) {
     double u[3], v[3];
-    subtract(&point[corner[i]], &point[corner[0]], scale, u);
-    subtract(&point[corner[i + 1]], &point[corner[0]], scale, v);
+    subtract_halves(&point[corner[i]], &point[corner[0]], scale, u);
+    subtract_halves(&point[corner[i + 1]], &point[corner[0]], scale, v);
     for (int k = 0; k < 3; k++) {
       int l = (k + 1) % 3, m = (k + 2) % 3;
       double part = u[l] * v[m] - u[m] * v[l];
@@ -92,7 +93,7 @@ static int choose_axis(const struct scene *scene, const uint32_t *corner,
   return area[axis] > 0 ? axis : largest(sum);
 }
 
-static void project(const struct scene_point *point, int axis, double to[2]) {
+static void drop_axis(const struct scene_point *point, int axis, double to[2]) {
   to[0] = axis == 0 ? point->y : point->x;
   to[1] = axis == 2 ? point->y : point->z;
 }
@@ -161,7 +162,8 @@ static bool sides_cross(const struct bowtie_side *a,
              0;
 }
 
-static bool find_crossing(const struct bowtie_sweep *sweep, size_t count) {
+static bool find_bowtie_crossing(const struct bowtie_sweep *sweep,
+                                 size_t count) {
   size_t active = 0, tests = 0;
   make_sides(sweep, count);
   for (size_t i = 0; i < count; i++) {
@@ -186,11 +188,11 @@ static bool find_crossing(const struct bowtie_sweep *sweep, size_t count) {
 
 static bool has_crossing(const struct scene *scene, const uint32_t *corner,
                          size_t count, const struct bowtie_sweep *sweep) {
-  int axis = choose_axis(scene, corner, count);
+  int axis = choose_view_axis(scene, corner, count);
   for (size_t i = 0; i < count; i++)
-    project(&scene->point.item[corner[i]], axis, sweep->flat[i]);
+    drop_axis(&scene->point.item[corner[i]], axis, sweep->flat[i]);
   return !is_convex((const double(*)[2])sweep->flat, count) &&
-         find_crossing(sweep, count);
+         find_bowtie_crossing(sweep, count);
 }
 
 bool bowtie_has_crossing(const struct scene *scene, const uint32_t *corner,

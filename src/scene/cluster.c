@@ -117,15 +117,15 @@ static void look_around(const struct clusters *clusters, int level,
       }
 }
 
-static bool is_before(const struct scene_point *a,
-                      const struct scene_point *b) {
+static bool precedes_in_space(const struct scene_point *a,
+                              const struct scene_point *b) {
   if (a->x != b->x)
     return a->x < b->x;
   return a->y != b->y ? a->y < b->y : a->z < b->z;
 }
 
-static void enlarge(struct cluster *cluster, const double at[3],
-                    uint8_t halvings) {
+static void enlarge_cluster(struct cluster *cluster, const double at[3],
+                            uint8_t halvings) {
   for (int k = 0; k < 3; k++) {
     cluster->low[k] = fmin(cluster->low[k], at[k]);
     cluster->high[k] = fmax(cluster->high[k], at[k]);
@@ -154,8 +154,8 @@ static bool begin_cluster(struct clusters *clusters, const double at[3],
 }
 
 /* Puts the member into a cluster, whose number goes to `stands` for now. */
-static bool join(struct clusters *clusters, const struct scene *scene,
-                 struct cluster_member *member, uint32_t number) {
+static bool join_cluster(struct clusters *clusters, const struct scene *scene,
+                         struct cluster_member *member, uint32_t number) {
   const struct scene_point *point = scene->point.item;
   const struct scene_point *p = &point[member[number].point];
   const double at[3] = {p->x, p->y, p->z};
@@ -170,8 +170,8 @@ static bool join(struct clusters *clusters, const struct scene *scene,
   }
   struct cluster *cluster = &clusters->cluster.item[choice.cluster];
   member[number].stands = (uint32_t)choice.cluster;
-  enlarge(cluster, at, halvings);
-  if (is_before(p, &point[member[cluster->stands].point]))
+  enlarge_cluster(cluster, at, halvings);
+  if (precedes_in_space(p, &point[member[cluster->stands].point]))
     cluster->stands = number;
   return true;
 }
@@ -260,7 +260,8 @@ static bool mark_alone(const struct scene *scene, double length,
 
 /* ---- All of it ----------------------------------------------------------- */
 
-static bool prepare(struct clusters *clusters, double length, size_t count) {
+static bool allocate_clusters(struct clusters *clusters, double length,
+                              size_t count) {
   for (int h = 0; h < CLUSTER_LEVELS; h++) {
     clusters->radius[h] = ldexp(length, -h);
     clusters->side[h] = 2.5 * ldexp(length, -h);
@@ -292,11 +293,11 @@ size_t cluster_join(const struct scene *scene, double length,
                     struct cluster_member *member, size_t count) {
   struct clusters clusters = {.chain = NULL};
   bool ok = mark_alone(scene, length, member, count) &&
-            prepare(&clusters, length, count);
+            allocate_clusters(&clusters, length, count);
   for (size_t i = 0; i < count && ok; i++) {
     member[i].stands = (uint32_t)i;
     if (member[i].halvings != CLUSTER_ALONE)
-      ok = join(&clusters, scene, member, (uint32_t)i);
+      ok = join_cluster(&clusters, scene, member, (uint32_t)i);
   }
   size_t joined = ok ? name_members(&clusters, member, count) : SIZE_MAX;
   mem_free(clusters.chain);

@@ -9,7 +9,7 @@
 
 enum { TOLD = 3 };
 
-static const char *describe(enum scene_fault fault) {
+static const char *fault_text(enum scene_fault fault) {
   switch (fault) {
   case SCENE_FAULT_NOT_FINITE:
     return "coordinates that are not finite";
@@ -60,7 +60,7 @@ void diagnostics_finish(struct diagnostics *diagnostics) {
       continue;
     char text[128];
     snprintf(text, sizeof text, "... and %lu more with %s", count - TOLD,
-             describe((enum scene_fault)i));
+             fault_text((enum scene_fault)i));
     diagnostics->warning(diagnostics->user,
                          diagnostics->file ? diagnostics->file : "", 0, text);
   }

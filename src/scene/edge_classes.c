@@ -19,9 +19,9 @@ struct face_normal {
   double square;  /* of its length */
 };
 
-static inline struct face_normal difference(const struct scene_point *from,
-                                            const struct scene_point *to,
-                                            double scale) {
+static inline struct face_normal
+scaled_difference(const struct scene_point *from, const struct scene_point *to,
+                  double scale) {
   return (struct face_normal){.x = to->x * scale - from->x * scale,
                               .y = to->y * scale - from->y * scale,
                               .z = to->z * scale - from->z * scale};
@@ -44,10 +44,10 @@ static struct face_normal sum_area(const struct scene *scene, uint32_t face,
       scene->face_start.item[face + 1] - scene->face_start.item[face];
   struct face_normal sum = {0, 0, 0, 0};
   struct face_normal a =
-      difference(&point[corner[0]], &point[corner[1]], scale);
+      scaled_difference(&point[corner[0]], &point[corner[1]], scale);
   for (uint32_t c = 2; c < count; c++) {
     struct face_normal b =
-        difference(&point[corner[0]], &point[corner[c]], scale);
+        scaled_difference(&point[corner[0]], &point[corner[c]], scale);
     add_product(&sum, &a, &b);
     a = b;
   }
@@ -63,7 +63,7 @@ static double scale_of_face(const struct scene *scene, uint32_t face) {
   double extent = 0;
   for (uint32_t c = first; c < scene->face_start.item[face + 1]; c++) {
     struct face_normal d =
-        difference(&point[corner[first]], &point[corner[c]], 1);
+        scaled_difference(&point[corner[first]], &point[corner[c]], 1);
     extent = fmax(extent, fmax(fabs(d.x), fmax(fabs(d.y), fabs(d.z))));
   }
   if (!(extent > 0 && extent <= DBL_MAX))
@@ -161,8 +161,8 @@ static inline int16_t round_direction(double value) {
   return (int16_t)((int)(value + (DIRECTION_ONE + 1.5)) - (DIRECTION_ONE + 1));
 }
 
-static bool find_directions(const struct scene *scene,
-                            struct crease_direction **direction) {
+static bool find_normal_directions(const struct scene *scene,
+                                   struct crease_direction **direction) {
   uint32_t faces = scene_face_count(scene);
   struct crease_direction *d = mem_alloc(faces, sizeof *d);
   *direction = d;
@@ -213,7 +213,7 @@ bool topology_class_masks(const struct topology *topology,
   }
   double crease_cosine = crease_cosine_of(crease_deg);
   struct crease_direction *direction;
-  bool ok = find_directions(scene, &direction);
+  bool ok = find_normal_directions(scene, &direction);
   for (size_t e = 0; ok && e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
     unsigned mask = plain_class_mask(edge, scene);

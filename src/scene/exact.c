@@ -36,8 +36,8 @@ struct exact_expansion {
 };
 
 /* *sum += x * y, or -= where `minus`. */
-static void add_product(struct exact_expansion *sum, double x, double y,
-                        bool minus) {
+static void add_exact_product(struct exact_expansion *sum, double x, double y,
+                              bool minus) {
   if (x == 0 || y == 0)
     return;
   int x_exponent, y_exponent;
@@ -69,7 +69,7 @@ static void add_product(struct exact_expansion *sum, double x, double y,
   }
 }
 
-static int sign_of(const struct exact_expansion *number) {
+static int expansion_sign(const struct exact_expansion *number) {
   if (number->limb[LIMB_COUNT - 1] >> 63)
     return -1;
   for (size_t i = 0; i < LIMB_COUNT; i++)
@@ -82,13 +82,13 @@ static int sign_of(const struct exact_expansion *number) {
 static int turn_widely(double ax, double ay, double bx, double by, double cx,
                        double cy) {
   struct exact_expansion sum = {{0}};
-  add_product(&sum, bx, cy, false);
-  add_product(&sum, bx, ay, true);
-  add_product(&sum, ax, cy, true);
-  add_product(&sum, by, cx, true);
-  add_product(&sum, by, ax, false);
-  add_product(&sum, ay, cx, false);
-  return sign_of(&sum);
+  add_exact_product(&sum, bx, cy, false);
+  add_exact_product(&sum, bx, ay, true);
+  add_exact_product(&sum, ax, cy, true);
+  add_exact_product(&sum, by, cx, true);
+  add_exact_product(&sum, by, ax, false);
+  add_exact_product(&sum, ay, cx, false);
+  return expansion_sign(&sum);
 }
 
 /* What is known of the sign without wide numbers. */

@@ -43,8 +43,8 @@ static bool halves_agree(const struct scene_point *a,
 }
 
 /* A fast test: true where the face has no fault; false: undecided. */
-static bool is_plain(const struct scene *scene, const uint32_t *corner,
-                     size_t count) {
+static bool is_certainly_valid(const struct scene *scene,
+                               const uint32_t *corner, size_t count) {
   const struct scene_point *point = scene->point.item;
   if (count == 3)
     return !on_one_line(scene, corner[0], corner[1], corner[2]);
@@ -196,8 +196,8 @@ static bool unite_corners(const struct scene *scene, uint32_t *corner,
 /* ---- Adding -------------------------------------------------------------- */
 
 /* Whether `more` items fit beside `count`, and there is a group for them. */
-static recto_status prepare(struct scene *scene, size_t count, size_t more,
-                            recto_error *error) {
+static recto_status check_room(struct scene *scene, size_t count, size_t more,
+                               recto_error *error) {
   if (more > SCENE_LIMIT - count)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "the scene has more than 2^31 corners");
@@ -230,7 +230,7 @@ recto_status scene_add_face(struct scene *scene, const uint32_t *corner,
                             recto_error *error) {
   if (!has_its_points(scene, corner, count, line, "face", diagnostics))
     return scene_skip_face(scene, error);
-  recto_status status = prepare(scene, scene->corner.count, count, error);
+  recto_status status = check_room(scene, scene->corner.count, count, error);
   if (status != RECTO_OK)
     return status;
   /* One more, so that there is an address where there are no corners. */
@@ -239,7 +239,7 @@ recto_status scene_add_face(struct scene *scene, const uint32_t *corner,
       !ARRAY_RESERVE(&scene->face_group, 1))
     return error_memory(error);
   uint32_t *to = ARRAY_AT(&scene->corner, scene->corner.count);
-  if (is_plain(scene, corner, count)) {
+  if (is_certainly_valid(scene, corner, count)) {
     for (size_t i = 0; i < count; i++)
       to[i] = corner[i];
   } else {
@@ -267,7 +267,8 @@ recto_status scene_add_wire(struct scene *scene, const uint32_t *corner,
                             recto_error *error) {
   if (!has_its_points(scene, corner, count, line, "polyline", diagnostics))
     return RECTO_OK;
-  recto_status status = prepare(scene, scene->wire_corner.count, count, error);
+  recto_status status =
+      check_room(scene, scene->wire_corner.count, count, error);
   if (status != RECTO_OK)
     return status;
   if (!ARRAY_RESERVE(&scene->wire_corner, count + 1) ||

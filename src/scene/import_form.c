@@ -24,13 +24,13 @@ struct form {
   recto_error *error;
 };
 
-static recto_status fail(const struct form *f) {
+static recto_status form_fault(const struct form *f) {
   return error_set(f->error, RECTO_ERROR_FORMAT, f->path, 0,
                    "malformed output of the importer");
 }
 
 /* The next `count` items of that size; NULL where there are fewer. */
-static const char *take(struct form *f, uint64_t count, size_t size) {
+static const char *take_items(struct form *f, uint64_t count, size_t size) {
   const char *start = f->at;
   if (count > (size_t)(f->end - f->at) / size)
     return NULL;
@@ -47,21 +47,21 @@ static uint32_t load(const char *array, size_t i) {
 /* Finds the parts of the next record; false where they are not all there. */
 static bool next_record(struct form *f) {
   struct import_record *r = &f->record;
-  const char *start = take(f, 1, sizeof *r);
+  const char *start = take_items(f, 1, sizeof *r);
   if (!start)
     return false;
   memcpy(r, start, sizeof *r);
   if (r->kind != IMPORT_MESH)
     r->points = r->elements = r->corners = 0;
-  return (f->name = take(f, r->name_length, 1)) &&
-         (f->point = take(f, r->points, 3 * sizeof(double))) &&
-         (f->count = take(f, r->elements, sizeof(uint32_t))) &&
-         (f->index = take(f, r->corners, sizeof(uint32_t)));
+  return (f->name = take_items(f, r->name_length, 1)) &&
+         (f->point = take_items(f, r->points, 3 * sizeof(double))) &&
+         (f->count = take_items(f, r->elements, sizeof(uint32_t))) &&
+         (f->index = take_items(f, r->corners, sizeof(uint32_t)));
 }
 
 /* ---- Meshes -------------------------------------------------------------- */
 
-static recto_status use_group(struct form *f) {
+static recto_status use_form_group(struct form *f) {
   recto_status status = scene_use_group(
       f->scene, f->name, (size_t)f->record.name_length, f->error);
   if (status == RECTO_OK && f->record.has_colour) {
@@ -72,7 +72,7 @@ static recto_status use_group(struct form *f) {
   return status;
 }
 
-static recto_status add_points(struct form *f) {
+static recto_status add_form_points(struct form *f) {
   struct scene *scene = f->scene;
   size_t count = (size_t)f->record.points, first = scene->point.count;
   if (count > SCENE_LIMIT - first)
@@ -122,14 +122,14 @@ static recto_status add_element(struct form *f, size_t first, uint64_t start,
 /* Elements of a single corner are nothing to us. */
 static recto_status add_mesh(struct form *f) {
   size_t first = f->scene->point.count;
-  recto_status status = use_group(f);
+  recto_status status = use_form_group(f);
   if (status == RECTO_OK)
-    status = add_points(f);
+    status = add_form_points(f);
   uint64_t start = 0;
   for (size_t i = 0; i < f->record.elements && status == RECTO_OK; i++) {
     uint32_t count = load(f->count, i);
     if (count > f->record.corners - start)
-      return fail(f);
+      return form_fault(f);
     if (count >= 2)
       status = add_element(f, first, start, count);
     start += count;
@@ -164,14 +164,14 @@ recto_status import_form_read(struct scene *scene, const char *bytes,
                    .mb = mb,
                    .diagnostics = diagnostics,
                    .error = error};
-  const char *magic = take(&f, sizeof IMPORT_MAGIC - 1, 1);
+  const char *magic = take_items(&f, sizeof IMPORT_MAGIC - 1, 1);
   recto_status status = RECTO_OK;
   bool ok = false;
   if (!magic || memcmp(magic, IMPORT_MAGIC, sizeof IMPORT_MAGIC - 1) != 0)
-    status = fail(&f);
+    status = form_fault(&f);
   while (status == RECTO_OK && !ok) {
     if (!next_record(&f))
-      status = fail(&f);
+      status = form_fault(&f);
     else if (f.record.kind == IMPORT_MESH)
       status = add_mesh(&f);
     else if (f.record.kind == IMPORT_FAILED)
@@ -179,7 +179,7 @@ recto_status import_form_read(struct scene *scene, const char *bytes,
     else if (f.record.kind == IMPORT_DONE)
       ok = true;
     else
-      status = fail(&f);
+      status = form_fault(&f);
   }
   ARRAY_FREE(&f.corner);
   ARRAY_FREE(&f.unusable.point);

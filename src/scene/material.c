@@ -59,8 +59,9 @@ struct library_reader {
 
 /* Passes a library's faults on under its own name, and counts them with the
  * model's. */
-static recto_status read_library(struct library_reader *reader,
-                                 const char *path, const struct input *input) {
+static recto_status read_material_library(struct library_reader *reader,
+                                          const char *path,
+                                          const struct input *input) {
   struct diagnostics own = {.file = path};
   if (reader->diagnostics) {
     own.warning = reader->diagnostics->warning;
@@ -120,7 +121,7 @@ static recto_status try_library(struct library_reader *reader, const char *name,
   if (*found && !scene_note_file(reader->scene, &input))
     status = error_memory(reader->error);
   else if (*found && input.count > 0)
-    status = read_library(reader, path, &input);
+    status = read_material_library(reader, path, &input);
   else if (status == RECTO_ERROR_MEMORY)
     (void)error_memory(reader->error);
   else
@@ -130,9 +131,10 @@ static recto_status try_library(struct library_reader *reader, const char *name,
   return status;
 }
 
-static void tell_missing(struct library_reader *reader,
-                         const struct material_name *name, size_t length,
-                         const char *at, const recto_error *why) {
+static void warn_missing_material(struct library_reader *reader,
+                                  const struct material_name *name,
+                                  size_t length, const char *at,
+                                  const recto_error *why) {
   diagnostics_fault(reader->diagnostics, SCENE_FAULT_MATERIAL, name->line,
                     "material library %.*s: %s", length < 80 ? (int)length : 80,
                     at, why->text);
@@ -156,11 +158,11 @@ static recto_status read_libraries(struct library_reader *reader,
       stop++;
     found = false;
     if (stop == end && at == name->start) /* has been tried */
-      tell_missing(reader, name, name->length, at, &why);
+      warn_missing_material(reader, name, name->length, at, &why);
     else if (stop > at) {
       status = try_library(reader, at, (size_t)(stop - at), &found, &why);
       if (status == RECTO_OK && !found)
-        tell_missing(reader, name, (size_t)(stop - at), at, &why);
+        warn_missing_material(reader, name, (size_t)(stop - at), at, &why);
     }
     at = stop < end ? stop + 1 : end;
   }
@@ -184,9 +186,9 @@ static recto_status read_all_libraries(struct library_reader *reader,
 
 /* The palette's number of each group's material, SCENE_NONE where it has none,
  * to material[]. */
-static recto_status look_up(struct library_reader *reader,
-                            const struct materials *materials,
-                            uint32_t *material) {
+static recto_status find_group_materials(struct library_reader *reader,
+                                         const struct materials *materials,
+                                         uint32_t *material) {
   for (size_t g = 0; g < materials->use.count; g++) {
     const struct material_name *name = &materials->use.item[g];
     size_t known = reader->palette.group.count;
@@ -234,7 +236,7 @@ recto_status materials_colour(const struct materials *materials,
   if (status == RECTO_OK)
     status = read_all_libraries(&reader, materials);
   if (status == RECTO_OK)
-    status = look_up(&reader, materials, material);
+    status = find_group_materials(&reader, materials, material);
   if (status == RECTO_OK)
     colour_groups(scene, &reader, material, count);
   mem_free(material);

@@ -48,7 +48,7 @@ void obj_finish_statement(struct obj_parser *p) {
 recto_status obj_check_text(struct obj_parser *p, const char *start,
                             unsigned long line) {
   for (; start < p->end && *start != '\n'; start++)
-    if ((unsigned char)*start < ' ' && !obj_is_blank(*start))
+    if ((unsigned char)*start < ' ' && !is_blank(*start))
       return error_set(p->error, RECTO_ERROR_FORMAT, p->path, line,
                        "not text: a byte 0x%02x", (unsigned char)*start);
   return RECTO_OK;

@@ -4,6 +4,7 @@
 #define SCENE_OBJ_PARSER_H
 
 #include "base/digits.h"
+#include "base/word.h"
 #include "scene/material.h"
 
 enum name_kind { NAME_OBJECT, NAME_GROUP, NAME_MATERIAL, NAME_COUNT };
@@ -29,10 +30,6 @@ struct obj_parser {
   ARRAY(char) group;
 };
 
-static inline bool obj_is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
 /* Whether a word may end before this character. */
 static inline bool obj_ends_word(char c) {
   return (unsigned char)c <= ' ' || c == '\\' || c == '#';
@@ -44,7 +41,7 @@ bool obj_pass_continuation(struct obj_parser *p, const char **at);
 static inline void obj_skip_blanks(struct obj_parser *p) {
   const char *at = p->at;
   do {
-    while (obj_is_blank(*at))
+    while (is_blank(*at))
       at++;
   } while (*at == '\\' && obj_pass_continuation(p, &at));
   p->at = at;

@@ -17,7 +17,8 @@ enum {
 };
 
 /* Is the next statement one of that letter, with room to look at? */
-static inline bool is_plain(const struct obj_parser *p, char keyword) {
+static inline bool is_short_statement(const struct obj_parser *p,
+                                      char keyword) {
   return p->end - p->at > PLAIN_ROOM && p->at[0] == keyword && p->at[1] == ' ';
 }
 
@@ -40,7 +41,7 @@ recto_status obj_run_points(struct obj_parser *p) {
     return RECTO_OK;
   if (!ARRAY_RESERVE(&scene->point, PLAIN_RUN))
     return error_memory(p->error);
-  for (int i = 0; i < PLAIN_RUN && is_plain(p, 'v'); i++) {
+  for (int i = 0; i < PLAIN_RUN && is_short_statement(p, 'v'); i++) {
     struct scene_point point;
     const char *at = number_parse_plain(p->at + 2, &point.x);
     if (at && *at == ' ')
@@ -108,7 +109,7 @@ recto_status obj_run_faces(struct obj_parser *p) {
       !ARRAY_RESERVE(&scene->face_start, PLAIN_RUN) ||
       !ARRAY_RESERVE(&scene->face_group, PLAIN_RUN))
     return error_memory(p->error);
-  for (int i = 0; i < PLAIN_RUN && is_plain(p, 'f'); i++) {
+  for (int i = 0; i < PLAIN_RUN && is_short_statement(p, 'f'); i++) {
     uint32_t *corner = scene->corner.item + scene->corner.count;
     const char *past = read_plain_face(p, corner);
     if (!past)

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/word.h"
 
 struct header_word {
   const char *start;
@@ -27,12 +28,8 @@ struct header_parser {
 
 /* ---- Words --------------------------------------------------------------- */
 
-static bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
 /* To the end of the line that starts at `at`; false where there is none. */
-static bool find_line(struct header_parser *p) {
+static bool find_header_line(struct header_parser *p) {
   p->stop = memchr(p->at, p->header->newline, (size_t)(p->end - p->at));
   return p->stop != NULL;
 }
@@ -52,8 +49,8 @@ static bool is_word(struct header_word word, const char *text) {
          memcmp(word.start, text, word.length) == 0;
 }
 
-static recto_status fail_at(const struct header_parser *p,
-                            struct header_word word, const char *wanted) {
+static recto_status header_error(const struct header_parser *p,
+                                 struct header_word word, const char *wanted) {
   if (word.length == 0)
     return error_set(p->error, RECTO_ERROR_FORMAT, p->path, p->line,
                      "PLY header: the line ends where %s should stand", wanted);
@@ -132,22 +129,23 @@ static recto_status read_format(struct header_parser *p) {
   while (format < PLY_NO_FORMAT && !is_word(word, name[format]))
     format++;
   if (format == PLY_NO_FORMAT)
-    return fail_at(p, word, "ascii, binary_little_endian or binary_big_endian");
+    return header_error(p, word,
+                        "ascii, binary_little_endian or binary_big_endian");
   p->header->format = (enum ply_format)format;
   word = next_word(p);
-  return is_word(word, "1.0") ? RECTO_OK : fail_at(p, word, "1.0");
+  return is_word(word, "1.0") ? RECTO_OK : header_error(p, word, "1.0");
 }
 
-static recto_status read_element(struct header_parser *p) {
+static recto_status read_element_line(struct header_parser *p) {
   struct ply_header *header = p->header;
   struct header_word name = next_word(p), word = next_word(p);
   int64_t count;
   if (name.length == 0)
-    return fail_at(p, name, "the name of an element");
+    return header_error(p, name, "the name of an element");
   const char *stop =
       number_parse_int(word.start, word.start + word.length, &count);
   if (word.length == 0 || stop != word.start + word.length || count < 0)
-    return fail_at(p, word, "a number of elements");
+    return header_error(p, word, "a number of elements");
   struct ply_element element = {.kind = kind_of(name),
                                 .count = (size_t)count,
                                 .property = header->property.count,
@@ -199,15 +197,15 @@ static recto_status read_property(struct header_parser *p) {
     word = next_word(p);
     property.count_type = type_of(word);
     if (property.count_type == PLY_NO_TYPE)
-      return fail_at(p, word, "the type of a number");
+      return header_error(p, word, "the type of a number");
     word = next_word(p);
   }
   property.type = type_of(word);
   if (property.type == PLY_NO_TYPE)
-    return fail_at(p, word, "the type of a number");
+    return header_error(p, word, "the type of a number");
   word = next_word(p);
   if (word.length == 0)
-    return fail_at(p, word, "the name of a property");
+    return header_error(p, word, "the name of a property");
   property.role = role_of(element->kind, word);
   recto_status status = check_role(p, word, element, &property);
   if (status != RECTO_OK)
@@ -253,11 +251,11 @@ static recto_status read_line(struct header_parser *p, bool *done) {
   if (is_word(word, "format"))
     return read_format(p);
   if (is_word(word, "element"))
-    return read_element(p);
+    return read_element_line(p);
   if (is_word(word, "property"))
     return read_property(p);
   *done = is_word(word, "end_header");
-  return *done ? RECTO_OK : fail_at(p, word, "a line of a header");
+  return *done ? RECTO_OK : header_error(p, word, "a line of a header");
 }
 
 /* What ends the lines: a carriage return alone only where the first one ends
@@ -281,15 +279,15 @@ recto_status ply_header_read(struct ply_header *header, const char *bytes,
                             .error = error};
   header->format = PLY_NO_FORMAT;
   header->newline = newline_of(bytes, count);
-  if (!find_line(&p) || !is_word(next_word(&p), "ply"))
+  if (!find_header_line(&p) || !is_word(next_word(&p), "ply"))
     return error_set(error, RECTO_ERROR_FORMAT, path, 1,
                      "no PLY file: its first line is not 'ply'");
   recto_status status = RECTO_OK;
   for (bool ok = false; status == RECTO_OK && !ok;) {
     p.at = p.stop + 1;
     p.line++;
-    status = find_line(&p) ? read_line(&p, &ok)
-                           : fail_with(&p, "no line says end_header");
+    status = find_header_line(&p) ? read_line(&p, &ok)
+                                  : fail_with(&p, "no line says end_header");
   }
   if (status == RECTO_OK)
     status = check_elements(&p);

@@ -5,10 +5,11 @@
 #include "scene/ply_parser.h"
 
 #include "base/number.h"
+#include "base/word.h"
 #include "scene/ply_value.h"
 
-static inline bool push_corner(struct ply_parser *p, int64_t index,
-                               enum ply_kind kind) {
+static inline bool push_face_corner(struct ply_parser *p, int64_t index,
+                                    enum ply_kind kind) {
   uint32_t point = (uint32_t)(p->first + (size_t)index);
   if (index < 0 || (uint64_t)index >= p->points) {
     point = SCENE_NONE;
@@ -21,7 +22,7 @@ static inline bool push_corner(struct ply_parser *p, int64_t index,
 }
 
 bool ply_push_corner(struct ply_parser *p, int64_t index, enum ply_kind kind) {
-  return push_corner(p, index, kind);
+  return push_face_corner(p, index, kind);
 }
 
 /* ---- Binary -------------------------------------------------------------- */
@@ -45,7 +46,7 @@ static enum ply_taken take_list(struct ply_parser *p,
   if (property->role != PLY_CORNERS)
     return PLY_TAKEN;
   for (; at < p->at; at += size)
-    if (!push_corner(p, ply_load_whole(at, property->type, swap), kind))
+    if (!push_face_corner(p, ply_load_whole(at, property->type, swap), kind))
       return PLY_NO_MEMORY;
   return PLY_TAKEN;
 }
@@ -75,10 +76,6 @@ static enum ply_taken take_binary(struct ply_parser *p,
 
 /* ---- Text ---------------------------------------------------------------- */
 
-static inline bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\r';
-}
-
 static void skip_line(struct ply_parser *p) {
   const char *stop = memchr(p->at, p->header.newline, (size_t)(p->end - p->at));
   p->at = stop ? stop + 1 : p->end;
@@ -86,7 +83,7 @@ static void skip_line(struct ply_parser *p) {
 }
 
 /* To the first value of the next line that has one; false at the end. */
-static bool find_line(struct ply_parser *p) {
+static bool find_value_line(struct ply_parser *p) {
   for (;;) {
     while (*p->at != p->header.newline && is_blank(*p->at))
       p->at++;
@@ -155,7 +152,7 @@ static enum ply_taken take_text_list(struct ply_parser *p,
         return PLY_BROKEN;
     } else if (!next_whole(p, &index)) {
       return PLY_BROKEN;
-    } else if (!push_corner(p, index, kind)) {
+    } else if (!push_face_corner(p, index, kind)) {
       return PLY_NO_MEMORY;
     }
   }
@@ -190,7 +187,7 @@ static enum ply_taken take_values(struct ply_parser *p,
 /* The line that is broken where the file ends is one that was cut. */
 static enum ply_taken take_text(struct ply_parser *p,
                                 const struct ply_element *element) {
-  if (!find_line(p))
+  if (!find_value_line(p))
     return PLY_CUT_SHORT;
   p->last = p->line;
   enum ply_taken taken = take_values(p, element);

@@ -123,8 +123,8 @@ static int read_exponent(const char *at, const char *end) {
 }
 
 /* Appends the digits at `at` to the literal, and returns where they end. */
-static const char *read_digits(struct literal *literal, const char *at,
-                               const char *end) {
+static const char *append_digits(struct literal *literal, const char *at,
+                                 const char *end) {
   uint64_t mantissa = literal->mantissa;
   int digits = literal->digits;
   for (; at < end && digits_is_one(*at); at++) {
@@ -141,11 +141,11 @@ static struct literal read_literal(const char *at, const char *end) {
   struct literal literal = {0};
   if (*at == '-' || *at == '+')
     at++;
-  at = read_digits(&literal, at, end);
+  at = append_digits(&literal, at, end);
   literal.written = literal.digits;
   if (at < end && *at == '.') {
     const char *fraction = at + 1;
-    at = read_digits(&literal, fraction, end);
+    at = append_digits(&literal, fraction, end);
     literal.place = (int)(fraction - at);
     literal.written -= literal.place;
   }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/input.h"
+#include "base/word.h"
 #include "scene/snapshot.h"
 
 /* ---- The reader ---------------------------------------------------------- */
@@ -21,24 +22,6 @@ static const struct reader *const reader_of_the_rest = &reader_import;
 #else
 static const struct reader *const reader_of_the_rest = NULL;
 #endif
-
-static char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
-}
-
-/* Whether `word`, in any case, is one of those in a space-separated list. */
-static bool is_listed(const char *word, const char *list) {
-  while (*list) {
-    size_t length = strcspn(list, " "), i = 0;
-    while (i < length && lower(word[i]) == list[i])
-      i++;
-    if (i == length && word[i] == '\0')
-      return true;
-    list += length;
-    list += strspn(list, " ");
-  }
-  return false;
-}
 
 enum { EXTENSION_SIZE = 32 };
 
@@ -63,7 +46,7 @@ static void find_extension(const char *path, char to[EXTENSION_SIZE]) {
   const char *slash = strrchr(path, '/');
   const char *name = slash ? slash + 1 : path;
   size_t rest = copy_extension(name, strlen(name), to);
-  if (is_listed(to, "gz"))
+  if (word_is_among(to, "gz", false))
     (void)copy_extension(name, rest, to);
 }
 
@@ -78,13 +61,14 @@ static const struct reader *choose_reader(const char *path,
   if (!named)
     *format = extension;
   for (int i = 0; i < READER_COUNT; i++)
-    if (is_listed(*format, named ? readers[i]->name : readers[i]->extensions))
+    if (word_is_among(*format,
+                      named ? readers[i]->name : readers[i]->extensions, false))
       return readers[i];
   return **format ? reader_of_the_rest : NULL;
 }
 
-static recto_status refuse(const char *path, const char *format,
-                           recto_error *error) {
+static recto_status refuse_format(const char *path, const char *format,
+                                  recto_error *error) {
   const char *others = reader_of_the_rest ? "" : " (built without Assimp)";
   if (format && *format)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, path, 0,
@@ -132,7 +116,7 @@ recto_status scene_read(struct scene *scene, const char *path,
   char extension[EXTENSION_SIZE];
   const struct reader *reader = choose_reader(path, extension, &format);
   if (reader == NULL)
-    return refuse(path, format, error);
+    return refuse_format(path, format, error);
   struct input input;
   recto_status status = input_load(&input, path, error);
   if (status == RECTO_OK)
@@ -150,7 +134,7 @@ recto_status scene_read_memory(struct scene *scene, const void *bytes,
   char extension[EXTENSION_SIZE];
   const struct reader *reader = choose_reader(name, extension, &format);
   if (reader == NULL)
-    return refuse(name, format, error);
+    return refuse_format(name, format, error);
   struct input input;
   recto_status status = input_copy(&input, bytes, count, name, error);
   if (status == RECTO_OK)

@@ -68,7 +68,7 @@ static void find_importer(char path[PATH_SIZE]) {
 }
 
 /* A whole number above 0 from the environment, else the usual one. */
-static long limit_of(const char *name, long usual) {
+static long environment_limit(const char *name, long usual) {
   const char *text = secure_getenv(name);
   long value = text ? strtol(text, NULL, 10) : 0;
   return value > 0 && value < 1000000000 ? value : usual;
@@ -164,8 +164,8 @@ static recto_status read_import(struct scene *scene, const char *bytes,
                                 struct diagnostics *diagnostics,
                                 recto_error *error) {
   struct import_child import = {
-      .seconds = limit_of("RECTO_IMPORT_SECONDS", USUAL_SECONDS),
-      .mb = limit_of("RECTO_IMPORT_MB", (long)(input_most() >> 20)),
+      .seconds = environment_limit("RECTO_IMPORT_SECONDS", USUAL_SECONDS),
+      .mb = environment_limit("RECTO_IMPORT_MB", (long)(input_most() >> 20)),
       .path = path,
       .format = format,
       .error = error};

@@ -6,12 +6,9 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/word.h"
 
-static bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
-static const char *skip_blanks(const char *at, const char *end) {
+static const char *after_blanks(const char *at, const char *end) {
   while (at < end && is_blank(*at))
     at++;
   return at;
@@ -25,7 +22,7 @@ static const char *follow_keyword(const char *at, const char *end,
   if (count < length || memcmp(at, keyword, length) != 0 ||
       (count > length && !is_blank(at[length])))
     return NULL;
-  return skip_blanks(at + length, end);
+  return after_blanks(at + length, end);
 }
 
 /* Kd r g b, or Kd r where all three are alike; false where it is not that. */
@@ -36,7 +33,7 @@ static bool parse_colour(const char *at, const char *end, uint32_t *colour) {
     const char *stop = number_parse_double(at, end, &part[parts]);
     if (!stop || (stop < end && !is_blank(*stop)) || !isfinite(part[parts]))
       return false;
-    at = skip_blanks(stop, end);
+    at = after_blanks(stop, end);
   }
   if ((parts != 1 && parts != 3) || (at < end && *at != '#'))
     return false;
@@ -58,7 +55,7 @@ struct library {
   recto_error *error;
 };
 
-static void warn(const struct library *library, const char *text) {
+static void warn_of_statement(const struct library *library, const char *text) {
   diagnostics_fault(library->diagnostics, SCENE_FAULT_MATERIAL, library->line,
                     "%s", text);
 }
@@ -70,7 +67,7 @@ static recto_status begin_material(struct library *library, const char *name,
   size_t known = palette->group.count;
   library->material = SCENE_NONE;
   if (name == end) {
-    warn(library, "newmtl without a name, skipped");
+    warn_of_statement(library, "newmtl without a name, skipped");
     return RECTO_OK;
   }
   recto_status status =
@@ -89,13 +86,13 @@ static void take_colour(const struct library *library, const char *at,
                         const char *end) {
   uint32_t colour;
   if (library->material == SCENE_NONE) {
-    warn(library, "Kd of no material, skipped");
+    warn_of_statement(library, "Kd of no material, skipped");
     return;
   }
   struct scene_group *material =
       &library->palette->group.item[library->material];
   if (!parse_colour(at, end, &colour)) {
-    warn(library, "Kd that is no colour, skipped");
+    warn_of_statement(library, "Kd that is no colour, skipped");
   } else if (!material->has_colour) {
     material->colour = colour;
     material->has_colour = true;
@@ -103,8 +100,8 @@ static void take_colour(const struct library *library, const char *at,
 }
 
 /* Takes one statement, without the blanks around it. */
-static recto_status read_statement(struct library *library, const char *at,
-                                   const char *end) {
+static recto_status read_mtl_statement(struct library *library, const char *at,
+                                       const char *end) {
   const char *rest = follow_keyword(at, end, "newmtl");
   if (rest)
     return begin_material(library, rest, end);
@@ -136,14 +133,15 @@ recto_status material_read(struct scene *palette, const char *bytes,
     const char *stop = memchr(at, '\n', (size_t)(end - at));
     const char *next = stop ? stop + 1 : end;
     stop = stop ? stop : end;
-    at = skip_blanks(at, stop);
+    at = after_blanks(at, stop);
     while (stop > at && is_blank(stop[-1]))
       stop--;
     if (!is_text(at, stop)) {
-      warn(&library, "not text: the rest of the library is not read");
+      warn_of_statement(&library,
+                        "not text: the rest of the library is not read");
       return RECTO_OK;
     }
-    status = read_statement(&library, at, stop);
+    status = read_mtl_statement(&library, at, stop);
     at = next;
   }
   return status;

@@ -26,8 +26,8 @@ enum { DIGITS_MAX = 12 }; /* of an index that may be in range */
 
 /* ---- Points -------------------------------------------------------------- */
 
-static recto_status add_point(struct obj_parser *p, const double xyz[3],
-                              bool usable) {
+static recto_status add_obj_point(struct obj_parser *p, const double xyz[3],
+                                  bool usable) {
   struct scene *scene = p->scene;
   struct scene_point point = {0, 0, 0};
   if (usable)
@@ -55,7 +55,7 @@ static recto_status read_point(struct obj_parser *p) {
     const char *stop = number_parse_double(p->at, p->end, &xyz[k]);
     if (!stop || !obj_ends_word(*stop)) {
       recto_status status = obj_skip_broken(p, start, line, "point");
-      return status == RECTO_OK ? add_point(p, xyz, false) : status;
+      return status == RECTO_OK ? add_obj_point(p, xyz, false) : status;
     }
     if (sampled && isfinite(xyz[k]))
       precision_look(&p->sample, p->at, stop, xyz[k]);
@@ -66,7 +66,7 @@ static recto_status read_point(struct obj_parser *p) {
     diagnostics_fault(p->diagnostics, SCENE_FAULT_NOT_FINITE, line,
                       "point that is not finite; its faces are skipped");
   obj_finish_statement(p);
-  return add_point(p, xyz, finite);
+  return add_obj_point(p, xyz, finite);
 }
 
 static recto_status read_statements(struct obj_parser *p, bool points_only);
@@ -117,7 +117,7 @@ static recto_status read_rest(struct obj_parser *p, struct material_name *name,
   const char *stop = memchr(p->at, '\n', (size_t)(p->end - p->at));
   if (!stop)
     stop = p->end;
-  while (stop > p->at && obj_is_blank(stop[-1]))
+  while (stop > p->at && is_blank(stop[-1]))
     stop--;
   name->length = (size_t)(stop - p->at);
   recto_status status = obj_check_text(p, p->at, p->line);
@@ -132,7 +132,7 @@ static recto_status read_name(struct obj_parser *p, enum name_kind kind,
   return read_rest(p, &p->name[kind], keyword);
 }
 
-static recto_status read_library(struct obj_parser *p, size_t keyword) {
+static recto_status read_mtllib(struct obj_parser *p, size_t keyword) {
   struct material_name name;
   recto_status status = read_rest(p, &name, keyword);
   if (status != RECTO_OK || name.length == 0 || !p->scene->wants_colours)
@@ -142,7 +142,7 @@ static recto_status read_library(struct obj_parser *p, size_t keyword) {
 
 /* The current group is named by those of object, group and material that
  * there are, with strokes between them: each combination is a group. */
-static recto_status use_group(struct obj_parser *p) {
+static recto_status use_named_group(struct obj_parser *p) {
   p->group.count = 0;
   for (int i = 0; i < NAME_COUNT; i++) {
     const struct material_name *name = &p->name[i];
@@ -259,8 +259,8 @@ static recto_status read_corners(struct obj_parser *p, bool *broken,
 }
 
 /* Whether all points of the statement can be used; warns where not. */
-static bool has_good_points(struct obj_parser *p, unsigned long line,
-                            const char *what) {
+static bool has_usable_references(struct obj_parser *p, unsigned long line,
+                                  const char *what) {
   for (size_t i = 0; p->bad.count && i < p->corner.count; i++)
     if (is_bad(p, p->corner.item[i])) {
       diagnostics_fault(p->diagnostics, SCENE_FAULT_NOT_FINITE, line,
@@ -270,8 +270,8 @@ static bool has_good_points(struct obj_parser *p, unsigned long line,
   return true;
 }
 
-static void tell_missing(struct obj_parser *p, unsigned long line,
-                         const char *what, const char *index) {
+static void warn_missing_reference(struct obj_parser *p, unsigned long line,
+                                   const char *what, const char *index) {
   enum { SHOWN = 24 };
   size_t points = p->ahead ? p->scene->point.count - p->first : p->seen;
   int length = 0;
@@ -284,7 +284,7 @@ static void tell_missing(struct obj_parser *p, unsigned long line,
 }
 
 /* f or l. */
-static recto_status read_element(struct obj_parser *p, bool is_face) {
+static recto_status read_face_or_line(struct obj_parser *p, bool is_face) {
   const char *start = p->at;
   unsigned long line = p->line;
   const char *what = is_face ? "face" : "polyline";
@@ -303,10 +303,10 @@ static recto_status read_element(struct obj_parser *p, bool is_face) {
   }
   obj_finish_statement(p);
   if (missing != NULL)
-    tell_missing(p, line, what, missing);
-  if (missing != NULL || !has_good_points(p, line, what))
+    warn_missing_reference(p, line, what, missing);
+  if (missing != NULL || !has_usable_references(p, line, what))
     return is_face ? scene_skip_face(p->scene, p->error) : RECTO_OK;
-  if (p->renamed && (status = use_group(p)) != RECTO_OK)
+  if (p->renamed && (status = use_named_group(p)) != RECTO_OK)
     return status;
   return is_face ? scene_add_face(p->scene, p->corner.item, p->corner.count,
                                   line, p->diagnostics, p->error)
@@ -325,7 +325,7 @@ static recto_status read_unknown(struct obj_parser *p) {
   if (is_keyword(p, "usemtl", 6))
     return read_name(p, NAME_MATERIAL, 6);
   if (is_keyword(p, "mtllib", 6))
-    return read_library(p, 6);
+    return read_mtllib(p, 6);
   if (!p->strange)
     p->strange = p->line;
   recto_status status = obj_check_text(p, p->at, p->line);
@@ -345,16 +345,16 @@ static recto_status read_v(struct obj_parser *p) {
 }
 
 /* A statement by its first letter, where the keyword is no longer. */
-static recto_status read_statement(struct obj_parser *p, char keyword) {
+static recto_status read_obj_statement(struct obj_parser *p, char keyword) {
   switch (keyword) {
   case 'v':
     return read_v(p);
   case 'f': {
-    recto_status status = read_element(p, true);
+    recto_status status = read_face_or_line(p, true);
     return status == RECTO_OK ? obj_run_faces(p) : status;
   }
   case 'l':
-    return read_element(p, false);
+    return read_face_or_line(p, false);
   case 'g':
     return read_name(p, NAME_GROUP, 1);
   case 'o':
@@ -387,7 +387,7 @@ static recto_status read_statements(struct obj_parser *p, bool points_only) {
     else if (is_ignored(keyword, next, points_only))
       obj_skip_line(p, true);
     else if (obj_ends_word(next))
-      status = read_statement(p, keyword);
+      status = read_obj_statement(p, keyword);
     else
       status = read_unknown(p);
   }

@@ -39,9 +39,9 @@ static recto_status fail_short(const struct ply_parser *p,
 
 /* Takes element `number`.  *good says whether there is one; what was passed
  * over has been reported. */
-static recto_status take(struct ply_parser *p,
-                         const struct ply_element *element, size_t number,
-                         bool *good) {
+static recto_status take_element(struct ply_parser *p,
+                                 const struct ply_element *element,
+                                 size_t number, bool *good) {
   const char *start = p->at;
   enum ply_taken taken = ply_take(p, element);
   *good = taken == PLY_TAKEN;
@@ -94,7 +94,7 @@ static recto_status read_vertex(struct ply_parser *p,
                                 size_t number) {
   bool ok;
   struct scene_point point;
-  recto_status status = take(p, element, number, &ok);
+  recto_status status = take_element(p, element, number, &ok);
   if (status != RECTO_OK)
     return status;
   bool colour = p->scene->wants_colours && ply_has_colour(element);
@@ -153,8 +153,8 @@ static recto_status read_vertices(struct ply_parser *p,
 
 /* Whether the points of the element that was taken last are there and can be
  * used; warns where not. */
-static bool has_good_points(struct ply_parser *p, const uint32_t *corner,
-                            size_t count, const char *what) {
+static bool has_usable_corners(struct ply_parser *p, const uint32_t *corner,
+                               size_t count, const char *what) {
   if (p->has_missing) {
     diagnostics_fault(p->diagnostics, SCENE_FAULT_INDEX, p->last,
                       "%s with index %lld where there are %zu points, skipped",
@@ -171,9 +171,9 @@ static bool has_good_points(struct ply_parser *p, const uint32_t *corner,
 
 /* Adds a face of these corners; its colour is that of the element, or the mean
  * of its corners'. */
-static recto_status add_face(struct ply_parser *p,
-                             const struct ply_element *element,
-                             const uint32_t *corner, size_t count) {
+static recto_status add_ply_face(struct ply_parser *p,
+                                 const struct ply_element *element,
+                                 const uint32_t *corner, size_t count) {
   uint32_t before = scene_face_count(p->scene);
   recto_status status = scene_add_face(p->scene, corner, count, p->last,
                                        p->diagnostics, p->error);
@@ -192,9 +192,9 @@ static recto_status add_face(struct ply_parser *p,
 static recto_status read_face(struct ply_parser *p,
                               const struct ply_element *element) {
   const uint32_t *corner = p->corner.item;
-  if (!has_good_points(p, corner, p->corner.count, "face"))
+  if (!has_usable_corners(p, corner, p->corner.count, "face"))
     return scene_skip_face(p->scene, p->error);
-  return add_face(p, element, corner, p->corner.count);
+  return add_ply_face(p, element, corner, p->corner.count);
 }
 
 /* Each corner of a strip makes a triangle with the two before it, which turn
@@ -217,12 +217,12 @@ static recto_status read_strip(struct ply_parser *p,
     /* Strips are joined by triangles without area, which are meant to be. */
     if (triangle[0] != triangle[1] && triangle[1] != triangle[2] &&
         triangle[0] != triangle[2] &&
-        has_good_points(p, triangle, 3, "triangle of a strip"))
-      status = add_face(p, element, triangle, 3);
+        has_usable_corners(p, triangle, 3, "triangle of a strip"))
+      status = add_ply_face(p, element, triangle, 3);
   }
   p->has_missing = missing;
   if (missing && status == RECTO_OK)
-    (void)has_good_points(p, NULL, 0, "strip");
+    (void)has_usable_corners(p, NULL, 0, "strip");
   return status;
 }
 
@@ -235,7 +235,7 @@ static recto_status read_edge(struct ply_parser *p,
       if (!ply_push_corner(p, ply_whole(p->value[PLY_VERTEX1 + k]), PLY_EDGE))
         return error_memory(p->error);
   }
-  if (!has_good_points(p, p->corner.item, p->corner.count, "edge"))
+  if (!has_usable_corners(p, p->corner.item, p->corner.count, "edge"))
     return RECTO_OK;
   return scene_add_wire(p->scene, p->corner.item, p->corner.count, p->last,
                         p->diagnostics, p->error);
@@ -250,7 +250,7 @@ static recto_status read_others(struct ply_parser *p,
     bool ok;
     status = diagnostics_poll(p->diagnostics, p->at, p->error);
     if (status == RECTO_OK)
-      status = take(p, element, i, &ok);
+      status = take_element(p, element, i, &ok);
     if (status != RECTO_OK || !ok)
       continue;
     if (element->kind == PLY_FACE)
@@ -280,8 +280,8 @@ static recto_status skip_elements(struct ply_parser *p,
   return read_others(p, &other);
 }
 
-static recto_status read_element(struct ply_parser *p,
-                                 const struct ply_element *element) {
+static recto_status read_ply_items(struct ply_parser *p,
+                                   const struct ply_element *element) {
   p->last = 0;
   if (element->property_count == 0)
     return RECTO_OK;
@@ -307,11 +307,11 @@ static recto_status read_elements(struct ply_parser *p) {
   for (size_t i = 0; i < vertex && status == RECTO_OK; i++)
     status = skip_elements(p, &header->element.item[i]);
   for (size_t i = vertex; i < header->element.count && status == RECTO_OK; i++)
-    status = read_element(p, &header->element.item[i]);
+    status = read_ply_items(p, &header->element.item[i]);
   p->at = header->body;
   p->line = header->line;
   for (size_t i = 0; i < vertex && status == RECTO_OK; i++)
-    status = read_element(p, &header->element.item[i]);
+    status = read_ply_items(p, &header->element.item[i]);
   return status;
 }
 

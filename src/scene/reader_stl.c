@@ -168,7 +168,7 @@ struct parser {
   recto_error *error;
 };
 
-static struct stl_word next_word(struct parser *p) {
+static struct stl_word next_stl_word(struct parser *p) {
   for (; is_space(*p->at); p->at++)
     p->line += *p->at == '\n' || (*p->at == '\r' && p->at[1] != '\n');
   struct stl_word word = {p->at, 0, p->line};
@@ -179,15 +179,15 @@ static struct stl_word next_word(struct parser *p) {
 }
 
 /* Whether the word is `keyword`, in any case. */
-static bool is_word(struct stl_word word, const char *keyword) {
+static bool is_stl_keyword(struct stl_word word, const char *keyword) {
   size_t i = 0;
   while (i < word.length && keyword[i] && (word.start[i] | 0x20) == keyword[i])
     i++;
   return i == word.length && keyword[i] == '\0';
 }
 
-static recto_status fail_at(struct parser *p, struct stl_word word,
-                            const char *wanted) {
+static recto_status stl_error(struct parser *p, struct stl_word word,
+                              const char *wanted) {
   if (word.length == 0)
     return error_set(p->error, RECTO_ERROR_FORMAT, p->path, word.line,
                      "the file ends where '%s' should follow", wanted);
@@ -197,8 +197,8 @@ static recto_status fail_at(struct parser *p, struct stl_word word,
 }
 
 static recto_status expect(struct parser *p, const char *keyword) {
-  struct stl_word word = next_word(p);
-  return is_word(word, keyword) ? RECTO_OK : fail_at(p, word, keyword);
+  struct stl_word word = next_stl_word(p);
+  return is_stl_keyword(word, keyword) ? RECTO_OK : stl_error(p, word, keyword);
 }
 
 /* Reads x, y and z.  What is no number makes them unusable, with a warning. */
@@ -208,10 +208,10 @@ static recto_status read_coordinates(struct parser *p,
   double xyz[3];
   bool sampled = precision_is_sampled(&p->sample, p->corners++);
   for (int k = 0; k < 3; k++) {
-    struct stl_word word = next_word(p);
+    struct stl_word word = next_stl_word(p);
     const char *end = word.start + word.length;
     if (word.length == 0)
-      return fail_at(p, word, "a coordinate");
+      return stl_error(p, word, "a coordinate");
     if (number_parse_double(word.start, end, &xyz[k]) != end) {
       *fault = SCENE_FAULT_SYNTAX;
       xyz[k] = 0;
@@ -231,11 +231,11 @@ static recto_status read_loop(struct parser *p, enum scene_fault *fault) {
   *fault = SCENE_FAULT_COUNT;
   p->corner.count = 0;
   for (;;) {
-    struct stl_word word = next_word(p);
-    if (is_word(word, "endloop"))
+    struct stl_word word = next_stl_word(p);
+    if (is_stl_keyword(word, "endloop"))
       return RECTO_OK;
-    if (!is_word(word, "vertex"))
-      return fail_at(p, word, "vertex");
+    if (!is_stl_keyword(word, "vertex"))
+      return stl_error(p, word, "vertex");
     struct scene_point point;
     recto_status status = read_coordinates(p, &point, fault);
     if (status == RECTO_OK && *fault == SCENE_FAULT_COUNT)
@@ -255,11 +255,11 @@ static recto_status read_loop(struct parser *p, enum scene_fault *fault) {
  * over: it follows from the corners. */
 static recto_status read_facet(struct parser *p, unsigned long line) {
   enum { NORMAL_WORDS = 4 };
-  struct stl_word word = next_word(p);
-  for (int i = 0; i < NORMAL_WORDS && !is_word(word, "outer"); i++)
-    word = next_word(p);
-  if (!is_word(word, "outer"))
-    return fail_at(p, word, "outer");
+  struct stl_word word = next_stl_word(p);
+  for (int i = 0; i < NORMAL_WORDS && !is_stl_keyword(word, "outer"); i++)
+    word = next_stl_word(p);
+  if (!is_stl_keyword(word, "outer"))
+    return stl_error(p, word, "outer");
   enum scene_fault fault;
   recto_status status = expect(p, "loop");
   if (status == RECTO_OK)
@@ -299,16 +299,16 @@ static recto_status read_solid(struct parser *p) {
   recto_status status =
       scene_use_group(p->scene, name.start, name.length, p->error);
   while (status == RECTO_OK) {
-    struct stl_word word = next_word(p);
+    struct stl_word word = next_stl_word(p);
     status = diagnostics_poll(p->diagnostics, p->at, p->error);
     if (status != RECTO_OK)
       break;
-    if (is_word(word, "endsolid")) {
+    if (is_stl_keyword(word, "endsolid")) {
       rest_of_line(p);
       return RECTO_OK;
     }
-    status = is_word(word, "facet") ? read_facet(p, word.line)
-                                    : fail_at(p, word, "facet");
+    status = is_stl_keyword(word, "facet") ? read_facet(p, word.line)
+                                           : stl_error(p, word, "facet");
   }
   return status;
 }
@@ -316,10 +316,11 @@ static recto_status read_solid(struct parser *p) {
 static recto_status read_text(struct parser *p) {
   recto_status status = RECTO_OK;
   while (status == RECTO_OK) {
-    struct stl_word word = next_word(p);
+    struct stl_word word = next_stl_word(p);
     if (word.length == 0)
       break;
-    status = is_word(word, "solid") ? read_solid(p) : fail_at(p, word, "solid");
+    status = is_stl_keyword(word, "solid") ? read_solid(p)
+                                           : stl_error(p, word, "solid");
   }
   return status;
 }
@@ -341,7 +342,7 @@ static bool looks_like_text(const char *bytes, size_t count) {
   struct stl_word word = {bytes + start, 0, 1};
   while (word.length < 5 && start + word.length < count)
     word.length++;
-  return is_word(word, "solid") && has_text_for_header(bytes, count);
+  return is_stl_keyword(word, "solid") && has_text_for_header(bytes, count);
 }
 
 static recto_status read_stl(struct scene *scene, const char *bytes,

@@ -42,13 +42,13 @@ static struct topology_walk walk_sides(const struct scene *scene,
       .scene = scene, .weld = weld, .face = SCENE_NONE};
 }
 
-static inline uint32_t point_of(const struct topology_walk *walk,
-                                uint32_t corner) {
+static inline uint32_t welded_corner(const struct topology_walk *walk,
+                                     uint32_t corner) {
   uint32_t point = walk->scene->corner.item[corner];
   return walk->weld ? walk->weld[point] : point;
 }
 
-static inline bool next_side(struct topology_walk *walk) {
+static inline bool next_side_of_point(struct topology_walk *walk) {
   if (walk->corner + 1 >= walk->end) {
     uint32_t face = walk->face + 1; /* SCENE_NONE + 1 is 0 */
     if (face == scene_face_count(walk->scene))
@@ -56,7 +56,7 @@ static inline bool next_side(struct topology_walk *walk) {
     walk->face = face;
     walk->corner = walk->scene->face_start.item[face];
     walk->end = walk->scene->face_start.item[face + 1];
-    walk->from = point_of(walk, walk->corner);
+    walk->from = welded_corner(walk, walk->corner);
   } else {
     walk->corner++;
     walk->from = walk->to;
@@ -64,11 +64,11 @@ static inline bool next_side(struct topology_walk *walk) {
   uint32_t next = walk->corner + 1 < walk->end
                       ? walk->corner + 1
                       : walk->scene->face_start.item[walk->face];
-  walk->to = point_of(walk, next);
+  walk->to = welded_corner(walk, next);
   return true;
 }
 
-static inline uint32_t lower(const struct topology_walk *walk) {
+static inline uint32_t lower_end(const struct topology_walk *walk) {
   return walk->from < walk->to ? walk->from : walk->to;
 }
 static inline uint32_t upper(const struct topology_walk *walk) {
@@ -93,9 +93,10 @@ static void deal_sides(const struct scene *scene, const uint32_t *weld,
     end[p] = sum;
     sum += count[p] > FEW_SIDES ? count[p] : 0;
   }
-  for (struct topology_walk walk = walk_sides(scene, weld); next_side(&walk);)
-    if (count[lower(&walk)] > FEW_SIDES)
-      side[end[lower(&walk)]++] =
+  for (struct topology_walk walk = walk_sides(scene, weld);
+       next_side_of_point(&walk);)
+    if (count[lower_end(&walk)] > FEW_SIDES)
+      side[end[lower_end(&walk)]++] =
           (struct topology_side){upper(&walk), walk.corner};
 }
 
@@ -150,7 +151,7 @@ struct lists {
 static bool is_new(const struct topology *topology,
                    const struct topology_walk *walk, struct lists *lists,
                    uint32_t *found) {
-  uint32_t e = lists->head[lower(walk)];
+  uint32_t e = lists->head[lower_end(walk)];
   if (e == HUB) {
     /* A name is a corner no later than the side's own: if it is not its own,
      * it holds its edge's number by now. */
@@ -169,10 +170,11 @@ static bool is_new(const struct topology *topology,
   return e == SCENE_NONE;
 }
 
-static bool add_edge(struct topology *topology,
-                     const struct topology_walk *walk, struct lists *lists) {
+static bool add_topology_edge(struct topology *topology,
+                              const struct topology_walk *walk,
+                              struct lists *lists) {
   struct topology_edge edge = {
-      .point = {lower(walk), upper(walk)},
+      .point = {lower_end(walk), upper(walk)},
       .first = walk->face & FACE_BITS,
       .uses = 1,
       .second = TOPOLOGY_NONE,
@@ -203,12 +205,12 @@ static void use_edge(struct topology_edge *edge,
 static bool number_edges(struct topology *topology, const struct scene *scene,
                          struct lists *lists) {
   for (struct topology_walk walk = walk_sides(scene, topology->weld);
-       !lists->overfull && next_side(&walk);) {
+       !lists->overfull && next_side_of_point(&walk);) {
     uint32_t e;
     if (!poll_at(walk.corner))
       return false;
     if (is_new(topology, &walk, lists, &e)) {
-      if (!add_edge(topology, &walk, lists))
+      if (!add_topology_edge(topology, &walk, lists))
         return false;
     } else {
       topology->corner_edge[walk.corner] = e;
@@ -222,8 +224,9 @@ static bool number_edges(struct topology *topology, const struct scene *scene,
 static size_t count_sides(const struct scene *scene, const uint32_t *weld,
                           uint32_t *count) {
   size_t at_hubs = 0;
-  for (struct topology_walk walk = walk_sides(scene, weld); next_side(&walk);)
-    count[lower(&walk)]++;
+  for (struct topology_walk walk = walk_sides(scene, weld);
+       next_side_of_point(&walk);)
+    count[lower_end(&walk)]++;
   for (size_t p = 0; p < scene->point.count; p++)
     at_hubs += count[p] > FEW_SIDES ? count[p] : 0;
   return at_hubs;

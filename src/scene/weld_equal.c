@@ -10,7 +10,7 @@
 #include "base/poll.h"
 #include "base/sort.h"
 
-static uint64_t bits_of(double value) {
+static uint64_t double_bits(double value) {
   value += 0.0; /* -0 becomes 0 */
   uint64_t bits;
   memcpy(&bits, &value, sizeof bits);
@@ -21,9 +21,9 @@ static uint64_t bits_of(double value) {
  * of the golden ratio.  33 bits are three passes of the sort. */
 static uint64_t fingerprint(const struct scene_point *point) {
   const uint64_t golden = UINT64_C(0x9e3779b97f4a7c15);
-  uint64_t mixed = bits_of(point->x) * golden;
-  mixed = ((mixed ^ mixed >> 32) + bits_of(point->y)) * golden;
-  mixed = ((mixed ^ mixed >> 32) + bits_of(point->z)) * golden;
+  uint64_t mixed = double_bits(point->x) * golden;
+  mixed = ((mixed ^ mixed >> 32) + double_bits(point->y)) * golden;
+  mixed = ((mixed ^ mixed >> 32) + double_bits(point->z)) * golden;
   return mixed >> 31;
 }
 

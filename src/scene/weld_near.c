@@ -63,9 +63,9 @@ static size_t count_borders(const struct topology *topology) {
 
 /* ---- Candidates ---------------------------------------------------------- */
 
-static bool find_candidates(struct candidates *candidates,
-                            const struct scene *scene,
-                            const struct topology *topology) {
+static bool find_weld_candidates(struct candidates *candidates,
+                                 const struct scene *scene,
+                                 const struct topology *topology) {
   size_t points = scene->point.count;
   candidates->number = mem_calloc(points, sizeof *candidates->number);
   if (!candidates->number)
@@ -89,7 +89,7 @@ static bool find_candidates(struct candidates *candidates,
   return true;
 }
 
-static uint32_t point_of(const struct topology *topology, uint32_t point) {
+static uint32_t welded_point(const struct topology *topology, uint32_t point) {
   return topology->weld ? topology->weld[point] : point;
 }
 
@@ -201,9 +201,9 @@ static size_t range_end(const struct scene *scene,
 
 /* The length that rounding explains, of each range; to `each`, one a member,
  * what it is there.  Returns the longest. */
-static double explain(const struct scene *scene,
-                      const struct candidates *candidates,
-                      struct precision unstated, double *each) {
+static double find_rounding_lengths(const struct scene *scene,
+                                    const struct candidates *candidates,
+                                    struct precision unstated, double *each) {
   double most = 0;
   const struct cluster_member *member = candidates->member.item;
   for (size_t i = 0, end; i < candidates->member.count; i = end) {
@@ -229,7 +229,7 @@ static double set_explained_radii(struct candidates *candidates,
   double length = -1;
   if (!each)
     return length;
-  length = explain(scene, candidates, unstated, each);
+  length = find_rounding_lengths(scene, candidates, unstated, each);
   if (length > 0 && !measure_faces(candidates, scene, topology))
     length = -1;
   for (size_t i = 0; i < count && length > 0; i++) {
@@ -250,7 +250,7 @@ static uint32_t *make_map(struct candidates *candidates,
   const struct cluster_member *member = candidates->member.item;
   uint32_t *map = candidates->number;
   for (size_t p = 0; p < scene->point.count; p++) {
-    uint32_t same = point_of(topology, (uint32_t)p);
+    uint32_t same = welded_point(topology, (uint32_t)p);
     if (same != p)
       map[p] = map[same];
     else
@@ -356,11 +356,12 @@ static recto_status rewrite(struct welded *welded, const struct scene *scene,
 /* ---- All of it ----------------------------------------------------------- */
 
 /* Sets the radii and joins; false when memory ran out. */
-static bool join(struct welded *welded, struct candidates *candidates,
-                 const struct topology *topology,
-                 const struct weld_request *request) {
+static bool join_close_points(struct welded *welded,
+                              struct candidates *candidates,
+                              const struct topology *topology,
+                              const struct weld_request *request) {
   const struct scene *scene = &welded->scene;
-  if (!find_candidates(candidates, scene, topology))
+  if (!find_weld_candidates(candidates, scene, topology))
     return false;
   if (candidates->member.count == 0)
     return true;
@@ -388,7 +389,7 @@ recto_status weld_near(struct welded *welded, struct topology *topology,
   welded->borders = count_borders(topology);
   if (request->length == 0 || welded->borders == 0)
     return status;
-  if (!join(welded, &candidates, topology, request)) {
+  if (!join_close_points(welded, &candidates, topology, request)) {
     welded->joined = 0;
     status = error_memory(error);
   } else if (welded->joined > 0) {
@@ -427,9 +428,9 @@ void welded_fini(struct welded *welded) {
 /* Whether the member lies in a block of space that is in the sample: one block
  * in `one_in` is.
  * side  of the blocks */
-static bool is_sampled(const struct scene *scene,
-                       const struct cluster_member *member, double side,
-                       size_t one_in) {
+static bool is_in_sample(const struct scene *scene,
+                         const struct cluster_member *member, double side,
+                         size_t one_in) {
   const struct scene_point *p = &scene->point.item[member->point];
   uint64_t hash = hash_add_double(0, floor(p->x / side));
   hash = hash_add_double(hash, floor(p->y / side));
@@ -449,12 +450,12 @@ static void keep_sample(struct candidates *candidates,
   if (one_in < 2)
     return;
   for (size_t i = 0; i < count; i++)
-    kept += is_sampled(scene, &member[i], RADII * length, one_in);
+    kept += is_in_sample(scene, &member[i], RADII * length, one_in);
   if (kept < SAMPLE_MIN)
     return;
   candidates->member.count = 0;
   for (size_t i = 0; i < count; i++)
-    if (is_sampled(scene, &member[i], RADII * length, one_in))
+    if (is_in_sample(scene, &member[i], RADII * length, one_in))
       member[candidates->member.count++] = member[i];
 }
 
@@ -467,7 +468,7 @@ bool welded_is_suspicious(const struct welded *welded,
   if (scene_face_count(scene) < FEWEST_FACES ||
       10 * welded->borders <= TENTHS_OF_EDGES * topology->edge.count)
     return false;
-  if (find_candidates(&candidates, scene, topology) &&
+  if (find_weld_candidates(&candidates, scene, topology) &&
       measure_faces(&candidates, scene, topology)) {
     double length = 0;
     count = candidates.member.count;

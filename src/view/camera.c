@@ -104,8 +104,8 @@ static recto_status check_view(const struct aim *aim) {
 
 /* ---- Aim ----------------------------------------------------------------- */
 
-static void grow_box(double low[3], double high[3],
-                     const struct scene_point *point) {
+static void grow_range_of_axes(double low[3], double high[3],
+                               const struct scene_point *point) {
   const double p[3] = {point->x, point->y, point->z};
   for (int k = 0; k < 3; k++) {
     low[k] = min_number(low[k], p[k]);
@@ -119,7 +119,7 @@ static recto_status measure_scene(struct aim *aim) {
   double high[3] = {-INFINITY, -INFINITY, -INFINITY};
   for (size_t p = 0; p < aim->scene->point.count; p++)
     if (aim->used[p])
-      grow_box(low, high, &aim->scene->point.item[p]);
+      grow_range_of_axes(low, high, &aim->scene->point.item[p]);
   if (low[0] > high[0])
     return error_set(aim->error, RECTO_ERROR_EMPTY, NULL, 0,
                      "there is nothing to draw");
@@ -201,7 +201,7 @@ static void step_back(const struct aim *aim, const double from[3],
     eye[k] = from[k] + aim->camera->back[k] * distance;
 }
 
-static void difference(const double a[3], const double b[3], double c[3]) {
+static void subtract_vector(const double a[3], const double b[3], double c[3]) {
   for (int k = 0; k < 3; k++)
     c[k] = a[k] - b[k];
 }
@@ -211,14 +211,14 @@ static void difference(const double a[3], const double b[3], double c[3]) {
 static recto_status handle_far_eye(struct aim *aim) {
   struct camera *camera = aim->camera;
   double to_eye[3], to_target[3], aside[3];
-  difference(aim->eye, aim->centre, to_eye);
+  subtract_vector(aim->eye, aim->centre, to_eye);
   aim->centre_d = vector_dot(camera->back, to_eye);
   aim->far = camera->perspective && aim->centre_d > 0 &&
              vector_length(to_eye) > camera->size * TOLERANCE_FAR_EYE;
   if (!aim->far)
     return RECTO_OK;
-  difference(aim->eye, aim->target, to_target);
-  difference(aim->centre, aim->target, aside);
+  subtract_vector(aim->eye, aim->target, to_target);
+  subtract_vector(aim->centre, aim->target, aside);
   aim->target_d = vector_dot(camera->back, to_target);
   double limit = aim->centre_d / TOLERANCE_FAR_EYE;
   if (!(fabs(vector_dot(camera->right, aside)) <= limit &&
@@ -244,13 +244,12 @@ static recto_status set_eye(struct aim *aim) {
   return status;
 }
 
-static struct view_point view_of(const struct aim *aim, const double p[3]) {
-  return camera_view(aim->camera, p[0], p[1], p[2]);
+static struct view_point view_of_aim(const struct aim *aim, const double p[3]) {
+  return camera_view(aim->camera, &(struct scene_point){p[0], p[1], p[2]});
 }
 
 static struct view_point view_of_point(const struct aim *aim, size_t p) {
-  const struct scene_point *point = &aim->scene->point.item[p];
-  return camera_view(aim->camera, point->x, point->y, point->z);
+  return camera_view(aim->camera, &aim->scene->point.item[p]);
 }
 
 /* ---- Depths -------------------------------------------------------------- */
@@ -269,7 +268,7 @@ static void measure_depth(struct aim *aim) {
 
 /* The default near plane. */
 static double choose_near(const struct aim *aim) {
-  double least = view_of(aim, aim->target).d * TOLERANCE_NEAR_SHARE;
+  double least = view_of_aim(aim, aim->target).d * TOLERANCE_NEAR_SHARE;
   if (!aim->camera->perspective || (aim->d_low >= least && aim->d_low > 0))
     return aim->d_low;
   return least;
@@ -281,7 +280,7 @@ static double choose_near(const struct aim *aim) {
 static double depth_origin(const struct aim *aim, bool section) {
   bool is_eye = aim->options->camera.kind == RECTO_CAMERA_EYE ||
                 (aim->options->camera.fov_deg > 0 && !section);
-  return is_eye ? view_of(aim, aim->eye).d : aim->d_low;
+  return is_eye ? view_of_aim(aim, aim->eye).d : aim->d_low;
 }
 
 static recto_status set_depth_range(struct aim *aim) {
@@ -335,7 +334,7 @@ static void fit_page(struct aim *aim) {
  * the page. */
 static void centre_target(struct aim *aim) {
   struct camera *camera = aim->camera;
-  struct view_point target = view_of(aim, aim->target);
+  struct view_point target = view_of_aim(aim, aim->target);
   double aside[2] = {target.x, target.y};
   for (int k = 0; k < 2; k++)
     camera->middle_mm[k] = camera->page_mm[k] / 2 -
@@ -352,7 +351,7 @@ static void fit_sphere(struct aim *aim) {
   if (radius == 0)
     radius = camera->size > 0 ? camera->size : 1;
   if (camera->perspective) {
-    double distance = view_of(aim, aim->target).d;
+    double distance = view_of_aim(aim, aim->target).d;
     radius /= sqrt((distance - radius) * (distance + radius));
   }
   camera->s = room / (2 * radius);
@@ -371,7 +370,7 @@ static void set_scale(struct aim *aim) {
   } else if (o->camera.fit == RECTO_FIT_SCALE) {
     camera->s = o->camera.scale;
     if (camera->perspective)
-      camera->s *= view_of(aim, aim->target).d;
+      camera->s *= view_of_aim(aim, aim->target).d;
     else if (aim->far)
       camera->s *= aim->target_d / aim->centre_d;
   } else if (camera->perspective || aim->far) {

@@ -43,8 +43,8 @@ bool clip_segment(const struct projection *projection, struct view_point end[2],
   return true;
 }
 
-static void push_corner(struct clip_polygon *polygon, struct view_point at,
-                        int origin, int side) {
+static void push_clip_corner(struct clip_polygon *polygon, struct view_point at,
+                             int origin, int side) {
   polygon->corner[polygon->count++] =
       (struct clip_corner){at, (uint8_t)origin, (uint8_t)side};
 }
@@ -60,15 +60,15 @@ static void clip_side(const struct projection *projection, int plane,
   bool a_inside = a_distance >= 0, b_inside = b_distance >= 0;
   bool touches = a_inside ? a_distance == 0 : b_distance == 0;
   if (a_inside)
-    push_corner(to, a->at, a->origin,
-                !b_inside && touches ? CLIP_CUT : a->side);
+    push_clip_corner(to, a->at, a->origin,
+                     !b_inside && touches ? CLIP_CUT : a->side);
   if (a_inside == b_inside || touches)
     return;
   struct view_point cut = forward ? cut_between(projection, plane, a->at, b->at,
                                                 a_distance, b_distance)
                                   : cut_between(projection, plane, b->at, a->at,
                                                 b_distance, a_distance);
-  push_corner(to, cut, CLIP_CUT, a_inside ? CLIP_CUT : a->side);
+  push_clip_corner(to, cut, CLIP_CUT, a_inside ? CLIP_CUT : a->side);
 }
 
 static void clip_polygon(const struct projection *projection, int plane,
@@ -93,7 +93,7 @@ bool clip_triangle(const struct projection *projection,
   struct clip_polygon *from = polygon, *to = &other;
   from->count = 0;
   for (int k = 0; k < 3; k++)
-    push_corner(from, corner[k], k, k);
+    push_clip_corner(from, corner[k], k, k);
   for (int plane = 0; plane < CLIP_PLANE_COUNT && from->count >= 3; plane++) {
     clip_polygon(projection, plane, forward, from, to);
     struct clip_polygon *swap = from;

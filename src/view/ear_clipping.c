@@ -43,6 +43,8 @@
  */
 #include "view/ear_clipping.h"
 
+#include "view/vector.h"
+
 enum {
   TURN_GONE = 2, /* of a corner that was cut off */
   /* The number of corners of a polygon that is not simple that are tested
@@ -53,10 +55,6 @@ enum {
 
 /* The rank of a corner in the queue; among equal ranks diagonals decide. */
 enum { RANK_SPIKE, RANK_EAR, RANK_STRAIGHT, RANK_CONVEX, RANK_REFLEX };
-
-static bool is_before(const double a[2], const double b[2]) {
-  return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
-}
 
 static bool is_at(const double a[2], const double b[2]) {
   return a[0] == b[0] && a[1] == b[1];
@@ -170,8 +168,9 @@ static bool is_spike(const struct triangulation_corner *corner, uint32_t b) {
   const double *at = corner[b].at;
   const double *from = corner[corner[b].prev].at;
   const double *to = corner[corner[b].next].at;
-  return corner[b].turn == 0 && (is_at(from, at) || is_at(at, to) ||
-                                 is_before(from, at) == is_before(to, at));
+  return corner[b].turn == 0 &&
+         (is_at(from, at) || is_at(at, to) ||
+          vector2_is_before(from, at) == vector2_is_before(to, at));
 }
 
 /* The rank of a corner that is cut off without testing whether it is an ear. */
@@ -327,7 +326,8 @@ static uint32_t cut_off_corner(struct ear_clipper *clipper, uint32_t b) {
 }
 
 /* The first corner in the order of the queue where there is no ear. */
-static uint32_t choose_corner(struct ear_clipper *clipper, uint32_t start) {
+static uint32_t choose_without_ear(struct ear_clipper *clipper,
+                                   uint32_t start) {
   struct triangulation_corner *corner = clipper->corner;
   uint32_t best = start, c = start;
   do {
@@ -349,7 +349,7 @@ static void update_all(struct ear_clipper *clipper, uint32_t start) {
 
 /* Cuts off a corner of a polygon that is not simple and so has no ear. */
 static uint32_t cut_without_ear(struct ear_clipper *clipper, uint32_t b) {
-  b = cut_off_corner(clipper, choose_corner(clipper, b));
+  b = cut_off_corner(clipper, choose_without_ear(clipper, b));
   clipper->unchecked = clipper->recheck_budget < clipper->left;
   clipper->recheck_budget -= clipper->unchecked ? 0 : clipper->left;
   if (clipper->left > 3)

@@ -7,14 +7,8 @@
 #include "view/project.h"
 #include "view/vector.h"
 
-static struct view_point view_of(const struct camera *camera,
-                                 const struct scene *scene, uint32_t point) {
-  const struct scene_point *p = &scene->point.item[point];
-  return camera_view(camera, p->x, p->y, p->z);
-}
-
-static void grow(struct extent *extent, const struct camera *camera,
-                 struct view_point v) {
+static void grow_extent(struct extent *extent, const struct camera *camera,
+                        struct view_point v) {
   double scale = camera->perspective ? 1 / v.d : 1;
   const double xy[2] = {v.x * scale, v.y * scale};
   for (int k = 0; k < 2; k++) {
@@ -32,7 +26,7 @@ static void grow_by_cut(struct extent *extent, const struct camera *camera,
   double t = from / (from - to);
   struct view_point cut = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y),
                            camera->near_d};
-  grow(extent, camera, cut);
+  grow_extent(extent, camera, cut);
 }
 
 /* Includes the crossings of all sides of faces or polylines.
@@ -42,10 +36,11 @@ static void grow_by_cuts(struct extent *extent, const struct camera *camera,
                          const struct scene *scene, const uint32_t *start,
                          uint32_t count, const uint32_t *corner, bool closed) {
   for (uint32_t i = 0; i < count; i++) {
-    struct view_point first = view_of(camera, scene, corner[start[i]]);
+    struct view_point first =
+        camera_view(camera, &scene->point.item[corner[start[i]]]);
     struct view_point a = first;
     for (uint32_t c = start[i] + 1; c < start[i + 1]; c++) {
-      struct view_point b = view_of(camera, scene, corner[c]);
+      struct view_point b = camera_view(camera, &scene->point.item[corner[c]]);
       grow_by_cut(extent, camera, a, b);
       a = b;
     }
@@ -62,9 +57,9 @@ struct extent extent_of_drawing(const struct camera *camera,
   for (size_t p = 0; p < scene->point.count; p++) {
     if (!used[p])
       continue;
-    struct view_point v = view_of(camera, scene, (uint32_t)p);
+    struct view_point v = camera_view(camera, &scene->point.item[p]);
     if (v.d >= camera->near_d)
-      grow(&extent, camera, v);
+      grow_extent(&extent, camera, v);
     else
       any_cut = cuts;
   }

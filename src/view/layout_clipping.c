@@ -36,10 +36,10 @@ static recto_status cut_side(struct layout *layout,
  *   the triangle's own corner,
  *   the end of the cut of the side that starts or ends there, or
  *   a new point, where two clipping planes cross inside the triangle. */
-static recto_status find_corner(struct layout *layout,
-                                const struct layout_triangle *triangle,
-                                const struct clip_polygon *polygon, int i,
-                                uint32_t *point) {
+static recto_status find_clipped_corner(struct layout *layout,
+                                        const struct layout_triangle *triangle,
+                                        const struct clip_polygon *polygon,
+                                        int i, uint32_t *point) {
   const struct clip_corner *corner = &polygon->corner[i];
   *point = SHEET_NONE;
   if (corner->origin != CLIP_CUT) {
@@ -71,10 +71,10 @@ static uint32_t edge_of(const struct layout *layout,
 /* Adds a clipped triangle as a fan.  Where rounding to the grid turned a
  * sliver of it over or made it flat, that triangle's sides are contours.
  * sign  set to the sign of the whole area on the page, in the face's winding */
-static recto_status add_fan(struct layout *layout,
-                            const struct layout_triangle *triangle,
-                            const struct clip_polygon *polygon,
-                            const uint32_t *point, int *sign) {
+static recto_status add_clipped_fan(struct layout *layout,
+                                    const struct layout_triangle *triangle,
+                                    const struct clip_polygon *polygon,
+                                    const uint32_t *point, int *sign) {
   int64_t area[CLIP_CORNERS_MAX] = {0};
   int128 whole = 0;
   if (!layout_reserve(layout, CLIP_CORNERS_MAX))
@@ -157,7 +157,8 @@ static recto_status add_polygon(struct layout *layout,
                                 struct clip_polygon *polygon) {
   uint32_t point[CLIP_CORNERS_MAX];
   for (int i = 0; i < polygon->count; i++) {
-    recto_status status = find_corner(layout, triangle, polygon, i, &point[i]);
+    recto_status status =
+        find_clipped_corner(layout, triangle, polygon, i, &point[i]);
     if (status != RECTO_OK)
       return status;
   }
@@ -165,7 +166,8 @@ static recto_status add_polygon(struct layout *layout,
   if (polygon->count < 3 || is_all_on_border(layout, point, polygon->count))
     return RECTO_OK;
   int sign = 0;
-  recto_status status = add_fan(layout, triangle, polygon, point, &sign);
+  recto_status status =
+      add_clipped_fan(layout, triangle, polygon, point, &sign);
   /* Where a strip is left so thin that rounding made it flat, as at the near
    * plane, the triangle still lies on its side of the edge. */
   if (sign == 0)

@@ -22,8 +22,8 @@ static unsigned class_mask_of(const struct topology_edge *edge, unsigned still,
 static unsigned lowest_bit(unsigned mask) { return mask & (~mask + 1); }
 
 /* The sheet points of a topology edge; SHEET_NONE: all of it is clipped. */
-static recto_status find_ends(struct layout *layout, uint32_t edge,
-                              struct layout_cut *ends) {
+static recto_status find_end_points(struct layout *layout, uint32_t edge,
+                                    struct layout_cut *ends) {
   const uint32_t *point = layout->topology->edge.item[edge].point;
   *ends = (struct layout_cut){
       {layout->point_map[point[0]], layout->point_map[point[1]]}};
@@ -65,9 +65,9 @@ static inline uint32_t edge_id_of(const struct edge_ids *edge_ids,
          (uint32_t)__builtin_popcountll(bits & (bit - 1));
 }
 
-static bool add_edge(struct layout *layout, struct layout_cut ends,
-                     uint32_t source, uint32_t group, unsigned edge_class,
-                     uint32_t part) {
+static bool add_sheet_edge(struct layout *layout, struct layout_cut ends,
+                           uint32_t source, uint32_t group, unsigned edge_class,
+                           uint32_t part) {
   struct sheet_edge edge = {
       .point = {ends.point[0], ends.point[1]},
       .triangle = {SHEET_NONE, SHEET_NONE},
@@ -101,7 +101,7 @@ static recto_status make_edges(struct layout *layout,
     if (!edge_class && !layout->outlines && !contour)
       continue;
     struct layout_cut ends;
-    recto_status status = find_ends(layout, e, &ends);
+    recto_status status = find_end_points(layout, e, &ends);
     if (status != RECTO_OK)
       return status;
     if (ends.point[0] == SHEET_NONE)
@@ -113,8 +113,9 @@ static recto_status make_edges(struct layout *layout,
     if (!edge_class && !layout->outlines)
       continue;
     edge_ids->bits[e / 64] |= UINT64_C(1) << e % 64;
-    if (!add_edge(layout, ends, e, layout->scene->face_group.item[edge->first],
-                  edge_class, 0))
+    if (!add_sheet_edge(layout, ends, e,
+                        layout->scene->face_group.item[edge->first], edge_class,
+                        0))
       return error_memory(layout->error);
   }
   return RECTO_OK;
@@ -126,7 +127,7 @@ static bool make_folds(struct layout *layout) {
   for (size_t f = 0; f < layout->fold.count; f++) {
     const struct layout_fold *fold = &layout->fold.item[f];
     uint32_t group = layout->scene->face_group.item[fold->face];
-    if (!add_edge(layout, fold->ends, SHEET_NONE, group, wanted, 0))
+    if (!add_sheet_edge(layout, fold->ends, SHEET_NONE, group, wanted, 0))
       return false;
   }
   return true;
@@ -204,8 +205,8 @@ static recto_status add_wire(struct layout *layout, uint32_t wire) {
       return status;
     if (ends.point[0] == SHEET_NONE || from == to)
       continue;
-    if (!add_edge(layout, ends, wire, scene->wire_group.item[wire],
-                  RECTO_EDGE_WIRE, c - start))
+    if (!add_sheet_edge(layout, ends, wire, scene->wire_group.item[wire],
+                        RECTO_EDGE_WIRE, c - start))
       return error_memory(layout->error);
   }
   return RECTO_OK;

@@ -104,8 +104,7 @@ static inline uint32_t layout_weld(const struct layout *layout,
 
 static inline struct view_point layout_view(const struct layout *layout,
                                             uint32_t point) {
-  const struct scene_point *p = &layout->scene->point.item[point];
-  return camera_view(&layout->sheet->camera, p->x, p->y, p->z);
+  return camera_view(&layout->sheet->camera, &layout->scene->point.item[point]);
 }
 
 /* All fail with RECTO_ERROR_MEMORY or RECTO_ERROR_LIMIT. */

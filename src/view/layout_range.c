@@ -33,7 +33,7 @@ struct depth_range {
  * are included. */
 enum { MAX_ROUNDS = 8 };
 
-static void grow(struct depth_range *range, double d) {
+static void grow_range(struct depth_range *range, double d) {
   range->low = min_number(range->low, d);
   range->high = max_number(range->high, d);
 }
@@ -80,7 +80,7 @@ static void grow_by_triangle(struct depth_range *range,
       !has_area(projection, &polygon))
     return;
   for (int k = 0; k < polygon.count; k++)
-    grow(range, polygon.corner[k].at.d);
+    grow_range(range, polygon.corner[k].at.d);
 }
 
 /* The same for a face.  Returns false when memory ran out. */
@@ -158,8 +158,8 @@ static bool grow_by_segment(struct depth_range *range,
     return false;
   }
   bool grows = low < range->low || high > range->high;
-  grow(range, low);
-  grow(range, high);
+  grow_range(range, low);
+  grow_range(range, high);
   return grows;
 }
 
@@ -208,7 +208,7 @@ static void grow_by_points(struct depth_range *range, struct layout *layout,
     struct view_point at = layout_view(layout, (uint32_t)p);
     layout->outcode[p] = clip_outcode(&layout->projection, at);
     if (layout->outcode[p] == 0)
-      grow(range, at.d);
+      grow_range(range, at.d);
   }
 }
 

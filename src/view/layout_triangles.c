@@ -167,8 +167,8 @@ static uint32_t farthest_corner(const struct layout *layout, uint32_t start,
 
 /* Whether the face is seen edge-on within the contact tolerance: all of its
  * corners are that close to the line through two that are far apart. */
-static bool is_edge_on(const struct layout *layout, uint32_t face,
-                       uint32_t start, uint32_t count) {
+static bool is_face_edge_on(const struct layout *layout, uint32_t face,
+                            uint32_t start, uint32_t count) {
   uint32_t from = farthest_corner(layout, start, count, start);
   const struct geom_point *a = corner_point(layout, from),
                           *b = corner_point(
@@ -200,7 +200,7 @@ static bool face_sign(const struct layout *layout, uint32_t face, size_t first,
     minus = minus || flags == SHEET_FLIPPED;
   }
   *sign = plus - minus;
-  return *sign != 0 || (plus && is_edge_on(layout, face, start, count));
+  return *sign != 0 || (plus && is_face_edge_on(layout, face, start, count));
 }
 
 /* Adds a face that needs no clipping.  Triangles without an area, because of
@@ -318,7 +318,7 @@ static uint32_t add_plain_faces(struct layout *layout, uint32_t face) {
   return face;
 }
 
-static recto_status add_face(struct layout *layout, uint32_t face) {
+static recto_status layout_face(struct layout *layout, uint32_t face) {
   uint32_t start = layout->scene->face_start.item[face];
   uint32_t count = layout->scene->face_start.item[face + 1] - start;
   unsigned any = 0, all = ~0u, beyond = 0;
@@ -365,7 +365,7 @@ recto_status layout_triangles(struct layout *layout) {
     face = add_plain_faces(layout, face);
     if (face == faces)
       break;
-    recto_status status = add_face(layout, face);
+    recto_status status = layout_face(layout, face);
     if (status != RECTO_OK)
       return status;
     if (!poll_at(face))

@@ -22,12 +22,6 @@ struct page_point {
 
 /* ---- One line ------------------------------------------------------------ */
 
-static struct view_point view_of(const struct measure *measure,
-                                 uint32_t point) {
-  const struct scene_point *p = &measure->scene->point.item[point];
-  return camera_view(measure->camera, p->x, p->y, p->z);
-}
-
 static struct page_point page_point_of(const struct camera *camera,
                                        struct view_point p) {
   double scale = camera->perspective ? camera->s / p.d : camera->s;
@@ -82,10 +76,16 @@ static void record_reach(struct measure *measure, const struct page_point *at) {
   }
 }
 
+static struct view_point view_of_scene_point(const struct measure *measure,
+                                             uint32_t point) {
+  return camera_view(measure->camera, &measure->scene->point.item[point]);
+}
+
 /* Adds what a line loses; losses shorter than RECTO_FINEST_MM, which no pen
  * can draw, are ignored. */
 static void measure_line(struct measure *measure, uint32_t from, uint32_t to) {
-  struct view_point end[2] = {view_of(measure, from), view_of(measure, to)};
+  struct view_point end[2] = {view_of_scene_point(measure, from),
+                              view_of_scene_point(measure, to)};
   if (!cut_near(measure->camera, end))
     return;
   struct page_point a = page_point_of(measure->camera, end[0]);
@@ -109,11 +109,14 @@ static double side_of_face(const struct measure *measure, uint32_t face) {
   const struct scene *scene = measure->scene;
   uint32_t start = scene->face_start.item[face];
   uint32_t end = scene->face_start.item[face + 1];
-  struct view_point at = view_of(measure, scene->corner.item[start]);
+  struct view_point at =
+      view_of_scene_point(measure, scene->corner.item[start]);
   double normal[3] = {0, 0, 0};
-  struct view_point last = view_of(measure, scene->corner.item[start + 1]);
+  struct view_point last =
+      view_of_scene_point(measure, scene->corner.item[start + 1]);
   for (uint32_t c = start + 2; c < end; c++) {
-    struct view_point here = view_of(measure, scene->corner.item[c]);
+    struct view_point here =
+        view_of_scene_point(measure, scene->corner.item[c]);
     const double u[3] = {last.x - at.x, last.y - at.y, last.d - at.d};
     const double v[3] = {here.x - at.x, here.y - at.y, here.d - at.d};
     double cross[3];

@@ -90,8 +90,8 @@ static int choose(const double size[3], double sign) {
 }
 
 /* The axis of projection; *shows: the projection has an area. */
-static int choose_axis(const struct polygon *polygon,
-                       const struct polygon_areas *areas, bool *shows) {
+static int choose_projection(const struct polygon *polygon,
+                             const struct polygon_areas *areas, bool *shows) {
   double size[3], low[3], high[3];
   for (int k = 0; k < 3; k++)
     size[k] = round_to_single(fabs(areas->value[k]));
@@ -109,15 +109,11 @@ static double *image(void *at, size_t stride, uint32_t c) {
   return (double *)(void *)((char *)at + stride * c);
 }
 
-static bool is_before(const double a[2], const double b[2]) {
-  return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
-}
-
 /* Whether the leftmost corner turns right. */
 static bool is_clockwise(void *at, size_t stride, uint32_t count) {
   uint32_t low = 0;
   for (uint32_t c = 1; c < count; c++)
-    if (is_before(image(at, stride, c), image(at, stride, low)))
+    if (vector2_is_before(image(at, stride, c), image(at, stride, low)))
       low = c;
   return exact_turn(image(at, stride, low > 0 ? low - 1 : count - 1),
                     image(at, stride, low),
@@ -128,7 +124,7 @@ void polygon_flatten(const struct polygon *polygon,
                      const struct polygon_areas *areas, void *at,
                      size_t stride) {
   bool shows;
-  int axis = choose_axis(polygon, areas, &shows);
+  int axis = choose_projection(polygon, areas, &shows);
   for (uint32_t c = 0; c < polygon->count; c++) {
     double place[3], *to = image(at, stride, c);
     polygon_place(polygon, c, place);

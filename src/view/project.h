@@ -14,8 +14,9 @@ struct view_point {
  * camera's depth range and the sheet's clipping need the same depth of a point,
  * bit for bit. */
 static inline struct view_point camera_view(const struct camera *camera,
-                                            double x, double y, double z) {
-  double p[3] = {x - camera->eye[0], y - camera->eye[1], z - camera->eye[2]};
+                                            const struct scene_point *at) {
+  double p[3] = {at->x - camera->eye[0], at->y - camera->eye[1],
+                 at->z - camera->eye[2]};
   const double *r = camera->right, *u = camera->up, *b = camera->back;
   return (struct view_point){r[0] * p[0] + r[1] * p[1] + r[2] * p[2],
                              u[0] * p[0] + u[1] * p[1] + u[2] * p[2],

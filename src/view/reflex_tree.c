@@ -24,7 +24,7 @@ void reflex_tree_fini(struct reflex_tree *tree) {
   ARRAY_FREE(&tree->leaf);
 }
 
-static const double *point_at(const void *at, size_t stride, uint32_t c) {
+static const double *strided_point(const void *at, size_t stride, uint32_t c) {
   return (const double *)((const char *)at + stride * c);
 }
 
@@ -38,7 +38,7 @@ static void grow_by_node(struct reflex_tree_node *node,
   }
 }
 
-static void grow(struct reflex_tree_node *node, const double at[2]) {
+static void grow_node(struct reflex_tree_node *node, const double at[2]) {
   grow_by_node(node,
                &(struct reflex_tree_node){{at[0], at[1]}, {at[0], at[1]}, 0});
 }
@@ -68,9 +68,9 @@ static void order_corners(struct reflex_tree *tree, const void *at,
   struct reflex_tree_node all = empty_node();
   uint32_t count = tree->count;
   for (uint32_t c = 0; c < count; c++)
-    grow(&all, point_at(at, stride, c));
+    grow_node(&all, strided_point(at, stride, c));
   for (uint32_t c = 0; c < count; c++) {
-    const double *p = point_at(at, stride, c);
+    const double *p = strided_point(at, stride, c);
     tree->order.item[c] = (struct sort_key){
         spread_bits(quantise(p[0], all.low[0], all.high[0])) |
             spread_bits(quantise(p[1], all.low[1], all.high[1])) << 1,
@@ -99,7 +99,8 @@ bool reflex_tree_init(struct reflex_tree *tree, const void *at, size_t stride,
   for (uint32_t i = 0; i < count; i++) {
     uint32_t c = tree->order.item[i].value;
     tree->leaf.item[c] = leaves + i / LEAF_SIZE;
-    grow(&tree->node.item[leaves + i / LEAF_SIZE], point_at(at, stride, c));
+    grow_node(&tree->node.item[leaves + i / LEAF_SIZE],
+              strided_point(at, stride, c));
   }
   for (uint32_t k = leaves - 1; k > 0; k--)
     for (uint32_t half = 2 * k; half <= 2 * k + 1; half++)

@@ -14,6 +14,11 @@ static inline double max_number(double bound, double value) {
   return value > bound ? value : bound;
 }
 
+/* Orders points of a plane by x, then by y. */
+static inline bool vector2_is_before(const double a[2], const double b[2]) {
+  return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
+}
+
 static inline double vector_dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }

@@ -37,7 +37,7 @@ struct merge {
 
 /* Whether a sheet edge is smooth.  An edge without a class, since its class is
  * not drawn, is classified here. */
-static bool is_smooth(const struct merge *merge, uint32_t id) {
+static bool is_edge_smooth(const struct merge *merge, uint32_t id) {
   const struct sheet_edge *edge = &merge->sheet->edge.item[id];
   if (edge->edge_class != 0)
     return edge->edge_class == RECTO_EDGE_SMOOTH;
@@ -58,7 +58,7 @@ static bool is_within_fill(const struct merge *merge,
          p->id == q->id && p->id < merge->sheet->edge.count &&
          merge->prototype[a->fragment].colour ==
              merge->prototype[b->fragment].colour &&
-         is_smooth(merge, p->id);
+         is_edge_smooth(merge, p->id);
 }
 
 static void remove_half_edges(struct merge *merge) {
@@ -77,7 +77,8 @@ static void remove_half_edges(struct merge *merge) {
 
 /* ---- 2. Fills ------------------------------------------------------------ */
 
-static struct outline_point origin_of(const struct map *map, uint32_t half) {
+static struct outline_point half_edge_origin(const struct map *map,
+                                             uint32_t half) {
   const struct map_corner *c =
       &map->corner.item[map->half_edge.item[half].origin];
   return (struct outline_point){c->x, c->y};
@@ -86,8 +87,8 @@ static struct outline_point origin_of(const struct map *map, uint32_t half) {
 /* Adds what remains of a loop of the map to the outline; of one that is not
  * merged all of it to the loops.  Where a side merely has another neighbour
  * there is no point. */
-static bool add_half_edges(struct merge *merge, const struct map_loop *loop,
-                           bool merged) {
+static bool add_outline_half_edges(struct merge *merge,
+                                   const struct map_loop *loop, bool merged) {
   const struct map *map = merge->map;
   const struct map_half_edge *half = map->half_edge.item;
   uint32_t h = loop->half_edge, side = SHEET_NONE;
@@ -95,8 +96,8 @@ static bool add_half_edges(struct merge *merge, const struct map_loop *loop,
     return false;
   do {
     bool goes_on = half[h].side == side && !merge->removed[h];
-    struct outline_segment segment = {origin_of(map, h),
-                                      origin_of(map, half[h].next), false};
+    struct outline_segment segment = {
+        half_edge_origin(map, h), half_edge_origin(map, half[h].next), false};
     side = merge->removed[h] ? SHEET_NONE : half[h].side;
     if (!merged) {
       if (!goes_on && !outline_add_point(&merge->loops, segment.from))
@@ -142,7 +143,7 @@ static bool add_fill(struct merge *merge, const struct sort_key *fragment,
   for (size_t i = 0; i < count; i++) {
     const struct map_fragment *f = &map->fragment.item[fragment[i].value];
     for (uint32_t l = 0; l < f->loops; l++)
-      if (!add_half_edges(merge, &map->loop.item[f->loop + l], merged))
+      if (!add_outline_half_edges(merge, &map->loop.item[f->loop + l], merged))
         return false;
   }
   if (merged && !outline_trace(&merge->outline, paths))
@@ -158,7 +159,7 @@ static bool add_fill(struct merge *merge, const struct sort_key *fragment,
   return fill.loops == 0 || ARRAY_PUSH(&drawing->fill, fill);
 }
 
-static bool add_fills(struct merge *merge) {
+static bool add_merged_fills(struct merge *merge) {
   size_t count = merge->map->fragment.count;
   struct sort_key *fragment = mem_alloc(count, 2 * sizeof *fragment);
   bool ok = fragment != NULL;
@@ -192,7 +193,7 @@ bool merge_fills(struct drawing *drawing, const struct sheet *sheet,
   bool ok = merge.root != NULL && merge.merged != NULL && merge.removed != NULL;
   if (ok && !options->ink.ids)
     remove_half_edges(&merge);
-  ok = ok && add_fills(&merge);
+  ok = ok && add_merged_fills(&merge);
   mem_free(merge.root);
   mem_free(merge.merged);
   mem_free(merge.removed);

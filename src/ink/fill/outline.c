@@ -12,15 +12,15 @@ static int compare_points(struct outline_point a, struct outline_point b) {
   return (a.y > b.y) - (a.y < b.y);
 }
 
-static int compare_starts(const void *a, const void *b, void *user) {
+static int compare_outline_starts(const void *a, const void *b, void *user) {
   (void)user;
   return compare_points(((const struct outline_segment *)a)->from,
                         ((const struct outline_segment *)b)->from);
 }
 
 /* The cross product of the directions of a and b. */
-static double cross(const struct outline_segment *a,
-                    const struct outline_segment *b) {
+static double cross_segments(const struct outline_segment *a,
+                             const struct outline_segment *b) {
   return (a->to.x - a->from.x) * (b->to.y - b->from.y) -
          (a->to.y - a->from.y) * (b->to.x - b->from.x);
 }
@@ -29,8 +29,8 @@ static double cross(const struct outline_segment *a,
 static bool is_left(const struct outline_segment *in,
                     const struct outline_segment *u,
                     const struct outline_segment *v) {
-  bool left_u = cross(in, u) > 0, left_v = cross(in, v) > 0;
-  return left_u != left_v ? left_u : cross(v, u) > 0;
+  bool left_u = cross_segments(in, u) > 0, left_v = cross_segments(in, v) > 0;
+  return left_u != left_v ? left_u : cross_segments(v, u) > 0;
 }
 
 /* The unused segment that continues `in`: the leftmost of several, so that
@@ -72,8 +72,9 @@ bool outline_begin_loop(struct ink_paths *paths) {
 
 /* Follows the loop that begins with the segment `first`, and marks its segments
  * used. */
-static bool trace_loop(struct outline *outline, struct outline_segment *first,
-                       struct ink_paths *paths) {
+static bool trace_outline_loop(struct outline *outline,
+                               struct outline_segment *first,
+                               struct ink_paths *paths) {
   bool ok = outline_begin_loop(paths);
   for (struct outline_segment *p = first; ok && p != NULL;
        p = next_piece(outline, p)) {
@@ -86,9 +87,9 @@ static bool trace_loop(struct outline *outline, struct outline_segment *first,
 bool outline_trace(struct outline *outline, struct ink_paths *loops) {
   struct outline_segment *segment = outline->segment.item;
   bool ok = sort_stable(segment, outline->segment.count, sizeof *segment,
-                        compare_starts, NULL);
+                        compare_outline_starts, NULL);
   for (size_t i = 0; ok && i < outline->segment.count; i++)
     if (!segment[i].used)
-      ok = trace_loop(outline, &segment[i], loops);
+      ok = trace_outline_loop(outline, &segment[i], loops);
   return ok;
 }

@@ -234,8 +234,8 @@ static size_t find_span(const struct hatch *h, size_t i, int64_t line,
  * costs nothing, then all.  A move from or to a side that has no ink of this
  * pen is not allowed, since it would be visible.
  * right  whether the pen is at the right end */
-static struct hatch_span *find_next(struct hatch *h,
-                                    const struct hatch_span *span, bool right) {
+static struct hatch_span *
+find_next_span(struct hatch *h, const struct hatch_span *span, bool right) {
   const struct hatch_crossing *from = right ? &span->right : &span->left;
   size_t here = (size_t)(span - h->lines.span.item);
   int64_t line = from->line + 1;
@@ -256,21 +256,22 @@ static struct hatch_span *find_next(struct hatch *h,
   return NULL;
 }
 
-static bool add_point(struct hatch *h, const struct hatch_crossing *c) {
+static bool add_crossing_point(struct hatch *h,
+                               const struct hatch_crossing *c) {
   struct hatch_point p = {c->u, hatch_lines_height(&h->lines, c->line)};
   return ARRAY_PUSH(&h->line.point, hatch_lines_rotate_back(&h->lines, p));
 }
 
 /* Draws a stroke from `span` upwards to where the pen must be lifted.  False
  * when memory ran out. */
-static bool add_stroke(struct hatch *h, struct hatch_span *span) {
+static bool add_hatch_stroke(struct hatch *h, struct hatch_span *span) {
   /* The stroke starts at the left end, unless only that end leads on. */
-  bool right = !find_next(h, span, true) && find_next(h, span, false);
+  bool right = !find_next_span(h, span, true) && find_next_span(h, span, false);
   h->line.point.count = 0;
-  for (; span; span = find_next(h, span, right)) {
+  for (; span; span = find_next_span(h, span, right)) {
     span->used = true;
-    if (!add_point(h, right ? &span->right : &span->left) ||
-        !add_point(h, right ? &span->left : &span->right))
+    if (!add_crossing_point(h, right ? &span->right : &span->left) ||
+        !add_crossing_point(h, right ? &span->left : &span->right))
       return false;
     right = !right;
   }
@@ -297,8 +298,8 @@ static bool hatch_region(struct hatch *h) {
   if (!list_strips(h, first, last))
     return false;
   for (size_t i = 0; i < lines->span.count; i++)
-    if (!poll_at(i + 1) ||
-        (!lines->span.item[i].used && !add_stroke(h, &lines->span.item[i])))
+    if (!poll_at(i + 1) || (!lines->span.item[i].used &&
+                            !add_hatch_stroke(h, &lines->span.item[i])))
       return false;
   return true;
 }

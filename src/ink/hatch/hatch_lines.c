@@ -51,8 +51,8 @@ struct drawing_point hatch_lines_rotate_back(const struct hatch_lines *lines,
 /* ---- Sides --------------------------------------------------------------- */
 
 /* The point where a half-edge starts. */
-static struct hatch_point origin_of(const struct hatch_lines *lines,
-                                    const struct map *map, uint32_t half) {
+static struct hatch_point rotated_origin(const struct hatch_lines *lines,
+                                         const struct map *map, uint32_t half) {
   const struct map_corner *c =
       &map->corner.item[map->half_edge.item[half].origin];
   return hatch_lines_rotate(
@@ -84,10 +84,10 @@ bool hatch_lines_add_fragment(struct hatch_lines *lines, const struct map *map,
         last = SHEET_NONE;
       } else if (half[h].side == last) {
         lines->side.item[lines->side.count - 1].to =
-            origin_of(lines, map, next);
+            rotated_origin(lines, map, next);
       } else {
-        side.from = origin_of(lines, map, h);
-        side.to = origin_of(lines, map, next);
+        side.from = rotated_origin(lines, map, h);
+        side.to = rotated_origin(lines, map, next);
         last = half[h].side;
         if (!ARRAY_PUSH(&lines->side, side))
           return false;
@@ -139,8 +139,9 @@ double hatch_lines_u_at(const struct hatch_side *side, double v) {
 
 /* Adds a span of the current line.  One that begins where the last span ended
  * extends it instead. */
-static bool add_span(struct hatch_lines *lines, const struct scan_table *table,
-                     const struct scan_span *found) {
+static bool add_hatch_span(struct hatch_lines *lines,
+                           const struct scan_table *table,
+                           const struct scan_span *found) {
   const double gap = TOLERANCE_COINCIDENT_UNITS / SHEET_UNITS_PER_MM;
   const struct scan_edge *edge = table->edge.item;
   int64_t line = table->line + lines->first;
@@ -174,7 +175,7 @@ static bool scan_sides(struct hatch_lines *lines, struct scan_table *table) {
       return false;
     size_t count = scan_table_spans(table, SCAN_EVEN_ODD, lines->found.item);
     for (size_t i = 0; i < count; i++)
-      if (!add_span(lines, table, &lines->found.item[i]))
+      if (!add_hatch_span(lines, table, &lines->found.item[i]))
         return false;
   }
   return true;

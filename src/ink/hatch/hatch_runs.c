@@ -17,7 +17,8 @@ static int compare_lines(const struct hatch_piece *a,
 }
 
 /* Orders pieces by hatch line, then by u0. */
-static int compare_pieces(const void *first, const void *second, void *user) {
+static int compare_hatch_pieces(const void *first, const void *second,
+                                void *user) {
   const struct hatch_piece *a = first, *b = second;
   int lines = compare_lines(a, b);
   (void)user;
@@ -27,13 +28,13 @@ static int compare_pieces(const void *first, const void *second, void *user) {
 bool hatch_runs_sort(struct hatch_runs *runs) {
   runs->next = 0;
   return sort_stable(runs->piece.item, runs->piece.count,
-                     sizeof *runs->piece.item, compare_pieces, NULL);
+                     sizeof *runs->piece.item, compare_hatch_pieces, NULL);
 }
 
 /* Extends the run that starts with piece run->first by all later pieces that
  * join it, and sets its end, u0 and u1.  Returns whether the run ends by the
  * tone. */
-static bool extend(const struct hatch_runs *runs, struct hatch_run *run) {
+static bool extend_run(const struct hatch_runs *runs, struct hatch_run *run) {
   const struct hatch_piece *piece = runs->piece.item;
   const struct hatch_piece *first = &piece[run->first];
   /* The faces are known to continue without interruption up to here. */
@@ -72,7 +73,7 @@ bool hatch_runs_next(struct hatch_runs *runs, struct hatch_run *run) {
     run->first = runs->next++;
     if (piece->blank)
       continue;
-    bool ends_by_tone = extend(runs, run);
+    bool ends_by_tone = extend_run(runs, run);
     runs->next = run->end;
     if (!(piece->tone_start && ends_by_tone &&
           run->u1 - run->u0 < runs->min_length * piece->width_mm))

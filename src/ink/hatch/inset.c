@@ -25,7 +25,8 @@ typedef ARRAY(struct hatch_span) span_list;
 /* ---- Intervals near a side ----------------------------------------------- */
 
 /* Extends an interval, empty at first, to contain [u0, u1]. */
-static void extend(struct inset_interval *interval, double u0, double u1) {
+static void extend_interval(struct inset_interval *interval, double u0,
+                            double u1) {
   interval->u0 = fmin(interval->u0, u0);
   interval->u1 = fmax(interval->u1, u1);
 }
@@ -38,7 +39,7 @@ static void extend_by_disc(struct inset_interval *interval,
   double across = v - centre.v;
   if (fabs(across) < distance) {
     double half = sqrt(distance * distance - across * across);
-    extend(interval, centre.u - half, centre.u + half);
+    extend_interval(interval, centre.u - half, centre.u + half);
   }
 }
 
@@ -70,7 +71,7 @@ static void extend_by_rectangle(struct inset_interval *interval,
   clip_to_slab(&low, &high, -dv, (v - a.v) * du + a.u * dv, -distance,
                distance);
   if (low < high)
-    extend(interval, low, high);
+    extend_interval(interval, low, high);
 }
 
 /* Adds the intervals of one side on all hatch lines that it is near.  False

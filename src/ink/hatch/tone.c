@@ -40,7 +40,7 @@ struct tone_work {
 /* ---- 2 Joins ------------------------------------------------------------- */
 
 /* Whether two faces meet at no more than the crease angle. */
-static bool is_smooth(const struct tone_work *w, uint32_t f, uint32_t g) {
+static bool meet_smoothly(const struct tone_work *w, uint32_t f, uint32_t g) {
   const double *a = w->face[f].xyz, *b = w->face[g].xyz;
   double dot = vector_dot(a, b);
   return dot >= w->crease_cosine * vector_length(a) * vector_length(b);
@@ -59,7 +59,7 @@ static uint32_t next_corner(const struct scene *scene, uint32_t face,
  * corner b of g. */
 static void join_faces(struct tone_work *w, uint32_t f, uint32_t a, uint32_t g,
                        uint32_t b) {
-  if (!is_smooth(w, f, g))
+  if (!meet_smoothly(w, f, g))
     return;
   sets_join(w->face_root, f, g);
   sets_join(w->corner_root, a, next_corner(w->scene, g, b));
@@ -117,7 +117,7 @@ static struct drawing_point project_corner(const struct tone_work *w,
   const struct camera *camera = &w->sheet->camera;
   const struct scene_point *p =
       &w->scene->point.item[w->scene->corner.item[corner]];
-  struct view_point v = camera_view(camera, p->x, p->y, p->z);
+  struct view_point v = camera_view(camera, p);
   double s = camera->s;
   if (camera->perspective)
     s = v.d >= camera->near_d ? s / v.d : NAN;
@@ -164,7 +164,7 @@ static void set_regions(struct tone_work *w, struct tones *tones) {
 
 /* Allocates the work arrays and sets the face normals.  False when memory ran
  * out; release must be called all the same. */
-static bool prepare(struct tone_work *w) {
+static bool prepare_tone_work(struct tone_work *w) {
   size_t faces = scene_face_count(w->scene);
   size_t corners = w->scene->corner.count;
   size_t edges = w->sheet->topology ? w->sheet->topology->edge.count : 0;
@@ -189,7 +189,7 @@ static bool prepare(struct tone_work *w) {
   return true;
 }
 
-static void release(struct tone_work *w) {
+static void release_tone_work(struct tone_work *w) {
   mem_free(w->face);
   mem_free(w->sum);
   mem_free(w->corner_root);
@@ -209,7 +209,8 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
   tones->corner = mem_alloc(scene->corner.count, sizeof *tones->corner);
   tones->position = mem_alloc(scene->corner.count, sizeof *tones->position);
   tones->uniform = mem_alloc(scene_face_count(scene), sizeof *tones->uniform);
-  bool ok = tones->corner && tones->position && tones->uniform && prepare(&w);
+  bool ok = tones->corner && tones->position && tones->uniform &&
+            prepare_tone_work(&w);
   if (ok) {
     if (sheet->topology && sheet->topology->corner_edge)
       join_smooth_edges(&w);
@@ -218,7 +219,7 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
     set_regions(&w, tones);
     ok = !poll_is_cancelled();
   }
-  release(&w);
+  release_tone_work(&w);
   if (!ok)
     tones_fini(tones);
   return ok;

@@ -107,9 +107,9 @@ static int directions_for_tone(double tone, double *each) {
 
 /* Adds the piece [u0, u1] of a span, with ink or blank.  False when memory ran
  * out. */
-static bool add_piece(struct tone_hatching *h, int direction,
-                      const struct hatch_span *span, double u0, double u1,
-                      bool blank) {
+static bool add_hatch_piece(struct tone_hatching *h, int direction,
+                            const struct hatch_span *span, double u0, double u1,
+                            bool blank) {
   struct hatch_piece piece = {.pen = h->pen,
                               .direction = (uint32_t)direction,
                               .face = h->face,
@@ -132,10 +132,10 @@ static bool add_inked(struct tone_hatching *h, int direction,
                       const struct hatch_span *span, double u0, double u1) {
   double left = span->left.u, right = span->right.u;
   if (u0 >= u1)
-    return add_piece(h, direction, span, left, right, true);
-  return add_piece(h, direction, span, left, u0, true) &&
-         add_piece(h, direction, span, u0, u1, false) &&
-         add_piece(h, direction, span, u1, right, true);
+    return add_hatch_piece(h, direction, span, left, right, true);
+  return add_hatch_piece(h, direction, span, left, u0, true) &&
+         add_hatch_piece(h, direction, span, u0, u1, false) &&
+         add_hatch_piece(h, direction, span, u1, right, true);
 }
 
 /* Sets [*u0, *u1] to the part of the hatch line at v where one plane of the
@@ -163,8 +163,8 @@ static void clip_to_tone(const struct tone_hatching *h, int direction,
 }
 
 /* Adds the pieces of a span of a curved region. */
-static bool add_span(struct tone_hatching *h, int direction,
-                     const struct hatch_span *span) {
+static bool add_curved_span(struct tone_hatching *h, int direction,
+                            const struct hatch_span *span) {
   double v = hatch_lines_height(&h->lines[direction], span->left.line);
   double level = threshold(direction, span->left.line);
   double left = span->left.u, right = span->right.u, u0[2], u1[2];
@@ -185,9 +185,9 @@ static bool add_span(struct tone_hatching *h, int direction,
     return add_inked(h, direction, span, u0[low], u1[low]);
   if (u0[high] <= u1[low])
     return add_inked(h, direction, span, u0[low], fmax(u1[low], u1[high]));
-  return add_piece(h, direction, span, left, u1[low], false) &&
-         add_piece(h, direction, span, u1[low], u0[high], true) &&
-         add_piece(h, direction, span, u0[high], right, false);
+  return add_hatch_piece(h, direction, span, left, u1[low], false) &&
+         add_hatch_piece(h, direction, span, u1[low], u0[high], true) &&
+         add_hatch_piece(h, direction, span, u0[high], right, false);
 }
 
 /* Adds the pieces of a fragment of a curved region. */
@@ -203,7 +203,7 @@ static bool add_curved(struct tone_hatching *h, const struct map *map,
         !hatch_lines_find_spans(lines))
       return false;
     for (size_t i = 0; i < lines->span.count; i++)
-      if (!add_span(h, k, &lines->span.item[i]))
+      if (!add_curved_span(h, k, &lines->span.item[i]))
         return false;
   }
   return true;
@@ -222,8 +222,9 @@ static bool add_uniform(struct tone_hatching *h, const struct map *map,
         !hatch_lines_find_spans(lines))
       return false;
     for (size_t i = 0; i < lines->span.count; i++)
-      if (!add_piece(h, k, &lines->span.item[i], lines->span.item[i].left.u,
-                     lines->span.item[i].right.u, false))
+      if (!add_hatch_piece(h, k, &lines->span.item[i],
+                           lines->span.item[i].left.u,
+                           lines->span.item[i].right.u, false))
         return false;
   }
   return true;
@@ -233,8 +234,9 @@ static bool add_uniform(struct tone_hatching *h, const struct map *map,
 
 /* Draws the part [u0, u1] of the line of a piece, unless it is too short for
  * the pen. */
-static bool add_stroke(struct tone_hatching *h, const struct hatch_piece *piece,
-                       double u0, double u1) {
+static bool add_tone_stroke(struct tone_hatching *h,
+                            const struct hatch_piece *piece, double u0,
+                            double u1) {
   if (!(u1 - u0 >= pens_shortest_mm(h->pens, piece->pen)) || u1 <= u0)
     return true;
   struct hatch_lines *lines = &h->lines[piece->direction];
@@ -263,9 +265,10 @@ static bool add_run(struct tone_hatching *h, const struct hatch_run *run) {
   double inset = acos(-1.0) / 8 * piece[run->first].width_mm;
   double u0 = run->u0 + inset, u1 = run->u1 - inset;
   if (!h->options->ink.ids)
-    return add_stroke(h, &piece[run->first], u0, u1);
+    return add_tone_stroke(h, &piece[run->first], u0, u1);
   for (size_t i = run->first; i < run->end; i++)
-    if (!add_stroke(h, &piece[i], fmax(u0, piece[i].u0), fmin(u1, piece[i].u1)))
+    if (!add_tone_stroke(h, &piece[i], fmax(u0, piece[i].u0),
+                         fmin(u1, piece[i].u1)))
       return false;
   return true;
 }
@@ -282,7 +285,8 @@ static bool add_runs(struct tone_hatching *h) {
 
 /* ---- All ----------------------------------------------------------------- */
 
-static bool add_fragments(struct tone_hatching *h, const struct map *map) {
+static bool add_curved_fragments(struct tone_hatching *h,
+                                 const struct map *map) {
   for (size_t i = 0; i < map->fragment.count; i++) {
     const struct map_fragment *fragment = &map->fragment.item[i];
     uint32_t group = h->tones.scene->face_group.item[fragment->face];
@@ -309,7 +313,7 @@ bool tone_hatch_add(struct drawing *drawing, const struct sheet *sheet,
     hatch_lines_init(&h.lines[k], sheet, options->ink.pen_mm,
                      options->ink.hatch_angle_deg + DIRECTION_DEG * k);
   bool ok = tones_init(&h.tones, sheet, scene, options) &&
-            add_fragments(&h, map) && add_runs(&h);
+            add_curved_fragments(&h, map) && add_runs(&h);
   tones_fini(&h.tones);
   for (int k = 0; k < DIRECTIONS; k++)
     hatch_lines_fini(&h.lines[k]);

@@ -42,12 +42,12 @@ static bool is_lower(struct ink_point a, struct ink_point b) {
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
-static double distance2(struct ink_point a, struct ink_point b) {
+static double squared_distance(struct ink_point a, struct ink_point b) {
   double dx = (double)a.x - b.x, dy = (double)a.y - b.y;
   return dx * dx + dy * dy;
 }
 
-static void reverse(uint32_t *end, size_t count) {
+static void reverse_ends(uint32_t *end, size_t count) {
   for (size_t i = 0; i < count / 2; i++) {
     uint32_t swap = end[i];
     end[i] = end[count - 1 - i];
@@ -56,8 +56,8 @@ static void reverse(uint32_t *end, size_t count) {
 }
 
 /* Adds the path of the ends from `from` on; its first segment is `first`. */
-static bool add_path(struct chain *c, size_t from, uint32_t first,
-                     bool closed) {
+static bool add_chained_path(struct chain *c, size_t from, uint32_t first,
+                             bool closed) {
   const struct graph_segment *s = &c->graph->segment.item[first];
   struct ink_path path = {.point = (uint32_t)from,
                           .count = (uint32_t)(c->end.count - from),
@@ -83,17 +83,17 @@ static bool walk_open(struct chain *c, uint32_t end) {
   uint32_t *path = c->end.item + from, first = path[0];
   size_t count = c->end.count - from;
   if (is_lower(point_of_end(c, last), point_of_end(c, first))) {
-    reverse(path, count);
+    reverse_ends(path, count);
     first = last;
   }
-  return add_path(c, from, first >> 1, false);
+  return add_chained_path(c, from, first >> 1, false);
 }
 
 /* ---- Loops --------------------------------------------------------------- */
 
 /* Chooses the end at which a loop starts: see paths_chain. */
-static size_t choose_start(const struct chain *c, const uint32_t *end,
-                           size_t count) {
+static size_t choose_path_start(const struct chain *c, const uint32_t *end,
+                                size_t count) {
   struct ink_point lowest = point_of_end(c, end[0]);
   for (size_t i = 1; i < count; i++) {
     struct ink_point p = point_of_end(c, end[i]);
@@ -105,7 +105,7 @@ static size_t choose_start(const struct chain *c, const uint32_t *end,
   double farthest = -1;
   for (size_t i = 0; i < count; i++) {
     struct ink_point p = point_of_end(c, end[i]);
-    double d = distance2(p, lowest);
+    double d = squared_distance(p, lowest);
     if (d > farthest || (d == farthest && is_lower(p, best))) {
       farthest = d;
       best = p;
@@ -125,19 +125,20 @@ static bool walk_loop(struct chain *c, uint32_t end) {
     end = c->mate[end ^ 1];
   } while (end != start);
   uint32_t *loop = c->end.item + from;
-  size_t count = c->end.count - from, corner = choose_start(c, loop, count);
+  size_t count = c->end.count - from,
+         corner = choose_path_start(c, loop, count);
   /* Rotates by three reversals: the loop begins at its corner. */
-  reverse(loop, corner);
-  reverse(loop + corner, count - corner);
-  reverse(loop, count);
+  reverse_ends(loop, corner);
+  reverse_ends(loop + corner, count - corner);
+  reverse_ends(loop, count);
   /* Towards the lower of the two neighbours.  Each end is the start of its
    * segment, so the first segment of the reversed loop is the last one's. */
   uint32_t first = loop[0] >> 1;
   if (is_lower(point_of_end(c, loop[count - 1]), point_of_end(c, loop[1]))) {
     first = loop[count - 1] >> 1;
-    reverse(loop + 1, count - 1);
+    reverse_ends(loop + 1, count - 1);
   }
-  return add_path(c, from, first, true);
+  return add_chained_path(c, from, first, true);
 }
 
 static bool walk_all(struct chain *c) {

@@ -27,11 +27,11 @@ static double side_length(const struct cursor *c) {
 }
 
 /* The number of sides, including the closing one. */
-static size_t count_sides(const struct stroke_line *line) {
+static size_t count_line_sides(const struct stroke_line *line) {
   return line->point.count - !line->closed;
 }
 
-static struct drawing_point place(const struct cursor *c, double along) {
+static struct drawing_point point_along(const struct cursor *c, double along) {
   struct drawing_point a = corner(c->line, c->side);
   struct drawing_point b = corner(c->line, c->side + 1);
   double length = side_length(c);
@@ -40,16 +40,16 @@ static struct drawing_point place(const struct cursor *c, double along) {
   return (struct drawing_point){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
 }
 
-static void next_side(struct cursor *c) {
+static void go_to_next_side(struct cursor *c) {
   c->start += side_length(c);
   c->side++;
 }
 
 /* Advances while the side ends at or before `along`. */
 static void skip_sides(struct cursor *c, double along) {
-  while (c->side + 1 < count_sides(c->line) &&
+  while (c->side + 1 < count_line_sides(c->line) &&
          c->start + side_length(c) <= along)
-    next_side(c);
+    go_to_next_side(c);
 }
 
 /* Stores the part of the line between two positions in `piece` and advances the
@@ -58,14 +58,15 @@ static bool take_piece(struct cursor *c, double from, double to,
                        struct stroke_line *piece) {
   piece->point.count = 0;
   skip_sides(c, from);
-  if (!ARRAY_PUSH(&piece->point, place(c, from)))
+  if (!ARRAY_PUSH(&piece->point, point_along(c, from)))
     return false;
-  while (c->side + 1 < count_sides(c->line) && c->start + side_length(c) < to) {
-    next_side(c);
+  while (c->side + 1 < count_line_sides(c->line) &&
+         c->start + side_length(c) < to) {
+    go_to_next_side(c);
     if (!ARRAY_PUSH(&piece->point, corner(c->line, c->side)))
       return false;
   }
-  return ARRAY_PUSH(&piece->point, place(c, to));
+  return ARRAY_PUSH(&piece->point, point_along(c, to));
 }
 
 /* The number of dashes, each followed by a gap, for that length. */
@@ -108,7 +109,7 @@ static bool add_dashes(struct drawing *drawing,
  * which this is): a box has corners, a circle of 16 sides has none. */
 #define CORNER_COSINE 0.8660254037844386
 
-static bool is_corner(const struct stroke_line *line, size_t i) {
+static bool is_line_corner(const struct stroke_line *line, size_t i) {
   size_t count = line->point.count;
   struct drawing_point p = line->point.item[i > 0 ? i - 1 : count - 1];
   struct drawing_point q = line->point.item[i], r = corner(line, i + 1);
@@ -118,10 +119,10 @@ static bool is_corner(const struct stroke_line *line, size_t i) {
 
 /* The next corner after point i, with indices that continue past the end of a
  * loop; without one, the end of the line or `end`. */
-static size_t find_corner(const struct stroke_line *line, size_t i,
-                          size_t end) {
+static size_t find_next_corner(const struct stroke_line *line, size_t i,
+                               size_t end) {
   size_t count = line->point.count;
-  for (i++; i < end && !is_corner(line, i % count); i++)
+  for (i++; i < end && !is_line_corner(line, i % count); i++)
     continue;
   return i;
 }
@@ -132,7 +133,7 @@ bool stroke_add_dashed(struct drawing *drawing,
                        double gap) {
   size_t count = line->point.count, first = 0, end = count - 1;
   if (line->closed) {
-    while (first < count && !is_corner(line, first))
+    while (first < count && !is_line_corner(line, first))
       first++;
     if (first == count)
       return add_dashes(drawing, like, line, dash, gap);
@@ -141,7 +142,7 @@ bool stroke_add_dashed(struct drawing *drawing,
   struct stroke_line piece = {0};
   bool ok = true;
   for (size_t i = first, next; ok && i < end; i = next) {
-    next = find_corner(line, i, end);
+    next = find_next_corner(line, i, end);
     piece.point.count = 0;
     for (size_t k = i; ok && k <= next; k++)
       ok = ARRAY_PUSH(&piece.point, line->point.item[k % count]);

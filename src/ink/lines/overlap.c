@@ -22,8 +22,8 @@ struct overlap_line {
   double length;
 };
 
-static struct overlap_line line_of(const struct segment_graph *graph,
-                                   uint32_t segment) {
+static struct overlap_line line_of_segment(const struct segment_graph *graph,
+                                           uint32_t segment) {
   const struct graph_segment *s = &graph->segment.item[segment];
   struct ink_point p = graph->node.item[s->node[0]];
   struct ink_point q = graph->node.item[s->node[1]];
@@ -47,7 +47,8 @@ static double distance_from(const struct overlap_line *line,
 }
 
 /* Whether the point is within the tolerance of the segment itself. */
-static bool is_on(const struct overlap_line *line, struct ink_point p) {
+static bool is_near_overlap_line(const struct overlap_line *line,
+                                 struct ink_point p) {
   double tolerance = TOLERANCE_COINCIDENT_UNITS * line->length;
   double along = (double)position_on(line, p);
   return distance_from(line, p) <= TOLERANCE_COINCIDENT_UNITS &&
@@ -57,14 +58,15 @@ static bool is_on(const struct overlap_line *line, struct ink_point p) {
 
 bool overlap_is_along(const struct segment_graph *graph, uint32_t a,
                       uint32_t b) {
-  struct overlap_line on_a = line_of(graph, a), on_b = line_of(graph, b);
+  struct overlap_line on_a = line_of_segment(graph, a),
+                      on_b = line_of_segment(graph, b);
   double low = INFINITY, high = -INFINITY;
   for (int k = 0; k < 4; k++) {
     const struct overlap_line *other = k < 2 ? &on_b : &on_a;
     uint32_t segment = k < 2 ? a : b;
     struct ink_point p =
         graph->node.item[graph->segment.item[segment].node[k & 1]];
-    if (!is_on(other, p))
+    if (!is_near_overlap_line(other, p))
       continue;
     double along = (double)position_on(&on_a, p);
     low = along < low ? along : low;
@@ -106,10 +108,10 @@ void overlap_fini(struct overlap *o) {
 
 static struct overlap_line choose_line(const struct segment_graph *graph,
                                        const uint32_t *member, size_t count) {
-  struct overlap_line best = line_of(graph, member[0]);
+  struct overlap_line best = line_of_segment(graph, member[0]);
   uint32_t chosen = member[0];
   for (size_t i = 1; i < count; i++) {
-    struct overlap_line line = line_of(graph, member[i]);
+    struct overlap_line line = line_of_segment(graph, member[i]);
     if (line.length > best.length ||
         (line.length == best.length &&
          overlap_rank(graph, member[i]) < overlap_rank(graph, chosen))) {
@@ -192,8 +194,9 @@ static void take_slots(struct overlap *o, const struct segment_graph *graph,
 
 /* ---- 4 Pieces ------------------------------------------------------------ */
 
-static bool add_pieces(struct overlap *o, const struct segment_graph *graph,
-                       uint32_t points) {
+static bool add_uncovered_pieces(struct overlap *o,
+                                 const struct segment_graph *graph,
+                                 uint32_t points) {
   uint32_t end;
   for (uint32_t s = 0; s + 1 < points; s = end) {
     uint32_t i = o->owner[s];
@@ -225,7 +228,7 @@ bool overlap_resolve(struct overlap *o, const struct segment_graph *graph,
     }
     uint32_t points = find_breakpoints(o, graph, &line, near);
     take_slots(o, graph, near, points);
-    if (!add_pieces(o, graph, points))
+    if (!add_uncovered_pieces(o, graph, points))
       return false;
     member = o->rest;
     count = rest;

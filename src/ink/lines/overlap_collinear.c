@@ -53,7 +53,7 @@ recto_status segment_graph_index_ends(struct segment_graph *graph,
 
 /* ---- 1 Duplicates -------------------------------------------------------- */
 
-static void drop_duplicates(struct overlap_finder *w) {
+static void drop_duplicate_runs(struct overlap_finder *w) {
   const struct graph_segment *s = w->graph->segment.item;
   uint32_t best = 0;
   for (uint32_t i = 1; i < w->graph->segment.count; i++) {
@@ -158,8 +158,8 @@ static void remove_dropped(struct overlap_finder *w) {
   graph->segment.count = kept;
 }
 
-static bool add_pieces(struct segment_graph *graph,
-                       const struct overlap *overlap) {
+static bool add_pieces_of_segments(struct segment_graph *graph,
+                                   const struct overlap *overlap) {
   for (size_t i = 0; i < overlap->piece.count; i++)
     if (!ARRAY_PUSH(&graph->segment, overlap->piece.item[i]))
       return false;
@@ -172,7 +172,7 @@ static bool replace_clusters(struct overlap_finder *w) {
             resolve_clusters(w, &overlap);
   if (ok) {
     remove_dropped(w);
-    ok = add_pieces(w->graph, &overlap);
+    ok = add_pieces_of_segments(w->graph, &overlap);
   }
   overlap_fini(&overlap);
   return ok;
@@ -192,7 +192,7 @@ recto_status segment_graph_drop_collinear(struct segment_graph *graph,
   w.parent = mem_calloc(count, sizeof *w.parent);
   bool ok = w.dropped && w.parent;
   if (ok)
-    drop_duplicates(&w);
+    drop_duplicate_runs(&w);
   for (uint32_t i = 0; ok && i < count; i++)
     ok = poll_at(i) && (w.dropped[i] || nodes_near_segment_visit(&search, i));
   if (ok && w.member.count)

@@ -70,8 +70,8 @@ static struct measured_segment run_of(const struct vertex_snapping *snapping,
 
 /* Whether the point is near the segment; sets *along to its position, clamped
  * to the segment. */
-static bool is_on(const struct measured_segment *run, struct ink_point p,
-                  double *along) {
+static bool is_near_segment(const struct measured_segment *run,
+                            struct ink_point p, double *along) {
   int64_t x = (int64_t)p.x - run->from.x, y = (int64_t)p.y - run->from.y;
   int64_t cross = run->dx * y - run->dy * x, dot = run->dx * x + run->dy * y;
   double at = (double)dot / run->length;
@@ -106,12 +106,12 @@ static bool find_cover(const struct vertex_snapping *snapping,
     return false;
   double along, place[2];
   for (int k = 0; k < 2; k++)
-    if (is_on(&of_a, k ? of_b.to : of_b.from, &place[k]))
+    if (is_near_segment(&of_a, k ? of_b.to : of_b.from, &place[k]))
       widen(cover, place[k],
             place[k] > 0 && place[k] < of_a.length ? b[k] : SEGMENT_GRAPH_NONE);
-  if (is_on(&of_b, of_a.from, &along))
+  if (is_near_segment(&of_b, of_a.from, &along))
     widen(cover, 0, SEGMENT_GRAPH_NONE);
-  if (is_on(&of_b, of_a.to, &along))
+  if (is_near_segment(&of_b, of_a.to, &along))
     widen(cover, of_a.length, SEGMENT_GRAPH_NONE);
   /* An end is near even a little beyond the other's end; the overlap itself
    * does not begin there, or short sides of a curve would overlap the next. */
@@ -183,8 +183,8 @@ static void mark_approximate(struct output_overlaps *r, uint32_t node) {
   r->snapping.graph->approximate[r->snapping.root[node]] = 1;
 }
 
-static bool keep_piece(struct output_overlaps *r, uint32_t segment,
-                       uint32_t from, uint32_t to) {
+static bool keep_segment_piece(struct output_overlaps *r, uint32_t segment,
+                               uint32_t from, uint32_t to) {
   struct graph_segment piece = r->snapping.graph->segment.item[segment];
   piece.node[0] = from;
   piece.node[1] = to;
@@ -225,7 +225,7 @@ static bool keep_rest(struct output_overlaps *r, uint32_t segment) {
   const uint32_t *node = r->snapping.graph->segment.item[segment].node;
   size_t count = r->cover.count;
   if (count == 0)
-    return keep_piece(r, segment, node[0], node[1]);
+    return keep_segment_piece(r, segment, node[0], node[1]);
   r->cut++;
   if (!sort_stable(r->cover.item, count, sizeof *r->cover.item, compare_covers,
                    NULL))
@@ -237,14 +237,15 @@ static bool keep_rest(struct output_overlaps *r, uint32_t segment) {
     const struct overlap_cover *cover = &r->cover.item[i];
     if (cover->from > reached && cover->node[0] != SEGMENT_GRAPH_NONE &&
         last != SEGMENT_GRAPH_NONE &&
-        !keep_piece(r, segment, last, cover->node[0]))
+        !keep_segment_piece(r, segment, last, cover->node[0]))
       return false;
     if (cover->to >= reached) {
       reached = cover->to;
       last = cover->node[1];
     }
   }
-  return last == SEGMENT_GRAPH_NONE || keep_piece(r, segment, last, node[1]);
+  return last == SEGMENT_GRAPH_NONE ||
+         keep_segment_piece(r, segment, last, node[1]);
 }
 
 /* The index of a segment among the members. */
@@ -311,9 +312,9 @@ static bool resolve_members(struct output_overlaps *r) {
 
 /* ---- 4 Rebuild ----------------------------------------------------------- */
 
-static bool add_segment(struct segment_graph *graph,
-                        const struct vertex_snapping *snapping,
-                        struct graph_segment s, size_t *count) {
+static bool add_snapped_segment(struct segment_graph *graph,
+                                const struct vertex_snapping *snapping,
+                                struct graph_segment s, size_t *count) {
   uint32_t a = snapping->root[s.node[0]], b = snapping->root[s.node[1]];
   /* Moving an end turns the whole line a little. */
   if (a != s.node[0])
@@ -336,12 +337,12 @@ static bool rebuild(struct output_overlaps *r) {
   struct segment_graph *graph = r->snapping.graph;
   size_t old = graph->segment.count, count = 0;
   for (size_t i = 0; i < old; i++)
-    if (!poll_at(i) ||
-        (!r->snapping.gone[i] &&
-         !add_segment(graph, &r->snapping, graph->segment.item[i], &count)))
+    if (!poll_at(i) || (!r->snapping.gone[i] &&
+                        !add_snapped_segment(graph, &r->snapping,
+                                             graph->segment.item[i], &count)))
       return false;
   for (size_t i = 0; i < r->piece.count; i++)
-    if (!add_segment(graph, &r->snapping, r->piece.item[i], &count))
+    if (!add_snapped_segment(graph, &r->snapping, r->piece.item[i], &count))
       return false;
   graph->segment.count = count;
   return segment_graph_sort_segments(graph);

@@ -39,7 +39,7 @@ struct pairing {
   ARRAY(struct node_end) fan;
 };
 
-static void find_directions(struct pairing *p) {
+static void find_end_directions(struct pairing *p) {
   const struct segment_graph *graph = p->graph;
   for (size_t i = 0; i < graph->segment.count; i++) {
     const struct graph_segment *s = &graph->segment.item[i];
@@ -60,7 +60,7 @@ static struct node_end node_end(const struct pairing *p, uint32_t end) {
   return (struct node_end){end, s->pen_key, s->style_key, d};
 }
 
-static void join(struct pairing *p, uint32_t a, uint32_t b) {
+static void pair_ends(struct pairing *p, uint32_t a, uint32_t b) {
   p->mate[a] = b;
   p->mate[b] = a;
 }
@@ -94,7 +94,7 @@ static void pair_small_fan(struct pairing *p, const uint32_t *end,
     }
     if (best >= NO_PAIR)
       return;
-    join(p, fan[a].end, fan[b].end);
+    pair_ends(p, fan[a].end, fan[b].end);
     count -= 2;
     memmove(&fan[b], &fan[b + 1], (count + 1 - b) * sizeof *fan);
     memmove(&fan[a], &fan[a + 1], (count - a) * sizeof *fan);
@@ -145,7 +145,7 @@ static void pair_runs(struct pairing *p, bool by_style) {
       continue;
     size_t half = (end - i) / 2;
     for (size_t k = 0; k < half; k++)
-      join(p, fan[i + k].end, fan[i + half + k].end);
+      pair_ends(p, fan[i + k].end, fan[i + half + k].end);
     if ((end - i) % 2)
       fan[left++] = fan[end - 1];
   }
@@ -182,7 +182,7 @@ static bool pair_all(struct pairing *p) {
     if (count == 2) {
       if (graph->segment.item[end[0] >> 1].pen_key ==
           graph->segment.item[end[1] >> 1].pen_key)
-        join(p, end[0], end[1]);
+        pair_ends(p, end[0], end[1]);
     } else if (count > SMALL_FAN_MAX) {
       if (!pair_large_fan(p, end, count))
         return false;
@@ -200,7 +200,7 @@ bool pairing_find(uint32_t *mate, const struct segment_graph *graph) {
   bool ok = p.along != NULL;
   if (ok) {
     memset(mate, 0xff, 2 * count * sizeof *mate);
-    find_directions(&p);
+    find_end_directions(&p);
     ok = pair_all(&p);
   }
   mem_free(p.along);

@@ -34,8 +34,8 @@ void segment_graph_fini(struct segment_graph *graph) {
   segment_graph_init(graph);
 }
 
-static bool add_node(struct segment_graph *graph, struct ink_point at,
-                     uint32_t *node) {
+static bool add_graph_node(struct segment_graph *graph, struct ink_point at,
+                           uint32_t *node) {
   *node = (uint32_t)graph->node.count;
   return ARRAY_PUSH(&graph->node, at);
 }
@@ -45,7 +45,7 @@ static bool node_of_point(struct collector *c, uint32_t point, uint32_t *node) {
   if (*node != SEGMENT_GRAPH_NONE)
     return true;
   const struct geom_point *p = &c->sheet->point.item[point];
-  if (!add_node(c->graph, (struct ink_point){p->x, p->y}, node))
+  if (!add_graph_node(c->graph, (struct ink_point){p->x, p->y}, node))
     return false;
   c->node_of_point[point] = *node;
   return true;
@@ -61,7 +61,7 @@ static bool node_at(struct collector *c, const struct sheet_edge *edge,
   const struct geom_point *q = &c->sheet->point.item[edge->point[1]];
   struct ink_point at = {(int32_t)ratio_lerp(t, p->x, q->x),
                          (int32_t)ratio_lerp(t, p->y, q->y)};
-  return add_node(c->graph, at, node);
+  return add_graph_node(c->graph, at, node);
 }
 
 static bool is_same_place(const struct segment_graph *graph, uint32_t a,
@@ -81,8 +81,8 @@ static uint32_t pen_key_of(const struct collector *c, uint32_t edge,
               pens_weight_rank(c->pens, e->edge_class));
 }
 
-static bool add_segment(struct collector *c, uint32_t edge, struct ratio t0,
-                        struct ratio t1) {
+static bool collect_segment(struct collector *c, uint32_t edge, struct ratio t0,
+                            struct ratio t1) {
   const struct sheet_edge *e = &c->sheet->edge.item[edge];
   struct graph_segment s = {.edge = edge,
                             .pen_key = c->pen_key,
@@ -105,7 +105,7 @@ struct intervals {
 static bool add_visible_intervals(struct collector *c, uint32_t edge,
                                   struct intervals visible) {
   for (uint32_t i = 0; i < visible.count; i++)
-    if (!add_segment(c, edge, visible.item[i].t0, visible.item[i].t1))
+    if (!collect_segment(c, edge, visible.item[i].t0, visible.item[i].t1))
       return false;
   return true;
 }
@@ -122,14 +122,14 @@ static bool add_hidden_intervals(struct collector *c, uint32_t edge,
                            ratio_compare(deep.item->t0, visible.item->t0) < 0);
     struct intervals *next = take_deep ? &deep : &visible;
     if (ratio_compare(from, next->item->t0) < 0 &&
-        !add_segment(c, edge, from, next->item->t0))
+        !collect_segment(c, edge, from, next->item->t0))
       return false;
     if (ratio_compare(from, next->item->t1) < 0)
       from = next->item->t1;
     next->item++;
     next->count--;
   }
-  return ratio_compare(from, end) >= 0 || add_segment(c, edge, from, end);
+  return ratio_compare(from, end) >= 0 || collect_segment(c, edge, from, end);
 }
 
 /* The intervals of an edge, if the row at *mixed is the edge's, which it then
@@ -168,7 +168,7 @@ static bool add_all(struct collector *c, bool hidden) {
     if (hidden && state != MAP_VISIBLE)
       ok = add_hidden_intervals(c, i, visible, too_deep);
     else if (!hidden && state == MAP_VISIBLE)
-      ok = add_segment(c, i, ratio_of(0, 1), ratio_of(1, 1));
+      ok = collect_segment(c, i, ratio_of(0, 1), ratio_of(1, 1));
     else if (!hidden)
       ok = add_visible_intervals(c, i, visible);
     if (!ok)

@@ -23,13 +23,13 @@ struct simplify {
   ARRAY(struct simplify_span) stack;
 };
 
-static struct ink_point point_at(const struct simplify *s, uint32_t i) {
+static struct ink_point point_of_line(const struct simplify *s, uint32_t i) {
   return s->point[i < s->count ? i : 0];
 }
 
 /* The square of the distance from p to the segment from a to b. */
-static double distance2(struct ink_point p, struct ink_point a,
-                        struct ink_point b) {
+static double squared_segment_distance(struct ink_point p, struct ink_point a,
+                                       struct ink_point b) {
   double dx = (double)b.x - a.x, dy = (double)b.y - a.y;
   double px = (double)p.x - a.x, py = (double)p.y - a.y;
   double along = px * dx + py * dy, length2 = dx * dx + dy * dy;
@@ -47,11 +47,12 @@ static double distance2(struct ink_point p, struct ink_point a,
  * them, the first of equals; sets *far2 to its squared distance. */
 static uint32_t find_farthest(const struct simplify *s,
                               struct simplify_span span, double *far2) {
-  struct ink_point a = point_at(s, span.first), b = point_at(s, span.last);
+  struct ink_point a = point_of_line(s, span.first),
+                   b = point_of_line(s, span.last);
   uint32_t farthest = span.first;
   *far2 = -1;
   for (uint32_t i = span.first + 1; i < span.last; i++) {
-    double d = distance2(s->point[i], a, b);
+    double d = squared_segment_distance(s->point[i], a, b);
     if (d > *far2) {
       *far2 = d;
       farthest = i;

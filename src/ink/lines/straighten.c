@@ -61,8 +61,8 @@ static bool is_in(const struct wedge *wedge, struct vector v) {
 
 /* Whether the line along `next` certainly misses `passed`: a bound without a
  * square root, as |next| is at most the sum of its coordinates' magnitudes. */
-static bool is_corner(struct vector passed, struct vector next,
-                      double tolerance) {
+static bool certainly_misses(struct vector passed, struct vector next,
+                             double tolerance) {
   return fabs(cross(passed, next)) > tolerance * (fabs(next.x) + fabs(next.y));
 }
 
@@ -85,7 +85,7 @@ static uint32_t straighten_line(struct ink_point *point, uint8_t *approximate,
     bool is_approximate =
         approximate && (approximate[i] || approximate[kept - 1]);
     double tolerance = is_approximate ? wide : TOLERANCE_COLLINEAR_UNITS;
-    bool straight = !is_corner(passed, next, tolerance) &&
+    bool straight = !certainly_misses(passed, next, tolerance) &&
                     dot(next, next) > dot(passed, passed);
     if (straight) {
       narrow(&wedge, passed, tolerance);
@@ -101,8 +101,8 @@ static uint32_t straighten_line(struct ink_point *point, uint8_t *approximate,
   return kept;
 }
 
-static void reverse(struct ink_point *point, uint8_t *approximate,
-                    uint32_t count) {
+static void reverse_line(struct ink_point *point, uint8_t *approximate,
+                         uint32_t count) {
   for (uint32_t i = 0; i < count / 2; i++) {
     uint32_t k = count - 1 - i;
     struct ink_point p = point[i];
@@ -134,9 +134,9 @@ static uint32_t straighten_path(struct ink_point *point, uint8_t *approximate,
     return straighten_line(point, approximate, path->count, point[0], wide);
   uint32_t kept = straighten_open(point, approximate, path->count, wide);
   if (approximate && kept > 2) {
-    reverse(point, approximate, kept);
+    reverse_line(point, approximate, kept);
     kept = straighten_open(point, approximate, kept, wide);
-    reverse(point, approximate, kept);
+    reverse_line(point, approximate, kept);
   }
   return kept;
 }

@@ -142,9 +142,9 @@ static bool merge_duplicate(struct vertex_snapping *snapping, uint32_t better,
 /* Of segments between the same two clusters, best first, removes those that
  * duplicate a better one.
  * kept  scratch, one element a segment */
-static void drop_duplicates(struct vertex_snapping *snapping,
-                            const struct sort_key *pair, size_t count,
-                            uint32_t *kept) {
+static void drop_duplicate_segments(struct vertex_snapping *snapping,
+                                    const struct sort_key *pair, size_t count,
+                                    uint32_t *kept) {
   size_t kept_count = 0;
   for (size_t i = 0; i < count; i++) {
     bool is_unique = true;
@@ -163,9 +163,10 @@ static void drop_duplicates(struct vertex_snapping *snapping,
  * others  of each node that begins a cluster: how many further nodes the
  *         cluster has, at most LARGE_CLUSTER_MIN
  * pair    the list: the keys are the two clusters, the values segments */
-static size_t list_candidates(struct vertex_snapping *snapping,
-                              const uint32_t *cluster, const uint8_t *others,
-                              struct sort_key *pair) {
+static size_t list_possible_duplicates(struct vertex_snapping *snapping,
+                                       const uint32_t *cluster,
+                                       const uint8_t *others,
+                                       struct sort_key *pair) {
   const struct segment_graph *graph = snapping->graph;
   size_t count = 0;
   for (uint32_t i = 0; i < graph->segment.count; i++) {
@@ -181,8 +182,7 @@ static size_t list_candidates(struct vertex_snapping *snapping,
       remove_segment(snapping, i);
     else if (a != b || is_large) /* a segment inside a small cluster is left to
                                     the search for overlaps */
-      pair[count++] = (struct sort_key){
-          (uint64_t)(a < b ? a : b) << 32 | (a < b ? b : a), i};
+      pair[count++] = (struct sort_key){sort_pair_key(a, b), i};
   }
   return count;
 }
@@ -201,7 +201,7 @@ static void drop_all_duplicates(struct vertex_snapping *snapping,
     for (size_t k = i; k < end; k++)
       pair[k].key = overlap_rank(snapping->graph, pair[k].value);
     sort_keys(pair + i, scratch + i, end - i);
-    drop_duplicates(snapping, pair + i, end - i, kept);
+    drop_duplicate_segments(snapping, pair + i, end - i, kept);
   }
 }
 
@@ -231,7 +231,7 @@ bool vertex_snapping_drop_duplicates(struct vertex_snapping *snapping,
     ok = pair && scratch && kept;
   }
   if (ok && count > 0) {
-    count = list_candidates(snapping, cluster, others, pair);
+    count = list_possible_duplicates(snapping, cluster, others, pair);
     drop_all_duplicates(snapping, pair, scratch, count, kept);
   }
   mem_free(cluster);

@@ -29,11 +29,11 @@ struct nearest_box {
 /* ---- Building ------------------------------------------------------------ */
 
 /* The first item of box j of a level. */
-static uint32_t start_of(const struct nearest *t, int level, uint32_t j) {
+static uint32_t first_of_box(const struct nearest *t, int level, uint32_t j) {
   return (uint32_t)(((uint64_t)t->count * j) >> level);
 }
 
-static double coordinate(const struct nearest *t, uint32_t i, int axis) {
+static double item_coordinate(const struct nearest *t, uint32_t i, int axis) {
   return axis ? t->item[i].at.y : t->item[i].at.x;
 }
 
@@ -49,10 +49,10 @@ static void swap(struct nearest_item *a, struct nearest_item *b) {
 static void select_middle(struct nearest *t, uint32_t low, uint32_t high,
                           uint32_t middle, int axis) {
   while (high - low > 1) {
-    double pivot = coordinate(t, low + (high - low) / 2, axis);
+    double pivot = item_coordinate(t, low + (high - low) / 2, axis);
     uint32_t less = low, equal = low, greater = high;
     while (equal < greater) {
-      double c = coordinate(t, equal, axis);
+      double c = item_coordinate(t, equal, axis);
       if (c < pivot)
         swap(&t->item[less++], &t->item[equal++]);
       else if (c > pivot)
@@ -76,7 +76,7 @@ static struct nearest_box bound(const struct nearest *t, uint32_t low,
   for (uint32_t i = low; i < high; i++) {
     (void)poll_at(i);
     for (int axis = 0; axis < 2 && !t->item[i].deleted; axis++) {
-      double c = coordinate(t, i, axis);
+      double c = item_coordinate(t, i, axis);
       box.low[axis] = c < box.low[axis] ? c : box.low[axis];
       box.high[axis] = c > box.high[axis] ? c : box.high[axis];
     }
@@ -87,8 +87,8 @@ static struct nearest_box bound(const struct nearest *t, uint32_t low,
 
 /* The union of two boxes.  Empty ones have infinite bounds of the wrong sign,
  * which are neutral. */
-static struct nearest_box unite(const struct nearest_box *a,
-                                const struct nearest_box *b) {
+static struct nearest_box unite_boxes(const struct nearest_box *a,
+                                      const struct nearest_box *b) {
   struct nearest_box box = *a;
   for (int axis = 0; axis < 2; axis++) {
     box.low[axis] = b->low[axis] < a->low[axis] ? b->low[axis] : a->low[axis];
@@ -103,12 +103,13 @@ static struct nearest_box unite(const struct nearest_box *a,
 static void build(struct nearest *t) {
   for (int level = 0; level <= t->levels; level++) {
     for (uint32_t j = 0; j < UINT32_C(1) << level; j++) {
-      uint32_t low = start_of(t, level, j), high = start_of(t, level, j + 1);
+      uint32_t low = first_of_box(t, level, j),
+               high = first_of_box(t, level, j + 1);
       struct nearest_box *box = &t->box[(UINT32_C(1) << level) + j];
       *box = bound(t, low, high);
       if (level < t->levels) {
         int axis = box->high[1] - box->low[1] > box->high[0] - box->low[0];
-        uint32_t middle = start_of(t, level + 1, 2 * j + 1);
+        uint32_t middle = first_of_box(t, level + 1, 2 * j + 1);
         select_middle(t, low, high, middle, axis);
       }
     }
@@ -147,10 +148,10 @@ void nearest_remove(struct nearest *t, uint32_t point) {
    * with n j / 2^l < place + 1. */
   uint32_t leaf = (uint32_t)((((place + 1) << t->levels) - 1) / t->count);
   uint32_t i = (UINT32_C(1) << t->levels) + leaf;
-  t->box[i] =
-      bound(t, start_of(t, t->levels, leaf), start_of(t, t->levels, leaf + 1));
+  t->box[i] = bound(t, first_of_box(t, t->levels, leaf),
+                    first_of_box(t, t->levels, leaf + 1));
   for (i /= 2; i > 0; i /= 2)
-    t->box[i] = unite(&t->box[2 * i], &t->box[2 * i + 1]);
+    t->box[i] = unite_boxes(&t->box[2 * i], &t->box[2 * i + 1]);
 }
 
 /* ---- Searching ----------------------------------------------------------- */
@@ -184,8 +185,8 @@ static double box_distance2(const struct nearest_box *box,
 /* Inserts the points of a leaf that are near enough into the sorted result. */
 static void scan_leaf(const struct nearest *t, struct search *s,
                       uint32_t leaf) {
-  uint32_t end = start_of(t, t->levels, leaf + 1);
-  for (uint32_t i = start_of(t, t->levels, leaf); i < end; i++) {
+  uint32_t end = first_of_box(t, t->levels, leaf + 1);
+  for (uint32_t i = first_of_box(t, t->levels, leaf); i < end; i++) {
     const struct nearest_item *item = &t->item[i];
     double dx = item->at.x - s->from.x, dy = item->at.y - s->from.y;
     double d = dx * dx + dy * dy;

@@ -44,8 +44,8 @@ struct order_work {
   struct tour tour;
 };
 
-static struct drawing_point corner_of(const struct order_work *o,
-                                      uint32_t stroke, uint32_t corner) {
+static struct drawing_point stroke_corner(const struct order_work *o,
+                                          uint32_t stroke, uint32_t corner) {
   return o->drawing->point.item[o->stroke[stroke].point + corner];
 }
 
@@ -60,7 +60,7 @@ static bool add_entries(struct order_work *o) {
     o->first_entry[i] = (uint32_t)o->entry.count;
     for (uint32_t k = 0; k<stroke->count; k += step> 0 ? step : 1)
       if (!ARRAY_PUSH(&o->entry, ((struct layer_entry){i, k})) ||
-          !ARRAY_PUSH(&o->entry_point, corner_of(o, i, k)))
+          !ARRAY_PUSH(&o->entry_point, stroke_corner(o, i, k)))
         return false;
   }
   o->first_entry[o->count] = (uint32_t)o->entry.count;
@@ -75,8 +75,8 @@ static struct drawing_point append_stroke(struct order_work *o,
   uint32_t last = stroke->closed ? entry.corner : stroke->count - 1;
   uint32_t first = stroke->closed ? entry.corner : 0;
   o->corner[entry.stroke] = first;
-  o->end[2 * entry.stroke] = corner_of(o, entry.stroke, first);
-  o->end[2 * entry.stroke + 1] = corner_of(o, entry.stroke, last);
+  o->end[2 * entry.stroke] = stroke_corner(o, entry.stroke, first);
+  o->end[2 * entry.stroke + 1] = stroke_corner(o, entry.stroke, last);
   bool reversed = entry.corner != first;
   o->tour.stroke[o->tour.count++] = entry.stroke;
   o->tour.reversed[entry.stroke] = reversed;
@@ -116,7 +116,7 @@ static void choose_loop_start(struct order_work *o, uint32_t k) {
     from = o->end[2 * t->stroke[k - 1] + !t->reversed[t->stroke[k - 1]]];
   double shortest = -1;
   for (uint32_t i = 0; i < o->stroke[s].count; i++) {
-    struct drawing_point p = corner_of(o, s, i);
+    struct drawing_point p = stroke_corner(o, s, i);
     double travel = stroke_distance(from, p);
     if (k + 1 < o->count) {
       uint32_t next = t->stroke[k + 1];
@@ -128,7 +128,7 @@ static void choose_loop_start(struct order_work *o, uint32_t k) {
     }
   }
   o->corner[s] = best;
-  o->end[2 * s] = o->end[2 * s + 1] = corner_of(o, s, best);
+  o->end[2 * s] = o->end[2 * s + 1] = stroke_corner(o, s, best);
 }
 
 static void choose_loop_starts(struct order_work *o) {
@@ -143,7 +143,7 @@ static void choose_loop_starts(struct order_work *o) {
 
 /* ---- 4 Apply ------------------------------------------------------------- */
 
-static void reverse(struct drawing_point *point, uint32_t count) {
+static void reverse_points(struct drawing_point *point, uint32_t count) {
   for (uint32_t i = 0; i < count / 2; i++) {
     struct drawing_point swap = point[i];
     point[i] = point[count - 1 - i];
@@ -155,9 +155,9 @@ static void reverse(struct drawing_point *point, uint32_t count) {
  * then the whole. */
 static void rotate(struct drawing_point *point, uint32_t count,
                    uint32_t corner) {
-  reverse(point, corner);
-  reverse(point + corner, count - corner);
-  reverse(point, count);
+  reverse_points(point, corner);
+  reverse_points(point + corner, count - corner);
+  reverse_points(point, count);
 }
 
 /* Stores the order of the tour in the drawing. */
@@ -172,7 +172,7 @@ static bool apply(struct order_work *o) {
     if (sorted[k].closed)
       rotate(point, sorted[k].count, o->corner[s]);
     else if (o->tour.reversed[s])
-      reverse(point, sorted[k].count);
+      reverse_points(point, sorted[k].count);
   }
   memcpy(o->stroke, sorted, o->count * sizeof *sorted);
   mem_free(sorted);
@@ -185,8 +185,8 @@ static double given_travel(const struct order_work *o) {
   double travel = 0;
   for (uint32_t i = 0; i < o->count; i++) {
     uint32_t last = o->stroke[i].closed ? 0 : o->stroke[i].count - 1;
-    travel += stroke_distance(pen, corner_of(o, i, 0));
-    pen = corner_of(o, i, last);
+    travel += stroke_distance(pen, stroke_corner(o, i, 0));
+    pen = stroke_corner(o, i, last);
   }
   return travel;
 }

@@ -139,7 +139,7 @@ static uint32_t reverse_cost(const struct cyclic_tour *r, uint32_t a,
   return count <= r->count - count ? count : r->count - count;
 }
 
-static uint32_t wrap(const struct cyclic_tour *r, uint32_t place) {
+static uint32_t wrap_position(const struct cyclic_tour *r, uint32_t place) {
   return place < r->count ? place : place - r->count;
 }
 
@@ -152,7 +152,7 @@ static void set_stop(struct cyclic_tour *r, uint32_t stop, uint32_t place) {
  * at place p and the gap after stop g. */
 static uint32_t count_ahead(const struct cyclic_tour *r, uint32_t p,
                             uint32_t count, uint32_t g) {
-  uint32_t from = wrap(r, p + count), to = r->place[g];
+  uint32_t from = wrap_position(r, p + count), to = r->place[g];
   return (to >= from ? to - from : to + r->count - from) + 1;
 }
 
@@ -163,21 +163,21 @@ static void move_run(struct cyclic_tour *r, uint32_t first, uint32_t count,
                      uint32_t g, bool reverse) {
   uint32_t run[RUN_MAX], p = r->place[first], to = p;
   for (uint32_t i = 0; i < count; i++)
-    run[i] = r->stop[wrap(r, p + i)];
+    run[i] = r->stop[wrap_position(r, p + i)];
   uint32_t ahead = count_ahead(r, p, count, g);
   uint32_t behind = r->count - count - ahead;
   if (ahead <= behind) {
-    for (uint32_t i = 0; i < ahead; i++, to = wrap(r, to + 1))
-      set_stop(r, r->stop[wrap(r, to + count)], to);
+    for (uint32_t i = 0; i < ahead; i++, to = wrap_position(r, to + 1))
+      set_stop(r, r->stop[wrap_position(r, to + count)], to);
   } else {
     for (uint32_t i = 0; i < behind; i++) {
       to = to > 0 ? to - 1 : r->count - 1;
-      set_stop(r, r->stop[to], wrap(r, to + count));
+      set_stop(r, r->stop[to], wrap_position(r, to + count));
     }
   }
   for (uint32_t i = 0; i < count; i++) {
     uint32_t stop = reverse ? run[count - 1 - i] : run[i];
-    set_stop(r, stop, wrap(r, to + i));
+    set_stop(r, stop, wrap_position(r, to + i));
     r->reversed[stop] ^= reverse;
   }
   r->moves -= count + (ahead <= behind ? ahead : behind);
@@ -281,7 +281,7 @@ static void improve(struct cyclic_tour *r) {
   while (r->queue_count > 0 && r->neighbours_left > 0 && r->moves > 0 &&
          poll_at((size_t)r->queue_head * MOVE_ITEMS)) {
     uint32_t c = r->queue[r->queue_head];
-    r->queue_head = wrap(r, r->queue_head + 1);
+    r->queue_head = wrap_position(r, r->queue_head + 1);
     r->queue_count--;
     r->queued[c] = false;
     bool moved = true;

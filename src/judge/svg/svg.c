@@ -163,7 +163,7 @@ static const char *read_root(struct svg_reader *reader,
 /* ---- Shapes -------------------------------------------------------------- */
 
 /* A numeric attribute; 0 where it is missing. */
-static double number_of(const struct svg_tag *tag, const char *name) {
+static double numeric_attribute(const struct svg_tag *tag, const char *name) {
   struct svg_text value;
   double number = 0;
   if (svg_attribute(tag, name, &value))
@@ -194,8 +194,9 @@ static const char *draw_points(struct svg_pen *pen, const struct svg_tag *tag,
 }
 
 static void draw_rectangle(struct svg_pen *pen, const struct svg_tag *tag) {
-  double x = number_of(tag, "x"), y = number_of(tag, "y");
-  double width = number_of(tag, "width"), height = number_of(tag, "height");
+  double x = numeric_attribute(tag, "x"), y = numeric_attribute(tag, "y");
+  double width = numeric_attribute(tag, "width"),
+         height = numeric_attribute(tag, "height");
   svg_pen_move(pen, x, y);
   svg_pen_line(pen, x + width, y);
   svg_pen_line(pen, x + width, y + height);
@@ -205,7 +206,7 @@ static void draw_rectangle(struct svg_pen *pen, const struct svg_tag *tag) {
 
 static void draw_ellipse(struct svg_pen *pen, const struct svg_tag *tag,
                          double rx, double ry) {
-  double x = number_of(tag, "cx"), y = number_of(tag, "cy");
+  double x = numeric_attribute(tag, "cx"), y = numeric_attribute(tag, "cy");
   svg_pen_move(pen, x + rx, y);
   svg_pen_arc(pen, rx, ry, 0, false, true, (struct judge_point2){x - rx, y});
   svg_pen_arc(pen, rx, ry, 0, false, true, (struct judge_point2){x + rx, y});
@@ -220,14 +221,18 @@ static const char *draw_element(struct svg_pen *pen,
   if (svg_is(tag->name, "polyline") || svg_is(tag->name, "polygon"))
     return draw_points(pen, tag, svg_is(tag->name, "polygon"));
   if (svg_is(tag->name, "line")) {
-    svg_pen_move(pen, number_of(tag, "x1"), number_of(tag, "y1"));
-    svg_pen_line(pen, number_of(tag, "x2"), number_of(tag, "y2"));
+    svg_pen_move(pen, numeric_attribute(tag, "x1"),
+                 numeric_attribute(tag, "y1"));
+    svg_pen_line(pen, numeric_attribute(tag, "x2"),
+                 numeric_attribute(tag, "y2"));
   } else if (svg_is(tag->name, "rect")) {
     draw_rectangle(pen, tag);
   } else if (svg_is(tag->name, "circle")) {
-    draw_ellipse(pen, tag, number_of(tag, "r"), number_of(tag, "r"));
+    draw_ellipse(pen, tag, numeric_attribute(tag, "r"),
+                 numeric_attribute(tag, "r"));
   } else if (svg_is(tag->name, "ellipse")) {
-    draw_ellipse(pen, tag, number_of(tag, "rx"), number_of(tag, "ry"));
+    draw_ellipse(pen, tag, numeric_attribute(tag, "rx"),
+                 numeric_attribute(tag, "ry"));
   }
   return NULL;
 }

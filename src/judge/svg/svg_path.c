@@ -201,7 +201,7 @@ static bool move(struct path *path) {
 }
 
 /* Draws one command with one set of numbers. */
-static bool draw(struct path *path) {
+static bool draw_command(struct path *path) {
   switch (path->command) {
   case 'M':
     return move(path);
@@ -250,7 +250,7 @@ const char *svg_path(struct svg_pen *pen, struct svg_text data) {
     next_command(&path);
     if (path.before == '\0' && path.command != 'M')
       return "a path that does not start with M";
-    if (!draw(&path))
+    if (!draw_command(&path))
       return "a path with a broken command or number";
   }
   return pen->fault;

@@ -17,7 +17,7 @@
 
 /* ---- Lines --------------------------------------------------------------- */
 
-static void put(struct svg_pen *pen, struct judge_point2 at) {
+static void add_stroke_point(struct svg_pen *pen, struct judge_point2 at) {
   struct judge_drawing *drawing = pen->drawing;
   if (pen->out_of_memory)
     return;
@@ -33,7 +33,7 @@ static void put_first(struct svg_pen *pen, struct judge_point2 at) {
   if (pen->out_of_memory)
     return;
   pen->out_of_memory = !ARRAY_PUSH(&pen->drawing->stroke, stroke);
-  put(pen, at);
+  add_stroke_point(pen, at);
 }
 
 /* Clips a segment at x = limit; false where all of it is outside.
@@ -71,7 +71,7 @@ static bool cut(const struct svg_pen *pen, struct judge_point2 *a,
          cut_at(top, 1, &a->y, &a->x, &b->y, &b->x);
 }
 
-static bool is_same(struct judge_point2 a, struct judge_point2 b) {
+static bool is_same_point2(struct judge_point2 a, struct judge_point2 b) {
   return a.x == b.x && a.y == b.y;
 }
 
@@ -89,11 +89,11 @@ static void draw_to(struct svg_pen *pen, struct judge_point2 to) {
   if (!is_place(pen, to))
     return;
   bool seen = cut(pen, &a, &b);
-  if (seen && !(pen->joined && is_same(a, pen->last)))
+  if (seen && !(pen->joined && is_same_point2(a, pen->last)))
     put_first(pen, a);
   if (seen)
-    put(pen, b);
-  pen->joined = seen && is_same(b, to);
+    add_stroke_point(pen, b);
+  pen->joined = seen && is_same_point2(b, to);
   pen->last = to;
 }
 
@@ -170,7 +170,7 @@ static struct cubic halve(struct cubic *c) {
 
 /* Whether all control points are outside one border of the page with its
  * margin. */
-static bool is_beyond(const struct svg_pen *pen, const struct cubic *c) {
+static bool is_off_page(const struct svg_pen *pen, const struct cubic *c) {
   double right = pen->drawing->width_mm + MARGIN_MM;
   double top = pen->drawing->height_mm + MARGIN_MM;
   unsigned beyond = 15;
@@ -207,7 +207,7 @@ static void draw_cubic(struct svg_pen *pen, struct cubic curve) {
   while (left > 0 && pen->fault == NULL && !pen->out_of_memory) {
     struct cubic *c = &rest[left - 1];
     double n = pieces_of(c), most = c->halved == 0 ? MOST : FEW;
-    if (n > most && c->halved < HALVINGS && !is_beyond(pen, c)) {
+    if (n > most && c->halved < HALVINGS && !is_off_page(pen, c)) {
       struct cubic second = halve(c);
       rest[left++] = *c;
       rest[left - 2] = second;

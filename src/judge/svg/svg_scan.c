@@ -7,7 +7,7 @@
 
 /* ---- Words --------------------------------------------------------------- */
 
-static bool is_space(char c) {
+static bool is_xml_space(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
@@ -29,9 +29,9 @@ static const char *find(struct svg_text text, const char *word) {
 }
 
 struct svg_text svg_trim(struct svg_text text) {
-  while (text.at < text.end && is_space(*text.at))
+  while (text.at < text.end && is_xml_space(*text.at))
     text.at++;
-  while (text.end > text.at && is_space(text.end[-1]))
+  while (text.end > text.at && is_xml_space(text.end[-1]))
     text.end--;
   return text;
 }
@@ -39,14 +39,14 @@ struct svg_text svg_trim(struct svg_text text) {
 bool svg_next_word(struct svg_text *list, struct svg_text *word) {
   *list = svg_trim(*list);
   word->at = list->at;
-  while (list->at < list->end && !is_space(*list->at))
+  while (list->at < list->end && !is_xml_space(*list->at))
     list->at++;
   word->end = list->at;
   return word->at < word->end;
 }
 
 void svg_skip_spaces(struct svg_text *text) {
-  while (text->at < text->end && (is_space(*text->at) || *text->at == ','))
+  while (text->at < text->end && (is_xml_space(*text->at) || *text->at == ','))
     text->at++;
 }
 
@@ -109,7 +109,7 @@ static struct svg_tag tag_of(struct svg_text text) {
       memcmp(text.at, prefix, length) == 0)
     text.at += length;
   tag.name.at = text.at;
-  while (text.at < text.end && !is_space(*text.at))
+  while (text.at < text.end && !is_xml_space(*text.at))
     text.at++;
   tag.name.end = text.at;
   tag.rest = text;
@@ -146,7 +146,7 @@ static bool next_attribute(struct svg_text *rest, struct svg_text *name,
                            struct svg_text *value) {
   *rest = svg_trim(*rest);
   name->at = rest->at;
-  while (rest->at < rest->end && *rest->at != '=' && !is_space(*rest->at))
+  while (rest->at < rest->end && *rest->at != '=' && !is_xml_space(*rest->at))
     rest->at++;
   name->end = rest->at;
   *rest = svg_trim(*rest);
@@ -231,7 +231,7 @@ static double scale_by_ten(double value, int exponent) {
 }
 
 /* Reads e[+-]digits; where there are none, `at` stays. */
-static const char *read_exponent(const char *at, const char *end,
+static const char *scan_exponent(const char *at, const char *end,
                                  int *exponent) {
   enum { LARGEST = 400 };
   const char *stop = at;
@@ -261,7 +261,7 @@ bool svg_number(struct svg_text *text, double *value) {
     at = gather(at + 1, text->end, &d);
   if (d.count == 0)
     return false;
-  text->at = read_exponent(at, text->end, &exponent);
+  text->at = scan_exponent(at, text->end, &exponent);
   double size =
       scale_by_ten((double)d.sum, exponent + d.dropped - (d.count - whole));
   *value = minus ? -size : size;

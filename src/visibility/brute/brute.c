@@ -17,9 +17,9 @@ static bool is_flat(const struct sheet *sheet, size_t triangle) {
   return sheet->triangle_flags[triangle] & SHEET_FLAT;
 }
 
-static bool solve_edges(const struct sheet *sheet, struct map *map,
-                        struct occlusion_counts *counts,
-                        struct progress *progress) {
+static bool solve_edges_brute(const struct sheet *sheet, struct map *map,
+                              struct occlusion_counts *counts,
+                              struct progress *progress) {
   size_t n = sheet->triangle.count;
   struct occluder *occluder = mem_alloc(n, sizeof *occluder);
   struct edge_intervals intervals = {0};
@@ -61,9 +61,10 @@ void brute_pieces_fini(struct brute_pieces *pieces) {
 }
 
 /* Subtracts triangle g from the pieces of f where it is nearer. */
-static bool subtract(struct brute_pieces *pieces, const struct sheet *sheet,
-                     const struct triangle_plane *plane, uint32_t f,
-                     uint32_t g) {
+static bool subtract_triangle(struct brute_pieces *pieces,
+                              const struct sheet *sheet,
+                              const struct triangle_plane *plane, uint32_t f,
+                              uint32_t g) {
   struct triangle_plane other = triangle_plane_of(sheet, g);
   struct geom_line *line = arena_alloc(&pieces->arena, 8, sizeof *line);
   if (line == NULL)
@@ -102,14 +103,15 @@ bool brute_subtract_all(struct brute_pieces *pieces, const struct sheet *sheet,
   for (uint32_t g = 0; g < n; g++)
     if (!progress_step(progress, 1 + pieces->left.count) ||
         (g != f && !is_flat(sheet, g) && !triangles_disjoint(sheet, f, g) &&
-         !subtract(pieces, sheet, &plane, f, g)))
+         !subtract_triangle(pieces, sheet, &plane, f, g)))
       return false;
   return true;
 }
 
-static bool solve_fragments(const struct sheet *sheet,
-                            const struct triangle_grid *grid, struct map *map,
-                            struct report *report, struct progress *progress) {
+static bool solve_fragments_brute(const struct sheet *sheet,
+                                  const struct triangle_grid *grid,
+                                  struct map *map, struct report *report,
+                                  struct progress *progress) {
   struct fragments fragments;
   struct brute_pieces pieces = {0};
   bool ok = fragments_init(&fragments, sheet, grid, true);
@@ -129,9 +131,10 @@ static bool solve_fragments(const struct sheet *sheet,
   return ok;
 }
 
-static recto_status solve(struct sheet *sheet,
-                          const struct solver_request *request, struct map *map,
-                          struct report *report, recto_error *error) {
+static recto_status solve_brute(struct sheet *sheet,
+                                const struct solver_request *request,
+                                struct map *map, struct report *report,
+                                recto_error *error) {
   struct occlusion_counts counts = {0};
   struct progress progress = progress_of(request, "edges");
   struct triangle_grid grid;
@@ -141,15 +144,15 @@ static recto_status solve(struct sheet *sheet,
   if (request->intersections)
     status = intersection_find_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK && request->edges &&
-      !solve_edges(sheet, map, &counts, &progress))
+      !solve_edges_brute(sheet, map, &counts, &progress))
     status = error_memory(error);
   progress.stage = "faces";
   if (status == RECTO_OK && request->fragments &&
-      !solve_fragments(sheet, &grid, map, report, &progress))
+      !solve_fragments_brute(sheet, &grid, map, report, &progress))
     status = error_memory(error);
   occlusion_report(&counts, report);
   triangle_grid_fini(&grid);
   return status;
 }
 
-const struct solver solver_brute = {RECTO_METHOD_BRUTE, "brute", solve};
+const struct solver solver_brute = {RECTO_METHOD_BRUTE, "brute", solve_brute};

@@ -228,7 +228,8 @@ static int32_t nearest_over(const struct raising *raising, struct box2 part) {
 }
 
 /* Is a part of the triangle's box outside of one of its sides? */
-static bool is_outside(const struct geom_triangle *corners, struct box2 part) {
+static bool has_part_outside(const struct geom_triangle *corners,
+                             struct box2 part) {
   for (int k = 0; k < 3; k++) {
     struct geom_point a = corners->p[k], b = corners->p[geom_next_corner(k)];
     struct geom_point innermost = {b.y > a.y ? part.x0 : part.x1,
@@ -294,7 +295,7 @@ void occlusion_buffer_raise(struct occlusion_buffer *buffer,
       struct box2 box_part = part_in_cells(&raising, part);
       if (buffer->farthest[(size_t)by * (size_t)buffer->blocks + (size_t)bx] <
               nearest_over(&raising, box_part) &&
-          !is_outside(&raising.corners, box_part)) {
+          !has_part_outside(&raising.corners, box_part)) {
         raise_block(&raising, part, bx, by);
         buffer->visits--;
       }

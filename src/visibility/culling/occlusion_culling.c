@@ -186,8 +186,8 @@ static struct cell_range cells_of(const struct candidate *candidate) {
 /* Is the triangle hidden in all cells that it meets?  False also where too much
  * has been tested.  First by blocks; then by the rows of cells, but only those
  * of a block row that is not hidden. */
-static bool is_hidden(struct culling_work *work,
-                      const struct candidate *candidate) {
+static bool is_triangle_hidden(struct culling_work *work,
+                               const struct candidate *candidate) {
   const struct occlusion_buffer *buffer = &work->culling->buffer;
   struct cell_range r = cells_of(candidate), part = r;
   work->tests -= (1 + ((r.x1 - r.x0) >> OCCLUSION_BLOCK_SHIFT)) *
@@ -222,7 +222,7 @@ static bool cull(struct culling_work *work) {
     if (!poll_at(i))
       return false;
     const struct candidate *candidate = &work->candidate[i];
-    bool hidden = is_hidden(work, candidate);
+    bool hidden = is_triangle_hidden(work, candidate);
     culling->culled[candidate->triangle] = hidden;
     culling->count += hidden;
     if (!hidden && culling->buffer.visits > 0)
@@ -296,7 +296,7 @@ static bool test_again(struct culling_work *work) {
   for (size_t i = 0; i < work->sheet->triangle.count; i++) {
     const struct candidate *candidate = &work->candidate[i];
     uint8_t *culled = &culling->culled[candidate->triangle];
-    if (*culled && !is_hidden(work, candidate)) {
+    if (*culled && !is_triangle_hidden(work, candidate)) {
       *culled = 0;
       culling->count--;
     }

@@ -133,8 +133,9 @@ bool fragments_add_with_candidates(struct fragments *f, uint32_t triangle,
 }
 
 /* As fragments_add_with_candidates, with the candidates from the grid. */
-static bool add_pieces(struct fragments *f, uint32_t triangle,
-                       const struct geom_convex *piece, size_t count) {
+static bool add_pieces_with_grid(struct fragments *f, uint32_t triangle,
+                                 const struct geom_convex *piece,
+                                 size_t count) {
   f->query.found.count = 0;
   if (f->contact &&
       !triangle_grid_find_overlapping(f->grid, triangle, &f->query))
@@ -144,10 +145,10 @@ static bool add_pieces(struct fragments *f, uint32_t triangle,
 }
 
 bool fragments_add_whole(struct fragments *f, uint32_t triangle) {
-  return add_pieces(f, triangle, NULL, 0);
+  return add_pieces_with_grid(f, triangle, NULL, 0);
 }
 
 bool fragments_add(struct fragments *f, uint32_t triangle,
                    const struct geom_convex *piece, size_t count) {
-  return count == 0 || add_pieces(f, triangle, piece, count);
+  return count == 0 || add_pieces_with_grid(f, triangle, piece, count);
 }

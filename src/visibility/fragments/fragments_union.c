@@ -59,8 +59,8 @@ static bool find_own(struct face_work *work, uint32_t triangle) {
   return true;
 }
 
-static bool store_loop(struct face_work *work,
-                       const struct geom_region_loop *loop) {
+static bool store_union_loop(struct face_work *work,
+                             const struct geom_region_loop *loop) {
   const struct geom_region_side *side = work->region.side.item + loop->side;
   struct map_loop stored = {(uint32_t)work->map->corner.count, loop->count, 0};
   for (uint32_t k = 0; k < loop->count; k++) {
@@ -85,7 +85,7 @@ static bool store_region(struct face_work *work) {
   for (size_t l = 0; l < work->region.loop.count;) {
     struct map_fragment fragment = {work->face, (uint32_t)map->loop.count, 0};
     do {
-      if (!store_loop(work, &work->region.loop.item[l++]))
+      if (!store_union_loop(work, &work->region.loop.item[l++]))
         return false;
       fragment.loops++;
     } while (l < work->region.loop.count && work->region.loop.item[l].hole);
@@ -109,8 +109,8 @@ static uint32_t append_sides(const struct sheet_triangle *t, int skip,
 
 /* Lists the sides of a face that is one triangle, or two that share a
  * diagonal.  Returns the number of sides; 0 for any other face. */
-static uint32_t list_sides(const struct face_work *work,
-                           struct outline_side side[4]) {
+static uint32_t list_face_sides(const struct face_work *work,
+                                struct outline_side side[4]) {
   const struct sheet_triangle *all = work->fragments->sheet->triangle.item,
                               *a = &all[work->own.item[0]], *b;
   if (work->own.count == 1) {
@@ -143,7 +143,7 @@ static bool find_outline(const struct face_work *work,
   if (count != work->own.count || count > 2 || piece[0].piece != NULL ||
       piece[count - 1].piece != NULL)
     return false;
-  n = list_sides(work, side);
+  n = list_face_sides(work, side);
   for (uint32_t k = 0; k < n; k++) {
     if (side[k].edge == SHEET_NONE)
       return false;
@@ -187,8 +187,9 @@ static size_t count_pieces(const struct fragment_piece *piece, size_t count) {
 }
 
 /* Finds which triangles of the face are visible, for labelling its sides. */
-static bool find_seen(struct face_work *work,
-                      const struct fragment_piece *piece, size_t count) {
+static bool find_visible_triangles(struct face_work *work,
+                                   const struct fragment_piece *piece,
+                                   size_t count) {
   size_t kept = 0;
   work->seen.count = 0;
   for (size_t i = 0; i < count; i++)
@@ -222,7 +223,7 @@ static bool unite_face(struct face_work *work,
   }
   f->counts.united++;
   f->counts.pieces += count;
-  if (!find_seen(work, piece, count) ||
+  if (!find_visible_triangles(work, piece, count) ||
       !geom_region_unite(&work->region, work->piece.item, count) ||
       !store_region(work))
     return false;

@@ -80,7 +80,7 @@ static void choose_shape(struct line_index *index,
  * the lower; the value is the side. */
 typedef ARRAY(struct sort_key) side_keys;
 
-static uint32_t number_of(const struct geom_point end[2]) {
+static uint32_t triangle_of_ends(const struct geom_point end[2]) {
   struct geom_line line;
   uint64_t number = 0;
   geom_line_through(&line, end[0], end[1]);
@@ -88,13 +88,13 @@ static uint32_t number_of(const struct geom_point end[2]) {
   return (uint32_t)number;
 }
 
-static bool add_side(const struct line_index *index,
-                     const struct geom_point end[2], uint32_t side,
-                     side_keys *keys) {
+static bool index_side(const struct line_index *index,
+                       const struct geom_point end[2], uint32_t side,
+                       side_keys *keys) {
   const struct triangle_grid *shape = &index->shape;
   struct cell_range r =
       triangle_grid_cells(shape, box2_of_segment(end[0], end[1]));
-  uint32_t number = number_of(end);
+  uint32_t number = triangle_of_ends(end);
   for (int y = r.y0; y <= r.y1; y++) {
     int x0, x1;
     triangle_grid_row(shape, end[0], end[1], r, y, &x0, &x1);
@@ -117,7 +117,7 @@ static bool gather_keys(const struct line_index *index,
       uint32_t t = sides->triangle[i];
       struct geom_point end[2];
       if (is_edge(sides->sheet, t, k, end) &&
-          !add_side(index, end, 3 * t + (uint32_t)k, keys))
+          !index_side(index, end, 3 * t + (uint32_t)k, keys))
         return false;
     }
   }
@@ -171,15 +171,16 @@ void line_index_fini(struct line_index *index) {
 }
 
 /* The row or column that contains coordinate v, clamped to the index. */
-static int cell_of(double v, int32_t v0, int shift, int count) {
+static int index_cell_at(double v, int32_t v0, int shift, int count) {
   double cell = floor((v - v0) / (double)(INT64_C(1) << shift));
   return cell < 0 ? 0 : cell >= count ? count - 1 : (int)cell;
 }
 
 /* The range of columns of row y that the segment from p to q may cross. */
-static void find_columns(const struct triangle_grid *shape,
-                         const struct geom_corner *p,
-                         const struct geom_corner *q, int y, int *x0, int *x1) {
+static void find_index_columns(const struct triangle_grid *shape,
+                               const struct geom_corner *p,
+                               const struct geom_corner *q, int y, int *x0,
+                               int *x1) {
   double low = shape->y0 + ldexp(y, shape->shift) - MARGIN;
   double high = shape->y0 + ldexp(y + 1, shape->shift) + MARGIN;
   double dy = q->y - p->y, from = 0, to = 1, a, b;
@@ -190,8 +191,10 @@ static void find_columns(const struct triangle_grid *shape,
   }
   a = p->x + from * (q->x - p->x);
   b = p->x + to * (q->x - p->x);
-  *x0 = cell_of(fmin(a, b) - MARGIN, shape->x0, shape->shift, shape->columns);
-  *x1 = cell_of(fmax(a, b) + MARGIN, shape->x0, shape->shift, shape->columns);
+  *x0 = index_cell_at(fmin(a, b) - MARGIN, shape->x0, shape->shift,
+                      shape->columns);
+  *x1 = index_cell_at(fmax(a, b) + MARGIN, shape->x0, shape->shift,
+                      shape->columns);
 }
 
 /* Appends the sides of a cell whose line has that number. */
@@ -216,16 +219,16 @@ bool line_index_find(const struct line_index *index,
                      const struct geom_line *line, const struct geom_corner *p,
                      const struct geom_corner *q, side_list *found) {
   const struct triangle_grid *shape = &index->shape;
-  int y0 =
-      cell_of(fmin(p->y, q->y) - MARGIN, shape->y0, shape->shift, shape->rows);
-  int y1 =
-      cell_of(fmax(p->y, q->y) + MARGIN, shape->y0, shape->shift, shape->rows);
+  int y0 = index_cell_at(fmin(p->y, q->y) - MARGIN, shape->y0, shape->shift,
+                         shape->rows);
+  int y1 = index_cell_at(fmax(p->y, q->y) + MARGIN, shape->y0, shape->shift,
+                         shape->rows);
   uint64_t number;
   if (!geom_line_number(line, &number))
     return true;
   for (int y = y0; y <= y1; y++) {
     int x0, x1;
-    find_columns(shape, p, q, y, &x0, &x1);
+    find_index_columns(shape, p, q, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
       if (!find_in_cell(index, (size_t)y * (size_t)shape->columns + (size_t)x,
                         (uint32_t)number, found))

@@ -91,7 +91,8 @@ static uint64_t number_of_edge(const struct sheet *sheet, uint32_t edge) {
 
 /* ---- 2. Stretches in common ---------------------------------------------- */
 
-static int64_t place(const struct map *map, uint32_t corner, bool upright) {
+static int64_t coordinate_along(const struct map *map, uint32_t corner,
+                                bool upright) {
   const struct map_corner *c = &map->corner.item[corner];
   return (int64_t)((upright ? c->y : c->x) * MAP_CORNER_SCALE);
 }
@@ -122,8 +123,8 @@ static bool match_sides(struct subdivision_work *work, struct sort_key *side,
   bool upright = is_upright(map, side, count);
   for (size_t i = 0; i < count; i++) {
     uint32_t s = side[i].value;
-    int64_t from = place(map, s, upright),
-            to = place(map, work->end[s], upright);
+    int64_t from = coordinate_along(map, s, upright),
+            to = coordinate_along(map, work->end[s], upright);
     bool reversed = to < from;
     struct sort_key key = {sort_key_of_int64(reversed ? to : from), s};
     other[reversed ? count - ++reverses : forwards++] = key;
@@ -136,16 +137,18 @@ static bool match_sides(struct subdivision_work *work, struct sort_key *side,
         .upright = upright};
     uint32_t low[2] = {next.side[0], work->end[next.side[1]]};
     uint32_t high[2] = {work->end[next.side[0]], next.side[1]};
-    bool later = place(map, low[1], upright) > place(map, low[0], upright);
-    bool sooner = place(map, high[1], upright) < place(map, high[0], upright);
-    int64_t from = place(map, low[later], upright);
+    bool later = coordinate_along(map, low[1], upright) >
+                 coordinate_along(map, low[0], upright);
+    bool sooner = coordinate_along(map, high[1], upright) <
+                  coordinate_along(map, high[0], upright);
+    int64_t from = coordinate_along(map, low[later], upright);
     next.corner[0] = low[later];
     next.corner[1] = high[sooner];
-    if (past != SHEET_NONE && from < place(map, past, upright)) {
-      from = place(map, past, upright); /* not in exact maps */
+    if (past != SHEET_NONE && from < coordinate_along(map, past, upright)) {
+      from = coordinate_along(map, past, upright); /* not in exact maps */
       next.corner[0] = past;
     }
-    if (from < place(map, next.corner[1], upright)) {
+    if (from < coordinate_along(map, next.corner[1], upright)) {
       past = next.corner[1];
       if (!ARRAY_PUSH(&work->stretch, next))
         return false;
@@ -222,7 +225,8 @@ static bool divide_side(struct subdivision_work *work, uint32_t fragment,
     struct side_stretch *stretch = &work->stretch.item[work->along[i]];
     bool upright = stretch->upright, reversed = stretch->side[1] == side;
     uint32_t from = stretch->corner[reversed], to = stretch->corner[!reversed];
-    if (place(map, from, upright) != place(map, half.origin, upright)) {
+    if (coordinate_along(map, from, upright) !=
+        coordinate_along(map, half.origin, upright)) {
       half.next = (uint32_t)map->half_edge.count + 1;
       if (!ARRAY_PUSH(&map->half_edge, half))
         return false;
@@ -233,7 +237,8 @@ static bool divide_side(struct subdivision_work *work, uint32_t fragment,
     if (!ARRAY_PUSH(&map->half_edge, half))
       return false;
     half.origin = to;
-    ends = place(map, to, upright) == place(map, work->end[side], upright);
+    ends = coordinate_along(map, to, upright) ==
+           coordinate_along(map, work->end[side], upright);
   }
   half.next = (uint32_t)map->half_edge.count + 1;
   return ends || ARRAY_PUSH(&map->half_edge, half);

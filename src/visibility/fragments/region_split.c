@@ -107,8 +107,8 @@ static bool split_region(struct occluder_subtraction *subtraction,
 }
 
 /* Subtracts occluders, in the order of their areas, from the whole triangle. */
-static bool take(struct occluder_subtraction *subtraction, size_t from,
-                 size_t to) {
+static bool subtract_range(struct occluder_subtraction *subtraction,
+                           size_t from, size_t to) {
   for (size_t i = from; i < to && subtraction->left.count > 0; i++)
     if (!progress_step(subtraction->progress, WORK) ||
         !occluder_subtraction_subtract(subtraction,
@@ -121,7 +121,7 @@ bool occluder_subtraction_subtract_all(
     struct occluder_subtraction *subtraction) {
   size_t n = subtraction->occluder.count, first = n < FIRST ? n : FIRST;
   uint32_t root;
-  if (!sort_occluders(subtraction) || !take(subtraction, 0, first))
+  if (!sort_occluders(subtraction) || !subtract_range(subtraction, 0, first))
     return false;
   if (subtraction->left.count == 0)
     return true;
@@ -130,7 +130,7 @@ bool occluder_subtraction_subtract_all(
                subtraction->list.item + first, n - first, false, &root))
     return false;
   if (root == SHEET_NONE)
-    return take(subtraction, first, n);
+    return subtract_range(subtraction, first, n);
   subtraction->region.count = 0;
   for (size_t i = 0; i < subtraction->left.count; i++)
     if (!push_region(subtraction, &subtraction->left.item[i], root))

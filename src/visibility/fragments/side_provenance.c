@@ -12,7 +12,7 @@ struct boundary_segment {
   const struct geom_corner *low, *high;
 };
 
-static struct box2 box_of(const struct boundary_segment *s) {
+static struct box2 segment_box(const struct boundary_segment *s) {
   return (struct box2){(int32_t)floor(fmin(s->low->x, s->high->x)) - 1,
                        (int32_t)floor(fmin(s->low->y, s->high->y)) - 1,
                        (int32_t)ceil(fmax(s->low->x, s->high->x)) + 1,
@@ -21,9 +21,9 @@ static struct box2 box_of(const struct boundary_segment *s) {
 
 /* Returns whether side a-b of a triangle and the segment overlap in more than a
  * point; then `from` and `to` receive the ends of the overlap. */
-static bool runs_along(struct geom_point a, struct geom_point b,
-                       const struct boundary_segment *s,
-                       struct geom_corner *from, struct geom_corner *to) {
+static bool overlaps_segment(struct geom_point a, struct geom_point b,
+                             const struct boundary_segment *s,
+                             struct geom_corner *from, struct geom_corner *to) {
   struct geom_corner ca = geom_corner_at(a), cb = geom_corner_at(b);
   if (a.x == b.x && a.y == b.y)
     return false;
@@ -44,8 +44,9 @@ static bool side_runs_along(const struct sheet *sheet, uint32_t triangle,
                             uint32_t k, const struct boundary_segment *s,
                             struct geom_corner *from, struct geom_corner *to) {
   const uint32_t *point = sheet->triangle.item[triangle].point;
-  return runs_along(sheet->point.item[point[k]],
-                    sheet->point.item[point[k == 2 ? 0 : k + 1]], s, from, to);
+  return overlaps_segment(sheet->point.item[point[k]],
+                          sheet->point.item[point[k == 2 ? 0 : k + 1]], s, from,
+                          to);
 }
 
 /* The lowest edge of a triangle that overlaps the segment; SHEET_NONE. */
@@ -85,8 +86,8 @@ static bool is_beside(const struct sheet *sheet, uint32_t triangle,
 }
 
 /* Returns whether the triangle has a corner to the right of the segment. */
-static bool is_beyond(const struct sheet *sheet, uint32_t triangle,
-                      const struct boundary_segment *s) {
+static bool has_corner_right_of(const struct sheet *sheet, uint32_t triangle,
+                                const struct boundary_segment *s) {
   const uint32_t *point = sheet->triangle.item[triangle].point;
   for (int k = 0; k < 3; k++) {
     struct geom_corner corner = geom_corner_at(sheet->point.item[point[k]]);
@@ -134,7 +135,8 @@ static bool is_nearer(const struct sheet *sheet, uint32_t f, uint32_t g,
   int at_from = geom_line_side(&line, from), at_to = geom_line_side(&line, to);
   if (at_from != 0 || at_to != 0)
     return at_from > 0 || at_to > 0;
-  return geom_line_along(&line, s->line) < 0 && is_beyond(sheet, g, s);
+  return geom_line_along(&line, s->line) < 0 &&
+         has_corner_right_of(sheet, g, s);
 }
 
 /* Returns whether the planes of f and g intersect along the segment. */
@@ -183,7 +185,7 @@ static bool own_crosses_along(const struct provenance_query *q, uint32_t g) {
 
 /* Returns whether g is a triangle of another face, not flat, whose box overlaps
  * the segment. */
-static bool is_candidate(const struct provenance_query *q, uint32_t g) {
+static bool may_bound_segment(const struct provenance_query *q, uint32_t g) {
   return q->sheet->triangle.item[g].face != q->face &&
          !(q->sheet->triangle_flags[g] & SHEET_FLAT) &&
          !box2_disjoint(q->box, box2_of_triangle(q->sheet, g));
@@ -210,7 +212,7 @@ static uint32_t crossing_face(const struct provenance_query *q) {
   uint32_t face = SHEET_NONE;
   for (size_t i = 0; i < q->found_count; i++) {
     uint32_t g = q->found[i], other = q->sheet->triangle.item[g].face;
-    if (other < face && is_candidate(q, g) && own_crosses_along(q, g))
+    if (other < face && may_bound_segment(q, g) && own_crosses_along(q, g))
       face = other;
   }
   return face;
@@ -228,7 +230,7 @@ static uint8_t label_by_others(const struct provenance_query *q, uint32_t *id) {
 /* Returns whether f is a later triangle in contact with one of the face's
  * own. */
 static bool touches_own(const struct provenance_query *q, uint32_t f) {
-  if (!is_candidate(q, f))
+  if (!may_bound_segment(q, f))
     return false;
   for (size_t i = 0; i < q->own_count; i++)
     if (q->own[i] < f && triangles_touch(q->sheet, q->own[i], f))
@@ -272,7 +274,8 @@ void side_provenance_fini(struct side_provenance *provenance) {
 }
 
 /* Binary search in an ascending list. */
-static bool is_among(const uint32_t *item, size_t count, uint32_t wanted) {
+static bool is_in_ascending(const uint32_t *item, size_t count,
+                            uint32_t wanted) {
   while (count > 0) {
     size_t half = count / 2;
     if (item[half] == wanted)
@@ -292,7 +295,7 @@ static bool keep_own_nearby(struct side_provenance *provenance,
                             struct provenance_query *q) {
   provenance->nearby.count = 0;
   for (size_t i = 0; i < q->found_count; i++)
-    if (is_among(provenance->own, provenance->own_count, q->found[i]) &&
+    if (is_in_ascending(provenance->own, provenance->own_count, q->found[i]) &&
         !ARRAY_PUSH(&provenance->nearby, q->found[i]))
       return false;
   q->own = provenance->nearby.item;
@@ -336,7 +339,7 @@ bool side_provenance_find(struct side_provenance *provenance,
   *id = edge_found(&query, true);
   if (*id != SHEET_NONE)
     return true;
-  query.box = box_of(&query.segment);
+  query.box = segment_box(&query.segment);
   if (!triangle_grid_find(provenance->grid, query.box, provenance->query))
     return false;
   query.found = provenance->query->found.item;

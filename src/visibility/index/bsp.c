@@ -41,7 +41,7 @@ struct bsp_builder {
   int depth;
 };
 
-static bool add_node(struct bsp *bsp, uint32_t *node) {
+static bool add_bsp_node(struct bsp *bsp, uint32_t *node) {
   struct bsp_node fresh = {.child = {SHEET_NONE, SHEET_NONE}};
   *node = (uint32_t)bsp->node.count;
   return ARRAY_PUSH(&bsp->node, fresh);
@@ -104,7 +104,7 @@ static bool split_list(struct bsp_builder *builder, struct pending list,
   struct bsp *bsp = builder->bsp;
   size_t count = bsp->pool.count - list.from, kept = list.from;
   uint32_t child[2];
-  if (!add_node(bsp, &child[0]) || !add_node(bsp, &child[1]))
+  if (!add_bsp_node(bsp, &child[0]) || !add_bsp_node(bsp, &child[1]))
     return false;
   bsp->node.item[list.node].splitter = *splitter;
   bsp->node.item[list.node].child[0] = child[0];
@@ -155,7 +155,7 @@ bool bsp_add(struct bsp *bsp, const struct sheet *sheet,
   *root = SHEET_NONE;
   builder.members_max = members + GROWTH_MAX * count;
   bsp->pool.count = 0;
-  ok = ARRAY_RESERVE(&bsp->pool, count) && add_node(bsp, root);
+  ok = ARRAY_RESERVE(&bsp->pool, count) && add_bsp_node(bsp, root);
   for (size_t i = 0; ok && i < count; i++)
     bsp->pool.item[bsp->pool.count++] =
         (struct bsp_member){0, triangle[i], (uint32_t)i};

@@ -74,8 +74,8 @@ static int side_of_plane(const struct bsp_plane *splitter,
   return value > bound ? BSP_LEFT : value < -bound ? BSP_RIGHT : BSP_BOTH;
 }
 
-static int side_of_point(const struct bsp_plane *splitter,
-                         struct geom_point p) {
+static int side_of_splitter(const struct bsp_plane *splitter,
+                            struct geom_point p) {
   return splitter->is_plane ? side_of_plane(splitter, p)
                             : side_of_line(splitter, p);
 }
@@ -95,7 +95,7 @@ static int side_of_points(const struct bsp_plane *splitter,
     if (is_shared_vertex(splitter, p[k]))
       shared++;
     else
-      sides |= side_of_point(splitter, p[k]);
+      sides |= side_of_splitter(splitter, p[k]);
   return shared > 1 ? BSP_BOTH : sides;
 }
 
@@ -109,7 +109,7 @@ int bsp_plane_side_of_segment(const struct bsp_plane *splitter,
     if (splitter->is_plane && geom_same_point(end[k], splitter->shared_edge))
       sides |= is_shared_vertex(splitter, end[1 - k])
                    ? BSP_BOTH
-                   : side_of_point(splitter, end[1 - k]);
+                   : side_of_splitter(splitter, end[1 - k]);
   return sides != 0 ? sides : side_of_points(splitter, end, 2);
 }
 
@@ -134,13 +134,13 @@ static int side_of_corners(const struct bsp_plane *splitter,
                            const struct geom_point p[3]) {
   int off = corner_off_shared_edge(splitter, sheet, triangle);
   return off < 0 ? side_of_points(splitter, p, 3)
-                 : side_of_point(splitter, p[off]);
+                 : side_of_splitter(splitter, p[off]);
 }
 
 int bsp_plane_side_of_corners(const struct bsp_plane *splitter,
                               const struct geom_point p[3]) {
-  return side_of_point(splitter, p[0]) | side_of_point(splitter, p[1]) |
-         side_of_point(splitter, p[2]);
+  return side_of_splitter(splitter, p[0]) | side_of_splitter(splitter, p[1]) |
+         side_of_splitter(splitter, p[2]);
 }
 
 static void corners_of(const struct sheet *sheet, uint32_t triangle,
@@ -252,9 +252,9 @@ static struct bsp_plane line_along(const struct geom_point p[3], int k,
 }
 
 /* The plane of a triangle, with two of its corners as the shared edge. */
-static struct bsp_plane plane_of(const struct sheet *sheet, uint32_t triangle,
-                                 int shared_vertex, int shared_edge,
-                                 double thickness) {
+static struct bsp_plane
+plane_through_corners(const struct sheet *sheet, uint32_t triangle,
+                      int shared_vertex, int shared_edge, double thickness) {
   const uint32_t *p = sheet->triangle.item[triangle].point;
   return (struct bsp_plane){.shared_vertex =
                                 sheet->point.item[p[shared_vertex]],
@@ -322,9 +322,9 @@ bool bsp_plane_choose(struct bsp_plane *splitter, const struct sheet *sheet,
       consider(&choice, &sample, &candidate);
     }
     if (planes) {
-      candidate =
-          plane_of(sheet, sample.triangle[i], shared_vertex,
-                   choose_shared_vertex(&sample, i, shared_vertex), thickness);
+      candidate = plane_through_corners(
+          sheet, sample.triangle[i], shared_vertex,
+          choose_shared_vertex(&sample, i, shared_vertex), thickness);
       consider(&choice, &sample, &candidate);
     }
   }

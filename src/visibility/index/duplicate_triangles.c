@@ -27,15 +27,15 @@ static uint64_t mix(uint64_t hash, uint64_t value) {
   return hash ^ (hash >> 29);
 }
 
-static const struct geom_point *corner_of(const struct sheet *sheet,
-                                          uint32_t triangle, int k) {
+static const struct geom_point *triangle_corner(const struct sheet *sheet,
+                                                uint32_t triangle, int k) {
   return &sheet->point.item[sheet->triangle.item[triangle].point[k]];
 }
 
 static uint64_t hash_of(const struct sheet *sheet, uint32_t triangle) {
   uint64_t hash = 0;
   for (int k = 0; k < 3; k++) {
-    const struct geom_point *p = corner_of(sheet, triangle, k);
+    const struct geom_point *p = triangle_corner(sheet, triangle, k);
     hash = mix(hash, (uint64_t)p->x);
     hash = mix(hash, (uint64_t)p->y);
     hash = mix(hash, (uint64_t)p->z);
@@ -43,12 +43,12 @@ static uint64_t hash_of(const struct sheet *sheet, uint32_t triangle) {
   return hash;
 }
 
-static int compare_coordinates(const void *a, const void *b, void *user) {
+static int compare_triangle_points(const void *a, const void *b, void *user) {
   const struct sheet *sheet = user;
   const struct sort_key *s = a, *t = b;
   for (int k = 0; k < 3; k++) {
-    int order = geom_compare_points(*corner_of(sheet, s->value, k),
-                                    *corner_of(sheet, t->value, k));
+    int order = geom_compare_points(*triangle_corner(sheet, s->value, k),
+                                    *triangle_corner(sheet, t->value, k));
     if (order != 0)
       return order;
   }
@@ -74,7 +74,7 @@ static struct sort_key *sort_by_coordinates(const struct sheet *sheet,
   for (size_t i = 0, past; ok && i < n; i = past) {
     for (past = i + 1; past < n && key[past].key == key[i].key;)
       past++;
-    ok = sort_stable(&key[i], past - i, sizeof *key, compare_coordinates,
+    ok = sort_stable(&key[i], past - i, sizeof *key, compare_triangle_points,
                      (void *)(uintptr_t)sheet);
   }
   if (ok)
@@ -88,7 +88,7 @@ static bool have_same_coordinates(const struct sheet *sheet,
                                   const struct sort_key *a,
                                   const struct sort_key *b) {
   return a->key == b->key &&
-         compare_coordinates(a, b, (void *)(uintptr_t)sheet) == 0;
+         compare_triangle_points(a, b, (void *)(uintptr_t)sheet) == 0;
 }
 
 bool duplicate_triangles_are_many(const struct sheet *sheet,
@@ -157,7 +157,7 @@ struct duplicate_sides {
 
 static int compare_indices(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
 
-static int compare_sides(const void *a, const void *b, void *user) {
+static int compare_triangle_sides(const void *a, const void *b, void *user) {
   const struct duplicate_side *s = a, *t = b;
   int order = compare_indices(s->point[0], t->point[0]);
   (void)user;
@@ -199,7 +199,7 @@ static bool add_sides(struct duplicate_sides *all,
 }
 
 /* Groups the sides, which are sorted, by the pair of points that they join. */
-static bool find_edges(struct duplicate_sides *all) {
+static bool group_sides(struct duplicate_sides *all) {
   const struct duplicate_side *side = all->side.item;
   for (size_t i = 0, past; i < all->side.count; i = past) {
     struct duplicate_edge edge = {i, 0};
@@ -222,8 +222,8 @@ static bool find_edge_classes(struct duplicate_finder *f) {
     ok = add_sides(&all, f, t);
   ok = ok &&
        sort_stable(all.side.item, all.side.count, sizeof *all.side.item,
-                   compare_sides, NULL) &&
-       find_edges(&all) &&
+                   compare_triangle_sides, NULL) &&
+       group_sides(&all) &&
        sort_stable(all.edge.item, all.edge.count, sizeof *all.edge.item,
                    compare_edges, &all);
   for (size_t e = 0; ok && e < all.edge.count; e++) {

@@ -61,7 +61,7 @@ static void summarise(const struct box_sweep *sweep, uint32_t triangle,
 }
 
 /* Are both triangles listed in a cell that is selected? */
-static bool is_listed(const struct box_sweep *sweep, int x, int y) {
+static bool is_pair_selected(const struct box_sweep *sweep, int x, int y) {
   const struct triangle_grid *grid = sweep->grid;
   size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
   if (sweep->cells != NULL && !sweep->cells[cell])
@@ -78,14 +78,14 @@ static bool is_cell_of_pair(const struct box_sweep *sweep,
   int x0 = f->x0 > g->x0 ? f->x0 : g->x0, y0 = f->y0 > g->y0 ? f->y0 : g->y0;
   if (x0 == sweep->x && y0 == sweep->y)
     return true;
-  if (is_listed(sweep, x0, y0))
+  if (is_pair_selected(sweep, x0, y0))
     return false;
   int x1 = triangle_grid_cell(box2_min(f->box.x1, g->box.x1), grid->x0,
                               grid->shift, grid->columns);
   for (int y = y0; y <= sweep->y; y++) {
     int end = y < sweep->y ? x1 : sweep->x - 1;
     for (int x = x0; x <= end; x++)
-      if (is_listed(sweep, x, y))
+      if (is_pair_selected(sweep, x, y))
         return false;
   }
   return true;
@@ -97,8 +97,8 @@ struct shared_corners {
   int count, in_f, in_g;
 };
 
-static struct shared_corners shared_corners(const uint32_t f[3],
-                                            const uint32_t g[3]) {
+static struct shared_corners list_shared_corners(const uint32_t f[3],
+                                                 const uint32_t g[3]) {
   struct shared_corners shared = {0, 0, 0};
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
@@ -158,7 +158,7 @@ static bool is_mesh_edge(const struct sheet *sheet, uint32_t f,
 static bool are_neighbours(const struct sheet *sheet, uint32_t f, uint32_t g) {
   const uint32_t *p = sheet->triangle.item[f].point,
                  *q = sheet->triangle.item[g].point;
-  struct shared_corners shared = shared_corners(p, q);
+  struct shared_corners shared = list_shared_corners(p, q);
   switch (shared.count) {
   case 0:
     return false;
@@ -184,7 +184,8 @@ static bool may_pierce(const struct sheet *sheet, const struct summary *f,
 
 /* Is all of g to the right of a side of f on the page, by more than the
  * distance of lines that count as coincident? */
-static bool is_beyond_side(const struct sheet *sheet, uint32_t f, uint32_t g) {
+static bool is_outside_triangle(const struct sheet *sheet, uint32_t f,
+                                uint32_t g) {
   struct geom_triangle p = sheet_corners(sheet, f), q = sheet_corners(sheet, g);
   for (int k = 0; k < 3; k++) {
     struct geom_point a = p.p[k], b = p.p[geom_next_corner(k)];
@@ -200,14 +201,14 @@ static bool is_beyond_side(const struct sheet *sheet, uint32_t f, uint32_t g) {
 }
 
 /* Visits a pair whose depths overlap, unless a test rejects it. */
-static bool test_pair(const struct box_sweep *sweep, struct summary *f,
-                      struct summary *g) {
+static bool visit_pair(const struct box_sweep *sweep, struct summary *f,
+                       struct summary *g) {
   if (box2_disjoint(f->box, g->box) || (f->right_copy & g->right_copy) != 0 ||
       !is_cell_of_pair(sweep, f, g) ||
       are_neighbours(sweep->sheet, f->triangle, g->triangle) ||
       !may_pierce(sweep->sheet, f, g) || !may_pierce(sweep->sheet, g, f) ||
-      is_beyond_side(sweep->sheet, f->triangle, g->triangle) ||
-      is_beyond_side(sweep->sheet, g->triangle, f->triangle))
+      is_outside_triangle(sweep->sheet, f->triangle, g->triangle) ||
+      is_outside_triangle(sweep->sheet, g->triangle, f->triangle))
     return true;
   return f->triangle < g->triangle
              ? sweep->visit(sweep->user, f->triangle, g->triangle)
@@ -238,7 +239,7 @@ static bool sweep_list(struct box_sweep *sweep) {
     struct summary *f = &summary[key[i].value];
     size_t j = i + 1;
     for (; j < n && key[j].key <= (uint64_t)f->high; j++)
-      if (!test_pair(sweep, f, &summary[key[j].value]))
+      if (!visit_pair(sweep, f, &summary[key[j].value]))
         return false;
     *sweep->met += j - i - 1;
     if (!progress_step(sweep->progress, j - i))

@@ -27,8 +27,8 @@ struct intersection_search {
 };
 
 /* Triangle f, prepared; consecutive pairs often have f in common. */
-static const struct occluder *prepare(struct intersection_search *search,
-                                      uint32_t f) {
+static const struct occluder *
+prepare_triangle(struct intersection_search *search, uint32_t f) {
   if (search->prepared != f)
     occluder_init(&search->occluder, search->sheet, f);
   search->prepared = f;
@@ -48,7 +48,7 @@ static bool decide_pair(void *user, uint32_t f, uint32_t g) {
   search->counts.pairs++;
   if (!progress_step(&search->progress, PAIR_WORK))
     return false;
-  hf = prepare(search, f);
+  hf = prepare_triangle(search, f);
   sg = side_count_of(hf, sheet_corners(sheet, g).p);
   if (!straddles(sg) && !ends_on_plane(sg))
     return true;
@@ -79,8 +79,8 @@ static int compare_segments(const void *a, const void *b, void *user) {
   return 0;
 }
 
-static int compare_coordinates(const struct intersection_segment *s,
-                               const struct intersection_segment *t) {
+static int compare_segment_ends(const struct intersection_segment *s,
+                                const struct intersection_segment *t) {
   bool turn_s = geom_compare_points(s->end[0], s->end[1]) > 0,
        turn_t = geom_compare_points(t->end[0], t->end[1]) > 0;
   int order = geom_compare_points(s->end[turn_s], t->end[turn_t]);
@@ -89,7 +89,7 @@ static int compare_coordinates(const struct intersection_segment *s,
 }
 
 static int compare_by_coordinates(const void *a, const void *b, void *user) {
-  int order = compare_coordinates(a, b);
+  int order = compare_segment_ends(a, b);
   return order != 0 ? order : compare_segments(a, b, user);
 }
 
@@ -102,7 +102,7 @@ static bool unite_segments(struct intersection_segments *segments) {
   if (!sort_stable(item, n, sizeof *item, compare_by_coordinates, NULL))
     return false;
   for (size_t i = 0; i < n; i++)
-    if (kept == 0 || compare_coordinates(&item[kept - 1], &item[i]) != 0)
+    if (kept == 0 || compare_segment_ends(&item[kept - 1], &item[i]) != 0)
       item[kept++] = item[i];
   segments->list.count = kept;
   return sort_stable(item, kept, sizeof *item, compare_segments, NULL);
@@ -122,9 +122,9 @@ static int compare_ends(const void *a, const void *b, void *user) {
 
 /* Adds the ends to the sheet's points, equal ones once, and sets the edges'
  * point indices.  Returns false when memory ran out. */
-static bool add_points(struct sheet *sheet,
-                       const struct intersection_search *search,
-                       struct sheet_edge *edge) {
+static bool add_intersection_points(struct sheet *sheet,
+                                    const struct intersection_search *search,
+                                    struct sheet_edge *edge) {
   size_t n = 2 * search->segment.list.count;
   struct segment_end *end = mem_alloc(n, sizeof *end);
   bool ok = false;
@@ -149,7 +149,8 @@ end:
 
 /* Adds the segments to the sheet as drawable edges.  Returns false when memory
  * ran out. */
-static bool add_edges(struct sheet *sheet, struct intersection_search *search) {
+static bool add_intersection_edges(struct sheet *sheet,
+                                   struct intersection_search *search) {
   size_t n;
   struct sheet_edge *edge;
   if (search->segment.list.count == 0)
@@ -168,7 +169,7 @@ static bool add_edges(struct sheet *sheet, struct intersection_search *search) {
         .group = sheet->face_group[sheet->triangle.item[s->triangle[0]].face],
         .edge_class = RECTO_EDGE_INTERSECTION};
   }
-  if (!add_points(sheet, search, edge))
+  if (!add_intersection_points(sheet, search, edge))
     return false;
   sheet->edge.count += n;
   return true;
@@ -187,7 +188,7 @@ recto_status intersection_find_all(struct sheet *sheet,
                             &search.progress, &search.counts.met) &&
             edge_crossings_resolve(&search.crossings, sheet, &search.segment,
                                    &search.counts.crossings) &&
-            add_edges(sheet, &search);
+            add_intersection_edges(sheet, &search);
   report_int(report, "intersections", "pairs_tested",
              (int64_t)search.counts.met);
   report_int(report, "intersections", "candidate_pairs",

@@ -40,7 +40,7 @@ struct segment_ends {
   struct geom_point low, high;
 };
 
-static void add_end(struct segment_ends *ends, struct geom_point p) {
+static void add_segment_end(struct segment_ends *ends, struct geom_point p) {
   if (ends->count == 0 || geom_compare_points(p, ends->low) < 0)
     ends->low = p;
   if (ends->count == 0 || geom_compare_points(p, ends->high) > 0)
@@ -49,8 +49,9 @@ static void add_end(struct segment_ends *ends, struct geom_point p) {
 }
 
 /* Adds the points where edges of triangle f pass through triangle g. */
-static void find_ends(const struct sheet *sheet, uint32_t f,
-                      const struct occluder *hg, struct segment_ends *ends) {
+static void add_piercing_points(const struct sheet *sheet, uint32_t f,
+                                const struct occluder *hg,
+                                struct segment_ends *ends) {
   const uint32_t *point = sheet->triangle.item[f].point;
   for (int k = 0; k < 3; k++) {
     uint32_t i = point[k], j = point[geom_next_corner(k)];
@@ -71,15 +72,15 @@ static void find_ends(const struct sheet *sheet, uint32_t f,
     if (!line_meets(a, b, hg->p))
       continue;
     t = va > vb ? (struct ratio){va, va - vb} : (struct ratio){-va, vb - va};
-    add_end(ends, (struct geom_point){(int32_t)ratio_lerp(t, a.x, b.x),
-                                      (int32_t)ratio_lerp(t, a.y, b.y),
-                                      ratio_lerp(t, a.z, b.z)});
+    add_segment_end(ends, (struct geom_point){(int32_t)ratio_lerp(t, a.x, b.x),
+                                              (int32_t)ratio_lerp(t, a.y, b.y),
+                                              ratio_lerp(t, a.z, b.z)});
   }
 }
 
 /* How many corners of the two have equal coordinates. */
-static int shared_corners(const struct geom_point f[3],
-                          const struct geom_point g[3]) {
+static int count_equal_corners(const struct geom_point f[3],
+                               const struct geom_point g[3]) {
   int shared = 0;
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
@@ -92,10 +93,10 @@ bool intersection_segment_find(const struct sheet *sheet, uint32_t f,
                                const struct occluder *hg,
                                struct intersection_segment *segment) {
   struct segment_ends ends = {0};
-  if (shared_corners(hf->p, hg->p) > 1)
+  if (count_equal_corners(hf->p, hg->p) > 1)
     return false;
-  find_ends(sheet, f, hg, &ends);
-  find_ends(sheet, g, hf, &ends);
+  add_piercing_points(sheet, f, hg, &ends);
+  add_piercing_points(sheet, g, hf, &ends);
   if (ends.count < 2 ||
       (ends.low.x == ends.high.x && ends.low.y == ends.high.y))
     return false;

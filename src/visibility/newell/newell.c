@@ -47,8 +47,8 @@ static uint32_t rank_of_edge(const struct edge_work *work,
 }
 
 /* Returns whether segment pq is collinear with a side of the triangle. */
-static bool runs_along(const struct sheet *sheet, uint32_t triangle,
-                       struct geom_point p, struct geom_point q) {
+static bool is_along_side(const struct sheet *sheet, uint32_t triangle,
+                          struct geom_point p, struct geom_point q) {
   struct geom_triangle corner = sheet_corners(sheet, triangle);
   for (int k = 0; k < 3; k++) {
     struct geom_point a = corner.p[k], b = corner.p[geom_next_corner(k)];
@@ -59,8 +59,9 @@ static bool runs_along(const struct sheet *sheet, uint32_t triangle,
 }
 
 /* Computes the occluded intervals of an edge. */
-static bool solve_edge(struct edge_work *work, const struct sheet_edge *edge,
-                       struct geom_point p, struct geom_point q) {
+static bool occlude_newell_edge(struct edge_work *work,
+                                const struct sheet_edge *edge,
+                                struct geom_point p, struct geom_point q) {
   const struct sheet *sheet = work->sheet;
   const struct newell_piece *piece = work->order->piece.item;
   uint32_t rank = rank_of_edge(work, edge);
@@ -76,7 +77,7 @@ static bool solve_edge(struct edge_work *work, const struct sheet_edge *edge,
         !occlusion_is_possible(sheet, t, p, q, box))
       continue;
     if (piece[t].state == NEWELL_PAINTED && piece[t].rank < rank &&
-        !runs_along(sheet, t, p, q)) {
+        !is_along_side(sheet, t, p, q)) {
       work->by_order++;
       continue;
     }
@@ -105,15 +106,16 @@ static struct edge_intervals *intervals_of(struct edge_work *work, uint32_t e) {
                     q = work->sheet->point.item[edge->point[1]];
   if (needs_fallback(work, edge))
     return pairwise_fallback_edge(work->fallback, e);
-  return solve_edge(work, edge, p, q) &&
+  return occlude_newell_edge(work, edge, p, q) &&
                  progress_step(work->progress, work->query.found.count)
              ? &work->intervals
              : NULL;
 }
 
-static bool solve_edges(const struct sheet *sheet, struct newell_order *order,
-                        struct pairwise_fallback *fallback, struct map *map,
-                        struct report *report) {
+static bool solve_edges_newell(const struct sheet *sheet,
+                               struct newell_order *order,
+                               struct pairwise_fallback *fallback,
+                               struct map *map, struct report *report) {
   struct edge_work work = {.sheet = sheet,
                            .order = order,
                            .progress = &order->progress,
@@ -140,9 +142,9 @@ static bool solve_edges(const struct sheet *sheet, struct newell_order *order,
 
 /* Subtracts from piece p all pieces that are painted after it, and triangles
  * without an order where they are nearer. */
-static bool subtract_later(struct newell_order *order, uint32_t p,
-                           struct triangle_grid_query *query,
-                           struct occluder_subtraction *subtraction) {
+static bool subtract_later_pieces(struct newell_order *order, uint32_t p,
+                                  struct triangle_grid_query *query,
+                                  struct occluder_subtraction *subtraction) {
   const struct newell_piece *piece = &order->piece.item[p];
   if (!triangle_grid_find_overlapping(order->grid, piece->triangle, query))
     return false;
@@ -178,9 +180,9 @@ static bool subtract_later(struct newell_order *order, uint32_t p,
 }
 
 /* Adds the visible pieces of the triangles without an order. */
-static bool store_deferred(struct newell_order *order,
-                           struct pairwise_fallback *fallback,
-                           struct fragments *fragments) {
+static bool store_unordered(struct newell_order *order,
+                            struct pairwise_fallback *fallback,
+                            struct fragments *fragments) {
   ARRAY(uint32_t) list = {0};
   bool ok = true;
   for (uint32_t t = 0; ok && t < order->sheet->triangle.count; t++)
@@ -193,9 +195,9 @@ static bool store_deferred(struct newell_order *order,
   return ok;
 }
 
-static bool solve_fragments(struct newell_order *order,
-                            struct pairwise_fallback *fallback, struct map *map,
-                            struct report *report) {
+static bool solve_fragments_newell(struct newell_order *order,
+                                   struct pairwise_fallback *fallback,
+                                   struct map *map, struct report *report) {
   struct fragments fragments;
   struct triangle_grid_query query = {0};
   struct occluder_subtraction subtraction;
@@ -212,10 +214,10 @@ static bool solve_fragments(struct newell_order *order,
       continue;
     ok = occluder_subtraction_start(&subtraction, piece->triangle,
                                     piece->shape) &&
-         subtract_later(order, p, &query, &subtraction) &&
+         subtract_later_pieces(order, p, &query, &subtraction) &&
          occluder_subtraction_store(&subtraction, &fragments);
   }
-  ok = ok && store_deferred(order, fallback, &fragments) &&
+  ok = ok && store_unordered(order, fallback, &fragments) &&
        fragments_finish(&fragments, map);
   occluder_subtraction_fini(&subtraction);
   triangle_grid_query_fini(&query);
@@ -250,18 +252,19 @@ static bool solve_in_order(struct newell_order *order, struct sheet *sheet,
             pairwise_fallback_init(&fallback, sheet, request->fragments,
                                    &order->progress);
   order->progress.stage = "edges";
-  ok = ok &&
-       (!request->edges || solve_edges(sheet, order, &fallback, map, report));
+  ok = ok && (!request->edges ||
+              solve_edges_newell(sheet, order, &fallback, map, report));
   order->progress.stage = "faces";
-  ok = ok &&
-       (!request->fragments || solve_fragments(order, &fallback, map, report));
+  ok = ok && (!request->fragments ||
+              solve_fragments_newell(order, &fallback, map, report));
   pairwise_fallback_fini(&fallback);
   return ok;
 }
 
-static recto_status solve(struct sheet *sheet,
-                          const struct solver_request *request, struct map *map,
-                          struct report *report, recto_error *error) {
+static recto_status solve_newell(struct sheet *sheet,
+                                 const struct solver_request *request,
+                                 struct map *map, struct report *report,
+                                 recto_error *error) {
   struct newell_order order;
   struct triangle_grid grid;
   recto_status status;
@@ -279,4 +282,5 @@ static recto_status solve(struct sheet *sheet,
   return status;
 }
 
-const struct solver solver_newell = {RECTO_METHOD_NEWELL, "newell", solve};
+const struct solver solver_newell = {RECTO_METHOD_NEWELL, "newell",
+                                     solve_newell};

@@ -85,13 +85,13 @@ static bool add_triangles(struct newell_order *order) {
   return true;
 }
 
-static int32_t clamp(double v) {
+static int32_t clamp_coordinate(double v) {
   return v < -0x1p30 ? -(1 << 30) : v > 0x1p30 ? 1 << 30 : (int32_t)v;
 }
 
 /* Adds a part of piece `from`; the shape is in the order's arena. */
-static bool add_part(struct newell_order *order, uint32_t from,
-                     const struct geom_convex *shape) {
+static bool add_piece_part(struct newell_order *order, uint32_t from,
+                           const struct geom_convex *shape) {
   struct newell_piece piece = order->piece.item[from];
   struct newell_piece *first = &order->piece.item[piece.triangle];
   piece.shape = arena_alloc(&order->arena, 1, sizeof *piece.shape);
@@ -99,8 +99,9 @@ static bool add_part(struct newell_order *order, uint32_t from,
       !geom_convex_copy(piece.shape, shape, &order->arena))
     return false;
   piece.state = NEWELL_WAITING;
-  piece.box = (struct box2){clamp(shape->x0 - 1), clamp(shape->y0 - 1),
-                            clamp(shape->x1 + 1), clamp(shape->y1 + 1)};
+  piece.box = (struct box2){
+      clamp_coordinate(shape->x0 - 1), clamp_coordinate(shape->y0 - 1),
+      clamp_coordinate(shape->x1 + 1), clamp_coordinate(shape->y1 + 1)};
   piece.next = first->next;
   first->next = (uint32_t)order->piece.count;
   piece.last_open = NEWELL_NONE;
@@ -155,7 +156,8 @@ static bool split_by(struct newell_order *order, uint32_t piece,
   if (!*split)
     return true;
   close_piece(order, piece, NEWELL_SPLIT);
-  return add_part(order, piece, &left) && add_part(order, piece, &right);
+  return add_piece_part(order, piece, &left) &&
+         add_piece_part(order, piece, &right);
 }
 
 /* Splits P where its plane intersects that of Q: the two pierce each other. */
@@ -219,7 +221,8 @@ static void pop_down_to(struct newell_order *order, uint32_t q) {
 enum step { STEP_FAILED, STEP_PAINT, STEP_MOVED, STEP_SPLIT };
 
 /* Tests candidate P against piece Q. */
-static enum step test_pair(struct newell_order *order, uint32_t p, uint32_t q) {
+static enum step test_pieces(struct newell_order *order, uint32_t p,
+                             uint32_t q) {
   order->counts.tests++;
   switch (newell_test(order, p, q)) {
   case NEWELL_FAILED:
@@ -256,7 +259,7 @@ static enum step test_candidate(struct newell_order *order, uint32_t p) {
          q = order->piece.item[q].next_open) {
       if (!progress_step(&order->progress, PAIR_WORK))
         return STEP_FAILED;
-      enum step step = test_pair(order, p, q);
+      enum step step = test_pieces(order, p, q);
       arena_reset(&order->scratch);
       if (step == STEP_FAILED || step == STEP_SPLIT)
         return step;
@@ -268,7 +271,7 @@ static enum step test_candidate(struct newell_order *order, uint32_t p) {
 }
 
 /* Paints piece `root` and all that must be painted before it. */
-static bool paint(struct newell_order *order, uint32_t root) {
+static bool paint_with_predecessors(struct newell_order *order, uint32_t root) {
   if (!ARRAY_PUSH(&order->stack, root))
     return false;
   while (order->stack.count > 0) {
@@ -337,7 +340,7 @@ recto_status newell_order_init(struct newell_order *order,
     while (status == RECTO_OK && order->open[p] != NEWELL_NONE)
       if (order->counts.tests > tests_max)
         exclude_triangle(order, p);
-      else if (!paint(order, order->open[p]))
+      else if (!paint_with_predecessors(order, order->open[p]))
         status = error_memory(error);
   }
   mem_free(s);

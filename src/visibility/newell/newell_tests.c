@@ -63,7 +63,7 @@ static enum newell_result test_full(struct newell_order *order, uint32_t p,
 }
 
 /* Computes the plane of the candidate and its floating-point filter. */
-static void prepare(struct newell_order *order, uint32_t triangle) {
+static void set_candidate_plane(struct newell_order *order, uint32_t triangle) {
   if (order->prepared == triangle)
     return;
   order->prepared = triangle;
@@ -94,7 +94,7 @@ enum newell_result newell_test(struct newell_order *order, uint32_t p,
     counts->minimax++;
     return NEWELL_P_FIRST;
   }
-  prepare(order, pp->triangle);
+  set_candidate_plane(order, pp->triangle);
   if (order->lines_only && hides_nothing(order, pq->triangle)) {
     counts->before++;
     return NEWELL_P_FIRST;

@@ -61,8 +61,9 @@ static void rank_as_given(struct painting *painting) {
 
 /* Computes the occluded intervals of an edge.  It is painted together with the
  * later of its faces; an edge without a face is painted before all faces. */
-static bool solve_edge(struct painting *painting, const struct sheet_edge *edge,
-                       struct edge_intervals *intervals) {
+static bool occlude_painted_edge(struct painting *painting,
+                                 const struct sheet_edge *edge,
+                                 struct edge_intervals *intervals) {
   const struct sheet *sheet = painting->sheet;
   struct geom_segment s = sheet_ends(sheet, edge->point);
   bool own = edge->triangle[0] != SHEET_NONE;
@@ -86,7 +87,7 @@ static bool solve_edge(struct painting *painting, const struct sheet_edge *edge,
   return true;
 }
 
-static bool solve_edges(struct painting *painting, struct map *map) {
+static bool solve_edges_painter(struct painting *painting, struct map *map) {
   const struct sheet *sheet = painting->sheet;
   struct edge_intervals intervals = {0};
   bool ok = edge_intervals_open_map(map, sheet->edge.count);
@@ -94,7 +95,7 @@ static bool solve_edges(struct painting *painting, struct map *map) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
     if (!sheet_edge_is_drawn(sheet, e))
       continue;
-    ok = solve_edge(painting, edge, &intervals) &&
+    ok = occlude_painted_edge(painting, edge, &intervals) &&
          progress_step_at(&painting->progress, painting->query.found.count, e,
                           sheet->edge.count) &&
          edge_intervals_store(&intervals, (uint32_t)e, map);
@@ -104,8 +105,8 @@ static bool solve_edges(struct painting *painting, struct map *map) {
 }
 
 /* Subtracts from triangle f all triangles that are painted after it. */
-static bool subtract_later(struct painting *painting, uint32_t f,
-                           struct occluder_subtraction *subtraction) {
+static bool subtract_later_triangles(struct painting *painting, uint32_t f,
+                                     struct occluder_subtraction *subtraction) {
   if (!triangle_grid_find_overlapping(painting->grid, f, &painting->query))
     return false;
   for (size_t i = 0; i < painting->query.found.count &&
@@ -125,7 +126,8 @@ static bool subtract_later(struct painting *painting, uint32_t f,
   return true;
 }
 
-static bool solve_fragments(struct painting *painting, struct map *map) {
+static bool solve_fragments_painter(struct painting *painting,
+                                    struct map *map) {
   struct fragments fragments;
   struct occluder_subtraction subtraction;
   bool ok = fragments_init(&fragments, painting->sheet, painting->grid, false);
@@ -134,7 +136,7 @@ static bool solve_fragments(struct painting *painting, struct map *map) {
   for (size_t f = 0; ok && f < painting->sheet->triangle.count; f++)
     if (!(painting->sheet->triangle_flags[f] & SHEET_FLAT))
       ok = occluder_subtraction_start(&subtraction, (uint32_t)f, NULL) &&
-           subtract_later(painting, (uint32_t)f, &subtraction) &&
+           subtract_later_triangles(painting, (uint32_t)f, &subtraction) &&
            occluder_subtraction_store(&subtraction, &fragments);
   ok = ok && fragments_finish(&fragments, map);
   occluder_subtraction_fini(&subtraction);
@@ -142,9 +144,10 @@ static bool solve_fragments(struct painting *painting, struct map *map) {
   return ok;
 }
 
-static recto_status paint(struct sheet *sheet,
-                          const struct solver_request *request, bool given,
-                          struct map *map, recto_error *error) {
+static recto_status solve_painter(struct sheet *sheet,
+                                  const struct solver_request *request,
+                                  bool given, struct map *map,
+                                  recto_error *error) {
   struct triangle_grid grid;
   struct painting painting = {.sheet = sheet,
                               .grid = &grid,
@@ -159,8 +162,8 @@ static recto_status paint(struct sheet *sheet,
     rank_as_given(&painting);
   else if (ok)
     ok = rank_by_centroid(&painting);
-  ok = ok && (!request->edges || solve_edges(&painting, map)) &&
-       (!request->fragments || solve_fragments(&painting, map));
+  ok = ok && (!request->edges || solve_edges_painter(&painting, map)) &&
+       (!request->fragments || solve_fragments_painter(&painting, map));
   mem_free(painting.rank);
   triangle_grid_query_fini(&painting.query);
   triangle_grid_fini(&grid);
@@ -172,7 +175,7 @@ static recto_status solve_by_centroid(struct sheet *sheet,
                                       struct map *map, struct report *report,
                                       recto_error *error) {
   (void)report;
-  return paint(sheet, request, false, map, error);
+  return solve_painter(sheet, request, false, map, error);
 }
 
 static recto_status solve_as_given(struct sheet *sheet,
@@ -180,7 +183,7 @@ static recto_status solve_as_given(struct sheet *sheet,
                                    struct map *map, struct report *report,
                                    recto_error *error) {
   (void)report;
-  return paint(sheet, request, true, map, error);
+  return solve_painter(sheet, request, true, map, error);
 }
 
 const struct solver solver_painter = {RECTO_METHOD_PAINTER, "painter",

@@ -191,7 +191,7 @@ static bool find_in_bsp(struct deferred_triangles *deferred_triangles,
 
 /* Finds the triangles that may overlap the current one on the page, at any
  * depth, since a triangle behind it may be in contact with it. */
-static bool find_candidates(struct deferred_triangles *deferred_triangles) {
+static bool find_near_triangles(struct deferred_triangles *deferred_triangles) {
   const struct tile_candidates *lists = deferred_triangles->lists;
   const struct triangle_grid *grid = &lists->grid;
   const struct occluder_subtraction *subtraction =
@@ -253,7 +253,7 @@ bool deferred_triangles_solve(struct deferred_triangles *deferred_triangles,
   struct occluder_subtraction *subtraction = &deferred_triangles->subtraction;
   struct deferred_triangles_counts *counts = &deferred_triangles->counts;
   if (!occluder_subtraction_start(subtraction, triangle, NULL) ||
-      !find_candidates(deferred_triangles) ||
+      !find_near_triangles(deferred_triangles) ||
       !test_candidates(deferred_triangles))
     return false;
   const uint32_t *candidate = deferred_triangles->query.found.item;

@@ -64,7 +64,7 @@ static bool occlude_by_triangle(struct edge_query *query, uint32_t t,
 }
 
 /* Tests triangle t, which may overlap the edge, and adds what it occludes. */
-static bool test_triangle(struct edge_query *query, uint32_t t) {
+static bool add_triangle_occlusion(struct edge_query *query, uint32_t t) {
   struct occluded_interval part;
   if (occlusion_is_own(query->sheet, query->edge, t) ||
       (query->several_cells && !triangle_grid_query_first(&query->found, t)) ||
@@ -108,7 +108,7 @@ static bool test_bsp(struct edge_query *query, struct cell_query *at) {
     for (uint32_t i = 0; i < node->count; i++) {
       if (!kdop8_overlaps(key[member[i].list_index], at->kdop_query))
         continue;
-      if (!test_triangle(query, member[i].triangle))
+      if (!add_triangle_occlusion(query, member[i].triangle))
         return false;
       if (query->intervals.occluded)
         return true;
@@ -138,7 +138,7 @@ static bool test_cell(struct edge_query *query, int x, int y) {
       i++;
     if (i == end || query->intervals.occluded)
       return true;
-    if (!test_triangle(query, list->grid.item[i]))
+    if (!add_triangle_occlusion(query, list->grid.item[i]))
       return false;
     update_kdop_query(&at, query);
   }

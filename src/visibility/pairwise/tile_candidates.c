@@ -56,8 +56,9 @@ static uint32_t *list_all(const struct triangle_grid *grid, size_t *count) {
 }
 
 /* Prepares the listed triangles as occluders, except flat ones. */
-static bool prepare(struct tile_candidates *list, const struct sheet *sheet,
-                    const uint32_t *all, size_t count) {
+static bool prepare_occluders(struct tile_candidates *list,
+                              const struct sheet *sheet, const uint32_t *all,
+                              size_t count) {
   if (sheet->triangle.count > PREPARED_MAX)
     return true;
   list->occluder = mem_alloc(sheet->triangle.count, sizeof *list->occluder);
@@ -70,7 +71,8 @@ static bool prepare(struct tile_candidates *list, const struct sheet *sheet,
 }
 
 /* Replaces the lists by those of larger cells if these give fewer pairs. */
-static bool enlarge(struct tile_candidates *list, const struct sheet *sheet) {
+static bool enlarge_cells(struct tile_candidates *list,
+                          const struct sheet *sheet) {
   struct triangle_grid large = list->tiles->grid, *small = &list->grid;
   double cost = cost_of_lists(small);
   size_t count, entries = small->start[triangle_grid_cell_count(small)];
@@ -85,7 +87,7 @@ static bool enlarge(struct tile_candidates *list, const struct sheet *sheet) {
     list->grid = large;
     list->cells_are_tiles = false;
     ok = triangle_grid_fill_some(&list->grid, sheet, all, count) &&
-         prepare(list, sheet, all, count);
+         prepare_occluders(list, sheet, all, count);
   }
   mem_free(all);
   return ok;
@@ -184,6 +186,6 @@ bool tile_candidates_fill(struct tile_candidates *list,
       .grid = tiles->grid, .cells_are_tiles = true, .tiles = tiles};
   return triangle_grid_fill(&list->grid, sheet, tiles->footprint, wanted,
                             tiles->culling.culled) &&
-         enlarge(list, sheet) && triangle_grid_split(&list->grid, true) &&
+         enlarge_cells(list, sheet) && triangle_grid_split(&list->grid, true) &&
          add_keys(list, sheet);
 }

@@ -133,7 +133,7 @@ static inline void add_to_samples(const struct tile_collection *g,
     }
 }
 
-static inline struct box2 box_of(const struct geom_triangle *corners) {
+static inline struct box2 box_of_corners(const struct geom_triangle *corners) {
   const struct geom_point *p = corners->p;
   return (struct box2){box2_min(p[0].x, box2_min(p[1].x, p[2].x)),
                        box2_min(p[0].y, box2_min(p[1].y, p[2].y)),
@@ -174,7 +174,7 @@ static void collect(struct tile_classification *tiles,
     const uint32_t *p = triangle[t].point;
     const struct geom_triangle corners = {
         {point[p[0]], point[p[1]], point[p[2]]}};
-    struct box2 box = box_of(&corners);
+    struct box2 box = box_of_corners(&corners);
     struct cell_range r = triangle_grid_cells(&g.grid, box);
     int64_t z0 = corners.p[0].z, z1 = corners.p[1].z, z2 = corners.p[2].z;
     int64_t least = z0 < z1 ? z0 : z1, most = z0 > z1 ? z0 : z1;

@@ -86,8 +86,8 @@ static int compare_from(const void *a, const void *b, void *user) {
 
 /* The union of the intervals with `side` occluded, ascending and disjoint.
  * Returns false when memory ran out. */
-static bool unite(const struct edge_intervals *intervals, int side,
-                  occluded_intervals *united) {
+static bool unite_intervals(const struct edge_intervals *intervals, int side,
+                            occluded_intervals *united) {
   const occluded_intervals *merged = &intervals->merged,
                            *unmerged = &intervals->unmerged;
   size_t last = 0;
@@ -124,13 +124,13 @@ edge_intervals_unite(struct edge_intervals *intervals) {
     return &intervals->merged;
   for (size_t i = 0; i < intervals->unmerged.count; i++)
     both &= intervals->unmerged.item[i].sides;
-  if (!unite(intervals, OCCLUDED_LEFT, left))
+  if (!unite_intervals(intervals, OCCLUDED_LEFT, left))
     return NULL;
   for (size_t i = 0; i < left->count; i++)
     left->item[i].sides = both == OCCLUDED_BOTH ? OCCLUDED_BOTH : OCCLUDED_LEFT;
   if (both == OCCLUDED_BOTH)
     return left;
-  if (!unite(intervals, OCCLUDED_RIGHT, right))
+  if (!unite_intervals(intervals, OCCLUDED_RIGHT, right))
     return NULL;
   for (size_t i = 0; i < right->count; i++) {
     right->item[i].sides = OCCLUDED_RIGHT;
@@ -190,8 +190,8 @@ bool edge_intervals_store(struct edge_intervals *intervals, uint32_t edge,
   if (intervals->occluded)
     return true;
   if (unmerged->count > 0) {
-    if (!unite(intervals, OCCLUDED_LEFT, &intervals->left) ||
-        !unite(intervals, OCCLUDED_RIGHT, &intervals->right) ||
+    if (!unite_intervals(intervals, OCCLUDED_LEFT, &intervals->left) ||
+        !unite_intervals(intervals, OCCLUDED_RIGHT, &intervals->right) ||
         !intersect(&intervals->left, &intervals->right, &intervals->unmerged))
       return false;
     hidden = &intervals->unmerged;

@@ -13,7 +13,7 @@
 #define T_CAP 0x1p121   /* of each part of T (occlusion.h, Bits) */
 
 /* Rounded up, and capped. */
-static int128 round_up(double value) {
+static int128 round_up_capped(double value) {
   return (int128)ceil(value < T_CAP ? value : T_CAP);
 }
 
@@ -78,12 +78,12 @@ void occluder_init(struct occluder *occluder, const struct sheet *sheet,
                  (int128)(occlusion_grid_units(sheet) * FIXED_ONE);
   occluder->t1 = 0;
   if (camera->perspective) {
-    occluder->t0 += round_up(length / camera->d_max);
-    occluder->t1 = round_up(length / sheet->z_scale);
+    occluder->t0 += round_up_capped(length / camera->d_max);
+    occluder->t1 = round_up_capped(length / sheet->z_scale);
     if (occluder->t1 > (int128)1 << 81)
       occluder->t1 = (int128)1 << 81;
   } else {
-    occluder->t0 += round_up(length);
+    occluder->t0 += round_up_capped(length);
   }
   occluder->t0_near = (double)occluder->t0;
   occluder->t1_near = (double)occluder->t1;

@@ -22,8 +22,8 @@ static double lowest_at(const struct surrounder_plane *p, int32_t x,
 }
 
 /* Corner k of a window, in the order of window_line_function. */
-static void corner_of(const struct box2 *window, int k, int32_t *x,
-                      int32_t *y) {
+static void window_corner(const struct box2 *window, int k, int32_t *x,
+                          int32_t *y) {
   *x = k < 2 ? window->x0 : window->x1;
   *y = k == 1 || k == 2 ? window->y1 : window->y0;
 }
@@ -41,7 +41,7 @@ void surrounder_depths_of(const struct sheet *sheet, uint32_t triangle,
   depth->low = INFINITY;
   for (int k = 0; k < 4; k++) {
     int32_t x, y;
-    corner_of(window, k, &x, &y);
+    window_corner(window, k, &x, &y);
     depth->at[k] = lowest_at(&plane, x, y);
     if (depth->at[k] < depth->low)
       depth->low = depth->at[k];
@@ -57,7 +57,7 @@ bool surrounder_hides(const struct sheet *sheet,
   struct depth_plane plane = depth_plane_of(&exact);
   for (int k = 0; k < 4; k++) {
     int32_t x, y;
-    corner_of(window, k, &x, &y);
+    window_corner(window, k, &x, &y);
     if (!(depth_plane_at(&plane, x, y) + depth_plane_error(&plane, x, y) + 1 <
           front->at[k]))
       return false;

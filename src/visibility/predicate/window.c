@@ -62,7 +62,7 @@ int window_octant(const struct box2 *window, int64_t x, int64_t y) {
 }
 
 /* A difference of octants, reduced modulo 8 to -4 .. 4. */
-static int wrap(int difference) {
+static int wrap_octants(int difference) {
   if (difference > 4)
     return difference - 8;
   return difference < -4 ? difference + 8 : difference;
@@ -83,19 +83,19 @@ static int count_octants(const struct box2 *window, struct geom_point p,
   int sum = 0, bits = 0;
   for (;; bits++) {
     int a = octant_scaled(window, px, py, bits),
-        b = octant_scaled(window, qx, qy, bits), d = wrap(b - a), m;
+        b = octant_scaled(window, qx, qy, bits), d = wrap_octants(b - a), m;
     int64_t mx = px + qx, my = py + qy;
     if (!is_ambiguous(d) || bits == 31)
       return sum + d;
     m = octant_scaled(window, mx, my, bits + 1);
-    if (is_ambiguous(wrap(m - a))) { /* continue with the first half */
-      sum += wrap(b - m);
+    if (is_ambiguous(wrap_octants(m - a))) { /* continue with the first half */
+      sum += wrap_octants(b - m);
       px *= 2;
       py *= 2;
       qx = mx;
       qy = my;
     } else {
-      sum += wrap(m - a);
+      sum += wrap_octants(m - a);
       px = mx;
       py = my;
       qx *= 2;

@@ -110,7 +110,7 @@ struct pixel_row {
   int32_t columns;
 };
 
-static uint32_t seen_at(const void *user, double x) {
+static uint32_t facet_in_column(const void *user, double x) {
   const struct pixel_row *row = user;
   double column = floor(x);
   if (column < 0)
@@ -120,14 +120,15 @@ static uint32_t seen_at(const void *user, double x) {
   return raster_facet(row->seen[(int32_t)column]);
 }
 
-static struct span_side side_at(const struct scan_grid *grid, int32_t column) {
+static struct span_side side_of_column(const struct scan_grid *grid,
+                                       int32_t column) {
   double x = scan_plane_x(grid, column);
   return (struct span_side){
       x, x, x, true, (uint32_t)column, SHEET_NONE, MAP_SIDE_CLIP};
 }
 
-static bool add_spans(struct pixels *pixels, int32_t line,
-                      const struct pixel_row *row) {
+static bool add_pixel_spans(struct pixels *pixels, int32_t line,
+                            const struct pixel_row *row) {
   const struct scan_grid *grid = &pixels->grid;
   const struct sheet_triangle *triangle = pixels->raster->sheet->triangle.item;
   for (int32_t c = 0, past; c < row->columns; c = past) {
@@ -139,8 +140,8 @@ static bool add_spans(struct pixels *pixels, int32_t line,
     while (past < row->columns && row->seen[past] != 0 &&
            triangle[raster_facet(row->seen[past])].face == span.face)
       past++;
-    span.left = side_at(grid, c);
-    span.right = side_at(grid, past);
+    span.left = side_of_column(grid, c);
+    span.right = side_of_column(grid, past);
     if (!trapezoids_add(&pixels->trapezoids, line, &span))
       return false;
   }
@@ -153,7 +154,7 @@ static bool sample_edges(struct pixels *pixels, int32_t line,
                          const struct pixel_row *row) {
   const struct scan_grid *grid = &pixels->grid;
   const struct pixel_row above = {pixels->above, grid->columns};
-  if (!edge_sampling_line(&pixels->sampling, line, seen_at,
+  if (!edge_sampling_line(&pixels->sampling, line, facet_in_column,
                           line + 1 < grid->lines ? &above : NULL, row))
     return false;
   if (row != NULL)
@@ -175,7 +176,7 @@ recto_status pixels_line(struct pixels *pixels, int32_t line,
     row.seen = subpixels->pixel;
   }
   if (whole && ((request->edges && !sample_edges(pixels, line, &row)) ||
-                (request->fragments && !add_spans(pixels, line, &row))))
+                (request->fragments && !add_pixel_spans(pixels, line, &row))))
     return error_memory(error);
   return progress_step_at(&pixels->progress, PROGRESS_LINE, (size_t)done,
                           (size_t)raster->grid.lines)

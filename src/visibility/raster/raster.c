@@ -45,7 +45,7 @@ struct scan_grid raster_grid(const struct sheet *sheet, int32_t lines) {
   return grid;
 }
 
-static bool allocate(struct raster *raster) {
+static bool allocate_frame(struct raster *raster) {
   size_t pixels =
       (size_t)raster->grid.columns * (size_t)raster->kept + RASTER_SPARE;
   size_t points = raster->sheet->point.count;
@@ -108,7 +108,7 @@ recto_status raster_init(struct raster *raster, const struct sheet *sheet,
                         (raster->grid.lines + raster->grid.columns + 64);
   raster->kept = whole ? lines : 1;
   raster->line_mask = whole ? UINT32_MAX : 0;
-  if (!allocate(raster)) {
+  if (!allocate_frame(raster)) {
     raster_fini(raster);
     return error_memory(error);
   }

@@ -114,8 +114,9 @@ static int64_t fill_half(struct raster *raster, uint32_t triangle,
   return covered;
 }
 
-static bool start(struct falling *falling, const struct scan_grid *grid,
-                  const struct scan_point *from, const struct scan_point *to) {
+static bool start_falling(struct falling *falling, const struct scan_grid *grid,
+                          const struct scan_point *from,
+                          const struct scan_point *to) {
   if (!scan_edge_init(&falling->edge, grid, from, to))
     return false;
   falling->x = falling->edge.x;
@@ -145,14 +146,14 @@ bool span_fill_triangle(struct raster *raster, uint32_t triangle,
   init_plane(&plane, raster, triangle);
   if (plane.steep)
     return false;
-  if (!start(&longest, grid, high, low))
+  if (!start_falling(&longest, grid, high, low))
     return true;
-  if (start(&side, grid, high, middle))
+  if (start_falling(&side, grid, high, middle))
     *covered += left ? fill_half(raster, triangle, &plane, &side, &longest,
                                  high->line - 1, high->line - middle->line)
                      : fill_half(raster, triangle, &plane, &longest, &side,
                                  high->line - 1, high->line - middle->line);
-  if (start(&side, grid, middle, low))
+  if (start_falling(&side, grid, middle, low))
     *covered += left ? fill_half(raster, triangle, &plane, &side, &longest,
                                  middle->line - 1, middle->line - low->line)
                      : fill_half(raster, triangle, &plane, &longest, &side,

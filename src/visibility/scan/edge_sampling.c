@@ -60,8 +60,8 @@ static double middle_of(const struct sampled_edge *edge, uint32_t cell) {
 
 /* The highest line whose centre is not above the middle of a cell; -1 where all
  * are. */
-static int32_t line_of(const struct edge_sampling *sampling,
-                       const struct sampled_edge *edge, uint32_t cell) {
+static int32_t line_above_cell(const struct edge_sampling *sampling,
+                               const struct sampled_edge *edge, uint32_t cell) {
   double y = floor(edge->y0 + middle_of(edge, cell) * edge->dy - 0.5);
   int32_t lines = sampling->grid.lines;
   return y < 0 ? -1 : y >= lines ? lines - 1 : (int32_t)y;
@@ -97,9 +97,10 @@ static bool sort_edges(struct edge_sampling *sampling,
   if (key == NULL)
     return false;
   for (size_t i = 0; i < sampling->count; i++)
-    key[i] = (struct sort_key){
-        (uint64_t)(sampling->grid.lines - line_of(sampling, &edge[i], 0)),
-        (uint32_t)i};
+    key[i] =
+        (struct sort_key){(uint64_t)(sampling->grid.lines -
+                                     line_above_cell(sampling, &edge[i], 0)),
+                          (uint32_t)i};
   sort_keys(key, key + sampling->count, sampling->count);
   for (size_t i = 0; i < sampling->count; i++)
     sampling->edge[i] = edge[key[i].value];
@@ -235,9 +236,9 @@ static bool is_occluded_by(const struct edge_sampling *sampling,
 }
 
 /* Tests the samples about the middle of the current cell, the nearest first. */
-static bool is_visible(const struct edge_sampling *sampling,
-                       const struct sampled_edge *edge,
-                       const struct sample_lines *lines) {
+static bool is_cell_visible(const struct edge_sampling *sampling,
+                            const struct sampled_edge *edge,
+                            const struct sample_lines *lines) {
   double t = middle_of(edge, edge->cell), x = edge->x0 + t * edge->dx;
   double z = edge->z0 + t * edge->dz;
   bool upper = edge->y0 + t * edge->dy > lines->line + 1;
@@ -254,8 +255,8 @@ static bool is_visible(const struct edge_sampling *sampling,
                                    sees_depth(sampling, lines, !upper, far, z));
 }
 
-static bool close_run(struct edge_sampling *sampling,
-                      struct sampled_edge *edge) {
+static bool close_sampled_run(struct edge_sampling *sampling,
+                              struct sampled_edge *edge) {
   uint32_t cells = (uint32_t)1 << edge->bits;
   struct sampled_run run = {edge->edge, edge->start, edge->cell};
   if (edge->start == EDGE_SAMPLING_HIDDEN)
@@ -273,17 +274,17 @@ static bool sample_edge(struct edge_sampling *sampling,
                         struct sampled_edge *edge,
                         const struct sample_lines *lines) {
   uint32_t cells = (uint32_t)1 << edge->bits;
-  for (;
-       edge->cell < cells && line_of(sampling, edge, edge->cell) >= lines->line;
+  for (; edge->cell < cells &&
+         line_above_cell(sampling, edge, edge->cell) >= lines->line;
        edge->cell++) {
-    if (is_visible(sampling, edge, lines)) {
+    if (is_cell_visible(sampling, edge, lines)) {
       if (edge->start == EDGE_SAMPLING_HIDDEN)
         edge->start = edge->cell;
-    } else if (!close_run(sampling, edge)) {
+    } else if (!close_sampled_run(sampling, edge)) {
       return false;
     }
   }
-  return edge->cell < cells || close_run(sampling, edge);
+  return edge->cell < cells || close_sampled_run(sampling, edge);
 }
 
 bool edge_sampling_line(struct edge_sampling *sampling, int32_t line,
@@ -292,7 +293,8 @@ bool edge_sampling_line(struct edge_sampling *sampling, int32_t line,
   const struct sample_lines lines = {seen, upper, lower, line};
   size_t kept = 0;
   while (sampling->entered < sampling->count &&
-         line_of(sampling, &sampling->edge[sampling->entered], 0) >= line)
+         line_above_cell(sampling, &sampling->edge[sampling->entered], 0) >=
+             line)
     sampling->active[sampling->active_count++] = (uint32_t)sampling->entered++;
   for (size_t i = 0; i < sampling->active_count; i++) {
     struct sampled_edge *edge = &sampling->edge[sampling->active[i]];

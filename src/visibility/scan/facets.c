@@ -17,10 +17,6 @@ struct facet_joining {
   uint32_t count;
 };
 
-static uint64_t key_of(uint32_t p, uint32_t q) {
-  return p < q ? ((uint64_t)p << 32) | q : ((uint64_t)q << 32) | p;
-}
-
 static uint32_t next_of(uint32_t k, uint32_t count) {
   return k + 1 == count ? 0 : k + 1;
 }
@@ -42,7 +38,7 @@ static bool list_diagonals(struct facet_joining *joining) {
     for (uint32_t k = 0; k < 3; k++)
       if (triangle->side[k] == SHEET_NONE)
         joining->diagonal[joining->diagonals++] = (struct sort_key){
-            key_of(triangle->point[k], triangle->point[next_of(k, 3)]),
+            sort_pair_key(triangle->point[k], triangle->point[next_of(k, 3)]),
             3 * (t - joining->first) + k};
   }
   sort_keys(joining->diagonal, joining->diagonal + joining->room,
@@ -57,22 +53,22 @@ static size_t find_diagonal(const struct facet_joining *joining, uint64_t key) {
   return i;
 }
 
-static struct geom_point point_at(const struct facet_joining *joining,
-                                  uint32_t point) {
+static struct geom_point sheet_point(const struct facet_joining *joining,
+                                     uint32_t point) {
   return joining->sheet->point.item[point];
 }
 
 static struct geom_plane plane_at(const struct facet_joining *joining,
                                   uint32_t triangle) {
   const uint32_t *p = joining->sheet->triangle.item[triangle].point;
-  return geom_plane_of(point_at(joining, p[0]), point_at(joining, p[1]),
-                       point_at(joining, p[2]));
+  return geom_plane_of(sheet_point(joining, p[0]), sheet_point(joining, p[1]),
+                       sheet_point(joining, p[2]));
 }
 
 static bool turns_left(const struct facet_joining *joining, uint32_t a,
                        uint32_t b, uint32_t c) {
-  return geom_orient2d(point_at(joining, a), point_at(joining, b),
-                       point_at(joining, c)) >= 0;
+  return geom_orient2d(sheet_point(joining, a), sheet_point(joining, b),
+                       sheet_point(joining, c)) >= 0;
 }
 
 /* Is the outline still convex with `point` put in after corner k? */
@@ -93,7 +89,7 @@ static bool join_across(struct facet_joining *joining,
   const struct sheet *sheet = joining->sheet;
   uint32_t u = joining->corner[k];
   uint32_t v = joining->corner[next_of(k, joining->count)];
-  uint64_t key = key_of(u, v);
+  uint64_t key = sort_pair_key(u, v);
   size_t i = find_diagonal(joining, key);
   for (; i < joining->diagonals && joining->diagonal[i].key == key; i++) {
     uint32_t t = joining->first + joining->diagonal[i].value / 3;
@@ -103,7 +99,7 @@ static bool join_across(struct facet_joining *joining,
     uint32_t tail = joining->count - k - 1;
     if (other->point[at] != v || joining->facets->part[t] != SHEET_NONE ||
         (sheet->triangle_flags[t] & SHEET_FLAT) ||
-        geom_plane_value(plane, point_at(joining, shared_vertex)) != 0 ||
+        geom_plane_value(plane, sheet_point(joining, shared_vertex)) != 0 ||
         !stays_convex(joining, k, shared_vertex))
       continue;
     memmove(joining->corner + k + 2, joining->corner + k + 1,

@@ -154,10 +154,6 @@ bool trapezoids_add(struct trapezoids *trapezoids, int32_t line,
 
 /* ---- Fragments ----------------------------------------------------------- */
 
-static double clamp(double value, double low, double high) {
-  return value < low ? low : value > high ? high : value;
-}
-
 static double round_corner(double value) {
   return nearbyint(value * MAP_CORNER_SCALE) / MAP_CORNER_SCALE;
 }
@@ -174,9 +170,9 @@ static void make_corners(const struct trapezoids *trapezoids,
   for (int k = 0; k < 4; k++) {
     corner[k] = (struct map_corner){.side = MAP_SIDE_CLIP, .id = SHEET_NONE};
     corner[k].x =
-        round_corner(clamp(x[k], trapezoids->x_low, trapezoids->x_high));
+        round_corner(fmin(fmax(x[k], trapezoids->x_low), trapezoids->x_high));
     corner[k].y = round_corner(
-        clamp(k < 2 ? low : high, trapezoids->y_low, trapezoids->y_high));
+        fmin(fmax(k < 2 ? low : high, trapezoids->y_low), trapezoids->y_high));
   }
   corner[1].side = right->side;
   corner[1].id = right->id;
@@ -187,9 +183,9 @@ static void make_corners(const struct trapezoids *trapezoids,
 /* Adds the line of side k of a trapezoid.  Cuts share their height;
  * straight sides their edge, which need not be one of the sheet; other sides
  * are one line high and share their x there. */
-static bool add_side(struct trapezoids *trapezoids,
-                     const struct trapezoid *trapezoid, int k,
-                     const struct map_corner *corner) {
+static bool add_trapezoid_side(struct trapezoids *trapezoids,
+                               const struct trapezoid *trapezoid, int k,
+                               const struct map_corner *corner) {
   const struct span_side *side =
       k == 1 ? &trapezoid->span.right : &trapezoid->span.left;
   uint64_t number;
@@ -207,9 +203,10 @@ static bool add_side(struct trapezoids *trapezoids,
 }
 
 /* Stores the loop of the distinct corners, from the lowest in (x, y). */
-static bool store_loop(struct trapezoids *trapezoids,
-                       const struct trapezoid *trapezoid,
-                       const struct map_corner corner[4], struct map *map) {
+static bool store_trapezoid_loop(struct trapezoids *trapezoids,
+                                 const struct trapezoid *trapezoid,
+                                 const struct map_corner corner[4],
+                                 struct map *map) {
   int kept[4], count = 0, first = 0;
   for (int k = 0; k < 4; k++) {
     const struct map_corner *next = &corner[(k + 1) % 4];
@@ -229,7 +226,7 @@ static bool store_loop(struct trapezoids *trapezoids,
   for (int i = 0; i < count; i++) {
     int k = kept[(first + i) % count];
     if (!ARRAY_PUSH(&map->corner, corner[k]) ||
-        !add_side(trapezoids, trapezoid, k, &corner[k]))
+        !add_trapezoid_side(trapezoids, trapezoid, k, &corner[k]))
       return false;
   }
   return ARRAY_PUSH(&map->loop, loop) && ARRAY_PUSH(&map->fragment, fragment);
@@ -250,7 +247,7 @@ bool trapezoids_finish(struct trapezoids *trapezoids, struct map *map) {
         &trapezoids->trapezoid.item[key[i].value];
     struct map_corner corner[4];
     make_corners(trapezoids, trapezoid, corner);
-    ok = store_loop(trapezoids, trapezoid, corner, map);
+    ok = store_trapezoid_loop(trapezoids, trapezoid, corner, map);
   }
   ok = ok &&
        planar_subdivision_store(&trapezoids->lines, trapezoids->sheet, map);

@@ -76,8 +76,9 @@ void scanline_step(struct scanline *scanline) {
 
 /* ---- The solver ---------------------------------------------------------- */
 
-static recto_status walk_lines(struct scanline *scanline, struct pixels *pixels,
-                               recto_error *error) {
+static recto_status scan_frame_lines(struct scanline *scanline,
+                                     struct pixels *pixels,
+                                     recto_error *error) {
   recto_status status = RECTO_OK;
   int64_t before;
   for (int32_t line = scanline->raster->grid.lines;
@@ -95,25 +96,28 @@ static recto_status walk_lines(struct scanline *scanline, struct pixels *pixels,
   return status;
 }
 
-static recto_status draw(struct raster *raster, const struct facets *facets,
-                         const struct solver_request *request,
-                         struct pixels *pixels, int64_t *covered,
-                         recto_error *error) {
+static recto_status draw_scan_lines(struct raster *raster,
+                                    const struct facets *facets,
+                                    const struct solver_request *request,
+                                    struct pixels *pixels, int64_t *covered,
+                                    recto_error *error) {
   struct scanline scanline;
   recto_status status = scanline_init(&scanline, raster, facets, request)
-                            ? walk_lines(&scanline, pixels, error)
+                            ? scan_frame_lines(&scanline, pixels, error)
                             : error_memory(error);
   *covered += scanline.covered;
   scanline_fini(&scanline);
   return status;
 }
 
-static recto_status solve(struct sheet *sheet,
-                          const struct solver_request *request, struct map *map,
-                          struct report *report, recto_error *error) {
-  return pixels_solve(sheet, request, false, draw, "scanline_zbuffer", map,
-                      report, error);
+static recto_status solve_scanline_zbuffer(struct sheet *sheet,
+                                           const struct solver_request *request,
+                                           struct map *map,
+                                           struct report *report,
+                                           recto_error *error) {
+  return pixels_solve(sheet, request, false, draw_scan_lines,
+                      "scanline_zbuffer", map, report, error);
 }
 
-const struct solver solver_scanline_zbuffer = {RECTO_METHOD_SCANLINE_ZBUFFER,
-                                               "scanline-zbuffer", solve};
+const struct solver solver_scanline_zbuffer = {
+    RECTO_METHOD_SCANLINE_ZBUFFER, "scanline-zbuffer", solve_scanline_zbuffer};

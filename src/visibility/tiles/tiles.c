@@ -311,7 +311,7 @@ static bool append_batch(struct map *map, const struct edge_batch *batch) {
   return true;
 }
 
-static bool solve_edges(struct tiles_work *work, struct map *map) {
+static bool solve_edges_tiles(struct tiles_work *work, struct map *map) {
   size_t n = work->edge.count, batches = (n + BATCH_SIZE - 1) / BATCH_SIZE;
   struct edge_batch *batch = mem_calloc(batches, sizeof *batch);
   bool ok = batch != NULL;
@@ -422,7 +422,7 @@ static bool solve_all(struct tiles_work *work, struct map *map,
   end_phase(work, "lists_cpu_s");
   if (request->intersections && !find_intersections(work, map, status, error))
     return false;
-  if (request->edges && !solve_edges(work, map))
+  if (request->edges && !solve_edges_tiles(work, map))
     return false;
   end_phase(work, "edges_cpu_s");
   if (request->fragments && !solve_faces(work, map))
@@ -431,9 +431,10 @@ static bool solve_all(struct tiles_work *work, struct map *map,
   return true;
 }
 
-static recto_status solve(struct sheet *sheet,
-                          const struct solver_request *request, struct map *map,
-                          struct report *report, recto_error *error) {
+static recto_status solve_tiles(struct sheet *sheet,
+                                const struct solver_request *request,
+                                struct map *map, struct report *report,
+                                recto_error *error) {
   atomic_bool cancelled = false;
   struct tiles_work work = {.sheet = sheet,
                             .request = request,
@@ -453,4 +454,4 @@ static recto_status solve(struct sheet *sheet,
   return status;
 }
 
-const struct solver solver_tiles = {RECTO_METHOD_TILES, "tiles", solve};
+const struct solver solver_tiles = {RECTO_METHOD_TILES, "tiles", solve_tiles};

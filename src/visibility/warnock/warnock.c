@@ -85,7 +85,7 @@ static bool defer_window(struct warnock *w, const struct warnock_window *win) {
 
 /* Divides the window in the middle, or at sides of the bounding box of its
  * nearest face. */
-static bool divide(struct warnock *w, const struct warnock_window *win) {
+static bool divide_window(struct warnock *w, const struct warnock_window *win) {
   const struct box2 *b = &win->box;
   int32_t x = (int32_t)(((int64_t)b->x0 + b->x1) / 2),
           y = (int32_t)(((int64_t)b->y0 + b->y1) / 2);
@@ -138,16 +138,16 @@ static bool handle_long_list(struct warnock *w, struct warnock_window *win,
     return is_point || win->divisions_without_gain >=
                            (small ? 1 : DIVISIONS_WITHOUT_GAIN_MAX)
                ? defer_window(w, win)
-               : divide(w, win);
+               : divide_window(w, win);
   }
   if (!small)
-    return divide(w, win);
+    return divide_window(w, win);
   w->counts.floor++;
   return solve_window(w, win);
 }
 
 /* Takes a window from the stack and finishes or divides it. */
-static bool process_window(struct warnock *w) {
+static bool process_page_window(struct warnock *w) {
   struct warnock_window win = warnock_windows_pop(&w->windows);
   bool fragments = w->request->fragments;
   struct warnock_front front;
@@ -228,8 +228,8 @@ static int64_t edge_length(const struct sheet *sheet) {
 }
 
 /* Makes surrounder t the front if its farthest depth there is nearer. */
-static void update_front(void *user, const struct box2 *window, uint32_t t,
-                         struct warnock_front *front) {
+static void update_nearer_front(void *user, const struct box2 *window,
+                                uint32_t t, struct warnock_front *front) {
   const struct warnock *w = user;
   struct surrounder_depths depth;
   surrounder_depths_of(w->sheet, t, window, &depth);
@@ -240,13 +240,14 @@ static void update_front(void *user, const struct box2 *window, uint32_t t,
 }
 
 /* Is triangle t behind the front at every corner of the window? */
-static bool hides(void *user, const struct box2 *window,
-                  const struct warnock_front *front, uint32_t t) {
+static bool front_hides(void *user, const struct box2 *window,
+                        const struct warnock_front *front, uint32_t t) {
   const struct warnock *w = user;
   return surrounder_hides(w->sheet, &front->depth, window, t);
 }
 
-static bool run(struct warnock *w, const struct triangle_grid *grid) {
+static bool subdivide_page(struct warnock *w,
+                           const struct triangle_grid *grid) {
   static const struct facets triangles = {0};
   const struct sheet *sheet = w->sheet;
   struct box2 page = page_window(sheet);
@@ -257,8 +258,8 @@ static bool run(struct warnock *w, const struct triangle_grid *grid) {
   w->floor = edge_length(sheet);
   w->windows = (struct warnock_windows){.sheet = sheet,
                                         .facets = &triangles,
-                                        .update_front = update_front,
-                                        .hides = hides,
+                                        .update_front = update_nearer_front,
+                                        .hides = front_hides,
                                         .user = w};
   if (w->edge_deferred == NULL || w->triangle_deferred == NULL ||
       !warnock_windows_init(&w->windows, &page, SHEET_FLAT, grid->left_out,
@@ -268,7 +269,7 @@ static bool run(struct warnock *w, const struct triangle_grid *grid) {
       LISTED_PER_ITEM_MAX *
       (uint64_t)(w->windows.facet_pool.count + w->windows.edges.count + 1024);
   while (w->windows.stack.count > 0)
-    if (!process_window(w))
+    if (!process_page_window(w))
       return false;
   return true;
 }
@@ -314,9 +315,10 @@ static bool store_all(struct warnock *w, const struct triangle_grid *grid,
   return ok;
 }
 
-static recto_status solve(struct sheet *sheet,
-                          const struct solver_request *request, struct map *map,
-                          struct report *report, recto_error *error) {
+static recto_status solve_warnock(struct sheet *sheet,
+                                  const struct solver_request *request,
+                                  struct map *map, struct report *report,
+                                  recto_error *error) {
   struct warnock w = {.sheet = sheet,
                       .request = request,
                       .progress = progress_of(request, "subdividing")};
@@ -331,7 +333,7 @@ static recto_status solve(struct sheet *sheet,
     status = intersection_find_all(sheet, &grid, NULL, request, report, error);
   if (status == RECTO_OK) {
     occluder_subtraction_init(&w.subtraction, sheet);
-    ok = run(&w, &grid) && store_all(&w, &grid, map, report);
+    ok = subdivide_page(&w, &grid) && store_all(&w, &grid, map, report);
     if (!ok)
       status = error_memory(error);
     if (request->fragments)
@@ -350,4 +352,5 @@ static recto_status solve(struct sheet *sheet,
   return status;
 }
 
-const struct solver solver_warnock = {RECTO_METHOD_WARNOCK, "warnock", solve};
+const struct solver solver_warnock = {RECTO_METHOD_WARNOCK, "warnock",
+                                      solve_warnock};

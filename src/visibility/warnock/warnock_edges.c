@@ -84,8 +84,8 @@ static bool start_edge(const struct warnock *w, const struct box2 *window,
 /* Is the whole edge behind the front, and its interval in the window inside the
  * front's outline?  An axis-parallel edge might run along the window's border,
  * and there along a side of the front. */
-static bool is_behind(const struct warnock *w,
-                      const struct warnock_front *front, uint32_t e) {
+static bool is_edge_behind(const struct warnock *w,
+                           const struct warnock_front *front, uint32_t e) {
   struct geom_segment s = sheet_ends(w->sheet, w->sheet->edge.item[e].point);
   return (double)s.p.z < front->depth.low && (double)s.q.z < front->depth.low &&
          s.p.x != s.q.x && s.p.y != s.q.y;
@@ -100,7 +100,7 @@ bool warnock_drop_hidden_edges(struct warnock *w, struct warnock_window *win,
     uint32_t e = w->windows.edges.item[i];
     struct edge_task task;
     struct edge_occlusion hidden = {.edge = e, .interval.sides = OCCLUDED_BOTH};
-    if (!is_behind(w, front, e)) {
+    if (!is_edge_behind(w, front, e)) {
       w->windows.edges.item[kept++] = e;
       continue;
     }
@@ -116,7 +116,8 @@ bool warnock_drop_hidden_edges(struct warnock *w, struct warnock_window *win,
 }
 
 /* Do the intervals found so far hide all of the edge inside the window? */
-static bool is_hidden(const struct warnock *w, const struct edge_task *task) {
+static bool is_edge_hidden(const struct warnock *w,
+                           const struct edge_task *task) {
   const occluded_intervals *both = &w->intervals.merged;
   return both->count == 1 &&
          ratio_compare(both->item[0].from, task->from) == 0 &&
@@ -139,7 +140,7 @@ static bool occlude_by(struct warnock *w, struct edge_task *task, uint32_t t) {
     return true;
   if (!edge_intervals_occlude(&w->intervals, hidden))
     return false;
-  task->hidden = is_hidden(w, task);
+  task->hidden = is_edge_hidden(w, task);
   return true;
 }
 

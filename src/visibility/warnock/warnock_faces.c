@@ -11,7 +11,7 @@
 /* Faces of more pieces are deferred when there are too many pieces in all. */
 enum { PIECES_PER_FACE_MAX = 8 };
 
-static int compare_pieces(const void *a, const void *b, void *user) {
+static int compare_face_pieces(const void *a, const void *b, void *user) {
   const struct triangle_piece *p = a, *q = b;
   (void)user;
   return (p->triangle > q->triangle) - (p->triangle < q->triangle);
@@ -20,7 +20,7 @@ static int compare_pieces(const void *a, const void *b, void *user) {
 /* Sorts the pieces by face. */
 static bool sort_pieces(struct warnock *w) {
   return sort_stable(w->piece.item, w->piece.count, sizeof *w->piece.item,
-                     compare_pieces, NULL);
+                     compare_face_pieces, NULL);
 }
 
 /* Defers faces of many pieces to the fallback, and discards their pieces. */

@@ -38,7 +38,7 @@ void warnock_frame_fini(struct warnock_frame *frame) {
 /* ---- The solver ---------------------------------------------------------- */
 
 /* The share of the pixels, or sub-pixels, that see a face. */
-static double covered_share(const struct warnock_frame *frame) {
+static double covered_frame_share(const struct warnock_frame *frame) {
   size_t pixels =
       (size_t)frame->raster.grid.columns * (size_t)frame->raster.kept;
   uint64_t covered = 0;
@@ -61,7 +61,8 @@ static void report_frame(const struct warnock_frame *frame,
   for (int rule = 0; rule < WARNOCK_RULE_COUNT; rule++)
     report_int(report, "warnock", name[rule], (int64_t)frame->windows[rule]);
   if (request->fragments)
-    report_double(report, "warnock", "covered_share", covered_share(frame));
+    report_double(report, "warnock", "covered_share",
+                  covered_frame_share(frame));
 }
 
 recto_status warnock_raster_solve(struct sheet *sheet,

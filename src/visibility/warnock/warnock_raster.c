@@ -104,8 +104,8 @@ static void count_line(struct subdivision *s, const struct box2 *b,
 }
 
 /* Rules 2 and 3: draws the part of a facet that lies in the block. */
-static void draw_facet(struct subdivision *s, const struct box2 *b,
-                       uint32_t facet) {
+static void draw_facet_in_block(struct subdivision *s, const struct box2 *b,
+                                uint32_t facet) {
   uint32_t all = (uint32_t)(s->frame->subpixels * s->frame->subpixels);
   for (int32_t line = b->y0; line < b->y1; line++) {
     count_line(s, b, line, facet);
@@ -119,9 +119,9 @@ static void draw_facet(struct subdivision *s, const struct box2 *b,
 /* The facet visible at a sub-pixel's centre.  Faces come nearest first: after
  * one whose nearest corner is behind the visible facet no other can be
  * visible. */
-static uint32_t find_seen(const struct subdivision *s,
-                          const struct warnock_window *win, int32_t column,
-                          int32_t line) {
+static uint32_t facet_at_subpixel(const struct subdivision *s,
+                                  const struct warnock_window *win,
+                                  int32_t column, int32_t line) {
   uint32_t seen = SHEET_NONE;
   double low = -INFINITY;
   for (size_t i = win->surrounders.from; i < win->surrounders.to; i++) {
@@ -155,7 +155,7 @@ static void draw_pixel(struct subdivision *s,
   uint32_t seen[SUBPIXELS_MAX * SUBPIXELS_MAX], all = 0, covered, facet;
   for (int32_t y = win->box.y0 * k; y < win->box.y1 * k; y++)
     for (int32_t x = win->box.x0 * k; x < win->box.x1 * k; x++)
-      seen[all++] = raster_seen(find_seen(s, win, x, y));
+      seen[all++] = raster_seen(facet_at_subpixel(s, win, x, y));
   facet = raster_facet(subpixels_resolve(seen, all, &covered));
   set_pixel(s, pixel_at(s, win->box.x0, win->box.y0), facet, covered);
 }
@@ -176,8 +176,8 @@ static bool wins_everywhere(const struct subdivision *s, const struct box2 *b,
 }
 
 /* Makes a surrounder the front if it is nearer than it throughout the block. */
-static void update_front(void *user, const struct box2 *b, uint32_t facet,
-                         struct warnock_front *front) {
+static void update_winning_front(void *user, const struct box2 *b,
+                                 uint32_t facet, struct warnock_front *front) {
   const struct subdivision *s = user;
   int32_t k = s->frame->subpixels;
   if (front->facet != SHEET_NONE && !wins_everywhere(s, b, facet, front->facet))
@@ -192,8 +192,8 @@ static void update_front(void *user, const struct box2 *b, uint32_t facet,
   }
 }
 
-static bool hides(void *user, const struct box2 *b,
-                  const struct warnock_front *front, uint32_t facet) {
+static bool front_wins(void *user, const struct box2 *b,
+                       const struct warnock_front *front, uint32_t facet) {
   return wins_everywhere(user, b, front->facet, facet);
 }
 
@@ -208,7 +208,8 @@ static int32_t pixel_of(int64_t value, int64_t first, int64_t step,
 /* Divides the window into quarters whose sides are powers of two, less what
  * lies outside the frame, or at sides of the bounding box of its nearest
  * face. */
-static bool divide(struct subdivision *s, const struct warnock_window *win) {
+static bool divide_block(struct subdivision *s,
+                         const struct warnock_window *win) {
   const struct scan_grid *g = &s->frame->raster.grid;
   const struct box2 *b = &win->box;
   int32_t half = 1;
@@ -241,7 +242,7 @@ static bool apply_rules(struct subdivision *s, struct warnock_window *win,
     *rule = WARNOCK_BACKGROUND;
   } else if (faces + surrounders > 1) {
     *rule = WARNOCK_DIVIDED;
-    return divide(s, win);
+    return divide_block(s, win);
   } else if (surrounders == 1) {
     *rule = front.hides ? WARNOCK_FRONT : WARNOCK_SURROUNDER;
     fill_block(s, &win->box, front.facet);
@@ -250,7 +251,7 @@ static bool apply_rules(struct subdivision *s, struct warnock_window *win,
     *rule = warnock_classify(&s->windows, &on_sheet, t) == WINDOW_CONTAINED
                 ? WARNOCK_CONTAINED
                 : WARNOCK_INTERSECTING;
-    draw_facet(s, &win->box, t);
+    draw_facet_in_block(s, &win->box, t);
   }
   return true;
 }
@@ -258,7 +259,7 @@ static bool apply_rules(struct subdivision *s, struct warnock_window *win,
 /* Work per face of a window, in the units of progress.h. */
 enum { WINDOW_WORK = 8 };
 
-static bool process_window(struct subdivision *s) {
+static bool process_block(struct subdivision *s) {
   struct warnock_window win = warnock_windows_pop(&s->windows);
   struct box2 nearby = {0};
   bool lines_only = !s->request->fragments;
@@ -284,7 +285,7 @@ static bool process_window(struct subdivision *s) {
   return true;
 }
 
-static bool run(struct subdivision *s) {
+static bool subdivide_frame(struct subdivision *s) {
   const struct scan_grid *grid = &s->frame->raster.grid;
   struct box2 frame = {0, 0, grid->columns, grid->lines};
   int left_out = SHEET_FLAT | (s->request->remove_backs ? SHEET_FLIPPED : 0);
@@ -294,7 +295,7 @@ static bool run(struct subdivision *s) {
   while (s->windows.stack.count > 0) {
     s->progress.share =
         (double)s->pixels_done / ((double)grid->columns * grid->lines);
-    if (!process_window(s))
+    if (!process_block(s))
       return false;
   }
   return true;
@@ -310,14 +311,15 @@ recto_status warnock_frame_draw(struct warnock_frame *frame,
                           .progress = progress_of(request, "subdividing"),
                           .windows = {.sheet = sheet,
                                       .facets = facets,
-                                      .update_front = update_front,
-                                      .hides = hides,
+                                      .update_front = update_winning_front,
+                                      .hides = front_wins,
                                       .user = &s}};
   struct scan_grid fine =
       raster_grid(sheet, frame->raster.grid.lines * frame->subpixels);
   s.count = mem_alloc((size_t)frame->raster.grid.columns, sizeof *s.count);
   bool ok = s.count != NULL &&
-            warnock_sample_init(&s.sample, sheet, facets, &fine) && run(&s);
+            warnock_sample_init(&s.sample, sheet, facets, &fine) &&
+            subdivide_frame(&s);
   warnock_sample_fini(&s.sample);
   warnock_windows_fini(&s.windows);
   mem_free(s.count);

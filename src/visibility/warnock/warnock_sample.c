@@ -7,9 +7,9 @@
 #include "visibility/warnock/warnock_sample.h"
 
 /* The plane of a facet, x and y in units of 1 / den. */
-static struct depth_plane plane_of(const struct sheet *sheet,
-                                   const struct scan_grid *grid,
-                                   uint32_t facet) {
+static struct depth_plane sample_plane(const struct sheet *sheet,
+                                       const struct scan_grid *grid,
+                                       uint32_t facet) {
   struct geom_plane exact = sheet_plane(sheet, facet);
   struct depth_plane plane = depth_plane_of(&exact);
   double den = (double)grid->den;
@@ -29,7 +29,7 @@ bool warnock_sample_init(struct warnock_sample *sample,
   for (uint32_t t = 0; t < count; t++)
     if ((sheet->triangle_flags[t] & SHEET_FLAT) == 0 &&
         facet_of(facets, t) == t)
-      sample->plane[t] = plane_of(sheet, grid, t);
+      sample->plane[t] = sample_plane(sheet, grid, t);
   return true;
 }
 
@@ -91,7 +91,7 @@ bool warnock_sample_covers(const struct warnock_sample *sample, uint32_t facet,
   return above && below;
 }
 
-static int128 floor_divide(int128 num, int128 den) {
+static int128 floor_divide_128(int128 num, int128 den) {
   int128 quotient = num / den;
   return num % den < 0 ? quotient - 1 : quotient;
 }
@@ -117,9 +117,9 @@ bool warnock_sample_columns(const struct warnock_sample *sample, uint32_t facet,
     num = (int128)(p.x * grid->den - zero) * dy +
           (int128)dx * (y - p.y * grid->den);
     if (p_below)
-      *past = (int64_t)floor_divide(num, (int128)dy * grid->x_step) + 1;
+      *past = (int64_t)floor_divide_128(num, (int128)dy * grid->x_step) + 1;
     else
-      *first = -(int64_t)floor_divide(num, -(int128)dy * grid->x_step);
+      *first = -(int64_t)floor_divide_128(num, -(int128)dy * grid->x_step);
   }
   return *first < *past;
 }

@@ -99,8 +99,9 @@ static bool make_small(struct small *small, const struct raster *raster,
 }
 
 /* Returns false where the depth changes too much for doubles. */
-static bool find_depths(struct small_depths *depths, const struct small *s,
-                        const struct scan_grid *grid) {
+static bool find_small_depths(struct small_depths *depths,
+                              const struct small *s,
+                              const struct scan_grid *grid) {
   int64_t nx = s->uy * s->vz - s->uz * s->vy;
   int64_t ny = s->uz * s->vx - s->ux * s->vz;
   int64_t nz = s->ux * s->vy - s->uy * s->vx;
@@ -222,7 +223,7 @@ bool raster_small_triangle(struct raster *raster, uint32_t triangle,
   int32_t lines;
   bool close;
   if (!make_small(&small, raster, corner) ||
-      !find_depths(&depths, &small, &raster->grid))
+      !find_small_depths(&depths, &small, &raster->grid))
     return false;
   find_sides(&sides, &small, &raster->grid);
   x_error = find_x_error(&sides, &raster->grid);

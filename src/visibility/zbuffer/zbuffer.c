@@ -91,11 +91,13 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
   return status;
 }
 
-static recto_status solve(struct sheet *sheet,
-                          const struct solver_request *request, struct map *map,
-                          struct report *report, recto_error *error) {
+static recto_status solve_zbuffer(struct sheet *sheet,
+                                  const struct solver_request *request,
+                                  struct map *map, struct report *report,
+                                  recto_error *error) {
   return pixels_solve(sheet, request, true, zbuffer_draw, "zbuffer", map,
                       report, error);
 }
 
-const struct solver solver_zbuffer = {RECTO_METHOD_ZBUFFER, "zbuffer", solve};
+const struct solver solver_zbuffer = {RECTO_METHOD_ZBUFFER, "zbuffer",
+                                      solve_zbuffer};

@@ -10,10 +10,6 @@ struct sweep_gathering {
   size_t count;
 };
 
-static uint64_t key_of(uint32_t p, uint32_t q) {
-  return p < q ? (uint64_t)p << 32 | q : (uint64_t)q << 32 | p;
-}
-
 bool sweep_takes_line(const struct sheet *sheet, size_t e) {
   const struct sheet_edge *edge = &sheet->edge.item[e];
   return edge->triangle[0] != SHEET_NONE &&
@@ -33,14 +29,16 @@ static void list_keys(struct sweep_gathering *g, const struct sheet *sheet,
     if ((sheet->triangle_flags[t] & SHEET_FLAT) || (kept != NULL && !kept[t]))
       continue;
     for (int k = 0; k < 3; k++)
-      g->key[g->count++] = (struct sort_key){
-          key_of(point[k], point[geom_next_corner(k)]), 3 * t + (uint32_t)k};
+      g->key[g->count++] =
+          (struct sort_key){sort_pair_key(point[k], point[geom_next_corner(k)]),
+                            3 * t + (uint32_t)k};
   }
   for (uint32_t e = 0; drawn && e < sheet->edge.count; e++)
     if (sweep_takes_line(sheet, e))
-      g->key[g->count++] = (struct sort_key){
-          key_of(sheet->edge.item[e].point[0], sheet->edge.item[e].point[1]),
-          3 * triangles + e};
+      g->key[g->count++] =
+          (struct sort_key){sort_pair_key(sheet->edge.item[e].point[0],
+                                          sheet->edge.item[e].point[1]),
+                            3 * triangles + e};
 }
 
 /* A point as a key in the order of events: from the top, then from the left. */
@@ -49,7 +47,8 @@ static uint64_t key_of_end(int32_t x, int32_t y) {
          (uint64_t)((INT64_C(1) << 30) + x);
 }
 
-static bool add_edge(struct sweep *sweep, uint64_t points, uint32_t side) {
+static bool add_sweep_edge(struct sweep *sweep, uint64_t points,
+                           uint32_t side) {
   const struct geom_point *p = &sweep->sheet->point.item[points >> 32];
   const struct geom_point *q = &sweep->sheet->point.item[points & UINT32_MAX];
   struct sweep_edge edge = {.toggle = (uint32_t)sweep->toggle.count,
@@ -68,12 +67,12 @@ static bool add_edge(struct sweep *sweep, uint64_t points, uint32_t side) {
 
 /* Adds one edge for all sides of triangles between the same two points, with
  * the first drawn edge there, and one for each further drawn edge. */
-static bool add_edges(struct sweep *sweep, const struct sort_key *key,
-                      size_t count) {
+static bool add_edges_between(struct sweep *sweep, const struct sort_key *key,
+                              size_t count) {
   uint32_t sides = 3 * (uint32_t)sweep->sheet->triangle.count;
   size_t i = 0;
   if (key->value < sides) {
-    if (!add_edge(sweep, key->key, SHEET_NONE))
+    if (!add_sweep_edge(sweep, key->key, SHEET_NONE))
       return false;
     for (; i < count && key[i].value < sides; i++)
       if (!ARRAY_PUSH(&sweep->toggle, key[i].value / 3))
@@ -83,7 +82,7 @@ static bool add_edges(struct sweep *sweep, const struct sort_key *key,
       sweep->edge.item[sweep->edge.count - 1].side = key[i++].value - sides;
   }
   for (; i < count; i++)
-    if (!add_edge(sweep, key->key, key[i].value - sides))
+    if (!add_sweep_edge(sweep, key->key, key[i].value - sides))
       return false;
   return true;
 }
@@ -127,7 +126,7 @@ bool sweep_init(struct sweep *sweep, const struct sheet *sheet,
   for (size_t i = 0, past, n = 0; ok && i < g.count; i = past, n++) {
     for (past = i + 1; past < g.count && g.key[past].key == g.key[i].key;)
       past++;
-    ok = poll_at(n) && add_edges(sweep, &g.key[i], past - i);
+    ok = poll_at(n) && add_edges_between(sweep, &g.key[i], past - i);
   }
   mem_free(g.key);
   return ok && sort_ends(sweep);

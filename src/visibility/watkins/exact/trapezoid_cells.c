@@ -82,9 +82,9 @@ static double error_at(const struct depth_plane *plane,
 }
 
 /* Is the plane certainly behind the other at all corners? */
-static bool is_behind(const struct depth_plane *plane,
-                      const struct depth_plane *other,
-                      const struct cell_corner *corner) {
+static bool is_plane_behind(const struct depth_plane *plane,
+                            const struct depth_plane *other,
+                            const struct cell_corner *corner) {
   for (int k = 0; k < CORNERS; k++) {
     double apart = depth_plane_at(other, corner[k].x, corner[k].y) -
                    depth_plane_at(plane, corner[k].x, corner[k].y);
@@ -96,9 +96,9 @@ static bool is_behind(const struct depth_plane *plane,
 
 /* Lists the triangles of the cell that may be visible, the nearest at its
  * middle first. */
-static bool find_candidates(struct trapezoid_cells *cells,
-                            const struct sweep *sweep,
-                            const struct sweep_cell *cell) {
+static bool find_cell_candidates(struct trapezoid_cells *cells,
+                                 const struct sweep *sweep,
+                                 const struct sweep_cell *cell) {
   const struct sweep_edge *left = &sweep->edge.item[cell->left];
   const struct sweep_edge *right = &sweep->edge.item[cell->right];
   double top = ratio_to_double(sweep->height.item[cell->top]);
@@ -122,8 +122,8 @@ static bool find_candidates(struct trapezoid_cells *cells,
   }
   cells->candidate.item[cells->candidate.count++] = front;
   for (size_t i = 0; i < cell->count; i++)
-    if (cell->in[i] != front &&
-        !is_behind(&cells->plane[cell->in[i]], &cells->plane[front], corner))
+    if (cell->in[i] != front && !is_plane_behind(&cells->plane[cell->in[i]],
+                                                 &cells->plane[front], corner))
       cells->candidate.item[cells->candidate.count++] = cell->in[i];
   return true;
 }
@@ -174,7 +174,7 @@ bool trapezoid_cells_take(void *user, const struct sweep *sweep,
   cells->count++;
   if (cells->too_many)
     return true;
-  if (!find_candidates(cells, sweep, cell))
+  if (!find_cell_candidates(cells, sweep, cell))
     return false;
   cells->filter_failures += cells->candidate.count > 1;
   if (cells->keep) {
@@ -202,7 +202,7 @@ struct piece_work {
   geom_pieces piece;
 };
 
-static struct geom_point point_at(int32_t x, int32_t y) {
+static struct geom_point point_on_page(int32_t x, int32_t y) {
   return (struct geom_point){x, y, 0};
 }
 
@@ -213,12 +213,12 @@ static void set_lines(const struct sweep *sweep, const struct cell_part *part,
   const struct sweep_edge *left = &sweep->edge.item[part->left];
   const struct sweep_edge *right = &sweep->edge.item[part->right];
   geom_line_level(&line[0], sweep->height.item[part->bottom]);
-  geom_line_through(&line[1], point_at(right->x1, right->y1),
-                    point_at(right->x0, right->y0));
+  geom_line_through(&line[1], point_on_page(right->x1, right->y1),
+                    point_on_page(right->x0, right->y0));
   geom_line_level(&line[2], sweep->height.item[part->top]);
   geom_line_reverse(&line[2]);
-  geom_line_through(&line[3], point_at(left->x0, left->y0),
-                    point_at(left->x1, left->y1));
+  geom_line_through(&line[3], point_on_page(left->x0, left->y0),
+                    point_on_page(left->x1, left->y1));
 }
 
 static void widen_box(struct geom_convex *piece, double x, double y) {

@@ -68,8 +68,8 @@ static bool unique_pairs(struct edge_face_pairs *pairs) {
   return true;
 }
 
-static bool add_pair(void *user, const struct sweep *sweep, uint32_t edge,
-                     uint32_t triangle) {
+static bool add_edge_triangle(void *user, const struct sweep *sweep,
+                              uint32_t edge, uint32_t triangle) {
   struct edge_face_pairs *pairs = &((struct exact *)user)->pairs;
   uint32_t side = sweep->edge.item[edge].side;
   struct sort_key pair = {(uint64_t)side << 32 | triangle, 0};
@@ -157,11 +157,11 @@ static recto_status store_edges(struct exact *exact, const struct sheet *sheet,
 /* ---- Fragments ----------------------------------------------------------- */
 
 /* Adds the fragments of the deferred triangles, solved by the fallback. */
-static recto_status store_deferred(struct exact *exact,
-                                   const struct sheet *sheet,
-                                   const struct solver_request *request,
-                                   struct fragments *fragments,
-                                   struct report *report, recto_error *error) {
+static recto_status
+store_deferred_fragments(struct exact *exact, const struct sheet *sheet,
+                         const struct solver_request *request,
+                         struct fragments *fragments, struct report *report,
+                         recto_error *error) {
   ARRAY(uint32_t) list = {0};
   bool ok = true;
   for (uint32_t t = 0; ok && t < sheet->triangle.count; t++)
@@ -177,12 +177,11 @@ static recto_status store_deferred(struct exact *exact,
 }
 
 /* Sweeps the triangles that may be visible a second time. */
-static recto_status solve_fragments(struct exact *exact,
-                                    const struct sheet *sheet,
-                                    const struct triangle_grid *grid,
-                                    const struct solver_request *request,
-                                    struct map *map, struct report *report,
-                                    recto_error *error) {
+static recto_status
+solve_fragments_watkins(struct exact *exact, const struct sheet *sheet,
+                        const struct triangle_grid *grid,
+                        const struct solver_request *request, struct map *map,
+                        struct report *report, recto_error *error) {
   struct trapezoid_cells *cells = &exact->cells;
   struct fragments fragments;
   struct sweep sweep;
@@ -203,7 +202,8 @@ static recto_status solve_fragments(struct exact *exact,
     status = trapezoid_cells_finish(cells, &sweep, &fragments, error);
   exact->progress.stage = "faces";
   if (status == RECTO_OK)
-    status = store_deferred(exact, sheet, request, &fragments, report, error);
+    status = store_deferred_fragments(exact, sheet, request, &fragments, report,
+                                      error);
   if (status == RECTO_OK && !fragments_finish(&fragments, map))
     status = error_memory(error);
   report_int(report, "watkins", "visible_trapezoids", (int64_t)cells->count);
@@ -227,7 +227,7 @@ static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
   if (!sweep_init(&sweep, sheet, kept, request->edges))
     status = error_memory(error);
   sweep.cell = request->fragments ? take_cell : NULL;
-  sweep.pair = request->edges ? add_pair : NULL;
+  sweep.pair = request->edges ? add_edge_triangle : NULL;
   sweep.user = exact;
   if (status == RECTO_OK)
     status = sweep_run(&sweep, request, 0, 0.5, error);
@@ -270,7 +270,8 @@ static recto_status solve_on(struct exact *exact, const struct sheet *sheet,
   if (status == RECTO_OK && request->edges)
     status = store_edges(exact, sheet, request, map, report, error);
   if (status == RECTO_OK && request->fragments)
-    status = solve_fragments(exact, sheet, grid, request, map, report, error);
+    status = solve_fragments_watkins(exact, sheet, grid, request, map, report,
+                                     error);
   return status;
 }
 

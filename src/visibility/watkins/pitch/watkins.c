@@ -54,7 +54,7 @@ struct scan {
 };
 
 /* The facet visible at x (edge_sampling_seen_fn). */
-static uint32_t seen_at(const void *user, double x) {
+static uint32_t facet_at_x(const void *user, double x) {
   const struct interval_row *row = user;
   const struct watkins_piece *piece = row->piece.item;
   size_t i;
@@ -81,7 +81,7 @@ static double height_of(const struct scan *scan, uint32_t point) {
 }
 
 /* Stores the open run of an edge of the sheet, if there is one. */
-static bool close_run(struct scan *scan, uint32_t side) {
+static bool close_open_run(struct scan *scan, uint32_t side) {
   struct open_run *open = &scan->run[side];
   const uint32_t *point = scan->watkins.sheet->edge.item[side].point;
   double y0 = height_of(scan, point[0]), y1 = height_of(scan, point[1]);
@@ -110,7 +110,7 @@ static bool join_ends(struct scan *scan) {
     int32_t left = watkins->table.edge.item[e].dy;
     struct open_run *open = &scan->run[edge->side];
     if (open->first == OPEN_NONE || open->last > line + 1) {
-      if (!close_run(scan, edge->side))
+      if (!close_open_run(scan, edge->side))
         return false;
       open->first = line;
       open->from_end = left == edge->lines;
@@ -142,9 +142,10 @@ static bool open_edges(struct scan *scan) {
 static bool finish_edges(struct scan *scan, struct map *map) {
   size_t count = scan->watkins.sheet->edge.count;
   for (size_t e = 0; e < count; e++)
-    if (!close_run(scan, (uint32_t)e))
+    if (!close_open_run(scan, (uint32_t)e))
       return false;
-  return edge_sampling_line(&scan->sampling, -1, seen_at, &scan->row, NULL) &&
+  return edge_sampling_line(&scan->sampling, -1, facet_at_x, &scan->row,
+                            NULL) &&
          edge_sampling_finish(&scan->sampling, map);
 }
 
@@ -164,8 +165,8 @@ static bool has_face(const struct watkins *watkins,
 
 /* The side of a span at x: along edge e of the table, or, WATKINS_NONE, along
  * the intersection of `face` with `other`. */
-static struct span_side side_at(const struct watkins *watkins, uint32_t e,
-                                double x, uint32_t face, uint32_t other) {
+static struct span_side side_of_span(const struct watkins *watkins, uint32_t e,
+                                     double x, uint32_t face, uint32_t other) {
   const struct scan_grid *grid = &watkins->table.grid;
   struct span_side side = {
       .key = SPAN_ALONE, .id = other, .side = MAP_SIDE_INTERSECTION};
@@ -199,7 +200,7 @@ static uint32_t face_of(const struct watkins *watkins,
 }
 
 /* Makes one span of touching pieces of one face. */
-static bool add_spans(struct scan *scan) {
+static bool add_piece_spans(struct scan *scan) {
   const struct watkins *watkins = &scan->watkins;
   const struct watkins_piece *piece = watkins->piece.item;
   size_t count = watkins->piece.count;
@@ -209,11 +210,11 @@ static bool add_spans(struct scan *scan) {
     for (past = i + 1; past < count && piece[past].x0 == piece[past - 1].x1 &&
                        face_of(watkins, &piece[past]) == face;)
       past++;
-    span.left = side_at(watkins, piece[i].left, piece[i].x0, face,
-                        i > 0 ? face_of(watkins, &piece[i - 1]) : face);
+    span.left = side_of_span(watkins, piece[i].left, piece[i].x0, face,
+                             i > 0 ? face_of(watkins, &piece[i - 1]) : face);
     span.right =
-        side_at(watkins, piece[past - 1].right, piece[past - 1].x1, face,
-                past < count ? face_of(watkins, &piece[past]) : face);
+        side_of_span(watkins, piece[past - 1].right, piece[past - 1].x1, face,
+                     past < count ? face_of(watkins, &piece[past]) : face);
     if (!trapezoids_add(&scan->trapezoids, watkins->table.line, &span))
       return false;
   }
@@ -232,20 +233,20 @@ static bool process_line(struct scan *scan, int32_t line, bool here) {
   scan->row.piece.count = 0;
   if (here) {
     watkins_pieces now = watkins->piece;
-    if ((scan->request->fragments && !add_spans(scan)) ||
+    if ((scan->request->fragments && !add_piece_spans(scan)) ||
         (scan->request->edges && !join_ends(scan)))
       return false;
     watkins->piece = scan->row.piece;
     scan->row.piece = now;
   }
   return !scan->request->edges ||
-         edge_sampling_line(&scan->sampling, line, seen_at,
+         edge_sampling_line(&scan->sampling, line, facet_at_x,
                             line + 1 < watkins->table.grid.lines ? &scan->above
                                                                  : NULL,
                             &scan->row);
 }
 
-static recto_status walk_lines(struct scan *scan, recto_error *error) {
+static recto_status scan_watkins_lines(struct scan *scan, recto_error *error) {
   struct progress progress = progress_of(scan->request, "visibility");
   struct watkins *watkins = &scan->watkins;
   int32_t lines = watkins->table.grid.lines;
@@ -293,7 +294,7 @@ static recto_status run_scan(struct scan *scan, const struct sheet *sheet,
     return error_memory(error);
   scan->watkins.sides = request->fragments;
   scan->row.watkins = scan->above.watkins = &scan->watkins;
-  status = walk_lines(scan, error);
+  status = scan_watkins_lines(scan, error);
   if (status != RECTO_OK)
     return status;
   if ((request->edges && !finish_edges(scan, map)) ||
@@ -329,9 +330,10 @@ static recto_status scan_lines(const struct sheet *sheet,
   return status;
 }
 
-static recto_status solve(struct sheet *sheet,
-                          const struct solver_request *request, struct map *map,
-                          struct report *report, recto_error *error) {
+static recto_status solve_watkins(struct sheet *sheet,
+                                  const struct solver_request *request,
+                                  struct map *map, struct report *report,
+                                  recto_error *error) {
   recto_status status;
   if (request->pitch_mm == 0)
     return watkins_solve_exactly(sheet, request, map, report, error);
@@ -341,4 +343,5 @@ static recto_status solve(struct sheet *sheet,
   return status;
 }
 
-const struct solver solver_watkins = {RECTO_METHOD_WATKINS, "watkins", solve};
+const struct solver solver_watkins = {RECTO_METHOD_WATKINS, "watkins",
+                                      solve_watkins};

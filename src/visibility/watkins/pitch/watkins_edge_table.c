@@ -126,8 +126,9 @@ static bool new_edge(struct watkins *watkins, struct edge_gathering *g,
 
 /* Adds the side between sheet points p and q of the current facet, if it
  * crosses a line. */
-static bool add_side(struct watkins *watkins, struct edge_gathering *g,
-                     uint32_t p, uint32_t q, uint32_t side, bool *covers) {
+static bool add_facet_side(struct watkins *watkins, struct edge_gathering *g,
+                           uint32_t p, uint32_t q, uint32_t side,
+                           bool *covers) {
   uint32_t low = p < q ? p : q, high = p < q ? q : p, e;
   if (g->point[p].line == g->point[q].line)
     return true;
@@ -164,8 +165,8 @@ static bool add_facets(struct watkins *watkins, struct edge_gathering *g,
       continue;
     count = facet_outline(facets, sheet, t, &corner, &side);
     for (uint32_t k = 0; k < count; k++)
-      if (!add_side(watkins, g, corner[k], corner[k + 1 == count ? 0 : k + 1],
-                    side[k], &covers))
+      if (!add_facet_side(watkins, g, corner[k],
+                          corner[k + 1 == count ? 0 : k + 1], side[k], &covers))
         return false;
     if (!covers)
       continue;
@@ -177,7 +178,8 @@ static bool add_facets(struct watkins *watkins, struct edge_gathering *g,
 }
 
 /* Collects the edges of all facets. */
-static bool add_edges(struct watkins *watkins, const struct facets *facets) {
+static bool add_facet_edges(struct watkins *watkins,
+                            const struct facets *facets) {
   const struct sheet *sheet = watkins->sheet;
   size_t points = sheet->point.count;
   struct edge_gathering g = {
@@ -205,7 +207,7 @@ bool watkins_init(struct watkins *watkins, const struct sheet *sheet,
   watkins->low = scan_plane_y(grid, 0);
   watkins->pitch = scan_plane_y(grid, 1) - watkins->low;
   scan_table_init(&watkins->table, grid);
-  return add_edges(watkins, facets) && scan_table_start(&watkins->table);
+  return add_facet_edges(watkins, facets) && scan_table_start(&watkins->table);
 }
 
 void watkins_fini(struct watkins *watkins) {

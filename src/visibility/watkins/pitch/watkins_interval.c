@@ -54,13 +54,13 @@ static double tolerance_of(const struct watkins *watkins, uint32_t f,
   return watkins->facet.item[f].z_error + watkins->facet.item[g].z_error;
 }
 
-static double difference(const struct watkins *watkins, uint32_t f, uint32_t g,
-                         double x) {
+static double depth_difference(const struct watkins *watkins, uint32_t f,
+                               uint32_t g, double x) {
   return watkins_depth(watkins, f, x) - watkins_depth(watkins, g, x);
 }
 
 int watkins_compare(struct watkins *watkins, uint32_t f, uint32_t g, double x) {
-  double apart = difference(watkins, f, g, x);
+  double apart = depth_difference(watkins, f, g, x);
   double tolerance = tolerance_of(watkins, f, g);
   watkins->counts.comparisons++;
   return (apart > tolerance) - (apart < -tolerance);
@@ -115,8 +115,8 @@ static void break_ties(struct watkins *watkins) {
 
 /* Finds where the facet in front intersects another between x0 and x1, at least
  * PART_WIDTH_MIN away from both: the first one in the order of depth. */
-static bool find_crossing(struct watkins *watkins, double x0, double x1,
-                          double *at) {
+static bool find_depth_crossing(struct watkins *watkins, double x0, double x1,
+                                double *at) {
   const uint32_t *in = watkins->in.item;
   for (size_t i = 1; i < watkins->in.count; i++) {
     int left, right;
@@ -125,8 +125,8 @@ static bool find_crossing(struct watkins *watkins, double x0, double x1,
     left = watkins_compare(watkins, in[0], in[i], x0);
     right = watkins_compare(watkins, in[0], in[i], x1);
     if (left * right < 0) {
-      double d0 = difference(watkins, in[0], in[i], x0);
-      double d1 = difference(watkins, in[0], in[i], x1);
+      double d0 = depth_difference(watkins, in[0], in[i], x0);
+      double d1 = depth_difference(watkins, in[0], in[i], x1);
       *at = x0 + (x1 - x0) * d0 / (d0 - d1);
       if (*at - x0 > PART_WIDTH_MIN && x1 - *at > PART_WIDTH_MIN)
         return true;
@@ -135,7 +135,8 @@ static bool find_crossing(struct watkins *watkins, double x0, double x1,
   return false;
 }
 
-static bool add_piece(struct watkins *watkins, struct watkins_piece piece) {
+static bool add_visible_piece(struct watkins *watkins,
+                              struct watkins_piece piece) {
   return ARRAY_PUSH(&watkins->piece, piece);
 }
 
@@ -161,7 +162,7 @@ static bool split_interval(struct watkins *watkins, uint32_t left,
                        (size_t)(watkins->counts.comparisons - before)))
       return false;
     break_ties(watkins);
-    if (find_crossing(watkins, piece.x0, piece.x1, &at)) {
+    if (find_depth_crossing(watkins, piece.x0, piece.x1, &at)) {
       whole = false;
       watkins->counts.splits++;
       if (!ARRAY_PUSH(&watkins->stack, at))
@@ -171,7 +172,7 @@ static bool split_interval(struct watkins *watkins, uint32_t left,
     watkins->stack.count--;
     piece.facet = watkins->in.item[0];
     piece.right = watkins->stack.count == 0 ? right : WATKINS_NONE;
-    if (!add_piece(watkins, piece))
+    if (!add_visible_piece(watkins, piece))
       return false;
     piece.x0 = piece.x1;
     piece.left = WATKINS_NONE;
@@ -229,7 +230,7 @@ static double lines_order_holds(const struct watkins *watkins, uint32_t left,
       double apart;
       if (f == g || is_clearly_nearer(watkins, f, g))
         continue;
-      apart = difference(watkins, f, g, at[k].x);
+      apart = depth_difference(watkins, f, g, at[k].x);
       if (facet[f].steep || facet[g].steep ||
           (k < 2 && apart < -tolerance_of(watkins, f, g)))
         return 0;
@@ -341,5 +342,5 @@ bool watkins_decide(struct watkins *watkins, uint32_t left, uint32_t right) {
       return false;
   }
   piece.facet = watkins->in.item[0];
-  return add_piece(watkins, piece);
+  return add_visible_piece(watkins, piece);
 }
