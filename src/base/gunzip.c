@@ -117,13 +117,13 @@ static recto_status expand(struct expansion *x) {
 
 recto_status gunzip(struct byte_array *data, const char *path, size_t most,
                     recto_error *error) {
-  struct expansion x = {.stream = {.zalloc = gzip_allocate,
-                                   .zfree = gzip_release},
-                        .bytes = data->item,
-                        .count = data->count,
-                        .most = expansion_limit(data->count, most),
-                        .path = path,
-                        .error = error};
+  struct expansion x = {
+      .stream = {.zalloc = gzip_allocate, .zfree = gzip_release},
+      .bytes = data->item,
+      .count = data->count,
+      .most = expansion_limit(data->count, most),
+      .path = path,
+      .error = error};
   recto_status status =
       ARRAY_RESERVE(&x.to, guess_size(&x)) ? expand(&x) : error_memory(error);
   if (status != RECTO_OK) {

@@ -12,7 +12,7 @@ struct input {
   const char *bytes; /* a NUL stands behind the last */
   size_t count;
   struct byte_array slurped; /* what `bytes` points to */
-  bool is_file;        /* it was a file proper, and this one */
+  bool is_file;              /* it was a file proper, and this one */
   struct file_identity file;
 };
 
