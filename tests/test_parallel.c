@@ -121,6 +121,117 @@ static void there_is_a_processor(void **state) {
   assert_in_range(parallel_processors(), 1, 1024);
 }
 
+/* ---- Ranges -------------------------------------------------------------- */
+
+enum { ITEMS = 1000000 };
+
+struct items {
+  atomic_uchar done[ITEMS];
+  atomic_size_t count;
+  atomic_int workers; /* the highest number of a worker, plus 1 */
+  size_t fails_at;    /* the range that begins there fails */
+};
+
+static bool do_items(void *user, struct parallel_range range) {
+  struct items *items = user;
+  int known = atomic_load(&items->workers);
+  assert_int_equal(range.begin % PARALLEL_ITEMS, 0);
+  assert_true(range.end == ITEMS || range.end - range.begin == PARALLEL_ITEMS);
+  while (
+      known <= range.worker &&
+      !atomic_compare_exchange_weak(&items->workers, &known, range.worker + 1))
+    continue;
+  for (size_t i = range.begin; i < range.end; i++)
+    atomic_fetch_add(&items->done[i], 1);
+  atomic_fetch_add(&items->count, range.end - range.begin);
+  return range.begin != items->fails_at;
+}
+
+/* A host that cancels at its n-th call; 0: never. */
+struct canceller {
+  int calls, at;
+};
+static bool cancel_at(void *user, double share, const char *stage) {
+  struct canceller *canceller = user;
+  (void)share;
+  (void)stage;
+  return ++canceller->calls != canceller->at;
+}
+
+/* Does the items for a call with these options. */
+static bool run_items(struct items *items, int threads,
+                      struct canceller *canceller) {
+  recto_options options;
+  struct poll poll;
+  recto_options_init(&options);
+  options.solver.threads = threads;
+  options.progress = cancel_at;
+  options.user = canceller;
+  poll_open(&poll, &options);
+  bool ok = parallel_ranges(ITEMS, do_items, items);
+  assert_true(items->workers <= parallel_workers(ITEMS));
+  poll_close(&poll);
+  return ok;
+}
+
+static void ranges_are_done_once_by_any_number_of_threads(void **state) {
+  (void)state;
+  for (int threads = 0; threads <= 4; threads++) {
+    static struct items items;
+    struct canceller never = {.at = 0};
+    memset((void *)&items, 0, sizeof items);
+    items.fails_at = ITEMS;
+    assert_true(run_items(&items, threads, &never));
+    for (size_t i = 0; i < ITEMS; i++)
+      assert_int_equal(items.done[i], 1);
+    assert_true(threads != 1 ||
+                never.calls == (int)parallel_range_count(ITEMS));
+  }
+}
+
+static void a_range_that_fails_ends_the_others(void **state) {
+  (void)state;
+  for (int threads = 1; threads <= 2; threads++) {
+    static struct items items;
+    struct canceller never = {.at = 0};
+    memset((void *)&items, 0, sizeof items);
+    items.fails_at = 0;
+    assert_false(run_items(&items, threads, &never));
+    assert_true(threads > 1 || items.count == PARALLEL_ITEMS);
+  }
+}
+
+static void ranges_are_cancelled(void **state) {
+  (void)state;
+  for (int threads = 1; threads <= 2; threads++) {
+    static struct items items;
+    struct canceller third = {.at = 3};
+    memset((void *)&items, 0, sizeof items);
+    items.fails_at = ITEMS;
+    /* With two threads the other may do all but a few. */
+    assert_true(!run_items(&items, threads, &third) || third.calls < 3);
+    assert_true(threads > 1 || items.count == 2 * PARALLEL_ITEMS);
+  }
+}
+
+static void few_items_and_no_call_have_one_worker(void **state) {
+  static struct items items;
+  struct poll poll;
+  recto_options options;
+  (void)state;
+  recto_options_init(&options);
+  options.solver.threads = 2;
+  poll_open(&poll, &options);
+  assert_int_equal(parallel_workers(PARALLEL_ITEMS), 1);
+  assert_int_equal(parallel_workers(ITEMS), parallel_processors() > 1 ? 2 : 1);
+  poll_close(&poll);
+  items.fails_at = ITEMS;
+  assert_int_equal(parallel_workers(ITEMS), 1);
+  assert_true(parallel_ranges(ITEMS, do_items, &items));
+  assert_int_equal(items.workers, 1);
+  assert_int_equal(items.count, ITEMS);
+}
+
 /* ---- The solver that has threads ----------------------------------------- */
 
 static void solve(struct sheet_fixture *fixture, struct map *map, int threads,
@@ -175,6 +286,11 @@ int main(void) {
       cmocka_unit_test_setup(threads_that_cannot_start_are_done_without, reset),
       cmocka_unit_test_setup(a_forked_process_has_threads_too, reset),
       cmocka_unit_test_setup(there_is_a_processor, reset),
+      cmocka_unit_test_setup(ranges_are_done_once_by_any_number_of_threads,
+                             reset),
+      cmocka_unit_test_setup(a_range_that_fails_ends_the_others, reset),
+      cmocka_unit_test_setup(ranges_are_cancelled, reset),
+      cmocka_unit_test_setup(few_items_and_no_call_have_one_worker, reset),
       cmocka_unit_test_setup(lines_do_not_depend_on_what_threads_there_are,
                              reset),
   };

@@ -68,15 +68,6 @@ choose_method(struct render *render, const struct solver_request *request) {
   return solver;
 }
 
-/* The number of threads: at most that of processors, as more would be no
- * faster. */
-static int count_threads(const recto_options *options) {
-  int there = parallel_processors();
-  return 0 < options->solver.threads && options->solver.threads < there
-             ? options->solver.threads
-             : there;
-}
-
 /* ---- Stages -------------------------------------------------------------- */
 
 static bool has_fills(const struct render *render) {
@@ -211,7 +202,7 @@ static recto_status solve_visibility(struct render *render,
       .hidden = options->ink.hidden != RECTO_HIDDEN_NONE ||
                 (options->results & RECTO_RESULT_EDGES) != 0,
       .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,
-      .threads = count_threads(options),
+      .threads = parallel_threads(),
       .pitch_mm = options->solver.pitch_mm,
       .resolution = options->solver.resolution,
       .divide_by_box = options->solver.divide == RECTO_DIVIDE_BOX,

@@ -10,6 +10,7 @@
 
 #include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <unistd.h>
 #ifdef __linux__
 #include <sched.h>
@@ -65,4 +66,59 @@ int parallel_processors(void) {
   if (there < 1)
     return 1;
   return there < THREADS_MAX ? (int)there : THREADS_MAX;
+}
+
+int parallel_threads(void) {
+  const recto_options *options = poll_options();
+  if (options == NULL || options->solver.threads == 1)
+    return 1;
+  int there = parallel_processors();
+  return 0 < options->solver.threads && options->solver.threads < there
+             ? options->solver.threads
+             : there;
+}
+
+/* ---- Ranges of items ----------------------------------------------------- */
+
+enum {
+  ITEMS_PER_THREAD = 1 << 15 /* at least: fewer are not worth a thread */
+};
+
+struct ranges {
+  size_t count;
+  parallel_task *task;
+  void *user;
+  atomic_size_t next; /* the first item that no worker has taken */
+  atomic_int workers; /* that have begun */
+  atomic_bool ended;
+};
+
+static void do_ranges(void *user, bool callers) {
+  struct ranges *ranges = user;
+  int worker = callers ? 0 : 1 + atomic_fetch_add(&ranges->workers, 1);
+  while (!atomic_load(&ranges->ended)) {
+    size_t begin = atomic_fetch_add(&ranges->next, PARALLEL_ITEMS);
+    if (begin >= ranges->count)
+      break;
+    size_t end = ranges->count - begin < PARALLEL_ITEMS
+                     ? ranges->count
+                     : begin + PARALLEL_ITEMS;
+    if (!poll_now() || !ranges->task(ranges->user, (struct parallel_range){
+                                                       begin, end, worker}))
+      atomic_store(&ranges->ended, true);
+  }
+}
+
+int parallel_workers(size_t count) {
+  size_t worthwhile = count / ITEMS_PER_THREAD;
+  int threads = parallel_threads();
+  return worthwhile < 2                 ? 1
+         : worthwhile < (size_t)threads ? (int)worthwhile
+                                        : threads;
+}
+
+bool parallel_ranges(size_t count, parallel_task *task, void *user) {
+  struct ranges ranges = {.count = count, .task = task, .user = user};
+  parallel_run(parallel_workers(count), do_ranges, &ranges);
+  return !atomic_load(&ranges.ended);
 }

@@ -3,6 +3,9 @@
 #define BASE_PARALLEL_H
 
 #include <stdbool.h>
+#include <stddef.h>
+
+#include "base/poll.h"
 
 /* Does a share of the work, which the threads take from a common counter.
  * callers  whether this is the thread that called parallel_run */
@@ -19,5 +22,38 @@ void parallel_run(int threads, parallel_worker *worker, void *user);
 
 /* How many processors this process may run on; at least 1. */
 int parallel_processors(void);
+
+/* How many threads the call of the library that this thread works for may use,
+ * by its options; 1 where there is none, as in the threads started here. */
+int parallel_threads(void);
+
+/* ---- Ranges of items ----------------------------------------------------- */
+
+/* The items from `begin` to before `end`. */
+struct parallel_range {
+  size_t begin, end;
+  int worker; /* which does them, 0 to parallel_workers - 1; 0 is the caller */
+};
+
+/* Returns false where the work is to end: memory ran out. */
+typedef bool parallel_task(void *user, struct parallel_range range);
+
+/* How many workers parallel_ranges has at most for so many items. */
+int parallel_workers(size_t count);
+
+/* Divides the items into ranges of PARALLEL_ITEMS, the last of which may be
+ * shorter, and does them in as many threads as the call may use, each range in
+ * one of them.  Ranges begin at the same items for any number of threads, so a
+ * task whose result depends on its range alone gives the same bytes.
+ * Returns false when a task did, or the caller cancelled; the others may then
+ * not have been run. */
+bool parallel_ranges(size_t count, parallel_task *task, void *user);
+
+enum { PARALLEL_ITEMS = POLL_ITEMS };
+
+/* The number of these ranges. */
+static inline size_t parallel_range_count(size_t count) {
+  return (count + PARALLEL_ITEMS - 1) / PARALLEL_ITEMS;
+}
 
 #endif

@@ -11,6 +11,10 @@ void poll_open(struct poll *poll, const recto_options *options) {
 
 void poll_close(struct poll *poll) { current = poll->outer; }
 
+const recto_options *poll_options(void) {
+  return current != NULL ? current->options : NULL;
+}
+
 bool poll_is_cancelled(void) { return current != NULL && current->cancelled; }
 
 /* The caller's function may call the library, whose work there is not this

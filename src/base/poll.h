@@ -48,4 +48,7 @@ static inline bool poll_at(size_t index) {
 
 bool poll_is_cancelled(void);
 
+/* The options of the call that this thread works for; NULL: it does not. */
+const recto_options *poll_options(void);
+
 #endif
