@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "base/tolerance.h"
 #include "scene/angle.h"
 #include "scene/topology.h"
@@ -161,21 +161,23 @@ static inline int16_t round_direction(double value) {
   return (int16_t)((int)(value + (DIRECTION_ONE + 1.5)) - (DIRECTION_ONE + 1));
 }
 
-static bool find_normal_directions(const struct scene *scene,
-                                   struct crease_direction **direction) {
-  uint32_t faces = scene_face_count(scene);
-  struct crease_direction *d = mem_alloc(faces, sizeof *d);
-  *direction = d;
-  if (!d)
-    return false;
-  for (uint32_t f = 0; f < faces; f++) {
-    if (!poll_at(f))
-      return false;
-    struct face_normal n = normal_of_face(scene, f);
+/* What the workers know that find the classes of all edges. */
+struct crease_work {
+  const struct scene *scene;
+  const struct topology *topology;
+  struct crease_direction *direction; /* one a face */
+  double crease_cosine;
+  uint8_t *class_masks; /* one an edge */
+};
+
+static bool find_normal_directions(void *user, struct parallel_range range) {
+  const struct crease_work *work = user;
+  for (size_t f = range.begin; f < range.end; f++) {
+    struct face_normal n = normal_of_face(work->scene, (uint32_t)f);
     double scale = n.square > 0 ? DIRECTION_ONE / sqrt(n.square) : 0;
-    d[f] = (struct crease_direction){round_direction(n.x * scale),
-                                     round_direction(n.y * scale),
-                                     round_direction(n.z * scale)};
+    work->direction[f] = (struct crease_direction){
+        round_direction(n.x * scale), round_direction(n.y * scale),
+        round_direction(n.z * scale)};
   }
   return true;
 }
@@ -185,23 +187,34 @@ static bool find_normal_directions(const struct scene *scene,
  * them, and their product. */
 static const double filter_error = 0x1p-14;
 
-static bool bends(const struct topology_edge *edge, const struct scene *scene,
-                  const struct crease_direction *direction,
-                  double crease_cosine) {
-  struct crease_direction a = direction[edge->first];
-  struct crease_direction b = direction[edge->second];
+static inline bool bends(const struct crease_work *work,
+                         const struct topology_edge *edge) {
+  struct crease_direction a = work->direction[edge->first];
+  struct crease_direction b = work->direction[edge->second];
   int dot = a.x * b.x + a.y * b.y + a.z * b.z;
   double cosine = (edge->same_way ? -dot : dot) *
                   (1.0 / ((double)DIRECTION_ONE * DIRECTION_ONE));
-  if (cosine > crease_cosine + filter_error)
+  if (cosine > work->crease_cosine + filter_error)
     return false;
   bool is_known =
       (a.x != 0 || a.y != 0 || a.z != 0) && (b.x != 0 || b.y != 0 || b.z != 0);
-  if (is_known && cosine < crease_cosine - filter_error)
+  if (is_known && cosine < work->crease_cosine - filter_error)
     return true;
-  return is_crease(normal_of_face(scene, edge->first),
-                   normal_of_face(scene, edge->second), edge->same_way,
-                   crease_cosine);
+  return is_crease(normal_of_face(work->scene, edge->first),
+                   normal_of_face(work->scene, edge->second), edge->same_way,
+                   work->crease_cosine);
+}
+
+static bool find_masks(void *user, struct parallel_range range) {
+  const struct crease_work *work = user;
+  for (size_t e = range.begin; e < range.end; e++) {
+    const struct topology_edge *edge = &work->topology->edge.item[e];
+    unsigned mask = plain_class_mask(edge, work->scene);
+    if (edge->uses == 2 && bends(work, edge))
+      mask |= RECTO_EDGE_CREASE;
+    work->class_masks[e] = (uint8_t)(mask ? mask : RECTO_EDGE_SMOOTH);
+  }
+  return true;
 }
 
 bool topology_class_masks(const struct topology *topology,
@@ -211,18 +224,18 @@ bool topology_class_masks(const struct topology *topology,
     memcpy(class_masks, topology->class_masks, topology->edge.count);
     return true;
   }
-  double crease_cosine = crease_cosine_of(crease_deg);
-  struct crease_direction *direction;
-  bool ok = find_normal_directions(scene, &direction);
-  for (size_t e = 0; ok && e < topology->edge.count; e++) {
-    const struct topology_edge *edge = &topology->edge.item[e];
-    unsigned mask = plain_class_mask(edge, scene);
-    if (edge->uses == 2 && bends(edge, scene, direction, crease_cosine))
-      mask |= RECTO_EDGE_CREASE;
-    class_masks[e] = (uint8_t)(mask ? mask : RECTO_EDGE_SMOOTH);
-    ok = poll_at(e);
-  }
-  mem_free(direction);
+  uint32_t faces = scene_face_count(scene);
+  struct crease_work work = {
+      .scene = scene,
+      .topology = topology,
+      .direction = mem_alloc(faces, sizeof *work.direction),
+      .crease_cosine = crease_cosine_of(crease_deg),
+      .class_masks = class_masks,
+  };
+  bool ok = work.direction != NULL &&
+            parallel_ranges(faces, find_normal_directions, &work) &&
+            parallel_ranges(topology->edge.count, find_masks, &work);
+  mem_free(work.direction);
   return ok;
 }
 
