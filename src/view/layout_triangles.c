@@ -9,6 +9,7 @@
 #include "base/poll.h"
 #include "view/coordinate_error.h"
 #include "view/layout_clipping.h"
+#include "view/layout_plain.h"
 
 static inline void set_side(const struct layout *layout,
                             struct layout_triangle *triangle, int k,
@@ -277,47 +278,6 @@ static recto_status add_polygon_face(struct layout *layout, uint32_t face,
   return status == RECTO_OK ? add_folds(layout, face, first, folds) : status;
 }
 
-/* Fast path for triangles that need no clipping: adds faces from `face` on, up
- * to the first that is no such triangle or for which there is no room, or to
- * the next after which layout_triangles polls.  Nearly all faces of a mesh take
- * it, so everything that it reads is a local variable.
- * Returns that first face. */
-static uint32_t add_plain_faces(struct layout *layout, uint32_t face) {
-  const struct scene *scene = layout->scene;
-  const uint32_t *start = scene->face_start.item, *corner = scene->corner.item;
-  const uint32_t *weld = layout->topology->weld, *map = layout->point_map;
-  const uint32_t *corner_edge = layout->topology->corner_edge;
-  struct layout_triangle_sink sink = layout_sink_of(layout);
-  uint8_t *sides = layout->sides;
-  uint32_t end = (face | (POLL_ITEMS - 1)) + 1;
-  if (end > scene_face_count(scene))
-    end = scene_face_count(scene);
-  for (; face < end && sink.room > 0; face++) {
-    uint32_t c = start[face];
-    if (start[face + 1] - c != 3)
-      break;
-    uint32_t a = corner[c], b = corner[c + 1], d = corner[c + 2];
-    if (weld) {
-      a = weld[a];
-      b = weld[b];
-      d = weld[d];
-      if (a == b || b == d || d == a)
-        break;
-    }
-    const uint32_t point[3] = {map[a], map[b], map[d]};
-    if (point[0] == SHEET_NONE || point[1] == SHEET_NONE ||
-        point[2] == SHEET_NONE)
-      break;
-    int sign =
-        geom_sign64(layout_sink_triangle(&sink, face, point, corner_edge + c));
-    layout_record_side(&sides[corner_edge[c]], a < b, sign);
-    layout_record_side(&sides[corner_edge[c + 1]], b < d, sign);
-    layout_record_side(&sides[corner_edge[c + 2]], d < a, sign);
-  }
-  layout_sink_close(layout, &sink);
-  return face;
-}
-
 static recto_status layout_face(struct layout *layout, uint32_t face) {
   uint32_t start = layout->scene->face_start.item[face];
   uint32_t count = layout->scene->face_start.item[face + 1] - start;
@@ -361,8 +321,12 @@ recto_status layout_triangles(struct layout *layout) {
       mem_calloc(layout->topology->edge.count, sizeof *layout->sides);
   if (!layout->sides || !layout_reserve(layout, triangles))
     return error_memory(layout->error);
-  for (uint32_t face = 0; face < faces; face++) {
-    face = add_plain_faces(layout, face);
+  bool done;
+  if (!layout_plain_all(layout, &done))
+    return error_memory(layout->error);
+  for (uint32_t face = done ? faces : 0; face < faces; face++) {
+    uint32_t next = (face | (POLL_ITEMS - 1)) + 1;
+    face = layout_plain_faces(layout, face, next < faces ? next : faces);
     if (face == faces)
       break;
     recto_status status = layout_face(layout, face);

@@ -12,6 +12,7 @@ librecto_core_la_SOURCES += \
   %D%/layout_edges.c \
   %D%/layout_clipping.c %D%/layout_clipping.h \
   %D%/layout_phases.h \
+  %D%/layout_plain.c %D%/layout_plain.h \
   %D%/layout_points.c \
   %D%/layout_range.c \
   %D%/layout_triangles.c \

@@ -1,0 +1,224 @@
+/* test_parallel_stages.c - the number of threads changes no byte of a drawing,
+ * whichever stage they run.
+ *
+ * The models have so many faces that every stage is divided: most scenes of
+ * other tests are too small for a second thread. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "recto.h"
+#include "tests/scenes/random.h"
+
+/* ---- Models, as OBJ files in memory -------------------------------------- */
+
+enum { SIDE = 240, FACES = 2 * SIDE * SIDE };
+
+/* Points of a wavy surface over a unit square. */
+static void write_points(FILE *to, int side, double height) {
+  for (int y = 0; y <= side; y++)
+    for (int x = 0; x <= side; x++) {
+      double u = (double)x / side, v = (double)y / side;
+      double wave = 40 * (u * (1 - u) - 0.2) * (v * (1 - v) - 0.1);
+      fprintf(to, "v %.7g %.7g %.7g\n", u, v,
+              height * wave * (x % 3 + y % 5 + 3));
+    }
+}
+
+/* The corners of triangle `face` of a grid of side x side squares. */
+static void corners_of_face(int face, int side, int corner[3]) {
+  int square = face / 2, x = square % side, y = square / side;
+  int first = y * (side + 1) + x + 1;
+  corner[0] = first;
+  corner[1] = face % 2 ? first + side + 2 : first + 1;
+  corner[2] = face % 2 ? first + side + 1 : first + side + 2;
+}
+
+static void write_face(FILE *to, int face, int side) {
+  int c[3];
+  corners_of_face(face, side, c);
+  fprintf(to, "f %d %d %d\n", c[0], c[1], c[2]);
+}
+
+static void write_surface(FILE *to) {
+  write_points(to, SIDE, 0.02);
+  for (int f = 0; f < FACES; f++)
+    write_face(to, f, SIDE);
+}
+
+/* The faces are in random order, so that their edges are used far apart. */
+static void write_shuffled(FILE *to) {
+  static int order[FACES];
+  struct random random = {5};
+  write_points(to, SIDE, 0.02);
+  for (int f = 0; f < FACES; f++)
+    order[f] = f;
+  for (int f = FACES - 1; f > 0; f--) {
+    int other = random_int(&random, 0, f), face = order[f];
+    order[f] = order[other];
+    order[other] = face;
+  }
+  for (int f = 0; f < FACES; f++)
+    write_face(to, order[f], SIDE);
+}
+
+/* Groups, indices of textures, negative indices, comments, polygons and bad
+ * statements between the triangles. */
+static void write_mixed(FILE *to) {
+  write_points(to, SIDE, 0.02);
+  for (int f = 0; f < FACES; f++) {
+    int c[3];
+    corners_of_face(f, SIDE, c);
+    if (f % 9973 == 5000)
+      fprintf(to, "g part%d\n# the next part\n", f);
+    if (f % 7919 == 4000)
+      fprintf(to, "f %d %d\nv 0.5 0.%d 1\n", c[0], c[1], f);
+    if (f % 997 == 500)
+      fprintf(to, "f %d/1 %d/2/3 %d//4\n", c[0], c[1], c[2]);
+    else if (f % 991 == 500 && f % 2 == 0)
+      fprintf(to, "f %d %d %d %d\n", c[0], c[1], c[2], c[2] - 1);
+    else
+      fprintf(to, f % 401 == 7 ? "f  %d %d\t%d\r\n" : "f %d %d %d\n", c[0],
+              c[1], c[2]);
+  }
+}
+
+/* Triangles through one another, that share nothing. */
+static void write_soup(FILE *to) {
+  struct random random = {9};
+  for (int f = 0; f < 70000; f++) {
+    double at[3];
+    for (int k = 0; k < 3; k++)
+      at[k] = random_unit(&random);
+    for (int k = 0; k < 3; k++)
+      fprintf(to, "v %.6f %.6f %.6f\n",
+              at[0] + random_between(&random, -0.03, 0.03),
+              at[1] + random_between(&random, -0.03, 0.03),
+              at[2] + random_between(&random, -0.03, 0.03));
+  }
+  for (int f = 0; f < 70000; f++)
+    fprintf(to, "f %d %d %d\n", 3 * f + 1, 3 * f + 2, 3 * f + 3);
+}
+
+/* kinds  letters of those below that are drawn */
+static const struct model {
+  const char *name, *kinds;
+  void (*write)(FILE *to);
+} models[] = {{"surface", "lfe", write_surface},
+              {"shuffled", "lh", write_shuffled},
+              {"mixed", "lfhe", write_mixed},
+              {"soup", "l", write_soup}};
+
+/* ---- Drawings ------------------------------------------------------------ */
+
+static void set_lines(recto_options *options) { (void)options; }
+
+static void set_all_and_shade(recto_options *options) {
+  options->ink.edges = RECTO_EDGES_ALL;
+  options->ink.fill = RECTO_FILL_SHADE;
+}
+
+static void set_hidden(recto_options *options) {
+  options->ink.hidden = RECTO_HIDDEN_LAYER;
+  options->camera.azimuth_deg = 20;
+  options->camera.elevation_deg = 5;
+}
+
+/* An eye close to the surface: faces are clipped. */
+static void set_eye(recto_options *options) {
+  options->camera.kind = RECTO_CAMERA_EYE;
+  options->camera.fov_deg = 60;
+  options->camera.eye[0] = 0.5;
+  options->camera.eye[1] = -0.1;
+  options->camera.eye[2] = 0.3;
+}
+
+static const struct kind {
+  char letter;
+  const char *name;
+  void (*set)(recto_options *options);
+} kinds[] = {{'l', "lines", set_lines},
+             {'f', "all edges, shaded", set_all_and_shade},
+             {'h', "hidden lines", set_hidden},
+             {'e', "an eye", set_eye}};
+
+struct output {
+  char *bytes;
+  size_t count;
+};
+
+static bool take(void *user, const void *bytes, size_t count) {
+  struct output *output = user;
+  char *grown = realloc(output->bytes, output->count + count);
+  if (grown == NULL)
+    return false;
+  memcpy(grown + output->count, bytes, count);
+  output->bytes = grown;
+  output->count += count;
+  return true;
+}
+
+static struct output draw(const char *bytes, size_t count,
+                          const struct kind *kind, int threads) {
+  struct output output = {NULL, 0};
+  recto_options options;
+  recto_scene *scene;
+  recto_drawing *drawing;
+  recto_options_init(&options);
+  options.solver.threads = threads;
+  kind->set(&options);
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(
+      recto_scene_read_memory(scene, bytes, count, "obj", NULL, &options, NULL),
+      RECTO_OK);
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_OK);
+  assert_int_equal(
+      recto_drawing_write_to(drawing, "svg", &options, take, &output, NULL),
+      RECTO_OK);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+  return output;
+}
+
+static void threads_change_no_byte(void **state) {
+  (void)state;
+  if (parallel_processors() < 2)
+    skip();
+  for (size_t m = 0; m < sizeof models / sizeof *models; m++) {
+    char *text;
+    size_t length;
+    FILE *to = open_memstream(&text, &length);
+    assert_non_null(to);
+    models[m].write(to);
+    fclose(to);
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+      if (strchr(models[m].kinds, kinds[k].letter) == NULL)
+        continue;
+      struct output one = draw(text, length, &kinds[k], 1),
+                    two = draw(text, length, &kinds[k], 2);
+      assert_true(one.count > 10000);
+      if (one.count != two.count ||
+          memcmp(one.bytes, two.bytes, one.count) != 0)
+        fail_msg("%s, %s: two threads draw differently", models[m].name,
+                 kinds[k].name);
+      free(one.bytes);
+      free(two.bytes);
+    }
+    free(text);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(threads_change_no_byte),
+  };
+  return cmocka_run_group_tests_name("parallel stages", tests, NULL, NULL);
+}
