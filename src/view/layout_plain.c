@@ -34,8 +34,8 @@ struct plain_range {
  * corner  gets them
  * own     as the scene has them
  * weld    NULL: none is welded */
-static inline bool find_corners(uint32_t corner[3], const uint32_t *own,
-                                const uint32_t *weld) {
+static inline bool find_welded_corners(uint32_t corner[3], const uint32_t *own,
+                                       const uint32_t *weld) {
   for (int k = 0; k < 3; k++)
     corner[k] = weld != NULL ? weld[own[k]] : own[k];
   return corner[0] != corner[1] && corner[1] != corner[2] &&
@@ -44,8 +44,9 @@ static inline bool find_corners(uint32_t corner[3], const uint32_t *own,
 
 static bool has_corners(const struct layout *layout, uint32_t face) {
   uint32_t corner[3];
-  return find_corners(corner, layout->scene->corner.item + 3 * (size_t)face,
-                      layout->topology->weld);
+  return find_welded_corners(corner,
+                             layout->scene->corner.item + 3 * (size_t)face,
+                             layout->topology->weld);
 }
 
 /* Records the sides of a triangle, some of whose edges belong to an earlier
@@ -65,10 +66,10 @@ static void record_some_sides(struct plain_range *range, uint8_t *sides,
 
 /* As layout_plain_faces, to an end of the arrays of triangles.
  * range  which the faces are of; NULL: all edges belong to them */
-static inline uint32_t add_faces(const struct layout *layout,
-                                 struct layout_triangle_sink *to,
-                                 struct plain_range *range, uint32_t face,
-                                 uint32_t end) {
+static inline uint32_t add_plain_faces(const struct layout *layout,
+                                       struct layout_triangle_sink *to,
+                                       struct plain_range *range, uint32_t face,
+                                       uint32_t end) {
   const struct scene *scene = layout->scene;
   const uint32_t *start = scene->face_start.item, *own = scene->corner.item;
   const uint32_t *weld = layout->topology->weld, *map = layout->point_map;
@@ -78,7 +79,7 @@ static inline uint32_t add_faces(const struct layout *layout,
   uint8_t *sides = layout->sides;
   for (; face < end && sink.room > 0; face++) {
     uint32_t c = start[face], corner[3];
-    if (start[face + 1] - c != 3 || !find_corners(corner, own + c, weld))
+    if (start[face + 1] - c != 3 || !find_welded_corners(corner, own + c, weld))
       break;
     const uint32_t point[3] = {map[corner[0]], map[corner[1]], map[corner[2]]};
     if (point[0] == SHEET_NONE || point[1] == SHEET_NONE ||
@@ -102,7 +103,7 @@ static inline uint32_t add_faces(const struct layout *layout,
 uint32_t layout_plain_faces(struct layout *layout, uint32_t face,
                             uint32_t end) {
   struct layout_triangle_sink sink = layout_sink_of(layout);
-  face = add_faces(layout, &sink, NULL, face, end);
+  face = add_plain_faces(layout, &sink, NULL, face, end);
   layout_sink_close(layout, &sink);
   return face;
 }
@@ -116,7 +117,7 @@ struct plain_work {
 };
 
 /* Counts the faces of a range that keep three corners, and finds its edges. */
-static bool count_faces(void *user, struct parallel_range faces) {
+static bool count_kept_faces(void *user, struct parallel_range faces) {
   struct plain_work *work = user;
   const struct topology *topology = work->layout->topology;
   struct plain_range *range = &work->range[faces.begin / PARALLEL_ITEMS];
@@ -142,7 +143,7 @@ static uint32_t place_ranges(struct plain_range *range, size_t ranges) {
 }
 
 /* Makes the triangles of a range. */
-static bool make_triangles(void *user, struct parallel_range faces) {
+static bool make_plain_triangles(void *user, struct parallel_range faces) {
   struct plain_work *work = user;
   const struct layout *layout = work->layout;
   struct plain_range *range = &work->range[faces.begin / PARALLEL_ITEMS];
@@ -153,7 +154,7 @@ static bool make_triangles(void *user, struct parallel_range faces) {
       faces.end - faces.begin,
   };
   uint32_t face = (uint32_t)faces.begin, end = (uint32_t)faces.end;
-  while ((face = add_faces(layout, &sink, range, face, end)) < end) {
+  while ((face = add_plain_faces(layout, &sink, range, face, end)) < end) {
     if (has_corners(layout, face)) {
       atomic_store(&work->odd, true);
       return false;
@@ -180,9 +181,10 @@ bool layout_plain_all(struct layout *layout, bool *done) {
     return true;
   struct plain_work work = {.layout = layout,
                             .range = mem_calloc(ranges, sizeof *work.range)};
-  bool ok = work.range != NULL && parallel_ranges(faces, count_faces, &work);
+  bool ok =
+      work.range != NULL && parallel_ranges(faces, count_kept_faces, &work);
   uint32_t kept = ok ? place_ranges(work.range, ranges) : 0;
-  ok = ok && parallel_ranges(faces, make_triangles, &work);
+  ok = ok && parallel_ranges(faces, make_plain_triangles, &work);
   for (size_t i = 0; work.range != NULL && i < ranges; i++)
     record_foreign(layout, &work.range[i]);
   mem_free(work.range);
