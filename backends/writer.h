@@ -7,6 +7,7 @@
 #ifndef BACKENDS_WRITER_H
 #define BACKENDS_WRITER_H
 
+#include "base/poll.h"
 #include "base/stream.h"
 #include "drawing/drawing.h"
 
@@ -47,6 +48,16 @@ extern const struct writer writer_svg, writer_hpgl;
 #ifdef HAVE_CAIRO
 extern const struct writer writer_pdf, writer_eps, writer_ps, writer_png;
 #endif
+
+/* Whether to write the next one of the drawing's fills and then its strokes:
+ * not after an error of the stream, nor once the caller has cancelled.
+ * done  how many were before it, for progress */
+static inline bool writer_goes_on(const struct drawing *drawing,
+                                  const struct stream *stream, size_t done) {
+  size_t all = drawing->fill.count + drawing->stroke.count;
+  poll_set_share((double)done / (double)all);
+  return stream_status(stream) == RECTO_OK;
+}
 
 /* The writer with that name or extension, and the writer for the extension of
  * that path; NULL if there is none.  Case is ignored. */

@@ -16,7 +16,6 @@
 #include <cairo.h>
 
 #include "backends/writer.h"
-#include "base/poll.h"
 
 #define MM_PER_INCH 25.4
 #define POINTS_PER_INCH 72.0
@@ -46,10 +45,12 @@ struct sink {
   uint32_t per_metre; /* PNG: pixels per metre */
 };
 
-/* The stream's status as one of cairo. */
+/* The stream's status as one of cairo, which ends at an error.  Polls, since
+ * cairo compresses between two parts of its output. */
 static cairo_status_t sink_status(const struct sink *sink) {
-  return stream_status(sink->stream) == RECTO_OK ? CAIRO_STATUS_SUCCESS
-                                                 : CAIRO_STATUS_WRITE_ERROR;
+  return stream_status(sink->stream) == RECTO_OK && poll_now()
+             ? CAIRO_STATUS_SUCCESS
+             : CAIRO_STATUS_WRITE_ERROR;
 }
 
 static cairo_status_t pass_bytes(void *closure, const unsigned char *bytes,
@@ -224,30 +225,38 @@ static void draw_fill(cairo_t *cr, const struct drawing *drawing,
     cairo_fill(cr);
 }
 
+/* A fill takes cairo as long as so many items of other loops. */
+enum { FILL_ITEMS = 64 };
+
 /* Draws the fills of a layer.  The strokes that close seams are drawn before
  * all of its fills, so that they do not paint over any of them. */
 static void draw_fills(cairo_t *cr, const struct drawing *drawing,
                        uint32_t layer) {
   cairo_set_line_width(cr, drawing->seam_mm);
   for (int seam = drawing->seam_mm > 0; seam >= 0; seam--)
-    for (size_t i = 0; i < drawing->fill.count && poll_at(i); i++)
+    for (size_t i = 0; i < drawing->fill.count && poll_at(FILL_ITEMS * i); i++)
       if (drawing->fill.item[i].layer == layer)
         draw_fill(cr, drawing, &drawing->fill.item[i], seam);
 }
 
-/* A stroke takes cairo as long as so many items of other loops. */
-enum { STROKE_ITEMS = 8 };
+/* A stroke takes cairo as long as so many points of other strokes, and these
+ * take it a millisecond. */
+enum { STROKE_POINTS = 8, POLL_POINTS = 512 };
 
 static void draw_layer(cairo_t *cr, const struct drawing *drawing,
                        uint32_t index) {
   const struct drawing_layer *layer = &drawing->layer.item[index];
+  size_t points = 0; /* drawn since the last poll */
   draw_fills(cr, drawing, index);
   set_colour(cr, layer->colour);
-  for (size_t i = 0; i < drawing->stroke.count && poll_at(STROKE_ITEMS * i);
-       i++) {
+  for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     if (stroke->layer != index)
       continue;
+    points += STROKE_POINTS + stroke->count;
+    if (points >= POLL_POINTS && !poll_now())
+      return;
+    points %= POLL_POINTS;
     cairo_set_line_width(cr, drawing_width_mm(drawing, stroke));
     add_cairo_path(cr, drawing->point.item + stroke->point, stroke->count,
                    stroke->closed);
@@ -276,6 +285,10 @@ static cairo_status_t draw_window(cairo_surface_t *surface,
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
   for (uint32_t i = 0; i < drawing->layer.count; i++)
     draw_layer(cr, drawing, i);
+  if (poll_is_cancelled()) { /* what was drawn is not laid out */
+    cairo_set_operator(cr, CAIRO_OPERATOR_CLEAR);
+    cairo_paint(cr);
+  }
   cairo_show_page(cr);
   status = cairo_status(cr);
   cairo_destroy(cr);
@@ -289,6 +302,8 @@ static cairo_status_t draw_window(cairo_surface_t *surface,
  * fault  errno of such a write */
 static recto_status convert_status(cairo_status_t status, int fault,
                                    struct stream *stream, recto_error *error) {
+  if (poll_is_cancelled())
+    return error_cancelled(error);
   if (stream_status(stream) == RECTO_OK && status == CAIRO_STATUS_WRITE_ERROR)
     stream_fault(stream, fault);
   if (stream_status(stream) != RECTO_OK || status == CAIRO_STATUS_SUCCESS)
@@ -409,7 +424,7 @@ static recto_status write_png(const struct drawing *drawing,
   cairo_status_t status =
       draw_window(surface, drawing, &window, dpi / MM_PER_INCH,
                   (window.y1 - window.y0) * dpi / MM_PER_INCH, true);
-  if (status == CAIRO_STATUS_SUCCESS)
+  if (status == CAIRO_STATUS_SUCCESS && !poll_is_cancelled())
     status = cairo_surface_write_to_png_stream(surface, pass_png, &sink);
   cairo_surface_destroy(surface);
   return convert_status(status, 0, stream, error);

@@ -208,8 +208,11 @@ static void plot_layer(struct plot *plot, const struct drawing *drawing,
                        uint32_t layer) {
   for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
-    if (stroke->layer == layer && stroke->count >= 2)
-      plot_stroke(plot, drawing, stroke);
+    if (stroke->layer != layer || stroke->count < 2)
+      continue;
+    if (!writer_goes_on(drawing, plot->stream, drawing->fill.count + i))
+      break;
+    plot_stroke(plot, drawing, stroke);
   }
 }
 

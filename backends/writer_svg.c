@@ -258,6 +258,8 @@ static bool write_seams(struct svg *svg, uint32_t layer) {
   for (size_t i = 0; drawing->seam_mm > 0 && i < drawing->fill.count; i++) {
     if (drawing->fill.item[i].layer != layer)
       continue;
+    if (stream_status(svg->out) != RECTO_OK)
+      break;
     if (!open) {
       stream_text(svg->out, "<g class=\"seam\" stroke-width=\"");
       write_length(svg, drawing->seam_mm);
@@ -319,6 +321,8 @@ static bool write_contents(struct svg *svg, uint32_t index) {
   bool ok = write_seams(svg, index);
   for (size_t i = 0; i < drawing->fill.count && ok; i++)
     if (drawing->fill.item[i].layer == index) {
+      if (!writer_goes_on(drawing, svg->out, i))
+        break;
       open_style(svg, &style, "fill", width_mm, width_mm);
       ok = write_fill(svg, &drawing->fill.item[i], false);
     }
@@ -326,6 +330,8 @@ static bool write_contents(struct svg *svg, uint32_t index) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     if (stroke->layer != index)
       continue;
+    if (!writer_goes_on(drawing, svg->out, drawing->fill.count + i))
+      break;
     open_style(svg, &style, class_name(stroke),
                drawing_width_mm(drawing, stroke), width_mm);
     ok = write_stroke(svg, stroke);

@@ -52,9 +52,10 @@ static recto_scene *make_hills(uint32_t n) {
 }
 
 struct listener {
-  const char *stage; /* whose polls are counted; NULL: all */
-  int polls, last;   /* cancels at this one; 0: never */
-  double share;
+  const char *stage;   /* whose polls are counted; NULL: all */
+  int polls, last;     /* cancels at this one; 0: never */
+  double first, share; /* of the first poll where `first` was negative; of the
+                          last */
 };
 
 static pthread_t caller;
@@ -64,6 +65,8 @@ static bool listen(void *user, double share, const char *stage) {
   assert_true(share >= listener->share && share <= 1);
   assert_true(pthread_equal(pthread_self(), caller));
   listener->share = share;
+  if (listener->first < 0)
+    listener->first = share;
   if (listener->stage == NULL || strcmp(stage, listener->stage) == 0)
     listener->polls++;
   return listener->last == 0 || listener->polls < listener->last;
@@ -163,19 +166,19 @@ typedef recto_status work(struct input *input, recto_error *error);
 
 /* Does the work to its end, and then again and again up to polls that are
  * spread over all of them. */
-static void cancel_at_many_polls(struct input *input, work *work) {
+static void cancel_at_many_polls(struct input *input, work *run) {
   enum { TIMES = 12 };
   recto_error error = {0};
   input->listener = (struct listener){0};
   input->options.user = &input->listener;
-  if (work(input, &error) != RECTO_OK)
+  if (run(input, &error) != RECTO_OK)
     fail_msg("%s", error.text);
   int all = input->listener.polls;
   assert_true(all > 0);
   for (int k = 0; k < TIMES && k < all; k++) {
     int last = all <= TIMES ? k + 1 : 1 + k * (all - 1) / (TIMES - 1);
     input->listener = (struct listener){.last = last};
-    assert_int_equal(work(input, &error), RECTO_ERROR_CANCELLED);
+    assert_int_equal(run(input, &error), RECTO_ERROR_CANCELLED);
     assert_int_equal(error.code, RECTO_ERROR_CANCELLED);
     assert_string_equal(error.text, "cancelled");
     assert_int_equal(input->listener.polls, last); /* and not asked again */
@@ -242,18 +245,24 @@ static recto_status write_bytes(struct input *input, recto_error *error) {
                                 &input->options, take_bytes, NULL, error);
 }
 
-static void preparing_and_reading_are_cancelled_at_any_poll(void **state) {
-  enum { FACES = 40000, LINE = 64 };
-  struct input input = {.scene = make_hills(40)};
+/* The path of a file of many triangles, of a megabyte and more. */
+static const char *write_triangles(void **state) {
+  enum { FACES = 80000, LINE = 64 };
   char *text = malloc((size_t)FACES * 4 * LINE), *at = text;
   assert_non_null(text);
-  init(&input.options, &input.listener);
-  cancel_at_many_polls(&input, prepare);
   for (int i = 0; i < FACES; i++)
     at += sprintf(at, "v %d 0 0\nv %d 1 0\nv %d 0 1\nf -3 -2 -1\n", i, i, i);
-  input.path = temporary_file(state, "a.obj", text, (size_t)(at - text));
-  cancel_at_many_polls(&input, read_model);
+  const char *path = temporary_file(state, "a.obj", text, (size_t)(at - text));
   free(text);
+  return path;
+}
+
+static void preparing_and_reading_are_cancelled_at_any_poll(void **state) {
+  struct input input = {.scene = make_hills(40)};
+  init(&input.options, &input.listener);
+  cancel_at_many_polls(&input, prepare);
+  input.path = write_triangles(state);
+  cancel_at_many_polls(&input, read_model);
   recto_scene_destroy(input.scene);
 }
 
@@ -278,6 +287,65 @@ static void writing_and_checking_are_cancelled_at_any_poll(void **state) {
   assert_int_equal(write_file(&input, NULL), RECTO_OK);
   input.options.progress = listen;
   cancel_at_many_polls(&input, check);
+  recto_drawing_destroy(input.drawing);
+  recto_scene_destroy(input.scene);
+}
+
+/* ---- The share ----------------------------------------------------------- */
+
+/* The shares of the first poll and of the last one. */
+static void expect_shares(struct input *input, work *run, double low,
+                          double high) {
+  input->listener = (struct listener){.first = -1};
+  assert_int_equal(run(input, NULL), RECTO_OK);
+  assert_true(input->listener.first >= low && input->listener.first < high);
+  assert_true(input->listener.share > low + 0.9 * (high - low));
+  assert_true(input->listener.share <= high);
+}
+
+static void the_share_moves_in_reading_and_writing(void **state) {
+  struct input input = {.scene = make_hills(40),
+                        .path = temporary_path(state, "a.svg")};
+  init(&input.options, &input.listener);
+  input.options.ink.edges = RECTO_EDGES_ALL;
+  assert_int_equal(
+      recto_scene_render(input.scene, &input.options, &input.drawing, NULL),
+      RECTO_OK);
+  double reading = 0.1214, written = input.listener.share;
+  assert_true(written > 0.9);
+  const char *const format[] = {"svg", "svgz", "hpgl"};
+  for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
+    input.options.output.format = format[i];
+    expect_shares(&input, write_bytes, written, 1);
+  }
+  input.path = write_triangles(state);
+  expect_shares(&input, read_model, 0, reading);
+  input.listener = (struct listener){0};
+  recto_drawing_destroy(input.drawing);
+  recto_scene_destroy(input.scene);
+}
+
+/* The stream polls at every 64 KB, of which a PNG has few. */
+static void what_cairo_draws_and_compresses_is_polled(void **state) {
+  (void)state;
+  struct input input = {.scene = make_hills(80)};
+  init(&input.options, &input.listener);
+  input.options.ink.edges = RECTO_EDGES_ALL;
+  assert_int_equal(
+      recto_scene_render(input.scene, &input.options, &input.drawing, NULL),
+      RECTO_OK);
+  const struct {
+    const char *format;
+    int least;
+  } job[] = {{"png", 120}, {"pdf", 70}, {"ps", 70}};
+  for (size_t i = 0; i < sizeof job / sizeof job[0]; i++) {
+    input.listener = (struct listener){0};
+    input.options.output.format = job[i].format;
+    if (recto_output_format(NULL, job[i].format) == NULL)
+      continue; /* built without cairo */
+    assert_int_equal(write_bytes(&input, NULL), RECTO_OK);
+    assert_true(input.listener.polls >= job[i].least);
+  }
   recto_drawing_destroy(input.drawing);
   recto_scene_destroy(input.scene);
 }
@@ -340,6 +408,9 @@ int main(void) {
       cmocka_unit_test_setup_teardown(
           writing_and_checking_are_cancelled_at_any_poll, temporary_set_up,
           temporary_tear_down),
+      cmocka_unit_test_setup_teardown(the_share_moves_in_reading_and_writing,
+                                      temporary_set_up, temporary_tear_down),
+      cmocka_unit_test(what_cairo_draws_and_compresses_is_polled),
       cmocka_unit_test(the_progress_function_may_call_the_library),
       cmocka_unit_test(polls_are_in_the_callers_thread),
   };

@@ -95,15 +95,6 @@ recto_status output_check_format(const char *path, const char *format,
                                            : no_writer(path, format, error);
 }
 
-/* Lets the call's work be cancelled until poll_close. */
-static void open_poll(struct poll *poll, const recto_options *options) {
-  double begin[SHARE_STAGES + 1];
-  shares_plan(begin, options);
-  poll_open(poll, options);
-  poll->stage = "write";
-  poll->share = begin[SHARE_WRITE];
-}
-
 static bool output_is_compressed(const char *path, const char *format) {
   return format != NULL ? writer_name_is_compressed(format)
                         : writer_path_is_compressed(path);
@@ -181,7 +172,7 @@ recto_status recto_drawing_write_with_stats(
   if (status == RECTO_OK) {
     struct poll poll;
     struct stream *const both[] = {outputs.drawing, outputs.stats};
-    open_poll(&poll, &own);
+    shares_open_poll(&poll, &own, SHARE_WRITE, "write");
     status = fill_outputs(&outputs, drawing, writer, &own, error);
     if (status == RECTO_OK) {
       status = stream_finish_all(both, 2, error);
@@ -231,7 +222,7 @@ recto_status recto_drawing_write_to(const recto_drawing *drawing,
   if (writer == NULL)
     return no_writer(NULL, format, error);
   struct poll poll;
-  open_poll(&poll, &own);
+  shares_open_poll(&poll, &own, SHARE_WRITE, "write");
   status = stream_open_memory(&outputs.drawing, error);
   if (status == RECTO_OK && output_is_compressed(NULL, format))
     status = stream_compress(outputs.drawing, error);

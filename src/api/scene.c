@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "api/handle.h"
-#include "base/poll.h"
+#include "api/shares.h"
 #include "base/report.h"
 #include "scene/limit.h"
 
@@ -50,8 +50,7 @@ recto_status recto_scene_prepare(recto_scene *scene,
   if (scene->prepared == NULL)
     return error_memory(error);
   struct poll poll;
-  poll_open(&poll, &own);
-  poll.stage = "topology";
+  shares_open_poll(&poll, &own, SHARE_TOPOLOGY, "topology");
   status = preparation_init(scene->prepared, &scene->scene, &own, true, error);
   poll_close(&poll);
   if (status != RECTO_OK)
@@ -97,8 +96,7 @@ static recto_status read_model(recto_scene *scene, const void *bytes,
   scene_forget_preparation(scene);
   double cpu = clock_cpu(), wall = clock_wall();
   struct poll poll;
-  poll_open(&poll, &own);
-  poll.stage = "read";
+  shares_open_poll(&poll, &own, SHARE_READ, "read");
   status = bytes == NULL
                ? scene_read(&scene->scene, path, format, &diagnostics, error)
                : scene_read_memory(&scene->scene, bytes, count, path, format,

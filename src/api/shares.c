@@ -1,4 +1,4 @@
-/* shares.c - estimates the share of the work of each stage of a render.
+/* shares.c - estimates the share of the work of each stage of a drawing.
  *
  * The weights are hundredths of what lines of a scanned model take with the
  * automatic method; see bench/ for the times by stage. */
@@ -24,6 +24,7 @@ static double weigh_verifying(const recto_options *o) {
 
 void shares_plan(double begin[SHARE_STAGES + 1], const recto_options *options) {
   const double weight[SHARE_STAGES] = {
+      [SHARE_READ] = 12,
       [SHARE_TOPOLOGY] = 6,
       [SHARE_CAMERA] = 1,
       [SHARE_SHEET] = 12,
@@ -38,4 +39,14 @@ void shares_plan(double begin[SHARE_STAGES + 1], const recto_options *options) {
   begin[0] = 0;
   for (int i = 0; i < SHARE_STAGES; i++)
     begin[i + 1] = begin[i] + weight[i] / sum;
+}
+
+void shares_open_poll(struct poll *poll, const recto_options *options,
+                      enum share_stage stage, const char *name) {
+  double begin[SHARE_STAGES + 1];
+  shares_plan(begin, options);
+  poll_open(poll, options);
+  poll->from = poll->share = begin[stage];
+  poll->to = begin[stage + 1];
+  poll->stage = name;
 }

@@ -30,15 +30,18 @@ bool poll_now(void) {
   return !poll->cancelled;
 }
 
+void poll_set_share(double share) {
+  if (current == NULL)
+    return;
+  double whole = current->from + share * (current->to - current->from);
+  if (whole > current->share)
+    current->share = whole;
+}
+
 bool poll_share(double share, const char *stage) {
-  struct poll *poll = current;
-  if (poll == NULL)
-    return true;
-  double whole = poll->from + share * (poll->to - poll->from);
-  if (whole > poll->share)
-    poll->share = whole;
-  if (stage != NULL)
-    poll->stage = stage;
+  poll_set_share(share);
+  if (current != NULL && stage != NULL)
+    current->stage = stage;
   return poll_now();
 }
 

@@ -34,7 +34,10 @@ void poll_close(struct poll *poll);
 /* Begins a stage, and polls. */
 bool poll_stage(double from, double to, const char *stage);
 
-/* Polls, with a share of the stage that is done, 0 to 1.
+/* Sets the share of the stage that is done, 0 to 1, for the polls to come. */
+void poll_set_share(double share);
+
+/* Polls, with a share of the stage that is done.
  * stage  its name from now on; NULL: as it was */
 bool poll_share(double share, const char *stage);
 

@@ -70,5 +70,8 @@ recto_status diagnostics_poll_now(struct diagnostics *diagnostics,
                                   const char *at, recto_error *error) {
   enum { STEP = 1 << 18 };
   diagnostics->poll_at = at + STEP;
+  if (diagnostics->byte_count > 0)
+    poll_set_share((double)(at - diagnostics->bytes) /
+                   (double)diagnostics->byte_count);
   return poll_now() ? RECTO_OK : error_cancelled(error);
 }

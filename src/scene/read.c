@@ -90,6 +90,10 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
                                recto_error *error) {
   struct scene_snapshot before;
   bool first = scene->point.count == 0;
+  if (diagnostics != NULL) {
+    diagnostics->bytes = input->bytes;
+    diagnostics->byte_count = input->count;
+  }
   scene_snapshot(scene, &before);
   recto_status status =
       scene_note_file(scene, input) ? RECTO_OK : error_memory(error);
