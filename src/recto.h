@@ -758,8 +758,9 @@ typedef enum recto_side {
 typedef struct recto_half_edge {
   double x_mm, y_mm; /* where it starts; exact to 2^-28 mm */
   uint32_t fragment; /* on its left */
-  uint32_t twin; /* the half-edge of the neighbour, which runs the other way;
-                        RECTO_NONE: there is no visible face beside it */
+  uint32_t twin; /* the half-edge of the neighbour, which runs the other way
+                        between the same points, to 2^-28 mm each; RECTO_NONE:
+                        there is no visible face beside it */
   recto_side side;
   recto_edge_class edge_class; /* of the edge that it is a part of, whether that
                                   class was requested or not; 0 for a clip */

@@ -102,6 +102,13 @@ static void check_edges(const recto_drawing *drawing, size_t points,
   }
 }
 
+/* To the step that the coordinates of each are rounded to. */
+static bool is_same_place(const recto_half_edge *a, const recto_half_edge *b) {
+  const double most_mm = 0x1.001p-28;
+  return fabs(a->x_mm - b->x_mm) <= most_mm &&
+         fabs(a->y_mm - b->y_mm) <= most_mm;
+}
+
 static void check_faces(const recto_drawing *drawing, size_t faces,
                         struct fuzz_finding *finding) {
   size_t loops, sides, fragments = recto_drawing_fragment_count(drawing);
@@ -124,8 +131,7 @@ static void check_faces(const recto_drawing *drawing, size_t faces,
       const recto_half_edge *twin =
           side[h].twin < sides ? &side[side[h].twin] : NULL;
       if (twin == NULL ? side[h].twin != RECTO_NONE
-                       : twin->twin != h || twin->x_mm != side[end].x_mm ||
-                             twin->y_mm != side[end].y_mm)
+                       : twin->twin != h || !is_same_place(twin, &side[end]))
         fuzz_found(finding, "half-edge %zu is not its twin's twin", h);
     }
 }
