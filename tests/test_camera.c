@@ -221,6 +221,23 @@ static void frames_are_orthonormal_and_right_handed(void **state) {
   }
 }
 
+/* Sums and differences of such numbers overflow, and quotients of the smallest
+ * are inexact. */
+static void frames_of_extreme_numbers_are_orthonormal(void **state) {
+  (void)state;
+  static const double up[][3] = {
+      {5e-324, 5e-324, 0}, {1.7e308, 1.7e308, 0}, {0, 1e-310, 3e-310}};
+  const double eye[3] = {1e308, 0, 5e-324}, target[3] = {-1e308, 0, 0};
+  for (size_t i = 0; i < sizeof up / sizeof up[0]; i++) {
+    struct camera_axes f = camera_axes_from_direction(up[i], 30, 20);
+    assert_orthonormal(&f);
+    assert_int_equal(camera_axes_from_eye(&f, eye, target, up[i], false),
+                     CAMERA_AXES_OK);
+    assert_orthonormal(&f);
+    assert_true(f.back[0] == 1);
+  }
+}
+
 /* But at +X and -X, where nothing can be. */
 static void a_little_tilt_of_up_turns_the_frame_a_little(void **state) {
   (void)state;
@@ -875,6 +892,7 @@ int main(void) {
       cmocka_unit_test(named_views_are_exact),
       cmocka_unit_test(any_up_along_an_axis_gives_exact_frames),
       cmocka_unit_test(frames_are_orthonormal_and_right_handed),
+      cmocka_unit_test(frames_of_extreme_numbers_are_orthonormal),
       cmocka_unit_test(a_little_tilt_of_up_turns_the_frame_a_little),
       cmocka_unit_test(the_scene_s_up_axis_is_the_default),
       cmocka_unit_test(an_eye_along_an_axis_is_exact),

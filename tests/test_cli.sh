@@ -88,6 +88,14 @@ precision -1 10 x 3.0
 verify 0 -1 x 1.5
 END
 
+# However small, a number above 0 is above 0.
+for option in near fov; do
+  claim "--$option may be below 1e-308" \
+    run 0 cube.obj -o out.svg "--$option" 5e-324
+done
+claim "an eye across the range of numbers looks somewhere" \
+  run 0 cube.obj -o out.svg --camera 1e308,0,0 --lookat -1e308,0,0
+
 # What is planned is either there or refused by name, never unknown.
 offered_or_refused() {
   grep -qE -- "--$1( |\$|\[)" help.txt && return 0

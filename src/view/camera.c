@@ -419,7 +419,8 @@ static recto_status aim_and_fit(struct aim *aim) {
   set_scale(aim);
   if (!is_usable(camera))
     return error_set(aim->error, RECTO_ERROR_LIMIT, NULL, 0,
-                     "the scene is too large, too small or too far away");
+                     "the scene is too large or too small, or too far from the "
+                     "eye or too close to it");
   return RECTO_OK;
 }
 

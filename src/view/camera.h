@@ -39,7 +39,8 @@ struct camera {
  *         the view, margins that leave no room, a page above 2 m, a field of
  *         view out of range;
  *         RECTO_ERROR_EMPTY: nothing to draw, or all of it behind the viewer;
- *         RECTO_ERROR_LIMIT: the scene is too large, too small or too far. */
+ *         RECTO_ERROR_LIMIT: the scene is too large, too small, too far
+ *         or too close. */
 USE_RESULT recto_status camera_aim(struct camera *camera,
                                    const struct scene *scene,
                                    const recto_options *options,

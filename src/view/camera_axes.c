@@ -49,10 +49,12 @@ enum camera_axes_fault camera_axes_from_eye(struct camera_axes *axes,
                                             const double target[3],
                                             const double up[3], bool may_turn) {
   double u[3];
-  for (int k = 0; k < 3; k++) {
+  memcpy(u, up, sizeof u);
+  for (int k = 0; k < 3; k++)
     axes->back[k] = eye[k] - target[k];
-    u[k] = up[k];
-  }
+  if (!vector_is_finite(axes->back))
+    for (int k = 0; k < 3; k++)
+      axes->back[k] = eye[k] / 2 - target[k] / 2;
   if (!vector_normalise(axes->back))
     return CAMERA_AXES_NO_DIRECTION;
   if (!vector_normalise(u))

@@ -49,12 +49,17 @@ static inline double vector_length(const double a[3]) {
   return ldexp(sqrt(vector_dot(b, b)), exponent);
 }
 
-/* Normalises a vector, with no -0; false where its length is 0 or not
- * finite. */
+/* Normalises a vector of any length, with no -0; false where its length is 0 or
+ * not finite. */
 static inline bool vector_normalise(double a[3]) {
-  double length = vector_length(a);
-  if (!(length > 0) || !isfinite(length))
+  double largest = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
+  if (largest == 0 || !vector_is_finite(a))
     return false;
+  int exponent;
+  frexp(largest, &exponent);
+  for (int k = 0; k < 3; k++)
+    a[k] = ldexp(a[k], -exponent);
+  double length = sqrt(vector_dot(a, a));
   for (int k = 0; k < 3; k++)
     a[k] = a[k] / length + 0.0;
   return true;
