@@ -201,7 +201,7 @@ unit_tests += %D%/test_ink_segment_graph %D%/test_ink_chain %D%/test_ink_clean \
   %D%/test_ink_fill %D%/test_ink_tone_hatch %D%/test_ink_stroke_order \
   %D%/test_ink_draw %D%/test_ink_merge %D%/test_pens
 unit_tests += %D%/test_lists
-%C%_test_lists_SOURCES = %D%/test_lists.c src/cli/arguments.c src/cli/frames.c \
+%C%_test_lists_SOURCES = %D%/test_lists.c src/cli/parse.c src/cli/frames.c \
   src/cli/lists.c src/cli/options.c src/cli/option_scope.c src/cli/value.c
 %C%_test_pens_SOURCES = %D%/test_pens.c %D%/ink_fixture.c %D%/ink_fixture.h
 %C%_test_ink_merge_SOURCES = %D%/test_ink_merge.c

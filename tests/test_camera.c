@@ -11,7 +11,7 @@
 #include "scene/angle.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/scenes.h"
-#include "view/camera.h"
+#include "view/camera_aim.h"
 #include "view/camera_axes.h"
 
 /* ---- Means --------------------------------------------------------------- */

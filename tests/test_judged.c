@@ -14,6 +14,7 @@
 #include "tests/failures.h"
 #include "tests/scenes/judge_camera.h"
 #include "tests/temporary.h"
+#include "view/camera_aim.h"
 
 static void the_stability_list_is_drawn_right(void **state) {
   (void)state;

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "cli/arguments.h"
+#include "cli/parse.h"
 
 /* Parses a command line with up to two options, copies of which are referred to
  * until the next call. */

@@ -11,7 +11,7 @@
 
 #include "base/number.h"
 #include "recto.h"
-#include "scene/snapshot.h"
+#include "scene/scene.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
 

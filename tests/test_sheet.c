@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "geom/predicate.h"
+#include "view/camera_aim.h"
 #include "view/layout.h"
 #include "tests/memory_faults.h"
 #include "tests/sheet_fixture.h"

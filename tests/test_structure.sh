@@ -123,6 +123,45 @@ check_sources() {
       }')
 }
 
+# No circles: a module, which is a header with its source, reaches itself by no
+# chain of includes.
+check_circles() {
+  # shellcheck disable=SC2016 # of awk
+  (cd "$1" && sources . | xargs awk '
+      function module(path) {
+        sub(/^src\//, "", path)
+        sub(/\.[ch]$/, "", path)
+        return path
+      }
+      # Marks in seen[] what is reached from a module.
+      function visit(from, list, count, i, to) {
+        count = split(next_of[from], list, " ")
+        for (i = 1; i <= count; i++) {
+          to = list[i]
+          if (!(to in seen)) {
+            seen[to]
+            visit(to)
+          }
+        }
+      }
+      /^ *# *include *"/ {
+        included = $0
+        sub(/^[^"]*"/, "", included)
+        sub(/".*/, "", included)
+        if (module(included) != module(FILENAME))
+          next_of[module(FILENAME)] = next_of[module(FILENAME)] " " \
+                                      module(included)
+      }
+      END {
+        for (from in next_of) {
+          split("", seen)
+          visit(from)
+          if (from in seen)
+            print from ": in a circle of includes"
+        }
+      }')
+}
+
 # A function has a name of its own, static ones included, and so has a struct:
 # no name has two meanings.  Each program has its main.
 check_names() {
@@ -239,7 +278,7 @@ holds() {
   test -z "$found" || { say "$found" && false; }
 }
 claim "there are sources to check" test "$(sources "$srcdir" | wc -l)" -gt 50
-for check in sources names tolerances users reports width listed; do
+for check in sources circles names tolerances users reports width listed; do
   claim "check_$check finds nothing" holds check_$check "$srcdir"
 done
 
@@ -294,6 +333,9 @@ sed -i 's|Users       view/camera_axes.c|&, view/page.c|' "$copy/src/base/tolera
 echo "int n = report_get(0, 0, 0, 0);" >>"$copy/src/api/render.c"
 printf '/* %80s */\n' wide >>"$copy/src/geom/ratio.c"
 echo "int x;" >"$copy/src/geom/new.c"
+cat >>"$copy/src/geom/line.h" <<'END'
+#include "geom/convex.h"
+END
 cat >>"$copy/src/ink/pens.c" <<'END'
 static int count_vertices(void) { return 0; }
 struct planted_tag { int x; };
@@ -304,7 +346,7 @@ static inline int *count_vertices(int a,
 struct planted_tag { int x; };
 END
 echo "/* new.c - nothing. */" >"$copy/src/visibility/included/new.c"
-for check in sources names tolerances users reports width listed; do
+for check in sources circles names tolerances users reports width listed; do
   check_$check "$copy" >"$scratch/$check"
 done
 
@@ -339,6 +381,8 @@ claim "a source may not open without its job" finds sources \
   "src/geom/new.c: does not open" ""
 claim "a folder may not be without a floor" finds sources \
   "src/visibility/included/new.c: its folder has no floor" ""
+claim "modules may not include each other in a circle" finds circles \
+  "geom/convex: in a circle of includes" ""
 claim "a function may not have the name of another one" finds names \
   "src/ink/pens.c: also defined in src/ink/layers.c: " "count_vertices"
 claim "nor a struct" finds names \

@@ -5,7 +5,6 @@
 #include "api/handle.h"
 #include "api/sized.h"
 #include "scene/limit.h"
-#include "scene/snapshot.h"
 
 /* The corners of one face, as indices of the scene's points. */
 struct mesh_face {

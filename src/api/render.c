@@ -18,7 +18,7 @@
 #include "base/poll.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
-#include "view/camera.h"
+#include "view/camera_aim.h"
 #include "view/layout.h"
 #include "visibility/quantitative_invisibility.h"
 #include "visibility/solver.h"

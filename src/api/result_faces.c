@@ -3,7 +3,7 @@
 #include "api/handle.h"
 #include "api/sized.h"
 #include "base/poll.h"
-#include "ink/ink.h"
+#include "ink/look.h"
 
 /* The class of a mesh edge in this view: as it was drawn, or for an edge of a
  * class that was not requested, by its faces.  The other face of a silhouette

@@ -64,7 +64,7 @@
  *             unit on A4; and differences to an eye so far away are off by
  *             2^-26 of the diagonal.  The one error falls and the other rises
  *             with the distance: they meet here.
- * Users       view/camera.c
+ * Users       view/camera_aim.c
  * Ten times   eyes almost as far lose another three bits of their depths. */
 #define TOLERANCE_FAR_EYE 0x1p27
 
@@ -75,7 +75,7 @@
  *             at n a grid unit of depth at distance d is d^2 / (2^40 n) long:
  *             2^-26 of d at the target, and a thousandth of d sixty thousand
  *             times as far away.
- * Users       view/camera.c
+ * Users       view/camera_aim.c
  * Ten times   the near plane cuts more of a wall that the eye touches; depths
  *             beyond it are ten times finer. */
 #define TOLERANCE_NEAR_SHARE 0x1p-14
@@ -96,7 +96,7 @@
  *             triangle; beyond the triangle, where the corners of another one
  *             are tested, it grows with the distance over the
  *             triangle's width.
- * Users       visibility/predicate/occlusion.c,
+ * Users       visibility/predicate/contact.c,
  *             visibility/intersection/edge_crossing.c
  * Ten times   faces 0.15 um apart on paper count as touching. */
 #define TOLERANCE_CONTACT_GRID_UNITS 16
@@ -106,7 +106,7 @@
  * Unit        share of the scene's diagonal
  * Derivation  view coordinates are sums of three products, off by about
  *             2^-51 of the diagonal, more for a model far from its origin.
- * Users       view/camera.c, view/project.c, view/layout_clipping.c,
+ * Users       view/camera_aim.c, view/project.c, view/layout_clipping.c,
  *             judge/triangles.c, judge/sampler.c
  * Ten times   a plate turned by 1e-11 rad still counts as square-on. */
 #define TOLERANCE_EXTENT_SHARE 0x1p-40

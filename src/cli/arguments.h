@@ -44,14 +44,6 @@ struct arguments {
   recto_weight weight[RECTO_EDGE_CLASS_COUNT];
 };
 
-/* Reads the command line.  Call arguments_fini whatever is returned.
- * argv     is permuted, models last, and its lists are cut; it stays referred
- *          to
- * message  set to the error where false is returned, without a newline */
-bool arguments_parse(struct arguments *arguments, int argc, char **argv,
-                     char message[MESSAGE_SIZE]);
-void arguments_fini(struct arguments *arguments);
-
 /* ---- The table of options ------------------------------------------------ */
 
 enum option_kind {

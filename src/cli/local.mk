@@ -1,6 +1,6 @@
 # src/cli/local.mk - the program: sees recto.h alone.
 recto_SOURCES += \
-  %D%/arguments.c %D%/arguments.h \
+  %D%/arguments.h \
   %D%/completion.c \
   %D%/descriptors.c %D%/descriptors.h \
   %D%/frames.c %D%/frames.h \
@@ -10,6 +10,7 @@ recto_SOURCES += \
   %D%/message.c %D%/message.h \
   %D%/options.c \
   %D%/option_scope.c %D%/option_scope.h \
+  %D%/parse.c %D%/parse.h \
   %D%/progress.c %D%/progress.h \
   %D%/run.c %D%/run.h \
   %D%/signals.c %D%/signals.h \

@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "cli/descriptors.h"
+#include "cli/parse.h"
 #include "cli/run.h"
 #include "cli/message.h"
 

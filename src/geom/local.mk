@@ -1,5 +1,6 @@
 librecto_core_la_SOURCES += \
   %D%/convex.c %D%/convex.h \
+  %D%/int128.h \
   %D%/line.c %D%/line.h \
   %D%/predicate.h \
   %D%/region.c %D%/region.h \

@@ -5,8 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-__extension__ typedef __int128 int128;
-__extension__ typedef unsigned __int128 uint128;
+#include "geom/int128.h"
 
 /* num / den with den > 0; not reduced.  |num|, den < 2^126. */
 struct ratio {

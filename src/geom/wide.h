@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "geom/ratio.h"
+#include "geom/int128.h"
 
 enum { WIDE_LIMBS = 10 };
 

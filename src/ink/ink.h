@@ -25,15 +25,4 @@ USE_RESULT recto_status ink_draw(struct drawing *drawing,
                                  const recto_options *options,
                                  recto_error *error);
 
-/* How a face looks: the colour in which RECTO_FILL_PAINT fills it, 0xRRGGBB,
- * and the brightness with which RECTO_FILL_SHADE does, to 1. */
-struct ink_look {
-  uint32_t colour;
-  double brightness;
-  bool is_back; /* seen from its back */
-};
-struct ink_look ink_look_of(const struct scene *scene, uint32_t face,
-                            const struct camera *camera,
-                            const recto_options *options);
-
 #endif

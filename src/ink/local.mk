@@ -2,6 +2,7 @@
 librecto_core_la_SOURCES += \
   %D%/ink.c %D%/ink.h \
   %D%/layers.c %D%/layers.h \
+  %D%/look.c %D%/look.h \
   %D%/pens.c %D%/pens.h \
   %D%/pens_warn_unused.c \
   %D%/fill/fill.c %D%/fill/fill.h \

@@ -2,7 +2,29 @@
 #ifndef JUDGE_CAMERA_H
 #define JUDGE_CAMERA_H
 
-#include "judge/judge.h"
+#include "judge/point.h"
+
+struct judge_camera {
+  double matrix[12]; /* model to page mm, homogeneous, row by row; the third
+                        row is the depth in front of the eye (perspective) */
+  bool perspective;
+  struct judge_point3 eye;  /* orthographic: the origin of near_d */
+  struct judge_point3 back; /* unit, towards the viewer */
+  double near_d;            /* nothing nearer to the eye is drawn; perspective:
+                               0 or more; orthographic: -INFINITY: no limit */
+  double depth_step;        /* rounding unit of the drawing's depths: scene
+                               units, in perspective those of 1 / d; 0: none */
+  double width_mm, height_mm;
+  double margin_mm; /* edges are drawn inside the margins only */
+};
+
+/* From the camera's axes: on the page
+ *   perspective   mm = middle + s (x, y) / d
+ *   orthographic  mm = middle + s (x, y) */
+void judge_camera_axes(struct judge_camera *camera, const double right[3],
+                       const double up[3], const double back[3],
+                       const double eye[3], bool perspective, double s,
+                       const double middle_mm[2], const double page_mm[2]);
 
 /* The distance of a point from the eye along the view direction. */
 double judge_ahead(const struct judge_camera *camera, struct judge_point3 p);

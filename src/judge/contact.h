@@ -2,7 +2,8 @@
 #ifndef JUDGE_CONTACT_H
 #define JUDGE_CONTACT_H
 
-#include "judge/judge.h"
+#include "judge/options.h"
+#include "judge/triangles.h"
 
 /* Sets the contact tolerance of every triangle: the options' length, or where
  * that is negative the sum of the rounding errors of its face's corners and of

@@ -7,7 +7,9 @@
 #define JUDGE_EDGE_CLASSES_H
 
 #include "base/tolerance.h"
-#include "judge/judge.h"
+#include "judge/camera.h"
+#include "judge/options.h"
+#include "judge/triangles.h"
 
 /* A side of a face between two scene points, a < b. */
 struct judge_side {

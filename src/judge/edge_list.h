@@ -3,7 +3,7 @@
 #ifndef JUDGE_EDGE_LIST_H
 #define JUDGE_EDGE_LIST_H
 
-#include "judge/judge.h"
+#include "judge/camera.h"
 
 /* What an edge of the scene comes from. */
 struct judge_source {

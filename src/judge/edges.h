@@ -3,6 +3,8 @@
 #define JUDGE_EDGES_H
 
 #include "judge/edge_list.h"
+#include "judge/options.h"
+#include "judge/triangles.h"
 
 /* Finds the sides of faces, folds, wires and intersections.  A class that
  * doubles cannot decide is left out.  Returns false when memory ran out. */

@@ -3,6 +3,7 @@
 #define JUDGE_INTERSECTIONS_H
 
 #include "judge/edge_list.h"
+#include "judge/triangles.h"
 
 /* Adds the intersection of every two triangles of different faces that pierce
  * each other.  Returns false when memory ran out. */

@@ -21,9 +21,8 @@
 #ifndef JUDGE_JUDGE_H
 #define JUDGE_JUDGE_H
 
-#include "scene/precision.h"
-#include "scene/scene.h"
-#include "judge/triangles.h"
+#include "judge/camera.h"
+#include "judge/options.h"
 
 /* ---- Drawings ------------------------------------------------------------ */
 
@@ -55,57 +54,7 @@ const char *judge_read_svg(struct judge_drawing *drawing, const char *text,
 extern const char JUDGE_NO_MEMORY[];
 void judge_drawing_fini(struct judge_drawing *drawing);
 
-/* ---- Camera -------------------------------------------------------------- */
-
-struct judge_camera {
-  double matrix[12]; /* model to page mm, homogeneous, row by row; the third
-                        row is the depth in front of the eye (perspective) */
-  bool perspective;
-  struct judge_point3 eye;  /* orthographic: the origin of near_d */
-  struct judge_point3 back; /* unit, towards the viewer */
-  double near_d;            /* nothing nearer to the eye is drawn; perspective:
-                               0 or more; orthographic: -INFINITY: no limit */
-  double depth_step;        /* rounding unit of the drawing's depths: scene
-                               units, in perspective those of 1 / d; 0: none */
-  double width_mm, height_mm;
-  double margin_mm; /* edges are drawn inside the margins only */
-};
-
-/* From the camera's axes: on the page
- *   perspective   mm = middle + s (x, y) / d
- *   orthographic  mm = middle + s (x, y) */
-void judge_camera_axes(struct judge_camera *camera, const double right[3],
-                       const double up[3], const double back[3],
-                       const double eye[3], bool perspective, double s,
-                       const double middle_mm[2], const double page_mm[2]);
-
 /* ---- The verdict --------------------------------------------------------- */
-
-struct judge_options {
-  double step_mm;       /* distance of samples */
-  size_t samples;       /* number of samples of strokes, and of edges, spread
-                        evenly; 0: by step_mm, at least two on each piece */
-  double reach_mm;      /* ink this close to a visible point is enough */
-  double lateral_mm;    /* an edge this close to a drawn point explains it: a
-                        little more than the rounding of coordinates in the
-                        file */
-  double ray_offset_mm; /* see above: well above the page grid */
-  double contact; /* the drawing's contact tolerance, scene units; negative:
-                        for each face the rounding error of its coordinates */
-  struct precision unstated;  /* of points whose precision is not stated */
-  struct judge_point3 origin; /* was subtracted from all points; needed for
-                                 their precision */
-  double crease_deg;
-  unsigned edges; /* requested classes, a mask of recto_edge_class */
-  const struct scene_point *given; /* the original points, where the scene's
-                                      were translated; NULL: the scene's */
-  double shortest_mm; /* shorter strokes need not be drawn: a visible line
-                         without ink that is not surely this long is undecided;
-                         0: every stroke must be drawn */
-};
-
-/* 0.02 mm steps and reach, 30 degrees, the default classes. */
-void judge_options_init(struct judge_options *options);
 
 /* A sample that proves a drawing wrong. */
 struct judge_witness {

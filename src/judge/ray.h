@@ -9,7 +9,8 @@
 #ifndef JUDGE_RAY_H
 #define JUDGE_RAY_H
 
-#include "judge/judge.h"
+#include "judge/camera.h"
+#include "judge/triangles.h"
 
 enum judge_visibility { JUDGE_CLEAR, JUDGE_UNSURE, JUDGE_BLOCKED };
 

@@ -26,7 +26,6 @@ librecto_core_la_SOURCES += \
   %D%/reader_ply.c \
   %D%/reader_stl.c \
   %D%/scene.c %D%/scene.h \
-  %D%/snapshot.h \
   %D%/topology.c %D%/topology.h \
   %D%/unusable.c %D%/unusable.h \
   %D%/weld_equal.c %D%/weld_equal.h \

@@ -9,7 +9,6 @@
 
 #include "base/input.h"
 #include "base/word.h"
-#include "scene/snapshot.h"
 
 /* ---- The reader ---------------------------------------------------------- */
 

@@ -6,9 +6,10 @@
  */
 #include "scene/scene.h"
 
+#include <float.h>
 #include <string.h>
 
-#include "scene/snapshot.h"
+#include "base/sort.h"
 #include "scene/name.h"
 
 void scene_init(struct scene *scene) {
@@ -152,4 +153,60 @@ void scene_return(struct scene *scene, const struct scene_snapshot *mark) {
   scene->current_group = mark->current_group;
   if (scene->group_slot)
     fill_slots(scene);
+}
+
+/* ---- The precision of the coordinates ------------------------------------ */
+
+static recto_status add_range(struct scene *scene, struct precision_range range,
+                              recto_error *error) {
+  return ARRAY_PUSH(&scene->precision, range) ? RECTO_OK : error_memory(error);
+}
+
+recto_status scene_state_precision(struct scene *scene, size_t first,
+                                   struct precision precision,
+                                   recto_error *error) {
+  struct precision_range range = {(uint32_t)first, true, precision};
+  return add_range(scene, range, error);
+}
+
+recto_status scene_leave_precision(struct scene *scene, size_t first,
+                                   recto_error *error) {
+  size_t count = scene->precision.count;
+  if (count == 0 || !scene->precision.item[count - 1].stated)
+    return RECTO_OK;
+  struct precision_range range = {(uint32_t)first, false, {0, 0}};
+  return add_range(scene, range, error);
+}
+
+static bool holds_single(double x) { return (double)(float)x == x; }
+
+struct precision scene_unstated_precision(const struct scene *scene, int bits) {
+  bool singles = true;
+  size_t ranges = scene->precision.count;
+  if (bits > 0)
+    return precision_of_bits(bits);
+  for (size_t i = 0; i <= ranges; i++) {
+    const struct precision_range *range = scene->precision.item;
+    size_t first = i == 0 ? 0 : range[i - 1].first_point;
+    size_t past = i < ranges ? range[i].first_point : scene->point.count;
+    if (i > 0 && range[i - 1].stated)
+      continue;
+    for (size_t p = first; p < past && singles; p++) {
+      const struct scene_point *point = &scene->point.item[p];
+      singles = holds_single(point->x) && holds_single(point->y) &&
+                holds_single(point->z);
+    }
+  }
+  return precision_of_bits(singles ? FLT_MANT_DIG : DBL_MANT_DIG);
+}
+
+struct precision scene_point_precision(const struct scene *scene,
+                                       uint32_t point,
+                                       struct precision unstated) {
+  const struct precision_range *range = scene->precision.item;
+  size_t past;
+  LOWER_BOUND(past, 0, scene->precision.count,
+              range[past].first_point <= point);
+  return past > 0 && range[past - 1].stated ? range[past - 1].precision
+                                            : unstated;
 }

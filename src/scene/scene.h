@@ -202,4 +202,45 @@ USE_RESULT recto_status scene_read_memory(struct scene *scene,
                                           struct diagnostics *diagnostics,
                                           recto_error *error);
 
+/* ---- The precision of the coordinates ------------------------------------ */
+
+/* States the precision of the points from `first` on, which are those of one
+ * file and the scene's last; no range begins after `first`.
+ * Errors  RECTO_ERROR_MEMORY */
+USE_RESULT recto_status scene_state_precision(struct scene *scene, size_t first,
+                                              struct precision precision,
+                                              recto_error *error);
+
+/* Begins a range of points whose precision is not stated, where the one before
+ * was stated.
+ * Errors  RECTO_ERROR_MEMORY */
+USE_RESULT recto_status scene_leave_precision(struct scene *scene, size_t first,
+                                              recto_error *error);
+
+/* The precision of the points for which none is stated: that of `bits`, or for
+ * 0 what the points themselves show: where all their coordinates are numbers of
+ * single precision they were rounded to it; others are of double precision,
+ * which counts as exact. */
+struct precision scene_unstated_precision(const struct scene *scene, int bits);
+
+/* The precision of one point.
+ * unstated  of points that were added without a stated one */
+struct precision scene_point_precision(const struct scene *scene,
+                                       uint32_t point,
+                                       struct precision unstated);
+
+/* ---- Earlier states ------------------------------------------------------ */
+
+struct scene_snapshot {
+  size_t points, faces, skipped, corners, wires, wire_corners, precisions,
+      groups;
+  uint32_t current_group;
+};
+
+/* Records the sizes of the scene's arrays. */
+void scene_snapshot(const struct scene *scene, struct scene_snapshot *mark);
+
+/* Removes everything that was added since. */
+void scene_return(struct scene *scene, const struct scene_snapshot *mark);
+
 #endif

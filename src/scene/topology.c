@@ -273,13 +273,38 @@ end:
   return ok;
 }
 
+/* Marks the points of border edges; returns how many there are. */
+static size_t mark_border(const struct topology *topology, uint8_t *marked) {
+  size_t count = 0;
+  for (size_t e = 0; e < topology->edge.count; e++) {
+    const struct topology_edge *edge = &topology->edge.item[e];
+    if (edge->uses != 1)
+      continue;
+    for (int k = 0; k < 2; k++) {
+      count += !marked[edge->point[k]];
+      marked[edge->point[k]] = 1;
+    }
+  }
+  return count;
+}
+
+/* Welds the points of border edges that coincide. */
+static bool weld_border(struct topology *topology, const struct scene *scene) {
+  uint8_t *marked = mem_calloc(scene->point.count, sizeof *marked);
+  bool ok =
+      marked != NULL &&
+      weld_equal(scene, marked, mark_border(topology, marked), &topology->weld);
+  mem_free(marked);
+  return ok;
+}
+
 recto_status topology_init(struct topology *topology, const struct scene *scene,
                            recto_error *error) {
   memset(topology, 0, sizeof *topology);
   topology->corner_edge =
       mem_alloc(scene->corner.count, sizeof *topology->corner_edge);
   if (!topology->corner_edge || !build_edges(topology, scene) ||
-      !weld_equal(topology, scene, &topology->weld))
+      !weld_border(topology, scene))
     goto fail;
   if (topology->weld && !build_edges(topology, scene))
     goto fail;

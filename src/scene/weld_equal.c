@@ -1,4 +1,4 @@
-/* weld_equal.c - which points of border edges lie at exactly the same position.
+/* weld_equal.c - which points lie at exactly the same position.
  *
  * Points are sorted by a fingerprint of their position and compared within
  * runs of equal ones.  The sort is stable and the lowest point of a position
@@ -29,21 +29,6 @@ static uint64_t fingerprint(const struct scene_point *point) {
 
 static bool coincide(const struct scene_point *a, const struct scene_point *b) {
   return a->x == b->x && a->y == b->y && a->z == b->z;
-}
-
-/* Marks the points of border edges; returns how many there are. */
-static size_t mark_border(const struct topology *topology, uint8_t *marked) {
-  size_t count = 0;
-  for (size_t e = 0; e < topology->edge.count; e++) {
-    const struct topology_edge *edge = &topology->edge.item[e];
-    if (edge->uses != 1)
-      continue;
-    for (int k = 0; k < 2; k++) {
-      count += !marked[edge->point[k]];
-      marked[edge->point[k]] = 1;
-    }
-  }
-  return count;
 }
 
 /* Welds within one run of equal fingerprints, ascending points.  A point is
@@ -77,41 +62,32 @@ static size_t weld_runs(const struct scene_point *point,
   return welded;
 }
 
-bool weld_equal(const struct topology *topology, const struct scene *scene,
+bool weld_equal(const struct scene *scene, const uint8_t *marked, size_t count,
                 uint32_t **weld) {
-  size_t points = scene->point.count, count = 0;
-  uint8_t *marked = mem_calloc(points, sizeof *marked);
-  uint32_t *map = NULL;
-  struct sort_key *key = NULL;
+  size_t points = scene->point.count, listed = 0;
   bool ok = false;
   *weld = NULL;
-  if (!marked)
-    goto end;
-  size_t border = mark_border(topology, marked);
-  if (border == 0) {
-    ok = true;
-    goto end;
-  }
-  key = mem_alloc(2 * border, sizeof *key);
-  map = mem_alloc(points, sizeof *map);
-  if (!key || !map)
+  if (count == 0)
+    return true;
+  struct sort_key *key = mem_alloc(2 * count, sizeof *key);
+  uint32_t *map = mem_alloc(points, sizeof *map);
+  if (key == NULL || map == NULL)
     goto end;
   for (size_t p = 0; p < points; p++) {
     if (!poll_at(p))
       goto end;
     map[p] = (uint32_t)p;
     if (marked[p])
-      key[count++] =
+      key[listed++] =
           (struct sort_key){fingerprint(&scene->point.item[p]), (uint32_t)p};
   }
-  sort_keys(key, key + border, count);
+  sort_keys(key, key + count, count);
   if (weld_runs(scene->point.item, key, count, map) > 0) {
     *weld = map;
     map = NULL;
   }
   ok = true;
 end:
-  mem_free(marked);
   mem_free(key);
   mem_free(map);
   return ok;

@@ -1,17 +1,18 @@
-/* weld_equal.h - welds points of border edges at exactly the same position. */
+/* weld_equal.h - welds points at exactly the same position. */
 #ifndef SCENE_WELD_EQUAL_H
 #define SCENE_WELD_EQUAL_H
 
-#include "scene/topology.h"
+#include "scene/scene.h"
 
-/* Compares the points of the topology's border edges (those of one face).
- * weld  set to a new array, point -> the lowest point at its position, or to
- *       NULL where no two of them coincide; owned by the caller
+/* Compares the points of a scene that are marked.
+ * marked  one a point, not 0 for `count` of them
+ * weld    set to a new array, point -> the lowest marked point at its position,
+ *         or to NULL where no two of them coincide; owned by the caller
  * Returns false when memory ran out.
  * Exact: coordinates are compared as they are; -0 and 0 are the same.
  * Cost: linear in the points, save where made to be slow: points that share a
  * fingerprint of 33 bits without coinciding are compared in pairs. */
-USE_RESULT bool weld_equal(const struct topology *topology,
-                           const struct scene *scene, uint32_t **weld);
+USE_RESULT bool weld_equal(const struct scene *scene, const uint8_t *marked,
+                           size_t count, uint32_t **weld);
 
 #endif

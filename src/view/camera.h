@@ -33,18 +33,23 @@ struct camera {
   bool all_on_page; /* nothing drawn leaves the page or the depth range */
 };
 
-/* Aims the camera at the scene by the options' view, fit, near distance and
- * section.
- * Errors  RECTO_ERROR_ARGUMENT: the eye equals the target, up is parallel to
- *         the view, margins that leave no room, a page above 2 m, a field of
- *         view out of range;
- *         RECTO_ERROR_EMPTY: nothing to draw, or all of it behind the viewer;
- *         RECTO_ERROR_LIMIT: the scene is too large, too small, too far
- *         or too close. */
-USE_RESULT recto_status camera_aim(struct camera *camera,
-                                   const struct scene *scene,
-                                   const recto_options *options,
-                                   recto_error *error);
+/* x right, y up, d the depth in front of the eye. */
+struct view_point {
+  double x, y, d;
+};
+
+/* The view coordinates of a scene point.  All code must use this function: the
+ * camera's depth range and the sheet's clipping need the same depth of a point,
+ * bit for bit. */
+static inline struct view_point camera_view(const struct camera *camera,
+                                            const struct scene_point *at) {
+  double p[3] = {at->x - camera->eye[0], at->y - camera->eye[1],
+                 at->z - camera->eye[2]};
+  const double *r = camera->right, *u = camera->up, *b = camera->back;
+  return (struct view_point){r[0] * p[0] + r[1] * p[1] + r[2] * p[2],
+                             u[0] * p[0] + u[1] * p[1] + u[2] * p[2],
+                             -(b[0] * p[0] + b[1] * p[1] + b[2] * p[2])};
+}
 
 /* Sets the 3 x 4 matrix from scene units to homogeneous page mm, row by
  * row. */

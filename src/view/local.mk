@@ -7,6 +7,7 @@ librecto_core_la_SOURCES += \
   %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/coordinate_error.c %D%/coordinate_error.h \
   %D%/extent.c %D%/extent.h \
+  %D%/camera_aim.c %D%/camera_aim.h \
   %D%/camera_axes.c %D%/camera_axes.h \
   %D%/layout.c %D%/layout.h \
   %D%/layout_edges.c \
@@ -20,6 +21,7 @@ librecto_core_la_SOURCES += \
   %D%/project.c %D%/project.h \
   %D%/rescale.c %D%/rescale.h \
   %D%/sheet.c %D%/sheet.h \
+  %D%/triangulation.h \
   %D%/triangulate.c %D%/triangulate.h \
   %D%/used.c %D%/used.h \
   %D%/vector.h

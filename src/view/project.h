@@ -1,27 +1,8 @@
-/* project.h - projects points from the scene to view coordinates, and from
- * these to the page grid. */
+/* project.h - projects points from view coordinates to the page grid. */
 #ifndef VIEW_PROJECT_H
 #define VIEW_PROJECT_H
 
 #include "view/sheet.h"
-
-/* x right, y up, d the depth in front of the eye. */
-struct view_point {
-  double x, y, d;
-};
-
-/* The view coordinates of a scene point.  All code must use this function: the
- * camera's depth range and the sheet's clipping need the same depth of a point,
- * bit for bit. */
-static inline struct view_point camera_view(const struct camera *camera,
-                                            const struct scene_point *at) {
-  double p[3] = {at->x - camera->eye[0], at->y - camera->eye[1],
-                 at->z - camera->eye[2]};
-  const double *r = camera->right, *u = camera->up, *b = camera->back;
-  return (struct view_point){r[0] * p[0] + r[1] * p[1] + r[2] * p[2],
-                             u[0] * p[0] + u[1] * p[1] + u[2] * p[2],
-                             -(b[0] * p[0] + b[1] * p[1] + b[2] * p[2])};
-}
 
 /* The constants of the map from view coordinates to the page grid, and the
  * limits of the printable area, which is the page inside its margins. */

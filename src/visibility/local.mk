@@ -36,6 +36,7 @@ librecto_core_la_SOURCES += \
   %D%/pairwise/tile_classification.c %D%/pairwise/tile_classification.h \
   %D%/pairwise/deferred_triangles.c %D%/pairwise/deferred_triangles.h \
   %D%/predicate/box2.h \
+  %D%/predicate/contact.c %D%/predicate/contact.h \
   %D%/predicate/depth_plane.h \
   %D%/predicate/edge_intervals.c %D%/predicate/edge_intervals.h \
   %D%/predicate/occlusion.c %D%/predicate/occlusion.h \

@@ -10,7 +10,7 @@
 
 #include "api/handle.h"
 #include "backends/writer.h"
-#include "cli/arguments.h"
+#include "cli/parse.h"
 #include "judge/judge.h"
 
 bool render_options(recto_options *options, int argc, char **argv,

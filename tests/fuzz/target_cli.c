@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/report.h"
-#include "cli/arguments.h"
+#include "cli/parse.h"
 #include "cli/option_scope.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/render.h"

@@ -6,6 +6,7 @@
 
 #include "backends/writer.h"
 #include "ink/ink.h"
+#include "view/camera_aim.h"
 #include "view/layout.h"
 
 static recto_status solve(struct pipeline *pipeline,

@@ -5,10 +5,6 @@
 #include "ink/pens.h"
 #include "visibility/map.h"
 
-/* The colour of a group, 0xRRGGBB: its own if it has one, else that of the
- * palette at the group's index modulo the palette's size. */
-uint32_t fill_colour(const struct scene *scene, uint32_t group);
-
 /* Adds the fills of the map's fragments, merged (merge.h).  Their colour is
  *   RECTO_FILL_PAINT  that of the face's group
  *   RECTO_FILL_SHADE  a grey by the angle between the face and

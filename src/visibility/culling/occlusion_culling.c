@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "visibility/predicate/contact.h"
 #include "visibility/predicate/occlusion.h"
 #include "visibility/predicate/surrounder.h"
 
@@ -334,7 +335,7 @@ static void measure_reach(struct occlusion_culling *culling,
   const struct camera *camera = &sheet->camera;
   double length = camera->contact_most * sheet->units_per_view /
                   (camera->perspective ? camera->d_min : 1);
-  double reach = ceil(length + occlusion_grid_units(sheet)) + 2;
+  double reach = ceil(length + contact_grid_units(sheet)) + 2;
   culling->reach = reach < SHEET_XY_MAX ? (int64_t)reach : SHEET_XY_MAX;
   culling->margin = 2 * contact->level + 4;
 }

@@ -11,6 +11,7 @@
 #define VISIBILITY_INDEX_BSP_H
 
 #include "visibility/index/bsp_plane.h"
+#include "visibility/predicate/box2.h"
 
 enum { BSP_LEVELS = 48 }; /* the greatest depth of a tree */
 

@@ -24,7 +24,6 @@
 #define VISIBILITY_INDEX_BSP_PLANE_H
 
 #include "base/tolerance.h"
-#include "visibility/index/triangle_grid.h"
 #include "visibility/predicate/plane_filter.h"
 
 /* Grid units: a point of the page this close to a line is on both sides. */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/tolerance.h"
-#include "view/coordinate_error.h"
+#include "visibility/predicate/contact.h"
 #include "visibility/predicate/plane_filter.h"
 
 #define FIXED_ONE 65536 /* 2^16: T has 16 fraction bits */
@@ -18,45 +18,6 @@ static int128 round_up_capped(double value) {
 }
 
 static int128 absolute(int128 a) { return a < 0 ? -a : a; }
-
-double occlusion_grid_units(const struct sheet *sheet) {
-  return sheet->camera.contact < 0 ? TOLERANCE_CONTACT_GRID_UNITS : 1;
-}
-
-/* Along the camera's axes, the plane's normal in the scene is (S nx, S ny,
- * third) (occlusion.h).  Where no length is given, contact along each axis of
- * the scene is the bound of the coordinates' rounding error, and the result is
- * the sum of these bounds times the normal's components. */
-struct occlusion_contact occlusion_contact_of(const struct sheet *sheet,
-                                              uint32_t triangle,
-                                              struct geom_point a,
-                                              const double n[3],
-                                              const double m[3]) {
-  const struct camera *camera = &sheet->camera;
-  double s = sheet->units_per_view, third = sheet->z_scale * n[2],
-         third_most = sheet->z_scale * m[2], error[3];
-  if (camera->perspective) {
-    struct sheet_axis axis = sheet_view_axis(sheet);
-    double x = axis.x - a.x, y = axis.y - a.y, z = (double)a.z,
-           foot = sheet->z_scale / camera->d_max;
-    third = n[2] * foot - (n[0] * x + n[1] * y - n[2] * z);
-    third_most = m[2] * (foot + z) + m[0] * fabs(x) + m[1] * fabs(y);
-  }
-  double x = s * n[0], y = s * n[1];
-  if (camera->contact >= 0)
-    return (struct occlusion_contact){
-        sqrt(x * x + y * y + third * third) * camera->contact,
-        camera->contact * (s * m[0] + s * m[1] + third_most)};
-  coordinate_error_of_face(sheet, sheet->triangle.item[triangle].face, error);
-  struct occlusion_contact contact = {0};
-  for (int k = 0; k < 3; k++) {
-    double right = camera->right[k], up = camera->up[k], back = camera->back[k];
-    contact.length += error[k] * fabs(x * right + y * up + third * back);
-    contact.most += error[k] * (s * m[0] * fabs(right) + s * m[1] * fabs(up) +
-                                third_most * fabs(back));
-  }
-  return contact;
-}
 
 void occluder_init(struct occluder *occluder, const struct sheet *sheet,
                    uint32_t triangle) {
@@ -71,11 +32,10 @@ void occluder_init(struct occluder *occluder, const struct sheet *sheet,
   occluder->ny = n[1];
   occluder->nz = n[2];
   double length =
-      occlusion_contact_of(sheet, triangle, corners.p[0], n, m).length *
-      FIXED_ONE;
+      contact_length_of(sheet, triangle, corners.p[0], n, m).length * FIXED_ONE;
   occluder->t0 = (absolute(occluder->plane.nx) + absolute(occluder->plane.ny) +
                   occluder->plane.nz) *
-                 (int128)(occlusion_grid_units(sheet) * FIXED_ONE);
+                 (int128)(contact_grid_units(sheet) * FIXED_ONE);
   occluder->t1 = 0;
   if (camera->perspective) {
     occluder->t0 += round_up_capped(length / camera->d_max);
@@ -98,7 +58,7 @@ struct occlusion_bound
 occlusion_tolerance_bound_all(const struct sheet *sheet) {
   const struct camera *camera = &sheet->camera;
   double level = sheet->z_scale, slope = 0, share = camera->contact_most;
-  double grid = occlusion_grid_units(sheet);
+  double grid = contact_grid_units(sheet);
   if (camera->perspective) {
     struct sheet_axis axis = sheet_view_axis(sheet);
     level = sheet->z_scale / camera->d_max + (double)SHEET_Z_MAX;

@@ -69,22 +69,6 @@ struct occluder {
   struct box2 box;
 };
 
-/* How many grid units in x, y and z count as contact: G above. */
-double occlusion_grid_units(const struct sheet *sheet);
-
-/* The contact length times L, before T is rounded, and the sum of the
- * magnitudes of its terms, of which its error is a share. */
-struct occlusion_contact {
-  double length, most;
-};
-
-/* a     a point of the plane
- * n, m  its integer normal as doubles, and bounds of the magnitudes of the
- *       terms of which each component is the sum */
-struct occlusion_contact
-occlusion_contact_of(const struct sheet *sheet, uint32_t triangle,
-                     struct geom_point a, const double n[3], const double m[3]);
-
 /* Prepares a triangle that is not SHEET_FLAT. */
 void occluder_init(struct occluder *occluder, const struct sheet *sheet,
                    uint32_t triangle);

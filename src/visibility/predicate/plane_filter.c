@@ -17,7 +17,7 @@
 
 #include <math.h>
 
-#include "visibility/predicate/occlusion.h"
+#include "visibility/predicate/contact.h"
 
 #define ERROR_BOUND (2 * FILTER_ERROR)
 
@@ -41,9 +41,8 @@ struct plane_filter plane_filter_of(const struct sheet *sheet,
                m[3] = {fabs(uy * vz) + fabs(uz * vy),
                        fabs(uz * vx) + fabs(ux * vz),
                        fabs(ux * vy) + fabs(uy * vx)};
-  struct occlusion_contact contact =
-      occlusion_contact_of(sheet, triangle, a, n, m);
-  double grid = occlusion_grid_units(sheet), by_near = 1, by_z = 0;
+  struct contact_length contact = contact_length_of(sheet, triangle, a, n, m);
+  double grid = contact_grid_units(sheet), by_near = 1, by_z = 0;
   if (camera->perspective) {
     by_near = 1 / camera->d_max;
     by_z = 1 / sheet->z_scale;

@@ -1,5 +1,5 @@
-/* arguments.c - reads the command line by the table of options. */
-#include "cli/arguments.h"
+/* parse.c - reads the command line by the table of options. */
+#include "cli/parse.h"
 
 #include <getopt.h>
 #include <stdio.h>

@@ -1,0 +1,442 @@
+/* camera_aim.c - aims the camera at a scene and fits the drawing to the page.
+ *
+ * Phases
+ *   aim     the axes, and the eye, at the distance that the field of view
+ *           needs.
+ *   depths  the least and greatest depth, and the near plane.
+ *   fit     the scale, and where the view axis meets the page.
+ * Robustness
+ *   Coordinates are first subtracted from the eye's, and an orthographic eye is
+ *   placed next to the scene, so that a scene far from the origin loses no
+ *   digits.
+ *   A perspective eye so far away that the subtraction would lose digits of the
+ *   scene sees the same as an orthographic one, so the view is made
+ *   orthographic.
+ *   Every length is compared with the scene's size, so that scaling the scene
+ *   by a power of two changes no bit of the drawing.
+ */
+#include "view/camera_aim.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/tolerance.h"
+#include "scene/angle.h"
+#include "view/coordinate_error.h"
+#include "view/extent.h"
+#include "view/camera_axes.h"
+#include "view/used.h"
+#include "view/vector.h"
+
+/* The largest page that fits on the page grid. */
+static const double page_limit_mm = 2000;
+
+/* Intermediate results. */
+struct aim {
+  struct camera *camera;
+  const struct scene *scene;
+  const recto_options *options;
+  recto_error *error;
+  uint8_t *used;        /* one a point */
+  double centre[3];     /* of the scene's bounding box */
+  double target[3];     /* the point looked at */
+  double eye[3];        /* of a perspective view, also of one made
+                           orthographic */
+  bool far;             /* the eye is so far that the view was made
+                           orthographic; then also: */
+  double centre_d;      /*   the depth of the scene's centre */
+  double target_d;      /*   the depth of the target */
+  double d_low, d_high; /* depth range of the whole scene, not clipped */
+};
+
+static recto_status argument_error(const struct aim *aim, const char *words) {
+  return error_set(aim->error, RECTO_ERROR_ARGUMENT, NULL, 0, "%s", words);
+}
+
+/* ---- Options ------------------------------------------------------------- */
+
+/* The margin in mm; the default is at most a quarter of the page's shorter
+ * side. */
+static double margin_of(const recto_options *o) {
+  return o->page.margin_mm >= 0
+             ? o->page.margin_mm
+             : fmin(RECTO_USUAL_MARGIN_MM,
+                    fmin(o->page.width_mm, o->page.height_mm) / 4);
+}
+
+static recto_status check_page(const struct aim *aim) {
+  const recto_options *o = aim->options;
+  if (!(o->page.width_mm > 0 && o->page.height_mm > 0))
+    return argument_error(aim, "the page has no size");
+  if (!(o->page.width_mm <= page_limit_mm &&
+        o->page.height_mm <= page_limit_mm))
+    return argument_error(aim, "the page is larger than 2 m");
+  if (isnan(o->page.margin_mm))
+    return argument_error(aim, "the margin is no number");
+  double margins = 2 * margin_of(o);
+  if (!(margins < o->page.width_mm && margins < o->page.height_mm))
+    return argument_error(aim, "the margins leave no room on the page");
+  return RECTO_OK;
+}
+
+static recto_status check_view(const struct aim *aim) {
+  const recto_options *o = aim->options;
+  if (!(o->camera.fov_deg >= 0 && o->camera.fov_deg < 180))
+    return argument_error(
+        aim, "the field of view must be from 0 to below 180 degrees");
+  if (!isfinite(o->camera.azimuth_deg) || !isfinite(o->camera.elevation_deg))
+    return argument_error(aim, "azimuth and elevation must be finite");
+  if (!vector_is_finite(o->camera.eye) || !vector_is_finite(o->camera.target) ||
+      !vector_is_finite(o->camera.up))
+    return argument_error(aim, "eye, target and up must be finite");
+  if (o->camera.fit == RECTO_FIT_SCALE &&
+      !(o->camera.scale > 0 && isfinite(o->camera.scale)))
+    return argument_error(aim, "the scale must be above 0");
+  if (!(o->camera.near_distance >= 0 && isfinite(o->camera.near_distance)))
+    return argument_error(aim, "the near distance must not be negative");
+  if (o->camera.has_section && !isfinite(o->camera.section))
+    return argument_error(aim, "the section must be finite");
+  if (!isfinite(o->solver.contact))
+    return argument_error(aim, "the contact length must be finite");
+  return RECTO_OK;
+}
+
+/* ---- Aim ----------------------------------------------------------------- */
+
+static void grow_range_of_axes(double low[3], double high[3],
+                               const struct scene_point *point) {
+  const double p[3] = {point->x, point->y, point->z};
+  for (int k = 0; k < 3; k++) {
+    low[k] = min_number(low[k], p[k]);
+    high[k] = max_number(high[k], p[k]);
+  }
+}
+
+/* The bounding box of all that is drawn: its centre and diagonal. */
+static recto_status measure_scene(struct aim *aim) {
+  double low[3] = {INFINITY, INFINITY, INFINITY};
+  double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  for (size_t p = 0; p < aim->scene->point.count; p++)
+    if (aim->used[p])
+      grow_range_of_axes(low, high, &aim->scene->point.item[p]);
+  if (low[0] > high[0])
+    return error_set(aim->error, RECTO_ERROR_EMPTY, NULL, 0,
+                     "there is nothing to draw");
+  double extent[3];
+  for (int k = 0; k < 3; k++) {
+    aim->centre[k] = low[k] / 2 + high[k] / 2;
+    extent[k] = high[k] - low[k];
+  }
+  struct camera *camera = aim->camera;
+  const recto_options *o = aim->options;
+  camera->size = vector_length(extent);
+  camera->unstated =
+      scene_unstated_precision(aim->scene, o->mesh.coordinate_bits);
+  camera->contact = o->solver.contact;
+  camera->contact_most =
+      o->solver.contact >= 0
+          ? o->solver.contact
+          : coordinate_error_most(aim->scene, camera->unstated, low, high);
+  camera->error =
+      coordinate_error_common(aim->scene, camera->unstated, low, high);
+  return RECTO_OK;
+}
+
+/* The largest distance of a used point from the target. */
+static double radius_of_scene(const struct aim *aim) {
+  double radius = 0;
+  for (size_t p = 0; p < aim->scene->point.count; p++) {
+    if (!aim->used[p])
+      continue;
+    const struct scene_point *point = &aim->scene->point.item[p];
+    const double from[3] = {point->x - aim->target[0],
+                            point->y - aim->target[1],
+                            point->z - aim->target[2]};
+    radius = fmax(radius, vector_length(from));
+  }
+  return radius;
+}
+
+/* The distance from which a perspective eye sees the whole sphere about the
+ * target that encloses the scene. */
+static double distance_for_fov(const struct aim *aim) {
+  double radius = radius_of_scene(aim);
+  if (radius == 0)
+    radius = 1;
+  return radius / angle_of_degrees(aim->options->camera.fov_deg / 2).sine;
+}
+
+static recto_status set_axes(struct aim *aim) {
+  const recto_options *o = aim->options;
+  double up[3] = {0, 1, 0};
+  bool given =
+      o->camera.up[0] != 0 || o->camera.up[1] != 0 || o->camera.up[2] != 0;
+  if (given)
+    memcpy(up, o->camera.up, sizeof up);
+  else if (aim->scene->up[0] != 0 || aim->scene->up[1] != 0 ||
+           aim->scene->up[2] != 0)
+    memcpy(up, aim->scene->up, sizeof up);
+  struct camera_axes axes;
+  if (o->camera.kind == RECTO_CAMERA_EYE) {
+    enum camera_axes_fault fault =
+        camera_axes_from_eye(&axes, o->camera.eye, aim->target, up, !given);
+    if (fault == CAMERA_AXES_NO_DIRECTION)
+      return argument_error(aim, "the eye is where it looks");
+    if (fault == CAMERA_AXES_UP_ALONG_VIEW)
+      return argument_error(aim, "up points along the view");
+  } else {
+    axes = camera_axes_from_direction(up, o->camera.azimuth_deg,
+                                      o->camera.elevation_deg);
+  }
+  memcpy(aim->camera->right, axes.right, sizeof axes.right);
+  memcpy(aim->camera->up, axes.up, sizeof axes.up);
+  memcpy(aim->camera->back, axes.back, sizeof axes.back);
+  return RECTO_OK;
+}
+
+static void step_back(const struct aim *aim, const double from[3],
+                      double distance, double eye[3]) {
+  for (int k = 0; k < 3; k++)
+    eye[k] = from[k] + aim->camera->back[k] * distance;
+}
+
+static void subtract_vector(const double a[3], const double b[3], double c[3]) {
+  for (int k = 0; k < 3; k++)
+    c[k] = a[k] - b[k];
+}
+
+/* Makes the view from a very far eye orthographic.  The two agree only where
+ * the scene is close to the view axis: off the axis it would be sheared. */
+static recto_status handle_far_eye(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  double to_eye[3], to_target[3], aside[3];
+  subtract_vector(aim->eye, aim->centre, to_eye);
+  aim->centre_d = vector_dot(camera->back, to_eye);
+  aim->far = camera->perspective && aim->centre_d > 0 &&
+             vector_length(to_eye) > camera->size * TOLERANCE_FAR_EYE;
+  if (!aim->far)
+    return RECTO_OK;
+  subtract_vector(aim->eye, aim->target, to_target);
+  subtract_vector(aim->centre, aim->target, aside);
+  aim->target_d = vector_dot(camera->back, to_target);
+  double limit = aim->centre_d / TOLERANCE_FAR_EYE;
+  if (!(fabs(vector_dot(camera->right, aside)) <= limit &&
+        fabs(vector_dot(camera->up, aside)) <= limit))
+    return error_set(aim->error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "the eye is too far from a scene that it does not look "
+                     "at");
+  camera->perspective = false;
+  return RECTO_OK;
+}
+
+static recto_status set_eye(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  if (aim->options->camera.kind == RECTO_CAMERA_EYE)
+    memcpy(aim->eye, aim->options->camera.eye, sizeof aim->eye);
+  else if (camera->perspective)
+    step_back(aim, aim->target, distance_for_fov(aim), aim->eye);
+  recto_status status = handle_far_eye(aim);
+  if (camera->perspective)
+    memcpy(camera->eye, aim->eye, sizeof camera->eye);
+  else
+    step_back(aim, aim->centre, camera->size, camera->eye);
+  return status;
+}
+
+static struct view_point view_of_aim(const struct aim *aim, const double p[3]) {
+  return camera_view(aim->camera, &(struct scene_point){p[0], p[1], p[2]});
+}
+
+static struct view_point view_of_point(const struct aim *aim, size_t p) {
+  return camera_view(aim->camera, &aim->scene->point.item[p]);
+}
+
+/* ---- Depths -------------------------------------------------------------- */
+
+static void measure_depth(struct aim *aim) {
+  aim->d_low = INFINITY;
+  aim->d_high = -INFINITY;
+  for (size_t p = 0; p < aim->scene->point.count; p++) {
+    if (!aim->used[p])
+      continue;
+    double d = view_of_point(aim, p).d;
+    aim->d_low = min_number(aim->d_low, d);
+    aim->d_high = max_number(aim->d_high, d);
+  }
+}
+
+/* The default near plane. */
+static double choose_near(const struct aim *aim) {
+  double least = view_of_aim(aim, aim->target).d * TOLERANCE_NEAR_SHARE;
+  if (!aim->camera->perspective || (aim->d_low >= least && aim->d_low > 0))
+    return aim->d_low;
+  return least;
+}
+
+/* The depth from which the options' distances are measured: the eye's, or in a
+ * view by direction that of the scene's nearest point.  The near distance of a
+ * perspective view by direction is measured from the eye too. */
+static double depth_origin(const struct aim *aim, bool section) {
+  bool is_eye = aim->options->camera.kind == RECTO_CAMERA_EYE ||
+                (aim->options->camera.fov_deg > 0 && !section);
+  return is_eye ? view_of_aim(aim, aim->eye).d : aim->d_low;
+}
+
+static recto_status set_depth_range(struct aim *aim) {
+  const recto_options *o = aim->options;
+  struct camera *camera = aim->camera;
+  measure_depth(aim);
+  camera->near_chosen =
+      !(o->camera.near_distance > 0) && !o->camera.has_section;
+  camera->near_d = o->camera.near_distance > 0
+                       ? depth_origin(aim, false) + o->camera.near_distance
+                       : choose_near(aim);
+  if (o->camera.has_section)
+    camera->near_d =
+        fmax(camera->near_d, depth_origin(aim, true) + o->camera.section);
+  if (!(aim->d_high >= camera->near_d))
+    return error_set(aim->error, RECTO_ERROR_EMPTY, NULL, 0,
+                     "all of the scene is behind the viewer or cut away");
+  camera->d_min = fmax(camera->near_d, aim->d_low);
+  camera->d_max = aim->d_high;
+  return RECTO_OK;
+}
+
+/* ---- Fit ----------------------------------------------------------------- */
+
+/* Scales the drawing to fill the page inside the margins.  An extent that is
+ * rounding error only is ignored; where both are, the scene's size is used. */
+static void fit_page(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  struct extent e = extent_of_drawing(camera, aim->scene, aim->used,
+                                      aim->options->camera.has_section ||
+                                          !camera->perspective);
+  double size =
+      camera->perspective ? camera->size / camera->d_max : camera->size;
+  camera->s = INFINITY;
+  double least_room = INFINITY;
+  for (int k = 0; k < 2; k++) {
+    double room = camera->page_mm[k] - 2 * margin_of(aim->options);
+    double extent = e.high[k] - e.low[k];
+    least_room = fmin(least_room, room);
+    if (extent > size * TOLERANCE_EXTENT_SHARE)
+      camera->s = fmin(camera->s, room / extent);
+  }
+  if (camera->s == INFINITY)
+    camera->s = least_room / (size > 0 ? size : 1);
+  for (int k = 0; k < 2; k++)
+    camera->middle_mm[k] =
+        camera->page_mm[k] / 2 - camera->s * (e.low[k] / 2 + e.high[k] / 2);
+}
+
+/* Places the target, which lies on a perspective view's axis, on the middle of
+ * the page. */
+static void centre_target(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  struct view_point target = view_of_aim(aim, aim->target);
+  double aside[2] = {target.x, target.y};
+  for (int k = 0; k < 2; k++)
+    camera->middle_mm[k] = camera->page_mm[k] / 2 -
+                           (camera->perspective ? 0 : camera->s * aside[k]);
+}
+
+/* Scales the drawing so that the sphere about the target which encloses the
+ * scene fills the page inside the margins.  From a distance D the outline of a
+ * sphere of radius R is at R / sqrt(D^2 - R^2) from the axis, at unit depth. */
+static void fit_sphere(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  double margin = margin_of(aim->options), radius = radius_of_scene(aim);
+  double room = fmin(camera->page_mm[0], camera->page_mm[1]) - 2 * margin;
+  if (radius == 0)
+    radius = camera->size > 0 ? camera->size : 1;
+  if (camera->perspective) {
+    double distance = view_of_aim(aim, aim->target).d;
+    radius /= sqrt((distance - radius) * (distance + radius));
+  }
+  camera->s = room / (2 * radius);
+}
+
+static void set_scale(struct aim *aim) {
+  const recto_options *o = aim->options;
+  struct camera *camera = aim->camera;
+  if (o->camera.fit == RECTO_FIT_PAGE) {
+    fit_page(aim);
+    camera->all_on_page = aim->d_low >= camera->near_d;
+    return;
+  }
+  if (o->camera.fit == RECTO_FIT_SPHERE) {
+    fit_sphere(aim);
+  } else if (o->camera.fit == RECTO_FIT_SCALE) {
+    camera->s = o->camera.scale;
+    if (camera->perspective)
+      camera->s *= view_of_aim(aim, aim->target).d;
+    else if (aim->far)
+      camera->s *= aim->target_d / aim->centre_d;
+  } else if (camera->perspective || aim->far) {
+    struct angle half = angle_of_degrees(o->camera.fov_deg / 2);
+    camera->s = (o->page.height_mm - 2 * margin_of(o)) /
+                (2 * (half.sine / half.cosine));
+    if (aim->far)
+      camera->s /= aim->centre_d;
+  } else {
+    camera->s = 1;
+  }
+  centre_target(aim);
+}
+
+/* Whether nothing overflowed on the way. */
+static bool is_usable(const struct camera *camera) {
+  return vector_is_finite(camera->eye) && isfinite(camera->size) &&
+         isfinite(camera->d_min) && isfinite(camera->d_max) && camera->s > 0 &&
+         isfinite(camera->s) && isfinite(camera->middle_mm[0]) &&
+         isfinite(camera->middle_mm[1]) &&
+         (!camera->perspective || camera->near_d > 0);
+}
+
+/* -------------------------------------------------------------------------- */
+
+static recto_status aim_and_fit(struct aim *aim) {
+  const recto_options *o = aim->options;
+  struct camera *camera = aim->camera;
+  recto_status status = measure_scene(aim);
+  if (status != RECTO_OK)
+    return status;
+  camera->perspective = o->camera.fov_deg > 0;
+  camera->page_mm[0] = o->page.width_mm;
+  camera->page_mm[1] = o->page.height_mm;
+  camera->margin_mm = margin_of(o);
+  memcpy(aim->target, o->camera.has_target ? o->camera.target : aim->centre,
+         sizeof aim->target);
+  status = set_axes(aim);
+  if (status != RECTO_OK)
+    return status;
+  status = set_eye(aim);
+  if (status == RECTO_OK)
+    status = set_depth_range(aim);
+  if (status != RECTO_OK)
+    return status;
+  set_scale(aim);
+  if (!is_usable(camera))
+    return error_set(aim->error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "the scene is too large or too small, or too far from the "
+                     "eye or too close to it");
+  return RECTO_OK;
+}
+
+recto_status camera_aim(struct camera *camera, const struct scene *scene,
+                        const recto_options *options, recto_error *error) {
+  struct aim aim = {
+      .camera = camera, .scene = scene, .options = options, .error = error};
+  memset(camera, 0, sizeof *camera);
+  recto_status status = check_page(&aim);
+  if (status == RECTO_OK)
+    status = check_view(&aim);
+  if (status != RECTO_OK)
+    return status;
+  aim.used = used_points(scene, NULL);
+  if (!aim.used)
+    return error_memory(error);
+  status = aim_and_fit(&aim);
+  mem_free(aim.used);
+  return status;
+}

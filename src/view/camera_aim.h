@@ -1,0 +1,20 @@
+/* camera_aim.h - aims the camera at the scene. */
+#ifndef VIEW_CAMERA_AIM_H
+#define VIEW_CAMERA_AIM_H
+
+#include "view/camera.h"
+
+/* Aims the camera at the scene by the options' view, fit, near distance and
+ * section.
+ * Errors  RECTO_ERROR_ARGUMENT: the eye equals the target, up is parallel to
+ *         the view, margins that leave no room, a page above 2 m, a field of
+ *         view out of range;
+ *         RECTO_ERROR_EMPTY: nothing to draw, or all of it behind the viewer;
+ *         RECTO_ERROR_LIMIT: the scene is too large, too small, too far
+ *         or too close. */
+USE_RESULT recto_status camera_aim(struct camera *camera,
+                                   const struct scene *scene,
+                                   const recto_options *options,
+                                   recto_error *error);
+
+#endif
