@@ -58,7 +58,7 @@ const char *device_name(size_t index) {
 
 void device_list(char text[DEVICE_LIST_SIZE]) {
   size_t length = 0;
-  for (size_t i = 0; device_name(i) && length < DEVICE_LIST_SIZE; i++)
+  for (size_t i = 0; device_name(i) != NULL && length < DEVICE_LIST_SIZE; i++)
     length += (size_t)snprintf(text + length, DEVICE_LIST_SIZE - length, "%s%s",
                                i > 0 ? " " : "", device_name(i));
 }
@@ -147,7 +147,7 @@ double device_margin_mm(const struct device_placement *placement) {
       p->origin_y + (p->turned ? p->width_mm : p->height_mm) / p->unit_mm;
   double low = fmax(p->x0 - p->origin_x, p->y0 - p->origin_y);
   double high = fmax(far_x - p->x1, far_y - p->y1);
-  return p->paper ? fmax(0, fmax(low, high)) * p->unit_mm : 0;
+  return p->paper != NULL ? fmax(0, fmax(low, high)) * p->unit_mm : 0;
 }
 
 double device_velocity(const struct device *device, double requested_cm_s) {

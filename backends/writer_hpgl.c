@@ -375,7 +375,7 @@ static double find_margin(const struct writer_options *options, double width_mm,
 static double hpgl_unit(const struct writer_options *options) {
   const struct device *device = device_by_name(
       options->device != NULL ? options->device : DEFAULT_DEVICE);
-  return device ? device->unit_mm : 0;
+  return device != NULL ? device->unit_mm : 0;
 }
 
 const struct writer writer_hpgl = {.name = "hpgl",

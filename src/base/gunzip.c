@@ -49,8 +49,8 @@ static recto_status expansion_fault(const struct expansion *x, int result) {
     return error_set(x->error, RECTO_ERROR_FORMAT, x->path, 0,
                      "gzip data cut short");
   return error_set(x->error, RECTO_ERROR_FORMAT, x->path, 0,
-                   "broken gzip data%s%s", x->stream.msg ? ": " : "",
-                   x->stream.msg ? x->stream.msg : "");
+                   "broken gzip data%s%s", x->stream.msg != NULL ? ": " : "",
+                   x->stream.msg != NULL ? x->stream.msg : "");
 }
 
 /* Expands some more into the room that there is, which is one byte at least

@@ -93,7 +93,7 @@ bool array_grow(void **item, size_t *capacity, size_t count, size_t extra,
   if (wanted < SMALLEST)
     wanted = SMALLEST;
   void *grown = mem_resize(*item, wanted, size);
-  if (!grown)
+  if (grown == NULL)
     return false;
   *item = grown;
   *capacity = wanted;
@@ -120,12 +120,12 @@ void *arena_alloc(struct arena *arena, size_t count, size_t size) {
     return NULL;
   bytes = align_size(bytes);
   struct arena_block *block = arena->block;
-  if (!block || bytes > block->size - arena->used) {
-    size_t room = block ? 2 * block->size : ARENA_BLOCK_SIZE;
+  if (block == NULL || bytes > block->size - arena->used) {
+    size_t room = block != NULL ? 2 * block->size : ARENA_BLOCK_SIZE;
     if (room < bytes)
       room = bytes;
     block = mem_alloc(sizeof *block + room, 1);
-    if (!block)
+    if (block == NULL)
       return NULL;
     block->next = arena->block;
     block->size = room;
@@ -140,9 +140,9 @@ void *arena_alloc(struct arena *arena, size_t count, size_t size) {
 void arena_reset(struct arena *arena) {
   /* Blocks only ever grow, so the newest is the largest. */
   struct arena_block *newest = arena->block;
-  if (newest) {
+  if (newest != NULL) {
     struct arena_block *older = newest->next;
-    while (older) {
+    while (older != NULL) {
       struct arena_block *next = older->next;
       mem_free(older);
       older = next;

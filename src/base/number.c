@@ -167,7 +167,7 @@ const char *number_parse_double(const char *text, const char *end,
   double magnitude;
   if (digits == 0) {
     p = parse_special(first, end, &magnitude);
-    if (p)
+    if (p != NULL)
       *value = negative ? -magnitude : magnitude;
     return p;
   }

@@ -39,7 +39,7 @@ static void forget_value(struct report_entry *entry) {
 }
 
 void report_destroy(struct report *report) {
-  if (!report)
+  if (report == NULL)
     return;
   for (size_t i = 0; i < report->entry.count; i++)
     forget_value(&report->entry.item[i]);
@@ -66,10 +66,10 @@ static struct report_entry *find_report_entry(const struct report *report,
 static struct report_entry *make_entry(struct report *report,
                                        const char *section, const char *name,
                                        enum kind kind) {
-  if (!report)
+  if (report == NULL)
     return NULL;
   struct report_entry *entry = find_report_entry(report, section, name);
-  if (!entry) {
+  if (entry == NULL) {
     struct report_entry fresh = {.section = section, .name = name};
     if (!ARRAY_PUSH(&report->entry, fresh))
       return NULL;
@@ -83,7 +83,7 @@ static struct report_entry *make_entry(struct report *report,
 void report_int(struct report *report, const char *section, const char *name,
                 int64_t value) {
   struct report_entry *entry = make_entry(report, section, name, KIND_INT);
-  if (entry)
+  if (entry != NULL)
     entry->integer = value;
 }
 
@@ -96,17 +96,17 @@ void report_add(struct report *report, const char *section, const char *name,
 void report_double(struct report *report, const char *section, const char *name,
                    double value) {
   struct report_entry *entry = make_entry(report, section, name, KIND_DOUBLE);
-  if (entry)
+  if (entry != NULL)
     entry->number = value;
 }
 
 void report_doubles(struct report *report, const char *section,
                     const char *name, const double *value, size_t count) {
   struct report_entry *entry = make_entry(report, section, name, KIND_DOUBLES);
-  if (!entry)
+  if (entry == NULL)
     return;
   entry->numbers = mem_alloc(count, sizeof *value);
-  if (!entry->numbers)
+  if (entry->numbers == NULL)
     return;
   if (count)
     memcpy(entry->numbers, value, count * sizeof *value);
@@ -116,19 +116,19 @@ void report_doubles(struct report *report, const char *section,
 void report_text(struct report *report, const char *section, const char *name,
                  const char *value) {
   struct report_entry *entry = make_entry(report, section, name, KIND_TEXT);
-  if (!entry)
+  if (entry == NULL)
     return;
   size_t size = strlen(value) + 1;
   entry->text = mem_alloc(size, 1);
-  if (entry->text)
+  if (entry->text != NULL)
     memcpy(entry->text, value, size);
 }
 
 int64_t report_get(const struct report *report, const char *section,
                    const char *name, int64_t otherwise) {
   const struct report_entry *entry =
-      report ? find_report_entry(report, section, name) : NULL;
-  return entry && entry->kind == KIND_INT ? entry->integer : otherwise;
+      report != NULL ? find_report_entry(report, section, name) : NULL;
+  return entry != NULL && entry->kind == KIND_INT ? entry->integer : otherwise;
 }
 
 /* ---- JSON ---------------------------------------------------------------- */
@@ -183,7 +183,7 @@ static void put_entry(struct stream *stream, const struct report_entry *entry) {
     put_doubles(stream, entry->numbers, entry->count);
     break;
   case KIND_TEXT:
-    put_text(stream, entry->text ? entry->text : "");
+    put_text(stream, entry->text != NULL ? entry->text : "");
     break;
   }
 }
@@ -215,7 +215,7 @@ static bool is_first_of_section(const struct report *report, size_t index) {
 }
 
 const char *report_json(struct report *report) {
-  if (!report)
+  if (report == NULL)
     return NULL;
   stream_discard(report->json);
   if (stream_open_memory(&report->json, NULL) != RECTO_OK)

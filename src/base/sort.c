@@ -114,7 +114,7 @@ bool sort_stable(void *item, size_t count, size_t size,
   if (count < 2)
     return true;
   char *scratch = mem_alloc(count, size);
-  if (!scratch)
+  if (scratch == NULL)
     return false;
   struct sort_order order = {size, compare, user};
   char *from = item, *to = scratch;

@@ -67,10 +67,10 @@ static void drop_broken_tail(char *text, size_t length) {
 
 recto_status error_set(recto_error *error, recto_status code, const char *file,
                        unsigned long line, const char *format, ...) {
-  if (!error)
+  if (error == NULL)
     return code;
   error->code = code;
-  copy_path(error->file, sizeof error->file, file ? file : "");
+  copy_path(error->file, sizeof error->file, file != NULL ? file : "");
   error->line = line;
   va_list arguments;
   va_start(arguments, format);

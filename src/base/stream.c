@@ -71,7 +71,7 @@ static void empty_buffer(struct stream *stream) {
 
 static struct stream *allocate_stream(void) {
   struct stream *stream = mem_calloc(1, sizeof *stream);
-  if (!stream)
+  if (stream == NULL)
     return NULL;
   stream->status = RECTO_OK;
   stream->target.descriptor = -1;
@@ -86,7 +86,7 @@ recto_status stream_open(struct stream **stream, const char *path,
                          recto_error *error) {
   *stream = NULL;
   struct stream *opened = allocate_stream();
-  if (!opened)
+  if (opened == NULL)
     return error_memory(error);
   recto_status status = target_open(&opened->target, path, error);
   if (status != RECTO_OK) {
@@ -99,7 +99,7 @@ recto_status stream_open(struct stream **stream, const char *path,
 
 recto_status stream_open_memory(struct stream **stream, recto_error *error) {
   *stream = allocate_stream();
-  if (!*stream)
+  if (*stream == NULL)
     return error_memory(error);
   (*stream)->is_memory = true;
   return RECTO_OK;
@@ -188,7 +188,7 @@ const char *stream_memory(const struct stream *stream, size_t *count) {
 /* ---- Closing ------------------------------------------------------------- */
 
 void stream_discard(struct stream *stream) {
-  if (!stream)
+  if (stream == NULL)
     return;
   (void)target_close(&stream->target);
   gzip_destroy(stream->gzip);

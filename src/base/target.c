@@ -24,7 +24,7 @@ enum { NAME_SIZE = 64, DESCRIPTOR_NAME_SIZE = 32 };
 /* The length of the path's folder, the last slash included. */
 static size_t folder_length(const char *path) {
   const char *slash = strrchr(path, '/');
-  return slash ? (size_t)(slash + 1 - path) : 0;
+  return slash != NULL ? (size_t)(slash + 1 - path) : 0;
 }
 
 /* What the link at `path` says, as seen from here; NULL with *failed false
@@ -36,7 +36,7 @@ static char *read_link(const char *path, bool *failed) {
     return NULL;
   size_t folder = folder_length(path);
   char *to = mem_alloc(folder + PATH_MAX, 1);
-  ssize_t length = to ? readlink(path, to + folder, PATH_MAX - 1) : -1;
+  ssize_t length = to != NULL ? readlink(path, to + folder, PATH_MAX - 1) : -1;
   *failed = length <= 0;
   if (*failed) {
     mem_free(to);
@@ -76,7 +76,7 @@ static char *follow_links(const char *path) {
 static char *folder_of(const char *path) {
   size_t length = folder_length(path);
   char *folder = mem_copy_text(length > 0 ? path : ".");
-  if (folder && length > 0)
+  if (folder != NULL && length > 0)
     folder[length] = '\0';
   return folder;
 }
@@ -120,7 +120,7 @@ static bool try_names(struct target *target,
   enum { TRIES = 1000 };
   size_t folder = folder_length(target->path);
   char *name = mem_alloc(folder + NAME_SIZE, 1);
-  if (!name) {
+  if (name == NULL) {
     errno = ENOMEM;
     return false;
   }
@@ -154,7 +154,7 @@ static bool make_link(struct target *target, const char *name) {
 
 static recto_status create_file(struct target *target, recto_error *error) {
   char *folder = folder_of(target->path);
-  if (!folder)
+  if (folder == NULL)
     return error_memory(error);
   bool there = stat(folder, &target->folder) == 0;
   bool made = there && (create_nameless(target, folder) ||
@@ -169,7 +169,7 @@ static recto_status create_file(struct target *target, recto_error *error) {
 }
 
 static void remove_temporary(struct target *target) {
-  if (target->temporary)
+  if (target->temporary != NULL)
     unlink(target->temporary);
   mem_free(target->temporary);
   target->temporary = NULL;
@@ -186,7 +186,7 @@ static bool is_users(const char *attribute) {
 static bool copy_attribute(int from, int to, const char *name) {
   enum { MOST = 1 << 16 }; /* of the system */
   char *value = mem_alloc(MOST, 1);
-  ssize_t size = value ? fgetxattr(from, name, value, MOST) : -1;
+  ssize_t size = value != NULL ? fgetxattr(from, name, value, MOST) : -1;
   bool ok = size >= 0 && fsetxattr(to, name, value, (size_t)size, 0) == 0;
   mem_free(value);
   return ok || !is_users(name);
@@ -198,7 +198,7 @@ static bool copy_attributes(int from, int to) {
   if (size <= 0)
     return size == 0 || errno == ENOTSUP;
   char *names = mem_alloc((size_t)size, 1);
-  size = names ? flistxattr(from, names, (size_t)size) : -1;
+  size = names != NULL ? flistxattr(from, names, (size_t)size) : -1;
   bool ok = size >= 0;
   for (ssize_t at = 0; ok && at < size; at += (ssize_t)strlen(names + at) + 1)
     ok = copy_attribute(from, to, names + at);
@@ -274,7 +274,7 @@ static recto_status query_target(struct target *target, recto_error *error) {
 
 static recto_status open_path(struct target *target, recto_error *error) {
   target->path = follow_links(target->name);
-  if (!target->path)
+  if (target->path == NULL)
     return error_memory(error);
   int descriptor = path_descriptor(target->path);
   if (descriptor >= 0)
@@ -291,7 +291,7 @@ static recto_status open_path(struct target *target, recto_error *error) {
 recto_status target_open(struct target *target, const char *path,
                          recto_error *error) {
   *target = (struct target){.descriptor = -1, .name = mem_copy_text(path)};
-  recto_status status = !target->name ? error_memory(error)
+  recto_status status = target->name == NULL ? error_memory(error)
                         : strcmp(path, "-") == 0
                             ? open_descriptor(target, STDOUT_FILENO, error)
                             : open_path(target, error);
@@ -404,7 +404,8 @@ static bool copy_in_place(struct target *target) {
   int to = path_above_standard(open(target->path, O_WRONLY | O_CLOEXEC));
   char *chunk = mem_alloc(CHUNK, 1);
   off_t at = 0;
-  bool ok = to >= 0 && chunk && fstat(target->descriptor, &attributes) == 0 &&
+  bool ok = to >= 0 && chunk != NULL &&
+            fstat(target->descriptor, &attributes) == 0 &&
             reserve_room(to, (size_t)attributes.st_size);
   while (ok && at < attributes.st_size) {
     ssize_t got = pread(target->descriptor, chunk, CHUNK, at);

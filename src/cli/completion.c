@@ -32,7 +32,8 @@ static bool has_words(const struct option_entry *entry) {
 
 static void print_words(const struct option_entry *entry) {
   const char *word;
-  for (size_t i = 0; entry->word && (word = entry->word(i)) != NULL; i++)
+  for (size_t i = 0; entry->word != NULL && (word = entry->word(i)) != NULL;
+       i++)
     printf("%s%s", i > 0 ? " " : "", word);
   if (entry->words != NULL)
     printf("%s%s", entry->word != NULL ? " " : "", entry->words);

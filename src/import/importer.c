@@ -215,7 +215,7 @@ static void limit_self(long seconds, long mb) {
 static const struct aiScene *import_file(FILE *to, const char *format,
                                          const char *path) {
   struct input input;
-  if (path)
+  if (path != NULL)
     return aiImportFile(path, 0);
   recto_status status = input_load(&input, "-", NULL);
   if (status == RECTO_ERROR_MEMORY)
@@ -239,16 +239,16 @@ int main(int argc, char **argv) {
   }
   limit_self(strtol(argv[1], NULL, 10), strtol(argv[2], NULL, 10));
   struct import import = {.to = fdopen(CHILD_OUTPUT, "wb")};
-  if (!import.to)
+  if (import.to == NULL)
     return 2;
   write_bytes(import.to, IMPORT_MAGIC, sizeof IMPORT_MAGIC - 1);
   if (!is_supported(argv[3]))
     exit_with(import.to, IMPORT_UNKNOWN_FORMAT, "");
   import.from = import_file(import.to, argv[3], argc == 5 ? argv[4] : NULL);
-  const char *text = import.from ? "nothing in it" : aiGetErrorString();
-  if (strstr(text, "bad_alloc"))
+  const char *text = import.from != NULL ? "nothing in it" : aiGetErrorString();
+  if (strstr(text, "bad_alloc") != NULL)
     exit_with(import.to, IMPORT_NO_MEMORY, "");
-  if (!import.from || !import.from->mRootNode)
+  if (import.from == NULL || import.from->mRootNode == NULL)
     exit_with(import.to, IMPORT_BROKEN, text);
   put_nodes(&import);
   finish(import.to);

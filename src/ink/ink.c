@@ -212,13 +212,13 @@ static recto_status draw_lines(struct ink *ink, recto_error *error) {
 static bool copy_group_names(struct ink *ink) {
   for (size_t i = 0; i < ink->scene->group.count; i++) {
     const char *name = ink->scene->group.item[i].name;
-    size_t size = name ? strlen(name) + 1 : 1;
+    size_t size = name != NULL ? strlen(name) + 1 : 1;
     char *copy = mem_alloc(size, 1);
-    if (!copy || !ARRAY_PUSH(&ink->drawing->group_name, copy)) {
+    if (copy == NULL || !ARRAY_PUSH(&ink->drawing->group_name, copy)) {
       mem_free(copy);
       return false;
     }
-    memcpy(copy, name ? name : "", size);
+    memcpy(copy, name != NULL ? name : "", size);
   }
   return true;
 }

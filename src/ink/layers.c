@@ -37,7 +37,7 @@ static void add_groups(struct label *label, const struct pens *pens,
                        const struct scene *scene) {
   for (size_t g = 0; g < scene->group.count; g++) {
     const char *name = scene->group.item[g].name;
-    if (pens->of_group[g] == label->layer->pen - 1 && name && *name)
+    if (pens->of_group[g] == label->layer->pen - 1 && name != NULL && *name)
       add_word(label, name);
   }
 }
@@ -131,7 +131,7 @@ static bool add_fill_layer(struct drawing *drawing) {
 /* Removes the layers without strokes. */
 static bool drop_empty(struct drawing *drawing) {
   uint32_t *number = mem_alloc(drawing->layer.count, sizeof *number);
-  if (!number)
+  if (number == NULL)
     return false;
   uint32_t used = number_used(drawing, number);
   for (size_t i = 0; i < drawing->layer.count; i++)

@@ -268,9 +268,9 @@ bool judge_edges_init(struct judge_edges *edges,
       .edges = edges, .scene = all->scene, .camera = camera};
   struct side_list sides = {{0}}, single = {{0}};
   memset(edges, 0, sizeof *edges);
-  finder.first_at =
-      find_first_at(options->given ? options->given : all->scene->point.item,
-                    all->scene->point.count);
+  finder.first_at = find_first_at(
+      options->given != NULL ? options->given : all->scene->point.item,
+      all->scene->point.count);
   bool ok =
       judge_facings_init(&finder.facings, all, camera, options) &&
       finder.first_at != NULL && list_scene_sides(all->scene, &sides) &&

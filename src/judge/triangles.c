@@ -310,7 +310,7 @@ bool judge_triangles_init(struct judge_triangles *all,
   all->size = scene_size(scene);
   struct face_adder adder = {.all = all,
                              .scene = scene,
-                             .given = given ? given : scene->point.item,
+                             .given = given != NULL ? given : scene->point.item,
                              .contact = contact};
   bool ok = true;
   for (uint32_t i = 0; ok && i < scene_face_count(scene); i++)

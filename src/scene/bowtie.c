@@ -213,7 +213,8 @@ bool bowtie_has_crossing(const struct scene *scene, const uint32_t *corner,
       arena_alloc(&arena, count, sizeof *sweep.scratch),
       arena_alloc(&arena, count, sizeof *sweep.active)};
   bool crossing = false;
-  if (sweep.flat && sweep.side && sweep.order && sweep.scratch && sweep.active)
+  if (sweep.flat != NULL && sweep.side != NULL && sweep.order != NULL &&
+      sweep.scratch != NULL && sweep.active != NULL)
     crossing = has_crossing(scene, corner, count, &sweep);
   arena_fini(&arena);
   return crossing;

@@ -271,7 +271,7 @@ static bool allocate_clusters(struct clusters *clusters, double length,
     clusters->bits++;
   size_t heads = (size_t)1 << clusters->bits;
   clusters->chain = mem_alloc(heads, sizeof *clusters->chain);
-  if (clusters->chain)
+  if (clusters->chain != NULL)
     memset(clusters->chain, 0xff, heads * sizeof *clusters->chain);
   return clusters->chain != NULL;
 }

@@ -35,7 +35,7 @@ static const char *fault_text(enum scene_fault fault) {
 
 void diagnostics_fault(struct diagnostics *diagnostics, enum scene_fault fault,
                        unsigned long line, const char *format, ...) {
-  if (!diagnostics)
+  if (diagnostics == NULL)
     return;
   unsigned long before =
       diagnostics->count[fault]++ - diagnostics->settled[fault];
@@ -47,11 +47,12 @@ void diagnostics_fault(struct diagnostics *diagnostics, enum scene_fault fault,
   vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
   diagnostics->warning(diagnostics->user,
-                       diagnostics->file ? diagnostics->file : "", line, text);
+                       diagnostics->file != NULL ? diagnostics->file : "", line,
+                       text);
 }
 
 void diagnostics_finish(struct diagnostics *diagnostics) {
-  if (!diagnostics)
+  if (diagnostics == NULL)
     return;
   for (int i = 0; i < SCENE_FAULT_COUNT; i++) {
     unsigned long count = diagnostics->count[i] - diagnostics->settled[i];
@@ -62,7 +63,8 @@ void diagnostics_finish(struct diagnostics *diagnostics) {
     snprintf(text, sizeof text, "... and %lu more with %s", count - TOLD,
              fault_text((enum scene_fault)i));
     diagnostics->warning(diagnostics->user,
-                         diagnostics->file ? diagnostics->file : "", 0, text);
+                         diagnostics->file != NULL ? diagnostics->file : "", 0,
+                         text);
   }
 }
 

@@ -180,7 +180,7 @@ static bool unite_corners(const struct scene *scene, uint32_t *corner,
   struct placed few[FEW_CORNERS];
   struct placed *placed =
       count <= FEW_CORNERS ? few : mem_alloc(count, sizeof *placed);
-  if (!placed)
+  if (placed == NULL)
     return false;
   for (size_t i = 0; i < count; i++)
     placed[i] = (struct placed){scene->point.item[corner[i]], &corner[i]};

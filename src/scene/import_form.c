@@ -48,15 +48,15 @@ static uint32_t load(const char *array, size_t i) {
 static bool next_record(struct form *f) {
   struct import_record *r = &f->record;
   const char *start = take_items(f, 1, sizeof *r);
-  if (!start)
+  if (start == NULL)
     return false;
   memcpy(r, start, sizeof *r);
   if (r->kind != IMPORT_MESH)
     r->points = r->elements = r->corners = 0;
-  return (f->name = take_items(f, r->name_length, 1)) &&
-         (f->point = take_items(f, r->points, 3 * sizeof(double))) &&
-         (f->count = take_items(f, r->elements, sizeof(uint32_t))) &&
-         (f->index = take_items(f, r->corners, sizeof(uint32_t)));
+  return (f->name = take_items(f, r->name_length, 1)) != NULL &&
+         (f->point = take_items(f, r->points, 3 * sizeof(double))) != NULL &&
+         (f->count = take_items(f, r->elements, sizeof(uint32_t))) != NULL &&
+         (f->index = take_items(f, r->corners, sizeof(uint32_t))) != NULL;
 }
 
 /* ---- Meshes -------------------------------------------------------------- */
@@ -167,7 +167,8 @@ recto_status import_form_read(struct scene *scene, const char *bytes,
   const char *magic = take_items(&f, sizeof IMPORT_MAGIC - 1, 1);
   recto_status status = RECTO_OK;
   bool ok = false;
-  if (!magic || memcmp(magic, IMPORT_MAGIC, sizeof IMPORT_MAGIC - 1) != 0)
+  if (magic == NULL ||
+      memcmp(magic, IMPORT_MAGIC, sizeof IMPORT_MAGIC - 1) != 0)
     status = form_fault(&f);
   while (status == RECTO_OK && !ok) {
     if (!next_record(&f))

@@ -63,14 +63,14 @@ static recto_status read_material_library(struct library_reader *reader,
                                           const char *path,
                                           const struct input *input) {
   struct diagnostics own = {.file = path};
-  if (reader->diagnostics) {
+  if (reader->diagnostics != NULL) {
     own.warning = reader->diagnostics->warning;
     own.user = reader->diagnostics->user;
   }
   recto_status status = material_read(&reader->palette, input->bytes,
                                       input->count, &own, reader->error);
   diagnostics_finish(&own);
-  if (reader->diagnostics) {
+  if (reader->diagnostics != NULL) {
     unsigned long count = own.count[SCENE_FAULT_MATERIAL];
     reader->diagnostics->count[SCENE_FAULT_MATERIAL] += count;
     reader->diagnostics->settled[SCENE_FAULT_MATERIAL] += count;
@@ -106,11 +106,11 @@ static recto_status try_library(struct library_reader *reader, const char *name,
                                 size_t length, bool *found, recto_error *why) {
   const char *slash = strrchr(reader->model, '/');
   size_t folder =
-      slash && *name != '/' ? (size_t)(slash + 1 - reader->model) : 0;
+      slash != NULL && *name != '/' ? (size_t)(slash + 1 - reader->model) : 0;
   char *path = length < PTRDIFF_MAX / 2 - folder
                    ? mem_alloc(folder + length + sizeof GZIP, 1)
                    : NULL;
-  if (!path)
+  if (path == NULL)
     return error_memory(reader->error);
   memcpy(path, reader->model, folder);
   memcpy(path + folder, name, length);
@@ -232,7 +232,7 @@ recto_status materials_colour(const struct materials *materials,
   size_t count = materials->use.count;
   scene_init(&reader.palette);
   uint32_t *material = mem_alloc(count, sizeof *material);
-  recto_status status = material ? RECTO_OK : error_memory(error);
+  recto_status status = material != NULL ? RECTO_OK : error_memory(error);
   if (status == RECTO_OK)
     status = read_all_libraries(&reader, materials);
   if (status == RECTO_OK)

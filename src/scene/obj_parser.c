@@ -20,7 +20,7 @@ void obj_skip_line(struct obj_parser *p, bool may_continue) {
   for (;;) {
     const char *start = p->at;
     const char *stop = memchr(start, '\n', (size_t)(p->end - start));
-    if (!stop) {
+    if (stop == NULL) {
       p->at = p->end;
       return;
     }
@@ -29,7 +29,7 @@ void obj_skip_line(struct obj_parser *p, bool may_continue) {
     if (stop > start && stop[-1] == '\r')
       stop--;
     if (!may_continue || stop == start || stop[-1] != '\\' ||
-        memchr(start, '#', (size_t)(stop - start)))
+        memchr(start, '#', (size_t)(stop - start)) != NULL)
       return;
   }
 }
@@ -56,7 +56,7 @@ recto_status obj_check_text(struct obj_parser *p, const char *start,
 
 recto_status obj_skip_broken(struct obj_parser *p, const char *start,
                              unsigned long line, const char *what) {
-  if (!memchr(start, '\n', (size_t)(p->end - start)))
+  if (memchr(start, '\n', (size_t)(p->end - start)) == NULL)
     return error_set(p->error, RECTO_ERROR_FORMAT, p->path, line,
                      "the file ends in the middle of a %s", what);
   recto_status status = obj_check_text(p, start, line);

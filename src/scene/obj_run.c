@@ -44,15 +44,15 @@ recto_status obj_run_points(struct obj_parser *p) {
   for (int i = 0; i < PLAIN_RUN && is_short_statement(p, 'v'); i++) {
     struct scene_point point;
     const char *at = number_parse_plain(p->at + 2, &point.x);
-    if (at && *at == ' ')
+    if (at != NULL && *at == ' ')
       at = number_parse_plain(at + 1, &point.y);
     else
       break;
-    if (at && *at == ' ')
+    if (at != NULL && *at == ' ')
       at = number_parse_plain(at + 1, &point.z);
     else
       break;
-    if (!at || *at != '\n')
+    if (at == NULL || *at != '\n')
       break;
     if (precision_is_sampled(&p->sample, p->seen))
       sample_point(p, &point);
@@ -88,7 +88,7 @@ static inline const char *read_plain_face(const struct obj_parser *p,
   const char *at = p->at + 1;
   for (int k = 0; k < 3; k++) {
     at = read_plain_index(p, at, &corner[k]);
-    if (!at || at - p->at > PLAIN_ROOM / 2)
+    if (at == NULL || at - p->at > PLAIN_ROOM / 2)
       return NULL;
   }
   const struct scene_point *point = p->scene->point.item;
@@ -112,7 +112,7 @@ recto_status obj_run_faces(struct obj_parser *p) {
   for (int i = 0; i < PLAIN_RUN && is_short_statement(p, 'f'); i++) {
     uint32_t *corner = scene->corner.item + scene->corner.count;
     const char *past = read_plain_face(p, corner);
-    if (!past)
+    if (past == NULL)
       break;
     p->at = past;
     p->line++;

@@ -130,7 +130,7 @@ recto_status ply_colour_faces(struct ply_parser *p, size_t first) {
   for (size_t i = 0; i < p->face_colour.count; i++)
     count += p->face_colour.item[i] != PLY_NO_COLOUR;
   struct sort_key *key = mem_alloc(2 * count, sizeof *key);
-  if (!key)
+  if (key == NULL)
     return error_memory(p->error);
   int bits = 8;
   while (sort_within(p, mask_of(bits), key, count) > PLY_COLOUR_MAX)

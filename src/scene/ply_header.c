@@ -178,7 +178,7 @@ static recto_status check_role(struct header_parser *p, struct header_word name,
     why = "is a list, not a single value";
   else if (!list && property->role == PLY_CORNERS)
     why = "is a single value, not a list";
-  if (!why)
+  if (why == NULL)
     return RECTO_OK;
   return error_set(p->error, RECTO_ERROR_FORMAT, p->path, p->line,
                    "PLY header: property %.*s %s", (int)name.length, name.start,

@@ -78,7 +78,7 @@ static enum ply_taken take_binary(struct ply_parser *p,
 
 static void skip_line(struct ply_parser *p) {
   const char *stop = memchr(p->at, p->header.newline, (size_t)(p->end - p->at));
-  p->at = stop ? stop + 1 : p->end;
+  p->at = stop != NULL ? stop + 1 : p->end;
   p->line += stop != NULL;
 }
 
@@ -113,9 +113,9 @@ static inline bool next_number(struct ply_parser *p, double *value) {
   if (p->end - p->at > NUMBER_PLAIN_ROOM)
     stop = number_parse_plain(p->at, value);
 #endif
-  if (!stop || !ends_value(p, stop))
+  if (stop == NULL || !ends_value(p, stop))
     stop = number_parse_double(p->at, p->end, value);
-  if (!stop || !ends_value(p, stop))
+  if (stop == NULL || !ends_value(p, stop))
     return false;
   p->at = stop;
   return true;

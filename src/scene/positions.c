@@ -69,7 +69,7 @@ recto_status positions_reserve(struct positions *positions, struct scene *scene,
   if (bits == positions->bits)
     return RECTO_OK;
   struct position_slot *grown = mem_calloc((size_t)1 << bits, sizeof *grown);
-  if (!grown)
+  if (grown == NULL)
     return error_memory(error);
   mem_free(positions->slot);
   positions->slot = grown;

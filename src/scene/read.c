@@ -43,7 +43,7 @@ static size_t copy_extension(const char *name, size_t length,
 /* The extension of the path's last part; of "a.obj.gz" it is "obj". */
 static void find_extension(const char *path, char to[EXTENSION_SIZE]) {
   const char *slash = strrchr(path, '/');
-  const char *name = slash ? slash + 1 : path;
+  const char *name = slash != NULL ? slash + 1 : path;
   size_t rest = copy_extension(name, strlen(name), to);
   if (word_is_among(to, "gz", false))
     (void)copy_extension(name, rest, to);
@@ -68,8 +68,9 @@ static const struct reader *choose_reader(const char *path,
 
 static recto_status refuse_format(const char *path, const char *format,
                                   recto_error *error) {
-  const char *others = reader_of_the_rest ? "" : " (built without Assimp)";
-  if (format && *format)
+  const char *others =
+      reader_of_the_rest != NULL ? "" : " (built without Assimp)";
+  if (format != NULL && *format)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, path, 0,
                      "no reader for the format '%s'%s", format, others);
   if (strcmp(path, "-") == 0)

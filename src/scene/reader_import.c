@@ -60,7 +60,7 @@ static bool find_from_program(char path[PATH_SIZE], const char *place) {
  * prefix says. */
 static void find_importer(char path[PATH_SIZE]) {
   const char *own = secure_getenv("RECTO_IMPORT");
-  if (own && *own)
+  if (own != NULL && *own)
     snprintf(path, PATH_SIZE, "%s", own);
   else if (!find_from_program(path, "recto-import") &&
            !find_from_program(path, "../libexec/recto/recto-import"))
@@ -70,7 +70,7 @@ static void find_importer(char path[PATH_SIZE]) {
 /* A whole number above 0 from the environment, else the usual one. */
 static long environment_limit(const char *name, long usual) {
   const char *text = secure_getenv(name);
-  long value = text ? strtol(text, NULL, 10) : 0;
+  long value = text != NULL ? strtol(text, NULL, 10) : 0;
   return value > 0 && value < 1000000000 ? value : usual;
 }
 
@@ -127,7 +127,7 @@ static recto_status tell_end(const struct import_child *import,
 static bool is_by_path(const char *path, const char *format, size_t count) {
   const char *point = strrchr(path, '.');
   struct stat attributes;
-  return point && strcasecmp(point + 1, format) == 0 &&
+  return point != NULL && strcasecmp(point + 1, format) == 0 &&
          stat(path, &attributes) == 0 && S_ISREG(attributes.st_mode) &&
          (uintmax_t)attributes.st_size == count;
 }

@@ -31,7 +31,8 @@ static bool parse_colour(const char *at, const char *end, uint32_t *colour) {
   int parts = 0;
   for (; parts < 3 && at < end && *at != '#'; parts++) {
     const char *stop = number_parse_double(at, end, &part[parts]);
-    if (!stop || (stop < end && !is_blank(*stop)) || !isfinite(part[parts]))
+    if (stop == NULL || (stop < end && !is_blank(*stop)) ||
+        !isfinite(part[parts]))
       return false;
     at = after_blanks(stop, end);
   }
@@ -103,10 +104,10 @@ static void take_colour(const struct library *library, const char *at,
 static recto_status read_mtl_statement(struct library *library, const char *at,
                                        const char *end) {
   const char *rest = follow_keyword(at, end, "newmtl");
-  if (rest)
+  if (rest != NULL)
     return begin_material(library, rest, end);
   rest = follow_keyword(at, end, "Kd");
-  if (rest)
+  if (rest != NULL)
     take_colour(library, rest, end);
   return RECTO_OK;
 }
@@ -131,8 +132,8 @@ recto_status material_read(struct scene *palette, const char *bytes,
     at += 3;
   for (; status == RECTO_OK && at < end; library.line++) {
     const char *stop = memchr(at, '\n', (size_t)(end - at));
-    const char *next = stop ? stop + 1 : end;
-    stop = stop ? stop : end;
+    const char *next = stop != NULL ? stop + 1 : end;
+    stop = stop != NULL ? stop : end;
     at = after_blanks(at, stop);
     while (stop > at && is_blank(stop[-1]))
       stop--;

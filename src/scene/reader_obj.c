@@ -53,7 +53,7 @@ static recto_status read_point(struct obj_parser *p) {
   for (int k = 0; k < 3; k++) {
     obj_skip_blanks(p);
     const char *stop = number_parse_double(p->at, p->end, &xyz[k]);
-    if (!stop || !obj_ends_word(*stop)) {
+    if (stop == NULL || !obj_ends_word(*stop)) {
       recto_status status = obj_skip_broken(p, start, line, "point");
       return status == RECTO_OK ? add_obj_point(p, xyz, false) : status;
     }
@@ -115,7 +115,7 @@ static recto_status read_rest(struct obj_parser *p, struct material_name *name,
   name->start = p->at;
   name->line = p->line;
   const char *stop = memchr(p->at, '\n', (size_t)(p->end - p->at));
-  if (!stop)
+  if (stop == NULL)
     stop = p->end;
   while (stop > p->at && is_blank(stop[-1]))
     stop--;
@@ -238,9 +238,9 @@ static recto_status read_corners(struct obj_parser *p, bool *broken,
   for (obj_skip_blanks(p); !obj_is_at_end_of_line(p); obj_skip_blanks(p)) {
     int64_t index;
     const char *stop = parse_index(p->at, p->end, &index);
-    if (stop && *stop == '/')
+    if (stop != NULL && *stop == '/')
       stop = obj_skip_other_indices(stop);
-    *broken = !stop || !obj_ends_word(*stop);
+    *broken = stop == NULL || !obj_ends_word(*stop);
     if (*broken)
       break;
     uint32_t point = (uint32_t)(p->first + (size_t)index - 1);
@@ -411,7 +411,7 @@ static recto_status read_obj(struct scene *scene, const char *bytes,
                          .renamed = true};
   if (strncmp(bytes, byte_order_mark, 3) == 0)
     p.at += 3;
-  if (!memchr(bytes, '\n', count) && memchr(bytes, '\r', count))
+  if (memchr(bytes, '\n', count) == NULL && memchr(bytes, '\r', count) != NULL)
     return error_set(error, RECTO_ERROR_FORMAT, path, 1,
                      "its lines end in a carriage return alone; a line feed "
                      "must end them");

@@ -85,7 +85,7 @@ static bool grow_slots(struct scene *scene) {
     return true;
   count = count ? 2 * count : 16;
   uint32_t *grown = mem_resize(scene->group_slot, count, sizeof *grown);
-  if (!grown)
+  if (grown == NULL)
     return false;
   scene->group_slot = grown;
   scene->group_slot_count = count;
@@ -111,7 +111,7 @@ recto_status scene_use_group(struct scene *scene, const char *name,
   if (length > PTRDIFF_MAX / 2 - 1 || !grow_slots(scene))
     return error_memory(error);
   char *clean = mem_alloc(2 * length + 1, 1);
-  if (!clean)
+  if (clean == NULL)
     return error_memory(error);
   length = name_clean(name, length, clean);
   clean[length] = '\0';
@@ -151,7 +151,7 @@ void scene_return(struct scene *scene, const struct scene_snapshot *mark) {
   scene->precision.count = mark->precisions;
   drop_groups(scene, mark->groups);
   scene->current_group = mark->current_group;
-  if (scene->group_slot)
+  if (scene->group_slot != NULL)
     fill_slots(scene);
 }
 

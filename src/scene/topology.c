@@ -45,7 +45,7 @@ static struct topology_walk walk_sides(const struct scene *scene,
 static inline uint32_t welded_corner(const struct topology_walk *walk,
                                      uint32_t corner) {
   uint32_t point = walk->scene->corner.item[corner];
-  return walk->weld ? walk->weld[point] : point;
+  return walk->weld != NULL ? walk->weld[point] : point;
 }
 
 static inline bool next_side_of_point(struct topology_walk *walk) {
@@ -120,7 +120,7 @@ static bool name_hubs(const struct scene *scene, const uint32_t *weld,
   uint32_t *end = mem_alloc(points, sizeof *end);
   uint32_t *first = mem_alloc(points, sizeof *first);
   struct topology_side *side = mem_alloc(sides, sizeof *side);
-  bool ok = end && first && side;
+  bool ok = end != NULL && first != NULL && side != NULL;
   if (ok) {
     memset(first, 0xff, points * sizeof *first);
     deal_sides(scene, weld, count, end, side);
@@ -256,7 +256,7 @@ static bool build_edges(struct topology *topology, const struct scene *scene) {
    * in a closed mesh. */
   lists.head = mem_alloc(points, sizeof *lists.head);
   lists.next = mem_alloc(corners, sizeof *lists.next);
-  if (!lists.head || !lists.next ||
+  if (lists.head == NULL || lists.next == NULL ||
       !ARRAY_RESERVE(&topology->edge, corners / 2 + corners / 8))
     goto end;
   memset(lists.head, 0xff, points * sizeof *lists.head);
@@ -303,10 +303,10 @@ recto_status topology_init(struct topology *topology, const struct scene *scene,
   memset(topology, 0, sizeof *topology);
   topology->corner_edge =
       mem_alloc(scene->corner.count, sizeof *topology->corner_edge);
-  if (!topology->corner_edge || !build_edges(topology, scene) ||
+  if (topology->corner_edge == NULL || !build_edges(topology, scene) ||
       !weld_border(topology, scene))
     goto fail;
-  if (topology->weld && !build_edges(topology, scene))
+  if (topology->weld != NULL && !build_edges(topology, scene))
     goto fail;
   return RECTO_OK;
 fail:

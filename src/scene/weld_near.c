@@ -68,7 +68,7 @@ static bool find_weld_candidates(struct candidates *candidates,
                                  const struct topology *topology) {
   size_t points = scene->point.count;
   candidates->number = mem_calloc(points, sizeof *candidates->number);
-  if (!candidates->number)
+  if (candidates->number == NULL)
     return false;
   size_t count = 0;
   for (size_t e = 0; e < topology->edge.count; e++) {
@@ -90,7 +90,7 @@ static bool find_weld_candidates(struct candidates *candidates,
 }
 
 static uint32_t welded_point(const struct topology *topology, uint32_t point) {
-  return topology->weld ? topology->weld[point] : point;
+  return topology->weld != NULL ? topology->weld[point] : point;
 }
 
 static double square_between(const struct scene_point *a,
@@ -120,7 +120,7 @@ static bool measure_faces(struct candidates *candidates,
                           const struct topology *topology) {
   size_t count = candidates->member.count;
   candidates->size = mem_alloc(count, sizeof *candidates->size);
-  if (!candidates->size)
+  if (candidates->size == NULL)
     return false;
   for (size_t i = 0; i < count; i++)
     candidates->size[i] = INFINITY;
@@ -227,7 +227,7 @@ static double set_explained_radii(struct candidates *candidates,
   size_t count = candidates->member.count;
   double *each = mem_alloc(count, sizeof *each);
   double length = -1;
-  if (!each)
+  if (each == NULL)
     return length;
   length = find_rounding_lengths(scene, candidates, unstated, each);
   if (length > 0 && !measure_faces(candidates, scene, topology))
@@ -343,8 +343,8 @@ static recto_status rewrite(struct welded *welded, const struct scene *scene,
   uint32_t *corner = mem_alloc(most, sizeof *corner);
   borrow(welded, scene);
   recto_status status =
-      corner ? map_faces(&welded->scene, scene, map, corner, error)
-             : error_memory(error);
+      corner != NULL ? map_faces(&welded->scene, scene, map, corner, error)
+                     : error_memory(error);
   if (status == RECTO_OK)
     status = map_wires(&welded->scene, scene, map, corner, error);
   mem_free(corner);

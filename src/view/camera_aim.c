@@ -434,7 +434,7 @@ recto_status camera_aim(struct camera *camera, const struct scene *scene,
   if (status != RECTO_OK)
     return status;
   aim.used = used_points(scene, NULL);
-  if (!aim.used)
+  if (aim.used == NULL)
     return error_memory(error);
   status = aim_and_fit(&aim);
   mem_free(aim.used);

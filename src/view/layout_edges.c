@@ -47,7 +47,7 @@ struct edge_ids {
 static bool edge_ids_init(struct edge_ids *edge_ids, size_t edges) {
   edge_ids->bits = mem_calloc(edges / 64 + 1, sizeof *edge_ids->bits);
   edge_ids->before = mem_alloc(edges / 64 + 1, sizeof *edge_ids->before);
-  return edge_ids->bits && edge_ids->before;
+  return edge_ids->bits != NULL && edge_ids->before != NULL;
 }
 
 static void edge_ids_fini(struct edge_ids *edge_ids) {
@@ -94,7 +94,7 @@ static recto_status make_edges(struct layout *layout,
     unsigned edge_class = 0;
     if (!poll_at(e))
       return error_cancelled(layout->error);
-    if (class_masks)
+    if (class_masks != NULL)
       edge_class = lowest_bit(
           class_mask_of(edge, class_masks[e], layout->sides[e]) & wanted);
     bool contour = edge->uses != 2 || layout->sides[e] != LAYOUT_PLAIN;
@@ -169,7 +169,7 @@ recto_status layout_edges(struct layout *layout) {
     goto no_memory;
   if (layout->options->ink.edges & face_classes) {
     class_masks = mem_alloc(edges, sizeof *class_masks);
-    if (!class_masks ||
+    if (class_masks == NULL ||
         !topology_class_masks(layout->topology, layout->scene,
                               layout->options->mesh.crease_deg, class_masks))
       goto no_memory;

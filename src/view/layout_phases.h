@@ -99,7 +99,7 @@ struct layout {
 static inline uint32_t layout_weld(const struct layout *layout,
                                    uint32_t point) {
   const uint32_t *weld = layout->topology->weld;
-  return weld ? weld[point] : point;
+  return weld != NULL ? weld[point] : point;
 }
 
 static inline struct view_point layout_view(const struct layout *layout,

@@ -49,7 +49,7 @@ recto_status layout_points(struct layout *layout) {
   uint8_t *used = used_points(layout->scene, layout->topology->weld);
   layout->point_map = mem_alloc(points, sizeof *layout->point_map);
   layout->outcode = mem_calloc(points, sizeof *layout->outcode);
-  if (!used || !layout->point_map || !layout->outcode) {
+  if (used == NULL || layout->point_map == NULL || layout->outcode == NULL) {
     status = error_memory(layout->error);
     goto end;
   }
@@ -110,9 +110,9 @@ recto_status layout_segment(struct layout *layout, uint32_t from, uint32_t to,
 recto_status layout_edge_cut(struct layout *layout, uint32_t edge,
                              struct layout_cut *cut) {
   size_t edges = layout->topology->edge.count;
-  if (!layout->edge_cut) {
+  if (layout->edge_cut == NULL) {
     layout->edge_cut = mem_alloc(edges, sizeof *layout->edge_cut);
-    if (!layout->edge_cut)
+    if (layout->edge_cut == NULL)
       return error_memory(layout->error);
     memset(layout->edge_cut, 0xff, edges * sizeof *layout->edge_cut);
   }

@@ -229,7 +229,7 @@ static recto_status add_whole_face(struct layout *layout, uint32_t face,
     layout_record_triangle_sides(layout, &triangle, sign);
     const uint32_t *p = layout->sheet->triangle.item[first + t].point;
     for (int k = 0; status == RECTO_OK && sign != own && k < 3; k++)
-      status = layout_contour(layout, p[k], p[(k + 1) % 3]);
+      status = layout_contour(layout, p[k], p[geom_next_corner(k)]);
   }
   return status;
 }
@@ -238,7 +238,7 @@ static recto_status add_whole_face(struct layout *layout, uint32_t face,
 static const uint32_t *welded_corners(struct layout *layout, uint32_t start,
                                       uint32_t count) {
   const uint32_t *corner = layout->scene->corner.item + start;
-  if (!layout->topology->weld)
+  if (layout->topology->weld == NULL)
     return corner;
   layout->corner.count = 0;
   if (!ARRAY_RESERVE(&layout->corner, count))
@@ -263,7 +263,7 @@ static recto_status add_polygon_face(struct layout *layout, uint32_t face,
   const uint32_t *corner = welded_corners(layout, start, count);
   size_t first = layout->sheet->triangle.count;
   uint32_t folds = (uint32_t)layout->fold.count;
-  if (!corner ||
+  if (corner == NULL ||
       !triangulate(triangulation, layout->scene->point.item, corner, count) ||
       !layout_reserve(layout, triangulation->triangle.count) ||
       !start_diagonals(layout, count - 3) ||
@@ -319,7 +319,7 @@ recto_status layout_triangles(struct layout *layout) {
   size_t triangles = layout->scene->corner.count - 2 * (size_t)faces;
   layout->sides =
       mem_calloc(layout->topology->edge.count, sizeof *layout->sides);
-  if (!layout->sides || !layout_reserve(layout, triangles))
+  if (layout->sides == NULL || !layout_reserve(layout, triangles))
     return error_memory(layout->error);
   bool done;
   if (!layout_plain_all(layout, &done))

@@ -4,12 +4,12 @@
 static void mark(const uint32_t *corner, size_t count, const uint32_t *weld,
                  uint8_t *used) {
   for (size_t c = 0; c < count; c++)
-    used[weld ? weld[corner[c]] : corner[c]] = 1;
+    used[weld != NULL ? weld[corner[c]] : corner[c]] = 1;
 }
 
 uint8_t *used_points(const struct scene *scene, const uint32_t *weld) {
   uint8_t *used = mem_calloc(scene->point.count, sizeof *used);
-  if (used) {
+  if (used != NULL) {
     mark(scene->corner.item, scene->corner.count, weld, used);
     mark(scene->wire_corner.item, scene->wire_corner.count, weld, used);
   }

@@ -266,9 +266,10 @@ static bool add_crossing_point(struct hatch *h,
  * when memory ran out. */
 static bool add_hatch_stroke(struct hatch *h, struct hatch_span *span) {
   /* The stroke starts at the left end, unless only that end leads on. */
-  bool right = !find_next_span(h, span, true) && find_next_span(h, span, false);
+  bool right = find_next_span(h, span, true) == NULL &&
+               find_next_span(h, span, false) != NULL;
   h->line.point.count = 0;
-  for (; span; span = find_next_span(h, span, right)) {
+  for (; span != NULL; span = find_next_span(h, span, right)) {
     span->used = true;
     if (!add_crossing_point(h, right ? &span->right : &span->left) ||
         !add_crossing_point(h, right ? &span->left : &span->right))

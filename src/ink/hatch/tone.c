@@ -167,7 +167,8 @@ static void set_regions(struct tone_work *w, struct tones *tones) {
 static bool prepare_tone_work(struct tone_work *w) {
   size_t faces = scene_face_count(w->scene);
   size_t corners = w->scene->corner.count;
-  size_t edges = w->sheet->topology ? w->sheet->topology->edge.count : 0;
+  size_t edges =
+      w->sheet->topology != NULL ? w->sheet->topology->edge.count : 0;
   w->face = mem_alloc(faces, sizeof *w->face);
   w->sum = mem_calloc(corners, sizeof *w->sum);
   w->corner_root = sets_create(corners);
@@ -176,8 +177,9 @@ static bool prepare_tone_work(struct tone_work *w) {
   w->first_face = mem_alloc(edges, sizeof *w->first_face);
   w->min = mem_alloc(faces, sizeof *w->min);
   w->max = mem_alloc(faces, sizeof *w->max);
-  if (!w->face || !w->sum || !w->corner_root || !w->face_root ||
-      !w->first_use || !w->first_face || !w->min || !w->max)
+  if (w->face == NULL || w->sum == NULL || w->corner_root == NULL ||
+      w->face_root == NULL || w->first_use == NULL || w->first_face == NULL ||
+      w->min == NULL || w->max == NULL)
     return false;
   for (uint32_t f = 0; f < faces; f++) {
     if (!poll_at(f))
@@ -209,10 +211,10 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
   tones->corner = mem_alloc(scene->corner.count, sizeof *tones->corner);
   tones->position = mem_alloc(scene->corner.count, sizeof *tones->position);
   tones->uniform = mem_alloc(scene_face_count(scene), sizeof *tones->uniform);
-  bool ok = tones->corner && tones->position && tones->uniform &&
-            prepare_tone_work(&w);
+  bool ok = tones->corner != NULL && tones->position != NULL &&
+            tones->uniform != NULL && prepare_tone_work(&w);
   if (ok) {
-    if (sheet->topology && sheet->topology->corner_edge)
+    if (sheet->topology != NULL && sheet->topology->corner_edge != NULL)
       join_smooth_edges(&w);
     sum_normals(&w);
     set_corners(&w, tones);

@@ -165,7 +165,7 @@ static bool sort_paths(struct ink_paths *paths) {
   struct sort_key *key = mem_alloc(count, sizeof *key);
   struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
   struct ink_path *sorted = mem_alloc(count, sizeof *sorted);
-  bool ok = key && scratch && sorted;
+  bool ok = key != NULL && scratch != NULL && sorted != NULL;
   if (ok) {
     for (size_t i = 0; i < count; i++) {
       const struct ink_path *path = &paths->path.item[i];
@@ -190,9 +190,9 @@ static bool place_points(struct chain *c) {
   struct ink_paths *paths = c->paths;
   if (!ARRAY_RESERVE(&paths->point, c->end.count))
     return false;
-  if (c->graph->approximate) {
+  if (c->graph->approximate != NULL) {
     paths->approximate = mem_alloc(c->end.count, sizeof *paths->approximate);
-    if (!paths->approximate)
+    if (paths->approximate == NULL)
       return false;
   }
   for (size_t i = 0; i < paths->path.count; i++) {
@@ -206,7 +206,7 @@ static bool place_points(struct chain *c) {
     }
     for (uint32_t k = 0; c->path_of_segment != NULL && k < path->count; k++)
       c->path_of_segment[end[k] >> 1] = (uint32_t)i;
-    for (uint32_t k = 0; paths->approximate && k < path->count; k++)
+    for (uint32_t k = 0; paths->approximate != NULL && k < path->count; k++)
       paths->approximate[paths->point.count + k] =
           c->graph->approximate[node_of_end(c, end[k])];
     path->point = (uint32_t)paths->point.count;
@@ -223,8 +223,8 @@ recto_status paths_chain(struct ink_paths *paths, uint32_t *path_of_segment,
       .graph = graph, .paths = paths, .path_of_segment = path_of_segment};
   c.mate = mem_alloc(count, 2 * sizeof *c.mate);
   c.used = mem_calloc(count, sizeof *c.used);
-  bool ok = c.mate && c.used && pairing_find(c.mate, graph) && walk_all(&c) &&
-            sort_paths(paths) && place_points(&c);
+  bool ok = c.mate != NULL && c.used != NULL && pairing_find(c.mate, graph) &&
+            walk_all(&c) && sort_paths(paths) && place_points(&c);
   mem_free(c.mate);
   mem_free(c.used);
   ARRAY_FREE(&c.end);

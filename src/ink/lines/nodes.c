@@ -67,7 +67,7 @@ static struct sort_key *sort_nodes(struct unite *u) {
 
   struct sort_key *key = mem_alloc(u->count, sizeof *key);
   struct sort_key *scratch = mem_alloc(u->count, sizeof *scratch);
-  if (key && scratch) {
+  if (key != NULL && scratch != NULL) {
     for (size_t i = 0; i < u->count; i++) {
       uint64_t x = (uint64_t)((int64_t)node[i].x - u->x_low);
       uint64_t y = (uint64_t)((int64_t)node[i].y - u->y_low);
@@ -127,7 +127,7 @@ static void fill_rows(struct unite *u, const struct sort_key *key) {
 
 static bool make_rows(struct unite *u) {
   struct sort_key *key = sort_nodes(u);
-  if (!key)
+  if (key == NULL)
     return false;
   for (size_t i = 0; i < u->count; i++)
     u->bucket[bucket_of(u, u->graph->node.item[i].y)]++;
@@ -261,7 +261,7 @@ bool segment_graph_sort_segments(struct segment_graph *graph) {
   size_t count = graph->segment.count;
   struct graph_segment *sorted = mem_alloc(count, sizeof *sorted);
   uint32_t *start = mem_calloc(graph->node.count + 1, sizeof *start);
-  bool ok = sorted && start && sort_into(sorted, start, graph);
+  bool ok = sorted != NULL && start != NULL && sort_into(sorted, start, graph);
   if (ok) {
     mem_free(graph->segment.item);
     graph->segment.item = sorted;
@@ -288,8 +288,9 @@ recto_status segment_graph_unite(struct segment_graph *graph,
   rows->start = mem_calloc(most + 2, sizeof *rows->start);
   rows->low = mem_alloc(most + 1, sizeof *rows->low);
   rows->row = mem_alloc(count, sizeof *rows->row);
-  if (!u.at || !u.order || !u.root || !u.renumber || !u.bucket ||
-      !rows->start || !rows->low || !rows->row)
+  if (u.at == NULL || u.order == NULL || u.root == NULL || u.renumber == NULL ||
+      u.bucket == NULL || rows->start == NULL || rows->low == NULL ||
+      rows->row == NULL)
     goto done;
   if (count > 0) {
     if (!make_rows(&u))

@@ -87,8 +87,9 @@ bool overlap_init(struct overlap *o, size_t segments) {
   o->next = mem_alloc(2 * segments + 1, sizeof *o->next);
   o->near = mem_alloc(segments, sizeof *o->near);
   o->rest = mem_alloc(segments, sizeof *o->rest);
-  return o->key && o->scratch && o->slot && o->node && o->owner && o->next &&
-         o->near && o->rest;
+  return o->key != NULL && o->scratch != NULL && o->slot != NULL &&
+         o->node != NULL && o->owner != NULL && o->next != NULL &&
+         o->near != NULL && o->rest != NULL;
 }
 
 void overlap_fini(struct overlap *o) {

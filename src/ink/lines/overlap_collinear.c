@@ -36,7 +36,7 @@ recto_status segment_graph_index_ends(struct segment_graph *graph,
   mem_free(graph->end);
   graph->end_start = mem_calloc(nodes + 2, sizeof *graph->end_start);
   graph->end = mem_alloc(ends, sizeof *graph->end);
-  if (!graph->end_start || !graph->end)
+  if (graph->end_start == NULL || graph->end == NULL)
     return error_memory(error);
   uint32_t *next = graph->end_start + 1; /* becomes the start of the next
                                             node */
@@ -112,7 +112,7 @@ static bool gather_members(struct overlap_finder *w) {
   size_t count = w->member.count, kept = 0;
   struct sort_key *key = mem_alloc(count, sizeof *key);
   struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
-  if (key && scratch) {
+  if (key != NULL && scratch != NULL) {
     for (size_t i = 0; i < count; i++) {
       uint32_t segment = w->member.item[i];
       uint64_t root = root_of(w->parent, segment);
@@ -124,7 +124,7 @@ static bool gather_members(struct overlap_finder *w) {
         w->member.item[kept++] = key[i].value;
     w->member.count = kept;
   }
-  bool ok = key && scratch;
+  bool ok = key != NULL && scratch != NULL;
   mem_free(key);
   mem_free(scratch);
   return ok;
@@ -190,7 +190,7 @@ recto_status segment_graph_drop_collinear(struct segment_graph *graph,
     return status;
   w.dropped = mem_calloc(count, sizeof *w.dropped);
   w.parent = mem_calloc(count, sizeof *w.parent);
-  bool ok = w.dropped && w.parent;
+  bool ok = w.dropped != NULL && w.parent != NULL;
   if (ok)
     drop_duplicate_runs(&w);
   for (uint32_t i = 0; ok && i < count; i++)

@@ -163,7 +163,7 @@ static bool find_pairs(struct output_overlaps *r,
 /* Sorts and removes duplicates. */
 static bool sort_unique(struct sort_key *item, size_t *count) {
   struct sort_key *scratch = mem_alloc(*count, sizeof *scratch);
-  if (!scratch)
+  if (scratch == NULL)
     return false;
   sort_keys(item, scratch, *count);
   size_t kept = 0;
@@ -379,7 +379,7 @@ recto_status segment_graph_drop_output_overlaps(struct segment_graph *graph,
     return RECTO_OK;
   graph->approximate =
       mem_calloc(graph->node.count, sizeof *graph->approximate);
-  if (!graph->approximate)
+  if (graph->approximate == NULL)
     return error_memory(error);
   bool changed = true;
   for (int round = 0; changed && round < SEGMENT_GRAPH_ROUNDS; round++) {

@@ -181,7 +181,7 @@ recto_status
 segment_graph_collect(struct segment_graph *graph, const struct sheet *sheet,
                       const struct map *map, const struct pens *pens,
                       const recto_options *options, recto_error *error) {
-  if (!map->edge_state)
+  if (map->edge_state == NULL)
     return RECTO_OK;
   size_t points = sheet->point.count;
   struct collector c = {.graph = graph,
@@ -190,7 +190,7 @@ segment_graph_collect(struct segment_graph *graph, const struct sheet *sheet,
                         .pens = pens,
                         .options = options};
   c.node_of_point = mem_alloc(points, sizeof *c.node_of_point);
-  if (!c.node_of_point)
+  if (c.node_of_point == NULL)
     return error_memory(error);
   memset(c.node_of_point, 0xff, points * sizeof *c.node_of_point);
 

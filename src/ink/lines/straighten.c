@@ -83,7 +83,7 @@ static uint32_t straighten_line(struct ink_point *point, uint8_t *approximate,
     struct vector next = from_to(anchor, after);
     struct vector passed = from_to(anchor, here);
     bool is_approximate =
-        approximate && (approximate[i] || approximate[kept - 1]);
+        approximate != NULL && (approximate[i] || approximate[kept - 1]);
     double tolerance = is_approximate ? wide : TOLERANCE_COLLINEAR_UNITS;
     bool straight = !certainly_misses(passed, next, tolerance) &&
                     dot(next, next) > dot(passed, passed);
@@ -92,7 +92,7 @@ static uint32_t straighten_line(struct ink_point *point, uint8_t *approximate,
       straight = is_in(&wedge, next);
     }
     if (!straight) {
-      if (approximate)
+      if (approximate != NULL)
         approximate[kept] = approximate[i];
       point[kept++] = anchor = here;
       wedge.open = true;
@@ -118,9 +118,9 @@ static void reverse_line(struct ink_point *point, uint8_t *approximate,
 static uint32_t straighten_open(struct ink_point *point, uint8_t *approximate,
                                 uint32_t count, double wide) {
   struct ink_point last = point[count - 1];
-  uint8_t last_approximate = approximate ? approximate[count - 1] : 0;
+  uint8_t last_approximate = approximate != NULL ? approximate[count - 1] : 0;
   uint32_t kept = straighten_line(point, approximate, count - 1, last, wide);
-  if (approximate)
+  if (approximate != NULL)
     approximate[kept] = last_approximate;
   point[kept++] = last;
   return kept;
@@ -133,7 +133,7 @@ static uint32_t straighten_path(struct ink_point *point, uint8_t *approximate,
   if (path->closed)
     return straighten_line(point, approximate, path->count, point[0], wide);
   uint32_t kept = straighten_open(point, approximate, path->count, wide);
-  if (approximate && kept > 2) {
+  if (approximate != NULL && kept > 2) {
     reverse_line(point, approximate, kept);
     kept = straighten_open(point, approximate, kept, wide);
     reverse_line(point, approximate, kept);
@@ -149,7 +149,7 @@ void paths_straighten(struct ink_paths *paths, double output_step) {
     struct ink_path *path = &paths->path.item[i];
     struct ink_point *from = point + path->point;
     uint8_t *approximate =
-        paths->approximate ? paths->approximate + path->point : NULL;
+        paths->approximate != NULL ? paths->approximate + path->point : NULL;
     uint32_t kept = straighten_path(from, approximate, path, wide);
     if (path->closed && kept < 3) /* such a thin loop is a line traversed
                                      twice */

@@ -35,7 +35,8 @@ bool vertex_snapping_init(struct vertex_snapping *snapping,
   snapping->root = mem_alloc(nodes, sizeof *snapping->root);
   snapping->anchor = mem_calloc(nodes, sizeof *snapping->anchor);
   snapping->gone = mem_calloc(graph->segment.count, sizeof *snapping->gone);
-  if (!snapping->root || !snapping->anchor || !snapping->gone)
+  if (snapping->root == NULL || snapping->anchor == NULL ||
+      snapping->gone == NULL)
     return false;
   for (uint32_t i = 0; i < nodes; i++)
     snapping->root[i] = i;
@@ -212,7 +213,7 @@ bool vertex_snapping_drop_duplicates(struct vertex_snapping *snapping,
   uint8_t *others = mem_calloc(nodes, sizeof *others);
   struct sort_key *pair = NULL, *scratch = NULL;
   uint32_t *kept = NULL;
-  bool ok = cluster && others;
+  bool ok = cluster != NULL && others != NULL;
   if (ok && nodes > 0) {
     gather_clusters(snapping, cluster, rows);
     for (uint32_t i = 0; i < nodes; i++)
@@ -228,7 +229,7 @@ bool vertex_snapping_drop_duplicates(struct vertex_snapping *snapping,
     pair = mem_alloc(count, sizeof *pair);
     scratch = mem_alloc(count, sizeof *scratch);
     kept = mem_alloc(count, sizeof *kept);
-    ok = pair && scratch && kept;
+    ok = pair != NULL && scratch != NULL && kept != NULL;
   }
   if (ok && count > 0) {
     count = list_possible_duplicates(snapping, cluster, others, pair);

@@ -204,9 +204,9 @@ static bool order_layer(struct order_work *o,
   o->tour.reversed = mem_alloc(count, sizeof *o->tour.reversed);
   o->tour.end = o->end;
   o->tour.start = o->start;
-  bool ok = o->first_entry && o->corner && o->end && o->tour.stroke &&
-            o->tour.reversed && make_greedy_tour(o) &&
-            tour_improve(&o->tour, effort);
+  bool ok = o->first_entry != NULL && o->corner != NULL && o->end != NULL &&
+            o->tour.stroke != NULL && o->tour.reversed != NULL &&
+            make_greedy_tour(o) && tour_improve(&o->tour, effort);
   if (ok) {
     choose_loop_starts(o);
     if (tour_travel(&o->tour) < given_travel(o))

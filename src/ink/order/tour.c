@@ -352,8 +352,8 @@ bool tour_improve(struct tour *tour, const struct tour_effort *effort) {
   r.neighbour = mem_alloc(count, 2 * NEIGHBOURS * sizeof *r.neighbour);
   r.queue = mem_alloc(count, sizeof *r.queue);
   r.queued = mem_calloc(count, sizeof *r.queued);
-  bool ok =
-      r.stop && r.place && r.reversed && r.neighbour && r.queue && r.queued;
+  bool ok = r.stop != NULL && r.place != NULL && r.reversed != NULL &&
+            r.neighbour != NULL && r.queue != NULL && r.queued != NULL;
   if (ok) {
     close_tour(&r, tour);
     ok = find_neighbours(&r);

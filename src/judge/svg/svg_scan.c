@@ -63,7 +63,7 @@ static bool pass_other(struct svg_text *file) {
         memcmp(file->at, around[i][0], length) != 0)
       continue;
     const char *stop = find(*file, around[i][1]);
-    file->at = stop ? stop + strlen(around[i][1]) : file->end;
+    file->at = stop != NULL ? stop + strlen(around[i][1]) : file->end;
     return stop != NULL;
   }
   /* A declaration may hold others, in brackets. */
@@ -178,9 +178,9 @@ static bool find_in_style(struct svg_text style, const char *name,
                           struct svg_text *value) {
   while (style.at < style.end) {
     const char *stop = memchr(style.at, ';', (size_t)(style.end - style.at));
-    struct svg_text entry = {style.at, stop ? stop : style.end};
+    struct svg_text entry = {style.at, stop != NULL ? stop : style.end};
     const char *colon = memchr(entry.at, ':', (size_t)(entry.end - entry.at));
-    style.at = stop ? stop + 1 : style.end;
+    style.at = stop != NULL ? stop + 1 : style.end;
     if (colon == NULL ||
         !svg_is(svg_trim((struct svg_text){entry.at, colon}), name))
       continue;

@@ -123,8 +123,8 @@ static uint32_t list_face_sides(const struct face_work *work,
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
       if (a->side[i] == SHEET_NONE && b->side[j] == SHEET_NONE &&
-          a->point[i] == b->point[(j + 1) % 3] &&
-          a->point[(i + 1) % 3] == b->point[j])
+          a->point[i] == b->point[geom_next_corner(j)] &&
+          a->point[geom_next_corner(i)] == b->point[j])
         return append_sides(a, i, side) + append_sides(b, j, side + 2);
   return 0;
 }

@@ -30,7 +30,7 @@ static bool is_edge(const struct sheet *sheet, uint32_t t, int k,
                     struct geom_point end[2]) {
   const struct sheet_triangle *triangle = &sheet->triangle.item[t];
   end[0] = sheet->point.item[triangle->point[k]];
-  end[1] = sheet->point.item[triangle->point[k == 2 ? 0 : k + 1]];
+  end[1] = sheet->point.item[triangle->point[geom_next_corner(k)]];
   return triangle->side[k] != SHEET_NONE &&
          !(sheet->triangle_flags[t] & SHEET_FLAT);
 }

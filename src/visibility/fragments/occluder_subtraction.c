@@ -99,7 +99,7 @@ static bool contains_triangle(const struct geom_point g[3],
                               const struct geom_point f[3]) {
   for (int k = 0; k < 3; k++)
     for (int i = 0; i < 3; i++)
-      if (geom_orient2d(g[k], g[k == 2 ? 0 : k + 1], f[i]) < 0)
+      if (geom_orient2d(g[k], g[geom_next_corner(k)], f[i]) < 0)
         return false;
   return true;
 }

@@ -39,14 +39,14 @@ static bool overlaps_segment(struct geom_point a, struct geom_point b,
   return geom_corner_compare(from, to) < 0;
 }
 
-/* As runs_along, for side k of a triangle. */
-static bool side_runs_along(const struct sheet *sheet, uint32_t triangle,
-                            uint32_t k, const struct boundary_segment *s,
-                            struct geom_corner *from, struct geom_corner *to) {
+/* As overlaps_segment, for side k of a triangle. */
+static bool overlaps_side(const struct sheet *sheet, uint32_t triangle,
+                          uint32_t k, const struct boundary_segment *s,
+                          struct geom_corner *from, struct geom_corner *to) {
   const uint32_t *point = sheet->triangle.item[triangle].point;
   return overlaps_segment(sheet->point.item[point[k]],
-                          sheet->point.item[point[k == 2 ? 0 : k + 1]], s, from,
-                          to);
+                          sheet->point.item[point[geom_next_corner((int)k)]], s,
+                          from, to);
 }
 
 /* The lowest edge of a triangle that overlaps the segment; SHEET_NONE. */
@@ -56,7 +56,7 @@ static uint32_t edge_along(const struct sheet *sheet, uint32_t triangle,
   uint32_t best = SHEET_NONE;
   struct geom_corner from, to;
   for (uint32_t k = 0; k < 3; k++)
-    if (side[k] < best && side_runs_along(sheet, triangle, k, s, &from, &to))
+    if (side[k] < best && overlaps_side(sheet, triangle, k, s, &from, &to))
       best = side[k];
   return best;
 }
@@ -71,7 +71,7 @@ static bool is_beside(const struct sheet *sheet, uint32_t triangle,
   bool left = false;
   for (int k = 0; k < 3; k++) {
     struct geom_point a = sheet->point.item[point[k]],
-                      b = sheet->point.item[point[k == 2 ? 0 : k + 1]];
+                      b = sheet->point.item[point[geom_next_corner(k)]];
     struct geom_corner corner = geom_corner_at(a);
     struct geom_line side;
     int at_from, at_to;
@@ -200,7 +200,7 @@ static uint32_t edge_found(const struct provenance_query *q, bool own) {
     uint32_t g = q->side[i] / 3, k = q->side[i] % 3;
     const struct sheet_triangle *triangle = &q->sheet->triangle.item[g];
     if (triangle->side[k] < id && (triangle->face == q->face) == own &&
-        side_runs_along(q->sheet, g, k, &q->segment, &from, &to) &&
+        overlaps_side(q->sheet, g, k, &q->segment, &from, &to) &&
         (own || is_nearer_than_own(q, g, &from, &to)))
       id = triangle->side[k];
   }

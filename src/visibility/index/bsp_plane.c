@@ -120,7 +120,7 @@ static int corner_off_shared_edge(const struct bsp_plane *splitter,
                                   uint32_t triangle) {
   const uint32_t *point = sheet->triangle.item[triangle].point;
   for (int k = 0; splitter->is_plane && k < 3; k++) {
-    uint32_t a = point[k == 2 ? 0 : k + 1], b = point[k == 0 ? 2 : k - 1];
+    uint32_t a = point[geom_next_corner(k)], b = point[k == 0 ? 2 : k - 1];
     if ((a == splitter->point[0] && b == splitter->point[1]) ||
         (a == splitter->point[1] && b == splitter->point[0]))
       return k;
@@ -143,19 +143,10 @@ int bsp_plane_side_of_corners(const struct bsp_plane *splitter,
          side_of_splitter(splitter, p[2]);
 }
 
-static void corners_of(const struct sheet *sheet, uint32_t triangle,
-                       struct geom_point p[3]) {
-  const uint32_t *t = sheet->triangle.item[triangle].point;
-  for (int k = 0; k < 3; k++)
-    p[k] = sheet->point.item[t[k]];
-}
-
 int bsp_plane_side_of_triangle(const struct bsp_plane *splitter,
                                const struct sheet *sheet, uint32_t triangle) {
-  struct geom_point p[3];
-  int sides;
-  corners_of(sheet, triangle, p);
-  sides = side_of_corners(splitter, sheet, triangle, p);
+  const struct geom_triangle corners = sheet_corners(sheet, triangle);
+  int sides = side_of_corners(splitter, sheet, triangle, corners.p);
   if (splitter->is_plane && sides != BSP_BOTH) {
     struct plane_filter plane = plane_filter_of(sheet, triangle);
     if (!(plane_filter_thickness(&plane) <= splitter->thickness))
@@ -170,7 +161,7 @@ int bsp_plane_side_of_triangle(const struct bsp_plane *splitter,
 struct sample {
   const struct sheet *sheet;
   uint32_t triangle[SAMPLE];
-  struct geom_point p[SAMPLE][3];
+  struct geom_triangle corners[SAMPLE];
   double thickness[SAMPLE];
   int count;
 };
@@ -192,7 +183,7 @@ static void take_sample(struct sample *sample, const struct sheet *sheet,
   for (int i = 0; i < sample->count; i++) {
     uint32_t t = triangle[index_of_sample(i, count, (size_t)sample->count)];
     sample->triangle[i] = t;
-    corners_of(sheet, t, sample->p[i]);
+    sample->corners[i] = sheet_corners(sheet, t);
     if (planes) {
       struct plane_filter plane = plane_filter_of(sheet, t);
       sample->thickness[i] = plane_filter_thickness(&plane);
@@ -218,7 +209,7 @@ static int count_sharing(const struct sample *sample,
   int sharing = 0;
   for (int i = 0; i < sample->count; i++)
     for (int k = 0; k < 3; k++)
-      sharing += geom_same_point(sample->p[i][k], shared_vertex);
+      sharing += geom_same_point(sample->corners[i].p[k], shared_vertex);
   return sharing;
 }
 
@@ -228,7 +219,7 @@ static double pairs_left(const struct sample *sample,
   double left = 0, right = 0, all = sample->count;
   for (int i = 0; i < sample->count; i++) {
     int sides = side_of_corners(splitter, sample->sheet, sample->triangle[i],
-                                sample->p[i]);
+                                sample->corners[i].p);
     if (splitter->is_plane && !(sample->thickness[i] <= splitter->thickness))
       sides = BSP_BOTH;
     left += (sides & BSP_LEFT) != 0;
@@ -242,10 +233,10 @@ static double pairs_left(const struct sample *sample,
  *                side, else the side's first end is */
 static struct bsp_plane line_along(const struct geom_point p[3], int k,
                                    int shared_vertex) {
-  struct geom_point a = p[k], b = p[(k + 1) % 3];
+  struct geom_point a = p[k], b = p[geom_next_corner(k)];
   int64_t length = llabs((int64_t)b.x - a.x) + llabs((int64_t)b.y - a.y);
   return (struct bsp_plane){.shared_vertex =
-                                shared_vertex == (k + 1) % 3 ? b : a,
+                                shared_vertex == geom_next_corner(k) ? b : a,
                             .from = a,
                             .to = b,
                             .margin = BSP_PLANE_MARGIN * length};
@@ -273,7 +264,7 @@ static int choose_shared_vertex(const struct sample *sample, int i,
   for (int k = 0; k < 3; k++) {
     if (k == except)
       continue;
-    int sharing = count_sharing(sample, sample->p[i][k]);
+    int sharing = count_sharing(sample, sample->corners[i].p[k]);
     if (sharing > most) {
       most = sharing;
       best = k;
@@ -318,7 +309,7 @@ bool bsp_plane_choose(struct bsp_plane *splitter, const struct sheet *sheet,
     int shared_vertex = choose_shared_vertex(&sample, i, 3);
     struct bsp_plane candidate;
     for (int k = 0; k < 3; k++) {
-      candidate = line_along(sample.p[i], k, shared_vertex);
+      candidate = line_along(sample.corners[i].p, k, shared_vertex);
       consider(&choice, &sample, &candidate);
     }
     if (planes) {

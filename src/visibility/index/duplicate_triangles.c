@@ -187,7 +187,7 @@ static bool add_sides(struct duplicate_sides *all,
   const struct geom_point *point = f->sheet->point.item;
   const uint32_t *p = f->sheet->triangle.item[triangle].point;
   for (uint32_t k = 0; k < 3; k++) {
-    uint32_t i = p[k], j = p[k == 2 ? 0 : k + 1];
+    uint32_t i = p[k], j = p[geom_next_corner((int)k)];
     int order = geom_compare_points(point[i], point[j]);
     bool swap = order > 0 || (order == 0 && i > j);
     struct duplicate_side side = {

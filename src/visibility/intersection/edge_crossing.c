@@ -92,8 +92,8 @@ static bool is_near_line(struct geom_point a, struct geom_point b,
 static bool is_edge_on(const struct sheet *sheet, uint32_t triangle) {
   struct geom_triangle t = sheet_corners(sheet, triangle);
   for (int k = 0; k < 3; k++)
-    if (is_within(TOLERANCE_CONTACT_GRID_UNITS, t.p[k], t.p[(k + 1) % 3],
-                  t.p[(k + 2) % 3]))
+    if (is_within(TOLERANCE_CONTACT_GRID_UNITS, t.p[k],
+                  t.p[geom_next_corner(k)], t.p[(k + 2) % 3]))
       return true;
   return false;
 }

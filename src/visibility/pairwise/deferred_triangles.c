@@ -125,7 +125,7 @@ static bool may_enter(const struct geom_point f[3], struct geom_point p,
   if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0))
     return false;
   for (int k = 0; k < 3; k++) {
-    struct geom_point from = f[k], to = f[k == 2 ? 0 : k + 1];
+    struct geom_point from = f[k], to = f[geom_next_corner(k)];
     if (geom_orient2d(from, to, p) <= 0 && geom_orient2d(from, to, q) <= 0)
       return false;
   }

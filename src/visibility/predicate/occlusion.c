@@ -235,15 +235,12 @@ bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
                               struct geom_point p, struct geom_point q,
                               struct occluded_interval *interval,
                               struct occlusion_counts *counts) {
-  const uint32_t *point = sheet->triangle.item[triangle].point;
-  const struct geom_point corner[3] = {sheet->point.item[point[0]],
-                                       sheet->point.item[point[1]],
-                                       sheet->point.item[point[2]]};
+  const struct geom_triangle corners = sheet_corners(sheet, triangle);
   struct occluder occluder;
   struct plane_filter plane;
   int at_p, at_q;
   counts->pairs++;
-  if (!occlude_by_outline(corner, p, q, interval) ||
+  if (!occlude_by_outline(corners.p, p, q, interval) ||
       (sheet->triangle_flags[triangle] & SHEET_FLAT))
     return false;
   counts->depth_tests++;

@@ -122,11 +122,8 @@ bool plane_filter_may_touch(const struct plane_filter *plane,
 /* plane_filter_may_touch for the corners of a triangle. */
 static bool may_touch(const struct plane_filter *plane,
                       const struct sheet *sheet, uint32_t triangle) {
-  const uint32_t *point = sheet->triangle.item[triangle].point;
-  const struct geom_point corner[3] = {sheet->point.item[point[0]],
-                                       sheet->point.item[point[1]],
-                                       sheet->point.item[point[2]]};
-  return plane_filter_may_touch(plane, corner);
+  const struct geom_triangle corners = sheet_corners(sheet, triangle);
+  return plane_filter_may_touch(plane, corners.p);
 }
 
 bool plane_filters_may_touch(const struct sheet *sheet,

@@ -135,7 +135,7 @@ bool span_fill_triangle(struct raster *raster, uint32_t triangle,
   /* The highest corner, then counter-clockwise. */
   int top =
       p[0].y > p[1].y ? (p[0].y > p[2].y ? 0 : 2) : (p[1].y > p[2].y ? 1 : 2);
-  const struct scan_point *high = &p[top], *next = &p[top == 2 ? 0 : top + 1],
+  const struct scan_point *high = &p[top], *next = &p[geom_next_corner(top)],
                           *last = &p[top == 0 ? 2 : top - 1];
   /* Counter-clockwise from the highest corner is down the left side. */
   bool left = next->y > last->y;
