@@ -673,6 +673,8 @@ static void outputs_are_tried_together(void **state) {
   assert_int_equal(
       recto_scene_try_output(scene, "no folder/a.svg", NULL, &error),
       RECTO_ERROR_IO);
+  assert_int_equal(recto_scene_try_output(scene, "", NULL, &error),
+                   RECTO_ERROR_IO);
   assert_int_equal(recto_scene_try_output(scene, "new.svg", "new.json", &error),
                    RECTO_OK);
   assert_int_not_equal(access("new.svg", F_OK), 0);

@@ -309,7 +309,7 @@ static void a_wrong_mesh_is_refused_with_its_face_and_adds_nothing(void **s) {
                            .point_count = 8,
                            .corners = box_faces[0],
                            .corner_count = 6};
-  recto_mesh wrong[8] = {good, good, good, good, good, good, good, good};
+  recto_mesh wrong[9] = {good, good, good, good, good, good, good, good, good};
   wrong[0].corners = beyond;
   wrong[1].face_offsets = two, wrong[1].face_count = 2,
   wrong[1].corner_count = 5;
@@ -320,7 +320,8 @@ static void a_wrong_mesh_is_refused_with_its_face_and_adds_nothing(void **s) {
   wrong[5].face_size = 4;
   wrong[6].points = NULL;
   wrong[7].corners = NULL;
-  static const char *const text[8] = {
+  wrong[8].face_offsets = back;
+  static const char *const text[9] = {
       "face 1 has a corner that is no point",
       "face 1 has fewer than three corners",
       "face 0 has offsets that are out of range or not ascending",
@@ -328,10 +329,11 @@ static void a_wrong_mesh_is_refused_with_its_face_and_adds_nothing(void **s) {
       "point 7 is not finite",
       "6 corners are not 1 faces of 4",
       NULL,
-      NULL};
+      NULL,
+      "there are offsets of faces but no number of them"};
   recto_mesh cube = cube_mesh();
   recto_scene *scene = box_scene(&cube);
-  for (int i = 0; i < 8; i++) {
+  for (int i = 0; i < 9; i++) {
     recto_error error = {0};
     assert_int_equal(recto_scene_add_mesh(scene, &wrong[i], &error),
                      RECTO_ERROR_ARGUMENT);
@@ -358,6 +360,13 @@ static void a_caller_of_another_version_may_add_a_mesh(void **state) {
       recto_scene_add_mesh_sized(scene, &later.mesh, sizeof later, &error),
       RECTO_ERROR_UNSUPPORTED);
   assert_same(draw(scene), draw_obj(cube_obj));
+  /* None knew no corners. */
+  scene = box_scene(NULL);
+  for (size_t size = 0; size < offsetof(recto_mesh, face_offsets); size++)
+    assert_int_equal(
+        recto_scene_add_mesh_sized(scene, &later.mesh, size, &error),
+        RECTO_ERROR_ARGUMENT);
+  recto_scene_destroy(scene);
   /* An earlier one, which knew no groups. */
   recto_mesh earlier = cube_mesh();
   scene = box_scene(NULL);

@@ -91,6 +91,30 @@ static void groups_have_the_names_of_the_scene(void **state) {
   recto_drawing_destroy(drawing);
 }
 
+/* Only names that a face has count, in the order of the faces, but for those
+ * that were given by a call. */
+static void groups_count_from_the_first_that_has_a_face(void **state) {
+  (void)state;
+  static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\no none\no late\n"
+                            "o first\nf 1 2 3\no late\nf 1 3 2\no end\n";
+  static const char *const name[] = {"first", "late", "given", "box", "lid"};
+  const recto_mesh mesh = box_mesh(points, 10);
+  recto_scene *scene;
+  recto_drawing *drawing;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_read_memory(scene, obj, sizeof obj - 1, "obj",
+                                           NULL, NULL, NULL),
+                   RECTO_OK);
+  assert_int_equal(recto_scene_add_group(scene, "given", NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_render(scene, NULL, &drawing, NULL), RECTO_OK);
+  assert_int_equal(recto_drawing_group_count(drawing), 5);
+  for (size_t i = 0; i < 5; i++)
+    assert_string_equal(recto_drawing_group_name(drawing, i), name[i]);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 /* ---- Strokes ------------------------------------------------------------- */
 
 /* With a stroke for each edge: three of the box's twelve edges are hidden; the
@@ -517,6 +541,7 @@ int main(void) {
       cmocka_unit_test(the_page_has_the_size_of_the_options),
       cmocka_unit_test(layers_have_their_pen_label_colour_and_width),
       cmocka_unit_test(groups_have_the_names_of_the_scene),
+      cmocka_unit_test(groups_count_from_the_first_that_has_a_face),
       cmocka_unit_test(strokes_have_their_class_source_and_width),
       cmocka_unit_test(an_older_caller_gets_the_fields_that_it_knows),
       cmocka_unit_test(corners_are_projected_to_ends_of_strokes),

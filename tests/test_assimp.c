@@ -51,6 +51,14 @@ static void bytes_come_through_a_pipe_too(void **state) {
   reading_fini(&r);
 }
 
+static void bytes_of_no_format_name_no_file_that_is_not_there(void **state) {
+  struct reading r;
+  read_file(&r, temporary_file(state, "plain", "none", 4), "glb");
+  assert_int_equal(r.status, RECTO_ERROR_FORMAT);
+  assert_null(strstr(r.error.text, "$$$"));
+  reading_fini(&r);
+}
+
 /* A box of Collada: a node turned, moved and scaled within another. */
 static const char dae[] =
     "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
@@ -153,6 +161,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       T(polygons_stay_polygons),
       T(bytes_come_through_a_pipe_too),
+      T(bytes_of_no_format_name_no_file_that_is_not_there),
       T(nodes_are_groups_with_their_transforms),
       T(what_is_not_finite_is_skipped),
       T(a_broken_file_is_an_error),

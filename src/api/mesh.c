@@ -1,5 +1,6 @@
 /* mesh.c - adds a mesh that is in the caller's arrays to a scene. */
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "api/handle.h"
@@ -40,6 +41,10 @@ static recto_status complete_mesh(recto_mesh *mesh, recto_error *error) {
     return error_null(error, "the corners");
   if (mesh->face_groups != NULL && mesh->group_names == NULL)
     return error_null(error, "the names of the groups");
+  if (mesh->face_offsets != NULL && mesh->face_count == 0 &&
+      mesh->corner_count > 0)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "there are offsets of faces but no number of them");
   if (mesh->face_offsets == NULL &&
       (mesh->face_count > mesh->corner_count ||
        mesh->face_count * mesh->face_size != mesh->corner_count))
@@ -135,6 +140,9 @@ recto_status recto_scene_add_mesh_sized(recto_scene *scene,
   recto_mesh own = {0};
   if (scene == NULL || mesh == NULL)
     return error_null(error, scene == NULL ? "the scene" : "the mesh");
+  if (size < offsetof(recto_mesh, face_offsets))
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "a mesh is larger than %zu bytes", size);
   recto_status status = sized_take(&own, sizeof own, mesh, size, error);
   if (status == RECTO_OK)
     status = complete_mesh(&own, error);

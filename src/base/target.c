@@ -313,6 +313,9 @@ recto_status target_try(const char *path, recto_error *error) {
   struct target target;
   if (is_special(path))
     return RECTO_OK;
+  if (*path == '\0')
+    return error_set(error, RECTO_ERROR_IO, path, 0, "cannot create: %s",
+                     strerror(ENOENT));
   recto_status status = target_open(&target, path, error);
   if (status == RECTO_OK)
     (void)target_close(&target);

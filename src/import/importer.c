@@ -212,6 +212,10 @@ static void limit_self(long seconds, long mb) {
     set_limit(RLIMIT_AS, (rlim_t)mb << 20);
 }
 
+/* The name that Assimp gives to a file in memory, also in its messages: see
+ * assimp/MemoryIOWrapper.h, which is C++. */
+#define ASSIMP_MEMORY_NAME "$$$___magic___$$$"
+
 static const struct aiScene *import_file(FILE *to, const char *format,
                                          const char *path) {
   struct input input;
@@ -248,6 +252,8 @@ int main(int argc, char **argv) {
   const char *text = import.from != NULL ? "nothing in it" : aiGetErrorString();
   if (strstr(text, "bad_alloc") != NULL)
     exit_with(import.to, IMPORT_NO_MEMORY, "");
+  if (strstr(text, ASSIMP_MEMORY_NAME) != NULL)
+    text = "nothing of this format is in it";
   if (import.from == NULL || import.from->mRootNode == NULL)
     exit_with(import.to, IMPORT_BROKEN, text);
   put_nodes(&import);
