@@ -122,6 +122,13 @@ hides() {
     grep -q 'tower' printed
 }
 claim "examples/python/hides.py says which face hides which edge" hides
+says_how() {
+  ! "$python" "$srcdir/examples/python/$1.py" >printed 2>log &&
+    grep -q "^python3 $1.py" log && ! grep -q Traceback log
+}
+for each in faces turntable; do
+  claim "$each.py says how it is called" says_how "$each"
+done
 is_short() { test "$(wc -l <"$1")" -lt 60; }
 for each in "$srcdir"/examples/python/*.py; do
   claim "$(basename "$each") has fewer than 60 lines" is_short "$each"

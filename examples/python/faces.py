@@ -41,4 +41,6 @@ def main(model, geojson_path, wkt_path):
         file.write("\n".join(lines) + "\n")
 
 
+if len(sys.argv) != 4:
+    sys.exit(__doc__)
 main(*sys.argv[1:])

@@ -44,4 +44,6 @@ def main(name, count):
         drawing.write(f"{name}{i:03d}.svg")
 
 
+if len(sys.argv) != 3:
+    sys.exit(__doc__)
 main(sys.argv[1], int(sys.argv[2]))

@@ -25,7 +25,7 @@ from ._library import (
     lib,
     text_of,
 )
-from ._options import EDGE_CLASSES, PAGES, VIEWS, Options
+from ._options import EDGE_CLASSES, METHODS, PAGES, VIEWS, Options
 from ._scene import Scene, Verdict, draw
 
 __version__ = text_of(lib.recto_version())
@@ -44,6 +44,7 @@ __all__ = [
     "Fragment",
     "Layer",
     "LimitError",
+    "METHODS",
     "NONE",
     "Options",
     "OutOfMemoryError",

@@ -5,13 +5,22 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Mapping, NamedTuple
 
 import numpy as np
 
-from ._library import ffi, index_of, lib, path_of, record_type, text_of, view
+from ._library import (
+    ffi,
+    index_of,
+    lib,
+    path_of,
+    record_type,
+    text_of,
+    text_to,
+    view,
+)
 from ._options import CLASS_NAMES, RESULTS, Filled, check_names
 
 SIDES = {
@@ -55,6 +64,14 @@ class Stroke(np.ndarray):
     def __array_finalize__(self, other: Any) -> None:
         if isinstance(other, Stroke):
             self.__dict__.update(other.__dict__)
+
+    def __reduce__(self) -> Any:
+        make, arguments, state = super().__reduce__()[:3]
+        return make, arguments, (state, self.__dict__)
+
+    def __setstate__(self, state: Any) -> None:
+        super().__setstate__(state[0])
+        self.__dict__.update(state[1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +121,13 @@ class Fragment:
     exterior: np.ndarray
     holes: list[np.ndarray]
     sides: np.ndarray
-    neighbours: tuple[int, ...]  # indices of the fragments beside it
+    _half_edges: np.ndarray = field(repr=False)  # of all fragments
+
+    @property
+    def neighbours(self) -> tuple[int, ...]:
+        """The indices of the fragments beside it."""
+        twins = self.sides["twin"][self.sides["twin"] != lib.RECTO_NONE]
+        return tuple(np.unique(self._half_edges["fragment"][twins]).tolist())
 
 
 def _colour(value: int) -> str:
@@ -219,25 +242,19 @@ class Drawing:
     @cached_property
     def fragments(self) -> list[Fragment]:
         """The visible parts of faces; of render(results="faces")."""
-        loops, sides = self.loops, self.half_edges
+        sides = self.half_edges
+        starts = [*self.loops["half_edge"].tolist(), len(sides)]
         pointer = self._array(lib.recto_drawing_half_edges, _HALF_EDGE)[0]
-
-        def ring(loop: Any) -> np.ndarray:
-            first, count = int(loop["half_edge"]), int(loop["count"])
-            size = _HALF_EDGE.itemsize
-            return view(
-                self._owner, pointer + first, (count, 2), np.float64, (size, 8)
-            )
-
+        strides = (_HALF_EDGE.itemsize, 8)
+        points = view(self._owner, pointer, (len(sides), 2), np.float64, strides)
         fragments = []
         count = lib.recto_drawing_fragment_count(self._owner)
         for f in self._all(
             "recto_fragment", count, lib.recto_drawing_fragment_sized
         ):
-            own = loops[f.loop : f.loop + f.loop_count]
-            first = int(own["half_edge"][0])
-            beside = sides[first : first + int(own["count"].sum())]
-            twins = beside["twin"][beside["twin"] != lib.RECTO_NONE]
+            # Loops, and their half-edges, come one behind the other.
+            own = starts[f.loop : f.loop + f.loop_count + 1]
+            rings = [points[a:b] for a, b in zip(own, own[1:])]
             fragments.append(
                 Fragment(
                     f.face,
@@ -245,10 +262,10 @@ class Drawing:
                     _colour(f.colour),
                     f.brightness,
                     f.is_back,
-                    ring(own[0]),
-                    [ring(loop) for loop in own[1:]],
-                    beside,
-                    tuple(np.unique(sides["fragment"][twins]).tolist()),
+                    rings[0],
+                    rings[1:],
+                    sides[own[0] : own[-1]],
+                    sides,
                 )
             )
         return fragments
@@ -295,7 +312,7 @@ class Drawing:
         filled.call.finish(
             lib.recto_drawing_write_to(
                 self._owner,
-                format.encode(),
+                text_to(format),
                 filled.at,
                 lib.recto_python_write,
                 filled.call.user,
@@ -324,7 +341,7 @@ class Drawing:
             lib.recto_drawing_write(
                 self._owner,
                 path_of(path),
-                ffi.NULL if format is None else format.encode(),
+                text_to(format),
                 filled.at,
                 filled.call.error,
             )

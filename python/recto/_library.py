@@ -23,11 +23,15 @@ class Error(Exception):
     """
 
     def __init__(self, status: str, file: str, line: int, text: str) -> None:
-        super().__init__(status, file, line, text)
+        # Not OSError's, whose arguments are others.
+        Exception.__init__(self, status, file, line, text)
         self.status = status
         self.file = file
         self.line = line
         self.text = text
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.status, self.file, self.line, self.text)
 
     def __str__(self) -> str:
         place = f"{self.file}:{self.line}" if self.line else self.file
@@ -44,6 +48,11 @@ class OutOfMemoryError(Error, MemoryError):
 
 class FileError(Error, OSError):
     """A file could not be read or written."""
+
+    def __init__(self, status: str, file: str, line: int, text: str) -> None:
+        super().__init__(status, file, line, text)
+        self.filename = file or None
+        self.strerror = text
 
 
 class FormatError(Error, ValueError):
@@ -96,13 +105,19 @@ def text_of(characters: Any) -> str:
     return ffi.string(characters).decode("utf-8", "surrogateescape")
 
 
+def _whole(text: bytes) -> bytes:
+    if b"\0" in text:
+        raise ValueError(f"a NUL character in {text!r}")
+    return text
+
+
 def path_of(path: Any) -> bytes:
-    return os.fsencode(path)
+    return _whole(os.fsencode(path))
 
 
 def text_to(text: str | None) -> Any:
     """What a `const char *` argument takes; NULL for None."""
-    return ffi.NULL if text is None else text.encode("utf-8")
+    return ffi.NULL if text is None else _whole(text.encode("utf-8"))
 
 
 def index_of(number: int) -> int | None:

@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterable
 from typing import Any, Mapping, Sequence, TypedDict, Union
 
-from ._library import Call, Progress, ffi, lib, text_of
+from ._library import Call, Progress, ffi, lib, text_of, text_to
 
 Vector = Sequence[float]
 
@@ -36,7 +36,7 @@ class Options(TypedDict, total=False):
     up: Vector
     fov: float
     ortho: bool
-    fit: str  # page (default), none, sphere
+    fit: str  # page (default), none, scale, sphere
     scale: float  # mm of page for a unit of the scene
     near: float
     section: float
@@ -81,7 +81,9 @@ class Options(TypedDict, total=False):
 
 
 METHODS = {
-    text_of(lib.recto_method_name(i)): i for i in range(lib.RECTO_METHOD_COUNT)
+    text_of(lib.recto_method_name(i)): i
+    for i in range(lib.RECTO_METHOD_COUNT)
+    if lib.recto_method_is_available(i)
 }
 EDGE_CLASSES = {
     text_of(lib.recto_edge_class_name(1 << i)): 1 << i
@@ -111,6 +113,7 @@ RESULTS = {
 _FITS = {
     "page": lib.RECTO_FIT_PAGE,
     "none": lib.RECTO_FIT_NONE,
+    "scale": lib.RECTO_FIT_SCALE,
     "sphere": lib.RECTO_FIT_SPHERE,
 }
 _HIDDEN = {
@@ -170,6 +173,13 @@ def _word(name: str, value: Any, known: Mapping[str, Any]) -> Any:
         raise ValueError(f"{name}: not {value!r}, but one of {words}") from None
 
 
+def _vector(value: Any) -> list[float]:
+    numbers = [float(x) for x in value]
+    if len(numbers) != 3:
+        raise ValueError(f"not {len(numbers)} numbers but three: x, y, z")
+    return numbers
+
+
 def _mask(name: str, value: Any, known: Mapping[str, int]) -> int:
     words = value.replace(",", " ").split() if isinstance(value, str) else value
     mask = 0
@@ -188,7 +198,7 @@ class _Setter:
         self.pens: dict[int, dict[str, Any]] = {}
 
     def text(self, value: str) -> Any:
-        self.kept.append(ffi.new("char[]", value.encode("utf-8")))
+        self.kept.append(ffi.new("char[]", text_to(value)))
         return self.kept[-1]
 
     def array(self, kind: str, items: Sequence[Any]) -> Any:
@@ -211,10 +221,10 @@ class _Setter:
 
     def camera(self, value: Vector) -> None:
         self.options.camera.kind = lib.RECTO_CAMERA_EYE
-        self.options.camera.eye = list(value)
+        self.options.camera.eye = _vector(value)
 
     def lookat(self, value: Vector) -> None:
-        self.options.camera.target = list(value)
+        self.options.camera.target = _vector(value)
         self.options.camera.has_target = True
 
     def ortho(self, value: bool) -> None:
@@ -255,7 +265,11 @@ class _Setter:
         self.options.ink.fill = _word("fill", value, _FILLS)
 
     def order(self, value: str) -> None:
-        known = {"none": lib.RECTO_ORDER_NONE, "near": lib.RECTO_ORDER_NEAR}
+        known = {
+            "none": lib.RECTO_ORDER_NONE,
+            "near": lib.RECTO_ORDER_NEAR,
+            "auto": lib.RECTO_ORDER_AUTO,
+        }
         self.options.ink.order = _word("order", value, known)
 
     def pen_for(self, value: Mapping[str, int]) -> None:
@@ -359,7 +373,15 @@ class Filled:
         names += [n for n in given if n not in first + last]
         names += [n for n in last if n in given]
         for name in names:
-            self._set(name, given[name])
+            try:
+                self._set(name, given[name])
+            except (TypeError, ValueError, OverflowError, AttributeError) as error:
+                if str(error).startswith(name):
+                    raise
+                kind = type(error)
+                if kind is AttributeError:  # of a value of a wrong type
+                    kind = TypeError
+                raise kind(f"{name}: {error}") from None
         if "camera" in given and not given.get("ortho") and "fov" not in given:
             self.at.camera.fov_deg = 30
 
@@ -367,10 +389,7 @@ class Filled:
         if name in _FIELDS:
             block, field = _FIELDS[name]
             if isinstance(value, Iterable) and not isinstance(value, str):
-                value = [float(x) for x in value]
-            try:
-                setattr(getattr(self.at, block), field, value)
-            except (TypeError, IndexError, OverflowError) as error:
-                raise type(error)(f"{name}: {error}") from None
+                value = _vector(value)
+            setattr(getattr(self.at, block), field, value)
         else:
             getattr(self._setter, name)(value)

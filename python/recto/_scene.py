@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from typing import Any, NamedTuple, Sequence
 
 import numpy as np
@@ -138,7 +139,14 @@ class Scene:
         Arrays that are contiguous, of float32 or float64, and of 32-bit
         indices, are handed over without a copy; the library copies them."""
         if faces is None:
-            vertices, faces = vertices.vertices, vertices.faces
+            try:
+                vertices, faces = vertices.vertices, vertices.faces
+            except AttributeError:
+                kind = type(vertices).__name__
+                raise TypeError(
+                    f"{kind}: neither vertices and faces, nor an object that has "
+                    "them; a file is read by Scene.read"
+                ) from None
         points = np.asarray(vertices)
         single = points.dtype == np.float32
         points = np.ascontiguousarray(points, np.float32 if single else np.float64)
@@ -167,7 +175,7 @@ class Scene:
             index = {name: i for i, name in enumerate(names)}
             kept += [np.array([index[name] for name in groups], np.uint32)]
             mesh.face_groups = ffi.from_buffer("uint32_t[]", kept[-1])
-            kept += [[ffi.new("char[]", name.encode()) for name in names]]
+            kept += [[ffi.new("char[]", text_to(name)) for name in names]]
             kept += [ffi.new("char *[]", kept[-1])]
             mesh.group_names = kept[-1]
             mesh.group_count = len(names)
@@ -199,7 +207,7 @@ class Scene:
     def add_group(self, name: str) -> None:
         """Starts a group, which what is added later belongs to."""
         call = Call()
-        call.finish(lib.recto_scene_add_group(self._owner, name.encode(), call.error))
+        call.finish(lib.recto_scene_add_group(self._owner, text_to(name), call.error))
 
     def prepare(self, **options: Unpack[Options]) -> None:
         """Does once what views of the scene share; weld, coordinate_bits and
@@ -212,6 +220,9 @@ class Scene:
     def render(self, **options: Unpack[Options]) -> Drawing:
         """Draws the scene for SVG files, or for those of `format`."""
         given: dict[str, Any] = {"format": "svg", **options}
+        for name, value in given.items():
+            if isinstance(value, Iterator):  # the drawing uses it again
+                given[name] = tuple(value)
         filled = Filled(given)
         drawing = ffi.new("recto_drawing **")
         status = lib.recto_scene_render(

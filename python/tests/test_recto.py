@@ -3,8 +3,10 @@
 Prints a line for each, "pass CLAIM" or "fail CLAIM", and the failures'
 tracebacks to standard error; tests/test_python.sh makes TAP of them."""
 
+import copy
 import gc
 import os
+import pickle
 import re
 import signal
 import subprocess
@@ -436,6 +438,56 @@ def test_check():
     assert 10 < x < 200 and 38 < y < 259
     raised(recto.FileError, cube().check, "no.svg")
     raised(recto.CancelledError, cube().check, "few.svg", progress=lambda *_: False)
+
+
+def test_pickle():
+    """Errors and strokes are what they were when pickled and copied"""
+    error = raised(recto.FileError, recto.Scene.read, "no.obj")
+    assert error.filename == "no.obj" and "No such file" in error.strerror
+    for again in (pickle.loads(pickle.dumps(error)), copy.copy(error)):
+        assert type(again) is recto.FileError and str(again) == str(error)
+        assert (again.file, again.status, again.filename) == ("no.obj", "io", "no.obj")
+    stroke = cube().render().strokes[0]
+    for again in (pickle.loads(pickle.dumps(stroke)), copy.deepcopy(stroke)):
+        assert type(again) is recto.Stroke and (again == stroke).all()
+        assert again.__dict__ == stroke.__dict__ and again.edge_class == "crease"
+
+
+def test_values():
+    """Wrong values are errors that name the option"""
+    for name in ("light", "up", "camera", "lookat"):
+        for value in ((1,), (1, 2, 3, 4), 5, ("x", 0, 0)):
+            error = raised((TypeError, ValueError), cube().render, **{name: value})
+            assert str(error).startswith(name), error
+    for name, value in {"edges": 5, "pen_for": 3, "weights": [1], "page": (1,),
+                        "pen": "thick", "device": 7, "pens": 1e9}.items():
+        error = raised((TypeError, ValueError), cube().render, **{name: value})
+        assert str(error).startswith(name) or "pens" in str(error), error
+    raised(ValueError, cube().render, device="generic\0x")
+    raised(ValueError, cube().add_group, "a\0b")
+    raised(ValueError, recto.Scene, VERTICES, FACES, ["a\0b"] * 6)
+    raised(ValueError, recto.Scene.read, "cut.ply\0")
+    raised(ValueError, cube().render().write, "a.svg\0.txt")
+    raised(ValueError, cube().render().to_bytes, "svg\0x")
+    assert "Scene.read" in str(raised(TypeError, recto.Scene, "cut.ply"))
+    drawing = cube().render(results=(w for w in ("edges", "faces")))
+    assert drawing.edges and drawing.fragments and drawing.svg()
+    for options in ({"order": "auto"}, {"fit": "scale", "scale": 10}):
+        assert cube().render(**options).strokes
+    assert set(recto.METHODS) >= {"auto", "newell", "brute"}
+
+
+def test_many_fragments():
+    """Fragments are made within 40 us each"""
+    drawing = recto.Scene(*sheet(150)).render(view="front", results="faces")
+    before = time.process_time()
+    fragments = drawing.fragments
+    passed = time.process_time() - before
+    assert len(fragments) > 30000 and passed < 40e-6 * len(fragments), passed
+    for fragment in fragments[::997]:
+        assert len(fragment.sides) == len(fragment.exterior) > 2
+        assert fragment.exterior[0].tolist() == [
+            fragment.sides["x_mm"][0], fragment.sides["y_mm"][0]]
 
 
 def test_vocabulary():
