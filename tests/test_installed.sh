@@ -60,6 +60,7 @@ done
 claim "no path of the build is in the files that are text" \
   eval '! grep -rIlF "$builddir" "$staged" | grep .'
 
+link= # how a program is linked
 # uses_it OPTION... - builds the README's first program as pkg-config says, and draws.
 uses_it() {
   local pc
@@ -68,7 +69,7 @@ uses_it() {
     >user.c
   cp "$srcdir/examples/models/gears.obj" model.obj && rm -f model.svg
   # shellcheck disable=SC2046,SC2086 # several words each
-  ${CC:-cc} -Wall -Werror user.c -o user $(PKG_CONFIG_SYSROOT_DIR=$staged \
+  ${CC:-cc} -Wall -Werror $link user.c -o user $(PKG_CONFIG_SYSROOT_DIR=$staged \
     PKG_CONFIG_PATH=${pc%/*} pkg-config --cflags --libs "$@" recto) 2>log &&
     LD_LIBRARY_PATH=${pc%/pkgconfig/*} ./user && test -s model.svg && return 0
   say "$(head -n 3 log)" && false
@@ -81,6 +82,16 @@ else
   fi
   if grep -q '/librecto\.a$' files; then
     claim "so it is by pkg-config --static" uses_it --static
+    what="and so it is where all libraries are static"
+    echo 'int main(void) { return 0; }' >empty.c
+    # shellcheck disable=SC2046 # several words each
+    if ${CC:-cc} -static empty.c -o empty $(pkg-config --static --libs \
+      $(sed -n 's/^Requires.private://p' "$builddir/recto.pc")) 2>log; then
+      link=-static
+      claim "$what" uses_it --static
+    else
+      skip "$what" "$(head -n 1 log)"
+    fi
   fi
 fi
 finish
