@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "visibility/predicate/occlusion.h"
 #include "visibility/predicate/plane_filter.h"
 #include "visibility/predicate/surrounder.h"
@@ -69,10 +69,10 @@ static inline struct tile *collection_tile(const struct tile_collection *g,
 }
 
 static struct tile_collection
-collection_of(const struct tile_classification *tiles) {
+collection_of(const struct tile_classification *tiles, struct tile *tile) {
   const struct triangle_grid *grid = &tiles->grid;
   int64_t side = INT64_C(1) << grid->shift;
-  return (struct tile_collection){*grid, tiles->tile, grid->x0 + side * 37 / 64,
+  return (struct tile_collection){*grid, tile, grid->x0 + side * 37 / 64,
                                   grid->y0 + side * 29 / 64};
 }
 
@@ -159,17 +159,38 @@ static void add_unsafe(const struct tile_collection *g, struct cell_range r,
       add_unsafe_to(collection_tile(g, x, y), farthest);
 }
 
-/* Phase 1: visits the triangles once. */
-static void collect(struct tile_classification *tiles,
-                    const struct sheet *sheet, bool fragments) {
-  const struct occlusion_bound all = occlusion_tolerance_bound_all(sheet);
-  const struct tile_collection g = collection_of(tiles);
-  const struct sheet_triangle *triangle = sheet->triangle.item;
-  const struct geom_point *point = sheet->point.item;
-  const uint8_t *flags = sheet->triangle_flags;
-  struct footprint *footprint = tiles->footprint;
-  for (size_t t = 0, n = sheet->triangle.count; t < n; t++) {
-    if (occlusion_culling_is_culled(&tiles->culling, (uint32_t)t))
+/* What the workers of phase 1 know. */
+struct collection_work {
+  struct tile_classification *tiles;
+  const struct sheet *sheet;
+  struct occlusion_bound all;
+  bool fragments;
+  int workers;
+  struct tile **own; /* one a worker: its tiles; NULL: it has none yet */
+};
+
+/* The tiles of a worker; NULL when memory ran out. */
+static struct tile *tiles_of_worker(const struct collection_work *work,
+                                    int worker) {
+  if (work->own[worker] == NULL)
+    work->own[worker] = mem_calloc(triangle_grid_cell_count(&work->tiles->grid),
+                                   sizeof *work->own[worker]);
+  return work->own[worker];
+}
+
+/* Phase 1: visits the triangles of a range. */
+static bool collect_range(void *user, struct parallel_range range) {
+  const struct collection_work *work = user;
+  struct tile *own = tiles_of_worker(work, range.worker);
+  const struct tile_collection g = collection_of(work->tiles, own);
+  const struct sheet_triangle *triangle = work->sheet->triangle.item;
+  const struct geom_point *point = work->sheet->point.item;
+  const uint8_t *flags = work->sheet->triangle_flags;
+  struct footprint *footprint = work->tiles->footprint;
+  if (own == NULL)
+    return false;
+  for (size_t t = range.begin; t < range.end; t++) {
+    if (occlusion_culling_is_culled(&work->tiles->culling, (uint32_t)t))
       continue;
     const uint32_t *p = triangle[t].point;
     const struct geom_triangle corners = {
@@ -185,11 +206,51 @@ static void collect(struct tile_classification *tiles,
     add_buckets(&g, r, bucket_mask(low, high));
     if (flags[t] & SHEET_FLAT)
       continue;
-    if (is_steep(sheet, &all, (uint32_t)t, &corners))
-      add_unsafe(&g, r, fragments ? UINT8_MAX : (uint8_t)(low + 1));
+    if (is_steep(work->sheet, &work->all, (uint32_t)t, &corners))
+      add_unsafe(&g, r, work->fragments ? UINT8_MAX : (uint8_t)(low + 1));
     else
       add_to_samples(&g, &corners, box, (uint8_t)(low + 1));
   }
+  return true;
+}
+
+/* Adds what another worker collected in a tile. */
+static inline void unite_tiles(struct tile *tile, const struct tile *other) {
+  uint8_t a = tile->nearest[0], b = other->nearest[0],
+          next = a < b ? other->nearest[1] : tile->nearest[1];
+  tile->z_buckets |= other->z_buckets;
+  add_unsafe_to(tile, other->unsafe);
+  tile->nearest[0] = a < b ? b : a;
+  tile->nearest[1] = a < b ? (a < next ? next : a) : (b < next ? next : b);
+}
+
+/* Unites a range of the tiles of all workers. */
+static bool unite_range(void *user, struct parallel_range range) {
+  const struct collection_work *work = user;
+  for (int w = 1; w < work->workers; w++)
+    for (size_t i = range.begin; work->own[w] != NULL && i < range.end; i++)
+      unite_tiles(&work->tiles->tile[i], &work->own[w][i]);
+  return true;
+}
+
+/* Phase 1: each worker collects in tiles of its own, which are then united;
+ * where the tiles are more than the triangles there is one worker. */
+static bool collect_all(struct collection_work *work) {
+  size_t triangles = work->sheet->triangle.count,
+         tiles = triangle_grid_cell_count(&work->tiles->grid);
+  work->workers = tiles <= triangles ? parallel_workers(triangles) : 1;
+  work->own = mem_calloc((size_t)work->workers, sizeof *work->own);
+  if (work->own == NULL)
+    return false;
+  work->own[0] = work->tiles->tile;
+  bool ok = work->workers == 1
+                ? collect_range(work, (struct parallel_range){0, triangles, 0})
+                : parallel_ranges(triangles, collect_range, work) &&
+                      parallel_ranges(tiles, unite_range, work);
+  for (int w = 1; w < work->workers; w++)
+    mem_free(work->own[w]);
+  mem_free(work->own);
+  return ok;
 }
 
 /* ---- Classifying --------------------------------------------------------- */
@@ -305,7 +366,14 @@ bool tile_classification_init(struct tile_classification *tiles,
   tiles->footprint = mem_alloc(sheet->triangle.count, sizeof *tiles->footprint);
   if (tiles->tile == NULL || tiles->footprint == NULL)
     return false;
-  collect(tiles, sheet, fragments);
+  struct collection_work work = {
+      .tiles = tiles,
+      .sheet = sheet,
+      .all = occlusion_tolerance_bound_all(sheet),
+      .fragments = fragments,
+  };
+  if (!collect_all(&work))
+    return false;
   find_simple_tiles(tiles);
   reject_contours(tiles, sheet);
   if (tiles->culling.count > 0)
