@@ -168,8 +168,8 @@ static bool run_items(struct items *items, int threads,
   options.progress = cancel_at;
   options.user = canceller;
   poll_open(&poll, &options);
-  bool ok = parallel_ranges(ITEMS, do_items, items);
-  assert_true(items->workers <= parallel_workers(ITEMS));
+  bool ok = parallel_ranges(ITEMS, PARALLEL_ITEMS, do_items, items);
+  assert_true(items->workers <= parallel_workers(ITEMS, PARALLEL_ITEMS));
   poll_close(&poll);
   return ok;
 }
@@ -184,8 +184,8 @@ static void ranges_are_done_once_by_any_number_of_threads(void **state) {
     assert_true(run_items(&items, threads, &never));
     for (size_t i = 0; i < ITEMS; i++)
       assert_int_equal(items.done[i], 1);
-    assert_true(threads != 1 ||
-                never.calls == (int)parallel_range_count(ITEMS));
+    assert_true(threads != 1 || never.calls == (int)parallel_range_count(
+                                                   ITEMS, PARALLEL_ITEMS));
   }
 }
 
@@ -222,12 +222,13 @@ static void few_items_and_no_call_have_one_worker(void **state) {
   recto_options_init(&options);
   options.solver.threads = 2;
   poll_open(&poll, &options);
-  assert_int_equal(parallel_workers(PARALLEL_ITEMS), 1);
-  assert_int_equal(parallel_workers(ITEMS), parallel_processors() > 1 ? 2 : 1);
+  assert_int_equal(parallel_workers(PARALLEL_ITEMS, PARALLEL_ITEMS), 1);
+  assert_int_equal(parallel_workers(ITEMS, PARALLEL_ITEMS),
+                   parallel_processors() > 1 ? 2 : 1);
   poll_close(&poll);
   items.fails_at = ITEMS;
-  assert_int_equal(parallel_workers(ITEMS), 1);
-  assert_true(parallel_ranges(ITEMS, do_items, &items));
+  assert_int_equal(parallel_workers(ITEMS, PARALLEL_ITEMS), 1);
+  assert_true(parallel_ranges(ITEMS, PARALLEL_ITEMS, do_items, &items));
   assert_int_equal(items.workers, 1);
   assert_int_equal(items.count, ITEMS);
 }

@@ -80,45 +80,50 @@ int parallel_threads(void) {
 
 /* ---- Ranges of items ----------------------------------------------------- */
 
-enum {
-  ITEMS_PER_THREAD = 1 << 15 /* at least: fewer are not worth a thread */
-};
+/* With fewer for each a thread is not worth while. */
+enum { RANGES_PER_THREAD = 4 };
 
 struct ranges {
-  size_t count;
+  size_t count, items;
   parallel_task *task;
   void *user;
-  atomic_size_t next; /* the first item that no worker has taken */
-  atomic_int workers; /* that have begun */
+  atomic_size_t next; /* the first range that no worker has taken */
+  atomic_int workers; /* that have begun, beside the caller */
   atomic_bool ended;
 };
 
 static void do_ranges(void *user, bool callers) {
   struct ranges *ranges = user;
+  size_t count = parallel_range_count(ranges->count, ranges->items), i;
   int worker = callers ? 0 : 1 + atomic_fetch_add(&ranges->workers, 1);
-  while (!atomic_load(&ranges->ended)) {
-    size_t begin = atomic_fetch_add(&ranges->next, PARALLEL_ITEMS);
-    if (begin >= ranges->count)
+  if (!callers)
+    poll_follow(&ranges->ended);
+  while ((i = atomic_fetch_add(&ranges->next, 1)) < count && poll_now()) {
+    struct parallel_range range = {i * ranges->items, (i + 1) * ranges->items,
+                                   worker};
+    if (range.end > ranges->count)
+      range.end = ranges->count;
+    if (!ranges->task(ranges->user, range))
       break;
-    size_t end = ranges->count - begin < PARALLEL_ITEMS
-                     ? ranges->count
-                     : begin + PARALLEL_ITEMS;
-    if (!poll_now() || !ranges->task(ranges->user, (struct parallel_range){
-                                                       begin, end, worker}))
-      atomic_store(&ranges->ended, true);
   }
+  if (i < count)
+    atomic_store(&ranges->ended, true);
+  if (!callers)
+    poll_follow(NULL);
 }
 
-int parallel_workers(size_t count) {
-  size_t worthwhile = count / ITEMS_PER_THREAD;
+int parallel_workers(size_t count, size_t items) {
+  size_t worthwhile = count / items / RANGES_PER_THREAD;
   int threads = parallel_threads();
   return worthwhile < 2                 ? 1
          : worthwhile < (size_t)threads ? (int)worthwhile
                                         : threads;
 }
 
-bool parallel_ranges(size_t count, parallel_task *task, void *user) {
-  struct ranges ranges = {.count = count, .task = task, .user = user};
-  parallel_run(parallel_workers(count), do_ranges, &ranges);
+bool parallel_ranges(size_t count, size_t items, parallel_task *task,
+                     void *user) {
+  struct ranges ranges = {
+      .count = count, .items = items, .task = task, .user = user};
+  parallel_run(parallel_workers(count, items), do_ranges, &ranges);
   return !atomic_load(&ranges.ended);
 }

@@ -35,25 +35,28 @@ struct parallel_range {
   int worker; /* which does them, 0 to parallel_workers - 1; 0 is the caller */
 };
 
-/* Returns false where the work is to end: memory ran out. */
+/* Returns false where the work is to end: memory ran out.  Polls in all workers
+ * are false once it is. */
 typedef bool parallel_task(void *user, struct parallel_range range);
 
-/* How many workers parallel_ranges has at most for so many items. */
-int parallel_workers(size_t count);
+/* Items of a range where each takes some nanoseconds. */
+enum { PARALLEL_ITEMS = POLL_ITEMS };
 
-/* Divides the items into ranges of PARALLEL_ITEMS, the last of which may be
+/* How many workers parallel_ranges has at most for so many items. */
+int parallel_workers(size_t count, size_t items);
+
+/* Divides `count` items into ranges of `items`, the last of which may be
  * shorter, and does them in as many threads as the call may use, each range in
  * one of them.  Ranges begin at the same items for any number of threads, so a
  * task whose result depends on its range alone gives the same bytes.
  * Returns false when a task did, or the caller cancelled; the others may then
  * not have been run. */
-bool parallel_ranges(size_t count, parallel_task *task, void *user);
-
-enum { PARALLEL_ITEMS = POLL_ITEMS };
+bool parallel_ranges(size_t count, size_t items, parallel_task *task,
+                     void *user);
 
 /* The number of these ranges. */
-static inline size_t parallel_range_count(size_t count) {
-  return (count + PARALLEL_ITEMS - 1) / PARALLEL_ITEMS;
+static inline size_t parallel_range_count(size_t count, size_t items) {
+  return (count + items - 1) / items;
 }
 
 #endif

@@ -1,7 +1,8 @@
 /* poll.c - the poll of each thread. */
 #include "base/poll.h"
 
-static _Thread_local struct poll *current; /* NULL: none is open */
+static _Thread_local struct poll *current;        /* NULL: none is open */
+static _Thread_local const atomic_bool *followed; /* NULL: none is */
 
 void poll_open(struct poll *poll, const recto_options *options) {
   *poll =
@@ -10,6 +11,8 @@ void poll_open(struct poll *poll, const recto_options *options) {
 }
 
 void poll_close(struct poll *poll) { current = poll->outer; }
+
+void poll_follow(const atomic_bool *ended) { followed = ended; }
 
 const recto_options *poll_options(void) {
   return current != NULL ? current->options : NULL;
@@ -21,6 +24,8 @@ bool poll_is_cancelled(void) { return current != NULL && current->cancelled; }
  * call's. */
 bool poll_now(void) {
   struct poll *poll = current;
+  if (followed != NULL && atomic_load(followed))
+    return false;
   if (poll == NULL || poll->cancelled || poll->options->progress == NULL)
     return !poll_is_cancelled();
   current = NULL;

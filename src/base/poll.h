@@ -3,13 +3,14 @@
  *
  * A call of the library that may last opens a poll, which is its thread's until
  * it is closed.  Work for that call in that thread polls without having it
- * passed down; threads that the library starts have none, and their polls do
- * nothing.  Once the caller has cancelled, every poll is false without a call:
+ * passed down; polls in threads that the library starts do not call the
+ * caller's function, but are false once the work in them is to end.  Once the caller has cancelled, every poll is false without a call:
  * work ends as it does where memory runs out, and error_memory says
  * which of the two it was (doc/decisions/0033). */
 #ifndef BASE_POLL_H
 #define BASE_POLL_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -50,6 +51,10 @@ static inline bool poll_at(size_t index) {
 }
 
 bool poll_is_cancelled(void);
+
+/* Lets all polls of this thread, which the library started, be false once
+ * *ended is true; NULL: no longer. */
+void poll_follow(const atomic_bool *ended);
 
 /* The options of the call that this thread works for; NULL: it does not. */
 const recto_options *poll_options(void);

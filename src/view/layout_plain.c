@@ -174,17 +174,18 @@ static void record_foreign(struct layout *layout, struct plain_range *range) {
 
 bool layout_plain_all(struct layout *layout, bool *done) {
   size_t faces = scene_face_count(layout->scene);
-  size_t ranges = parallel_range_count(faces);
+  size_t ranges = parallel_range_count(faces, PARALLEL_ITEMS);
   *done = false;
   if (!layout->sheet->camera.all_on_page ||
       layout->scene->corner.count != 3 * faces)
     return true;
   struct plain_work work = {.layout = layout,
                             .range = mem_calloc(ranges, sizeof *work.range)};
-  bool ok =
-      work.range != NULL && parallel_ranges(faces, count_kept_faces, &work);
+  bool ok = work.range != NULL &&
+            parallel_ranges(faces, PARALLEL_ITEMS, count_kept_faces, &work);
   uint32_t kept = ok ? place_ranges(work.range, ranges) : 0;
-  ok = ok && parallel_ranges(faces, make_plain_triangles, &work);
+  ok =
+      ok && parallel_ranges(faces, PARALLEL_ITEMS, make_plain_triangles, &work);
   for (size_t i = 0; work.range != NULL && i < ranges; i++)
     record_foreign(layout, &work.range[i]);
   mem_free(work.range);

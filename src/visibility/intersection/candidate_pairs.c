@@ -15,7 +15,7 @@
 enum { BSP_LIST_MIN = 256 };
 
 /* What the tests use of a triangle, computed once per list. */
-struct summary {
+struct pair_summary {
   struct box2 box;
   int64_t low, high; /* depths of the farthest and the nearest corner */
   int x0, y0;        /* the cell of the box's lower left corner */
@@ -25,22 +25,8 @@ struct summary {
   struct plane_filter plane;
 };
 
-struct box_sweep {
-  const struct sheet *sheet;
-  const struct triangle_grid *grid;
-  const uint8_t *cells;
-  bool (*visit)(void *user, uint32_t f, uint32_t g);
-  void *user;
-  struct progress *progress;
-  int x, y; /* the current cell */
-  ARRAY(struct summary) summary;
-  ARRAY(struct sort_key) key; /* twice as many: sorted by depth, and scratch */
-  struct bsp bsp;
-  uint64_t *met;
-};
-
-static void summarise(const struct box_sweep *sweep, uint32_t triangle,
-                      uint64_t right_copy, struct summary *s) {
+static void summarise(const struct pair_sweep *sweep, uint32_t triangle,
+                      uint64_t right_copy, struct pair_summary *s) {
   const struct sheet *sheet = sweep->sheet;
   const struct triangle_grid *grid = sweep->grid;
   const uint32_t *p = sheet->triangle.item[triangle].point;
@@ -61,7 +47,7 @@ static void summarise(const struct box_sweep *sweep, uint32_t triangle,
 }
 
 /* Are both triangles listed in a cell that is selected? */
-static bool is_pair_selected(const struct box_sweep *sweep, int x, int y) {
+static bool is_pair_selected(const struct pair_sweep *sweep, int x, int y) {
   const struct triangle_grid *grid = sweep->grid;
   size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
   if (sweep->cells != NULL && !sweep->cells[cell])
@@ -72,8 +58,9 @@ static bool is_pair_selected(const struct box_sweep *sweep, int x, int y) {
 /* A pair may be listed together in several cells; it is tested only in the
  * first of them, mostly the one with the lower left corner of the boxes'
  * intersection.  Is that the current cell? */
-static bool is_cell_of_pair(const struct box_sweep *sweep,
-                            const struct summary *f, const struct summary *g) {
+static bool is_cell_of_pair(const struct pair_sweep *sweep,
+                            const struct pair_summary *f,
+                            const struct pair_summary *g) {
   const struct triangle_grid *grid = sweep->grid;
   int x0 = f->x0 > g->x0 ? f->x0 : g->x0, y0 = f->y0 > g->y0 ? f->y0 : g->y0;
   if (x0 == sweep->x && y0 == sweep->y)
@@ -173,8 +160,8 @@ static bool are_neighbours(const struct sheet *sheet, uint32_t f, uint32_t g) {
 }
 
 /* May f straddle the plane of g or end on it? */
-static bool may_pierce(const struct sheet *sheet, const struct summary *f,
-                       struct summary *g) {
+static bool may_pierce(const struct sheet *sheet, const struct pair_summary *f,
+                       struct pair_summary *g) {
   if (!g->has_plane)
     g->plane = plane_filter_of(sheet, g->triangle);
   g->has_plane = true;
@@ -201,8 +188,8 @@ static bool is_outside_triangle(const struct sheet *sheet, uint32_t f,
 }
 
 /* Visits a pair whose depths overlap, unless a test rejects it. */
-static bool visit_pair(const struct box_sweep *sweep, struct summary *f,
-                       struct summary *g) {
+static bool visit_pair(const struct pair_sweep *sweep, struct pair_summary *f,
+                       struct pair_summary *g) {
   if (box2_disjoint(f->box, g->box) || (f->right_copy & g->right_copy) != 0 ||
       !is_cell_of_pair(sweep, f, g) ||
       are_neighbours(sweep->sheet, f->triangle, g->triangle) ||
@@ -216,12 +203,12 @@ static bool visit_pair(const struct box_sweep *sweep, struct summary *f,
 }
 
 /* Starts a list, with room for n triangles. */
-static bool start_list(struct box_sweep *sweep, size_t n) {
+static bool start_list(struct pair_sweep *sweep, size_t n) {
   sweep->summary.count = 0;
   return ARRAY_RESERVE(&sweep->summary, n) && ARRAY_RESERVE(&sweep->key, 2 * n);
 }
 
-static void add_to_list(struct box_sweep *sweep, uint32_t triangle,
+static void add_to_list(struct pair_sweep *sweep, uint32_t triangle,
                         uint64_t right_copy) {
   size_t i = sweep->summary.count++;
   summarise(sweep, triangle, right_copy, &sweep->summary.item[i]);
@@ -230,18 +217,18 @@ static void add_to_list(struct box_sweep *sweep, uint32_t triangle,
 }
 
 /* Tests the pairs of the list. */
-static bool sweep_list(struct box_sweep *sweep) {
-  struct summary *summary = sweep->summary.item;
+static bool sweep_list(struct pair_sweep *sweep) {
+  struct pair_summary *summary = sweep->summary.item;
   struct sort_key *key = sweep->key.item;
   size_t n = sweep->summary.count;
   sort_keys(key, key + n, n);
   for (size_t i = 0; i < n; i++) {
-    struct summary *f = &summary[key[i].value];
+    struct pair_summary *f = &summary[key[i].value];
     size_t j = i + 1;
     for (; j < n && key[j].key <= (uint64_t)f->high; j++)
       if (!visit_pair(sweep, f, &summary[key[j].value]))
         return false;
-    *sweep->met += j - i - 1;
+    sweep->met += j - i - 1;
     if (!progress_step(sweep->progress, j - i))
       return false;
   }
@@ -249,7 +236,7 @@ static bool sweep_list(struct box_sweep *sweep) {
 }
 
 /* Sweeps each leaf of the cell's tree. */
-static bool sweep_bsp(struct box_sweep *sweep) {
+static bool sweep_bsp(struct pair_sweep *sweep) {
   const struct bsp *bsp = &sweep->bsp;
   for (size_t n = 0; n < bsp->node.count; n++) {
     const struct bsp_node *node = &bsp->node.item[n];
@@ -266,7 +253,7 @@ static bool sweep_bsp(struct box_sweep *sweep) {
   return true;
 }
 
-static bool sweep_cell(struct box_sweep *sweep, const uint32_t *item,
+static bool sweep_cell(struct pair_sweep *sweep, const uint32_t *item,
                        size_t n) {
   uint32_t root = SHEET_NONE;
   bsp_clear(&sweep->bsp);
@@ -282,27 +269,21 @@ static bool sweep_cell(struct box_sweep *sweep, const uint32_t *item,
   return sweep_list(sweep);
 }
 
-bool candidate_pairs(const struct sheet *sheet,
-                     const struct triangle_grid *grid, const uint8_t *cells,
-                     bool (*visit)(void *user, uint32_t f, uint32_t g),
-                     void *user, struct progress *progress, uint64_t *met) {
-  struct box_sweep sweep = {.sheet = sheet,
-                            .grid = grid,
-                            .cells = cells,
-                            .visit = visit,
-                            .user = user,
-                            .progress = progress,
-                            .met = met};
+bool pair_sweep_cells(struct pair_sweep *sweep, size_t begin, size_t end) {
+  const struct triangle_grid *grid = sweep->grid;
   bool ok = true;
-  size_t cell = 0;
-  for (sweep.y = 0; ok && sweep.y < grid->rows; sweep.y++)
-    for (sweep.x = 0; ok && sweep.x < grid->columns; sweep.x++, cell++) {
-      size_t n = grid->start[cell + 1] - grid->start[cell];
-      if (n > 1 && (cells == NULL || cells[cell]))
-        ok = sweep_cell(&sweep, grid->item + grid->start[cell], n);
-    }
-  ARRAY_FREE(&sweep.summary);
-  ARRAY_FREE(&sweep.key);
-  bsp_fini(&sweep.bsp);
+  for (size_t cell = begin; ok && cell < end; cell++) {
+    size_t n = grid->start[cell + 1] - grid->start[cell];
+    sweep->x = (int)(cell % (size_t)grid->columns);
+    sweep->y = (int)(cell / (size_t)grid->columns);
+    if (n > 1 && (sweep->cells == NULL || sweep->cells[cell]))
+      ok = sweep_cell(sweep, grid->item + grid->start[cell], n);
+  }
   return ok;
+}
+
+void pair_sweep_fini(struct pair_sweep *sweep) {
+  ARRAY_FREE(&sweep->summary);
+  ARRAY_FREE(&sweep->key);
+  bsp_fini(&sweep->bsp);
 }

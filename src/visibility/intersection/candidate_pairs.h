@@ -2,23 +2,40 @@
 #ifndef VISIBILITY_INTERSECTION_CANDIDATE_PAIRS_H
 #define VISIBILITY_INTERSECTION_CANDIDATE_PAIRS_H
 
+#include "base/sort.h"
+#include "visibility/index/bsp.h"
 #include "visibility/index/triangle_grid.h"
 #include "visibility/progress.h"
 
-/* Calls visit(user, f, g), f < g, once for every candidate pair.  The two
+/* The search for pairs in the cells of a grid, by one thread or by several,
+ * each of which has its own. */
+struct pair_sweep {
+  const struct sheet *sheet;
+  const struct triangle_grid *grid;
+  const uint8_t *cells; /* per cell, not 0: selected; NULL: all are */
+  bool (*visit)(void *user, uint32_t f, uint32_t g);
+  void *user;
+  struct progress *progress; /* counts the work */
+  uint64_t met; /* the number of pairs of one list whose depths overlap */
+  int x, y;     /* the current cell */
+  ARRAY(struct pair_summary) summary;
+  ARRAY(struct sort_key) key; /* twice as many: sorted by depth, and scratch */
+  struct bsp bsp;
+};
+
+/* The caller sets the members up to `progress`, the others to 0. */
+void pair_sweep_fini(struct pair_sweep *sweep);
+
+/* Calls visit(user, f, g), f < g, for candidate pairs, each of which one cell
+ * gives.  The two
  *   - share a cell of the grid that has a list and is selected by `cells`,
  *   - have boxes that meet on the page and in depth,
  *   - share less than an edge, and
  *   - are not certainly on one side of each other's planes.
- * cells     per cell, not 0: selected; NULL: all are
- * progress  counts the work; NULL: never polled
- * met       gets added the number of pairs of one list whose depths overlap
+ * begin, end  the cells, row by row: from `begin` to before `end`
  * Returns false when memory ran out, or as soon as visit returns false or the
  * caller cancels. */
-USE_RESULT bool
-candidate_pairs(const struct sheet *sheet, const struct triangle_grid *grid,
-                const uint8_t *cells,
-                bool (*visit)(void *user, uint32_t f, uint32_t g), void *user,
-                struct progress *progress, uint64_t *met);
+USE_RESULT bool pair_sweep_cells(struct pair_sweep *sweep, size_t begin,
+                                 size_t end);
 
 #endif

@@ -52,6 +52,19 @@ void edge_crossings_fini(struct edge_crossings *crossings) {
   ARRAY_FREE(&crossings->slanted);
 }
 
+bool edge_crossings_unite(struct edge_crossings *crossings,
+                          const struct edge_crossings *other) {
+  if (!ARRAY_RESERVE(&crossings->list, other->list.count) ||
+      !ARRAY_RESERVE(&crossings->slanted, other->slanted.count))
+    return false;
+  for (size_t i = 0; i < other->list.count; i++)
+    crossings->list.item[crossings->list.count++] = other->list.item[i];
+  for (size_t i = 0; i < other->slanted.count; i++)
+    crossings->slanted.item[crossings->slanted.count++] =
+        other->slanted.item[i];
+  return true;
+}
+
 /* ---- Clipping ------------------------------------------------------------ */
 
 /* Clips an edge to triangle g, which has an area, on the page.

@@ -33,6 +33,10 @@ struct edge_crossings {
 
 void edge_crossings_fini(struct edge_crossings *crossings);
 
+/* Adds the candidates of another list.  Returns false when memory ran out. */
+USE_RESULT bool edge_crossings_unite(struct edge_crossings *crossings,
+                                     const struct edge_crossings *other);
+
 /* Adds a candidate: triangle f ends on the plane of g, which straddles that of
  * f or ends on it.  Returns false when memory ran out.
  * sf, sg  the sides of f at the plane of g, and of g at that of f */

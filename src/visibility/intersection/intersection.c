@@ -1,6 +1,7 @@
 /* intersection.c - finds the lines in which faces pierce each other. */
 #include "visibility/intersection/intersection.h"
 
+#include "base/parallel.h"
 #include "base/sort.h"
 #include "visibility/intersection/candidate_pairs.h"
 #include "visibility/intersection/edge_crossing.h"
@@ -8,21 +9,23 @@
 #include "visibility/predicate/occlusion.h"
 #include "visibility/progress.h"
 
-/* The cost of a pair in exact numbers, in units of progress.h. */
-enum { PAIR_WORK = 16 };
+enum {
+  PAIR_WORK = 16, /* cost of a pair in exact numbers, in units of progress.h */
+  SEARCH_CELLS = 1 << 8 /* that a thread takes at a time */
+};
 
+/* The search of one worker. */
 struct intersection_search {
   const struct sheet *sheet;
   struct progress progress;
+  struct pair_sweep sweep;
   struct intersection_segments segment;
   struct edge_crossings crossings;
   struct occluder occluder; /* that of triangle `prepared` */
   uint32_t prepared;
   struct {
-    uint64_t met;       /* pairs of one list with overlapping depths */
-    uint64_t pairs;     /* candidates that no filter rejected */
-    uint64_t straddle;  /* of these, each reaches the other's plane */
-    uint64_t crossings; /* crossings along an edge */
+    uint64_t pairs;    /* candidates that no filter rejected */
+    uint64_t straddle; /* of these, each reaches the other's plane */
   } counts;
 };
 
@@ -88,9 +91,13 @@ static int compare_segment_ends(const struct intersection_segment *s,
                     : geom_compare_points(s->end[!turn_s], t->end[!turn_t]);
 }
 
+/* Equal are only segments that do not differ. */
 static int compare_by_coordinates(const void *a, const void *b, void *user) {
-  int order = compare_segment_ends(a, b);
-  return order != 0 ? order : compare_segments(a, b, user);
+  const struct intersection_segment *s = a, *t = b;
+  int order = compare_segment_ends(s, t);
+  if (order == 0)
+    order = compare_segments(a, b, user);
+  return order != 0 ? order : geom_compare_points(s->end[0], t->end[0]);
 }
 
 /* Removes duplicate segments, each of which becomes one edge, that of its first
@@ -175,31 +182,86 @@ static bool add_intersection_edges(struct sheet *sheet,
   return true;
 }
 
+/* ---- Several workers ----------------------------------------------------- */
+
+static void search_init(struct intersection_search *search,
+                        const struct sheet *sheet,
+                        const struct triangle_grid *grid, const uint8_t *cells,
+                        const struct solver_request *request) {
+  *search =
+      (struct intersection_search){.sheet = sheet,
+                                   .progress = progress_of(request, "piercing"),
+                                   .prepared = SHEET_NONE};
+  search->sweep = (struct pair_sweep){.sheet = sheet,
+                                      .grid = grid,
+                                      .cells = cells,
+                                      .visit = decide_pair,
+                                      .user = search,
+                                      .progress = &search->progress};
+}
+
+static void search_fini(struct intersection_search *search) {
+  pair_sweep_fini(&search->sweep);
+  ARRAY_FREE(&search->segment.list);
+  edge_crossings_fini(&search->crossings);
+}
+
+static bool search_cells(void *user, struct parallel_range range) {
+  struct intersection_search *search = user;
+  return pair_sweep_cells(&search[range.worker].sweep, range.begin, range.end);
+}
+
+/* Adds what another worker found.  The order does not matter: segments and
+ * crossings are sorted. */
+static bool unite_searches(struct intersection_search *search,
+                           struct intersection_search *other) {
+  search->sweep.met += other->sweep.met;
+  search->counts.pairs += other->counts.pairs;
+  search->counts.straddle += other->counts.straddle;
+  for (size_t i = 0; i < other->segment.list.count; i++)
+    if (!ARRAY_PUSH(&search->segment.list, other->segment.list.item[i]))
+      return false;
+  return edge_crossings_unite(&search->crossings, &other->crossings);
+}
+
+static void report_search(const struct intersection_search *search,
+                          uint64_t crossings, struct report *report) {
+  report_int(report, "intersections", "pairs_tested",
+             (int64_t)search->sweep.met);
+  report_int(report, "intersections", "candidate_pairs",
+             (int64_t)search->counts.pairs);
+  report_int(report, "intersections", "straddling_pairs",
+             (int64_t)search->counts.straddle);
+  report_int(report, "intersections", "edge_crossings", (int64_t)crossings);
+  report_int(report, "intersections", "segments",
+             (int64_t)search->segment.list.count);
+}
+
 recto_status intersection_find_all(struct sheet *sheet,
                                    const struct triangle_grid *grid,
                                    const uint8_t *cells,
                                    const struct solver_request *request,
                                    struct report *report, recto_error *error) {
-  struct intersection_search search = {.sheet = sheet,
-                                       .progress =
-                                           progress_of(request, "piercing"),
-                                       .prepared = SHEET_NONE};
-  bool ok = candidate_pairs(sheet, grid, cells, decide_pair, &search,
-                            &search.progress, &search.counts.met) &&
-            edge_crossings_resolve(&search.crossings, sheet, &search.segment,
-                                   &search.counts.crossings) &&
-            add_intersection_edges(sheet, &search);
-  report_int(report, "intersections", "pairs_tested",
-             (int64_t)search.counts.met);
-  report_int(report, "intersections", "candidate_pairs",
-             (int64_t)search.counts.pairs);
-  report_int(report, "intersections", "straddling_pairs",
-             (int64_t)search.counts.straddle);
-  report_int(report, "intersections", "edge_crossings",
-             (int64_t)search.counts.crossings);
-  report_int(report, "intersections", "segments",
-             (int64_t)search.segment.list.count);
-  ARRAY_FREE(&search.segment.list);
-  edge_crossings_fini(&search.crossings);
+  size_t count = triangle_grid_cell_count(grid);
+  int workers = parallel_workers(count, SEARCH_CELLS);
+  struct intersection_search *search =
+      mem_alloc((size_t)workers, sizeof *search);
+  uint64_t crossings = 0;
+  if (search == NULL)
+    return error_memory(error);
+  for (int w = 0; w < workers; w++)
+    search_init(&search[w], sheet, grid, cells, request);
+  bool ok = parallel_ranges(count, SEARCH_CELLS, search_cells, search);
+  for (int w = 1; w < workers; w++) {
+    ok = ok && unite_searches(&search[0], &search[w]);
+    search_fini(&search[w]);
+  }
+  ok = ok &&
+       edge_crossings_resolve(&search->crossings, sheet, &search->segment,
+                              &crossings) &&
+       add_intersection_edges(sheet, search);
+  report_search(search, crossings, report);
+  search_fini(search);
+  mem_free(search);
   return ok ? RECTO_OK : error_memory(error);
 }

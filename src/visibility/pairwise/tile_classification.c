@@ -238,15 +238,17 @@ static bool unite_range(void *user, struct parallel_range range) {
 static bool collect_all(struct collection_work *work) {
   size_t triangles = work->sheet->triangle.count,
          tiles = triangle_grid_cell_count(&work->tiles->grid);
-  work->workers = tiles <= triangles ? parallel_workers(triangles) : 1;
+  work->workers =
+      tiles <= triangles ? parallel_workers(triangles, PARALLEL_ITEMS) : 1;
   work->own = mem_calloc((size_t)work->workers, sizeof *work->own);
   if (work->own == NULL)
     return false;
   work->own[0] = work->tiles->tile;
-  bool ok = work->workers == 1
-                ? collect_range(work, (struct parallel_range){0, triangles, 0})
-                : parallel_ranges(triangles, collect_range, work) &&
-                      parallel_ranges(tiles, unite_range, work);
+  bool ok =
+      work->workers == 1
+          ? collect_range(work, (struct parallel_range){0, triangles, 0})
+          : parallel_ranges(triangles, PARALLEL_ITEMS, collect_range, work) &&
+                parallel_ranges(tiles, PARALLEL_ITEMS, unite_range, work);
   for (int w = 1; w < work->workers; w++)
     mem_free(work->own[w]);
   mem_free(work->own);
