@@ -3,10 +3,11 @@
  *
  * A call of the library that may last opens a poll, which is its thread's until
  * it is closed.  Work for that call in that thread polls without having it
- * passed down; polls in threads that the library starts do not call the
- * caller's function, but are false once the work in them is to end.  Once the caller has cancelled, every poll is false without a call:
- * work ends as it does where memory runs out, and error_memory says
- * which of the two it was (doc/decisions/0033). */
+ * passed down.  Polls in threads that the library starts do not call the
+ * caller's function, but are false once the work there is to end.  Once the
+ * caller has cancelled, every poll is false without a call: work ends as it
+ * does where memory runs out, and error_memory says which of the two it was
+ * (doc/decisions/0033). */
 #ifndef BASE_POLL_H
 #define BASE_POLL_H
 
