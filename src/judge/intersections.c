@@ -3,9 +3,13 @@
 
 #include "judge/intersections.h"
 
+#include "base/hash.h"
 #include "base/poll.h"
+#include "base/sort.h"
 #include "judge/camera.h"
 #include "judge/sampler.h"
+
+enum { FEW_CORNERS = 32 };
 
 struct intersection_finder {
   struct judge_edges *edges;
@@ -13,6 +17,9 @@ struct intersection_finder {
   const struct judge_camera *camera;
   double ray_offset_mm;
   uint32_t current; /* the triangle whose neighbours are looked up */
+  /* The sides of faces with more than FEW_CORNERS: their keys, in ascending
+   * order, and the corners where they start. */
+  ARRAY(struct sort_key) side;
 };
 
 /* ---- On the page --------------------------------------------------------- */
@@ -153,26 +160,88 @@ static void snap_to_corner(const struct judge_triangle *s,
   *(is_first ? a : b) = corner[0];
 }
 
-/* Whether a face has a side between two corners. */
-static bool has_side(const struct scene *scene, uint32_t face,
-                     const struct judge_point3 end[2]) {
-  uint32_t start = scene->face_start.item[face];
-  uint32_t count = scene->face_start.item[face + 1] - start;
-  const uint32_t *corner = scene->corner.item + start;
-  for (uint32_t i = 0; i < count; i++) {
-    struct judge_point3 p = judge_point3_at(scene, corner[i]);
-    struct judge_point3 q = judge_point3_at(scene, corner[(i + 1) % count]);
-    if ((is_same_point3(p, end[0]) && is_same_point3(q, end[1])) ||
-        (is_same_point3(p, end[1]) && is_same_point3(q, end[0])))
-      return true;
+/* ---- Sides of faces ------------------------------------------------------ */
+
+static uint32_t corner_count(const struct scene *scene, uint32_t face) {
+  return scene->face_start.item[face + 1] - scene->face_start.item[face];
+}
+
+/* A hash of a face and the ends of a side, in either order. */
+static uint64_t side_key(uint32_t face, const struct judge_point3 end[2]) {
+  uint64_t key = face;
+  for (int k = 0; k < 2; k++) {
+    uint64_t of_end = hash_add_double(0, end[k].x + 0.0);
+    of_end = hash_add_double(of_end, end[k].y + 0.0);
+    key += hash_add_double(of_end, end[k].z + 0.0) * HASH_GOLDEN;
   }
+  return key;
+}
+
+/* The ends of the side of a face that starts at its corner i. */
+static void side_ends(const struct scene *scene, uint32_t face, uint32_t i,
+                      struct judge_point3 end[2]) {
+  const uint32_t *corner = scene->corner.item + scene->face_start.item[face];
+  end[0] = judge_point3_at(scene, corner[i]);
+  end[1] = judge_point3_at(
+      scene, corner[i + 1 < corner_count(scene, face) ? i + 1 : 0]);
+}
+
+/* Returns false when memory ran out. */
+static bool index_sides(struct intersection_finder *finder) {
+  const struct scene *scene = finder->all->scene;
+  struct judge_point3 end[2];
+  for (uint32_t f = 0; f < scene_face_count(scene); f++)
+    for (uint32_t i = 0, count = corner_count(scene, f);
+         count > FEW_CORNERS && i < count; i++) {
+      side_ends(scene, f, i, end);
+      struct sort_key key = {side_key(f, end), i};
+      if (!poll_at(i + 1) || !ARRAY_PUSH(&finder->side, key))
+        return false;
+    }
+  size_t count = finder->side.count;
+  struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
+  if (scratch == NULL)
+    return false;
+  sort_keys(finder->side.item, scratch, count);
+  mem_free(scratch);
+  return true;
+}
+
+static bool is_side(const struct scene *scene, uint32_t face, uint32_t i,
+                    const struct judge_point3 end[2]) {
+  struct judge_point3 at[2];
+  side_ends(scene, face, i, at);
+  return (is_same_point3(at[0], end[0]) && is_same_point3(at[1], end[1])) ||
+         (is_same_point3(at[0], end[1]) && is_same_point3(at[1], end[0]));
+}
+
+/* Whether a face has a side between two corners. */
+static bool has_side(const struct intersection_finder *finder, uint32_t face,
+                     const struct judge_point3 end[2]) {
+  const struct scene *scene = finder->all->scene;
+  const struct sort_key *side = finder->side.item;
+  uint32_t count = corner_count(scene, face);
+  if (count <= FEW_CORNERS) {
+    for (uint32_t i = 0; i < count; i++)
+      if (is_side(scene, face, i, end))
+        return true;
+    return false;
+  }
+  uint64_t key = side_key(face, end);
+  size_t k;
+  LOWER_BOUND(k, 0, finder->side.count, side[k].key < key);
+  for (; k < finder->side.count && side[k].key == key; k++)
+    if (side[k].value < count && is_side(scene, face, side[k].value, end))
+      return true;
   return false;
 }
+
+/* ---- Sides in common ----------------------------------------------------- */
 
 /* The triangles of one surface at a side between two corners: those of one face
  * of which it is a diagonal, or those of all faces of which it is a side. */
 struct side_surface {
-  const struct judge_triangles *all;
+  const struct intersection_finder *finder;
   const struct judge_point3 *corner; /* two */
   uint32_t face;                     /* SCENE_NONE: of all */
   uint32_t triangle[2];              /* the first two */
@@ -181,15 +250,14 @@ struct side_surface {
 
 static bool add_to_surface(void *user, uint32_t i) {
   struct side_surface *surface = user;
-  const struct judge_triangle *t = &surface->all->triangle.item[i];
+  const struct judge_triangle *t = &surface->finder->all->triangle.item[i];
   unsigned shared = 0;
   for (int k = 0; k < 3; k++)
     shared += is_same_point3(t->p[k], surface->corner[0]) ||
               is_same_point3(t->p[k], surface->corner[1]);
-  if (shared < 2 ||
-      (surface->face == SCENE_NONE
-           ? !has_side(surface->all->scene, t->face, surface->corner)
-           : t->face != surface->face))
+  if (shared < 2 || (surface->face == SCENE_NONE
+                         ? !has_side(surface->finder, t->face, surface->corner)
+                         : t->face != surface->face))
     return true;
   if (surface->count < 2)
     surface->triangle[surface->count] = i;
@@ -199,16 +267,18 @@ static bool add_to_surface(void *user, uint32_t i) {
 
 /* The surface of a triangle at a side.
  * other  a face that does not belong to it */
-static struct side_surface surface_at(const struct judge_triangles *all,
+static struct side_surface surface_at(const struct intersection_finder *finder,
                                       const struct judge_triangle *t,
                                       const struct judge_point3 corner[2],
                                       uint32_t other) {
-  bool is_side = has_side(all->scene, t->face, corner);
-  struct side_surface surface = {
-      .all = all, .corner = corner, .face = is_side ? SCENE_NONE : t->face};
+  bool of_all = has_side(finder, t->face, corner);
+  struct side_surface surface = {.finder = finder,
+                                 .corner = corner,
+                                 .face = of_all ? SCENE_NONE : t->face};
   struct judge_triangle line = {.p = {corner[0], corner[1], corner[1]}};
   struct judge_box box = judge_triangle_box(&line);
-  (void)judge_triangles_near(all, &box, other, add_to_surface, &surface);
+  (void)judge_triangles_near(finder->all, &box, other, add_to_surface,
+                             &surface);
   return surface;
 }
 
@@ -282,11 +352,10 @@ static bool add_shared(struct intersection_finder *finder, uint32_t other,
   const struct judge_triangles *all = finder->all;
   const struct judge_triangle *s = &all->triangle.item[finder->current];
   const struct judge_triangle *t = &all->triangle.item[other];
-  if (has_side(all->scene, s->face, corner) &&
-      has_side(all->scene, t->face, corner))
+  if (has_side(finder, s->face, corner) && has_side(finder, t->face, corner))
     return true;
-  struct side_surface one = surface_at(all, s, corner, t->face),
-                      two = surface_at(all, t, corner, s->face);
+  struct side_surface one = surface_at(finder, s, corner, t->face),
+                      two = surface_at(finder, t, corner, s->face);
   if (one.triangle[0] != finder->current || two.triangle[0] != other)
     return true;
   bool sure = do_cross_at(finder, &one, &two);
@@ -356,14 +425,18 @@ bool judge_edges_intersections(struct judge_edges *edges,
                                const struct judge_triangles *all,
                                const struct judge_camera *camera,
                                double ray_offset_mm) {
-  struct intersection_finder finder = {edges, all, camera, ray_offset_mm, 0};
-  for (uint32_t i = 0; i < all->triangle.count; i++) {
+  struct intersection_finder finder = {.edges = edges,
+                                       .all = all,
+                                       .camera = camera,
+                                       .ray_offset_mm = ray_offset_mm};
+  bool ok = index_sides(&finder);
+  for (uint32_t i = 0; ok && i < all->triangle.count; i++) {
     const struct judge_triangle *triangle = &all->triangle.item[i];
     struct judge_box box = judge_triangle_box(triangle);
     finder.current = i;
-    if (!poll_at(i) || !judge_triangles_near(all, &box, triangle->face,
-                                             intersect_with, &finder))
-      return false;
+    ok = poll_at(i) && judge_triangles_near(all, &box, triangle->face,
+                                            intersect_with, &finder);
   }
-  return true;
+  ARRAY_FREE(&finder.side);
+  return ok;
 }
