@@ -46,7 +46,7 @@ claim "there is something to compare" test -s "$scratch/own/castle.svg"
 number=0
 for how in "gcc -O0" "gcc -O3" "clang -O0"; do
   number=$((number + 1))
-  text="row_23_${how// /_}_gives_the_same_bytes"
+  text="the_build_by_${how// /_}_gives_the_same_bytes"
   read -ra compiler <<<"$how"
   if ! command -v "${compiler[0]}" >"$scratch/where"; then
     skip "$text" "no ${compiler[0]} here"

@@ -97,9 +97,8 @@ static recto_status verify_drawn(const struct pipeline *p,
                                  const recto_options *options,
                                  recto_error *error) {
   char summary[VERIFY_SUMMARY_SIZE];
-  const struct verify verify = {scene,     0,       &p->camera,
-                                &p->sheet, &p->map, &p->drawing,
-                                options,   NULL,    NULL};
+  const struct verify verify = {scene,   0,           &p->camera, &p->sheet,
+                                &p->map, &p->drawing, options};
   return verify_drawing(&verify, p->report, summary, error);
 }
 

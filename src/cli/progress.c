@@ -157,7 +157,7 @@ void progress_start(bool requested) {
     now.lines = requested;
 }
 
-static void tell_line(bool is_new) {
+static void print_progress_line(bool is_new) {
   int percent = (int)(now.share * 100);
   if (!is_new && percent < now.last_percent + 5)
     return;
@@ -176,7 +176,7 @@ void progress_note(double share, const char *stage) {
   }
   now.stage = stage;
   if (now.lines)
-    tell_line(is_new);
+    print_progress_line(is_new);
   pthread_mutex_unlock(&now.lock);
 }
 

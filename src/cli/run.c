@@ -107,8 +107,8 @@ static double percent(double part, double whole) {
 }
 
 /* Prints a length and its share, and the first place where it has some. */
-static void tell_fault(const char *what, double fault_mm, double whole_mm,
-                       const double at_mm[2]) {
+static void print_fault(const char *what, double fault_mm, double whole_mm,
+                        const double at_mm[2]) {
   printf("%s  %11.3f mm  %7.3f %%", what, fault_mm,
          percent(fault_mm, whole_mm));
   if (fault_mm > 0)
@@ -117,11 +117,11 @@ static void tell_fault(const char *what, double fault_mm, double whole_mm,
 }
 
 /* Prints the verdict on a checked drawing. */
-static recto_status tell_verdict(const recto_verdict *v, recto_error *error) {
+static recto_status print_verdict(const recto_verdict *v, recto_error *error) {
   printf("drawn        %11.3f mm\n", v->drawn_mm);
-  tell_fault("false ink  ", v->false_mm, v->drawn_mm, v->false_at_mm);
+  print_fault("false ink  ", v->false_mm, v->drawn_mm, v->false_at_mm);
   printf("visible      %11.3f mm\n", v->visible_mm);
-  tell_fault("missing ink", v->missing_mm, v->visible_mm, v->missing_at_mm);
+  print_fault("missing ink", v->missing_mm, v->visible_mm, v->missing_at_mm);
   printf("undecided    %11.3f mm\n", v->undecided_mm);
   if (fflush(stdout) == 0)
     return RECTO_OK;
@@ -153,7 +153,7 @@ static recto_status check_drawing(const struct arguments *arguments,
     return status;
   *is_right = is_tolerable(arguments, verdict.false_mm, verdict.drawn_mm) &&
               is_tolerable(arguments, verdict.missing_mm, verdict.visible_mm);
-  return tell_verdict(&verdict, error);
+  return print_verdict(&verdict, error);
 }
 
 static recto_status write_outputs(const struct arguments *arguments,

@@ -6,6 +6,14 @@
 /* ISO 128: wide lines are twice as wide as narrow ones. */
 #define WIDE 2.0
 
+/* The index of the bit of a class. */
+static unsigned class_index(unsigned edge_class) {
+  unsigned index = 0;
+  while (index + 1 < RECTO_EDGE_CLASS_COUNT && edge_class >> (index + 1))
+    index++;
+  return index;
+}
+
 /* Whether a name means a group: its whole name, or one of the parts between
  * slashes, which join object, group and material. */
 static bool is_name_of(const char *name, const char *group) {
@@ -45,7 +53,7 @@ static recto_status add_use(struct pens *pens, const struct scene *scene,
   else
     pens->several = true;
   if (use->lines == RECTO_LINES_OF_CLASS)
-    pens->of_class[pens_place(use->edge_class)] = pen;
+    pens->of_class[class_index(use->edge_class)] = pen;
   for (size_t g = 0;
        use->lines == RECTO_LINES_OF_GROUP && g < pens->group_count; g++)
     if (is_name_of(use->group, scene->group.item[g].name)) {
@@ -66,11 +74,11 @@ static void set_weights(struct pens *pens, const recto_options *options) {
   for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
     pens->weight[i] = 1;
   if (!options->ink.has_weights && !pens->several)
-    pens->weight[pens_place(RECTO_EDGE_SILHOUETTE)] =
-        pens->weight[pens_place(RECTO_EDGE_BORDER)] = WIDE;
+    pens->weight[class_index(RECTO_EDGE_SILHOUETTE)] =
+        pens->weight[class_index(RECTO_EDGE_BORDER)] = WIDE;
   for (size_t i = 0; options->ink.has_weights && i < options->ink.weight_count;
        i++)
-    pens->weight[pens_place(options->ink.weight[i].edge_class)] =
+    pens->weight[class_index(options->ink.weight[i].edge_class)] =
         options->ink.weight[i].weight;
 }
 
@@ -97,16 +105,9 @@ void pens_fini(struct pens *pens) { mem_free(pens->of_group); }
 
 /* ---- Queries ------------------------------------------------------------- */
 
-unsigned pens_place(unsigned edge_class) {
-  unsigned place = 0;
-  while (place + 1 < RECTO_EDGE_CLASS_COUNT && edge_class >> (place + 1))
-    place++;
-  return place;
-}
-
 uint32_t pens_of_line(const struct pens *pens, unsigned edge_class,
                       uint32_t group) {
-  uint32_t pen = pens->of_class[pens_place(edge_class)];
+  uint32_t pen = pens->of_class[class_index(edge_class)];
   return pen != PENS_NONE ? pen : pens_of_group(pens, group);
 }
 
@@ -135,8 +136,8 @@ double pens_shortest_mm(const struct pens *pens, uint32_t pen) {
 }
 
 unsigned pens_weight_rank(const struct pens *pens, unsigned edge_class) {
-  unsigned rank = 0, place = pens_place(edge_class);
-  while (pens->weight[rank] != pens->weight[place])
-    rank++;
-  return rank;
+  unsigned first = 0, index = class_index(edge_class);
+  while (pens->weight[first] != pens->weight[index])
+    first++;
+  return first;
 }

@@ -59,9 +59,6 @@ double pens_width_mm(const struct pens *pens, uint32_t pen);
 /* The length below which strokes of the pen are dropped. */
 double pens_shortest_mm(const struct pens *pens, uint32_t pen);
 
-/* The index of the bit of a class. */
-unsigned pens_place(unsigned edge_class);
-
 /* Equal for two classes of visible lines with equal weights, which may be
  * joined into one stroke. */
 unsigned pens_weight_rank(const struct pens *pens, unsigned edge_class);

@@ -90,12 +90,12 @@ enum { LINEAR_SEARCH_MAX = 32 }; /* up to so many corners are not sorted */
 struct ear_ring {
   const struct judge_point2 *at;
   uint32_t *next, *before; /* of a removed corner: itself */
-  const struct judge_rank *by[2];
-  uint32_t count; /* of the ranks */
+  const struct judge_sorted_corner *by[2];
+  uint32_t count; /* of entries */
 };
 
 static int compare_ranks(const void *a, const void *b, void *user) {
-  const struct judge_rank *s = a, *t = b;
+  const struct judge_sorted_corner *s = a, *t = b;
   (void)user;
   if (s->at != t->at)
     return s->at < t->at ? -1 : 1;
@@ -119,8 +119,10 @@ static bool make_ring(struct judge_ears *ears,
     uint32_t here = outline->left[i];
     ring->next[here] = outline->left[(i + 1) % n];
     ring->before[here] = outline->left[(i + n - 1) % n];
-    ears->by[0].item[i] = (struct judge_rank){outline->at[here].x, here};
-    ears->by[1].item[i] = (struct judge_rank){outline->at[here].y, here};
+    ears->by[0].item[i] =
+        (struct judge_sorted_corner){outline->at[here].x, here};
+    ears->by[1].item[i] =
+        (struct judge_sorted_corner){outline->at[here].y, here};
   }
   bool ok = true;
   for (int k = 0; ok && k < 2 && n > LINEAR_SEARCH_MAX; k++)
@@ -129,22 +131,21 @@ static bool make_ring(struct judge_ears *ears,
   return ok;
 }
 
-/* The number of ranks below a coordinate: a lower bound by bisection. */
-static uint32_t lower_bound_of(const struct judge_rank *by, uint32_t count,
-                               double at) {
+/* The number of entries below a coordinate: a lower bound by bisection. */
+static uint32_t lower_bound_of(const struct judge_sorted_corner *by,
+                               uint32_t count, double at) {
   size_t i;
   LOWER_BOUND(i, 0, count, by[i].at < at);
   return (uint32_t)i;
 }
 
 /* The corners that may lie in a triangle: those from *from to *to of the
- * returned ranks. */
-static const struct judge_rank *find_near(const struct ear_ring *ring,
-                                          struct judge_point2 a,
-                                          struct judge_point2 b,
-                                          struct judge_point2 c, uint32_t *from,
-                                          uint32_t *to) {
-  const struct judge_rank *best = ring->by[0];
+ * returned entries. */
+static const struct judge_sorted_corner *
+find_near(const struct ear_ring *ring, struct judge_point2 a,
+          struct judge_point2 b, struct judge_point2 c, uint32_t *from,
+          uint32_t *to) {
+  const struct judge_sorted_corner *best = ring->by[0];
   *from = 0;
   *to = ring->count;
   if (ring->count <= LINEAR_SEARCH_MAX)
@@ -174,7 +175,7 @@ static bool is_ring_ear(const struct ear_ring *ring, uint32_t here) {
   if (turn(a, b, c) <= 0)
     return false;
   uint32_t from, to;
-  const struct judge_rank *near = find_near(ring, a, b, c, &from, &to);
+  const struct judge_sorted_corner *near = find_near(ring, a, b, c, &from, &to);
   for (uint32_t k = from; k < to; k++) {
     uint32_t other = near[k].corner;
     struct judge_point2 p = ring->at[other];

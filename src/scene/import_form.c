@@ -139,7 +139,7 @@ static recto_status add_mesh(struct form *f) {
 
 /* ---- Records ------------------------------------------------------------- */
 
-static recto_status tell_failure(const struct form *f) {
+static recto_status importer_error(const struct form *f) {
   const struct import_record *r = &f->record;
   if (r->why == IMPORT_UNKNOWN_FORMAT)
     return error_set(f->error, RECTO_ERROR_UNSUPPORTED, f->path, 0,
@@ -176,7 +176,7 @@ recto_status import_form_read(struct scene *scene, const char *bytes,
     else if (f.record.kind == IMPORT_MESH)
       status = add_mesh(&f);
     else if (f.record.kind == IMPORT_FAILED)
-      status = tell_failure(&f);
+      status = importer_error(&f);
     else if (f.record.kind == IMPORT_DONE)
       ok = true;
     else

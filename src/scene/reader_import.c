@@ -91,8 +91,8 @@ static recto_status fail_to_start(const struct import_child *import, int code) {
 }
 
 /* Tells of an importer that did not come to its end. */
-static recto_status tell_end(const struct import_child *import,
-                             const struct child_result *result) {
+static recto_status check_child_end(const struct import_child *import,
+                                    const struct child_result *result) {
   recto_error *error = import->error;
   switch (result->end) {
   case CHILD_NOT_STARTED:
@@ -179,7 +179,7 @@ static recto_status read_import(struct scene *scene, const char *bytes,
       status = import_form_read(scene, result.output.item, result.output.count,
                                 path, format, import.mb, diagnostics, error);
     else
-      status = tell_end(&import, &result);
+      status = check_child_end(&import, &result);
   }
   ARRAY_FREE(&result.output);
   if (status == RECTO_OK && scene->point.count > first)

@@ -53,8 +53,14 @@ enum {
   RECHECK_PER_CORNER = 32
 };
 
-/* The rank of a corner in the queue; among equal ranks diagonals decide. */
-enum { RANK_SPIKE, RANK_EAR, RANK_STRAIGHT, RANK_CONVEX, RANK_REFLEX };
+/* The priority of a corner in the queue; among equal ones diagonals decide. */
+enum {
+  PRIORITY_SPIKE,
+  PRIORITY_EAR,
+  PRIORITY_STRAIGHT,
+  PRIORITY_CONVEX,
+  PRIORITY_REFLEX
+};
 
 static bool is_at(const double a[2], const double b[2]) {
   return a[0] == b[0] && a[1] == b[1];
@@ -106,8 +112,8 @@ static int compare_diagonals(const struct ear_clipper *clipper, uint32_t b,
 static bool goes_before(const struct ear_clipper *clipper, uint32_t b,
                         uint32_t d) {
   const struct triangulation_corner *corner = clipper->corner;
-  return corner[b].rank != corner[d].rank
-             ? corner[b].rank < corner[d].rank
+  return corner[b].priority != corner[d].priority
+             ? corner[b].priority < corner[d].priority
              : compare_diagonals(clipper, b, d) < 0;
 }
 
@@ -173,9 +179,11 @@ static bool is_spike(const struct triangulation_corner *corner, uint32_t b) {
           vector2_is_before(from, at) == vector2_is_before(to, at));
 }
 
-/* The rank of a corner that is cut off without testing whether it is an ear. */
-static uint8_t rank_by_turn(int turn) {
-  return turn == 0 ? RANK_STRAIGHT : turn > 0 ? RANK_CONVEX : RANK_REFLEX;
+/* The priority of a corner that is cut off untested. */
+static uint8_t priority_by_turn(int turn) {
+  return turn == 0  ? PRIORITY_STRAIGHT
+         : turn > 0 ? PRIORITY_CONVEX
+                    : PRIORITY_REFLEX;
 }
 
 /* Updates a corner that has a new neighbour, and queues it. */
@@ -187,9 +195,9 @@ static void update_corner(struct ear_clipper *clipper, uint32_t b) {
   corner->length =
       polygon_distance(clipper->polygon, corner->prev, corner->next);
   bool spike = is_spike(clipper->corner, b);
-  corner->rank = spike                ? RANK_SPIKE
-                 : clipper->unchecked ? rank_by_turn(corner->turn)
-                                      : RANK_EAR;
+  corner->priority = spike                ? PRIORITY_SPIKE
+                     : clipper->unchecked ? priority_by_turn(corner->turn)
+                                          : PRIORITY_EAR;
   if (spike || clipper->unchecked || corner->turn > 0)
     queue_insert(clipper, b);
 }
@@ -331,7 +339,7 @@ static uint32_t choose_without_ear(struct ear_clipper *clipper,
   struct triangulation_corner *corner = clipper->corner;
   uint32_t best = start, c = start;
   do {
-    corner[c].rank = rank_by_turn(corner[c].turn);
+    corner[c].priority = priority_by_turn(corner[c].turn);
     if (goes_before(clipper, c, best))
       best = c;
     c = corner[c].next;
@@ -365,7 +373,7 @@ static uint32_t cut_ears(struct ear_clipper *clipper, uint32_t b) {
     }
     uint32_t next = clipper->triangulation->queue.item[0];
     queue_remove(clipper, next);
-    if (clipper->corner[next].rank != RANK_EAR || is_ear(clipper, next))
+    if (clipper->corner[next].priority != PRIORITY_EAR || is_ear(clipper, next))
       b = cut_off_corner(clipper, next);
   }
   return b;

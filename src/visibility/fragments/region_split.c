@@ -20,8 +20,10 @@
 #include <string.h>
 
 enum {
-  FIRST = 4, /* occluders that are subtracted before the tree is made */
-  WORK = 64  /* per region, and per occluder subtracted, in the units of
+  SUBTRACTED_BEFORE_TREE =
+      4, /* occluders that are subtracted before the tree is made */
+  WORK_OF_REGION =
+      64 /* per region, and per occluder subtracted, in the units of
                 progress.h */
 };
 
@@ -70,7 +72,7 @@ static bool solve_leaf(struct occluder_subtraction *subtraction,
   if (!ARRAY_PUSH(rest, *region))
     return false;
   for (uint32_t i = 0; i < leaf->count && rest->count > 0; i++)
-    if (!progress_step(subtraction->progress, WORK) ||
+    if (!progress_step(subtraction->progress, WORK_OF_REGION) ||
         !triangle_occluder_subtract(
             subtraction, rest,
             sorted_occluder(subtraction, first + member[i].list_index)))
@@ -110,7 +112,7 @@ static bool split_region(struct occluder_subtraction *subtraction,
 static bool subtract_range(struct occluder_subtraction *subtraction,
                            size_t from, size_t to) {
   for (size_t i = from; i < to && subtraction->left.count > 0; i++)
-    if (!progress_step(subtraction->progress, WORK) ||
+    if (!progress_step(subtraction->progress, WORK_OF_REGION) ||
         !occluder_subtraction_subtract(subtraction,
                                        sorted_occluder(subtraction, i)))
       return false;
@@ -119,7 +121,8 @@ static bool subtract_range(struct occluder_subtraction *subtraction,
 
 bool occluder_subtraction_subtract_all(
     struct occluder_subtraction *subtraction) {
-  size_t n = subtraction->occluder.count, first = n < FIRST ? n : FIRST;
+  size_t n = subtraction->occluder.count,
+         first = n < SUBTRACTED_BEFORE_TREE ? n : SUBTRACTED_BEFORE_TREE;
   uint32_t root;
   if (!sort_occluders(subtraction) || !subtract_range(subtraction, 0, first))
     return false;
@@ -140,7 +143,7 @@ bool occluder_subtraction_subtract_all(
     struct split_region region =
         subtraction->region.item[--subtraction->region.count];
     const struct bsp_node *node = &subtraction->bsp.node.item[region.node];
-    if (!progress_step(subtraction->progress, WORK) ||
+    if (!progress_step(subtraction->progress, WORK_OF_REGION) ||
         !(node->child[0] == SHEET_NONE
               ? solve_leaf(subtraction, node, first, &region.piece)
               : split_region(subtraction, node, &region.piece)))

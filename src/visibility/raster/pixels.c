@@ -74,9 +74,11 @@ static bool init_sampling(struct pixels *pixels) {
   return ok;
 }
 
-recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
-                         int subpixels, const struct solver_request *request,
-                         recto_error *error) {
+/* End with free_pixels either way. */
+static recto_status init_pixels(struct pixels *pixels,
+                                const struct raster *raster, int subpixels,
+                                const struct solver_request *request,
+                                recto_error *error) {
   const struct sheet *sheet = raster->sheet;
   memset(pixels, 0, sizeof *pixels);
   pixels->raster = raster;
@@ -98,7 +100,7 @@ recto_status pixels_init(struct pixels *pixels, const struct raster *raster,
   return RECTO_OK;
 }
 
-void pixels_fini(struct pixels *pixels) {
+static void free_pixels(struct pixels *pixels) {
   edge_sampling_fini(&pixels->sampling);
   trapezoids_fini(&pixels->trapezoids);
   subpixels_fini(&pixels->subpixels);
@@ -192,9 +194,10 @@ static double covered_share(const struct pixels *pixels) {
          (k * k * grid->columns * grid->lines);
 }
 
-recto_status pixels_finish(struct pixels *pixels, struct map *map,
-                           struct report *report, const char *section,
-                           recto_error *error) {
+/* Writes the map, and the frame's size to `section` of the report. */
+static recto_status finish_pixels(struct pixels *pixels, struct map *map,
+                                  struct report *report, const char *section,
+                                  recto_error *error) {
   if ((pixels->request->edges &&
        (!sample_edges(pixels, -1, NULL) ||
         !edge_sampling_finish(&pixels->sampling, map))) ||
@@ -215,12 +218,12 @@ recto_status pixels_store(const struct raster *raster, int subpixels,
                           struct report *report, const char *section,
                           recto_error *error) {
   struct pixels pixels;
-  recto_status status = pixels_init(&pixels, raster, subpixels, request, error);
+  recto_status status = init_pixels(&pixels, raster, subpixels, request, error);
   for (int32_t line = raster->grid.lines; line-- > 0 && status == RECTO_OK;)
     status = pixels_line(&pixels, line, error);
   if (status == RECTO_OK)
-    status = pixels_finish(&pixels, map, report, section, error);
-  pixels_fini(&pixels);
+    status = finish_pixels(&pixels, map, report, section, error);
+  free_pixels(&pixels);
   return status;
 }
 
@@ -245,16 +248,16 @@ recto_status pixels_solve(struct sheet *sheet,
     status = error_memory(error);
   if (status == RECTO_OK)
     status =
-        pixels_init(&pixels, &raster, subpixels_of(request), request, error);
+        init_pixels(&pixels, &raster, subpixels_of(request), request, error);
   if (status == RECTO_OK)
     status = draw(&raster, &facets, request, &pixels, &covered, error);
   if (status == RECTO_OK)
-    status = pixels_finish(&pixels, map, report, section, error);
+    status = finish_pixels(&pixels, map, report, section, error);
   if (status == RECTO_OK) {
     report_int(report, section, "depth_bits", request->depth_bits);
     report_int(report, section, "pixels_covered", covered);
   }
-  pixels_fini(&pixels);
+  free_pixels(&pixels);
   raster_fini(&raster);
   facets_fini(&facets);
   return status;

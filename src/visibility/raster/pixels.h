@@ -32,25 +32,14 @@ struct sort_key *pixels_buckets(const struct raster *raster,
                                 const struct solver_request *request,
                                 size_t *count);
 
-/* End with pixels_fini either way.
- * subpixels  K: a pixel is made of K x K pixels of the raster; 1: of one */
-USE_RESULT recto_status pixels_init(struct pixels *pixels,
-                                    const struct raster *raster, int subpixels,
-                                    const struct solver_request *request,
-                                    recto_error *error);
-void pixels_fini(struct pixels *pixels);
-
 /* Adds a finished line of the frame.  To be called for all lines, from the top.
  * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED. */
 USE_RESULT recto_status pixels_line(struct pixels *pixels, int32_t line,
                                     recto_error *error);
 
-/* Writes the map, and the frame's size to `section` of the report. */
-USE_RESULT recto_status pixels_finish(struct pixels *pixels, struct map *map,
-                                      struct report *report,
-                                      const char *section, recto_error *error);
-
-/* pixels_init to pixels_fini, for a frame that holds all its lines. */
+/* Writes the map of a frame that holds all its lines, and its size to `section`
+ * of the report.
+ * subpixels  K: a pixel is made of K x K pixels of the raster; 1: of one */
 USE_RESULT recto_status pixels_store(const struct raster *raster, int subpixels,
                                      const struct solver_request *request,
                                      struct map *map, struct report *report,
