@@ -186,13 +186,19 @@ struct slots {
 };
 
 /* The slots of the cells that lie within the length of a point; there is mostly
- * one, as cells are wide.  Returns how many. */
-static int find_slots(const struct scene_point *p, double length, int bits,
-                      size_t slot[8]) {
+ * one, as cells are wide. */
+struct point_slots {
+  size_t slot[8];
+  int count;
+};
+
+static struct point_slots find_slots(const struct scene_point *p, double length,
+                                     int bits) {
   enum { LENGTHS = 64 }; /* in a cell's side */
   const double at[3] = {p->x, p->y, p->z}, per_side = 1 / (LENGTHS * length);
   double cell[3][2];
-  int count = 0, differ = 0;
+  struct point_slots found = {.count = 0};
+  int differ = 0;
   for (int k = 0; k < 3; k++) {
     /* -0 becomes 0 */
     cell[k][0] = floor((at[k] - length) * per_side) + 0.0;
@@ -205,31 +211,55 @@ static int find_slots(const struct scene_point *p, double length, int bits,
       continue;
     for (int k = 0; k < 3; k++)
       hash = hash_add_double(hash, cell[k][i >> k & 1]);
-    slot[count++] = (size_t)((hash * HASH_GOLDEN) >> (64 - bits));
+    found.slot[found.count++] = (size_t)((hash * HASH_GOLDEN) >> (64 - bits));
   }
-  return count;
+  return found;
 }
 
-/* Enters a point into the slots of its cells. */
-static void enter(struct slots *slots, const struct scene_point *p,
-                  double length) {
-  size_t slot[8];
-  int count = find_slots(p, length, slots->bits, slot);
-  for (int i = 0; i < count; i++) {
-    uint64_t *word = &slots->word[slot[i] / 32];
-    uint64_t first = UINT64_C(1) << slot[i] % 32 * 2;
+/* Enters a point into its slots. */
+static void enter(struct slots *slots, const struct point_slots *of) {
+  for (int i = 0; i < of->count; i++) {
+    uint64_t *word = &slots->word[of->slot[i] / 32];
+    uint64_t first = UINT64_C(1) << of->slot[i] % 32 * 2;
     *word |= (*word & first) << 1 | first;
   }
 }
 
-/* Does the point share no slot with another, so that it has no neighbour? */
-static bool is_alone(const struct slots *slots, const struct scene_point *p,
-                     double length) {
-  size_t slot[8];
-  int count = find_slots(p, length, slots->bits, slot);
-  for (int i = 0; i < count; i++)
-    if (slots->word[slot[i] / 32] >> slot[i] % 32 * 2 & 2)
+/* Does a point share no slot with another, so that it has no neighbour? */
+static bool is_alone(const struct slots *slots, const struct point_slots *of) {
+  for (int i = 0; i < of->count; i++)
+    if (slots->word[of->slot[i] / 32] >> of->slot[i] % 32 * 2 & 2)
       return false;
+  return true;
+}
+
+/* Enters all members that are not CLUSTER_ALONE, or, if `marking`, marks those
+ * that no other is near as that.  Slots are fetched for a group of members at a
+ * time, as most are not in the cache.  Returns false when the caller
+ * cancelled. */
+static bool visit_slots(struct slots *slots, const struct scene *scene,
+                        double length, struct cluster_member *member,
+                        size_t count, bool marking) {
+  enum { GROUP = 32 };
+  const struct scene_point *point = scene->point.item;
+  for (size_t from = 0; from < count; from += GROUP) {
+    struct point_slots of[GROUP];
+    size_t n = count - from < GROUP ? count - from : GROUP;
+    for (size_t i = 0; i < n; i++) {
+      of[i] = find_slots(&point[member[from + i].point], length, slots->bits);
+      for (int k = 0; k < of[i].count; k++)
+        MEM_FETCH(&slots->word[of[i].slot[k] / 32]);
+    }
+    for (size_t i = 0; i < n; i++)
+      if (member[from + i].halvings == CLUSTER_ALONE)
+        continue;
+      else if (!marking)
+        enter(slots, &of[i]);
+      else if (is_alone(slots, &of[i]))
+        member[from + i].halvings = CLUSTER_ALONE;
+    if (!poll_at(from))
+      return false;
+  }
   return true;
 }
 
@@ -242,18 +272,9 @@ static bool mark_alone(const struct scene *scene, double length,
   while (8 * count >> slots.bits)
     slots.bits++;
   slots.word = mem_calloc((size_t)1 << (slots.bits - 5), sizeof *slots.word);
-  bool ok = slots.word != NULL;
-  const struct scene_point *point = scene->point.item;
-  for (size_t i = 0; ok && i < count; i++) {
-    if (member[i].halvings != CLUSTER_ALONE)
-      enter(&slots, &point[member[i].point], length);
-    ok = poll_at(i);
-  }
-  for (size_t i = 0; ok && i < count; i++) {
-    if (is_alone(&slots, &point[member[i].point], length))
-      member[i].halvings = CLUSTER_ALONE;
-    ok = poll_at(i);
-  }
+  bool ok = slots.word != NULL &&
+            visit_slots(&slots, scene, length, member, count, false) &&
+            visit_slots(&slots, scene, length, member, count, true);
   mem_free(slots.word);
   return ok;
 }
@@ -292,8 +313,11 @@ static size_t name_members(const struct clusters *clusters,
 size_t cluster_join(const struct scene *scene, double length,
                     struct cluster_member *member, size_t count) {
   struct clusters clusters = {.chain = NULL};
-  bool ok = mark_alone(scene, length, member, count) &&
-            allocate_clusters(&clusters, length, count);
+  bool ok = mark_alone(scene, length, member, count);
+  size_t left = 0;
+  for (size_t i = 0; i < count; i++)
+    left += member[i].halvings != CLUSTER_ALONE;
+  ok = ok && allocate_clusters(&clusters, length, left);
   for (size_t i = 0; i < count && ok; i++) {
     member[i].stands = (uint32_t)i;
     if (member[i].halvings != CLUSTER_ALONE)
