@@ -11,7 +11,7 @@
 
 #include "tests/scenes/random.h"
 #include "tests/sheet_fixture.h"
-#include "visibility/culling/occlusion_culling.h"
+#include "visibility/culling/potentially_visible.h"
 #include "visibility/predicate/occlusion.h"
 
 enum { PARTS = 512 };
@@ -74,6 +74,7 @@ static void what_is_in_front_is_not_culled(void **state) {
                         vector_of(1.2, 0, 0), vector_of(0, 1.2, 0));
   add_squares(&fixture.scene, 8, 0.1);
   add_squares(&fixture.scene, 8, -0.05);
+  add_squares(&fixture.scene, 8, -0.07);
   sheet_fixture_out(&fixture, true);
   struct occlusion_culling culling;
   assert_true(occlusion_culling_init(&culling, &fixture.sheet, true));
@@ -211,7 +212,7 @@ static void what_is_culled_is_hidden(void **state) {
     if (seed % 2 == 0)
       scenes_view_eye(&fixture.options, vector_of(0.5, -1.5, 1.5),
                       vector_of(0.5, 0.5, 0.5), 40);
-    add_soup(&fixture.scene, seed, 3000, 0.3);
+    add_soup(&fixture.scene, seed, 3000, 0.5);
     sheet_fixture_out(&fixture, true);
     assert_true(occlusion_culling_init(&culling, &fixture.sheet, seed > 2));
     check_triangles(&fixture.sheet, &culling);
@@ -229,6 +230,178 @@ static void depths_of_any_size_are_steps(void **state) {
   assert_int_equal(occlusion_steps_down(-1e13), -1);
 }
 
+/* ---- What is left, as a sheet -------------------------------------------- */
+
+static void assert_same_point(const struct sheet *a, uint32_t p,
+                              const struct sheet *b, uint32_t q) {
+  struct geom_point s = a->point.item[p], t = b->point.item[q];
+  assert_true(s.x == t.x && s.y == t.y && s.z == t.z);
+}
+
+static bool is_contour(const struct sheet *sheet, uint32_t p, uint32_t q) {
+  for (size_t i = 0; i < sheet->contour.count; i++) {
+    const uint32_t *point = sheet->contour.item[i].point;
+    if ((point[0] == p && point[1] == q) || (point[0] == q && point[1] == p))
+      return true;
+  }
+  return false;
+}
+
+/* Is the triangle beyond this side culled?  By its points. */
+static bool is_culled_beyond(const struct sheet *whole,
+                             const struct occlusion_culling *culling,
+                             uint32_t triangle, int k) {
+  const uint32_t *own = whole->triangle.item[triangle].point;
+  for (uint32_t t = 0; t < whole->triangle.count; t++)
+    for (int i = 0; i < 3 && occlusion_culling_is_culled(culling, t); i++) {
+      const uint32_t *other = whole->triangle.item[t].point;
+      if (other[i] == own[(k + 1) % 3] && other[(i + 1) % 3] == own[k])
+        return true;
+    }
+  return false;
+}
+
+/* The triangles that are left in order, with their points and edges, and
+ * contours where one beside them is missing. */
+static void check_part_triangles(const struct sheet *whole,
+                                 const struct occlusion_culling *culling,
+                                 const struct potentially_visible *part) {
+  const struct sheet *sheet = &part->sheet;
+  uint32_t n = 0, torn = 0;
+  for (uint32_t t = 0; t < whole->triangle.count; t++) {
+    if (occlusion_culling_is_culled(culling, t))
+      continue;
+    assert_int_equal(part->triangle[n], t);
+    assert_int_equal(sheet->triangle_flags[n], whole->triangle_flags[t]);
+    const struct sheet_triangle *a = &whole->triangle.item[t],
+                                *b = &sheet->triangle.item[n++];
+    for (int k = 0; k < 3; k++) {
+      assert_same_point(whole, a->point[k], sheet, b->point[k]);
+      assert_int_equal(b->side[k] != SHEET_NONE ? part->edge[b->side[k]]
+                                                : SHEET_NONE,
+                       a->side[k]);
+      if (is_culled_beyond(whole, culling, t, k)) {
+        torn++;
+        assert_true(is_contour(sheet, b->point[k], b->point[(k + 1) % 3]));
+      }
+    }
+  }
+  assert_int_equal(sheet->triangle.count, n);
+  assert_true(torn > 0);
+}
+
+/* Edges are in order, and drawn unless they are hidden.  Returns how many
+ * are. */
+static size_t check_part_edges(const struct sheet *whole,
+                               const struct occlusion_culling *culling,
+                               const struct potentially_visible *part) {
+  size_t drawn = 0;
+  for (uint32_t e = 0; e < part->sheet.edge.count; e++) {
+    const struct sheet_edge *b = &part->sheet.edge.item[e],
+                            *a = &whole->edge.item[part->edge[e]];
+    assert_true(e == 0 || part->edge[e - 1] < part->edge[e]);
+    bool culled = false;
+    for (int k = 0; k < 2; k++) {
+      assert_same_point(whole, a->point[k], &part->sheet, b->point[k]);
+      bool missing = a->triangle[k] != SHEET_NONE &&
+                     occlusion_culling_is_culled(culling, a->triangle[k]);
+      assert_int_equal(b->triangle[k] != SHEET_NONE
+                           ? part->triangle[b->triangle[k]]
+                           : SHEET_NONE,
+                       missing ? SHEET_NONE : a->triangle[k]);
+      culled |= missing;
+    }
+    assert_int_equal(b->edge_class,
+                     culled || b->edge_class == 0 ? 0 : a->edge_class);
+    drawn += b->edge_class != 0;
+  }
+  return drawn;
+}
+
+/* A plate over the left of meshes of squares. */
+static void start_with_part(struct sheet_fixture *fixture,
+                            struct occlusion_culling *culling,
+                            struct potentially_visible *part) {
+  enum { SQUARES = 24 };
+  start(fixture);
+  for (int layer = 0; layer < 8; layer++) {
+    uint32_t first = (uint32_t)fixture->scene.point.count;
+    for (int i = 0; i <= SQUARES; i++)
+      for (int k = 0; k <= SQUARES; k++)
+        build_point(&fixture->scene, (double)k / SQUARES, (double)i / SQUARES,
+                    -0.1 * layer);
+    build_grid(&fixture->scene, first, SQUARES, SQUARES, false);
+  }
+  build_parallelogram(&fixture->scene, vector_of(-0.1, -0.1, 0.5),
+                      vector_of(0.7, 0, 0), vector_of(0, 1.2, 0));
+  sheet_fixture_out(fixture, true);
+  assert_true(occlusion_culling_init(culling, &fixture->sheet, false));
+  assert_true(culling->count > 0);
+  assert_true(potentially_visible_init(part, &fixture->sheet, culling));
+}
+
+static void what_is_left_is_a_sheet(void **state) {
+  struct sheet_fixture fixture;
+  struct occlusion_culling culling;
+  struct potentially_visible part;
+  (void)state;
+  start_with_part(&fixture, &culling, &part);
+  check_part_triangles(&fixture.sheet, &culling, &part);
+  assert_true(check_part_edges(&fixture.sheet, &culling, &part) > 0);
+  potentially_visible_fini(&part);
+  occlusion_culling_fini(&culling);
+  sheet_fixture_fini(&fixture);
+}
+
+/* A map of the part becomes one of the whole sheet: the states of its edges,
+ * and an intersection that was found in it. */
+static void maps_of_what_is_left_are_restored(void **state) {
+  struct sheet_fixture fixture;
+  struct occlusion_culling culling;
+  struct potentially_visible part;
+  struct map map;
+  (void)state;
+  start_with_part(&fixture, &culling, &part);
+  struct sheet *whole = &fixture.sheet, *sheet = &part.sheet;
+  size_t edges = whole->edge.count, points = whole->point.count;
+  uint32_t last = (uint32_t)part.edges - 1, new = (uint32_t)part.edges;
+  struct sheet_edge found = {
+      .point = {(uint32_t)part.points, (uint32_t)part.points + 1},
+      .triangle = {1, 2},
+      .edge_class = RECTO_EDGE_INTERSECTION};
+  for (int32_t k = 0; k < 2; k++)
+    assert_true(ARRAY_PUSH(&sheet->point, ((struct geom_point){k, 7, 9})));
+  assert_true(ARRAY_PUSH(&sheet->edge, found));
+  map_init(&map);
+  map.edge_count = sheet->edge.count;
+  map.edge_state = mem_calloc(map.edge_count, 1);
+  map.edge_state[last] = MAP_VISIBLE;
+  map.edge_state[new] = MAP_MIXED;
+  assert_true(ARRAY_PUSH(&map.mixed, ((struct map_mixed){.edge = new})));
+  for (uint8_t side = MAP_SIDE_EDGE; side <= MAP_SIDE_CLIP; side++)
+    assert_true(ARRAY_PUSH(&map.corner,
+                           ((struct map_corner){.side = side, .id = last})));
+  uint32_t in_whole = part.edge[last], triangle = part.triangle[2];
+  assert_true(in_whole != last);
+  assert_true(potentially_visible_restore(&part, whole, &map));
+  assert_int_equal(whole->edge.count, edges + 1);
+  assert_int_equal(map.edge_count, edges + 1);
+  assert_int_equal(whole->edge.item[edges].triangle[1], triangle);
+  assert_int_equal(whole->edge.item[edges].point[1], points + 1);
+  assert_int_equal(whole->point.item[points + 1].x, 1);
+  for (uint32_t e = 0; e <= edges; e++)
+    assert_int_equal(map.edge_state[e], e == edges      ? MAP_MIXED
+                                        : e == in_whole ? MAP_VISIBLE
+                                                        : MAP_HIDDEN);
+  assert_int_equal(map.mixed.item[0].edge, edges);
+  for (int k = 0; k < 4; k++)
+    assert_int_equal(map.corner.item[k].id, k < 2 ? in_whole : last);
+  map_fini(&map);
+  potentially_visible_fini(&part);
+  occlusion_culling_fini(&culling);
+  sheet_fixture_fini(&fixture);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_is_in_a_box_is_culled),
@@ -236,6 +409,8 @@ int main(void) {
       cmocka_unit_test(contact_is_not_culled),
       cmocka_unit_test(shallow_scenes_are_left_alone),
       cmocka_unit_test(what_is_culled_is_hidden),
+      cmocka_unit_test(what_is_left_is_a_sheet),
+      cmocka_unit_test(maps_of_what_is_left_are_restored),
       cmocka_unit_test(depths_of_any_size_are_steps),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

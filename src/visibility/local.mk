@@ -25,6 +25,7 @@ librecto_core_la_SOURCES += \
   %D%/intersection/intersection_segment.c %D%/intersection/intersection_segment.h \
   %D%/culling/occlusion_buffer.c %D%/culling/occlusion_buffer.h \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
+  %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
   %D%/newell/newell.c \
   %D%/newell/newell_order.c %D%/newell/newell_order.h \
   %D%/newell/newell_piece.c %D%/newell/newell_piece.h \

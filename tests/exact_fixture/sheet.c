@@ -259,12 +259,16 @@ void exact_assert_visible_same(const struct map *a, const struct sheet *sa,
   }
   if (i < a->edge_count || j < b->edge_count)
     fail_msg("%s: more edges are seen in one than in the other", what);
-  ASSERT_SAME(a->interval.count, b->interval.count, what);
-  for (size_t k = 0; k < a->interval.count; k++) {
-    ASSERT_SAME(ratio_compare(a->interval.item[k].t0, b->interval.item[k].t0),
-                0, what);
-    ASSERT_SAME(ratio_compare(a->interval.item[k].t1, b->interval.item[k].t1),
-                0, what);
+  ASSERT_SAME(a->mixed.count, b->mixed.count, what);
+  for (size_t m = 0; m < a->mixed.count; m++) {
+    struct map_mixed p = a->mixed.item[m], q = b->mixed.item[m];
+    ASSERT_SAME(p.count, q.count, what);
+    for (uint32_t k = 0; k < p.count; k++) {
+      struct map_interval s = a->interval.item[p.interval + k],
+                          t = b->interval.item[q.interval + k];
+      ASSERT_SAME(ratio_compare(s.t0, t.t0), 0, what);
+      ASSERT_SAME(ratio_compare(s.t1, t.t1), 0, what);
+    }
   }
   assert_same_fragments(a, b, what);
 }

@@ -62,21 +62,21 @@ static struct box2 page_box(const struct sheet *sheet) {
   return all;
 }
 
-double occlusion_culling_complexity(const struct occlusion_culling *culling,
-                                    const struct sheet *sheet) {
+static double box_area(struct box2 box) {
+  return ((double)box.x1 - box.x0 + 1) * ((double)box.y1 - box.y0 + 1);
+}
+
+double occlusion_culling_complexity(const struct sheet *sheet, double area) {
   size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
   double sum = 0;
   for (size_t t = 0; t < n; t += stride) {
-    if (occlusion_culling_is_culled(culling, (uint32_t)t))
-      continue;
     struct geom_triangle c = sheet_corners(sheet, t);
-    struct box2 b = box2_of_triangle(sheet, (uint32_t)t);
-    double box = ((double)b.x1 - b.x0) * ((double)b.y1 - b.y0);
-    double area = 0.5 * fabs((double)geom_orient2d(c.p[0], c.p[1], c.p[2]));
-    sum += fmin(box, BOX_PER_AREA * area) * (double)stride;
+    double own = 0.5 * fabs((double)geom_orient2d(c.p[0], c.p[1], c.p[2]));
+    double counted = fmin(box_area(box2_of_triangle(sheet, (uint32_t)t)),
+                          BOX_PER_AREA * own);
+    sum += fmin(counted * (double)stride, area);
   }
-  return sum / (((double)culling->page.x1 - culling->page.x0 + 1) *
-                ((double)culling->page.y1 - culling->page.y0 + 1));
+  return sum / area;
 }
 
 /* An upper bound of a triangle's contact tolerance as a depth; INFINITY where
@@ -346,12 +346,12 @@ bool occlusion_culling_init(struct occlusion_culling *culling,
                               .culling = culling,
                               .fragments = fragments,
                               .contact = occlusion_tolerance_bound_all(sheet)};
-  *culling = (struct occlusion_culling){.page = page_box(sheet)};
+  struct box2 page = page_box(sheet);
+  *culling = (struct occlusion_culling){.culled = NULL};
   if (sheet->triangle.count == 0 ||
-      occlusion_culling_complexity(culling, sheet) < COMPLEXITY_MIN)
+      occlusion_culling_complexity(sheet, box_area(page)) < COMPLEXITY_MIN)
     return true;
-  occlusion_buffer_shape(&culling->buffer, culling->page,
-                         sheet->triangle.count);
+  occlusion_buffer_shape(&culling->buffer, page, sheet->triangle.count);
   measure_reach(culling, sheet, &work.contact);
   bool ok = list_candidates(&work);
   if (ok && work.candidate != NULL) {
@@ -361,6 +361,8 @@ bool occlusion_culling_init(struct occlusion_culling *culling,
     ok = ok && cull(&work);
     if (fragments && culling->count > 0)
       ok = ok && lower_bounds(&work) && test_again(&work);
+    if (4 * culling->count < sheet->triangle.count)
+      occlusion_culling_fini(culling);
   }
   mem_free(work.candidate);
   return ok;

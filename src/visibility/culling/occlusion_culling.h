@@ -36,16 +36,16 @@
 #include "visibility/culling/occlusion_buffer.h"
 
 struct occlusion_culling {
-  uint8_t *culled;  /* one per triangle, not 0: it is hidden; NULL: culling was
+  uint8_t *culled; /* one per triangle, not 0: it is hidden; NULL: culling was
                       not worth while, and nothing is culled */
-  size_t count;     /* of culled triangles */
-  struct box2 page; /* that all points lie in */
+  size_t count;    /* of culled triangles */
   struct occlusion_buffer buffer;
   int64_t reach; /* by how much edges may stray on the page */
   double margin; /* the same in depth */
 };
 
-/* Culls the triangles of the sheet, or, if that would not be worth while, none.
+/* Culls the triangles of the sheet, or, if that would not be worth while or
+ * would leave more than three quarters of them, none.
  * fragments  whether faces will be solved, so that contact matters
  * Returns false when memory ran out or the caller cancelled; end with
  * occlusion_culling_fini either way. */
@@ -54,12 +54,12 @@ USE_RESULT bool occlusion_culling_init(struct occlusion_culling *culling,
                                        bool fragments);
 void occlusion_culling_fini(struct occlusion_culling *culling);
 
-/* Estimates the depth complexity of the triangles that are not culled: the mean
- * number of them over a point of the page box.  From a sample, in which a
- * triangle counts with the area of its box, but at most a few times its own
- * area, so that needles count for little. */
-double occlusion_culling_complexity(const struct occlusion_culling *culling,
-                                    const struct sheet *sheet);
+/* Estimates the depth complexity: the mean number of triangles over a point of
+ * a part of the page with that area.  From a sample, in which a triangle counts
+ * with the area of its box, but at most a few times its own area, so that
+ * needles count for little; and what it stands for counts once at most, so that
+ * a large one among many small ones does. */
+double occlusion_culling_complexity(const struct sheet *sheet, double area);
 
 static inline bool
 occlusion_culling_is_culled(const struct occlusion_culling *culling,

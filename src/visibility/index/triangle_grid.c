@@ -260,14 +260,11 @@ static uint8_t *dilate(const struct triangle_grid *grid,
   return dilated;
 }
 
-/* Collects the triangles that are not culled and meet wanted cells, and maybe a
- * few more. */
+/* Collects the triangles that meet wanted cells, and maybe a few more. */
 static bool choose_subset(const struct triangle_grid *grid,
                           const struct footprint *print, const uint8_t *dilated,
-                          const uint8_t *culled, triangle_list *subset) {
+                          triangle_list *subset) {
   for (size_t t = 0; t < grid->triangle_count; t++) {
-    if (culled != NULL && culled[t] != 0)
-      continue;
     struct footprint f = print[t];
     size_t cell = (size_t)f.y * (size_t)grid->columns + f.x;
     bool small = f.width <= 1 && f.height <= 1;
@@ -280,12 +277,10 @@ static bool choose_subset(const struct triangle_grid *grid,
 }
 
 bool triangle_grid_fill(struct triangle_grid *grid, const struct sheet *sheet,
-                        const struct footprint *print, const uint8_t *wanted,
-                        const uint8_t *culled) {
+                        const struct footprint *print, const uint8_t *wanted) {
   triangle_list subset = {0};
   uint8_t *dilated = dilate(grid, wanted);
-  bool ok =
-      dilated != NULL && choose_subset(grid, print, dilated, culled, &subset);
+  bool ok = dilated != NULL && choose_subset(grid, print, dilated, &subset);
   mem_free(dilated);
   ok = ok && fill(&(struct filling){grid, sheet, print, wanted, subset.item,
                                     subset.count});

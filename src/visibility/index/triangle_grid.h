@@ -36,7 +36,6 @@ void triangle_grid_fini(struct triangle_grid *grid);
  * triangle_grid_fill makes the lists.
  * print    the triangles' footprints
  * wanted   per cell, not 0: it gets a list; the lists of the others stay empty
- * culled   per triangle, not 0: it is not listed; NULL: all are
  * Returns false when memory ran out. */
 void triangle_grid_shape(struct triangle_grid *grid, const struct sheet *sheet,
                          unsigned spread, unsigned cells);
@@ -44,8 +43,7 @@ struct footprint;
 USE_RESULT bool triangle_grid_fill(struct triangle_grid *grid,
                                    const struct sheet *sheet,
                                    const struct footprint *print,
-                                   const uint8_t *wanted,
-                                   const uint8_t *culled);
+                                   const uint8_t *wanted);
 
 /* The cost of testing all pairs of a list, in pairs; each entry adds a constant
  * cost of four. */

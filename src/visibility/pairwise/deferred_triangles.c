@@ -12,9 +12,6 @@
  * front of its plane or strictly behind it; hence that triangle is nearer as
  * well, and occlusion continues.
  *
- * Culled triangles are not listed.  Where one of them occludes T, so does the
- * triangle that hides it, which is listed.
- *
  * Hidden triangles.  They are not tested as occluders.  Where one of them
  * occludes T, so does the nearest triangle there, which is not hidden and
  * overlaps T.

@@ -184,8 +184,7 @@ bool tile_candidates_fill(struct tile_candidates *list,
   tile_candidates_fini(list);
   *list = (struct tile_candidates){
       .grid = tiles->grid, .cells_are_tiles = true, .tiles = tiles};
-  return triangle_grid_fill(&list->grid, sheet, tiles->footprint, wanted,
-                            tiles->culling.culled) &&
+  return triangle_grid_fill(&list->grid, sheet, tiles->footprint, wanted) &&
          enlarge_cells(list, sheet) && triangle_grid_split(&list->grid, true) &&
          add_keys(list, sheet);
 }

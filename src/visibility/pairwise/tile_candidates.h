@@ -1,11 +1,11 @@
 /* tile_candidates.h - lists of candidate triangles for the page tiles in which
  * edges or faces are deferred.
  *
- * A list holds the triangles of one tile that are not culled.  As
- * a large face is in many tiles, and two of them would be paired in each tile
- * that they share, larger cells are used instead if they give fewer pairs of
- * the triangles that are listed anywhere.  Each entry has an 8-DOP key
- * (kdop8.h).  Entries are sorted from near to far.
+ * A list holds the triangles of one tile.  As a large face is in many tiles,
+ * and two of them would be paired in each tile that they share, larger cells
+ * are used instead if they give fewer pairs of the triangles that are listed
+ * anywhere.  Each entry has an 8-DOP key (kdop8.h).  Entries are sorted from
+ * near to far.
  */
 #ifndef VISIBILITY_PAIRWISE_TILE_CANDIDATES_H
 #define VISIBILITY_PAIRWISE_TILE_CANDIDATES_H

@@ -7,8 +7,7 @@
  *     that makes the sample unusable
  *   2 find each tile's front layer; the tile is simple if exactly one face of
  *     the layer is over the sample point
- *   3 reject the tiles that a contour, or a culled triangle, enters at the
- *     depths of the layer
+ *   3 reject the tiles that a contour enters at the depths of the layer
  */
 #include "visibility/pairwise/tile_classification.h"
 
@@ -190,8 +189,6 @@ static bool collect_range(void *user, struct parallel_range range) {
   if (own == NULL)
     return false;
   for (size_t t = range.begin; t < range.end; t++) {
-    if (occlusion_culling_is_culled(&work->tiles->culling, (uint32_t)t))
-      continue;
     const uint32_t *p = triangle[t].point;
     const struct geom_triangle corners = {
         {point[p[0]], point[p[1]], point[p[2]]}};
@@ -283,27 +280,6 @@ static void find_simple_tiles(struct tile_classification *tiles) {
   }
 }
 
-/* Phase 3 for culled triangles: where one is missing the layer may end, at a
- * side that is no contour. */
-static void reject_culled(struct tile_classification *tiles,
-                          const struct sheet *sheet) {
-  for (uint32_t t = 0; t < sheet->triangle.count; t++) {
-    if (!occlusion_culling_is_culled(&tiles->culling, t))
-      continue;
-    (void)poll_at(t);
-    struct cell_range r =
-        triangle_grid_cells(&tiles->grid, box2_of_triangle(sheet, t));
-    int high = tile_bucket(triangle_nearest_z(sheet, t));
-    for (int y = r.y0; y <= r.y1; y++)
-      for (int x = r.x0; x <= r.x1; x++) {
-        struct tile *tile =
-            &tiles->tile[(size_t)y * (size_t)tiles->grid.columns + (size_t)x];
-        if (high >= tile->front)
-          tile->state = TILE_MIXED;
-      }
-  }
-}
-
 /* Phase 3. */
 static void reject_contours(struct tile_classification *tiles,
                             const struct sheet *sheet) {
@@ -358,10 +334,10 @@ bool tile_classification_init(struct tile_classification *tiles,
                               bool fragments) {
   size_t n;
   memset(tiles, 0, sizeof *tiles);
-  if (!occlusion_culling_init(&tiles->culling, sheet, fragments))
-    return false;
   triangle_grid_shape(&tiles->grid, sheet, TILES_PER_TRIANGLE, 2);
-  if (occlusion_culling_complexity(&tiles->culling, sheet) > DEEP)
+  n = triangle_grid_cell_count(&tiles->grid);
+  if (occlusion_culling_complexity(
+          sheet, ldexp((double)n, 2 * tiles->grid.shift)) > DEEP)
     shape_deep_tiles(tiles, sheet, edges, fragments);
   n = triangle_grid_cell_count(&tiles->grid);
   tiles->tile = mem_calloc(n, sizeof *tiles->tile);
@@ -378,8 +354,6 @@ bool tile_classification_init(struct tile_classification *tiles,
     return false;
   find_simple_tiles(tiles);
   reject_contours(tiles, sheet);
-  if (tiles->culling.count > 0)
-    reject_culled(tiles, sheet);
   for (size_t i = 0; i < n; i++) {
     struct tile *tile = &tiles->tile[i];
     tiles->simple += tile->state == TILE_SIMPLE;
@@ -392,7 +366,6 @@ bool tile_classification_init(struct tile_classification *tiles,
 void tile_classification_fini(struct tile_classification *tiles) {
   mem_free(tiles->tile);
   mem_free(tiles->footprint);
-  occlusion_culling_fini(&tiles->culling);
   tiles->tile = NULL;
   tiles->footprint = NULL;
 }

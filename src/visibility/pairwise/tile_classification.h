@@ -15,11 +15,6 @@
  *     steep that their tolerance may exceed a bucket is rejected.
  * Such a tile is simple.
  *
- * In scenes of high depth complexity (many large faces, one behind another)
- * single faces do surround tiles.  There most triangles are culled before
- * (culling/occlusion_culling.h).  They take part in nothing; but a layer may
- * end where one is missing, so they count as contours.
- *
  * Robustness: states are decided by integers.  A tile that is rejected out of
  * caution is solved by pairs, which costs time but gives the same result.
  *
@@ -53,13 +48,12 @@ struct tile {
 struct tile_classification {
   struct triangle_grid grid; /* the tiles; it has no lists */
   struct tile *tile;
-  struct occlusion_culling culling;
-  struct footprint *footprint;   /* one per triangle that is not culled */
+  struct footprint *footprint;   /* one per triangle */
   uint64_t z_buckets;            /* the union of all tiles' */
   uint64_t simple, mixed, empty; /* numbers of tiles */
 };
 
-/* Culls triangles, and classifies the tiles of the sheet.
+/* Classifies the tiles of the sheet.
  * edges      whether edges will be solved
  * fragments  whether faces will be solved; as contact between faces matters
  *            then, tiles with a steep face in any layer are rejected

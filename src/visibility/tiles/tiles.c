@@ -2,12 +2,14 @@
  * page tiles (tile_classification.h), the others by pairs.
  *
  * Phases
+ *   0 if hidden lines are requested, find the intersections, everywhere; cull
+ *     hidden triangles; if that pays, go on with what is left alone
  *   1 classify the tiles
  *   2 classify edges and, if fragments are requested, faces: as visible or as
  *     hidden if all tiles that they overlap agree, otherwise as deferred
  *   3 list the faces of the tiles that deferred edges and faces overlap
- *   4 find the intersections, in mixed tiles alone unless hidden lines are
- *     requested, and classify their edges
+ *   4 otherwise find the intersections, in mixed tiles alone, and classify
+ *     their edges
  *   5 solve the deferred edges and faces by pairs, as other exact solvers do
  *
  * Invariant: phase 2 decides as a comparison of all pairs would.
@@ -17,6 +19,8 @@
 
 #include "base/parallel.h"
 #include "base/poll.h"
+#include "base/sort.h"
+#include "visibility/culling/potentially_visible.h"
 #include "visibility/pairwise/edge_query.h"
 #include "visibility/pairwise/deferred_triangles.h"
 #include "visibility/intersection/intersection.h"
@@ -25,12 +29,14 @@
 #include "visibility/pairwise/tile_candidates.h"
 
 struct tiles_work {
-  struct sheet *sheet;
+  struct sheet *sheet; /* what is left after culling */
   const struct solver_request *request;
+  const struct occlusion_culling *culling;
   struct tile_classification tiles;
   struct tile_candidates lists;
   uint8_t *wanted;      /* one per tile: its faces are to be listed */
-  uint8_t *intersected; /* one per tile: visible intersections are possible */
+  uint8_t *intersected; /* one per tile: visible intersections are possible;
+                           NULL: they are not to be found */
   bool wants_more;      /* a tile became wanted after the faces were listed */
   ARRAY(uint32_t) edge; /* deferred edges, ascending */
   ARRAY(uint32_t) face; /* deferred triangles, ascending */
@@ -58,14 +64,10 @@ static bool poll_edges(const struct tiles_work *work, size_t done,
 
 /* ---- 3, 4. Lists and intersections --------------------------------------- */
 
-/* Marks the tiles in which intersections are searched: visible intersections
- * lie in mixed tiles.  If hidden lines are requested, no tile is marked,
- * because intersections are then searched everywhere, in a separate grid: the
- * lists of tiles leave out culled triangles. */
+/* Marks the tiles in which intersections are searched: visible ones lie in
+ * mixed tiles. */
 static bool mark_intersected_tiles(struct tiles_work *work) {
   size_t n = triangle_grid_cell_count(&work->tiles.grid);
-  if (work->request->hidden)
-    return true;
   work->intersected = mem_alloc(n, 1);
   if (work->intersected == NULL)
     return false;
@@ -161,16 +163,6 @@ static enum map_state state_of_edge(struct tiles_work *work,
              : state;
 }
 
-/* Is a triangle of the edge culled?  The edge is hidden then. */
-static bool is_culled(const struct tiles_work *work,
-                      const struct sheet_edge *edge) {
-  for (int k = 0; k < 2; k++)
-    if (edge->triangle[k] != SHEET_NONE &&
-        occlusion_culling_is_culled(&work->tiles.culling, edge->triangle[k]))
-      return true;
-  return false;
-}
-
 /* Phase 2 for the edges from number `from` on; lists the deferred ones.
  * Returns false when memory ran out. */
 static bool classify_edges(struct tiles_work *work, size_t from,
@@ -188,8 +180,7 @@ static bool classify_edges(struct tiles_work *work, size_t from,
     if (!sheet_edge_is_drawn(sheet, e))
       continue;
     map->edge_state[e] =
-        is_culled(work, edge) ||
-                occlusion_culling_hides(&work->tiles.culling, s.p, s.q)
+        from > 0 && occlusion_culling_hides(work->culling, s.p, s.q)
             ? MAP_HIDDEN
             : (uint8_t)state_of_edge(work, s.p, s.q, wire);
     if (map->edge_state[e] != MAP_MIXED)
@@ -234,8 +225,7 @@ static bool classify_faces(struct tiles_work *work) {
     work->face_state[t] = MAP_HIDDEN;
     if (!poll_at(t))
       return false;
-    if ((work->sheet->triangle_flags[t] & SHEET_FLAT) ||
-        occlusion_culling_is_culled(&work->tiles.culling, (uint32_t)t))
+    if (work->sheet->triangle_flags[t] & SHEET_FLAT)
       continue;
     work->face_state[t] = (uint8_t)state_of_face(work, (uint32_t)t);
     if (work->face_state[t] != MAP_MIXED)
@@ -311,7 +301,42 @@ static bool append_batch(struct map *map, const struct edge_batch *batch) {
   return true;
 }
 
+/* Sorts the deferred edges of a deep scene by the tile of their first end:
+ * those that follow one another have occluders in common, which are still in
+ * the cache then.  Returns false when memory ran out. */
+static bool sort_by_tile(struct tiles_work *work) {
+  const struct triangle_grid *grid = &work->tiles.grid;
+  const struct sheet *sheet = work->sheet;
+  size_t n = work->edge.count;
+  struct sort_key *key = mem_alloc(n, 2 * sizeof *key);
+  if (key == NULL)
+    return false;
+  for (size_t i = 0; i < n; i++) {
+    const uint32_t *point = sheet->edge.item[work->edge.item[i]].point;
+    struct cell_range r =
+        triangle_grid_cells(grid, box2_of_segment(sheet->point.item[point[0]],
+                                                  sheet->point.item[point[0]]));
+    key[i] = (struct sort_key){(uint64_t)r.y0 * (uint64_t)grid->columns +
+                                   (uint64_t)r.x0,
+                               work->edge.item[i]};
+  }
+  sort_keys(key, key + n, n);
+  for (size_t i = 0; i < n; i++)
+    work->edge.item[i] = key[i].value;
+  mem_free(key);
+  return true;
+}
+
+static int compare_mixed(const void *a, const void *b, void *user) {
+  const struct map_mixed *p = a, *q = b;
+  (void)user;
+  return (p->edge > q->edge) - (p->edge < q->edge);
+}
+
 static bool solve_edges_tiles(struct tiles_work *work, struct map *map) {
+  bool deep = work->culling->count > 0;
+  if (deep && !sort_by_tile(work))
+    return false;
   size_t n = work->edge.count, batches = (n + BATCH_SIZE - 1) / BATCH_SIZE;
   struct edge_batch *batch = mem_calloc(batches, sizeof *batch);
   bool ok = batch != NULL;
@@ -329,7 +354,9 @@ static bool solve_edges_tiles(struct tiles_work *work, struct map *map) {
     map_fini(&batch[i].map);
   }
   mem_free(batch);
-  return ok;
+  return ok &&
+         (!deep || sort_stable(map->mixed.item, map->mixed.count,
+                               sizeof *map->mixed.item, compare_mixed, NULL));
 }
 
 static bool solve_faces(struct tiles_work *work, struct map *map) {
@@ -365,7 +392,7 @@ static void report_tiles(const struct tiles_work *work, struct report *report) {
   report_int(report, "tiles", "mixed", (int64_t)work->tiles.mixed);
   report_int(report, "tiles", "empty", (int64_t)work->tiles.empty);
   report_int(report, "tiles", "triangles_culled",
-             (int64_t)work->tiles.culling.count);
+             (int64_t)work->culling->count);
   report_int(report, "tiles", "edges_deferred", (int64_t)work->edge.count);
   report_int(report, "tiles", "triangles_deferred", (int64_t)work->face.count);
   occlusion_report(&work->counts, report);
@@ -382,19 +409,10 @@ static void end_phase(struct tiles_work *work, const char *name) {
 static bool find_intersections(struct tiles_work *work, struct map *map,
                                recto_status *status, recto_error *error) {
   size_t mesh_edges = work->sheet->edge.count;
-  if (work->request->hidden) {
-    struct triangle_grid grid;
-    if (!triangle_grid_init(&grid, work->sheet))
-      return false;
-    *status = intersection_find_all(work->sheet, &grid, NULL, work->request,
-                                    work->report, error);
-    triangle_grid_fini(&grid);
-  } else {
-    *status = intersection_find_all(
-        work->sheet, &work->lists.grid,
-        work->lists.cells_are_tiles ? work->intersected : NULL, work->request,
-        work->report, error);
-  }
+  *status = intersection_find_all(
+      work->sheet, &work->lists.grid,
+      work->lists.cells_are_tiles ? work->intersected : NULL, work->request,
+      work->report, error);
   if (*status != RECTO_OK ||
       (work->request->edges && !classify_edges(work, mesh_edges, map)))
     return false;
@@ -402,10 +420,11 @@ static bool find_intersections(struct tiles_work *work, struct map *map,
   return !work->wants_more || list_faces(work);
 }
 
+/* Phases 1 to 5. */
 static bool solve_all(struct tiles_work *work, struct map *map,
                       recto_status *status, recto_error *error) {
   const struct solver_request *request = work->request;
-  work->phase_start = clock_cpu();
+  bool intersections = request->intersections && !request->hidden;
   if (!tile_classification_init(&work->tiles, work->sheet, request->edges,
                                 request->fragments))
     return false;
@@ -416,11 +435,10 @@ static bool solve_all(struct tiles_work *work, struct map *map,
       (request->fragments && !classify_faces(work)))
     return false;
   end_phase(work, "classes_cpu_s");
-  if ((request->intersections && !mark_intersected_tiles(work)) ||
-      !list_faces(work))
+  if ((intersections && !mark_intersected_tiles(work)) || !list_faces(work))
     return false;
   end_phase(work, "lists_cpu_s");
-  if (request->intersections && !find_intersections(work, map, status, error))
+  if (intersections && !find_intersections(work, map, status, error))
     return false;
   if (request->edges && !solve_edges_tiles(work, map))
     return false;
@@ -431,27 +449,70 @@ static bool solve_all(struct tiles_work *work, struct map *map,
   return true;
 }
 
+/* Phase 0: adds all intersections, hidden or not, to the edges of the sheet. */
+static recto_status find_hidden_intersections(struct tiles_work *work,
+                                              recto_error *error) {
+  struct triangle_grid grid;
+  if (!triangle_grid_init(&grid, work->sheet))
+    return error_memory(error);
+  recto_status status = intersection_find_all(
+      work->sheet, &grid, NULL, work->request, work->report, error);
+  triangle_grid_fini(&grid);
+  end_phase(work, "intersections_cpu_s");
+  return status;
+}
+
+static void tiles_work_fini(struct tiles_work *work) {
+  report_tiles(work, work->report);
+  tile_candidates_fini(&work->lists);
+  tile_classification_fini(&work->tiles);
+  mem_free(work->wanted);
+  mem_free(work->intersected);
+  mem_free(work->face_state);
+  ARRAY_FREE(&work->edge);
+  ARRAY_FREE(&work->face);
+}
+
+/* Solves what culling left, as a sheet of its own. */
+static bool solve_part(struct tiles_work *work, struct map *map,
+                       recto_status *status, recto_error *error) {
+  struct potentially_visible part;
+  struct sheet *whole = work->sheet;
+  bool ok = potentially_visible_init(&part, whole, work->culling);
+  end_phase(work, "culling_cpu_s");
+  work->sheet = &part.sheet;
+  ok = ok && solve_all(work, map, status, error);
+  tiles_work_fini(work);
+  ok = ok && potentially_visible_restore(&part, whole, map);
+  potentially_visible_fini(&part);
+  return ok;
+}
+
 static recto_status solve_tiles(struct sheet *sheet,
                                 const struct solver_request *request,
                                 struct map *map, struct report *report,
                                 recto_error *error) {
   atomic_bool cancelled = false;
+  struct occlusion_culling culling = {.culled = NULL};
   struct tiles_work work = {.sheet = sheet,
                             .request = request,
+                            .culling = &culling,
                             .report = report,
+                            .phase_start = clock_cpu(),
                             .cancelled = &cancelled};
   recto_status status = RECTO_OK;
-  if (!solve_all(&work, map, &status, error) && status == RECTO_OK)
-    status = error_memory(error);
-  report_tiles(&work, report);
-  tile_candidates_fini(&work.lists);
-  tile_classification_fini(&work.tiles);
-  mem_free(work.wanted);
-  mem_free(work.intersected);
-  mem_free(work.face_state);
-  ARRAY_FREE(&work.edge);
-  ARRAY_FREE(&work.face);
-  return status;
+  if (request->intersections && request->hidden)
+    status = find_hidden_intersections(&work, error);
+  bool ok = status == RECTO_OK &&
+            occlusion_culling_init(&culling, sheet, request->fragments);
+  if (culling.count > 0) {
+    ok = ok && solve_part(&work, map, &status, error);
+  } else {
+    ok = ok && solve_all(&work, map, &status, error);
+    tiles_work_fini(&work);
+  }
+  occlusion_culling_fini(&culling);
+  return ok || status != RECTO_OK ? status : error_memory(error);
 }
 
 const struct solver solver_tiles = {RECTO_METHOD_TILES, "tiles", solve_tiles};
