@@ -16,7 +16,8 @@ no_importer() {
   cd elsewhere && run 2 ../model.off -o no.svg && ! test -e no.svg &&
     says "format 'off': cannot start the importer /.*: No such file"
 }
-if test -x /usr/local/libexec/recto/recto-import; then
+prefix=$(sed -n 's/^prefix = //p' "$builddir/Makefile")
+if test -x "$prefix/libexec/recto/recto-import"; then
   skip "a missing importer is reported" "one is installed"
 elif ! test -x "$importer"; then
   skip "a missing importer is reported" "no Assimp"
