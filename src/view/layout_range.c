@@ -13,7 +13,8 @@
  * (project_point); where it overlaps the range, the range is extended to
  * include it, so that it stays straight.  If there is one behind the range, the
  * far end is moved back by the length of the range, so that what is set to it
- * is not in contact with the farthest face.
+ * is not in contact with the farthest face.  A range that is so short that it
+ * would be, as that of a single face seen from the front, includes all lines.
  */
 #include "base/poll.h"
 #include "view/layout_phases.h"
@@ -220,10 +221,10 @@ recto_status layout_range(struct layout *layout, const uint8_t *used) {
   grow_by_points(&range, layout, used);
   if (!grow_by_faces(&range, layout))
     return error_memory(layout->error);
-  bool none = range.low > range.high, grew = true;
+  bool flat = range.high - range.low <= 4 * camera->contact_most, grew = true;
   for (int round = 1; grew && round <= MAX_ROUNDS; round++) {
     range.is_passed = false;
-    grew = grow_by_all_lines(&range, layout, none || round == MAX_ROUNDS);
+    grew = grow_by_all_lines(&range, layout, flat || round == MAX_ROUNDS);
   }
   if (range.low > range.high)
     return RECTO_OK;
