@@ -85,32 +85,57 @@ void deferred_triangles_fini(struct deferred_triangles *deferred_triangles) {
   occluder_subtraction_fini(&deferred_triangles->subtraction);
 }
 
-/* A counting sort by depth bucket: within a bucket, triangles keep their order,
- * so that neighbours on the page remain neighbours in memory. */
+/* The tile of the lower left corner of a triangle's box. */
+static uint32_t first_tile(const struct deferred_triangles *deferred_triangles,
+                           uint32_t triangle) {
+  const struct triangle_grid *grid = &deferred_triangles->lists->tiles->grid;
+  struct cell_range r = triangle_grid_cells(
+      grid, box2_of_triangle(deferred_triangles->sheet, triangle));
+  return (uint32_t)r.y0 * (uint32_t)grid->columns + (uint32_t)r.x0;
+}
+
+/* How many depth buckets nearer than a triangle's there are. */
+static uint32_t depth_rank(const struct deferred_triangles *deferred_triangles,
+                           uint32_t triangle) {
+  return (uint32_t)(TILE_BUCKETS - 1 -
+                    tile_bucket(triangle_nearest_z(deferred_triangles->sheet,
+                                                   triangle)));
+}
+
+/* A counting sort.
+ * key    of a triangle, below `keys` */
+static bool sort_by(const struct deferred_triangles *deferred_triangles,
+                    uint32_t (*key)(const struct deferred_triangles *,
+                                    uint32_t),
+                    size_t keys, uint32_t *triangle, size_t count) {
+  uint32_t *copy = mem_alloc(count, sizeof *copy), sum = 0,
+           *start = mem_calloc(keys, sizeof *start);
+  bool ok = copy != NULL && start != NULL;
+  for (size_t i = 0; ok && i < count; i++) {
+    copy[i] = triangle[i];
+    start[key(deferred_triangles, copy[i])]++;
+  }
+  for (size_t k = 0; ok && k < keys; k++) {
+    uint32_t here = start[k];
+    start[k] = sum;
+    sum += here;
+  }
+  for (size_t i = 0; ok && i < count; i++)
+    triangle[start[key(deferred_triangles, copy[i])]++] = copy[i];
+  mem_free(copy);
+  mem_free(start);
+  return ok;
+}
+
+/* Sorts by depth bucket, and within a bucket by tile: triangles that follow one
+ * another have occluders in common, which are still in the cache then. */
 bool deferred_triangles_sort(
     const struct deferred_triangles *deferred_triangles, uint32_t *triangle,
     size_t count) {
-  uint32_t start[TILE_BUCKETS] = {0}, sum = 0;
-  uint32_t *copy = mem_alloc(count, sizeof *copy);
-  if (copy == NULL)
-    return false;
-  for (size_t i = 0; i < count; i++) {
-    copy[i] = triangle[i];
-    start[tile_bucket(
-        triangle_nearest_z(deferred_triangles->sheet, copy[i]))]++;
-  }
-  for (int bucket = TILE_BUCKETS - 1; bucket >= 0; bucket--) {
-    uint32_t here = start[bucket];
-    start[bucket] = sum;
-    sum += here;
-  }
-  for (size_t i = 0; i < count; i++) {
-    int bucket =
-        tile_bucket(triangle_nearest_z(deferred_triangles->sheet, copy[i]));
-    triangle[start[bucket]++] = copy[i];
-  }
-  mem_free(copy);
-  return true;
+  size_t tiles =
+      triangle_grid_cell_count(&deferred_triangles->lists->tiles->grid);
+  return sort_by(deferred_triangles, first_tile, tiles, triangle, count) &&
+         sort_by(deferred_triangles, depth_rank, TILE_BUCKETS, triangle, count);
 }
 
 /* Returns false only if segment pq has no point inside triangle f: a
