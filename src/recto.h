@@ -647,7 +647,8 @@ bool recto_drawing_layer_sized(const recto_drawing *drawing, size_t index,
 
 /* The groups of the scene, in the order in which a face or a polyline was first
  * read or added to each; names that none has are left out, but for those given
- * to recto_scene_add_group.  A name is UTF-8, as it was in the file or given. */
+ * to recto_scene_add_group.  A name is UTF-8, as it was in the file or
+ * given. */
 size_t recto_drawing_group_count(const recto_drawing *drawing);
 /* NULL past the last. */
 const char *recto_drawing_group_name(const recto_drawing *drawing,
