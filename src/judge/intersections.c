@@ -187,7 +187,7 @@ static void side_ends(const struct scene *scene, uint32_t face, uint32_t i,
 }
 
 /* Returns false when memory ran out. */
-static bool index_sides(struct intersection_finder *finder) {
+static bool hash_large_face_sides(struct intersection_finder *finder) {
   const struct scene *scene = finder->all->scene;
   struct judge_point3 end[2];
   for (uint32_t f = 0; f < scene_face_count(scene); f++)
@@ -207,8 +207,8 @@ static bool index_sides(struct intersection_finder *finder) {
   return true;
 }
 
-static bool is_side(const struct scene *scene, uint32_t face, uint32_t i,
-                    const struct judge_point3 end[2]) {
+static bool is_side_at(const struct scene *scene, uint32_t face, uint32_t i,
+                       const struct judge_point3 end[2]) {
   struct judge_point3 at[2];
   side_ends(scene, face, i, at);
   return (is_same_point3(at[0], end[0]) && is_same_point3(at[1], end[1])) ||
@@ -223,7 +223,7 @@ static bool has_side(const struct intersection_finder *finder, uint32_t face,
   uint32_t count = corner_count(scene, face);
   if (count <= FEW_CORNERS) {
     for (uint32_t i = 0; i < count; i++)
-      if (is_side(scene, face, i, end))
+      if (is_side_at(scene, face, i, end))
         return true;
     return false;
   }
@@ -231,7 +231,7 @@ static bool has_side(const struct intersection_finder *finder, uint32_t face,
   size_t k;
   LOWER_BOUND(k, 0, finder->side.count, side[k].key < key);
   for (; k < finder->side.count && side[k].key == key; k++)
-    if (side[k].value < count && is_side(scene, face, side[k].value, end))
+    if (side[k].value < count && is_side_at(scene, face, side[k].value, end))
       return true;
   return false;
 }
@@ -429,7 +429,7 @@ bool judge_edges_intersections(struct judge_edges *edges,
                                        .all = all,
                                        .camera = camera,
                                        .ray_offset_mm = ray_offset_mm};
-  bool ok = index_sides(&finder);
+  bool ok = hash_large_face_sides(&finder);
   for (uint32_t i = 0; ok && i < all->triangle.count; i++) {
     const struct judge_triangle *triangle = &all->triangle.item[i];
     struct judge_box box = judge_triangle_box(triangle);
