@@ -644,6 +644,29 @@ static void a_strip_thinner_than_the_grid_makes_no_fold(void **state) {
   }
 }
 
+/* Triangles so thin that rounding turns them, along the back of a comb, are no
+ * folds of its planar face. */
+static void triangles_that_rounding_turns_make_no_fold(void **state) {
+  enum { TEETH = 1000, CORNERS = 2 * TEETH + 2 };
+  static double face[3 * CORNERS];
+  struct sheet_fixture fixture;
+  (void)state;
+  for (int i = 0; i < 2 * TEETH; i++) {
+    face[3 * i] = 0.5 * i;
+    face[3 * i + 1] = i % 2 * 20;
+  }
+  face[3 * (2 * TEETH)] = TEETH;
+  face[3 * (2 * TEETH) + 1] = face[3 * (2 * TEETH + 1) + 1] = -0.0005;
+  sheet_fixture_start(&fixture);
+  build_polygon(&fixture.scene, face, CORNERS);
+  fixture.options.ink.edges = RECTO_EDGE_SILHOUETTE;
+  sheet_fixture_out(&fixture, false);
+  assert_true(fixture.sheet.triangle.count > TEETH);
+  for (size_t e = 0; e < fixture.sheet.edge.count; e++)
+    assert_int_not_equal(fixture.sheet.edge.item[e].source, SHEET_NONE);
+  sheet_fixture_fini(&fixture);
+}
+
 static void wires_not_requested_are_left_out(void **state) {
   (void)state;
   struct sheet_fixture fixture;
@@ -802,6 +825,7 @@ int main(void) {
       cmocka_unit_test(what_is_behind_all_faces_does_not_touch_them),
       cmocka_unit_test(only_planar_faces_are_marked_coplanar),
       cmocka_unit_test(a_strip_thinner_than_the_grid_makes_no_fold),
+      cmocka_unit_test(triangles_that_rounding_turns_make_no_fold),
       cmocka_unit_test(wires_not_requested_are_left_out),
       cmocka_unit_test(diagonals_are_no_edges),
       cmocka_unit_test(welded_points_are_one_on_the_sheet),

@@ -5,6 +5,7 @@
  * edges.
  */
 #include <math.h>
+#include <stdlib.h>
 
 #include "base/poll.h"
 #include "view/coordinate_error.h"
@@ -185,27 +186,43 @@ static bool is_face_edge_on(const struct layout *layout, uint32_t face,
   return true;
 }
 
+/* Whether a triangle is so thin that rounding its corners to the page grid, by
+ * up to half a unit, may have turned it. */
+static bool is_sign_unsure(const struct sheet *sheet, size_t triangle) {
+  struct geom_triangle c = sheet_corners(sheet, triangle);
+  int64_t area = geom_orient2d(c.p[0], c.p[1], c.p[2]), perimeter = 0;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point a = c.p[k], b = c.p[geom_next_corner(k)];
+    perimeter += llabs((int64_t)b.x - a.x) + llabs((int64_t)b.y - a.y);
+  }
+  return 2 * area <= perimeter + 4; /* sheet triangles are not clockwise */
+}
+
 /* The orientation of a face on the page, whose triangles start at `first`.
- *   All triangles with an area have one sign: that is the face's.
+ *   All triangles whose sign is sure have one sign: that is the face's.  A
+ *     polygon of many corners has triangles that rounding turns, and with two
+ *     signs their diagonals would be drawn as silhouettes.
  *   The signs differ: the face folds over, and each triangle has its own sign.
  *   The signs differ, but the face is seen edge-on within the contact
- *     tolerance: only rounding made them differ, and the sign is 0.  With two
- *     signs its diagonal would be drawn as a silhouette.
+ *     tolerance: only rounding made them differ, and the sign is 0.
  * Returns false where each triangle has its own sign. */
 static bool face_sign(const struct layout *layout, uint32_t face, size_t first,
                       uint32_t start, uint32_t count, int *sign) {
   bool plus = false, minus = false;
-  for (size_t t = first; t < layout->flags.count; t++) {
-    uint8_t flags = layout->flags.item[t];
-    plus = plus || flags == 0;
-    minus = minus || flags == SHEET_FLIPPED;
-  }
+  for (int unsure = 0; unsure <= 1 && !plus && !minus; unsure++)
+    for (size_t t = first; t < layout->flags.count; t++) {
+      uint8_t flags = layout->flags.item[t];
+      if (unsure || !is_sign_unsure(layout->sheet, t)) {
+        plus = plus || flags == 0;
+        minus = minus || flags == SHEET_FLIPPED;
+      }
+    }
   *sign = plus - minus;
   return *sign != 0 || (plus && is_face_edge_on(layout, face, start, count));
 }
 
-/* Adds a face that needs no clipping.  Triangles without an area, because of
- * rounding or a spike, get the orientation of the others, so that silhouettes
+/* Adds a face that needs no clipping.  Triangles without an area, or turned,
+ * because of rounding or a spike, get the orientation of the others, so that silhouettes
  * do not depend on the triangulation.  Their sides are contours all the same.
  */
 static recto_status add_whole_face(struct layout *layout, uint32_t face,
