@@ -761,7 +761,7 @@ typedef enum recto_side {
 typedef struct recto_half_edge {
   double x_mm, y_mm; /* where it starts; exact to 2^-28 mm */
   uint32_t fragment; /* on its left */
-  uint32_t twin; /* the half-edge of the neighbour, which runs the other way
+  uint32_t twin;     /* the half-edge of the neighbour, which runs the other way
                         between the same points, to 2^-28 mm each; RECTO_NONE:
                         there is no visible face beside it */
   recto_side side;

@@ -222,9 +222,9 @@ static bool face_sign(const struct layout *layout, uint32_t face, size_t first,
 }
 
 /* Adds a face that needs no clipping.  Triangles without an area, or turned,
- * because of rounding or a spike, get the orientation of the others, so that silhouettes
- * do not depend on the triangulation.  Their sides are contours all the same.
- */
+ * because of rounding or a spike, get the orientation of the others, so that
+ * silhouettes do not depend on the triangulation.  Their sides are contours all
+ * the same. */
 static recto_status add_whole_face(struct layout *layout, uint32_t face,
                                    uint32_t start, uint32_t count) {
   size_t triangles = layout->triangulation.triangle.count;
