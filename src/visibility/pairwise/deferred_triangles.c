@@ -20,6 +20,7 @@
 
 #include <string.h>
 
+#include "base/sort.h"
 #include "visibility/index/bsp.h"
 #include "visibility/predicate/surrounder.h"
 
@@ -102,40 +103,26 @@ static uint32_t depth_rank(const struct deferred_triangles *deferred_triangles,
                                                    triangle)));
 }
 
-/* A counting sort.
- * key    of a triangle, below `keys` */
-static bool sort_by(const struct deferred_triangles *deferred_triangles,
-                    uint32_t (*key)(const struct deferred_triangles *,
-                                    uint32_t),
-                    size_t keys, uint32_t *triangle, size_t count) {
-  uint32_t *copy = mem_alloc(count, sizeof *copy), sum = 0,
-           *start = mem_calloc(keys, sizeof *start);
-  bool ok = copy != NULL && start != NULL;
-  for (size_t i = 0; ok && i < count; i++) {
-    copy[i] = triangle[i];
-    start[key(deferred_triangles, copy[i])]++;
-  }
-  for (size_t k = 0; ok && k < keys; k++) {
-    uint32_t here = start[k];
-    start[k] = sum;
-    sum += here;
-  }
-  for (size_t i = 0; ok && i < count; i++)
-    triangle[start[key(deferred_triangles, copy[i])]++] = copy[i];
-  mem_free(copy);
-  mem_free(start);
-  return ok;
-}
-
 /* Sorts by depth bucket, and within a bucket by tile: triangles that follow one
  * another have occluders in common, which are still in the cache then. */
 bool deferred_triangles_sort(
     const struct deferred_triangles *deferred_triangles, uint32_t *triangle,
     size_t count) {
-  size_t tiles =
+  uint64_t tiles =
       triangle_grid_cell_count(&deferred_triangles->lists->tiles->grid);
-  return sort_by(deferred_triangles, first_tile, tiles, triangle, count) &&
-         sort_by(deferred_triangles, depth_rank, TILE_BUCKETS, triangle, count);
+  struct sort_key *key = mem_alloc(count, 2 * sizeof *key);
+  if (key == NULL)
+    return false;
+  for (size_t i = 0; i < count; i++)
+    key[i] =
+        (struct sort_key){depth_rank(deferred_triangles, triangle[i]) * tiles +
+                              first_tile(deferred_triangles, triangle[i]),
+                          triangle[i]};
+  sort_keys(key, key + count, count);
+  for (size_t i = 0; i < count; i++)
+    triangle[i] = key[i].value;
+  mem_free(key);
+  return true;
 }
 
 /* Returns false only if segment pq has no point inside triangle f: a
