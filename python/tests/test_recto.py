@@ -335,6 +335,8 @@ def test_progress():
 
 def test_interrupt():
     """KeyboardInterrupt cancels a drawing"""
+    # Shells start what is in the background with the signal ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     vertices, faces = sheet(150)
     scene = recto.Scene(vertices, faces)
     drawing, calls = threading.Event(), []
