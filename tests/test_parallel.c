@@ -168,8 +168,9 @@ static bool run_items(struct items *items, int threads,
   options.progress = cancel_at;
   options.user = canceller;
   poll_open(&poll, &options);
-  bool ok = parallel_ranges(ITEMS, PARALLEL_ITEMS, do_items, items);
-  assert_true(items->workers <= parallel_workers(ITEMS, PARALLEL_ITEMS));
+  int workers = parallel_workers(ITEMS, PARALLEL_ITEMS);
+  bool ok = parallel_ranges(workers, ITEMS, PARALLEL_ITEMS, do_items, items);
+  assert_true(items->workers <= workers);
   poll_close(&poll);
   return ok;
 }
@@ -214,6 +215,27 @@ static void ranges_are_cancelled(void **state) {
   }
 }
 
+/* What was allocated for so many workers must do, whatever the options say. */
+static void there_are_no_more_workers_than_given(void **state) {
+  static struct items items;
+  struct poll poll;
+  recto_options options;
+  (void)state;
+  recto_options_init(&options);
+  poll_open(&poll, &options);
+  for (int workers = 1; workers <= 3; workers++) {
+    memset((void *)&items, 0, sizeof items);
+    items.fails_at = ITEMS;
+    started = 0;
+    assert_true(
+        parallel_ranges(workers, ITEMS, PARALLEL_ITEMS, do_items, &items));
+    assert_int_equal(started, workers - 1);
+    assert_true(items.workers <= workers);
+    assert_int_equal(items.count, ITEMS);
+  }
+  poll_close(&poll);
+}
+
 static void few_items_and_no_call_have_one_worker(void **state) {
   static struct items items;
   struct poll poll;
@@ -228,7 +250,7 @@ static void few_items_and_no_call_have_one_worker(void **state) {
   poll_close(&poll);
   items.fails_at = ITEMS;
   assert_int_equal(parallel_workers(ITEMS, PARALLEL_ITEMS), 1);
-  assert_true(parallel_ranges(ITEMS, PARALLEL_ITEMS, do_items, &items));
+  assert_true(parallel_ranges(1, ITEMS, PARALLEL_ITEMS, do_items, &items));
   assert_int_equal(items.workers, 1);
   assert_int_equal(items.count, ITEMS);
 }
@@ -291,6 +313,7 @@ int main(void) {
                              reset),
       cmocka_unit_test_setup(a_range_that_fails_ends_the_others, reset),
       cmocka_unit_test_setup(ranges_are_cancelled, reset),
+      cmocka_unit_test_setup(there_are_no_more_workers_than_given, reset),
       cmocka_unit_test_setup(few_items_and_no_call_have_one_worker, reset),
       cmocka_unit_test_setup(lines_do_not_depend_on_what_threads_there_are,
                              reset),

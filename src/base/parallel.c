@@ -120,10 +120,10 @@ int parallel_workers(size_t count, size_t items) {
                                         : threads;
 }
 
-bool parallel_ranges(size_t count, size_t items, parallel_task *task,
-                     void *user) {
+bool parallel_ranges(int workers, size_t count, size_t items,
+                     parallel_task *task, void *user) {
   struct ranges ranges = {
       .count = count, .items = items, .task = task, .user = user};
-  parallel_run(parallel_workers(count, items), do_ranges, &ranges);
+  parallel_run(workers, do_ranges, &ranges);
   return !atomic_load(&ranges.ended);
 }

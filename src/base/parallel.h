@@ -32,7 +32,7 @@ int parallel_threads(void);
 /* The items from `begin` to before `end`. */
 struct parallel_range {
   size_t begin, end;
-  int worker; /* which does them, 0 to parallel_workers - 1; 0 is the caller */
+  int worker; /* which does them, from 0, the caller, to before `workers` */
 };
 
 /* Returns false where the work is to end: memory ran out.  Polls in all workers
@@ -42,17 +42,21 @@ typedef bool parallel_task(void *user, struct parallel_range range);
 /* Items of a range where each takes some nanoseconds. */
 enum { PARALLEL_ITEMS = POLL_ITEMS };
 
-/* How many workers parallel_ranges has at most for so many items. */
+/* How many workers are worth while for so many items: at most the threads that
+ * the call may use.  Another call may return another number, as the processors
+ * of the process may change; so what is allocated for each worker, and
+ * parallel_ranges, take one result. */
 int parallel_workers(size_t count, size_t items);
 
 /* Divides `count` items into ranges of `items`, the last of which may be
- * shorter, and does them in as many threads as the call may use, each range in
- * one of them.  Ranges begin at the same items for any number of threads, so a
- * task whose result depends on its range alone gives the same bytes.
+ * shorter, and does them in at most `workers` threads, each range in one of
+ * them.  Ranges begin at the same items for any number of threads, so a task
+ * whose result depends on its range alone gives the same bytes.
+ * workers  as from parallel_workers; the caller is one of them
  * Returns false when a task did, or the caller cancelled; the others may then
  * not have been run. */
-bool parallel_ranges(size_t count, size_t items, parallel_task *task,
-                     void *user);
+bool parallel_ranges(int workers, size_t count, size_t items,
+                     parallel_task *task, void *user);
 
 /* The number of these ranges. */
 static inline size_t parallel_range_count(size_t count, size_t items) {

@@ -232,10 +232,12 @@ bool topology_class_masks(const struct topology *topology,
       .crease_cosine = crease_cosine_of(crease_deg),
       .class_masks = class_masks,
   };
-  bool ok =
-      work.direction != NULL &&
-      parallel_ranges(faces, PARALLEL_ITEMS, find_normal_directions, &work) &&
-      parallel_ranges(topology->edge.count, PARALLEL_ITEMS, find_masks, &work);
+  int workers = parallel_workers(faces, PARALLEL_ITEMS);
+  bool ok = work.direction != NULL &&
+            parallel_ranges(workers, faces, PARALLEL_ITEMS,
+                            find_normal_directions, &work) &&
+            parallel_ranges(workers, topology->edge.count, PARALLEL_ITEMS,
+                            find_masks, &work);
   mem_free(work.direction);
   return ok;
 }

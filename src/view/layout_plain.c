@@ -179,13 +179,15 @@ bool layout_plain_all(struct layout *layout, bool *done) {
   if (!layout->sheet->camera.all_on_page ||
       layout->scene->corner.count != 3 * faces)
     return true;
+  int workers = parallel_workers(faces, PARALLEL_ITEMS);
   struct plain_work work = {.layout = layout,
                             .range = mem_calloc(ranges, sizeof *work.range)};
-  bool ok = work.range != NULL &&
-            parallel_ranges(faces, PARALLEL_ITEMS, count_kept_faces, &work);
+  bool ok =
+      work.range != NULL &&
+      parallel_ranges(workers, faces, PARALLEL_ITEMS, count_kept_faces, &work);
   uint32_t kept = ok ? place_ranges(work.range, ranges) : 0;
-  ok =
-      ok && parallel_ranges(faces, PARALLEL_ITEMS, make_plain_triangles, &work);
+  ok = ok && parallel_ranges(workers, faces, PARALLEL_ITEMS,
+                             make_plain_triangles, &work);
   for (size_t i = 0; work.range != NULL && i < ranges; i++)
     record_foreign(layout, &work.range[i]);
   mem_free(work.range);

@@ -251,7 +251,7 @@ recto_status intersection_find_all(struct sheet *sheet,
     return error_memory(error);
   for (int w = 0; w < workers; w++)
     search_init(&search[w], sheet, grid, cells, request);
-  bool ok = parallel_ranges(count, SEARCH_CELLS, search_cells, search);
+  bool ok = parallel_ranges(workers, count, SEARCH_CELLS, search_cells, search);
   for (int w = 1; w < workers; w++) {
     ok = ok && unite_searches(&search[0], &search[w]);
     search_fini(&search[w]);

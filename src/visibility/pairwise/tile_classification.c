@@ -241,11 +241,12 @@ static bool collect_all(struct collection_work *work) {
   if (work->own == NULL)
     return false;
   work->own[0] = work->tiles->tile;
-  bool ok =
-      work->workers == 1
-          ? collect_range(work, (struct parallel_range){0, triangles, 0})
-          : parallel_ranges(triangles, PARALLEL_ITEMS, collect_range, work) &&
-                parallel_ranges(tiles, PARALLEL_ITEMS, unite_range, work);
+  bool ok = work->workers == 1
+                ? collect_range(work, (struct parallel_range){0, triangles, 0})
+                : parallel_ranges(work->workers, triangles, PARALLEL_ITEMS,
+                                  collect_range, work) &&
+                      parallel_ranges(work->workers, tiles, PARALLEL_ITEMS,
+                                      unite_range, work);
   for (int w = 1; w < work->workers; w++)
     mem_free(work->own[w]);
   mem_free(work->own);
